@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/base/parallel.h"
+
+#include <algorithm>
+#include <atomic>
+#include <thread>
+
+#if !defined(__SANITIZE_THREAD__)
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <memory>
+#endif
+
+namespace ps {
+namespace {
+int g_threads = 0;
+
+#if !defined(__SANITIZE_THREAD__)
+std::unique_ptr<tbb::task_arena>& arena() {
+  static std::unique_ptr<tbb::task_arena> a;
+  return a;
+}
+#endif
+}  // namespace
+
+void setThreadCount(int count) {
+  g_threads = std::max(0, count);
+#if !defined(__SANITIZE_THREAD__)
+  arena() = std::make_unique<tbb::task_arena>(threadCount());
+#endif
+}
+
+int threadCount() {
+  return g_threads > 0 ? g_threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+void parallelFor(size_t count, size_t grain, const std::function<void(size_t, size_t)>& body) {
+  if (count == 0) return;
+  grain = std::max<size_t>(1, grain);
+  const size_t chunks = (count + grain - 1) / grain;
+  const auto runChunk = [&](size_t chunk) { body(chunk * grain, std::min(count, (chunk + 1) * grain)); };
+  if (chunks == 1 || threadCount() == 1) {
+    for (size_t chunk = 0; chunk < chunks; ++chunk) runChunk(chunk);
+    return;
+  }
+#if defined(__SANITIZE_THREAD__)
+  std::atomic<size_t> next{0};
+  const auto work = [&] {
+    for (size_t chunk = next++; chunk < chunks; chunk = next++) runChunk(chunk);
+  };
+  std::vector<std::jthread> others;
+  for (int t = 1; t < threadCount(); ++t) others.emplace_back(work);
+  work();
+#else
+  if (!arena()) setThreadCount(g_threads);
+  arena()->execute([&] {
+    tbb::parallel_for(tbb::blocked_range<size_t>(0, chunks, 1), [&](const tbb::blocked_range<size_t>& range) {
+      for (size_t chunk = range.begin(); chunk != range.end(); ++chunk) runChunk(chunk);
+    });
+  });
+#endif
+}
+
+double parallelSum(size_t count, size_t grain, const std::function<double(size_t, size_t)>& body) {
+  grain = std::max<size_t>(1, grain);
+  std::vector<double> partial((count + grain - 1) / grain);
+  parallelFor(count, grain, [&](size_t first, size_t last) { partial[first / grain] = body(first, last); });
+  double sum = 0;
+  for (const double p : partial) sum += p;
+  return sum;
+}
+
+}  // namespace ps

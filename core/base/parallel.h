@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+// Why one wrapper: results must not depend on the number of threads. Work is cut into chunks of a fixed size, whatever
+// the number of threads; a chunk writes only its own elements, and sums are kept per chunk and added in chunk order.
+// oneTBB runs the chunks; under ThreadSanitizer, where TBB drowns real races in false ones, plain threads do.
+namespace ps {
+
+/// Threads used by parallelFor from now on, in the whole process; 0: one per core. Not while a loop runs.
+void setThreadCount(int count);
+int threadCount();
+
+/// Calls body(first, last) for consecutive chunks of `grain` elements that cover [0, count).
+void parallelFor(size_t count, size_t grain, const std::function<void(size_t first, size_t last)>& body);
+
+/// Sum over chunks of body(first, last), added in chunk order: the same bits for any number of threads.
+double parallelSum(size_t count, size_t grain, const std::function<double(size_t first, size_t last)>& body);
+
+}  // namespace ps

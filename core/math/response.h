@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <phasesketch/parameter.h>
+
+#include <string>
+#include <vector>
+
+namespace ps {
+
+/// A property over temperature: a constant, a curve (monotone cubic through points, Fritsch & Carlson 1980, constant
+/// beyond the ends), or a named law. Plain value; equal responses compare equal.
+struct Response {
+  enum class Kind { Constant, Curve, Law };
+  Kind kind = Kind::Constant;
+  double constant = 0;
+  std::vector<api::ResponsePoint> points;  ///< K, unit; ascending in x
+  std::string law;                         ///< see lawNames()
+  std::vector<double> coefficients;        ///< as lawHelp(law) says
+
+  Response() = default;
+  Response(double value) : constant(value) {}  // NOLINT: a number is a response
+  explicit Response(const api::ResponseSpec& spec);
+
+  /// Value at a temperature in K.
+  double at(double kelvin) const;
+  /// "" when well formed, else what is wrong ("points must ascend in x", "unknown law 'vogle'").
+  std::string problem() const;
+  bool operator==(const Response& other) const;
+};
+
+/// "linear" (a, b, T_ref): a + b (T - T_ref); "exponential" (a, T_ref, dT): a exp(-(T - T_ref)/dT);
+/// "arrhenius" (a, Ea, T_ref): a exp(Ea/R (1/T - 1/T_ref)); "vogel" (A, B, T0): 10^(A + B/(T - T0));
+/// "thesis_sigmoid" (a, T_ref, dT): 2a/(1 + exp((T - T_ref)/dT)).
+const std::vector<std::string>& lawNames();
+size_t lawCoefficientCount(const std::string& law);
+
+/// A response baked on a uniform grid, read by linear interpolation, clamped at the ends.
+class ResponseTable {
+ public:
+  ResponseTable() = default;
+  ResponseTable(const Response& response, double firstKelvin, double lastKelvin, size_t samples = 512);
+  /// From values already sampled at `samples` uniform temperatures.
+  ResponseTable(std::vector<double> values, double firstKelvin, double lastKelvin);
+  double at(double kelvin) const;
+  /// Integral from the first temperature to `kelvin`, exact for the interpolant; extended by the end values.
+  double integral(double kelvin) const;
+
+ private:
+  std::vector<double> m_values, m_integrals;
+  double m_first = 0, m_step = 1;
+};
+
+}  // namespace ps

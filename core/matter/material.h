@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "core/math/response.h"
+#include <phasesketch/views.h>
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace ps {
+
+/// The catalogue of material properties: key, label, unit, range, help, example, declared once and used by panels, JSON,
+/// plugins and tests. Keys: density_solid, density_liquid, heat_capacity_{solid,liquid,gas},
+/// conductivity_{solid,liquid,gas}, melting_temperature, solidus, liquidus, latent_heat_fusion, boiling_temperature,
+/// latent_heat_vaporization, molar_mass, triple_temperature, triple_pressure, latent_heat_sublimation,
+/// critical_temperature, expansion_linear, expansion_volumetric, youngs_modulus, poisson_ratio, viscosity,
+/// friction_static, friction_kinetic, restitution, melt_break_fraction, freeze_bond_fraction, bond_radius, emissivity,
+/// gas_volume_factor, sinters, color_red/green/blue (sRGB 0..1, how the editor draws it).
+api::ParameterList propertyCatalogue();
+/// Index into the catalogue, or -1.
+int propertyIndex(std::string_view key);
+
+struct Provenance {
+  std::string source;
+  char grade = 'C';  ///< 'A' reference data, 'B' handbook, 'C' representative
+};
+
+/// A material as a plain value: every property of the catalogue, by key. Absent ones take the catalogue's default.
+struct Material {
+  std::string id, label;
+  std::map<std::string, Response> properties;
+  std::map<std::string, Provenance> provenance;
+};
+
+/// Relations between properties that single ranges cannot see (solidus <= liquidus, boiling above melting, ...).
+/// "" or what is wrong, beginning with the key at fault.
+std::string problemOf(const Material& material);
+
+/// A material baked for hot loops at one ambient pressure.
+class BakedMaterial final : public api::MaterialView {
+ public:
+  /// `pressure` in Pa. Temperatures are tabulated from 1 K to 3000 K or past the boiling point, whichever is more.
+  BakedMaterial(const Material& material, double pressure);
+  const char* id() const noexcept override { return m_id.c_str(); }
+  const api::Caloric& caloric() const noexcept override { return m_caloric; }
+  double property(const char* key, double temperature) const noexcept override;
+
+  /// Density in kg/m3 of the mixture of fractions at a temperature in K; vapour counts as gas_volume_factor times the
+  /// liquid's volume (PHYSICS 4.7: a parcel, not its real volume).
+  double restDensity(double temperature, double solid, double liquid, double gas) const;
+  double conductivity(double temperature, double solid, double liquid, double gas) const;  ///< W/(m K)
+  /// Kirchhoff transform: integral of k dT from the melting point, k of the phase stable at each temperature, W/m.
+  double kirchhoff(double temperature) const;
+  double youngsModulus(double temperature) const;  ///< Pa
+  double viscosity(double temperature) const;      ///< Pa s, liquid
+  double scalar(int propertyIndex) const { return m_scalars[static_cast<size_t>(propertyIndex)]; }
+
+ private:
+  struct Tables;
+  std::string m_id;
+  api::Caloric m_caloric{};
+  std::vector<double> m_scalars;
+  std::shared_ptr<const Tables> m_tables;
+};
+
+}  // namespace ps

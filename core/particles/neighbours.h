@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "core/particles/particlestore.h"
+
+namespace ps {
+
+/// Cell-sorted neighbour search (counting sort into cells of the search radius, rows of 27 cells).
+/// Lists hold all other particles within search radius = support + skin, ascending by index, padded to kListPad with
+/// the dummy index size(). They stay valid until a particle has moved half the skin.
+class Neighbours {
+ public:
+  static constexpr size_t kListPad = 16;
+
+  /// `support` and `skin` in m.
+  void configure(double support, double skin);
+  /// Sorts the store by cell (all fields permuted) and rebuilds the lists. The order it applied is in lastOrder().
+  void sortAndBuild(ParticleStore& store);
+  /// Rebuilds the lists in the present order.
+  void build(const ParticleStore& store);
+  /// True when a particle has moved more than half the skin since the last build, or their number has changed.
+  bool stale(const ParticleStore& store) const;
+  std::span<const uint32_t> lastOrder() const { return m_order; }
+
+  api::NeighbourView view() const;
+  double support() const { return m_support; }
+
+ private:
+  double m_support = 0, m_skin = 0;
+  std::vector<uint32_t> m_begin, m_last, m_end, m_index, m_order, m_cellStart, m_cellOf;
+  std::vector<api::Float4> m_built;
+  double m_origin[3] = {0, 0, 0};
+  int m_cells[3] = {1, 1, 1};
+};
+
+}  // namespace ps

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <phasesketch/views.h>
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace ps {
+
+class Hash;
+
+/// Names of the fields that core itself keeps (types in brackets). All are sorted, hashed, put in snapshots alike.
+namespace field {
+inline constexpr const char* kPosition = "position";              ///< Float4: m; w: rest volume, m3
+inline constexpr const char* kPrevious = "previous";              ///< Float4: m, start of the substep
+inline constexpr const char* kVelocity = "velocity";              ///< Float4: m/s; w: inverse mass, 1/kg
+inline constexpr const char* kMass = "mass";                      ///< Float32: kg
+inline constexpr const char* kId = "id";                          ///< UInt32
+inline constexpr const char* kMaterial = "material";              ///< UInt32: index into the material table
+inline constexpr const char* kBody = "body";                      ///< UInt32: index of the body it was made by
+inline constexpr const char* kPhase = "phase";                    ///< UInt8: api::Phase
+inline constexpr const char* kMotion = "motion";                  ///< UInt8: api::Motion
+inline constexpr const char* kTemperature = "temperature";        ///< Float64: K
+inline constexpr const char* kSolidFraction = "solid_fraction";   ///< Float32
+inline constexpr const char* kLiquidFraction = "liquid_fraction"; ///< Float32
+inline constexpr const char* kGasFraction = "gas_fraction";       ///< Float32
+inline constexpr const char* kCompression = "compression_offset"; ///< Float32: C0 handed over when a solid melts
+inline constexpr const char* kLambda = "lambda";                  ///< Float32: density multiplier
+inline constexpr const char* kDensityError = "density_error";     ///< Float32: C of the last iteration
+}  // namespace field
+
+/// Particles as structure of arrays: a registry of named, typed fields. Every array is 64-byte aligned and has at least
+/// 16 entries more than size(): entry size() is a dummy far away with zero volume, for padded neighbour lists.
+/// Adding or removing particles may move the arrays; indices change when the store is sorted, ids never.
+class ParticleStore final : public api::FieldAccess {
+ public:
+  ParticleStore();
+  ~ParticleStore();
+  ParticleStore(ParticleStore&&) noexcept;
+  ParticleStore& operator=(ParticleStore&&) noexcept;
+
+  size_t size() const { return m_size; }
+
+  /// Adds a field, zero for all particles; the same declaration again does nothing.
+  /// Throws ps::Error for another type under a known name.
+  void declare(std::string_view name, api::FieldType type, std::string_view unit = "", std::string_view help = "");
+  struct FieldInfo {
+    std::string name, unit, help;
+    api::FieldType type;
+  };
+  /// In order of declaration.
+  std::vector<FieldInfo> fields() const;
+  void* find(const char* name, api::FieldType type) const noexcept override;
+
+  api::Float4* position() const { return m_position; }
+  api::Float4* previous() const { return m_previous; }
+  api::Float4* velocity() const { return m_velocity; }
+  float* mass() const { return m_mass; }
+  uint32_t* id() const { return m_id; }
+  uint32_t* material() const { return m_material; }
+  uint32_t* body() const { return m_body; }
+  api::Phase* phase() const { return m_phase; }
+  api::Motion* motion() const { return m_motion; }
+  double* temperature() const { return m_temperature; }
+  float* solidFraction() const { return m_solidFraction; }
+  float* liquidFraction() const { return m_liquidFraction; }
+  float* gasFraction() const { return m_gasFraction; }
+  float* compression() const { return m_compression; }
+  float* lambda() const { return m_lambda; }
+  float* densityError() const { return m_densityError; }
+
+  /// Appends `count` particles with all fields zero and fresh ids; returns the index of the first.
+  size_t add(size_t count);
+  /// Removes the particles at these ascending indices, keeping the order of the others.
+  void remove(std::span<const uint32_t> ascending);
+  /// Reorders all fields: new[k] = old[order[k]].
+  void permute(std::span<const uint32_t> order);
+  /// Index of a particle by its id, or size() when it is gone.
+  size_t indexOf(uint32_t id) const;
+
+  api::ParticleView view() const;
+  /// All fields in order of name, particles in order of id.
+  void addTo(Hash& hash) const;
+
+ private:
+  struct Field;
+  void refreshPointers();
+  void writeDummy();
+
+  std::vector<std::unique_ptr<Field>> m_fields;
+  std::vector<uint32_t> m_indexOfId;
+  size_t m_size = 0, m_capacity = 0;
+  uint32_t m_nextId = 0;
+  api::Float4 *m_position = nullptr, *m_previous = nullptr, *m_velocity = nullptr;
+  float* m_mass = nullptr;
+  uint32_t *m_id = nullptr, *m_material = nullptr, *m_body = nullptr;
+  api::Phase* m_phase = nullptr;
+  api::Motion* m_motion = nullptr;
+  double* m_temperature = nullptr;
+  float *m_solidFraction = nullptr, *m_liquidFraction = nullptr, *m_gasFraction = nullptr, *m_compression = nullptr,
+        *m_lambda = nullptr, *m_densityError = nullptr;
+};
+
+}  // namespace ps

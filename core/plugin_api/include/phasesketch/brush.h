@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <phasesketch/plugin.h>
+
+#define PHASESKETCH_BRUSH_IID "org.phasesketch.Brush/1"
+
+namespace ps::api {
+
+struct StrokeSample {
+  Double3 position;  ///< m
+  double pressure;   ///< 0 .. 1
+  double time;       ///< s since the stroke began
+};
+
+/// Where a stroke lands: a lattice of cells of edge `spacing` whose cell (0, 0, 0) is centred at `origin`.
+struct StrokeContext {
+  double spacing;  ///< m
+  Double3 origin;  ///< m
+  double radius;   ///< m, the brush's size
+  Double3 up;      ///< unit vector
+  Span<const double> parameters;
+};
+
+struct Cell {
+  int32_t x, y, z;
+};
+
+enum class EditKind : uint32_t { Add, Remove };
+
+/// Takes a stroke's edits. A cell may be submitted any number of times; undo, recording and replay know edits only.
+class EditSink {
+ public:
+  virtual void submit(EditKind kind, Span<const Cell> cells) = 0;
+
+ protected:
+  ~EditSink() = default;
+};
+
+class BrushPlugin : public Plugin {
+ public:
+  /// Turns samples into edits. Samples are dense: neighbours lie at most one spacing apart. May throw.
+  virtual void stroke(const StrokeContext&, EditKind, Span<const StrokeSample>, EditSink&) const = 0;
+  /// Half extents in m of one stamp, for the cursor.
+  virtual Double3 extent(const StrokeContext&) const noexcept = 0;
+};
+
+}  // namespace ps::api

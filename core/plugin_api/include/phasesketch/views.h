@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <phasesketch/types.h>
+
+namespace ps::api {
+
+/// Named fields of the particle store.
+class FieldAccess {
+ public:
+  /// Base of the field, or nullptr when there is none of that name and type. Index it like every other array here.
+  virtual void* find(const char* name, FieldType type) const noexcept = 0;
+
+ protected:
+  ~FieldAccess() = default;
+};
+
+/// The particle store as structure of arrays; all arrays have `count` entries (one dummy more where lists are padded).
+/// Order is the host's and changes between calls: keep `id`, never an index.
+struct ParticleView {
+  size_t count;
+  Float4* position;        ///< x, y, z in m; w: rest volume in m3
+  const Float4* previous;  ///< x, y, z in m at the start of the substep
+  Float4* velocity;        ///< x, y, z in m/s; w: inverse mass in 1/kg, 0 for what does not move
+  const float* mass;       ///< kg
+  const uint32_t* id;      ///< stable for life
+  const uint32_t* material;
+  const uint32_t* body;
+  const Phase* phase;
+  const Motion* motion;
+  const double* temperature;  ///< K
+  const float* solidFraction;
+  const float* liquidFraction;
+  const float* gasFraction;
+  const FieldAccess* fields;
+};
+
+/// Neighbours of particle i: index[begin[i]] .. index[end[i] - 1], ascending, without i itself. Lists are padded to
+/// 16 entries with the index `count` of a dummy far away; `end` counts the padding, `last` does not.
+/// Pairs lie within `searchRadius`, which exceeds the support: kernels must cut off themselves.
+struct NeighbourView {
+  const uint32_t* begin;
+  const uint32_t* last;
+  const uint32_t* end;
+  const uint32_t* index;
+  float searchRadius;  ///< m
+};
+
+/// Caloric data of one material at the scene's pressure. Enthalpy is 0 for the solid at `meltingPoint0`
+/// (Voller & Cross 1981; Kirchhoff latent heats, so that a change of pressure keeps the energy).
+struct Caloric {
+  double heatCapacitySolid, heatCapacityLiquid, heatCapacityGas;  ///< J/(kg K)
+  double meltingPoint0;                                           ///< K at 101325 Pa
+  double boilingPoint0;                                           ///< K at 101325 Pa
+  double latentHeatFusion, latentHeatVaporization;                ///< J/kg at those points
+  double solidus, liquidus;                                       ///< K; equal: a sharp melting point
+  double meltingPoint;      ///< K at the scene's pressure; sublimation point where `sublimes`
+  double boilingPoint;      ///< K at the scene's pressure; +infinity for what never boils
+  uint8_t sublimes;         ///< 1: no liquid at this pressure
+  uint8_t melts;            ///< 0: no melting point (glass, honey)
+};
+
+/// One material as hot loops see it: numbers and baked tables.
+class MaterialView {
+ public:
+  virtual const char* id() const noexcept = 0;
+  virtual const Caloric& caloric() const noexcept = 0;
+  /// Value of a property of the catalogue at a temperature in K; NaN for an unknown key. Not for inner loops: bake.
+  virtual double property(const char* key, double temperature) const noexcept = 0;
+
+ protected:
+  ~MaterialView() = default;
+};
+
+}  // namespace ps::api

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <phasesketch/parameter.h>
+
+#include "core/math/response.h"
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <variant>
+
+namespace ps {
+
+/// A parameter's value: Toggle, Number or Integer, Choice, Response.
+using Value = std::variant<bool, double, std::string, Response>;
+
+/// Values set explicitly, by key; whatever is absent has the declaration's default.
+class ParameterSet {
+ public:
+  std::map<std::string, Value> values;
+  bool operator==(const ParameterSet&) const = default;
+};
+
+/// The declaration of `key`, or nullptr.
+const api::ParameterDeclaration* findDeclaration(api::ParameterList list, std::string_view key);
+/// Explicit value or default.
+Value valueOf(const ParameterSet& set, const api::ParameterDeclaration& declaration);
+double numberOf(const ParameterSet& set, api::ParameterList list, std::string_view key);
+std::string choiceOf(const ParameterSet& set, api::ParameterList list, std::string_view key);
+bool toggleOf(const ParameterSet& set, api::ParameterList list, std::string_view key);
+/// All values as numbers in the order of the list (Choice: index, Toggle: 0 or 1, Response: constant), as plugins get them.
+std::vector<double> numbersOf(const ParameterSet& set, api::ParameterList list);
+/// "" or what is wrong with a value: "must be a number", "must be at least 1 kg/m³, not −5".
+std::string problemOf(const Value& value, const api::ParameterDeclaration& declaration);
+
+}  // namespace ps

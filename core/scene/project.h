@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "core/scene/parameterset.h"
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace ps {
+
+using Vec3 = std::array<double, 3>;
+
+/// Keys that this version does not know, kept for the next save. nullptr: none.
+using Unknown = std::shared_ptr<const nlohmann::json>;
+
+/// A material of the scene: an installed one by id (`base`), with changed properties.
+struct SceneMaterial {
+  std::string id;     ///< unique in the scene; bodies refer to it
+  std::string label;
+  std::string base;   ///< id of the installed material: "water"
+  ParameterSet properties;  ///< keys of the property catalogue
+  ParameterSet parameters;  ///< the plugin's own
+  Unknown unknown;
+};
+
+/// A block of particles on a cubic lattice of the scene's spacing.
+struct BoxShape {
+  Vec3 center{0, 0, 0};  ///< m
+  Vec3 size{0.1, 0.1, 0.1};
+  bool operator==(const BoxShape&) const = default;
+};
+
+/// Sketched cells: runs along x of a lattice whose cell (0, 0, 0) is centred at `origin`.
+struct VoxelShape {
+  struct Run {
+    int x = 0, y = 0, z = 0, length = 1, palette = 0;
+    bool operator==(const Run&) const = default;
+  };
+  struct Paint {
+    std::string material;
+    double temperature = 293.15;  ///< K
+    bool operator==(const Paint&) const = default;
+  };
+  struct Stroke {
+    std::string brush;       ///< plugin id: "sphere"
+    bool erase = false;
+    double radius = 0.05;    ///< m
+    int palette = 0;
+    ParameterSet parameters;
+    std::vector<std::array<double, 5>> samples;  ///< x, y, z in m, pressure, time in s
+    bool operator==(const Stroke&) const = default;
+  };
+  Vec3 origin{0, 0, 0};
+  std::vector<Paint> palette;
+  std::vector<Run> runs;
+  std::vector<Stroke> strokes;
+  bool operator==(const VoxelShape&) const = default;
+};
+
+/// A constraint plugin used by a body.
+struct BodyConstraint {
+  std::string plugin;  ///< "bonds"
+  ParameterSet parameters;
+  Unknown unknown;
+};
+
+struct Body {
+  std::string id, name;
+  std::string material;  ///< SceneMaterial::id; sketched bodies: of their first palette entry
+  std::variant<BoxShape, VoxelShape> shape;
+  ParameterSet parameters;  ///< see bodyParameters(): temperature, phase, fixed
+  Vec3 velocity{0, 0, 0};   ///< m/s
+  std::vector<BodyConstraint> constraints;
+  bool visible = true, locked = false;
+  Unknown unknown;
+};
+
+/// A half-space with a name: floor, lid, sides of a tray.
+struct SceneWall {
+  std::string id, name;
+  Vec3 point{0, 0, 0};   ///< m, on the wall
+  Vec3 normal{0, 1, 0};  ///< into the scene; any length but zero
+  ParameterSet parameters;  ///< see wallParameters(): heat, temperature, friction, film_coefficient
+  Unknown unknown;
+};
+
+struct Environment {
+  ParameterSet parameters;  ///< see environmentParameters()
+  Vec3 gravity{0, -9.81, 0};
+  Vec3 boundsMinimum{-1, 0, -1}, boundsMaximum{1, 2, 1};  ///< m
+  std::vector<SceneWall> walls;
+  Unknown unknown;
+};
+
+struct SolverOptions {
+  ParameterSet parameters;         ///< see solverParameters()
+  std::string thermalModel = "enthalpy";  ///< plugin id; "" for none
+  ParameterSet thermalParameters;
+  Unknown unknown;
+};
+
+/// Something to measure each frame.
+struct Probe {
+  std::string id, name;
+  std::string quantity;  ///< "temperature", "mass", "speed", ... see probeQuantities()
+  std::string body;      ///< Body::id; "" for all particles
+  std::string phase;     ///< "solid", "melting", "liquid", "boiling", "gas"; "" for all
+  Unknown unknown;
+};
+
+struct ViewState {
+  Vec3 target{0, 0.2, 0};
+  double distance = 1.5, azimuth = 35, elevation = 20;  ///< m, degrees
+  std::string colour = "material";  ///< material | temperature | phase | speed | density_error
+  std::vector<std::string> pinned;  ///< addresses of "Try these" rows: "wall/floor/temperature"
+  Unknown unknown;
+};
+
+/// The document: what a project file holds. Plain values with stable ids.
+struct Project {
+  int version = 1, minVersion = 1;
+  std::string generator, title, description;
+  std::vector<std::string> pluginsUsed, pluginsRequired;
+  std::vector<SceneMaterial> materials;
+  std::vector<Body> bodies;
+  Environment environment;
+  SolverOptions solver;
+  std::vector<Probe> probes;
+  double duration = 60;  ///< s
+  ViewState view;
+  Unknown unknown;
+};
+
+// Declared once, here; panels, JSON checks and help come from them.
+api::ParameterList environmentParameters();  ///< ambient_pressure, ambient_temperature, air_convection
+api::ParameterList solverParameters();       ///< particle_spacing, substeps, iterations, thermal_time_scale, ...
+api::ParameterList wallParameters();
+api::ParameterList bodyParameters();
+const std::vector<std::string>& probeQuantities();
+
+/// Names one parameter of a project: "material/water/conductivity_solid", "wall/floor/temperature",
+/// "environment/ambient_pressure", "solver/substeps", "thermal/KEY", "body/ice/temperature",
+/// "constraint/ice/bonds/KEY".
+struct Address {
+  std::string owner;  ///< material, wall, environment, solver, thermal, body, constraint
+  std::string id;     ///< of the owner; constraint: "ice/bonds"; "" where there is one
+  std::string key;
+  std::string text() const;
+  static std::optional<Address> parse(std::string_view text);
+  bool operator==(const Address&) const = default;
+};
+/// The set that holds an address's value, or nullptr when the owner does not exist.
+ParameterSet* findSet(Project& project, const Address& address);
+const ParameterSet* findSet(const Project& project, const Address& address);
+
+}  // namespace ps

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "core/simulation/snapshot.h"
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace ps {
+
+class PluginRegistry;
+
+/// A scene compiled into a solver, single-threaded from the caller's point of view: the command line uses it directly,
+/// the editor through EngineThread.
+class Engine {
+ public:
+  /// Throws InputError when the project cannot be compiled (a missing required plugin, no particles fit, ...).
+  Engine(const Project& project, PluginRegistry& plugins);
+  ~Engine();
+
+  StepReport step();
+  void reset();  ///< back to the start, with all edits of parameters kept
+  /// A parameter changed: recompiles what it touches. Returns false when it acts at the next reset only
+  /// (body parameters, particle_spacing).
+  bool setParameter(const Address& address, const Value& value);
+  /// Adds a sketched body, or more cells of one that exists, at rest; cells where a live particle is within 0.9
+  /// spacings stay free. Returns the ids of the new particles.
+  std::vector<uint32_t> addCells(const Body& body, const std::vector<std::array<int, 3>>& cells, int palette);
+  void removeParticles(const std::vector<uint32_t>& ids);
+  /// Ids of live particles whose centre lies in one of the cells of a lattice.
+  std::vector<uint32_t> particlesIn(const VoxelShape& lattice, const std::vector<std::array<int, 3>>& cells) const;
+
+  SnapshotPtr snapshot() const;
+  FrameStats stats() const;
+  const Project& project() const;
+  Solver& solver();
+  const std::vector<std::string>& probeNames() const;  ///< "name.quantity[unit]"
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> m;
+};
+
+/// Runs an Engine on its own thread. Commands are queued and act between frames; snapshots are published after each.
+/// No call here waits for a step.
+class EngineThread {
+ public:
+  /// `published` is called on the engine's thread after each new snapshot.
+  EngineThread(PluginRegistry& plugins, std::function<void()> published);
+  ~EngineThread();
+
+  void open(const Project& project, bool play);  ///< replaces the scene; compile errors arrive in snapshot()->message
+  void play();
+  void pause();
+  void stepOnce();
+  void reset();
+  void setParameter(const Address& address, const Value& value);
+  void addCells(const Body& body, std::vector<std::array<int, 3>> cells, int palette,
+                std::function<void(std::vector<uint32_t>)> done);
+  void removeParticles(std::vector<uint32_t> ids);
+  /// Any other work between frames.
+  void post(std::function<void(Engine&)> command);
+
+  bool playing() const;
+  SnapshotPtr snapshot() const;           ///< newest; nullptr before the first
+  SnapshotPtr previousSnapshot() const;   ///< the one before it, of the same revision, else nullptr
+  /// All frames' statistics since the last reset, appended from index `from`.
+  std::vector<FrameStats> history(size_t from) const;
+  double realTimeFactor() const;          ///< simulated seconds per second, over the last second
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> m;
+};
+
+}  // namespace ps

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "core/scene/project.h"
+#include "core/solver/solver.h"
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace ps {
+
+struct PhaseAmount {
+  uint64_t count = 0;
+  double mass = 0;  ///< kg
+};
+
+/// What one frame amounts to; small, kept for graphs and reports.
+struct FrameStats {
+  uint64_t frame = 0;
+  double time = 0, thermalTime = 0;  ///< s
+  std::array<PhaseAmount, 5> phases;  ///< by api::Phase, static particles left out
+  double temperatureMin = 0, temperatureMean = 0, temperatureMax = 0;  ///< K, mean by mass
+  double densityErrorMean = 0, densityErrorMax = 0;
+  double thermalEnergy = 0, kineticEnergy = 0;  ///< J
+  HeatLedger heat;
+  std::array<double, static_cast<size_t>(Stage::Count)> milliseconds{};
+  double totalMilliseconds = 0;
+  std::vector<double> probes;  ///< in the order of Project::probes
+};
+
+/// One published frame: immutable, read by viewport, graphs and recorder without a lock. Static particles included.
+struct Snapshot {
+  FrameStats stats;
+  uint64_t revision = 0;  ///< rises with every reset: indices and ids of another revision do not compare
+  StepFlags flags = 0;
+  std::string message;    ///< why it paused, "" otherwise
+  std::vector<Limit> limits;
+  std::vector<api::Float4> position;  ///< m; w: radius of a sphere of the rest volume, m
+  std::vector<float> temperature;     ///< K
+  std::vector<float> speed;           ///< m/s
+  std::vector<float> densityError;
+  std::vector<float> gasFraction;
+  std::vector<api::Phase> phase;
+  std::vector<api::Motion> motion;
+  std::vector<uint32_t> id, body, material;
+  std::vector<std::array<float, 3>> materialColour;  ///< sRGB 0..1 by material index
+};
+using SnapshotPtr = std::shared_ptr<const Snapshot>;
+
+}  // namespace ps

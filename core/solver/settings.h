@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <phasesketch/types.h>
+
+#include "core/math/kernels.h"
+
+#include <string>
+#include <vector>
+
+namespace ps {
+
+enum class DensitySolver { Jacobi, Chebyshev };
+
+struct SolverSettings {
+  double spacing = 0.02;       ///< m, rest distance of neighbouring particles
+  double supportRatio = 2.0;   ///< support radius / spacing
+  KernelShape kernel = KernelShape::CubicSpline;
+  double dt = 1.0 / 60;        ///< s, one frame
+  int substeps = 4, iterations = 4;
+  DensitySolver densitySolver = DensitySolver::Chebyshev;
+  double relaxation = 0.5;     ///< omega of the Jacobi density step (RECIPES: 0.5 with Chebyshev, 0.6 without)
+  double chebyshevRadius = 0.8;  ///< assumed spectral radius
+  double xsphMinimum = 0.05;   ///< XSPH coefficient that keeps the particles quiet where the real viscosity asks less
+  double damping = 0;          ///< 1/s, of velocities, before gravity
+  api::Double3 gravity{0, -9.81, 0};
+  double gasDrag = 0.2;        ///< m, gas_parcel_diameter of the drag law
+};
+
+/// Heat at a wall.
+enum class WallHeat { Adiabatic, FixedTemperature };
+
+/// A half-space boundary: particles stay where normal . x >= offset.
+struct Wall {
+  std::string id;
+  api::Double3 normal{0, 1, 0};  ///< unit vector into the scene
+  double offset = 0;             ///< m
+  double friction = 0.3;
+  WallHeat heat = WallHeat::Adiabatic;
+  double temperature = 293.15;      ///< K
+  double filmCoefficient = 500;     ///< W/(m2 K), condensation on walls below the boiling point
+};
+
+struct Bounds {
+  api::Double3 minimum{-1, 0, -1}, maximum{1, 2, 1};  ///< m; a particle that leaves by more than its size is lost
+};
+
+struct ThermalSettings {
+  double timeScale = 1;             ///< thermal_time_scale: all heat fluxes times this; final states unchanged
+  double cfl = 0.5;                 ///< thermal_cfl: fraction of the Gershgorin limit per explicit step
+  bool momentCorrection = true;
+  double ambientPressure = 101325;  ///< Pa
+  double ambientTemperature = 293.15;  ///< K
+  double airConvection = 5;         ///< W/(m2 K), vapour in the open air
+  double nucleation = 0.3;          ///< share of latent heat that boiling neighbours pass on (RECIPES 4)
+};
+
+/// Failures of a step; each says what to do about it.
+enum class StepFlag : unsigned {
+  NotFinite = 1,       ///< a NaN or infinity: raise substeps, or undo the last change of a stiffness or temperature
+  LostParticle = 2,    ///< a particle left the bounds: raise substeps, or close the scene with walls
+  Diverged = 4,        ///< density error above 50 %: raise iterations, lower the relaxation
+  PluginFault = 8,     ///< a plugin threw: see the message; the scene goes on without it
+  EnergyOpen = 16,     ///< heat balance open by more than 1e-6 of what was exchanged: report a bug in the thermal model
+};
+using StepFlags = unsigned;
+/// "not_finite", "lost_particle", ...
+std::vector<std::string> flagNames(StepFlags flags);
+
+/// Asked for and not delivered at this step.
+struct Limit {
+  std::string what;  ///< parameter key and owner: "water.youngs_modulus"
+  double asked = 0, delivered = 0;
+  std::string unit;
+};
+
+enum class Stage { Neighbours, Density, Structure, Contact, Viscosity, Heat, Phase, Count };
+const char* stageName(Stage stage);
+
+/// Heat that entered the particles since the start, in J; `exchanged` adds up absolute amounts.
+struct HeatLedger {
+  double walls = 0, air = 0, sources = 0, exchanged = 0;
+  double net() const { return walls + air + sources; }
+};
+
+}  // namespace ps

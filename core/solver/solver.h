@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "core/solver/heat.h"
+#include "core/solver/settings.h"
+
+#include <phasesketch/constraint.h>
+
+#include <array>
+#include <memory>
+
+namespace ps {
+
+/// Particles to be born: one entry per particle.
+struct Spawn {
+  std::vector<api::Double3> position;  ///< m
+  std::vector<api::Double3> velocity;  ///< m/s; empty: at rest
+  uint32_t material = 0;               ///< index into the material table
+  uint32_t body = 0;
+  double temperature = 293.15;  ///< K
+  api::Phase phase = api::Phase::Liquid;
+  bool fixed = false;           ///< static boundary particles
+  std::vector<uint32_t> constraintSets;  ///< built over the new particles
+};
+
+struct StepReport {
+  StepFlags flags = 0;
+  std::string message;  ///< the culprit: "particle 17 of 'Ice block': position is not finite"
+  std::array<double, static_cast<size_t>(Stage::Count)> milliseconds{};
+  double totalMilliseconds = 0;
+  double densityErrorMean = 0, densityErrorMax = 0;  ///< fraction, liquid particles, after the last iteration
+};
+
+/// One engine: substepped XPBD (Macklin et al. 2019) with position-based density (Macklin & Mueller 2013, volume form of
+/// Solenthaler & Pajarola 2008), structural and neighbour constraints from plugins, XSPH viscosity, enthalpy heat, phase
+/// change. Gather, not scatter: every loop writes its own particle only, so the result is the same for any number of
+/// threads and any instruction set.
+class Solver {
+ public:
+  Solver();
+  ~Solver();
+
+  // Configuration; each may be called between steps and acts on the next one.
+  void setSettings(const SolverSettings& settings);
+  void setThermal(const ThermalSettings& settings, const api::ThermalPlugin* model, std::vector<double> modelParameters);
+  void setWalls(std::vector<Wall> walls);
+  void setBounds(const Bounds& bounds);
+  /// Indices of materials must keep their meaning while particles live.
+  void setMaterials(std::vector<BakedMaterial> materials);
+  /// Adds a set of constraints of one plugin; returns its index. `name` is the plugin's id, for messages.
+  uint32_t addConstraintSet(const api::ConstraintPlugin* plugin, std::string name, std::vector<double> parameters);
+  void setConstraintParameters(uint32_t set, std::vector<double> parameters);
+
+  /// Returns the ids of the new particles. Mass is rest density times spacing^3 of the state at birth.
+  std::vector<uint32_t> spawn(const Spawn& spawn);
+  /// Removes particles by id; ids already gone are skipped. Their energy is booked as a source.
+  void remove(std::span<const uint32_t> ids);
+
+  /// One frame. On NotFinite the state of the last good frame is kept.
+  StepReport step();
+
+  ParticleStore& particles();
+  const ParticleStore& particles() const;
+  size_t constraintCount() const;
+  double time() const;         ///< s, mechanical
+  double thermalTime() const;  ///< s, thermal_time_scale times as fast
+  uint64_t frame() const;
+  std::vector<Limit> limits() const;
+  const HeatLedger& heatLedger() const;
+  double thermalEnergy() const;  ///< J
+  /// All particle fields by id, constraints, clocks.
+  uint64_t stateHash() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> m;
+};
+
+/// Instruction sets that this machine runs and this binary holds, Highway's names, best first ("AVX3", "AVX2", ...).
+std::vector<std::string> availableInstructionSets();
+/// Pins one ("" for the best). Throws InputError with the choices for an unknown or unavailable name.
+void setInstructionSet(const std::string& name);
+std::string instructionSet();
+
+}  // namespace ps

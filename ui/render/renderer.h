@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "core/simulation/snapshot.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace ps {
+
+/// Orbit camera; y is up. Angles in degrees.
+struct Camera {
+  Vec3 target{0, 0.2, 0};
+  double distance = 1.5, azimuth = 35, elevation = 20, fieldOfView = 35;
+};
+
+enum class ColourBy { Material, Temperature, Phase, Speed, DensityError };
+ColourBy colourByName(const std::string& name);  ///< Material for an unknown name
+const char* colourName(ColourBy colour);
+
+struct RenderOptions {
+  int width = 1280, height = 720;  ///< device pixels
+  Camera camera;
+  ColourBy colour = ColourBy::Material;
+  double rangeMinimum = 0, rangeMaximum = 0;  ///< of the colour map; equal: automatic
+  bool dark = true;
+  double meltingPoint = 273.15;  ///< K, pivot of the temperature map
+};
+
+/// The scene's furniture that is drawn around particles.
+struct RenderScene {
+  Environment environment;  ///< walls, bounds
+};
+
+/// Draws snapshots. Needs a current OpenGL 4.3 context, whoever made it (viewport, headset, headless); knows no widgets.
+class Renderer {
+ public:
+  Renderer();   ///< throws Error when shaders do not compile or the context is too old
+  ~Renderer();  ///< the same context (or one that shares with it) must be current
+  /// Draws into the framebuffer bound now. `previous` and `blend` in 0..1 interpolate between two snapshots.
+  void draw(const Snapshot& now, const Snapshot* previous, double blend, const RenderScene& scene, const RenderOptions& options);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> m;
+};
+
+/// Range that the legend of a colour map shows for a snapshot with automatic limits.
+std::pair<double, double> colourRange(const Snapshot& snapshot, ColourBy colour);
+/// Colour map as sRGB at t in 0..1, for legends (Phase: by api::Phase / 4).
+std::array<float, 3> colourAt(ColourBy colour, double t, double pivot);
+
+/// An OpenGL context without a window or display (EGL surfaceless). Throws Error when there is none.
+class HeadlessContext {
+ public:
+  HeadlessContext();
+  ~HeadlessContext();
+  void makeCurrent();
+  std::string description() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> m;
+};
+
+/// Renders into an image of RGBA8 rows from the top; needs a current context.
+std::vector<uint8_t> renderImage(Renderer& renderer, const Snapshot& snapshot, const RenderScene& scene, const RenderOptions& options);
+
+}  // namespace ps
