@@ -21,7 +21,10 @@ class Engine {
   ~Engine();
 
   StepReport step();
-  void reset();  ///< back to the start, with all edits of parameters kept
+  void reset();  ///< back to the start, with all edits kept
+  /// The document changed as a whole (undo, a new body, gravity): takes over every parameter at once; bodies, which are
+  /// particles by now, at the next reset. Throws InputError and changes nothing when it cannot be compiled.
+  void update(const Project& project);
   /// A parameter changed: recompiles what it touches. Returns false when it acts at the next reset only
   /// (body parameters, particle_spacing).
   bool setParameter(const Address& address, const Value& value);
@@ -57,6 +60,7 @@ class EngineThread {
   void stepOnce();
   void reset();
   void setParameter(const Address& address, const Value& value);
+  void update(const Project& project);
   void addCells(const Body& body, std::vector<std::array<int, 3>> cells, int palette,
                 std::function<void(std::vector<uint32_t>)> done);
   void removeParticles(std::vector<uint32_t> ids);

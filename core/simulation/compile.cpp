@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/simulation/compile.h"
+
+#include "core/base/error.h"
+#include "core/matter/material.h"
+#include "core/plugin_host/registry.h"
+#include "core/simulation/lattice.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ps {
+namespace {
+
+api::Double3 double3(const Vec3& v) { return {v[0], v[1], v[2]}; }
+
+Response responseOf(const Value& value) {
+  if (const auto* response = std::get_if<Response>(&value)) return *response;
+  if (const auto* number = std::get_if<double>(&value)) return Response(*number);
+  const auto* toggle = std::get_if<bool>(&value);
+  return Response(toggle && *toggle ? 1.0 : 0.0);
+}
+
+/// Phase at birth: as asked, or what is stable at the temperature.
+api::Phase birthPhase(const std::string& asked, const api::Caloric& caloric, double temperature) {
+  if (asked == "solid") return api::Phase::Solid;
+  if (asked == "liquid") return api::Phase::Liquid;
+  if (asked == "gas") return api::Phase::Gas;
+  if (caloric.sublimes) return temperature < caloric.meltingPoint ? api::Phase::Solid : api::Phase::Gas;
+  if (caloric.melts && temperature < caloric.meltingPoint) return api::Phase::Solid;
+  return temperature < caloric.boilingPoint ? api::Phase::Liquid : api::Phase::Gas;
+}
+
+/// Everything but positions, material and temperature.
+Spawn spawnOf(const Project& project, const PluginRegistry& plugins, size_t body) {
+  const Body& source = project.bodies[body];
+  Spawn spawn;
+  spawn.body = static_cast<uint32_t>(body);
+  spawn.fixed = toggleOf(source.parameters, bodyParameters(), "fixed") || isPlaceholder(project, source, plugins);
+  return spawn;
+}
+
+void setMatter(Spawn& spawn, const Project& project, std::span<const BakedMaterial> materials,
+               const std::string& material, double temperature, const Body& body) {
+  spawn.material = materialIndex(project, material, body.name);
+  spawn.temperature = temperature;
+  const std::string asked = choiceOf(body.parameters, bodyParameters(), "phase");
+  spawn.phase = birthPhase(asked, materials[spawn.material].caloric(), temperature);
+}
+
+}  // namespace
+
+SolverSettings compileSettings(const Project& project) {
+  const api::ParameterList list = solverParameters();
+  const auto number = [&](const char* key) { return numberOf(project.solver.parameters, list, key); };
+  SolverSettings s;
+  s.spacing = number("particle_spacing");
+  s.supportRatio = number("support_ratio");
+  s.kernel = choiceOf(project.solver.parameters, list, "kernel") == "wendland_c2" ? KernelShape::WendlandC2
+                                                                                  : KernelShape::CubicSpline;
+  s.dt = number("dt");
+  s.substeps = static_cast<int>(number("substeps"));
+  s.iterations = static_cast<int>(number("iterations"));
+  s.densitySolver = choiceOf(project.solver.parameters, list, "density_solver") == "jacobi" ? DensitySolver::Jacobi
+                                                                                            : DensitySolver::Chebyshev;
+  s.relaxation = number("relaxation");
+  s.chebyshevRadius = number("chebyshev_radius");
+  s.xsphMinimum = number("xsph_minimum");
+  s.damping = number("damping");
+  s.gasDrag = number("gas_parcel_diameter");
+  s.gravity = double3(project.environment.gravity);
+  return s;
+}
+
+ThermalSettings compileThermal(const Project& project) {
+  const auto solver = [&](const char* key) { return numberOf(project.solver.parameters, solverParameters(), key); };
+  const auto ambient = [&](const char* key) {
+    return numberOf(project.environment.parameters, environmentParameters(), key);
+  };
+  ThermalSettings t;
+  t.timeScale = solver("thermal_time_scale");
+  t.cfl = solver("thermal_cfl");
+  t.momentCorrection = toggleOf(project.solver.parameters, solverParameters(), "moment_correction");
+  t.nucleation = solver("nucleation");
+  t.ambientPressure = ambient("ambient_pressure");
+  t.ambientTemperature = ambient("ambient_temperature");
+  t.airConvection = ambient("air_convection");
+  return t;
+}
+
+std::vector<Wall> compileWalls(const Project& project) {
+  std::vector<Wall> walls;
+  for (const SceneWall& source : project.environment.walls) {
+    const Vec3& n = source.normal;
+    const double length = std::hypot(n[0], n[1], n[2]);
+    if (!(length > 0)) throw InputError("wall '" + source.name + "': its normal must not be zero");
+    const api::ParameterList list = wallParameters();
+    Wall wall;
+    wall.id = source.id;
+    wall.normal = {n[0] / length, n[1] / length, n[2] / length};
+    wall.offset = wall.normal.x * source.point[0] + wall.normal.y * source.point[1] + wall.normal.z * source.point[2];
+    wall.friction = numberOf(source.parameters, list, "friction");
+    wall.heat = choiceOf(source.parameters, list, "heat") == "fixed_temperature" ? WallHeat::FixedTemperature
+                                                                                 : WallHeat::Adiabatic;
+    wall.temperature = numberOf(source.parameters, list, "temperature");
+    wall.filmCoefficient = numberOf(source.parameters, list, "film_coefficient");
+    walls.push_back(wall);
+  }
+  return walls;
+}
+
+Bounds compileBounds(const Project& project) {
+  return {double3(project.environment.boundsMinimum), double3(project.environment.boundsMaximum)};
+}
+
+std::vector<Material> compileMaterials(const Project& project, const PluginRegistry& plugins) {
+  std::vector<Material> materials;
+  for (const SceneMaterial& source : project.materials) {
+    Material material;
+    if (const api::MaterialPlugin* plugin = plugins.materialPlugin(source.base)) {
+      material = plugins.evaluated(source.base, numbersOf(source.parameters, plugin->parameters()));
+    } else if (const Material* installed = plugins.material(source.base)) {
+      material = *installed;
+    }
+    material.id = source.id;
+    if (!source.label.empty()) material.label = source.label;
+    for (const auto& [key, value] : source.properties.values) material.properties[key] = responseOf(value);
+    if (const std::string problem = problemOf(material); !problem.empty()) {
+      throw InputError("material '" + source.id + "': " + problem);
+    }
+    materials.push_back(std::move(material));
+  }
+  return materials;
+}
+
+uint32_t materialIndex(const Project& project, const std::string& material, const std::string& body) {
+  for (size_t i = 0; i < project.materials.size(); ++i) {
+    if (project.materials[i].id == material) return static_cast<uint32_t>(i);
+  }
+  throw InputError("body '" + body + "': the scene has no material '" + material + "'");
+}
+
+bool isPlaceholder(const Project& project, const Body& body, const PluginRegistry& plugins) {
+  for (const SceneMaterial& material : project.materials) {
+    if (material.id == body.material && !plugins.material(material.base)) return true;
+  }
+  return std::any_of(body.constraints.begin(), body.constraints.end(),
+                     [&](const BodyConstraint& c) { return !plugins.constraint(c.plugin); });
+}
+
+std::vector<Spawn> compileBody(const Project& project, const PluginRegistry& plugins,
+                               std::span<const BakedMaterial> materials, size_t index) {
+  const Body& body = project.bodies[index];
+  std::vector<Spawn> spawns;
+  if (const auto* box = std::get_if<BoxShape>(&body.shape)) {
+    Spawn spawn = spawnOf(project, plugins, index);
+    spawn.position = boxLattice(*box, compileSettings(project).spacing);
+    const double temperature = numberOf(body.parameters, bodyParameters(), "temperature");
+    setMatter(spawn, project, materials, body.material, temperature, body);
+    spawns.push_back(std::move(spawn));
+  } else {
+    const auto& voxels = std::get<VoxelShape>(body.shape);
+    for (size_t palette = 0; palette < voxels.palette.size(); ++palette) {
+      std::vector<std::array<int, 3>> cells = cellsOf(voxels, static_cast<int>(palette));
+      if (!cells.empty()) {
+        spawns.push_back(compileCells(project, plugins, materials, index, static_cast<int>(palette), cells));
+      }
+    }
+  }
+  for (Spawn& spawn : spawns) spawn.velocity.assign(spawn.position.size(), double3(body.velocity));
+  return spawns;
+}
+
+Spawn compileCells(const Project& project, const PluginRegistry& plugins, std::span<const BakedMaterial> materials,
+                   size_t index, int palette, const std::vector<std::array<int, 3>>& cells) {
+  const Body& body = project.bodies[index];
+  const auto& voxels = std::get<VoxelShape>(body.shape);
+  const VoxelShape::Paint& paint = voxels.palette.at(static_cast<size_t>(palette));
+  Spawn spawn = spawnOf(project, plugins, index);
+  spawn.position = cellCentres(voxels, compileSettings(project).spacing, cells);
+  setMatter(spawn, project, materials, paint.material, paint.temperature, body);
+  return spawn;
+}
+
+}  // namespace ps

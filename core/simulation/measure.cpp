@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/simulation/measure.h"
+
+#include "core/base/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace ps {
+namespace {
+
+constexpr size_t kGrain = 4096;
+
+double squaredSpeed(const api::Float4& v) {
+  return double{v.x} * v.x + double{v.y} * v.y + double{v.z} * v.z;
+}
+
+double kineticEnergy(const ParticleStore& store) {
+  return parallelSum(store.size(), kGrain, [&](size_t first, size_t last) {
+    double sum = 0;
+    for (size_t i = first; i < last; ++i) {
+      if (store.motion()[i] != api::Motion::Static) sum += 0.5 * store.mass()[i] * squaredSpeed(store.velocity()[i]);
+    }
+    return sum;
+  });
+}
+
+/// Mass, weighted mean, smallest and largest of a quantity over the particles that a probe sees.
+struct Tally {
+  double mass = 0, sum = 0;
+  double smallest = std::numeric_limits<double>::infinity(), largest = -smallest;
+  uint64_t count = 0;
+  void add(double weight, double value) {
+    mass += weight;
+    sum += weight * value;
+    smallest = std::min(smallest, value);
+    largest = std::max(largest, value);
+    ++count;
+  }
+  double orNothing(double value) const { return count ? value : std::numeric_limits<double>::quiet_NaN(); }
+};
+
+const char* phaseName(api::Phase phase) {
+  static constexpr const char* kNames[] = {"solid", "melting", "liquid", "boiling", "gas"};
+  return kNames[static_cast<size_t>(phase)];
+}
+
+}  // namespace
+
+FrameStats measure(const Solver& solver, const StepReport& report) {
+  const ParticleStore& store = solver.particles();
+  FrameStats stats;
+  stats.frame = solver.frame();
+  stats.time = solver.time();
+  stats.thermalTime = solver.thermalTime();
+  Tally temperature;
+  for (size_t i = 0; i < store.size(); ++i) {
+    if (store.motion()[i] == api::Motion::Static) continue;
+    PhaseAmount& amount = stats.phases[static_cast<size_t>(store.phase()[i])];
+    ++amount.count;
+    amount.mass += store.mass()[i];
+    temperature.add(store.mass()[i], store.temperature()[i]);
+  }
+  if (temperature.count) {
+    stats.temperatureMin = temperature.smallest;
+    stats.temperatureMean = temperature.sum / temperature.mass;
+    stats.temperatureMax = temperature.largest;
+  }
+  stats.densityErrorMean = report.densityErrorMean;
+  stats.densityErrorMax = report.densityErrorMax;
+  stats.thermalEnergy = solver.thermalEnergy();
+  stats.kineticEnergy = kineticEnergy(store);
+  stats.heat = solver.heatLedger();
+  stats.milliseconds = report.milliseconds;
+  stats.totalMilliseconds = report.totalMilliseconds;
+  return stats;
+}
+
+double measureProbe(const Solver& solver, const Project& project, const Probe& probe) {
+  const ParticleStore& store = solver.particles();
+  if (probe.quantity == "thermal_energy" && probe.body.empty() && probe.phase.empty()) return solver.thermalEnergy();
+  uint32_t body = std::numeric_limits<uint32_t>::max();
+  for (size_t b = 0; b < project.bodies.size(); ++b) {
+    if (project.bodies[b].id == probe.body) body = static_cast<uint32_t>(b);
+  }
+  const std::string& quantity = probe.quantity;
+  const bool isTemperature = quantity.starts_with("temperature"), isHeight = quantity.starts_with("height");
+  const size_t massSuffix = quantity.size() > 5 && quantity.ends_with("_mass") ? quantity.size() - 5 : 0;
+  const std::string phase = massSuffix ? quantity.substr(0, massSuffix) : probe.phase;
+  Tally tally;
+  for (size_t i = 0; i < store.size(); ++i) {
+    if (store.motion()[i] == api::Motion::Static) continue;
+    if (!probe.body.empty() && store.body()[i] != body) continue;
+    if (!phase.empty() && phase != phaseName(store.phase()[i])) continue;
+    const double value = isTemperature ? store.temperature()[i]
+                         : isHeight    ? double{store.position()[i].y}
+                                       : std::sqrt(squaredSpeed(store.velocity()[i]));
+    tally.add(store.mass()[i], value);
+  }
+  if (quantity == "count") return static_cast<double>(tally.count);
+  if (quantity == "mass" || massSuffix) return tally.mass;
+  if (quantity == "kinetic_energy") return kineticEnergy(store);
+  if (quantity.ends_with("_min")) return tally.orNothing(tally.smallest);
+  if (quantity.ends_with("_max")) return tally.orNothing(tally.largest);
+  return tally.orNothing(tally.sum / tally.mass);
+}
+
+std::string probeTitle(const Probe& probe) {
+  return probe.name + "." + probe.quantity + "[" + probeUnit(probe.quantity) + "]";
+}
+
+void fillSnapshot(Snapshot& snapshot, const Solver& solver) {
+  const ParticleStore& store = solver.particles();
+  const size_t n = store.size();
+  snapshot.position.resize(n);
+  snapshot.temperature.resize(n);
+  snapshot.speed.resize(n);
+  snapshot.densityError.assign(store.densityError(), store.densityError() + n);
+  snapshot.gasFraction.assign(store.gasFraction(), store.gasFraction() + n);
+  snapshot.phase.assign(store.phase(), store.phase() + n);
+  snapshot.motion.assign(store.motion(), store.motion() + n);
+  snapshot.id.assign(store.id(), store.id() + n);
+  snapshot.body.assign(store.body(), store.body() + n);
+  snapshot.material.assign(store.material(), store.material() + n);
+  for (size_t i = 0; i < n; ++i) {
+    const api::Float4& p = store.position()[i];
+    snapshot.position[i] = {p.x, p.y, p.z, std::cbrt(p.w * 0.75f / std::numbers::pi_v<float>)};
+    snapshot.temperature[i] = static_cast<float>(store.temperature()[i]);
+    snapshot.speed[i] = static_cast<float>(std::sqrt(squaredSpeed(store.velocity()[i])));
+  }
+}
+
+}  // namespace ps
