@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/sketch/cellset.h"
+
+#include "core/base/error.h"
+
+#include <algorithm>
+#include <iterator>
+#include <limits>
+#include <string>
+
+namespace ps {
+namespace {
+
+bool before(const api::Cell& a, const api::Cell& b) { return compareCells(a, b) < 0; }
+bool beforeEntry(const VoxelCanvas::Entry& a, const VoxelCanvas::Entry& b) { return before(a.cell, b.cell); }
+
+std::vector<api::Cell> sorted(std::span<const api::Cell> cells) {
+  std::vector<api::Cell> result(cells.begin(), cells.end());
+  std::sort(result.begin(), result.end(), before);
+  result.erase(std::unique(result.begin(), result.end(), sameCell), result.end());
+  return result;
+}
+
+void checkRun(const VoxelShape::Run& run, size_t number) {
+  const int64_t last = int64_t{run.x} + run.length - 1;
+  if (run.length < 1)
+    throw InputError("run " + std::to_string(number) + ": its length must be at least 1, not " +
+                     std::to_string(run.length));
+  if (last > std::numeric_limits<int>::max())
+    throw InputError("run " + std::to_string(number) + ": it ends past the largest cell index");
+}
+
+/// Appends a cell to the last run, or begins a new one.
+void extend(std::vector<VoxelShape::Run>& runs, const api::Cell& cell, int palette) {
+  if (!runs.empty()) {
+    VoxelShape::Run& last = runs.back();
+    if (last.z == cell.z && last.y == cell.y && last.palette == palette && int64_t{last.x} + last.length == cell.x) {
+      ++last.length;
+      return;
+    }
+  }
+  runs.push_back({cell.x, cell.y, cell.z, 1, palette});
+}
+
+}  // namespace
+
+void CellSet::add(std::span<const api::Cell> cells) {
+  const std::vector<api::Cell> incoming = sorted(cells);
+  std::vector<api::Cell> merged;
+  merged.reserve(m_cells.size() + incoming.size());
+  std::set_union(m_cells.begin(), m_cells.end(), incoming.begin(), incoming.end(), std::back_inserter(merged), before);
+  m_cells = std::move(merged);
+}
+
+void CellSet::remove(std::span<const api::Cell> cells) {
+  const std::vector<api::Cell> outgoing = sorted(cells);
+  std::vector<api::Cell> kept;
+  kept.reserve(m_cells.size());
+  std::set_difference(m_cells.begin(), m_cells.end(), outgoing.begin(), outgoing.end(), std::back_inserter(kept), before);
+  m_cells = std::move(kept);
+}
+
+bool CellSet::contains(const api::Cell& cell) const {
+  return std::binary_search(m_cells.begin(), m_cells.end(), cell, before);
+}
+
+std::vector<std::array<int, 3>> CellSet::indices() const {
+  std::vector<std::array<int, 3>> result;
+  result.reserve(m_cells.size());
+  for (const api::Cell& cell : m_cells) result.push_back({cell.x, cell.y, cell.z});
+  return result;
+}
+
+bool CellSet::operator==(const CellSet& other) const {
+  return std::equal(m_cells.begin(), m_cells.end(), other.m_cells.begin(), other.m_cells.end(), sameCell);
+}
+
+VoxelCanvas::VoxelCanvas(std::span<const VoxelShape::Run> runs) {
+  struct Owned {
+    Entry entry;
+    size_t run;
+  };
+  std::vector<Owned> owned;
+  for (size_t r = 0; r < runs.size(); ++r) {
+    checkRun(runs[r], r);
+    for (int i = 0; i < runs[r].length; ++i)
+      owned.push_back({{{runs[r].x + i, runs[r].y, runs[r].z}, runs[r].palette}, r});
+  }
+  std::stable_sort(owned.begin(), owned.end(),
+                   [](const Owned& a, const Owned& b) { return beforeEntry(a.entry, b.entry); });
+  m_entries.reserve(owned.size());
+  for (size_t i = 0; i < owned.size(); ++i) {
+    const api::Cell& cell = owned[i].entry.cell;
+    if (i > 0 && sameCell(owned[i - 1].entry.cell, cell))
+      throw InputError("run " + std::to_string(owned[i].run) + " covers cell (" + std::to_string(cell.x) + ", " +
+                       std::to_string(cell.y) + ", " + std::to_string(cell.z) + "), which run " +
+                       std::to_string(owned[i - 1].run) + " holds already");
+    m_entries.push_back(owned[i].entry);
+  }
+}
+
+CellSet VoxelCanvas::paint(const CellSet& cells, int palette) {
+  CellSet filled = cells;
+  filled.remove(this->cells().cells());
+  VoxelCanvas fresh;
+  fresh.m_entries.reserve(filled.size());
+  for (const api::Cell& cell : filled.cells()) fresh.m_entries.push_back({cell, palette});
+  restore(fresh);
+  return filled;
+}
+
+VoxelCanvas VoxelCanvas::erase(const CellSet& cells) {
+  VoxelCanvas erased;
+  std::vector<Entry> kept;
+  kept.reserve(m_entries.size());
+  for (const Entry& entry : m_entries) (cells.contains(entry.cell) ? erased.m_entries : kept).push_back(entry);
+  m_entries = std::move(kept);
+  return erased;
+}
+
+void VoxelCanvas::restore(const VoxelCanvas& erased) {
+  std::vector<Entry> merged;
+  merged.reserve(m_entries.size() + erased.m_entries.size());
+  // set_union takes what both hold from the first range: an occupied cell keeps its palette entry.
+  std::set_union(m_entries.begin(), m_entries.end(), erased.m_entries.begin(), erased.m_entries.end(),
+                 std::back_inserter(merged), beforeEntry);
+  m_entries = std::move(merged);
+}
+
+std::vector<VoxelShape::Run> VoxelCanvas::runs() const {
+  std::vector<VoxelShape::Run> result;
+  for (const Entry& entry : m_entries) extend(result, entry.cell, entry.palette);
+  return result;
+}
+
+CellSet VoxelCanvas::cells() const {
+  std::vector<api::Cell> result;
+  result.reserve(m_entries.size());
+  for (const Entry& entry : m_entries) result.push_back(entry.cell);
+  return CellSet(result);
+}
+
+std::vector<VoxelShape::Run> encodeRuns(const CellSet& cells, int palette) {
+  std::vector<VoxelShape::Run> result;
+  for (const api::Cell& cell : cells.cells()) extend(result, cell, palette);
+  return result;
+}
+
+}  // namespace ps

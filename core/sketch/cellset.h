@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "core/scene/project.h"
+#include "core/sketch/grid.h"
+
+#include <span>
+#include <vector>
+
+// Why sorted arrays and no hash map: the order of cells decides the order in which particles are born, and so the state
+// hash. Sorted by z, y, x the order is the same on every machine, runs along x are neighbours, and a stroke of thousands
+// of cells is merged in one pass.
+namespace ps {
+
+/// A set of cells in the order of compareCells().
+class CellSet {
+ public:
+  CellSet() = default;
+  explicit CellSet(std::span<const api::Cell> cells) { add(cells); }
+
+  /// Adds cells in any order, duplicates allowed. O(n + k log k) for k cells.
+  void add(std::span<const api::Cell> cells);
+  void remove(std::span<const api::Cell> cells);
+  bool contains(const api::Cell& cell) const;
+  bool empty() const { return m_cells.empty(); }
+  size_t size() const { return m_cells.size(); }
+  std::span<const api::Cell> cells() const { return m_cells; }
+  /// As the engine takes them: {x, y, z} each, in the same order.
+  std::vector<std::array<int, 3>> indices() const;
+  bool operator==(const CellSet& other) const;
+
+ private:
+  std::vector<api::Cell> m_cells;
+};
+
+/// The cells of a sketched body, each with an index into its palette (VoxelShape::palette).
+class VoxelCanvas {
+ public:
+  struct Entry {
+    api::Cell cell;
+    int palette = 0;
+  };
+
+  VoxelCanvas() = default;
+  /// From saved runs. Throws InputError for a run shorter than 1, past the range of int32, or one that covers a cell of
+  /// another: "run 3 covers cell (4, 0, 2), which run 1 holds already".
+  explicit VoxelCanvas(std::span<const VoxelShape::Run> runs);
+
+  /// Fills the free ones of `cells`; returns those that it filled (for undo: erase them).
+  CellSet paint(const CellSet& cells, int palette);
+  /// Empties cells; returns what they held (for undo: restore() it).
+  VoxelCanvas erase(const CellSet& cells);
+  /// Puts back what erase() returned, where the cells are free.
+  void restore(const VoxelCanvas& erased);
+
+  /// Run-length encoding along x, in cell order; neighbouring cells of one palette entry make one run. Canonical: equal
+  /// canvases give equal runs, however they were painted.
+  std::vector<VoxelShape::Run> runs() const;
+  CellSet cells() const;
+  std::span<const Entry> entries() const { return m_entries; }
+  bool empty() const { return m_entries.empty(); }
+  size_t size() const { return m_entries.size(); }
+
+ private:
+  std::vector<Entry> m_entries;
+};
+
+/// Runs of one palette entry.
+std::vector<VoxelShape::Run> encodeRuns(const CellSet& cells, int palette);
+
+}  // namespace ps

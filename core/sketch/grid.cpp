@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/sketch/grid.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ps {
+namespace {
+
+int32_t indexOn(double coordinate, double origin, double spacing) {
+  constexpr double kReach = 1 << 30;
+  const double index = std::floor((coordinate - origin) / spacing + 0.5);
+  // The comparison sends NaN to the end as well: a conversion of NaN to an integer is undefined.
+  if (!(index < kReach)) return 1 << 30;
+  return static_cast<int32_t>(std::max(index, -kReach));
+}
+
+}  // namespace
+
+api::Cell SketchGrid::cellAt(const std::array<double, 3>& point) const {
+  return {indexOn(point[0], origin[0], spacing), indexOn(point[1], origin[1], spacing),
+          indexOn(point[2], origin[2], spacing)};
+}
+
+std::array<double, 3> SketchGrid::centreOf(const api::Cell& cell) const {
+  return {cell.x * spacing + origin[0], cell.y * spacing + origin[1], cell.z * spacing + origin[2]};
+}
+
+}  // namespace ps

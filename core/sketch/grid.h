@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <phasesketch/brush.h>
+
+#include <array>
+#include <compare>
+
+namespace ps {
+
+/// Order of cells everywhere in this room: by z, then y, then x, so that rows along x lie together.
+constexpr std::strong_ordering compareCells(const api::Cell& a, const api::Cell& b) {
+  if (const auto z = a.z <=> b.z; z != 0) return z;
+  if (const auto y = a.y <=> b.y; y != 0) return y;
+  return a.x <=> b.x;
+}
+constexpr bool sameCell(const api::Cell& a, const api::Cell& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
+
+/// A cubic lattice of cells of edge `spacing` (m, > 0); cell (0, 0, 0) is centred at `origin` (m).
+struct SketchGrid {
+  std::array<double, 3> origin{0, 0, 0};
+  double spacing = 0.02;
+
+  /// The cell whose cube holds the point: p = floor((Q - C)/dx + 1/2), on each axis. A point on a face belongs to the
+  /// cell of the higher index. Points farther away than 2^30 cells (and NaN) are taken to the last cell in reach.
+  api::Cell cellAt(const std::array<double, 3>& point) const;
+  /// Centre of a cell in m: Q = p dx + C.
+  std::array<double, 3> centreOf(const api::Cell& cell) const;
+};
+
+}  // namespace ps

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/sketch/stroke.h"
+
+#include "core/base/error.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ps {
+namespace {
+
+double distance(const api::Double3& a, const api::Double3& b) { return std::hypot(b.x - a.x, b.y - a.y, b.z - a.z); }
+
+bool finite(const api::StrokeSample& s) {
+  return std::isfinite(s.position.x) && std::isfinite(s.position.y) && std::isfinite(s.position.z) &&
+         std::isfinite(s.pressure) && std::isfinite(s.time);
+}
+
+api::StrokeSample between(const api::StrokeSample& a, const api::StrokeSample& b, double t) {
+  return {{std::lerp(a.position.x, b.position.x, t), std::lerp(a.position.y, b.position.y, t),
+           std::lerp(a.position.z, b.position.z, t)},
+          std::lerp(a.pressure, b.pressure, t),
+          std::lerp(a.time, b.time, t)};
+}
+
+/// Gathers a brush's edits. Cells are merged in large pieces: a brush submits the same cells again for every sample.
+class Collector final : public api::EditSink {
+ public:
+  void submit(api::EditKind kind, api::Span<const api::Cell> cells) override {
+    if (cells.size > kMaxStrokeCells) refuse();
+    if (kind != m_kind) flush();
+    m_kind = kind;
+    m_pending.insert(m_pending.end(), cells.begin(), cells.end());
+    constexpr size_t kPiece = size_t{1} << 18;
+    if (m_pending.size() > kPiece) flush();
+  }
+  StrokeEdits take() {
+    flush();
+    return std::move(m_edits);
+  }
+
+ private:
+  void flush() {
+    const bool add = m_kind == api::EditKind::Add;
+    (add ? m_edits.added : m_edits.removed).add(m_pending);
+    CellSet& other = add ? m_edits.removed : m_edits.added;
+    if (!other.empty()) other.remove(m_pending);
+    m_pending.clear();
+    if (m_edits.added.size() + m_edits.removed.size() > kMaxStrokeCells) refuse();
+  }
+  [[noreturn]] static void refuse() {
+    throw Error("The stroke covers more than " + std::to_string(kMaxStrokeCells) +
+                " cells: use a smaller brush or a larger particle spacing");
+  }
+
+  StrokeEdits m_edits;
+  api::EditKind m_kind = api::EditKind::Add;
+  std::vector<api::Cell> m_pending;
+};
+
+}  // namespace
+
+std::vector<api::StrokeSample> interpolateStroke(const api::StrokeSample& from, const api::StrokeSample& to,
+                                                 double spacing) {
+  const double count = std::ceil(distance(from.position, to.position) / spacing);
+  std::vector<api::StrokeSample> samples;
+  for (double i = 1; i < count; ++i) samples.push_back(between(from, to, i / count));
+  if (count > 0) samples.push_back(to);
+  return samples;
+}
+
+StrokeResampler::StrokeResampler(double spacing) : m_spacing(spacing) {
+  if (!(spacing > 0) || !std::isfinite(spacing)) throw InputError("A stroke needs a spacing above 0 m");
+}
+
+std::vector<api::StrokeSample> StrokeResampler::add(const api::StrokeSample& raw) {
+  std::vector<api::StrokeSample> dense;
+  if (!finite(raw)) return dense;
+  if (!m_last) {
+    m_last = raw;
+    m_sinceLast = 0;
+    return {raw};
+  }
+  const double length = distance(m_last->position, raw.position);
+  const double first = m_spacing - m_sinceLast;  // arc length from m_last to the next dense sample
+  double taken = 0;
+  for (; first + taken * m_spacing <= length; ++taken) {
+    if (taken > static_cast<double>(kMaxStrokeCells)) throw Error("The stroke is too long for its particle spacing");
+    dense.push_back(between(*m_last, raw, (first + taken * m_spacing) / length));
+  }
+  m_sinceLast = taken > 0 ? length - (first + (taken - 1) * m_spacing) : m_sinceLast + length;
+  m_last = raw;
+  return dense;
+}
+
+std::vector<api::StrokeSample> StrokeResampler::finish() {
+  std::vector<api::StrokeSample> dense;
+  // A millionth of a cell apart is the same point: rounding leaves such rests at the end of a whole number of steps.
+  if (m_last && m_sinceLast > 1e-6 * m_spacing) dense.push_back(*m_last);
+  m_last.reset();
+  m_sinceLast = 0;
+  return dense;
+}
+
+std::vector<api::StrokeSample> resampleStroke(std::span<const api::StrokeSample> raw, double spacing) {
+  StrokeResampler resampler(spacing);
+  std::vector<api::StrokeSample> dense;
+  const auto append = [&](const std::vector<api::StrokeSample>& more) {
+    dense.insert(dense.end(), more.begin(), more.end());
+  };
+  for (const api::StrokeSample& sample : raw) append(resampler.add(sample));
+  append(resampler.finish());
+  return dense;
+}
+
+StrokeEdits applyBrush(const api::BrushPlugin& brush, const StrokeSetup& setup, api::EditKind kind,
+                       std::span<const api::StrokeSample> samples) {
+  const api::StrokeContext context{setup.grid.spacing,
+                                   {setup.grid.origin[0], setup.grid.origin[1], setup.grid.origin[2]},
+                                   setup.radius,
+                                   {setup.up[0], setup.up[1], setup.up[2]},
+                                   {setup.parameters.data(), setup.parameters.size()}};
+  Collector collector;
+  brush.stroke(context, kind, {samples.data(), samples.size()}, collector);
+  return collector.take();
+}
+
+void applyBrush(const api::BrushPlugin& brush, const StrokeSetup& setup, api::EditKind kind,
+                std::span<const api::StrokeSample> samples, CellSet& cells) {
+  const StrokeEdits edits = applyBrush(brush, setup, kind, samples);
+  cells.remove(edits.removed.cells());
+  cells.add(edits.added.cells());
+}
+
+StrokeEdits replayStroke(const api::BrushPlugin& brush, const VoxelShape::Stroke& stroke, const SketchGrid& grid,
+                         const Vec3& up) {
+  std::vector<api::StrokeSample> raw;
+  raw.reserve(stroke.samples.size());
+  for (const auto& s : stroke.samples) raw.push_back({{s[0], s[1], s[2]}, s[3], s[4]});
+  const StrokeSetup setup{grid, stroke.radius, up, numbersOf(stroke.parameters, brush.parameters())};
+  return applyBrush(brush, setup, stroke.erase ? api::EditKind::Remove : api::EditKind::Add,
+                    resampleStroke(raw, grid.spacing));
+}
+
+}  // namespace ps

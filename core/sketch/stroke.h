@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "core/sketch/cellset.h"
+
+#include <phasesketch/brush.h>
+
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace ps {
+
+/// Points of a straight piece of stroke from `from` (left out: the piece before it stamped it) to `to` (held): n =
+/// ceil(|to - from|/spacing) of them, evenly spaced, none farther than `spacing` from the one before. Pressure and time
+/// are interpolated. Empty when the two points are one.
+std::vector<api::StrokeSample> interpolateStroke(const api::StrokeSample& from, const api::StrokeSample& to, double spacing);
+
+/// Turns the pointer's raw samples, which arrive once per frame or faster, into dense ones at arc lengths 0, dx, 2 dx, ...
+/// along the polyline and its end. The dense samples depend on the path alone, not on how often it was sampled: a straight
+/// stroke gives the same points at 10 and at 1000 samples per second (to rounding).
+class StrokeResampler {
+ public:
+  /// `spacing` in m, > 0: throws InputError otherwise.
+  explicit StrokeResampler(double spacing);
+  /// Dense samples that have become certain with this raw one. Samples that are not finite are skipped.
+  std::vector<api::StrokeSample> add(const api::StrokeSample& raw);
+  /// The end point, where it was not sampled yet. Afterwards the resampler is as new.
+  std::vector<api::StrokeSample> finish();
+
+ private:
+  double m_spacing;
+  double m_sinceLast = 0;  // m, arc length since the last dense sample
+  std::optional<api::StrokeSample> m_last;
+};
+
+/// All dense samples of a finished stroke.
+std::vector<api::StrokeSample> resampleStroke(std::span<const api::StrokeSample> raw, double spacing);
+
+/// What a stroke asks for: two sets without a common cell (the later edit of a cell wins).
+struct StrokeEdits {
+  CellSet added, removed;
+  bool empty() const { return added.empty() && removed.empty(); }
+};
+
+/// How a stroke is drawn.
+struct StrokeSetup {
+  SketchGrid grid;
+  double radius = 0.05;          ///< m
+  Vec3 up{0, 1, 0};              ///< unit vector
+  std::vector<double> parameters;  ///< the brush's own, in the order of its declarations
+};
+
+/// Cells that one stroke may touch before it is refused: about 2 GB of particles.
+inline constexpr size_t kMaxStrokeCells = size_t{1} << 23;
+
+/// Runs the brush over dense samples. Throws Error when the brush asks for more than kMaxStrokeCells, and passes on what
+/// the brush itself throws. Nothing else is changed then.
+StrokeEdits applyBrush(const api::BrushPlugin& brush, const StrokeSetup& setup, api::EditKind kind,
+                       std::span<const api::StrokeSample> samples);
+/// The same into a set of cells: Add puts cells in, Remove takes them out.
+void applyBrush(const api::BrushPlugin& brush, const StrokeSetup& setup, api::EditKind kind,
+                std::span<const api::StrokeSample> samples, CellSet& cells);
+/// Draws a saved stroke again (its samples are the raw ones).
+StrokeEdits replayStroke(const api::BrushPlugin& brush, const VoxelShape::Stroke& stroke, const SketchGrid& grid,
+                         const Vec3& up = {0, 1, 0});
+
+}  // namespace ps
