@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "ui/graphs/timeplot.h"
+
+#include <QtCore/QString>
+
+#include <memory>
+#include <vector>
+
+class QIODevice;
+
+namespace ps {
+
+/// A dashed line across a graph: {0, "melts"}. In the graph's unit.
+struct ReferenceLine {
+  double value = 0;
+  QString label;
+};
+
+/// Lines over time, fed live: the minimum and maximum of each pixel column are drawn, so no spike is lost at any zoom.
+class GraphView : public TimePlot {
+  Q_OBJECT
+ public:
+  explicit GraphView(QWidget* parent = nullptr);
+  ~GraphView() override;
+
+  /// Adds a line; returns its index. Values are in the graph's unit (convert before: kelvin to °C). Colours follow the
+  /// theme's series in order.
+  int addSeries(const QString& name, const QString& unit = {});
+  int seriesCount() const;
+  void removeAllSeries();
+  /// Adds a sample. Times ascend per series (an earlier one is ignored); a value that is not finite leaves a gap.
+  void append(int series, double time, double value);
+  /// Removes all samples, keeps the lines: after a reset.
+  void clear();
+  void setReferenceLines(std::vector<ReferenceLine> lines);
+  void setUnit(const QString& unit);  ///< shown in the read-out
+  /// Samples of a series as drawn in a column [first, last): lowest and highest; nothing: {NaN, NaN}.
+  std::pair<double, double> extent(int series, double first, double last) const;
+  size_t sampleCount(int series) const;
+  /// "time_s,name[unit],…", one row per time at which any series has a sample; "" where one has none. Points as
+  /// decimal separators. False when the device refuses.
+  bool exportCsv(QIODevice& device) const;
+
+ protected:
+  bool hasData() const override;
+  double lastTime() const override;
+  std::pair<double, double> valueExtent(double first, double last) const override;
+  void paintData(QPainter& painter) override;
+  void paintLabels(QPainter& painter) override;
+  QStringList readOut(double time) const override;
+  double labelWidth() const override;
+
+ private:
+  struct Private;
+  std::unique_ptr<Private> d;
+};
+
+}  // namespace ps

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "ui/panels/parameterrow.h"
+
+#include <QtGui/QColor>
+#include <QtWidgets/QWidget>
+
+#include <limits>
+#include <memory>
+#include <vector>
+
+namespace ps {
+
+/// Rows of a list of declarations with the values of `set`. `defaults` are what the values are compared with (a
+/// material's base values); what it lacks has the declaration's default. `keyPrefix` is put before each key:
+/// "material/water/".
+std::vector<RowModel> rowModels(api::ParameterList list, const ParameterSet& set, const ParameterSet& defaults = {},
+                                const QString& keyPrefix = {});
+
+/// An inspector made from declarations: header, filter, "Changed n", headings that fold, rows. It knows no document:
+/// it tells of edits and is told of values. Two rows may have one key (a pinned row and its original).
+class ParameterPanel : public QWidget {
+  Q_OBJECT
+ public:
+  explicit ParameterPanel(QWidget* parent = nullptr);
+  ~ParameterPanel() override;
+
+  /// Block at the top: name, line below it, small line below that. An invalid swatch draws none.
+  void setHeader(const QString& name, const QString& subtitle, const QString& detail = {}, const QColor& swatch = {});
+  /// Replaces all rows. Pinned ones stand in a group "Try these" on top, others by the declaration's group in the order
+  /// in which groups first appear. Keeps scroll position, folded groups and the filter.
+  void setModel(std::vector<RowModel> rows);
+  /// Sentence shown when there are no rows.
+  void setEmptyText(const QString& text);
+
+  void setValue(const QString& key, const Value& value);
+  void setDefaultValue(const QString& key, const Value& value);
+  void setMixed(const QString& key, bool mixed);
+  /// Note under the row; see ParameterRow::setLimit. "" removes it.
+  void setLimit(const QString& key, const QString& text, double delivered = std::numeric_limits<double>::quiet_NaN());
+  void clearLimits();
+  void setError(const QString& key, const QString& text);
+  /// Operating point of a response row, or of all of them.
+  void setTemperature(const QString& key, double kelvin);
+  void setTemperature(double kelvin);
+
+  ParameterRow* row(const QString& key) const;  ///< first with that key, or nullptr
+  std::vector<ParameterRow*> rows() const;      ///< all, in order
+  int changedCount() const;
+  void setFilter(const QString& text);
+  void setChangedOnly(bool on);
+  void setGroupFolded(const QString& group, bool folded);
+  bool isRowShown(const ParameterRow* row) const;  ///< by filter and folding
+  /// Scrolls to a row, unfolds its group and gives it the focus. False: no such row.
+  bool reveal(const QString& key);
+
+ Q_SIGNALS:
+  void edited(const QString& key, const ps::Value& value, ps::Edit edit);
+  void scaled(const QString& key, double factor);
+  void linkActivated(const QString& key, const QString& link);
+  void curveRequested(const QString& key);
+  void sourceRequested(const QString& key);
+  void pinToggled(const QString& key, bool pinned);
+  void plotRequested(const QString& key);
+
+ protected:
+  void paintEvent(QPaintEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
+
+ private:
+  struct Private;
+  std::unique_ptr<Private> d;
+};
+
+}  // namespace ps
