@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 namespace ps {
 
@@ -30,6 +31,12 @@ std::string choiceOf(const ParameterSet& set, api::ParameterList list, std::stri
 bool toggleOf(const ParameterSet& set, api::ParameterList list, std::string_view key);
 /// All values as numbers in the order of the list (Choice: index, Toggle: 0 or 1, Response: constant), as plugins get them.
 std::vector<double> numbersOf(const ParameterSet& set, api::ParameterList list);
+/// Names of a Choice, in order.
+std::vector<std::string> choicesOf(const api::ParameterDeclaration& declaration);
+/// "" or "must be at least 1 kg/m³, not −5" for a number outside [minimum, maximum].
+std::string rangeProblem(double value, double minimum, double maximum, std::string_view unit);
+/// Shortest text that reads back as the same number, with a real minus sign: "−0.0375".
+std::string numberText(double value);
 /// "" or what is wrong with a value: "must be a number", "must be at least 1 kg/m³, not −5".
 std::string problemOf(const Value& value, const api::ParameterDeclaration& declaration);
 

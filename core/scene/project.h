@@ -30,6 +30,7 @@ struct SceneMaterial {
 struct BoxShape {
   Vec3 center{0, 0, 0};  ///< m
   Vec3 size{0.1, 0.1, 0.1};
+  Unknown unknown{};
   bool operator==(const BoxShape&) const = default;
 };
 
@@ -42,6 +43,7 @@ struct VoxelShape {
   struct Paint {
     std::string material;
     double temperature = 293.15;  ///< K
+    Unknown unknown{};
     bool operator==(const Paint&) const = default;
   };
   struct Stroke {
@@ -51,12 +53,14 @@ struct VoxelShape {
     int palette = 0;
     ParameterSet parameters;
     std::vector<std::array<double, 5>> samples;  ///< x, y, z in m, pressure, time in s
+    Unknown unknown{};
     bool operator==(const Stroke&) const = default;
   };
   Vec3 origin{0, 0, 0};
   std::vector<Paint> palette;
   std::vector<Run> runs;
   std::vector<Stroke> strokes;
+  Unknown unknown{};
   bool operator==(const VoxelShape&) const = default;
 };
 
@@ -139,7 +143,10 @@ api::ParameterList environmentParameters();  ///< ambient_pressure, ambient_temp
 api::ParameterList solverParameters();       ///< particle_spacing, substeps, iterations, thermal_time_scale, ...
 api::ParameterList wallParameters();
 api::ParameterList bodyParameters();
+/// Keys of what a probe can measure: "temperature", "mass", "speed", ...
 const std::vector<std::string>& probeQuantities();
+std::string probeUnit(const std::string& quantity);   ///< SI: "K", "kg", "1" for counts; "" for an unknown quantity
+std::string probeLabel(const std::string& quantity);  ///< "Mean temperature"; "" for an unknown quantity
 
 /// Names one parameter of a project: "material/water/conductivity_solid", "wall/floor/temperature",
 /// "environment/ambient_pressure", "solver/substeps", "thermal/KEY", "body/ice/temperature",

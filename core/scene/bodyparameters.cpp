@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/scene/declare.h"
+#include "core/scene/project.h"
+
+namespace ps {
+namespace {
+
+using namespace declare;
+
+constexpr api::ParameterDeclaration kBody[] = {
+    number({"temperature", "Temperature at the start", "T₀", "K"}, {293.15, 173.15, 773.15, 1, 10000},
+           {"Start", "Temperature of the whole body when the scene begins. Acts at the next reset.",
+            "ice from a freezer −18 °C, room 20 °C, boiling water 100 °C", ""},
+           kCelsius),
+    choice({"phase", "Phase at the start", "", ""}, "automatic|solid|liquid|gas", 0,
+           {"Start", "Phase when the scene begins; automatic takes the one that is stable at the temperature.",
+            "at exactly 0 °C: solid for ice, liquid for water", ""}),
+    toggle({"fixed", "Held in place", "", ""}, false,
+           {"Start", "Keeps every particle where it is; heat still flows through it.",
+            "a pan, a mould, a rock in a stream", ""}),
+};
+
+}  // namespace
+
+api::ParameterList bodyParameters() { return api::listOf(kBody); }
+
+}  // namespace ps

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <phasesketch/parameter.h>
+
+// Short forms for the scene's own declarations; private to this room.
+namespace ps::declare {
+
+/// Default, slider's range, and the range beyond which values are refused; stored unit.
+struct Range {
+  double value, minimum, maximum, hardMinimum, hardMaximum;
+};
+struct Names {
+  const char *key, *label, *symbol, *unit;
+};
+struct Words {
+  const char *group, *help, *example, *source;
+};
+/// shown = stored * scale + offset.
+struct Display {
+  const char* unit;
+  double scale, offset;
+};
+inline constexpr Display kAsStored{"", 1, 0};
+inline constexpr Display kCelsius{"°C", 1, -273.15};
+
+constexpr api::ParameterDeclaration number(Names n, Range r, Words w, Display d = kAsStored,
+                                           api::Scale scale = api::Scale::Linear,
+                                           api::ParameterKind kind = api::ParameterKind::Number) {
+  return {n.key,         n.label,       n.symbol, n.unit,  kind,     scale, r.value, r.minimum, r.maximum, r.hardMinimum,
+          r.hardMaximum, d.unit,        d.scale,  d.offset, "",      w.group, w.help, w.example, w.source};
+}
+
+constexpr api::ParameterDeclaration integer(Names n, Range r, Words w) {
+  return number(n, r, w, kAsStored, api::Scale::Linear, api::ParameterKind::Integer);
+}
+
+constexpr api::ParameterDeclaration toggle(Names n, bool on, Words w) {
+  return number(n, {on ? 1.0 : 0.0, 0, 1, 0, 1}, w, kAsStored, api::Scale::Linear, api::ParameterKind::Toggle);
+}
+
+/// `choices`: names with | between them; `value`: index of the default.
+constexpr api::ParameterDeclaration choice(Names n, const char* choices, int value, Words w) {
+  int last = 0;
+  for (const char* c = choices; *c; ++c) last += *c == '|';
+  api::ParameterDeclaration d = number(n, {double(value), 0, double(last), 0, double(last)}, w, kAsStored,
+                                       api::Scale::Linear, api::ParameterKind::Choice);
+  d.choices = choices;
+  return d;
+}
+
+}  // namespace ps::declare
