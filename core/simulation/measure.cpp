@@ -86,7 +86,7 @@ double measureProbe(const Solver& solver, const Project& project, const Probe& p
     if (project.bodies[b].id == probe.body) body = static_cast<uint32_t>(b);
   }
   const std::string& quantity = probe.quantity;
-  const bool isTemperature = quantity.starts_with("temperature"), isHeight = quantity.starts_with("height");
+  const bool isTemperature = quantity.starts_with("temperature");
   const size_t massSuffix = quantity.size() > 5 && quantity.ends_with("_mass") ? quantity.size() - 5 : 0;
   const std::string phase = massSuffix ? quantity.substr(0, massSuffix) : probe.phase;
   Tally tally;
@@ -94,16 +94,17 @@ double measureProbe(const Solver& solver, const Project& project, const Probe& p
     if (store.motion()[i] == api::Motion::Static) continue;
     if (!probe.body.empty() && store.body()[i] != body) continue;
     if (!phase.empty() && phase != phaseName(store.phase()[i])) continue;
-    const double value = isTemperature ? store.temperature()[i]
-                         : isHeight    ? double{store.position()[i].y}
-                                       : std::sqrt(squaredSpeed(store.velocity()[i]));
+    const double value = isTemperature            ? store.temperature()[i]
+                         : quantity == "height"        ? double{store.position()[i].y}
+                         : quantity == "density_error" ? double{store.densityError()[i]}
+                                                       : std::sqrt(squaredSpeed(store.velocity()[i]));
     tally.add(store.mass()[i], value);
   }
   if (quantity == "count") return static_cast<double>(tally.count);
   if (quantity == "mass" || massSuffix) return tally.mass;
   if (quantity == "kinetic_energy") return kineticEnergy(store);
   if (quantity.ends_with("_min")) return tally.orNothing(tally.smallest);
-  if (quantity.ends_with("_max")) return tally.orNothing(tally.largest);
+  if (quantity.ends_with("_max") || quantity == "height") return tally.orNothing(tally.largest);
   return tally.orNothing(tally.sum / tally.mass);
 }
 

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "core/scene/project.h"
+
+// Scenes that tests and benchmarks share, built as the editor would build them.
+namespace ps::scenes {
+
+/// A tray of the given half width with a floor, four walls and a lid, all adiabatic.
+inline Environment tray(double halfWidth, double height) {
+  Environment environment;
+  environment.boundsMinimum = {-halfWidth, 0, -halfWidth};
+  environment.boundsMaximum = {halfWidth, height, halfWidth};
+  const auto wall = [&](const char* id, Vec3 point, Vec3 normal) {
+    SceneWall w;
+    w.id = w.name = id;
+    w.point = point;
+    w.normal = normal;
+    environment.walls.push_back(w);
+  };
+  wall("floor", {0, 0, 0}, {0, 1, 0});
+  wall("lid", {0, height, 0}, {0, -1, 0});
+  wall("left", {-halfWidth, 0, 0}, {1, 0, 0});
+  wall("right", {halfWidth, 0, 0}, {-1, 0, 0});
+  wall("back", {0, 0, -halfWidth}, {0, 0, 1});
+  wall("front", {0, 0, halfWidth}, {0, 0, -1});
+  return environment;
+}
+
+inline SceneMaterial water() {
+  SceneMaterial material;
+  material.id = material.base = "water";
+  material.label = "Water";
+  return material;
+}
+
+/// A block of `side`^3 particles of water at a temperature in K; bonded when it is ice.
+inline Body block(const char* id, int side, double spacing, Vec3 center, double temperature) {
+  Body body;
+  body.id = body.name = id;
+  body.material = "water";
+  body.shape = BoxShape{center, {side * spacing, side * spacing, side * spacing}};
+  body.parameters.values["temperature"] = temperature;
+  if (temperature < 273.15) body.constraints.push_back({"bonds", {}, {}});
+  return body;
+}
+
+/// A small block of ice on a floor held at `floorTemperature` in K, heat a few thousand times as fast as real.
+inline Project iceOnPlate(int side, double floorTemperature, double timeScale = 6000) {
+  constexpr double kSpacing = 0.03;
+  Project project;
+  project.title = "Ice on a plate";
+  project.materials.push_back(water());
+  project.environment = tray(0.75 * side * kSpacing, 1.2);
+  ParameterSet& floor = project.environment.walls[0].parameters;
+  floor.values["heat"] = std::string("fixed_temperature");
+  floor.values["temperature"] = floorTemperature;
+  project.bodies.push_back(block("ice", side, kSpacing, {0, 0.5 * side * kSpacing, 0}, 263.15));
+  project.solver.parameters.values["particle_spacing"] = kSpacing;
+  project.solver.parameters.values["thermal_time_scale"] = timeScale;
+  Probe probe;
+  probe.id = probe.name = "ice core";
+  probe.quantity = "temperature";
+  probe.body = "ice";
+  project.probes.push_back(probe);
+  return project;
+}
+
+}  // namespace ps::scenes
