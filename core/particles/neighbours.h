@@ -25,10 +25,22 @@ class Neighbours {
   double support() const { return m_support; }
 
  private:
+  struct Chunk {
+    std::vector<uint32_t> found;
+    size_t entries = 0;  ///< of the padded lists
+  };
+  void assignCells(const ParticleStore& store);
+  void searchLists(const ParticleStore& store);
+  void writeLists(const Chunk& chunk, size_t firstSlot, size_t lastSlot, size_t offset);
+
   double m_support = 0, m_skin = 0;
-  std::vector<uint32_t> m_begin, m_last, m_end, m_index, m_order, m_cellStart, m_cellOf;
+  std::vector<uint32_t> m_begin, m_last, m_end, m_index, m_order, m_cellStart, m_cellOf, m_cellOfSlot, m_counts;
+  std::vector<float> m_x, m_y, m_z;
   std::vector<api::Float4> m_built;
-  double m_origin[3] = {0, 0, 0};
+  std::vector<Chunk> m_chunks;
+  std::vector<size_t> m_offsets;
+  bool m_sorted = false;
+  double m_origin[3] = {0, 0, 0}, m_cellSize = 1;
   int m_cells[3] = {1, 1, 1};
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 #include <phasesketch/views.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -83,6 +84,8 @@ class ParticleStore final : public api::FieldAccess {
   size_t indexOf(uint32_t id) const;
 
   api::ParticleView view() const;
+  /// Becomes a copy of another store, ids included; reuses memory when fields and capacity agree.
+  void copyFrom(const ParticleStore& other);
   /// All fields in order of name, particles in order of id.
   void addTo(Hash& hash) const;
 
@@ -92,6 +95,11 @@ class ParticleStore final : public api::FieldAccess {
   void writeDummy();
 
   std::vector<std::unique_ptr<Field>> m_fields;
+  struct AlignedDelete {
+    void operator()(std::byte* p) const;
+  };
+  std::unique_ptr<std::byte[], AlignedDelete> m_scratch;
+  size_t m_scratchBytes = 0;
   std::vector<uint32_t> m_indexOfId;
   size_t m_size = 0, m_capacity = 0;
   uint32_t m_nextId = 0;

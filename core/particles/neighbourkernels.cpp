@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// Three cells in a row are one run of slots, so a particle's 27 cells are nine runs: each is compared a vector at a time
+// and the hits are compressed into the list. The distance is computed with the same roundings on every target.
+#include "core/particles/neighbourkernels.h"
+
+#include <algorithm>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "core/particles/neighbourkernels.cpp"
+#include "hwy/foreach_target.h"  // before highway.h
+#include "hwy/highway.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace ps {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+void SearchSlots(const SearchGrid& grid, size_t first, size_t last, uint32_t* counts, std::vector<uint32_t>& found) {
+  const hn::CappedTag<float, 16> d;
+  const hn::RebindToSigned<decltype(d)> di;
+  constexpr size_t kLanes = HWY_MIN(HWY_LANES(float), 16);
+  const auto iota = hn::Iota(di, 0);
+  const auto radius2 = hn::Set(d, grid.radiusSquared);
+  const int nx = grid.cells[0], ny = grid.cells[1], nz = grid.cells[2];
+  size_t used = found.size();
+  for (size_t slot = first; slot < last; ++slot) {
+    const int cell = static_cast<int>(grid.cell[slot]), cx = cell % nx, cy = cell / nx % ny, cz = cell / (nx * ny);
+    const auto px = hn::Set(d, grid.x[slot]), py = hn::Set(d, grid.y[slot]), pz = hn::Set(d, grid.z[slot]);
+    const auto self = hn::Set(di, static_cast<int32_t>(slot));
+    const size_t before = used;
+    for (int z = HWY_MAX(cz - 1, 0); z <= HWY_MIN(cz + 1, nz - 1); ++z) {
+      for (int y = HWY_MAX(cy - 1, 0); y <= HWY_MIN(cy + 1, ny - 1); ++y) {
+        const int row = (z * ny + y) * nx;
+        const uint32_t begin = grid.cellStart[row + HWY_MAX(cx - 1, 0)];
+        const uint32_t end = grid.cellStart[row + HWY_MIN(cx + 1, nx - 1) + 1];
+        if (found.size() < used + (end - begin) + 2 * kLanes) found.resize(used + (end - begin) + 256);
+        const auto stop = hn::Set(di, static_cast<int32_t>(end));
+        for (uint32_t k = begin; k < end; k += kLanes) {
+          const auto dx = hn::Sub(px, hn::LoadU(d, grid.x + k));
+          const auto dy = hn::Sub(py, hn::LoadU(d, grid.y + k));
+          const auto dz = hn::Sub(pz, hn::LoadU(d, grid.z + k));
+          const auto d2 = hn::Add(hn::Mul(dx, dx), hn::Add(hn::Mul(dy, dy), hn::Mul(dz, dz)));
+          const auto slots = hn::Add(iota, hn::Set(di, static_cast<int32_t>(k)));
+          const auto near = hn::RebindMask(di, hn::Lt(d2, radius2));
+          const auto wanted = hn::And(near, hn::AndNot(hn::Eq(slots, self), hn::Lt(slots, stop)));
+          used += hn::CompressStore(slots, wanted, di, reinterpret_cast<int32_t*>(found.data() + used));
+        }
+      }
+    }
+    counts[slot - first] = static_cast<uint32_t>(used - before);
+  }
+  found.resize(used);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace ps
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace ps {
+HWY_EXPORT(SearchSlots);
+void searchSlots(const SearchGrid& grid, size_t first, size_t last, uint32_t* counts, std::vector<uint32_t>& found) {
+  HWY_DYNAMIC_DISPATCH(SearchSlots)(grid, first, last, counts, found);
+}
+}  // namespace ps
+#endif

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/particles/neighbours.h"
+
+#include "core/base/parallel.h"
+#include "core/particles/neighbourkernels.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace ps {
+namespace {
+
+constexpr size_t kSlotsPerChunk = 256;
+constexpr size_t kSpareSlots = 16;
+
+/// Cell of one coordinate, clamped to the grid; not-a-number goes to the first cell.
+int cellIndex(double value, double origin, double inverseSize, int cells) {
+  const double t = (value - origin) * inverseSize;
+  if (!(t > 0)) return 0;
+  return t >= cells ? cells - 1 : static_cast<int>(t);
+}
+
+/// Sorts a list that is nearly in order, as lists are when particles have moved a little since the last sort.
+void sortNearlySorted(uint32_t* first, uint32_t* last) {
+  size_t steps = 0;
+  const size_t limit = 8 * static_cast<size_t>(last - first);
+  for (uint32_t* p = first + 1; p < last; ++p) {
+    const uint32_t value = *p;
+    uint32_t* q = p;
+    for (; q > first && q[-1] > value; --q) {
+      *q = q[-1];
+      ++steps;
+    }
+    *q = value;
+    if (steps > limit) return std::sort(first, last);
+  }
+}
+
+}  // namespace
+
+void Neighbours::configure(double support, double skin) {
+  m_support = support;
+  m_skin = skin;
+  m_built.clear();
+}
+
+void Neighbours::assignCells(const ParticleStore& store) {
+  const size_t n = store.size();
+  const api::Float4* position = store.position();
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  float low[3] = {kInfinity, kInfinity, kInfinity}, high[3] = {-kInfinity, -kInfinity, -kInfinity};
+  for (size_t i = 0; i < n; ++i) {
+    const float p[3] = {position[i].x, position[i].y, position[i].z};
+    for (int a = 0; a < 3; ++a) {  // comparisons with not-a-number are false
+      if (p[a] < low[a] && p[a] > -kInfinity) low[a] = p[a];
+      if (p[a] > high[a] && p[a] < kInfinity) high[a] = p[a];
+    }
+  }
+  double extent[3];
+  for (int a = 0; a < 3; ++a) {
+    m_origin[a] = low[a] <= high[a] ? double{low[a]} : 0;
+    extent[a] = low[a] <= high[a] ? double{high[a]} - double{low[a]} : 0;
+  }
+  // A hair more than the radius, so that rounding never puts two neighbours two cells apart; larger where a lonely
+  // particle stretches the grid.
+  m_cellSize = (m_support + m_skin) * 1.0001;
+  const double most = static_cast<double>(8 * n + 4096);
+  const auto cellsAlong = [&](int a) { return std::floor(extent[a] / m_cellSize) + 1; };
+  while (cellsAlong(0) * cellsAlong(1) * cellsAlong(2) > most) m_cellSize *= 1.25;
+  for (int a = 0; a < 3; ++a) m_cells[a] = static_cast<int>(cellsAlong(a));
+
+  const double inverse = 1 / m_cellSize;
+  m_cellOf.resize(n);
+  m_cellStart.assign(static_cast<size_t>(m_cells[0]) * static_cast<size_t>(m_cells[1]) * static_cast<size_t>(m_cells[2]) + 1, 0);
+  for (size_t i = 0; i < n; ++i) {
+    const int x = cellIndex(position[i].x, m_origin[0], inverse, m_cells[0]);
+    const int y = cellIndex(position[i].y, m_origin[1], inverse, m_cells[1]);
+    const int z = cellIndex(position[i].z, m_origin[2], inverse, m_cells[2]);
+    m_cellOf[i] = static_cast<uint32_t>((z * m_cells[1] + y) * m_cells[0] + x);
+    ++m_cellStart[m_cellOf[i] + 1];
+  }
+  for (size_t c = 1; c < m_cellStart.size(); ++c) m_cellStart[c] += m_cellStart[c - 1];
+  m_order.resize(n);
+  m_sorted = true;
+  for (size_t i = 0; i < n; ++i) {  // stable: particles of a cell stay in order of index
+    const uint32_t slot = m_cellStart[m_cellOf[i]]++;
+    m_order[slot] = static_cast<uint32_t>(i);
+    m_sorted = m_sorted && slot == i;
+  }
+  for (size_t c = m_cellStart.size() - 1; c > 0; --c) m_cellStart[c] = m_cellStart[c - 1];
+  m_cellStart[0] = 0;
+}
+
+void Neighbours::sortAndBuild(ParticleStore& store) {
+  assignCells(store);
+  if (m_sorted) return searchLists(store);
+  store.permute(m_order);
+  std::vector<uint32_t>& sorted = m_cellOfSlot;
+  sorted.resize(m_order.size());
+  for (size_t slot = 0; slot < sorted.size(); ++slot) sorted[slot] = m_cellOf[m_order[slot]];
+  m_cellOf.swap(sorted);
+  m_sorted = true;
+  searchLists(store);
+}
+
+void Neighbours::build(const ParticleStore& store) {
+  assignCells(store);
+  searchLists(store);
+}
+
+void Neighbours::searchLists(const ParticleStore& store) {
+  const size_t n = store.size();
+  const api::Float4* position = store.position();
+  m_cellOfSlot.resize(n);
+  for (std::vector<float>* v : {&m_x, &m_y, &m_z}) v->resize(n + kSpareSlots);
+  for (size_t slot = 0; slot < n; ++slot) {
+    const size_t i = m_sorted ? slot : m_order[slot];
+    m_x[slot] = position[i].x;
+    m_y[slot] = position[i].y;
+    m_z[slot] = position[i].z;
+    m_cellOfSlot[slot] = m_cellOf[i];
+  }
+  const double radius = m_support + m_skin;
+  const SearchGrid grid{m_x.data(), m_y.data(), m_z.data(), m_cellOfSlot.data(), m_cellStart.data(),
+                        {m_cells[0], m_cells[1], m_cells[2]}, static_cast<float>(radius * radius)};
+  const size_t chunks = (n + kSlotsPerChunk - 1) / kSlotsPerChunk;
+  if (m_chunks.size() < chunks) m_chunks.resize(chunks);
+  m_counts.resize(n);
+  parallelFor(n, kSlotsPerChunk, [&](size_t first, size_t last) {
+    Chunk& chunk = m_chunks[first / kSlotsPerChunk];
+    chunk.found.clear();
+    searchSlots(grid, first, last, m_counts.data() + first, chunk.found);
+    chunk.entries = 0;
+    for (size_t slot = first; slot < last; ++slot) chunk.entries += (m_counts[slot] + kListPad - 1) / kListPad * kListPad;
+  });
+  size_t total = 0;
+  for (size_t c = 0; c < chunks; ++c) total += m_chunks[c].entries;
+  m_index.resize(total);
+  m_begin.resize(n);
+  m_last.resize(n);
+  m_end.resize(n);
+  m_offsets.resize(chunks);
+  for (size_t c = 0, offset = 0; c < chunks; offset += m_chunks[c++].entries) m_offsets[c] = offset;
+  parallelFor(n, kSlotsPerChunk, [&](size_t first, size_t last) {
+    const size_t c = first / kSlotsPerChunk;
+    writeLists(m_chunks[c], first, last, m_offsets[c]);
+  });
+  m_built.assign(position, position + n);
+}
+
+void Neighbours::writeLists(const Chunk& chunk, size_t firstSlot, size_t lastSlot, size_t offset) {
+  const uint32_t dummy = static_cast<uint32_t>(m_begin.size());
+  const uint32_t* found = chunk.found.data();
+  uint32_t* out = m_index.data() + offset;
+  for (size_t slot = firstSlot; slot < lastSlot; ++slot) {
+    const size_t i = m_sorted ? slot : m_order[slot], count = m_counts[slot];
+    const size_t padded = (count + kListPad - 1) / kListPad * kListPad;
+    if (m_sorted) {
+      std::copy(found, found + count, out);
+    } else {
+      for (size_t k = 0; k < count; ++k) out[k] = m_order[found[k]];
+      sortNearlySorted(out, out + count);
+    }
+    std::fill(out + count, out + padded, dummy);
+    m_begin[i] = static_cast<uint32_t>(out - m_index.data());
+    m_last[i] = m_begin[i] + static_cast<uint32_t>(count);
+    m_end[i] = m_begin[i] + static_cast<uint32_t>(padded);
+    found += count;
+    out += padded;
+  }
+}
+
+bool Neighbours::stale(const ParticleStore& store) const {
+  const size_t n = store.size();
+  if (m_built.size() != n) return true;
+  const api::Float4* position = store.position();
+  float most = 0;
+  for (size_t i = 0; i < n; ++i) {
+    const float x = position[i].x - m_built[i].x, y = position[i].y - m_built[i].y, z = position[i].z - m_built[i].z;
+    const float d2 = x * x + y * y + z * z;
+    most = d2 > most ? d2 : most;
+  }
+  return double{most} > 0.25 * m_skin * m_skin;
+}
+
+api::NeighbourView Neighbours::view() const {
+  return {m_begin.data(), m_last.data(), m_end.data(), m_index.data(), static_cast<float>(m_support + m_skin)};
+}
+
+}  // namespace ps
