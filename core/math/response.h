@@ -21,7 +21,7 @@ struct Response {
   Response(double value) : constant(value) {}  // NOLINT: a number is a response
   explicit Response(const api::ResponseSpec& spec);
 
-  /// Value at a temperature in K.
+  /// Value at a temperature in K; 0 for a response with a problem().
   double at(double kelvin) const;
   /// "" when well formed, else what is wrong ("points must ascend in x", "unknown law 'vogle'").
   std::string problem() const;
@@ -32,7 +32,9 @@ struct Response {
 /// "arrhenius" (a, Ea, T_ref): a exp(Ea/R (1/T - 1/T_ref)); "vogel" (A, B, T0): 10^(A + B/(T - T0));
 /// "thesis_sigmoid" (a, T_ref, dT): 2a/(1 + exp((T - T_ref)/dT)).
 const std::vector<std::string>& lawNames();
-size_t lawCoefficientCount(const std::string& law);
+size_t lawCoefficientCount(const std::string& law);  ///< 0 for an unknown law
+/// The formula with the meaning and unit of each coefficient; "" for an unknown law.
+std::string lawHelp(const std::string& law);
 
 /// A response baked on a uniform grid, read by linear interpolation, clamped at the ends.
 class ResponseTable {

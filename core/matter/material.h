@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "core/math/response.h"
+#include "core/matter/phasediagram.h"
 #include <phasesketch/views.h>
 
 #include <map>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace ps {
@@ -14,7 +16,7 @@ namespace ps {
 /// plugins and tests. Keys: density_solid, density_liquid, heat_capacity_{solid,liquid,gas},
 /// conductivity_{solid,liquid,gas}, melting_temperature, solidus, liquidus, latent_heat_fusion, boiling_temperature,
 /// latent_heat_vaporization, molar_mass, triple_temperature, triple_pressure, latent_heat_sublimation,
-/// critical_temperature, expansion_linear, expansion_volumetric, youngs_modulus, poisson_ratio, viscosity,
+/// critical_temperature, melting_slope, expansion_linear, expansion_volumetric, youngs_modulus, poisson_ratio, viscosity,
 /// friction_static, friction_kinetic, restitution, melt_break_fraction, freeze_bond_fraction, bond_radius, emissivity,
 /// gas_volume_factor, sinters, color_red/green/blue (sRGB 0..1, how the editor draws it).
 api::ParameterList propertyCatalogue();
@@ -33,6 +35,10 @@ struct Material {
   std::map<std::string, Provenance> provenance;
 };
 
+/// A property at a temperature in K, the catalogue's default where the material leaves it out; NaN for an unknown key.
+double valueOf(const Material& material, std::string_view key, double temperature);
+PhaseDiagram phaseDiagramOf(const Material& material);
+
 /// Relations between properties that single ranges cannot see (solidus <= liquidus, boiling above melting, ...).
 /// "" or what is wrong, beginning with the key at fault.
 std::string problemOf(const Material& material);
@@ -47,10 +53,14 @@ class BakedMaterial final : public api::MaterialView {
   double property(const char* key, double temperature) const noexcept override;
 
   /// Density in kg/m3 of the mixture of fractions at a temperature in K; vapour counts as gas_volume_factor times the
-  /// liquid's volume (PHYSICS 4.7: a parcel, not its real volume).
+  /// liquid's volume (a parcel, not its real volume, which is some 1600 times the liquid's).
   double restDensity(double temperature, double solid, double liquid, double gas) const;
+  /// kg/m3 with vapour counted as the liquid that it came from: the volume that conducts heat. `solid` is the solid
+  /// fraction, the rest counts as liquid.
+  double condensedDensity(double temperature, double solid) const;
   double conductivity(double temperature, double solid, double liquid, double gas) const;  ///< W/(m K)
-  /// Kirchhoff transform: integral of k dT from the melting point, k of the phase stable at each temperature, W/m.
+  /// Kirchhoff transform in W/m: integral of k dT from the point where melting begins, k of the phase stable at each
+  /// temperature; within a melting range k goes linearly from the solid's to the liquid's.
   double kirchhoff(double temperature) const;
   double youngsModulus(double temperature) const;  ///< Pa
   double viscosity(double temperature) const;      ///< Pa s, liquid

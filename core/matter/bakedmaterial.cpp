@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/matter/material.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace ps {
+namespace {
+
+constexpr size_t kSamples = 2048;
+constexpr double kReferenceTemperature = 293.15;  // K, where constants of densities hold
+constexpr double kMaxViscosity = 1e15;            // Pa s, a glass at rest
+
+Response responseOf(const Material& material, const char* key) {
+  const auto found = material.properties.find(key);
+  if (found != material.properties.end()) return found->second;
+  return propertyCatalogue()[static_cast<size_t>(propertyIndex(key))].defaultValue;
+}
+
+/// Constants need no samples.
+ResponseTable baked(const Response& response, double last) {
+  return ResponseTable(response, 1.0, last, response.kind == Response::Kind::Constant ? 2 : kSamples);
+}
+
+/// A density over temperature: a curve as it is, a constant with its expansion, rho0/(1 + beta (T - reference)).
+ResponseTable bakedDensity(const Response& response, double expansion, double reference, double last) {
+  if (response.kind != Response::Kind::Constant || expansion == 0) return baked(response, last);
+  std::vector<double> values(kSamples);
+  for (size_t i = 0; i < kSamples; ++i) {
+    const double t = 1 + (last - 1) * static_cast<double>(i) / static_cast<double>(kSamples - 1);
+    values[i] = response.constant / std::max(0.2, 1 + expansion * (t - reference));
+  }
+  return ResponseTable(std::move(values), 1.0, last);
+}
+
+api::Caloric caloricOf(const Material& material, double pressure) {
+  const PhaseDiagram diagram = phaseDiagramOf(material);
+  const auto value = [&](const char* key) { return valueOf(material, key, kReferenceTemperature); };
+  api::Caloric c{};
+  c.heatCapacitySolid = value("heat_capacity_solid");
+  c.heatCapacityLiquid = value("heat_capacity_liquid");
+  c.heatCapacityGas = value("heat_capacity_gas");
+  c.melts = diagram.meltingPoint0 > 0;
+  c.meltingPoint0 = c.melts ? diagram.meltingPoint0 : 273.15;
+  c.latentHeatFusion = c.melts ? value("latent_heat_fusion") : 0;
+  const bool boils = diagram.boilingPoint0 > 0;
+  c.boilingPoint0 = boils ? diagram.boilingReference() : std::numeric_limits<double>::infinity();
+  c.latentHeatVaporization = boils ? value("latent_heat_vaporization") : 0;
+  c.boilingPoint = diagram.boilingPoint(pressure);
+  c.sublimes = diagram.sublimes(pressure);
+  if (c.sublimes) {
+    c.meltingPoint = c.boilingPoint = c.solidus = c.liquidus = diagram.sublimationPoint(pressure);
+    return c;
+  }
+  c.meltingPoint = diagram.meltingPoint(pressure);
+  c.solidus = c.liquidus = c.meltingPoint;
+  const double solidus = value("solidus"), liquidus = value("liquidus");
+  if (c.melts && solidus < liquidus) {
+    const double shift = c.meltingPoint - diagram.meltingPoint0;
+    c.solidus = solidus + shift;
+    c.liquidus = std::min(liquidus + shift, c.boilingPoint);
+  }
+  return c;
+}
+
+}  // namespace
+
+struct BakedMaterial::Tables {
+  ResponseTable densitySolid, densityLiquid, conductivitySolid, conductivityLiquid, conductivityGas, mush, youngsModulus,
+      viscosity;
+  std::vector<const ResponseTable*> byProperty;  ///< nullptr for a plain number
+  double solidus = 0, liquidus = 0, boilingPoint = 0;
+  double kirchhoffSolidus = 0, kirchhoffLiquidus = 0, kirchhoffMush = 0, kirchhoffBoiling = 0, kirchhoffGas = 0;
+  double gasVolumeFactor = 1;
+
+  Tables(const Material& material, const api::Caloric& caloric) {
+    double last = 3000;
+    if (std::isfinite(caloric.boilingPoint)) last = std::max(last, 1.25 * caloric.boilingPoint);
+    conductivitySolid = baked(responseOf(material, "conductivity_solid"), last);
+    conductivityLiquid = baked(responseOf(material, "conductivity_liquid"), last);
+    conductivityGas = baked(responseOf(material, "conductivity_gas"), last);
+    youngsModulus = baked(responseOf(material, "youngs_modulus"), last);
+    bakeViscosity(material, last);
+    bakeDensities(material, caloric, last);
+    bakeKirchhoff(caloric);
+    gasVolumeFactor = valueOf(material, "gas_volume_factor", kReferenceTemperature);
+    byProperty.assign(propertyCatalogue().count, nullptr);
+    const auto name = [&](const char* key, const ResponseTable& table) {
+      byProperty[static_cast<size_t>(propertyIndex(key))] = &table;
+    };
+    name("conductivity_solid", conductivitySolid);
+    name("conductivity_liquid", conductivityLiquid);
+    name("conductivity_gas", conductivityGas);
+    name("density_solid", densitySolid);
+    name("density_liquid", densityLiquid);
+    name("youngs_modulus", youngsModulus);
+    name("viscosity", viscosity);
+  }
+
+ private:
+  void bakeViscosity(const Material& material, double last) {
+    const Response response = responseOf(material, "viscosity");
+    const size_t samples = response.kind == Response::Kind::Constant ? 2 : kSamples;
+    std::vector<double> values(samples);
+    for (size_t i = 0; i < samples; ++i) {
+      const double t = 1 + (last - 1) * static_cast<double>(i) / static_cast<double>(samples - 1);
+      values[i] = std::clamp(response.at(t), 0.0, kMaxViscosity);
+    }
+    viscosity = ResponseTable(std::move(values), 1.0, last);
+  }
+
+  void bakeDensities(const Material& material, const api::Caloric& c, double last) {
+    const double solidReference = c.melts ? std::min(kReferenceTemperature, c.solidus) : kReferenceTemperature;
+    double liquidReference = c.melts ? std::max(kReferenceTemperature, c.liquidus) : kReferenceTemperature;
+    liquidReference = std::min(liquidReference, c.boilingPoint);
+    densitySolid = bakedDensity(responseOf(material, "density_solid"),
+                                3 * valueOf(material, "expansion_linear", kReferenceTemperature), solidReference, last);
+    densityLiquid = bakedDensity(responseOf(material, "density_liquid"),
+                                 valueOf(material, "expansion_volumetric", kReferenceTemperature), liquidReference, last);
+  }
+
+  void bakeKirchhoff(const api::Caloric& c) {
+    boilingPoint = c.boilingPoint;
+    solidus = c.melts ? c.solidus : 0;
+    liquidus = c.melts ? c.liquidus : 0;
+    kirchhoffSolidus = conductivitySolid.integral(solidus);
+    kirchhoffLiquidus = conductivityLiquid.integral(liquidus);
+    if (liquidus > solidus) {
+      std::vector<double> values(65);
+      for (size_t i = 0; i < values.size(); ++i) {
+        const double f = static_cast<double>(i) / 64, t = solidus + f * (liquidus - solidus);
+        values[i] = (1 - f) * conductivitySolid.at(t) + f * conductivityLiquid.at(t);
+      }
+      mush = ResponseTable(std::move(values), solidus, liquidus);
+      kirchhoffMush = mush.integral(liquidus);
+    }
+    if (!std::isfinite(boilingPoint)) return;
+    kirchhoffBoiling = kirchhoffMush + conductivityLiquid.integral(boilingPoint) - kirchhoffLiquidus;
+    kirchhoffGas = conductivityGas.integral(boilingPoint);
+  }
+};
+
+BakedMaterial::BakedMaterial(const Material& material, double pressure)
+    : m_id(material.id), m_caloric(caloricOf(material, pressure)) {
+  const api::ParameterList list = propertyCatalogue();
+  m_scalars.resize(list.count);
+  for (size_t i = 0; i < list.count; ++i) m_scalars[i] = valueOf(material, list[i].key, kReferenceTemperature);
+  m_tables = std::make_shared<const Tables>(material, m_caloric);
+}
+
+double BakedMaterial::property(const char* key, double temperature) const noexcept {
+  const int index = key ? propertyIndex(key) : -1;
+  if (index < 0) return std::numeric_limits<double>::quiet_NaN();
+  const ResponseTable* table = m_tables->byProperty[static_cast<size_t>(index)];
+  return table ? table->at(temperature) : m_scalars[static_cast<size_t>(index)];
+}
+
+double BakedMaterial::restDensity(double temperature, double solid, double liquid, double gas) const {
+  const Tables& t = *m_tables;
+  double volume = 0;  // m3/kg
+  if (solid > 0) volume += solid / t.densitySolid.at(temperature);
+  if (liquid > 0) volume += liquid / t.densityLiquid.at(temperature);
+  if (gas > 0) volume += gas * t.gasVolumeFactor / t.densityLiquid.at(std::min(temperature, t.boilingPoint));
+  return volume > 0 ? 1 / volume : t.densityLiquid.at(temperature);
+}
+
+double BakedMaterial::condensedDensity(double temperature, double solid) const {
+  const Tables& t = *m_tables;
+  const double liquid = t.densityLiquid.at(std::min(temperature, t.boilingPoint));
+  if (!(solid > 0)) return liquid;
+  const double frozen = t.densitySolid.at(temperature);
+  return solid >= 1 ? frozen : 1 / (solid / frozen + (1 - solid) / liquid);
+}
+
+double BakedMaterial::conductivity(double temperature, double solid, double liquid, double gas) const {
+  const Tables& t = *m_tables;
+  double k = 0;
+  if (solid > 0) k += solid * t.conductivitySolid.at(temperature);
+  if (liquid > 0) k += liquid * t.conductivityLiquid.at(temperature);
+  if (gas > 0) k += gas * t.conductivityGas.at(temperature);
+  return k;
+}
+
+double BakedMaterial::kirchhoff(double temperature) const {
+  const Tables& t = *m_tables;
+  if (temperature > t.boilingPoint) {
+    return t.kirchhoffBoiling + t.conductivityGas.integral(temperature) - t.kirchhoffGas;
+  }
+  if (temperature <= t.solidus) return t.conductivitySolid.integral(temperature) - t.kirchhoffSolidus;
+  if (temperature < t.liquidus) return t.mush.integral(temperature);
+  return t.kirchhoffMush + t.conductivityLiquid.integral(temperature) - t.kirchhoffLiquidus;
+}
+
+double BakedMaterial::youngsModulus(double temperature) const { return m_tables->youngsModulus.at(temperature); }
+
+double BakedMaterial::viscosity(double temperature) const { return m_tables->viscosity.at(temperature); }
+
+}  // namespace ps

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/matter/material.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ps {
+namespace {
+
+/// Constants of a material by key; responses are read at 20 °C.
+class Values {
+ public:
+  explicit Values(const Material& material) : m_material(material) {}
+  double operator()(const char* key) const { return valueOf(m_material, key, 293.15); }
+
+ private:
+  const Material& m_material;
+};
+
+std::string celsius(double kelvin) {
+  const double rounded = std::round((kelvin - 273.15) * 100) / 100;
+  std::string text = std::to_string(rounded);
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.back() == '.') text.pop_back();
+  return text + " °C";
+}
+
+std::string rangesOf(const Material& material) {
+  const api::ParameterList list = propertyCatalogue();
+  for (const auto& [key, response] : material.properties) {
+    const int index = propertyIndex(key);
+    if (index < 0) return key + ": is not a property of materials";
+    if (const std::string problem = response.problem(); !problem.empty()) return key + ": " + problem;
+    const api::ParameterDeclaration& declaration = list[static_cast<size_t>(index)];
+    if (response.kind != Response::Kind::Constant && declaration.kind != api::ParameterKind::Response) {
+      return key + ": must be a number, it cannot follow the temperature";
+    }
+  }
+  return {};
+}
+
+std::string meltingProblem(const Values& value) {
+  const double melting = value("melting_temperature"), solidus = value("solidus"), liquidus = value("liquidus");
+  if (melting <= 0 || solidus == liquidus) return {};
+  if (solidus > liquidus) return "solidus: melting must begin below " + celsius(liquidus) + ", where it ends";
+  if (melting < solidus || melting > liquidus) {
+    return "melting_temperature: must lie within the melting range of " + celsius(solidus) + " to " + celsius(liquidus);
+  }
+  return {};
+}
+
+std::string boilingProblem(const Values& value) {
+  const double melting = value("melting_temperature"), boiling = value("boiling_temperature");
+  if (boiling <= 0) return {};
+  const double triple = value("triple_temperature"), triplePressure = value("triple_pressure");
+  const double critical = value("critical_temperature");
+  const bool sublimes = triple > 0 && triplePressure > 101325 && boiling < triple;
+  if (!sublimes && melting > 0 && boiling <= melting) {
+    return "boiling_temperature: must be above the melting point of " + celsius(melting) +
+           ", or a triple point above 1 atm must say that the solid turns to vapour";
+  }
+  if (critical > 0 && critical <= boiling) {
+    return "critical_temperature: must be above the boiling point of " + celsius(boiling);
+  }
+  if (triple > 0 && critical > 0 && critical <= triple) {
+    return "critical_temperature: must be above the triple point of " + celsius(triple);
+  }
+  const double latent = value("latent_heat_vaporization");
+  const double slope = value("heat_capacity_liquid") - value("heat_capacity_gas");
+  const double reference = sublimes ? triple : boiling;
+  for (const double t : {melting > 0 ? melting : reference, critical > 0 ? critical : reference}) {
+    if (latent - slope * (t - reference) <= 0) {
+      return "latent_heat_vaporization: too small for these heat capacities, it would vanish at " + celsius(t);
+    }
+  }
+  if (triple > 0 && triplePressure > 0 && !sublimes && value("latent_heat_sublimation") <= 0) {
+    return "latent_heat_sublimation: must be given together with a triple point";
+  }
+  return {};
+}
+
+}  // namespace
+
+double valueOf(const Material& material, std::string_view key, double temperature) {
+  const int index = propertyIndex(key);
+  if (index < 0) return std::nan("");
+  const auto found = material.properties.find(std::string(key));
+  if (found != material.properties.end()) return found->second.at(temperature);
+  return propertyCatalogue()[static_cast<size_t>(index)].defaultValue;
+}
+
+PhaseDiagram phaseDiagramOf(const Material& material) {
+  const Values value(material);
+  PhaseDiagram d;
+  d.meltingPoint0 = value("melting_temperature");
+  d.boilingPoint0 = value("boiling_temperature");
+  d.latentHeatVaporization = value("latent_heat_vaporization");
+  d.latentHeatSublimation = value("latent_heat_sublimation");
+  d.molarMass = value("molar_mass");
+  d.tripleTemperature = value("triple_temperature");
+  d.triplePressure = value("triple_pressure");
+  d.criticalTemperature = value("critical_temperature");
+  d.meltingSlope = value("melting_slope");
+  return d;
+}
+
+std::string problemOf(const Material& material) {
+  if (std::string problem = rangesOf(material); !problem.empty()) return problem;
+  const Values value(material);
+  if (std::string problem = meltingProblem(value); !problem.empty()) return problem;
+  if (std::string problem = boilingProblem(value); !problem.empty()) return problem;
+  if (value("melt_break_fraction") + value("freeze_bond_fraction") <= 1) {
+    return "melt_break_fraction: its sum with freeze_bond_fraction must exceed 1, or bonds break and form in every frame";
+  }
+  return {};
+}
+
+}  // namespace ps
