@@ -11,8 +11,6 @@
 # copies the plugin to lib/phasesketch/plugins under the prefix.
 include_guard(GLOBAL)
 
-set(PHASESKETCH_PLUGIN_KINDS material constraint thermal brush)
-
 # phasesketch_check_metadata(FILE KIND): stops with the file's name when a key is missing or the kind differs.
 function(phasesketch_check_metadata file kind)
   file(READ "${file}" text)
@@ -32,8 +30,9 @@ endfunction()
 
 function(phasesketch_add_plugin name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "KIND;METADATA" "SOURCES;LIBS")
-  if(NOT arg_KIND IN_LIST PHASESKETCH_PLUGIN_KINDS)
-    message(FATAL_ERROR "phasesketch_add_plugin(${name}): KIND must be one of ${PHASESKETCH_PLUGIN_KINDS}")
+  set(kinds material constraint thermal brush) # here, not at file level: callers are in other directories
+  if(NOT arg_KIND IN_LIST kinds)
+    message(FATAL_ERROR "phasesketch_add_plugin(${name}): KIND must be one of ${kinds}")
   endif()
   if(NOT arg_SOURCES OR NOT arg_METADATA)
     message(FATAL_ERROR "phasesketch_add_plugin(${name}): SOURCES and METADATA are needed")
