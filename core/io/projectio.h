@@ -30,6 +30,7 @@ LoadedProject parseProject(const std::string& text, const std::string& name, con
                            const std::vector<std::string>& edits = {});
 /// Sorted keys, two spaces, shortest round-trip numbers, newline at the end: load, save, load gives the same bytes.
 std::string writeProject(const Project& project);
+/// Unknown keys are kept at every level. Throws Error for a value that is not finite.
 /// Atomic: the old file stays until the new one is complete. Throws Error (full disk, no permission).
 void saveProject(const Project& project, const std::string& path);
 

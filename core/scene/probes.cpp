@@ -22,10 +22,11 @@ constexpr Quantity kQuantities[] = {
     {"boiling_mass", "Boiling mass", "kg"},
     {"gas_mass", "Gas mass", "kg"},
     {"speed", "Mean speed", "m/s"},
-    {"height", "Highest point", "m"},
+    {"speed_max", "Highest speed", "m/s"},
+    {"height", "Mean height", "m"},
+    {"height_max", "Highest point", "m"},
     {"thermal_energy", "Thermal energy", "J"},
     {"kinetic_energy", "Kinetic energy", "J"},
-    {"density_error", "Mean density error", "1"},
 };
 
 const Quantity* find(const std::string& key) {

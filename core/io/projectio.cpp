@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/io/projectio.h"
+
+#include "core/io/jsontext.h"
+#include "core/io/projectcheck.h"
+#include "core/io/schema.h"
+#include "core/io/textfile.h"
+#include "core/plugin_host/registry.h"
+
+#include <algorithm>
+#include <charconv>
+
+namespace ps {
+namespace {
+
+using nlohmann::json;
+
+std::vector<std::string> pointerParts(std::string_view pointer) {
+  std::vector<std::string> parts(1);
+  if (pointer.starts_with('/')) pointer.remove_prefix(1);
+  for (size_t i = 0; i < pointer.size(); ++i) {
+    if (pointer[i] == '/') {
+      parts.emplace_back();
+    } else if (pointer[i] == '~' && i + 1 < pointer.size() && (pointer[i + 1] == '0' || pointer[i + 1] == '1')) {
+      parts.back() += pointer[++i] == '0' ? '~' : '/';
+    } else {
+      parts.back() += pointer[i];
+    }
+  }
+  return parts;
+}
+
+/// The member or element that a part of a pointer names; nullptr where a list has none.
+json* step(json& value, const std::string& part) {
+  if (value.is_null()) value = json::object();
+  if (value.is_object()) return &value[part];
+  if (!value.is_array()) return nullptr;
+  for (json& item : value) {
+    if (item.is_object() && item.contains("id") && item["id"] == part) return &item;
+  }
+  size_t index = 0;
+  const auto [end, problem] = std::from_chars(part.data(), part.data() + part.size(), index);
+  if (problem != std::errc() || end != part.data() + part.size() || index >= value.size()) return nullptr;
+  return &value[index];
+}
+
+json editedValue(const std::string& text, const std::string& edit) {
+  try {
+    return parseJson(text, edit);
+  } catch (const InputError&) {
+    if (!text.empty() && (text[0] == '{' || text[0] == '[' || text[0] == '"')) throw;
+    return text;
+  }
+}
+
+/// Format and version speak first: whatever else is wrong follows from them.
+void checkFormat(const json& document, const std::string& name) {
+  if (!document.is_object()) throw InputError(name + ":/: must be an object in { }: this is no PhaseSketch project");
+  const auto format = document.find("format");
+  if (format == document.end() || *format != "phasesketch") {
+    throw InputError(name + ":/format: must be \"phasesketch\": this is no PhaseSketch project");
+  }
+  const auto version = document.find("version");
+  if (version == document.end() || !version->is_number_integer() || version->get<double>() < 1) return;
+  const auto oldest = document.find("minVersion");
+  const bool known = oldest != document.end() && oldest->is_number_integer();
+  const json& needed = known ? *oldest : *version;
+  if (needed.get<double>() > kProjectVersion) {
+    throw InputError(name + (known ? ":/minVersion" : ":/version") + ": needs project format " + needed.dump() +
+                     ", this program reads up to " + std::to_string(kProjectVersion) + "; update PhaseSketch");
+  }
+}
+
+void checkRequired(const json& document, const std::string& name, const PluginRegistry& plugins) {
+  const auto required = document.find("pluginsRequired");
+  if (required == document.end()) return;
+  for (size_t i = 0; i < required->size(); ++i) {
+    const std::string& id = (*required)[i].get_ref<const std::string&>();
+    if (plugins.has(id)) continue;
+    std::string reason = "is not installed; install it, or take it off this list to open the project without it";
+    for (const PluginInfo& info : plugins.plugins()) {
+      if (info.id == id && !info.problem.empty()) reason = "cannot be used: " + info.problem;
+    }
+    throw InputError(name + ":/pluginsRequired/" + std::to_string(i) + ": the plugin '" + id + "' " + reason);
+  }
+}
+
+/// Checks "parameters" of one owner against what its plugin declares.
+template <class Plugin>
+void checkParameters(const json& owner, const Plugin* plugin, const std::string& name, const std::string& pointer,
+                     std::vector<std::string>& unknown) {
+  const auto parameters = owner.find("parameters");
+  if (!plugin || parameters == owner.end()) return;
+  checkAgainst(parameterListSchema(plugin->parameters()), *parameters, name, pointer + "/parameters", unknown);
+}
+
+void checkPluginParameters(const json& document, const std::string& name, const PluginRegistry& plugins,
+                           std::vector<std::string>& unknown) {
+  const json &materials = document.at("materials"), &bodies = document.at("bodies");
+  for (size_t i = 0; i < materials.size(); ++i) {
+    checkParameters(materials[i], plugins.materialPlugin(materials[i].at("base").get<std::string>()), name,
+                    "/materials/" + std::to_string(i), unknown);
+  }
+  for (size_t b = 0; b < bodies.size(); ++b) {
+    const std::string pointer = "/bodies/" + std::to_string(b);
+    const json constraints = bodies[b].value("constraints", json::array());
+    for (size_t c = 0; c < constraints.size(); ++c) {
+      checkParameters(constraints[c], plugins.constraint(constraints[c].at("plugin").get<std::string>()), name,
+                      pointer + "/constraints/" + std::to_string(c), unknown);
+    }
+    const auto voxels = bodies[b].at("shape").find("voxels");
+    if (voxels == bodies[b].at("shape").end() || !voxels->contains("strokes")) continue;
+    const json& strokes = voxels->at("strokes");
+    for (size_t s = 0; s < strokes.size(); ++s) {
+      checkParameters(strokes[s], plugins.brush(strokes[s].at("brush").get<std::string>()), name,
+                      pointer + "/shape/voxels/strokes/" + std::to_string(s), unknown);
+    }
+  }
+  const json::json_pointer thermal("/solver/thermal");
+  if (document.contains(thermal)) {
+    checkParameters(document.at(thermal), plugins.thermal(document.at(thermal).at("model").get<std::string>()), name,
+                    thermal.to_string(), unknown);
+  }
+}
+
+}  // namespace
+
+void applyEdit(json& document, const std::string& edit) {
+  const size_t equals = edit.find('=');
+  if (equals == std::string::npos || equals == 0) {
+    throw InputError("--set " + edit + ": must be json/pointer=value");
+  }
+  json* place = &document;
+  for (const std::string& part : pointerParts(std::string_view(edit).substr(0, equals))) {
+    place = step(*place, part);
+    if (!place) throw InputError("--set " + edit + ": the project has no '" + part + "' there");
+  }
+  *place = editedValue(edit.substr(equals + 1), "--set " + edit.substr(0, equals));
+}
+
+void checkDocument(const json& document, const std::string& name, const PluginRegistry& plugins,
+                   std::vector<ProjectMessage>& warnings) {
+  checkFormat(document, name);
+  std::vector<std::string> unknown;
+  checkAgainst(projectSchema(), document, name, "", unknown);
+  checkRequired(document, name, plugins);
+  checkPluginParameters(document, name, plugins, unknown);
+  constexpr size_t kMost = 20;
+  for (size_t i = 0; i < std::min(unknown.size(), kMost); ++i) {
+    warnings.push_back({false, name + ":" + unknown[i] + ": is not known here; it is kept and has no effect"});
+  }
+  if (unknown.size() > kMost) {
+    warnings.push_back({false, name + ":/: " + std::to_string(unknown.size() - kMost) + " more keys are not known here"});
+  }
+}
+
+LoadedProject parseProject(const std::string& text, const std::string& name, const PluginRegistry& plugins,
+                           const std::vector<std::string>& edits) {
+  json document = parseJson(text, name);
+  for (const std::string& edit : edits) applyEdit(document, edit);
+  LoadedProject loaded;
+  checkDocument(document, name, plugins, loaded.warnings);
+  loaded.project = readDocument(document, plugins);
+  checkProject(loaded.project, name, plugins, loaded.warnings);
+  return loaded;
+}
+
+LoadedProject loadProject(const std::string& path, const PluginRegistry& plugins, const std::vector<std::string>& edits) {
+  return parseProject(readFile(path, kMaximumProjectBytes), path, plugins, edits);
+}
+
+}  // namespace ps

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/io/parameterjson.h"
+#include "core/io/projectcheck.h"
+#include "core/matter/material.h"
+#include "core/plugin_host/registry.h"
+
+namespace ps {
+namespace {
+
+using nlohmann::json;
+
+/// Reads every element of a list member with `read(json&)`.
+template <class Read>
+auto readList(JsonTaker& taker, const char* key, Read read) {
+  std::vector<decltype(read(std::declval<json&>()))> out;
+  if (!taker.has(key)) return out;
+  json list = taker.take(key);
+  out.reserve(list.size());
+  for (json& item : list) out.push_back(read(item));
+  return out;
+}
+
+template <class Plugin>
+api::ParameterList parametersOf(const Plugin* plugin) {
+  return plugin ? plugin->parameters() : api::ParameterList{};
+}
+
+SceneMaterial readMaterial(json& value, const PluginRegistry& plugins) {
+  JsonTaker taker(value);
+  SceneMaterial material;
+  material.id = taker.text("id");
+  material.label = taker.text("label");
+  material.base = taker.text("base");
+  taker.parameters("properties", material.properties, propertyCatalogue());
+  taker.parameters("parameters", material.parameters, parametersOf(plugins.materialPlugin(material.base)));
+  material.unknown = taker.rest();
+  return material;
+}
+
+VoxelShape::Paint readPaint(json& value) {
+  JsonTaker taker(value);
+  VoxelShape::Paint paint;
+  paint.material = taker.text("material");
+  paint.temperature = taker.number("temperature", paint.temperature);
+  paint.unknown = taker.rest();
+  return paint;
+}
+
+VoxelShape::Stroke readStroke(json& value, const PluginRegistry& plugins) {
+  JsonTaker taker(value);
+  VoxelShape::Stroke stroke;
+  stroke.brush = taker.text("brush");
+  stroke.erase = taker.toggle("erase", false);
+  stroke.radius = taker.number("radius", stroke.radius);
+  stroke.palette = static_cast<int>(taker.number("palette", 0));
+  taker.parameters("parameters", stroke.parameters, parametersOf(plugins.brush(stroke.brush)));
+  stroke.samples = readList(taker, "samples", [](json& sample) { return sample.get<std::array<double, 5>>(); });
+  stroke.unknown = taker.rest();
+  return stroke;
+}
+
+VoxelShape readVoxels(json& value, const PluginRegistry& plugins) {
+  JsonTaker taker(value);
+  VoxelShape shape;
+  shape.origin = taker.vector("origin", shape.origin);
+  shape.palette = readList(taker, "palette", readPaint);
+  shape.runs = readList(taker, "runs", [](json& run) {
+    const auto whole = [&](size_t i) { return static_cast<int>(run[i].get<double>()); };
+    return VoxelShape::Run{whole(0), whole(1), whole(2), whole(3), whole(4)};
+  });
+  shape.strokes = readList(taker, "strokes", [&](json& stroke) { return readStroke(stroke, plugins); });
+  shape.unknown = taker.rest();
+  return shape;
+}
+
+BoxShape readBox(json& value) {
+  JsonTaker taker(value);
+  BoxShape box;
+  box.center = taker.vector("center", box.center);
+  box.size = taker.vector("size", box.size);
+  box.unknown = taker.rest();
+  return box;
+}
+
+BodyConstraint readConstraint(json& value, const PluginRegistry& plugins) {
+  JsonTaker taker(value);
+  BodyConstraint constraint;
+  constraint.plugin = taker.text("plugin");
+  taker.parameters("parameters", constraint.parameters, parametersOf(plugins.constraint(constraint.plugin)));
+  constraint.unknown = taker.rest();
+  return constraint;
+}
+
+Body readBody(json& value, const PluginRegistry& plugins) {
+  JsonTaker taker(value);
+  Body body;
+  body.id = taker.text("id");
+  body.name = taker.text("name");
+  body.material = taker.text("material");
+  json shape = taker.take("shape");
+  JsonTaker shapeTaker(shape);
+  if (shapeTaker.has("box")) {
+    json box = shapeTaker.take("box");
+    body.shape = readBox(box);
+  } else {
+    json voxels = shapeTaker.take("voxels");
+    body.shape = readVoxels(voxels, plugins);
+  }
+  taker.keep("shape", std::move(shape));
+  body.velocity = taker.vector("velocity", body.velocity);
+  body.constraints = readList(taker, "constraints", [&](json& item) { return readConstraint(item, plugins); });
+  body.visible = taker.toggle("visible", true);
+  body.locked = taker.toggle("locked", false);
+  taker.parameters(body.parameters, bodyParameters());
+  body.unknown = taker.rest();
+  return body;
+}
+
+SceneWall readWall(json& value) {
+  JsonTaker taker(value);
+  SceneWall wall;
+  wall.id = taker.text("id");
+  wall.name = taker.text("name");
+  wall.point = taker.vector("point", wall.point);
+  wall.normal = taker.vector("normal", wall.normal);
+  taker.parameters(wall.parameters, wallParameters());
+  wall.unknown = taker.rest();
+  return wall;
+}
+
+Environment readEnvironment(json& value) {
+  JsonTaker taker(value);
+  Environment environment;
+  environment.gravity = taker.vector("gravity", environment.gravity);
+  if (taker.has("bounds")) {
+    json bounds = taker.take("bounds");
+    JsonTaker inner(bounds);
+    environment.boundsMinimum = inner.vector("minimum", environment.boundsMinimum);
+    environment.boundsMaximum = inner.vector("maximum", environment.boundsMaximum);
+    taker.keep("bounds", std::move(bounds));
+  }
+  environment.walls = readList(taker, "walls", readWall);
+  taker.parameters(environment.parameters, environmentParameters());
+  environment.unknown = taker.rest();
+  return environment;
+}
+
+SolverOptions readSolver(json& value, const PluginRegistry& plugins) {
+  JsonTaker taker(value);
+  SolverOptions solver;
+  if (taker.has("thermal")) {
+    json thermal = taker.take("thermal");
+    JsonTaker inner(thermal);
+    solver.thermalModel = inner.text("model");
+    inner.parameters("parameters", solver.thermalParameters, parametersOf(plugins.thermal(solver.thermalModel)));
+    taker.keep("thermal", std::move(thermal));
+  }
+  taker.parameters(solver.parameters, solverParameters());
+  solver.unknown = taker.rest();
+  return solver;
+}
+
+Probe readProbe(json& value) {
+  JsonTaker taker(value);
+  Probe probe;
+  probe.id = taker.text("id");
+  probe.name = taker.text("name", probe.id);
+  probe.quantity = taker.text("quantity");
+  probe.body = taker.text("body");
+  probe.phase = taker.text("phase");
+  probe.unknown = taker.rest();
+  return probe;
+}
+
+ViewState readView(json& value) {
+  JsonTaker taker(value);
+  ViewState view;
+  view.target = taker.vector("target", view.target);
+  view.distance = taker.number("distance", view.distance);
+  view.azimuth = taker.number("azimuth", view.azimuth);
+  view.elevation = taker.number("elevation", view.elevation);
+  view.colour = taker.text("colour", view.colour);
+  view.pinned = taker.names("pinned");
+  view.unknown = taker.rest();
+  return view;
+}
+
+}  // namespace
+
+Project readDocument(json& document, const PluginRegistry& plugins) {
+  JsonTaker taker(document);
+  Project project;
+  taker.take("format");
+  project.version = static_cast<int>(taker.number("version", project.version));
+  project.minVersion = static_cast<int>(taker.number("minVersion", project.version));
+  project.generator = taker.text("generator");
+  project.title = taker.text("title");
+  project.description = taker.text("description");
+  project.pluginsUsed = taker.names("pluginsUsed");
+  project.pluginsRequired = taker.names("pluginsRequired");
+  project.materials = readList(taker, "materials", [&](json& item) { return readMaterial(item, plugins); });
+  project.bodies = readList(taker, "bodies", [&](json& item) { return readBody(item, plugins); });
+  json environment = taker.has("environment") ? taker.take("environment") : json::object();
+  project.environment = readEnvironment(environment);
+  json solver = taker.has("solver") ? taker.take("solver") : json::object();
+  project.solver = readSolver(solver, plugins);
+  project.probes = readList(taker, "probes", readProbe);
+  project.duration = taker.number("duration", project.duration);
+  json view = taker.has("view") ? taker.take("view") : json::object();
+  project.view = readView(view);
+  project.unknown = taker.rest();
+  return project;
+}
+
+}  // namespace ps
