@@ -23,16 +23,25 @@ struct PluginInfo {
   PluginKind kind = PluginKind::Material;
   State state = State::Refused;
   std::string problem;  ///< one line: what, where, what to do; "" when loaded
+  std::string note;     ///< one line about one that is loaded: "replaces version 1.0.0 in FILE"; "" mostly
   bool json = false;    ///< a material that is a JSON file alone
 };
 
-/// Finds plugins in the build tree, the install prefix, the user's data directory and PHASESKETCH_PLUGIN_PATH (in
-/// rising order of precedence), reads their metadata before any code is loaded, and loads what is sound. Broken ones are
-/// listed with the reason; the rest works. A lock file quarantines the plugin that crashed the last start.
+const char* pluginStateName(PluginInfo::State state);  ///< "loaded", "refused", "quarantined"
+
+/// Finds plugins in the build tree or the install prefix, the user's data directory, extraPaths and
+/// PHASESKETCH_PLUGIN_PATH (in rising order of precedence), reads their metadata before any code is loaded, and loads what
+/// is sound. Broken ones are listed with the reason; the rest works. Of several with one id the last one that works is
+/// used. A plugin that takes the program down while it is loaded is found in its lock file at the next start and put into
+/// quarantine, until its file changes or allow() is called.
+///
+/// The constructor is the only part that loads code; it needs no QCoreApplication. All other functions may be called from
+/// any thread. Plugin objects live as long as the process, references from plugins() and pointers to materials as long as
+/// the registry.
 class PluginRegistry {
  public:
   struct Options {
-    std::vector<std::string> extraPaths;  ///< before PHASESKETCH_PLUGIN_PATH
+    std::vector<std::string> extraPaths;  ///< directories, looked into before PHASESKETCH_PLUGIN_PATH
     bool builtIn = true;                  ///< build tree or install prefix
     bool userDirectory = true;
     bool environment = true;
@@ -41,6 +50,7 @@ class PluginRegistry {
   PluginRegistry();
   ~PluginRegistry();
 
+  /// Ascending by id, those without a readable id last.
   const std::vector<PluginInfo>& plugins() const;
   /// nullptr when not installed. Materials made of JSON alone have no MaterialPlugin, but a Material.
   const api::MaterialPlugin* materialPlugin(const std::string& id) const;
@@ -51,10 +61,14 @@ class PluginRegistry {
   /// Loaded ids of a kind, ascending.
   std::vector<std::string> ids(PluginKind kind) const;
   bool has(const std::string& id) const;
-  /// A material with a plugin's own law evaluated for these own parameters.
+  /// A material with a plugin's own laws evaluated for these own parameters (in the order of its declarations; missing
+  /// ones take their defaults). Throws Error for an unknown material, and when the plugin's law fails: the plugin is then
+  /// refused as by fault().
   Material evaluated(const std::string& id, const std::vector<double>& parameters) const;
-  /// A plugin threw while running: refuses it from now on, and says so in plugins().
+  /// A plugin threw while running: refuses it from now on, and says so in plugins(). Its object stays valid.
   void fault(const std::string& id, const std::string& message);
+  /// Takes a plugin out of quarantine; it is loaded at the next start. False when none of that id was there.
+  bool allow(const std::string& id);
 
  private:
   struct Impl;

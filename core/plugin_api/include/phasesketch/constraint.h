@@ -56,7 +56,7 @@ class LimitSink {
 
 class ConstraintPlugin : public Plugin {
  public:
-  virtual ConstraintTraits traits() const noexcept = 0;
+  virtual ConstraintTraits traits() const = 0;
 
   // Structural. All of these may throw.
   /// Makes the constraints of newly created particles `members` (ascending indices).

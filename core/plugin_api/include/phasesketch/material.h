@@ -16,7 +16,7 @@ struct MaterialProperty {
 
 class MaterialPlugin : public Plugin {
  public:
-  virtual List<MaterialProperty> properties() const noexcept = 0;
+  virtual List<MaterialProperty> properties() const = 0;
   /// Optional: values of a property from the plugin's own law, baked into a table before a run.
   /// Returns false when the plugin leaves this property to `properties()`. May throw.
   virtual bool evaluate(const char* /*key*/, Span<const double> /*parameters*/, Span<const double> /*temperature_K*/,

@@ -26,7 +26,7 @@ struct ThermalOutput {
 class ThermalPlugin : public Plugin {
  public:
   /// State fields, e.g. specific_enthalpy (J/kg, Float64).
-  virtual List<FieldDeclaration> fields() const noexcept = 0;
+  virtual List<FieldDeclaration> fields() const = 0;
   /// Sets the state of particles [first, last) from temperature in K; `phase` decides on a plateau. May throw.
   virtual void initialise(const ThermalContext&, const ParticleView&, size_t first, size_t last, const double* temperature,
                           const Phase* phase) const = 0;

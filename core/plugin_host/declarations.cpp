@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/plugin_host/declarations.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <set>
+#include <vector>
+
+namespace ps {
+namespace {
+
+constexpr size_t kMostDeclarations = 1000;
+
+std::string place(const char* what, size_t index) { return std::string(what) + " " + std::to_string(index + 1) + ": "; }
+
+std::string number(double value) {
+  char digits[32];
+  const auto [end, error] = std::to_chars(digits, digits + sizeof digits, value);
+  return error == std::errc() ? std::string(digits, end) : "?";
+}
+
+/// lower_snake_case
+bool isKey(std::string_view key) {
+  if (key.empty() || key.size() > 64 || key.front() < 'a' || key.front() > 'z') return false;
+  return std::all_of(key.begin(), key.end(),
+                     [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_'; });
+}
+
+/// A list must have a place to read from, and elements at least as large as the first version's.
+template <class T>
+std::string problemOfList(const api::List<T>& list) {
+  if (list.count > kMostDeclarations) return "declares more than " + std::to_string(kMostDeclarations) + " of them";
+  if (list.count > 0 && !list.first) return "declares some, but gives a null pointer";
+  if (list.count > 0 && (list.stride < sizeof(T) || list.stride % alignof(T) != 0))
+    return "gives a stride of " + std::to_string(list.stride) + " bytes, which is not a declaration's size; use listOf()";
+  return {};
+}
+
+size_t choiceCount(std::string_view choices) {
+  return static_cast<size_t>(std::count(choices.begin(), choices.end(), '|')) + 1;
+}
+
+std::string problemOfChoices(std::string_view choices) {
+  std::set<std::string_view> seen;
+  for (size_t first = 0; first <= choices.size();) {
+    const size_t last = std::min(choices.find('|', first), choices.size());
+    const std::string_view name = choices.substr(first, last - first);
+    if (name.empty()) return "has an empty choice; write them as \"first|second\"";
+    if (!seen.insert(name).second) return "has the choice '" + std::string(name) + "' twice";
+    first = last + 1;
+  }
+  return {};
+}
+
+const char* firstNullText(const api::ParameterDeclaration& p) {
+  const std::pair<const char*, const char*> texts[] = {
+      {"key", p.key},         {"label", p.label}, {"symbol", p.symbol}, {"unit", p.unit},       {"displayUnit", p.displayUnit},
+      {"choices", p.choices}, {"group", p.group}, {"help", p.help},     {"example", p.example}, {"source", p.source}};
+  for (const auto& [name, text] : texts)
+    if (!text) return name;
+  return nullptr;
+}
+
+std::string problemOfNumbers(const api::ParameterDeclaration& p) {
+  if (!std::isfinite(p.defaultValue)) return "its default is not a finite number";
+  if (!std::isfinite(p.minimum) || !std::isfinite(p.maximum)) return "its range is not finite";
+  if (std::isnan(p.hardMinimum) || std::isnan(p.hardMaximum)) return "its hard limits are not numbers";
+  if (!(p.minimum <= p.maximum))
+    return "its minimum " + number(p.minimum) + " is above its maximum " + number(p.maximum);
+  if (!(p.hardMinimum <= p.minimum) || !(p.maximum <= p.hardMaximum))
+    return "its range " + number(p.minimum) + " to " + number(p.maximum) + " leaves its hard limits " +
+           number(p.hardMinimum) + " to " + number(p.hardMaximum);
+  if (p.defaultValue < p.hardMinimum || p.defaultValue > p.hardMaximum)
+    return "its default " + number(p.defaultValue) + " is outside its hard limits " + number(p.hardMinimum) + " to " +
+           number(p.hardMaximum);
+  if (!std::isfinite(p.displayScale) || p.displayScale == 0 || !std::isfinite(p.displayOffset))
+    return "its display scale must be a number other than 0";
+  if (p.scale != api::Scale::Linear && p.scale != api::Scale::Logarithmic) return "its scale is unknown";
+  if (p.scale == api::Scale::Logarithmic && !(p.minimum > 0)) return "a logarithmic scale needs a minimum above 0";
+  return {};
+}
+
+std::string problemOfKind(const api::ParameterDeclaration& p) {
+  switch (p.kind) {
+    case api::ParameterKind::Number:
+    case api::ParameterKind::Response: return problemOfNumbers(p);
+    case api::ParameterKind::Integer:
+      return p.defaultValue == std::floor(p.defaultValue) ? problemOfNumbers(p) : "its default must be a whole number";
+    case api::ParameterKind::Toggle:
+      return p.defaultValue == 0 || p.defaultValue == 1 ? "" : "the default of a toggle must be 0 or 1";
+    case api::ParameterKind::Choice: {
+      if (std::string problem = problemOfChoices(p.choices); !problem.empty()) return problem;
+      const bool index = p.defaultValue >= 0 && p.defaultValue == std::floor(p.defaultValue) &&
+                         p.defaultValue < static_cast<double>(choiceCount(p.choices));
+      return index ? "" : "its default must be the index of a choice";
+    }
+  }
+  return "its kind is unknown to this program";
+}
+
+/// Levenshtein distance.
+size_t editDistance(std::string_view a, std::string_view b) {
+  std::vector<size_t> row(b.size() + 1);
+  for (size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (size_t i = 1; i <= a.size(); ++i) {
+    size_t diagonal = row[0];
+    row[0] = i;
+    for (size_t j = 1; j <= b.size(); ++j) {
+      const size_t above = row[j];
+      row[j] = std::min({above + 1, row[j - 1] + 1, diagonal + (a[i - 1] == b[j - 1] ? 0 : 1)});
+      diagonal = above;
+    }
+  }
+  return row[b.size()];
+}
+
+std::string problemOfRange(const api::ParameterDeclaration& p, double value) {
+  if (value >= p.hardMinimum && value <= p.hardMaximum) return {};
+  const std::string unit = *p.unit ? std::string(" ") + p.unit : std::string();
+  return value < p.hardMinimum ? "must be at least " + number(p.hardMinimum) + unit + ", not " + number(value)
+                               : "must be at most " + number(p.hardMaximum) + unit + ", not " + number(value);
+}
+
+}  // namespace
+
+std::string problemOfParameters(api::ParameterList list) {
+  if (std::string problem = problemOfList(list); !problem.empty()) return "parameters: " + problem;
+  std::set<std::string> keys;
+  for (size_t i = 0; i < list.count; ++i) {
+    const api::ParameterDeclaration& p = list[i];
+    if (const char* null = firstNullText(p)) return place("parameter", i) + "its " + null + " is a null pointer";
+    const std::string where = "parameter '" + std::string(p.key) + "': ";
+    if (!isKey(p.key)) return place("parameter", i) + "its key must be lower_snake_case, not '" + p.key + "'";
+    if (!keys.insert(p.key).second) return where + "is declared twice";
+    if (!*p.label) return where + "needs a label";
+    if (const std::string problem = problemOfKind(p); !problem.empty()) return where + problem;
+  }
+  return {};
+}
+
+std::string problemOfFields(api::List<api::FieldDeclaration> list) {
+  if (std::string problem = problemOfList(list); !problem.empty()) return "fields: " + problem;
+  std::set<std::string> names;
+  for (size_t i = 0; i < list.count; ++i) {
+    const api::FieldDeclaration& f = list[i];
+    if (!f.name || !*f.name) return place("field", i) + "needs a name";
+    if (!f.unit || !f.help) return "field '" + std::string(f.name) + "': its unit or help is a null pointer";
+    if (!names.insert(f.name).second) return "field '" + std::string(f.name) + "': is declared twice";
+    if (f.type > api::FieldType::Float4) return "field '" + std::string(f.name) + "': its type is unknown to this program";
+  }
+  return {};
+}
+
+std::string problemOfTraits(const api::ConstraintTraits& traits) {
+  using Form = api::ConstraintTraits::Form;
+  if (traits.form != Form::Structural && traits.form != Form::Neighbour) return "its form is unknown to this program";
+  if (traits.form == Form::Structural && (traits.arity < 2 || traits.arity > 4))
+    return "a structural constraint joins 2 to 4 particles, not " + std::to_string(traits.arity);
+  if (std::string problem = problemOfFields(traits.values); !problem.empty()) return "per-constraint " + problem;
+  for (size_t i = 0; i < traits.values.count; ++i)
+    if (traits.values[i].type != api::FieldType::Float32)
+      return "the per-constraint value '" + std::string(traits.values[i].name) + "' must be a Float32";
+  return problemOfFields(traits.fields);
+}
+
+std::string suggestionFor(std::string_view key) {
+  const api::ParameterList catalogue = propertyCatalogue();
+  const char* nearest = nullptr;
+  size_t best = std::max<size_t>(3, key.size() / 3) + 1;  // farther off it is another word
+  for (size_t i = 0; i < catalogue.count; ++i) {
+    const size_t distance = editDistance(key, catalogue[i].key);
+    if (distance >= best) continue;
+    best = distance;
+    nearest = catalogue[i].key;
+  }
+  return nearest ? std::string("; did you mean \"") + nearest + "\"?" : std::string();
+}
+
+std::string readProperties(api::List<api::MaterialProperty> list, Material& material) {
+  if (std::string problem = problemOfList(list); !problem.empty()) return "properties: " + problem;
+  for (size_t i = 0; i < list.count; ++i) {
+    const api::MaterialProperty& property = list[i];
+    if (!property.key || !*property.key) return place("property", i) + "its key is a null pointer or empty";
+    const std::string where = "property '" + std::string(property.key) + "': ";
+    if (!property.source) return where + "its source is a null pointer; use \"\" for none";
+    if (property.grade < 'A' || property.grade > 'C') return where + "its grade must be 'A', 'B' or 'C'";
+    const bool hasPoints = property.value.points.data || property.value.points.size == 0;
+    const bool hasCoefficients = property.value.coefficients.data || property.value.coefficients.size == 0;
+    if (!hasPoints || !hasCoefficients) return where + "its points or coefficients are a null pointer";
+    if (!material.properties.emplace(property.key, Response(property.value)).second) return where + "is given twice";
+    material.provenance[property.key] = {property.source, property.grade};
+  }
+  return {};
+}
+
+std::string problemOfProperty(const std::string& key, const Response& value) {
+  const int index = propertyIndex(key);
+  if (index < 0) return "is not a property that PhaseSketch knows" + suggestionFor(key);
+  const api::ParameterDeclaration& declaration = propertyCatalogue()[static_cast<size_t>(index)];
+  if (value.kind != Response::Kind::Constant && declaration.kind != api::ParameterKind::Response)
+    return "must be a single number: it does not depend on temperature here";
+  if (std::string problem = value.problem(); !problem.empty()) return problem;
+  if (value.kind == Response::Kind::Constant) return problemOfRange(declaration, value.constant);
+  for (const api::ResponsePoint& point : value.points) {
+    if (!(point.x > 0)) return "a point lies at " + number(point.x) + " K; temperatures are in kelvin, above 0";
+    if (std::string problem = problemOfRange(declaration, point.y); !problem.empty())
+      return "at " + number(point.x) + " K " + problem;
+  }
+  return {};
+}
+
+std::string problemOfProperties(const Material& material) {
+  for (const auto& [key, value] : material.properties)
+    if (const std::string problem = problemOfProperty(key, value); !problem.empty())
+      return "property '" + key + "': " + problem;
+  const std::string problem = problemOf(material);
+  return problem.empty() ? problem : "property " + problem;
+}
+
+}  // namespace ps

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "core/matter/material.h"
+
+#include <phasesketch/constraint.h>
+#include <phasesketch/material.h>
+#include <phasesketch/parameter.h>
+
+#include <string>
+#include <string_view>
+
+// What a plugin declares is checked once, here, before anything else reads it: panels, JSON and the solver then take every
+// declaration as sound. Each function returns "" or the first thing wrong, naming its place.
+namespace ps {
+
+std::string problemOfParameters(api::ParameterList list);
+std::string problemOfFields(api::List<api::FieldDeclaration> list);
+std::string problemOfTraits(const api::ConstraintTraits& traits);
+
+/// Reads a plugin's properties into `material`, with sources and grades.
+std::string readProperties(api::List<api::MaterialProperty> list, Material& material);
+/// Keys known (the nearest is named otherwise), responses well formed and in range, relations between them sound.
+std::string problemOfProperties(const Material& material);
+/// "" or what is wrong with one property's value.
+std::string problemOfProperty(const std::string& key, const Response& value);
+
+/// "; did you mean \"density_solid\"?" for a key of the catalogue that is nearly this one, or "".
+std::string suggestionFor(std::string_view key);
+
+}  // namespace ps

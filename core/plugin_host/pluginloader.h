@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "core/plugin_host/registry.h"
+
+#include <string>
+
+namespace ps {
+
+/// A plugin at work: exactly one of the four is set, or only `material.id` for a JSON material.
+struct LoadedPlugin {
+  const api::MaterialPlugin* materialPlugin = nullptr;
+  const api::ConstraintPlugin* constraint = nullptr;
+  const api::ThermalPlugin* thermal = nullptr;
+  const api::BrushPlugin* brush = nullptr;
+  Material declared;  ///< of material plugins: properties() alone
+  Material material;  ///< of materials; own laws evaluated at their defaults
+};
+
+/// Loads a library whose metadata are sound, makes its object and checks all that it declares. `info` receives label and
+/// help, and `problem` when the plugin must be refused; whatever its code throws ends there. The locale's number format is
+/// "C" afterwards.
+LoadedPlugin loadLibrary(PluginInfo& info);
+
+/// The material of a plugin with its laws evaluated (see MaterialPlugin::evaluate) from 1 K to 6000 K. Throws what the
+/// plugin throws, and Error for values that are not finite or out of range.
+Material evaluateLaws(const api::MaterialPlugin& plugin, Material material, const std::vector<double>& parameters);
+
+/// What a caught exception says, in one line. Call it in a catch block.
+std::string currentExceptionText();
+/// Line breaks and control characters become spaces.
+std::string oneLine(std::string text);
+
+}  // namespace ps

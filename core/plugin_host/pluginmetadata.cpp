@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/plugin_host/pluginmetadata.h"
+
+#include <QFileInfo>
+#include <QJsonObject>
+#include <QPluginLoader>
+#include <QString>
+
+#include <array>
+#include <charconv>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace ps {
+namespace {
+
+struct KindOfPlugin {
+  PluginKind kind;
+  const char* iid;
+};
+constexpr std::array<KindOfPlugin, 4> kKinds{{{PluginKind::Material, PHASESKETCH_MATERIAL_IID},
+                                              {PluginKind::Constraint, PHASESKETCH_CONSTRAINT_IID},
+                                              {PluginKind::Thermal, PHASESKETCH_THERMAL_IID},
+                                              {PluginKind::Brush, PHASESKETCH_BRUSH_IID}}};
+
+bool isLower(char c) { return c >= 'a' && c <= 'z'; }
+bool isDigit(char c) { return c >= '0' && c <= '9'; }
+
+/// Reads one decimal number and moves `text` behind it.
+std::optional<int> takeNumber(std::string_view& text) {
+  int value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || value < 0 || text.starts_with('-')) return std::nullopt;
+  text.remove_prefix(static_cast<size_t>(end - text.data()));
+  return value;
+}
+
+/// A metadata key that must be a text; "" and a problem otherwise.
+std::string textOf(const QJsonObject& object, const char* key, std::string& problem) {
+  const QJsonValue value = object[QLatin1String(key)];
+  if (value.isString() && !value.toString().isEmpty()) return value.toString().toStdString();
+  if (problem.empty()) {
+    problem = std::string("its metadata ") + (value.isUndefined() ? "lack the key" : "need a text under the key") + " \"" +
+              key + "\"; add it to the JSON file that Q_PLUGIN_METADATA names and build the plugin again";
+  }
+  return {};
+}
+
+/// The kind that the IID stands for, or a problem.
+std::optional<PluginKind> kindOfIid(const std::string& iid, std::string& problem) {
+  for (const KindOfPlugin& known : kKinds)
+    if (iid == known.iid) return known.kind;
+  const std::string family = iid.substr(0, iid.find('/'));
+  for (const KindOfPlugin& known : kKinds) {
+    if (!std::string_view(known.iid).starts_with(family + "/")) continue;
+    problem = "it was built for the interface " + iid + ", this program has " + known.iid +
+              "; get a build for this version";
+    return std::nullopt;
+  }
+  problem = "it is a Qt plugin for another program (" + iid + "); remove it from this folder";
+  return std::nullopt;
+}
+
+std::string checkedMetadata(const QJsonObject& root, PluginInfo& info) {
+  std::string problem;
+  const auto kind = kindOfIid(root["IID"].toString().toStdString(), problem);
+  const QJsonObject own = root["MetaData"].toObject();
+  info.author = own["author"].toString().toStdString();
+  info.id = textOf(own, "id", problem);
+  const std::string kindName = textOf(own, "kind", problem);
+  info.api = textOf(own, "api", problem);
+  info.version = textOf(own, "version", problem);
+  info.licence = textOf(own, "licence", problem);
+  if (kind) info.kind = *kind;
+  if (!problem.empty()) return problem;
+  if (const std::string what = problemOfId(info.id); !what.empty()) {
+    const std::string bad = std::exchange(info.id, {});
+    return "the id \"" + bad + "\" " + what;
+  }
+  if (kindName != pluginKindName(*kind))
+    return "its metadata say kind \"" + kindName + "\", but it implements the interface of a " + pluginKindName(*kind) +
+           "; correct one of the two";
+  if (std::string what = problemOfApi(info.api); !what.empty()) return what;
+  if (const std::string what = problemOfVersion(info.version); !what.empty())
+    return "the version \"" + info.version + "\" " + what;
+  return {};
+}
+
+/// Qt's words for a file that is no plugin, without the path that the caller says anyway.
+std::string refusalOf(const QPluginLoader& loader, const std::string& path) {
+  std::string words = loader.errorString().toStdString();
+  for (const std::string& prefix : {"'" + path + "' ", "The file '" + path + "' "})
+    if (words.starts_with(prefix)) words.erase(0, prefix.size());
+  for (char& c : words)
+    if (static_cast<unsigned char>(c) < 0x20) c = ' ';
+  return "it is not a plugin (" + words + "); remove it from this folder or build it again";
+}
+
+}  // namespace
+
+std::string problemOfId(std::string_view id) {
+  constexpr size_t kLongest = 64;
+  const std::string rule = "must be lower-case letters and digits joined by '.', '_' or '-', like \"org.example.rust\"";
+  if (id.empty() || id.size() > kLongest || !isLower(id.front())) return rule;
+  char last = 'a';
+  for (const char c : id) {
+    const bool joint = c == '.' || c == '_' || c == '-';
+    if (!isLower(c) && !isDigit(c) && !joint) return rule;
+    if (joint && !isLower(last) && !isDigit(last)) return rule;
+    last = c;
+  }
+  return isLower(last) || isDigit(last) ? std::string() : rule;
+}
+
+std::string problemOfApi(std::string_view api) {
+  const std::string ours = std::to_string(api::kVersionMajor) + "." + std::to_string(api::kVersionMinor);
+  std::string_view rest = api;
+  const auto major = takeNumber(rest);
+  const bool dot = rest.starts_with('.');
+  if (dot) rest.remove_prefix(1);
+  const auto minor = takeNumber(rest);
+  if (!major || !dot || !minor || !rest.empty())
+    return "its API version \"" + std::string(api) + "\" must be two numbers like \"" + ours + "\"";
+  if (*major == api::kVersionMajor && *minor <= api::kVersionMinor) return {};
+  const bool newer = *major > api::kVersionMajor || (*major == api::kVersionMajor && *minor > api::kVersionMinor);
+  return "it was built for version " + std::string(api) + " of the plugin interface, this program has " + ours + "; " +
+         (newer ? "update PhaseSketch or get an older build of the plugin" : "get a newer build of the plugin");
+}
+
+std::string problemOfVersion(std::string_view version) {
+  const std::string rule = "must be numbers joined by dots, like \"1.0.0\"";
+  std::string_view rest = version;
+  for (int part = 0; part < 4; ++part) {
+    if (!takeNumber(rest)) return rule;
+    if (rest.empty() || (rest.front() == '-' && rest.size() > 1)) return {};
+    if (rest.front() != '.') return rule;
+    rest.remove_prefix(1);
+  }
+  return rule;
+}
+
+PluginInfo readLibraryMetadata(const std::string& path) {
+  PluginInfo info;
+  info.path = path;
+  QPluginLoader loader(QString::fromStdString(path));
+  const QJsonObject root = loader.metaData();
+  info.problem = root.isEmpty() ? refusalOf(loader, path) : checkedMetadata(root, info);
+  if (!info.problem.empty()) info.problem = path + ": " + info.problem;
+  return info;
+}
+
+}  // namespace ps

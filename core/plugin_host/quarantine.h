@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <string>
+#include <vector>
+
+// Why a file lock and not a process number: a plugin that aborts takes its process along without any code of ours
+// running, so what it was doing must lie in a file beforehand. That file must count only when its writer is gone, while
+// other programs are starting at the same moment. The writer holds a flock() on it; the system drops the lock when the
+// process ends, however it ends, and it cannot be mistaken for a process that got the same number later or that lives in
+// another container on the same home directory.
+namespace ps {
+
+/// Plugins that took the program down while they were loaded. All state lies in files under one directory; a directory
+/// that cannot be written only means that nothing is remembered.
+class Quarantine {
+ public:
+  /// Looks for the locks of dead processes and puts the plugins they name into quarantine.
+  explicit Quarantine(const std::string& directory);
+
+  struct Entry {
+    std::string id, path;
+    long long size = 0, modified = 0;  ///< bytes; ms since the epoch: another build of the file gets another try
+  };
+  /// True when this very file is in quarantine. A record about an older build of the file is dropped.
+  bool holds(const std::string& id, const std::string& path);
+  /// Forgets all records of an id; true when there was one.
+  bool allow(const std::string& id);
+
+ private:
+  void collectStaleLocks();
+  void readRecords();
+
+  std::string m_directory;
+  std::vector<Entry> m_entries;
+};
+
+/// Says "this process is loading this plugin" for as long as it lives. Destroyed normally, it leaves nothing behind.
+class LoadingLock {
+ public:
+  LoadingLock(const std::string& directory, const std::string& id, const std::string& path);
+  ~LoadingLock();
+  LoadingLock(const LoadingLock&) = delete;
+  LoadingLock& operator=(const LoadingLock&) = delete;
+
+ private:
+  std::string m_path;
+  int m_file = -1;
+};
+
+}  // namespace ps

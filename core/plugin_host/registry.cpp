@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/plugin_host/registry.h"
+
+#include "core/base/error.h"
+#include "core/plugin_host/materialjson.h"
+#include "core/plugin_host/pluginloader.h"
+#include "core/plugin_host/pluginmetadata.h"
+#include "core/plugin_host/pluginpaths.h"
+#include "core/plugin_host/quarantine.h"
+
+#include <QDir>
+#include <QFileInfo>
+#include <QString>
+
+#include <algorithm>
+#include <map>
+#include <mutex>
+#include <tuple>
+
+namespace ps {
+
+const char* pluginKindName(PluginKind kind) {
+  switch (kind) {
+    case PluginKind::Material: return "material";
+    case PluginKind::Constraint: return "constraint";
+    case PluginKind::Thermal: return "thermal";
+    case PluginKind::Brush: return "brush";
+  }
+  return "";
+}
+
+const char* pluginStateName(PluginInfo::State state) {
+  switch (state) {
+    case PluginInfo::State::Loaded: return "loaded";
+    case PluginInfo::State::Refused: return "refused";
+    case PluginInfo::State::Quarantined: return "quarantined";
+  }
+  return "";
+}
+
+namespace {
+
+/// A file whose metadata are sound.
+struct Candidate {
+  PluginInfo info;
+  size_t directory = 0;  ///< index of its directory: higher ones take precedence
+  Material material;     ///< of JSON files
+};
+
+bool before(const PluginInfo& a, const PluginInfo& b) {
+  if (a.id.empty() != b.id.empty()) return b.id.empty();
+  return std::tie(a.id, a.path) < std::tie(b.id, b.path);
+}
+
+std::string nameOf(const PluginInfo& info) {
+  return info.version.empty() ? info.path : "version " + info.version + " in " + info.path;
+}
+
+}  // namespace
+
+// Infos change only by fault(), which another thread may call while somebody reads plugins(): it publishes a changed copy
+// and keeps the old ones, so that references stay good.
+struct PluginRegistry::Impl {
+  explicit Impl(const Options& options) : state(stateDirectory()), quarantine(state) {
+    scan(pluginDirectories(options));
+    for (auto& [id, list] : candidates) loadBest(list);
+    candidates.clear();
+    std::sort(found.begin(), found.end(), before);
+    generations.push_back(std::make_unique<const std::vector<PluginInfo>>(std::move(found)));
+  }
+
+  void scan(const std::vector<PluginDirectory>& directories);
+  void read(const std::string& path, size_t directory);
+  void loadBest(std::vector<Candidate>& list);
+  bool load(Candidate& candidate);
+  void markFault(const std::string& id, const std::string& message);
+  const LoadedPlugin* get(const std::string& id) const {
+    const std::lock_guard lock(mutex);
+    const auto it = loaded.find(id);
+    return it == loaded.end() || faulted.contains(id) ? nullptr : &it->second;
+  }
+
+  std::string state;
+  Quarantine quarantine;
+  std::map<std::string, std::vector<Candidate>> candidates;
+  std::vector<PluginInfo> found;
+  std::map<std::string, LoadedPlugin> loaded;  ///< unchanged after the constructor
+
+  mutable std::mutex mutex;  ///< guards what follows, and the quarantine
+  std::map<std::string, std::string> faulted;
+  std::vector<std::unique_ptr<const std::vector<PluginInfo>>> generations;
+};
+
+void PluginRegistry::Impl::scan(const std::vector<PluginDirectory>& directories) {
+  for (size_t d = 0; d < directories.size(); ++d) {
+    const QDir directory(QString::fromStdString(directories[d].path));
+    if (!directory.exists()) {
+      if (!directories[d].asked) continue;
+      PluginInfo missing;
+      missing.path = missing.label = directories[d].path;
+      const bool exists = QFileInfo::exists(directory.path());
+      missing.problem = directories[d].path + (exists ? ": is not a folder" : ": there is no such folder") + "; correct " +
+                        directories[d].origin;
+      found.push_back(std::move(missing));
+      continue;
+    }
+    const QStringList names{QStringLiteral("*.so"), QStringLiteral("*.json")};
+    for (const QString& name : directory.entryList(names, QDir::Files, QDir::Name | QDir::LocaleAware))
+      read(directory.filePath(name).toStdString(), d);
+  }
+}
+
+void PluginRegistry::Impl::read(const std::string& path, size_t directory) {
+  Candidate candidate;
+  candidate.directory = directory;
+  if (path.ends_with(".json")) {
+    candidate.material = readMaterialFile(path, candidate.info);
+  } else {
+    candidate.info = readLibraryMetadata(path);
+  }
+  PluginInfo& info = candidate.info;
+  if (info.label.empty()) info.label = info.id.empty() ? QFileInfo(QString::fromStdString(path)).fileName().toStdString() : info.id;
+  if (!info.problem.empty()) {
+    found.push_back(info);
+    return;
+  }
+  std::vector<Candidate>& same = candidates[info.id];
+  if (!same.empty() && same.back().directory == directory) {
+    info.problem = path + ": the id \"" + info.id + "\" is taken by " + same.back().info.path +
+                   " in the same folder; remove one of the two";
+    found.push_back(info);
+    return;
+  }
+  same.push_back(std::move(candidate));
+}
+
+void PluginRegistry::Impl::loadBest(std::vector<Candidate>& list) {
+  for (size_t i = list.size(); i-- > 0;) {
+    PluginInfo& info = list[i].info;
+    if (load(list[i])) {
+      info.state = PluginInfo::State::Loaded;
+      for (size_t other = 0; other < i; ++other)
+        info.note += (other == 0 ? "replaces " : " and ") + nameOf(list[other].info);
+      found.push_back(info);
+      return;
+    }
+    if (i > 0) info.problem += "; until then " + nameOf(list[i - 1].info) + " takes its place";
+    found.push_back(info);
+  }
+}
+
+bool PluginRegistry::Impl::load(Candidate& candidate) {
+  PluginInfo& info = candidate.info;
+  LoadedPlugin plugin;
+  if (info.json) {
+    plugin.material = std::move(candidate.material);
+  } else if (quarantine.holds(info.id, info.path)) {
+    info.state = PluginInfo::State::Quarantined;
+    info.problem = info.path + ": the program crashed while loading it, so it is not loaded any more; allow it again with "
+                   "\"phasesketch-cli plugins --allow " + info.id + "\" or install another version";
+    return false;
+  } else {
+    const LoadingLock lock(state, info.id, info.path);
+    plugin = loadLibrary(info);
+  }
+  if (!info.problem.empty()) return false;
+  loaded[info.id] = std::move(plugin);
+  return true;
+}
+
+void PluginRegistry::Impl::markFault(const std::string& id, const std::string& message) {
+  const std::lock_guard lock(mutex);
+  if (!loaded.contains(id) || !faulted.emplace(id, message).second) return;
+  auto changed = std::make_unique<std::vector<PluginInfo>>(*generations.back());
+  for (PluginInfo& info : *changed) {
+    if (info.id != id || info.state != PluginInfo::State::Loaded) continue;
+    info.state = PluginInfo::State::Refused;
+    info.problem = info.path + ": it failed while it ran: " + oneLine(message) +
+                   "; it is left out until the program starts again, tell " +
+                   (info.author.empty() ? "its author" : info.author);
+  }
+  generations.push_back(std::move(changed));
+}
+
+PluginRegistry::PluginRegistry(const Options& options) : m(std::make_unique<Impl>(options)) {}
+PluginRegistry::PluginRegistry() : PluginRegistry(Options()) {}
+PluginRegistry::~PluginRegistry() = default;
+
+const std::vector<PluginInfo>& PluginRegistry::plugins() const {
+  const std::lock_guard lock(m->mutex);
+  return *m->generations.back();
+}
+
+const api::MaterialPlugin* PluginRegistry::materialPlugin(const std::string& id) const {
+  const LoadedPlugin* plugin = m->get(id);
+  return plugin ? plugin->materialPlugin : nullptr;
+}
+
+const Material* PluginRegistry::material(const std::string& id) const {
+  const LoadedPlugin* plugin = m->get(id);
+  return plugin && !plugin->material.id.empty() ? &plugin->material : nullptr;
+}
+
+const api::ConstraintPlugin* PluginRegistry::constraint(const std::string& id) const {
+  const LoadedPlugin* plugin = m->get(id);
+  return plugin ? plugin->constraint : nullptr;
+}
+
+const api::ThermalPlugin* PluginRegistry::thermal(const std::string& id) const {
+  const LoadedPlugin* plugin = m->get(id);
+  return plugin ? plugin->thermal : nullptr;
+}
+
+const api::BrushPlugin* PluginRegistry::brush(const std::string& id) const {
+  const LoadedPlugin* plugin = m->get(id);
+  return plugin ? plugin->brush : nullptr;
+}
+
+std::vector<std::string> PluginRegistry::ids(PluginKind kind) const {
+  std::vector<std::string> result;
+  for (const PluginInfo& info : plugins())
+    if (info.kind == kind && info.state == PluginInfo::State::Loaded) result.push_back(info.id);
+  return result;
+}
+
+bool PluginRegistry::has(const std::string& id) const { return m->get(id) != nullptr; }
+
+Material PluginRegistry::evaluated(const std::string& id, const std::vector<double>& parameters) const {
+  const LoadedPlugin* plugin = m->get(id);
+  if (!plugin || plugin->material.id.empty()) throw Error("The material '" + id + "' is not installed");
+  if (!plugin->materialPlugin) return plugin->material;
+  try {
+    return evaluateLaws(*plugin->materialPlugin, plugin->declared, parameters);
+  } catch (...) {
+    const std::string problem = currentExceptionText();
+    m->markFault(id, problem);
+    throw Error("The material '" + id + "' failed: " + problem);
+  }
+}
+
+void PluginRegistry::fault(const std::string& id, const std::string& message) { m->markFault(id, message); }
+
+bool PluginRegistry::allow(const std::string& id) {
+  const std::lock_guard lock(m->mutex);
+  return m->quarantine.allow(id);
+}
+
+}  // namespace ps
