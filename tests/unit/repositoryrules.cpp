@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/unit/repositoryrules.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstddef>
+
+namespace ps::rules {
+namespace {
+
+using View = std::string_view;
+
+// Each may include itself and what stands before it. A new room is entered here, where its arrows allow.
+constexpr std::array<View, 11> kCoreRooms = {"base",   "math",        "particles", "matter",     "solver", "scene",
+                                             "sketch", "plugin_host", "geometry",  "simulation", "io"};
+constexpr std::array<View, 10> kUiRooms = {"theme",  "render",   "document", "panels", "curves",
+                                           "graphs", "timeline", "viewport", "vr",     "window"};
+
+struct Room {
+  View house, name;  // "core", "solver"; plugins and tests have no rooms
+};
+
+Room roomOf(View path) {
+  const size_t first = path.find('/');
+  if (first == View::npos) return {};
+  const View house = path.substr(0, first);
+  if (house != "core" && house != "ui" && house != "app") return {house, {}};
+  const View rest = path.substr(first + 1);
+  return {house, rest.substr(0, rest.find('/'))};
+}
+
+template <size_t N>
+ptrdiff_t rank(const std::array<View, N>& rooms, View name) {
+  const auto it = std::find(rooms.begin(), rooms.end(), name);
+  return it == rooms.end() ? -1 : it - rooms.begin();
+}
+
+struct Include {
+  View target;
+  bool quoted;
+};
+
+bool startsWithAny(View text, std::initializer_list<View> prefixes) {
+  return std::any_of(prefixes.begin(), prefixes.end(), [&](View prefix) { return text.starts_with(prefix); });
+}
+bool isQt(View target) {
+  return target.size() > 1 && target[0] == 'Q' && (std::isupper(target[1]) || target[1] == 't');
+}
+bool isWidgets(View target) {
+  if (startsWithAny(target, {"QtWidgets", "QtOpenGLWidgets", "QOpenGLWidget", "QApplication", "QMainWindow", "QDialog",
+                             "QDockWidget", "QMenu", "QAction"}))
+    return true;
+  return isQt(target) && target.ends_with("Widget");
+}
+bool isOpenGl(View target) { return startsWithAny(target, {"epoxy/", "GL/", "GLES", "EGL/", "QOpenGL", "QtOpenGL"}); }
+
+std::string coreProblem(View room, const Include& include) {
+  if (isOpenGl(include.target)) return "core has no OpenGL";
+  if (isQt(include.target)) {
+    if (room == "plugin_api") return {};  // only qtentry.h; see sdkProblem
+    if (room != "plugin_host") return "only core/plugin_host may use Qt";
+    if (isWidgets(include.target) || startsWithAny(include.target, {"QtGui", "QtWidgets"}))
+      return "core/plugin_host may use QtCore only";
+  }
+  return {};
+}
+
+std::string sdkProblem(View path, const Include& include) {
+  if (include.quoted) return "the SDK includes itself as <phasesketch/...>";
+  if (include.target.starts_with("phasesketch/") || include.target == "cstddef" || include.target == "cstdint")
+    return {};
+  if (path.ends_with("/qtentry.h") && (include.target == "QObject" || include.target == "QtPlugin")) return {};
+  return "the SDK needs nothing but <cstddef> and <cstdint> (qtentry.h: <QObject> and <QtPlugin>)";
+}
+
+std::string orderProblem(const Room& from, const Room& to) {
+  if (from.name == to.name) return {};
+  const bool core = from.house == "core";
+  const ptrdiff_t own = core ? rank(kCoreRooms, from.name) : rank(kUiRooms, from.name);
+  const ptrdiff_t other = core ? rank(kCoreRooms, to.name) : rank(kUiRooms, to.name);
+  const std::string list = std::string(" (order of rooms: tests/unit/repositoryrules.cpp)");
+  if (own < 0) return std::string(from.house) + "/" + std::string(from.name) + " is not a known room" + list;
+  if (other < 0) return std::string(to.house) + "/" + std::string(to.name) + " is not a known room" + list;
+  return other < own ? std::string() : "goes from an earlier room to a later one" + list;
+}
+
+std::string arrowProblem(const Room& from, const Room& to) {
+  if (from.house == "tests") return {};
+  if (to.house == "tests") return "the program must not include tests";
+  if (from.house == "plugins") return "plugins include <phasesketch/...> only";
+  if (to.house == "plugins") return "nothing names a plugin";
+  if (to.name == "plugin_api") return "write <phasesketch/...>";
+  if (from.house == "core" && to.house != "core") return "core includes core only";
+  if (from.house == "ui" && to.house == "app") return "ui must not include app";
+  if (from.house == to.house && from.house != "app") return orderProblem(from, to);
+  if (from.house == "app" && to.house == "app" && from.name != to.name) return "the programs stand side by side";
+  return {};
+}
+
+std::string includeProblem(View path, const Include& include) {
+  const Room from = roomOf(path);
+  if (from.house == "core" && from.name == "plugin_api") return sdkProblem(path, include);
+  std::string problem;
+  if (from.house == "core") problem = coreProblem(from.name, include);
+  if (from.house == "ui" && from.name == "render" && isQt(include.target)) problem = "ui/render draws without Qt";
+  if (from.house == "app" && from.name == "cli" && isWidgets(include.target)) problem = "app/cli has no widgets";
+  if (!problem.empty() || !include.quoted) return problem;
+  if (include.target.ends_with(".moc")) return {};
+  const Room to = roomOf(include.target);
+  constexpr std::array<View, 5> kHouses = {"core", "ui", "app", "plugins", "tests"};
+  if (rank(kHouses, to.house) >= 0) return arrowProblem(from, to);
+  if (include.target.find("..") != View::npos) return "climbs out of its folder";
+  if (!to.house.empty()) return {};                                 // a library that wants quotes, as Highway does
+  if (from.house == "plugins" || from.house == "tests") return {};  // a file beside it
+  return "write the path from the project's root";
+}
+
+// Calls use(line number from 1, line) for every line.
+template <class Use>
+void eachLine(View text, Use use) {
+  for (size_t begin = 0, number = 1; begin < text.size(); ++number) {
+    const size_t end = std::min(text.find('\n', begin), text.size());
+    use(number, text.substr(begin, end - begin));
+    begin = end + 1;
+  }
+}
+
+std::string at(View path, size_t line, View what) {
+  return std::string(path) + ":" + std::to_string(line) + ": " + std::string(what);
+}
+
+bool isWordCharacter(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }
+
+bool hasWord(View line, View word) {
+  for (size_t p = line.find(word); p != View::npos; p = line.find(word, p + 1)) {
+    const size_t end = p + word.size();
+    const bool before = p > 0 && isWordCharacter(line[p - 1]) && isWordCharacter(word.front());
+    const bool after = end < line.size() && isWordCharacter(line[end]) && isWordCharacter(word.back());
+    if (!before && !after) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+Problems includes(View path, View text) {
+  Problems problems;
+  eachLine(text, [&](size_t number, View line) {
+    size_t p = line.find_first_not_of(" \t");
+    if (p == View::npos || line[p] != '#') return;
+    p = line.find_first_not_of(" \t", p + 1);
+    if (p == View::npos || !line.substr(p).starts_with("include")) return;
+    p = line.find_first_of("\"<", p);
+    if (p == View::npos) return;  // #include MACRO
+    const size_t end = line.find(line[p] == '<' ? '>' : '"', p + 1);
+    if (end == View::npos) return;
+    const Include include{line.substr(p + 1, end - p - 1), line[p] == '"'};
+    const std::string problem = includeProblem(path, include);
+    if (!problem.empty()) problems.push_back(at(path, number, std::string(include.target) + ": " + problem));
+  });
+  return problems;
+}
+
+Problems licence(View path, View text) {
+  const bool mit = startsWithAny(path, {"core/plugin_api/", "plugins/examples/"});
+  const std::string wanted = std::string("SPDX-License-") + "Identifier: " + (mit ? "MIT" : "Apache-2.0");
+  bool found = false;
+  eachLine(text, [&](size_t number, View line) { found = found || (number <= 2 && line.ends_with(wanted)); });
+  return found ? Problems{} : Problems{at(path, 1, "must begin with " + wanted)};
+}
+
+Problems words(View path, View text) {
+  // Put together from halves, so that this file obeys its own rule.
+  static const std::array<std::string, 8> kForbidden = {
+      std::string("TO") + "DO",   std::string("FIX") + "ME",  std::string("XX") + "X",    std::string("HA") + "CK",
+      std::string("/ho") + "me/", std::string("/wo") + "rk/", std::string("/ro") + "ot/", std::string("/Us") + "ers/"};
+  Problems problems;
+  eachLine(text, [&](size_t number, View line) {
+    for (const std::string& word : kForbidden)
+      if (hasWord(line, word)) problems.push_back(at(path, number, "must not say \"" + word + "\""));
+  });
+  return problems;
+}
+
+Problems colours(View path, View text) {
+  if (!path.starts_with("ui/") && !path.starts_with("app/editor/")) return {};
+  Problems problems;
+  eachLine(text, [&](size_t number, View line) {
+    for (size_t p = line.find('#'); p != View::npos; p = line.find('#', p + 1)) {
+      if (p > 0 && line[p - 1] == '&') continue;  // an HTML entity
+      const size_t end = std::min(line.find_first_not_of("0123456789abcdefABCDEF", p + 1), line.size());
+      const size_t digits = end - p - 1;
+      if ((digits == 3 || digits == 6 || digits == 8) && (end == line.size() || !isWordCharacter(line[end])))
+        problems.push_back(at(path, number, "colours are written in resources/theme/tokens.json"));
+    }
+  });
+  return problems;
+}
+
+Problems documents(View path, View text, const std::vector<std::string>& known) {
+  Problems problems;
+  eachLine(text, [&](size_t number, View line) {
+    for (size_t p = line.find(".md"); p != View::npos; p = line.find(".md", p + 1)) {
+      if (p + 3 < line.size() && isWordCharacter(line[p + 3])) continue;
+      size_t begin = p;
+      while (begin > 0 && (isWordCharacter(line[begin - 1]) || line[begin - 1] == '-')) --begin;
+      const std::string name(line.substr(begin, p + 3 - begin));
+      if (begin < p && std::find(known.begin(), known.end(), name) == known.end())
+        problems.push_back(at(path, number, "there is no " + name));
+    }
+  });
+  return problems;
+}
+
+}  // namespace ps::rules
