@@ -11,11 +11,13 @@
 namespace ps {
 
 /// Four significant digits unless asked otherwise, U+2212 as minus, groups of three by U+202F from 1000 on, powers of
-/// ten below 0.001 and from ten million on: "24 594", "−0.9000", "3.000 × 10⁻⁶". "—" for what is not finite.
+/// ten below 0.001 and from ten million on: "24 590", "−0.9000", "3.000 × 10⁻⁶". "—" for what is not finite.
 QString formatNumber(double value, int significant = 4);
 /// The same without zeros at the end: "0.5", "3 × 10⁻⁶".
 QString formatShort(double value, int significant = 4);
-/// With the unit after a space: "120.0 °C".
+/// With a fixed number of decimals, grouped: "24 594", "−0.90". For counts and running values that must not jitter.
+QString formatFixed(double value, int decimals = 0);
+/// formatShort with the unit after a space: "120 °C".
 QString formatQuantity(double value, const QString& unit, int significant = 4);
 
 /// Stored (SI) value as people see it, and back.
@@ -23,22 +25,28 @@ double toDisplay(const api::ParameterDeclaration& declaration, double stored);
 double fromDisplay(const api::ParameterDeclaration& declaration, double shown);
 /// The unit that people see: displayUnit, or unit where it is empty.
 QString displayUnit(const api::ParameterDeclaration& declaration);
-/// A stored value with its displayed unit.
+/// A stored value as its field shows it, without unit: four significant digits, without zeros at the end that are finer
+/// than the slider's range can tell (a logarithmic one: three significant digits).
+QString formatField(const api::ParameterDeclaration& declaration, double stored);
+/// The same with its displayed unit.
 QString formatValue(const api::ParameterDeclaration& declaration, double stored);
+/// A stored value times a factor as people see it: twice 10 °C is 20 °C.
+double scaledValue(const api::ParameterDeclaration& declaration, double stored, double factor);
 
 /// What somebody typed into a number field.
 struct Typed {
-  double value = 0;       ///< in SI; the new value, or the factor when `relative`
+  double value = 0;       ///< the new value in SI
+  double factor = 1;      ///< of relative input
   bool relative = false;  ///< "*2", "/3": acts on each value of a mixed selection
   QString problem;        ///< "" or one sentence that says what is wrong
 };
 
 /// Reads "25", "25 °C", "77 °F", "300 K", "1,5", "1/3", "2*(3+4)", "*2", "/3", "1e-3", "3 × 10⁻⁶", "2.5 GPa".
 /// A bare number is in the displayed unit; a unit must be of the same kind as the declaration's ("m" for a length).
-/// `current` (SI) is what relative input starts from.
+/// `current` (SI) is what relative input starts from. Does not look at ranges.
 Typed parseTyped(const QString& text, const api::ParameterDeclaration& declaration, double current);
 
-/// The number alone ("1,5", "−3 × 10⁻⁶", "1/3"), without a unit; nullopt when it is none.
+/// The number or sum alone ("1,5", "−3 × 10⁻⁶", "1/3", "24 594"), without a unit; nullopt when it is none.
 std::optional<double> parseNumber(const QString& text);
 
 }  // namespace ps

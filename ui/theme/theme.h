@@ -12,7 +12,6 @@
 #include <vector>
 
 class QApplication;
-class QFontMetricsF;
 
 namespace ps {
 
@@ -21,7 +20,7 @@ enum class Token {
   Window, Panel, Header, Field, Raised, RaisedEdge, Hover, Selection, Line, Line2,
   Text, Text2, Muted, Disabled, ControlEdge, Accent, OnAccent, SliderFill,
   Warning, Error, Ok, Info, Keyframe, Curve, WarningGround, ErrorGround,
-  Overlay, Shadow, Handle, HandleEdge,
+  Overlay, Shadow, Handle, HandleEdge, FieldEdge, FieldEdgeHover, Track, TrackEdge,
   Count
 };
 

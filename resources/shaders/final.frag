@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// Smooths stair steps along edges (after T. Lottes, "FXAA", 2009), or averages 2 x 2 samples of a still in linear light.
+uniform sampler2D picture;
+uniform int still;
+out vec4 colour;
+const vec3 kLuma = vec3(0.299, 0.587, 0.114);
+
+vec3 averaged(ivec2 p) {
+  vec3 sum = toLinear(texelFetch(picture, p, 0).rgb) + toLinear(texelFetch(picture, p + ivec2(1, 0), 0).rgb) +
+             toLinear(texelFetch(picture, p + ivec2(0, 1), 0).rgb) + toLinear(texelFetch(picture, p + ivec2(1, 1), 0).rgb);
+  return toScreen(sum * 0.25);
+}
+
+void main() {
+  ivec2 here = ivec2(gl_FragCoord.xy);
+  if (still == 1) {
+    colour = vec4(averaged(here * 2), 1.0);
+    return;
+  }
+  vec2 uv = gl_FragCoord.xy * size.zw;
+  vec3 middle = texelFetch(picture, here, 0).rgb;
+  float m = dot(middle, kLuma);
+  float nw = dot(textureLod(picture, uv + vec2(-1.0, 1.0) * size.zw, 0.0).rgb, kLuma);
+  float ne = dot(textureLod(picture, uv + vec2(1.0, 1.0) * size.zw, 0.0).rgb, kLuma);
+  float sw = dot(textureLod(picture, uv + vec2(-1.0, -1.0) * size.zw, 0.0).rgb, kLuma);
+  float se = dot(textureLod(picture, uv + vec2(1.0, -1.0) * size.zw, 0.0).rgb, kLuma);
+  float low = min(m, min(min(nw, ne), min(sw, se))), high = max(m, max(max(nw, ne), max(sw, se)));
+  colour = vec4(middle, 1.0);
+  if (high - low < max(0.03, high * 0.10)) return;
+  vec2 along = vec2(sw + se - nw - ne, nw + sw - ne - se);
+  float least = max((nw + ne + sw + se) * 0.03125, 1.0 / 128.0);
+  along = clamp(along / (min(abs(along.x), abs(along.y)) + least), -6.0, 6.0) * size.zw;
+  vec3 close = 0.5 * (textureLod(picture, uv - along / 6.0, 0.0).rgb + textureLod(picture, uv + along / 6.0, 0.0).rgb);
+  vec3 wide = close * 0.5 + 0.25 * (textureLod(picture, uv - along * 0.5, 0.0).rgb +
+                                    textureLod(picture, uv + along * 0.5, 0.0).rgb);
+  float w = dot(wide, kLuma);
+  colour.rgb = w < low || w > high ? close : wide;
+}

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// Sums colour weighted by thickness, and thickness in m, of the liquid in front of what is opaque.
+uniform sampler2D distanceTexture;
+uniform int scale;
+flat in vec4 sphere;
+flat in vec4 look;
+in vec3 ray;
+out vec4 sum;
+void main() {
+  float a = dot(ray, ray), b = dot(ray, sphere.xyz);
+  float root = b * b - a * (dot(sphere.xyz, sphere.xyz) - sphere.w * sphere.w);
+  float behind = texelFetch(distanceTexture, ivec2(gl_FragCoord.xy) * scale, 0).r;
+  if (root < 0.0 || behind < -sphere.z - sphere.w) discard;
+  float thickness = 2.0 * sqrt(root / a);
+  thickness *= thickness / (2.0 * sphere.w);
+  // Thickness in radii keeps the sums in the range of half floats.
+  sum = vec4(toLinear(look.rgb), 1.0) * (thickness / sphere.w);
+}

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+// The liquid's surface from its smoothed distances: Fresnel reflection of the studio over what lies behind, bent and
+// tinted by the thickness; in data colours an opaque lit surface.
+uniform sampler2D fluidTexture;      // smoothed distance, kFar where there is none
+uniform sampler2D fluidColour;       // colour times thickness, thickness, in radii
+uniform sampler2D distanceTexture;   // of what is opaque
+uniform sampler2D behindTexture;     // the picture so far
+uniform sampler2D contactTexture;
+uniform sampler2DShadow shadowTexture;
+in vec2 uv;
+out vec4 colour;
+
+// Distance at a place of the picture, interpolated among the neighbours that are liquid; y: their share.
+vec2 distanceAt(vec2 at) {
+  ivec2 last = textureSize(fluidTexture, 0) - 1;
+  vec2 p = at * vec2(last + 1) - 0.5;
+  ivec2 i = ivec2(floor(p));
+  vec2 f = p - vec2(i);
+  vec4 d = vec4(texelFetch(fluidTexture, clamp(i, ivec2(0), last), 0).r,
+                texelFetch(fluidTexture, clamp(i + ivec2(1, 0), ivec2(0), last), 0).r,
+                texelFetch(fluidTexture, clamp(i + ivec2(0, 1), ivec2(0), last), 0).r,
+                texelFetch(fluidTexture, clamp(i + ivec2(1, 1), ivec2(0), last), 0).r);
+  vec4 w = vec4((1.0 - f.x) * (1.0 - f.y), f.x * (1.0 - f.y), (1.0 - f.x) * f.y, f.x * f.y);
+  w *= vec4(lessThan(d, vec4(kFar * 0.5)));
+  float sum = w.x + w.y + w.z + w.w;
+  return vec2(dot(w, min(d, vec4(kFar))) / max(sum, 1e-5), sum);
+}
+
+void main() {
+  vec2 centre = distanceAt(uv);
+  float front = texelFetch(distanceTexture, ivec2(gl_FragCoord.xy), 0).r;
+  if (centre.y < 0.3 || centre.x > front + matter.x * 0.25) discard;
+  float edge = smoothstep(0.3, 0.75, centre.y);
+
+  vec2 texel = 1.0 / vec2(textureSize(fluidTexture, 0));
+  vec2 right = distanceAt(uv + vec2(texel.x, 0.0)), left = distanceAt(uv - vec2(texel.x, 0.0));
+  vec2 up = distanceAt(uv + vec2(0.0, texel.y)), down = distanceAt(uv - vec2(0.0, texel.y));
+  vec3 p = viewRay(uv) * centre.x;
+  vec3 px = viewRay(uv + vec2(texel.x, 0.0)) * right.x - p, mx = p - viewRay(uv - vec2(texel.x, 0.0)) * left.x;
+  vec3 py = viewRay(uv + vec2(0.0, texel.y)) * up.x - p, my = p - viewRay(uv - vec2(0.0, texel.y)) * down.x;
+  vec3 dx = left.y < 0.5 || (right.y >= 0.5 && abs(px.z) < abs(mx.z)) ? px : mx;
+  vec3 dy = down.y < 0.5 || (up.y >= 0.5 && abs(py.z) < abs(my.z)) ? py : my;
+  vec3 nView = normalize(cross(dx, dy));
+  vec3 n = mat3(inverseView) * nView;
+  vec3 world = (inverseView * vec4(p, 1.0)).xyz;
+  vec3 v = normalize(eye.xyz - world);
+
+  vec4 sum = texture(fluidColour, uv);
+  vec3 base = sum.rgb / max(sum.a, 1e-4);
+  float thickness = sum.a;  // radii
+  float facing = clamp(dot(n, v), 0.0, 1.0);
+  float fresnel = 0.02 + 0.98 * pow(1.0 - facing, 5.0);
+  vec3 reflected = studio(reflect(-v, n), 0.12);
+  vec3 h = normalize(v + light.xyz);
+  vec3 s = (shadow * vec4(world + n * matter.x, 1.0)).xyz;
+  float key = textureLod(shadowTexture, s, 0.0);
+  float shine = pow(max(dot(n, h), 0.0), 220.0) * 2.2 * key + pow(max(dot(n, h), 0.0), 40.0) * 0.12 * key;
+  float diffuse = 0.5 + 0.5 * dot(n, light.xyz);
+  float height = (world.y - ground.x) / matter.w;
+  vec3 warm = glowTint.rgb * ground.z * ground.w * exp(-max(height, 0.0) * 14.0);
+
+  vec3 c;
+  if (matter.z > 0.5) {
+    c = base * (0.46 + 0.62 * diffuse * mix(0.62, 1.0, key)) + reflected * fresnel * 0.45 + shine * 0.6;
+  } else {
+    vec2 bend = nView.xy * clamp(thickness * 0.09, 0.0, 0.55) * matter.x / centre.x / lens.y * vec2(size.y / size.x, 1.0);
+    vec3 behind = toLinear(textureLod(behindTexture, clamp(uv - bend, vec2(0.0), vec2(1.0)), 0.0).rgb);
+    vec3 clearness = pow(clamp(base * 0.85 + 0.15, vec3(0.05), vec3(1.0)), vec3(0.22 * thickness));
+    float veil = 1.0 - exp(-0.16 * thickness);
+    vec3 body = (base * 0.85 + 0.10) * (0.34 + 0.58 * diffuse * mix(0.55, 1.0, key)) + warm * 0.30;
+    c = mix(behind * clearness, body, veil * 0.72);
+    c = mix(c, reflected, min(fresnel * 0.9 + 0.03, 1.0)) + shine;
+  }
+  colour = vec4(toScreen(tone(c)), edge);
+}

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// One direction of the narrow-range filter (Truong & Yuksel 2018): neighbours far behind do not count, neighbours far
+// in front count as if they stood at the edge of the range, so that silhouettes stay and bumps go.
+uniform sampler2D fluidTexture;
+uniform ivec2 direction;
+uniform float width;  // m, standard deviation of the filter
+uniform int limit;    // taps to each side
+out float distance;
+void main() {
+  ivec2 here = ivec2(gl_FragCoord.xy), last = textureSize(fluidTexture, 0) - 1;
+  float centre = texelFetch(fluidTexture, here, 0).r;
+  float sigma = width / centre / lens.y * 0.5 * float(last.y + 1);
+  float range = width * 1.6, step = max(1.0, 2.0 * sigma / float(limit));
+  float sum = centre, weights = 1.0;
+  for (int i = 1; i <= limit; ++i) {
+    float w = exp(-0.5 * pow(float(i) * step / max(sigma, 0.3), 2.0));
+    ivec2 offset = direction * int(float(i) * step + 0.5);
+    float a = texelFetch(fluidTexture, clamp(here + offset, ivec2(0), last), 0).r;
+    float b = texelFetch(fluidTexture, clamp(here - offset, ivec2(0), last), 0).r;
+    float keep = a < centre + range && b < centre + range ? w : 0.0;  // both or none: slopes stay
+    sum += keep * (max(a, centre - range) + max(b, centre - range));
+    weights += 2.0 * keep;
+  }
+  distance = sum / weights;
+}

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// What every pass of a frame knows. Lengths are metres, colours of lighting are linear, colours of targets are sRGB.
+layout(std140, binding = 0) uniform Frame {
+  mat4 view;
+  mat4 projection;
+  mat4 inverseView;
+  mat4 shadow;    // world to shadow texture, 0..1
+  vec4 eye;       // position
+  vec4 size;      // picture: width, height, their inverses, pixels
+  vec4 lens;      // tangents of half the field of view; projection[2][2], projection[3][2]
+  vec4 light;     // unit vector to the key light; w: 1 dark theme, 0 light theme
+  vec4 plate;     // centre x, z and half size x, z of the floor
+  vec4 ground;    // height of the floor, height of the ground below it, glow 0..1, has a floor
+  vec4 contact;   // contact map: x, z of its corner, inverse of its size
+  vec4 matter;    // radius of a particle, time in s, 1 when colours show data, size of the scene
+  vec4 glowTint;  // rgb of the hot floor; w: amount of frost on the lid
+};
+
+const float kFar = 1e6;
+
+float toLinear(float c) { return c <= 0.04045 ? c / 12.92 : pow((c + 0.055) / 1.055, 2.4); }
+vec3 toLinear(vec3 c) { return mix(c / 12.92, pow((c + 0.055) / 1.055, vec3(2.4)), greaterThan(c, vec3(0.04045))); }
+vec3 toScreen(vec3 c) {
+  return mix(c * 12.92, 1.055 * pow(max(c, vec3(0.0)), vec3(1.0 / 2.4)) - 0.055, greaterThan(c, vec3(0.0031308)));
+}
+// Leaves colours below 0.7 alone, so that data keep the legend's colours, and rolls highlights off towards 1.
+vec3 tone(vec3 c) {
+  vec3 over = max(c - 0.7, vec3(0.0));
+  return min(c, vec3(0.7)) + 0.3 * over / (over + 0.3);
+}
+// Interleaved gradient noise (Jimenez 2014), 0..1 by pixel.
+float ditherAt(vec2 pixel) { return fract(52.9829189 * fract(dot(pixel, vec2(0.06711056, 0.00583715)))); }
+
+vec3 viewRay(vec2 uv) { return vec3((uv * 2.0 - 1.0) * lens.xy, -1.0); }
+float windowDepth(float distance) { return 0.5 - 0.5 * (lens.z - lens.w / distance); }
+
+// The studio around the scene, linear: a soft gradient, a large key box above the light, a strip opposite.
+vec3 studio(vec3 d, float rough) {
+  float up = d.y * 0.5 + 0.5;
+  vec3 c = mix(vec3(0.055, 0.058, 0.065), vec3(0.34, 0.37, 0.41), smoothstep(0.25, 1.0, up));
+  c = mix(c * 1.7 + 0.12, c, light.w);
+  float box = smoothstep(0.80 - rough * 0.5, 0.93 + rough * 0.07, dot(d, light.xyz));
+  vec3 strip = normalize(vec3(-light.z, 0.25, light.x));
+  float side = smoothstep(0.86 - rough * 0.5, 0.97, dot(d, strip)) + smoothstep(0.90 - rough * 0.5, 0.98, dot(d, -strip * vec3(1, -1, 1)));
+  return c + vec3(2.6, 2.5, 2.35) * box * mix(1.0, 0.45, rough) + vec3(0.75, 0.85, 1.0) * side * mix(0.8, 0.3, rough);
+}

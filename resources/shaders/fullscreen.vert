@@ -1,0 +1,7 @@
+// SPDX-License-Identifier: Apache-2.0
+// One triangle over the picture, on the far plane: a depth test of GREATER meets what was drawn, EQUAL what was not.
+out vec2 uv;
+void main() {
+  uv = vec2(gl_VertexID == 1 ? 2.0 : 0.0, gl_VertexID == 2 ? 2.0 : 0.0);
+  gl_Position = vec4(uv * 2.0 - 1.0, 1.0, 1.0);
+}

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 direction;
+layout(location = 2) in vec4 material;  // r, g, b in sRGB, opacity
+out vec3 worldNormal;
+out vec3 worldPosition;
+flat out vec4 look;
+out float fade;
+void main() {
+  worldNormal = direction;
+  worldPosition = position;
+  look = vec4(material.rgb, abs(material.a));
+  fade = material.a < 0.0 ? 0.0 : 1.0;
+  gl_Position = projection * view * vec4(position, 1.0);
+}

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// Ambient occlusion at half resolution after McGuire et al. 2011 ("The Alchemy screen-space ambient obscurance
+// algorithm"), with four patterns in a 2 x 2 tile that the bilinear look-up of the lighting pass averages.
+uniform sampler2D normalTexture;
+uniform sampler2D distanceTexture;
+uniform float radius;     // m
+uniform int samples;
+uniform int scale;        // full pixels per pixel here
+in vec2 uv;
+out float open;
+void main() {
+  ivec2 here = ivec2(gl_FragCoord.xy) * scale;
+  float depth = texelFetch(distanceTexture, here, 0).r;
+  vec2 pixel = vec2(here) + 0.5;
+  vec3 p = viewRay(pixel * size.zw) * depth;
+  vec3 n = mat3(view) * (texelFetch(normalTexture, here, 0).xyz * 2.0 - 1.0);
+  float reach = clamp(radius / depth / lens.y * 0.5 * size.y, 3.0, 90.0);
+  ivec2 cell = ivec2(gl_FragCoord.xy) & 1;
+  float turn = float(cell.x + 2 * cell.y) * (1.5707963 / float(samples)) * 1.0;
+  float sum = 0.0;
+  for (int i = 0; i < samples; ++i) {
+    float t = (float(i) + 0.25 + 0.25 * float(cell.x ^ cell.y)) / float(samples);
+    float angle = t * 6.2831853 * 3.0 + turn * 4.0;
+    ivec2 at = clamp(here + ivec2(vec2(cos(angle), sin(angle)) * (t * reach)), ivec2(0), ivec2(size.xy) - 1);
+    vec3 v = viewRay((vec2(at) + 0.5) * size.zw) * texelFetch(distanceTexture, at, 0).r - p;
+    float square = dot(v, v);
+    float near = max(1.0 - square / (radius * radius), 0.0);
+    sum += max(dot(v, n) - 0.02 * radius, 0.0) * near * inversesqrt(square + 1e-4 * radius * radius);
+  }
+  open = clamp(1.0 - 1.9 * sum / float(samples), 0.0, 1.0);
+}

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/theme/legend.h"
+
+#include "core/base/error.h"
+#include "ui/theme/numbers.h"
+#include "ui/theme/paint.h"
+#include "ui/theme/resources.h"
+#include "ui/theme/theme.h"
+
+#include <QtCore/QJsonArray>
+#include <QtCore/QJsonDocument>
+#include <QtCore/QJsonObject>
+#include <QtGui/QLinearGradient>
+#include <QtGui/QPainter>
+#include <QtGui/QPainterPath>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace ps {
+namespace {
+
+constexpr double kMargin = 10, kTitle = 24, kBarWidth = 12, kBarHeight = 192, kClassRow = 20;
+
+ColourMap parseMap(const QString& name, const QJsonObject& object) {
+  ColourMap map;
+  map.name = name;
+  map.title = object[QStringLiteral("title")].toString(name);
+  map.pivot = object[QStringLiteral("pivot")].toDouble(-1);
+  for (const QJsonValue& stop : object[QStringLiteral("stops")].toArray()) {
+    map.stops.emplace_back(stop[0].toDouble(), QColor(stop[1].toString()));
+    if (!map.stops.back().second.isValid()) throw Error("maps.json:/" + name.toStdString() + "/stops: not a colour");
+  }
+  for (const QJsonValue& item : object[QStringLiteral("classes")].toArray()) {
+    map.classes.emplace_back(item[0].toString(), item[1].toString());
+  }
+  if (map.stops.size() < 2) throw Error("maps.json:/" + name.toStdString() + "/stops: must be at least two");
+  return map;
+}
+
+std::map<QString, ColourMap> readMaps() {
+  const QJsonObject all = QJsonDocument::fromJson(themeResource(QStringLiteral("theme/maps.json"))).object();
+  std::map<QString, ColourMap> maps;
+  for (auto it = all.begin(); it != all.end(); ++it) maps[it.key()] = parseMap(it.key(), it.value().toObject());
+  return maps;
+}
+
+double tickStep(double span, int most) {
+  const double raw = span / most, decade = std::pow(10.0, std::floor(std::log10(raw)));
+  for (const double factor : {1.0, 2.0, 2.5, 5.0}) {
+    if (decade * factor >= raw * (1 - 1e-9)) return decade * factor;
+  }
+  return decade * 10;
+}
+
+void paintClasses(QPainter& painter, const QRectF& rect, const ColourMap& map) {
+  const Theme& theme = Theme::current();
+  double y = rect.top() + kTitle + 4;
+  for (size_t i = 0; i < map.classes.size(); ++i, y += kClassRow) {
+    const QRectF swatch(rect.left() + kMargin, y + 2, 16, 16);
+    const QColor colour = map.stops[i].second;
+    paintBox(painter, swatch, colour, theme[Token::Line2], 3);
+    const QColor dark = theme[theme.dark() ? Token::Window : Token::Text];
+    const QColor light = theme[theme.dark() ? Token::Text : Token::Panel];
+    paintText(painter, swatch, Qt::AlignCenter, map.classes[i].first, Theme::font(TextRole::Small),
+              contrast(colour, dark) > contrast(colour, light) ? dark : light);
+    paintText(painter, QRectF(swatch.right() + 8, y, rect.right() - swatch.right() - 12, kClassRow),
+              Qt::AlignLeft | Qt::AlignVCenter, map.classes[i].second, Theme::font(TextRole::Normal), theme[Token::Text2]);
+  }
+}
+
+/// Labels already set, as heights; a tick whose text would touch one of them is left out.
+class Ladder {
+ public:
+  bool take(double y) {
+    for (const double taken : m_taken) {
+      if (std::abs(taken - y) < 14) return false;
+    }
+    m_taken.push_back(y);
+    return true;
+  }
+
+ private:
+  std::vector<double> m_taken;
+};
+
+struct Scale {
+  const QRectF bar;
+  const ColourMap& map;
+  std::pair<double, double> range;
+  double pivot;
+  double y(double value) const { return bar.bottom() - bar.height() * legendPosition(map, range, pivot, value); }
+  bool inside(double value) const { return value >= range.first && value <= range.second; }
+};
+
+void paintTicks(QPainter& painter, const QRectF& rect, const Scale& scale, const QString& unit,
+                const std::vector<LegendMark>& marks) {
+  const Theme& theme = Theme::current();
+  const QFont font = Theme::font(TextRole::Small);
+  Ladder ladder;
+  const auto label = [&](double value, const QString& text, double left, const QColor& colour) {
+    const double y = scale.y(value);
+    paintHorizontalLine(painter, scale.bar.right(), scale.bar.right() + left - 5, y, colour);
+    paintText(painter, QRectF(scale.bar.right() + left, y - 8, rect.right() - scale.bar.right() - left, 16),
+              Qt::AlignLeft | Qt::AlignVCenter, text, font, colour);
+  };
+  const auto ends = {std::pair{scale.range.second, true}, std::pair{scale.range.first, false}};
+  for (const auto& [value, top] : ends) {
+    const QString text = top && !unit.isEmpty() ? formatShort(value, 3) + QLatin1Char(' ') + unit : formatShort(value, 3);
+    if (ladder.take(scale.y(value))) label(value, text, 9, theme[Token::Text2]);
+  }
+  for (const LegendMark& mark : marks) {
+    if (!scale.inside(mark.value) || !ladder.take(scale.y(mark.value))) continue;
+    const QString number = formatShort(mark.value, 3);
+    label(mark.value, number, 12, theme[Token::Text]);
+    const double x = scale.bar.right() + 12 + textWidth(number, font) + 5;
+    paintText(painter, QRectF(x, scale.y(mark.value) - 8, rect.right() - x - 4, 16), Qt::AlignLeft | Qt::AlignVCenter,
+              mark.label, font, theme[Token::Muted]);
+  }
+  const double step = tickStep(scale.range.second - scale.range.first, 6);
+  for (double value = std::ceil(scale.range.first / step) * step; value < scale.range.second; value += step) {
+    if (ladder.take(scale.y(value))) label(value, formatShort(std::abs(value) < step / 1e6 ? 0 : value, 3), 9, theme[Token::Text2]);
+  }
+}
+
+}  // namespace
+
+QColor ColourMap::at(double position) const {
+  if (!(position > stops.front().first)) return stops.front().second;
+  for (size_t i = 1; i < stops.size(); ++i) {
+    const auto& [x1, c1] = stops[i];
+    if (position > x1) continue;
+    const auto& [x0, c0] = stops[i - 1];
+    const double t = (position - x0) / (x1 - x0);
+    if (!classes.empty()) return t < 0.5 ? c0 : c1;
+    const auto mix = [t](float a, float b) { return static_cast<float>(a + (b - a) * t); };
+    return QColor::fromRgbF(mix(c0.redF(), c1.redF()), mix(c0.greenF(), c1.greenF()), mix(c0.blueF(), c1.blueF()));
+  }
+  return stops.back().second;
+}
+
+const ColourMap& colourMap(const QString& name) {
+  static const std::map<QString, ColourMap> maps = readMaps();
+  const auto found = maps.find(name);
+  if (found == maps.end()) throw Error("There is no colour map '" + name.toStdString() + "'");
+  return found->second;
+}
+
+QSizeF legendSize(const ColourMap& map) {
+  if (!map.classes.empty()) return {92, kTitle + 10 + kClassRow * static_cast<double>(map.classes.size())};
+  return {92, kTitle + 8 + kBarHeight + 14};
+}
+
+double legendPosition(const ColourMap& map, std::pair<double, double> range, double pivot, double value) {
+  const auto [low, high] = range;
+  if (!(high > low)) return 0.5;
+  const double t = (value - low) / (high - low);
+  double position = t;
+  if (map.pivot > 0 && pivot > low && pivot < high) {
+    position = value < pivot ? map.pivot * (value - low) / (pivot - low)
+                             : map.pivot + (1 - map.pivot) * (value - pivot) / (high - pivot);
+  }
+  return std::clamp(position, 0.0, 1.0);
+}
+
+void paintLegend(QPainter& painter, const QRectF& rect, const ColourMap& map, std::pair<double, double> range,
+                 const QString& unit, const std::vector<LegendMark>& marks, double pivot) {
+  const Theme& theme = Theme::current();
+  painter.save();
+  paintBox(painter, rect, theme[Token::Overlay], theme[Token::Line2], 4);
+  QFont title = Theme::font(TextRole::Small);
+  title.setWeight(QFont::DemiBold);
+  paintText(painter, QRectF(rect.left() + kMargin, rect.top() + 4, rect.width() - 2 * kMargin, kTitle - 4),
+            Qt::AlignLeft | Qt::AlignVCenter, map.title, title, theme[Token::Text]);
+  if (!map.classes.empty()) {
+    paintClasses(painter, rect, map);
+    painter.restore();
+    return;
+  }
+  const QRectF bar(rect.left() + kMargin, rect.top() + kTitle + 10, kBarWidth, rect.height() - kTitle - 22);
+  QLinearGradient gradient(bar.bottomLeft(), bar.topLeft());
+  for (const auto& [position, colour] : map.stops) gradient.setColorAt(position, colour);
+  painter.setRenderHint(QPainter::Antialiasing);
+  QPainterPath path;
+  path.addRoundedRect(snapped(painter, bar), 2, 2);
+  painter.fillPath(path, gradient);
+  if (range.second > range.first) paintTicks(painter, rect, {bar, map, range, pivot}, unit, marks);
+  painter.restore();
+}
+
+}  // namespace ps

@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/theme/numbers.h"
+
+#include "ui/theme/units.h"
+
+#include <QtCore/QChar>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <string>
+
+namespace ps {
+namespace {
+
+constexpr QChar kMinus(0x2212), kGroup(0x202F);
+
+/// Decimal digits by std::to_chars, which no locale touches.
+std::string digits(double value, std::chars_format format, int precision) {
+  char buffer[512];
+  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value, format, precision);
+  return std::string(buffer, end.ptr);
+}
+
+/// Minus sign and groups for "-12345.60".
+QString dressed(const std::string& plain) {
+  QString text = QString::fromLatin1(plain.c_str(), static_cast<qsizetype>(plain.size()));
+  const bool negative = text.startsWith(QLatin1Char('-'));
+  if (negative) text.remove(0, 1);
+  if (negative && std::none_of(text.begin(), text.end(), [](QChar c) { return c >= u'1' && c <= u'9'; })) return text;
+  qsizetype end = text.indexOf(QLatin1Char('.'));
+  if (end < 0) end = text.size();
+  for (qsizetype i = end - 3; i > 0; i -= 3) text.insert(i, kGroup);
+  return negative ? kMinus + text : text;
+}
+
+std::string withoutZeros(std::string text) {
+  if (text.find('.') == std::string::npos) return text;
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.back() == '.') text.pop_back();
+  return text;
+}
+
+QString superscript(int value) {
+  static const QString raised = QStringLiteral("⁰¹²³⁴⁵⁶⁷⁸⁹");
+  QString text;
+  if (value < 0) text += QChar(0x207B);
+  for (const char c : std::to_string(std::abs(value))) text += raised[c - '0'];
+  return text;
+}
+
+/// Exponent of ten of the value after rounding to so many digits.
+int exponentOf(double value, int significant) {
+  const std::string text = digits(value, std::chars_format::scientific, significant - 1);
+  int exponent = 0;
+  const char* first = text.data() + text.find('e') + 1;
+  if (*first == '+') ++first;
+  std::from_chars(first, text.data() + text.size(), exponent);
+  return exponent;
+}
+
+/// `minimumDecimals` of the rounded value stay although they are zeros; -1: all.
+QString formatted(double value, int significant, int minimumDecimals) {
+  if (!std::isfinite(value)) return QStringLiteral("—");
+  if (value == 0) return dressed(digits(0, std::chars_format::fixed, std::max(0, minimumDecimals)));
+  const int exponent = exponentOf(value, significant);
+  if (exponent < -3 || exponent >= 7) {
+    std::string mantissa = digits(value, std::chars_format::scientific, significant - 1);
+    mantissa.resize(mantissa.find('e'));
+    if (minimumDecimals >= 0) mantissa = withoutZeros(mantissa);
+    return dressed(mantissa) + QStringLiteral(" × 10") + superscript(exponent);
+  }
+  // Digits in front of the point beyond the significant ones are rounded away too: 24 594 is 24 590.
+  const double unit = std::pow(10.0, exponent - significant + 1);
+  const double rounded = exponent >= significant ? std::round(value / unit) * unit : value;
+  const int decimals = std::max(0, significant - 1 - exponent);
+  std::string text = digits(rounded, std::chars_format::fixed, decimals);
+  if (minimumDecimals >= 0) {
+    while (text.find('.') != std::string::npos && text.back() == '0' &&
+           static_cast<int>(text.size() - 1 - text.find('.')) > minimumDecimals) {
+      text.pop_back();
+    }
+    if (text.back() == '.') text.pop_back();
+  }
+  return dressed(text);
+}
+
+/// Decimals that the slider's range can tell apart, in displayed units.
+int fieldDecimals(const api::ParameterDeclaration& d, double shown) {
+  if (d.kind == api::ParameterKind::Integer) return 0;
+  if (d.scale == api::Scale::Logarithmic) {
+    return shown == 0 ? 0 : std::clamp(2 - exponentOf(shown, 3), 0, 6);
+  }
+  const double range = std::abs((d.maximum - d.minimum) * d.displayScale);
+  if (!(range > 0) || !std::isfinite(range)) return 0;
+  return std::clamp(static_cast<int>(std::ceil(-std::log10(range / 1000))), 0, 6);
+}
+
+/// Sums and products of numbers, read from the left; a number may be followed by "× 10ⁿ".
+class Expression {
+ public:
+  explicit Expression(std::string text) : m_text(std::move(text)) {}
+
+  std::optional<double> value() {
+    const double result = sum();
+    if (!m_good || m_at != m_text.size() || !std::isfinite(result)) return std::nullopt;
+    return result;
+  }
+
+ private:
+  bool take(char c) {
+    if (m_at >= m_text.size() || m_text[m_at] != c) return false;
+    ++m_at;
+    return true;
+  }
+  double sum() {
+    double result = product();
+    for (;;) {
+      if (take('+')) result += product();
+      else if (take('-')) result -= product();
+      else return result;
+    }
+  }
+  double product() {
+    double result = power();
+    for (;;) {
+      if (take('*')) result *= power();
+      else if (take('/')) result /= power();
+      else return result;
+    }
+  }
+  double power() {
+    const double base = signedAtom();
+    return take('^') ? std::pow(base, signedAtom()) : base;
+  }
+  double signedAtom() {
+    if (++m_depth > 50) m_good = false;
+    double result = 0;
+    if (!m_good) return result;
+    if (take('-')) result = -signedAtom();
+    else if (take('+')) result = signedAtom();
+    else if (take('(')) {
+      result = sum();
+      m_good = m_good && take(')');
+    } else {
+      result = number();
+    }
+    --m_depth;
+    return result;
+  }
+  double number() {
+    double result = 0;
+    const char* first = m_text.data() + m_at;
+    const char* last = m_text.data() + m_text.size();
+    const bool starts = first < last && ((*first >= '0' && *first <= '9') || *first == '.');
+    const auto [end, problem] = std::from_chars(first, last, result);
+    if (!starts || problem != std::errc()) m_good = false;
+    else m_at += static_cast<size_t>(end - first);
+    return result;
+  }
+
+  std::string m_text;
+  size_t m_at = 0;
+  int m_depth = 0;
+  bool m_good = true;
+};
+
+bool isGroupSpace(QChar c) { return c == kGroup || c == QChar(0x2009) || c == QChar(0x00A0) || c == QChar(' '); }
+
+/// ASCII with a point: signs, superscripts and group spaces of formatted numbers taken back. nullopt: both separators
+/// in one number.
+std::optional<std::string> normalised(const QString& text) {
+  static const QString raised = QStringLiteral("⁰¹²³⁴⁵⁶⁷⁸⁹");
+  std::string plain;
+  bool power = false;
+  int points = 0;
+  for (qsizetype i = 0; i < text.size(); ++i) {
+    const QChar c = text[i];
+    const qsizetype digit = raised.indexOf(c);
+    const bool raisedSign = c == QChar(0x207B);
+    if ((digit >= 0 || raisedSign) && !power) plain += '^';
+    power = digit >= 0 || raisedSign;
+    if (raisedSign) plain += '-';
+    else if (digit >= 0) plain += static_cast<char>('0' + digit);
+    else if (c == kMinus) plain += '-';
+    else if (c == QChar(0x00D7) || c == QChar(0x00B7)) plain += '*';
+    else if (c == QChar(0x00F7)) plain += '/';
+    else if (isGroupSpace(c)) {
+      const bool inside = i > 0 && text[i - 1].isDigit() && i + 1 < text.size() && text[i + 1].isDigit();
+      if (inside && (i + 3 >= text.size() || !text[i + 2].isDigit() || !text[i + 3].isDigit())) return std::nullopt;
+    } else if (c == QLatin1Char(',') || c == QLatin1Char('.')) {
+      plain += '.';
+      if (++points > 1) return std::nullopt;
+    } else if (c.unicode() < 128) {
+      plain += static_cast<char>(c.unicode());
+    } else {
+      return std::nullopt;
+    }
+    if (!c.isDigit() && !isGroupSpace(c) && c != QLatin1Char(',') && c != QLatin1Char('.')) points = 0;
+  }
+  return plain;
+}
+
+/// Where the unit begins: after the last character that belongs to a number or a sum.
+qsizetype unitStart(const QString& text) {
+  for (qsizetype length = text.size(); length > 0; --length) {
+    if (parseNumber(text.left(length))) return length;
+  }
+  return 0;
+}
+
+}  // namespace
+
+QString formatNumber(double value, int significant) { return formatted(value, significant, -1); }
+
+QString formatShort(double value, int significant) { return formatted(value, significant, 0); }
+
+QString formatFixed(double value, int decimals) {
+  return std::isfinite(value) ? dressed(digits(value, std::chars_format::fixed, decimals)) : QStringLiteral("—");
+}
+
+QString formatQuantity(double value, const QString& unit, int significant) {
+  const QString number = formatShort(value, significant);
+  return unit.isEmpty() ? number : number + QLatin1Char(' ') + unit;
+}
+
+double toDisplay(const api::ParameterDeclaration& d, double stored) {
+  return stored * d.displayScale + d.displayOffset;
+}
+
+double fromDisplay(const api::ParameterDeclaration& d, double shown) {
+  return (shown - d.displayOffset) / d.displayScale;
+}
+
+QString displayUnit(const api::ParameterDeclaration& d) {
+  return QString::fromUtf8(d.displayUnit && *d.displayUnit ? d.displayUnit : d.unit ? d.unit : "");
+}
+
+QString formatField(const api::ParameterDeclaration& d, double stored) {
+  double shown = toDisplay(d, stored);
+  // 273.15 K - 273.15 is not always 0: what lies under the last bit of the sum is no information.
+  if (std::abs(shown) < 1e-12 * std::abs(d.displayOffset)) shown = 0;
+  if (d.kind == api::ParameterKind::Integer) return formatFixed(shown);
+  return formatted(shown, 4, fieldDecimals(d, shown));
+}
+
+QString formatValue(const api::ParameterDeclaration& d, double stored) {
+  const QString unit = displayUnit(d);
+  return unit.isEmpty() ? formatField(d, stored) : formatField(d, stored) + QLatin1Char(' ') + unit;
+}
+
+double scaledValue(const api::ParameterDeclaration& d, double stored, double factor) {
+  return fromDisplay(d, toDisplay(d, stored) * factor);
+}
+
+std::optional<double> parseNumber(const QString& text) {
+  const std::optional<std::string> plain = normalised(text.trimmed());
+  if (!plain || plain->empty() || plain->size() > 200) return std::nullopt;
+  return Expression(*plain).value();
+}
+
+Typed parseTyped(const QString& typed, const api::ParameterDeclaration& d, double current) {
+  Typed result;
+  QString text = typed.trimmed();
+  const QChar first = text.isEmpty() ? QChar() : text[0];
+  const bool divides = first == QLatin1Char('/') || first == QChar(0x00F7);
+  if (divides || first == QLatin1Char('*') || first == QChar(0x00D7)) {
+    const std::optional<double> factor = parseNumber(text.mid(1));
+    if (!factor || (divides && *factor == 0)) {
+      result.problem = QStringLiteral("“%1” is no factor; type for example *2 or /3").arg(text);
+      return result;
+    }
+    result.relative = true;
+    result.factor = divides ? 1 / *factor : *factor;
+    result.value = scaledValue(d, current, result.factor);
+    return result;
+  }
+  const qsizetype split = unitStart(text);
+  const QString unitText = text.mid(split).trimmed();
+  const std::optional<double> number = parseNumber(text.left(split));
+  const QString shownUnit = displayUnit(d);
+  if (!number) {
+    result.problem = QStringLiteral("“%1” is no number; type for example %2").arg(text, formatValue(d, d.defaultValue));
+    return result;
+  }
+  result.value = fromDisplay(d, *number);
+  if (unitText.isEmpty() || unitText == shownUnit) return result;
+  const std::optional<Unit> unit = parseUnit(unitText), declared = parseUnit(QString::fromUtf8(d.unit));
+  if (unit && declared && unit->dimension == declared->dimension) {
+    result.value = (*number * unit->scale + unit->offset - declared->offset) / declared->scale;
+  } else if (shownUnit.isEmpty()) {
+    result.problem = QStringLiteral("This value has no unit; “%1” was not understood").arg(unitText);
+  } else {
+    result.problem = QStringLiteral("“%1” does not fit a value in %2").arg(unitText, shownUnit);
+  }
+  return result;
+}
+
+}  // namespace ps

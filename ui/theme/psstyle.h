@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <QtWidgets/QProxyStyle>
+
+namespace ps {
+
+/// Fusion with our measures and our drawing where a style sheet cannot reach: combo boxes, check marks, tree arrows,
+/// focus rings. Colours come from Theme::current(). Draws no icons in menus and no dotted frames.
+class PsStyle : public QProxyStyle {
+  Q_OBJECT
+ public:
+  PsStyle();
+  int pixelMetric(PixelMetric metric, const QStyleOption* option, const QWidget* widget) const override;
+  int styleHint(StyleHint hint, const QStyleOption* option, const QWidget* widget,
+                QStyleHintReturn* returnData) const override;
+  void drawPrimitive(PrimitiveElement element, const QStyleOption* option, QPainter* painter,
+                     const QWidget* widget) const override;
+  void drawControl(ControlElement element, const QStyleOption* option, QPainter* painter,
+                   const QWidget* widget) const override;
+  void drawComplexControl(ComplexControl control, const QStyleOptionComplex* option, QPainter* painter,
+                          const QWidget* widget) const override;
+  QSize sizeFromContents(ContentsType type, const QStyleOption* option, const QSize& size,
+                         const QWidget* widget) const override;
+};
+
+}  // namespace ps
