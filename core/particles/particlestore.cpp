@@ -192,6 +192,39 @@ void ParticleStore::remove(std::span<const uint32_t> ascending) {
   writeDummy();
 }
 
+CopiedParticles ParticleStore::copy(std::span<const uint32_t> indices) const {
+  CopiedParticles copies;
+  for (const uint32_t i : indices) copies.id.push_back(m_id[i]);
+  for (const auto& f : m_fields) {
+    std::vector<std::byte>& bytes = copies.fields[f->info.name];
+    bytes.resize(indices.size() * f->elementSize);
+    for (size_t k = 0; k < indices.size(); ++k) {
+      std::memcpy(bytes.data() + k * f->elementSize, f->data.get() + indices[k] * f->elementSize, f->elementSize);
+    }
+  }
+  return copies;
+}
+
+size_t ParticleStore::putBack(const CopiedParticles& copies) {
+  for (const uint32_t id : copies.id) {
+    if (id >= m_nextId || indexOf(id) < m_size) throw Error("a particle cannot be put back: its number is in use");
+  }
+  const uint32_t nextId = m_nextId;
+  const size_t first = add(copies.id.size());
+  m_nextId = nextId;
+  m_indexOfId.resize(nextId);
+  for (const auto& f : m_fields) {
+    const auto found = copies.fields.find(f->info.name);
+    if (found == copies.fields.end() || found->second.size() != copies.id.size() * f->elementSize) continue;
+    std::memcpy(f->data.get() + first * f->elementSize, found->second.data(), found->second.size());
+  }
+  for (size_t k = 0; k < copies.id.size(); ++k) {
+    m_id[first + k] = copies.id[k];
+    m_indexOfId[copies.id[k]] = static_cast<uint32_t>(first + k);
+  }
+  return first;
+}
+
 void ParticleStore::permute(std::span<const uint32_t> order) {
   if (order.size() != m_size) throw Error("a permutation of particles must name each of them once");
   if (m_scratchBytes < m_size * sizeof(api::Float4)) {

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <span>
 #include <string>
@@ -33,6 +34,12 @@ inline constexpr const char* kCompression = "compression_offset"; ///< Float32: 
 inline constexpr const char* kLambda = "lambda";                  ///< Float32: density multiplier
 inline constexpr const char* kDensityError = "density_error";     ///< Float32: C of the last iteration
 }  // namespace field
+
+/// Particles outside a store: what undo keeps of what was erased.
+struct CopiedParticles {
+  std::vector<uint32_t> id;
+  std::map<std::string, std::vector<std::byte>> fields;  ///< by name, one element per particle
+};
 
 /// Particles as structure of arrays: a registry of named, typed fields. Every array is 64-byte aligned and has at least
 /// 16 entries more than size(): entry size() is a dummy far away with zero volume, for padded neighbour lists.
@@ -78,6 +85,11 @@ class ParticleStore final : public api::FieldAccess {
   size_t add(size_t count);
   /// Removes the particles at these ascending indices, keeping the order of the others.
   void remove(std::span<const uint32_t> ascending);
+  /// Copies of particles with every field, in the order given.
+  CopiedParticles copy(std::span<const uint32_t> indices) const;
+  /// Appends copies under their old ids, which must not be alive; returns the index of the first. Fields declared since
+  /// are zero, fields gone since are dropped. Throws ps::Error for an id that is alive or was never given.
+  size_t putBack(const CopiedParticles& copies);
   /// Reorders all fields: new[k] = old[order[k]].
   void permute(std::span<const uint32_t> order);
   /// Index of a particle by its id, or size() when it is gone.
