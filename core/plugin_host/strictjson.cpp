@@ -53,8 +53,10 @@ class Watch {
   [[noreturn]] void fail(const std::string& what) const {
     constexpr size_t kShown = 8;  // a pointer into 200,000 brackets helps nobody
     std::string pointer;
-    for (size_t i = 0; i < m_levels.size() && i < kShown; ++i)
-      pointer += "/" + (m_levels[i].array ? std::to_string(m_levels[i].index) : jsonPointerPart(m_levels[i].key));
+    for (size_t i = 0; i < m_levels.size() && i < kShown; ++i) {
+      pointer += '/';
+      pointer += m_levels[i].array ? std::to_string(m_levels[i].index) : jsonPointerPart(m_levels[i].key);
+    }
     if (m_levels.size() > kShown) pointer += "/...";
     throw InputError(m_name + ":" + (pointer.empty() ? "/" : pointer) + ": " + what);
   }

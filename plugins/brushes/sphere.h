@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <phasesketch/qtentry.h>
+
+/// Stamps a ball of cells at every sample of the stroke.
+class SphereBrush final : public QObject, public ps::api::BrushPlugin {
+  Q_OBJECT
+  Q_PLUGIN_METADATA(IID PHASESKETCH_BRUSH_IID FILE "sphere.json")
+  Q_INTERFACES(ps::api::BrushPlugin)
+
+ public:
+  const char* label() const noexcept override;
+  const char* help() const noexcept override;
+  ps::api::ParameterList parameters() const noexcept override;
+  void stroke(const ps::api::StrokeContext& context, ps::api::EditKind kind,
+              ps::api::Span<const ps::api::StrokeSample> samples, ps::api::EditSink& sink) const override;
+  ps::api::Double3 extent(const ps::api::StrokeContext& context) const noexcept override;
+};
