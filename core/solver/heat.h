@@ -4,20 +4,35 @@
 
 #include "core/matter/material.h"
 #include "core/particles/neighbours.h"
+#include "core/solver/heatbody.h"
+#include "core/solver/heatpairs.h"
 #include "core/solver/settings.h"
+
+#include <span>
+#include <vector>
 
 namespace ps {
 
 /// The thermal half of a frame: pairwise conduction (Cleary & Monaghan 1999 between materials, Kirchhoff within one),
 /// walls, air, film condensation, nucleation. Heat is exchanged in equal and opposite joules, so that a closed system
 /// keeps its energy to rounding. Kinds of heat a model cannot do: see the thermal plugin's help.
+///
+/// Explicit substeps of thermal_cfl times the Gershgorin limit, measured each frame from the pairs at hand; above
+/// kMaxExplicit of them, pairwise exponential sweeps (heatrelax.h), which stay stable at any step and lose accuracy
+/// slowly. What even these cannot follow is not done: the thermal clock then runs slower, see
+/// thermalTimeScaleDelivered(). Not modelled: radiation, convection of air, evaporation below the boiling point.
 class HeatStage {
  public:
+  static constexpr int kMaxExplicit = 40;     ///< explicit substeps per frame
+  static constexpr int kMaxSweeps = 12;       ///< exponential sweeps per frame
+  static constexpr double kSweepLength = 20;  ///< longest sweep in units of the Gershgorin limit
+
   /// References stay valid until the next configure(). `model` may be nullptr: no heat flows.
   void configure(const ThermalSettings& settings, const SolverSettings& solver, std::vector<Wall> walls,
                  std::span<const BakedMaterial> materials, const api::ThermalPlugin* model,
                  std::vector<double> modelParameters);
-  /// Sets state, temperature and fractions of particles [first, last).
+  /// Sets state, temperature and fractions of particles [first, last); the two spans hold one value per particle of that
+  /// range. Declares the model's fields in the store when they are new.
   void initialise(ParticleStore& store, size_t first, size_t last, std::span<const double> temperature,
                   std::span<const api::Phase> phase);
   /// One frame of `dt` s of mechanical time. Lists must be fresh. Updates temperature and fractions, not volumes.
@@ -30,15 +45,77 @@ class HeatStage {
   void book(double joules) { m_ledger.sources += joules; m_ledger.exchanged += joules < 0 ? -joules : joules; }
   int lastSubsteps() const { return m_lastSubsteps; }
 
+  /// Thermal seconds per mechanical second that the last frame really did; below ThermalSettings::timeScale where the
+  /// heat would have been too fast for kMaxSweeps sweeps.
+  double thermalTimeScaleDelivered() const { return m_delivered; }
+  /// Largest stable explicit step of the last frame in s of thermal time: min over particles of m c / sum of G.
+  double gershgorinLimit() const { return m_limit; }
+  /// True when the last frame used exponential sweeps instead of explicit substeps.
+  bool usedSweeps() const { return m_swept; }
+
  private:
+  struct Partial {
+    double walls = 0, air = 0, sources = 0, exchanged = 0, fastest = 0;  ///< J; fastest: largest rate in 1/s
+    int boiling = 0;
+  };
+  /// Potential in W/m and temperature in K of a frozen instant.
+  struct Snapshot {
+    std::vector<double> potential, temperature;
+  };
+
+  api::ThermalContext context() const;
+  void adopt(ParticleStore& store);
+  void deriveRange(ParticleStore& store, size_t first, size_t last);
+  void snapshotRange(const ParticleStore& store, Snapshot& snapshot, size_t first, size_t last) const;
+  void prepare(ParticleStore& store, const Neighbours& neighbours);
+  void measureSurroundings(const ParticleStore& store, size_t first, size_t last, Partial& partial);
+  void collectFrameHeat(const ParticleStore& store, const api::ParticleView& view, double frame);
+  void filmHeat(const ParticleStore& store, size_t i, double frame, Partial& partial);
+  void countBoiling(const ParticleStore& store, size_t first, size_t last);
+  void nucleate(const ParticleStore& store, size_t first, size_t last);
+  bool boils(const ParticleStore& store, size_t i) const;
+  double latentContent(const ParticleStore& store, size_t i) const;
+  void explicitStep(ParticleStore& store, const api::ParticleView& view, const api::NeighbourView& lists, double step,
+                    bool firstStep);
+  void gather(const ParticleStore& store, double step, size_t first, size_t last, Partial& partial);
+  void askPairLaw(const api::ParticleView& view, const api::NeighbourView& lists);
+  void gatherPairLaw(const api::NeighbourView& lists, double step, size_t first, size_t last);
+  void addFrameHeat(double step, bool firstStep, size_t first, size_t last, Partial& partial);
+  void sweep(ParticleStore& store, const api::ParticleView& view, double step, bool firstStep);
+  HeatBody heatBody(const ParticleStore& store, size_t i) const;
+  void relaxPair(size_t i, uint32_t k, bool sameMaterial, double time);
+  void relaxToward(size_t i, double conductance, double target, double time, double& book);
+  void relaxSurroundings(const ParticleStore& store, size_t i, double time);
+  void closeBooks();
+
   ThermalSettings m_settings;
   SolverSettings m_solver;
-  std::vector<Wall> m_walls;
+  std::vector<Wall> m_walls;  ///< those that give or take heat
   std::span<const BakedMaterial> m_materials;
+  std::vector<const api::MaterialView*> m_materialViews;
   const api::ThermalPlugin* m_model = nullptr;
+  bool m_modelChanged = false;
   std::vector<double> m_parameters;
   HeatLedger m_ledger;
   int m_lastSubsteps = 0;
+  double m_delivered = 1, m_limit = 0;
+  bool m_swept = false, m_pairLaw = false, m_boiling = false;
+
+  HeatPairs m_pairs;
+  Snapshot m_now, m_next;
+  std::vector<Partial> m_partials;
+  std::vector<double> m_joules;        ///< of the present substep
+  std::vector<double> m_frameJoules;   ///< film and nucleation, once a frame
+  std::vector<double> m_watts;         ///< the model's own sources, W of thermal time
+  std::vector<double> m_pairWatts;     ///< the model's own pair law, per list entry
+  std::vector<double> m_newTemperature;
+  std::vector<api::Phase> m_newPhase;
+  std::vector<double> m_wallPotential;     ///< W/m, wall times materials + material
+  std::vector<float> m_wallConductance;    ///< m, particle times walls + wall
+  std::vector<uint8_t> m_touchesWall;
+  std::vector<float> m_airConductance;     ///< W/K
+  std::vector<uint32_t> m_boilingPartners;
+  std::vector<HeatBody> m_bodies;          ///< of a sweep
 };
 
 }  // namespace ps

@@ -1,0 +1,356 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/solver/heat.h"
+
+#include "core/base/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace ps {
+namespace {
+
+constexpr size_t kGrain = 256;
+constexpr double kPi = 3.14159265358979323846;
+
+size_t chunksOf(size_t count) { return (count + kGrain - 1) / kGrain; }
+
+/// Largest k/c in kg/(m s) of the phases that a particle consists of: how fast it answers to a conductance.
+double fastestPhase(const BakedMaterial& material, double t, double solid, double liquid, double gas) {
+  const api::Caloric& c = material.caloric();
+  double fastest = 0;
+  if (solid > 0) fastest = material.conductivity(t, 1, 0, 0) / c.heatCapacitySolid;
+  if (liquid > 0) fastest = std::max(fastest, material.conductivity(t, 0, 1, 0) / c.heatCapacityLiquid);
+  if (gas > 0) fastest = std::max(fastest, material.conductivity(t, 0, 0, 1) / c.heatCapacityGas);
+  return fastest;
+}
+
+/// Smallest heat capacity of the phases present, J/(kg K).
+double smallestCapacity(const api::Caloric& c, double solid, double liquid, double gas) {
+  double smallest = 1e30;
+  if (solid > 0) smallest = c.heatCapacitySolid;
+  if (liquid > 0) smallest = std::min(smallest, c.heatCapacityLiquid);
+  if (gas > 0) smallest = std::min(smallest, c.heatCapacityGas);
+  return smallest;
+}
+
+/// W of a kernel in 1/m3.
+double kernelValue(KernelShape shape, double support, double r) {
+  const double q = r / support, cube = support * support * support;
+  if (q >= 1) return 0;
+  const double a = 1 - q, b = std::max(0.5 - q, 0.0);
+  if (shape == KernelShape::CubicSpline) return 8 / (kPi * cube) * (2 * a * a * a - 8 * b * b * b);
+  return 10.5 / (kPi * cube) * a * a * a * a * (1 + 4 * q);
+}
+
+/// Volume^(2/3), m2, for a volume near spacing^3. Newton's cube root, because the C library's may differ in its last bit
+/// between machines.
+double faceOf(double volume, double spacing) {
+  const double scaled = volume / (spacing * spacing * spacing);
+  double x = 1;
+  for (int k = 0; k < 6; ++k) x = (2 * x + scaled / (x * x)) / 3;
+  return x * x * spacing * spacing;
+}
+
+}  // namespace
+
+void HeatStage::configure(const ThermalSettings& settings, const SolverSettings& solver, std::vector<Wall> walls,
+                          std::span<const BakedMaterial> materials, const api::ThermalPlugin* model,
+                          std::vector<double> modelParameters) {
+  m_settings = settings;
+  m_solver = solver;
+  m_walls.clear();
+  for (Wall& wall : walls) {
+    if (wall.heat == WallHeat::FixedTemperature) m_walls.push_back(std::move(wall));
+  }
+  m_materials = materials;
+  m_materialViews.clear();
+  for (const BakedMaterial& material : materials) m_materialViews.push_back(&material);
+  m_modelChanged = m_modelChanged || model != m_model;
+  m_model = model;
+  m_parameters = std::move(modelParameters);
+  m_wallPotential.clear();
+  for (const Wall& wall : m_walls) {
+    for (const BakedMaterial& material : materials) m_wallPotential.push_back(material.kirchhoff(wall.temperature));
+  }
+}
+
+api::ThermalContext HeatStage::context() const {
+  api::ThermalContext context{};
+  context.pressure = m_settings.ambientPressure;
+  context.ambientTemperature = m_settings.ambientTemperature;
+  context.parameters = {m_parameters.data(), m_parameters.size()};
+  context.materials = {m_materialViews.data(), m_materialViews.size()};
+  return context;
+}
+
+void HeatStage::initialise(ParticleStore& store, size_t first, size_t last, std::span<const double> temperature,
+                           std::span<const api::Phase> phase) {
+  if (!m_model || last <= first) return;
+  if (m_modelChanged && first > 0) adopt(store);
+  m_modelChanged = false;
+  const auto fields = m_model->fields();
+  for (size_t k = 0; k < fields.count; ++k) store.declare(fields[k].name, fields[k].type, fields[k].unit, fields[k].help);
+  m_newTemperature.resize(store.size());
+  m_newPhase.resize(store.size());
+  std::copy(temperature.begin(), temperature.end(), m_newTemperature.begin() + static_cast<std::ptrdiff_t>(first));
+  std::copy(phase.begin(), phase.end(), m_newPhase.begin() + static_cast<std::ptrdiff_t>(first));
+  m_model->initialise(context(), store.view(), first, last, m_newTemperature.data(), m_newPhase.data());
+  deriveRange(store, first, last);
+}
+
+/// Another model than the one that wrote the state: starts it from temperature and phase.
+void HeatStage::adopt(ParticleStore& store) {
+  m_modelChanged = false;
+  const size_t n = store.size();
+  if (n == 0) return;
+  const auto fields = m_model->fields();
+  for (size_t k = 0; k < fields.count; ++k) store.declare(fields[k].name, fields[k].type, fields[k].unit, fields[k].help);
+  m_newTemperature.assign(store.temperature(), store.temperature() + n);
+  m_model->initialise(context(), store.view(), 0, n, m_newTemperature.data(), store.phase());
+  deriveRange(store, 0, n);
+}
+
+void HeatStage::deriveRange(ParticleStore& store, size_t first, size_t last) {
+  const api::ThermalOutput output{store.temperature(), store.solidFraction(), store.liquidFraction(),
+                                  store.gasFraction()};
+  m_model->derive(context(), store.view(), first, last, output);
+}
+
+void HeatStage::derive(ParticleStore& store) {
+  if (!m_model) return;
+  if (m_modelChanged) return adopt(store);
+  const auto body = [&](size_t first, size_t last) { deriveRange(store, first, last); };
+  parallelFor(store.size(), kGrain, std::cref(body));
+}
+
+double HeatStage::energy(const ParticleStore& store) const {
+  if (!m_model || m_modelChanged || store.size() == 0) return 0;
+  std::vector<double> joules(store.size());
+  const api::ThermalContext where = context();
+  const api::ParticleView view = store.view();
+  return parallelSum(store.size(), kGrain, [&](size_t first, size_t last) {
+    m_model->energy(where, view, first, last, joules.data());
+    double sum = 0;
+    for (size_t i = first; i < last; ++i) sum += joules[i];
+    return sum;
+  });
+}
+
+void HeatStage::snapshotRange(const ParticleStore& store, Snapshot& snapshot, size_t first, size_t last) const {
+  const uint32_t* material = store.material();
+  const double* temperature = store.temperature();
+  for (size_t i = first; i < last; ++i) {
+    snapshot.temperature[i] = temperature[i];
+    snapshot.potential[i] = m_materials[material[i]].kirchhoff(temperature[i]);
+  }
+}
+
+/// Everything that stays the same during a frame: pairs, wall and air conductances, the stable step.
+void HeatStage::prepare(ParticleStore& store, const Neighbours& neighbours) {
+  const size_t n = store.size();
+  m_partials.resize(chunksOf(n));
+  for (auto* list : {&m_joules, &m_frameJoules, &m_watts}) list->resize(n);
+  for (auto* list : {&m_now, &m_next}) {
+    list->potential.resize(n);
+    list->temperature.resize(n);
+  }
+  m_wallConductance.resize(n * m_walls.size());
+  m_touchesWall.resize(n);
+  m_airConductance.resize(n);
+  m_boilingPartners.resize(n);
+  m_pairs.build(store, neighbours.view(), m_materials,
+                {m_solver.spacing * m_solver.supportRatio, m_solver.spacing, m_solver.kernel,
+                 m_settings.momentCorrection});
+  const auto body = [&](size_t first, size_t last) {
+    Partial& partial = m_partials[first / kGrain];
+    partial = {};
+    snapshotRange(store, m_now, first, last);
+    measureSurroundings(store, first, last, partial);
+  };
+  parallelFor(n, kGrain, std::cref(body));
+  double fastest = 0;
+  m_boiling = false;
+  for (const Partial& partial : m_partials) {
+    fastest = std::max(fastest, partial.fastest);
+    m_boiling = m_boiling || partial.boiling > 0;
+  }
+  m_limit = fastest > 0 ? 1 / fastest : 1e30;
+}
+
+/// Walls as a layer of boundary matter of volume dx^3 half a spacing behind the plane, smeared out along it:
+/// G = 4 V dx A(d + dx/2), A(h) = integral of -F over the plane at distance h = 2 pi W(h). The temperature holds on the
+/// plane itself. Air touches vapour where no liquid surrounds it.
+void HeatStage::measureSurroundings(const ParticleStore& store, size_t first, size_t last, Partial& partial) {
+  const double dx = m_solver.spacing, support = dx * m_solver.supportRatio;
+  for (size_t i = first; i < last; ++i) {
+    const api::Float4 x = store.position()[i];
+    const double volume = m_pairs.volume[i], mass = store.mass()[i];
+    double perConductivity = 0, fixed = 0;
+    uint8_t touches = 0;
+    for (size_t w = 0; w < m_walls.size(); ++w) {
+      const Wall& wall = m_walls[w];
+      const double depth =
+          wall.normal.x * double{x.x} + wall.normal.y * double{x.y} + wall.normal.z * double{x.z} - wall.offset;
+      const double height = std::max(depth, 0.0) + 0.5 * dx;
+      const double g = height < support
+                           ? 4 * volume * dx * 2 * kPi * kernelValue(m_solver.kernel, support, height)
+                           : 0;
+      m_wallConductance[i * m_walls.size() + w] = static_cast<float>(g);
+      perConductivity += g;
+      touches |= g > 0;
+    }
+    m_touchesWall[i] = touches;
+    const double s = store.solidFraction()[i], l = store.liquidFraction()[i], g = store.gasFraction()[i];
+    double air = 0;
+    if (g > 0) {
+      ++partial.boiling;
+      const double open = std::max(0.0, 1 - 2 * double{m_pairs.immersion[i]});
+      air = open * g * m_settings.airConvection * faceOf(store.position()[i].w, dx);
+    }
+    m_airConductance[i] = static_cast<float>(air);
+    fixed += air;
+    for (uint32_t k = m_pairs.begin[i]; k < m_pairs.same[i]; ++k) perConductivity += double{m_pairs.conductance[k]};
+    for (uint32_t k = m_pairs.other[i]; k < m_pairs.end[i]; ++k) fixed += double{m_pairs.conductance[k]};
+    if (!(mass > 0)) continue;
+    const BakedMaterial& material = m_materials[store.material()[i]];
+    const double rate = (perConductivity * fastestPhase(material, store.temperature()[i], s, l, g) +
+                         fixed / smallestCapacity(material.caloric(), s, l, g)) /
+                        mass;
+    partial.fastest = std::max(partial.fastest, rate);
+  }
+}
+
+void HeatStage::advance(ParticleStore& store, const Neighbours& neighbours, double dt) {
+  m_lastSubsteps = 0;
+  m_swept = false;
+  m_delivered = m_settings.timeScale;
+  if (!m_model || store.size() == 0) return;
+  if (m_modelChanged) adopt(store);
+  double time = dt * m_settings.timeScale;
+  if (!(time > 0)) return;
+  prepare(store, neighbours);
+  const api::ParticleView view = store.view();
+  const api::NeighbourView lists = neighbours.view();
+  askPairLaw(view, lists);
+  const double longest = std::clamp(m_settings.cfl, 0.01, 1.0) * m_limit;
+  int steps = time < kMaxExplicit * longest ? std::max(1, static_cast<int>(std::ceil(time / longest))) : kMaxExplicit + 1;
+  if (steps > kMaxExplicit && !m_pairLaw) {
+    m_swept = true;
+    time = std::min(time, kMaxSweeps * kSweepLength * m_limit);
+    steps = std::max(1, static_cast<int>(std::ceil(time / (kSweepLength * m_limit))));
+  } else if (steps > kMaxExplicit) {
+    steps = kMaxExplicit;
+    time = kMaxExplicit * longest;
+  }
+  if (time < dt * m_settings.timeScale) m_delivered = time / dt;
+  collectFrameHeat(store, view, time);
+  for (int k = 0; k < steps; ++k) {
+    if (m_swept) {
+      sweep(store, view, time / steps, k == 0);
+    } else {
+      explicitStep(store, view, lists, time / steps, k == 0);
+    }
+  }
+  m_lastSubsteps = steps;
+  closeBooks();
+}
+
+void HeatStage::explicitStep(ParticleStore& store, const api::ParticleView& view, const api::NeighbourView& lists,
+                             double step, bool firstStep) {
+  const api::ThermalContext where = context();
+  if (m_pairLaw && !firstStep) askPairLaw(view, lists);
+  const auto body = [&](size_t first, size_t last) {
+    Partial& partial = m_partials[first / kGrain];
+    gather(store, step, first, last, partial);
+    if (m_pairLaw) gatherPairLaw(lists, step, first, last);
+    addFrameHeat(step, firstStep, first, last, partial);
+    m_model->addHeat(where, view, first, last, m_joules.data(), step);
+    deriveRange(store, first, last);
+    snapshotRange(store, m_next, first, last);
+  };
+  parallelFor(store.size(), kGrain, std::cref(body));
+  std::swap(m_now, m_next);
+}
+
+/// Heat from neighbours, walls and air during `step` s of thermal time, from the snapshot alone.
+void HeatStage::gather(const ParticleStore& store, double step, size_t first, size_t last, Partial& partial) {
+  const double* potential = m_now.potential.data();
+  const double* temperature = m_now.temperature.data();
+  const uint32_t* partner = m_pairs.partner.data();
+  const float* conductance = m_pairs.conductance.data();
+  const size_t materials = m_materials.size(), walls = m_walls.size();
+  for (size_t i = first; i < last; ++i) {
+    double watts = 0;
+    if (!m_pairLaw) {
+      const double here = potential[i], t = temperature[i];
+      double sum[4] = {0, 0, 0, 0};  // four chains keep the adder busy; their order is fixed
+      uint32_t k = m_pairs.begin[i];
+      const uint32_t same = m_pairs.same[i];
+      for (; k + 4 <= same; k += 4) {
+        for (uint32_t c = 0; c < 4; ++c) sum[c] += double{conductance[k + c]} * (potential[partner[k + c]] - here);
+      }
+      for (; k < same; ++k) sum[0] += double{conductance[k]} * (potential[partner[k]] - here);
+      for (k = m_pairs.other[i]; k < m_pairs.end[i]; ++k) {
+        sum[1] += double{conductance[k]} * (temperature[partner[k]] - t);
+      }
+      watts = (sum[0] + sum[1]) + (sum[2] + sum[3]);
+    }
+    double fromWalls = 0;
+    if (m_touchesWall[i]) {
+      for (size_t w = 0; w < walls; ++w) {
+        const double joules = step * double{m_wallConductance[i * walls + w]} *
+                              (m_wallPotential[w * materials + store.material()[i]] - potential[i]);
+        fromWalls += joules;
+        partial.exchanged += std::abs(joules);
+      }
+    }
+    const double fromAir = step * double{m_airConductance[i]} * (m_settings.ambientTemperature - temperature[i]);
+    partial.walls += fromWalls;
+    partial.air += fromAir;
+    partial.exchanged += std::abs(fromAir);
+    m_joules[i] = step * watts + (fromWalls + fromAir);
+  }
+}
+
+void HeatStage::askPairLaw(const api::ParticleView& view, const api::NeighbourView& lists) {
+  const size_t n = view.count, slots = lists.end[n - 1];
+  if (m_pairWatts.size() < slots) m_pairWatts.resize(slots + slots / 4);
+  const api::ThermalContext where = context();
+  const size_t probe = std::min(n, kGrain);
+  m_pairLaw = m_model->pairFlux(where, view, lists, 0, probe, m_pairWatts.data());
+  if (!m_pairLaw || probe == n) return;
+  const auto body = [&](size_t first, size_t last) {
+    m_model->pairFlux(where, view, lists, probe + first, probe + last, m_pairWatts.data());
+  };
+  parallelFor(n - probe, kGrain, std::cref(body));
+}
+
+void HeatStage::gatherPairLaw(const api::NeighbourView& lists, double step, size_t first, size_t last) {
+  for (size_t i = first; i < last; ++i) {
+    double watts = 0;
+    for (uint32_t k = lists.begin[i]; k < lists.last[i]; ++k) watts += m_pairWatts[k];
+    m_joules[i] += step * watts;
+  }
+}
+
+/// What comes once a frame (film, nucleation) and the model's own sources.
+void HeatStage::addFrameHeat(double step, bool firstStep, size_t first, size_t last, Partial& partial) {
+  for (size_t i = first; i < last; ++i) {
+    const double source = m_watts[i] * step;
+    partial.sources += source;
+    partial.exchanged += std::abs(source);
+    m_joules[i] += source + (firstStep ? m_frameJoules[i] : 0);
+  }
+}
+
+void HeatStage::closeBooks() {
+  for (const Partial& partial : m_partials) {
+    m_ledger.walls += partial.walls;
+    m_ledger.air += partial.air;
+    m_ledger.sources += partial.sources;
+    m_ledger.exchanged += partial.exchanged;
+  }
+}
+
+}  // namespace ps

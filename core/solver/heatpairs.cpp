@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/solver/heatpairs.h"
+
+#include "core/base/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace ps {
+namespace {
+
+constexpr size_t kGrain = 256;
+constexpr double kPi = 3.14159265358979323846;
+/// Sum of V W below which a particle's surroundings count as cut off by a surface.
+constexpr double kFullSupport = 0.95;
+
+}  // namespace
+
+void HeatPairs::prepare(size_t count, size_t slots) {
+  for (auto* list : {&begin, &same, &other, &end}) list->resize(count);
+  for (auto* values : {&conductivity, &volume, &immersion, &m_inverseMoment}) values->resize(count + 1);
+  if (partner.size() >= slots) return;
+  const size_t room = slots + slots / 4;  // lists breathe; do not allocate each time they grow by one
+  partner.resize(room);
+  conductance.resize(room);
+  m_square.resize(room);
+  m_kernel.resize(room);
+}
+
+void HeatPairs::build(const ParticleStore& store, const api::NeighbourView& lists,
+                      std::span<const BakedMaterial> materials, const Options& options) {
+  m_options = options;
+  const size_t n = store.size();
+  if (n == 0) return;
+  prepare(n, lists.end[n - 1]);
+  const auto matter = [&](size_t first, size_t last) {
+    for (size_t i = first; i < last; ++i) {
+      const BakedMaterial& material = materials[store.material()[i]];
+      const double t = store.temperature()[i], s = store.solidFraction()[i];
+      conductivity[i] = static_cast<float>(
+          material.conductivity(t, s, store.liquidFraction()[i], store.gasFraction()[i]));
+      volume[i] = static_cast<float>(static_cast<double>(store.mass()[i]) / material.condensedDensity(t, s));
+    }
+  };
+  parallelFor(n, kGrain, std::cref(matter));
+  const auto first = [&](size_t a, size_t b) { measure(store, lists, a, b); };
+  parallelFor(n, kGrain, std::cref(first));
+  const auto second = [this](size_t a, size_t b) { conduct(a, b); };
+  parallelFor(n, kGrain, std::cref(second));
+}
+
+/// Writes -F into `conductance` and W, from squared distances; plain arithmetic without branches, which compilers
+/// turn into vectors with the same bits on every instruction set.
+void HeatPairs::differentiate(uint32_t first, uint32_t last) {
+  const float radius = static_cast<float>(m_options.support), inverse = 1.0f / radius;
+  const double r3 = m_options.support * m_options.support * m_options.support;
+  const float* r2 = m_square.data();
+  float* g = conductance.data();
+  float* w = m_kernel.data();
+  if (m_options.kernel == KernelShape::CubicSpline) {
+    const float scale = static_cast<float>(8 / (kPi * r3)), slope = static_cast<float>(8 / (kPi * r3 * m_options.support));
+    for (uint32_t k = first; k < last; ++k) {
+      const float r = std::sqrt(r2[k]), q = r * inverse;
+      const float a = 1.0f - q, b = std::max(0.5f - q, 0.0f);
+      w[k] = scale * (2.0f * a * a * a - 8.0f * b * b * b);
+      g[k] = slope / r * (6.0f * a * a - 24.0f * b * b);
+    }
+  } else {
+    const float scale = static_cast<float>(21 / (2 * kPi * r3));
+    const float slope = static_cast<float>(21 / (2 * kPi * r3 * m_options.support));
+    for (uint32_t k = first; k < last; ++k) {
+      const float r = std::sqrt(r2[k]), q = r * inverse, a = 1.0f - q;
+      w[k] = scale * (a * a * a * a * (1.0f + 4.0f * q));
+      g[k] = slope / r * (20.0f * q * a * a * a);
+    }
+  }
+}
+
+double HeatPairs::kernelAtZero() const {
+  const double cube = m_options.support * m_options.support * m_options.support;
+  return (m_options.kernel == KernelShape::CubicSpline ? 8 : 10.5) / (kPi * cube);
+}
+
+float HeatPairs::liquidAround(const ParticleStore& store, size_t i) const {
+  double around = 0;
+  const auto add = [&](uint32_t from, uint32_t to) {
+    for (uint32_t k = from; k < to; ++k) {
+      const uint32_t j = partner[k];
+      if (store.motion()[j] != api::Motion::Gas) around += double{store.position()[j].w} * double{m_kernel[k]};
+    }
+  };
+  add(begin[i], same[i]);
+  add(other[i], end[i]);
+  return static_cast<float>(std::min(1.0, around / std::max(0.2, 1 - double{store.position()[i].w} * kernelAtZero())));
+}
+
+void HeatPairs::measure(const ParticleStore& store, const api::NeighbourView& lists, size_t first, size_t last) {
+  const float limit = static_cast<float>(m_options.support * m_options.support), tiny = 1e-12f * limit;
+  const api::Float4* x = store.position();
+  const uint32_t* material = store.material();
+  const double selfKernel = kernelAtZero();
+  for (size_t i = first; i < last; ++i) {
+    uint32_t front = lists.begin[i], back = lists.end[i];
+    begin[i] = front;
+    end[i] = back;
+    const api::Float4 xi = x[i];
+    for (uint32_t k = lists.begin[i]; k < lists.last[i]; ++k) {
+      const uint32_t j = lists.index[k];
+      const float dx = xi.x - x[j].x, dy = xi.y - x[j].y, dz = xi.z - x[j].z;
+      const float r2 = dx * dx + dy * dy + dz * dz;
+      if (!(r2 < limit)) continue;
+      const uint32_t slot = material[j] == material[i] ? front++ : --back;
+      partner[slot] = j;
+      m_square[slot] = std::max(r2, tiny);
+    }
+    same[i] = front;
+    other[i] = back;
+    differentiate(begin[i], front);
+    differentiate(back, end[i]);
+    double moment = 0, filled = double{volume[i]} * selfKernel;
+    const auto add = [&](uint32_t from, uint32_t to) {
+      for (uint32_t k = from; k < to; ++k) {
+        const double v = volume[partner[k]];
+        moment += v * double{conductance[k]} * double{m_square[k]};
+        filled += v * double{m_kernel[k]};
+      }
+    };
+    add(begin[i], front);
+    add(back, end[i]);
+    const double m = std::clamp(moment / 3, 0.8, 1.25);
+    m_inverseMoment[i] = m_options.momentCorrection && filled > kFullSupport ? static_cast<float>(1 / m) : 1.0f;
+    immersion[i] = store.gasFraction()[i] > 0 ? liquidAround(store, i) : 0.0f;
+  }
+}
+
+void HeatPairs::conduct(size_t first, size_t last) {
+  for (size_t i = first; i < last; ++i) {
+    const float vi = volume[i], mi = m_inverseMoment[i], ki = conductivity[i];
+    // 2 V_i V_j (-F) times the mean of 1/M: every operation commutes in i and j.
+    for (uint32_t k = begin[i]; k < same[i]; ++k) {
+      const uint32_t j = partner[k];
+      conductance[k] *= (vi * volume[j]) * (mi + m_inverseMoment[j]);
+    }
+    for (uint32_t k = other[i]; k < end[i]; ++k) {
+      const uint32_t j = partner[k];
+      const float sum = ki + conductivity[j];
+      const float harmonic = sum > 0 ? 2.0f * (ki * conductivity[j]) / sum : 0.0f;
+      conductance[k] *= (vi * volume[j]) * (mi + m_inverseMoment[j]) * harmonic;
+    }
+  }
+}
+
+}  // namespace ps

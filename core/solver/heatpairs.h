@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// Why a list of its own: geometry does not change while heat is subcycled, so distances, kernels and conductances are
+// worked out once a frame and each heat substep is one multiply-add per neighbour. Both partners of a pair compute the
+// same float from commutative operations alone, so what one gains the other loses to the last bit, and the loop needs no
+// scatter: every particle sums its own list.
+#include "core/math/kernels.h"
+#include "core/matter/material.h"
+#include "core/particles/particlestore.h"
+
+#include <span>
+#include <vector>
+
+namespace ps {
+
+/// Thermal conductances between neighbours (Cleary & Monaghan 1999): for particles of one material per unit of
+/// conductivity, G = -2 F V_i V_j in m, to be multiplied by a difference of Kirchhoff potentials in W/m; for particles of
+/// different materials with the harmonic mean of their conductivities, in W/K. V is the rest volume of the condensed
+/// matter, which conducts better than 1/sum W under disorder and does not swell with vapour.
+class HeatPairs {
+ public:
+  struct Options {
+    double support = 0.04, spacing = 0.02;  ///< m
+    KernelShape kernel = KernelShape::CubicSpline;
+    bool momentCorrection = true;
+  };
+  /// Lists may be older than the positions by less than their skin. Temperature and fractions must be current.
+  void build(const ParticleStore& store, const api::NeighbourView& lists, std::span<const BakedMaterial> materials,
+             const Options& options);
+
+  // Partners of particle i: [begin[i], same[i]) of its own material, [other[i], end[i]) of others.
+  std::vector<uint32_t> begin, same, other, end;
+  std::vector<uint32_t> partner;
+  std::vector<float> conductance;
+  std::vector<float> conductivity;  ///< W/(m K), mixture of the phases present
+  std::vector<float> volume;        ///< m3, condensed
+  std::vector<float> immersion;     ///< share of the surroundings that is liquid, 0..1; only of particles with vapour
+
+ private:
+  void prepare(size_t count, size_t slots);
+  void measure(const ParticleStore& store, const api::NeighbourView& lists, size_t first, size_t last);
+  void conduct(size_t first, size_t last);
+  void differentiate(uint32_t first, uint32_t last);
+  double kernelAtZero() const;
+  float liquidAround(const ParticleStore& store, size_t i) const;
+
+  Options m_options;
+  std::vector<float> m_square;         ///< squared distance, per slot
+  std::vector<float> m_kernel;         ///< W, per slot
+  std::vector<float> m_inverseMoment;  ///< 1/M of the moment correction
+};
+
+}  // namespace ps

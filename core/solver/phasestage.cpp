@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/solver/phasestage.h"
+
+#include "core/base/parallel.h"
+
+#include <algorithm>
+#include <functional>
+
+namespace ps {
+namespace {
+
+using api::Motion;
+using api::Phase;
+
+constexpr size_t kGrain = 512;
+constexpr double kVolumeStep = 0.05;      ///< largest change of a rest volume in one frame
+constexpr double kMeltScatter = 0.3;      ///< half width of the melt threshold around melt_break_fraction
+constexpr double kVapourThreshold = 0.5;  ///< gas fraction at which a particle begins to move as vapour
+constexpr double kDropThreshold = 0.4;    ///< and below which it falls again as a drop
+
+/// A number in [-1, 1) from a particle's id: the same for life, whatever its index (finaliser of MurmurHash3).
+double scatter(uint32_t id) {
+  uint32_t h = id * 0x9e3779b1u + 0x85ebca6bu;
+  h = (h ^ (h >> 16)) * 0x85ebca6bu;
+  h = (h ^ (h >> 13)) * 0xc2b2ae35u;
+  h ^= h >> 16;
+  return static_cast<double>(h) / 2147483648.0 - 1;
+}
+
+Phase phaseOf(double solid, double liquid, double gas) {
+  if (gas >= 1) return Phase::Gas;
+  if (gas > 0) return Phase::Boiling;
+  if (solid >= 1) return Phase::Solid;
+  return solid > 0 && liquid > 0 ? Phase::Melting : Phase::Liquid;
+}
+
+}  // namespace
+
+void PhaseStage::configure(const SolverSettings& solver, std::span<const BakedMaterial> materials) {
+  m_solver = solver;
+  m_materials = materials;
+  m_rules.clear();
+  for (const BakedMaterial& material : materials) {
+    m_rules.push_back({material.scalar(propertyIndex("melt_break_fraction")),
+                       material.scalar(propertyIndex("freeze_bond_fraction"))});
+  }
+}
+
+double PhaseStage::meltThreshold(uint32_t material, uint32_t id) const {
+  const Rule& rule = m_rules[material];
+  // Above 1 - freeze, so that no particle breaks and bonds in turn.
+  const double lowest = std::max(0.02, 1 - rule.freeze + 0.02);
+  return std::clamp(rule.meltBreak + kMeltScatter * scatter(id), lowest, 0.98);
+}
+
+double PhaseStage::targetVolume(const ParticleStore& store, size_t i) const {
+  return double{store.mass()[i]} / m_materials[store.material()[i]].restDensity(
+                                       store.temperature()[i], store.solidFraction()[i], store.liquidFraction()[i],
+                                       store.gasFraction()[i]);
+}
+
+void PhaseStage::initialise(ParticleStore& store, size_t first, size_t last) {
+  for (size_t i = first; i < last; ++i) {
+    const double s = store.solidFraction()[i], l = store.liquidFraction()[i], g = store.gasFraction()[i];
+    store.position()[i].w = static_cast<float>(targetVolume(store, i));
+    store.phase()[i] = phaseOf(s, l, g);
+    Motion& motion = store.motion()[i];
+    if (motion != Motion::Static) {
+      motion = g >= kVapourThreshold ? Motion::Gas : s >= 0.5 ? Motion::Solid : Motion::Liquid;
+    }
+    const float mass = store.mass()[i];
+    store.velocity()[i].w = motion == Motion::Static || !(mass > 0) ? 0.0f : 1.0f / mass;
+  }
+}
+
+Motion PhaseStage::nextMotion(const ParticleStore& store, size_t i) const {
+  const uint32_t material = store.material()[i];
+  const double solid = store.solidFraction()[i], gas = store.gasFraction()[i];
+  const Motion motion = store.motion()[i];
+  const bool vapour = gas >= (motion == Motion::Gas ? kDropThreshold : kVapourThreshold);
+  const bool sublimes = m_materials[material].caloric().sublimes != 0;
+  if (motion == Motion::Solid) {
+    if (1 - solid < meltThreshold(material, store.id()[i])) return Motion::Solid;
+    return vapour || sublimes ? Motion::Gas : Motion::Liquid;
+  }
+  if (solid >= m_rules[material].freeze) return Motion::Solid;
+  return vapour || (sublimes && motion == Motion::Gas) ? Motion::Gas : Motion::Liquid;
+}
+
+void PhaseStage::update(ParticleStore& store, std::vector<uint32_t>& melted) {
+  melted.clear();
+  m_melted.resize(store.size());
+  const auto body = [&](size_t first, size_t last) {
+    for (size_t i = first; i < last; ++i) {
+      m_melted[i] = 0;
+      store.phase()[i] = phaseOf(store.solidFraction()[i], store.liquidFraction()[i], store.gasFraction()[i]);
+      Motion& motion = store.motion()[i];
+      if (motion == Motion::Static) continue;
+      const double volume = store.position()[i].w, target = targetVolume(store, i);
+      const double step = kVolumeStep * volume;
+      store.position()[i].w = static_cast<float>(volume + std::clamp(target - volume, -step, step));
+      const Motion next = nextMotion(store, i);
+      m_melted[i] = motion == Motion::Solid && next != Motion::Solid;
+      motion = next;
+    }
+  };
+  parallelFor(store.size(), kGrain, std::cref(body));
+  for (size_t i = 0; i < m_melted.size(); ++i) {
+    if (m_melted[i]) melted.push_back(static_cast<uint32_t>(i));
+  }
+}
+
+}  // namespace ps
