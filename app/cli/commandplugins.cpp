@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/cli/arguments.h"
+#include "app/cli/commands.h"
+#include "core/base/error.h"
+#include "core/io/jsontext.h"
+#include "core/matter/material.h"
+#include "core/plugin_host/registry.h"
+#include "core/scene/parameterset.h"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace ps::cli {
+namespace {
+
+using nlohmann::json;
+
+constexpr OptionSpec kOptions[] = {
+    {"--json", "", "as JSON, with the declared parameters and the catalogue of material properties"},
+    {"--allow", "ID", "takes a plugin out of quarantine"},
+};
+
+const char* kindName(api::ParameterKind kind) {
+  static constexpr const char* kNames[] = {"number", "integer", "toggle", "choice", "response"};
+  return kNames[static_cast<size_t>(kind)];
+}
+
+json jsonOf(const api::ParameterDeclaration& d) {
+  json out{{"key", d.key},
+           {"label", d.label},
+           {"symbol", d.symbol},
+           {"unit", d.unit},
+           {"kind", kindName(d.kind)},
+           {"group", d.group},
+           {"help", d.help},
+           {"example", d.example},
+           {"source", d.source}};
+  if (d.kind == api::ParameterKind::Choice) {
+    out["choices"] = choicesOf(d);
+    out["default"] = choicesOf(d).at(static_cast<size_t>(d.defaultValue));
+  } else if (d.kind == api::ParameterKind::Toggle) {
+    out["default"] = d.defaultValue != 0;
+  } else {
+    out["default"] = jsonNumber(d.defaultValue);
+    out["range"] = {jsonNumber(d.minimum), jsonNumber(d.maximum)};
+    out["hard_range"] = {jsonNumber(d.hardMinimum), jsonNumber(d.hardMaximum)};
+  }
+  return out;
+}
+
+json jsonOf(api::ParameterList list) {
+  json out = json::array();
+  for (size_t i = 0; i < list.count; ++i) out.push_back(jsonOf(list[i]));
+  return out;
+}
+
+api::ParameterList parametersOf(const PluginRegistry& plugins, const PluginInfo& info) {
+  const api::Plugin* plugin = nullptr;
+  switch (info.kind) {
+    case PluginKind::Material:
+      plugin = plugins.materialPlugin(info.id);
+      break;
+    case PluginKind::Constraint:
+      plugin = plugins.constraint(info.id);
+      break;
+    case PluginKind::Thermal:
+      plugin = plugins.thermal(info.id);
+      break;
+    case PluginKind::Brush:
+      plugin = plugins.brush(info.id);
+      break;
+  }
+  return plugin ? plugin->parameters() : api::ParameterList{};
+}
+
+json jsonOf(const PluginRegistry& plugins, const PluginInfo& info) {
+  json out{{"id", info.id},           {"kind", pluginKindName(info.kind)}, {"label", info.label},
+           {"version", info.version}, {"api", info.api},                   {"licence", info.licence},
+           {"author", info.author},   {"help", info.help},                 {"path", info.path},
+           {"json", info.json},       {"state", pluginStateName(info.state)}};
+  if (!info.problem.empty()) out["problem"] = info.problem;
+  if (!info.note.empty()) out["note"] = info.note;
+  if (info.state == PluginInfo::State::Loaded) out["parameters"] = jsonOf(parametersOf(plugins, info));
+  return out;
+}
+
+std::string padded(std::string text, size_t width) {
+  text.resize(std::max(text.size() + 2, width), ' ');
+  return text;
+}
+
+/// One line per plugin, however long its problem is.
+void print(const PluginInfo& info) {
+  std::string line = padded(info.id.empty() ? "?" : info.id, 24) + padded(pluginKindName(info.kind), 12) +
+                     padded(info.version.empty() ? "-" : info.version, 10) + padded(pluginStateName(info.state), 13);
+  line += info.problem.empty() ? (info.note.empty() ? info.label : info.note) : info.problem;
+  if (!info.problem.empty() && info.problem.find(info.path) == std::string::npos) line += " (" + info.path + ")";
+  std::replace(line.begin(), line.end(), '\n', ' ');
+  std::printf("%s\n", line.c_str());
+}
+
+}  // namespace
+
+std::string pluginsHelp() {
+  return "phasesketch-cli plugins [options]\n\nLists plugins that were found; PHASESKETCH_PLUGIN_PATH names further "
+         "folders.\n\n" +
+         optionHelp(kOptions);
+}
+
+int pluginsCommand(CommandArguments given) {
+  const Arguments arguments(given, kOptions);
+  if (!arguments.positional().empty()) throw InputError("unknown argument '" + arguments.positional()[0] + "'");
+  PluginRegistry plugins;
+  if (arguments.has("--allow")) {
+    const std::string id = arguments.text("--allow");
+    if (!plugins.allow(id)) throw InputError("--allow: no plugin '" + id + "' is in quarantine");
+    std::printf("%s is loaded again at the next start\n", id.c_str());
+    return kFine;
+  }
+  if (!arguments.has("--json")) {
+    for (const PluginInfo& info : plugins.plugins()) print(info);
+    return kFine;
+  }
+  json out{{"plugins", json::array()}, {"properties", jsonOf(propertyCatalogue())}};
+  for (const PluginInfo& info : plugins.plugins()) out["plugins"].push_back(jsonOf(plugins, info));
+  std::fputs(writeJson(out).c_str(), stdout);
+  return kFine;
+}
+
+}  // namespace ps::cli

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/cli/commands.h"
+#include "app/cli/framesink.h"
+#include "app/cli/run.h"
+#include "core/base/error.h"
+#include "core/io/recording.h"
+#include "core/matter/material.h"
+#include "core/plugin_host/registry.h"
+#include "ui/render/renderer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <tuple>
+
+namespace ps::cli {
+namespace {
+
+constexpr OptionSpec kOptions[] = {
+    {"--out", "FOLDER|FILE.mp4", "where the pictures go: PNG files in a folder, or a film (needs ffmpeg)"},
+    {"--size", "WxH", "in pixels; without it 1280x720"},
+    {"--seconds", "S", "mechanical time to draw; without it the project's duration or all of the recording"},
+    {"--frames", "N", "frames to simulate, instead of --seconds"},
+    {"--every", "N", "draws every Nth frame; without it 1 for films and recordings, 60 for pictures of a project"},
+    {"--colour", "NAME", "material, temperature, phase, speed or density_error; without it as the project says"},
+    kThreads,
+    kIsa,
+    kSet,
+    kQuiet,
+};
+
+struct Size {
+  int width = 1280, height = 720;
+};
+
+Size sizeOf(const Arguments& arguments) {
+  Size size;
+  const std::string text = arguments.text("--size", "1280x720");
+  char rest = 0;
+  if (std::sscanf(text.c_str(), "%5dx%5d%c", &size.width, &size.height, &rest) != 2 || size.width < 16 ||
+      size.height < 16 || size.width > 16384 || size.height > 16384) {
+    throw InputError("--size must be WIDTHxHEIGHT, 16 to 16384 each, not '" + text + "'");
+  }
+  return size;
+}
+
+/// Temperatures that the scene starts from and is driven by, so that colours keep their meaning from frame to frame.
+std::pair<double, double> temperatureRange(const Project& project) {
+  double least = numberOf(project.environment.parameters, environmentParameters(), "ambient_temperature"), most = least;
+  const auto include = [&](double kelvin) {
+    least = std::min(least, kelvin);
+    most = std::max(most, kelvin);
+  };
+  for (const Body& body : project.bodies) include(numberOf(body.parameters, bodyParameters(), "temperature"));
+  for (const SceneWall& wall : project.environment.walls) {
+    if (choiceOf(wall.parameters, wallParameters(), "heat") != "fixed_temperature") continue;
+    include(numberOf(wall.parameters, wallParameters(), "temperature"));
+  }
+  return {least, most > least ? most : least + 1};
+}
+
+RenderOptions optionsFor(const Project& project, const PluginRegistry& plugins, const Arguments& arguments) {
+  RenderOptions options;
+  const Size size = sizeOf(arguments);
+  options.width = size.width;
+  options.height = size.height;
+  options.still = !isFilm(arguments.text("--out"));
+  options.camera.target = project.view.target;
+  options.camera.distance = project.view.distance;
+  options.camera.azimuth = project.view.azimuth;
+  options.camera.elevation = project.view.elevation;
+  const std::string colour = arguments.text("--colour", project.view.colour);
+  options.colour = colourByName(colour);
+  if (colourName(options.colour) != colour) {
+    throw InputError("--colour must be material, temperature, phase, speed or density_error, not '" + colour + "'");
+  }
+  if (options.colour == ColourBy::Temperature) {
+    std::tie(options.rangeMinimum, options.rangeMaximum) = temperatureRange(project);
+  }
+  if (!project.materials.empty()) {
+    const SceneMaterial& first = project.materials.front();
+    const auto own = first.properties.values.find("melting_temperature");
+    const Material* installed = plugins.material(first.base);
+    const auto* given = own == first.properties.values.end() ? nullptr : std::get_if<Response>(&own->second);
+    if (given) {
+      options.meltingPoint = given->constant;
+    } else if (own != first.properties.values.end() && std::holds_alternative<double>(own->second)) {
+      options.meltingPoint = std::get<double>(own->second);
+    } else if (installed && installed->properties.contains("melting_temperature")) {
+      options.meltingPoint = installed->properties.at("melting_temperature").constant;
+    }
+  }
+  return options;
+}
+
+/// Draws frames of one project into a sink, without a display.
+class Painter {
+ public:
+  Painter(const Project& project, const PluginRegistry& plugins, const Arguments& arguments, long every)
+      : m_options(optionsFor(project, plugins, arguments)), m_scene{project.environment} {
+    const std::string out = arguments.text("--out");
+    const double rate = 1 / (frameLength(project) * static_cast<double>(every));
+    m_sink = makeFrameSink(out, m_options.width, m_options.height, std::clamp(rate, 1e-3, 1000.0));
+    m_context.makeCurrent();
+    m_renderer = std::make_unique<Renderer>();
+  }
+  void draw(const Snapshot& snapshot, long frame) {
+    m_sink->add(renderImage(*m_renderer, snapshot, m_scene, m_options), frame);
+    ++m_pictures;
+  }
+  long finish() {
+    m_sink->finish();
+    return m_pictures;
+  }
+
+ private:
+  RenderOptions m_options;
+  RenderScene m_scene;
+  HeadlessContext m_context;
+  std::unique_ptr<Renderer> m_renderer;
+  std::unique_ptr<FrameSink> m_sink;
+  long m_pictures = 0;
+};
+
+int renderProject(const Arguments& arguments, const std::string& path) {
+  PluginRegistry plugins;
+  const Project project = loadFor(arguments, path, plugins);
+  const bool film = isFilm(arguments.text("--out"));
+  const long frames = frameCount(arguments, project), every = arguments.integer("--every", 1, 1'000'000).value_or(film ? 1 : 60);
+  Engine engine(project, plugins);
+  Painter painter(project, plugins, arguments, every);
+  painter.draw(*engine.snapshot(), 0);
+  StepFlags flags = 0;
+  std::string message;
+  {
+    Progress progress(frames, arguments.has("--quiet"));
+    for (long frame = 1; frame <= frames && !interrupted(); ++frame) {
+      const StepReport step = engine.step();
+      if (step.flags && !flags) message = step.message;
+      flags |= step.flags;
+      if (frame % every == 0) painter.draw(*engine.snapshot(), frame);
+      progress.show(frame, engine.stats());
+    }
+  }
+  const long pictures = painter.finish();
+  if (!arguments.has("--quiet")) std::printf("%ld pictures in %s\n", pictures, arguments.text("--out").c_str());
+  if (!flags) return interrupted() ? kFailed : kFine;
+  throw Error(path + ": the run set flags: " + flagNames(flags).front() + (message.empty() ? "" : ": " + message));
+}
+
+int renderRecording(const Arguments& arguments, const std::string& path) {
+  RecordingReader recording(path);
+  if (recording.frameCount() == 0) throw InputError(recording.damage().empty() ? path + ": holds no frames" : recording.damage());
+  PluginRegistry plugins;
+  Project project = parseFor(arguments, recording.projectText(), path, plugins);
+  const long every = arguments.integer("--every", 1, 1'000'000).value_or(1);
+  project.duration = static_cast<double>(recording.frameCount()) * frameLength(project);
+  const long frames = std::min(frameCount(arguments, project), static_cast<long>(recording.frameCount()) - 1);
+  Painter painter(project, plugins, arguments, every);
+  for (long frame = 0; frame <= frames && !interrupted(); frame += every) {
+    painter.draw(*recording.frame(static_cast<size_t>(frame)), frame);
+  }
+  const long pictures = painter.finish();
+  if (!arguments.has("--quiet")) std::printf("%ld pictures in %s\n", pictures, arguments.text("--out").c_str());
+  if (!recording.damage().empty()) throw Error(recording.damage() + "; the frames before it were drawn");
+  return kFine;
+}
+
+}  // namespace
+
+std::string renderHelp() {
+  return "phasesketch-cli render PROJECT|RECORDING --out FOLDER|FILE.mp4 [options]\n\nDraws without a display.\n\n" +
+         optionHelp(kOptions);
+}
+
+int renderCommand(CommandArguments given) {
+  const Arguments arguments(given, kOptions);
+  const std::string path = onlyFile(arguments, "project or recording");
+  if (arguments.text("--out").empty()) throw InputError("--out is missing: a folder for PNG files, or a FILE.mp4");
+  sizeOf(arguments);
+  applyMachineOptions(arguments);
+  return isRecording(path) ? renderRecording(arguments, path) : renderProject(arguments, path);
+}
+
+}  // namespace ps::cli

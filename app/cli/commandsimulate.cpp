@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/cli/commands.h"
+#include "app/cli/probetable.h"
+#include "app/cli/report.h"
+#include "app/cli/run.h"
+#include "core/base/error.h"
+#include "core/io/jsontext.h"
+#include "core/io/recording.h"
+#include "core/io/textfile.h"
+#include "core/plugin_host/registry.h"
+
+#include <cstdio>
+#include <optional>
+
+namespace ps::cli {
+namespace {
+
+constexpr OptionSpec kOptions[] = {
+    {"--seconds", "S", "mechanical time to simulate; without it the project's duration"},
+    {"--frames", "N", "frames to simulate, instead of --seconds"},
+    kThreads,
+    kIsa,
+    {"--report", "FILE.json", "writes speed, accuracy, energy, phases and the state hash"},
+    {"--probes", "FILE.csv", "writes the probes, the mass in each phase and the mean temperature of every frame"},
+    {"--record", "FILE", "writes every frame, for render"},
+    kSet,
+    kQuiet,
+};
+
+/// Runs the frames; false when Ctrl+C or a broken state ended them early.
+bool runFrames(Engine& engine, long frames, Report& report, ProbeTable* probes, RecordingWriter* recording, bool quiet) {
+  Progress progress(frames, quiet);
+  if (recording) recording->add(*engine.snapshot());
+  for (long frame = 1; frame <= frames; ++frame) {
+    const StepReport step = engine.step();
+    const FrameStats stats = engine.stats();
+    report.add(step, stats);
+    if (probes) probes->add(stats);
+    if (recording) recording->add(*engine.snapshot());
+    progress.show(frame, stats);
+    if (step.flags & static_cast<StepFlags>(StepFlag::NotFinite)) return false;
+    if (interrupted()) return false;
+  }
+  return true;
+}
+
+void summarise(const Report& report, Engine& engine, double wall) {
+  const FrameStats stats = engine.stats();
+  const double factor = wall > 0 ? stats.time / wall : 0;
+  std::printf("%zu frames, %.6g s simulated in %.3g s (%.3g times real time), %.3g ms per frame\n", report.frames(), stats.time,
+              wall, factor, report.total().median);
+  std::printf("%zu particles, state hash %s\n", engine.solver().particles().size(),
+              hashText(engine.solver().stateHash()).c_str());
+}
+
+}  // namespace
+
+std::string simulateHelp() {
+  return "phasesketch-cli simulate PROJECT [options]\n\nRuns a project without a window.\n\n" + optionHelp(kOptions);
+}
+
+int simulateCommand(CommandArguments given) {
+  const Arguments arguments(given, kOptions);
+  const std::string path = onlyFile(arguments, "project");
+  const bool quiet = arguments.has("--quiet");
+  applyMachineOptions(arguments);
+  PluginRegistry plugins;
+  const Project project = loadFor(arguments, path, plugins);
+  const long frames = frameCount(arguments, project);
+  Engine engine(project, plugins);
+  std::optional<ProbeTable> probes;
+  std::optional<RecordingWriter> recording;
+  if (arguments.has("--probes")) probes.emplace(arguments.text("--probes"), engine.probeNames());
+  if (arguments.has("--record")) recording.emplace(arguments.text("--record"), project);
+  Report report(engine.stats());
+  const double start = now();
+  const bool whole = runFrames(engine, frames, report, probes ? &*probes : nullptr, recording ? &*recording : nullptr, quiet);
+  const double wall = now() - start;
+  if (probes) probes->finish();
+  if (recording) recording->finish();
+  if (arguments.has("--report")) {
+    writeFileAtomically(arguments.text("--report"), writeJson(report.json(engine, wall)));
+  }
+  if (!quiet) summarise(report, engine, wall);
+  if (report.flags()) {
+    std::string names;
+    for (const std::string& name : flagNames(report.flags())) names += (names.empty() ? "" : ", ") + name;
+    throw Error(path + ": the run set flags: " + names + (report.message().empty() ? "" : ": " + report.message()));
+  }
+  if (!whole) throw Error("stopped after " + std::to_string(report.frames()) + " of " + std::to_string(frames) + " frames");
+  return kFine;
+}
+
+}  // namespace ps::cli

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/cli/arguments.h"
+#include "app/cli/commands.h"
+#include "core/base/error.h"
+#include "core/io/jsontext.h"
+#include "core/io/projectio.h"
+#include "core/io/schema.h"
+#include "core/plugin_host/registry.h"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace ps::cli {
+namespace {
+
+constexpr OptionSpec kOptions[] = {
+    {"--quiet", "", "says nothing about projects that are fine, and no warnings"},
+};
+
+/// One line, whatever the file's name holds.
+void say(FILE* stream, std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  std::fprintf(stream, "%s\n", text.c_str());
+}
+
+}  // namespace
+
+std::string validateHelp() {
+  return "phasesketch-cli validate PROJECT... [options]\n\nChecks projects and says file:json/pointer: what is wrong. Exit "
+         "code 2 when one cannot be opened.\n\n" +
+         optionHelp(kOptions);
+}
+
+int validateCommand(CommandArguments given) {
+  const Arguments arguments(given, kOptions);
+  if (arguments.positional().empty()) throw InputError("which project? --help says more");
+  const bool quiet = arguments.has("--quiet");
+  const PluginRegistry plugins;
+  int code = kFine;
+  for (const std::string& path : arguments.positional()) {
+    try {
+      const LoadedProject loaded = loadProject(path, plugins);
+      if (quiet) continue;
+      for (const ProjectMessage& warning : loaded.warnings) say(stderr, "warning: " + warning.text);
+      say(stdout, path + ": fine");
+    } catch (const InputError& error) {
+      say(stderr, error.what());
+      code = kBadInput;
+    }
+  }
+  return code;
+}
+
+std::string schemaHelp() {
+  return "phasesketch-cli schema\n\nPrints the JSON Schema (draft 2020-12) of projects, made from the declarations of this "
+         "program's parameters.\n";
+}
+
+int schemaCommand(CommandArguments given) {
+  const Arguments arguments(given, {});
+  if (!arguments.positional().empty()) throw InputError("schema takes no arguments");
+  std::fputs(writeJson(projectSchema()).c_str(), stdout);
+  return kFine;
+}
+
+}  // namespace ps::cli

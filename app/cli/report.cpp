@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/cli/report.h"
+
+#include "core/base/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numeric>
+
+namespace ps::cli {
+namespace {
+
+nlohmann::json jsonOf(const Spread& spread) {
+  return {{"mean", spread.mean}, {"median", spread.median}, {"p95", spread.p95}};
+}
+
+double liquidCount(const FrameStats& stats) {
+  return static_cast<double>(stats.phases[static_cast<size_t>(api::Phase::Liquid)].count +
+                             stats.phases[static_cast<size_t>(api::Phase::Boiling)].count);
+}
+
+}  // namespace
+
+Spread spreadOf(std::vector<double> values) {
+  if (values.empty()) return {};
+  const double mean = std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+  std::sort(values.begin(), values.end());
+  const auto at = [&](double share) {
+    return values[static_cast<size_t>(std::ceil(share * static_cast<double>(values.size()))) - 1];
+  };
+  return {mean, at(0.5), at(0.95)};
+}
+
+void Report::add(const StepReport& step, const FrameStats& stats) {
+  if (step.flags && !m_flags) m_message = step.message;
+  m_flags |= step.flags;
+  m_total.push_back(step.totalMilliseconds);
+  for (size_t s = 0; s < m_stages.size(); ++s) m_stages[s].push_back(step.milliseconds[s]);
+  const double liquid = liquidCount(stats);
+  m_errorSum += liquid * step.densityErrorMean;
+  m_liquid += liquid;
+  m_errorMax = std::max(m_errorMax, step.densityErrorMax);
+  m_last = stats;
+}
+
+nlohmann::json Report::json(Engine& engine, double wallSeconds) const {
+  const ParameterSet& set = engine.project().solver.parameters;
+  const auto number = [&](const char* key) { return numberOf(set, solverParameters(), key); };
+  nlohmann::json milliseconds{{"total", jsonOf(total())}};
+  for (size_t s = 0; s < m_stages.size(); ++s) milliseconds[stageName(static_cast<Stage>(s))] = jsonOf(stage(s));
+  nlohmann::json limits = nlohmann::json::array();
+  for (const Limit& limit : engine.solver().limits()) {
+    limits.push_back({{"what", limit.what}, {"asked", limit.asked}, {"delivered", limit.delivered}, {"unit", limit.unit}});
+  }
+  nlohmann::json phases;
+  static constexpr const char* kPhases[] = {"solid", "melting", "liquid", "boiling", "gas"};
+  for (size_t p = 0; p < 5; ++p) {
+    phases[kPhases[p]] = {{"count", m_last.phases[p].count}, {"mass", m_last.phases[p].mass}};
+  }
+  return {{"particles", engine.solver().particles().size()},
+          {"frames", frames()},
+          {"substeps", static_cast<int>(number("substeps"))},
+          {"iterations", static_cast<int>(number("iterations"))},
+          {"dt", number("dt")},
+          {"simulated_s", m_last.time - m_start.time},
+          {"wall_s", wallSeconds},
+          {"threads", threadCount()},
+          {"backend", "cpu"},
+          {"isa", instructionSet()},
+          {"state_hash", hashText(engine.solver().stateHash())},
+          {"flags", flagNames(m_flags)},
+          {"limits", limits},
+          {"ms_per_frame", milliseconds},
+          {"density_error", {{"mean", meanDensityError()}, {"max", maxDensityError()}}},
+          {"energy",
+           {{"start", m_start.thermalEnergy},
+            {"end", m_last.thermalEnergy},
+            {"exchanged", m_last.heat.exchanged},
+            {"drift", m_last.thermalEnergy - m_start.thermalEnergy - m_last.heat.net()}}},
+          {"phases", phases},
+          {"temperature",
+           {{"min", m_last.temperatureMin}, {"mean", m_last.temperatureMean}, {"max", m_last.temperatureMax}}}};
+}
+
+std::string hashText(uint64_t hash) {
+  char text[17];
+  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
+  return text;
+}
+
+}  // namespace ps::cli

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/cli/run.h"
+
+#include "core/base/error.h"
+#include "core/base/parallel.h"
+
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <unistd.h>
+
+namespace ps::cli {
+namespace {
+
+constexpr long kMostFrames = 100'000'000;
+volatile std::sig_atomic_t g_interrupted = 0;
+
+Project warned(const Arguments& arguments, LoadedProject&& loaded) {
+  if (!arguments.has("--quiet")) {
+    for (const ProjectMessage& warning : loaded.warnings) std::fprintf(stderr, "warning: %s\n", warning.text.c_str());
+  }
+  return std::move(loaded.project);
+}
+
+}  // namespace
+
+void applyMachineOptions(const Arguments& arguments) {
+  if (const auto threads = arguments.integer("--threads", 1, 1024)) setThreadCount(static_cast<int>(*threads));
+  if (arguments.has("--isa")) setInstructionSet(arguments.text("--isa"));
+}
+
+std::string onlyFile(const Arguments& arguments, const char* what) {
+  if (arguments.positional().empty()) throw InputError(std::string("which ") + what + "? --help says more");
+  if (arguments.positional().size() > 1) {
+    throw InputError("one " + std::string(what) + " at a time; '" + arguments.positional()[1] + "' is one too many");
+  }
+  return arguments.positional()[0];
+}
+
+Project loadFor(const Arguments& arguments, const std::string& path, const PluginRegistry& plugins) {
+  return warned(arguments, loadProject(path, plugins, arguments.all("--set")));
+}
+
+Project parseFor(const Arguments& arguments, const std::string& text, const std::string& name,
+                 const PluginRegistry& plugins) {
+  return warned(arguments, parseProject(text, name, plugins, arguments.all("--set")));
+}
+
+double frameLength(const Project& project) { return numberOf(project.solver.parameters, solverParameters(), "dt"); }
+
+long frameCount(const Arguments& arguments, const Project& project) {
+  if (arguments.has("--frames") && arguments.has("--seconds")) throw InputError("give --frames or --seconds, not both");
+  if (const auto frames = arguments.integer("--frames", 0, kMostFrames)) return *frames;
+  const double seconds = arguments.number("--seconds", 0, 1e12).value_or(project.duration);
+  const double frames = std::round(seconds / frameLength(project));
+  if (frames > kMostFrames) throw InputError("--seconds: more than " + std::to_string(kMostFrames) + " frames");
+  return static_cast<long>(frames);
+}
+
+double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+bool interrupted() {
+  static const bool listening = [] {
+    std::signal(SIGINT, [](int) {
+      g_interrupted = 1;
+      std::signal(SIGINT, SIG_DFL);  // a second Ctrl+C ends at once
+    });
+    return true;
+  }();
+  return listening && g_interrupted != 0;
+}
+
+Progress::Progress(long frames, bool quiet)
+    : m_frames(frames), m_on(!quiet && ::isatty(STDERR_FILENO) == 1), m_start(now()), m_last(m_start) {}
+
+Progress::~Progress() { clear(); }
+
+void Progress::clear() {
+  if (m_shown) std::fputs("\r\033[K", stderr);
+  m_shown = false;
+}
+
+void Progress::show(long frame, const FrameStats& stats) {
+  constexpr double kPause = 0.2;  // s between two lines
+  const double time = now();
+  if (!m_on || frame == 0 || time - m_last < kPause) return;
+  m_last = time;
+  m_shown = true;
+  const double rest = (time - m_start) / static_cast<double>(frame) * static_cast<double>(m_frames - frame);
+  std::fprintf(stderr, "\r\033[Kframe %ld of %ld, %.1f s simulated, %.1f ms per frame, %.0f s left", frame, m_frames,
+               stats.time, stats.totalMilliseconds, rest);
+  std::fflush(stderr);
+}
+
+}  // namespace ps::cli

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "app/cli/arguments.h"
+#include "core/io/projectio.h"
+#include "core/simulation/engine.h"
+
+#include <chrono>
+#include <string>
+
+namespace ps::cli {
+
+/// Options of every command that runs the solver.
+inline constexpr OptionSpec kThreads{"--threads", "N", "number of threads; without it one per core"};
+inline constexpr OptionSpec kIsa{"--isa", "NAME", "pins an instruction set: AVX3, AVX2, SSE4, SSSE3, NEON"};
+inline constexpr OptionSpec kSet{"--set", "JSON/POINTER=VALUE", "changes the project before it is checked; may repeat"};
+inline constexpr OptionSpec kQuiet{"--quiet", "", "says nothing but errors"};
+
+/// Applies --threads and --isa; throws InputError for what this machine does not have.
+void applyMachineOptions(const Arguments& arguments);
+/// The one positional argument; throws InputError when there is none or more.
+std::string onlyFile(const Arguments& arguments, const char* what);
+/// Loads with --set, warnings on standard error.
+Project loadFor(const Arguments& arguments, const std::string& path, const PluginRegistry& plugins);
+/// The same for text that stands for a file.
+Project parseFor(const Arguments& arguments, const std::string& text, const std::string& name,
+                 const PluginRegistry& plugins);
+/// Frames of a run: --frames, --seconds (mechanical time), or the project's duration.
+long frameCount(const Arguments& arguments, const Project& project);
+/// s, one frame.
+double frameLength(const Project& project);
+/// s since a fixed point.
+double now();
+/// True once the user has pressed Ctrl+C; the first call starts listening.
+bool interrupted();
+
+/// One line on a terminal's standard error that says how far a run is; nothing where there is no terminal.
+class Progress {
+ public:
+  Progress(long frames, bool quiet);
+  ~Progress();
+  void show(long frame, const FrameStats& stats);
+
+ private:
+  void clear();
+  long m_frames;
+  bool m_on, m_shown = false;
+  double m_start, m_last;
+};
+
+}  // namespace ps::cli

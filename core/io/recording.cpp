@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/io/recording.h"
+
+#include "core/base/error.h"
+#include "core/base/hash.h"
+#include "core/io/jsontext.h"
+#include "core/io/projectio.h"
+
+#include <zstd.h>
+
+#include <cstring>
+#include <filesystem>
+
+namespace ps {
+namespace {
+
+using nlohmann::json;
+
+constexpr char kFileMark[] = "PSRECORD", kFrameMark[] = "PSFRAME.";
+constexpr size_t kMark = 8;
+constexpr uint64_t kMaximumHeader = uint64_t{64} << 20, kMaximumFrame = uint64_t{2} << 30;
+constexpr int kLevel = 3;  // zstd: half the time of 6, 3 % larger on frames of water
+
+/// Appends plain values.
+class Packer {
+ public:
+  template <class T>
+  void value(const T& v) {
+    m_bytes.append(reinterpret_cast<const char*>(&v), sizeof v);
+  }
+  /// `width` bytes per element, as byte planes.
+  template <class T>
+  void array(const std::vector<T>& values, size_t count) {
+    if (values.size() != count) throw Error("recording: arrays of a snapshot differ in length");
+    planes(reinterpret_cast<const char*>(values.data()), count * sizeof(T), planeWidth<T>());
+  }
+  template <class T>
+  static constexpr size_t planeWidth() {
+    return sizeof(T) % 4 == 0 ? 4 : 1;
+  }
+  const std::string& bytes() const { return m_bytes; }
+
+ private:
+  void planes(const char* data, size_t size, size_t width) {
+    const size_t start = m_bytes.size(), count = size / width;
+    m_bytes.resize(start + size);
+    for (size_t p = 0; p < width; ++p) {
+      for (size_t i = 0; i < count; ++i) m_bytes[start + p * count + i] = data[i * width + p];
+    }
+  }
+  std::string m_bytes;
+};
+
+/// Reads them back; every read is checked against what is left.
+class Unpacker {
+ public:
+  Unpacker(const std::string& bytes, const std::string& where) : m_bytes(bytes), m_where(where) {}
+  template <class T>
+  T value() {
+    T v;
+    std::memcpy(&v, take(sizeof v), sizeof v);
+    return v;
+  }
+  template <class T>
+  void array(std::vector<T>& values, size_t count) {
+    if (count > m_bytes.size()) fail();
+    const size_t width = Packer::planeWidth<T>(), size = count * sizeof(T), rows = size / width;
+    const char* from = take(size);
+    values.resize(count);
+    char* to = reinterpret_cast<char*>(values.data());
+    for (size_t p = 0; p < width; ++p) {
+      for (size_t i = 0; i < rows; ++i) to[i * width + p] = from[p * rows + i];
+    }
+  }
+  void finish() const {
+    if (m_at != m_bytes.size()) fail();
+  }
+  [[noreturn]] void fail() const { throw InputError(m_where + "the frame's data are broken; record again"); }
+
+ private:
+  const char* take(size_t count) {
+    if (count > m_bytes.size() - m_at) fail();
+    const char* data = m_bytes.data() + m_at;
+    m_at += count;
+    return data;
+  }
+  const std::string& m_bytes;
+  const std::string& m_where;
+  size_t m_at = 0;
+};
+
+uint64_t checksum(const char* data, size_t size) {
+  Hash hash;
+  hash.add(data, size);
+  return hash.value();
+}
+
+std::string packFrame(const Snapshot& s) {
+  Packer packer;
+  const size_t n = s.position.size();
+  packer.value(uint64_t{n});
+  packer.value(uint64_t{s.materialColour.size()});
+  packer.value(s.stats.frame);
+  packer.value(s.stats.time);
+  packer.value(s.stats.thermalTime);
+  packer.value(s.revision);
+  packer.array(s.materialColour, s.materialColour.size());
+  packer.array(s.position, n);
+  packer.array(s.temperature, n);
+  packer.array(s.speed, n);
+  packer.array(s.densityError, n);
+  packer.array(s.gasFraction, n);
+  packer.array(s.phase, n);
+  packer.array(s.motion, n);
+  packer.array(s.id, n);
+  packer.array(s.body, n);
+  packer.array(s.material, n);
+  return packer.bytes();
+}
+
+std::shared_ptr<Snapshot> unpackFrame(const std::string& bytes, const std::string& where) {
+  Unpacker unpacker(bytes, where);
+  auto s = std::make_shared<Snapshot>();
+  const auto n = unpacker.value<uint64_t>(), colours = unpacker.value<uint64_t>();
+  s->stats.frame = unpacker.value<uint64_t>();
+  s->stats.time = unpacker.value<double>();
+  s->stats.thermalTime = unpacker.value<double>();
+  s->revision = unpacker.value<uint64_t>();
+  unpacker.array(s->materialColour, colours);
+  unpacker.array(s->position, n);
+  unpacker.array(s->temperature, n);
+  unpacker.array(s->speed, n);
+  unpacker.array(s->densityError, n);
+  unpacker.array(s->gasFraction, n);
+  unpacker.array(s->phase, n);
+  unpacker.array(s->motion, n);
+  unpacker.array(s->id, n);
+  unpacker.array(s->body, n);
+  unpacker.array(s->material, n);
+  unpacker.finish();
+  for (size_t i = 0; i < n; ++i) {
+    if (s->phase[i] > api::Phase::Gas || s->motion[i] > api::Motion::Static) unpacker.fail();
+    if (s->material[i] >= colours) unpacker.fail();
+  }
+  return s;
+}
+
+}  // namespace
+
+RecordingWriter::RecordingWriter(const std::string& path, const Project& project)
+    : m_path(path), m_part(path + ".part"), m_file(m_part, std::ios::binary | std::ios::trunc) {
+  if (!m_file) throw Error(path + ": cannot be written; choose another folder");
+  const json header{{"format", "phasesketch-recording"},
+                    {"version", kRecordingVersion},
+                    {"project", json::parse(writeProject(project))}};
+  const std::string text = header.dump();
+  const auto length = static_cast<uint32_t>(text.size());
+  m_file.write(kFileMark, kMark);
+  m_file.write(reinterpret_cast<const char*>(&length), sizeof length);
+  m_file.write(text.data(), static_cast<std::streamsize>(text.size()));
+  require(m_file.good());
+}
+
+void RecordingWriter::require(bool good) const {
+  if (!good) throw Error(m_part + ": the recording stopped, the disk is full; what was written until now is kept");
+}
+
+void RecordingWriter::add(const Snapshot& snapshot) {
+  const std::string raw = packFrame(snapshot);
+  std::string packed(ZSTD_compressBound(raw.size()), '\0');
+  const size_t size = ZSTD_compress(packed.data(), packed.size(), raw.data(), raw.size(), kLevel);
+  if (ZSTD_isError(size)) throw Error(m_part + ": " + ZSTD_getErrorName(size));
+  const uint64_t head[] = {size, raw.size(), checksum(packed.data(), size)};
+  m_file.write(kFrameMark, kMark);
+  m_file.write(reinterpret_cast<const char*>(head), sizeof head);
+  m_file.write(packed.data(), static_cast<std::streamsize>(size));
+  require(m_file.good());
+  ++m_frames;
+}
+
+void RecordingWriter::finish() {
+  m_file.close();
+  require(!m_file.fail());
+  std::error_code problem;
+  std::filesystem::rename(m_part, m_path, problem);
+  if (problem) throw Error(m_path + ": cannot be written: " + problem.message() + "; the recording is in " + m_part);
+}
+
+RecordingReader::RecordingReader(const std::string& path) : m_path(path), m_file(path, std::ios::binary) {
+  std::error_code problem;
+  m_bytes = std::filesystem::file_size(path, problem);
+  if (problem || !m_file) throw InputError(path + ": cannot be read" + (problem ? ": " + problem.message() : ""));
+  readHeader();
+  findFrames();
+}
+
+void RecordingReader::readHeader() {
+  char mark[kMark];
+  uint32_t length = 0;
+  m_file.read(mark, kMark);
+  m_file.read(reinterpret_cast<char*>(&length), sizeof length);
+  if (!m_file || std::memcmp(mark, kFileMark, kMark) != 0) throw InputError(m_path + ": is no recording");
+  if (length > kMaximumHeader || length + kMark + sizeof length > m_bytes) {
+    throw InputError(m_path + ": is cut off in its header");
+  }
+  std::string text(length, '\0');
+  m_file.read(text.data(), length);
+  const json header = parseJson(text, m_path);
+  const auto version = header.find("version");
+  if (!header.is_object() || header.value("format", json()) != "phasesketch-recording" || version == header.end() ||
+      !version->is_number_integer() || !header.contains("project")) {
+    throw InputError(m_path + ": its header is broken");
+  }
+  if (version->get<double>() > kRecordingVersion) {
+    throw InputError(m_path + ": was made by a newer version (recording format " + version->dump() + "); update PhaseSketch");
+  }
+  m_project = header["project"].dump();
+}
+
+void RecordingReader::findFrames() {
+  constexpr uint64_t kHead = kMark + 3 * sizeof(uint64_t);
+  uint64_t at = static_cast<uint64_t>(m_file.tellg());
+  while (at < m_bytes) {
+    char mark[kMark];
+    uint64_t head[3]{};
+    m_file.seekg(static_cast<std::streamoff>(at));
+    if (m_bytes - at >= kHead) {
+      m_file.read(mark, kMark);
+      m_file.read(reinterpret_cast<char*>(head), sizeof head);
+    }
+    const bool whole = m_bytes - at >= kHead && m_file && std::memcmp(mark, kFrameMark, kMark) == 0 &&
+                       head[0] <= m_bytes - at - kHead && head[1] <= kMaximumFrame;
+    if (!whole) {
+      m_damage = m_path + ": is cut off after frame " + std::to_string(m_frames.size());
+      m_file.clear();
+      return;
+    }
+    m_frames.push_back({at + kHead, head[0], head[1], head[2]});
+    at += kHead + head[0];
+  }
+}
+
+SnapshotPtr RecordingReader::frame(size_t index) {
+  const Block& block = m_frames.at(index);
+  const std::string where = m_path + ": frame " + std::to_string(index) + ": ";
+  std::string packed(block.packed, '\0');
+  m_file.clear();
+  m_file.seekg(static_cast<std::streamoff>(block.offset));
+  m_file.read(packed.data(), static_cast<std::streamsize>(packed.size()));
+  if (!m_file) throw InputError(where + "cannot be read");
+  if (checksum(packed.data(), packed.size()) != block.checksum) {
+    throw InputError(where + "the bytes are not what was written; the file is damaged");
+  }
+  const unsigned long long announced = ZSTD_getFrameContentSize(packed.data(), packed.size());
+  if (announced != block.size) throw InputError(where + "the frame's data are broken; record again");
+  std::string raw(block.size, '\0');
+  const size_t size = ZSTD_decompress(raw.data(), raw.size(), packed.data(), packed.size());
+  if (ZSTD_isError(size) || size != raw.size()) throw InputError(where + "the frame's data are broken; record again");
+  return unpackFrame(raw, where);
+}
+
+bool isRecording(const std::string& path) {
+  char mark[kMark];
+  std::error_code problem;
+  if (!std::filesystem::is_regular_file(path, problem)) return false;
+  std::ifstream file(path, std::ios::binary);
+  return file.read(mark, kMark) && std::memcmp(mark, kFileMark, kMark) == 0;
+}
+
+}  // namespace ps
