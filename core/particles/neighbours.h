@@ -23,6 +23,8 @@ class Neighbours {
 
   api::NeighbourView view() const;
   double support() const { return m_support; }
+  /// Positions that the present lists were made for.
+  std::span<const api::Float4> built() const { return m_built; }
 
  private:
   struct Chunk {

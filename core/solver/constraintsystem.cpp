@@ -1,0 +1,404 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/solver/constraintsystem.h"
+
+#include "core/base/error.h"
+#include "core/base/hash.h"
+#include "core/base/parallel.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+
+namespace ps {
+namespace {
+
+constexpr size_t kBatchGrain = 1024;
+constexpr size_t kGatherGrain = 256;
+constexpr size_t kMostValues = 16;
+constexpr uint32_t kGone = ~0u;
+
+/// A run of constraints with pointers to its values; lives while a plugin is called.
+struct BatchView {
+  std::array<float*, kMostValues> values{};
+  api::ConstraintBatch batch{};
+};
+
+}  // namespace
+
+struct ConstraintSystem::Edits {
+  std::vector<uint8_t> removed;  ///< per constraint; empty: none
+  size_t removedCount = 0;
+  std::vector<uint32_t> particles;
+  std::vector<float> values;
+  bool empty() const { return removedCount == 0 && particles.empty(); }
+};
+
+/// Collects what a plugin adds and removes; it takes effect when the call has returned.
+class ConstraintSystem::Sink final : public api::ConstraintSink {
+ public:
+  Sink(ConstraintSystem& system, Set& set, const ParticleStore& store, Edits& edits)
+      : m_system(system), m_set(set), m_store(store), m_edits(edits) {}
+  void add(const uint32_t* particles, const float* values) override {
+    for (size_t a = 0; a < m_set.arity; ++a) {
+      if (particles[a] >= m_store.size()) throw Error("added a constraint on a particle that does not exist");
+      for (size_t b = 0; b < a; ++b) {
+        if (particles[a] == particles[b]) throw Error("added a constraint that names a particle twice");
+      }
+    }
+    if (!m_set.keys.insert(m_system.keyOf(m_set, m_store, particles)).second) return;
+    m_edits.particles.insert(m_edits.particles.end(), particles, particles + m_set.arity);
+    m_edits.values.insert(m_edits.values.end(), values, values + m_set.valueCount);
+  }
+  void remove(size_t k) override {
+    if (k >= m_set.count) throw Error("removed a constraint that does not exist");
+    if (m_edits.removed.empty()) m_edits.removed.assign(m_set.count, 0);
+    if (m_edits.removed[k] != 0) return;
+    m_edits.removed[k] = 1;
+    ++m_edits.removedCount;
+    m_set.keys.erase(m_system.keyOf(m_set, m_store, m_set.particles.data() + k * m_set.arity));
+  }
+
+ private:
+  ConstraintSystem& m_system;
+  Set& m_set;
+  const ParticleStore& m_store;
+  Edits& m_edits;
+};
+
+void ConstraintSystem::configure(const SolverSettings& settings, std::span<const BakedMaterial> materials) {
+  m_settings = settings;
+  m_materials.clear();
+  for (const BakedMaterial& m : materials) m_materials.push_back(&m);
+}
+
+uint32_t ConstraintSystem::addSet(const api::ConstraintPlugin* plugin, std::string name, std::vector<double> parameters,
+                                  ParticleStore& store) {
+  const api::ConstraintTraits traits = plugin->traits();
+  Set set;
+  set.plugin = plugin;
+  set.name = std::move(name);
+  set.parameters = std::move(parameters);
+  set.structural = traits.form == api::ConstraintTraits::Form::Structural;
+  if (set.structural && (traits.arity < 2 || traits.arity > 4)) {
+    throw Error("constraint plugin '" + set.name + "' declares an arity outside 2 to 4");
+  }
+  if (traits.values.count > kMostValues) throw Error("constraint plugin '" + set.name + "' declares more than 16 values");
+  set.arity = set.structural ? traits.arity : 0;
+  set.valueCount = set.structural ? traits.values.count : 0;
+  set.values.resize(set.valueCount);
+  set.colourStart.assign(1, 0);
+  for (size_t k = 0; k < traits.fields.count; ++k) {
+    const api::FieldDeclaration& f = traits.fields[k];
+    store.declare(f.name, f.type, f.unit, f.help);
+  }
+  m_sets.push_back(std::move(set));
+  return static_cast<uint32_t>(m_sets.size() - 1);
+}
+
+void ConstraintSystem::setParameters(uint32_t set, std::vector<double> parameters) {
+  m_sets.at(set).parameters = std::move(parameters);
+}
+
+api::ConstraintContext ConstraintSystem::context(const Set& set, double dt, uint32_t substep, uint32_t iteration) const {
+  return {dt, m_settings.spacing, m_settings.spacing * m_settings.supportRatio, m_settings.gravity, substep, iteration,
+          {set.parameters.data(), set.parameters.size()}, {m_materials.data(), m_materials.size()}};
+}
+
+template <class Call>
+bool ConstraintSystem::guarded(Set& set, Call&& call) {
+  if (set.disabled) return false;
+  std::string problem;
+  try {
+    call();
+    return true;
+  } catch (const std::exception& e) {
+    problem = e.what();
+  } catch (...) {
+    problem = "threw something that is no std::exception";
+  }
+  set.disabled = true;
+  set.count = 0;
+  set.particles.clear();
+  for (auto& v : set.values) v.clear();
+  set.colourStart.assign(1, 0);
+  m_graphValid = false;
+  m_faults += (m_faults.empty() ? "constraint plugin '" : "; constraint plugin '") + set.name + "': " + problem;
+  return false;
+}
+
+template <class Call>
+void ConstraintSystem::forBatches(Set& set, Call&& call) {
+  const auto run = [&](size_t first, size_t last) {
+    BatchView view;
+    for (size_t v = 0; v < set.valueCount; ++v) view.values[v] = set.values[v].data() + first;
+    view.batch = {last - first, set.particles.data() + first * set.arity, view.values.data()};
+    call(view.batch);
+  };
+  for (size_t colour = 0; colour + 1 < set.colourStart.size(); ++colour) {
+    const size_t begin = set.colourStart[colour], count = set.colourStart[colour + 1] - begin;
+    if (count == 0) continue;
+    if (count <= kBatchGrain) run(begin, begin + count);
+    else parallelFor(count, kBatchGrain, [&](size_t first, size_t last) { run(begin + first, begin + last); });
+  }
+}
+
+ConstraintSystem::Key ConstraintSystem::keyOf(const Set& set, const ParticleStore& store, const uint32_t* particles) const {
+  std::array<uint32_t, 4> ids{kGone, kGone, kGone, kGone};
+  for (size_t a = 0; a < set.arity; ++a) ids[a] = store.id()[particles[a]];
+  std::sort(ids.begin(), ids.end());  // unused places sort to the end
+  return {uint64_t{ids[0]} << 32 | ids[1], uint64_t{ids[2]} << 32 | ids[3]};
+}
+
+size_t ConstraintSystem::takeColour(Set& set, const ParticleStore& store, const uint32_t* particles) const {
+  for (size_t word = 0;; ++word) {
+    if (word == set.used.size()) set.used.emplace_back();
+    std::vector<uint64_t>& used = set.used[word];
+    uint64_t taken = 0;
+    for (size_t a = 0; a < set.arity; ++a) {
+      const uint32_t id = store.id()[particles[a]];
+      if (id >= used.size()) used.resize(id + 1 + used.size() / 2, 0);
+      taken |= used[id];
+    }
+    if (taken == ~uint64_t{0}) continue;
+    const int bit = std::countr_one(taken);
+    for (size_t a = 0; a < set.arity; ++a) used[store.id()[particles[a]]] |= uint64_t{1} << bit;
+    return 64 * word + static_cast<size_t>(bit);
+  }
+}
+
+void ConstraintSystem::apply(Set& set, const ParticleStore& store, const Edits& edits) {
+  if (edits.empty()) return;
+  m_graphValid = false;
+  const size_t arity = set.arity, added = edits.particles.size() / arity;
+  // Colours that removed constraints give back are free for new ones.
+  for (size_t colour = 0; edits.removedCount > 0 && colour + 1 < set.colourStart.size(); ++colour) {
+    for (size_t k = set.colourStart[colour]; k < set.colourStart[colour + 1]; ++k) {
+      if (edits.removed[k] == 0) continue;
+      for (size_t a = 0; a < arity; ++a) {
+        const uint32_t particle = set.particles[k * arity + a];
+        if (particle != kGone) set.used[colour / 64][store.id()[particle]] &= ~(uint64_t{1} << (colour % 64));
+      }
+    }
+  }
+  std::vector<std::vector<uint32_t>> newOfColour(set.colourStart.size() - 1);
+  for (size_t k = 0; k < added; ++k) {
+    const size_t colour = takeColour(set, store, edits.particles.data() + k * arity);
+    if (colour >= newOfColour.size()) newOfColour.resize(colour + 1);
+    newOfColour[colour].push_back(static_cast<uint32_t>(k));
+  }
+  m_keptParticles.clear();
+  m_keptValues.resize(std::max(m_keptValues.size(), set.valueCount));
+  for (auto& v : m_keptValues) v.clear();
+  std::vector<size_t> starts(1, 0);
+  for (size_t colour = 0; colour < newOfColour.size(); ++colour) {
+    const bool old = colour + 1 < set.colourStart.size();
+    for (size_t k = old ? set.colourStart[colour] : 0; old && k < set.colourStart[colour + 1]; ++k) {
+      if (edits.removedCount > 0 && edits.removed[k] != 0) continue;
+      for (size_t a = 0; a < arity; ++a) m_keptParticles.push_back(set.particles[k * arity + a]);
+      for (size_t v = 0; v < set.valueCount; ++v) m_keptValues[v].push_back(set.values[v][k]);
+    }
+    for (const uint32_t k : newOfColour[colour]) {
+      for (size_t a = 0; a < arity; ++a) m_keptParticles.push_back(edits.particles[k * arity + a]);
+      for (size_t v = 0; v < set.valueCount; ++v) m_keptValues[v].push_back(edits.values[k * set.valueCount + v]);
+    }
+    starts.push_back(m_keptParticles.size() / arity);
+  }
+  set.particles.swap(m_keptParticles);
+  for (size_t v = 0; v < set.valueCount; ++v) set.values[v].swap(m_keptValues[v]);
+  set.colourStart = std::move(starts);
+  set.count = set.particles.size() / arity;
+}
+
+void ConstraintSystem::build(uint32_t index, const ParticleStore& store, const Neighbours& neighbours,
+                             std::span<const uint32_t> members) {
+  Set& set = m_sets.at(index);
+  if (!set.structural) return;
+  Edits edits;
+  Sink sink(*this, set, store, edits);
+  if (guarded(set, [&] {
+        set.plugin->build(context(set, m_settings.dt, 0, 0), store.view(), neighbours.view(),
+                          {members.data(), members.size()}, sink);
+      })) {
+    apply(set, store, edits);
+  }
+}
+
+void ConstraintSystem::remap(std::span<const uint32_t> order) {
+  m_newIndex.resize(order.size());
+  for (size_t k = 0; k < order.size(); ++k) m_newIndex[order[k]] = static_cast<uint32_t>(k);
+  for (Set& set : m_sets) {
+    for (uint32_t& i : set.particles) i = m_newIndex[i];
+  }
+  m_graphValid = false;
+}
+
+void ConstraintSystem::removeParticles(const ParticleStore& store, std::span<const uint32_t> ascending) {
+  m_newIndex.assign(store.size(), 0);
+  for (const uint32_t i : ascending) m_newIndex[i] = kGone;
+  uint32_t next = 0;
+  for (uint32_t& i : m_newIndex) i = i == kGone ? kGone : next++;
+  for (Set& set : m_sets) {
+    Edits edits;
+    Sink sink(*this, set, store, edits);
+    for (size_t k = 0; k < set.count; ++k) {
+      for (size_t a = 0; a < set.arity; ++a) {
+        if (m_newIndex[set.particles[k * set.arity + a]] == kGone) sink.remove(k);
+      }
+    }
+    apply(set, store, edits);
+    for (uint32_t& i : set.particles) i = m_newIndex[i];
+  }
+  m_graphValid = false;
+}
+
+void ConstraintSystem::predict(const ParticleStore& store, uint32_t substep) {
+  const api::ParticleView view = store.view();
+  for (Set& set : m_sets) {
+    if (set.count == 0) continue;
+    const api::ConstraintContext c = context(set, m_settings.dt / m_settings.substeps, substep, 0);
+    guarded(set, [&] { forBatches(set, [&](const api::ConstraintBatch& b) { set.plugin->predict(c, view, b); }); });
+  }
+}
+
+void ConstraintSystem::projectStructure(const ParticleStore& store, uint32_t substep, uint32_t iteration) {
+  const api::ParticleView view = store.view();
+  for (Set& set : m_sets) {
+    if (set.count == 0) continue;
+    const api::ConstraintContext c = context(set, m_settings.dt / m_settings.substeps, substep, iteration);
+    guarded(set, [&] { forBatches(set, [&](const api::ConstraintBatch& b) { set.plugin->project(c, view, b); }); });
+  }
+}
+
+void ConstraintSystem::projectNeighbours(ParticleStore& store, const Neighbours& neighbours, uint32_t substep,
+                                         uint32_t iteration) {
+  const api::ParticleView view = store.view();
+  for (Set& set : m_sets) {
+    if (set.structural || set.disabled) continue;
+    m_correction.assign(store.size() + 1, api::Float4{0, 0, 0, 0});
+    const api::ConstraintContext c = context(set, m_settings.dt / m_settings.substeps, substep, iteration);
+    const bool done = guarded(set, [&] {
+      parallelFor(store.size(), kGatherGrain, [&](size_t first, size_t last) {
+        set.plugin->gather(c, view, neighbours.view(), first, last, m_correction.data());
+      });
+    });
+    if (!done) continue;
+    api::Float4* position = store.position();
+    for (size_t i = 0; i < store.size(); ++i) {
+      if (store.velocity()[i].w == 0) continue;
+      position[i].x += m_correction[i].x;
+      position[i].y += m_correction[i].y;
+      position[i].z += m_correction[i].z;
+    }
+  }
+}
+
+void ConstraintSystem::deriveVelocities(const ParticleStore& store, uint32_t substep) {
+  const api::ParticleView view = store.view();
+  for (Set& set : m_sets) {
+    if (set.count == 0) continue;
+    const api::ConstraintContext c = context(set, m_settings.dt / m_settings.substeps, substep, 0);
+    guarded(set, [&] { forBatches(set, [&](const api::ConstraintBatch& b) { set.plugin->deriveVelocities(c, view, b); }); });
+  }
+}
+
+bool ConstraintSystem::topology(const ParticleStore& store, const Neighbours& neighbours) {
+  bool changed = false;
+  for (Set& set : m_sets) {
+    if (!set.structural || set.disabled) continue;
+    BatchView all;
+    for (size_t v = 0; v < set.valueCount; ++v) all.values[v] = set.values[v].data();
+    all.batch = {set.count, set.particles.data(), all.values.data()};
+    Edits edits;
+    Sink sink(*this, set, store, edits);
+    if (!guarded(set, [&] {
+          set.plugin->topology(context(set, m_settings.dt, 0, 0), store.view(), neighbours.view(), all.batch, sink);
+        })) {
+      changed = true;
+      continue;
+    }
+    changed = changed || !edits.empty();
+    apply(set, store, edits);
+  }
+  return changed;
+}
+
+double ConstraintSystem::energy(const ParticleStore& store) {
+  double sum = 0;
+  for (Set& set : m_sets) {
+    if (set.count == 0) continue;
+    BatchView all;
+    for (size_t v = 0; v < set.valueCount; ++v) all.values[v] = set.values[v].data();
+    all.batch = {set.count, set.particles.data(), all.values.data()};
+    guarded(set, [&] {
+      sum += set.plugin->energy(context(set, m_settings.dt / m_settings.substeps, 0, 0), store.view(), all.batch);
+    });
+  }
+  return sum;
+}
+
+void ConstraintSystem::limits(const ParticleStore& store, std::vector<Limit>& out) {
+  class Collect final : public api::LimitSink {
+   public:
+    explicit Collect(std::vector<Limit>& limits) : m_limits(limits) {}
+    void limit(const char* what, double asked, double delivered, const char* unit) override {
+      m_limits.push_back({what, asked, delivered, unit});
+    }
+
+   private:
+    std::vector<Limit>& m_limits;
+  } sink(out);
+  for (Set& set : m_sets) {
+    guarded(set, [&] {
+      set.plugin->limits(context(set, m_settings.dt / m_settings.substeps, 0, 0), store.view(), sink);
+    });
+  }
+}
+
+size_t ConstraintSystem::count() const {
+  size_t sum = 0;
+  for (const Set& set : m_sets) sum += set.count;
+  return sum;
+}
+
+void ConstraintSystem::addTo(Hash& hash, const ParticleStore& store) const {
+  std::vector<uint32_t> ids;
+  for (const Set& set : m_sets) {
+    ids.resize(set.particles.size());
+    for (size_t k = 0; k < ids.size(); ++k) ids[k] = store.id()[set.particles[k]];
+    hash.add(set.count);
+    hash.add(ids.data(), ids.size() * sizeof(uint32_t));
+    for (const auto& v : set.values) hash.add(v.data(), v.size() * sizeof(float));
+  }
+}
+
+const StructureGraph& ConstraintSystem::graph(size_t particles) {
+  if (m_graphValid && m_graph.begin.size() == particles + 1) return m_graph;
+  std::vector<uint32_t>& begin = m_graph.begin;
+  begin.assign(particles + 1, 0);
+  for (const Set& set : m_sets) {
+    for (const uint32_t i : set.particles) begin[i + 1] += static_cast<uint32_t>(set.arity) - 1;
+  }
+  for (size_t i = 0; i < particles; ++i) begin[i + 1] += begin[i];
+  m_graph.partner.resize(begin[particles]);
+  m_newIndex.assign(begin.begin(), begin.end());
+  for (const Set& set : m_sets) {
+    for (size_t k = 0; k < set.count; ++k) {
+      const uint32_t* p = set.particles.data() + k * set.arity;
+      for (size_t a = 0; a < set.arity; ++a) {
+        for (size_t b = 0; b < set.arity; ++b) {
+          if (a != b) m_graph.partner[m_newIndex[p[a]]++] = p[b];
+        }
+      }
+    }
+  }
+  m_graphValid = true;
+  return m_graph;
+}
+
+std::string ConstraintSystem::takeFaults() {
+  std::string faults;
+  faults.swap(m_faults);
+  return faults;
+}
+
+}  // namespace ps

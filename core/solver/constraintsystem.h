@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "core/matter/material.h"
+#include "core/particles/neighbours.h"
+#include "core/solver/settings.h"
+
+#include <phasesketch/constraint.h>
+
+#include <string>
+#include <unordered_set>
+#include <vector>
+
+// Why colours: constraints that share a particle must not run at the same time, and their order decides the result. A
+// greedy colouring puts each into the first colour that none of its particles uses; within a colour any order gives the
+// same bits, and the colours run one after the other. It is kept up to date as bonds break and form, so that it depends
+// on the history of the scene alone, never on threads.
+namespace ps {
+
+class Hash;
+
+/// Who is tied to whom by structural constraints.
+struct StructureGraph {
+  std::vector<uint32_t> begin, partner;
+  bool tied(uint32_t i, uint32_t j) const {
+    if (i + size_t{1} >= begin.size()) return false;
+    for (uint32_t k = begin[i]; k < begin[i + 1]; ++k) {
+      if (partner[k] == j) return true;
+    }
+    return false;
+  }
+};
+
+/// Host of constraint plugins: owns their index lists and values, keeps them valid when particles are sorted, removed
+/// and added, and calls each plugin once per batch. A plugin that throws is switched off; the others go on.
+class ConstraintSystem {
+ public:
+  void configure(const SolverSettings& settings, std::span<const BakedMaterial> materials);
+  uint32_t addSet(const api::ConstraintPlugin* plugin, std::string name, std::vector<double> parameters, ParticleStore& store);
+  void setParameters(uint32_t set, std::vector<double> parameters);
+  size_t setCount() const { return m_sets.size(); }
+
+  /// Builds the constraints of newly created particles (ascending indices).
+  void build(uint32_t set, const ParticleStore& store, const Neighbours& neighbours, std::span<const uint32_t> members);
+  /// After ParticleStore::permute.
+  void remap(std::span<const uint32_t> order);
+  /// Before ParticleStore::remove of these ascending indices: drops what refers to them, renumbers the others.
+  void removeParticles(const ParticleStore& store, std::span<const uint32_t> ascending);
+
+  void predict(const ParticleStore& store, uint32_t substep);
+  void projectStructure(const ParticleStore& store, uint32_t substep, uint32_t iteration);
+  void projectNeighbours(ParticleStore& store, const Neighbours& neighbours, uint32_t substep, uint32_t iteration);
+  void deriveVelocities(const ParticleStore& store, uint32_t substep);
+  /// Once per frame. True when the structure has changed.
+  bool topology(const ParticleStore& store, const Neighbours& neighbours);
+  double energy(const ParticleStore& store);  ///< J
+  void limits(const ParticleStore& store, std::vector<Limit>& out);
+
+  size_t count() const;
+  void addTo(Hash& hash, const ParticleStore& store) const;
+  /// Ties between pairs of particles, for contact; renewed when the structure or the order has changed.
+  const StructureGraph& graph(size_t particles);
+  /// "plugin: what it said" of those that threw since the last call; empty when all is well.
+  std::string takeFaults();
+
+ private:
+  struct Key {
+    uint64_t a, b;
+    bool operator==(const Key&) const = default;
+  };
+  struct KeyHash {
+    size_t operator()(const Key& k) const { return static_cast<size_t>((k.a ^ (k.b * 0x9E3779B97F4A7C15ull)) * 0xD6E8FEB86659FD93ull >> 7); }
+  };
+  struct Set {
+    const api::ConstraintPlugin* plugin = nullptr;
+    std::string name;
+    std::vector<double> parameters;
+    bool structural = true, disabled = false;
+    size_t arity = 2, valueCount = 0, count = 0;
+    std::vector<uint32_t> particles;         ///< arity per constraint, in order of colour
+    std::vector<std::vector<float>> values;  ///< [value][constraint]
+    std::vector<size_t> colourStart;         ///< first constraint of each colour; one entry more than there are colours
+    std::vector<std::vector<uint64_t>> used; ///< [word of 64 colours][particle id]
+    std::unordered_set<Key, KeyHash> keys;   ///< sets of particle ids; only asked, never walked through
+  };
+  struct Edits;
+  class Sink;
+
+  api::ConstraintContext context(const Set& set, double dt, uint32_t substep, uint32_t iteration) const;
+  template <class Call>
+  bool guarded(Set& set, Call&& call);
+  template <class Call>
+  void forBatches(Set& set, Call&& call);
+  Key keyOf(const Set& set, const ParticleStore& store, const uint32_t* particles) const;
+  size_t takeColour(Set& set, const ParticleStore& store, const uint32_t* particles) const;
+  void apply(Set& set, const ParticleStore& store, const Edits& edits);
+
+  SolverSettings m_settings;
+  std::vector<const api::MaterialView*> m_materials;
+  std::vector<Set> m_sets;
+  std::vector<uint32_t> m_newIndex, m_keptParticles;
+  std::vector<std::vector<float>> m_keptValues;
+  std::vector<api::Float4> m_correction;
+  StructureGraph m_graph;
+  bool m_graphValid = false;
+  std::string m_faults;
+};
+
+}  // namespace ps

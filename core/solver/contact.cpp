@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/solver/contact.h"
+
+#include "core/base/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ps {
+namespace {
+constexpr size_t kGrain = 256;
+constexpr double kDiameter = 0.95;  // spacings
+}  // namespace
+
+void SolidContact::configure(const SolverSettings& settings, std::span<const BakedMaterial> materials) {
+  m_diameter = kDiameter * settings.spacing;
+  m_reach = m_diameter + kSkinSpacings * settings.spacing;
+  m_friction.clear();
+  const int index = propertyIndex("friction_kinetic");
+  for (const BakedMaterial& m : materials) m_friction.push_back(index < 0 ? 0.3f : static_cast<float>(m.scalar(index)));
+}
+
+void SolidContact::refresh(const ParticleStore& store, const Neighbours& neighbours, ConstraintSystem& constraints) {
+  m_any = false;
+  m_solids.clear();
+  const api::Motion* motion = store.motion();
+  for (size_t i = 0; i < store.size(); ++i) {
+    if (motion[i] == api::Motion::Solid) m_solids.push_back(static_cast<uint32_t>(i));
+  }
+  if (m_solids.empty()) return;
+  const StructureGraph& graph = constraints.graph(store.size());
+  const api::NeighbourView view = neighbours.view();
+  const api::Float4* position = store.position();
+  const float reach2 = static_cast<float>(m_reach * m_reach);
+  const size_t chunks = (m_solids.size() + kGrain - 1) / kGrain;
+  m_chunks.resize(std::max(m_chunks.size(), chunks));
+  for (Chunk& chunk : m_chunks) chunk.who.clear();
+  parallelFor(m_solids.size(), kGrain, [&](size_t first, size_t last) {
+    Chunk& chunk = m_chunks[first / kGrain];
+    chunk.begin.assign(1, 0);
+    chunk.other.clear();
+    for (size_t k = first; k < last; ++k) {
+      const uint32_t i = m_solids[k];
+      const size_t before = chunk.other.size();
+      for (uint32_t q = view.begin[i]; q < view.last[i]; ++q) {
+        const uint32_t j = view.index[q];
+        if (motion[j] != api::Motion::Solid && motion[j] != api::Motion::Static) continue;
+        const float x = position[i].x - position[j].x, y = position[i].y - position[j].y, z = position[i].z - position[j].z;
+        if (x * x + y * y + z * z < reach2 && !graph.tied(i, j)) chunk.other.push_back(j);
+      }
+      if (chunk.other.size() == before) continue;
+      chunk.who.push_back(i);
+      chunk.begin.push_back(static_cast<uint32_t>(chunk.other.size()));
+    }
+    chunk.correction.resize(chunk.who.size());
+  });
+  for (const Chunk& chunk : m_chunks) m_any = m_any || !chunk.who.empty();
+  m_contacts.assign(store.size() + 1, 1);
+}
+
+size_t SolidContact::touching(const ParticleStore& store, const Chunk& chunk, size_t k) const {
+  const api::Float4 a = store.position()[chunk.who[k]];
+  const float diameter2 = static_cast<float>(m_diameter * m_diameter);
+  size_t count = 0;
+  for (uint32_t q = chunk.begin[k]; q < chunk.begin[k + 1]; ++q) {
+    const api::Float4 b = store.position()[chunk.other[q]];
+    const float x = a.x - b.x, y = a.y - b.y, z = a.z - b.z;
+    count += x * x + y * y + z * z < diameter2 ? 1 : 0;
+  }
+  return count;
+}
+
+api::Float4 SolidContact::correctionOf(const ParticleStore& store, const Chunk& chunk, size_t k) const {
+  const uint32_t i = chunk.who[k];
+  const api::Float4 *position = store.position(), *previous = store.previous(), *velocity = store.velocity();
+  const api::Float4 a = position[i], aFrom = previous[i];
+  const float diameter = static_cast<float>(m_diameter);
+  const auto frictionOf = [&](uint32_t p) {
+    return store.material()[p] < m_friction.size() ? m_friction[store.material()[p]] : 0.0f;
+  };
+  api::Float4 sum{0, 0, 0, 0};
+  for (uint32_t q = chunk.begin[k]; q < chunk.begin[k + 1]; ++q) {
+    const uint32_t j = chunk.other[q];
+    const api::Float4 b = position[j], bFrom = previous[j];
+    float nx = a.x - b.x, ny = a.y - b.y, nz = a.z - b.z;
+    const float distance = std::sqrt(nx * nx + ny * ny + nz * nz), depth = diameter - distance;
+    if (!(depth > 0) || !(distance > 0)) continue;
+    nx /= distance, ny /= distance, nz /= distance;
+    // Tangential way of the pair since the start of the substep, held back up to friction times depth.
+    float tx = (a.x - aFrom.x) - (b.x - bFrom.x), ty = (a.y - aFrom.y) - (b.y - bFrom.y),
+          tz = (a.z - aFrom.z) - (b.z - bFrom.z);
+    const float along = tx * nx + ty * ny + tz * nz;
+    tx -= along * nx, ty -= along * ny, tz -= along * nz;
+    const float way = std::sqrt(tx * tx + ty * ty + tz * tz), most = 0.5f * (frictionOf(i) + frictionOf(j)) * depth;
+    const float hold = way > most ? most / way : 1;
+    const float share = velocity[i].w / (velocity[i].w + velocity[j].w) /
+                        static_cast<float>(std::max({m_contacts[i], m_contacts[j], uint8_t{1}}));
+    sum.x += share * (depth * nx - hold * tx);
+    sum.y += share * (depth * ny - hold * ty);
+    sum.z += share * (depth * nz - hold * tz);
+  }
+  return sum;
+}
+
+void SolidContact::project(ParticleStore& store) {
+  if (!m_any) return;
+  const auto forChunks = [&](auto&& body) {
+    parallelFor(m_chunks.size(), 1, [&](size_t first, size_t last) {
+      for (size_t c = first; c < last; ++c) {
+        for (size_t k = 0; k < m_chunks[c].who.size(); ++k) body(m_chunks[c], k);
+      }
+    });
+  };
+  forChunks([&](Chunk& chunk, size_t k) {
+    m_contacts[chunk.who[k]] = static_cast<uint8_t>(std::min<size_t>(255, touching(store, chunk, k)));
+  });
+  forChunks([&](Chunk& chunk, size_t k) { chunk.correction[k] = correctionOf(store, chunk, k); });
+  forChunks([&](Chunk& chunk, size_t k) {
+    api::Float4& x = store.position()[chunk.who[k]];
+    x.x += chunk.correction[k].x, x.y += chunk.correction[k].y, x.z += chunk.correction[k].z;
+  });
+}
+
+}  // namespace ps

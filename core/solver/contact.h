@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "core/matter/material.h"
+#include "core/solver/constraintsystem.h"
+
+namespace ps {
+
+/// Extra reach of the neighbour lists, in spacings: they hold until a particle has moved half of it.
+inline constexpr double kSkinSpacings = 0.2;
+
+/// Contact of solid particles that no constraint ties together, with each other and with static ones: spheres of 0.95
+/// spacings, mass-weighted, Coulomb friction on the way of the substep (Macklin et al. 2014, sections 5 and 6.1), averaged
+/// over a particle's contacts. Sphere contact is bumpy: a box tips as if its base were one spacing narrower.
+class SolidContact {
+ public:
+  void configure(const SolverSettings& settings, std::span<const BakedMaterial> materials);
+  /// After new lists, a new order or a new structure.
+  void refresh(const ParticleStore& store, const Neighbours& neighbours, ConstraintSystem& constraints);
+  void project(ParticleStore& store);
+
+ private:
+  struct Chunk {
+    std::vector<uint32_t> who, begin, other;
+    std::vector<api::Float4> correction;
+  };
+  api::Float4 correctionOf(const ParticleStore& store, const Chunk& chunk, size_t k) const;
+  size_t touching(const ParticleStore& store, const Chunk& chunk, size_t k) const;
+
+  double m_diameter = 0, m_reach = 0;
+  std::vector<float> m_friction;  ///< per material
+  std::vector<Chunk> m_chunks;
+  std::vector<uint32_t> m_solids;
+  std::vector<uint8_t> m_contacts;
+  bool m_any = false;
+};
+
+}  // namespace ps

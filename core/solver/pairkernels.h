@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <phasesketch/views.h>
+
+#include "core/math/kernels.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+// The loops over pairs that the step spends its time in. They are written once and compiled for every instruction set;
+// the best one is chosen when the program runs, and all give the same bits: sums are kept in 16 virtual lanes whatever
+// the width of a vector, are added in one order, and no multiply-add is contracted.
+namespace ps {
+
+/// Padded lists (see Neighbours) and the kernel, in units of the support radius R.
+struct PairLists {
+  const uint32_t *begin, *last, *end, *index;
+  KernelShape kernel;
+  float inverseSupportSquared;  ///< 1/R2
+};
+
+/// Sums of one particle's density constraint. Volumes are multiplied by the kernel's factor (8/(pi R3) for the spline),
+/// so that W appears as the plain polynomial w(q).
+struct DensitySums {
+  float excess;      ///< sum_j V_j w(q_ij), without the particle itself
+  float x, y, z;     ///< sum_j V_j w'(q)/q (x_i - x_j), m; times 1/R2 it is the gradient
+  float squares;     ///< sum_j u_j w'(q)2 with the weights u_j; times 1/R2 it is the neighbours' share of the denominator
+};
+
+/// For the particles which[first .. last): sums over `points` (position and scaled volume) and `weight` (u_j).
+void sumDensity(const PairLists& lists, const api::Float4* points, const float* weight, const uint32_t* which, size_t first,
+                size_t last, DensitySums* out);
+
+/// For the particles which[first .. last): out[k] = sum_j lambda_j w'(q)/q (x_i - x_j), lambda_j in points[j].w.
+void sumMultipliers(const PairLists& lists, const api::Float4* points, const uint32_t* which, size_t first, size_t last,
+                    api::Float4* out);
+
+/// XSPH (Monaghan 1992) with harmonic masses and mean volumes: for the particles which[first .. last),
+/// out[k] = sum_j c_ij (V_i + V_j)/2 2 m_j/(m_i + m_j) w(q) (v_j - v_i), to be multiplied by the kernel's factor.
+/// `coefficient` is negative for particles that are no fluid: c_ij is the mean of two fluid particles, the fluid's one
+/// for a mixed pair, 0 between others.
+void sumViscosity(const PairLists& lists, const api::Float4* position, const api::Float4* velocity,
+                  const float* coefficient, const uint32_t* which, size_t first, size_t last, api::Float4* out);
+
+namespace targets {
+int64_t compiled();  ///< Highway's bits of the instruction sets in this binary
+}  // namespace targets
+
+}  // namespace ps

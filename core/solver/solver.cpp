@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/solver/solver.h"
+
+#include "core/base/error.h"
+#include "core/base/hash.h"
+#include "core/solver/solverimpl.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ps {
+namespace {
+
+struct Fractions {
+  float solid, liquid, gas;
+};
+
+/// What a particle is made of until a thermal model says so.
+Fractions fractionsOf(api::Phase phase) {
+  switch (phase) {
+    case api::Phase::Solid: return {1, 0, 0};
+    case api::Phase::Melting: return {0.5f, 0.5f, 0};
+    case api::Phase::Liquid: return {0, 1, 0};
+    case api::Phase::Boiling: return {0, 0.5f, 0.5f};
+    case api::Phase::Gas: return {0, 0, 1};
+  }
+  return {0, 1, 0};
+}
+
+api::Motion motionOf(api::Phase phase) {
+  switch (phase) {
+    case api::Phase::Solid: return api::Motion::Solid;
+    case api::Phase::Gas: return api::Motion::Gas;
+    default: return api::Motion::Liquid;
+  }
+}
+
+void requirePositive(double value, const char* name) {
+  if (!(value > 0) || !std::isfinite(value)) throw InputError(std::string("solver: ") + name + " must be a positive number");
+}
+
+}  // namespace
+
+Solver::Solver() : m(std::make_unique<Impl>()) {}
+Solver::~Solver() = default;
+
+void Solver::setSettings(const SolverSettings& settings) {
+  requirePositive(settings.spacing, "particle_spacing");
+  requirePositive(settings.dt, "dt");
+  if (settings.substeps < 1) throw InputError("solver: substeps must be 1 or more");
+  if (settings.iterations < 1) throw InputError("solver: iterations must be 1 or more");
+  if (!(settings.supportRatio > 1)) throw InputError("solver: support_ratio must be more than 1");
+  m->settings = settings;
+  m->configured = false;
+}
+
+void Solver::setThermal(const ThermalSettings& settings, const api::ThermalPlugin* model, std::vector<double> modelParameters) {
+  m->thermal = settings;
+  m->model = model;
+  m->modelParameters = std::move(modelParameters);
+  m->configured = false;
+}
+
+void Solver::setWalls(std::vector<Wall> walls) {
+  m->walls = std::move(walls);
+  m->configured = false;
+}
+
+void Solver::setBounds(const Bounds& bounds) { m->bounds = bounds; }
+
+void Solver::setMaterials(std::vector<BakedMaterial> materials) {
+  m->materials = std::move(materials);
+  m->configured = false;
+}
+
+uint32_t Solver::addConstraintSet(const api::ConstraintPlugin* plugin, std::string name, std::vector<double> parameters) {
+  return m->constraints.addSet(plugin, std::move(name), std::move(parameters), m->store);
+}
+
+void Solver::setConstraintParameters(uint32_t set, std::vector<double> parameters) {
+  m->constraints.setParameters(set, std::move(parameters));
+}
+
+void Solver::Impl::configure() {
+  if (configured) return;
+  const double support = settings.spacing * settings.supportRatio;
+  if (support != neighbours.support()) neighbours.configure(support, kSkinSpacings * settings.spacing);
+  const std::span<const BakedMaterial> table(materials);
+  constraints.configure(settings, table);
+  density.configure(settings, walls);
+  viscosity.configure(settings, table);
+  wallStage.configure(settings, walls);
+  swept.configure(settings);
+  contact.configure(settings, table);
+  gas.configure(settings, thermal, table);
+  heat.configure(thermal, settings, walls, table, model, modelParameters);
+  phase.configure(settings, table);
+  configured = true;
+  structureChanged = true;
+}
+
+std::vector<uint32_t> Solver::spawn(const Spawn& spawn) {
+  const size_t count = spawn.position.size();
+  if (count == 0) return {};
+  if (spawn.material >= m->materials.size()) throw Error("particles of a material that is not in the table");
+  if (!spawn.velocity.empty() && spawn.velocity.size() != count) throw Error("as many velocities as positions are needed");
+  m->configure();
+  ParticleStore& store = m->store;
+  const double energyBefore = m->frame > 0 ? m->heat.energy(store) : 0;
+  const size_t first = store.add(count), last = first + count;
+  const Fractions f = fractionsOf(spawn.phase);
+  const double cell = m->settings.spacing * m->settings.spacing * m->settings.spacing;
+  std::vector<uint32_t> ids(count), members(count);
+  for (size_t k = 0; k < count; ++k) {
+    const size_t i = first + k;
+    const api::Double3 p = spawn.position[k], v = spawn.velocity.empty() ? api::Double3{0, 0, 0} : spawn.velocity[k];
+    store.position()[i] = {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z), static_cast<float>(cell)};
+    store.previous()[i] = store.position()[i];
+    store.velocity()[i] = {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0};
+    store.material()[i] = spawn.material;
+    store.body()[i] = spawn.body;
+    store.phase()[i] = spawn.phase;
+    store.motion()[i] = spawn.fixed ? api::Motion::Static : motionOf(spawn.phase);
+    store.temperature()[i] = spawn.temperature;
+    store.solidFraction()[i] = f.solid, store.liquidFraction()[i] = f.liquid, store.gasFraction()[i] = f.gas;
+    ids[k] = store.id()[i];
+    members[k] = static_cast<uint32_t>(i);
+  }
+  const std::vector<double> temperature(count, spawn.temperature);
+  const std::vector<api::Phase> phase(count, spawn.phase);
+  const BakedMaterial& material = m->materials[spawn.material];
+  const auto setMass = [&] {
+    for (size_t i = first; i < last; ++i) {
+      const double density = material.restDensity(store.temperature()[i], store.solidFraction()[i],
+                                                  store.liquidFraction()[i], store.gasFraction()[i]);
+      store.mass()[i] = static_cast<float>(density * cell);
+      store.velocity()[i].w = spawn.fixed ? 0 : 1 / store.mass()[i];
+    }
+  };
+  setMass();
+  m->heat.initialise(store, first, last, temperature, phase);
+  setMass();  // the model's fractions are the better ones
+  m->phase.initialise(store, first, last);
+  for (size_t i = first; i < last && spawn.fixed; ++i) {
+    store.motion()[i] = api::Motion::Static;
+    store.velocity()[i] = {0, 0, 0, 0};
+  }
+  if (!spawn.constraintSets.empty()) {
+    m->neighbours.build(store);
+    for (const uint32_t set : spawn.constraintSets) m->constraints.build(set, store, m->neighbours, members);
+  }
+  m->reordered = m->structureChanged = true;
+  m->lastGoodValid = false;
+  if (m->frame > 0) m->heat.book(m->heat.energy(store) - energyBefore);
+  m->settleEnergy();
+  return ids;
+}
+
+void Solver::remove(std::span<const uint32_t> ids) {
+  m->configure();
+  ParticleStore& store = m->store;
+  std::vector<uint32_t> indices;
+  for (const uint32_t id : ids) {
+    const size_t i = store.indexOf(id);
+    if (i < store.size()) indices.push_back(static_cast<uint32_t>(i));
+  }
+  std::sort(indices.begin(), indices.end());
+  indices.erase(std::unique(indices.begin(), indices.end()), indices.end());
+  if (indices.empty()) return;
+  const double before = m->heat.energy(store);
+  m->constraints.removeParticles(store, indices);
+  store.remove(indices);
+  m->heat.book(m->heat.energy(store) - before);
+  m->settleEnergy();
+  m->reordered = m->structureChanged = true;
+  m->lastGoodValid = false;
+}
+
+StepReport Solver::step() {
+  m->runFrame();
+  return m->report;
+}
+
+ParticleStore& Solver::particles() { return m->store; }
+const ParticleStore& Solver::particles() const { return m->store; }
+size_t Solver::constraintCount() const { return m->constraints.count(); }
+double Solver::time() const { return m->time; }
+double Solver::thermalTime() const { return m->thermalTime; }
+uint64_t Solver::frame() const { return m->frame; }
+const HeatLedger& Solver::heatLedger() const { return m->heat.ledger(); }
+double Solver::thermalEnergy() const { return m->heat.energy(m->store); }
+
+std::vector<Limit> Solver::limits() const {
+  m->configure();
+  std::vector<Limit> result;
+  m->constraints.limits(m->store, result);
+  m->viscosity.limits(m->store, result);
+  const double asked = m->thermal.timeScale, delivered = m->heat.thermalTimeScaleDelivered();
+  if (m->frame > 0 && delivered < asked) result.push_back({"solver.thermal_time_scale", asked, delivered, ""});
+  return result;
+}
+
+uint64_t Solver::stateHash() const {
+  Hash hash;
+  m->store.addTo(hash);
+  m->constraints.addTo(hash, m->store);
+  hash.add(m->frame);
+  hash.add(m->time);
+  hash.add(m->thermalTime);
+  return hash.value();
+}
+
+}  // namespace ps

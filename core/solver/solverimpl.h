@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "core/solver/contact.h"
+#include "core/solver/density.h"
+#include "core/solver/gasforces.h"
+#include "core/solver/phasestage.h"
+#include "core/solver/solver.h"
+#include "core/solver/sweptclamp.h"
+#include "core/solver/viscosity.h"
+#include "core/solver/walls.h"
+
+#include <chrono>
+
+namespace ps {
+
+/// What a solver holds, and one frame cut into its parts. Indices of particles change only in freshLists(), at the
+/// start of a frame: whatever is kept by index within a frame stays true.
+struct Solver::Impl {
+  SolverSettings settings;
+  ThermalSettings thermal;
+  const api::ThermalPlugin* model = nullptr;
+  std::vector<double> modelParameters;
+  std::vector<Wall> walls;
+  Bounds bounds;
+  std::vector<BakedMaterial> materials;
+
+  ParticleStore store;
+  ParticleStore lastGood;      ///< as the frame began, in the order that the constraints know
+  bool lastGoodValid = false;  ///< not after particles were added or removed
+  Neighbours neighbours;
+  ConstraintSystem constraints;
+  DensityStage density;
+  ViscosityStage viscosity;
+  WallStage wallStage;
+  SweptClamp swept;
+  SolidContact contact;
+  GasForces gas;
+  HeatStage heat;
+  PhaseStage phase;
+
+  uint64_t frame = 0, lastSort = 0;
+  double time = 0, thermalTime = 0;
+  double energyOffset = 0;  ///< J: thermal energy minus the ledger's net, when both were last known to be right
+  bool configured = false, structureChanged = true, reordered = true;
+  std::vector<uint32_t> melted;
+  StepReport report;
+
+  void configure();
+  void settleEnergy() { energyOffset = heat.energy(store) - heat.ledger().net(); }
+
+  void runFrame();
+  void freshLists();
+  void keepLastGood();
+  void listsChanged();
+  void substep(uint32_t index);
+  void predict(double dt);
+  void velocities(double dt);
+  void exchangeHeat();
+  void changePhases();
+  void checkBounds();
+  void checkEnergy();
+  void closeFrame();
+  /// Id of the first particle whose position, velocity or temperature is no finite number, or -1.
+  int64_t firstNotFinite(std::string& what) const;
+  bool rejectIfNotFinite();
+  void raise(StepFlag flag, const std::string& message);
+
+  template <class Call>
+  void timed(Stage stage, Call&& call) {
+    const auto start = std::chrono::steady_clock::now();
+    call();
+    const std::chrono::duration<double, std::milli> passed = std::chrono::steady_clock::now() - start;
+    report.milliseconds[static_cast<size_t>(stage)] += passed.count();
+  }
+};
+
+}  // namespace ps

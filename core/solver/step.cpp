@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: Apache-2.0
+// One frame: substepped XPBD (Macklin et al. 2019), then heat, then phase changes, which edit the structure. Every loop
+// writes only its own particle, so that the result does not depend on the number of threads.
+#include "core/base/parallel.h"
+#include "core/solver/solverimpl.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ps {
+namespace {
+
+constexpr size_t kGrain = 512;
+/// Frames after which particles are sorted by cell again although the lists still hold.
+constexpr uint64_t kSortInterval = 60;
+/// Mean density error that no longer deserves the name of a solution.
+constexpr double kDiverged = 0.5;
+/// How far the heat balance may be open: a share of what was exchanged, and of the whole for rounding.
+constexpr double kOpenExchange = 1e-6, kOpenRounding = 1e-11;
+
+std::string describe(const ParticleStore& store, size_t i) {
+  return "particle " + std::to_string(store.id()[i]) + " of body " + std::to_string(store.body()[i]);
+}
+
+bool finite(const api::Float4& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w); }
+
+}  // namespace
+
+void Solver::Impl::raise(StepFlag flag, const std::string& message) {
+  report.flags |= static_cast<StepFlags>(flag);
+  if (!report.message.empty()) report.message += "; ";
+  report.message += message;
+}
+
+void Solver::Impl::runFrame() {
+  report = {};
+  const auto start = std::chrono::steady_clock::now();
+  configure();
+  if (store.size() > 0) {
+    bool good = !rejectIfNotFinite();
+    timed(Stage::Neighbours, [&] { freshLists(); });
+    if (good) keepLastGood();
+    timed(Stage::Phase, [&] { gas.measure(store, neighbours); });
+    timed(Stage::Viscosity, [&] { viscosity.refresh(store, density); });
+    for (int s = 0; s < settings.substeps && good; ++s) {
+      substep(static_cast<uint32_t>(s));
+      good = !rejectIfNotFinite();
+    }
+    if (good) checkBounds();
+    if (good) timed(Stage::Heat, [&] { exchangeHeat(); });
+    good = good && !rejectIfNotFinite();
+    if (good) closeFrame();
+  }
+  if ((report.flags & static_cast<StepFlags>(StepFlag::NotFinite)) == 0) {
+    ++frame;
+    time += settings.dt;
+    thermalTime += settings.dt * std::min(thermal.timeScale, heat.thermalTimeScaleDelivered());
+  }
+  const std::string faults = constraints.takeFaults();
+  if (!faults.empty()) raise(StepFlag::PluginFault, faults);
+  report.totalMilliseconds =
+      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+void Solver::Impl::closeFrame() {
+  timed(Stage::Density, [&] {
+    const DensityError error = density.measure(store, neighbours);
+    report.densityErrorMean = error.mean;
+    report.densityErrorMax = error.max;
+  });
+  if (report.densityErrorMean > kDiverged) {
+    const float* c = store.densityError();
+    const size_t worst = static_cast<size_t>(std::max_element(c, c + store.size()) - c);
+    raise(StepFlag::Diverged, describe(store, worst) + ": density error " +
+                                  std::to_string(static_cast<int>(100 * c[worst])) + " %, mean " +
+                                  std::to_string(static_cast<int>(100 * report.densityErrorMean)) + " %");
+  }
+  timed(Stage::Phase, [&] { changePhases(); });
+  timed(Stage::Structure, [&] { structureChanged = constraints.topology(store, neighbours) || structureChanged; });
+  checkEnergy();
+}
+
+void Solver::Impl::keepLastGood() {
+  lastGood.copyFrom(store);
+  lastGoodValid = true;
+}
+
+void Solver::Impl::freshLists() {
+  if (reordered || neighbours.stale(store) || frame >= lastSort + kSortInterval) {
+    neighbours.sortAndBuild(store);
+    constraints.remap(neighbours.lastOrder());
+    lastSort = frame;
+    reordered = false;
+    structureChanged = true;
+  }
+  density.refresh(store, neighbours);
+  swept.refresh(store);
+  if (!structureChanged) return;
+  listsChanged();
+  structureChanged = false;
+}
+
+void Solver::Impl::listsChanged() {
+  density.refreshLists(store, neighbours);
+  swept.refreshLists(store, neighbours);
+  contact.refresh(store, neighbours, constraints);
+}
+
+void Solver::Impl::predict(double dt) {
+  parallelFor(store.size(), kGrain, [&](size_t first, size_t last) {
+    api::Float4 *position = store.position(), *previous = store.previous(), *velocity = store.velocity();
+    const float keep = static_cast<float>(1 / (1 + settings.damping * dt)), step = static_cast<float>(dt);
+    for (size_t i = first; i < last; ++i) {
+      previous[i] = position[i];
+      velocity[i].x *= keep, velocity[i].y *= keep, velocity[i].z *= keep;
+    }
+    gas.apply(store, first, last, dt);
+    for (size_t i = first; i < last; ++i) {
+      if (velocity[i].w == 0) continue;
+      position[i].x += step * velocity[i].x;
+      position[i].y += step * velocity[i].y;
+      position[i].z += step * velocity[i].z;
+    }
+  });
+}
+
+void Solver::Impl::velocities(double dt) {
+  parallelFor(store.size(), kGrain, [&](size_t first, size_t last) {
+    const api::Float4 *position = store.position(), *previous = store.previous();
+    api::Float4* velocity = store.velocity();
+    const float rate = static_cast<float>(1 / dt);
+    for (size_t i = first; i < last; ++i) {
+      if (velocity[i].w == 0) continue;
+      velocity[i].x = rate * (position[i].x - previous[i].x);
+      velocity[i].y = rate * (position[i].y - previous[i].y);
+      velocity[i].z = rate * (position[i].z - previous[i].z);
+    }
+  });
+}
+
+void Solver::Impl::substep(uint32_t index) {
+  const double dt = settings.dt / settings.substeps;
+  timed(Stage::Contact, [&] {
+    predict(dt);
+    wallStage.project(store);
+  });
+  timed(Stage::Neighbours, [&] {
+    if (!neighbours.stale(store)) return;
+    neighbours.build(store);
+    listsChanged();
+  });
+  timed(Stage::Structure, [&] { constraints.predict(store, index); });
+  for (int iteration = 0; iteration < settings.iterations; ++iteration) {
+    const uint32_t it = static_cast<uint32_t>(iteration);
+    timed(Stage::Structure, [&] { constraints.projectStructure(store, index, it); });
+    timed(Stage::Density, [&] { density.project(store, neighbours, iteration); });
+    timed(Stage::Structure, [&] { constraints.projectNeighbours(store, neighbours, index, it); });
+    timed(Stage::Contact, [&] {
+      contact.project(store);
+      wallStage.project(store);
+    });
+  }
+  timed(Stage::Contact, [&] {
+    swept.apply(store, neighbours, wallStage);
+    velocities(dt);
+  });
+  timed(Stage::Viscosity, [&] { viscosity.apply(store, neighbours, density); });
+  timed(Stage::Structure, [&] { constraints.deriveVelocities(store, index); });
+  timed(Stage::Density, [&] { density.decayCompression(store, dt); });
+}
+
+void Solver::Impl::exchangeHeat() {
+  if (neighbours.stale(store)) {
+    neighbours.build(store);
+    listsChanged();
+  }
+  heat.advance(store, neighbours, settings.dt);
+}
+
+void Solver::Impl::changePhases() {
+  melted.clear();
+  phase.update(store, melted);
+  if (melted.empty()) return;
+  density.refresh(store, neighbours);
+  density.handOver(store, neighbours, melted);
+  structureChanged = true;
+}
+
+void Solver::Impl::checkBounds() {
+  const double size = settings.spacing;
+  const double low[3] = {bounds.minimum.x - size, bounds.minimum.y - size, bounds.minimum.z - size};
+  const double high[3] = {bounds.maximum.x + size, bounds.maximum.y + size, bounds.maximum.z + size};
+  size_t lost = 0, culprit = store.size();
+  for (size_t i = 0; i < store.size(); ++i) {
+    api::Float4& p = store.position()[i];
+    if (store.velocity()[i].w == 0) continue;
+    float* c[3] = {&p.x, &p.y, &p.z};
+    bool outside = false;
+    for (int a = 0; a < 3; ++a) {
+      const float inside = static_cast<float>(std::clamp(double{*c[a]}, low[a], high[a]));
+      outside = outside || inside != *c[a];
+      if (*c[a] < low[a] || *c[a] > high[a]) *c[a] = inside;
+    }
+    if (!outside) continue;
+    store.velocity()[i] = {0, 0, 0, store.velocity()[i].w};
+    ++lost;
+    if (culprit == store.size() || store.id()[i] < store.id()[culprit]) culprit = i;
+  }
+  if (lost == 0) return;
+  const std::string others = lost > 1 ? " and " + std::to_string(lost - 1) + " more" : "";
+  raise(StepFlag::LostParticle, describe(store, culprit) + others + " left the bounds and stopped there");
+}
+
+void Solver::Impl::checkEnergy() {
+  if (model == nullptr) return;
+  const double energy = heat.energy(store), open = energy - heat.ledger().net() - energyOffset;
+  const double allowed = kOpenExchange * heat.ledger().exchanged + kOpenRounding * std::abs(energy) + 1e-9;
+  if (std::abs(open) > allowed) {
+    raise(StepFlag::EnergyOpen, "heat balance open by " + std::to_string(open) + " J of " +
+                                    std::to_string(heat.ledger().exchanged) + " J exchanged");
+  }
+}
+
+int64_t Solver::Impl::firstNotFinite(std::string& what) const {
+  int64_t culprit = -1;
+  for (size_t i = 0; i < store.size(); ++i) {
+    const bool position = finite(store.position()[i]), velocity = finite(store.velocity()[i]),
+               temperature = std::isfinite(store.temperature()[i]);
+    if (position && velocity && temperature) continue;
+    if (culprit >= 0 && store.id()[i] > store.id()[static_cast<size_t>(culprit)]) continue;
+    culprit = static_cast<int64_t>(i);
+    what = !position ? "position" : !velocity ? "velocity" : "temperature";
+  }
+  return culprit;
+}
+
+bool Solver::Impl::rejectIfNotFinite() {
+  std::string what;
+  const int64_t culprit = firstNotFinite(what);
+  if (culprit < 0) return false;
+  raise(StepFlag::NotFinite, describe(store, static_cast<size_t>(culprit)) + ": " + what + " is not finite");
+  if (lastGoodValid) {
+    store.copyFrom(lastGood);
+    reordered = true;
+  }
+  return true;
+}
+
+}  // namespace ps
