@@ -126,15 +126,18 @@ void HeatStage::derive(ParticleStore& store) {
 
 double HeatStage::energy(const ParticleStore& store) const {
   if (!m_model || m_modelChanged || store.size() == 0) return 0;
-  std::vector<double> joules(store.size());
+  m_energies.resize(store.size());
   const api::ThermalContext where = context();
   const api::ParticleView view = store.view();
-  return parallelSum(store.size(), kGrain, [&](size_t first, size_t last) {
-    m_model->energy(where, view, first, last, joules.data());
-    double sum = 0;
-    for (size_t i = first; i < last; ++i) sum += joules[i];
-    return sum;
-  });
+  const auto body = [&](size_t first, size_t last) { m_model->energy(where, view, first, last, m_energies.data()); };
+  parallelFor(store.size(), kGrain, std::cref(body));
+  double sum = 0;
+  for (size_t first = 0; first < store.size(); first += kGrain) {
+    double chunk = 0;
+    for (size_t i = first; i < std::min(store.size(), first + kGrain); ++i) chunk += m_energies[i];
+    sum += chunk;
+  }
+  return sum;
 }
 
 void HeatStage::snapshotRange(const ParticleStore& store, Snapshot& snapshot, size_t first, size_t last) const {

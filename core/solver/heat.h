@@ -115,6 +115,7 @@ class HeatStage {
   std::vector<uint8_t> m_touchesWall;
   std::vector<float> m_airConductance;     ///< W/K
   std::vector<uint32_t> m_boilingPartners;
+  mutable std::vector<double> m_energies;  ///< J, scratch of energy()
   std::vector<HeatBody> m_bodies;          ///< of a sweep
 };
 
