@@ -17,22 +17,18 @@ void main() {
     colour = vec4(averaged(here * 2), 1.0);
     return;
   }
-  vec2 uv = gl_FragCoord.xy * size.zw;
+  ivec2 last = ivec2(size.xy) - 1;
   vec3 middle = texelFetch(picture, here, 0).rgb;
   float m = dot(middle, kLuma);
-  float nw = dot(textureLod(picture, uv + vec2(-1.0, 1.0) * size.zw, 0.0).rgb, kLuma);
-  float ne = dot(textureLod(picture, uv + vec2(1.0, 1.0) * size.zw, 0.0).rgb, kLuma);
-  float sw = dot(textureLod(picture, uv + vec2(-1.0, -1.0) * size.zw, 0.0).rgb, kLuma);
-  float se = dot(textureLod(picture, uv + vec2(1.0, -1.0) * size.zw, 0.0).rgb, kLuma);
+  float nw = dot(texelFetch(picture, clamp(here + ivec2(-1, 1), ivec2(0), last), 0).rgb, kLuma);
+  float ne = dot(texelFetch(picture, clamp(here + ivec2(1, 1), ivec2(0), last), 0).rgb, kLuma);
+  float sw = dot(texelFetch(picture, clamp(here + ivec2(-1, -1), ivec2(0), last), 0).rgb, kLuma);
+  float se = dot(texelFetch(picture, clamp(here + ivec2(1, -1), ivec2(0), last), 0).rgb, kLuma);
   float low = min(m, min(min(nw, ne), min(sw, se))), high = max(m, max(max(nw, ne), max(sw, se)));
-  colour = vec4(middle, 1.0);
-  if (high - low < max(0.03, high * 0.10)) return;
   vec2 along = vec2(sw + se - nw - ne, nw + sw - ne - se);
   float least = max((nw + ne + sw + se) * 0.03125, 1.0 / 128.0);
-  along = clamp(along / (min(abs(along.x), abs(along.y)) + least), -6.0, 6.0) * size.zw;
-  vec3 close = 0.5 * (textureLod(picture, uv - along / 6.0, 0.0).rgb + textureLod(picture, uv + along / 6.0, 0.0).rgb);
-  vec3 wide = close * 0.5 + 0.25 * (textureLod(picture, uv - along * 0.5, 0.0).rgb +
-                                    textureLod(picture, uv + along * 0.5, 0.0).rgb);
-  float w = dot(wide, kLuma);
-  colour.rgb = w < low || w > high ? close : wide;
+  along = clamp(along / (min(abs(along.x), abs(along.y)) + least), -1.5, 1.5) * size.zw;
+  along *= high - low < max(0.03, high * 0.10) ? 0.0 : 1.0;
+  vec2 uv = gl_FragCoord.xy * size.zw;
+  colour = vec4(0.5 * (textureLod(picture, uv - along * 0.5, 0.0).rgb + textureLod(picture, uv + along * 0.5, 0.0).rgb), 1.0);
 }

@@ -18,10 +18,12 @@ layout(std140, binding = 0) uniform Frame {
 
 const float kFar = 1e6;
 
-float toLinear(float c) { return c <= 0.04045 ? c / 12.92 : pow((c + 0.055) / 1.055, 2.4); }
-vec3 toLinear(vec3 c) { return mix(c / 12.92, pow((c + 0.055) / 1.055, vec3(2.4)), greaterThan(c, vec3(0.04045))); }
+// The sRGB curves without powers, within 0.3 % (I. Taylor, "sRGB approximations for HLSL", 2013): a third of the time
+// where a processor draws.
+vec3 toLinear(vec3 c) { return c * (c * (c * 0.305306011 + 0.682171111) + 0.012522878); }
 vec3 toScreen(vec3 c) {
-  return mix(c * 12.92, 1.055 * pow(max(c, vec3(0.0)), vec3(1.0 / 2.4)) - 0.055, greaterThan(c, vec3(0.0031308)));
+  vec3 a = sqrt(max(c, vec3(0.0))), b = sqrt(a);
+  return 0.662002687 * a + 0.684122060 * b - 0.323583601 * sqrt(b) - 0.0225411470 * c;
 }
 // Leaves colours below 0.7 alone, so that data keep the legend's colours, and rolls highlights off towards 1.
 vec3 tone(vec3 c) {

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Frosted lid and panes: more of the studio at grazing angles, little else.
+// A frosted lid: more of the studio at grazing angles, little else.
 in vec3 worldNormal;
 in vec3 worldPosition;
 flat in vec4 look;
-in float fade;
 uniform sampler2D noiseTexture;
 uniform sampler2D fluidTexture;
 uniform int fluidScale;  // 0: no liquid
@@ -15,8 +14,8 @@ void main() {
   float fresnel = pow(1.0 - facing, 3.0);
   vec3 mirror = studio(reflect(-v, n), 0.6);
   float grain = texture(noiseTexture, (worldPosition.xz + worldPosition.y) * 1.7 / matter.w).g;
-  float frost = look.a > 0.1 ? 1.0 + 0.5 * (grain - 0.5) : 1.0;
+  float frost = 1.0 + 0.5 * (grain - 0.5);
   vec3 c = toLinear(look.rgb) * mix(0.75, 1.0, abs(n.y)) + mirror * (0.10 + 0.6 * fresnel);
-  float a = clamp(look.a * (0.8 + 1.8 * fresnel) * frost, 0.0, 0.85) * fade;
+  float a = clamp(look.a * (0.8 + 1.8 * fresnel) * frost, 0.0, 0.85);
   colour = vec4(toScreen(tone(c)) * a, a);
 }

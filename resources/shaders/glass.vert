@@ -5,11 +5,9 @@ layout(location = 2) in vec4 material;  // r, g, b in sRGB, opacity
 out vec3 worldNormal;
 out vec3 worldPosition;
 flat out vec4 look;
-out float fade;
 void main() {
   worldNormal = direction;
   worldPosition = position;
-  look = vec4(material.rgb, abs(material.a));
-  fade = material.a < 0.0 ? 0.0 : 1.0;
+  look = material;
   gl_Position = projection * view * vec4(position, 1.0);
 }

@@ -2,10 +2,11 @@
 // Particles are two texels of a buffer: (x, y, z, radius), (r, g, b in sRGB, kind or fraction).
 uniform samplerBuffer particles;
 uniform int firstParticle;
-const vec2 kCorners[4] = vec2[](vec2(-1, -1), vec2(1, -1), vec2(-1, 1), vec2(1, 1));
+// Corners of a triangle around the unit circle: one triangle a sphere costs less than the two of a square.
+const vec2 kAround[3] = vec2[](vec2(-1.7320508, -1.0), vec2(1.7320508, -1.0), vec2(0.0, 2.0));
 
-// The corner of a square that covers a sphere's picture exactly: perpendicular to the line of sight, touching the
-// sphere's nearest point, so that no fragment's depth is nearer than the square's.
+// The corner of a triangle that covers a sphere's picture exactly: perpendicular to the line of sight, touching the
+// sphere's nearest point, so that no fragment's depth is nearer than the triangle's.
 vec3 coverCorner(vec3 centre, float radius, vec2 corner) {
   float distance = max(length(centre), radius * 1.0001);
   vec3 toward = centre / distance;

@@ -2,8 +2,10 @@
 #pragma once
 #include "core/simulation/snapshot.h"
 
+#include <array>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace ps {
@@ -25,6 +27,7 @@ struct RenderOptions {
   double rangeMinimum = 0, rangeMaximum = 0;  ///< of the colour map; equal: automatic
   bool dark = true;
   double meltingPoint = 273.15;  ///< K, pivot of the temperature map
+  bool still = false;  ///< four samples per pixel: for pictures rather than motion, about four times the work
 };
 
 /// The scene's furniture that is drawn around particles.
@@ -38,6 +41,9 @@ class Renderer {
   Renderer();   ///< throws Error when shaders do not compile or the context is too old
   ~Renderer();  ///< the same context (or one that shares with it) must be current
   /// Draws into the framebuffer bound now. `previous` and `blend` in 0..1 interpolate between two snapshots.
+  /// The picture fills (0, 0)..(width, height) of it. Restores the OpenGL state that it changes. One thread at a time;
+  /// any context that shares with the one of the constructor may be current. Views on several threads have a Renderer
+  /// and a context each.
   void draw(const Snapshot& now, const Snapshot* previous, double blend, const RenderScene& scene, const RenderOptions& options);
 
  private:
@@ -47,15 +53,19 @@ class Renderer {
 
 /// Range that the legend of a colour map shows for a snapshot with automatic limits.
 std::pair<double, double> colourRange(const Snapshot& snapshot, ColourBy colour);
-/// Colour map as sRGB at t in 0..1, for legends (Phase: by api::Phase / 4).
+/// Colour map as sRGB at t in 0..1 of the range, for legends (Phase: by api::Phase / 4). `pivot` is the place of the
+/// melting point in the range, (melting - minimum) / (maximum - minimum); only Temperature uses it. Each side of it is
+/// linear; it may lie outside 0..1. Material has no map and gives grey.
 std::array<float, 3> colourAt(ColourBy colour, double t, double pivot);
 
 /// An OpenGL context without a window or display (EGL surfaceless). Throws Error when there is none.
 class HeadlessContext {
  public:
-  HeadlessContext();
+  /// Becomes current on this thread. Shares objects with `shared` unless that is nullptr.
+  explicit HeadlessContext(const HeadlessContext* shared = nullptr);
   ~HeadlessContext();
   void makeCurrent();
+  void release();  ///< so that another thread may make it current
   std::string description() const;
 
  private:

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "ui/render/instances.h"
+
+#include <array>
+#include <vector>
+
+namespace ps::render {
+
+struct MeshVertex {
+  std::array<float, 3> position, normal;
+  std::array<float, 4> material;  ///< sRGB; Kind (opaque) or opacity (clear)
+};
+/// End of a thin line. `other` is its far end; `ribbon`: side as seen from this end, opacity, side.
+struct EdgeVertex {
+  std::array<float, 3> position, other;
+  std::array<float, 4> ribbon;
+};
+
+/// A convex polygon in space, counter-clockwise as seen from where its normal points.
+struct Face {
+  std::vector<Vec3> corners;
+  std::vector<bool> walled;  ///< the edge from corner i to i + 1 lies on another wall (else on the bounds)
+};
+
+/// The part of a wall that faces the scene: its plane within the bounds and the other walls. Empty where nothing is left.
+Face wallFace(const Environment& environment, size_t wall);
+
+/// What stands around the particles, as triangles. Built anew when the environment changes.
+struct Furniture {
+  std::vector<MeshVertex> opaque, clear;  ///< triangles
+  std::vector<EdgeVertex> edges;          ///< triangles
+  bool hasFloor = false;
+  float floor = 0, ground = 0;            ///< heights, m
+  std::array<float, 2> centre{}, half{1, 1};  ///< of the floor in x and z, m
+  float size = 1;                         ///< of the scene, m
+  float floorHeat = 0;                    ///< 0..1: how much the floor glows
+  float lidHeight = 0;
+  bool hasLid = false;
+};
+
+/// Floors (normal up) are metal slabs, lids (normal down) frosted plates, sides a low rim and the edges of glass panes.
+Furniture buildFurniture(const Environment& environment, bool dark);
+
+/// How much a floor glows, 0 below hand warmth to 1 far above boiling water; 0 for walls that are not held at a
+/// temperature. A sign, not physics: metal glows by itself above 800 K only.
+double glowOf(const SceneWall& wall);
+
+// Solids made of outlines, in prism.cpp.
+
+/// The outline moved outwards by `distance` in its plane, corners mitred.
+std::vector<Vec3> offsetOutline(const std::vector<Vec3>& outline, const Vec3& normal, double distance);
+/// A slab under (against the normal of) an outline, with rounded corners and edges.
+struct SlabShape {
+  double margin, corner, bevel, thickness;  ///< m
+};
+void addSlab(std::vector<MeshVertex>& out, const std::vector<Vec3>& outline, const Vec3& normal, const SlabShape& shape,
+             const std::array<float, 4>& top, const std::array<float, 4>& side);
+/// A frame that stands on the walled edges of a floor.
+void addRim(std::vector<MeshVertex>& out, const Face& floor, const Vec3& normal, double width, double height,
+            const std::array<float, 4>& material);
+
+}  // namespace ps::render

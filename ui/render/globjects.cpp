@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/render/globjects.h"
+
+#include "core/base/error.h"
+#include "ui/render/resource.h"
+
+#include <array>
+
+namespace ps::render {
+namespace {
+
+GLuint compile(GLenum stage, const char* file, const char* library) {
+  std::string source = "#version 430 core\n";
+  source += embeddedText("frame.glsl");
+  if (*library) source += embeddedText(library);
+  const std::string_view own = embeddedText(file);
+  if (own.empty()) throw Error(std::string("shader ") + file + " is not built in");
+  source += "#line 1\n";
+  source += own;
+  const GLuint shader = glCreateShader(stage);
+  const char* text = source.c_str();
+  glShaderSource(shader, 1, &text, nullptr);
+  glCompileShader(shader);
+  GLint ok = 0;
+  glGetShaderiv(shader, GL_COMPILE_STATUS, &ok);
+  if (ok) return shader;
+  std::array<char, 2048> log{};
+  glGetShaderInfoLog(shader, static_cast<GLsizei>(log.size()), nullptr, log.data());
+  glDeleteShader(shader);
+  throw Error(std::string("shader ") + file + " does not compile: " + log.data());
+}
+
+}  // namespace
+
+Program::Program(const char* vertex, const char* fragment, const char* library) {
+  const GLuint first = compile(GL_VERTEX_SHADER, vertex, library);
+  GLuint second = 0;
+  try {
+    second = compile(GL_FRAGMENT_SHADER, fragment, "");
+  } catch (...) {
+    glDeleteShader(first);
+    throw;
+  }
+  m_program = glCreateProgram();
+  glAttachShader(m_program, first);
+  glAttachShader(m_program, second);
+  glLinkProgram(m_program);
+  glDeleteShader(first);
+  glDeleteShader(second);
+  GLint ok = 0;
+  glGetProgramiv(m_program, GL_LINK_STATUS, &ok);
+  if (ok) return;
+  std::array<char, 2048> log{};
+  glGetProgramInfoLog(m_program, static_cast<GLsizei>(log.size()), nullptr, log.data());
+  glDeleteProgram(m_program);
+  throw Error(std::string("shaders ") + vertex + " and " + fragment + " do not link: " + log.data());
+}
+
+Program::~Program() { glDeleteProgram(m_program); }
+
+GLint Program::at(const char* uniform) const {
+  const auto found = m_uniforms.find(std::string_view(uniform));
+  if (found != m_uniforms.end()) return found->second;
+  return m_uniforms[uniform] = glGetUniformLocation(m_program, uniform);
+}
+
+void Program::texture(const char* uniform, int unit, GLuint name, GLenum target) const {
+  glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+  glBindTexture(target, name);
+  glUniform1i(at(uniform), unit);
+}
+
+Texture::Texture(GLint internalFormat, GLint filter, GLint wrap) : m_internalFormat(internalFormat) {
+  glGenTextures(1, &m_name);
+  glBindTexture(GL_TEXTURE_2D, m_name);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter == GL_NEAREST ? GL_NEAREST : GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, wrap);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, wrap);
+}
+
+Texture::~Texture() { glDeleteTextures(1, &m_name); }
+
+void Texture::resize(int width, int height) {
+  if (width == m_width && height == m_height) return;
+  const bool depth = m_internalFormat == GL_DEPTH_COMPONENT32F || m_internalFormat == GL_DEPTH_COMPONENT24;
+  upload(width, height, depth ? GL_DEPTH_COMPONENT : GL_RGBA, depth ? GL_FLOAT : GL_UNSIGNED_BYTE, nullptr);
+}
+
+void Texture::upload(int width, int height, GLenum format, GLenum type, const void* data) {
+  glBindTexture(GL_TEXTURE_2D, m_name);
+  if (width == m_width && height == m_height && data)
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width, height, format, type, data);
+  else
+    glTexImage2D(GL_TEXTURE_2D, 0, m_internalFormat, width, height, 0, format, type, data);
+  m_width = width;
+  m_height = height;
+}
+
+BufferTexture::BufferTexture() { glGenTextures(1, &m_name); }
+BufferTexture::~BufferTexture() { glDeleteTextures(1, &m_name); }
+
+void BufferTexture::bind(int unit, GLuint buffer) const {
+  glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+  glBindTexture(GL_TEXTURE_BUFFER, m_name);
+  glTexBuffer(GL_TEXTURE_BUFFER, GL_RGBA32F, buffer);
+}
+
+Buffer::Buffer() { glGenBuffers(1, &m_name); }
+Buffer::~Buffer() { glDeleteBuffers(1, &m_name); }
+
+void Buffer::upload(GLenum target, const void* data, size_t bytes) {
+  glBindBuffer(target, m_name);
+  glBufferData(target, static_cast<GLsizeiptr>(bytes), data, GL_STREAM_DRAW);
+}
+
+Target::Target(std::initializer_list<const Texture*> colours, const Texture* depth) {
+  glGenFramebuffers(1, &m_name);
+  glBindFramebuffer(GL_FRAMEBUFFER, m_name);
+  std::array<GLenum, 4> buffers{};
+  GLsizei count = 0;
+  const Texture* any = depth;
+  for (const Texture* colour : colours) {
+    const auto attachment = static_cast<GLenum>(GL_COLOR_ATTACHMENT0 + count);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, attachment, GL_TEXTURE_2D, colour->name(), 0);
+    buffers[static_cast<size_t>(count++)] = attachment;
+    any = colour;
+  }
+  if (depth) glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth->name(), 0);
+  if (count)
+    glDrawBuffers(count, buffers.data());
+  else
+    glDrawBuffer(GL_NONE);
+  glReadBuffer(count ? GL_COLOR_ATTACHMENT0 : GL_NONE);
+  glViewport(0, 0, any->width(), any->height());
+}
+
+Target::~Target() { glDeleteFramebuffers(1, &m_name); }
+
+VertexArray::VertexArray() { glGenVertexArrays(1, &m_name); }
+VertexArray::~VertexArray() { glDeleteVertexArrays(1, &m_name); }
+
+}  // namespace ps::render

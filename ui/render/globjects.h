@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <epoxy/gl.h>
+
+#include <cstddef>
+#include <initializer_list>
+#include <map>
+#include <string>
+
+// Owners of OpenGL objects. Textures, buffers and programs are shared among contexts of a group; framebuffers and vertex
+// arrays are not, so those live for one frame only and a renderer may be used and destroyed in any context of its group.
+namespace ps::render {
+
+class Program {
+ public:
+  /// Names of embedded files; `library` is put before the vertex stage after frame.glsl ("" for none). Throws Error with
+  /// the compiler's words.
+  Program(const char* vertex, const char* fragment, const char* library = "");
+  ~Program();
+  Program(const Program&) = delete;
+  Program& operator=(const Program&) = delete;
+
+  void use() const { glUseProgram(m_program); }
+  /// -1 where the shader does not use it, which glUniform ignores.
+  GLint at(const char* uniform) const;
+  /// Binds a texture to a unit and the sampler `uniform` to it; the program must be in use.
+  void texture(const char* uniform, int unit, GLuint name, GLenum target = GL_TEXTURE_2D) const;
+
+ private:
+  GLuint m_program = 0;
+  mutable std::map<std::string, GLint, std::less<>> m_uniforms;
+};
+
+class Texture {
+ public:
+  Texture(GLint internalFormat, GLint filter, GLint wrap = GL_CLAMP_TO_EDGE);
+  ~Texture();
+  Texture(const Texture&) = delete;
+  Texture& operator=(const Texture&) = delete;
+
+  /// New storage when the size differs. Contents are undefined then.
+  void resize(int width, int height);
+  void upload(int width, int height, GLenum format, GLenum type, const void* data);
+  GLuint name() const { return m_name; }
+  int width() const { return m_width; }
+  int height() const { return m_height; }
+
+ private:
+  GLuint m_name = 0;
+  GLint m_internalFormat;
+  int m_width = 0, m_height = 0;
+};
+
+/// Lets shaders read a buffer's floats, four to a texel.
+class BufferTexture {
+ public:
+  BufferTexture();
+  ~BufferTexture();
+  BufferTexture(const BufferTexture&) = delete;
+  BufferTexture& operator=(const BufferTexture&) = delete;
+  /// Binds it to a texture unit with `buffer` as its storage.
+  void bind(int unit, GLuint buffer) const;
+
+ private:
+  GLuint m_name = 0;
+};
+
+class Buffer {
+ public:
+  Buffer();
+  ~Buffer();
+  Buffer(const Buffer&) = delete;
+  Buffer& operator=(const Buffer&) = delete;
+
+  /// Replaces the contents; what the GPU still reads of the old ones stays.
+  void upload(GLenum target, const void* data, size_t bytes);
+  GLuint name() const { return m_name; }
+
+ private:
+  GLuint m_name = 0;
+};
+
+/// Binds a framebuffer over textures for as long as it lives, with a viewport of their size.
+class Target {
+ public:
+  Target(std::initializer_list<const Texture*> colours, const Texture* depth);
+  ~Target();
+  Target(const Target&) = delete;
+  Target& operator=(const Target&) = delete;
+
+  GLuint name() const { return m_name; }
+
+ private:
+  GLuint m_name = 0;
+};
+
+class VertexArray {
+ public:
+  VertexArray();
+  ~VertexArray();
+  VertexArray(const VertexArray&) = delete;
+  VertexArray& operator=(const VertexArray&) = delete;
+  void bind() const { glBindVertexArray(m_name); }
+
+ private:
+  GLuint m_name = 0;
+};
+
+}  // namespace ps::render

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <epoxy/egl.h>
+#include <epoxy/gl.h>
+
+#include "core/base/error.h"
+#include "ui/render/glstate.h"
+#include "ui/render/renderer.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace ps {
+
+struct HeadlessContext::Impl {
+  EGLDisplay display = EGL_NO_DISPLAY;
+  EGLContext context = EGL_NO_CONTEXT;
+
+  ~Impl() {
+    if (context == EGL_NO_CONTEXT) return;
+    if (eglGetCurrentContext() == context) eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    eglDestroyContext(display, context);
+    // The display belongs to the process: others may hold contexts of it.
+  }
+};
+
+HeadlessContext::HeadlessContext(const HeadlessContext* shared) : m(std::make_unique<Impl>()) {
+  const char* extensions = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
+  if (!extensions || !std::strstr(extensions, "EGL_EXT_platform_base") ||
+      !std::strstr(extensions, "EGL_MESA_platform_surfaceless"))
+    throw Error("EGL cannot draw without a display here (no surfaceless platform); install Mesa's EGL");
+  m->display = eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
+  if (m->display == EGL_NO_DISPLAY || !eglInitialize(m->display, nullptr, nullptr))
+    throw Error("EGL does not start; install a driver that has OpenGL 4.3, such as Mesa's llvmpipe");
+  eglBindAPI(EGL_OPENGL_API);
+  const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION,
+                               4,
+                               EGL_CONTEXT_MINOR_VERSION,
+                               3,
+                               EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                               EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                               EGL_NONE};
+  const EGLint wanted[] = {EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
+  EGLConfig config = nullptr;
+  EGLint count = 0;
+  eglChooseConfig(m->display, wanted, &config, 1, &count);
+  m->context = eglCreateContext(m->display, count ? config : EGL_NO_CONFIG_KHR,
+                                shared ? shared->m->context : EGL_NO_CONTEXT, attributes);
+  if (m->context == EGL_NO_CONTEXT) throw Error("EGL has no OpenGL 4.3 context; a newer graphics driver is needed");
+  makeCurrent();
+}
+
+HeadlessContext::~HeadlessContext() = default;
+
+void HeadlessContext::makeCurrent() {
+  eglBindAPI(EGL_OPENGL_API);  // per thread
+  if (!eglMakeCurrent(m->display, EGL_NO_SURFACE, EGL_NO_SURFACE, m->context))
+    throw Error("the OpenGL context cannot be used on this thread; it may be current on another");
+}
+
+void HeadlessContext::release() { eglMakeCurrent(m->display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT); }
+
+std::string HeadlessContext::description() const {
+  const auto text = [](GLenum name) {
+    const GLubyte* value = glGetString(name);
+    return std::string(value ? reinterpret_cast<const char*>(value) : "?");
+  };
+  return text(GL_RENDERER) + ", OpenGL " + text(GL_VERSION);
+}
+
+std::vector<uint8_t> renderImage(Renderer& renderer, const Snapshot& snapshot, const RenderScene& scene,
+                                 const RenderOptions& options) {
+  const render::GlState state;
+  GLuint framebuffer = 0, picture = 0;
+  glGenRenderbuffers(1, &picture);
+  GLint bound = 0;
+  glGetIntegerv(GL_RENDERBUFFER_BINDING, &bound);
+  glBindRenderbuffer(GL_RENDERBUFFER, picture);
+  glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, options.width, options.height);
+  glBindRenderbuffer(GL_RENDERBUFFER, static_cast<GLuint>(bound));
+  glGenFramebuffers(1, &framebuffer);
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, picture);
+  renderer.draw(snapshot, nullptr, 1, scene, options);
+
+  const size_t row = static_cast<size_t>(options.width) * 4;
+  std::vector<uint8_t> pixels(row * static_cast<size_t>(options.height));
+  glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+  GLint alignment = 4, length = 0;
+  glGetIntegerv(GL_PACK_ALIGNMENT, &alignment);
+  glGetIntegerv(GL_PACK_ROW_LENGTH, &length);
+  glPixelStorei(GL_PACK_ALIGNMENT, 4);
+  glPixelStorei(GL_PACK_ROW_LENGTH, 0);
+  glReadPixels(0, 0, options.width, options.height, GL_RGBA, GL_UNSIGNED_BYTE, pixels.data());
+  glPixelStorei(GL_PACK_ALIGNMENT, alignment);
+  glPixelStorei(GL_PACK_ROW_LENGTH, length);
+  glDeleteFramebuffers(1, &framebuffer);
+  glDeleteRenderbuffers(1, &picture);
+  for (size_t top = 0, bottom = static_cast<size_t>(options.height) - 1; top < bottom; ++top, --bottom)
+    std::swap_ranges(pixels.begin() + static_cast<ptrdiff_t>(top * row),
+                     pixels.begin() + static_cast<ptrdiff_t>((top + 1) * row),
+                     pixels.begin() + static_cast<ptrdiff_t>(bottom * row));
+  return pixels;
+}
+
+}  // namespace ps

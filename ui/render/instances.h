@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "ui/render/renderer.h"
+
+#include <array>
+#include <vector>
+
+namespace ps::render {
+
+/// How a surface answers light; the shaders know the same numbers.
+enum class Kind { Plain = 0, Clear = 1, Wet = 2, Matte = 3, PlateTop = 4, PlateSide = 5, Dark = 6 };
+
+/// One particle as the shaders read it: two texels.
+struct Instance {
+  float x, y, z, radius;          ///< m
+  float red, green, blue, extra;  ///< sRGB; Kind for spheres, a seed for vapour
+};
+
+struct Extent {
+  std::array<float, 3> minimum{1e30f, 1e30f, 1e30f}, maximum{-1e30f, -1e30f, -1e30f};  ///< m, spheres included
+  bool empty() const { return minimum[0] > maximum[0]; }
+  void add(float x, float y, float z, float radius);
+};
+
+/// A horizontal rectangle of the floor on which a map says what stands above it.
+struct ContactMap {
+  static constexpr int kCells = 64;
+  std::array<float, 2> corner{}, size{1, 1};  ///< x and z, m
+  float floor = 0;                            ///< height, m
+  std::vector<uint8_t> texels;                ///< RGBA8: mean colour, how much is covered
+};
+
+struct InstanceRequest {
+  const Snapshot* now = nullptr;
+  const Snapshot* previous = nullptr;  ///< nullptr: no interpolation
+  float blend = 1;                     ///< 0: previous, 1: now
+  ColourBy colour = ColourBy::Material;
+  double minimum = 0, maximum = 1, meltingPoint = 273.15;
+  bool surfaces = true;                  ///< liquids become a surface, else spheres
+  std::array<float, 3> steam{1, 1, 1};   ///< colour of vapour where colours show no data
+  bool dropBuried = false;               ///< leaves out spheres that others surround on all sides
+  std::array<float, 3> forward{};        ///< spheres are sorted along it, nearest first; zero: not at all
+};
+
+/// What a frame draws, in three ranges of `particles`: spheres, liquid of a surface, vapour.
+struct Instances {
+  std::vector<Instance> particles;
+  size_t spheres = 0, liquids = 0, vapours = 0;
+  Extent sphereExtent, liquidExtent, vapourExtent;
+  float radius = 0.01f;  ///< mean of what is neither vapour nor static, m
+};
+
+/// Values of `previous` are found by id where the order differs; particles that are new stand where they are now.
+/// Snapshots of different revisions are not mixed.
+void collectInstances(const InstanceRequest& request, Instances& out);
+/// Fills texels from spheres and liquids; liquids count less where `clear`.
+void fillContactMap(const Instances& instances, bool clear, ContactMap& map);
+
+}  // namespace ps::render

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/render/passes.h"
+
+#include "core/base/error.h"
+#include "ui/render/camera.h"
+#include "ui/render/colourmap.h"
+#include "ui/render/glstate.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ps {
+namespace {
+
+using render::Extent;
+using render::Frame;
+using render::FrameUniforms;
+
+// Towards the key light, a unit vector: high, from the left and front of the usual view.
+const Vec3 kLight = [] {
+  const Vec3 v{-0.34, 0.86, 0.40};
+  const double length = std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+  return Vec3{v[0] / length, v[1] / length, v[2] / length};
+}();
+
+FrameUniforms::Matrix floats(const Mat4& a) {
+  FrameUniforms::Matrix out;
+  std::transform(a.begin(), a.end(), out.begin(), [](double v) { return static_cast<float>(v); });
+  return out;
+}
+
+float linear(float c) { return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f); }
+
+std::array<Vec3, 8> cornersOf(const Extent& extent) {
+  std::array<Vec3, 8> corners;
+  for (size_t i = 0; i < 8; ++i)
+    for (size_t k = 0; k < 3; ++k)
+      corners[i][k] = static_cast<double>(i >> k & 1 ? extent.maximum[k] : extent.minimum[k]);
+  return corners;
+}
+
+void join(Extent& into, const Extent& other) {
+  for (size_t k = 0; k < 3; ++k) {
+    into.minimum[k] = std::min(into.minimum[k], other.minimum[k]);
+    into.maximum[k] = std::max(into.maximum[k], other.maximum[k]);
+  }
+}
+
+/// Pixels that a box may touch; the whole picture when a corner is behind the eye.
+std::array<int, 4> pixelsOf(const Extent& extent, const Camera& camera, int width, int height) {
+  double x0 = width, y0 = height, x1 = 0, y1 = 0;
+  if (extent.empty()) return {0, 0, 0, 0};
+  for (const Vec3& corner : cornersOf(extent)) {
+    const std::optional<Vec3> p = project(camera, width, height, corner);
+    if (!p) return {0, 0, width, height};
+    x0 = std::min(x0, (*p)[0]), x1 = std::max(x1, (*p)[0]);
+    y0 = std::min(y0, (*p)[1]), y1 = std::max(y1, (*p)[1]);
+  }
+  const int left = static_cast<int>(std::clamp(x0 - 3, 0.0, 1.0 * width)), right = static_cast<int>(std::clamp(x1 + 4, 0.0, 1.0 * width));
+  const int top = static_cast<int>(std::clamp(y0 - 3, 0.0, 1.0 * height)), bottom = static_cast<int>(std::clamp(y1 + 4, 0.0, 1.0 * height));
+  return {left, height - bottom, right - left, bottom - top};
+}
+
+/// Fits the shadow picture around what casts, from the light's side, and reaches down to the ground.
+void fitShadow(Frame& frame) {
+  Extent casters = frame.instances.sphereExtent;
+  if (frame.data) join(casters, frame.instances.liquidExtent);
+  if (casters.empty()) casters.add(0, 0, 0, 1);
+  casters.minimum[1] = std::min(casters.minimum[1], frame.furniture.ground);
+  const Vec3 right{kLight[2] / std::hypot(kLight[0], kLight[2]), 0, -kLight[0] / std::hypot(kLight[0], kLight[2])};
+  const Vec3 up{kLight[1] * right[2], kLight[2] * right[0] - kLight[0] * right[2], -kLight[1] * right[0]};
+  const std::array<Vec3, 3> axes{right, up, {-kLight[0], -kLight[1], -kLight[2]}};
+  Vec3 low{1e30, 1e30, 1e30}, high{-1e30, -1e30, -1e30};
+  for (const Vec3& p : cornersOf(casters))
+    for (size_t k = 0; k < 3; ++k) {
+      const double along = axes[k][0] * p[0] + axes[k][1] * p[1] + axes[k][2] * p[2];
+      low[k] = std::min(low[k], along), high[k] = std::max(high[k], along);
+    }
+  Mat4 toLight{};
+  for (size_t k = 0; k < 3; ++k) {
+    const double scale = 2 / std::max(high[k] - low[k], 1e-6);
+    for (size_t column = 0; column < 3; ++column) toLight[column * 4 + k] = axes[k][column] * scale;
+    toLight[12 + k] = -(high[k] + low[k]) / 2 * scale;
+    if (k < 2) frame.shadowScale[k] = static_cast<float>(scale);
+  }
+  toLight[15] = 1;
+  const Mat4 half{0.5, 0, 0, 0, 0, 0.5, 0, 0, 0, 0, 0.5, 0, 0.5, 0.5, 0.5, 1};
+  frame.toLight = floats(toLight);
+  frame.uniforms.shadow = floats(multiply(half, toLight));
+}
+
+void fillUniforms(Frame& frame, const RenderOptions& options, double time) {
+  FrameUniforms& u = frame.uniforms;
+  const Camera& camera = options.camera;
+  const Mat4 view = viewMatrix(camera), projection = projectionMatrix(camera, frame.width, frame.height);
+  const Vec3 eye = frameOf(camera).eye;
+  const render::Furniture& furniture = frame.furniture;
+  const auto f = [](double v) { return static_cast<float>(v); };
+  u.view = floats(view);
+  u.projection = floats(projection);
+  u.inverseView = floats(inverse(view));
+  u.eye = {f(eye[0]), f(eye[1]), f(eye[2]), 0};
+  u.size = {f(frame.width), f(frame.height), 1 / f(frame.width), 1 / f(frame.height)};
+  u.lens = {f(1 / projection[0]), f(1 / projection[5]), f(projection[10]), f(projection[14])};
+  u.light = {f(kLight[0]), f(kLight[1]), f(kLight[2]), options.dark ? 1.f : 0.f};
+  u.plate = {furniture.centre[0], furniture.centre[1], furniture.half[0], furniture.half[1]};
+  u.ground = {furniture.floor, furniture.ground, furniture.floorHeat, furniture.hasFloor ? 1.f : 0.f};
+  u.contact = {frame.contact.corner[0], frame.contact.corner[1], 1 / frame.contact.size[0], 1 / frame.contact.size[1]};
+  // Time only turns clouds: the remainder keeps its float precise in long runs.
+  u.matter = {frame.instances.radius, f(std::fmod(time, 3600)), frame.data ? 1.f : 0.f, furniture.size};
+  const render::Colour glow = render::sceneColour(options.dark, "glow");
+  u.glowTint = {linear(glow[0]) * 1.25f, linear(glow[1]) * 1.25f, linear(glow[2]) * 1.25f, 0};
+}
+
+/// Squares of 32 pixels that liquid spheres may touch, as triangles.
+void findLiquidTiles(Frame& frame, const Camera& camera) {
+  constexpr int kTile = 32;
+  const int columns = (frame.width + kTile - 1) / kTile, rows = (frame.height + kTile - 1) / kTile;
+  std::vector<char> touched(static_cast<size_t>(columns * rows));
+  const auto& instances = frame.instances;
+  for (size_t i = instances.spheres; i < instances.spheres + instances.liquids; ++i) {
+    const render::Instance& p = instances.particles[i];
+    const std::optional<Vec3> at = project(camera, frame.width, frame.height, {p.x, p.y, p.z});
+    if (!at) continue;
+    const double reach = 2 * static_cast<double>(p.radius) / pixelSize(camera, frame.height, (*at)[2]) + 4;
+    const auto tile = [&](double pixel, int count) {
+      return static_cast<int>(std::clamp(pixel / kTile, 0.0, static_cast<double>(count - 1)));
+    };
+    if ((*at)[0] < -reach || (*at)[1] < -reach) continue;
+    for (int y = tile((*at)[1] - reach, rows); y <= tile((*at)[1] + reach, rows); ++y)
+      for (int x = tile((*at)[0] - reach, columns); x <= tile((*at)[0] + reach, columns); ++x)
+        touched[static_cast<size_t>(y * columns + x)] = 1;
+  }
+  frame.liquidTiles.clear();
+  const auto u = [&](int x) { return static_cast<float>(x * kTile) / static_cast<float>(frame.width); };
+  const auto v = [&](int y) { return 1 - static_cast<float>(y * kTile) / static_cast<float>(frame.height); };
+  for (int y = 0; y < rows; ++y)
+    for (int x = 0; x < columns; ++x) {
+      if (!touched[static_cast<size_t>(y * columns + x)]) continue;
+      int end = x;
+      while (end < columns && touched[static_cast<size_t>(y * columns + end)]) ++end;
+      for (const auto& [a, b] : {std::pair{x, y}, {x, y + 1}, {end, y}, {end, y}, {x, y + 1}, {end, y + 1}})
+        frame.liquidTiles.push_back({u(a), v(b)});
+      x = end;
+    }
+}
+
+void placeContactMap(Frame& frame) {
+  const render::Furniture& furniture = frame.furniture;
+  for (size_t k = 0; k < 2; ++k) {
+    const float half = std::max(furniture.half[k], 1e-4f) * 1.1f;
+    frame.contact.corner[k] = furniture.centre[k] - half;
+    frame.contact.size[k] = 2 * half;
+  }
+  frame.contact.floor = furniture.floor;
+  render::fillContactMap(frame.instances, !frame.data, frame.contact);
+}
+
+}  // namespace
+
+struct Renderer::Impl {
+  // The state is put back after the constructor's passes are made, so that a context in use stays as it was.
+  static std::unique_ptr<render::Passes> makePasses() {
+    if (epoxy_gl_version() < 43)
+      throw Error("the graphics driver offers OpenGL " + std::to_string(epoxy_gl_version() / 10) + "." +
+                  std::to_string(epoxy_gl_version() % 10) + "; the view needs 4.3 or newer");
+    const render::GlState state;
+    return std::make_unique<render::Passes>();
+  }
+  std::unique_ptr<render::Passes> passes = makePasses();
+  Frame frame;  // kept for its memory
+};
+
+Renderer::Renderer() : m(std::make_unique<Impl>()) {}
+Renderer::~Renderer() = default;
+
+void Renderer::draw(const Snapshot& now, const Snapshot* previous, double blend, const RenderScene& scene,
+                    const RenderOptions& options) {
+  if (options.width < 1 || options.height < 1) return;
+  Frame& frame = m->frame;
+  const int scale = options.still ? 2 : 1;
+  frame.width = options.width * scale;
+  frame.height = options.height * scale;
+  frame.still = options.still;
+  frame.data = options.colour != ColourBy::Material;
+  frame.furniture = render::buildFurniture(scene.environment, options.dark);
+  frame.edgeTint = render::sceneColour(options.dark, "edge");
+
+  render::InstanceRequest request;
+  request.now = &now;
+  request.previous = previous;
+  request.blend = static_cast<float>(blend);
+  request.colour = options.colour;
+  request.meltingPoint = options.meltingPoint;
+  request.minimum = options.rangeMinimum;
+  request.maximum = options.rangeMaximum;
+  if (options.rangeMinimum == options.rangeMaximum)
+    std::tie(request.minimum, request.maximum) = colourRange(now, options.colour);
+  request.surfaces = options.colour != ColourBy::DensityError;
+  request.steam = render::sceneColour(options.dark, "steam");
+  const CameraFrame axes = frameOf(options.camera);
+  if (m->passes->quality().sorted)
+    for (size_t k = 0; k < 3; ++k) request.forward[k] = static_cast<float>(axes.forward[k]);
+  request.dropBuried = m->passes->quality().sorted;
+  render::collectInstances(request, frame.instances);
+
+  placeContactMap(frame);
+  fillUniforms(frame, options, now.stats.time);
+  fitShadow(frame);
+  frame.lidInFront = axes.eye[1] > static_cast<double>(frame.furniture.lidHeight);
+  Extent all = frame.instances.sphereExtent;
+  for (const render::MeshVertex& v : frame.furniture.opaque) all.add(v.position[0], v.position[1], v.position[2], 0);
+  frame.sceneBox = pixelsOf(all, options.camera, frame.width, frame.height);
+  findLiquidTiles(frame, options.camera);
+
+  const render::GlState state;
+  m->passes->draw(frame, state.drawFramebuffer());
+}
+
+}  // namespace ps
