@@ -52,7 +52,7 @@ double PhaseDiagram::boilingPoint(double pressure) const {
   };
   // The line rises up to a/b, far above any critical point; beyond it there is no vapour to be in balance with.
   const double top = std::min(highest, line.b > 0 ? 0.999 * line.a / line.b : 20 * line.temperature);
-  if (excess(top) <= 0) return rounded(top);
+  if (excess(top) <= 0) return top == highest ? highest : rounded(top);
   double low = 0.02 * line.temperature, high = top;
   double t = std::clamp(line.temperature / std::max(0.05, 1 - target * line.temperature / line.a), low, high);
   for (int i = 0; i < 60; ++i) {  // Newton, kept inside the bracket

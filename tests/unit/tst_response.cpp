@@ -40,7 +40,7 @@ class TestResponse : public QObject {
     const QList<double> glass{-2.601, 4330.9, 519.25};
     QTest::newRow("glass 600 C") << "vogel" << glass << 873.15 << 4331490000.0;
     QTest::newRow("glass 1000 C") << "vogel" << glass << 1273.15 << 1392.07;
-    QTest::newRow("honey 40 C") << "arrhenius" << QList<double>{10, 95e3, 293} << 313.0 << 0.829681;
+    QTest::newRow("honey 40 C") << "arrhenius" << QList<double>{10, 95e3, 293.15} << 313.15 << 0.829681;
     QTest::newRow("wax softens") << "exponential" << QList<double>{1e8, 293.15, 10} << 303.15 << 1e8 / std::exp(1.0);
     QTest::newRow("linear") << "linear" << QList<double>{2, 0.5, 300} << 310.0 << 7.0;
     // The thesis's stiffness: E(+1 K) = 0.537883 E0, E(-5 K) = 1.98661 E0, equal to E0 at T_ref.
