@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: Apache-2.0
+// Installs this build to a scratch prefix outside the build tree, builds the example plugins there by
+// find_package(PhaseSketch) from copies of their sources, and loads them with the installed programs.
+#include <QDir>
+#include <QDirIterator>
+#include <QFile>
+#include <QFileInfo>
+#include <QJsonArray>
+#include <QJsonDocument>
+#include <QJsonObject>
+#include <QProcess>
+#include <QTemporaryDir>
+#include <QTest>
+
+namespace {
+
+constexpr int kLongest = 300'000;  // ms; a busy machine builds the four in half a minute
+
+struct Outcome {
+  int code = -1;  // -1: did not start or end
+  QByteArray output, errors;
+  QByteArray text() const { return output + errors; }
+};
+
+Outcome runProgram(const QString& program, const QStringList& arguments, const QString& pluginPath = {}) {
+  QProcess process;
+  QProcessEnvironment environment = QProcessEnvironment::systemEnvironment();
+  if (!pluginPath.isEmpty()) environment.insert("PHASESKETCH_PLUGIN_PATH", pluginPath);
+  process.setProcessEnvironment(environment);
+  process.start(program, arguments);
+  if (!process.waitForStarted() || !process.waitForFinished(kLongest))
+    return {-1, process.readAllStandardOutput(), process.errorString().toUtf8()};
+  const int code = process.exitStatus() == QProcess::NormalExit ? process.exitCode() : -1;
+  return {code, process.readAllStandardOutput(), process.readAllStandardError()};
+}
+
+bool copyFolder(const QString& from, const QString& to) {
+  QDirIterator it(from, QDir::Files, QDirIterator::Subdirectories);
+  while (it.hasNext()) {
+    const QString path = it.next(), target = to + '/' + QDir(from).relativeFilePath(path);
+    if (!QDir().mkpath(QFileInfo(target).path()) || !QFile::copy(path, target)) return false;
+  }
+  return true;
+}
+
+// The entry of a plugin in `phasesketch-cli plugins --json`, empty when it is not listed.
+QJsonObject entryOf(const QByteArray& list, const QString& id) {
+  const QJsonArray plugins = QJsonDocument::fromJson(list).object()["plugins"].toArray();
+  for (const QJsonValue& plugin : plugins)
+    if (plugin["id"].toString() == id) return plugin.toObject();
+  return {};
+}
+
+}  // namespace
+
+class InstallationTest : public QObject {
+  Q_OBJECT
+
+ private Q_SLOTS:
+  void initTestCase();
+  void installedFilesAreThere_data();
+  void installedFilesAreThere();
+  void ownPluginsLoadFromTheInstallation();
+  void examplesBuildOutsideTheTree();
+  void commandLineLoadsTheExamples_data();
+  void commandLineLoadsTheExamples();
+  void examplesRunInAScene();
+  void editorLoadsTheExamples();
+  void examplesInstallBesideTheProgram();
+
+ private:
+  QString prefix() const { return m_dir.path() + "/prefix"; }
+  QString program(const char* name) const { return prefix() + "/bin/" + name; }
+  QString examplesBuild() const { return m_dir.path() + "/build"; }
+  QString pluginDirectory() const { return examplesBuild() + "/phasesketch-plugins"; }
+
+  QTemporaryDir m_dir;
+};
+
+void InstallationTest::initTestCase() {
+  QVERIFY(m_dir.isValid());
+  const Outcome installed = runProgram(PS_CMAKE, {"--install", PS_BINARY_DIR, "--prefix", prefix()});
+  QVERIFY2(installed.code == 0, installed.text());
+}
+
+void InstallationTest::installedFilesAreThere_data() {
+  QTest::addColumn<QString>("path");
+  for (const char* path :
+       {"bin/phasesketch", "bin/phasesketch-cli", "include/phasesketch/qtentry.h", "lib/phasesketch/plugins/water.so",
+        "share/phasesketch/plugins/wax.json", "share/phasesketch/projects/ice-on-hot-plate.json",
+        "share/phasesketch/examples/README.md", "share/doc/PhaseSketch/LICENSE"})
+    QTest::newRow(path) << path;
+}
+
+void InstallationTest::installedFilesAreThere() {
+  QFETCH(QString, path);
+  QVERIFY(QFileInfo(prefix() + '/' + path).isFile());
+}
+
+void InstallationTest::ownPluginsLoadFromTheInstallation() {
+  const Outcome list = runProgram(program("phasesketch-cli"), {"plugins", "--json"});
+  QVERIFY2(list.code == 0, list.text());
+  for (const char* id : {"water", "wax", "bonds", "enthalpy", "thesis_latent", "sphere", "cube"}) {
+    const QJsonObject entry = entryOf(list.output, id);
+    QVERIFY2(entry["state"] == "loaded", id + (": " + QJsonDocument(entry).toJson()));
+    const QString home = QFileInfo(prefix()).canonicalFilePath();
+    QVERIFY2(entry["path"].toString().startsWith(home), qPrintable(entry["path"].toString()));
+  }
+}
+
+void InstallationTest::examplesBuildOutsideTheTree() {
+  const QString source = m_dir.path() + "/examples";
+  QVERIFY(copyFolder(prefix() + "/share/phasesketch/examples", source));
+  const Outcome configured = runProgram(
+      PS_CMAKE, {"-S", source, "-B", examplesBuild(), "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
+                 "-DCMAKE_PREFIX_PATH=" + prefix(), QStringLiteral("-DCMAKE_CXX_COMPILER=") + PS_CXX_COMPILER,
+                 QStringLiteral("-DCMAKE_CXX_FLAGS=-Wall -Wextra -Wpedantic -Werror")});
+  QVERIFY2(configured.code == 0, configured.text());
+  const Outcome built = runProgram(PS_CMAKE, {"--build", examplesBuild(), "-j", "2"});
+  QVERIFY2(built.code == 0, built.text());
+}
+
+void InstallationTest::commandLineLoadsTheExamples_data() {
+  QTest::addColumn<QString>("id");
+  QTest::addColumn<QString>("kind");
+  QTest::newRow("material") << "org.example.honey"
+                            << "material";
+  QTest::newRow("constraint") << "org.example.cohesion"
+                              << "constraint";
+  QTest::newRow("thermal") << "org.example.sensible"
+                           << "thermal";
+  QTest::newRow("brush") << "org.example.ring"
+                         << "brush";
+}
+
+void InstallationTest::commandLineLoadsTheExamples() {
+  QFETCH(QString, id);
+  QFETCH(QString, kind);
+  const Outcome without = runProgram(program("phasesketch-cli"), {"plugins", "--json"});
+  QVERIFY2(entryOf(without.output, id).isEmpty(), "is there before it was built");
+  const Outcome list = runProgram(program("phasesketch-cli"), {"plugins", "--json"}, pluginDirectory());
+  QVERIFY2(list.code == 0, list.text());
+  const QJsonObject entry = entryOf(list.output, id);
+  QVERIFY2(entry["state"] == "loaded", QJsonDocument(entry).toJson());
+  QCOMPARE(entry["kind"].toString(), kind);
+  QCOMPARE(entry["licence"].toString(), QStringLiteral("MIT"));
+}
+
+void InstallationTest::examplesRunInAScene() {
+  QFile file(m_dir.filePath("honey.json"));
+  QVERIFY(file.open(QIODevice::WriteOnly));
+  file.write(R"({
+    "format": "phasesketch", "version": 1,
+    "pluginsRequired": ["org.example.cohesion", "org.example.honey", "org.example.sensible"],
+    "materials": [{"id": "honey", "base": "org.example.honey", "parameters": {"moisture": 0.2}}],
+    "bodies": [{"id": "drop", "material": "honey", "parameters": {"temperature": 300},
+                "shape": {"box": {"center": [0, 0.2, 0], "size": [0.16, 0.16, 0.16]}},
+                "constraints": [{"plugin": "org.example.cohesion"}]}],
+    "environment": {"bounds": {"minimum": [-0.5, 0, -0.5], "maximum": [0.5, 1, 0.5]},
+                    "walls": [{"id": "floor", "point": [0, 0, 0], "normal": [0, 1, 0]}]},
+    "solver": {"parameters": {"particle_spacing": 0.02}, "thermal": {"model": "org.example.sensible"}}
+  })");
+  file.close();
+  const QString report = m_dir.filePath("report.json");
+  const QStringList arguments{"simulate", file.fileName(), "--frames", "20", "--report", report};
+  const Outcome missing = runProgram(program("phasesketch-cli"), arguments);
+  QVERIFY2(missing.code == 2, "a scene whose plugins are missing must be refused: " + missing.text());
+  const Outcome done = runProgram(program("phasesketch-cli"), arguments, pluginDirectory());
+  QVERIFY2(done.code == 0, done.text());
+  QFile written(report);
+  QVERIFY(written.open(QIODevice::ReadOnly));
+  const QJsonObject result = QJsonDocument::fromJson(written.readAll()).object();
+  QCOMPARE(result["particles"].toInt(), 512);
+  QCOMPARE(result["frames"].toInt(), 20);
+  QVERIFY2(result["flags"].toArray().isEmpty(), done.text());
+  QCOMPARE(result["phases"]["liquid"]["count"].toInt(), 512);  // the model has no latent heat, and honey never freezes
+}
+
+void InstallationTest::editorLoadsTheExamples() {
+  const Outcome list = runProgram(program("phasesketch"), {"--list-plugins"}, pluginDirectory());
+  QVERIFY2(list.code == 0, list.text());
+  for (const char* id : {"org.example.honey", "org.example.cohesion", "org.example.sensible", "org.example.ring"}) {
+    bool loaded = false;
+    for (const QByteArray& line : list.output.split('\n'))
+      loaded = loaded || (line.startsWith(id) && line.contains("loaded"));
+    QVERIFY2(loaded, id + (" is not loaded:\n" + list.text()));
+  }
+}
+
+void InstallationTest::examplesInstallBesideTheProgram() {
+  const Outcome installed = runProgram(PS_CMAKE, {"--install", examplesBuild(), "--prefix", prefix()});
+  QVERIFY2(installed.code == 0, installed.text());
+  const Outcome list = runProgram(program("phasesketch-cli"), {"plugins", "--json"});
+  QVERIFY2(entryOf(list.output, "org.example.honey")["state"] == "loaded", list.text());
+}
+
+QTEST_GUILESS_MAIN(InstallationTest)
+#include "tst_installation.moc"

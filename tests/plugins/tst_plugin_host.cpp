@@ -1,0 +1,560 @@
+// SPDX-License-Identifier: Apache-2.0
+// Broken plugins are fixtures: each must give exactly one line that names the file and the fault, and leave the rest alone.
+#include "core/base/error.h"
+#include "core/plugin_host/materialjson.h"
+#include "core/plugin_host/pluginmetadata.h"
+#include "core/plugin_host/quarantine.h"
+#include "core/plugin_host/registry.h"
+#include "core/plugin_host/strictjson.h"
+#include "core/sketch/stroke.h"
+
+#include <QCoreApplication>
+#include <QDir>
+#include <QFile>
+#include <QProcess>
+#include <QTemporaryDir>
+#include <QTest>
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <clocale>
+#include <cmath>
+#include <cstdio>
+
+using namespace ps;
+
+namespace {
+
+QString fixture(const QString& name) { return qEnvironmentVariable("PS_FIXTURE_DIR") + "/" + name + ".so"; }
+
+QByteArray contents(const QString& path) {
+  QFile file(path);
+  return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();
+}
+
+bool write(const QString& path, const QByteArray& bytes) {
+  QFile file(path);
+  return file.open(QIODevice::WriteOnly) && file.write(bytes) == bytes.size();
+}
+
+/// Only these directories count.
+PluginRegistry::Options only(const std::vector<std::string>& paths) {
+  PluginRegistry::Options options;
+  options.extraPaths = paths;
+  options.builtIn = options.userDirectory = options.environment = false;
+  return options;
+}
+
+std::vector<PluginInfo> withState(const PluginRegistry& registry, PluginInfo::State state) {
+  std::vector<PluginInfo> result;
+  for (const PluginInfo& info : registry.plugins())
+    if (info.state == state) result.push_back(info);
+  return result;
+}
+
+bool isOneLine(const std::string& text) { return !text.empty() && text.find('\n') == std::string::npos; }
+
+/// The metadata of a plugin lie in the file as CBOR: a text shorter than 24 bytes is one byte 0x60 + length and itself.
+/// Texts are exchanged for others of the same length, so that nothing else moves.
+QByteArray cborText(const QByteArray& text) { return QByteArray(1, static_cast<char>(0x60 + text.size())) + text; }
+
+QByteArray damaged(QByteArray bytes, const QByteArray& from, const QByteArray& to) {
+  if (bytes.count(from) != 1 || from.size() != to.size()) return {};
+  return bytes.replace(from, to);
+}
+
+constexpr const char* kSoundJson = R"({"format": "phasesketch-material", "version": 1, "id": "soap", "label": "Soap",
+  "licence": "CC0-1.0", "properties": {"density_solid": 1050}})";
+
+}  // namespace
+
+class TestPluginHost : public QObject {
+  Q_OBJECT
+
+ private:
+  QString directory(const char* name) {
+    const QString path = m_scratch.filePath(name);
+    QDir().mkpath(path);
+    return path;
+  }
+  /// A fresh directory with one sound plugin of each kind but materials.
+  QString withSoundPlugins(const QString& name) {
+    const QString path = directory(qPrintable(name));
+    for (const char* kind : {"constraint", "thermal", "brush"})
+      QFile::copy(fixture(QString("fixture_") + kind), path + "/" + kind + ".so");
+    return path;
+  }
+  /// Runs this program as a child that loads a directory; its standard output, or "crashed".
+  QString loadInChild(const QString& path) {
+    QProcess child;
+    child.start(QCoreApplication::applicationFilePath(), {"--load", path});
+    if (!child.waitForFinished(60000)) return "hung";
+    if (child.exitStatus() == QProcess::CrashExit) return "crashed";
+    return QString::fromUtf8(child.readAllStandardOutput());
+  }
+
+  QTemporaryDir m_scratch;
+
+ private Q_SLOTS:
+  void initTestCase() {
+    QVERIFY(m_scratch.isValid());
+    QVERIFY2(QFile::exists(fixture("fixture_material")), "PS_FIXTURE_DIR must name the fixtures");
+    qputenv("XDG_STATE_HOME", m_scratch.filePath("state").toUtf8());
+    qunsetenv("PHASESKETCH_PLUGIN_PATH");
+  }
+
+  void soundPluginsOfEachKindAreLoaded() {
+    const QString path = withSoundPlugins("sound");
+    QVERIFY(QFile::copy(fixture("fixture_material"), path + "/material.so"));
+    QVERIFY(write(path + "/soap.json", kSoundJson));
+    QVERIFY(write(path + "/notes.txt", "not looked at"));
+    const PluginRegistry registry(only({path.toStdString()}));
+    for (const PluginInfo& info : registry.plugins()) QCOMPARE(info.problem, std::string());
+    QCOMPARE(registry.plugins().size(), size_t(5));
+    QVERIFY(registry.brush("fixture.brush") && registry.constraint("fixture.constraint"));
+    QVERIFY(registry.thermal("fixture.thermal") && registry.materialPlugin("fixture.material"));
+    QVERIFY(registry.material("soap") && !registry.materialPlugin("soap"));
+    QVERIFY(!registry.brush("fixture.thermal") && !registry.material("fixture.brush") && !registry.has("nobody"));
+    QCOMPARE(registry.ids(PluginKind::Material), (std::vector<std::string>{"fixture.material", "soap"}));
+    const PluginInfo& info = registry.plugins().front();
+    QCOMPARE(info.id, std::string("fixture.brush"));
+    QCOMPARE(info.label, std::string("Fixture"));
+    QCOMPARE(info.version, std::string("1.2.3"));
+    QCOMPARE(info.licence, std::string("MIT"));
+  }
+
+  void damagedMetadataAreRefused_data() {
+    QTest::addColumn<QByteArray>("from");
+    QTest::addColumn<QByteArray>("to");
+    QTest::addColumn<QString>("expected");
+    const QByteArray api = cborText("api"), licence = cborText("licence"), kind = cborText("kind");
+    QTest::newRow("other major version") << api + cborText("1.0") << api + cborText("2.0") << "version 2.0 of the plugin interface";
+    QTest::newRow("later minor version") << api + cborText("1.0") << api + cborText("1.9") << "update PhaseSketch";
+    QTest::newRow("no version") << api + cborText("1.0") << api + cborText("one") << "must be two numbers";
+    QTest::newRow("missing key") << licence << cborText("license") << "lack the key \"licence\"";
+    QTest::newRow("missing id") << cborText("id") << cborText("ID") << "lack the key \"id\"";
+    QTest::newRow("bad id") << cborText("fixture.material") << cborText("Fixture Material") << "must be lower-case";
+    QTest::newRow("id that leads elsewhere") << cborText("fixture.material") << cborText("../../etc/passwd") << "must be lower-case";
+    QTest::newRow("bad version") << cborText("1.2.3") << cborText("1..23") << "must be numbers joined by dots";
+    QTest::newRow("other kind") << kind + cborText("material") << kind + cborText("rustlike") << "kind \"rustlike\"";
+    QTest::newRow("later interface") << QByteArray("org.phasesketch.Material/1\x07", 26) << QByteArray("org.phasesketch.Material/2")
+                                     << "this program has org.phasesketch.Material/1";
+    QTest::newRow("another program's") << QByteArray("org.phasesketch.Material/1") << QByteArray("org.elsewhere.gui.Style/12")
+                                       << "another program";
+  }
+  void damagedMetadataAreRefused() {
+    QFETCH(QByteArray, from);
+    QFETCH(QByteArray, to);
+    QFETCH(QString, expected);
+    QByteArray bytes = contents(fixture("fixture_material"));
+    // The IID stands in the metadata and in the interface's own name: only the first place counts for the loader.
+    if (from.startsWith("org.")) {
+      const qsizetype at = bytes.indexOf(from);
+      QVERIFY(at > 0 && from.size() == to.size());
+      for (qsizetype i = at; i >= 0; i = bytes.indexOf(from, i + 1)) bytes.replace(i, from.size(), to);
+    } else {
+      bytes = damaged(bytes, from, to);
+    }
+    QVERIFY2(!bytes.isEmpty(), "the metadata do not hold the text to damage");
+    const QString path = withSoundPlugins(QString("metadata ") + QTest::currentDataTag());
+    QVERIFY(write(path + "/damaged.so", bytes));
+    expectOneRefusal(path, "damaged.so", expected);
+  }
+
+  void filesThatAreNoPluginsAreRefused_data() {
+    QTest::addColumn<QByteArray>("bytes");
+    QTest::newRow("empty") << QByteArray();
+    QTest::newRow("text") << QByteArray("this is not a plugin\n");
+    QTest::newRow("random bytes") << QByteArray(5000, '\xA7');
+    QTest::newRow("head of a library") << contents(fixture("fixture_brush")).left(300);
+    QTest::newRow("half a library") << contents(fixture("fixture_brush")).left(contents(fixture("fixture_brush")).size() / 2);
+    QTest::newRow("library without metadata") << contents(fixture("fixture_plain"));
+  }
+  void filesThatAreNoPluginsAreRefused() {
+    QFETCH(QByteArray, bytes);
+    const QString path = withSoundPlugins(QString("garbage ") + QTest::currentDataTag());
+    QVERIFY(write(path + "/garbage.so", bytes));
+    expectOneRefusal(path, "garbage.so", "is not a plugin");
+  }
+
+  void unresolvedSymbolIsRefused() {
+    const QString path = withSoundPlugins("unresolved");
+    QFile::remove(path + "/brush.so");
+    QVERIFY(QFile::copy(fixture("fixture_unresolved"), path + "/unresolved.so"));
+    const PluginRegistry registry(only({path.toStdString()}));
+    const auto refused = withState(registry, PluginInfo::State::Refused);
+    QCOMPARE(refused.size(), size_t(1));
+    QVERIFY2(refused[0].problem.find("could not be loaded") != std::string::npos, refused[0].problem.c_str());
+    QVERIFY(isOneLine(refused[0].problem));
+  }
+
+  void faultyCodeIsRefused_data() {
+    QTest::addColumn<QString>("kind");
+    QTest::addColumn<QString>("expected");
+    const auto row = [](const char* name, const char* expected) { QTest::newRow(name) << "material" << expected; };
+    row("throwing_constructor", "no more of this");
+    row("throwing_number", "no std::exception");
+    row("throwing_label", "label failed");
+    row("null_label", "label is empty");
+    row("throwing_parameters", "parameters failed");
+    row("null_list", "null pointer");
+    row("small_stride", "stride of 8 bytes");
+    row("null_key", "parameter 1: its key is a null pointer");
+    row("null_help", "parameter 1: its help is a null pointer");
+    row("bad_key", "lower_snake_case");
+    row("nan_default", "its default is not a finite number");
+    row("min_above_max", "its minimum 3000 is above its maximum 2000");
+    row("default_outside", "outside its hard limits");
+    row("duplicate_parameter", "is declared twice");
+    row("empty_choice", "empty choice");
+    row("unknown_kind", "kind is unknown");
+    row("throwing_properties", "properties failed");
+    row("null_property", "property 1: its key is a null pointer");
+    row("unknown_property", "did you mean \"density_solid\"?");
+    row("duplicate_property", "is given twice");
+    row("negative_density", "must be at least 1 kg/m³, not -3");
+    row("infinite_property", "not a finite number");
+    row("bad_grade", "its grade must be");
+    row("unknown_law", "unknown law 'vogle'");
+    row("throwing_law", "law failed");
+    row("forgetful_law", "its law for 'density_liquid'");
+    QTest::newRow("wide_constraint") << "constraint" << "2 to 4 particles, not 9";
+    QTest::newRow("duplicate_field") << "thermal" << "field 'fixture.heat': is declared twice";
+  }
+  void faultyCodeIsRefused() {
+    QFETCH(QString, kind);
+    QFETCH(QString, expected);
+    const QString name = QString(QTest::currentDataTag()) + ".so";
+    const QString path = withSoundPlugins(QString("faulty ") + QTest::currentDataTag());
+    QFile::remove(path + "/" + kind + ".so");
+    QVERIFY(QFile::copy(fixture("fixture_" + kind), path + "/" + name));
+    expectOneRefusal(path, name, expected, kind == "material" ? 3 : 2);
+  }
+
+  void numberFormatSurvivesAPlugin() {
+    const QString path = directory("locale");
+    QVERIFY(QFile::copy(fixture("fixture_material"), path + "/changing_locale.so"));
+    // The plugin sets the user's format. German would show it best but need not be installed: C.UTF-8 always is, and
+    // has a name of its own.
+    qputenv("LC_ALL", "C.UTF-8");
+    QCOMPARE(QByteArray(std::setlocale(LC_NUMERIC, "")), QByteArray("C.UTF-8"));
+    std::setlocale(LC_NUMERIC, "C");
+    const PluginRegistry registry(only({path.toStdString()}));
+    QVERIFY(registry.has("fixture.material"));
+    QCOMPARE(QByteArray(std::setlocale(LC_NUMERIC, nullptr)), QByteArray("C"));
+  }
+
+  void laterDirectoryReplacesEarlier() {
+    const QString first = directory("first"), second = directory("second");
+    QVERIFY(QFile::copy(fixture("fixture_material"), first + "/a.so"));
+    const QByteArray newer = damaged(contents(fixture("fixture_material")), cborText("1.2.3"), cborText("4.5.6"));
+    QVERIFY(write(second + "/b.so", newer));
+    const PluginRegistry registry(only({first.toStdString(), second.toStdString()}));
+    QCOMPARE(registry.plugins().size(), size_t(1));
+    const PluginInfo& info = registry.plugins()[0];
+    QCOMPARE(info.version, std::string("4.5.6"));
+    QCOMPARE(info.note, "replaces version 1.2.3 in " + QFileInfo(first + "/a.so").canonicalFilePath().toStdString());
+  }
+
+  void brokenReplacementLeavesTheEarlierInPlace() {
+    const QString first = directory("good first"), second = directory("broken second");
+    QVERIFY(QFile::copy(fixture("fixture_material"), first + "/a.so"));
+    QVERIFY(QFile::copy(fixture("fixture_material"), second + "/throwing_constructor.so"));
+    const PluginRegistry registry(only({first.toStdString(), second.toStdString()}));
+    QVERIFY(registry.material("fixture.material"));
+    const auto refused = withState(registry, PluginInfo::State::Refused);
+    QCOMPARE(refused.size(), size_t(1));
+    QVERIFY2(refused[0].problem.find("takes its place") != std::string::npos, refused[0].problem.c_str());
+  }
+
+  void twoOfOneIdInOneFolderGiveOneLine() {
+    const QString path = withSoundPlugins("twins");
+    QVERIFY(QFile::copy(fixture("fixture_material"), path + "/m1.so"));
+    QVERIFY(QFile::copy(fixture("fixture_material"), path + "/m2.so"));
+    expectOneRefusal(path, "m2.so", "is taken by", 4);
+  }
+
+  void missingFolderThatWasAskedForIsTold() {
+    const QString missing = m_scratch.filePath("nowhere");
+    const PluginRegistry registry(only({missing.toStdString()}));
+    QCOMPARE(registry.plugins().size(), size_t(1));
+    QCOMPARE(registry.plugins()[0].problem, missing.toStdString() + ": there is no such folder; correct the given paths");
+  }
+
+  void environmentAndUserDirectoryAreSearched() {
+    const QString data = directory("data"), env = directory("env");
+    QDir().mkpath(data + "/phasesketch/plugins");
+    QVERIFY(write(data + "/phasesketch/plugins/soap.json", kSoundJson));
+    QVERIFY(write(env + "/soap.json", QByteArray(kSoundJson).replace("1050", "1060")));
+    QVERIFY(write(env + "/candle.json", QByteArray(kSoundJson).replace("\"soap\"", "\"candle\"")));
+    qputenv("XDG_DATA_HOME", data.toUtf8());
+    qputenv("PHASESKETCH_PLUGIN_PATH", (env + ":").toUtf8());
+    PluginRegistry::Options options;
+    options.builtIn = false;
+    const PluginRegistry registry(options);
+    qunsetenv("PHASESKETCH_PLUGIN_PATH");
+    QCOMPARE(registry.ids(PluginKind::Material), (std::vector<std::string>{"candle", "soap"}));
+    QCOMPARE(registry.material("soap")->properties.at("density_solid").constant, 1060.0);
+  }
+
+  void faultTakesAPluginOutOfService() {
+    const QString path = withSoundPlugins("running");
+    QVERIFY(QFile::copy(fixture("fixture_material"), path + "/material.so"));
+    PluginRegistry registry(only({path.toStdString()}));
+    const std::vector<PluginInfo>& before = registry.plugins();
+    const size_t count = before.size();
+    registry.fault("fixture.brush", "threw\nin stroke()");
+    registry.fault("nobody", "is not there");
+    QVERIFY(!registry.has("fixture.brush") && registry.has("fixture.thermal"));
+    QCOMPARE(withState(registry, PluginInfo::State::Refused).size(), size_t(1));
+    QVERIFY(isOneLine(withState(registry, PluginInfo::State::Refused)[0].problem));
+    QVERIFY(withState(registry, PluginInfo::State::Refused)[0].problem.find("threw in stroke()") != std::string::npos);
+    QCOMPARE(before.size(), count);  // a reference that somebody still reads stays good
+    // A law that fails later: an error that names it, and the plugin is out of service.
+    QVERIFY_EXCEPTION_THROWN(registry.evaluated("fixture.material", {1800, 1000}), Error);
+    QVERIFY(!registry.has("fixture.material"));
+  }
+
+  void lawsAreEvaluatedForOwnParameters() {
+    const QString path = directory("laws");
+    QVERIFY(QFile::copy(fixture("fixture_material"), path + "/material.so"));
+    const PluginRegistry registry(only({path.toStdString()}));
+    // The law is linear below 300 K and level above; samples every kelvin and monotone interpolation give it back to
+    // rounding of 12 digits.
+    const Material atDefaults = registry.evaluated("fixture.material", {});
+    QVERIFY(std::abs(atDefaults.properties.at("density_liquid").at(250.5) - (1000 - 25.05)) < 1e-9);
+    const Material denser = registry.evaluated("fixture.material", {1400, 1000});
+    QVERIFY(std::abs(denser.properties.at("density_liquid").at(250.5) - (1400 - 25.05)) < 1e-9);
+    QCOMPARE(denser.properties.at("density_liquid").at(2000), 1370.0);
+    QCOMPARE(denser.properties.at("density_solid").constant, 1100.0);
+    QVERIFY_EXCEPTION_THROWN(registry.evaluated("nobody", {}), Error);
+  }
+
+  void crashingPluginIsNotLoadedTwice() {
+    const QString path = withSoundPlugins("crashing");
+    QVERIFY(QFile::copy(fixture("fixture_material"), path + "/aborting.so"));
+    QCOMPARE(loadInChild(path), QString("crashed"));
+    const QString second = loadInChild(path);
+    QVERIFY2(second.contains("fixture.material quarantined"), qPrintable(second));
+    QVERIFY2(second.contains("phasesketch-cli plugins --allow fixture.material"), qPrintable(second));
+    QCOMPARE(second.count("loaded"), 3 + second.count("not loaded"));
+    {
+      PluginRegistry registry(only({path.toStdString()}));
+      QCOMPARE(withState(registry, PluginInfo::State::Quarantined).size(), size_t(1));
+      QVERIFY(!registry.allow("fixture.brush"));
+      QVERIFY(registry.allow("fixture.material"));
+      QVERIFY(!registry.allow("fixture.material"));
+    }
+    QCOMPARE(loadInChild(path), QString("crashed"));  // allowed again, it is tried again
+    // Another build of the file gets its chance by itself.
+    QFile::remove(path + "/aborting.so");
+    QVERIFY(write(path + "/aborting.so", damaged(contents(fixture("fixture_material")), cborText("fixture.material"),
+                                                 cborText("fixture.renamed_"))));
+    QVERIFY(!loadInChild(path).contains("quarantined"));
+  }
+
+  void onlyLocksOfDeadProcessesCount() {
+    const std::string state = m_scratch.filePath("locks").toStdString();
+    const std::string plugin = fixture("fixture_brush").toStdString();
+    {
+      const LoadingLock mine(state, "alive", plugin);
+      const pid_t child = fork();
+      if (child == 0) {
+        new LoadingLock(state, "dead", plugin);  // NOLINT: it must not be destroyed
+        _exit(0);
+      }
+      int status = 0;
+      QCOMPARE(waitpid(child, &status, 0), child);
+      Quarantine quarantine(state);
+      QVERIFY(!quarantine.holds("alive", plugin));
+      QVERIFY(quarantine.holds("dead", plugin));
+      QVERIFY(!quarantine.holds("dead", "/another/file.so"));
+    }
+    QCOMPARE(QDir(QString::fromStdString(state)).entryList({"*.loading", "*.draft"}).size(), 0);
+    Quarantine again(state);
+    QVERIFY(again.holds("dead", plugin) && again.allow("dead") && !again.holds("dead", plugin));
+    QVERIFY(!Quarantine(state).holds("dead", plugin));
+  }
+
+  void concurrentStartsDoNotQuarantineAnything() {
+    const QString path = withSoundPlugins("concurrent");
+    std::vector<std::unique_ptr<QProcess>> children;
+    for (int i = 0; i < 6; ++i) {
+      children.push_back(std::make_unique<QProcess>());
+      children.back()->start(QCoreApplication::applicationFilePath(), {"--load", path});
+    }
+    for (auto& child : children) {
+      QVERIFY(child->waitForFinished(60000));
+      QCOMPARE(child->readAllStandardOutput().count(" loaded"), 3);
+    }
+  }
+
+  void brokenMaterialFilesNameTheirPlace_data() {
+    QTest::addColumn<QByteArray>("text");
+    QTest::addColumn<QString>("expected");
+    const auto replaced = [](const char* from, const char* to) { return QByteArray(kSoundJson).replace(from, to); };
+    QTest::newRow("empty") << QByteArray() << "is not valid JSON";
+    QTest::newRow("cut off") << QByteArray(kSoundJson).left(60) << "is not valid JSON: line";
+    QTest::newRow("NaN") << replaced("1050", "NaN") << "is not valid JSON";
+    QTest::newRow("too large a number") << replaced("1050", "1e999") << "is not valid JSON";
+    QTest::newRow("a list") << QByteArray("[1, 2]") << ":/: must be an object, not a list";
+    QTest::newRow("200,000 brackets") << QByteArray(200000, '[') << "nested deeper than 16 levels";
+    QTest::newRow("duplicate key") << replaced("\"label\"", "\"id\"") << ":/id: this key stands here twice";
+    QTest::newRow("duplicate property") << replaced("1050", "1, \"density_solid\": 2") << "/properties/density_solid: this key";
+    QTest::newRow("no format") << replaced("\"format\"", "\"form\"") << ":/format: is missing";
+    QTest::newRow("other format") << replaced("phasesketch-material", "gltf") << ":/format: must be";
+    QTest::newRow("later version") << replaced("\"version\": 1", "\"version\": 2") << ":/version: is newer";
+    QTest::newRow("version as text") << replaced("\"version\": 1", "\"version\": \"1\"") << ":/version: must be a whole number";
+    QTest::newRow("number for a name") << replaced("\"Soap\"", "7") << ":/label: must be a text, not a number";
+    QTest::newRow("bad id") << replaced("\"soap\"", "\"So ap\"") << ":/id: must be lower-case";
+    QTest::newRow("no licence") << replaced("\"licence\"", "\"author\"") << ":/licence: is missing";
+    QTest::newRow("unknown key") << replaced("\"licence\"", "\"colour\": 1, \"licence\"") << ":/colour: is not a key";
+    QTest::newRow("unknown property") << replaced("density_solid", "densty_solid")
+                                      << ":/properties/densty_solid: is not a property that PhaseSketch knows; did you mean \"density_solid\"?";
+    QTest::newRow("word for a number") << replaced("1050", "\"heavy\"") << "/density_solid: must be a number, not a text";
+    QTest::newRow("negative density") << replaced("1050", "{\"value\": -1050}")
+                                      << "/density_solid/value: must be at least 1 kg/m³, not -1050";
+    QTest::newRow("no value") << replaced("1050", "{\"grade\": \"A\"}") << "/density_solid: needs one of";
+    QTest::newRow("two values") << replaced("1050", "{\"value\": 1, \"points\": []}") << "/density_solid: needs one of";
+    QTest::newRow("bad grade") << replaced("1050", "{\"value\": 1050, \"grade\": \"D\"}") << "/density_solid/grade: must be";
+    QTest::newRow("descending points") << replaced("1050", "{\"points\": [[300, 1000], [200, 900]]}")
+                                       << "/density_solid/points: points must ascend";
+    QTest::newRow("half a point") << replaced("1050", "{\"points\": [[300, 1000], [400]]}")
+                                  << "/density_solid/points/1: must be [temperature";
+    QTest::newRow("Celsius") << replaced("1050", "{\"points\": [[-10, 917], [0, 917]]}") << "temperatures are in kelvin";
+    QTest::newRow("unknown law") << replaced("1050", "{\"law\": \"magic\", \"coefficients\": [1]}") << "/density_solid/law: unknown law";
+    QTest::newRow("law without coefficients") << replaced("1050", "{\"law\": \"vogel\"}") << "/density_solid/coefficients: is missing";
+    QTest::newRow("curve where a number belongs") << replaced("\"density_solid\": 1050", "\"latent_heat_fusion\": {\"points\": [[1, 2]]}")
+                                                  << "must be a single number";
+    QTest::newRow("solidus above liquidus")
+        << replaced("1050", "1050, \"solidus\": 300, \"liquidus\": 280, \"melting_temperature\": 290") << ":/properties: solidus";
+  }
+  void brokenMaterialFilesNameTheirPlace() {
+    QFETCH(QByteArray, text);
+    QFETCH(QString, expected);
+    const QString path = withSoundPlugins(QString("json ") + QString(QTest::currentDataTag()).replace('/', '_'));
+    QVERIFY(write(path + "/broken.json", text));
+    expectOneRefusal(path, "broken.json", expected);
+  }
+
+  void materialFileKeepsSourcesAndForms() {
+    PluginInfo info;
+    const Material m = parseMaterialJson(R"({"format": "phasesketch-material", "version": 1, "id": "a.b", "label": "AB",
+      "licence": "MIT", "data_version": "2.1", "help": "h", "properties": {
+      "density_solid": {"points": [[200, 900], [300, 890]], "source": "Kell", "grade": "A"}, "sinters": true,
+      "viscosity": {"law": "vogel", "coefficients": [-4.6, 247.8, 140]}}})", "ab.json", info);
+    QCOMPARE(info.version, std::string("2.1"));
+    QCOMPARE(m.provenance.at("density_solid").source, std::string("Kell"));
+    QCOMPARE(m.provenance.at("density_solid").grade, 'A');
+    QCOMPARE(m.provenance.at("viscosity").grade, 'C');
+    QCOMPARE(m.properties.at("density_solid").at(250), 895.0);
+    QCOMPARE(m.properties.at("sinters").constant, 1.0);
+    QVERIFY(m.properties.at("viscosity").kind == Response::Kind::Law);
+  }
+
+  void ownMaterialsHoldWhatTheHandbooksSay() {
+    const PluginRegistry registry{PluginRegistry::Options{}};
+    for (const char* id : {"water", "wax", "iron", "tin", "chocolate", "butter"})
+      QVERIFY2(registry.material(id), id);
+    const Material& water = *registry.material("water");
+    const Response& density = water.properties.at("density_liquid");
+    // Kell's own table: 999.840, 999.972 (maximum), 998.204, 958.364 kg/m3; the curve through samples a kelvin apart
+    // adds less than 0.005.
+    QVERIFY(std::abs(density.at(273.15) - 999.840) < 0.005);
+    QVERIFY(std::abs(density.at(277.13) - 999.972) < 0.005);
+    QVERIFY(std::abs(density.at(293.15) - 998.204) < 0.005);
+    QVERIFY(std::abs(density.at(373.15) - 958.364) < 0.005);
+    QVERIFY(density.at(277.13) > density.at(274.15) && density.at(277.13) > density.at(280.15));
+    // The fit with its own factor, not the logarithm rounded to 7 digits; and about 1.002 mPa s at 20 °C.
+    const double fit = 2.414e-5 * std::pow(10, 247.8 / (293.15 - 140));
+    QVERIFY(std::abs(water.properties.at("viscosity").at(293.15) / fit - 1) < 1e-6 && std::abs(fit - 1.002e-3) < 1e-6);
+    QCOMPARE(water.properties.at("triple_pressure").constant, 611.657);
+    QCOMPARE(water.provenance.at("latent_heat_vaporization").grade, 'A');
+    const Material plain = registry.evaluated("water", {0});
+    QVERIFY(plain.properties.at("density_liquid") == Response(998.2));
+    const Material& wax = *registry.material("wax");
+    QVERIFY(wax.properties.at("solidus").constant < wax.properties.at("liquidus").constant);
+    for (const char* id : {"water", "wax", "iron", "tin"})
+      for (const auto& [key, ignored] : registry.material(id)->properties)
+        QVERIFY2(key.starts_with("color_") || !registry.material(id)->provenance.at(key).source.empty(), key.c_str());
+  }
+
+  void ownBrushesStampWhatTheySay_data() {
+    QTest::addColumn<QString>("brush");
+    QTest::addColumn<double>("radius");    // in spacings
+    QTest::addColumn<double>("rotation");  // rad, cube
+    QTest::addColumn<double>("pressure");
+    QTest::addColumn<int>("least");
+    QTest::addColumn<int>("most");
+    // A cube of n spacings holds n^3 cells, wherever it lies.
+    QTest::newRow("cube of 4") << "cube" << 2.0 << 0.0 << 1.0 << 64 << 64;
+    QTest::newRow("cube of 5") << "cube" << 2.5 << 0.0 << 1.0 << 125 << 125;
+    // Turned by 45 degrees, its layers hold the cells of a diamond of area 10 x 10: 100 within the rim's 40 / 2.
+    QTest::newRow("turned cube") << "cube" << 5.0 << 0.78539816339744831 << 1.0 << 800 << 1200;
+    // A ball of radius 6: 4/3 pi 6^3 = 904.8 cells, within 3 % for a lattice of that size.
+    QTest::newRow("ball") << "sphere" << 6.0 << 0.0 << 1.0 << 878 << 932;
+    // Half as large at no pressure: radius 3, 113 cells, +-15 %.
+    QTest::newRow("light touch") << "sphere" << 6.0 << 0.0 << 0.0 << 96 << 130;
+    QTest::newRow("smaller than a cell") << "sphere" << 0.1 << 0.0 << 1.0 << 1 << 1;
+    QTest::newRow("small cube") << "cube" << 0.1 << 0.0 << 1.0 << 1 << 1;
+  }
+  void ownBrushesStampWhatTheySay() {
+    QFETCH(QString, brush);
+    QFETCH(double, radius);
+    QFETCH(double, rotation);
+    QFETCH(double, pressure);
+    QFETCH(int, least);
+    QFETCH(int, most);
+    const PluginRegistry registry{PluginRegistry::Options{}};
+    const api::BrushPlugin* plugin = registry.brush(brush.toStdString());
+    QVERIFY(plugin);
+    StrokeSetup setup;
+    setup.grid = {{0.013, -0.4, 1.0}, 0.02};
+    setup.radius = radius * setup.grid.spacing;
+    if (brush == "cube") setup.parameters = {rotation};
+    if (brush == "sphere") setup.parameters = {0.5};
+    const api::StrokeSample sample{{0.1234, 0.2345, -0.3456}, pressure, 0};
+    const StrokeEdits edits = applyBrush(*plugin, setup, api::EditKind::Add, {&sample, 1});
+    QVERIFY2(int(edits.added.size()) >= least && int(edits.added.size()) <= most,
+             qPrintable(QString::number(edits.added.size())));
+    QVERIFY(edits.added.contains(setup.grid.cellAt({0.1234, 0.2345, -0.3456})));
+    QVERIFY(edits.removed.empty());
+    QCOMPARE(applyBrush(*plugin, setup, api::EditKind::Remove, {&sample, 1}).removed.size(), edits.added.size());
+  }
+
+ private:
+  void expectOneRefusal(const QString& path, const QString& file, const QString& expected, int loaded = 3) {
+    const PluginRegistry registry(only({path.toStdString()}));
+    const auto refused = withState(registry, PluginInfo::State::Refused);
+    QCOMPARE(refused.size(), size_t(1));
+    const QString problem = QString::fromStdString(refused[0].problem);
+    if (qEnvironmentVariableIsSet("PS_SHOW_PROBLEMS")) qInfo("%s", qPrintable(problem));
+    QVERIFY2(problem.contains(expected), qPrintable(problem));
+    QVERIFY2(isOneLine(refused[0].problem), qPrintable(problem));
+    QVERIFY2(problem.startsWith(QFileInfo(path + "/" + file).canonicalFilePath()), qPrintable(problem));
+    QCOMPARE(int(withState(registry, PluginInfo::State::Loaded).size()), loaded);
+  }
+};
+
+namespace {
+
+/// The child's work: load, say what became of each plugin.
+int loadAndTell(const char* path) {
+  const PluginRegistry registry(only({path}));
+  for (const PluginInfo& info : registry.plugins())
+    std::printf("%s %s %s\n", info.id.c_str(), pluginStateName(info.state), info.problem.c_str());
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc == 3 && std::string_view(argv[1]) == "--load") return loadAndTell(argv[2]);
+  QCoreApplication app(argc, argv);
+  TestPluginHost test;
+  return QTest::qExec(&test, argc, argv);
+}
+
+#include "tst_plugin_host.moc"

@@ -1,0 +1,324 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/base/error.h"
+#include "core/sketch/cellset.h"
+#include "core/sketch/drawingplane.h"
+#include "core/sketch/stroke.h"
+
+#include <QTest>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+using namespace ps;
+using api::Cell;
+using api::EditKind;
+using api::StrokeSample;
+
+namespace {
+
+/// Fills a ball; asks for the opposite of each edit first, so that the order of edits shows.
+class BallBrush final : public api::BrushPlugin {
+ public:
+  const char* label() const override { return "Ball"; }
+  const char* help() const override { return ""; }
+  api::ParameterList parameters() const override { return {}; }
+  void stroke(const api::StrokeContext& c, EditKind kind, api::Span<const StrokeSample> samples,
+              api::EditSink& sink) const override {
+    const int reach = static_cast<int>(std::ceil(c.radius / c.spacing));
+    const SketchGrid grid{{c.origin.x, c.origin.y, c.origin.z}, c.spacing};
+    for (const StrokeSample& s : samples) {
+      std::vector<Cell> cells;
+      const Cell middle = grid.cellAt({s.position.x, s.position.y, s.position.z});
+      for (int z = -reach; z <= reach; ++z)
+        for (int y = -reach; y <= reach; ++y)
+          for (int x = -reach; x <= reach; ++x) {
+            const Cell cell{middle.x + x, middle.y + y, middle.z + z};
+            const Vec3 at = grid.centreOf(cell);
+            if (std::hypot(at[0] - s.position.x, at[1] - s.position.y, at[2] - s.position.z) <= c.radius)
+              cells.push_back(cell);
+          }
+      if (contrary) sink.submit(kind == EditKind::Add ? EditKind::Remove : EditKind::Add, {cells.data(), cells.size()});
+      sink.submit(kind, {cells.data(), cells.size()});
+    }
+    if (fails) throw std::runtime_error("brush failed");
+  }
+  api::Double3 extent(const api::StrokeContext& c) const noexcept override { return {c.radius, c.radius, c.radius}; }
+  bool contrary = false, fails = false;
+};
+
+/// Asks for more cells than there is memory for.
+class GreedyBrush final : public api::BrushPlugin {
+ public:
+  const char* label() const override { return "Greedy"; }
+  const char* help() const override { return ""; }
+  api::ParameterList parameters() const override { return {}; }
+  void stroke(const api::StrokeContext&, EditKind kind, api::Span<const StrokeSample>, api::EditSink& sink) const override {
+    std::vector<Cell> row(1 << 16);
+    for (int y = 0; y < 1000; ++y) {
+      for (int x = 0; x < (1 << 16); ++x) row[static_cast<size_t>(x)] = {x, y, 0};
+      sink.submit(kind, {row.data(), row.size()});
+    }
+  }
+  api::Double3 extent(const api::StrokeContext&) const noexcept override { return {}; }
+};
+
+StrokeSample at(double x, double y, double z, double pressure = 1, double time = 0) { return {{x, y, z}, pressure, time}; }
+
+double distance(const StrokeSample& a, const StrokeSample& b) {
+  return std::hypot(b.position.x - a.position.x, b.position.y - a.position.y, b.position.z - a.position.z);
+}
+
+CellSet cellsOf(std::vector<Cell> cells) { return CellSet(cells); }
+
+}  // namespace
+
+class TestSketch : public QObject {
+  Q_OBJECT
+
+ private Q_SLOTS:
+  void pointsFallIntoCells_data() {
+    QTest::addColumn<double>("x");
+    QTest::addColumn<int>("cell");
+    // Spacing 0.25, origin 1: binary fractions, so that faces are exact.
+    QTest::newRow("origin") << 1.0 << 0;
+    QTest::newRow("just inside") << 1.1249 << 0;
+    QTest::newRow("face belongs to the next") << 1.125 << 1;
+    QTest::newRow("lower face") << 0.875 << 0;
+    QTest::newRow("below the lower face") << 0.8749 << -1;
+    QTest::newRow("far") << -24.0 << -100;
+    QTest::newRow("out of reach") << 1e300 << (1 << 30);
+    QTest::newRow("out of reach below") << -1e300 << -(1 << 30);
+    QTest::newRow("not a number") << std::nan("") << (1 << 30);
+  }
+  void pointsFallIntoCells() {
+    QFETCH(double, x);
+    QFETCH(int, cell);
+    const SketchGrid grid{{1, 1, 1}, 0.25};
+    QCOMPARE(grid.cellAt({x, 1, 1}).x, cell);
+    QCOMPARE(grid.cellAt({1, x, 1}).y, cell);
+    QCOMPARE(grid.cellAt({1, 1, x}).z, cell);
+  }
+
+  void centresFallIntoTheirCells() {
+    const SketchGrid grid{{0.0137, -2.3, 17.1}, 0.02};
+    for (int i = -2000; i < 2000; i += 7) {
+      const Cell cell{i, -3 * i, i / 2};
+      QVERIFY(sameCell(grid.cellAt(grid.centreOf(cell)), cell));
+    }
+  }
+
+  void interpolationLeavesNoGap_data() {
+    QTest::addColumn<double>("length");
+    QTest::addColumn<int>("count");
+    QTest::newRow("no way") << 0.0 << 0;
+    QTest::newRow("less than a cell") << 0.3 << 1;
+    QTest::newRow("one cell") << 1.0 << 1;
+    QTest::newRow("a little more") << 1.001 << 2;
+    QTest::newRow("many") << 7.5 << 8;
+  }
+  void interpolationLeavesNoGap() {
+    QFETCH(double, length);
+    QFETCH(int, count);
+    const StrokeSample from = at(0, 0, 0, 0, 10), to = at(length, 0, 0, 1, 12);
+    const auto samples = interpolateStroke(from, to, 1.0);
+    QCOMPARE(int(samples.size()), count);
+    StrokeSample last = from;
+    for (const StrokeSample& s : samples) {
+      QVERIFY(distance(last, s) <= 1 + 1e-12);
+      last = s;
+    }
+    if (count == 0) return;
+    QCOMPARE(samples.back().position.x, length);
+    QCOMPARE(samples.back().time, 12.0);
+    if (count == 2) QVERIFY(std::abs(samples[0].pressure - 0.5) < 1e-12 && std::abs(samples[0].time - 11) < 1e-12);
+  }
+
+  void strokeIsIndependentOfTheFrameRate() {
+    // The same straight stroke of 10.37 spacings, seen 3 times and 1000 times: the same dense points to rounding (a
+    // thousand additions of about 1e-16 each).
+    const double dx = 0.02;
+    const auto stroke = [&](int pieces) {
+      std::vector<StrokeSample> raw;
+      for (int i = 0; i <= pieces; ++i) {
+        const double t = static_cast<double>(i) / pieces;
+        raw.push_back(at(0.1 + 10.37 * dx * 0.6 * t, 0.3 - 10.37 * dx * 0.8 * t, 0.05, t, t));
+      }
+      return resampleStroke(raw, dx);
+    };
+    const auto slow = stroke(2), fast = stroke(999);
+    QCOMPARE(slow.size(), size_t(12));  // arc lengths 0, 1 .. 10 and the end
+    QCOMPARE(fast.size(), slow.size());
+    for (size_t i = 0; i < slow.size(); ++i) {
+      QVERIFY(distance(slow[i], fast[i]) < 1e-10 * dx * 1e3);
+      QVERIFY(std::abs(slow[i].pressure - fast[i].pressure) < 1e-9);
+      if (i > 0) QVERIFY(distance(slow[i - 1], slow[i]) <= dx * (1 + 1e-9));
+    }
+    const BallBrush brush;
+    const StrokeSetup setup{{{0, 0, 0}, dx}, 0.0519, {0, 1, 0}, {}};
+    QVERIFY(applyBrush(brush, setup, EditKind::Add, slow).added == applyBrush(brush, setup, EditKind::Add, fast).added);
+  }
+
+  void resamplerStreamsLikeTheWhole() {
+    const std::vector<StrokeSample> raw{at(0, 0, 0), at(0.7, 0, 0), at(0.7, 0.7, 0), at(0.7, 0.7, 0), at(5, 0.7, 0)};
+    StrokeResampler resampler(1.0);
+    std::vector<StrokeSample> dense;
+    for (const StrokeSample& s : raw)
+      for (const StrokeSample& d : resampler.add(s)) dense.push_back(d);
+    QCOMPARE(dense.size(), size_t(6));  // 0 and every spacing of 5.7
+    for (const StrokeSample& d : resampler.finish()) dense.push_back(d);
+    QCOMPARE(dense.size(), size_t(7));
+    QCOMPARE(dense.back().position.x, 5.0);
+    QCOMPARE(dense.size(), resampleStroke(raw, 1.0).size());
+    QVERIFY(resampler.finish().empty());
+    QVERIFY(resampler.add(at(std::nan(""), 0, 0)).empty());
+    QCOMPARE(resampler.add(at(3, 3, 3)).size(), size_t(1));  // a new stroke begins with its first point
+    QVERIFY_EXCEPTION_THROWN(StrokeResampler(0.0), InputError);
+    QVERIFY_EXCEPTION_THROWN(StrokeResampler(std::nan("")), InputError);
+  }
+
+  void cellSetIsSortedAndUnique() {
+    CellSet set = cellsOf({{1, 0, 0}, {0, 0, 1}, {0, 0, 0}, {1, 0, 0}, {5, -1, 0}});
+    const std::vector<std::array<int, 3>> expected{{5, -1, 0}, {0, 0, 0}, {1, 0, 0}, {0, 0, 1}};
+    QVERIFY(set.indices() == expected);
+    const std::vector<Cell> gone{{0, 0, 0}, {9, 9, 9}};
+    set.remove(gone);
+    QCOMPARE(set.size(), size_t(3));
+    QVERIFY(!set.contains({0, 0, 0}) && set.contains({0, 0, 1}));
+    QVERIFY(set == cellsOf({{0, 0, 1}, {5, -1, 0}, {1, 0, 0}}));
+  }
+
+  void runsAreCanonicalAndReadBack() {
+    VoxelCanvas canvas;
+    canvas.paint(cellsOf({{3, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 0, 1}}), 0);
+    canvas.paint(cellsOf({{4, 0, 0}, {5, 0, 0}, {2, 0, 0}}), 1);  // (2, 0, 0) is taken and stays
+    const std::vector<VoxelShape::Run> expected{{1, 0, 0, 3, 0}, {4, 0, 0, 2, 1}, {2, 0, 1, 1, 0}};
+    QVERIFY(canvas.runs() == expected);
+    QVERIFY(VoxelCanvas(canvas.runs()).runs() == expected);
+    const std::vector<VoxelShape::Run> shuffled{{2, 0, 1, 1, 0}, {5, 0, 0, 1, 1}, {4, 0, 0, 1, 1}, {1, 0, 0, 3, 0}};
+    QVERIFY(VoxelCanvas(shuffled).runs() == expected);
+    QVERIFY(encodeRuns(canvas.cells(), 7).front() == (VoxelShape::Run{1, 0, 0, 5, 7}));
+    QVERIFY(VoxelCanvas().runs().empty());
+  }
+
+  void brokenRunsAreRefused_data() {
+    QTest::addColumn<int>("x");
+    QTest::addColumn<int>("length");
+    QTest::addColumn<QString>("expected");
+    QTest::newRow("empty run") << 10 << 0 << "run 1: its length must be at least 1, not 0";
+    QTest::newRow("negative run") << 10 << -5 << "run 1: its length must be at least 1, not -5";
+    QTest::newRow("too far") << std::numeric_limits<int>::max() << 2 << "run 1: it ends past the largest cell index";
+    QTest::newRow("overlap") << 2 << 2 << "run 1 covers cell (2, 0, 0), which run 0 holds already";
+  }
+  void brokenRunsAreRefused() {
+    QFETCH(int, x);
+    QFETCH(int, length);
+    QFETCH(QString, expected);
+    const std::vector<VoxelShape::Run> runs{{0, 0, 0, 3, 0}, {x, 0, 0, length, 1}};
+    try {
+      const VoxelCanvas canvas(runs);
+      QFAIL("the runs were taken");
+    } catch (const InputError& error) {
+      QCOMPARE(QString::fromUtf8(error.what()), expected);
+    }
+  }
+
+  void paintAndEraseCanBeUndone() {
+    VoxelCanvas canvas;
+    canvas.paint(cellsOf({{0, 0, 0}, {1, 0, 0}}), 0);
+    const auto before = canvas.runs();
+    const CellSet filled = canvas.paint(cellsOf({{1, 0, 0}, {2, 0, 0}}), 1);
+    QVERIFY(filled == cellsOf({{2, 0, 0}}));
+    const auto painted = canvas.runs();
+    const VoxelCanvas erased = canvas.erase(cellsOf({{1, 0, 0}, {2, 0, 0}, {8, 8, 8}}));
+    QCOMPARE(erased.size(), size_t(2));
+    QCOMPARE(canvas.size(), size_t(1));
+    canvas.restore(erased);
+    QVERIFY(canvas.runs() == painted);
+    canvas.erase(filled);
+    QVERIFY(canvas.runs() == before);
+  }
+
+  void laterEditOfACellWins() {
+    BallBrush brush;
+    brush.contrary = true;
+    const StrokeSetup setup{{{0, 0, 0}, 1.0}, 2.5, {0, 1, 0}, {}};
+    const std::vector<StrokeSample> samples{at(0, 0, 0)};
+    const StrokeEdits edits = applyBrush(brush, setup, EditKind::Add, samples);
+    QVERIFY(edits.removed.empty() && edits.added.contains({2, 0, 0}) && !edits.added.contains({3, 0, 0}));
+    CellSet cells = cellsOf({{2, 0, 0}, {9, 9, 9}});
+    applyBrush(brush, setup, EditKind::Remove, samples, cells);
+    QVERIFY(cells == cellsOf({{9, 9, 9}}));
+    applyBrush(brush, setup, EditKind::Add, samples, cells);
+    QCOMPARE(cells.size(), edits.added.size() + 1);
+  }
+
+  void aFailingBrushChangesNothing() {
+    BallBrush brush;
+    brush.fails = true;
+    const StrokeSetup setup{{{0, 0, 0}, 1.0}, 2.5, {0, 1, 0}, {}};
+    const std::vector<StrokeSample> samples{at(0, 0, 0)};
+    CellSet cells = cellsOf({{7, 7, 7}});
+    QVERIFY_EXCEPTION_THROWN(applyBrush(brush, setup, EditKind::Add, samples, cells), std::runtime_error);
+    QVERIFY(cells == cellsOf({{7, 7, 7}}));
+    QVERIFY_EXCEPTION_THROWN(applyBrush(GreedyBrush(), setup, EditKind::Add, samples, cells), Error);
+    QVERIFY(cells == cellsOf({{7, 7, 7}}));
+  }
+
+  void savedStrokeIsDrawnAgain() {
+    VoxelShape::Stroke stroke;
+    stroke.radius = 2;
+    stroke.samples = {{0, 0, 0, 1, 0}, {10, 0, 0, 1, 0.5}};
+    const SketchGrid grid{{0, 0, 0}, 1.0};
+    const StrokeEdits edits = replayStroke(BallBrush(), stroke, grid);
+    for (int x = -2; x <= 12; ++x) QVERIFY(edits.added.contains({x, 0, 0}));  // no gap over ten cells
+    QVERIFY(!edits.added.contains({13, 0, 0}));
+    stroke.erase = true;
+    QVERIFY(replayStroke(BallBrush(), stroke, grid).removed == edits.added);
+  }
+
+  void rayMeetsThePlane_data() {
+    QTest::addColumn<double>("dx");
+    QTest::addColumn<double>("dy");
+    QTest::addColumn<bool>("meets");
+    QTest::addColumn<double>("x");
+    QTest::newRow("straight down") << 0.0 << -3.0 << true << 0.0;
+    QTest::newRow("slanting") << 1.0 << -2.0 << true << 1.0;
+    QTest::newRow("away") << 1.0 << 2.0 << false << 0.0;
+    QTest::newRow("along") << 1.0 << 0.0 << false << 0.0;
+    QTest::newRow("grazing") << 1.0 << -1e-5 << false << 0.0;
+    QTest::newRow("no direction") << 0.0 << 0.0 << false << 0.0;
+    QTest::newRow("not a number") << std::nan("") << -1.0 << false << 0.0;
+  }
+  void rayMeetsThePlane() {
+    QFETCH(double, dx);
+    QFETCH(double, dy);
+    QFETCH(bool, meets);
+    QFETCH(double, x);
+    const auto hit = meet({{0, 2.5, 0}, {dx, dy, 0}}, {{7, 0.5, -3}, {0, 4, 0}});
+    QCOMPARE(hit.has_value(), meets);
+    if (!hit) return;
+    QVERIFY(std::abs((*hit)[0] - x) < 1e-12 && std::abs((*hit)[1] - 0.5) < 1e-12);
+    QVERIFY(!meet({{0, 2.5, 0}, {dx, dy, 0}}, {{7, 0.5, -3}, {0, 4, 0}}, 1.0));  // farther than the reach
+  }
+
+  void drawingPlaneFacesTheViewer_data() {
+    QTest::addColumn<QVector<double>>("view");
+    QTest::addColumn<int>("axis");
+    QTest::newRow("from above") << QVector<double>{0, -1, 0} << 1;
+    QTest::newRow("20 degrees down") << QVector<double>{0, -0.342, -0.94} << 1;
+    QTest::newRow("10 degrees down, along z") << QVector<double>{0.1, -0.174, -0.98} << 2;
+    QTest::newRow("level, along x") << QVector<double>{-5, 0, 1} << 0;
+  }
+  void drawingPlaneFacesTheViewer() {
+    QFETCH(QVector<double>, view);
+    QFETCH(int, axis);
+    const DrawingPlane plane = drawingPlaneFor({1, 2, 3}, {view[0], view[1], view[2]});
+    QCOMPARE(plane.normal[size_t(axis)], 1.0);
+    QCOMPARE(plane.point[2], 3.0);
+  }
+};
+
+QTEST_APPLESS_MAIN(TestSketch)
+#include "tst_sketch.moc"
