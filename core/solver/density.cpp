@@ -58,7 +58,11 @@ HalfSpaceTable::Value HalfSpaceTable::at(float distance) const {
 void DensityStage::configure(const SolverSettings& settings, const std::vector<Wall>& walls) {
   const bool newKernel = m_halfSpaceKernel != settings.kernel || m_support != settings.spacing * settings.supportRatio;
   m_settings = settings;
-  m_walls = walls;
+  m_planes.clear();
+  for (const Wall& w : walls) {
+    m_planes.push_back({static_cast<float>(w.normal.x), static_cast<float>(w.normal.y), static_cast<float>(w.normal.z),
+                        static_cast<float>(w.offset)});
+  }
   if (!newKernel && m_scale > 0) return;
   m_halfSpaceKernel = settings.kernel;
   m_support = settings.spacing * settings.supportRatio;
@@ -147,17 +151,16 @@ void DensityStage::loadPoints(const ParticleStore& store) {
 }
 
 float DensityStage::addWalls(const api::Float4& at, Constraint& gradient) const {
-  const float nearest = static_cast<float>(0.5 * m_settings.spacing);
+  const float nearest = static_cast<float>(0.5 * m_settings.spacing), support = static_cast<float>(m_support);
   float excess = 0;
-  for (const Wall& wall : m_walls) {
-    const float nx = static_cast<float>(wall.normal.x), ny = static_cast<float>(wall.normal.y),
-                nz = static_cast<float>(wall.normal.z);
-    const float distance = nx * at.x + ny * at.y + nz * at.z - static_cast<float>(wall.offset);
+  for (const Plane& p : m_planes) {
+    const float distance = p.x * at.x + p.y * at.y + p.z * at.z - p.offset;
+    if (distance >= support) continue;
     const HalfSpaceTable::Value value = m_halfSpace.at(std::max(nearest, distance));
     excess += value.share;
-    gradient.x += nx * value.slope;
-    gradient.y += ny * value.slope;
-    gradient.z += nz * value.slope;
+    gradient.x += p.x * value.slope;
+    gradient.y += p.y * value.slope;
+    gradient.z += p.z * value.slope;
   }
   return excess;
 }

@@ -58,6 +58,9 @@ class DensityStage {
   double kernelScale() const { return m_scale; }  ///< 1/m3: W = scale * w(q)
 
  private:
+  struct Plane {
+    float x, y, z, offset;
+  };
   struct Constraint {
     float x, y, z, lambda;  ///< gradient in 1/m, multiplier
   };
@@ -68,7 +71,7 @@ class DensityStage {
   void move(ParticleStore& store, const PairLists& lists, float chebyshev, size_t first, size_t last);
 
   SolverSettings m_settings;
-  std::vector<Wall> m_walls;
+  std::vector<Plane> m_planes;
   HalfSpaceTable m_halfSpace;
   KernelShape m_halfSpaceKernel = KernelShape::CubicSpline;
   double m_scale = 0, m_support = 0;
