@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "core/scene/project.h"
+
+#include <memory>
+#include <string>
+#include <variant>
+
+namespace ps {
+
+struct StrokeRecord;
+
+/// Another project altogether.
+struct ProjectOpened {
+  bool play = true;  ///< whether it should run at once
+};
+/// One parameter has another value; `value` is the one in force, the default where none is set.
+struct ParameterChanged {
+  Address address;
+  Value value;
+};
+/// A body was renamed, hidden, locked, added or removed without particles being touched.
+struct BodyChanged {
+  std::string id;
+};
+/// A stroke was made (`live`: its particles are in the engine already), undone or redone.
+struct StrokeChanged {
+  std::shared_ptr<StrokeRecord> stroke;
+  bool done = true, live = false;
+};
+/// Pinned rows or the colour changed.
+struct ViewChanged {};
+/// The file, its name or whether it holds everything changed.
+struct FileChanged {};
+
+/// What happened to a document, as one value: receivers visit it.
+using ChangeEvent =
+    std::variant<ProjectOpened, ParameterChanged, BodyChanged, StrokeChanged, ViewChanged, FileChanged>;
+
+}  // namespace ps

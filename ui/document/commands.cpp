@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/document/commands.h"
+
+#include "ui/document/document.h"
+
+namespace ps {
+
+ParameterCommand::ParameterCommand(Document& document, Address address, std::optional<Value> before,
+                                   std::optional<Value> after, int gesture, const QString& text)
+    : QUndoCommand(text),
+      m_document(document),
+      m_address(std::move(address)),
+      m_before(std::move(before)),
+      m_after(std::move(after)),
+      m_gesture(gesture) {
+  setObsolete(m_before == m_after);
+}
+
+void ParameterCommand::undo() { m_document.applyParameter(m_address, m_before); }
+void ParameterCommand::redo() { m_document.applyParameter(m_address, m_after); }
+
+bool ParameterCommand::mergeWith(const QUndoCommand* other) {
+  const auto* next = static_cast<const ParameterCommand*>(other);
+  if (next->m_gesture != m_gesture || !(next->m_address == m_address)) return false;
+  m_after = next->m_after;
+  setObsolete(m_before == m_after);
+  return true;
+}
+
+BodiesCommand::BodiesCommand(Document& document, std::vector<BodyEdit> edits, const QString& text)
+    : QUndoCommand(text), m_document(document), m_edits(std::move(edits)) {}
+
+void BodiesCommand::undo() { apply(false); }
+void BodiesCommand::redo() { apply(true); }
+
+void BodiesCommand::apply(bool forward) { m_document.applyBodies(m_edits, forward); }
+
+StrokeCommand::StrokeCommand(Document& document, std::shared_ptr<StrokeRecord> stroke, const QString& text)
+    : QUndoCommand(text), m_document(document), m_stroke(std::move(stroke)) {}
+
+void StrokeCommand::undo() { m_document.applyStroke(m_stroke, false, false); }
+
+void StrokeCommand::redo() {
+  m_document.applyStroke(m_stroke, true, m_live);
+  m_live = false;
+}
+
+PinsCommand::PinsCommand(Document& document, std::vector<std::string> before, std::vector<std::string> after,
+                         const QString& text)
+    : QUndoCommand(text), m_document(document), m_before(std::move(before)), m_after(std::move(after)) {}
+
+void PinsCommand::undo() { m_document.applyPins(m_before); }
+void PinsCommand::redo() { m_document.applyPins(m_after); }
+
+}  // namespace ps

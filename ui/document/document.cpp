@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/document/document.h"
+
+#include "ui/document/commands.h"
+#include "ui/document/declared.h"
+
+#include <QtCore/QFileInfo>
+
+#include <algorithm>
+
+namespace ps {
+
+Document::Document(QObject* parent) : QObject(parent) {
+  connect(&m_undo, &QUndoStack::cleanChanged, this, [this] { tell(FileChanged{}); });
+}
+Document::~Document() { m_undo.disconnect(this); }
+
+void Document::setPlugins(const PluginRegistry* plugins) { m_plugins = plugins; }
+
+void Document::open(Project project, const QString& path, bool dirty, bool play) {
+  m_project = std::move(project);
+  m_path = path;
+  m_gestureDepth = 0;
+  m_neverClean = dirty;
+  m_undo.clear();
+  ++m_changes;
+  tell(ProjectOpened{play});
+  tell(FileChanged{});
+}
+
+QString Document::title() const {
+  if (!m_project.title.empty()) return QString::fromStdString(m_project.title);
+  return m_path.isEmpty() ? QStringLiteral("Untitled") : QFileInfo(m_path).completeBaseName();
+}
+
+bool Document::isDirty() const { return m_neverClean || !m_undo.isClean(); }
+
+void Document::saved(const QString& path, int undoIndex) {
+  m_path = path;
+  if (undoIndex == m_undo.index()) {
+    m_neverClean = false;
+    m_undo.setClean();
+  }
+  tell(FileChanged{});
+}
+
+Value Document::value(const Address& address) const { return valueAt(m_project, m_plugins, address); }
+Value Document::defaultValue(const Address& address) const { return defaultOf(m_project, m_plugins, address); }
+const api::ParameterDeclaration* Document::declaration(const Address& address) const {
+  return declarationOf(m_project, m_plugins, address);
+}
+
+void Document::beginGesture(const QString& text) {
+  if (m_gestureDepth++ > 0) return;
+  ++m_gesture;
+  m_gestureText = text;
+}
+
+void Document::endGesture() {
+  if (m_gestureDepth > 0 && --m_gestureDepth == 0) ++m_gesture;
+}
+
+QString Document::setParameter(const Address& address, const Value& value) {
+  const ParameterSet* set = findSet(m_project, address);
+  if (!set) return QStringLiteral("%1 is no longer part of the scene.").arg(QString::fromStdString(address.text()));
+  if (const QString problem = problemWith(m_project, m_plugins, address, value); !problem.isEmpty()) return problem;
+  const api::ParameterDeclaration* declared = declaration(address);
+  const auto found = set->values.find(address.key);
+  const std::optional<Value> before = found == set->values.end() ? std::nullopt : std::optional(found->second);
+  std::optional<Value> after = conformed(value, *declared);
+  if (*after == conformed(defaultValue(address), *declared)) after.reset();
+  if (m_gestureDepth == 0) ++m_gesture;
+  const QString text = m_gestureText.isEmpty() || m_gestureDepth == 0
+                           ? QStringLiteral("%1 of %2").arg(QString::fromUtf8(declared->label), ownerLabel(m_project, address))
+                           : m_gestureText;
+  if (m_gestureDepth == 0 && before == after) return {};
+  m_undo.push(new ParameterCommand(*this, address, before, after, m_gesture, text));
+  return {};
+}
+
+const Body* Document::body(const std::string& id) const {
+  const auto found =
+      std::find_if(m_project.bodies.begin(), m_project.bodies.end(), [&](const Body& b) { return b.id == id; });
+  return found == m_project.bodies.end() ? nullptr : &*found;
+}
+
+void Document::editBody(const std::string& id, const QString& text, const std::function<void(Body&)>& change) {
+  const Body* before = body(id);
+  if (!before) return;
+  BodyEdit edit{id, *before, *before, 0};
+  change(*edit.after);
+  m_undo.push(new BodiesCommand(*this, {edit}, text));
+}
+
+void Document::renameBody(const std::string& id, const QString& name) {
+  const Body* old = body(id);
+  const std::string wanted = name.trimmed().toStdString();
+  if (!old || wanted.empty() || wanted == old->name) return;
+  editBody(id, QStringLiteral("rename of %1").arg(QString::fromStdString(old->name)),
+           [&](Body& b) { b.name = wanted; });
+}
+
+void Document::setBodyVisible(const std::string& id, bool visible) {
+  const Body* old = body(id);
+  if (!old || old->visible == visible) return;
+  editBody(id, (visible ? QStringLiteral("showing %1") : QStringLiteral("hiding %1")).arg(QString::fromStdString(old->name)),
+           [&](Body& b) { b.visible = visible; });
+}
+
+void Document::setBodyLocked(const std::string& id, bool locked) {
+  const Body* old = body(id);
+  if (!old || old->locked == locked) return;
+  editBody(id, (locked ? QStringLiteral("locking %1") : QStringLiteral("unlocking %1")).arg(QString::fromStdString(old->name)),
+           [&](Body& b) { b.locked = locked; });
+}
+
+std::string Document::freeBodyId(const std::string& stem) const {
+  for (int n = 1;; ++n) {
+    const std::string id = n == 1 ? stem : stem + "-" + std::to_string(n);
+    if (!body(id)) return id;
+  }
+}
+
+void Document::addStroke(std::shared_ptr<StrokeRecord> stroke) {
+  const QString text = stroke->erase ? QStringLiteral("erasing stroke") : QStringLiteral("brush stroke");
+  m_undo.push(new StrokeCommand(*this, std::move(stroke), text));
+}
+
+void Document::setPinned(const std::string& address, bool pinned) {
+  std::vector<std::string> pins = m_project.view.pinned;
+  const auto found = std::find(pins.begin(), pins.end(), address);
+  if (pinned == (found != pins.end())) return;
+  if (pinned) {
+    pins.push_back(address);
+  } else {
+    pins.erase(found);
+  }
+  m_undo.push(new PinsCommand(*this, m_project.view.pinned, pins,
+                              pinned ? QStringLiteral("pinning a row") : QStringLiteral("unpinning a row")));
+}
+
+void Document::setColour(const std::string& colour) {
+  if (m_project.view.colour == colour) return;
+  m_project.view.colour = colour;
+  tell(ViewChanged{});
+}
+
+void Document::setView(const ViewState& view) {
+  m_project.view.target = view.target;
+  m_project.view.distance = view.distance;
+  m_project.view.azimuth = view.azimuth;
+  m_project.view.elevation = view.elevation;
+}
+
+void Document::applyParameter(const Address& address, const std::optional<Value>& value) {
+  ParameterSet* set = findSet(m_project, address);
+  if (!set) return;
+  if (value) {
+    set->values[address.key] = *value;
+  } else {
+    set->values.erase(address.key);
+  }
+  ++m_changes;
+  tell(ParameterChanged{address, this->value(address)});
+}
+
+void Document::applyBodies(const std::vector<BodyEdit>& edits, bool forward) {
+  applyEdits(m_project, edits, forward);
+  ++m_changes;
+  for (const BodyEdit& edit : edits) tell(BodyChanged{edit.id});
+}
+
+void Document::applyStroke(const std::shared_ptr<StrokeRecord>& stroke, bool done, bool live) {
+  applyEdits(m_project, stroke->edits, done);
+  ++m_changes;
+  tell(StrokeChanged{stroke, done, live});
+}
+
+void Document::applyPins(const std::vector<std::string>& pins) {
+  m_project.view.pinned = pins;
+  ++m_changes;
+  tell(ViewChanged{});
+}
+
+void Document::tell(ChangeEvent event) { Q_EMIT changed(event); }
+
+}  // namespace ps

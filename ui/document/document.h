@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "core/scene/project.h"
+#include "ui/document/changeevent.h"
+#include "ui/document/strokerecord.h"
+
+#include <QtCore/QObject>
+#include <QtCore/QString>
+#include <QtGui/QUndoStack>
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace ps {
+
+class PluginRegistry;
+
+/// The document of the editor: a project and its history. Every edit is an undo command and ends in one changed() signal
+/// with a typed event; nothing here knows the engine or a widget. UI thread only.
+class Document : public QObject {
+  Q_OBJECT
+ public:
+  explicit Document(QObject* parent = nullptr);
+  ~Document() override;
+
+  /// Declarations of plugins, defaults of materials. May be nullptr while plugins are being loaded.
+  void setPlugins(const PluginRegistry* plugins);
+  const PluginRegistry* plugins() const { return m_plugins; }
+
+  const Project& project() const { return m_project; }
+  QUndoStack& undoStack() { return m_undo; }
+  const QUndoStack& undoStack() const { return m_undo; }
+
+  /// Replaces the project and forgets the history. `dirty`: it differs from the file (a restored autosave).
+  void open(Project project, const QString& path, bool dirty = false, bool play = true);
+  const QString& path() const { return m_path; }  ///< "" when it was never saved
+  QString title() const;                          ///< the project's title, else the file's name, else "Untitled"
+  bool isDirty() const;
+  /// The file at `path` now holds the project as it was at `undoIndex` (see undoIndex()).
+  void saved(const QString& path, int undoIndex);
+  int undoIndex() const { return m_undo.index(); }
+  /// Rises with every change of the project; autosave compares it.
+  uint64_t changeCount() const { return m_changes; }
+
+  // Parameters
+  Value value(const Address& address) const;
+  Value defaultValue(const Address& address) const;
+  const api::ParameterDeclaration* declaration(const Address& address) const;
+  /// Edits between these two are one undo step.
+  void beginGesture(const QString& text = {});
+  void endGesture();
+  /// Sets a value (the default removes the explicit one). Returns "" or why it is refused; the old one then stays.
+  QString setParameter(const Address& address, const Value& value);
+
+  // Bodies
+  const Body* body(const std::string& id) const;
+  void renameBody(const std::string& id, const QString& name);
+  void setBodyVisible(const std::string& id, bool visible);
+  void setBodyLocked(const std::string& id, bool locked);
+  /// A name and id that no body has yet: "sketch-2".
+  std::string freeBodyId(const std::string& stem) const;
+  /// Notes a stroke whose particles are in the engine already.
+  void addStroke(std::shared_ptr<StrokeRecord> stroke);
+
+  // View: saved with the project, no undo steps except pins
+  void setPinned(const std::string& address, bool pinned);
+  void setColour(const std::string& colour);
+  void setView(const ViewState& view);  ///< camera; silent
+
+  // Used by commands
+  void applyParameter(const Address& address, const std::optional<Value>& value);
+  void applyBodies(const std::vector<BodyEdit>& edits, bool forward);
+  void applyStroke(const std::shared_ptr<StrokeRecord>& stroke, bool done, bool live);
+  void applyPins(const std::vector<std::string>& pins);
+
+ Q_SIGNALS:
+  void changed(const ps::ChangeEvent& event);
+
+ private:
+  void tell(ChangeEvent event);
+  void editBody(const std::string& id, const QString& text, const std::function<void(Body&)>& change);
+
+  const PluginRegistry* m_plugins = nullptr;
+  Project m_project;
+  QString m_path;
+  QUndoStack m_undo;
+  int m_gesture = 0, m_gestureDepth = 0;
+  QString m_gestureText;
+  bool m_neverClean = false;  ///< the file holds no state of this history
+  uint64_t m_changes = 0;
+};
+
+}  // namespace ps

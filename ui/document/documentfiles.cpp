@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/document/documentfiles.h"
+
+#include "core/io/projectio.h"
+#include "ui/document/document.h"
+#include "ui/document/worker.h"
+
+#include <QtCore/QElapsedTimer>
+#include <QtCore/QFileInfo>
+#include <QtCore/QSettings>
+
+namespace ps {
+namespace {
+
+constexpr int kRecentFiles = 10;
+constexpr const char* kRecentKey = "files/recent";
+
+/// An empty tray to begin with.
+Project emptyProject() {
+  Project project;
+  project.title = "New scene";
+  SceneMaterial water;
+  water.id = water.base = "water";
+  water.label = "Water";
+  project.materials.push_back(water);
+  SceneWall floor;
+  floor.id = "floor";
+  floor.name = "Floor";
+  project.environment.walls.push_back(floor);
+  project.environment.boundsMinimum = {-1, -0.2, -1};
+  project.environment.boundsMaximum = {1, 2, 1};
+  project.pluginsUsed = {"bonds", "enthalpy", "water"};
+  return project;
+}
+
+}  // namespace
+
+DocumentFiles::DocumentFiles(Document& document, Worker& worker, QObject* parent)
+    : QObject(parent), m_document(document), m_worker(worker) {}
+
+void DocumentFiles::open(const QString& path, bool play) {
+  const QString absolute = QFileInfo(path).absoluteFilePath();
+  load(absolute, absolute, false, play);
+}
+
+void DocumentFiles::openCopy(const QString& path, const QString& restoreTo, bool play) {
+  load(path, restoreTo, true, play);
+}
+
+void DocumentFiles::load(const QString& path, const QString& documentPath, bool dirty, bool play) {
+  const int request = ++m_request;
+  const PluginRegistry* plugins = m_document.plugins();
+  if (!plugins) {
+    Q_EMIT openFailed(path, QStringLiteral("Plugins are still being loaded. Open it again in a moment."));
+    return;
+  }
+  m_worker.run([this, request, plugins, path, documentPath, dirty, play] {
+    QElapsedTimer clock;
+    clock.start();
+    LoadedProject loaded;
+    QString problem;
+    try {
+      loaded = loadProject(path.toStdString(), *plugins);
+    } catch (const std::exception& error) {
+      problem = QString::fromUtf8(error.what());
+    }
+    const double seconds = static_cast<double>(clock.elapsed()) / 1000;
+    QMetaObject::invokeMethod(this, [this, request, path, documentPath, dirty, play, problem, seconds,
+                                     project = std::move(loaded.project), messages = std::move(loaded.warnings)] {
+      if (request != m_request) return;
+      if (!problem.isEmpty()) {
+        Q_EMIT openFailed(path, problem);
+        return;
+      }
+      QStringList warnings;
+      for (const ProjectMessage& message : messages) warnings << QString::fromStdString(message.text);
+      m_document.open(project, documentPath, dirty, play);
+      if (!documentPath.isEmpty()) addRecent(documentPath);
+      Q_EMIT opened(documentPath, warnings, seconds);
+    });
+  });
+}
+
+void DocumentFiles::newProject() {
+  ++m_request;
+  m_document.open(emptyProject(), {});
+  Q_EMIT opened({}, {}, 0);
+}
+
+void DocumentFiles::save(const QString& path) {
+  const QString absolute = QFileInfo(path).absoluteFilePath();
+  const int index = m_document.undoIndex();
+  m_worker.run([this, absolute, index, project = m_document.project()] {
+    QString problem;
+    try {
+      saveProject(project, absolute.toStdString());
+    } catch (const std::exception& error) {
+      problem = QString::fromUtf8(error.what());
+    }
+    QMetaObject::invokeMethod(this, [this, absolute, index, problem] {
+      if (!problem.isEmpty()) {
+        Q_EMIT saveFailed(absolute, problem);
+        return;
+      }
+      m_document.saved(absolute, index);
+      addRecent(absolute);
+      Q_EMIT saved(absolute);
+    });
+  });
+}
+
+QStringList DocumentFiles::recent() {
+  QStringList existing;
+  for (const QString& path : QSettings().value(QLatin1String(kRecentKey)).toStringList()) {
+    if (QFileInfo(path).isFile()) existing << path;
+  }
+  return existing;
+}
+
+void DocumentFiles::addRecent(const QString& path) {
+  QStringList paths = recent();
+  paths.removeAll(path);
+  paths.prepend(path);
+  QSettings().setValue(QLatin1String(kRecentKey), QVariant(paths.mid(0, kRecentFiles)));
+}
+
+}  // namespace ps

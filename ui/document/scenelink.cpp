@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/document/scenelink.h"
+
+#include "core/simulation/engine.h"
+#include "ui/document/document.h"
+
+#include <algorithm>
+#include <set>
+
+// Why traces and runs: particles have moved since a stroke made them, so only their ids tell them apart, and a reset gives
+// all particles new ids. Right after one, before anything has moved, the cells of a stroke still name its particles.
+namespace ps {
+namespace {
+
+std::vector<uint32_t> ofBody(Engine& engine, const std::vector<uint32_t>& ids, const std::string& body) {
+  const auto& bodies = engine.project().bodies;
+  const auto found = std::find_if(bodies.begin(), bodies.end(), [&](const Body& b) { return b.id == body; });
+  const auto index = static_cast<uint32_t>(found - bodies.begin());
+  const ParticleStore& store = engine.solver().particles();
+  std::vector<uint32_t> own;
+  for (const uint32_t id : ids) {
+    const size_t row = store.indexOf(id);
+    if (row < store.size() && store.body()[row] == index) own.push_back(id);
+  }
+  return own;
+}
+
+std::vector<uint32_t> unlocked(Engine& engine, const std::vector<uint32_t>& ids, const std::set<std::string>& locked) {
+  if (locked.empty()) return ids;
+  const auto& bodies = engine.project().bodies;
+  const ParticleStore& store = engine.solver().particles();
+  std::vector<uint32_t> free;
+  for (const uint32_t id : ids) {
+    const size_t row = store.indexOf(id);
+    if (row >= store.size()) continue;
+    const uint32_t body = store.body()[row];
+    if (body >= bodies.size() || !locked.count(bodies[body].id)) free.push_back(id);
+  }
+  return free;
+}
+
+void take(Engine& engine, StrokeTrace& trace, const std::vector<uint32_t>& ids) {
+  if (ids.empty()) return;
+  trace.taken.push_back(copyParticles(engine, ids));
+  engine.removeParticles(ids);
+}
+
+/// After a reset: the particles that a stroke's cells have become.
+void findAgain(Engine& engine, const StrokeRecord& stroke) {
+  StrokeTrace& trace = *stroke.trace;
+  trace.ids.clear();
+  trace.taken.clear();
+  if (stroke.erase || !trace.done) return;
+  trace.ids = ofBody(engine, engine.particlesIn(stroke.lattice, stroke.cells), stroke.body);
+}
+
+/// Matter that an erasure carved out of bodies at the start, back in its cells.
+void refill(Engine& engine, const StrokeRecord& stroke, double spacing) {
+  for (const BodyEdit& edit : stroke.edits) {
+    if (!edit.before) continue;
+    const Body whole = asVoxels(*edit.before, spacing);
+    const auto byPalette = missingCells(whole, edit.after);
+    for (size_t palette = 0; palette < byPalette.size(); ++palette) {
+      if (!byPalette[palette].empty()) engine.addCells(whole, byPalette[palette], static_cast<int>(palette));
+    }
+  }
+}
+
+}  // namespace
+
+SceneLink::SceneLink(Document& document, EngineThread& engine, QObject* parent)
+    : QObject(parent), m_document(document), m_engine(engine), m_run(std::make_shared<uint64_t>(1)) {
+  connect(&document, &Document::changed, this, &SceneLink::onChanged);
+}
+SceneLink::~SceneLink() = default;
+
+void SceneLink::onChanged(const ChangeEvent& event) {
+  if (const auto* opened = std::get_if<ProjectOpened>(&event)) {
+    m_strokes.clear();
+    m_engine.post([run = m_run](Engine&) { ++*run; });
+    m_engine.open(m_document.project(), opened->play);
+  } else if (const auto* parameter = std::get_if<ParameterChanged>(&event)) {
+    m_engine.setParameter(parameter->address, parameter->value);
+  } else if (const auto* stroke = std::get_if<StrokeChanged>(&event)) {
+    onStroke(*stroke);
+  }
+}
+
+void SceneLink::onStroke(const StrokeChanged& event) {
+  if (event.live) {
+    m_strokes.push_back(event.stroke);
+    pushProject();
+  } else if (event.done) {
+    redoStroke(event.stroke);
+  } else {
+    undoStroke(event.stroke);
+  }
+}
+
+void SceneLink::pushProject() { m_engine.update(m_document.project()); }
+
+void SceneLink::reset() {
+  std::vector<std::shared_ptr<StrokeRecord>> strokes;
+  for (const auto& weak : m_strokes) {
+    if (auto stroke = weak.lock()) strokes.push_back(std::move(stroke));
+  }
+  m_engine.post([run = m_run, strokes = std::move(strokes)](Engine& engine) {
+    engine.reset();
+    ++*run;
+    for (const auto& stroke : strokes) {
+      findAgain(engine, *stroke);
+      if (!stroke->erase) stroke->trace->run = *run;
+    }
+  });
+}
+
+void SceneLink::paint(const StrokeRecord& stroke, const Body& body, std::vector<std::array<int, 3>> cells) {
+  m_engine.post([run = m_run, trace = stroke.trace, body, palette = stroke.palette, cells = std::move(cells)](Engine& engine) {
+    const std::vector<uint32_t> ids = engine.addCells(body, cells, palette);
+    trace->run = *run;
+    trace->ids.insert(trace->ids.end(), ids.begin(), ids.end());
+  });
+}
+
+void SceneLink::erase(const StrokeRecord& stroke, std::vector<std::array<int, 3>> cells) {
+  std::set<std::string> locked;
+  for (const Body& body : m_document.project().bodies) {
+    if (body.locked) locked.insert(body.id);
+  }
+  m_engine.post([run = m_run, trace = stroke.trace, lattice = stroke.lattice, locked, cells = std::move(cells)](Engine& engine) {
+    trace->run = *run;
+    take(engine, *trace, unlocked(engine, engine.particlesIn(lattice, cells), locked));
+  });
+}
+
+void SceneLink::cancel(const std::shared_ptr<StrokeRecord>& stroke) { undoStroke(stroke); }
+
+void SceneLink::undoStroke(const std::shared_ptr<StrokeRecord>& stroke) {
+  const double spacing = numberOf(m_document.project().solver.parameters, solverParameters(), "particle_spacing");
+  m_engine.post([run = m_run, stroke, spacing](Engine& engine) {
+    StrokeTrace& trace = *stroke->trace;
+    trace.done = false;
+    if (!stroke->erase) {
+      if (trace.run == *run) engine.removeParticles(trace.ids);
+      trace.ids.clear();
+    } else if (trace.run == *run) {
+      trace.ids.clear();
+      for (const ParticleCopy& copy : trace.taken) {
+        const std::vector<uint32_t> back = restoreParticles(engine, copy);
+        trace.ids.insert(trace.ids.end(), back.begin(), back.end());
+      }
+      trace.taken.clear();
+    } else {
+      refill(engine, *stroke, spacing);
+    }
+  });
+  pushProject();
+}
+
+void SceneLink::redoStroke(const std::shared_ptr<StrokeRecord>& stroke) {
+  pushProject();
+  const Body* body = m_document.body(stroke->body);
+  m_engine.post([run = m_run, stroke, body = body ? *body : Body{}](Engine& engine) {
+    StrokeTrace& trace = *stroke->trace;
+    trace.done = true;
+    if (!stroke->erase) {
+      trace.ids = engine.addCells(body, stroke->cells, stroke->palette);
+    } else if (trace.run == *run && !trace.ids.empty()) {
+      take(engine, trace, trace.ids);
+    } else {
+      take(engine, trace, engine.particlesIn(stroke->lattice, stroke->cells));
+    }
+    trace.run = *run;
+  });
+}
+
+}  // namespace ps
