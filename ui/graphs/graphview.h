@@ -53,6 +53,7 @@ class GraphView : public TimePlot {
 
  private:
   struct Private;
+  void paintSeries(QPainter& painter, int index, double first, double last, double perColumn) const;
   std::unique_ptr<Private> d;
 };
 

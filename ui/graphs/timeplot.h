@@ -2,6 +2,7 @@
 #pragma once
 #include <QtCore/QRectF>
 #include <QtCore/QString>
+#include <QtCore/QStringList>
 #include <QtWidgets/QWidget>
 
 #include <memory>
@@ -75,6 +76,7 @@ class TimePlot : public QWidget {
 
  private:
   struct Private;
+  void paintReadOut(QPainter& painter) const;
   std::unique_ptr<Private> d;
 };
 

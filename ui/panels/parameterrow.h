@@ -74,6 +74,8 @@ class ParameterRow : public QWidget {
 
   void reset();         ///< to the default, one gesture
   void startTyping();   ///< opens the line edit
+  /// A number (SI) as if typed; refused beyond the hard limits.
+  bool enterNumber(double value);
   bool enter(const QString& text);  ///< as if typed and Enter pressed; false: refused, the row shows why
 
   QRect labelRect() const;

@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/graphs/graphview.h"
+
+#include "ui/graphs/sampleseries.h"
+#include "ui/theme/numbers.h"
+#include "ui/theme/paint.h"
+#include "ui/theme/theme.h"
+
+#include <QtCore/QIODevice>
+#include <QtGui/QPainter>
+#include <QtGui/QPolygonF>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+
+namespace ps {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+struct Series {
+  QString name, unit;
+  SampleSeries samples;
+};
+
+/// Decimal digits that no locale touches; what is not finite is empty.
+QByteArray csvNumber(double value) {
+  if (!std::isfinite(value)) return {};
+  char buffer[32];
+  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value);
+  return QByteArray(buffer, end.ptr - buffer);
+}
+
+QByteArray csvName(const QString& name, const QString& unit) {
+  QString text = unit.isEmpty() ? name : QStringLiteral("%1[%2]").arg(name, unit);
+  if (text.contains(QLatin1Char(',')) || text.contains(QLatin1Char('"'))) {
+    text = QLatin1Char('"') + text.replace(QLatin1Char('"'), QStringLiteral("\"\"")) + QLatin1Char('"');
+  }
+  return text.toUtf8();
+}
+
+/// Values at the end of a line: three significant digits are enough beside a curve.
+QString labelValue(double value) { return formatNumber(value, std::abs(value) >= 100 ? 4 : 3); }
+
+}  // namespace
+
+struct GraphView::Private {
+  std::vector<Series> series;
+  std::vector<ReferenceLine> references;
+  QString unit;
+};
+
+GraphView::GraphView(QWidget* parent) : TimePlot(parent), d(std::make_unique<Private>()) {}
+GraphView::~GraphView() = default;
+
+int GraphView::addSeries(const QString& name, const QString& unit) {
+  d->series.push_back({name, unit, {}});
+  dataChanged();
+  return static_cast<int>(d->series.size()) - 1;
+}
+
+int GraphView::seriesCount() const { return static_cast<int>(d->series.size()); }
+
+void GraphView::removeAllSeries() {
+  d->series.clear();
+  dataChanged();
+}
+
+void GraphView::append(int series, double time, double value) {
+  if (series < 0 || series >= seriesCount() || !std::isfinite(time)) return;
+  d->series[static_cast<size_t>(series)].samples.append(time, value);
+  dataChanged();
+}
+
+void GraphView::clear() {
+  for (Series& series : d->series) series.samples.clear();
+  dataChanged();
+}
+
+void GraphView::setReferenceLines(std::vector<ReferenceLine> lines) {
+  d->references = std::move(lines);
+  dataChanged();
+}
+
+void GraphView::setUnit(const QString& unit) {
+  d->unit = unit;
+  dataChanged();
+}
+
+std::pair<double, double> GraphView::extent(int series, double first, double last) const {
+  const SampleSeries& samples = d->series.at(static_cast<size_t>(series)).samples;
+  const SampleSeries::Extent extent = samples.extent(samples.indexAt(first), samples.indexAt(last));
+  return extent.empty() ? std::pair{kNaN, kNaN} : std::pair{extent.low, extent.high};
+}
+
+size_t GraphView::sampleCount(int series) const { return d->series.at(static_cast<size_t>(series)).samples.size(); }
+
+bool GraphView::hasData() const {
+  return std::any_of(d->series.begin(), d->series.end(), [](const Series& series) { return !series.samples.empty(); });
+}
+
+double GraphView::lastTime() const {
+  double last = 0;
+  for (const Series& series : d->series) {
+    if (!series.samples.empty()) last = std::max(last, series.samples.lastTime());
+  }
+  return last;
+}
+
+std::pair<double, double> GraphView::valueExtent(double first, double last) const {
+  SampleSeries::Extent extent;
+  for (const Series& series : d->series) {
+    const size_t from = series.samples.indexAt(first);
+    extent.add(series.samples.extent(from > 0 ? from - 1 : 0, series.samples.indexAt(last) + 1));
+  }
+  if (extent.empty()) return {0, 1};
+  // A reference line just beyond the data is worth showing; one far away would press the data flat.
+  const double span = std::max(extent.high - extent.low, 1e-6 * std::max(1.0, std::abs(extent.high)));
+  const SampleSeries::Extent drawn = extent;
+  for (const ReferenceLine& line : d->references) {
+    if (line.value > drawn.low - 0.75 * span && line.value < drawn.high + 0.75 * span) extent.add(line.value);
+  }
+  const double margin = 0.12 * std::max(extent.high - extent.low, span);
+  return {extent.low - margin, extent.high + 1.6 * margin};
+}
+
+void GraphView::paintData(QPainter& painter) {
+  const Theme& theme = Theme::current();
+  const QRectF plot = plotRect();
+  for (const ReferenceLine& line : d->references) {
+    const double position = snapped(painter, y(line.value)) + hairline(painter) / 2;
+    painter.setPen(QPen(theme[Token::ControlEdge], hairline(painter), Qt::CustomDashLine));
+    QPen pen = painter.pen();
+    pen.setDashPattern({2, 2});
+    painter.setPen(pen);
+    painter.drawLine(QPointF(plot.left(), position), QPointF(plot.right(), position));
+    paintText(painter, QRectF(plot.right() - 100, position - 16, 95, 15), Qt::AlignRight | Qt::AlignVCenter, line.label,
+              Theme::font(TextRole::Small), theme[Token::Muted]);
+  }
+  const double scale = painter.device()->devicePixelRatioF();
+  const auto [first, last] = timeRange();
+  const double perColumn = (last - first) / (plot.width() * scale);
+  painter.setRenderHint(QPainter::Antialiasing);
+  for (size_t index = 0; index < d->series.size(); ++index) {
+    QPen pen(theme.series(static_cast<int>(index)), 1.5, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin);
+    if (theme.seriesDashed(static_cast<int>(index))) pen.setDashPattern({4, 2.5});
+    painter.setPen(pen);
+    paintSeries(painter, static_cast<int>(index), first, last, perColumn);
+  }
+}
+
+/// One device pixel column after the other: the line enters at the column's first value, touches its lowest and highest,
+/// so that no spike is lost however many samples a column holds. A gap breaks the line.
+void GraphView::paintSeries(QPainter& painter, int index, double first, double last, double perColumn) const {
+  const SampleSeries& samples = d->series[static_cast<size_t>(index)].samples;
+  if (samples.empty()) return;
+  QPolygonF line;
+  const auto flush = [&] {
+    if (line.size() == 1) painter.drawPoint(line.front());
+    else if (line.size() > 1) painter.drawPolyline(line);
+    line.clear();
+  };
+  size_t at = samples.indexAt(first);
+  if (at > 0) --at;
+  const size_t end = std::min(samples.size(), samples.indexAt(last) + 1);
+  while (at < end) {
+    const double column = std::floor((samples[at].time - first) / perColumn);
+    size_t next = samples.indexAt(first + (column + 1) * perColumn);
+    next = std::clamp(next, at + 1, end);
+    const SampleSeries::Extent extent = samples.extent(at, next);
+    if (extent.empty()) {
+      flush();
+    } else {
+      if (next == at + 1) {
+        if (std::isnan(samples[at].low)) flush();
+        line << QPointF(x(samples[at].time), y(samples[at].low));
+        if (samples[at].high != samples[at].low) line << QPointF(x(samples[at].time), y(samples[at].high));
+      } else {
+        const double middle = x(first + (column + 0.5) * perColumn);
+        const bool falls = !line.empty() && line.back().y() < y((extent.low + extent.high) / 2);
+        line << QPointF(middle, y(falls ? extent.high : extent.low)) << QPointF(middle, y(falls ? extent.low : extent.high));
+      }
+    }
+    at = next;
+  }
+  flush();
+}
+
+void GraphView::paintLabels(QPainter& painter) {
+  const Theme& theme = Theme::current();
+  const QRectF plot = plotRect();
+  const QFont font = Theme::font(TextRole::Small);
+  paintText(painter, QRectF(plot.left() + 7, plot.top() + 3, plot.width() - 14, 16), Qt::AlignLeft | Qt::AlignVCenter, title(),
+            font, theme[Token::Text2]);
+  struct Label {
+    double top;
+    QPointF end;
+    size_t series;
+    QString text;
+  };
+  std::vector<Label> labels;
+  const auto [first, last] = timeRange();
+  for (size_t i = 0; i < d->series.size(); ++i) {
+    const SampleSeries& samples = d->series[i].samples;
+    if (samples.empty() || !std::isfinite(samples.lastValue()) || samples.lastTime() < first || samples.lastTime() > last) continue;
+    const QPointF end(x(samples.lastTime()), y(samples.lastValue()));
+    labels.push_back({end.y() - 8, end, i, d->series[i].name + QLatin1Char(' ') + labelValue(samples.lastValue())});
+  }
+  // From the top down, each label at its line's end or as little below it as keeps the texts apart.
+  std::sort(labels.begin(), labels.end(), [](const Label& a, const Label& b) { return a.top < b.top; });
+  for (size_t i = 0; i < labels.size(); ++i) {
+    labels[i].top = std::max(labels[i].top, i == 0 ? plot.top() + 1 : labels[i - 1].top + 15);
+  }
+  for (size_t i = labels.size(); i-- > 0;) {
+    labels[i].top = std::min(labels[i].top, i + 1 == labels.size() ? plot.bottom() - 16 : labels[i + 1].top - 15);
+  }
+  painter.setRenderHint(QPainter::Antialiasing);
+  for (const Label& label : labels) {
+    painter.setPen(Qt::NoPen);
+    painter.setBrush(theme.series(static_cast<int>(label.series)));
+    painter.drawEllipse(label.end, 3, 3);
+    // Right of the end where there is room, else left of it.
+    const double width = textWidth(label.text, font);
+    const bool right = label.end.x() + 8 + width < this->width() - 2;
+    QRectF rect(right ? label.end.x() + 8 : label.end.x() - 8 - width, label.top, width + 1, 16);
+    QColor ground = theme[Token::Field];
+    ground.setAlphaF(0.75f);
+    painter.fillRect(rect.adjusted(-2, 1, 2, -1), ground);
+    paintText(painter, rect, Qt::AlignLeft | Qt::AlignVCenter, label.text, font, theme[Token::Text]);
+  }
+}
+
+QStringList GraphView::readOut(double time) const {
+  QStringList lines{formatFixed(time, 2) + QStringLiteral(" s")};
+  for (const Series& series : d->series) {
+    const double value = series.samples.valueAt(time);
+    const QString unit = series.unit.isEmpty() ? d->unit : series.unit;
+    if (std::isfinite(value)) lines << series.name + QStringLiteral("  ") + formatNumber(value) + (unit.isEmpty() ? unit : QLatin1Char(' ') + unit);
+  }
+  return lines.size() > 1 ? lines : QStringList();
+}
+
+double GraphView::labelWidth() const { return 0; }
+
+bool GraphView::exportCsv(QIODevice& device) const {
+  QByteArray header = "time_s";
+  for (const Series& series : d->series) header += ',' + csvName(series.name, series.unit.isEmpty() ? d->unit : series.unit);
+  if (device.write(header + '\n') < 0) return false;
+  std::vector<size_t> at(d->series.size(), 0);
+  for (;;) {
+    double time = std::numeric_limits<double>::infinity();
+    for (size_t i = 0; i < at.size(); ++i) {
+      if (at[i] < d->series[i].samples.size()) time = std::min(time, d->series[i].samples[at[i]].time);
+    }
+    if (std::isinf(time)) return true;
+    QByteArray line = csvNumber(time);
+    for (size_t i = 0; i < at.size(); ++i) {
+      const SampleSeries& samples = d->series[i].samples;
+      line += ',';
+      if (at[i] < samples.size() && samples[at[i]].time == time) line += csvNumber(samples[at[i]++].high);
+    }
+    if (device.write(line + '\n') < 0) return false;
+  }
+}
+
+}  // namespace ps

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/panels/parameterrow_p.h"
+#include "ui/panels/rowvalue.h"
+#include "ui/theme/numbers.h"
+#include "ui/theme/theme.h"
+
+#include <QtCore/QMetaMethod>
+#include <QtGui/QClipboard>
+#include <QtGui/QContextMenuEvent>
+#include <QtGui/QGuiApplication>
+#include <QtWidgets/QMenu>
+#include <QtWidgets/QToolTip>
+
+namespace ps {
+namespace {
+
+QString line(const char* head, const QString& text) {
+  if (text.isEmpty()) return {};
+  return QStringLiteral("<div style=\"margin-top:3px\"><span style=\"color:%1\">%2</span> %3</div>")
+      .arg(Theme::current()[Token::Muted].name(), QLatin1String(head), text.toHtmlEscaped());
+}
+
+}  // namespace
+
+QString ParameterRow::Private::toolTipText() const {
+  const api::ParameterDeclaration& p = declaration();
+  const QString unit = displayUnit(p);
+  QString text = QStringLiteral("<div><b>%1</b></div>").arg(QString::fromUtf8(p.label).toHtmlEscaped());
+  if (!model.disabledReason.isEmpty()) text += line("", model.disabledReason);
+  text += line("", QString::fromUtf8(p.help ? p.help : ""));
+  if (isNumeric() && p.maximum > p.minimum) {
+    text += line("Range", QStringLiteral("%1 to %2").arg(formatField(p, p.minimum), formatValue(p, p.maximum)));
+  }
+  if (!isCurve(model.defaultValue) && isNumeric()) {
+    text += line("Default", formatValue(p, numberOfValue(p, model.defaultValue, model.temperature)));
+  }
+  text += line("Example", QString::fromUtf8(p.example ? p.example : ""));
+  text += line("Source", !model.source.isEmpty() ? model.source : QString::fromUtf8(p.source ? p.source : ""));
+  return text;
+}
+
+void ParameterRow::Private::openChoiceMenu() {
+  QMenu menu(q);
+  const QStringList names = choiceNames(declaration());
+  for (qsizetype i = 0; i < names.size(); ++i) {
+    QAction* action = menu.addAction(choiceLabel(names[i]));
+    action->setCheckable(true);
+    action->setChecked(!model.mixed && static_cast<qsizetype>(q->number()) == i);
+    action->setData(static_cast<int>(i));
+  }
+  const QRect rect = choiceRect();
+  menu.setMinimumWidth(rect.width());
+  if (const QAction* chosen = menu.exec(q->mapToGlobal(rect.bottomLeft() + QPoint(0, 2)))) choose(chosen->data().toInt());
+}
+
+void ParameterRow::Private::openContextMenu(const QPoint& global) {
+  QMenu menu(q);
+  QAction* copy = menu.addAction(QStringLiteral("Copy value"));
+  QAction* paste = menu.addAction(QStringLiteral("Paste value"));
+  paste->setEnabled(isEditable() && isNumeric() && !QGuiApplication::clipboard()->text().isEmpty());
+  QAction* resetAction = menu.addAction(QStringLiteral("Reset"));
+  resetAction->setEnabled(isEditable() && q->isChanged());
+  QAction* constant = showsCurve() && isEditable() ? menu.addAction(QStringLiteral("Make constant")) : nullptr;
+  menu.addSeparator();
+  const auto offered = [this](const QMetaMethod& signal) { return q->isSignalConnected(signal); };
+  QAction* pin = nullptr;
+  QAction* plot = nullptr;
+  if (offered(QMetaMethod::fromSignal(&ParameterRow::pinToggled))) {
+    pin = menu.addAction(model.pinned ? QStringLiteral("Remove from “Try these”") : QStringLiteral("Pin to “Try these”"));
+  }
+  if (offered(QMetaMethod::fromSignal(&ParameterRow::plotRequested))) plot = menu.addAction(QStringLiteral("Plot"));
+  QAction* explain = menu.addAction(QStringLiteral("Explain"));
+  const QAction* chosen = menu.exec(global);
+  if (!chosen) return;
+  if (chosen == copy) QGuiApplication::clipboard()->setText(q->valueText());
+  else if (chosen == paste) q->enter(QGuiApplication::clipboard()->text().trimmed());
+  else if (chosen == resetAction) q->reset();
+  else if (chosen == constant) single(valueOfNumber(declaration(), q->number()));
+  else if (chosen == pin) Q_EMIT q->pinToggled(model.key, !model.pinned);
+  else if (chosen == plot) Q_EMIT q->plotRequested(model.key);
+  else if (chosen == explain) QToolTip::showText(global, toolTipText(), q);
+}
+
+void ParameterRow::contextMenuEvent(QContextMenuEvent* event) { d->openContextMenu(event->globalPos()); }
+
+}  // namespace ps
