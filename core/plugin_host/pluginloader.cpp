@@ -53,7 +53,7 @@ std::string connect(QObject& object, PluginInfo& info, LoadedPlugin& loaded) {
     case PluginKind::Brush: plugin = loaded.brush = qobject_cast<api::BrushPlugin*>(&object); break;
   }
   if (!plugin)
-    return std::string("its class lacks Q_INTERFACES for a ") + pluginKindName(info.kind) + "; add it and build again";
+    return std::string("its class lacks Q_INTERFACES for a ") + pluginKindName(info.kind);
   if (std::string problem = checkCommon(*plugin, info); !problem.empty()) return problem;
   if (loaded.constraint) return problemOfTraits(loaded.constraint->traits());
   if (loaded.thermal) return problemOfFields(loaded.thermal->fields());
@@ -95,11 +95,13 @@ LoadedPlugin loadLibrary(PluginInfo& info) {
     QPluginLoader loader(QString::fromStdString(info.path));
     loader.setLoadHints(QLibrary::ResolveAllSymbolsHint | QLibrary::PreventUnloadHint);
     QObject* object = loader.instance();
-    problem = object ? connect(*object, info, loaded)
-                     : "it could not be loaded: " + oneLine(loader.errorString().toStdString()) +
-                           "; build it again for this system";
+    if (!object) {
+      problem = "it could not be loaded: " + oneLine(loader.errorString().toStdString()) + "; build it again for this system";
+    } else if (problem = connect(*object, info, loaded); !problem.empty()) {
+      problem += "; " + whomToTell(info);
+    }
   } catch (...) {
-    problem = "it threw while it was loaded: " + currentExceptionText() + "; remove it or get a newer version";
+    problem = "it failed while it was loaded: " + currentExceptionText() + "; " + whomToTell(info);
   }
   if (problem.empty()) return loaded;
   info.problem = info.path + ": " + problem;
@@ -125,6 +127,10 @@ Material evaluateLaws(const api::MaterialPlugin& plugin, Material material, cons
   }
   if (const std::string problem = problemOf(material); !problem.empty()) throw Error("property " + problem);
   return material;
+}
+
+std::string whomToTell(const PluginInfo& info) {
+  return "tell its author" + (info.author.empty() ? std::string() : ", " + oneLine(info.author));
 }
 
 std::string currentExceptionText() {

@@ -25,6 +25,8 @@ LoadedPlugin loadLibrary(PluginInfo& info);
 /// plugin throws, and Error for values that are not finite or out of range.
 Material evaluateLaws(const api::MaterialPlugin& plugin, Material material, const std::vector<double>& parameters);
 
+/// "tell its author, NAME": what to do about a fault of the plugin.
+std::string whomToTell(const PluginInfo& info);
 /// What a caught exception says, in one line. Call it in a catch block.
 std::string currentExceptionText();
 /// Line breaks and control characters become spaces.

@@ -87,14 +87,15 @@ std::string checkedMetadata(const QJsonObject& root, PluginInfo& info) {
   return {};
 }
 
-/// Qt's words for a file that is no plugin, without the path that the caller says anyway.
+/// Qt's words for a file that is no plugin: "... 'PATH' is not a valid ELF object (file too small)". The path is left out,
+/// the caller says it.
 std::string refusalOf(const QPluginLoader& loader, const std::string& path) {
   std::string words = loader.errorString().toStdString();
-  for (const std::string& prefix : {"'" + path + "' ", "The file '" + path + "' "})
-    if (words.starts_with(prefix)) words.erase(0, prefix.size());
+  const std::string mention = path + "' is ";
+  if (const size_t at = words.rfind(mention); at != std::string::npos) words.erase(0, at + mention.size());
   for (char& c : words)
     if (static_cast<unsigned char>(c) < 0x20) c = ' ';
-  return "it is not a plugin (" + words + "); remove it from this folder or build it again";
+  return "it is not a plugin: " + words + "; remove it from this folder or build it again";
 }
 
 }  // namespace
@@ -143,6 +144,10 @@ std::string problemOfVersion(std::string_view version) {
 PluginInfo readLibraryMetadata(const std::string& path) {
   PluginInfo info;
   info.path = path;
+  if (QFileInfo(QString::fromStdString(path)).size() == 0) {  // the loader would complain on standard error as well
+    info.problem = path + ": it is not a plugin: the file is empty; build or install it again";
+    return info;
+  }
   QPluginLoader loader(QString::fromStdString(path));
   const QJsonObject root = loader.metaData();
   info.problem = root.isEmpty() ? refusalOf(loader, path) : checkedMetadata(root, info);

@@ -26,7 +26,8 @@ QString programDirectory() {
 
 bool isInside(const QString& path, const QString& directory) {
   const QString canonical = QFileInfo(directory).canonicalFilePath();
-  return !canonical.isEmpty() && (QFileInfo(path).canonicalFilePath() + QLatin1Char('/')).startsWith(canonical + QLatin1Char('/'));
+  const QString inner = QFileInfo(path).canonicalFilePath() + QLatin1Char('/');
+  return !canonical.isEmpty() && inner.startsWith(canonical + QLatin1Char('/'));
 }
 
 class Directories {
@@ -45,16 +46,20 @@ class Directories {
   std::vector<PluginDirectory> m_list;
 };
 
+/// What lies beside the program counts first: an installation that happens to lie inside the build tree is one all the same.
 void addBuiltIn(Directories& list) {
   const QString program = programDirectory();
   if (program.isEmpty()) return;
-  if (isInside(program, QStringLiteral(PS_BUILD_TREE))) {
-    list.add(QStringLiteral(PS_BUILD_TREE_PLUGINS), "the build tree", false);
-    return;
-  }
+  bool found = false;
   for (const char* relative : {"../share/phasesketch/plugins", "../lib/phasesketch/plugins",
-                               "../" PS_INSTALL_LIBDIR "/phasesketch/plugins"})
-    list.add(program + QLatin1Char('/') + QLatin1String(relative), "the installation", false);
+                               "../" PS_INSTALL_LIBDIR "/phasesketch/plugins"}) {
+    const QString path = program + QLatin1Char('/') + QLatin1String(relative);
+    if (!QFileInfo(path).isDir()) continue;
+    list.add(path, "the installation", false);
+    found = true;
+  }
+  if (!found && isInside(program, QStringLiteral(PS_BUILD_TREE)))
+    list.add(QStringLiteral(PS_BUILD_TREE_PLUGINS), "the build tree", false);
 }
 
 }  // namespace

@@ -176,8 +176,7 @@ void PluginRegistry::Impl::markFault(const std::string& id, const std::string& m
     if (info.id != id || info.state != PluginInfo::State::Loaded) continue;
     info.state = PluginInfo::State::Refused;
     info.problem = info.path + ": it failed while it ran: " + oneLine(message) +
-                   "; it is left out until the program starts again, tell " +
-                   (info.author.empty() ? "its author" : info.author);
+                   "; it is left out until the program starts again, " + whomToTell(info);
   }
   generations.push_back(std::move(changed));
 }
