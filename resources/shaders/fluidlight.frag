@@ -2,10 +2,10 @@
 // The liquid's surface from its smoothed distances: Fresnel reflection of the studio over what lies behind, bent and
 // tinted by the thickness; in data colours an opaque lit surface.
 uniform sampler2D fluidTexture;      // smoothed distance, kFar where there is none
+uniform sampler2D fluidNormal;       // in view space, 0..1
 uniform sampler2D fluidColour;       // colour times thickness, thickness, in radii
 uniform sampler2D distanceTexture;   // of what is opaque
 uniform sampler2D behindTexture;     // the picture so far
-uniform sampler2D contactTexture;
 uniform sampler2DShadow shadowTexture;
 in vec2 uv;
 out vec4 colour;
@@ -32,20 +32,13 @@ void main() {
   if (centre.y < 0.3 || centre.x > front + matter.x * 0.25) discard;
   float edge = smoothstep(0.3, 0.75, centre.y);
 
-  vec2 texel = 1.0 / vec2(textureSize(fluidTexture, 0));
-  vec2 right = distanceAt(uv + vec2(texel.x, 0.0)), left = distanceAt(uv - vec2(texel.x, 0.0));
-  vec2 up = distanceAt(uv + vec2(0.0, texel.y)), down = distanceAt(uv - vec2(0.0, texel.y));
   vec3 p = viewRay(uv) * centre.x;
-  vec3 px = viewRay(uv + vec2(texel.x, 0.0)) * right.x - p, mx = p - viewRay(uv - vec2(texel.x, 0.0)) * left.x;
-  vec3 py = viewRay(uv + vec2(0.0, texel.y)) * up.x - p, my = p - viewRay(uv - vec2(0.0, texel.y)) * down.x;
-  vec3 dx = left.y < 0.5 || (right.y >= 0.5 && abs(px.z) < abs(mx.z)) ? px : mx;
-  vec3 dy = down.y < 0.5 || (up.y >= 0.5 && abs(py.z) < abs(my.z)) ? py : my;
-  vec3 nView = normalize(cross(dx, dy));
+  vec3 nView = normalize(textureLod(fluidNormal, uv, 0.0).xyz * 2.0 - 1.0);
   vec3 n = mat3(inverseView) * nView;
   vec3 world = (inverseView * vec4(p, 1.0)).xyz;
   vec3 v = normalize(eye.xyz - world);
 
-  vec4 sum = texture(fluidColour, uv);
+  vec4 sum = textureLod(fluidColour, uv, 0.0);
   vec3 base = sum.rgb / max(sum.a, 1e-4);
   float thickness = sum.a;  // radii
   float facing = clamp(dot(n, v), 0.0, 1.0);
@@ -65,11 +58,11 @@ void main() {
   } else {
     vec2 bend = nView.xy * clamp(thickness * 0.09, 0.0, 0.55) * matter.x / centre.x / lens.y * vec2(size.y / size.x, 1.0);
     vec3 behind = toLinear(textureLod(behindTexture, clamp(uv - bend, vec2(0.0), vec2(1.0)), 0.0).rgb);
-    vec3 clearness = pow(clamp(base * 0.85 + 0.15, vec3(0.05), vec3(1.0)), vec3(0.22 * thickness));
-    float veil = 1.0 - exp(-0.16 * thickness);
-    vec3 body = (base * 0.85 + 0.10) * (0.34 + 0.58 * diffuse * mix(0.55, 1.0, key)) + warm * 0.30;
-    c = mix(behind * clearness, body, veil * 0.72);
-    c = mix(c, reflected, min(fresnel * 0.9 + 0.03, 1.0)) + shine;
+    float veil = 1.0 - exp(-0.18 * thickness);
+    vec3 clearness = mix(vec3(1.0), base * 0.8 + 0.2, veil);
+    vec3 body = (base * 0.55 + 0.40) * (0.22 + 0.55 * diffuse * mix(0.5, 1.0, key)) + warm * 0.12;
+    c = mix(behind * clearness, body, veil * 0.50);
+    c = mix(c, reflected, min(fresnel + 0.035, 1.0)) + shine;
   }
   colour = vec4(toScreen(tone(c)), edge);
 }

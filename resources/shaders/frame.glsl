@@ -36,6 +36,15 @@ float ditherAt(vec2 pixel) { return fract(52.9829189 * fract(dot(pixel, vec2(0.0
 vec3 viewRay(vec2 uv) { return vec3((uv * 2.0 - 1.0) * lens.xy, -1.0); }
 float windowDepth(float distance) { return 0.5 - 0.5 * (lens.z - lens.w / distance); }
 
+// The same studio as rough surfaces mirror it, without edges.
+vec3 softStudio(vec3 d) {
+  float up = d.y * 0.5 + 0.5, box = max(dot(d, light.xyz), 0.0);
+  box *= box;
+  box *= box;
+  vec3 c = mix(vec3(0.055, 0.058, 0.065), vec3(0.34, 0.37, 0.41), up * up);
+  return mix(c * 1.7 + 0.12, c, light.w) + vec3(1.25, 1.20, 1.12) * box * box;
+}
+
 // The studio around the scene, linear: a soft gradient, a large key box above the light, a strip opposite.
 vec3 studio(vec3 d, float rough) {
   float up = d.y * 0.5 + 0.5;

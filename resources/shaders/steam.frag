@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 uniform sampler2D distanceTexture;
 uniform sampler2D fluidTexture;
-uniform sampler2D noiseTexture;
+uniform sampler2D cloudTexture;
 uniform int scale;
 uniform int fluidScale;
 uniform float opacity;
@@ -17,7 +17,7 @@ void main() {
   float behind = texelFetch(distanceTexture, at, 0).r;
   if (fluidScale > 0) behind = min(behind, texelFetch(fluidTexture, at / fluidScale, 0).r);
   float soft = clamp((behind - reach.x) / reach.y + 0.35, 0.0, 1.0);
-  float cloud = texture(noiseTexture, grain).g;
+  float cloud = textureLod(cloudTexture, grain, 0.0).r;
   float fall = 1.0 - square;
   float a = tint.a * opacity * soft * fall * fall * smoothstep(0.18, 0.85, cloud);
   a *= clamp((reach.x / (matter.w * 0.15)) - 0.3, 0.0, 1.0);

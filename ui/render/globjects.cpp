@@ -32,11 +32,12 @@ GLuint compile(GLenum stage, const char* file, const char* library) {
 
 }  // namespace
 
-Program::Program(const char* vertex, const char* fragment, const char* library) {
-  const GLuint first = compile(GL_VERTEX_SHADER, vertex, library);
+Program::Program(const char* vertex, const char* fragment, const char* vertexLibrary,
+                 const char* fragmentLibrary) {
+  const GLuint first = compile(GL_VERTEX_SHADER, vertex, vertexLibrary);
   GLuint second = 0;
   try {
-    second = compile(GL_FRAGMENT_SHADER, fragment, "");
+    second = compile(GL_FRAGMENT_SHADER, fragment, fragmentLibrary);
   } catch (...) {
     glDeleteShader(first);
     throw;
@@ -83,8 +84,12 @@ Texture::~Texture() { glDeleteTextures(1, &m_name); }
 
 void Texture::resize(int width, int height) {
   if (width == m_width && height == m_height) return;
-  const bool depth = m_internalFormat == GL_DEPTH_COMPONENT32F || m_internalFormat == GL_DEPTH_COMPONENT24;
-  upload(width, height, depth ? GL_DEPTH_COMPONENT : GL_RGBA, depth ? GL_FLOAT : GL_UNSIGNED_BYTE, nullptr);
+  if (hasStencil())
+    upload(width, height, GL_DEPTH_STENCIL, GL_UNSIGNED_INT_24_8, nullptr);
+  else if (m_internalFormat == GL_DEPTH_COMPONENT24)
+    upload(width, height, GL_DEPTH_COMPONENT, GL_FLOAT, nullptr);
+  else
+    upload(width, height, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
 }
 
 void Texture::upload(int width, int height, GLenum format, GLenum type, const void* data) {
@@ -126,7 +131,9 @@ Target::Target(std::initializer_list<const Texture*> colours, const Texture* dep
     buffers[static_cast<size_t>(count++)] = attachment;
     any = colour;
   }
-  if (depth) glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth->name(), 0);
+  if (depth)
+    glFramebufferTexture2D(GL_FRAMEBUFFER, depth->hasStencil() ? GL_DEPTH_STENCIL_ATTACHMENT : GL_DEPTH_ATTACHMENT,
+                            GL_TEXTURE_2D, depth->name(), 0);
   if (count)
     glDrawBuffers(count, buffers.data());
   else

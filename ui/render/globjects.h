@@ -13,9 +13,9 @@ namespace ps::render {
 
 class Program {
  public:
-  /// Names of embedded files; `library` is put before the vertex stage after frame.glsl ("" for none). Throws Error with
+  /// Names of embedded files; the libraries are put before the stages, after frame.glsl ("" for none). Throws Error with
   /// the compiler's words.
-  Program(const char* vertex, const char* fragment, const char* library = "");
+  Program(const char* vertex, const char* fragment, const char* vertexLibrary = "", const char* fragmentLibrary = "");
   ~Program();
   Program(const Program&) = delete;
   Program& operator=(const Program&) = delete;
@@ -42,6 +42,7 @@ class Texture {
   void resize(int width, int height);
   void upload(int width, int height, GLenum format, GLenum type, const void* data);
   GLuint name() const { return m_name; }
+  bool hasStencil() const { return m_internalFormat == GL_DEPTH24_STENCIL8; }
   int width() const { return m_width; }
   int height() const { return m_height; }
 

@@ -38,6 +38,13 @@ GlState::GlState()
   const GLenum blend[] = {GL_BLEND_SRC_RGB,   GL_BLEND_DST_RGB,      GL_BLEND_SRC_ALPHA,
                           GL_BLEND_DST_ALPHA, GL_BLEND_EQUATION_RGB, GL_BLEND_EQUATION_ALPHA};
   for (size_t i = 0; i < m_blend.size(); ++i) m_blend[i] = integer(blend[i]);
+  const GLenum stencil[2][7] = {
+      {GL_STENCIL_FUNC, GL_STENCIL_REF, GL_STENCIL_VALUE_MASK, GL_STENCIL_WRITEMASK, GL_STENCIL_FAIL,
+       GL_STENCIL_PASS_DEPTH_FAIL, GL_STENCIL_PASS_DEPTH_PASS},
+      {GL_STENCIL_BACK_FUNC, GL_STENCIL_BACK_REF, GL_STENCIL_BACK_VALUE_MASK, GL_STENCIL_BACK_WRITEMASK,
+       GL_STENCIL_BACK_FAIL, GL_STENCIL_BACK_PASS_DEPTH_FAIL, GL_STENCIL_BACK_PASS_DEPTH_PASS}};
+  for (size_t face = 0; face < 2; ++face)
+    for (size_t i = 0; i < 7; ++i) m_stencil[face][i] = integer(stencil[face][i]);
   // Core profiles write one value, compatibility profiles two.
   m_polygonMode = {GL_FILL, GL_FILL};
   glGetIntegerv(GL_POLYGON_MODE, m_polygonMode.data());
@@ -60,6 +67,7 @@ GlState::GlState()
   glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glDepthRange(0, 1);
+  glStencilMask(0xFF);
   glBlendEquation(GL_FUNC_ADD);
   glFrontFace(GL_CCW);
   glCullFace(GL_BACK);
@@ -99,6 +107,13 @@ GlState::~GlState() {
   glBlendFuncSeparate(static_cast<GLenum>(m_blend[0]), static_cast<GLenum>(m_blend[1]), static_cast<GLenum>(m_blend[2]),
                       static_cast<GLenum>(m_blend[3]));
   glBlendEquationSeparate(static_cast<GLenum>(m_blend[4]), static_cast<GLenum>(m_blend[5]));
+  for (size_t face = 0; face < 2; ++face) {
+    const auto& s = m_stencil[face];
+    const GLenum side = face ? GL_BACK : GL_FRONT;
+    glStencilFuncSeparate(side, static_cast<GLenum>(s[0]), s[1], static_cast<GLuint>(s[2]));
+    glStencilMaskSeparate(side, static_cast<GLuint>(s[3]));
+    glStencilOpSeparate(side, static_cast<GLenum>(s[4]), static_cast<GLenum>(s[5]), static_cast<GLenum>(s[6]));
+  }
   glDepthFunc(static_cast<GLenum>(m_depthFunction));
   glDepthMask(m_depthMask);
   glDepthRange(static_cast<GLdouble>(m_depthRange[0]), static_cast<GLdouble>(m_depthRange[1]));

@@ -31,6 +31,7 @@ class GlState {
   GLint64 m_uniformStart0 = 0, m_uniformSize0 = 0;
   std::array<GLint, 4> m_viewport, m_scissor;
   std::array<GLint, 6> m_blend;  // source rgb, destination rgb, source alpha, destination alpha, equations
+  std::array<std::array<GLint, 7>, 2> m_stencil;  // by face: function, reference, masks, operations
   GLint m_depthFunction, m_cullFace, m_frontFace;
   std::array<GLint, 2> m_polygonMode;
   std::array<GLfloat, 4> m_clearColour;

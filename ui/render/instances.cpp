@@ -40,7 +40,7 @@ Colour materialColour(const Snapshot& s, size_t i) {
   const Colour own = material < s.materialColour.size() ? s.materialColour[material] : Colour{0.6f, 0.6f, 0.6f};
   switch (s.motion[i]) {
     case api::Motion::Static: return own;
-    case api::Motion::Solid: return towardsWhite(own, (s.phase[i] == api::Phase::Solid ? 0.62f : 0.34f) * luma(own));
+    case api::Motion::Solid: return towardsWhite(own, (s.phase[i] == api::Phase::Solid ? 0.80f : 0.55f) * std::sqrt(luma(own)));
     case api::Motion::Liquid: return towardsWhite(own, 0.7f * std::clamp(s.gasFraction[i], 0.f, 1.f));
     case api::Motion::Gas: break;
   }
@@ -108,72 +108,6 @@ class Evaluator {
   std::vector<uint32_t> m_match;
 };
 
-// Nearest first, by counting into slices: hidden fragments then fail the depth test before they are shaded.
-void sortAlong(const std::array<float, 3>& forward, std::vector<Instance>& list) {
-  constexpr size_t kSlices = 512;
-  if (list.size() < 2 || (forward[0] == 0 && forward[1] == 0 && forward[2] == 0)) return;
-  std::vector<float> depth(list.size());
-  for (size_t i = 0; i < list.size(); ++i)
-    depth[i] = list[i].x * forward[0] + list[i].y * forward[1] + list[i].z * forward[2];
-  const auto [low, high] = std::minmax_element(depth.begin(), depth.end());
-  const float first = *low, scale = static_cast<float>(kSlices - 1) / std::max(*high - *low, 1e-9f);
-  std::array<size_t, kSlices + 1> start{};
-  const auto slice = [&](size_t i) { return static_cast<size_t>(std::max(0.f, (depth[i] - first) * scale)); };
-  for (size_t i = 0; i < list.size(); ++i) ++start[std::min(slice(i), kSlices - 1) + 1];
-  for (size_t k = 1; k <= kSlices; ++k) start[k] += start[k - 1];
-  std::vector<Instance> sorted(list.size());
-  for (size_t i = 0; i < list.size(); ++i) sorted[start[std::min(slice(i), kSlices - 1)]++] = list[i];
-  list.swap(sorted);
-}
-
-// Leaves out spheres whose 26 neighbouring cells, a diameter wide, all hold others: at least one more layer hides them.
-void dropBuried(const Extent& extent, float radius, std::vector<Instance>& list) {
-  constexpr size_t kMost = 1u << 24;
-  std::array<size_t, 3> cells{};
-  const float cell = 2 * radius;
-  double total = 1;
-  for (size_t k = 0; k < 3; ++k) {
-    const float count = (extent.maximum[k] - extent.minimum[k]) / cell + 3;
-    total *= static_cast<double>(count);
-    cells[k] = static_cast<size_t>(std::min(count, 1e6f));
-  }
-  if (list.size() < 1000 || total > static_cast<double>(kMost)) return;
-  const auto cellOf = [&](const Instance& p) {
-    const auto along = [&](float v, size_t k) { return static_cast<size_t>((v - extent.minimum[k]) / cell) + 1; };
-    return (along(p.z, 2) * cells[1] + along(p.y, 1)) * cells[0] + along(p.x, 0);
-  };
-  std::vector<char> full(cells[0] * cells[1] * cells[2] + 1), buried(full.size());
-  for (const Instance& p : list)
-    if (p.radius > 0.7f * radius) full[cellOf(p)] = 1;
-  const size_t row = cells[0], layer = cells[0] * cells[1];
-  for (size_t at = layer + row + 1; at + layer + row + 1 < full.size(); ++at) {
-    if (!full[at] || !full[at - 1] || !full[at + 1]) continue;
-    bool all = true;
-    for (const size_t base : {at - layer - row, at - layer, at - layer + row, at - row, at + row, at + layer - row,
-                              at + layer, at + layer + row})
-      all = all && full[base - 1] && full[base] && full[base + 1];
-    buried[at] = all;
-  }
-  std::erase_if(list, [&](const Instance& p) { return buried[cellOf(p)] != 0; });
-}
-
-void blur(std::vector<float>& grid, int radius) {
-  constexpr int n = ContactMap::kCells;
-  std::vector<float> line(n);
-  for (int pass = 0; pass < 4; ++pass) {
-    const int along = pass % 2 ? n : 1, across = pass % 2 ? 1 : n;
-    for (int row = 0; row < n; ++row) {
-      for (int i = 0; i < n; ++i) {
-        float sum = 0;
-        for (int k = std::max(0, i - radius); k <= std::min(n - 1, i + radius); ++k)
-          sum += grid[static_cast<size_t>(row * across + k * along)];
-        line[static_cast<size_t>(i)] = sum / static_cast<float>(2 * radius + 1);
-      }
-      for (int i = 0; i < n; ++i) grid[static_cast<size_t>(row * across + i * along)] = line[static_cast<size_t>(i)];
-    }
-  }
-}
-
 }  // namespace
 
 void Extent::add(float x, float y, float z, float radius) {
@@ -220,9 +154,8 @@ void collectInstances(const InstanceRequest& request, Instances& out) {
   if (counted) out.radius = static_cast<float>(radii / static_cast<double>(counted));
   out.sphereExtent = out.liquidExtent = out.vapourExtent = {};
   for (const Instance& p : spheres) out.sphereExtent.add(p.x, p.y, p.z, p.radius);
-  if (request.dropBuried) dropBuried(out.sphereExtent, out.radius, spheres);
-  sortAlong(request.forward, spheres);
-  sortAlong(request.forward, liquids);
+  if (request.cull) dropBuried(out.sphereExtent, out.radius, spheres);
+  out.visible = request.cull ? sortVisible(*request.cull, spheres) : spheres.size();
   for (const Instance& p : liquids) out.liquidExtent.add(p.x, p.y, p.z, p.radius * 1.6f);
   for (const Instance& p : vapours) out.vapourExtent.add(p.x, p.y, p.z, p.radius * 8);
   out.spheres = spheres.size();
@@ -231,44 +164,6 @@ void collectInstances(const InstanceRequest& request, Instances& out) {
   out.particles.swap(spheres);
   out.particles.insert(out.particles.end(), liquids.begin(), liquids.end());
   out.particles.insert(out.particles.end(), vapours.begin(), vapours.end());
-}
-
-void fillContactMap(const Instances& instances, bool clear, ContactMap& map) {
-  constexpr int n = ContactMap::kCells;
-  constexpr size_t kCount = static_cast<size_t>(n * n);
-  std::vector<float> close(kCount), wide(kCount);
-  std::array<std::vector<float>, 3> colour;
-  for (auto& channel : colour) channel.assign(kCount, 0);
-  const float cell = map.size[0] * map.size[1] / static_cast<float>(n * n);
-  const float reach = instances.radius * 3, tall = 0.18f * std::max(map.size[0], map.size[1]);
-  for (size_t i = 0; i < instances.spheres + instances.liquids; ++i) {
-    const Instance& p = instances.particles[i];
-    const int x = static_cast<int>(std::floor((p.x - map.corner[0]) / map.size[0] * n));
-    const int z = static_cast<int>(std::floor((p.z - map.corner[1]) / map.size[1] * n));
-    const float height = p.y - p.radius - map.floor;
-    if (x < 0 || z < 0 || x >= n || z >= n || height < -2 * p.radius) continue;
-    const size_t at = static_cast<size_t>(z * n + x);
-    const float share = 3.14f * p.radius * p.radius / cell * (i >= instances.spheres && clear ? 0.3f : 1);
-    const float w = share * std::exp(-std::max(0.f, height) / reach);
-    close[at] += w;
-    wide[at] += share * std::exp(-std::max(0.f, height) / tall) * 0.35f;
-    const float weight = w + 0.05f * share;
-    colour[0][at] += p.red * weight, colour[1][at] += p.green * weight, colour[2][at] += p.blue * weight;
-  }
-  std::vector<float> weights(close);
-  for (size_t i = 0; i < kCount; ++i) weights[i] += 0.05f / 0.35f * wide[i];
-  blur(close, 1);
-  blur(wide, 4);
-  blur(weights, 4);
-  for (auto& channel : colour) blur(channel, 4);
-  map.texels.assign(kCount * 4, 0);
-  for (size_t i = 0; i < kCount; ++i) {
-    const float cover = 1 - std::exp(-0.8f * close[i] - 0.75f * wide[i]);
-    for (size_t k = 0; k < 3; ++k)
-      map.texels[i * 4 + k] =
-          static_cast<uint8_t>(255 * std::clamp(colour[k][i] / std::max(weights[i], 1e-5f), 0.f, 1.f));
-    map.texels[i * 4 + 3] = static_cast<uint8_t>(255 * std::clamp(cover, 0.f, 1.f));
-  }
 }
 
 }  // namespace ps::render

@@ -3,6 +3,7 @@
 #include "ui/render/renderer.h"
 
 #include <array>
+#include <optional>
 #include <vector>
 
 namespace ps::render {
@@ -30,6 +31,12 @@ struct ContactMap {
   std::vector<uint8_t> texels;                ///< RGBA8: mean colour, how much is covered
 };
 
+/// For what culling needs to know.
+struct CullView {
+  std::array<float, 16> viewProjection;  ///< column-major
+  int width, height;                     ///< pixels
+};
+
 struct InstanceRequest {
   const Snapshot* now = nullptr;
   const Snapshot* previous = nullptr;  ///< nullptr: no interpolation
@@ -38,14 +45,14 @@ struct InstanceRequest {
   double minimum = 0, maximum = 1, meltingPoint = 273.15;
   bool surfaces = true;                  ///< liquids become a surface, else spheres
   std::array<float, 3> steam{1, 1, 1};   ///< colour of vapour where colours show no data
-  bool dropBuried = false;               ///< leaves out spheres that others surround on all sides
-  std::array<float, 3> forward{};        ///< spheres are sorted along it, nearest first; zero: not at all
+  std::optional<CullView> cull;          ///< sort nearest first, leave out what cannot be seen
 };
 
-/// What a frame draws, in three ranges of `particles`: spheres, liquid of a surface, vapour.
+/// What a frame draws, in three ranges of `particles`: spheres (the first `visible` of them can be seen, the others may
+/// cast shadows), liquid of a surface, vapour.
 struct Instances {
   std::vector<Instance> particles;
-  size_t spheres = 0, liquids = 0, vapours = 0;
+  size_t visible = 0, spheres = 0, liquids = 0, vapours = 0;
   Extent sphereExtent, liquidExtent, vapourExtent;
   float radius = 0.01f;  ///< mean of what is neither vapour nor static, m
 };
@@ -53,6 +60,11 @@ struct Instances {
 /// Values of `previous` are found by id where the order differs; particles that are new stand where they are now.
 /// Snapshots of different revisions are not mixed.
 void collectInstances(const InstanceRequest& request, Instances& out);
+/// Puts spheres that may be seen first, nearest first, and returns how many those are. A sphere is hidden when spheres
+/// at least a radius nearer cover every cell, 2 pixels wide, of its disc.
+size_t sortVisible(const CullView& view, std::vector<Instance>& spheres);
+/// Leaves out spheres whose 26 neighbouring cells, 2 `radius` wide, all hold others.
+void dropBuried(const Extent& extent, float radius, std::vector<Instance>& list);
 /// Fills texels from spheres and liquids; liquids count less where `clear`.
 void fillContactMap(const Instances& instances, bool clear, ContactMap& map);
 

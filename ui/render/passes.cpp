@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
 #include <vector>
 
 namespace ps::render {
 namespace {
 
 constexpr float kFar = 1e6f;  // frame.glsl knows the same
+constexpr GLint kMatter = 1, kMetal = 2;  // marks in the stencil: what lights a pixel
 
 constexpr const char* kSoftware[] = {"llvmpipe", "softpipe", "SwiftShader", "SWR"};
 
@@ -68,6 +70,13 @@ void clearColour(GLint buffer, float r, float g, float b, float a) {
   const float value[] = {r, g, b, a};
   glClearBufferfv(GL_COLOR, buffer, value);
 }
+// Same size and format: a copy of memory where a processor draws.
+void copyPicture(const Texture& from, const Texture& to, const std::array<int, 4>& box) {
+  const Target target({&to}, nullptr), source({&from}, nullptr);
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, target.name());
+  const int right = box[0] + box[2], top = box[1] + box[3];
+  glBlitFramebuffer(box[0], box[1], right, top, box[0], box[1], right, top, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+}
 void clearDepth() {
   const float one = 1;
   glDepthMask(GL_TRUE);
@@ -78,7 +87,7 @@ void clearDepth() {
 
 Quality qualityOf(const char* rendererName) {
   for (const char* name : kSoftware)
-    if (rendererName && std::strstr(rendererName, name)) return {512, 4, 2, 6, 2, 7, 2, 4, 2, true};
+    if (rendererName && std::strstr(rendererName, name)) return {512, 2, 2, 6, 2, 7, 2, 4, 2, true};
   return {};
 }
 
@@ -88,6 +97,11 @@ Passes::Passes() : m_quality(qualityOf(reinterpret_cast<const char*>(glGetString
   m_shadow.resize(m_quality.shadowSize, m_quality.shadowSize);
   m_noise.upload(256, 256, GL_RGBA, GL_UNSIGNED_BYTE, noiseTexels().data());
   glGenerateMipmap(GL_TEXTURE_2D);
+  // One channel of every second texel of the clouds: soft, small, and cheap to look up.
+  const std::vector<uint8_t> noise = noiseTexels();
+  std::vector<uint8_t> cloud(128 * 128);
+  for (size_t i = 0; i < cloud.size(); ++i) cloud[i] = noise[(i / 128 * 2 * 256 + i % 128 * 2) * 4 + 1];
+  m_cloud.upload(128, 128, GL_RED, GL_UNSIGNED_BYTE, cloud.data());
 }
 
 void Passes::resize(int width, int height) {
@@ -104,7 +118,8 @@ void Passes::upload(const Frame& frame) {
   m_opaque.upload(GL_ARRAY_BUFFER, furniture.opaque.data(), furniture.opaque.size() * sizeof(MeshVertex));
   m_clear.upload(GL_ARRAY_BUFFER, furniture.clear.data(), furniture.clear.size() * sizeof(MeshVertex));
   m_edges.upload(GL_ARRAY_BUFFER, furniture.edges.data(), furniture.edges.size() * sizeof(EdgeVertex));
-  m_tiles.upload(GL_ARRAY_BUFFER, frame.liquidTiles.data(), frame.liquidTiles.size() * sizeof(frame.liquidTiles[0]));
+  for (const auto& [buffer, tiles] : {std::pair{&m_liquidTiles, &frame.liquidTiles}, {&m_detailTiles, &frame.detailTiles}})
+    buffer->upload(GL_ARRAY_BUFFER, tiles->data(), tiles->size() * sizeof(TileSet::Corner));
   m_contact.upload(ContactMap::kCells, ContactMap::kCells, GL_RGBA, GL_UNSIGNED_BYTE, frame.contact.texels.data());
 }
 
@@ -117,13 +132,13 @@ void Passes::drawParticles(const Program& program, size_t first, size_t vertices
   glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(vertices));
 }
 
-void Passes::drawTiles(const Frame& frame) {
+void Passes::drawTiles(const Buffer& buffer, const std::vector<TileSet::Corner>& tiles) {
   const VertexArray array;
   array.bind();
-  glBindBuffer(GL_ARRAY_BUFFER, m_tiles.name());
+  glBindBuffer(GL_ARRAY_BUFFER, buffer.name());
   glEnableVertexAttribArray(0);
   glVertexAttribPointer(0, 2, GL_FLOAT, GL_FALSE, 0, nullptr);
-  glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(frame.liquidTiles.size()));
+  glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(tiles.size()));
 }
 
 void Passes::drawEverywhere() {
@@ -146,37 +161,37 @@ void Passes::drawShadow(const Frame& frame) {
 
 void Passes::drawSurfaces(const Frame& frame) {
   const Target target({&m_surface, &m_normal, &m_distance}, &m_depth);
-  clearDepth();
-  clearColour(0, 0, 0, 0, 0);
-  clearColour(1, 0.5f, 0.5f, 1, 1);
-  clearColour(2, kFar, 0, 0, 0);
+  glDepthMask(GL_TRUE);
+  glClearBufferfi(GL_DEPTH_STENCIL, 0, 1, 0);
+  clearColour(2, kFar, 0, 0, 0);  // the others are read only where something was drawn
+  glEnable(GL_STENCIL_TEST);
+  glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
+  glStencilFunc(GL_ALWAYS, kMatter, 0xFF);
   m_programs.sphere.use();
-  drawParticles(m_programs.sphere, 0, 3 * frame.instances.spheres);
-  if (frame.furniture.opaque.empty()) return;
-  m_programs.mesh.use();
-  const VertexArray array;
-  array.bind();
-  meshAttributes(m_opaque.name());
-  glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(frame.furniture.opaque.size()));
+  drawParticles(m_programs.sphere, 0, 3 * frame.instances.visible);
+  if (!frame.furniture.opaque.empty()) {
+    glStencilFunc(GL_ALWAYS, kMetal, 0xFF);
+    m_programs.mesh.use();
+    const VertexArray array;
+    array.bind();
+    meshAttributes(m_opaque.name());
+    glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(frame.furniture.opaque.size()));
+  }
+  glDisable(GL_STENCIL_TEST);
 }
 
 void Passes::drawOcclusion(const Frame& frame) {
   const Target target({&m_open}, nullptr);
-  const int scale = m_quality.occlusionScale;
   clearColour(0, 1, 1, 1, 1);
   glDisable(GL_DEPTH_TEST);
-  glEnable(GL_SCISSOR_TEST);
-  const auto& box = frame.sceneBox;
-  glScissor(box[0] / scale, box[1] / scale, reduced(box[2], scale) + 1, reduced(box[3], scale) + 1);
   const Program& program = m_programs.occlusion;
   program.use();
   program.texture("normalTexture", 0, m_normal.name());
   program.texture("distanceTexture", 1, m_distance.name());
   glUniform1f(program.at("radius"), frame.instances.radius * 4.5f);
   glUniform1i(program.at("samples"), m_quality.occlusionSamples);
-  glUniform1i(program.at("scale"), scale);
-  drawEverywhere();
-  glDisable(GL_SCISSOR_TEST);
+  glUniform1i(program.at("scale"), m_quality.occlusionScale);
+  drawTiles(m_detailTiles, frame.detailTiles);
 }
 
 // The studio is drawn anew only when the camera, the size or the plate changed.
@@ -197,30 +212,30 @@ void Passes::drawBackground(const Frame& frame) {
 
 void Passes::drawLight(const Frame& frame) {
   drawBackground(frame);
+  copyPicture(m_background, m_picture, {0, 0, frame.width, frame.height});
   const Target target({&m_picture}, &m_depth);
-  glEnable(GL_DEPTH_TEST);
-  glDepthMask(GL_FALSE);
-  glDepthFunc(GL_LEQUAL);  // the far plane: where nothing was drawn
-  m_programs.copy.use();
-  m_programs.copy.texture("picture", 0, m_background.name());
-  drawEverywhere();
-  glDepthFunc(GL_GREATER);
-  const Program& program = m_programs.light;
-  program.use();
-  program.texture("surfaceTexture", 0, m_surface.name());
-  program.texture("normalTexture", 1, m_normal.name());
-  program.texture("distanceTexture", 2, m_distance.name());
-  program.texture("openTexture", 3, m_open.name());
-  program.texture("shadowTexture", 4, m_shadow.name());
-  program.texture("contactTexture", 5, m_contact.name());
-  program.texture("noiseTexture", 6, m_noise.name());
-  glUniform1i(program.at("shadowTaps"), m_quality.shadowTaps);
-  drawEverywhere();
+  glEnable(GL_STENCIL_TEST);
+  glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
+  for (const auto& [program, kind] : {std::pair{&m_programs.lightMetal, kMetal}, {&m_programs.lightMatter, kMatter}}) {
+    glStencilFunc(GL_EQUAL, kind, 0xFF);
+    program->use();
+    program->texture("surfaceTexture", 0, m_surface.name());
+    program->texture("normalTexture", 1, m_normal.name());
+    program->texture("distanceTexture", 2, m_distance.name());
+    program->texture("openTexture", 3, m_open.name());
+    program->texture("shadowTexture", 4, m_shadow.name());
+    program->texture("contactTexture", 5, m_contact.name());
+    program->texture("noiseTexture", 6, m_noise.name());
+    glUniform1i(program->at("shadowTaps"), m_quality.shadowTaps);
+    drawEverywhere();
+  }
+  glDisable(GL_STENCIL_TEST);
 }
 
 void Passes::drawFluid(const Frame& frame) {
   const int scale = m_quality.fluidScale, width = reduced(frame.width, scale), height = reduced(frame.height, scale);
-  for (Texture* texture : {&m_fluid, &m_fluidOther, &m_fluidColour, &m_fluidDepth}) texture->resize(width, height);
+  for (Texture* texture : {&m_fluid, &m_fluidOther, &m_fluidColour, &m_fluidDepth, &m_fluidNormal})
+    texture->resize(width, height);
   m_behind.resize(frame.width, frame.height);
   const size_t first = frame.instances.spheres, count = frame.instances.liquids;
   {
@@ -248,10 +263,7 @@ void Passes::drawFluid(const Frame& frame) {
   }
   smoothFluid(frame);
 
-  const Target copy({&m_behind}, nullptr);
-  m_programs.copy.use();
-  m_programs.copy.texture("picture", 0, m_picture.name());
-  drawEverywhere();
+  copyPicture(m_picture, m_behind, {0, 0, frame.width, frame.height});
   const Target target({&m_picture}, nullptr);
   glEnable(GL_BLEND);
   glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
@@ -259,10 +271,11 @@ void Passes::drawFluid(const Frame& frame) {
   program.use();
   program.texture("fluidTexture", 0, m_fluid.name());
   program.texture("fluidColour", 1, m_fluidColour.name());
+  program.texture("fluidNormal", 5, m_fluidNormal.name());
   program.texture("distanceTexture", 2, m_distance.name());
   program.texture("behindTexture", 3, m_behind.name());
   program.texture("shadowTexture", 4, m_shadow.name());
-  drawTiles(frame);
+  drawTiles(m_liquidTiles, frame.liquidTiles);
   glDisable(GL_BLEND);
 }
 
@@ -281,8 +294,13 @@ void Passes::smoothFluid(const Frame& frame) {
     program.texture("fluidTexture", 0, from.name());
     glUniform2i(program.at("direction"), pass % 2 ? 0 : 1, pass % 2 ? 1 : 0);
     glUniform1f(program.at("width"), frame.instances.radius * (pass < 2 ? 1.5f : 0.8f));
-    drawTiles(frame);
+    drawTiles(m_liquidTiles, frame.liquidTiles);
   }
+  const Target target({&m_fluidNormal}, &m_fluidDepth);
+  clearColour(0, 0.5f, 0.5f, 1, 1);
+  m_programs.fluidNormal.use();
+  m_programs.fluidNormal.texture("fluidTexture", 0, m_fluid.name());
+  drawTiles(m_liquidTiles, frame.liquidTiles);
   glDisable(GL_DEPTH_TEST);
 }
 
@@ -302,7 +320,7 @@ void Passes::drawSteam(const Frame& frame) {
     program.use();
     program.texture("distanceTexture", 0, m_distance.name());
     program.texture("fluidTexture", 1, m_fluid.name());
-    program.texture("noiseTexture", 2, m_noise.name());
+    program.texture("cloudTexture", 2, m_cloud.name());
     glUniform1i(program.at("scale"), scale);
     glUniform1i(program.at("fluidScale"), frame.instances.liquids ? m_quality.fluidScale : 0);
     glUniform1i(program.at("sprites"), sprites);
@@ -313,7 +331,10 @@ void Passes::drawSteam(const Frame& frame) {
   const Target target({&m_picture}, nullptr);
   m_programs.steamOver.use();
   m_programs.steamOver.texture("steamTexture", 0, m_steam.name());
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(frame.vapourBox[0], frame.vapourBox[1], frame.vapourBox[2], frame.vapourBox[3]);
   drawEverywhere();
+  glDisable(GL_SCISSOR_TEST);
   glDisable(GL_BLEND);
 }
 
@@ -346,13 +367,22 @@ void Passes::drawGlass(const Frame& frame) {
 }
 
 void Passes::drawFinal(const Frame& frame, GLuint framebuffer) {
+  const int scale = frame.still ? 2 : 1, width = frame.width / scale, height = frame.height / scale;
+  if (!frame.still) {
+    const Target source({&m_picture}, nullptr);
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
+    glBlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  }
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-  const int scale = frame.still ? 2 : 1;
-  glViewport(0, 0, frame.width / scale, frame.height / scale);
-  m_programs.final.use();
-  m_programs.final.texture("picture", 0, m_picture.name());
-  glUniform1i(m_programs.final.at("still"), frame.still);
-  drawEverywhere();
+  glViewport(0, 0, width, height);
+  const Program& program = frame.still ? m_programs.still : m_programs.final;
+  program.use();
+  program.texture("picture", 0, m_picture.name());
+  glUniform1i(program.at("still"), frame.still);
+  if (frame.still)
+    drawEverywhere();
+  else
+    drawTiles(m_detailTiles, frame.detailTiles);
 }
 
 void Passes::draw(const Frame& frame, GLuint framebuffer) {

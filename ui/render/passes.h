@@ -5,6 +5,7 @@
 #include "ui/render/furniture.h"
 #include "ui/render/globjects.h"
 #include "ui/render/instances.h"
+#include "ui/render/tiles.h"
 
 #include <array>
 
@@ -26,8 +27,9 @@ struct Frame {
   ContactMap contact;
   FrameUniforms::Matrix toLight;          ///< world to clip space of the shadow picture
   std::array<float, 2> shadowScale{};     ///< metres to clip space
-  std::array<int, 4> sceneBox{};           ///< x, y, width, height of the pixels that opaque things may touch
-  std::vector<std::array<float, 2>> liquidTiles;  ///< triangles over the picture, 0..1, where liquid may be
+  std::vector<TileSet::Corner> detailTiles;  ///< where edges and crevices may be
+  std::vector<TileSet::Corner> liquidTiles;  ///< where liquid may be
+  std::array<int, 4> vapourBox{};            ///< x, y, width, height of the pixels that vapour may touch
   std::array<float, 3> edgeTint{};
   int width = 0, height = 0;              ///< of the inner targets
   bool data = false, still = false;
@@ -40,7 +42,7 @@ struct Quality {
   int occlusionScale = 1, occlusionSamples = 12;
   int fluidScale = 1, fluidTaps = 24, fluidRounds = 2;
   int steamScale = 2, steamSprites = 4;
-  bool sorted = false;  ///< spheres are sorted nearest first, and buried ones left out
+  bool cull = false;  ///< the processor leaves out hidden spheres
 };
 Quality qualityOf(const char* rendererName);
 
@@ -57,19 +59,20 @@ class Passes {
     Program sphere{"sphere.vert", "sphere.frag", "particle.glsl"};
     Program mesh{"mesh.vert", "mesh.frag"};
     Program shadow{"shadow.vert", "shadow.frag", "particle.glsl"};
-    Program occlusion{"fullscreen.vert", "occlusion.frag"};
-    Program copy{"fullscreen.vert", "copy.frag"};
+    Program occlusion{"tiles.vert", "occlusion.frag"};
     Program background{"fullscreen.vert", "background.frag"};
-    Program light{"fullscreen.vert", "light.frag"};
+    Program lightMetal{"fullscreen.vert", "lightmetal.frag", "", "light.glsl"};
+    Program lightMatter{"fullscreen.vert", "lightmatter.frag", "", "light.glsl"};
     Program fluidDepth{"fluid.vert", "fluiddepth.frag", "particle.glsl"};
     Program fluidColour{"fluid.vert", "fluidcolour.frag", "particle.glsl"};
     Program fluidSmooth{"tiles.vert", "fluidsmooth.frag"};
+    Program fluidNormal{"tiles.vert", "fluidnormal.frag"};
     Program fluidLight{"tiles.vert", "fluidlight.frag"};
     Program steam{"steam.vert", "steam.frag", "particle.glsl"};
     Program steamOver{"fullscreen.vert", "steamover.frag"};
     Program glass{"glass.vert", "glass.frag"};
     Program edge{"edge.vert", "edge.frag"};
-    Program final{"fullscreen.vert", "final.frag"};
+    Program final{"tiles.vert", "final.frag"}, still{"fullscreen.vert", "final.frag"};
   };
 
   void resize(int width, int height);
@@ -85,23 +88,24 @@ class Passes {
   void drawGlass(const Frame& frame);
   void drawFinal(const Frame& frame, GLuint framebuffer);
   void drawParticles(const Program& program, size_t first, size_t vertices);
-  void drawTiles(const Frame& frame);
+  void drawTiles(const Buffer& buffer, const std::vector<TileSet::Corner>& tiles);
   void drawEverywhere();
 
   Quality m_quality;
   Programs m_programs;
   Texture m_surface{GL_RGBA8, GL_NEAREST}, m_normal{GL_RGB10_A2, GL_NEAREST}, m_distance{GL_R32F, GL_NEAREST};
-  Texture m_depth{GL_DEPTH_COMPONENT32F, GL_NEAREST}, m_open{GL_R8, GL_LINEAR};
+  Texture m_depth{GL_DEPTH24_STENCIL8, GL_NEAREST}, m_open{GL_R8, GL_LINEAR};
   Texture m_picture{GL_RGBA8, GL_LINEAR}, m_behind{GL_RGBA8, GL_LINEAR};
   Texture m_shadow{GL_DEPTH_COMPONENT24, GL_LINEAR};
   Texture m_fluid{GL_R32F, GL_NEAREST}, m_fluidOther{GL_R32F, GL_NEAREST}, m_fluidColour{GL_RGBA16F, GL_LINEAR};
-  Texture m_fluidDepth{GL_DEPTH_COMPONENT32F, GL_NEAREST};
+  Texture m_fluidNormal{GL_RGB10_A2, GL_LINEAR}, m_cloud{GL_R8, GL_LINEAR, GL_REPEAT};
+  Texture m_fluidDepth{GL_DEPTH_COMPONENT24, GL_NEAREST};
   Texture m_steam{GL_RGBA16F, GL_LINEAR};
   Texture m_contact{GL_RGBA8, GL_LINEAR}, m_noise{GL_RGBA8, GL_LINEAR_MIPMAP_LINEAR, GL_REPEAT};
   Texture m_background{GL_RGBA8, GL_NEAREST};
   FrameUniforms m_backgroundUniforms{};  // for which m_background was drawn
   BufferTexture m_particleTexture;
-  Buffer m_uniforms, m_particles, m_opaque, m_clear, m_edges, m_tiles;
+  Buffer m_uniforms, m_particles, m_opaque, m_clear, m_edges, m_liquidTiles, m_detailTiles;
   const VertexArray* m_vertexArray = nullptr;  // of the frame being drawn
 };
 

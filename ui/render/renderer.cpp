@@ -15,6 +15,7 @@ namespace {
 using render::Extent;
 using render::Frame;
 using render::FrameUniforms;
+using render::TileSet;
 
 // Towards the key light, a unit vector: high, from the left and front of the usual view.
 const Vec3 kLight = [] {
@@ -112,37 +113,40 @@ void fillUniforms(Frame& frame, const RenderOptions& options, double time) {
   u.glowTint = {linear(glow[0]) * 1.25f, linear(glow[1]) * 1.25f, linear(glow[2]) * 1.25f, 0};
 }
 
-/// Squares of 32 pixels that liquid spheres may touch, as triangles.
-void findLiquidTiles(Frame& frame, const Camera& camera) {
-  constexpr int kTile = 32;
-  const int columns = (frame.width + kTile - 1) / kTile, rows = (frame.height + kTile - 1) / kTile;
-  std::vector<char> touched(static_cast<size_t>(columns * rows));
-  const auto& instances = frame.instances;
-  for (size_t i = instances.spheres; i < instances.spheres + instances.liquids; ++i) {
-    const render::Instance& p = instances.particles[i];
+void markSpheres(TileSet& tiles, const Frame& frame, const Camera& camera, size_t first, size_t last, double reach) {
+  for (size_t i = first; i < last; ++i) {
+    const render::Instance& p = frame.instances.particles[i];
     const std::optional<Vec3> at = project(camera, frame.width, frame.height, {p.x, p.y, p.z});
-    if (!at) continue;
-    const double reach = 2 * static_cast<double>(p.radius) / pixelSize(camera, frame.height, (*at)[2]) + 4;
-    const auto tile = [&](double pixel, int count) {
-      return static_cast<int>(std::clamp(pixel / kTile, 0.0, static_cast<double>(count - 1)));
-    };
-    if ((*at)[0] < -reach || (*at)[1] < -reach) continue;
-    for (int y = tile((*at)[1] - reach, rows); y <= tile((*at)[1] + reach, rows); ++y)
-      for (int x = tile((*at)[0] - reach, columns); x <= tile((*at)[0] + reach, columns); ++x)
-        touched[static_cast<size_t>(y * columns + x)] = 1;
+    if (at) tiles.mark((*at)[0], (*at)[1], reach * static_cast<double>(p.radius) / pixelSize(camera, frame.height, (*at)[2]) + 3);
   }
-  frame.liquidTiles.clear();
-  const auto u = [&](int x) { return static_cast<float>(x * kTile) / static_cast<float>(frame.width); };
-  const auto v = [&](int y) { return 1 - static_cast<float>(y * kTile) / static_cast<float>(frame.height); };
-  for (int y = 0; y < rows; ++y)
-    for (int x = 0; x < columns; ++x) {
-      if (!touched[static_cast<size_t>(y * columns + x)]) continue;
-      int end = x;
-      while (end < columns && touched[static_cast<size_t>(y * columns + end)]) ++end;
-      for (const auto& [a, b] : {std::pair{x, y}, {x, y + 1}, {end, y}, {end, y}, {x, y + 1}, {end, y + 1}})
-        frame.liquidTiles.push_back({u(a), v(b)});
-      x = end;
+}
+
+void markEdges(TileSet& tiles, const Frame& frame, const Camera& camera, const std::vector<render::MeshVertex>& mesh) {
+  for (size_t i = 0; i + 2 < mesh.size(); i += 3) {
+    if (mesh[i].material[3] == static_cast<float>(render::Kind::PlateTop)) continue;
+    std::array<std::optional<Vec3>, 3> at;
+    for (size_t k = 0; k < 3; ++k) {
+      const auto& p = mesh[i + k].position;
+      at[k] = project(camera, frame.width, frame.height, {p[0], p[1], p[2]});
     }
+    for (size_t k = 0; k < 3; ++k) {
+      const auto &a = at[k], &b = at[(k + 1) % 3];
+      if (!a || !b) return tiles.markAll();
+      tiles.markLine((*a)[0], (*a)[1], (*b)[0], (*b)[1], 3);
+    }
+  }
+}
+
+/// Which parts of the picture have liquid, and which have edges to smooth or crevices to darken.
+void findTiles(Frame& frame, const Camera& camera) {
+  const auto& instances = frame.instances;
+  TileSet liquid(frame.width, frame.height), detail(frame.width, frame.height);
+  markSpheres(liquid, frame, camera, instances.spheres, instances.spheres + instances.liquids, 1.4);
+  frame.liquidTiles = liquid.triangles();
+  markSpheres(detail, frame, camera, 0, instances.visible, 2.5);
+  markEdges(detail, frame, camera, frame.furniture.opaque);
+  markEdges(detail, frame, camera, frame.furniture.clear);
+  frame.detailTiles = detail.triangles();
 }
 
 void placeContactMap(Frame& frame) {
@@ -199,19 +203,18 @@ void Renderer::draw(const Snapshot& now, const Snapshot* previous, double blend,
   request.surfaces = options.colour != ColourBy::DensityError;
   request.steam = render::sceneColour(options.dark, "steam");
   const CameraFrame axes = frameOf(options.camera);
-  if (m->passes->quality().sorted)
-    for (size_t k = 0; k < 3; ++k) request.forward[k] = static_cast<float>(axes.forward[k]);
-  request.dropBuried = m->passes->quality().sorted;
+  if (m->passes->quality().cull) {
+    const Mat4 view = multiply(projectionMatrix(options.camera, frame.width, frame.height), viewMatrix(options.camera));
+    request.cull = render::CullView{floats(view), frame.width, frame.height};
+  }
   render::collectInstances(request, frame.instances);
 
   placeContactMap(frame);
   fillUniforms(frame, options, now.stats.time);
   fitShadow(frame);
   frame.lidInFront = axes.eye[1] > static_cast<double>(frame.furniture.lidHeight);
-  Extent all = frame.instances.sphereExtent;
-  for (const render::MeshVertex& v : frame.furniture.opaque) all.add(v.position[0], v.position[1], v.position[2], 0);
-  frame.sceneBox = pixelsOf(all, options.camera, frame.width, frame.height);
-  findLiquidTiles(frame, options.camera);
+  findTiles(frame, options.camera);
+  frame.vapourBox = pixelsOf(frame.instances.vapourExtent, options.camera, frame.width, frame.height);
 
   const render::GlState state;
   m->passes->draw(frame, state.drawFramebuffer());

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// What lighting needs of an opaque pixel, and the key light's shadow.
+uniform sampler2D surfaceTexture;
+uniform sampler2D normalTexture;
+uniform sampler2D distanceTexture;
+uniform sampler2D openTexture;
+uniform sampler2DShadow shadowTexture;
+uniform sampler2D contactTexture;  // rgb mean colour of what stands above the floor, a how much
+uniform int shadowTaps;
+
+struct Surface {
+  vec3 base, normal, position, toEye;  // linear colour; world
+  float kind, open, key;               // open: share of the sky; key: share of the key light
+};
+
+float keyVisible(vec3 p, vec3 n) {
+  vec3 s = (shadow * vec4(p + n * matter.x * 0.6, 1.0)).xyz;
+  if (any(lessThan(s, vec3(0.0))) || any(greaterThan(s, vec3(1.0)))) return 1.0;
+  vec2 texel = 1.0 / vec2(textureSize(shadowTexture, 0));
+  float sum = 0.0;
+  vec2 a = vec2(1.5, 0.6) * texel;
+  for (int i = 0; i < shadowTaps; ++i) {
+    sum += textureLod(shadowTexture, vec3(s.xy + a, s.z), 0.0);
+    a = i == 3 ? vec2(2.6, 2.6) * texel : i % 2 == 0 ? -a : vec2(a.y, -a.x);
+  }
+  return sum / float(shadowTaps);
+}
+
+
+Surface surfaceAt(vec2 uv) {
+  ivec2 here = ivec2(gl_FragCoord.xy);
+  vec4 look = texelFetch(surfaceTexture, here, 0);
+  Surface s;
+  s.base = toLinear(look.rgb);
+  s.kind = floor(look.a * 255.0 + 0.5);
+  s.normal = texelFetch(normalTexture, here, 0).xyz * 2.0 - 1.0;
+  s.position = (inverseView * vec4(viewRay(uv) * texelFetch(distanceTexture, here, 0).r, 1.0)).xyz;
+  s.toEye = normalize(eye.xyz - s.position);
+  s.open = texture(openTexture, uv).r;
+  s.key = keyVisible(s.position, s.normal);
+  return s;
+}
+
+vec4 finished(vec3 c) { return vec4(toScreen(tone(c)) + (ditherAt(gl_FragCoord.xy + 7.0) - 0.5) / 255.0, 1.0); }

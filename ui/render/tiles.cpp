@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/render/tiles.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace ps::render {
+
+TileSet::TileSet(int width, int height)
+    : m_width(width),
+      m_height(height),
+      m_columns((width + kTile - 1) / kTile),
+      m_rows((height + kTile - 1) / kTile),
+      m_marks(static_cast<size_t>(m_columns * m_rows)) {}
+
+void TileSet::mark(double x, double y, double reach) {
+  if (x + reach < 0 || y + reach < 0 || x - reach > m_width || y - reach > m_height) return;
+  const auto tile = [](double pixel, int count) {
+    return static_cast<int>(std::clamp(pixel / kTile, 0.0, static_cast<double>(count - 1)));
+  };
+  const int left = tile(x - reach, m_columns), right = tile(x + reach, m_columns);
+  for (int row = tile(y - reach, m_rows); row <= tile(y + reach, m_rows); ++row)
+    std::fill_n(m_marks.begin() + row * m_columns + left, right - left + 1, 1);
+}
+
+void TileSet::markLine(double x0, double y0, double x1, double y1, double reach) {
+  const double length = std::hypot(x1 - x0, y1 - y0);
+  const int steps = static_cast<int>(std::clamp(length / (0.75 * kTile), 0.0, 4096.0)) + 1;
+  for (int i = 0; i <= steps; ++i) {
+    const double t = static_cast<double>(i) / steps;
+    mark(x0 + (x1 - x0) * t, y0 + (y1 - y0) * t, reach);
+  }
+}
+
+void TileSet::markAll() { std::fill(m_marks.begin(), m_marks.end(), 1); }
+
+std::vector<TileSet::Corner> TileSet::triangles() const {
+  std::vector<Corner> out;
+  const auto u = [&](int x) { return static_cast<float>(x * kTile) / static_cast<float>(m_width); };
+  const auto v = [&](int y) { return 1 - static_cast<float>(y * kTile) / static_cast<float>(m_height); };
+  for (int y = 0; y < m_rows; ++y)
+    for (int x = 0; x < m_columns; ++x) {
+      if (!marked(x, y)) continue;
+      int end = x;
+      while (end < m_columns && marked(end, y)) ++end;
+      for (const auto& [a, b] : {std::pair{x, y}, {x, y + 1}, {end, y}, {end, y}, {x, y + 1}, {end, y + 1}})
+        out.push_back({u(a), v(b)});
+      x = end;
+    }
+  return out;
+}
+
+}  // namespace ps::render

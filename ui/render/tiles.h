@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace ps::render {
+
+/// Which squares of a picture something may touch. Costly passes are drawn over those squares only: where a processor
+/// draws, shaders have no early way out.
+class TileSet {
+ public:
+  using Corner = std::array<float, 2>;  ///< 0..1 over the picture, from its lower left corner
+  static constexpr int kTile = 16;      ///< pixels
+
+  TileSet(int width, int height);
+  /// Marks the tiles of a square of pixels around (x, y), from the upper left corner of the picture.
+  void mark(double x, double y, double reach);
+  /// Marks the tiles along a line.
+  void markLine(double x0, double y0, double x1, double y1, double reach);
+  void markAll();
+  bool marked(int column, int row) const { return m_marks[static_cast<size_t>(row * m_columns + column)] != 0; }
+  /// Two triangles for each run of tiles in a row.
+  std::vector<Corner> triangles() const;
+
+ private:
+  int m_width, m_height, m_columns, m_rows;
+  std::vector<char> m_marks;
+};
+
+}  // namespace ps::render
