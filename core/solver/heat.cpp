@@ -153,7 +153,7 @@ void HeatStage::snapshotRange(const ParticleStore& store, Snapshot& snapshot, si
 void HeatStage::prepare(ParticleStore& store, const Neighbours& neighbours) {
   const size_t n = store.size();
   m_partials.resize(chunksOf(n));
-  for (auto* list : {&m_joules, &m_frameJoules, &m_watts}) list->resize(n);
+  for (auto* list : {&m_joules, &m_frameJoules, &m_watts, &m_perConductivity, &m_fixedConductance}) list->resize(n);
   for (auto* list : {&m_now, &m_next}) {
     list->potential.resize(n);
     list->temperature.resize(n);
@@ -170,15 +170,12 @@ void HeatStage::prepare(ParticleStore& store, const Neighbours& neighbours) {
     partial = {};
     snapshotRange(store, m_now, first, last);
     measureSurroundings(store, first, last, partial);
+    partial.fastest = fastestRate(store, first, last);
   };
   parallelFor(n, kGrain, std::cref(body));
-  double fastest = 0;
   m_boiling = false;
-  for (const Partial& partial : m_partials) {
-    fastest = std::max(fastest, partial.fastest);
-    m_boiling = m_boiling || partial.boiling > 0;
-  }
-  m_limit = fastest > 0 ? 1 / fastest : 1e30;
+  for (const Partial& partial : m_partials) m_boiling = m_boiling || partial.boiling > 0;
+  findLimit();
 }
 
 /// Walls as a layer of boundary matter of volume dx^3 half a spacing behind the plane, smeared out along it:
@@ -188,7 +185,7 @@ void HeatStage::measureSurroundings(const ParticleStore& store, size_t first, si
   const double dx = m_solver.spacing, support = dx * m_solver.supportRatio;
   for (size_t i = first; i < last; ++i) {
     const api::Float4 x = store.position()[i];
-    const double volume = m_pairs.volume[i], mass = store.mass()[i];
+    const double volume = m_pairs.volume[i];
     double perConductivity = 0, fixed = 0;
     uint8_t touches = 0;
     for (size_t w = 0; w < m_walls.size(); ++w) {
@@ -204,7 +201,7 @@ void HeatStage::measureSurroundings(const ParticleStore& store, size_t first, si
       touches |= g > 0;
     }
     m_touchesWall[i] = touches;
-    const double s = store.solidFraction()[i], l = store.liquidFraction()[i], g = store.gasFraction()[i];
+    const double g = store.gasFraction()[i];
     double air = 0;
     if (g > 0) {
       ++partial.boiling;
@@ -215,12 +212,8 @@ void HeatStage::measureSurroundings(const ParticleStore& store, size_t first, si
     fixed += air;
     for (uint32_t k = m_pairs.begin[i]; k < m_pairs.same[i]; ++k) perConductivity += double{m_pairs.conductance[k]};
     for (uint32_t k = m_pairs.other[i]; k < m_pairs.end[i]; ++k) fixed += double{m_pairs.conductance[k]};
-    if (!(mass > 0)) continue;
-    const BakedMaterial& material = m_materials[store.material()[i]];
-    const double rate = (perConductivity * fastestPhase(material, store.temperature()[i], s, l, g) +
-                         fixed / smallestCapacity(material.caloric(), s, l, g)) /
-                        mass;
-    partial.fastest = std::max(partial.fastest, rate);
+    m_perConductivity[i] = perConductivity;
+    m_fixedConductance[i] = fixed;
   }
 }
 
@@ -236,27 +229,39 @@ void HeatStage::advance(ParticleStore& store, const Neighbours& neighbours, doub
   const api::ParticleView view = store.view();
   const api::NeighbourView lists = neighbours.view();
   askPairLaw(view, lists);
-  const double longest = std::clamp(m_settings.cfl, 0.01, 1.0) * m_limit;
-  int steps = time < kMaxExplicit * longest ? std::max(1, static_cast<int>(std::ceil(time / longest))) : kMaxExplicit + 1;
-  if (steps > kMaxExplicit && !m_pairLaw) {
-    m_swept = true;
-    time = std::min(time, kMaxSweeps * kSweepLength * m_limit);
-    steps = std::max(1, static_cast<int>(std::ceil(time / (kSweepLength * m_limit))));
-  } else if (steps > kMaxExplicit) {
-    steps = kMaxExplicit;
-    time = kMaxExplicit * longest;
-  }
-  if (time < dt * m_settings.timeScale) m_delivered = time / dt;
   collectFrameHeat(store, view, time);
-  for (int k = 0; k < steps; ++k) {
-    if (m_swept) {
-      sweep(store, view, time / steps, k == 0);
-    } else {
-      explicitStep(store, view, lists, time / steps, k == 0);
-    }
-  }
-  m_lastSubsteps = steps;
+  time -= takeExplicitSteps(store, view, lists, time);
+  if (time > 0 && !m_pairLaw) time -= takeSweeps(store, view, time);
+  if (time > 1e-9 * dt * m_settings.timeScale) m_delivered = m_settings.timeScale - time / dt;
   closeBooks();
+}
+
+/// Returns the thermal seconds done: all, or none where kMaxExplicit stable steps would not do from the start. The stable
+/// step is measured anew after each one, as freezing matter may conduct several times better than its liquid.
+double HeatStage::takeExplicitSteps(ParticleStore& store, const api::ParticleView& view, const api::NeighbourView& lists,
+                                    double time) {
+  const double share = std::clamp(m_settings.cfl, 0.01, 1.0);
+  if (time > kMaxExplicit * share * m_limit && !m_pairLaw) return 0;
+  double left = time;
+  while (left > 0 && m_lastSubsteps < kMaxExplicit) {
+    const double steps = std::max(1.0, std::ceil(left / (share * m_limit)));
+    const double step = left / steps;
+    explicitStep(store, view, lists, step, m_lastSubsteps == 0);
+    left = steps > 1 ? left - step : 0;
+    ++m_lastSubsteps;
+  }
+  return time - left;
+}
+
+double HeatStage::takeSweeps(ParticleStore& store, const api::ParticleView& view, double time) {
+  m_swept = true;
+  const double done = std::min(time, kMaxSweeps * kSweepLength * m_limit);
+  const int sweeps = std::max(1, static_cast<int>(std::ceil(done / (kSweepLength * m_limit))));
+  for (int k = 0; k < sweeps; ++k) {
+    sweep(store, view, done / sweeps, m_lastSubsteps == 0);
+    ++m_lastSubsteps;
+  }
+  return done;
 }
 
 void HeatStage::explicitStep(ParticleStore& store, const api::ParticleView& view, const api::NeighbourView& lists,
@@ -271,9 +276,32 @@ void HeatStage::explicitStep(ParticleStore& store, const api::ParticleView& view
     m_model->addHeat(where, view, first, last, m_joules.data(), step);
     deriveRange(store, first, last);
     snapshotRange(store, m_next, first, last);
+    partial.fastest = fastestRate(store, first, last);
   };
   parallelFor(store.size(), kGrain, std::cref(body));
   std::swap(m_now, m_next);
+  findLimit();
+}
+
+/// Largest sum of conductances over heat capacity of particles [first, last), 1/s: Gershgorin's bound.
+double HeatStage::fastestRate(const ParticleStore& store, size_t first, size_t last) const {
+  double fastest = 0;
+  for (size_t i = first; i < last; ++i) {
+    const double mass = store.mass()[i];
+    if (!(mass > 0)) continue;
+    const BakedMaterial& material = m_materials[store.material()[i]];
+    const double s = store.solidFraction()[i], l = store.liquidFraction()[i], g = store.gasFraction()[i];
+    double rate = m_perConductivity[i] * fastestPhase(material, store.temperature()[i], s, l, g);
+    if (m_fixedConductance[i] > 0) rate += m_fixedConductance[i] / smallestCapacity(material.caloric(), s, l, g);
+    fastest = std::max(fastest, rate / mass);
+  }
+  return fastest;
+}
+
+void HeatStage::findLimit() {
+  double fastest = 0;
+  for (const Partial& partial : m_partials) fastest = std::max(fastest, partial.fastest);
+  m_limit = fastest > 0 ? 1 / fastest : 1e30;
 }
 
 /// Heat from neighbours, walls and air during `step` s of thermal time, from the snapshot alone.

@@ -17,7 +17,7 @@ namespace ps {
 /// walls, air, film condensation, nucleation. Heat is exchanged in equal and opposite joules, so that a closed system
 /// keeps its energy to rounding. Kinds of heat a model cannot do: see the thermal plugin's help.
 ///
-/// Explicit substeps of thermal_cfl times the Gershgorin limit, measured each frame from the pairs at hand; above
+/// Explicit substeps of thermal_cfl times the Gershgorin limit, measured before each from the pairs at hand; above
 /// kMaxExplicit of them, pairwise exponential sweeps (heatrelax.h), which stay stable at any step and lose accuracy
 /// slowly. What even these cannot follow is not done: the thermal clock then runs slower, see
 /// thermalTimeScaleDelivered(). Not modelled: radiation, convection of air, evaporation below the boiling point.
@@ -48,9 +48,9 @@ class HeatStage {
   /// Thermal seconds per mechanical second that the last frame really did; below ThermalSettings::timeScale where the
   /// heat would have been too fast for kMaxSweeps sweeps.
   double thermalTimeScaleDelivered() const { return m_delivered; }
-  /// Largest stable explicit step of the last frame in s of thermal time: min over particles of m c / sum of G.
+  /// Largest stable explicit step as last measured, in s of thermal time: min over particles of m c / sum of G.
   double gershgorinLimit() const { return m_limit; }
-  /// True when the last frame used exponential sweeps instead of explicit substeps.
+  /// True when the last frame used exponential sweeps, for all or the rest of its time.
   bool usedSweeps() const { return m_swept; }
 
  private:
@@ -75,6 +75,11 @@ class HeatStage {
   void nucleate(const ParticleStore& store, size_t first, size_t last);
   bool boils(const ParticleStore& store, size_t i) const;
   double latentContent(const ParticleStore& store, size_t i) const;
+  double fastestRate(const ParticleStore& store, size_t first, size_t last) const;
+  void findLimit();
+  double takeExplicitSteps(ParticleStore& store, const api::ParticleView& view, const api::NeighbourView& lists,
+                           double time);
+  double takeSweeps(ParticleStore& store, const api::ParticleView& view, double time);
   void explicitStep(ParticleStore& store, const api::ParticleView& view, const api::NeighbourView& lists, double step,
                     bool firstStep);
   void gather(const ParticleStore& store, double step, size_t first, size_t last, Partial& partial);
@@ -114,6 +119,8 @@ class HeatStage {
   std::vector<float> m_wallConductance;    ///< m, particle times walls + wall
   std::vector<uint8_t> m_touchesWall;
   std::vector<float> m_airConductance;     ///< W/K
+  std::vector<double> m_perConductivity;   ///< m: pairs of one material and walls, to be multiplied by k
+  std::vector<double> m_fixedConductance;  ///< W/K: other materials and air
   std::vector<uint32_t> m_boilingPartners;
   mutable std::vector<double> m_energies;  ///< J, scratch of energy()
   std::vector<HeatBody> m_bodies;          ///< of a sweep

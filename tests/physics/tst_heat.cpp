@@ -1,0 +1,348 @@
+// SPDX-License-Identifier: Apache-2.0
+// Conduction, walls, moving fronts and the energy balance of HeatStage against closed forms. Cross-sections are wide and
+// their cores are measured: the sides are adiabatic, and a particle there has fewer partners to conduct through.
+#include "core/base/parallel.h"
+#include "heatscene.h"
+
+#include <QTest>
+
+#include <algorithm>
+#include <array>
+
+using heattest::Matter;
+using heattest::Scene;
+using ps::api::Phase;
+
+namespace {
+
+ps::Wall hotWall(ps::api::Double3 normal, double offset, double temperature) {
+  ps::Wall wall;
+  wall.id = "wall";
+  wall.normal = normal;
+  wall.offset = offset;
+  wall.heat = ps::WallHeat::FixedTemperature;
+  wall.temperature = temperature;
+  return wall;
+}
+
+struct Errors {
+  double rms = 0, largest = 0;
+};
+
+}  // namespace
+
+class TestHeat : public QObject {
+  Q_OBJECT
+ private Q_SLOTS:
+  void slabsInContactFollowTheErrorFunction_data() {
+    QTest::addColumn<QList<double>>("left");   // conductivity, volumetric heat capacity
+    QTest::addColumn<QList<double>>("right");
+    QTest::addColumn<double>("seconds");
+    QTest::addColumn<double>("jitter");
+    QTest::addColumn<double>("rms");
+    QTest::addColumn<double>("largest");
+    // Tolerances: twice and more what lattices and disordered particles of this kernel reach (0.13 % and 0.44 %).
+    const QList<double> one{1, 1e6}, wet{0.6, 4.18e6}, icy{2.2, 1.9e6};
+    QTest::newRow("one material, lattice") << one << one << 100.0 << 0.0 << 0.005 << 0.01;
+    QTest::newRow("one material, jitter") << one << one << 100.0 << 0.2 << 0.01 << 0.03;
+    QTest::newRow("water and ice, lattice") << wet << icy << 200.0 << 0.0 << 0.008 << 0.02;
+    QTest::newRow("water and ice, jitter") << wet << icy << 200.0 << 0.2 << 0.015 << 0.04;
+    QTest::newRow("contrast 10, lattice") << QList<double>{0.5, 2e6} << QList<double>{5, 2e6} << 60.0 << 0.0 << 0.01 << 0.02;
+  }
+  void slabsInContactFollowTheErrorFunction() {
+    QFETCH(QList<double>, left);
+    QFETCH(QList<double>, right);
+    QFETCH(double, seconds);
+    QFETCH(double, jitter);
+    Scene scene;
+    scene.spacing = 0.0025;
+    const bool same = left == right;
+    for (const auto& side : {left, right}) {
+      Matter m;
+      m.conductivitySolid = m.conductivityLiquid = side[0];
+      m.capacityLiquid = side[1] / 1000;
+      scene.addMaterial(heattest::materialOf(m));
+    }
+    scene.addBox({-20, 0, 0}, {20, 24, 24}, 0, jitter);
+    scene.addBox({0, 0, 0}, {20, 24, 24}, same ? 0 : 1, jitter);
+    const size_t half = scene.store.size() / 2;
+    scene.start([&](size_t i) { return i < half ? 273.15 : 373.15; });
+    const double before = scene.heat.energy(scene.store);
+    scene.run(seconds);
+    const double drift = (scene.heat.energy(scene.store) - before) / (scene.mass() * 1e5);
+    QVERIFY2(std::abs(drift) < 1e-12, qPrintable(QString::number(drift)));  // rounding of sums of double
+
+    const double e1 = std::sqrt(left[0] * left[1]), e2 = std::sqrt(right[0] * right[1]);
+    const double contact = 100 * e2 / (e1 + e2);
+    Errors errors;
+    size_t count = 0;
+    for (size_t i = 0; i < scene.store.size(); ++i) {
+      const double x = scene.store.position()[i].x;
+      if (std::abs(x) > 0.04 || !scene.nearAxis(i, 12, 12, 3.1)) continue;
+      const auto& side = x < 0 ? left : right;
+      const double far = x < 0 ? 0 : 100;
+      const double expected = contact + (far - contact) * std::erf(std::abs(x) / (2 * std::sqrt(side[0] / side[1] * seconds)));
+      const double error = (scene.store.temperature()[i] - 273.15 - expected) / 100;
+      errors.rms += error * error;
+      errors.largest = std::max(errors.largest, std::abs(error));
+      ++count;
+    }
+    errors.rms = std::sqrt(errors.rms / double(count));
+    QVERIFY(count > 500);
+    const QByteArray seen = QString("L2 %1 Linf %2").arg(errors.rms).arg(errors.largest).toUtf8();
+    qInfo("%s", seen.constData());
+    QFETCH(double, rms);
+    QFETCH(double, largest);
+    QVERIFY2(errors.rms < rms && errors.largest < largest, seen);
+  }
+
+  void wallsHoldTheirTemperatureOnThePlane() {
+    // A slab of 20 particles between walls of 0 and 100 °C: 1000 W/m2 at k = 1 over 0.1 m.
+    Scene scene;
+    scene.addMaterial(heattest::materialOf({}));
+    scene.addBox({0, 0, 0}, {20, 24, 24}, 0);
+    scene.walls = {hotWall({1, 0, 0}, 0, 273.15), hotWall({-1, 0, 0}, -0.1, 373.15)};
+    scene.start([&](size_t i) { return 273.15 + 1000 * double{scene.store.position()[i].x}; });
+    const double seconds = 100;
+    const ps::HeatLedger before = scene.heat.ledger();
+    scene.run(seconds);
+    const double flux = (scene.heat.ledger().exchanged - before.exchanged) / (2 * seconds * 0.12 * 0.12);
+    QVERIFY2(std::abs(flux / 1000 - 1) < 0.04, qPrintable(QString::number(flux)));
+    // Near the wall too the profile meets the wall's temperature on its plane: slip under 0.1 spacings of 5 K.
+    double first = 0;
+    int count = 0;
+    for (size_t i = 0; i < scene.store.size(); ++i) {
+      if (scene.store.position()[i].x < 0.005 && scene.nearAxis(i, 12, 12, 3.1)) {
+        first += scene.store.temperature()[i] - 273.15;
+        ++count;
+      }
+    }
+    QVERIFY2(std::abs(first / count - 2.5) < 0.5, qPrintable(QString::number(first / count)));
+  }
+
+  void meltingFrontsFollowStefan_data() {
+    QTest::addColumn<Matter>("matter");
+    QTest::addColumn<double>("wall");
+    QTest::addColumn<double>("seconds");
+    QTest::addColumn<double>("front");
+    QTest::addColumn<bool>("freezing");
+    QTest::addColumn<double>("jitter");
+    Matter water = heattest::water();
+    Matter wax{0.24, 0.15, 0.02, 2100, 2300, 2000, 800, 331.15, 200e3, 0, 250e3};
+    QTest::newRow("water, wall 20 K above") << water << 293.15 << 3000.0 << 0.0141215 << false << 0.0;
+    QTest::newRow("water, wall 20 K above, jitter") << water << 293.15 << 3000.0 << 0.0141215 << false << 0.2;
+    QTest::newRow("water, wall 50 K above") << water << 323.15 << 1500.0 << 0.0150185 << false << 0.0;
+    QTest::newRow("wax, wall 20 K above") << wax << 351.15 << 6000.0 << 0.0144706 << false << 0.0;
+    QTest::newRow("water freezing, wall 20 K below") << water << 253.15 << 500.0 << 0.011248 << true << 0.0;
+  }
+  void meltingFrontsFollowStefan() {
+    QFETCH(Matter, matter);
+    QFETCH(double, wall);
+    QFETCH(double, seconds);
+    QFETCH(double, front);
+    QFETCH(bool, freezing);
+    QFETCH(double, jitter);
+    Scene scene;
+    scene.spacing = 0.002;
+    scene.thermal.cfl = 0.8;
+    scene.addMaterial(heattest::materialOf(matter));
+    scene.addBox({0, 0, 0}, {12, 20, 20}, 0, jitter);
+    scene.walls = {hotWall({1, 0, 0}, 0, wall)};
+    scene.start([&](size_t) { return matter.melting; }, [&](size_t) { return freezing ? Phase::Liquid : Phase::Solid; });
+    scene.run(seconds);
+    double changed = 0;
+    int columns = 0;
+    for (size_t i = 0; i < scene.store.size(); ++i) {
+      if (!scene.nearAxis(i, 10, 10, 2.01 + (jitter > 0 ? 2 : 0))) continue;
+      changed += double{freezing ? scene.store.solidFraction()[i] : scene.store.liquidFraction()[i]} * scene.spacing;
+      ++columns;
+    }
+    const double seen = changed / (columns / 12.0);
+    // 3 % on a lattice, 5 % under disorder: the kernel's own error there is 1 % and 2 %.
+    const QByteArray text = QString("front %1 mm, expected %2 mm").arg(1000 * seen).arg(1000 * front).toUtf8();
+    qInfo("%s", text.constData());
+    QVERIFY2(std::abs(seen / front - 1) < (jitter > 0 ? 0.05 : 0.03), text);
+  }
+
+  void calorimetryEndsWhereTheMeanEnthalpyLies_data() {
+    QTest::addColumn<QList<int>>("box");
+    QTest::addColumn<int>("ice");  // layers along z, of particles of equal mass; the rest is the other body
+    QTest::addColumn<QList<double>>("celsius");
+    QTest::addColumn<bool>("steam");
+    QTest::addColumn<double>("end");
+    QTest::addColumn<double>("iceLeft");
+    const QList<int> box{4, 4, 12};
+    QTest::newRow("1 kg ice, 1 kg cool water") << box << 6 << QList<double>{-10, 20} << false << 0.0 << 0.406108;
+    QTest::newRow("1 kg ice, 1 kg hot water") << box << 6 << QList<double>{-10, 90} << false << 2.596751 << 0.0;
+    QTest::newRow("1 kg ice, 3 kg water") << box << 3 << QList<double>{-10, 50} << false << 16.29838 << 0.0;
+    QTest::newRow("3 kg ice, 1 kg water") << box << 9 << QList<double>{-10, 20} << false << 0.0 << 0.734491;
+    QTest::newRow("5 kg ice, 0.25 kg water") << QList<int>{3, 3, 21} << 20 << QList<double>{-10, 5} << false << -1.47551 << 1.0;
+    QTest::newRow("1 kg ice, 0.2 kg steam") << box << 10 << QList<double>{-10, 100} << true << 35.85762 << 0.0;
+  }
+  void calorimetryEndsWhereTheMeanEnthalpyLies() {
+    QFETCH(QList<int>, box);
+    QFETCH(int, ice);
+    QFETCH(QList<double>, celsius);
+    QFETCH(bool, steam);
+    Scene scene;
+    scene.spacing = 0.1;
+    Matter matter = heattest::water();
+    // The end does not depend on conductivity; a vapour that conducts lets the last row finish.
+    matter.conductivitySolid = matter.conductivityLiquid = matter.conductivityGas = 100;
+    scene.addMaterial(heattest::materialOf(matter));
+    scene.addBox({0, 0, 0}, {box[0], box[1], box[2]}, 0);
+    const auto isIce = [&](size_t i) { return static_cast<int>(i) < ice * box[0] * box[1]; };
+    scene.start([&](size_t i) { return 273.15 + celsius[isIce(i) ? 0 : 1]; },
+                [&](size_t i) { return isIce(i) ? Phase::Solid : steam ? Phase::Gas : Phase::Liquid; });
+    const double before = scene.heat.energy(scene.store);
+    const double* t = scene.store.temperature();
+    double spread = 1;
+    int steps = 0;
+    for (; spread > 1e-3 && steps < 20000; ++steps) {
+      scene.heat.advance(scene.store, scene.neighbours, steps == 0 ? 1e-9 : 0.5 * scene.heat.gershgorinLimit());
+      const auto ends = std::minmax_element(t, t + scene.store.size());
+      spread = *ends.second - *ends.first;
+    }
+    QVERIFY2(steps < 20000, "no balance reached");
+    const double drift = (scene.heat.energy(scene.store) - before) / (scene.mass() * 334e3);
+    QVERIFY2(std::abs(drift) < 1e-12, qPrintable(QString::number(drift)));
+    QFETCH(double, end);
+    QFETCH(double, iceLeft);
+    const double mean = scene.mean(t) - 273.15;
+    QVERIFY2(std::abs(mean - end) < 0.02, qPrintable(QString::number(mean)));
+    QVERIFY(std::abs(scene.mean(scene.store.solidFraction()) - iceLeft) < 0.002);
+    QCOMPARE(scene.mean(scene.store.gasFraction()), 0.0);
+  }
+
+  /// Ice, water, steam and iron in one closed box, stirred by shuffling, for a minute of frames: nothing is lost.
+  void closedSystemsKeepTheirEnergyToRounding() {
+    Scene scene;
+    scene.thermal.timeScale = 1000;
+    scene.addMaterial(heattest::materialOf(heattest::water()));
+    Matter iron{10, 10, 1, 449, 449, 449, 7874, 0, 0, 0, 1};
+    scene.addMaterial(heattest::materialOf(iron));
+    scene.addBox({0, 0, 0}, {10, 10, 10}, 0, 0.1);
+    for (size_t i = 0; i < 1000; ++i) scene.store.material()[i] = i % 7 == 0 ? 1 : 0;
+    scene.start([](size_t i) { return 230.0 + 300.0 * double((i * 7919) % 1000) / 1000; });
+    const double before = scene.heat.energy(scene.store);
+    double turnover = 0;
+    for (size_t i = 0; i < 1000; ++i) turnover += std::abs(scene.enthalpyField()[i]) * double{scene.store.mass()[i]};
+    heattest::Noise noise;
+    bool melted = false, boiled = false;
+    for (int frame = 0; frame < 3600; ++frame) {
+      scene.heat.advance(scene.store, scene.neighbours, 1.0 / 60);
+      if (frame % 10 != 0) continue;
+      // Swap some pairs of places: matter moves, mass and heat with it.
+      for (int k = 0; k < 20; ++k) {
+        const auto pick = [&] { return static_cast<size_t>((noise.next() + 1) * 499.9); };
+        std::swap(scene.store.position()[pick()], scene.store.position()[pick()]);
+      }
+      scene.neighbours.sortAndBuild(scene.store);
+      for (size_t i = 0; i < 1000; ++i) {
+        melted |= scene.store.liquidFraction()[i] > 0 && scene.store.solidFraction()[i] > 0;
+        boiled |= scene.store.liquidFraction()[i] > 0 && scene.store.gasFraction()[i] > 0;
+      }
+    }
+    QVERIFY(melted && boiled);
+    const double drift = (scene.heat.energy(scene.store) - before) / turnover;
+    qInfo("drift %g", drift);
+    QVERIFY2(std::abs(drift) < 1e-12, qPrintable(QString::number(drift)));
+    QCOMPARE(scene.heat.ledger().exchanged, 0.0);
+  }
+
+  /// Walls, film and air: what the particles gained is what the books say, over a minute of frames.
+  void booksMatchTheEnergyThatCrossedTheWalls() {
+    Scene scene;
+    scene.thermal.timeScale = 2000;
+    scene.thermal.airConvection = 5;
+    scene.addMaterial(heattest::materialOf(heattest::water()));
+    scene.addBox({0, 0, 0}, {8, 8, 8}, 0, 0.1);
+    scene.walls = {hotWall({0, 1, 0}, 0, 430), hotWall({0, -1, 0}, -8 * scene.spacing, 300)};
+    scene.start([&](size_t i) { return scene.store.position()[i].y < 0.02 ? 263.15 : 390.0; });
+    const double before = scene.heat.energy(scene.store);
+    const double gas = scene.mean(scene.store.gasFraction()), ice = scene.mean(scene.store.solidFraction());
+    for (int frame = 0; frame < 3600; ++frame) {
+      scene.heat.advance(scene.store, scene.neighbours, 1.0 / 60);
+    }
+    QVERIFY(scene.mean(scene.store.gasFraction()) < gas && scene.mean(scene.store.solidFraction()) < ice);
+    const ps::HeatLedger& books = scene.heat.ledger();
+    QVERIFY(books.walls != 0 && books.air < 0);
+    const double open = (scene.heat.energy(scene.store) - before - books.net()) / books.exchanged;
+    qInfo("open %g", open);
+    QVERIFY2(std::abs(open) < 1e-12, qPrintable(QString::number(open)));
+  }
+
+  void explicitStepsStayBounded_data() {
+    QTest::addColumn<double>("cfl");
+    QTest::addColumn<double>("timeScale");
+    QTest::newRow("0.9 of the limit") << 0.9 << 1.0;
+    QTest::newRow("asks for 3") << 3.0 << 1.0;  // more than the whole limit is never taken
+    QTest::newRow("sweeps") << 0.5 << 2e4;
+    QTest::newRow("far too fast") << 0.5 << 1e9;
+  }
+  void explicitStepsStayBounded() {
+    QFETCH(double, cfl);
+    QFETCH(double, timeScale);
+    Scene scene;
+    scene.thermal.cfl = cfl;
+    scene.thermal.timeScale = timeScale;
+    scene.addMaterial(heattest::materialOf({}));
+    scene.addBox({0, 0, 0}, {12, 6, 6}, 0, 0.2);
+    scene.start([&](size_t i) { return scene.store.position()[i].x < 0.03 ? 273.15 : 373.15; });
+    const double before = scene.heat.energy(scene.store);
+    scene.heat.advance(scene.store, scene.neighbours, 1e-9);
+    const double frame = timeScale > 1 ? 1.0 / 60 : 30 * std::min(cfl, 1.0) * scene.heat.gershgorinLimit();
+    for (int k = 0; k < 100; ++k) scene.heat.advance(scene.store, scene.neighbours, frame);
+    const double* t = scene.store.temperature();
+    QVERIFY(*std::min_element(t, t + scene.store.size()) >= 273.15 - 1e-6);
+    QVERIFY(*std::max_element(t, t + scene.store.size()) <= 373.15 + 1e-6);
+    QVERIFY(std::abs(scene.heat.energy(scene.store) - before) < 1e-12 * scene.mass() * 1e5);
+    QCOMPARE(scene.heat.usedSweeps(), timeScale > 1);
+    if (timeScale > 1e6) QVERIFY(scene.heat.thermalTimeScaleDelivered() < timeScale);
+    else QCOMPARE(scene.heat.thermalTimeScaleDelivered(), timeScale);
+  }
+
+  /// Exponential sweeps of 15 times the stable step against explicit steps, across a plateau.
+  void sweepsAgreeWithExplicitSteps() {
+    double melted[2];
+    for (const bool sweeping : {false, true}) {
+      Scene scene;
+      scene.addMaterial(heattest::materialOf(heattest::water()));
+      scene.addBox({0, 0, 0}, {20, 6, 6}, 0);
+      scene.start([&](size_t i) { return scene.store.position()[i].x < 0.05 ? 263.15 : 333.15; },
+                  [&](size_t i) { return scene.store.position()[i].x < 0.05 ? Phase::Solid : Phase::Liquid; });
+      scene.heat.advance(scene.store, scene.neighbours, 1e-9);
+      const double step = 0.5 * scene.heat.gershgorinLimit();
+      const double seconds = 900 * step, frame = (sweeping ? 90 : 10) * step;
+      for (double done = 0; done < seconds - 0.5 * frame; done += frame) {
+        scene.heat.advance(scene.store, scene.neighbours, frame);
+        QCOMPARE(scene.heat.usedSweeps(), sweeping);
+      }
+      melted[sweeping] = scene.mean(scene.store.liquidFraction()) - 0.5;
+    }
+    // A sweep of 15 stable steps errs by about 0.5 % of what melted.
+    QVERIFY2(std::abs(melted[1] / melted[0] - 1) < 0.02, qPrintable(QString("%1 %2").arg(melted[0]).arg(melted[1])));
+  }
+
+  void everyNumberOfThreadsGivesTheSameBits() {
+    std::vector<double> first;
+    for (const int threads : {1, 2, 8}) {
+      ps::setThreadCount(threads);
+      Scene scene;
+      scene.thermal.timeScale = 2000;
+      scene.addMaterial(heattest::materialOf(heattest::water()));
+      scene.addBox({0, 0, 0}, {12, 12, 12}, 0, 0.15);
+      scene.walls = {hotWall({0, 1, 0}, 0, 430)};
+      scene.start([](size_t) { return 370.0; });
+      for (int frame = 0; frame < 120; ++frame) scene.heat.advance(scene.store, scene.neighbours, 1.0 / 60);
+      std::vector<double> h(scene.enthalpyField(), scene.enthalpyField() + scene.store.size());
+      h.push_back(scene.heat.ledger().walls);
+      if (first.empty()) first = h;
+      QVERIFY(first == h);
+    }
+    ps::setThreadCount(0);
+  }
+};
+
+QTEST_APPLESS_MAIN(TestHeat)
+#include "tst_heat.moc"
