@@ -26,6 +26,8 @@ constexpr double kGrams = 1e3;
 /// Cumulative mass in grams up to each phase; the last is the total.
 struct PhaseStackView::Private {
   std::array<SampleSeries, kPhases> cumulative;
+  std::array<QString, kPhases> names;
+  QString nameOf(size_t phase) const { return names[phase].isEmpty() ? phaseName(static_cast<api::Phase>(phase)) : names[phase]; }
   double massAt(size_t phase, double time) const {
     const double below = phase == 0 ? 0 : cumulative[phase - 1].valueAt(time);
     return cumulative[phase].valueAt(time) - below;
@@ -44,6 +46,11 @@ void PhaseStackView::append(double time, const std::array<double, 5>& kilograms)
     sum += std::max(0.0, kilograms[phase]) * kGrams;
     d->cumulative[phase].append(time, sum);
   }
+  dataChanged();
+}
+
+void PhaseStackView::setPhaseNames(const std::array<QString, 5>& names) {
+  d->names = names;
   dataChanged();
 }
 
@@ -113,8 +120,7 @@ void PhaseStackView::paintLabels(QPainter& painter) {
     const double mass = d->massAt(phase, end);
     if (!(mass > 1e-4 * total)) continue;
     const double middle = y(d->cumulative[phase].valueAt(end) - mass / 2);
-    const auto name = phaseName(static_cast<api::Phase>(phase));
-    labels.push_back({middle, middle - 8, phase, name + QLatin1Char(' ') + formatShort(mass, 3) + QStringLiteral(" g")});
+    labels.push_back({middle, middle - 8, phase, d->nameOf(phase) + QLatin1Char(' ') + formatShort(mass, 3) + QStringLiteral(" g")});
   }
   for (size_t i = 0; i < labels.size(); ++i) {
     labels[i].top = std::max(labels[i].top, i == 0 ? plot.top() + 16 : labels[i - 1].top + 16);
@@ -146,7 +152,7 @@ QStringList PhaseStackView::readOut(double time) const {
   QStringList lines{formatFixed(time, 2) + QStringLiteral(" s")};
   for (size_t phase = kPhases; phase-- > 0;) {
     const double mass = d->massAt(phase, time);
-    if (mass > 0) lines << phaseName(static_cast<api::Phase>(phase)) + QStringLiteral("  ") + formatNumber(mass) + QStringLiteral(" g");
+    if (mass > 0) lines << d->nameOf(phase) + QStringLiteral("  ") + formatNumber(mass) + QStringLiteral(" g");
   }
   return lines.size() > 1 ? lines : QStringList();
 }

@@ -16,6 +16,8 @@ class PhaseStackView : public TimePlot {
   explicit PhaseStackView(QWidget* parent = nullptr);
   ~PhaseStackView() override;
 
+  /// What the phases are called in this scene, by api::Phase: "Ice", ..., "Water", ..., "Steam". Empty: solid, ...
+  void setPhaseNames(const std::array<QString, 5>& names);
   /// Mass in kg by api::Phase. Times ascend.
   void append(double time, const std::array<double, 5>& kilograms);
   void clear();

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/panels/parameterpanel.h"
 
+#include "ui/panels/filterfield.h"
 #include "ui/panels/groupheading.h"
 #include "ui/panels/panelheader.h"
-#include "ui/theme/icon.h"
-#include "ui/theme/paint.h"
+#include "ui/panels/parameterrow_p.h"
 #include "ui/theme/theme.h"
 
+#include <QtCore/QEvent>
 #include <QtCore/QMetaMethod>
 #include <QtCore/QSet>
 #include <QtCore/QVariant>
@@ -92,11 +93,7 @@ ParameterPanel::ParameterPanel(QWidget* parent) : QWidget(parent), d(new Private
   d->q = this;
   d->header = new PanelHeader(this);
   d->header->hide();
-  d->filter = new QLineEdit(this);
-  d->filter->setObjectName(QStringLiteral("psFilter"));
-  d->filter->setAccessibleName(QStringLiteral("Filter"));
-  d->filter->addAction(icon(QStringLiteral("filter")), QLineEdit::LeadingPosition);
-  d->filter->setClearButtonEnabled(false);
+  d->filter = new FilterField(this);
   d->changed = new QPushButton(this);
   d->changed->setObjectName(QStringLiteral("psChanged"));
   d->changed->setCheckable(true);
@@ -125,6 +122,7 @@ ParameterPanel::ParameterPanel(QWidget* parent) : QWidget(parent), d(new Private
   layout->addWidget(d->empty, 1);
   connect(d->filter, &QLineEdit::textChanged, this, [this] { d->show(); });
   connect(d->changed, &QPushButton::toggled, this, [this] { d->show(); });
+  d->scroll->viewport()->installEventFilter(this);
   setMinimumWidth(240);
   d->show();
 }
@@ -227,22 +225,28 @@ void ParameterPanel::Private::mirror(const ParameterRow* from) {
   });
 }
 
+/// The label's column is as wide as the labels, up to a point: past it, a label takes the room of its row's symbol.
+/// Fields stand at one place whether the scroll bar shows or not.
 void ParameterPanel::Private::measure() {
   const bool symbols = q->width() >= kSymbolsFrom;
-  int label = 0;
+  int label = kMinimumLabel, longest = 0;
   for (const Group& group : groups) {
     for (const ParameterRow* row : group.rows) {
       // Toggles and choices have no slider to align and may use its room.
       const auto kind = row->model().declaration.kind;
-      if (kind != api::ParameterKind::Toggle && kind != api::ParameterKind::Choice) {
-        label = std::max(label, row->wantedLabelWidth());
-      }
+      if (kind == api::ParameterKind::Toggle || kind == api::ParameterKind::Choice) continue;
+      const int wanted = row->wantedLabelWidth();
+      if (wanted <= kMinimumLabel + 14) label = std::max(label, wanted);
+      longest = std::max(longest, wanted);
     }
   }
+  label = std::max(label, symbols ? longest - kSymbolWidth : longest);
+  const int bar = q->width() - scroll->viewport()->width();
   for (const Group& group : groups) {
     for (ParameterRow* row : group.rows) {
       row->setLabelWidth(label);
       row->setShowSymbol(symbols);
+      row->setRightMargin((symbols ? kRowRight : kRowRightNarrow) - std::clamp(bar, 0, 8));
     }
   }
 }
@@ -365,5 +369,11 @@ void ParameterPanel::paintEvent(QPaintEvent*) {
 }
 
 void ParameterPanel::resizeEvent(QResizeEvent*) { d->measure(); }
+
+bool ParameterPanel::eventFilter(QObject* watched, QEvent* event) {
+  // The scroll bar came or went.
+  if (event->type() == QEvent::Resize && watched == d->scroll->viewport()) d->measure();
+  return QWidget::eventFilter(watched, event);
+}
 
 }  // namespace ps

@@ -54,6 +54,12 @@ bool ParameterRow::Private::isNumeric() const {
 
 bool ParameterRow::Private::showsCurve() const { return isCurve(model.value); }
 
+bool ParameterRow::Private::drawsSymbol() const {
+  if (!showSymbol || !isNumeric() || !declaration().symbol || !*declaration().symbol) return false;
+  const int room = q->sliderRect().left() - kSymbolWidth - kRowLeft;
+  return q->wantedLabelWidth() <= room + 3;
+}
+
 QString ParameterRow::Private::unitText() const {
   // The field is narrow: "W/(m·K)" is shown as "W/m·K"; the tooltip has it in full.
   QString unit = displayUnit(declaration());
@@ -176,7 +182,13 @@ void ParameterRow::setLabelWidth(int pixels) {
 
 int ParameterRow::wantedLabelWidth() const {
   const double text = textWidth(QString::fromUtf8(d->declaration().label), Theme::font(TextRole::Normal));
-  return std::max(kMinimumLabel, static_cast<int>(std::ceil(text)) + 3);
+  return static_cast<int>(std::ceil(text)) + 3;
+}
+
+void ParameterRow::setRightMargin(int pixels) {
+  d->rightMargin = pixels;
+  if (d->edit) d->edit->setGeometry(fieldRect());
+  update();
 }
 
 bool ParameterRow::isChanged() const { return !sameValue(d->model.value, d->model.defaultValue); }
@@ -316,7 +328,7 @@ bool ParameterRow::Private::scaleCurve(double factor) {
 }
 
 QRect ParameterRow::fieldRect() const {
-  return {width() - kRowRight - kFieldWidth, (kRowHeight - kFieldHeight) / 2, kFieldWidth, kFieldHeight};
+  return {width() - d->rightMargin - kFieldWidth, (kRowHeight - kFieldHeight) / 2, kFieldWidth, kFieldHeight};
 }
 
 QRect ParameterRow::sliderRect() const {
@@ -328,7 +340,7 @@ QRect ParameterRow::sliderRect() const {
 }
 
 QRect ParameterRow::labelRect() const {
-  int right = sliderRect().left() - (d->showSymbol ? kSymbolWidth : 0);
+  int right = sliderRect().left() - (d->drawsSymbol() ? kSymbolWidth : 0);
   if (d->declaration().kind == api::ParameterKind::Toggle) right = d->switchRect().left() - kSliderGap;
   if (d->declaration().kind == api::ParameterKind::Choice) right = d->choiceRect().left() - kSliderGap;
   return {kRowLeft, 0, right - kRowLeft, kRowHeight};

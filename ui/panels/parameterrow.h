@@ -63,6 +63,9 @@ class ParameterRow : public QWidget {
   void setShowSymbol(bool show);
   /// Width of the label's column in logical pixels, so that all rows of a panel align.
   void setLabelWidth(int pixels);
+  /// Logical pixels right of the field.
+  void setRightMargin(int pixels);
+  /// Width of the label's text.
   int wantedLabelWidth() const;
 
   bool isChanged() const;

@@ -15,8 +15,8 @@ namespace ps {
 
 // Measures of a row in logical pixels. From the left: changed mark, label, symbol, slider; from the right: room for the
 // curve mark and a key, field.
-inline constexpr int kRowHeight = 26, kRowLeft = 12, kRowRight = 42, kFieldWidth = 104, kFieldHeight = 22;
-inline constexpr int kSymbolWidth = 26, kSliderGap = 6, kMinimumSlider = 56, kMinimumLabel = 120;
+inline constexpr int kRowHeight = 26, kRowLeft = 12, kRowRight = 42, kRowRightNarrow = 26, kFieldWidth = 104, kFieldHeight = 22;
+inline constexpr int kSymbolWidth = 26, kSliderGap = 6, kMinimumSlider = 40, kMinimumLabel = 120;
 /// Right end of the value and left end of the unit, from the field's left.
 inline constexpr int kValueRight = 54, kUnitLeft = 60;
 /// A gesture by wheel or keys, or a click that a double-click may follow, ends after this long without more of it.
@@ -29,6 +29,7 @@ struct ParameterRow::Private {
   RowModel model;
   bool showSymbol = true;
   int labelWidth = kMinimumLabel;
+  int rightMargin = kRowRight;
   bool hover = false;
   bool keyboardFocus = false;  ///< came by Tab: letters and digits are ours
   bool wasChanged = false;
@@ -54,6 +55,7 @@ struct ParameterRow::Private {
   bool isNumeric() const;       ///< has a slider or sparkline, and a field
   bool hasSlider() const { return isNumeric() && !showsCurve(); }
   bool showsCurve() const;
+  bool drawsSymbol() const;     ///< a label that needs the symbol's room takes it
   QString unitText() const;     ///< as the field shows it
 
   void begin();

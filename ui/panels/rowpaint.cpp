@@ -100,7 +100,8 @@ void ParameterRow::Private::paint(QPainter& painter) const {
     return;
   }
   if (!model.derivedFrom.isEmpty()) {
-    const QRectF rect(q->sliderRect().left() - 20, 0, q->fieldRect().left() - q->sliderRect().left() + 15, kRowHeight);
+    const double left = kRowLeft + q->wantedLabelWidth() + 4;
+    const QRectF rect(left, 0, q->fieldRect().left() - 1 - left, kRowHeight);
     paintText(painter, rect, Qt::AlignRight | Qt::AlignVCenter, model.derivedFrom, Theme::font(TextRole::Normal),
               Theme::current()[Token::Info]);
   } else if (showsCurve()) {
@@ -119,7 +120,8 @@ void ParameterRow::Private::paintLeft(QPainter& painter) const {
   const Token token = disabled ? Token::Disabled : changed || (hover && isEditable()) ? Token::Text : Token::Text2;
   paintText(painter, q->labelRect(), Qt::AlignLeft | Qt::AlignVCenter, QString::fromUtf8(declaration().label),
             Theme::font(TextRole::Normal), theme[token]);
-  if (showSymbol && isNumeric() && declaration().symbol && model.derivedFrom.isEmpty()) {
+  const double source = textWidth(model.derivedFrom, Theme::font(TextRole::Normal));
+  if (drawsSymbol() && q->fieldRect().left() - 1 - source > q->sliderRect().left() - 6) {
     paintSymbol(painter, QRectF(q->sliderRect().left() - kSymbolWidth, 0, kSymbolWidth, kRowHeight),
                 QString::fromUtf8(declaration().symbol), theme[disabled ? Token::Disabled : Token::Muted]);
   }

@@ -52,7 +52,7 @@ QPixmap rendered(const QString& name, const QColor& colour, int pixels) {
 
 class Engine final : public QIconEngine {
  public:
-  explicit Engine(QString name) : m_name(std::move(name)) {}
+  Engine(QString name, bool accentWhenOn) : m_name(std::move(name)), m_accentWhenOn(accentWhenOn) {}
 
   void paint(QPainter* painter, const QRect& rect, QIcon::Mode mode, QIcon::State state) override {
     paintIcon(*painter, rect, m_name, colour(mode, state));
@@ -64,28 +64,29 @@ class Engine final : public QIconEngine {
     return rendered(m_name, colour(mode, state), std::min(size.width(), size.height()));  // device pixels in Qt 6
   }
   bool isNull() override { return false; }
-  QIconEngine* clone() const override { return new Engine(m_name); }
+  QIconEngine* clone() const override { return new Engine(m_name, m_accentWhenOn); }
   QString key() const override { return QStringLiteral("PhaseSketch"); }
   QString iconName() override { return m_name; }
 
  private:
-  static QColor colour(QIcon::Mode mode, QIcon::State state) {
+  QColor colour(QIcon::Mode mode, QIcon::State state) const {
     const Theme& theme = Theme::current();
     if (mode == QIcon::Disabled) return theme[Token::Disabled];
-    if (state == QIcon::On) return theme[Token::Accent];
+    if (state == QIcon::On && m_accentWhenOn) return theme[Token::Accent];
     return theme[mode == QIcon::Normal ? Token::Text2 : Token::Text];
   }
   QString m_name;
+  bool m_accentWhenOn;
 };
 
 }  // namespace
 
-QIcon icon(const QString& name) {
+QIcon icon(const QString& name, bool accentWhenOn) {
   if (!iconNames().contains(name)) {
     log(LogLevel::Warning, "The program has no icon '" + name.toStdString() + "'");
     return {};
   }
-  return QIcon(new Engine(name));
+  return QIcon(new Engine(name, accentWhenOn));
 }
 
 QPixmap iconPixmap(const QString& name, const QColor& colour, int size, double devicePixelRatio) {

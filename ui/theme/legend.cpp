@@ -23,26 +23,31 @@ namespace {
 
 constexpr double kMargin = 10, kTitle = 24, kBarWidth = 12, kBarHeight = 192, kClassRow = 20;
 
-ColourMap parseMap(const QString& name, const QJsonObject& object) {
+ColourMap parseMap(const QString& name, const QJsonArray& stops, const QJsonArray& classes) {
   ColourMap map;
   map.name = name;
-  map.title = object[QStringLiteral("title")].toString(name);
-  map.pivot = object[QStringLiteral("pivot")].toDouble(-1);
-  for (const QJsonValue& stop : object[QStringLiteral("stops")].toArray()) {
+  for (const QJsonValue& stop : stops) {
     map.stops.emplace_back(stop[0].toDouble(), QColor(stop[1].toString()));
-    if (!map.stops.back().second.isValid()) throw Error("maps.json:/" + name.toStdString() + "/stops: not a colour");
+    if (!map.stops.back().second.isValid()) throw Error("maps.json:/maps/" + name.toStdString() + ": not a colour");
   }
-  for (const QJsonValue& item : object[QStringLiteral("classes")].toArray()) {
-    map.classes.emplace_back(item[0].toString(), item[1].toString());
+  for (const QJsonValue& item : classes) map.classes.emplace_back(item[0].toString(), item[1].toString());
+  if (map.stops.size() < 2 || (!map.classes.empty() && map.classes.size() != map.stops.size())) {
+    throw Error("maps.json:/maps/" + name.toStdString() + ": must have at least two stops, and one for each class");
   }
-  if (map.stops.size() < 2) throw Error("maps.json:/" + name.toStdString() + "/stops: must be at least two");
   return map;
 }
 
 std::map<QString, ColourMap> readMaps() {
   const QJsonObject all = QJsonDocument::fromJson(themeResource(QStringLiteral("theme/maps.json"))).object();
+  const QJsonObject stops = all[QStringLiteral("maps")].toObject(), titles = all[QStringLiteral("titles")].toObject(),
+                    classes = all[QStringLiteral("classes")].toObject(), pivots = all[QStringLiteral("pivots")].toObject();
   std::map<QString, ColourMap> maps;
-  for (auto it = all.begin(); it != all.end(); ++it) maps[it.key()] = parseMap(it.key(), it.value().toObject());
+  for (auto it = stops.begin(); it != stops.end(); ++it) {
+    ColourMap map = parseMap(it.key(), it.value().toArray(), classes[it.key()].toArray());
+    map.title = titles[it.key()].toString(it.key());
+    map.pivot = pivots[it.key()].toDouble(-1);
+    maps[it.key()] = std::move(map);
+  }
   return maps;
 }
 
