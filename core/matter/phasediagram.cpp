@@ -46,6 +46,7 @@ double PhaseDiagram::boilingPoint(double pressure) const {
   const double highest = criticalTemperature > 0 ? criticalTemperature : kInfinity;
   if (molarMass <= 0 || latentHeatVaporization <= 0) return std::min(boilingReference(), highest);
   const BoilingLine line = boilingLine();
+  if (pressure == line.pressure) return std::min(line.temperature, highest);
   const double target = std::log(std::max(pressure, 1e-9) / line.pressure);
   const auto excess = [&](double t) {
     return line.a * (1 / line.temperature - 1 / t) - line.b * std::log(t / line.temperature) - target;

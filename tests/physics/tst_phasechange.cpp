@@ -237,7 +237,7 @@ class TestPhaseChange : public QObject {
     QCOMPARE(scene.heat.ledger().exchanged, 0.0);
   }
 
-  void steamCondensesOnAColdLidOnly() {
+  void steamCondensesOnAColdLidAndNotOnAHotOne() {
     for (const bool cold : {true, false}) {
       Scene scene;
       scene.thermal.timeScale = 200;
@@ -256,8 +256,9 @@ class TestPhaseChange : public QObject {
         for (size_t i = 0; i < scene.store.size(); ++i) QVERIFY(scene.store.gasFraction()[i] > 0.69f);  // 30 % a frame
       }
       for (size_t i = 0; i < scene.store.size(); ++i) {
-        const bool near = scene.store.position()[i].y > 3 * scene.spacing;
-        QCOMPARE(scene.store.gasFraction()[i] < 0.5f, cold && near);
+        const float gas = scene.store.gasFraction()[i];
+        if (!cold) QCOMPARE(gas, 1.0f);
+        else if (scene.store.position()[i].y > 3 * scene.spacing) QVERIFY(gas < 0.5f);
       }
     }
   }
