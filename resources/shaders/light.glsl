@@ -36,7 +36,8 @@ Surface surfaceAt(vec2 uv) {
   s.normal = texelFetch(normalTexture, here, 0).xyz * 2.0 - 1.0;
   s.position = (inverseView * vec4(viewRay(uv) * texelFetch(distanceTexture, here, 0).r, 1.0)).xyz;
   s.toEye = normalize(eye.xyz - s.position);
-  s.open = texture(openTexture, uv).r;
+  vec2 beside = vec2(0.5 / float(textureSize(openTexture, 0).x), 0.0);
+  s.open = 0.5 * (textureLod(openTexture, uv - beside, 0.0).r + textureLod(openTexture, uv + beside, 0.0).r);
   s.key = keyVisible(s.position, s.normal);
   return s;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Ambient occlusion at half resolution after McGuire et al. 2011 ("The Alchemy screen-space ambient obscurance
-// algorithm"), with four patterns in a 2 x 2 tile that the bilinear look-up of the lighting pass averages.
+// algorithm"), with two patterns in a chequerboard that the two look-ups of the lighting pass average.
 uniform sampler2D normalTexture;
 uniform sampler2D distanceTexture;
 uniform float radius;     // m
@@ -15,12 +15,11 @@ void main() {
   vec3 p = viewRay(pixel * size.zw) * depth;
   vec3 n = mat3(view) * (texelFetch(normalTexture, here, 0).xyz * 2.0 - 1.0);
   float reach = clamp(radius / depth / lens.y * 0.5 * size.y, 3.0, 90.0);
-  ivec2 cell = ivec2(gl_FragCoord.xy) & 1;
-  float turn = float(cell.x + 2 * cell.y) * (1.5707963 / float(samples)) * 1.0;
+  float odd = float((int(gl_FragCoord.x) + int(gl_FragCoord.y)) & 1);
   float sum = 0.0;
   for (int i = 0; i < samples; ++i) {
-    float t = (float(i) + 0.25 + 0.25 * float(cell.x ^ cell.y)) / float(samples);
-    float angle = t * 6.2831853 * 3.0 + turn * 4.0;
+    float t = (float(i) + 0.25 + 0.5 * odd) / float(samples);
+    float angle = t * 6.2831853 * 2.0 + odd * 3.1415927;
     ivec2 at = clamp(here + ivec2(vec2(cos(angle), sin(angle)) * (t * reach)), ivec2(0), ivec2(size.xy) - 1);
     vec3 v = viewRay((vec2(at) + 0.5) * size.zw) * texelFetch(distanceTexture, at, 0).r - p;
     float square = dot(v, v);

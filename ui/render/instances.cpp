@@ -38,9 +38,10 @@ Colour towardsWhite(const Colour& c, float amount) {
 Colour materialColour(const Snapshot& s, size_t i) {
   const size_t material = s.material[i];
   const Colour own = material < s.materialColour.size() ? s.materialColour[material] : Colour{0.6f, 0.6f, 0.6f};
+  const float light = luma(own), scatter = std::sqrt(light) * (1 - 0.6f * light);
   switch (s.motion[i]) {
     case api::Motion::Static: return own;
-    case api::Motion::Solid: return towardsWhite(own, (s.phase[i] == api::Phase::Solid ? 0.80f : 0.55f) * std::sqrt(luma(own)));
+    case api::Motion::Solid: return towardsWhite(own, (s.phase[i] == api::Phase::Solid ? 0.85f : 0.5f) * scatter);
     case api::Motion::Liquid: return towardsWhite(own, 0.7f * std::clamp(s.gasFraction[i], 0.f, 1.f));
     case api::Motion::Gas: break;
   }
@@ -98,7 +99,7 @@ class Evaluator {
       case ColourBy::Phase: return m_table.at(static_cast<float>(s.phase[i]));
       case ColourBy::Material: break;
     }
-    return s.motion[i] == api::Motion::Gas ? m_request.steam : materialColour(s, i);
+    return materialColour(s, i);
   }
 
   const InstanceRequest& m_request;
@@ -136,10 +137,12 @@ void collectInstances(const InstanceRequest& request, Instances& out) {
     if (!std::isfinite(p.x + p.y + p.z + p.radius) || p.radius <= 0) continue;
     const api::Motion motion = s.motion[i];
     if (motion == api::Motion::Gas) {
-      p.extra = static_cast<float>(s.id[i] % 4096) * 0.731f;
-      vapours.push_back(p);
+      Instance cloud = p;
+      cloud.extra = static_cast<float>(s.id[i] % 4096) * 0.731f;
+      cloud.red = request.steam[0], cloud.green = request.steam[1], cloud.blue = request.steam[2];
+      vapours.push_back(cloud);
       if (!data) continue;
-      p.radius *= 0.40f;  // the parcel's point of data inside its cloud
+      p.radius *= 0.32f;  // the parcel's point of data inside its cloud
       p.extra = static_cast<float>(Kind::Plain);
       spheres.push_back(p);
       continue;

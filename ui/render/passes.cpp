@@ -325,7 +325,7 @@ void Passes::drawSteam(const Frame& frame) {
     glUniform1i(program.at("fluidScale"), frame.instances.liquids ? m_quality.fluidScale : 0);
     glUniform1i(program.at("sprites"), sprites);
     glUniform1f(program.at("growth"), 4.6f);
-    glUniform1f(program.at("opacity"), (frame.data ? 0.16f : 0.22f) / static_cast<float>(sprites));
+    glUniform1f(program.at("opacity"), (frame.data ? 0.10f : 0.22f) / static_cast<float>(sprites));
     drawParticles(program, frame.instances.spheres + frame.instances.liquids, 6 * count * static_cast<size_t>(sprites));
   }
   const Target target({&m_picture}, nullptr);
