@@ -115,7 +115,7 @@ void Neighbours::searchLists(const ParticleStore& store) {
   m_cellOfSlot.resize(n);
   for (std::vector<float>* v : {&m_x, &m_y, &m_z}) v->resize(n + kSpareSlots);
   for (size_t slot = 0; slot < n; ++slot) {
-    const size_t i = m_sorted ? slot : m_order[slot];
+    const size_t i = indexOf(slot);
     m_x[slot] = position[i].x;
     m_y[slot] = position[i].y;
     m_z[slot] = position[i].z;
@@ -131,43 +131,41 @@ void Neighbours::searchLists(const ParticleStore& store) {
     Chunk& chunk = m_chunks[first / kSlotsPerChunk];
     chunk.found.clear();
     searchSlots(grid, first, last, m_counts.data() + first, chunk.found);
-    chunk.entries = 0;
-    for (size_t slot = first; slot < last; ++slot) chunk.entries += (m_counts[slot] + kListPad - 1) / kListPad * kListPad;
   });
-  size_t total = 0;
-  for (size_t c = 0; c < chunks; ++c) total += m_chunks[c].entries;
-  m_index.resize(total);
-  m_begin.resize(n);
-  m_last.resize(n);
-  m_end.resize(n);
-  m_offsets.resize(chunks);
-  for (size_t c = 0, offset = 0; c < chunks; offset += m_chunks[c++].entries) m_offsets[c] = offset;
-  parallelFor(n, kSlotsPerChunk, [&](size_t first, size_t last) {
-    const size_t c = first / kSlotsPerChunk;
-    writeLists(m_chunks[c], first, last, m_offsets[c]);
-  });
+  layOutLists(n);
+  parallelFor(n, kSlotsPerChunk,
+              [&](size_t first, size_t last) { writeLists(m_chunks[first / kSlotsPerChunk].found.data(), first, last); });
   m_built.assign(position, position + n);
 }
 
-void Neighbours::writeLists(const Chunk& chunk, size_t firstSlot, size_t lastSlot, size_t offset) {
+void Neighbours::layOutLists(size_t count) {
+  m_begin.resize(count);
+  m_last.resize(count);
+  m_end.resize(count);
+  for (size_t slot = 0; slot < count; ++slot) m_last[indexOf(slot)] = m_counts[slot];
+  uint32_t next = 0;
+  for (size_t i = 0; i < count; ++i) {
+    const uint32_t found = m_last[i];
+    m_begin[i] = next;
+    m_last[i] = next + found;
+    next += static_cast<uint32_t>((found + kListPad - 1) / kListPad * kListPad);
+    m_end[i] = next;
+  }
+  m_index.resize(next);
+}
+
+void Neighbours::writeLists(const uint32_t* found, size_t firstSlot, size_t lastSlot) {
   const uint32_t dummy = static_cast<uint32_t>(m_begin.size());
-  const uint32_t* found = chunk.found.data();
-  uint32_t* out = m_index.data() + offset;
-  for (size_t slot = firstSlot; slot < lastSlot; ++slot) {
-    const size_t i = m_sorted ? slot : m_order[slot], count = m_counts[slot];
-    const size_t padded = (count + kListPad - 1) / kListPad * kListPad;
+  for (size_t slot = firstSlot; slot < lastSlot; found += m_counts[slot++]) {
+    const size_t i = indexOf(slot), count = m_counts[slot];
+    uint32_t *out = m_index.data() + m_begin[i], *last = m_index.data() + m_last[i];
     if (m_sorted) {
       std::copy(found, found + count, out);
     } else {
       for (size_t k = 0; k < count; ++k) out[k] = m_order[found[k]];
-      sortNearlySorted(out, out + count);
+      sortNearlySorted(out, last);
     }
-    std::fill(out + count, out + padded, dummy);
-    m_begin[i] = static_cast<uint32_t>(out - m_index.data());
-    m_last[i] = m_begin[i] + static_cast<uint32_t>(count);
-    m_end[i] = m_begin[i] + static_cast<uint32_t>(padded);
-    found += count;
-    out += padded;
+    std::fill(last, m_index.data() + m_end[i], dummy);
   }
 }
 

@@ -6,7 +6,7 @@ namespace ps {
 
 /// Cell-sorted neighbour search (counting sort into cells of the search radius, rows of 27 cells).
 /// Lists hold all other particles within search radius = support + skin, ascending by index, padded to kListPad with
-/// the dummy index size(). They stay valid until a particle has moved half the skin.
+/// the dummy index size(), one after another in order of index. They stay valid until a particle has moved half the skin.
 class Neighbours {
  public:
   static constexpr size_t kListPad = 16;
@@ -29,18 +29,19 @@ class Neighbours {
  private:
   struct Chunk {
     std::vector<uint32_t> found;
-    size_t entries = 0;  ///< of the padded lists
   };
   void assignCells(const ParticleStore& store);
   void searchLists(const ParticleStore& store);
-  void writeLists(const Chunk& chunk, size_t firstSlot, size_t lastSlot, size_t offset);
+  void layOutLists(size_t count);
+  void writeLists(const uint32_t* found, size_t firstSlot, size_t lastSlot);
+  /// Right after sorting, slots are indices.
+  size_t indexOf(size_t slot) const { return m_sorted ? slot : m_order[slot]; }
 
   double m_support = 0, m_skin = 0;
   std::vector<uint32_t> m_begin, m_last, m_end, m_index, m_order, m_cellStart, m_cellOf, m_cellOfSlot, m_counts;
   std::vector<float> m_x, m_y, m_z;
   std::vector<api::Float4> m_built;
   std::vector<Chunk> m_chunks;
-  std::vector<size_t> m_offsets;
   bool m_sorted = false;
   double m_origin[3] = {0, 0, 0}, m_cellSize = 1;
   int m_cells[3] = {1, 1, 1};
