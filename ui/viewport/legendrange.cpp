@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/viewport/legendrange.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ps {
+namespace {
+
+/// The next of 1, 2, 5 times a power of ten.
+double roundUp(double value) {
+  const double decade = std::pow(10.0, std::floor(std::log10(std::max(value, 1e-9))));
+  for (const double factor : {1.0, 2.0, 5.0}) {
+    if (decade * factor >= value * (1 - 1e-9)) return decade * factor;
+  }
+  return decade * 10;
+}
+
+std::pair<double, double> rounded(ColourBy colour, std::pair<double, double> measured) {
+  if (colour == ColourBy::Temperature) {
+    constexpr double kZero = 273.15, kStep = 10;
+    const double low = kZero + kStep * std::floor((measured.first - kZero) / kStep);
+    double high = kZero + kStep * std::ceil((measured.second - kZero) / kStep);
+    if (high - low < 2 * kStep) high = low + 2 * kStep;
+    return {low, high};
+  }
+  if (colour == ColourBy::Speed) return {0, roundUp(std::max(measured.second, 0.1))};
+  return measured;  // fixed by the map itself
+}
+
+}  // namespace
+
+std::pair<double, double> LegendRange::update(ColourBy colour, std::pair<double, double> measured) {
+  const auto wanted = rounded(colour, measured);
+  const bool fits = m_valid && colour == m_colour && wanted.first >= m_range.first && wanted.second <= m_range.second;
+  if (!fits || wanted.second - wanted.first < 0.5 * (m_range.second - m_range.first)) m_range = wanted;
+  m_valid = true;
+  m_colour = colour;
+  return m_range;
+}
+
+}  // namespace ps

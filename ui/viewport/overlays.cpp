@@ -1,0 +1,318 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/viewport/overlays.h"
+
+#include "ui/theme/legend.h"
+#include "ui/theme/numbers.h"
+#include "ui/theme/paint.h"
+#include "ui/theme/theme.h"
+
+#include <QtCore/QStringList>
+#include <QtGui/QPainter>
+#include <QtGui/QPainterPath>
+
+#include <algorithm>
+#include <cmath>
+
+namespace ps {
+namespace {
+
+constexpr double kMargin = 10, kPadding = 8, kLine = 22;
+
+void paintGround(QPainter& painter, const QRectF& rect, double radius = 4) {
+  const Theme& theme = Theme::current();
+  paintBox(painter, rect, theme[Token::Overlay], theme[Token::Line], radius);
+}
+
+void paintViewLabel(QPainter& painter, const OverlayState& state) {
+  const QFont font = Theme::font(TextRole::Normal);
+  const QRectF rect(kMargin, kMargin, textWidth(state.viewName, font) + 2 * kPadding, kLine);
+  paintGround(painter, rect);
+  paintText(painter, rect, Qt::AlignCenter, state.viewName, font, Theme::current()[Token::Text]);
+}
+
+/// A round length near 90 pixels at the target's depth.
+void paintScaleBar(QPainter& painter, const OverlayState& state) {
+  const double metresPerPixel = pixelSize(state.camera, static_cast<int>(state.size.height()), state.camera.distance);
+  const double wanted = 90 * metresPerPixel;
+  double length = std::pow(10.0, std::floor(std::log10(wanted)));
+  for (const double factor : {5.0, 2.0}) {
+    if (length * factor <= wanted) {
+      length *= factor;
+      break;
+    }
+  }
+  const double pixels = length / metresPerPixel;
+  const QString text = lengthText(length);
+  const QFont font = Theme::font(TextRole::Normal);
+  const QRectF rect(kMargin, state.size.height() - kMargin - 26, pixels + textWidth(text, font) + 3.5 * kPadding, 26);
+  paintGround(painter, rect);
+  const double left = rect.left() + kPadding, right = left + pixels, y = rect.center().y() + 3;
+  const QColor colour = Theme::current()[Token::Text2];
+  paintHorizontalLine(painter, left, right, y, colour);
+  for (const double x : {left, (left + right) / 2, right}) {
+    paintVerticalLine(painter, x, y - (x > left && x < right ? 3 : 6), y, colour);
+  }
+  paintText(painter, QRectF(right + kPadding, rect.top(), rect.right() - right, rect.height()),
+            Qt::AlignLeft | Qt::AlignVCenter, text, font, Theme::current()[Token::Text]);
+}
+
+QString mapName(ColourBy colour) { return QString::fromLatin1(colourName(colour)); }
+
+void paintLegendOver(QPainter& painter, const OverlayState& state) {
+  if (state.colour == ColourBy::Material || state.empty) return;
+  const ColourMap& map = colourMap(mapName(state.colour));
+  const QSizeF size = legendSize(map);
+  const QRectF rect(state.size.width() - kMargin - size.width(), state.size.height() - kMargin - size.height(),
+                    size.width(), size.height());
+  if (rect.top() < 100) return;  // too little room
+  std::pair<double, double> range = state.range;
+  std::vector<LegendMark> marks;
+  QString unit;
+  double pivot = 0;
+  if (state.colour == ColourBy::Temperature) {
+    constexpr double kZero = 273.15;
+    range = {range.first - kZero, range.second - kZero};
+    pivot = state.meltingPoint - kZero;
+    unit = QStringLiteral("°C");
+    if (state.meltingPoint > 0) marks.push_back({pivot, QStringLiteral("melts")});
+    if (std::isfinite(state.boilingPoint)) marks.push_back({state.boilingPoint - kZero, QStringLiteral("boils")});
+  } else if (state.colour == ColourBy::Speed) {
+    unit = QStringLiteral("m/s");
+  } else if (state.colour == ColourBy::DensityError) {
+    range = {range.first * 100, range.second * 100};
+    unit = QStringLiteral("%");
+  }
+  paintLegend(painter, rect, map, range, unit, marks, pivot);
+}
+
+struct Hint {
+  QString keys, does;
+};
+
+std::vector<Hint> hintsFor(ViewTool tool) {
+  if (tool == ViewTool::Select) {
+    return {{QStringLiteral("Drag"), QStringLiteral("orbit")},
+            {QStringLiteral("Shift+Drag"), QStringLiteral("pan")},
+            {QStringLiteral("Wheel"), QStringLiteral("zoom")},
+            {QStringLiteral("Space"), QStringLiteral("pause")},
+            {QStringLiteral("F"), QStringLiteral("frame")},
+            {QStringLiteral("B"), QStringLiteral("sketch")}};
+  }
+  return {{QStringLiteral("Drag"), tool == ViewTool::Brush ? QStringLiteral("draws") : QStringLiteral("erases")},
+          {QStringLiteral("Ctrl"), tool == ViewTool::Brush ? QStringLiteral("erases") : QStringLiteral("draws")},
+          {QStringLiteral("[ ]"), QStringLiteral("size")},
+          {QStringLiteral("Alt+Drag"), QStringLiteral("orbit")},
+          {QStringLiteral("Q"), QStringLiteral("back to select")}};
+}
+
+QRectF paintHint(QPainter& painter, const OverlayState& state) {
+  const QFont font = Theme::font(TextRole::Small);
+  const Theme& theme = Theme::current();
+  const std::vector<Hint> hints = hintsFor(state.tool);
+  const QString close = QStringLiteral("Got it");
+  double width = textWidth(close, font) + 2 * kPadding;
+  for (const Hint& hint : hints) width += textWidth(hint.keys, font) + textWidth(hint.does, font) + 12 + 2 * kPadding;
+  QRectF rect((state.size.width() - width) / 2, state.size.height() - kMargin - 30, width, 30);
+  if (rect.left() < 180 || rect.right() > state.size.width() - 130) return {};  // room for scale bar and legend first
+  paintGround(painter, rect, 6);
+  double x = rect.left() + kPadding;
+  for (const Hint& hint : hints) {
+    const QRectF key(x, rect.top() + 6, textWidth(hint.keys, font) + 10, 18);
+    paintBox(painter, key, theme[Token::Raised], theme[Token::Line2], 3);
+    paintText(painter, key, Qt::AlignCenter, hint.keys, font, theme[Token::Text]);
+    x = key.right() + 5;
+    const double w = textWidth(hint.does, font);
+    paintText(painter, QRectF(x, rect.top(), w + 2, rect.height()), Qt::AlignLeft | Qt::AlignVCenter, hint.does, font,
+              theme[Token::Text2]);
+    x += w + 2 * kPadding - 3;
+  }
+  const QRectF button(x - kPadding / 2, rect.top() + 4, textWidth(close, font) + kPadding, rect.height() - 8);
+  paintText(painter, button, Qt::AlignCenter, close, font, theme[Token::Muted]);
+  return button;
+}
+
+void paintBall(QPainter& painter, const OverlayState& state, OverlayHits& hits) {
+  constexpr double kRadius = 33, kArm = 23, kDot = 7.5;
+  const QPointF centre(state.size.width() - kMargin - kRadius, kMargin + kRadius);
+  hits.ball = QRectF(centre.x() - kRadius, centre.y() - kRadius, 2 * kRadius, 2 * kRadius);
+  const Theme& theme = Theme::current();
+  painter.setPen(QPen(theme[Token::Line], 1));
+  painter.setBrush(theme[Token::Overlay]);
+  painter.drawEllipse(centre, kRadius, kRadius);
+  const CameraFrame frame = frameOf(state.camera);
+  struct End {
+    const char* letter;
+    Token colour;
+    Vec3 axis;
+    double azimuth, elevation;
+  };
+  // Tokens stand for the usual red, green and blue of x, y and z.
+  const End ends[] = {{"X", Token::Error, {1, 0, 0}, 90, 0},   {"", Token::Error, {-1, 0, 0}, -90, 0},
+                      {"Y", Token::Ok, {0, 1, 0}, 0, 90},      {"", Token::Ok, {0, -1, 0}, 0, -90},
+                      {"Z", Token::Info, {0, 0, 1}, 0, 0},     {"", Token::Info, {0, 0, -1}, 180, 0}};
+  const auto along = [](const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; };
+  std::vector<const End*> order;
+  for (const End& end : ends) order.push_back(&end);
+  std::stable_sort(order.begin(), order.end(), [&](const End* a, const End* b) {
+    return along(a->axis, frame.forward) > along(b->axis, frame.forward);
+  });
+  for (const End* end : order) {
+    const QPointF at = centre + QPointF(along(end->axis, frame.right), -along(end->axis, frame.up)) * kArm;
+    const bool named = end->letter[0] != 0;
+    QColor colour = theme[end->colour];
+    if (!named) colour.setAlphaF(0.45F);
+    if (named) {
+      painter.setPen(QPen(colour, 1.5));
+      painter.drawLine(centre, at);
+    }
+    painter.setPen(Qt::NoPen);
+    painter.setBrush(colour);
+    const double r = named ? kDot : kDot - 2;
+    painter.drawEllipse(at, r, r);
+    const QRectF rect(at.x() - kDot - 2, at.y() - kDot - 2, 2 * kDot + 4, 2 * kDot + 4);
+    if (named) paintText(painter, rect, Qt::AlignCenter, QLatin1String(end->letter), Theme::font(TextRole::Small), theme[Token::Window]);
+    hits.axes.push_back({rect, end->azimuth, end->elevation});
+  }
+  std::reverse(hits.axes.begin(), hits.axes.end());  // nearest first
+}
+
+void paintTag(QPainter& painter, const OverlayState& state, const SceneTag& tag) {
+  const auto at = project(state.camera, static_cast<int>(state.size.width()), static_cast<int>(state.size.height()), tag.place);
+  if (!at) return;
+  const Theme& theme = Theme::current();
+  const QFont font = Theme::font(TextRole::Normal);
+  const double name = textWidth(tag.name, font), value = textWidth(tag.value, font);
+  const QPointF point((*at)[0], (*at)[1]);
+  painter.setPen(QPen(theme[Token::Window], 3));
+  painter.setBrush(Qt::NoBrush);
+  painter.drawEllipse(point, 5, 5);
+  painter.setPen(QPen(theme[Token::Accent], 1.5));
+  painter.drawEllipse(point, 5, 5);
+  QRectF rect(point.x() + 12, point.y() - kLine / 2, name + value + 3 * kPadding, kLine);
+  if (rect.right() > state.size.width() - kMargin) rect.moveRight(point.x() - 12);
+  paintGround(painter, rect);
+  paintText(painter, rect.adjusted(kPadding, 0, 0, 0), Qt::AlignLeft | Qt::AlignVCenter, tag.name, font, theme[Token::Text2]);
+  paintText(painter, rect.adjusted(0, 0, -kPadding, 0), Qt::AlignRight | Qt::AlignVCenter, tag.value, font, theme[Token::Text]);
+}
+
+class CursorPainter {
+ public:
+  CursorPainter(QPainter& painter, const OverlayState& state) : m_painter(painter), m_state(state) {}
+
+  void paint(const BrushCursor& cursor) {
+    const Theme& theme = Theme::current();
+    const QColor colour = theme[cursor.erase ? Token::Error : Token::Accent];
+    const auto centre = at(cursor.centre);
+    if (!centre) return;
+    ring(cursor, colour);
+    QPainterPath shape;
+    if (cursor.box) {
+      box(cursor, shape);
+    } else {
+      sphere(cursor, *centre, shape);
+    }
+    QColor fill = colour;
+    fill.setAlphaF(0.16F);
+    if (!cursor.box) m_painter.fillPath(shape, fill);
+    stroke(shape, colour);
+    for (const QPointF& arm : {QPointF(6, 0), QPointF(0, 6)}) {
+      m_painter.setPen(QPen(theme[Token::Text], 1));
+      m_painter.drawLine(*centre - arm, *centre + arm);
+    }
+    tag(cursor, shape.boundingRect());
+  }
+
+ private:
+  std::optional<QPointF> at(const Vec3& p) const {
+    const auto pixel = project(m_state.camera, static_cast<int>(m_state.size.width()), static_cast<int>(m_state.size.height()), p);
+    return pixel ? std::optional(QPointF((*pixel)[0], (*pixel)[1])) : std::nullopt;
+  }
+  void stroke(const QPainterPath& path, const QColor& colour) {
+    m_painter.setBrush(Qt::NoBrush);
+    m_painter.setPen(QPen(Theme::current()[Token::Shadow], 3.5));
+    m_painter.drawPath(path);
+    m_painter.setPen(QPen(colour, 1.5));
+    m_painter.drawPath(path);
+  }
+  void sphere(const BrushCursor& cursor, const QPointF& centre, QPainterPath& path) const {
+    const CameraFrame frame = frameOf(m_state.camera);
+    double depth = 0;
+    for (size_t i = 0; i < 3; ++i) depth += (cursor.centre[i] - frame.eye[i]) * frame.forward[i];
+    const double r = cursor.extent[0] / pixelSize(m_state.camera, static_cast<int>(m_state.size.height()), depth);
+    path.addEllipse(centre, r, r);
+  }
+  void box(const BrushCursor& cursor, QPainterPath& path) const {
+    const auto corner = [&](int k) {
+      Vec3 p = cursor.centre;
+      for (size_t i = 0; i < 3; ++i) p[i] += (k >> i & 1 ? 1 : -1) * cursor.extent[i];
+      return at(p);
+    };
+    for (int k = 0; k < 8; ++k) {
+      for (int bit = 1; bit < 8; bit *= 2) {
+        const auto a = corner(k), b = corner(k | bit);
+        if ((k & bit) || !a || !b) continue;
+        path.moveTo(*a);
+        path.lineTo(*b);
+      }
+    }
+  }
+  /// Plumb line and the outline on what lies below.
+  void ring(const BrushCursor& cursor, const QColor& colour) {
+    Vec3 foot = cursor.centre;
+    foot[1] = cursor.floor;
+    if (cursor.centre[1] - cursor.extent[1] < cursor.floor + 1e-4) return;
+    QPolygonF outline;
+    constexpr int kPoints = 48;
+    for (int k = 0; k <= kPoints; ++k) {
+      const double angle = 2 * 3.14159265358979 * k / kPoints;
+      const auto p = at({foot[0] + cursor.extent[0] * std::cos(angle), foot[1], foot[2] + cursor.extent[2] * std::sin(angle)});
+      if (p) outline << *p;
+    }
+    m_painter.setBrush(Qt::NoBrush);
+    m_painter.setPen(QPen(colour, 1, Qt::DotLine));
+    const auto a = at(cursor.centre), b = at(foot);
+    if (a && b) m_painter.drawLine(*a, *b);
+    m_painter.setPen(QPen(colour, 1));
+    m_painter.drawPolyline(outline);
+  }
+  void tag(const BrushCursor& cursor, const QRectF& bounds) {
+    const QString text = QStringLiteral("r %1   height %2").arg(lengthText(cursor.extent[0]), lengthText(std::max(0.0, cursor.centre[1] - cursor.floor)));
+    const QFont font = Theme::font(TextRole::Small);
+    const QRectF rect(bounds.right() + 8, bounds.top(), textWidth(text, font) + 2 * kPadding, 20);
+    paintGround(m_painter, rect);
+    paintText(m_painter, rect, Qt::AlignCenter, text, font, Theme::current()[Token::Text]);
+  }
+
+  QPainter& m_painter;
+  const OverlayState& m_state;
+};
+
+}  // namespace
+
+void paintMessage(QPainter& painter, const QSizeF& size, const QString& title, const QString& text) {
+  const Theme& theme = Theme::current();
+  const double width = std::min(520.0, size.width() - 40);
+  QRectF box(0, 0, width, 96);
+  box.moveCenter(QPointF(size.width() / 2, size.height() / 2));
+  paintText(painter, QRectF(box.left(), box.top(), box.width(), 24), Qt::AlignCenter, title, Theme::font(TextRole::Heading),
+            theme[Token::Text]);
+  painter.setFont(Theme::font(TextRole::Normal));
+  painter.setPen(theme[Token::Text2]);
+  painter.drawText(QRectF(box.left(), box.top() + 30, box.width(), 66), Qt::AlignHCenter | Qt::AlignTop | Qt::TextWordWrap, text);
+}
+
+OverlayHits paintOverlays(QPainter& painter, const OverlayState& state) {
+  painter.setRenderHint(QPainter::Antialiasing);
+  OverlayHits hits;
+  if (state.cursor) CursorPainter(painter, state).paint(*state.cursor);
+  if (state.tag) paintTag(painter, state, *state.tag);
+  paintViewLabel(painter, state);
+  paintScaleBar(painter, state);
+  paintLegendOver(painter, state);
+  if (state.hint) hits.hintClose = paintHint(painter, state);
+  paintBall(painter, state, hits);
+  if (!state.message.isEmpty()) paintMessage(painter, state.size, {}, state.message);
+  return hits;
+}
+
+}  // namespace ps

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/viewport/stroketool.h"
+
+#include "core/plugin_host/registry.h"
+#include "ui/document/declared.h"
+#include "ui/document/document.h"
+#include "ui/document/scenelink.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+namespace ps {
+namespace {
+
+constexpr const char* kBonds = "bonds";
+
+const SceneMaterial* sceneMaterial(const Project& project, const std::string& id) {
+  for (const SceneMaterial& material : project.materials) {
+    if (material.id == id) return &material;
+  }
+  return project.materials.empty() ? nullptr : &project.materials.front();
+}
+
+/// A body that takes more of the same matter: sketched, free, of one material at one temperature.
+bool takesMore(const Body& body, const std::string& material, double temperature, const Vec3& origin) {
+  const auto* voxels = std::get_if<VoxelShape>(&body.shape);
+  return voxels && !body.locked && body.visible && voxels->palette.size() == 1 && voxels->origin == origin &&
+         voxels->palette[0].material == material && voxels->palette[0].temperature == temperature;
+}
+
+}  // namespace
+
+void StrokeTool::attach(Document* document, SceneLink* link) {
+  m_document = document;
+  m_link = link;
+  m_record.reset();
+}
+
+double StrokeTool::spacing() const {
+  return numberOf(m_document->project().solver.parameters, solverParameters(), "particle_spacing");
+}
+
+StrokeSetup StrokeTool::setup(const BrushSettings& brush) const {
+  StrokeSetup s;
+  s.grid.spacing = spacing();
+  // Cells stand on the level y = 0, half a spacing above it.
+  s.grid.origin = {s.grid.spacing / 2, s.grid.spacing / 2, s.grid.spacing / 2};
+  s.radius = brush.radius;
+  const api::BrushPlugin* plugin = m_document->plugins() ? m_document->plugins()->brush(brush.shape) : nullptr;
+  if (plugin) s.parameters = numbersOf({}, plugin->parameters());
+  return s;
+}
+
+Vec3 StrokeTool::extent(const BrushSettings& brush) const {
+  const api::BrushPlugin* plugin =
+      m_document && m_document->plugins() ? m_document->plugins()->brush(brush.shape) : nullptr;
+  if (!plugin) return {brush.radius, brush.radius, brush.radius};
+  const StrokeSetup s = setup(brush);
+  const api::StrokeContext context{s.grid.spacing, {s.grid.origin[0], s.grid.origin[1], s.grid.origin[2]}, s.radius,
+                                   {0, 1, 0}, {s.parameters.data(), s.parameters.size()}};
+  const api::Double3 e = plugin->extent(context);
+  return {e.x, e.y, e.z};
+}
+
+Body StrokeTool::paintedBody(const BrushSettings& brush, int& palette) const {
+  const Project& project = m_document->project();
+  const SceneMaterial* material = sceneMaterial(project, brush.material);
+  palette = 0;
+  for (const Body& body : project.bodies) {
+    if (takesMore(body, material->id, brush.temperature, m_setup.grid.origin)) return body;
+  }
+  Body body;
+  body.id = m_document->freeBodyId("sketch-" + material->id);
+  const std::string label = material->label.empty() ? material->id : material->label;
+  body.name = "Sketched " + label;
+  body.name[9] = static_cast<char>(std::tolower(static_cast<unsigned char>(body.name[9])));
+  body.material = material->id;
+  body.parameters.values["temperature"] = brush.temperature;
+  VoxelShape voxels;
+  voxels.origin = m_setup.grid.origin;
+  voxels.palette.push_back({material->id, brush.temperature, {}});
+  body.shape = voxels;
+  const Value melts = valueAt(project, m_document->plugins(), {"material", material->id, "melting_temperature"});
+  const auto* melting = std::get_if<double>(&melts);
+  const bool solid = melting && brush.temperature < *melting;
+  if (solid && m_document->plugins()->constraint(kBonds)) body.constraints.push_back({kBonds, {}, {}});
+  return body;
+}
+
+QString StrokeTool::begin(const BrushSettings& brush, bool erase, bool atStart, const Vec3& point) {
+  if (!m_document || !m_document->plugins()) return QStringLiteral("Plugins are still being loaded.");
+  if (!m_document->plugins()->brush(brush.shape)) {
+    return QStringLiteral("The brush “%1” is not installed. See Plugins.").arg(QString::fromStdString(brush.shape));
+  }
+  if (!erase && m_document->project().materials.empty()) {
+    return QStringLiteral("The scene has no material to draw with. Add one under Materials.");
+  }
+  m_brush = brush;
+  m_atStart = atStart;
+  m_setup = setup(brush);
+  m_resampler = std::make_unique<StrokeResampler>(m_setup.grid.spacing);
+  m_cells = {};
+  m_record = std::make_shared<StrokeRecord>();
+  m_record->erase = erase;
+  m_record->lattice.origin = m_setup.grid.origin;
+  m_stroke = {};
+  m_stroke.brush = brush.shape;
+  m_stroke.erase = erase;
+  m_stroke.radius = brush.radius;
+  if (!erase) {
+    m_body = paintedBody(brush, m_record->palette);
+    m_newBody = m_document->body(m_body.id) == nullptr;
+    m_record->body = m_body.id;
+    m_stroke.palette = m_record->palette;
+  }
+  return move(point, 0);
+}
+
+QString StrokeTool::move(const Vec3& point, double seconds) {
+  if (!m_record) return {};
+  m_stroke.samples.push_back({point[0], point[1], point[2], 1, seconds});
+  return feed(m_resampler->add({{point[0], point[1], point[2]}, 1, seconds}));
+}
+
+bool StrokeTool::isInside(const api::Cell& cell) const {
+  const Environment& environment = m_document->project().environment;
+  const std::array<double, 3> c = m_setup.grid.centreOf(cell);
+  const double radius = 0.49 * m_setup.grid.spacing;
+  for (size_t i = 0; i < 3; ++i) {
+    if (c[i] < environment.boundsMinimum[i] + radius || c[i] > environment.boundsMaximum[i] - radius) return false;
+  }
+  for (const SceneWall& wall : environment.walls) {
+    const double length = std::hypot(wall.normal[0], wall.normal[1], wall.normal[2]);
+    double d = 0;
+    for (size_t i = 0; i < 3; ++i) d += (c[i] - wall.point[i]) * wall.normal[i];
+    if (d < radius * length) return false;
+  }
+  return true;
+}
+
+QString StrokeTool::feed(const std::vector<api::StrokeSample>& samples) {
+  const api::BrushPlugin* plugin = m_document->plugins()->brush(m_brush.shape);
+  if (samples.empty() || !plugin) return {};
+  StrokeEdits edits;
+  try {
+    edits = applyBrush(*plugin, m_setup, api::EditKind::Add, samples);
+  } catch (const std::exception& error) {
+    return QString::fromUtf8(error.what());
+  }
+  std::vector<api::Cell> fresh;
+  for (const api::Cell& cell : edits.added.cells()) {
+    if (!m_cells.contains(cell) && (m_record->erase || isInside(cell))) fresh.push_back(cell);
+  }
+  if (fresh.empty()) return {};
+  m_cells.add(fresh);
+  const std::vector<std::array<int, 3>> cells = CellSet(fresh).indices();
+  if (m_record->erase) {
+    m_link->erase(*m_record, cells);
+  } else {
+    m_link->paint(*m_record, m_body, cells);
+  }
+  return {};
+}
+
+void StrokeTool::collectErasure() {
+  const Project& project = m_document->project();
+  for (size_t i = 0; i < project.bodies.size(); ++i) {
+    const Body& body = project.bodies[i];
+    if (body.locked) continue;
+    bool changed = false;
+    std::optional<Body> rest = withoutCells(body, m_record->lattice, m_record->cells, m_setup.grid.spacing, changed);
+    if (changed) m_record->edits.push_back({body.id, body, std::move(rest), i});
+  }
+}
+
+void StrokeTool::finish() {
+  if (!m_record) return;
+  feed(m_resampler->finish());
+  const std::shared_ptr<StrokeRecord> record = std::move(m_record);
+  m_record.reset();
+  if (m_cells.empty()) return;
+  record->cells = m_cells.indices();
+  if (record->erase) {
+    // Before the first step matter stands where its body put it, so that the bodies themselves can be carved.
+    m_record = record;
+    if (m_atStart) collectErasure();
+    m_record.reset();
+  } else {
+    const Body* before = m_document->body(m_body.id);
+    BodyEdit edit{m_body.id, before ? std::optional<Body>(*before) : std::nullopt,
+                  withCells(before ? *before : m_body,
+                            freeAtStart(m_document->project(), m_body.id, record->lattice, record->cells),
+                            record->palette, m_stroke),
+                  m_document->project().bodies.size()};
+    record->edits.push_back(std::move(edit));
+  }
+  m_document->addStroke(record);
+}
+
+void StrokeTool::cancel() {
+  if (!m_record) return;
+  const std::shared_ptr<StrokeRecord> record = std::move(m_record);
+  m_record.reset();
+  record->cells = m_cells.indices();
+  if (!m_cells.empty()) m_link->cancel(record);
+}
+
+}  // namespace ps

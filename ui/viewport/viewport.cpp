@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/viewport/viewport.h"
+
+#include "core/base/error.h"
+#include "core/simulation/engine.h"
+#include "ui/document/document.h"
+#include "ui/theme/numbers.h"
+#include "ui/theme/theme.h"
+#include "ui/viewport/hiddenbodies.h"
+
+#include <QtGui/QOpenGLContext>
+#include <QtGui/QPainter>
+#include <QtGui/QResizeEvent>
+
+#include <algorithm>
+#include <cmath>
+
+namespace ps {
+namespace {
+
+constexpr double kSlowSnapshots = 40;  // ms; only slower ones are interpolated, faster ones are shown as they come
+constexpr int kMajor = 4, kMinor = 3;
+
+}  // namespace
+
+Viewport::Viewport(QWidget* parent) : QOpenGLWidget(parent) {
+  setMouseTracking(true);
+  setFocusPolicy(Qt::StrongFocus);
+  setMinimumSize(480, 300);
+  setAccessibleName(QStringLiteral("Scene"));
+  setContextMenuPolicy(Qt::PreventContextMenu);
+  m_paintTimer.setSingleShot(true);
+  m_paintTimer.setTimerType(Qt::PreciseTimer);
+  connect(&m_paintTimer, &QTimer::timeout, this, qOverload<>(&QWidget::update));
+}
+
+Viewport::~Viewport() { releaseGl(); }
+
+void Viewport::releaseGl() {
+  if (!m_renderer) return;
+  makeCurrent();
+  m_renderer.reset();
+  doneCurrent();
+}
+
+void Viewport::attach(Document* document, EngineThread* engine, SceneLink* link) {
+  m_document = document;
+  m_engine = engine;
+  m_stroke.attach(document, link);
+  if (!engine) m_now = m_previous = nullptr;
+}
+
+void Viewport::initializeGL() {
+  connect(context(), &QOpenGLContext::aboutToBeDestroyed, this, &Viewport::releaseGl, Qt::UniqueConnection);
+  const QSurfaceFormat format = context()->format();
+  if (std::pair(format.majorVersion(), format.minorVersion()) < std::pair(kMajor, kMinor)) {
+    m_problem = QStringLiteral("The scene needs OpenGL 4.3; this graphics driver offers %1.%2. Everything else works. "
+                               "A newer driver, or LIBGL_ALWAYS_SOFTWARE=1 in the environment, brings the picture.")
+                    .arg(format.majorVersion())
+                    .arg(format.minorVersion());
+  } else {
+    try {
+      m_renderer = std::make_unique<Renderer>();
+      m_problem.clear();
+    } catch (const std::exception& error) {
+      m_problem = QStringLiteral("The scene cannot be drawn: %1").arg(QString::fromUtf8(error.what()));
+    }
+  }
+  if (m_problem.isEmpty()) {
+    Q_EMIT glReady(QStringLiteral("OpenGL %1.%2").arg(format.majorVersion()).arg(format.minorVersion()));
+  } else {
+    Q_EMIT glFailed(m_problem);
+  }
+}
+
+void Viewport::snapshotArrived() {
+  if (!m_engine) return;
+  m_now = withoutBodies(m_engine->snapshot(), m_hidden);
+  m_previous = withoutBodies(m_engine->previousSnapshot(), m_hidden);
+  m_interval = m_sinceSnapshot.isValid() ? std::min<double>(200, static_cast<double>(m_sinceSnapshot.elapsed())) : 0;
+  m_sinceSnapshot.start();
+  requestPaint();
+}
+
+/// Paints as often as pictures come, but leaves as long a pause after each as it took: on a machine that draws in
+/// software the solver needs the other half.
+void Viewport::requestPaint() {
+  if (m_paintTimer.isActive()) return;
+  const double since = m_sincePaint.isValid() ? static_cast<double>(m_sincePaint.elapsed()) : 1e9;
+  const double pause = m_drawCost > 8 ? m_drawCost : 0;
+  m_paintTimer.start(static_cast<int>(std::max(0.0, pause - since)));
+}
+
+double Viewport::blend() const {
+  if (!m_previous || m_interval < kSlowSnapshots || m_drawCost * 3 > m_interval) return 1;
+  return std::clamp(static_cast<double>(m_sinceSnapshot.elapsed()) / m_interval, 0.0, 1.0);
+}
+
+RenderOptions Viewport::renderOptions() {
+  RenderOptions options;
+  options.width = std::max(1, static_cast<int>(std::lround(width() * devicePixelRatioF())));
+  options.height = std::max(1, static_cast<int>(std::lround(height() * devicePixelRatioF())));
+  options.camera = m_navigator.camera();
+  options.colour = m_colour;
+  if (m_now) m_range = m_legendRange.update(m_colour, colourRange(*m_now, m_colour));
+  options.rangeMinimum = m_range.first;
+  options.rangeMaximum = m_range.second;
+  options.dark = Theme::current().dark();
+  options.meltingPoint = m_meltingPoint;
+  return options;
+}
+
+void Viewport::paintGL() {
+  QElapsedTimer clock;
+  clock.start();
+  m_navigator.setSize(size());
+  static const Snapshot kEmpty;
+  double share = 1;
+  if (m_renderer) {
+    share = blend();
+    try {
+      m_renderer->draw(m_now ? *m_now : kEmpty, share < 1 ? m_previous.get() : nullptr, share, m_scene, renderOptions());
+    } catch (const std::exception& error) {
+      m_problem = QStringLiteral("The scene cannot be drawn: %1").arg(QString::fromUtf8(error.what()));
+      m_renderer.reset();
+      Q_EMIT glFailed(m_problem);
+    }
+  }
+  {
+    QPainter painter(this);
+    if (m_renderer) {
+      m_hits = paintOverlays(painter, overlayState());
+    } else {
+      painter.fillRect(rect(), Theme::current()[Token::Panel]);
+      paintMessage(painter, size(), QStringLiteral("No picture of the scene"), m_problem);
+    }
+  }
+  m_drawCost += (static_cast<double>(clock.nsecsElapsed()) * 1e-6 - m_drawCost) * (m_drawCost > 0 ? 0.2 : 1);
+  m_sincePaint.start();
+  if (share < 1) requestPaint();
+}
+
+OverlayState Viewport::overlayState() const {
+  OverlayState state;
+  state.size = size();
+  state.camera = m_navigator.camera();
+  state.viewName = m_navigator.viewName();
+  state.colour = m_colour;
+  state.range = m_range;
+  state.meltingPoint = m_meltingPoint;
+  state.boilingPoint = m_boilingPoint;
+  state.empty = !m_now;
+  state.hint = m_hint;
+  state.tool = m_tool;
+  state.tag = tag();
+  if (m_tool != ViewTool::Select && m_drag != Drag::Orbit && m_drag != Drag::Pan) state.cursor = m_cursor;
+  return state;
+}
+
+std::optional<SceneTag> Viewport::tag() const {
+  if (!m_tagged || !m_now || m_now->revision != m_tagged->first || !m_document) return std::nullopt;
+  const auto found = std::find(m_now->id.begin(), m_now->id.end(), m_tagged->second);
+  if (found == m_now->id.end()) return std::nullopt;
+  const auto row = static_cast<size_t>(found - m_now->id.begin());
+  SceneTag tag;
+  const api::Float4& p = m_now->position[row];
+  tag.place = {p.x, p.y, p.z};
+  const uint32_t index = m_now->body[row];
+  const Body* body = m_now->bodyIds && index < m_now->bodyIds->size() ? m_document->body((*m_now->bodyIds)[index]) : nullptr;
+  if (body) tag.name = QString::fromStdString(body->name);
+  constexpr double kZero = 273.15;
+  tag.value = formatFixed(static_cast<double>(m_now->temperature[row]) - kZero, 1) + QStringLiteral(" °C  ") +
+              phaseName(m_now->phase[row]);
+  return tag;
+}
+
+void Viewport::projectOpened() {
+  if (!m_document) return;
+  m_stroke.cancel();
+  m_navigator.setScene(m_document->project().view);
+  m_legendRange.reset();
+  m_tagged.reset();
+  m_selectedBody.clear();
+  setColour(colourByName(m_document->project().view.colour));
+  bodiesChanged();
+}
+
+void Viewport::bodiesChanged() {
+  if (!m_document) return;
+  m_scene.environment = m_document->project().environment;
+  m_hidden.clear();
+  for (const Body& body : m_document->project().bodies) {
+    if (!body.visible) m_hidden.insert(body.id);
+  }
+  if (m_engine) {
+    m_now = withoutBodies(m_engine->snapshot(), m_hidden);
+    m_previous = nullptr;
+  }
+  requestPaint();
+}
+
+void Viewport::setTool(ViewTool tool) {
+  if (tool == m_tool) return;
+  m_stroke.cancel();
+  m_tool = tool;
+  if (tool == ViewTool::Select) {
+    unsetCursor();
+  } else {
+    setCursor(Qt::BlankCursor);
+    updateCursor(mapFromGlobal(QCursor::pos()), {});
+  }
+  update();
+  Q_EMIT toolChanged(tool);
+}
+
+void Viewport::setBrush(const BrushSettings& brush) {
+  if (brush == m_brush) return;
+  m_brush = brush;
+  if (m_cursor) m_cursor->extent = brushExtent();
+  update();
+  Q_EMIT brushChanged();
+}
+
+void Viewport::setColour(ColourBy colour) {
+  m_colour = colour;
+  m_legendRange.reset();
+  update();
+}
+
+void Viewport::show(StandardView view) {
+  m_navigator.setSize(size());
+  m_navigator.show(view);
+  storeView();
+  update();
+}
+
+void Viewport::storeView() {
+  if (m_document) m_document->setView(m_navigator.view());
+}
+
+std::optional<std::pair<Vec3, Vec3>> Viewport::boxOf(const std::string& body) const {
+  std::optional<std::pair<Vec3, Vec3>> box;
+  if (!m_now) return box;
+  for (size_t i = 0; i < m_now->position.size(); ++i) {
+    const uint32_t index = m_now->body[i];
+    if (!body.empty() && (!m_now->bodyIds || index >= m_now->bodyIds->size() || (*m_now->bodyIds)[index] != body)) continue;
+    const api::Float4& p = m_now->position[i];
+    const Vec3 centre{p.x, p.y, p.z};
+    if (!box) box = {centre, centre};
+    for (size_t k = 0; k < 3; ++k) {
+      box->first[k] = std::min(box->first[k], centre[k] - static_cast<double>(p.w));
+      box->second[k] = std::max(box->second[k], centre[k] + static_cast<double>(p.w));
+    }
+  }
+  return box;
+}
+
+void Viewport::frameSelection() {
+  const auto box = boxOf(m_selectedBody);
+  if (!box) return;
+  m_navigator.setSize(size());
+  m_navigator.frame(*box);
+  storeView();
+  update();
+}
+
+void Viewport::frameAll() {
+  const auto box = boxOf({});
+  m_navigator.setSize(size());
+  m_navigator.frame(box ? *box : std::pair(m_scene.environment.boundsMinimum, m_scene.environment.boundsMaximum));
+  storeView();
+  update();
+}
+
+void Viewport::setSelectedBody(const std::string& id) {
+  if (m_selectedBody != id) m_tagged.reset();
+  m_selectedBody = id;
+  update();
+}
+
+void Viewport::setHintShown(bool on) {
+  m_hint = on;
+  update();
+}
+
+void Viewport::setTransitions(double meltingPoint, double boilingPoint) {
+  m_meltingPoint = meltingPoint;
+  m_boilingPoint = boilingPoint;
+  update();
+}
+
+void Viewport::resizeEvent(QResizeEvent* event) {
+  QOpenGLWidget::resizeEvent(event);
+  m_navigator.setSize(event->size());
+}
+
+}  // namespace ps

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "ui/render/renderer.h"
+#include "ui/viewport/legendrange.h"
+#include "ui/viewport/overlays.h"
+#include "ui/viewport/stroketool.h"
+#include "ui/viewport/viewnavigator.h"
+#include "ui/viewport/viewtool.h"
+
+#include <QtCore/QElapsedTimer>
+#include <QtCore/QTimer>
+#include <QtOpenGLWidgets/QOpenGLWidget>
+
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+
+namespace ps {
+
+class Document;
+class EngineThread;
+class SceneLink;
+
+/// The scene, live. Draws the newest snapshot, repaints when there is a new one or somebody interacts, and no more often
+/// than leaves the solver time to work. Needs OpenGL 4.3; without it a sentence stands in its place.
+class Viewport : public QOpenGLWidget {
+  Q_OBJECT
+ public:
+  explicit Viewport(QWidget* parent = nullptr);
+  ~Viewport() override;
+
+  /// Any may be nullptr; they must outlive this widget or be taken away first.
+  void attach(Document* document, EngineThread* engine, SceneLink* link);
+  void snapshotArrived();
+  /// The document's view, walls or bodies changed.
+  void projectOpened();
+  void bodiesChanged();
+
+  ViewTool tool() const { return m_tool; }
+  void setTool(ViewTool tool);
+  const BrushSettings& brush() const { return m_brush; }
+  void setBrush(const BrushSettings& brush);
+  ColourBy colour() const { return m_colour; }
+  void setColour(ColourBy colour);
+  const ViewNavigator& navigator() const { return m_navigator; }
+  void show(StandardView view);
+  void frameSelection();
+  void frameAll();
+  void setSelectedBody(const std::string& id);
+  bool hintShown() const { return m_hint; }
+  void setHintShown(bool on);
+  /// Esc: gives up a drag or stroke. False when there was none.
+  bool cancelGesture();
+  /// "" or why there is no picture.
+  const QString& problem() const { return m_problem; }
+  double drawMilliseconds() const { return m_drawCost; }
+  /// Phase marks of the legend: of the first material in the scene.
+  void setTransitions(double meltingPoint, double boilingPoint);
+
+ Q_SIGNALS:
+  void bodyPicked(const std::string& id);  ///< "" for none
+  void toolChanged(ps::ViewTool tool);
+  void brushChanged();
+  void hintClosed();
+  void strokeRefused(const QString& why);
+  void viewMenuRequested(const QPoint& global);
+  void glReady(const QString& description);
+  void glFailed(const QString& problem);
+
+ protected:
+  void initializeGL() override;
+  void paintGL() override;
+  void mousePressEvent(QMouseEvent* event) override;
+  void mouseMoveEvent(QMouseEvent* event) override;
+  void mouseReleaseEvent(QMouseEvent* event) override;
+  void wheelEvent(QWheelEvent* event) override;
+  void leaveEvent(QEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
+
+ private:
+  enum class Drag { None, Orbit, Pan, Dolly, Stroke, Click };
+  Drag dragFor(const QMouseEvent& event) const;
+  void releaseGl();
+  void requestPaint();
+  double blend() const;
+  OverlayState overlayState() const;
+  RenderOptions renderOptions();
+  std::optional<SceneTag> tag() const;
+  std::optional<std::pair<Vec3, Vec3>> boxOf(const std::string& body) const;
+  void pick(const QPointF& position);
+  bool clickOverlay(const QPointF& position);
+  std::optional<Vec3> surfaceAt(const QPointF& position) const;
+  std::optional<Vec3> strokePoint(const QPointF& position);
+  Vec3 brushExtent() const;
+  void updateCursor(const QPointF& position, Qt::KeyboardModifiers modifiers);
+  void beginStroke(const QMouseEvent& event);
+  double floorHeight() const;
+  bool atStart() const;
+  void storeView();
+
+  Document* m_document = nullptr;
+  EngineThread* m_engine = nullptr;
+  std::unique_ptr<Renderer> m_renderer;
+  QString m_problem;
+  SnapshotPtr m_now, m_previous;
+  RenderScene m_scene;
+  std::set<std::string> m_hidden;
+  std::string m_selectedBody;
+  std::optional<std::pair<uint64_t, uint32_t>> m_tagged;  ///< revision and id of the particle clicked last
+
+  ViewNavigator m_navigator;
+  ColourBy m_colour = ColourBy::Material;
+  LegendRange m_legendRange;
+  std::pair<double, double> m_range{0, 1};
+  double m_meltingPoint = 273.15, m_boilingPoint = 373.15;
+  OverlayHits m_hits;
+  bool m_hint = true;
+
+  ViewTool m_tool = ViewTool::Select;
+  BrushSettings m_brush;
+  StrokeTool m_stroke;
+  StrokePlane m_strokePlane;
+  QElapsedTimer m_strokeClock;
+  std::optional<BrushCursor> m_cursor;
+
+  Drag m_drag = Drag::None;
+  QPointF m_pressed, m_last;
+  Camera m_before;
+
+  QTimer m_paintTimer;
+  QElapsedTimer m_sinceSnapshot, m_sincePaint;
+  double m_interval = 0;   ///< ms between the last two snapshots
+  double m_drawCost = 0;   ///< ms, smoothed
+};
+
+}  // namespace ps

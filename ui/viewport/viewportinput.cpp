@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: Apache-2.0
+// Mouse of the viewport: orbit, pan, zoom, dolly, select, draw.
+#include "core/simulation/engine.h"
+#include "ui/document/document.h"
+#include "ui/viewport/viewport.h"
+
+#include <QtGui/QMouseEvent>
+#include <QtGui/QWheelEvent>
+
+#include <algorithm>
+#include <cmath>
+
+namespace ps {
+namespace {
+constexpr double kClick = 4;  // pixels that a click may wander
+constexpr double kNotch = 120;
+}  // namespace
+
+Viewport::Drag Viewport::dragFor(const QMouseEvent& event) const {
+  const bool shift = event.modifiers() & Qt::ShiftModifier, alt = event.modifiers() & Qt::AltModifier;
+  const bool drawing = m_tool != ViewTool::Select;
+  if (event.button() == Qt::RightButton) return Drag::Dolly;
+  if (event.button() == Qt::MiddleButton) return drawing && !shift ? Drag::Orbit : Drag::Pan;
+  if (event.button() != Qt::LeftButton) return Drag::None;
+  if (drawing) return alt ? Drag::Orbit : Drag::Stroke;
+  return shift ? Drag::Pan : Drag::Click;
+}
+
+void Viewport::mousePressEvent(QMouseEvent* event) {
+  setFocus(Qt::MouseFocusReason);
+  if (event->button() == Qt::LeftButton && clickOverlay(event->position())) return;
+  if (m_drag != Drag::None) return;  // a second button changes nothing
+  m_drag = dragFor(*event);
+  m_pressed = m_last = event->position();
+  m_before = m_navigator.camera();
+  if (m_drag == Drag::Stroke) beginStroke(*event);
+}
+
+void Viewport::mouseMoveEvent(QMouseEvent* event) {
+  const QPointF position = event->position(), step = position - m_last;
+  m_last = position;
+  if (m_drag == Drag::Click) {
+    const QPointF way = position - m_pressed;
+    if (std::max(std::abs(way.x()), std::abs(way.y())) < kClick) return;
+    m_drag = Drag::Orbit;
+    m_navigator.orbitBy(way);
+  } else if (m_drag == Drag::Orbit) {
+    m_navigator.orbitBy(step);
+  } else if (m_drag == Drag::Pan) {
+    m_navigator.panBy(step);
+  } else if (m_drag == Drag::Dolly) {
+    m_navigator.dollyBy(step.y());
+  } else if (m_drag == Drag::Stroke) {
+    const auto point = strokePoint(position);
+    if (!point) return;
+    if (m_cursor) m_cursor->centre = *point;
+    const QString problem = m_stroke.move(*point, static_cast<double>(m_strokeClock.elapsed()) / 1000);
+    if (!problem.isEmpty()) Q_EMIT strokeRefused(problem);
+  } else if (m_tool != ViewTool::Select) {
+    updateCursor(position, event->modifiers());
+  } else {
+    return;
+  }
+  requestPaint();
+}
+
+void Viewport::mouseReleaseEvent(QMouseEvent* event) {
+  const Drag drag = m_drag;
+  if (drag == Drag::None) return;
+  m_drag = Drag::None;
+  const QPointF way = event->position() - m_pressed;
+  const bool still = std::max(std::abs(way.x()), std::abs(way.y())) < kClick;
+  if (drag == Drag::Click) {
+    pick(event->position());
+  } else if (drag == Drag::Stroke) {
+    m_stroke.finish();
+  } else if (drag == Drag::Dolly && still) {
+    Q_EMIT viewMenuRequested(event->globalPosition().toPoint());
+  } else {
+    storeView();
+  }
+  update();
+}
+
+void Viewport::wheelEvent(QWheelEvent* event) {
+  m_navigator.zoomAt(event->position(), event->angleDelta().y() / kNotch);
+  storeView();
+  if (m_tool != ViewTool::Select) updateCursor(event->position(), event->modifiers());
+  requestPaint();
+  event->accept();
+}
+
+void Viewport::leaveEvent(QEvent* event) {
+  QOpenGLWidget::leaveEvent(event);
+  if (m_drag == Drag::None) m_cursor.reset();
+  update();
+}
+
+bool Viewport::cancelGesture() {
+  const bool busy = m_drag != Drag::None || m_stroke.active();
+  if (m_drag == Drag::Orbit || m_drag == Drag::Pan || m_drag == Drag::Dolly) m_navigator.restore(m_before);
+  m_stroke.cancel();
+  m_drag = Drag::None;
+  update();
+  return busy;
+}
+
+bool Viewport::clickOverlay(const QPointF& position) {
+  if (m_hint && m_hits.hintClose.contains(position)) {
+    setHintShown(false);
+    Q_EMIT hintClosed();
+    return true;
+  }
+  for (const OverlayHits::Axis& axis : m_hits.axes) {
+    if (!axis.rect.contains(position)) continue;
+    m_navigator.look(axis.azimuth, axis.elevation);
+    storeView();
+    update();
+    return true;
+  }
+  return false;
+}
+
+void Viewport::pick(const QPointF& position) {
+  std::string id;
+  m_tagged.reset();
+  if (m_now) {
+    const auto hit = pickParticle(*m_now, m_navigator.camera(), width(), height(), position.x(), position.y());
+    if (hit) {
+      const uint32_t body = m_now->body[*hit];
+      if (m_now->bodyIds && body < m_now->bodyIds->size()) id = (*m_now->bodyIds)[body];
+      m_selectedBody = id;
+      m_tagged = {m_now->revision, m_now->id[*hit]};
+    }
+  }
+  m_selectedBody = id;
+  Q_EMIT bodyPicked(id);
+}
+
+double Viewport::floorHeight() const {
+  double height = m_scene.environment.boundsMinimum[1];
+  for (const SceneWall& wall : m_scene.environment.walls) {
+    const double length = std::hypot(wall.normal[0], wall.normal[1], wall.normal[2]);
+    if (wall.normal[1] > 0.9 * length) height = std::max(height, wall.point[1]);
+  }
+  return height;
+}
+
+bool Viewport::atStart() const { return m_now && m_now->stats.frame == 0; }
+
+std::optional<Vec3> Viewport::surfaceAt(const QPointF& position) const {
+  const Camera& camera = m_navigator.camera();
+  const Ray ray = rayThrough(camera, width(), height(), position.x(), position.y());
+  if (m_now) {
+    if (const auto hit = pickParticle(*m_now, camera, width(), height(), position.x(), position.y())) {
+      const api::Float4& p = m_now->position[*hit];
+      double along = 0;
+      const Vec3 centre{p.x, p.y, p.z};
+      for (size_t i = 0; i < 3; ++i) along += (centre[i] - ray.origin[i]) * ray.direction[i];
+      along -= static_cast<double>(p.w);
+      return Vec3{ray.origin[0] + along * ray.direction[0], ray.origin[1] + along * ray.direction[1],
+                  ray.origin[2] + along * ray.direction[2]};
+    }
+  }
+  const Environment& e = m_scene.environment;
+  auto floor = meetPlane(ray, {0, floorHeight(), 0}, {0, 1, 0});
+  if (!floor) floor = meetPlane(ray, camera.target, frameOf(camera).forward);
+  if (!floor) return std::nullopt;
+  for (const size_t axis : {size_t{0}, size_t{2}}) {
+    (*floor)[axis] = std::clamp((*floor)[axis], e.boundsMinimum[axis], e.boundsMaximum[axis]);
+  }
+  return floor;
+}
+
+Vec3 Viewport::brushExtent() const { return m_stroke.extent(m_brush); }
+
+void Viewport::updateCursor(const QPointF& position, Qt::KeyboardModifiers modifiers) {
+  const auto surface = surfaceAt(position);
+  if (!surface) {
+    m_cursor.reset();
+    return;
+  }
+  BrushCursor cursor;
+  cursor.extent = brushExtent();
+  cursor.box = m_brush.shape == "cube";
+  cursor.erase = (m_tool == ViewTool::Erase) != bool(modifiers & Qt::ControlModifier);
+  cursor.floor = floorHeight();
+  const CameraFrame frame = frameOf(m_navigator.camera());
+  m_strokePlane = strokePlaneThrough(*surface, frame.forward);
+  cursor.centre = *surface;
+  if (!cursor.erase) {
+    // A brush stands on the surface instead of half inside it.
+    for (size_t i = 0; i < 3; ++i) cursor.centre[i] += m_strokePlane.normal[i] * cursor.extent[i];
+    m_strokePlane.point = cursor.centre;
+  }
+  m_cursor = cursor;
+}
+
+void Viewport::beginStroke(const QMouseEvent& event) {
+  updateCursor(event.position(), event.modifiers());
+  if (!m_cursor) {
+    m_drag = Drag::None;
+    return;
+  }
+  m_strokeClock.start();
+  const QString problem = m_stroke.begin(m_brush, m_cursor->erase, atStart(), m_cursor->centre);
+  if (!problem.isEmpty()) {
+    m_stroke.cancel();
+    m_drag = Drag::None;
+    Q_EMIT strokeRefused(problem);
+  }
+}
+
+/// While a stroke is drawn it stays on the plane on which it began; along a ray that misses it, nothing is drawn.
+std::optional<Vec3> Viewport::strokePoint(const QPointF& position) {
+  const Ray ray = rayThrough(m_navigator.camera(), width(), height(), position.x(), position.y());
+  auto point = meetStrokePlane(m_strokePlane, ray.origin, ray.direction);
+  if (!point) return point;
+  const Environment& e = m_scene.environment;
+  for (size_t i = 0; i < 3; ++i) {
+    if ((*point)[i] < e.boundsMinimum[i] - m_brush.radius || (*point)[i] > e.boundsMaximum[i] + m_brush.radius) return std::nullopt;
+  }
+  return point;
+}
+
+}  // namespace ps

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <QtCore/QString>
+
+#include <string>
+
+namespace ps {
+
+enum class ViewTool { Select, Brush, Erase };
+
+/// How the brush draws; shared by the viewport, its bar and the brush panel.
+struct BrushSettings {
+  std::string shape = "sphere";  ///< id of the brush plugin
+  double radius = 0.05;          ///< m
+  std::string material;          ///< SceneMaterial::id; "" takes the scene's first
+  double temperature = 293.15;   ///< K
+  bool operator==(const BrushSettings&) const = default;
+};
+
+inline constexpr double kBrushMinimum = 0.005, kBrushMaximum = 0.5;  ///< m
+/// One step of [ and ]: about 12 %.
+double largerBrush(double radius);
+double smallerBrush(double radius);
+/// "50 mm": lengths as the viewport writes them.
+QString lengthText(double metres);
+
+}  // namespace ps
