@@ -5,7 +5,6 @@
 
 #include <cmath>
 #include <limits>
-#include <set>
 #include <vector>
 
 namespace ps {
@@ -41,7 +40,7 @@ class Builder final : public nlohmann::json_sax<json> {
   }
   bool parse_error(std::size_t position, const std::string& token, const nlohmann::detail::exception& problem) override {
     if (problem.id == 406) fail("the number " + token + " is too large");
-    fail(place(position) + ": " + reason(token, problem.what()));
+    fail(place(position) + ": " + reason(position, problem.what()));
   }
 
  private:
@@ -101,13 +100,13 @@ class Builder final : public nlohmann::json_sax<json> {
   }
 
   /// The parser's words without its prefix.
-  std::string reason(const std::string& token, const std::string& what) const {
+  std::string reason(size_t position, const std::string& what) const {
     if (what.find("unexpected end of input") != std::string::npos || what.find("missing closing quote") != std::string::npos) {
       return "the file ends too early; it may have been cut off";
     }
     if (what.find("ill-formed UTF-8") != std::string::npos) return "not UTF-8 text";
-    const std::string start = token.substr(0, 3);
-    if (start.starts_with("N") || start.starts_with("I") || start.starts_with("-N") || start.starts_with("-I")) {
+    const char last = position > 0 && position <= m_text.size() ? m_text[position - 1] : ' ';
+    if ((last == 'N' || last == 'I') && what.find("; expected") == std::string::npos) {
       return "NaN and Infinity are not numbers in JSON";
     }
     const size_t dash = what.find(" - ");

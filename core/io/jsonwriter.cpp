@@ -17,7 +17,11 @@ void writeFloat(std::string& out, double value) {
     return;
   }
   char buffer[40];
-  const char* end = std::to_chars(buffer, buffer + sizeof buffer, value).ptr;
+  const double size = std::fabs(value);
+  const bool plain = size >= 1e-5 && size < 1e15;  // 0.0005 rather than 5e-04
+  const char* end = (plain ? std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::fixed)
+                           : std::to_chars(buffer, buffer + sizeof buffer, value))
+                        .ptr;
   const std::string_view digits(buffer, static_cast<size_t>(end - buffer));
   out += digits;
   if (digits.find_first_of(".e") == std::string_view::npos) out += ".0";

@@ -188,7 +188,7 @@ json viewSchema() {
 
 json buildProjectSchema() {
   json schema = object({{"format", {{"const", "phasesketch"}}},
-                        {"version", integer(1, kProjectVersion, "format of this file")},
+                        {"version", integer(1, 1'000'000, "format of this file; a newer one is read when minVersion allows it")},
                         {"minVersion", integer(1, kProjectVersion, "oldest format that a reader must know; absent: version")},
                         {"generator", text("program that wrote the file")},
                         {"title", text("shown to people")},

@@ -122,7 +122,11 @@ std::vector<double> numbersOf(const ParameterSet& set, api::ParameterList list) 
 std::string numberText(double value) {
   if (std::isnan(value)) return "NaN";
   char buffer[40];
-  const auto end = std::to_chars(buffer, buffer + sizeof buffer, std::fabs(value)).ptr;
+  const double size = std::fabs(value);
+  const bool plain = size >= 1e-4 && size < 1e15;
+  const auto end = (plain ? std::to_chars(buffer, buffer + sizeof buffer, size, std::chars_format::fixed)
+                          : std::to_chars(buffer, buffer + sizeof buffer, size))
+                       .ptr;
   return (value < 0 ? "\u2212" : "") + std::string(buffer, end);
 }
 

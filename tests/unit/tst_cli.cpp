@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/io/jsontext.h"
+
+#include <QDir>
+#include <QFile>
+#include <QImage>
+#include <QProcess>
+#include <QTemporaryDir>
+#include <QTest>
+
+#include <set>
+
+// Drives the built program, as a shell would.
+class TestCli : public QObject {
+  Q_OBJECT
+
+ private Q_SLOTS:
+  void exitCodesAndOneLine_data();
+  void exitCodesAndOneLine();
+  void simulateWritesTheReportsKeys();
+  void probesHaveOneRowPerFrame();
+  void sameProjectGivesTheSameHash();
+  void pluginsAreListed();
+  void schemaIsPrinted();
+  void benchWritesItsKeys();
+  void recordingsAreDrawn();
+};
+
+namespace {
+
+struct Ran {
+  int code = -1;
+  QByteArray out, err;
+};
+
+const QString kSample = PS_SOURCE_DIR "/projects/ice-on-hot-plate.json";
+
+Ran cli(const QStringList& arguments) {
+  QProcess process;
+  process.start(PS_BINARY_DIR "/bin/phasesketch-cli", arguments);
+  Ran ran;
+  if (!process.waitForFinished(100000) || process.exitStatus() != QProcess::NormalExit) return ran;
+  ran.code = process.exitCode();
+  ran.out = process.readAllStandardOutput();
+  ran.err = process.readAllStandardError();
+  return ran;
+}
+
+/// A block of 5 x 5 x 5: enough to run every stage, small enough to be quick.
+QStringList smallScene(const QStringList& more) {
+  return QStringList{"simulate", kSample, "--set", "bodies/ice/shape/box/size=[0.1, 0.1, 0.1]", "--threads", "1"} + more;
+}
+
+nlohmann::json jsonFile(const QString& path) {
+  QFile file(path);
+  if (!file.open(QIODevice::ReadOnly)) return {};
+  return nlohmann::json::parse(file.readAll().toStdString(), nullptr, false);
+}
+
+std::set<std::string> keysOf(const nlohmann::json& object) {
+  std::set<std::string> keys;
+  for (const auto& [key, value] : object.items()) keys.insert(key);
+  return keys;
+}
+
+using Keys = std::set<std::string>;
+
+}  // namespace
+
+void TestCli::exitCodesAndOneLine_data() {
+  QTest::addColumn<QStringList>("arguments");
+  QTest::addColumn<int>("code");
+  QTest::addColumn<QString>("says");
+  const auto row = [](const char* name, const QStringList& arguments, int code, const char* says) {
+    QTest::newRow(name) << arguments << code << says;
+  };
+  row("help", {"--help"}, 0, "");
+  row("simulate help", {"simulate", "--help"}, 0, "");
+  row("no command", {}, 2, "which command?");
+  row("unknown command", {"simmulate"}, 2, "unknown command 'simmulate'");
+  row("unknown option", {"simulate", kSample, "--fast"}, 2, "unknown option --fast");
+  row("missing value", {"simulate", kSample, "--seconds"}, 2, "--seconds needs a value");
+  row("no number", {"simulate", kSample, "--seconds", "soon"}, 2, "--seconds must be a number");
+  row("negative", {"simulate", kSample, "--frames", "-3"}, 2, "--frames must be a whole number");
+  row("both lengths", {"simulate", kSample, "--frames", "1", "--seconds", "1"}, 2, "not both");
+  row("unknown isa", {"simulate", kSample, "--isa", "MMX"}, 2, "MMX");
+  row("no project", {"simulate"}, 2, "which project?");
+  row("missing file", {"simulate", "nowhere.json"}, 2, "nowhere.json: no such file");
+  row("folder", {"validate", "/"}, 2, "/: is a folder");
+  row("bad edit", {"simulate", kSample, "--set", "solver/substeps=none"}, 2, "/solver/substeps: must be");
+  row("sample is fine", {"validate", kSample}, 0, "");
+  row("one of two", {"validate", kSample, "nowhere.json"}, 2, "nowhere.json: no such file");
+  row("no way to write", {"simulate", kSample, "--frames", "0", "--report", "/nowhere/r.json"}, 1, "not saved");
+  row("render where", {"render", kSample}, 2, "--out is missing");
+  row("render size", {"render", kSample, "--out", "x", "--size", "big"}, 2, "--size must be");
+  row("unknown scene", {"bench", "no-such-scene"}, 2, "no-such-scene: neither a file");
+  row("nothing to allow", {"plugins", "--allow", "no-such-plugin"}, 2, "no plugin 'no-such-plugin'");
+}
+
+void TestCli::exitCodesAndOneLine() {
+  QFETCH(QStringList, arguments);
+  QFETCH(int, code);
+  QFETCH(QString, says);
+  const Ran ran = cli(arguments);
+  QCOMPARE(ran.code, code);
+  if (code == 0) {
+    QVERIFY2(ran.err.isEmpty(), ran.err.constData());
+    QVERIFY(!ran.out.isEmpty());
+  } else {
+    QVERIFY2(QString::fromUtf8(ran.err).contains(says), ran.err.constData());
+    QCOMPARE(ran.err.count('\n'), 1);
+  }
+}
+
+void TestCli::simulateWritesTheReportsKeys() {
+  QTemporaryDir folder;
+  const Ran ran = cli(smallScene({"--frames", "30", "--report", folder.filePath("r.json")}));
+  QVERIFY2(ran.code == 0, ran.err.constData());
+  const nlohmann::json r = jsonFile(folder.filePath("r.json"));
+  QCOMPARE(keysOf(r), (Keys{"particles", "frames", "substeps", "iterations", "dt", "simulated_s", "wall_s", "threads",
+                            "backend", "isa", "state_hash", "flags", "limits", "ms_per_frame", "density_error", "energy",
+                            "phases", "temperature"}));
+  QCOMPARE(keysOf(r["ms_per_frame"]),
+           (Keys{"total", "neighbours", "density", "structure", "contact", "viscosity", "heat", "phase"}));
+  for (const auto& stage : r["ms_per_frame"]) QCOMPARE(keysOf(stage), (Keys{"mean", "median", "p95"}));
+  QCOMPARE(keysOf(r["density_error"]), (Keys{"mean", "max"}));
+  QCOMPARE(keysOf(r["energy"]), (Keys{"start", "end", "exchanged", "drift"}));
+  QCOMPARE(keysOf(r["phases"]), (Keys{"solid", "melting", "liquid", "boiling", "gas"}));
+  QCOMPARE(keysOf(r["temperature"]), (Keys{"min", "mean", "max"}));
+  QCOMPARE(r["frames"].get<int>(), 30);
+  QCOMPARE(r["particles"].get<int>(), 125);
+  QVERIFY(r["backend"] == "cpu");
+  QVERIFY(r["flags"].is_array() && r["flags"].empty());
+  size_t count = 0;
+  for (const auto& phase : r["phases"]) count += phase["count"].get<size_t>();
+  QCOMPARE(count, size_t{125});
+  QVERIFY(std::abs(r["simulated_s"].get<double>() - 0.5) < 1e-9);  // 30 frames of 1/60 s, rounding of the sum
+}
+
+void TestCli::probesHaveOneRowPerFrame() {
+  QTemporaryDir folder;
+  const Ran ran = cli(smallScene({"--seconds", "0.2", "--probes", folder.filePath("p.csv"), "--quiet"}));
+  QVERIFY2(ran.code == 0, ran.err.constData());
+  QVERIFY(ran.out.isEmpty());
+  QFile file(folder.filePath("p.csv"));
+  QVERIFY(file.open(QIODevice::ReadOnly));
+  const QList<QByteArray> lines = file.readAll().trimmed().split('\n');
+  QCOMPARE(lines.size(), 13);  // a header and 12 frames
+  QVERIFY2(lines[0].startsWith("time_s,thermal_time_s,"), lines[0].constData());
+  QVERIFY2(lines[0].endsWith(",solid.mass[kg],melting.mass[kg],liquid.mass[kg],boiling.mass[kg],gas.mass[kg],all.temperature[K]"),
+           lines[0].constData());
+  for (const QByteArray& line : lines) QCOMPARE(line.count(','), lines[0].count(','));
+}
+
+void TestCli::sameProjectGivesTheSameHash() {
+  QTemporaryDir folder;
+  QStringList hashes;
+  for (const QString& threads : {"1", "2"}) {
+    const QString report = folder.filePath(threads + ".json");
+    const Ran ran = cli({"simulate", kSample, "--frames", "3", "--threads", threads, "--report", report, "--quiet"});
+    QVERIFY2(ran.code == 0, ran.err.constData());
+    hashes << QString::fromStdString(jsonFile(report).value("state_hash", std::string()));
+  }
+  QCOMPARE(hashes[0].size(), 16);
+  QCOMPARE(hashes[0], hashes[1]);
+}
+
+void TestCli::pluginsAreListed() {
+  const Ran ran = cli({"plugins", "--json"});
+  QCOMPARE(ran.code, 0);
+  const auto list = nlohmann::json::parse(ran.out.toStdString(), nullptr, false);
+  QVERIFY(!list.is_discarded());
+  bool water = false;
+  for (const auto& plugin : list["plugins"]) {
+    water = water || (plugin["id"] == "water" && plugin["state"] == "loaded" && plugin["kind"] == "material");
+  }
+  QVERIFY(water);
+  QVERIFY(list["properties"].size() > 20);
+  QVERIFY(QString(cli({"plugins"}).out).contains("water"));
+}
+
+void TestCli::schemaIsPrinted() {
+  const Ran ran = cli({"schema"});
+  QCOMPARE(ran.code, 0);
+  QCOMPARE(nlohmann::json::parse(ran.out.toStdString(), nullptr, false).value("title", ""), std::string("PhaseSketch project"));
+}
+
+void TestCli::benchWritesItsKeys() {
+  QTemporaryDir folder;
+  const Ran ran = cli({"bench", "tank", "--particles", "500", "--frames", "5", "--threads", "1", "--json", folder.filePath("b.json")});
+  QVERIFY2(ran.code == 0, ran.err.constData());
+  const nlohmann::json b = jsonFile(folder.filePath("b.json"));
+  QCOMPARE(keysOf(b), (Keys{"machine", "calibration", "scenes"}));
+  QCOMPARE(keysOf(b["calibration"]), (Keys{"triad_GB_per_s", "density_ns_per_pair"}));
+  QVERIFY(b["calibration"]["triad_GB_per_s"].get<double>() > 0);
+  QCOMPARE(b["scenes"].size(), size_t{1});
+  QCOMPARE(keysOf(b["scenes"][0]),
+           (Keys{"name", "particles", "threads", "iterations", "ms", "stages", "ns_per_particle_iteration", "ns_per_pair",
+                 "bytes_per_particle", "density_error"}));
+  QCOMPARE(keysOf(b["scenes"][0]["ms"]), (Keys{"median", "p95"}));
+}
+
+void TestCli::recordingsAreDrawn() {
+  QTemporaryDir folder;
+  const QString recording = folder.filePath("run.psrec"), out = folder.filePath("pictures");
+  Ran ran = cli(smallScene({"--frames", "4", "--record", recording, "--quiet"}));
+  QVERIFY2(ran.code == 0, ran.err.constData());
+  ran = cli({"render", recording, "--out", out, "--size", "160x120", "--every", "2"});
+  QVERIFY2(ran.code == 0, ran.err.constData());
+  const QStringList pictures = QDir(out).entryList(QDir::Files, QDir::Name);
+  QCOMPARE(pictures, (QStringList{"frame-000000.png", "frame-000002.png", "frame-000004.png"}));
+  const QImage picture(QDir(out).filePath(pictures[2]));
+  QCOMPARE(picture.size(), QSize(160, 120));
+  std::set<QRgb> colours;
+  for (int y = 0; y < picture.height(); ++y) {
+    for (int x = 0; x < picture.width(); ++x) colours.insert(picture.pixel(x, y));
+  }
+  QVERIFY(colours.size() > 100);  // an empty or broken picture has a few
+}
+
+QTEST_APPLESS_MAIN(TestCli)
+#include "tst_cli.moc"

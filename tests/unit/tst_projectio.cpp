@@ -1,0 +1,388 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/base/error.h"
+#include "core/io/jsontext.h"
+#include "core/io/projectio.h"
+#include "core/io/schema.h"
+#include "core/io/textfile.h"
+#include "core/matter/material.h"
+#include "core/plugin_host/registry.h"
+
+#include <QDir>
+#include <QFile>
+#include <QTemporaryDir>
+#include <QTest>
+
+#include <csignal>
+#include <sys/resource.h>
+#include <sys/stat.h>
+
+using namespace ps;
+using nlohmann::json;
+
+class TestProjectIo : public QObject {
+  Q_OBJECT
+
+ private Q_SLOTS:
+  void initTestCase();
+  void savingTwiceGivesTheSameBytes_data();
+  void savingTwiceGivesTheSameBytes();
+  void everythingSurvives();
+  void unknownKeysSurvive_data();
+  void unknownKeysSurvive();
+  void wrongValuesNameThePlace_data();
+  void wrongValuesNameThePlace();
+  void hostileTextIsRefused_data();
+  void hostileTextIsRefused();
+  void hostileFilesAreRefused();
+  void missingPluginsAreWarningsUnlessRequired();
+  void newerFilesOpenOnlyWhenTheySaySo();
+  void editsFindTheirPlace_data();
+  void editsFindTheirPlace();
+  void publishedSchemaIsCurrent();
+  void schemaNamesEveryDeclaredKey();
+  void plainKeysAreNoParameters();
+  void savingKeepsPermissionsAndLinks();
+  void failedSaveKeepsTheOldFile();
+  void numbersAreShortest();
+
+ private:
+  LoadedProject parse(const std::string& text, const std::vector<std::string>& edits = {}) const {
+    return parseProject(text, "scene.json", *m_plugins, edits);
+  }
+  QString problemOf(const std::string& text, const std::vector<std::string>& edits = {}) const;
+
+  std::unique_ptr<PluginRegistry> m_plugins;
+  std::string m_sample;
+};
+
+namespace {
+
+/// Every kind of key once; values that are hard to write.
+constexpr const char* kFull = R"({
+  "format": "phasesketch", "version": 1, "title": "Tüte \"ü\"", "pluginsUsed": ["org.example.gone"],
+  "materials": [
+    {"id": "water", "base": "water", "properties": {"conductivity_solid": {"curve": [[200, 3.1], [273.15, 2.2]]},
+      "viscosity": {"law": "arrhenius", "coefficients": [0.001, 16000.5, 293.15]}, "density_solid": 916.7}},
+    {"id": "slime", "base": "org.example.gone", "parameters": {"stickiness": [1, 2, {"deep": null}]}}],
+  "bodies": [
+    {"id": "a", "material": "water", "temperature": 263.15000000000003, "fixed": true, "velocity": [0, -1e-7, 0],
+     "shape": {"box": {"center": [0, 0.1, 0], "size": [0.1, 0.1, 0.1]}}, "visible": false, "locked": true},
+    {"id": "b", "material": "slime", "constraints": [{"plugin": "org.example.gone", "parameters": {"k": 3}}],
+     "shape": {"voxels": {"origin": [0, 0, 0.3333333333333333], "palette": [{"material": "slime", "temperature": 300}],
+       "runs": [[0, 0, 0, 4, 0], [-2, 1, 0, 1, 0]],
+       "strokes": [{"brush": "sphere", "radius": 0.02, "palette": 0, "erase": true,
+                    "samples": [[0, 0, 0, 1, 0], [0.1, 0, 0, 0.5, 0.25]]}]}}}],
+  "environment": {"gravity": [0, -1.62, 0], "bounds": {"minimum": [-1, -1, -1], "maximum": [1, 1, 1]},
+    "walls": [{"id": "floor", "point": [0, 0, 0], "normal": [0, 2, 0], "heat": "fixed_temperature", "temperature": 400}]},
+  "solver": {"substeps": 8, "kernel": "wendland_c2", "moment_correction": false,
+             "thermal": {"model": "org.example.gone", "parameters": {"x": 1.5}}},
+  "probes": [{"id": "p", "name": "Kern, innen", "quantity": "temperature", "body": "a", "phase": "solid"}],
+  "duration": 12.5, "view": {"colour": "phase", "pinned": ["wall/floor/temperature"]}
+})";
+
+std::string textOf(const QString& s) { return s.toStdString(); }
+
+}  // namespace
+
+void TestProjectIo::initTestCase() {
+  PluginRegistry::Options options;
+  options.userDirectory = options.environment = false;
+  m_plugins = std::make_unique<PluginRegistry>(options);
+  m_sample = readFile(PS_SOURCE_DIR "/projects/ice-on-hot-plate.json", kMaximumProjectBytes);
+  QVERIFY(m_plugins->has("water"));
+}
+
+QString TestProjectIo::problemOf(const std::string& text, const std::vector<std::string>& edits) const {
+  try {
+    parse(text, edits);
+  } catch (const InputError& error) {
+    return QString::fromStdString(error.what());
+  }
+  return QString();
+}
+
+void TestProjectIo::savingTwiceGivesTheSameBytes_data() {
+  QTest::addColumn<QString>("text");
+  QTest::newRow("sample") << QString::fromStdString(m_sample);
+  QTest::newRow("everything") << QString::fromUtf8(kFull);
+  QTest::newRow("least") << R"({"format": "phasesketch", "version": 1, "materials": [], "bodies": []})";
+}
+
+void TestProjectIo::savingTwiceGivesTheSameBytes() {
+  QFETCH(QString, text);
+  const std::string once = writeProject(parse(textOf(text)).project);
+  const std::string twice = writeProject(parse(once).project);
+  QCOMPARE(QString::fromStdString(twice), QString::fromStdString(once));
+}
+
+void TestProjectIo::everythingSurvives() {
+  // Every member of the original is in the saved file with the same value (whole numbers may lose their ".0").
+  const json original = json::parse(kFull), saved = json::parse(writeProject(parse(kFull).project));
+  for (const json& change : json::diff(original, saved)) {
+    QVERIFY2(change["op"] == "add" || change["path"] == "/generator" || change["path"] == "/pluginsUsed", change.dump().c_str());
+  }
+  const Project project = parse(kFull).project;
+  QCOMPARE(project.bodies.size(), size_t{2});
+  QCOMPARE(std::get<VoxelShape>(project.bodies[1].shape).runs[1].x, -2);
+  QCOMPARE(std::get<double>(project.bodies[0].parameters.values.at("temperature")), 263.15000000000003);
+  QCOMPARE(std::get<Response>(project.materials[0].properties.values.at("viscosity")).law, std::string("arrhenius"));
+}
+
+void TestProjectIo::unknownKeysSurvive_data() {
+  QTest::addColumn<QString>("pointer");
+  for (const char* pointer :
+       {"", "/materials/0", "/materials/0/properties", "/materials/0/properties/conductivity_solid", "/materials/1/parameters",
+        "/bodies/0", "/bodies/0/shape", "/bodies/0/shape/box", "/bodies/1/shape/voxels", "/bodies/1/shape/voxels/palette/0",
+        "/bodies/1/shape/voxels/strokes/0", "/bodies/1/constraints/0", "/bodies/1/constraints/0/parameters", "/environment",
+        "/environment/bounds", "/environment/walls/0", "/solver", "/solver/thermal", "/solver/thermal/parameters", "/probes/0",
+        "/view"}) {
+    QTest::newRow(*pointer ? pointer : "/") << pointer;
+  }
+}
+
+void TestProjectIo::unknownKeysSurvive() {
+  QFETCH(QString, pointer);
+  const json::json_pointer place(textOf(pointer) + "/from~1the~0future");
+  json document = json::parse(kFull);
+  const json value = {{"a", 1.0}, {"b", {1, "two", nullptr, {{"c", 1e300}}}}};
+  document[place] = value;
+  const LoadedProject loaded = parse(document.dump());
+  const std::string once = writeProject(loaded.project);
+  QVERIFY(json::parse(once).contains(place));
+  QCOMPARE(json::parse(once)[place].dump(), value.dump());
+  QCOMPARE(writeProject(parse(once).project), once);
+}
+
+void TestProjectIo::wrongValuesNameThePlace_data() {
+  QTest::addColumn<QString>("edit");
+  QTest::addColumn<QString>("problem");
+  const auto row = [](const char* name, const char* edit, const char* problem) { QTest::newRow(name) << edit << problem; };
+  row("text for a number", "bodies/0/temperature=\"warm\"", "/bodies/0/temperature: must be a number, not the text 'warm'");
+  row("number for a name", "bodies/0/material=3", "/bodies/0/material: must be a name, not the number 3");
+  row("number for a choice", "environment/walls/0/heat=1", "/environment/walls/0/heat: must be a name, not the number 1");
+  row("unknown choice", "environment/walls/0/heat=warm",
+      "/environment/walls/0/heat: must be one of adiabatic, fixed_temperature, not the text 'warm'");
+  row("list for an object", "solver=[]", "/solver: must be an object in { }, not a list");
+  row("object for a list", "bodies={}", "/bodies: must be a list, not an object");
+  row("null", "duration=null", "/duration: must be a number, not null");
+  row("negative density", "materials/0/properties/density_liquid=-5", "/materials/0/properties/density_liquid: must be at least ");
+  row("negative density in a curve", "materials/0/properties/density_liquid={\"curve\": [[300, -5]]}",
+      "/materials/0/properties/density_liquid/curve/0/1: must be at least ");
+  row("curve without points", "materials/0/properties/density_liquid={\"curve\": []}",
+      "/materials/0/properties/density_liquid/curve: must have at least 1 elements, not 0");
+  row("curve that turns back", "materials/0/properties/density_liquid={\"curve\": [[300, 999], [280, 1000]]}",
+      "/materials/0/properties/density_liquid: ");
+  row("curve and law", "materials/0/properties/density_liquid={\"curve\": [[300, 1]], \"law\": \"linear\", \"coefficients\": []}",
+      "/materials/0/properties/density_liquid: must be either");
+  row("coefficients missing", "materials/0/properties/viscosity={\"law\": \"linear\", \"coefficients\": [1]}",
+      "/materials/0/properties/viscosity: ");
+  row("huge temperature", "bodies/0/temperature=1e308", "/bodies/0/temperature: must be at most 10000 K, not 1e+308");
+  row("half a substep", "solver/substeps=2.5", "/solver/substeps: must be a whole number, not the number 2.5");
+  row("no such material", "bodies/0/material=lead", "/bodies/0/material: the scene has no material 'lead'");
+  row("no such body", "probes/0/body=nobody", "/probes/0/body: there is no body 'nobody'");
+  row("id taken", "environment/walls/1/id=floor", "/environment/walls/1/id: 'floor' is taken already");
+  row("id with a slash", "bodies/0/id=a/b", "/bodies/0/id: must be a name of letters");
+  row("two coordinates", "bodies/0/shape/box/center=[0, 1]", "/bodies/0/shape/box/center: must have 3 elements, not 2");
+  row("unknown shape", "bodies/0/shape={\"mesh\": {}}", "/bodies/0/shape: must be an object with \"box\" or an object with");
+  row("endless particles", "solver/particle_spacing=0.0005", "/bodies/0/shape/box/size: takes ");
+  row("wall without direction", "environment/walls/0/normal=[0, 0, 0]", "/environment/walls/0/normal: must have a direction");
+  row("inside out", "environment/bounds/maximum=[-9, 1, 1]", "/environment/bounds/maximum/0: must be above the minimum");
+  row("solidus above liquidus", "materials/0/properties={\"solidus\": 300, \"liquidus\": 280}", "/materials/0/properties");
+  row("missing required plugin", "pluginsRequired=[\"org.example.gone\"]",
+      "/pluginsRequired/0: the plugin 'org.example.gone' is not installed");
+  row("too new", "version=99999", "/version: needs project format 99999, this program reads up to 1");
+  row("version in words", "version=\"one\"", "/version: must be a whole number, not the text 'one'");
+  row("other format", "format=blender", "/format: must be \"phasesketch\"");
+}
+
+void TestProjectIo::wrongValuesNameThePlace() {
+  QFETCH(QString, edit);
+  QFETCH(QString, problem);
+  const QString message = problemOf(m_sample, {textOf(edit)});
+  QVERIFY2(message.startsWith("scene.json:" + problem), qPrintable(message));
+  QVERIFY(!message.contains('\n'));
+}
+
+void TestProjectIo::hostileTextIsRefused_data() {
+  QTest::addColumn<QByteArray>("text");
+  QTest::addColumn<QString>("problem");
+  const auto row = [](const char* name, const QByteArray& text, const char* problem) { QTest::newRow(name) << text << problem; };
+  row("empty", "", ":/: the file is empty");
+  row("blank", " \n\t", ":/: the file is empty");
+  row("truncated", QByteArray::fromStdString(m_sample).left(1000), "the file ends too early");
+  row("cut in a word", "{\"format\": \"phas", "the file ends too early");
+  row("no project", "[]", ":/: must be an object");
+  row("bare", "{\"format\": \"phasesketch\"}", ":/version: is missing");
+  row("nested", QByteArray(200000, '['), "brackets are nested deeper than 64 levels");
+  row("nested objects", QByteArray("{\"a\":").repeated(200000), "brackets are nested deeper than 64 levels");
+  row("twice", "{\"a\": {\"b\": 1, \"b\": 2}}", ":/a/b: the key 'b' stands here twice");
+  row("NaN", "{\"a\": [1, NaN]}", ":/a/1: line 1, column 11: NaN and Infinity are not numbers");
+  row("minus infinity", "{\"a\": -Infinity}", ":/a: line 1, column");
+  row("overflow", "{\"a\": 1e999}", ":/a: the number 1e999 is too large");
+  row("UTF-16", QByteArray("\xff\xfe{\0", 4), ":/: is UTF-16 text; save it as UTF-8");
+  row("binary", QByteArray("\x7f" "ELF\0\0\1", 7), ":/: is not text");
+  row("no UTF-8", "{\"a\": \"\xff\xff\"}", "not UTF-8 text");
+  row("comma", "{\"a\": 1,\n \"b\": 2,}", ":/b: line 2, column 9: not valid JSON");
+  row("two documents", "{} {}", "not valid JSON");
+}
+
+void TestProjectIo::hostileTextIsRefused() {
+  QFETCH(QByteArray, text);
+  QFETCH(QString, problem);
+  const QString message = problemOf(text.toStdString());
+  QVERIFY2(message.startsWith("scene.json:") && message.contains(problem), qPrintable(message));
+  QVERIFY(!message.contains('\n') && message.size() < 400);
+}
+
+void TestProjectIo::hostileFilesAreRefused() {
+  QTemporaryDir folder;
+  const auto problem = [&](const QString& path) {
+    try {
+      loadProject(textOf(path), *m_plugins);
+    } catch (const InputError& error) {
+      return QString::fromStdString(error.what());
+    }
+    return QString();
+  };
+  QCOMPARE(problem(folder.path()), folder.path() + ": is a folder, not a file");
+  QCOMPARE(problem(folder.filePath("none.json")), folder.filePath("none.json") + ": no such file");
+  QVERIFY(problem("/dev/zero").contains("is not a regular file"));
+  const QString pipe = folder.filePath("pipe");
+  QCOMPARE(::mkfifo(qPrintable(pipe), 0600), 0);
+  QVERIFY(problem(pipe).contains("is not a regular file"));
+  QFile large(folder.filePath("large.json"));
+  QVERIFY(large.open(QIODevice::WriteOnly) && large.resize(qint64(kMaximumProjectBytes) + 1));  // sparse: takes no room
+  QVERIFY(problem(large.fileName()).contains("is larger than 64 MiB"));
+}
+
+void TestProjectIo::missingPluginsAreWarningsUnlessRequired() {
+  const LoadedProject loaded = parse(kFull);
+  QCOMPARE(loaded.warnings.size(), size_t{1});
+  QCOMPARE(QString::fromStdString(loaded.warnings[0].text),
+           "scene.json:/materials/1/base: the plugin 'org.example.gone' is not installed; bodies made of it stand still");
+  QVERIFY(!loaded.warnings[0].error);
+  QVERIFY(problemOf(kFull, {"pluginsRequired=[\"org.example.gone\"]"}).contains("/pluginsRequired/0"));
+}
+
+void TestProjectIo::newerFilesOpenOnlyWhenTheySaySo() {
+  QVERIFY(problemOf(m_sample, {"version=2"}).contains("/version: needs project format 2"));
+  QVERIFY(problemOf(m_sample, {"version=3", "minVersion=2"}).contains("/minVersion: needs project format 2"));
+  const LoadedProject loaded = parse(m_sample, {"version=2", "minVersion=1"});
+  QCOMPARE(loaded.project.version, 2);
+  QCOMPARE(json::parse(writeProject(loaded.project))["minVersion"].get<int>(), 1);
+}
+
+void TestProjectIo::editsFindTheirPlace_data() {
+  QTest::addColumn<QString>("edit");
+  QTest::addColumn<QString>("problem");
+  QTest::newRow("number") << "solver/thermal_time_scale=17" << "";
+  QTest::newRow("slash in front") << "/solver/thermal_time_scale=17" << "";
+  QTest::newRow("wall by id") << "environment/walls/lid/temperature=280" << "";
+  QTest::newRow("new object") << "materials/water/parameters/unheard=1" << "";
+  QTest::newRow("no equals") << "solver/substeps" << "--set solver/substeps: must be json/pointer=value";
+  QTest::newRow("no such wall") << "environment/walls/attic/temperature=1" << "the project has no 'attic' there";
+  QTest::newRow("into a number") << "duration/x=1" << "the project has no 'x' there";
+  QTest::newRow("broken JSON") << "solver={\"a\"" << "--set solver:/";
+}
+
+void TestProjectIo::editsFindTheirPlace() {
+  QFETCH(QString, edit);
+  QFETCH(QString, problem);
+  const QString message = problemOf(m_sample, {textOf(edit)});
+  QVERIFY2(problem.isEmpty() ? message.isEmpty() : message.contains(problem), qPrintable(message));
+  if (edit.contains("thermal_time_scale")) {
+    const Project project = parse(m_sample, {textOf(edit)}).project;
+    QCOMPARE(numberOf(project.solver.parameters, solverParameters(), "thermal_time_scale"), 17.0);
+  }
+}
+
+void TestProjectIo::publishedSchemaIsCurrent() {
+  const std::string published = readFile(PS_SOURCE_DIR "/resources/schema/project.schema.json", kMaximumProjectBytes);
+  QVERIFY2(published == writeJson(projectSchema()),
+           "run: phasesketch-cli schema > resources/schema/project.schema.json");
+}
+
+void TestProjectIo::schemaNamesEveryDeclaredKey() {
+  const json& schema = projectSchema();
+  const auto expect = [](const json& properties, api::ParameterList list, size_t others) {
+    size_t found = 0;
+    for (size_t i = 0; i < list.count; ++i) found += properties.contains(list[i].key);
+    QCOMPARE(found, list.count);
+    QCOMPARE(properties.size(), list.count + others);
+  };
+  const json& properties = schema.at("properties");
+  expect(properties["environment"]["properties"], environmentParameters(), 3);
+  expect(properties["environment"]["properties"]["walls"]["items"]["properties"], wallParameters(), 4);
+  expect(properties["solver"]["properties"], solverParameters(), 1);
+  expect(schema["$defs"]["body"]["properties"], bodyParameters(), 8);
+  expect(schema["$defs"]["material"]["properties"]["properties"]["properties"], propertyCatalogue(), 0);
+}
+
+void TestProjectIo::plainKeysAreNoParameters() {
+  // Declared parameters stand beside an owner's plain keys, so they must not share a name.
+  for (const char* key : {"gravity", "bounds", "walls"}) QVERIFY(!findDeclaration(environmentParameters(), key));
+  for (const char* key : {"id", "name", "point", "normal"}) QVERIFY(!findDeclaration(wallParameters(), key));
+  QVERIFY(!findDeclaration(solverParameters(), "thermal"));
+  for (const char* key : {"id", "name", "material", "shape", "velocity", "constraints", "visible", "locked"}) {
+    QVERIFY(!findDeclaration(bodyParameters(), key));
+  }
+}
+
+void TestProjectIo::savingKeepsPermissionsAndLinks() {
+  QTemporaryDir folder;
+  const QString file = folder.filePath("real.json"), link = folder.filePath("link.json");
+  const Project project = parse(m_sample).project;
+  saveProject(project, textOf(file));
+  QVERIFY(QFile::setPermissions(file, QFileDevice::ReadOwner | QFileDevice::WriteOwner | QFileDevice::ReadGroup));
+  QVERIFY(QFile::link("real.json", link));
+  struct stat before {}, after {};
+  QCOMPARE(::stat(qPrintable(file), &before), 0);
+  saveProject(project, textOf(link));
+  QCOMPARE(::stat(qPrintable(file), &after), 0);
+  QCOMPARE(after.st_mode, before.st_mode);
+  QVERIFY(before.st_ino != after.st_ino);  // replaced as a whole, not written over
+  QCOMPARE(::lstat(qPrintable(link), &after), 0);
+  QVERIFY(S_ISLNK(after.st_mode));
+  QCOMPARE(QDir(folder.path()).entryList(QDir::Files).size(), 2);  // no temporary file is left
+  QCOMPARE(readFile(textOf(file), kMaximumProjectBytes), writeProject(project));
+}
+
+void TestProjectIo::failedSaveKeepsTheOldFile() {
+  QTemporaryDir folder;
+  const QString file = folder.filePath("scene.json");
+  Project project = parse(m_sample).project;
+  saveProject(project, textOf(file));
+  const std::string before = readFile(textOf(file), kMaximumProjectBytes);
+  QVERIFY_THROWS_EXCEPTION(Error, saveProject(project, textOf(folder.filePath("none/scene.json"))));
+  QVERIFY_THROWS_EXCEPTION(Error, saveProject(project, textOf(folder.path())));
+  project.bodies[0].velocity[1] = std::numeric_limits<double>::quiet_NaN();
+  QVERIFY_THROWS_EXCEPTION(Error, saveProject(project, textOf(file)));
+  project.bodies[0].velocity[1] = 0;
+  // A limit on file sizes stands for a full disk: writing stops in the middle.
+  std::signal(SIGXFSZ, SIG_IGN);
+  rlimit old{};
+  QCOMPARE(::getrlimit(RLIMIT_FSIZE, &old), 0);
+  const rlimit tight{100, old.rlim_max};
+  QCOMPARE(::setrlimit(RLIMIT_FSIZE, &tight), 0);
+  bool threw = false;
+  try {
+    saveProject(project, textOf(file));
+  } catch (const Error&) {
+    threw = true;
+  }
+  ::setrlimit(RLIMIT_FSIZE, &old);
+  QVERIFY(threw);
+  QCOMPARE(readFile(textOf(file), kMaximumProjectBytes), before);
+  QCOMPARE(QDir(folder.path()).entryList(QDir::Files).size(), 1);
+}
+
+void TestProjectIo::numbersAreShortest() {
+  Project project = parse(m_sample).project;
+  project.bodies[0].velocity = {0.1, -1e-7, 1.0 / 3};
+  const std::string text = writeProject(project);
+  QVERIFY(text.find("\"velocity\": [0.1, -1e-07, 0.3333333333333333]") != std::string::npos);
+  QCOMPARE(parse(text).project.bodies[0].velocity[2], 1.0 / 3);
+}
+
+QTEST_APPLESS_MAIN(TestProjectIo)
+#include "tst_projectio.moc"

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/base/error.h"
+#include "core/io/recording.h"
+#include "tests/shared/scenes.h"
+
+#include <QFile>
+#include <QTemporaryDir>
+#include <QTest>
+
+#include <cstring>
+
+using namespace ps;
+
+class TestRecording : public QObject {
+  Q_OBJECT
+
+ private Q_SLOTS:
+  void framesReadBack();
+  void cutOffRecordingsKeepTheirFrames();
+  void damagedFramesAreRefused();
+  void brokenHeadersAreRefused_data();
+  void brokenHeadersAreRefused();
+};
+
+namespace {
+
+constexpr size_t kParticles = 37, kFrames = 3;
+
+Snapshot snapshotOf(size_t frame) {
+  Snapshot s;
+  s.stats.frame = frame;
+  s.stats.time = 0.1 * static_cast<double>(frame);
+  s.stats.thermalTime = 600 * s.stats.time;
+  s.revision = 7;
+  s.materialColour = {{0.1f, 0.2f, 0.3f}, {1, 0, 1}};
+  for (size_t i = 0; i < kParticles; ++i) {
+    const float x = static_cast<float>(i) + 0.01f * static_cast<float>(frame);
+    s.position.push_back({x, -x, 1 / (x + 1), 0.01f});
+    s.temperature.push_back(263.15f + x);
+    s.speed.push_back(x * x);
+    s.densityError.push_back(0.001f * x);
+    s.gasFraction.push_back(x / kParticles);
+    s.phase.push_back(static_cast<api::Phase>(i % 5));
+    s.motion.push_back(static_cast<api::Motion>(i % 4));
+    s.id.push_back(static_cast<uint32_t>(i * 3));
+    s.body.push_back(static_cast<uint32_t>(i % 2));
+    s.material.push_back(static_cast<uint32_t>(i % 2));
+  }
+  return s;
+}
+
+template <class T>
+bool sameBytes(const std::vector<T>& a, const std::vector<T>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
+}
+
+QByteArray recorded(const QString& path) {
+  RecordingWriter writer(path.toStdString(), scenes::iceOnPlate(2, 400));
+  for (size_t frame = 0; frame < kFrames; ++frame) writer.add(snapshotOf(frame));
+  writer.finish();
+  QFile file(path);
+  return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();
+}
+
+void write(const QString& path, const QByteArray& bytes) {
+  QFile file(path);
+  QVERIFY(file.open(QIODevice::WriteOnly) && file.write(bytes) == bytes.size());
+}
+
+}  // namespace
+
+void TestRecording::framesReadBack() {
+  QTemporaryDir folder;
+  const QString path = folder.filePath("run.psrec");
+  QVERIFY(!recorded(path).isEmpty());
+  QVERIFY(!QFile::exists(path + ".part"));
+  QVERIFY(isRecording(path.toStdString()) && !isRecording(folder.path().toStdString()));
+  RecordingReader reader(path.toStdString());
+  QCOMPARE(reader.frameCount(), kFrames);
+  QVERIFY(reader.damage().empty());
+  QVERIFY(reader.projectText().find("Ice on a plate") != std::string::npos);
+  for (size_t frame : {size_t{2}, size_t{0}, size_t{1}}) {
+    const SnapshotPtr got = reader.frame(frame);
+    const Snapshot expected = snapshotOf(frame);
+    QCOMPARE(got->stats.frame, expected.stats.frame);
+    QCOMPARE(got->stats.time, expected.stats.time);
+    QCOMPARE(got->revision, expected.revision);
+    QVERIFY(sameBytes(got->position, expected.position) && sameBytes(got->temperature, expected.temperature));
+    QVERIFY(sameBytes(got->speed, expected.speed) && sameBytes(got->densityError, expected.densityError));
+    QVERIFY(sameBytes(got->gasFraction, expected.gasFraction) && sameBytes(got->phase, expected.phase));
+    QVERIFY(sameBytes(got->motion, expected.motion) && sameBytes(got->id, expected.id));
+    QVERIFY(sameBytes(got->body, expected.body) && sameBytes(got->material, expected.material));
+    QVERIFY(sameBytes(got->materialColour, expected.materialColour));
+  }
+}
+
+void TestRecording::cutOffRecordingsKeepTheirFrames() {
+  QTemporaryDir folder;
+  const QString path = folder.filePath("run.psrec"), cut = folder.filePath("cut.psrec");
+  const QByteArray bytes = recorded(path);
+  for (const qsizetype lost : {1, 20, 200}) {
+    write(cut, bytes.left(bytes.size() - lost));
+    RecordingReader reader(cut.toStdString());
+    QCOMPARE(reader.frameCount(), kFrames - 1);
+    QVERIFY(reader.damage().find("is cut off after frame 2") != std::string::npos);
+    QCOMPARE(reader.frame(1)->position.size(), kParticles);
+  }
+}
+
+void TestRecording::damagedFramesAreRefused() {
+  QTemporaryDir folder;
+  const QString path = folder.filePath("run.psrec"), bad = folder.filePath("bad.psrec");
+  QByteArray bytes = recorded(path);
+  bytes[bytes.size() - 5] = static_cast<char>(bytes[bytes.size() - 5] ^ 0x10);
+  write(bad, bytes);
+  RecordingReader reader(bad.toStdString());
+  QCOMPARE(reader.frameCount(), kFrames);
+  QVERIFY(reader.frame(0));
+  try {
+    reader.frame(2);
+    QFAIL("a damaged frame was read");
+  } catch (const InputError& error) {
+    QVERIFY2(QString(error.what()).contains("frame 2: the bytes are not what was written"), error.what());
+  }
+}
+
+void TestRecording::brokenHeadersAreRefused_data() {
+  QTest::addColumn<QByteArray>("bytes");
+  QTest::addColumn<QString>("problem");
+  const auto file = [](const char* header, uint32_t length) {
+    QByteArray bytes("PSRECORD");
+    bytes.append(reinterpret_cast<const char*>(&length), sizeof length);
+    return bytes + header;
+  };
+  const auto whole = [&](const char* header) { return file(header, static_cast<uint32_t>(std::strlen(header))); };
+  QTest::newRow("empty") << QByteArray() << "is no recording";
+  QTest::newRow("text") << QByteArray("{\"format\": \"phasesketch\"}") << "is no recording";
+  QTest::newRow("mark alone") << QByteArray("PSRECORD") << "is no recording";
+  QTest::newRow("endless header") << file("{}", 0xffffffffu) << "is cut off in its header";
+  QTest::newRow("no JSON") << whole("{\"form") << "the file ends too early";
+  QTest::newRow("list") << whole("[1]") << "its header is broken";
+  QTest::newRow("no project") << whole("{\"format\": \"phasesketch-recording\", \"version\": 1}") << "its header is broken";
+  QTest::newRow("newer") << whole("{\"format\": \"phasesketch-recording\", \"version\": 9, \"project\": {}}") << "newer version";
+}
+
+void TestRecording::brokenHeadersAreRefused() {
+  QFETCH(QByteArray, bytes);
+  QFETCH(QString, problem);
+  QTemporaryDir folder;
+  const QString path = folder.filePath("bad.psrec");
+  write(path, bytes);
+  try {
+    RecordingReader reader(path.toStdString());
+    QFAIL("a broken recording was opened");
+  } catch (const InputError& error) {
+    QVERIFY2(QString(error.what()).contains(problem), error.what());
+  }
+}
+
+QTEST_APPLESS_MAIN(TestRecording)
+#include "tst_recording.moc"
