@@ -155,7 +155,7 @@ void TestCli::probesHaveOneRowPerFrame() {
 void TestCli::sameProjectGivesTheSameHash() {
   QTemporaryDir folder;
   QStringList hashes;
-  for (const QString& threads : {"1", "2"}) {
+  for (const QString& threads : {QString("1"), QString("2")}) {
     const QString report = folder.filePath(threads + ".json");
     const Ran ran = cli({"simulate", kSample, "--frames", "3", "--threads", threads, "--report", report, "--quiet"});
     QVERIFY2(ran.code == 0, ran.err.constData());
