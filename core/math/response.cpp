@@ -209,6 +209,7 @@ ResponseTable::ResponseTable(std::vector<double> values, double firstKelvin, dou
     m_values.resize(1);
     m_step = 1;
   }
+  m_inverseStep = 1 / m_step;
   m_integrals.assign(m_values.size(), 0.0);
   for (size_t i = 1; i < m_values.size(); ++i) {
     m_integrals[i] = m_integrals[i - 1] + 0.5 * m_step * (m_values[i - 1] + m_values[i]);
@@ -217,7 +218,7 @@ ResponseTable::ResponseTable(std::vector<double> values, double firstKelvin, dou
 
 double ResponseTable::at(double kelvin) const {
   if (m_values.empty()) return 0;
-  const double u = (kelvin - m_first) / m_step;
+  const double u = (kelvin - m_first) * m_inverseStep;
   if (!(u > 0)) return m_values.front();
   const size_t last = m_values.size() - 1;
   if (u >= static_cast<double>(last)) return m_values.back();
@@ -228,7 +229,7 @@ double ResponseTable::at(double kelvin) const {
 
 double ResponseTable::integral(double kelvin) const {
   if (m_values.empty()) return 0;
-  const double u = (kelvin - m_first) / m_step;
+  const double u = (kelvin - m_first) * m_inverseStep;
   if (!(u > 0)) return (kelvin - m_first) * m_values.front();
   const size_t last = m_values.size() - 1;
   if (u >= static_cast<double>(last)) {

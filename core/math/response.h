@@ -49,7 +49,7 @@ class ResponseTable {
 
  private:
   std::vector<double> m_values, m_integrals;
-  double m_first = 0, m_step = 1;
+  double m_first = 0, m_step = 1, m_inverseStep = 1;
 };
 
 }  // namespace ps

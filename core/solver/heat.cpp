@@ -186,7 +186,7 @@ void HeatStage::measureSurroundings(const ParticleStore& store, size_t first, si
   for (size_t i = first; i < last; ++i) {
     const api::Float4 x = store.position()[i];
     const double volume = m_pairs.volume[i];
-    double perConductivity = 0, fixed = 0;
+    double perConductivity = 0;
     uint8_t touches = 0;
     for (size_t w = 0; w < m_walls.size(); ++w) {
       const Wall& wall = m_walls[w];
@@ -209,11 +209,8 @@ void HeatStage::measureSurroundings(const ParticleStore& store, size_t first, si
       air = open * g * m_settings.airConvection * faceOf(store.position()[i].w, dx);
     }
     m_airConductance[i] = static_cast<float>(air);
-    fixed += air;
-    for (uint32_t k = m_pairs.begin[i]; k < m_pairs.same[i]; ++k) perConductivity += double{m_pairs.conductance[k]};
-    for (uint32_t k = m_pairs.other[i]; k < m_pairs.end[i]; ++k) fixed += double{m_pairs.conductance[k]};
-    m_perConductivity[i] = perConductivity;
-    m_fixedConductance[i] = fixed;
+    m_perConductivity[i] = perConductivity + m_pairs.sameTotal[i];
+    m_fixedConductance[i] = air + m_pairs.otherTotal[i];
   }
 }
 

@@ -13,13 +13,15 @@ namespace {
 constexpr size_t kGrain = 256;
 constexpr double kPi = 3.14159265358979323846;
 /// Sum of V W below which a particle's surroundings count as cut off by a surface.
-constexpr double kFullSupport = 0.95;
+constexpr float kFullSupport = 0.95f;
 
 }  // namespace
 
 void HeatPairs::prepare(size_t count, size_t slots) {
   for (auto* list : {&begin, &same, &other, &end}) list->resize(count);
   for (auto* values : {&conductivity, &volume, &immersion, &m_inverseMoment}) values->resize(count + 1);
+  sameTotal.resize(count);
+  otherTotal.resize(count);
   if (partner.size() >= slots) return;
   const size_t room = slots + slots / 4;  // lists breathe; do not allocate each time they grow by one
   partner.resize(room);
@@ -34,6 +36,7 @@ void HeatPairs::build(const ParticleStore& store, const api::NeighbourView& list
   const size_t n = store.size();
   if (n == 0) return;
   prepare(n, lists.end[n - 1]);
+  m_oneMaterial = materials.size() == 1;
   const auto matter = [&](size_t first, size_t last) {
     for (size_t i = first; i < last; ++i) {
       const BakedMaterial& material = materials[store.material()[i]];
@@ -55,9 +58,9 @@ void HeatPairs::build(const ParticleStore& store, const api::NeighbourView& list
 void HeatPairs::differentiate(uint32_t first, uint32_t last) {
   const float radius = static_cast<float>(m_options.support), inverse = 1.0f / radius;
   const double r3 = m_options.support * m_options.support * m_options.support;
-  const float* r2 = m_square.data();
-  float* g = conductance.data();
-  float* w = m_kernel.data();
+  const float* __restrict r2 = m_square.data();
+  float* __restrict g = conductance.data();
+  float* __restrict w = m_kernel.data();
   if (m_options.kernel == KernelShape::CubicSpline) {
     const float scale = static_cast<float>(8 / (kPi * r3)), slope = static_cast<float>(8 / (kPi * r3 * m_options.support));
     for (uint32_t k = first; k < last; ++k) {
@@ -99,37 +102,50 @@ void HeatPairs::measure(const ParticleStore& store, const api::NeighbourView& li
   const float limit = static_cast<float>(m_options.support * m_options.support), tiny = 1e-12f * limit;
   const api::Float4* x = store.position();
   const uint32_t* material = store.material();
-  const double selfKernel = kernelAtZero();
+  const float selfKernel = static_cast<float>(kernelAtZero());
   for (size_t i = first; i < last; ++i) {
     uint32_t front = lists.begin[i], back = lists.end[i];
     begin[i] = front;
     end[i] = back;
     const api::Float4 xi = x[i];
-    for (uint32_t k = lists.begin[i]; k < lists.last[i]; ++k) {
-      const uint32_t j = lists.index[k];
+    const auto square = [&](uint32_t j) {
       const float dx = xi.x - x[j].x, dy = xi.y - x[j].y, dz = xi.z - x[j].z;
-      const float r2 = dx * dx + dy * dy + dz * dz;
-      if (!(r2 < limit)) continue;
-      const uint32_t slot = material[j] == material[i] ? front++ : --back;
-      partner[slot] = j;
-      m_square[slot] = std::max(r2, tiny);
+      return std::max(dx * dx + dy * dy + dz * dz, tiny);
+    };
+    if (m_oneMaterial) {  // without a branch: entries of the skin are written and overwritten
+      for (uint32_t k = lists.begin[i]; k < lists.last[i]; ++k) {
+        const uint32_t j = lists.index[k];
+        const float r2 = square(j);
+        partner[front] = j;
+        m_square[front] = r2;
+        front += r2 < limit;
+      }
+    } else {
+      for (uint32_t k = lists.begin[i]; k < lists.last[i]; ++k) {
+        const uint32_t j = lists.index[k];
+        const float r2 = square(j);
+        if (!(r2 < limit)) continue;
+        const uint32_t slot = material[j] == material[i] ? front++ : --back;
+        partner[slot] = j;
+        m_square[slot] = r2;
+      }
     }
     same[i] = front;
     other[i] = back;
     differentiate(begin[i], front);
     differentiate(back, end[i]);
-    double moment = 0, filled = double{volume[i]} * selfKernel;
+    float moment = 0, filled = volume[i] * selfKernel;
     const auto add = [&](uint32_t from, uint32_t to) {
       for (uint32_t k = from; k < to; ++k) {
-        const double v = volume[partner[k]];
-        moment += v * double{conductance[k]} * double{m_square[k]};
-        filled += v * double{m_kernel[k]};
+        const float v = volume[partner[k]];
+        moment += v * (conductance[k] * m_square[k]);
+        filled += v * m_kernel[k];
       }
     };
     add(begin[i], front);
     add(back, end[i]);
-    const double m = std::clamp(moment / 3, 0.8, 1.25);
-    m_inverseMoment[i] = m_options.momentCorrection && filled > kFullSupport ? static_cast<float>(1 / m) : 1.0f;
+    const float m = std::clamp(moment / 3, 0.8f, 1.25f);
+    m_inverseMoment[i] = m_options.momentCorrection && filled > kFullSupport ? 1 / m : 1.0f;
     immersion[i] = store.gasFraction()[i] > 0 ? liquidAround(store, i) : 0.0f;
   }
 }
@@ -138,16 +154,30 @@ void HeatPairs::conduct(size_t first, size_t last) {
   for (size_t i = first; i < last; ++i) {
     const float vi = volume[i], mi = m_inverseMoment[i], ki = conductivity[i];
     // 2 V_i V_j (-F) times the mean of 1/M: every operation commutes in i and j.
-    for (uint32_t k = begin[i]; k < same[i]; ++k) {
+    double total[2] = {0, 0};
+    uint32_t k = begin[i];
+    for (; k + 2 <= same[i]; k += 2) {
+      for (uint32_t c = 0; c < 2; ++c) {
+        const uint32_t j = partner[k + c];
+        conductance[k + c] *= (vi * volume[j]) * (mi + m_inverseMoment[j]);
+        total[c] += double{conductance[k + c]};
+      }
+    }
+    if (k < same[i]) {
       const uint32_t j = partner[k];
       conductance[k] *= (vi * volume[j]) * (mi + m_inverseMoment[j]);
+      total[0] += double{conductance[k]};
     }
-    for (uint32_t k = other[i]; k < end[i]; ++k) {
+    sameTotal[i] = total[0] + total[1];
+    double others = 0;
+    for (k = other[i]; k < end[i]; ++k) {
       const uint32_t j = partner[k];
       const float sum = ki + conductivity[j];
       const float harmonic = sum > 0 ? 2.0f * (ki * conductivity[j]) / sum : 0.0f;
       conductance[k] *= (vi * volume[j]) * (mi + m_inverseMoment[j]) * harmonic;
+      others += double{conductance[k]};
     }
+    otherTotal[i] = others;
   }
 }
 

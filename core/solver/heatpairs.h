@@ -32,6 +32,7 @@ class HeatPairs {
   std::vector<uint32_t> begin, same, other, end;
   std::vector<uint32_t> partner;
   std::vector<float> conductance;
+  std::vector<double> sameTotal, otherTotal;  ///< sums of conductance over each particle's two ranges
   std::vector<float> conductivity;  ///< W/(m K), mixture of the phases present
   std::vector<float> volume;        ///< m3, condensed
   std::vector<float> immersion;     ///< share of the surroundings that is liquid, 0..1; only of particles with vapour
@@ -45,6 +46,7 @@ class HeatPairs {
   float liquidAround(const ParticleStore& store, size_t i) const;
 
   Options m_options;
+  bool m_oneMaterial = false;
   std::vector<float> m_square;         ///< squared distance, per slot
   std::vector<float> m_kernel;         ///< W, per slot
   std::vector<float> m_inverseMoment;  ///< 1/M of the moment correction
