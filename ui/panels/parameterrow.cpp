@@ -77,9 +77,8 @@ ParameterRow::ParameterRow(RowModel model, QWidget* parent) : QWidget(parent), d
   setAttribute(Qt::WA_Hover);
   setMouseTracking(true);
   setFocusPolicy(d->isEditable() ? Qt::StrongFocus : Qt::NoFocus);
-  QSizePolicy policy(QSizePolicy::Expanding, QSizePolicy::Fixed);
-  policy.setHeightForWidth(true);
-  setSizePolicy(policy);
+  setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+  setFixedHeight(kRowHeight);
   setAccessibleName(QString::fromUtf8(d->declaration().label));
   setAccessibleDescription(QString::fromUtf8(d->declaration().help));
 }
@@ -155,7 +154,6 @@ void ParameterRow::Private::styleNotes() {
   show(limit, "psLimit", limitText);
   show(error, "psError", errorText);
   layoutNotes();
-  q->updateGeometry();
   refresh();
 }
 
@@ -168,6 +166,7 @@ void ParameterRow::Private::layoutNotes() {
     label->setGeometry(kRowLeft, top, width, height);
     top += height + kNoteGap;
   }
+  if (q->height() != top) q->setFixedHeight(top);
 }
 
 void ParameterRow::setShowSymbol(bool show) {
@@ -346,9 +345,8 @@ QRect ParameterRow::labelRect() const {
   return {kRowLeft, 0, right - kRowLeft, kRowHeight};
 }
 
-QSize ParameterRow::sizeHint() const { return {392, heightForWidth(392)}; }
+QSize ParameterRow::sizeHint() const { return {392, heightForWidth(width())}; }
 QSize ParameterRow::minimumSizeHint() const { return {240, kRowHeight}; }
-bool ParameterRow::hasHeightForWidth() const { return true; }
 
 int ParameterRow::heightForWidth(int width) const {
   int height = kRowHeight;

@@ -86,7 +86,6 @@ class ParameterRow : public QWidget {
   QRect fieldRect() const;
   QSize sizeHint() const override;
   QSize minimumSizeHint() const override;
-  bool hasHeightForWidth() const override;
   int heightForWidth(int width) const override;
 
  Q_SIGNALS:

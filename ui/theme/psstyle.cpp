@@ -148,6 +148,7 @@ void PsStyle::drawComplexControl(ComplexControl control, const QStyleOptionCompl
 QSize PsStyle::sizeFromContents(ContentsType type, const QStyleOption* option, const QSize& size,
                                 const QWidget* widget) const {
   QSize result = QProxyStyle::sizeFromContents(type, option, size, widget);
+  if (type == CT_ItemViewItem) result.setHeight(std::max(result.height(), 24));
   if (type == CT_ComboBox) {
     result.setHeight(26);
     if (const auto* box = qstyleoption_cast<const QStyleOptionComboBox*>(option)) {

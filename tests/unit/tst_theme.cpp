@@ -1,0 +1,406 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/base/error.h"
+#include "ui/theme/icon.h"
+#include "ui/theme/legend.h"
+#include "ui/theme/numbers.h"
+#include "ui/theme/theme.h"
+#include "ui/theme/units.h"
+
+#include <QtCore/QLocale>
+#include <QtGui/QFontInfo>
+#include <QtGui/QFontMetricsF>
+#include <QtGui/QImage>
+#include <QtGui/QPainter>
+#include <QtTest/QTest>
+#include <QtWidgets/QApplication>
+
+#include <clocale>
+#include <cmath>
+#include <limits>
+
+using namespace ps;
+
+namespace {
+
+api::ParameterDeclaration declaration(const char* unit, const char* shown = "", double scale = 1, double offset = 0) {
+  api::ParameterDeclaration d{};
+  d.key = "key";
+  d.label = "Label";
+  d.unit = unit;
+  d.displayUnit = shown;
+  d.displayScale = scale;
+  d.displayOffset = offset;
+  d.maximum = 1;
+  d.hardMaximum = 1e30;
+  return d;
+}
+
+}  // namespace
+
+class TestTheme : public QObject {
+  Q_OBJECT
+ private Q_SLOTS:
+  void contrastSuffices_data();
+  void contrastSuffices();
+  void seriesAreVisible();
+  void contrastIsWcags();
+  void badTokensAreNamed_data();
+  void badTokensAreNamed();
+  void styleSheetHasNoPlaceholderLeft();
+  void digitsAreAsWideAsOneAnother();
+  void iconsTintAndStaySharp();
+  void numbersAreFormatted_data();
+  void numbersAreFormatted();
+  void fieldsKeepTheirDecimals_data();
+  void fieldsKeepTheirDecimals();
+  void typedTextIsUnderstood_data();
+  void typedTextIsUnderstood();
+  void typedNonsenseIsRefused_data();
+  void typedNonsenseIsRefused();
+  void unitsAreUnderstood_data();
+  void unitsAreUnderstood();
+  void whatIsShownCanBeTyped();
+  void pivotSitsOnTheMeltingPoint();
+  void legendShowsItsMarks();
+};
+
+void TestTheme::contrastSuffices_data() {
+  QTest::addColumn<int>("foreground");
+  QTest::addColumn<int>("background");
+  QTest::addColumn<double>("least");
+  const auto add = [](Token foreground, std::initializer_list<Token> grounds, double least) {
+    for (const Token ground : grounds) {
+      QTest::addRow("%s on %s", Theme::name(foreground), Theme::name(ground))
+          << static_cast<int>(foreground) << static_cast<int>(ground) << least;
+    }
+  };
+  using enum Token;
+  add(Text, {Window, Panel, Header, Field, Raised, Hover, Selection, ErrorGround, WarningGround}, 4.5);
+  add(Text2, {Window, Panel, Header, Field, Raised, Hover, Selection, ErrorGround, WarningGround}, 4.5);
+  add(Muted, {Panel, Field, Header}, 4.5);
+  add(Accent, {Panel, Field, WarningGround}, 4.5);
+  add(OnAccent, {Accent}, 4.5);
+  add(Warning, {Panel, Field, WarningGround}, 4.5);
+  add(Token::Error, {Panel, Field, ErrorGround}, 4.5);
+  for (const Token token : {Ok, Info, Curve, Keyframe}) add(token, {Panel}, 4.5);
+  // Marks: WCAG 2.2, 1.4.11 asks 3 of what must be seen to use a control.
+  add(ControlEdge, {Panel, Field}, 3);
+  add(SliderFill, {Panel, Field}, 3);
+  add(Accent, {Window, Selection}, 3);
+  add(Curve, {Field}, 3);
+}
+
+void TestTheme::contrastSuffices() {
+  QFETCH(int, foreground);
+  QFETCH(int, background);
+  QFETCH(double, least);
+  for (const bool dark : {true, false}) {
+    const Theme theme = Theme::load(dark);
+    const double ratio = contrast(theme[static_cast<Token>(foreground)], theme[static_cast<Token>(background)]);
+    QVERIFY2(ratio >= least, qPrintable(QStringLiteral("%1 theme: %2").arg(dark ? "dark" : "light").arg(ratio)));
+  }
+}
+
+void TestTheme::seriesAreVisible() {
+  for (const bool dark : {true, false}) {
+    const Theme theme = Theme::load(dark);
+    for (int i = 0; !theme.seriesDashed(i); ++i) QVERIFY(contrast(theme.series(i), theme[Token::Field]) >= 3);
+    int first = 0;
+    while (!theme.seriesDashed(first)) ++first;
+    QCOMPARE(theme.series(first), theme.series(0));  // then the same, dashed
+  }
+}
+
+void TestTheme::contrastIsWcags() {
+  QCOMPARE(contrast(Qt::black, Qt::white), 21.0);
+  QCOMPARE(contrast(Qt::white, Qt::white), 1.0);
+  // The example of WCAG's technique G18: #777777 on white is 4.48 to two decimals.
+  QVERIFY(std::abs(contrast(QColor(0x77, 0x77, 0x77), Qt::white) - 4.48) < 0.005);
+}
+
+void TestTheme::badTokensAreNamed_data() {
+  QTest::addColumn<QByteArray>("json");
+  QTest::addColumn<QByteArray>("named");
+  QTest::newRow("no JSON") << QByteArray("{") << QByteArray("tokens.json");
+  QTest::newRow("missing") << QByteArray("{\"dark\": {}}") << QByteArray("/dark/window");
+  QTest::newRow("no colour") << QByteArray("{\"dark\": {\"window\": \"blueish\"}}") << QByteArray("/dark/window");
+  QTest::newRow("a number") << QByteArray("{\"dark\": {\"window\": 7}}") << QByteArray("/dark/window");
+}
+
+void TestTheme::badTokensAreNamed() {
+  QFETCH(QByteArray, json);
+  QFETCH(QByteArray, named);
+  try {
+    Theme::parse(json, true);
+    QFAIL("accepted");
+  } catch (const ps::Error& error) {
+    QVERIFY2(QByteArray(error.what()).contains(named), error.what());
+  }
+}
+
+void TestTheme::styleSheetHasNoPlaceholderLeft() {
+  for (const bool dark : {true, false}) {
+    QString sheet = Theme::load(dark).styleSheet();
+    sheet.remove(0, sheet.indexOf(QStringLiteral("*/")));
+    QVERIFY(sheet.size() > 2000);
+    QVERIFY2(!sheet.contains(QLatin1Char('@')), qPrintable(sheet.mid(sheet.indexOf(QLatin1Char('@')), 30)));
+  }
+}
+
+void TestTheme::digitsAreAsWideAsOneAnother() {
+  for (const TextRole role : {TextRole::Normal, TextRole::Small, TextRole::Medium, TextRole::Time, TextRole::Heading}) {
+    const QFont font = Theme::font(role);
+    QCOMPARE(QFontInfo(font).family(), QStringLiteral("PhaseSketch UI"));
+    const QFontMetricsF metrics(font);
+    const double one = metrics.horizontalAdvance(QStringLiteral("1111.1"));
+    // A hundredth of a pixel: metrics are rounded to 26.6 fixed point per glyph.
+    QVERIFY(std::abs(metrics.horizontalAdvance(QStringLiteral("8408.7")) - one) < 0.1);
+  }
+  QCOMPARE(QFontInfo(Theme::font(TextRole::Symbol)).family(), QStringLiteral("PhaseSketch Symbols"));
+}
+
+void TestTheme::iconsTintAndStaySharp() {
+  QVERIFY(iconNames().contains(QStringLiteral("play")));
+  for (const QString& name : iconNames()) {
+    const QImage image = iconPixmap(name, QColor(200, 100, 50), 16, 2).toImage();
+    QCOMPARE(image.width(), 32);
+    int drawn = 0;
+    for (int y = 0; y < image.height(); ++y) {
+      for (int x = 0; x < image.width(); ++x) {
+        const QColor pixel = image.pixelColor(x, y);
+        if (pixel.alpha() < 200) continue;
+        ++drawn;
+        // Premultiplied storage rounds a channel by up to 2 at these alphas.
+        QVERIFY2(std::abs(pixel.red() - 200) <= 3 && std::abs(pixel.blue() - 50) <= 3, qPrintable(name));
+      }
+    }
+    QVERIFY2(drawn > 12, qPrintable(name + QStringLiteral(" draws nothing")));
+    QVERIFY2(image.pixelColor(0, 0).alpha() == 0, qPrintable(name + QStringLiteral(" touches the corner")));
+  }
+  QVERIFY(icon(QStringLiteral("no-such-icon")).isNull());
+}
+
+void TestTheme::numbersAreFormatted_data() {
+  QTest::addColumn<double>("value");
+  QTest::addColumn<QString>("four");
+  QTest::addColumn<QString>("brief");
+  const auto row = [](double value, const char* four, const char* brief) {
+    QTest::newRow(qPrintable(QString::number(value, 'g', 12))) << value << QString::fromUtf8(four) << QString::fromUtf8(brief);
+  };
+  row(0, "0", "0");
+  row(120, "120.0", "120");
+  row(24594, "24 590", "24 590");
+  row(1000, "1 000", "1 000");
+  row(999.96, "1 000", "1 000");
+  row(-0.9, "−0.9000", "−0.9");
+  row(0.5, "0.5000", "0.5");
+  row(3e-6, "3.000 × 10⁻⁶", "3 × 10⁻⁶");
+  row(-9.3e9, "−9.300 × 10⁹", "−9.3 × 10⁹");
+  row(1234567, "1 235 000", "1 235 000");
+  row(12345678, "1.235 × 10⁷", "1.235 × 10⁷");
+  row(0.001, "0.001000", "0.001");
+  row(0.00099999, "0.001000", "0.001");
+  row(6.02e23, "6.020 × 10²³", "6.02 × 10²³");
+  row(std::numeric_limits<double>::quiet_NaN(), "—", "—");
+  row(std::numeric_limits<double>::infinity(), "—", "—");
+}
+
+void TestTheme::numbersAreFormatted() {
+  QFETCH(double, value);
+  QFETCH(QString, four);
+  QFETCH(QString, brief);
+  // Rows write groups with plain spaces; around the multiplication sign stand plain spaces in both.
+  const auto spaced = [](QString text) { return text.replace(QChar(0x202F), QLatin1Char(' ')); };
+  QCOMPARE(spaced(formatNumber(value)), four);
+  QCOMPARE(spaced(formatShort(value)), brief);
+  if (value == 24594) {
+    QVERIFY(formatNumber(value).contains(QChar(0x202F)));
+    QCOMPARE(spaced(formatFixed(value)), QStringLiteral("24 594"));
+    QCOMPARE(formatFixed(-0.04, 1), QStringLiteral("0.0"));  // no minus before zero
+  }
+  QCOMPARE(spaced(formatQuantity(3e-6, QStringLiteral("m"))), QString::fromUtf8("3 × 10⁻⁶ m"));
+}
+
+void TestTheme::fieldsKeepTheirDecimals_data() {
+  QTest::addColumn<double>("minimum");
+  QTest::addColumn<double>("maximum");
+  QTest::addColumn<bool>("logarithmic");
+  QTest::addColumn<double>("value");
+  QTest::addColumn<QString>("text");
+  QTest::newRow("temperature") << -50.0 << 300.0 << false << 120.0 << "120.0";
+  QTest::newRow("zero") << -50.0 << 300.0 << false << 0.0 << "0.0";
+  QTest::newRow("fraction") << 0.0 << 1.0 << false << 0.62 << "0.620";
+  QTest::newRow("density, whole") << 100.0 << 3000.0 << false << 917.0 << "917";
+  QTest::newRow("density, typed") << 100.0 << 3000.0 << false << 999.8 << "999.8";
+  QTest::newRow("modulus") << 1e-3 << 100.0 << true << 9.3 << "9.30";
+  QTest::newRow("factor") << 1.0 << 1000.0 << true << 200.0 << "200";
+}
+
+void TestTheme::fieldsKeepTheirDecimals() {
+  QFETCH(double, minimum);
+  QFETCH(double, maximum);
+  QFETCH(bool, logarithmic);
+  QFETCH(double, value);
+  QFETCH(QString, text);
+  api::ParameterDeclaration d = declaration("");
+  d.minimum = minimum;
+  d.maximum = maximum;
+  d.scale = logarithmic ? api::Scale::Logarithmic : api::Scale::Linear;
+  QCOMPARE(formatField(d, value), text);
+}
+
+void TestTheme::typedTextIsUnderstood_data() {
+  QTest::addColumn<QString>("text");
+  QTest::addColumn<QString>("unit");  // stored | shown | scale | offset
+  QTest::addColumn<double>("value");
+  const auto row = [](const char* text, const char* unit, double value) {
+    QTest::newRow(qPrintable(QString::fromUtf8(text) + QStringLiteral(" in ") + QString::fromUtf8(unit)))
+        << QString::fromUtf8(text) << QString::fromUtf8(unit) << value;
+  };
+  const char* celsius = "K|°C|1|-273.15";
+  row("25", celsius, 298.15);
+  row("25 °C", celsius, 298.15);
+  row("25°C", celsius, 298.15);
+  row("25 C", celsius, 298.15);
+  row("300 K", celsius, 300);
+  row("77 °F", celsius, 298.15);
+  row("−10", celsius, 263.15);
+  row("*2", celsius, 313.15);  // 20 °C twice is 40 °C
+  row("/2", celsius, 283.15);
+  row("×2", celsius, 313.15);
+  row("1/3", "|||", 1.0 / 3);
+  row("1,5", "|||", 1.5);
+  row("1.5", "|||", 1.5);
+  row("2*(3+4)", "|||", 14);
+  row("-(2-5)", "|||", 3);
+  row("2^3", "|||", 8);
+  row("1e-3", "|||", 1e-3);
+  row("3 × 10⁻⁶", "|||", 3e-6);
+  row("24 594", "|||", 24594);
+  row("2.5 GPa", "Pa|GPa|1e-9|0", 2.5e9);
+  row("2500 MPa", "Pa|GPa|1e-9|0", 2.5e9);
+  row("9.3", "Pa|GPa|1e-9|0", 9.3e9);
+  row("1 bar", "Pa|kPa|1e-3|0", 1e5);
+  row("5 mm", "m|mm|1e3|0", 5e-3);
+  row("0,5 cm", "m|mm|1e3|0", 5e-3);
+  row("2 kJ/(kg K)", "J/(kg·K)||1|0", 2000);
+  row("0.6 W/m·K", "W/(m·K)||1|0", 0.6);
+  row("50 %", "|%|100|0", 0.5);
+  row("1.3 mPa·s", "Pa·s|mPa·s|1e3|0", 1.3e-3);
+  row("200 ×", "|×|1|0", 200);
+  row("2 min", "s||1|0", 120);
+}
+
+void TestTheme::typedTextIsUnderstood() {
+  QFETCH(QString, text);
+  QFETCH(QString, unit);
+  QFETCH(double, value);
+  const QStringList parts = unit.split(QLatin1Char('|'));
+  const QByteArray stored = parts[0].toUtf8(), shown = parts[1].toUtf8();
+  const double scale = parts[2].isEmpty() ? 1 : parts[2].toDouble();
+  const api::ParameterDeclaration d = declaration(stored.constData(), shown.constData(), scale, parts.value(3).toDouble());
+  // "kJ/(kg K)": a space multiplies only inside a unit.
+  const QString typed = QString(text).replace(QStringLiteral("(kg K)"), QStringLiteral("(kg·K)"));
+  for (const char* name : {"C", "de_DE.UTF-8"}) {
+    std::setlocale(LC_NUMERIC, name);
+    QLocale::setDefault(QLocale(QString::fromLatin1(name).left(5)));
+    const Typed result = parseTyped(typed, d, 293.15);
+    QVERIFY2(result.problem.isEmpty(), qPrintable(result.problem));
+    // Conversion costs a few roundings of double.
+    QVERIFY2(std::abs(result.value - value) <= 1e-12 * std::abs(value), qPrintable(QString::number(result.value, 'g', 17)));
+  }
+  std::setlocale(LC_NUMERIC, "C");
+  QLocale::setDefault(QLocale::c());
+}
+
+void TestTheme::typedNonsenseIsRefused_data() {
+  QTest::addColumn<QString>("text");
+  for (const char* text : {"", "abc", "1 2", "1..2", "1,2.3", "1 m", "--", "*", "/0", "*x", "(1", "1/0", "nan", "inf", "1e999",
+                           "0x10", "1 °C/", "((((((((((((((((((((((((((((((((((((((((((((((((((((((((((((((1", "25 furlongs"}) {
+    QTest::newRow(text) << QString::fromUtf8(text);
+  }
+}
+
+void TestTheme::typedNonsenseIsRefused() {
+  QFETCH(QString, text);
+  const Typed result = parseTyped(text, declaration("K", "°C", 1, -273.15), 300);
+  QVERIFY2(!result.problem.isEmpty(), qPrintable(QString::number(result.value)));
+}
+
+void TestTheme::unitsAreUnderstood_data() {
+  QTest::addColumn<QString>("text");
+  QTest::addColumn<QString>("same");
+  QTest::addColumn<double>("factor");
+  QTest::newRow("conductivity") << "W/m·K" << "W/(m·K)" << 1.0;
+  QTest::newRow("joule") << "J" << "N·m" << 1.0;
+  QTest::newRow("pascal") << "Pa" << "N/m²" << 1.0;
+  QTest::newRow("exponent") << "s^-2" << "1/s²" << 1.0;
+  QTest::newRow("raised minus") << "K⁻¹" << "1/K" << 1.0;
+  QTest::newRow("litre") << "L" << "m³" << 1e-3;
+  QTest::newRow("mega") << "MPa" << "Pa" << 1e6;
+  QTest::newRow("milli") << "mPa·s" << "Pa·s" << 1e-3;
+  QTest::newRow("minute is no milli-inch") << "min" << "s" << 60.0;
+  QTest::newRow("surface tension") << "mN/m" << "J/m²" << 1e-3;
+}
+
+void TestTheme::unitsAreUnderstood() {
+  QFETCH(QString, text);
+  QFETCH(QString, same);
+  QFETCH(double, factor);
+  const auto a = parseUnit(text), b = parseUnit(same);
+  QVERIFY(a && b);
+  QCOMPARE(a->dimension, b->dimension);
+  QVERIFY(std::abs(a->scale / b->scale - factor) < 1e-12 * factor);
+  QVERIFY(!parseUnit(QStringLiteral("furlong")));
+  QVERIFY(!parseUnit(QStringLiteral("m/s/s")));
+}
+
+/// Whatever a field shows can be copied and typed back.
+void TestTheme::whatIsShownCanBeTyped() {
+  const api::ParameterDeclaration d = declaration("Pa", "kPa", 1e-3);
+  for (const double value : {101325.0, 1e-4, -5.0, 3.2e12, 24594000.0, 0.0}) {
+    const Typed back = parseTyped(formatQuantity(toDisplay(d, value), QStringLiteral("kPa"), 8), d, 0);
+    QVERIFY2(back.problem.isEmpty(), qPrintable(back.problem));
+    QVERIFY(std::abs(back.value - value) <= 1e-7 * std::abs(value));  // eight digits
+  }
+}
+
+void TestTheme::pivotSitsOnTheMeltingPoint() {
+  const ColourMap& map = colourMap(QStringLiteral("temperature"));
+  QCOMPARE(map.pivot, 0.36);
+  QCOMPARE(legendPosition(map, {-14, 120}, 0, 0), 0.36);
+  QCOMPARE(legendPosition(map, {-14, 120}, 0, -7), 0.18);  // both sides linear
+  QCOMPARE(legendPosition(map, {-14, 120}, 0, 60), 0.68);
+  QCOMPARE(legendPosition(map, {10, 20}, 0, 15), 0.5);     // the pivot is outside
+  QCOMPARE(legendPosition(map, {-14, 120}, 0, 500), 1.0);
+  QCOMPARE(map.at(0.36), QColor(0x8D, 0xC2, 0xE6));
+  QCOMPARE(colourMap(QStringLiteral("phase")).classes.size(), size_t{5});
+  QVERIFY_EXCEPTION_THROWN(colourMap(QStringLiteral("none")), ps::Error);
+}
+
+void TestTheme::legendShowsItsMarks() {
+  const ColourMap& map = colourMap(QStringLiteral("temperature"));
+  const auto painted = [&map](const std::vector<LegendMark>& marks) {
+    QImage image(legendSize(map).toSize(), QImage::Format_ARGB32_Premultiplied);
+    image.fill(Qt::black);
+    QPainter painter(&image);
+    paintLegend(painter, QRectF(QPointF(0, 0), legendSize(map)), map, {-14, 120}, QStringLiteral("°C"), marks, 0);
+    painter.end();
+    return image;
+  };
+  const QImage without = painted({}), with = painted({{0, QStringLiteral("melts")}});
+  QVERIFY(without != with);
+  QVERIFY(painted({{900, QStringLiteral("boils")}}) == without);  // beyond the range: not drawn
+  // The bar is dark blue at the bottom and dark red at the top.
+  const QColor bottom = without.pixelColor(16, without.height() - 14), top = without.pixelColor(16, 38);
+  QVERIFY(bottom.blue() > bottom.red() && top.red() > top.blue());
+}
+
+int main(int argc, char** argv) {
+  QApplication application(argc, argv);
+  Theme::apply(application, true);
+  TestTheme test;
+  return QTest::qExec(&test, argc, argv);
+}
+
+#include "tst_theme.moc"
