@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The studio: a gradient, a ground that fades into it with a faint grid, and the soft shadow of the plate.
 in vec2 uv;
+in vec3 worldRay;
 out vec4 colour;
 
 float roundedBox(vec2 p, vec2 halfSize, float corner) {
@@ -16,7 +17,7 @@ float lines(vec2 p, float width) {
 }
 
 void main() {
-  vec3 ray = mat3(inverseView) * viewRay(uv);
+  vec3 ray = worldRay;
   vec2 centred = uv - vec2(0.5, 0.56);
   float glow = exp(-dot(centred * vec2(1.25, 1.7), centred * vec2(1.25, 1.7)) * 2.6);
   vec3 dark = mix(vec3(0.088, 0.095, 0.104), vec3(0.235, 0.247, 0.260), glow);

@@ -8,6 +8,7 @@ uniform sampler2D distanceTexture;   // of what is opaque
 uniform sampler2D behindTexture;     // the picture so far
 uniform sampler2DShadow shadowTexture;
 in vec2 uv;
+in vec3 worldRay;
 out vec4 colour;
 
 // Distance at a place of the picture, interpolated among the neighbours that are liquid; y: their share.
@@ -29,28 +30,40 @@ vec2 distanceAt(vec2 at) {
 void main() {
   vec2 centre = distanceAt(uv);
   float front = texelFetch(distanceTexture, ivec2(gl_FragCoord.xy), 0).r;
-  if (centre.y < 0.3 || centre.x > front + matter.x * 0.25) discard;
-  float edge = smoothstep(0.3, 0.75, centre.y);
+  if (centre.y < 0.05 || centre.x > front + matter.x * 0.25) discard;
 
-  vec3 p = viewRay(uv) * centre.x;
   vec3 nView = normalize(textureLod(fluidNormal, uv, 0.0).xyz * 2.0 - 1.0);
   vec3 n = mat3(inverseView) * nView;
-  vec3 world = (inverseView * vec4(p, 1.0)).xyz;
-  vec3 v = normalize(eye.xyz - world);
+  vec3 world = eye.xyz + worldRay * centre.x;
+  vec3 v = -worldRay * inversesqrt(dot(worldRay, worldRay));
 
   vec4 sum = textureLod(fluidColour, uv, 0.0);
   vec3 base = sum.rgb / max(sum.a, 1e-4);
   float thickness = sum.a;  // radii
+  // Smooth sums draw a rounder edge than the coarse distances: 0.9 is where a lone sphere ends.
+  float edge = smoothstep(0.75, 1.1, thickness);
   float facing = clamp(dot(n, v), 0.0, 1.0);
-  float fresnel = 0.02 + 0.98 * pow(1.0 - facing, 5.0);
-  vec3 reflected = studio(reflect(-v, n), 0.12);
+  float grazing = 1.0 - facing, square = grazing * grazing;
+  float fresnel = 0.03 + 0.97 * square * square * grazing;
+  vec3 mirrored = reflect(-v, n);
+  // Soft surroundings with the key box's edge on top, and a bright sky: water shows by what it mirrors.
+  vec3 reflected = softStudio(mirrored) * 1.25 + vec3(1.7, 1.65, 1.6) * smoothstep(0.86, 0.93, dot(mirrored, light.xyz));
   vec3 h = normalize(v + light.xyz);
   vec3 s = (shadow * vec4(world + n * matter.x, 1.0)).xyz;
   float key = textureLod(shadowTexture, s, 0.0);
-  float shine = pow(max(dot(n, h), 0.0), 220.0) * 2.2 * key + pow(max(dot(n, h), 0.0), 40.0) * 0.12 * key;
+  float shine = max(dot(n, h), 0.0);
+  shine *= shine;
+  shine *= shine;
+  shine *= shine;
+  shine *= shine;
+  shine *= shine;
+  float broad = shine;
+  shine *= shine;
+  shine *= shine;
+  shine = (shine * 2.2 * shine + broad * 0.16) * key;
   float diffuse = 0.5 + 0.5 * dot(n, light.xyz);
   float height = (world.y - ground.x) / matter.w;
-  vec3 warm = glowTint.rgb * ground.z * ground.w * exp(-max(height, 0.0) * 14.0);
+  vec3 warm = glowTint.rgb * ground.z * ground.w * decay(max(height, 0.0) * 14.0);
 
   vec3 c;
   if (matter.z > 0.5) {
@@ -58,11 +71,11 @@ void main() {
   } else {
     vec2 bend = nView.xy * clamp(thickness * 0.09, 0.0, 0.55) * matter.x / centre.x / lens.y * vec2(size.y / size.x, 1.0);
     vec3 behind = toLinear(textureLod(behindTexture, clamp(uv - bend, vec2(0.0), vec2(1.0)), 0.0).rgb);
-    float veil = 1.0 - exp(-0.18 * thickness);
-    vec3 clearness = mix(vec3(1.0), base * 0.8 + 0.2, veil);
-    vec3 body = (base * 0.55 + 0.40) * (0.22 + 0.55 * diffuse * mix(0.5, 1.0, key)) + warm * 0.12;
+    float veil = 1.0 - decay(0.20 * thickness);
+    vec3 clearness = mix(vec3(1.0), base * base * 0.9 + 0.1, veil);
+    vec3 body = (base * base * 0.8 + 0.15) * (0.22 + 0.55 * diffuse * mix(0.5, 1.0, key)) + warm * 0.12;
     c = mix(behind * clearness, body, veil * 0.50);
-    c = mix(c, reflected, min(fresnel + 0.035, 1.0)) + shine;
+    c = mix(c, reflected, min(fresnel + 0.06, 1.0)) + shine;
   }
   colour = vec4(toScreen(tone(c)), edge);
 }

@@ -33,25 +33,22 @@ vec3 tone(vec3 c) {
 // Interleaved gradient noise (Jimenez 2014), 0..1 by pixel.
 float ditherAt(vec2 pixel) { return fract(52.9829189 * fract(dot(pixel, vec2(0.06711056, 0.00583715)))); }
 
+// Close to exp(-x) for x >= 0, without it.
+float decay(float x) {
+  float t = max(1.0 - 0.125 * x, 0.0);
+  t *= t;
+  t *= t;
+  return t * t;
+}
+
 vec3 viewRay(vec2 uv) { return vec3((uv * 2.0 - 1.0) * lens.xy, -1.0); }
 float windowDepth(float distance) { return 0.5 - 0.5 * (lens.z - lens.w / distance); }
 
-// The same studio as rough surfaces mirror it, without edges.
+// The studio around the scene as surfaces mirror it, linear: a soft gradient and a large box around the key light.
 vec3 softStudio(vec3 d) {
   float up = d.y * 0.5 + 0.5, box = max(dot(d, light.xyz), 0.0);
   box *= box;
   box *= box;
   vec3 c = mix(vec3(0.055, 0.058, 0.065), vec3(0.34, 0.37, 0.41), up * up);
   return mix(c * 1.7 + 0.12, c, light.w) + vec3(1.25, 1.20, 1.12) * box * box;
-}
-
-// The studio around the scene, linear: a soft gradient, a large key box above the light, a strip opposite.
-vec3 studio(vec3 d, float rough) {
-  float up = d.y * 0.5 + 0.5;
-  vec3 c = mix(vec3(0.055, 0.058, 0.065), vec3(0.34, 0.37, 0.41), smoothstep(0.25, 1.0, up));
-  c = mix(c * 1.7 + 0.12, c, light.w);
-  float box = smoothstep(0.80 - rough * 0.5, 0.93 + rough * 0.07, dot(d, light.xyz));
-  vec3 strip = normalize(vec3(-light.z, 0.25, light.x));
-  float side = smoothstep(0.86 - rough * 0.5, 0.97, dot(d, strip)) + smoothstep(0.90 - rough * 0.5, 0.98, dot(d, -strip * vec3(1, -1, 1)));
-  return c + vec3(2.6, 2.5, 2.35) * box * mix(1.0, 0.45, rough) + vec3(0.75, 0.85, 1.0) * side * mix(0.8, 0.3, rough);
 }

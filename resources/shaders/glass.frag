@@ -12,7 +12,7 @@ void main() {
   vec3 n = normalize(worldNormal), v = normalize(eye.xyz - worldPosition);
   float facing = abs(dot(n, v));
   float fresnel = pow(1.0 - facing, 3.0);
-  vec3 mirror = studio(reflect(-v, n), 0.6);
+  vec3 mirror = softStudio(reflect(-v, n));
   float grain = texture(noiseTexture, (worldPosition.xz + worldPosition.y) * 1.7 / matter.w).g;
   float frost = 1.0 + 0.5 * (grain - 0.5);
   vec3 c = toLinear(look.rgb) * mix(0.75, 1.0, abs(n.y)) + mirror * (0.10 + 0.6 * fresnel);

@@ -27,15 +27,15 @@ float keyVisible(vec3 p, vec3 n) {
 }
 
 
-Surface surfaceAt(vec2 uv) {
+Surface surfaceAt(vec2 uv, vec3 ray) {
   ivec2 here = ivec2(gl_FragCoord.xy);
   vec4 look = texelFetch(surfaceTexture, here, 0);
   Surface s;
   s.base = toLinear(look.rgb);
   s.kind = floor(look.a * 255.0 + 0.5);
   s.normal = texelFetch(normalTexture, here, 0).xyz * 2.0 - 1.0;
-  s.position = (inverseView * vec4(viewRay(uv) * texelFetch(distanceTexture, here, 0).r, 1.0)).xyz;
-  s.toEye = normalize(eye.xyz - s.position);
+  s.position = eye.xyz + ray * texelFetch(distanceTexture, here, 0).r;
+  s.toEye = -ray * inversesqrt(dot(ray, ray));
   vec2 beside = vec2(0.5 / float(textureSize(openTexture, 0).x), 0.0);
   s.open = 0.5 * (textureLod(openTexture, uv - beside, 0.0).r + textureLod(openTexture, uv + beside, 0.0).r);
   s.key = keyVisible(s.position, s.normal);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Particles of solid matter: key with shadow, sky, occlusion, rim, and the glow of the floor from below.
 in vec2 uv;
+in vec3 worldRay;
 out vec4 colour;
 
 vec3 shadeMatter(vec3 n, vec3 v, vec3 base, float kind, float key, float open) {
@@ -11,27 +12,33 @@ vec3 shadeMatter(vec3 n, vec3 v, vec3 base, float kind, float key, float open) {
   float wrap = 0.35 * clear;
   float diffuse = max((direct + wrap) / (1.0 + wrap), 0.0) * mix(key, 1.0, 0.22 * clear);
   float sky = 0.5 + 0.5 * n.y;
-  vec3 ambient = mix(vec3(0.20, 0.215, 0.25), vec3(0.50, 0.54, 0.60), sky) * mix(1.25, 1.0, light.w);
+  vec3 ambient = mix(vec3(0.18, 0.20, 0.24), vec3(0.42, 0.46, 0.53), sky) * mix(1.25, 1.0, light.w);
   float deep = mix(open, open * open, 0.6);
   // Light that entered elsewhere keeps the gaps of clear matter from going grey.
-  vec3 inner = clear * base * base * vec3(0.10, 0.17, 0.26) * (0.35 + 0.65 * open);
-  vec3 c = base * (ambient * deep + vec3(0.90, 0.87, 0.82) * diffuse * mix(1.0, open, 0.35)) + inner;
+  vec3 inner = clear * base * base * vec3(0.03, 0.10, 0.22) * (0.35 + 0.65 * open);
+  vec3 c = base * (ambient * deep + vec3(0.80, 0.775, 0.73) * diffuse * mix(1.0, open, 0.35)) + inner;
   float fresnel = 1.0 - facing;
   fresnel *= fresnel * fresnel;
   vec3 h = normalize(v + light.xyz);
   float gloss = matte ? 0.02 : mix(0.55, 0.14, data) + 0.35 * wet;
-  float shine = pow(max(dot(n, h), 0.0), mix(70.0, 110.0, wet)) * gloss * key;
+  float shine = max(dot(n, h), 0.0);
+  shine *= shine;
+  shine *= shine;
+  shine *= shine;
+  shine *= shine;
+  shine *= shine;
+  shine *= mix(shine, shine * shine, wet) * gloss * key;
   c += vec3(1.0, 0.98, 0.94) * shine * 1.5;
   c += softStudio(reflect(-v, n)) * (fresnel * (matte ? 0.04 : 0.20 + 0.15 * wet) + (matte ? 0.0 : 0.03)) * open;
-  float rim = fresnel * max(dot(n, normalize(vec3(-light.x, 0.35, -light.z))), 0.0);
+  float rim = fresnel * max(dot(n, vec3(-light.x, 0.35, -light.z) * 1.6), 0.0);
   return c + vec3(0.45, 0.55, 0.70) * rim * (matte ? 0.15 : 0.55) * open;
 }
 
 void main() {
-  Surface s = surfaceAt(uv);
+  Surface s = surfaceAt(uv, worldRay);
   vec3 c = shadeMatter(s.normal, s.toEye, s.base, s.kind, s.key, s.open);
   float height = max((s.position.y - ground.x) / matter.w, 0.0);
-  float near = exp(-height * 11.0) * (0.5 - 0.5 * s.normal.y) + 0.25 * exp(-height * 30.0);
+  float near = decay(height * 11.0) * (0.5 - 0.5 * s.normal.y) + 0.25 * decay(height * 30.0);
   c += glowTint.rgb * ground.z * ground.w * near * s.base * 1.1 * (1.0 - 0.6 * matter.z);
   colour = finished(c);
 }

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 uniform sampler2D distanceTexture;
-uniform sampler2D fluidTexture;
 uniform sampler2D cloudTexture;
 uniform int scale;
-uniform int fluidScale;
 uniform float opacity;
 in vec2 corner;
 in vec2 grain;
@@ -15,7 +13,6 @@ void main() {
   if (square > 1.0) discard;
   ivec2 at = ivec2(gl_FragCoord.xy) * scale;
   float behind = texelFetch(distanceTexture, at, 0).r;
-  if (fluidScale > 0) behind = min(behind, texelFetch(fluidTexture, at / fluidScale, 0).r);
   float soft = clamp((behind - reach.x) / reach.y + 0.35, 0.0, 1.0);
   float cloud = textureLod(cloudTexture, grain, 0.0).r;
   float fall = 1.0 - square;

@@ -7,6 +7,7 @@
 #include "ui/render/renderer.h"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 
 namespace ps {
@@ -23,14 +24,35 @@ struct HeadlessContext::Impl {
   }
 };
 
-HeadlessContext::HeadlessContext(const HeadlessContext* shared) : m(std::make_unique<Impl>()) {
+namespace {
+
+// Mesa's surfaceless platform, else the first device that starts, which is what vendors' own drivers offer.
+EGLDisplay openDisplay() {
   const char* extensions = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
-  if (!extensions || !std::strstr(extensions, "EGL_EXT_platform_base") ||
-      !std::strstr(extensions, "EGL_MESA_platform_surfaceless"))
-    throw Error("EGL cannot draw without a display here (no surfaceless platform); install Mesa's EGL");
-  m->display = eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
-  if (m->display == EGL_NO_DISPLAY || !eglInitialize(m->display, nullptr, nullptr))
-    throw Error("EGL does not start; install a driver that has OpenGL 4.3, such as Mesa's llvmpipe");
+  const auto has = [&](const char* name) { return extensions && std::strstr(extensions, name); };
+  if (!has("EGL_EXT_platform_base")) return EGL_NO_DISPLAY;
+  if (has("EGL_MESA_platform_surfaceless")) {
+    const EGLDisplay display = eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
+    if (display != EGL_NO_DISPLAY && eglInitialize(display, nullptr, nullptr)) return display;
+  }
+  if (!has("EGL_EXT_platform_device") || !has("EGL_EXT_device_enumeration")) return EGL_NO_DISPLAY;
+  std::array<EGLDeviceEXT, 16> devices{};
+  EGLint count = 0;
+  if (!eglQueryDevicesEXT(static_cast<EGLint>(devices.size()), devices.data(), &count)) return EGL_NO_DISPLAY;
+  for (EGLint i = 0; i < count; ++i) {
+    const EGLDisplay display =
+        eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, devices[static_cast<size_t>(i)], nullptr);
+    if (display != EGL_NO_DISPLAY && eglInitialize(display, nullptr, nullptr)) return display;
+  }
+  return EGL_NO_DISPLAY;
+}
+
+}  // namespace
+
+HeadlessContext::HeadlessContext(const HeadlessContext* shared) : m(std::make_unique<Impl>()) {
+  m->display = shared ? shared->m->display : openDisplay();
+  if (m->display == EGL_NO_DISPLAY)
+    throw Error("EGL cannot draw without a display here; install a driver that has OpenGL 4.3, such as Mesa's llvmpipe");
   eglBindAPI(EGL_OPENGL_API);
   const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION,
                                4,

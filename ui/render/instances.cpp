@@ -38,7 +38,7 @@ Colour towardsWhite(const Colour& c, float amount) {
 Colour materialColour(const Snapshot& s, size_t i) {
   const size_t material = s.material[i];
   const Colour own = material < s.materialColour.size() ? s.materialColour[material] : Colour{0.6f, 0.6f, 0.6f};
-  const float light = luma(own), scatter = std::sqrt(light) * (1 - 0.6f * light);
+  const float light = luma(own), scatter = std::sqrt(light) * (1 - 0.85f * light);
   switch (s.motion[i]) {
     case api::Motion::Static: return own;
     case api::Motion::Solid: return towardsWhite(own, (s.phase[i] == api::Phase::Solid ? 0.85f : 0.5f) * scatter);
@@ -143,7 +143,7 @@ void collectInstances(const InstanceRequest& request, Instances& out) {
       vapours.push_back(cloud);
       if (!data) continue;
       p.radius *= 0.32f;  // the parcel's point of data inside its cloud
-      p.extra = static_cast<float>(Kind::Plain);
+      p.extra = static_cast<float>(Kind::Mote);
       spheres.push_back(p);
       continue;
     }

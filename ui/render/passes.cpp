@@ -87,7 +87,7 @@ void clearDepth() {
 
 Quality qualityOf(const char* rendererName) {
   for (const char* name : kSoftware)
-    if (rendererName && std::strstr(rendererName, name)) return {512, 2, 2, 6, 2, 7, 2, 4, 2, true};
+    if (rendererName && std::strstr(rendererName, name)) return {512, 2, 2, 6, 2, 5, 2, 4, 2, true};
   return {};
 }
 
@@ -319,10 +319,8 @@ void Passes::drawSteam(const Frame& frame) {
     const Program& program = m_programs.steam;
     program.use();
     program.texture("distanceTexture", 0, m_distance.name());
-    program.texture("fluidTexture", 1, m_fluid.name());
-    program.texture("cloudTexture", 2, m_cloud.name());
+    program.texture("cloudTexture", 1, m_cloud.name());
     glUniform1i(program.at("scale"), scale);
-    glUniform1i(program.at("fluidScale"), frame.instances.liquids ? m_quality.fluidScale : 0);
     glUniform1i(program.at("sprites"), sprites);
     glUniform1f(program.at("growth"), 4.6f);
     glUniform1f(program.at("opacity"), (frame.data ? 0.10f : 0.22f) / static_cast<float>(sprites));

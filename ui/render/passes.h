@@ -101,7 +101,7 @@ class Passes {
   Texture m_fluidNormal{GL_RGB10_A2, GL_LINEAR}, m_cloud{GL_R8, GL_LINEAR, GL_REPEAT};
   Texture m_fluidDepth{GL_DEPTH_COMPONENT24, GL_NEAREST};
   Texture m_steam{GL_RGBA16F, GL_LINEAR};
-  Texture m_contact{GL_RGBA8, GL_LINEAR}, m_noise{GL_RGBA8, GL_LINEAR_MIPMAP_LINEAR, GL_REPEAT};
+  Texture m_contact{GL_RGBA8, GL_LINEAR}, m_noise{GL_RGBA8, GL_LINEAR_MIPMAP_NEAREST, GL_REPEAT};
   Texture m_background{GL_RGBA8, GL_NEAREST};
   FrameUniforms m_backgroundUniforms{};  // for which m_background was drawn
   BufferTexture m_particleTexture;
