@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/plugin_host/declarations.h"
 
+#include <QUtf8StringView>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -53,13 +55,19 @@ std::string problemOfChoices(std::string_view choices) {
   return {};
 }
 
-const char* firstNullText(const api::ParameterDeclaration& p) {
+/// A text must be there, and UTF-8: it is written into JSON and onto the screen.
+std::string problemOfText(const char* text) {
+  if (!text) return "is a null pointer; use \"\" for none";
+  return QUtf8StringView(text).isValidUtf8() ? "" : "is not UTF-8 text";
+}
+
+std::string problemOfTexts(const api::ParameterDeclaration& p) {
   const std::pair<const char*, const char*> texts[] = {
       {"key", p.key},         {"label", p.label}, {"symbol", p.symbol}, {"unit", p.unit},       {"displayUnit", p.displayUnit},
       {"choices", p.choices}, {"group", p.group}, {"help", p.help},     {"example", p.example}, {"source", p.source}};
   for (const auto& [name, text] : texts)
-    if (!text) return name;
-  return nullptr;
+    if (const std::string problem = problemOfText(text); !problem.empty()) return std::string("its ") + name + " " + problem;
+  return {};
 }
 
 std::string problemOfNumbers(const api::ParameterDeclaration& p) {
@@ -129,7 +137,7 @@ std::string problemOfParameters(api::ParameterList list) {
   std::set<std::string> keys;
   for (size_t i = 0; i < list.count; ++i) {
     const api::ParameterDeclaration& p = list[i];
-    if (const char* null = firstNullText(p)) return place("parameter", i) + "its " + null + " is a null pointer";
+    if (const std::string problem = problemOfTexts(p); !problem.empty()) return place("parameter", i) + problem;
     const std::string where = "parameter '" + std::string(p.key) + "': ";
     if (!isKey(p.key)) return place("parameter", i) + "its key must be lower_snake_case, not '" + p.key + "'";
     if (!keys.insert(p.key).second) return where + "is declared twice";
@@ -145,7 +153,9 @@ std::string problemOfFields(api::List<api::FieldDeclaration> list) {
   for (size_t i = 0; i < list.count; ++i) {
     const api::FieldDeclaration& f = list[i];
     if (!f.name || !*f.name) return place("field", i) + "needs a name";
-    if (!f.unit || !f.help) return "field '" + std::string(f.name) + "': its unit or help is a null pointer";
+    for (const char* text : {f.name, f.unit, f.help})
+      if (const std::string problem = problemOfText(text); !problem.empty())
+        return place("field", i) + "a text of it " + problem;
     if (!names.insert(f.name).second) return "field '" + std::string(f.name) + "': is declared twice";
     if (f.type > api::FieldType::Float4) return "field '" + std::string(f.name) + "': its type is unknown to this program";
   }
@@ -183,7 +193,8 @@ std::string readProperties(api::List<api::MaterialProperty> list, Material& mate
     const api::MaterialProperty& property = list[i];
     if (!property.key || !*property.key) return place("property", i) + "its key is a null pointer or empty";
     const std::string where = "property '" + std::string(property.key) + "': ";
-    if (!property.source) return where + "its source is a null pointer; use \"\" for none";
+    if (const std::string problem = problemOfText(property.source); !problem.empty())
+      return where + "its source " + problem;
     if (property.grade < 'A' || property.grade > 'C') return where + "its grade must be 'A', 'B' or 'C'";
     const bool hasPoints = property.value.points.data || property.value.points.size == 0;
     const bool hasCoefficients = property.value.coefficients.data || property.value.coefficients.size == 0;

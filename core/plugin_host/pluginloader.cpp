@@ -30,7 +30,7 @@ std::string checkCommon(const api::Plugin& plugin, PluginInfo& info) {
   const char* label = plugin.label();
   if (!label || !*label) return "its label is empty";
   info.label = textOrEmpty(label);
-  info.help = plugin.help() ? plugin.help() : "";
+  info.help = textOrEmpty(plugin.help());
   return problemOfParameters(plugin.parameters());
 }
 
@@ -146,7 +146,7 @@ std::string currentExceptionText() {
 std::string oneLine(std::string text) {
   for (char& c : text)
     if (static_cast<unsigned char>(c) < 0x20) c = ' ';
-  return text;
+  return QString::fromStdString(text).toStdString();  // what is not UTF-8 becomes U+FFFD
 }
 
 }  // namespace ps

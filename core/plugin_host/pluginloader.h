@@ -29,7 +29,7 @@ Material evaluateLaws(const api::MaterialPlugin& plugin, Material material, cons
 std::string whomToTell(const PluginInfo& info);
 /// What a caught exception says, in one line. Call it in a catch block.
 std::string currentExceptionText();
-/// Line breaks and control characters become spaces.
+/// Line breaks and control characters become spaces, what is not UTF-8 the replacement character.
 std::string oneLine(std::string text);
 
 }  // namespace ps

@@ -203,6 +203,8 @@ class TestPluginHost : public QObject {
     row("small_stride", "stride of 8 bytes");
     row("null_key", "parameter 1: its key is a null pointer");
     row("null_help", "parameter 1: its help is a null pointer");
+    row("latin_label", "parameter 1: its label is not UTF-8 text");
+    row("throwing_latin", "gr\xEF\xBF\xBD\xEF\xBF\xBD" "er");
     row("bad_key", "lower_snake_case");
     row("nan_default", "its default is not a finite number");
     row("min_above_max", "its minimum 3000 is above its maximum 2000");
