@@ -144,44 +144,57 @@ void GraphView::paintData(QPainter& painter) {
   const double perColumn = (last - first) / (plot.width() * scale);
   painter.setRenderHint(QPainter::Antialiasing);
   for (size_t index = 0; index < d->series.size(); ++index) {
-    QPen pen(theme.series(static_cast<int>(index)), 1.5, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin);
+    QPen pen(theme.series(static_cast<int>(index)), 1.5, Qt::SolidLine, Qt::FlatCap, Qt::BevelJoin);
     if (theme.seriesDashed(static_cast<int>(index))) pen.setDashPattern({4, 2.5});
     painter.setPen(pen);
     paintSeries(painter, static_cast<int>(index), first, last, perColumn);
   }
 }
 
-/// One device pixel column after the other: the line enters at the column's first value, touches its lowest and highest,
-/// so that no spike is lost however many samples a column holds. A gap breaks the line.
+/// One device pixel column after the other. Where a column's samples lie close together, a smooth line passes through
+/// their middle; where they spread, the column is filled from its lowest to its highest, so that no spike is lost however
+/// many samples a column holds (and because stroking thousands of near-vertical segments takes a hundred times longer).
+/// A gap breaks the line.
 void GraphView::paintSeries(QPainter& painter, int index, double first, double last, double perColumn) const {
   const SampleSeries& samples = d->series[static_cast<size_t>(index)].samples;
   if (samples.empty()) return;
+  constexpr double kSmooth = 1.5, kHalf = 0.75;  // logical pixels: spread drawn as a line; half the line's width
+  constexpr qsizetype kChunk = 48;               // points stroked at a time: the cost of a stroke grows faster
+  const double width = hairline(painter) / std::max(1.0, std::floor(painter.device()->devicePixelRatioF()));
+  const QColor colour = painter.pen().color();
   QPolygonF line;
   const auto flush = [&] {
     if (line.size() == 1) painter.drawPoint(line.front());
     else if (line.size() > 1) painter.drawPolyline(line);
     line.clear();
   };
+  const auto lineTo = [&](const QPointF& point) {
+    line << point;
+    if (line.size() < kChunk) return;
+    flush();
+    line << point;
+  };
   size_t at = samples.indexAt(first);
   if (at > 0) --at;
   const size_t end = std::min(samples.size(), samples.indexAt(last) + 1);
   while (at < end) {
     const double column = std::floor((samples[at].time - first) / perColumn);
-    size_t next = samples.indexAt(first + (column + 1) * perColumn);
-    next = std::clamp(next, at + 1, end);
+    const size_t next = std::clamp(samples.indexAt(first + (column + 1) * perColumn), at + 1, end);
     const SampleSeries::Extent extent = samples.extent(at, next);
     if (extent.empty()) {
       flush();
+    } else if (const double top = y(extent.high), bottom = y(extent.low); bottom - top <= kSmooth) {
+      lineTo({next == at + 1 ? x(samples[at].time) : x(first + (column + 0.5) * perColumn), (top + bottom) / 2});
     } else {
-      if (next == at + 1) {
-        if (std::isnan(samples[at].low)) flush();
-        line << QPointF(x(samples[at].time), y(samples[at].low));
-        if (samples[at].high != samples[at].low) line << QPointF(x(samples[at].time), y(samples[at].high));
-      } else {
-        const double middle = x(first + (column + 0.5) * perColumn);
-        const bool falls = !line.empty() && line.back().y() < y((extent.low + extent.high) / 2);
-        line << QPointF(middle, y(falls ? extent.high : extent.low)) << QPointF(middle, y(falls ? extent.low : extent.high));
+      const double left = snapped(painter, x(first + column * perColumn));
+      double from = top, to = bottom;
+      if (!line.isEmpty()) {  // meets the column before
+        from = std::min(from, line.back().y());
+        to = std::max(to, line.back().y());
+        flush();
       }
+      painter.fillRect(QRectF(left, from - kHalf, width, to - from + 2 * kHalf), colour);
+      lineTo({left + width / 2, std::clamp(y(std::isnan(samples[next - 1].high) ? extent.high : samples[next - 1].high), top, bottom)});
     }
     at = next;
   }

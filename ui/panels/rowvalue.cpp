@@ -61,7 +61,7 @@ double roundedForSlider(const ParameterDeclaration& d, double value, bool fine) 
   if (isLogarithmic(d)) {
     shown = toSignificant(shown, fine ? 4 : 3);
   } else if (const double range = displayedRange(d); range > 0 && std::isfinite(range)) {
-    shown = roundedTo(shown, static_cast<int>(std::floor(std::log10(range / 500) + 1e-9)) - (fine ? 1 : 0));
+    shown = roundedTo(shown, static_cast<int>(std::floor(std::log10(range / 400) + 1e-9)) - (fine ? 1 : 0));
   }
   return withinSlider(d, fromDisplay(d, shown));
 }

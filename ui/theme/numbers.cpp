@@ -93,7 +93,7 @@ int fieldDecimals(const api::ParameterDeclaration& d, double shown) {
   }
   const double range = std::abs((d.maximum - d.minimum) * d.displayScale);
   if (!(range > 0) || !std::isfinite(range)) return 0;
-  return std::clamp(static_cast<int>(std::ceil(-std::log10(range / 500) - 1e-9)), 0, 6);
+  return std::clamp(static_cast<int>(std::ceil(-std::log10(range / 400) - 1e-9)), 0, 6);
 }
 
 /// Sums and products of numbers, read from the left; a number may be followed by "× 10ⁿ".
