@@ -74,6 +74,7 @@ void show(QWidget& widget, int width = 392) {
   widget.show();
   QVERIFY(QTest::qWaitForWindowExposed(&widget));
   widget.activateWindow();
+  QVERIFY(QTest::qWaitForWindowActive(&widget));
 }
 
 QPoint onSlider(const ParameterRow& row, double position) {

@@ -275,7 +275,9 @@ bool ParameterRow::event(QEvent* event) {
       break;
     case QEvent::FocusIn: {
       const auto reason = static_cast<QFocusEvent*>(event)->reason();
-      d->keyboardFocus = reason == Qt::TabFocusReason || reason == Qt::BacktabFocusReason;
+      // The window's return, or a menu's end, says nothing new about how the focus came here.
+      if (reason == Qt::TabFocusReason || reason == Qt::BacktabFocusReason) d->keyboardFocus = true;
+      else if (reason == Qt::MouseFocusReason) d->keyboardFocus = false;
       update();
       break;
     }
