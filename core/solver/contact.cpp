@@ -10,6 +10,8 @@ namespace ps {
 namespace {
 constexpr size_t kGrain = 256;
 constexpr double kDiameter = 0.95;  // spacings
+/// Contacts of one particle usually lean apart, so half of them may act at full strength.
+constexpr int kRelaxation = 2;
 }  // namespace
 
 void SolidContact::configure(const SolverSettings& settings, std::span<const BakedMaterial> materials) {
@@ -93,8 +95,8 @@ api::Float4 SolidContact::correctionOf(const ParticleStore& store, const Chunk& 
     tx -= along * nx, ty -= along * ny, tz -= along * nz;
     const float way = std::sqrt(tx * tx + ty * ty + tz * tz), most = 0.5f * (frictionOf(i) + frictionOf(j)) * depth;
     const float hold = way > most ? most / way : 1;
-    const float share = velocity[i].w / (velocity[i].w + velocity[j].w) /
-                        static_cast<float>(std::max({m_contacts[i], m_contacts[j], uint8_t{1}}));
+    const float share = velocity[i].w / (velocity[i].w + velocity[j].w) * kRelaxation /
+                        static_cast<float>(std::max({m_contacts[i], m_contacts[j], uint8_t{kRelaxation}}));
     sum.x += share * (depth * nx - hold * tx);
     sum.y += share * (depth * ny - hold * ty);
     sum.z += share * (depth * nz - hold * tz);

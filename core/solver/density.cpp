@@ -78,7 +78,8 @@ PairLists DensityStage::lists(const Neighbours& neighbours) const {
 
 void DensityStage::refresh(const ParticleStore& store, const Neighbours& neighbours) {
   const size_t n = store.size();
-  for (std::vector<api::Float4>* v : {&m_points, &m_pointsBefore, &m_multipliers}) v->resize(n + kSpare);
+  for (std::vector<api::Float4>* v : {&m_points, &m_multipliers}) v->resize(n + kSpare);
+  m_carried.resize(n);
   m_volume.resize(n + kSpare);
   m_weight.resize(n + kSpare);
   m_fluid.clear();
@@ -89,7 +90,7 @@ void DensityStage::refresh(const ParticleStore& store, const Neighbours& neighbo
     if (isFluid(motion[i])) m_fluid.push_back(static_cast<uint32_t>(i));
   }
   const api::Float4 dummy{kFarAway, kFarAway, kFarAway, 0};
-  m_points[n] = m_pointsBefore[n] = m_multipliers[n] = dummy;
+  m_points[n] = m_multipliers[n] = dummy;
   m_volume[n] = m_weight[n] = 0;
   refreshLists(store, neighbours);
   if (m_fluid.empty()) return;
@@ -142,7 +143,6 @@ void DensityStage::solidVolumes(const ParticleStore& store, const PairLists& pai
 }
 
 void DensityStage::loadPoints(const ParticleStore& store) {
-  m_points.swap(m_pointsBefore);
   const api::Float4* position = store.position();
   for (size_t i = 0; i < store.size(); ++i) {
     m_points[i] = {position[i].x, position[i].y, position[i].z, m_volume[i]};
@@ -198,15 +198,17 @@ void DensityStage::move(ParticleStore& store, const PairLists& pairs, float cheb
     if (k < fluids) {
       const Constraint& c = m_constraints[k];
       const float own = inverseMass * c.lambda;
-      const api::Float4& before = m_pointsBefore[i];
       dx += own * c.x, dy += own * c.y, dz += own * c.z;
-      if (chebyshev != 1) {
-        x.x = before.x + chebyshev * (x.x + dx - before.x);
-        x.y = before.y + chebyshev * (x.y + dy - before.y);
-        x.z = before.z + chebyshev * (x.z + dz - before.z);
-        continue;
-      }
     }
+    // Only what density did is carried on, not what walls and structure did between two iterations, and by the same
+    // factors for fluids and solids: so the semi-iteration keeps momentum, and ice feels the lift that water gives.
+    api::Float4& carried = m_carried[i];
+    if (chebyshev != 1) {
+      dx = chebyshev * dx + (chebyshev - 1) * carried.x;
+      dy = chebyshev * dy + (chebyshev - 1) * carried.y;
+      dz = chebyshev * dz + (chebyshev - 1) * carried.z;
+    }
+    carried = {dx, dy, dz, 0};
     x.x += dx, x.y += dy, x.z += dz;
   }
 }
@@ -218,7 +220,7 @@ void DensityStage::project(ParticleStore& store, const Neighbours& neighbours, i
   const float relaxation =
       static_cast<float>(m_settings.iterations == 1 ? std::min(wanted, kSingleStepRelaxation) : wanted);
   loadPoints(store);
-  // x_k+1 = w (x_jacobi - x_k-1) + x_k-1, with w = 1 for two steps, then 2/(2 - rho^2), then 4/(4 - rho^2 w).
+  // x_k+1 = x_k-1 + w (x_k + jacobi - x_k-1), with w = 1 for two steps, then 2/(2 - rho^2), then 4/(4 - rho^2 w).
   const float rho2 = static_cast<float>(m_settings.chebyshevRadius * m_settings.chebyshevRadius);
   if (iteration < 2 || m_settings.densitySolver == DensitySolver::Jacobi) m_chebyshev = 1;
   else m_chebyshev = iteration == 2 ? 2 / (2 - rho2) : 4 / (4 - rho2 * m_chebyshev);

@@ -79,10 +79,10 @@ class DensityStage {
   std::vector<uint32_t> m_fluid, m_wet, m_some;
   std::vector<uint8_t> m_touched;
   std::vector<float> m_volume, m_weight, m_excess;
-  std::vector<api::Float4> m_points, m_pointsBefore, m_multipliers;
+  std::vector<api::Float4> m_points, m_multipliers;
   std::vector<DensitySums> m_sums;
   std::vector<Constraint> m_constraints;
-  std::vector<api::Float4> m_moves;
+  std::vector<api::Float4> m_moves, m_carried;
 };
 
 }  // namespace ps

@@ -12,11 +12,11 @@ namespace {
 
 constexpr size_t kGrain = 512;
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kGasConstant = 8.314462618;     ///< J/(mol K)
-constexpr double kMolarMassAir = 0.0289647;      ///< kg/mol
-constexpr double kAddedMass = 0.5;               ///< of a sphere
-constexpr double kDragCoefficient = 0.5;         ///< of a sphere at the Reynolds numbers of puffs of steam
-constexpr double kColdest = 20;                  ///< K, below which the ideal gas law is not asked
+constexpr double kGasConstant = 8.314462618;  ///< J/(mol K)
+constexpr double kMolarMassAir = 0.0289647;   ///< kg/mol
+constexpr double kAddedMass = 0.5;            ///< of a sphere
+constexpr double kDragCoefficient = 0.5;      ///< of a sphere at the Reynolds numbers of puffs of steam
+constexpr double kColdest = 20;               ///< K, below which the ideal gas law is not asked
 
 /// W in 1/m3 at distance r of a kernel of a support radius.
 double kernelValue(KernelShape shape, double support, double r) {

@@ -12,15 +12,16 @@ namespace ps {
 /// out from physical densities, along the gravity vector, with f the gas fraction and phi the share of its surroundings
 /// that is liquid:
 ///
-///   a = f (phi g + (1 - phi) g (rho_air/rho - 1)/(1 + C rho_air/rho)) - (1 - f) g    upwards, C = 0.5 added mass of a sphere
-///   dv/dt = -f (1 - phi) k |v| v,   k = 3 Cd rho_air/(4 rho D),  Cd = 0.5, D = gasDrag     drag, semi-implicit
+///   a = f (phi g + (1 - phi) g (rho_air/rho - 1)/(1 + C rho_air/rho)) - (1 - f) g    upwards, C = 0.5 added mass of a
+///   sphere dv/dt = -f (1 - phi) k |v| v,   k = 3 Cd rho_air/(4 rho D),  Cd = 0.5, D = gasDrag     drag, semi-implicit
 ///
 /// rho and rho_air are those of ideal gases at the particle's temperature and at the ambient one. Inside liquid the
 /// density constraint pushes as Archimedes would; the plain +g only undoes the weight. Vapour heavier than air sinks.
 /// Not modelled: wind, mixing with air.
 class GasForces {
  public:
-  void configure(const SolverSettings& solver, const ThermalSettings& thermal, std::span<const BakedMaterial> materials);
+  void configure(const SolverSettings& solver, const ThermalSettings& thermal,
+                 std::span<const BakedMaterial> materials);
   /// Once per frame: how much of the neighbourhood is liquid.
   void measure(const ParticleStore& store, const Neighbours& neighbours);
   /// Adds dt times the acceleration to the velocities of particles [first, last) that move.

@@ -43,8 +43,8 @@ double kernelValue(KernelShape shape, double support, double r) {
   return 10.5 / (kPi * cube) * a * a * a * a * (1 + 4 * q);
 }
 
-/// Volume^(2/3), m2, for a volume near spacing^3. Newton's cube root, because the C library's may differ in its last bit
-/// between machines.
+/// Volume^(2/3), m2, for a volume near spacing^3. Newton's cube root, because the C library's may differ in its last
+/// bit between machines.
 double faceOf(double volume, double spacing) {
   const double scaled = volume / (spacing * spacing * spacing);
   double x = 1;
@@ -90,7 +90,8 @@ void HeatStage::initialise(ParticleStore& store, size_t first, size_t last, std:
   if (m_modelChanged && first > 0) adopt(store);
   m_modelChanged = false;
   const auto fields = m_model->fields();
-  for (size_t k = 0; k < fields.count; ++k) store.declare(fields[k].name, fields[k].type, fields[k].unit, fields[k].help);
+  for (size_t k = 0; k < fields.count; ++k)
+    store.declare(fields[k].name, fields[k].type, fields[k].unit, fields[k].help);
   m_newTemperature.resize(store.size());
   m_newPhase.resize(store.size());
   std::copy(temperature.begin(), temperature.end(), m_newTemperature.begin() + static_cast<std::ptrdiff_t>(first));
@@ -99,16 +100,21 @@ void HeatStage::initialise(ParticleStore& store, size_t first, size_t last, std:
   deriveRange(store, first, last);
 }
 
-/// Another model than the one that wrote the state: starts it from temperature and phase.
+/// Another model than the one that wrote the state: starts it from temperature and phase. What it makes of the same
+/// temperatures may differ in energy (on a plateau it cannot know how far the other one was): that is a source.
 void HeatStage::adopt(ParticleStore& store) {
   m_modelChanged = false;
+  const double before = m_lastEnergy;
+  const bool known = m_lastCount > 0 && m_lastCount == store.size();
   const size_t n = store.size();
   if (n == 0) return;
   const auto fields = m_model->fields();
-  for (size_t k = 0; k < fields.count; ++k) store.declare(fields[k].name, fields[k].type, fields[k].unit, fields[k].help);
+  for (size_t k = 0; k < fields.count; ++k)
+    store.declare(fields[k].name, fields[k].type, fields[k].unit, fields[k].help);
   m_newTemperature.assign(store.temperature(), store.temperature() + n);
   m_model->initialise(context(), store.view(), 0, n, m_newTemperature.data(), store.phase());
   deriveRange(store, 0, n);
+  if (known) book(energy(store) - before);
 }
 
 void HeatStage::deriveRange(ParticleStore& store, size_t first, size_t last) {
@@ -125,6 +131,7 @@ void HeatStage::derive(ParticleStore& store) {
 }
 
 double HeatStage::energy(const ParticleStore& store) const {
+  if (m_modelChanged && m_lastCount == store.size()) return m_lastEnergy;  // as the other model left it
   if (!m_model || m_modelChanged || store.size() == 0) return 0;
   m_energies.resize(store.size());
   const api::ThermalContext where = context();
@@ -137,6 +144,8 @@ double HeatStage::energy(const ParticleStore& store) const {
     for (size_t i = first; i < std::min(store.size(), first + kGrain); ++i) chunk += m_energies[i];
     sum += chunk;
   }
+  m_lastEnergy = sum;
+  m_lastCount = store.size();
   return sum;
 }
 
@@ -162,9 +171,9 @@ void HeatStage::prepare(ParticleStore& store, const Neighbours& neighbours) {
   m_touchesWall.resize(n);
   m_airConductance.resize(n);
   m_boilingPartners.resize(n);
-  m_pairs.build(store, neighbours.view(), m_materials,
-                {m_solver.spacing * m_solver.supportRatio, m_solver.spacing, m_solver.kernel,
-                 m_settings.momentCorrection});
+  m_pairs.build(
+      store, neighbours.view(), m_materials,
+      {m_solver.spacing * m_solver.supportRatio, m_solver.spacing, m_solver.kernel, m_settings.momentCorrection});
   const auto body = [&](size_t first, size_t last) {
     Partial& partial = m_partials[first / kGrain];
     partial = {};
@@ -193,9 +202,7 @@ void HeatStage::measureSurroundings(const ParticleStore& store, size_t first, si
       const double depth =
           wall.normal.x * double{x.x} + wall.normal.y * double{x.y} + wall.normal.z * double{x.z} - wall.offset;
       const double height = std::max(depth, 0.0) + 0.5 * dx;
-      const double g = height < support
-                           ? 4 * volume * dx * 2 * kPi * kernelValue(m_solver.kernel, support, height)
-                           : 0;
+      const double g = height < support ? 4 * volume * dx * 2 * kPi * kernelValue(m_solver.kernel, support, height) : 0;
       m_wallConductance[i * m_walls.size() + w] = static_cast<float>(g);
       perConductivity += g;
       touches |= g > 0;
@@ -233,10 +240,10 @@ void HeatStage::advance(ParticleStore& store, const Neighbours& neighbours, doub
   closeBooks();
 }
 
-/// Returns the thermal seconds done: all, or none where kMaxExplicit stable steps would not do from the start. The stable
-/// step is measured anew after each one, as freezing matter may conduct several times better than its liquid.
-double HeatStage::takeExplicitSteps(ParticleStore& store, const api::ParticleView& view, const api::NeighbourView& lists,
-                                    double time) {
+/// Returns the thermal seconds done: all, or none where kMaxExplicit stable steps would not do from the start. The
+/// stable step is measured anew after each one, as freezing matter may conduct several times better than its liquid.
+double HeatStage::takeExplicitSteps(ParticleStore& store, const api::ParticleView& view,
+                                    const api::NeighbourView& lists, double time) {
   const double share = std::clamp(m_settings.cfl, 0.01, 1.0);
   if (time > kMaxExplicit * share * m_limit && !m_pairLaw) return 0;
   double left = time;

@@ -20,7 +20,9 @@ namespace ps {
 /// Explicit substeps of thermal_cfl times the Gershgorin limit, measured before each from the pairs at hand; above
 /// kMaxExplicit of them, pairwise exponential sweeps (heatrelax.h), which stay stable at any step and lose accuracy
 /// slowly. What even these cannot follow is not done: the thermal clock then runs slower, see
-/// thermalTimeScaleDelivered(). Not modelled: radiation, convection of air, evaporation below the boiling point.
+/// thermalTimeScaleDelivered(). A model's own pair law is stepped at the limit of the host's conduction and never
+/// swept, so a law much stronger than that needs a smaller thermal_cfl. Not modelled: radiation, convection of air,
+/// evaporation below the boiling point.
 class HeatStage {
  public:
   static constexpr int kMaxExplicit = 40;     ///< explicit substeps per frame
@@ -31,18 +33,22 @@ class HeatStage {
   void configure(const ThermalSettings& settings, const SolverSettings& solver, std::vector<Wall> walls,
                  std::span<const BakedMaterial> materials, const api::ThermalPlugin* model,
                  std::vector<double> modelParameters);
-  /// Sets state, temperature and fractions of particles [first, last); the two spans hold one value per particle of that
-  /// range. Declares the model's fields in the store when they are new.
+  /// Sets state, temperature and fractions of particles [first, last); the two spans hold one value per particle of
+  /// that range. Declares the model's fields in the store when they are new.
   void initialise(ParticleStore& store, size_t first, size_t last, std::span<const double> temperature,
                   std::span<const api::Phase> phase);
   /// One frame of `dt` s of mechanical time. Lists must be fresh. Updates temperature and fractions, not volumes.
   void advance(ParticleStore& store, const Neighbours& neighbours, double dt);
   /// Re-derives temperature and fractions (after a change of pressure or material).
   void derive(ParticleStore& store);
-  double energy(const ParticleStore& store) const;  ///< J, the model's, summed in order of index chunks
+  /// J, the model's, summed in order of index chunks. Not to be called from two threads at once.
+  double energy(const ParticleStore& store) const;
   const HeatLedger& ledger() const { return m_ledger; }
   /// Joules that left or came with removed or added particles are booked here.
-  void book(double joules) { m_ledger.sources += joules; m_ledger.exchanged += joules < 0 ? -joules : joules; }
+  void book(double joules) {
+    m_ledger.sources += joules;
+    m_ledger.exchanged += joules < 0 ? -joules : joules;
+  }
   int lastSubsteps() const { return m_lastSubsteps; }
 
   /// Thermal seconds per mechanical second that the last frame really did; below ThermalSettings::timeScale where the
@@ -109,21 +115,23 @@ class HeatStage {
   HeatPairs m_pairs;
   Snapshot m_now, m_next;
   std::vector<Partial> m_partials;
-  std::vector<double> m_joules;        ///< of the present substep
-  std::vector<double> m_frameJoules;   ///< film and nucleation, once a frame
-  std::vector<double> m_watts;         ///< the model's own sources, W of thermal time
-  std::vector<double> m_pairWatts;     ///< the model's own pair law, per list entry
+  std::vector<double> m_joules;       ///< of the present substep
+  std::vector<double> m_frameJoules;  ///< film and nucleation, once a frame
+  std::vector<double> m_watts;        ///< the model's own sources, W of thermal time
+  std::vector<double> m_pairWatts;    ///< the model's own pair law, per list entry
   std::vector<double> m_newTemperature;
   std::vector<api::Phase> m_newPhase;
-  std::vector<double> m_wallPotential;     ///< W/m, wall times materials + material
-  std::vector<float> m_wallConductance;    ///< m, particle times walls + wall
+  std::vector<double> m_wallPotential;   ///< W/m, wall times materials + material
+  std::vector<float> m_wallConductance;  ///< m, particle times walls + wall
   std::vector<uint8_t> m_touchesWall;
   std::vector<float> m_airConductance;     ///< W/K
   std::vector<double> m_perConductivity;   ///< m: pairs of one material and walls, to be multiplied by k
   std::vector<double> m_fixedConductance;  ///< W/K: other materials and air
   std::vector<uint32_t> m_boilingPartners;
   mutable std::vector<double> m_energies;  ///< J, scratch of energy()
-  std::vector<HeatBody> m_bodies;          ///< of a sweep
+  mutable double m_lastEnergy = 0;         ///< J, of m_lastCount particles
+  mutable size_t m_lastCount = 0;
+  std::vector<HeatBody> m_bodies;  ///< of a sweep
 };
 
 }  // namespace ps

@@ -7,9 +7,9 @@ namespace ps {
 
 /// What one particle can take before its temperature moves, for pairwise exponential exchange.
 struct HeatBody {
-  double temperature = 0;                ///< K
-  double inverseCapacity = 0;            ///< K/J, sensible heat alone
-  double latentUp = 0, latentDown = 0;   ///< J to the upper and lower end of the plateau that it stands on
+  double temperature = 0;               ///< K
+  double inverseCapacity = 0;           ///< K/J, sensible heat alone
+  double latentUp = 0, latentDown = 0;  ///< J to the upper and lower end of the plateau that it stands on
 
   /// K/J against a partner that is warmer by `difference` K: latent heat counts as if spread over the difference.
   double inverseAgainst(double difference) const {

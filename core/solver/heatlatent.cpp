@@ -21,8 +21,8 @@ double latentHeatOf(const api::Caloric& c) {
   const double fromLiquid =
       c.latentHeatVaporization - (c.heatCapacityLiquid - c.heatCapacityGas) * (c.boilingPoint - c.boilingPoint0);
   if (!c.sublimes) return std::max(0.0, fromLiquid);
-  const double liquidAboveSolid = c.latentHeatFusion + (c.heatCapacityLiquid - c.heatCapacitySolid) *
-                                                           (c.meltingPoint - c.meltingPoint0);
+  const double liquidAboveSolid =
+      c.latentHeatFusion + (c.heatCapacityLiquid - c.heatCapacitySolid) * (c.meltingPoint - c.meltingPoint0);
   return std::max(0.0, fromLiquid + liquidAboveSolid);
 }
 
@@ -53,9 +53,9 @@ void HeatStage::collectFrameHeat(const ParticleStore& store, const api::Particle
   parallelFor(n, kGrain, std::cref(bubbles));
 }
 
-/// Vapour close to a wall below the boiling point condenses with the wall's film coefficient, Q = h A (T_w - T): conduction
-/// through steam alone, some 3 W/(m2 K), would take minutes. At most kFilmShare of what is left in one frame, so that a
-/// particle never falls through the plateau.
+/// Vapour close to a wall below the boiling point condenses with the wall's film coefficient, Q = h A (T_w - T):
+/// conduction through steam alone, some 3 W/(m2 K), would take minutes. At most kFilmShare of what is left in one
+/// frame, so that a particle never falls through the plateau.
 void HeatStage::filmHeat(const ParticleStore& store, size_t i, double frame, Partial& partial) {
   const double gas = store.gasFraction()[i];
   if (gas < 0.02) return;

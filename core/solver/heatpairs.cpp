@@ -41,8 +41,8 @@ void HeatPairs::build(const ParticleStore& store, const api::NeighbourView& list
     for (size_t i = first; i < last; ++i) {
       const BakedMaterial& material = materials[store.material()[i]];
       const double t = store.temperature()[i], s = store.solidFraction()[i];
-      conductivity[i] = static_cast<float>(
-          material.conductivity(t, s, store.liquidFraction()[i], store.gasFraction()[i]));
+      conductivity[i] =
+          static_cast<float>(material.conductivity(t, s, store.liquidFraction()[i], store.gasFraction()[i]));
       volume[i] = static_cast<float>(static_cast<double>(store.mass()[i]) / material.condensedDensity(t, s));
     }
   };
@@ -62,7 +62,8 @@ void HeatPairs::differentiate(uint32_t first, uint32_t last) {
   float* __restrict g = conductance.data();
   float* __restrict w = m_kernel.data();
   if (m_options.kernel == KernelShape::CubicSpline) {
-    const float scale = static_cast<float>(8 / (kPi * r3)), slope = static_cast<float>(8 / (kPi * r3 * m_options.support));
+    const float scale = static_cast<float>(8 / (kPi * r3)),
+                slope = static_cast<float>(8 / (kPi * r3 * m_options.support));
     for (uint32_t k = first; k < last; ++k) {
       const float r = std::sqrt(r2[k]), q = r * inverse;
       const float a = 1.0f - q, b = std::max(0.5f - q, 0.0f);

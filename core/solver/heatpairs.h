@@ -2,8 +2,8 @@
 #pragma once
 // Why a list of its own: geometry does not change while heat is subcycled, so distances, kernels and conductances are
 // worked out once a frame and each heat substep is one multiply-add per neighbour. Both partners of a pair compute the
-// same float from commutative operations alone, so what one gains the other loses to the last bit, and the loop needs no
-// scatter: every particle sums its own list.
+// same float from commutative operations alone, so what one gains the other loses to the last bit, and the loop needs
+// no scatter: every particle sums its own list.
 #include "core/math/kernels.h"
 #include "core/matter/material.h"
 #include "core/particles/particlestore.h"
@@ -14,8 +14,8 @@
 namespace ps {
 
 /// Thermal conductances between neighbours (Cleary & Monaghan 1999): for particles of one material per unit of
-/// conductivity, G = -2 F V_i V_j in m, to be multiplied by a difference of Kirchhoff potentials in W/m; for particles of
-/// different materials with the harmonic mean of their conductivities, in W/K. V is the rest volume of the condensed
+/// conductivity, G = -2 F V_i V_j in m, to be multiplied by a difference of Kirchhoff potentials in W/m; for particles
+/// of different materials with the harmonic mean of their conductivities, in W/K. V is the rest volume of the condensed
 /// matter, which conducts better than 1/sum W under disorder and does not swell with vapour.
 class HeatPairs {
  public:
@@ -33,9 +33,9 @@ class HeatPairs {
   std::vector<uint32_t> partner;
   std::vector<float> conductance;
   std::vector<double> sameTotal, otherTotal;  ///< sums of conductance over each particle's two ranges
-  std::vector<float> conductivity;  ///< W/(m K), mixture of the phases present
-  std::vector<float> volume;        ///< m3, condensed
-  std::vector<float> immersion;     ///< share of the surroundings that is liquid, 0..1; only of particles with vapour
+  std::vector<float> conductivity;            ///< W/(m K), mixture of the phases present
+  std::vector<float> volume;                  ///< m3, condensed
+  std::vector<float> immersion;  ///< share of the surroundings that is liquid, 0..1; only of particles with vapour
 
  private:
   void prepare(size_t count, size_t slots);

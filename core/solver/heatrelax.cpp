@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pairwise exponential heat exchange, for frames that would need more explicit substeps than HeatStage affords. Every
-// pair relaxes exactly as two bodies in contact would, E = C (1 - exp(-G dt/C)) (T_j - T_i) with 1/C = 1/C_i + 1/C_j, in
-// list order with half the step and then backwards with the other half. E never exceeds what brings the two to one
-// temperature, so any step is stable, and what one gains the other loses, so that energy is kept. The price is accuracy:
-// about 0.5 % of the melted mass at 20 times the Gershgorin limit. Order matters, so this runs on one thread.
+// pair relaxes exactly as two bodies in contact would, E = C (1 - exp(-G dt/C)) (T_j - T_i) with 1/C = 1/C_i + 1/C_j,
+// in list order with half the step and then backwards with the other half. E never exceeds what brings the two to one
+// temperature, so any step is stable, and what one gains the other loses, so that energy is kept. The price is
+// accuracy: about 0.5 % of the melted mass at 20 times the Gershgorin limit. Order matters, so this runs on one thread.
 #include "core/base/parallel.h"
 #include "core/solver/heat.h"
 
@@ -29,8 +29,8 @@ double decay(double x) {
 
 /// Latent heat in J/kg of melting at the scene's pressure.
 double meltingHeatOf(const api::Caloric& c) {
-  return std::max(0.0, c.latentHeatFusion + (c.heatCapacityLiquid - c.heatCapacitySolid) *
-                                                (c.meltingPoint - c.meltingPoint0));
+  return std::max(
+      0.0, c.latentHeatFusion + (c.heatCapacityLiquid - c.heatCapacitySolid) * (c.meltingPoint - c.meltingPoint0));
 }
 
 }  // namespace

@@ -54,9 +54,9 @@ double PhaseStage::meltThreshold(uint32_t material, uint32_t id) const {
 }
 
 double PhaseStage::targetVolume(const ParticleStore& store, size_t i) const {
-  return double{store.mass()[i]} / m_materials[store.material()[i]].restDensity(
-                                       store.temperature()[i], store.solidFraction()[i], store.liquidFraction()[i],
-                                       store.gasFraction()[i]);
+  return double{store.mass()[i]} /
+         m_materials[store.material()[i]].restDensity(store.temperature()[i], store.solidFraction()[i],
+                                                      store.liquidFraction()[i], store.gasFraction()[i]);
 }
 
 void PhaseStage::initialise(ParticleStore& store, size_t first, size_t last) {

@@ -10,15 +10,15 @@ namespace ps {
 /// a frame), and particles change between solid, liquid and gas motion with scattered thresholds and hysteresis.
 /// Structure follows afterwards: constraint plugins see the new motion in topology().
 ///
-/// A solid lets go when melt_break_fraction, scattered by 0.3 either way by a hash of the particle's id, has melted: if a
-/// whole lattice layer let go at once, the block would drop by a spacing and squirt out the film below. It is solid
-/// again at freeze_bond_fraction. Vapour moves as gas from a gas fraction of 0.5 and falls again below 0.4. What sublimes
-/// turns from solid into gas. Static particles keep motion and volume; their phase is reported like any other.
+/// A solid lets go when melt_break_fraction, scattered by 0.3 either way by a hash of the particle's id, has melted: if
+/// a whole lattice layer let go at once, the block would drop by a spacing and squirt out the film below. It is solid
+/// again at freeze_bond_fraction. Vapour moves as gas from a gas fraction of 0.5 and falls again below 0.4. What
+/// sublimes turns from solid into gas. Static particles keep motion and volume; their phase is reported like any other.
 class PhaseStage {
  public:
   void configure(const SolverSettings& solver, std::span<const BakedMaterial> materials);
-  /// Rest volume, phase, motion and inverse mass of newborn particles [first, last), without ramp. Mass, temperature and
-  /// fractions must be set; motion Static stays.
+  /// Rest volume, phase, motion and inverse mass of newborn particles [first, last), without ramp. Mass, temperature
+  /// and fractions must be set; motion Static stays.
   void initialise(ParticleStore& store, size_t first, size_t last);
   /// One frame. `melted` receives the indices of particles that ceased to be solid (for the compression hand-over).
   void update(ParticleStore& store, std::vector<uint32_t>& melted);

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/base/error.h"
+#include "core/base/hash.h"
+#include "core/base/parallel.h"
+#include "core/particles/neighbours.h"
+
+#include <QTest>
+
+#include <algorithm>
+#include <cstdint>
+
+using ps::Neighbours;
+using ps::ParticleStore;
+
+namespace {
+
+/// SplitMix64 (Steele et al. 2014): the same numbers on every machine.
+class Random {
+ public:
+  explicit Random(uint64_t seed) : m_state(seed) {}
+  double next() {
+    uint64_t z = (m_state += 0x9E3779B97F4A7C15ull);
+    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ull;
+    z = (z ^ (z >> 27)) * 0x94D049BB133111EBull;
+    return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1.0p-53;
+  }
+
+ private:
+  uint64_t m_state;
+};
+
+constexpr double kSupport = 0.04, kSkin = 0.004;
+
+void place(ParticleStore& store, size_t i, double x, double y, double z) {
+  store.position()[i] = {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z), 8e-6f};
+}
+
+void fill(ParticleStore& store, const QString& kind) {
+  Random random(7);
+  const auto anywhere = [&](size_t i, double size) {
+    place(store, i, size * random.next() - 1, size * random.next(), size * random.next() + 3);
+  };
+  if (kind == "lattice") {
+    size_t i = store.add(11 * 9 * 8);
+    for (int z = 0; z < 8; ++z) {
+      for (int y = 0; y < 9; ++y) {
+        for (int x = 0; x < 11; ++x) place(store, i++, 0.02 * x, 0.02 * y, 0.02 * z);
+      }
+    }
+  } else if (kind == "clusters") {
+    size_t i = store.add(600);
+    for (int c = 0; c < 6; ++c) {
+      const double at[3] = {5 * random.next(), 5 * random.next(), 5 * random.next()};
+      for (int k = 0; k < 100; ++k) {
+        place(store, i++, at[0] + 0.08 * random.next(), at[1] + 0.08 * random.next(), at[2] + 0.08 * random.next());
+      }
+    }
+  } else if (kind == "one far away") {
+    store.add(300);
+    for (size_t i = 0; i < 299; ++i) anywhere(i, 0.2);
+    place(store, 299, 4000, -300, 90);
+  } else if (kind == "alone") {
+    store.add(1);
+  } else {
+    store.add(800);
+    for (size_t i = 0; i < 800; ++i) anywhere(i, 0.25);
+  }
+}
+
+/// Empty when the lists are right, else what is wrong.
+QString problemOf(const ParticleStore& store, const Neighbours& neighbours) {
+  const ps::api::NeighbourView view = neighbours.view();
+  const float radius2 = static_cast<float>((kSupport + kSkin) * (kSupport + kSkin));
+  const ps::api::Float4* p = store.position();
+  for (uint32_t i = 0; i < store.size(); ++i) {
+    std::vector<uint32_t> expected;
+    for (uint32_t j = 0; j < store.size(); ++j) {
+      const float x = p[i].x - p[j].x, y = p[i].y - p[j].y, z = p[i].z - p[j].z;
+      if (j != i && x * x + (y * y + z * z) < radius2) expected.push_back(j);
+    }
+    const std::vector<uint32_t> found(view.index + view.begin[i], view.index + view.last[i]);
+    if (found != expected) {
+      return QString("particle %1: %2 neighbours found, %3 expected").arg(i).arg(found.size()).arg(expected.size());
+    }
+    if ((view.end[i] - view.begin[i]) % Neighbours::kListPad != 0) return QString("particle %1: not padded").arg(i);
+    for (uint32_t q = view.last[i]; q < view.end[i]; ++q) {
+      if (view.index[q] != store.size()) return QString("particle %1: padded with something else").arg(i);
+    }
+  }
+  return {};
+}
+
+uint64_t hashOf(const ParticleStore& store) {
+  ps::Hash hash;
+  store.addTo(hash);
+  return hash.value();
+}
+
+}  // namespace
+
+class TestParticles : public QObject {
+  Q_OBJECT
+ private Q_SLOTS:
+  void listsEqualBruteForce_data() {
+    QTest::addColumn<int>("threads");
+    for (const char* kind : {"random", "lattice", "clusters", "one far away", "alone"}) {
+      for (const int threads : {1, 4}) QTest::addRow("%s, %d threads", kind, threads) << threads;
+    }
+  }
+  void listsEqualBruteForce() {
+    QFETCH(int, threads);
+    ps::setThreadCount(threads);
+    const QString kind = QString(QTest::currentDataTag()).section(',', 0, 0);
+    ParticleStore store;
+    fill(store, kind);
+    Neighbours neighbours;
+    neighbours.configure(kSupport, kSkin);
+    QVERIFY(neighbours.stale(store));
+    neighbours.build(store);
+    QCOMPARE(problemOf(store, neighbours), QString());
+    QVERIFY(!neighbours.stale(store));
+
+    const uint64_t before = hashOf(store);
+    neighbours.sortAndBuild(store);
+    QCOMPARE(problemOf(store, neighbours), QString());
+    QCOMPARE(hashOf(store), before);  // sorting changes places, not particles
+
+    Random random(3);
+    for (size_t i = 0; i < store.size(); ++i) store.position()[i].x += static_cast<float>(0.1 * random.next());
+    QVERIFY(neighbours.stale(store));
+    neighbours.build(store);
+    QCOMPARE(problemOf(store, neighbours), QString());
+
+    const size_t first = store.add(20);
+    for (size_t i = first; i < store.size(); ++i) place(store, i, 0.1 * random.next() - 1, 0.1 * random.next(), 3);
+    QVERIFY(neighbours.stale(store));
+    neighbours.build(store);
+    QCOMPARE(problemOf(store, neighbours), QString());
+    const std::vector<uint32_t> gone{0, 5, 6, 20};
+    store.remove(gone);
+    neighbours.sortAndBuild(store);
+    QCOMPARE(problemOf(store, neighbours), QString());
+    ps::setThreadCount(0);
+  }
+
+  void idsFindTheirParticle() {
+    ParticleStore store;
+    store.declare("depth", ps::api::FieldType::Float64, "m", "a plugin's own field");
+    store.add(100);
+    auto depth = [&] { return static_cast<double*>(store.find("depth", ps::api::FieldType::Float64)); };
+    for (size_t i = 0; i < 100; ++i) depth()[i] = 2.5 * store.id()[i];
+    std::vector<uint32_t> order(100);
+    for (uint32_t i = 0; i < 100; ++i) order[i] = (i * 37 + 11) % 100;
+    const std::vector<uint32_t> oldIds(store.id(), store.id() + 100);
+    store.permute(order);
+    for (uint32_t i = 0; i < 100; ++i) QCOMPARE(store.id()[i], oldIds[order[i]]);
+    const std::vector<uint32_t> gone{3, 4, 99};
+    const uint32_t lost = store.id()[4];
+    store.remove(gone);
+    store.add(5);
+    QCOMPARE(store.size(), size_t{102});
+    QCOMPARE(store.indexOf(lost), store.size());
+    QCOMPARE(store.id()[101], 104u);  // ids are never used again
+    for (size_t i = 0; i < store.size(); ++i) {
+      QCOMPARE(store.indexOf(store.id()[i]), i);
+      QCOMPARE(depth()[i], i < 97 ? 2.5 * store.id()[i] : 0.0);
+    }
+    QCOMPARE(store.position()[store.size()].w, 0.0f);  // the dummy weighs nothing and is far away
+    QVERIFY(store.position()[store.size()].x > 1e6f);
+  }
+
+  void arraysAreAligned() {
+    ParticleStore store;
+    store.add(1000);
+    for (const ParticleStore::FieldInfo& f : store.fields()) {
+      QCOMPARE(reinterpret_cast<uintptr_t>(store.find(f.name.c_str(), f.type)) % 64, uintptr_t{0});
+    }
+  }
+
+  void aFieldHasOneType() {
+    ParticleStore store;
+    store.declare("rust", ps::api::FieldType::Float32);
+    store.declare("rust", ps::api::FieldType::Float32);
+    QVERIFY_THROWS_EXCEPTION(ps::Error, store.declare("rust", ps::api::FieldType::Float64));
+    QCOMPARE(store.find("rust", ps::api::FieldType::UInt8), static_cast<void*>(nullptr));
+  }
+
+  void copiesAreEqualAndApart() {
+    ParticleStore store, copy;
+    fill(store, "random");
+    copy.copyFrom(store);
+    QCOMPARE(hashOf(copy), hashOf(store));
+    copy.velocity()[3].x = 1;
+    QVERIFY(hashOf(copy) != hashOf(store));
+    QCOMPARE(copy.indexOf(store.id()[7]), size_t{7});
+  }
+};
+
+QTEST_APPLESS_MAIN(TestParticles)
+#include "tst_particles.moc"
