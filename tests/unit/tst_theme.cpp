@@ -185,7 +185,8 @@ void TestTheme::numbersAreFormatted_data() {
   QTest::addColumn<QString>("four");
   QTest::addColumn<QString>("brief");
   const auto row = [](double value, const char* four, const char* brief) {
-    QTest::newRow(qPrintable(QString::number(value, 'g', 12))) << value << QString::fromUtf8(four) << QString::fromUtf8(brief);
+    QTest::newRow(qPrintable(QString::number(value, 'g', 12)))
+        << value << QString::fromUtf8(four) << QString::fromUtf8(brief);
   };
   row(0, "0", "0");
   row(120, "120.0", "120");
@@ -298,7 +299,8 @@ void TestTheme::typedTextIsUnderstood() {
   const QStringList parts = unit.split(QLatin1Char('|'));
   const QByteArray stored = parts[0].toUtf8(), shown = parts[1].toUtf8();
   const double scale = parts[2].isEmpty() ? 1 : parts[2].toDouble();
-  const api::ParameterDeclaration d = declaration(stored.constData(), shown.constData(), scale, parts.value(3).toDouble());
+  const api::ParameterDeclaration d =
+      declaration(stored.constData(), shown.constData(), scale, parts.value(3).toDouble());
   // "kJ/(kg K)": a space multiplies only inside a unit.
   const QString typed = QString(text).replace(QStringLiteral("(kg K)"), QStringLiteral("(kg·K)"));
   for (const char* name : {"C", "de_DE.UTF-8"}) {
@@ -307,7 +309,8 @@ void TestTheme::typedTextIsUnderstood() {
     const Typed result = parseTyped(typed, d, 293.15);
     QVERIFY2(result.problem.isEmpty(), qPrintable(result.problem));
     // Conversion costs a few roundings of double.
-    QVERIFY2(std::abs(result.value - value) <= 1e-12 * std::abs(value), qPrintable(QString::number(result.value, 'g', 17)));
+    QVERIFY2(std::abs(result.value - value) <= 1e-12 * std::abs(value),
+             qPrintable(QString::number(result.value, 'g', 17)));
   }
   std::setlocale(LC_NUMERIC, "C");
   QLocale::setDefault(QLocale::c());
@@ -315,8 +318,9 @@ void TestTheme::typedTextIsUnderstood() {
 
 void TestTheme::typedNonsenseIsRefused_data() {
   QTest::addColumn<QString>("text");
-  for (const char* text : {"", "abc", "1 2", "1..2", "1,2.3", "1 m", "--", "*", "/0", "*x", "(1", "1/0", "nan", "inf", "1e999",
-                           "0x10", "1 °C/", "((((((((((((((((((((((((((((((((((((((((((((((((((((((((((((((1", "25 furlongs"}) {
+  for (const char* text :
+       {"", "abc", "1 2", "1..2", "1,2.3", "1 m", "--", "*", "/0", "*x", "(1", "1/0", "nan", "inf", "1e999", "0x10",
+        "1 °C/", "((((((((((((((((((((((((((((((((((((((((((((((((((((((((((((((1", "25 furlongs"}) {
     QTest::newRow(text) << QString::fromUtf8(text);
   }
 }
@@ -331,16 +335,26 @@ void TestTheme::unitsAreUnderstood_data() {
   QTest::addColumn<QString>("text");
   QTest::addColumn<QString>("same");
   QTest::addColumn<double>("factor");
-  QTest::newRow("conductivity") << "W/m·K" << "W/(m·K)" << 1.0;
-  QTest::newRow("joule") << "J" << "N·m" << 1.0;
-  QTest::newRow("pascal") << "Pa" << "N/m²" << 1.0;
-  QTest::newRow("exponent") << "s^-2" << "1/s²" << 1.0;
-  QTest::newRow("raised minus") << "K⁻¹" << "1/K" << 1.0;
-  QTest::newRow("litre") << "L" << "m³" << 1e-3;
-  QTest::newRow("mega") << "MPa" << "Pa" << 1e6;
-  QTest::newRow("milli") << "mPa·s" << "Pa·s" << 1e-3;
-  QTest::newRow("minute is no milli-inch") << "min" << "s" << 60.0;
-  QTest::newRow("surface tension") << "mN/m" << "J/m²" << 1e-3;
+  QTest::newRow("conductivity") << "W/m·K"
+                                << "W/(m·K)" << 1.0;
+  QTest::newRow("joule") << "J"
+                         << "N·m" << 1.0;
+  QTest::newRow("pascal") << "Pa"
+                          << "N/m²" << 1.0;
+  QTest::newRow("exponent") << "s^-2"
+                            << "1/s²" << 1.0;
+  QTest::newRow("raised minus") << "K⁻¹"
+                                << "1/K" << 1.0;
+  QTest::newRow("litre") << "L"
+                         << "m³" << 1e-3;
+  QTest::newRow("mega") << "MPa"
+                        << "Pa" << 1e6;
+  QTest::newRow("milli") << "mPa·s"
+                         << "Pa·s" << 1e-3;
+  QTest::newRow("minute is no milli-inch") << "min"
+                                           << "s" << 60.0;
+  QTest::newRow("surface tension") << "mN/m"
+                                   << "J/m²" << 1e-3;
 }
 
 void TestTheme::unitsAreUnderstood() {
@@ -371,7 +385,7 @@ void TestTheme::pivotSitsOnTheMeltingPoint() {
   QCOMPARE(legendPosition(map, {-14, 120}, 0, 0), 0.36);
   QCOMPARE(legendPosition(map, {-14, 120}, 0, -7), 0.18);  // both sides linear
   QCOMPARE(legendPosition(map, {-14, 120}, 0, 60), 0.68);
-  QCOMPARE(legendPosition(map, {10, 20}, 0, 15), 0.5);     // the pivot is outside
+  QCOMPARE(legendPosition(map, {10, 20}, 0, 15), 0.5);  // the pivot is outside
   QCOMPARE(legendPosition(map, {-14, 120}, 0, 500), 1.0);
   QCOMPARE(map.at(0.36), QColor(0x8D, 0xC2, 0xE6));
   QCOMPARE(colourMap(QStringLiteral("phase")).classes.size(), size_t{5});

@@ -152,9 +152,9 @@ void GraphView::paintData(QPainter& painter) {
 }
 
 /// One device pixel column after the other. Where a column's samples lie close together, a smooth line passes through
-/// their middle; where they spread, the column is filled from its lowest to its highest, so that no spike is lost however
-/// many samples a column holds (and because stroking thousands of near-vertical segments takes a hundred times longer).
-/// A gap breaks the line.
+/// their middle; where they spread, the column is filled from its lowest to its highest, so that no spike is lost
+/// however many samples a column holds (and because stroking thousands of near-vertical segments takes a hundred times
+/// longer). A gap breaks the line.
 void GraphView::paintSeries(QPainter& painter, int index, double first, double last, double perColumn) const {
   const SampleSeries& samples = d->series[static_cast<size_t>(index)].samples;
   if (samples.empty()) return;
@@ -164,8 +164,10 @@ void GraphView::paintSeries(QPainter& painter, int index, double first, double l
   const QColor colour = painter.pen().color();
   QPolygonF line;
   const auto flush = [&] {
-    if (line.size() == 1) painter.drawPoint(line.front());
-    else if (line.size() > 1) painter.drawPolyline(line);
+    if (line.size() == 1)
+      painter.drawPoint(line.front());
+    else if (line.size() > 1)
+      painter.drawPolyline(line);
     line.clear();
   };
   const auto lineTo = [&](const QPointF& point) {
@@ -194,7 +196,8 @@ void GraphView::paintSeries(QPainter& painter, int index, double first, double l
         flush();
       }
       painter.fillRect(QRectF(left, from - kHalf, width, to - from + 2 * kHalf), colour);
-      lineTo({left + width / 2, std::clamp(y(std::isnan(samples[next - 1].high) ? extent.high : samples[next - 1].high), top, bottom)});
+      lineTo({left + width / 2,
+              std::clamp(y(std::isnan(samples[next - 1].high) ? extent.high : samples[next - 1].high), top, bottom)});
     }
     at = next;
   }
@@ -205,8 +208,8 @@ void GraphView::paintLabels(QPainter& painter) {
   const Theme& theme = Theme::current();
   const QRectF plot = plotRect();
   const QFont font = Theme::font(TextRole::Small);
-  paintText(painter, QRectF(plot.left() + 7, plot.top() + 3, plot.width() - 14, 16), Qt::AlignLeft | Qt::AlignVCenter, title(),
-            font, theme[Token::Text2]);
+  paintText(painter, QRectF(plot.left() + 7, plot.top() + 3, plot.width() - 14, 16), Qt::AlignLeft | Qt::AlignVCenter,
+            title(), font, theme[Token::Text2]);
   struct Label {
     double top;
     QPointF end;
@@ -217,7 +220,9 @@ void GraphView::paintLabels(QPainter& painter) {
   const auto [first, last] = timeRange();
   for (size_t i = 0; i < d->series.size(); ++i) {
     const SampleSeries& samples = d->series[i].samples;
-    if (samples.empty() || !std::isfinite(samples.lastValue()) || samples.lastTime() < first || samples.lastTime() > last) continue;
+    if (samples.empty() || !std::isfinite(samples.lastValue()) || samples.lastTime() < first ||
+        samples.lastTime() > last)
+      continue;
     const QPointF end(x(samples.lastTime()), y(samples.lastValue()));
     labels.push_back({end.y() - 8, end, i, d->series[i].name + QLatin1Char(' ') + labelValue(samples.lastValue())});
   }
@@ -250,7 +255,9 @@ QStringList GraphView::readOut(double time) const {
   for (const Series& series : d->series) {
     const double value = series.samples.valueAt(time);
     const QString unit = series.unit.isEmpty() ? d->unit : series.unit;
-    if (std::isfinite(value)) lines << series.name + QStringLiteral("  ") + formatNumber(value) + (unit.isEmpty() ? unit : QLatin1Char(' ') + unit);
+    if (std::isfinite(value))
+      lines << series.name + QStringLiteral("  ") + formatNumber(value) +
+                   (unit.isEmpty() ? unit : QLatin1Char(' ') + unit);
   }
   return lines.size() > 1 ? lines : QStringList();
 }
@@ -259,7 +266,8 @@ double GraphView::labelWidth() const { return 0; }
 
 bool GraphView::exportCsv(QIODevice& device) const {
   QByteArray header = "time_s";
-  for (const Series& series : d->series) header += ',' + csvName(series.name, series.unit.isEmpty() ? d->unit : series.unit);
+  for (const Series& series : d->series)
+    header += ',' + csvName(series.name, series.unit.isEmpty() ? d->unit : series.unit);
   if (device.write(header + '\n') < 0) return false;
   std::vector<size_t> at(d->series.size(), 0);
   for (;;) {

@@ -27,7 +27,9 @@ constexpr double kGrams = 1e3;
 struct PhaseStackView::Private {
   std::array<SampleSeries, kPhases> cumulative;
   std::array<QString, kPhases> names;
-  QString nameOf(size_t phase) const { return names[phase].isEmpty() ? phaseName(static_cast<api::Phase>(phase)) : names[phase]; }
+  QString nameOf(size_t phase) const {
+    return names[phase].isEmpty() ? phaseName(static_cast<api::Phase>(phase)) : names[phase];
+  }
   double massAt(size_t phase, double time) const {
     const double below = phase == 0 ? 0 : cumulative[phase - 1].valueAt(time);
     return cumulative[phase].valueAt(time) - below;
@@ -107,8 +109,8 @@ void PhaseStackView::paintLabels(QPainter& painter) {
   const QFont font = Theme::font(TextRole::Small);
   const ColourMap& map = colourMap(QStringLiteral("phase"));
   const double end = std::min(lastTime(), timeRange().second);
-  paintText(painter, QRectF(plot.left() + 7, plot.top() + 3, plot.width() - 14, 16), Qt::AlignRight | Qt::AlignVCenter, title(),
-            font, theme[Token::Muted]);
+  paintText(painter, QRectF(plot.left() + 7, plot.top() + 3, plot.width() - 14, 16), Qt::AlignRight | Qt::AlignVCenter,
+            title(), font, theme[Token::Muted]);
   struct Label {
     double middle, top;
     size_t phase;
@@ -120,7 +122,8 @@ void PhaseStackView::paintLabels(QPainter& painter) {
     const double mass = d->massAt(phase, end);
     if (!(mass > 1e-4 * total)) continue;
     const double middle = y(d->cumulative[phase].valueAt(end) - mass / 2);
-    labels.push_back({middle, middle - 8, phase, d->nameOf(phase) + QLatin1Char(' ') + formatShort(mass, 3) + QStringLiteral(" g")});
+    labels.push_back(
+        {middle, middle - 8, phase, d->nameOf(phase) + QLatin1Char(' ') + formatShort(mass, 3) + QStringLiteral(" g")});
   }
   for (size_t i = 0; i < labels.size(); ++i) {
     labels[i].top = std::max(labels[i].top, i == 0 ? plot.top() + 16 : labels[i - 1].top + 16);
@@ -141,7 +144,8 @@ void PhaseStackView::paintLabels(QPainter& painter) {
     }
     const QColor colour = map.stops[label.phase].second;
     paintBox(painter, swatch, colour, theme[Token::Line2], 3);
-    const QColor dark = theme[theme.dark() ? Token::Window : Token::Text], light = theme[theme.dark() ? Token::Text : Token::Panel];
+    const QColor dark = theme[theme.dark() ? Token::Window : Token::Text],
+                 light = theme[theme.dark() ? Token::Text : Token::Panel];
     paintText(painter, swatch, Qt::AlignCenter, map.classes[label.phase].first, font,
               contrast(colour, dark) > contrast(colour, light) ? dark : light);
     paintText(painter, text, Qt::AlignLeft | Qt::AlignVCenter, label.text, font, theme[Token::Text]);
@@ -161,7 +165,8 @@ double PhaseStackView::labelWidth() const { return 0; }
 
 bool PhaseStackView::exportCsv(QIODevice& device) const {
   QByteArray header = "time_s";
-  for (size_t phase = 0; phase < kPhases; ++phase) header += ',' + phaseName(static_cast<api::Phase>(phase)).toLatin1() + "[kg]";
+  for (size_t phase = 0; phase < kPhases; ++phase)
+    header += ',' + phaseName(static_cast<api::Phase>(phase)).toLatin1() + "[kg]";
   if (device.write(header + '\n') < 0) return false;
   const auto number = [](double value) {
     char buffer[32];

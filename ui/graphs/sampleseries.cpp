@@ -12,7 +12,7 @@ void SampleSeries::append(double time, double value) {
   const double stored = m_last;
   if (m_pending > 0 && m_pending < m_stride) {
     Sample& into = m_samples.back();
-    if (!(into.low <= stored)) into.low = stored;   // a gap takes the value
+    if (!(into.low <= stored)) into.low = stored;  // a gap takes the value
     if (!(into.high >= stored)) into.high = stored;
     if (std::isnan(stored)) into.low = into.high = stored;
     ++m_pending;

@@ -7,6 +7,7 @@
 #include "ui/theme/theme.h"
 
 #include <QtGui/QPainter>
+#include <QtWidgets/QAccessibleWidget>
 
 #include <algorithm>
 #include <cmath>
@@ -23,12 +24,14 @@ void paintTimeAxis(QPainter& painter, const QRectF& plot, std::pair<double, doub
   const QFont font = Theme::font(TextRole::Small);
   for (int i = 0; i < ticks.count; ++i) {
     const double x = plot.left() + plot.width() * (ticks.at(i) - range.first) / (range.second - range.first);
-    if (x > plot.left() + 1 && x < plot.right() - 1) paintVerticalLine(painter, x, plot.top(), plot.bottom(), theme[Token::Line]);
+    if (x > plot.left() + 1 && x < plot.right() - 1)
+      paintVerticalLine(painter, x, plot.top(), plot.bottom(), theme[Token::Line]);
     const bool last = i + 1 == ticks.count;
     const QString text = formatFixed(ticks.at(i), ticks.decimals) + (last ? QStringLiteral(" s") : QString());
     const double width = textWidth(text, font);
     // The last label ends at the plot's edge rather than beyond it.
-    const double left = std::min(x - textWidth(formatFixed(ticks.at(i), ticks.decimals), font) / 2, plot.right() + kRight - 4 - width);
+    const double left =
+        std::min(x - textWidth(formatFixed(ticks.at(i), ticks.decimals), font) / 2, plot.right() + kRight - 4 - width);
     paintText(painter, QRectF(left, plot.bottom() + 3, width + 1, 16), kAlignMiddle, text, font, theme[Token::Muted]);
   }
 }
@@ -37,12 +40,33 @@ void paintValueAxis(QPainter& painter, const QRectF& plot, std::pair<double, dou
   const Theme& theme = Theme::current();
   for (int i = 0; i < ticks.count; ++i) {
     const double y = plot.bottom() - plot.height() * (ticks.at(i) - range.first) / (range.second - range.first);
-    if (y > plot.top() + 1 && y < plot.bottom() - 1) paintHorizontalLine(painter, plot.left(), plot.right(), y, theme[Token::Line]);
+    if (y > plot.top() + 1 && y < plot.bottom() - 1)
+      paintHorizontalLine(painter, plot.left(), plot.right(), y, theme[Token::Line]);
     const bool large = std::max(std::abs(range.first), std::abs(range.second)) >= 1e6 || ticks.decimals > 4;
     const QString text = large ? formatShort(ticks.at(i), 3) : formatFixed(ticks.at(i), ticks.decimals);
     paintText(painter, QRectF(0, y - 8, plot.left() - 7, 16), Qt::AlignRight | Qt::AlignVCenter, text,
               Theme::font(TextRole::Small), theme[Token::Muted]);
   }
+}
+
+class PlotAccessible final : public QAccessibleWidget {
+ public:
+  explicit PlotAccessible(TimePlot* plot) : QAccessibleWidget(plot, QAccessible::Chart) {}
+  QString text(QAccessible::Text kind) const override {
+    const auto* plot = static_cast<const TimePlot*>(widget());
+    if (kind == QAccessible::Name) return plot->title();
+    return kind == QAccessible::Value ? plot->summary() : QAccessibleWidget::text(kind);
+  }
+};
+
+QAccessibleInterface* makeAccessible(const QString& /*className*/, QObject* object) {
+  auto* plot = qobject_cast<TimePlot*>(object);
+  return plot ? new PlotAccessible(plot) : nullptr;
+}
+
+void installAccessibility() {
+  static const bool installed = (QAccessible::installFactory(makeAccessible), true);
+  (void)installed;
 }
 
 }  // namespace
@@ -70,6 +94,7 @@ Ticks niceTicks(double low, double high, int most) {
 }
 
 TimePlot::TimePlot(QWidget* parent) : QWidget(parent), d(std::make_unique<Private>()) {
+  installAccessibility();
   setMouseTracking(true);
   setFocusPolicy(Qt::StrongFocus);
   setAttribute(Qt::WA_OpaquePaintEvent);
@@ -122,8 +147,11 @@ void TimePlot::fit() {
   update();
 }
 
+QString TimePlot::summary() const { return hasData() ? readOut(lastTime()).join(QStringLiteral(", ")) : d->emptyText; }
+
 QRectF TimePlot::plotRect() const {
-  return {kLeft, kTop, std::max(10.0, width() - kLeft - kRight - labelWidth()), std::max(10.0, height() - kTop - kBottom)};
+  return {kLeft, kTop, std::max(10.0, width() - kLeft - kRight - labelWidth()),
+          std::max(10.0, height() - kTop - kBottom)};
 }
 
 QSize TimePlot::sizeHint() const { return {440, 132}; }

@@ -27,17 +27,19 @@ class TimePlot : public QWidget {
   explicit TimePlot(QWidget* parent = nullptr);
   ~TimePlot() override;
 
-  void setTitle(const QString& title);       ///< "Temperature, °C"
+  void setTitle(const QString& title);  ///< "Temperature, °C"
   QString title() const;
-  void setEmptyText(const QString& text);    ///< shown while there is no data
+  void setEmptyText(const QString& text);  ///< shown while there is no data
   /// The axis shows at least [0, seconds] while it is fitted; longer data extend it.
   void setDuration(double seconds);
   /// Line of the present time; NaN hides it.
   void setPresentTime(double seconds);
   void setTimeRange(double first, double last);  ///< s; a zoom by program
   std::pair<double, double> timeRange() const;
-  bool isFitted() const;                         ///< the range follows the data
+  bool isFitted() const;  ///< the range follows the data
   void fit();
+  /// The values at the end of the data, in words: what a screen reader says.
+  QString summary() const;
   /// Rectangle of the plot itself, without axes and labels.
   QRectF plotRect() const;
   QSize sizeHint() const override;
@@ -50,7 +52,7 @@ class TimePlot : public QWidget {
 
  protected:
   virtual bool hasData() const = 0;
-  virtual double lastTime() const = 0;                                 ///< s, of the data
+  virtual double lastTime() const = 0;  ///< s, of the data
   virtual std::pair<double, double> valueExtent(double first, double last) const = 0;
   virtual void paintData(QPainter& painter) = 0;
   virtual void paintLabels(QPainter& painter) = 0;
@@ -58,11 +60,11 @@ class TimePlot : public QWidget {
   virtual QStringList readOut(double time) const = 0;
   /// Room right of the plot for labels at line ends, logical pixels.
   virtual double labelWidth() const { return 0; }
-  double x(double time) const;   ///< logical pixels
+  double x(double time) const;  ///< logical pixels
   double y(double value) const;
   double timeAt(double x) const;
   double presentTime() const;
-  void dataChanged();            ///< schedules a repaint
+  void dataChanged();  ///< schedules a repaint
 
   void paintEvent(QPaintEvent* event) override;
   void mousePressEvent(QMouseEvent* event) override;

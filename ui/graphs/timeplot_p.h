@@ -12,9 +12,9 @@ struct TimePlot::Private {
   double duration = 0;
   double present = std::numeric_limits<double>::quiet_NaN();
   bool fitted = true;
-  double first = 0, last = 10;          ///< s, shown while not fitted
-  double low = 0, high = 1;             ///< values shown, as of the last paint
-  QPointF hover{-1, -1};                ///< outside: no read-out
+  double first = 0, last = 10;  ///< s, shown while not fitted
+  double low = 0, high = 1;     ///< values shown, as of the last paint
+  QPointF hover{-1, -1};        ///< outside: no read-out
   bool pressed = false, panning = false;
   QPointF pressedAt;
   double pressedFirst = 0, pressedLast = 0;

@@ -13,8 +13,8 @@
 namespace ps {
 namespace {
 
-constexpr double kClick = 4;            ///< pixels; a shorter movement is a click
-constexpr double kShortest = 0.05;      ///< s, the narrowest range
+constexpr double kClick = 4;        ///< pixels; a shorter movement is a click
+constexpr double kShortest = 0.05;  ///< s, the narrowest range
 
 }  // namespace
 

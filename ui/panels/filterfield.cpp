@@ -22,8 +22,10 @@ void FilterField::paintEvent(QPaintEvent* event) {
 }
 
 void FilterField::keyPressEvent(QKeyEvent* event) {
-  if (event->key() == Qt::Key_Escape && !text().isEmpty()) clear();
-  else QLineEdit::keyPressEvent(event);
+  if (event->key() == Qt::Key_Escape && !text().isEmpty())
+    clear();
+  else
+    QLineEdit::keyPressEvent(event);
 }
 
 }  // namespace ps

@@ -60,11 +60,11 @@ void GroupHeading::paintEvent(QPaintEvent*) {
             theme[m_hover ? Token::Text : Token::Text2]);
   QFont title = Theme::font(TextRole::Normal);
   title.setWeight(QFont::DemiBold);
-  paintText(painter, QRectF(22, row.top(), width() - 40, row.height()), Qt::AlignLeft | Qt::AlignVCenter, m_title, title,
-            theme[Token::Text]);
+  paintText(painter, QRectF(22, row.top(), width() - 40, row.height()), Qt::AlignLeft | Qt::AlignVCenter, m_title,
+            title, theme[Token::Text]);
   const double right = 22 + textWidth(m_title, title) + 6;
-  paintText(painter, QRectF(right, row.top(), width() - right - 12, row.height()), Qt::AlignLeft | Qt::AlignVCenter, m_count,
-            Theme::font(TextRole::Normal), theme[Token::Muted]);
+  paintText(painter, QRectF(right, row.top(), width() - right - 12, row.height()), Qt::AlignLeft | Qt::AlignVCenter,
+            m_count, Theme::font(TextRole::Normal), theme[Token::Muted]);
   if (hasFocus()) paintFocusRing(painter, row.adjusted(3, 2, -3, -2), 4);
 }
 
@@ -75,8 +75,10 @@ void GroupHeading::mousePressEvent(QMouseEvent* event) {
 void GroupHeading::keyPressEvent(QKeyEvent* event) {
   const int key = event->key();
   const bool folds = key == Qt::Key_Left ? !m_folded : key == Qt::Key_Right ? m_folded : false;
-  if (folds || key == Qt::Key_Return || key == Qt::Key_Enter || key == Qt::Key_Space) toggle();
-  else QWidget::keyPressEvent(event);
+  if (folds || key == Qt::Key_Return || key == Qt::Key_Enter || key == Qt::Key_Space)
+    toggle();
+  else
+    QWidget::keyPressEvent(event);
 }
 
 }  // namespace ps

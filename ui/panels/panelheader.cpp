@@ -30,7 +30,9 @@ void PanelHeader::setSwatch(const QColor& colour) {
   update();
 }
 
-QSize PanelHeader::sizeHint() const { return {300, 10 + 20 + (m_subtitle.isEmpty() ? 0 : 18) + (m_detail.isEmpty() ? 0 : 16)}; }
+QSize PanelHeader::sizeHint() const {
+  return {300, 10 + 20 + (m_subtitle.isEmpty() ? 0 : 18) + (m_detail.isEmpty() ? 0 : 16)};
+}
 
 void PanelHeader::paintEvent(QPaintEvent*) {
   const Theme& theme = Theme::current();
@@ -43,9 +45,12 @@ void PanelHeader::paintEvent(QPaintEvent*) {
   }
   const QRectF area(left, 10, width() - left - 10, height());
   const int align = Qt::AlignLeft | Qt::AlignVCenter;
-  paintText(painter, QRectF(area.left(), 10, area.width(), 20), align, m_name, Theme::font(TextRole::Heading), theme[Token::Text]);
-  paintText(painter, QRectF(area.left(), 30, area.width(), 17), align, m_subtitle, Theme::font(TextRole::Normal), theme[Token::Text2]);
-  paintText(painter, QRectF(area.left(), 47, area.width(), 16), align, m_detail, Theme::font(TextRole::Small), theme[Token::Muted]);
+  paintText(painter, QRectF(area.left(), 10, area.width(), 20), align, m_name, Theme::font(TextRole::Heading),
+            theme[Token::Text]);
+  paintText(painter, QRectF(area.left(), 30, area.width(), 17), align, m_subtitle, Theme::font(TextRole::Normal),
+            theme[Token::Text2]);
+  paintText(painter, QRectF(area.left(), 47, area.width(), 16), align, m_detail, Theme::font(TextRole::Small),
+            theme[Token::Muted]);
 }
 
 void paintBall(QPainter& painter, const QRectF& rect, const QColor& colour) {

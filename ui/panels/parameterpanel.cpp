@@ -77,7 +77,7 @@ struct ParameterPanel::Private {
   void connectRow(ParameterRow* row);
   void mirror(const ParameterRow* from);  ///< rows of the same key follow
   void measure();
-  void show();       ///< by filter and folding
+  void show();  ///< by filter and folding
   void showCount();
   template <class F>
   void each(const QString& key, F action) {
@@ -129,7 +129,8 @@ ParameterPanel::ParameterPanel(QWidget* parent) : QWidget(parent), d(new Private
 
 ParameterPanel::~ParameterPanel() = default;
 
-void ParameterPanel::setHeader(const QString& name, const QString& subtitle, const QString& detail, const QColor& swatch) {
+void ParameterPanel::setHeader(const QString& name, const QString& subtitle, const QString& detail,
+                               const QColor& swatch) {
   d->header->setTexts(name, subtitle, detail);
   d->header->setSwatch(swatch);
   d->header->setVisible(!name.isEmpty());
@@ -188,8 +189,10 @@ Group& ParameterPanel::Private::group(const QString& title, QVBoxLayout* layout)
   heading->setFolded(folded.contains(heading->title()));
   layout->addWidget(heading);
   QObject::connect(heading, &GroupHeading::foldedChanged, q, [this, heading](bool fold) {
-    if (fold) folded.insert(heading->title());
-    else folded.remove(heading->title());
+    if (fold)
+      folded.insert(heading->title());
+    else
+      folded.remove(heading->title());
     show();
   });
   return groups.emplace_back(Group{heading, {}});
@@ -200,9 +203,11 @@ void ParameterPanel::Private::connectRow(ParameterRow* row) {
     mirror(row);
     Q_EMIT q->edited(key, value, edit);
   };
-  connect(row, &ParameterRow::editingStarted, q, [tell](const QString& key, const Value& v) { tell(key, v, Edit::Begin); });
+  connect(row, &ParameterRow::editingStarted, q,
+          [tell](const QString& key, const Value& v) { tell(key, v, Edit::Begin); });
   connect(row, &ParameterRow::valueEdited, q, [tell](const QString& key, const Value& v) { tell(key, v, Edit::Live); });
-  connect(row, &ParameterRow::editingFinished, q, [tell](const QString& key, const Value& v) { tell(key, v, Edit::End); });
+  connect(row, &ParameterRow::editingFinished, q,
+          [tell](const QString& key, const Value& v) { tell(key, v, Edit::End); });
   connect(row, &ParameterRow::scaled, q, &ParameterPanel::scaled);
   connect(row, &ParameterRow::linkActivated, q, &ParameterPanel::linkActivated);
   connect(row, &ParameterRow::curveRequested, q, &ParameterPanel::curveRequested);
@@ -271,9 +276,12 @@ void ParameterPanel::Private::show() {
   changed->setVisible(total > 0);
   scroll->setVisible(shown > 0);
   empty->setVisible(shown == 0);
-  if (total == 0) empty->setText(emptyText);
-  else if (!text.isEmpty()) empty->setText(QStringLiteral("Nothing called “%1”. Clear the filter.").arg(text));
-  else empty->setText(QStringLiteral("Nothing is changed."));
+  if (total == 0)
+    empty->setText(emptyText);
+  else if (!text.isEmpty())
+    empty->setText(QStringLiteral("Nothing called “%1”. Clear the filter.").arg(text));
+  else
+    empty->setText(QStringLiteral("Nothing is changed."));
   showCount();
 }
 
@@ -335,8 +343,10 @@ void ParameterPanel::setFilter(const QString& text) { d->filter->setText(text); 
 void ParameterPanel::setChangedOnly(bool on) { d->changed->setChecked(on); }
 
 void ParameterPanel::setGroupFolded(const QString& group, bool folded) {
-  if (folded) d->folded.insert(group);
-  else d->folded.remove(group);
+  if (folded)
+    d->folded.insert(group);
+  else
+    d->folded.remove(group);
   for (const Group& each : d->groups) {
     if (each.heading->title() == group) each.heading->setFolded(folded);
   }

@@ -25,7 +25,8 @@ QString richText(const QString& markdown) {
   static const QRegularExpression bold(QStringLiteral("\\*\\*(.+?)\\*\\*"));
   static const QRegularExpression link(QStringLiteral("\\[(.+?)\\]\\((.+?)\\)"));
   const Theme& theme = Theme::current();
-  html.replace(bold, QStringLiteral("<span style=\"font-weight:600;color:%1\">\\1</span>").arg(theme[Token::Text].name()));
+  html.replace(bold,
+               QStringLiteral("<span style=\"font-weight:600;color:%1\">\\1</span>").arg(theme[Token::Text].name()));
   html.replace(link, QStringLiteral("<a href=\"\\2\" style=\"color:%1;text-decoration:none\">\\1</a>")
                          .arg(theme[Token::Accent].name()));
   return html;
@@ -216,12 +217,14 @@ unsigned ParameterRow::states() const {
 QString ParameterRow::valueText() const {
   if (d->model.mixed) return QStringLiteral("—");
   switch (d->declaration().kind) {
-    case api::ParameterKind::Toggle: return number() != 0 ? QStringLiteral("on") : QStringLiteral("off");
+    case api::ParameterKind::Toggle:
+      return number() != 0 ? QStringLiteral("on") : QStringLiteral("off");
     case api::ParameterKind::Choice: {
       const std::string* name = std::get_if<std::string>(&d->model.value);
       return name ? choiceLabel(QString::fromStdString(*name)) : QString();
     }
-    default: return formatValue(d->declaration(), number());
+    default:
+      return formatValue(d->declaration(), number());
   }
 }
 

@@ -13,33 +13,44 @@ class QLineEdit;
 
 namespace ps {
 
-/// Where an edit stands. Every gesture is Begin, any number of Live, End: one undo step. Begin carries the value before,
-/// Live and End the new one; a gesture taken back with Esc ends with the value it began with.
+/// Where an edit stands. Every gesture is Begin, any number of Live, End: one undo step. Begin carries the value
+/// before, Live and End the new one; a gesture taken back with Esc ends with the value it began with.
 enum class Edit { Begin, Live, End };
 
 /// One row of a panel: a declared parameter, its value and what it is compared with.
 /// The declaration's texts are borrowed and must outlive the row (declarations are static in the program or a plugin).
 struct RowModel {
-  QString key;                            ///< comes back in signals; an Address's text, or the bare key
+  QString key;  ///< comes back in signals; an Address's text, or the bare key
   api::ParameterDeclaration declaration{};
   Value value;
-  Value defaultValue;                     ///< "changed" means different from this; a reset goes here
-  bool pinned = false;                    ///< belongs to "Try these"
-  bool mixed = false;                     ///< several selected owners disagree
-  QString disabledReason;                 ///< not empty: disabled, the tooltip says why
-  QString derivedFrom;                    ///< not empty: computed, no field: "from pressure"
-  QString source;                         ///< of this value; "": the declaration's
-  double temperature = 293.15;            ///< K, operating point of a response
+  Value defaultValue;           ///< "changed" means different from this; a reset goes here
+  bool pinned = false;          ///< belongs to "Try these"
+  bool mixed = false;           ///< several selected owners disagree
+  QString disabledReason;       ///< not empty: disabled, the tooltip says why
+  QString derivedFrom;          ///< not empty: computed, no field: "from pressure"
+  QString source;               ///< of this value; "": the declaration's
+  double temperature = 293.15;  ///< K, operating point of a response
 };
 
 /// What a row shows at the moment; flags.
 enum class RowState : unsigned {
-  Hover = 1, Focus = 2, Disabled = 4, Mixed = 8, OutOfRange = 16, Changed = 32,
-  Curve = 64, Derived = 128, Limited = 256, Error = 512, Editing = 1024, Dragging = 2048
+  Hover = 1,
+  Focus = 2,
+  Disabled = 4,
+  Mixed = 8,
+  OutOfRange = 16,
+  Changed = 32,
+  Curve = 64,
+  Derived = 128,
+  Limited = 256,
+  Error = 512,
+  Editing = 1024,
+  Dragging = 2048
 };
 
 /// A parameter as one painted widget: changed mark, label, symbol, slider (or sparkline, toggle, choices), field with
-/// unit. A line edit exists only while somebody types. Accessible as a slider (check box, combo box) with name and value.
+/// unit. A line edit exists only while somebody types. Accessible as a slider (check box, combo box) with name and
+/// value.
 class ParameterRow : public QWidget {
   Q_OBJECT
  public:
@@ -75,8 +86,8 @@ class ParameterRow : public QWidget {
   /// The number behind the row in SI (toggle 0/1, choice index, response: at the operating point).
   double number() const;
 
-  void reset();         ///< to the default, one gesture
-  void startTyping();   ///< opens the line edit
+  void reset();        ///< to the default, one gesture
+  void startTyping();  ///< opens the line edit
   /// A number (SI) as if typed; refused beyond the hard limits.
   bool enterNumber(double value);
   bool enter(const QString& text);  ///< as if typed and Enter pressed; false: refused, the row shows why
@@ -92,13 +103,13 @@ class ParameterRow : public QWidget {
   void editingStarted(const QString& key, const ps::Value& before);
   void valueEdited(const QString& key, const ps::Value& value);
   void editingFinished(const QString& key, const ps::Value& value);
-  void scaled(const QString& key, double factor);     ///< "*2" typed into a mixed row
-  void curveRequested(const QString& key);            ///< sparkline clicked
-  void sourceRequested(const QString& key);           ///< "from pressure" clicked
+  void scaled(const QString& key, double factor);  ///< "*2" typed into a mixed row
+  void curveRequested(const QString& key);         ///< sparkline clicked
+  void sourceRequested(const QString& key);        ///< "from pressure" clicked
   void linkActivated(const QString& key, const QString& link);
   void pinToggled(const QString& key, bool pinned);
   void plotRequested(const QString& key);
-  void changedChanged();                              ///< isChanged() may differ
+  void changedChanged();  ///< isChanged() may differ
 
  protected:
   bool event(QEvent* event) override;

@@ -15,7 +15,8 @@ namespace ps {
 
 // Measures of a row in logical pixels. From the left: changed mark, label, symbol, slider; from the right: room for the
 // curve mark and a key, field.
-inline constexpr int kRowHeight = 26, kRowLeft = 12, kRowRight = 42, kRowRightNarrow = 26, kFieldWidth = 104, kFieldHeight = 22;
+inline constexpr int kRowHeight = 26, kRowLeft = 12, kRowRight = 42, kRowRightNarrow = 26, kFieldWidth = 104,
+                     kFieldHeight = 22;
 inline constexpr int kSymbolWidth = 26, kSliderGap = 6, kMinimumSlider = 40, kMinimumLabel = 120;
 /// Right end of the value and left end of the unit, from the field's left.
 inline constexpr int kValueRight = 54, kUnitLeft = 60;
@@ -48,22 +49,22 @@ struct ParameterRow::Private {
   bool dragCancelled = false;  ///< Esc: wait for the button to be released
   double dragPosition = 0;     ///< 0..1 on the slider, not rounded
   double dragX = 0;
-  double wheelRest = 0;        ///< parts of a wheel step
+  double wheelRest = 0;  ///< parts of a wheel step
 
   const api::ParameterDeclaration& declaration() const { return model.declaration; }
   bool isEditable() const { return model.disabledReason.isEmpty() && model.derivedFrom.isEmpty(); }
-  bool isNumeric() const;       ///< has a slider or sparkline, and a field
+  bool isNumeric() const;  ///< has a slider or sparkline, and a field
   bool hasSlider() const { return isNumeric() && !showsCurve(); }
   bool showsCurve() const;
-  bool drawsSymbol() const;     ///< a label that needs the symbol's room takes it
-  QString unitText() const;     ///< as the field shows it
+  bool drawsSymbol() const;  ///< a label that needs the symbol's room takes it
+  QString unitText() const;  ///< as the field shows it
 
   void begin();
   void change(const Value& value);
   void finish();
-  void takeBack();              ///< ends the gesture with the value it began with
+  void takeBack();                  ///< ends the gesture with the value it began with
   void single(const Value& value);  ///< a gesture of one change
-  void refresh();               ///< after any change: repaint, changed mark, accessibility
+  void refresh();                   ///< after any change: repaint, changed mark, accessibility
   void layoutNotes();
   void styleNotes();
   void closeEdit();
@@ -73,15 +74,15 @@ struct ParameterRow::Private {
   void stepBy(double steps, bool fine);
   void dragTo(double x, Qt::KeyboardModifiers modifiers);
   double handleX() const;
-  QRect curveRect() const;      ///< the curve mark right of the field
+  QRect curveRect() const;  ///< the curve mark right of the field
   QRect switchRect() const;
   /// Rectangles of the segments of a choice; empty when they do not fit (then a menu opens).
   std::vector<QRect> segments() const;
-  QRect choiceRect() const;     ///< of all segments, or of the menu's button
+  QRect choiceRect() const;  ///< of all segments, or of the menu's button
   void openChoiceMenu();
   void openContextMenu(const QPoint& global);
   void pressed(const QPoint& at, Qt::KeyboardModifiers modifiers);
-  bool editKey(int key);        ///< of the line edit; true: handled
+  bool editKey(int key);  ///< of the line edit; true: handled
   void startTyping(const QString& text);
   bool wantsKey(int key, const QString& text) const;
   QString toolTipText() const;

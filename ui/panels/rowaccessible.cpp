@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "ui/panels/groupheading.h"
 #include "ui/panels/parameterrow_p.h"
 #include "ui/panels/rowvalue.h"
 
@@ -14,10 +15,14 @@ class RowAccessible final : public QAccessibleWidget, public QAccessibleValueInt
 
   QString text(QAccessible::Text kind) const override {
     switch (kind) {
-      case QAccessible::Name: return QString::fromUtf8(declaration().label);
-      case QAccessible::Value: return row()->valueText();
-      case QAccessible::Description: return QString::fromUtf8(declaration().help);
-      default: return QAccessibleWidget::text(kind);
+      case QAccessible::Name:
+        return QString::fromUtf8(declaration().label);
+      case QAccessible::Value:
+        return row()->valueText();
+      case QAccessible::Description:
+        return QString::fromUtf8(declaration().help);
+      default:
+        return QAccessibleWidget::text(kind);
     }
   }
   QAccessible::State state() const override {
@@ -40,9 +45,12 @@ class RowAccessible final : public QAccessibleWidget, public QAccessibleValueInt
   QVariant minimumValue() const override { return role() == QAccessible::Slider ? declaration().minimum : 0.0; }
   QVariant maximumValue() const override {
     switch (role()) {
-      case QAccessible::CheckBox: return 1.0;
-      case QAccessible::ComboBox: return static_cast<double>(choiceNames(declaration()).size() - 1);
-      default: return declaration().maximum;
+      case QAccessible::CheckBox:
+        return 1.0;
+      case QAccessible::ComboBox:
+        return static_cast<double>(choiceNames(declaration()).size() - 1);
+      default:
+        return declaration().maximum;
     }
   }
   QVariant minimumStepSize() const override {
@@ -54,9 +62,12 @@ class RowAccessible final : public QAccessibleWidget, public QAccessibleValueInt
  private:
   static QAccessible::Role roleOf(const ParameterRow& row) {
     switch (row.model().declaration.kind) {
-      case api::ParameterKind::Toggle: return QAccessible::CheckBox;
-      case api::ParameterKind::Choice: return QAccessible::ComboBox;
-      default: return QAccessible::Slider;
+      case api::ParameterKind::Toggle:
+        return QAccessible::CheckBox;
+      case api::ParameterKind::Choice:
+        return QAccessible::ComboBox;
+      default:
+        return QAccessible::Slider;
     }
   }
   ParameterRow* row() const { return static_cast<ParameterRow*>(widget()); }
@@ -64,6 +75,7 @@ class RowAccessible final : public QAccessibleWidget, public QAccessibleValueInt
 };
 
 QAccessibleInterface* makeAccessible(const QString& /*className*/, QObject* object) {
+  if (auto* heading = qobject_cast<GroupHeading*>(object)) return new QAccessibleWidget(heading, QAccessible::Button);
   auto* row = qobject_cast<ParameterRow*>(object);
   return row ? new RowAccessible(row) : nullptr;
 }

@@ -46,8 +46,8 @@ void ParameterRow::Private::dragTo(double x, Qt::KeyboardModifiers modifiers) {
   dragPosition += (x - dragX) / q->sliderRect().width() * (fine ? 0.1 : 1);
   dragX = x;
   const double value = valueAtPosition(declaration(), dragPosition);
-  const double kept = modifiers & Qt::AltModifier ? snappedToRound(declaration(), value)
-                                                  : roundedForSlider(declaration(), value, fine);
+  const double kept =
+      modifiers & Qt::AltModifier ? snappedToRound(declaration(), value) : roundedForSlider(declaration(), value, fine);
   change(valueOfNumber(declaration(), kept));
 }
 
@@ -68,7 +68,8 @@ void ParameterRow::Private::pressed(const QPoint& at, Qt::KeyboardModifiers modi
       if (rects.empty() && choiceRect().contains(at)) openChoiceMenu();
       return;
     }
-    default: break;
+    default:
+      break;
   }
   const bool onField = q->fieldRect().contains(at), onSlider = grown(q->sliderRect()).contains(at);
   if (showsCurve()) {
@@ -159,10 +160,14 @@ bool ParameterRow::Private::wantsKey(int key, const QString& text) const {
     case Qt::Key_PageDown:
     case Qt::Key_Return:
     case Qt::Key_Enter:
-    case Qt::Key_F2: return true;
-    case Qt::Key_Escape: return open;
-    case Qt::Key_Space: return keyboardFocus && !isNumeric();
-    default: break;
+    case Qt::Key_F2:
+      return true;
+    case Qt::Key_Escape:
+      return open;
+    case Qt::Key_Space:
+      return keyboardFocus && !isNumeric();
+    default:
+      break;
   }
   static const QString starts = QStringLiteral("0123456789-.,*/(\u2212");
   return keyboardFocus && isNumeric() && text.size() == 1 && starts.contains(text[0]);
@@ -175,10 +180,18 @@ void ParameterRow::keyPressEvent(QKeyEvent* event) {
   }
   const bool fine = event->modifiers() & Qt::ShiftModifier;
   switch (event->key()) {
-    case Qt::Key_Up: d->stepBy(1, fine); break;
-    case Qt::Key_Down: d->stepBy(-1, fine); break;
-    case Qt::Key_PageUp: d->stepBy(10, fine); break;
-    case Qt::Key_PageDown: d->stepBy(-10, fine); break;
+    case Qt::Key_Up:
+      d->stepBy(1, fine);
+      break;
+    case Qt::Key_Down:
+      d->stepBy(-1, fine);
+      break;
+    case Qt::Key_PageUp:
+      d->stepBy(10, fine);
+      break;
+    case Qt::Key_PageDown:
+      d->stepBy(-10, fine);
+      break;
     case Qt::Key_Escape:
       d->dragCancelled = d->dragging;
       d->takeBack();
@@ -187,12 +200,17 @@ void ParameterRow::keyPressEvent(QKeyEvent* event) {
     case Qt::Key_Enter:
     case Qt::Key_F2:
     case Qt::Key_Space:
-      if (d->declaration().kind == api::ParameterKind::Toggle) d->toggle();
-      else if (d->declaration().kind == api::ParameterKind::Choice) d->openChoiceMenu();
-      else if (d->showsCurve()) Q_EMIT curveRequested(key());
-      else startTyping();
+      if (d->declaration().kind == api::ParameterKind::Toggle)
+        d->toggle();
+      else if (d->declaration().kind == api::ParameterKind::Choice)
+        d->openChoiceMenu();
+      else if (d->showsCurve())
+        Q_EMIT curveRequested(key());
+      else
+        startTyping();
       break;
-    default: d->startTyping(event->text());
+    default:
+      d->startTyping(event->text());
   }
 }
 
@@ -247,7 +265,8 @@ bool ParameterRow::Private::editKey(int key) {
       q->setFocus(Qt::OtherFocusReason);
       keyboardFocus = true;
       return true;
-    default: return false;
+    default:
+      return false;
   }
 }
 
@@ -276,8 +295,10 @@ bool ParameterRow::event(QEvent* event) {
     case QEvent::FocusIn: {
       const auto reason = static_cast<QFocusEvent*>(event)->reason();
       // The window's return, or a menu's end, says nothing new about how the focus came here.
-      if (reason == Qt::TabFocusReason || reason == Qt::BacktabFocusReason) d->keyboardFocus = true;
-      else if (reason == Qt::MouseFocusReason) d->keyboardFocus = false;
+      if (reason == Qt::TabFocusReason || reason == Qt::BacktabFocusReason)
+        d->keyboardFocus = true;
+      else if (reason == Qt::MouseFocusReason)
+        d->keyboardFocus = false;
       update();
       break;
     }
@@ -296,7 +317,8 @@ bool ParameterRow::event(QEvent* event) {
     case QEvent::ToolTip:
       QToolTip::showText(static_cast<QHelpEvent*>(event)->globalPos(), d->toolTipText(), this);
       return true;
-    default: break;
+    default:
+      break;
   }
   return QWidget::event(event);
 }

@@ -148,7 +148,8 @@ void ParameterRow::Private::paintSlider(QPainter& painter) const {
     paintVerticalLine(painter, x - 0.5, middle + 6, middle + 10, theme[Token::Muted]);
   }
   if (!handle) return;
-  const QRectF knob(snapped(painter, handleX() - kHandleWidth / 2), middle - kHandleHeight / 2, kHandleWidth, kHandleHeight);
+  const QRectF knob(snapped(painter, handleX() - kHandleWidth / 2), middle - kHandleHeight / 2, kHandleWidth,
+                    kHandleHeight);
   paintBox(painter, knob, theme[dragging ? Token::Accent : Token::Handle], theme[Token::HandleEdge], 3);
 }
 
@@ -162,23 +163,28 @@ void ParameterRow::Private::paintSparkline(QPainter& painter) const {
   const int samples = std::max(2, static_cast<int>(box.width()) - 2);
   std::vector<double> values;
   for (int i = 0; i < samples; ++i) values.push_back(response.at(cold + (hot - cold) * i / (samples - 1)));
-  const bool logarithmic = declaration().scale == api::Scale::Logarithmic && *std::min_element(values.begin(), values.end()) > 0;
+  const bool logarithmic =
+      declaration().scale == api::Scale::Logarithmic && *std::min_element(values.begin(), values.end()) > 0;
   const auto level = [logarithmic](double value) { return logarithmic ? std::log(value) : value; };
   const auto [least, most] = std::minmax_element(values.begin(), values.end());
   const double low = level(*least), span = level(*most) - low;
   const auto point = [&](double kelvin, double value) {
     const double t = span > 0 ? (level(value) - low) / span : 0.5;
-    return QPointF(box.left() + 1 + (box.width() - 2) * (kelvin - cold) / (hot - cold), box.bottom() - 3.5 - (box.height() - 7) * t);
+    return QPointF(box.left() + 1 + (box.width() - 2) * (kelvin - cold) / (hot - cold),
+                   box.bottom() - 3.5 - (box.height() - 7) * t);
   };
   QPainterPath path;
   for (int i = 0; i < samples; ++i) {
     const QPointF next = point(cold + (hot - cold) * i / (samples - 1), values[static_cast<size_t>(i)]);
-    if (i == 0) path.moveTo(next);
-    else path.lineTo(next);
+    if (i == 0)
+      path.moveTo(next);
+    else
+      path.lineTo(next);
   }
   painter.save();
   painter.setRenderHint(QPainter::Antialiasing);
-  painter.setPen(QPen(theme[enabled ? Token::Curve : Token::Disabled], 1.35, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
+  painter.setPen(
+      QPen(theme[enabled ? Token::Curve : Token::Disabled], 1.35, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
   painter.drawPath(path);
   const double now = std::clamp(model.temperature, cold, hot);
   const QPointF dot = point(now, std::clamp(response.at(now), *least, *most));
@@ -200,9 +206,13 @@ void ParameterRow::Private::paintField(QPainter& painter) const {
   const bool wrong = q->has(RowState::Error), warning = q->has(RowState::OutOfRange) || q->has(RowState::Limited);
   const bool focus = q->hasFocus() || edit;
   if (!derived) {
-    const Token edge = wrong ? Token::Error : warning ? Token::Warning : hover && !disabled ? Token::FieldEdgeHover : Token::FieldEdge;
+    const Token edge = wrong                ? Token::Error
+                       : warning            ? Token::Warning
+                       : hover && !disabled ? Token::FieldEdgeHover
+                                            : Token::FieldEdge;
     paintBox(painter, field, theme[wrong ? Token::ErrorGround : Token::Field], theme[edge], 4);
-    if (focus) paintBox(painter, field.adjusted(-1, -1, 1, 1), QColor(), theme[wrong ? Token::Error : Token::Accent], 5, 2);
+    if (focus)
+      paintBox(painter, field.adjusted(-1, -1, 1, 1), QColor(), theme[wrong ? Token::Error : Token::Accent], 5, 2);
   }
   if (edit) return;
   const Token token = disabled ? Token::Disabled : wrong ? Token::Error : warning ? Token::Warning : Token::Text;
@@ -228,9 +238,13 @@ void ParameterRow::Private::paintChoice(QPainter& painter) const {
   const std::vector<QRect> rects = segments();
   for (size_t i = 0; i < rects.size(); ++i) {
     const bool on = static_cast<int>(i) == chosen;
-    paintBox(painter, rects[i], theme[on ? Token::Selection : Token::Raised], on ? QColor() : theme[Token::RaisedEdge], 4);
-    paintText(painter, rects[i], Qt::AlignCenter, choiceLabel(names[static_cast<qsizetype>(i)]), Theme::font(TextRole::Small),
-              theme[!enabled ? Token::Disabled : on ? Token::Text : Token::Text2]);
+    paintBox(painter, rects[i], theme[on ? Token::Selection : Token::Raised], on ? QColor() : theme[Token::RaisedEdge],
+             4);
+    paintText(painter, rects[i], Qt::AlignCenter, choiceLabel(names[static_cast<qsizetype>(i)]),
+              Theme::font(TextRole::Small),
+              theme[!enabled ? Token::Disabled
+                    : on     ? Token::Text
+                             : Token::Text2]);
   }
   if (rects.empty()) {
     const QRectF button = choiceRect();

@@ -50,7 +50,8 @@ void ParameterRow::Private::openChoiceMenu() {
   }
   const QRect rect = choiceRect();
   menu.setMinimumWidth(rect.width());
-  if (const QAction* chosen = menu.exec(q->mapToGlobal(rect.bottomLeft() + QPoint(0, 2)))) choose(chosen->data().toInt());
+  if (const QAction* chosen = menu.exec(q->mapToGlobal(rect.bottomLeft() + QPoint(0, 2))))
+    choose(chosen->data().toInt());
 }
 
 void ParameterRow::Private::openContextMenu(const QPoint& global) {
@@ -66,19 +67,27 @@ void ParameterRow::Private::openContextMenu(const QPoint& global) {
   QAction* pin = nullptr;
   QAction* plot = nullptr;
   if (offered(QMetaMethod::fromSignal(&ParameterRow::pinToggled))) {
-    pin = menu.addAction(model.pinned ? QStringLiteral("Remove from “Try these”") : QStringLiteral("Pin to “Try these”"));
+    pin =
+        menu.addAction(model.pinned ? QStringLiteral("Remove from “Try these”") : QStringLiteral("Pin to “Try these”"));
   }
   if (offered(QMetaMethod::fromSignal(&ParameterRow::plotRequested))) plot = menu.addAction(QStringLiteral("Plot"));
   QAction* explain = menu.addAction(QStringLiteral("Explain"));
   const QAction* chosen = menu.exec(global);
   if (!chosen) return;
-  if (chosen == copy) QGuiApplication::clipboard()->setText(q->valueText());
-  else if (chosen == paste) q->enter(QGuiApplication::clipboard()->text().trimmed());
-  else if (chosen == resetAction) q->reset();
-  else if (chosen == constant) single(valueOfNumber(declaration(), q->number()));
-  else if (chosen == pin) Q_EMIT q->pinToggled(model.key, !model.pinned);
-  else if (chosen == plot) Q_EMIT q->plotRequested(model.key);
-  else if (chosen == explain) QToolTip::showText(global, toolTipText(), q);
+  if (chosen == copy)
+    QGuiApplication::clipboard()->setText(q->valueText());
+  else if (chosen == paste)
+    q->enter(QGuiApplication::clipboard()->text().trimmed());
+  else if (chosen == resetAction)
+    q->reset();
+  else if (chosen == constant)
+    single(valueOfNumber(declaration(), q->number()));
+  else if (chosen == pin)
+    Q_EMIT q->pinToggled(model.key, !model.pinned);
+  else if (chosen == plot)
+    Q_EMIT q->plotRequested(model.key);
+  else if (chosen == explain)
+    QToolTip::showText(global, toolTipText(), q);
 }
 
 void ParameterRow::contextMenuEvent(QContextMenuEvent* event) { d->openContextMenu(event->globalPos()); }

@@ -83,7 +83,8 @@ double snappedToRound(const ParameterDeclaration& d, double value) {
 }
 
 double stepped(const ParameterDeclaration& d, double value, double steps, bool fine) {
-  if (d.kind == ParameterKind::Integer) return withinSlider(d, std::round(value) + std::copysign(std::max(1.0, std::round(std::abs(steps))), steps));
+  if (d.kind == ParameterKind::Integer)
+    return withinSlider(d, std::round(value) + std::copysign(std::max(1.0, std::round(std::abs(steps))), steps));
   if (isLogarithmic(d)) return roundedForSlider(d, value * std::pow(10.0, steps * (fine ? 0.005 : 0.05)), fine);
   const double range = displayedRange(d);
   if (!(range > 0) || !std::isfinite(range)) return value;
@@ -102,15 +103,19 @@ double numberOfValue(const ParameterDeclaration& d, const Value& value, double t
 
 Value valueOfNumber(const ParameterDeclaration& d, double number) {
   switch (d.kind) {
-    case ParameterKind::Toggle: return number != 0;
-    case ParameterKind::Response: return Response(number);
-    case ParameterKind::Integer: return std::round(number);
+    case ParameterKind::Toggle:
+      return number != 0;
+    case ParameterKind::Response:
+      return Response(number);
+    case ParameterKind::Integer:
+      return std::round(number);
     case ParameterKind::Choice: {
       const QStringList names = choiceNames(d);
       if (names.isEmpty()) return std::string();
       return names[std::clamp<qsizetype>(std::lround(number), 0, names.size() - 1)].toStdString();
     }
-    case ParameterKind::Number: break;
+    case ParameterKind::Number:
+      break;
   }
   return number;
 }

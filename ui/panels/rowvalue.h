@@ -11,8 +11,9 @@ namespace ps {
 /// Position 0..1 of a value on its slider, linear or logarithmic as declared; clamped.
 double sliderPosition(const api::ParameterDeclaration& declaration, double value);
 double valueAtPosition(const api::ParameterDeclaration& declaration, double position);
-/// The value rounded to what a pixel of the slider can tell apart in displayed units: a power of ten of about a four-hundredth of a linear range, or
-/// three significant digits; ten times finer when `fine`. Whole numbers stay whole. Within the slider's range.
+/// The value rounded to what a pixel of the slider can tell apart in displayed units: a power of ten of about a
+/// four-hundredth of a linear range, or three significant digits; ten times finer when `fine`. Whole numbers stay
+/// whole. Within the slider's range.
 double roundedForSlider(const api::ParameterDeclaration& declaration, double value, bool fine);
 /// The nearest round value: a multiple of a twentieth of the range (1, 2 or 5 times a power of ten), or 1, 2, 5 × 10ⁿ.
 double snappedToRound(const api::ParameterDeclaration& declaration, double value);

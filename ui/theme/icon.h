@@ -12,8 +12,8 @@ class QPainter;
 namespace ps {
 
 /// Icon `:/icons/NAME.svg`, 16 units wide, drawn in one colour: text2 at rest, text under the pointer, accent when on,
-/// disabled when disabled. `accentWhenOn` false: for item views, to which an open branch is "on". Follows the theme in force and the screen's scale. An unknown name gives an empty icon and a
-/// warning in the log.
+/// disabled when disabled. `accentWhenOn` false: for item views, to which an open branch is "on". Follows the theme in
+/// force and the screen's scale. An unknown name gives an empty icon and a warning in the log.
 QIcon icon(const QString& name, bool accentWhenOn = true);
 
 /// An icon in a colour of the caller's choice, `size` logical pixels wide, for a device pixel ratio. Cached.

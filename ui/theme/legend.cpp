@@ -40,7 +40,8 @@ ColourMap parseMap(const QString& name, const QJsonArray& stops, const QJsonArra
 std::map<QString, ColourMap> readMaps() {
   const QJsonObject all = QJsonDocument::fromJson(themeResource(QStringLiteral("theme/maps.json"))).object();
   const QJsonObject stops = all[QStringLiteral("maps")].toObject(), titles = all[QStringLiteral("titles")].toObject(),
-                    classes = all[QStringLiteral("classes")].toObject(), pivots = all[QStringLiteral("pivots")].toObject();
+                    classes = all[QStringLiteral("classes")].toObject(),
+                    pivots = all[QStringLiteral("pivots")].toObject();
   std::map<QString, ColourMap> maps;
   for (auto it = stops.begin(); it != stops.end(); ++it) {
     ColourMap map = parseMap(it.key(), it.value().toArray(), classes[it.key()].toArray());
@@ -71,7 +72,8 @@ void paintClasses(QPainter& painter, const QRectF& rect, const ColourMap& map) {
     paintText(painter, swatch, Qt::AlignCenter, map.classes[i].first, Theme::font(TextRole::Small),
               contrast(colour, dark) > contrast(colour, light) ? dark : light);
     paintText(painter, QRectF(swatch.right() + 8, y, rect.right() - swatch.right() - 12, kClassRow),
-              Qt::AlignLeft | Qt::AlignVCenter, map.classes[i].second, Theme::font(TextRole::Normal), theme[Token::Text2]);
+              Qt::AlignLeft | Qt::AlignVCenter, map.classes[i].second, Theme::font(TextRole::Normal),
+              theme[Token::Text2]);
   }
 }
 
@@ -112,7 +114,8 @@ void paintTicks(QPainter& painter, const QRectF& rect, const Scale& scale, const
   };
   const auto ends = {std::pair{scale.range.second, true}, std::pair{scale.range.first, false}};
   for (const auto& [value, top] : ends) {
-    const QString text = top && !unit.isEmpty() ? formatShort(value, 3) + QLatin1Char(' ') + unit : formatShort(value, 3);
+    const QString text =
+        top && !unit.isEmpty() ? formatShort(value, 3) + QLatin1Char(' ') + unit : formatShort(value, 3);
     if (ladder.take(scale.y(value))) label(value, text, 9, theme[Token::Text2]);
   }
   for (const LegendMark& mark : marks) {
@@ -125,7 +128,8 @@ void paintTicks(QPainter& painter, const QRectF& rect, const Scale& scale, const
   }
   const double step = tickStep(scale.range.second - scale.range.first, 6);
   for (double value = std::ceil(scale.range.first / step) * step; value < scale.range.second; value += step) {
-    if (ladder.take(scale.y(value))) label(value, formatShort(std::abs(value) < step / 1e6 ? 0 : value, 3), 9, theme[Token::Text2]);
+    if (ladder.take(scale.y(value)))
+      label(value, formatShort(std::abs(value) < step / 1e6 ? 0 : value, 3), 9, theme[Token::Text2]);
   }
 }
 

@@ -15,8 +15,8 @@ namespace ps {
 /// A colour map of resources/theme/maps.json: "temperature", "ember", "phase", "density_error", "speed".
 struct ColourMap {
   QString name, title;
-  std::vector<std::pair<double, QColor>> stops;  ///< position 0..1, ascending
-  double pivot = -1;                             ///< position that sits on the melting point; below 0: none
+  std::vector<std::pair<double, QColor>> stops;      ///< position 0..1, ascending
+  double pivot = -1;                                 ///< position that sits on the melting point; below 0: none
   std::vector<std::pair<QString, QString>> classes;  ///< letter and name of each stop where colours are classes
   /// Colour at a position of 0..1; `classes` are not mixed.
   QColor at(double position) const;
@@ -34,8 +34,8 @@ struct LegendMark {
 QSizeF legendSize(const ColourMap& map);
 
 /// Draws a legend on its translucent ground over the viewport: title, gradient with ticks in `unit`, phase marks; a map
-/// of classes as swatches with letters. `range`: values (in `unit`) at the ends. `pivot`: value at the map's pivot, where
-/// it has one and the value lies inside the range: both sides are then linear by themselves.
+/// of classes as swatches with letters. `range`: values (in `unit`) at the ends. `pivot`: value at the map's pivot,
+/// where it has one and the value lies inside the range: both sides are then linear by themselves.
 void paintLegend(QPainter& painter, const QRectF& rect, const ColourMap& map, std::pair<double, double> range,
                  const QString& unit, const std::vector<LegendMark>& marks, double pivot = 0);
 /// Position 0..1 on the map of a value, with the pivot rule of paintLegend.

@@ -93,7 +93,9 @@ int fieldDecimals(const api::ParameterDeclaration& d, double shown) {
   }
   const double range = std::abs((d.maximum - d.minimum) * d.displayScale);
   if (!(range > 0) || !std::isfinite(range)) return 0;
-  return std::clamp(static_cast<int>(std::ceil(-std::log10(range / 400) - 1e-9)), 0, 6);
+  // Temperatures are read to a tenth of a degree however wide their slider is.
+  const int least = d.displayOffset != 0 ? 1 : 0;
+  return std::clamp(static_cast<int>(std::ceil(-std::log10(range / 400) - 1e-9)), least, 6);
 }
 
 /// Sums and products of numbers, read from the left; a number may be followed by "× 10ⁿ".
@@ -116,17 +118,23 @@ class Expression {
   double sum() {
     double result = product();
     for (;;) {
-      if (take('+')) result += product();
-      else if (take('-')) result -= product();
-      else return result;
+      if (take('+'))
+        result += product();
+      else if (take('-'))
+        result -= product();
+      else
+        return result;
     }
   }
   double product() {
     double result = power();
     for (;;) {
-      if (take('*')) result *= power();
-      else if (take('/')) result /= power();
-      else return result;
+      if (take('*'))
+        result *= power();
+      else if (take('/'))
+        result /= power();
+      else
+        return result;
     }
   }
   double power() {
@@ -137,8 +145,10 @@ class Expression {
     if (++m_depth > 50) m_good = false;
     double result = 0;
     if (!m_good) return result;
-    if (take('-')) result = -signedAtom();
-    else if (take('+')) result = signedAtom();
+    if (take('-'))
+      result = -signedAtom();
+    else if (take('+'))
+      result = signedAtom();
     else if (take('(')) {
       result = sum();
       m_good = m_good && take(')');
@@ -154,8 +164,10 @@ class Expression {
     const char* last = m_text.data() + m_text.size();
     const bool starts = first < last && ((*first >= '0' && *first <= '9') || *first == '.');
     const auto [end, problem] = std::from_chars(first, last, result);
-    if (!starts || problem != std::errc()) m_good = false;
-    else m_at += static_cast<size_t>(end - first);
+    if (!starts || problem != std::errc())
+      m_good = false;
+    else
+      m_at += static_cast<size_t>(end - first);
     return result;
   }
 
@@ -180,11 +192,16 @@ std::optional<std::string> normalised(const QString& text) {
     const bool raisedSign = c == QChar(0x207B);
     if ((digit >= 0 || raisedSign) && !power) plain += '^';
     power = digit >= 0 || raisedSign;
-    if (raisedSign) plain += '-';
-    else if (digit >= 0) plain += static_cast<char>('0' + digit);
-    else if (c == kMinus) plain += '-';
-    else if (c == QChar(0x00D7) || c == QChar(0x00B7)) plain += '*';
-    else if (c == QChar(0x00F7)) plain += '/';
+    if (raisedSign)
+      plain += '-';
+    else if (digit >= 0)
+      plain += static_cast<char>('0' + digit);
+    else if (c == kMinus)
+      plain += '-';
+    else if (c == QChar(0x00D7) || c == QChar(0x00B7))
+      plain += '*';
+    else if (c == QChar(0x00F7))
+      plain += '/';
     else if (isGroupSpace(c)) {
       const bool inside = i > 0 && text[i - 1].isDigit() && i + 1 < text.size() && text[i + 1].isDigit();
       if (inside && (i + 3 >= text.size() || !text[i + 2].isDigit() || !text[i + 3].isDigit())) return std::nullopt;

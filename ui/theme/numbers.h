@@ -26,7 +26,8 @@ double fromDisplay(const api::ParameterDeclaration& declaration, double shown);
 /// The unit that people see: displayUnit, or unit where it is empty.
 QString displayUnit(const api::ParameterDeclaration& declaration);
 /// A stored value as its field shows it, without unit: four significant digits, without zeros at the end that are finer
-/// than the slider's range can tell (a logarithmic one: three significant digits).
+/// than the slider's range can tell (a logarithmic one: three significant digits; what has another zero than SI:
+/// tenths).
 QString formatField(const api::ParameterDeclaration& declaration, double stored);
 /// The same with its displayed unit.
 QString formatValue(const api::ParameterDeclaration& declaration, double stored);

@@ -33,14 +33,14 @@ double hairline(const QPainter& painter) {
 
 void paintHorizontalLine(QPainter& painter, double left, double right, double y, const QColor& colour) {
   const double top = snapped(painter, y);
-  painter.fillRect(QRectF(snapped(painter, left), top, snapped(painter, right) - snapped(painter, left), hairline(painter)),
-                   colour);
+  painter.fillRect(
+      QRectF(snapped(painter, left), top, snapped(painter, right) - snapped(painter, left), hairline(painter)), colour);
 }
 
 void paintVerticalLine(QPainter& painter, double x, double top, double bottom, const QColor& colour) {
   const double left = snapped(painter, x);
-  painter.fillRect(QRectF(left, snapped(painter, top), hairline(painter), snapped(painter, bottom) - snapped(painter, top)),
-                   colour);
+  painter.fillRect(
+      QRectF(left, snapped(painter, top), hairline(painter), snapped(painter, bottom) - snapped(painter, top)), colour);
 }
 
 void paintBox(QPainter& painter, const QRectF& rect, const QColor& fill, const QColor& edge, double radius,
@@ -99,7 +99,8 @@ void paintSymbol(QPainter& painter, const QRectF& rect, const QString& symbol, c
   QFont small = font;
   small.setPixelSize(font.pixelSize() - 3);
   painter.setFont(small);
-  painter.drawText(QPointF(rect.left() + metrics.horizontalAdvance(base) + 0.5, baseline + 3), symbol.mid(underscore + 1));
+  painter.drawText(QPointF(rect.left() + metrics.horizontalAdvance(base) + 0.5, baseline + 3),
+                   symbol.mid(underscore + 1));
 }
 
 void paintSwitch(QPainter& painter, const QRectF& rect, bool on, bool enabled) {

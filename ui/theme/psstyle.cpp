@@ -48,9 +48,11 @@ int PsStyle::pixelMetric(PixelMetric metric, const QStyleOption* option, const Q
     case PM_LayoutLeftMargin:
     case PM_LayoutTopMargin:
     case PM_LayoutRightMargin:
-    case PM_LayoutBottomMargin: return 0;
+    case PM_LayoutBottomMargin:
+      return 0;
     case PM_LayoutHorizontalSpacing:
-    case PM_LayoutVerticalSpacing: return 6;
+    case PM_LayoutVerticalSpacing:
+      return 6;
     case PM_SmallIconSize:
     case PM_ToolBarIconSize:
     case PM_ButtonIconSize:
@@ -58,48 +60,73 @@ int PsStyle::pixelMetric(PixelMetric metric, const QStyleOption* option, const Q
     case PM_IndicatorWidth:
     case PM_IndicatorHeight:
     case PM_ExclusiveIndicatorWidth:
-    case PM_ExclusiveIndicatorHeight: return 16;
-    case PM_ScrollBarExtent: return 8;
+    case PM_ExclusiveIndicatorHeight:
+      return 16;
+    case PM_ScrollBarExtent:
+      return 8;
     case PM_SplitterWidth:
-    case PM_DockWidgetSeparatorExtent: return 3;
+    case PM_DockWidgetSeparatorExtent:
+      return 3;
     case PM_DockWidgetFrameWidth:
     case PM_DefaultFrameWidth:
     case PM_ToolBarFrameWidth:
     case PM_ToolBarItemMargin:
     case PM_ButtonShiftHorizontal:
-    case PM_ButtonShiftVertical: return 0;
-    case PM_TreeViewIndentation: return 16;
-    case PM_ToolBarItemSpacing: return 2;
-    default: return QProxyStyle::pixelMetric(metric, option, widget);
+    case PM_ButtonShiftVertical:
+      return 0;
+    case PM_TreeViewIndentation:
+      return 16;
+    case PM_ToolBarItemSpacing:
+      return 2;
+    default:
+      return QProxyStyle::pixelMetric(metric, option, widget);
   }
 }
 
 int PsStyle::styleHint(StyleHint hint, const QStyleOption* option, const QWidget* widget,
                        QStyleHintReturn* returnData) const {
   switch (hint) {
-    case SH_ToolTip_WakeUpDelay: return 500;
+    case SH_ToolTip_WakeUpDelay:
+      return 500;
     case SH_EtchDisabledText:
     case SH_DitherDisabledText:
     case SH_UnderlineShortcut:
     case SH_Widget_Animate:
     case SH_Widget_Animation_Duration:
     case SH_ComboBox_Popup:
-    case SH_ScrollView_FrameOnlyAroundContents: return 0;
-    case SH_Slider_AbsoluteSetButtons: return Qt::LeftButton;
-    default: return QProxyStyle::styleHint(hint, option, widget, returnData);
+    case SH_ScrollView_FrameOnlyAroundContents:
+      return 0;
+    case SH_Slider_AbsoluteSetButtons:
+      return Qt::LeftButton;
+    default:
+      return QProxyStyle::styleHint(hint, option, widget, returnData);
   }
 }
 
 void PsStyle::drawPrimitive(PrimitiveElement element, const QStyleOption* option, QPainter* painter,
                             const QWidget* widget) const {
   switch (element) {
-    case PE_FrameFocusRect: paintFocusRing(*painter, option->rect, 4); return;
-    case PE_IndicatorCheckBox: drawCheckBox(*painter, *option); return;
-    case PE_IndicatorRadioButton: drawRadio(*painter, *option); return;
-    case PE_IndicatorArrowDown: drawArrow(*painter, *option, "chevron-down"); return;
-    case PE_IndicatorArrowUp: drawArrow(*painter, *option, "chevron-up"); return;
-    case PE_IndicatorArrowRight: drawArrow(*painter, *option, "chevron-right"); return;
-    case PE_IndicatorArrowLeft: drawArrow(*painter, *option, "chevron-left"); return;
+    case PE_FrameFocusRect:
+      paintFocusRing(*painter, option->rect, 4);
+      return;
+    case PE_IndicatorCheckBox:
+      drawCheckBox(*painter, *option);
+      return;
+    case PE_IndicatorRadioButton:
+      drawRadio(*painter, *option);
+      return;
+    case PE_IndicatorArrowDown:
+      drawArrow(*painter, *option, "chevron-down");
+      return;
+    case PE_IndicatorArrowUp:
+      drawArrow(*painter, *option, "chevron-up");
+      return;
+    case PE_IndicatorArrowRight:
+      drawArrow(*painter, *option, "chevron-right");
+      return;
+    case PE_IndicatorArrowLeft:
+      drawArrow(*painter, *option, "chevron-left");
+      return;
     case PE_IndicatorBranch:
       if (option->state & State_Children) {
         drawArrow(*painter, *option, option->state & State_Open ? "chevron-down" : "chevron-right");
@@ -109,8 +136,10 @@ void PsStyle::drawPrimitive(PrimitiveElement element, const QStyleOption* option
     case PE_FrameStatusBarItem:
     case PE_FrameMenu:
     case PE_PanelMenuBar:
-    case PE_FrameTabBarBase: return;
-    default: QProxyStyle::drawPrimitive(element, option, painter, widget);
+    case PE_FrameTabBarBase:
+      return;
+    default:
+      QProxyStyle::drawPrimitive(element, option, painter, widget);
   }
 }
 
@@ -152,8 +181,8 @@ QSize PsStyle::sizeFromContents(ContentsType type, const QStyleOption* option, c
   if (type == CT_ComboBox) {
     result.setHeight(26);
     if (const auto* box = qstyleoption_cast<const QStyleOptionComboBox*>(option)) {
-      result.setWidth(std::max(result.width(),
-                               static_cast<int>(textWidth(box->currentText, Theme::font(TextRole::Normal))) + 34));
+      result.setWidth(
+          std::max(result.width(), static_cast<int>(textWidth(box->currentText, Theme::font(TextRole::Normal))) + 34));
     }
   }
   return result;

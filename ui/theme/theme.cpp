@@ -24,10 +24,11 @@ namespace ps {
 namespace {
 
 constexpr std::array<const char*, static_cast<size_t>(Token::Count)> kNames = {
-    "window", "panel", "header", "field", "raised", "raised_edge", "hover", "selection", "line", "line2",
-    "text", "text2", "muted", "disabled", "control_edge", "accent", "on_accent", "slider_fill",
-    "warning", "error", "ok", "info", "keyframe", "curve", "warning_ground", "error_ground",
-    "overlay", "shadow", "handle", "handle_edge", "field_edge", "field_edge_hover", "track", "track_edge"};
+    "window",         "panel",        "header",  "field",  "raised", "raised_edge", "hover",        "selection",
+    "line",           "line2",        "text",    "text2",  "muted",  "disabled",    "control_edge", "accent",
+    "on_accent",      "slider_fill",  "warning", "error",  "ok",     "info",        "keyframe",     "curve",
+    "warning_ground", "error_ground", "overlay", "shadow", "handle", "handle_edge", "field_edge",   "field_edge_hover",
+    "track",          "track_edge"};
 
 Theme& storage() {
   static Theme theme = Theme::load(true);
@@ -113,9 +114,14 @@ QFont Theme::font(TextRole role) {
   font.setHintingPreference(QFont::PreferNoHinting);
   font.setPixelSize(12);
   switch (role) {
-    case TextRole::Normal: break;
-    case TextRole::Small: font.setPixelSize(11); break;
-    case TextRole::Medium: font.setWeight(QFont::Medium); break;
+    case TextRole::Normal:
+      break;
+    case TextRole::Small:
+      font.setPixelSize(11);
+      break;
+    case TextRole::Medium:
+      font.setWeight(QFont::Medium);
+      break;
     case TextRole::Time:
       font.setPixelSize(13);
       font.setWeight(QFont::Medium);
@@ -165,8 +171,8 @@ QPalette Theme::palette() const {
 QString Theme::styleSheet() const {
   QString sheet = QString::fromUtf8(themeResource(QStringLiteral("theme/style.qss")));
   // Accent on `selection` is too faint in the light theme for text of this size; there, text itself.
-  const QColor changed = contrast(colour(Token::Accent), colour(Token::Selection)) >= 4.5 ? colour(Token::Accent)
-                                                                                          : colour(Token::Text);
+  const QColor changed =
+      contrast(colour(Token::Accent), colour(Token::Selection)) >= 4.5 ? colour(Token::Accent) : colour(Token::Text);
   sheet.replace(QStringLiteral("@changed_text"), changed.name());
   static const QRegularExpression placeholder(QStringLiteral("@([a-z_0-9]+)"));
   for (qsizetype from = 0;;) {

@@ -49,19 +49,30 @@ constexpr Named kNamed[] = {
 
 double prefixFactor(QChar prefix) {
   switch (prefix.unicode()) {
-    case u'n': return 1e-9;
+    case u'n':
+      return 1e-9;
     case u'\u00B5':
     case u'\u03BC':
-    case u'u': return 1e-6;
-    case u'm': return 1e-3;
-    case u'c': return 1e-2;
-    case u'd': return 1e-1;
-    case u'h': return 1e2;
-    case u'k': return 1e3;
-    case u'M': return 1e6;
-    case u'G': return 1e9;
-    case u'T': return 1e12;
-    default: return 0;
+    case u'u':
+      return 1e-6;
+    case u'm':
+      return 1e-3;
+    case u'c':
+      return 1e-2;
+    case u'd':
+      return 1e-1;
+    case u'h':
+      return 1e2;
+    case u'k':
+      return 1e3;
+    case u'M':
+      return 1e6;
+    case u'G':
+      return 1e9;
+    case u'T':
+      return 1e12;
+    default:
+      return 0;
   }
 }
 
@@ -92,11 +103,16 @@ QString plainText(const QString& text) {
     const bool minus = c == QChar(0x207B);
     if ((digit >= 0 || minus) && !raised) plain += QLatin1Char('^');
     raised = digit >= 0 || minus;
-    if (minus) plain += QLatin1Char('-');
-    else if (digit >= 0) plain += QChar(static_cast<char16_t>(u'0' + digit));
-    else if (c == QChar(0x00B7) || c == QChar(0x22C5)) plain += QLatin1Char('*');
-    else if (c == QChar(0x2212)) plain += QLatin1Char('-');
-    else plain += c;
+    if (minus)
+      plain += QLatin1Char('-');
+    else if (digit >= 0)
+      plain += QChar(static_cast<char16_t>(u'0' + digit));
+    else if (c == QChar(0x00B7) || c == QChar(0x22C5))
+      plain += QLatin1Char('*');
+    else if (c == QChar(0x2212))
+      plain += QLatin1Char('-');
+    else
+      plain += c;
   }
   return plain;
 }

@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/ui/rowtesting.h"
+#include "ui/graphs/graphview.h"
+#include "ui/graphs/phasestackview.h"
+#include "ui/graphs/sampleseries.h"
+#include "ui/theme/theme.h"
+
+#include <QtCore/QBuffer>
+#include <QtCore/QElapsedTimer>
+#include <QtGui/QAccessible>
+#include <QtTest/QSignalSpy>
+
+#include <algorithm>
+#include <clocale>
+#include <random>
+
+using namespace ps;
+using namespace ps::testing;
+
+class TestGraphs : public QObject {
+  Q_OBJECT
+ private Q_SLOTS:
+  void ticksAreNice_data();
+  void ticksAreNice();
+  void noSpikeIsLost();
+  void joinedSamplesKeepExtremes();
+  void graphPaintsASpike();
+  void graphZoomsPansAndFits();
+  void graphSeeks();
+  void csvHasEverySample();
+  void stackAddsUp();
+  void paintingIsFast();
+  void graphsAreAccessible();
+};
+
+void TestGraphs::ticksAreNice_data() {
+  QTest::addColumn<double>("low");
+  QTest::addColumn<double>("high");
+  QTest::addColumn<int>("most");
+  QTest::addColumn<double>("step");
+  QTest::addColumn<int>("decimals");
+  QTest::newRow("minute") << 0.0 << 60.0 << 7 << 10.0 << 0;
+  QTest::newRow("celsius") << -14.0 << 130.0 << 3 << 50.0 << 0;
+  QTest::newRow("tenths") << 0.0 << 1.0 << 5 << 0.25 << 2;
+  QTest::newRow("small") << 0.0 << 3e-6 << 4 << 1e-6 << 6;
+  QTest::newRow("large") << 0.0 << 7e6 << 4 << 2e6 << 0;
+}
+
+void TestGraphs::ticksAreNice() {
+  QFETCH(double, low);
+  QFETCH(double, high);
+  QFETCH(int, most);
+  QFETCH(double, step);
+  QFETCH(int, decimals);
+  const Ticks ticks = niceTicks(low, high, most);
+  QVERIFY2(std::abs(ticks.step - step) < 1e-9 * step, qPrintable(QString::number(ticks.step)));
+  QCOMPARE(ticks.decimals, decimals);
+  QVERIFY(ticks.count >= 1 && ticks.count <= most);
+  QVERIFY(ticks.first >= low - 1e-9 * step && ticks.at(ticks.count - 1) <= high + 1e-9 * step);
+  QCOMPARE(niceTicks(1, 1, 5).count, 0);
+  QCOMPARE(niceTicks(0, kNaN, 5).count, 0);
+}
+
+/// Extents of random ranges agree with a plain walk over all samples.
+void TestGraphs::noSpikeIsLost() {
+  std::mt19937 random(7);
+  GraphView graph;
+  const int series = graph.addSeries(QStringLiteral("a"));
+  std::vector<double> values;
+  for (int i = 0; i < 20000; ++i) {
+    values.push_back(static_cast<double>(random() % 1000) / 1000 + (random() % 997 == 0 ? 50 : 0));
+    graph.append(series, i / 60.0, values.back());
+  }
+  for (int trial = 0; trial < 500; ++trial) {
+    size_t first = random() % values.size(), last = random() % values.size();
+    if (first > last) std::swap(first, last);
+    ++last;
+    const auto [low, high] = std::minmax_element(values.begin() + static_cast<ptrdiff_t>(first),
+                                                 values.begin() + static_cast<ptrdiff_t>(last));
+    // Half a sample before the first and the last: the range is half open.
+    const auto extent =
+        graph.extent(series, (static_cast<double>(first) - 0.5) / 60, (static_cast<double>(last) - 0.5) / 60);
+    QCOMPARE(extent.first, *low);
+    QCOMPARE(extent.second, *high);
+  }
+}
+
+/// Past the capacity neighbours are joined; memory stays bounded and every extreme stays.
+void TestGraphs::joinedSamplesKeepExtremes() {
+  SampleSeries series;
+  const size_t count = 3 * SampleSeries::kCapacity;
+  for (size_t i = 0; i < count; ++i) {
+    const bool spike = i == 12345 || i == count - 777;
+    series.append(static_cast<double>(i), i == 500000   ? kNaN
+                                          : spike       ? 99
+                                          : i == 300001 ? -99
+                                                        : std::sin(static_cast<double>(i)));
+  }
+  QVERIFY(series.size() <= SampleSeries::kCapacity);
+  const auto all = series.extent(0, series.size());
+  QCOMPARE(all.high, 99.0);
+  QCOMPARE(all.low, -99.0);
+  const auto early = series.extent(series.indexAt(12000), series.indexAt(13000));
+  QCOMPARE(early.high, 99.0);
+  const auto calm = series.extent(series.indexAt(20000), series.indexAt(290000));
+  QVERIFY(calm.high <= 1 && calm.low >= -1);
+  QCOMPARE(series.lastValue(), std::sin(static_cast<double>(count - 1)));
+  series.append(5, 1000);  // earlier than the last: ignored
+  QCOMPARE(series.extent(0, series.size()).high, 99.0);
+}
+
+/// One sample among 20,000 that is 40 times higher than the others reaches the top of the picture.
+void TestGraphs::graphPaintsASpike() {
+  GraphView graph;
+  const int series = graph.addSeries(QStringLiteral("a"));
+  for (int i = 0; i < 20000; ++i) graph.append(series, i / 60.0, i == 9876 ? 40 : 0);
+  graph.resize(500, 150);
+  const QImage image = graph.grab().toImage();
+  const QColor colour = Theme::current().series(0);
+  const QRectF plot = graph.plotRect();
+  const double ratio = image.devicePixelRatio();
+  const int x = static_cast<int>((plot.left() + plot.width() * 9876.0 / 20000) * ratio);
+  int reached = image.height();
+  for (int y = 0; y < image.height(); ++y) {
+    for (int i = -2; i <= 2; ++i) {
+      const QColor pixel = image.pixelColor(x + i, y);
+      if (std::abs(pixel.blue() - colour.blue()) < 60 && std::abs(pixel.red() - colour.red()) < 60)
+        reached = std::min(reached, y);
+    }
+  }
+  // The scale leaves 12 % of the span below and a fifth above the data.
+  QVERIFY2(reached < (plot.top() + 0.25 * plot.height()) * ratio, qPrintable(QString::number(reached)));
+}
+
+void TestGraphs::graphZoomsPansAndFits() {
+  GraphView graph;
+  const int series = graph.addSeries(QStringLiteral("a"));
+  for (int i = 0; i <= 600; ++i) graph.append(series, i / 10.0, i);
+  graph.setDuration(90);
+  graph.resize(500, 150);
+  show(graph, 500);
+  QCOMPARE(graph.timeRange(), (std::pair<double, double>{0, 90}));
+  QSignalSpy told(&graph, &TimePlot::timeRangeChanged);
+  const QPointF middle = graph.plotRect().center();
+  wheel(graph, middle, 120);
+  QVERIFY(!graph.isFitted());
+  QVERIFY(std::abs(graph.timeRange().second - graph.timeRange().first - 72) < 1e-9);  // 0.8 of 90
+  QVERIFY(std::abs((graph.timeRange().second + graph.timeRange().first) / 2 - 45) <
+          0.2);  // about the pointer, to a pixel
+  const double before = graph.timeRange().first;
+  QTest::mousePress(&graph, Qt::LeftButton, {}, middle.toPoint());
+  const QPointF to = middle + QPointF(50, 0);
+  QMouseEvent move(QEvent::MouseMove, to, graph.mapToGlobal(to), Qt::NoButton, Qt::LeftButton, Qt::NoModifier);
+  QApplication::sendEvent(&graph, &move);
+  QTest::mouseRelease(&graph, Qt::LeftButton, {}, to.toPoint());
+  const double perPixel = 72 / graph.plotRect().width();
+  QVERIFY(std::abs(graph.timeRange().first - (before - 50 * perPixel)) < perPixel);
+  QCOMPARE(told.count(), 2);
+  QTest::mouseDClick(&graph, Qt::LeftButton, {}, middle.toPoint());
+  QVERIFY(graph.isFitted());
+  QCOMPARE(graph.timeRange().second, 90.0);
+  graph.append(series, 120, 1);
+  QCOMPARE(graph.timeRange().second, 120.0);  // the fitted range grows with the data
+}
+
+void TestGraphs::graphSeeks() {
+  GraphView graph;
+  graph.append(graph.addSeries(QStringLiteral("a")), 0, 1);
+  graph.setDuration(60);
+  graph.resize(500, 150);
+  show(graph, 500);
+  QSignalSpy asked(&graph, &TimePlot::seekRequested);
+  QTest::mouseClick(&graph, Qt::LeftButton, {}, graph.plotRect().center().toPoint());
+  QCOMPARE(asked.count(), 1);
+  QVERIFY(std::abs(asked[0][0].toDouble() - 30) < 60 / graph.plotRect().width());
+}
+
+void TestGraphs::csvHasEverySample() {
+  GraphView graph;
+  const int a = graph.addSeries(QStringLiteral("Ice, core"), QStringLiteral("°C")),
+            b = graph.addSeries(QStringLiteral("b"));
+  graph.append(a, 0, -9.5);
+  graph.append(a, 0.1, kNaN);
+  graph.append(b, 0.1, 2);
+  graph.append(a, 0.3, 1.0 / 3);
+  std::setlocale(LC_NUMERIC, "de_DE.UTF-8");
+  QBuffer buffer;
+  QVERIFY(buffer.open(QIODevice::WriteOnly));
+  QVERIFY(graph.exportCsv(buffer));
+  std::setlocale(LC_NUMERIC, "C");
+  QCOMPARE(QString::fromUtf8(buffer.data()),
+           QStringLiteral("time_s,\"Ice, core[°C]\",b\n0,-9.5,\n0.1,,2\n0.3,0.3333333333333333,\n"));
+}
+
+void TestGraphs::stackAddsUp() {
+  PhaseStackView stack;
+  stack.append(0, {1.0, 0, 0, 0, 0});
+  stack.append(10, {0.25, 0.05, 0.5, 0.0, 0.2});
+  QCOMPARE(stack.sampleCount(), size_t{2});
+  stack.resize(400, 200);
+  const QImage image = stack.grab().toImage();
+  const QRectF plot = stack.plotRect();
+  const double ratio = image.devicePixelRatio();
+  // Just before the end, from the bottom up: solid to 0.25 of the total, then melting, liquid, gas.
+  const auto at = [&](double share) {
+    const double y = plot.bottom() - plot.height() * share / 1.06;
+    return image.pixelColor(static_cast<int>((plot.left() + 0.3 * plot.width()) * ratio), static_cast<int>(y * ratio));
+  };
+  // At 0.3 of the run solid is 0.775, liquid from 0.79 to 0.94 of the total.
+  QCOMPARE(at(0.4), QColor(0x3A, 0x63, 0xB8));
+  QCOMPARE(at(0.87), QColor(0x45, 0xC4, 0xB8));
+  QCOMPARE(at(0.97), QColor(0xF5, 0xF1, 0xE6));
+  QBuffer buffer;
+  QVERIFY(buffer.open(QIODevice::WriteOnly));
+  QVERIFY(stack.exportCsv(buffer));
+  QVERIFY(
+      buffer.data().startsWith("time_s,solid[kg],melting[kg],liquid[kg],boiling[kg],gas[kg]\n0,1,0,0,0,0\n10,0.25,"));
+}
+
+/// 20,000 samples in three lines: the aim is 4 ms on the reference machine; ten times that catches a walk over all
+/// samples on a slow one.
+void TestGraphs::paintingIsFast() {
+  GraphView graph;
+  for (int s = 0; s < 3; ++s) {
+    const int series = graph.addSeries(QString::number(s));
+    for (int i = 0; i < 20000; ++i) graph.append(series, i / 60.0, s + std::sin(i * 0.37));
+  }
+  graph.resize(560, 140);
+  QImage image(560, 140, QImage::Format_ARGB32_Premultiplied);
+  graph.render(&image);
+  QElapsedTimer timer;
+  timer.start();
+  constexpr int kFrames = 20;
+  for (int i = 0; i < kFrames; ++i) graph.render(&image);
+  const double milliseconds = static_cast<double>(timer.nsecsElapsed()) / 1e6 / kFrames;
+  qInfo("a graph of 3 x 20,000 samples is painted in %.2f ms", milliseconds);
+  QVERIFY(milliseconds < 40);
+}
+
+void TestGraphs::graphsAreAccessible() {
+  GraphView graph;
+  graph.setTitle(QStringLiteral("Temperature, °C"));
+  graph.setUnit(QStringLiteral("°C"));
+  QAccessibleInterface* face = QAccessible::queryAccessibleInterface(&graph);
+  QVERIFY(face);
+  QCOMPARE(face->text(QAccessible::Name), QStringLiteral("Temperature, °C"));
+  QCOMPARE(face->text(QAccessible::Value), QStringLiteral("Drag a probe here to plot it"));
+  graph.append(graph.addSeries(QStringLiteral("Ice core")), 2, -0.9);
+  QVERIFY(face->text(QAccessible::Value).contains(QStringLiteral("Ice core")));
+  QVERIFY(face->text(QAccessible::Value).contains(QStringLiteral("−0.9000 °C")));
+}
+
+int main(int argc, char** argv) {
+  QApplication application(argc, argv);
+  Theme::apply(application, true);
+  TestGraphs test;
+  return QTest::qExec(&test, argc, argv);
+}
+
+#include "tst_graphs.moc"

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/ui/rowtesting.h"
+#include "ui/theme/theme.h"
+
+#include <QtWidgets/QLabel>
+#include <QtWidgets/QLineEdit>
+
+using namespace ps;
+using namespace ps::testing;
+
+class TestPanels : public QObject {
+  Q_OBJECT
+ private Q_SLOTS:
+  void panelGroupsAndFilters();
+  void panelCountsChanges();
+  void pinnedRowsFollowTheirOriginals();
+  void panelKeepsFoldsOverAModel();
+  void changedMeansOtherThanTheMaterial();
+  void emptyPanelHasItsSentence();
+  void noTextIsCut_data();
+  void noTextIsCut();
+  void themeChangesWhileRunning();
+};
+
+void TestPanels::panelGroupsAndFilters() {
+  ParameterPanel panel;
+  panel.setModel(rowModels(list(), {}));
+  panel.resize(392, 600);
+  show(panel);
+  const auto shown = [&panel] {
+    QStringList keys;
+    for (const ParameterRow* row : panel.rows()) {
+      if (panel.isRowShown(row)) keys << row->key();
+    }
+    return keys.join(QLatin1Char(' '));
+  };
+  // Groups in the order in which they first appear: all of Heat, then Mechanics.
+  QCOMPARE(shown(), QStringLiteral("plate_temperature conductivity youngs_modulus substeps gravity_on kernel"));
+  panel.setFilter(QStringLiteral("TEMP"));
+  QCOMPARE(shown(), QStringLiteral("plate_temperature"));
+  panel.setGroupFolded(QStringLiteral("Heat"), true);
+  QCOMPARE(shown(), QStringLiteral("plate_temperature"));  // what is searched for is not hidden by a fold
+  panel.setFilter({});
+  QCOMPARE(shown(), QStringLiteral("youngs_modulus substeps gravity_on kernel"));
+  panel.setFilter(QStringLiteral("xyzzy"));
+  QCOMPARE(shown(), QString());
+  bool said = false;
+  for (const QLabel* label : panel.findChildren<QLabel*>())
+    said |= label->isVisible() && label->text().contains(QStringLiteral("xyzzy"));
+  QVERIFY(said);
+  QVERIFY(panel.reveal(QStringLiteral("conductivity")));
+  QVERIFY(panel.isRowShown(panel.row(QStringLiteral("conductivity"))));
+  QTRY_VERIFY(panel.row(QStringLiteral("conductivity"))->hasFocus());
+  QVERIFY(!panel.reveal(QStringLiteral("nothing")));
+}
+
+void TestPanels::panelCountsChanges() {
+  ParameterPanel panel;
+  panel.setModel(rowModels(list(), {}));
+  QCOMPARE(panel.changedCount(), 0);
+  QList<Edit> edits;
+  connect(&panel, &ParameterPanel::edited, &panel,
+          [&edits](const QString&, const Value&, Edit edit) { edits << edit; });
+  panel.row(QStringLiteral("conductivity"))->enter(QStringLiteral("3"));
+  QCOMPARE(edits, (QList<Edit>{Edit::Begin, Edit::Live, Edit::End}));
+  QCOMPARE(panel.changedCount(), 1);
+  panel.setChangedOnly(true);
+  QVERIFY(panel.isRowShown(panel.row(QStringLiteral("conductivity"))));
+  QVERIFY(!panel.isRowShown(panel.row(QStringLiteral("substeps"))));
+  panel.setValue(QStringLiteral("conductivity"), Response(2.2));
+  QCOMPARE(panel.changedCount(), 0);
+  QCOMPARE(edits.size(), 3);  // what comes from outside is not told back
+}
+
+void TestPanels::pinnedRowsFollowTheirOriginals() {
+  std::vector<RowModel> rows = rowModels(list(), {});
+  RowModel pinned = rows[0];
+  pinned.pinned = true;
+  rows.push_back(pinned);
+  ParameterPanel panel;
+  panel.setModel(rows);
+  const std::vector<ParameterRow*> all = panel.rows();
+  QCOMPARE(all[0]->key(), all[1]->key());  // "Try these" stands on top
+  all[0]->enter(QStringLiteral("50"));
+  QCOMPARE(all[1]->number(), 323.15);
+  QCOMPARE(panel.changedCount(), 1);
+}
+
+void TestPanels::panelKeepsFoldsOverAModel() {
+  ParameterPanel panel;
+  panel.setModel(rowModels(list(), {}));
+  panel.setGroupFolded(QStringLiteral("Heat"), true);
+  panel.setModel(rowModels(list(), {}, {}, QStringLiteral("material/wax/")));
+  QVERIFY(!panel.isRowShown(panel.row(QStringLiteral("material/wax/conductivity"))));
+  QVERIFY(panel.isRowShown(panel.row(QStringLiteral("material/wax/substeps"))));
+}
+
+void TestPanels::changedMeansOtherThanTheMaterial() {
+  ParameterSet base, own;
+  base.values["conductivity"] = Response(0.6);
+  ParameterRow row(rowModels(list(), own, base)[5]);
+  QCOMPARE(row.number(), 0.6);  // what is not set has the material's value, not the catalogue's
+  QVERIFY(!row.isChanged());
+  row.enter(QStringLiteral("2.2"));
+  QVERIFY(row.isChanged());
+  row.reset();
+  QCOMPARE(row.number(), 0.6);
+  QVERIFY(sameValue(Value(0.6), Value(Response(0.6))));
+}
+
+void TestPanels::emptyPanelHasItsSentence() {
+  ParameterPanel panel;
+  panel.resize(392, 300);
+  show(panel);
+  bool said = false;
+  for (const QLabel* label : panel.findChildren<QLabel*>()) {
+    said |= label->isVisible() && label->text() == QStringLiteral("Select something, or press Ctrl+K");
+  }
+  QVERIFY(said);
+}
+
+void TestPanels::noTextIsCut_data() {
+  QTest::addColumn<int>("width");
+  QTest::addColumn<bool>("symbols");
+  QTest::newRow("1280") << 332 << false;
+  QTest::newRow("1600") << 392 << true;
+  QTest::newRow("2560") << 460 << true;
+}
+
+/// Labels are whole at every size of the window; where room is short, symbols go first.
+void TestPanels::noTextIsCut() {
+  QFETCH(int, width);
+  QFETCH(bool, symbols);
+  ParameterPanel panel;
+  panel.setModel(rowModels(list(), {}));
+  panel.resize(width, 600);
+  show(panel, width);
+  for (const ParameterRow* row : panel.rows()) {
+    QVERIFY2(row->labelRect().width() >= row->wantedLabelWidth() - 3, qPrintable(row->key()));
+    QVERIFY(row->fieldRect().right() < row->width());
+    QVERIFY(row->sliderRect().width() >= kMinimumSlider);
+  }
+  const ParameterRow* row = panel.row(QStringLiteral("conductivity"));
+  QCOMPARE(row->sliderRect().left() - row->labelRect().right() > kSymbolWidth - 2, symbols);
+}
+
+/// A panel on the screen takes the other theme's colours at once, notes with links included.
+void TestPanels::themeChangesWhileRunning() {
+  ParameterPanel panel;
+  panel.setModel(rowModels(list(), {}));
+  panel.resize(392, 400);
+  panel.setLimit(QStringLiteral("youngs_modulus"), QStringLiteral("Less. [Mend](it)"));
+  show(panel);
+  const auto corner = [&panel] { return panel.grab().toImage().pixelColor(3, 60); };
+  QCOMPARE(corner(), Theme::load(true)[Token::Panel]);
+  Theme::apply(*qobject_cast<QApplication*>(qApp), false);
+  QCOMPARE(corner(), Theme::load(false)[Token::Panel]);
+  const auto* note = panel.findChild<QLabel*>(QStringLiteral("psLimit"));
+  QVERIFY(note->text().contains(Theme::load(false)[Token::Accent].name()));
+  Theme::apply(*qobject_cast<QApplication*>(qApp), true);
+  QCOMPARE(corner(), Theme::load(true)[Token::Panel]);
+}
+
+int main(int argc, char** argv) {
+  QApplication application(argc, argv);
+  Theme::apply(application, true);
+  TestPanels test;
+  return QTest::qExec(&test, argc, argv);
+}
+
+#include "tst_panels.moc"
