@@ -7,7 +7,8 @@ uniform sampler2D fluidTexture;
 uniform int fluidScale;  // 0: no liquid
 out vec4 colour;
 void main() {
-  if (fluidScale > 0 && texelFetch(fluidTexture, ivec2(gl_FragCoord.xy) / fluidScale, 0).r < 1.0 / gl_FragCoord.w) discard;
+  ivec2 at = ivec2(gl_FragCoord.xy) / max(fluidScale, 1);
+  if (fluidScale > 0 && texelFetch(fluidTexture, at, 0).r < 1.0 / gl_FragCoord.w) discard;
   float a = opacity * clamp(width - abs(across), 0.0, 1.0);
   colour = vec4(tint * a, a);
 }

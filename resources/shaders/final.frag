@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Smooths stair steps along edges (after T. Lottes, "FXAA", 2009), or averages 2 x 2 samples of a still in linear light.
+// Smooths stair steps along edges (after T. Lottes, "FXAA", 2009), or averages 2 x 2 samples of a still in linear
+// light.
 uniform sampler2D picture;
 uniform int still;
 out vec4 colour;
 const vec3 kLuma = vec3(0.299, 0.587, 0.114);
 
 vec3 averaged(ivec2 p) {
-  vec3 sum = toLinear(texelFetch(picture, p, 0).rgb) + toLinear(texelFetch(picture, p + ivec2(1, 0), 0).rgb) +
-             toLinear(texelFetch(picture, p + ivec2(0, 1), 0).rgb) + toLinear(texelFetch(picture, p + ivec2(1, 1), 0).rgb);
+  vec3 sum = vec3(0.0);
+  for (int i = 0; i < 4; ++i) sum += toLinear(texelFetch(picture, p + ivec2(i & 1, i >> 1), 0).rgb);
   return toScreen(sum * 0.25);
 }
 
@@ -30,5 +31,6 @@ void main() {
   along = clamp(along / (min(abs(along.x), abs(along.y)) + least), -1.5, 1.5) * size.zw;
   along *= high - low < max(0.03, high * 0.10) ? 0.0 : 1.0;
   vec2 uv = gl_FragCoord.xy * size.zw;
-  colour = vec4(0.5 * (textureLod(picture, uv - along * 0.5, 0.0).rgb + textureLod(picture, uv + along * 0.5, 0.0).rgb), 1.0);
+  vec3 both = textureLod(picture, uv - along * 0.5, 0.0).rgb + textureLod(picture, uv + along * 0.5, 0.0).rgb;
+  colour = vec4(0.5 * both, 1.0);
 }

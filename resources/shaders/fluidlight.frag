@@ -47,7 +47,8 @@ void main() {
   float fresnel = 0.03 + 0.97 * square * square * grazing;
   vec3 mirrored = reflect(-v, n);
   // Soft surroundings with the key box's edge on top, and a bright sky: water shows by what it mirrors.
-  vec3 reflected = softStudio(mirrored) * 1.25 + vec3(1.7, 1.65, 1.6) * smoothstep(0.86, 0.93, dot(mirrored, light.xyz));
+  float box = smoothstep(0.86, 0.93, dot(mirrored, light.xyz));
+  vec3 reflected = softStudio(mirrored) * 1.25 + vec3(1.7, 1.65, 1.6) * box;
   vec3 h = normalize(v + light.xyz);
   vec3 s = (shadow * vec4(world + n * matter.x, 1.0)).xyz;
   float key = textureLod(shadowTexture, s, 0.0);
@@ -69,7 +70,8 @@ void main() {
   if (matter.z > 0.5) {
     c = base * (0.46 + 0.62 * diffuse * mix(0.62, 1.0, key)) + reflected * fresnel * 0.45 + shine * 0.6;
   } else {
-    vec2 bend = nView.xy * clamp(thickness * 0.09, 0.0, 0.55) * matter.x / centre.x / lens.y * vec2(size.y / size.x, 1.0);
+    float reach = clamp(thickness * 0.09, 0.0, 0.55) * matter.x / centre.x / lens.y;
+    vec2 bend = nView.xy * reach * vec2(size.y / size.x, 1.0);
     vec3 behind = toLinear(textureLod(behindTexture, clamp(uv - bend, vec2(0.0), vec2(1.0)), 0.0).rgb);
     float veil = 1.0 - decay(0.20 * thickness);
     vec3 clearness = mix(vec3(1.0), base * base * 0.9 + 0.1, veil);

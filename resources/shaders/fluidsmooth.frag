@@ -5,12 +5,14 @@ uniform sampler2D fluidTexture;
 uniform ivec2 direction;
 uniform float width;  // m, standard deviation of the filter
 uniform int limit;    // taps to each side
+uniform int fine;     // 1: neighbouring texels only, which removes the comb that wider steps leave
 out float distance;
 void main() {
   ivec2 here = ivec2(gl_FragCoord.xy), last = textureSize(fluidTexture, 0) - 1;
   float centre = texelFetch(fluidTexture, here, 0).r;
   float sigma = width / centre / lens.y * 0.5 * float(last.y + 1);
-  float range = width * 1.6, step = max(1.0, 2.0 * sigma / float(limit));
+  if (fine == 1) sigma = min(sigma, 0.5 * float(limit));
+  float range = width * 1.6, step = max(1.0, ceil(2.0 * sigma / float(limit)));
   float sum = centre, weights = 1.0;
   for (int i = 1; i <= limit; ++i) {
     float w = exp(-0.5 * pow(float(i) * step / max(sigma, 0.3), 2.0));

@@ -8,7 +8,8 @@ uniform sampler2D fluidTexture;
 uniform int fluidScale;  // 0: no liquid
 out vec4 colour;
 void main() {
-  if (fluidScale > 0 && texelFetch(fluidTexture, ivec2(gl_FragCoord.xy) / fluidScale, 0).r < 1.0 / gl_FragCoord.w) discard;
+  ivec2 at = ivec2(gl_FragCoord.xy) / max(fluidScale, 1);
+  if (fluidScale > 0 && texelFetch(fluidTexture, at, 0).r < 1.0 / gl_FragCoord.w) discard;
   vec3 n = normalize(worldNormal), v = normalize(eye.xyz - worldPosition);
   float facing = abs(dot(n, v));
   float fresnel = pow(1.0 - facing, 3.0);

@@ -27,7 +27,8 @@ vec3 shadeMetal(Surface s, float key, float open, bool top) {
   vec3 mirror = softStudio(reflect(-v, normalize(n + tangent * brush * 0.35)));
   vec3 tint = s.base * (1.0 + mix(0.55, 1.1, light.w) * brush);
   vec3 c = tint * ((0.16 + 0.16 * n.y) * open + 0.42 * key * direct);
-  c += mirror * mix(tint * mix(0.62, 1.15, light.w), vec3(0.75), fresnel * 0.6) * mix(open, 1.0, 0.15) * mix(0.55, 1.0, key);
+  vec3 polish = mix(tint * mix(0.62, 1.15, light.w), vec3(0.75), fresnel * 0.6);
+  c += mirror * polish * mix(open, 1.0, 0.15) * mix(0.55, 1.0, key);
   return c + vec3(1.0, 0.98, 0.95) * streak * key * (0.20 + 0.35 * brush) * mix(0.4, 1.0, light.w);
 }
 

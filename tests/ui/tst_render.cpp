@@ -20,8 +20,8 @@ namespace {
 constexpr int kWidth = 320, kHeight = 200;
 
 void addParticle(Snapshot& s, const Vec3& p, double radius, uint32_t id, api::Motion motion, double temperature = 280) {
-  s.position.push_back({static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2]),
-                        static_cast<float>(radius)});
+  s.position.push_back(
+      {static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2]), static_cast<float>(radius)});
   s.temperature.push_back(static_cast<float>(temperature));
   s.speed.push_back(static_cast<float>(std::abs(p[0])));
   s.densityError.push_back(0.01f);
@@ -70,7 +70,8 @@ Snapshot everything() {
     for (int k = 0; k < 24; ++k)
       addParticle(s, {i * 0.02 - 0.23, 0.01, k * 0.02 - 0.23}, 0.0124, id++, api::Motion::Liquid, 300 + i);
   for (int i = 0; i < 60; ++i)
-    addParticle(s, {0.15 * std::sin(i), 0.25 + 0.008 * i, 0.15 * std::cos(2.1 * i)}, 0.017, id++, api::Motion::Gas, 374);
+    addParticle(s, {0.15 * std::sin(i), 0.25 + 0.008 * i, 0.15 * std::cos(2.1 * i)}, 0.017, id++, api::Motion::Gas,
+                374);
   for (int i = 0; i < 10; ++i) addParticle(s, {0.3, 0.01, i * 0.02 - 0.1}, 0.0124, id++, api::Motion::Static);
   return s;
 }
@@ -274,7 +275,8 @@ void TestRender::colourMapEnds() {
   QFETCH(int, blue);
   const auto c = colourAt(static_cast<ColourBy>(colour), t, pivot);
   // Stops are whole 1/255 steps; half a step covers the rounding.
-  QVERIFY2(std::abs(c[0] * 255 - static_cast<float>(red)) < 0.5f && std::abs(c[1] * 255 - static_cast<float>(green)) < 0.5f &&
+  QVERIFY2(std::abs(c[0] * 255 - static_cast<float>(red)) < 0.5f &&
+               std::abs(c[1] * 255 - static_cast<float>(green)) < 0.5f &&
                std::abs(c[2] * 255 - static_cast<float>(blue)) < 0.5f,
            qPrintable(QString("%1 %2 %3").arg(c[0] * 255).arg(c[1] * 255).arg(c[2] * 255)));
 }
@@ -349,7 +351,8 @@ void TestRender::hidesOnlyWhatIsCovered() {
   render::CullView view{{}, kWidth, kHeight};
   for (size_t i = 0; i < 16; ++i) view.viewProjection[i] = static_cast<float>(m[i]);
   const auto sphere = [](float x, float z, float r, float mark) { return render::Instance{x, 0, z, r, 0, 0, 0, mark}; };
-  std::vector<render::Instance> list{sphere(0, -0.5f, 0.05f, 1), sphere(0, 0.2f, 0.2f, 2), sphere(0.25f, -0.5f, 0.1f, 3)};
+  std::vector<render::Instance> list{sphere(0, -0.5f, 0.05f, 1), sphere(0, 0.2f, 0.2f, 2),
+                                     sphere(0.25f, -0.5f, 0.1f, 3)};
   QCOMPARE(render::sortVisible(view, list), size_t{2});
   QCOMPARE(list[0].extra, 2.f);
   QCOMPARE(list[1].extra, 3.f);  // peeps out behind the large one
@@ -427,7 +430,8 @@ void TestRender::picturesAreNotBlank_data() {
   for (const ColourBy colour :
        {ColourBy::Material, ColourBy::Temperature, ColourBy::Phase, ColourBy::Speed, ColourBy::DensityError})
     for (const bool dark : {true, false})
-      QTest::addRow("%s %s", colourName(colour), dark ? "dark" : "light") << static_cast<int>(colour) << dark << 20.0 << false;
+      QTest::addRow("%s %s", colourName(colour), dark ? "dark" : "light")
+          << static_cast<int>(colour) << dark << 20.0 << false;
   QTest::newRow("from above") << 0 << true << 90.0 << false;
   QTest::newRow("from below") << 0 << true << -40.0 << false;
   QTest::newRow("still") << 0 << true << 20.0 << true;

@@ -68,7 +68,8 @@ CameraFrame frameOf(const Camera& camera) {
   const double sa = std::sin(camera.azimuth * kDegree), ca = std::cos(camera.azimuth * kDegree);
   const double se = std::sin(camera.elevation * kDegree), ce = std::cos(camera.elevation * kDegree);
   const Vec3 toEye{ce * sa, se, ce * ca};
-  return {along(camera.target, toEye, camera.distance), {ca, 0, -sa}, {-se * sa, ce, -se * ca}, {-ce * sa, -se, -ce * ca}};
+  return {
+      along(camera.target, toEye, camera.distance), {ca, 0, -sa}, {-se * sa, ce, -se * ca}, {-ce * sa, -se, -ce * ca}};
 }
 
 double nearPlane(const Camera& camera) { return camera.distance * 0.02; }
@@ -76,7 +77,7 @@ double farPlane(const Camera& camera) { return camera.distance * 10 + 20; }
 
 Mat4 viewMatrix(const Camera& camera) {
   const CameraFrame f = frameOf(camera);
-  return {f.right[0], f.up[0], -f.forward[0], 0, f.right[1], f.up[1], -f.forward[1], 0,
+  return {f.right[0], f.up[0], -f.forward[0], 0, f.right[1],           f.up[1],           -f.forward[1],         0,
           f.right[2], f.up[2], -f.forward[2], 0, -dot(f.right, f.eye), -dot(f.up, f.eye), dot(f.forward, f.eye), 1};
 }
 
@@ -129,8 +130,8 @@ void dollyTo(Camera& camera, int width, int height, double x, double y, double f
   // The offset of the cursor's point from the target keeps its place in the picture when it shrinks with the distance.
   const double shift = 1 - camera.distance / before;
   const double pixel = pixelSize(camera, height, before);
-  camera.target = along(along(camera.target, f.right, (x - width * 0.5) * pixel * shift), f.up,
-                        (height * 0.5 - y) * pixel * shift);
+  camera.target =
+      along(along(camera.target, f.right, (x - width * 0.5) * pixel * shift), f.up, (height * 0.5 - y) * pixel * shift);
 }
 
 void frameAll(Camera& camera, int width, int height, const Vec3& minimum, const Vec3& maximum) {

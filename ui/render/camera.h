@@ -17,7 +17,8 @@ std::array<double, 4> transform(const Mat4& a, const Vec3& v);
 /// Throws Error for a singular matrix.
 Mat4 inverse(const Mat4& a);
 
-/// Orthonormal, in world coordinates; `forward` points into the picture. Defined for every angle, straight down included.
+/// Orthonormal, in world coordinates; `forward` points into the picture. Defined for every angle, straight down
+/// included.
 struct CameraFrame {
   Vec3 eye, right, up, forward;
 };

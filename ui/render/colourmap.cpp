@@ -108,15 +108,19 @@ const char* colourName(ColourBy colour) {
 
 std::pair<double, double> colourRange(const Snapshot& snapshot, ColourBy colour) {
   switch (colour) {
-    case ColourBy::Temperature: return temperatureRange(snapshot);
-    case ColourBy::Phase: return {0, 4};
-    case ColourBy::DensityError: return {-0.05, 0.05};
+    case ColourBy::Temperature:
+      return temperatureRange(snapshot);
+    case ColourBy::Phase:
+      return {0, 4};
+    case ColourBy::DensityError:
+      return {-0.05, 0.05};
     case ColourBy::Speed: {
       float fastest = 0.05f;  // m/s; slower than that everything counts as at rest
       for (const float speed : snapshot.speed) fastest = std::max(fastest, speed);
       return {0, roundUp(fastest)};
     }
-    case ColourBy::Material: break;
+    case ColourBy::Material:
+      break;
   }
   return {0, 1};
 }
@@ -147,6 +151,7 @@ Colour sceneColour(bool dark, const std::string& name) {
 ColourTable::ColourTable(ColourBy colour, double minimum, double maximum, double meltingPoint)
     : m_minimum(static_cast<float>(minimum)), m_scale(static_cast<float>(1 / std::max(maximum - minimum, 1e-12))) {
   const double pivot = (meltingPoint - minimum) / std::max(maximum - minimum, 1e-12);
+  if (colour == ColourBy::Material) return;  // has no map
   for (size_t i = 0; i < m_samples.size(); ++i)
     m_samples[i] = colourAt(colour, static_cast<double>(i) / static_cast<double>(m_samples.size() - 1), pivot);
 }

@@ -19,7 +19,7 @@ class ColourTable {
   const Colour& at(float value) const;
 
  private:
-  std::array<Colour, 1024> m_samples;
+  std::array<Colour, 1024> m_samples{};
   float m_minimum, m_scale;
 };
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-// Why on the processor: sphere shaders write depth, so nothing hidden is rejected before it is shaded. Where a processor
-// shades as well, finding what is hidden first costs a tenth of shading it.
+// Why on the processor: sphere shaders write depth, so nothing hidden is rejected before it is shaded. Where a
+// processor shades as well, finding what is hidden first costs a tenth of shading it.
 namespace ps::render {
 namespace {
 
@@ -58,15 +58,19 @@ size_t sortVisible(const CullView& view, std::vector<Instance>& spheres) {
     const Instance& p = spheres[i];
     const auto row = [&](size_t r) { return m[r] * p.x + m[4 + r] * p.y + m[8 + r] * p.z + m[12 + r]; };
     const float w = row(3), safe = std::max(w, 1e-6f);
-    discs[i] = {w, (row(0) / safe * 0.5f + 0.5f) * static_cast<float>(view.width),
-                (row(1) / safe * 0.5f + 0.5f) * static_cast<float>(view.height), p.radius * lens / safe,
-                static_cast<uint32_t>(i), true};
+    discs[i] = {w,
+                (row(0) / safe * 0.5f + 0.5f) * static_cast<float>(view.width),
+                (row(1) / safe * 0.5f + 0.5f) * static_cast<float>(view.height),
+                p.radius * lens / safe,
+                static_cast<uint32_t>(i),
+                true};
   }
   std::sort(discs.begin(), discs.end(),
             [](const Disc& a, const Disc& b) { return a.depth != b.depth ? a.depth < b.depth : a.index < b.index; });
 
   const int columns = view.width / static_cast<int>(kCell), rows = view.height / static_cast<int>(kCell);
-  std::vector<float> covered(static_cast<size_t>(columns * rows), 1e30f);  // depth of the nearest sphere that fills a cell
+  std::vector<float> covered(static_cast<size_t>(columns * rows),
+                             1e30f);  // depth of the nearest sphere that fills a cell
   size_t seen = 0;
   for (Disc& disc : discs) {
     const float radius = spheres[disc.index].radius, cx = disc.x / kCell - 0.5f, cy = disc.y / kCell - 0.5f;

@@ -181,7 +181,9 @@ Furniture buildFurniture(const Environment& environment, bool dark) {
         addSlab(out.clear, face.corners, normal, {0.02 * size, 0.025 * size, 0.004 * size, 0.022 * size},
                 with(lid, 0.16), with(lid, 0.22));
         break;
-      case Role::Side: addPane(out, face, top, open); break;
+      case Role::Side:
+        addPane(out, face, top, open);
+        break;
     }
   }
   return out;

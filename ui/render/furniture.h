@@ -23,7 +23,8 @@ struct Face {
   std::vector<bool> walled;  ///< the edge from corner i to i + 1 lies on another wall (else on the bounds)
 };
 
-/// The part of a wall that faces the scene: its plane within the bounds and the other walls. Empty where nothing is left.
+/// The part of a wall that faces the scene: its plane within the bounds and the other walls. Empty where nothing is
+/// left.
 Face wallFace(const Environment& environment, size_t wall);
 
 /// What stands around the particles, as triangles. Built anew when the environment changes.
@@ -31,10 +32,10 @@ struct Furniture {
   std::vector<MeshVertex> opaque, clear;  ///< triangles
   std::vector<EdgeVertex> edges;          ///< triangles
   bool hasFloor = false;
-  float floor = 0, ground = 0;            ///< heights, m
+  float floor = 0, ground = 0;                ///< heights, m
   std::array<float, 2> centre{}, half{1, 1};  ///< of the floor in x and z, m
-  float size = 1;                         ///< of the scene, m
-  float floorHeat = 0;                    ///< 0..1: how much the floor glows
+  float size = 1;                             ///< of the scene, m
+  float floorHeat = 0;                        ///< 0..1: how much the floor glows
   float lidHeight = 0;
   bool hasLid = false;
 };

@@ -32,8 +32,7 @@ GLuint compile(GLenum stage, const char* file, const char* library) {
 
 }  // namespace
 
-Program::Program(const char* vertex, const char* fragment, const char* vertexLibrary,
-                 const char* fragmentLibrary) {
+Program::Program(const char* vertex, const char* fragment, const char* vertexLibrary, const char* fragmentLibrary) {
   const GLuint first = compile(GL_VERTEX_SHADER, vertex, vertexLibrary);
   GLuint second = 0;
   try {
@@ -133,7 +132,7 @@ Target::Target(std::initializer_list<const Texture*> colours, const Texture* dep
   }
   if (depth)
     glFramebufferTexture2D(GL_FRAMEBUFFER, depth->hasStencil() ? GL_DEPTH_STENCIL_ATTACHMENT : GL_DEPTH_ATTACHMENT,
-                            GL_TEXTURE_2D, depth->name(), 0);
+                           GL_TEXTURE_2D, depth->name(), 0);
   if (count)
     glDrawBuffers(count, buffers.data());
   else

@@ -7,14 +7,15 @@
 #include <map>
 #include <string>
 
-// Owners of OpenGL objects. Textures, buffers and programs are shared among contexts of a group; framebuffers and vertex
-// arrays are not, so those live for one frame only and a renderer may be used and destroyed in any context of its group.
+// Owners of OpenGL objects. Textures, buffers and programs are shared among contexts of a group; framebuffers and
+// vertex arrays are not, so those live for one frame only and a renderer may be used and destroyed in any context of
+// its group.
 namespace ps::render {
 
 class Program {
  public:
-  /// Names of embedded files; the libraries are put before the stages, after frame.glsl ("" for none). Throws Error with
-  /// the compiler's words.
+  /// Names of embedded files; the libraries are put before the stages, after frame.glsl ("" for none). Throws Error
+  /// with the compiler's words.
   Program(const char* vertex, const char* fragment, const char* vertexLibrary = "", const char* fragmentLibrary = "");
   ~Program();
   Program(const Program&) = delete;

@@ -53,10 +53,19 @@ GlState::GlState()
   glGetFloatv(GL_DEPTH_CLEAR_VALUE, &m_clearDepth);
   glGetBooleanv(GL_DEPTH_WRITEMASK, &m_depthMask);
   glGetBooleanv(GL_COLOR_WRITEMASK, m_colourMask.data());
-  const GLenum capabilities[] = {GL_BLEND,           GL_DEPTH_TEST,  GL_SCISSOR_TEST,         GL_CULL_FACE,
-                                 GL_STENCIL_TEST,    GL_MULTISAMPLE, GL_FRAMEBUFFER_SRGB,     GL_DITHER,
-                                 GL_POLYGON_OFFSET_FILL, GL_SAMPLE_ALPHA_TO_COVERAGE, GL_RASTERIZER_DISCARD};
-  for (size_t i = 0; i < m_capabilities.size(); ++i) m_capabilities[i] = {capabilities[i], glIsEnabled(capabilities[i])};
+  const GLenum capabilities[] = {GL_BLEND,
+                                 GL_DEPTH_TEST,
+                                 GL_SCISSOR_TEST,
+                                 GL_CULL_FACE,
+                                 GL_STENCIL_TEST,
+                                 GL_MULTISAMPLE,
+                                 GL_FRAMEBUFFER_SRGB,
+                                 GL_DITHER,
+                                 GL_POLYGON_OFFSET_FILL,
+                                 GL_SAMPLE_ALPHA_TO_COVERAGE,
+                                 GL_RASTERIZER_DISCARD};
+  for (size_t i = 0; i < m_capabilities.size(); ++i)
+    m_capabilities[i] = {capabilities[i], glIsEnabled(capabilities[i])};
   for (int unit = 0; unit < kUnits; ++unit) {
     glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
     m_unitStates[static_cast<size_t>(unit)] = {integer(GL_TEXTURE_BINDING_2D), integer(GL_TEXTURE_BINDING_BUFFER),
@@ -93,8 +102,8 @@ GlState::~GlState() {
   glBindBuffer(GL_ARRAY_BUFFER, static_cast<GLuint>(m_arrayBuffer));
   glBindBuffer(GL_TEXTURE_BUFFER, static_cast<GLuint>(m_textureBuffer));
   if (m_uniformSize0 > 0)
-    glBindBufferRange(GL_UNIFORM_BUFFER, 0, static_cast<GLuint>(m_uniformBuffer0), static_cast<GLintptr>(m_uniformStart0),
-                      static_cast<GLsizeiptr>(m_uniformSize0));
+    glBindBufferRange(GL_UNIFORM_BUFFER, 0, static_cast<GLuint>(m_uniformBuffer0),
+                      static_cast<GLintptr>(m_uniformStart0), static_cast<GLsizeiptr>(m_uniformSize0));
   else
     glBindBufferBase(GL_UNIFORM_BUFFER, 0, static_cast<GLuint>(m_uniformBuffer0));
   glBindBuffer(GL_UNIFORM_BUFFER, static_cast<GLuint>(m_uniformBuffer));

@@ -52,15 +52,12 @@ EGLDisplay openDisplay() {
 HeadlessContext::HeadlessContext(const HeadlessContext* shared) : m(std::make_unique<Impl>()) {
   m->display = shared ? shared->m->display : openDisplay();
   if (m->display == EGL_NO_DISPLAY)
-    throw Error("EGL cannot draw without a display here; install a driver that has OpenGL 4.3, such as Mesa's llvmpipe");
+    throw Error(
+        "EGL cannot draw without a display here; install a driver that has OpenGL 4.3, such as Mesa's llvmpipe");
   eglBindAPI(EGL_OPENGL_API);
-  const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION,
-                               4,
-                               EGL_CONTEXT_MINOR_VERSION,
-                               3,
-                               EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                               EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                               EGL_NONE};
+  const EGLint attributes[] = {
+      EGL_CONTEXT_MAJOR_VERSION,           4,       EGL_CONTEXT_MINOR_VERSION, 3, EGL_CONTEXT_OPENGL_PROFILE_MASK,
+      EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
   const EGLint wanted[] = {EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
   EGLConfig config = nullptr;
   EGLint count = 0;

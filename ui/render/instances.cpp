@@ -40,10 +40,14 @@ Colour materialColour(const Snapshot& s, size_t i) {
   const Colour own = material < s.materialColour.size() ? s.materialColour[material] : Colour{0.6f, 0.6f, 0.6f};
   const float light = luma(own), scatter = std::sqrt(light) * (1 - 0.85f * light);
   switch (s.motion[i]) {
-    case api::Motion::Static: return own;
-    case api::Motion::Solid: return towardsWhite(own, (s.phase[i] == api::Phase::Solid ? 0.85f : 0.5f) * scatter);
-    case api::Motion::Liquid: return towardsWhite(own, 0.7f * std::clamp(s.gasFraction[i], 0.f, 1.f));
-    case api::Motion::Gas: break;
+    case api::Motion::Static:
+      return own;
+    case api::Motion::Solid:
+      return towardsWhite(own, (s.phase[i] == api::Phase::Solid ? 0.85f : 0.5f) * scatter);
+    case api::Motion::Liquid:
+      return towardsWhite(own, 0.7f * std::clamp(s.gasFraction[i], 0.f, 1.f));
+    case api::Motion::Gas:
+      break;
   }
   return own;
 }
@@ -93,11 +97,16 @@ class Evaluator {
   Colour colourOf(size_t i, const Blended& blended) const {
     const Snapshot& s = *m_request.now;
     switch (m_request.colour) {
-      case ColourBy::Temperature: return m_table.at(blended(&Snapshot::temperature));
-      case ColourBy::Speed: return m_table.at(blended(&Snapshot::speed));
-      case ColourBy::DensityError: return m_table.at(blended(&Snapshot::densityError));
-      case ColourBy::Phase: return m_table.at(static_cast<float>(s.phase[i]));
-      case ColourBy::Material: break;
+      case ColourBy::Temperature:
+        return m_table.at(blended(&Snapshot::temperature));
+      case ColourBy::Speed:
+        return m_table.at(blended(&Snapshot::speed));
+      case ColourBy::DensityError:
+        return m_table.at(blended(&Snapshot::densityError));
+      case ColourBy::Phase:
+        return m_table.at(static_cast<float>(s.phase[i]));
+      case ColourBy::Material:
+        break;
     }
     return materialColour(s, i);
   }

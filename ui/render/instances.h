@@ -43,9 +43,9 @@ struct InstanceRequest {
   float blend = 1;                     ///< 0: previous, 1: now
   ColourBy colour = ColourBy::Material;
   double minimum = 0, maximum = 1, meltingPoint = 273.15;
-  bool surfaces = true;                  ///< liquids become a surface, else spheres
-  std::array<float, 3> steam{1, 1, 1};   ///< colour of vapour where colours show no data
-  std::optional<CullView> cull;          ///< sort nearest first, leave out what cannot be seen
+  bool surfaces = true;                 ///< liquids become a surface, else spheres
+  std::array<float, 3> steam{1, 1, 1};  ///< colour of vapour where colours show no data
+  std::optional<CullView> cull;         ///< sort nearest first, leave out what cannot be seen
 };
 
 /// What a frame draws, in three ranges of `particles`: spheres (the first `visible` of them can be seen, the others may

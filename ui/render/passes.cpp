@@ -9,7 +9,7 @@
 namespace ps::render {
 namespace {
 
-constexpr float kFar = 1e6f;  // frame.glsl knows the same
+constexpr float kFar = 1e6f;              // frame.glsl knows the same
 constexpr GLint kMatter = 1, kMetal = 2;  // marks in the stencil: what lights a pixel
 
 constexpr const char* kSoftware[] = {"llvmpipe", "softpipe", "SwiftShader", "SWR"};
@@ -118,7 +118,8 @@ void Passes::upload(const Frame& frame) {
   m_opaque.upload(GL_ARRAY_BUFFER, furniture.opaque.data(), furniture.opaque.size() * sizeof(MeshVertex));
   m_clear.upload(GL_ARRAY_BUFFER, furniture.clear.data(), furniture.clear.size() * sizeof(MeshVertex));
   m_edges.upload(GL_ARRAY_BUFFER, furniture.edges.data(), furniture.edges.size() * sizeof(EdgeVertex));
-  for (const auto& [buffer, tiles] : {std::pair{&m_liquidTiles, &frame.liquidTiles}, {&m_detailTiles, &frame.detailTiles}})
+  for (const auto& [buffer, tiles] :
+       {std::pair{&m_liquidTiles, &frame.liquidTiles}, {&m_detailTiles, &frame.detailTiles}})
     buffer->upload(GL_ARRAY_BUFFER, tiles->data(), tiles->size() * sizeof(TileSet::Corner));
   m_contact.upload(ContactMap::kCells, ContactMap::kCells, GL_RGBA, GL_UNSIGNED_BYTE, frame.contact.texels.data());
 }
@@ -282,7 +283,7 @@ void Passes::drawFluid(const Frame& frame) {
 void Passes::smoothFluid(const Frame& frame) {
   const Program& program = m_programs.fluidSmooth;
   program.use();
-  glUniform1i(program.at("limit"), m_quality.fluidTaps);
+  glUniform1i(program.at("limit"), m_quality.fluidTaps * (frame.still ? 2 : 1));
   glDepthMask(GL_FALSE);
   glEnable(GL_DEPTH_TEST);
   for (int pass = 0; pass < 2 * m_quality.fluidRounds; ++pass) {
@@ -294,6 +295,7 @@ void Passes::smoothFluid(const Frame& frame) {
     program.texture("fluidTexture", 0, from.name());
     glUniform2i(program.at("direction"), pass % 2 ? 0 : 1, pass % 2 ? 1 : 0);
     glUniform1f(program.at("width"), frame.instances.radius * (pass < 2 ? 1.5f : 0.8f));
+    glUniform1i(program.at("fine"), pass >= 2);
     drawTiles(m_liquidTiles, frame.liquidTiles);
   }
   const Target target({&m_fluidNormal}, &m_fluidDepth);
@@ -358,7 +360,8 @@ void Passes::drawGlass(const Frame& frame) {
   draw(m_programs.glass, m_clear, frame.furniture.clear.size());
   m_programs.edge.use();
   glUniform3fv(m_programs.edge.at("tint"), 1, frame.edgeTint.data());
-  glUniform1f(m_programs.edge.at("width"), (frame.still ? 2.f : 1.f) * std::max(1.f, static_cast<float>(frame.height) / 1400));
+  glUniform1f(m_programs.edge.at("width"),
+              (frame.still ? 2.f : 1.f) * std::max(1.f, static_cast<float>(frame.height) / 1400));
   draw(m_programs.edge, m_edges, frame.furniture.edges.size());
   glDisable(GL_BLEND);
   glDisable(GL_DEPTH_TEST);

@@ -25,22 +25,22 @@ struct Frame {
   Instances instances;
   Furniture furniture;
   ContactMap contact;
-  FrameUniforms::Matrix toLight;          ///< world to clip space of the shadow picture
-  std::array<float, 2> shadowScale{};     ///< metres to clip space
+  FrameUniforms::Matrix toLight;             ///< world to clip space of the shadow picture
+  std::array<float, 2> shadowScale{};        ///< metres to clip space
   std::vector<TileSet::Corner> detailTiles;  ///< where edges and crevices may be
   std::vector<TileSet::Corner> liquidTiles;  ///< where liquid may be
   std::array<int, 4> vapourBox{};            ///< x, y, width, height of the pixels that vapour may touch
   std::array<float, 3> edgeTint{};
-  int width = 0, height = 0;              ///< of the inner targets
+  int width = 0, height = 0;  ///< of the inner targets
   bool data = false, still = false;
-  bool lidInFront = true;                 ///< the eye is above the lid
+  bool lidInFront = true;  ///< the eye is above the lid
 };
 
 /// What a machine can afford. Software renderers get fewer samples and smaller soft layers.
 struct Quality {
   int shadowSize = 2048, shadowTaps = 8;
   int occlusionScale = 1, occlusionSamples = 12;
-  int fluidScale = 1, fluidTaps = 24, fluidRounds = 2;
+  int fluidScale = 2, fluidTaps = 12, fluidRounds = 2;
   int steamScale = 2, steamSprites = 4;
   bool cull = false;  ///< the processor leaves out hidden spheres
 };

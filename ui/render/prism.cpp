@@ -100,7 +100,8 @@ void addSlab(std::vector<MeshVertex>& out, const std::vector<Vec3>& outline, con
     for (int k = 0; k <= kSteps; ++k) {
       const double angle = (half ? -k : kSteps - k) * std::numbers::pi / 2 / kSteps;
       const double inset = shape.bevel * (1 - std::cos(angle));
-      const double depth = half ? shape.thickness - shape.bevel * (1 + std::sin(angle)) : shape.bevel * (1 - std::sin(angle));
+      const double depth =
+          half ? shape.thickness - shape.bevel * (1 + std::sin(angle)) : shape.bevel * (1 - std::sin(angle));
       const Ring ring = ringAt(inset, depth, angle);
       if (last.points.empty())
         addCap(out, ring.points, normal, false, top);
@@ -130,8 +131,8 @@ void addRim(std::vector<MeshVertex>& out, const Face& floor, const Vec3& normal,
       const std::vector<Vec3> b = offsetOutline(floor.corners, normal, profile[k + 1][0]);
       const Vec3 p0 = plus(a[i], normal, profile[k][1]), p1 = plus(a[j], normal, profile[k][1]);
       const Vec3 q0 = plus(b[i], normal, profile[k + 1][1]), q1 = plus(b[j], normal, profile[k + 1][1]);
-      const Vec3 facing = unit(plus(plus({0, 0, 0}, outward, profile[k][1] - profile[k + 1][1]), normal,
-                                    profile[k + 1][0] - profile[k][0]));
+      const Vec3 facing = unit(
+          plus(plus({0, 0, 0}, outward, profile[k][1] - profile[k + 1][1]), normal, profile[k + 1][0] - profile[k][0]));
       for (const Vec3& p : {p0, q0, q1, p0, q1, p1}) out.push_back(vertex(p, facing, material));
     }
     for (const bool end : {false, true}) {

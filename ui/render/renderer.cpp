@@ -57,8 +57,10 @@ std::array<int, 4> pixelsOf(const Extent& extent, const Camera& camera, int widt
     x0 = std::min(x0, (*p)[0]), x1 = std::max(x1, (*p)[0]);
     y0 = std::min(y0, (*p)[1]), y1 = std::max(y1, (*p)[1]);
   }
-  const int left = static_cast<int>(std::clamp(x0 - 3, 0.0, 1.0 * width)), right = static_cast<int>(std::clamp(x1 + 4, 0.0, 1.0 * width));
-  const int top = static_cast<int>(std::clamp(y0 - 3, 0.0, 1.0 * height)), bottom = static_cast<int>(std::clamp(y1 + 4, 0.0, 1.0 * height));
+  const int left = static_cast<int>(std::clamp(x0 - 3, 0.0, 1.0 * width)),
+            right = static_cast<int>(std::clamp(x1 + 4, 0.0, 1.0 * width));
+  const int top = static_cast<int>(std::clamp(y0 - 3, 0.0, 1.0 * height)),
+            bottom = static_cast<int>(std::clamp(y1 + 4, 0.0, 1.0 * height));
   return {left, height - bottom, right - left, bottom - top};
 }
 
@@ -113,39 +115,67 @@ void fillUniforms(Frame& frame, const RenderOptions& options, double time) {
   u.glowTint = {linear(glow[0]) * 1.25f, linear(glow[1]) * 1.25f, linear(glow[2]) * 1.25f, 0};
 }
 
-void markSpheres(TileSet& tiles, const Frame& frame, const Camera& camera, size_t first, size_t last, double reach) {
-  for (size_t i = first; i < last; ++i) {
-    const render::Instance& p = frame.instances.particles[i];
-    const std::optional<Vec3> at = project(camera, frame.width, frame.height, {p.x, p.y, p.z});
-    if (at) tiles.mark((*at)[0], (*at)[1], reach * static_cast<double>(p.radius) / pixelSize(camera, frame.height, (*at)[2]) + 3);
+/// Many points to pixels, without the trigonometry of project().
+struct Projector {
+  Projector(const Camera& camera, int w, int h)
+      : matrix(floats(multiply(projectionMatrix(camera, w, h), viewMatrix(camera)))),
+        width(static_cast<float>(w)),
+        height(static_cast<float>(h)),
+        near(static_cast<float>(nearPlane(camera))),
+        lens(static_cast<float>(projectionMatrix(camera, w, h)[5]) * height / 2) {}
+
+  /// Pixels from the upper left corner and depth in m; a depth less than `near` makes the others meaningless.
+  std::array<float, 3> at(float x, float y, float z) const {
+    const auto row = [&](size_t r) { return matrix[r] * x + matrix[4 + r] * y + matrix[8 + r] * z + matrix[12 + r]; };
+    const float w = row(3), safe = std::max(w, near);
+    return {(row(0) / safe * 0.5f + 0.5f) * width, (0.5f - row(1) / safe * 0.5f) * height, w};
+  }
+
+  FrameUniforms::Matrix matrix;
+  float width, height, near, lens;  // lens: pixels of a metre at a depth of 1 m
+};
+
+void markSpheres(TileSet& tiles, const Projector& projector, const render::Instance* first, size_t count, float reach) {
+  for (const render::Instance* p = first; p != first + count; ++p) {
+    const auto at = projector.at(p->x, p->y, p->z);
+    if (at[2] > -p->radius)
+      tiles.mark(at[0], at[1], reach * p->radius * projector.lens / std::max(at[2], projector.near) + 3);
   }
 }
 
-void markEdges(TileSet& tiles, const Frame& frame, const Camera& camera, const std::vector<render::MeshVertex>& mesh) {
+void markEdges(TileSet& tiles, const Projector& projector, const std::vector<render::MeshVertex>& mesh) {
   for (size_t i = 0; i + 2 < mesh.size(); i += 3) {
     if (mesh[i].material[3] == static_cast<float>(render::Kind::PlateTop)) continue;
-    std::array<std::optional<Vec3>, 3> at;
+    std::array<std::array<float, 3>, 3> at;
     for (size_t k = 0; k < 3; ++k) {
       const auto& p = mesh[i + k].position;
-      at[k] = project(camera, frame.width, frame.height, {p[0], p[1], p[2]});
+      at[k] = projector.at(p[0], p[1], p[2]);
+      if (at[k][2] < projector.near) return tiles.markAll();
     }
-    for (size_t k = 0; k < 3; ++k) {
-      const auto &a = at[k], &b = at[(k + 1) % 3];
-      if (!a || !b) return tiles.markAll();
-      tiles.markLine((*a)[0], (*a)[1], (*b)[0], (*b)[1], 3);
-    }
+    // Triangles come in pairs along an edge: the longer of two sides runs along it.
+    const auto length = [&](size_t k) { return std::hypot(at[k + 1][0] - at[k][0], at[k + 1][1] - at[k][1]); };
+    const size_t k = length(0) > length(1) ? 0 : 1;
+    tiles.markLine(at[k][0], at[k][1], at[k + 1][0], at[k + 1][1], 4);
   }
 }
 
-/// Which parts of the picture have liquid, and which have edges to smooth or crevices to darken.
-void findTiles(Frame& frame, const Camera& camera) {
+/// Which parts of the picture have liquid, and which have edges to smooth or crevices to darken. A graphics card does
+/// all of the picture faster than a processor finds out.
+void findTiles(Frame& frame, const Camera& camera, bool cull) {
   const auto& instances = frame.instances;
   TileSet liquid(frame.width, frame.height), detail(frame.width, frame.height);
-  markSpheres(liquid, frame, camera, instances.spheres, instances.spheres + instances.liquids, 1.4);
+  if (cull) {
+    const Projector projector(camera, frame.width, frame.height);
+    const render::Instance* first = instances.particles.data();
+    markSpheres(liquid, projector, first + instances.spheres, instances.liquids, 1.4f);
+    markSpheres(detail, projector, first, instances.visible, 2.5f);
+    markEdges(detail, projector, frame.furniture.opaque);
+    markEdges(detail, projector, frame.furniture.clear);
+  } else {
+    liquid.markAll();
+    detail.markAll();
+  }
   frame.liquidTiles = liquid.triangles();
-  markSpheres(detail, frame, camera, 0, instances.visible, 2.5);
-  markEdges(detail, frame, camera, frame.furniture.opaque);
-  markEdges(detail, frame, camera, frame.furniture.clear);
   frame.detailTiles = detail.triangles();
 }
 
@@ -213,7 +243,7 @@ void Renderer::draw(const Snapshot& now, const Snapshot* previous, double blend,
   fillUniforms(frame, options, now.stats.time);
   fitShadow(frame);
   frame.lidInFront = axes.eye[1] > static_cast<double>(frame.furniture.lidHeight);
-  findTiles(frame, options.camera);
+  findTiles(frame, options.camera, m->passes->quality().cull);
   frame.vapourBox = pixelsOf(frame.instances.vapourExtent, options.camera, frame.width, frame.height);
 
   const render::GlState state;

@@ -27,7 +27,7 @@ struct RenderOptions {
   double rangeMinimum = 0, rangeMaximum = 0;  ///< of the colour map; equal: automatic
   bool dark = true;
   double meltingPoint = 273.15;  ///< K, pivot of the temperature map
-  bool still = false;  ///< four samples per pixel: for pictures rather than motion, about four times the work
+  bool still = false;            ///< four samples per pixel: for pictures rather than motion, about four times the work
 };
 
 /// The scene's furniture that is drawn around particles.
@@ -35,7 +35,8 @@ struct RenderScene {
   Environment environment;  ///< walls, bounds
 };
 
-/// Draws snapshots. Needs a current OpenGL 4.3 context, whoever made it (viewport, headset, headless); knows no widgets.
+/// Draws snapshots. Needs a current OpenGL 4.3 context, whoever made it (viewport, headset, headless); knows no
+/// widgets.
 class Renderer {
  public:
   Renderer();   ///< throws Error when shaders do not compile or the context is too old
@@ -44,7 +45,8 @@ class Renderer {
   /// The picture fills (0, 0)..(width, height) of it. Restores the OpenGL state that it changes. One thread at a time;
   /// any context that shares with the one of the constructor may be current. Views on several threads have a Renderer
   /// and a context each.
-  void draw(const Snapshot& now, const Snapshot* previous, double blend, const RenderScene& scene, const RenderOptions& options);
+  void draw(const Snapshot& now, const Snapshot* previous, double blend, const RenderScene& scene,
+            const RenderOptions& options);
 
  private:
   struct Impl;
@@ -74,6 +76,7 @@ class HeadlessContext {
 };
 
 /// Renders into an image of RGBA8 rows from the top; needs a current context.
-std::vector<uint8_t> renderImage(Renderer& renderer, const Snapshot& snapshot, const RenderScene& scene, const RenderOptions& options);
+std::vector<uint8_t> renderImage(Renderer& renderer, const Snapshot& snapshot, const RenderScene& scene,
+                                 const RenderOptions& options);
 
 }  // namespace ps

@@ -14,21 +14,23 @@ TileSet::TileSet(int width, int height)
       m_rows((height + kTile - 1) / kTile),
       m_marks(static_cast<size_t>(m_columns * m_rows)) {}
 
-void TileSet::mark(double x, double y, double reach) {
-  if (x + reach < 0 || y + reach < 0 || x - reach > m_width || y - reach > m_height) return;
-  const auto tile = [](double pixel, int count) {
-    return static_cast<int>(std::clamp(pixel / kTile, 0.0, static_cast<double>(count - 1)));
+void TileSet::mark(float x, float y, float reach) {
+  if (!(x + reach >= 0 && y + reach >= 0 && x - reach <= static_cast<float>(m_width) &&
+        y - reach <= static_cast<float>(m_height)))
+    return;
+  const auto tile = [](float pixel, int count) {
+    return static_cast<int>(std::clamp(pixel / kTile, 0.f, static_cast<float>(count - 1)));
   };
   const int left = tile(x - reach, m_columns), right = tile(x + reach, m_columns);
   for (int row = tile(y - reach, m_rows); row <= tile(y + reach, m_rows); ++row)
     std::fill_n(m_marks.begin() + row * m_columns + left, right - left + 1, 1);
 }
 
-void TileSet::markLine(double x0, double y0, double x1, double y1, double reach) {
-  const double length = std::hypot(x1 - x0, y1 - y0);
-  const int steps = static_cast<int>(std::clamp(length / (0.75 * kTile), 0.0, 4096.0)) + 1;
+void TileSet::markLine(float x0, float y0, float x1, float y1, float reach) {
+  const float length = std::hypot(x1 - x0, y1 - y0);
+  const int steps = static_cast<int>(std::clamp(length / (0.75f * kTile), 0.f, 4096.f)) + 1;
   for (int i = 0; i <= steps; ++i) {
-    const double t = static_cast<double>(i) / steps;
+    const float t = static_cast<float>(i) / static_cast<float>(steps);
     mark(x0 + (x1 - x0) * t, y0 + (y1 - y0) * t, reach);
   }
 }

@@ -15,9 +15,9 @@ class TileSet {
 
   TileSet(int width, int height);
   /// Marks the tiles of a square of pixels around (x, y), from the upper left corner of the picture.
-  void mark(double x, double y, double reach);
+  void mark(float x, float y, float reach);
   /// Marks the tiles along a line.
-  void markLine(double x0, double y0, double x1, double y1, double reach);
+  void markLine(float x0, float y0, float x1, float y1, float reach);
   void markAll();
   bool marked(int column, int row) const { return m_marks[static_cast<size_t>(row * m_columns + column)] != 0; }
   /// Two triangles for each run of tiles in a row.
