@@ -66,8 +66,8 @@ double endSlope(double h0, double h1, double d0, double d1) {
   return slope;
 }
 
-/// Slope at point k: zero at a local extremum, else the weighted harmonic mean of the neighbouring secants, which lies in
-/// the region of monotonicity of Fritsch & Carlson 1980.
+/// Slope at point k: zero at a local extremum, else the weighted harmonic mean of the neighbouring secants, which lies
+/// in the region of monotonicity of Fritsch & Carlson 1980.
 double slopeAt(const std::vector<api::ResponsePoint>& p, size_t k) {
   const size_t n = p.size();
   if (n == 2) return secant(p[0], p[1]);
@@ -131,7 +131,8 @@ std::string lawProblem(const std::string& name, const std::vector<double>& coeff
 
 Response::Response(const api::ResponseSpec& spec) : constant(spec.constant) {
   switch (spec.kind) {
-    case api::ResponseSpec::Kind::Constant: break;
+    case api::ResponseSpec::Kind::Constant:
+      break;
     case api::ResponseSpec::Kind::Curve:
       kind = Kind::Curve;
       points.assign(spec.points.begin(), spec.points.end());
@@ -146,18 +147,24 @@ Response::Response(const api::ResponseSpec& spec) : constant(spec.constant) {
 
 double Response::at(double kelvin) const {
   switch (kind) {
-    case Kind::Constant: return constant;
-    case Kind::Curve: return curveAt(points, kelvin);
-    case Kind::Law: return lawProblem(law, coefficients).empty() ? lawAt(law, coefficients, kelvin) : 0;
+    case Kind::Constant:
+      return constant;
+    case Kind::Curve:
+      return curveAt(points, kelvin);
+    case Kind::Law:
+      return lawProblem(law, coefficients).empty() ? lawAt(law, coefficients, kelvin) : 0;
   }
   return 0;
 }
 
 std::string Response::problem() const {
   switch (kind) {
-    case Kind::Constant: return std::isfinite(constant) ? std::string() : "is not a finite number";
-    case Kind::Curve: return curveProblem(points);
-    case Kind::Law: return lawProblem(law, coefficients);
+    case Kind::Constant:
+      return std::isfinite(constant) ? std::string() : "is not a finite number";
+    case Kind::Curve:
+      return curveProblem(points);
+    case Kind::Law:
+      return lawProblem(law, coefficients);
   }
   return "unknown kind of response";
 }
@@ -165,11 +172,13 @@ std::string Response::problem() const {
 bool Response::operator==(const Response& other) const {
   if (kind != other.kind) return false;
   switch (kind) {
-    case Kind::Constant: return constant == other.constant;
+    case Kind::Constant:
+      return constant == other.constant;
     case Kind::Curve:
       return std::equal(points.begin(), points.end(), other.points.begin(), other.points.end(),
                         [](const auto& a, const auto& b) { return a.x == b.x && a.y == b.y; });
-    case Kind::Law: return law == other.law && coefficients == other.coefficients;
+    case Kind::Law:
+      return law == other.law && coefficients == other.coefficients;
   }
   return false;
 }

@@ -67,8 +67,8 @@ api::Caloric caloricOf(const Material& material, double pressure) {
 }  // namespace
 
 struct BakedMaterial::Tables {
-  ResponseTable densitySolid, densityLiquid, conductivitySolid, conductivityLiquid, conductivityGas, mush, youngsModulus,
-      viscosity;
+  ResponseTable densitySolid, densityLiquid, conductivitySolid, conductivityLiquid, conductivityGas, mush,
+      youngsModulus, viscosity;
   std::vector<const ResponseTable*> byProperty;  ///< nullptr for a plain number
   double solidus = 0, liquidus = 0, boilingPoint = 0;
   double kirchhoffSolidus = 0, kirchhoffLiquidus = 0, kirchhoffMush = 0, kirchhoffBoiling = 0, kirchhoffGas = 0;
@@ -116,8 +116,9 @@ struct BakedMaterial::Tables {
     liquidReference = std::min(liquidReference, c.boilingPoint);
     densitySolid = bakedDensity(responseOf(material, "density_solid"),
                                 3 * valueOf(material, "expansion_linear", kReferenceTemperature), solidReference, last);
-    densityLiquid = bakedDensity(responseOf(material, "density_liquid"),
-                                 valueOf(material, "expansion_volumetric", kReferenceTemperature), liquidReference, last);
+    densityLiquid =
+        bakedDensity(responseOf(material, "density_liquid"),
+                     valueOf(material, "expansion_volumetric", kReferenceTemperature), liquidReference, last);
   }
 
   void bakeKirchhoff(const api::Caloric& c) {

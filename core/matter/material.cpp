@@ -110,7 +110,8 @@ std::string problemOf(const Material& material) {
   if (std::string problem = meltingProblem(value); !problem.empty()) return problem;
   if (std::string problem = boilingProblem(value); !problem.empty()) return problem;
   if (value("melt_break_fraction") + value("freeze_bond_fraction") <= 1) {
-    return "melt_break_fraction: its sum with freeze_bond_fraction must exceed 1, or bonds break and form in every frame";
+    return "melt_break_fraction: its sum with freeze_bond_fraction must exceed 1, or bonds break and form in every "
+           "frame";
   }
   return {};
 }

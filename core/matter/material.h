@@ -12,13 +12,13 @@
 
 namespace ps {
 
-/// The catalogue of material properties: key, label, unit, range, help, example, declared once and used by panels, JSON,
-/// plugins and tests. Keys: density_solid, density_liquid, heat_capacity_{solid,liquid,gas},
+/// The catalogue of material properties: key, label, unit, range, help, example, declared once and used by panels,
+/// JSON, plugins and tests. Keys: density_solid, density_liquid, heat_capacity_{solid,liquid,gas},
 /// conductivity_{solid,liquid,gas}, melting_temperature, solidus, liquidus, latent_heat_fusion, boiling_temperature,
 /// latent_heat_vaporization, molar_mass, triple_temperature, triple_pressure, latent_heat_sublimation,
-/// critical_temperature, melting_slope, expansion_linear, expansion_volumetric, youngs_modulus, poisson_ratio, viscosity,
-/// friction_static, friction_kinetic, restitution, melt_break_fraction, freeze_bond_fraction, bond_radius, emissivity,
-/// gas_volume_factor, sinters, color_red/green/blue (sRGB 0..1, how the editor draws it).
+/// critical_temperature, melting_slope, expansion_linear, expansion_volumetric, youngs_modulus, poisson_ratio,
+/// viscosity, friction_static, friction_kinetic, restitution, melt_break_fraction, freeze_bond_fraction, bond_radius,
+/// emissivity, gas_volume_factor, sinters, color_red/green/blue (sRGB 0..1, how the editor draws it).
 api::ParameterList propertyCatalogue();
 /// Index into the catalogue, or -1.
 int propertyIndex(std::string_view key);

@@ -8,7 +8,7 @@
 namespace ps {
 namespace {
 
-constexpr double kGasConstant = 8.314462618;  // J/(mol K)
+constexpr double kGasConstant = 8.314462618;   // J/(mol K)
 constexpr double kReferencePressure = 101325;  // Pa
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 

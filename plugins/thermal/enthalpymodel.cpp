@@ -96,9 +96,12 @@ double enthalpyAt(const api::Caloric& c, double t, api::Phase phase) {
 const char* EnthalpyModel::label() const noexcept { return "Enthalpy"; }
 
 const char* EnthalpyModel::help() const noexcept {
-  return "Each particle carries its specific enthalpy; temperature and the shares of solid, liquid and vapour follow from "
-         "it (Voller & Cross 1981). No heat is lost at a plateau whatever the step, melting and freezing are one law run "
-         "both ways, a melting range and sublimation are included, and a change of pressure keeps the energy. Matter is "
+  return "Each particle carries its specific enthalpy; temperature and the shares of solid, liquid and vapour follow "
+         "from "
+         "it (Voller & Cross 1981). No heat is lost at a plateau whatever the step, melting and freezing are one law "
+         "run "
+         "both ways, a melting range and sublimation are included, and a change of pressure keeps the energy. Matter "
+         "is "
          "always in balance: no supercooling, no evaporation below the boiling point, one heat capacity per phase.";
 }
 

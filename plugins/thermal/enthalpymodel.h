@@ -18,8 +18,8 @@ double gasEnthalpy(const api::Caloric& caloric, double temperature);
 
 /// State of balance at a specific enthalpy in J/kg (Voller & Cross 1981): piecewise linear and monotone.
 ThermalState stateAt(const api::Caloric& caloric, double enthalpy);
-/// Specific enthalpy in J/kg at a temperature; `phase` decides on a plateau (melting and boiling: half way) and asks for
-/// nothing elsewhere: water of 263 K is ice.
+/// Specific enthalpy in J/kg at a temperature; `phase` decides on a plateau (melting and boiling: half way) and asks
+/// for nothing elsewhere: water of 263 K is ice.
 double enthalpyAt(const api::Caloric& caloric, double temperature, api::Phase phase);
 
 /// The enthalpy method: specific enthalpy is the one state variable, everything else follows from it.

@@ -55,9 +55,15 @@ struct Particle {
           melting = 0;
         }
         break;
-      case State::MeltingFreezing: melt(c, perMass); break;
-      case State::Fluid: heatFluid(c, perMass); break;
-      case State::BoilingCondensing: boil(c, perMass); break;
+      case State::MeltingFreezing:
+        melt(c, perMass);
+        break;
+      case State::Fluid:
+        heatFluid(c, perMass);
+        break;
+      case State::BoilingCondensing:
+        boil(c, perMass);
+        break;
       case State::Gas:
         temperature += perMass / c.heatCapacityGas;
         if (temperature <= c.boilingPoint) {
@@ -124,7 +130,8 @@ const char* ThesisLatentModel::label() const noexcept { return "Latent heat, the
 
 const char* ThesisLatentModel::help() const noexcept {
   return "The latent-heat bookkeeping of the thesis, with the rule added that lets a particle leave a plateau: for "
-         "comparison. Each plateau drops the heat that overshoots it, up to about half a percent of what is supplied, so "
+         "comparison. Each plateau drops the heat that overshoots it, up to about half a percent of what is supplied, "
+         "so "
          "the energy balance stays open and melting and boiling come a few steps late. No melting range and no "
          "sublimation. Choose Enthalpy for everything else.";
 }
@@ -175,7 +182,9 @@ void ThesisLatentModel::derive(const api::ThermalContext& context, const api::Pa
     const api::Caloric& c = caloricOf(context, particles, i);
     double solid = 0, gas = 0, t = f.temperature[i];
     switch (f.state[i]) {
-      case State::Solid: solid = 1; break;
+      case State::Solid:
+        solid = 1;
+        break;
       case State::MeltingFreezing: {
         const double threshold = meltingThreshold(c);
         solid = threshold > 0 ? 1 - std::clamp(f.melting[i] / threshold, 0.0, 1.0) : 0;
@@ -188,8 +197,11 @@ void ThesisLatentModel::derive(const api::ThermalContext& context, const api::Pa
         t = c.boilingPoint;
         break;
       }
-      case State::Gas: gas = 1; break;
-      default: break;
+      case State::Gas:
+        gas = 1;
+        break;
+      default:
+        break;
     }
     output.temperature[i] = t;
     output.solidFraction[i] = static_cast<float>(solid);
@@ -205,11 +217,21 @@ void ThesisLatentModel::energy(const api::ThermalContext& context, const api::Pa
     const api::Caloric& c = caloricOf(context, particles, i);
     double h = 0;
     switch (f.state[i]) {
-      case State::Solid: h = solidEnthalpy(c, f.temperature[i]); break;
-      case State::MeltingFreezing: h = solidEnthalpy(c, c.meltingPoint) + f.melting[i]; break;
-      case State::Fluid: h = liquidEnthalpy(c, f.temperature[i]); break;
-      case State::BoilingCondensing: h = liquidEnthalpy(c, c.boilingPoint) + f.boiling[i]; break;
-      default: h = gasEnthalpy(c, f.temperature[i]); break;
+      case State::Solid:
+        h = solidEnthalpy(c, f.temperature[i]);
+        break;
+      case State::MeltingFreezing:
+        h = solidEnthalpy(c, c.meltingPoint) + f.melting[i];
+        break;
+      case State::Fluid:
+        h = liquidEnthalpy(c, f.temperature[i]);
+        break;
+      case State::BoilingCondensing:
+        h = liquidEnthalpy(c, c.boilingPoint) + f.boiling[i];
+        break;
+      default:
+        h = gasEnthalpy(c, f.temperature[i]);
+        break;
     }
     joules[i] = h * static_cast<double>(particles.mass[i]);
   }

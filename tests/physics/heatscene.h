@@ -74,14 +74,15 @@ class Scene {
 
   /// Particle centres at (i + 1/2) spacing, so that a box begins at its corner.
   void addBox(std::array<int, 3> first, std::array<int, 3> count, uint32_t material, double jitter = 0) {
-    const size_t begin = store.add(static_cast<size_t>(count[0]) * static_cast<size_t>(count[1]) *
-                                   static_cast<size_t>(count[2]));
+    const size_t begin =
+        store.add(static_cast<size_t>(count[0]) * static_cast<size_t>(count[1]) * static_cast<size_t>(count[2]));
     size_t i = begin;
     for (int z = 0; z < count[2]; ++z) {
       for (int y = 0; y < count[1]; ++y) {
         for (int x = 0; x < count[0]; ++x, ++i) {
           const auto at = [&](int axis, int cell) {
-            return static_cast<float>((first[static_cast<size_t>(axis)] + cell + 0.5 + jitter * m_noise.next()) * spacing);
+            return static_cast<float>((first[static_cast<size_t>(axis)] + cell + 0.5 + jitter * m_noise.next()) *
+                                      spacing);
           };
           store.position()[i] = {at(0, x), at(1, y), at(2, z), 0};
           store.material()[i] = material;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Conduction, walls, moving fronts and the energy balance of HeatStage against closed forms. Cross-sections are wide and
-// their cores are measured: the sides are adiabatic, and a particle there has fewer partners to conduct through.
+// Conduction, walls, moving fronts and the energy balance of HeatStage against closed forms. Cross-sections are wide
+// and their cores are measured: the sides are adiabatic, and a particle there has fewer partners to conduct through.
 #include "core/base/parallel.h"
 #include "heatscene.h"
+#include "thesislatentmodel.h"
 
 #include <QTest>
 
@@ -29,13 +30,31 @@ struct Errors {
   double rms = 0, largest = 0;
 };
 
+/// A model with laws of its own: 2 W/K between any two that touch, and 3 W in each particle.
+class OwnLaws final : public ps::thermal::EnthalpyModel {
+ public:
+  void sources(const ps::api::ThermalContext&, const ps::api::ParticleView&, size_t first, size_t last,
+               double* watts) const override {
+    for (size_t i = first; i < last; ++i) watts[i] += 3;
+  }
+  bool pairFlux(const ps::api::ThermalContext&, const ps::api::ParticleView& view, const ps::api::NeighbourView& lists,
+                size_t first, size_t last, double* watts) const override {
+    for (size_t i = first; i < last; ++i) {
+      for (uint32_t k = lists.begin[i]; k < lists.last[i]; ++k) {
+        watts[k] = 2 * (view.temperature[lists.index[k]] - view.temperature[i]);
+      }
+    }
+    return true;
+  }
+};
+
 }  // namespace
 
 class TestHeat : public QObject {
   Q_OBJECT
  private Q_SLOTS:
   void slabsInContactFollowTheErrorFunction_data() {
-    QTest::addColumn<QList<double>>("left");   // conductivity, volumetric heat capacity
+    QTest::addColumn<QList<double>>("left");  // conductivity, volumetric heat capacity
     QTest::addColumn<QList<double>>("right");
     QTest::addColumn<double>("seconds");
     QTest::addColumn<double>("jitter");
@@ -47,7 +66,8 @@ class TestHeat : public QObject {
     QTest::newRow("one material, jitter") << one << one << 100.0 << 0.2 << 0.01 << 0.03;
     QTest::newRow("water and ice, lattice") << wet << icy << 200.0 << 0.0 << 0.008 << 0.02;
     QTest::newRow("water and ice, jitter") << wet << icy << 200.0 << 0.2 << 0.015 << 0.04;
-    QTest::newRow("contrast 10, lattice") << QList<double>{0.5, 2e6} << QList<double>{5, 2e6} << 60.0 << 0.0 << 0.01 << 0.02;
+    QTest::newRow("contrast 10, lattice")
+        << QList<double>{0.5, 2e6} << QList<double>{5, 2e6} << 60.0 << 0.0 << 0.01 << 0.02;
   }
   void slabsInContactFollowTheErrorFunction() {
     QFETCH(QList<double>, left);
@@ -81,7 +101,8 @@ class TestHeat : public QObject {
       if (std::abs(x) > 0.04 || !scene.nearAxis(i, 12, 12, 3.1)) continue;
       const auto& side = x < 0 ? left : right;
       const double far = x < 0 ? 0 : 100;
-      const double expected = contact + (far - contact) * std::erf(std::abs(x) / (2 * std::sqrt(side[0] / side[1] * seconds)));
+      const double expected =
+          contact + (far - contact) * std::erf(std::abs(x) / (2 * std::sqrt(side[0] / side[1] * seconds)));
       const double error = (scene.store.temperature()[i] - 273.15 - expected) / 100;
       errors.rms += error * error;
       errors.largest = std::max(errors.largest, std::abs(error));
@@ -148,7 +169,8 @@ class TestHeat : public QObject {
     scene.addMaterial(heattest::materialOf(matter));
     scene.addBox({0, 0, 0}, {12, 20, 20}, 0, jitter);
     scene.walls = {hotWall({1, 0, 0}, 0, wall)};
-    scene.start([&](size_t) { return matter.melting; }, [&](size_t) { return freezing ? Phase::Liquid : Phase::Solid; });
+    scene.start([&](size_t) { return matter.melting; },
+                [&](size_t) { return freezing ? Phase::Liquid : Phase::Solid; });
     scene.run(seconds);
     double changed = 0;
     int columns = 0;
@@ -176,7 +198,8 @@ class TestHeat : public QObject {
     QTest::newRow("1 kg ice, 1 kg hot water") << box << 6 << QList<double>{-10, 90} << false << 2.596751 << 0.0;
     QTest::newRow("1 kg ice, 3 kg water") << box << 3 << QList<double>{-10, 50} << false << 16.29838 << 0.0;
     QTest::newRow("3 kg ice, 1 kg water") << box << 9 << QList<double>{-10, 20} << false << 0.0 << 0.734491;
-    QTest::newRow("5 kg ice, 0.25 kg water") << QList<int>{3, 3, 21} << 20 << QList<double>{-10, 5} << false << -1.47551 << 1.0;
+    QTest::newRow("5 kg ice, 0.25 kg water")
+        << QList<int>{3, 3, 21} << 20 << QList<double>{-10, 5} << false << -1.47551 << 1.0;
     QTest::newRow("1 kg ice, 0.2 kg steam") << box << 10 << QList<double>{-10, 100} << true << 35.85762 << 0.0;
   }
   void calorimetryEndsWhereTheMeanEnthalpyLies() {
@@ -193,7 +216,9 @@ class TestHeat : public QObject {
     scene.addBox({0, 0, 0}, {box[0], box[1], box[2]}, 0);
     const auto isIce = [&](size_t i) { return static_cast<int>(i) < ice * box[0] * box[1]; };
     scene.start([&](size_t i) { return 273.15 + celsius[isIce(i) ? 0 : 1]; },
-                [&](size_t i) { return isIce(i) ? Phase::Solid : steam ? Phase::Gas : Phase::Liquid; });
+                [&](size_t i) { return isIce(i) ? Phase::Solid
+                                       : steam  ? Phase::Gas
+                                                : Phase::Liquid; });
     const double before = scene.heat.energy(scene.store);
     const double* t = scene.store.temperature();
     double spread = 1;
@@ -298,8 +323,10 @@ class TestHeat : public QObject {
     QVERIFY(*std::max_element(t, t + scene.store.size()) <= 373.15 + 1e-6);
     QVERIFY(std::abs(scene.heat.energy(scene.store) - before) < 1e-12 * scene.mass() * 1e5);
     QCOMPARE(scene.heat.usedSweeps(), timeScale > 1);
-    if (timeScale > 1e6) QVERIFY(scene.heat.thermalTimeScaleDelivered() < timeScale);
-    else QCOMPARE(scene.heat.thermalTimeScaleDelivered(), timeScale);
+    if (timeScale > 1e6)
+      QVERIFY(scene.heat.thermalTimeScaleDelivered() < timeScale);
+    else
+      QCOMPARE(scene.heat.thermalTimeScaleDelivered(), timeScale);
   }
 
   /// Exponential sweeps of 15 times the stable step against explicit steps, across a plateau.
@@ -322,6 +349,44 @@ class TestHeat : public QObject {
     }
     // A sweep of 15 stable steps errs by about 0.5 % of what melted.
     QVERIFY2(std::abs(melted[1] / melted[0] - 1) < 0.02, qPrintable(QString("%1 %2").arg(melted[0]).arg(melted[1])));
+  }
+
+  void modelsMayBringTheirOwnLaws() {
+    Scene scene;
+    const OwnLaws own;
+    scene.model = &own;
+    scene.addMaterial(heattest::materialOf({}));
+    scene.addBox({0, 0, 0}, {2, 1, 1}, 0);
+    scene.store.mass()[0] = scene.store.mass()[1] = 0.5f;
+    scene.start([](size_t i) { return i == 0 ? 300.0 : 400.0; });
+    const double seconds = 1e-3;
+    scene.heat.advance(scene.store, scene.neighbours, seconds);
+    // 500 J/K each: 2 W/K times 100 K, and 3 W, in one explicit step.
+    QVERIFY(std::abs(scene.store.temperature()[0] - 300 - 203 * seconds / 500) < 1e-10);
+    QVERIFY(std::abs(scene.store.temperature()[1] - 400 + 197 * seconds / 500) < 1e-10);
+    QVERIFY(std::abs(scene.heat.ledger().sources - 6 * seconds) < 1e-12);
+    QCOMPARE(scene.heat.ledger().net(), scene.heat.ledger().sources);
+  }
+
+  void anotherModelTakesOverTemperaturesAndBooksTheDifference() {
+    Scene scene;
+    scene.addMaterial(heattest::materialOf(heattest::water()));
+    scene.addBox({0, 0, 0}, {6, 6, 6}, 0);
+    scene.start([](size_t i) { return 250.0 + 0.5 * double(i); });
+    scene.thermal.timeScale = 500;
+    scene.configure();
+    std::vector<uint32_t> melted;
+    for (int frame = 0; frame < 60; ++frame) scene.heat.advance(scene.store, scene.neighbours, 1.0 / 60);
+    scene.phase.update(scene.store, melted);
+    const double before = scene.heat.energy(scene.store), t = scene.mean(scene.store.temperature());
+    const ps::thermal::ThesisLatentModel thesis;
+    scene.model = &thesis;
+    scene.configure();
+    QCOMPARE(scene.heat.energy(scene.store), before);
+    scene.heat.derive(scene.store);
+    QVERIFY(std::abs(scene.mean(scene.store.temperature()) - t) < 1e-9);
+    const double open = scene.heat.energy(scene.store) - before - scene.heat.ledger().net();
+    QVERIFY2(std::abs(open) < 1e-12 * std::abs(before), qPrintable(QString::number(open)));
   }
 
   void everyNumberOfThreadsGivesTheSameBits() {

@@ -33,11 +33,18 @@ ps::Material fullWater() {
 
 ps::Material dryIce() {
   ps::Material m = fullWater();
-  for (const auto& [key, value] : std::map<std::string, double>{
-           {"melting_temperature", 216.592}, {"boiling_temperature", 194.686}, {"latent_heat_fusion", 198e3},
-           {"latent_heat_vaporization", 348e3}, {"latent_heat_sublimation", 571e3}, {"molar_mass", 0.04401},
-           {"triple_temperature", 216.592}, {"triple_pressure", 517950.0}, {"critical_temperature", 304.13},
-           {"heat_capacity_solid", 1300.0}, {"heat_capacity_liquid", 1950.0}, {"heat_capacity_gas", 846.0}}) {
+  for (const auto& [key, value] : std::map<std::string, double>{{"melting_temperature", 216.592},
+                                                                {"boiling_temperature", 194.686},
+                                                                {"latent_heat_fusion", 198e3},
+                                                                {"latent_heat_vaporization", 348e3},
+                                                                {"latent_heat_sublimation", 571e3},
+                                                                {"molar_mass", 0.04401},
+                                                                {"triple_temperature", 216.592},
+                                                                {"triple_pressure", 517950.0},
+                                                                {"critical_temperature", 304.13},
+                                                                {"heat_capacity_solid", 1300.0},
+                                                                {"heat_capacity_liquid", 1950.0},
+                                                                {"heat_capacity_gas", 846.0}}) {
     m.properties[key] = value;
   }
   return m;
@@ -111,8 +118,10 @@ class TestPhaseChange : public QObject {
       const QByteArray text = QString("event %1: %2 steps late").arg(e).arg(late).toUtf8();
       // The enthalpy method meets every event within the step; the thesis's bookkeeping drops what overshoots, up to a
       // step at each of four ends of plateaus.
-      if (thesis) QVERIFY2(late > -0.01 && late < 5, text);
-      else QVERIFY2(std::abs(late) < 1.5, text);
+      if (thesis)
+        QVERIFY2(late > -0.01 && late < 5, text);
+      else
+        QVERIFY2(std::abs(late) < 1.5, text);
       if (thesis && e == 4) QVERIFY2(late > 1, text);
     }
   }
@@ -231,7 +240,7 @@ class TestPhaseChange : public QObject {
       whole += f < 0.1 || f > 0.9;
       QVERIFY(scene.store.temperature()[i] == 373.15);  // nobody is overdrawn
     }
-    QVERIFY2(whole > 400, qPrintable(QString::number(whole)));  // of 512; none at the start
+    QVERIFY2(whole > 400, qPrintable(QString::number(whole)));              // of 512; none at the start
     QVERIFY(std::abs(scene.mean(scene.store.gasFraction()) - gas) < 1e-6);  // fractions are float
     QVERIFY(std::abs(scene.heat.energy(scene.store) / before - 1) < 1e-13);
     QCOMPARE(scene.heat.ledger().exchanged, 0.0);
@@ -257,8 +266,10 @@ class TestPhaseChange : public QObject {
       }
       for (size_t i = 0; i < scene.store.size(); ++i) {
         const float gas = scene.store.gasFraction()[i];
-        if (!cold) QCOMPARE(gas, 1.0f);
-        else if (scene.store.position()[i].y > 3 * scene.spacing) QVERIFY(gas < 0.5f);
+        if (!cold)
+          QCOMPARE(gas, 1.0f);
+        else if (scene.store.position()[i].y > 3 * scene.spacing)
+          QVERIFY(gas < 0.5f);
       }
     }
   }

@@ -40,12 +40,23 @@ PhaseDiagram carbonDioxide() {
 }
 Material waterMaterial() {
   Material m{"water", "Water", {}, {}};
-  m.properties = {{"melting_temperature", 273.15}, {"boiling_temperature", 373.124}, {"latent_heat_fusion", 334e3},
-                  {"latent_heat_vaporization", 2257e3}, {"latent_heat_sublimation", 2834e3}, {"molar_mass", 0.01801528},
-                  {"triple_temperature", 273.16}, {"triple_pressure", 611.657}, {"critical_temperature", 647.096},
-                  {"heat_capacity_solid", 2100.0}, {"heat_capacity_liquid", 4186.0}, {"heat_capacity_gas", 2010.0},
-                  {"conductivity_solid", 2.2}, {"conductivity_liquid", 0.6}, {"conductivity_gas", 0.025},
-                  {"density_solid", 917.0}, {"density_liquid", 998.0}};
+  m.properties = {{"melting_temperature", 273.15},
+                  {"boiling_temperature", 373.124},
+                  {"latent_heat_fusion", 334e3},
+                  {"latent_heat_vaporization", 2257e3},
+                  {"latent_heat_sublimation", 2834e3},
+                  {"molar_mass", 0.01801528},
+                  {"triple_temperature", 273.16},
+                  {"triple_pressure", 611.657},
+                  {"critical_temperature", 647.096},
+                  {"heat_capacity_solid", 2100.0},
+                  {"heat_capacity_liquid", 4186.0},
+                  {"heat_capacity_gas", 2010.0},
+                  {"conductivity_solid", 2.2},
+                  {"conductivity_liquid", 0.6},
+                  {"conductivity_gas", 0.025},
+                  {"density_solid", 917.0},
+                  {"density_liquid", 998.0}};
   return m;
 }
 Material with(Material material, const char* key, ps::Response value) {
@@ -139,9 +150,12 @@ class TestMatter : public QObject {
     QTest::addColumn<double>("kelvin");
     QTest::addColumn<double>("pressure");
     QTest::addColumn<QString>("phase");
-    const struct { double t, p; const char* phase; } rows[] = {
-        {263.15, 101325, "solid"}, {298.15, 101325, "liquid"}, {400, 101325, "gas"}, {263.15, 100, "gas"},
-        {250, 100, "solid"}, {298.15, 1000, "gas"}, {298.15, 5000, "liquid"}, {365, 70100, "gas"}, {360, 70100, "liquid"}};
+    const struct {
+      double t, p;
+      const char* phase;
+    } rows[] = {{263.15, 101325, "solid"}, {298.15, 101325, "liquid"}, {400, 101325, "gas"},
+                {263.15, 100, "gas"},      {250, 100, "solid"},        {298.15, 1000, "gas"},
+                {298.15, 5000, "liquid"},  {365, 70100, "gas"},        {360, 70100, "liquid"}};
     for (const auto& row : rows) QTest::addRow("%g K %g Pa", row.t, row.p) << row.t << row.p << row.phase;
   }
   void phasesAreClassified() {
@@ -160,7 +174,8 @@ class TestMatter : public QObject {
   void temperatureRisesWithEnthalpy_data() {
     QTest::addColumn<Material>("material");
     QTest::addColumn<double>("pressure");
-    Material butter = with(with(with(waterMaterial(), "solidus", 260.0), "liquidus", 290.0), "boiling_temperature", 500.0);
+    Material butter =
+        with(with(with(waterMaterial(), "solidus", 260.0), "liquidus", 290.0), "boiling_temperature", 500.0);
     butter.properties["triple_temperature"] = 0.0;
     Material glass = with(with(waterMaterial(), "melting_temperature", 0.0), "boiling_temperature", 0.0);
     QTest::newRow("water") << waterMaterial() << 101325.0;
@@ -201,7 +216,8 @@ class TestMatter : public QObject {
     QVERIFY(std::abs(baked.restDensity(353.15, 0, 1, 0) - 998 / (1 + 2.07e-4 * 60)) < 0.01);
     const double half = baked.restDensity(273.15, 0.5, 0.5, 0);
     QVERIFY(half > 917 && half < baked.restDensity(273.15, 0, 1, 0));
-    // A parcel of vapour takes gas_volume_factor (2.5) times the room of its liquid, and conducts as the liquid's volume.
+    // A parcel of vapour takes gas_volume_factor (2.5) times the room of its liquid, and conducts as the liquid's
+    // volume.
     const double boiling = baked.restDensity(373.124, 0, 1, 0);
     QVERIFY(std::abs(baked.restDensity(400, 0, 0, 1) * 2.5 / boiling - 1) < 1e-9);
     QVERIFY(std::abs(baked.condensedDensity(400, 0) / boiling - 1) < 1e-9);
@@ -244,8 +260,10 @@ class TestMatter : public QObject {
     QFETCH(Material, material);
     QFETCH(QString, key);
     const QString problem = QString::fromStdString(ps::problemOf(material));
-    if (key.isEmpty()) QCOMPARE(problem, QString());
-    else QVERIFY2(problem.startsWith(key + ":"), qPrintable(problem));
+    if (key.isEmpty())
+      QCOMPARE(problem, QString());
+    else
+      QVERIFY2(problem.startsWith(key + ":"), qPrintable(problem));
   }
 };
 

@@ -55,7 +55,8 @@ class TestResponse : public QObject {
     const Response response = law(name.toUtf8().constData(), {coefficients.begin(), coefficients.end()});
     QCOMPARE(QString::fromStdString(response.problem()), QString());
     // 1e-4: the references have six digits, honey's and glass's three in their coefficients.
-    QVERIFY2(std::abs(response.at(kelvin) / expected - 1) < 1e-4, qPrintable(QString::number(response.at(kelvin), 'g', 9)));
+    QVERIFY2(std::abs(response.at(kelvin) / expected - 1) < 1e-4,
+             qPrintable(QString::number(response.at(kelvin), 'g', 9)));
   }
 
   void lawsStayFiniteEverywhere() {
