@@ -200,6 +200,8 @@ std::vector<uint32_t> Engine::addCells(const Body& body, const std::vector<std::
 }
 
 void Engine::removeParticles(const std::vector<uint32_t>& ids) { m->solver->remove(ids); }
+TakenMatter Engine::takeParticles(const std::vector<uint32_t>& ids) { return m->solver->take(ids); }
+void Engine::putBack(const TakenMatter& matter) { m->solver->putBack(matter); }
 
 std::vector<uint32_t> Engine::particlesIn(const VoxelShape& lattice, const std::vector<std::array<int, 3>>& cells) const {
   return idsInCells(m->solver->particles(), lattice, compileSettings(m->project).spacing, cells);

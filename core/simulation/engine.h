@@ -32,6 +32,9 @@ class Engine {
   /// spacings stay free. Returns the ids of the new particles.
   std::vector<uint32_t> addCells(const Body& body, const std::vector<std::array<int, 3>>& cells, int palette);
   void removeParticles(const std::vector<uint32_t>& ids);
+  /// Removes particles and keeps them, with all their fields and bonds, for putBack(). Until the next reset.
+  TakenMatter takeParticles(const std::vector<uint32_t>& ids);
+  void putBack(const TakenMatter& matter);
   /// Ids of live particles whose centre lies in one of the cells of a lattice.
   std::vector<uint32_t> particlesIn(const VoxelShape& lattice, const std::vector<std::array<int, 3>>& cells) const;
 

@@ -3,7 +3,7 @@
 
 #include "core/base/error.h"
 #include "core/base/hash.h"
-#include "core/base/parallel.h"
+#include "core/solver/chunks.h"
 
 #include <algorithm>
 #include <array>
@@ -138,7 +138,7 @@ void ConstraintSystem::forBatches(Set& set, Call&& call) {
     const size_t begin = set.colourStart[colour], count = set.colourStart[colour + 1] - begin;
     if (count == 0) continue;
     if (count <= kBatchGrain) run(begin, begin + count);
-    else parallelFor(count, kBatchGrain, [&](size_t first, size_t last) { run(begin + first, begin + last); });
+    else forChunks(count, kBatchGrain, [&](size_t first, size_t last) { run(begin + first, begin + last); });
   }
 }
 
@@ -251,6 +251,44 @@ void ConstraintSystem::removeParticles(const ParticleStore& store, std::span<con
   m_graphValid = false;
 }
 
+CopiedConstraints ConstraintSystem::copy(const ParticleStore& store, std::span<const uint32_t> ascending) const {
+  CopiedConstraints copies;
+  for (const Set& set : m_sets) {
+    CopiedConstraints::Set& copied = copies.sets.emplace_back();
+    copied.name = set.name;
+    for (size_t k = 0; k < set.count; ++k) {
+      const uint32_t* particles = set.particles.data() + k * set.arity;
+      if (std::none_of(particles, particles + set.arity, [&](uint32_t i) {
+            return std::binary_search(ascending.begin(), ascending.end(), i);
+          })) {
+        continue;
+      }
+      for (size_t a = 0; a < set.arity; ++a) copied.id.push_back(store.id()[particles[a]]);
+      for (size_t v = 0; v < set.valueCount; ++v) copied.values.push_back(set.values[v][k]);
+    }
+  }
+  return copies;
+}
+
+void ConstraintSystem::putBack(const ParticleStore& store, const CopiedConstraints& copies) {
+  for (const CopiedConstraints::Set& copied : copies.sets) {
+    const auto found = std::find_if(m_sets.begin(), m_sets.end(), [&](const Set& s) { return s.name == copied.name; });
+    if (found == m_sets.end() || found->disabled || found->arity == 0) continue;
+    Set& set = *found;
+    Edits edits;
+    Sink sink(*this, set, store, edits);
+    std::vector<uint32_t> particles(set.arity);
+    for (size_t k = 0; (k + 1) * set.arity <= copied.id.size(); ++k) {
+      for (size_t a = 0; a < set.arity; ++a) {
+        particles[a] = static_cast<uint32_t>(store.indexOf(copied.id[k * set.arity + a]));
+      }
+      if (std::any_of(particles.begin(), particles.end(), [&](uint32_t i) { return i >= store.size(); })) continue;
+      sink.add(particles.data(), copied.values.data() + k * set.valueCount);
+    }
+    apply(set, store, edits);
+  }
+}
+
 void ConstraintSystem::predict(const ParticleStore& store, uint32_t substep) {
   const api::ParticleView view = store.view();
   for (Set& set : m_sets) {
@@ -277,7 +315,7 @@ void ConstraintSystem::projectNeighbours(ParticleStore& store, const Neighbours&
     m_correction.assign(store.size() + 1, api::Float4{0, 0, 0, 0});
     const api::ConstraintContext c = context(set, m_settings.dt / m_settings.substeps, substep, iteration);
     const bool done = guarded(set, [&] {
-      parallelFor(store.size(), kGatherGrain, [&](size_t first, size_t last) {
+      forChunks(store.size(), kGatherGrain, [&](size_t first, size_t last) {
         set.plugin->gather(c, view, neighbours.view(), first, last, m_correction.data());
       });
     });

@@ -30,6 +30,16 @@ struct StructureGraph {
   }
 };
 
+/// Constraints by the ids of their particles: what undo keeps of a structure that was taken apart.
+struct CopiedConstraints {
+  struct Set {
+    std::string name;
+    std::vector<uint32_t> id;   ///< arity per constraint
+    std::vector<float> values;  ///< as many per constraint as the plugin declares
+  };
+  std::vector<Set> sets;
+};
+
 /// Host of constraint plugins: owns their index lists and values, keeps them valid when particles are sorted, removed
 /// and added, and calls each plugin once per batch. A plugin that throws is switched off; the others go on.
 class ConstraintSystem {
@@ -45,6 +55,11 @@ class ConstraintSystem {
   void remap(std::span<const uint32_t> order);
   /// Before ParticleStore::remove of these ascending indices: drops what refers to them, renumbers the others.
   void removeParticles(const ParticleStore& store, std::span<const uint32_t> ascending);
+
+  /// Constraints that touch one of these ascending indices.
+  CopiedConstraints copy(const ParticleStore& store, std::span<const uint32_t> ascending) const;
+  /// Adds copied constraints again wherever all their particles live.
+  void putBack(const ParticleStore& store, const CopiedConstraints& copies);
 
   void predict(const ParticleStore& store, uint32_t substep);
   void projectStructure(const ParticleStore& store, uint32_t substep, uint32_t iteration);

@@ -99,6 +99,14 @@ void Solver::Impl::configure() {
   structureChanged = true;
 }
 
+/// Books the energy of matter that came or went while the clock runs, and renews what depends on who is there.
+void Solver::Impl::matterChanged(double energyBefore) {
+  if (frame > 0) heat.book(heat.energy(store) - energyBefore);
+  settleEnergy();
+  reordered = structureChanged = true;
+  lastGoodValid = false;
+}
+
 std::vector<uint32_t> Solver::spawn(const Spawn& spawn) {
   const size_t count = spawn.position.size();
   if (count == 0) return {};
@@ -149,14 +157,13 @@ std::vector<uint32_t> Solver::spawn(const Spawn& spawn) {
     m->neighbours.build(store);
     for (const uint32_t set : spawn.constraintSets) m->constraints.build(set, store, m->neighbours, members);
   }
-  m->reordered = m->structureChanged = true;
-  m->lastGoodValid = false;
-  if (m->frame > 0) m->heat.book(m->heat.energy(store) - energyBefore);
-  m->settleEnergy();
+  m->matterChanged(energyBefore);
   return ids;
 }
 
-void Solver::remove(std::span<const uint32_t> ids) {
+void Solver::remove(std::span<const uint32_t> ids) { take(ids); }
+
+TakenMatter Solver::take(std::span<const uint32_t> ids) {
   m->configure();
   ParticleStore& store = m->store;
   std::vector<uint32_t> indices;
@@ -166,14 +173,22 @@ void Solver::remove(std::span<const uint32_t> ids) {
   }
   std::sort(indices.begin(), indices.end());
   indices.erase(std::unique(indices.begin(), indices.end()), indices.end());
-  if (indices.empty()) return;
+  if (indices.empty()) return {};
+  const TakenMatter taken{store.copy(indices), m->constraints.copy(store, indices)};
   const double before = m->heat.energy(store);
   m->constraints.removeParticles(store, indices);
   store.remove(indices);
-  m->heat.book(m->heat.energy(store) - before);
-  m->settleEnergy();
-  m->reordered = m->structureChanged = true;
-  m->lastGoodValid = false;
+  m->matterChanged(before);
+  return taken;
+}
+
+void Solver::putBack(const TakenMatter& matter) {
+  if (matter.particles.id.empty()) return;
+  m->configure();
+  const double before = m->heat.energy(m->store);
+  m->store.putBack(matter.particles);
+  m->constraints.putBack(m->store, matter.constraints);
+  m->matterChanged(before);
 }
 
 StepReport Solver::step() {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "core/solver/constraintsystem.h"
 #include "core/solver/heat.h"
 #include "core/solver/settings.h"
 
@@ -20,6 +21,12 @@ struct Spawn {
   api::Phase phase = api::Phase::Liquid;
   bool fixed = false;           ///< static boundary particles
   std::vector<uint32_t> constraintSets;  ///< built over the new particles
+};
+
+/// Matter outside a solver, with every field and the structure that held it; opaque to its keeper.
+struct TakenMatter {
+  CopiedParticles particles;
+  CopiedConstraints constraints;
 };
 
 struct StepReport {
@@ -54,6 +61,11 @@ class Solver {
   std::vector<uint32_t> spawn(const Spawn& spawn);
   /// Removes particles by id; ids already gone are skipped. Their energy is booked as a source.
   void remove(std::span<const uint32_t> ids);
+  /// As remove(), and keeps what was there for putBack().
+  TakenMatter take(std::span<const uint32_t> ids);
+  /// Puts matter back where it was, under its ids, with its constraints to whatever still lives. Of the same solver;
+  /// throws Error when one of the ids is alive.
+  void putBack(const TakenMatter& matter);
 
   /// One frame. On NotFinite the state of the last good frame is kept.
   StepReport step();

@@ -47,6 +47,7 @@ struct Solver::Impl {
 
   void configure();
   void settleEnergy() { energyOffset = heat.energy(store) - heat.ledger().net(); }
+  void matterChanged(double energyBefore);
 
   void runFrame();
   void freshLists();

@@ -24,6 +24,7 @@ class TstSimulation : public QObject {
   void anEditOfTheSceneSurvivesReset();
   void refusedEditsLeaveTheSceneAsItWas();
   void cellsAvoidLiveParticlesAndComeBackOut();
+  void takenMatterComesBackAsItWas();
   void aMissingMaterialStandsStill();
   void probesReadWhatTheyName();
   void runsWithoutAnyPlugin();
@@ -131,6 +132,27 @@ void TstSimulation::cellsAvoidLiveParticlesAndComeBackOut() {
   QCOMPARE(engine.solver().particles().size(), before);
   const StepReport report = engine.step();
   QCOMPARE(report.flags, 0u);
+}
+
+void TstSimulation::takenMatterComesBackAsItWas() {
+  Engine engine(scenes::iceOnPlate(5, 293.15), m_plugins);
+  for (int i = 0; i < 5; ++i) engine.step();
+  const size_t bonds = engine.solver().constraintCount();
+  const double energy = engine.stats().thermalEnergy;
+  const std::vector<uint32_t> ids = {3, 60, 61, 124, 9999};  // the last never lived
+  const size_t row = engine.solver().particles().indexOf(60);
+  const double temperature = engine.solver().particles().temperature()[row];
+  const TakenMatter taken = engine.takeParticles(ids);
+  QCOMPARE(engine.solver().particles().size(), size_t{121});
+  QVERIFY(engine.solver().constraintCount() < bonds);
+  engine.putBack(taken);
+  QCOMPARE(engine.solver().particles().size(), size_t{125});
+  QCOMPARE(engine.solver().constraintCount(), bonds);
+  QVERIFY(std::abs(engine.stats().thermalEnergy - energy) < 1e-9 * std::abs(energy));  // sums in another order
+  const ParticleStore& store = engine.solver().particles();
+  QCOMPARE(store.temperature()[store.indexOf(60)], temperature);
+  QVERIFY_THROWS_EXCEPTION(Error, engine.putBack(taken));
+  for (int i = 0; i < 5; ++i) QCOMPARE(engine.step().flags, 0u);
 }
 
 void TstSimulation::aMissingMaterialStandsStill() {
