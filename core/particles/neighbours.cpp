@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 namespace ps {
@@ -127,14 +128,17 @@ void Neighbours::searchLists(const ParticleStore& store) {
   const size_t chunks = (n + kSlotsPerChunk - 1) / kSlotsPerChunk;
   if (m_chunks.size() < chunks) m_chunks.resize(chunks);
   m_counts.resize(n);
-  parallelFor(n, kSlotsPerChunk, [&](size_t first, size_t last) {
+  const auto search = [&](size_t first, size_t last) {
     Chunk& chunk = m_chunks[first / kSlotsPerChunk];
     chunk.found.clear();
     searchSlots(grid, first, last, m_counts.data() + first, chunk.found);
-  });
+  };
+  parallelFor(n, kSlotsPerChunk, std::cref(search));
   layOutLists(n);
-  parallelFor(n, kSlotsPerChunk,
-              [&](size_t first, size_t last) { writeLists(m_chunks[first / kSlotsPerChunk].found.data(), first, last); });
+  const auto write = [&](size_t first, size_t last) {
+    writeLists(m_chunks[first / kSlotsPerChunk].found.data(), first, last);
+  };
+  parallelFor(n, kSlotsPerChunk, std::cref(write));
   m_built.assign(position, position + n);
 }
 

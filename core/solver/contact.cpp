@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/solver/contact.h"
 
-#include "core/base/parallel.h"
+#include "core/solver/chunks.h"
 
 #include <algorithm>
 #include <cmath>
@@ -37,7 +37,7 @@ void SolidContact::refresh(const ParticleStore& store, const Neighbours& neighbo
   const size_t chunks = (m_solids.size() + kGrain - 1) / kGrain;
   m_chunks.resize(std::max(m_chunks.size(), chunks));
   for (Chunk& chunk : m_chunks) chunk.who.clear();
-  parallelFor(m_solids.size(), kGrain, [&](size_t first, size_t last) {
+  forChunks(m_solids.size(), kGrain, [&](size_t first, size_t last) {
     Chunk& chunk = m_chunks[first / kGrain];
     chunk.begin.assign(1, 0);
     chunk.other.clear();
@@ -106,18 +106,18 @@ api::Float4 SolidContact::correctionOf(const ParticleStore& store, const Chunk& 
 
 void SolidContact::project(ParticleStore& store) {
   if (!m_any) return;
-  const auto forChunks = [&](auto&& body) {
-    parallelFor(m_chunks.size(), 1, [&](size_t first, size_t last) {
+  const auto everywhere = [&](auto&& body) {
+    forChunks(m_chunks.size(), 1, [&](size_t first, size_t last) {
       for (size_t c = first; c < last; ++c) {
         for (size_t k = 0; k < m_chunks[c].who.size(); ++k) body(m_chunks[c], k);
       }
     });
   };
-  forChunks([&](Chunk& chunk, size_t k) {
+  everywhere([&](Chunk& chunk, size_t k) {
     m_contacts[chunk.who[k]] = static_cast<uint8_t>(std::min<size_t>(255, touching(store, chunk, k)));
   });
-  forChunks([&](Chunk& chunk, size_t k) { chunk.correction[k] = correctionOf(store, chunk, k); });
-  forChunks([&](Chunk& chunk, size_t k) {
+  everywhere([&](Chunk& chunk, size_t k) { chunk.correction[k] = correctionOf(store, chunk, k); });
+  everywhere([&](Chunk& chunk, size_t k) {
     api::Float4& x = store.position()[chunk.who[k]];
     x.x += chunk.correction[k].x, x.y += chunk.correction[k].y, x.z += chunk.correction[k].z;
   });

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/solver/density.h"
 
-#include "core/base/parallel.h"
+#include "core/solver/chunks.h"
 
 #include <algorithm>
 #include <cmath>
@@ -133,7 +133,7 @@ void DensityStage::solidVolumes(const ParticleStore& store, const PairLists& pai
   }
   m_sums.resize(std::max(m_sums.size(), m_some.size()));
   const float scale = static_cast<float>(m_scale);
-  parallelFor(m_some.size(), kGrain, [&](size_t first, size_t last) {
+  forChunks(m_some.size(), kGrain, [&](size_t first, size_t last) {
     sumDensity(pairs, m_points.data(), m_weight.data(), m_some.data(), first, last, m_sums.data());
     for (size_t k = first; k < last; ++k) {
       const float own = position[m_some[k]].w;
@@ -231,8 +231,8 @@ void DensityStage::project(ParticleStore& store, const Neighbours& neighbours, i
   m_moves.resize(moving);
   m_some.assign(m_fluid.begin(), m_fluid.end());
   m_some.insert(m_some.end(), m_wet.begin(), m_wet.end());
-  parallelFor(fluids, kGrain, [&](size_t first, size_t last) { multipliers(store, pairs, relaxation, first, last); });
-  parallelFor(moving, kGrain, [&](size_t first, size_t last) { move(store, pairs, m_chebyshev, first, last); });
+  forChunks(fluids, kGrain, [&](size_t first, size_t last) { multipliers(store, pairs, relaxation, first, last); });
+  forChunks(moving, kGrain, [&](size_t first, size_t last) { move(store, pairs, m_chebyshev, first, last); });
 }
 
 DensityError DensityStage::measure(ParticleStore& store, const Neighbours& neighbours) {
@@ -246,7 +246,7 @@ DensityError DensityStage::measure(ParticleStore& store, const Neighbours& neigh
   m_constraints.resize(fluids);
   m_excess.resize(fluids);
   const PairLists pairs = lists(neighbours);
-  parallelFor(fluids, kGrain, [&](size_t first, size_t last) {
+  forChunks(fluids, kGrain, [&](size_t first, size_t last) {
     multipliers(store, pairs, static_cast<float>(m_settings.relaxation), first, last);
   });
   DensityError result;
@@ -270,7 +270,7 @@ void DensityStage::handOver(ParticleStore& store, const Neighbours& neighbours, 
   loadPoints(store);
   const PairLists pairs = lists(neighbours);
   m_sums.resize(std::max(m_sums.size(), melted.size()));
-  parallelFor(melted.size(), kGrain, [&](size_t first, size_t last) {
+  forChunks(melted.size(), kGrain, [&](size_t first, size_t last) {
     sumDensity(pairs, m_points.data(), m_weight.data(), melted.data(), first, last, m_sums.data());
     for (size_t k = first; k < last; ++k) {
       const uint32_t i = melted[k];

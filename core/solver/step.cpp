@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // One frame: substepped XPBD (Macklin et al. 2019), then heat, then phase changes, which edit the structure. Every loop
 // writes only its own particle, so that the result does not depend on the number of threads.
-#include "core/base/parallel.h"
+#include "core/solver/chunks.h"
 #include "core/solver/solverimpl.h"
 
 #include <algorithm>
@@ -102,12 +102,13 @@ void Solver::Impl::freshLists() {
 
 void Solver::Impl::listsChanged() {
   density.refreshLists(store, neighbours);
+  wallStage.refreshLists(store);
   swept.refreshLists(store, neighbours);
   contact.refresh(store, neighbours, constraints);
 }
 
 void Solver::Impl::predict(double dt) {
-  parallelFor(store.size(), kGrain, [&](size_t first, size_t last) {
+  forChunks(store.size(), kGrain, [&](size_t first, size_t last) {
     api::Float4 *position = store.position(), *previous = store.previous(), *velocity = store.velocity();
     const float keep = static_cast<float>(1 / (1 + settings.damping * dt)), step = static_cast<float>(dt);
     for (size_t i = first; i < last; ++i) {
@@ -125,7 +126,7 @@ void Solver::Impl::predict(double dt) {
 }
 
 void Solver::Impl::velocities(double dt) {
-  parallelFor(store.size(), kGrain, [&](size_t first, size_t last) {
+  forChunks(store.size(), kGrain, [&](size_t first, size_t last) {
     const api::Float4 *position = store.position(), *previous = store.previous();
     api::Float4* velocity = store.velocity();
     const float rate = static_cast<float>(1 / dt);
@@ -157,10 +158,11 @@ void Solver::Impl::substep(uint32_t index) {
     timed(Stage::Structure, [&] { constraints.projectNeighbours(store, neighbours, index, it); });
     timed(Stage::Contact, [&] {
       contact.project(store);
-      wallStage.project(store);
+      wallStage.projectNear(store);
     });
   }
   timed(Stage::Contact, [&] {
+    wallStage.project(store);
     swept.apply(store, neighbours, wallStage);
     velocities(dt);
   });

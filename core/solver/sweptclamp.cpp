@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/solver/sweptclamp.h"
 
-#include "core/base/parallel.h"
+#include "core/solver/chunks.h"
 
 #include <algorithm>
 #include <cmath>
@@ -129,7 +129,7 @@ Point SweptClamp::sweep(Point from, Point way) const {
 void SweptClamp::apply(ParticleStore& store, const Neighbours& neighbours, const WallStage& walls) const {
   if (m_centers.empty()) return;
   api::Float4* position = store.position();
-  parallelFor(store.size(), 512, [&](size_t first, size_t last) {
+  forChunks(store.size(), 512, [&](size_t first, size_t last) {
     for (size_t i = first; i < last; ++i) {
       if (store.velocity()[i].w == 0 || maySkip(store, neighbours, i)) continue;
       const Point from = pointOf(store.previous()[i]), to = pointOf(position[i]);

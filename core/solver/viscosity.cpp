@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/solver/viscosity.h"
 
-#include "core/base/parallel.h"
+#include "core/solver/chunks.h"
 
 #include <algorithm>
 #include <numbers>
@@ -40,7 +40,7 @@ void ViscosityStage::refresh(const ParticleStore& store, const DensityStage& den
   const double greatest = greatestViscosity();
   const float least = static_cast<float>(std::clamp(m_settings.xsphMinimum, 0.0, 1.0));
   const std::span<const uint32_t> fluid = density.fluid();
-  parallelFor(fluid.size(), 4 * kGrain, [&](size_t first, size_t last) {
+  forChunks(fluid.size(), 4 * kGrain, [&](size_t first, size_t last) {
     for (size_t k = first; k < last; ++k) {
       const uint32_t i = fluid[k];
       float c = least;
@@ -62,7 +62,7 @@ void ViscosityStage::apply(ParticleStore& store, const Neighbours& neighbours, c
   m_change.resize(m_which.size());
   const PairLists pairs = density.lists(neighbours);
   const float scale = static_cast<float>(density.kernelScale());
-  parallelFor(m_which.size(), kGrain, [&](size_t first, size_t last) {
+  forChunks(m_which.size(), kGrain, [&](size_t first, size_t last) {
     sumViscosity(pairs, store.position(), store.velocity(), m_coefficient.data(), m_which.data(), first, last,
                  m_change.data());
   });

@@ -1,14 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/solver/walls.h"
 
-#include "core/base/parallel.h"
+#include "core/solver/chunks.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace ps {
+namespace {
+/// Spacings: iterations move a particle by less than this, and whoever goes further is caught at the substep's end.
+constexpr double kReach = 1;
+}  // namespace
 
 void WallStage::configure(const SolverSettings& settings, const std::vector<Wall>& walls) {
+  m_reach = static_cast<float>(kReach * settings.spacing);
   m_planes.clear();
   for (const Wall& w : walls) {
     m_planes.push_back({static_cast<float>(w.normal.x), static_cast<float>(w.normal.y), static_cast<float>(w.normal.z),
@@ -16,27 +21,53 @@ void WallStage::configure(const SolverSettings& settings, const std::vector<Wall
   }
 }
 
+void WallStage::refreshLists(const ParticleStore& store) {
+  m_near.clear();
+  for (size_t i = 0; i < store.size(); ++i) {
+    if (store.velocity()[i].w == 0) continue;
+    for (const Plane& p : m_planes) {
+      if (p.depthOf(store.position()[i]) < -m_reach) continue;
+      m_near.push_back(static_cast<uint32_t>(i));
+      break;
+    }
+  }
+}
+
+void WallStage::projectOne(const Plane& p, ParticleStore& store, size_t i, float depth) const {
+  api::Float4& x = store.position()[i];
+  x.x += p.x * depth, x.y += p.y * depth, x.z += p.z * depth;
+  if (store.motion()[i] != api::Motion::Solid || p.friction == 0) return;
+  const api::Float4& from = store.previous()[i];
+  float tx = x.x - from.x, ty = x.y - from.y, tz = x.z - from.z;
+  const float along = tx * p.x + ty * p.y + tz * p.z;
+  tx -= along * p.x, ty -= along * p.y, tz -= along * p.z;
+  const float length = std::sqrt(tx * tx + ty * ty + tz * tz);
+  if (length < 1e-12f) return;
+  const float share = std::min(1.0f, p.friction * depth / length);
+  x.x -= share * tx, x.y -= share * ty, x.z -= share * tz;
+}
+
+void WallStage::projectNear(ParticleStore& store) const {
+  const api::Float4* position = store.position();
+  forChunks(m_near.size(), 2048, [&](size_t first, size_t last) {
+    for (size_t k = first; k < last; ++k) {
+      const uint32_t i = m_near[k];
+      for (const Plane& p : m_planes) {
+        const float depth = p.depthOf(position[i]);
+        if (depth > 0) projectOne(p, store, i, depth);
+      }
+    }
+  });
+}
+
 void WallStage::project(ParticleStore& store) const {
-  api::Float4* position = store.position();
-  const api::Float4 *previous = store.previous(), *velocity = store.velocity();
-  const api::Motion* motion = store.motion();
-  parallelFor(store.size(), 2048, [&](size_t first, size_t last) {
+  const api::Float4 *position = store.position(), *velocity = store.velocity();
+  forChunks(store.size(), 2048, [&](size_t first, size_t last) {
     for (size_t i = first; i < last; ++i) {
       if (velocity[i].w == 0) continue;
-      api::Float4& x = position[i];
       for (const Plane& p : m_planes) {
-        const float depth = p.offset - (p.x * x.x + p.y * x.y + p.z * x.z);
-        if (!(depth > 0)) continue;
-        x.x += p.x * depth, x.y += p.y * depth, x.z += p.z * depth;
-        if (motion[i] != api::Motion::Solid || p.friction == 0) continue;
-        const api::Float4& from = previous[i];
-        float tx = x.x - from.x, ty = x.y - from.y, tz = x.z - from.z;
-        const float along = tx * p.x + ty * p.y + tz * p.z;
-        tx -= along * p.x, ty -= along * p.y, tz -= along * p.z;
-        const float length = std::sqrt(tx * tx + ty * ty + tz * tz);
-        if (length < 1e-12f) continue;
-        const float share = std::min(1.0f, p.friction * depth / length);
-        x.x -= share * tx, x.y -= share * ty, x.z -= share * tz;
+        const float depth = p.depthOf(position[i]);
+        if (depth > 0) projectOne(p, store, i, depth);
       }
     }
   });

@@ -13,6 +13,11 @@ namespace ps {
 class WallStage {
  public:
   void configure(const SolverSettings& settings, const std::vector<Wall>& walls);
+  /// After new lists: who may reach a wall before the next ones.
+  void refreshLists(const ParticleStore& store);
+  /// Those near a wall; for the iterations.
+  void projectNear(ParticleStore& store) const;
+  /// All particles; for the ends of a substep.
   void project(ParticleStore& store) const;
   /// One particle, without friction; `position` in m.
   void clamp(std::array<double, 3>& position) const;
@@ -20,8 +25,13 @@ class WallStage {
  private:
   struct Plane {
     float x, y, z, offset, friction;
+    float depthOf(const api::Float4& p) const { return offset - (x * p.x + y * p.y + z * p.z); }
   };
+  void projectOne(const Plane& plane, ParticleStore& store, size_t i, float depth) const;
+
   std::vector<Plane> m_planes;
+  std::vector<uint32_t> m_near;
+  float m_reach = 0;  ///< m, beyond the resting distance
 };
 
 }  // namespace ps
