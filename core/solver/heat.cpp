@@ -69,10 +69,6 @@ void HeatStage::configure(const ThermalSettings& settings, const SolverSettings&
   m_modelChanged = m_modelChanged || model != m_model;
   m_model = model;
   m_parameters = std::move(modelParameters);
-  m_wallPotential.clear();
-  for (const Wall& wall : m_walls) {
-    for (const BakedMaterial& material : materials) m_wallPotential.push_back(material.kirchhoff(wall.temperature));
-  }
 }
 
 api::ThermalContext HeatStage::context() const {
@@ -308,13 +304,27 @@ void HeatStage::findLimit() {
   m_limit = fastest > 0 ? 1 / fastest : 1e30;
 }
 
+/// What drives heat from wall w into particle i, W/m: the Kirchhoff difference, as inside matter, up to the boiling
+/// point. Beyond it the liquid that touches the wall conducts as liquid, not as the vapour that Kirchhoff's integral
+/// would put between them: a film of vapour insulates only as far as the particle itself has become vapour.
+double HeatStage::wallDrive(const ParticleStore& store, size_t i, size_t w) const {
+  const BakedMaterial& material = m_materials[store.material()[i]];
+  const double boiling = material.caloric().boilingPoint;
+  const double here = m_now.temperature[i], there = m_walls[w].temperature;
+  if (here <= boiling && there <= boiling) return material.kirchhoff(there) - m_now.potential[i];
+  const double gas = double{store.gasFraction()[i]};
+  const double k = (1 - gas) * material.conductivity(boiling, 0, 1, 0) + gas * material.conductivity(boiling, 0, 0, 1);
+  return material.kirchhoff(std::min(there, boiling)) - material.kirchhoff(std::min(here, boiling)) +
+         k * (std::max(there, boiling) - std::max(here, boiling));
+}
+
 /// Heat from neighbours, walls and air during `step` s of thermal time, from the snapshot alone.
 void HeatStage::gather(const ParticleStore& store, double step, size_t first, size_t last, Partial& partial) {
   const double* potential = m_now.potential.data();
   const double* temperature = m_now.temperature.data();
   const uint32_t* partner = m_pairs.partner.data();
   const float* conductance = m_pairs.conductance.data();
-  const size_t materials = m_materials.size(), walls = m_walls.size();
+  const size_t walls = m_walls.size();
   for (size_t i = first; i < last; ++i) {
     double watts = 0;
     if (!m_pairLaw) {
@@ -334,8 +344,7 @@ void HeatStage::gather(const ParticleStore& store, double step, size_t first, si
     double fromWalls = 0;
     if (m_touchesWall[i]) {
       for (size_t w = 0; w < walls; ++w) {
-        const double joules = step * double{m_wallConductance[i * walls + w]} *
-                              (m_wallPotential[w * materials + store.material()[i]] - potential[i]);
+        const double joules = step * double{m_wallConductance[i * walls + w]} * wallDrive(store, i, w);
         fromWalls += joules;
         partial.exchanged += std::abs(joules);
       }

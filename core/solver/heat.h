@@ -83,6 +83,7 @@ class HeatStage {
   double latentContent(const ParticleStore& store, size_t i) const;
   double fastestRate(const ParticleStore& store, size_t first, size_t last) const;
   void findLimit();
+  double wallDrive(const ParticleStore& store, size_t i, size_t w) const;
   double takeExplicitSteps(ParticleStore& store, const api::ParticleView& view, const api::NeighbourView& lists,
                            double time);
   double takeSweeps(ParticleStore& store, const api::ParticleView& view, double time);
@@ -121,7 +122,6 @@ class HeatStage {
   std::vector<double> m_pairWatts;    ///< the model's own pair law, per list entry
   std::vector<double> m_newTemperature;
   std::vector<api::Phase> m_newPhase;
-  std::vector<double> m_wallPotential;   ///< W/m, wall times materials + material
   std::vector<float> m_wallConductance;  ///< m, particle times walls + wall
   std::vector<uint8_t> m_touchesWall;
   std::vector<float> m_airConductance;     ///< W/K

@@ -95,11 +95,10 @@ void HeatStage::relaxToward(size_t i, double conductance, double target, double 
 void HeatStage::relaxSurroundings(const ParticleStore& store, size_t i, double time) {
   relaxToward(i, m_airConductance[i], m_settings.ambientTemperature, time, m_partials[0].air);
   if (!m_touchesWall[i]) return;
-  const size_t walls = m_walls.size(), materials = m_materials.size();
+  const size_t walls = m_walls.size();
   for (size_t w = 0; w < walls; ++w) {
     const double gap = m_walls[w].temperature - m_now.temperature[i];
-    const double rise = m_wallPotential[w * materials + store.material()[i]] - m_now.potential[i];
-    const double k = std::abs(gap) > 1e-9 ? rise / gap : double{m_pairs.conductivity[i]};
+    const double k = std::abs(gap) > 1e-9 ? wallDrive(store, i, w) / gap : double{m_pairs.conductivity[i]};
     relaxToward(i, double{m_wallConductance[i * walls + w]} * k, m_walls[w].temperature, time, m_partials[0].walls);
   }
 }
