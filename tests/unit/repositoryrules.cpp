@@ -188,7 +188,8 @@ Problems colours(View path, View text) {
   Problems problems;
   eachLine(text, [&](size_t number, View line) {
     for (size_t p = line.find('#'); p != View::npos; p = line.find('#', p + 1)) {
-      if (p > 0 && line[p - 1] == '&') continue;  // an HTML entity
+      if (p > 0 && line[p - 1] == '&') continue;          // an HTML entity
+      if (line.substr(0, p).ends_with("\\\"")) continue;  // quoted in a message
       const size_t end = std::min(line.find_first_not_of("0123456789abcdefABCDEF", p + 1), line.size());
       const size_t digits = end - p - 1;
       if ((digits == 3 || digits == 6 || digits == 8) && (end == line.size() || !isWordCharacter(line[end])))

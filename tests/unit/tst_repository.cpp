@@ -19,7 +19,7 @@ QString root() { return QStringLiteral(PS_SOURCE_DIR "/"); }
 
 Source read(const QString& path) {
   QFile file(root() + path);
-  if (!file.open(QIODevice::ReadOnly)) qFatal("cannot read %s", qPrintable(file.fileName()));
+  if (!file.open(QIODevice::ReadOnly)) QTest::qFail(("cannot read " + file.fileName()).toUtf8(), __FILE__, __LINE__);
   return {path.toStdString(), file.readAll().toStdString()};
 }
 
