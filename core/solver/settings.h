@@ -18,7 +18,7 @@ struct SolverSettings {
   double dt = 1.0 / 60;        ///< s, one frame
   int substeps = 4, iterations = 4;
   DensitySolver densitySolver = DensitySolver::Chebyshev;
-  double relaxation = 0.5;     ///< omega of the Jacobi density step (RECIPES: 0.5 with Chebyshev, 0.6 without)
+  double relaxation = 0.5;     ///< omega of the Jacobi density step; 0.5 with Chebyshev, 0.6 without: with 1 resting liquid boils
   double chebyshevRadius = 0.8;  ///< assumed spectral radius
   double xsphMinimum = 0.05;   ///< XSPH coefficient that keeps the particles quiet where the real viscosity asks less
   double damping = 0;          ///< 1/s, of velocities, before gravity
@@ -51,7 +51,7 @@ struct ThermalSettings {
   double ambientPressure = 101325;  ///< Pa
   double ambientTemperature = 293.15;  ///< K
   double airConvection = 5;         ///< W/(m2 K), vapour in the open air
-  double nucleation = 0.3;          ///< share of latent heat that boiling neighbours pass on (RECIPES 4)
+  double nucleation = 0.3;          ///< share of latent heat that boiling neighbours pass on
 };
 
 /// Failures of a step; each says what to do about it.
