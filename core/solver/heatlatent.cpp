@@ -88,9 +88,10 @@ void HeatStage::countBoiling(const ParticleStore& store, size_t first, size_t la
 }
 
 /// Between boiling neighbours latent heat moves to the richer one, so that few whole bubbles rise instead of many half
-/// boiled particles hanging still. Each pair moves nucleation times the smaller of the poorer one's content and the
+/// boiled particles hanging still. Each pair moves the smaller of the poorer one's content times nucleation and the
 /// richer one's room, each divided by the number of its partners: both sides compute the same number from the same
-/// snapshot, nobody can be overdrawn, and no order of pairs matters. Ids break ties.
+/// snapshot, nobody can be overdrawn, and no order of pairs matters. The richest of a neighbourhood may fill up in one
+/// frame. Ids break ties.
 void HeatStage::nucleate(const ParticleStore& store, size_t first, size_t last) {
   const float* gas = store.gasFraction();
   const uint32_t* id = store.id();
@@ -102,9 +103,10 @@ void HeatStage::nucleate(const ParticleStore& store, size_t first, size_t last) 
       if (m_boilingPartners[j] == 0) continue;
       const bool richer = gas[i] > gas[j] || (gas[i] == gas[j] && id[i] < id[j]);
       const size_t rich = richer ? i : j, poor = richer ? j : i;
-      const double content = double{gas[poor]} * latentContent(store, poor) / m_boilingPartners[poor];
+      const double content =
+          m_settings.nucleation * double{gas[poor]} * latentContent(store, poor) / m_boilingPartners[poor];
       const double room = (1 - double{gas[rich]}) * latentContent(store, rich) / m_boilingPartners[rich];
-      const double moved = m_settings.nucleation * std::min(content, room);
+      const double moved = std::min(content, room);
       joules += richer ? moved : -moved;
     }
     m_frameJoules[i] += joules;

@@ -16,6 +16,7 @@ constexpr size_t kGrain = 512;
 constexpr double kVolumeStep = 0.05;      ///< largest change of a rest volume in one frame
 constexpr double kMeltScatter = 0.3;      ///< half width of the melt threshold around melt_break_fraction
 constexpr double kVapourThreshold = 0.5;  ///< gas fraction at which a particle begins to move as vapour
+constexpr double kMistThreshold = 0.9;    ///< gas fraction from which vapour with a little mist in it counts as gas
 constexpr double kDropThreshold = 0.4;    ///< and below which it falls again as a drop
 
 /// A number in [-1, 1) from a particle's id: the same for life, whatever its index (finaliser of MurmurHash3).
@@ -28,7 +29,7 @@ double scatter(uint32_t id) {
 }
 
 Phase phaseOf(double solid, double liquid, double gas) {
-  if (gas >= 1) return Phase::Gas;
+  if (gas >= kMistThreshold) return Phase::Gas;
   if (gas > 0) return Phase::Boiling;
   if (solid >= 1) return Phase::Solid;
   return solid > 0 && liquid > 0 ? Phase::Melting : Phase::Liquid;

@@ -238,7 +238,8 @@ class TestPhaseChange : public QObject {
     for (size_t i = 0; i < scene.store.size(); ++i) {
       const double f = double{scene.store.gasFraction()[i]};
       whole += f < 0.1 || f > 0.9;
-      QVERIFY(scene.store.temperature()[i] == 373.15);  // nobody is overdrawn
+      // Nobody is overdrawn, but for the last bit of a float fraction, 6e-8 L/c.
+      QVERIFY(std::abs(scene.store.temperature()[i] - 373.15) < 1e-3);
     }
     QVERIFY2(whole > 400, qPrintable(QString::number(whole)));              // of 512; none at the start
     QVERIFY(std::abs(scene.mean(scene.store.gasFraction()) - gas) < 1e-6);  // fractions are float
