@@ -83,8 +83,8 @@ std::optional<long> Arguments::integer(const std::string& name, long minimum, lo
   if (!has(name)) return std::nullopt;
   const auto value = parsed<long>(text(name));
   if (!value || *value < minimum || *value > maximum) {
-    throw InputError(name + " must be a whole number from " + std::to_string(minimum) + " to " + std::to_string(maximum) +
-                     ", not '" + text(name) + "'");
+    throw InputError(name + " must be a whole number from " + std::to_string(minimum) + " to " +
+                     std::to_string(maximum) + ", not '" + text(name) + "'");
   }
   return value;
 }

@@ -34,7 +34,8 @@ constexpr long kWarmUp = 10;
 Project tank(int particles) {
   constexpr double kSpacing = 0.02;
   const double edge = std::cbrt(particles / 4.0);  // n = 2e x e x 2e
-  const double height = std::max(2.0, std::round(edge)) * kSpacing, width = std::max(2.0, std::round(2 * edge)) * kSpacing;
+  const double height = std::max(2.0, std::round(edge)) * kSpacing,
+               width = std::max(2.0, std::round(2 * edge)) * kSpacing;
   Project project;
   project.title = "tank";
   SceneMaterial water;
@@ -65,7 +66,8 @@ std::string sceneFile(const std::string& name) {
   if (std::filesystem::exists(name)) return name;
   std::error_code problem;
   const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", problem).parent_path();
-  for (const std::filesystem::path& folder : {std::filesystem::path(PS_SOURCE_PROJECTS), program / "../share/phasesketch/projects"}) {
+  for (const std::filesystem::path& folder :
+       {std::filesystem::path(PS_SOURCE_PROJECTS), program / "../share/phasesketch/projects"}) {
     const std::filesystem::path file = folder / (name + ".json");
     if (std::filesystem::exists(file, problem)) return file.string();
   }
@@ -83,7 +85,8 @@ void scaleTo(Project& project, long particles, size_t present) {
 /// Ordered pairs within the support, itself left out.
 double countPairs(const Engine& engine, const ParticleStore& store) {
   const ParameterSet& set = engine.project().solver.parameters;
-  const double support = numberOf(set, solverParameters(), "support_ratio") * numberOf(set, solverParameters(), "particle_spacing");
+  const double support =
+      numberOf(set, solverParameters(), "support_ratio") * numberOf(set, solverParameters(), "particle_spacing");
   Neighbours neighbours;
   neighbours.configure(support, 0);
   neighbours.build(store);
@@ -114,7 +117,8 @@ Measured measureScene(const std::string& name, const Project& project, PluginReg
     const StepReport step = engine.step();
     report.add(step, engine.stats());
   }
-  if (report.flags()) throw Error(name + ": the run set flags: " + flagNames(report.flags()).front() + ": " + report.message());
+  if (report.flags())
+    throw Error(name + ": the run set flags: " + flagNames(report.flags()).front() + ": " + report.message());
   const ParticleStore& store = engine.solver().particles();
   if (store.size() == 0) throw InputError(name + ": has no particles to measure");
   const ParameterSet& set = project.solver.parameters;
@@ -166,7 +170,7 @@ json machine() {
   return {{"cpu", cpu},
           {"cores", std::thread::hardware_concurrency()},
           {"isa", instructionSet()},
-          {"compiler", "g++ " __VERSION__}};
+          {"compiler", __VERSION__}};
 }
 
 void print(const json& scene) {
@@ -181,8 +185,10 @@ void print(const json& scene) {
 }  // namespace
 
 std::string benchHelp() {
-  return "phasesketch-cli bench [SCENE...] [options]\n\nMeasures the path that simulate runs. A scene is a project file, the "
-         "name of a sample, or 'tank', water at\nrest; without one: ice-on-hot-plate and tank. iterations are those of a "
+  return "phasesketch-cli bench [SCENE...] [options]\n\nMeasures the path that simulate runs. A scene is a project "
+         "file, the "
+         "name of a sample, or 'tank', water at\nrest; without one: ice-on-hot-plate and tank. iterations are those of "
+         "a "
          "whole frame; ns_per_pair is the density\nstage over ordered pairs within the support.\n\n" +
          optionHelp(kOptions);
 }
@@ -197,10 +203,10 @@ int benchCommand(CommandArguments given) {
   PluginRegistry plugins;
   constexpr int kCalibrationParticles = 8000;
   const Measured calibration = measureScene("tank", tank(kCalibrationParticles), plugins, 20);
-  json out{{"machine", machine()},
-           {"calibration",
-            {{"triad_GB_per_s", triad()}, {"density_ns_per_pair", calibration.densityNanosecondsPerPair}}},
-           {"scenes", json::array()}};
+  json out{
+      {"machine", machine()},
+      {"calibration", {{"triad_GB_per_s", triad()}, {"density_ns_per_pair", calibration.densityNanosecondsPerPair}}},
+      {"scenes", json::array()}};
   for (const std::string& name : names) {
     Project project;
     if (name == "tank") {

@@ -26,15 +26,9 @@ const char* kindName(api::ParameterKind kind) {
 }
 
 json jsonOf(const api::ParameterDeclaration& d) {
-  json out{{"key", d.key},
-           {"label", d.label},
-           {"symbol", d.symbol},
-           {"unit", d.unit},
-           {"kind", kindName(d.kind)},
-           {"group", d.group},
-           {"help", d.help},
-           {"example", d.example},
-           {"source", d.source}};
+  json out{{"key", d.key},   {"label", d.label},         {"symbol", d.symbol},
+           {"unit", d.unit}, {"kind", kindName(d.kind)}, {"group", d.group},
+           {"help", d.help}, {"example", d.example},     {"source", d.source}};
   if (d.kind == api::ParameterKind::Choice) {
     out["choices"] = choicesOf(d);
     out["default"] = choicesOf(d).at(static_cast<size_t>(d.defaultValue));
@@ -74,10 +68,17 @@ api::ParameterList parametersOf(const PluginRegistry& plugins, const PluginInfo&
 }
 
 json jsonOf(const PluginRegistry& plugins, const PluginInfo& info) {
-  json out{{"id", info.id},           {"kind", pluginKindName(info.kind)}, {"label", info.label},
-           {"version", info.version}, {"api", info.api},                   {"licence", info.licence},
-           {"author", info.author},   {"help", info.help},                 {"path", info.path},
-           {"json", info.json},       {"state", pluginStateName(info.state)}};
+  json out{{"id", info.id},
+           {"kind", pluginKindName(info.kind)},
+           {"label", info.label},
+           {"version", info.version},
+           {"api", info.api},
+           {"licence", info.licence},
+           {"author", info.author},
+           {"help", info.help},
+           {"path", info.path},
+           {"json", info.json},
+           {"state", pluginStateName(info.state)}};
   if (!info.problem.empty()) out["problem"] = info.problem;
   if (!info.note.empty()) out["note"] = info.note;
   if (info.state == PluginInfo::State::Loaded) out["parameters"] = jsonOf(parametersOf(plugins, info));

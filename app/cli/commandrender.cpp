@@ -126,7 +126,8 @@ int renderProject(const Arguments& arguments, const std::string& path) {
   PluginRegistry plugins;
   const Project project = loadFor(arguments, path, plugins);
   const bool film = isFilm(arguments.text("--out"));
-  const long frames = frameCount(arguments, project), every = arguments.integer("--every", 1, 1'000'000).value_or(film ? 1 : 60);
+  const long frames = frameCount(arguments, project),
+             every = arguments.integer("--every", 1, 1'000'000).value_or(film ? 1 : 60);
   Engine engine(project, plugins);
   Painter painter(project, plugins, arguments, every);
   painter.draw(*engine.snapshot(), 0);
@@ -150,7 +151,8 @@ int renderProject(const Arguments& arguments, const std::string& path) {
 
 int renderRecording(const Arguments& arguments, const std::string& path) {
   RecordingReader recording(path);
-  if (recording.frameCount() == 0) throw InputError(recording.damage().empty() ? path + ": holds no frames" : recording.damage());
+  if (recording.frameCount() == 0)
+    throw InputError(recording.damage().empty() ? path + ": holds no frames" : recording.damage());
   PluginRegistry plugins;
   Project project = parseFor(arguments, recording.projectText(), path, plugins);
   const long every = arguments.integer("--every", 1, 1'000'000).value_or(1);

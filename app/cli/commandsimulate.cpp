@@ -28,7 +28,8 @@ constexpr OptionSpec kOptions[] = {
 };
 
 /// Runs the frames; false when Ctrl+C or a broken state ended them early.
-bool runFrames(Engine& engine, long frames, Report& report, ProbeTable* probes, RecordingWriter* recording, bool quiet) {
+bool runFrames(Engine& engine, long frames, Report& report, ProbeTable* probes, RecordingWriter* recording,
+               bool quiet) {
   Progress progress(frames, quiet);
   if (recording) recording->add(*engine.snapshot());
   for (long frame = 1; frame <= frames; ++frame) {
@@ -47,8 +48,8 @@ bool runFrames(Engine& engine, long frames, Report& report, ProbeTable* probes, 
 void summarise(const Report& report, Engine& engine, double wall) {
   const FrameStats stats = engine.stats();
   const double factor = wall > 0 ? stats.time / wall : 0;
-  std::printf("%zu frames, %.6g s simulated in %.3g s (%.3g times real time), %.3g ms per frame\n", report.frames(), stats.time,
-              wall, factor, report.total().median);
+  std::printf("%zu frames, %.6g s simulated in %.3g s (%.3g times real time), %.3g ms per frame\n", report.frames(),
+              stats.time, wall, factor, report.total().median);
   std::printf("%zu particles, state hash %s\n", engine.solver().particles().size(),
               hashText(engine.solver().stateHash()).c_str());
 }
@@ -74,7 +75,8 @@ int simulateCommand(CommandArguments given) {
   if (arguments.has("--record")) recording.emplace(arguments.text("--record"), project);
   Report report(engine.stats());
   const double start = now();
-  const bool whole = runFrames(engine, frames, report, probes ? &*probes : nullptr, recording ? &*recording : nullptr, quiet);
+  const bool whole =
+      runFrames(engine, frames, report, probes ? &*probes : nullptr, recording ? &*recording : nullptr, quiet);
   const double wall = now() - start;
   if (probes) probes->finish();
   if (recording) recording->finish();
@@ -87,7 +89,8 @@ int simulateCommand(CommandArguments given) {
     for (const std::string& name : flagNames(report.flags())) names += (names.empty() ? "" : ", ") + name;
     throw Error(path + ": the run set flags: " + names + (report.message().empty() ? "" : ": " + report.message()));
   }
-  if (!whole) throw Error("stopped after " + std::to_string(report.frames()) + " of " + std::to_string(frames) + " frames");
+  if (!whole)
+    throw Error("stopped after " + std::to_string(report.frames()) + " of " + std::to_string(frames) + " frames");
   return kFine;
 }
 

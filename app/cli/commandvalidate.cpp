@@ -26,7 +26,8 @@ void say(FILE* stream, std::string text) {
 }  // namespace
 
 std::string validateHelp() {
-  return "phasesketch-cli validate PROJECT... [options]\n\nChecks projects and says file:json/pointer: what is wrong. Exit "
+  return "phasesketch-cli validate PROJECT... [options]\n\nChecks projects and says file:json/pointer: what is wrong. "
+         "Exit "
          "code 2 when one cannot be opened.\n\n" +
          optionHelp(kOptions);
 }
@@ -52,7 +53,8 @@ int validateCommand(CommandArguments given) {
 }
 
 std::string schemaHelp() {
-  return "phasesketch-cli schema\n\nPrints the JSON Schema (draft 2020-12) of projects, made from the declarations of this "
+  return "phasesketch-cli schema\n\nPrints the JSON Schema (draft 2020-12) of projects, made from the declarations of "
+         "this "
          "program's parameters.\n";
 }
 

@@ -53,8 +53,8 @@ class Film final : public FrameSink {
     std::snprintf(rate, sizeof rate, "%.6g", framesPerSecond);
     const std::string size = std::to_string(width) + "x" + std::to_string(height);
     const std::string file = path.starts_with("-") ? "./" + path : path;
-    start({"ffmpeg", "-y", "-loglevel", "error", "-f", "rawvideo", "-pix_fmt", "rgba", "-s", size, "-r", rate, "-i", "-",
-           "-an", "-pix_fmt", "yuv420p", "-movflags", "+faststart", file});
+    start({"ffmpeg", "-y", "-loglevel", "error", "-f",  "rawvideo", "-pix_fmt", "rgba",      "-s",         size,
+           "-r",     rate, "-i",        "-",     "-an", "-pix_fmt", "yuv420p",  "-movflags", "+faststart", file});
   }
   ~Film() override {
     if (m_pipe >= 0) ::close(m_pipe);
@@ -87,6 +87,7 @@ class Film final : public FrameSink {
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_adddup2(&actions, ends[0], STDIN_FILENO);
     std::vector<char*> arguments;
+    arguments.reserve(command.size() + 1);
     for (const std::string& part : command) arguments.push_back(const_cast<char*>(part.c_str()));
     arguments.push_back(nullptr);
     const int problem = ::posix_spawnp(&m_process, "ffmpeg", &actions, nullptr, arguments.data(), environ);
@@ -98,7 +99,8 @@ class Film final : public FrameSink {
     ::close(m_pipe);
     m_pipe = -1;
     throw Error(m_path + ": films need the program ffmpeg, which " +
-                (problem == ENOENT ? "is not installed; install it" : std::string("does not start: ") + std::strerror(problem)) +
+                (problem == ENOENT ? "is not installed; install it"
+                                   : std::string("does not start: ") + std::strerror(problem)) +
                 ", or give --out a folder for PNG files");
   }
 

@@ -17,8 +17,9 @@ class FrameSink {
   virtual void finish() = 0;
 };
 
-/// `out` ending in .mp4: a film of `framesPerSecond` through the program ffmpeg, which must be installed; else a folder,
-/// made when it does not exist. Throws InputError for a size that a film cannot have, Error when it cannot be made.
+/// `out` ending in .mp4: a film of `framesPerSecond` through the program ffmpeg, which must be installed; else a
+/// folder, made when it does not exist. Throws InputError for a size that a film cannot have, Error when it cannot be
+/// made.
 std::unique_ptr<FrameSink> makeFrameSink(const std::string& out, int width, int height, double framesPerSecond);
 bool isFilm(const std::string& out);
 

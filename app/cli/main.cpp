@@ -33,8 +33,9 @@ std::string overview() {
     name.resize(12, ' ');
     text += name + command.summary + "\n";
   }
-  return text + "\nphasesketch-cli COMMAND --help says more.\n"
-                "Exit codes: 0 fine, 1 the run failed or set flags, 2 bad input.\n";
+  return text +
+         "\nphasesketch-cli COMMAND --help says more.\n"
+         "Exit codes: 0 fine, 1 the run failed or set flags, 2 bad input.\n";
 }
 
 /// Messages are one line, whatever a file's name or text holds.
@@ -46,7 +47,8 @@ int complain(const std::string& message, int code) {
 }
 
 int run(const std::vector<std::string>& arguments) {
-  if (arguments.empty()) return complain("which command? simulate, render, bench, validate, plugins; --help says more", kBadInput);
+  if (arguments.empty())
+    return complain("which command? simulate, render, bench, validate, plugins; --help says more", kBadInput);
   if (arguments[0] == "--help" || arguments[0] == "-h" || arguments[0] == "help") {
     std::fputs(overview().c_str(), stdout);
     return kFine;

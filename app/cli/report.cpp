@@ -51,7 +51,8 @@ nlohmann::json Report::json(Engine& engine, double wallSeconds) const {
   for (size_t s = 0; s < m_stages.size(); ++s) milliseconds[stageName(static_cast<Stage>(s))] = jsonOf(stage(s));
   nlohmann::json limits = nlohmann::json::array();
   for (const Limit& limit : engine.solver().limits()) {
-    limits.push_back({{"what", limit.what}, {"asked", limit.asked}, {"delivered", limit.delivered}, {"unit", limit.unit}});
+    limits.push_back(
+        {{"what", limit.what}, {"asked", limit.asked}, {"delivered", limit.delivered}, {"unit", limit.unit}});
   }
   nlohmann::json phases;
   static constexpr const char* kPhases[] = {"solid", "melting", "liquid", "boiling", "gas"};

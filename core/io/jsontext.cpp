@@ -38,7 +38,8 @@ class Builder final : public nlohmann::json_sax<json> {
     if (m_levels.back().value->contains(name)) fail("the key '" + name + "' stands here twice");
     return true;
   }
-  bool parse_error(std::size_t position, const std::string& token, const nlohmann::detail::exception& problem) override {
+  bool parse_error(std::size_t position, const std::string& token,
+                   const nlohmann::detail::exception& problem) override {
     if (problem.id == 406) fail("the number " + token + " is too large");
     fail(place(position) + ": " + reason(position, problem.what()));
   }
@@ -101,7 +102,8 @@ class Builder final : public nlohmann::json_sax<json> {
 
   /// The parser's words without its prefix.
   std::string reason(size_t position, const std::string& what) const {
-    if (what.find("unexpected end of input") != std::string::npos || what.find("missing closing quote") != std::string::npos) {
+    if (what.find("unexpected end of input") != std::string::npos ||
+        what.find("missing closing quote") != std::string::npos) {
       return "the file ends too early; it may have been cut off";
     }
     if (what.find("ill-formed UTF-8") != std::string::npos) return "not UTF-8 text";

@@ -12,8 +12,8 @@ inline constexpr size_t kMaximumDepth = 64;
 inline constexpr size_t kMaximumValues = 8'000'000;
 
 /// Parses JSON (RFC 8259, UTF-8). Memory is bounded by the text, the stack by nothing the text can say.
-/// Throws InputError "name:/json/pointer: what is wrong": empty, not UTF-8, a syntax error with line and column, nesting
-/// deeper than kMaximumDepth, duplicate keys, NaN and infinities, numbers that overflow.
+/// Throws InputError "name:/json/pointer: what is wrong": empty, not UTF-8, a syntax error with line and column,
+/// nesting deeper than kMaximumDepth, duplicate keys, NaN and infinities, numbers that overflow.
 nlohmann::json parseJson(std::string_view text, const std::string& name);
 
 /// Sorted keys, two spaces, shortest numbers that read back equal; arrays and small objects that fit stand on one line.

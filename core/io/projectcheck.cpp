@@ -47,6 +47,10 @@ class ProjectChecker {
     throw InputError(m_name + ":" + pointer + ": " + what);
   }
 
+  [[noreturn]] void failAt(const std::string& owner, const std::string& key, const std::string& what) const {
+    fail(owner + "/" + key, what);
+  }
+
   void warn(const std::string& pointer, const std::string& what) {
     m_warnings.push_back({false, m_name + ":" + pointer + ": " + what});
   }
@@ -78,7 +82,7 @@ class ProjectChecker {
     for (const auto& [key, value] : set.values) {
       const api::ParameterDeclaration* declaration = findDeclaration(list, key);
       const std::string problem = declaration ? problemOf(value, *declaration) : "";
-      if (!problem.empty()) fail(pointer + "/" + key, problem);
+      if (!problem.empty()) failAt(pointer, key, problem);
     }
   }
 
@@ -110,7 +114,8 @@ class ProjectChecker {
     m_particles += count;
     if (m_particles <= kMaximumParticles) return;
     fail(pointer, "takes " + numberText(std::round(count)) + " particles, which makes more than the " +
-                      numberText(kMaximumParticles) + " that a scene may have; make it smaller or raise /solver/particle_spacing");
+                      numberText(kMaximumParticles) +
+                      " that a scene may have; make it smaller or raise /solver/particle_spacing");
   }
 
   void checkBox(const BoxShape& box, const std::string& pointer) {
@@ -162,7 +167,8 @@ class ProjectChecker {
   void checkEnvironment(const Environment& environment) const {
     for (size_t a = 0; a < 3; ++a) {
       if (environment.boundsMinimum[a] >= environment.boundsMaximum[a]) {
-        fail(at("/environment/bounds/maximum", a), "must be above the minimum, " + numberText(environment.boundsMinimum[a]) + " m");
+        fail(at("/environment/bounds/maximum", a),
+             "must be above the minimum, " + numberText(environment.boundsMinimum[a]) + " m");
       }
     }
     for (size_t i = 0; i < environment.walls.size(); ++i) {

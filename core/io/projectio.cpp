@@ -44,6 +44,10 @@ json* step(json& value, const std::string& part) {
   return &value[index];
 }
 
+InputError noSuchPlace(const std::string& edit, const std::string& part) {
+  return InputError("--set " + edit + ": the project has no '" + part + "' there");
+}
+
 json editedValue(const std::string& text, const std::string& edit) {
   try {
     return parseJson(text, edit);
@@ -71,17 +75,21 @@ void checkFormat(const json& document, const std::string& name) {
   }
 }
 
+std::string whyRequiredFails(const std::string& id, const PluginRegistry& plugins) {
+  const std::string plugin = "the plugin '" + id + "' ";
+  for (const PluginInfo& info : plugins.plugins()) {
+    if (info.id == id && !info.problem.empty()) return plugin + "cannot be used: " + info.problem;
+  }
+  return plugin + "is not installed; install it, or take it off this list to open the project without it";
+}
+
 void checkRequired(const json& document, const std::string& name, const PluginRegistry& plugins) {
   const auto required = document.find("pluginsRequired");
   if (required == document.end()) return;
   for (size_t i = 0; i < required->size(); ++i) {
     const std::string& id = (*required)[i].get_ref<const std::string&>();
     if (plugins.has(id)) continue;
-    std::string reason = "is not installed; install it, or take it off this list to open the project without it";
-    for (const PluginInfo& info : plugins.plugins()) {
-      if (info.id == id && !info.problem.empty()) reason = "cannot be used: " + info.problem;
-    }
-    throw InputError(name + ":/pluginsRequired/" + std::to_string(i) + ": the plugin '" + id + "' " + reason);
+    throw InputError(name + ":/pluginsRequired/" + std::to_string(i) + ": " + whyRequiredFails(id, plugins));
   }
 }
 
@@ -133,7 +141,7 @@ void applyEdit(json& document, const std::string& edit) {
   json* place = &document;
   for (const std::string& part : pointerParts(std::string_view(edit).substr(0, equals))) {
     place = step(*place, part);
-    if (!place) throw InputError("--set " + edit + ": the project has no '" + part + "' there");
+    if (!place) throw noSuchPlace(edit, part);
   }
   *place = editedValue(edit.substr(equals + 1), "--set " + edit.substr(0, equals));
 }
@@ -150,7 +158,8 @@ void checkDocument(const json& document, const std::string& name, const PluginRe
     warnings.push_back({false, name + ":" + unknown[i] + ": is not known here; it is kept and has no effect"});
   }
   if (unknown.size() > kMost) {
-    warnings.push_back({false, name + ":/: " + std::to_string(unknown.size() - kMost) + " more keys are not known here"});
+    warnings.push_back(
+        {false, name + ":/: " + std::to_string(unknown.size() - kMost) + " more keys are not known here"});
   }
 }
 
@@ -165,7 +174,8 @@ LoadedProject parseProject(const std::string& text, const std::string& name, con
   return loaded;
 }
 
-LoadedProject loadProject(const std::string& path, const PluginRegistry& plugins, const std::vector<std::string>& edits) {
+LoadedProject loadProject(const std::string& path, const PluginRegistry& plugins,
+                          const std::vector<std::string>& edits) {
   return parseProject(readFile(path, kMaximumProjectBytes), path, plugins, edits);
 }
 

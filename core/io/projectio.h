@@ -25,7 +25,8 @@ struct LoadedProject {
 /// not a file, not JSON, nesting deeper than 64, duplicate keys, NaN, wrong types, values out of hard ranges, unknown
 /// references, plugins required and missing. Missing plugins in pluginsUsed only are warnings.
 /// `edits`: "json/pointer=value" pairs applied to the JSON before it is checked (--set).
-LoadedProject loadProject(const std::string& path, const PluginRegistry& plugins, const std::vector<std::string>& edits = {});
+LoadedProject loadProject(const std::string& path, const PluginRegistry& plugins,
+                          const std::vector<std::string>& edits = {});
 LoadedProject parseProject(const std::string& text, const std::string& name, const PluginRegistry& plugins,
                            const std::vector<std::string>& edits = {});
 /// Sorted keys, two spaces, shortest round-trip numbers, newline at the end: load, save, load gives the same bytes.

@@ -39,7 +39,10 @@ json writeStroke(const VoxelShape::Stroke& stroke) {
     for (const double value : s) sample.push_back(jsonNumber(value));
     samples.push_back(std::move(sample));
   }
-  json out{{"brush", stroke.brush}, {"radius", jsonNumber(stroke.radius)}, {"palette", stroke.palette}, {"samples", samples}};
+  json out{{"brush", stroke.brush},
+           {"radius", jsonNumber(stroke.radius)},
+           {"palette", stroke.palette},
+           {"samples", samples}};
   if (stroke.erase) out["erase"] = true;
   putSet(out, "parameters", stroke.parameters);
   putUnknown(out, stroke.unknown);
@@ -87,7 +90,8 @@ json writeBody(const Body& body) {
 json writeEnvironment(const Environment& environment) {
   json out{{"gravity", jsonFromVector(environment.gravity)},
            {"bounds",
-            {{"minimum", jsonFromVector(environment.boundsMinimum)}, {"maximum", jsonFromVector(environment.boundsMaximum)}}},
+            {{"minimum", jsonFromVector(environment.boundsMinimum)},
+             {"maximum", jsonFromVector(environment.boundsMaximum)}}},
            {"walls", json::array()}};
   putParameters(out, environment.parameters);
   for (const SceneWall& wall : environment.walls) {

@@ -212,7 +212,8 @@ void RecordingReader::readHeader() {
     throw InputError(m_path + ": its header is broken");
   }
   if (version->get<double>() > kRecordingVersion) {
-    throw InputError(m_path + ": was made by a newer version (recording format " + version->dump() + "); update PhaseSketch");
+    throw InputError(m_path + ": was made by a newer version (recording format " + version->dump() +
+                     "); update PhaseSketch");
   }
   m_project = header["project"].dump();
 }

@@ -55,7 +55,10 @@ json vector3(const char* unit, const char* description) {
 
 json tuple(std::vector<json> items, const char* description) {
   const size_t count = items.size();
-  return {{"type", "array"}, {"prefixItems", std::move(items)}, {"minItems", count}, {"maxItems", count},
+  return {{"type", "array"},
+          {"prefixItems", std::move(items)},
+          {"minItems", count},
+          {"maxItems", count},
           {"description", description}};
 }
 
@@ -109,11 +112,10 @@ json voxelSchema() {
        {"radius", number(1e-6, kFarthest, "m", "size of the brush")},
        {"palette", integer(0, 65535, "index into the palette")},
        {"parameters", freeParameters("the brush's own parameters")},
-       {"samples",
-        listOf(tuple({number(-kFarthest, kFarthest, "m", ""), number(-kFarthest, kFarthest, "m", ""),
-                      number(-kFarthest, kFarthest, "m", ""), number(0, 1, "", ""), number(0, 1e9, "s", "")},
-                     "x, y, z, pressure, time"),
-               "where the hand went")}},
+       {"samples", listOf(tuple({number(-kFarthest, kFarthest, "m", ""), number(-kFarthest, kFarthest, "m", ""),
+                                 number(-kFarthest, kFarthest, "m", ""), number(0, 1, "", ""), number(0, 1e9, "s", "")},
+                                "x, y, z, pressure, time"),
+                          "where the hand went")}},
       {"brush", "radius", "palette", "samples"}, "how cells were drawn");
   return object({{"origin", vector3("m", "centre of cell (0, 0, 0)")},
                  {"palette", listOf(paint, "materials of the cells")},
@@ -126,8 +128,9 @@ json voxelSchema() {
 }
 
 json bodySchema() {
-  const json constraint = object({{"plugin", ref("plugin")}, {"parameters", freeParameters("the constraint's own parameters")}},
-                                 {"plugin"}, "a constraint plugin that holds the body together");
+  const json constraint =
+      object({{"plugin", ref("plugin")}, {"parameters", freeParameters("the constraint's own parameters")}}, {"plugin"},
+             "a constraint plugin that holds the body together");
   const json shape{{"oneOf",
                     {object({{"box", boxSchema()}}, {"box"}, "a block"),
                      object({{"voxels", voxelSchema()}}, {"voxels"}, "a sketch")}}};
@@ -160,10 +163,11 @@ json environmentSchema() {
 }
 
 json solverSchema() {
-  const json thermal = object({{"model", {{"type", "string"}, {"maxLength", 100},
-                                          {"description", "id of a thermal plugin; empty for no heat"}}},
-                               {"parameters", freeParameters("the thermal model's own parameters")}},
-                              {"model"}, "how heat is kept");
+  const json thermal =
+      object({{"model",
+               {{"type", "string"}, {"maxLength", 100}, {"description", "id of a thermal plugin; empty for no heat"}}},
+              {"parameters", freeParameters("the thermal model's own parameters")}},
+             {"model"}, "how heat is kept");
   return object(withParameters({{"thermal", thermal}}, solverParameters()), {}, "how it is computed");
 }
 
@@ -177,33 +181,35 @@ json probeSchema() {
 }
 
 json viewSchema() {
-  return object({{"target", vector3("m", "what the camera looks at")},
-                 {"distance", number(1e-4, 1e5, "m", "of the camera from its target")},
-                 {"azimuth", number(-36000, 36000, "°", "")},
-                 {"elevation", number(-90, 90, "°", "")},
-                 {"colour", oneOfNames({"material", "temperature", "phase", "speed", "density_error"}, "what colours mean")},
-                 {"pinned", listOf(text("address of a parameter: wall/floor/temperature"), "rows under Try these")}},
-                {}, "how it is looked at");
+  return object(
+      {{"target", vector3("m", "what the camera looks at")},
+       {"distance", number(1e-4, 1e5, "m", "of the camera from its target")},
+       {"azimuth", number(-36000, 36000, "°", "")},
+       {"elevation", number(-90, 90, "°", "")},
+       {"colour", oneOfNames({"material", "temperature", "phase", "speed", "density_error"}, "what colours mean")},
+       {"pinned", listOf(text("address of a parameter: wall/floor/temperature"), "rows under Try these")}},
+      {}, "how it is looked at");
 }
 
 json buildProjectSchema() {
-  json schema = object({{"format", {{"const", "phasesketch"}}},
-                        {"version", integer(1, 1'000'000, "format of this file; a newer one is read when minVersion allows it")},
-                        {"minVersion", integer(1, kProjectVersion, "oldest format that a reader must know; absent: version")},
-                        {"generator", text("program that wrote the file")},
-                        {"title", text("shown to people")},
-                        {"description", text("shown to people")},
-                        {"pluginsUsed", listOf(ref("plugin"), "missing ones are a warning")},
-                        {"pluginsRequired", listOf(ref("plugin"), "missing ones are an error")},
-                        {"materials", listOf(ref("material"), "materials of the scene")},
-                        {"bodies", listOf(ref("body"), "matter at the start")},
-                        {"environment", environmentSchema()},
-                        {"solver", solverSchema()},
-                        {"probes", listOf(probeSchema(), "what is measured")},
-                        {"duration", number(0, 1e9, "s", "length of the scene")},
-                        {"view", viewSchema()}},
-                       {"format", "version", "materials", "bodies"},
-                       "Keys that a reader does not know are kept when the project is saved again.");
+  json schema =
+      object({{"format", {{"const", "phasesketch"}}},
+              {"version", integer(1, 1'000'000, "format of this file; a newer one is read when minVersion allows it")},
+              {"minVersion", integer(1, kProjectVersion, "oldest format that a reader must know; absent: version")},
+              {"generator", text("program that wrote the file")},
+              {"title", text("shown to people")},
+              {"description", text("shown to people")},
+              {"pluginsUsed", listOf(ref("plugin"), "missing ones are a warning")},
+              {"pluginsRequired", listOf(ref("plugin"), "missing ones are an error")},
+              {"materials", listOf(ref("material"), "materials of the scene")},
+              {"bodies", listOf(ref("body"), "matter at the start")},
+              {"environment", environmentSchema()},
+              {"solver", solverSchema()},
+              {"probes", listOf(probeSchema(), "what is measured")},
+              {"duration", number(0, 1e9, "s", "length of the scene")},
+              {"view", viewSchema()}},
+             {"format", "version", "materials", "bodies"},
+             "Keys that a reader does not know are kept when the project is saved again.");
   schema["$schema"] = "https://json-schema.org/draft/2020-12/schema";
   schema["title"] = "PhaseSketch project";
   schema["$defs"] = {{"id",

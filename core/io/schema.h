@@ -14,8 +14,8 @@ inline constexpr int kProjectVersion = 1;
 
 /// JSON Schema (draft 2020-12) of a project, made from the declarations; published as
 /// resources/schema/project.schema.json. Parameters of plugins are open here and checked with parameterSchema().
-/// What no schema can say is checked beside it: references, relations between properties, ascending curves, and how many
-/// coefficients a law takes.
+/// What no schema can say is checked beside it: references, relations between properties, ascending curves, and how
+/// many coefficients a law takes.
 const nlohmann::json& projectSchema();
 
 /// Schema of one declared parameter; "x-unit" carries its SI unit.

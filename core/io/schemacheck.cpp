@@ -38,7 +38,8 @@ std::string wordFor(const json& value) {
 bool isType(const json& value, const std::string& type) {
   if (type == "number") return value.is_number();
   if (type == "integer") {
-    return value.is_number_integer() || (value.is_number_float() && std::floor(value.get<double>()) == value.get<double>());
+    return value.is_number_integer() ||
+           (value.is_number_float() && std::floor(value.get<double>()) == value.get<double>());
   }
   if (type == "string") return value.is_string();
   if (type == "boolean") return value.is_boolean();
@@ -63,11 +64,13 @@ class Checker {
     if (const auto ref = schema.find("$ref"); ref != schema.end()) {
       return check(projectSchema().at(json::json_pointer(ref->get<std::string>().substr(1))), value, pointer);
     }
-    if (const auto branches = schema.find("oneOf"); branches != schema.end()) return checkOneOf(*branches, value, pointer);
+    if (const auto branches = schema.find("oneOf"); branches != schema.end())
+      return checkOneOf(*branches, value, pointer);
     if (const auto expected = schema.find("const"); expected != schema.end() && value != *expected) {
       fail(pointer, "must be " + expected->dump() + ", not " + wordFor(value));
     }
-    if (const auto type = schema.find("type"); type != schema.end() && !isType(value, type->get_ref<const std::string&>())) {
+    if (const auto type = schema.find("type");
+        type != schema.end() && !isType(value, type->get_ref<const std::string&>())) {
       const bool name = schema.contains("enum") || schema.contains("pattern");
       fail(pointer, "must be " + (name ? "a name" : typeName(type->get<std::string>())) + ", not " + wordFor(value));
     }
@@ -116,7 +119,7 @@ class Checker {
       std::string all;
       for (const json& name : *names) {
         if (name == value) return;
-        if (name != "") all += (all.empty() ? "" : ", ") + name.get<std::string>();
+        if (!name.get_ref<const std::string&>().empty()) all += (all.empty() ? "" : ", ") + name.get<std::string>();
       }
       fail(pointer, "must be one of " + all + ", not " + wordFor(value));
     }
@@ -134,9 +137,9 @@ class Checker {
     const size_t minimum = least == schema.end() ? 0 : least->get<size_t>();
     const size_t maximum = most == schema.end() ? kMaximumValues : most->get<size_t>();
     if (value.size() < minimum || value.size() > maximum) {
-      const std::string count = minimum == maximum         ? std::to_string(minimum)
-                                : value.size() < minimum   ? "at least " + std::to_string(minimum)
-                                                           : "at most " + std::to_string(maximum);
+      const std::string count = minimum == maximum       ? std::to_string(minimum)
+                                : value.size() < minimum ? "at least " + std::to_string(minimum)
+                                                         : "at most " + std::to_string(maximum);
       fail(pointer, "must have " + count + " elements, not " + std::to_string(value.size()));
     }
     const auto items = schema.find("items"), prefix = schema.find("prefixItems");
@@ -154,7 +157,8 @@ class Checker {
 
   void checkObject(const json& schema, const json& value, const std::string& pointer) const {
     for (const json& key : schema.value("required", json::array())) {
-      if (!value.contains(key.get_ref<const std::string&>())) fail(pointer + "/" + key.get<std::string>(), "is missing");
+      if (!value.contains(key.get_ref<const std::string&>()))
+        fail(pointer + "/" + key.get<std::string>(), "is missing");
     }
     const auto properties = schema.find("properties");
     if (properties == schema.end()) return;

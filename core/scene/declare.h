@@ -26,8 +26,8 @@ inline constexpr Display kCelsius{"°C", 1, -273.15};
 constexpr api::ParameterDeclaration number(Names n, Range r, Words w, Display d = kAsStored,
                                            api::Scale scale = api::Scale::Linear,
                                            api::ParameterKind kind = api::ParameterKind::Number) {
-  return {n.key,         n.label,       n.symbol, n.unit,  kind,     scale, r.value, r.minimum, r.maximum, r.hardMinimum,
-          r.hardMaximum, d.unit,        d.scale,  d.offset, "",      w.group, w.help, w.example, w.source};
+  return {n.key,         n.label, n.symbol, n.unit,   kind, scale,   r.value, r.minimum, r.maximum, r.hardMinimum,
+          r.hardMaximum, d.unit,  d.scale,  d.offset, "",   w.group, w.help,  w.example, w.source};
 }
 
 constexpr api::ParameterDeclaration integer(Names n, Range r, Words w) {

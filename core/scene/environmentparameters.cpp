@@ -18,7 +18,8 @@ constexpr api::ParameterDeclaration kEnvironment[] = {
            kCelsius),
     number({"air_convection", "Air cooling", "h", "W/(m²·K)"}, {5, 0, 50, 0, 1e5},
            {"Air", "How fast air takes heat from vapour in the open: heat per surface, time and degree.",
-            "still air 5 to 10, breeze 25, 0 for none", "Incropera et al., Fundamentals of Heat and Mass Transfer, ch. 1"}),
+            "still air 5 to 10, breeze 25, 0 for none",
+            "Incropera et al., Fundamentals of Heat and Mass Transfer, ch. 1"}),
 };
 
 }  // namespace

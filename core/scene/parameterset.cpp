@@ -39,7 +39,7 @@ std::string problemOfResponse(const Value& value, const api::ParameterDeclaratio
   }
   const Response* response = std::get_if<Response>(&value);
   if (!response) return "must be a number, a curve or a law";
-  if (const std::string problem = response->problem(); !problem.empty()) return problem;
+  if (std::string problem = response->problem(); !problem.empty()) return problem;
   if (response->kind == Response::Kind::Constant) {
     return rangeProblem(response->constant, d.hardMinimum, d.hardMaximum, d.unit);
   }

@@ -29,7 +29,8 @@ Value valueOf(const ParameterSet& set, const api::ParameterDeclaration& declarat
 double numberOf(const ParameterSet& set, api::ParameterList list, std::string_view key);
 std::string choiceOf(const ParameterSet& set, api::ParameterList list, std::string_view key);
 bool toggleOf(const ParameterSet& set, api::ParameterList list, std::string_view key);
-/// All values as numbers in the order of the list (Choice: index, Toggle: 0 or 1, Response: constant), as plugins get them.
+/// All values as numbers in the order of the list (Choice: index, Toggle: 0 or 1, Response: constant), as plugins get
+/// them.
 std::vector<double> numbersOf(const ParameterSet& set, api::ParameterList list);
 /// Names of a Choice, in order.
 std::vector<std::string> choicesOf(const api::ParameterDeclaration& declaration);

@@ -30,7 +30,8 @@ constexpr Quantity kQuantities[] = {
 };
 
 const Quantity* find(const std::string& key) {
-  const auto* q = std::find_if(std::begin(kQuantities), std::end(kQuantities), [&](const Quantity& k) { return key == k.key; });
+  const auto* q =
+      std::find_if(std::begin(kQuantities), std::end(kQuantities), [&](const Quantity& k) { return key == k.key; });
   return q == std::end(kQuantities) ? nullptr : q;
 }
 

@@ -18,9 +18,9 @@ using Unknown = std::shared_ptr<const nlohmann::json>;
 
 /// A material of the scene: an installed one by id (`base`), with changed properties.
 struct SceneMaterial {
-  std::string id;     ///< unique in the scene; bodies refer to it
+  std::string id;  ///< unique in the scene; bodies refer to it
   std::string label;
-  std::string base;   ///< id of the installed material: "water"
+  std::string base;         ///< id of the installed material: "water"
   ParameterSet properties;  ///< keys of the property catalogue
   ParameterSet parameters;  ///< the plugin's own
   Unknown unknown;
@@ -47,9 +47,9 @@ struct VoxelShape {
     bool operator==(const Paint&) const = default;
   };
   struct Stroke {
-    std::string brush;       ///< plugin id: "sphere"
+    std::string brush;  ///< plugin id: "sphere"
     bool erase = false;
-    double radius = 0.05;    ///< m
+    double radius = 0.05;  ///< m
     int palette = 0;
     ParameterSet parameters;
     std::vector<std::array<double, 5>> samples;  ///< x, y, z in m, pressure, time in s
@@ -85,8 +85,8 @@ struct Body {
 /// A half-space with a name: floor, lid, sides of a tray.
 struct SceneWall {
   std::string id, name;
-  Vec3 point{0, 0, 0};   ///< m, on the wall
-  Vec3 normal{0, 1, 0};  ///< into the scene; any length but zero
+  Vec3 point{0, 0, 0};      ///< m, on the wall
+  Vec3 normal{0, 1, 0};     ///< into the scene; any length but zero
   ParameterSet parameters;  ///< see wallParameters(): heat, temperature, friction, film_coefficient
   Unknown unknown;
 };
@@ -100,7 +100,7 @@ struct Environment {
 };
 
 struct SolverOptions {
-  ParameterSet parameters;         ///< see solverParameters()
+  ParameterSet parameters;                ///< see solverParameters()
   std::string thermalModel = "enthalpy";  ///< plugin id; "" for none
   ParameterSet thermalParameters;
   Unknown unknown;
@@ -118,8 +118,8 @@ struct Probe {
 struct ViewState {
   Vec3 target{0, 0.2, 0};
   double distance = 1.5, azimuth = 35, elevation = 20;  ///< m, degrees
-  std::string colour = "material";  ///< material | temperature | phase | speed | density_error
-  std::vector<std::string> pinned;  ///< addresses of "Try these" rows: "wall/floor/temperature"
+  std::string colour = "material";                      ///< material | temperature | phase | speed | density_error
+  std::vector<std::string> pinned;                      ///< addresses of "Try these" rows: "wall/floor/temperature"
   Unknown unknown;
 };
 

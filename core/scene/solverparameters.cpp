@@ -9,8 +9,9 @@ using namespace declare;
 
 constexpr api::ParameterDeclaration kSolver[] = {
     number({"particle_spacing", "Particle spacing", "d", "m"}, {0.02, 0.005, 0.05, 0.0005, 1},
-           {"Resolution", "Distance between neighbouring particles. Half of it makes eight times as many. Acts at the "
-                          "next reset.",
+           {"Resolution",
+            "Distance between neighbouring particles. Half of it makes eight times as many. Acts at the "
+            "next reset.",
             "20 mm for a hand-sized block of 6,000 particles, 5 mm for fine drops", ""},
            {"mm", 1000, 0}, api::Scale::Logarithmic),
     number({"support_ratio", "Reach of a particle", "κ", ""}, {2, 2, 3, 1.8, 4},
@@ -23,9 +24,10 @@ constexpr api::ParameterDeclaration kSolver[] = {
            {"Time", "Time that one frame advances. Heat-only scenes whose particles are all fixed may take any length.",
             "16.67 ms for 60 frames per second", ""},
            {"ms", 1000, 0}, api::Scale::Logarithmic),
-    integer({"substeps", "Substeps", "", ""}, {4, 1, 16, 1, 64},
-            {"Time", "Steps per frame. The first thing to raise when matter squeezes, sinks in or springs.",
-             "4 for water, 8 or more for stiff or deep scenes", "Macklin et al. 2019, Small steps in physics simulation"}),
+    integer(
+        {"substeps", "Substeps", "", ""}, {4, 1, 16, 1, 64},
+        {"Time", "Steps per frame. The first thing to raise when matter squeezes, sinks in or springs.",
+         "4 for water, 8 or more for stiff or deep scenes", "Macklin et al. 2019, Small steps in physics simulation"}),
     integer({"iterations", "Iterations", "", ""}, {4, 1, 16, 1, 64},
             {"Time", "Passes over all constraints in each substep. Stiff bonds need at least two.",
              "4 for water, 2 for solids alone", "Macklin et al. 2016, XPBD"}),
@@ -39,17 +41,20 @@ constexpr api::ParameterDeclaration kSolver[] = {
            {"Density", "How boldly Chebyshev passes extrapolate; 0 makes them plain.",
             "0.8 with 4 iterations, 0.9 with 8", "Wang 2015, Chebyshev semi-iterative approach"}),
     number({"xsph_minimum", "Calming", "c", ""}, {0.05, 0, 0.3, 0, 1},
-           {"Motion", "Least share of the neighbours' mean velocity that a particle takes over; it keeps water quiet "
-                      "where its real viscosity asks less.",
+           {"Motion",
+            "Least share of the neighbours' mean velocity that a particle takes over; it keeps water quiet "
+            "where its real viscosity asks less.",
             "0.05 for water, 0.2 for oil-like calm, 0 for none", "Schechter & Bridson 2012"}),
-    number({"damping", "Damping", "", "1/s"}, {0, 0, 5, 0, 100},
-           {"Motion", "Takes speed from everything, as thick air would.", "0 for none, 0.5 to 1 for hanging ropes", ""}),
+    number(
+        {"damping", "Damping", "", "1/s"}, {0, 0, 5, 0, 100},
+        {"Motion", "Takes speed from everything, as thick air would.", "0 for none, 0.5 to 1 for hanging ropes", ""}),
     number({"gas_parcel_diameter", "Size of a steam parcel", "D", "m"}, {0.2, 0.02, 1, 1e-3, 100},
            {"Motion", "Diameter with which a parcel of vapour drags through air. Larger rises faster.",
             "0.2 m rises about 1 m/s", ""}),
     number({"thermal_time_scale", "Time lapse of heat", "S", ""}, {1, 1, 20000, 0, 1e7},
-           {"Heat", "Makes all heat flow this much faster than motion. Material data stay real; the thermal clock runs "
-                    "faster.",
+           {"Heat",
+            "Makes all heat flow this much faster than motion. Material data stay real; the thermal clock runs "
+            "faster.",
             "1 real, 1000: an hour of heating in 3.6 s", ""},
            {"×", 1, 0}, api::Scale::Logarithmic),
     number({"thermal_cfl", "Heat step", "", ""}, {0.5, 0.1, 1, 0.01, 1},
@@ -59,8 +64,9 @@ constexpr api::ParameterDeclaration kSolver[] = {
            {"Heat", "Corrects each pair's conduction for the disorder of its neighbours; keeps energy exactly.",
             "on: 0.36 % error in shaken matter, off: 0.44 %", "Cleary & Monaghan 1999"}),
     number({"nucleation", "Bubble growth", "q", ""}, {0.3, 0, 0.5, 0, 1},
-           {"Heat", "Share of latent heat that boiling neighbours hand to the one ahead, so that bubbles form instead "
-                    "of everything half boiling.",
+           {"Heat",
+            "Share of latent heat that boiling neighbours hand to the one ahead, so that bubbles form instead "
+            "of everything half boiling.",
             "0.3 bubbles, 0 boils evenly", ""}),
 };
 

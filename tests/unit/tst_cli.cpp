@@ -48,7 +48,8 @@ Ran cli(const QStringList& arguments) {
 
 /// A block of 5 x 5 x 5: enough to run every stage, small enough to be quick.
 QStringList smallScene(const QStringList& more) {
-  return QStringList{"simulate", kSample, "--set", "bodies/ice/shape/box/size=[0.1, 0.1, 0.1]", "--threads", "1"} + more;
+  return QStringList{"simulate", kSample, "--set", "bodies/ice/shape/box/size=[0.1, 0.1, 0.1]", "--threads", "1"} +
+         more;
 }
 
 nlohmann::json jsonFile(const QString& path) {
@@ -118,8 +119,8 @@ void TestCli::simulateWritesTheReportsKeys() {
   QVERIFY2(ran.code == 0, ran.err.constData());
   const nlohmann::json r = jsonFile(folder.filePath("r.json"));
   QCOMPARE(keysOf(r), (Keys{"particles", "frames", "substeps", "iterations", "dt", "simulated_s", "wall_s", "threads",
-                            "backend", "isa", "state_hash", "flags", "limits", "ms_per_frame", "density_error", "energy",
-                            "phases", "temperature"}));
+                            "backend", "isa", "state_hash", "flags", "limits", "ms_per_frame", "density_error",
+                            "energy", "phases", "temperature"}));
   QCOMPARE(keysOf(r["ms_per_frame"]),
            (Keys{"total", "neighbours", "density", "structure", "contact", "viscosity", "heat", "phase"}));
   for (const auto& stage : r["ms_per_frame"]) QCOMPARE(keysOf(stage), (Keys{"mean", "median", "p95"}));
@@ -147,7 +148,8 @@ void TestCli::probesHaveOneRowPerFrame() {
   const QList<QByteArray> lines = file.readAll().trimmed().split('\n');
   QCOMPARE(lines.size(), 13);  // a header and 12 frames
   QVERIFY2(lines[0].startsWith("time_s,thermal_time_s,"), lines[0].constData());
-  QVERIFY2(lines[0].endsWith(",solid.mass[kg],melting.mass[kg],liquid.mass[kg],boiling.mass[kg],gas.mass[kg],all.temperature[K]"),
+  QVERIFY2(lines[0].endsWith(
+               ",solid.mass[kg],melting.mass[kg],liquid.mass[kg],boiling.mass[kg],gas.mass[kg],all.temperature[K]"),
            lines[0].constData());
   for (const QByteArray& line : lines) QCOMPARE(line.count(','), lines[0].count(','));
 }
@@ -182,12 +184,14 @@ void TestCli::pluginsAreListed() {
 void TestCli::schemaIsPrinted() {
   const Ran ran = cli({"schema"});
   QCOMPARE(ran.code, 0);
-  QCOMPARE(nlohmann::json::parse(ran.out.toStdString(), nullptr, false).value("title", ""), std::string("PhaseSketch project"));
+  QCOMPARE(nlohmann::json::parse(ran.out.toStdString(), nullptr, false).value("title", ""),
+           std::string("PhaseSketch project"));
 }
 
 void TestCli::benchWritesItsKeys() {
   QTemporaryDir folder;
-  const Ran ran = cli({"bench", "tank", "--particles", "500", "--frames", "5", "--threads", "1", "--json", folder.filePath("b.json")});
+  const Ran ran = cli(
+      {"bench", "tank", "--particles", "500", "--frames", "5", "--threads", "1", "--json", folder.filePath("b.json")});
   QVERIFY2(ran.code == 0, ran.err.constData());
   const nlohmann::json b = jsonFile(folder.filePath("b.json"));
   QCOMPARE(keysOf(b), (Keys{"machine", "calibration", "scenes"}));
@@ -195,8 +199,8 @@ void TestCli::benchWritesItsKeys() {
   QVERIFY(b["calibration"]["triad_GB_per_s"].get<double>() > 0);
   QCOMPARE(b["scenes"].size(), size_t{1});
   QCOMPARE(keysOf(b["scenes"][0]),
-           (Keys{"name", "particles", "threads", "iterations", "ms", "stages", "ns_per_particle_iteration", "ns_per_pair",
-                 "bytes_per_particle", "density_error"}));
+           (Keys{"name", "particles", "threads", "iterations", "ms", "stages", "ns_per_particle_iteration",
+                 "ns_per_pair", "bytes_per_particle", "density_error"}));
   QCOMPARE(keysOf(b["scenes"][0]["ms"]), (Keys{"median", "p95"}));
 }
 

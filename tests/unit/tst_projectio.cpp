@@ -119,7 +119,8 @@ void TestProjectIo::everythingSurvives() {
   // Every member of the original is in the saved file with the same value (whole numbers may lose their ".0").
   const json original = json::parse(kFull), saved = json::parse(writeProject(parse(kFull).project));
   for (const json& change : json::diff(original, saved)) {
-    QVERIFY2(change["op"] == "add" || change["path"] == "/generator" || change["path"] == "/pluginsUsed", change.dump().c_str());
+    QVERIFY2(change["op"] == "add" || change["path"] == "/generator" || change["path"] == "/pluginsUsed",
+             change.dump().c_str());
   }
   const Project project = parse(kFull).project;
   QCOMPARE(project.bodies.size(), size_t{2});
@@ -130,12 +131,27 @@ void TestProjectIo::everythingSurvives() {
 
 void TestProjectIo::unknownKeysSurvive_data() {
   QTest::addColumn<QString>("pointer");
-  for (const char* pointer :
-       {"", "/materials/0", "/materials/0/properties", "/materials/0/properties/conductivity_solid", "/materials/1/parameters",
-        "/bodies/0", "/bodies/0/shape", "/bodies/0/shape/box", "/bodies/1/shape/voxels", "/bodies/1/shape/voxels/palette/0",
-        "/bodies/1/shape/voxels/strokes/0", "/bodies/1/constraints/0", "/bodies/1/constraints/0/parameters", "/environment",
-        "/environment/bounds", "/environment/walls/0", "/solver", "/solver/thermal", "/solver/thermal/parameters", "/probes/0",
-        "/view"}) {
+  for (const char* pointer : {"",
+                              "/materials/0",
+                              "/materials/0/properties",
+                              "/materials/0/properties/conductivity_solid",
+                              "/materials/1/parameters",
+                              "/bodies/0",
+                              "/bodies/0/shape",
+                              "/bodies/0/shape/box",
+                              "/bodies/1/shape/voxels",
+                              "/bodies/1/shape/voxels/palette/0",
+                              "/bodies/1/shape/voxels/strokes/0",
+                              "/bodies/1/constraints/0",
+                              "/bodies/1/constraints/0/parameters",
+                              "/environment",
+                              "/environment/bounds",
+                              "/environment/walls/0",
+                              "/solver",
+                              "/solver/thermal",
+                              "/solver/thermal/parameters",
+                              "/probes/0",
+                              "/view"}) {
     QTest::newRow(*pointer ? pointer : "/") << pointer;
   }
 }
@@ -156,23 +172,29 @@ void TestProjectIo::unknownKeysSurvive() {
 void TestProjectIo::wrongValuesNameThePlace_data() {
   QTest::addColumn<QString>("edit");
   QTest::addColumn<QString>("problem");
-  const auto row = [](const char* name, const char* edit, const char* problem) { QTest::newRow(name) << edit << problem; };
-  row("text for a number", "bodies/0/temperature=\"warm\"", "/bodies/0/temperature: must be a number, not the text 'warm'");
+  const auto row = [](const char* name, const char* edit, const char* problem) {
+    QTest::newRow(name) << edit << problem;
+  };
+  row("text for a number", "bodies/0/temperature=\"warm\"",
+      "/bodies/0/temperature: must be a number, not the text 'warm'");
   row("number for a name", "bodies/0/material=3", "/bodies/0/material: must be a name, not the number 3");
-  row("number for a choice", "environment/walls/0/heat=1", "/environment/walls/0/heat: must be a name, not the number 1");
+  row("number for a choice", "environment/walls/0/heat=1",
+      "/environment/walls/0/heat: must be a name, not the number 1");
   row("unknown choice", "environment/walls/0/heat=warm",
       "/environment/walls/0/heat: must be one of adiabatic, fixed_temperature, not the text 'warm'");
   row("list for an object", "solver=[]", "/solver: must be an object in { }, not a list");
   row("object for a list", "bodies={}", "/bodies: must be a list, not an object");
   row("null", "duration=null", "/duration: must be a number, not null");
-  row("negative density", "materials/0/properties/density_liquid=-5", "/materials/0/properties/density_liquid: must be at least ");
+  row("negative density", "materials/0/properties/density_liquid=-5",
+      "/materials/0/properties/density_liquid: must be at least ");
   row("negative density in a curve", "materials/0/properties/density_liquid={\"curve\": [[300, -5]]}",
       "/materials/0/properties/density_liquid/curve/0/1: must be at least ");
   row("curve without points", "materials/0/properties/density_liquid={\"curve\": []}",
       "/materials/0/properties/density_liquid/curve: must have at least 1 elements, not 0");
   row("curve that turns back", "materials/0/properties/density_liquid={\"curve\": [[300, 999], [280, 1000]]}",
       "/materials/0/properties/density_liquid: ");
-  row("curve and law", "materials/0/properties/density_liquid={\"curve\": [[300, 1]], \"law\": \"linear\", \"coefficients\": []}",
+  row("curve and law",
+      "materials/0/properties/density_liquid={\"curve\": [[300, 1]], \"law\": \"linear\", \"coefficients\": []}",
       "/materials/0/properties/density_liquid: must be either");
   row("coefficients missing", "materials/0/properties/viscosity={\"law\": \"linear\", \"coefficients\": [1]}",
       "/materials/0/properties/viscosity: ");
@@ -183,11 +205,15 @@ void TestProjectIo::wrongValuesNameThePlace_data() {
   row("id taken", "environment/walls/1/id=floor", "/environment/walls/1/id: 'floor' is taken already");
   row("id with a slash", "bodies/0/id=a/b", "/bodies/0/id: must be a name of letters");
   row("two coordinates", "bodies/0/shape/box/center=[0, 1]", "/bodies/0/shape/box/center: must have 3 elements, not 2");
-  row("unknown shape", "bodies/0/shape={\"mesh\": {}}", "/bodies/0/shape: must be an object with \"box\" or an object with");
+  row("unknown shape", "bodies/0/shape={\"mesh\": {}}",
+      "/bodies/0/shape: must be an object with \"box\" or an object with");
   row("endless particles", "solver/particle_spacing=0.0005", "/bodies/0/shape/box/size: takes ");
-  row("wall without direction", "environment/walls/0/normal=[0, 0, 0]", "/environment/walls/0/normal: must have a direction");
-  row("inside out", "environment/bounds/maximum=[-9, 1, 1]", "/environment/bounds/maximum/0: must be above the minimum");
-  row("solidus above liquidus", "materials/0/properties={\"solidus\": 300, \"liquidus\": 280}", "/materials/0/properties");
+  row("wall without direction", "environment/walls/0/normal=[0, 0, 0]",
+      "/environment/walls/0/normal: must have a direction");
+  row("inside out", "environment/bounds/maximum=[-9, 1, 1]",
+      "/environment/bounds/maximum/0: must be above the minimum");
+  row("solidus above liquidus", "materials/0/properties={\"solidus\": 300, \"liquidus\": 280}",
+      "/materials/0/properties");
   row("missing required plugin", "pluginsRequired=[\"org.example.gone\"]",
       "/pluginsRequired/0: the plugin 'org.example.gone' is not installed");
   row("too new", "version=99999", "/version: needs project format 99999, this program reads up to 1");
@@ -206,7 +232,9 @@ void TestProjectIo::wrongValuesNameThePlace() {
 void TestProjectIo::hostileTextIsRefused_data() {
   QTest::addColumn<QByteArray>("text");
   QTest::addColumn<QString>("problem");
-  const auto row = [](const char* name, const QByteArray& text, const char* problem) { QTest::newRow(name) << text << problem; };
+  const auto row = [](const char* name, const QByteArray& text, const char* problem) {
+    QTest::newRow(name) << text << problem;
+  };
   row("empty", "", ":/: the file is empty");
   row("blank", " \n\t", ":/: the file is empty");
   row("truncated", QByteArray::fromStdString(m_sample).left(1000), "the file ends too early");
@@ -220,7 +248,11 @@ void TestProjectIo::hostileTextIsRefused_data() {
   row("minus infinity", "{\"a\": -Infinity}", ":/a: line 1, column");
   row("overflow", "{\"a\": 1e999}", ":/a: the number 1e999 is too large");
   row("UTF-16", QByteArray("\xff\xfe{\0", 4), ":/: is UTF-16 text; save it as UTF-8");
-  row("binary", QByteArray("\x7f" "ELF\0\0\1", 7), ":/: is not text");
+  row("binary",
+      QByteArray("\x7f"
+                 "ELF\0\0\1",
+                 7),
+      ":/: is not text");
   row("no UTF-8", "{\"a\": \"\xff\xff\"}", "not UTF-8 text");
   row("comma", "{\"a\": 1,\n \"b\": 2,}", ":/b: line 2, column 9: not valid JSON");
   row("two documents", "{} {}", "not valid JSON");
@@ -258,8 +290,9 @@ void TestProjectIo::hostileFilesAreRefused() {
 void TestProjectIo::missingPluginsAreWarningsUnlessRequired() {
   const LoadedProject loaded = parse(kFull);
   QCOMPARE(loaded.warnings.size(), size_t{1});
-  QCOMPARE(QString::fromStdString(loaded.warnings[0].text),
-           "scene.json:/materials/1/base: the plugin 'org.example.gone' is not installed; bodies made of it stand still");
+  QCOMPARE(
+      QString::fromStdString(loaded.warnings[0].text),
+      "scene.json:/materials/1/base: the plugin 'org.example.gone' is not installed; bodies made of it stand still");
   QVERIFY(!loaded.warnings[0].error);
   QVERIFY(problemOf(kFull, {"pluginsRequired=[\"org.example.gone\"]"}).contains("/pluginsRequired/0"));
 }
@@ -275,14 +308,22 @@ void TestProjectIo::newerFilesOpenOnlyWhenTheySaySo() {
 void TestProjectIo::editsFindTheirPlace_data() {
   QTest::addColumn<QString>("edit");
   QTest::addColumn<QString>("problem");
-  QTest::newRow("number") << "solver/thermal_time_scale=17" << "";
-  QTest::newRow("slash in front") << "/solver/thermal_time_scale=17" << "";
-  QTest::newRow("wall by id") << "environment/walls/lid/temperature=280" << "";
-  QTest::newRow("new object") << "materials/water/parameters/unheard=1" << "";
-  QTest::newRow("no equals") << "solver/substeps" << "--set solver/substeps: must be json/pointer=value";
-  QTest::newRow("no such wall") << "environment/walls/attic/temperature=1" << "the project has no 'attic' there";
-  QTest::newRow("into a number") << "duration/x=1" << "the project has no 'x' there";
-  QTest::newRow("broken JSON") << "solver={\"a\"" << "--set solver:/";
+  QTest::newRow("number") << "solver/thermal_time_scale=17"
+                          << "";
+  QTest::newRow("slash in front") << "/solver/thermal_time_scale=17"
+                                  << "";
+  QTest::newRow("wall by id") << "environment/walls/lid/temperature=280"
+                              << "";
+  QTest::newRow("new object") << "materials/water/parameters/unheard=1"
+                              << "";
+  QTest::newRow("no equals") << "solver/substeps"
+                             << "--set solver/substeps: must be json/pointer=value";
+  QTest::newRow("no such wall") << "environment/walls/attic/temperature=1"
+                                << "the project has no 'attic' there";
+  QTest::newRow("into a number") << "duration/x=1"
+                                 << "the project has no 'x' there";
+  QTest::newRow("broken JSON") << "solver={\"a\""
+                               << "--set solver:/";
 }
 
 void TestProjectIo::editsFindTheirPlace() {
@@ -335,7 +376,8 @@ void TestProjectIo::savingKeepsPermissionsAndLinks() {
   saveProject(project, textOf(file));
   QVERIFY(QFile::setPermissions(file, QFileDevice::ReadOwner | QFileDevice::WriteOwner | QFileDevice::ReadGroup));
   QVERIFY(QFile::link("real.json", link));
-  struct stat before {}, after {};
+  struct stat before {
+  }, after{};
   QCOMPARE(::stat(qPrintable(file), &before), 0);
   saveProject(project, textOf(link));
   QCOMPARE(::stat(qPrintable(file), &after), 0);

@@ -139,8 +139,10 @@ void TestRecording::brokenHeadersAreRefused_data() {
   QTest::newRow("endless header") << file("{}", 0xffffffffu) << "is cut off in its header";
   QTest::newRow("no JSON") << whole("{\"form") << "the file ends too early";
   QTest::newRow("list") << whole("[1]") << "its header is broken";
-  QTest::newRow("no project") << whole("{\"format\": \"phasesketch-recording\", \"version\": 1}") << "its header is broken";
-  QTest::newRow("newer") << whole("{\"format\": \"phasesketch-recording\", \"version\": 9, \"project\": {}}") << "newer version";
+  QTest::newRow("no project") << whole("{\"format\": \"phasesketch-recording\", \"version\": 1}")
+                              << "its header is broken";
+  QTest::newRow("newer") << whole("{\"format\": \"phasesketch-recording\", \"version\": 9, \"project\": {}}")
+                         << "newer version";
 }
 
 void TestRecording::brokenHeadersAreRefused() {

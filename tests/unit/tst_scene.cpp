@@ -73,14 +73,22 @@ void TestScene::wrongValuesAreExplained_data() {
   QTest::addColumn<QString>("key");
   QTest::addColumn<QString>("problem");
   const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
-  QTest::newRow("fine") << 0.02 << "particle_spacing" << "";
-  QTest::newRow("too small") << -0.02 << "particle_spacing" << "must be at least 0.0005 m, not −0.02";
-  QTest::newRow("too large") << 5.0 << "particle_spacing" << "must be at most 1 m, not 5";
-  QTest::newRow("NaN") << nan << "particle_spacing" << "must be a finite number, not NaN";
-  QTest::newRow("infinite") << infinity << "particle_spacing" << "must be a finite number, not inf";
-  QTest::newRow("half a step") << 2.5 << "substeps" << "must be a whole number, not 2.5";
-  QTest::newRow("number for a name") << 1.0 << "kernel" << "must be one of cubic_spline, wendland_c2";
-  QTest::newRow("number for a switch") << 1.0 << "moment_correction" << "must be true or false";
+  QTest::newRow("fine") << 0.02 << "particle_spacing"
+                        << "";
+  QTest::newRow("too small") << -0.02 << "particle_spacing"
+                             << "must be at least 0.0005 m, not −0.02";
+  QTest::newRow("too large") << 5.0 << "particle_spacing"
+                             << "must be at most 1 m, not 5";
+  QTest::newRow("NaN") << nan << "particle_spacing"
+                       << "must be a finite number, not NaN";
+  QTest::newRow("infinite") << infinity << "particle_spacing"
+                            << "must be a finite number, not inf";
+  QTest::newRow("half a step") << 2.5 << "substeps"
+                               << "must be a whole number, not 2.5";
+  QTest::newRow("number for a name") << 1.0 << "kernel"
+                                     << "must be one of cubic_spline, wendland_c2";
+  QTest::newRow("number for a switch") << 1.0 << "moment_correction"
+                                       << "must be true or false";
 }
 
 void TestScene::wrongValuesAreExplained() {
@@ -94,9 +102,9 @@ void TestScene::wrongValuesAreExplained() {
 
 void TestScene::addressesReadBack_data() {
   QTest::addColumn<QString>("address");
-  for (const char* address : {"material/water/conductivity_solid", "wall/floor/temperature", "environment/ambient_pressure",
-                              "solver/substeps", "thermal/undercooling", "body/ice/temperature",
-                              "constraint/ice/bonds/stiffness"}) {
+  for (const char* address :
+       {"material/water/conductivity_solid", "wall/floor/temperature", "environment/ambient_pressure",
+        "solver/substeps", "thermal/undercooling", "body/ice/temperature", "constraint/ice/bonds/stiffness"}) {
     QTest::newRow(address) << address;
   }
 }
@@ -149,9 +157,10 @@ void TestScene::absentValuesAreDefaults() {
   QCOMPARE(numbers.size(), solverParameters().count);
   for (size_t i = 0; i < numbers.size(); ++i) {
     const std::string key = solverParameters()[i].key;
-    const double expected = key == "substeps"                                       ? 7
-                            : key == "density_solver" || key == "moment_correction" ? 0
-                                                                                    : solverParameters()[i].defaultValue;
+    const double expected = key == "substeps" ? 7
+                            : key == "density_solver" || key == "moment_correction"
+                                ? 0
+                                : solverParameters()[i].defaultValue;
     QCOMPARE(numbers[i], expected);
   }
 }
