@@ -80,29 +80,30 @@ FrameStats measure(const Solver& solver, const StepReport& report) {
 
 double measureProbe(const Solver& solver, const Project& project, const Probe& probe) {
   const ParticleStore& store = solver.particles();
-  if (probe.quantity == "thermal_energy" && probe.body.empty() && probe.phase.empty()) return solver.thermalEnergy();
   uint32_t body = std::numeric_limits<uint32_t>::max();
   for (size_t b = 0; b < project.bodies.size(); ++b) {
     if (project.bodies[b].id == probe.body) body = static_cast<uint32_t>(b);
   }
   const std::string& quantity = probe.quantity;
-  const bool isTemperature = quantity.starts_with("temperature");
   const size_t massSuffix = quantity.size() > 5 && quantity.ends_with("_mass") ? quantity.size() - 5 : 0;
   const std::string phase = massSuffix ? quantity.substr(0, massSuffix) : probe.phase;
+  const auto energies = quantity == "thermal_energy" ? solver.thermalEnergies() : std::span<const double>();
   Tally tally;
+  double energy = 0;
   for (size_t i = 0; i < store.size(); ++i) {
     if (store.motion()[i] == api::Motion::Static) continue;
     if (!probe.body.empty() && store.body()[i] != body) continue;
     if (!phase.empty() && phase != phaseName(store.phase()[i])) continue;
-    const double value = isTemperature            ? store.temperature()[i]
-                         : quantity == "height"        ? double{store.position()[i].y}
-                         : quantity == "density_error" ? double{store.densityError()[i]}
-                                                       : std::sqrt(squaredSpeed(store.velocity()[i]));
-    tally.add(store.mass()[i], value);
+    const double squared = squaredSpeed(store.velocity()[i]);
+    energy += quantity == "kinetic_energy" ? 0.5 * store.mass()[i] * squared : energies.empty() ? 0 : energies[i];
+    tally.add(store.mass()[i], quantity.starts_with("temperature") ? store.temperature()[i]
+                               : quantity.starts_with("height")    ? double{store.position()[i].y}
+                               : quantity == "density_error"       ? double{store.densityError()[i]}
+                                                                   : std::sqrt(squared));
   }
   if (quantity == "count") return static_cast<double>(tally.count);
   if (quantity == "mass" || massSuffix) return tally.mass;
-  if (quantity == "kinetic_energy") return kineticEnergy(store);
+  if (quantity.ends_with("_energy")) return energy;
   if (quantity.ends_with("_min")) return tally.orNothing(tally.smallest);
   if (quantity.ends_with("_max") || quantity == "height") return tally.orNothing(tally.largest);
   return tally.orNothing(tally.sum / tally.mass);

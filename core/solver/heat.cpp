@@ -145,6 +145,12 @@ double HeatStage::energy(const ParticleStore& store) const {
   return sum;
 }
 
+std::span<const double> HeatStage::energies(const ParticleStore& store) const {
+  if (!m_model || m_modelChanged) return {};
+  energy(store);
+  return {m_energies.data(), store.size()};
+}
+
 void HeatStage::snapshotRange(const ParticleStore& store, Snapshot& snapshot, size_t first, size_t last) const {
   const uint32_t* material = store.material();
   const double* temperature = store.temperature();

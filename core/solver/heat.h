@@ -43,6 +43,8 @@ class HeatStage {
   void derive(ParticleStore& store);
   /// J, the model's, summed in order of index chunks. Not to be called from two threads at once.
   double energy(const ParticleStore& store) const;
+  /// Energy of each particle in J; valid until the next call of anything here. Empty without a model.
+  std::span<const double> energies(const ParticleStore& store) const;
   const HeatLedger& ledger() const { return m_ledger; }
   /// Joules that left or came with removed or added particles are booked here.
   void book(double joules) {

@@ -79,6 +79,7 @@ class Solver {
   std::vector<Limit> limits() const;
   const HeatLedger& heatLedger() const;
   double thermalEnergy() const;  ///< J
+  std::span<const double> thermalEnergies() const;  ///< J per particle, until the next call; empty without a model
   /// All particle fields by id, constraints, clocks.
   uint64_t stateHash() const;
 

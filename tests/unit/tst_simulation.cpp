@@ -178,9 +178,19 @@ void TstSimulation::probesReadWhatTheyName() {
   Probe none = project.probes[0];
   none.phase = "gas";
   project.probes.push_back(none);
+  for (const char* quantity : {"thermal_energy", "kinetic_energy"}) {
+    Probe energy = project.probes[0];
+    energy.quantity = quantity;
+    project.probes.push_back(energy);
+  }
   Engine engine(project, m_plugins);
+  engine.step();
+  const FrameStats moving = engine.stats();
+  QVERIFY(moving.kineticEnergy > 0 && std::abs(moving.probes[4] / moving.kineticEnergy - 1) < 1e-12);
+  engine.reset();
   const FrameStats stats = engine.stats();
-  QCOMPARE(stats.probes.size(), size_t{3});
+  QCOMPARE(stats.probes.size(), size_t{5});
+  QVERIFY(std::abs(stats.probes[3] / stats.thermalEnergy - 1) < 1e-12);  // all matter is the one body's
   QVERIFY(std::abs(stats.probes[0] - 263.15) < 1e-6);
   QVERIFY(std::abs(stats.probes[1] - stats.phases[0].mass) < 1e-12);
   QVERIFY(std::isnan(stats.probes[2]));  // a mean over no particles is not zero
