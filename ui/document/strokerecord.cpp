@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <map>
 
 namespace ps {
 namespace {
@@ -84,6 +86,39 @@ std::optional<Body> withoutCells(Body body, const VoxelShape& lattice, const std
   voxels.runs = canvas.runs();
   body.shape = voxels;
   return body;
+}
+
+std::vector<std::array<int, 3>> freeAtStart(const Project& project, const std::string& body, const VoxelShape& lattice,
+                                            const std::vector<std::array<int, 3>>& cells) {
+  const double spacing = numberOf(project.solver.parameters, solverParameters(), "particle_spacing");
+  const SketchGrid grid{lattice.origin, spacing};
+  std::map<std::array<int, 3>, std::vector<std::array<double, 3>>> taken;  // by cell, as neighbours are looked up
+  for (const Body& other : project.bodies) {
+    if (other.id == body) continue;
+    const auto voxels = std::get<VoxelShape>(asVoxels(other, spacing).shape);
+    const SketchGrid own{voxels.origin, spacing};
+    for (const VoxelShape::Run& run : voxels.runs) {
+      for (int k = 0; k < run.length; ++k) {
+        const auto centre = own.centreOf({run.x + k, run.y, run.z});
+        const api::Cell c = grid.cellAt(centre);
+        taken[{c.x, c.y, c.z}].push_back(centre);
+      }
+    }
+  }
+  const auto isFree = [&](const std::array<int, 3>& cell) {
+    const auto centre = grid.centreOf({cell[0], cell[1], cell[2]});
+    for (int offset = 0; offset < 27; ++offset) {
+      const auto found = taken.find({cell[0] + offset % 3 - 1, cell[1] + offset / 3 % 3 - 1, cell[2] + offset / 9 - 1});
+      if (found == taken.end()) continue;
+      for (const auto& p : found->second) {
+        if (std::hypot(p[0] - centre[0], p[1] - centre[1], p[2] - centre[2]) < 0.9 * spacing) return false;
+      }
+    }
+    return true;
+  };
+  std::vector<std::array<int, 3>> free;
+  std::copy_if(cells.begin(), cells.end(), std::back_inserter(free), isFree);
+  return free;
 }
 
 Body asVoxels(Body body, double spacing) {

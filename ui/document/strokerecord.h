@@ -46,6 +46,10 @@ Body withCells(Body body, const std::vector<std::array<int, 3>>& cells, int pale
 /// `changed` tells whether it held any.
 std::optional<Body> withoutCells(Body body, const VoxelShape& lattice, const std::vector<std::array<int, 3>>& cells,
                                  double spacing, bool& changed);
+/// The cells of `lattice` in which no other body has matter at the start (centres within 0.9 spacings): what a reset can
+/// bring back without two particles in one place.
+std::vector<std::array<int, 3>> freeAtStart(const Project& project, const std::string& body, const VoxelShape& lattice,
+                                            const std::vector<std::array<int, 3>>& cells);
 /// The body with a box turned into the cells that it fills at the start.
 Body asVoxels(Body body, double spacing);
 /// Cells of a voxel `body` that `without` lacks, by palette entry: what an undone erasure must bring back.

@@ -1,0 +1,388 @@
+// SPDX-License-Identifier: Apache-2.0
+// The document without a window: commands, events, strokes through the engine, files, autosave.
+#include "core/io/projectio.h"
+#include "core/plugin_host/registry.h"
+#include "core/simulation/engine.h"
+#include "tests/shared/scenes.h"
+#include "ui/document/autosave.h"
+#include "ui/document/declared.h"
+#include "ui/document/document.h"
+#include "ui/document/documentfiles.h"
+#include "ui/document/scenelink.h"
+#include "ui/document/worker.h"
+
+#include <QtCore/QTemporaryDir>
+#include <QtTest/QSignalSpy>
+#include <QtTest/QTest>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <future>
+#include <set>
+
+using namespace ps;
+
+namespace {
+
+const Address kFloor{"wall", "floor", "temperature"};
+const Address kScale{"solver", "", "thermal_time_scale"};
+
+Project smallScene() { return scenes::iceOnPlate(5, 370); }
+
+/// Waits until the engine has done all that was asked of it, and runs `ask` on its thread.
+template <class T>
+T onEngine(EngineThread& engine, std::function<T(Engine&)> ask) {
+  auto promise = std::make_shared<std::promise<T>>();
+  std::future<T> future = promise->get_future();
+  engine.post([promise, ask](Engine& e) { promise->set_value(ask(e)); });
+  return future.get();
+}
+
+std::set<uint32_t> idsNow(EngineThread& engine) {
+  return onEngine<std::set<uint32_t>>(engine, [](Engine& e) {
+    const ParticleStore& store = e.solver().particles();
+    return std::set<uint32_t>(store.id(), store.id() + store.size());
+  });
+}
+
+std::vector<std::array<int, 3>> cube(int side, int x, int y, int z) {
+  std::vector<std::array<int, 3>> cells;
+  for (int k = 0; k < side * side * side; ++k) cells.push_back({x + k % side, y + k / side % side, z + k / side / side});
+  return cells;
+}
+
+}  // namespace
+
+class TestDocument : public QObject {
+  Q_OBJECT
+ private Q_SLOTS:
+  void initTestCase() { m_plugins = std::make_unique<PluginRegistry>(); }
+
+  void aDragIsOneStep() {
+    Document document;
+    document.setPlugins(m_plugins.get());
+    document.open(smallScene(), {});
+    document.beginGesture();
+    for (int k = 0; k < 50; ++k) QCOMPARE(document.setParameter(kFloor, 300.0 + k), QString());
+    document.endGesture();
+    QCOMPARE(document.undoStack().count(), 1);
+    QCOMPARE(std::get<double>(document.value(kFloor)), 349.0);
+    document.undoStack().undo();
+    QCOMPARE(std::get<double>(document.value(kFloor)), 370.0);
+    document.undoStack().redo();
+    QCOMPARE(std::get<double>(document.value(kFloor)), 349.0);
+  }
+
+  void gesturesDoNotMerge() {
+    Document document;
+    document.setPlugins(m_plugins.get());
+    document.open(smallScene(), {});
+    for (const double value : {320.0, 330.0}) {
+      document.beginGesture();
+      document.setParameter(kFloor, value);
+      document.endGesture();
+    }
+    document.setParameter(kFloor, 340.0);
+    document.setParameter(kFloor, 350.0);
+    QCOMPARE(document.undoStack().count(), 4);
+  }
+
+  void aDragTakenBackLeavesNothing() {
+    Document document;
+    document.setPlugins(m_plugins.get());
+    document.open(smallScene(), {});
+    document.beginGesture();
+    document.setParameter(kFloor, 300.0);
+    document.setParameter(kFloor, 370.0);
+    document.endGesture();
+    QCOMPARE(document.undoStack().count(), 0);
+    QVERIFY(!document.isDirty());
+  }
+
+  void refusals_data() {
+    QTest::addColumn<QString>("address");
+    QTest::addColumn<double>("value");
+    QTest::newRow("below the hard range") << "material/water/density_solid" << -5.0;
+    QTest::newRow("not a number") << "wall/floor/temperature" << std::nan("");
+    QTest::newRow("contradiction") << "material/water/boiling_temperature" << 200.0;
+    QTest::newRow("no such owner") << "wall/ceiling/temperature" << 300.0;
+    QTest::newRow("no such key") << "wall/floor/colour" << 300.0;
+  }
+  void refusals() {
+    QFETCH(QString, address);
+    QFETCH(double, value);
+    Document document;
+    document.setPlugins(m_plugins.get());
+    document.open(smallScene(), {});
+    const std::string before = writeProject(document.project());
+    QVERIFY(!document.setParameter(*Address::parse(address.toStdString()), value).isEmpty());
+    QCOMPARE(writeProject(document.project()), before);
+    QCOMPARE(document.undoStack().count(), 0);
+  }
+
+  void resetRemovesTheValue() {
+    Document document;
+    document.setPlugins(m_plugins.get());
+    document.open(smallScene(), {});
+    const Address conductivity{"material", "water", "conductivity_solid"};
+    const Value base = document.defaultValue(conductivity);
+    QVERIFY(std::holds_alternative<Response>(base));
+    QVERIFY(document.setParameter(conductivity, Response(9.0)).isEmpty());
+    QVERIFY(findSet(document.project(), conductivity)->values.count("conductivity_solid") == 1);
+    QVERIFY(document.setParameter(conductivity, base).isEmpty());
+    QVERIFY(findSet(document.project(), conductivity)->values.empty());
+  }
+
+  void eventsAreTyped() {
+    Document document;
+    document.setPlugins(m_plugins.get());
+    std::vector<size_t> kinds;
+    connect(&document, &Document::changed, this, [&](const ChangeEvent& event) { kinds.push_back(event.index()); });
+    document.open(smallScene(), {});
+    QVERIFY(!kinds.empty());
+    QCOMPARE(kinds.front(), ChangeEvent(ProjectOpened{}).index());
+    kinds.clear();
+    document.setParameter(kScale, 10.0);
+    QVERIFY(std::find(kinds.begin(), kinds.end(), ChangeEvent(ParameterChanged{}).index()) != kinds.end());
+    kinds.clear();
+    document.renameBody("ice", QStringLiteral("Berg"));
+    QVERIFY(std::find(kinds.begin(), kinds.end(), ChangeEvent(BodyChanged{}).index()) != kinds.end());
+    QCOMPARE(document.body("ice")->name, std::string("Berg"));
+    document.setBodyVisible("ice", false);
+    QVERIFY(!document.body("ice")->visible);
+    document.undoStack().undo();
+    document.undoStack().undo();
+    QVERIFY(document.body("ice")->visible);
+    QCOMPARE(document.body("ice")->name, std::string("ice"));
+  }
+
+  void theEngineFollows() {
+    Document document;
+    document.setPlugins(m_plugins.get());
+    EngineThread engine(*m_plugins, {});
+    SceneLink link(document, engine);
+    document.open(smallScene(), {}, false, false);
+    document.setParameter(kFloor, 333.0);
+    const auto read = [&] {
+      return onEngine<double>(engine, [](Engine& e) { return numberOf(e.project().environment.walls[0].parameters, wallParameters(), "temperature"); });
+    };
+    QCOMPARE(read(), 333.0);
+    document.undoStack().undo();
+    QCOMPARE(read(), 370.0);
+  }
+
+  void undoRemovesExactlyTheStroke_data() {
+    QTest::addColumn<bool>("moved");
+    QTest::addColumn<bool>("reset");
+    QTest::newRow("at once") << false << false;
+    QTest::newRow("after the matter has moved") << true << false;
+    QTest::newRow("after a reset") << true << true;
+  }
+  void undoRemovesExactlyTheStroke() {
+    QFETCH(bool, moved);
+    QFETCH(bool, reset);
+    Document document;
+    document.setPlugins(m_plugins.get());
+    EngineThread engine(*m_plugins, {});
+    SceneLink link(document, engine);
+    document.open(smallScene(), {}, false, false);
+    const std::set<uint32_t> before = idsNow(engine);
+    const auto stroke = paint(document, link);
+    const std::set<uint32_t> with = idsNow(engine);
+    QCOMPARE(with.size(), before.size() + 27);
+    if (moved) onEngine<int>(engine, [](Engine& e) { for (int k = 0; k < 10; ++k) e.step(); return 0; });
+    if (reset) link.reset();
+    QCOMPARE(idsNow(engine).size(), with.size());
+    document.undoStack().undo();
+    const std::set<uint32_t> after = idsNow(engine);
+    QCOMPARE(after.size(), before.size());
+    if (!reset) QVERIFY(after == before);
+    QVERIFY(!document.body("drops"));
+    document.undoStack().redo();
+    QCOMPARE(idsNow(engine).size(), with.size());
+    document.undoStack().undo();
+    QCOMPARE(idsNow(engine).size(), before.size());
+  }
+
+  void undoneErasureComesBackWithItsState() {
+    Document document;
+    document.setPlugins(m_plugins.get());
+    EngineThread engine(*m_plugins, {});
+    SceneLink link(document, engine);
+    document.open(smallScene(), {}, false, false);
+    const auto energy = [&] { return onEngine<double>(engine, [](Engine& e) { return e.solver().thermalEnergy(); }); };
+    const auto mass = [&] {
+      return onEngine<double>(engine, [](Engine& e) {
+        double sum = 0;
+        for (size_t i = 0; i < e.solver().particles().size(); ++i) sum += static_cast<double>(e.solver().particles().mass()[i]);
+        return sum;
+      });
+    };
+    onEngine<int>(engine, [](Engine& e) { for (int k = 0; k < 5; ++k) e.step(); return 0; });
+    const size_t count = idsNow(engine).size();
+    const double heat = energy(), kilograms = mass();
+    const auto stroke = std::make_shared<StrokeRecord>();
+    stroke->erase = true;
+    stroke->lattice.origin = {0.015, 0.015, 0.015};
+    stroke->cells = cube(3, -1, 0, -1);
+    link.erase(*stroke, stroke->cells);
+    document.addStroke(stroke);
+    const size_t left = idsNow(engine).size();
+    QVERIFY(left < count);
+    document.undoStack().undo();
+    QCOMPARE(idsNow(engine).size(), count);
+    // Enthalpies and masses are copied bit by bit; only the order of the sum differs.
+    QVERIFY(std::abs(energy() - heat) < 1e-9 * std::abs(heat));
+    QVERIFY(std::abs(mass() - kilograms) < 1e-9 * kilograms);
+    document.undoStack().redo();
+    QCOMPARE(idsNow(engine).size(), left);
+  }
+
+  void carvingAtTheStartStays() {
+    bool changed = false;
+    const Project project = smallScene();
+    const auto rest = withoutCells(project.bodies[0], VoxelShape{{0.015, 0.015, 0.015}, {}, {}, {}, {}}, cube(3, -1, 0, -1), 0.03, changed);
+    QVERIFY(changed && rest);
+    int cells = 0;
+    for (const VoxelShape::Run& run : std::get<VoxelShape>(rest->shape).runs) cells += run.length;
+    QVERIFY(cells < 125 && cells >= 125 - 27);
+    const auto missing = missingCells(asVoxels(project.bodies[0], 0.03), rest);
+    QCOMPARE(missing.size(), size_t{1});
+    QCOMPARE(static_cast<int>(missing[0].size()), 125 - cells);
+  }
+
+  void sketchedMatterLeavesRoomForBodies() {
+    const Project project = smallScene();
+    const VoxelShape lattice{{0.015, 0.015, 0.015}, {}, {}, {}, {}};
+    const auto inside = freeAtStart(project, "new", lattice, cube(3, -1, 0, -1));
+    const auto outside = freeAtStart(project, "new", lattice, cube(3, 6, 0, 0));
+    QVERIFY(inside.empty());
+    QCOMPARE(outside.size(), size_t{27});
+  }
+
+  void savedFilesReadBack() {
+    QTemporaryDir directory;
+    Worker worker;
+    Document document;
+    document.setPlugins(m_plugins.get());
+    DocumentFiles files(document, worker);
+    document.open(smallScene(), {});
+    document.setParameter(kFloor, 345.0);
+    QVERIFY(document.isDirty());
+    const QString path = directory.filePath(QStringLiteral("scene.json"));
+    QSignalSpy saved(&files, &DocumentFiles::saved);
+    files.save(path);
+    QVERIFY(saved.wait());
+    QVERIFY(!document.isDirty());
+    const std::string text = writeProject(document.project());
+    QSignalSpy opened(&files, &DocumentFiles::opened);
+    files.open(path);
+    QVERIFY(opened.wait());
+    QCOMPARE(writeProject(document.project()), text);
+    QCOMPARE(document.path(), path);
+    QVERIFY(DocumentFiles::recent().contains(path));
+  }
+
+  void aSaveDuringWhichSomethingChangedStaysDirty() {
+    QTemporaryDir directory;
+    Worker worker;
+    Document document;
+    document.setPlugins(m_plugins.get());
+    DocumentFiles files(document, worker);
+    document.open(smallScene(), {});
+    document.setParameter(kFloor, 345.0);
+    QSignalSpy saved(&files, &DocumentFiles::saved);
+    files.save(directory.filePath(QStringLiteral("scene.json")));
+    document.setParameter(kFloor, 346.0);
+    QVERIFY(saved.wait());
+    QVERIFY(document.isDirty());
+  }
+
+  void badFilesLeaveTheScene_data() {
+    QTest::addColumn<QByteArray>("content");
+    QTest::newRow("empty") << QByteArray();
+    QTest::newRow("truncated") << QByteArray("{\"format\": \"phasesketch\", \"bodies\": [");
+    QTest::newRow("another format") << QByteArray("{\"format\": \"other\", \"version\": 1}");
+  }
+  void badFilesLeaveTheScene() {
+    QFETCH(QByteArray, content);
+    QTemporaryDir directory;
+    const QString path = directory.filePath(QStringLiteral("bad.json"));
+    QFile file(path);
+    QVERIFY(file.open(QIODevice::WriteOnly));
+    file.write(content);
+    file.close();
+    Worker worker;
+    Document document;
+    document.setPlugins(m_plugins.get());
+    DocumentFiles files(document, worker);
+    document.open(smallScene(), {});
+    const std::string before = writeProject(document.project());
+    QSignalSpy failed(&files, &DocumentFiles::openFailed);
+    files.open(path);
+    QVERIFY(failed.wait());
+    QVERIFY(failed.front()[1].toString().contains(QStringLiteral("bad.json")));
+    QCOMPARE(writeProject(document.project()), before);
+  }
+
+  void unsavedWorkIsKept() {
+    QTemporaryDir directory;
+    Document document;
+    document.setPlugins(m_plugins.get());
+    document.open(smallScene(), QStringLiteral("/nowhere/scene.json"));
+    document.setParameter(kFloor, 351.0);
+    {
+      Worker worker;
+      Autosave autosave(document, worker, directory.path());
+      QSignalSpy written(&autosave, &Autosave::autosaved);
+      autosave.saveNow();
+      QVERIFY(written.wait());
+      QVERIFY(Autosave::leftBehind(directory.path()).empty());  // still running
+      autosave.close();
+    }
+    const auto sessions = Autosave::leftBehind(directory.path());
+    QCOMPARE(sessions.size(), size_t{1});
+    QVERIFY(sessions[0].closed);
+    QCOMPARE(sessions[0].path, QStringLiteral("/nowhere/scene.json"));
+    const LoadedProject copy = loadProject(sessions[0].copy.toStdString(), *m_plugins);
+    QCOMPARE(writeProject(copy.project), writeProject(document.project()));
+    Autosave::discard(sessions[0]);
+    QVERIFY(Autosave::leftBehind(directory.path()).empty());
+  }
+
+  void everyParameterHasAnAddress() {
+    const Project project = smallScene();
+    const auto addresses = allAddresses(project, m_plugins.get());
+    QVERIFY(addresses.size() > 60);
+    for (const Address& address : addresses) {
+      QVERIFY2(declarationOf(project, m_plugins.get(), address) != nullptr, address.text().c_str());
+      QVERIFY2(problemWith(project, m_plugins.get(), address, valueAt(project, m_plugins.get(), address)).isEmpty(), address.text().c_str());
+    }
+  }
+
+ private:
+  /// A stroke of 27 cells well above the block.
+  std::shared_ptr<StrokeRecord> paint(Document& document, SceneLink& link) {
+    auto stroke = std::make_shared<StrokeRecord>();
+    stroke->lattice.origin = {0.015, 0.015, 0.015};
+    stroke->cells = cube(3, -1, 12, -1);
+    stroke->body = "drops";
+    Body body;
+    body.id = body.name = "drops";
+    body.material = "water";
+    VoxelShape voxels;
+    voxels.origin = stroke->lattice.origin;
+    voxels.palette.push_back({"water", 293.15, {}});
+    body.shape = voxels;
+    link.paint(*stroke, body, stroke->cells);
+    stroke->edits.push_back({body.id, std::nullopt, withCells(body, stroke->cells, 0, {}), document.project().bodies.size()});
+    document.addStroke(stroke);
+    return stroke;
+  }
+
+  std::unique_ptr<PluginRegistry> m_plugins;
+};
+
+QTEST_GUILESS_MAIN(TestDocument)
+#include "tst_document.moc"

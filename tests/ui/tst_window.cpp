@@ -1,0 +1,403 @@
+// SPDX-License-Identifier: Apache-2.0
+// The whole window on a real scene: the road from a slider to the simulation and back.
+#include "core/io/projectio.h"
+#include "core/simulation/engine.h"
+#include "ui/document/document.h"
+#include "ui/document/documentfiles.h"
+#include "ui/graphs/graphview.h"
+#include "ui/panels/parameterpanel.h"
+#include "ui/render/camera.h"
+#include "ui/theme/theme.h"
+#include "ui/viewport/viewport.h"
+#include "ui/window/dock.h"
+#include "ui/window/graphspanel.h"
+#include "ui/window/inspector.h"
+#include "ui/window/mainwindow.h"
+#include "ui/window/noticebar.h"
+#include "ui/window/pluginpage.h"
+#include "ui/window/screenshot.h"
+#include "ui/window/statusline.h"
+#include "ui/window/transport.h"
+
+#include <QtCore/QTemporaryDir>
+#include <QtGui/QAction>
+#include <QtGui/QSurfaceFormat>
+#include <QtTest/QSignalSpy>
+#include <QtTest/QTest>
+#include <QtWidgets/QApplication>
+#include <QtWidgets/QLineEdit>
+
+#include <clocale>
+#include <cmath>
+#include <functional>
+#include <future>
+#include <set>
+
+using namespace ps;
+
+namespace {
+
+const QString kSample = QStringLiteral(PS_SOURCE_DIR "/projects/ice-on-hot-plate.json");
+const Address kFloor{"wall", "floor", "temperature"};
+constexpr int kLong = 30000;  // ms; software rendering on a busy machine
+
+template <class T>
+T onEngine(EngineThread& engine, std::function<T(Engine&)> ask) {
+  auto promise = std::make_shared<std::promise<T>>();
+  std::future<T> future = promise->get_future();
+  engine.post([promise, ask](Engine& e) { promise->set_value(ask(e)); });
+  return future.get();
+}
+
+double floorInEngine(Session& session) {
+  return onEngine<double>(*session.engine(), [](Engine& e) {
+    for (const SceneWall& wall : e.project().environment.walls) {
+      if (wall.id == "floor") return numberOf(wall.parameters, wallParameters(), "temperature");
+    }
+    return 0.0;
+  });
+}
+
+std::set<uint32_t> idsNow(Session& session) {
+  return onEngine<std::set<uint32_t>>(*session.engine(), [](Engine& e) {
+    const ParticleStore& store = e.solver().particles();
+    return std::set<uint32_t>(store.id(), store.id() + store.size());
+  });
+}
+
+int colourCount(const QImage& image, const QRect& area) {
+  std::set<QRgb> colours;
+  for (int y = area.top(); y <= area.bottom(); y += 3) {
+    for (int x = area.left(); x <= area.right(); x += 3) colours.insert(image.pixel(x, y));
+  }
+  return static_cast<int>(colours.size());
+}
+
+}  // namespace
+
+class TestWindow : public QObject {
+  Q_OBJECT
+ private Q_SLOTS:
+  void initTestCase() {
+    QFile broken(m_plugins.filePath(QStringLiteral("broken.so")));
+    QVERIFY(broken.open(QIODevice::WriteOnly));
+    broken.write("not a library");
+    broken.close();
+    Theme::apply(*qApp, true);
+    MainWindow::Options options;
+    options.project = kSample;
+    options.sample = kSample;
+    options.restore = false;
+    options.session.autosave = false;
+    options.session.pluginPaths = {m_plugins.path().toStdString()};
+    m_window = std::make_unique<MainWindow>(options);
+    m_window->resize(1280, 800);
+    m_window->show();
+    QVERIFY(QTest::qWaitForWindowExposed(m_window.get()));
+    QSignalSpy shown(m_window.get(), &MainWindow::projectShown);
+    m_window->start();
+    QVERIFY(shown.wait(kLong));
+    QApplication::setActiveWindow(m_window.get());
+  }
+
+  void init() {
+    if (!session().playing()) return;
+    session().pause();
+    QTest::qWait(50);
+  }
+
+  void cleanupTestCase() { m_window.reset(); }
+
+  void opensTheSampleRunning() {
+    QCOMPARE(document().title(), QStringLiteral("Ice on a hot plate"));
+    QVERIFY(session().snapshot()->id.size() > 5000);
+    session().play();
+    QTRY_VERIFY_WITH_TIMEOUT(session().snapshot()->stats.frame > 5, kLong);
+    QTRY_VERIFY_WITH_TIMEOUT(m_window->graphs()->temperatures()->sampleCount(0) > 3, kLong);
+    QTRY_VERIFY(m_window->statusLine()->parts().join(QLatin1Char(' ')).contains(QStringLiteral("particles")));
+  }
+
+  void aSliderMovesTheSimulation() {
+    ParameterPanel* panel = m_window->inspector().materialPanel();
+    m_window->inspectorDock()->showPage(QStringLiteral("Material"));
+    ParameterRow* row = panel->row(QStringLiteral("wall/floor/temperature"));
+    QVERIFY(row);  // pinned
+    QVERIFY(row->model().pinned);
+    const double before = std::get<double>(document().value(kFloor));
+    const int steps = document().undoStack().count();
+    QCOMPARE(floorInEngine(session()), before);
+    const QRect track = row->sliderRect();
+    QTest::mousePress(row, Qt::LeftButton, {}, QPoint(track.left() + track.width() / 2, track.center().y()));
+    for (int k = 1; k <= 8; ++k) QTest::mouseMove(row, QPoint(track.left() + track.width() / 2 + k, track.center().y()));
+    QTest::mouseRelease(row, Qt::LeftButton, {}, QPoint(track.left() + track.width() / 2 + 8, track.center().y()));
+    const double after = std::get<double>(document().value(kFloor));
+    QVERIFY(after != before);
+    QCOMPARE(document().undoStack().count(), steps + 1);
+    QCOMPARE(floorInEngine(session()), after);
+    m_window->action(QStringLiteral("edit.undo"))->trigger();
+    QCOMPARE(std::get<double>(document().value(kFloor)), before);
+    QCOMPARE(floorInEngine(session()), before);
+    QCOMPARE(row->number(), before);
+  }
+
+  void aHotterFloorHeatsFaster() {
+    const auto heatIn = [&](double kelvin) {
+      document().setParameter(kFloor, kelvin);
+      session().reset();
+      return onEngine<double>(*session().engine(), [](Engine& e) {
+        for (int k = 0; k < 10; ++k) e.step();
+        return e.stats().heat.walls;
+      });
+    };
+    const double cool = heatIn(300), hot = heatIn(600);
+    // Conduction from a held wall is proportional to the difference to −10 °C: 37 K and 337 K.
+    QVERIFY2(hot > 4 * cool, qPrintable(QStringLiteral("%1 %2").arg(cool).arg(hot)));
+    document().undoStack().undo();
+    document().undoStack().undo();
+    session().reset();
+  }
+
+  void savesAndReadsBack() {
+    QTemporaryDir directory;
+    const QString path = directory.filePath(QStringLiteral("saved.json"));
+    document().setParameter(kFloor, 401.5);
+    DocumentFiles& files = session().files();
+    QSignalSpy saved(&files, &DocumentFiles::saved), opened(&files, &DocumentFiles::opened);
+    m_window->saveTo(path);
+    QVERIFY(saved.wait(kLong));
+    const std::string text = writeProject(document().project());
+    m_window->openFile(path);
+    QVERIFY(opened.wait(kLong));
+    QCOMPARE(writeProject(document().project()), text);
+    QCOMPARE(std::get<double>(document().value(kFloor)), 401.5);
+    openSample();
+  }
+
+  void aBrokenProjectKeepsTheScene_data() {
+    QTest::addColumn<QByteArray>("content");
+    QTest::newRow("truncated") << QByteArray("{\"format\": \"phasesketch\",");
+    QTest::newRow("not a number") << QByteArray("{\"format\": \"phasesketch\", \"version\": \"one\"}");
+  }
+  void aBrokenProjectKeepsTheScene() {
+    QFETCH(QByteArray, content);
+    QTemporaryDir directory;
+    const QString path = directory.filePath(QStringLiteral("broken.json"));
+    QFile file(path);
+    QVERIFY(file.open(QIODevice::WriteOnly));
+    file.write(content);
+    file.close();
+    const std::string before = writeProject(document().project());
+    const uint64_t revision = session().snapshot()->revision;
+    QSignalSpy failed(&session().files(), &DocumentFiles::openFailed);
+    m_window->openFile(path);
+    QVERIFY(failed.wait(kLong));
+    QVERIFY(m_window->notice()->isVisible());
+    QVERIFY(m_window->notice()->text().contains(QStringLiteral("broken.json")));
+    QCOMPARE(writeProject(document().project()), before);
+    QCOMPARE(session().snapshot()->revision, revision);
+  }
+
+  void aStrokeAddsAndUndoRemovesExactly() {
+    Viewport* view = m_window->viewport();
+    QVERIFY2(view && view->problem().isEmpty(), view ? qPrintable(view->problem()) : "no viewport");
+    session().reset();
+    const std::set<uint32_t> before = idsNow(session());
+    m_window->action(QStringLiteral("sketch.brush"))->trigger();
+    QCOMPARE(view->tool(), ViewTool::Brush);
+    BrushSettings brush = view->brush();
+    brush.radius = 0.05;
+    view->setBrush(brush);
+    const int steps = document().undoStack().count();
+    const QPoint start(view->width() / 2 - 60, view->height() / 2);
+    QTest::mousePress(view, Qt::LeftButton, {}, start);
+    for (int k = 1; k <= 6; ++k) QTest::mouseMove(view, start + QPoint(12 * k, 0));
+    QTest::mouseRelease(view, Qt::LeftButton, {}, start + QPoint(72, 0));
+    const std::set<uint32_t> with = idsNow(session());
+    QVERIFY2(with.size() > before.size(), qPrintable(m_window->notice()->text()));
+    QCOMPARE(document().undoStack().count(), steps + 1);
+    QCOMPARE(document().project().bodies.size(), size_t{2});
+    document().undoStack().undo();
+    QVERIFY(idsNow(session()) == before);
+    QCOMPARE(document().project().bodies.size(), size_t{1});
+    m_window->action(QStringLiteral("sketch.select"))->trigger();
+  }
+
+  void escGivesUpAStroke() {
+    Viewport* view = m_window->viewport();
+    const std::set<uint32_t> before = idsNow(session());
+    const int steps = document().undoStack().count();
+    m_window->action(QStringLiteral("sketch.brush"))->trigger();
+    const QPoint start(view->width() / 2, view->height() / 2);
+    QTest::mousePress(view, Qt::LeftButton, {}, start);
+    QTest::mouseMove(view, start + QPoint(20, 0));
+    QVERIFY(view->cancelGesture());
+    QTest::mouseRelease(view, Qt::LeftButton, {}, start + QPoint(20, 0));
+    QVERIFY(idsNow(session()) == before);
+    QCOMPARE(document().undoStack().count(), steps);
+    m_window->action(QStringLiteral("sketch.select"))->trigger();
+  }
+
+  void mouseMovesTheCamera() {
+    Viewport* view = m_window->viewport();
+    view->show(StandardView::Scene);
+    const Camera before = view->navigator().camera();
+    const QPoint c(view->width() / 2, 40 + view->height() / 2);
+    const auto drag = [&](Qt::MouseButton button, Qt::KeyboardModifiers keys, QPoint way) {
+      QTest::mousePress(view, button, keys, c);
+      QTest::mouseMove(view, c + way / 2);
+      QTest::mouseMove(view, c + way);
+      QTest::mouseRelease(view, button, keys, c + way);
+    };
+    drag(Qt::LeftButton, {}, {50, 0});
+    QVERIFY(view->navigator().camera().azimuth < before.azimuth - 10);
+    QCOMPARE(view->navigator().camera().target, before.target);
+    drag(Qt::LeftButton, Qt::ShiftModifier, {50, 0});
+    QVERIFY(view->navigator().camera().target != before.target);
+    drag(Qt::RightButton, {}, {0, 60});
+    QVERIFY(view->navigator().camera().distance < before.distance);
+  }
+
+  void aClickSelectsABody() {
+    Viewport* view = m_window->viewport();
+    view->frameAll();
+    QSignalSpy picked(view, &Viewport::bodyPicked);
+    QTest::mouseClick(view, Qt::LeftButton, {}, QPoint(view->width() / 2, view->height() / 2));
+    QCOMPARE(picked.count(), 1);
+    QCOMPARE(picked.front()[0].value<std::string>(), std::string("ice"));
+    QCOMPARE(m_window->outliner()->selected().second, std::string("ice"));
+  }
+
+  void keys_data() {
+    QTest::addColumn<int>("key");
+    QTest::addColumn<int>("modifiers");
+    QTest::addColumn<QString>("expected");
+    QTest::newRow("3 looks from the top") << int(Qt::Key_3) << 0 << "elevation 90";
+    QTest::newRow("1 looks from the front") << int(Qt::Key_1) << 0 << "elevation 0";
+    QTest::newRow("B draws") << int(Qt::Key_B) << 0 << "tool 1";
+    QTest::newRow("E erases") << int(Qt::Key_E) << 0 << "tool 2";
+    QTest::newRow("Q selects") << int(Qt::Key_Q) << 0 << "tool 0";
+    QTest::newRow("Ctrl+3 colours by phase") << int(Qt::Key_3) << int(Qt::ControlModifier) << "colour phase";
+    QTest::newRow("Ctrl+2 colours by temperature") << int(Qt::Key_2) << int(Qt::ControlModifier) << "colour temperature";
+    QTest::newRow("Space plays") << int(Qt::Key_Space) << 0 << "playing 1";
+    QTest::newRow("Ctrl+K searches") << int(Qt::Key_K) << int(Qt::ControlModifier) << "palette 1";
+  }
+  void keys() {
+    QFETCH(int, key);
+    QFETCH(int, modifiers);
+    QFETCH(QString, expected);
+    Viewport* view = m_window->viewport();
+    QApplication::setActiveWindow(m_window.get());
+    view->setFocus();
+    QTest::keyClick(view, static_cast<Qt::Key>(key), Qt::KeyboardModifiers(modifiers));
+    const QStringList state{QStringLiteral("elevation %1").arg(view->navigator().camera().elevation), QStringLiteral("tool %1").arg(int(view->tool())),
+                            QStringLiteral("colour %1").arg(QString::fromStdString(document().project().view.colour)),
+                            QStringLiteral("playing %1").arg(session().playing() ? 1 : 0), QStringLiteral("palette %1").arg(m_window->palette()->isVisible() ? 1 : 0)};
+    QVERIFY2(state.contains(expected), qPrintable(state.join(QStringLiteral(", "))));
+    m_window->palette()->hide();
+    view->setTool(ViewTool::Select);
+  }
+
+  void stepAndResetMoveTheClock() {
+    session().reset();
+    QTRY_COMPARE_WITH_TIMEOUT(session().snapshot()->stats.frame, uint64_t{0}, kLong);
+    m_window->action(QStringLiteral("simulation.step"))->trigger();
+    QTRY_COMPARE_WITH_TIMEOUT(session().snapshot()->stats.frame, uint64_t{1}, kLong);
+    QVERIFY(!session().playing());
+    QTRY_COMPARE(m_window->transport()->timeText(), QStringLiteral("00:00.01"));
+    m_window->action(QStringLiteral("simulation.reset"))->trigger();
+    QTRY_COMPARE_WITH_TIMEOUT(session().snapshot()->stats.frame, uint64_t{0}, kLong);
+  }
+
+  void thePaletteFindsParametersAndActions_data() {
+    QTest::addColumn<QString>("query");
+    QTest::addColumn<QString>("title");
+    QTest::newRow("parameter") << "conductivity solid" << "Conductivity, solid";
+    QTest::newRow("wall") << "hot plate temperature" << "Temperature";
+    QTest::newRow("solver") << "substeps" << "Substeps";
+    QTest::newRow("action") << "frame all" << "Frame all";
+    QTest::newRow("by key") << "thermal time scale" << "Time lapse of heat";
+  }
+  void thePaletteFindsParametersAndActions() {
+    QFETCH(QString, query);
+    QFETCH(QString, title);
+    m_window->action(QStringLiteral("edit.search"))->trigger();
+    CommandPalette* palette = m_window->palette();
+    QVERIFY(palette->isVisible());
+    palette->field()->setText(query);
+    QCOMPARE(palette->currentTitle(), title);
+    palette->hide();
+  }
+
+  void thePaletteJumpsToARow() {
+    QVERIFY(m_window->revealParameter({"solver", "", "substeps"}));
+    QCOMPARE(m_window->inspectorDock()->currentPage(), QStringLiteral("Solver"));
+    QVERIFY(m_window->revealParameter({"material", "water", "viscosity"}));
+    QCOMPARE(m_window->inspectorDock()->currentPage(), QStringLiteral("Material"));
+  }
+
+  void thePluginPageShowsABrokenOne() {
+    m_window->action(QStringLiteral("help.plugins"))->trigger();
+    QVERIFY(m_window->showsPlugins());
+    const QString all = m_window->pluginPage()->lines().join(QLatin1Char('\n'));
+    QVERIFY2(all.contains(QStringLiteral("Not loaded")) && all.contains(QStringLiteral("broken.so")), qPrintable(all));
+    QVERIFY(all.contains(QStringLiteral("Loaded")));
+    QTest::keyClick(m_window->pluginPage(), Qt::Key_Escape);
+    QVERIFY(!m_window->showsPlugins());
+  }
+
+  void picturesAreNotBlank_data() {
+    QTest::addColumn<bool>("dark");
+    QTest::newRow("dark") << true;
+    QTest::newRow("light") << false;
+  }
+  void picturesAreNotBlank() {
+    QFETCH(bool, dark);
+    m_window->action(dark ? QStringLiteral("view.dark") : QStringLiteral("view.light"))->trigger();
+    QCOMPARE(Theme::current().dark(), dark);
+    QTest::qWait(300);
+    const QImage image = windowImage(*m_window);
+    QCOMPARE(image.size(), m_window->size() * m_window->devicePixelRatioF());
+    const Viewport* view = m_window->viewport();
+    const QRect scene(view->mapTo(m_window.get(), QPoint(0, 0)), view->size());
+    // A shaded block has hundreds of colours, an empty ground a handful.
+    QVERIFY2(colourCount(image, scene.adjusted(scene.width() / 3, scene.height() / 3, -scene.width() / 3, -scene.height() / 3)) > 100, "scene");
+    QVERIFY2(colourCount(image, QRect(image.width() - 300, 100, 280, 400)) > 10, "inspector");
+    const QColor corner = image.pixelColor(image.width() - 2, image.height() / 2);
+    QCOMPARE(corner.lightness() < 128, dark);
+  }
+
+  void hidingABodyEmptiesTheView() {
+    document().setBodyVisible("ice", false);
+    QTRY_VERIFY_WITH_TIMEOUT(!m_window->viewport()->navigator().viewName().isEmpty(), kLong);
+    QSignalSpy picked(m_window->viewport(), &Viewport::bodyPicked);
+    QTest::mouseClick(m_window->viewport(), Qt::LeftButton, {}, QPoint(m_window->viewport()->width() / 2, m_window->viewport()->height() / 2));
+    QCOMPARE(picked.front()[0].value<std::string>(), std::string());
+    document().undoStack().undo();
+  }
+
+ private:
+  Session& session() { return m_window->session(); }
+  Document& document() { return session().document(); }
+  void openSample() {
+    QSignalSpy opened(&session().files(), &DocumentFiles::opened);
+    m_window->openFile(kSample);
+    QVERIFY(opened.wait(kLong));
+    session().pause();
+  }
+
+  QTemporaryDir m_plugins;
+  std::unique_ptr<MainWindow> m_window;
+};
+
+int main(int argc, char** argv) {
+  QSurfaceFormat format;
+  format.setVersion(4, 3);
+  format.setProfile(QSurfaceFormat::CoreProfile);
+  format.setDepthBufferSize(24);
+  QSurfaceFormat::setDefaultFormat(format);
+  QApplication application(argc, argv);
+  std::setlocale(LC_NUMERIC, "C");
+  TestWindow test;
+  return QTest::qExec(&test, argc, argv);
+}
+#include "tst_window.moc"

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/window/dock.h"
+
+#include "ui/theme/icon.h"
+#include "ui/theme/paint.h"
+#include "ui/theme/theme.h"
+
+#include <QtGui/QPainter>
+#include <QtWidgets/QHBoxLayout>
+#include <QtWidgets/QStackedWidget>
+#include <QtWidgets/QTabBar>
+#include <QtWidgets/QToolButton>
+#include <QtWidgets/QVBoxLayout>
+
+namespace ps {
+namespace {
+
+constexpr int kHeader = 30;
+
+/// The header's ground: panel colour with a hairline below.
+class Header : public QWidget {
+ public:
+  using QWidget::QWidget;
+
+ protected:
+  void paintEvent(QPaintEvent*) override {
+    QPainter painter(this);
+    painter.fillRect(rect(), Theme::current()[Token::Panel]);
+    paintHorizontalLine(painter, 0, width(), height() - 1, Theme::current()[Token::Line]);
+  }
+};
+
+}  // namespace
+
+Dock::Dock(const QString& name, const QString& title, QWidget* parent)
+    : QDockWidget(title, parent), m_header(new Header), m_actions(new QHBoxLayout), m_tabs(new QTabBar), m_pages(new QStackedWidget) {
+  setObjectName(name);
+  setFeatures(QDockWidget::DockWidgetClosable | QDockWidget::DockWidgetMovable);
+  m_header->setFixedHeight(kHeader);
+  auto* row = new QHBoxLayout(m_header);
+  row->setContentsMargins(12, 0, 6, 0);
+  row->setSpacing(2);
+  m_tabs->setDrawBase(false);
+  m_tabs->setExpanding(false);
+  m_tabs->setElideMode(Qt::ElideNone);
+  m_tabs->setFocusPolicy(Qt::TabFocus);
+  m_tabs->setAccessibleName(title);
+  row->addWidget(m_tabs, 0, Qt::AlignBottom);
+  row->addStretch(1);
+  row->addLayout(m_actions);
+  setTitleBarWidget(m_header);
+  setWidget(m_pages);
+  m_pages->setAutoFillBackground(true);
+  connect(m_tabs, &QTabBar::currentChanged, this, [this](int index) {
+    m_pages->setCurrentIndex(index);
+    Q_EMIT pageChanged(currentPage());
+  });
+}
+
+int Dock::addPage(const QString& title, QWidget* page) {
+  m_pages->addWidget(page);
+  const int index = m_tabs->addTab(title);
+  m_tabs->setTabData(index, title);
+  return index;
+}
+
+void Dock::showPage(const QString& title) {
+  for (int i = 0; i < m_tabs->count(); ++i) {
+    if (m_tabs->tabData(i).toString() == title) m_tabs->setCurrentIndex(i);
+  }
+  setVisible(true);
+  raise();
+}
+
+QString Dock::currentPage() const { return m_tabs->tabData(m_tabs->currentIndex()).toString(); }
+
+void Dock::setPageTitle(int index, const QString& title) { m_tabs->setTabText(index, title); }
+
+QToolButton* Dock::addAction(const QString& iconName, const QString& tip) {
+  auto* button = new QToolButton;
+  button->setIcon(icon(iconName));
+  button->setToolTip(tip);
+  button->setAccessibleName(tip);
+  button->setFocusPolicy(Qt::TabFocus);
+  m_actions->addWidget(button);
+  return button;
+}
+
+PanelFrame::PanelFrame(QWidget* parent) : QWidget(parent) {}
+
+void PanelFrame::paintEvent(QPaintEvent*) {
+  QPainter painter(this);
+  painter.fillRect(rect(), Theme::current()[Token::Panel]);
+}
+
+}  // namespace ps

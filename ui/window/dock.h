@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <QtWidgets/QDockWidget>
+#include <QtWidgets/QWidget>
+
+class QHBoxLayout;
+class QStackedWidget;
+class QTabBar;
+class QToolButton;
+
+namespace ps {
+
+/// A dock with a header of its own: tabs on the left, actions on the right, 28 pixels high.
+class Dock : public QDockWidget {
+  Q_OBJECT
+ public:
+  Dock(const QString& name, const QString& title, QWidget* parent);
+  /// The first page gives a plain title until there is a second.
+  int addPage(const QString& title, QWidget* page);
+  void showPage(const QString& title);
+  QString currentPage() const;
+  void setPageTitle(int index, const QString& title);
+  QToolButton* addAction(const QString& icon, const QString& tip);
+
+ Q_SIGNALS:
+  void pageChanged(const QString& title);
+
+ private:
+  QWidget* m_header;
+  QHBoxLayout* m_actions;
+  QTabBar* m_tabs;
+  QStackedWidget* m_pages;
+};
+
+/// A panel with the dock's ground and rounded corners, for what stands in the middle.
+class PanelFrame : public QWidget {
+  Q_OBJECT
+ public:
+  explicit PanelFrame(QWidget* parent = nullptr);
+
+ protected:
+  void paintEvent(QPaintEvent* event) override;
+};
+
+}  // namespace ps

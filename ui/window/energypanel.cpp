@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/window/energypanel.h"
+
+#include "ui/graphs/graphview.h"
+#include "ui/theme/numbers.h"
+#include "ui/theme/theme.h"
+
+#include <QtWidgets/QHBoxLayout>
+#include <QtWidgets/QLabel>
+
+#include <algorithm>
+#include <cmath>
+
+namespace ps {
+namespace {
+
+QString kilojoules(double joules) { return formatFixed(joules / 1000, 1) + QStringLiteral(" kJ"); }
+
+}  // namespace
+
+EnergyPanel::EnergyPanel(QWidget* parent) : QWidget(parent), m_graph(new GraphView), m_ledger(new QLabel) {
+  auto* row = new QHBoxLayout(this);
+  row->setContentsMargins(6, 4, 12, 4);
+  row->setSpacing(12);
+  m_graph->setTitle(QStringLiteral("Energy since the start, kJ"));
+  m_graph->setUnit(QStringLiteral("kJ"));
+  m_graph->setEmptyText(QStringLiteral("Press Space to run"));
+  m_graph->addSeries(QStringLiteral("In matter"), QStringLiteral("kJ"));
+  m_graph->addSeries(QStringLiteral("Through walls"), QStringLiteral("kJ"));
+  m_graph->addSeries(QStringLiteral("Through air"), QStringLiteral("kJ"));
+  m_ledger->setTextFormat(Qt::RichText);
+  m_ledger->setMinimumWidth(230);
+  m_ledger->setAlignment(Qt::AlignVCenter | Qt::AlignLeft);
+  row->addWidget(m_graph, 1);
+  row->addWidget(m_ledger);
+}
+
+void EnergyPanel::setDuration(double seconds) { m_graph->setDuration(seconds); }
+
+void EnergyPanel::append(const FrameStats& stats) {
+  if (!m_started) {
+    m_start = stats.thermalEnergy - stats.heat.net();
+    m_started = true;
+  }
+  m_graph->append(0, stats.time, (stats.thermalEnergy - m_start) / 1000);
+  m_graph->append(1, stats.time, stats.heat.walls / 1000);
+  m_graph->append(2, stats.time, stats.heat.air / 1000);
+  m_graph->setPresentTime(stats.time);
+  m_last = stats;
+  const auto line = [](const QString& name, const QString& value) {
+    return QStringLiteral("<tr><td>%1&nbsp;&nbsp;&nbsp;</td><td align='right'>%2</td></tr>").arg(name, value);
+  };
+  m_ledger->setText(QStringLiteral("<table>") + line(QStringLiteral("Heat in matter"), kilojoules(stats.thermalEnergy - m_start)) +
+                    line(QStringLiteral("Through walls"), kilojoules(stats.heat.walls)) +
+                    line(QStringLiteral("Through air"), kilojoules(stats.heat.air)) +
+                    line(QStringLiteral("Sketched and erased"), kilojoules(stats.heat.sources)) +
+                    line(QStringLiteral("Motion"), kilojoules(stats.kineticEnergy)) +
+                    line(QStringLiteral("Balance open by"), balanceText()) + QStringLiteral("</table>"));
+}
+
+QString EnergyPanel::balanceText() const {
+  const double open = m_last.thermalEnergy - m_start - m_last.heat.net();
+  const double share = m_last.heat.exchanged > 0 ? std::abs(open) / m_last.heat.exchanged : 0;
+  return formatShort(std::abs(open), 2) + QStringLiteral(" J (") + formatShort(share, 1) + QStringLiteral(")");
+}
+
+void EnergyPanel::clear() {
+  m_graph->clear();
+  m_started = false;
+}
+
+}  // namespace ps

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "core/simulation/snapshot.h"
+
+#include <QtWidgets/QWidget>
+
+class QLabel;
+
+namespace ps {
+
+class GraphView;
+
+/// Where the energy is and where it came from, in kJ since the start, and by how much the balance is open.
+class EnergyPanel : public QWidget {
+  Q_OBJECT
+ public:
+  explicit EnergyPanel(QWidget* parent = nullptr);
+  void append(const FrameStats& stats);
+  void clear();
+  void setDuration(double seconds);
+  QString balanceText() const;
+
+ private:
+  GraphView* m_graph;
+  QLabel* m_ledger;
+  bool m_started = false;
+  double m_start = 0;
+  FrameStats m_last;
+};
+
+}  // namespace ps

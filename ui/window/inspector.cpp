@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/window/inspector.h"
+
+#include "core/matter/material.h"
+#include "core/plugin_host/registry.h"
+#include "ui/document/declared.h"
+#include "ui/document/document.h"
+#include "ui/theme/numbers.h"
+#include "ui/window/wording.h"
+
+#include <algorithm>
+
+namespace ps {
+namespace {
+
+/// "Hot plate temperature": the label of a row that stands away from its owner.
+QString awayLabel(const Project& project, const Address& address, const QString& label) {
+  if (address.owner == "solver" || address.owner == "environment" || address.owner == "thermal" || address.owner == "material") return label;
+  return ownerLabel(project, address) + QLatin1Char(' ') + label.left(1).toLower() + label.mid(1);
+}
+
+float channelOf(const Value& value) {
+  if (const auto* number = std::get_if<double>(&value)) return static_cast<float>(std::clamp(*number, 0.0, 1.0));
+  if (const auto* response = std::get_if<Response>(&value)) return static_cast<float>(std::clamp(response->at(293.15), 0.0, 1.0));
+  return 0.5F;
+}
+
+QString gradeText(const PluginRegistry* plugins, const std::string& base) {
+  const Material* material = plugins ? plugins->material(base) : nullptr;
+  if (!material || material->provenance.empty()) return {};
+  char worst = 'A';
+  for (const auto& [key, provenance] : material->provenance) worst = std::max(worst, provenance.grade);
+  if (worst == 'A') return QStringLiteral("Reference data, grade A");
+  return worst == 'B' ? QStringLiteral("Handbook data, grade B") : QStringLiteral("Reference, handbook and typical data");
+}
+
+}  // namespace
+
+Inspector::Inspector(Document& document, QObject* parent)
+    : QObject(parent),
+      m_document(document),
+      m_body(new ParameterPanel),
+      m_material(new ParameterPanel),
+      m_scene(new ParameterPanel),
+      m_solver(new ParameterPanel) {
+  for (ParameterPanel* panel : panels()) connectPanel(panel);
+  m_body->setEmptyText(QStringLiteral("Select something, or press Ctrl+K"));
+  m_material->setEmptyText(QStringLiteral("Select something, or press Ctrl+K"));
+}
+
+void Inspector::connectPanel(ParameterPanel* panel) {
+  connect(panel, &ParameterPanel::edited, this, &Inspector::onEdited);
+  connect(panel, &ParameterPanel::scaled, this, &Inspector::onScaled);
+  connect(panel, &ParameterPanel::linkActivated, this, &Inspector::onLink);
+  connect(panel, &ParameterPanel::pinToggled, this, [this](const QString& key, bool pinned) { m_document.setPinned(key.toStdString(), pinned); });
+}
+
+const char* Inspector::keep(const QString& text) { return m_texts.insert(text.toStdString()).first->c_str(); }
+
+void Inspector::onEdited(const QString& key, const Value& value, Edit edit) {
+  const auto address = Address::parse(key.toStdString());
+  if (!address) return;
+  if (edit == Edit::Begin) {
+    m_document.beginGesture();
+    return;
+  }
+  const QString problem = m_document.setParameter(*address, value);
+  if (edit == Edit::End) m_document.endGesture();
+  for (ParameterPanel* panel : panels()) {
+    panel->setError(key, problem);
+    if (!problem.isEmpty() && edit == Edit::End) panel->setValue(key, m_document.value(*address));
+  }
+}
+
+void Inspector::onScaled(const QString& key, double factor) {
+  const auto address = Address::parse(key.toStdString());
+  const api::ParameterDeclaration* declaration = address ? m_document.declaration(*address) : nullptr;
+  const Value value = address ? m_document.value(*address) : Value(0.0);
+  if (!declaration || !std::holds_alternative<double>(value)) return;
+  m_document.setParameter(*address, scaledValue(*declaration, std::get<double>(value), factor));
+}
+
+/// Links of notes say what they set: "solver/substeps=8".
+void Inspector::onLink(const QString&, const QString& link) {
+  const qsizetype equals = link.indexOf(QLatin1Char('='));
+  const auto address = Address::parse(link.left(equals).toStdString());
+  const auto number = parseNumber(link.mid(equals + 1));
+  if (equals > 0 && address && number) m_document.setParameter(*address, *number);
+}
+
+void Inspector::addRows(std::vector<RowModel>& rows, const std::string& owner, const std::string& id, api::ParameterList list,
+                        const QString& group, const ParameterSet& defaults) {
+  if (list.count == 0) return;
+  const ParameterSet* set = findSet(m_document.project(), {owner, id, list[0].key});
+  if (!set) return;
+  const QString prefix = QString::fromStdString(id.empty() ? owner + "/" : owner + "/" + id + "/");
+  for (RowModel& row : rowModels(list, *set, defaults, prefix)) {
+    if (!group.isEmpty()) row.declaration.group = keep(group);
+    rows.push_back(std::move(row));
+  }
+}
+
+void Inspector::addPinned(std::vector<RowModel>& rows) {
+  std::vector<RowModel> pinned;
+  const Project& project = m_document.project();
+  for (const std::string& text : project.view.pinned) {
+    const auto address = Address::parse(text);
+    const api::ParameterDeclaration* declaration = address ? m_document.declaration(*address) : nullptr;
+    if (!declaration || !findSet(project, *address)) continue;
+    RowModel row;
+    row.key = QString::fromStdString(text);
+    row.declaration = *declaration;
+    row.declaration.label = keep(awayLabel(project, *address, QString::fromUtf8(declaration->label)));
+    row.value = m_document.value(*address);
+    row.defaultValue = m_document.defaultValue(*address);
+    row.pinned = true;
+    pinned.push_back(std::move(row));
+  }
+  rows.insert(rows.begin(), std::make_move_iterator(pinned.begin()), std::make_move_iterator(pinned.end()));
+}
+
+void Inspector::rebuildBody() {
+  const Body* body = m_document.body(m_bodyId);
+  std::vector<RowModel> rows;
+  if (!body) {
+    m_body->setHeader({}, {});
+    m_body->setModel({});
+    return;
+  }
+  const bool sketched = std::holds_alternative<VoxelShape>(body->shape);
+  QString matter = QString::fromStdString(body->material);
+  for (const SceneMaterial& material : m_document.project().materials) {
+    if (material.id == body->material && !material.label.empty()) matter = QString::fromStdString(material.label);
+  }
+  m_body->setHeader(QString::fromStdString(body->name), matter + (sketched ? QStringLiteral(" · sketched") : QStringLiteral(" · block")));
+  addRows(rows, "body", body->id, bodyParameters());
+  for (const BodyConstraint& constraint : body->constraints) {
+    const std::string id = body->id + "/" + constraint.plugin;
+    const api::ConstraintPlugin* plugin = m_document.plugins() ? m_document.plugins()->constraint(constraint.plugin) : nullptr;
+    if (plugin) addRows(rows, "constraint", id, plugin->parameters(), QString::fromUtf8(plugin->label()));
+  }
+  m_body->setModel(std::move(rows));
+}
+
+void Inspector::rebuildMaterial() {
+  const Project& project = m_document.project();
+  const auto found = std::find_if(project.materials.begin(), project.materials.end(), [&](const SceneMaterial& m) { return m.id == m_materialId; });
+  const auto material = found == project.materials.end() && !project.materials.empty() ? project.materials.begin() : found;
+  std::vector<RowModel> rows;
+  if (material == project.materials.end()) {
+    m_material->setHeader({}, {});
+    m_material->setModel({});
+    return;
+  }
+  m_materialId = material->id;
+  const PluginRegistry* plugins = m_document.plugins();
+  const bool missing = plugins && !plugins->material(material->base);
+  QStringList bodies;
+  for (const Body& body : project.bodies) {
+    if (body.material == material->id) bodies << QString::fromStdString(body.name);
+  }
+  const auto channel = [&](const char* key) { return channelOf(m_document.value({"material", material->id, key})); };
+  m_material->setHeader(QString::fromStdString(material->label.empty() ? material->id : material->label),
+                        missing ? QStringLiteral("Plugin “%1” is not installed").arg(QString::fromStdString(material->base)) : bodies.join(QStringLiteral(", ")),
+                        gradeText(plugins, material->base),
+                        QColor::fromRgbF(channel("color_red"), channel("color_green"), channel("color_blue")));
+  addRows(rows, "material", material->id, propertyCatalogue(), {}, materialDefaults(project, plugins, material->id));
+  if (const api::MaterialPlugin* plugin = plugins ? plugins->materialPlugin(material->base) : nullptr) {
+    addRows(rows, "material", material->id, plugin->parameters(), QString::fromUtf8(plugin->label()));
+  }
+  if (missing) {
+    for (RowModel& row : rows) row.disabledReason = QStringLiteral("The material's plugin is not installed. Values are kept as they stand in the file.");
+  }
+  addPinned(rows);
+  m_material->setModel(std::move(rows));
+}
+
+void Inspector::rebuildScene() {
+  const Project& project = m_document.project();
+  std::vector<RowModel> rows;
+  addRows(rows, "environment", "", environmentParameters());
+  for (const SceneWall& wall : project.environment.walls) {
+    addRows(rows, "wall", wall.id, wallParameters(), QString::fromStdString(wall.name.empty() ? wall.id : wall.name));
+  }
+  m_scene->setHeader(m_document.title(), QStringLiteral("%1 bodies, %2 walls").arg(project.bodies.size()).arg(project.environment.walls.size()));
+  m_scene->setModel(std::move(rows));
+}
+
+void Inspector::rebuildSolver() {
+  std::vector<RowModel> rows;
+  addRows(rows, "solver", "", solverParameters());
+  const std::string& id = m_document.project().solver.thermalModel;
+  const api::ThermalPlugin* model = m_document.plugins() ? m_document.plugins()->thermal(id) : nullptr;
+  if (model) addRows(rows, "thermal", "", model->parameters(), QString::fromUtf8(model->label()));
+  m_solver->setHeader(QStringLiteral("Solver"), model ? QStringLiteral("Heat by ") + QString::fromUtf8(model->label()) : QStringLiteral("No heat"));
+  m_solver->setModel(std::move(rows));
+}
+
+void Inspector::rebuild() {
+  rebuildBody();
+  rebuildMaterial();
+  rebuildScene();
+  rebuildSolver();
+}
+
+void Inspector::setBody(const std::string& id) {
+  m_bodyId = id;
+  rebuildBody();
+}
+
+void Inspector::setMaterial(const std::string& id) {
+  if (id == m_materialId) return;
+  m_materialId = id;
+  rebuildMaterial();
+}
+
+void Inspector::onChanged(const ChangeEvent& event) {
+  if (const auto* parameter = std::get_if<ParameterChanged>(&event)) {
+    const QString key = QString::fromStdString(parameter->address.text());
+    for (ParameterPanel* panel : panels()) panel->setValue(key, parameter->value);
+  } else if (std::holds_alternative<ProjectOpened>(event)) {
+    m_bodyId = m_document.project().bodies.empty() ? std::string() : m_document.project().bodies.front().id;
+    m_materialId.clear();
+    m_limited.clear();
+    rebuild();
+  } else if (std::holds_alternative<BodyChanged>(event) || std::holds_alternative<StrokeChanged>(event)) {
+    rebuildBody();
+  } else if (std::holds_alternative<ViewChanged>(event)) {
+    rebuildMaterial();
+  }
+}
+
+void Inspector::setSnapshot(const Snapshot& snapshot) {
+  if (snapshot.stats.temperatureMean > 0) {
+    m_material->setTemperature(snapshot.stats.temperatureMean);
+  }
+  std::set<QString> limited;
+  for (const Limit& limit : snapshot.limits) {
+    const QString key = limitAddress(limit);
+    if (key.isEmpty()) continue;
+    limited.insert(key);
+    if (m_limited.count(key)) continue;
+    const double substeps = numberOf(m_document.project().solver.parameters, solverParameters(), "substeps");
+    const QString text = limitText(limit) + QStringLiteral(". [Use %1 substeps](solver/substeps=%1)").arg(static_cast<int>(substeps) * 2);
+    for (ParameterPanel* panel : panels()) panel->setLimit(key, text, limit.delivered);
+  }
+  for (const QString& key : m_limited) {
+    if (limited.count(key)) continue;
+    for (ParameterPanel* panel : panels()) panel->setLimit(key, {});
+  }
+  m_limited = std::move(limited);
+}
+
+ParameterPanel* Inspector::panelFor(const Address& address) {
+  if (address.owner == "material") {
+    setMaterial(address.id);
+    return m_material;
+  }
+  if (address.owner == "body" || address.owner == "constraint") {
+    setBody(address.id.substr(0, address.id.find('/')));
+    return m_body;
+  }
+  if (address.owner == "wall" || address.owner == "environment") return m_scene;
+  return m_solver;
+}
+
+}  // namespace ps

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "core/simulation/snapshot.h"
+#include "ui/document/changeevent.h"
+#include "ui/panels/parameterpanel.h"
+
+#include <QtCore/QObject>
+
+#include <set>
+#include <string>
+#include <vector>
+
+namespace ps {
+
+class Document;
+
+/// The panels Body, Material, Scene and Solver, made from declarations alone, kept in step with the document both ways.
+/// Keys of their rows are addresses. Each gesture in a row is one undo step of the document.
+class Inspector : public QObject {
+  Q_OBJECT
+ public:
+  explicit Inspector(Document& document, QObject* parent = nullptr);
+  ParameterPanel* bodyPanel() const { return m_body; }
+  ParameterPanel* materialPanel() const { return m_material; }
+  ParameterPanel* scenePanel() const { return m_scene; }
+  ParameterPanel* solverPanel() const { return m_solver; }
+
+  void rebuild();
+  void setBody(const std::string& id);
+  void setMaterial(const std::string& id);
+  const std::string& material() const { return m_materialId; }
+  void onChanged(const ChangeEvent& event);
+  /// Operating points and notes of limits; a few times a second.
+  void setSnapshot(const Snapshot& snapshot);
+  /// The panel that shows an address, after choosing its owner; nullptr when there is none.
+  ParameterPanel* panelFor(const Address& address);
+
+ private:
+  std::vector<ParameterPanel*> panels() const { return {m_body, m_material, m_scene, m_solver}; }
+  void connectPanel(ParameterPanel* panel);
+  void onEdited(const QString& key, const Value& value, Edit edit);
+  void onScaled(const QString& key, double factor);
+  void onLink(const QString& key, const QString& link);
+  void rebuildBody();
+  void rebuildMaterial();
+  void rebuildScene();
+  void rebuildSolver();
+  /// Rows of one owner; a group of its own replaces the declarations' groups.
+  void addRows(std::vector<RowModel>& rows, const std::string& owner, const std::string& id, api::ParameterList list,
+               const QString& group = {}, const ParameterSet& defaults = {});
+  void addPinned(std::vector<RowModel>& rows);
+  const char* keep(const QString& text);
+
+  Document& m_document;
+  ParameterPanel *m_body, *m_material, *m_scene, *m_solver;
+  std::string m_bodyId, m_materialId;
+  std::set<std::string> m_texts;  ///< headings and labels that rows borrow; grows with names only
+  std::set<QString> m_limited;
+};
+
+}  // namespace ps

@@ -1,0 +1,394 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/window/mainwindow.h"
+
+#include "core/base/error.h"
+#include "core/matter/material.h"
+#include "core/plugin_host/registry.h"
+#include "core/simulation/compile.h"
+#include "core/simulation/engine.h"
+#include "ui/document/declared.h"
+#include "ui/document/document.h"
+#include "ui/document/documentfiles.h"
+#include "ui/theme/theme.h"
+#include "ui/window/brushpanel.h"
+#include "ui/window/dock.h"
+#include "ui/window/energypanel.h"
+#include "ui/window/graphspanel.h"
+#include "ui/window/inspector.h"
+#include "ui/window/materialspanel.h"
+#include "ui/window/noticebar.h"
+#include "ui/window/pluginpage.h"
+#include "ui/window/statusline.h"
+#include "ui/window/topbar.h"
+#include "ui/window/transport.h"
+#include "ui/window/viewportpane.h"
+#include "ui/window/wording.h"
+
+#include <QtGui/QAction>
+#include <QtGui/QKeyEvent>
+#include <QtWidgets/QAbstractButton>
+#include <QtWidgets/QApplication>
+#include <QtWidgets/QMenuBar>
+#include <QtWidgets/QStackedWidget>
+#include <QtWidgets/QVBoxLayout>
+
+#include <algorithm>
+#include <cmath>
+
+namespace ps {
+namespace {
+constexpr int kSlowInterval = 66;  // ms: values at 15 Hz
+}
+
+MainWindow::MainWindow(const Options& options) : m_options(options), m_session(std::make_unique<Session>(options.session)), m_dark(options.dark) {
+  setObjectName(QStringLiteral("psWindow"));
+  setAcceptDrops(true);
+  setContextMenuPolicy(Qt::NoContextMenu);
+  m_inspector = new Inspector(m_session->document(), this);
+  makeActions();
+  makeDocks();
+  m_palette = new CommandPalette(this);
+  connectSession();
+  connectPanels();
+  applyDefaultLayout();
+  if (options.restore) restoreWindow();
+  m_slow.setInterval(kSlowInterval);
+  m_slow.setSingleShot(true);
+  connect(&m_slow, &QTimer::timeout, this, &MainWindow::refreshSlow);
+  qApp->installEventFilter(this);
+  updateTitle();
+  refreshStatus();
+}
+
+MainWindow::~MainWindow() {
+  qApp->removeEventFilter(this);
+  if (Viewport* view = viewport()) view->attach(nullptr, nullptr, nullptr);
+  m_plugins->setRegistry(nullptr);
+  m_session->disconnect(this);
+  m_session->document().disconnect(this);
+  m_session->log().disconnect();
+}
+
+Viewport* MainWindow::viewport() const { return m_pane->viewport(); }
+NoticeBar* MainWindow::notice() const { return m_pane->notice(); }
+bool MainWindow::showsPlugins() const { return m_centre->currentWidget() == m_plugins; }
+
+void MainWindow::start() {
+  m_opening = true;
+  m_session->start();
+}
+
+void MainWindow::connectSession() {
+  connect(m_session.get(), &Session::ready, this, &MainWindow::onReady);
+  connect(m_session.get(), &Session::snapshotArrived, this, &MainWindow::onSnapshot);
+  connect(m_session.get(), &Session::playingChanged, this, [this] {
+    m_transport->setPlaying(m_session->playing());
+    refreshStatus();
+  });
+  connect(&m_session->document(), &Document::changed, this, &MainWindow::onChanged);
+  DocumentFiles& files = m_session->files();
+  connect(&files, &DocumentFiles::opened, this, &MainWindow::onOpened);
+  connect(&files, &DocumentFiles::openFailed, this, &MainWindow::onOpenFailed);
+  connect(&files, &DocumentFiles::saveFailed, this, &MainWindow::onSaveFailed);
+  connect(&files, &DocumentFiles::saved, this, [this](const QString& path) {
+    notice()->close(QStringLiteral("save"));
+    m_session->log().add(MessageLevel::Ok, m_session->document().title(), QStringLiteral("Saved to %1.").arg(path));
+    m_fileText = QStringLiteral("Saved ") + QTime::currentTime().toString(QStringLiteral("HH:mm"));
+    updateTitle();
+    refreshStatus();
+  });
+  if (Autosave* autosave = m_session->autosave()) {
+    connect(autosave, &Autosave::autosaved, this, [this](const QDateTime& time) {
+      m_fileText = QStringLiteral("Autosaved ") + time.toString(QStringLiteral("HH:mm"));
+      refreshStatus();
+    });
+    connect(autosave, &Autosave::failed, this, [this](const QString& problem) {
+      showMessage(MessageLevel::Warning, QStringLiteral("Autosave"), QStringLiteral("No copy was kept: %1. Save to a file.").arg(problem));
+    });
+  }
+  connect(&m_session->log(), &MessageLog::changed, this, [this] {
+    const int unseen = m_session->log().unseen();
+    m_bottom->setPageTitle(m_messagesPage, unseen > 0 ? QStringLiteral("Messages %1").arg(unseen) : QStringLiteral("Messages"));
+  });
+}
+
+void MainWindow::connectPanels() {
+  connect(m_transport, &Transport::playRequested, m_session.get(), &Session::playPause);
+  connect(m_transport, &Transport::stepRequested, m_session.get(), &Session::step);
+  connect(m_transport, &Transport::resetRequested, m_session.get(), &Session::reset);
+  connect(m_outliner, &Outliner::selectionChanged, this, &MainWindow::onOutlinerSelection);
+  connect(m_materials, &MaterialsPanel::picked, this, [this](const std::string& id) {
+    m_inspector->setMaterial(id);
+    if (Viewport* view = viewport()) {
+      BrushSettings brush = view->brush();
+      brush.material = id;
+      view->setBrush(brush);
+      if (view->tool() == ViewTool::Select) m_right->showPage(QStringLiteral("Material"));
+    }
+  });
+  connect(m_pane, &ViewportPane::colourPicked, this, [this](ColourBy colour) { setColour(static_cast<int>(colour)); });
+  connect(m_pane, &ViewportPane::toolPicked, this, &MainWindow::setTool);
+  connect(m_pane, &ViewportPane::radiusStepped, this, &MainWindow::stepBrush);
+  connect(m_pane, &ViewportPane::frameRequested, this, [this] {
+    if (Viewport* view = viewport()) view->frameAll();
+  });
+  connect(m_plugins, &PluginPage::closeRequested, this, [this] { m_centre->setCurrentWidget(m_pane); });
+  connect(m_status, &StatusLine::noteClicked, this, [this] {
+    const auto address = Address::parse(m_noteAddress.toStdString());
+    if (!address || !revealParameter(*address)) m_bottom->showPage(QStringLiteral("Messages"));
+  });
+  Viewport* view = viewport();
+  if (!view) return;
+  const auto setBrush = [view](const BrushSettings& brush) { view->setBrush(brush); };
+  connect(m_brush, &BrushPanel::brushEdited, view, setBrush);
+  connect(m_pane, &ViewportPane::shapePicked, this, [view](const std::string& shape) {
+    BrushSettings brush = view->brush();
+    brush.shape = shape;
+    view->setBrush(brush);
+  });
+  connect(view, &Viewport::brushChanged, this, [this, view] {
+    m_pane->setBrush(view->brush());
+    m_brush->setBrush(view->brush());
+    if (!view->brush().material.empty()) m_materials->setCurrent(view->brush().material);
+  });
+  m_pane->setBrush(view->brush());
+  connect(view, &Viewport::bodyPicked, this, &MainWindow::selectBody);
+  connect(view, &Viewport::toolChanged, this, &MainWindow::setTool);
+  connect(view, &Viewport::strokeRefused, this, [this](const QString& why) {
+    notice()->show(QStringLiteral("stroke"), MessageLevel::Warning, QStringLiteral("Nothing was drawn."), why);
+    m_session->log().add(MessageLevel::Warning, QStringLiteral("Brush"), why);
+  });
+  connect(view, &Viewport::glReady, this, [this](const QString& text) {
+    m_graphicsText = text;
+    refreshStatus();
+  });
+  connect(view, &Viewport::glFailed, this, [this](const QString& problem) { m_session->log().add(MessageLevel::Error, QStringLiteral("Scene view"), problem); });
+}
+
+void MainWindow::onReady() {
+  m_plugins->setRegistry(m_session->plugins());
+  m_transport->setReady(true);
+  if (Viewport* view = viewport()) view->attach(&m_session->document(), m_session->engine(), m_session->link());
+  const auto& plugins = m_session->plugins()->plugins();
+  const auto broken = std::count_if(plugins.begin(), plugins.end(), [](const PluginInfo& p) { return p.state != PluginInfo::State::Loaded; });
+  if (broken > 0) {
+    notice()->show(QStringLiteral("plugins"), MessageLevel::Warning,
+                   broken == 1 ? QStringLiteral("One plugin was not loaded.") : QStringLiteral("%1 plugins were not loaded.").arg(broken),
+                   QStringLiteral("Everything else works."), {{QStringLiteral("Show plugins"), [this] { m_centre->setCurrentWidget(m_plugins); }}});
+  }
+  refreshStatus();
+  openFirst();
+}
+
+void MainWindow::onChanged(const ChangeEvent& event) {
+  m_inspector->onChanged(event);
+  if (std::holds_alternative<ProjectOpened>(event)) {
+    onProjectOpened();
+  } else if (const auto* parameter = std::get_if<ParameterChanged>(&event)) {
+    const std::string& owner = parameter->address.owner;
+    if (owner == "wall" || owner == "environment") m_outliner->rebuild();
+    if (owner == "material") m_materials->rebuild();
+    if (owner == "material" || owner == "environment") updateTransitions();
+    m_transport->setTimeScale(numberOf(m_session->document().project().solver.parameters, solverParameters(), "thermal_time_scale"));
+    if (Viewport* view = viewport(); view && owner == "wall") view->bodiesChanged();
+  } else if (std::holds_alternative<BodyChanged>(event) || std::holds_alternative<StrokeChanged>(event)) {
+    m_outliner->rebuild();
+    if (Viewport* view = viewport()) view->bodiesChanged();
+  } else if (std::holds_alternative<ViewChanged>(event)) {
+    m_pane->setColour(colourByName(m_session->document().project().view.colour));
+  }
+  updateTitle();
+}
+
+void MainWindow::onProjectOpened() {
+  const Project& project = m_session->document().project();
+  m_opening = true;
+  m_historyRead = 0;
+  m_shownFailure.clear();
+  m_outliner->rebuild();
+  m_materials->rebuild();
+  m_transport->setDuration(project.duration);
+  m_transport->setTimeScale(numberOf(project.solver.parameters, solverParameters(), "thermal_time_scale"));
+  m_transport->setSnapshot(nullptr);
+  m_energy->clear();
+  m_energy->setDuration(project.duration);
+  m_graphs->setProject(project);
+  updateTransitions();
+  m_pane->setColour(colourByName(project.view.colour));
+  if (Viewport* view = viewport()) {
+    view->projectOpened();
+    BrushSettings brush = view->brush();
+    brush.material = m_materials->current();
+    view->setBrush(brush);
+  }
+  m_brush->setBrush(viewport() ? viewport()->brush() : BrushSettings{});
+}
+
+/// Where the scene's first material changes phase at the air's pressure: marks in the legend, lines in the graph.
+void MainWindow::updateTransitions() {
+  const Project& project = m_session->document().project();
+  double melts = std::nan(""), boils = std::nan("");
+  try {
+    const std::vector<Material> materials = compileMaterials(project, *m_session->plugins());
+    if (!materials.empty()) {
+      const BakedMaterial baked(materials.front(), numberOf(project.environment.parameters, environmentParameters(), "ambient_pressure"));
+      if (baked.caloric().melts) melts = baked.caloric().meltingPoint;
+      boils = baked.caloric().boilingPoint;
+    }
+  } catch (const Error&) {
+    // Contradicting values: the engine says so; there are no marks.
+  }
+  m_graphs->setTransitions(melts, boils);
+  if (Viewport* view = viewport()) view->setTransitions(std::isfinite(melts) ? melts : 273.15, boils);
+}
+
+void MainWindow::onSnapshot() {
+  const SnapshotPtr snapshot = m_session->snapshot();
+  if (!snapshot) return;
+  if (Viewport* view = viewport()) view->snapshotArrived();
+  if (snapshot->revision != m_revision) {
+    m_revision = snapshot->revision;
+    m_historyRead = 0;
+    m_graphs->clear();
+    m_energy->clear();
+  }
+  if (m_opening) {
+    m_opening = false;
+    refreshSlow();
+    Q_EMIT projectShown();
+  }
+  if (!m_slow.isActive()) m_slow.start();
+}
+
+void MainWindow::appendHistory() {
+  const std::vector<FrameStats> fresh = m_session->engine()->history(m_historyRead);
+  m_historyRead += fresh.size();
+  for (const FrameStats& stats : fresh) {
+    m_graphs->append(stats);
+    m_energy->append(stats);
+  }
+}
+
+void MainWindow::refreshSlow() {
+  const SnapshotPtr snapshot = m_session->snapshot();
+  if (!snapshot) return;
+  appendHistory();
+  m_transport->setSnapshot(snapshot);
+  if (!m_sinceSlow.isValid() || m_sinceSlow.elapsed() > 200) {
+    m_sinceSlow.start();
+    m_outliner->setSnapshot(snapshot);
+    m_inspector->setSnapshot(*snapshot);
+  }
+  showFailure(*snapshot);
+  m_transport->setPlaying(m_session->playing());
+  refreshStatus();
+}
+
+void MainWindow::showFailure(const Snapshot& snapshot) {
+  auto failure = failureText(snapshot.flags, snapshot.message);
+  if (!failure && !snapshot.message.empty()) {
+    failure = FailureText{QStringLiteral("That change could not be made."), QString::fromStdString(snapshot.message)};
+  }
+  if (!failure) {
+    m_shownFailure.clear();
+    notice()->close(QStringLiteral("step"));
+    return;
+  }
+  const QString text = failure->title + failure->text;
+  if (text == m_shownFailure) return;
+  m_shownFailure = text;
+  const bool stopped = snapshot.flags & static_cast<StepFlags>(StepFlag::NotFinite);
+  std::vector<NoticeBar::Button> buttons;
+  if (m_session->document().undoStack().canUndo()) buttons.push_back({QStringLiteral("Undo"), [this] { m_session->document().undoStack().undo(); }});
+  buttons.push_back({QStringLiteral("Reset"), [this] { m_session->reset(); }});
+  notice()->show(QStringLiteral("step"), stopped ? MessageLevel::Error : MessageLevel::Warning, failure->title, failure->text, std::move(buttons));
+  m_session->log().add(stopped ? MessageLevel::Error : MessageLevel::Warning, QStringLiteral("Simulation"), failure->title + QLatin1Char(' ') + failure->text);
+}
+
+void MainWindow::refreshStatus() {
+  StatusLine::State state;
+  state.ready = m_session->isReady();
+  state.playing = m_session->playing();
+  state.snapshot = m_session->snapshot();
+  state.failed = state.snapshot && (state.snapshot->flags & static_cast<StepFlags>(StepFlag::NotFinite));
+  state.realTime = m_session->engine() ? m_session->engine()->realTimeFactor() : 0;
+  state.drawMilliseconds = viewport() ? viewport()->drawMilliseconds() : 0;
+  state.graphics = m_graphicsText;
+  state.file = m_session->document().isDirty() && m_fileText.isEmpty() ? QStringLiteral("Not saved") : m_fileText;
+  if (state.snapshot && !state.snapshot->limits.empty()) {
+    const Limit& first = state.snapshot->limits.front();
+    const size_t count = state.snapshot->limits.size();
+    state.note = (count == 1 ? QStringLiteral("1 note: ") : QStringLiteral("%1 notes: ").arg(count)) + limitText(first).section(QLatin1Char(':'), 0, 0) + QStringLiteral(" is limited by the step");
+    m_noteAddress = limitAddress(first);
+  }
+  m_status->setState(state);
+}
+
+void MainWindow::selectBody(const std::string& id) {
+  if (id.empty()) return;
+  m_outliner->select(OutlineKind::Body, id);
+  onOutlinerSelection(OutlineKind::Body, id);
+}
+
+void MainWindow::onOutlinerSelection(OutlineKind kind, const std::string& id) {
+  if (Viewport* view = viewport()) view->setSelectedBody(kind == OutlineKind::Body ? id : std::string());
+  if (kind == OutlineKind::Body) {
+    m_inspector->setBody(id);
+    if (const Body* body = m_session->document().body(id)) {
+      m_inspector->setMaterial(body->material);
+      m_materials->setCurrent(body->material);
+    }
+    if (m_right->currentPage() != QLatin1String("Material")) m_right->showPage(QStringLiteral("Body"));
+  } else if (kind == OutlineKind::Wall) {
+    revealParameter({"wall", id, "heat"});
+  } else if (kind == OutlineKind::Environment || kind == OutlineKind::Scene) {
+    m_right->showPage(QStringLiteral("Scene"));
+  } else {
+    m_bottom->showPage(QStringLiteral("Graphs"));
+  }
+}
+
+bool MainWindow::revealParameter(const Address& address) {
+  ParameterPanel* panel = m_inspector->panelFor(address);
+  if (!panel) return false;
+  const QString page = panel == m_inspector->bodyPanel() ? QStringLiteral("Body") : panel == m_inspector->materialPanel() ? QStringLiteral("Material")
+                       : panel == m_inspector->scenePanel() ? QStringLiteral("Scene") : QStringLiteral("Solver");
+  m_right->showPage(page);
+  panel->setFilter({});
+  panel->setChangedOnly(false);
+  return panel->reveal(QString::fromStdString(address.text()));
+}
+
+void MainWindow::showMessage(MessageLevel level, const QString& where, const QString& text) {
+  m_session->log().add(level, where, text);
+  if (level == MessageLevel::Error || level == MessageLevel::Warning) notice()->show(where, level, where, text);
+}
+
+void MainWindow::keyPressEvent(QKeyEvent* event) {
+  if (event->key() == Qt::Key_Escape) {
+    if (Viewport* view = viewport(); view && view->cancelGesture()) return;
+    if (showsPlugins()) {
+      m_centre->setCurrentWidget(m_pane);
+    } else if (m_fullViewport) {
+      setFullViewport(false);
+    } else {
+      setTool(ViewTool::Select);
+    }
+    return;
+  }
+  QMainWindow::keyPressEvent(event);
+}
+
+/// Single keys belong to the widget that can use them: Space to a focused button, letters to text fields (Qt does that).
+bool MainWindow::eventFilter(QObject* watched, QEvent* event) {
+  if (event->type() == QEvent::ShortcutOverride && qobject_cast<QAbstractButton*>(watched)) {
+    const auto* key = static_cast<QKeyEvent*>(event);
+    if (key->key() == Qt::Key_Space && key->modifiers() == Qt::NoModifier) {
+      event->accept();
+      return true;
+    }
+  }
+  return QMainWindow::eventFilter(watched, event);
+}
+
+}  // namespace ps

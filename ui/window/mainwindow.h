@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "ui/document/changeevent.h"
+#include "ui/viewport/viewtool.h"
+#include "ui/window/commandpalette.h"
+#include "ui/window/outliner.h"
+#include "ui/window/session.h"
+
+#include <QtCore/QElapsedTimer>
+#include <QtCore/QTimer>
+#include <QtWidgets/QMainWindow>
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+class QAction;
+class QStackedWidget;
+class QMenu;
+
+namespace ps {
+
+class BrushPanel;
+class Dock;
+class EnergyPanel;
+class GraphsPanel;
+class Inspector;
+class MaterialsPanel;
+class NoticeBar;
+class PluginPage;
+class StatusLine;
+class TopBar;
+class Transport;
+class Viewport;
+class ViewportPane;
+
+/// The editor's window. Shows at once; plugins and the project follow. Nothing here steps, reads or writes by itself: the
+/// session does, on threads of its own.
+class MainWindow : public QMainWindow {
+  Q_OBJECT
+ public:
+  struct Options {
+    Session::Options session;
+    QString project;          ///< to open first; "": the last session, else the sample
+    QString sample;           ///< path of the first sample; "": an empty scene
+    bool restore = true;      ///< last session, window state and theme of the user's settings
+    bool exitOnBadProject = false;  ///< for pictures by command: startFailed() instead of a notice
+    bool dark = true;         ///< where `restore` finds nothing or is off
+  };
+  explicit MainWindow(const Options& options);
+  ~MainWindow() override;
+
+  void start();  ///< after show()
+  Session& session() { return *m_session; }
+  Viewport* viewport() const;
+  Inspector& inspector() { return *m_inspector; }
+  Dock* inspectorDock() const { return m_right; }
+  Outliner* outliner() const { return m_outliner; }
+  GraphsPanel* graphs() const { return m_graphs; }
+  PluginPage* pluginPage() const { return m_plugins; }
+  StatusLine* statusLine() const { return m_status; }
+  Transport* transport() const { return m_transport; }
+  CommandPalette* palette() const { return m_palette; }
+  NoticeBar* notice() const;
+  bool showsPlugins() const;
+  bool isDark() const { return m_dark; }
+  void setDark(bool dark);
+  QAction* action(const QString& name) const;  ///< "file.save", "view.frame": nullptr when there is none
+  std::vector<PaletteEntry> paletteEntries();
+  void openFile(const QString& path);
+  void saveTo(const QString& path);
+  /// Jumps to a parameter's row: chooses its owner and tab, scrolls, gives it the focus.
+  bool revealParameter(const Address& address);
+
+ Q_SIGNALS:
+  void projectShown();                        ///< the first snapshot of an opened project is on screen
+  void startFailed(const QString& problem);
+
+ protected:
+  void closeEvent(QCloseEvent* event) override;
+  void dragEnterEvent(QDragEnterEvent* event) override;
+  void dropEvent(QDropEvent* event) override;
+  void keyPressEvent(QKeyEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
+  bool eventFilter(QObject* watched, QEvent* event) override;
+
+ private:
+  // mainwindowlayout.cpp
+  void makeDocks();
+  void applyDefaultLayout();
+  void restoreWindow();
+  void saveWindow() const;
+  void setFullViewport(bool on);
+  // mainwindowactions.cpp
+  using Act = std::function<void()>;
+  QAction* add(QMenu* menu, const QString& name, const QString& text, const QList<QKeySequence>& keys, Act act);
+  void makeActions();
+  void makeFileMenu();
+  void makeEditMenu();
+  void makeViewMenu();
+  void makeSimulationMenu();
+  void makeSketchMenu();
+  void makeHelpMenu();
+  void fillRecent();
+  void openPalette();
+  void setWorkspace(int index);
+  void setTool(ViewTool tool);
+  void setColour(int index);
+  void stepBrush(int direction);
+  // mainwindowfiles.cpp
+  void openFirst();
+  void chooseOpen();
+  void save();
+  void chooseSave();
+  void exportCsv();
+  void exportPicture();
+  void writeFile(const QString& path, std::function<QByteArray()> content, const QString& what);
+  void onOpened(const QString& path, const QStringList& warnings, double seconds);
+  void onOpenFailed(const QString& path, const QString& problem);
+  void onSaveFailed(const QString& path, const QString& problem);
+  void offerRestore();
+  void updateTitle();
+  // mainwindow.cpp
+  void connectSession();
+  void connectPanels();
+  void onReady();
+  void onChanged(const ChangeEvent& event);
+  void onProjectOpened();
+  void onSnapshot();
+  void appendHistory();
+  void refreshSlow();   ///< values at most 15 times a second
+  void refreshStatus();
+  void showFailure(const Snapshot& snapshot);
+  void updateTransitions();
+  void selectBody(const std::string& id);
+  void onOutlinerSelection(OutlineKind kind, const std::string& id);
+  void showMessage(MessageLevel level, const QString& where, const QString& text);
+
+  Options m_options;
+  std::unique_ptr<Session> m_session;
+  bool m_dark = true, m_fullViewport = false, m_opening = false, m_first = true;
+  QString m_graphicsText, m_fileText, m_noteAddress;
+  TopBar* m_top = nullptr;
+  QStackedWidget* m_centre = nullptr;
+  ViewportPane* m_pane = nullptr;
+  PluginPage* m_plugins = nullptr;
+  Dock *m_left = nullptr, *m_materialsDock = nullptr, *m_bottom = nullptr, *m_transportDock = nullptr, *m_right = nullptr;
+  Outliner* m_outliner = nullptr;
+  MaterialsPanel* m_materials = nullptr;
+  Inspector* m_inspector = nullptr;
+  BrushPanel* m_brush = nullptr;
+  GraphsPanel* m_graphs = nullptr;
+  EnergyPanel* m_energy = nullptr;
+  Transport* m_transport = nullptr;
+  StatusLine* m_status = nullptr;
+  CommandPalette* m_palette = nullptr;
+  QMenu* m_recent = nullptr;
+  int m_messagesPage = -1;
+  QTimer m_slow;
+  QElapsedTimer m_sinceSlow;
+  size_t m_historyRead = 0;
+  uint64_t m_revision = 0;
+  QString m_shownFailure;
+  QByteArray m_beforeFull;
+};
+
+}  // namespace ps

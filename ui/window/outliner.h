@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "core/simulation/snapshot.h"
+#include "ui/document/changeevent.h"
+
+#include <QtWidgets/QWidget>
+
+#include <map>
+#include <string>
+
+class QStandardItem;
+class QStandardItemModel;
+class QTreeView;
+
+namespace ps {
+
+class Document;
+
+/// What a row of the outliner stands for.
+enum class OutlineKind { Scene, Body, Wall, Probes, Probe, Environment };
+
+/// Roles of the outliner's items.
+namespace outline {
+inline constexpr int kKind = Qt::UserRole + 1, kId = Qt::UserRole + 2, kIcon = Qt::UserRole + 3, kDetail = Qt::UserRole + 4,
+                     kSwatch = Qt::UserRole + 5, kVisible = Qt::UserRole + 6, kLocked = Qt::UserRole + 7,
+                     kPlaceholder = Qt::UserRole + 8;
+}
+
+/// Bodies, walls, probes and air as a tree: icon, name, count, swatch, lock, eye. F2 renames a body.
+class Outliner : public QWidget {
+  Q_OBJECT
+ public:
+  explicit Outliner(Document& document, QWidget* parent = nullptr);
+  void rebuild();
+  void setSnapshot(const SnapshotPtr& snapshot);  ///< counts, probe values
+  void select(OutlineKind kind, const std::string& id);
+  std::pair<OutlineKind, std::string> selected() const;
+  void renameSelected();
+  QTreeView* view() const { return m_view; }
+  QSize sizeHint() const override { return {236, 300}; }
+
+ Q_SIGNALS:
+  void selectionChanged(ps::OutlineKind kind, const std::string& id);
+
+ private:
+  QStandardItem* add(QStandardItem* parent, OutlineKind kind, const std::string& id, const QString& name, const QString& icon);
+  void addBodies(QStandardItem* scene);
+  void refreshCounts();
+  QStandardItem* find(OutlineKind kind, const std::string& id) const;
+
+  Document& m_document;
+  QStandardItemModel* m_model;
+  QTreeView* m_view;
+  SnapshotPtr m_snapshot;
+  bool m_building = false;
+};
+
+}  // namespace ps

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "core/simulation/snapshot.h"
+
+#include <QtCore/QString>
+#include <QtWidgets/QWidget>
+
+#include <vector>
+
+namespace ps {
+
+/// The line at the bottom: state, particles, milliseconds per frame with the slowest stage, real-time factor, density
+/// error, energy drift; notes and files on the right. One painted widget, so that running numbers never push each other.
+class StatusLine : public QWidget {
+  Q_OBJECT
+ public:
+  struct State {
+    bool ready = false, playing = false, failed = false;
+    double realTime = 0, drawMilliseconds = 0;
+    QString graphics;  ///< "OpenGL 4.5"
+    QString note;      ///< "1 note: ice stiffness is limited by the step"
+    QString file;      ///< "Autosaved 14:32"
+    SnapshotPtr snapshot;
+  };
+  explicit StatusLine(QWidget* parent = nullptr);
+  void setState(const State& state);
+  const State& state() const { return m_state; }
+  /// Energy drift as a share of what was exchanged since the start.
+  double drift() const;
+  QStringList parts() const;  ///< as shown, left to right
+
+ Q_SIGNALS:
+  void noteClicked();
+
+ protected:
+  void paintEvent(QPaintEvent* event) override;
+  void mouseReleaseEvent(QMouseEvent* event) override;
+
+ private:
+  struct Part {
+    QString strong, weak;
+  };
+  std::vector<Part> leftParts() const;
+  State m_state;
+  uint64_t m_revision = 0;
+  double m_startEnergy = 0, m_milliseconds = 0;
+  std::array<double, static_cast<size_t>(Stage::Count)> m_stages{};
+  QRectF m_noteRect;
+};
+
+}  // namespace ps

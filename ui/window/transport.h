@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "core/simulation/snapshot.h"
+
+#include <QtWidgets/QWidget>
+
+class QLabel;
+class QPushButton;
+class QToolButton;
+
+namespace ps {
+
+/// Reset, step, play; the two clocks; how much of the planned duration has passed.
+class Transport : public QWidget {
+  Q_OBJECT
+ public:
+  explicit Transport(QWidget* parent = nullptr);
+  void setPlaying(bool playing);
+  void setReady(bool ready);
+  void setDuration(double seconds);
+  void setTimeScale(double scale);  ///< thermal seconds per mechanical second
+  void setSnapshot(const SnapshotPtr& snapshot);
+  QString timeText() const;
+  QString thermalText() const;
+
+ Q_SIGNALS:
+  void resetRequested();
+  void stepRequested();
+  void playRequested();
+
+ protected:
+  void paintEvent(QPaintEvent* event) override;
+  void changeEvent(QEvent* event) override;
+
+ private:
+  void refresh();
+  void styleButtons();
+  QToolButton *m_reset, *m_step;
+  QPushButton* m_play;
+  QLabel *m_time, *m_duration, *m_thermal, *m_thermalIcon;
+  bool m_playing = false;
+  double m_seconds = 0, m_thermalSeconds = 0, m_total = 60, m_scale = 1;
+};
+
+}  // namespace ps

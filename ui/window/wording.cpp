@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/window/wording.h"
+
+#include "core/matter/material.h"
+#include "ui/theme/numbers.h"
+
+#include <cmath>
+
+namespace ps {
+
+QString spanText(double seconds) {
+  const auto whole = static_cast<long long>(std::llround(std::max(0.0, seconds)));
+  if (whole < 60) return QStringLiteral("%1 s").arg(whole);
+  const long long minutes = whole / 60, hours = minutes / 60, days = hours / 24;
+  if (hours < 1) return QStringLiteral("%1 min %2 s").arg(minutes).arg(whole % 60);
+  if (days < 1) return QStringLiteral("%1 h %2 min").arg(hours).arg(minutes % 60);
+  return QStringLiteral("%1 d %2 h").arg(days).arg(hours % 24);
+}
+
+QString clockText(double seconds) {
+  const auto hundredths = static_cast<long long>(std::floor(std::max(0.0, seconds) * 100 + 1e-6));
+  return QStringLiteral("%1:%2.%3")
+      .arg(hundredths / 6000, 2, 10, QLatin1Char('0'))
+      .arg(hundredths / 100 % 60, 2, 10, QLatin1Char('0'))
+      .arg(hundredths % 100, 2, 10, QLatin1Char('0'));
+}
+
+std::optional<FailureText> failureText(StepFlags flags, const std::string& message) {
+  const auto has = [&](StepFlag flag) { return (flags & static_cast<StepFlags>(flag)) != 0; };
+  const QString detail = message.empty() ? QString() : QString::fromStdString(message) + QStringLiteral(". ");
+  if (has(StepFlag::NotFinite)) {
+    return FailureText{QStringLiteral("Paused: the step gave no usable numbers."),
+                       detail + QStringLiteral("The last good frame is kept. Undo the last change, or raise the substeps, then play.")};
+  }
+  if (has(StepFlag::PluginFault)) {
+    return FailureText{QStringLiteral("A plugin failed; the scene goes on without it."),
+                       detail + QStringLiteral("See Plugins for what it said.")};
+  }
+  if (has(StepFlag::LostParticle)) {
+    return FailureText{QStringLiteral("Matter left the scene."),
+                       detail + QStringLiteral("Raise the substeps, or close the scene with walls.")};
+  }
+  if (has(StepFlag::Diverged)) {
+    return FailureText{QStringLiteral("The liquid is squeezed more than the solver can mend."),
+                       detail + QStringLiteral("Raise the iterations, or lower the relaxation.")};
+  }
+  if (has(StepFlag::EnergyOpen)) {
+    return FailureText{QStringLiteral("The energy balance does not close."),
+                       detail + QStringLiteral("The thermal model loses heat; choose another under Solver.")};
+  }
+  return std::nullopt;
+}
+
+QString limitAddress(const Limit& limit) {
+  const QString what = QString::fromStdString(limit.what);
+  const qsizetype dot = what.indexOf(QLatin1Char('.'));
+  if (dot < 1) return {};
+  const QString owner = what.left(dot), key = what.mid(dot + 1);
+  if (owner == QLatin1String("solver") || owner == QLatin1String("environment") || owner == QLatin1String("thermal")) {
+    return owner + QLatin1Char('/') + key;
+  }
+  return QStringLiteral("material/%1/%2").arg(owner, key);
+}
+
+QString limitText(const Limit& limit) {
+  const QString what = QString::fromStdString(limit.what);
+  const std::string key = what.mid(what.indexOf(QLatin1Char('.')) + 1).toStdString();
+  const auto* declaration = findDeclaration(propertyCatalogue(), key);
+  if (!declaration) declaration = findDeclaration(solverParameters(), key);
+  if (declaration) {
+    return QStringLiteral("%1: the solver reaches %2 of %3 at this step")
+        .arg(QString::fromUtf8(declaration->label), formatValue(*declaration, limit.delivered), formatValue(*declaration, limit.asked));
+  }
+  const QString unit = QString::fromStdString(limit.unit);
+  return QStringLiteral("%1: the solver reaches %2 of %3 at this step")
+      .arg(what, formatQuantity(limit.delivered, unit), formatQuantity(limit.asked, unit));
+}
+
+}  // namespace ps

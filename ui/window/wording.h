@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "core/simulation/snapshot.h"
+
+#include <QtCore/QString>
+
+#include <optional>
+
+namespace ps {
+
+/// "2 h 20 min", "41 min", "38 s": spans of time as people say them.
+QString spanText(double seconds);
+/// "00:42.00": minutes, seconds, hundredths.
+QString clockText(double seconds);
+/// What went wrong in a step and what to do about it, for a notice; nothing for flags == 0.
+struct FailureText {
+  QString title, text;
+};
+std::optional<FailureText> failureText(StepFlags flags, const std::string& message);
+/// "water.youngs_modulus" as an address text: "material/water/youngs_modulus"; "" when it has no owner.
+QString limitAddress(const Limit& limit);
+/// "Young's modulus: the solver reaches 42.0 MPa of 9.3 GPa at this step."
+QString limitText(const Limit& limit);
+
+}  // namespace ps
