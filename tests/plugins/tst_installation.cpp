@@ -5,10 +5,12 @@
 #include <QDirIterator>
 #include <QFile>
 #include <QFileInfo>
+#include <QImage>
 #include <QJsonArray>
 #include <QJsonDocument>
 #include <QJsonObject>
 #include <QProcess>
+#include <QSet>
 #include <QTemporaryDir>
 #include <QTest>
 
@@ -65,7 +67,8 @@ class InstallationTest : public QObject {
   void commandLineLoadsTheExamples_data();
   void commandLineLoadsTheExamples();
   void examplesRunInAScene();
-  void editorLoadsTheExamples();
+  void editorListsTheExamples();
+  void editorRunsAScene();
   void examplesInstallBesideTheProgram();
 
  private:
@@ -176,7 +179,7 @@ void InstallationTest::examplesRunInAScene() {
   QCOMPARE(result["phases"]["liquid"]["count"].toInt(), 512);  // the model has no latent heat, and honey never freezes
 }
 
-void InstallationTest::editorLoadsTheExamples() {
+void InstallationTest::editorListsTheExamples() {
   const Outcome list = runProgram(program("phasesketch"), {"--list-plugins"}, pluginDirectory());
   QVERIFY2(list.code == 0, list.text());
   for (const char* id : {"org.example.honey", "org.example.cohesion", "org.example.sensible", "org.example.ring"}) {
@@ -185,6 +188,22 @@ void InstallationTest::editorLoadsTheExamples() {
       loaded = loaded || (line.startsWith(id) && line.contains("loaded"));
     QVERIFY2(loaded, id + (" is not loaded:\n" + list.text()));
   }
+}
+
+void InstallationTest::editorRunsAScene() {
+  const QString picture = m_dir.filePath("editor.png");
+  const Outcome drawn =
+      runProgram(program("phasesketch"),
+                 {"--screenshot", picture, "--after", "0.2", "--size", "1280x800", m_dir.filePath("honey.json")},
+                 pluginDirectory());
+  QVERIFY2(drawn.code == 0, drawn.text());
+  const QImage image(picture);
+  QCOMPARE(image.size(), QSize(1280, 800));
+  // A window with panels and a scene has some hundred colours; a blank one has one.
+  QSet<QRgb> colours;
+  for (int y = 0; y < image.height(); y += 4)
+    for (int x = 0; x < image.width(); x += 4) colours.insert(image.pixel(x, y));
+  QVERIFY2(colours.size() > 100, qPrintable(QString::number(colours.size())));
 }
 
 void InstallationTest::examplesInstallBesideTheProgram() {
