@@ -22,22 +22,6 @@ int cellIndex(double value, double origin, double inverseSize, int cells) {
   return t >= cells ? cells - 1 : static_cast<int>(t);
 }
 
-/// Sorts a list that is nearly in order, as lists are when particles have moved a little since the last sort.
-void sortNearlySorted(uint32_t* first, uint32_t* last) {
-  size_t steps = 0;
-  const size_t limit = 8 * static_cast<size_t>(last - first);
-  for (uint32_t* p = first + 1; p < last; ++p) {
-    const uint32_t value = *p;
-    uint32_t* q = p;
-    for (; q > first && q[-1] > value; --q) {
-      *q = q[-1];
-      ++steps;
-    }
-    *q = value;
-    if (steps > limit) return std::sort(first, last);
-  }
-}
-
 }  // namespace
 
 void Neighbours::configure(double support, double skin) {
@@ -167,7 +151,6 @@ void Neighbours::writeLists(const uint32_t* found, size_t firstSlot, size_t last
       std::copy(found, found + count, out);
     } else {
       for (size_t k = 0; k < count; ++k) out[k] = m_order[found[k]];
-      sortNearlySorted(out, last);
     }
     std::fill(last, m_index.data() + m_end[i], dummy);
   }

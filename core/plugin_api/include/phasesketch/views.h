@@ -34,8 +34,8 @@ struct ParticleView {
   const FieldAccess* fields;
 };
 
-/// Neighbours of particle i: index[begin[i]] .. index[end[i] - 1], ascending, without i itself. Lists are padded to
-/// 16 entries with the index `count` of a dummy far away; `end` counts the padding, `last` does not.
+/// Neighbours of particle i: index[begin[i]] .. index[last[i] - 1], without i itself, in an order that depends on
+/// positions alone. Lists are padded to 16 entries, up to end[i], with the index `count` of a dummy far away.
 /// Pairs lie within `searchRadius`, which exceeds the support: kernels must cut off themselves.
 struct NeighbourView {
   const uint32_t* begin;
