@@ -17,6 +17,7 @@ constexpr int kRelaxation = 2;
 void SolidContact::configure(const SolverSettings& settings, std::span<const BakedMaterial> materials) {
   m_diameter = kDiameter * settings.spacing;
   m_reach = m_diameter + kSkinSpacings * settings.spacing;
+  m_halfSkin = 0.5 * kSkinSpacings * settings.spacing;
   m_friction.clear();
   const int index = propertyIndex("friction_kinetic");
   for (const BakedMaterial& m : materials) m_friction.push_back(index < 0 ? 0.3f : static_cast<float>(m.scalar(index)));
@@ -25,9 +26,12 @@ void SolidContact::configure(const SolverSettings& settings, std::span<const Bak
 void SolidContact::refresh(const ParticleStore& store, const Neighbours& neighbours, ConstraintSystem& constraints) {
   m_any = false;
   m_solids.clear();
+  m_found.clear();
   const api::Motion* motion = store.motion();
   for (size_t i = 0; i < store.size(); ++i) {
-    if (motion[i] == api::Motion::Solid) m_solids.push_back(static_cast<uint32_t>(i));
+    if (motion[i] != api::Motion::Solid) continue;
+    m_solids.push_back(static_cast<uint32_t>(i));
+    m_found.push_back(store.position()[i]);
   }
   if (m_solids.empty()) return;
   const StructureGraph& graph = constraints.graph(store.size());
@@ -58,6 +62,16 @@ void SolidContact::refresh(const ParticleStore& store, const Neighbours& neighbo
   });
   for (const Chunk& chunk : m_chunks) m_any = m_any || !chunk.who.empty();
   m_contacts.assign(store.size() + 1, 1);
+}
+
+bool SolidContact::stale(const ParticleStore& store) const {
+  const float limit2 = static_cast<float>(m_halfSkin * m_halfSkin);
+  for (size_t k = 0; k < m_solids.size(); ++k) {
+    const api::Float4 a = store.position()[m_solids[k]], b = m_found[k];
+    const float x = a.x - b.x, y = a.y - b.y, z = a.z - b.z;
+    if (x * x + y * y + z * z > limit2) return true;
+  }
+  return false;
 }
 
 size_t SolidContact::touching(const ParticleStore& store, const Chunk& chunk, size_t k) const {

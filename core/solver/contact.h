@@ -14,8 +14,11 @@ inline constexpr double kSkinSpacings = 0.2;
 class SolidContact {
  public:
   void configure(const SolverSettings& settings, std::span<const BakedMaterial> materials);
-  /// After new lists, a new order or a new structure.
+  /// Finds the pairs that may touch, after a new order or a new structure, and when stale().
   void refresh(const ParticleStore& store, const Neighbours& neighbours, ConstraintSystem& constraints);
+  /// True when a solid has moved more than half the skin since the pairs were found. Liquid that splashes asks for new
+  /// neighbour lists far more often than solids ask for new pairs.
+  bool stale(const ParticleStore& store) const;
   void project(ParticleStore& store);
 
  private:
@@ -26,10 +29,11 @@ class SolidContact {
   api::Float4 correctionOf(const ParticleStore& store, const Chunk& chunk, size_t k) const;
   size_t touching(const ParticleStore& store, const Chunk& chunk, size_t k) const;
 
-  double m_diameter = 0, m_reach = 0;
+  double m_diameter = 0, m_reach = 0, m_halfSkin = 0;
   std::vector<float> m_friction;  ///< per material
   std::vector<Chunk> m_chunks;
   std::vector<uint32_t> m_solids;
+  std::vector<api::Float4> m_found;  ///< where the solids were when the pairs were found
   std::vector<uint8_t> m_contacts;
   bool m_any = false;
 };

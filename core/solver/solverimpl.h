@@ -52,7 +52,7 @@ struct Solver::Impl {
   void runFrame();
   void freshLists();
   void keepLastGood();
-  void listsChanged();
+  void listsChanged(bool newStructure);
   void substep(uint32_t index);
   void predict(double dt);
   void velocities(double dt);

@@ -96,15 +96,15 @@ void Solver::Impl::freshLists() {
   density.refresh(store, neighbours);
   swept.refresh(store);
   if (!structureChanged) return;
-  listsChanged();
+  listsChanged(true);
   structureChanged = false;
 }
 
-void Solver::Impl::listsChanged() {
+void Solver::Impl::listsChanged(bool newStructure) {
   density.refreshLists(store, neighbours);
   wallStage.refreshLists(store);
   swept.refreshLists(store, neighbours);
-  contact.refresh(store, neighbours, constraints);
+  if (newStructure || contact.stale(store)) contact.refresh(store, neighbours, constraints);
 }
 
 void Solver::Impl::predict(double dt) {
@@ -148,7 +148,7 @@ void Solver::Impl::substep(uint32_t index) {
   timed(Stage::Neighbours, [&] {
     if (!neighbours.stale(store)) return;
     neighbours.build(store);
-    listsChanged();
+    listsChanged(false);
   });
   timed(Stage::Structure, [&] { constraints.predict(store, index); });
   for (int iteration = 0; iteration < settings.iterations; ++iteration) {
@@ -174,7 +174,7 @@ void Solver::Impl::substep(uint32_t index) {
 void Solver::Impl::exchangeHeat() {
   if (neighbours.stale(store)) {
     neighbours.build(store);
-    listsChanged();
+    listsChanged(false);
   }
   heat.advance(store, neighbours, settings.dt);
 }
