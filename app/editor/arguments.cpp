@@ -32,12 +32,14 @@ QString take(EditorArguments& out, const QString& option, const QString& value) 
   } else if (option == QLatin1String("--after")) {
     bool good = false;
     out.after = value.toDouble(&good);
-    if (!good || !(out.after >= 0) || out.after > 86400) return QStringLiteral("--after: '%1' is not a number of seconds").arg(value);
+    if (!good || !(out.after >= 0) || out.after > 86400)
+      return QStringLiteral("--after: '%1' is not a number of seconds").arg(value);
   } else if (option == QLatin1String("--size")) {
     out.size = parseSize(value);
     if (!out.size.isValid()) return QStringLiteral("--size: '%1' is not a size like 1280x800").arg(value);
   } else {
-    if (value != QLatin1String("dark") && value != QLatin1String("light")) return QStringLiteral("--theme: '%1' is neither dark nor light").arg(value);
+    if (value != QLatin1String("dark") && value != QLatin1String("light"))
+      return QStringLiteral("--theme: '%1' is neither dark nor light").arg(value);
     out.dark = value == QLatin1String("dark");
   }
   return {};
@@ -47,7 +49,8 @@ QString take(EditorArguments& out, const QString& option, const QString& value) 
 
 EditorArguments parseArguments(const QStringList& arguments) {
   EditorArguments out;
-  const QStringList withValue{QStringLiteral("--screenshot"), QStringLiteral("--after"), QStringLiteral("--size"), QStringLiteral("--theme")};
+  const QStringList withValue{QStringLiteral("--screenshot"), QStringLiteral("--after"), QStringLiteral("--size"),
+                              QStringLiteral("--theme")};
   for (qsizetype i = 0; i < arguments.size() && out.problem.isEmpty(); ++i) {
     QString name = arguments[i], value;
     const qsizetype equals = name.startsWith(QLatin1String("--")) ? name.indexOf(QLatin1Char('=')) : -1;

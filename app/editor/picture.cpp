@@ -11,8 +11,12 @@
 
 namespace ps {
 
-PictureByCommand::PictureByCommand(MainWindow& window, const QString& file, double after) : m_window(window), m_file(file) {
-  connect(&window, &MainWindow::projectShown, this, [this, after] { QTimer::singleShot(static_cast<int>(after * 1000), this, &PictureByCommand::take); }, Qt::SingleShotConnection);
+PictureByCommand::PictureByCommand(MainWindow& window, const QString& file, double after)
+    : m_window(window), m_file(file) {
+  connect(
+      &window, &MainWindow::projectShown, this,
+      [this, after] { QTimer::singleShot(static_cast<int>(after * 1000), this, &PictureByCommand::take); },
+      Qt::SingleShotConnection);
   connect(&window, &MainWindow::startFailed, this, [](const QString& problem) {
     std::fprintf(stderr, "phasesketch: %s\n", qPrintable(problem));
     QCoreApplication::exit(2);

@@ -128,7 +128,8 @@ class TestWindow : public QObject {
     QCOMPARE(floorInEngine(session()), before);
     const QRect track = row->sliderRect();
     QTest::mousePress(row, Qt::LeftButton, {}, QPoint(track.left() + track.width() / 2, track.center().y()));
-    for (int k = 1; k <= 8; ++k) QTest::mouseMove(row, QPoint(track.left() + track.width() / 2 + k, track.center().y()));
+    for (int k = 1; k <= 8; ++k)
+      QTest::mouseMove(row, QPoint(track.left() + track.width() / 2 + k, track.center().y()));
     QTest::mouseRelease(row, Qt::LeftButton, {}, QPoint(track.left() + track.width() / 2 + 8, track.center().y()));
     const double after = std::get<double>(document().value(kFloor));
     QVERIFY(after != before);
@@ -137,7 +138,7 @@ class TestWindow : public QObject {
     m_window->action(QStringLiteral("edit.undo"))->trigger();
     QCOMPARE(std::get<double>(document().value(kFloor)), before);
     QCOMPARE(floorInEngine(session()), before);
-    QCOMPARE(row->number(), before);
+    QTRY_COMPARE(row->number(), before);  // a gesture ends a moment after its last click
   }
 
   void aHotterFloorHeatsFaster() {
@@ -277,7 +278,8 @@ class TestWindow : public QObject {
     QTest::newRow("E erases") << int(Qt::Key_E) << 0 << "tool 2";
     QTest::newRow("Q selects") << int(Qt::Key_Q) << 0 << "tool 0";
     QTest::newRow("Ctrl+3 colours by phase") << int(Qt::Key_3) << int(Qt::ControlModifier) << "colour phase";
-    QTest::newRow("Ctrl+2 colours by temperature") << int(Qt::Key_2) << int(Qt::ControlModifier) << "colour temperature";
+    QTest::newRow("Ctrl+2 colours by temperature")
+        << int(Qt::Key_2) << int(Qt::ControlModifier) << "colour temperature";
     QTest::newRow("Space plays") << int(Qt::Key_Space) << 0 << "playing 1";
     QTest::newRow("Ctrl+K searches") << int(Qt::Key_K) << int(Qt::ControlModifier) << "palette 1";
   }
@@ -289,9 +291,11 @@ class TestWindow : public QObject {
     QApplication::setActiveWindow(m_window.get());
     view->setFocus();
     QTest::keyClick(view, static_cast<Qt::Key>(key), Qt::KeyboardModifiers(modifiers));
-    const QStringList state{QStringLiteral("elevation %1").arg(view->navigator().camera().elevation), QStringLiteral("tool %1").arg(int(view->tool())),
+    const QStringList state{QStringLiteral("elevation %1").arg(view->navigator().camera().elevation),
+                            QStringLiteral("tool %1").arg(int(view->tool())),
                             QStringLiteral("colour %1").arg(QString::fromStdString(document().project().view.colour)),
-                            QStringLiteral("playing %1").arg(session().playing() ? 1 : 0), QStringLiteral("palette %1").arg(m_window->palette()->isVisible() ? 1 : 0)};
+                            QStringLiteral("playing %1").arg(session().playing() ? 1 : 0),
+                            QStringLiteral("palette %1").arg(m_window->palette()->isVisible() ? 1 : 0)};
     QVERIFY2(state.contains(expected), qPrintable(state.join(QStringLiteral(", "))));
     m_window->palette()->hide();
     view->setTool(ViewTool::Select);
@@ -311,11 +315,16 @@ class TestWindow : public QObject {
   void thePaletteFindsParametersAndActions_data() {
     QTest::addColumn<QString>("query");
     QTest::addColumn<QString>("title");
-    QTest::newRow("parameter") << "conductivity solid" << "Conductivity, solid";
-    QTest::newRow("wall") << "hot plate temperature" << "Temperature";
-    QTest::newRow("solver") << "substeps" << "Substeps";
-    QTest::newRow("action") << "frame all" << "Frame all";
-    QTest::newRow("by key") << "thermal time scale" << "Time lapse of heat";
+    QTest::newRow("parameter") << "conductivity solid"
+                               << "Conductivity, solid";
+    QTest::newRow("wall") << "hot plate temperature"
+                          << "Temperature";
+    QTest::newRow("solver") << "substeps"
+                            << "Substeps";
+    QTest::newRow("action") << "frame all"
+                            << "Frame all";
+    QTest::newRow("by key") << "thermal time scale"
+                            << "Time lapse of heat";
   }
   void thePaletteFindsParametersAndActions() {
     QFETCH(QString, query);
@@ -360,7 +369,9 @@ class TestWindow : public QObject {
     const Viewport* view = m_window->viewport();
     const QRect scene(view->mapTo(m_window.get(), QPoint(0, 0)), view->size());
     // A shaded block has hundreds of colours, an empty ground a handful.
-    QVERIFY2(colourCount(image, scene.adjusted(scene.width() / 3, scene.height() / 3, -scene.width() / 3, -scene.height() / 3)) > 100, "scene");
+    QVERIFY2(colourCount(image, scene.adjusted(scene.width() / 3, scene.height() / 3, -scene.width() / 3,
+                                               -scene.height() / 3)) > 100,
+             "scene");
     QVERIFY2(colourCount(image, QRect(image.width() - 300, 100, 280, 400)) > 10, "inspector");
     const QColor corner = image.pixelColor(image.width() - 2, image.height() / 2);
     QCOMPARE(corner.lightness() < 128, dark);
@@ -370,7 +381,8 @@ class TestWindow : public QObject {
     document().setBodyVisible("ice", false);
     QTRY_VERIFY_WITH_TIMEOUT(!m_window->viewport()->navigator().viewName().isEmpty(), kLong);
     QSignalSpy picked(m_window->viewport(), &Viewport::bodyPicked);
-    QTest::mouseClick(m_window->viewport(), Qt::LeftButton, {}, QPoint(m_window->viewport()->width() / 2, m_window->viewport()->height() / 2));
+    QTest::mouseClick(m_window->viewport(), Qt::LeftButton, {},
+                      QPoint(m_window->viewport()->width() / 2, m_window->viewport()->height() / 2));
     QCOMPARE(picked.front()[0].value<std::string>(), std::string());
     document().undoStack().undo();
   }

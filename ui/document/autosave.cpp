@@ -33,10 +33,11 @@ Autosave::Autosave(Document& document, Worker& worker, const QString& directory,
     : QObject(parent), m_document(document), m_worker(worker) {
   QDir().mkpath(directory);
   for (int n = 0; n < 1000 && !m_lock; ++n) {
-    const QString stem = QStringLiteral("%1/%2-%3-%4")
-                             .arg(directory, QDateTime::currentDateTimeUtc().toString(QStringLiteral("yyyyMMdd-HHmmss")))
-                             .arg(QCoreApplication::applicationPid())
-                             .arg(n);
+    const QString stem =
+        QStringLiteral("%1/%2-%3-%4")
+            .arg(directory, QDateTime::currentDateTimeUtc().toString(QStringLiteral("yyyyMMdd-HHmmss")))
+            .arg(QCoreApplication::applicationPid())
+            .arg(n);
     auto lock = std::make_unique<QLockFile>(stem + QStringLiteral(".lock"));
     lock->setStaleLockTime(0);
     if (lock->tryLock()) {

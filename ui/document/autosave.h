@@ -17,9 +17,9 @@ class Worker;
 
 /// A copy that an earlier session left behind.
 struct AutosavedSession {
-  QString stem;     ///< files are `stem`.json (the project, when it had unsaved changes), .note and .lock
-  QString copy;     ///< the project's copy; "" when everything was saved
-  QString path;     ///< the file it belongs to; "" when it was never saved
+  QString stem;  ///< files are `stem`.json (the project, when it had unsaved changes), .note and .lock
+  QString copy;  ///< the project's copy; "" when everything was saved
+  QString path;  ///< the file it belongs to; "" when it was never saved
   QString title;
   QDateTime time;
   bool closed = false;  ///< ended in order: reopen without a question
@@ -40,9 +40,9 @@ class Autosave : public QObject {
   static std::vector<AutosavedSession> leftBehind(const QString& directory);
   static void discard(const AutosavedSession& session);
 
-  void start();       ///< the timer
-  void saveNow();     ///< when something changed since the last copy
-  void close();       ///< last copy, with the note that the session ended in order; blocks until it is written
+  void start();    ///< the timer
+  void saveNow();  ///< when something changed since the last copy
+  void close();    ///< last copy, with the note that the session ended in order; blocks until it is written
 
  Q_SIGNALS:
   void autosaved(const QDateTime& time);

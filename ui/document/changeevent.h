@@ -34,7 +34,6 @@ struct ViewChanged {};
 struct FileChanged {};
 
 /// What happened to a document, as one value: receivers visit it.
-using ChangeEvent =
-    std::variant<ProjectOpened, ParameterChanged, BodyChanged, StrokeChanged, ViewChanged, FileChanged>;
+using ChangeEvent = std::variant<ProjectOpened, ParameterChanged, BodyChanged, StrokeChanged, ViewChanged, FileChanged>;
 
 }  // namespace ps

@@ -70,9 +70,10 @@ QString Document::setParameter(const Address& address, const Value& value) {
   std::optional<Value> after = conformed(value, *declared);
   if (*after == conformed(defaultValue(address), *declared)) after.reset();
   if (m_gestureDepth == 0) ++m_gesture;
-  const QString text = m_gestureText.isEmpty() || m_gestureDepth == 0
-                           ? QStringLiteral("%1 of %2").arg(QString::fromUtf8(declared->label), ownerLabel(m_project, address))
-                           : m_gestureText;
+  const QString text =
+      m_gestureText.isEmpty() || m_gestureDepth == 0
+          ? QStringLiteral("%1 of %2").arg(QString::fromUtf8(declared->label), ownerLabel(m_project, address))
+          : m_gestureText;
   if (m_gestureDepth == 0 && before == after) return {};
   m_undo.push(new ParameterCommand(*this, address, before, after, m_gesture, text));
   return {};
@@ -103,15 +104,18 @@ void Document::renameBody(const std::string& id, const QString& name) {
 void Document::setBodyVisible(const std::string& id, bool visible) {
   const Body* old = body(id);
   if (!old || old->visible == visible) return;
-  editBody(id, (visible ? QStringLiteral("showing %1") : QStringLiteral("hiding %1")).arg(QString::fromStdString(old->name)),
-           [&](Body& b) { b.visible = visible; });
+  editBody(
+      id, (visible ? QStringLiteral("showing %1") : QStringLiteral("hiding %1")).arg(QString::fromStdString(old->name)),
+      [&](Body& b) { b.visible = visible; });
 }
 
 void Document::setBodyLocked(const std::string& id, bool locked) {
   const Body* old = body(id);
   if (!old || old->locked == locked) return;
-  editBody(id, (locked ? QStringLiteral("locking %1") : QStringLiteral("unlocking %1")).arg(QString::fromStdString(old->name)),
-           [&](Body& b) { b.locked = locked; });
+  editBody(
+      id,
+      (locked ? QStringLiteral("locking %1") : QStringLiteral("unlocking %1")).arg(QString::fromStdString(old->name)),
+      [&](Body& b) { b.locked = locked; });
 }
 
 std::string Document::freeBodyId(const std::string& stem) const {

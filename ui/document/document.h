@@ -18,8 +18,8 @@ namespace ps {
 
 class PluginRegistry;
 
-/// The document of the editor: a project and its history. Every edit is an undo command and ends in one changed() signal
-/// with a typed event; nothing here knows the engine or a widget. UI thread only.
+/// The document of the editor: a project and its history. Every edit is an undo command and ends in one changed()
+/// signal with a typed event; nothing here knows the engine or a widget. UI thread only.
 class Document : public QObject {
   Q_OBJECT
  public:

@@ -9,16 +9,16 @@ namespace ps {
 class Document;
 class Worker;
 
-/// Opens and saves a document's project on a worker thread: the interface goes on meanwhile, and a project that cannot be
-/// read leaves the present one as it is. Results come as signals on the thread of this object.
+/// Opens and saves a document's project on a worker thread: the interface goes on meanwhile, and a project that cannot
+/// be read leaves the present one as it is. Results come as signals on the thread of this object.
 class DocumentFiles : public QObject {
   Q_OBJECT
  public:
   /// `worker` must end before this object does.
   DocumentFiles(Document& document, Worker& worker, QObject* parent = nullptr);
 
-  /// Needs the document's plugins. `play`: run at once. `restoreTo`: the path that the project belongs to when `path` is
-  /// an autosaved copy of it ("" for one never saved); the document is then dirty.
+  /// Needs the document's plugins. `play`: run at once. `restoreTo`: the path that the project belongs to when `path`
+  /// is an autosaved copy of it ("" for one never saved); the document is then dirty.
   void open(const QString& path, bool play = true);
   void openCopy(const QString& path, const QString& restoreTo, bool play = true);
   void newProject();

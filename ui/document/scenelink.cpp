@@ -7,8 +7,9 @@
 #include <algorithm>
 #include <set>
 
-// Why traces and runs: particles have moved since a stroke made them, so only their ids tell them apart, and a reset gives
-// all particles new ids. Right after one, before anything has moved, the cells of a stroke still name its particles.
+// Why traces and runs: particles have moved since a stroke made them, so only their ids tell them apart, and a reset
+// gives all particles new ids. Right after one, before anything has moved, the cells of a stroke still name its
+// particles.
 namespace ps {
 namespace {
 
@@ -41,8 +42,13 @@ std::vector<uint32_t> unlocked(Engine& engine, const std::vector<uint32_t>& ids,
 
 void take(Engine& engine, StrokeTrace& trace, const std::vector<uint32_t>& ids) {
   if (ids.empty()) return;
-  trace.taken.push_back(copyParticles(engine, ids));
-  engine.removeParticles(ids);
+  trace.taken.push_back(engine.takeParticles(ids));
+}
+
+/// Puts back what is out of the scene, the last taken first.
+void putBack(Engine& engine, StrokeTrace& trace) {
+  for (auto matter = trace.taken.rbegin(); matter != trace.taken.rend(); ++matter) engine.putBack(*matter);
+  trace.taken.clear();
 }
 
 /// After a reset: the particles that a stroke's cells have become.
@@ -115,11 +121,12 @@ void SceneLink::reset() {
 }
 
 void SceneLink::paint(const StrokeRecord& stroke, const Body& body, std::vector<std::array<int, 3>> cells) {
-  m_engine.post([run = m_run, trace = stroke.trace, body, palette = stroke.palette, cells = std::move(cells)](Engine& engine) {
-    const std::vector<uint32_t> ids = engine.addCells(body, cells, palette);
-    trace->run = *run;
-    trace->ids.insert(trace->ids.end(), ids.begin(), ids.end());
-  });
+  m_engine.post(
+      [run = m_run, trace = stroke.trace, body, palette = stroke.palette, cells = std::move(cells)](Engine& engine) {
+        const std::vector<uint32_t> ids = engine.addCells(body, cells, palette);
+        trace->run = *run;
+        trace->ids.insert(trace->ids.end(), ids.begin(), ids.end());
+      });
 }
 
 void SceneLink::erase(const StrokeRecord& stroke, std::vector<std::array<int, 3>> cells) {
@@ -127,10 +134,13 @@ void SceneLink::erase(const StrokeRecord& stroke, std::vector<std::array<int, 3>
   for (const Body& body : m_document.project().bodies) {
     if (body.locked) locked.insert(body.id);
   }
-  m_engine.post([run = m_run, trace = stroke.trace, lattice = stroke.lattice, locked, cells = std::move(cells)](Engine& engine) {
-    trace->run = *run;
-    take(engine, *trace, unlocked(engine, engine.particlesIn(lattice, cells), locked));
-  });
+  m_engine.post(
+      [run = m_run, trace = stroke.trace, lattice = stroke.lattice, locked, cells = std::move(cells)](Engine& engine) {
+        trace->run = *run;
+        const std::vector<uint32_t> ids = unlocked(engine, engine.particlesIn(lattice, cells), locked);
+        trace->ids.insert(trace->ids.end(), ids.begin(), ids.end());
+        take(engine, *trace, ids);
+      });
 }
 
 void SceneLink::cancel(const std::shared_ptr<StrokeRecord>& stroke) { undoStroke(stroke); }
@@ -141,15 +151,9 @@ void SceneLink::undoStroke(const std::shared_ptr<StrokeRecord>& stroke) {
     StrokeTrace& trace = *stroke->trace;
     trace.done = false;
     if (!stroke->erase) {
-      if (trace.run == *run) engine.removeParticles(trace.ids);
-      trace.ids.clear();
+      if (trace.run == *run) take(engine, trace, trace.ids);
     } else if (trace.run == *run) {
-      trace.ids.clear();
-      for (const ParticleCopy& copy : trace.taken) {
-        const std::vector<uint32_t> back = restoreParticles(engine, copy);
-        trace.ids.insert(trace.ids.end(), back.begin(), back.end());
-      }
-      trace.taken.clear();
+      putBack(engine, trace);
     } else {
       refill(engine, *stroke, spacing);
     }
@@ -163,7 +167,9 @@ void SceneLink::redoStroke(const std::shared_ptr<StrokeRecord>& stroke) {
   m_engine.post([run = m_run, stroke, body = body ? *body : Body{}](Engine& engine) {
     StrokeTrace& trace = *stroke->trace;
     trace.done = true;
-    if (!stroke->erase) {
+    if (!stroke->erase && trace.run == *run) {
+      putBack(engine, trace);
+    } else if (!stroke->erase) {
       trace.ids = engine.addCells(body, stroke->cells, stroke->palette);
     } else if (trace.run == *run && !trace.ids.empty()) {
       take(engine, trace, trace.ids);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "core/scene/project.h"
-#include "ui/document/particlecopy.h"
+#include "core/solver/solver.h"
 
 #include <array>
 #include <cstdint>
@@ -20,10 +20,10 @@ struct BodyEdit {
 
 /// What a stroke did to the particles. Belongs to the engine's thread: nothing else reads or writes it.
 struct StrokeTrace {
-  uint64_t run = 0;            ///< of SceneLink; ids of another run mean nothing
+  uint64_t run = 0;  ///< of SceneLink; ids of another run mean nothing
   bool done = true;
-  std::vector<uint32_t> ids;   ///< born by an adding stroke
-  std::vector<ParticleCopy> taken;  ///< by an erasing one, with all their fields
+  std::vector<uint32_t> ids;       ///< born by an adding stroke, or put back by an undone erasing one
+  std::vector<TakenMatter> taken;  ///< what is out of the scene now: by an erasing stroke, or an undone adding one
 };
 
 /// One finished stroke.
@@ -40,14 +40,15 @@ struct StrokeRecord {
 /// Applies edits to a project's bodies, forwards or backwards (then in reverse order).
 void applyEdits(Project& project, const std::vector<BodyEdit>& edits, bool forward);
 
-/// Body `body` with `cells` of `palette` painted where free, and the stroke noted. Throws InputError for a damaged body.
+/// Body `body` with `cells` of `palette` painted where free, and the stroke noted. Throws InputError for a damaged
+/// body.
 Body withCells(Body body, const std::vector<std::array<int, 3>>& cells, int palette, const VoxelShape::Stroke& stroke);
 /// Body without the cells of `lattice` that it holds; nullopt when none is left. Boxes become voxels first.
 /// `changed` tells whether it held any.
 std::optional<Body> withoutCells(Body body, const VoxelShape& lattice, const std::vector<std::array<int, 3>>& cells,
                                  double spacing, bool& changed);
-/// The cells of `lattice` in which no other body has matter at the start (centres within 0.9 spacings): what a reset can
-/// bring back without two particles in one place.
+/// The cells of `lattice` in which no other body has matter at the start (centres within 0.9 spacings): what a reset
+/// can bring back without two particles in one place.
 std::vector<std::array<int, 3>> freeAtStart(const Project& project, const std::string& body, const VoxelShape& lattice,
                                             const std::vector<std::array<int, 3>>& cells);
 /// The body with a box turned into the cells that it fills at the start.

@@ -91,12 +91,9 @@ struct Hint {
 
 std::vector<Hint> hintsFor(ViewTool tool) {
   if (tool == ViewTool::Select) {
-    return {{QStringLiteral("Drag"), QStringLiteral("orbit")},
-            {QStringLiteral("Shift+Drag"), QStringLiteral("pan")},
-            {QStringLiteral("Wheel"), QStringLiteral("zoom")},
-            {QStringLiteral("Space"), QStringLiteral("pause")},
-            {QStringLiteral("F"), QStringLiteral("frame")},
-            {QStringLiteral("B"), QStringLiteral("sketch")}};
+    return {{QStringLiteral("Drag"), QStringLiteral("orbit")}, {QStringLiteral("Shift+Drag"), QStringLiteral("pan")},
+            {QStringLiteral("Wheel"), QStringLiteral("zoom")}, {QStringLiteral("Space"), QStringLiteral("pause")},
+            {QStringLiteral("F"), QStringLiteral("frame")},    {QStringLiteral("B"), QStringLiteral("sketch")}};
   }
   return {{QStringLiteral("Drag"), tool == ViewTool::Brush ? QStringLiteral("draws") : QStringLiteral("erases")},
           {QStringLiteral("Ctrl"), tool == ViewTool::Brush ? QStringLiteral("erases") : QStringLiteral("draws")},
@@ -147,9 +144,9 @@ void paintBall(QPainter& painter, const OverlayState& state, OverlayHits& hits) 
     double azimuth, elevation;
   };
   // Tokens stand for the usual red, green and blue of x, y and z.
-  const End ends[] = {{"X", Token::Error, {1, 0, 0}, 90, 0},   {"", Token::Error, {-1, 0, 0}, -90, 0},
-                      {"Y", Token::Ok, {0, 1, 0}, 0, 90},      {"", Token::Ok, {0, -1, 0}, 0, -90},
-                      {"Z", Token::Info, {0, 0, 1}, 0, 0},     {"", Token::Info, {0, 0, -1}, 180, 0}};
+  const End ends[] = {{"X", Token::Error, {1, 0, 0}, 90, 0}, {"", Token::Error, {-1, 0, 0}, -90, 0},
+                      {"Y", Token::Ok, {0, 1, 0}, 0, 90},    {"", Token::Ok, {0, -1, 0}, 0, -90},
+                      {"Z", Token::Info, {0, 0, 1}, 0, 0},   {"", Token::Info, {0, 0, -1}, 180, 0}};
   const auto along = [](const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; };
   std::vector<const End*> order;
   for (const End& end : ends) order.push_back(&end);
@@ -170,14 +167,17 @@ void paintBall(QPainter& painter, const OverlayState& state, OverlayHits& hits) 
     const double r = named ? kDot : kDot - 2;
     painter.drawEllipse(at, r, r);
     const QRectF rect(at.x() - kDot - 2, at.y() - kDot - 2, 2 * kDot + 4, 2 * kDot + 4);
-    if (named) paintText(painter, rect, Qt::AlignCenter, QLatin1String(end->letter), Theme::font(TextRole::Small), theme[Token::Window]);
+    if (named)
+      paintText(painter, rect, Qt::AlignCenter, QLatin1String(end->letter), Theme::font(TextRole::Small),
+                theme[Token::Window]);
     hits.axes.push_back({rect, end->azimuth, end->elevation});
   }
   std::reverse(hits.axes.begin(), hits.axes.end());  // nearest first
 }
 
 void paintTag(QPainter& painter, const OverlayState& state, const SceneTag& tag) {
-  const auto at = project(state.camera, static_cast<int>(state.size.width()), static_cast<int>(state.size.height()), tag.place);
+  const auto at =
+      project(state.camera, static_cast<int>(state.size.width()), static_cast<int>(state.size.height()), tag.place);
   if (!at) return;
   const Theme& theme = Theme::current();
   const QFont font = Theme::font(TextRole::Normal);
@@ -191,8 +191,10 @@ void paintTag(QPainter& painter, const OverlayState& state, const SceneTag& tag)
   QRectF rect(point.x() + 12, point.y() - kLine / 2, name + value + 3 * kPadding, kLine);
   if (rect.right() > state.size.width() - kMargin) rect.moveRight(point.x() - 12);
   paintGround(painter, rect);
-  paintText(painter, rect.adjusted(kPadding, 0, 0, 0), Qt::AlignLeft | Qt::AlignVCenter, tag.name, font, theme[Token::Text2]);
-  paintText(painter, rect.adjusted(0, 0, -kPadding, 0), Qt::AlignRight | Qt::AlignVCenter, tag.value, font, theme[Token::Text]);
+  paintText(painter, rect.adjusted(kPadding, 0, 0, 0), Qt::AlignLeft | Qt::AlignVCenter, tag.name, font,
+            theme[Token::Text2]);
+  paintText(painter, rect.adjusted(0, 0, -kPadding, 0), Qt::AlignRight | Qt::AlignVCenter, tag.value, font,
+            theme[Token::Text]);
 }
 
 class CursorPainter {
@@ -224,7 +226,8 @@ class CursorPainter {
 
  private:
   std::optional<QPointF> at(const Vec3& p) const {
-    const auto pixel = project(m_state.camera, static_cast<int>(m_state.size.width()), static_cast<int>(m_state.size.height()), p);
+    const auto pixel =
+        project(m_state.camera, static_cast<int>(m_state.size.width()), static_cast<int>(m_state.size.height()), p);
     return pixel ? std::optional(QPointF((*pixel)[0], (*pixel)[1])) : std::nullopt;
   }
   void stroke(const QPainterPath& path, const QColor& colour) {
@@ -265,7 +268,8 @@ class CursorPainter {
     constexpr int kPoints = 48;
     for (int k = 0; k <= kPoints; ++k) {
       const double angle = 2 * 3.14159265358979 * k / kPoints;
-      const auto p = at({foot[0] + cursor.extent[0] * std::cos(angle), foot[1], foot[2] + cursor.extent[2] * std::sin(angle)});
+      const auto p =
+          at({foot[0] + cursor.extent[0] * std::cos(angle), foot[1], foot[2] + cursor.extent[2] * std::sin(angle)});
       if (p) outline << *p;
     }
     m_painter.setBrush(Qt::NoBrush);
@@ -276,7 +280,9 @@ class CursorPainter {
     m_painter.drawPolyline(outline);
   }
   void tag(const BrushCursor& cursor, const QRectF& bounds) {
-    const QString text = QStringLiteral("r %1   height %2").arg(lengthText(cursor.extent[0]), lengthText(std::max(0.0, cursor.centre[1] - cursor.floor)));
+    const QString text =
+        QStringLiteral("r %1   height %2")
+            .arg(lengthText(cursor.extent[0]), lengthText(std::max(0.0, cursor.centre[1] - cursor.floor)));
     const QFont font = Theme::font(TextRole::Small);
     const QRectF rect(bounds.right() + 8, bounds.top(), textWidth(text, font) + 2 * kPadding, 20);
     paintGround(m_painter, rect);
@@ -294,11 +300,12 @@ void paintMessage(QPainter& painter, const QSizeF& size, const QString& title, c
   const double width = std::min(520.0, size.width() - 40);
   QRectF box(0, 0, width, 96);
   box.moveCenter(QPointF(size.width() / 2, size.height() / 2));
-  paintText(painter, QRectF(box.left(), box.top(), box.width(), 24), Qt::AlignCenter, title, Theme::font(TextRole::Heading),
-            theme[Token::Text]);
+  paintText(painter, QRectF(box.left(), box.top(), box.width(), 24), Qt::AlignCenter, title,
+            Theme::font(TextRole::Heading), theme[Token::Text]);
   painter.setFont(Theme::font(TextRole::Normal));
   painter.setPen(theme[Token::Text2]);
-  painter.drawText(QRectF(box.left(), box.top() + 30, box.width(), 66), Qt::AlignHCenter | Qt::AlignTop | Qt::TextWordWrap, text);
+  painter.drawText(QRectF(box.left(), box.top() + 30, box.width(), 66),
+                   Qt::AlignHCenter | Qt::AlignTop | Qt::TextWordWrap, text);
 }
 
 OverlayHits paintOverlays(QPainter& painter, const OverlayState& state) {

@@ -23,9 +23,9 @@ struct SceneTag {
 
 /// The brush under the pointer.
 struct BrushCursor {
-  Vec3 centre{0, 0, 0};      ///< m
-  Vec3 extent{0, 0, 0};      ///< half extents, m
-  double floor = 0;          ///< m, height of what lies below
+  Vec3 centre{0, 0, 0};  ///< m
+  Vec3 extent{0, 0, 0};  ///< half extents, m
+  double floor = 0;      ///< m, height of what lies below
   bool box = false, erase = false;
 };
 
@@ -35,14 +35,14 @@ struct OverlayState {
   Camera camera;
   QString viewName;
   ColourBy colour = ColourBy::Material;
-  std::pair<double, double> range{0, 1};        ///< SI
+  std::pair<double, double> range{0, 1};                ///< SI
   double meltingPoint = 273.15, boilingPoint = 373.15;  ///< K; infinite or NaN: no mark
-  bool empty = false;                           ///< no snapshot yet
+  bool empty = false;                                   ///< no snapshot yet
   bool hint = false;
   ViewTool tool = ViewTool::Select;
   std::optional<SceneTag> tag;
   std::optional<BrushCursor> cursor;
-  QString message;                              ///< a problem, in the middle
+  QString message;  ///< a problem, in the middle
 };
 
 /// What the pointer can hit.

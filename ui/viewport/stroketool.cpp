@@ -57,8 +57,11 @@ Vec3 StrokeTool::extent(const BrushSettings& brush) const {
       m_document && m_document->plugins() ? m_document->plugins()->brush(brush.shape) : nullptr;
   if (!plugin) return {brush.radius, brush.radius, brush.radius};
   const StrokeSetup s = setup(brush);
-  const api::StrokeContext context{s.grid.spacing, {s.grid.origin[0], s.grid.origin[1], s.grid.origin[2]}, s.radius,
-                                   {0, 1, 0}, {s.parameters.data(), s.parameters.size()}};
+  const api::StrokeContext context{s.grid.spacing,
+                                   {s.grid.origin[0], s.grid.origin[1], s.grid.origin[2]},
+                                   s.radius,
+                                   {0, 1, 0},
+                                   {s.parameters.data(), s.parameters.size()}};
   const api::Double3 e = plugin->extent(context);
   return {e.x, e.y, e.z};
 }

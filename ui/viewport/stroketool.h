@@ -15,8 +15,8 @@ namespace ps {
 class Document;
 class SceneLink;
 
-/// A stroke in the making: takes the pointer's places, lets the brush plugin turn them into cells, sends new cells straight
-/// to the engine, and hands the document one command at the end.
+/// A stroke in the making: takes the pointer's places, lets the brush plugin turn them into cells, sends new cells
+/// straight to the engine, and hands the document one command at the end.
 class StrokeTool {
  public:
   void attach(Document* document, SceneLink* link);

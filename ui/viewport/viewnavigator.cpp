@@ -86,7 +86,7 @@ void ViewNavigator::show(StandardView view) {
     const char* name;
     double azimuth, elevation;
   };
-  static constexpr Angles kAngles[] = {{"Front", 0, 0}, {"Right", 90, 0},  {"Top", 0, 90},
+  static constexpr Angles kAngles[] = {{"Front", 0, 0},  {"Right", 90, 0}, {"Top", 0, 90},
                                        {"Back", 180, 0}, {"Left", -90, 0}, {"Bottom", 0, -90}};
   const int index = static_cast<int>(view) - 1;
   if (index < 6) {

@@ -12,8 +12,8 @@ namespace ps {
 
 enum class StandardView { Front = 1, Right, Top, Back, Left, Bottom, Orthographic, Scene, Last };
 
-/// The camera of a viewport and what mouse and keys do to it. Pure: no widget, no context. Lengths in logical pixels of a
-/// picture of `size`.
+/// The camera of a viewport and what mouse and keys do to it. Pure: no widget, no context. Lengths in logical pixels of
+/// a picture of `size`.
 class ViewNavigator {
  public:
   const Camera& camera() const { return m_camera; }
@@ -22,7 +22,7 @@ class ViewNavigator {
 
   void setSize(const QSizeF& size) { m_size = size; }
   void setScene(const ViewState& view);  ///< the project's camera becomes the scene's view, and is taken
-  void restore(const Camera& camera);   ///< takes back a drag
+  void restore(const Camera& camera);    ///< takes back a drag
   ViewState view() const;                ///< as the project keeps it
 
   void orbitBy(const QPointF& pixels);

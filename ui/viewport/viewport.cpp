@@ -54,8 +54,9 @@ void Viewport::initializeGL() {
   connect(context(), &QOpenGLContext::aboutToBeDestroyed, this, &Viewport::releaseGl, Qt::UniqueConnection);
   const QSurfaceFormat format = context()->format();
   if (std::pair(format.majorVersion(), format.minorVersion()) < std::pair(kMajor, kMinor)) {
-    m_problem = QStringLiteral("The scene needs OpenGL 4.3; this graphics driver offers %1.%2. Everything else works. "
-                               "A newer driver, or LIBGL_ALWAYS_SOFTWARE=1 in the environment, brings the picture.")
+    m_problem = QStringLiteral(
+                    "The scene needs OpenGL 4.3; this graphics driver offers %1.%2. Everything else works. "
+                    "A newer driver, or LIBGL_ALWAYS_SOFTWARE=1 in the environment, brings the picture.")
                     .arg(format.majorVersion())
                     .arg(format.minorVersion());
   } else {
@@ -119,7 +120,8 @@ void Viewport::paintGL() {
   if (m_renderer) {
     share = blend();
     try {
-      m_renderer->draw(m_now ? *m_now : kEmpty, share < 1 ? m_previous.get() : nullptr, share, m_scene, renderOptions());
+      m_renderer->draw(m_now ? *m_now : kEmpty, share < 1 ? m_previous.get() : nullptr, share, m_scene,
+                       renderOptions());
     } catch (const std::exception& error) {
       m_problem = QStringLiteral("The scene cannot be drawn: %1").arg(QString::fromUtf8(error.what()));
       m_renderer.reset();
@@ -166,7 +168,8 @@ std::optional<SceneTag> Viewport::tag() const {
   const api::Float4& p = m_now->position[row];
   tag.place = {p.x, p.y, p.z};
   const uint32_t index = m_now->body[row];
-  const Body* body = m_now->bodyIds && index < m_now->bodyIds->size() ? m_document->body((*m_now->bodyIds)[index]) : nullptr;
+  const Body* body =
+      m_now->bodyIds && index < m_now->bodyIds->size() ? m_document->body((*m_now->bodyIds)[index]) : nullptr;
   if (body) tag.name = QString::fromStdString(body->name);
   constexpr double kZero = 273.15;
   tag.value = formatFixed(static_cast<double>(m_now->temperature[row]) - kZero, 1) + QStringLiteral(" °C  ") +
@@ -243,7 +246,8 @@ std::optional<std::pair<Vec3, Vec3>> Viewport::boxOf(const std::string& body) co
   if (!m_now) return box;
   for (size_t i = 0; i < m_now->position.size(); ++i) {
     const uint32_t index = m_now->body[i];
-    if (!body.empty() && (!m_now->bodyIds || index >= m_now->bodyIds->size() || (*m_now->bodyIds)[index] != body)) continue;
+    if (!body.empty() && (!m_now->bodyIds || index >= m_now->bodyIds->size() || (*m_now->bodyIds)[index] != body))
+      continue;
     const api::Float4& p = m_now->position[i];
     const Vec3 centre{p.x, p.y, p.z};
     if (!box) box = {centre, centre};

@@ -22,8 +22,8 @@ class Document;
 class EngineThread;
 class SceneLink;
 
-/// The scene, live. Draws the newest snapshot, repaints when there is a new one or somebody interacts, and no more often
-/// than leaves the solver time to work. Needs OpenGL 4.3; without it a sentence stands in its place.
+/// The scene, live. Draws the newest snapshot, repaints when there is a new one or somebody interacts, and no more
+/// often than leaves the solver time to work. Needs OpenGL 4.3; without it a sentence stands in its place.
 class Viewport : public QOpenGLWidget {
   Q_OBJECT
  public:
@@ -130,8 +130,8 @@ class Viewport : public QOpenGLWidget {
 
   QTimer m_paintTimer;
   QElapsedTimer m_sinceSnapshot, m_sincePaint;
-  double m_interval = 0;   ///< ms between the last two snapshots
-  double m_drawCost = 0;   ///< ms, smoothed
+  double m_interval = 0;  ///< ms between the last two snapshots
+  double m_drawCost = 0;  ///< ms, smoothed
 };
 
 }  // namespace ps

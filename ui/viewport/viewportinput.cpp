@@ -164,12 +164,11 @@ std::optional<Vec3> Viewport::surfaceAt(const QPointF& position) const {
   }
   const Environment& e = m_scene.environment;
   auto floor = meetPlane(ray, {0, floorHeight(), 0}, {0, 1, 0});
-  if (!floor) floor = meetPlane(ray, camera.target, frameOf(camera).forward);
-  if (!floor) return std::nullopt;
-  for (const size_t axis : {size_t{0}, size_t{2}}) {
-    (*floor)[axis] = std::clamp((*floor)[axis], e.boundsMinimum[axis], e.boundsMaximum[axis]);
-  }
-  return floor;
+  const auto within = [&](size_t axis) {
+    return (*floor)[axis] >= e.boundsMinimum[axis] && (*floor)[axis] <= e.boundsMaximum[axis];
+  };
+  if (floor && within(0) && within(2)) return floor;
+  return meetPlane(ray, camera.target, frameOf(camera).forward);  // in the air, at the depth one looks at
 }
 
 Vec3 Viewport::brushExtent() const { return m_stroke.extent(m_brush); }
@@ -218,7 +217,8 @@ std::optional<Vec3> Viewport::strokePoint(const QPointF& position) {
   if (!point) return point;
   const Environment& e = m_scene.environment;
   for (size_t i = 0; i < 3; ++i) {
-    if ((*point)[i] < e.boundsMinimum[i] - m_brush.radius || (*point)[i] > e.boundsMaximum[i] + m_brush.radius) return std::nullopt;
+    if ((*point)[i] < e.boundsMinimum[i] - m_brush.radius || (*point)[i] > e.boundsMaximum[i] + m_brush.radius)
+      return std::nullopt;
   }
   return point;
 }

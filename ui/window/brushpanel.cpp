@@ -16,10 +16,12 @@ constexpr ParameterDeclaration kBrush[] = {
     {"shape", "Shape", "", "", ParameterKind::Choice, Scale::Linear, 0, 0, 1, 0, 1, "", 1, 0, "sphere|cube", "Brush",
      "What one stamp of the brush looks like.", "sphere for free forms, cube for walls and floors", ""},
     {"radius", "Radius", "r", "m", ParameterKind::Number, Scale::Logarithmic, 0.05, kBrushMinimum, 0.3, kBrushMinimum,
-     kBrushMaximum, "mm", 1000, 0, "", "Brush", "Half the brush's width; the outline under the pointer shows it true to scale.",
-     "a finger 10 mm, a fist 50 mm", ""},
-    {"temperature", "Temperature", "T", "K", ParameterKind::Number, Scale::Linear, 293.15, 173.15, 773.15, 1, 10000, "°C", 1,
-     -273.15, "", "New matter", "Temperature of what is drawn; below its melting point it is drawn as a bonded solid.",
+     kBrushMaximum, "mm", 1000, 0, "", "Brush",
+     "Half the brush's width; the outline under the pointer shows it true to scale.", "a finger 10 mm, a fist 50 mm",
+     ""},
+    {"temperature", "Temperature", "T", "K", ParameterKind::Number, Scale::Linear, 293.15, 173.15, 773.15, 1, 10000,
+     "°C", 1, -273.15, "", "New matter",
+     "Temperature of what is drawn; below its melting point it is drawn as a bonded solid.",
      "ice from a freezer −18 °C, room 20 °C, hot oil 180 °C", ""},
 };
 

@@ -35,9 +35,11 @@ class EntryDelegate : public QStyledItemDelegate {
     const QFont font = Theme::font(TextRole::Normal), small = Theme::font(TextRole::Small);
     const double right = keys.isEmpty() ? 0 : textWidth(keys, small) + 12;
     const double w = std::min(textWidth(title, font) + 2, row.width() * 0.6);
-    paintText(*painter, QRectF(row.left(), row.top(), w, row.height()), Qt::AlignVCenter | Qt::AlignLeft, title, font, theme[Token::Text]);
-    paintText(*painter, QRectF(row.left() + w + 10, row.top(), row.width() - w - 10 - right, row.height()), Qt::AlignVCenter | Qt::AlignLeft,
-              index.data(kWhere).toString(), small, theme[selected ? Token::Text2 : Token::Muted]);
+    paintText(*painter, QRectF(row.left(), row.top(), w, row.height()), Qt::AlignVCenter | Qt::AlignLeft, title, font,
+              theme[Token::Text]);
+    paintText(*painter, QRectF(row.left() + w + 10, row.top(), row.width() - w - 10 - right, row.height()),
+              Qt::AlignVCenter | Qt::AlignLeft, index.data(kWhere).toString(), small,
+              theme[selected ? Token::Text2 : Token::Muted]);
     paintText(*painter, row, Qt::AlignVCenter | Qt::AlignRight, keys, small, theme[Token::Text2]);
     painter->restore();
   }
@@ -51,10 +53,13 @@ std::vector<size_t> paletteMatches(const std::vector<PaletteEntry>& entries, con
   for (size_t i = 0; i < entries.size(); ++i) {
     const PaletteEntry& entry = entries[i];
     const QString all = entry.title + QLatin1Char(' ') + entry.where + QLatin1Char(' ') + entry.words;
-    const bool matches = std::all_of(words.begin(), words.end(), [&](const QString& word) { return all.contains(word, Qt::CaseInsensitive); });
+    const bool matches = std::all_of(words.begin(), words.end(),
+                                     [&](const QString& word) { return all.contains(word, Qt::CaseInsensitive); });
     if (!matches) continue;
     const QString joined = words.join(QLatin1Char(' '));
-    const int rank = words.isEmpty() || entry.title.startsWith(joined, Qt::CaseInsensitive) ? 0 : entry.title.contains(words.front(), Qt::CaseInsensitive) ? 1 : 2;
+    const int rank = words.isEmpty() || entry.title.startsWith(joined, Qt::CaseInsensitive) ? 0
+                     : entry.title.contains(words.front(), Qt::CaseInsensitive)             ? 1
+                                                                                            : 2;
     found.emplace_back(rank, i);
   }
   std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
@@ -97,7 +102,9 @@ void CommandPalette::open(std::vector<PaletteEntry> entries) {
 
 int CommandPalette::shownCount() const { return m_list->currentRow() < 0 ? 0 : m_list->count(); }
 
-QString CommandPalette::currentTitle() const { return m_list->currentItem() ? m_list->currentItem()->text() : QString(); }
+QString CommandPalette::currentTitle() const {
+  return m_list->currentItem() ? m_list->currentItem()->text() : QString();
+}
 
 void CommandPalette::refresh() {
   m_list->clear();
@@ -147,7 +154,11 @@ bool CommandPalette::eventFilter(QObject* watched, QEvent* event) {
     runCurrent();
     return true;
   }
-  const int step = key == Qt::Key_Down ? 1 : key == Qt::Key_Up ? -1 : key == Qt::Key_PageDown ? kMostRows : key == Qt::Key_PageUp ? -kMostRows : 0;
+  const int step = key == Qt::Key_Down       ? 1
+                   : key == Qt::Key_Up       ? -1
+                   : key == Qt::Key_PageDown ? kMostRows
+                   : key == Qt::Key_PageUp   ? -kMostRows
+                                             : 0;
   if (step == 0) return QWidget::eventFilter(watched, event);
   m_list->setCurrentRow(std::clamp(m_list->currentRow() + step, 0, m_list->count() - 1));
   return true;

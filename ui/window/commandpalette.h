@@ -14,10 +14,10 @@ namespace ps {
 
 /// One thing that Ctrl+K finds.
 struct PaletteEntry {
-  QString title;   ///< "Conductivity, liquid"
-  QString where;   ///< "Material · Water", "File"
-  QString keys;    ///< shortcut, or the value
-  QString words;   ///< further words to find it by
+  QString title;  ///< "Conductivity, liquid"
+  QString where;  ///< "Material · Water", "File"
+  QString keys;   ///< shortcut, or the value
+  QString words;  ///< further words to find it by
   std::function<void()> run;
 };
 

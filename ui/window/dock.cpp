@@ -21,6 +21,7 @@ constexpr int kHeader = 30;
 class Header : public QWidget {
  public:
   using QWidget::QWidget;
+  QSize sizeHint() const override { return {120, kHeader}; }  // the dock's layout asks for nothing else
 
  protected:
   void paintEvent(QPaintEvent*) override {
@@ -33,10 +34,13 @@ class Header : public QWidget {
 }  // namespace
 
 Dock::Dock(const QString& name, const QString& title, QWidget* parent)
-    : QDockWidget(title, parent), m_header(new Header), m_actions(new QHBoxLayout), m_tabs(new QTabBar), m_pages(new QStackedWidget) {
+    : QDockWidget(title, parent),
+      m_header(new Header),
+      m_actions(new QHBoxLayout),
+      m_tabs(new QTabBar),
+      m_pages(new QStackedWidget) {
   setObjectName(name);
   setFeatures(QDockWidget::DockWidgetClosable | QDockWidget::DockWidgetMovable);
-  m_header->setFixedHeight(kHeader);
   auto* row = new QHBoxLayout(m_header);
   row->setContentsMargins(12, 0, 6, 0);
   row->setSpacing(2);
@@ -75,6 +79,12 @@ void Dock::showPage(const QString& title) {
 QString Dock::currentPage() const { return m_tabs->tabData(m_tabs->currentIndex()).toString(); }
 
 void Dock::setPageTitle(int index, const QString& title) { m_tabs->setTabText(index, title); }
+
+void Dock::showEvent(QShowEvent* event) {
+  QDockWidget::showEvent(event);
+  // The tab bar measured its tabs before the style sheet reached it; a text set anew makes it measure again.
+  for (int i = 0; i < m_tabs->count(); ++i) m_tabs->setTabText(i, m_tabs->tabText(i));
+}
 
 QToolButton* Dock::addAction(const QString& iconName, const QString& tip) {
   auto* button = new QToolButton;

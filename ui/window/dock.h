@@ -25,6 +25,9 @@ class Dock : public QDockWidget {
  Q_SIGNALS:
   void pageChanged(const QString& title);
 
+ protected:
+  void showEvent(QShowEvent* event) override;
+
  private:
   QWidget* m_header;
   QHBoxLayout* m_actions;

@@ -38,10 +38,9 @@ EnergyPanel::EnergyPanel(QWidget* parent) : QWidget(parent), m_graph(new GraphVi
 void EnergyPanel::setDuration(double seconds) { m_graph->setDuration(seconds); }
 
 void EnergyPanel::append(const FrameStats& stats) {
-  if (!m_started) {
-    m_start = stats.thermalEnergy - stats.heat.net();
-    m_started = true;
-  }
+  // Matter drawn before the first step belongs to the start.
+  if (!m_started) m_start = stats.thermalEnergy - stats.heat.net();
+  m_started = stats.frame > 0;
   m_graph->append(0, stats.time, (stats.thermalEnergy - m_start) / 1000);
   m_graph->append(1, stats.time, stats.heat.walls / 1000);
   m_graph->append(2, stats.time, stats.heat.air / 1000);
@@ -50,7 +49,8 @@ void EnergyPanel::append(const FrameStats& stats) {
   const auto line = [](const QString& name, const QString& value) {
     return QStringLiteral("<tr><td>%1&nbsp;&nbsp;&nbsp;</td><td align='right'>%2</td></tr>").arg(name, value);
   };
-  m_ledger->setText(QStringLiteral("<table>") + line(QStringLiteral("Heat in matter"), kilojoules(stats.thermalEnergy - m_start)) +
+  m_ledger->setText(QStringLiteral("<table>") +
+                    line(QStringLiteral("Heat in matter"), kilojoules(stats.thermalEnergy - m_start)) +
                     line(QStringLiteral("Through walls"), kilojoules(stats.heat.walls)) +
                     line(QStringLiteral("Through air"), kilojoules(stats.heat.air)) +
                     line(QStringLiteral("Sketched and erased"), kilojoules(stats.heat.sources)) +

@@ -30,7 +30,8 @@ QByteArray quoted(const std::string& text) {
 
 }  // namespace
 
-GraphsPanel::GraphsPanel(QWidget* parent) : QWidget(parent), m_temperatures(new GraphView), m_phases(new PhaseStackView) {
+GraphsPanel::GraphsPanel(QWidget* parent)
+    : QWidget(parent), m_temperatures(new GraphView), m_phases(new PhaseStackView) {
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(6, 4, 6, 4);
   row->setSpacing(8);
@@ -60,7 +61,8 @@ void GraphsPanel::setProject(const Project& project) {
     if (probeUnit(probe.quantity) == "K" && !mean) probes.push_back(i);
   }
   m_temperatures->addSeries(QStringLiteral("Mean"), QStringLiteral("°C"));
-  for (const size_t i : probes) m_temperatures->addSeries(QString::fromStdString(project.probes[i].name), QStringLiteral("°C"));
+  for (const size_t i : probes)
+    m_temperatures->addSeries(QString::fromStdString(project.probes[i].name), QStringLiteral("°C"));
   m_probes = std::move(probes);
   for (TimePlot* plot : {static_cast<TimePlot*>(m_temperatures), static_cast<TimePlot*>(m_phases)}) {
     plot->setDuration(project.duration);
@@ -79,7 +81,8 @@ void GraphsPanel::setTransitions(double meltingPoint, double boilingPoint) {
 void GraphsPanel::append(const FrameStats& stats) {
   m_temperatures->append(0, stats.time, stats.temperatureMean > 0 ? stats.temperatureMean - kZero : std::nan(""));
   for (size_t s = 0; s < m_probes.size(); ++s) {
-    if (m_probes[s] < stats.probes.size()) m_temperatures->append(static_cast<int>(s) + 1, stats.time, stats.probes[m_probes[s]] - kZero);
+    if (m_probes[s] < stats.probes.size())
+      m_temperatures->append(static_cast<int>(s) + 1, stats.time, stats.probes[m_probes[s]] - kZero);
   }
   std::array<double, 5> kilograms{};
   for (size_t i = 0; i < kilograms.size(); ++i) kilograms[i] = stats.phases[i].mass;
@@ -94,13 +97,17 @@ void GraphsPanel::clear() {
 }
 
 QByteArray historyCsv(const std::vector<FrameStats>& history, const std::vector<Probe>& probes) {
-  QByteArray csv = "time_s,thermal_time_s,mean.temperature[K],solid.mass[kg],melting.mass[kg],liquid.mass[kg],boiling.mass[kg],gas.mass[kg]";
-  for (const Probe& probe : probes) csv += ',' + quoted(probe.name + "." + probe.quantity + "[" + probeUnit(probe.quantity) + "]");
+  QByteArray csv =
+      "time_s,thermal_time_s,mean.temperature[K],solid.mass[kg],melting.mass[kg],liquid.mass[kg],boiling.mass[kg],gas."
+      "mass[kg]";
+  for (const Probe& probe : probes)
+    csv += ',' + quoted(probe.name + "." + probe.quantity + "[" + probeUnit(probe.quantity) + "]");
   csv += '\n';
   for (const FrameStats& stats : history) {
     csv += numberCell(stats.time) + ',' + numberCell(stats.thermalTime) + ',' + numberCell(stats.temperatureMean);
     for (const PhaseAmount& phase : stats.phases) csv += ',' + numberCell(phase.mass);
-    for (size_t i = 0; i < probes.size(); ++i) csv += ',' + (i < stats.probes.size() ? numberCell(stats.probes[i]) : QByteArray());
+    for (size_t i = 0; i < probes.size(); ++i)
+      csv += ',' + (i < stats.probes.size() ? numberCell(stats.probes[i]) : QByteArray());
     csv += '\n';
   }
   return csv;

@@ -15,13 +15,16 @@ namespace {
 
 /// "Hot plate temperature": the label of a row that stands away from its owner.
 QString awayLabel(const Project& project, const Address& address, const QString& label) {
-  if (address.owner == "solver" || address.owner == "environment" || address.owner == "thermal" || address.owner == "material") return label;
+  if (address.owner == "solver" || address.owner == "environment" || address.owner == "thermal" ||
+      address.owner == "material")
+    return label;
   return ownerLabel(project, address) + QLatin1Char(' ') + label.left(1).toLower() + label.mid(1);
 }
 
 float channelOf(const Value& value) {
   if (const auto* number = std::get_if<double>(&value)) return static_cast<float>(std::clamp(*number, 0.0, 1.0));
-  if (const auto* response = std::get_if<Response>(&value)) return static_cast<float>(std::clamp(response->at(293.15), 0.0, 1.0));
+  if (const auto* response = std::get_if<Response>(&value))
+    return static_cast<float>(std::clamp(response->at(293.15), 0.0, 1.0));
   return 0.5F;
 }
 
@@ -31,7 +34,8 @@ QString gradeText(const PluginRegistry* plugins, const std::string& base) {
   char worst = 'A';
   for (const auto& [key, provenance] : material->provenance) worst = std::max(worst, provenance.grade);
   if (worst == 'A') return QStringLiteral("Reference data, grade A");
-  return worst == 'B' ? QStringLiteral("Handbook data, grade B") : QStringLiteral("Reference, handbook and typical data");
+  return worst == 'B' ? QStringLiteral("Handbook data, grade B")
+                      : QStringLiteral("Reference, handbook and typical data");
 }
 
 }  // namespace
@@ -52,7 +56,8 @@ void Inspector::connectPanel(ParameterPanel* panel) {
   connect(panel, &ParameterPanel::edited, this, &Inspector::onEdited);
   connect(panel, &ParameterPanel::scaled, this, &Inspector::onScaled);
   connect(panel, &ParameterPanel::linkActivated, this, &Inspector::onLink);
-  connect(panel, &ParameterPanel::pinToggled, this, [this](const QString& key, bool pinned) { m_document.setPinned(key.toStdString(), pinned); });
+  connect(panel, &ParameterPanel::pinToggled, this,
+          [this](const QString& key, bool pinned) { m_document.setPinned(key.toStdString(), pinned); });
 }
 
 const char* Inspector::keep(const QString& text) { return m_texts.insert(text.toStdString()).first->c_str(); }
@@ -64,12 +69,14 @@ void Inspector::onEdited(const QString& key, const Value& value, Edit edit) {
     m_document.beginGesture();
     return;
   }
-  const QString problem = m_document.setParameter(*address, value);
-  if (edit == Edit::End) m_document.endGesture();
-  for (ParameterPanel* panel : panels()) {
-    panel->setError(key, problem);
-    if (!problem.isEmpty() && edit == Edit::End) panel->setValue(key, m_document.value(*address));
+  if (edit == Edit::End) {
+    // Every value has come as Live; an undo may have happened since, so that the row asks what holds now.
+    m_document.endGesture();
+    for (ParameterPanel* panel : panels()) panel->setValue(key, m_document.value(*address));
+    return;
   }
+  const QString problem = m_document.setParameter(*address, value);
+  for (ParameterPanel* panel : panels()) panel->setError(key, problem);
 }
 
 void Inspector::onScaled(const QString& key, double factor) {
@@ -88,8 +95,8 @@ void Inspector::onLink(const QString&, const QString& link) {
   if (equals > 0 && address && number) m_document.setParameter(*address, *number);
 }
 
-void Inspector::addRows(std::vector<RowModel>& rows, const std::string& owner, const std::string& id, api::ParameterList list,
-                        const QString& group, const ParameterSet& defaults) {
+void Inspector::addRows(std::vector<RowModel>& rows, const std::string& owner, const std::string& id,
+                        api::ParameterList list, const QString& group, const ParameterSet& defaults) {
   if (list.count == 0) return;
   const ParameterSet* set = findSet(m_document.project(), {owner, id, list[0].key});
   if (!set) return;
@@ -132,11 +139,13 @@ void Inspector::rebuildBody() {
   for (const SceneMaterial& material : m_document.project().materials) {
     if (material.id == body->material && !material.label.empty()) matter = QString::fromStdString(material.label);
   }
-  m_body->setHeader(QString::fromStdString(body->name), matter + (sketched ? QStringLiteral(" · sketched") : QStringLiteral(" · block")));
+  m_body->setHeader(QString::fromStdString(body->name),
+                    matter + (sketched ? QStringLiteral(" · sketched") : QStringLiteral(" · block")));
   addRows(rows, "body", body->id, bodyParameters());
   for (const BodyConstraint& constraint : body->constraints) {
     const std::string id = body->id + "/" + constraint.plugin;
-    const api::ConstraintPlugin* plugin = m_document.plugins() ? m_document.plugins()->constraint(constraint.plugin) : nullptr;
+    const api::ConstraintPlugin* plugin =
+        m_document.plugins() ? m_document.plugins()->constraint(constraint.plugin) : nullptr;
     if (plugin) addRows(rows, "constraint", id, plugin->parameters(), QString::fromUtf8(plugin->label()));
   }
   m_body->setModel(std::move(rows));
@@ -144,8 +153,10 @@ void Inspector::rebuildBody() {
 
 void Inspector::rebuildMaterial() {
   const Project& project = m_document.project();
-  const auto found = std::find_if(project.materials.begin(), project.materials.end(), [&](const SceneMaterial& m) { return m.id == m_materialId; });
-  const auto material = found == project.materials.end() && !project.materials.empty() ? project.materials.begin() : found;
+  const auto found = std::find_if(project.materials.begin(), project.materials.end(),
+                                  [&](const SceneMaterial& m) { return m.id == m_materialId; });
+  const auto material =
+      found == project.materials.end() && !project.materials.empty() ? project.materials.begin() : found;
   std::vector<RowModel> rows;
   if (material == project.materials.end()) {
     m_material->setHeader({}, {});
@@ -161,7 +172,9 @@ void Inspector::rebuildMaterial() {
   }
   const auto channel = [&](const char* key) { return channelOf(m_document.value({"material", material->id, key})); };
   m_material->setHeader(QString::fromStdString(material->label.empty() ? material->id : material->label),
-                        missing ? QStringLiteral("Plugin “%1” is not installed").arg(QString::fromStdString(material->base)) : bodies.join(QStringLiteral(", ")),
+                        missing
+                            ? QStringLiteral("Plugin “%1” is not installed").arg(QString::fromStdString(material->base))
+                            : bodies.join(QStringLiteral(", ")),
                         gradeText(plugins, material->base),
                         QColor::fromRgbF(channel("color_red"), channel("color_green"), channel("color_blue")));
   addRows(rows, "material", material->id, propertyCatalogue(), {}, materialDefaults(project, plugins, material->id));
@@ -169,7 +182,9 @@ void Inspector::rebuildMaterial() {
     addRows(rows, "material", material->id, plugin->parameters(), QString::fromUtf8(plugin->label()));
   }
   if (missing) {
-    for (RowModel& row : rows) row.disabledReason = QStringLiteral("The material's plugin is not installed. Values are kept as they stand in the file.");
+    for (RowModel& row : rows)
+      row.disabledReason =
+          QStringLiteral("The material's plugin is not installed. Values are kept as they stand in the file.");
   }
   addPinned(rows);
   m_material->setModel(std::move(rows));
@@ -182,7 +197,9 @@ void Inspector::rebuildScene() {
   for (const SceneWall& wall : project.environment.walls) {
     addRows(rows, "wall", wall.id, wallParameters(), QString::fromStdString(wall.name.empty() ? wall.id : wall.name));
   }
-  m_scene->setHeader(m_document.title(), QStringLiteral("%1 bodies, %2 walls").arg(project.bodies.size()).arg(project.environment.walls.size()));
+  m_scene->setHeader(
+      m_document.title(),
+      QStringLiteral("%1 bodies, %2 walls").arg(project.bodies.size()).arg(project.environment.walls.size()));
   m_scene->setModel(std::move(rows));
 }
 
@@ -192,7 +209,8 @@ void Inspector::rebuildSolver() {
   const std::string& id = m_document.project().solver.thermalModel;
   const api::ThermalPlugin* model = m_document.plugins() ? m_document.plugins()->thermal(id) : nullptr;
   if (model) addRows(rows, "thermal", "", model->parameters(), QString::fromUtf8(model->label()));
-  m_solver->setHeader(QStringLiteral("Solver"), model ? QStringLiteral("Heat by ") + QString::fromUtf8(model->label()) : QStringLiteral("No heat"));
+  m_solver->setHeader(QStringLiteral("Solver"), model ? QStringLiteral("Heat by ") + QString::fromUtf8(model->label())
+                                                      : QStringLiteral("No heat"));
   m_solver->setModel(std::move(rows));
 }
 
@@ -241,7 +259,8 @@ void Inspector::setSnapshot(const Snapshot& snapshot) {
     limited.insert(key);
     if (m_limited.count(key)) continue;
     const double substeps = numberOf(m_document.project().solver.parameters, solverParameters(), "substeps");
-    const QString text = limitText(limit) + QStringLiteral(". [Use %1 substeps](solver/substeps=%1)").arg(static_cast<int>(substeps) * 2);
+    const QString text = limitText(limit) +
+                         QStringLiteral(". [Use %1 substeps](solver/substeps=%1)").arg(static_cast<int>(substeps) * 2);
     for (ParameterPanel* panel : panels()) panel->setLimit(key, text, limit.delivered);
   }
   for (const QString& key : m_limited) {

@@ -40,7 +40,8 @@ namespace {
 constexpr int kSlowInterval = 66;  // ms: values at 15 Hz
 }
 
-MainWindow::MainWindow(const Options& options) : m_options(options), m_session(std::make_unique<Session>(options.session)), m_dark(options.dark) {
+MainWindow::MainWindow(const Options& options)
+    : m_options(options), m_session(std::make_unique<Session>(options.session)), m_dark(options.dark) {
   setObjectName(QStringLiteral("psWindow"));
   setAcceptDrops(true);
   setContextMenuPolicy(Qt::NoContextMenu);
@@ -103,12 +104,14 @@ void MainWindow::connectSession() {
       refreshStatus();
     });
     connect(autosave, &Autosave::failed, this, [this](const QString& problem) {
-      showMessage(MessageLevel::Warning, QStringLiteral("Autosave"), QStringLiteral("No copy was kept: %1. Save to a file.").arg(problem));
+      showMessage(MessageLevel::Warning, QStringLiteral("Autosave"),
+                  QStringLiteral("No copy was kept: %1. Save to a file.").arg(problem));
     });
   }
   connect(&m_session->log(), &MessageLog::changed, this, [this] {
     const int unseen = m_session->log().unseen();
-    m_bottom->setPageTitle(m_messagesPage, unseen > 0 ? QStringLiteral("Messages %1").arg(unseen) : QStringLiteral("Messages"));
+    m_bottom->setPageTitle(m_messagesPage,
+                           unseen > 0 ? QStringLiteral("Messages %1").arg(unseen) : QStringLiteral("Messages"));
   });
 }
 
@@ -162,7 +165,9 @@ void MainWindow::connectPanels() {
     m_graphicsText = text;
     refreshStatus();
   });
-  connect(view, &Viewport::glFailed, this, [this](const QString& problem) { m_session->log().add(MessageLevel::Error, QStringLiteral("Scene view"), problem); });
+  connect(view, &Viewport::glFailed, this, [this](const QString& problem) {
+    m_session->log().add(MessageLevel::Error, QStringLiteral("Scene view"), problem);
+  });
 }
 
 void MainWindow::onReady() {
@@ -170,13 +175,17 @@ void MainWindow::onReady() {
   m_transport->setReady(true);
   if (Viewport* view = viewport()) view->attach(&m_session->document(), m_session->engine(), m_session->link());
   const auto& plugins = m_session->plugins()->plugins();
-  const auto broken = std::count_if(plugins.begin(), plugins.end(), [](const PluginInfo& p) { return p.state != PluginInfo::State::Loaded; });
+  const auto broken = std::count_if(plugins.begin(), plugins.end(),
+                                    [](const PluginInfo& p) { return p.state != PluginInfo::State::Loaded; });
   if (broken > 0) {
     notice()->show(QStringLiteral("plugins"), MessageLevel::Warning,
-                   broken == 1 ? QStringLiteral("One plugin was not loaded.") : QStringLiteral("%1 plugins were not loaded.").arg(broken),
-                   QStringLiteral("Everything else works."), {{QStringLiteral("Show plugins"), [this] { m_centre->setCurrentWidget(m_plugins); }}});
+                   broken == 1 ? QStringLiteral("One plugin was not loaded.")
+                               : QStringLiteral("%1 plugins were not loaded.").arg(broken),
+                   QStringLiteral("Everything else works."),
+                   {{QStringLiteral("Show plugins"), [this] { m_centre->setCurrentWidget(m_plugins); }}});
   }
   refreshStatus();
+  if (Viewport* view = viewport()) view->setFocus(Qt::OtherFocusReason);
   openFirst();
 }
 
@@ -189,7 +198,8 @@ void MainWindow::onChanged(const ChangeEvent& event) {
     if (owner == "wall" || owner == "environment") m_outliner->rebuild();
     if (owner == "material") m_materials->rebuild();
     if (owner == "material" || owner == "environment") updateTransitions();
-    m_transport->setTimeScale(numberOf(m_session->document().project().solver.parameters, solverParameters(), "thermal_time_scale"));
+    m_transport->setTimeScale(
+        numberOf(m_session->document().project().solver.parameters, solverParameters(), "thermal_time_scale"));
     if (Viewport* view = viewport(); view && owner == "wall") view->bodiesChanged();
   } else if (std::holds_alternative<BodyChanged>(event) || std::holds_alternative<StrokeChanged>(event)) {
     m_outliner->rebuild();
@@ -231,7 +241,8 @@ void MainWindow::updateTransitions() {
   try {
     const std::vector<Material> materials = compileMaterials(project, *m_session->plugins());
     if (!materials.empty()) {
-      const BakedMaterial baked(materials.front(), numberOf(project.environment.parameters, environmentParameters(), "ambient_pressure"));
+      const BakedMaterial baked(materials.front(),
+                                numberOf(project.environment.parameters, environmentParameters(), "ambient_pressure"));
       if (baked.caloric().melts) melts = baked.caloric().meltingPoint;
       boils = baked.caloric().boilingPoint;
     }
@@ -299,10 +310,13 @@ void MainWindow::showFailure(const Snapshot& snapshot) {
   m_shownFailure = text;
   const bool stopped = snapshot.flags & static_cast<StepFlags>(StepFlag::NotFinite);
   std::vector<NoticeBar::Button> buttons;
-  if (m_session->document().undoStack().canUndo()) buttons.push_back({QStringLiteral("Undo"), [this] { m_session->document().undoStack().undo(); }});
+  if (m_session->document().undoStack().canUndo())
+    buttons.push_back({QStringLiteral("Undo"), [this] { m_session->document().undoStack().undo(); }});
   buttons.push_back({QStringLiteral("Reset"), [this] { m_session->reset(); }});
-  notice()->show(QStringLiteral("step"), stopped ? MessageLevel::Error : MessageLevel::Warning, failure->title, failure->text, std::move(buttons));
-  m_session->log().add(stopped ? MessageLevel::Error : MessageLevel::Warning, QStringLiteral("Simulation"), failure->title + QLatin1Char(' ') + failure->text);
+  notice()->show(QStringLiteral("step"), stopped ? MessageLevel::Error : MessageLevel::Warning, failure->title,
+                 failure->text, std::move(buttons));
+  m_session->log().add(stopped ? MessageLevel::Error : MessageLevel::Warning, QStringLiteral("Simulation"),
+                       failure->title + QLatin1Char(' ') + failure->text);
 }
 
 void MainWindow::refreshStatus() {
@@ -318,7 +332,8 @@ void MainWindow::refreshStatus() {
   if (state.snapshot && !state.snapshot->limits.empty()) {
     const Limit& first = state.snapshot->limits.front();
     const size_t count = state.snapshot->limits.size();
-    state.note = (count == 1 ? QStringLiteral("1 note: ") : QStringLiteral("%1 notes: ").arg(count)) + limitText(first).section(QLatin1Char(':'), 0, 0) + QStringLiteral(" is limited by the step");
+    state.note = (count == 1 ? QStringLiteral("1 note: ") : QStringLiteral("%1 notes: ").arg(count)) +
+                 limitText(first).section(QLatin1Char(':'), 0, 0) + QStringLiteral(" is limited by the step");
     m_noteAddress = limitAddress(first);
   }
   m_status->setState(state);
@@ -351,8 +366,10 @@ void MainWindow::onOutlinerSelection(OutlineKind kind, const std::string& id) {
 bool MainWindow::revealParameter(const Address& address) {
   ParameterPanel* panel = m_inspector->panelFor(address);
   if (!panel) return false;
-  const QString page = panel == m_inspector->bodyPanel() ? QStringLiteral("Body") : panel == m_inspector->materialPanel() ? QStringLiteral("Material")
-                       : panel == m_inspector->scenePanel() ? QStringLiteral("Scene") : QStringLiteral("Solver");
+  const QString page = panel == m_inspector->bodyPanel()       ? QStringLiteral("Body")
+                       : panel == m_inspector->materialPanel() ? QStringLiteral("Material")
+                       : panel == m_inspector->scenePanel()    ? QStringLiteral("Scene")
+                                                               : QStringLiteral("Solver");
   m_right->showPage(page);
   panel->setFilter({});
   panel->setChangedOnly(false);
@@ -379,7 +396,8 @@ void MainWindow::keyPressEvent(QKeyEvent* event) {
   QMainWindow::keyPressEvent(event);
 }
 
-/// Single keys belong to the widget that can use them: Space to a focused button, letters to text fields (Qt does that).
+/// Single keys belong to the widget that can use them: Space to a focused button, letters to text fields (Qt does
+/// that).
 bool MainWindow::eventFilter(QObject* watched, QEvent* event) {
   if (event->type() == QEvent::ShortcutOverride && qobject_cast<QAbstractButton*>(watched)) {
     const auto* key = static_cast<QKeyEvent*>(event);

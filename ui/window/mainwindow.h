@@ -34,18 +34,18 @@ class Transport;
 class Viewport;
 class ViewportPane;
 
-/// The editor's window. Shows at once; plugins and the project follow. Nothing here steps, reads or writes by itself: the
-/// session does, on threads of its own.
+/// The editor's window. Shows at once; plugins and the project follow. Nothing here steps, reads or writes by itself:
+/// the session does, on threads of its own.
 class MainWindow : public QMainWindow {
   Q_OBJECT
  public:
   struct Options {
     Session::Options session;
-    QString project;          ///< to open first; "": the last session, else the sample
-    QString sample;           ///< path of the first sample; "": an empty scene
-    bool restore = true;      ///< last session, window state and theme of the user's settings
+    QString project;                ///< to open first; "": the last session, else the sample
+    QString sample;                 ///< path of the first sample; "": an empty scene
+    bool restore = true;            ///< last session, window state and theme of the user's settings
     bool exitOnBadProject = false;  ///< for pictures by command: startFailed() instead of a notice
-    bool dark = true;         ///< where `restore` finds nothing or is off
+    bool dark = true;               ///< where `restore` finds nothing or is off
   };
   explicit MainWindow(const Options& options);
   ~MainWindow() override;
@@ -73,7 +73,7 @@ class MainWindow : public QMainWindow {
   bool revealParameter(const Address& address);
 
  Q_SIGNALS:
-  void projectShown();                        ///< the first snapshot of an opened project is on screen
+  void projectShown();  ///< the first snapshot of an opened project is on screen
   void startFailed(const QString& problem);
 
  protected:
@@ -82,12 +82,14 @@ class MainWindow : public QMainWindow {
   void dropEvent(QDropEvent* event) override;
   void keyPressEvent(QKeyEvent* event) override;
   void resizeEvent(QResizeEvent* event) override;
+  void showEvent(QShowEvent* event) override;
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
   // mainwindowlayout.cpp
   void makeDocks();
   void applyDefaultLayout();
+  void sizeDocks();  ///< as the layout table has it for this width
   void restoreWindow();
   void saveWindow() const;
   void setFullViewport(bool on);
@@ -128,7 +130,7 @@ class MainWindow : public QMainWindow {
   void onProjectOpened();
   void onSnapshot();
   void appendHistory();
-  void refreshSlow();   ///< values at most 15 times a second
+  void refreshSlow();  ///< values at most 15 times a second
   void refreshStatus();
   void showFailure(const Snapshot& snapshot);
   void updateTransitions();
@@ -138,13 +140,14 @@ class MainWindow : public QMainWindow {
 
   Options m_options;
   std::unique_ptr<Session> m_session;
-  bool m_dark = true, m_fullViewport = false, m_opening = false, m_first = true;
+  bool m_dark = true, m_fullViewport = false, m_opening = false, m_first = true, m_sizeAtShow = true;
   QString m_graphicsText, m_fileText, m_noteAddress;
   TopBar* m_top = nullptr;
   QStackedWidget* m_centre = nullptr;
   ViewportPane* m_pane = nullptr;
   PluginPage* m_plugins = nullptr;
-  Dock *m_left = nullptr, *m_materialsDock = nullptr, *m_bottom = nullptr, *m_transportDock = nullptr, *m_right = nullptr;
+  Dock *m_left = nullptr, *m_materialsDock = nullptr, *m_bottom = nullptr, *m_transportDock = nullptr,
+       *m_right = nullptr;
   Outliner* m_outliner = nullptr;
   MaterialsPanel* m_materials = nullptr;
   Inspector* m_inspector = nullptr;

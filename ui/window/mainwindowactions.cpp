@@ -29,7 +29,8 @@ QString cleanText(const QAction& action) { return action.text().remove(QLatin1Ch
 QString valueText(const Value& value, const api::ParameterDeclaration& declaration) {
   if (const auto* number = std::get_if<double>(&value)) return formatValue(declaration, *number);
   if (const auto* toggle = std::get_if<bool>(&value)) return *toggle ? QStringLiteral("on") : QStringLiteral("off");
-  if (const auto* choice = std::get_if<std::string>(&value)) return QString::fromStdString(*choice).replace(QLatin1Char('_'), QLatin1Char(' '));
+  if (const auto* choice = std::get_if<std::string>(&value))
+    return QString::fromStdString(*choice).replace(QLatin1Char('_'), QLatin1Char(' '));
   return formatValue(declaration, std::get<Response>(value).at(293.15));
 }
 
@@ -37,7 +38,8 @@ QString valueText(const Value& value, const api::ParameterDeclaration& declarati
 
 QAction* MainWindow::action(const QString& name) const { return findChild<QAction*>(name, Qt::FindDirectChildrenOnly); }
 
-QAction* MainWindow::add(QMenu* menu, const QString& name, const QString& text, const QList<QKeySequence>& keys, Act act) {
+QAction* MainWindow::add(QMenu* menu, const QString& name, const QString& text, const QList<QKeySequence>& keys,
+                         Act act) {
   auto* action = new QAction(text, this);
   action->setObjectName(name);
   action->setShortcuts(keys);
@@ -56,10 +58,12 @@ void MainWindow::makeActions() {
     addAction(action);
     return action;
   };
-  QAction* undoAction = adopt(undo.createUndoAction(this, QStringLiteral("Undo")), "edit.undo", {QKeySequence(QStringLiteral("Ctrl+Z"))});
+  QAction* undoAction =
+      adopt(undo.createUndoAction(this, QStringLiteral("Undo")), "edit.undo", {QKeySequence(QStringLiteral("Ctrl+Z"))});
   QAction* redoAction = adopt(undo.createRedoAction(this, QStringLiteral("Redo")), "edit.redo",
                               {QKeySequence(QStringLiteral("Ctrl+Shift+Z")), QKeySequence(QStringLiteral("Ctrl+Y"))});
-  QAction* search = add(nullptr, QStringLiteral("edit.search"), QStringLiteral("Search or command…"), {QKeySequence(QStringLiteral("Ctrl+K"))}, [this] { openPalette(); });
+  QAction* search = add(nullptr, QStringLiteral("edit.search"), QStringLiteral("Search or command…"),
+                        {QKeySequence(QStringLiteral("Ctrl+K"))}, [this] { openPalette(); });
   m_top = new TopBar(undoAction, redoAction, search);
   setMenuWidget(m_top);
   makeFileMenu();
@@ -70,36 +74,45 @@ void MainWindow::makeActions() {
   makeHelpMenu();
   for (const char* name : {"Scene", "Sketch"}) m_top->workspaces()->addTab(QString::fromLatin1(name));
   connect(m_top->workspaces(), &QTabBar::currentChanged, this, &MainWindow::setWorkspace);
-  add(nullptr, QStringLiteral("view.workspace"), QStringLiteral("Next workspace"), {QKeySequence(QStringLiteral("Ctrl+Tab"))}, [this] {
-    QTabBar* tabs = m_top->workspaces();
-    tabs->setCurrentIndex((tabs->currentIndex() + 1) % tabs->count());
-  });
+  add(nullptr, QStringLiteral("view.workspace"), QStringLiteral("Next workspace"),
+      {QKeySequence(QStringLiteral("Ctrl+Tab"))}, [this] {
+        QTabBar* tabs = m_top->workspaces();
+        tabs->setCurrentIndex((tabs->currentIndex() + 1) % tabs->count());
+      });
 }
 
 void MainWindow::makeFileMenu() {
   QMenu* menu = m_top->menus()->addMenu(QStringLiteral("File"));
-  add(menu, QStringLiteral("file.new"), QStringLiteral("New scene"), {QKeySequence(QStringLiteral("Ctrl+N"))}, [this] { m_session->files().newProject(); });
-  add(menu, QStringLiteral("file.open"), QStringLiteral("Open…"), {QKeySequence(QStringLiteral("Ctrl+O"))}, [this] { chooseOpen(); });
+  add(menu, QStringLiteral("file.new"), QStringLiteral("New scene"), {QKeySequence(QStringLiteral("Ctrl+N"))},
+      [this] { m_session->files().newProject(); });
+  add(menu, QStringLiteral("file.open"), QStringLiteral("Open…"), {QKeySequence(QStringLiteral("Ctrl+O"))},
+      [this] { chooseOpen(); });
   m_recent = menu->addMenu(QStringLiteral("Open recent"));
   connect(m_recent, &QMenu::aboutToShow, this, &MainWindow::fillRecent);
   if (!m_options.sample.isEmpty()) {
-    add(menu, QStringLiteral("file.sample"), QStringLiteral("Open sample “Ice on a hot plate”"), {}, [this] { openFile(m_options.sample); });
+    add(menu, QStringLiteral("file.sample"), QStringLiteral("Open sample “Ice on a hot plate”"), {},
+        [this] { openFile(m_options.sample); });
   }
   menu->addSeparator();
-  add(menu, QStringLiteral("file.save"), QStringLiteral("Save"), {QKeySequence(QStringLiteral("Ctrl+S"))}, [this] { save(); });
-  add(menu, QStringLiteral("file.saveAs"), QStringLiteral("Save as…"), {QKeySequence(QStringLiteral("Ctrl+Shift+S"))}, [this] { chooseSave(); });
+  add(menu, QStringLiteral("file.save"), QStringLiteral("Save"), {QKeySequence(QStringLiteral("Ctrl+S"))},
+      [this] { save(); });
+  add(menu, QStringLiteral("file.saveAs"), QStringLiteral("Save as…"), {QKeySequence(QStringLiteral("Ctrl+Shift+S"))},
+      [this] { chooseSave(); });
   menu->addSeparator();
-  add(menu, QStringLiteral("file.picture"), QStringLiteral("Save picture of the scene…"), {}, [this] { exportPicture(); });
+  add(menu, QStringLiteral("file.picture"), QStringLiteral("Save picture of the scene…"), {},
+      [this] { exportPicture(); });
   add(menu, QStringLiteral("file.csv"), QStringLiteral("Export all frames as CSV…"), {}, [this] { exportCsv(); });
   menu->addSeparator();
-  add(menu, QStringLiteral("file.quit"), QStringLiteral("Quit"), {QKeySequence(QStringLiteral("Ctrl+Q"))}, [this] { close(); });
+  add(menu, QStringLiteral("file.quit"), QStringLiteral("Quit"), {QKeySequence(QStringLiteral("Ctrl+Q"))},
+      [this] { close(); });
 }
 
 void MainWindow::fillRecent() {
   m_recent->clear();
   const QStringList recent = DocumentFiles::recent();
   for (const QString& path : recent) {
-    m_recent->addAction(QFileInfo(path).completeBaseName() + QStringLiteral("  ·  ") + QFileInfo(path).path(), this, [this, path] { openFile(path); });
+    m_recent->addAction(QFileInfo(path).completeBaseName() + QStringLiteral("  ·  ") + QFileInfo(path).path(), this,
+                        [this, path] { openFile(path); });
   }
   if (recent.isEmpty()) m_recent->addAction(QStringLiteral("No recent files"))->setEnabled(false);
 }
@@ -109,7 +122,8 @@ void MainWindow::makeEditMenu() {
   menu->addAction(action(QStringLiteral("edit.undo")));
   menu->addAction(action(QStringLiteral("edit.redo")));
   menu->addSeparator();
-  add(menu, QStringLiteral("edit.rename"), QStringLiteral("Rename body"), {QKeySequence(QStringLiteral("F2"))}, [this] { m_outliner->renameSelected(); });
+  add(menu, QStringLiteral("edit.rename"), QStringLiteral("Rename body"), {QKeySequence(QStringLiteral("F2"))},
+      [this] { m_outliner->renameSelected(); });
   menu->addSeparator();
   menu->addAction(action(QStringLiteral("edit.search")));
 }
@@ -121,46 +135,61 @@ void MainWindow::makeViewMenu() {
       if (Viewport* view = viewport()) act(*view);
     };
   };
-  add(menu, QStringLiteral("view.frame"), QStringLiteral("Frame selection"), {QKeySequence(QStringLiteral("F"))}, viewAct([](Viewport& v) { v.frameSelection(); }));
-  add(menu, QStringLiteral("view.frameAll"), QStringLiteral("Frame all"), {QKeySequence(QStringLiteral("Shift+F"))}, viewAct([](Viewport& v) { v.frameAll(); }));
+  add(menu, QStringLiteral("view.frame"), QStringLiteral("Frame selection"), {QKeySequence(QStringLiteral("F"))},
+      viewAct([](Viewport& v) { v.frameSelection(); }));
+  add(menu, QStringLiteral("view.frameAll"), QStringLiteral("Frame all"), {QKeySequence(QStringLiteral("Shift+F"))},
+      viewAct([](Viewport& v) { v.frameAll(); }));
   QMenu* views = menu->addMenu(QStringLiteral("Look from"));
-  const char* const names[] = {"Front", "Right", "Top", "Back", "Left", "Bottom", "Orthographic lens on or off", "Scene camera", "Last view"};
+  const char* const names[] = {
+      "Front", "Right", "Top", "Back", "Left", "Bottom", "Orthographic lens on or off", "Scene camera", "Last view"};
   for (int i = 0; i < 9; ++i) {
-    add(views, QStringLiteral("view.look%1").arg(i + 1), QString::fromLatin1(names[i]), {QKeySequence(QString::number(i + 1)), QKeySequence(QStringLiteral("Alt+%1").arg(i + 1))},
+    add(views, QStringLiteral("view.look%1").arg(i + 1), QString::fromLatin1(names[i]),
+        {QKeySequence(QString::number(i + 1)), QKeySequence(QStringLiteral("Alt+%1").arg(i + 1))},
         viewAct([i](Viewport& v) { v.show(static_cast<StandardView>(i + 1)); }));
   }
   QMenu* colours = menu->addMenu(QStringLiteral("Colour"));
   const char* const colourNames[] = {"Matter", "Temperature", "Phase", "Speed", "Density error"};
   for (int i = 0; i < 5; ++i) {
-    add(colours, QStringLiteral("view.colour%1").arg(i + 1), QString::fromLatin1(colourNames[i]), {QKeySequence(QStringLiteral("Ctrl+%1").arg(i + 1))}, [this, i] { setColour(i); });
+    add(colours, QStringLiteral("view.colour%1").arg(i + 1), QString::fromLatin1(colourNames[i]),
+        {QKeySequence(QStringLiteral("Ctrl+%1").arg(i + 1))}, [this, i] { setColour(i); });
   }
   menu->addSeparator();
   add(menu, QStringLiteral("view.dark"), QStringLiteral("Dark theme"), {}, [this] { setDark(true); });
   add(menu, QStringLiteral("view.light"), QStringLiteral("Light theme"), {}, [this] { setDark(false); });
   menu->addSeparator();
-  add(menu, QStringLiteral("view.full"), QStringLiteral("Full viewport"), {QKeySequence(QStringLiteral("F11"))}, [this] { setFullViewport(!m_fullViewport); });
+  add(menu, QStringLiteral("view.full"), QStringLiteral("Full viewport"), {QKeySequence(QStringLiteral("F11"))},
+      [this] { setFullViewport(!m_fullViewport); });
   add(menu, QStringLiteral("view.layout"), QStringLiteral("Default layout"), {}, [this] {
     setFullViewport(false);
     applyDefaultLayout();
   });
-  add(menu, QStringLiteral("view.hint"), QStringLiteral("Show hints"), {}, viewAct([](Viewport& v) { v.setHintShown(!v.hintShown()); }));
+  add(menu, QStringLiteral("view.hint"), QStringLiteral("Show hints"), {},
+      viewAct([](Viewport& v) { v.setHintShown(!v.hintShown()); }));
 }
 
 void MainWindow::makeSimulationMenu() {
   QMenu* menu = m_top->menus()->addMenu(QStringLiteral("Simulation"));
-  add(menu, QStringLiteral("simulation.play"), QStringLiteral("Play or pause"), {QKeySequence(Qt::Key_Space)}, [this] { m_session->playPause(); });
-  add(menu, QStringLiteral("simulation.step"), QStringLiteral("One frame"), {QKeySequence(Qt::Key_Right)}, [this] { m_session->step(); });
-  add(menu, QStringLiteral("simulation.reset"), QStringLiteral("Back to the start"), {QKeySequence(Qt::Key_Home)}, [this] { m_session->reset(); });
+  add(menu, QStringLiteral("simulation.play"), QStringLiteral("Play or pause"), {QKeySequence(Qt::Key_Space)},
+      [this] { m_session->playPause(); });
+  add(menu, QStringLiteral("simulation.step"), QStringLiteral("One frame"), {QKeySequence(Qt::Key_Right)},
+      [this] { m_session->step(); });
+  add(menu, QStringLiteral("simulation.reset"), QStringLiteral("Back to the start"), {QKeySequence(Qt::Key_Home)},
+      [this] { m_session->reset(); });
 }
 
 void MainWindow::makeSketchMenu() {
   QMenu* menu = m_top->menus()->addMenu(QStringLiteral("Sketch"));
-  add(menu, QStringLiteral("sketch.select"), QStringLiteral("Select and orbit"), {QKeySequence(QStringLiteral("Q"))}, [this] { setTool(ViewTool::Select); });
-  add(menu, QStringLiteral("sketch.brush"), QStringLiteral("Brush"), {QKeySequence(QStringLiteral("B"))}, [this] { setTool(ViewTool::Brush); });
-  add(menu, QStringLiteral("sketch.erase"), QStringLiteral("Erase"), {QKeySequence(QStringLiteral("E"))}, [this] { setTool(ViewTool::Erase); });
+  add(menu, QStringLiteral("sketch.select"), QStringLiteral("Select and orbit"), {QKeySequence(QStringLiteral("Q"))},
+      [this] { setTool(ViewTool::Select); });
+  add(menu, QStringLiteral("sketch.brush"), QStringLiteral("Brush"), {QKeySequence(QStringLiteral("B"))},
+      [this] { setTool(ViewTool::Brush); });
+  add(menu, QStringLiteral("sketch.erase"), QStringLiteral("Erase"), {QKeySequence(QStringLiteral("E"))},
+      [this] { setTool(ViewTool::Erase); });
   menu->addSeparator();
-  add(menu, QStringLiteral("sketch.smaller"), QStringLiteral("Smaller brush"), {QKeySequence(QStringLiteral("["))}, [this] { stepBrush(-1); });
-  add(menu, QStringLiteral("sketch.larger"), QStringLiteral("Larger brush"), {QKeySequence(QStringLiteral("]"))}, [this] { stepBrush(1); });
+  add(menu, QStringLiteral("sketch.smaller"), QStringLiteral("Smaller brush"), {QKeySequence(QStringLiteral("["))},
+      [this] { stepBrush(-1); });
+  add(menu, QStringLiteral("sketch.larger"), QStringLiteral("Larger brush"), {QKeySequence(QStringLiteral("]"))},
+      [this] { stepBrush(1); });
 }
 
 void MainWindow::makeHelpMenu() {
@@ -169,9 +198,11 @@ void MainWindow::makeHelpMenu() {
     m_plugins->refresh();
     m_centre->setCurrentWidget(m_plugins);
   });
-  add(menu, QStringLiteral("help.messages"), QStringLiteral("Messages"), {}, [this] { m_bottom->showPage(QStringLiteral("Messages")); });
+  add(menu, QStringLiteral("help.messages"), QStringLiteral("Messages"), {},
+      [this] { m_bottom->showPage(QStringLiteral("Messages")); });
   add(menu, QStringLiteral("help.about"), QStringLiteral("About PhaseSketch"), {}, [this] {
-    showMessage(MessageLevel::Info, QStringLiteral("PhaseSketch " PS_VERSION), QStringLiteral("Matter that melts, boils and freezes, sketched and set loose. Apache-2.0."));
+    showMessage(MessageLevel::Info, QStringLiteral("PhaseSketch " PS_VERSION),
+                QStringLiteral("Matter that melts, boils and freezes, sketched and set loose. Apache-2.0."));
     m_bottom->showPage(QStringLiteral("Messages"));
   });
 }
@@ -211,17 +242,23 @@ std::vector<PaletteEntry> MainWindow::paletteEntries() {
   std::vector<PaletteEntry> entries;
   const QList<QAction*> actions = findChildren<QAction*>(Qt::FindDirectChildrenOnly);
   for (QAction* action : actions) {
-    if (action->objectName().isEmpty() || !action->objectName().contains(QLatin1Char('.')) || !action->isEnabled() || action->text().isEmpty()) continue;
+    if (action->objectName().isEmpty() || !action->objectName().contains(QLatin1Char('.')) || !action->isEnabled() ||
+        action->text().isEmpty())
+      continue;
     QString where = action->objectName().section(QLatin1Char('.'), 0, 0);
     where = where.left(1).toUpper() + where.mid(1);
-    entries.push_back({cleanText(*action), where, action->shortcut().toString(QKeySequence::NativeText), {}, [action] { action->trigger(); }});
+    entries.push_back({cleanText(*action), where, action->shortcut().toString(QKeySequence::NativeText), {}, [action] {
+                         action->trigger();
+                       }});
   }
   Document& document = m_session->document();
   for (const Address& address : allAddresses(document.project(), document.plugins())) {
     const auto* declaration = document.declaration(address);
     if (!declaration) continue;
-    entries.push_back({QString::fromUtf8(declaration->label), ownerLabel(document.project(), address), valueText(document.value(address), *declaration),
-                       QString::fromUtf8(declaration->group) + QLatin1Char(' ') + QString::fromStdString(address.text()).replace(QLatin1Char('_'), QLatin1Char(' ')),
+    entries.push_back({QString::fromUtf8(declaration->label), ownerLabel(document.project(), address),
+                       valueText(document.value(address), *declaration),
+                       QString::fromUtf8(declaration->group) + QLatin1Char(' ') +
+                           QString::fromStdString(address.text()).replace(QLatin1Char('_'), QLatin1Char(' ')),
                        [this, address] { revealParameter(address); }});
   }
   return entries;

@@ -22,7 +22,10 @@ namespace {
 
 const QString kFilter = QStringLiteral("PhaseSketch projects (*.json);;All files (*)");
 
-QString nameOf(const QString& path) { return path.isEmpty() ? QStringLiteral("New scene") : QFileInfo(path).fileName(); }
+QString sentence(const QString& text) { return text.endsWith(QLatin1Char('.')) ? text : text + QLatin1Char('.'); }
+QString nameOf(const QString& path) {
+  return path.isEmpty() ? QStringLiteral("New scene") : QFileInfo(path).fileName();
+}
 
 }  // namespace
 
@@ -62,19 +65,22 @@ void MainWindow::offerRestore() {
       continue;
     }
     notice()->show(QStringLiteral("restore"), MessageLevel::Info, QStringLiteral("Your last session can be restored."),
-                   QStringLiteral("“%1” was open when PhaseSketch ended unexpectedly. The copy is of %2.").arg(session.title, session.time.toString(QStringLiteral("d MMMM, HH:mm"))),
+                   QStringLiteral("“%1” was open when PhaseSketch ended unexpectedly. The copy is of %2.")
+                       .arg(session.title, session.time.toString(QStringLiteral("d MMMM, HH:mm"))),
                    {{QStringLiteral("Restore"),
                      [this, session] {
                        notice()->close(QStringLiteral("restore"));
-                       connect(&m_session->files(), &DocumentFiles::opened, this, [this, session] {
-                         if (m_session->autosave()) m_session->autosave()->saveNow();
-                         m_session->worker().run([session] { Autosave::discard(session); });
-                       }, Qt::SingleShotConnection);
+                       connect(
+                           &m_session->files(), &DocumentFiles::opened, this,
+                           [this, session] {
+                             if (m_session->autosave()) m_session->autosave()->saveNow();
+                             m_session->worker().run([session] { Autosave::discard(session); });
+                           },
+                           Qt::SingleShotConnection);
                        m_session->files().openCopy(session.copy, session.path);
                      }},
                     {QStringLiteral("Keep for later"), [this] { notice()->close(QStringLiteral("restore")); }},
-                    {QStringLiteral("Discard"),
-                     [this, session] {
+                    {QStringLiteral("Discard"), [this, session] {
                        Autosave::discard(session);
                        notice()->close(QStringLiteral("restore"));
                      }}});
@@ -86,7 +92,8 @@ void MainWindow::openFile(const QString& path) { m_session->files().open(path); 
 void MainWindow::saveTo(const QString& path) { m_session->files().save(path); }
 
 void MainWindow::chooseOpen() {
-  const QString path = QFileDialog::getOpenFileName(this, QStringLiteral("Open a project"), QFileInfo(m_session->document().path()).path(), kFilter);
+  const QString path = QFileDialog::getOpenFileName(this, QStringLiteral("Open a project"),
+                                                    QFileInfo(m_session->document().path()).path(), kFilter);
   if (!path.isEmpty()) openFile(path);
 }
 
@@ -100,7 +107,8 @@ void MainWindow::save() {
 }
 
 void MainWindow::chooseSave() {
-  QString path = QFileDialog::getSaveFileName(this, QStringLiteral("Save the project"), m_session->document().path(), kFilter);
+  QString path =
+      QFileDialog::getSaveFileName(this, QStringLiteral("Save the project"), m_session->document().path(), kFilter);
   if (path.isEmpty()) return;
   if (QFileInfo(path).suffix().isEmpty()) path += QStringLiteral(".json");
   saveTo(path);
@@ -112,7 +120,11 @@ void MainWindow::onOpened(const QString& path, const QStringList& warnings, doub
   for (const QString& warning : warnings) m_session->log().add(MessageLevel::Warning, nameOf(path), warning);
   m_session->log().add(MessageLevel::Ok, nameOf(path), QStringLiteral("Opened in %1 s.").arg(seconds, 0, 'f', 2));
   if (!warnings.isEmpty()) {
-    notice()->show(QStringLiteral("open"), MessageLevel::Warning, QStringLiteral("Opened, with %1.").arg(warnings.size() == 1 ? QStringLiteral("one remark") : QStringLiteral("%1 remarks").arg(warnings.size())), warnings.front());
+    notice()->show(QStringLiteral("open"), MessageLevel::Warning,
+                   QStringLiteral("Opened, with %1.")
+                       .arg(warnings.size() == 1 ? QStringLiteral("one remark")
+                                                 : QStringLiteral("%1 remarks").arg(warnings.size())),
+                   warnings.front());
   }
   if (m_first) {
     m_first = false;
@@ -129,23 +141,27 @@ void MainWindow::onOpenFailed(const QString& path, const QString& problem) {
   m_session->log().add(MessageLevel::Error, nameOf(path), problem);
   const bool nothing = m_session->document().project().bodies.empty();
   notice()->show(QStringLiteral("open"), MessageLevel::Error, QStringLiteral("“%1” was not opened.").arg(nameOf(path)),
-                 problem + (nothing ? QString() : QStringLiteral(" The present scene is unchanged.")),
+                 sentence(problem) + (nothing ? QString() : QStringLiteral(" The present scene is unchanged.")),
                  {{QStringLiteral("Open another…"), [this] { chooseOpen(); }}});
   if (m_first) {
     m_first = false;
     const QString shown = notice()->text();
-    if (!m_options.sample.isEmpty() && QFileInfo(path).absoluteFilePath() != QFileInfo(m_options.sample).absoluteFilePath()) {
+    if (!m_options.sample.isEmpty() &&
+        QFileInfo(path).absoluteFilePath() != QFileInfo(m_options.sample).absoluteFilePath()) {
       // The window must not stay empty; the notice stays.
       m_session->files().newProject();
-      notice()->show(QStringLiteral("open"), MessageLevel::Error, QStringLiteral("“%1” was not opened.").arg(nameOf(path)), problem,
-                     {{QStringLiteral("Open another…"), [this] { chooseOpen(); }}, {QStringLiteral("Open the sample"), [this] { openFile(m_options.sample); }}});
+      notice()->show(QStringLiteral("open"), MessageLevel::Error,
+                     QStringLiteral("“%1” was not opened.").arg(nameOf(path)), problem,
+                     {{QStringLiteral("Open another…"), [this] { chooseOpen(); }},
+                      {QStringLiteral("Open the sample"), [this] { openFile(m_options.sample); }}});
     }
   }
 }
 
 void MainWindow::onSaveFailed(const QString& path, const QString& problem) {
   m_session->log().add(MessageLevel::Error, nameOf(path), problem);
-  notice()->show(QStringLiteral("save"), MessageLevel::Error, QStringLiteral("Not saved."), problem + QStringLiteral(" Your work is kept in memory."),
+  notice()->show(QStringLiteral("save"), MessageLevel::Error, QStringLiteral("Not saved."),
+                 sentence(problem) + QStringLiteral(" Your work is kept in memory."),
                  {{QStringLiteral("Save elsewhere…"), [this] { chooseSave(); }}});
 }
 
@@ -166,28 +182,39 @@ void MainWindow::writeFile(const QString& path, std::function<QByteArray()> cont
 
 void MainWindow::exportCsv() {
   if (!m_session->engine()) return;
-  const QString path = QFileDialog::getSaveFileName(this, QStringLiteral("Export all frames"), QStringLiteral("frames.csv"), QStringLiteral("CSV (*.csv)"));
+  const QString path = QFileDialog::getSaveFileName(this, QStringLiteral("Export all frames"),
+                                                    QStringLiteral("frames.csv"), QStringLiteral("CSV (*.csv)"));
   if (path.isEmpty()) return;
-  writeFile(path, [history = m_session->engine()->history(0), probes = m_session->document().project().probes] { return historyCsv(history, probes); }, QStringLiteral("Frames as CSV"));
+  writeFile(
+      path,
+      [history = m_session->engine()->history(0), probes = m_session->document().project().probes] {
+        return historyCsv(history, probes);
+      },
+      QStringLiteral("Frames as CSV"));
 }
 
 void MainWindow::exportPicture() {
   Viewport* view = viewport();
   if (!view) return;
-  const QString path = QFileDialog::getSaveFileName(this, QStringLiteral("Save a picture of the scene"), QStringLiteral("scene.png"), QStringLiteral("PNG (*.png)"));
+  const QString path = QFileDialog::getSaveFileName(this, QStringLiteral("Save a picture of the scene"),
+                                                    QStringLiteral("scene.png"), QStringLiteral("PNG (*.png)"));
   if (path.isEmpty()) return;
-  writeFile(path, [image = view->grabFramebuffer()] {
-    QByteArray bytes;
-    QBuffer buffer(&bytes);
-    buffer.open(QIODevice::WriteOnly);
-    image.save(&buffer, "PNG");
-    return bytes;
-  }, QStringLiteral("Picture"));
+  writeFile(
+      path,
+      [image = view->grabFramebuffer()] {
+        QByteArray bytes;
+        QBuffer buffer(&bytes);
+        buffer.open(QIODevice::WriteOnly);
+        image.save(&buffer, "PNG");
+        return bytes;
+      },
+      QStringLiteral("Picture"));
 }
 
 void MainWindow::updateTitle() {
   const Document& document = m_session->document();
-  setWindowTitle(document.title() + (document.isDirty() ? QStringLiteral(" • PhaseSketch") : QStringLiteral(" – PhaseSketch")));
+  setWindowTitle(document.title() +
+                 (document.isDirty() ? QStringLiteral(" • PhaseSketch") : QStringLiteral(" – PhaseSketch")));
 }
 
 void MainWindow::dragEnterEvent(QDragEnterEvent* event) {

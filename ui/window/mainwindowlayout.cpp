@@ -102,8 +102,8 @@ void MainWindow::makeDocks() {
 
 void MainWindow::applyDefaultLayout() {
   const QSize screen = this->screen() ? this->screen()->availableSize() : QSize(1600, 1000);
-  if (!testAttribute(Qt::WA_Resized)) resize(screen.width() >= 1700 && screen.height() >= 1050 ? QSize(1600, 1000) : QSize(1280, 800));
-  const bool wide = width() >= kWide;
+  if (!testAttribute(Qt::WA_Resized))
+    resize(screen.width() >= 1700 && screen.height() >= 1050 ? QSize(1600, 1000) : QSize(1280, 800));
   for (Dock* dock : {m_left, m_materialsDock, m_right, m_bottom, m_transportDock}) {
     dock->setFloating(false);
     dock->setVisible(true);
@@ -113,9 +113,14 @@ void MainWindow::applyDefaultLayout() {
   addDockWidget(Qt::BottomDockWidgetArea, m_bottom);
   splitDockWidget(m_left, m_materialsDock, Qt::Vertical);
   splitDockWidget(m_bottom, m_transportDock, Qt::Vertical);
+  sizeDocks();
+}
+
+void MainWindow::sizeDocks() {
+  const bool wide = width() >= kWide;
   resizeDocks({m_left, m_right}, {wide ? 236 : 204, wide ? 392 : 332}, Qt::Horizontal);
-  resizeDocks({m_left, m_materialsDock}, {wide ? 380 : 250, wide ? 252 : 150}, Qt::Vertical);
-  resizeDocks({m_bottom, m_transportDock}, {wide ? 200 : 170, 40}, Qt::Vertical);
+  resizeDocks({m_left, m_materialsDock}, {wide ? 380 : 270, wide ? 252 : 140}, Qt::Vertical);
+  resizeDocks({m_bottom, m_transportDock}, {wide ? 206 : 182, 40}, Qt::Vertical);
 }
 
 void MainWindow::restoreWindow() {
@@ -124,7 +129,7 @@ void MainWindow::restoreWindow() {
   if (m_dark != Theme::current().dark()) Theme::apply(*qApp, m_dark);
   if (settings.contains(QLatin1String(kGeometry))) {
     restoreGeometry(settings.value(QLatin1String(kGeometry)).toByteArray());
-    restoreState(settings.value(QLatin1String(kState)).toByteArray(), kStateVersion);
+    m_sizeAtShow = !restoreState(settings.value(QLatin1String(kState)).toByteArray(), kStateVersion);
   }
   if (Viewport* view = viewport()) view->setHintShown(settings.value(QLatin1String(kHint), true).toBool());
 }
@@ -160,7 +165,14 @@ void MainWindow::resizeEvent(QResizeEvent* event) {
   QMainWindow::resizeEvent(event);
   const bool was = event->oldSize().width() >= kWide, wide = width() >= kWide;
   if (was == wide || !event->oldSize().isValid()) return;
-  resizeDocks({m_left, m_right}, {wide ? 236 : 204, wide ? 392 : 332}, Qt::Horizontal);
+  sizeDocks();
+}
+
+/// Sizes given before the window is laid out are not kept.
+void MainWindow::showEvent(QShowEvent* event) {
+  QMainWindow::showEvent(event);
+  if (m_sizeAtShow) QTimer::singleShot(0, this, &MainWindow::sizeDocks);
+  m_sizeAtShow = false;
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {

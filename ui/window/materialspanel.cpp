@@ -30,7 +30,8 @@ void paintBall(QPainter& painter, const QRectF& rect, const QColor& colour) {
 
 float channelOf(const Value& value) {
   if (const auto* number = std::get_if<double>(&value)) return static_cast<float>(std::clamp(*number, 0.0, 1.0));
-  if (const auto* response = std::get_if<Response>(&value)) return static_cast<float>(std::clamp(response->at(293.15), 0.0, 1.0));
+  if (const auto* response = std::get_if<Response>(&value))
+    return static_cast<float>(std::clamp(response->at(293.15), 0.0, 1.0));
   return 0.5F;
 }
 
@@ -47,12 +48,15 @@ void MaterialsPanel::rebuild() {
   const Project& project = m_document.project();
   const PluginRegistry* plugins = m_document.plugins();
   for (const SceneMaterial& material : project.materials) {
-    const auto channel = [&](const char* key) { return channelOf(valueAt(project, plugins, {"material", material.id, key})); };
+    const auto channel = [&](const char* key) {
+      return channelOf(valueAt(project, plugins, {"material", material.id, key}));
+    };
     m_tiles.push_back({material.id, QString::fromStdString(material.label.empty() ? material.id : material.label),
                        QColor::fromRgbF(channel("color_red"), channel("color_green"), channel("color_blue")),
                        plugins && !plugins->material(material.base)});
   }
-  const bool known = std::any_of(m_tiles.begin(), m_tiles.end(), [&](const Tile& tile) { return tile.id == m_current; });
+  const bool known =
+      std::any_of(m_tiles.begin(), m_tiles.end(), [&](const Tile& tile) { return tile.id == m_current; });
   if (!known) m_current = m_tiles.empty() ? std::string() : m_tiles.front().id;
   update();
 }
@@ -86,7 +90,8 @@ void MaterialsPanel::paintEvent(QPaintEvent*) {
     const QRectF rect = tileRect(i);
     const bool current = tile.id == m_current;
     if (current || m_hover == static_cast<int>(i)) {
-      paintBox(painter, rect, theme[current ? Token::Selection : Token::Header], current ? theme[Token::Accent] : QColor(), 5);
+      paintBox(painter, rect, theme[current ? Token::Selection : Token::Header],
+               current ? theme[Token::Accent] : QColor(), 5);
     }
     const QRectF ball(rect.center().x() - kBall / 2.0, rect.top() + 5, kBall, kBall);
     if (tile.missing) {
@@ -130,7 +135,11 @@ void MaterialsPanel::leaveEvent(QEvent*) {
 }
 
 void MaterialsPanel::keyPressEvent(QKeyEvent* event) {
-  const int step = event->key() == Qt::Key_Right ? 1 : event->key() == Qt::Key_Left ? -1 : event->key() == Qt::Key_Down ? columns() : event->key() == Qt::Key_Up ? -columns() : 0;
+  const int step = event->key() == Qt::Key_Right  ? 1
+                   : event->key() == Qt::Key_Left ? -1
+                   : event->key() == Qt::Key_Down ? columns()
+                   : event->key() == Qt::Key_Up   ? -columns()
+                                                  : 0;
   int index = 0;
   for (size_t i = 0; i < m_tiles.size(); ++i) {
     if (m_tiles[i].id == m_current) index = static_cast<int>(i);

@@ -41,7 +41,8 @@ void MessageLog::takeLog() {
   m_hooked = true;
   setLogHook([this](LogLevel level, std::string_view text) {
     const QString message = QString::fromUtf8(text.data(), static_cast<qsizetype>(text.size()));
-    QMetaObject::invokeMethod(this, [this, level, message] { add(levelOf(level), QStringLiteral("Program"), message); });
+    QMetaObject::invokeMethod(this,
+                              [this, level, message] { add(levelOf(level), QStringLiteral("Program"), message); });
   });
 }
 

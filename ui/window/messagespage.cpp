@@ -36,7 +36,11 @@ Token tokenOf(MessageLevel level) {
 }  // namespace
 
 MessagesPage::MessagesPage(MessageLog& log, QWidget* parent)
-    : QWidget(parent), m_log(log), m_model(new QStandardItemModel(this)), m_view(new QTreeView), m_empty(new QLabel(QStringLiteral("All quiet"))) {
+    : QWidget(parent),
+      m_log(log),
+      m_model(new QStandardItemModel(this)),
+      m_view(new QTreeView),
+      m_empty(new QLabel(QStringLiteral("All quiet"))) {
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(0);
@@ -53,7 +57,8 @@ MessagesPage::MessagesPage(MessageLog& log, QWidget* parent)
   m_view->setContextMenuPolicy(Qt::CustomContextMenu);
   connect(m_view, &QWidget::customContextMenuRequested, this, [this](const QPoint& at) {
     QMenu menu;
-    menu.addAction(QStringLiteral("Copy all"), this, [this] { QGuiApplication::clipboard()->setText(m_log.allText()); });
+    menu.addAction(QStringLiteral("Copy all"), this,
+                   [this] { QGuiApplication::clipboard()->setText(m_log.allText()); });
     menu.exec(m_view->viewport()->mapToGlobal(at));
   });
   connect(&log, &MessageLog::changed, this, &MessagesPage::refresh);

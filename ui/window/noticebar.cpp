@@ -50,7 +50,8 @@ NoticeBar::NoticeBar(QWidget* parent)
   hide();
 }
 
-void NoticeBar::show(const QString& topic, MessageLevel level, const QString& title, const QString& text, std::vector<Button> buttons) {
+void NoticeBar::show(const QString& topic, MessageLevel level, const QString& title, const QString& text,
+                     std::vector<Button> buttons) {
   m_topic = topic;
   m_level = level;
   m_title->setText(title);
@@ -82,7 +83,8 @@ void NoticeBar::paintEvent(QPaintEvent*) {
   const Theme& theme = Theme::current();
   painter.fillRect(rect(), theme[groundOf(m_level)]);
   painter.fillRect(QRect(0, 0, 3, height()), theme[markOf(m_level)]);
-  paintIcon(painter, QRectF(14, height() / 2.0 - 8, 16, 16), QString::fromLatin1(messageIcon(m_level)), theme[markOf(m_level)]);
+  paintIcon(painter, QRectF(14, height() / 2.0 - 8, 16, 16), QString::fromLatin1(messageIcon(m_level)),
+            theme[markOf(m_level)]);
 }
 
 }  // namespace ps

@@ -23,7 +23,8 @@ class NoticeBar : public QWidget {
     std::function<void()> act;
   };
   /// `topic`: a later notice of the same topic replaces this one, and close(topic) takes it away.
-  void show(const QString& topic, MessageLevel level, const QString& title, const QString& text, std::vector<Button> buttons = {});
+  void show(const QString& topic, MessageLevel level, const QString& title, const QString& text,
+            std::vector<Button> buttons = {});
   void close(const QString& topic);
   const QString& topic() const { return m_topic; }
   QString text() const;

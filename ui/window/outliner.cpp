@@ -38,7 +38,7 @@ Outliner::Outliner(Document& document, QWidget* parent)
   column->addWidget(m_view);
   m_view->setModel(m_model);
   m_view->setHeaderHidden(true);
-  m_view->setIndentation(16);
+  m_view->setIndentation(12);
   m_view->setUniformRowHeights(true);
   m_view->setExpandsOnDoubleClick(false);
   m_view->setEditTriggers(QAbstractItemView::EditKeyPressed | QAbstractItemView::DoubleClicked);
@@ -46,9 +46,12 @@ Outliner::Outliner(Document& document, QWidget* parent)
   m_view->setAccessibleName(QStringLiteral("Outliner"));
   auto* delegate = new OutlinerDelegate(m_view);
   m_view->setItemDelegate(delegate);
-  connect(delegate, &OutlinerDelegate::visibleToggled, this, [this](const std::string& id, bool on) { m_document.setBodyVisible(id, on); });
-  connect(delegate, &OutlinerDelegate::lockToggled, this, [this](const std::string& id, bool on) { m_document.setBodyLocked(id, on); });
-  connect(delegate, &OutlinerDelegate::renamed, this, [this](const std::string& id, const QString& name) { m_document.renameBody(id, name); });
+  connect(delegate, &OutlinerDelegate::visibleToggled, this,
+          [this](const std::string& id, bool on) { m_document.setBodyVisible(id, on); });
+  connect(delegate, &OutlinerDelegate::lockToggled, this,
+          [this](const std::string& id, bool on) { m_document.setBodyLocked(id, on); });
+  connect(delegate, &OutlinerDelegate::renamed, this,
+          [this](const std::string& id, const QString& name) { m_document.renameBody(id, name); });
   connect(m_view->selectionModel(), &QItemSelectionModel::currentChanged, this, [this] {
     if (m_building) return;
     const auto [kind, id] = selected();
@@ -56,7 +59,8 @@ Outliner::Outliner(Document& document, QWidget* parent)
   });
 }
 
-QStandardItem* Outliner::add(QStandardItem* parent, OutlineKind kind, const std::string& id, const QString& name, const QString& icon) {
+QStandardItem* Outliner::add(QStandardItem* parent, OutlineKind kind, const std::string& id, const QString& name,
+                             const QString& icon) {
   auto* item = new QStandardItem(name);
   item->setData(static_cast<int>(kind), outline::kKind);
   item->setData(QString::fromStdString(id), outline::kId);
@@ -95,15 +99,22 @@ void Outliner::rebuild() {
   addBodies(scene);
   for (const SceneWall& wall : project.environment.walls) {
     const bool held = choiceOf(wall.parameters, wallParameters(), "heat") == "fixed_temperature";
-    QStandardItem* item = add(scene, OutlineKind::Wall, wall.id, QString::fromStdString(wall.name), held ? QStringLiteral("plate") : QStringLiteral("wall"));
+    QStandardItem* item = add(scene, OutlineKind::Wall, wall.id, QString::fromStdString(wall.name),
+                              held ? QStringLiteral("plate") : QStringLiteral("wall"));
     if (held) {
       const auto* declaration = findDeclaration(wallParameters(), "temperature");
-      item->setData(formatQuantity(toDisplay(*declaration, numberOf(wall.parameters, wallParameters(), "temperature")), QStringLiteral("°C"), 3), outline::kDetail);
+      item->setData(formatQuantity(toDisplay(*declaration, numberOf(wall.parameters, wallParameters(), "temperature")),
+                                   QStringLiteral("°C"), 3),
+                    outline::kDetail);
     }
   }
-  QStandardItem* air = add(scene, OutlineKind::Environment, "", QStringLiteral("Air and gravity"), QStringLiteral("air"));
+  QStandardItem* air =
+      add(scene, OutlineKind::Environment, "", QStringLiteral("Air and gravity"), QStringLiteral("air"));
   const auto* ambient = findDeclaration(environmentParameters(), "ambient_temperature");
-  air->setData(formatQuantity(toDisplay(*ambient, numberOf(project.environment.parameters, environmentParameters(), "ambient_temperature")), QStringLiteral("°C"), 3), outline::kDetail);
+  air->setData(formatQuantity(toDisplay(*ambient, numberOf(project.environment.parameters, environmentParameters(),
+                                                           "ambient_temperature")),
+                              QStringLiteral("°C"), 3),
+               outline::kDetail);
   if (!project.probes.empty()) {
     QStandardItem* probes = add(scene, OutlineKind::Probes, "", QStringLiteral("Probes"), QStringLiteral("folder"));
     for (const Probe& probe : project.probes) {
@@ -155,7 +166,8 @@ void Outliner::refreshCounts() {
     } else if (unit == "1") {
       decimals = 0;
     }
-    item->setData(std::isfinite(value) ? formatFixed(value, decimals) + QLatin1Char(' ') + shown : QStringLiteral("—"), outline::kDetail);
+    item->setData(std::isfinite(value) ? formatFixed(value, decimals) + QLatin1Char(' ') + shown : QStringLiteral("—"),
+                  outline::kDetail);
   }
 }
 
@@ -166,7 +178,9 @@ QStandardItem* Outliner::find(OutlineKind kind, const std::string& id) const {
     QStandardItem* item = open.back();
     open.pop_back();
     for (int row = 0; row < item->rowCount(); ++row) open.push_back(item->child(row));
-    if (item->data(outline::kKind).isValid() && item->data(outline::kKind).toInt() == static_cast<int>(kind) && item->data(outline::kId).toString() == wanted) return item;
+    if (item->data(outline::kKind).isValid() && item->data(outline::kKind).toInt() == static_cast<int>(kind) &&
+        item->data(outline::kId).toString() == wanted)
+      return item;
   }
   return nullptr;
 }
@@ -181,7 +195,8 @@ void Outliner::select(OutlineKind kind, const std::string& id) {
 std::pair<OutlineKind, std::string> Outliner::selected() const {
   const QModelIndex index = m_view->currentIndex();
   if (!index.isValid()) return {OutlineKind::Scene, ""};
-  return {static_cast<OutlineKind>(index.data(outline::kKind).toInt()), index.data(outline::kId).toString().toStdString()};
+  return {static_cast<OutlineKind>(index.data(outline::kKind).toInt()),
+          index.data(outline::kId).toString().toStdString()};
 }
 
 void Outliner::renameSelected() {

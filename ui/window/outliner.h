@@ -21,9 +21,9 @@ enum class OutlineKind { Scene, Body, Wall, Probes, Probe, Environment };
 
 /// Roles of the outliner's items.
 namespace outline {
-inline constexpr int kKind = Qt::UserRole + 1, kId = Qt::UserRole + 2, kIcon = Qt::UserRole + 3, kDetail = Qt::UserRole + 4,
-                     kSwatch = Qt::UserRole + 5, kVisible = Qt::UserRole + 6, kLocked = Qt::UserRole + 7,
-                     kPlaceholder = Qt::UserRole + 8;
+inline constexpr int kKind = Qt::UserRole + 1, kId = Qt::UserRole + 2, kIcon = Qt::UserRole + 3,
+                     kDetail = Qt::UserRole + 4, kSwatch = Qt::UserRole + 5, kVisible = Qt::UserRole + 6,
+                     kLocked = Qt::UserRole + 7, kPlaceholder = Qt::UserRole + 8;
 }
 
 /// Bodies, walls, probes and air as a tree: icon, name, count, swatch, lock, eye. F2 renames a body.
@@ -37,13 +37,14 @@ class Outliner : public QWidget {
   std::pair<OutlineKind, std::string> selected() const;
   void renameSelected();
   QTreeView* view() const { return m_view; }
-  QSize sizeHint() const override { return {236, 300}; }
+  QSize sizeHint() const override { return {204, 300}; }
 
  Q_SIGNALS:
   void selectionChanged(ps::OutlineKind kind, const std::string& id);
 
  private:
-  QStandardItem* add(QStandardItem* parent, OutlineKind kind, const std::string& id, const QString& name, const QString& icon);
+  QStandardItem* add(QStandardItem* parent, OutlineKind kind, const std::string& id, const QString& name,
+                     const QString& icon);
   void addBodies(QStandardItem* scene);
   void refreshCounts();
   QStandardItem* find(OutlineKind kind, const std::string& id) const;

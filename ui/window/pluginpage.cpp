@@ -65,12 +65,13 @@ PluginPage::PluginPage(QWidget* parent)
   m_summary->setProperty("role", "text2");
   m_filter->setObjectName(QStringLiteral("psFilter"));
   m_filter->setPlaceholderText(QStringLiteral("Name, kind, author"));
-  m_filter->setMaximumWidth(220);
+  m_filter->setFixedWidth(170);
   m_filter->setAccessibleName(QStringLiteral("Filter plugins"));
   connect(m_filter, &QLineEdit::textChanged, this, &PluginPage::filter);
   auto* copy = new QPushButton(QStringLiteral("Copy list"));
   auto* back = new QPushButton(QStringLiteral("Back to the scene"));
-  connect(copy, &QPushButton::clicked, this, [this] { QGuiApplication::clipboard()->setText(lines().join(QLatin1Char('\n'))); });
+  connect(copy, &QPushButton::clicked, this,
+          [this] { QGuiApplication::clipboard()->setText(lines().join(QLatin1Char('\n'))); });
   connect(back, &QPushButton::clicked, this, &PluginPage::closeRequested);
   head->addWidget(title);
   head->addSpacing(8);
@@ -106,13 +107,15 @@ QString PluginPage::summary() const {
   for (const PluginInfo& plugin : m_registry->plugins()) {
     ++(plugin.state == PluginInfo::State::Loaded ? loaded : broken);
   }
-  return broken == 0 ? QStringLiteral("%1 loaded").arg(loaded) : QStringLiteral("%1 loaded, %2 not").arg(loaded).arg(broken);
+  return broken == 0 ? QStringLiteral("%1 loaded").arg(loaded)
+                     : QStringLiteral("%1 loaded, %2 not").arg(loaded).arg(broken);
 }
 
 void PluginPage::refresh() {
   m_model->clear();
-  m_model->setHorizontalHeaderLabels({QStringLiteral("Plugin"), QStringLiteral("Kind"), QStringLiteral("Version"), QStringLiteral("API"),
-                                      QStringLiteral("Licence"), QStringLiteral("State"), QStringLiteral("Problem")});
+  m_model->setHorizontalHeaderLabels({QStringLiteral("Plugin"), QStringLiteral("Kind"), QStringLiteral("Version"),
+                                      QStringLiteral("API"), QStringLiteral("Licence"), QStringLiteral("State"),
+                                      QStringLiteral("Problem")});
   m_summary->setText(summary());
   if (!m_registry) return;
   const Theme& theme = Theme::current();
@@ -121,14 +124,17 @@ void PluginPage::refresh() {
     const PluginInfo& plugin = plugins[i];
     const bool good = plugin.state == PluginInfo::State::Loaded;
     QList<QStandardItem*> row;
-    for (const QString& text : {nameOf(plugin), kindText(plugin.kind), QString::fromStdString(plugin.version), QString::fromStdString(plugin.api),
-                                QString::fromStdString(plugin.licence), stateText(plugin), QString::fromStdString(good ? plugin.note : plugin.problem)}) {
+    for (const QString& text : {nameOf(plugin), plugin.id.empty() ? QStringLiteral("—") : kindText(plugin.kind),
+                                QString::fromStdString(plugin.version), QString::fromStdString(plugin.api),
+                                QString::fromStdString(plugin.licence), stateText(plugin),
+                                QString::fromStdString(good ? plugin.note : plugin.problem)}) {
       row << new QStandardItem(text);
       row.back()->setForeground(theme[Token::Text2]);
     }
     row[0]->setForeground(theme[Token::Text]);
     row[0]->setData(static_cast<int>(i), kId);
-    row[0]->setIcon(QIcon(iconPixmap(good ? QStringLiteral("check") : QStringLiteral("warning"), theme[good ? Token::Ok : Token::Error], 16, devicePixelRatioF())));
+    row[0]->setIcon(QIcon(iconPixmap(good ? QStringLiteral("check") : QStringLiteral("warning"),
+                                     theme[good ? Token::Ok : Token::Error], 16, devicePixelRatioF())));
     if (!good) {
       row[5]->setForeground(theme[Token::Error]);
       row[6]->setForeground(theme[Token::Error]);
@@ -168,10 +174,14 @@ void PluginPage::showDetails() {
   if (!plugin.author.empty()) html += QStringLiteral(" · by ") + text(plugin.author);
   html += QStringLiteral("<br>");
   if (!plugin.problem.empty()) {
-    html += QStringLiteral("<span style='color:%1'>%2</span><br>").arg(Theme::current()[Token::Error].name(), text(plugin.problem));
+    html += QStringLiteral("<span style='color:%1'>%2</span><br>")
+                .arg(Theme::current()[Token::Error].name(), text(plugin.problem));
   }
   if (!plugin.note.empty()) html += text(plugin.note) + QStringLiteral("<br>");
-  html += text(plugin.help) + QStringLiteral("<br><span style='color:%1'>%2%3</span>").arg(Theme::current()[Token::Muted].name(), plugin.id.empty() ? QString() : text(plugin.id) + QStringLiteral(" · "), text(plugin.path));
+  html += text(plugin.help) + QStringLiteral("<br><span style='color:%1'>%2%3</span>")
+                                  .arg(Theme::current()[Token::Muted].name(),
+                                       plugin.id.empty() ? QString() : text(plugin.id) + QStringLiteral(" · "),
+                                       text(plugin.path));
   m_details->setText(html);
 }
 

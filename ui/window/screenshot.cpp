@@ -11,7 +11,7 @@ QImage windowImage(QWidget& window) {
   QImage image = window.grab().toImage().convertToFormat(QImage::Format_RGB32);
   const double ratio = image.devicePixelRatio();
   for (QOpenGLWidget* scene : window.findChildren<QOpenGLWidget*>()) {
-    if (!scene->isVisible()) continue;
+    if (!scene->isVisible() || !scene->isValid()) continue;
     QImage picture = scene->grabFramebuffer().convertToFormat(QImage::Format_RGB32);
     picture.setDevicePixelRatio(ratio);
     QPainter painter(&image);

@@ -53,21 +53,25 @@ void Session::adoptPlugins(std::unique_ptr<PluginRegistry> plugins) {
   m_document->setPlugins(m_plugins.get());
   m_engine = std::make_unique<EngineThread>(*m_plugins, [this] {
     if (m_pending.exchange(true)) return;
-    QMetaObject::invokeMethod(this, [this] {
-      m_pending = false;
-      const bool now = playing();
-      Q_EMIT snapshotArrived();
-      if (now != m_wasPlaying) {
-        m_wasPlaying = now;
-        Q_EMIT playingChanged();
-      }
-    }, Qt::QueuedConnection);
+    QMetaObject::invokeMethod(
+        this,
+        [this] {
+          m_pending = false;
+          const bool now = playing();
+          Q_EMIT snapshotArrived();
+          if (now != m_wasPlaying) {
+            m_wasPlaying = now;
+            Q_EMIT playingChanged();
+          }
+        },
+        Qt::QueuedConnection);
   });
   m_link = std::make_unique<SceneLink>(*m_document, *m_engine);
   for (const PluginInfo& plugin : m_plugins->plugins()) {
     if (plugin.problem.empty()) continue;
     const std::string name = !plugin.id.empty() ? plugin.id : plugin.path;
-    m_log->add(MessageLevel::Warning, QStringLiteral("Plugin ") + QString::fromStdString(name), QString::fromStdString(plugin.problem));
+    m_log->add(MessageLevel::Warning, QStringLiteral("Plugin ") + QString::fromStdString(name),
+               QString::fromStdString(plugin.problem));
   }
   Q_EMIT ready();
 }

@@ -20,8 +20,8 @@ class PluginRegistry;
 class SceneLink;
 class Worker;
 
-/// What a window works on: plugins, document, engine, files, autosave. Plugins are loaded on a worker thread so that the
-/// window shows first; until ready() there is no engine. Knows no widget.
+/// What a window works on: plugins, document, engine, files, autosave. Plugins are loaded on a worker thread so that
+/// the window shows first; until ready() there is no engine. Knows no widget.
 class Session : public QObject {
   Q_OBJECT
  public:
@@ -58,7 +58,7 @@ class Session : public QObject {
 
  Q_SIGNALS:
   void ready();
-  void snapshotArrived();    ///< coalesced: at most one per turn of the event loop
+  void snapshotArrived();  ///< coalesced: at most one per turn of the event loop
   void playingChanged();
 
  private:

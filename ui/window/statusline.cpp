@@ -20,6 +20,7 @@ constexpr double kSmooth = 0.08;  // share of a new frame in the shown mean, so 
 
 StatusLine::StatusLine(QWidget* parent) : QWidget(parent) {
   setFixedHeight(kHeight);
+  setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
   setAccessibleName(QStringLiteral("Status"));
 }
 
@@ -30,8 +31,11 @@ void StatusLine::setState(const State& state) {
     const bool fresh = state.snapshot->revision != m_revision || m_milliseconds == 0;
     if (state.snapshot->revision != m_revision) {
       m_revision = state.snapshot->revision;
-      m_startEnergy = stats.thermalEnergy - stats.heat.net();
+      m_started = false;
     }
+    // Matter drawn before the first step belongs to the start.
+    if (!m_started) m_startEnergy = stats.thermalEnergy - stats.heat.net();
+    m_started = stats.frame > 0;
     const double share = fresh ? 1 : kSmooth;
     m_milliseconds += share * (stats.totalMilliseconds - m_milliseconds);
     for (size_t i = 0; i < m_stages.size(); ++i) m_stages[i] += share * (stats.milliseconds[i] - m_stages[i]);
@@ -50,7 +54,9 @@ double StatusLine::drift() const {
 std::vector<StatusLine::Part> StatusLine::leftParts() const {
   std::vector<Part> parts;
   if (!m_state.ready) return {{QStringLiteral("Loading plugins"), {}}};
-  const QString state = m_state.failed ? QStringLiteral("Paused, see above") : m_state.playing ? QStringLiteral("Running") : QStringLiteral("Paused");
+  const QString state = m_state.failed    ? QStringLiteral("Paused, see above")
+                        : m_state.playing ? QStringLiteral("Running")
+                                          : QStringLiteral("Paused");
   parts.push_back({state, {}});
   if (!m_state.snapshot) return parts;
   const FrameStats& stats = m_state.snapshot->stats;
@@ -58,13 +64,17 @@ std::vector<StatusLine::Part> StatusLine::leftParts() const {
   const auto slowest = std::max_element(m_stages.begin(), m_stages.end());
   QString detail = QStringLiteral("/frame");
   if (*slowest > 0) {
-    detail += QStringLiteral(" · %1 %2").arg(QString::fromLatin1(stageName(static_cast<Stage>(slowest - m_stages.begin()))), formatFixed(*slowest, 1));
+    detail += QStringLiteral(" · %1 %2")
+                  .arg(QString::fromLatin1(stageName(static_cast<Stage>(slowest - m_stages.begin()))),
+                       formatFixed(*slowest, 1));
   }
-  if (m_state.drawMilliseconds > 0) detail += QStringLiteral(" · draw %1").arg(formatFixed(m_state.drawMilliseconds, 1));
+  if (m_state.drawMilliseconds > 0)
+    detail += QStringLiteral(" · draw %1").arg(formatFixed(m_state.drawMilliseconds, 1));
   parts.push_back({formatFixed(m_milliseconds, 1) + QStringLiteral(" ms"), detail});
   parts.push_back({formatFixed(m_state.realTime, 2) + QStringLiteral("×"), QStringLiteral("real time")});
   if (!m_state.graphics.isEmpty()) parts.push_back({{}, m_state.graphics});
-  parts.push_back({formatFixed(stats.densityErrorMean * 100, 1) + QStringLiteral(" %"), QStringLiteral("density error")});
+  parts.push_back(
+      {formatFixed(stats.densityErrorMean * 100, 1) + QStringLiteral(" %"), QStringLiteral("density error")});
   parts.push_back({formatShort(std::abs(drift()), 1), QStringLiteral("energy drift")});
   return parts;
 }
@@ -114,8 +124,10 @@ void StatusLine::paintEvent(QPaintEvent*) {
     if (x + w + 12 > right) break;  // no half words: what does not fit is left out
     if (!first) paintVerticalLine(painter, x - 8, 6, height() - 6, theme[Token::Line2]);
     first = false;
-    paintText(painter, QRectF(x, 0, strong + 1, height()), Qt::AlignLeft | Qt::AlignVCenter, part.strong, font, theme[Token::Text]);
-    paintText(painter, QRectF(x + strong, 0, w - strong + 1, height()), Qt::AlignLeft | Qt::AlignVCenter, part.weak, font, theme[Token::Text2]);
+    paintText(painter, QRectF(x, 0, strong + 1, height()), Qt::AlignLeft | Qt::AlignVCenter, part.strong, font,
+              theme[Token::Text]);
+    paintText(painter, QRectF(x + strong, 0, w - strong + 1, height()), Qt::AlignLeft | Qt::AlignVCenter, part.weak,
+              font, theme[Token::Text2]);
     x += w + 16;
   }
 }

@@ -10,7 +10,8 @@
 namespace ps {
 
 /// The line at the bottom: state, particles, milliseconds per frame with the slowest stage, real-time factor, density
-/// error, energy drift; notes and files on the right. One painted widget, so that running numbers never push each other.
+/// error, energy drift; notes and files on the right. One painted widget, so that running numbers never push each
+/// other.
 class StatusLine : public QWidget {
   Q_OBJECT
  public:
@@ -43,6 +44,7 @@ class StatusLine : public QWidget {
   std::vector<Part> leftParts() const;
   State m_state;
   uint64_t m_revision = 0;
+  bool m_started = false;
   double m_startEnergy = 0, m_milliseconds = 0;
   std::array<double, static_cast<size_t>(Stage::Count)> m_stages{};
   QRectF m_noteRect;

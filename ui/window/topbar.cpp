@@ -65,11 +65,12 @@ class SearchField : public QAbstractButton {
     const Theme& theme = Theme::current();
     paintBox(painter, QRectF(rect()), theme[Token::Field], theme[underMouse() ? Token::Line2 : Token::Line], 5);
     paintIcon(painter, QRectF(8, 5, 16, 16), QStringLiteral("search"), theme[Token::Muted]);
-    paintText(painter, QRectF(31, 0, 130, height()), Qt::AlignVCenter | Qt::AlignLeft, QStringLiteral("Search or command"),
-              Theme::font(TextRole::Normal), theme[Token::Muted]);
+    paintText(painter, QRectF(31, 0, 130, height()), Qt::AlignVCenter | Qt::AlignLeft,
+              QStringLiteral("Search or command"), Theme::font(TextRole::Normal), theme[Token::Muted]);
     const QRectF keys(width() - 49, 4, 43, 18);
     paintBox(painter, keys, theme[Token::Panel], theme[Token::Line2], 3);
-    paintText(painter, keys, Qt::AlignCenter, QStringLiteral("Ctrl K"), Theme::font(TextRole::Small), theme[Token::Text2]);
+    paintText(painter, keys, Qt::AlignCenter, QStringLiteral("Ctrl K"), Theme::font(TextRole::Small),
+              theme[Token::Text2]);
     if (hasFocus()) paintFocusRing(painter, QRectF(rect()), 5);
   }
 

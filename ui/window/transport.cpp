@@ -73,7 +73,8 @@ Transport::Transport(QWidget* parent)
 
 void Transport::styleButtons() {
   const Theme& theme = Theme::current();
-  m_play->setIcon(QIcon(iconPixmap(m_playing ? QStringLiteral("pause") : QStringLiteral("play"), theme[Token::OnAccent], 16, devicePixelRatioF())));
+  m_play->setIcon(QIcon(iconPixmap(m_playing ? QStringLiteral("pause") : QStringLiteral("play"), theme[Token::OnAccent],
+                                   16, devicePixelRatioF())));
   m_thermalIcon->setPixmap(iconPixmap(QStringLiteral("clock"), theme[Token::Muted], 16, devicePixelRatioF()));
 }
 
@@ -86,7 +87,8 @@ void Transport::setPlaying(bool playing) {
 }
 
 void Transport::setReady(bool ready) {
-  for (QWidget* button : {static_cast<QWidget*>(m_reset), static_cast<QWidget*>(m_step), static_cast<QWidget*>(m_play)}) {
+  for (QWidget* button :
+       {static_cast<QWidget*>(m_reset), static_cast<QWidget*>(m_step), static_cast<QWidget*>(m_play)}) {
     button->setEnabled(ready);
   }
 }
@@ -111,7 +113,8 @@ QString Transport::timeText() const { return clockText(m_seconds); }
 
 QString Transport::thermalText() const {
   if (m_scale == 1) return {};
-  return QStringLiteral("Heat ×%1 = <b>%2</b> of real heating").arg(formatShort(m_scale), spanText(m_thermalSeconds));
+  return QStringLiteral("Heat ×%1 = <span style='font-weight:500; color:%3'>%2</span> of real heating")
+      .arg(formatShort(m_scale), spanText(m_thermalSeconds), Theme::current()[Token::Text].name());
 }
 
 void Transport::refresh() {

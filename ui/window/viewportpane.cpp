@@ -6,6 +6,7 @@
 #include "ui/theme/theme.h"
 #include "ui/window/noticebar.h"
 
+#include <QtGui/QGuiApplication>
 #include <QtGui/QOpenGLContext>
 #include <QtGui/QPainter>
 #include <QtWidgets/QButtonGroup>
@@ -22,6 +23,10 @@ constexpr int kBar = 34;
 const char* const kShapes[] = {"sphere", "cube"};
 
 bool canHaveContext() {
+  // These platforms may offer contexts, but no widget can show what is drawn in them.
+  for (const char* platform : {"offscreen", "minimal", "linuxfb", "vnc"}) {
+    if (QGuiApplication::platformName() == QLatin1String(platform)) return false;
+  }
   QOpenGLContext context;
   context.setFormat(QSurfaceFormat::defaultFormat());
   return context.create();
@@ -56,8 +61,9 @@ ViewportPane::ViewportPane(QWidget* parent)
     m_viewport = new Viewport;
     column->addWidget(m_viewport, 1);
   } else {
-    auto* none = new QLabel(QStringLiteral("<b>No picture of the scene</b><br>This display offers no OpenGL. The simulation, the graphs and all values "
-                                           "work; start on a display with OpenGL 4.3 to see the scene."));
+    auto* none = new QLabel(QStringLiteral(
+        "<b>No picture of the scene</b><br>This display offers no OpenGL. The simulation, the graphs and all values "
+        "work; start on a display with OpenGL 4.3 to see the scene."));
     none->setObjectName(QStringLiteral("psNoOpenGL"));
     none->setWordWrap(true);
     none->setAlignment(Qt::AlignCenter);
@@ -76,8 +82,9 @@ QWidget* ViewportPane::makeBar() {
     ViewTool tool;
     const char *icon, *tip;
   };
-  for (const Tool& t : {Tool{ViewTool::Select, "select", "Select and orbit (Q)"}, Tool{ViewTool::Brush, "brush", "Draw matter (B)"},
-                        Tool{ViewTool::Erase, "erase", "Erase matter (E)"}}) {
+  for (const Tool& t :
+       {Tool{ViewTool::Select, "select", "Select and orbit (Q)"}, Tool{ViewTool::Brush, "brush", "Draw matter (B)"},
+        Tool{ViewTool::Erase, "erase", "Erase matter (E)"}}) {
     QToolButton* button = checkable(QString::fromLatin1(t.icon), QString::fromLatin1(t.tip));
     m_tools->addButton(button, static_cast<int>(t.tool));
     row->addWidget(button);
@@ -88,7 +95,8 @@ QWidget* ViewportPane::makeBar() {
   brush->setContentsMargins(10, 0, 0, 0);
   brush->setSpacing(4);
   for (int i = 0; i < 2; ++i) {
-    QToolButton* button = checkable(QString::fromLatin1(kShapes[i]), i == 0 ? QStringLiteral("Sphere") : QStringLiteral("Cube"));
+    QToolButton* button =
+        checkable(QString::fromLatin1(kShapes[i]), i == 0 ? QStringLiteral("Sphere") : QStringLiteral("Cube"));
     m_shapes->addButton(button, i);
     brush->addWidget(button);
   }
@@ -116,11 +124,14 @@ QWidget* ViewportPane::makeBar() {
   auto* colourLabel = new QLabel(QStringLiteral("Colour"));
   colourLabel->setProperty("role", "muted");
   row->addWidget(colourLabel);
-  m_colour->addItems({QStringLiteral("Matter"), QStringLiteral("Temperature"), QStringLiteral("Phase"), QStringLiteral("Speed"), QStringLiteral("Density error")});
+  m_colour->addItems({QStringLiteral("Matter"), QStringLiteral("Temperature"), QStringLiteral("Phase"),
+                      QStringLiteral("Speed"), QStringLiteral("Density error")});
+  m_colour->setMinimumWidth(128);
   m_colour->setToolTip(QStringLiteral("What colour means (Ctrl+1 to 5)"));
   m_colour->setAccessibleName(QStringLiteral("Colour"));
   m_colour->setFocusPolicy(Qt::TabFocus);
-  connect(m_colour, &QComboBox::activated, this, [this](int index) { Q_EMIT colourPicked(static_cast<ColourBy>(index)); });
+  connect(m_colour, &QComboBox::activated, this,
+          [this](int index) { Q_EMIT colourPicked(static_cast<ColourBy>(index)); });
   row->addWidget(m_colour);
   auto* frame = new QToolButton;
   frame->setIcon(icon(QStringLiteral("frame")));

@@ -13,8 +13,8 @@ namespace ps {
 
 class NoticeBar;
 
-/// The middle of the window: tool bar, notices, the viewport. Where no OpenGL can be had at all, a sentence stands in the
-/// viewport's place and everything else works.
+/// The middle of the window: tool bar, notices, the viewport. Where no OpenGL can be had at all, a sentence stands in
+/// the viewport's place and everything else works.
 class ViewportPane : public QWidget {
   Q_OBJECT
  public:

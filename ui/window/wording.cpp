@@ -29,8 +29,10 @@ std::optional<FailureText> failureText(StepFlags flags, const std::string& messa
   const auto has = [&](StepFlag flag) { return (flags & static_cast<StepFlags>(flag)) != 0; };
   const QString detail = message.empty() ? QString() : QString::fromStdString(message) + QStringLiteral(". ");
   if (has(StepFlag::NotFinite)) {
-    return FailureText{QStringLiteral("Paused: the step gave no usable numbers."),
-                       detail + QStringLiteral("The last good frame is kept. Undo the last change, or raise the substeps, then play.")};
+    return FailureText{
+        QStringLiteral("Paused: the step gave no usable numbers."),
+        detail +
+            QStringLiteral("The last good frame is kept. Undo the last change, or raise the substeps, then play.")};
   }
   if (has(StepFlag::PluginFault)) {
     return FailureText{QStringLiteral("A plugin failed; the scene goes on without it."),
@@ -69,7 +71,8 @@ QString limitText(const Limit& limit) {
   if (!declaration) declaration = findDeclaration(solverParameters(), key);
   if (declaration) {
     return QStringLiteral("%1: the solver reaches %2 of %3 at this step")
-        .arg(QString::fromUtf8(declaration->label), formatValue(*declaration, limit.delivered), formatValue(*declaration, limit.asked));
+        .arg(QString::fromUtf8(declaration->label), formatValue(*declaration, limit.delivered),
+             formatValue(*declaration, limit.asked));
   }
   const QString unit = QString::fromStdString(limit.unit);
   return QStringLiteral("%1: the solver reaches %2 of %3 at this step")
