@@ -2,24 +2,42 @@
 #include "core/base/parallel.h"
 
 #include <algorithm>
-#include <atomic>
+#include <memory>
 #include <thread>
 
-#if !defined(__SANITIZE_THREAD__)
+#if defined(__SANITIZE_THREAD__)
+#include <atomic>
+#include <exception>
+#include <mutex>
+#else
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
-
-#include <memory>
 #endif
 
 namespace ps {
 namespace {
 int g_threads = 0;
 
-#if !defined(__SANITIZE_THREAD__)
+#if defined(__SANITIZE_THREAD__)
+/// The first exception of a loop's threads.
+class Caught {
+ public:
+  void keep() {
+    const std::lock_guard lock(m_mutex);
+    if (!m_error) m_error = std::current_exception();
+  }
+  void rethrow() const {
+    if (m_error) std::rethrow_exception(m_error);
+  }
+
+ private:
+  std::mutex m_mutex;
+  std::exception_ptr m_error;
+};
+#else
 std::unique_ptr<tbb::task_arena>& arena() {
-  static std::unique_ptr<tbb::task_arena> a;
+  static auto a = std::make_unique<tbb::task_arena>(threadCount());
   return a;
 }
 #endif
@@ -47,14 +65,21 @@ void parallelFor(size_t count, size_t grain, const std::function<void(size_t, si
   }
 #if defined(__SANITIZE_THREAD__)
   std::atomic<size_t> next{0};
+  Caught caught;
   const auto work = [&] {
-    for (size_t chunk = next++; chunk < chunks; chunk = next++) runChunk(chunk);
+    try {
+      for (size_t chunk = next++; chunk < chunks; chunk = next++) runChunk(chunk);
+    } catch (...) {
+      caught.keep();
+    }
   };
-  std::vector<std::jthread> others;
-  for (int t = 1; t < threadCount(); ++t) others.emplace_back(work);
-  work();
+  {
+    std::vector<std::jthread> others;
+    for (int t = 1; t < threadCount(); ++t) others.emplace_back(work);
+    work();
+  }
+  caught.rethrow();
 #else
-  if (!arena()) setThreadCount(g_threads);
   arena()->execute([&] {
     tbb::parallel_for(tbb::blocked_range<size_t>(0, chunks, 1), [&](const tbb::blocked_range<size_t>& range) {
       for (size_t chunk = range.begin(); chunk != range.end(); ++chunk) runChunk(chunk);

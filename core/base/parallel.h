@@ -14,6 +14,7 @@ void setThreadCount(int count);
 int threadCount();
 
 /// Calls body(first, last) for consecutive chunks of `grain` elements that cover [0, count).
+/// What a body throws reaches the caller, once all running chunks have ended.
 void parallelFor(size_t count, size_t grain, const std::function<void(size_t first, size_t last)>& body);
 
 /// Sum over chunks of body(first, last), added in chunk order: the same bits for any number of threads.

@@ -21,6 +21,7 @@ class Hash;
 /// Who is tied to whom by structural constraints.
 struct StructureGraph {
   std::vector<uint32_t> begin, partner;
+  size_t ties(uint32_t i) const { return i + size_t{1} < begin.size() ? begin[i + 1] - begin[i] : 0; }
   bool tied(uint32_t i, uint32_t j) const {
     if (i + size_t{1} >= begin.size()) return false;
     for (uint32_t k = begin[i]; k < begin[i + 1]; ++k) {

@@ -12,6 +12,10 @@ constexpr size_t kGrain = 256;
 constexpr double kDiameter = 0.95;  // spacings
 /// Contacts of one particle usually lean apart, so half of them may act at full strength.
 constexpr int kRelaxation = 2;
+/// Ties of a particle inside a cubic lattice, six along the axes and twelve along the diagonals: its own structure fills
+/// all places around it, so that nothing else can touch it.
+constexpr size_t kEnclosed = 18;
+
 }  // namespace
 
 void SolidContact::configure(const SolverSettings& settings, std::span<const BakedMaterial> materials) {
@@ -47,6 +51,7 @@ void SolidContact::refresh(const ParticleStore& store, const Neighbours& neighbo
     chunk.other.clear();
     for (size_t k = first; k < last; ++k) {
       const uint32_t i = m_solids[k];
+      if (graph.ties(i) >= kEnclosed) continue;
       const size_t before = chunk.other.size();
       for (uint32_t q = view.begin[i]; q < view.last[i]; ++q) {
         const uint32_t j = view.index[q];
