@@ -151,10 +151,11 @@ bool isPlaceholder(const Project& project, const Body& body, const PluginRegistr
 std::vector<Spawn> compileBody(const Project& project, const PluginRegistry& plugins,
                                std::span<const BakedMaterial> materials, size_t index) {
   const Body& body = project.bodies[index];
+  const double spacing = compileSettings(project).spacing;
   std::vector<Spawn> spawns;
   if (const auto* box = std::get_if<BoxShape>(&body.shape)) {
     Spawn spawn = spawnOf(project, plugins, index);
-    spawn.position = boxLattice(*box, compileSettings(project).spacing);
+    spawn.position = boxLattice(*box, spacing);
     const double temperature = numberOf(body.parameters, bodyParameters(), "temperature");
     setMatter(spawn, project, materials, body.material, temperature, body);
     spawns.push_back(std::move(spawn));
@@ -163,7 +164,7 @@ std::vector<Spawn> compileBody(const Project& project, const PluginRegistry& plu
     for (size_t palette = 0; palette < voxels.palette.size(); ++palette) {
       std::vector<std::array<int, 3>> cells = cellsOf(voxels, static_cast<int>(palette));
       if (!cells.empty()) {
-        spawns.push_back(compileCells(project, plugins, materials, index, static_cast<int>(palette), cells));
+        spawns.push_back(compileCells(project, plugins, materials, index, static_cast<int>(palette), cells, spacing));
       }
     }
   }
@@ -172,12 +173,12 @@ std::vector<Spawn> compileBody(const Project& project, const PluginRegistry& plu
 }
 
 Spawn compileCells(const Project& project, const PluginRegistry& plugins, std::span<const BakedMaterial> materials,
-                   size_t index, int palette, const std::vector<std::array<int, 3>>& cells) {
+                   size_t index, int palette, const std::vector<std::array<int, 3>>& cells, double spacing) {
   const Body& body = project.bodies[index];
   const auto& voxels = std::get<VoxelShape>(body.shape);
   const VoxelShape::Paint& paint = voxels.palette.at(static_cast<size_t>(palette));
   Spawn spawn = spawnOf(project, plugins, index);
-  spawn.position = cellCentres(voxels, compileSettings(project).spacing, cells);
+  spawn.position = cellCentres(voxels, spacing, cells);
   setMatter(spawn, project, materials, paint.material, paint.temperature, body);
   return spawn;
 }

@@ -29,8 +29,8 @@ bool isPlaceholder(const Project& project, const Body& body, const PluginRegistr
 /// The particles of a body at the start, one batch per palette entry. `materials`: the scene's, baked.
 std::vector<Spawn> compileBody(const Project& project, const PluginRegistry& plugins,
                                std::span<const BakedMaterial> materials, size_t body);
-/// One batch of cells of a sketched body.
+/// One batch of cells, `spacing` m wide, of a sketched body.
 Spawn compileCells(const Project& project, const PluginRegistry& plugins, std::span<const BakedMaterial> materials,
-                   size_t body, int palette, const std::vector<std::array<int, 3>>& cells);
+                   size_t body, int palette, const std::vector<std::array<int, 3>>& cells, double spacing);
 
 }  // namespace ps

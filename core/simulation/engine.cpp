@@ -42,6 +42,7 @@ struct Engine::Impl {
   std::vector<std::string> probeNames;
   StepReport lastReport;
   uint64_t revision = 0;
+  double spacing = 0;  ///< of the particles that live; the project's acts at the next reset
 };
 
 void Engine::Impl::bakeMaterials() {
@@ -93,6 +94,7 @@ void Engine::Impl::build() {
   constraintSets.clear();
   lastReport = {};
   revision = nextRevision();
+  spacing = compileSettings(project).spacing;
   solver->setSettings(compileSettings(project));
   solver->setBounds(compileBounds(project));
   solver->setWalls(compileWalls(project));
@@ -111,7 +113,11 @@ void Engine::Impl::build() {
 void Engine::Impl::recompile(const std::string& owner) {
   if (owner == "material") bakeMaterials();
   if (owner == "wall") solver->setWalls(compileWalls(project));
-  if (owner == "solver") solver->setSettings(compileSettings(project));
+  if (owner == "solver") {
+    SolverSettings settings = compileSettings(project);
+    settings.spacing = spacing;
+    solver->setSettings(settings);
+  }
   if (owner == "environment") bakeMaterials();  // pressure moves melting and boiling points
   if (owner == "environment" || owner == "solver" || owner == "thermal") setThermal();
   if (owner == "constraint") {
@@ -147,15 +153,15 @@ void Engine::update(const Project& project) {
   const Project before = m->project;
   // Particles carry indices of bodies and materials: as long as they live, a body keeps its place.
   Project next = project;
-  const bool sameMaterials = std::equal(next.materials.begin(), next.materials.end(), before.materials.begin(),
-                                        before.materials.end(), [](const auto& a, const auto& b) { return a.id == b.id; });
-  if (!sameMaterials) {
+  const auto sameId = [](const auto& a, const auto& b) { return a.id == b.id; };
+  const bool keepsMaterials = next.materials.size() >= before.materials.size() &&
+                              std::equal(before.materials.begin(), before.materials.end(), next.materials.begin(), sameId);
+  if (!keepsMaterials) {
     m->project = std::move(next);
     m->build();
     return;
   }
-  next.solver.parameters.values["particle_spacing"] = m->solver ? Value(compileSettings(before).spacing) : Value(0.02);
-  m->project = next;
+  m->project = std::move(next);
   try {
     m->recompileAll();
   } catch (const Error&) {
@@ -163,7 +169,6 @@ void Engine::update(const Project& project) {
     m->recompileAll();
     throw;
   }
-  m->project.solver.parameters = project.solver.parameters;
 }
 
 bool Engine::setParameter(const Address& address, const Value& value) {
@@ -193,8 +198,8 @@ std::vector<uint32_t> Engine::addCells(const Body& body, const std::vector<std::
   } else {
     m->project.bodies[index] = body;
   }
-  Spawn spawn = compileCells(m->project, m->plugins, m->materials, index, palette, cells);
-  spawn.position = freePositions(m->solver->particles(), spawn.position, 0.9 * compileSettings(m->project).spacing);
+  Spawn spawn = compileCells(m->project, m->plugins, m->materials, index, palette, cells, m->spacing);
+  spawn.position = freePositions(m->solver->particles(), spawn.position, 0.9 * m->spacing);
   if (spawn.position.empty()) return {};
   return m->born(std::move(spawn), body);
 }
@@ -204,7 +209,7 @@ TakenMatter Engine::takeParticles(const std::vector<uint32_t>& ids) { return m->
 void Engine::putBack(const TakenMatter& matter) { m->solver->putBack(matter); }
 
 std::vector<uint32_t> Engine::particlesIn(const VoxelShape& lattice, const std::vector<std::array<int, 3>>& cells) const {
-  return idsInCells(m->solver->particles(), lattice, compileSettings(m->project).spacing, cells);
+  return idsInCells(m->solver->particles(), lattice, m->spacing, cells);
 }
 
 SnapshotPtr Engine::snapshot() const {

@@ -114,7 +114,8 @@ void EngineThread::Impl::publish(SnapshotPtr snapshot) {
     } else {
       previous = newest;
     }
-    if (history.empty() || history.back().frame != snapshot->stats.frame) history.push_back(snapshot->stats);
+    if (!history.empty() && history.back().frame == snapshot->stats.frame) history.pop_back();  // edited since
+    history.push_back(snapshot->stats);
     newest = std::move(snapshot);
   }
   if (published) published();

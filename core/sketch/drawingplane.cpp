@@ -25,8 +25,11 @@ std::optional<Vec3> meet(const Ray& ray, const DrawingPlane& plane, double reach
 
 DrawingPlane drawingPlaneFor(const Vec3& point, const Vec3& viewDirection) {
   constexpr double kSine15Degrees = 0.25881904510252074;
-  if (std::abs(viewDirection[1]) > kSine15Degrees * length(viewDirection)) return {point, {0, 1, 0}};
-  return {point, std::abs(viewDirection[0]) > std::abs(viewDirection[2]) ? Vec3{1, 0, 0} : Vec3{0, 0, 1}};
+  size_t axis = std::abs(viewDirection[0]) > std::abs(viewDirection[2]) ? 0 : 2;
+  if (std::abs(viewDirection[1]) > kSine15Degrees * length(viewDirection)) axis = 1;
+  DrawingPlane plane{point, {0, 0, 0}};
+  plane.normal[axis] = viewDirection[axis] > 0 ? -1 : 1;
+  return plane;
 }
 
 }  // namespace ps

@@ -1,20 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "core/scene/project.h"
+#include "core/scene/ray.h"
 
 #include <optional>
 
 namespace ps {
 
-struct Ray {
-  Vec3 origin{0, 0, 0};      ///< m
-  Vec3 direction{0, 0, -1};  ///< any length but zero
-};
-
 /// The plane that the pointer draws on.
 struct DrawingPlane {
   Vec3 point{0, 0, 0};   ///< m
-  Vec3 normal{0, 1, 0};  ///< any length but zero
+  Vec3 normal{0, 1, 0};  ///< towards the viewer; any length but zero
 };
 
 /// Where a ray meets the plane, in m. Nothing when it runs away from the plane, along it (within 0.06 degrees), or meets
@@ -22,7 +17,7 @@ struct DrawingPlane {
 std::optional<Vec3> meet(const Ray& ray, const DrawingPlane& plane, double reach = 1e4);
 
 /// The plane through `point` that suits a view direction: level while the camera looks down or up by more than 15
-/// degrees, otherwise the upright plane across the axis (x or z) along which the camera looks most.
+/// degrees, otherwise the upright plane across the axis (x or z) along which the camera looks most. Its unit normal faces the camera.
 DrawingPlane drawingPlaneFor(const Vec3& point, const Vec3& viewDirection);
 
 }  // namespace ps

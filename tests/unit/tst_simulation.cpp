@@ -22,6 +22,7 @@ class TstSimulation : public QObject {
   void bornAsDeclared();
   void anEditActsOnTheNextFrame();
   void anEditOfTheSceneSurvivesReset();
+  void spacingActsAtTheNextReset();
   void refusedEditsLeaveTheSceneAsItWas();
   void cellsAvoidLiveParticlesAndComeBackOut();
   void takenMatterComesBackAsItWas();
@@ -106,6 +107,17 @@ void TstSimulation::anEditOfTheSceneSurvivesReset() {
   QVERIFY(std::abs(engine.stats().temperatureMean - 263.15) < 1e-6);
   engine.reset();
   QVERIFY(std::abs(engine.stats().temperatureMean - 253.15) < 1e-6);
+}
+
+void TstSimulation::spacingActsAtTheNextReset() {
+  Engine engine(scenes::iceOnPlate(6, 293.15), m_plugins);
+  QVERIFY(!engine.setParameter({"solver", "", "particle_spacing"}, 0.06));
+  QVERIFY(engine.setParameter({"solver", "", "damping"}, 0.1));
+  for (int i = 0; i < 20; ++i) QCOMPARE(engine.step().flags, 0u);
+  const FrameStats stats = engine.stats();  // twice the spacing among living particles would blow the block apart
+  QVERIFY2(stats.kineticEnergy < 1, qPrintable(QString::number(stats.kineticEnergy)));
+  engine.reset();
+  QCOMPARE(engine.solver().particles().size(), size_t{27});
 }
 
 void TstSimulation::refusedEditsLeaveTheSceneAsItWas() {

@@ -315,7 +315,7 @@ class TestSketch : public QObject {
     QFETCH(QVector<double>, view);
     QFETCH(int, axis);
     const DrawingPlane plane = drawingPlaneFor({1, 2, 3}, {view[0], view[1], view[2]});
-    QCOMPARE(plane.normal[size_t(axis)], 1.0);
+    QCOMPARE(plane.normal[size_t(axis)], view[size_t(axis)] > 0 ? -1.0 : 1.0);  // towards the viewer
     QCOMPARE(plane.point[2], 3.0);
   }
 };

@@ -16,7 +16,7 @@
 namespace ps {
 namespace {
 
-constexpr double kLeft = 44, kTop = 10, kRight = 16, kBottom = 22;
+constexpr double kLeft = 52, kTop = 10, kRight = 16, kBottom = 22;
 constexpr int kAlignMiddle = Qt::AlignLeft | Qt::AlignVCenter;
 
 void paintTimeAxis(QPainter& painter, const QRectF& plot, std::pair<double, double> range, const Ticks& ticks) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "core/scene/ray.h"
 #include "ui/render/renderer.h"
 
 #include <array>
@@ -30,10 +31,7 @@ Mat4 viewMatrix(const Camera& camera);
 /// Perspective with depth -1..1; `fieldOfView` is the vertical one.
 Mat4 projectionMatrix(const Camera& camera, int width, int height);
 
-struct Ray {
-  Vec3 origin;     ///< the eye, m
-  Vec3 direction;  ///< unit vector
-};
+/// From the eye; the direction has unit length.
 Ray rayThrough(const Camera& camera, int width, int height, double x, double y);
 /// Pixel x, pixel y and distance along the view direction in m, or nothing for a point behind the near plane.
 std::optional<Vec3> project(const Camera& camera, int width, int height, const Vec3& world);

@@ -3,7 +3,7 @@
 #include "core/sketch/cellset.h"
 #include "core/sketch/stroke.h"
 #include "ui/document/strokerecord.h"
-#include "ui/viewport/strokeplane.h"
+#include "core/sketch/drawingplane.h"
 #include "ui/viewport/viewtool.h"
 
 #include <QtCore/QString>

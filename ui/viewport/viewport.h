@@ -120,7 +120,7 @@ class Viewport : public QOpenGLWidget {
   ViewTool m_tool = ViewTool::Select;
   BrushSettings m_brush;
   StrokeTool m_stroke;
-  StrokePlane m_strokePlane;
+  DrawingPlane m_strokePlane;
   QElapsedTimer m_strokeClock;
   std::optional<BrushCursor> m_cursor;
 

@@ -185,7 +185,7 @@ void Viewport::updateCursor(const QPointF& position, Qt::KeyboardModifiers modif
   cursor.erase = (m_tool == ViewTool::Erase) != bool(modifiers & Qt::ControlModifier);
   cursor.floor = floorHeight();
   const CameraFrame frame = frameOf(m_navigator.camera());
-  m_strokePlane = strokePlaneThrough(*surface, frame.forward);
+  m_strokePlane = drawingPlaneFor(*surface, frame.forward);
   cursor.centre = *surface;
   if (!cursor.erase) {
     // A brush stands on the surface instead of half inside it.
@@ -213,7 +213,7 @@ void Viewport::beginStroke(const QMouseEvent& event) {
 /// While a stroke is drawn it stays on the plane on which it began; along a ray that misses it, nothing is drawn.
 std::optional<Vec3> Viewport::strokePoint(const QPointF& position) {
   const Ray ray = rayThrough(m_navigator.camera(), width(), height(), position.x(), position.y());
-  auto point = meetStrokePlane(m_strokePlane, ray.origin, ray.direction);
+  auto point = meet(ray, m_strokePlane, 100);
   if (!point) return point;
   const Environment& e = m_scene.environment;
   for (size_t i = 0; i < 3; ++i) {
