@@ -101,9 +101,9 @@ class TestWindow : public QObject {
   }
 
   void init() {
-    if (!session().playing()) return;
     session().pause();
-    QTest::qWait(50);
+    idsNow(session());  // whatever the test before asked of the engine is done
+    QTest::qWait(50);   // and seen
   }
 
   void cleanupTestCase() { m_window.reset(); }
@@ -201,7 +201,10 @@ class TestWindow : public QObject {
   void aStrokeAddsAndUndoRemovesExactly() {
     Viewport* view = m_window->viewport();
     QVERIFY2(view && view->problem().isEmpty(), view ? qPrintable(view->problem()) : "no viewport");
+    const uint64_t revision = session().snapshot()->revision;
     session().reset();
+    // The brush stands on what the view shows: it must show the scene after the reset.
+    QTRY_VERIFY_WITH_TIMEOUT(session().snapshot()->revision != revision && view->snapshot() == session().snapshot(), kLong);
     const std::set<uint32_t> before = idsNow(session());
     m_window->action(QStringLiteral("sketch.brush"))->trigger();
     QCOMPARE(view->tool(), ViewTool::Brush);

@@ -33,6 +33,7 @@ class Viewport : public QOpenGLWidget {
   /// Any may be nullptr; they must outlive this widget or be taken away first.
   void attach(Document* document, EngineThread* engine, SceneLink* link);
   void snapshotArrived();
+  SnapshotPtr snapshot() const { return m_now; }  ///< the one that is shown
   /// The document's view, walls or bodies changed.
   void projectOpened();
   void bodiesChanged();
