@@ -48,8 +48,8 @@ bool copyFolder(const QString& from, const QString& to) {
 // The entry of a plugin in `phasesketch-cli plugins --json`, empty when it is not listed.
 QJsonObject entryOf(const QByteArray& list, const QString& id) {
   const QJsonArray plugins = QJsonDocument::fromJson(list).object()["plugins"].toArray();
-  for (const QJsonValue& plugin : plugins)
-    if (plugin["id"].toString() == id) return plugin.toObject();
+  for (qsizetype i = 0; i < plugins.size(); ++i)
+    if (plugins.at(i)["id"].toString() == id) return plugins.at(i).toObject();
   return {};
 }
 

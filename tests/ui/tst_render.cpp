@@ -363,8 +363,9 @@ void TestRender::leavesOutWhatIsBuried() {
   std::vector<render::Instance> list;
   render::Extent extent;
   for (int i = 0; i < 1000; ++i) {
-    list.push_back({0.02f * static_cast<float>(i % 10), 0.02f * static_cast<float>(i / 10 % 10),
-                    0.02f * static_cast<float>(i / 100), 0.0124f, 0, 0, 0, static_cast<float>(i)});
+    const int x = i % 10, y = i / 10 % 10, z = i / 100;
+    list.push_back({0.02f * static_cast<float>(x), 0.02f * static_cast<float>(y), 0.02f * static_cast<float>(z),
+                    0.0124f, 0, 0, 0, static_cast<float>(i)});
     extent.add(list.back().x, list.back().y, list.back().z, 0.0124f);
   }
   render::dropBuried(extent, 0.0124f, list);

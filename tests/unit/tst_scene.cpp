@@ -64,7 +64,7 @@ void TestScene::declarationsAreSound() {
     QVERIFY2((d.kind == api::ParameterKind::Choice) == !choicesOf(d).empty(), d.key);
     QVERIFY2(d.displayScale != 0, d.key);
     QCOMPARE(text(problemOf(valueOf({}, d), d)), "");
-    QVERIFY2(problemOf(Value(Response(0.5)), d) != "" || d.kind == api::ParameterKind::Response, d.key);
+    QVERIFY2(!problemOf(Value(Response(0.5)), d).empty() || d.kind == api::ParameterKind::Response, d.key);
   }
 }
 
