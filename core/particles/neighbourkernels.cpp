@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Three cells in a row are one run of slots, so a particle's 27 cells are nine runs: each is compared a vector at a time
-// and the hits are compressed into the list. The distance is computed with the same roundings on every target.
+// Three cells in a row are one run of slots, so a particle's 27 cells are nine runs: each is compared a vector at a
+// time and the hits are compressed into the list. The distance is computed with the same roundings on every target.
 #include "core/particles/neighbourkernels.h"
 
 #include <algorithm>

@@ -16,8 +16,8 @@ struct SearchGrid {
   float radiusSquared;  ///< m2
 };
 
-/// Appends to `found` the slots closer than the radius to each slot of [first, last), ascending, without the slot itself,
-/// and writes their number to counts[slot - first]. `found` keeps its memory between calls.
+/// Appends to `found` the slots closer than the radius to each slot of [first, last), ascending, without the slot
+/// itself, and writes their number to counts[slot - first]. `found` keeps its memory between calls.
 void searchSlots(const SearchGrid& grid, size_t first, size_t last, uint32_t* counts, std::vector<uint32_t>& found);
 
 }  // namespace ps

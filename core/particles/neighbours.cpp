@@ -57,7 +57,8 @@ void Neighbours::assignCells(const ParticleStore& store) {
 
   const double inverse = 1 / m_cellSize;
   m_cellOf.resize(n);
-  m_cellStart.assign(static_cast<size_t>(m_cells[0]) * static_cast<size_t>(m_cells[1]) * static_cast<size_t>(m_cells[2]) + 1, 0);
+  m_cellStart.assign(
+      static_cast<size_t>(m_cells[0]) * static_cast<size_t>(m_cells[1]) * static_cast<size_t>(m_cells[2]) + 1, 0);
   for (size_t i = 0; i < n; ++i) {
     const int x = cellIndex(position[i].x, m_origin[0], inverse, m_cells[0]);
     const int y = cellIndex(position[i].y, m_origin[1], inverse, m_cells[1]);
@@ -107,8 +108,13 @@ void Neighbours::searchLists(const ParticleStore& store) {
     m_cellOfSlot[slot] = m_cellOf[i];
   }
   const double radius = m_support + m_skin;
-  const SearchGrid grid{m_x.data(), m_y.data(), m_z.data(), m_cellOfSlot.data(), m_cellStart.data(),
-                        {m_cells[0], m_cells[1], m_cells[2]}, static_cast<float>(radius * radius)};
+  const SearchGrid grid{m_x.data(),
+                        m_y.data(),
+                        m_z.data(),
+                        m_cellOfSlot.data(),
+                        m_cellStart.data(),
+                        {m_cells[0], m_cells[1], m_cells[2]},
+                        static_cast<float>(radius * radius)};
   const size_t chunks = (n + kSlotsPerChunk - 1) / kSlotsPerChunk;
   if (m_chunks.size() < chunks) m_chunks.resize(chunks);
   m_counts.resize(n);

@@ -6,7 +6,8 @@ namespace ps {
 
 /// Cell-sorted neighbour search (counting sort into cells of the search radius, rows of 27 cells).
 /// Lists hold all other particles within search radius = support + skin, in order of cell, padded to kListPad with
-/// the dummy index size(), one after another in order of index. They stay valid until a particle has moved half the skin.
+/// the dummy index size(), one after another in order of index. They stay valid until a particle has moved half the
+/// skin.
 class Neighbours {
  public:
   static constexpr size_t kListPad = 16;

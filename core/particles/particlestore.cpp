@@ -25,18 +25,25 @@ std::byte* allocateZeroed(size_t count) {
 
 size_t sizeOf(api::FieldType type) {
   switch (type) {
-    case api::FieldType::Float32: return 4;
-    case api::FieldType::Float64: return 8;
-    case api::FieldType::UInt8: return 1;
-    case api::FieldType::UInt32: return 4;
-    case api::FieldType::Float4: return 16;
+    case api::FieldType::Float32:
+      return 4;
+    case api::FieldType::Float64:
+      return 8;
+    case api::FieldType::UInt8:
+      return 1;
+    case api::FieldType::UInt32:
+      return 4;
+    case api::FieldType::Float4:
+      return 16;
   }
   throw Error("a particle field of an unknown type");
 }
 
 }  // namespace
 
-void ParticleStore::AlignedDelete::operator()(std::byte* p) const { ::operator delete[](p, std::align_val_t(kAlignment)); }
+void ParticleStore::AlignedDelete::operator()(std::byte* p) const {
+  ::operator delete[](p, std::align_val_t(kAlignment));
+}
 
 struct ParticleStore::Field {
   FieldInfo info;
@@ -56,10 +63,14 @@ void gather(const std::byte* in, std::byte* out, std::span<const uint32_t> order
 
 void gatherBySize(size_t elementSize, const std::byte* in, std::byte* out, std::span<const uint32_t> order) {
   switch (elementSize) {
-    case 1: return gather<uint8_t>(in, out, order);
-    case 4: return gather<uint32_t>(in, out, order);
-    case 8: return gather<uint64_t>(in, out, order);
-    default: return gather<api::Float4>(in, out, order);
+    case 1:
+      return gather<uint8_t>(in, out, order);
+    case 4:
+      return gather<uint32_t>(in, out, order);
+    case 8:
+      return gather<uint64_t>(in, out, order);
+    default:
+      return gather<api::Float4>(in, out, order);
   }
 }
 
@@ -267,8 +278,8 @@ size_t ParticleStore::indexOf(uint32_t id) const {
 }
 
 api::ParticleView ParticleStore::view() const {
-  return {m_size,    m_position,      m_previous,       m_velocity,    m_mass, m_id, m_material, m_body, m_phase, m_motion,
-          m_temperature, m_solidFraction, m_liquidFraction, m_gasFraction, this};
+  return {m_size,  m_position, m_previous,    m_velocity,      m_mass,           m_id,          m_material, m_body,
+          m_phase, m_motion,   m_temperature, m_solidFraction, m_liquidFraction, m_gasFraction, this};
 }
 
 void ParticleStore::addTo(Hash& hash) const {

@@ -17,22 +17,22 @@ class Hash;
 
 /// Names of the fields that core itself keeps (types in brackets). All are sorted, hashed, put in snapshots alike.
 namespace field {
-inline constexpr const char* kPosition = "position";              ///< Float4: m; w: rest volume, m3
-inline constexpr const char* kPrevious = "previous";              ///< Float4: m, start of the substep
-inline constexpr const char* kVelocity = "velocity";              ///< Float4: m/s; w: inverse mass, 1/kg
-inline constexpr const char* kMass = "mass";                      ///< Float32: kg
-inline constexpr const char* kId = "id";                          ///< UInt32
-inline constexpr const char* kMaterial = "material";              ///< UInt32: index into the material table
-inline constexpr const char* kBody = "body";                      ///< UInt32: index of the body it was made by
-inline constexpr const char* kPhase = "phase";                    ///< UInt8: api::Phase
-inline constexpr const char* kMotion = "motion";                  ///< UInt8: api::Motion
-inline constexpr const char* kTemperature = "temperature";        ///< Float64: K
-inline constexpr const char* kSolidFraction = "solid_fraction";   ///< Float32
-inline constexpr const char* kLiquidFraction = "liquid_fraction"; ///< Float32
-inline constexpr const char* kGasFraction = "gas_fraction";       ///< Float32
-inline constexpr const char* kCompression = "compression_offset"; ///< Float32: C0 handed over when a solid melts
-inline constexpr const char* kLambda = "lambda";                  ///< Float32: density multiplier
-inline constexpr const char* kDensityError = "density_error";     ///< Float32: C of the last iteration
+inline constexpr const char* kPosition = "position";               ///< Float4: m; w: rest volume, m3
+inline constexpr const char* kPrevious = "previous";               ///< Float4: m, start of the substep
+inline constexpr const char* kVelocity = "velocity";               ///< Float4: m/s; w: inverse mass, 1/kg
+inline constexpr const char* kMass = "mass";                       ///< Float32: kg
+inline constexpr const char* kId = "id";                           ///< UInt32
+inline constexpr const char* kMaterial = "material";               ///< UInt32: index into the material table
+inline constexpr const char* kBody = "body";                       ///< UInt32: index of the body it was made by
+inline constexpr const char* kPhase = "phase";                     ///< UInt8: api::Phase
+inline constexpr const char* kMotion = "motion";                   ///< UInt8: api::Motion
+inline constexpr const char* kTemperature = "temperature";         ///< Float64: K
+inline constexpr const char* kSolidFraction = "solid_fraction";    ///< Float32
+inline constexpr const char* kLiquidFraction = "liquid_fraction";  ///< Float32
+inline constexpr const char* kGasFraction = "gas_fraction";        ///< Float32
+inline constexpr const char* kCompression = "compression_offset";  ///< Float32: C0 handed over when a solid melts
+inline constexpr const char* kLambda = "lambda";                   ///< Float32: density multiplier
+inline constexpr const char* kDensityError = "density_error";      ///< Float32: C of the last iteration
 }  // namespace field
 
 /// Particles outside a store: what undo keeps of what was erased.

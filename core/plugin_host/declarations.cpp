@@ -35,7 +35,8 @@ std::string problemOfList(const api::List<T>& list) {
   if (list.count > kMostDeclarations) return "declares more than " + std::to_string(kMostDeclarations) + " of them";
   if (list.count > 0 && !list.first) return "declares some, but gives a null pointer";
   if (list.count > 0 && (list.stride < sizeof(T) || list.stride % alignof(T) != 0))
-    return "gives a stride of " + std::to_string(list.stride) + " bytes, which is not a declaration's size; use listOf()";
+    return "gives a stride of " + std::to_string(list.stride) +
+           " bytes, which is not a declaration's size; use listOf()";
   return {};
 }
 
@@ -62,11 +63,19 @@ std::string problemOfText(const char* text) {
 }
 
 std::string problemOfTexts(const api::ParameterDeclaration& p) {
-  const std::pair<const char*, const char*> texts[] = {
-      {"key", p.key},         {"label", p.label}, {"symbol", p.symbol}, {"unit", p.unit},       {"displayUnit", p.displayUnit},
-      {"choices", p.choices}, {"group", p.group}, {"help", p.help},     {"example", p.example}, {"source", p.source}};
+  const std::pair<const char*, const char*> texts[] = {{"key", p.key},
+                                                       {"label", p.label},
+                                                       {"symbol", p.symbol},
+                                                       {"unit", p.unit},
+                                                       {"displayUnit", p.displayUnit},
+                                                       {"choices", p.choices},
+                                                       {"group", p.group},
+                                                       {"help", p.help},
+                                                       {"example", p.example},
+                                                       {"source", p.source}};
   for (const auto& [name, text] : texts)
-    if (const std::string problem = problemOfText(text); !problem.empty()) return std::string("its ") + name + " " + problem;
+    if (const std::string problem = problemOfText(text); !problem.empty())
+      return std::string("its ") + name + " " + problem;
   return {};
 }
 
@@ -92,7 +101,8 @@ std::string problemOfNumbers(const api::ParameterDeclaration& p) {
 std::string problemOfKind(const api::ParameterDeclaration& p) {
   switch (p.kind) {
     case api::ParameterKind::Number:
-    case api::ParameterKind::Response: return problemOfNumbers(p);
+    case api::ParameterKind::Response:
+      return problemOfNumbers(p);
     case api::ParameterKind::Integer:
       return p.defaultValue == std::floor(p.defaultValue) ? problemOfNumbers(p) : "its default must be a whole number";
     case api::ParameterKind::Toggle:
@@ -157,7 +167,8 @@ std::string problemOfFields(api::List<api::FieldDeclaration> list) {
       if (const std::string problem = problemOfText(text); !problem.empty())
         return place("field", i) + "a text of it " + problem;
     if (!names.insert(f.name).second) return "field '" + std::string(f.name) + "': is declared twice";
-    if (f.type > api::FieldType::Float4) return "field '" + std::string(f.name) + "': its type is unknown to this program";
+    if (f.type > api::FieldType::Float4)
+      return "field '" + std::string(f.name) + "': its type is unknown to this program";
   }
   return {};
 }

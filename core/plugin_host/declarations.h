@@ -9,8 +9,8 @@
 #include <string>
 #include <string_view>
 
-// What a plugin declares is checked once, here, before anything else reads it: panels, JSON and the solver then take every
-// declaration as sound. Each function returns "" or the first thing wrong, naming its place.
+// What a plugin declares is checked once, here, before anything else reads it: panels, JSON and the solver then take
+// every declaration as sound. Each function returns "" or the first thing wrong, naming its place.
 namespace ps {
 
 std::string problemOfParameters(api::ParameterList list);

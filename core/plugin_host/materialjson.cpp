@@ -136,7 +136,8 @@ void readProperties(const Place& place, Material& material) {
 
 void readFormat(const Place& root) {
   if (!root.has("format"))
-    Place{root.value, root.file, "/format"}.fail("is missing; a material begins with \"format\": \"phasesketch-material\"");
+    Place{root.value, root.file, "/format"}.fail(
+        "is missing; a material begins with \"format\": \"phasesketch-material\"");
   if (root.at("format").text() != "phasesketch-material") root.at("format").fail("must be \"phasesketch-material\"");
   const Place version = root.needed("version");
   if (!version.value.is_number_integer()) version.fail("must be a whole number");
@@ -165,7 +166,8 @@ Material parseMaterialJson(std::string_view text, const std::string& name, Plugi
   if (root.has("author")) info.author = root.at("author").text();
   if (root.has("help")) info.help = root.at("help").text();
   info.version = root.has("data_version") ? root.at("data_version").text() : "1.0.0";
-  if (const std::string problem = problemOfVersion(info.version); !problem.empty()) root.at("data_version").fail(problem);
+  if (const std::string problem = problemOfVersion(info.version); !problem.empty())
+    root.at("data_version").fail(problem);
   readProperties(root.needed("properties"), material);
   return material;
 }

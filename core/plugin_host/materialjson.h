@@ -8,8 +8,8 @@
 namespace ps {
 
 /// Reads a material that is a JSON file alone; plugins/materials/README.md describes the format. Throws InputError
-/// "file:/json/pointer: what is wrong" for the first thing wrong. `info` receives what the file says about itself, as far
-/// as it was read when something is thrown.
+/// "file:/json/pointer: what is wrong" for the first thing wrong. `info` receives what the file says about itself, as
+/// far as it was read when something is thrown.
 Material parseMaterialJson(std::string_view text, const std::string& name, PluginInfo& info);
 
 /// The same from a file of at most 1 MiB; info.problem holds what parseMaterialJson would throw.

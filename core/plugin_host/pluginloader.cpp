@@ -47,13 +47,20 @@ std::string readMaterial(const PluginInfo& info, LoadedPlugin& loaded) {
 std::string connect(QObject& object, PluginInfo& info, LoadedPlugin& loaded) {
   const api::Plugin* plugin = nullptr;
   switch (info.kind) {
-    case PluginKind::Material: plugin = loaded.materialPlugin = qobject_cast<api::MaterialPlugin*>(&object); break;
-    case PluginKind::Constraint: plugin = loaded.constraint = qobject_cast<api::ConstraintPlugin*>(&object); break;
-    case PluginKind::Thermal: plugin = loaded.thermal = qobject_cast<api::ThermalPlugin*>(&object); break;
-    case PluginKind::Brush: plugin = loaded.brush = qobject_cast<api::BrushPlugin*>(&object); break;
+    case PluginKind::Material:
+      plugin = loaded.materialPlugin = qobject_cast<api::MaterialPlugin*>(&object);
+      break;
+    case PluginKind::Constraint:
+      plugin = loaded.constraint = qobject_cast<api::ConstraintPlugin*>(&object);
+      break;
+    case PluginKind::Thermal:
+      plugin = loaded.thermal = qobject_cast<api::ThermalPlugin*>(&object);
+      break;
+    case PluginKind::Brush:
+      plugin = loaded.brush = qobject_cast<api::BrushPlugin*>(&object);
+      break;
   }
-  if (!plugin)
-    return std::string("its class lacks Q_INTERFACES for a ") + pluginKindName(info.kind);
+  if (!plugin) return std::string("its class lacks Q_INTERFACES for a ") + pluginKindName(info.kind);
   if (std::string problem = checkCommon(*plugin, info); !problem.empty()) return problem;
   if (loaded.constraint) return problemOfTraits(loaded.constraint->traits());
   if (loaded.thermal) return problemOfFields(loaded.thermal->fields());
@@ -96,7 +103,8 @@ LoadedPlugin loadLibrary(PluginInfo& info) {
     loader.setLoadHints(QLibrary::ResolveAllSymbolsHint | QLibrary::PreventUnloadHint);
     QObject* object = loader.instance();
     if (!object) {
-      problem = "it could not be loaded: " + oneLine(loader.errorString().toStdString()) + "; build it again for this system";
+      problem =
+          "it could not be loaded: " + oneLine(loader.errorString().toStdString()) + "; build it again for this system";
     } else if (problem = connect(*object, info, loaded); !problem.empty()) {
       problem += "; " + whomToTell(info);
     }

@@ -16,9 +16,9 @@ struct LoadedPlugin {
   Material material;  ///< of materials; own laws evaluated at their defaults
 };
 
-/// Loads a library whose metadata are sound, makes its object and checks all that it declares. `info` receives label and
-/// help, and `problem` when the plugin must be refused; whatever its code throws ends there. The locale's number format is
-/// "C" afterwards.
+/// Loads a library whose metadata are sound, makes its object and checks all that it declares. `info` receives label
+/// and help, and `problem` when the plugin must be refused; whatever its code throws ends there. The locale's number
+/// format is "C" afterwards.
 LoadedPlugin loadLibrary(PluginInfo& info);
 
 /// The material of a plugin with its laws evaluated (see MaterialPlugin::evaluate) from 1 K to 6000 K. Throws what the

@@ -41,8 +41,8 @@ std::string textOf(const QJsonObject& object, const char* key, std::string& prob
   const QJsonValue value = object[QLatin1String(key)];
   if (value.isString() && !value.toString().isEmpty()) return value.toString().toStdString();
   if (problem.empty()) {
-    problem = std::string("its metadata ") + (value.isUndefined() ? "lack the key" : "need a text under the key") + " \"" +
-              key + "\"; add it to the JSON file that Q_PLUGIN_METADATA names and build the plugin again";
+    problem = std::string("its metadata ") + (value.isUndefined() ? "lack the key" : "need a text under the key") +
+              " \"" + key + "\"; add it to the JSON file that Q_PLUGIN_METADATA names and build the plugin again";
   }
   return {};
 }
@@ -54,8 +54,8 @@ std::optional<PluginKind> kindOfIid(const std::string& iid, std::string& problem
   const std::string family = iid.substr(0, iid.find('/'));
   for (const KindOfPlugin& known : kKinds) {
     if (!std::string_view(known.iid).starts_with(family + "/")) continue;
-    problem = "it was built for the interface " + iid + ", this program has " + known.iid +
-              "; get a build for this version";
+    problem =
+        "it was built for the interface " + iid + ", this program has " + known.iid + "; get a build for this version";
     return std::nullopt;
   }
   problem = "it is a Qt plugin for another program (" + iid + "); remove it from this folder";
@@ -87,8 +87,8 @@ std::string checkedMetadata(const QJsonObject& root, PluginInfo& info) {
   return {};
 }
 
-/// Qt's words for a file that is no plugin: "... 'PATH' is not a valid ELF object (file too small)". The path is left out,
-/// the caller says it.
+/// Qt's words for a file that is no plugin: "... 'PATH' is not a valid ELF object (file too small)". The path is left
+/// out, the caller says it.
 std::string refusalOf(const QPluginLoader& loader, const std::string& path) {
   std::string words = loader.errorString().toStdString();
   const std::string mention = path + "' is ";

@@ -7,8 +7,8 @@
 
 namespace ps {
 
-/// "" or what is wrong with a plugin's id: 1 to 64 characters, lower-case words of letters and digits joined by '.', '_'
-/// or '-', beginning with a letter: "water", "org.example.rust".
+/// "" or what is wrong with a plugin's id: 1 to 64 characters, lower-case words of letters and digits joined by '.',
+/// '_' or '-', beginning with a letter: "water", "org.example.rust".
 std::string problemOfId(std::string_view id);
 /// "" or what is wrong with an API version "MAJOR.MINOR": the major must be ours, the minor not above ours.
 std::string problemOfApi(std::string_view api);

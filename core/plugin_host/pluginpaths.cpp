@@ -46,13 +46,14 @@ class Directories {
   std::vector<PluginDirectory> m_list;
 };
 
-/// What lies beside the program counts first: an installation that happens to lie inside the build tree is one all the same.
+/// What lies beside the program counts first: an installation that happens to lie inside the build tree is one all the
+/// same.
 void addBuiltIn(Directories& list) {
   const QString program = programDirectory();
   if (program.isEmpty()) return;
   bool found = false;
-  for (const char* relative : {"../share/phasesketch/plugins", "../lib/phasesketch/plugins",
-                               "../" PS_INSTALL_LIBDIR "/phasesketch/plugins"}) {
+  for (const char* relative :
+       {"../share/phasesketch/plugins", "../lib/phasesketch/plugins", "../" PS_INSTALL_LIBDIR "/phasesketch/plugins"}) {
     const QString path = program + QLatin1Char('/') + QLatin1String(relative);
     if (!QFileInfo(path).isDir()) continue;
     list.add(path, "the installation", false);

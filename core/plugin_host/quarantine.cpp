@@ -122,8 +122,7 @@ bool Quarantine::allow(const std::string& id) {
 LoadingLock::LoadingLock(const std::string& directory, const std::string& id, const std::string& path) {
   static std::atomic<unsigned> counter{0};
   if (!QDir().mkpath(text(directory))) return;
-  const std::string stem =
-      directory + "/" + std::to_string(::getpid()) + "-" + std::to_string(counter++);
+  const std::string stem = directory + "/" + std::to_string(::getpid()) + "-" + std::to_string(counter++);
   // Locked and filled under another name first: a reader that sees the lock's name sees it locked and whole.
   const std::string draft = stem + ".draft";
   m_file = lockedFile(draft, O_RDWR | O_CREAT | O_TRUNC);

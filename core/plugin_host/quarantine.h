@@ -6,8 +6,8 @@
 // Why a file lock and not a process number: a plugin that aborts takes its process along without any code of ours
 // running, so what it was doing must lie in a file beforehand. That file must count only when its writer is gone, while
 // other programs are starting at the same moment. The writer holds a flock() on it; the system drops the lock when the
-// process ends, however it ends, and it cannot be mistaken for a process that got the same number later or that lives in
-// another container on the same home directory.
+// process ends, however it ends, and it cannot be mistaken for a process that got the same number later or that lives
+// in another container on the same home directory.
 namespace ps {
 
 /// Plugins that took the program down while they were loaded. All state lies in files under one directory; a directory

@@ -21,19 +21,26 @@ namespace ps {
 
 const char* pluginKindName(PluginKind kind) {
   switch (kind) {
-    case PluginKind::Material: return "material";
-    case PluginKind::Constraint: return "constraint";
-    case PluginKind::Thermal: return "thermal";
-    case PluginKind::Brush: return "brush";
+    case PluginKind::Material:
+      return "material";
+    case PluginKind::Constraint:
+      return "constraint";
+    case PluginKind::Thermal:
+      return "thermal";
+    case PluginKind::Brush:
+      return "brush";
   }
   return "";
 }
 
 const char* pluginStateName(PluginInfo::State state) {
   switch (state) {
-    case PluginInfo::State::Loaded: return "loaded";
-    case PluginInfo::State::Refused: return "refused";
-    case PluginInfo::State::Quarantined: return "quarantined";
+    case PluginInfo::State::Loaded:
+      return "loaded";
+    case PluginInfo::State::Refused:
+      return "refused";
+    case PluginInfo::State::Quarantined:
+      return "quarantined";
   }
   return "";
 }
@@ -58,8 +65,8 @@ std::string nameOf(const PluginInfo& info) {
 
 }  // namespace
 
-// Infos change only by fault(), which another thread may call while somebody reads plugins(): it publishes a changed copy
-// and keeps the old ones, so that references stay good.
+// Infos change only by fault(), which another thread may call while somebody reads plugins(): it publishes a changed
+// copy and keeps the old ones, so that references stay good.
 struct PluginRegistry::Impl {
   explicit Impl(const Options& options) : state(stateDirectory()), quarantine(state) {
     scan(pluginDirectories(options));
@@ -99,8 +106,8 @@ void PluginRegistry::Impl::scan(const std::vector<PluginDirectory>& directories)
       PluginInfo missing;
       missing.path = missing.label = directories[d].path;
       const bool exists = QFileInfo::exists(directory.path());
-      missing.problem = directories[d].path + (exists ? ": is not a folder" : ": there is no such folder") + "; correct " +
-                        directories[d].origin;
+      missing.problem = directories[d].path + (exists ? ": is not a folder" : ": there is no such folder") +
+                        "; correct " + directories[d].origin;
       found.push_back(std::move(missing));
       continue;
     }
@@ -119,7 +126,8 @@ void PluginRegistry::Impl::read(const std::string& path, size_t directory) {
     candidate.info = readLibraryMetadata(path);
   }
   PluginInfo& info = candidate.info;
-  if (info.label.empty()) info.label = info.id.empty() ? QFileInfo(QString::fromStdString(path)).fileName().toStdString() : info.id;
+  if (info.label.empty())
+    info.label = info.id.empty() ? QFileInfo(QString::fromStdString(path)).fileName().toStdString() : info.id;
   if (!info.problem.empty()) {
     found.push_back(info);
     return;
@@ -156,8 +164,10 @@ bool PluginRegistry::Impl::load(Candidate& candidate) {
     plugin.material = std::move(candidate.material);
   } else if (quarantine.holds(info.id, info.path)) {
     info.state = PluginInfo::State::Quarantined;
-    info.problem = info.path + ": the program crashed while loading it, so it is not loaded any more; allow it again with "
-                   "\"phasesketch-cli plugins --allow " + info.id + "\" or install another version";
+    info.problem = info.path +
+                   ": the program crashed while loading it, so it is not loaded any more; allow it again with "
+                   "\"phasesketch-cli plugins --allow " +
+                   info.id + "\" or install another version";
     return false;
   } else {
     const LoadingLock lock(state, info.id, info.path);

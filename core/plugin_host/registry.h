@@ -30,14 +30,14 @@ struct PluginInfo {
 const char* pluginStateName(PluginInfo::State state);  ///< "loaded", "refused", "quarantined"
 
 /// Finds plugins in the build tree or the install prefix, the user's data directory, extraPaths and
-/// PHASESKETCH_PLUGIN_PATH (in rising order of precedence), reads their metadata before any code is loaded, and loads what
-/// is sound. Broken ones are listed with the reason; the rest works. Of several with one id the last one that works is
-/// used. A plugin that takes the program down while it is loaded is found in its lock file at the next start and put into
-/// quarantine, until its file changes or allow() is called.
+/// PHASESKETCH_PLUGIN_PATH (in rising order of precedence), reads their metadata before any code is loaded, and loads
+/// what is sound. Broken ones are listed with the reason; the rest works. Of several with one id the last one that
+/// works is used. A plugin that takes the program down while it is loaded is found in its lock file at the next start
+/// and put into quarantine, until its file changes or allow() is called.
 ///
-/// The constructor is the only part that loads code; it needs no QCoreApplication. All other functions may be called from
-/// any thread. Plugin objects live as long as the process, references from plugins() and pointers to materials as long as
-/// the registry.
+/// The constructor is the only part that loads code; it needs no QCoreApplication. All other functions may be called
+/// from any thread. Plugin objects live as long as the process, references from plugins() and pointers to materials as
+/// long as the registry.
 class PluginRegistry {
  public:
   struct Options {
@@ -62,8 +62,8 @@ class PluginRegistry {
   std::vector<std::string> ids(PluginKind kind) const;
   bool has(const std::string& id) const;
   /// A material with a plugin's own laws evaluated for these own parameters (in the order of its declarations; missing
-  /// ones take their defaults). Throws Error for an unknown material, and when the plugin's law fails: the plugin is then
-  /// refused as by fault().
+  /// ones take their defaults). Throws Error for an unknown material, and when the plugin's law fails: the plugin is
+  /// then refused as by fault().
   Material evaluated(const std::string& id, const std::vector<double>& parameters) const;
   /// A plugin threw while running: refuses it from now on, and says so in plugins(). Its object stays valid.
   void fault(const std::string& id, const std::string& message);

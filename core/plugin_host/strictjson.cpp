@@ -33,7 +33,9 @@ class Watch {
         m_levels.back().key = parsed.get<std::string>();
         if (!m_levels.back().keys.insert(m_levels.back().key).second) fail("this key stands here twice");
         break;
-      case json::parse_event_t::value: advance(); break;
+      case json::parse_event_t::value:
+        advance();
+        break;
     }
     return true;
   }
@@ -104,15 +106,22 @@ std::string jsonPointerPart(std::string_view key) {
 
 const char* jsonTypeName(const json& value) {
   switch (value.type()) {
-    case json::value_t::null: return "null";
-    case json::value_t::object: return "an object";
-    case json::value_t::array: return "a list";
-    case json::value_t::string: return "a text";
-    case json::value_t::boolean: return "true or false";
+    case json::value_t::null:
+      return "null";
+    case json::value_t::object:
+      return "an object";
+    case json::value_t::array:
+      return "a list";
+    case json::value_t::string:
+      return "a text";
+    case json::value_t::boolean:
+      return "true or false";
     case json::value_t::number_integer:
     case json::value_t::number_unsigned:
-    case json::value_t::number_float: return "a number";
-    default: return "something else";
+    case json::value_t::number_float:
+      return "a number";
+    default:
+      return "something else";
   }
 }
 

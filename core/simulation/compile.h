@@ -18,8 +18,8 @@ ThermalSettings compileThermal(const Project& project);
 std::vector<Wall> compileWalls(const Project& project);
 Bounds compileBounds(const Project& project);
 
-/// The scene's materials in order. One whose base is not installed gets the catalogue's defaults: its bodies stand still.
-/// Throws InputError when values contradict each other (a solidus above the liquidus).
+/// The scene's materials in order. One whose base is not installed gets the catalogue's defaults: its bodies stand
+/// still. Throws InputError when values contradict each other (a solidus above the liquidus).
 std::vector<Material> compileMaterials(const Project& project, const PluginRegistry& plugins);
 /// Index of a scene material by id; throws InputError naming the body that refers to it.
 uint32_t materialIndex(const Project& project, const std::string& material, const std::string& body);

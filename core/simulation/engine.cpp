@@ -154,8 +154,9 @@ void Engine::update(const Project& project) {
   // Particles carry indices of bodies and materials: as long as they live, a body keeps its place.
   Project next = project;
   const auto sameId = [](const auto& a, const auto& b) { return a.id == b.id; };
-  const bool keepsMaterials = next.materials.size() >= before.materials.size() &&
-                              std::equal(before.materials.begin(), before.materials.end(), next.materials.begin(), sameId);
+  const bool keepsMaterials =
+      next.materials.size() >= before.materials.size() &&
+      std::equal(before.materials.begin(), before.materials.end(), next.materials.begin(), sameId);
   if (!keepsMaterials) {
     m->project = std::move(next);
     m->build();
@@ -208,7 +209,8 @@ void Engine::removeParticles(const std::vector<uint32_t>& ids) { m->solver->remo
 TakenMatter Engine::takeParticles(const std::vector<uint32_t>& ids) { return m->solver->take(ids); }
 void Engine::putBack(const TakenMatter& matter) { m->solver->putBack(matter); }
 
-std::vector<uint32_t> Engine::particlesIn(const VoxelShape& lattice, const std::vector<std::array<int, 3>>& cells) const {
+std::vector<uint32_t> Engine::particlesIn(const VoxelShape& lattice,
+                                          const std::vector<std::array<int, 3>>& cells) const {
   return idsInCells(m->solver->particles(), lattice, m->spacing, cells);
 }
 

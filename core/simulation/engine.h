@@ -71,11 +71,11 @@ class EngineThread {
   void post(std::function<void(Engine&)> command);
 
   bool playing() const;
-  SnapshotPtr snapshot() const;           ///< newest; nullptr before the first
-  SnapshotPtr previousSnapshot() const;   ///< the one before it, of the same revision, else nullptr
+  SnapshotPtr snapshot() const;          ///< newest; nullptr before the first
+  SnapshotPtr previousSnapshot() const;  ///< the one before it, of the same revision, else nullptr
   /// All frames' statistics since the last reset, appended from index `from`.
   std::vector<FrameStats> history(size_t from) const;
-  double realTimeFactor() const;          ///< simulated seconds per second, over the last second
+  double realTimeFactor() const;  ///< simulated seconds per second, over the last second
 
  private:
   struct Impl;

@@ -10,8 +10,9 @@
 #include <mutex>
 #include <thread>
 
-// Why a thread with a queue: the interface must never wait for a step. Commands are closures that run between frames, in
-// order; what the interface reads (snapshot, history, clock) is copied out under a mutex that is held for microseconds.
+// Why a thread with a queue: the interface must never wait for a step. Commands are closures that run between frames,
+// in order; what the interface reads (snapshot, history, clock) is copied out under a mutex that is held for
+// microseconds.
 namespace ps {
 namespace {
 using Clock = std::chrono::steady_clock;
@@ -192,9 +193,8 @@ void EngineThread::reset() {
 }
 
 void EngineThread::setParameter(const Address& address, const Value& value) {
-  m->push([impl = m.get(), address, value] {
-    impl->edit([&](Engine& engine) { engine.setParameter(address, value); });
-  });
+  m->push(
+      [impl = m.get(), address, value] { impl->edit([&](Engine& engine) { engine.setParameter(address, value); }); });
 }
 
 void EngineThread::update(const Project& project) {
@@ -212,9 +212,7 @@ void EngineThread::addCells(const Body& body, std::vector<std::array<int, 3>> ce
 }
 
 void EngineThread::removeParticles(std::vector<uint32_t> ids) {
-  m->push([impl = m.get(), ids = std::move(ids)] {
-    impl->edit([&](Engine& engine) { engine.removeParticles(ids); });
-  });
+  m->push([impl = m.get(), ids = std::move(ids)] { impl->edit([&](Engine& engine) { engine.removeParticles(ids); }); });
 }
 
 void EngineThread::post(std::function<void(Engine&)> command) {

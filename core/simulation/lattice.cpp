@@ -80,8 +80,8 @@ std::vector<api::Double3> cellCentres(const VoxelShape& voxels, double spacing, 
   std::vector<api::Double3> centres;
   centres.reserve(cells.size());
   for (const CellIndex& c : cells) {
-    centres.push_back({voxels.origin[0] + c[0] * spacing, voxels.origin[1] + c[1] * spacing,
-                       voxels.origin[2] + c[2] * spacing});
+    centres.push_back(
+        {voxels.origin[0] + c[0] * spacing, voxels.origin[1] + c[1] * spacing, voxels.origin[2] + c[2] * spacing});
   }
   return centres;
 }

@@ -13,9 +13,7 @@ namespace {
 
 constexpr size_t kGrain = 4096;
 
-double squaredSpeed(const api::Float4& v) {
-  return double{v.x} * v.x + double{v.y} * v.y + double{v.z} * v.z;
-}
+double squaredSpeed(const api::Float4& v) { return double{v.x} * v.x + double{v.y} * v.y + double{v.z} * v.z; }
 
 double kineticEnergy(const ParticleStore& store) {
   return parallelSum(store.size(), kGrain, [&](size_t first, size_t last) {

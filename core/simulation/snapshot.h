@@ -19,8 +19,8 @@ struct PhaseAmount {
 /// What one frame amounts to; small, kept for graphs and reports.
 struct FrameStats {
   uint64_t frame = 0;
-  double time = 0, thermalTime = 0;  ///< s
-  std::array<PhaseAmount, 5> phases;  ///< by api::Phase, static particles left out
+  double time = 0, thermalTime = 0;                                    ///< s
+  std::array<PhaseAmount, 5> phases;                                   ///< by api::Phase, static particles left out
   double temperatureMin = 0, temperatureMean = 0, temperatureMax = 0;  ///< K, mean by mass
   double densityErrorMean = 0, densityErrorMax = 0;
   double thermalEnergy = 0, kineticEnergy = 0;  ///< J
@@ -35,7 +35,7 @@ struct Snapshot {
   FrameStats stats;
   uint64_t revision = 0;  ///< rises with every reset: indices and ids of another revision do not compare
   StepFlags flags = 0;
-  std::string message;    ///< why it paused, "" otherwise
+  std::string message;  ///< why it paused, "" otherwise
   std::vector<Limit> limits;
   std::vector<api::Float4> position;  ///< m; w: radius of a sphere of the rest volume, m
   std::vector<float> temperature;     ///< K
@@ -46,7 +46,7 @@ struct Snapshot {
   std::vector<api::Motion> motion;
   std::vector<uint32_t> id, body, material;
   std::shared_ptr<const std::vector<std::string>> bodyIds;  ///< Body::id by the index in `body`
-  std::vector<std::array<float, 3>> materialColour;  ///< sRGB 0..1 by material index
+  std::vector<std::array<float, 3>> materialColour;         ///< sRGB 0..1 by material index
 };
 using SnapshotPtr = std::shared_ptr<const Snapshot>;
 

@@ -56,7 +56,8 @@ void CellSet::remove(std::span<const api::Cell> cells) {
   const std::vector<api::Cell> outgoing = sorted(cells);
   std::vector<api::Cell> kept;
   kept.reserve(m_cells.size());
-  std::set_difference(m_cells.begin(), m_cells.end(), outgoing.begin(), outgoing.end(), std::back_inserter(kept), before);
+  std::set_difference(m_cells.begin(), m_cells.end(), outgoing.begin(), outgoing.end(), std::back_inserter(kept),
+                      before);
   m_cells = std::move(kept);
 }
 

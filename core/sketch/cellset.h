@@ -7,8 +7,8 @@
 #include <vector>
 
 // Why sorted arrays and no hash map: the order of cells decides the order in which particles are born, and so the state
-// hash. Sorted by z, y, x the order is the same on every machine, runs along x are neighbours, and a stroke of thousands
-// of cells is merged in one pass.
+// hash. Sorted by z, y, x the order is the same on every machine, runs along x are neighbours, and a stroke of
+// thousands of cells is merged in one pass.
 namespace ps {
 
 /// A set of cells in the order of compareCells().

@@ -12,12 +12,13 @@ struct DrawingPlane {
   Vec3 normal{0, 1, 0};  ///< towards the viewer; any length but zero
 };
 
-/// Where a ray meets the plane, in m. Nothing when it runs away from the plane, along it (within 0.06 degrees), or meets
-/// it farther than `reach` m away: a pointer above the horizon draws nothing.
+/// Where a ray meets the plane, in m. Nothing when it runs away from the plane, along it (within 0.06 degrees), or
+/// meets it farther than `reach` m away: a pointer above the horizon draws nothing.
 std::optional<Vec3> meet(const Ray& ray, const DrawingPlane& plane, double reach = 1e4);
 
 /// The plane through `point` that suits a view direction: level while the camera looks down or up by more than 15
-/// degrees, otherwise the upright plane across the axis (x or z) along which the camera looks most. Its unit normal faces the camera.
+/// degrees, otherwise the upright plane across the axis (x or z) along which the camera looks most. Its unit normal
+/// faces the camera.
 DrawingPlane drawingPlaneFor(const Vec3& point, const Vec3& viewDirection);
 
 }  // namespace ps

@@ -13,11 +13,12 @@ namespace ps {
 /// Points of a straight piece of stroke from `from` (left out: the piece before it stamped it) to `to` (held): n =
 /// ceil(|to - from|/spacing) of them, evenly spaced, none farther than `spacing` from the one before. Pressure and time
 /// are interpolated. Empty when the two points are one.
-std::vector<api::StrokeSample> interpolateStroke(const api::StrokeSample& from, const api::StrokeSample& to, double spacing);
+std::vector<api::StrokeSample> interpolateStroke(const api::StrokeSample& from, const api::StrokeSample& to,
+                                                 double spacing);
 
-/// Turns the pointer's raw samples, which arrive once per frame or faster, into dense ones at arc lengths 0, dx, 2 dx, ...
-/// along the polyline and its end. The dense samples depend on the path alone, not on how often it was sampled: a straight
-/// stroke gives the same points at 10 and at 1000 samples per second (to rounding).
+/// Turns the pointer's raw samples, which arrive once per frame or faster, into dense ones at arc lengths 0, dx, 2 dx,
+/// ... along the polyline and its end. The dense samples depend on the path alone, not on how often it was sampled: a
+/// straight stroke gives the same points at 10 and at 1000 samples per second (to rounding).
 class StrokeResampler {
  public:
   /// `spacing` in m, > 0: throws InputError otherwise.
@@ -45,16 +46,16 @@ struct StrokeEdits {
 /// How a stroke is drawn.
 struct StrokeSetup {
   SketchGrid grid;
-  double radius = 0.05;          ///< m
-  Vec3 up{0, 1, 0};              ///< unit vector
+  double radius = 0.05;            ///< m
+  Vec3 up{0, 1, 0};                ///< unit vector
   std::vector<double> parameters;  ///< the brush's own, in the order of its declarations
 };
 
 /// Cells that one stroke may touch before it is refused: about 2 GB of particles.
 inline constexpr size_t kMaxStrokeCells = size_t{1} << 23;
 
-/// Runs the brush over dense samples. Throws Error when the brush asks for more than kMaxStrokeCells, and passes on what
-/// the brush itself throws. Nothing else is changed then.
+/// Runs the brush over dense samples. Throws Error when the brush asks for more than kMaxStrokeCells, and passes on
+/// what the brush itself throws. Nothing else is changed then.
 StrokeEdits applyBrush(const api::BrushPlugin& brush, const StrokeSetup& setup, api::EditKind kind,
                        std::span<const api::StrokeSample> samples);
 /// The same into a set of cells: Add puts cells in, Remove takes them out.

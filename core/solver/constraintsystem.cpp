@@ -82,7 +82,8 @@ uint32_t ConstraintSystem::addSet(const api::ConstraintPlugin* plugin, std::stri
   if (set.structural && (traits.arity < 2 || traits.arity > 4)) {
     throw Error("constraint plugin '" + set.name + "' declares an arity outside 2 to 4");
   }
-  if (traits.values.count > kMostValues) throw Error("constraint plugin '" + set.name + "' declares more than 16 values");
+  if (traits.values.count > kMostValues)
+    throw Error("constraint plugin '" + set.name + "' declares more than 16 values");
   set.arity = set.structural ? traits.arity : 0;
   set.valueCount = set.structural ? traits.values.count : 0;
   set.values.resize(set.valueCount);
@@ -99,9 +100,16 @@ void ConstraintSystem::setParameters(uint32_t set, std::vector<double> parameter
   m_sets.at(set).parameters = std::move(parameters);
 }
 
-api::ConstraintContext ConstraintSystem::context(const Set& set, double dt, uint32_t substep, uint32_t iteration) const {
-  return {dt, m_settings.spacing, m_settings.spacing * m_settings.supportRatio, m_settings.gravity, substep, iteration,
-          {set.parameters.data(), set.parameters.size()}, {m_materials.data(), m_materials.size()}};
+api::ConstraintContext ConstraintSystem::context(const Set& set, double dt, uint32_t substep,
+                                                 uint32_t iteration) const {
+  return {dt,
+          m_settings.spacing,
+          m_settings.spacing * m_settings.supportRatio,
+          m_settings.gravity,
+          substep,
+          iteration,
+          {set.parameters.data(), set.parameters.size()},
+          {m_materials.data(), m_materials.size()}};
 }
 
 template <class Call>
@@ -137,12 +145,15 @@ void ConstraintSystem::forBatches(Set& set, Call&& call) {
   for (size_t colour = 0; colour + 1 < set.colourStart.size(); ++colour) {
     const size_t begin = set.colourStart[colour], count = set.colourStart[colour + 1] - begin;
     if (count == 0) continue;
-    if (count <= kBatchGrain) run(begin, begin + count);
-    else forChunks(count, kBatchGrain, [&](size_t first, size_t last) { run(begin + first, begin + last); });
+    if (count <= kBatchGrain)
+      run(begin, begin + count);
+    else
+      forChunks(count, kBatchGrain, [&](size_t first, size_t last) { run(begin + first, begin + last); });
   }
 }
 
-ConstraintSystem::Key ConstraintSystem::keyOf(const Set& set, const ParticleStore& store, const uint32_t* particles) const {
+ConstraintSystem::Key ConstraintSystem::keyOf(const Set& set, const ParticleStore& store,
+                                              const uint32_t* particles) const {
   std::array<uint32_t, 4> ids{kGone, kGone, kGone, kGone};
   for (size_t a = 0; a < set.arity; ++a) ids[a] = store.id()[particles[a]];
   std::sort(ids.begin(), ids.end());  // unused places sort to the end
@@ -258,9 +269,8 @@ CopiedConstraints ConstraintSystem::copy(const ParticleStore& store, std::span<c
     copied.name = set.name;
     for (size_t k = 0; k < set.count; ++k) {
       const uint32_t* particles = set.particles.data() + k * set.arity;
-      if (std::none_of(particles, particles + set.arity, [&](uint32_t i) {
-            return std::binary_search(ascending.begin(), ascending.end(), i);
-          })) {
+      if (std::none_of(particles, particles + set.arity,
+                       [&](uint32_t i) { return std::binary_search(ascending.begin(), ascending.end(), i); })) {
         continue;
       }
       for (size_t a = 0; a < set.arity; ++a) copied.id.push_back(store.id()[particles[a]]);
@@ -335,7 +345,8 @@ void ConstraintSystem::deriveVelocities(const ParticleStore& store, uint32_t sub
   for (Set& set : m_sets) {
     if (set.count == 0) continue;
     const api::ConstraintContext c = context(set, m_settings.dt / m_settings.substeps, substep, 0);
-    guarded(set, [&] { forBatches(set, [&](const api::ConstraintBatch& b) { set.plugin->deriveVelocities(c, view, b); }); });
+    guarded(set,
+            [&] { forBatches(set, [&](const api::ConstraintBatch& b) { set.plugin->deriveVelocities(c, view, b); }); });
   }
 }
 
@@ -386,9 +397,8 @@ void ConstraintSystem::limits(const ParticleStore& store, std::vector<Limit>& ou
     std::vector<Limit>& m_limits;
   } sink(out);
   for (Set& set : m_sets) {
-    guarded(set, [&] {
-      set.plugin->limits(context(set, m_settings.dt / m_settings.substeps, 0, 0), store.view(), sink);
-    });
+    guarded(set,
+            [&] { set.plugin->limits(context(set, m_settings.dt / m_settings.substeps, 0, 0), store.view(), sink); });
   }
 }
 

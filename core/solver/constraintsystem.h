@@ -46,7 +46,8 @@ struct CopiedConstraints {
 class ConstraintSystem {
  public:
   void configure(const SolverSettings& settings, std::span<const BakedMaterial> materials);
-  uint32_t addSet(const api::ConstraintPlugin* plugin, std::string name, std::vector<double> parameters, ParticleStore& store);
+  uint32_t addSet(const api::ConstraintPlugin* plugin, std::string name, std::vector<double> parameters,
+                  ParticleStore& store);
   void setParameters(uint32_t set, std::vector<double> parameters);
   size_t setCount() const { return m_sets.size(); }
 
@@ -84,7 +85,9 @@ class ConstraintSystem {
     bool operator==(const Key&) const = default;
   };
   struct KeyHash {
-    size_t operator()(const Key& k) const { return static_cast<size_t>((k.a ^ (k.b * 0x9E3779B97F4A7C15ull)) * 0xD6E8FEB86659FD93ull >> 7); }
+    size_t operator()(const Key& k) const {
+      return static_cast<size_t>((k.a ^ (k.b * 0x9E3779B97F4A7C15ull)) * 0xD6E8FEB86659FD93ull >> 7);
+    }
   };
   struct Set {
     const api::ConstraintPlugin* plugin = nullptr;
@@ -95,8 +98,8 @@ class ConstraintSystem {
     std::vector<uint32_t> particles;         ///< arity per constraint, in order of colour
     std::vector<std::vector<float>> values;  ///< [value][constraint]
     std::vector<size_t> colourStart;         ///< first constraint of each colour; one entry more than there are colours
-    std::vector<std::vector<uint64_t>> used; ///< [word of 64 colours][particle id]
-    std::unordered_set<Key, KeyHash> keys;   ///< sets of particle ids; only asked, never walked through
+    std::vector<std::vector<uint64_t>> used;  ///< [word of 64 colours][particle id]
+    std::unordered_set<Key, KeyHash> keys;    ///< sets of particle ids; only asked, never walked through
   };
   struct Edits;
   class Sink;

@@ -12,8 +12,8 @@ constexpr size_t kGrain = 256;
 constexpr double kDiameter = 0.95;  // spacings
 /// Contacts of one particle usually lean apart, so half of them may act at full strength.
 constexpr int kRelaxation = 2;
-/// Ties of a particle inside a cubic lattice, six along the axes and twelve along the diagonals: its own structure fills
-/// all places around it, so that nothing else can touch it.
+/// Ties of a particle inside a cubic lattice, six along the axes and twelve along the diagonals: its own structure
+/// fills all places around it, so that nothing else can touch it.
 constexpr size_t kEnclosed = 18;
 
 }  // namespace
@@ -56,7 +56,8 @@ void SolidContact::refresh(const ParticleStore& store, const Neighbours& neighbo
       for (uint32_t q = view.begin[i]; q < view.last[i]; ++q) {
         const uint32_t j = view.index[q];
         if (motion[j] != api::Motion::Solid && motion[j] != api::Motion::Static) continue;
-        const float x = position[i].x - position[j].x, y = position[i].y - position[j].y, z = position[i].z - position[j].z;
+        const float x = position[i].x - position[j].x, y = position[i].y - position[j].y,
+                    z = position[i].z - position[j].z;
         if (x * x + y * y + z * z < reach2 && !graph.tied(i, j)) chunk.other.push_back(j);
       }
       if (chunk.other.size() == before) continue;

@@ -41,7 +41,8 @@ HalfSpaceTable::HalfSpaceTable(const Kernel& kernel) : m_values(kIntervals + 1) 
     const double whole = step / 6 * (integrand(low) + 4 * integrand(middle) + integrand(high));
     share += step / 6 * (area + 4 * (area + upperHalf) + area + whole);
     area += whole;
-    if ((k - 1) % kSteps == 0) m_values[static_cast<size_t>((k - 1) / kSteps)] = {static_cast<float>(share), static_cast<float>(-area)};
+    if ((k - 1) % kSteps == 0)
+      m_values[static_cast<size_t>((k - 1) / kSteps)] = {static_cast<float>(share), static_cast<float>(-area)};
   }
   m_perMetre = static_cast<float>(kIntervals / support);
 }
@@ -73,7 +74,8 @@ void DensityStage::configure(const SolverSettings& settings, const std::vector<W
 
 PairLists DensityStage::lists(const Neighbours& neighbours) const {
   const api::NeighbourView view = neighbours.view();
-  return {view.begin, view.last, view.end, view.index, m_settings.kernel, static_cast<float>(1 / (m_support * m_support))};
+  return {view.begin, view.last,         view.end,
+          view.index, m_settings.kernel, static_cast<float>(1 / (m_support * m_support))};
 }
 
 void DensityStage::refresh(const ParticleStore& store, const Neighbours& neighbours) {
@@ -222,8 +224,10 @@ void DensityStage::project(ParticleStore& store, const Neighbours& neighbours, i
   loadPoints(store);
   // x_k+1 = x_k-1 + w (x_k + jacobi - x_k-1), with w = 1 for two steps, then 2/(2 - rho^2), then 4/(4 - rho^2 w).
   const float rho2 = static_cast<float>(m_settings.chebyshevRadius * m_settings.chebyshevRadius);
-  if (iteration < 2 || m_settings.densitySolver == DensitySolver::Jacobi) m_chebyshev = 1;
-  else m_chebyshev = iteration == 2 ? 2 / (2 - rho2) : 4 / (4 - rho2 * m_chebyshev);
+  if (iteration < 2 || m_settings.densitySolver == DensitySolver::Jacobi)
+    m_chebyshev = 1;
+  else
+    m_chebyshev = iteration == 2 ? 2 / (2 - rho2) : 4 / (4 - rho2 * m_chebyshev);
   const size_t fluids = m_fluid.size(), moving = fluids + m_wet.size();
   m_sums.resize(std::max(m_sums.size(), fluids));
   m_constraints.resize(fluids);

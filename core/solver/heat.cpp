@@ -311,15 +311,19 @@ void HeatStage::findLimit() {
 }
 
 /// What drives heat from wall w into particle i, W/m: the Kirchhoff difference, as inside matter, up to the boiling
-/// point. Beyond it the liquid that touches the wall conducts as liquid, not as the vapour that Kirchhoff's integral
-/// would put between them: a film of vapour insulates only as far as the particle itself has become vapour.
+/// (or sublimation) point. Beyond it the matter that touches the wall conducts as itself, not as the vapour that
+/// Kirchhoff's integral would put between them: a film of vapour insulates only as far as the particle itself has
+/// become vapour.
 double HeatStage::wallDrive(const ParticleStore& store, size_t i, size_t w) const {
   const BakedMaterial& material = m_materials[store.material()[i]];
-  const double boiling = material.caloric().boilingPoint;
+  const api::Caloric& caloric = material.caloric();
+  const double boiling = caloric.sublimes ? caloric.meltingPoint : caloric.boilingPoint;
   const double here = m_now.temperature[i], there = m_walls[w].temperature;
   if (here <= boiling && there <= boiling) return material.kirchhoff(there) - m_now.potential[i];
   const double gas = double{store.gasFraction()[i]};
-  const double k = (1 - gas) * material.conductivity(boiling, 0, 1, 0) + gas * material.conductivity(boiling, 0, 0, 1);
+  const double solid = caloric.sublimes ? 1 : 0;
+  const double k =
+      (1 - gas) * material.conductivity(boiling, solid, 1 - solid, 0) + gas * material.conductivity(boiling, 0, 0, 1);
   return material.kirchhoff(std::min(there, boiling)) - material.kirchhoff(std::min(here, boiling)) +
          k * (std::max(there, boiling) - std::max(here, boiling));
 }

@@ -34,7 +34,8 @@ HWY_INLINE V loadBlocks(const float* base, const uint32_t* id) {
   const DBlock d1;
 #if HWY_MAX_BYTES >= 64
   const hn::Half<D> d2;
-  return hn::Combine(D(), hn::Combine(d2, hn::Load(d1, base + 4 * size_t{id[12]}), hn::Load(d1, base + 4 * size_t{id[8]})),
+  return hn::Combine(D(),
+                     hn::Combine(d2, hn::Load(d1, base + 4 * size_t{id[12]}), hn::Load(d1, base + 4 * size_t{id[8]})),
                      hn::Combine(d2, hn::Load(d1, base + 4 * size_t{id[4]}), hn::Load(d1, base + 4 * size_t{id[0]})));
 #elif HWY_MAX_BYTES == 32
   return hn::Combine(D(), hn::Load(d1, base + 4 * size_t{id[4]}), hn::Load(d1, base + 4 * size_t{id[0]}));
@@ -102,9 +103,9 @@ HWY_INLINE float sumOne(const Lanes& lanes) {
   return hn::GetLane(hn::Add(v, hn::Shuffle2301(v)));
 }
 
-/// 1/sqrt(x) for normal x > 0 within 7e-7, from integer and plain float operations (Moroz et al. 2018, "Fast calculation
-/// of inverse square root with the use of magic constant", two steps). A machine's own approximation would differ from
-/// the next machine's, and exact roots and divisions cost most of the loop.
+/// 1/sqrt(x) for normal x > 0 within 7e-7, from integer and plain float operations (Moroz et al. 2018, "Fast
+/// calculation of inverse square root with the use of magic constant", two steps). A machine's own approximation would
+/// differ from the next machine's, and exact roots and divisions cost most of the loop.
 HWY_INLINE V reciprocalRoot(V x) {
   const D d;
   const hn::RebindToSigned<D> di;
@@ -121,7 +122,8 @@ struct Spline {
     const D d;
     inverseQ = reciprocalRoot(q2);
     const V q = hn::Mul(q2, inverseQ);
-    const V a = hn::Max(hn::Zero(d), hn::Sub(hn::Set(d, 1.0f), q)), b = hn::Max(hn::Zero(d), hn::Sub(hn::Set(d, 0.5f), q));
+    const V a = hn::Max(hn::Zero(d), hn::Sub(hn::Set(d, 1.0f), q)),
+            b = hn::Max(hn::Zero(d), hn::Sub(hn::Set(d, 0.5f), q));
     a2 = hn::Mul(a, a), b2 = hn::Mul(b, b);
     a3 = hn::Mul(a2, a), b3 = hn::Mul(b2, b);
   }
@@ -175,8 +177,8 @@ HWY_INLINE void forNeighbours(const PairLists& lists, size_t i, Body&& body) {
 }
 
 template <class Shape>
-HWY_INLINE void densityLoop(const PairLists& lists, const api::Float4* points, const float* weight, const uint32_t* which,
-                            size_t first, size_t last, DensitySums* out) {
+HWY_INLINE void densityLoop(const PairLists& lists, const api::Float4* points, const float* weight,
+                            const uint32_t* which, size_t first, size_t last, DensitySums* out) {
   const D d;
   const V inverseR2 = hn::Set(d, lists.inverseSupportSquared);
   for (size_t k = first; k < last; ++k) {
@@ -220,7 +222,8 @@ HWY_INLINE void multiplierLoop(const PairLists& lists, const api::Float4* points
 
 template <class Shape>
 HWY_INLINE void viscosityLoop(const PairLists& lists, const api::Float4* position, const api::Float4* velocity,
-                              const float* coefficient, const uint32_t* which, size_t first, size_t last, api::Float4* out) {
+                              const float* coefficient, const uint32_t* which, size_t first, size_t last,
+                              api::Float4* out) {
   const D d;
   const V inverseR2 = hn::Set(d, lists.inverseSupportSquared), zero = hn::Zero(d), half = hn::Set(d, 0.5f);
   for (size_t k = first; k < last; ++k) {
@@ -247,20 +250,24 @@ HWY_INLINE void viscosityLoop(const PairLists& lists, const api::Float4* positio
   }
 }
 
-void SumDensity(const PairLists& lists, const api::Float4* points, const float* weight, const uint32_t* which, size_t first,
-                size_t last, DensitySums* out) {
-  if (lists.kernel == KernelShape::CubicSpline) densityLoop<Spline>(lists, points, weight, which, first, last, out);
-  else densityLoop<Wendland>(lists, points, weight, which, first, last, out);
+void SumDensity(const PairLists& lists, const api::Float4* points, const float* weight, const uint32_t* which,
+                size_t first, size_t last, DensitySums* out) {
+  if (lists.kernel == KernelShape::CubicSpline)
+    densityLoop<Spline>(lists, points, weight, which, first, last, out);
+  else
+    densityLoop<Wendland>(lists, points, weight, which, first, last, out);
 }
 
 void SumMultipliers(const PairLists& lists, const api::Float4* points, const uint32_t* which, size_t first, size_t last,
                     api::Float4* out) {
-  if (lists.kernel == KernelShape::CubicSpline) multiplierLoop<Spline>(lists, points, which, first, last, out);
-  else multiplierLoop<Wendland>(lists, points, which, first, last, out);
+  if (lists.kernel == KernelShape::CubicSpline)
+    multiplierLoop<Spline>(lists, points, which, first, last, out);
+  else
+    multiplierLoop<Wendland>(lists, points, which, first, last, out);
 }
 
-void SumViscosity(const PairLists& lists, const api::Float4* position, const api::Float4* velocity, const float* coefficient,
-                  const uint32_t* which, size_t first, size_t last, api::Float4* out) {
+void SumViscosity(const PairLists& lists, const api::Float4* position, const api::Float4* velocity,
+                  const float* coefficient, const uint32_t* which, size_t first, size_t last, api::Float4* out) {
   if (lists.kernel == KernelShape::CubicSpline)
     viscosityLoop<Spline>(lists, position, velocity, coefficient, which, first, last, out);
   else
@@ -277,16 +284,16 @@ HWY_EXPORT(SumDensity);
 HWY_EXPORT(SumMultipliers);
 HWY_EXPORT(SumViscosity);
 
-void sumDensity(const PairLists& lists, const api::Float4* points, const float* weight, const uint32_t* which, size_t first,
-                size_t last, DensitySums* out) {
+void sumDensity(const PairLists& lists, const api::Float4* points, const float* weight, const uint32_t* which,
+                size_t first, size_t last, DensitySums* out) {
   HWY_DYNAMIC_DISPATCH(SumDensity)(lists, points, weight, which, first, last, out);
 }
 void sumMultipliers(const PairLists& lists, const api::Float4* points, const uint32_t* which, size_t first, size_t last,
                     api::Float4* out) {
   HWY_DYNAMIC_DISPATCH(SumMultipliers)(lists, points, which, first, last, out);
 }
-void sumViscosity(const PairLists& lists, const api::Float4* position, const api::Float4* velocity, const float* coefficient,
-                  const uint32_t* which, size_t first, size_t last, api::Float4* out) {
+void sumViscosity(const PairLists& lists, const api::Float4* position, const api::Float4* velocity,
+                  const float* coefficient, const uint32_t* which, size_t first, size_t last, api::Float4* out) {
   HWY_DYNAMIC_DISPATCH(SumViscosity)(lists, position, velocity, coefficient, which, first, last, out);
 }
 namespace targets {

@@ -23,14 +23,14 @@ struct PairLists {
 /// Sums of one particle's density constraint. Volumes are multiplied by the kernel's factor (8/(pi R3) for the spline),
 /// so that W appears as the plain polynomial w(q).
 struct DensitySums {
-  float excess;      ///< sum_j V_j w(q_ij), without the particle itself
-  float x, y, z;     ///< sum_j V_j w'(q)/q (x_i - x_j), m; times 1/R2 it is the gradient
-  float squares;     ///< sum_j u_j w'(q)2 with the weights u_j; times 1/R2 it is the neighbours' share of the denominator
+  float excess;   ///< sum_j V_j w(q_ij), without the particle itself
+  float x, y, z;  ///< sum_j V_j w'(q)/q (x_i - x_j), m; times 1/R2 it is the gradient
+  float squares;  ///< sum_j u_j w'(q)2 with the weights u_j; times 1/R2 it is the neighbours' share of the denominator
 };
 
 /// For the particles which[first .. last): sums over `points` (position and scaled volume) and `weight` (u_j).
-void sumDensity(const PairLists& lists, const api::Float4* points, const float* weight, const uint32_t* which, size_t first,
-                size_t last, DensitySums* out);
+void sumDensity(const PairLists& lists, const api::Float4* points, const float* weight, const uint32_t* which,
+                size_t first, size_t last, DensitySums* out);
 
 /// For the particles which[first .. last): out[k] = sum_j lambda_j w'(q)/q (x_i - x_j), lambda_j in points[j].w.
 void sumMultipliers(const PairLists& lists, const api::Float4* points, const uint32_t* which, size_t first, size_t last,

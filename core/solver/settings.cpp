@@ -21,14 +21,22 @@ std::vector<std::string> flagNames(StepFlags flags) {
 
 const char* stageName(Stage stage) {
   switch (stage) {
-    case Stage::Neighbours: return "neighbours";
-    case Stage::Density: return "density";
-    case Stage::Structure: return "structure";
-    case Stage::Contact: return "contact";
-    case Stage::Viscosity: return "viscosity";
-    case Stage::Heat: return "heat";
-    case Stage::Phase: return "phase";
-    case Stage::Count: break;
+    case Stage::Neighbours:
+      return "neighbours";
+    case Stage::Density:
+      return "density";
+    case Stage::Structure:
+      return "structure";
+    case Stage::Contact:
+      return "contact";
+    case Stage::Viscosity:
+      return "viscosity";
+    case Stage::Heat:
+      return "heat";
+    case Stage::Phase:
+      return "phase";
+    case Stage::Count:
+      break;
   }
   return "";
 }

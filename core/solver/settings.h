@@ -12,18 +12,19 @@ namespace ps {
 enum class DensitySolver { Jacobi, Chebyshev };
 
 struct SolverSettings {
-  double spacing = 0.02;       ///< m, rest distance of neighbouring particles
-  double supportRatio = 2.0;   ///< support radius / spacing
+  double spacing = 0.02;      ///< m, rest distance of neighbouring particles
+  double supportRatio = 2.0;  ///< support radius / spacing
   KernelShape kernel = KernelShape::CubicSpline;
-  double dt = 1.0 / 60;        ///< s, one frame
+  double dt = 1.0 / 60;  ///< s, one frame
   int substeps = 4, iterations = 4;
   DensitySolver densitySolver = DensitySolver::Chebyshev;
-  double relaxation = 0.5;     ///< omega of the Jacobi density step; 0.5 with Chebyshev, 0.6 without: with 1 resting liquid boils
+  double relaxation =
+      0.5;  ///< omega of the Jacobi density step; 0.5 with Chebyshev, 0.6 without: with 1 resting liquid boils
   double chebyshevRadius = 0.8;  ///< assumed spectral radius
-  double xsphMinimum = 0.05;   ///< XSPH coefficient that keeps the particles quiet where the real viscosity asks less
-  double damping = 0;          ///< 1/s, of velocities, before gravity
+  double xsphMinimum = 0.05;     ///< XSPH coefficient that keeps the particles quiet where the real viscosity asks less
+  double damping = 0;            ///< 1/s, of velocities, before gravity
   api::Double3 gravity{0, -9.81, 0};
-  double gasDrag = 0.2;        ///< m, gas_parcel_diameter of the drag law
+  double gasDrag = 0.2;  ///< m, gas_parcel_diameter of the drag law
 };
 
 /// Heat at a wall.
@@ -36,8 +37,8 @@ struct Wall {
   double offset = 0;             ///< m
   double friction = 0.3;
   WallHeat heat = WallHeat::Adiabatic;
-  double temperature = 293.15;      ///< K
-  double filmCoefficient = 500;     ///< W/(m2 K), condensation on walls below the boiling point
+  double temperature = 293.15;   ///< K
+  double filmCoefficient = 500;  ///< W/(m2 K), condensation on walls below the boiling point
 };
 
 struct Bounds {
@@ -45,22 +46,22 @@ struct Bounds {
 };
 
 struct ThermalSettings {
-  double timeScale = 1;             ///< thermal_time_scale: all heat fluxes times this; final states unchanged
-  double cfl = 0.5;                 ///< thermal_cfl: fraction of the Gershgorin limit per explicit step
+  double timeScale = 1;  ///< thermal_time_scale: all heat fluxes times this; final states unchanged
+  double cfl = 0.5;      ///< thermal_cfl: fraction of the Gershgorin limit per explicit step
   bool momentCorrection = true;
-  double ambientPressure = 101325;  ///< Pa
+  double ambientPressure = 101325;     ///< Pa
   double ambientTemperature = 293.15;  ///< K
-  double airConvection = 5;         ///< W/(m2 K), vapour in the open air
-  double nucleation = 0.3;          ///< share of latent heat that boiling neighbours pass on
+  double airConvection = 5;            ///< W/(m2 K), vapour in the open air
+  double nucleation = 0.3;             ///< share of latent heat that boiling neighbours pass on
 };
 
 /// Failures of a step; each says what to do about it.
 enum class StepFlag : unsigned {
-  NotFinite = 1,       ///< a NaN or infinity: raise substeps, or undo the last change of a stiffness or temperature
-  LostParticle = 2,    ///< a particle left the bounds: raise substeps, or close the scene with walls
-  Diverged = 4,        ///< density error above 50 %: raise iterations, lower the relaxation
-  PluginFault = 8,     ///< a plugin threw: see the message; the scene goes on without it
-  EnergyOpen = 16,     ///< heat balance open by more than 1e-6 of what was exchanged: report a bug in the thermal model
+  NotFinite = 1,     ///< a NaN or infinity: raise substeps, or undo the last change of a stiffness or temperature
+  LostParticle = 2,  ///< a particle left the bounds: raise substeps, or close the scene with walls
+  Diverged = 4,      ///< density error above 50 %: raise iterations, lower the relaxation
+  PluginFault = 8,   ///< a plugin threw: see the message; the scene goes on without it
+  EnergyOpen = 16,   ///< heat balance open by more than 1e-6 of what was exchanged: report a bug in the thermal model
 };
 using StepFlags = unsigned;
 /// "not_finite", "lost_particle", ...

@@ -18,25 +18,34 @@ struct Fractions {
 /// What a particle is made of until a thermal model says so.
 Fractions fractionsOf(api::Phase phase) {
   switch (phase) {
-    case api::Phase::Solid: return {1, 0, 0};
-    case api::Phase::Melting: return {0.5f, 0.5f, 0};
-    case api::Phase::Liquid: return {0, 1, 0};
-    case api::Phase::Boiling: return {0, 0.5f, 0.5f};
-    case api::Phase::Gas: return {0, 0, 1};
+    case api::Phase::Solid:
+      return {1, 0, 0};
+    case api::Phase::Melting:
+      return {0.5f, 0.5f, 0};
+    case api::Phase::Liquid:
+      return {0, 1, 0};
+    case api::Phase::Boiling:
+      return {0, 0.5f, 0.5f};
+    case api::Phase::Gas:
+      return {0, 0, 1};
   }
   return {0, 1, 0};
 }
 
 api::Motion motionOf(api::Phase phase) {
   switch (phase) {
-    case api::Phase::Solid: return api::Motion::Solid;
-    case api::Phase::Gas: return api::Motion::Gas;
-    default: return api::Motion::Liquid;
+    case api::Phase::Solid:
+      return api::Motion::Solid;
+    case api::Phase::Gas:
+      return api::Motion::Gas;
+    default:
+      return api::Motion::Liquid;
   }
 }
 
 void requirePositive(double value, const char* name) {
-  if (!(value > 0) || !std::isfinite(value)) throw InputError(std::string("solver: ") + name + " must be a positive number");
+  if (!(value > 0) || !std::isfinite(value))
+    throw InputError(std::string("solver: ") + name + " must be a positive number");
 }
 
 }  // namespace
@@ -54,7 +63,8 @@ void Solver::setSettings(const SolverSettings& settings) {
   m->configured = false;
 }
 
-void Solver::setThermal(const ThermalSettings& settings, const api::ThermalPlugin* model, std::vector<double> modelParameters) {
+void Solver::setThermal(const ThermalSettings& settings, const api::ThermalPlugin* model,
+                        std::vector<double> modelParameters) {
   m->thermal = settings;
   m->model = model;
   m->modelParameters = std::move(modelParameters);
@@ -73,7 +83,8 @@ void Solver::setMaterials(std::vector<BakedMaterial> materials) {
   m->configured = false;
 }
 
-uint32_t Solver::addConstraintSet(const api::ConstraintPlugin* plugin, std::string name, std::vector<double> parameters) {
+uint32_t Solver::addConstraintSet(const api::ConstraintPlugin* plugin, std::string name,
+                                  std::vector<double> parameters) {
   return m->constraints.addSet(plugin, std::move(name), std::move(parameters), m->store);
 }
 
@@ -111,7 +122,8 @@ std::vector<uint32_t> Solver::spawn(const Spawn& spawn) {
   const size_t count = spawn.position.size();
   if (count == 0) return {};
   if (spawn.material >= m->materials.size()) throw Error("particles of a material that is not in the table");
-  if (!spawn.velocity.empty() && spawn.velocity.size() != count) throw Error("as many velocities as positions are needed");
+  if (!spawn.velocity.empty() && spawn.velocity.size() != count)
+    throw Error("as many velocities as positions are needed");
   m->configure();
   ParticleStore& store = m->store;
   const double energyBefore = m->frame > 0 ? m->heat.energy(store) : 0;
@@ -122,7 +134,8 @@ std::vector<uint32_t> Solver::spawn(const Spawn& spawn) {
   for (size_t k = 0; k < count; ++k) {
     const size_t i = first + k;
     const api::Double3 p = spawn.position[k], v = spawn.velocity.empty() ? api::Double3{0, 0, 0} : spawn.velocity[k];
-    store.position()[i] = {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z), static_cast<float>(cell)};
+    store.position()[i] = {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z),
+                           static_cast<float>(cell)};
     store.previous()[i] = store.position()[i];
     store.velocity()[i] = {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0};
     store.material()[i] = spawn.material;

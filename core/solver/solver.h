@@ -19,7 +19,7 @@ struct Spawn {
   uint32_t body = 0;
   double temperature = 293.15;  ///< K
   api::Phase phase = api::Phase::Liquid;
-  bool fixed = false;           ///< static boundary particles
+  bool fixed = false;                    ///< static boundary particles
   std::vector<uint32_t> constraintSets;  ///< built over the new particles
 };
 
@@ -37,10 +37,10 @@ struct StepReport {
   double densityErrorMean = 0, densityErrorMax = 0;  ///< fraction, liquid particles, after the last iteration
 };
 
-/// One engine: substepped XPBD (Macklin et al. 2019) with position-based density (Macklin & Mueller 2013, volume form of
-/// Solenthaler & Pajarola 2008), structural and neighbour constraints from plugins, XSPH viscosity, enthalpy heat, phase
-/// change. Gather, not scatter: every loop writes its own particle only, so the result is the same for any number of
-/// threads and any instruction set.
+/// One engine: substepped XPBD (Macklin et al. 2019) with position-based density (Macklin & Mueller 2013, volume form
+/// of Solenthaler & Pajarola 2008), structural and neighbour constraints from plugins, XSPH viscosity, enthalpy heat,
+/// phase change. Gather, not scatter: every loop writes its own particle only, so the result is the same for any number
+/// of threads and any instruction set.
 class Solver {
  public:
   Solver();
@@ -48,7 +48,8 @@ class Solver {
 
   // Configuration; each may be called between steps and acts on the next one.
   void setSettings(const SolverSettings& settings);
-  void setThermal(const ThermalSettings& settings, const api::ThermalPlugin* model, std::vector<double> modelParameters);
+  void setThermal(const ThermalSettings& settings, const api::ThermalPlugin* model,
+                  std::vector<double> modelParameters);
   void setWalls(std::vector<Wall> walls);
   void setBounds(const Bounds& bounds);
   /// Indices of materials must keep their meaning while particles live.
@@ -78,7 +79,7 @@ class Solver {
   uint64_t frame() const;
   std::vector<Limit> limits() const;
   const HeatLedger& heatLedger() const;
-  double thermalEnergy() const;  ///< J
+  double thermalEnergy() const;                     ///< J
   std::span<const double> thermalEnergies() const;  ///< J per particle, until the next call; empty without a model
   /// All particle fields by id, constraints, clocks.
   uint64_t stateHash() const;

@@ -22,7 +22,9 @@ std::string describe(const ParticleStore& store, size_t i) {
   return "particle " + std::to_string(store.id()[i]) + " of body " + std::to_string(store.body()[i]);
 }
 
-bool finite(const api::Float4& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w); }
+bool finite(const api::Float4& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w);
+}
 
 }  // namespace
 

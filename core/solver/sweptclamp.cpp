@@ -45,13 +45,16 @@ void SweptClamp::refresh(const ParticleStore& store) {
     for (size_t a = 0; a < 3; ++a) m_low[a] = std::min(m_low[a], c[a]), m_high[a] = std::max(m_high[a], c[a]);
   }
   const auto cellsAlong = [&](size_t a) { return std::floor((m_high[a] - m_low[a]) / m_cell) + 1; };
-  while (cellsAlong(0) * cellsAlong(1) * cellsAlong(2) > 8.0 * static_cast<double>(m_centers.size()) + 4096) m_cell *= 1.25;
+  while (cellsAlong(0) * cellsAlong(1) * cellsAlong(2) > 8.0 * static_cast<double>(m_centers.size()) + 4096)
+    m_cell *= 1.25;
   for (size_t a = 0; a < 3; ++a) m_cells[a] = static_cast<int>(cellsAlong(a));
   const auto cell = [&](const Point& c) {
     return static_cast<size_t>((cellOf(c[2], 2) * m_cells[1] + cellOf(c[1], 1)) * m_cells[0] + cellOf(c[0], 0));
   };
-  std::stable_sort(m_centers.begin(), m_centers.end(), [&](const Point& a, const Point& b) { return cell(a) < cell(b); });
-  m_cellStart.assign(static_cast<size_t>(m_cells[0]) * static_cast<size_t>(m_cells[1]) * static_cast<size_t>(m_cells[2]) + 1, 0);
+  std::stable_sort(m_centers.begin(), m_centers.end(),
+                   [&](const Point& a, const Point& b) { return cell(a) < cell(b); });
+  m_cellStart.assign(
+      static_cast<size_t>(m_cells[0]) * static_cast<size_t>(m_cells[1]) * static_cast<size_t>(m_cells[2]) + 1, 0);
   for (const Point& c : m_centers) ++m_cellStart[cell(c) + 1];
   for (size_t k = 1; k < m_cellStart.size(); ++k) m_cellStart[k] += m_cellStart[k - 1];
 }
@@ -81,7 +84,8 @@ SweptClamp::Hit SweptClamp::firstHit(const Point& from, const Point& way) const 
   Hit hit;
   int low[3], high[3];
   for (size_t a = 0; a < 3; ++a) {
-    const double least = std::min(from[a], from[a] + way[a]) - m_radius, most = std::max(from[a], from[a] + way[a]) + m_radius;
+    const double least = std::min(from[a], from[a] + way[a]) - m_radius,
+                 most = std::max(from[a], from[a] + way[a]) + m_radius;
     if (!(most >= m_low[a]) || !(least <= m_high[a])) return hit;
     low[a] = cellOf(least, static_cast<int>(a));
     high[a] = cellOf(most, static_cast<int>(a));

@@ -88,7 +88,8 @@ void ViscosityStage::limits(const ParticleStore& store, std::vector<Limit>& out)
   }
   for (size_t m = 0; m < asked.size(); ++m) {
     const double delivered = greatestViscosity() * densities[m];
-    if (asked[m] > delivered) out.push_back({std::string(m_materials[m].id()) + ".viscosity", asked[m], delivered, "Pa·s"});
+    if (asked[m] > delivered)
+      out.push_back({std::string(m_materials[m].id()) + ".viscosity", asked[m], delivered, "Pa·s"});
   }
 }
 

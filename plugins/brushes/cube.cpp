@@ -16,8 +16,9 @@ using ps::api::Scale;
 constexpr double kPi = 3.14159265358979323846;
 
 constexpr ParameterDeclaration kParameters[] = {
-    {"rotation", "Rotation", "", "rad", ParameterKind::Number, Scale::Linear, 0, -kPi / 4, kPi / 4, -2 * kPi, 2 * kPi, "°",
-     180 / kPi, 0, "", "Brush", "Turns the cube about the up direction.", "0° along the axes, 45° on its corner", ""},
+    {"rotation", "Rotation", "", "rad", ParameterKind::Number, Scale::Linear, 0, -kPi / 4, kPi / 4, -2 * kPi, 2 * kPi,
+     "°", 180 / kPi, 0, "", "Brush", "Turns the cube about the up direction.", "0° along the axes, 45° on its corner",
+     ""},
 };
 
 double dot(const Double3& a, const Double3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
@@ -51,8 +52,10 @@ Double3 extentOf(const std::array<Double3, 3>& axes, double half) {
 const char* CubeBrush::label() const noexcept { return "Cube"; }
 
 const char* CubeBrush::help() const noexcept {
-  return "Draws a square strand: a cube, whose half edge is the brush's radius, is filled or emptied at every point of the "
-         "stroke. A cube of n particle spacings holds n cells along each edge. It knows the lattice only, not what stands "
+  return "Draws a square strand: a cube, whose half edge is the brush's radius, is filled or emptied at every point of "
+         "the "
+         "stroke. A cube of n particle spacings holds n cells along each edge. It knows the lattice only, not what "
+         "stands "
          "in the way; occupied cells are left as they are.";
 }
 
@@ -67,13 +70,14 @@ void CubeBrush::stroke(const ps::api::StrokeContext& context, ps::api::EditKind 
   std::vector<ps::api::Cell> cells;
   for (const ps::api::StrokeSample& sample : samples) {
     cells.clear();
-    ps::brushes::stamp(context, sample.position, extent,
-                       [&](const Double3& d) {
-                         for (const Double3& axis : axes)
-                           if (const double along = dot(d, axis); along < low || along >= high) return false;
-                         return true;
-                       },
-                       cells);
+    ps::brushes::stamp(
+        context, sample.position, extent,
+        [&](const Double3& d) {
+          for (const Double3& axis : axes)
+            if (const double along = dot(d, axis); along < low || along >= high) return false;
+          return true;
+        },
+        cells);
     sink.submit(kind, {cells.data(), cells.size()});
   }
 }

@@ -14,9 +14,8 @@ using ps::api::Scale;
 
 constexpr double kDefaultPressureSize = 0.5;
 constexpr ParameterDeclaration kParameters[] = {
-    {"pressure_size", "Pen pressure", "", "", ParameterKind::Number, Scale::Linear, kDefaultPressureSize, 0, 1, 0, 1, "%",
-     100, 0, "", "Brush",
-     "How far a light touch of the pen makes the ball smaller; a mouse always presses fully.",
+    {"pressure_size", "Pen pressure", "", "", ParameterKind::Number, Scale::Linear, kDefaultPressureSize, 0, 1, 0, 1,
+     "%", 100, 0, "", "Brush", "How far a light touch of the pen makes the ball smaller; a mouse always presses fully.",
      "0 % the same size always, 100 % from a single particle to full size", ""},
 };
 
@@ -31,7 +30,8 @@ double radiusAt(const ps::api::StrokeContext& context, double pressure) {
 const char* SphereBrush::label() const noexcept { return "Sphere"; }
 
 const char* SphereBrush::help() const noexcept {
-  return "Draws a round strand: every cell whose centre is within the radius of the stroke is filled, or emptied. It knows "
+  return "Draws a round strand: every cell whose centre is within the radius of the stroke is filled, or emptied. It "
+         "knows "
          "the lattice only, not what stands in the way; occupied cells are left as they are.";
 }
 
@@ -45,8 +45,9 @@ void SphereBrush::stroke(const ps::api::StrokeContext& context, ps::api::EditKin
     // Centres on the rim count; the allowance is far above rounding and far below a cell.
     const double limit = radius * radius * (1 + 1e-9);
     cells.clear();
-    ps::brushes::stamp(context, sample.position, {radius, radius, radius},
-                       [&](const Double3& d) { return d.x * d.x + d.y * d.y + d.z * d.z <= limit; }, cells);
+    ps::brushes::stamp(
+        context, sample.position, {radius, radius, radius},
+        [&](const Double3& d) { return d.x * d.x + d.y * d.y + d.z * d.z <= limit; }, cells);
     sink.submit(kind, {cells.data(), cells.size()});
   }
 }

@@ -26,15 +26,18 @@ constexpr float kLeastStiffness = 1e-20f;    // N/m, keeps the compliance finite
 constexpr const char* kThawed = "bonds.thawed";
 
 constexpr api::ParameterDeclaration kParameters[] = {
-    {"bond_max", "Bonds per particle", "n", "", api::ParameterKind::Integer, api::Scale::Linear, 18, 6, 32, 1, 64, "", 1, 0,
-     "", "Structure", "How many neighbours a freezing particle may bond with.",
-     "6 brittle like wet sand, 12 firm, 18 as firm as a block made whole", "cubic lattice: 6 axial and 12 diagonal neighbours"},
-    {"damping", "Bond damping", "τ", "s", api::ParameterKind::Number, api::Scale::Linear, 0, 0, 0.02, 0, 1, "ms", 1000, 0,
-     "", "Structure", "Inner friction: how long a bond resists a change of its length. Quiets rattling solids.",
-     "0 rings, 5 ms dull like wax, 20 ms like dough", "Macklin et al. 2016, eq. 26, with beta = damping times stiffness"},
-    {"max_stiffness_ratio", "Stiffness the step may resolve", "s", "", api::ParameterKind::Number, api::Scale::Logarithmic,
-     100, 1, 10000, 0.01, 1e6, "", 1, 0, "", "Structure",
-     "Largest k dt²/m of a bond. Beyond about 100 more stiffness only makes the solver work harder: the block looks the "
+    {"bond_max", "Bonds per particle", "n", "", api::ParameterKind::Integer, api::Scale::Linear, 18, 6, 32, 1, 64, "",
+     1, 0, "", "Structure", "How many neighbours a freezing particle may bond with.",
+     "6 brittle like wet sand, 12 firm, 18 as firm as a block made whole",
+     "cubic lattice: 6 axial and 12 diagonal neighbours"},
+    {"damping", "Bond damping", "τ", "s", api::ParameterKind::Number, api::Scale::Linear, 0, 0, 0.02, 0, 1, "ms", 1000,
+     0, "", "Structure", "Inner friction: how long a bond resists a change of its length. Quiets rattling solids.",
+     "0 rings, 5 ms dull like wax, 20 ms like dough",
+     "Macklin et al. 2016, eq. 26, with beta = damping times stiffness"},
+    {"max_stiffness_ratio", "Stiffness the step may resolve", "s", "", api::ParameterKind::Number,
+     api::Scale::Logarithmic, 100, 1, 10000, 0.01, 1e6, "", 1, 0, "", "Structure",
+     "Largest k dt²/m of a bond. Beyond about 100 more stiffness only makes the solver work harder: the block looks "
+     "the "
      "same, and takes more iterations to come to rest.",
      "100 at 4 substeps of 4 iterations", "Macklin et al. 2019"},
 };
@@ -62,7 +65,8 @@ float cubeRoot(float s) {
 }
 
 float distanceSquared(const ParticleView& p, uint32_t i, uint32_t j) {
-  const float x = p.position[i].x - p.position[j].x, y = p.position[i].y - p.position[j].y, z = p.position[i].z - p.position[j].z;
+  const float x = p.position[i].x - p.position[j].x, y = p.position[i].y - p.position[j].y,
+              z = p.position[i].z - p.position[j].z;
   return x * x + y * y + z * z;
 }
 
@@ -145,8 +149,8 @@ std::vector<JoinRule> joinRules(const ConstraintContext& context) {
   return rules;
 }
 
-std::vector<Candidate> findCandidates(const ConstraintContext& context, const ParticleView& p, const NeighbourView& lists,
-                                      const uint8_t* thawed) {
+std::vector<Candidate> findCandidates(const ConstraintContext& context, const ParticleView& p,
+                                      const NeighbourView& lists, const uint8_t* thawed) {
   const std::vector<JoinRule> rules = joinRules(context);
   const float dry = kDryRadius * static_cast<float>(context.spacing);
   std::vector<Candidate> result;
@@ -158,7 +162,8 @@ std::vector<Candidate> findCandidates(const ConstraintContext& context, const Pa
     for (uint32_t q = lists.begin[i]; q < lists.last[i]; ++q) {
       const uint32_t j = lists.index[q];
       if (!fresh && p.body[i] == p.body[j]) continue;  // dry pieces join only across bodies
-      if (p.motion[j] != Motion::Solid || p.material[j] != p.material[i] || p.solidFraction[j] < rule.freezeFraction) continue;
+      if (p.motion[j] != Motion::Solid || p.material[j] != p.material[i] || p.solidFraction[j] < rule.freezeFraction)
+        continue;
       // Each pair once: by the fresh one, or by the lower of two alike.
       const bool alike = (thawed[j] != 0) == fresh;
       if (alike ? j < i : !fresh) continue;
@@ -182,9 +187,12 @@ void addBond(const ParticleView& p, uint32_t i, uint32_t j, api::ConstraintSink&
 const char* BondModel::label() const noexcept { return "Bonds"; }
 
 const char* BondModel::help() const noexcept {
-  return "Holds a solid together with springs between each particle and its 18 nearest (extended position-based dynamics, "
-         "Macklin et al. 2016). Their stiffness follows Young's modulus at the particles' temperature, their length the "
-         "particles' volume. They break where matter melts and form again where it freezes. Poisson's ratio is always 1/4; "
+  return "Holds a solid together with springs between each particle and its 18 nearest (extended position-based "
+         "dynamics, "
+         "Macklin et al. 2016). Their stiffness follows Young's modulus at the particles' temperature, their length "
+         "the "
+         "particles' volume. They break where matter melts and form again where it freezes. Poisson's ratio is always "
+         "1/4; "
          "nothing breaks by force; very stiff matter is as stiff as the substeps can resolve.";
 }
 

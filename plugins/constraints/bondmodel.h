@@ -4,13 +4,13 @@
 
 namespace ps::constraint {
 
-/// Elastic solids as lattices of springs: XPBD distance constraints (Macklin et al. 2016, eq. 18) between a particle and
-/// its 18 nearest of a cubic lattice. Six axial and twelve diagonal springs of one stiffness k make an isotropic solid
-/// with Poisson's ratio 1/4 and E = 2.5 k/dx, so k = 0.4 E dx with E at the pair's mean temperature. Rest lengths follow
-/// the particles' rest volumes, l = l_ref ((V_i + V_j)/V_ref)^(1/3), so heat dilates the solid. Bonds break where a
-/// particle ceases to be solid and form where one has frozen.
-/// It cannot do: another Poisson's ratio, plasticity, fracture by force, or a stiffness beyond what the substeps resolve
-/// (limits() says so). The outermost layer is softer, having fewer springs.
+/// Elastic solids as lattices of springs: XPBD distance constraints (Macklin et al. 2016, eq. 18) between a particle
+/// and its 18 nearest of a cubic lattice. Six axial and twelve diagonal springs of one stiffness k make an isotropic
+/// solid with Poisson's ratio 1/4 and E = 2.5 k/dx, so k = 0.4 E dx with E at the pair's mean temperature. Rest lengths
+/// follow the particles' rest volumes, l = l_ref ((V_i + V_j)/V_ref)^(1/3), so heat dilates the solid. Bonds break
+/// where a particle ceases to be solid and form where one has frozen. It cannot do: another Poisson's ratio,
+/// plasticity, fracture by force, or a stiffness beyond what the substeps resolve (limits() says so). The outermost
+/// layer is softer, having fewer springs.
 class BondModel : public api::ConstraintPlugin {
  public:
   enum Parameter { kBondMax, kDamping, kStiffnessRatio, kParameterCount };
@@ -27,11 +27,13 @@ class BondModel : public api::ConstraintPlugin {
                const api::ConstraintBatch& batch) const override;
   void project(const api::ConstraintContext& context, const api::ParticleView& particles,
                const api::ConstraintBatch& batch) const override;
-  void topology(const api::ConstraintContext& context, const api::ParticleView& particles, const api::NeighbourView& lists,
-                const api::ConstraintBatch& all, api::ConstraintSink& sink) const override;
+  void topology(const api::ConstraintContext& context, const api::ParticleView& particles,
+                const api::NeighbourView& lists, const api::ConstraintBatch& all,
+                api::ConstraintSink& sink) const override;
   double energy(const api::ConstraintContext& context, const api::ParticleView& particles,
                 const api::ConstraintBatch& batch) const override;
-  void limits(const api::ConstraintContext& context, const api::ParticleView& particles, api::LimitSink& sink) const override;
+  void limits(const api::ConstraintContext& context, const api::ParticleView& particles,
+              api::LimitSink& sink) const override;
 };
 
 }  // namespace ps::constraint

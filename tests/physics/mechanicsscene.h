@@ -16,13 +16,13 @@ namespace mechanics {
 
 inline ps::Material water(double densitySolid = 917, double densityLiquid = 998) {
   ps::Material m{"water", "Water", {}, {}};
-  m.properties = {{"density_solid", densitySolid},       {"density_liquid", densityLiquid},
-                  {"heat_capacity_solid", 2100.0},       {"heat_capacity_liquid", 4186.0},
-                  {"heat_capacity_gas", 2010.0},         {"conductivity_solid", 2.22},
-                  {"conductivity_liquid", 0.598},        {"conductivity_gas", 0.0248},
-                  {"melting_temperature", 273.15},       {"boiling_temperature", 373.124},
-                  {"latent_heat_fusion", 333.6e3},       {"latent_heat_vaporization", 2256.5e3},
-                  {"youngs_modulus", 9e9},               {"viscosity", 1e-3}};
+  m.properties = {{"density_solid", densitySolid}, {"density_liquid", densityLiquid},
+                  {"heat_capacity_solid", 2100.0}, {"heat_capacity_liquid", 4186.0},
+                  {"heat_capacity_gas", 2010.0},   {"conductivity_solid", 2.22},
+                  {"conductivity_liquid", 0.598},  {"conductivity_gas", 0.0248},
+                  {"melting_temperature", 273.15}, {"boiling_temperature", 373.124},
+                  {"latent_heat_fusion", 333.6e3}, {"latent_heat_vaporization", 2256.5e3},
+                  {"youngs_modulus", 9e9},         {"viscosity", 1e-3}};
   return m;
 }
 
@@ -43,7 +43,8 @@ inline std::vector<ps::api::Double3> lattice(int nx, int ny, int nz, double spac
   for (int y = 0; y < ny; ++y) {
     for (int z = 0; z < nz; ++z) {
       for (int x = 0; x < nx; ++x) {
-        points.push_back({(x + 0.5 - nx / 2.0) * spacing, bottom + (y + 0.5) * spacing, (z + 0.5 - nz / 2.0) * spacing});
+        points.push_back(
+            {(x + 0.5 - nx / 2.0) * spacing, bottom + (y + 0.5) * spacing, (z + 0.5 - nz / 2.0) * spacing});
       }
     }
   }
@@ -228,8 +229,8 @@ class Drift final : public TestConstraint {
   ps::api::ConstraintTraits traits() const noexcept override {
     return {ps::api::ConstraintTraits::Form::Neighbour, 0, {}, {}};
   }
-  void gather(const ps::api::ConstraintContext&, const ps::api::ParticleView&, const ps::api::NeighbourView&, size_t first,
-              size_t last, ps::api::Float4* correction) const override {
+  void gather(const ps::api::ConstraintContext&, const ps::api::ParticleView&, const ps::api::NeighbourView&,
+              size_t first, size_t last, ps::api::Float4* correction) const override {
     for (size_t i = first; i < last; ++i) correction[i] = {0.001f, 0, 0, 0};
   }
 };

@@ -141,6 +141,37 @@ class TestHeat : public QObject {
     QVERIFY2(std::abs(first / count - 2.5) < 0.5, qPrintable(QString::number(first / count)));
   }
 
+  void aPlateAboveBoilingHeatsWhatTouchesIt_data() {
+    QTest::addColumn<double>("gas");
+    QTest::addColumn<double>("conductivity");
+    QTest::newRow("liquid conducts as liquid") << 0.0 << 0.6;
+    QTest::newRow("half vapour, half as well") << 0.5 << 0.5 * (0.6 + 0.025);
+    QTest::newRow("vapour insulates") << 1.0 << 0.025;
+  }
+  void aPlateAboveBoilingHeatsWhatTouchesIt() {
+    // Matter at the boiling point on a plate 50 K hotter: heat is k times 50 K times what geometry alone gives,
+    // measured with the same matter 50 K below boiling on a plate at it. 0.1 %: the plate warms it by a little
+    // meanwhile.
+    QFETCH(double, gas);
+    QFETCH(double, conductivity);
+    const auto heatOf = [&](double matter, double plate, double share) {
+      Scene scene;
+      scene.addMaterial(heattest::materialOf(heattest::water()));
+      scene.addBox({0, 0, 0}, {6, 2, 6}, 0);
+      scene.walls = {hotWall({0, 1, 0}, 0, plate)};
+      scene.thermal.nucleation = 0;
+      scene.start([=](size_t) { return matter; });
+      const double shift = share * 2257e3;
+      for (size_t i = 0; i < scene.store.size(); ++i) scene.enthalpyField()[i] += shift;
+      scene.heat.derive(scene.store);
+      scene.heat.advance(scene.store, scene.neighbours, 1e-6);
+      return scene.heat.ledger().walls;
+    };
+    const double geometry = heatOf(323.15, 373.15, 0) / (0.6 * 50);
+    const double driven = heatOf(373.15, 423.15, gas);
+    QVERIFY2(std::abs(driven / (geometry * conductivity * 50) - 1) < 1e-3, qPrintable(QString::number(driven)));
+  }
+
   void meltingFrontsFollowStefan_data() {
     QTest::addColumn<Matter>("matter");
     QTest::addColumn<double>("wall");

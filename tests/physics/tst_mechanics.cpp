@@ -174,7 +174,8 @@ class TestMechanics : public QObject {
     const ps::ParticleStore& p = solver.particles();
     for (size_t i = 0; i < p.size(); ++i) {
       const float v[3] = {p.velocity()[i].x, p.velocity()[i].y, p.velocity()[i].z};
-      for (int a = 0; a < 3; ++a) sum[a] += double{p.mass()[i]} * v[a], absolute += double{p.mass()[i]} * std::abs(v[a]);
+      for (int a = 0; a < 3; ++a)
+        sum[a] += double{p.mass()[i]} * v[a], absolute += double{p.mass()[i]} * std::abs(v[a]);
     }
     QVERIFY(absolute > 0.01 * 4);  // it did burst, 1 cm/s at least
     // Float32 positions of 0.1 m over substeps of 4 ms round velocities to 2e-6 m/s.
@@ -308,7 +309,8 @@ class TestMechanics : public QObject {
 
   void everyInstructionSetGivesOneHash_data() {
     QTest::addColumn<QString>("name");
-    for (const std::string& name : ps::availableInstructionSets()) QTest::addRow("%s", name.c_str()) << QString::fromStdString(name);
+    for (const std::string& name : ps::availableInstructionSets())
+      QTest::addRow("%s", name.c_str()) << QString::fromStdString(name);
   }
   void everyInstructionSetGivesOneHash() {
     QFETCH(QString, name);
@@ -318,9 +320,7 @@ class TestMechanics : public QObject {
     QCOMPARE(hashOfEverything(40), reference);
   }
 
-  void unknownInstructionSetIsRefused() {
-    QVERIFY_THROWS_EXCEPTION(ps::InputError, ps::setInstructionSet("MMX"));
-  }
+  void unknownInstructionSetIsRefused() { QVERIFY_THROWS_EXCEPTION(ps::InputError, ps::setInstructionSet("MMX")); }
 
   void throwingPluginIsSwitchedOff_data() {
     QTest::addColumn<int>("where");
@@ -433,7 +433,8 @@ class TestMechanics : public QObject {
     QCOMPARE(solver.constraintCount(), size_t{0});
     QVERIFY(run(solver, 300));
     size_t solid = 0;
-    for (size_t i = 0; i < solver.particles().size(); ++i) solid += solver.particles().motion()[i] == ps::api::Motion::Solid;
+    for (size_t i = 0; i < solver.particles().size(); ++i)
+      solid += solver.particles().motion()[i] == ps::api::Motion::Solid;
     QCOMPARE(solid, size_t{216});
     // Rigidity needs 6 bonds a particle (Maxwell 1864), two ends to a bond; a cut of the lattice has up to 15.
     QVERIFY2(solver.constraintCount() > 216 * 3 && solver.constraintCount() < 216 * 9,

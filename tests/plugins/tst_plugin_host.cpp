@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Broken plugins are fixtures: each must give exactly one line that names the file and the fault, and leave the rest alone.
+// Broken plugins are fixtures: each must give exactly one line that names the file and the fault, and leave the rest
+// alone.
 #include "core/base/error.h"
 #include "core/plugin_host/materialjson.h"
 #include "core/plugin_host/pluginmetadata.h"
@@ -130,19 +131,22 @@ class TestPluginHost : public QObject {
     QTest::addColumn<QByteArray>("to");
     QTest::addColumn<QString>("expected");
     const QByteArray api = cborText("api"), licence = cborText("licence"), kind = cborText("kind");
-    QTest::newRow("other major version") << api + cborText("1.0") << api + cborText("2.0") << "version 2.0 of the plugin interface";
+    QTest::newRow("other major version") << api + cborText("1.0") << api + cborText("2.0")
+                                         << "version 2.0 of the plugin interface";
     QTest::newRow("later minor version") << api + cborText("1.0") << api + cborText("1.9") << "update PhaseSketch";
     QTest::newRow("no version") << api + cborText("1.0") << api + cborText("one") << "must be two numbers";
     QTest::newRow("missing key") << licence << cborText("license") << "lack the key \"licence\"";
     QTest::newRow("missing id") << cborText("id") << cborText("ID") << "lack the key \"id\"";
     QTest::newRow("bad id") << cborText("fixture.material") << cborText("Fixture Material") << "must be lower-case";
-    QTest::newRow("id that leads elsewhere") << cborText("fixture.material") << cborText("../../etc/passwd") << "must be lower-case";
+    QTest::newRow("id that leads elsewhere")
+        << cborText("fixture.material") << cborText("../../etc/passwd") << "must be lower-case";
     QTest::newRow("bad version") << cborText("1.2.3") << cborText("1..23") << "must be numbers joined by dots";
     QTest::newRow("other kind") << kind + cborText("material") << kind + cborText("rustlike") << "kind \"rustlike\"";
-    QTest::newRow("later interface") << QByteArray("org.phasesketch.Material/1\x07", 26) << QByteArray("org.phasesketch.Material/2")
+    QTest::newRow("later interface") << QByteArray("org.phasesketch.Material/1\x07", 26)
+                                     << QByteArray("org.phasesketch.Material/2")
                                      << "this program has org.phasesketch.Material/1";
-    QTest::newRow("another program's") << QByteArray("org.phasesketch.Material/1") << QByteArray("org.elsewhere.gui.Style/12")
-                                       << "another program";
+    QTest::newRow("another program's") << QByteArray("org.phasesketch.Material/1")
+                                       << QByteArray("org.elsewhere.gui.Style/12") << "another program";
   }
   void damagedMetadataAreRefused() {
     QFETCH(QByteArray, from);
@@ -169,7 +173,8 @@ class TestPluginHost : public QObject {
     QTest::newRow("text") << QByteArray("this is not a plugin\n");
     QTest::newRow("random bytes") << QByteArray(5000, '\xA7');
     QTest::newRow("head of a library") << contents(fixture("fixture_brush")).left(300);
-    QTest::newRow("half a library") << contents(fixture("fixture_brush")).left(contents(fixture("fixture_brush")).size() / 2);
+    QTest::newRow("half a library")
+        << contents(fixture("fixture_brush")).left(contents(fixture("fixture_brush")).size() / 2);
     QTest::newRow("library without metadata") << contents(fixture("fixture_plain"));
   }
   void filesThatAreNoPluginsAreRefused() {
@@ -204,7 +209,9 @@ class TestPluginHost : public QObject {
     row("null_key", "parameter 1: its key is a null pointer");
     row("null_help", "parameter 1: its help is a null pointer");
     row("latin_label", "parameter 1: its label is not UTF-8 text");
-    row("throwing_latin", "gr\xEF\xBF\xBD\xEF\xBF\xBD" "er");
+    row("throwing_latin",
+        "gr\xEF\xBF\xBD\xEF\xBF\xBD"
+        "er");
     row("bad_key", "lower_snake_case");
     row("nan_default", "its default is not a finite number");
     row("min_above_max", "its minimum 3000 is above its maximum 2000");
@@ -222,8 +229,10 @@ class TestPluginHost : public QObject {
     row("unknown_law", "unknown law 'vogle'");
     row("throwing_law", "law failed");
     row("forgetful_law", "its law for 'density_liquid'");
-    QTest::newRow("wide_constraint") << "constraint" << "2 to 4 particles, not 9";
-    QTest::newRow("duplicate_field") << "thermal" << "field 'fixture.heat': is declared twice";
+    QTest::newRow("wide_constraint") << "constraint"
+                                     << "2 to 4 particles, not 9";
+    QTest::newRow("duplicate_field") << "thermal"
+                                     << "field 'fixture.heat': is declared twice";
   }
   void faultyCodeIsRefused() {
     QFETCH(QString, kind);
@@ -282,7 +291,8 @@ class TestPluginHost : public QObject {
     const QString missing = m_scratch.filePath("nowhere");
     const PluginRegistry registry(only({missing.toStdString()}));
     QCOMPARE(registry.plugins().size(), size_t(1));
-    QCOMPARE(registry.plugins()[0].problem, missing.toStdString() + ": there is no such folder; correct the given paths");
+    QCOMPARE(registry.plugins()[0].problem,
+             missing.toStdString() + ": there is no such folder; correct the given paths");
   }
 
   void environmentAndUserDirectoryAreSearched() {
@@ -404,34 +414,44 @@ class TestPluginHost : public QObject {
     QTest::newRow("a list") << QByteArray("[1, 2]") << ":/: must be an object, not a list";
     QTest::newRow("200,000 brackets") << QByteArray(200000, '[') << "nested deeper than 16 levels";
     QTest::newRow("duplicate key") << replaced("\"label\"", "\"id\"") << ":/id: this key stands here twice";
-    QTest::newRow("duplicate property") << replaced("1050", "1, \"density_solid\": 2") << "/properties/density_solid: this key";
+    QTest::newRow("duplicate property") << replaced("1050", "1, \"density_solid\": 2")
+                                        << "/properties/density_solid: this key";
     QTest::newRow("no format") << replaced("\"format\"", "\"form\"") << ":/format: is missing";
     QTest::newRow("other format") << replaced("phasesketch-material", "gltf") << ":/format: must be";
     QTest::newRow("later version") << replaced("\"version\": 1", "\"version\": 2") << ":/version: is newer";
-    QTest::newRow("version as text") << replaced("\"version\": 1", "\"version\": \"1\"") << ":/version: must be a whole number";
+    QTest::newRow("version as text") << replaced("\"version\": 1", "\"version\": \"1\"")
+                                     << ":/version: must be a whole number";
     QTest::newRow("number for a name") << replaced("\"Soap\"", "7") << ":/label: must be a text, not a number";
     QTest::newRow("bad id") << replaced("\"soap\"", "\"So ap\"") << ":/id: must be lower-case";
     QTest::newRow("no licence") << replaced("\"licence\"", "\"author\"") << ":/licence: is missing";
     QTest::newRow("unknown key") << replaced("\"licence\"", "\"colour\": 1, \"licence\"") << ":/colour: is not a key";
-    QTest::newRow("unknown property") << replaced("density_solid", "densty_solid")
-                                      << ":/properties/densty_solid: is not a property that PhaseSketch knows; did you mean \"density_solid\"?";
-    QTest::newRow("word for a number") << replaced("1050", "\"heavy\"") << "/density_solid: must be a number, not a text";
+    QTest::newRow("unknown property")
+        << replaced("density_solid", "densty_solid")
+        << ":/properties/densty_solid: is not a property that PhaseSketch knows; did you mean \"density_solid\"?";
+    QTest::newRow("word for a number") << replaced("1050", "\"heavy\"")
+                                       << "/density_solid: must be a number, not a text";
     QTest::newRow("negative density") << replaced("1050", "{\"value\": -1050}")
                                       << "/density_solid/value: must be at least 1 kg/m³, not -1050";
     QTest::newRow("no value") << replaced("1050", "{\"grade\": \"A\"}") << "/density_solid: needs one of";
     QTest::newRow("two values") << replaced("1050", "{\"value\": 1, \"points\": []}") << "/density_solid: needs one of";
-    QTest::newRow("bad grade") << replaced("1050", "{\"value\": 1050, \"grade\": \"D\"}") << "/density_solid/grade: must be";
+    QTest::newRow("bad grade") << replaced("1050", "{\"value\": 1050, \"grade\": \"D\"}")
+                               << "/density_solid/grade: must be";
     QTest::newRow("descending points") << replaced("1050", "{\"points\": [[300, 1000], [200, 900]]}")
                                        << "/density_solid/points: points must ascend";
     QTest::newRow("half a point") << replaced("1050", "{\"points\": [[300, 1000], [400]]}")
                                   << "/density_solid/points/1: must be [temperature";
-    QTest::newRow("Celsius") << replaced("1050", "{\"points\": [[-10, 917], [0, 917]]}") << "temperatures are in kelvin";
-    QTest::newRow("unknown law") << replaced("1050", "{\"law\": \"magic\", \"coefficients\": [1]}") << "/density_solid/law: unknown law";
-    QTest::newRow("law without coefficients") << replaced("1050", "{\"law\": \"vogel\"}") << "/density_solid/coefficients: is missing";
-    QTest::newRow("curve where a number belongs") << replaced("\"density_solid\": 1050", "\"latent_heat_fusion\": {\"points\": [[1, 2]]}")
-                                                  << "must be a single number";
+    QTest::newRow("Celsius") << replaced("1050", "{\"points\": [[-10, 917], [0, 917]]}")
+                             << "temperatures are in kelvin";
+    QTest::newRow("unknown law") << replaced("1050", "{\"law\": \"magic\", \"coefficients\": [1]}")
+                                 << "/density_solid/law: unknown law";
+    QTest::newRow("law without coefficients")
+        << replaced("1050", "{\"law\": \"vogel\"}") << "/density_solid/coefficients: is missing";
+    QTest::newRow("curve where a number belongs")
+        << replaced("\"density_solid\": 1050", "\"latent_heat_fusion\": {\"points\": [[1, 2]]}")
+        << "must be a single number";
     QTest::newRow("solidus above liquidus")
-        << replaced("1050", "1050, \"solidus\": 300, \"liquidus\": 280, \"melting_temperature\": 290") << ":/properties: solidus";
+        << replaced("1050", "1050, \"solidus\": 300, \"liquidus\": 280, \"melting_temperature\": 290")
+        << ":/properties: solidus";
   }
   void brokenMaterialFilesNameTheirPlace() {
     QFETCH(QByteArray, text);
@@ -446,7 +466,8 @@ class TestPluginHost : public QObject {
     const Material m = parseMaterialJson(R"({"format": "phasesketch-material", "version": 1, "id": "a.b", "label": "AB",
       "licence": "MIT", "data_version": "2.1", "help": "h", "properties": {
       "density_solid": {"points": [[200, 900], [300, 890]], "source": "Kell", "grade": "A"}, "sinters": true,
-      "viscosity": {"law": "vogel", "coefficients": [-4.6, 247.8, 140]}}})", "ab.json", info);
+      "viscosity": {"law": "vogel", "coefficients": [-4.6, 247.8, 140]}}})",
+                                         "ab.json", info);
     QCOMPARE(info.version, std::string("2.1"));
     QCOMPARE(m.provenance.at("density_solid").source, std::string("Kell"));
     QCOMPARE(m.provenance.at("density_solid").grade, 'A');
@@ -458,8 +479,7 @@ class TestPluginHost : public QObject {
 
   void ownMaterialsHoldWhatTheHandbooksSay() {
     const PluginRegistry registry{PluginRegistry::Options{}};
-    for (const char* id : {"water", "wax", "iron", "tin", "chocolate", "butter"})
-      QVERIFY2(registry.material(id), id);
+    for (const char* id : {"water", "wax", "iron", "tin", "chocolate", "butter"}) QVERIFY2(registry.material(id), id);
     const Material& water = *registry.material("water");
     const Response& density = water.properties.at("density_liquid");
     // Kell's own table: 999.840, 999.972 (maximum), 998.204, 958.364 kg/m3; the curve through samples a kelvin apart

@@ -204,7 +204,8 @@ class TestWindow : public QObject {
     const uint64_t revision = session().snapshot()->revision;
     session().reset();
     // The brush stands on what the view shows: it must show the scene after the reset.
-    QTRY_VERIFY_WITH_TIMEOUT(session().snapshot()->revision != revision && view->snapshot() == session().snapshot(), kLong);
+    QTRY_VERIFY_WITH_TIMEOUT(session().snapshot()->revision != revision && view->snapshot() == session().snapshot(),
+                             kLong);
     const std::set<uint32_t> before = idsNow(session());
     m_window->action(QStringLiteral("sketch.brush"))->trigger();
     QCOMPARE(view->tool(), ViewTool::Brush);

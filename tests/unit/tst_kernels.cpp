@@ -42,7 +42,8 @@ class TestKernels : public QObject {
     QFETCH(int, shape);
     QFETCH(double, ratio);
     const Kernel k(static_cast<KernelShape>(shape), ratio * kSpacing);
-    const double volume = simpson(0, k.supportRadius(), 400, [&](double r) { return 4 * std::numbers::pi * r * r * k.value(r); });
+    const double volume =
+        simpson(0, k.supportRadius(), 400, [&](double r) { return 4 * std::numbers::pi * r * r * k.value(r); });
     QVERIFY(std::abs(volume - 1) < 1e-9);  // piecewise polynomials: Simpson's rule is nearly exact
   }
 

@@ -54,7 +54,8 @@ class GreedyBrush final : public api::BrushPlugin {
   const char* label() const override { return "Greedy"; }
   const char* help() const override { return ""; }
   api::ParameterList parameters() const override { return {}; }
-  void stroke(const api::StrokeContext&, EditKind kind, api::Span<const StrokeSample>, api::EditSink& sink) const override {
+  void stroke(const api::StrokeContext&, EditKind kind, api::Span<const StrokeSample>,
+              api::EditSink& sink) const override {
     std::vector<Cell> row(1 << 16);
     for (int y = 0; y < 1000; ++y) {
       for (int x = 0; x < (1 << 16); ++x) row[static_cast<size_t>(x)] = {x, y, 0};
@@ -64,7 +65,9 @@ class GreedyBrush final : public api::BrushPlugin {
   api::Double3 extent(const api::StrokeContext&) const noexcept override { return {}; }
 };
 
-StrokeSample at(double x, double y, double z, double pressure = 1, double time = 0) { return {{x, y, z}, pressure, time}; }
+StrokeSample at(double x, double y, double z, double pressure = 1, double time = 0) {
+  return {{x, y, z}, pressure, time};
+}
 
 double distance(const StrokeSample& a, const StrokeSample& b) {
   return std::hypot(b.position.x - a.position.x, b.position.y - a.position.y, b.position.z - a.position.z);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "core/sketch/cellset.h"
+#include "core/sketch/drawingplane.h"
 #include "core/sketch/stroke.h"
 #include "ui/document/strokerecord.h"
-#include "core/sketch/drawingplane.h"
 #include "ui/viewport/viewtool.h"
 
 #include <QtCore/QString>

@@ -13,7 +13,8 @@ using ps::api::ResponseSpec;
 using ps::api::Scale;
 
 constexpr ParameterDeclaration kParameters[] = {
-    {"density_maximum", "Densest at 4 °C", "", "", ParameterKind::Toggle, Scale::Linear, 1, 0, 1, 0, 1, "", 1, 0, "", "Water",
+    {"density_maximum", "Densest at 4 °C", "", "", ParameterKind::Toggle, Scale::Linear, 1, 0, 1, 0, 1, "", 1, 0, "",
+     "Water",
      "Whether water is densest at 4 °C, as it really is; off, it grows steadily with temperature like other liquids.",
      "on: a lake freezes from the top; off: the coldest water sinks to the bottom", "Kell 1975"},
 };
@@ -64,7 +65,8 @@ const MaterialProperty kProperties[] = {
     {"critical_temperature", constant(647.096), kIapws, 'A'},
     {"melting_slope", constant(-7.4e-8), "Wagner, Riethmann, Feistel and Harvey 2011", 'A'},
     {"molar_mass", constant(0.018015), kNist, 'A'},
-    {"viscosity", law("vogel", {kViscosity, 3}), "Vogel fit to the data of the CRC Handbook, 0 to 370 °C within 2.5 %", 'A'},
+    {"viscosity", law("vogel", {kViscosity, 3}), "Vogel fit to the data of the CRC Handbook, 0 to 370 °C within 2.5 %",
+     'A'},
     {"youngs_modulus", constant(9.3e9), "Gammon et al. 1983, polycrystalline ice", 'A'},
     {"poisson_ratio", constant(0.33), "Gammon et al. 1983, polycrystalline ice", 'A'},
     {"friction_static", constant(0.05), "CRC Handbook, ice on metal", 'C'},
@@ -86,25 +88,27 @@ const MaterialProperty kProperties[] = {
 double waterDensity(double kelvin) {
   const double t = std::clamp(kelvin, 243.15, 423.15) - 273.15;
   const double numerator =
-      999.83952 +
-      t * (16.945176 + t * (-7.9870401e-3 + t * (-46.170461e-6 + t * (105.56302e-9 + t * -280.54253e-12))));
+      999.83952 + t * (16.945176 + t * (-7.9870401e-3 + t * (-46.170461e-6 + t * (105.56302e-9 + t * -280.54253e-12))));
   return numerator / (1 + 16.879850e-3 * t);
 }
 
 const char* WaterMaterial::label() const noexcept { return "Water"; }
 
 const char* WaterMaterial::help() const noexcept {
-  return "Ice, water and steam, with measured data. The density of the liquid follows Kell (1975) with its maximum at 4 °C, "
-         "held constant below \u221230 and above 150 °C; the viscosity follows a Vogel law. Heat capacities are constant in "
-         "each phase: those of ice fall by a tenth to \u221230 °C in reality. Supercooling and dissolved air are not modelled.";
+  return "Ice, water and steam, with measured data. The density of the liquid follows Kell (1975) with its maximum at "
+         "4 °C, "
+         "held constant below \u221230 and above 150 °C; the viscosity follows a Vogel law. Heat capacities are "
+         "constant in "
+         "each phase: those of ice fall by a tenth to \u221230 °C in reality. Supercooling and dissolved air are not "
+         "modelled.";
 }
 
 ps::api::ParameterList WaterMaterial::parameters() const noexcept { return ps::api::listOf(kParameters); }
 
 ps::api::List<MaterialProperty> WaterMaterial::properties() const noexcept { return ps::api::listOf(kProperties); }
 
-bool WaterMaterial::evaluate(const char* key, ps::api::Span<const double> parameters, ps::api::Span<const double> kelvin,
-                             ps::api::Span<double> out) const {
+bool WaterMaterial::evaluate(const char* key, ps::api::Span<const double> parameters,
+                             ps::api::Span<const double> kelvin, ps::api::Span<double> out) const {
   if (std::strcmp(key, "density_liquid") != 0) return false;
   if (parameters.size > 0 && parameters[0] == 0) return false;  // then the constant and its expansion hold
   for (size_t i = 0; i < out.size; ++i) out[i] = waterDensity(kelvin[i]);

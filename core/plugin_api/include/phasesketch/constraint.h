@@ -11,14 +11,14 @@ namespace ps::api {
 struct ConstraintTraits {
   enum class Form : uint32_t { Structural, Neighbour };
   Form form;
-  uint32_t arity;                   ///< structural: 2 .. 4
-  List<FieldDeclaration> values;    ///< structural: per-constraint values, Float32 each
-  List<FieldDeclaration> fields;    ///< per-particle fields, made by the host, zero at birth
+  uint32_t arity;                 ///< structural: 2 .. 4
+  List<FieldDeclaration> values;  ///< structural: per-constraint values, Float32 each
+  List<FieldDeclaration> fields;  ///< per-particle fields, made by the host, zero at birth
 };
 
 struct ConstraintContext {
-  double dt;          ///< s: substep when projecting, frame in topology()
-  double spacing;     ///< m, particle_spacing
+  double dt;       ///< s: substep when projecting, frame in topology()
+  double spacing;  ///< m, particle_spacing
   double supportRadius;
   Double3 gravity;
   uint32_t substep, iteration;
@@ -60,8 +60,8 @@ class ConstraintPlugin : public Plugin {
 
   // Structural. All of these may throw.
   /// Makes the constraints of newly created particles `members` (ascending indices).
-  virtual void build(const ConstraintContext&, const ParticleView&, const NeighbourView&, Span<const uint32_t> /*members*/,
-                     ConstraintSink&) const {}
+  virtual void build(const ConstraintContext&, const ParticleView&, const NeighbourView&,
+                     Span<const uint32_t> /*members*/, ConstraintSink&) const {}
   /// Once per substep and batch, before the first iteration: resets multipliers, refreshes rest values.
   virtual void predict(const ConstraintContext&, const ParticleView&, const ConstraintBatch&) const {}
   /// One Gauss-Seidel pass over the batch: moves particles by inverse mass.
@@ -69,8 +69,8 @@ class ConstraintPlugin : public Plugin {
   /// Once per substep, after velocities follow from positions.
   virtual void deriveVelocities(const ConstraintContext&, const ParticleView&, const ConstraintBatch&) const {}
   /// Once per frame, after heat: may remove constraints of `all` and add new ones.
-  virtual void topology(const ConstraintContext&, const ParticleView&, const NeighbourView&, const ConstraintBatch& /*all*/,
-                        ConstraintSink&) const {}
+  virtual void topology(const ConstraintContext&, const ParticleView&, const NeighbourView&,
+                        const ConstraintBatch& /*all*/, ConstraintSink&) const {}
   /// Elastic energy of the batch in J.
   virtual double energy(const ConstraintContext&, const ParticleView&, const ConstraintBatch&) const { return 0; }
   /// What the solver cannot deliver with this step.
@@ -78,8 +78,8 @@ class ConstraintPlugin : public Plugin {
 
   // Neighbour-based. May throw.
   /// Writes correction[i] (x, y, z in m) for i in [first, last); reads any particle, moves none.
-  virtual void gather(const ConstraintContext&, const ParticleView&, const NeighbourView&, size_t /*first*/, size_t /*last*/,
-                      Float4* /*correction*/) const {}
+  virtual void gather(const ConstraintContext&, const ParticleView&, const NeighbourView&, size_t /*first*/,
+                      size_t /*last*/, Float4* /*correction*/) const {}
 };
 
 }  // namespace ps::api

@@ -17,16 +17,16 @@ enum class Scale : uint32_t { Linear, Logarithmic };
 /// Declared once; becomes a slider, a JSON key, a tooltip, a plot source and a test row.
 /// All numbers are SI (kelvin for temperatures); `display*` say how people see them.
 struct ParameterDeclaration {
-  const char* key;      ///< JSON name, lower_snake_case
-  const char* label;    ///< "Conductivity, ice"
-  const char* symbol;   ///< "k_s"; "" for none
-  const char* unit;     ///< SI unit of the stored value: "W/(m·K)"; "" for none
+  const char* key;     ///< JSON name, lower_snake_case
+  const char* label;   ///< "Conductivity, ice"
+  const char* symbol;  ///< "k_s"; "" for none
+  const char* unit;    ///< SI unit of the stored value: "W/(m·K)"; "" for none
   ParameterKind kind;
   Scale scale;
   double defaultValue;  ///< for Choice: index into `choices`
   double minimum;       ///< slider's range
   double maximum;
-  double hardMinimum;   ///< values beyond these are refused
+  double hardMinimum;  ///< values beyond these are refused
   double hardMaximum;
   const char* displayUnit;  ///< "°C"; "" shows `unit`
   double displayScale;      ///< shown = stored * displayScale + displayOffset

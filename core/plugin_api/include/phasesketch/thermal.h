@@ -28,21 +28,23 @@ class ThermalPlugin : public Plugin {
   /// State fields, e.g. specific_enthalpy (J/kg, Float64).
   virtual List<FieldDeclaration> fields() const = 0;
   /// Sets the state of particles [first, last) from temperature in K; `phase` decides on a plateau. May throw.
-  virtual void initialise(const ThermalContext&, const ParticleView&, size_t first, size_t last, const double* temperature,
-                          const Phase* phase) const = 0;
+  virtual void initialise(const ThermalContext&, const ParticleView&, size_t first, size_t last,
+                          const double* temperature, const Phase* phase) const = 0;
   /// Adds joules[i] to particles [first, last); `dt` in s of thermal time. May throw.
   virtual void addHeat(const ThermalContext&, const ParticleView&, size_t first, size_t last, const double* joules,
                        double dt) const = 0;
   /// Temperature and fractions from the state. May throw.
-  virtual void derive(const ThermalContext&, const ParticleView&, size_t first, size_t last, const ThermalOutput&) const = 0;
+  virtual void derive(const ThermalContext&, const ParticleView&, size_t first, size_t last,
+                      const ThermalOutput&) const = 0;
   /// Thermal energy of each particle in J, for the ledger. May throw.
   virtual void energy(const ThermalContext&, const ParticleView&, size_t first, size_t last, double* joules) const = 0;
   /// Optional own sources: adds watts per particle. May throw.
-  virtual void sources(const ThermalContext&, const ParticleView&, size_t /*first*/, size_t /*last*/, double* /*watts*/) const {}
+  virtual void sources(const ThermalContext&, const ParticleView&, size_t /*first*/, size_t /*last*/,
+                       double* /*watts*/) const {}
   /// Optional own pair law: writes, for every list entry q of particles [first, last), the watts that flow from the
   /// neighbour into the particle; must be antisymmetric. False: the host conducts (Cleary & Monaghan 1999). May throw.
-  virtual bool pairFlux(const ThermalContext&, const ParticleView&, const NeighbourView&, size_t /*first*/, size_t /*last*/,
-                        double* /*watts*/) const {
+  virtual bool pairFlux(const ThermalContext&, const ParticleView&, const NeighbourView&, size_t /*first*/,
+                        size_t /*last*/, double* /*watts*/) const {
     return false;
   }
 };

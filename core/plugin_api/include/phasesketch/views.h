@@ -53,10 +53,10 @@ struct Caloric {
   double boilingPoint0;                                           ///< K at 101325 Pa
   double latentHeatFusion, latentHeatVaporization;                ///< J/kg at those points
   double solidus, liquidus;                                       ///< K; equal: a sharp melting point
-  double meltingPoint;      ///< K at the scene's pressure; sublimation point where `sublimes`
-  double boilingPoint;      ///< K at the scene's pressure; +infinity for what never boils
-  uint8_t sublimes;         ///< 1: no liquid at this pressure
-  uint8_t melts;            ///< 0: no melting point (glass, honey)
+  double meltingPoint;  ///< K at the scene's pressure; sublimation point where `sublimes`
+  double boilingPoint;  ///< K at the scene's pressure; +infinity for what never boils
+  uint8_t sublimes;     ///< 1: no liquid at this pressure
+  uint8_t melts;        ///< 0: no melting point (glass, honey)
 };
 
 /// One material as hot loops see it: numbers and baked tables.
