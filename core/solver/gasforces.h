@@ -12,8 +12,11 @@ namespace ps {
 /// out from physical densities, along the gravity vector, with f the gas fraction and phi the share of its surroundings
 /// that is liquid:
 ///
-///   a = f (phi g + (1 - phi) g (rho_air/rho - 1)/(1 + C rho_air/rho)) - (1 - f) g    upwards, C = 0.5 added mass of a
-///   sphere dv/dt = -f (1 - phi) k |v| v,   k = 3 Cd rho_air/(4 rho D),  Cd = 0.5, D = gasDrag     drag, semi-implicit
+///   a = f (phi g + (1 - phi) g (rho_air/rho - 1)/(1 + C rho_air/rho)) - (1 - f) g
+///
+/// upwards, with C = 0.5, the added mass of a sphere; and drag, semi-implicit, with Cd = 0.5 and D = gasDrag:
+///
+///   dv/dt = -f (1 - phi) k |v| v,   k = 3 Cd rho_air/(4 rho D)
 ///
 /// rho and rho_air are those of ideal gases at the particle's temperature and at the ambient one. Inside liquid the
 /// density constraint pushes as Archimedes would; the plain +g only undoes the weight. Vapour heavier than air sinks.
