@@ -186,6 +186,6 @@ void Document::applyPins(const std::vector<std::string>& pins) {
   tell(ViewChanged{});
 }
 
-void Document::tell(ChangeEvent event) { Q_EMIT changed(event); }
+void Document::tell(const ChangeEvent& event) { Q_EMIT changed(event); }
 
 }  // namespace ps

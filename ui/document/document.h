@@ -80,7 +80,7 @@ class Document : public QObject {
   void changed(const ps::ChangeEvent& event);
 
  private:
-  void tell(ChangeEvent event);
+  void tell(const ChangeEvent& event);
   void editBody(const std::string& id, const QString& text, const std::function<void(Body&)>& change);
 
   const PluginRegistry* m_plugins = nullptr;

@@ -168,11 +168,9 @@ void ParameterPanel::Private::build(std::vector<RowModel> models) {
   }
   for (const QString& title : titles) {
     Group& into = group(title, layout);
-    for (RowModel& model : models) {
+    for (const RowModel& model : models) {
       if (titleOf(model) != title) continue;
-      auto* row = new ParameterRow(std::move(model), content);
-      model.key.clear();
-      model.pinned = title == kPinnedGroup;
+      auto* row = new ParameterRow(model, content);
       into.rows.push_back(row);
       layout->addWidget(row);
       connectRow(row);

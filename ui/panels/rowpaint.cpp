@@ -168,7 +168,7 @@ void ParameterRow::Private::paintSparkline(QPainter& painter) const {
   const auto level = [logarithmic](double value) { return logarithmic ? std::log(value) : value; };
   const auto [least, most] = std::minmax_element(values.begin(), values.end());
   const double low = level(*least), span = level(*most) - low;
-  const auto point = [&](double kelvin, double value) {
+  const auto point = [&, cold = cold, hot = hot](double kelvin, double value) {
     const double t = span > 0 ? (level(value) - low) / span : 0.5;
     return QPointF(box.left() + 1 + (box.width() - 2) * (kelvin - cold) / (hot - cold),
                    box.bottom() - 3.5 - (box.height() - 7) * t);

@@ -138,7 +138,7 @@ Target::Target(std::initializer_list<const Texture*> colours, const Texture* dep
   else
     glDrawBuffer(GL_NONE);
   glReadBuffer(count ? GL_COLOR_ATTACHMENT0 : GL_NONE);
-  glViewport(0, 0, any->width(), any->height());
+  if (any) glViewport(0, 0, any->width(), any->height());
 }
 
 Target::~Target() { glDeleteFramebuffers(1, &m_name); }

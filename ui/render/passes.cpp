@@ -203,6 +203,7 @@ void Passes::drawBackground(const Frame& frame) {
   key.matter[3] = frame.uniforms.matter[3];
   key.ground[2] = 0;
   glDisable(GL_DEPTH_TEST);
+  // Equal bytes are meant: what the shader would be handed. NOLINTNEXTLINE(bugprone-suspicious-memory-comparison)
   if (std::memcmp(&key, &m_backgroundUniforms, sizeof key) == 0) return;
   m_backgroundUniforms = key;
   m_background.resize(frame.width, frame.height);
