@@ -4,7 +4,7 @@
 #include "app/cli/run.h"
 #include "core/base/error.h"
 #include "core/base/parallel.h"
-#include "core/io/jsontext.h"
+#include "core/base/jsontext.h"
 #include "core/io/textfile.h"
 #include "core/particles/neighbours.h"
 #include "core/plugin_host/registry.h"

@@ -2,7 +2,7 @@
 #include "app/cli/arguments.h"
 #include "app/cli/commands.h"
 #include "core/base/error.h"
-#include "core/io/jsontext.h"
+#include "core/base/jsontext.h"
 #include "core/matter/material.h"
 #include "core/plugin_host/registry.h"
 #include "core/scene/parameterset.h"

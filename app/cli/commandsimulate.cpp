@@ -4,7 +4,7 @@
 #include "app/cli/report.h"
 #include "app/cli/run.h"
 #include "core/base/error.h"
-#include "core/io/jsontext.h"
+#include "core/base/jsontext.h"
 #include "core/io/recording.h"
 #include "core/io/textfile.h"
 #include "core/plugin_host/registry.h"

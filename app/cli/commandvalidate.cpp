@@ -2,7 +2,7 @@
 #include "app/cli/arguments.h"
 #include "app/cli/commands.h"
 #include "core/base/error.h"
-#include "core/io/jsontext.h"
+#include "core/base/jsontext.h"
 #include "core/io/projectio.h"
 #include "core/io/schema.h"
 #include "core/plugin_host/registry.h"

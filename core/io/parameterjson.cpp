@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/io/parameterjson.h"
 
-#include "core/io/jsontext.h"
+#include "core/base/jsontext.h"
 
 namespace ps {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "core/io/jsontext.h"
+#include "core/base/jsontext.h"
 #include "core/io/parameterjson.h"
 #include "core/io/projectio.h"
 #include "core/io/schema.h"

@@ -3,7 +3,7 @@
 
 #include "core/base/error.h"
 #include "core/base/hash.h"
-#include "core/io/jsontext.h"
+#include "core/base/jsontext.h"
 #include "core/io/projectio.h"
 
 #include <zstd.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/io/schema.h"
 
-#include "core/io/jsontext.h"
+#include "core/base/jsontext.h"
 #include "core/matter/material.h"
 #include "core/scene/project.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/base/error.h"
-#include "core/io/jsontext.h"
+#include "core/base/jsontext.h"
 #include "core/io/schema.h"
 #include "core/scene/parameterset.h"
 
@@ -12,28 +12,6 @@ namespace ps {
 namespace {
 
 using nlohmann::json;
-
-/// What a value is, in words.
-std::string wordFor(const json& value) {
-  switch (value.type()) {
-    case json::value_t::null:
-      return "null";
-    case json::value_t::boolean:
-      return value.get<bool>() ? "true" : "false";
-    case json::value_t::string: {
-      const std::string& text = value.get_ref<const std::string&>();
-      std::string shown;
-      for (const char c : text.substr(0, 40)) shown += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-      return "the text '" + shown + (text.size() > 40 ? "…'" : "'");
-    }
-    case json::value_t::array:
-      return "a list";
-    case json::value_t::object:
-      return "an object";
-    default:
-      return "the number " + numberText(value.get<double>());
-  }
-}
 
 bool isType(const json& value, const std::string& type) {
   if (type == "number") return value.is_number();
@@ -67,12 +45,12 @@ class Checker {
     if (const auto branches = schema.find("oneOf"); branches != schema.end())
       return checkOneOf(*branches, value, pointer);
     if (const auto expected = schema.find("const"); expected != schema.end() && value != *expected) {
-      fail(pointer, "must be " + expected->dump() + ", not " + wordFor(value));
+      fail(pointer, "must be " + expected->dump() + ", not " + jsonInWords(value));
     }
     if (const auto type = schema.find("type");
         type != schema.end() && !isType(value, type->get_ref<const std::string&>())) {
       const bool name = schema.contains("enum") || schema.contains("pattern");
-      fail(pointer, "must be " + (name ? "a name" : typeName(type->get<std::string>())) + ", not " + wordFor(value));
+      fail(pointer, "must be " + (name ? "a name" : typeName(type->get<std::string>())) + ", not " + jsonInWords(value));
     }
     if (value.is_number()) checkNumber(schema, value.get<double>(), pointer);
     if (value.is_string()) checkText(schema, value.get_ref<const std::string&>(), pointer);
@@ -102,7 +80,7 @@ class Checker {
       if (fits && meant) fail(pointer, "must be either " + wanted + ", not both");
       if (fits) meant = &branch;
     }
-    if (!meant) fail(pointer, "must be " + wanted + ", not " + wordFor(value));
+    if (!meant) fail(pointer, "must be " + wanted + ", not " + jsonInWords(value));
     check(*meant, value, pointer);
   }
 
@@ -121,14 +99,14 @@ class Checker {
         if (name == value) return;
         if (!name.get_ref<const std::string&>().empty()) all += (all.empty() ? "" : ", ") + name.get<std::string>();
       }
-      fail(pointer, "must be one of " + all + ", not " + wordFor(value));
+      fail(pointer, "must be one of " + all + ", not " + jsonInWords(value));
     }
     if (value.size() < schema.value("minLength", size_t{0})) fail(pointer, "must not be empty");
     if (value.size() > schema.value("maxLength", size_t{1'000'000})) fail(pointer, "is too long a text");
     const auto pattern = schema.find("pattern");
     if (pattern == schema.end()) return;
     if (!std::regex_match(value, std::regex(pattern->get<std::string>()))) {
-      fail(pointer, "must be a name of letters, digits, '_', '.' and '-', not " + wordFor(value));
+      fail(pointer, "must be a name of letters, digits, '_', '.' and '-', not " + jsonInWords(value));
     }
   }
 

@@ -2,9 +2,9 @@
 #include "core/plugin_host/materialjson.h"
 
 #include "core/base/error.h"
+#include "core/base/jsontext.h"
 #include "core/plugin_host/declarations.h"
 #include "core/plugin_host/pluginmetadata.h"
-#include "core/plugin_host/strictjson.h"
 
 #include <QFile>
 #include <QString>
@@ -19,7 +19,6 @@ namespace {
 using nlohmann::json;
 
 constexpr int kFormatVersion = 1;
-constexpr size_t kMaxDepth = 16;
 constexpr qint64 kMaxFileSize = 1 << 20;
 constexpr size_t kMaxPoints = 4096;
 
@@ -32,7 +31,7 @@ struct Place {
   [[noreturn]] void fail(const std::string& what) const {
     throw InputError(file + ":" + (pointer.empty() ? "/" : pointer) + ": " + what);
   }
-  Place at(const std::string& key) const { return {value.at(key), file, pointer + "/" + jsonPointerPart(key)}; }
+  Place at(const std::string& key) const { return {value.at(key), file, pointer + "/" + pointerPart(key)}; }
   Place at(size_t index) const { return {value.at(index), file, pointer + "/" + std::to_string(index)}; }
   bool has(const char* key) const { return value.contains(key); }
 
@@ -41,19 +40,19 @@ struct Place {
     return at(key);
   }
   std::string text() const {
-    if (!value.is_string()) fail(std::string("must be a text, not ") + jsonTypeName(value));
+    if (!value.is_string()) fail("must be a text, not " + jsonInWords(value));
     return value.get<std::string>();
   }
   double number() const {
-    if (!value.is_number()) fail(std::string("must be a number, not ") + jsonTypeName(value));
+    if (!value.is_number()) fail("must be a number, not " + jsonInWords(value));
     return value.get<double>();
   }
   const Place& object() const {
-    if (!value.is_object()) fail(std::string("must be an object, not ") + jsonTypeName(value));
+    if (!value.is_object()) fail("must be an object, not " + jsonInWords(value));
     return *this;
   }
   const Place& list() const {
-    if (!value.is_array()) fail(std::string("must be a list, not ") + jsonTypeName(value));
+    if (!value.is_array()) fail("must be a list, not " + jsonInWords(value));
     if (value.size() > kMaxPoints) fail("has more than " + std::to_string(kMaxPoints) + " entries");
     return *this;
   }
@@ -150,7 +149,7 @@ void readFormat(const Place& root) {
 }  // namespace
 
 Material parseMaterialJson(std::string_view text, const std::string& name, PluginInfo& info) {
-  const json document = parseStrictJson(text, name, kMaxDepth);
+  const json document = parseJson(text, name);
   const Place root{document, name, ""};
   root.object();
   readFormat(root);

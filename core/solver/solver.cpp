@@ -226,6 +226,10 @@ std::vector<Limit> Solver::limits() const {
   m->viscosity.limits(m->store, result);
   const double asked = m->thermal.timeScale, delivered = m->heat.thermalTimeScaleDelivered();
   if (m->frame > 0 && delivered < asked) result.push_back({"solver.thermal_time_scale", asked, delivered, ""});
+  if (m->model != nullptr && m->model->opensEnergy()) {
+    // Lost since the matter was last added, taken or put back by hand.
+    if (const double open = m->openEnergy(); open != 0) result.push_back({"heat balance", 0, open, "J"});
+  }
   return result;
 }
 

@@ -59,6 +59,8 @@ struct Solver::Impl {
   void exchangeHeat();
   void changePhases();
   void checkBounds();
+  /// J by which the heat balance is open; 0 within what rounding explains.
+  double openEnergy();
   void checkEnergy();
   void closeFrame();
   /// Id of the first particle whose position, velocity or temperature is no finite number, or -1.

@@ -26,6 +26,7 @@ class ThesisLatentModel : public api::ThermalPlugin {
   const char* help() const noexcept override;
   api::ParameterList parameters() const noexcept override { return {}; }
   api::List<api::FieldDeclaration> fields() const noexcept override;
+  bool opensEnergy() const noexcept override { return true; }
   void initialise(const api::ThermalContext& context, const api::ParticleView& particles, size_t first, size_t last,
                   const double* temperature, const api::Phase* phase) const override;
   void addHeat(const api::ThermalContext& context, const api::ParticleView& particles, size_t first, size_t last,

@@ -6,7 +6,6 @@
 #include "core/plugin_host/pluginmetadata.h"
 #include "core/plugin_host/quarantine.h"
 #include "core/plugin_host/registry.h"
-#include "core/plugin_host/strictjson.h"
 #include "core/sketch/stroke.h"
 
 #include <QCoreApplication>
@@ -173,8 +172,7 @@ class TestPluginHost : public QObject {
     QTest::newRow("text") << QByteArray("this is not a plugin\n");
     QTest::newRow("random bytes") << QByteArray(5000, '\xA7');
     QTest::newRow("head of a library") << contents(fixture("fixture_brush")).left(300);
-    QTest::newRow("half a library")
-        << contents(fixture("fixture_brush")).left(contents(fixture("fixture_brush")).size() / 2);
+    QTest::newRow("first page of a library") << contents(fixture("fixture_brush")).left(4096);
     QTest::newRow("library without metadata") << contents(fixture("fixture_plain"));
   }
   void filesThatAreNoPluginsAreRefused() {
@@ -407,21 +405,21 @@ class TestPluginHost : public QObject {
     QTest::addColumn<QByteArray>("text");
     QTest::addColumn<QString>("expected");
     const auto replaced = [](const char* from, const char* to) { return QByteArray(kSoundJson).replace(from, to); };
-    QTest::newRow("empty") << QByteArray() << "is not valid JSON";
-    QTest::newRow("cut off") << QByteArray(kSoundJson).left(60) << "is not valid JSON: line";
-    QTest::newRow("NaN") << replaced("1050", "NaN") << "is not valid JSON";
-    QTest::newRow("too large a number") << replaced("1050", "1e999") << "is not valid JSON";
+    QTest::newRow("empty") << QByteArray() << ":/: the file is empty";
+    QTest::newRow("cut off") << QByteArray(kSoundJson).left(60) << "the file ends too early";
+    QTest::newRow("NaN") << replaced("1050", "NaN") << "NaN and Infinity are not numbers in JSON";
+    QTest::newRow("too large a number") << replaced("1050", "1e999") << "the number 1e999 is too large";
     QTest::newRow("a list") << QByteArray("[1, 2]") << ":/: must be an object, not a list";
-    QTest::newRow("200,000 brackets") << QByteArray(200000, '[') << "nested deeper than 16 levels";
-    QTest::newRow("duplicate key") << replaced("\"label\"", "\"id\"") << ":/id: this key stands here twice";
+    QTest::newRow("200,000 brackets") << QByteArray(200000, '[') << "nested deeper than 64 levels";
+    QTest::newRow("duplicate key") << replaced("\"label\"", "\"id\"") << "the key 'id' stands here twice";
     QTest::newRow("duplicate property") << replaced("1050", "1, \"density_solid\": 2")
-                                        << "/properties/density_solid: this key";
+                                        << "/properties/density_solid: the key";
     QTest::newRow("no format") << replaced("\"format\"", "\"form\"") << ":/format: is missing";
     QTest::newRow("other format") << replaced("phasesketch-material", "gltf") << ":/format: must be";
     QTest::newRow("later version") << replaced("\"version\": 1", "\"version\": 2") << ":/version: is newer";
     QTest::newRow("version as text") << replaced("\"version\": 1", "\"version\": \"1\"")
                                      << ":/version: must be a whole number";
-    QTest::newRow("number for a name") << replaced("\"Soap\"", "7") << ":/label: must be a text, not a number";
+    QTest::newRow("number for a name") << replaced("\"Soap\"", "7") << ":/label: must be a text, not the number 7";
     QTest::newRow("bad id") << replaced("\"soap\"", "\"So ap\"") << ":/id: must be lower-case";
     QTest::newRow("no licence") << replaced("\"licence\"", "\"author\"") << ":/licence: is missing";
     QTest::newRow("unknown key") << replaced("\"licence\"", "\"colour\": 1, \"licence\"") << ":/colour: is not a key";
@@ -429,7 +427,7 @@ class TestPluginHost : public QObject {
         << replaced("density_solid", "densty_solid")
         << ":/properties/densty_solid: is not a property that PhaseSketch knows; did you mean \"density_solid\"?";
     QTest::newRow("word for a number") << replaced("1050", "\"heavy\"")
-                                       << "/density_solid: must be a number, not a text";
+                                       << "/density_solid: must be a number, not the text 'heavy'";
     QTest::newRow("negative density") << replaced("1050", "{\"value\": -1050}")
                                       << "/density_solid/value: must be at least 1 kg/m³, not -1050";
     QTest::newRow("no value") << replaced("1050", "{\"grade\": \"A\"}") << "/density_solid: needs one of";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "core/io/jsontext.h"
+#include "core/base/jsontext.h"
 
 #include <QDir>
 #include <QFile>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/base/error.h"
-#include "core/io/jsontext.h"
+#include "core/base/jsontext.h"
 #include "core/io/projectio.h"
 #include "core/io/schema.h"
 #include "core/io/textfile.h"

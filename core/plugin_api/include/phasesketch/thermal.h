@@ -38,6 +38,9 @@ class ThermalPlugin : public Plugin {
                       const ThermalOutput&) const = 0;
   /// Thermal energy of each particle in J, for the ledger. May throw.
   virtual void energy(const ThermalContext&, const ParticleView&, size_t first, size_t last, double* joules) const = 0;
+  /// True for a model that drops or invents heat by design: the host then lists the open balance among the limits of
+  /// the model, where it would otherwise flag a fault.
+  virtual bool opensEnergy() const noexcept { return false; }
   /// Optional own sources: adds watts per particle. May throw.
   virtual void sources(const ThermalContext&, const ParticleView&, size_t /*first*/, size_t /*last*/,
                        double* /*watts*/) const {}

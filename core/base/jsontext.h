@@ -23,6 +23,9 @@ std::string writeJson(const nlohmann::json& value);
 /// One part of a JSON pointer (RFC 6901): ~ and / escaped.
 std::string pointerPart(std::string_view key);
 
+/// What a value is, for messages: "a list", "the text 'ice'", "the number 5".
+std::string jsonInWords(const nlohmann::json& value);
+
 /// A number as JSON keeps it best: whole numbers without ".0".
 nlohmann::json jsonNumber(double value);
 

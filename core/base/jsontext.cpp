@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "core/io/jsontext.h"
+#include "core/base/jsontext.h"
 
 #include "core/base/error.h"
 
@@ -156,6 +156,27 @@ std::string pointerPart(std::string_view key) {
     }
   }
   return part.size() > 80 ? part.substr(0, 80) + "…" : part;
+}
+
+std::string jsonInWords(const json& value) {
+  switch (value.type()) {
+    case json::value_t::null:
+      return "null";
+    case json::value_t::boolean:
+      return value.get<bool>() ? "true" : "false";
+    case json::value_t::string: {
+      const std::string& text = value.get_ref<const std::string&>();
+      std::string shown;
+      for (const char c : text.substr(0, 40)) shown += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+      return "the text '" + shown + (text.size() > 40 ? "…'" : "'");
+    }
+    case json::value_t::array:
+      return "a list";
+    case json::value_t::object:
+      return "an object";
+    default:
+      return "the number " + value.dump();
+  }
 }
 
 json jsonNumber(double value) {
