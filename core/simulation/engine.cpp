@@ -69,7 +69,7 @@ void Engine::Impl::setThermal() {
   }
   std::vector<double> parameters;
   if (model) parameters = numbersOf(project.solver.thermalParameters, model->parameters());
-  solver->setThermal(compileThermal(project), model, std::move(parameters));
+  solver->setThermal(compileThermal(project), model, project.solver.thermalModel, std::move(parameters));
 }
 
 uint32_t Engine::Impl::constraintSet(const std::string& id, const ParameterSet& parameters) {

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <utility>
 
 namespace ps {
 namespace {
@@ -130,7 +131,7 @@ bool ConstraintSystem::guarded(Set& set, Call&& call) {
   for (auto& v : set.values) v.clear();
   set.colourStart.assign(1, 0);
   m_graphValid = false;
-  m_faults += (m_faults.empty() ? "constraint plugin '" : "; constraint plugin '") + set.name + "': " + problem;
+  m_faults.push_back({set.name, problem});
   return false;
 }
 
@@ -443,10 +444,6 @@ const StructureGraph& ConstraintSystem::graph(size_t particles) {
   return m_graph;
 }
 
-std::string ConstraintSystem::takeFaults() {
-  std::string faults;
-  faults.swap(m_faults);
-  return faults;
-}
+std::vector<PluginFault> ConstraintSystem::takeFaults() { return std::exchange(m_faults, {}); }
 
 }  // namespace ps

@@ -76,8 +76,8 @@ class ConstraintSystem {
   void addTo(Hash& hash, const ParticleStore& store) const;
   /// Ties between pairs of particles, for contact; renewed when the structure or the order has changed.
   const StructureGraph& graph(size_t particles);
-  /// "plugin: what it said" of those that threw since the last call; empty when all is well.
-  std::string takeFaults();
+  /// Those that threw since the last call.
+  std::vector<PluginFault> takeFaults();
 
  private:
   struct Key {
@@ -121,7 +121,7 @@ class ConstraintSystem {
   std::vector<api::Float4> m_correction;
   StructureGraph m_graph;
   bool m_graphValid = false;
-  std::string m_faults;
+  std::vector<PluginFault> m_faults;
 };
 
 }  // namespace ps

@@ -66,7 +66,10 @@ void HeatStage::configure(const ThermalSettings& settings, const SolverSettings&
   m_materials = materials;
   m_materialViews.clear();
   for (const BakedMaterial& material : materials) m_materialViews.push_back(&material);
-  m_modelChanged = m_modelChanged || model != m_model;
+  if (model != m_model) {
+    m_modelChanged = true;
+    m_putAside = false;
+  }
   m_model = model;
   m_parameters = std::move(modelParameters);
 }
@@ -80,11 +83,34 @@ api::ThermalContext HeatStage::context() const {
   return context;
 }
 
-void HeatStage::initialise(ParticleStore& store, size_t first, size_t last, std::span<const double> temperature,
+/// Calls what calls the model; false when the model is aside already or throws now.
+template <class Call>
+bool HeatStage::guarded(Call&& call) const {
+  if (!works()) return false;
+  try {
+    call();
+    return true;
+  } catch (const std::exception& problem) {
+    m_fault = problem.what();
+  } catch (...) {
+    m_fault = "threw something that is no std::exception";
+  }
+  m_putAside = true;
+  return false;
+}
+
+bool HeatStage::initialise(ParticleStore& store, size_t first, size_t last, std::span<const double> temperature,
                            std::span<const api::Phase> phase) {
-  if (!m_model || last <= first) return;
-  if (m_modelChanged && first > 0) adopt(store);
-  m_modelChanged = false;
+  if (!works() || last <= first) return true;
+  return guarded([&] {
+    if (m_modelChanged && first > 0) adopt(store);
+    m_modelChanged = false;
+    startState(store, first, last, temperature, phase);
+  });
+}
+
+void HeatStage::startState(ParticleStore& store, size_t first, size_t last, std::span<const double> temperature,
+                           std::span<const api::Phase> phase) {
   const auto fields = m_model->fields();
   for (size_t k = 0; k < fields.count; ++k)
     store.declare(fields[k].name, fields[k].type, fields[k].unit, fields[k].help);
@@ -120,20 +146,25 @@ void HeatStage::deriveRange(ParticleStore& store, size_t first, size_t last) {
 }
 
 void HeatStage::derive(ParticleStore& store) {
-  if (!m_model) return;
-  if (m_modelChanged) return adopt(store);
-  const auto body = [&](size_t first, size_t last) { deriveRange(store, first, last); };
-  parallelFor(store.size(), kGrain, std::cref(body));
+  guarded([&] {
+    if (m_modelChanged) return adopt(store);
+    const bool known = m_lastCount > 0 && m_lastCount == store.size();
+    const double before = m_lastEnergy;
+    const auto body = [&](size_t first, size_t last) { deriveRange(store, first, last); };
+    parallelFor(store.size(), kGrain, std::cref(body));
+    if (!known) return;
+    if (const double change = energy(store) - before; change != 0) book(change);
+  });
 }
 
 double HeatStage::energy(const ParticleStore& store) const {
-  if (m_modelChanged && m_lastCount == store.size()) return m_lastEnergy;  // as the other model left it
-  if (!m_model || m_modelChanged || store.size() == 0) return 0;
+  if ((m_modelChanged || m_putAside) && m_lastCount == store.size()) return m_lastEnergy;  // as it was left
+  if (!works() || m_modelChanged || store.size() == 0) return 0;
   m_energies.resize(store.size());
   const api::ThermalContext where = context();
   const api::ParticleView view = store.view();
   const auto body = [&](size_t first, size_t last) { m_model->energy(where, view, first, last, m_energies.data()); };
-  parallelFor(store.size(), kGrain, std::cref(body));
+  if (!guarded([&] { parallelFor(store.size(), kGrain, std::cref(body)); })) return m_lastEnergy;
   double sum = 0;
   for (size_t first = 0; first < store.size(); first += kGrain) {
     double chunk = 0;
@@ -146,8 +177,9 @@ double HeatStage::energy(const ParticleStore& store) const {
 }
 
 std::span<const double> HeatStage::energies(const ParticleStore& store) const {
-  if (!m_model || m_modelChanged) return {};
+  if (!works() || m_modelChanged) return {};
   energy(store);
+  if (!works()) return {};
   return {m_energies.data(), store.size()};
 }
 
@@ -223,11 +255,15 @@ void HeatStage::measureSurroundings(const ParticleStore& store, size_t first, si
   }
 }
 
-void HeatStage::advance(ParticleStore& store, const Neighbours& neighbours, double dt) {
-  m_lastSubsteps = 0;
+bool HeatStage::advance(ParticleStore& store, const Neighbours& neighbours, double dt) {
+  m_substeps = 0;
   m_swept = false;
   m_delivered = m_settings.timeScale;
-  if (!m_model || store.size() == 0) return;
+  if (!works() || store.size() == 0) return true;
+  return guarded([&] { exchange(store, neighbours, dt); });
+}
+
+void HeatStage::exchange(ParticleStore& store, const Neighbours& neighbours, double dt) {
   if (m_modelChanged) adopt(store);
   double time = dt * m_settings.timeScale;
   if (!(time > 0)) return;
@@ -249,12 +285,12 @@ double HeatStage::takeExplicitSteps(ParticleStore& store, const api::ParticleVie
   const double share = std::clamp(m_settings.cfl, 0.01, 1.0);
   if (time > kMaxExplicit * share * m_limit && !m_pairLaw) return 0;
   double left = time;
-  while (left > 0 && m_lastSubsteps < kMaxExplicit) {
+  while (left > 0 && m_substeps < kMaxExplicit) {
     const double steps = std::max(1.0, std::ceil(left / (share * m_limit)));
     const double step = left / steps;
-    explicitStep(store, view, lists, step, m_lastSubsteps == 0);
+    explicitStep(store, view, lists, step, m_substeps == 0);
     left = steps > 1 ? left - step : 0;
-    ++m_lastSubsteps;
+    ++m_substeps;
   }
   return time - left;
 }
@@ -264,8 +300,8 @@ double HeatStage::takeSweeps(ParticleStore& store, const api::ParticleView& view
   const double done = std::min(time, kMaxSweeps * kSweepLength * m_limit);
   const int sweeps = std::max(1, static_cast<int>(std::ceil(done / (kSweepLength * m_limit))));
   for (int k = 0; k < sweeps; ++k) {
-    sweep(store, view, done / sweeps, m_lastSubsteps == 0);
-    ++m_lastSubsteps;
+    sweep(store, view, done / sweeps, m_substeps == 0);
+    ++m_substeps;
   }
   return done;
 }

@@ -8,7 +8,10 @@
 #include "core/solver/heatpairs.h"
 #include "core/solver/settings.h"
 
+#include <optional>
 #include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace ps {
@@ -18,11 +21,13 @@ namespace ps {
 /// keeps its energy to rounding. Kinds of heat a model cannot do: see the thermal plugin's help.
 ///
 /// Explicit substeps of thermal_cfl times the Gershgorin limit, measured before each from the pairs at hand; above
-/// kMaxExplicit of them, pairwise exponential sweeps (heatrelax.h), which stay stable at any step and lose accuracy
+/// kMaxExplicit of them, pairwise exponential sweeps (heatrelax.cpp), which stay stable at any step and lose accuracy
 /// slowly. What even these cannot follow is not done: the thermal clock then runs slower, see
 /// thermalTimeScaleDelivered(). A model's own pair law is stepped at the limit of the host's conduction and never
 /// swept, so a law much stronger than that needs a smaller thermal_cfl. Not modelled: radiation, convection of air,
 /// evaporation below the boiling point.
+///
+/// A model that throws is put aside for good: from then on no heat flows, and takeFault() tells what it said.
 class HeatStage {
  public:
   static constexpr int kMaxExplicit = 40;     ///< explicit substeps per frame
@@ -34,24 +39,34 @@ class HeatStage {
                  std::span<const BakedMaterial> materials, const api::ThermalPlugin* model,
                  std::vector<double> modelParameters);
   /// Sets state, temperature and fractions of particles [first, last); the two spans hold one value per particle of
-  /// that range. Declares the model's fields in the store when they are new.
-  void initialise(ParticleStore& store, size_t first, size_t last, std::span<const double> temperature,
+  /// that range. Declares the model's fields in the store when they are new. False when the model threw.
+  bool initialise(ParticleStore& store, size_t first, size_t last, std::span<const double> temperature,
                   std::span<const api::Phase> phase);
   /// One frame of `dt` s of mechanical time. Lists must be fresh. Updates temperature and fractions, not volumes.
-  void advance(ParticleStore& store, const Neighbours& neighbours, double dt);
-  /// Re-derives temperature and fractions (after a change of pressure or material).
+  /// False when the model threw: particles are then half changed, the ledger is not.
+  bool advance(ParticleStore& store, const Neighbours& neighbours, double dt);
+  /// Re-derives temperature and fractions after a change of pressure or material. Where that changes the energy too,
+  /// it is booked as a source.
   void derive(ParticleStore& store);
-  /// J, the model's, summed in order of index chunks. Not to be called from two threads at once.
+  /// J, the model's, summed in order of index chunks. Not to be called from two threads at once. Of a model put aside,
+  /// what it said last.
   double energy(const ParticleStore& store) const;
   /// Energy of each particle in J; valid until the next call of anything here. Empty without a model.
   std::span<const double> energies(const ParticleStore& store) const;
   const HeatLedger& ledger() const { return m_ledger; }
+  /// Back to the books of an earlier frame, when the particles go back to it.
+  void setLedger(const HeatLedger& ledger) { m_ledger = ledger; }
   /// Joules that left or came with removed or added particles are booked here.
   void book(double joules) {
     m_ledger.sources += joules;
     m_ledger.exchanged += joules < 0 ? -joules : joules;
   }
-  int lastSubsteps() const { return m_lastSubsteps; }
+  /// False without a model, and when it was put aside.
+  bool works() const { return m_model != nullptr && !m_putAside; }
+  /// What the model said when it threw; once.
+  std::optional<std::string> takeFault() { return std::exchange(m_fault, std::nullopt); }
+  /// True when the model drops or invents heat by design (api::kOpensEnergy).
+  bool opensEnergy() const { return works() && m_model->extension(api::kOpensEnergy) != nullptr; }
 
   /// Thermal seconds per mechanical second that the last frame really did; below ThermalSettings::timeScale where the
   /// heat would have been too fast for kMaxSweeps sweeps.
@@ -71,8 +86,13 @@ class HeatStage {
     std::vector<double> potential, temperature;
   };
 
+  template <class Call>
+  bool guarded(Call&& call) const;
   api::ThermalContext context() const;
+  void startState(ParticleStore& store, size_t first, size_t last, std::span<const double> temperature,
+                  std::span<const api::Phase> phase);
   void adopt(ParticleStore& store);
+  void exchange(ParticleStore& store, const Neighbours& neighbours, double dt);
   void deriveRange(ParticleStore& store, size_t first, size_t last);
   void snapshotRange(const ParticleStore& store, Snapshot& snapshot, size_t first, size_t last) const;
   void prepare(ParticleStore& store, const Neighbours& neighbours);
@@ -109,9 +129,11 @@ class HeatStage {
   std::vector<const api::MaterialView*> m_materialViews;
   const api::ThermalPlugin* m_model = nullptr;
   bool m_modelChanged = false;
+  mutable bool m_putAside = false;  ///< the model threw
+  mutable std::optional<std::string> m_fault;
   std::vector<double> m_parameters;
   HeatLedger m_ledger;
-  int m_lastSubsteps = 0;
+  int m_substeps = 0;  ///< explicit steps and sweeps of this frame
   double m_delivered = 1, m_limit = 0;
   bool m_swept = false, m_pairLaw = false, m_boiling = false;
 

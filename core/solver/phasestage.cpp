@@ -88,12 +88,12 @@ Motion PhaseStage::nextMotion(const ParticleStore& store, size_t i) const {
   return vapour || (sublimes && motion == Motion::Gas) ? Motion::Gas : Motion::Liquid;
 }
 
-void PhaseStage::update(ParticleStore& store, std::vector<uint32_t>& melted) {
+bool PhaseStage::update(ParticleStore& store, std::vector<uint32_t>& melted) {
   melted.clear();
-  m_melted.resize(store.size());
+  m_turns.resize(store.size());
   const auto body = [&](size_t first, size_t last) {
     for (size_t i = first; i < last; ++i) {
-      m_melted[i] = 0;
+      m_turns[i] = Turn::None;
       store.phase()[i] = phaseOf(store.solidFraction()[i], store.liquidFraction()[i], store.gasFraction()[i]);
       Motion& motion = store.motion()[i];
       if (motion == Motion::Static) continue;
@@ -101,14 +101,19 @@ void PhaseStage::update(ParticleStore& store, std::vector<uint32_t>& melted) {
       const double step = kVolumeStep * volume;
       store.position()[i].w = static_cast<float>(volume + std::clamp(target - volume, -step, step));
       const Motion next = nextMotion(store, i);
-      m_melted[i] = motion == Motion::Solid && next != Motion::Solid;
+      if ((motion == Motion::Solid) != (next == Motion::Solid)) {
+        m_turns[i] = next == Motion::Solid ? Turn::Froze : Turn::Melted;
+      }
       motion = next;
     }
   };
   parallelFor(store.size(), kGrain, std::cref(body));
-  for (size_t i = 0; i < m_melted.size(); ++i) {
-    if (m_melted[i]) melted.push_back(static_cast<uint32_t>(i));
+  bool froze = false;
+  for (size_t i = 0; i < m_turns.size(); ++i) {
+    if (m_turns[i] == Turn::Melted) melted.push_back(static_cast<uint32_t>(i));
+    froze = froze || m_turns[i] == Turn::Froze;
   }
+  return froze;
 }
 
 }  // namespace ps

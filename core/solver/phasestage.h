@@ -21,11 +21,13 @@ class PhaseStage {
   /// and fractions must be set; motion Static stays.
   void initialise(ParticleStore& store, size_t first, size_t last);
   /// One frame. `melted` receives the indices of particles that ceased to be solid (for the compression hand-over).
-  void update(ParticleStore& store, std::vector<uint32_t>& melted);
+  /// True when any particle became solid.
+  bool update(ParticleStore& store, std::vector<uint32_t>& melted);
   /// Share of a solid particle that must have melted before it lets go.
   double meltThreshold(uint32_t material, uint32_t id) const;
 
  private:
+  enum class Turn : uint8_t { None, Melted, Froze };
   struct Rule {
     double meltBreak, freeze;
   };
@@ -35,7 +37,7 @@ class PhaseStage {
   SolverSettings m_solver;
   std::span<const BakedMaterial> m_materials;
   std::vector<Rule> m_rules;
-  std::vector<uint8_t> m_melted;
+  std::vector<Turn> m_turns;
 };
 
 }  // namespace ps

@@ -67,6 +67,12 @@ using StepFlags = unsigned;
 /// "not_finite", "lost_particle", ...
 std::vector<std::string> flagNames(StepFlags flags);
 
+/// A plugin that threw, and what it said; the solver goes on without it.
+struct PluginFault {
+  std::string plugin;  ///< id
+  std::string what;
+};
+
 /// Asked for and not delivered at this step.
 struct Limit {
   std::string what;  ///< parameter key and owner: "water.youngs_modulus"

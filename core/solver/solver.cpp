@@ -63,10 +63,12 @@ void Solver::setSettings(const SolverSettings& settings) {
   m->configured = false;
 }
 
-void Solver::setThermal(const ThermalSettings& settings, const api::ThermalPlugin* model,
+void Solver::setThermal(const ThermalSettings& settings, const api::ThermalPlugin* model, std::string name,
                         std::vector<double> modelParameters) {
   m->thermal = settings;
+  m->modelChanged = m->modelChanged || model != m->model;
   m->model = model;
+  m->modelName = std::move(name);
   m->modelParameters = std::move(modelParameters);
   m->configured = false;
 }
@@ -77,6 +79,8 @@ void Solver::setWalls(std::vector<Wall> walls) {
 }
 
 void Solver::setBounds(const Bounds& bounds) { m->bounds = bounds; }
+
+void Solver::setBodyNames(std::vector<std::string> names) { m->bodyNames = std::move(names); }
 
 void Solver::setMaterials(std::vector<BakedMaterial> materials) {
   m->materials = std::move(materials);
@@ -106,6 +110,9 @@ void Solver::Impl::configure() {
   gas.configure(settings, thermal, table);
   heat.configure(thermal, settings, walls, table, model, modelParameters);
   phase.configure(settings, table);
+  heat.derive(store);
+  if (modelChanged) settleEnergy();  // two models may count the energy of the same matter differently
+  modelChanged = false;
   configured = true;
   structureChanged = true;
 }
@@ -128,7 +135,6 @@ std::vector<uint32_t> Solver::spawn(const Spawn& spawn) {
   ParticleStore& store = m->store;
   const double energyBefore = m->frame > 0 ? m->heat.energy(store) : 0;
   const size_t first = store.add(count), last = first + count;
-  const Fractions f = fractionsOf(spawn.phase);
   const double cell = m->settings.spacing * m->settings.spacing * m->settings.spacing;
   std::vector<uint32_t> ids(count), members(count);
   for (size_t k = 0; k < count; ++k) {
@@ -142,8 +148,6 @@ std::vector<uint32_t> Solver::spawn(const Spawn& spawn) {
     store.body()[i] = spawn.body;
     store.phase()[i] = spawn.phase;
     store.motion()[i] = spawn.fixed ? api::Motion::Static : motionOf(spawn.phase);
-    store.temperature()[i] = spawn.temperature;
-    store.solidFraction()[i] = f.solid, store.liquidFraction()[i] = f.liquid, store.gasFraction()[i] = f.gas;
     ids[k] = store.id()[i];
     members[k] = static_cast<uint32_t>(i);
   }
@@ -158,8 +162,16 @@ std::vector<uint32_t> Solver::spawn(const Spawn& spawn) {
       store.velocity()[i].w = spawn.fixed ? 0 : 1 / store.mass()[i];
     }
   };
+  const auto setState = [&] {
+    const Fractions f = fractionsOf(spawn.phase);
+    for (size_t i = first; i < last; ++i) {
+      store.temperature()[i] = spawn.temperature;
+      store.solidFraction()[i] = f.solid, store.liquidFraction()[i] = f.liquid, store.gasFraction()[i] = f.gas;
+    }
+  };
+  setState();
   setMass();
-  m->heat.initialise(store, first, last, temperature, phase);
+  if (!m->heat.initialise(store, first, last, temperature, phase)) setState();
   setMass();  // the model's fractions are the better ones
   m->phase.initialise(store, first, last);
   for (size_t i = first; i < last && spawn.fixed; ++i) {
@@ -226,7 +238,7 @@ std::vector<Limit> Solver::limits() const {
   m->viscosity.limits(m->store, result);
   const double asked = m->thermal.timeScale, delivered = m->heat.thermalTimeScaleDelivered();
   if (m->frame > 0 && delivered < asked) result.push_back({"solver.thermal_time_scale", asked, delivered, ""});
-  if (m->model != nullptr && m->model->opensEnergy()) {
+  if (m->heat.opensEnergy()) {
     // Lost since the matter was last added, taken or put back by hand.
     if (const double open = m->openEnergy(); open != 0) result.push_back({"heat balance", 0, open, "J"});
   }

@@ -32,6 +32,7 @@ struct TakenMatter {
 struct StepReport {
   StepFlags flags = 0;
   std::string message;  ///< the culprit: "particle 17 of 'Ice block': position is not finite"
+  std::vector<PluginFault> faults;
   std::array<double, static_cast<size_t>(Stage::Count)> milliseconds{};
   double totalMilliseconds = 0;
   double densityErrorMean = 0, densityErrorMax = 0;  ///< fraction, liquid particles, after the last iteration
@@ -48,10 +49,13 @@ class Solver {
 
   // Configuration; each may be called between steps and acts on the next one.
   void setSettings(const SolverSettings& settings);
-  void setThermal(const ThermalSettings& settings, const api::ThermalPlugin* model,
+  /// `name` is the model's id, for messages.
+  void setThermal(const ThermalSettings& settings, const api::ThermalPlugin* model, std::string name,
                   std::vector<double> modelParameters);
   void setWalls(std::vector<Wall> walls);
   void setBounds(const Bounds& bounds);
+  /// What messages call the bodies, by index.
+  void setBodyNames(std::vector<std::string> names);
   /// Indices of materials must keep their meaning while particles live.
   void setMaterials(std::vector<BakedMaterial> materials);
   /// Adds a set of constraints of one plugin; returns its index. `name` is the plugin's id, for messages.

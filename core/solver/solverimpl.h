@@ -19,13 +19,16 @@ struct Solver::Impl {
   SolverSettings settings;
   ThermalSettings thermal;
   const api::ThermalPlugin* model = nullptr;
+  std::string modelName;
   std::vector<double> modelParameters;
   std::vector<Wall> walls;
   Bounds bounds;
+  std::vector<std::string> bodyNames;
   std::vector<BakedMaterial> materials;
 
   ParticleStore store;
-  ParticleStore lastGood;      ///< as the frame began, in the order that the constraints know
+  ParticleStore lastGood;  ///< as the frame began, in the order that the constraints know
+  HeatLedger lastGoodLedger;
   bool lastGoodValid = false;  ///< not after particles were added or removed
   Neighbours neighbours;
   ConstraintSystem constraints;
@@ -41,7 +44,7 @@ struct Solver::Impl {
   uint64_t frame = 0, lastSort = 0;
   double time = 0, thermalTime = 0;
   double energyOffset = 0;  ///< J: thermal energy minus the ledger's net, when both were last known to be right
-  bool configured = false, structureChanged = true, reordered = true;
+  bool configured = false, modelChanged = false, structureChanged = true, reordered = true;
   std::vector<uint32_t> melted;
   StepReport report;
 
@@ -52,11 +55,13 @@ struct Solver::Impl {
   void runFrame();
   void freshLists();
   void keepLastGood();
+  void backToLastGood();
   void listsChanged(bool newStructure);
   void substep(uint32_t index);
   void predict(double dt);
   void velocities(double dt);
-  void exchangeHeat();
+  /// False when the thermal model threw; the frame is then taken back.
+  bool exchangeHeat();
   void changePhases();
   void checkBounds();
   /// J by which the heat balance is open; 0 within what rounding explains.
@@ -66,6 +71,8 @@ struct Solver::Impl {
   /// Id of the first particle whose position, velocity or temperature is no finite number, or -1.
   int64_t firstNotFinite(std::string& what) const;
   bool rejectIfNotFinite();
+  /// "particle 17 of 'Ice block'".
+  std::string describe(size_t i) const;
   void raise(StepFlag flag, const std::string& message);
 
   template <class Call>

@@ -18,15 +18,17 @@ constexpr double kDiverged = 0.5;
 /// How far the heat balance may be open: a share of what was exchanged, and of the whole for rounding.
 constexpr double kOpenExchange = 1e-6, kOpenRounding = 1e-11;
 
-std::string describe(const ParticleStore& store, size_t i) {
-  return "particle " + std::to_string(store.id()[i]) + " of body " + std::to_string(store.body()[i]);
-}
-
 bool finite(const api::Float4& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w);
 }
 
 }  // namespace
+
+std::string Solver::Impl::describe(size_t i) const {
+  const uint32_t body = store.body()[i];
+  const std::string name = body < bodyNames.size() ? "'" + bodyNames[body] + "'" : "body " + std::to_string(body);
+  return "particle " + std::to_string(store.id()[i]) + " of " + name;
+}
 
 void Solver::Impl::raise(StepFlag flag, const std::string& message) {
   report.flags |= static_cast<StepFlags>(flag);
@@ -38,8 +40,9 @@ void Solver::Impl::runFrame() {
   report = {};
   const auto start = std::chrono::steady_clock::now();
   configure();
+  bool good = true;
   if (store.size() > 0) {
-    bool good = !rejectIfNotFinite();
+    good = !rejectIfNotFinite();
     timed(Stage::Neighbours, [&] { freshLists(); });
     if (good) keepLastGood();
     timed(Stage::Phase, [&] { gas.measure(store, neighbours); });
@@ -49,17 +52,20 @@ void Solver::Impl::runFrame() {
       good = !rejectIfNotFinite();
     }
     if (good) checkBounds();
-    if (good) timed(Stage::Heat, [&] { exchangeHeat(); });
+    if (good) timed(Stage::Heat, [&] { good = exchangeHeat(); });
     good = good && !rejectIfNotFinite();
     if (good) closeFrame();
   }
-  if ((report.flags & static_cast<StepFlags>(StepFlag::NotFinite)) == 0) {
+  if (good) {
     ++frame;
     time += settings.dt;
     thermalTime += settings.dt * std::min(thermal.timeScale, heat.thermalTimeScaleDelivered());
   }
-  const std::string faults = constraints.takeFaults();
-  if (!faults.empty()) raise(StepFlag::PluginFault, faults);
+  report.faults = constraints.takeFaults();
+  if (std::optional<std::string> fault = heat.takeFault()) report.faults.push_back({modelName, std::move(*fault)});
+  for (const PluginFault& fault : report.faults) {
+    raise(StepFlag::PluginFault, "plugin '" + fault.plugin + "': " + fault.what);
+  }
   report.totalMilliseconds =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
@@ -73,9 +79,8 @@ void Solver::Impl::closeFrame() {
   if (report.densityErrorMean > kDiverged) {
     const float* c = store.densityError();
     const size_t worst = static_cast<size_t>(std::max_element(c, c + store.size()) - c);
-    raise(StepFlag::Diverged, describe(store, worst) + ": density error " +
-                                  std::to_string(static_cast<int>(100 * c[worst])) + " %, mean " +
-                                  std::to_string(static_cast<int>(100 * report.densityErrorMean)) + " %");
+    raise(StepFlag::Diverged, describe(worst) + ": density error " + std::to_string(static_cast<int>(100 * c[worst])) +
+                                  " %, mean " + std::to_string(static_cast<int>(100 * report.densityErrorMean)) + " %");
   }
   timed(Stage::Phase, [&] { changePhases(); });
   timed(Stage::Structure, [&] { structureChanged = constraints.topology(store, neighbours) || structureChanged; });
@@ -84,7 +89,15 @@ void Solver::Impl::closeFrame() {
 
 void Solver::Impl::keepLastGood() {
   lastGood.copyFrom(store);
+  lastGoodLedger = heat.ledger();
   lastGoodValid = true;
+}
+
+void Solver::Impl::backToLastGood() {
+  if (!lastGoodValid) return;
+  store.copyFrom(lastGood);
+  heat.setLedger(lastGoodLedger);
+  reordered = true;
 }
 
 void Solver::Impl::freshLists() {
@@ -148,9 +161,12 @@ void Solver::Impl::substep(uint32_t index) {
     wallStage.project(store);
   });
   timed(Stage::Neighbours, [&] {
-    if (!neighbours.stale(store)) return;
-    neighbours.build(store);
-    listsChanged(false);
+    if (neighbours.stale(store)) {
+      neighbours.build(store);
+      listsChanged(false);
+    } else if (contact.stale(store)) {
+      contact.refresh(store, neighbours, constraints);
+    }
   });
   timed(Stage::Structure, [&] { constraints.predict(store, index); });
   for (int iteration = 0; iteration < settings.iterations; ++iteration) {
@@ -173,17 +189,19 @@ void Solver::Impl::substep(uint32_t index) {
   timed(Stage::Density, [&] { density.decayCompression(store, dt); });
 }
 
-void Solver::Impl::exchangeHeat() {
+bool Solver::Impl::exchangeHeat() {
   if (neighbours.stale(store)) {
     neighbours.build(store);
     listsChanged(false);
   }
-  heat.advance(store, neighbours, settings.dt);
+  if (heat.advance(store, neighbours, settings.dt)) return true;
+  backToLastGood();
+  return false;
 }
 
 void Solver::Impl::changePhases() {
   melted.clear();
-  phase.update(store, melted);
+  if (phase.update(store, melted)) structureChanged = true;
   if (melted.empty()) return;
   density.refresh(store, neighbours);
   density.handOver(store, neighbours, melted);
@@ -212,19 +230,19 @@ void Solver::Impl::checkBounds() {
   }
   if (lost == 0) return;
   const std::string others = lost > 1 ? " and " + std::to_string(lost - 1) + " more" : "";
-  raise(StepFlag::LostParticle, describe(store, culprit) + others + " left the bounds and stopped there");
+  raise(StepFlag::LostParticle, describe(culprit) + others + " left the bounds and stopped there");
 }
 
 double Solver::Impl::openEnergy() {
-  if (model == nullptr) return 0;
   const double energy = heat.energy(store), open = energy - heat.ledger().net() - energyOffset;
+  if (!heat.works()) return 0;
   const double allowed = kOpenExchange * heat.ledger().exchanged + kOpenRounding * std::abs(energy) + 1e-9;
   return std::abs(open) > allowed ? open : 0;
 }
 
 void Solver::Impl::checkEnergy() {
   const double open = openEnergy();
-  if (open == 0 || model->opensEnergy()) return;
+  if (open == 0 || heat.opensEnergy()) return;
   raise(StepFlag::EnergyOpen, "heat balance open by " + std::to_string(open) + " J of " +
                                   std::to_string(heat.ledger().exchanged) + " J exchanged");
 }
@@ -246,11 +264,8 @@ bool Solver::Impl::rejectIfNotFinite() {
   std::string what;
   const int64_t culprit = firstNotFinite(what);
   if (culprit < 0) return false;
-  raise(StepFlag::NotFinite, describe(store, static_cast<size_t>(culprit)) + ": " + what + " is not finite");
-  if (lastGoodValid) {
-    store.copyFrom(lastGood);
-    reordered = true;
-  }
+  raise(StepFlag::NotFinite, describe(static_cast<size_t>(culprit)) + ": " + what + " is not finite");
+  backToLastGood();
   return true;
 }
 

@@ -2,6 +2,8 @@
 #pragma once
 #include "enthalpymodel.h"
 
+#include <string_view>
+
 namespace ps::thermal {
 
 /// The latent-heat bookkeeping of the 2020 thesis (its Algorithm 4 and equation 4.3), kept for comparison.
@@ -26,7 +28,10 @@ class ThesisLatentModel : public api::ThermalPlugin {
   const char* help() const noexcept override;
   api::ParameterList parameters() const noexcept override { return {}; }
   api::List<api::FieldDeclaration> fields() const noexcept override;
-  bool opensEnergy() const noexcept override { return true; }
+  /// Algorithm 4 drops the heat that overshoots a plateau.
+  const void* extension(const char* name) const noexcept override {
+    return std::string_view(name) == api::kOpensEnergy ? this : nullptr;
+  }
   void initialise(const api::ThermalContext& context, const api::ParticleView& particles, size_t first, size_t last,
                   const double* temperature, const api::Phase* phase) const override;
   void addHeat(const api::ThermalContext& context, const api::ParticleView& particles, size_t first, size_t last,

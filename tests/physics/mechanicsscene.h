@@ -5,10 +5,11 @@
 #include "core/solver/solver.h"
 #include "enthalpymodel.h"
 
+#include <QtGlobal>
+
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <stdexcept>
 #include <vector>
 
 /// Small scenes and plugins for the tests of the solver.
@@ -99,6 +100,32 @@ inline Motion motionOf(const ps::Solver& solver, uint32_t body) {
   return result;
 }
 
+inline ps::SolverSettings settingsOf(double spacing) {
+  ps::SolverSettings settings;
+  settings.spacing = spacing;
+  return settings;
+}
+
+inline void prepare(ps::Solver& solver, const ps::SolverSettings& settings, const ps::Material& material = water()) {
+  solver.setSettings(settings);
+  solver.setMaterials({ps::BakedMaterial(material, 101325)});
+  ps::Bounds bounds;
+  bounds.minimum = {-3, -3, -3};
+  bounds.maximum = {3, 3, 3};
+  solver.setBounds(bounds);
+}
+
+/// Runs `frames`; false when a flag was raised.
+inline bool run(ps::Solver& solver, int frames) {
+  for (int f = 0; f < frames; ++f) {
+    const ps::StepReport report = solver.step();
+    if (report.flags == 0) continue;
+    qWarning("frame %d: flags %u: %s", f, report.flags, report.message.c_str());
+    return false;
+  }
+  return true;
+}
+
 /// What the test plugins share.
 class TestConstraint : public ps::api::ConstraintPlugin {
  public:
@@ -143,40 +170,6 @@ class SpringChain final : public TestConstraint {
       xj = {float(xj.x - s * wj * d[0]), float(xj.y - s * wj * d[1]), float(xj.z - s * wj * d[2]), xj.w};
     }
   }
-};
-
-/// Throws where it is told to.
-class Thrower final : public TestConstraint {
- public:
-  enum Where { Build, Predict, Project, Topology };
-  explicit Thrower(Where where) : m_where(where) {}
-  ps::api::ConstraintTraits traits() const noexcept override {
-    return {ps::api::ConstraintTraits::Form::Structural, 2, {}, {}};
-  }
-  void build(const ps::api::ConstraintContext&, const ps::api::ParticleView&, const ps::api::NeighbourView&,
-             ps::api::Span<const uint32_t> members, ps::api::ConstraintSink& sink) const override {
-    const uint32_t pair[2] = {members[0], members[1]};
-    sink.add(pair, nullptr);
-    maybe(Build);
-  }
-  void predict(const ps::api::ConstraintContext&, const ps::api::ParticleView&,
-               const ps::api::ConstraintBatch&) const override {
-    maybe(Predict);
-  }
-  void project(const ps::api::ConstraintContext&, const ps::api::ParticleView&,
-               const ps::api::ConstraintBatch&) const override {
-    maybe(Project);
-  }
-  void topology(const ps::api::ConstraintContext&, const ps::api::ParticleView&, const ps::api::NeighbourView&,
-                const ps::api::ConstraintBatch&, ps::api::ConstraintSink&) const override {
-    maybe(Topology);
-  }
-
- private:
-  void maybe(Where where) const {
-    if (where == m_where) throw std::runtime_error("no rest length");
-  }
-  Where m_where;
 };
 
 /// Adds and removes constraints every frame and counts batches in which a particle appears twice.

@@ -4,38 +4,14 @@
 
 #include <QTest>
 
+#include <array>
+
 using namespace mechanics;
 using ps::Solver;
 using ps::SolverSettings;
 using ps::StepReport;
 
 namespace {
-
-SolverSettings settingsOf(double spacing) {
-  SolverSettings settings;
-  settings.spacing = spacing;
-  return settings;
-}
-
-void prepare(Solver& solver, const SolverSettings& settings, const ps::Material& material = water()) {
-  solver.setSettings(settings);
-  solver.setMaterials({ps::BakedMaterial(material, 101325)});
-  ps::Bounds bounds;
-  bounds.minimum = {-3, -3, -3};
-  bounds.maximum = {3, 3, 3};
-  solver.setBounds(bounds);
-}
-
-/// Runs `frames`; false when a flag was raised.
-bool run(Solver& solver, int frames) {
-  for (int f = 0; f < frames; ++f) {
-    const StepReport report = solver.step();
-    if (report.flags == 0) continue;
-    qWarning("frame %d: flags %u: %s", f, report.flags, report.message.c_str());
-    return false;
-  }
-  return true;
-}
 
 /// Mean time between downward zero crossings of samples `dt` apart, interpolated.
 double periodOf(const std::vector<double>& samples, double dt) {
@@ -68,7 +44,8 @@ double oscillatorPeriod(double dt, int iterations) {
   return periodOf(extension, dt);
 }
 
-/// A little of everything: water, ice that melts, steam in the making, static stones.
+/// A little of everything: water, ice that melts, steam in the making, static stones. 0 when something failed or is
+/// missing at the end.
 uint64_t hashOfEverything(int frames) {
   static const ps::thermal::EnthalpyModel enthalpy;
   static const ps::constraint::BondModel bonds;
@@ -80,13 +57,17 @@ uint64_t hashOfEverything(int frames) {
   solver.setWalls(walls);
   ps::ThermalSettings thermal;
   thermal.timeScale = 20000;
-  solver.setThermal(thermal, &enthalpy, {});
+  solver.setThermal(thermal, &enthalpy, "enthalpy", {});
   const uint32_t set = solver.addConstraintSet(&bonds, "bonds", bondParameters());
   solver.spawn(liquid(lattice(12, 4, 12, 0.02, 0), 330));
   solver.spawn(fixedPoints(lattice(3, 1, 3, 0.02, 0.10)));
   solver.spawn(ice(lattice(6, 6, 6, 0.02, 0.14), set, 272.9));
-  run(solver, frames);
-  return solver.stateHash();
+  if (!run(solver, frames)) return 0;
+  std::array<size_t, 5> phases{};
+  for (size_t i = 0; i < solver.particles().size(); ++i) ++phases[static_cast<size_t>(solver.particles().phase()[i])];
+  const auto some = [&](ps::api::Phase phase) { return phases[static_cast<size_t>(phase)] > 0; };
+  const bool mixed = some(ps::api::Phase::Solid) && some(ps::api::Phase::Liquid) && some(ps::api::Phase::Boiling);
+  return mixed ? solver.stateHash() : 0;
 }
 
 }  // namespace
@@ -303,6 +284,7 @@ class TestMechanics : public QObject {
     QFETCH(int, threads);
     ps::setThreadCount(1);
     static const uint64_t reference = hashOfEverything(40);
+    QVERIFY(reference != 0);
     ps::setThreadCount(threads);
     QCOMPARE(hashOfEverything(40), reference);
   }
@@ -315,70 +297,13 @@ class TestMechanics : public QObject {
   void everyInstructionSetGivesOneHash() {
     QFETCH(QString, name);
     static const uint64_t reference = hashOfEverything(40);
+    QVERIFY(reference != 0);
     ps::setInstructionSet(name.toStdString());
     QCOMPARE(QString::fromStdString(ps::instructionSet()), name);
     QCOMPARE(hashOfEverything(40), reference);
   }
 
   void unknownInstructionSetIsRefused() { QVERIFY_THROWS_EXCEPTION(ps::InputError, ps::setInstructionSet("MMX")); }
-
-  void throwingPluginIsSwitchedOff_data() {
-    QTest::addColumn<int>("where");
-    QTest::newRow("build") << static_cast<int>(Thrower::Build);
-    QTest::newRow("predict") << static_cast<int>(Thrower::Predict);
-    QTest::newRow("project") << static_cast<int>(Thrower::Project);
-    QTest::newRow("topology") << static_cast<int>(Thrower::Topology);
-  }
-  void throwingPluginIsSwitchedOff() {
-    QFETCH(int, where);
-    const Thrower thrower(static_cast<Thrower::Where>(where));
-    const ps::constraint::BondModel bonds;
-    Solver solver;
-    prepare(solver, settingsOf(0.02));
-    solver.setWalls(tray(0.2));
-    const uint32_t good = solver.addConstraintSet(&bonds, "bonds", bondParameters());
-    const uint32_t bad = solver.addConstraintSet(&thrower, "org.example.bad", {});
-    ps::Spawn spawn = ice(lattice(4, 4, 4, 0.02, 0.1), good);
-    spawn.constraintSets.push_back(bad);
-    solver.spawn(spawn);
-    const StepReport report = solver.step();
-    QCOMPARE(report.flags, static_cast<ps::StepFlags>(ps::StepFlag::PluginFault));
-    QCOMPARE(QString::fromStdString(report.message), QString("constraint plugin 'org.example.bad': no rest length"));
-    QVERIFY(run(solver, 60));  // said once, and the rest goes on
-    const Motion motion = motionOf(solver, 0);
-    QVERIFY(motion.bottom < 0.02 && motion.top > motion.bottom + 0.055);
-  }
-
-  void notANumberNamesItsParticle() {
-    Solver solver;
-    prepare(solver, settingsOf(0.02));
-    solver.setWalls(tray(0.2));
-    ps::Spawn spawn = liquid(lattice(6, 6, 6, 0.02, 0));
-    spawn.body = 3;
-    solver.spawn(spawn);
-    QVERIFY(run(solver, 10));
-    const uint64_t frame = solver.frame();
-    const size_t victim = solver.particles().indexOf(77);
-    solver.particles().velocity()[victim].y = std::nanf("");
-    const StepReport report = solver.step();
-    QCOMPARE(report.flags, static_cast<ps::StepFlags>(ps::StepFlag::NotFinite));
-    QCOMPARE(QString::fromStdString(report.message), QString("particle 77 of body 3: velocity is not finite"));
-    QCOMPARE(solver.frame(), frame);
-    QVERIFY(run(solver, 5));  // the last good state was kept
-    QVERIFY(motionOf(solver, 3).fastest < 1);
-  }
-
-  void whoLeavesIsStopped() {
-    Solver solver;
-    prepare(solver, settingsOf(0.02));
-    ps::Spawn spawn = liquid({{0, 0, 0}});
-    spawn.velocity = {{400, 0, 0}};
-    solver.spawn(spawn);
-    const StepReport report = solver.step();
-    QCOMPARE(report.flags, static_cast<ps::StepFlags>(ps::StepFlag::LostParticle));
-    QCOMPARE(QString::fromStdString(report.message), QString("particle 0 of body 0 left the bounds and stopped there"));
-    QVERIFY(solver.particles().position()[0].x < 3.03f);
-  }
 
   void coloursNeverShareAParticle() {
     const ColourWatch watch;
@@ -427,7 +352,7 @@ class TestMechanics : public QObject {
     solver.setWalls(walls);
     ps::ThermalSettings thermal;
     thermal.timeScale = 40000;
-    solver.setThermal(thermal, &enthalpy, {});
+    solver.setThermal(thermal, &enthalpy, "enthalpy", {});
     solver.addConstraintSet(&bonds, "bonds", bondParameters());
     solver.spawn(liquid(lattice(6, 6, 6, 0.02, 0), 274));
     QCOMPARE(solver.constraintCount(), size_t{0});

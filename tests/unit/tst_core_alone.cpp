@@ -49,7 +49,7 @@ void configure(Solver& solver, std::vector<Wall> walls) {
   SolverSettings settings;
   settings.spacing = kSpacing;
   solver.setSettings(settings);
-  solver.setThermal({}, nullptr, {});
+  solver.setThermal({}, nullptr, {}, {});
   solver.setMaterials({BakedMaterial(plainLiquid(), 101325)});
   solver.setWalls(std::move(walls));
   solver.setBounds({{-2, -20, -2}, {2, 5, 2}});

@@ -18,8 +18,8 @@ class Plugin {
   virtual const char* label() const = 0;         ///< a few words: "Water"
   virtual const char* help() const = 0;          ///< one paragraph: model, source, validity, limits
   virtual ParameterList parameters() const = 0;  ///< own parameters; values arrive in this order
-  /// For interfaces added in a later 1.x; nullptr when unknown.
-  virtual void* extension(const char* /*name*/) noexcept { return nullptr; }
+  /// Capabilities and interfaces beyond those of 1.0, by name; nullptr for what the plugin does not know.
+  virtual const void* extension(const char* /*name*/) const noexcept { return nullptr; }
 };
 
 }  // namespace ps::api

@@ -6,6 +6,10 @@
 
 namespace ps::api {
 
+/// Capability of a model that drops or invents heat by design: extension(kOpensEnergy) is not nullptr. The
+/// host then lists the open balance among the limits of the model, where it would otherwise flag a fault.
+inline constexpr const char* kOpensEnergy = "opens_energy";
+
 struct ThermalContext {
   double pressure;                ///< Pa
   double ambientTemperature;      ///< K
@@ -38,9 +42,6 @@ class ThermalPlugin : public Plugin {
                       const ThermalOutput&) const = 0;
   /// Thermal energy of each particle in J, for the ledger. May throw.
   virtual void energy(const ThermalContext&, const ParticleView&, size_t first, size_t last, double* joules) const = 0;
-  /// True for a model that drops or invents heat by design: the host then lists the open balance among the limits of
-  /// the model, where it would otherwise flag a fault.
-  virtual bool opensEnergy() const noexcept { return false; }
   /// Optional own sources: adds watts per particle. May throw.
   virtual void sources(const ThermalContext&, const ParticleView&, size_t /*first*/, size_t /*last*/,
                        double* /*watts*/) const {}
