@@ -78,6 +78,7 @@ nlohmann::json Report::json(Engine& engine, double wallSeconds) const {
            {{"start", m_start.thermalEnergy},
             {"end", m_last.thermalEnergy},
             {"exchanged", m_last.heat.exchanged},
+            {"elastic", engine.solver().elasticEnergy()},
             {"drift", m_last.thermalEnergy - m_start.thermalEnergy - m_last.heat.net()}}},
           {"phases", phases},
           {"temperature",

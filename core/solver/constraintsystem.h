@@ -49,7 +49,6 @@ class ConstraintSystem {
   uint32_t addSet(const api::ConstraintPlugin* plugin, std::string name, std::vector<double> parameters,
                   ParticleStore& store);
   void setParameters(uint32_t set, std::vector<double> parameters);
-  size_t setCount() const { return m_sets.size(); }
 
   /// Builds the constraints of newly created particles (ascending indices).
   void build(uint32_t set, const ParticleStore& store, const Neighbours& neighbours, std::span<const uint32_t> members);

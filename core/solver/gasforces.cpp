@@ -11,21 +11,11 @@ namespace ps {
 namespace {
 
 constexpr size_t kGrain = 512;
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kGasConstant = 8.314462618;  ///< J/(mol K)
 constexpr double kMolarMassAir = 0.0289647;   ///< kg/mol
 constexpr double kAddedMass = 0.5;            ///< of a sphere
 constexpr double kDragCoefficient = 0.5;      ///< of a sphere at the Reynolds numbers of puffs of steam
 constexpr double kColdest = 20;               ///< K, below which the ideal gas law is not asked
-
-/// W in 1/m3 at distance r of a kernel of a support radius.
-double kernelValue(KernelShape shape, double support, double r) {
-  const double q = r / support, cube = support * support * support;
-  if (q >= 1) return 0;
-  const double a = 1 - q, b = std::max(0.5 - q, 0.0);
-  if (shape == KernelShape::CubicSpline) return 8 / (kPi * cube) * (2 * a * a * a - 8 * b * b * b);
-  return 10.5 / (kPi * cube) * a * a * a * a * (1 + 4 * q);
-}
 
 }  // namespace
 
@@ -50,7 +40,7 @@ double GasForces::airDensity() const {
 }
 
 float GasForces::immersionOf(const ParticleStore& store, const api::NeighbourView& lists, size_t i) const {
-  const double support = m_solver.spacing * m_solver.supportRatio;
+  const Kernel kernel(m_solver.kernel, m_solver.spacing * m_solver.supportRatio);
   const api::Float4 xi = store.position()[i];
   double around = 0;
   for (uint32_t k = lists.begin[i]; k < lists.last[i]; ++k) {
@@ -58,9 +48,9 @@ float GasForces::immersionOf(const ParticleStore& store, const api::NeighbourVie
     if (store.motion()[j] != api::Motion::Liquid) continue;
     const api::Float4 xj = store.position()[j];
     const double dx = double{xi.x} - double{xj.x}, dy = double{xi.y} - double{xj.y}, dz = double{xi.z} - double{xj.z};
-    around += double{xj.w} * kernelValue(m_solver.kernel, support, std::sqrt(dx * dx + dy * dy + dz * dz));
+    around += double{xj.w} * kernel.value(std::sqrt(dx * dx + dy * dy + dz * dz));
   }
-  const double own = double{xi.w} * kernelValue(m_solver.kernel, support, 0);
+  const double own = double{xi.w} * kernel.value(0);
   return static_cast<float>(std::min(1.0, around / std::max(0.2, 1 - own)));
 }
 

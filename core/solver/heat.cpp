@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numbers>
 
 namespace ps {
 namespace {
 
 constexpr size_t kGrain = 256;
-constexpr double kPi = 3.14159265358979323846;
 
 size_t chunksOf(size_t count) { return (count + kGrain - 1) / kGrain; }
 
@@ -32,15 +32,6 @@ double smallestCapacity(const api::Caloric& c, double solid, double liquid, doub
   if (liquid > 0) smallest = std::min(smallest, c.heatCapacityLiquid);
   if (gas > 0) smallest = std::min(smallest, c.heatCapacityGas);
   return smallest;
-}
-
-/// W of a kernel in 1/m3.
-double kernelValue(KernelShape shape, double support, double r) {
-  const double q = r / support, cube = support * support * support;
-  if (q >= 1) return 0;
-  const double a = 1 - q, b = std::max(0.5 - q, 0.0);
-  if (shape == KernelShape::CubicSpline) return 8 / (kPi * cube) * (2 * a * a * a - 8 * b * b * b);
-  return 10.5 / (kPi * cube) * a * a * a * a * (1 + 4 * q);
 }
 
 /// Volume^(2/3), m2, for a volume near spacing^3. Newton's cube root, because the C library's may differ in its last
@@ -225,7 +216,8 @@ void HeatStage::prepare(ParticleStore& store, const Neighbours& neighbours) {
 /// G = 4 V dx A(d + dx/2), A(h) = integral of -F over the plane at distance h = 2 pi W(h). The temperature holds on the
 /// plane itself. Air touches vapour where no liquid surrounds it.
 void HeatStage::measureSurroundings(const ParticleStore& store, size_t first, size_t last, Partial& partial) {
-  const double dx = m_solver.spacing, support = dx * m_solver.supportRatio;
+  const double dx = m_solver.spacing;
+  const Kernel kernel(m_solver.kernel, dx * m_solver.supportRatio);
   for (size_t i = first; i < last; ++i) {
     const api::Float4 x = store.position()[i];
     const double volume = m_pairs.volume[i];
@@ -236,7 +228,7 @@ void HeatStage::measureSurroundings(const ParticleStore& store, size_t first, si
       const double depth =
           wall.normal.x * double{x.x} + wall.normal.y * double{x.y} + wall.normal.z * double{x.z} - wall.offset;
       const double height = std::max(depth, 0.0) + 0.5 * dx;
-      const double g = height < support ? 4 * volume * dx * 2 * kPi * kernelValue(m_solver.kernel, support, height) : 0;
+      const double g = 4 * volume * dx * 2 * std::numbers::pi * kernel.value(height);
       m_wallConductance[i * m_walls.size() + w] = static_cast<float>(g);
       perConductivity += g;
       touches |= g > 0;

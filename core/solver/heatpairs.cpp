@@ -81,12 +81,8 @@ void HeatPairs::differentiate(uint32_t first, uint32_t last) {
   }
 }
 
-double HeatPairs::kernelAtZero() const {
-  const double cube = m_options.support * m_options.support * m_options.support;
-  return (m_options.kernel == KernelShape::CubicSpline ? 8 : 10.5) / (kPi * cube);
-}
-
-float HeatPairs::liquidAround(const ParticleStore& store, size_t i) const {
+float HeatPairs::condensedAround(const ParticleStore& store, size_t i) const {
+  const double self = Kernel(m_options.kernel, m_options.support).value(0);
   double around = 0;
   const auto add = [&](uint32_t from, uint32_t to) {
     for (uint32_t k = from; k < to; ++k) {
@@ -96,14 +92,14 @@ float HeatPairs::liquidAround(const ParticleStore& store, size_t i) const {
   };
   add(begin[i], same[i]);
   add(other[i], end[i]);
-  return static_cast<float>(std::min(1.0, around / std::max(0.2, 1 - double{store.position()[i].w} * kernelAtZero())));
+  return static_cast<float>(std::min(1.0, around / std::max(0.2, 1 - double{store.position()[i].w} * self)));
 }
 
 void HeatPairs::measure(const ParticleStore& store, const api::NeighbourView& lists, size_t first, size_t last) {
   const float limit = static_cast<float>(m_options.support * m_options.support), tiny = 1e-12f * limit;
   const api::Float4* x = store.position();
   const uint32_t* material = store.material();
-  const float selfKernel = static_cast<float>(kernelAtZero());
+  const float selfKernel = static_cast<float>(Kernel(m_options.kernel, m_options.support).value(0));
   for (size_t i = first; i < last; ++i) {
     uint32_t front = lists.begin[i], back = lists.end[i];
     begin[i] = front;
@@ -147,7 +143,7 @@ void HeatPairs::measure(const ParticleStore& store, const api::NeighbourView& li
     add(back, end[i]);
     const float m = std::clamp(moment / 3, 0.8f, 1.25f);
     m_inverseMoment[i] = m_options.momentCorrection && filled > kFullSupport ? 1 / m : 1.0f;
-    immersion[i] = store.gasFraction()[i] > 0 ? liquidAround(store, i) : 0.0f;
+    immersion[i] = store.gasFraction()[i] > 0 ? condensedAround(store, i) : 0.0f;
   }
 }
 

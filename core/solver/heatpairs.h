@@ -35,15 +35,14 @@ class HeatPairs {
   std::vector<double> sameTotal, otherTotal;  ///< sums of conductance over each particle's two ranges
   std::vector<float> conductivity;            ///< W/(m K), mixture of the phases present
   std::vector<float> volume;                  ///< m3, condensed
-  std::vector<float> immersion;  ///< share of the surroundings that is liquid, 0..1; only of particles with vapour
+  std::vector<float> immersion;  ///< share of the surroundings that keeps air away, 0..1; only of particles with vapour
 
  private:
   void prepare(size_t count, size_t slots);
   void measure(const ParticleStore& store, const api::NeighbourView& lists, size_t first, size_t last);
   void conduct(size_t first, size_t last);
   void differentiate(uint32_t first, uint32_t last);
-  double kernelAtZero() const;
-  float liquidAround(const ParticleStore& store, size_t i) const;
+  float condensedAround(const ParticleStore& store, size_t i) const;
 
   Options m_options;
   bool m_oneMaterial = false;

@@ -230,6 +230,7 @@ uint64_t Solver::frame() const { return m->frame; }
 const HeatLedger& Solver::heatLedger() const { return m->heat.ledger(); }
 double Solver::thermalEnergy() const { return m->heat.energy(m->store); }
 std::span<const double> Solver::thermalEnergies() const { return m->heat.energies(m->store); }
+double Solver::elasticEnergy() const { return m->constraints.energy(m->store); }
 
 std::vector<Limit> Solver::limits() const {
   m->configure();

@@ -85,6 +85,7 @@ class Solver {
   const HeatLedger& heatLedger() const;
   double thermalEnergy() const;                     ///< J
   std::span<const double> thermalEnergies() const;  ///< J per particle, until the next call; empty without a model
+  double elasticEnergy() const;                     ///< J, stored in constraints, as their plugins say
   /// All particle fields by id, constraints, clocks.
   uint64_t stateHash() const;
 
