@@ -50,7 +50,8 @@ class Checker {
     if (const auto type = schema.find("type");
         type != schema.end() && !isType(value, type->get_ref<const std::string&>())) {
       const bool name = schema.contains("enum") || schema.contains("pattern");
-      fail(pointer, "must be " + (name ? "a name" : typeName(type->get<std::string>())) + ", not " + jsonInWords(value));
+      fail(pointer,
+           "must be " + (name ? "a name" : typeName(type->get<std::string>())) + ", not " + jsonInWords(value));
     }
     if (value.is_number()) checkNumber(schema, value.get<double>(), pointer);
     if (value.is_string()) checkText(schema, value.get_ref<const std::string&>(), pointer);
