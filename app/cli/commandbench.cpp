@@ -197,6 +197,7 @@ int benchCommand(CommandArguments given) {
   const Arguments arguments(given, kOptions);
   const auto particles = arguments.integer("--particles", 8, 10'000'000);
   const long frames = arguments.integer("--frames", 1, 1'000'000).value_or(240);
+  if (arguments.has("--json")) requireWritable(arguments.text("--json"));
   applyMachineOptions(arguments);
   std::vector<std::string> names = arguments.positional();
   if (names.empty()) names = {"ice-on-hot-plate", "tank"};

@@ -68,17 +68,12 @@ api::ParameterList parametersOf(const PluginRegistry& plugins, const PluginInfo&
 }
 
 json jsonOf(const PluginRegistry& plugins, const PluginInfo& info) {
-  json out{{"id", info.id},
-           {"kind", pluginKindName(info.kind)},
-           {"label", info.label},
-           {"version", info.version},
-           {"api", info.api},
-           {"licence", info.licence},
-           {"author", info.author},
-           {"help", info.help},
-           {"path", info.path},
-           {"json", info.json},
-           {"state", pluginStateName(info.state)}};
+  json out{{"id", info.id},         {"kind", pluginKindName(info.kind)},
+           {"label", info.label},   {"version", info.version},
+           {"api", info.api},       {"licence", info.licence},
+           {"author", info.author}, {"help", info.help},
+           {"path", info.path},     {"capabilities", info.capabilities},
+           {"json", info.json},     {"state", pluginStateName(info.state)}};
   if (!info.problem.empty()) out["problem"] = info.problem;
   if (!info.note.empty()) out["note"] = info.note;
   if (info.state == PluginInfo::State::Loaded) out["parameters"] = jsonOf(parametersOf(plugins, info));

@@ -4,6 +4,7 @@
 #include "app/cli/report.h"
 #include "app/cli/run.h"
 #include "core/base/error.h"
+#include "core/base/hash.h"
 #include "core/base/jsontext.h"
 #include "core/io/recording.h"
 #include "core/io/textfile.h"
@@ -68,6 +69,7 @@ int simulateCommand(CommandArguments given) {
   PluginRegistry plugins;
   const Project project = loadFor(arguments, path, plugins);
   const long frames = frameCount(arguments, project);
+  if (arguments.has("--report")) requireWritable(arguments.text("--report"));
   Engine engine(project, plugins);
   std::optional<ProbeTable> probes;
   std::optional<RecordingWriter> recording;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/cli/report.h"
 
+#include "core/base/hash.h"
 #include "core/base/parallel.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numeric>
 
 namespace ps::cli {
@@ -83,12 +83,6 @@ nlohmann::json Report::json(Engine& engine, double wallSeconds) const {
           {"phases", phases},
           {"temperature",
            {{"min", m_last.temperatureMin}, {"mean", m_last.temperatureMean}, {"max", m_last.temperatureMax}}}};
-}
-
-std::string hashText(uint64_t hash) {
-  char text[17];
-  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
-  return text;
 }
 
 }  // namespace ps::cli

@@ -42,7 +42,4 @@ class Report {
   double m_errorSum = 0, m_errorMax = 0, m_liquid = 0;
 };
 
-/// 16 hexadecimal digits.
-std::string hashText(uint64_t hash);
-
 }  // namespace ps::cli

@@ -20,9 +20,9 @@ void Hash::add(const void* bytes, size_t count) {
   }
 }
 
-std::string Hash::text() const {
+std::string hashText(uint64_t hash) {
   char digits[17];
-  std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(m_state));
+  std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(hash));
   return digits;
 }
 

@@ -16,11 +16,12 @@ class Hash {
     add(&value, sizeof value);
   }
   uint64_t value() const { return m_state; }
-  /// 16 hexadecimal digits.
-  std::string text() const;
 
  private:
   uint64_t m_state = 14695981039346656037ull;
 };
+
+/// A hash as reports and file names show it: 16 hexadecimal digits.
+std::string hashText(uint64_t hash);
 
 }  // namespace ps

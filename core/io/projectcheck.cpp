@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <set>
+#include <tuple>
 
 namespace ps {
 namespace {
@@ -36,7 +38,8 @@ class ProjectChecker {
     }
     checkPinned();
     for (size_t i = 0; i < m_project.pluginsUsed.size(); ++i) {
-      missing(m_project.pluginsUsed[i], at("/pluginsUsed", i), "what it does is left out");
+      const std::string& id = m_project.pluginsUsed[i];
+      if (!m_plugins.has(id)) warnMissing(id, at("/pluginsUsed", i), "what it does is left out");
     }
   }
 
@@ -55,9 +58,20 @@ class ProjectChecker {
     m_warnings.push_back({false, m_name + ":" + pointer + ": " + what});
   }
 
-  /// Warns once per plugin that is not there.
-  void missing(const std::string& id, const std::string& pointer, const std::string& consequence) {
-    if (m_plugins.has(id) || !m_missing.insert(id).second) return;
+  /// Refuses a plugin of another kind; warns once per plugin that is not there.
+  void checkPlugin(PluginKind kind, const std::string& id, const std::string& pointer, const std::string& consequence) {
+    if (!m_plugins.has(id)) return warnMissing(id, pointer, consequence);
+    for (const PluginInfo& info : m_plugins.plugins()) {
+      if (info.id != id || info.state != PluginInfo::State::Loaded || info.kind == kind) continue;
+      const auto words = [](PluginKind k) {
+        return std::string(pluginKindName(k)) + (k == PluginKind::Thermal ? " model" : "");
+      };
+      fail(pointer, "'" + id + "' is a " + words(info.kind) + ", not a " + words(kind));
+    }
+  }
+
+  void warnMissing(const std::string& id, const std::string& pointer, const std::string& consequence) {
+    if (!m_missing.insert(id).second) return;
     std::string reason = "is not installed";
     for (const PluginInfo& info : m_plugins.plugins()) {
       if (info.id == id && !info.problem.empty()) reason = "cannot be used (" + info.problem + ")";
@@ -86,20 +100,24 @@ class ProjectChecker {
     }
   }
 
+  /// The installed material with its plugin's laws at the scene's own parameters, as the engine will take it.
+  Material baseOf(const SceneMaterial& source, const std::string& pointer) const {
+    const auto* plugin = m_plugins.materialPlugin(source.base);
+    if (!plugin) return *m_plugins.material(source.base);
+    checkSet(source.parameters, plugin->parameters(), pointer + "/parameters");
+    try {
+      return m_plugins.evaluated(source.base, numbersOf(source.parameters, plugin->parameters()));
+    } catch (const Error& error) {
+      fail(pointer + "/parameters", error.what());
+    }
+  }
+
   void checkMaterial(const SceneMaterial& source, const std::string& pointer) {
     checkSet(source.properties, propertyCatalogue(), pointer + "/properties");
-    if (const auto* plugin = m_plugins.materialPlugin(source.base)) {
-      checkSet(source.parameters, plugin->parameters(), pointer + "/parameters");
-    }
-    const Material* installed = m_plugins.material(source.base);
-    if (!installed) return missing(source.base, pointer + "/base", "bodies made of it stand still");
-    Material material = *installed;
-    for (const auto& [key, value] : source.properties.values) {
-      const auto* response = std::get_if<Response>(&value);
-      const auto* number = std::get_if<double>(&value);
-      const auto* toggle = std::get_if<bool>(&value);
-      material.properties[key] = response ? *response : Response(number ? *number : (toggle && *toggle) ? 1 : 0);
-    }
+    checkPlugin(PluginKind::Material, source.base, pointer + "/base", "bodies made of it stand still");
+    if (!m_plugins.material(source.base)) return;
+    Material material = baseOf(source, pointer);
+    for (const auto& [key, value] : source.properties.values) material.properties[key] = responseOf(value);
     if (const std::string problem = problemOf(material); !problem.empty()) {
       const std::string key = problem.substr(0, problem.find_first_of(" :"));
       fail(pointer + "/properties" + (propertyIndex(key) >= 0 ? "/" + key : ""), problem);
@@ -136,13 +154,32 @@ class ProjectChecker {
       if (shape.runs[i].palette >= colours) fail(at(pointer + "/runs", i) + "/4", "the palette has no such entry");
     }
     addParticles(cells, pointer + "/runs");
+    checkOverlaps(shape.runs, pointer + "/runs");
     for (size_t i = 0; i < shape.strokes.size(); ++i) {
       const std::string stroke = at(pointer + "/strokes", i);
       if (shape.strokes[i].palette >= colours) fail(stroke + "/palette", "the palette has no such entry");
       if (const auto* brush = m_plugins.brush(shape.strokes[i].brush)) {
         checkSet(shape.strokes[i].parameters, brush->parameters(), stroke + "/parameters");
       }
-      missing(shape.strokes[i].brush, stroke + "/brush", "the stroke's cells are there, but it cannot be drawn again");
+      checkPlugin(PluginKind::Brush, shape.strokes[i].brush, stroke + "/brush",
+                  "the stroke's cells are there, but it cannot be drawn again");
+    }
+  }
+
+  /// Two runs over one cell would make two particles in one place, which no force can part.
+  void checkOverlaps(const std::vector<VoxelShape::Run>& runs, const std::string& pointer) const {
+    std::vector<size_t> order(runs.size());
+    std::iota(order.begin(), order.end(), size_t{0});
+    std::sort(order.begin(), order.end(), [&](size_t a, size_t b) {
+      return std::tie(runs[a].z, runs[a].y, runs[a].x, a) < std::tie(runs[b].z, runs[b].y, runs[b].x, b);
+    });
+    for (size_t i = 1; i < order.size(); ++i) {
+      const VoxelShape::Run &left = runs[order[i - 1]], &right = runs[order[i]];
+      if (left.z != right.z || left.y != right.y || right.x >= left.x + left.length) continue;
+      const auto [earlier, later] = std::minmax(order[i - 1], order[i]);
+      fail(at(pointer, later), "covers the cell " + std::to_string(right.x) + ", " + std::to_string(right.y) + ", " +
+                                   std::to_string(right.z) + ", which run " + std::to_string(earlier) +
+                                   " holds already; take it out of one of the two");
     }
   }
 
@@ -157,7 +194,7 @@ class ProjectChecker {
     for (size_t i = 0; i < body.constraints.size(); ++i) {
       const BodyConstraint& constraint = body.constraints[i];
       const std::string place = at(pointer + "/constraints", i);
-      missing(constraint.plugin, place + "/plugin", "the body stands still");
+      checkPlugin(PluginKind::Constraint, constraint.plugin, place + "/plugin", "the body stands still");
       if (const auto* plugin = m_plugins.constraint(constraint.plugin)) {
         checkSet(constraint.parameters, plugin->parameters(), place + "/parameters");
       }
@@ -181,7 +218,7 @@ class ProjectChecker {
 
   void checkSolver(const SolverOptions& solver) {
     if (solver.thermalModel.empty()) return;
-    missing(solver.thermalModel, "/solver/thermal/model", "no heat flows");
+    checkPlugin(PluginKind::Thermal, solver.thermalModel, "/solver/thermal/model", "no heat flows");
     if (const auto* model = m_plugins.thermal(solver.thermalModel)) {
       checkSet(solver.thermalParameters, model->parameters(), "/solver/thermal/parameters");
     }

@@ -131,6 +131,17 @@ void checkPluginParameters(const json& document, const std::string& name, const 
   }
 }
 
+/// Keys that the format has set aside: kept for the program that knows them, and told here, since the scene that opens
+/// is not all that the file holds.
+void warnReserved(const json& document, const std::string& name, std::vector<ProjectMessage>& warnings) {
+  static constexpr std::pair<const char*, const char*> kReserved[] = {
+      {"state", "is kept, but this version does not use it: the scene opens at its start"},
+      {"tracks", "are kept, but this version does not use them: parameters stay as they stand elsewhere in the file"}};
+  for (const auto& [key, what] : kReserved) {
+    if (document.contains(key)) warnings.push_back({false, name + ":/" + key + ": " + what});
+  }
+}
+
 }  // namespace
 
 void applyEdit(json& document, const std::string& edit) {
@@ -153,6 +164,7 @@ void checkDocument(const json& document, const std::string& name, const PluginRe
   checkAgainst(projectSchema(), document, name, "", unknown);
   checkRequired(document, name, plugins);
   checkPluginParameters(document, name, plugins, unknown);
+  warnReserved(document, name, warnings);
   constexpr size_t kMost = 20;
   for (size_t i = 0; i < std::min(unknown.size(), kMost); ++i) {
     warnings.push_back({false, name + ":" + unknown[i] + ": is not known here; it is kept and has no effect"});

@@ -27,6 +27,9 @@ json integer(int64_t minimum, int64_t maximum, const char* description) {
 
 json toggle(const char* description) { return {{"type", "boolean"}, {"description", description}}; }
 
+/// A name that belongs to the format though nothing reads it yet; its value may be anything.
+json reserved(const char* description) { return {{"description", description}}; }
+
 json ref(const char* definition) { return {{"$ref", std::string("#/$defs/") + definition}}; }
 
 json listOf(const json& items, const char* description) {
@@ -206,6 +209,8 @@ json buildProjectSchema() {
               {"environment", environmentSchema()},
               {"solver", solverSchema()},
               {"probes", listOf(probeSchema(), "what is measured")},
+              {"tracks", reserved("parameters over time; kept, not used by this version")},
+              {"state", reserved("matter as it stands at some later time; kept, not used by this version")},
               {"duration", number(0, 1e9, "s", "length of the scene")},
               {"view", viewSchema()}},
              {"format", "version", "materials", "bodies"},

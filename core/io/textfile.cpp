@@ -8,6 +8,7 @@
 #include <cstring>
 #include <fcntl.h>
 #include <filesystem>
+#include <optional>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -90,6 +91,38 @@ void syncFolder(const std::string& path) {
   if (fd.get() >= 0) ::fsync(fd.get());
 }
 
+/// Takes bytes one after the other and keeps none: a pipe, a terminal, /dev/null.
+bool isStream(mode_t mode) { return S_ISFIFO(mode) || S_ISCHR(mode); }
+
+/// What stands at the path now (behind links), if anything. Throws Error where no bytes may go: a folder, a disk, a
+/// socket, a file that is read-only.
+std::optional<mode_t> writableModeAt(const std::string& path) {
+  struct stat old {};
+  if (::stat(path.c_str(), &old) != 0) return std::nullopt;
+  if (S_ISDIR(old.st_mode)) failSave(path, EISDIR);
+  if (!S_ISREG(old.st_mode) && !isStream(old.st_mode)) {
+    throw Error(path + ": not saved: this is not a file; choose another name");
+  }
+  if (::access(path.c_str(), W_OK) != 0) failSave(path, errno);
+  return old.st_mode;
+}
+
+/// A name that is free beside the target, and its open file.
+int openTemporary(const std::string& path, std::string& temporary) {
+  temporary += ".XXXXXX";
+  const int fd = ::mkostemp(temporary.data(), O_CLOEXEC);
+  if (fd < 0) failSave(path, errno);
+  return fd;
+}
+
+/// A pipe or device is no file to be replaced: a rename would put one in its place.
+void writeStream(const std::string& path, std::string_view bytes) {
+  Descriptor fd(::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY));
+  if (fd.get() < 0) failSave(path, errno);
+  if (const int code = writeAll(fd.get(), bytes); code != 0) failSave(path, code);
+  if (!fd.close()) failSave(path, errno);
+}
+
 }  // namespace
 
 std::string readFile(const std::string& path, size_t limit) {
@@ -123,18 +156,23 @@ std::string readFile(const std::string& path, size_t limit) {
   return bytes;
 }
 
+void requireWritable(const std::string& path) {
+  const std::optional<mode_t> old = writableModeAt(path);
+  if (old && isStream(*old)) return;
+  std::string temporary = finalTarget(path);
+  const Descriptor fd(openTemporary(path, temporary));
+  ::unlink(temporary.c_str());
+}
+
 void writeFileAtomically(const std::string& path, std::string_view bytes) {
+  const std::optional<mode_t> old = writableModeAt(path);
+  if (old && isStream(*old)) return writeStream(path, bytes);
   const std::string target = finalTarget(path);
-  struct stat old {};
-  const bool exists = ::stat(target.c_str(), &old) == 0;
-  if (exists && S_ISDIR(old.st_mode)) failSave(path, EISDIR);
-  if (exists && ::access(target.c_str(), W_OK) != 0) failSave(path, errno);
-  std::string temporary = target + ".XXXXXX";
-  Descriptor fd(::mkostemp(temporary.data(), O_CLOEXEC));
-  if (fd.get() < 0) failSave(path, errno);
+  std::string temporary = target;
+  Descriptor fd(openTemporary(path, temporary));
   const mode_t mask = ::umask(0);
   ::umask(mask);
-  const mode_t mode = exists ? (old.st_mode & 07777) : (0666 & ~mask);
+  const mode_t mode = old ? (*old & 07777) : (0666 & ~mask);
   if (::fchmod(fd.get(), mode) != 0) failSave(path, errno, temporary);
   if (const int code = writeAll(fd.get(), bytes); code != 0) failSave(path, code, temporary);
   if (::fsync(fd.get()) != 0 && errno != EINVAL) failSave(path, errno, temporary);

@@ -10,7 +10,6 @@ namespace {
 
 constexpr size_t kSamples = 2048;
 constexpr double kReferenceTemperature = 293.15;  // K, where constants of densities hold
-constexpr double kMaxViscosity = 1e15;            // Pa s, a glass at rest
 
 Response responseOf(const Material& material, const char* key) {
   const auto found = material.properties.find(key);
@@ -18,20 +17,32 @@ Response responseOf(const Material& material, const char* key) {
   return propertyCatalogue()[static_cast<size_t>(propertyIndex(key))].defaultValue;
 }
 
+/// A table of values from 1 K to `last` K, held within the property's hard range: a law is sound where it was fitted,
+/// and far from there a conductivity would turn negative or a viscosity endless. What is no number becomes the minimum.
+template <class ValueAt>
+ResponseTable bakedValues(const char* key, size_t samples, double last, ValueAt valueAt) {
+  const api::ParameterDeclaration& range = propertyCatalogue()[static_cast<size_t>(propertyIndex(key))];
+  std::vector<double> values(samples);
+  for (size_t i = 0; i < samples; ++i) {
+    const double value = valueAt(1 + (last - 1) * static_cast<double>(i) / static_cast<double>(samples - 1));
+    values[i] = value > range.hardMinimum ? std::min(value, range.hardMaximum) : range.hardMinimum;
+  }
+  return ResponseTable(std::move(values), 1.0, last);
+}
+
 /// Constants need no samples.
-ResponseTable baked(const Response& response, double last) {
-  return ResponseTable(response, 1.0, last, response.kind == Response::Kind::Constant ? 2 : kSamples);
+ResponseTable baked(const Material& material, const char* key, double last) {
+  const Response response = responseOf(material, key);
+  const size_t samples = response.kind == Response::Kind::Constant ? 2 : kSamples;
+  return bakedValues(key, samples, last, [&](double t) { return response.at(t); });
 }
 
 /// A density over temperature: a curve as it is, a constant with its expansion, rho0/(1 + beta (T - reference)).
-ResponseTable bakedDensity(const Response& response, double expansion, double reference, double last) {
-  if (response.kind != Response::Kind::Constant || expansion == 0) return baked(response, last);
-  std::vector<double> values(kSamples);
-  for (size_t i = 0; i < kSamples; ++i) {
-    const double t = 1 + (last - 1) * static_cast<double>(i) / static_cast<double>(kSamples - 1);
-    values[i] = response.constant / std::max(0.2, 1 + expansion * (t - reference));
-  }
-  return ResponseTable(std::move(values), 1.0, last);
+ResponseTable bakedDensity(const Material& material, const char* key, double expansion, double reference, double last) {
+  const Response response = responseOf(material, key);
+  if (response.kind != Response::Kind::Constant || expansion == 0) return baked(material, key, last);
+  return bakedValues(key, kSamples, last,
+                     [&](double t) { return response.constant / std::max(0.2, 1 + expansion * (t - reference)); });
 }
 
 api::Caloric caloricOf(const Material& material, double pressure) {
@@ -77,11 +88,11 @@ struct BakedMaterial::Tables {
   Tables(const Material& material, const api::Caloric& caloric) {
     double last = 3000;
     if (std::isfinite(caloric.boilingPoint)) last = std::max(last, 1.25 * caloric.boilingPoint);
-    conductivitySolid = baked(responseOf(material, "conductivity_solid"), last);
-    conductivityLiquid = baked(responseOf(material, "conductivity_liquid"), last);
-    conductivityGas = baked(responseOf(material, "conductivity_gas"), last);
-    youngsModulus = baked(responseOf(material, "youngs_modulus"), last);
-    bakeViscosity(material, last);
+    conductivitySolid = baked(material, "conductivity_solid", last);
+    conductivityLiquid = baked(material, "conductivity_liquid", last);
+    conductivityGas = baked(material, "conductivity_gas", last);
+    youngsModulus = baked(material, "youngs_modulus", last);
+    viscosity = baked(material, "viscosity", last);
     bakeDensities(material, caloric, last);
     bakeKirchhoff(caloric);
     gasVolumeFactor = valueOf(material, "gas_volume_factor", kReferenceTemperature);
@@ -99,26 +110,15 @@ struct BakedMaterial::Tables {
   }
 
  private:
-  void bakeViscosity(const Material& material, double last) {
-    const Response response = responseOf(material, "viscosity");
-    const size_t samples = response.kind == Response::Kind::Constant ? 2 : kSamples;
-    std::vector<double> values(samples);
-    for (size_t i = 0; i < samples; ++i) {
-      const double t = 1 + (last - 1) * static_cast<double>(i) / static_cast<double>(samples - 1);
-      values[i] = std::clamp(response.at(t), 0.0, kMaxViscosity);
-    }
-    viscosity = ResponseTable(std::move(values), 1.0, last);
-  }
-
   void bakeDensities(const Material& material, const api::Caloric& c, double last) {
     const double solidReference = c.melts ? std::min(kReferenceTemperature, c.solidus) : kReferenceTemperature;
     double liquidReference = c.melts ? std::max(kReferenceTemperature, c.liquidus) : kReferenceTemperature;
     liquidReference = std::min(liquidReference, c.boilingPoint);
-    densitySolid = bakedDensity(responseOf(material, "density_solid"),
+    densitySolid = bakedDensity(material, "density_solid",
                                 3 * valueOf(material, "expansion_linear", kReferenceTemperature), solidReference, last);
     densityLiquid =
-        bakedDensity(responseOf(material, "density_liquid"),
-                     valueOf(material, "expansion_volumetric", kReferenceTemperature), liquidReference, last);
+        bakedDensity(material, "density_liquid", valueOf(material, "expansion_volumetric", kReferenceTemperature),
+                     liquidReference, last);
   }
 
   void bakeKirchhoff(const api::Caloric& c) {

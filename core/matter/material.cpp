@@ -2,6 +2,7 @@
 #include "core/matter/material.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 
 namespace ps {
@@ -25,6 +26,36 @@ std::string celsius(double kelvin) {
   return text + " °C";
 }
 
+std::string number(double value) {
+  char digits[32];
+  return {digits, std::to_chars(digits, digits + sizeof digits, value, std::chars_format::general, 6).ptr};
+}
+
+/// Whether the phase that a property speaks of exists at a temperature in K (at 1 atm; what never melts may be born
+/// either way).
+bool mattersAt(std::string_view key, double temperature, double melting, double boiling) {
+  const bool solid = key.ends_with("_solid") || key == "youngs_modulus", gas = key.ends_with("_gas");
+  if (solid) return melting <= 0 || temperature <= melting;
+  if (gas) return boiling > 0 && temperature >= boiling;
+  return temperature >= melting && (boiling <= 0 || temperature <= boiling);
+}
+
+/// A law must keep the property's range where its phase exists: at 20 °C and at the melting and boiling points. Farther
+/// off, tables hold it within. A viscosity may exceed its maximum even here: a glass at rest.
+std::string lawProblem(const std::string& key, const Response& law, const api::ParameterDeclaration& range,
+                       const Values& value) {
+  const double melting = value("melting_temperature"), boiling = value("boiling_temperature");
+  for (const double kelvin : {293.15, melting, boiling}) {
+    if (kelvin <= 0 || !mattersAt(key, kelvin, melting, boiling)) continue;
+    const double y = law.at(kelvin);
+    const bool tooLarge = y > range.hardMaximum && key != "viscosity";
+    if (std::isfinite(y) && y >= range.hardMinimum && !tooLarge) continue;
+    return key + ": its law gives " + number(y) + " " + range.unit + " at " + celsius(kelvin) +
+           "; it must stay between " + number(range.hardMinimum) + " and " + number(range.hardMaximum);
+  }
+  return {};
+}
+
 std::string rangesOf(const Material& material) {
   const api::ParameterList list = propertyCatalogue();
   for (const auto& [key, response] : material.properties) {
@@ -35,6 +66,9 @@ std::string rangesOf(const Material& material) {
     if (response.kind != Response::Kind::Constant && declaration.kind != api::ParameterKind::Response) {
       return key + ": must be a number, it cannot follow the temperature";
     }
+    if (response.kind != Response::Kind::Law) continue;
+    if (std::string problem = lawProblem(key, response, declaration, Values(material)); !problem.empty())
+      return problem;
   }
   return {};
 }

@@ -39,14 +39,16 @@ struct Material {
 double valueOf(const Material& material, std::string_view key, double temperature);
 PhaseDiagram phaseDiagramOf(const Material& material);
 
-/// Relations between properties that single ranges cannot see (solidus <= liquidus, boiling above melting, ...).
+/// What single ranges cannot see: relations between properties (solidus <= liquidus, boiling above melting, ...), and
+/// laws that leave their property's range where its phase exists.
 /// "" or what is wrong, beginning with the key at fault.
 std::string problemOf(const Material& material);
 
 /// A material baked for hot loops at one ambient pressure.
 class BakedMaterial final : public api::MaterialView {
  public:
-  /// `pressure` in Pa. Temperatures are tabulated from 1 K to 3000 K or past the boiling point, whichever is more.
+  /// `pressure` in Pa. Temperatures are tabulated from 1 K to 3000 K or past the boiling point, whichever is more, and
+  /// values are held within the catalogue's hard range.
   BakedMaterial(const Material& material, double pressure);
   const char* id() const noexcept override { return m_id.c_str(); }
   const api::Caloric& caloric() const noexcept override { return m_caloric; }

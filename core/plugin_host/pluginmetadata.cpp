@@ -2,10 +2,12 @@
 #include "core/plugin_host/pluginmetadata.h"
 
 #include <QFileInfo>
+#include <QJsonArray>
 #include <QJsonObject>
 #include <QPluginLoader>
 #include <QString>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <optional>
@@ -23,6 +25,12 @@ constexpr std::array<KindOfPlugin, 4> kKinds{{{PluginKind::Material, PHASESKETCH
                                               {PluginKind::Constraint, PHASESKETCH_CONSTRAINT_IID},
                                               {PluginKind::Thermal, PHASESKETCH_THERMAL_IID},
                                               {PluginKind::Brush, PHASESKETCH_BRUSH_IID}}};
+
+/// What this program offers to plugins beyond the interface of their kind. A plugin lists in its metadata what it
+/// cannot do without; the same list, in words, stands in plugins/examples/README.md.
+///   opens_energy  a thermal model may say, through Plugin::extension(), that it drops or invents heat by design; the
+///                 open balance is then a limit of the model and no fault
+constexpr std::array<std::string_view, 1> kCapabilities{"opens_energy"};
 
 bool isLower(char c) { return c >= 'a' && c <= 'z'; }
 bool isDigit(char c) { return c >= '0' && c <= '9'; }
@@ -43,6 +51,27 @@ std::string textOf(const QJsonObject& object, const char* key, std::string& prob
   if (problem.empty()) {
     problem = std::string("its metadata ") + (value.isUndefined() ? "lack the key" : "need a text under the key") +
               " \"" + key + "\"; add it to the JSON file that Q_PLUGIN_METADATA names and build the plugin again";
+  }
+  return {};
+}
+
+/// Reads the optional list "capabilities"; "" or why the plugin cannot be used.
+std::string readCapabilities(const QJsonObject& metadata, std::vector<std::string>& capabilities) {
+  const QJsonValue list = metadata["capabilities"];
+  const std::string rule =
+      "its metadata need a list of lower_snake_case names under the key \"capabilities\", or none; correct the JSON "
+      "file that Q_PLUGIN_METADATA names and build the plugin again";
+  if (list.isUndefined()) return {};
+  if (!list.isArray()) return rule;
+  for (const QJsonValue& value : list.toArray()) {
+    const std::string name = value.toString().toStdString();
+    const auto inName = [](char c) { return isLower(c) || isDigit(c) || c == '_'; };
+    if (name.empty() || !std::all_of(name.begin(), name.end(), inName)) return rule;
+    capabilities.push_back(name);
+  }
+  for (const std::string& name : capabilities) {
+    if (std::find(kCapabilities.begin(), kCapabilities.end(), name) == kCapabilities.end())
+      return "it needs '" + name + "', which this version does not offer; update PhaseSketch";
   }
   return {};
 }
@@ -84,7 +113,7 @@ std::string checkedMetadata(const QJsonObject& root, PluginInfo& info) {
   if (std::string what = problemOfApi(info.api); !what.empty()) return what;
   if (const std::string what = problemOfVersion(info.version); !what.empty())
     return "the version \"" + info.version + "\" " + what;
-  return {};
+  return readCapabilities(own, info.capabilities);
 }
 
 /// Qt's words for a file that is no plugin: "... 'PATH' is not a valid ELF object (file too small)". The path is left

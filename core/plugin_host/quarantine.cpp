@@ -56,7 +56,7 @@ QByteArray contents(const QString& path) {
 QString recordPath(const std::string& directory, const Quarantine::Entry& entry) {
   Hash hash;
   hash.add(entry.path.data(), entry.path.size());
-  return text(directory) + QLatin1Char('/') + text(entry.id) + QLatin1Char('-') + text(hash.text()) +
+  return text(directory) + QLatin1Char('/') + text(entry.id) + QLatin1Char('-') + text(hashText(hash.value())) +
          QLatin1String(kRecordSuffix);
 }
 

@@ -119,6 +119,13 @@ std::vector<double> numbersOf(const ParameterSet& set, api::ParameterList list) 
   return numbers;
 }
 
+Response responseOf(const Value& value) {
+  if (const auto* response = std::get_if<Response>(&value)) return *response;
+  if (const auto* number = std::get_if<double>(&value)) return *number;
+  const auto* toggle = std::get_if<bool>(&value);
+  return toggle && *toggle ? 1.0 : 0.0;
+}
+
 std::string numberText(double value) {
   if (std::isnan(value)) return "NaN";
   char buffer[40];

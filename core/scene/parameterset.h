@@ -32,6 +32,8 @@ bool toggleOf(const ParameterSet& set, api::ParameterList list, std::string_view
 /// All values as numbers in the order of the list (Choice: index, Toggle: 0 or 1, Response: constant), as plugins get
 /// them.
 std::vector<double> numbersOf(const ParameterSet& set, api::ParameterList list);
+/// A value as a response: a number or a toggle (0 or 1) is a constant one.
+Response responseOf(const Value& value);
 /// Names of a Choice, in order.
 std::vector<std::string> choicesOf(const api::ParameterDeclaration& declaration);
 /// "" or "must be at least 1 kg/m³, not −5" for a number outside [minimum, maximum].

@@ -14,13 +14,6 @@ namespace {
 
 api::Double3 double3(const Vec3& v) { return {v[0], v[1], v[2]}; }
 
-Response responseOf(const Value& value) {
-  if (const auto* response = std::get_if<Response>(&value)) return *response;
-  if (const auto* number = std::get_if<double>(&value)) return Response(*number);
-  const auto* toggle = std::get_if<bool>(&value);
-  return Response(toggle && *toggle ? 1.0 : 0.0);
-}
-
 /// Phase at birth: as asked, or what is stable at the temperature.
 api::Phase birthPhase(const std::string& asked, const api::Caloric& caloric, double temperature) {
   if (asked == "solid") return api::Phase::Solid;

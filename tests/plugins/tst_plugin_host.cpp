@@ -166,6 +166,33 @@ class TestPluginHost : public QObject {
     expectOneRefusal(path, "damaged.so", expected);
   }
 
+  void capabilitiesAreCheckedBeforeLoading_data() {
+    QTest::addColumn<QByteArray>("list");
+    QTest::addColumn<QString>("expected");
+    // As the metadata hold it, in CBOR: 0x81 begins a list of one.
+    QTest::newRow("unknown") << "\x81" + cborText("reads_minds1")
+                             << "it needs 'reads_minds1', which this version does not offer; update PhaseSketch";
+    QTest::newRow("no list") << cborText("opens_energy1") << "need a list of lower_snake_case names";
+    QTest::newRow("no name") << "\x81" + cborText("opens energy") << "need a list of lower_snake_case names";
+  }
+  void capabilitiesAreCheckedBeforeLoading() {
+    QFETCH(QByteArray, list);
+    QFETCH(QString, expected);
+    const QString path = withSoundPlugins(QString("capabilities ") + QTest::currentDataTag());
+    {
+      const PluginRegistry registry(only({path.toStdString()}));
+      const auto& found = registry.plugins();
+      const auto thermal = std::find_if(found.begin(), found.end(), [](auto& p) { return p.id == "fixture.thermal"; });
+      QVERIFY(thermal != found.end() && thermal->state == PluginInfo::State::Loaded);
+      QCOMPARE(thermal->capabilities, std::vector<std::string>{"opens_energy"});
+    }
+    const QByteArray bytes = damaged(contents(fixture("fixture_thermal")), "\x81" + cborText("opens_energy"), list);
+    QVERIFY2(!bytes.isEmpty(), "the metadata do not hold the text to damage");
+    QFile::remove(path + "/thermal.so");
+    QVERIFY(write(path + "/damaged.so", bytes));  // under a new name: Qt remembers what it has read
+    expectOneRefusal(path, "damaged.so", expected, 2);
+  }
+
   void filesThatAreNoPluginsAreRefused_data() {
     QTest::addColumn<QByteArray>("bytes");
     QTest::newRow("empty") << QByteArray();
@@ -444,6 +471,9 @@ class TestPluginHost : public QObject {
                                  << "/density_solid/law: unknown law";
     QTest::newRow("law without coefficients")
         << replaced("1050", "{\"law\": \"vogel\"}") << "/density_solid/coefficients: is missing";
+    QTest::newRow("law that goes negative")
+        << replaced("1050", "{\"law\": \"linear\", \"coefficients\": [1050, 100, 293.15]}")
+        << ":/properties: density_solid: its law gives";
     QTest::newRow("curve where a number belongs")
         << replaced("\"density_solid\": 1050", "\"latent_heat_fusion\": {\"points\": [[1, 2]]}")
         << "must be a single number";

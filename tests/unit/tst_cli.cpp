@@ -24,6 +24,8 @@ class TestCli : public QObject {
   void schemaIsPrinted();
   void benchWritesItsKeys();
   void recordingsAreDrawn();
+  void filmsEndWhereTheRunBreaks();
+  void reportsThatCannotBeWrittenStopTheRunBefore();
 };
 
 namespace {
@@ -35,8 +37,13 @@ struct Ran {
 
 const QString kSample = PS_SOURCE_DIR "/projects/ice-on-hot-plate.json";
 
-Ran cli(const QStringList& arguments) {
+Ran cli(const QStringList& arguments, const QString& pluginPath = {}) {
   QProcess process;
+  if (!pluginPath.isEmpty()) {
+    QProcessEnvironment environment = QProcessEnvironment::systemEnvironment();
+    environment.insert("PHASESKETCH_PLUGIN_PATH", pluginPath);
+    process.setProcessEnvironment(environment);
+  }
   process.start(PS_BINARY_DIR "/bin/phasesketch-cli", arguments);
   Ran ran;
   if (!process.waitForFinished(100000) || process.exitStatus() != QProcess::NormalExit) return ran;
@@ -177,6 +184,10 @@ void TestCli::pluginsAreListed() {
     water = water || (plugin["id"] == "water" && plugin["state"] == "loaded" && plugin["kind"] == "material");
   }
   QVERIFY(water);
+  for (const auto& plugin : list["plugins"]) {
+    const bool opens = plugin["id"] == "thesis_latent";
+    QCOMPARE(plugin["capabilities"].dump(), std::string(opens ? R"(["opens_energy"])" : "[]"));
+  }
   QVERIFY(list["properties"].size() > 20);
   QVERIFY(QString(cli({"plugins"}).out).contains("water"));
 }
@@ -220,6 +231,31 @@ void TestCli::recordingsAreDrawn() {
     for (int x = 0; x < picture.width(); ++x) colours.insert(picture.pixel(x, y));
   }
   QVERIFY(colours.size() > 100);  // an empty or broken picture has a few
+}
+
+void TestCli::filmsEndWhereTheRunBreaks() {
+  // A constraint that answers NaN: the solver says so and stands still from then on.
+  QTemporaryDir folder;
+  QVERIFY(QFile::copy(qEnvironmentVariable("PS_FIXTURE_DIR") + "/fixture_constraint.so",
+                      folder.filePath("nan_constraint.so")));
+  const QString out = folder.filePath("pictures");
+  QStringList arguments =
+      smallScene({"--frames", "4", "--out", out, "--size", "160x120", "--every", "1", "--set",
+                  "bodies/ice/constraints=[{\"plugin\": \"fixture.constraint\"}]", "--set", "bodies/ice/phase=liquid"});
+  arguments[0] = "render";
+  const Ran ran = cli(arguments, folder.path());
+  QCOMPARE(ran.code, 1);
+  QVERIFY2(ran.err.contains("the run set flags: not_finite"), ran.err.constData());
+  QCOMPARE(QDir(out).entryList(QDir::Files), QStringList{"frame-000000.png"});
+}
+
+void TestCli::reportsThatCannotBeWrittenStopTheRunBefore() {
+  QTemporaryDir folder;
+  const QString probes = folder.filePath("p.csv");
+  const Ran ran = cli(smallScene({"--frames", "1", "--probes", probes, "--report", folder.filePath("none/r.json")}));
+  QCOMPARE(ran.code, 1);
+  QVERIFY2(ran.err.contains("none/r.json: not saved: the folder does not exist"), ran.err.constData());
+  QVERIFY(!QFile::exists(probes));  // it would be there, had the run begun
 }
 
 QTEST_APPLESS_MAIN(TestCli)

@@ -63,6 +63,13 @@ Material with(Material material, const char* key, ps::Response value) {
   material.properties[key] = std::move(value);
   return material;
 }
+ps::Response law(const char* name, const std::vector<double>& coefficients) {
+  ps::Response response;
+  response.kind = ps::Response::Kind::Law;
+  response.law = name;
+  response.coefficients = coefficients;
+  return response;
+}
 }  // namespace
 
 class TestMatter : public QObject {
@@ -228,6 +235,44 @@ class TestMatter : public QObject {
     QVERIFY(real.restDensity(277.13, 0, 1, 0) > real.restDensity(273.15, 0, 1, 0));
   }
 
+  void bakedLawsKeepTheirRange_data() {
+    QTest::addColumn<QString>("key");
+    QTest::addColumn<ps::Response>("response");
+    QTest::addColumn<double>("kelvin");
+    QTest::addColumn<double>("value");
+    const auto row = [](const char* key, const ps::Response& response, double kelvin, double value) {
+      QTest::addRow("%s at %g K", key, kelvin) << key << response << kelvin << value;
+    };
+    const ps::Response falling = law("linear", {0.6, -0.01, 293});
+    row("conductivity_liquid", falling, 293, 0.6);
+    row("conductivity_liquid", falling, 360, 0);
+    row("conductivity_solid", falling, 360, 0);
+    row("conductivity_gas", falling, 360, 0);
+    row("density_liquid", law("linear", {-5, 0, 300}), 300, 1);
+    row("density_solid", law("vogel", {5, 200, 140}), 260, 3e4);
+    row("density_liquid", law("arrhenius", {1000, 0, 1e-310}), 300, 1);  // no number
+    row("youngs_modulus", law("exponential", {1e8, 293.15, 2}), 100, 1e13);
+    row("viscosity", law("vogel", {-1.6, 4000, 520}), 400, 1e15);
+  }
+  void bakedLawsKeepTheirRange() {
+    QFETCH(QString, key);
+    QFETCH(ps::Response, response);
+    QFETCH(double, kelvin);
+    QFETCH(double, value);
+    const QByteArray name = key.toUtf8();
+    const BakedMaterial baked(with(waterMaterial(), name, response), 101325);
+    const double found = baked.property(name, kelvin);
+    // A straight line is met by its table but for rounding; bounds are met exactly.
+    QVERIFY2(std::abs(found - value) <= 1e-12 * std::abs(value), qPrintable(QString::number(found, 'g', 17)));
+  }
+  void bakedPotentialNeverFalls() {
+    // Where a law for the conductivity turns negative, warmer matter must not have the lower potential: heat would run
+    // uphill.
+    const BakedMaterial baked(with(waterMaterial(), "conductivity_liquid", law("linear", {0.6, -0.01, 293})), 101325);
+    for (double kelvin = 200; kelvin < 500; kelvin += 1)
+      QVERIFY(baked.kirchhoff(kelvin + 1) >= baked.kirchhoff(kelvin));
+  }
+
   void propertiesAreReadByKey() {
     const BakedMaterial baked(waterMaterial(), 101325);
     QCOMPARE(baked.property("conductivity_solid", 250), 2.2);
@@ -251,10 +296,24 @@ class TestMatter : public QObject {
                              << "melt_break_fraction";
     QTest::newRow("unknown") << with(waterMaterial(), "colour", 1.0) << "colour";
     QTest::newRow("nan") << with(waterMaterial(), "solidus", std::nan("")) << "solidus";
-    ps::Response bad;
-    bad.kind = ps::Response::Kind::Law;
-    bad.law = "vogle";
-    QTest::newRow("bad law") << with(waterMaterial(), "viscosity", bad) << "viscosity";
+    QTest::newRow("bad law") << with(waterMaterial(), "viscosity", law("vogle", {})) << "viscosity";
+    const auto row = [](const char* name, const char* property, const ps::Response& response, bool sound = false) {
+      QTest::newRow(name) << with(waterMaterial(), property, response) << (sound ? "" : property);
+    };
+    row("negative at 20 °C", "density_liquid", law("linear", {-5, 0, 300}));
+    row("negative where it boils", "conductivity_liquid", law("linear", {0.6, -0.01, 293}));
+    row("negative where it melts", "conductivity_solid", law("linear", {1, 0.1, 293}));
+    row("negative as vapour", "conductivity_gas", law("linear", {0.02, -0.01, 293}));
+    row("endless", "density_liquid", law("vogel", {5, 200, 140}));
+    row("no number", "density_liquid", law("arrhenius", {1000, 0, 1e-310}));  // 0 times infinity
+    row("negative viscosity", "viscosity", law("linear", {1e-3, -1e-4, 300}));
+    // Where its phase does not exist a law may go where it likes, and a viscosity may grow without end.
+    row("solid, where it is liquid", "youngs_modulus", law("linear", {1e9, -1e8, 273}), true);
+    row("vapour, where it is liquid", "conductivity_gas", law("linear", {0.02, 1e-3, 360}), true);
+    row("stiff liquid", "viscosity", law("vogel", {-5, 1000, 272}), true);
+    QTest::newRow("glass") << with(with(Material{"glass", "Glass", {}, {}}, "melting_temperature", 0.0), "viscosity",
+                                   law("vogel", {-1.6, 4000, 520}))
+                           << "";
   }
   void problemsNameTheirKey() {
     QFETCH(Material, material);

@@ -13,6 +13,7 @@
 #include <QTest>
 
 #include <csignal>
+#include <fcntl.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 
@@ -35,6 +36,8 @@ class TestProjectIo : public QObject {
   void hostileTextIsRefused();
   void hostileFilesAreRefused();
   void missingPluginsAreWarningsUnlessRequired();
+  void materialsAreCheckedAtTheScenesParameters();
+  void reservedNamesAreKeptAndTold();
   void newerFilesOpenOnlyWhenTheySaySo();
   void editsFindTheirPlace_data();
   void editsFindTheirPlace();
@@ -42,6 +45,8 @@ class TestProjectIo : public QObject {
   void schemaNamesEveryDeclaredKey();
   void plainKeysAreNoParameters();
   void savingKeepsPermissionsAndLinks();
+  void pipesAndDevicesAreWrittenNotReplaced();
+  void placesThatCannotBeWrittenAreKnownBefore();
   void failedSaveKeepsTheOldFile();
   void numbersAreShortest();
 
@@ -189,6 +194,9 @@ void TestProjectIo::wrongValuesNameThePlace_data() {
       "/materials/0/properties/density_liquid: must be at least ");
   row("negative density in a curve", "materials/0/properties/density_liquid={\"curve\": [[300, -5]]}",
       "/materials/0/properties/density_liquid/curve/0/1: must be at least ");
+  row("negative density in a law",
+      "materials/0/properties/density_liquid={\"law\": \"linear\", \"coefficients\": [-5, 0, 300]}",
+      "/materials/0/properties/density_liquid: density_liquid: its law gives -5 kg/m³ at 20 °C; it must stay between ");
   row("curve without points", "materials/0/properties/density_liquid={\"curve\": []}",
       "/materials/0/properties/density_liquid/curve: must have at least 1 elements, not 0");
   row("curve that turns back", "materials/0/properties/density_liquid={\"curve\": [[300, 999], [280, 1000]]}",
@@ -216,6 +224,22 @@ void TestProjectIo::wrongValuesNameThePlace_data() {
       "/materials/0/properties");
   row("missing required plugin", "pluginsRequired=[\"org.example.gone\"]",
       "/pluginsRequired/0: the plugin 'org.example.gone' is not installed");
+  row("constraint for a material", "materials/0/base=bonds",
+      "/materials/0/base: 'bonds' is a constraint, not a material");
+  row("material for a constraint", "bodies/0/constraints/0/plugin=water",
+      "/bodies/0/constraints/0/plugin: 'water' is a material, not a constraint");
+  row("material for a thermal model", "solver/thermal/model=water",
+      "/solver/thermal/model: 'water' is a material, not a thermal model");
+  row("thermal model for a brush",
+      "bodies/0/shape={\"voxels\": {\"origin\": [0, 0, 0], \"runs\": [], \"palette\": [{\"material\": \"water\", "
+      "\"temperature\": 300}], \"strokes\": [{\"brush\": \"enthalpy\", \"radius\": 1, \"palette\": 0, \"samples\": "
+      "[]}]}}",
+      "/bodies/0/shape/voxels/strokes/0/brush: 'enthalpy' is a thermal model, not a brush");
+  row("two particles in one place",
+      "bodies/0/shape={\"voxels\": {\"origin\": [0, 0, 0], \"palette\": [{\"material\": \"water\", \"temperature\": "
+      "300}], "
+      "\"runs\": [[0, 0, 0, 4, 0], [0, 1, 0, 4, 0], [4, 0, 0, 1, 0], [-2, 0, 0, 3, 0]]}}",
+      "/bodies/0/shape/voxels/runs/3: covers the cell 0, 0, 0, which run 0 holds already");
   row("too new", "version=99999", "/version: needs project format 99999, this program reads up to 1");
   row("version in words", "version=\"one\"", "/version: must be a whole number, not the text 'one'");
   row("other format", "format=blender", "/format: must be \"phasesketch\"");
@@ -295,6 +319,42 @@ void TestProjectIo::missingPluginsAreWarningsUnlessRequired() {
       "scene.json:/materials/1/base: the plugin 'org.example.gone' is not installed; bodies made of it stand still");
   QVERIFY(!loaded.warnings[0].error);
   QVERIFY(problemOf(kFull, {"pluginsRequired=[\"org.example.gone\"]"}).contains("/pluginsRequired/0"));
+}
+
+void TestProjectIo::materialsAreCheckedAtTheScenesParameters() {
+  // The fixture's law holds for every density that it declares, but throws beyond 1500 kg/m3.
+  QTemporaryDir folder;
+  QVERIFY(QFile::copy(qEnvironmentVariable("PS_FIXTURE_DIR") + "/fixture_material.so", folder.filePath("material.so")));
+  PluginRegistry::Options options;
+  options.userDirectory = options.environment = false;
+  options.extraPaths = {textOf(folder.path())};
+  const PluginRegistry plugins(options);
+  QVERIFY(plugins.material("fixture.material"));
+  const auto problem = [&](const std::string& edit) {
+    try {
+      parseProject(m_sample, "scene.json", plugins, {"materials/0/base=fixture.material", edit});
+    } catch (const InputError& error) {
+      return QString::fromStdString(error.what());
+    }
+    return QString();
+  };
+  QCOMPARE(problem("materials/0/parameters={\"density\": 1400}"), QString());
+  QCOMPARE(problem("materials/0/parameters={\"density\": 1600}"),
+           "scene.json:/materials/0/parameters: The material 'fixture.material' failed: too dense");
+}
+
+void TestProjectIo::reservedNamesAreKeptAndTold() {
+  const std::string state = R"({"time":12.5,"fields":{"position":"AAAA"}})", tracks = R"([{"address":"wall/floor"}])";
+  const LoadedProject loaded = parse(m_sample, {"state=" + state, "tracks=" + tracks});
+  QCOMPARE(loaded.warnings.size(), size_t{2});
+  QVERIFY(loaded.warnings[0].text.starts_with("scene.json:/state: is kept, but this version does not use it"));
+  QVERIFY(loaded.warnings[1].text.starts_with("scene.json:/tracks: are kept, but this version does not use them"));
+  const json saved = json::parse(writeProject(loaded.project));
+  QVERIFY(saved["state"] == json::parse(state));
+  QVERIFY(saved["tracks"] == json::parse(tracks));
+  for (const char* name : {"state", "tracks"}) {
+    QVERIFY(!projectSchema().at("properties").at(name).at("description").get<std::string>().empty());
+  }
 }
 
 void TestProjectIo::newerFilesOpenOnlyWhenTheySaySo() {
@@ -387,6 +447,38 @@ void TestProjectIo::savingKeepsPermissionsAndLinks() {
   QVERIFY(S_ISLNK(after.st_mode));
   QCOMPARE(QDir(folder.path()).entryList(QDir::Files).size(), 2);  // no temporary file is left
   QCOMPARE(readFile(textOf(file), kMaximumProjectBytes), writeProject(project));
+}
+
+void TestProjectIo::pipesAndDevicesAreWrittenNotReplaced() {
+  QTemporaryDir folder;
+  const QString pipe = folder.filePath("pipe");
+  QCOMPARE(::mkfifo(qPrintable(pipe), 0600), 0);
+  QFile reader(pipe);
+  const int fd = ::open(qPrintable(pipe), O_RDWR | O_CLOEXEC);  // both ends: nobody has to wait for the other
+  QVERIFY(fd >= 0 && reader.open(fd, QIODevice::ReadOnly | QIODevice::Unbuffered, QFile::AutoCloseHandle));
+  requireWritable(textOf(pipe));
+  writeFileAtomically(textOf(pipe), "through");
+  QCOMPARE(reader.read(7), QByteArray("through"));
+  struct stat info {};
+  QCOMPARE(::lstat(qPrintable(pipe), &info), 0);
+  QVERIFY(S_ISFIFO(info.st_mode));
+  QCOMPARE(QDir(folder.path()).entryList(QDir::Files | QDir::System).size(), 1);
+  writeFileAtomically("/dev/null", "away");
+  QCOMPARE(::lstat("/dev/null", &info), 0);
+  QVERIFY(S_ISCHR(info.st_mode));
+  QVERIFY_THROWS_EXCEPTION(Error, writeFileAtomically("/dev/full", "too much"));
+}
+
+void TestProjectIo::placesThatCannotBeWrittenAreKnownBefore() {
+  QTemporaryDir folder;
+  const std::string file = textOf(folder.filePath("report.json"));
+  requireWritable(file);
+  QVERIFY(QDir(folder.path()).isEmpty());  // nothing is left behind
+  writeFileAtomically(file, "old");
+  requireWritable(file);
+  QCOMPARE(readFile(file, 100), std::string("old"));
+  QVERIFY_THROWS_EXCEPTION(Error, requireWritable(textOf(folder.path())));
+  QVERIFY_THROWS_EXCEPTION(Error, requireWritable(textOf(folder.filePath("none/report.json"))));
 }
 
 void TestProjectIo::failedSaveKeepsTheOldFile() {

@@ -5,12 +5,13 @@ namespace {
 
 using namespace ps::api;
 
-constexpr double kStrength = 0.004;  // m3/s2
+constexpr double kStrength = 0.5;  // m3/(kg s2)
 
 constexpr ParameterDeclaration kParameters[] = {
-    {"strength", "Cohesion", "κ", "m³/s²", ParameterKind::Number, Scale::Linear, kStrength, 0, 0.02, 0, 1, "", 1, 0, "",
-     "Surface", "How strongly liquid pulls itself together; drops round themselves at larger values.",
-     "0 wets everything, 0.004 beads, 0.02 rolls like mercury", "Becker & Teschner 2007, equation 7"}};
+    {"strength", "Cohesion", "κ", "m³/(kg·s²)", ParameterKind::Number, Scale::Linear, kStrength, 0, 2.5, 0, 100, "", 1,
+     0, "", "Surface", "How strongly liquid pulls itself together; drops round themselves at larger values.",
+     "0 wets everything, 0.5 beads, 2.5 rolls like mercury",
+     "after Becker & Teschner 2007, equation 7, made symmetric in the two masses"}};
 
 /// The kernel's shape (1 - q^2)^3, scaled so that its integral over space is 1; in 1/m3.
 double kernel(double squaredDistance, double support) {
@@ -24,11 +25,10 @@ double kernel(double squaredDistance, double support) {
 const char* Cohesion::label() const noexcept { return "Cohesion"; }
 
 const char* Cohesion::help() const noexcept {
-  return "Liquid particles pull at each other within the support radius (Becker & Teschner 2007), which gives drops "
-         "and "
-         "skins at the scale of a few particles. Momentum is kept to rounding. The strength is no surface tension in "
-         "N/m: "
-         "it changes with the particle spacing.";
+  return "Liquid particles pull at each other within the support radius with the force κ m_i m_j W(x_ij) x_ij, which "
+         "gives drops and skins at the scale of a few particles (after Becker & Teschner 2007). It is equal and "
+         "opposite for every pair, whatever their masses: momentum is kept to rounding. The strength is no surface "
+         "tension in N/m: it changes with the particle spacing.";
 }
 
 ParameterList Cohesion::parameters() const noexcept { return listOf(kParameters); }
@@ -57,7 +57,7 @@ void Cohesion::gather(const ConstraintContext& context, const ParticleView& part
       y -= weight * dy;
       z -= weight * dz;
     }
-    const double scale = strength / double{particles.mass[i]} * context.dt * context.dt;
+    const double scale = strength * context.dt * context.dt;  // force / m_i, times dt squared
     correction[i] = {static_cast<float>(scale * x), static_cast<float>(scale * y), static_cast<float>(scale * z), 0};
   }
 }
