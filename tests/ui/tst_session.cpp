@@ -52,19 +52,6 @@ QPushButton* noticeButton(MainWindow& window, const QString& text) {
   return nullptr;
 }
 
-/// Does something with the modal window that the next call opens, as soon as it is there.
-template <class Dialog>
-void whenOpen(const std::function<void(Dialog&)>& act) {
-  auto* timer = new QTimer(qApp);
-  QObject::connect(timer, &QTimer::timeout, timer, [timer, act] {
-    auto* dialog = qobject_cast<Dialog*>(QApplication::activeModalWidget());
-    if (!dialog) return;
-    timer->deleteLater();
-    act(*dialog);
-  });
-  timer->start(20);
-}
-
 void press(MainWindow& window, Qt::Key key, Qt::KeyboardModifiers modifiers = {}) {
   window.viewport()->setFocus();
   QTest::keyClick(window.viewport(), key, modifiers);
@@ -391,6 +378,18 @@ class TestSession : public QObject {
     QVERIFY(QTest::qWaitForWindowExposed(m_window.get()));
     QApplication::setActiveWindow(m_window.get());
     start();
+  }
+  /// Does something with the modal window that the next call opens, as soon as it is there.
+  template <class Dialog>
+  void whenOpen(const std::function<void(Dialog&)>& act) {
+    auto* timer = new QTimer(m_window.get());
+    connect(timer, &QTimer::timeout, timer, [timer, act] {
+      auto* dialog = qobject_cast<Dialog*>(QApplication::activeModalWidget());
+      if (!dialog) return;
+      timer->deleteLater();
+      act(*dialog);
+    });
+    timer->start(20);
   }
   /// What the engine was asked for is done, and seen.
   void settle() {
