@@ -7,9 +7,11 @@
 #include "ui/document/document.h"
 #include "ui/document/documentfiles.h"
 #include "ui/document/worker.h"
+#include "ui/graphs/graphview.h"
 #include "ui/render/camera.h"
 #include "ui/theme/theme.h"
 #include "ui/viewport/viewport.h"
+#include "ui/window/graphspanel.h"
 #include "ui/window/mainwindow.h"
 #include "ui/window/noticebar.h"
 #include "ui/window/transport.h"
@@ -272,6 +274,9 @@ class TestSession : public QObject {
     edit(361);
     press(*m_window, Qt::Key_S, Qt::ControlModifier);
     QTRY_VERIFY(!document().isDirty());
+    m_window->graphs()->temperatures()->setTimeRange(0, 0.1);
+    press(*m_window, Qt::Key_End);
+    QVERIFY(m_window->graphs()->temperatures()->isFitted());
     press(*m_window, Qt::Key_Tab);
     QCOMPARE(m_window->viewport()->tool(), ViewTool::Brush);
     press(*m_window, Qt::Key_Tab);
@@ -329,7 +334,7 @@ class TestSession : public QObject {
     QFETCH(int, code);
     saveProject(scenes::iceOnPlate(4, 370), file(QStringLiteral("good.json")).toStdString());
     Project odd = scenes::iceOnPlate(4, 370);
-    odd.materials[0].properties.values["boiling_temperature"] = 200.0;  // below the melting point
+    odd.solver.thermalModel = "bonds";  // another kind of plugin
     saveProject(odd, file(QStringLiteral("odd.json")).toStdString());
     QProcess program;
     program.start(

@@ -314,8 +314,9 @@ void MainWindow::showFailure(const Snapshot& snapshot) {
 
 void MainWindow::showBroken(const Snapshot& snapshot) {
   const QString problem = QString::fromStdString(snapshot.message);
-  if (problem == m_shownFailure) return;
-  m_shownFailure = problem;
+  const QString attempt = problem + QString::number(snapshot.revision);
+  if (attempt == m_shownFailure) return;
+  m_shownFailure = attempt;
   const QString title = QStringLiteral("“%1” cannot run as it is.").arg(m_session->document().title());
   const QString text = sentence(problem) + QStringLiteral(" It is built anew with each change.");
   std::vector<NoticeBar::Button> buttons;
