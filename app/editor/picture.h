@@ -8,7 +8,7 @@ namespace ps {
 class MainWindow;
 
 /// Writes a picture of the window once its project has been running for a while, then quits: exit code 0, 1 when the
-/// file cannot be written, 2 when the project cannot be opened.
+/// file cannot be written, 2 when the project cannot be opened or built.
 class PictureByCommand : public QObject {
   Q_OBJECT
  public:

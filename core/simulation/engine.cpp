@@ -11,15 +11,11 @@
 #include <atomic>
 
 namespace ps {
-namespace {
 
-/// Builds are counted over the whole process, so that snapshots of two engines never pass for the same run.
 uint64_t nextRevision() {
   static std::atomic<uint64_t> count{0};
   return ++count;
 }
-
-}  // namespace
 
 struct Engine::Impl {
   Impl(const Project& source, PluginRegistry& registry) : project(source), plugins(registry) {}

@@ -57,7 +57,9 @@ class EngineThread {
   EngineThread(PluginRegistry& plugins, std::function<void()> published);
   ~EngineThread();
 
-  void open(const Project& project, bool play);  ///< replaces the scene; compile errors arrive in snapshot()->message
+  /// Replaces the scene. One that cannot be compiled leaves none: the snapshot is then empty, of a new revision,
+  /// without body ids, its message says why, and it pauses.
+  void open(const Project& project, bool play);
   void play();
   void pause();
   void stepOnce();

@@ -154,7 +154,15 @@ void EngineThread::open(const Project& project, bool play) {
       auto engine = std::make_unique<Engine>(project, impl->plugins);
       impl->engine = std::move(engine);
     } catch (const std::exception& error) {
-      impl->fail(error.what());
+      impl->engine.reset();
+      auto empty = std::make_shared<Snapshot>();
+      empty->revision = nextRevision();
+      empty->message = error.what();
+      {
+        const std::lock_guard lock(impl->mutex);
+        impl->playing = false;
+      }
+      impl->publish(empty);
       return;
     }
     {

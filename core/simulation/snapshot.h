@@ -50,4 +50,7 @@ struct Snapshot {
 };
 using SnapshotPtr = std::shared_ptr<const Snapshot>;
 
+/// Builds are counted over the whole process, so that snapshots of two engines never pass for the same run.
+uint64_t nextRevision();
+
 }  // namespace ps

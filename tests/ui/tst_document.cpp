@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The document without a window: commands, events, strokes through the engine, files, autosave.
+// The document without a window: commands, events, strokes through the engine, files.
 #include "core/io/projectio.h"
 #include "core/plugin_host/registry.h"
 #include "core/simulation/engine.h"
 #include "tests/shared/scenes.h"
-#include "ui/document/autosave.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
 #include "ui/document/documentfiles.h"
@@ -213,6 +212,45 @@ class TestDocument : public QObject {
     QCOMPARE(idsNow(engine).size(), before.size());
   }
 
+  void aStrokeUndoneBeforeAResetComesBack() {
+    Document document;
+    document.setPlugins(m_plugins.get());
+    EngineThread engine(*m_plugins, {});
+    SceneLink link(document, engine);
+    document.open(smallScene(), {}, false, false);
+    const size_t before = idsNow(engine).size();
+    const auto stroke = paint(document, link);
+    document.undoStack().undo();
+    link.reset();
+    QCOMPARE(idsNow(engine).size(), before);
+    document.undoStack().redo();
+    QCOMPARE(idsNow(engine).size(), before + 27);
+    document.undoStack().undo();
+    QCOMPARE(idsNow(engine).size(), before);
+  }
+
+  void aSceneThatCannotBeBuiltIsBuiltOnceMended() {
+    Document document;
+    document.setPlugins(m_plugins.get());
+    EngineThread engine(*m_plugins, {});
+    SceneLink link(document, engine);
+    document.open(smallScene(), {});
+    QTRY_VERIFY(engine.snapshot() && engine.playing());
+    Project project = smallScene();
+    const uint64_t revision = engine.snapshot()->revision;
+    project.materials[0].properties.values["boiling_temperature"] = 200.0;  // below the melting point
+    document.open(project, {});
+    QTRY_VERIFY(link.isBroken());
+    QVERIFY(!engine.playing());
+    QVERIFY(engine.snapshot()->id.empty() && engine.snapshot()->revision != revision);
+    QVERIFY(QString::fromStdString(engine.snapshot()->message).contains(QStringLiteral("water"), Qt::CaseInsensitive));
+    const auto stroke = paint(document, link);  // the document takes it, no engine yet
+    QCOMPARE(document.setParameter({"material", "water", "boiling_temperature"}, 373.15), QString());
+    QTRY_VERIFY(!link.isBroken());
+    QVERIFY(!engine.playing());
+    QCOMPARE(idsNow(engine).size(), size_t{125 + 27});
+  }
+
   void undoneErasureComesBackWithItsState() {
     Document document;
     document.setPlugins(m_plugins.get());
@@ -297,7 +335,30 @@ class TestDocument : public QObject {
     QVERIFY(DocumentFiles::recent().contains(path));
   }
 
+  void aSaveDuringWhichSomethingChangedStaysDirty_data() {
+    QTest::addColumn<bool>("drag");
+    QTest::newRow("another edit") << false;
+    QTest::newRow("the same drag") << true;  // merges into the step that was saved: its index stays
+  }
   void aSaveDuringWhichSomethingChangedStaysDirty() {
+    QFETCH(bool, drag);
+    QTemporaryDir directory;
+    Worker worker;
+    Document document;
+    document.setPlugins(m_plugins.get());
+    DocumentFiles files(document, worker);
+    document.open(smallScene(), {});
+    if (drag) document.beginGesture();
+    document.setParameter(kFloor, 345.0);
+    QSignalSpy saved(&files, &DocumentFiles::saved);
+    files.save(directory.filePath(QStringLiteral("scene.json")));
+    document.setParameter(kFloor, 346.0);
+    QVERIFY(saved.wait());
+    QVERIFY(document.isDirty());
+    QCOMPARE(document.undoStack().count(), drag ? 1 : 2);
+  }
+
+  void aSaveThatEndsLateLeavesTheNextProjectAlone() {
     QTemporaryDir directory;
     Worker worker;
     Document document;
@@ -306,9 +367,12 @@ class TestDocument : public QObject {
     document.open(smallScene(), {});
     document.setParameter(kFloor, 345.0);
     QSignalSpy saved(&files, &DocumentFiles::saved);
-    files.save(directory.filePath(QStringLiteral("scene.json")));
-    document.setParameter(kFloor, 346.0);
+    files.save(directory.filePath(QStringLiteral("old.json")));
+    files.newProject();
+    QCOMPARE(document.setParameter(kFloor, 350.0), QString());
     QVERIFY(saved.wait());
+    QCOMPARE(saved.front()[1].toBool(), false);
+    QCOMPARE(document.path(), QString());
     QVERIFY(document.isDirty());
   }
 
@@ -337,31 +401,6 @@ class TestDocument : public QObject {
     QVERIFY(failed.wait());
     QVERIFY(failed.front()[1].toString().contains(QStringLiteral("bad.json")));
     QCOMPARE(writeProject(document.project()), before);
-  }
-
-  void unsavedWorkIsKept() {
-    QTemporaryDir directory;
-    Document document;
-    document.setPlugins(m_plugins.get());
-    document.open(smallScene(), QStringLiteral("/nowhere/scene.json"));
-    document.setParameter(kFloor, 351.0);
-    {
-      Worker worker;
-      Autosave autosave(document, worker, directory.path());
-      QSignalSpy written(&autosave, &Autosave::autosaved);
-      autosave.saveNow();
-      QVERIFY(written.wait());
-      QVERIFY(Autosave::leftBehind(directory.path()).empty());  // still running
-      autosave.close();
-    }
-    const auto sessions = Autosave::leftBehind(directory.path());
-    QCOMPARE(sessions.size(), size_t{1});
-    QVERIFY(sessions[0].closed);
-    QCOMPARE(sessions[0].path, QStringLiteral("/nowhere/scene.json"));
-    const LoadedProject copy = loadProject(sessions[0].copy.toStdString(), *m_plugins);
-    QCOMPARE(writeProject(copy.project), writeProject(document.project()));
-    Autosave::discard(sessions[0]);
-    QVERIFY(Autosave::leftBehind(directory.path()).empty());
   }
 
   void everyParameterHasAnAddress() {

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "tests/shared/germannumbers.h"
 #include "tests/ui/rowtesting.h"
 #include "ui/theme/theme.h"
 
-#include <QtCore/QLocale>
 #include <QtGui/QAccessible>
 #include <QtTest/QSignalSpy>
 #include <QtWidgets/QLabel>
 #include <QtWidgets/QLineEdit>
-
-#include <clocale>
 
 using namespace ps;
 using namespace ps::testing;
@@ -238,8 +236,8 @@ void TestWidgets::typingActsOnEnter() {
   QFETCH(QByteArray, key);
   QFETCH(QString, text);
   QFETCH(double, value);
-  std::setlocale(LC_NUMERIC, "de_DE.UTF-8");
-  QLocale::setDefault(QLocale(QLocale::German, QLocale::Germany));
+  const GermanNumbers german;
+  if (!german.problem().isEmpty()) QSKIP(qPrintable(german.problem()));
   ParameterRow row(model(key.constData()));
   show(row);
   Listener listener(row);
@@ -249,8 +247,6 @@ void TestWidgets::typingActsOnEnter() {
   QTest::keyClicks(edit, text);
   QCOMPARE(listener.sequence, QString());  // nothing before Enter
   QTest::keyClick(edit, Qt::Key_Return);
-  std::setlocale(LC_NUMERIC, "C");
-  QLocale::setDefault(QLocale::c());
   QVERIFY(std::abs(row.number() - value) <= 1e-12 * value);
   QCOMPARE(listener.sequence, QStringLiteral("BLE"));
   QVERIFY(!row.has(RowState::Editing));

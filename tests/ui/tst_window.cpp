@@ -294,6 +294,10 @@ class TestWindow : public QObject {
     Viewport* view = m_window->viewport();
     QApplication::setActiveWindow(m_window.get());
     view->setFocus();
+    // Each row begins where its key has something to change.
+    view->show(StandardView::Scene);
+    view->setTool(key == Qt::Key_B ? ViewTool::Erase : ViewTool::Brush);
+    document().setColour("speed");
     QTest::keyClick(view, static_cast<Qt::Key>(key), Qt::KeyboardModifiers(modifiers));
     const QStringList state{QStringLiteral("elevation %1").arg(view->navigator().camera().elevation),
                             QStringLiteral("tool %1").arg(int(view->tool())),
@@ -383,7 +387,7 @@ class TestWindow : public QObject {
 
   void hidingABodyEmptiesTheView() {
     document().setBodyVisible("ice", false);
-    QTRY_VERIFY_WITH_TIMEOUT(!m_window->viewport()->navigator().viewName().isEmpty(), kLong);
+    QTRY_VERIFY_WITH_TIMEOUT(m_window->viewport()->snapshot()->id.empty(), kLong);
     QSignalSpy picked(m_window->viewport(), &Viewport::bodyPicked);
     QTest::mouseClick(m_window->viewport(), Qt::LeftButton, {},
                       QPoint(m_window->viewport()->width() / 2, m_window->viewport()->height() / 2));

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "core/scene/project.h"
+
 #include <QtCore/QDateTime>
 #include <QtCore/QObject>
 #include <QtCore/QString>
 #include <QtCore/QTimer>
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -15,18 +18,32 @@ namespace ps {
 class Document;
 class Worker;
 
-/// A copy that an earlier session left behind.
+enum class SessionEnd {
+  None,      ///< it runs, or ended unexpectedly
+  Replaced,  ///< another project took its place in the window
+  Closed,    ///< with the window
+};
+
+/// What an earlier session left behind.
 struct AutosavedSession {
   QString stem;  ///< files are `stem`.json (the project, when it had unsaved changes), .note and .lock
   QString copy;  ///< the project's copy; "" when everything was saved
   QString path;  ///< the file it belongs to; "" when it was never saved
   QString title;
   QDateTime time;
-  bool closed = false;  ///< ended in order: reopen without a question
+  SessionEnd end = SessionEnd::None;
+  ViewState view;  ///< camera and colour at the end, without pins
 };
 
-/// Keeps a copy of unsaved work in the user's state directory: every 30 s and at close. Closing therefore asks nothing,
-/// and a crash loses half a minute at most.
+/// Unsaved work whose place another project took, as it was: the way back needs no file.
+struct ReplacedWork {
+  AutosavedSession session;
+  Project project;
+};
+
+/// Keeps a copy of unsaved work in the user's state directory: every 30 s, when another project takes its place, and at
+/// close. Closing therefore asks nothing, and a crash loses half a minute at most. UI thread only; files are written by
+/// the worker.
 class Autosave : public QObject {
   Q_OBJECT
  public:
@@ -36,26 +53,40 @@ class Autosave : public QObject {
   ~Autosave() override;
   static QString standardDirectory();
 
-  /// Sessions of programs that no longer run, newest first.
-  static std::vector<AutosavedSession> leftBehind(const QString& directory);
+  /// Sessions that run no longer and that this one has not taken over, newest first.
+  std::vector<AutosavedSession> leftBehind() const;
   static void discard(const AutosavedSession& session);
+  /// The document goes on with what `session` left: its files go as soon as this session has written its own.
+  void takeOver(const AutosavedSession& session);
 
   void start();    ///< the timer
   void saveNow();  ///< when something changed since the last copy
-  void close();    ///< last copy, with the note that the session ended in order; blocks until it is written
+  /// Last copy, with the note that the session ended in order; blocks until it is written. Returns "", or why it could
+  /// not be: the session then goes on.
+  QString close();
 
  Q_SIGNALS:
-  void autosaved(const QDateTime& time);
-  void failed(const QString& problem);
+  void autosaved(const QDateTime& time);  ///< a copy of unsaved work is there
+  /// Told once for each problem until a copy is written again. `replaced`: the copy was of work that is no longer open.
+  void failed(const QString& problem, bool replaced);
+  void workReplaced(const std::shared_ptr<const ps::ReplacedWork>& work);
 
  private:
-  void write(bool closed);
+  void takeStem();
+  void putAside();
+  void write(SessionEnd end);
+  void written(const AutosavedSession& session, uint64_t count, const QStringList& takenOver, const QString& problem);
+  AutosavedSession present(SessionEnd end) const;
+  std::function<QString()> copyJob(const AutosavedSession& session) const;
+
   Document& m_document;
   Worker& m_worker;
-  QString m_stem;
+  QString m_directory, m_stem, m_problem;
   std::unique_ptr<QLockFile> m_lock;
   QTimer m_timer;
-  uint64_t m_written = 0;
+  QStringList m_takenOver;  ///< stems
+  uint64_t m_written = 0;   ///< Document::changeCount() of the last copy that was written
+  int m_writing = 0, m_count = 0;
 };
 
 }  // namespace ps

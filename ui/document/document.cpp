@@ -18,12 +18,13 @@ Document::~Document() { m_undo.disconnect(this); }
 void Document::setPlugins(const PluginRegistry* plugins) { m_plugins = plugins; }
 
 void Document::open(Project project, const QString& path, bool dirty, bool play) {
+  if (isDirty()) Q_EMIT replacing();
   m_project = std::move(project);
   m_path = path;
   m_gestureDepth = 0;
   m_neverClean = dirty;
   m_undo.clear();
-  ++m_changes;
+  m_opened = ++m_changes;
   tell(ProjectOpened{play});
   tell(FileChanged{});
 }
@@ -35,13 +36,15 @@ QString Document::title() const {
 
 bool Document::isDirty() const { return m_neverClean || !m_undo.isClean(); }
 
-void Document::saved(const QString& path, int undoIndex) {
+bool Document::saved(const QString& path, uint64_t changeCount) {
+  if (!had(changeCount)) return false;
   m_path = path;
-  if (undoIndex == m_undo.index()) {
+  if (changeCount == m_changes) {
     m_neverClean = false;
     m_undo.setClean();
   }
   tell(FileChanged{});
+  return true;
 }
 
 Value Document::value(const Address& address) const { return valueAt(m_project, m_plugins, address); }

@@ -39,10 +39,12 @@ class Document : public QObject {
   const QString& path() const { return m_path; }  ///< "" when it was never saved
   QString title() const;                          ///< the project's title, else the file's name, else "Untitled"
   bool isDirty() const;
-  /// The file at `path` now holds the project as it was at `undoIndex` (see undoIndex()).
-  void saved(const QString& path, int undoIndex);
-  int undoIndex() const { return m_undo.index(); }
-  /// Rises with every change of the project; autosave compares it.
+  /// The file at `path` now holds the project as it was at `changeCount` (see changeCount()). False, and nothing
+  /// happens, when another project has taken its place since.
+  bool saved(const QString& path, uint64_t changeCount);
+  /// Whether the project had this count (see changeCount()) since it was opened.
+  bool had(uint64_t changeCount) const { return changeCount >= m_opened; }
+  /// Rises with every change of the project, and when another takes its place.
   uint64_t changeCount() const { return m_changes; }
 
   // Parameters
@@ -77,6 +79,7 @@ class Document : public QObject {
   void applyPins(const std::vector<std::string>& pins);
 
  Q_SIGNALS:
+  void replacing();  ///< unsaved work is about to give its place to another project
   void changed(const ps::ChangeEvent& event);
 
  private:
@@ -89,8 +92,8 @@ class Document : public QObject {
   QUndoStack m_undo;
   int m_gesture = 0, m_gestureDepth = 0;
   QString m_gestureText;
-  bool m_neverClean = false;  ///< the file holds no state of this history
-  uint64_t m_changes = 0;
+  bool m_neverClean = false;             ///< the file holds no state of this history
+  uint64_t m_changes = 0, m_opened = 0;  ///< changes: now, and when the project was opened
 };
 
 }  // namespace ps

@@ -2,6 +2,7 @@
 #include "ui/document/documentfiles.h"
 
 #include "core/io/projectio.h"
+#include "ui/document/autosave.h"
 #include "ui/document/document.h"
 #include "ui/document/worker.h"
 
@@ -33,28 +34,34 @@ Project emptyProject() {
   return project;
 }
 
+/// The camera and colour of `seen`, with the pins and unknown keys of `stored`.
+ViewState asSeen(ViewState stored, const ViewState& seen) {
+  ViewState view = seen;
+  view.pinned = std::move(stored.pinned);
+  view.unknown = std::move(stored.unknown);
+  return view;
+}
+
 }  // namespace
 
 DocumentFiles::DocumentFiles(Document& document, Worker& worker, QObject* parent)
     : QObject(parent), m_document(document), m_worker(worker) {}
 
-void DocumentFiles::open(const QString& path, bool play) {
-  const QString absolute = QFileInfo(path).absoluteFilePath();
-  load(absolute, absolute, false, play);
+void DocumentFiles::open(const QString& path) { load(QFileInfo(path).absoluteFilePath(), std::nullopt); }
+
+void DocumentFiles::reopen(const AutosavedSession& session) {
+  load(session.copy.isEmpty() ? session.path : session.copy, session);
 }
 
-void DocumentFiles::openCopy(const QString& path, const QString& restoreTo, bool play) {
-  load(path, restoreTo, true, play);
-}
-
-void DocumentFiles::load(const QString& path, const QString& documentPath, bool dirty, bool play) {
+/// `session`: the one that is reopened by it.
+void DocumentFiles::load(const QString& path, const std::optional<AutosavedSession>& session) {
   const int request = ++m_request;
   const PluginRegistry* plugins = m_document.plugins();
   if (!plugins) {
     Q_EMIT openFailed(path, QStringLiteral("Plugins are still being loaded. Open it again in a moment."));
     return;
   }
-  m_worker.run([this, request, plugins, path, documentPath, dirty, play] {
+  m_worker.run([this, request, plugins, path, session] {
     QElapsedTimer clock;
     clock.start();
     LoadedProject loaded;
@@ -65,7 +72,8 @@ void DocumentFiles::load(const QString& path, const QString& documentPath, bool 
       problem = QString::fromUtf8(error.what());
     }
     const double seconds = static_cast<double>(clock.elapsed()) / 1000;
-    QMetaObject::invokeMethod(this, [this, request, path, documentPath, dirty, play, problem, seconds,
+    if (session && session->copy.isEmpty()) loaded.project.view = asSeen(loaded.project.view, session->view);
+    QMetaObject::invokeMethod(this, [this, request, path, session, problem, seconds,
                                      project = std::move(loaded.project), messages = std::move(loaded.warnings)] {
       if (request != m_request) return;
       if (!problem.isEmpty()) {
@@ -74,11 +82,20 @@ void DocumentFiles::load(const QString& path, const QString& documentPath, bool 
       }
       QStringList warnings;
       for (const ProjectMessage& message : messages) warnings << QString::fromStdString(message.text);
-      m_document.open(project, documentPath, dirty, play);
+      const QString documentPath = session ? session->path : path;
+      m_document.open(project, documentPath, session && !session->copy.isEmpty());
       if (!documentPath.isEmpty()) addRecent(documentPath);
+      if (session) Q_EMIT reopened(*session);
       Q_EMIT opened(documentPath, warnings, seconds);
     });
   });
+}
+
+void DocumentFiles::bringBack(const ReplacedWork& work) {
+  ++m_request;
+  m_document.open(work.project, work.session.path, true);
+  Q_EMIT reopened(work.session);
+  Q_EMIT opened(work.session.path, {}, 0);
 }
 
 void DocumentFiles::newProject() {
@@ -89,22 +106,20 @@ void DocumentFiles::newProject() {
 
 void DocumentFiles::save(const QString& path) {
   const QString absolute = QFileInfo(path).absoluteFilePath();
-  const int index = m_document.undoIndex();
-  m_worker.run([this, absolute, index, project = m_document.project()] {
+  m_worker.run([this, absolute, count = m_document.changeCount(), project = m_document.project()] {
     QString problem;
     try {
       saveProject(project, absolute.toStdString());
     } catch (const std::exception& error) {
       problem = QString::fromUtf8(error.what());
     }
-    QMetaObject::invokeMethod(this, [this, absolute, index, problem] {
+    QMetaObject::invokeMethod(this, [this, absolute, count, problem] {
       if (!problem.isEmpty()) {
-        Q_EMIT saveFailed(absolute, problem);
+        Q_EMIT saveFailed(absolute, problem, m_document.had(count));
         return;
       }
-      m_document.saved(absolute, index);
       addRecent(absolute);
-      Q_EMIT saved(absolute);
+      Q_EMIT saved(absolute, m_document.saved(absolute, count));
     });
   });
 }

@@ -4,23 +4,29 @@
 #include <QtCore/QString>
 #include <QtCore/QStringList>
 
+#include <optional>
+
 namespace ps {
 
 class Document;
 class Worker;
+struct AutosavedSession;
+struct ReplacedWork;
 
 /// Opens and saves a document's project on a worker thread: the interface goes on meanwhile, and a project that cannot
-/// be read leaves the present one as it is. Results come as signals on the thread of this object.
+/// be read leaves the present one as it is. Results come as signals on the thread of this object. What opens a project
+/// needs the document's plugins.
 class DocumentFiles : public QObject {
   Q_OBJECT
  public:
   /// `worker` must end before this object does.
   DocumentFiles(Document& document, Worker& worker, QObject* parent = nullptr);
 
-  /// Needs the document's plugins. `play`: run at once. `restoreTo`: the path that the project belongs to when `path`
-  /// is an autosaved copy of it ("" for one never saved); the document is then dirty.
-  void open(const QString& path, bool play = true);
-  void openCopy(const QString& path, const QString& restoreTo, bool play = true);
+  void open(const QString& path);
+  /// What an earlier session had open: its copy when it has one (the document is then dirty), else its file, seen as
+  /// it was left.
+  void reopen(const AutosavedSession& session);
+  void bringBack(const ReplacedWork& work);  ///< dirty, without its history
   void newProject();
   void save(const QString& path);
 
@@ -29,12 +35,14 @@ class DocumentFiles : public QObject {
 
  Q_SIGNALS:
   void opened(const QString& path, const QStringList& warnings, double seconds);
+  void reopened(const ps::AutosavedSession& session);  ///< before opened()
   void openFailed(const QString& path, const QString& problem);
-  void saved(const QString& path);
-  void saveFailed(const QString& path, const QString& problem);
+  /// `present`: what was saved is still the open project.
+  void saved(const QString& path, bool present);
+  void saveFailed(const QString& path, const QString& problem, bool present);
 
  private:
-  void load(const QString& path, const QString& documentPath, bool dirty, bool play);
+  void load(const QString& path, const std::optional<AutosavedSession>& session);
   Document& m_document;
   Worker& m_worker;
   int m_request = 0;  ///< of the newest open(): an older one that arrives late is dropped

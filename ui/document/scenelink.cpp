@@ -51,13 +51,17 @@ void putBack(Engine& engine, StrokeTrace& trace) {
   trace.taken.clear();
 }
 
-/// After a reset: the particles that a stroke's cells have become.
-void findAgain(Engine& engine, const StrokeRecord& stroke) {
-  StrokeTrace& trace = *stroke.trace;
-  trace.ids.clear();
-  trace.taken.clear();
-  if (stroke.erase || !trace.done) return;
-  trace.ids = ofBody(engine, engine.particlesIn(stroke.lattice, stroke.cells), stroke.body);
+/// A run that has just begun: finds the particles that the cells of strokes have become.
+void beginRun(Engine& engine, uint64_t& run, const std::vector<SceneLink::KnownStroke>& strokes) {
+  ++run;
+  for (const auto& [stroke, done] : strokes) {
+    StrokeTrace& trace = *stroke->trace;
+    trace.ids.clear();
+    trace.taken.clear();
+    if (stroke->erase || !done) continue;
+    trace.ids = ofBody(engine, engine.particlesIn(stroke->lattice, stroke->cells), stroke->body);
+    trace.run = run;
+  }
 }
 
 /// Matter that an erasure carved out of bodies at the start, back in its cells.
@@ -81,20 +85,34 @@ SceneLink::SceneLink(Document& document, EngineThread& engine, QObject* parent)
 SceneLink::~SceneLink() = default;
 
 void SceneLink::onChanged(const ChangeEvent& event) {
+  const auto* stroke = std::get_if<StrokeChanged>(&event);
+  if (stroke) remember(*stroke);
   if (const auto* opened = std::get_if<ProjectOpened>(&event)) {
     m_strokes.clear();
     m_engine.post([run = m_run](Engine&) { ++*run; });
     m_engine.open(m_document.project(), opened->play);
   } else if (const auto* parameter = std::get_if<ParameterChanged>(&event)) {
-    m_engine.setParameter(parameter->address, parameter->value);
-  } else if (const auto* stroke = std::get_if<StrokeChanged>(&event)) {
+    if (isBroken()) {
+      rebuild(false);
+    } else {
+      m_engine.setParameter(parameter->address, parameter->value);
+    }
+  } else if (stroke) {
     onStroke(*stroke);
   }
 }
 
+void SceneLink::remember(const StrokeChanged& event) {
+  if (event.live) m_strokes.push_back({event.stroke, true});
+  for (auto& [stroke, done] : m_strokes) {
+    if (stroke.lock() == event.stroke) done = event.done;
+  }
+}
+
 void SceneLink::onStroke(const StrokeChanged& event) {
-  if (event.live) {
-    m_strokes.push_back(event.stroke);
+  if (isBroken()) {
+    rebuild(false);
+  } else if (event.live) {
     pushProject();
   } else if (event.done) {
     redoStroke(event.stroke);
@@ -105,19 +123,33 @@ void SceneLink::onStroke(const StrokeChanged& event) {
 
 void SceneLink::pushProject() { m_engine.update(m_document.project()); }
 
-void SceneLink::reset() {
-  std::vector<std::shared_ptr<StrokeRecord>> strokes;
-  for (const auto& weak : m_strokes) {
-    if (auto stroke = weak.lock()) strokes.push_back(std::move(stroke));
+std::vector<SceneLink::KnownStroke> SceneLink::strokes() const {
+  std::vector<KnownStroke> strokes;
+  for (const auto& [weak, done] : m_strokes) {
+    if (auto stroke = weak.lock()) strokes.emplace_back(std::move(stroke), done);
   }
-  m_engine.post([run = m_run, strokes = std::move(strokes)](Engine& engine) {
+  return strokes;
+}
+
+void SceneLink::reset() {
+  if (isBroken()) {
+    rebuild(false);
+    return;
+  }
+  m_engine.post([run = m_run, strokes = strokes()](Engine& engine) {
     engine.reset();
-    ++*run;
-    for (const auto& stroke : strokes) {
-      findAgain(engine, *stroke);
-      if (!stroke->erase) stroke->trace->run = *run;
-    }
+    beginRun(engine, *run, strokes);
   });
+}
+
+bool SceneLink::isBroken() const {
+  const SnapshotPtr snapshot = m_engine.snapshot();
+  return snapshot && !snapshot->bodyIds && !snapshot->message.empty();
+}
+
+void SceneLink::rebuild(bool play) {
+  m_engine.open(m_document.project(), play);
+  m_engine.post([run = m_run, strokes = strokes()](Engine& engine) { beginRun(engine, *run, strokes); });
 }
 
 void SceneLink::paint(const StrokeRecord& stroke, const Body& body, std::vector<std::array<int, 3>> cells) {
@@ -149,7 +181,6 @@ void SceneLink::undoStroke(const std::shared_ptr<StrokeRecord>& stroke) {
   const double spacing = numberOf(m_document.project().solver.parameters, solverParameters(), "particle_spacing");
   m_engine.post([run = m_run, stroke, spacing](Engine& engine) {
     StrokeTrace& trace = *stroke->trace;
-    trace.done = false;
     if (!stroke->erase) {
       if (trace.run == *run) take(engine, trace, trace.ids);
     } else if (trace.run == *run) {
@@ -166,7 +197,6 @@ void SceneLink::redoStroke(const std::shared_ptr<StrokeRecord>& stroke) {
   const Body* body = m_document.body(stroke->body);
   m_engine.post([run = m_run, stroke, body = body ? *body : Body{}](Engine& engine) {
     StrokeTrace& trace = *stroke->trace;
-    trace.done = true;
     if (!stroke->erase && trace.run == *run) {
       putBack(engine, trace);
     } else if (!stroke->erase) {

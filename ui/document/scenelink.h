@@ -7,6 +7,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace ps {
@@ -19,11 +20,17 @@ class EngineThread;
 class SceneLink : public QObject {
   Q_OBJECT
  public:
+  using KnownStroke = std::pair<std::shared_ptr<StrokeRecord>, bool>;  ///< and whether it is done, not undone
+
   SceneLink(Document& document, EngineThread& engine, QObject* parent = nullptr);
   ~SceneLink() override;
 
   /// Back to the start, edits kept. Undoing an earlier stroke still removes exactly its particles.
   void reset();
+  /// The engine could not build the scene: its snapshot is empty, and the message there says why. Each change of the
+  /// scene, reset() and rebuild() try again.
+  bool isBroken() const;
+  void rebuild(bool play);
   /// A piece of a stroke in the making: `body` is the painted body as it will be, `cells` are new.
   void paint(const StrokeRecord& stroke, const Body& body, std::vector<std::array<int, 3>> cells);
   /// Removes what is in the cells now, except matter of locked bodies.
@@ -33,15 +40,17 @@ class SceneLink : public QObject {
 
  private:
   void onChanged(const ChangeEvent& event);
+  void remember(const StrokeChanged& event);
   void onStroke(const StrokeChanged& event);
   void undoStroke(const std::shared_ptr<StrokeRecord>& stroke);
   void redoStroke(const std::shared_ptr<StrokeRecord>& stroke);
   void pushProject();
+  std::vector<KnownStroke> strokes() const;
 
   Document& m_document;
   EngineThread& m_engine;
-  std::shared_ptr<uint64_t> m_run;  ///< counts resets; engine thread only
-  std::vector<std::weak_ptr<StrokeRecord>> m_strokes;
+  std::shared_ptr<uint64_t> m_run;                                      ///< counts resets; engine thread only
+  std::vector<std::pair<std::weak_ptr<StrokeRecord>, bool>> m_strokes;  ///< like KnownStroke
 };
 
 }  // namespace ps

@@ -20,8 +20,7 @@ struct BodyEdit {
 
 /// What a stroke did to the particles. Belongs to the engine's thread: nothing else reads or writes it.
 struct StrokeTrace {
-  uint64_t run = 0;  ///< of SceneLink; ids of another run mean nothing
-  bool done = true;
+  uint64_t run = 0;                ///< of SceneLink; ids of another run mean nothing
   std::vector<uint32_t> ids;       ///< born by an adding stroke, or put back by an undone erasing one
   std::vector<TakenMatter> taken;  ///< what is out of the scene now: by an erasing stroke, or an undone adding one
 };

@@ -25,10 +25,7 @@
 #include "ui/window/wording.h"
 
 #include <QtGui/QAction>
-#include <QtGui/QKeyEvent>
-#include <QtWidgets/QAbstractButton>
 #include <QtWidgets/QApplication>
-#include <QtWidgets/QMenuBar>
 #include <QtWidgets/QStackedWidget>
 #include <QtWidgets/QVBoxLayout>
 
@@ -38,7 +35,7 @@
 namespace ps {
 namespace {
 constexpr int kSlowInterval = 66;  // ms: values at 15 Hz
-}
+}  // namespace
 
 MainWindow::MainWindow(const Options& options)
     : m_options(options), m_session(std::make_unique<Session>(options.session)), m_dark(options.dark) {
@@ -91,23 +88,8 @@ void MainWindow::connectSession() {
   connect(&files, &DocumentFiles::opened, this, &MainWindow::onOpened);
   connect(&files, &DocumentFiles::openFailed, this, &MainWindow::onOpenFailed);
   connect(&files, &DocumentFiles::saveFailed, this, &MainWindow::onSaveFailed);
-  connect(&files, &DocumentFiles::saved, this, [this](const QString& path) {
-    notice()->close(QStringLiteral("save"));
-    m_session->log().add(MessageLevel::Ok, m_session->document().title(), QStringLiteral("Saved to %1.").arg(path));
-    m_fileText = QStringLiteral("Saved ") + QTime::currentTime().toString(QStringLiteral("HH:mm"));
-    updateTitle();
-    refreshStatus();
-  });
-  if (Autosave* autosave = m_session->autosave()) {
-    connect(autosave, &Autosave::autosaved, this, [this](const QDateTime& time) {
-      m_fileText = QStringLiteral("Autosaved ") + time.toString(QStringLiteral("HH:mm"));
-      refreshStatus();
-    });
-    connect(autosave, &Autosave::failed, this, [this](const QString& problem) {
-      showMessage(MessageLevel::Warning, QStringLiteral("Autosave"),
-                  QStringLiteral("No copy was kept: %1. Save to a file.").arg(problem));
-    });
-  }
+  connect(&files, &DocumentFiles::saved, this, &MainWindow::onSaved);
+  connectAutosave();
   connect(&m_session->log(), &MessageLog::changed, this, [this] {
     const int unseen = m_session->log().unseen();
     m_bottom->setPageTitle(m_messagesPage,
@@ -171,6 +153,7 @@ void MainWindow::connectPanels() {
 }
 
 void MainWindow::onReady() {
+  setFilesEnabled(true);
   m_plugins->setRegistry(m_session->plugins());
   m_transport->setReady(true);
   if (Viewport* view = viewport()) view->attach(&m_session->document(), m_session->engine(), m_session->link());
@@ -213,6 +196,7 @@ void MainWindow::onChanged(const ChangeEvent& event) {
 void MainWindow::onProjectOpened() {
   const Project& project = m_session->document().project();
   m_opening = true;
+  m_before = m_revision;
   m_historyRead = 0;
   m_shownFailure.clear();
   m_outliner->rebuild();
@@ -236,6 +220,7 @@ void MainWindow::onProjectOpened() {
 
 /// Where the scene's first material changes phase at the air's pressure: marks in the legend, lines in the graph.
 void MainWindow::updateTransitions() {
+  if (!m_session->plugins()) return;
   const Project& project = m_session->document().project();
   double melts = std::nan(""), boils = std::nan("");
   try {
@@ -263,8 +248,12 @@ void MainWindow::onSnapshot() {
     m_graphs->clear();
     m_energy->clear();
   }
-  if (m_opening) {
+  if (m_opening && m_revision != m_before) {
     m_opening = false;
+    if (m_session->isBroken() && m_options.exitOnBadProject) {
+      Q_EMIT startFailed(QString::fromStdString(snapshot->message));
+      return;
+    }
     refreshSlow();
     Q_EMIT projectShown();
   }
@@ -290,7 +279,11 @@ void MainWindow::refreshSlow() {
     m_outliner->setSnapshot(snapshot);
     m_inspector->setSnapshot(*snapshot);
   }
-  showFailure(*snapshot);
+  if (m_session->isBroken()) {
+    showBroken(*snapshot);
+  } else {
+    showFailure(*snapshot);
+  }
   m_transport->setPlaying(m_session->playing());
   refreshStatus();
 }
@@ -319,12 +312,28 @@ void MainWindow::showFailure(const Snapshot& snapshot) {
                        failure->title + QLatin1Char(' ') + failure->text);
 }
 
+void MainWindow::showBroken(const Snapshot& snapshot) {
+  const QString problem = QString::fromStdString(snapshot.message);
+  const QString attempt = problem + QString::number(snapshot.revision);
+  if (attempt == m_shownFailure) return;
+  m_shownFailure = attempt;
+  const QString title = QStringLiteral("“%1” cannot run as it is.").arg(m_session->document().title());
+  const QString text = sentence(problem) + QStringLiteral(" It is built anew with each change.");
+  std::vector<NoticeBar::Button> buttons;
+  if (m_session->document().undoStack().canUndo())
+    buttons.push_back({QStringLiteral("Undo"), [this] { m_session->document().undoStack().undo(); }});
+  buttons.push_back({QStringLiteral("Open another…"), [this] { chooseOpen(); }});
+  notice()->show(QStringLiteral("step"), MessageLevel::Error, title, text, std::move(buttons));
+  m_session->log().add(MessageLevel::Error, QStringLiteral("Simulation"), title + QLatin1Char(' ') + text);
+}
+
 void MainWindow::refreshStatus() {
   StatusLine::State state;
   state.ready = m_session->isReady();
   state.playing = m_session->playing();
   state.snapshot = m_session->snapshot();
-  state.failed = state.snapshot && (state.snapshot->flags & static_cast<StepFlags>(StepFlag::NotFinite));
+  state.failed = m_session->isBroken() ||
+                 (state.snapshot && (state.snapshot->flags & static_cast<StepFlags>(StepFlag::NotFinite)));
   state.realTime = m_session->engine() ? m_session->engine()->realTimeFactor() : 0;
   state.drawMilliseconds = viewport() ? viewport()->drawMilliseconds() : 0;
   state.graphics = m_graphicsText;
@@ -379,34 +388,6 @@ bool MainWindow::revealParameter(const Address& address) {
 void MainWindow::showMessage(MessageLevel level, const QString& where, const QString& text) {
   m_session->log().add(level, where, text);
   if (level == MessageLevel::Error || level == MessageLevel::Warning) notice()->show(where, level, where, text);
-}
-
-void MainWindow::keyPressEvent(QKeyEvent* event) {
-  if (event->key() == Qt::Key_Escape) {
-    if (Viewport* view = viewport(); view && view->cancelGesture()) return;
-    if (showsPlugins()) {
-      m_centre->setCurrentWidget(m_pane);
-    } else if (m_fullViewport) {
-      setFullViewport(false);
-    } else {
-      setTool(ViewTool::Select);
-    }
-    return;
-  }
-  QMainWindow::keyPressEvent(event);
-}
-
-/// Single keys belong to the widget that can use them: Space to a focused button, letters to text fields (Qt does
-/// that).
-bool MainWindow::eventFilter(QObject* watched, QEvent* event) {
-  if (event->type() == QEvent::ShortcutOverride && qobject_cast<QAbstractButton*>(watched)) {
-    const auto* key = static_cast<QKeyEvent*>(event);
-    if (key->key() == Qt::Key_Space && key->modifiers() == Qt::NoModifier) {
-      event->accept();
-      return true;
-    }
-  }
-  return QMainWindow::eventFilter(watched, event);
 }
 
 }  // namespace ps

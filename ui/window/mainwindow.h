@@ -104,13 +104,13 @@ class MainWindow : public QMainWindow {
   void makeSketchMenu();
   void makeHelpMenu();
   void fillRecent();
+  void setFilesEnabled(bool on);  ///< what needs plugins, in the menu File
   void openPalette();
   void setWorkspace(int index);
   void setTool(ViewTool tool);
   void setColour(int index);
   void stepBrush(int direction);
   // mainwindowfiles.cpp
-  void openFirst();
   void chooseOpen();
   void save();
   void chooseSave();
@@ -119,9 +119,16 @@ class MainWindow : public QMainWindow {
   void writeFile(const QString& path, std::function<QByteArray()> content, const QString& what);
   void onOpened(const QString& path, const QStringList& warnings, double seconds);
   void onOpenFailed(const QString& path, const QString& problem);
-  void onSaveFailed(const QString& path, const QString& problem);
-  void offerRestore();
+  void onSaved(const QString& path, bool present);
+  void onSaveFailed(const QString& path, const QString& problem, bool present);
+  void showNotSaved(const QString& problem, const QString& more);
+  bool isSample(const QString& path) const;
   void updateTitle();
+  // mainwindowrestore.cpp
+  void openFirst();
+  void offerRestore();
+  void connectAutosave();
+  void showReplaced(const QString& text);
   // mainwindow.cpp
   void connectSession();
   void connectPanels();
@@ -133,6 +140,7 @@ class MainWindow : public QMainWindow {
   void refreshSlow();  ///< values at most 15 times a second
   void refreshStatus();
   void showFailure(const Snapshot& snapshot);
+  void showBroken(const Snapshot& snapshot);  ///< the scene could not be built
   void updateTransitions();
   void selectBody(const std::string& id);
   void onOutlinerSelection(OutlineKind kind, const std::string& id);
@@ -162,7 +170,9 @@ class MainWindow : public QMainWindow {
   QTimer m_slow;
   QElapsedTimer m_sinceSlow;
   size_t m_historyRead = 0;
-  uint64_t m_revision = 0;
+  uint64_t m_revision = 0, m_before = 0;  ///< of the snapshot seen last; of the one when a project was opened
+  uint64_t m_warnedAt = 0;                ///< change count of work that a first attempt to close could not keep
+  std::shared_ptr<const ReplacedWork> m_replaced;
   QString m_shownFailure;
   QByteArray m_beforeFull;
 };

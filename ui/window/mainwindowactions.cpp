@@ -4,9 +4,12 @@
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
 #include "ui/document/documentfiles.h"
+#include "ui/graphs/graphview.h"
+#include "ui/graphs/phasestackview.h"
 #include "ui/theme/numbers.h"
 #include "ui/viewport/viewport.h"
 #include "ui/window/dock.h"
+#include "ui/window/graphspanel.h"
 #include "ui/window/mainwindow.h"
 #include "ui/window/materialspanel.h"
 #include "ui/window/pluginpage.h"
@@ -15,7 +18,11 @@
 
 #include <QtCore/QFileInfo>
 #include <QtGui/QAction>
+#include <QtGui/QKeyEvent>
+#include <QtWidgets/QAbstractButton>
+#include <QtWidgets/QAbstractItemView>
 #include <QtWidgets/QApplication>
+#include <QtWidgets/QComboBox>
 #include <QtWidgets/QMenu>
 #include <QtWidgets/QMenuBar>
 #include <QtWidgets/QStackedWidget>
@@ -32,6 +39,27 @@ QString valueText(const Value& value, const api::ParameterDeclaration& declarati
   if (const auto* choice = std::get_if<std::string>(&value))
     return QString::fromStdString(*choice).replace(QLatin1Char('_'), QLatin1Char(' '));
   return formatValue(declaration, std::get<Response>(value).at(293.15));
+}
+
+/// Whether a key is for a widget that has the focus rather than for the window: Space presses buttons, arrows walk.
+bool takesKey(const QObject* widget, int key) {
+  switch (key) {
+    case Qt::Key_Space:
+      return qobject_cast<const QAbstractButton*>(widget) || qobject_cast<const QComboBox*>(widget);
+    case Qt::Key_Left:
+    case Qt::Key_Right:
+    case Qt::Key_Up:
+    case Qt::Key_Down:
+      if (qobject_cast<const QTabBar*>(widget) || qobject_cast<const QMenuBar*>(widget) ||
+          qobject_cast<const MaterialsPanel*>(widget))
+        return true;
+      [[fallthrough]];
+    case Qt::Key_Home:
+    case Qt::Key_End:
+      return qobject_cast<const QAbstractItemView*>(widget) || qobject_cast<const QComboBox*>(widget);
+    default:
+      return false;
+  }
 }
 
 }  // namespace
@@ -105,6 +133,14 @@ void MainWindow::makeFileMenu() {
   menu->addSeparator();
   add(menu, QStringLiteral("file.quit"), QStringLiteral("Quit"), {QKeySequence(QStringLiteral("Ctrl+Q"))},
       [this] { close(); });
+  setFilesEnabled(false);
+}
+
+void MainWindow::setFilesEnabled(bool on) {
+  for (const char* name : {"file.new", "file.open", "file.sample", "file.save", "file.saveAs"}) {
+    if (QAction* needed = action(QString::fromLatin1(name))) needed->setEnabled(on);
+  }
+  m_recent->setEnabled(on);
 }
 
 void MainWindow::fillRecent() {
@@ -175,6 +211,10 @@ void MainWindow::makeSimulationMenu() {
       [this] { m_session->step(); });
   add(menu, QStringLiteral("simulation.reset"), QStringLiteral("Back to the start"), {QKeySequence(Qt::Key_Home)},
       [this] { m_session->reset(); });
+  add(menu, QStringLiteral("simulation.now"), QStringLiteral("Graphs up to now"), {QKeySequence(Qt::Key_End)}, [this] {
+    m_graphs->temperatures()->fit();
+    m_graphs->phases()->fit();
+  });
 }
 
 void MainWindow::makeSketchMenu() {
@@ -265,5 +305,38 @@ std::vector<PaletteEntry> MainWindow::paletteEntries() {
 }
 
 void MainWindow::openPalette() { m_palette->open(paletteEntries()); }
+
+void MainWindow::keyPressEvent(QKeyEvent* event) {
+  if (event->key() == Qt::Key_Escape) {
+    if (Viewport* view = viewport(); view && view->cancelGesture()) return;
+    if (showsPlugins()) {
+      m_centre->setCurrentWidget(m_pane);
+    } else if (m_fullViewport) {
+      setFullViewport(false);
+    } else {
+      setTool(ViewTool::Select);
+    }
+    return;
+  }
+  QMainWindow::keyPressEvent(event);
+}
+
+/// Single keys belong to the widget that can use them (letters to text fields: Qt does that). Tab in the viewport goes
+/// to the other workspace; Shift+Tab leaves it.
+bool MainWindow::eventFilter(QObject* watched, QEvent* event) {
+  if (event->type() == QEvent::ShortcutOverride || event->type() == QEvent::KeyPress) {
+    const auto* key = static_cast<QKeyEvent*>(event);
+    const bool plain = (key->modifiers() & ~Qt::KeypadModifier) == Qt::NoModifier;
+    if (plain && event->type() == QEvent::ShortcutOverride && takesKey(watched, key->key())) {
+      event->accept();
+      return true;
+    }
+    if (plain && event->type() == QEvent::KeyPress && key->key() == Qt::Key_Tab && watched == viewport()) {
+      action(QStringLiteral("view.workspace"))->trigger();
+      return true;
+    }
+  }
+  return QMainWindow::eventFilter(watched, event);
+}
 
 }  // namespace ps

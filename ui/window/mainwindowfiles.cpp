@@ -9,86 +9,54 @@
 #include "ui/window/mainwindow.h"
 #include "ui/window/noticebar.h"
 #include "ui/window/screenshot.h"
+#include "ui/window/wording.h"
 
 #include <QtCore/QBuffer>
 #include <QtCore/QFileInfo>
 #include <QtCore/QMimeData>
+#include <QtCore/QRegularExpression>
 #include <QtCore/QSaveFile>
+#include <QtCore/QStandardPaths>
 #include <QtGui/QDropEvent>
 #include <QtWidgets/QFileDialog>
+
+#include <utility>
 
 namespace ps {
 namespace {
 
 const QString kFilter = QStringLiteral("PhaseSketch projects (*.json);;All files (*)");
 
-QString sentence(const QString& text) { return text.endsWith(QLatin1Char('.')) ? text : text + QLatin1Char('.'); }
 QString nameOf(const QString& path) {
   return path.isEmpty() ? QStringLiteral("New scene") : QFileInfo(path).fileName();
 }
 
+/// A title as a file's name: without what some file system refuses.
+QString fileNameFor(QString title) {
+  return title.replace(QRegularExpression(QStringLiteral("[/\\\\:*?\"<>|]")), QStringLiteral("-"));
+}
+
+/// Asks for a file to write; "" when given up. The ending of `suggestion` completes a name without one before the
+/// question whether an existing file may be replaced, so that it is about the right file.
+QString fileToWrite(QWidget* parent, const QString& title, const QString& suggestion, const QString& filter) {
+  QFileDialog dialog(parent, title, QFileInfo(suggestion).path(), filter);
+  dialog.setAcceptMode(QFileDialog::AcceptSave);
+  dialog.setDefaultSuffix(QFileInfo(suggestion).suffix());
+  dialog.selectFile(QFileInfo(suggestion).fileName());
+  return dialog.exec() == QDialog::Accepted ? dialog.selectedFiles().constFirst() : QString();
+}
+
 }  // namespace
 
-void MainWindow::openFirst() {
-  if (!m_options.project.isEmpty()) {
-    m_session->files().open(m_options.project);
-    return;
-  }
-  if (m_options.restore && m_session->autosave()) {
-    for (const AutosavedSession& session : Autosave::leftBehind(m_session->autosaveDirectory())) {
-      if (!session.closed) continue;
-      const QString path = session.copy.isEmpty() ? session.path : session.copy;
-      if (!QFileInfo(path).isFile()) continue;
-      if (session.copy.isEmpty()) {
-        m_session->files().open(path);
-      } else {
-        m_session->files().openCopy(session.copy, session.path);
-      }
-      return;
-    }
-  }
-  if (m_options.sample.isEmpty()) {
-    m_session->files().newProject();
+/// Before plugins are there, it becomes the project to begin with.
+void MainWindow::openFile(const QString& path) {
+  if (m_session->isReady()) {
+    m_session->files().open(path);
   } else {
-    m_session->files().open(m_options.sample);
+    m_options.project = path;
   }
 }
 
-/// Copies of sessions that ended in order are taken over by now; of those that did not, the newest is offered.
-void MainWindow::offerRestore() {
-  if (!m_options.restore || !m_session->autosave()) return;
-  m_session->autosave()->saveNow();
-  m_session->worker().wait();  // the copy just opened is kept anew before the old one goes
-  for (const AutosavedSession& session : Autosave::leftBehind(m_session->autosaveDirectory())) {
-    if (session.closed || session.copy.isEmpty()) {
-      Autosave::discard(session);
-      continue;
-    }
-    notice()->show(QStringLiteral("restore"), MessageLevel::Info, QStringLiteral("Your last session can be restored."),
-                   QStringLiteral("“%1” was open when PhaseSketch ended unexpectedly. The copy is of %2.")
-                       .arg(session.title, session.time.toString(QStringLiteral("d MMMM, HH:mm"))),
-                   {{QStringLiteral("Restore"),
-                     [this, session] {
-                       notice()->close(QStringLiteral("restore"));
-                       connect(
-                           &m_session->files(), &DocumentFiles::opened, this,
-                           [this, session] {
-                             if (m_session->autosave()) m_session->autosave()->saveNow();
-                             m_session->worker().run([session] { Autosave::discard(session); });
-                           },
-                           Qt::SingleShotConnection);
-                       m_session->files().openCopy(session.copy, session.path);
-                     }},
-                    {QStringLiteral("Keep for later"), [this] { notice()->close(QStringLiteral("restore")); }},
-                    {QStringLiteral("Discard"), [this, session] {
-                       Autosave::discard(session);
-                       notice()->close(QStringLiteral("restore"));
-                     }}});
-    return;
-  }
-}
-
-void MainWindow::openFile(const QString& path) { m_session->files().open(path); }
 void MainWindow::saveTo(const QString& path) { m_session->files().save(path); }
 
 void MainWindow::chooseOpen() {
@@ -97,9 +65,15 @@ void MainWindow::chooseOpen() {
   if (!path.isEmpty()) openFile(path);
 }
 
+/// The sample that comes with the program stays as it is: it is saved under another name.
+bool MainWindow::isSample(const QString& path) const {
+  return !m_options.sample.isEmpty() &&
+         QFileInfo(path).canonicalFilePath() == QFileInfo(m_options.sample).canonicalFilePath();
+}
+
 void MainWindow::save() {
   const QString& path = m_session->document().path();
-  if (path.isEmpty()) {
+  if (path.isEmpty() || isSample(path)) {
     chooseSave();
   } else {
     saveTo(path);
@@ -107,11 +81,14 @@ void MainWindow::save() {
 }
 
 void MainWindow::chooseSave() {
-  QString path =
-      QFileDialog::getSaveFileName(this, QStringLiteral("Save the project"), m_session->document().path(), kFilter);
-  if (path.isEmpty()) return;
-  if (QFileInfo(path).suffix().isEmpty()) path += QStringLiteral(".json");
-  saveTo(path);
+  const Document& document = m_session->document();
+  QString suggestion = document.path();
+  if (suggestion.isEmpty() || isSample(suggestion)) {
+    suggestion = QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation) + QLatin1Char('/') +
+                 fileNameFor(document.title()) + QStringLiteral(".json");
+  }
+  const QString path = fileToWrite(this, QStringLiteral("Save the project"), suggestion, kFilter);
+  if (!path.isEmpty()) saveTo(path);
 }
 
 void MainWindow::onOpened(const QString& path, const QStringList& warnings, double seconds) {
@@ -126,42 +103,49 @@ void MainWindow::onOpened(const QString& path, const QStringList& warnings, doub
                                                  : QStringLiteral("%1 remarks").arg(warnings.size())),
                    warnings.front());
   }
-  if (m_first) {
-    m_first = false;
-    offerRestore();
-  }
+  if (std::exchange(m_first, false)) offerRestore();
   updateTitle();
 }
 
 void MainWindow::onOpenFailed(const QString& path, const QString& problem) {
-  if (m_first && m_options.exitOnBadProject) {
+  const bool first = std::exchange(m_first, false);
+  if (first && m_options.exitOnBadProject) {
     Q_EMIT startFailed(problem);
     return;
   }
   m_session->log().add(MessageLevel::Error, nameOf(path), problem);
-  const bool nothing = m_session->document().project().bodies.empty();
-  notice()->show(QStringLiteral("open"), MessageLevel::Error, QStringLiteral("“%1” was not opened.").arg(nameOf(path)),
-                 sentence(problem) + (nothing ? QString() : QStringLiteral(" The present scene is unchanged.")),
-                 {{QStringLiteral("Open another…"), [this] { chooseOpen(); }}});
-  if (m_first) {
-    m_first = false;
-    const QString shown = notice()->text();
-    if (!m_options.sample.isEmpty() &&
-        QFileInfo(path).absoluteFilePath() != QFileInfo(m_options.sample).absoluteFilePath()) {
-      // The window must not stay empty; the notice stays.
-      m_session->files().newProject();
-      notice()->show(QStringLiteral("open"), MessageLevel::Error,
-                     QStringLiteral("“%1” was not opened.").arg(nameOf(path)), problem,
-                     {{QStringLiteral("Open another…"), [this] { chooseOpen(); }},
-                      {QStringLiteral("Open the sample"), [this] { openFile(m_options.sample); }}});
-    }
+  std::vector<NoticeBar::Button> buttons{{QStringLiteral("Open another…"), [this] { chooseOpen(); }}};
+  if (first) {
+    m_session->files().newProject();  // the window must not stay empty
+    if (!m_options.sample.isEmpty() && !isSample(path))
+      buttons.push_back({QStringLiteral("Open the sample"), [this] { openFile(m_options.sample); }});
   }
+  notice()->show(QStringLiteral("open"), MessageLevel::Error, QStringLiteral("“%1” was not opened.").arg(nameOf(path)),
+                 sentence(problem) + (first ? QString() : QStringLiteral(" The present scene is unchanged.")),
+                 std::move(buttons));
 }
 
-void MainWindow::onSaveFailed(const QString& path, const QString& problem) {
+void MainWindow::onSaved(const QString& path, bool present) {
+  m_session->log().add(MessageLevel::Ok, nameOf(path), QStringLiteral("Saved to %1.").arg(path));
+  if (!present) return;
+  notice()->close(QStringLiteral("save"));
+  m_fileText = QStringLiteral("Saved ") + QTime::currentTime().toString(QStringLiteral("HH:mm"));
+  updateTitle();
+  refreshStatus();
+}
+
+void MainWindow::onSaveFailed(const QString& path, const QString& problem, bool present) {
   m_session->log().add(MessageLevel::Error, nameOf(path), problem);
+  if (!present) {
+    showReplaced(QStringLiteral("“%1” was not saved: %2").arg(nameOf(path), sentence(problem)));
+    return;
+  }
+  showNotSaved(problem, QStringLiteral("Your work is kept in memory."));
+}
+
+void MainWindow::showNotSaved(const QString& problem, const QString& more) {
   notice()->show(QStringLiteral("save"), MessageLevel::Error, QStringLiteral("Not saved."),
-                 sentence(problem) + QStringLiteral(" Your work is kept in memory."),
+                 sentence(problem) + QLatin1Char(' ') + more,
                  {{QStringLiteral("Save elsewhere…"), [this] { chooseSave(); }}});
 }
 
@@ -182,8 +166,8 @@ void MainWindow::writeFile(const QString& path, std::function<QByteArray()> cont
 
 void MainWindow::exportCsv() {
   if (!m_session->engine()) return;
-  const QString path = QFileDialog::getSaveFileName(this, QStringLiteral("Export all frames"),
-                                                    QStringLiteral("frames.csv"), QStringLiteral("CSV (*.csv)"));
+  const QString path = fileToWrite(this, QStringLiteral("Export all frames"), QStringLiteral("frames.csv"),
+                                   QStringLiteral("CSV (*.csv)"));
   if (path.isEmpty()) return;
   writeFile(
       path,
@@ -196,8 +180,8 @@ void MainWindow::exportCsv() {
 void MainWindow::exportPicture() {
   Viewport* view = viewport();
   if (!view) return;
-  const QString path = QFileDialog::getSaveFileName(this, QStringLiteral("Save a picture of the scene"),
-                                                    QStringLiteral("scene.png"), QStringLiteral("PNG (*.png)"));
+  const QString path = fileToWrite(this, QStringLiteral("Save a picture of the scene"), QStringLiteral("scene.png"),
+                                   QStringLiteral("PNG (*.png)"));
   if (path.isEmpty()) return;
   writeFile(
       path,

@@ -175,10 +175,4 @@ void MainWindow::showEvent(QShowEvent* event) {
   m_sizeAtShow = false;
 }
 
-void MainWindow::closeEvent(QCloseEvent* event) {
-  saveWindow();
-  m_session->close();
-  QMainWindow::closeEvent(event);
-}
-
 }  // namespace ps

@@ -21,7 +21,10 @@ Session::Session(const Options& options, QObject* parent)
   m_log->takeLog();
   m_files = std::make_unique<DocumentFiles>(*m_document, *m_worker);
   if (options.autosave) {
-    m_autosave = std::make_unique<Autosave>(*m_document, *m_worker, autosaveDirectory());
+    const QString& directory = options.autosaveDirectory;
+    m_autosave = std::make_unique<Autosave>(*m_document, *m_worker,
+                                            directory.isEmpty() ? Autosave::standardDirectory() : directory);
+    connect(m_files.get(), &DocumentFiles::reopened, m_autosave.get(), &Autosave::takeOver);
     m_autosave->start();
   }
 }
@@ -32,10 +35,6 @@ Session::~Session() {
   m_link.reset();
   m_engine.reset();
   m_document->setPlugins(nullptr);
-}
-
-QString Session::autosaveDirectory() const {
-  return m_options.autosaveDirectory.isEmpty() ? Autosave::standardDirectory() : m_options.autosaveDirectory;
 }
 
 void Session::start() {
@@ -79,8 +78,14 @@ void Session::adoptPlugins(std::unique_ptr<PluginRegistry> plugins) {
 SnapshotPtr Session::snapshot() const { return m_engine ? m_engine->snapshot() : nullptr; }
 bool Session::playing() const { return m_engine && m_engine->playing(); }
 
+bool Session::isBroken() const { return m_link && m_link->isBroken(); }
+
 void Session::play() {
   if (!m_engine) return;
+  if (isBroken()) {
+    m_link->rebuild(true);
+    return;
+  }
   m_engine->play();
   m_wasPlaying = true;
   Q_EMIT playingChanged();
@@ -103,6 +108,7 @@ void Session::playPause() {
 
 void Session::step() {
   if (!m_engine) return;
+  if (isBroken()) m_link->rebuild(false);
   m_engine->stepOnce();
   m_wasPlaying = false;
   Q_EMIT playingChanged();
@@ -112,10 +118,11 @@ void Session::reset() {
   if (m_link) m_link->reset();
 }
 
-void Session::close() {
-  if (m_closed) return;
-  m_closed = true;
-  if (m_autosave && m_plugins) m_autosave->close();
+QString Session::close() {
+  if (m_closed || !m_autosave) return {};
+  const QString problem = m_autosave->close();
+  m_closed = problem.isEmpty();
+  return problem;
 }
 
 }  // namespace ps

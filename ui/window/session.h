@@ -44,7 +44,6 @@ class Session : public QObject {
   EngineThread* engine() { return m_engine.get(); }
   SceneLink* link() { return m_link.get(); }
   Autosave* autosave() { return m_autosave.get(); }
-  QString autosaveDirectory() const;
 
   SnapshotPtr snapshot() const;
   void playPause();
@@ -53,8 +52,10 @@ class Session : public QObject {
   void step();
   void reset();
   bool playing() const;
-  /// Last copy of unsaved work; at most once.
-  void close();
+  /// The engine has no scene: the project cannot be built as it is (see SceneLink::isBroken()).
+  bool isBroken() const;
+  /// Last copy of unsaved work, written once. Returns "", or why it could not be: the session then goes on.
+  QString close();
 
  Q_SIGNALS:
   void ready();

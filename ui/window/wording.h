@@ -8,6 +8,8 @@
 
 namespace ps {
 
+/// With a full stop.
+QString sentence(const QString& text);
 /// "2 h 20 min", "41 min", "38 s": spans of time as people say them.
 QString spanText(double seconds);
 /// "00:42.00": minutes, seconds, hundredths.

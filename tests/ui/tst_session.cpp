@@ -1,0 +1,438 @@
+// SPDX-License-Identifier: Apache-2.0
+// A user's sessions: what is opened first, what is kept at close and offered again, files, keys, and pictures by
+// command.
+#include "core/io/projectio.h"
+#include "core/simulation/engine.h"
+#include "tests/shared/scenes.h"
+#include "ui/document/document.h"
+#include "ui/document/documentfiles.h"
+#include "ui/document/worker.h"
+#include "ui/graphs/graphview.h"
+#include "ui/render/camera.h"
+#include "ui/theme/theme.h"
+#include "ui/viewport/viewport.h"
+#include "ui/window/graphspanel.h"
+#include "ui/window/mainwindow.h"
+#include "ui/window/noticebar.h"
+#include "ui/window/transport.h"
+
+#include <QtCore/QDir>
+#include <QtCore/QMimeData>
+#include <QtCore/QProcess>
+#include <QtCore/QTemporaryDir>
+#include <QtCore/QTimer>
+#include <QtGui/QAction>
+#include <QtGui/QDropEvent>
+#include <QtGui/QSurfaceFormat>
+#include <QtTest/QSignalSpy>
+#include <QtTest/QTest>
+#include <QtWidgets/QApplication>
+#include <QtWidgets/QFileDialog>
+#include <QtWidgets/QLineEdit>
+#include <QtWidgets/QMessageBox>
+#include <QtWidgets/QPushButton>
+#include <QtWidgets/QTabBar>
+#include <QtWidgets/QTreeView>
+
+#include <clocale>
+#include <functional>
+#include <future>
+
+using namespace ps;
+
+namespace {
+
+const Address kFloor{"wall", "floor", "temperature"};
+constexpr int kLong = 30000;  // ms; software rendering on a busy machine
+
+double floorOf(MainWindow& window) { return std::get<double>(window.session().document().value(kFloor)); }
+
+QPushButton* noticeButton(MainWindow& window, const QString& text) {
+  for (QPushButton* button : window.notice()->findChildren<QPushButton*>()) {
+    if (button->text() == text) return button;
+  }
+  return nullptr;
+}
+
+void press(MainWindow& window, Qt::Key key, Qt::KeyboardModifiers modifiers = {}) {
+  window.viewport()->setFocus();
+  QTest::keyClick(window.viewport(), key, modifiers);
+}
+
+}  // namespace
+
+class TestSession : public QObject {
+  Q_OBJECT
+ private Q_SLOTS:
+  void init() {
+    m_directory = std::make_unique<QTemporaryDir>();
+    m_sample = file(QStringLiteral("sample.json"));
+    saveProject(scenes::iceOnPlate(4, 370), m_sample.toStdString());
+  }
+  void cleanup() { m_window.reset(); }
+
+  void closingAndReopeningKeepsUnsavedWork() {
+    open();
+    edit(351);
+    QVERIFY(m_window->close());
+    open();
+    QCOMPARE(floorOf(*m_window), 351.0);
+    QVERIFY(document().isDirty());
+    QVERIFY(!m_window->notice()->isVisible());
+    // The first session's copy went when this one had its own.
+    QTRY_COMPARE(QDir(copies()).entryList({QStringLiteral("*.note")}).size(), 1);
+  }
+
+  void closingAndReopeningKeepsTheView() {
+    const QString path = file(QStringLiteral("mine.json"));
+    saveProject(scenes::iceOnPlate(4, 370), path.toStdString());
+    open(path);
+    m_window->viewport()->show(StandardView::Top);
+    m_window->action(QStringLiteral("view.colour3"))->trigger();
+    const Camera seen = m_window->viewport()->navigator().camera();
+    QVERIFY(m_window->close());
+    open();
+    QCOMPARE(document().path(), path);
+    QVERIFY(!document().isDirty());
+    QCOMPARE(m_window->viewport()->navigator().camera().elevation, seen.elevation);
+    QCOMPARE(m_window->viewport()->navigator().camera().distance, seen.distance);
+    QCOMPARE(m_window->viewport()->colour(), ColourBy::Phase);
+  }
+
+  void aNamedProjectLeavesOtherWorkOnOffer() {
+    open();
+    edit(352);
+    QVERIFY(m_window->close());
+    const QString other = file(QStringLiteral("other.json"));
+    saveProject(scenes::iceOnPlate(4, 300), other.toStdString());
+    open(other);
+    QCOMPARE(floorOf(*m_window), 300.0);
+    QVERIFY(m_window->notice()->isVisible());
+    QVERIFY2(m_window->notice()->text().contains(QStringLiteral("was closed with unsaved changes")),
+             qPrintable(m_window->notice()->text()));
+    QPushButton* restore = noticeButton(*m_window, QStringLiteral("Restore"));
+    QVERIFY(restore);
+    QSignalSpy opened(&m_window->session().files(), &DocumentFiles::opened);
+    restore->click();
+    QVERIFY(opened.wait(kLong));
+    QCOMPARE(floorOf(*m_window), 352.0);
+    QVERIFY(!m_window->notice()->isVisible());
+  }
+
+  /// Two windows were closed with unsaved work: one is open again, the other must not be lost by that.
+  void bothOfTwoUnsavedSessionsAreKept() {
+    for (const double kelvin : {353.0, 354.0}) {
+      open(m_sample);
+      edit(kelvin);
+      QVERIFY(m_window->close());
+    }
+    open();
+    QCOMPARE(floorOf(*m_window), 354.0);
+    QVERIFY(m_window->notice()->isVisible());
+    QPushButton* discard = noticeButton(*m_window, QStringLiteral("Discard"));
+    QVERIFY(discard);
+    QTRY_COMPARE(QDir(copies()).entryList({QStringLiteral("*.note")}).size(), 2);
+    discard->click();
+    QVERIFY(!m_window->notice()->isVisible());
+    QCOMPARE(QDir(copies()).entryList({QStringLiteral("*.note")}).size(), 1);
+  }
+
+  void newSceneOverUnsavedWorkLeavesAWayBack() {
+    open();
+    edit(355);
+    press(*m_window, Qt::Key_N, Qt::ControlModifier);
+    QCOMPARE(document().title(), QStringLiteral("New scene"));
+    QTRY_VERIFY(m_window->notice()->isVisible());
+    QPushButton* back = noticeButton(*m_window, QStringLiteral("Back to it"));
+    QVERIFY(back);
+    back->click();
+    QCOMPARE(floorOf(*m_window), 355.0);
+    QVERIFY(document().isDirty());
+    QVERIFY(!m_window->notice()->isVisible());
+  }
+
+  void aCloseThatCanKeepNothingWarnsOnce() {
+    open();
+    edit(356);
+    QVERIFY(QDir(copies()).removeRecursively());
+    QVERIFY(!m_window->close());
+    QVERIFY(m_window->isVisible());
+    QVERIFY2(m_window->notice()->text().startsWith(QStringLiteral("Not saved.")),
+             qPrintable(m_window->notice()->text()));
+    QVERIFY(noticeButton(*m_window, QStringLiteral("Save elsewhere…")));
+    edit(357);  // of this nobody was warned
+    QVERIFY(!m_window->close());
+    QVERIFY(m_window->close());
+  }
+
+  void aSaveThatFailsSaysSo() {
+    open();
+    QSignalSpy failed(&m_window->session().files(), &DocumentFiles::saveFailed);
+    m_window->saveTo(file(QStringLiteral("missing/scene.json")));
+    QVERIFY(failed.wait(kLong));
+    QVERIFY(m_window->notice()->isVisible());
+    QVERIFY(m_window->notice()->text().startsWith(QStringLiteral("Not saved.")));
+    QVERIFY(noticeButton(*m_window, QStringLiteral("Save elsewhere…")));
+  }
+
+  void theSampleIsSavedUnderAnotherName() {
+    open();
+    edit(358);
+    const QByteArray before = read(m_sample);
+    QString suggested;
+    whenOpen<QFileDialog>([&](QFileDialog& dialog) {
+      suggested = dialog.selectedFiles().value(0);
+      dialog.reject();
+    });
+    press(*m_window, Qt::Key_S, Qt::ControlModifier);
+    QVERIFY(suggested.endsWith(QStringLiteral("Ice on a plate.json")));
+    m_window->session().worker().wait();
+    QCOMPARE(read(m_sample), before);
+  }
+
+  /// "foo" becomes "foo.json" before the question whether that file may be replaced.
+  void aNameWithoutAnEndingAsksAboutTheRightFile() {
+    open();
+    const QString path = file(QStringLiteral("foo.json"));
+    QVERIFY(QFile::copy(m_sample, path));
+    edit(359);
+    QString question;
+    whenOpen<QFileDialog>([&](QFileDialog& dialog) {
+      dialog.findChild<QLineEdit*>()->setText(file(QStringLiteral("foo")));
+      whenOpen<QMessageBox>([&](QMessageBox& box) {
+        question = box.text();
+        box.reject();
+        dialog.reject();
+      });
+      QMetaObject::invokeMethod(&dialog, "accept");
+    });
+    m_window->action(QStringLiteral("file.saveAs"))->trigger();
+    QVERIFY2(question.contains(QStringLiteral("foo.json")), qPrintable(question));
+    m_window->session().worker().wait();
+    QCOMPARE(read(path), read(m_sample));
+  }
+
+  void nothingOpensBeforePluginsAreThere() {
+    make();
+    m_window->show();
+    QVERIFY(QTest::qWaitForWindowExposed(m_window.get()));
+    for (const char* name : {"file.new", "file.open", "file.sample", "file.save", "file.saveAs"})
+      QVERIFY2(!m_window->action(QString::fromLatin1(name))->isEnabled(), name);
+    press(*m_window, Qt::Key_N, Qt::ControlModifier);
+    QVERIFY(document().project().bodies.empty() && document().changeCount() == 0);
+    const QString dropped = file(QStringLiteral("dropped.json"));
+    saveProject(scenes::iceOnPlate(4, 301), dropped.toStdString());
+    drop(dropped);
+    start();
+    QCOMPARE(floorOf(*m_window), 301.0);
+    QVERIFY(m_window->action(QStringLiteral("file.new"))->isEnabled());
+  }
+
+  void aDroppedFileOpens() {
+    open();
+    const QString dropped = file(QStringLiteral("dropped.json"));
+    saveProject(scenes::iceOnPlate(4, 302), dropped.toStdString());
+    QSignalSpy opened(&m_window->session().files(), &DocumentFiles::opened);
+    drop(dropped);
+    QVERIFY(opened.wait(kLong));
+    QCOMPARE(floorOf(*m_window), 302.0);
+  }
+
+  void aSceneThatCannotBeBuiltSaysWhyAndIsMended() {
+    open();
+    Project project = scenes::iceOnPlate(4, 370);
+    project.title = "Odd water";
+    project.materials[0].properties.values["boiling_temperature"] = 200.0;  // below the melting point
+    document().open(project, {});
+    QTRY_VERIFY_WITH_TIMEOUT(m_window->notice()->isVisible(), kLong);
+    QVERIFY2(m_window->notice()->text().contains(QStringLiteral("“Odd water” cannot run as it is")),
+             qPrintable(m_window->notice()->text()));
+    QVERIFY(!session().playing() && session().snapshot()->id.empty());
+    session().reset();  // Home tries again, and says the same
+    QTRY_VERIFY(session().isBroken() && m_window->notice()->isVisible());
+    QCOMPARE(document().setParameter({"material", "water", "boiling_temperature"}, 373.15), QString());
+    QTRY_COMPARE_WITH_TIMEOUT(session().snapshot()->id.size(), size_t{64}, kLong);
+    QTRY_VERIFY_WITH_TIMEOUT(!m_window->notice()->isVisible(), kLong);
+    session().play();
+    QTRY_VERIFY_WITH_TIMEOUT(session().snapshot()->stats.frame > 1, kLong);
+  }
+
+  void keysMoveTheClockAndTheHistory() {
+    open();
+    session().pause();
+    press(*m_window, Qt::Key_Home);
+    QTRY_COMPARE_WITH_TIMEOUT(session().snapshot()->stats.frame, uint64_t{0}, kLong);
+    press(*m_window, Qt::Key_Right);
+    QTRY_COMPARE_WITH_TIMEOUT(session().snapshot()->stats.frame, uint64_t{1}, kLong);
+    edit(360);
+    press(*m_window, Qt::Key_Z, Qt::ControlModifier);
+    QCOMPARE(floorOf(*m_window), 370.0);
+    press(*m_window, Qt::Key_Z, Qt::ControlModifier | Qt::ShiftModifier);
+    QCOMPARE(floorOf(*m_window), 360.0);
+    m_window->saveTo(file(QStringLiteral("keys.json")));
+    QTRY_VERIFY(!document().isDirty());
+    edit(361);
+    press(*m_window, Qt::Key_S, Qt::ControlModifier);
+    QTRY_VERIFY(!document().isDirty());
+    m_window->graphs()->temperatures()->setTimeRange(0, 0.1);
+    press(*m_window, Qt::Key_End);
+    QVERIFY(m_window->graphs()->temperatures()->isFitted());
+    press(*m_window, Qt::Key_Tab);
+    QCOMPARE(m_window->viewport()->tool(), ViewTool::Brush);
+    press(*m_window, Qt::Key_Tab);
+    QCOMPARE(m_window->viewport()->tool(), ViewTool::Select);
+  }
+
+  /// Widgets that walk by arrows keep them; the simulation stays where it is.
+  void arrowsBelongToTheWidgetInFocus() {
+    open();
+    session().pause();
+    settle();
+    const uint64_t frame = session().snapshot()->stats.frame, revision = session().snapshot()->revision;
+    auto* tabs = m_window->findChild<QTabBar*>(QStringLiteral("psWorkspaces"));
+    QTest::keyClick(tabs, Qt::Key_Right);
+    QCOMPARE(tabs->currentIndex(), 1);
+    QTreeView* outliner = m_window->outliner()->view();
+    outliner->setFocus();
+    outliner->setCurrentIndex(outliner->model()->index(0, 0));
+    QTest::keyClick(outliner, Qt::Key_End);
+    const QModelIndex last = outliner->currentIndex();
+    QVERIFY(last != outliner->model()->index(0, 0));
+    QTest::keyClick(outliner, Qt::Key_Home);
+    QVERIFY(outliner->currentIndex() != last);
+    QTest::keyClick(outliner, Qt::Key_Right);
+    settle();
+    QCOMPARE(session().snapshot()->stats.frame, frame);
+    QCOMPARE(session().snapshot()->revision, revision);
+  }
+
+  void picturesByCommand_data() {
+    QTest::addColumn<QString>("project");
+    QTest::addColumn<QString>("picture");
+    QTest::addColumn<QString>("theme");
+    QTest::addColumn<int>("code");
+    QTest::newRow("dark") << "good.json"
+                          << "dark.png"
+                          << "dark" << 0;
+    QTest::newRow("light") << "good.json"
+                           << "light.png"
+                           << "light" << 0;
+    QTest::newRow("no such folder") << "good.json"
+                                    << "missing/picture.png"
+                                    << "dark" << 1;
+    QTest::newRow("no such project") << "nowhere.json"
+                                     << "picture.png"
+                                     << "dark" << 2;
+    QTest::newRow("a project that cannot be built") << "odd.json"
+                                                    << "picture.png"
+                                                    << "dark" << 2;
+  }
+  void picturesByCommand() {
+    QFETCH(QString, project);
+    QFETCH(QString, picture);
+    QFETCH(QString, theme);
+    QFETCH(int, code);
+    saveProject(scenes::iceOnPlate(4, 370), file(QStringLiteral("good.json")).toStdString());
+    Project odd = scenes::iceOnPlate(4, 370);
+    odd.solver.thermalModel = "bonds";  // another kind of plugin
+    saveProject(odd, file(QStringLiteral("odd.json")).toStdString());
+    QProcess program;
+    program.start(
+        QStringLiteral(PS_BINARY_DIR "/bin/phasesketch"),
+        {file(project), QStringLiteral("--screenshot"), file(picture), QStringLiteral("--after"), QStringLiteral("0"),
+         QStringLiteral("--size"), QStringLiteral("640x480"), QStringLiteral("--theme"), theme});
+    QVERIFY(program.waitForFinished(2 * kLong));
+    const QByteArray said = program.readAllStandardError();
+    QVERIFY2(program.exitStatus() == QProcess::NormalExit && program.exitCode() == code, said.constData());
+    QVERIFY(code == 0 || said.contains("phasesketch: "));
+    if (code != 0) return;
+    const QImage image(file(picture));
+    QVERIFY(!image.isNull());
+    QCOMPARE(image.pixelColor(image.width() - 2, image.height() / 2).lightness() < 128,
+             theme == QStringLiteral("dark"));
+  }
+
+ private:
+  Session& session() { return m_window->session(); }
+  Document& document() { return session().document(); }
+  QString file(const QString& name) const { return m_directory->filePath(name); }
+  QString copies() const { return file(QStringLiteral("copies")); }
+  static QByteArray read(const QString& path) {
+    QFile in(path);
+    return in.open(QIODevice::ReadOnly) ? in.readAll() : QByteArray();
+  }
+
+  void make(const QString& project = {}) {
+    m_window.reset();
+    MainWindow::Options options;
+    options.project = project;
+    options.sample = m_sample;
+    options.session.autosaveDirectory = copies();
+    m_window = std::make_unique<MainWindow>(options);
+    m_window->resize(1280, 800);
+  }
+  void start() {
+    QSignalSpy shown(m_window.get(), &MainWindow::projectShown);
+    m_window->start();
+    QVERIFY(shown.wait(kLong));
+  }
+  /// A new window, as after the program's start, on its first project.
+  void open(const QString& project = {}) {
+    make(project);
+    m_window->show();
+    QVERIFY(QTest::qWaitForWindowExposed(m_window.get()));
+    QApplication::setActiveWindow(m_window.get());
+    start();
+  }
+  /// Does something with the modal window that the next call opens, as soon as it is there.
+  template <class Dialog>
+  void whenOpen(const std::function<void(Dialog&)>& act) {
+    auto* timer = new QTimer(m_window.get());
+    connect(timer, &QTimer::timeout, timer, [timer, act] {
+      auto* dialog = qobject_cast<Dialog*>(QApplication::activeModalWidget());
+      if (!dialog) return;
+      timer->deleteLater();
+      act(*dialog);
+    });
+    timer->start(20);
+  }
+  /// What the engine was asked for is done, and seen.
+  void settle() {
+    std::promise<void> done;
+    session().engine()->post([&done](Engine&) { done.set_value(); });
+    done.get_future().wait();
+    QTest::qWait(20);
+  }
+  void edit(double kelvin) { QCOMPARE(document().setParameter(kFloor, kelvin), QString()); }
+  void drop(const QString& path) {
+    QMimeData data;
+    data.setUrls({QUrl::fromLocalFile(path)});
+    QDragEnterEvent enter(QPoint(50, 50), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+    QApplication::sendEvent(m_window.get(), &enter);
+    QVERIFY(enter.isAccepted());
+    QDropEvent event(QPointF(50, 50), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+    QApplication::sendEvent(m_window.get(), &event);
+  }
+
+  std::unique_ptr<QTemporaryDir> m_directory;
+  std::unique_ptr<MainWindow> m_window;
+  QString m_sample;
+};
+
+int main(int argc, char** argv) {
+  QSurfaceFormat format;
+  format.setVersion(4, 3);
+  format.setProfile(QSurfaceFormat::CoreProfile);
+  format.setDepthBufferSize(24);
+  QSurfaceFormat::setDefaultFormat(format);
+  QApplication::setAttribute(Qt::AA_DontUseNativeDialogs);
+  QApplication application(argc, argv);
+  QApplication::setApplicationName(QStringLiteral("tst_session"));
+  QApplication::setOrganizationName(QStringLiteral("phasesketch"));
+  QApplication::setQuitOnLastWindowClosed(false);
+  std::setlocale(LC_NUMERIC, "C");
+  Theme::apply(application, true);
+  TestSession test;
+  return QTest::qExec(&test, argc, argv);
+}
+#include "tst_session.moc"
