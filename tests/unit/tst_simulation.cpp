@@ -246,12 +246,15 @@ void TstSimulation::threadTellsWhatCannotBeOpened() {
   Project project = scenes::iceOnPlate(5, 293.15);
   thread.open(project, false);
   QVERIFY(waitFor([&] { return thread.snapshot() != nullptr; }));
-  const size_t before = thread.snapshot()->id.size();
+  const uint64_t before = thread.snapshot()->revision;
   project.bodies[0].material = "phlogiston";
   thread.open(project, true);
   QVERIFY(waitFor([&] { return !thread.snapshot()->message.empty(); }));
   QVERIFY(thread.snapshot()->message.find("phlogiston") != std::string::npos);
-  QCOMPARE(thread.snapshot()->id.size(), before);  // the scene that was open stays
+  // No scene at all, rather than the one before under the new one's name.
+  QVERIFY(thread.snapshot()->id.empty() && !thread.snapshot()->bodyIds);
+  QVERIFY(thread.snapshot()->revision != before);
+  QVERIFY(!thread.playing());
 }
 
 void TstSimulation::snapshotsOfTwoRunsNeverCompare() {

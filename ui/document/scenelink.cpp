@@ -144,7 +144,7 @@ void SceneLink::reset() {
 
 bool SceneLink::isBroken() const {
   const SnapshotPtr snapshot = m_engine.snapshot();
-  return snapshot && !snapshot->bodyIds && !snapshot->message.empty();
+  return snapshot && !snapshot->bodyIds;
 }
 
 void SceneLink::rebuild(bool play) {
