@@ -16,14 +16,18 @@ class PluginRegistry;
 /// the editor through EngineThread.
 class Engine {
  public:
-  /// Throws InputError when the project cannot be compiled (a missing required plugin, no particles fit, ...).
+  /// Throws InputError when the project cannot be compiled (contradicting values, too many particles, ...).
   Engine(const Project& project, PluginRegistry& plugins);
   ~Engine();
 
+  /// Plugins that threw in it are refused from now on, in the registry too.
   StepReport step();
+
+  // Edits. Each throws, InputError mostly, and then has changed nothing.
+
   void reset();  ///< back to the start, with all edits kept
   /// The document changed as a whole (undo, a new body, gravity): takes over every parameter at once; bodies, which are
-  /// particles by now, at the next reset. Throws InputError and changes nothing when it cannot be compiled.
+  /// particles by now, at the next reset.
   void update(const Project& project);
   /// A parameter changed: recompiles what it touches. Returns false when it acts at the next reset only
   /// (body parameters, particle_spacing).
@@ -42,6 +46,8 @@ class Engine {
   FrameStats stats() const;
   const Project& project() const;
   Solver& solver();
+  /// Body::id by the index that particles carry; a body keeps its index until the next reset.
+  const std::vector<std::string>& bodyIds() const;
   const std::vector<std::string>& probeNames() const;  ///< "name.quantity[unit]"
 
  private:

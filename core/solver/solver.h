@@ -29,9 +29,16 @@ struct TakenMatter {
   CopiedConstraints constraints;
 };
 
+/// A plugin that threw, and what it said; the solver goes on without it.
+struct PluginFault {
+  std::string plugin;  ///< id
+  std::string what;
+};
+
 struct StepReport {
   StepFlags flags = 0;
   std::string message;  ///< the culprit: "particle 17 of 'Ice block': position is not finite"
+  std::vector<PluginFault> faults;
   std::array<double, static_cast<size_t>(Stage::Count)> milliseconds{};
   double totalMilliseconds = 0;
   double densityErrorMean = 0, densityErrorMax = 0;  ///< fraction, liquid particles, after the last iteration
