@@ -55,6 +55,21 @@ class Engine {
   std::unique_ptr<Impl> m;
 };
 
+/// What an engine's thread has to tell. The newest one stands until another follows.
+struct EngineEvent {
+  enum class Kind {
+    Step,       ///< a step raised flags
+    Refused,    ///< an edit was refused and has changed nothing
+    NotOpened,  ///< a project could not be opened; the scene before it stays and is paused
+    Stopped,    ///< something failed between two frames or in one; the scene is paused
+    Settled,    ///< what was told last no longer holds
+  };
+  uint64_t number = 0;  ///< counts the thread's events
+  Kind kind = Kind::Step;
+  StepFlags flags = 0;  ///< of steps; PluginFault of edits that a plugin failed in
+  std::string message;
+};
+
 /// Runs an Engine on its own thread. Commands are queued and act between frames; snapshots are published after each.
 /// No call here waits for a step.
 class EngineThread {
@@ -63,7 +78,7 @@ class EngineThread {
   EngineThread(PluginRegistry& plugins, std::function<void()> published);
   ~EngineThread();
 
-  void open(const Project& project, bool play);  ///< replaces the scene; compile errors arrive in snapshot()->message
+  void open(const Project& project, bool play);  ///< replaces the scene; what hinders it arrives in events()
   void play();
   void pause();
   void stepOnce();
@@ -81,6 +96,9 @@ class EngineThread {
   SnapshotPtr previousSnapshot() const;  ///< the one before it, of the same revision, else nullptr
   /// All frames' statistics since the last reset, appended from index `from`.
   std::vector<FrameStats> history(size_t from) const;
+  /// Failures in the order they came, from number `from` on; the oldest are forgotten after a few hundred. A step's
+  /// flag is told when it is raised after a second without it. The thread pauses at a NaN and when a plugin fails.
+  std::vector<EngineEvent> events(uint64_t from) const;
   double realTimeFactor() const;  ///< simulated seconds per second, over the last second
 
  private:

@@ -392,8 +392,11 @@ void TstSimulation::threadTellsWhatCannotBeOpened() {
   const size_t before = thread.snapshot()->id.size();
   project.bodies[0].material = "phlogiston";
   thread.open(project, true);
-  QVERIFY(waitFor([&] { return !thread.snapshot()->message.empty(); }));
-  QVERIFY(thread.snapshot()->message.find("phlogiston") != std::string::npos);
+  QVERIFY(waitFor([&] { return !thread.events(0).empty(); }));
+  const EngineEvent event = thread.events(0).front();
+  QVERIFY(event.kind == EngineEvent::Kind::NotOpened);
+  QVERIFY(event.message.find("phlogiston") != std::string::npos);
+  QVERIFY(!thread.playing());
   QCOMPARE(thread.snapshot()->id.size(), before);  // the scene that was open stays
 }
 

@@ -254,6 +254,7 @@ void MainWindow::updateTransitions() {
 }
 
 void MainWindow::onSnapshot() {
+  if (!m_slow.isActive()) m_slow.start();
   const SnapshotPtr snapshot = m_session->snapshot();
   if (!snapshot) return;
   if (Viewport* view = viewport()) view->snapshotArrived();
@@ -268,7 +269,6 @@ void MainWindow::onSnapshot() {
     refreshSlow();
     Q_EMIT projectShown();
   }
-  if (!m_slow.isActive()) m_slow.start();
 }
 
 void MainWindow::appendHistory() {
@@ -281,6 +281,10 @@ void MainWindow::appendHistory() {
 }
 
 void MainWindow::refreshSlow() {
+  for (const EngineEvent& event : m_session->engine()->events(m_eventsRead)) {
+    m_eventsRead = event.number + 1;
+    showFailure(event);
+  }
   const SnapshotPtr snapshot = m_session->snapshot();
   if (!snapshot) return;
   appendHistory();
@@ -290,33 +294,35 @@ void MainWindow::refreshSlow() {
     m_outliner->setSnapshot(snapshot);
     m_inspector->setSnapshot(*snapshot);
   }
-  showFailure(*snapshot);
   m_transport->setPlaying(m_session->playing());
   refreshStatus();
 }
 
-void MainWindow::showFailure(const Snapshot& snapshot) {
-  auto failure = failureText(snapshot.flags, snapshot.message);
-  if (!failure && !snapshot.message.empty()) {
-    failure = FailureText{QStringLiteral("That change could not be made."), QString::fromStdString(snapshot.message)};
-  }
-  if (!failure) {
+void MainWindow::showFailure(const EngineEvent& event) {
+  if (event.kind == EngineEvent::Kind::Settled) {
     m_shownFailure.clear();
     notice()->close(QStringLiteral("step"));
     return;
   }
-  const QString text = failure->title + failure->text;
-  if (text == m_shownFailure) return;
+  if (event.kind == EngineEvent::Kind::NotOpened && m_opening && m_options.exitOnBadProject) {
+    Q_EMIT startFailed(QString::fromStdString(event.message));
+    return;
+  }
+  if (event.flags & static_cast<StepFlags>(StepFlag::PluginFault)) m_plugins->refresh();
+  const FailureText failure = failureText(event);
+  const auto level = event.kind == EngineEvent::Kind::Stopped || event.kind == EngineEvent::Kind::NotOpened ||
+                             (event.flags & static_cast<StepFlags>(StepFlag::NotFinite))
+                         ? MessageLevel::Error
+                         : MessageLevel::Warning;
+  const QString text = failure.title + QLatin1Char(' ') + failure.text;
+  m_session->log().add(level, QStringLiteral("Simulation"), text);
+  if (text == m_shownFailure) return;  // a button of the notice may be under the pointer
   m_shownFailure = text;
-  const bool stopped = snapshot.flags & static_cast<StepFlags>(StepFlag::NotFinite);
   std::vector<NoticeBar::Button> buttons;
   if (m_session->document().undoStack().canUndo())
     buttons.push_back({QStringLiteral("Undo"), [this] { m_session->document().undoStack().undo(); }});
   buttons.push_back({QStringLiteral("Reset"), [this] { m_session->reset(); }});
-  notice()->show(QStringLiteral("step"), stopped ? MessageLevel::Error : MessageLevel::Warning, failure->title,
-                 failure->text, std::move(buttons));
-  m_session->log().add(stopped ? MessageLevel::Error : MessageLevel::Warning, QStringLiteral("Simulation"),
-                       failure->title + QLatin1Char(' ') + failure->text);
+  notice()->show(QStringLiteral("step"), level, failure.title, failure.text, std::move(buttons));
 }
 
 void MainWindow::refreshStatus() {

@@ -33,6 +33,7 @@ class TopBar;
 class Transport;
 class Viewport;
 class ViewportPane;
+struct EngineEvent;
 
 /// The editor's window. Shows at once; plugins and the project follow. Nothing here steps, reads or writes by itself:
 /// the session does, on threads of its own.
@@ -132,7 +133,7 @@ class MainWindow : public QMainWindow {
   void appendHistory();
   void refreshSlow();  ///< values at most 15 times a second
   void refreshStatus();
-  void showFailure(const Snapshot& snapshot);
+  void showFailure(const EngineEvent& event);
   void updateTransitions();
   void selectBody(const std::string& id);
   void onOutlinerSelection(OutlineKind kind, const std::string& id);
@@ -162,7 +163,7 @@ class MainWindow : public QMainWindow {
   QTimer m_slow;
   QElapsedTimer m_sinceSlow;
   size_t m_historyRead = 0;
-  uint64_t m_revision = 0;
+  uint64_t m_revision = 0, m_eventsRead = 0;
   QString m_shownFailure;
   QByteArray m_beforeFull;
 };
