@@ -214,7 +214,6 @@ void MainWindow::onProjectOpened() {
   const Project& project = m_session->document().project();
   m_opening = true;
   m_historyRead = 0;
-  m_shownFailure.clear();
   m_outliner->rebuild();
   m_materials->rebuild();
   m_transport->setDuration(project.duration);
@@ -300,7 +299,6 @@ void MainWindow::refreshSlow() {
 
 void MainWindow::showFailure(const EngineEvent& event) {
   if (event.kind == EngineEvent::Kind::Settled) {
-    m_shownFailure.clear();
     notice()->close(QStringLiteral("step"));
     return;
   }
@@ -316,8 +314,7 @@ void MainWindow::showFailure(const EngineEvent& event) {
                          : MessageLevel::Warning;
   const QString text = failure.title + QLatin1Char(' ') + failure.text;
   m_session->log().add(level, QStringLiteral("Simulation"), text);
-  if (text == m_shownFailure) return;  // a button of the notice may be under the pointer
-  m_shownFailure = text;
+  if (notice()->isVisible() && notice()->text() == text) return;  // one of its buttons may be under the pointer
   std::vector<NoticeBar::Button> buttons;
   if (m_session->document().undoStack().canUndo())
     buttons.push_back({QStringLiteral("Undo"), [this] { m_session->document().undoStack().undo(); }});

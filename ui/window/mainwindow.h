@@ -164,7 +164,6 @@ class MainWindow : public QMainWindow {
   QElapsedTimer m_sinceSlow;
   size_t m_historyRead = 0;
   uint64_t m_revision = 0, m_eventsRead = 0;
-  QString m_shownFailure;
   QByteArray m_beforeFull;
 };
 
