@@ -13,8 +13,6 @@
 namespace ps {
 namespace {
 
-constexpr double kMaximumParticles = 20e6;
-
 class ProjectChecker {
  public:
   ProjectChecker(const Project& project, const std::string& name, const PluginRegistry& plugins,
@@ -128,7 +126,9 @@ class ProjectChecker {
     if (!contains(m_project.materials, id)) fail(pointer, "the scene has no material '" + id + "'");
   }
 
-  void addParticles(double count, const std::string& pointer) {
+  void addParticles(const Body& body, const std::string& pointer) {
+    const double spacing = numberOf(m_project.solver.parameters, solverParameters(), "particle_spacing");
+    const double count = particleCount(body, spacing);
     m_particles += count;
     if (m_particles <= kMaximumParticles) return;
     fail(pointer, "takes " + numberText(std::round(count)) + " particles, which makes more than the " +
@@ -136,24 +136,14 @@ class ProjectChecker {
                       " that a scene may have; make it smaller or raise /solver/particle_spacing");
   }
 
-  void checkBox(const BoxShape& box, const std::string& pointer) {
-    const double spacing = numberOf(m_project.solver.parameters, solverParameters(), "particle_spacing");
-    double count = 1;
-    for (const double edge : box.size) count *= std::max(1.0, std::round(edge / spacing));
-    addParticles(count, pointer + "/size");
-  }
-
   void checkVoxels(const VoxelShape& shape, const std::string& pointer) {
     const int colours = static_cast<int>(shape.palette.size());
     for (size_t i = 0; i < shape.palette.size(); ++i) {
       checkMaterialExists(shape.palette[i].material, at(pointer + "/palette", i) + "/material");
     }
-    double cells = 0;
     for (size_t i = 0; i < shape.runs.size(); ++i) {
-      cells += shape.runs[i].length;
       if (shape.runs[i].palette >= colours) fail(at(pointer + "/runs", i) + "/4", "the palette has no such entry");
     }
-    addParticles(cells, pointer + "/runs");
     checkOverlaps(shape.runs, pointer + "/runs");
     for (size_t i = 0; i < shape.strokes.size(); ++i) {
       const std::string stroke = at(pointer + "/strokes", i);
@@ -186,10 +176,11 @@ class ProjectChecker {
   void checkBody(const Body& body, const std::string& pointer) {
     checkMaterialExists(body.material, pointer + "/material");
     checkSet(body.parameters, bodyParameters(), pointer);
-    if (const auto* box = std::get_if<BoxShape>(&body.shape)) {
-      checkBox(*box, pointer + "/shape/box");
+    if (const auto* voxels = std::get_if<VoxelShape>(&body.shape)) {
+      checkVoxels(*voxels, pointer + "/shape/voxels");
+      addParticles(body, pointer + "/shape/voxels/runs");
     } else {
-      checkVoxels(std::get<VoxelShape>(body.shape), pointer + "/shape/voxels");
+      addParticles(body, pointer + "/shape/box/size");
     }
     for (size_t i = 0; i < body.constraints.size(); ++i) {
       const BodyConstraint& constraint = body.constraints[i];

@@ -243,7 +243,7 @@ Material PluginRegistry::evaluated(const std::string& id, const std::vector<doub
   } catch (...) {
     const std::string problem = currentExceptionText();
     m->markFault(id, problem);
-    throw Error("The material '" + id + "' failed: " + problem);
+    throw PluginError("The material '" + id + "' failed: " + problem);
   }
 }
 

@@ -5,6 +5,7 @@
 #include <phasesketch/material.h>
 #include <phasesketch/thermal.h>
 
+#include "core/base/error.h"
 #include "core/matter/material.h"
 
 #include <memory>
@@ -29,6 +30,12 @@ struct PluginInfo {
 };
 
 const char* pluginStateName(PluginInfo::State state);  ///< "loaded", "refused", "quarantined"
+
+/// A plugin threw while it ran: it is left out from now on.
+class PluginError : public Error {
+ public:
+  using Error::Error;
+};
 
 /// Finds plugins in the build tree or the install prefix, the user's data directory, extraPaths and
 /// PHASESKETCH_PLUGIN_PATH (in rising order of precedence), reads their metadata before any code is loaded, and loads
@@ -63,8 +70,8 @@ class PluginRegistry {
   std::vector<std::string> ids(PluginKind kind) const;
   bool has(const std::string& id) const;
   /// A material with a plugin's own laws evaluated for these own parameters (in the order of its declarations; missing
-  /// ones take their defaults). Throws Error for an unknown material, and when the plugin's law fails: the plugin is
-  /// then refused as by fault().
+  /// ones take their defaults). Throws Error for an unknown material, and PluginError when the plugin's law fails: the
+  /// plugin is then refused as by fault().
   Material evaluated(const std::string& id, const std::vector<double>& parameters) const;
   /// A plugin threw while running: refuses it from now on, and says so in plugins(). Its object stays valid.
   void fault(const std::string& id, const std::string& message);

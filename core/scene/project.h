@@ -148,6 +148,14 @@ const std::vector<std::string>& probeQuantities();
 std::string probeUnit(const std::string& quantity);   ///< SI: "K", "kg", "1" for counts; "" for an unknown quantity
 std::string probeLabel(const std::string& quantity);  ///< "Mean temperature"; "" for an unknown quantity
 
+/// Layers of particles `spacing` m apart that fill an edge of a box: whole ones, at least one.
+double layersAlong(double edge, double spacing);
+/// Particles of a body at the start. A double: what sizes ask for may be more than an integer holds.
+double particleCount(const Body& body, double spacing);
+double particleCount(const Project& project);
+/// What a scene may have; more would not fit the memory of a large machine.
+constexpr double kMaximumParticles = 20e6;
+
 /// Names one parameter of a project: "material/water/conductivity_solid", "wall/floor/temperature",
 /// "environment/ambient_pressure", "solver/substeps", "thermal/KEY", "body/ice/temperature",
 /// "constraint/ice/bonds/KEY".

@@ -24,12 +24,10 @@ api::Phase birthPhase(const std::string& asked, const api::Caloric& caloric, dou
   return temperature < caloric.boilingPoint ? api::Phase::Liquid : api::Phase::Gas;
 }
 
-/// Everything but positions, material and temperature.
-Spawn spawnOf(const Project& project, const PluginRegistry& plugins, size_t body) {
-  const Body& source = project.bodies[body];
+/// Everything but positions, material, temperature and the index of the body, which the engine gives.
+Spawn spawnOf(const Project& project, const PluginRegistry& plugins, const Body& body) {
   Spawn spawn;
-  spawn.body = static_cast<uint32_t>(body);
-  spawn.fixed = toggleOf(source.parameters, bodyParameters(), "fixed") || isPlaceholder(project, source, plugins);
+  spawn.fixed = toggleOf(body.parameters, bodyParameters(), "fixed") || isPlaceholder(project, body, plugins);
   return spawn;
 }
 
@@ -39,6 +37,12 @@ void setMatter(Spawn& spawn, const Project& project, std::span<const BakedMateri
   spawn.temperature = temperature;
   const std::string asked = choiceOf(body.parameters, bodyParameters(), "phase");
   spawn.phase = birthPhase(asked, materials[spawn.material].caloric(), temperature);
+}
+
+const EvaluatedMaterial* lastOf(const SceneMaterial& source, const EvaluatedMaterials* evaluated) {
+  if (!evaluated) return nullptr;
+  const auto found = evaluated->find(source.id);
+  return found != evaluated->end() && found->second.base == source.base ? &found->second : nullptr;
 }
 
 }  // namespace
@@ -106,14 +110,24 @@ Bounds compileBounds(const Project& project) {
   return {double3(project.environment.boundsMinimum), double3(project.environment.boundsMaximum)};
 }
 
-std::vector<Material> compileMaterials(const Project& project, const PluginRegistry& plugins) {
+std::vector<Material> compileMaterials(const Project& project, const PluginRegistry& plugins,
+                                       EvaluatedMaterials* evaluated) {
   std::vector<Material> materials;
+  EvaluatedMaterials now;
   for (const SceneMaterial& source : project.materials) {
     Material material;
     if (const api::MaterialPlugin* plugin = plugins.materialPlugin(source.base)) {
       material = plugins.evaluated(source.base, numbersOf(source.parameters, plugin->parameters()));
+      now[source.id] = {source.base, source.parameters, material};
     } else if (const Material* installed = plugins.material(source.base)) {
       material = *installed;
+    } else if (const EvaluatedMaterial* last = lastOf(source, evaluated)) {
+      if (last->parameters != source.parameters) {
+        throw PluginError("material '" + source.id + "': '" + source.base +
+                          "' failed while it ran, so its parameters stay as they were; start the program again");
+      }
+      material = last->material;
+      now[source.id] = *last;
     }
     material.id = source.id;
     if (!source.label.empty()) material.label = source.label;
@@ -123,6 +137,7 @@ std::vector<Material> compileMaterials(const Project& project, const PluginRegis
     }
     materials.push_back(std::move(material));
   }
+  if (evaluated) *evaluated = std::move(now);
   return materials;
 }
 
@@ -142,12 +157,11 @@ bool isPlaceholder(const Project& project, const Body& body, const PluginRegistr
 }
 
 std::vector<Spawn> compileBody(const Project& project, const PluginRegistry& plugins,
-                               std::span<const BakedMaterial> materials, size_t index) {
-  const Body& body = project.bodies[index];
+                               std::span<const BakedMaterial> materials, const Body& body) {
   const double spacing = compileSettings(project).spacing;
   std::vector<Spawn> spawns;
   if (const auto* box = std::get_if<BoxShape>(&body.shape)) {
-    Spawn spawn = spawnOf(project, plugins, index);
+    Spawn spawn = spawnOf(project, plugins, body);
     spawn.position = boxLattice(*box, spacing);
     const double temperature = numberOf(body.parameters, bodyParameters(), "temperature");
     setMatter(spawn, project, materials, body.material, temperature, body);
@@ -157,7 +171,7 @@ std::vector<Spawn> compileBody(const Project& project, const PluginRegistry& plu
     for (size_t palette = 0; palette < voxels.palette.size(); ++palette) {
       std::vector<std::array<int, 3>> cells = cellsOf(voxels, static_cast<int>(palette));
       if (!cells.empty()) {
-        spawns.push_back(compileCells(project, plugins, materials, index, static_cast<int>(palette), cells, spacing));
+        spawns.push_back(compileCells(project, plugins, materials, body, static_cast<int>(palette), cells, spacing));
       }
     }
   }
@@ -166,11 +180,10 @@ std::vector<Spawn> compileBody(const Project& project, const PluginRegistry& plu
 }
 
 Spawn compileCells(const Project& project, const PluginRegistry& plugins, std::span<const BakedMaterial> materials,
-                   size_t index, int palette, const std::vector<std::array<int, 3>>& cells, double spacing) {
-  const Body& body = project.bodies[index];
+                   const Body& body, int palette, const std::vector<std::array<int, 3>>& cells, double spacing) {
   const auto& voxels = std::get<VoxelShape>(body.shape);
   const VoxelShape::Paint& paint = voxels.palette.at(static_cast<size_t>(palette));
-  Spawn spawn = spawnOf(project, plugins, index);
+  Spawn spawn = spawnOf(project, plugins, body);
   spawn.position = cellCentres(voxels, spacing, cells);
   setMatter(spawn, project, materials, paint.material, paint.temperature, body);
   return spawn;

@@ -3,6 +3,7 @@
 #include "core/scene/project.h"
 #include "core/solver/solver.h"
 
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -18,19 +19,31 @@ ThermalSettings compileThermal(const Project& project);
 std::vector<Wall> compileWalls(const Project& project);
 Bounds compileBounds(const Project& project);
 
+/// What a plugin gave a scene's material.
+struct EvaluatedMaterial {
+  std::string base;         ///< the plugin's id
+  ParameterSet parameters;  ///< the plugin's own
+  Material material;        ///< without the scene's changes
+};
+using EvaluatedMaterials = std::map<std::string, EvaluatedMaterial>;  ///< by SceneMaterial::id
+
 /// The scene's materials in order. One whose base is not installed gets the catalogue's defaults: its bodies stand
-/// still. Throws InputError when values contradict each other (a solidus above the liquidus).
-std::vector<Material> compileMaterials(const Project& project, const PluginRegistry& plugins);
+/// still. `evaluated` is kept up to date, and stands in for a plugin that has failed since: matter does not change its
+/// substance. Throws InputError when values contradict each other (a solidus above the liquidus), PluginError when a
+/// plugin fails, or has failed and its parameters are others now.
+std::vector<Material> compileMaterials(const Project& project, const PluginRegistry& plugins,
+                                       EvaluatedMaterials* evaluated = nullptr);
 /// Index of a scene material by id; throws InputError naming the body that refers to it.
 uint32_t materialIndex(const Project& project, const std::string& material, const std::string& body);
 /// Whether everything a body needs is installed; a body that lacks something stands still as a placeholder.
 bool isPlaceholder(const Project& project, const Body& body, const PluginRegistry& plugins);
 
-/// The particles of a body at the start, one batch per palette entry. `materials`: the scene's, baked.
+/// The particles of a body at the start, one batch per palette entry; Spawn::body and the constraints are the engine's
+/// to set. `materials`: the scene's, baked.
 std::vector<Spawn> compileBody(const Project& project, const PluginRegistry& plugins,
-                               std::span<const BakedMaterial> materials, size_t body);
+                               std::span<const BakedMaterial> materials, const Body& body);
 /// One batch of cells, `spacing` m wide, of a sketched body.
 Spawn compileCells(const Project& project, const PluginRegistry& plugins, std::span<const BakedMaterial> materials,
-                   size_t body, int palette, const std::vector<std::array<int, 3>>& cells, double spacing);
+                   const Body& body, int palette, const std::vector<std::array<int, 3>>& cells, double spacing);
 
 }  // namespace ps

@@ -2,6 +2,7 @@
 #include "core/simulation/engine.h"
 
 #include "core/base/error.h"
+#include "core/base/log.h"
 #include "core/plugin_host/registry.h"
 #include "core/simulation/compile.h"
 #include "core/simulation/lattice.h"
@@ -9,6 +10,8 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
+#include <utility>
 
 namespace ps {
 
@@ -17,10 +20,45 @@ uint64_t nextRevision() {
   return ++count;
 }
 
+namespace {
+
+/// Two boxes side by side, both rounded up to whole layers, come within half a spacing: that near is no overlap.
+constexpr double kOverlap = 0.4;  // spacings
+
+void requireRoom(double particles) {
+  if (particles <= kMaximumParticles) return;
+  throw InputError("the scene would have " + numberText(std::round(particles)) + " particles, more than the " +
+                   numberText(kMaximumParticles) +
+                   " that a scene may have; make its bodies smaller or raise the particle spacing");
+}
+
+/// Leaves out particles that would stand where one stands already, which no force could part; returns how many.
+size_t dropTaken(Spawn& spawn, TakenPlaces& taken) {
+  size_t kept = 0;
+  for (size_t k = 0; k < spawn.position.size(); ++k) {
+    const api::Double3 place = spawn.position[k];
+    if (!taken.isFree(place)) continue;
+    taken.add(place);
+    spawn.position[kept] = place;
+    spawn.velocity[kept] = spawn.velocity[k];
+    ++kept;
+  }
+  const size_t dropped = spawn.position.size() - kept;
+  spawn.position.resize(kept);
+  spawn.velocity.resize(kept);
+  return dropped;
+}
+
+}  // namespace
+
 struct Engine::Impl {
   Impl(const Project& source, PluginRegistry& registry) : project(source), plugins(registry) {}
 
   void build();
+  /// Another one, built from a project. What throws on the way leaves this one as it was.
+  std::unique_ptr<Impl> rebuilt(const Project& source) const;
+  /// Index of a body for its particles: a body keeps it as long as particles live, whatever comes and goes before it.
+  uint32_t bodyIndex(const std::string& id);
   void recompile(const std::string& owner);
   void recompileAll();
   void bakeMaterials();
@@ -32,9 +70,11 @@ struct Engine::Impl {
   PluginRegistry& plugins;
   std::unique_ptr<Solver> solver;
   std::vector<BakedMaterial> materials;
+  EvaluatedMaterials evaluated;
   std::map<std::string, uint32_t> constraintSets;  // one per plugin: structure may join matter of any two bodies
   std::vector<std::array<float, 3>> colours;
-  std::shared_ptr<const std::vector<std::string>> bodyIds;
+  std::shared_ptr<const std::vector<std::string>> bodyIds = std::make_shared<const std::vector<std::string>>();
+  std::vector<std::string> bodyNames;  // for messages, by the index that particles carry
   std::vector<std::string> probeNames;
   StepReport lastReport;
   uint64_t revision = 0;
@@ -44,16 +84,19 @@ struct Engine::Impl {
 void Engine::Impl::bakeMaterials() {
   const double pressure = compileThermal(project).ambientPressure;
   std::vector<BakedMaterial> baked;
-  colours.clear();
-  for (const Material& material : compileMaterials(project, plugins)) {
+  std::vector<std::array<float, 3>> bakedColours;
+  EvaluatedMaterials known = evaluated;
+  for (const Material& material : compileMaterials(project, plugins, &known)) {
     baked.emplace_back(material, pressure);
     std::array<float, 3> colour{};
     for (size_t c = 0; c < 3; ++c) {
       constexpr const char* kKeys[] = {"color_red", "color_green", "color_blue"};
       colour[c] = static_cast<float>(baked.back().property(kKeys[c], 293.15));
     }
-    colours.push_back(colour);
+    bakedColours.push_back(colour);
   }
+  evaluated = std::move(known);
+  colours = std::move(bakedColours);
   materials = baked;
   solver->setMaterials(std::move(baked));
 }
@@ -76,7 +119,22 @@ uint32_t Engine::Impl::constraintSet(const std::string& id, const ParameterSet& 
   return set;
 }
 
+uint32_t Engine::Impl::bodyIndex(const std::string& id) {
+  const auto found = std::find(bodyIds->begin(), bodyIds->end(), id);
+  const auto index = static_cast<uint32_t>(found - bodyIds->begin());
+  if (found == bodyIds->end()) {
+    std::vector<std::string> ids = *bodyIds;  // snapshots hold the list that was
+    ids.push_back(id);
+    bodyIds = std::make_shared<const std::vector<std::string>>(std::move(ids));
+  }
+  return index;
+}
+
 std::vector<uint32_t> Engine::Impl::born(Spawn spawn, const Body& body) {
+  spawn.body = bodyIndex(body.id);
+  bodyNames.resize(bodyIds->size());
+  bodyNames[spawn.body] = body.name.empty() ? body.id : body.name;
+  solver->setBodyNames(bodyNames);
   if (!spawn.fixed) {
     for (const BodyConstraint& c : body.constraints) {
       if (plugins.constraint(c.plugin)) spawn.constraintSets.push_back(constraintSet(c.plugin, c.parameters));
@@ -86,9 +144,9 @@ std::vector<uint32_t> Engine::Impl::born(Spawn spawn, const Body& body) {
 }
 
 void Engine::Impl::build() {
+  const double count = particleCount(project);
+  requireRoom(count);
   solver = std::make_unique<Solver>();
-  constraintSets.clear();
-  lastReport = {};
   revision = nextRevision();
   spacing = compileSettings(project).spacing;
   solver->setSettings(compileSettings(project));
@@ -96,14 +154,27 @@ void Engine::Impl::build() {
   solver->setWalls(compileWalls(project));
   bakeMaterials();
   setThermal();
-  std::vector<std::string> ids;
-  for (size_t b = 0; b < project.bodies.size(); ++b) {
-    for (Spawn& spawn : compileBody(project, plugins, materials, b)) born(std::move(spawn), project.bodies[b]);
-    ids.push_back(project.bodies[b].id);
+  TakenPlaces taken(kOverlap * spacing, static_cast<size_t>(count));
+  for (const Body& body : project.bodies) {
+    bodyIndex(body.id);  // of one without particles too
+    size_t dropped = 0;
+    for (Spawn& spawn : compileBody(project, plugins, materials, body)) {
+      dropped += dropTaken(spawn, taken);
+      born(std::move(spawn), body);
+    }
+    if (dropped > 0) {
+      log(LogLevel::Warning, "body '" + body.name + "': left out " + std::to_string(dropped) +
+                                 " particles whose places are taken; move it away from what it overlaps");
+    }
   }
-  bodyIds = std::make_shared<const std::vector<std::string>>(std::move(ids));
-  probeNames.clear();
   for (const Probe& probe : project.probes) probeNames.push_back(probeTitle(probe));
+}
+
+std::unique_ptr<Engine::Impl> Engine::Impl::rebuilt(const Project& source) const {
+  auto next = std::make_unique<Impl>(source, plugins);
+  next->evaluated = evaluated;
+  next->build();
+  return next;
 }
 
 void Engine::Impl::recompile(const std::string& owner) {
@@ -140,28 +211,26 @@ Engine::~Engine() = default;
 
 StepReport Engine::step() {
   m->lastReport = m->solver->step();
+  for (const PluginFault& fault : m->lastReport.faults) m->plugins.fault(fault.plugin, fault.what);
   return m->lastReport;
 }
 
-void Engine::reset() { m->build(); }
+void Engine::reset() { m = m->rebuilt(m->project); }
 
 void Engine::update(const Project& project) {
-  const Project before = m->project;
-  // Particles carry indices of bodies and materials: as long as they live, a body keeps its place.
-  Project next = project;
+  // Particles carry indices of materials: as long as they live, a material keeps its place.
+  const auto& living = m->project.materials;
   const auto sameId = [](const auto& a, const auto& b) { return a.id == b.id; };
-  const bool keepsMaterials =
-      next.materials.size() >= before.materials.size() &&
-      std::equal(before.materials.begin(), before.materials.end(), next.materials.begin(), sameId);
+  const bool keepsMaterials = project.materials.size() >= living.size() &&
+                              std::equal(living.begin(), living.end(), project.materials.begin(), sameId);
   if (!keepsMaterials) {
-    m->project = std::move(next);
-    m->build();
+    m = m->rebuilt(project);
     return;
   }
-  m->project = std::move(next);
+  const Project before = std::exchange(m->project, project);
   try {
     m->recompileAll();
-  } catch (const Error&) {
+  } catch (...) {
     m->project = before;
     m->recompileAll();
     throw;
@@ -173,32 +242,35 @@ bool Engine::setParameter(const Address& address, const Value& value) {
   if (!set) return false;
   const ParameterSet before = *set;
   set->values[address.key] = value;
-  if (address.owner == "body" || address.key == "particle_spacing") return false;
+  const bool actsNow = address.owner != "body" && address.key != "particle_spacing";
   try {
-    m->recompile(address.owner);
-  } catch (const Error&) {
-    *findSet(m->project, address) = before;
-    m->recompile(address.owner);
+    if (actsNow) {
+      m->recompile(address.owner);
+    } else {
+      requireRoom(particleCount(m->project));
+    }
+  } catch (...) {
+    *set = before;
+    if (actsNow) m->recompile(address.owner);
     throw;
   }
-  return true;
+  return actsNow;
 }
 
 std::vector<uint32_t> Engine::addCells(const Body& body, const std::vector<std::array<int, 3>>& cells, int palette) {
-  size_t index = 0;
-  while (index < m->project.bodies.size() && m->project.bodies[index].id != body.id) ++index;
-  if (index == m->project.bodies.size()) {
-    m->project.bodies.push_back(body);
-    auto ids = *m->bodyIds;
-    ids.push_back(body.id);
-    m->bodyIds = std::make_shared<const std::vector<std::string>>(std::move(ids));
-  } else {
-    m->project.bodies[index] = body;
-  }
-  Spawn spawn = compileCells(m->project, m->plugins, m->materials, index, palette, cells, m->spacing);
+  Spawn spawn = compileCells(m->project, m->plugins, m->materials, body, palette, cells, m->spacing);
   spawn.position = freePositions(m->solver->particles(), spawn.position, 0.9 * m->spacing);
-  if (spawn.position.empty()) return {};
-  return m->born(std::move(spawn), body);
+  requireRoom(static_cast<double>(m->solver->particles().size() + spawn.position.size()));
+  std::vector<uint32_t> ids;
+  if (!spawn.position.empty()) ids = m->born(std::move(spawn), body);
+  std::vector<Body>& bodies = m->project.bodies;
+  const auto known = std::find_if(bodies.begin(), bodies.end(), [&](const Body& b) { return b.id == body.id; });
+  if (known == bodies.end()) {
+    bodies.push_back(body);
+  } else {
+    *known = body;
+  }
+  return ids;
 }
 
 void Engine::removeParticles(const std::vector<uint32_t>& ids) { m->solver->remove(ids); }
@@ -212,11 +284,10 @@ std::vector<uint32_t> Engine::particlesIn(const VoxelShape& lattice,
 
 SnapshotPtr Engine::snapshot() const {
   auto snapshot = std::make_shared<Snapshot>();
+  snapshot->limits = m->solver->limits();  // first: edits act on what it asks
   snapshot->stats = stats();
   snapshot->revision = m->revision;
   snapshot->flags = m->lastReport.flags;
-  snapshot->message = m->lastReport.message;
-  snapshot->limits = m->solver->limits();
   snapshot->bodyIds = m->bodyIds;
   snapshot->materialColour = m->colours;
   fillSnapshot(*snapshot, *m->solver);
@@ -226,13 +297,14 @@ SnapshotPtr Engine::snapshot() const {
 FrameStats Engine::stats() const {
   FrameStats stats = measure(*m->solver, m->lastReport);
   for (const Probe& probe : m->project.probes) {
-    stats.probes.push_back(measureProbe(*m->solver, m->project, probe));
+    stats.probes.push_back(measureProbe(*m->solver, *m->bodyIds, probe));
   }
   return stats;
 }
 
 const Project& Engine::project() const { return m->project; }
 Solver& Engine::solver() { return *m->solver; }
+const std::vector<std::string>& Engine::bodyIds() const { return *m->bodyIds; }
 const std::vector<std::string>& Engine::probeNames() const { return m->probeNames; }
 
 }  // namespace ps

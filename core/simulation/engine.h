@@ -16,14 +16,18 @@ class PluginRegistry;
 /// the editor through EngineThread.
 class Engine {
  public:
-  /// Throws InputError when the project cannot be compiled (a missing required plugin, no particles fit, ...).
+  /// Throws InputError when the project cannot be compiled (contradicting values, too many particles, ...).
   Engine(const Project& project, PluginRegistry& plugins);
   ~Engine();
 
+  /// Plugins that threw in it are refused from now on, in the registry too.
   StepReport step();
+
+  // Edits. Each throws, InputError mostly, and then has changed nothing.
+
   void reset();  ///< back to the start, with all edits kept
   /// The document changed as a whole (undo, a new body, gravity): takes over every parameter at once; bodies, which are
-  /// particles by now, at the next reset. Throws InputError and changes nothing when it cannot be compiled.
+  /// particles by now, at the next reset.
   void update(const Project& project);
   /// A parameter changed: recompiles what it touches. Returns false when it acts at the next reset only
   /// (body parameters, particle_spacing).
@@ -42,11 +46,28 @@ class Engine {
   FrameStats stats() const;
   const Project& project() const;
   Solver& solver();
+  /// Body::id by the index that particles carry; a body keeps its index until the next reset.
+  const std::vector<std::string>& bodyIds() const;
   const std::vector<std::string>& probeNames() const;  ///< "name.quantity[unit]"
 
  private:
   struct Impl;
   std::unique_ptr<Impl> m;
+};
+
+/// What an engine's thread has to tell. The newest one stands until another follows.
+struct EngineEvent {
+  enum class Kind {
+    Step,       ///< a step raised flags
+    Refused,    ///< an edit was refused and has changed nothing
+    NotOpened,  ///< a project could not be built; there is no scene
+    Stopped,    ///< something failed between two frames or in one; the scene is paused
+    Settled,    ///< what was told last no longer holds
+  };
+  uint64_t number = 0;  ///< counts the thread's events
+  Kind kind = Kind::Step;
+  StepFlags flags = 0;  ///< of steps; PluginFault of edits that a plugin failed in
+  std::string message;
 };
 
 /// Runs an Engine on its own thread. Commands are queued and act between frames; snapshots are published after each.
@@ -57,8 +78,8 @@ class EngineThread {
   EngineThread(PluginRegistry& plugins, std::function<void()> published);
   ~EngineThread();
 
-  /// Replaces the scene. One that cannot be compiled leaves none: the snapshot is then empty, of a new revision,
-  /// without body ids, its message says why, and it pauses.
+  /// Replaces the scene. One that cannot be built leaves none: an event says why, the snapshot is then empty, of a new
+  /// revision and without body ids, and the thread pauses.
   void open(const Project& project, bool play);
   void play();
   void pause();
@@ -77,6 +98,9 @@ class EngineThread {
   SnapshotPtr previousSnapshot() const;  ///< the one before it, of the same revision, else nullptr
   /// All frames' statistics since the last reset, appended from index `from`.
   std::vector<FrameStats> history(size_t from) const;
+  /// Failures in the order they came, from number `from` on; the oldest are forgotten after a few hundred. A step's
+  /// flag is told when it is raised after a second without it. The thread pauses at a NaN and when a plugin fails.
+  std::vector<EngineEvent> events(uint64_t from) const;
   double realTimeFactor() const;  ///< simulated seconds per second, over the last second
 
  private:

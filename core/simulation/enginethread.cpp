@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/simulation/engine.h"
 
-#include "core/base/error.h"
+#include "core/plugin_host/registry.h"
 
 #include <algorithm>
 #include <chrono>
 #include <condition_variable>
 #include <deque>
 #include <mutex>
+#include <new>
 #include <thread>
 
 // Why a thread with a queue: the interface must never wait for a step. Commands are closures that run between frames,
@@ -15,8 +16,30 @@
 // microseconds.
 namespace ps {
 namespace {
+
 using Clock = std::chrono::steady_clock;
+
+/// After these somebody must look before it goes on.
+constexpr StepFlags kPausing =
+    static_cast<StepFlags>(StepFlag::NotFinite) | static_cast<StepFlags>(StepFlag::PluginFault);
+/// Frames without a flag after which what was told is over, and would be told again.
+constexpr int kQuiet = 60;
+constexpr size_t kMostEvents = 256;
+
+/// What the exception at hand says.
+std::string currentProblem() {
+  try {
+    throw;
+  } catch (const std::bad_alloc&) {
+    return "there is not enough memory for it";
+  } catch (const std::exception& error) {
+    return error.what();
+  } catch (...) {
+    return "an exception that is no std::exception";
+  }
 }
+
+}  // namespace
 
 struct EngineThread::Impl {
   Impl(PluginRegistry& registry, std::function<void()> callback) : plugins(registry), published(std::move(callback)) {}
@@ -31,14 +54,24 @@ struct EngineThread::Impl {
   void run(const std::stop_token& stop);
   void step();
   void publish(SnapshotPtr snapshot);
-  void fail(const std::string& message);
+  void tell(EngineEvent::Kind kind, StepFlags flags, std::string message);
+  void tellOf(const StepReport& report);
+  /// Kind and flags of what was told last; Settled when that was nothing.
+  EngineEvent standing();
+  void settle();
+  /// Tells of the exception at hand. Never calls the engine, which may be what failed.
+  void fail(EngineEvent::Kind kind, StepFlags flags = 0);
+  void halt();
   void pace();
-  /// Runs an edit; what cannot be done is told in the next snapshot, and the scene stays as it was.
+  /// Runs an edit; what cannot be done is told, and the scene stays as it was.
   void edit(const std::function<void(Engine&)>& command);
 
   PluginRegistry& plugins;
   std::function<void()> published;
-  std::unique_ptr<Engine> engine;  // engine thread only
+  // Engine thread only.
+  std::unique_ptr<Engine> engine;
+  StepFlags told = 0;  // flags that were told and have been raised since
+  int quiet = 0;       // frames without a flag
 
   std::mutex mutex;
   std::condition_variable_any wake;
@@ -46,6 +79,8 @@ struct EngineThread::Impl {
   bool playing = false;
   SnapshotPtr newest, previous;
   std::vector<FrameStats> history;
+  std::deque<EngineEvent> events;
+  uint64_t eventCount = 0;
   double realTime = 0;
   Clock::time_point due{}, measured{};
   double measuredTime = 0;
@@ -59,7 +94,8 @@ void EngineThread::Impl::run(const std::stop_token& stop) {
     {
       std::unique_lock lock(mutex);
       if (playing) {
-        wake.wait_until(lock, stop, due, [&] { return !commands.empty(); });
+        const auto until = due;  // wait_until reads it without the lock, and play() writes due
+        wake.wait_until(lock, stop, until, [&] { return !commands.empty(); });
       } else {
         wake.wait(lock, stop, [&] { return !commands.empty() || playing; });
       }
@@ -71,10 +107,15 @@ void EngineThread::Impl::run(const std::stop_token& stop) {
         advance = playing && Clock::now() >= due;
       }
     }
-    if (command) command();
-    if (advance) {
-      step();
-      pace();
+    try {
+      if (command) command();
+      if (advance) {
+        step();
+        pace();
+      }
+    } catch (...) {
+      halt();
+      fail(EngineEvent::Kind::Stopped);
     }
   }
 }
@@ -82,11 +123,8 @@ void EngineThread::Impl::run(const std::stop_token& stop) {
 void EngineThread::Impl::step() {
   if (!engine) return;
   const StepReport report = engine->step();
-  constexpr auto kFatal = static_cast<StepFlags>(StepFlag::NotFinite);
-  if (report.flags & kFatal) {
-    const std::lock_guard lock(mutex);
-    playing = false;
-  }
+  if (report.flags & kPausing) halt();
+  tellOf(report);
   publish(engine->snapshot());
 }
 
@@ -106,10 +144,45 @@ void EngineThread::Impl::pace() {
   }
 }
 
+void EngineThread::Impl::halt() {
+  const std::lock_guard lock(mutex);
+  playing = false;
+}
+
+void EngineThread::Impl::tell(EngineEvent::Kind kind, StepFlags flags, std::string message) {
+  const std::lock_guard lock(mutex);
+  if (events.size() == kMostEvents) events.pop_front();
+  events.push_back({eventCount++, kind, flags, std::move(message)});
+}
+
+EngineEvent EngineThread::Impl::standing() {
+  const std::lock_guard lock(mutex);
+  return events.empty() ? EngineEvent{0, EngineEvent::Kind::Settled, 0, {}} : events.back();
+}
+
+void EngineThread::Impl::settle() {
+  told = 0;
+  quiet = 0;
+  if (standing().kind != EngineEvent::Kind::Settled) tell(EngineEvent::Kind::Settled, 0, {});
+}
+
+/// A flag may be raised in every frame, or in every third: told once, it is told again after a quiet second only.
+void EngineThread::Impl::tellOf(const StepReport& report) {
+  quiet = report.flags ? 0 : std::min(quiet + 1, kQuiet + 1);
+  if (report.flags & (~told | kPausing)) tell(EngineEvent::Kind::Step, report.flags, report.message);
+  told |= report.flags;
+  if (quiet != kQuiet) return;
+  told = 0;
+  const EngineEvent::Kind kind = standing().kind;
+  if (kind == EngineEvent::Kind::Step || kind == EngineEvent::Kind::Stopped) settle();
+}
+
 void EngineThread::Impl::publish(SnapshotPtr snapshot) {
+  const bool fresh = !newest || newest->revision != snapshot->revision;
+  if (fresh) settle();  // told of a run that is over
   {
     const std::lock_guard lock(mutex);
-    if (!newest || newest->revision != snapshot->revision) {
+    if (fresh) {
       history.clear();
       previous = nullptr;
     } else {
@@ -122,20 +195,25 @@ void EngineThread::Impl::publish(SnapshotPtr snapshot) {
   if (published) published();
 }
 
-void EngineThread::Impl::fail(const std::string& message) {
-  auto snapshot = engine ? std::make_shared<Snapshot>(*engine->snapshot()) : std::make_shared<Snapshot>();
-  snapshot->message = message;
-  publish(snapshot);
+void EngineThread::Impl::fail(EngineEvent::Kind kind, StepFlags flags) {
+  tell(kind, flags, currentProblem());
+  if (published) published();
 }
 
 void EngineThread::Impl::edit(const std::function<void(Engine&)>& command) {
   if (!engine) return;
   try {
     command(*engine);
-    publish(engine->snapshot());
-  } catch (const std::exception& error) {
-    fail(error.what());
+  } catch (const PluginError&) {
+    halt();
+    return fail(EngineEvent::Kind::Refused, static_cast<StepFlags>(StepFlag::PluginFault));
+  } catch (...) {
+    return fail(EngineEvent::Kind::Refused);
   }
+  // An edit that works mends a refusal and what made the scene pause; flags of running steps end by themselves.
+  const EngineEvent last = standing();
+  if (!(last.flags & ~kPausing)) settle();
+  publish(engine->snapshot());
 }
 
 EngineThread::EngineThread(PluginRegistry& plugins, std::function<void()> published)
@@ -153,16 +231,13 @@ void EngineThread::open(const Project& project, bool play) {
     try {
       auto engine = std::make_unique<Engine>(project, impl->plugins);
       impl->engine = std::move(engine);
-    } catch (const std::exception& error) {
+    } catch (...) {
       impl->engine.reset();
+      impl->halt();
       auto empty = std::make_shared<Snapshot>();
       empty->revision = nextRevision();
-      empty->message = error.what();
-      {
-        const std::lock_guard lock(impl->mutex);
-        impl->playing = false;
-      }
-      impl->publish(empty);
+      impl->publish(std::move(empty));
+      impl->fail(EngineEvent::Kind::NotOpened);
       return;
     }
     {
@@ -246,6 +321,13 @@ std::vector<FrameStats> EngineThread::history(size_t from) const {
   const std::lock_guard lock(m->mutex);
   if (from >= m->history.size()) return {};
   return {m->history.begin() + static_cast<std::ptrdiff_t>(from), m->history.end()};
+}
+
+std::vector<EngineEvent> EngineThread::events(uint64_t from) const {
+  const std::lock_guard lock(m->mutex);
+  const auto first = std::find_if(m->events.begin(), m->events.end(),
+                                  [from](const EngineEvent& event) { return event.number >= from; });
+  return {first, m->events.end()};
 }
 
 double EngineThread::realTimeFactor() const {

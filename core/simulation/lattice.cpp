@@ -2,8 +2,8 @@
 #include "core/simulation/lattice.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
-#include <map>
 
 namespace ps {
 namespace {
@@ -24,35 +24,49 @@ api::Double3 positionOf(const ParticleStore& store, size_t i) {
   return {p.x, p.y, p.z};
 }
 
-/// Points by cell of edge `size`, so that everything within `size` of a point lies in its 27 cells.
-class PointGrid {
- public:
-  explicit PointGrid(double size) : m_size(size) {}
-  void add(const api::Double3& p) { m_cells[cellAt(p, {0, 0, 0}, m_size)].push_back(p); }
-  bool anyWithin(const api::Double3& p, double distance) const {
-    const CellIndex c = cellAt(p, {0, 0, 0}, m_size);
-    for (int k = 0; k < 27; ++k) {
-      const auto found = m_cells.find({c[0] + k % 3 - 1, c[1] + k / 3 % 3 - 1, c[2] + k / 9 - 1});
-      if (found == m_cells.end()) continue;
-      for (const api::Double3& q : found->second) {
-        if (squaredDistance(p, q) < distance * distance) return true;
+}  // namespace
+
+TakenPlaces::TakenPlaces(double clearance, size_t expected)
+    : m_clearance(clearance), m_first(std::bit_ceil(std::max<size_t>(expected, 16)), kNone) {
+  m_points.reserve(expected);
+  m_next.reserve(expected);
+}
+
+/// Row of the table for a cell of edge 2 clearances; several cells may share one.
+size_t TakenPlaces::slotOf(const CellIndex& cell) const {
+  uint64_t hash = 0;
+  for (const int c : cell) hash = (hash ^ static_cast<uint32_t>(c)) * 0x9e3779b97f4a7c15u;
+  return static_cast<size_t>(hash >> 32) & (m_first.size() - 1);
+}
+
+void TakenPlaces::add(const api::Double3& p) {
+  uint32_t& first = m_first[slotOf(cellAt(p, {0, 0, 0}, 2 * m_clearance))];
+  m_next.push_back(first);
+  first = static_cast<uint32_t>(m_points.size());
+  m_points.push_back(p);
+}
+
+bool TakenPlaces::isFree(const api::Double3& p) const {
+  const double r = m_clearance;
+  const CellIndex low = cellAt({p.x - r, p.y - r, p.z - r}, {0, 0, 0}, 2 * r),
+                  high = cellAt({p.x + r, p.y + r, p.z + r}, {0, 0, 0}, 2 * r);
+  for (int z = low[2]; z <= high[2]; ++z) {
+    for (int y = low[1]; y <= high[1]; ++y) {
+      for (int x = low[0]; x <= high[0]; ++x) {
+        for (uint32_t i = m_first[slotOf({x, y, z})]; i != kNone; i = m_next[i]) {
+          if (squaredDistance(p, m_points[i]) < r * r) return false;
+        }
       }
     }
-    return false;
   }
-
- private:
-  double m_size;
-  std::map<CellIndex, std::vector<api::Double3>> m_cells;
-};
-
-}  // namespace
+  return true;
+}
 
 std::vector<api::Double3> boxLattice(const BoxShape& box, double spacing) {
   std::array<int, 3> count;
   std::array<double, 3> first;
   for (size_t a = 0; a < 3; ++a) {
-    count[a] = std::max(1, static_cast<int>(std::lround(box.size[a] / spacing)));
+    count[a] = static_cast<int>(layersAlong(box.size[a], spacing));
     first[a] = box.center[a] - 0.5 * (count[a] - 1) * spacing;
   }
   std::vector<api::Double3> positions;
@@ -88,12 +102,12 @@ std::vector<api::Double3> cellCentres(const VoxelShape& voxels, double spacing, 
 
 std::vector<api::Double3> freePositions(const ParticleStore& store, const std::vector<api::Double3>& positions,
                                         double clearance) {
-  PointGrid grid(clearance);
-  for (size_t i = 0; i < store.size(); ++i) grid.add(positionOf(store, i));
+  TakenPlaces taken(clearance, store.size() + positions.size());
+  for (size_t i = 0; i < store.size(); ++i) taken.add(positionOf(store, i));
   std::vector<api::Double3> free;
   for (const api::Double3& p : positions) {
-    if (grid.anyWithin(p, clearance)) continue;
-    grid.add(p);
+    if (!taken.isFree(p)) continue;
+    taken.add(p);
     free.push_back(p);
   }
   return free;

@@ -76,12 +76,9 @@ FrameStats measure(const Solver& solver, const StepReport& report) {
   return stats;
 }
 
-double measureProbe(const Solver& solver, const Project& project, const Probe& probe) {
+double measureProbe(const Solver& solver, const std::vector<std::string>& bodyIds, const Probe& probe) {
   const ParticleStore& store = solver.particles();
-  uint32_t body = std::numeric_limits<uint32_t>::max();
-  for (size_t b = 0; b < project.bodies.size(); ++b) {
-    if (project.bodies[b].id == probe.body) body = static_cast<uint32_t>(b);
-  }
+  const size_t body = static_cast<size_t>(std::find(bodyIds.begin(), bodyIds.end(), probe.body) - bodyIds.begin());
   const std::string& quantity = probe.quantity;
   const size_t massSuffix = quantity.size() > 5 && quantity.ends_with("_mass") ? quantity.size() - 5 : 0;
   const std::string phase = massSuffix ? quantity.substr(0, massSuffix) : probe.phase;
@@ -96,14 +93,13 @@ double measureProbe(const Solver& solver, const Project& project, const Probe& p
     energy += quantity == "kinetic_energy" ? 0.5 * store.mass()[i] * squared : energies.empty() ? 0 : energies[i];
     tally.add(store.mass()[i], quantity.starts_with("temperature") ? store.temperature()[i]
                                : quantity.starts_with("height")    ? double{store.position()[i].y}
-                               : quantity == "density_error"       ? double{store.densityError()[i]}
                                                                    : std::sqrt(squared));
   }
   if (quantity == "count") return static_cast<double>(tally.count);
   if (quantity == "mass" || massSuffix) return tally.mass;
   if (quantity.ends_with("_energy")) return energy;
   if (quantity.ends_with("_min")) return tally.orNothing(tally.smallest);
-  if (quantity.ends_with("_max") || quantity == "height") return tally.orNothing(tally.largest);
+  if (quantity.ends_with("_max")) return tally.orNothing(tally.largest);
   return tally.orNothing(tally.sum / tally.mass);
 }
 

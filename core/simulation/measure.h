@@ -9,8 +9,9 @@ namespace ps {
 
 /// Phases, temperatures and energies of a solver's state, summed in a fixed order.
 FrameStats measure(const Solver& solver, const StepReport& report);
-/// Value of a probe now, in the unit of its quantity; NaN where nothing matches (a mean over no particles).
-double measureProbe(const Solver& solver, const Project& project, const Probe& probe);
+/// Value of a probe now, in the unit of its quantity; means are weighted with mass, NaN where nothing matches.
+/// `bodyIds`: Body::id by the particles' body index.
+double measureProbe(const Solver& solver, const std::vector<std::string>& bodyIds, const Probe& probe);
 /// "name.quantity[unit]"
 std::string probeTitle(const Probe& probe);
 

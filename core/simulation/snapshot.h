@@ -35,7 +35,6 @@ struct Snapshot {
   FrameStats stats;
   uint64_t revision = 0;  ///< rises with every reset: indices and ids of another revision do not compare
   StepFlags flags = 0;
-  std::string message;  ///< why it paused, "" otherwise
   std::vector<Limit> limits;
   std::vector<api::Float4> position;  ///< m; w: radius of a sphere of the rest volume, m
   std::vector<float> temperature;     ///< K

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The whole window on a real scene: the road from a slider to the simulation and back.
 #include "core/io/projectio.h"
+#include "core/plugin_host/registry.h"
 #include "core/simulation/engine.h"
 #include "ui/document/document.h"
 #include "ui/document/documentfiles.h"
@@ -27,6 +28,7 @@
 #include <QtWidgets/QApplication>
 #include <QtWidgets/QLineEdit>
 
+#include <algorithm>
 #include <clocale>
 #include <cmath>
 #include <functional>
@@ -385,6 +387,22 @@ class TestWindow : public QObject {
     QCOMPARE(corner.lightness() < 128, dark);
   }
 
+  void aRefusalStaysUntilAnEditWorks() {
+    session().reset();
+    session().play();
+    document().setParameter({"solver", "", "particle_spacing"}, 0.0005);  // hundreds of millions of particles
+    QTRY_VERIFY_WITH_TIMEOUT(m_window->notice()->text().contains(QStringLiteral("a scene may have")), kLong);
+    const QString said = m_window->notice()->text();
+    QTest::qWait(300);  // several looks at newer frames
+    QVERIFY(session().playing() && m_window->notice()->isVisible());
+    QCOMPARE(m_window->notice()->text(), said);
+    const auto& log = session().log().messages();
+    QCOMPARE(std::count_if(log.begin(), log.end(), [&](const Message& m) { return m.text == said && m.count == 1; }),
+             1);
+    document().undoStack().undo();
+    QTRY_VERIFY_WITH_TIMEOUT(!m_window->notice()->isVisible(), kLong);
+  }
+
   void hidingABodyEmptiesTheView() {
     document().setBodyVisible("ice", false);
     QTRY_VERIFY_WITH_TIMEOUT(m_window->viewport()->snapshot()->id.empty(), kLong);
@@ -393,6 +411,21 @@ class TestWindow : public QObject {
                       QPoint(m_window->viewport()->width() / 2, m_window->viewport()->height() / 2));
     QCOMPARE(picked.front()[0].value<std::string>(), std::string());
     document().undoStack().undo();
+  }
+
+  // Last: a plugin that has failed stays out of service.
+  void aPluginThatFailsIsShown() {
+    session().play();
+    session().engine()->post([plugins = session().plugins()](Engine&) {
+      plugins->fault("cube", "no cells");
+      throw PluginError("'cube': no cells");
+    });
+    QTRY_VERIFY_WITH_TIMEOUT(m_window->notice()->text().contains(QStringLiteral("no cells")), kLong);
+    QVERIFY(m_window->notice()->isVisible());
+    QTRY_VERIFY_WITH_TIMEOUT(!session().playing(), kLong);
+    const QStringList lines = m_window->pluginPage()->lines().filter(QStringLiteral("no cells"));
+    QCOMPARE(lines.size(), 1);
+    QVERIFY2(lines.front().contains(QStringLiteral("Not loaded")), qPrintable(lines.front()));
   }
 
  private:

@@ -132,7 +132,7 @@ void TestCli::simulateWritesTheReportsKeys() {
            (Keys{"total", "neighbours", "density", "structure", "contact", "viscosity", "heat", "phase"}));
   for (const auto& stage : r["ms_per_frame"]) QCOMPARE(keysOf(stage), (Keys{"mean", "median", "p95"}));
   QCOMPARE(keysOf(r["density_error"]), (Keys{"mean", "max"}));
-  QCOMPARE(keysOf(r["energy"]), (Keys{"start", "end", "exchanged", "drift"}));
+  QCOMPARE(keysOf(r["energy"]), (Keys{"start", "end", "exchanged", "drift", "elastic"}));
   QCOMPARE(keysOf(r["phases"]), (Keys{"solid", "melting", "liquid", "boiling", "gas"}));
   QCOMPARE(keysOf(r["temperature"]), (Keys{"min", "mean", "max"}));
   QCOMPARE(r["frames"].get<int>(), 30);

@@ -1,16 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 // Scene to engine and back: what a project compiles to, what an edit touches, and what the engine's thread promises.
 #include "core/base/error.h"
+#include "core/base/log.h"
 #include "core/plugin_host/registry.h"
 #include "core/simulation/engine.h"
 #include "core/simulation/lattice.h"
+#include "core/simulation/measure.h"
 #include "tests/shared/scenes.h"
 
+#include <QScopeGuard>
 #include <QTest>
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <future>
+#include <map>
 
 using namespace ps;
 
@@ -28,6 +33,11 @@ class TstSimulation : public QObject {
   void takenMatterComesBackAsItWas();
   void aMissingMaterialStandsStill();
   void probesReadWhatTheyName();
+  void aProbeOfEveryQuantity();
+  void aBodyKeepsItsParticles();
+  void cellsThatCannotBeMadeLeaveNoTrace();
+  void noTwoParticlesInOnePlace();
+  void endlessParticlesAreRefused();
   void runsWithoutAnyPlugin();
   void threadPlaysPausesStepsAndResets();
   void threadTellsWhatCannotBeOpened();
@@ -126,6 +136,17 @@ void TstSimulation::refusedEditsLeaveTheSceneAsItWas() {
   Project broken = engine.project();
   broken.environment.walls[0].normal = {0, 0, 0};
   QVERIFY_THROWS_EXCEPTION(InputError, engine.update(broken));
+  // What is built anew before it fails: other materials, and a body made of none.
+  Project unbuildable = engine.project();
+  unbuildable.materials[0].id = "other";
+  QVERIFY_THROWS_EXCEPTION(InputError, engine.update(unbuildable));
+  QCOMPARE(engine.project().materials[0].id, std::string("water"));
+  unbuildable = engine.project();
+  unbuildable.bodies[0].material = "phlogiston";
+  engine.update(unbuildable);  // bodies act at the next reset
+  const uint64_t revision = engine.snapshot()->revision;
+  QVERIFY_THROWS_EXCEPTION(InputError, engine.reset());
+  QCOMPARE(engine.snapshot()->revision, revision);
   engine.step();
   untouched.step();
   QCOMPARE(engine.solver().stateHash(), untouched.solver().stateHash());
@@ -209,6 +230,128 @@ void TstSimulation::probesReadWhatTheyName() {
   QCOMPARE(engine.probeNames()[0], std::string("ice core.temperature[K]"));
 }
 
+/// Five particles with numbers that floats hold exactly, so that nothing is lost to rounding.
+void TstSimulation::aProbeOfEveryQuantity() {
+  Project project;
+  project.materials.push_back(scenes::water());
+  Body row = scenes::block("row", 1, 0.03, {0, 0, 0}, 300);
+  std::get<BoxShape>(row.shape).size = {0.15, 0.03, 0.03};
+  project.bodies.push_back(row);
+  project.solver.parameters.values["particle_spacing"] = 0.03;
+  Engine engine(project, m_plugins);
+  ParticleStore& store = engine.solver().particles();
+  QCOMPARE(store.size(), size_t{5});
+  const float mass[] = {1, 2, 3, 4, 6}, height[] = {0.5f, 0.25f, 1, 0.125f, 2};
+  const float velocity[][2] = {{3, 4}, {0, 0}, {1, 0}, {0, 2}, {6, 8}};
+  const double temperature[] = {280, 300, 320, 350, 400};
+  for (size_t i = 0; i < 5; ++i) {
+    store.mass()[i] = mass[i];
+    store.position()[i].y = height[i];
+    store.velocity()[i] = {velocity[i][0], velocity[i][1], 0, store.velocity()[i].w};
+    store.temperature()[i] = temperature[i];
+    store.phase()[i] = static_cast<api::Phase>(i);
+  }
+  const double energy = engine.solver().thermalEnergy();
+  QVERIFY(energy != 0);
+  const std::map<std::string, double> expected = {
+      {"temperature", 352.5},  // (280 + 2 300 + 3 320 + 4 350 + 6 400) / 16
+      {"temperature_min", 280},
+      {"temperature_max", 400},
+      {"mass", 16},
+      {"count", 5},
+      {"solid_mass", 1},
+      {"melting_mass", 2},
+      {"liquid_mass", 3},
+      {"boiling_mass", 4},
+      {"gas_mass", 6},
+      {"speed", 4.75},  // (5 + 0 + 3 1 + 4 2 + 6 10) / 16
+      {"speed_max", 10},
+      {"height", 1.03125},  // (0.5 + 2 0.25 + 3 1 + 4 0.125 + 6 2) / 16
+      {"height_max", 2},
+      {"thermal_energy", energy},
+      {"kinetic_energy", 322},  // (25 + 3 1 + 4 4 + 6 100) / 2
+  };
+  for (const std::string& quantity : probeQuantities()) {
+    QVERIFY2(expected.contains(quantity), quantity.c_str());
+    Probe probe;
+    probe.quantity = quantity;
+    probe.body = "row";
+    const double value = measureProbe(engine.solver(), engine.bodyIds(), probe);
+    // All sums are exact but the energy's, which may be added up in another order.
+    QVERIFY2(std::abs(value - expected.at(quantity)) <= (quantity == "thermal_energy" ? 1e-12 * std::abs(energy) : 0),
+             (quantity + ": " + std::to_string(value)).c_str());
+  }
+}
+
+void TstSimulation::aBodyKeepsItsParticles() {
+  const auto bodyOf = [](const Engine& engine, uint32_t id) {
+    const SnapshotPtr now = engine.snapshot();
+    const auto row = static_cast<size_t>(std::find(now->id.begin(), now->id.end(), id) - now->id.begin());
+    return (*now->bodyIds)[now->body[row]];
+  };
+  Project project = scenes::iceOnPlate(4, 293.15);
+  Body second = scenes::block("second", 2, 0.03, {0, 0.4, 0}, 293.15);
+  project.bodies.push_back(second);
+  project.probes[0].body = "second";
+  project.probes[0].quantity = "count";
+  Engine engine(project, m_plugins);
+  const Project before = engine.project();
+  engine.addCells(sketchedWater(), {{0, 0, 0}}, 0);
+  engine.update(before);  // undone
+  Body other = sketchedWater();
+  other.id = other.name = "other";
+  const auto ids = engine.addCells(other, {{2, 0, 0}}, 0);
+  QCOMPARE(ids.size(), size_t{1});
+  QCOMPARE(bodyOf(engine, ids[0]), std::string("other"));
+  Project withoutFirst = engine.project();
+  withoutFirst.bodies.erase(withoutFirst.bodies.begin());
+  engine.update(withoutFirst);
+  QCOMPARE(engine.stats().probes[0], 8.0);
+  QCOMPARE(bodyOf(engine, engine.addCells(other, {{4, 0, 0}}, 0).at(0)), std::string("other"));
+  engine.reset();
+  QCOMPARE(engine.stats().probes[0], 8.0);
+}
+
+void TstSimulation::cellsThatCannotBeMadeLeaveNoTrace() {
+  Engine engine(scenes::iceOnPlate(4, 293.15), m_plugins);
+  Body odd = sketchedWater();
+  std::get<VoxelShape>(odd.shape).palette.push_back({"phlogiston", 293.15});
+  QVERIFY_THROWS_EXCEPTION(InputError, engine.addCells(odd, {{0, 0, 0}}, 1));
+  QCOMPARE(engine.project().bodies.size(), size_t{1});
+  QCOMPARE(engine.bodyIds().size(), size_t{1});
+  QCOMPARE(engine.solver().particles().size(), size_t{64});
+}
+
+void TstSimulation::noTwoParticlesInOnePlace() {
+  std::vector<std::string> told;
+  setLogHook([&](LogLevel, std::string_view text) { told.emplace_back(text); });
+  const auto quiet = qScopeGuard([] { setLogHook({}); });
+  Project project = scenes::iceOnPlate(4, 293.15);
+  project.bodies.push_back(project.bodies[0]);
+  project.bodies[1].id = project.bodies[1].name = "twin";
+  Engine twice(project, m_plugins);
+  QCOMPARE(twice.solver().particles().size(), size_t{64});
+  QCOMPARE(told.size(), size_t{1});
+  QVERIFY2(told[0].find("'twin': left out 64 particles") != std::string::npos, told[0].c_str());
+  // Side by side and both rounded up from 5.52 to 6 layers: nearer than the spacing, and two bodies all the same.
+  for (size_t b = 0; b < 2; ++b) {
+    project.bodies[b].shape = BoxShape{{b == 0 ? -0.0828 : 0.0828, 0.1, 0}, {0.1656, 0.1656, 0.1656}};
+  }
+  Engine beside(project, m_plugins);
+  QCOMPARE(beside.solver().particles().size(), size_t{432});
+  QCOMPARE(told.size(), size_t{1});
+}
+
+void TstSimulation::endlessParticlesAreRefused() {
+  const Address spacing{"solver", "", "particle_spacing"};
+  Engine engine(scenes::iceOnPlate(5, 293.15), m_plugins);
+  QVERIFY_THROWS_EXCEPTION(InputError, engine.setParameter(spacing, 0.0005));  // 27 million
+  QCOMPARE(numberOf(engine.project().solver.parameters, solverParameters(), "particle_spacing"), 0.03);
+  Project project = engine.project();
+  findSet(project, spacing)->values[spacing.key] = 0.0005;
+  QVERIFY_THROWS_EXCEPTION(InputError, Engine(project, m_plugins));
+}
+
 void TstSimulation::runsWithoutAnyPlugin() {
   PluginRegistry none({{}, false, false, false});
   QVERIFY(none.plugins().empty());
@@ -249,8 +392,10 @@ void TstSimulation::threadTellsWhatCannotBeOpened() {
   const uint64_t before = thread.snapshot()->revision;
   project.bodies[0].material = "phlogiston";
   thread.open(project, true);
-  QVERIFY(waitFor([&] { return !thread.snapshot()->message.empty(); }));
-  QVERIFY(thread.snapshot()->message.find("phlogiston") != std::string::npos);
+  QVERIFY(waitFor([&] { return !thread.events(0).empty(); }));
+  const EngineEvent event = thread.events(0).back();
+  QVERIFY(event.kind == EngineEvent::Kind::NotOpened);
+  QVERIFY(event.message.find("phlogiston") != std::string::npos);
   // No scene at all, rather than the one before under the new one's name.
   QVERIFY(thread.snapshot()->id.empty() && !thread.snapshot()->bodyIds);
   QVERIFY(thread.snapshot()->revision != before);

@@ -14,9 +14,8 @@ namespace ps {
 namespace {
 
 std::vector<uint32_t> ofBody(Engine& engine, const std::vector<uint32_t>& ids, const std::string& body) {
-  const auto& bodies = engine.project().bodies;
-  const auto found = std::find_if(bodies.begin(), bodies.end(), [&](const Body& b) { return b.id == body; });
-  const auto index = static_cast<uint32_t>(found - bodies.begin());
+  const std::vector<std::string>& bodies = engine.bodyIds();
+  const auto index = static_cast<uint32_t>(std::find(bodies.begin(), bodies.end(), body) - bodies.begin());
   const ParticleStore& store = engine.solver().particles();
   std::vector<uint32_t> own;
   for (const uint32_t id : ids) {
@@ -28,14 +27,14 @@ std::vector<uint32_t> ofBody(Engine& engine, const std::vector<uint32_t>& ids, c
 
 std::vector<uint32_t> unlocked(Engine& engine, const std::vector<uint32_t>& ids, const std::set<std::string>& locked) {
   if (locked.empty()) return ids;
-  const auto& bodies = engine.project().bodies;
+  const std::vector<std::string>& bodies = engine.bodyIds();
   const ParticleStore& store = engine.solver().particles();
   std::vector<uint32_t> free;
   for (const uint32_t id : ids) {
     const size_t row = store.indexOf(id);
     if (row >= store.size()) continue;
     const uint32_t body = store.body()[row];
-    if (body >= bodies.size() || !locked.count(bodies[body].id)) free.push_back(id);
+    if (body >= bodies.size() || !locked.count(bodies[body])) free.push_back(id);
   }
   return free;
 }

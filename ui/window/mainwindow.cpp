@@ -198,7 +198,6 @@ void MainWindow::onProjectOpened() {
   m_opening = true;
   m_before = m_revision;
   m_historyRead = 0;
-  m_shownFailure.clear();
   m_outliner->rebuild();
   m_materials->rebuild();
   m_transport->setDuration(project.duration);
@@ -239,6 +238,7 @@ void MainWindow::updateTransitions() {
 }
 
 void MainWindow::onSnapshot() {
+  if (!m_slow.isActive()) m_slow.start();
   const SnapshotPtr snapshot = m_session->snapshot();
   if (!snapshot) return;
   if (Viewport* view = viewport()) view->snapshotArrived();
@@ -249,15 +249,11 @@ void MainWindow::onSnapshot() {
     m_energy->clear();
   }
   if (m_opening && m_revision != m_before) {
+    if (m_session->isBroken() && m_options.exitOnBadProject) return refreshSlow();  // the event that says why ends it
     m_opening = false;
-    if (m_session->isBroken() && m_options.exitOnBadProject) {
-      Q_EMIT startFailed(QString::fromStdString(snapshot->message));
-      return;
-    }
     refreshSlow();
     Q_EMIT projectShown();
   }
-  if (!m_slow.isActive()) m_slow.start();
 }
 
 void MainWindow::appendHistory() {
@@ -270,6 +266,10 @@ void MainWindow::appendHistory() {
 }
 
 void MainWindow::refreshSlow() {
+  for (const EngineEvent& event : m_session->engine()->events(m_eventsRead)) {
+    m_eventsRead = event.number + 1;
+    showFailure(event);
+  }
   const SnapshotPtr snapshot = m_session->snapshot();
   if (!snapshot) return;
   appendHistory();
@@ -279,44 +279,41 @@ void MainWindow::refreshSlow() {
     m_outliner->setSnapshot(snapshot);
     m_inspector->setSnapshot(*snapshot);
   }
-  if (m_session->isBroken()) {
-    showBroken(*snapshot);
-  } else {
-    showFailure(*snapshot);
-  }
   m_transport->setPlaying(m_session->playing());
   refreshStatus();
 }
 
-void MainWindow::showFailure(const Snapshot& snapshot) {
-  auto failure = failureText(snapshot.flags, snapshot.message);
-  if (!failure && !snapshot.message.empty()) {
-    failure = FailureText{QStringLiteral("That change could not be made."), QString::fromStdString(snapshot.message)};
-  }
-  if (!failure) {
-    m_shownFailure.clear();
+void MainWindow::showFailure(const EngineEvent& event) {
+  if (event.kind == EngineEvent::Kind::Settled) {
     notice()->close(QStringLiteral("step"));
     return;
   }
-  const QString text = failure->title + failure->text;
-  if (text == m_shownFailure) return;
-  m_shownFailure = text;
-  const bool stopped = snapshot.flags & static_cast<StepFlags>(StepFlag::NotFinite);
+  if (event.kind == EngineEvent::Kind::NotOpened) {
+    const QString problem = QString::fromStdString(event.message);
+    if (m_opening && m_options.exitOnBadProject) {
+      Q_EMIT startFailed(problem);
+    } else {
+      showBroken(problem);
+    }
+    return;
+  }
+  if (event.flags & static_cast<StepFlags>(StepFlag::PluginFault)) m_plugins->refresh();
+  const FailureText failure = failureText(event);
+  const auto level =
+      event.kind == EngineEvent::Kind::Stopped || (event.flags & static_cast<StepFlags>(StepFlag::NotFinite))
+          ? MessageLevel::Error
+          : MessageLevel::Warning;
+  const QString text = failure.title + QLatin1Char(' ') + failure.text;
+  m_session->log().add(level, QStringLiteral("Simulation"), text);
+  if (notice()->isVisible() && notice()->text() == text) return;  // one of its buttons may be under the pointer
   std::vector<NoticeBar::Button> buttons;
   if (m_session->document().undoStack().canUndo())
     buttons.push_back({QStringLiteral("Undo"), [this] { m_session->document().undoStack().undo(); }});
   buttons.push_back({QStringLiteral("Reset"), [this] { m_session->reset(); }});
-  notice()->show(QStringLiteral("step"), stopped ? MessageLevel::Error : MessageLevel::Warning, failure->title,
-                 failure->text, std::move(buttons));
-  m_session->log().add(stopped ? MessageLevel::Error : MessageLevel::Warning, QStringLiteral("Simulation"),
-                       failure->title + QLatin1Char(' ') + failure->text);
+  notice()->show(QStringLiteral("step"), level, failure.title, failure.text, std::move(buttons));
 }
 
-void MainWindow::showBroken(const Snapshot& snapshot) {
-  const QString problem = QString::fromStdString(snapshot.message);
-  const QString attempt = problem + QString::number(snapshot.revision);
-  if (attempt == m_shownFailure) return;
-  m_shownFailure = attempt;
+void MainWindow::showBroken(const QString& problem) {
   const QString title = QStringLiteral("“%1” cannot run as it is.").arg(m_session->document().title());
   const QString text = sentence(problem) + QStringLiteral(" It is built anew with each change.");
   std::vector<NoticeBar::Button> buttons;

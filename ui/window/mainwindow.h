@@ -33,6 +33,7 @@ class TopBar;
 class Transport;
 class Viewport;
 class ViewportPane;
+struct EngineEvent;
 
 /// The editor's window. Shows at once; plugins and the project follow. Nothing here steps, reads or writes by itself:
 /// the session does, on threads of its own.
@@ -139,8 +140,8 @@ class MainWindow : public QMainWindow {
   void appendHistory();
   void refreshSlow();  ///< values at most 15 times a second
   void refreshStatus();
-  void showFailure(const Snapshot& snapshot);
-  void showBroken(const Snapshot& snapshot);  ///< the scene could not be built
+  void showFailure(const EngineEvent& event);
+  void showBroken(const QString& problem);  ///< the scene could not be built
   void updateTransitions();
   void selectBody(const std::string& id);
   void onOutlinerSelection(OutlineKind kind, const std::string& id);
@@ -173,7 +174,7 @@ class MainWindow : public QMainWindow {
   uint64_t m_revision = 0, m_before = 0;  ///< of the snapshot seen last; of the one when a project was opened
   uint64_t m_warnedAt = 0;                ///< change count of work that a first attempt to close could not keep
   std::shared_ptr<const ReplacedWork> m_replaced;
-  QString m_shownFailure;
+  uint64_t m_eventsRead = 0;
   QByteArray m_beforeFull;
 };
 

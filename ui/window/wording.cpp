@@ -2,6 +2,7 @@
 #include "ui/window/wording.h"
 
 #include "core/matter/material.h"
+#include "core/simulation/engine.h"
 #include "ui/theme/numbers.h"
 
 #include <cmath>
@@ -27,32 +28,36 @@ QString clockText(double seconds) {
       .arg(hundredths % 100, 2, 10, QLatin1Char('0'));
 }
 
-std::optional<FailureText> failureText(StepFlags flags, const std::string& message) {
-  const auto has = [&](StepFlag flag) { return (flags & static_cast<StepFlags>(flag)) != 0; };
-  const QString detail = message.empty() ? QString() : QString::fromStdString(message) + QStringLiteral(". ");
+FailureText failureText(const EngineEvent& event) {
+  const auto has = [&](StepFlag flag) { return (event.flags & static_cast<StepFlags>(flag)) != 0; };
+  const QString message = QString::fromStdString(event.message);
+  const QString detail = message.isEmpty() ? QString() : message + QStringLiteral(". ");
   if (has(StepFlag::NotFinite)) {
-    return FailureText{
-        QStringLiteral("Paused: the step gave no usable numbers."),
-        detail +
-            QStringLiteral("The last good frame is kept. Undo the last change, or raise the substeps, then play.")};
+    return {QStringLiteral("Paused: the step gave no usable numbers."),
+            detail +
+                QStringLiteral("The last good frame is kept. Undo the last change, or raise the substeps, then play.")};
   }
   if (has(StepFlag::PluginFault)) {
-    return FailureText{QStringLiteral("A plugin failed; the scene goes on without it."),
-                       detail + QStringLiteral("See Plugins for what it said.")};
+    return {QStringLiteral("Paused: a plugin failed."),
+            detail + QStringLiteral("Play goes on without it; Plugins shows what it said.")};
   }
   if (has(StepFlag::LostParticle)) {
-    return FailureText{QStringLiteral("Matter left the scene."),
-                       detail + QStringLiteral("Raise the substeps, or close the scene with walls.")};
+    return {QStringLiteral("Matter left the scene."),
+            detail + QStringLiteral("Raise the substeps, or close the scene with walls.")};
   }
   if (has(StepFlag::Diverged)) {
-    return FailureText{QStringLiteral("The liquid is squeezed more than the solver can mend."),
-                       detail + QStringLiteral("Raise the iterations, or lower the relaxation.")};
+    return {QStringLiteral("The liquid is squeezed more than the solver can mend."),
+            detail + QStringLiteral("Raise the iterations, or lower the relaxation.")};
   }
   if (has(StepFlag::EnergyOpen)) {
-    return FailureText{QStringLiteral("The energy balance does not close."),
-                       detail + QStringLiteral("The thermal model loses heat; choose another under Solver.")};
+    return {QStringLiteral("The energy balance does not close."),
+            detail + QStringLiteral("The thermal model loses heat; choose another under Solver.")};
   }
-  return std::nullopt;
+  if (event.kind == EngineEvent::Kind::Stopped) {
+    return {QStringLiteral("Paused: the simulation could not go on."),
+            detail + QStringLiteral("Undo the last change, or reset, then play.")};
+  }
+  return {QStringLiteral("That change could not be made."), message};
 }
 
 QString limitAddress(const Limit& limit) {

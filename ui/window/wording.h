@@ -4,9 +4,9 @@
 
 #include <QtCore/QString>
 
-#include <optional>
-
 namespace ps {
+
+struct EngineEvent;
 
 /// With a full stop.
 QString sentence(const QString& text);
@@ -14,11 +14,11 @@ QString sentence(const QString& text);
 QString spanText(double seconds);
 /// "00:42.00": minutes, seconds, hundredths.
 QString clockText(double seconds);
-/// What went wrong in a step and what to do about it, for a notice; nothing for flags == 0.
+/// What went wrong and what to do about it, for a notice; of anything but Settled.
 struct FailureText {
   QString title, text;
 };
-std::optional<FailureText> failureText(StepFlags flags, const std::string& message);
+FailureText failureText(const EngineEvent& event);
 /// "water.youngs_modulus" as an address text: "material/water/youngs_modulus"; "" when it has no owner.
 QString limitAddress(const Limit& limit);
 /// "Young's modulus: the solver reaches 42.0 MPa of 9.3 GPa at this step."

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/scene/project.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ps {
+
+double layersAlong(double edge, double spacing) { return std::max(1.0, std::round(edge / spacing)); }
+
+double particleCount(const Body& body, double spacing) {
+  double count = 0;
+  if (const auto* box = std::get_if<BoxShape>(&body.shape)) {
+    count = 1;
+    for (const double edge : box->size) count *= layersAlong(edge, spacing);
+  } else {
+    for (const VoxelShape::Run& run : std::get<VoxelShape>(body.shape).runs) count += run.length;
+  }
+  return count;
+}
+
+double particleCount(const Project& project) {
+  const double spacing = numberOf(project.solver.parameters, solverParameters(), "particle_spacing");
+  double count = 0;
+  for (const Body& body : project.bodies) count += particleCount(body, spacing);
+  return count;
+}
+
+}  // namespace ps
