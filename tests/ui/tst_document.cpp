@@ -175,6 +175,27 @@ class TestDocument : public QObject {
     QCOMPARE(read(), 370.0);
   }
 
+  /// Undone to "not set", a property is the plugin's again in the engine too, and follows the plugin's own parameters.
+  void theEngineForgetsWhatIsNotSet() {
+    Document document;
+    document.setPlugins(m_plugins.get());
+    EngineThread engine(*m_plugins, {});
+    SceneLink link(document, engine);
+    document.open(smallScene(), {}, false, false);
+    const Address density{"material", "water", "density_liquid"};
+    const auto set = [&] {
+      return onEngine<size_t>(engine,
+                              [&](Engine& e) { return findSet(e.project(), density)->values.count(density.key); });
+    };
+    QCOMPARE(document.setParameter(density, Response(900.0)), QString());
+    QCOMPARE(set(), size_t{1});
+    document.undoStack().undo();
+    QCOMPARE(set(), size_t{0});
+    QCOMPARE(document.setParameter(density, Response(900.0)), QString());
+    QCOMPARE(document.setParameter(density, document.defaultValue(density)), QString());
+    QCOMPARE(set(), size_t{0});
+  }
+
   void undoRemovesExactlyTheStroke_data() {
     QTest::addColumn<bool>("moved");
     QTest::addColumn<bool>("reset");

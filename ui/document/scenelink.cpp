@@ -86,7 +86,12 @@ void SceneLink::onChanged(const ChangeEvent& event) {
     m_engine.post([run = m_run](Engine&) { ++*run; });
     m_engine.open(m_document.project(), opened->play);
   } else if (const auto* parameter = std::get_if<ParameterChanged>(&event)) {
-    m_engine.setParameter(parameter->address, parameter->value);
+    // What a parameter falls back to is the engine's to work out, from the plugins: it may be a curve of another value.
+    if (parameter->value) {
+      m_engine.setParameter(parameter->address, *parameter->value);
+    } else {
+      pushProject();
+    }
   } else if (const auto* stroke = std::get_if<StrokeChanged>(&event)) {
     onStroke(*stroke);
   }

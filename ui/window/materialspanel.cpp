@@ -28,13 +28,6 @@ void paintBall(QPainter& painter, const QRectF& rect, const QColor& colour) {
   painter.drawEllipse(rect);
 }
 
-float channelOf(const Value& value) {
-  if (const auto* number = std::get_if<double>(&value)) return static_cast<float>(std::clamp(*number, 0.0, 1.0));
-  if (const auto* response = std::get_if<Response>(&value))
-    return static_cast<float>(std::clamp(response->at(293.15), 0.0, 1.0));
-  return 0.5F;
-}
-
 }  // namespace
 
 MaterialsPanel::MaterialsPanel(Document& document, QWidget* parent) : QWidget(parent), m_document(document) {
@@ -48,12 +41,8 @@ void MaterialsPanel::rebuild() {
   const Project& project = m_document.project();
   const PluginRegistry* plugins = m_document.plugins();
   for (const SceneMaterial& material : project.materials) {
-    const auto channel = [&](const char* key) {
-      return channelOf(valueAt(project, plugins, {"material", material.id, key}));
-    };
     m_tiles.push_back({material.id, QString::fromStdString(material.label.empty() ? material.id : material.label),
-                       QColor::fromRgbF(channel("color_red"), channel("color_green"), channel("color_blue")),
-                       plugins && !plugins->material(material.base)});
+                       colourOf(project, plugins, material.id), plugins && !plugins->material(material.base)});
   }
   const bool known =
       std::any_of(m_tiles.begin(), m_tiles.end(), [&](const Tile& tile) { return tile.id == m_current; });

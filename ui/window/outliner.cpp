@@ -17,20 +17,6 @@
 #include <cmath>
 
 namespace ps {
-namespace {
-
-QColor colourOf(const Project& project, const PluginRegistry* plugins, const std::string& material) {
-  const auto channel = [&](const char* key) {
-    const Value value = valueAt(project, plugins, {"material", material, key});
-    const auto* number = std::get_if<double>(&value);
-    const auto* response = std::get_if<Response>(&value);
-    return static_cast<float>(std::clamp(number ? *number : response ? response->at(293.15) : 0.5, 0.0, 1.0));
-  };
-  return QColor::fromRgbF(channel("color_red"), channel("color_green"), channel("color_blue"));
-}
-
-}  // namespace
-
 Outliner::Outliner(Document& document, QWidget* parent)
     : QWidget(parent), m_document(document), m_model(new QStandardItemModel(this)), m_view(new QTreeView) {
   auto* column = new QVBoxLayout(this);
