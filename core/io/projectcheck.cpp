@@ -130,9 +130,11 @@ class ProjectChecker {
     for (size_t i = 0; i < shape.palette.size(); ++i) {
       checkMaterialExists(shape.palette[i].material, at(pointer + "/palette", i) + "/material");
     }
+    const double spacing = numberOf(m_project.solver.parameters, solverParameters(), "particle_spacing");
+    const double perCell = std::pow(shape.spacing / spacing, 3);
     double cells = 0;
     for (size_t i = 0; i < shape.runs.size(); ++i) {
-      cells += shape.runs[i].length;
+      cells += perCell * shape.runs[i].length;
       if (shape.runs[i].palette >= colours) fail(at(pointer + "/runs", i) + "/4", "the palette has no such entry");
     }
     addParticles(cells, pointer + "/runs");

@@ -211,13 +211,14 @@ void Engine::putBack(const TakenMatter& matter) { m->solver->putBack(matter); }
 
 std::vector<uint32_t> Engine::particlesIn(const VoxelShape& lattice,
                                           const std::vector<std::array<int, 3>>& cells) const {
-  return idsInCells(m->solver->particles(), lattice, m->spacing, cells);
+  return idsInCells(m->solver->particles(), lattice, cells);
 }
 
 SnapshotPtr Engine::snapshot() const {
   auto snapshot = std::make_shared<Snapshot>();
   snapshot->stats = stats();
   snapshot->revision = m->revision;
+  snapshot->spacing = m->spacing;
   snapshot->flags = m->lastReport.flags;
   snapshot->message = m->lastReport.message;
   snapshot->limits = m->solver->limits();

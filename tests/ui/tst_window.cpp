@@ -20,17 +20,13 @@
 #include "ui/window/transport.h"
 
 #include <QtCore/QTemporaryDir>
-#include <QtCore/QTimer>
 #include <QtGui/QAction>
-#include <QtGui/QContextMenuEvent>
 #include <QtGui/QSurfaceFormat>
 #include <QtTest/QSignalSpy>
 #include <QtTest/QTest>
 #include <QtWidgets/QApplication>
 #include <QtWidgets/QLineEdit>
-#include <QtWidgets/QMenu>
 
-#include <algorithm>
 #include <clocale>
 #include <cmath>
 #include <functional>
@@ -143,58 +139,6 @@ class TestWindow : public QObject {
     QCOMPARE(std::get<double>(document().value(kFloor)), before);
     QCOMPARE(floorInEngine(session()), before);
     QTRY_COMPARE(row->number(), before);  // a gesture ends a moment after its last click
-  }
-
-  /// The menu of a row asks for a panel made anew while the row is still on the call stack.
-  void aRowIsPinnedFromItsMenu() {
-    ParameterPanel* panel = m_window->inspector().materialPanel();
-    m_window->inspectorDock()->showPage(QStringLiteral("Material"));
-    const QString key = QStringLiteral("material/water/viscosity");
-    const auto pinned = [&] {
-      const auto rows = panel->rows();
-      return std::count_if(rows.begin(), rows.end(),
-                           [&](ParameterRow* row) { return row->model().pinned && row->key() == key; });
-    };
-    const auto choose = [&](const QString& text) {
-      QTimer::singleShot(0, m_window.get(), [text] {
-        auto* menu = qobject_cast<QMenu*>(QApplication::activePopupWidget());
-        QVERIFY(menu);
-        for (QAction* action : menu->actions()) {
-          if (action->text().startsWith(text)) menu->setActiveAction(action);
-        }
-        QTest::keyClick(menu, Qt::Key_Return);
-      });
-      ParameterRow* row = panel->row(key);
-      QContextMenuEvent ask(QContextMenuEvent::Keyboard, QPoint(20, 10), row->mapToGlobal(QPoint(20, 10)));
-      QApplication::sendEvent(row, &ask);
-    };
-    QCOMPARE(pinned(), 0);
-    choose(QStringLiteral("Pin"));
-    QCOMPARE(pinned(), 1);
-    QCOMPARE(document().project().view.pinned.back(), key.toStdString());
-    choose(QStringLiteral("Remove"));
-    QCOMPARE(pinned(), 0);
-  }
-
-  void colourLeavesThePanelsAlone() {
-    const ParameterRow* row = m_window->inspector().materialPanel()->row(QStringLiteral("material/water/viscosity"));
-    m_window->action(QStringLiteral("view.colour3"))->trigger();
-    m_window->action(QStringLiteral("view.colour2"))->trigger();
-    QCOMPARE(m_window->inspector().materialPanel()->row(QStringLiteral("material/water/viscosity")), row);
-  }
-
-  /// A plugin's own parameter gives properties other defaults: their rows show and compare with those.
-  void pluginParametersRefreshProperties() {
-    const Address density{"material", "water", "density_liquid"}, maximum{"material", "water", "density_maximum"};
-    const ParameterRow* row = m_window->inspector().materialPanel()->row(QString::fromStdString(density.text()));
-    QVERIFY(row && std::holds_alternative<Response>(row->model().value));
-    const Value with = row->model().value;
-    QCOMPARE(document().setParameter(maximum, false), QString());
-    QVERIFY(!(row->model().value == with));
-    QVERIFY(row->model().value == document().value(density));
-    QVERIFY(!row->isChanged());
-    document().undoStack().undo();
-    QVERIFY(row->model().value == with);
   }
 
   void aHotterFloorHeatsFaster() {

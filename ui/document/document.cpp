@@ -168,10 +168,10 @@ void Document::applyParameter(const Address& address, const std::optional<Value>
   tell(ParameterChanged{address, value});
 }
 
-void Document::applyBodies(const std::vector<BodyEdit>& edits, bool forward) {
+void Document::applyBodies(const std::vector<SceneEdit>& edits, bool forward) {
   applyEdits(m_project, edits, forward);
   ++m_changes;
-  for (const BodyEdit& edit : edits) tell(BodyChanged{edit.id});
+  for (const SceneEdit& edit : edits) tell(BodyChanged{bodyOf(edit)});
 }
 
 void Document::applyStroke(const std::shared_ptr<StrokeRecord>& stroke, bool done, bool live) {

@@ -60,12 +60,13 @@ void findAgain(Engine& engine, const StrokeRecord& stroke) {
   trace.ids = ofBody(engine, engine.particlesIn(stroke.lattice, stroke.cells), stroke.body);
 }
 
-/// Matter that an erasure carved out of bodies at the start, back in its cells.
-void refill(Engine& engine, const StrokeRecord& stroke, double spacing) {
-  for (const BodyEdit& edit : stroke.edits) {
-    if (!edit.before) continue;
-    const Body whole = asVoxels(*edit.before, spacing);
-    const auto byPalette = missingCells(whole, edit.after);
+/// Matter that an erasure carved out of bodies at the start, back in its cells. `bodies`: as they are without it.
+void refill(Engine& engine, const StrokeRecord& stroke, const std::vector<Body>& bodies) {
+  for (const SceneEdit& edit : stroke.edits) {
+    const auto body = std::find_if(bodies.begin(), bodies.end(), [&](const Body& b) { return b.id == bodyOf(edit); });
+    if (body == bodies.end()) continue;
+    const Body whole = asVoxels(*body, stroke.lattice.spacing);
+    const auto byPalette = takenCells(edit, stroke.lattice.spacing);
     for (size_t palette = 0; palette < byPalette.size(); ++palette) {
       if (!byPalette[palette].empty()) engine.addCells(whole, byPalette[palette], static_cast<int>(palette));
     }
@@ -125,13 +126,14 @@ void SceneLink::reset() {
   });
 }
 
-void SceneLink::paint(const StrokeRecord& stroke, const Body& body, std::vector<std::array<int, 3>> cells) {
-  m_engine.post(
-      [run = m_run, trace = stroke.trace, body, palette = stroke.palette, cells = std::move(cells)](Engine& engine) {
-        const std::vector<uint32_t> ids = engine.addCells(body, cells, palette);
-        trace->run = *run;
-        trace->ids.insert(trace->ids.end(), ids.begin(), ids.end());
-      });
+void SceneLink::paint(const StrokeRecord& stroke, std::shared_ptr<const Body> body,
+                      std::vector<std::array<int, 3>> cells) {
+  m_engine.post([run = m_run, trace = stroke.trace, body = std::move(body), palette = stroke.palette,
+                 cells = std::move(cells)](Engine& engine) {
+    const std::vector<uint32_t> ids = engine.addCells(*body, cells, palette);
+    trace->run = *run;
+    trace->ids.insert(trace->ids.end(), ids.begin(), ids.end());
+  });
 }
 
 void SceneLink::erase(const StrokeRecord& stroke, std::vector<std::array<int, 3>> cells) {
@@ -151,8 +153,12 @@ void SceneLink::erase(const StrokeRecord& stroke, std::vector<std::array<int, 3>
 void SceneLink::cancel(const std::shared_ptr<StrokeRecord>& stroke) { undoStroke(stroke); }
 
 void SceneLink::undoStroke(const std::shared_ptr<StrokeRecord>& stroke) {
-  const double spacing = numberOf(m_document.project().solver.parameters, solverParameters(), "particle_spacing");
-  m_engine.post([run = m_run, stroke, spacing](Engine& engine) {
+  std::vector<Body> bodies;
+  for (const SceneEdit& edit : stroke->edits) {
+    const Body* body = stroke->erase ? m_document.body(bodyOf(edit)) : nullptr;
+    if (body) bodies.push_back(*body);
+  }
+  m_engine.post([run = m_run, stroke, bodies = std::move(bodies)](Engine& engine) {
     StrokeTrace& trace = *stroke->trace;
     trace.done = false;
     if (!stroke->erase) {
@@ -160,7 +166,7 @@ void SceneLink::undoStroke(const std::shared_ptr<StrokeRecord>& stroke) {
     } else if (trace.run == *run) {
       putBack(engine, trace);
     } else {
-      refill(engine, *stroke, spacing);
+      refill(engine, *stroke, bodies);
     }
   });
   pushProject();

@@ -34,7 +34,11 @@ Viewport::Viewport(QWidget* parent) : QOpenGLWidget(parent) {
   connect(&m_paintTimer, &QTimer::timeout, this, qOverload<>(&QWidget::update));
 }
 
-Viewport::~Viewport() { releaseGl(); }
+Viewport::~Viewport() {
+  // The context goes with the base class, after this: it must not call a member then.
+  if (context()) disconnect(context(), nullptr, this, nullptr);
+  releaseGl();
+}
 
 void Viewport::releaseGl() {
   if (!m_renderer) return;
@@ -44,9 +48,16 @@ void Viewport::releaseGl() {
 }
 
 void Viewport::attach(Document* document, EngineThread* engine, SceneLink* link) {
+  if (m_document) disconnect(&m_document->undoStack(), nullptr, this, nullptr);
   m_document = document;
   m_engine = engine;
   m_stroke.attach(document, link);
+  // A stroke in the making builds on the document as it was when it began.
+  if (document) {
+    connect(&document->undoStack(), &QUndoStack::indexChanged, this, [this] {
+      if (m_stroke.active()) cancelGesture();
+    });
+  }
   if (!engine) m_now = m_previous = nullptr;
 }
 

@@ -97,7 +97,6 @@ class Viewport : public QOpenGLWidget {
   void updateCursor(const QPointF& position, Qt::KeyboardModifiers modifiers);
   void beginStroke(const QMouseEvent& event);
   double floorHeight() const;
-  bool atStart() const;
   void storeView();
 
   Document* m_document = nullptr;

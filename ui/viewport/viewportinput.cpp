@@ -55,7 +55,11 @@ void Viewport::mouseMoveEvent(QMouseEvent* event) {
     if (!point) return;
     if (m_cursor) m_cursor->centre = *point;
     const QString problem = m_stroke.move(*point, static_cast<double>(m_strokeClock.elapsed()) / 1000);
-    if (!problem.isEmpty()) Q_EMIT strokeRefused(problem);
+    if (!problem.isEmpty()) {
+      m_drag = Drag::None;
+      m_stroke.finish();  // as far as it came
+      Q_EMIT strokeRefused(problem);
+    }
   } else if (m_tool != ViewTool::Select) {
     updateCursor(position, event->modifiers());
   } else {
@@ -146,8 +150,6 @@ double Viewport::floorHeight() const {
   return height;
 }
 
-bool Viewport::atStart() const { return m_now && m_now->stats.frame == 0; }
-
 std::optional<Vec3> Viewport::surfaceAt(const QPointF& position) const {
   const Camera& camera = m_navigator.camera();
   const Ray ray = rayThrough(camera, width(), height(), position.x(), position.y());
@@ -202,7 +204,8 @@ void Viewport::beginStroke(const QMouseEvent& event) {
     return;
   }
   m_strokeClock.start();
-  const QString problem = m_stroke.begin(m_brush, m_cursor->erase, atStart(), m_cursor->centre);
+  static const Snapshot kNothing;
+  const QString problem = m_stroke.begin(m_brush, m_cursor->erase, m_now ? *m_now : kNothing, m_cursor->centre);
   if (!problem.isEmpty()) {
     m_stroke.cancel();
     m_drag = Drag::None;
