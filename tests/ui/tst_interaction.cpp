@@ -9,9 +9,11 @@
 #include "ui/window/dock.h"
 #include "ui/window/inspector.h"
 #include "ui/window/mainwindow.h"
+#include "ui/window/materialspanel.h"
 #include "ui/window/noticebar.h"
 
 #include <QtCore/QTimer>
+#include <QtGui/QAccessible>
 #include <QtGui/QAction>
 #include <QtGui/QContextMenuEvent>
 #include <QtGui/QSurfaceFormat>
@@ -21,6 +23,7 @@
 #include <QtWidgets/QMenu>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <future>
 #include <set>
@@ -148,6 +151,99 @@ class TestInteraction : public QObject {
     QTest::mouseRelease(view(), Qt::RightButton, {}, QPoint(300, 240));
     QVERIFY(!QApplication::activePopupWidget());
     QVERIFY(view()->navigator().camera().distance < before.distance);
+  }
+
+  void legendEndsCanBeDragged_data() {
+    QTest::addColumn<bool>("upper");
+    QTest::newRow("upper") << true;
+    QTest::newRow("lower") << false;
+  }
+  /// A tenth of the bar is a tenth of the range; nothing else moves; a double click is automatic again.
+  void legendEndsCanBeDragged() {
+    QFETCH(bool, upper);
+    m_window->action(QStringLiteral("view.colour2"))->trigger();
+    QTRY_VERIFY_WITH_TIMEOUT(!view()->overlayHits().legendBar.isEmpty(), kLong);
+    const auto before = view()->legendRange();
+    const Camera camera = view()->navigator().camera();
+    const QRectF bar = view()->overlayHits().legendBar;
+    const QPoint end((upper ? bar.topRight() : bar.bottomRight()).toPoint() + QPoint(10, 0));
+    const int way = static_cast<int>(bar.height() / 10) * (upper ? -1 : 1);
+    const auto drag = [&](bool release) {
+      QTest::mousePress(view(), Qt::LeftButton, {}, end);
+      QTest::mouseMove(view(), end + QPoint(0, way / 2));
+      QTest::mouseMove(view(), end + QPoint(0, way));
+      if (release) QTest::mouseRelease(view(), Qt::LeftButton, {}, end + QPoint(0, way));
+    };
+    QTest::mouseMove(view(), end);
+    QTRY_COMPARE(view()->cursor().shape(), Qt::SizeVerCursor);
+    drag(true);
+    QTRY_VERIFY_WITH_TIMEOUT(view()->legendRange() != before, kLong);
+    const auto after = view()->legendRange();
+    const double width = before.second - before.first,
+                 moved = upper ? after.second - before.second : before.first - after.first;
+    QVERIFY2(std::abs(moved - width / 10) < width / 50, qPrintable(QString::number(moved)));  // a pixel, then rounding
+    QCOMPARE(upper ? after.first : after.second, upper ? before.first : before.second);
+    QCOMPARE(view()->navigator().camera().azimuth, camera.azimuth);
+    drag(false);
+    QVERIFY(view()->cancelGesture());  // Esc
+    QTest::mouseRelease(view(), Qt::LeftButton, {}, end + QPoint(0, way));
+    view()->repaint();
+    QVERIFY(view()->legendRange() == after);
+    QTest::mouseDClick(view(), Qt::LeftButton, {}, bar.center().toPoint());
+    QTRY_VERIFY_WITH_TIMEOUT(view()->legendRange() == before, kLong);
+  }
+
+  /// The ends pass one another at no drag, and stand on values that can be read.
+  void legendRangesStayInOrder() {
+    LegendRange range;
+    QVERIFY(range.update(ColourBy::Temperature, {263.15, 373.15}) == (std::pair{263.15, 373.15}));
+    range.moveEnd(false, 3);
+    const auto narrow = range.update(ColourBy::Temperature, {200, 500});
+    QVERIFY(narrow.first < narrow.second);
+    QCOMPARE(narrow.second, 373.15);
+    const double celsius = narrow.first - 273.15;
+    QVERIFY(std::abs(celsius - std::round(celsius)) < 1e-9);
+    QVERIFY(range.update(ColourBy::Speed, {0, 3}) == (std::pair{0.0, 5.0}));  // another map is automatic
+  }
+
+  /// The label names a direction only as long as one looks from there.
+  void theAxisBallTakesTheNameAway() {
+    view()->show(StandardView::Top);
+    QVERIFY(view()->navigator().viewName().startsWith(QStringLiteral("Top")));
+    view()->frameAll();
+    QVERIFY(view()->navigator().viewName().startsWith(QStringLiteral("Top")));
+    view()->repaint();
+    const auto& axes = view()->overlayHits().axes;
+    const auto right = std::find_if(axes.begin(), axes.end(), [](const auto& axis) { return axis.azimuth == 90; });
+    QVERIFY(right != axes.end());
+    QTest::mouseClick(view(), Qt::LeftButton, {}, right->rect.center().toPoint());
+    QCOMPARE(view()->navigator().camera().azimuth, 90.0);
+    QCOMPARE(view()->navigator().viewName(), QStringLiteral("Perspective"));
+  }
+
+  void eyeAndLockWithoutAMouse() {
+    m_window->outliner()->select(OutlineKind::Body, "ice");
+    m_window->action(QStringLiteral("edit.visible"))->trigger();
+    QVERIFY(!document().body("ice")->visible);
+    m_window->action(QStringLiteral("edit.locked"))->trigger();
+    QVERIFY(document().body("ice")->locked);
+    m_window->action(QStringLiteral("edit.visible"))->trigger();
+    m_window->action(QStringLiteral("edit.locked"))->trigger();
+    QVERIFY(document().body("ice")->visible && !document().body("ice")->locked);
+    QCOMPARE(document().undoStack().count(), 4);
+    m_window->outliner()->select(OutlineKind::Wall, "floor");
+    m_window->action(QStringLiteral("edit.visible"))->trigger();  // a wall has no eye
+    QCOMPARE(document().undoStack().count(), 4);
+  }
+
+  void toolAndMaterialAreTold() {
+    const auto value = [](QWidget* widget) {
+      return QAccessible::queryAccessibleInterface(widget)->text(QAccessible::Value);
+    };
+    QCOMPARE(value(view()), QStringLiteral("Select and orbit"));
+    view()->setTool(ViewTool::Brush);
+    QVERIFY2(value(view()).startsWith(QStringLiteral("Brush, sphere, radius 50 mm, Water")), qPrintable(value(view())));
+    QCOMPARE(value(m_window->findChild<MaterialsPanel*>()), QStringLiteral("Water"));
   }
 
   /// Undo while the button is down: the stroke in the making goes, the one before goes, and both stay gone.

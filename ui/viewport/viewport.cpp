@@ -24,6 +24,7 @@ constexpr int kMajor = 4, kMinor = 3;
 }  // namespace
 
 Viewport::Viewport(QWidget* parent) : QOpenGLWidget(parent) {
+  installAccessibility();
   setMouseTracking(true);
   setFocusPolicy(Qt::StrongFocus);
   setMinimumSize(480, 300);
@@ -224,6 +225,7 @@ void Viewport::setTool(ViewTool tool) {
     updateCursor(mapFromGlobal(QCursor::pos()), {});
   }
   update();
+  announce();
   Q_EMIT toolChanged(tool);
 }
 
@@ -232,6 +234,7 @@ void Viewport::setBrush(const BrushSettings& brush) {
   m_brush = brush;
   if (m_cursor) m_cursor->extent = brushExtent();
   update();
+  announce();
   Q_EMIT brushChanged();
 }
 

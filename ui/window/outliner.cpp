@@ -185,6 +185,18 @@ std::pair<OutlineKind, std::string> Outliner::selected() const {
           index.data(outline::kId).toString().toStdString()};
 }
 
+void Outliner::toggleVisible() {
+  const auto [kind, id] = selected();
+  const Body* body = kind == OutlineKind::Body ? m_document.body(id) : nullptr;
+  if (body) m_document.setBodyVisible(id, !body->visible);
+}
+
+void Outliner::toggleLocked() {
+  const auto [kind, id] = selected();
+  const Body* body = kind == OutlineKind::Body ? m_document.body(id) : nullptr;
+  if (body) m_document.setBodyLocked(id, !body->locked);
+}
+
 void Outliner::renameSelected() {
   if (selected().first == OutlineKind::Body) m_view->edit(m_view->currentIndex());
 }
