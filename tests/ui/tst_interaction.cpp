@@ -7,6 +7,7 @@
 #include "ui/theme/theme.h"
 #include "ui/viewport/viewport.h"
 #include "ui/window/dock.h"
+#include "ui/window/graphspanel.h"
 #include "ui/window/inspector.h"
 #include "ui/window/mainwindow.h"
 #include "ui/window/materialspanel.h"
@@ -244,6 +245,21 @@ class TestInteraction : public QObject {
     view()->setTool(ViewTool::Brush);
     QVERIFY2(value(view()).startsWith(QStringLiteral("Brush, sphere, radius 50 mm, Water")), qPrintable(value(view())));
     QCOMPARE(value(m_window->findChild<MaterialsPanel*>()), QStringLiteral("Water"));
+  }
+
+  void csvHasEveryFrame() {
+    std::vector<FrameStats> history(2);
+    history[0].temperatureMean = 263.15;
+    history[0].probes = {1.0 / 3, std::nan("")};
+    history[1].time = 0.1;
+    history[1].phases[2].mass = 2.5;
+    history[1].probes = {0.5};
+    const QByteArray csv =
+        historyCsv(history, {{"a", "Ice, core", "temperature", "", "", {}}, {"b", "n", "count", "", "", {}}});
+    QCOMPARE(csv, QByteArray("time_s,thermal_time_s,mean.temperature[K],solid.mass[kg],melting.mass[kg],"
+                             "liquid.mass[kg],boiling.mass[kg],gas.mass[kg],\"Ice, core.temperature[K]\",n.count[1]\n"
+                             "0,0,263.15,0,0,0,0,0,0.3333333333333333,\n"
+                             "0.1,0,0,0,0,2.5,0,0,0.5,\n"));
   }
 
   /// Undo while the button is down: the stroke in the making goes, the one before goes, and both stay gone.
