@@ -132,12 +132,16 @@ void collectInstances(const InstanceRequest& request, Instances& out) {
   const Snapshot& s = *request.now;
   const size_t count = s.position.size();
   const Evaluator evaluator(request);
-  std::vector<Instance> all(count);
+  std::vector<Instance>& all = out.all;
+  all.resize(count);
   parallelFor(count, kGrain, [&](size_t first, size_t last) {
     for (size_t i = first; i < last; ++i) all[i] = evaluator.at(i);
   });
 
-  std::vector<Instance> spheres, liquids, vapours;
+  std::vector<Instance>&spheres = out.particles, &liquids = out.liquid, &vapours = out.vapour;
+  spheres.clear();
+  liquids.clear();
+  vapours.clear();
   const bool data = request.colour != ColourBy::Material;
   double radii = 0;
   size_t counted = 0;
@@ -173,7 +177,6 @@ void collectInstances(const InstanceRequest& request, Instances& out) {
   out.spheres = spheres.size();
   out.liquids = liquids.size();
   out.vapours = vapours.size();
-  out.particles.swap(spheres);
   out.particles.insert(out.particles.end(), liquids.begin(), liquids.end());
   out.particles.insert(out.particles.end(), vapours.begin(), vapours.end());
 }

@@ -29,6 +29,7 @@ struct ContactMap {
   std::array<float, 2> corner{}, size{1, 1};  ///< x and z, m
   float floor = 0;                            ///< height, m
   std::vector<uint8_t> texels;                ///< RGBA8: mean colour, how much is covered
+  std::array<std::vector<float>, 6> sums;     ///< while it is filled: near, far, weights, colours; kept for its memory
 };
 
 /// For what culling needs to know.
@@ -54,7 +55,8 @@ struct Instances {
   std::vector<Instance> particles;
   size_t visible = 0, spheres = 0, liquids = 0, vapours = 0;
   Extent sphereExtent, liquidExtent, vapourExtent;
-  float radius = 0.01f;  ///< mean of what is neither vapour nor static, m
+  float radius = 0.01f;                       ///< mean of what is neither vapour nor static, m
+  std::vector<Instance> all, liquid, vapour;  ///< while it is filled; kept for their memory
 };
 
 /// Values of `previous` are found by id where the order differs; particles that are new stand where they are now.

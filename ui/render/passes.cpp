@@ -92,6 +92,7 @@ Quality qualityOf(const char* rendererName) {
 }
 
 Passes::Passes() : m_quality(qualityOf(reinterpret_cast<const char*>(glGetString(GL_RENDERER)))) {
+  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &m_largest);
   glBindTexture(GL_TEXTURE_2D, m_shadow.name());
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
   m_shadow.resize(m_quality.shadowSize, m_quality.shadowSize);
@@ -115,9 +116,12 @@ void Passes::upload(const Frame& frame) {
   const Instances& instances = frame.instances;
   m_particles.upload(GL_TEXTURE_BUFFER, instances.particles.data(), instances.particles.size() * sizeof(Instance));
   const Furniture& furniture = frame.furniture;
-  m_opaque.upload(GL_ARRAY_BUFFER, furniture.opaque.data(), furniture.opaque.size() * sizeof(MeshVertex));
-  m_clear.upload(GL_ARRAY_BUFFER, furniture.clear.data(), furniture.clear.size() * sizeof(MeshVertex));
-  m_edges.upload(GL_ARRAY_BUFFER, furniture.edges.data(), furniture.edges.size() * sizeof(EdgeVertex));
+  if (m_furniture != frame.furnitureRevision) {
+    m_furniture = frame.furnitureRevision;
+    m_opaque.upload(GL_ARRAY_BUFFER, furniture.opaque.data(), furniture.opaque.size() * sizeof(MeshVertex));
+    m_clear.upload(GL_ARRAY_BUFFER, furniture.clear.data(), furniture.clear.size() * sizeof(MeshVertex));
+    m_edges.upload(GL_ARRAY_BUFFER, furniture.edges.data(), furniture.edges.size() * sizeof(EdgeVertex));
+  }
   for (const auto& [buffer, tiles] :
        {std::pair{&m_liquidTiles, &frame.liquidTiles}, {&m_detailTiles, &frame.detailTiles}})
     buffer->upload(GL_ARRAY_BUFFER, tiles->data(), tiles->size() * sizeof(TileSet::Corner));

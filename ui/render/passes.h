@@ -8,6 +8,7 @@
 #include "ui/render/tiles.h"
 
 #include <array>
+#include <cstdint>
 
 namespace ps::render {
 
@@ -24,9 +25,11 @@ struct Frame {
   FrameUniforms uniforms;
   Instances instances;
   Furniture furniture;
+  uint64_t furnitureRevision = 0;  ///< rises with every change of `furniture`
   ContactMap contact;
   FrameUniforms::Matrix toLight;             ///< world to clip space of the shadow picture
   std::array<float, 2> shadowScale{};        ///< metres to clip space
+  TileSet liquid, detail;                    ///< what the next two are made of
   std::vector<TileSet::Corner> detailTiles;  ///< where edges and crevices may be
   std::vector<TileSet::Corner> liquidTiles;  ///< where liquid may be
   std::array<int, 4> vapourBox{};            ///< x, y, width, height of the pixels that vapour may touch
@@ -51,6 +54,7 @@ Quality qualityOf(const char* rendererName);
 class Passes {
  public:
   Passes();
+  int largestPicture() const { return m_largest; }  ///< pixels along each side
   const Quality& quality() const { return m_quality; }
   void draw(const Frame& frame, GLuint framebuffer);
 
@@ -92,6 +96,7 @@ class Passes {
   void drawEverywhere();
 
   Quality m_quality;
+  GLint m_largest = 0;
   Programs m_programs;
   Texture m_surface{GL_RGBA8, GL_NEAREST}, m_normal{GL_RGB10_A2, GL_NEAREST}, m_distance{GL_R32F, GL_NEAREST};
   Texture m_depth{GL_DEPTH24_STENCIL8, GL_NEAREST}, m_open{GL_R8, GL_LINEAR};
@@ -104,6 +109,7 @@ class Passes {
   Texture m_contact{GL_RGBA8, GL_LINEAR}, m_noise{GL_RGBA8, GL_LINEAR_MIPMAP_NEAREST, GL_REPEAT};
   Texture m_background{GL_RGBA8, GL_NEAREST};
   FrameUniforms m_backgroundUniforms{};  // for which m_background was drawn
+  uint64_t m_furniture = 0;              // revision that is in the buffers
   BufferTexture m_particleTexture;
   Buffer m_uniforms, m_particles, m_opaque, m_clear, m_edges, m_liquidTiles, m_detailTiles;
   const VertexArray* m_vertexArray = nullptr;  // of the frame being drawn

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace ps {
 namespace {
@@ -163,7 +164,9 @@ void markEdges(TileSet& tiles, const Projector& projector, const std::vector<ren
 /// all of the picture faster than a processor finds out.
 void findTiles(Frame& frame, const Camera& camera, bool cull) {
   const auto& instances = frame.instances;
-  TileSet liquid(frame.width, frame.height), detail(frame.width, frame.height);
+  TileSet &liquid = frame.liquid, &detail = frame.detail;
+  liquid.reset(frame.width, frame.height);
+  detail.reset(frame.width, frame.height);
   if (cull) {
     const Projector projector(camera, frame.width, frame.height);
     const render::Instance* first = instances.particles.data();
@@ -175,8 +178,23 @@ void findTiles(Frame& frame, const Camera& camera, bool cull) {
     liquid.markAll();
     detail.markAll();
   }
-  frame.liquidTiles = liquid.triangles();
-  frame.detailTiles = detail.triangles();
+  liquid.triangles(frame.liquidTiles);
+  detail.triangles(frame.detailTiles);
+}
+
+/// Inner targets have this many pixels for one of the picture's, along each side.
+int innerScale(const RenderOptions& options) { return options.still ? 2 : 1; }
+
+std::string sizeText(const RenderOptions& options) {
+  return std::to_string(options.width) + " × " + std::to_string(options.height) + " pixels";
+}
+
+/// The first OpenGL error that waits, and none waits afterwards. A lost context reports for ever: enough is enough.
+GLenum takeErrors() {
+  const GLenum first = glGetError();
+  for (int i = 0; i < 16 && glGetError() != GL_NO_ERROR; ++i) {
+  }
+  return first;
 }
 
 void placeContactMap(Frame& frame) {
@@ -202,22 +220,43 @@ struct Renderer::Impl {
     return std::make_unique<render::Passes>();
   }
   std::unique_ptr<render::Passes> passes = makePasses();
-  Frame frame;  // kept for its memory
+  Frame frame;                           // kept for its memory
+  std::optional<Environment> furnished;  // what frame.furniture was made of, and for which theme
+  bool dark = false;
+  int width = 0, height = 0;            // pixels of the inner targets that are known to work
+  bool liquid = false, vapour = false;  // and whether theirs are
+
+  void furnish(const Environment& environment, bool forDark) {
+    if (furnished && dark == forDark && render::sameFurniture(*furnished, environment)) return;
+    frame.furniture = render::buildFurniture(environment, forDark);
+    ++frame.furnitureRevision;
+    furnished = environment;
+    dark = forDark;
+  }
 };
 
 Renderer::Renderer() : m(std::make_unique<Impl>()) {}
 Renderer::~Renderer() = default;
 
+void Renderer::checkSize(const RenderOptions& options) const {
+  const int most = m->passes->largestPicture() / innerScale(options);
+  if (std::max(options.width, options.height) <= most) return;
+  throw Error("a picture of " + sizeText(options) + " is larger than the " + std::to_string(most) +
+              " pixels a side that this graphics driver draws" + (options.still ? " with smooth edges" : "") +
+              "; ask for a smaller one");
+}
+
 void Renderer::draw(const Snapshot& now, const Snapshot* previous, double blend, const RenderScene& scene,
                     const RenderOptions& options) {
   if (options.width < 1 || options.height < 1) return;
+  checkSize(options);
   Frame& frame = m->frame;
-  const int scale = options.still ? 2 : 1;
+  const int scale = innerScale(options);
   frame.width = options.width * scale;
   frame.height = options.height * scale;
   frame.still = options.still;
   frame.data = options.colour != ColourBy::Material;
-  frame.furniture = render::buildFurniture(scene.environment, options.dark);
+  m->furnish(scene.environment, options.dark);
   frame.edgeTint = render::sceneColour(options.dark, "edge");
 
   render::InstanceRequest request;
@@ -247,7 +286,20 @@ void Renderer::draw(const Snapshot& now, const Snapshot* previous, double blend,
   frame.vapourBox = pixelsOf(frame.instances.vapourExtent, options.camera, frame.width, frame.height);
 
   const render::GlState state;
+  const bool liquid = frame.instances.liquids > 0, vapour = frame.instances.vapours > 0;
+  const bool first = frame.width != m->width || frame.height != m->height || liquid > m->liquid || vapour > m->vapour;
+  if (first) takeErrors();  // whoever drew before left them
   m->passes->draw(frame, state.drawFramebuffer());
+  if (!first) return;
+  // Asked once per size: what fails with these targets fails in the first frame, and asking makes the processor wait.
+  if (const GLenum error = takeErrors(); error != GL_NO_ERROR)
+    throw Error("the graphics driver " +
+                (error == GL_OUT_OF_MEMORY ? "has no memory" : "reports error " + std::to_string(error)) +
+                " for a picture of " + sizeText(options) + "; ask for a smaller one");
+  m->liquid = liquid || (m->liquid && m->width == frame.width && m->height == frame.height);
+  m->vapour = vapour || (m->vapour && m->width == frame.width && m->height == frame.height);
+  m->width = frame.width;
+  m->height = frame.height;
 }
 
 }  // namespace ps

@@ -41,10 +41,12 @@ class Renderer {
  public:
   Renderer();   ///< throws Error when shaders do not compile or the context is too old
   ~Renderer();  ///< the same context (or one that shares with it) must be current
+  /// Throws Error when the driver cannot draw a picture that large, as draw() does before it changes anything.
+  void checkSize(const RenderOptions& options) const;
   /// Draws into the framebuffer bound now. `previous` and `blend` in 0..1 interpolate between two snapshots.
   /// The picture fills (0, 0)..(width, height) of it. Restores the OpenGL state that it changes. One thread at a time;
   /// any context that shares with the one of the constructor may be current. Views on several threads have a Renderer
-  /// and a context each.
+  /// and a context each. Throws Error when the driver runs out of memory.
   void draw(const Snapshot& now, const Snapshot* previous, double blend, const RenderScene& scene,
             const RenderOptions& options);
 
