@@ -10,6 +10,7 @@
 
 #include <cmath>
 #include <exception>
+#include <numbers>
 #include <thread>
 
 using namespace ps;
@@ -70,6 +71,8 @@ class TestRender : public QObject {
   void tooLargeAPictureIsRefused_data();
   void tooLargeAPictureIsRefused();
   void furnitureFollowsItsScene();
+  void theSelectedBodyHasAnOutline_data();
+  void theSelectedBodyHasAnOutline();
   void restoresState();
   void leavesNothingBehind();
   void twoThreadsDrawAsOneDoes();
@@ -251,6 +254,59 @@ void TestRender::furnitureFollowsItsScene() {
   }
   for (size_t i = 1; i < 4; ++i) QVERIFY(pictures[i] != pictures[i - 1]);
   QVERIFY(pictures[4] == pictures[0]);
+}
+
+void TestRender::theSelectedBodyHasAnOutline_data() {
+  QTest::addColumn<int>("colour");
+  QTest::addColumn<bool>("still");
+  QTest::addColumn<int>("motion");
+  QTest::newRow("matter") << int(ColourBy::Material) << false << int(api::Motion::Solid);
+  QTest::newRow("temperature") << int(ColourBy::Temperature) << false << int(api::Motion::Solid);
+  QTest::newRow("a still") << int(ColourBy::Material) << true << int(api::Motion::Solid);
+  QTest::newRow("liquid") << int(ColourBy::Material) << false << int(api::Motion::Liquid);
+}
+
+/// Two spheres, one selected: a ring of the line's colour around its picture, two pixels wide, and nothing of it on the
+/// sphere itself, around the other, or far away.
+void TestRender::theSelectedBodyHasAnOutline() {
+  QFETCH(int, colour);
+  QFETCH(bool, still);
+  QFETCH(int, motion);
+  Renderer renderer;
+  Snapshot s;
+  s.materialColour = {{0.75f, 0.87f, 0.98f}};
+  constexpr double kRadius = 0.08;
+  const Vec3 chosen{-0.15, 0.3, 0}, other{0.15, 0.3, 0};
+  addParticle(s, chosen, kRadius, 0, static_cast<api::Motion>(motion));
+  addParticle(s, other, kRadius, 1, static_cast<api::Motion>(motion));
+  s.body = {7, 3};
+  RenderOptions o = options(static_cast<ColourBy>(colour));
+  o.camera = Camera{{0, 0.3, 0}, 1.5, 0, 0};
+  o.still = still;
+  const auto plain = renderImage(renderer, s, tray(), o);
+  o.outline = BodyOutline{7, {1, 0, 1}, {0, 0, 0}};
+  const auto outlined = renderImage(renderer, s, tray(), o);
+  const double pixel = pixelSize(o.camera, kHeight, 1.5);
+  const double growth = motion == int(api::Motion::Liquid) ? 1.25 : 1;  // a surface lies outside its particles
+  const auto centre = project(o.camera, kWidth, kHeight, chosen);
+  QVERIFY(centre);
+  int line = 0;
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      const double away = std::hypot(x + 0.5 - (*centre)[0], y + 0.5 - (*centre)[1]) - growth * kRadius / pixel;
+      const auto [r, g, b] = pixelAt(outlined, x, y);
+      const bool magenta = r > 200 && g < 60 && b > 200;
+      line += magenta;
+      // Perspective moves the silhouette by less than a pixel here; smoothing spreads the line by another.
+      if (magenta) QVERIFY2(away > -1.5 && away < 4, qPrintable(QString::number(away)));
+      if (away < -3 || away > 7) QCOMPARE(pixelAt(outlined, x, y), pixelAt(plain, x, y));
+    }
+  }
+  // A ring of two pixels less what smoothing takes.
+  const double ring = 2 * std::numbers::pi * (growth * kRadius / pixel + 1);
+  QVERIFY2(line > 0.7 * ring && line < 2.5 * ring, qPrintable(QStringLiteral("%1 of %2").arg(line).arg(ring)));
+  o.outline->body = 99;
+  QVERIFY(renderImage(renderer, s, tray(), o) == plain);
 }
 
 void TestRender::restoresState() {

@@ -13,6 +13,7 @@ namespace {
 
 constexpr uint32_t kNone = 0xFFFFFFFF;
 constexpr size_t kGrain = 4096;
+constexpr float kSurfaceGrowth = 1.25f;  // a liquid's surface lies about this far out, in radii of its particles
 
 // Index in the previous snapshot by index in this one; empty when both have the same order.
 std::vector<uint32_t> matchById(const Snapshot& now, const Snapshot& previous) {
@@ -142,6 +143,7 @@ void collectInstances(const InstanceRequest& request, Instances& out) {
   spheres.clear();
   liquids.clear();
   vapours.clear();
+  out.outline.clear();
   const bool data = request.colour != ColourBy::Material;
   double radii = 0;
   size_t counted = 0;
@@ -165,7 +167,11 @@ void collectInstances(const InstanceRequest& request, Instances& out) {
       ++counted;
     }
     p.extra = static_cast<float>(kindOf(request, i));
-    (motion == api::Motion::Liquid && request.surfaces ? liquids : spheres).push_back(p);
+    const bool surface = motion == api::Motion::Liquid && request.surfaces;
+    (surface ? liquids : spheres).push_back(p);
+    if (request.outlined != s.body[i]) continue;
+    out.outline.push_back(p);
+    if (surface) out.outline.back().radius *= kSurfaceGrowth;
   }
   if (counted) out.radius = static_cast<float>(radii / static_cast<double>(counted));
   out.sphereExtent = out.liquidExtent = out.vapourExtent = {};
@@ -179,6 +185,13 @@ void collectInstances(const InstanceRequest& request, Instances& out) {
   out.vapours = vapours.size();
   out.particles.insert(out.particles.end(), liquids.begin(), liquids.end());
   out.particles.insert(out.particles.end(), vapours.begin(), vapours.end());
+  if (request.cull && !out.outline.empty()) {
+    Extent extent;
+    for (const Instance& p : out.outline) extent.add(p.x, p.y, p.z, p.radius);
+    dropBuried(extent, out.radius, out.outline);
+  }
+  out.outlined = out.outline.size();
+  out.particles.insert(out.particles.end(), out.outline.begin(), out.outline.end());
 }
 
 }  // namespace ps::render

@@ -136,11 +136,12 @@ struct Projector {
   float width, height, near, lens;  // lens: pixels of a metre at a depth of 1 m
 };
 
-void markSpheres(TileSet& tiles, const Projector& projector, const render::Instance* first, size_t count, float reach) {
+void markSpheres(TileSet& tiles, const Projector& projector, const render::Instance* first, size_t count, float reach,
+                 float margin = 3) {
   for (const render::Instance* p = first; p != first + count; ++p) {
     const auto at = projector.at(p->x, p->y, p->z);
     if (at[2] > -p->radius)
-      tiles.mark(at[0], at[1], reach * p->radius * projector.lens / std::max(at[2], projector.near) + 3);
+      tiles.mark(at[0], at[1], reach * p->radius * projector.lens / std::max(at[2], projector.near) + margin);
   }
 }
 
@@ -164,20 +165,25 @@ void markEdges(TileSet& tiles, const Projector& projector, const std::vector<ren
 /// all of the picture faster than a processor finds out.
 void findTiles(Frame& frame, const Camera& camera, bool cull) {
   const auto& instances = frame.instances;
-  TileSet &liquid = frame.liquid, &detail = frame.detail;
+  TileSet &liquid = frame.liquid, &detail = frame.detail, &outline = frame.outline;
   liquid.reset(frame.width, frame.height);
   detail.reset(frame.width, frame.height);
+  outline.reset(frame.width, frame.height);
   if (cull) {
     const Projector projector(camera, frame.width, frame.height);
     const render::Instance* first = instances.particles.data();
     markSpheres(liquid, projector, first + instances.spheres, instances.liquids, 1.4f);
     markSpheres(detail, projector, first, instances.visible, 2.5f);
+    markSpheres(outline, projector, first + instances.particles.size() - instances.outlined, instances.outlined, 1.2f,
+                3 + frame.outlined.lineWidth + frame.outlined.haloWidth);
     markEdges(detail, projector, frame.furniture.opaque);
     markEdges(detail, projector, frame.furniture.clear);
   } else {
     liquid.markAll();
     detail.markAll();
+    outline.markAll();
   }
+  outline.triangles(frame.outlineTiles);
   liquid.triangles(frame.liquidTiles);
   detail.triangles(frame.detailTiles);
 }
@@ -223,8 +229,8 @@ struct Renderer::Impl {
   Frame frame;                           // kept for its memory
   std::optional<Environment> furnished;  // what frame.furniture was made of, and for which theme
   bool dark = false;
-  int width = 0, height = 0;            // pixels of the inner targets that are known to work
-  bool liquid = false, vapour = false;  // and whether theirs are
+  int width = 0, height = 0;     // pixels of the inner targets that are known to work
+  std::array<bool, 3> layers{};  // and whether theirs are: liquid, vapour, outline
 
   void furnish(const Environment& environment, bool forDark) {
     if (furnished && dark == forDark && render::sameFurniture(*furnished, environment)) return;
@@ -271,6 +277,12 @@ void Renderer::draw(const Snapshot& now, const Snapshot* previous, double blend,
     std::tie(request.minimum, request.maximum) = colourRange(now, options.colour);
   request.surfaces = options.colour != ColourBy::DensityError;
   request.steam = render::sceneColour(options.dark, "steam");
+  if (options.outline) {
+    request.outlined = options.outline->body;
+    frame.outlined = *options.outline;
+    frame.outlined.lineWidth *= static_cast<float>(scale);
+    frame.outlined.haloWidth *= static_cast<float>(scale);
+  }
   const CameraFrame axes = frameOf(options.camera);
   if (m->passes->quality().cull) {
     const Mat4 view = multiply(projectionMatrix(options.camera, frame.width, frame.height), viewMatrix(options.camera));
@@ -286,8 +298,11 @@ void Renderer::draw(const Snapshot& now, const Snapshot* previous, double blend,
   frame.vapourBox = pixelsOf(frame.instances.vapourExtent, options.camera, frame.width, frame.height);
 
   const render::GlState state;
-  const bool liquid = frame.instances.liquids > 0, vapour = frame.instances.vapours > 0;
-  const bool first = frame.width != m->width || frame.height != m->height || liquid > m->liquid || vapour > m->vapour;
+  const render::Instances& drawn = frame.instances;
+  const std::array layers{drawn.liquids > 0, drawn.vapours > 0, drawn.outlined > 0};
+  bool first = frame.width != m->width || frame.height != m->height;
+  if (first) m->layers = {};
+  for (size_t i = 0; i < layers.size(); ++i) first = first || layers[i] > m->layers[i];
   if (first) takeErrors();  // whoever drew before left them
   m->passes->draw(frame, state.drawFramebuffer());
   if (!first) return;
@@ -296,8 +311,7 @@ void Renderer::draw(const Snapshot& now, const Snapshot* previous, double blend,
     throw Error("the graphics driver " +
                 (error == GL_OUT_OF_MEMORY ? "has no memory" : "reports error " + std::to_string(error)) +
                 " for a picture of " + sizeText(options) + "; ask for a smaller one");
-  m->liquid = liquid || (m->liquid && m->width == frame.width && m->height == frame.height);
-  m->vapour = vapour || (m->vapour && m->width == frame.width && m->height == frame.height);
+  for (size_t i = 0; i < layers.size(); ++i) m->layers[i] = m->layers[i] || layers[i];
   m->width = frame.width;
   m->height = frame.height;
 }

@@ -120,7 +120,23 @@ RenderOptions Viewport::renderOptions() {
   options.rangeMaximum = m_range.second;
   options.dark = Theme::current().dark();
   options.meltingPoint = m_meltingPoint;
+  options.outline = outline();
   return options;
+}
+
+/// Around the selected body, two logical pixels wide.
+std::optional<BodyOutline> Viewport::outline() const {
+  if (m_selectedBody.empty() || !m_now || !m_now->bodyIds) return std::nullopt;
+  const auto found = std::find(m_now->bodyIds->begin(), m_now->bodyIds->end(), m_selectedBody);
+  if (found == m_now->bodyIds->end()) return std::nullopt;
+  const auto channels = [](const QColor& c) { return std::array{c.redF(), c.greenF(), c.blueF()}; };
+  BodyOutline outline;
+  outline.body = static_cast<uint32_t>(found - m_now->bodyIds->begin());
+  outline.colour = channels(Theme::current()[Token::Accent]);
+  outline.halo = channels(Theme::current()[Token::Shadow]);
+  outline.lineWidth *= static_cast<float>(devicePixelRatioF());
+  outline.haloWidth *= static_cast<float>(devicePixelRatioF());
+  return outline;
 }
 
 void Viewport::paintGL() {

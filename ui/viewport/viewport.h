@@ -92,6 +92,7 @@ class Viewport : public QOpenGLWidget {
   double blend() const;
   OverlayState overlayState() const;
   RenderOptions renderOptions();
+  std::optional<BodyOutline> outline() const;
   std::optional<SceneTag> tag() const;
   std::optional<std::pair<Vec3, Vec3>> boxOf(const std::string& body) const;
   void pick(const QPointF& position);
