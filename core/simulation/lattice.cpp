@@ -127,9 +127,11 @@ std::vector<api::Double3> freePositions(const ParticleStore& store, const std::v
 
 std::vector<uint32_t> idsInCells(const ParticleStore& store, const VoxelShape& voxels, std::vector<CellIndex> cells) {
   std::sort(cells.begin(), cells.end());
+  const double hair = kOnFace * voxels.spacing;
+  const Vec3 origin{voxels.origin[0] - hair, voxels.origin[1] - hair, voxels.origin[2] - hair};
   std::vector<uint32_t> ids;
   for (size_t i = 0; i < store.size(); ++i) {
-    const CellIndex cell = cellAt(positionOf(store, i), voxels.origin, voxels.spacing);
+    const CellIndex cell = cellAt(positionOf(store, i), origin, voxels.spacing);
     if (std::binary_search(cells.begin(), cells.end(), cell)) ids.push_back(store.id()[i]);
   }
   std::sort(ids.begin(), ids.end());

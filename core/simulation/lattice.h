@@ -26,6 +26,10 @@ std::vector<api::Double3> cellCentres(const VoxelShape& voxels, double spacing, 
 /// Leaves out positions that have a live particle (or an earlier one of the list) within `clearance` m.
 std::vector<api::Double3> freePositions(const ParticleStore& store, const std::vector<api::Double3>& positions,
                                         double clearance);
+/// Share of a cell by which a point counts as on a face, and so as of the cell of the higher index. Matter of a box may
+/// stand on the faces of a sketch's lattice, and particles know their places in single precision: whoever asks which
+/// cell holds them must not be told by rounding.
+inline constexpr double kOnFace = 1e-3;
 /// Ids of particles whose centre lies in one of the cells of a sketch's lattice, ascending.
 std::vector<uint32_t> idsInCells(const ParticleStore& store, const VoxelShape& voxels, std::vector<CellIndex> cells);
 

@@ -231,7 +231,10 @@ std::optional<SceneEdit> eraseEdit(const Body& body, size_t index, const VoxelSh
   std::optional<Body> rest;
   if (!stays) rest = asVoxels(body, lattice.spacing);
   const VoxelShape& voxels = stays ? *own : std::get<VoxelShape>(rest->shape);
-  const SketchGrid eraser{lattice.origin, lattice.spacing}, grid{voxels.origin, voxels.spacing};
+  const double hair = kOnFace * lattice.spacing;  // as idsInCells() has it
+  const SketchGrid eraser{{lattice.origin[0] - hair, lattice.origin[1] - hair, lattice.origin[2] - hair},
+                          lattice.spacing},
+      grid{voxels.origin, voxels.spacing};
   const CellSet wanted = cellSet(cells);
   VoxelCanvas canvas(voxels.runs);
   std::vector<api::Cell> hit;

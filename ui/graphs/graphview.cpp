@@ -193,7 +193,8 @@ void GraphView::paintLabels(QPainter& painter) {
   QColor ground = theme[Token::Field];
   ground.setAlphaF(0.75f);
   const QRectF heading(plot.left() + 7, plot.top() + 3, std::min(textWidth(title(), font) + 1, plot.width() - 14), 16);
-  painter.fillRect(heading.adjusted(-2, 1, 2, -1), ground);  // the line of the present time passes here
+  if (!title().isEmpty())
+    painter.fillRect(heading.adjusted(-2, 1, 2, -1), ground);  // the line of the present time passes here
   paintText(painter, heading, Qt::AlignLeft | Qt::AlignVCenter, title(), font, theme[Token::Text2]);
   struct Label {
     double top;
