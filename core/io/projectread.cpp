@@ -63,6 +63,7 @@ VoxelShape readVoxels(json& value, const PluginRegistry& plugins) {
   JsonTaker taker(value);
   VoxelShape shape;
   shape.origin = taker.vector("origin", shape.origin);
+  shape.spacing = taker.number("spacing", 0);
   shape.palette = readList(taker, "palette", readPaint);
   shape.runs = readList(taker, "runs", [](json& run) {
     const auto whole = [&](size_t i) { return static_cast<int>(run[i].get<double>()); };
@@ -204,6 +205,12 @@ Project readDocument(json& document, const PluginRegistry& plugins) {
   project.environment = readEnvironment(environment);
   json solver = taker.has("solver") ? taker.take("solver") : json::object();
   project.solver = readSolver(solver, plugins);
+  for (Body& body : project.bodies) {
+    // Earlier files do not say it: their sketches have the scene's.
+    auto* voxels = std::get_if<VoxelShape>(&body.shape);
+    if (voxels && voxels->spacing == 0)
+      voxels->spacing = numberOf(project.solver.parameters, solverParameters(), "particle_spacing");
+  }
   project.probes = readList(taker, "probes", readProbe);
   project.duration = taker.number("duration", project.duration);
   json view = taker.has("view") ? taker.take("view") : json::object();

@@ -50,7 +50,10 @@ json writeStroke(const VoxelShape::Stroke& stroke) {
 }
 
 json writeVoxels(const VoxelShape& shape) {
-  json out{{"origin", jsonFromVector(shape.origin)}, {"palette", json::array()}, {"runs", json::array()}};
+  json out{{"origin", jsonFromVector(shape.origin)},
+           {"spacing", jsonNumber(shape.spacing)},
+           {"palette", json::array()},
+           {"runs", json::array()}};
   for (const VoxelShape::Paint& paint : shape.palette) {
     json entry{{"material", paint.material}, {"temperature", jsonNumber(paint.temperature)}};
     putUnknown(entry, paint.unknown);

@@ -120,14 +120,16 @@ json voxelSchema() {
                                 "x, y, z, pressure, time"),
                           "where the hand went")}},
       {"brush", "radius", "palette", "samples"}, "how cells were drawn");
-  return object({{"origin", vector3("m", "centre of cell (0, 0, 0)")},
-                 {"palette", listOf(paint, "materials of the cells")},
-                 {"runs", listOf(tuple({coordinate, coordinate, coordinate, integer(1, 1'000'000, "cells along x"),
-                                        integer(0, 65535, "index into the palette")},
-                                       "x, y, z, length, palette"),
-                                 "filled cells as runs along x")},
-                 {"strokes", listOf(stroke, "how it was drawn, so that it stays editable")}},
-                {"origin", "palette", "runs"}, "sketched cells");
+  return object(
+      {{"origin", vector3("m", "centre of cell (0, 0, 0)")},
+       {"spacing", number(0.0005, 1, "m", "edge of a cell; the scene's particle spacing where it is left out")},
+       {"palette", listOf(paint, "materials of the cells")},
+       {"runs", listOf(tuple({coordinate, coordinate, coordinate, integer(1, 1'000'000, "cells along x"),
+                              integer(0, 65535, "index into the palette")},
+                             "x, y, z, length, palette"),
+                       "filled cells as runs along x")},
+       {"strokes", listOf(stroke, "how it was drawn, so that it stays editable")}},
+      {"origin", "palette", "runs"}, "sketched cells");
 }
 
 json bodySchema() {

@@ -14,7 +14,9 @@ double particleCount(const Body& body, double spacing) {
     count = 1;
     for (const double edge : box->size) count *= layersAlong(edge, spacing);
   } else {
-    for (const VoxelShape::Run& run : std::get<VoxelShape>(body.shape).runs) count += run.length;
+    const auto& voxels = std::get<VoxelShape>(body.shape);
+    for (const VoxelShape::Run& run : voxels.runs) count += run.length;
+    count *= std::pow(voxels.spacing / spacing, 3);
   }
   return count;
 }

@@ -34,7 +34,8 @@ struct BoxShape {
   bool operator==(const BoxShape&) const = default;
 };
 
-/// Sketched cells: runs along x of a lattice whose cell (0, 0, 0) is centred at `origin`.
+/// Sketched cells: runs along x of a lattice whose cell (0, 0, 0) is centred at `origin`. It keeps the particle spacing
+/// at which it was drawn: with another one, the same place is filled with finer or coarser particles.
 struct VoxelShape {
   struct Run {
     int x = 0, y = 0, z = 0, length = 1, palette = 0;
@@ -56,7 +57,8 @@ struct VoxelShape {
     Unknown unknown{};
     bool operator==(const Stroke&) const = default;
   };
-  Vec3 origin{0, 0, 0};
+  Vec3 origin{0, 0, 0};   ///< m
+  double spacing = 0.02;  ///< m, edge of a cell
   std::vector<Paint> palette;
   std::vector<Run> runs;
   std::vector<Stroke> strokes;

@@ -42,7 +42,7 @@ bool isPlaceholder(const Project& project, const Body& body, const PluginRegistr
 /// to set. `materials`: the scene's, baked.
 std::vector<Spawn> compileBody(const Project& project, const PluginRegistry& plugins,
                                std::span<const BakedMaterial> materials, const Body& body);
-/// One batch of cells, `spacing` m wide, of a sketched body.
+/// One batch of a sketched body's cells, filled with particles of `spacing` m.
 Spawn compileCells(const Project& project, const PluginRegistry& plugins, std::span<const BakedMaterial> materials,
                    const Body& body, int palette, const std::vector<std::array<int, 3>>& cells, double spacing);
 

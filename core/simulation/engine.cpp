@@ -279,7 +279,7 @@ void Engine::putBack(const TakenMatter& matter) { m->solver->putBack(matter); }
 
 std::vector<uint32_t> Engine::particlesIn(const VoxelShape& lattice,
                                           const std::vector<std::array<int, 3>>& cells) const {
-  return idsInCells(m->solver->particles(), lattice, m->spacing, cells);
+  return idsInCells(m->solver->particles(), lattice, cells);
 }
 
 SnapshotPtr Engine::snapshot() const {
@@ -287,6 +287,7 @@ SnapshotPtr Engine::snapshot() const {
   snapshot->limits = m->solver->limits();  // first: edits act on what it asks
   snapshot->stats = stats();
   snapshot->revision = m->revision;
+  snapshot->spacing = m->spacing;
   snapshot->flags = m->lastReport.flags;
   snapshot->bodyIds = m->bodyIds;
   snapshot->materialColour = m->colours;

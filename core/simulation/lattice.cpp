@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <tuple>
 
 namespace ps {
 namespace {
@@ -90,12 +91,37 @@ std::vector<CellIndex> cellsOf(const VoxelShape& voxels, int palette) {
   return cells;
 }
 
+std::vector<CellIndex> resampled(const std::vector<CellIndex>& cells, double from, double to) {
+  if (from == to) return cells;
+  // From the shared corner, centre k of the new lattice lies at (k + 1/2) to, and cell p spans [p, p + 1) from. The
+  // bounds of neighbours are one expression: no centre belongs to two cells, or to none. A hair is taken off so that
+  // rounding does not decide about a centre on a face.
+  const auto firstFrom = [ratio = from / to](int p) { return static_cast<int>(std::ceil(p * ratio - 0.5 - 1e-9)); };
+  std::vector<CellIndex> result;
+  for (const CellIndex& c : cells) {
+    for (int z = firstFrom(c[2]); z < firstFrom(c[2] + 1); ++z) {
+      for (int y = firstFrom(c[1]); y < firstFrom(c[1] + 1); ++y) {
+        for (int x = firstFrom(c[0]); x < firstFrom(c[0] + 1); ++x) result.push_back({x, y, z});
+      }
+    }
+  }
+  std::sort(result.begin(), result.end(), [](const CellIndex& a, const CellIndex& b) {
+    return std::tie(a[2], a[1], a[0]) < std::tie(b[2], b[1], b[0]);
+  });
+  return result;
+}
+
+Vec3 resampledOrigin(const VoxelShape& voxels, double to) {
+  const double shift = (to - voxels.spacing) / 2;
+  return {voxels.origin[0] + shift, voxels.origin[1] + shift, voxels.origin[2] + shift};
+}
+
 std::vector<api::Double3> cellCentres(const VoxelShape& voxels, double spacing, const std::vector<CellIndex>& cells) {
+  const Vec3 origin = resampledOrigin(voxels, spacing);
   std::vector<api::Double3> centres;
   centres.reserve(cells.size());
-  for (const CellIndex& c : cells) {
-    centres.push_back(
-        {voxels.origin[0] + c[0] * spacing, voxels.origin[1] + c[1] * spacing, voxels.origin[2] + c[2] * spacing});
+  for (const CellIndex& c : resampled(cells, voxels.spacing, spacing)) {
+    centres.push_back({origin[0] + c[0] * spacing, origin[1] + c[1] * spacing, origin[2] + c[2] * spacing});
   }
   return centres;
 }
@@ -113,12 +139,13 @@ std::vector<api::Double3> freePositions(const ParticleStore& store, const std::v
   return free;
 }
 
-std::vector<uint32_t> idsInCells(const ParticleStore& store, const VoxelShape& voxels, double spacing,
-                                 std::vector<CellIndex> cells) {
+std::vector<uint32_t> idsInCells(const ParticleStore& store, const VoxelShape& voxels, std::vector<CellIndex> cells) {
   std::sort(cells.begin(), cells.end());
+  const double hair = kOnFace * voxels.spacing;
+  const Vec3 origin{voxels.origin[0] - hair, voxels.origin[1] - hair, voxels.origin[2] - hair};
   std::vector<uint32_t> ids;
   for (size_t i = 0; i < store.size(); ++i) {
-    const CellIndex cell = cellAt(positionOf(store, i), voxels.origin, spacing);
+    const CellIndex cell = cellAt(positionOf(store, i), origin, voxels.spacing);
     if (std::binary_search(cells.begin(), cells.end(), cell)) ids.push_back(store.id()[i]);
   }
   std::sort(ids.begin(), ids.end());

@@ -15,6 +15,13 @@ using CellIndex = std::array<int, 3>;
 std::vector<api::Double3> boxLattice(const BoxShape& box, double spacing);
 /// Cells of one palette entry, in order of the runs.
 std::vector<CellIndex> cellsOf(const VoxelShape& voxels, int palette);
+/// Cells of edge `to` m whose centres lie in `cells` of edge `from` m; both lattices share the lower corner of cell
+/// (0, 0, 0), so that what stands on a floor still does. Volume is kept to about a cell's width; a layer thinner than
+/// `to` may vanish. In order of z, y, x where the edges differ, else as they come.
+std::vector<CellIndex> resampled(const std::vector<CellIndex>& cells, double from, double to);
+/// Centre in m of cell (0, 0, 0) of the lattice that resampled() gives.
+Vec3 resampledOrigin(const VoxelShape& voxels, double to);
+/// Centres in m of the particles of a lattice of `spacing` m that fill cells of a sketch.
 std::vector<api::Double3> cellCentres(const VoxelShape& voxels, double spacing, const std::vector<CellIndex>& cells);
 
 /// Points found by place, for scenes of millions: a table of chains, one per cell. What it answers depends neither on
@@ -37,8 +44,11 @@ class TakenPlaces {
 /// Leaves out positions that have a live particle (or an earlier one of the list) within `clearance` m.
 std::vector<api::Double3> freePositions(const ParticleStore& store, const std::vector<api::Double3>& positions,
                                         double clearance);
-/// Ids of particles whose centre lies in one of the cells, ascending.
-std::vector<uint32_t> idsInCells(const ParticleStore& store, const VoxelShape& voxels, double spacing,
-                                 std::vector<CellIndex> cells);
+/// Share of a cell by which a point counts as on a face, and so as of the cell of the higher index. Matter of a box may
+/// stand on the faces of a sketch's lattice, and particles know their places in single precision: whoever asks which
+/// cell holds them must not be told by rounding.
+inline constexpr double kOnFace = 1e-3;
+/// Ids of particles whose centre lies in one of the cells of a sketch's lattice, ascending.
+std::vector<uint32_t> idsInCells(const ParticleStore& store, const VoxelShape& voxels, std::vector<CellIndex> cells);
 
 }  // namespace ps

@@ -34,6 +34,7 @@ struct FrameStats {
 struct Snapshot {
   FrameStats stats;
   uint64_t revision = 0;  ///< rises with every reset: indices and ids of another revision do not compare
+  double spacing = 0;     ///< m, of the particles; the project's may be another until the next reset
   StepFlags flags = 0;
   std::vector<Limit> limits;
   std::vector<api::Float4> position;  ///< m; w: radius of a sphere of the rest volume, m

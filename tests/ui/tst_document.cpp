@@ -174,6 +174,27 @@ class TestDocument : public QObject {
     QCOMPARE(read(), 370.0);
   }
 
+  /// Undone to "not set", a property is the plugin's again in the engine too, and follows the plugin's own parameters.
+  void theEngineForgetsWhatIsNotSet() {
+    Document document;
+    document.setPlugins(m_plugins.get());
+    EngineThread engine(*m_plugins, {});
+    SceneLink link(document, engine);
+    document.open(smallScene(), {}, false, false);
+    const Address density{"material", "water", "density_liquid"};
+    const auto set = [&] {
+      return onEngine<size_t>(engine,
+                              [&](Engine& e) { return findSet(e.project(), density)->values.count(density.key); });
+    };
+    QCOMPARE(document.setParameter(density, Response(900.0)), QString());
+    QCOMPARE(set(), size_t{1});
+    document.undoStack().undo();
+    QCOMPARE(set(), size_t{0});
+    QCOMPARE(document.setParameter(density, Response(900.0)), QString());
+    QCOMPARE(document.setParameter(density, document.defaultValue(density)), QString());
+    QCOMPARE(set(), size_t{0});
+  }
+
   void undoRemovesExactlyTheStroke_data() {
     QTest::addColumn<bool>("moved");
     QTest::addColumn<bool>("reset");
@@ -276,7 +297,7 @@ class TestDocument : public QObject {
     const double heat = energy(), kilograms = mass();
     const auto stroke = std::make_shared<StrokeRecord>();
     stroke->erase = true;
-    stroke->lattice.origin = {0.015, 0.015, 0.015};
+    stroke->lattice = lattice();
     stroke->cells = cube(3, -1, 0, -1);
     link.erase(*stroke, stroke->cells);
     document.addStroke(stroke);
@@ -291,27 +312,40 @@ class TestDocument : public QObject {
     QCOMPARE(idsNow(engine).size(), left);
   }
 
-  void carvingAtTheStartStays() {
-    bool changed = false;
-    const Project project = smallScene();
-    const auto rest = withoutCells(project.bodies[0], VoxelShape{{0.015, 0.015, 0.015}, {}, {}, {}, {}},
-                                   cube(3, -1, 0, -1), 0.03, changed);
-    QVERIFY(changed && rest);
-    int cells = 0;
-    for (const VoxelShape::Run& run : std::get<VoxelShape>(rest->shape).runs) cells += run.length;
-    QVERIFY(cells < 125 && cells >= 125 - 27);
-    const auto missing = missingCells(asVoxels(project.bodies[0], 0.03), rest);
-    QCOMPARE(missing.size(), size_t{1});
-    QCOMPARE(static_cast<int>(missing[0].size()), 125 - cells);
+  void anErasureUndoneAfterAResetIsFilledAgain_data() {
+    QTest::addColumn<double>("x");
+    QTest::newRow("cells of the block") << 0.0;
+    QTest::newRow("particles on the faces of cells") << 0.015;
   }
-
-  void sketchedMatterLeavesRoomForBodies() {
-    const Project project = smallScene();
-    const VoxelShape lattice{{0.015, 0.015, 0.015}, {}, {}, {}, {}};
-    const auto inside = freeAtStart(project, "new", lattice, cube(3, -1, 0, -1));
-    const auto outside = freeAtStart(project, "new", lattice, cube(3, 6, 0, 0));
-    QVERIFY(inside.empty());
-    QCOMPARE(outside.size(), size_t{27});
+  /// Carved at the start, built without, then undone: the gap is filled, whether a box was carved or cells.
+  void anErasureUndoneAfterAResetIsFilledAgain() {
+    QFETCH(double, x);
+    Document document;
+    document.setPlugins(m_plugins.get());
+    EngineThread engine(*m_plugins, {});
+    SceneLink link(document, engine);
+    document.open(smallScene(), {}, false, false);
+    std::vector<size_t> counts{idsNow(engine).size()};
+    for (const int height : {0, 2}) {
+      const auto stroke = std::make_shared<StrokeRecord>();
+      stroke->erase = true;
+      stroke->lattice = lattice();
+      stroke->lattice.origin = {x, 0.015, 0};
+      stroke->cells = cube(3, -1, height, -1);
+      link.erase(*stroke, stroke->cells);
+      stroke->edits.push_back(*eraseEdit(*document.body("ice"), 0, stroke->lattice, stroke->cells));
+      document.addStroke(stroke);
+      counts.push_back(idsNow(engine).size());
+    }
+    QVERIFY(counts[1] < counts[0] && counts[2] < counts[1]);
+    link.reset();
+    QCOMPARE(idsNow(engine).size(), counts[2]);
+    document.undoStack().undo();
+    QCOMPARE(idsNow(engine).size(), counts[1]);
+    document.undoStack().undo();
+    QCOMPARE(idsNow(engine).size(), counts[0]);
+    document.undoStack().redo();
+    QCOMPARE(idsNow(engine).size(), counts[1]);
   }
 
   void savedFilesReadBack() {
@@ -417,22 +451,30 @@ class TestDocument : public QObject {
   }
 
  private:
-  /// A stroke of 27 cells well above the block.
-  std::shared_ptr<StrokeRecord> paint(Document& document, SceneLink& link) {
-    auto stroke = std::make_shared<StrokeRecord>();
-    stroke->lattice.origin = {0.015, 0.015, 0.015};
-    stroke->cells = cube(3, -1, 12, -1);
-    stroke->body = "drops";
+  static VoxelShape lattice() {
+    VoxelShape shape;
+    shape.origin = {0.015, 0.015, 0.015};
+    shape.spacing = 0.03;
+    return shape;
+  }
+  static Body drops() {
     Body body;
     body.id = body.name = "drops";
     body.material = "water";
-    VoxelShape voxels;
-    voxels.origin = stroke->lattice.origin;
+    VoxelShape voxels = lattice();
     voxels.palette.push_back({"water", 293.15, {}});
     body.shape = voxels;
+    return body;
+  }
+  /// A stroke of 27 cells well above the block.
+  std::shared_ptr<StrokeRecord> paint(Document& document, SceneLink& link) {
+    auto stroke = std::make_shared<StrokeRecord>();
+    stroke->lattice = lattice();
+    stroke->cells = cube(3, -1, 12, -1);
+    stroke->body = "drops";
+    const auto body = std::make_shared<const Body>(drops());
     link.paint(*stroke, body, stroke->cells);
-    stroke->edits.push_back(
-        {body.id, std::nullopt, withCells(body, stroke->cells, 0, {}), document.project().bodies.size()});
+    stroke->edits.push_back(paintEdit(document.project(), *body, stroke->cells, 0, {}));
     document.addStroke(stroke);
     return stroke;
   }

@@ -2,8 +2,12 @@
 #include "tests/ui/rowtesting.h"
 #include "ui/theme/theme.h"
 
+#include <QtCore/QPointer>
+#include <QtCore/QTimer>
+#include <QtGui/QContextMenuEvent>
 #include <QtWidgets/QLabel>
 #include <QtWidgets/QLineEdit>
+#include <QtWidgets/QMenu>
 
 using namespace ps;
 using namespace ps::testing;
@@ -15,6 +19,9 @@ class TestPanels : public QObject {
   void panelCountsChanges();
   void pinnedRowsFollowTheirOriginals();
   void panelKeepsFoldsOverAModel();
+  void aNewModelEndsOpenGestures_data();
+  void aNewModelEndsOpenGestures();
+  void aRowMayAskForANewModel();
   void changedMeansOtherThanTheMaterial();
   void emptyPanelHasItsSentence();
   void noTextIsCut_data();
@@ -93,6 +100,59 @@ void TestPanels::panelKeepsFoldsOverAModel() {
   panel.setModel(rowModels(list(), {}, {}, QStringLiteral("material/wax/")));
   QVERIFY(!panel.isRowShown(panel.row(QStringLiteral("material/wax/conductivity"))));
   QVERIFY(panel.isRowShown(panel.row(QStringLiteral("material/wax/substeps"))));
+}
+
+void TestPanels::aNewModelEndsOpenGestures_data() {
+  QTest::addColumn<bool>("released");
+  QTest::newRow("while the handle is held") << false;
+  QTest::newRow("before the gesture has settled") << true;
+}
+
+/// Rows that go tell their End: a document would stay in the gesture otherwise.
+void TestPanels::aNewModelEndsOpenGestures() {
+  QFETCH(bool, released);
+  ParameterPanel panel;
+  panel.setModel(rowModels(list(), {}));
+  panel.resize(392, 600);
+  show(panel);
+  QList<Edit> edits;
+  connect(&panel, &ParameterPanel::edited, &panel,
+          [&edits](const QString&, const Value&, Edit edit) { edits << edit; });
+  ParameterRow* row = panel.row(QStringLiteral("plate_temperature"));
+  drag(*row, onSlider(*row, 0.2), onSlider(*row, 0.6));
+  if (released) QTest::mouseRelease(row, Qt::LeftButton, {}, onSlider(*row, 0.6));
+  QVERIFY(edits.size() > 1 && edits.front() == Edit::Begin && edits.back() == Edit::Live);
+  panel.setModel(rowModels(list(), {}));
+  QCOMPARE(edits.count(Edit::End), qsizetype{1});
+  QCOMPARE(edits.back(), Edit::End);
+  QTest::qWait(kSettleMilliseconds + 50);
+  QCOMPARE(edits.count(Edit::End), qsizetype{1});
+}
+
+/// As "Pin to Try these" does from a row's menu: the row on the call stack lives until it has returned.
+void TestPanels::aRowMayAskForANewModel() {
+  ParameterPanel panel;
+  connect(&panel, &ParameterPanel::pinToggled, &panel, [&panel] { panel.setModel(rowModels(list(), {})); });
+  panel.setModel(rowModels(list(), {}));
+  panel.resize(392, 600);
+  show(panel);
+  const QPointer<ParameterRow> row = panel.row(QStringLiteral("substeps"));
+  QTimer::singleShot(0, &panel, [] {
+    auto* menu = qobject_cast<QMenu*>(QApplication::activePopupWidget());
+    QVERIFY(menu);
+    for (QAction* action : menu->actions()) {
+      if (action->text().startsWith(QStringLiteral("Pin"))) menu->setActiveAction(action);
+    }
+    QTest::keyClick(menu, Qt::Key_Return);
+  });
+  bool alive = false;
+  connect(&panel, &ParameterPanel::pinToggled, &panel, [&] { alive = row != nullptr; });
+  QContextMenuEvent ask(QContextMenuEvent::Keyboard, QPoint(20, 10), row->mapToGlobal(QPoint(20, 10)));
+  QApplication::sendEvent(row, &ask);
+  QVERIFY(alive);
+  QVERIFY(panel.row(QStringLiteral("substeps")) != row);
+  QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
+  QVERIFY(!row);
 }
 
 void TestPanels::changedMeansOtherThanTheMaterial() {

@@ -130,6 +130,9 @@ void TestProjectIo::everythingSurvives() {
   const Project project = parse(kFull).project;
   QCOMPARE(project.bodies.size(), size_t{2});
   QCOMPARE(std::get<VoxelShape>(project.bodies[1].shape).runs[1].x, -2);
+  QCOMPARE(std::get<VoxelShape>(project.bodies[1].shape).spacing, 0.02);  // not said: the scene's
+  const Project coarser = parse(writeProject(project), {"solver/particle_spacing=0.04"}).project;
+  QCOMPARE(std::get<VoxelShape>(coarser.bodies[1].shape).spacing, 0.02);  // a sketch keeps its own
   QCOMPARE(std::get<double>(project.bodies[0].parameters.values.at("temperature")), 263.15000000000003);
   QCOMPARE(std::get<Response>(project.materials[0].properties.values.at("viscosity")).law, std::string("arrhenius"));
 }

@@ -28,6 +28,8 @@ class TstSimulation : public QObject {
   void anEditActsOnTheNextFrame();
   void anEditOfTheSceneSurvivesReset();
   void spacingActsAtTheNextReset();
+  void sketchesKeepTheirPlaceAtAnotherSpacing_data();
+  void sketchesKeepTheirPlaceAtAnotherSpacing();
   void refusedEditsLeaveTheSceneAsItWas();
   void cellsAvoidLiveParticlesAndComeBackOut();
   void takenMatterComesBackAsItWas();
@@ -57,6 +59,7 @@ Body sketchedWater() {
   body.material = "water";
   VoxelShape voxels;
   voxels.origin = {0, 0.6, 0};
+  voxels.spacing = 0.03;
   voxels.palette.push_back({"water", 293.15});
   body.shape = voxels;
   return body;
@@ -128,6 +131,44 @@ void TstSimulation::spacingActsAtTheNextReset() {
   QVERIFY2(stats.kineticEnergy < 1, qPrintable(QString::number(stats.kineticEnergy)));
   engine.reset();
   QCOMPARE(engine.solver().particles().size(), size_t{27});
+}
+
+void TstSimulation::sketchesKeepTheirPlaceAtAnotherSpacing_data() {
+  QTest::addColumn<double>("spacing");
+  QTest::addColumn<int>("count");
+  QTest::newRow("as drawn") << 0.03 << 64;
+  QTest::newRow("half") << 0.015 << 512;
+  QTest::newRow("two thirds") << 0.02 << 216;
+  QTest::newRow("double") << 0.06 << 8;
+}
+
+/// Four cells of 30 mm a side from (-15, 585, -15) mm on fill the same cube whatever the particles' size.
+void TstSimulation::sketchesKeepTheirPlaceAtAnotherSpacing() {
+  QFETCH(double, spacing);
+  QFETCH(int, count);
+  Project project = scenes::iceOnPlate(5, 293.15);
+  Body body = sketchedWater();
+  auto& voxels = std::get<VoxelShape>(body.shape);
+  std::vector<CellIndex> cells;
+  for (int k = 0; k < 16; ++k) voxels.runs.push_back({0, k % 4, k / 4, 4, 0});
+  for (int k = 0; k < 64; ++k) cells.push_back({k % 4, k / 4 % 4, k / 16});
+  project.bodies = {body};
+  Engine engine(project, m_plugins);
+  QCOMPARE(engine.solver().particles().size(), size_t{64});
+  engine.setParameter({"solver", "", "particle_spacing"}, spacing);
+  engine.reset();
+  const ParticleStore& store = engine.solver().particles();
+  QCOMPARE(static_cast<int>(store.size()), count);
+  const Vec3 corner{-0.015, 0.585, -0.015};
+  for (size_t i = 0; i < store.size(); ++i) {
+    const api::Float4& p = store.position()[i];
+    for (const auto& [place, axis] : {std::pair{p.x, 0}, {p.y, 1}, {p.z, 2}}) {
+      const double inside = static_cast<double>(place) - corner[static_cast<size_t>(axis)];
+      // Half a particle from each face; single precision at half a metre.
+      QVERIFY(inside > spacing / 2 - 1e-6 && inside < 0.12 - spacing / 2 + 1e-6);
+    }
+  }
+  QCOMPARE(static_cast<int>(engine.particlesIn(voxels, cells).size()), count);
 }
 
 void TstSimulation::refusedEditsLeaveTheSceneAsItWas() {

@@ -50,6 +50,7 @@ class TestTheme : public QObject {
   void iconsTintAndStaySharp();
   void numbersAreFormatted_data();
   void numbersAreFormatted();
+  void errorsBelowRoundingAreNotSpelledOut();
   void fieldsKeepTheirDecimals_data();
   void fieldsKeepTheirDecimals();
   void typedTextIsUnderstood_data();
@@ -219,6 +220,14 @@ void TestTheme::numbersAreFormatted() {
     QCOMPARE(formatFixed(-0.04, 1), QStringLiteral("0.0"));  // no minus before zero
   }
   QCOMPARE(spaced(formatQuantity(3e-6, QStringLiteral("m"))), QString::fromUtf8("3 × 10⁻⁶ m"));
+}
+
+void TestTheme::errorsBelowRoundingAreNotSpelledOut() {
+  QCOMPARE(formatError(1e-16), QStringLiteral("< 10⁻⁹"));
+  QCOMPARE(formatError(-9.9e-10), QStringLiteral("< 10⁻⁹"));
+  QCOMPARE(formatError(-2.4e-9), formatShort(2e-9));
+  QCOMPARE(formatError(0.031), QStringLiteral("0.03"));
+  QCOMPARE(formatError(0), QStringLiteral("0"));
 }
 
 void TestTheme::fieldsKeepTheirDecimals_data() {

@@ -3,6 +3,7 @@
 #include "core/scene/project.h"
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <variant>
 
@@ -14,10 +15,10 @@ struct StrokeRecord;
 struct ProjectOpened {
   bool play = true;  ///< whether it should run at once
 };
-/// One parameter has another value; `value` is the one in force, the default where none is set.
+/// One parameter has another value; nothing: it is set no more, and what it falls back to holds.
 struct ParameterChanged {
   Address address;
-  Value value;
+  std::optional<Value> value;
 };
 /// A body was renamed, hidden, locked, added or removed without particles being touched.
 struct BodyChanged {
@@ -28,12 +29,15 @@ struct StrokeChanged {
   std::shared_ptr<StrokeRecord> stroke;
   bool done = true, live = false;
 };
-/// Pinned rows or the colour changed.
+/// What colour means changed.
 struct ViewChanged {};
+/// Other rows are pinned.
+struct PinsChanged {};
 /// The file, its name or whether it holds everything changed.
 struct FileChanged {};
 
 /// What happened to a document, as one value: receivers visit it.
-using ChangeEvent = std::variant<ProjectOpened, ParameterChanged, BodyChanged, StrokeChanged, ViewChanged, FileChanged>;
+using ChangeEvent =
+    std::variant<ProjectOpened, ParameterChanged, BodyChanged, StrokeChanged, ViewChanged, PinsChanged, FileChanged>;
 
 }  // namespace ps

@@ -27,7 +27,7 @@ bool ParameterCommand::mergeWith(const QUndoCommand* other) {
   return true;
 }
 
-BodiesCommand::BodiesCommand(Document& document, std::vector<BodyEdit> edits, const QString& text)
+BodiesCommand::BodiesCommand(Document& document, std::vector<SceneEdit> edits, const QString& text)
     : QUndoCommand(text), m_document(document), m_edits(std::move(edits)) {}
 
 void BodiesCommand::undo() { apply(false); }

@@ -31,14 +31,14 @@ class ParameterCommand : public QUndoCommand {
 /// Bodies replaced, added or removed as values: names, visibility, locks.
 class BodiesCommand : public QUndoCommand {
  public:
-  BodiesCommand(Document& document, std::vector<BodyEdit> edits, const QString& text);
+  BodiesCommand(Document& document, std::vector<SceneEdit> edits, const QString& text);
   void undo() override;
   void redo() override;
 
  private:
   void apply(bool forward);
   Document& m_document;
-  std::vector<BodyEdit> m_edits;
+  std::vector<SceneEdit> m_edits;
 };
 
 /// A finished stroke. Its particles are in the engine before the command is pushed.

@@ -156,6 +156,16 @@ QString ownerLabel(const Project& project, const Address& address) {
   return QString::fromStdString(name);
 }
 
+QColor colourOf(const Project& project, const PluginRegistry* plugins, const std::string& material) {
+  const auto channel = [&](const char* key) {
+    const Value value = valueAt(project, plugins, {"material", material, key});
+    const auto* number = std::get_if<double>(&value);
+    const auto* response = std::get_if<Response>(&value);
+    return static_cast<float>(std::clamp(number ? *number : response ? response->at(293.15) : 0.5, 0.0, 1.0));
+  };
+  return QColor::fromRgbF(channel("color_red"), channel("color_green"), channel("color_blue"));
+}
+
 std::vector<Address> allAddresses(const Project& project, const PluginRegistry* plugins) {
   std::vector<Address> addresses;
   const auto add = [&](const std::string& owner, const std::string& id, const std::string& anyKey) {

@@ -3,6 +3,7 @@
 #include "core/scene/project.h"
 
 #include <QtCore/QString>
+#include <QtGui/QColor>
 
 #include <vector>
 
@@ -28,6 +29,8 @@ ParameterSet materialDefaults(const Project& project, const PluginRegistry* plug
 QString problemWith(const Project& project, const PluginRegistry* plugins, const Address& address, const Value& value);
 /// Who an address belongs to, as people call it: "Water", "Hot plate", "Solver".
 QString ownerLabel(const Project& project, const Address& address);
+/// How matter of a scene material is shown at 20 °C; grey where nothing says so.
+QColor colourOf(const Project& project, const PluginRegistry* plugins, const std::string& material);
 /// Addresses of every declared parameter of the project, in the order of the outliner.
 std::vector<Address> allAddresses(const Project& project, const PluginRegistry* plugins);
 

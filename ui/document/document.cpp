@@ -168,13 +168,13 @@ void Document::applyParameter(const Address& address, const std::optional<Value>
     set->values.erase(address.key);
   }
   ++m_changes;
-  tell(ParameterChanged{address, this->value(address)});
+  tell(ParameterChanged{address, value});
 }
 
-void Document::applyBodies(const std::vector<BodyEdit>& edits, bool forward) {
+void Document::applyBodies(const std::vector<SceneEdit>& edits, bool forward) {
   applyEdits(m_project, edits, forward);
   ++m_changes;
-  for (const BodyEdit& edit : edits) tell(BodyChanged{edit.id});
+  for (const SceneEdit& edit : edits) tell(BodyChanged{bodyOf(edit)});
 }
 
 void Document::applyStroke(const std::shared_ptr<StrokeRecord>& stroke, bool done, bool live) {
@@ -186,7 +186,7 @@ void Document::applyStroke(const std::shared_ptr<StrokeRecord>& stroke, bool don
 void Document::applyPins(const std::vector<std::string>& pins) {
   m_project.view.pinned = pins;
   ++m_changes;
-  tell(ViewChanged{});
+  tell(PinsChanged{});
 }
 
 void Document::tell(const ChangeEvent& event) { Q_EMIT changed(event); }

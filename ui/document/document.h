@@ -74,7 +74,7 @@ class Document : public QObject {
 
   // Used by commands
   void applyParameter(const Address& address, const std::optional<Value>& value);
-  void applyBodies(const std::vector<BodyEdit>& edits, bool forward);
+  void applyBodies(const std::vector<SceneEdit>& edits, bool forward);
   void applyStroke(const std::shared_ptr<StrokeRecord>& stroke, bool done, bool live);
   void applyPins(const std::vector<std::string>& pins);
 

@@ -63,12 +63,13 @@ void beginRun(Engine& engine, uint64_t& run, const std::vector<SceneLink::KnownS
   }
 }
 
-/// Matter that an erasure carved out of bodies at the start, back in its cells.
-void refill(Engine& engine, const StrokeRecord& stroke, double spacing) {
-  for (const BodyEdit& edit : stroke.edits) {
-    if (!edit.before) continue;
-    const Body whole = asVoxels(*edit.before, spacing);
-    const auto byPalette = missingCells(whole, edit.after);
+/// Matter that an erasure carved out of bodies at the start, back in its cells. `bodies`: as they are without it.
+void refill(Engine& engine, const StrokeRecord& stroke, const std::vector<Body>& bodies) {
+  for (const SceneEdit& edit : stroke.edits) {
+    const auto body = std::find_if(bodies.begin(), bodies.end(), [&](const Body& b) { return b.id == bodyOf(edit); });
+    if (body == bodies.end()) continue;
+    const Body whole = asVoxels(*body, stroke.lattice.spacing);
+    const auto byPalette = takenCells(edit, stroke.lattice.spacing);
     for (size_t palette = 0; palette < byPalette.size(); ++palette) {
       if (!byPalette[palette].empty()) engine.addCells(whole, byPalette[palette], static_cast<int>(palette));
     }
@@ -91,10 +92,13 @@ void SceneLink::onChanged(const ChangeEvent& event) {
     m_engine.post([run = m_run](Engine&) { ++*run; });
     m_engine.open(m_document.project(), opened->play);
   } else if (const auto* parameter = std::get_if<ParameterChanged>(&event)) {
+    // What a parameter falls back to is the engine's to work out, from the plugins: it may be a curve of another value.
     if (isBroken()) {
       rebuild(false);
+    } else if (parameter->value) {
+      m_engine.setParameter(parameter->address, *parameter->value);
     } else {
-      m_engine.setParameter(parameter->address, parameter->value);
+      pushProject();
     }
   } else if (stroke) {
     onStroke(*stroke);
@@ -151,13 +155,14 @@ void SceneLink::rebuild(bool play) {
   m_engine.post([run = m_run, strokes = strokes()](Engine& engine) { beginRun(engine, *run, strokes); });
 }
 
-void SceneLink::paint(const StrokeRecord& stroke, const Body& body, std::vector<std::array<int, 3>> cells) {
-  m_engine.post(
-      [run = m_run, trace = stroke.trace, body, palette = stroke.palette, cells = std::move(cells)](Engine& engine) {
-        const std::vector<uint32_t> ids = engine.addCells(body, cells, palette);
-        trace->run = *run;
-        trace->ids.insert(trace->ids.end(), ids.begin(), ids.end());
-      });
+void SceneLink::paint(const StrokeRecord& stroke, std::shared_ptr<const Body> body,
+                      std::vector<std::array<int, 3>> cells) {
+  m_engine.post([run = m_run, trace = stroke.trace, body = std::move(body), palette = stroke.palette,
+                 cells = std::move(cells)](Engine& engine) {
+    const std::vector<uint32_t> ids = engine.addCells(*body, cells, palette);
+    trace->run = *run;
+    trace->ids.insert(trace->ids.end(), ids.begin(), ids.end());
+  });
 }
 
 void SceneLink::erase(const StrokeRecord& stroke, std::vector<std::array<int, 3>> cells) {
@@ -177,15 +182,19 @@ void SceneLink::erase(const StrokeRecord& stroke, std::vector<std::array<int, 3>
 void SceneLink::cancel(const std::shared_ptr<StrokeRecord>& stroke) { undoStroke(stroke); }
 
 void SceneLink::undoStroke(const std::shared_ptr<StrokeRecord>& stroke) {
-  const double spacing = numberOf(m_document.project().solver.parameters, solverParameters(), "particle_spacing");
-  m_engine.post([run = m_run, stroke, spacing](Engine& engine) {
+  std::vector<Body> bodies;
+  for (const SceneEdit& edit : stroke->edits) {
+    const Body* body = stroke->erase ? m_document.body(bodyOf(edit)) : nullptr;
+    if (body) bodies.push_back(*body);
+  }
+  m_engine.post([run = m_run, stroke, bodies = std::move(bodies)](Engine& engine) {
     StrokeTrace& trace = *stroke->trace;
     if (!stroke->erase) {
       if (trace.run == *run) take(engine, trace, trace.ids);
     } else if (trace.run == *run) {
       putBack(engine, trace);
     } else {
-      refill(engine, *stroke, spacing);
+      refill(engine, *stroke, bodies);
     }
   });
   pushProject();

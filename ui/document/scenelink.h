@@ -27,12 +27,12 @@ class SceneLink : public QObject {
 
   /// Back to the start, edits kept. Undoing an earlier stroke still removes exactly its particles.
   void reset();
-  /// The engine could not build the scene: its snapshot is empty, and the message there says why. Each change of the
-  /// scene, reset() and rebuild() try again.
+  /// The engine could not build the scene: its snapshot is empty, and an event says why. Each change of the scene,
+  /// reset() and rebuild() try again.
   bool isBroken() const;
   void rebuild(bool play);
-  /// A piece of a stroke in the making: `body` is the painted body as it will be, `cells` are new.
-  void paint(const StrokeRecord& stroke, const Body& body, std::vector<std::array<int, 3>> cells);
+  /// A piece of a stroke in the making: `body` is the painted body as it was before, `cells` are new.
+  void paint(const StrokeRecord& stroke, std::shared_ptr<const Body> body, std::vector<std::array<int, 3>> cells);
   /// Removes what is in the cells now, except matter of locked bodies.
   void erase(const StrokeRecord& stroke, std::vector<std::array<int, 3>> cells);
   /// Takes back a stroke that the document does not know yet (Esc).

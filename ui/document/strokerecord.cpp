@@ -7,12 +7,12 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <map>
+#include <limits>
 
 namespace ps {
 namespace {
 
-CellSet cellSet(const std::vector<std::array<int, 3>>& cells) {
+CellSet cellSet(const std::vector<CellIndex>& cells) {
   std::vector<api::Cell> list;
   list.reserve(cells.size());
   for (const auto& c : cells) list.push_back({c[0], c[1], c[2]});
@@ -24,6 +24,7 @@ VoxelShape voxelsOf(const BoxShape& box, const Body& body, double spacing) {
   const std::vector<api::Double3> points = boxLattice(box, spacing);
   VoxelShape voxels;
   voxels.origin = {points.front().x, points.front().y, points.front().z};
+  voxels.spacing = spacing;
   voxels.palette.push_back({body.material, numberOf(body.parameters, bodyParameters(), "temperature"), {}});
   std::vector<api::Cell> cells;
   cells.reserve(points.size());
@@ -36,108 +37,259 @@ VoxelShape voxelsOf(const BoxShape& box, const Body& body, double spacing) {
   return voxels;
 }
 
-}  // namespace
+void withSpacing(VoxelShape& voxels, double spacing) {
+  VoxelCanvas canvas;
+  for (size_t palette = 0; palette < voxels.palette.size(); ++palette) {
+    const int entry = static_cast<int>(palette);
+    canvas.paint(cellSet(resampled(cellsOf(voxels, entry), voxels.spacing, spacing)), entry);
+  }
+  voxels.origin = resampledOrigin(voxels, spacing);
+  voxels.spacing = spacing;
+  voxels.runs = canvas.runs();
+}
 
-void applyEdits(Project& project, const std::vector<BodyEdit>& edits, bool forward) {
-  const auto apply = [&](const BodyEdit& edit) {
-    const std::optional<Body>& wanted = forward ? edit.after : edit.before;
-    const auto found = std::find_if(project.bodies.begin(), project.bodies.end(),
-                                    [&](const Body& body) { return body.id == edit.id; });
-    if (found != project.bodies.end() && wanted) {
-      *found = *wanted;
-    } else if (found != project.bodies.end()) {
-      project.bodies.erase(found);
-    } else if (wanted) {
-      const size_t place = std::min(edit.index, project.bodies.size());
-      project.bodies.insert(project.bodies.begin() + static_cast<std::ptrdiff_t>(place), *wanted);
-    }
-  };
-  if (forward) {
-    std::for_each(edits.begin(), edits.end(), apply);
-  } else {
-    std::for_each(edits.rbegin(), edits.rend(), apply);
+Body* find(Project& project, const std::string& id) {
+  const auto found =
+      std::find_if(project.bodies.begin(), project.bodies.end(), [&](const Body& body) { return body.id == id; });
+  return found == project.bodies.end() ? nullptr : &*found;
+}
+
+void apply(Project& project, const BodyEdit& edit, bool forward) {
+  const std::optional<Body>& wanted = forward ? edit.after : edit.before;
+  Body* body = find(project, edit.id);
+  if (body && wanted) {
+    *body = *wanted;
+  } else if (body) {
+    project.bodies.erase(project.bodies.begin() + (body - project.bodies.data()));
+  } else if (wanted) {
+    const size_t place = std::min(edit.index, project.bodies.size());
+    project.bodies.insert(project.bodies.begin() + static_cast<std::ptrdiff_t>(place), *wanted);
   }
 }
 
-Body withCells(Body body, const std::vector<std::array<int, 3>>& cells, int palette, const VoxelShape::Stroke& stroke) {
-  auto& voxels = std::get<VoxelShape>(body.shape);
-  VoxelCanvas canvas(voxels.runs);
-  canvas.paint(cellSet(cells), palette);
-  voxels.runs = canvas.runs();
-  voxels.strokes.push_back(stroke);
-  return body;
+void apply(Project& project, const CellsEdit& edit, bool forward) {
+  Body* body = find(project, edit.id);
+  auto* voxels = body ? std::get_if<VoxelShape>(&body->shape) : nullptr;
+  if (!voxels) return;
+  VoxelCanvas canvas(voxels->runs);
+  const VoxelCanvas changed(edit.cells);
+  if (forward == edit.erase) {
+    canvas.erase(changed.cells());
+  } else {
+    canvas.restore(changed);
+  }
+  voxels->runs = canvas.runs();
+  if (edit.stroke && forward) voxels->strokes.push_back(*edit.stroke);
+  if (edit.stroke && !forward) voxels->strokes.pop_back();
 }
 
-std::optional<Body> withoutCells(Body body, const VoxelShape& lattice, const std::vector<std::array<int, 3>>& cells,
-                                 double spacing, bool& changed) {
-  VoxelShape voxels = std::get<VoxelShape>(asVoxels(body, spacing).shape);
-  const SketchGrid eraser{lattice.origin, spacing};
-  const SketchGrid own{voxels.origin, spacing};
+/// Where cells lie, on their lattice and in space, with a rim of one cell.
+struct CellBounds {
+  CellBounds(const VoxelShape& lattice, const std::vector<CellIndex>& cells) {
+    constexpr int kMost = std::numeric_limits<int>::max();
+    low = {kMost, kMost, kMost};
+    high = {-kMost, -kMost, -kMost};
+    for (const CellIndex& c : cells) {
+      for (size_t k = 0; k < 3; ++k) {
+        low[k] = std::min(low[k], c[k] - 1);
+        high[k] = std::max(high[k], c[k] + 1);
+      }
+    }
+    for (size_t k = 0; k < 3; ++k) {
+      minimum[k] = lattice.origin[k] + (low[k] - 0.5) * lattice.spacing;
+      maximum[k] = lattice.origin[k] + (high[k] + 0.5) * lattice.spacing;
+    }
+  }
+  bool meets(const BoxShape& box) const {
+    for (size_t k = 0; k < 3; ++k) {
+      const double half = box.size[k] / 2;  // no centre lies farther out
+      if (box.center[k] + half < minimum[k] || box.center[k] - half > maximum[k]) return false;
+    }
+    return true;
+  }
+  bool holds(const std::array<double, 3>& p) const {
+    for (size_t k = 0; k < 3; ++k) {
+      if (p[k] < minimum[k] || p[k] > maximum[k]) return false;
+    }
+    return true;
+  }
+  CellIndex low, high;
+  Vec3 minimum, maximum;  ///< m
+};
+
+/// Centres of a body's matter at the start, within bounds.
+std::vector<std::array<double, 3>> centresWithin(const Body& body, double spacing, const CellBounds& bounds) {
+  std::vector<std::array<double, 3>> centres;
+  const auto add = [&](const std::array<double, 3>& p) {
+    if (bounds.holds(p)) centres.push_back(p);
+  };
+  if (const auto* box = std::get_if<BoxShape>(&body.shape)) {
+    if (!bounds.meets(*box)) return centres;
+    for (const api::Double3& p : boxLattice(*box, spacing)) add({p.x, p.y, p.z});
+    return centres;
+  }
+  const auto walk = [&](const VoxelShape& voxels) {
+    const SketchGrid grid{voxels.origin, voxels.spacing};
+    for (const VoxelShape::Run& run : voxels.runs) {
+      const auto first = grid.centreOf({run.x, run.y, run.z});
+      if (first[1] < bounds.minimum[1] || first[1] > bounds.maximum[1] || first[2] < bounds.minimum[2] ||
+          first[2] > bounds.maximum[2])
+        continue;
+      for (int k = 0; k < run.length; ++k) add(grid.centreOf({run.x + k, run.y, run.z}));
+    }
+  };
+  const auto& voxels = std::get<VoxelShape>(body.shape);
+  if (voxels.spacing == spacing) {
+    walk(voxels);
+  } else {
+    walk(std::get<VoxelShape>(asVoxels(body, spacing).shape));
+  }
+  return centres;
+}
+
+/// Places sorted by the cell in which they lie, so that the three cells of a row beside one another are one range.
+class PlacesByCell {
+ public:
+  PlacesByCell(const SketchGrid& grid, const CellBounds& bounds) : m_grid(grid), m_bounds(bounds) {}
+  void add(const std::vector<std::array<double, 3>>& centres) {
+    for (const auto& p : centres) {
+      const api::Cell c = m_grid.cellAt(p);
+      m_places.push_back({key(c.x, c.y, c.z), p});
+    }
+  }
+  void sort() {
+    std::sort(m_places.begin(), m_places.end(), [](const Place& a, const Place& b) { return a.key < b.key; });
+  }
+  bool anyWithin(const CellIndex& cell, double distance) const {
+    const auto centre = m_grid.centreOf({cell[0], cell[1], cell[2]});
+    for (int row = 0; row < 9; ++row) {
+      const int y = cell[1] + row % 3 - 1, z = cell[2] + row / 3 - 1;
+      const uint64_t last = key(cell[0] + 1, y, z);
+      auto at = std::lower_bound(m_places.begin(), m_places.end(), key(cell[0] - 1, y, z),
+                                 [](const Place& place, uint64_t wanted) { return place.key < wanted; });
+      for (; at != m_places.end() && at->key <= last; ++at) {
+        const auto& p = at->place;
+        if (std::hypot(p[0] - centre[0], p[1] - centre[1], p[2] - centre[2]) < distance) return true;
+      }
+    }
+    return false;
+  }
+
+ private:
+  struct Place {
+    uint64_t key;
+    std::array<double, 3> place;
+  };
+  uint64_t key(int x, int y, int z) const {
+    const auto along = [&](int v, size_t k) { return static_cast<uint64_t>(v - m_bounds.low[k] + 1); };
+    const auto span = [&](size_t k) { return static_cast<uint64_t>(m_bounds.high[k] - m_bounds.low[k] + 3); };
+    return (along(z, 2) * span(1) + along(y, 1)) * span(0) + along(x, 0);
+  }
+  SketchGrid m_grid;
+  const CellBounds& m_bounds;
+  std::vector<Place> m_places;
+};
+
+}  // namespace
+
+void applyEdits(Project& project, const std::vector<SceneEdit>& edits, bool forward) {
+  const auto one = [&](const SceneEdit& edit) {
+    std::visit([&](const auto& change) { apply(project, change, forward); }, edit);
+  };
+  if (forward) {
+    std::for_each(edits.begin(), edits.end(), one);
+  } else {
+    std::for_each(edits.rbegin(), edits.rend(), one);
+  }
+}
+
+const std::string& bodyOf(const SceneEdit& edit) {
+  return std::visit([](const auto& change) -> const std::string& { return change.id; }, edit);
+}
+
+SceneEdit paintEdit(const Project& project, const Body& painted, const std::vector<CellIndex>& cells, int palette,
+                    const VoxelShape::Stroke& stroke) {
+  const auto found = std::find_if(project.bodies.begin(), project.bodies.end(),
+                                  [&](const Body& body) { return body.id == painted.id; });
+  const Body& body = found == project.bodies.end() ? painted : *found;
+  VoxelCanvas canvas(std::get<VoxelShape>(body.shape).runs);
+  const CellSet filled = canvas.paint(cellSet(cells), palette);
+  if (found != project.bodies.end()) return CellsEdit{body.id, false, encodeRuns(filled, palette), stroke};
+  Body made = painted;
+  auto& voxels = std::get<VoxelShape>(made.shape);
+  voxels.runs = canvas.runs();
+  voxels.strokes.push_back(stroke);
+  return BodyEdit{painted.id, std::nullopt, std::move(made), project.bodies.size()};
+}
+
+std::optional<SceneEdit> eraseEdit(const Body& body, size_t index, const VoxelShape& lattice,
+                                   const std::vector<CellIndex>& cells) {
+  const CellBounds bounds(lattice, cells);
+  if (centresWithin(body, lattice.spacing, bounds).empty()) return std::nullopt;
+  const auto* own = std::get_if<VoxelShape>(&body.shape);
+  const bool stays = own && own->spacing == lattice.spacing;
+  std::optional<Body> rest;
+  if (!stays) rest = asVoxels(body, lattice.spacing);
+  const VoxelShape& voxels = stays ? *own : std::get<VoxelShape>(rest->shape);
+  const double hair = kOnFace * lattice.spacing;  // as idsInCells() has it
+  const SketchGrid eraser{{lattice.origin[0] - hair, lattice.origin[1] - hair, lattice.origin[2] - hair},
+                          lattice.spacing},
+      grid{voxels.origin, voxels.spacing};
   const CellSet wanted = cellSet(cells);
   VoxelCanvas canvas(voxels.runs);
   std::vector<api::Cell> hit;
   for (const VoxelCanvas::Entry& entry : canvas.entries()) {
-    if (wanted.contains(eraser.cellAt(own.centreOf(entry.cell)))) hit.push_back(entry.cell);
+    const auto centre = grid.centreOf(entry.cell);
+    if (bounds.holds(centre) && wanted.contains(eraser.cellAt(centre))) hit.push_back(entry.cell);
   }
-  changed = !hit.empty();
-  if (!changed) return body;
-  canvas.erase(CellSet(hit));
-  if (canvas.empty()) return std::nullopt;
-  voxels.runs = canvas.runs();
-  body.shape = voxels;
-  return body;
+  if (hit.empty()) return std::nullopt;
+  const VoxelCanvas erased = canvas.erase(CellSet(hit));
+  if (canvas.empty()) return BodyEdit{body.id, body, std::nullopt, index};
+  if (stays) return CellsEdit{body.id, true, erased.runs(), std::nullopt};
+  std::get<VoxelShape>(rest->shape).runs = canvas.runs();
+  return BodyEdit{body.id, body, std::move(rest), index};
 }
 
-std::vector<std::array<int, 3>> freeAtStart(const Project& project, const std::string& body, const VoxelShape& lattice,
-                                            const std::vector<std::array<int, 3>>& cells) {
-  const double spacing = numberOf(project.solver.parameters, solverParameters(), "particle_spacing");
-  const SketchGrid grid{lattice.origin, spacing};
-  std::map<std::array<int, 3>, std::vector<std::array<double, 3>>> taken;  // by cell, as neighbours are looked up
-  for (const Body& other : project.bodies) {
-    if (other.id == body) continue;
-    const auto voxels = std::get<VoxelShape>(asVoxels(other, spacing).shape);
-    const SketchGrid own{voxels.origin, spacing};
-    for (const VoxelShape::Run& run : voxels.runs) {
-      for (int k = 0; k < run.length; ++k) {
-        const auto centre = own.centreOf({run.x + k, run.y, run.z});
-        const api::Cell c = grid.cellAt(centre);
-        taken[{c.x, c.y, c.z}].push_back(centre);
-      }
-    }
+std::vector<std::vector<CellIndex>> takenCells(const SceneEdit& edit, double spacing) {
+  VoxelCanvas taken;
+  if (const auto* cells = std::get_if<CellsEdit>(&edit)) {
+    if (cells->erase) taken = VoxelCanvas(cells->cells);
+  } else {
+    const auto& bodies = std::get<BodyEdit>(edit);
+    if (!bodies.before) return {};
+    taken = VoxelCanvas(std::get<VoxelShape>(asVoxels(*bodies.before, spacing).shape).runs);
+    if (bodies.after) taken.erase(VoxelCanvas(std::get<VoxelShape>(bodies.after->shape).runs).cells());
   }
-  const auto isFree = [&](const std::array<int, 3>& cell) {
-    const auto centre = grid.centreOf({cell[0], cell[1], cell[2]});
-    for (int offset = 0; offset < 27; ++offset) {
-      const auto found = taken.find({cell[0] + offset % 3 - 1, cell[1] + offset / 3 % 3 - 1, cell[2] + offset / 9 - 1});
-      if (found == taken.end()) continue;
-      for (const auto& p : found->second) {
-        if (std::hypot(p[0] - centre[0], p[1] - centre[1], p[2] - centre[2]) < 0.9 * spacing) return false;
-      }
-    }
-    return true;
-  };
-  std::vector<std::array<int, 3>> free;
-  std::copy_if(cells.begin(), cells.end(), std::back_inserter(free), isFree);
+  std::vector<std::vector<CellIndex>> byPalette;
+  for (const VoxelCanvas::Entry& entry : taken.entries()) {
+    const auto palette = static_cast<size_t>(entry.palette);
+    if (palette >= byPalette.size()) byPalette.resize(palette + 1);
+    byPalette[palette].push_back({entry.cell.x, entry.cell.y, entry.cell.z});
+  }
+  return byPalette;
+}
+
+std::vector<CellIndex> freeAtStart(const Project& project, const std::string& body, const VoxelShape& lattice,
+                                   const std::vector<CellIndex>& cells) {
+  const CellBounds bounds(lattice, cells);
+  PlacesByCell taken({lattice.origin, lattice.spacing}, bounds);
+  for (const Body& other : project.bodies) {
+    if (other.id != body) taken.add(centresWithin(other, lattice.spacing, bounds));
+  }
+  taken.sort();
+  std::vector<CellIndex> free;
+  std::copy_if(cells.begin(), cells.end(), std::back_inserter(free),
+               [&](const CellIndex& cell) { return !taken.anyWithin(cell, 0.9 * lattice.spacing); });
   return free;
 }
 
 Body asVoxels(Body body, double spacing) {
-  if (const auto* box = std::get_if<BoxShape>(&body.shape)) body.shape = voxelsOf(*box, body, spacing);
+  if (const auto* box = std::get_if<BoxShape>(&body.shape)) {
+    body.shape = voxelsOf(*box, body, spacing);
+  } else if (auto& voxels = std::get<VoxelShape>(body.shape); voxels.spacing != spacing) {
+    withSpacing(voxels, spacing);
+  }
   return body;
-}
-
-std::vector<std::vector<std::array<int, 3>>> missingCells(const Body& body, const std::optional<Body>& without) {
-  const auto* voxels = std::get_if<VoxelShape>(&body.shape);
-  if (!voxels) return {};
-  VoxelCanvas canvas(voxels->runs);
-  if (without) {
-    if (const auto* rest = std::get_if<VoxelShape>(&without->shape)) canvas.erase(VoxelCanvas(rest->runs).cells());
-  }
-  std::vector<std::vector<std::array<int, 3>>> byPalette(voxels->palette.size());
-  for (const VoxelCanvas::Entry& entry : canvas.entries()) {
-    byPalette[static_cast<size_t>(entry.palette)].push_back({entry.cell.x, entry.cell.y, entry.cell.z});
-  }
-  return byPalette;
 }
 
 }  // namespace ps

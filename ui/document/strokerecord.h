@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace ps {
@@ -17,6 +18,16 @@ struct BodyEdit {
   std::optional<Body> before, after;
   size_t index = 0;
 };
+
+/// Cells that a sketched body gains or loses. Why not the body before and after: it carries the samples of all strokes
+/// so far, and a hundred strokes would be kept five thousand times.
+struct CellsEdit {
+  std::string id;
+  bool erase = false;
+  std::vector<VoxelShape::Run> cells;        ///< added, or erased
+  std::optional<VoxelShape::Stroke> stroke;  ///< noted with what is added
+};
+using SceneEdit = std::variant<BodyEdit, CellsEdit>;
 
 /// What a stroke did to the particles. Belongs to the engine's thread: nothing else reads or writes it.
 struct StrokeTrace {
@@ -31,28 +42,31 @@ struct StrokeRecord {
   std::string body;  ///< that an adding stroke paints
   int palette = 0;
   std::vector<std::array<int, 3>> cells;  ///< that it touched, on the lattice of `lattice`
-  VoxelShape lattice;                     ///< origin only
-  std::vector<BodyEdit> edits;            ///< what it changes in the document
+  VoxelShape lattice;                     ///< origin and spacing only
+  std::vector<SceneEdit> edits;           ///< what it changes in the document
   std::shared_ptr<StrokeTrace> trace = std::make_shared<StrokeTrace>();
 };
 
 /// Applies edits to a project's bodies, forwards or backwards (then in reverse order).
-void applyEdits(Project& project, const std::vector<BodyEdit>& edits, bool forward);
+void applyEdits(Project& project, const std::vector<SceneEdit>& edits, bool forward);
+const std::string& bodyOf(const SceneEdit& edit);
 
-/// Body `body` with `cells` of `palette` painted where free, and the stroke noted. Throws InputError for a damaged
-/// body.
-Body withCells(Body body, const std::vector<std::array<int, 3>>& cells, int palette, const VoxelShape::Stroke& stroke);
-/// Body without the cells of `lattice` that it holds; nullopt when none is left. Boxes become voxels first.
-/// `changed` tells whether it held any.
-std::optional<Body> withoutCells(Body body, const VoxelShape& lattice, const std::vector<std::array<int, 3>>& cells,
-                                 double spacing, bool& changed);
-/// The cells of `lattice` in which no other body has matter at the start (centres within 0.9 spacings): what a reset
-/// can bring back without two particles in one place.
+/// Paints `cells` of `palette` where they are free, and notes the stroke: into the project's body of the id of
+/// `painted`, or as that body where there is none yet. Throws InputError for a damaged body.
+SceneEdit paintEdit(const Project& project, const Body& painted, const std::vector<std::array<int, 3>>& cells,
+                    int palette, const VoxelShape::Stroke& stroke);
+/// Takes the cells of `lattice` out of a body, the project's at `index`; boxes become cells first. Nothing when it
+/// holds none of them.
+std::optional<SceneEdit> eraseEdit(const Body& body, size_t index, const VoxelShape& lattice,
+                                   const std::vector<std::array<int, 3>>& cells);
+/// Cells by palette entry that an erasing edit took, on the lattice of asVoxels(body, spacing); `spacing`: of the
+/// lattice that erased.
+std::vector<std::vector<std::array<int, 3>>> takenCells(const SceneEdit& edit, double spacing);
+/// The cells of `lattice` in which no other body has matter at the start (centres within 0.9 of its spacing): what a
+/// reset can bring back without two particles in one place.
 std::vector<std::array<int, 3>> freeAtStart(const Project& project, const std::string& body, const VoxelShape& lattice,
                                             const std::vector<std::array<int, 3>>& cells);
-/// The body with a box turned into the cells that it fills at the start.
+/// The body as cells of edge `spacing` m: those that a box fills at the start; a sketch of another spacing resampled.
 Body asVoxels(Body body, double spacing);
-/// Cells of a voxel `body` that `without` lacks, by palette entry: what an undone erasure must bring back.
-std::vector<std::vector<std::array<int, 3>>> missingCells(const Body& body, const std::optional<Body>& without);
 
 }  // namespace ps

@@ -6,12 +6,10 @@
 #include "ui/theme/paint.h"
 #include "ui/theme/theme.h"
 
-#include <QtCore/QIODevice>
 #include <QtGui/QPainter>
 #include <QtGui/QPolygonF>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 
@@ -24,22 +22,6 @@ struct Series {
   QString name, unit;
   SampleSeries samples;
 };
-
-/// Decimal digits that no locale touches; what is not finite is empty.
-QByteArray csvNumber(double value) {
-  if (!std::isfinite(value)) return {};
-  char buffer[32];
-  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value);
-  return QByteArray(buffer, end.ptr - buffer);
-}
-
-QByteArray csvName(const QString& name, const QString& unit) {
-  QString text = unit.isEmpty() ? name : QStringLiteral("%1[%2]").arg(name, unit);
-  if (text.contains(QLatin1Char(',')) || text.contains(QLatin1Char('"'))) {
-    text = QLatin1Char('"') + text.replace(QLatin1Char('"'), QStringLiteral("\"\"")) + QLatin1Char('"');
-  }
-  return text.toUtf8();
-}
 
 /// Values at the end of a line: three significant digits are enough beside a curve.
 QString labelValue(double value) { return formatNumber(value, std::abs(value) >= 100 ? 4 : 3); }
@@ -123,7 +105,7 @@ std::pair<double, double> GraphView::valueExtent(double first, double last) cons
     if (line.value > drawn.low - 0.75 * span && line.value < drawn.high + 0.75 * span) extent.add(line.value);
   }
   const double margin = 0.12 * std::max(extent.high - extent.low, span);
-  return {extent.low - margin, extent.high + 1.6 * margin};
+  return {extent.low - margin, clearOfTitle(extent.low - margin, extent.high)};
 }
 
 void GraphView::paintData(QPainter& painter) {
@@ -208,8 +190,12 @@ void GraphView::paintLabels(QPainter& painter) {
   const Theme& theme = Theme::current();
   const QRectF plot = plotRect();
   const QFont font = Theme::font(TextRole::Small);
-  paintText(painter, QRectF(plot.left() + 7, plot.top() + 3, plot.width() - 14, 16), Qt::AlignLeft | Qt::AlignVCenter,
-            title(), font, theme[Token::Text2]);
+  QColor ground = theme[Token::Field];
+  ground.setAlphaF(0.75f);
+  const QRectF heading(plot.left() + 7, plot.top() + 3, std::min(textWidth(title(), font) + 1, plot.width() - 14), 16);
+  if (!title().isEmpty())
+    painter.fillRect(heading.adjusted(-2, 1, 2, -1), ground);  // the line of the present time passes here
+  paintText(painter, heading, Qt::AlignLeft | Qt::AlignVCenter, title(), font, theme[Token::Text2]);
   struct Label {
     double top;
     QPointF end;
@@ -229,7 +215,7 @@ void GraphView::paintLabels(QPainter& painter) {
   // From the top down, each label at its line's end or as little below it as keeps the texts apart.
   std::sort(labels.begin(), labels.end(), [](const Label& a, const Label& b) { return a.top < b.top; });
   for (size_t i = 0; i < labels.size(); ++i) {
-    labels[i].top = std::max(labels[i].top, i == 0 ? plot.top() + 1 : labels[i - 1].top + 15);
+    labels[i].top = std::max(labels[i].top, i == 0 ? plot.top() + titleStrip() - 3 : labels[i - 1].top + 15);
   }
   for (size_t i = labels.size(); i-- > 0;) {
     labels[i].top = std::min(labels[i].top, i + 1 == labels.size() ? plot.bottom() - 16 : labels[i + 1].top - 15);
@@ -239,12 +225,11 @@ void GraphView::paintLabels(QPainter& painter) {
     painter.setPen(Qt::NoPen);
     painter.setBrush(theme.series(static_cast<int>(label.series)));
     painter.drawEllipse(label.end, 3, 3);
+    if (label.top < plot.top() + titleStrip() - 4) continue;  // too low a plot for all of them
     // Right of the end where there is room, else left of it.
     const double width = textWidth(label.text, font);
     const bool right = label.end.x() + 8 + width < this->width() - 2;
     QRectF rect(right ? label.end.x() + 8 : label.end.x() - 8 - width, label.top, width + 1, 16);
-    QColor ground = theme[Token::Field];
-    ground.setAlphaF(0.75f);
     painter.fillRect(rect.adjusted(-2, 1, 2, -1), ground);
     paintText(painter, rect, Qt::AlignLeft | Qt::AlignVCenter, label.text, font, theme[Token::Text]);
   }
@@ -260,30 +245,6 @@ QStringList GraphView::readOut(double time) const {
                    (unit.isEmpty() ? unit : QLatin1Char(' ') + unit);
   }
   return lines.size() > 1 ? lines : QStringList();
-}
-
-double GraphView::labelWidth() const { return 0; }
-
-bool GraphView::exportCsv(QIODevice& device) const {
-  QByteArray header = "time_s";
-  for (const Series& series : d->series)
-    header += ',' + csvName(series.name, series.unit.isEmpty() ? d->unit : series.unit);
-  if (device.write(header + '\n') < 0) return false;
-  std::vector<size_t> at(d->series.size(), 0);
-  for (;;) {
-    double time = std::numeric_limits<double>::infinity();
-    for (size_t i = 0; i < at.size(); ++i) {
-      if (at[i] < d->series[i].samples.size()) time = std::min(time, d->series[i].samples[at[i]].time);
-    }
-    if (std::isinf(time)) return true;
-    QByteArray line = csvNumber(time);
-    for (size_t i = 0; i < at.size(); ++i) {
-      const SampleSeries& samples = d->series[i].samples;
-      line += ',';
-      if (at[i] < samples.size() && samples[at[i]].time == time) line += csvNumber(samples[at[i]++].high);
-    }
-    if (device.write(line + '\n') < 0) return false;
-  }
 }
 
 }  // namespace ps

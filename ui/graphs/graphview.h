@@ -7,8 +7,6 @@
 #include <memory>
 #include <vector>
 
-class QIODevice;
-
 namespace ps {
 
 /// A dashed line across a graph: {0, "melts"}. In the graph's unit.
@@ -38,9 +36,6 @@ class GraphView : public TimePlot {
   /// Samples of a series as drawn in a column [first, last): lowest and highest; nothing: {NaN, NaN}.
   std::pair<double, double> extent(int series, double first, double last) const;
   size_t sampleCount(int series) const;
-  /// "time_s,name[unit],…", one row per time at which any series has a sample; "" where one has none. Points as
-  /// decimal separators. False when the device refuses.
-  bool exportCsv(QIODevice& device) const;
 
  protected:
   bool hasData() const override;
@@ -49,7 +44,6 @@ class GraphView : public TimePlot {
   void paintData(QPainter& painter) override;
   void paintLabels(QPainter& painter) override;
   QStringList readOut(double time) const override;
-  double labelWidth() const override;
 
  private:
   struct Private;

@@ -7,12 +7,10 @@
 #include "ui/theme/paint.h"
 #include "ui/theme/theme.h"
 
-#include <QtCore/QIODevice>
 #include <QtGui/QPainter>
 #include <QtGui/QPolygonF>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 namespace ps {
@@ -26,10 +24,6 @@ constexpr double kGrams = 1e3;
 /// Cumulative mass in grams up to each phase; the last is the total.
 struct PhaseStackView::Private {
   std::array<SampleSeries, kPhases> cumulative;
-  std::array<QString, kPhases> names;
-  QString nameOf(size_t phase) const {
-    return names[phase].isEmpty() ? phaseName(static_cast<api::Phase>(phase)) : names[phase];
-  }
   double massAt(size_t phase, double time) const {
     const double below = phase == 0 ? 0 : cumulative[phase - 1].valueAt(time);
     return cumulative[phase].valueAt(time) - below;
@@ -51,11 +45,6 @@ void PhaseStackView::append(double time, const std::array<double, 5>& kilograms)
   dataChanged();
 }
 
-void PhaseStackView::setPhaseNames(const std::array<QString, 5>& names) {
-  d->names = names;
-  dataChanged();
-}
-
 void PhaseStackView::clear() {
   for (SampleSeries& series : d->cumulative) series.clear();
   dataChanged();
@@ -69,7 +58,7 @@ std::pair<double, double> PhaseStackView::valueExtent(double, double) const {
   // The total of the whole run: a scale that breathes while one pans would hide what changes.
   const SampleSeries& total = d->cumulative[kPhases - 1];
   const double high = total.extent(0, total.size()).high;
-  return {0, high > 0 ? 1.06 * high : 1};
+  return {0, high > 0 ? clearOfTitle(0, high) : 1};
 }
 
 void PhaseStackView::paintData(QPainter& painter) {
@@ -123,16 +112,18 @@ void PhaseStackView::paintLabels(QPainter& painter) {
     if (!(mass > 1e-4 * total)) continue;
     const double middle = y(d->cumulative[phase].valueAt(end) - mass / 2);
     labels.push_back(
-        {middle, middle - 8, phase, d->nameOf(phase) + QLatin1Char(' ') + formatShort(mass, 3) + QStringLiteral(" g")});
+        {middle, middle - 8, phase,
+         phaseName(static_cast<api::Phase>(phase)) + QLatin1Char(' ') + formatShort(mass, 3) + QStringLiteral(" g")});
   }
   for (size_t i = 0; i < labels.size(); ++i) {
-    labels[i].top = std::max(labels[i].top, i == 0 ? plot.top() + 16 : labels[i - 1].top + 16);
+    labels[i].top = std::max(labels[i].top, i == 0 ? plot.top() + titleStrip() - 3 : labels[i - 1].top + 16);
   }
   for (size_t i = labels.size(); i-- > 0;) {
     labels[i].top = std::min(labels[i].top, i + 1 == labels.size() ? plot.bottom() - 17 : labels[i + 1].top - 16);
   }
   const double edge = x(end);
   for (const Label& label : labels) {
+    if (label.top < plot.top() + titleStrip() - 4) continue;  // too low a plot for all of them
     const double width = textWidth(label.text, font) + 22;
     const bool right = edge + 6 + width < this->width() - 2;
     const QRectF swatch(right ? edge + 6 : edge - 6 - width, label.top + 1, 14, 14);
@@ -156,33 +147,11 @@ QStringList PhaseStackView::readOut(double time) const {
   QStringList lines{formatFixed(time, 2) + QStringLiteral(" s")};
   for (size_t phase = kPhases; phase-- > 0;) {
     const double mass = d->massAt(phase, time);
-    if (mass > 0) lines << d->nameOf(phase) + QStringLiteral("  ") + formatNumber(mass) + QStringLiteral(" g");
+    if (mass > 0)
+      lines << phaseName(static_cast<api::Phase>(phase)) + QStringLiteral("  ") + formatNumber(mass) +
+                   QStringLiteral(" g");
   }
   return lines.size() > 1 ? lines : QStringList();
-}
-
-double PhaseStackView::labelWidth() const { return 0; }
-
-bool PhaseStackView::exportCsv(QIODevice& device) const {
-  QByteArray header = "time_s";
-  for (size_t phase = 0; phase < kPhases; ++phase)
-    header += ',' + phaseName(static_cast<api::Phase>(phase)).toLatin1() + "[kg]";
-  if (device.write(header + '\n') < 0) return false;
-  const auto number = [](double value) {
-    char buffer[32];
-    const auto end = std::to_chars(buffer, buffer + sizeof buffer, value);
-    return QByteArray(buffer, end.ptr - buffer);
-  };
-  for (size_t i = 0; i < sampleCount(); ++i) {
-    QByteArray line = number(d->cumulative[0][i].time);
-    double below = 0;
-    for (const SampleSeries& series : d->cumulative) {
-      line += ',' + number((series[i].high - below) / kGrams);
-      below = series[i].high;
-    }
-    if (device.write(line + '\n') < 0) return false;
-  }
-  return true;
 }
 
 }  // namespace ps

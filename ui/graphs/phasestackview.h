@@ -5,8 +5,6 @@
 #include <array>
 #include <memory>
 
-class QIODevice;
-
 namespace ps {
 
 /// Mass in each phase over time as stacked areas, in grams; colours and letters of the phase map.
@@ -16,14 +14,10 @@ class PhaseStackView : public TimePlot {
   explicit PhaseStackView(QWidget* parent = nullptr);
   ~PhaseStackView() override;
 
-  /// What the phases are called in this scene, by api::Phase: "Ice", ..., "Water", ..., "Steam". Empty: solid, ...
-  void setPhaseNames(const std::array<QString, 5>& names);
   /// Mass in kg by api::Phase. Times ascend.
   void append(double time, const std::array<double, 5>& kilograms);
   void clear();
   size_t sampleCount() const;
-  /// "time_s,solid[kg],melting[kg],liquid[kg],boiling[kg],gas[kg]".
-  bool exportCsv(QIODevice& device) const;
 
  protected:
   bool hasData() const override;
@@ -32,7 +26,6 @@ class PhaseStackView : public TimePlot {
   void paintData(QPainter& painter) override;
   void paintLabels(QPainter& painter) override;
   QStringList readOut(double time) const override;
-  double labelWidth() const override;
 
  private:
   struct Private;

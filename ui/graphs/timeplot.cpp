@@ -16,7 +16,7 @@
 namespace ps {
 namespace {
 
-constexpr double kLeft = 52, kTop = 10, kRight = 16, kBottom = 22;
+constexpr double kLeft = 52, kTop = 10, kRight = 16, kBottom = 22, kTitle = 22;
 constexpr int kAlignMiddle = Qt::AlignLeft | Qt::AlignVCenter;
 
 void paintTimeAxis(QPainter& painter, const QRectF& plot, std::pair<double, double> range, const Ticks& ticks) {
@@ -42,11 +42,16 @@ void paintValueAxis(QPainter& painter, const QRectF& plot, std::pair<double, dou
     const double y = plot.bottom() - plot.height() * (ticks.at(i) - range.first) / (range.second - range.first);
     if (y > plot.top() + 1 && y < plot.bottom() - 1)
       paintHorizontalLine(painter, plot.left(), plot.right(), y, theme[Token::Line]);
-    const bool large = std::max(std::abs(range.first), std::abs(range.second)) >= 1e6 || ticks.decimals > 4;
-    const QString text = large ? formatShort(ticks.at(i), 3) : formatFixed(ticks.at(i), ticks.decimals);
-    paintText(painter, QRectF(0, y - 8, plot.left() - 7, 16), Qt::AlignRight | Qt::AlignVCenter, text,
+    paintText(painter, QRectF(0, y - 8, plot.left() - 7, 16), Qt::AlignRight | Qt::AlignVCenter, tickText(ticks, i),
               Theme::font(TextRole::Small), theme[Token::Muted]);
   }
+}
+
+double widthOf(const Ticks& ticks) {
+  double width = 0;
+  for (int i = 0; i < ticks.count; ++i)
+    width = std::max(width, textWidth(tickText(ticks, i), Theme::font(TextRole::Small)));
+  return width;
 }
 
 class PlotAccessible final : public QAccessibleWidget {
@@ -91,6 +96,14 @@ Ticks niceTicks(double low, double high, int most) {
     }
   }
   return ticks;
+}
+
+QString tickText(const Ticks& ticks, int index) {
+  const double most = std::max(std::abs(ticks.at(0)), std::abs(ticks.at(ticks.count - 1)));
+  if (most == 0 || (most < 1e6 && most >= 1e-3)) return formatFixed(ticks.at(index), ticks.decimals);
+  // A power of ten: digits down to the step, and one more for steps of two and a half.
+  return formatShort(ticks.at(index),
+                     std::clamp(static_cast<int>(std::ceil(std::log10(most / ticks.step))) + 2, 2, 15));
 }
 
 TimePlot::TimePlot(QWidget* parent) : QWidget(parent), d(std::make_unique<Private>()) {
@@ -150,8 +163,8 @@ void TimePlot::fit() {
 QString TimePlot::summary() const { return hasData() ? readOut(lastTime()).join(QStringLiteral(", ")) : d->emptyText; }
 
 QRectF TimePlot::plotRect() const {
-  return {kLeft, kTop, std::max(10.0, width() - kLeft - kRight - labelWidth()),
-          std::max(10.0, height() - kTop - kBottom)};
+  const double left = std::max(kLeft, d->left);
+  return {left, kTop, std::max(10.0, width() - left - kRight), std::max(10.0, height() - kTop - kBottom)};
 }
 
 QSize TimePlot::sizeHint() const { return {440, 132}; }
@@ -176,23 +189,33 @@ double TimePlot::timeAt(double position) const {
 
 double TimePlot::presentTime() const { return d->present; }
 
+double TimePlot::titleStrip() const { return std::min(kTitle, plotRect().height() / 2); }
+
+double TimePlot::clearOfTitle(double low, double high) const {
+  return low + (high - low) / (1 - titleStrip() / plotRect().height());
+}
+
 void TimePlot::dataChanged() { update(); }
 
 void TimePlot::paintEvent(QPaintEvent*) {
   const Theme& theme = Theme::current();
   QPainter painter(this);
   painter.fillRect(rect(), theme[Token::Panel]);
+  const auto range = timeRange();
+  Ticks values;
+  if (hasData()) {
+    std::tie(d->low, d->high) = valueExtent(range.first, range.second);
+    values = niceTicks(d->low, d->high, std::max(2, static_cast<int>(plotRect().height() / 26)));
+    d->left = widthOf(values) + 9;
+  }
   const QRectF plot = plotRect();
   painter.fillRect(snapped(painter, plot), theme[Token::Field]);
-  const auto range = timeRange();
   if (!hasData()) {
     paintBox(painter, plot, QColor(), theme[Token::Line], 0);
     paintText(painter, plot, Qt::AlignCenter, d->emptyText, Theme::font(TextRole::Normal), theme[Token::Muted]);
     return;
   }
-  std::tie(d->low, d->high) = valueExtent(range.first, range.second);
   const Ticks times = niceTicks(range.first, range.second, std::max(2, static_cast<int>(plot.width() / 64)));
-  const Ticks values = niceTicks(d->low, d->high, std::max(2, static_cast<int>(plot.height() / 26)));
   paintTimeAxis(painter, plot, range, times);
   paintValueAxis(painter, plot, {d->low, d->high}, values);
   painter.save();

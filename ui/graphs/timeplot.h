@@ -18,6 +18,8 @@ struct Ticks {
   double at(int index) const { return first + index * step; }
 };
 Ticks niceTicks(double low, double high, int most);
+/// A tick's label, with as many digits as tell it from its neighbours.
+QString tickText(const Ticks& ticks, int index);
 
 /// What live plots share: the time axis (s), zoom by wheel, drag to pan, double-click to fit, the cursor line of the
 /// present time, the read-out under the pointer. Derived classes draw values.
@@ -58,12 +60,14 @@ class TimePlot : public QWidget {
   virtual void paintLabels(QPainter& painter) = 0;
   /// Lines of the read-out at a time.
   virtual QStringList readOut(double time) const = 0;
-  /// Room right of the plot for labels at line ends, logical pixels.
-  virtual double labelWidth() const { return 0; }
   double x(double time) const;  ///< logical pixels
   double y(double value) const;
   double timeAt(double x) const;
   double presentTime() const;
+  /// Height of the strip at the plot's top that belongs to its title, logical pixels.
+  double titleStrip() const;
+  /// Upper end of a value axis from `low` on, so that `high` stays below the title.
+  double clearOfTitle(double low, double high) const;
   void dataChanged();  ///< schedules a repaint
 
   void paintEvent(QPaintEvent* event) override;

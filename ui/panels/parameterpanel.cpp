@@ -143,6 +143,7 @@ void ParameterPanel::setEmptyText(const QString& text) {
 
 void ParameterPanel::setModel(std::vector<RowModel> rows) {
   const int position = d->scroll->verticalScrollBar()->value();
+  for (ParameterRow* row : this->rows()) row->finishEditing();
   d->build(std::move(rows));
   d->measure();
   d->show();
@@ -179,7 +180,11 @@ void ParameterPanel::Private::build(std::vector<RowModel> models) {
     into.heading->setCount(title == kPinnedGroup ? QStringLiteral("%1 pinned").arg(count) : QString::number(count));
   }
   layout->addStretch(1);
-  scroll->setWidget(content);  // deletes the one before
+  if (QWidget* old = scroll->takeWidget()) {
+    old->hide();
+    old->deleteLater();  // one of its rows may be what asked for this
+  }
+  scroll->setWidget(content);
 }
 
 Group& ParameterPanel::Private::group(const QString& title, QVBoxLayout* layout) {
@@ -208,16 +213,15 @@ void ParameterPanel::Private::connectRow(ParameterRow* row) {
           [tell](const QString& key, const Value& v) { tell(key, v, Edit::End); });
   connect(row, &ParameterRow::scaled, q, &ParameterPanel::scaled);
   connect(row, &ParameterRow::linkActivated, q, &ParameterPanel::linkActivated);
-  connect(row, &ParameterRow::curveRequested, q, &ParameterPanel::curveRequested);
-  connect(row, &ParameterRow::sourceRequested, q, &ParameterPanel::sourceRequested);
   connect(row, &ParameterRow::changedChanged, q, [this] { showCount(); });
-  // A row's menu offers what somebody listens to.
-  if (q->isSignalConnected(QMetaMethod::fromSignal(&ParameterPanel::pinToggled))) {
-    connect(row, &ParameterRow::pinToggled, q, &ParameterPanel::pinToggled);
-  }
-  if (q->isSignalConnected(QMetaMethod::fromSignal(&ParameterPanel::plotRequested))) {
-    connect(row, &ParameterRow::plotRequested, q, &ParameterPanel::plotRequested);
-  }
+  // A row offers, by its menu and its pointer, what somebody listens to.
+  const auto pass = [this, row](auto from, auto to) {
+    if (q->isSignalConnected(QMetaMethod::fromSignal(to))) connect(row, from, q, to);
+  };
+  pass(&ParameterRow::curveRequested, &ParameterPanel::curveRequested);
+  pass(&ParameterRow::sourceRequested, &ParameterPanel::sourceRequested);
+  pass(&ParameterRow::pinToggled, &ParameterPanel::pinToggled);
+  pass(&ParameterRow::plotRequested, &ParameterPanel::plotRequested);
 }
 
 void ParameterPanel::Private::mirror(const ParameterRow* from) {
@@ -303,9 +307,6 @@ void ParameterPanel::setMixed(const QString& key, bool mixed) {
 }
 void ParameterPanel::setLimit(const QString& key, const QString& text, double delivered) {
   d->each(key, [&](ParameterRow* row) { row->setLimit(text, delivered); });
-}
-void ParameterPanel::clearLimits() {
-  for (ParameterRow* row : rows()) row->setLimit({});
 }
 void ParameterPanel::setError(const QString& key, const QString& text) {
   d->each(key, [&](ParameterRow* row) { row->setError(text); });

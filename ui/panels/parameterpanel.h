@@ -28,7 +28,8 @@ class ParameterPanel : public QWidget {
   /// Block at the top: name, line below it, small line below that. An invalid swatch draws none.
   void setHeader(const QString& name, const QString& subtitle, const QString& detail = {}, const QColor& swatch = {});
   /// Replaces all rows. Pinned ones stand in a group "Try these" on top, others by the declaration's group in the order
-  /// in which groups first appear. Keeps scroll position, folded groups and the filter.
+  /// in which groups first appear. Keeps scroll position, folded groups and the filter. Gestures still open end first;
+  /// a row may ask for this from its own menu or signal.
   void setModel(std::vector<RowModel> rows);
   /// Sentence shown when there are no rows.
   void setEmptyText(const QString& text);
@@ -38,7 +39,6 @@ class ParameterPanel : public QWidget {
   void setMixed(const QString& key, bool mixed);
   /// Note under the row; see ParameterRow::setLimit. "" removes it.
   void setLimit(const QString& key, const QString& text, double delivered = std::numeric_limits<double>::quiet_NaN());
-  void clearLimits();
   void setError(const QString& key, const QString& text);
   /// Operating point of a response row, or of all of them.
   void setTemperature(const QString& key, double kelvin);

@@ -286,6 +286,11 @@ void ParameterRow::reset() {
   d->single(d->model.defaultValue);
 }
 
+void ParameterRow::finishEditing() {
+  d->closeEdit();
+  d->finish();
+}
+
 bool ParameterRow::enter(const QString& text) {
   if (!d->isEditable() || !d->isNumeric()) return false;
   const Typed typed = parseTyped(text, d->declaration(), number());

@@ -86,7 +86,9 @@ class ParameterRow : public QWidget {
   /// The number behind the row in SI (toggle 0/1, choice index, response: at the operating point).
   double number() const;
 
-  void reset();        ///< to the default, one gesture
+  void reset();  ///< to the default, one gesture
+  /// Ends a gesture that is still open, and drops what was typed and not entered.
+  void finishEditing();
   void startTyping();  ///< opens the line edit
   /// A number (SI) as if typed; refused beyond the hard limits.
   bool enterNumber(double value);

@@ -56,8 +56,9 @@ struct ParameterRow::Private {
   bool isNumeric() const;  ///< has a slider or sparkline, and a field
   bool hasSlider() const { return isNumeric() && !showsCurve(); }
   bool showsCurve() const;
-  bool drawsSymbol() const;  ///< a label that needs the symbol's room takes it
-  QString unitText() const;  ///< as the field shows it
+  bool leadsTo(const QPoint& at) const;  ///< a click there asks for something that somebody listens to
+  bool drawsSymbol() const;              ///< a label that needs the symbol's room takes it
+  QString unitText() const;              ///< as the field shows it
 
   void begin();
   void change(const Value& value);

@@ -4,6 +4,7 @@
 #include "ui/theme/numbers.h"
 #include "ui/theme/theme.h"
 
+#include <QtCore/QMetaMethod>
 #include <QtGui/QHelpEvent>
 #include <QtGui/QKeyEvent>
 #include <QtGui/QMouseEvent>
@@ -105,6 +106,13 @@ void ParameterRow::mousePressEvent(QMouseEvent* event) {
   }
 }
 
+bool ParameterRow::Private::leadsTo(const QPoint& at) const {
+  if (at.x() <= q->labelRect().right()) return false;
+  const auto heard = [this](auto signal) { return q->isSignalConnected(QMetaMethod::fromSignal(signal)); };
+  if (!model.derivedFrom.isEmpty()) return heard(&ParameterRow::sourceRequested);
+  return showsCurve() && isEditable() && heard(&ParameterRow::curveRequested);
+}
+
 void ParameterRow::mouseMoveEvent(QMouseEvent* event) {
   if (d->dragging && !d->dragCancelled) {
     d->dragTo(event->position().x(), event->modifiers());
@@ -112,9 +120,7 @@ void ParameterRow::mouseMoveEvent(QMouseEvent* event) {
   }
   const QPoint at = event->position().toPoint();
   const bool types = d->isEditable() && d->hasSlider() && fieldRect().contains(at);
-  const bool leads = (!d->model.derivedFrom.isEmpty() && at.x() > labelRect().right()) ||
-                     (d->showsCurve() && at.x() > labelRect().right());
-  setCursor(types ? Qt::IBeamCursor : leads ? Qt::PointingHandCursor : Qt::ArrowCursor);
+  setCursor(types ? Qt::IBeamCursor : d->leadsTo(at) ? Qt::PointingHandCursor : Qt::ArrowCursor);
 }
 
 void ParameterRow::mouseReleaseEvent(QMouseEvent* event) {

@@ -5,6 +5,7 @@
 #include "ui/theme/theme.h"
 
 #include <QtCore/QMetaMethod>
+#include <QtCore/QPointer>
 #include <QtGui/QClipboard>
 #include <QtGui/QContextMenuEvent>
 #include <QtGui/QGuiApplication>
@@ -40,39 +41,43 @@ QString ParameterRow::Private::toolTipText() const {
 }
 
 void ParameterRow::Private::openChoiceMenu() {
-  QMenu menu(q);
+  const QPointer<QMenu> menu(new QMenu(q));
   const QStringList names = choiceNames(declaration());
   for (qsizetype i = 0; i < names.size(); ++i) {
-    QAction* action = menu.addAction(choiceLabel(names[i]));
+    QAction* action = menu->addAction(choiceLabel(names[i]));
     action->setCheckable(true);
     action->setChecked(!model.mixed && static_cast<qsizetype>(q->number()) == i);
     action->setData(static_cast<int>(i));
   }
   const QRect rect = choiceRect();
-  menu.setMinimumWidth(rect.width());
-  if (const QAction* chosen = menu.exec(q->mapToGlobal(rect.bottomLeft() + QPoint(0, 2))))
-    choose(chosen->data().toInt());
+  menu->setMinimumWidth(rect.width());
+  const QAction* chosen = menu->exec(q->mapToGlobal(rect.bottomLeft() + QPoint(0, 2)));
+  if (!menu) return;  // the row went while its menu was open
+  menu->deleteLater();
+  if (chosen) choose(chosen->data().toInt());
 }
 
 void ParameterRow::Private::openContextMenu(const QPoint& global) {
-  QMenu menu(q);
-  QAction* copy = menu.addAction(QStringLiteral("Copy value"));
-  QAction* paste = menu.addAction(QStringLiteral("Paste value"));
+  const QPointer<QMenu> menu(new QMenu(q));
+  QAction* copy = menu->addAction(QStringLiteral("Copy value"));
+  QAction* paste = menu->addAction(QStringLiteral("Paste value"));
   paste->setEnabled(isEditable() && isNumeric() && !QGuiApplication::clipboard()->text().isEmpty());
-  QAction* resetAction = menu.addAction(QStringLiteral("Reset"));
+  QAction* resetAction = menu->addAction(QStringLiteral("Reset"));
   resetAction->setEnabled(isEditable() && q->isChanged());
-  QAction* constant = showsCurve() && isEditable() ? menu.addAction(QStringLiteral("Make constant")) : nullptr;
-  menu.addSeparator();
+  QAction* constant = showsCurve() && isEditable() ? menu->addAction(QStringLiteral("Make constant")) : nullptr;
+  menu->addSeparator();
   const auto offered = [this](const QMetaMethod& signal) { return q->isSignalConnected(signal); };
   QAction* pin = nullptr;
   QAction* plot = nullptr;
   if (offered(QMetaMethod::fromSignal(&ParameterRow::pinToggled))) {
-    pin =
-        menu.addAction(model.pinned ? QStringLiteral("Remove from “Try these”") : QStringLiteral("Pin to “Try these”"));
+    pin = menu->addAction(model.pinned ? QStringLiteral("Remove from “Try these”")
+                                       : QStringLiteral("Pin to “Try these”"));
   }
-  if (offered(QMetaMethod::fromSignal(&ParameterRow::plotRequested))) plot = menu.addAction(QStringLiteral("Plot"));
-  QAction* explain = menu.addAction(QStringLiteral("Explain"));
-  const QAction* chosen = menu.exec(global);
+  if (offered(QMetaMethod::fromSignal(&ParameterRow::plotRequested))) plot = menu->addAction(QStringLiteral("Plot"));
+  QAction* explain = menu->addAction(QStringLiteral("Explain"));
+  const QAction* chosen = menu->exec(global);
+  if (!menu) return;  // the row went while its menu was open
+  menu->deleteLater();
   if (!chosen) return;
   if (chosen == copy)
     QGuiApplication::clipboard()->setText(q->valueText());

@@ -2,6 +2,7 @@
 #include "ui/render/instances.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace ps::render {
@@ -9,7 +10,7 @@ namespace {
 
 void blur(std::vector<float>& grid, int radius) {
   constexpr int n = ContactMap::kCells;
-  std::vector<float> line(n);
+  std::array<float, n> line{};
   for (int pass = 0; pass < 4; ++pass) {
     const int along = pass % 2 ? n : 1, across = pass % 2 ? 1 : n;
     for (int row = 0; row < n; ++row) {
@@ -29,9 +30,9 @@ void blur(std::vector<float>& grid, int radius) {
 void fillContactMap(const Instances& instances, bool clear, ContactMap& map) {
   constexpr int n = ContactMap::kCells;
   constexpr size_t kCount = static_cast<size_t>(n * n);
-  std::vector<float> close(kCount), wide(kCount);
-  std::array<std::vector<float>, 3> colour;
-  for (auto& channel : colour) channel.assign(kCount, 0);
+  for (auto& sum : map.sums) sum.assign(kCount, 0);
+  auto& [close, wide, weights, red, green, blue] = map.sums;
+  const std::array colour{&red, &green, &blue};
   const float cell = map.size[0] * map.size[1] / static_cast<float>(n * n);
   const float reach = instances.radius * 3, tall = 0.18f * std::max(map.size[0], map.size[1]);
   for (size_t i = 0; i < instances.spheres + instances.liquids; ++i) {
@@ -46,20 +47,19 @@ void fillContactMap(const Instances& instances, bool clear, ContactMap& map) {
     close[at] += w;
     wide[at] += share * std::exp(-std::max(0.f, height) / tall) * 0.35f;
     const float weight = w + 0.05f * share;
-    colour[0][at] += p.red * weight, colour[1][at] += p.green * weight, colour[2][at] += p.blue * weight;
+    red[at] += p.red * weight, green[at] += p.green * weight, blue[at] += p.blue * weight;
   }
-  std::vector<float> weights(close);
-  for (size_t i = 0; i < kCount; ++i) weights[i] += 0.05f / 0.35f * wide[i];
+  for (size_t i = 0; i < kCount; ++i) weights[i] = close[i] + 0.05f / 0.35f * wide[i];
   blur(close, 1);
   blur(wide, 4);
   blur(weights, 4);
-  for (auto& channel : colour) blur(channel, 4);
+  for (auto* channel : colour) blur(*channel, 4);
   map.texels.assign(kCount * 4, 0);
   for (size_t i = 0; i < kCount; ++i) {
     const float cover = 1 - std::exp(-0.8f * close[i] - 0.75f * wide[i]);
     for (size_t k = 0; k < 3; ++k)
       map.texels[i * 4 + k] =
-          static_cast<uint8_t>(255 * std::clamp(colour[k][i] / std::max(weights[i], 1e-5f), 0.f, 1.f));
+          static_cast<uint8_t>(255 * std::clamp((*colour[k])[i] / std::max(weights[i], 1e-5f), 0.f, 1.f));
     map.texels[i * 4 + 3] = static_cast<uint8_t>(255 * std::clamp(cover, 0.f, 1.f));
   }
 }

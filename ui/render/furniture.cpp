@@ -146,6 +146,14 @@ Face wallFace(const Environment& environment, size_t wall) {
   return face.corners.size() >= 3 ? face : Face{};
 }
 
+bool sameFurniture(const Environment& a, const Environment& b) {
+  return a.boundsMinimum == b.boundsMinimum && a.boundsMaximum == b.boundsMaximum &&
+         std::equal(a.walls.begin(), a.walls.end(), b.walls.begin(), b.walls.end(),
+                    [](const SceneWall& v, const SceneWall& w) {
+                      return v.point == w.point && v.normal == w.normal && v.parameters == w.parameters;
+                    });
+}
+
 Furniture buildFurniture(const Environment& environment, bool dark) {
   Furniture out;
   placeFloor(out, environment);

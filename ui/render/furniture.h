@@ -39,6 +39,8 @@ struct Furniture {
   float lidHeight = 0;
   bool hasLid = false;
 };
+/// Whether two environments look the same.
+bool sameFurniture(const Environment& a, const Environment& b);
 
 /// Floors (normal up) are metal slabs, lids (normal down) frosted plates, sides a low rim and the edges of glass panes.
 Furniture buildFurniture(const Environment& environment, bool dark);

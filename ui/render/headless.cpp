@@ -86,19 +86,37 @@ std::string HeadlessContext::description() const {
   return text(GL_RENDERER) + ", OpenGL " + text(GL_VERSION);
 }
 
+namespace {
+
+/// A framebuffer over one picture, bound until it goes.
+struct Picture {
+  Picture(int width, int height) {
+    GLint bound = 0;
+    glGetIntegerv(GL_RENDERBUFFER_BINDING, &bound);
+    glGenRenderbuffers(1, &picture);
+    glBindRenderbuffer(GL_RENDERBUFFER, picture);
+    glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, width, height);
+    glBindRenderbuffer(GL_RENDERBUFFER, static_cast<GLuint>(bound));
+    glGenFramebuffers(1, &framebuffer);
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, picture);
+  }
+  ~Picture() {
+    glDeleteFramebuffers(1, &framebuffer);
+    glDeleteRenderbuffers(1, &picture);
+  }
+  Picture(const Picture&) = delete;
+  Picture& operator=(const Picture&) = delete;
+  GLuint framebuffer = 0, picture = 0;
+};
+
+}  // namespace
+
 std::vector<uint8_t> renderImage(Renderer& renderer, const Snapshot& snapshot, const RenderScene& scene,
                                  const RenderOptions& options) {
+  renderer.checkSize(options);
   const render::GlState state;
-  GLuint framebuffer = 0, picture = 0;
-  glGenRenderbuffers(1, &picture);
-  GLint bound = 0;
-  glGetIntegerv(GL_RENDERBUFFER_BINDING, &bound);
-  glBindRenderbuffer(GL_RENDERBUFFER, picture);
-  glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, options.width, options.height);
-  glBindRenderbuffer(GL_RENDERBUFFER, static_cast<GLuint>(bound));
-  glGenFramebuffers(1, &framebuffer);
-  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, picture);
+  const Picture picture(options.width, options.height);
   renderer.draw(snapshot, nullptr, 1, scene, options);
 
   const size_t row = static_cast<size_t>(options.width) * 4;
@@ -112,8 +130,6 @@ std::vector<uint8_t> renderImage(Renderer& renderer, const Snapshot& snapshot, c
   glReadPixels(0, 0, options.width, options.height, GL_RGBA, GL_UNSIGNED_BYTE, pixels.data());
   glPixelStorei(GL_PACK_ALIGNMENT, alignment);
   glPixelStorei(GL_PACK_ROW_LENGTH, length);
-  glDeleteFramebuffers(1, &framebuffer);
-  glDeleteRenderbuffers(1, &picture);
   for (size_t top = 0, bottom = static_cast<size_t>(options.height) - 1; top < bottom; ++top, --bottom)
     std::swap_ranges(pixels.begin() + static_cast<ptrdiff_t>(top * row),
                      pixels.begin() + static_cast<ptrdiff_t>((top + 1) * row),

@@ -13,6 +13,7 @@ namespace {
 
 constexpr uint32_t kNone = 0xFFFFFFFF;
 constexpr size_t kGrain = 4096;
+constexpr float kSurfaceGrowth = 1.25f;  // a liquid's surface lies about this far out, in radii of its particles
 
 // Index in the previous snapshot by index in this one; empty when both have the same order.
 std::vector<uint32_t> matchById(const Snapshot& now, const Snapshot& previous) {
@@ -132,12 +133,17 @@ void collectInstances(const InstanceRequest& request, Instances& out) {
   const Snapshot& s = *request.now;
   const size_t count = s.position.size();
   const Evaluator evaluator(request);
-  std::vector<Instance> all(count);
+  std::vector<Instance>& all = out.all;
+  all.resize(count);
   parallelFor(count, kGrain, [&](size_t first, size_t last) {
     for (size_t i = first; i < last; ++i) all[i] = evaluator.at(i);
   });
 
-  std::vector<Instance> spheres, liquids, vapours;
+  std::vector<Instance>&spheres = out.particles, &liquids = out.liquid, &vapours = out.vapour;
+  spheres.clear();
+  liquids.clear();
+  vapours.clear();
+  out.outline.clear();
   const bool data = request.colour != ColourBy::Material;
   double radii = 0;
   size_t counted = 0;
@@ -161,7 +167,11 @@ void collectInstances(const InstanceRequest& request, Instances& out) {
       ++counted;
     }
     p.extra = static_cast<float>(kindOf(request, i));
-    (motion == api::Motion::Liquid && request.surfaces ? liquids : spheres).push_back(p);
+    const bool surface = motion == api::Motion::Liquid && request.surfaces;
+    (surface ? liquids : spheres).push_back(p);
+    if (request.outlined != s.body[i]) continue;
+    out.outline.push_back(p);
+    if (surface) out.outline.back().radius *= kSurfaceGrowth;
   }
   if (counted) out.radius = static_cast<float>(radii / static_cast<double>(counted));
   out.sphereExtent = out.liquidExtent = out.vapourExtent = {};
@@ -173,9 +183,15 @@ void collectInstances(const InstanceRequest& request, Instances& out) {
   out.spheres = spheres.size();
   out.liquids = liquids.size();
   out.vapours = vapours.size();
-  out.particles.swap(spheres);
   out.particles.insert(out.particles.end(), liquids.begin(), liquids.end());
   out.particles.insert(out.particles.end(), vapours.begin(), vapours.end());
+  if (request.cull && !out.outline.empty()) {
+    Extent extent;
+    for (const Instance& p : out.outline) extent.add(p.x, p.y, p.z, p.radius);
+    dropBuried(extent, out.radius, out.outline);
+  }
+  out.outlined = out.outline.size();
+  out.particles.insert(out.particles.end(), out.outline.begin(), out.outline.end());
 }
 
 }  // namespace ps::render

@@ -29,6 +29,7 @@ struct ContactMap {
   std::array<float, 2> corner{}, size{1, 1};  ///< x and z, m
   float floor = 0;                            ///< height, m
   std::vector<uint8_t> texels;                ///< RGBA8: mean colour, how much is covered
+  std::array<std::vector<float>, 6> sums;     ///< while it is filled: near, far, weights, colours; kept for its memory
 };
 
 /// For what culling needs to know.
@@ -45,16 +46,18 @@ struct InstanceRequest {
   double minimum = 0, maximum = 1, meltingPoint = 273.15;
   bool surfaces = true;                 ///< liquids become a surface, else spheres
   std::array<float, 3> steam{1, 1, 1};  ///< colour of vapour where colours show no data
+  std::optional<uint32_t> outlined;     ///< index of the body that gets an outline
   std::optional<CullView> cull;         ///< sort nearest first, leave out what cannot be seen
 };
 
-/// What a frame draws, in three ranges of `particles`: spheres (the first `visible` of them can be seen, the others may
-/// cast shadows), liquid of a surface, vapour.
+/// What a frame draws, in four ranges of `particles`: spheres (the first `visible` of them can be seen, the others may
+/// cast shadows), liquid of a surface, vapour, and once more what makes the outlined body's picture.
 struct Instances {
   std::vector<Instance> particles;
-  size_t visible = 0, spheres = 0, liquids = 0, vapours = 0;
+  size_t visible = 0, spheres = 0, liquids = 0, vapours = 0, outlined = 0;
   Extent sphereExtent, liquidExtent, vapourExtent;
-  float radius = 0.01f;  ///< mean of what is neither vapour nor static, m
+  float radius = 0.01f;                                ///< mean of what is neither vapour nor static, m
+  std::vector<Instance> all, liquid, vapour, outline;  ///< while it is filled; kept for their memory
 };
 
 /// Values of `previous` are found by id where the order differs; particles that are new stand where they are now.

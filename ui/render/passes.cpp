@@ -87,11 +87,12 @@ void clearDepth() {
 
 Quality qualityOf(const char* rendererName) {
   for (const char* name : kSoftware)
-    if (rendererName && std::strstr(rendererName, name)) return {512, 2, 2, 6, 2, 5, 2, 4, 2, true};
+    if (rendererName && std::strstr(rendererName, name)) return {512, 2, 2, 6, 2, 5, 2, 4, 2, 2, true};
   return {};
 }
 
 Passes::Passes() : m_quality(qualityOf(reinterpret_cast<const char*>(glGetString(GL_RENDERER)))) {
+  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &m_largest);
   glBindTexture(GL_TEXTURE_2D, m_shadow.name());
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
   m_shadow.resize(m_quality.shadowSize, m_quality.shadowSize);
@@ -115,11 +116,15 @@ void Passes::upload(const Frame& frame) {
   const Instances& instances = frame.instances;
   m_particles.upload(GL_TEXTURE_BUFFER, instances.particles.data(), instances.particles.size() * sizeof(Instance));
   const Furniture& furniture = frame.furniture;
-  m_opaque.upload(GL_ARRAY_BUFFER, furniture.opaque.data(), furniture.opaque.size() * sizeof(MeshVertex));
-  m_clear.upload(GL_ARRAY_BUFFER, furniture.clear.data(), furniture.clear.size() * sizeof(MeshVertex));
-  m_edges.upload(GL_ARRAY_BUFFER, furniture.edges.data(), furniture.edges.size() * sizeof(EdgeVertex));
-  for (const auto& [buffer, tiles] :
-       {std::pair{&m_liquidTiles, &frame.liquidTiles}, {&m_detailTiles, &frame.detailTiles}})
+  if (m_furniture != frame.furnitureRevision) {
+    m_furniture = frame.furnitureRevision;
+    m_opaque.upload(GL_ARRAY_BUFFER, furniture.opaque.data(), furniture.opaque.size() * sizeof(MeshVertex));
+    m_clear.upload(GL_ARRAY_BUFFER, furniture.clear.data(), furniture.clear.size() * sizeof(MeshVertex));
+    m_edges.upload(GL_ARRAY_BUFFER, furniture.edges.data(), furniture.edges.size() * sizeof(EdgeVertex));
+  }
+  for (const auto& [buffer, tiles] : {std::pair{&m_liquidTiles, &frame.liquidTiles},
+                                      {&m_detailTiles, &frame.detailTiles},
+                                      {&m_outlineTiles, &frame.outlineTiles}})
     buffer->upload(GL_ARRAY_BUFFER, tiles->data(), tiles->size() * sizeof(TileSet::Corner));
   m_contact.upload(ContactMap::kCells, ContactMap::kCells, GL_RGBA, GL_UNSIGNED_BYTE, frame.contact.texels.data());
 }
@@ -368,6 +373,37 @@ void Passes::drawGlass(const Frame& frame) {
   glDisable(GL_DEPTH_TEST);
 }
 
+void Passes::drawOutline(const Frame& frame, GLuint framebuffer) {
+  // Distances, unlike edges, lose nothing to a smaller mask that is read smoothly.
+  m_mask.resize(reduced(frame.width, m_quality.outlineScale), reduced(frame.height, m_quality.outlineScale));
+  const Instances& instances = frame.instances;
+  const float reach = frame.outlined.lineWidth + frame.outlined.haloWidth;
+  glDisable(GL_DEPTH_TEST);
+  glEnable(GL_BLEND);
+  {
+    const Target target({&m_mask}, nullptr);
+    clearColour(0, 0, 0, 0, 0);
+    glBlendEquation(GL_MAX);
+    m_programs.outlineMask.use();
+    glUniform1f(m_programs.outlineMask.at("reach"), reach);
+    drawParticles(m_programs.outlineMask, instances.spheres + instances.liquids + instances.vapours,
+                  3 * instances.outlined);
+    glBlendEquation(GL_FUNC_ADD);
+  }
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+  glViewport(0, 0, frame.width, frame.height);
+  glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
+  const Program& program = m_programs.outline;
+  program.use();
+  program.texture("mask", 0, m_mask.name());
+  glUniform1f(program.at("reach"), reach);
+  glUniform1f(program.at("lineWidth"), frame.outlined.lineWidth);
+  glUniform3fv(program.at("tint"), 1, frame.outlined.colour.data());
+  glUniform3fv(program.at("halo"), 1, frame.outlined.halo.data());
+  drawTiles(m_outlineTiles, frame.outlineTiles);
+  glDisable(GL_BLEND);
+}
+
 void Passes::drawFinal(const Frame& frame, GLuint framebuffer) {
   const int scale = frame.still ? 2 : 1, width = frame.width / scale, height = frame.height / scale;
   if (!frame.still) {
@@ -400,7 +436,10 @@ void Passes::draw(const Frame& frame, GLuint framebuffer) {
   if (!frame.lidInFront) drawGlass(frame);
   if (frame.instances.vapours) drawSteam(frame);
   if (frame.lidInFront) drawGlass(frame);
+  // Smoothing stair steps would wash out so thin a line, which has smooth sides of its own.
+  if (frame.instances.outlined && frame.still) drawOutline(frame, Target({&m_picture}, nullptr).name());
   drawFinal(frame, framebuffer);
+  if (frame.instances.outlined && !frame.still) drawOutline(frame, framebuffer);
   m_vertexArray = nullptr;
 }
 

@@ -8,6 +8,7 @@
 #include "ui/render/tiles.h"
 
 #include <array>
+#include <cstdint>
 
 namespace ps::render {
 
@@ -24,12 +25,16 @@ struct Frame {
   FrameUniforms uniforms;
   Instances instances;
   Furniture furniture;
+  uint64_t furnitureRevision = 0;  ///< rises with every change of `furniture`
   ContactMap contact;
-  FrameUniforms::Matrix toLight;             ///< world to clip space of the shadow picture
-  std::array<float, 2> shadowScale{};        ///< metres to clip space
-  std::vector<TileSet::Corner> detailTiles;  ///< where edges and crevices may be
-  std::vector<TileSet::Corner> liquidTiles;  ///< where liquid may be
-  std::array<int, 4> vapourBox{};            ///< x, y, width, height of the pixels that vapour may touch
+  FrameUniforms::Matrix toLight;              ///< world to clip space of the shadow picture
+  std::array<float, 2> shadowScale{};         ///< metres to clip space
+  TileSet liquid, detail, outline;            ///< what the next three are made of
+  std::vector<TileSet::Corner> detailTiles;   ///< where edges and crevices may be
+  std::vector<TileSet::Corner> liquidTiles;   ///< where liquid may be
+  std::vector<TileSet::Corner> outlineTiles;  ///< where the outline may be
+  BodyOutline outlined;                       ///< of the body that instances.outlined draws, in inner pixels
+  std::array<int, 4> vapourBox{};             ///< x, y, width, height of the pixels that vapour may touch
   std::array<float, 3> edgeTint{};
   int width = 0, height = 0;  ///< of the inner targets
   bool data = false, still = false;
@@ -42,15 +47,17 @@ struct Quality {
   int occlusionScale = 1, occlusionSamples = 12;
   int fluidScale = 2, fluidTaps = 12, fluidRounds = 2;
   int steamScale = 2, steamSprites = 4;
+  int outlineScale = 1;
   bool cull = false;  ///< the processor leaves out hidden spheres
 };
 Quality qualityOf(const char* rendererName);
 
 /// Shaders, textures and buffers, and the passes of a frame in their order: shadow, surfaces, occlusion, light, liquid,
-/// vapour, glass, final.
+/// vapour, glass, final, outline.
 class Passes {
  public:
   Passes();
+  int largestPicture() const { return m_largest; }  ///< pixels along each side
   const Quality& quality() const { return m_quality; }
   void draw(const Frame& frame, GLuint framebuffer);
 
@@ -72,6 +79,8 @@ class Passes {
     Program steamOver{"fullscreen.vert", "steamover.frag"};
     Program glass{"glass.vert", "glass.frag"};
     Program edge{"edge.vert", "edge.frag"};
+    Program outlineMask{"outlinemask.vert", "outlinemask.frag", "particle.glsl"};
+    Program outline{"tiles.vert", "outline.frag"};
     Program final{"tiles.vert", "final.frag"}, still{"fullscreen.vert", "final.frag"};
   };
 
@@ -86,12 +95,14 @@ class Passes {
   void smoothFluid(const Frame& frame);
   void drawSteam(const Frame& frame);
   void drawGlass(const Frame& frame);
+  void drawOutline(const Frame& frame, GLuint framebuffer);
   void drawFinal(const Frame& frame, GLuint framebuffer);
   void drawParticles(const Program& program, size_t first, size_t vertices);
   void drawTiles(const Buffer& buffer, const std::vector<TileSet::Corner>& tiles);
   void drawEverywhere();
 
   Quality m_quality;
+  GLint m_largest = 0;
   Programs m_programs;
   Texture m_surface{GL_RGBA8, GL_NEAREST}, m_normal{GL_RGB10_A2, GL_NEAREST}, m_distance{GL_R32F, GL_NEAREST};
   Texture m_depth{GL_DEPTH24_STENCIL8, GL_NEAREST}, m_open{GL_R8, GL_LINEAR};
@@ -101,11 +112,13 @@ class Passes {
   Texture m_fluidNormal{GL_RGB10_A2, GL_LINEAR}, m_cloud{GL_R8, GL_LINEAR, GL_REPEAT};
   Texture m_fluidDepth{GL_DEPTH_COMPONENT24, GL_NEAREST};
   Texture m_steam{GL_RGBA16F, GL_LINEAR};
+  Texture m_mask{GL_R8, GL_LINEAR};
   Texture m_contact{GL_RGBA8, GL_LINEAR}, m_noise{GL_RGBA8, GL_LINEAR_MIPMAP_NEAREST, GL_REPEAT};
   Texture m_background{GL_RGBA8, GL_NEAREST};
   FrameUniforms m_backgroundUniforms{};  // for which m_background was drawn
+  uint64_t m_furniture = 0;              // revision that is in the buffers
   BufferTexture m_particleTexture;
-  Buffer m_uniforms, m_particles, m_opaque, m_clear, m_edges, m_liquidTiles, m_detailTiles;
+  Buffer m_uniforms, m_particles, m_opaque, m_clear, m_edges, m_liquidTiles, m_detailTiles, m_outlineTiles;
   const VertexArray* m_vertexArray = nullptr;  // of the frame being drawn
 };
 

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace ps {
 namespace {
@@ -135,11 +136,12 @@ struct Projector {
   float width, height, near, lens;  // lens: pixels of a metre at a depth of 1 m
 };
 
-void markSpheres(TileSet& tiles, const Projector& projector, const render::Instance* first, size_t count, float reach) {
+void markSpheres(TileSet& tiles, const Projector& projector, const render::Instance* first, size_t count, float reach,
+                 float margin = 3) {
   for (const render::Instance* p = first; p != first + count; ++p) {
     const auto at = projector.at(p->x, p->y, p->z);
     if (at[2] > -p->radius)
-      tiles.mark(at[0], at[1], reach * p->radius * projector.lens / std::max(at[2], projector.near) + 3);
+      tiles.mark(at[0], at[1], reach * p->radius * projector.lens / std::max(at[2], projector.near) + margin);
   }
 }
 
@@ -163,20 +165,42 @@ void markEdges(TileSet& tiles, const Projector& projector, const std::vector<ren
 /// all of the picture faster than a processor finds out.
 void findTiles(Frame& frame, const Camera& camera, bool cull) {
   const auto& instances = frame.instances;
-  TileSet liquid(frame.width, frame.height), detail(frame.width, frame.height);
+  TileSet &liquid = frame.liquid, &detail = frame.detail, &outline = frame.outline;
+  liquid.reset(frame.width, frame.height);
+  detail.reset(frame.width, frame.height);
+  outline.reset(frame.width, frame.height);
   if (cull) {
     const Projector projector(camera, frame.width, frame.height);
     const render::Instance* first = instances.particles.data();
     markSpheres(liquid, projector, first + instances.spheres, instances.liquids, 1.4f);
     markSpheres(detail, projector, first, instances.visible, 2.5f);
+    markSpheres(outline, projector, first + instances.particles.size() - instances.outlined, instances.outlined, 1.2f,
+                3 + frame.outlined.lineWidth + frame.outlined.haloWidth);
     markEdges(detail, projector, frame.furniture.opaque);
     markEdges(detail, projector, frame.furniture.clear);
   } else {
     liquid.markAll();
     detail.markAll();
+    outline.markAll();
   }
-  frame.liquidTiles = liquid.triangles();
-  frame.detailTiles = detail.triangles();
+  outline.triangles(frame.outlineTiles);
+  liquid.triangles(frame.liquidTiles);
+  detail.triangles(frame.detailTiles);
+}
+
+/// Inner targets have this many pixels for one of the picture's, along each side.
+int innerScale(const RenderOptions& options) { return options.still ? 2 : 1; }
+
+std::string sizeText(const RenderOptions& options) {
+  return std::to_string(options.width) + " × " + std::to_string(options.height) + " pixels";
+}
+
+/// The first OpenGL error that waits, and none waits afterwards. A lost context reports for ever: enough is enough.
+GLenum takeErrors() {
+  const GLenum first = glGetError();
+  for (int i = 0; i < 16 && glGetError() != GL_NO_ERROR; ++i) {
+  }
+  return first;
 }
 
 void placeContactMap(Frame& frame) {
@@ -202,22 +226,43 @@ struct Renderer::Impl {
     return std::make_unique<render::Passes>();
   }
   std::unique_ptr<render::Passes> passes = makePasses();
-  Frame frame;  // kept for its memory
+  Frame frame;                           // kept for its memory
+  std::optional<Environment> furnished;  // what frame.furniture was made of, and for which theme
+  bool dark = false;
+  int width = 0, height = 0;     // pixels of the inner targets that are known to work
+  std::array<bool, 3> layers{};  // and whether theirs are: liquid, vapour, outline
+
+  void furnish(const Environment& environment, bool forDark) {
+    if (furnished && dark == forDark && render::sameFurniture(*furnished, environment)) return;
+    frame.furniture = render::buildFurniture(environment, forDark);
+    ++frame.furnitureRevision;
+    furnished = environment;
+    dark = forDark;
+  }
 };
 
 Renderer::Renderer() : m(std::make_unique<Impl>()) {}
 Renderer::~Renderer() = default;
 
+void Renderer::checkSize(const RenderOptions& options) const {
+  const int most = m->passes->largestPicture() / innerScale(options);
+  if (std::max(options.width, options.height) <= most) return;
+  throw Error("a picture of " + sizeText(options) + " is larger than the " + std::to_string(most) +
+              " pixels a side that this graphics driver draws" + (options.still ? " with smooth edges" : "") +
+              "; ask for a smaller one");
+}
+
 void Renderer::draw(const Snapshot& now, const Snapshot* previous, double blend, const RenderScene& scene,
                     const RenderOptions& options) {
   if (options.width < 1 || options.height < 1) return;
+  checkSize(options);
   Frame& frame = m->frame;
-  const int scale = options.still ? 2 : 1;
+  const int scale = innerScale(options);
   frame.width = options.width * scale;
   frame.height = options.height * scale;
   frame.still = options.still;
   frame.data = options.colour != ColourBy::Material;
-  frame.furniture = render::buildFurniture(scene.environment, options.dark);
+  m->furnish(scene.environment, options.dark);
   frame.edgeTint = render::sceneColour(options.dark, "edge");
 
   render::InstanceRequest request;
@@ -232,6 +277,12 @@ void Renderer::draw(const Snapshot& now, const Snapshot* previous, double blend,
     std::tie(request.minimum, request.maximum) = colourRange(now, options.colour);
   request.surfaces = options.colour != ColourBy::DensityError;
   request.steam = render::sceneColour(options.dark, "steam");
+  if (options.outline) {
+    request.outlined = options.outline->body;
+    frame.outlined = *options.outline;
+    frame.outlined.lineWidth *= static_cast<float>(scale);
+    frame.outlined.haloWidth *= static_cast<float>(scale);
+  }
   const CameraFrame axes = frameOf(options.camera);
   if (m->passes->quality().cull) {
     const Mat4 view = multiply(projectionMatrix(options.camera, frame.width, frame.height), viewMatrix(options.camera));
@@ -247,7 +298,22 @@ void Renderer::draw(const Snapshot& now, const Snapshot* previous, double blend,
   frame.vapourBox = pixelsOf(frame.instances.vapourExtent, options.camera, frame.width, frame.height);
 
   const render::GlState state;
+  const render::Instances& drawn = frame.instances;
+  const std::array layers{drawn.liquids > 0, drawn.vapours > 0, drawn.outlined > 0};
+  bool first = frame.width != m->width || frame.height != m->height;
+  if (first) m->layers = {};
+  for (size_t i = 0; i < layers.size(); ++i) first = first || layers[i] > m->layers[i];
+  if (first) takeErrors();  // whoever drew before left them
   m->passes->draw(frame, state.drawFramebuffer());
+  if (!first) return;
+  // Asked once per size: what fails with these targets fails in the first frame, and asking makes the processor wait.
+  if (const GLenum error = takeErrors(); error != GL_NO_ERROR)
+    throw Error("the graphics driver " +
+                (error == GL_OUT_OF_MEMORY ? "has no memory" : "reports error " + std::to_string(error)) +
+                " for a picture of " + sizeText(options) + "; ask for a smaller one");
+  for (size_t i = 0; i < layers.size(); ++i) m->layers[i] = m->layers[i] || layers[i];
+  m->width = frame.width;
+  m->height = frame.height;
 }
 
 }  // namespace ps

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,6 +21,13 @@ enum class ColourBy { Material, Temperature, Phase, Speed, DensityError };
 ColourBy colourByName(const std::string& name);  ///< Material for an unknown name
 const char* colourName(ColourBy colour);
 
+/// A line around the picture of one body's matter (vapour left out), through whatever stands before it.
+struct BodyOutline {
+  uint32_t body = 0;                      ///< index as in Snapshot::body
+  std::array<float, 3> colour{}, halo{};  ///< sRGB of the line, and of what sets it off from its ground
+  float lineWidth = 2, haloWidth = 1.5f;  ///< device pixels
+};
+
 struct RenderOptions {
   int width = 1280, height = 720;  ///< device pixels
   Camera camera;
@@ -27,7 +35,8 @@ struct RenderOptions {
   double rangeMinimum = 0, rangeMaximum = 0;  ///< of the colour map; equal: automatic
   bool dark = true;
   double meltingPoint = 273.15;  ///< K, pivot of the temperature map
-  bool still = false;            ///< four samples per pixel: for pictures rather than motion, about four times the work
+  std::optional<BodyOutline> outline;
+  bool still = false;  ///< four samples per pixel: for pictures rather than motion, about four times the work
 };
 
 /// The scene's furniture that is drawn around particles.
@@ -41,10 +50,12 @@ class Renderer {
  public:
   Renderer();   ///< throws Error when shaders do not compile or the context is too old
   ~Renderer();  ///< the same context (or one that shares with it) must be current
+  /// Throws Error when the driver cannot draw a picture that large, as draw() does before it changes anything.
+  void checkSize(const RenderOptions& options) const;
   /// Draws into the framebuffer bound now. `previous` and `blend` in 0..1 interpolate between two snapshots.
   /// The picture fills (0, 0)..(width, height) of it. Restores the OpenGL state that it changes. One thread at a time;
   /// any context that shares with the one of the constructor may be current. Views on several threads have a Renderer
-  /// and a context each.
+  /// and a context each. Throws Error when the driver runs out of memory.
   void draw(const Snapshot& now, const Snapshot* previous, double blend, const RenderScene& scene,
             const RenderOptions& options);
 

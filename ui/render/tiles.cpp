@@ -7,12 +7,13 @@
 
 namespace ps::render {
 
-TileSet::TileSet(int width, int height)
-    : m_width(width),
-      m_height(height),
-      m_columns((width + kTile - 1) / kTile),
-      m_rows((height + kTile - 1) / kTile),
-      m_marks(static_cast<size_t>(m_columns * m_rows)) {}
+void TileSet::reset(int width, int height) {
+  m_width = width;
+  m_height = height;
+  m_columns = (width + kTile - 1) / kTile;
+  m_rows = (height + kTile - 1) / kTile;
+  m_marks.assign(static_cast<size_t>(m_columns * m_rows), 0);
+}
 
 void TileSet::mark(float x, float y, float reach) {
   if (!(x + reach >= 0 && y + reach >= 0 && x - reach <= static_cast<float>(m_width) &&
@@ -37,8 +38,8 @@ void TileSet::markLine(float x0, float y0, float x1, float y1, float reach) {
 
 void TileSet::markAll() { std::fill(m_marks.begin(), m_marks.end(), 1); }
 
-std::vector<TileSet::Corner> TileSet::triangles() const {
-  std::vector<Corner> out;
+void TileSet::triangles(std::vector<Corner>& out) const {
+  out.clear();
   const auto u = [&](int x) { return static_cast<float>(x * kTile) / static_cast<float>(m_width); };
   const auto v = [&](int y) { return 1 - static_cast<float>(y * kTile) / static_cast<float>(m_height); };
   for (int y = 0; y < m_rows; ++y)
@@ -50,7 +51,6 @@ std::vector<TileSet::Corner> TileSet::triangles() const {
         out.push_back({u(a), v(b)});
       x = end;
     }
-  return out;
 }
 
 }  // namespace ps::render

@@ -13,18 +13,19 @@ class TileSet {
   using Corner = std::array<float, 2>;  ///< 0..1 over the picture, from its lower left corner
   static constexpr int kTile = 16;      ///< pixels
 
-  TileSet(int width, int height);
+  /// No tile of a picture of this many pixels is marked.
+  void reset(int width, int height);
   /// Marks the tiles of a square of pixels around (x, y), from the upper left corner of the picture.
   void mark(float x, float y, float reach);
   /// Marks the tiles along a line.
   void markLine(float x0, float y0, float x1, float y1, float reach);
   void markAll();
   bool marked(int column, int row) const { return m_marks[static_cast<size_t>(row * m_columns + column)] != 0; }
-  /// Two triangles for each run of tiles in a row.
-  std::vector<Corner> triangles() const;
+  /// Two triangles for each run of tiles in a row, in place of what `out` held.
+  void triangles(std::vector<Corner>& out) const;
 
  private:
-  int m_width, m_height, m_columns, m_rows;
+  int m_width = 0, m_height = 0, m_columns = 0, m_rows = 0;
   std::vector<char> m_marks;
 };
 

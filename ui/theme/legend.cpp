@@ -156,6 +156,10 @@ const ColourMap& colourMap(const QString& name) {
   return found->second;
 }
 
+QRectF legendBar(const QRectF& rect) {
+  return {rect.left() + kMargin, rect.top() + kTitle + 10, kBarWidth, rect.height() - kTitle - 22};
+}
+
 QSizeF legendSize(const ColourMap& map) {
   if (!map.classes.empty()) return {92, kTitle + 10 + kClassRow * static_cast<double>(map.classes.size())};
   return {92, kTitle + 8 + kBarHeight + 14};
@@ -187,7 +191,7 @@ void paintLegend(QPainter& painter, const QRectF& rect, const ColourMap& map, st
     painter.restore();
     return;
   }
-  const QRectF bar(rect.left() + kMargin, rect.top() + kTitle + 10, kBarWidth, rect.height() - kTitle - 22);
+  const QRectF bar = legendBar(rect);
   QLinearGradient gradient(bar.bottomLeft(), bar.topLeft());
   for (const auto& [position, colour] : map.stops) gradient.setColorAt(position, colour);
   painter.setRenderHint(QPainter::Antialiasing);

@@ -30,6 +30,8 @@ struct LegendMark {
   QString label;
 };
 
+/// The gradient inside a legend's rectangle, from the range's upper end at its top to the lower one at its bottom.
+QRectF legendBar(const QRectF& rect);
 /// Size that paintLegend wants, in logical pixels.
 QSizeF legendSize(const ColourMap& map);
 

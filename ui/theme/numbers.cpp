@@ -236,6 +236,11 @@ QString formatFixed(double value, int decimals) {
   return std::isfinite(value) ? dressed(digits(value, std::chars_format::fixed, decimals)) : QStringLiteral("—");
 }
 
+QString formatError(double relative) {
+  const double size = std::abs(relative);
+  return size > 0 && size < 1e-9 ? QStringLiteral("< 10⁻⁹") : formatShort(size, 1);
+}
+
 QString formatQuantity(double value, const QString& unit, int significant) {
   const QString number = formatShort(value, significant);
   return unit.isEmpty() ? number : number + QLatin1Char(' ') + unit;

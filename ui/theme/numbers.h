@@ -20,6 +20,10 @@ QString formatFixed(double value, int decimals = 0);
 /// formatShort with the unit after a space: "120 °C".
 QString formatQuantity(double value, const QString& unit, int significant = 4);
 
+/// A relative error, whatever its sign, to one digit: "3 × 10⁻⁶". Below 10⁻⁹ it is rounding and its digits say
+/// nothing: "< 10⁻⁹".
+QString formatError(double relative);
+
 /// Stored (SI) value as people see it, and back.
 double toDisplay(const api::ParameterDeclaration& declaration, double stored);
 double fromDisplay(const api::ParameterDeclaration& declaration, double shown);

@@ -30,7 +30,24 @@ std::pair<double, double> rounded(ColourBy colour, std::pair<double, double> mea
 
 }  // namespace
 
+void LegendRange::moveEnd(bool upper, double share) {
+  if (!m_valid) return;
+  const double width = m_range.second - m_range.first;
+  const double step = roundUp(width / 200);
+  double& end = upper ? m_range.second : m_range.first;
+  // Temperatures are round in degrees Celsius.
+  const double zero = m_colour == ColourBy::Temperature ? 273.15 : 0;
+  end = zero + step * std::round((end + share * width - zero) / step);
+  if (upper)
+    end = std::max(end, m_range.first + 5 * step);
+  else
+    end = std::min(end, m_range.second - 5 * step);
+  m_set = true;
+}
+
 std::pair<double, double> LegendRange::update(ColourBy colour, std::pair<double, double> measured) {
+  if (m_set && colour == m_colour) return m_range;
+  m_set = false;
   const auto wanted = rounded(colour, measured);
   const bool fits = m_valid && colour == m_colour && wanted.first >= m_range.first && wanted.second <= m_range.second;
   if (!fits || wanted.second - wanted.first < 0.5 * (m_range.second - m_range.first)) m_range = wanted;

@@ -6,15 +6,18 @@
 
 namespace ps {
 
-/// Automatic range of the colour map that does not twitch: ends lie on round numbers, and the range shrinks only when
-/// what is there fills less than half of it. SI units.
+/// Range of the colour map, automatic until somebody sets it. An automatic one does not twitch: its ends lie on round
+/// numbers, and it shrinks only when what is there fills less than half of it. SI units.
 class LegendRange {
  public:
   std::pair<double, double> update(ColourBy colour, std::pair<double, double> measured);
-  void reset() { m_valid = false; }
+  /// Moves one end of the range in force by a share of its width, to a round value; it stays on its side of the other.
+  void moveEnd(bool upper, double share);
+  bool isSet() const { return m_set; }
+  void reset() { m_valid = m_set = false; }  ///< automatic again, from nothing
 
  private:
-  bool m_valid = false;
+  bool m_valid = false, m_set = false;
   ColourBy m_colour = ColourBy::Material;
   std::pair<double, double> m_range{0, 0};
 };

@@ -58,13 +58,15 @@ void paintScaleBar(QPainter& painter, const OverlayState& state) {
 
 QString mapName(ColourBy colour) { return QString::fromLatin1(colourName(colour)); }
 
-void paintLegendOver(QPainter& painter, const OverlayState& state) {
+void paintLegendOver(QPainter& painter, const OverlayState& state, OverlayHits& hits) {
   if (state.colour == ColourBy::Material || state.empty) return;
   const ColourMap& map = colourMap(mapName(state.colour));
   const QSizeF size = legendSize(map);
   const QRectF rect(state.size.width() - kMargin - size.width(), state.size.height() - kMargin - size.height(),
                     size.width(), size.height());
   if (rect.top() < 100) return;  // too little room
+  hits.legend = rect;
+  if (map.classes.empty()) hits.legendBar = legendBar(rect);
   std::pair<double, double> range = state.range;
   std::vector<LegendMark> marks;
   QString unit;
@@ -131,7 +133,6 @@ QRectF paintHint(QPainter& painter, const OverlayState& state) {
 void paintBall(QPainter& painter, const OverlayState& state, OverlayHits& hits) {
   constexpr double kRadius = 33, kArm = 23, kDot = 7.5;
   const QPointF centre(state.size.width() - kMargin - kRadius, kMargin + kRadius);
-  hits.ball = QRectF(centre.x() - kRadius, centre.y() - kRadius, 2 * kRadius, 2 * kRadius);
   const Theme& theme = Theme::current();
   painter.setPen(QPen(theme[Token::Line], 1));
   painter.setBrush(theme[Token::Overlay]);
@@ -315,7 +316,7 @@ OverlayHits paintOverlays(QPainter& painter, const OverlayState& state) {
   if (state.tag) paintTag(painter, state, *state.tag);
   paintViewLabel(painter, state);
   paintScaleBar(painter, state);
-  paintLegendOver(painter, state);
+  paintLegendOver(painter, state, hits);
   if (state.hint) hits.hintClose = paintHint(painter, state);
   paintBall(painter, state, hits);
   if (!state.message.isEmpty()) paintMessage(painter, state.size, {}, state.message);

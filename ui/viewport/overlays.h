@@ -53,7 +53,8 @@ struct OverlayHits {
     double azimuth, elevation;
   };
   std::vector<Axis> axes;
-  QRectF ball;
+  QRectF legend;     ///< empty: there is none
+  QRectF legendBar;  ///< its gradient; empty where colours are classes
 };
 
 /// Paints legend, view label, scale bar, hint strip, axis ball, tags and the brush's true volume.

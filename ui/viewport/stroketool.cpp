@@ -5,6 +5,7 @@
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
 #include "ui/document/scenelink.h"
+#include "ui/theme/numbers.h"
 
 #include <algorithm>
 #include <cctype>
@@ -23,10 +24,11 @@ const SceneMaterial* sceneMaterial(const Project& project, const std::string& id
 }
 
 /// A body that takes more of the same matter: sketched, free, of one material at one temperature.
-bool takesMore(const Body& body, const std::string& material, double temperature, const Vec3& origin) {
+bool takesMore(const Body& body, const std::string& material, double temperature, const SketchGrid& grid) {
   const auto* voxels = std::get_if<VoxelShape>(&body.shape);
-  return voxels && !body.locked && body.visible && voxels->palette.size() == 1 && voxels->origin == origin &&
-         voxels->palette[0].material == material && voxels->palette[0].temperature == temperature;
+  return voxels && !body.locked && body.visible && voxels->palette.size() == 1 && voxels->origin == grid.origin &&
+         voxels->spacing == grid.spacing && voxels->palette[0].material == material &&
+         voxels->palette[0].temperature == temperature;
 }
 
 }  // namespace
@@ -71,7 +73,7 @@ Body StrokeTool::paintedBody(const BrushSettings& brush, int& palette) const {
   const SceneMaterial* material = sceneMaterial(project, brush.material);
   palette = 0;
   for (const Body& body : project.bodies) {
-    if (takesMore(body, material->id, brush.temperature, m_setup.grid.origin)) return body;
+    if (takesMore(body, material->id, brush.temperature, m_setup.grid)) return body;
   }
   Body body;
   body.id = m_document->freeBodyId("sketch-" + material->id);
@@ -82,6 +84,7 @@ Body StrokeTool::paintedBody(const BrushSettings& brush, int& palette) const {
   body.parameters.values["temperature"] = brush.temperature;
   VoxelShape voxels;
   voxels.origin = m_setup.grid.origin;
+  voxels.spacing = m_setup.grid.spacing;
   voxels.palette.push_back({material->id, brush.temperature, {}});
   body.shape = voxels;
   const Value melts = valueAt(project, m_document->plugins(), {"material", material->id, "melting_temperature"});
@@ -91,7 +94,7 @@ Body StrokeTool::paintedBody(const BrushSettings& brush, int& palette) const {
   return body;
 }
 
-QString StrokeTool::begin(const BrushSettings& brush, bool erase, bool atStart, const Vec3& point) {
+QString StrokeTool::whyNot(const BrushSettings& brush, bool erase, const Snapshot& now) const {
   if (!m_document || !m_document->plugins()) return QStringLiteral("Plugins are still being loaded.");
   if (!m_document->plugins()->brush(brush.shape)) {
     return QStringLiteral("The brush “%1” is not installed. See Plugins.").arg(QString::fromStdString(brush.shape));
@@ -99,22 +102,39 @@ QString StrokeTool::begin(const BrushSettings& brush, bool erase, bool atStart, 
   if (!erase && m_document->project().materials.empty()) {
     return QStringLiteral("The scene has no material to draw with. Add one under Materials.");
   }
+  if (now.spacing > 0 && now.spacing != spacing()) {
+    return QStringLiteral("The particle spacing of %1 acts at the next reset. Press Home first, or undo the change.")
+        .arg(lengthText(spacing()));
+  }
+  const Vec3 half = extent(brush);
+  const double cells = 8 * half[0] * half[1] * half[2] / std::pow(spacing(), 3);
+  if (cells > kMaximumStamp) {
+    return QStringLiteral(
+               "One stamp of this brush would hold up to %1 particles, more than can be drawn at a time. "
+               "Make the brush smaller, or the particle spacing larger.")
+        .arg(formatFixed(cells));
+  }
+  return {};
+}
+
+QString StrokeTool::begin(const BrushSettings& brush, bool erase, const Snapshot& now, const Vec3& point) {
+  if (const QString problem = whyNot(brush, erase, now); !problem.isEmpty()) return problem;
   m_brush = brush;
-  m_atStart = atStart;
+  m_atStart = now.stats.frame == 0;
   m_setup = setup(brush);
   m_resampler = std::make_unique<StrokeResampler>(m_setup.grid.spacing);
   m_cells = {};
   m_record = std::make_shared<StrokeRecord>();
   m_record->erase = erase;
   m_record->lattice.origin = m_setup.grid.origin;
+  m_record->lattice.spacing = m_setup.grid.spacing;
   m_stroke = {};
   m_stroke.brush = brush.shape;
   m_stroke.erase = erase;
   m_stroke.radius = brush.radius;
   if (!erase) {
-    m_body = paintedBody(brush, m_record->palette);
-    m_newBody = m_document->body(m_body.id) == nullptr;
-    m_record->body = m_body.id;
+    m_body = std::make_shared<const Body>(paintedBody(brush, m_record->palette));
+    m_record->body = m_body->id;
     m_stroke.palette = m_record->palette;
   }
   return move(point, 0);
@@ -123,7 +143,20 @@ QString StrokeTool::begin(const BrushSettings& brush, bool erase, bool atStart, 
 QString StrokeTool::move(const Vec3& point, double seconds) {
   if (!m_record) return {};
   m_stroke.samples.push_back({point[0], point[1], point[2], 1, seconds});
-  return feed(m_resampler->add({{point[0], point[1], point[2]}, 1, seconds}));
+  return guarded([&] { feed(m_resampler->add({{point[0], point[1], point[2]}, 1, seconds})); });
+}
+
+template <class Work>
+QString StrokeTool::guarded(Work work) const {
+  try {
+    work();
+    return {};
+  } catch (const std::exception& error) {
+    return QString::fromUtf8(error.what());
+  } catch (...) {  // a brush is somebody else's code
+    return QStringLiteral("The brush “%1” failed and did not say why. See Plugins.")
+        .arg(QString::fromStdString(m_brush.shape));
+  }
 }
 
 bool StrokeTool::isInside(const api::Cell& cell) const {
@@ -142,20 +175,15 @@ bool StrokeTool::isInside(const api::Cell& cell) const {
   return true;
 }
 
-QString StrokeTool::feed(const std::vector<api::StrokeSample>& samples) {
+void StrokeTool::feed(const std::vector<api::StrokeSample>& samples) {
   const api::BrushPlugin* plugin = m_document->plugins()->brush(m_brush.shape);
-  if (samples.empty() || !plugin) return {};
-  StrokeEdits edits;
-  try {
-    edits = applyBrush(*plugin, m_setup, api::EditKind::Add, samples);
-  } catch (const std::exception& error) {
-    return QString::fromUtf8(error.what());
-  }
+  if (samples.empty() || !plugin) return;
+  const StrokeEdits edits = applyBrush(*plugin, m_setup, api::EditKind::Add, samples);
   std::vector<api::Cell> fresh;
   for (const api::Cell& cell : edits.added.cells()) {
     if (!m_cells.contains(cell) && (m_record->erase || isInside(cell))) fresh.push_back(cell);
   }
-  if (fresh.empty()) return {};
+  if (fresh.empty()) return;
   m_cells.add(fresh);
   const std::vector<std::array<int, 3>> cells = CellSet(fresh).indices();
   if (m_record->erase) {
@@ -163,40 +191,31 @@ QString StrokeTool::feed(const std::vector<api::StrokeSample>& samples) {
   } else {
     m_link->paint(*m_record, m_body, cells);
   }
-  return {};
 }
 
-void StrokeTool::collectErasure() {
+void StrokeTool::collectErasure(StrokeRecord& record) const {
   const Project& project = m_document->project();
   for (size_t i = 0; i < project.bodies.size(); ++i) {
-    const Body& body = project.bodies[i];
-    if (body.locked) continue;
-    bool changed = false;
-    std::optional<Body> rest = withoutCells(body, m_record->lattice, m_record->cells, m_setup.grid.spacing, changed);
-    if (changed) m_record->edits.push_back({body.id, body, std::move(rest), i});
+    if (project.bodies[i].locked) continue;
+    auto edit = eraseEdit(project.bodies[i], i, record.lattice, record.cells);
+    if (edit) record.edits.push_back(std::move(*edit));
   }
 }
 
 void StrokeTool::finish() {
   if (!m_record) return;
-  feed(m_resampler->finish());
+  guarded([&] { feed(m_resampler->finish()); });  // what came so far stays
   const std::shared_ptr<StrokeRecord> record = std::move(m_record);
   m_record.reset();
   if (m_cells.empty()) return;
   record->cells = m_cells.indices();
-  if (record->erase) {
+  const Project& project = m_document->project();
+  if (!record->erase) {
+    const auto free = freeAtStart(project, m_body->id, record->lattice, record->cells);
+    record->edits.push_back(paintEdit(project, *m_body, free, record->palette, m_stroke));
+  } else if (m_atStart) {
     // Before the first step matter stands where its body put it, so that the bodies themselves can be carved.
-    m_record = record;
-    if (m_atStart) collectErasure();
-    m_record.reset();
-  } else {
-    const Body* before = m_document->body(m_body.id);
-    BodyEdit edit{m_body.id, before ? std::optional<Body>(*before) : std::nullopt,
-                  withCells(before ? *before : m_body,
-                            freeAtStart(m_document->project(), m_body.id, record->lattice, record->cells),
-                            record->palette, m_stroke),
-                  m_document->project().bodies.size()};
-    record->edits.push_back(std::move(edit));
+    collectErasure(*record);
   }
   m_document->addStroke(record);
 }

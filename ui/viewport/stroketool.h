@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "core/simulation/snapshot.h"
 #include "core/sketch/cellset.h"
 #include "core/sketch/drawingplane.h"
 #include "core/sketch/stroke.h"
@@ -15,14 +16,17 @@ namespace ps {
 class Document;
 class SceneLink;
 
+/// Cells that the box around one stamp of a brush may hold: what can be stamped at every movement of the pointer.
+inline constexpr double kMaximumStamp = 32768;
+
 /// A stroke in the making: takes the pointer's places, lets the brush plugin turn them into cells, sends new cells
 /// straight to the engine, and hands the document one command at the end.
 class StrokeTool {
  public:
   void attach(Document* document, SceneLink* link);
 
-  /// "" or why no stroke can begin ("The cube brush is not installed…").
-  QString begin(const BrushSettings& brush, bool erase, bool atStart, const Vec3& point);
+  /// "" or why no stroke can begin ("The cube brush is not installed…"). `now`: the scene as it is drawn on.
+  QString begin(const BrushSettings& brush, bool erase, const Snapshot& now, const Vec3& point);
   /// "" or what went wrong; the stroke then ends as far as it came.
   QString move(const Vec3& point, double seconds);
   void finish();
@@ -34,19 +38,22 @@ class StrokeTool {
   Vec3 extent(const BrushSettings& brush) const;
 
  private:
+  QString whyNot(const BrushSettings& brush, bool erase, const Snapshot& now) const;
   Body paintedBody(const BrushSettings& brush, int& palette) const;
-  QString feed(const std::vector<api::StrokeSample>& samples);
+  void feed(const std::vector<api::StrokeSample>& samples);
+  template <class Work>
+  QString guarded(Work work) const;  ///< "" or what a brush threw
   bool isInside(const api::Cell& cell) const;
   StrokeSetup setup(const BrushSettings& brush) const;
   double spacing() const;
-  void collectErasure();
+  void collectErasure(StrokeRecord& record) const;
 
   Document* m_document = nullptr;
   SceneLink* m_link = nullptr;
   BrushSettings m_brush;
   std::shared_ptr<StrokeRecord> m_record;
-  Body m_body;
-  bool m_newBody = false, m_atStart = false;
+  std::shared_ptr<const Body> m_body;  ///< that an adding stroke paints, as it was before
+  bool m_atStart = false;
   std::unique_ptr<StrokeResampler> m_resampler;
   StrokeSetup m_setup;
   CellSet m_cells;

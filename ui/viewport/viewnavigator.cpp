@@ -68,6 +68,7 @@ void ViewNavigator::frame(const std::pair<Vec3, Vec3>& box) {
 
 void ViewNavigator::look(double azimuth, double elevation) {
   remember();
+  m_name.clear();
   m_camera.azimuth = azimuth;
   m_camera.elevation = elevation;
 }

@@ -24,6 +24,7 @@ constexpr int kMajor = 4, kMinor = 3;
 }  // namespace
 
 Viewport::Viewport(QWidget* parent) : QOpenGLWidget(parent) {
+  installAccessibility();
   setMouseTracking(true);
   setFocusPolicy(Qt::StrongFocus);
   setMinimumSize(480, 300);
@@ -34,7 +35,11 @@ Viewport::Viewport(QWidget* parent) : QOpenGLWidget(parent) {
   connect(&m_paintTimer, &QTimer::timeout, this, qOverload<>(&QWidget::update));
 }
 
-Viewport::~Viewport() { releaseGl(); }
+Viewport::~Viewport() {
+  // The context goes with the base class, after this: it must not call a member then.
+  if (context()) disconnect(context(), nullptr, this, nullptr);
+  releaseGl();
+}
 
 void Viewport::releaseGl() {
   if (!m_renderer) return;
@@ -44,9 +49,16 @@ void Viewport::releaseGl() {
 }
 
 void Viewport::attach(Document* document, EngineThread* engine, SceneLink* link) {
+  if (m_document) disconnect(&m_document->undoStack(), nullptr, this, nullptr);
   m_document = document;
   m_engine = engine;
   m_stroke.attach(document, link);
+  // A stroke in the making builds on the document as it was when it began.
+  if (document) {
+    connect(&document->undoStack(), &QUndoStack::indexChanged, this, [this] {
+      if (m_stroke.active()) cancelGesture();
+    });
+  }
   if (!engine) m_now = m_previous = nullptr;
 }
 
@@ -108,7 +120,23 @@ RenderOptions Viewport::renderOptions() {
   options.rangeMaximum = m_range.second;
   options.dark = Theme::current().dark();
   options.meltingPoint = m_meltingPoint;
+  options.outline = outline();
   return options;
+}
+
+/// Around the selected body, two logical pixels wide.
+std::optional<BodyOutline> Viewport::outline() const {
+  if (m_selectedBody.empty() || !m_now || !m_now->bodyIds) return std::nullopt;
+  const auto found = std::find(m_now->bodyIds->begin(), m_now->bodyIds->end(), m_selectedBody);
+  if (found == m_now->bodyIds->end()) return std::nullopt;
+  const auto channels = [](const QColor& c) { return std::array{c.redF(), c.greenF(), c.blueF()}; };
+  BodyOutline outline;
+  outline.body = static_cast<uint32_t>(found - m_now->bodyIds->begin());
+  outline.colour = channels(Theme::current()[Token::Accent]);
+  outline.halo = channels(Theme::current()[Token::Shadow]);
+  outline.lineWidth *= static_cast<float>(devicePixelRatioF());
+  outline.haloWidth *= static_cast<float>(devicePixelRatioF());
+  return outline;
 }
 
 void Viewport::paintGL() {
@@ -213,6 +241,7 @@ void Viewport::setTool(ViewTool tool) {
     updateCursor(mapFromGlobal(QCursor::pos()), {});
   }
   update();
+  announce();
   Q_EMIT toolChanged(tool);
 }
 
@@ -221,6 +250,7 @@ void Viewport::setBrush(const BrushSettings& brush) {
   m_brush = brush;
   if (m_cursor) m_cursor->extent = brushExtent();
   update();
+  announce();
   Q_EMIT brushChanged();
 }
 

@@ -56,6 +56,10 @@ class Viewport : public QOpenGLWidget {
   /// "" or why there is no picture.
   const QString& problem() const { return m_problem; }
   double drawMilliseconds() const { return m_drawCost; }
+  const OverlayHits& overlayHits() const { return m_hits; }  ///< as painted last
+  std::pair<double, double> legendRange() const { return m_range; }
+  /// Tool, brush and what is marked, in words: what a screen reader says.
+  QString summary() const;
   /// Phase marks of the legend: of the first material in the scene.
   void setTransitions(double meltingPoint, double boilingPoint);
 
@@ -63,30 +67,32 @@ class Viewport : public QOpenGLWidget {
   void bodyPicked(const std::string& id);  ///< "" for none
   void toolChanged(ps::ViewTool tool);
   void brushChanged();
-  void hintClosed();
   void strokeRefused(const QString& why);
   void viewMenuRequested(const QPoint& global);
   void glReady(const QString& description);
   void glFailed(const QString& problem);
 
  protected:
+  bool event(QEvent* event) override;
   void initializeGL() override;
   void paintGL() override;
   void mousePressEvent(QMouseEvent* event) override;
   void mouseMoveEvent(QMouseEvent* event) override;
   void mouseReleaseEvent(QMouseEvent* event) override;
+  void mouseDoubleClickEvent(QMouseEvent* event) override;
   void wheelEvent(QWheelEvent* event) override;
   void leaveEvent(QEvent* event) override;
   void resizeEvent(QResizeEvent* event) override;
 
  private:
-  enum class Drag { None, Orbit, Pan, Dolly, Stroke, Click };
+  enum class Drag { None, Orbit, Pan, Dolly, Stroke, Click, LegendHigh, LegendLow };
   Drag dragFor(const QMouseEvent& event) const;
   void releaseGl();
   void requestPaint();
   double blend() const;
   OverlayState overlayState() const;
   RenderOptions renderOptions();
+  std::optional<BodyOutline> outline() const;
   std::optional<SceneTag> tag() const;
   std::optional<std::pair<Vec3, Vec3>> boxOf(const std::string& body) const;
   void pick(const QPointF& position);
@@ -95,9 +101,12 @@ class Viewport : public QOpenGLWidget {
   std::optional<Vec3> strokePoint(const QPointF& position);
   Vec3 brushExtent() const;
   void updateCursor(const QPointF& position, Qt::KeyboardModifiers modifiers);
+  void updatePointer(const QPointF& position);
+  Drag legendEndAt(const QPointF& position) const;  ///< None: there is no end of the legend
+  static void installAccessibility();               ///< may be called often
+  void announce();                                  ///< tells assistive technology of another summary()
   void beginStroke(const QMouseEvent& event);
   double floorHeight() const;
-  bool atStart() const;
   void storeView();
 
   Document* m_document = nullptr;
@@ -128,6 +137,7 @@ class Viewport : public QOpenGLWidget {
   Drag m_drag = Drag::None;
   QPointF m_pressed, m_last;
   Camera m_before;
+  LegendRange m_legendBefore;
 
   QTimer m_paintTimer;
   QElapsedTimer m_sinceSnapshot, m_sincePaint;

@@ -14,6 +14,7 @@ namespace ps {
 namespace {
 constexpr double kClick = 4;  // pixels that a click may wander
 constexpr double kNotch = 120;
+constexpr double kEnd = 9;  // pixels around an end of the legend that take hold of it
 }  // namespace
 
 Viewport::Drag Viewport::dragFor(const QMouseEvent& event) const {
@@ -28,11 +29,12 @@ Viewport::Drag Viewport::dragFor(const QMouseEvent& event) const {
 
 void Viewport::mousePressEvent(QMouseEvent* event) {
   setFocus(Qt::MouseFocusReason);
-  if (event->button() == Qt::LeftButton && clickOverlay(event->position())) return;
   if (m_drag != Drag::None) return;  // a second button changes nothing
-  m_drag = dragFor(*event);
   m_pressed = m_last = event->position();
   m_before = m_navigator.camera();
+  m_legendBefore = m_legendRange;
+  if (event->button() == Qt::LeftButton && clickOverlay(event->position())) return;
+  m_drag = dragFor(*event);
   if (m_drag == Drag::Stroke) beginStroke(*event);
 }
 
@@ -50,16 +52,23 @@ void Viewport::mouseMoveEvent(QMouseEvent* event) {
     m_navigator.panBy(step);
   } else if (m_drag == Drag::Dolly) {
     m_navigator.dollyBy(step.y());
+  } else if (m_drag == Drag::LegendHigh || m_drag == Drag::LegendLow) {
+    m_legendRange = m_legendBefore;
+    m_legendRange.moveEnd(m_drag == Drag::LegendHigh, (m_pressed.y() - position.y()) / m_hits.legendBar.height());
   } else if (m_drag == Drag::Stroke) {
     const auto point = strokePoint(position);
     if (!point) return;
     if (m_cursor) m_cursor->centre = *point;
     const QString problem = m_stroke.move(*point, static_cast<double>(m_strokeClock.elapsed()) / 1000);
-    if (!problem.isEmpty()) Q_EMIT strokeRefused(problem);
-  } else if (m_tool != ViewTool::Select) {
-    updateCursor(position, event->modifiers());
+    if (!problem.isEmpty()) {
+      m_drag = Drag::None;
+      m_stroke.finish();  // as far as it came
+      Q_EMIT strokeRefused(problem);
+    }
   } else {
-    return;
+    updatePointer(position);
+    if (m_tool == ViewTool::Select) return;
+    updateCursor(position, event->modifiers());
   }
   requestPaint();
 }
@@ -76,10 +85,38 @@ void Viewport::mouseReleaseEvent(QMouseEvent* event) {
     m_stroke.finish();
   } else if (drag == Drag::Dolly && still) {
     Q_EMIT viewMenuRequested(event->globalPosition().toPoint());
-  } else {
+  } else if (drag == Drag::Orbit || drag == Drag::Pan || drag == Drag::Dolly) {
     storeView();
   }
   update();
+}
+
+void Viewport::mouseDoubleClickEvent(QMouseEvent* event) {
+  if (event->button() != Qt::LeftButton || !m_hits.legend.contains(event->position())) {
+    mousePressEvent(event);
+    return;
+  }
+  m_legendRange.reset();
+  update();
+}
+
+Viewport::Drag Viewport::legendEndAt(const QPointF& position) const {
+  const QRectF& legend = m_hits.legend;
+  const QRectF& bar = m_hits.legendBar;
+  if (bar.isEmpty() || position.x() < legend.left() || position.x() > legend.right()) return Drag::None;
+  if (std::abs(position.y() - bar.top()) < kEnd) return Drag::LegendHigh;
+  return std::abs(position.y() - bar.bottom()) < kEnd ? Drag::LegendLow : Drag::None;
+}
+
+/// The shape of the pointer; while drawing, the brush itself is the pointer.
+void Viewport::updatePointer(const QPointF& position) {
+  if (legendEndAt(position) != Drag::None) {
+    setCursor(Qt::SizeVerCursor);
+  } else if (m_tool == ViewTool::Select || m_hits.legend.contains(position)) {
+    setCursor(Qt::ArrowCursor);
+  } else {
+    setCursor(Qt::BlankCursor);
+  }
 }
 
 void Viewport::wheelEvent(QWheelEvent* event) {
@@ -99,6 +136,7 @@ void Viewport::leaveEvent(QEvent* event) {
 bool Viewport::cancelGesture() {
   const bool busy = m_drag != Drag::None || m_stroke.active();
   if (m_drag == Drag::Orbit || m_drag == Drag::Pan || m_drag == Drag::Dolly) m_navigator.restore(m_before);
+  if (m_drag == Drag::LegendHigh || m_drag == Drag::LegendLow) m_legendRange = m_legendBefore;
   m_stroke.cancel();
   m_drag = Drag::None;
   update();
@@ -108,7 +146,10 @@ bool Viewport::cancelGesture() {
 bool Viewport::clickOverlay(const QPointF& position) {
   if (m_hint && m_hits.hintClose.contains(position)) {
     setHintShown(false);
-    Q_EMIT hintClosed();
+    return true;
+  }
+  if (m_hits.legend.contains(position)) {
+    m_drag = legendEndAt(position);
     return true;
   }
   for (const OverlayHits::Axis& axis : m_hits.axes) {
@@ -134,6 +175,7 @@ void Viewport::pick(const QPointF& position) {
     }
   }
   m_selectedBody = id;
+  announce();
   Q_EMIT bodyPicked(id);
 }
 
@@ -145,8 +187,6 @@ double Viewport::floorHeight() const {
   }
   return height;
 }
-
-bool Viewport::atStart() const { return m_now && m_now->stats.frame == 0; }
 
 std::optional<Vec3> Viewport::surfaceAt(const QPointF& position) const {
   const Camera& camera = m_navigator.camera();
@@ -202,7 +242,8 @@ void Viewport::beginStroke(const QMouseEvent& event) {
     return;
   }
   m_strokeClock.start();
-  const QString problem = m_stroke.begin(m_brush, m_cursor->erase, atStart(), m_cursor->centre);
+  static const Snapshot kNothing;
+  const QString problem = m_stroke.begin(m_brush, m_cursor->erase, m_now ? *m_now : kNothing, m_cursor->centre);
   if (!problem.isEmpty()) {
     m_stroke.cancel();
     m_drag = Drag::None;

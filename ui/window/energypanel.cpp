@@ -47,7 +47,8 @@ void EnergyPanel::append(const FrameStats& stats) {
   m_graph->setPresentTime(stats.time);
   m_last = stats;
   const auto line = [](const QString& name, const QString& value) {
-    return QStringLiteral("<tr><td>%1&nbsp;&nbsp;&nbsp;</td><td align='right'>%2</td></tr>").arg(name, value);
+    return QStringLiteral("<tr><td>%1&nbsp;&nbsp;&nbsp;</td><td align='right'>%2</td></tr>")
+        .arg(name, value.toHtmlEscaped());
   };
   m_ledger->setText(QStringLiteral("<table>") +
                     line(QStringLiteral("Heat in matter"), kilojoules(stats.thermalEnergy - m_start)) +
@@ -60,8 +61,8 @@ void EnergyPanel::append(const FrameStats& stats) {
 
 QString EnergyPanel::balanceText() const {
   const double open = m_last.thermalEnergy - m_start - m_last.heat.net();
-  const double share = m_last.heat.exchanged > 0 ? std::abs(open) / m_last.heat.exchanged : 0;
-  return formatShort(std::abs(open), 2) + QStringLiteral(" J (") + formatShort(share, 1) + QStringLiteral(")");
+  const double share = m_last.heat.exchanged > 0 ? open / m_last.heat.exchanged : 0;
+  return formatShort(std::abs(open), 2) + QStringLiteral(" J (") + formatError(share) + QStringLiteral(")");
 }
 
 void EnergyPanel::clear() {

@@ -21,13 +21,6 @@ QString awayLabel(const Project& project, const Address& address, const QString&
   return ownerLabel(project, address) + QLatin1Char(' ') + label.left(1).toLower() + label.mid(1);
 }
 
-float channelOf(const Value& value) {
-  if (const auto* number = std::get_if<double>(&value)) return static_cast<float>(std::clamp(*number, 0.0, 1.0));
-  if (const auto* response = std::get_if<Response>(&value))
-    return static_cast<float>(std::clamp(response->at(293.15), 0.0, 1.0));
-  return 0.5F;
-}
-
 QString gradeText(const PluginRegistry* plugins, const std::string& base) {
   const Material* material = plugins ? plugins->material(base) : nullptr;
   if (!material || material->provenance.empty()) return {};
@@ -170,13 +163,11 @@ void Inspector::rebuildMaterial() {
   for (const Body& body : project.bodies) {
     if (body.material == material->id) bodies << QString::fromStdString(body.name);
   }
-  const auto channel = [&](const char* key) { return channelOf(m_document.value({"material", material->id, key})); };
   m_material->setHeader(QString::fromStdString(material->label.empty() ? material->id : material->label),
                         missing
                             ? QStringLiteral("Plugin “%1” is not installed").arg(QString::fromStdString(material->base))
                             : bodies.join(QStringLiteral(", ")),
-                        gradeText(plugins, material->base),
-                        QColor::fromRgbF(channel("color_red"), channel("color_green"), channel("color_blue")));
+                        gradeText(plugins, material->base), colourOf(project, plugins, material->id));
   addRows(rows, "material", material->id, propertyCatalogue(), {}, materialDefaults(project, plugins, material->id));
   if (const api::MaterialPlugin* plugin = plugins ? plugins->materialPlugin(material->base) : nullptr) {
     addRows(rows, "material", material->id, plugin->parameters(), QString::fromUtf8(plugin->label()));
@@ -234,8 +225,10 @@ void Inspector::setMaterial(const std::string& id) {
 
 void Inspector::onChanged(const ChangeEvent& event) {
   if (const auto* parameter = std::get_if<ParameterChanged>(&event)) {
-    const QString key = QString::fromStdString(parameter->address.text());
-    for (ParameterPanel* panel : panels()) panel->setValue(key, parameter->value);
+    const Address& address = parameter->address;
+    const QString key = QString::fromStdString(address.text());
+    for (ParameterPanel* panel : panels()) panel->setValue(key, m_document.value(address));
+    if (address.owner == "material" && propertyIndex(address.key) < 0) refreshProperties(address.id);
   } else if (std::holds_alternative<ProjectOpened>(event)) {
     m_bodyId = m_document.project().bodies.empty() ? std::string() : m_document.project().bodies.front().id;
     m_materialId.clear();
@@ -243,8 +236,21 @@ void Inspector::onChanged(const ChangeEvent& event) {
     rebuild();
   } else if (std::holds_alternative<BodyChanged>(event) || std::holds_alternative<StrokeChanged>(event)) {
     rebuildBody();
-  } else if (std::holds_alternative<ViewChanged>(event)) {
+  } else if (std::holds_alternative<PinsChanged>(event)) {
     rebuildMaterial();
+  }
+}
+
+/// A material plugin's own parameter changed: every property may have another default, and another value where none is
+/// set.
+void Inspector::refreshProperties(const std::string& material) {
+  const ParameterSet defaults = materialDefaults(m_document.project(), m_document.plugins(), material);
+  const ParameterSet* own = findSet(m_document.project(), {"material", material, propertyCatalogue()[0].key});
+  if (!own) return;
+  for (const RowModel& row : rowModels(propertyCatalogue(), *own, defaults,
+                                       QStringLiteral("material/%1/").arg(QString::fromStdString(material)))) {
+    m_material->setDefaultValue(row.key, row.defaultValue);
+    m_material->setValue(row.key, row.value);
   }
 }
 

@@ -43,6 +43,7 @@ class Inspector : public QObject {
   void onLink(const QString& key, const QString& link);
   void rebuildBody();
   void rebuildMaterial();
+  void refreshProperties(const std::string& material);
   void rebuildScene();
   void rebuildSolver();
   /// Rows of one owner; a group of its own replaces the declarations' groups.

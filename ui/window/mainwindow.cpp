@@ -21,6 +21,7 @@
 #include "ui/window/statusline.h"
 #include "ui/window/topbar.h"
 #include "ui/window/transport.h"
+#include "ui/window/viewmenu.h"
 #include "ui/window/viewportpane.h"
 #include "ui/window/wording.h"
 
@@ -139,6 +140,7 @@ void MainWindow::connectPanels() {
   m_pane->setBrush(view->brush());
   connect(view, &Viewport::bodyPicked, this, &MainWindow::selectBody);
   connect(view, &Viewport::toolChanged, this, &MainWindow::setTool);
+  connect(view, &Viewport::viewMenuRequested, this, [this](const QPoint& global) { openViewMenu(*this, global); });
   connect(view, &Viewport::strokeRefused, this, [this](const QString& why) {
     notice()->show(QStringLiteral("stroke"), MessageLevel::Warning, QStringLiteral("Nothing was drawn."), why);
     m_session->log().add(MessageLevel::Warning, QStringLiteral("Brush"), why);

@@ -160,6 +160,9 @@ void MainWindow::makeEditMenu() {
   menu->addSeparator();
   add(menu, QStringLiteral("edit.rename"), QStringLiteral("Rename body"), {QKeySequence(QStringLiteral("F2"))},
       [this] { m_outliner->renameSelected(); });
+  add(menu, QStringLiteral("edit.visible"), QStringLiteral("Show or hide body"), {},
+      [this] { m_outliner->toggleVisible(); });
+  add(menu, QStringLiteral("edit.locked"), QStringLiteral("Lock body"), {}, [this] { m_outliner->toggleLocked(); });
   menu->addSeparator();
   menu->addAction(action(QStringLiteral("edit.search")));
 }

@@ -10,6 +10,7 @@
 #include <QtGui/QMouseEvent>
 #include <QtGui/QPainter>
 #include <QtGui/QRadialGradient>
+#include <QtWidgets/QAccessibleWidget>
 
 #include <algorithm>
 
@@ -28,16 +29,29 @@ void paintBall(QPainter& painter, const QRectF& rect, const QColor& colour) {
   painter.drawEllipse(rect);
 }
 
-float channelOf(const Value& value) {
-  if (const auto* number = std::get_if<double>(&value)) return static_cast<float>(std::clamp(*number, 0.0, 1.0));
-  if (const auto* response = std::get_if<Response>(&value))
-    return static_cast<float>(std::clamp(response->at(293.15), 0.0, 1.0));
-  return 0.5F;
+class MaterialsAccessible final : public QAccessibleWidget {
+ public:
+  explicit MaterialsAccessible(MaterialsPanel* panel) : QAccessibleWidget(panel, QAccessible::List) {}
+  QString text(QAccessible::Text kind) const override {
+    if (kind == QAccessible::Value) return static_cast<const MaterialsPanel*>(widget())->currentLabel();
+    return QAccessibleWidget::text(kind);
+  }
+};
+
+QAccessibleInterface* makeAccessible(const QString& /*className*/, QObject* object) {
+  auto* panel = qobject_cast<MaterialsPanel*>(object);
+  return panel ? new MaterialsAccessible(panel) : nullptr;
+}
+
+void installAccessibility() {
+  static const bool installed = (QAccessible::installFactory(makeAccessible), true);
+  (void)installed;
 }
 
 }  // namespace
 
 MaterialsPanel::MaterialsPanel(Document& document, QWidget* parent) : QWidget(parent), m_document(document) {
+  installAccessibility();
   setMouseTracking(true);
   setFocusPolicy(Qt::TabFocus);
   setAccessibleName(QStringLiteral("Materials"));
@@ -48,12 +62,8 @@ void MaterialsPanel::rebuild() {
   const Project& project = m_document.project();
   const PluginRegistry* plugins = m_document.plugins();
   for (const SceneMaterial& material : project.materials) {
-    const auto channel = [&](const char* key) {
-      return channelOf(valueAt(project, plugins, {"material", material.id, key}));
-    };
     m_tiles.push_back({material.id, QString::fromStdString(material.label.empty() ? material.id : material.label),
-                       QColor::fromRgbF(channel("color_red"), channel("color_green"), channel("color_blue")),
-                       plugins && !plugins->material(material.base)});
+                       colourOf(project, plugins, material.id), plugins && !plugins->material(material.base)});
   }
   const bool known =
       std::any_of(m_tiles.begin(), m_tiles.end(), [&](const Tile& tile) { return tile.id == m_current; });
@@ -62,8 +72,18 @@ void MaterialsPanel::rebuild() {
 }
 
 void MaterialsPanel::setCurrent(const std::string& id) {
+  if (id == m_current) return;
   m_current = id;
   update();
+  if (!QAccessible::isActive()) return;
+  QAccessibleValueChangeEvent event(this, currentLabel());
+  QAccessible::updateAccessibility(&event);
+}
+
+QString MaterialsPanel::currentLabel() const {
+  const auto found =
+      std::find_if(m_tiles.begin(), m_tiles.end(), [&](const Tile& tile) { return tile.id == m_current; });
+  return found == m_tiles.end() ? QString() : found->label;
 }
 
 int MaterialsPanel::columns() const { return std::max(1, (width() - kMargin) / kTileWidth); }
@@ -111,8 +131,7 @@ void MaterialsPanel::paintEvent(QPaintEvent*) {
 }
 
 void MaterialsPanel::pick(size_t index) {
-  m_current = m_tiles[index].id;
-  update();
+  setCurrent(m_tiles[index].id);
   Q_EMIT picked(m_current);
 }
 

@@ -18,6 +18,7 @@ class MaterialsPanel : public QWidget {
   void rebuild();
   void setCurrent(const std::string& id);
   const std::string& current() const { return m_current; }
+  QString currentLabel() const;  ///< "" when there is none
   QSize sizeHint() const override { return {204, 140}; }
   QSize minimumSizeHint() const override { return {120, 90}; }
 

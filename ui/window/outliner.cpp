@@ -17,20 +17,6 @@
 #include <cmath>
 
 namespace ps {
-namespace {
-
-QColor colourOf(const Project& project, const PluginRegistry* plugins, const std::string& material) {
-  const auto channel = [&](const char* key) {
-    const Value value = valueAt(project, plugins, {"material", material, key});
-    const auto* number = std::get_if<double>(&value);
-    const auto* response = std::get_if<Response>(&value);
-    return static_cast<float>(std::clamp(number ? *number : response ? response->at(293.15) : 0.5, 0.0, 1.0));
-  };
-  return QColor::fromRgbF(channel("color_red"), channel("color_green"), channel("color_blue"));
-}
-
-}  // namespace
-
 Outliner::Outliner(Document& document, QWidget* parent)
     : QWidget(parent), m_document(document), m_model(new QStandardItemModel(this)), m_view(new QTreeView) {
   auto* column = new QVBoxLayout(this);
@@ -197,6 +183,18 @@ std::pair<OutlineKind, std::string> Outliner::selected() const {
   if (!index.isValid()) return {OutlineKind::Scene, ""};
   return {static_cast<OutlineKind>(index.data(outline::kKind).toInt()),
           index.data(outline::kId).toString().toStdString()};
+}
+
+void Outliner::toggleVisible() {
+  const auto [kind, id] = selected();
+  const Body* body = kind == OutlineKind::Body ? m_document.body(id) : nullptr;
+  if (body) m_document.setBodyVisible(id, !body->visible);
+}
+
+void Outliner::toggleLocked() {
+  const auto [kind, id] = selected();
+  const Body* body = kind == OutlineKind::Body ? m_document.body(id) : nullptr;
+  if (body) m_document.setBodyLocked(id, !body->locked);
 }
 
 void Outliner::renameSelected() {

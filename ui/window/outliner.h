@@ -36,6 +36,8 @@ class Outliner : public QWidget {
   void select(OutlineKind kind, const std::string& id);
   std::pair<OutlineKind, std::string> selected() const;
   void renameSelected();
+  void toggleVisible();  ///< of the selected body
+  void toggleLocked();
   QTreeView* view() const { return m_view; }
   QSize sizeHint() const override { return {204, 300}; }
 

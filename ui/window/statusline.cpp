@@ -75,7 +75,7 @@ std::vector<StatusLine::Part> StatusLine::leftParts() const {
   if (!m_state.graphics.isEmpty()) parts.push_back({{}, m_state.graphics});
   parts.push_back(
       {formatFixed(stats.densityErrorMean * 100, 1) + QStringLiteral(" %"), QStringLiteral("density error")});
-  parts.push_back({formatShort(std::abs(drift()), 1), QStringLiteral("energy drift")});
+  parts.push_back({formatError(drift()), QStringLiteral("energy drift")});
   return parts;
 }
 

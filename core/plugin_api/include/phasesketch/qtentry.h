@@ -8,9 +8,9 @@
 //     Q_INTERFACES(ps::api::MaterialPlugin)
 //
 // and wax.json holds {"id": "wax", "kind": "material", "api": "1.0", "version": "1.0.0", "licence": "MIT",
-// "author": "..."}. The host reads it before any code is loaded. An optional "capabilities": ["opens_energy"] lists what
-// the plugin cannot do without beyond the interface of its kind: a program that lacks one of them refuses the plugin
-// and says which. The names are in the README of the examples.
+// "author": "..."}. The host reads it before any code is loaded. An optional "capabilities": ["opens_energy"] lists
+// what the plugin cannot do without beyond the interface of its kind: a program that lacks one of them refuses the
+// plugin and says which. The names are in the README of the examples.
 #include <QObject>
 #include <QtPlugin>
 

@@ -1,0 +1,346 @@
+// SPDX-License-Identifier: Apache-2.0
+// Hands in the real window: menus of rows and of the view, strokes, legend.
+#include "core/simulation/engine.h"
+#include "ui/document/document.h"
+#include "ui/document/documentfiles.h"
+#include "ui/panels/parameterpanel.h"
+#include "ui/theme/theme.h"
+#include "ui/viewport/viewport.h"
+#include "ui/window/dock.h"
+#include "ui/window/graphspanel.h"
+#include "ui/window/inspector.h"
+#include "ui/window/mainwindow.h"
+#include "ui/window/materialspanel.h"
+#include "ui/window/noticebar.h"
+
+#include <QtCore/QTimer>
+#include <QtGui/QAccessible>
+#include <QtGui/QAction>
+#include <QtGui/QContextMenuEvent>
+#include <QtGui/QSurfaceFormat>
+#include <QtTest/QSignalSpy>
+#include <QtTest/QTest>
+#include <QtWidgets/QApplication>
+#include <QtWidgets/QMenu>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <future>
+#include <set>
+
+using namespace ps;
+
+namespace {
+
+const QString kSample = QStringLiteral(PS_SOURCE_DIR "/projects/ice-on-hot-plate.json");
+const Address kSpacing{"solver", "", "particle_spacing"};
+constexpr int kLong = 30000;  // ms; software rendering on a busy machine
+
+std::set<uint32_t> idsNow(Session& session) {
+  auto promise = std::make_shared<std::promise<std::set<uint32_t>>>();
+  auto future = promise->get_future();
+  session.engine()->post([promise](Engine& engine) {
+    const ParticleStore& store = engine.solver().particles();
+    promise->set_value({store.id(), store.id() + store.size()});
+  });
+  return future.get();
+}
+
+}  // namespace
+
+class TestInteraction : public QObject {
+  Q_OBJECT
+ private Q_SLOTS:
+  void initTestCase() {
+    Theme::apply(*qApp, true);
+    MainWindow::Options options;
+    options.project = options.sample = kSample;
+    options.restore = false;
+    options.session.autosave = false;
+    m_window = std::make_unique<MainWindow>(options);
+    m_window->resize(1280, 800);
+    m_window->show();
+    QVERIFY(QTest::qWaitForWindowExposed(m_window.get()));
+    QSignalSpy shown(m_window.get(), &MainWindow::projectShown);
+    m_window->start();
+    QVERIFY(shown.wait(kLong));
+    QApplication::setActiveWindow(m_window.get());
+  }
+
+  void init() {
+    session().pause();
+    while (document().undoStack().canUndo()) document().undoStack().undo();
+    toTheStart();
+    view()->setTool(ViewTool::Select);
+    view()->show(StandardView::Scene);
+  }
+
+  void cleanupTestCase() { m_window.reset(); }
+
+  /// The menu of a row asks for a panel made anew while the row is still on the call stack.
+  void aRowIsPinnedFromItsMenu() {
+    ParameterPanel* panel = m_window->inspector().materialPanel();
+    m_window->inspectorDock()->showPage(QStringLiteral("Material"));
+    const QString key = QStringLiteral("material/water/viscosity");
+    const auto pinned = [&] {
+      const auto rows = panel->rows();
+      return std::count_if(rows.begin(), rows.end(),
+                           [&](ParameterRow* row) { return row->model().pinned && row->key() == key; });
+    };
+    const auto choose = [&](const QString& text) {
+      QTimer::singleShot(0, m_window.get(), [text] {
+        auto* menu = qobject_cast<QMenu*>(QApplication::activePopupWidget());
+        QVERIFY(menu);
+        for (QAction* action : menu->actions()) {
+          if (action->text().startsWith(text)) menu->setActiveAction(action);
+        }
+        QTest::keyClick(menu, Qt::Key_Return);
+      });
+      ParameterRow* row = panel->row(key);
+      QContextMenuEvent ask(QContextMenuEvent::Keyboard, QPoint(20, 10), row->mapToGlobal(QPoint(20, 10)));
+      QApplication::sendEvent(row, &ask);
+    };
+    QCOMPARE(pinned(), 0);
+    choose(QStringLiteral("Pin"));
+    QCOMPARE(pinned(), 1);
+    QCOMPARE(document().project().view.pinned.back(), key.toStdString());
+    choose(QStringLiteral("Remove"));
+    QCOMPARE(pinned(), 0);
+  }
+
+  void colourLeavesThePanelsAlone() {
+    const ParameterRow* row = m_window->inspector().materialPanel()->row(QStringLiteral("material/water/viscosity"));
+    m_window->action(QStringLiteral("view.colour3"))->trigger();
+    m_window->action(QStringLiteral("view.colour2"))->trigger();
+    QCOMPARE(m_window->inspector().materialPanel()->row(QStringLiteral("material/water/viscosity")), row);
+  }
+
+  /// A plugin's own parameter gives properties other defaults: their rows show and compare with those.
+  void pluginParametersRefreshProperties() {
+    const Address density{"material", "water", "density_liquid"}, maximum{"material", "water", "density_maximum"};
+    const ParameterRow* row = m_window->inspector().materialPanel()->row(QString::fromStdString(density.text()));
+    QVERIFY(row && std::holds_alternative<Response>(row->model().value));
+    const Value with = row->model().value;
+    QCOMPARE(document().setParameter(maximum, false), QString());
+    QVERIFY(!(row->model().value == with));
+    QVERIFY(row->model().value == document().value(density));
+    QVERIFY(!row->isChanged());
+    document().undoStack().undo();
+    QVERIFY(row->model().value == with);
+  }
+
+  /// A right click that does not drag opens the menu of the view; its entries are the window's actions.
+  void theViewHasAMenu() {
+    QTest::mouseClick(view(), Qt::RightButton, {}, QPoint(view()->width() / 2, view()->height() / 3));
+    const auto* menu = qobject_cast<QMenu*>(QApplication::activePopupWidget());
+    QVERIFY(menu);
+    QStringList texts;
+    for (const QAction* action : menu->actions()) {
+      texts << action->text();
+      if (!action->menu()) continue;
+      for (QAction* entry : action->menu()->actions()) texts << entry->text();
+      if (action->text() == QStringLiteral("Look from")) action->menu()->actions()[2]->trigger();
+    }
+    for (const char* text : {"Frame selection", "Frame all", "Look from", "Top", "Colour", "Phase"})
+      QVERIFY2(texts.contains(QLatin1String(text)), text);
+    QCOMPARE(view()->navigator().camera().elevation, 90.0);
+    QApplication::activePopupWidget()->close();
+    const Camera before = view()->navigator().camera();
+    QTest::mousePress(view(), Qt::RightButton, {}, QPoint(300, 200));
+    QTest::mouseMove(view(), QPoint(300, 240));
+    QTest::mouseRelease(view(), Qt::RightButton, {}, QPoint(300, 240));
+    QVERIFY(!QApplication::activePopupWidget());
+    QVERIFY(view()->navigator().camera().distance < before.distance);
+  }
+
+  void legendEndsCanBeDragged_data() {
+    QTest::addColumn<bool>("upper");
+    QTest::newRow("upper") << true;
+    QTest::newRow("lower") << false;
+  }
+  /// A tenth of the bar is a tenth of the range; nothing else moves; a double click is automatic again.
+  void legendEndsCanBeDragged() {
+    QFETCH(bool, upper);
+    m_window->action(QStringLiteral("view.colour2"))->trigger();
+    QTRY_VERIFY_WITH_TIMEOUT(!view()->overlayHits().legendBar.isEmpty(), kLong);
+    const auto before = view()->legendRange();
+    const Camera camera = view()->navigator().camera();
+    const QRectF bar = view()->overlayHits().legendBar;
+    const QPoint end((upper ? bar.topRight() : bar.bottomRight()).toPoint() + QPoint(10, 0));
+    const int way = static_cast<int>(bar.height() / 10) * (upper ? -1 : 1);
+    const auto drag = [&](bool release) {
+      QTest::mousePress(view(), Qt::LeftButton, {}, end);
+      QTest::mouseMove(view(), end + QPoint(0, way / 2));
+      QTest::mouseMove(view(), end + QPoint(0, way));
+      if (release) QTest::mouseRelease(view(), Qt::LeftButton, {}, end + QPoint(0, way));
+    };
+    QTest::mouseMove(view(), end);
+    QTRY_COMPARE(view()->cursor().shape(), Qt::SizeVerCursor);
+    drag(true);
+    QTRY_VERIFY_WITH_TIMEOUT(view()->legendRange() != before, kLong);
+    const auto after = view()->legendRange();
+    const double width = before.second - before.first,
+                 moved = upper ? after.second - before.second : before.first - after.first;
+    QVERIFY2(std::abs(moved - width / 10) < width / 50, qPrintable(QString::number(moved)));  // a pixel, then rounding
+    QCOMPARE(upper ? after.first : after.second, upper ? before.first : before.second);
+    QCOMPARE(view()->navigator().camera().azimuth, camera.azimuth);
+    drag(false);
+    QVERIFY(view()->cancelGesture());  // Esc
+    QTest::mouseRelease(view(), Qt::LeftButton, {}, end + QPoint(0, way));
+    view()->repaint();
+    QVERIFY(view()->legendRange() == after);
+    QTest::mouseDClick(view(), Qt::LeftButton, {}, bar.center().toPoint());
+    QTRY_VERIFY_WITH_TIMEOUT(view()->legendRange() == before, kLong);
+  }
+
+  /// The ends pass one another at no drag, and stand on values that can be read.
+  void legendRangesStayInOrder() {
+    LegendRange range;
+    QVERIFY(range.update(ColourBy::Temperature, {263.15, 373.15}) == (std::pair{263.15, 373.15}));
+    range.moveEnd(false, 3);
+    const auto narrow = range.update(ColourBy::Temperature, {200, 500});
+    QVERIFY(narrow.first < narrow.second);
+    QCOMPARE(narrow.second, 373.15);
+    const double celsius = narrow.first - 273.15;
+    QVERIFY(std::abs(celsius - std::round(celsius)) < 1e-9);
+    QVERIFY(range.update(ColourBy::Speed, {0, 3}) == (std::pair{0.0, 5.0}));  // another map is automatic
+  }
+
+  /// The label names a direction only as long as one looks from there.
+  void theAxisBallTakesTheNameAway() {
+    view()->show(StandardView::Top);
+    QVERIFY(view()->navigator().viewName().startsWith(QStringLiteral("Top")));
+    view()->frameAll();
+    QVERIFY(view()->navigator().viewName().startsWith(QStringLiteral("Top")));
+    view()->repaint();
+    const auto& axes = view()->overlayHits().axes;
+    const auto right = std::find_if(axes.begin(), axes.end(), [](const auto& axis) { return axis.azimuth == 90; });
+    QVERIFY(right != axes.end());
+    QTest::mouseClick(view(), Qt::LeftButton, {}, right->rect.center().toPoint());
+    QCOMPARE(view()->navigator().camera().azimuth, 90.0);
+    QCOMPARE(view()->navigator().viewName(), QStringLiteral("Perspective"));
+  }
+
+  void eyeAndLockWithoutAMouse() {
+    m_window->outliner()->select(OutlineKind::Body, "ice");
+    m_window->action(QStringLiteral("edit.visible"))->trigger();
+    QVERIFY(!document().body("ice")->visible);
+    m_window->action(QStringLiteral("edit.locked"))->trigger();
+    QVERIFY(document().body("ice")->locked);
+    m_window->action(QStringLiteral("edit.visible"))->trigger();
+    m_window->action(QStringLiteral("edit.locked"))->trigger();
+    QVERIFY(document().body("ice")->visible && !document().body("ice")->locked);
+    QCOMPARE(document().undoStack().count(), 4);
+    m_window->outliner()->select(OutlineKind::Wall, "floor");
+    m_window->action(QStringLiteral("edit.visible"))->trigger();  // a wall has no eye
+    QCOMPARE(document().undoStack().count(), 4);
+  }
+
+  void toolAndMaterialAreTold() {
+    const auto value = [](QWidget* widget) {
+      return QAccessible::queryAccessibleInterface(widget)->text(QAccessible::Value);
+    };
+    QCOMPARE(value(view()), QStringLiteral("Select and orbit"));
+    view()->setTool(ViewTool::Brush);
+    QVERIFY2(value(view()).startsWith(QStringLiteral("Brush, sphere, radius 50 mm, Water")), qPrintable(value(view())));
+    QCOMPARE(value(m_window->findChild<MaterialsPanel*>()), QStringLiteral("Water"));
+  }
+
+  void csvHasEveryFrame() {
+    std::vector<FrameStats> history(2);
+    history[0].temperatureMean = 263.15;
+    history[0].probes = {1.0 / 3, std::nan("")};
+    history[1].time = 0.1;
+    history[1].phases[2].mass = 2.5;
+    history[1].probes = {0.5};
+    const QByteArray csv =
+        historyCsv(history, {{"a", "Ice, core", "temperature", "", "", {}}, {"b", "n", "count", "", "", {}}});
+    QCOMPARE(csv, QByteArray("time_s,thermal_time_s,mean.temperature[K],solid.mass[kg],melting.mass[kg],"
+                             "liquid.mass[kg],boiling.mass[kg],gas.mass[kg],\"Ice, core.temperature[K]\",n.count[1]\n"
+                             "0,0,263.15,0,0,0,0,0,0.3333333333333333,\n"
+                             "0.1,0,0,0,0,2.5,0,0,0.5,\n"));
+  }
+
+  /// Undo while the button is down: the stroke in the making goes, the one before goes, and both stay gone.
+  void undoDuringAStroke() {
+    const std::set<uint32_t> before = idsNow(session());
+    const size_t bodies = document().project().bodies.size();
+    m_window->action(QStringLiteral("sketch.brush"))->trigger();
+    const QPoint start(view()->width() / 2 - 60, view()->height() / 2);
+    stroke(start, {72, 0}, true);
+    QCOMPARE(document().project().bodies.size(), bodies + 1);
+    stroke(start + QPoint(0, 20), {72, 0}, false);
+    QVERIFY(idsNow(session()).size() > before.size());
+    m_window->action(QStringLiteral("edit.undo"))->trigger();
+    QTest::mouseMove(view(), start + QPoint(90, 20));
+    QTest::mouseRelease(view(), Qt::LeftButton, {}, start + QPoint(90, 20));
+    QCOMPARE(document().project().bodies.size(), bodies);
+    QVERIFY(document().undoStack().canRedo());
+    QVERIFY(idsNow(session()) == before);
+  }
+
+  void strokesAreRefused_data() {
+    QTest::addColumn<double>("spacing");
+    QTest::addColumn<bool>("reset");
+    QTest::addColumn<double>("radius");
+    QTest::addColumn<QString>("why");
+    QTest::newRow("another spacing waits for the reset") << 0.03 << false << 0.05 << "Press Home first";
+    QTest::newRow("it came") << 0.03 << true << 0.05 << "";
+    QTest::newRow("a stamp of too many cells") << 0.02 << false << 0.5 << "Make the brush smaller";
+  }
+  void strokesAreRefused() {
+    QFETCH(double, spacing);
+    QFETCH(bool, reset);
+    QFETCH(double, radius);
+    QFETCH(QString, why);
+    document().setParameter(kSpacing, spacing);
+    if (reset) toTheStart();
+    const std::set<uint32_t> before = idsNow(session());
+    const int steps = document().undoStack().count();
+    m_window->action(QStringLiteral("sketch.brush"))->trigger();
+    BrushSettings brush = view()->brush();
+    const double usual = brush.radius;
+    brush.radius = radius;
+    view()->setBrush(brush);
+    QSignalSpy refused(view(), &Viewport::strokeRefused);
+    stroke(QPoint(view()->width() / 2 - 60, view()->height() / 2), {40, 0}, true);
+    QCOMPARE(idsNow(session()) == before, !why.isEmpty());
+    QCOMPARE(document().undoStack().count() == steps, !why.isEmpty());
+    QCOMPARE(refused.count(), why.isEmpty() ? 0 : 1);
+    if (!why.isEmpty()) QVERIFY2(refused[0][0].toString().contains(why), qPrintable(refused[0][0].toString()));
+    brush.radius = usual;
+    view()->setBrush(brush);
+  }
+
+ private:
+  Session& session() { return m_window->session(); }
+  Document& document() { return session().document(); }
+  Viewport* view() { return m_window->viewport(); }
+  /// The view shows the scene after a reset: the brush stands on what it shows.
+  void toTheStart() {
+    const uint64_t revision = session().snapshot()->revision;
+    session().reset();
+    QTRY_VERIFY_WITH_TIMEOUT(session().snapshot()->revision != revision && view()->snapshot() == session().snapshot(),
+                             kLong);
+  }
+  void stroke(const QPoint& from, const QPoint& way, bool release) {
+    QTest::mousePress(view(), Qt::LeftButton, {}, from);
+    for (int k = 1; k <= 6; ++k) QTest::mouseMove(view(), from + way * k / 6);
+    if (release) QTest::mouseRelease(view(), Qt::LeftButton, {}, from + way);
+  }
+
+  std::unique_ptr<MainWindow> m_window;
+};
+
+int main(int argc, char** argv) {
+  QSurfaceFormat format;
+  format.setVersion(4, 3);
+  format.setProfile(QSurfaceFormat::CoreProfile);
+  format.setDepthBufferSize(24);
+  QSurfaceFormat::setDefaultFormat(format);
+  QApplication application(argc, argv);
+  TestInteraction test;
+  return QTest::qExec(&test, argc, argv);
+}
+#include "tst_interaction.moc"

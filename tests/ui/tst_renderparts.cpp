@@ -1,0 +1,313 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a picture is made of, without OpenGL: camera, colours, instances, furniture.
+#include "tests/ui/renderscenes.h"
+#include "ui/render/camera.h"
+#include "ui/render/furniture.h"
+#include "ui/render/instances.h"
+
+#include <QtTest/QtTest>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+using namespace ps;
+using namespace ps::testing;
+
+class TestRenderParts : public QObject {
+  Q_OBJECT
+
+ private Q_SLOTS:
+  void cameraMapsPointsToPixelsAndBack_data();
+  void cameraMapsPointsToPixelsAndBack();
+  void matricesAgreeWithProject();
+  void orbitPanAndDollyKeepTheirPromise();
+  void frameAllShowsTheWholeBox();
+  void pickFindsTheNearestSphere();
+  void colourMapEnds_data();
+  void colourMapEnds();
+  void automaticRanges();
+  void colourNamesRoundTrip();
+  void interpolatesById();
+  void revisionsDoNotMix();
+  void hidesOnlyWhatIsCovered();
+  void leavesOutWhatIsBuried();
+  void wallsAreClippedByEachOther();
+  void glow_data();
+  void glow();
+};
+
+void TestRenderParts::cameraMapsPointsToPixelsAndBack_data() {
+  QTest::addColumn<double>("azimuth");
+  QTest::addColumn<double>("elevation");
+  for (const double elevation : {-90.0, -20.0, 0.0, 35.0, 90.0})
+    for (const double azimuth : {0.0, 35.0, 180.0, -91.0})
+      QTest::addRow("%g around, %g up", azimuth, elevation) << azimuth << elevation;
+}
+
+void TestRenderParts::cameraMapsPointsToPixelsAndBack() {
+  QFETCH(double, azimuth);
+  QFETCH(double, elevation);
+  Camera camera;
+  camera.azimuth = azimuth;
+  camera.elevation = elevation;
+  const Vec3 point{0.1, 0.3, -0.2};
+  const std::optional<Vec3> pixel = project(camera, kWidth, kHeight, point);
+  QVERIFY(pixel);
+  const Ray ray = rayThrough(camera, kWidth, kHeight, (*pixel)[0], (*pixel)[1]);
+  // The ray must pass the point: distance of the point from the line, in metres, to rounding of doubles.
+  Vec3 d{}, offset{};
+  double along = 0, miss = 0;
+  for (size_t k = 0; k < 3; ++k) d[k] = point[k] - ray.origin[k], along += d[k] * ray.direction[k];
+  for (size_t k = 0; k < 3; ++k) offset[k] = d[k] - ray.direction[k] * along, miss += offset[k] * offset[k];
+  QVERIFY2(std::sqrt(miss) < 1e-9, qPrintable(QString::number(std::sqrt(miss))));
+  QVERIFY(along > 0);
+}
+
+void TestRenderParts::matricesAgreeWithProject() {
+  Camera camera;
+  const Vec3 point{-0.3, 0.1, 0.25};
+  const auto clip = transform(multiply(projectionMatrix(camera, kWidth, kHeight), viewMatrix(camera)), point);
+  const Vec3 pixel = *project(camera, kWidth, kHeight, point);
+  QVERIFY(std::abs((clip[0] / clip[3] + 1) / 2 * kWidth - pixel[0]) < 1e-9);
+  QVERIFY(std::abs((1 - clip[1] / clip[3]) / 2 * kHeight - pixel[1]) < 1e-9);
+  QVERIFY(std::abs(clip[3] - pixel[2]) < 1e-12);
+  const Mat4 one = multiply(viewMatrix(camera), inverse(viewMatrix(camera)));
+  for (size_t i = 0; i < 16; ++i) QVERIFY(std::abs(one[i] - (i % 5 == 0 ? 1 : 0)) < 1e-12);
+  QVERIFY(!project(camera, kWidth, kHeight, frameOf(camera).eye));
+}
+
+void TestRenderParts::orbitPanAndDollyKeepTheirPromise() {
+  Camera camera;
+  orbit(camera, 0, 200);
+  QCOMPARE(camera.elevation, 90.0);
+  camera = {};
+  const Vec3 before = *project(camera, kWidth, kHeight, {0, 0.2, 0});
+  pan(camera, kHeight, 17, -9);
+  const Vec3 after = *project(camera, kWidth, kHeight, {0, 0.2, 0});  // it was the target: at the target's depth
+  QVERIFY(std::abs(after[0] - before[0] - 17) < 1e-9 && std::abs(after[1] - before[1] + 9) < 1e-9);
+
+  camera = {};
+  const Ray ray = rayThrough(camera, kWidth, kHeight, 40, 150);
+  const Vec3 under = *meetPlane(ray, camera.target, frameOf(camera).forward);
+  dollyTo(camera, kWidth, kHeight, 40, 150, 0.4);
+  const Vec3 pixel = *project(camera, kWidth, kHeight, under);
+  QVERIFY(std::abs(pixel[0] - 40) < 1e-9 && std::abs(pixel[1] - 150) < 1e-9);
+  QVERIFY(std::abs(camera.distance - 0.6) < 1e-12);
+}
+
+void TestRenderParts::frameAllShowsTheWholeBox() {
+  for (const auto& [width, height] : {std::pair{320, 200}, {100, 400}}) {
+    Camera camera;
+    const Vec3 low{-1, 0, -2}, high{0.5, 3, 1};
+    frameAll(camera, width, height, low, high);
+    for (int corner = 0; corner < 8; ++corner) {
+      const Vec3 p{corner & 1 ? low[0] : high[0], corner & 2 ? low[1] : high[1], corner & 4 ? low[2] : high[2]};
+      const auto pixel = project(camera, width, height, p);
+      QVERIFY(pixel && (*pixel)[0] >= 0 && (*pixel)[0] <= width && (*pixel)[1] >= 0 && (*pixel)[1] <= height);
+    }
+  }
+}
+
+void TestRenderParts::pickFindsTheNearestSphere() {
+  Camera camera;
+  camera.target = {0, 0, 0};
+  camera.elevation = camera.azimuth = 0;  // looks along -z
+  Snapshot s;
+  addParticle(s, {0, 0, -0.2}, 0.1, 5, api::Motion::Solid);
+  addParticle(s, {0, 0, 0.2}, 0.1, 6, api::Motion::Solid);
+  addParticle(s, {0.5, 0, 0}, 0.1, 7, api::Motion::Liquid);
+  QCOMPARE(pickParticle(s, camera, kWidth, kHeight, kWidth / 2.0, kHeight / 2.0), std::optional<size_t>(1));
+  const Vec3 third = *project(camera, kWidth, kHeight, {0.5, 0, 0});
+  QCOMPARE(pickParticle(s, camera, kWidth, kHeight, third[0], third[1]), std::optional<size_t>(2));
+  QVERIFY(!pickParticle(s, camera, kWidth, kHeight, 1, 1));
+}
+
+void TestRenderParts::colourMapEnds_data() {
+  QTest::addColumn<int>("colour");
+  QTest::addColumn<double>("t");
+  QTest::addColumn<double>("pivot");
+  QTest::addColumn<int>("red");
+  QTest::addColumn<int>("green");
+  QTest::addColumn<int>("blue");
+  const auto row = [](const char* name, ColourBy colour, double t, double pivot, int r, int g, int b) {
+    QTest::newRow(name) << static_cast<int>(colour) << t << pivot << r << g << b;
+  };
+  row("coldest", ColourBy::Temperature, 0, 0.2, 39, 71, 154);
+  row("melting, pivot low", ColourBy::Temperature, 0.2, 0.2, 141, 194, 230);
+  row("melting, pivot high", ColourBy::Temperature, 0.9, 0.9, 141, 194, 230);
+  row("melting at the lower end", ColourBy::Temperature, 0, 0, 141, 194, 230);
+  row("melting at the upper end", ColourBy::Temperature, 1, 1, 141, 194, 230);
+  row("hottest", ColourBy::Temperature, 1, 0.2, 133, 28, 27);
+  row("half of the cold side", ColourBy::Temperature, 0.25, 0.5, 63, 124, 196);
+  row("solid", ColourBy::Phase, 0, 0, 58, 99, 184);
+  row("melting phase", ColourBy::Phase, 0.25, 0, 181, 82, 143);
+  row("liquid", ColourBy::Phase, 0.5, 0, 69, 196, 184);
+  row("boiling", ColourBy::Phase, 0.75, 0, 242, 169, 59);
+  row("gas", ColourBy::Phase, 1, 0, 245, 241, 230);
+  row("at rest", ColourBy::Speed, 0, 0, 43, 27, 77);
+  row("fast", ColourBy::Speed, 1, 0, 251, 229, 138);
+  row("too thin", ColourBy::DensityError, 0, 0, 123, 63, 160);
+  row("right density", ColourBy::DensityError, 0.5, 0, 201, 204, 208);
+  row("too dense", ColourBy::DensityError, 1, 0, 30, 122, 70);
+}
+
+void TestRenderParts::colourMapEnds() {
+  QFETCH(int, colour);
+  QFETCH(double, t);
+  QFETCH(double, pivot);
+  QFETCH(int, red);
+  QFETCH(int, green);
+  QFETCH(int, blue);
+  const auto c = colourAt(static_cast<ColourBy>(colour), t, pivot);
+  // Stops are whole 1/255 steps; half a step covers the rounding.
+  QVERIFY2(std::abs(c[0] * 255 - static_cast<float>(red)) < 0.5f &&
+               std::abs(c[1] * 255 - static_cast<float>(green)) < 0.5f &&
+               std::abs(c[2] * 255 - static_cast<float>(blue)) < 0.5f,
+           qPrintable(QString("%1 %2 %3").arg(c[0] * 255).arg(c[1] * 255).arg(c[2] * 255)));
+}
+
+void TestRenderParts::automaticRanges() {
+  Snapshot s;
+  addParticle(s, {0.13, 0, 0}, 0.01, 0, api::Motion::Solid, 273.15 - 8);
+  addParticle(s, {0.31, 0, 0}, 0.01, 1, api::Motion::Liquid, 273.15 + 112);
+  const auto close = [](std::pair<double, double> a, double low, double high) {
+    return std::abs(a.first - low) < 1e-6 && std::abs(a.second - high) < 1e-6;
+  };
+  QVERIFY(close(colourRange(s, ColourBy::Temperature), 273.15 - 10, 273.15 + 120));
+  QVERIFY(close(colourRange(s, ColourBy::Speed), 0, 0.5));
+  QVERIFY(close(colourRange(s, ColourBy::Phase), 0, 4));
+  QVERIFY(close(colourRange(s, ColourBy::DensityError), -0.05, 0.05));
+  const auto none = colourRange(Snapshot{}, ColourBy::Temperature);
+  QVERIFY(none.first < none.second);
+}
+
+void TestRenderParts::colourNamesRoundTrip() {
+  for (const char* name : {"material", "temperature", "phase", "speed", "density_error"})
+    QCOMPARE(colourName(colourByName(name)), name);
+  QVERIFY(colourByName("no such map") == ColourBy::Material);
+}
+
+void TestRenderParts::interpolatesById() {
+  Snapshot before, now;
+  before.materialColour = now.materialColour = {{0.5f, 0.5f, 0.5f}};
+  addParticle(before, {0, 0, 0}, 0.01, 7, api::Motion::Solid, 100);
+  addParticle(before, {1, 0, 0}, 0.01, 3, api::Motion::Solid, 200);
+  addParticle(now, {1, 1, 0}, 0.03, 3, api::Motion::Solid, 300);
+  addParticle(now, {5, 5, 5}, 0.01, 9, api::Motion::Solid, 300);  // new: stands where it is
+  addParticle(now, {0, 0, 2}, 0.01, 7, api::Motion::Solid, 500);
+  render::InstanceRequest request;
+  request.now = &now;
+  request.previous = &before;
+  request.blend = 0.25f;
+  request.colour = ColourBy::Temperature;
+  request.minimum = 100;
+  request.maximum = 500;
+  render::Instances out;
+  render::collectInstances(request, out);
+  QCOMPARE(out.particles.size(), size_t{3});
+  QCOMPARE(out.particles[0].y, 0.25f);
+  QVERIFY(std::abs(out.particles[0].radius - 0.015f) < 1e-7f);
+  QCOMPARE(out.particles[1].x, 5.f);
+  QCOMPARE(out.particles[2].z, 0.5f);
+  // 7 is at 100 + 0.25 * 400 = 200 K: the colour of a quarter of the range. One step of the table is 1/1023.
+  const auto expected = colourAt(ColourBy::Temperature, 0.25, (273.15 - 100) / 400);
+  QVERIFY(std::abs(out.particles[2].red - expected[0]) < 0.005f);
+}
+
+void TestRenderParts::revisionsDoNotMix() {
+  Snapshot before, now;
+  addParticle(before, {0, 0, 0}, 0.01, 0, api::Motion::Solid);
+  addParticle(now, {1, 0, 0}, 0.01, 0, api::Motion::Solid);
+  now.revision = 1;
+  render::InstanceRequest request;
+  request.now = &now;
+  request.previous = &before;
+  request.blend = 0;
+  render::Instances out;
+  render::collectInstances(request, out);
+  QCOMPARE(out.particles[0].x, 1.f);
+}
+
+void TestRenderParts::hidesOnlyWhatIsCovered() {
+  Camera camera;
+  camera.target = {0, 0, 0};
+  camera.elevation = camera.azimuth = 0;
+  const Mat4 m = multiply(projectionMatrix(camera, kWidth, kHeight), viewMatrix(camera));
+  render::CullView view{{}, kWidth, kHeight};
+  for (size_t i = 0; i < 16; ++i) view.viewProjection[i] = static_cast<float>(m[i]);
+  const auto sphere = [](float x, float z, float r, float mark) { return render::Instance{x, 0, z, r, 0, 0, 0, mark}; };
+  std::vector<render::Instance> list{sphere(0, -0.5f, 0.05f, 1), sphere(0, 0.2f, 0.2f, 2),
+                                     sphere(0.25f, -0.5f, 0.1f, 3)};
+  QCOMPARE(render::sortVisible(view, list), size_t{2});
+  QCOMPARE(list[0].extra, 2.f);
+  QCOMPARE(list[1].extra, 3.f);  // peeps out behind the large one
+  QCOMPARE(list[2].extra, 1.f);
+}
+
+void TestRenderParts::leavesOutWhatIsBuried() {
+  std::vector<render::Instance> list;
+  render::Extent extent;
+  for (int i = 0; i < 1000; ++i) {
+    const int x = i % 10, y = i / 10 % 10, z = i / 100;
+    list.push_back({0.02f * static_cast<float>(x), 0.02f * static_cast<float>(y), 0.02f * static_cast<float>(z),
+                    0.0124f, 0, 0, 0, static_cast<float>(i)});
+    extent.add(list.back().x, list.back().y, list.back().z, 0.0124f);
+  }
+  render::dropBuried(extent, 0.0124f, list);
+  QVERIFY(list.size() < 1000);
+  const auto outer = [](int i) {
+    const auto edge = [](int v) { return v == 0 || v == 9; };
+    return edge(i % 10) || edge(i / 10 % 10) || edge(i / 100);
+  };
+  size_t kept = 0;
+  for (const render::Instance& p : list) kept += outer(static_cast<int>(p.extra));
+  QCOMPARE(kept, size_t{1000 - 512});  // the whole outer layer
+}
+
+void TestRenderParts::wallsAreClippedByEachOther() {
+  const RenderScene scene = tray();
+  for (const size_t index : {size_t{0}, size_t{1}}) {
+    const render::Face face = render::wallFace(scene.environment, index);
+    QCOMPARE(face.corners.size(), size_t{4});
+    for (const Vec3& p : face.corners) {
+      QVERIFY(std::abs(std::abs(p[0]) - 0.4) < 1e-9 && std::abs(std::abs(p[2]) - 0.4) < 1e-9);
+      QVERIFY(std::abs(p[1] - (index ? 0.8 : 0)) < 1e-9);
+    }
+    for (const bool walled : face.walled) QVERIFY(walled);
+  }
+  const render::Furniture furniture = render::buildFurniture(scene.environment, true);
+  QVERIFY(furniture.hasFloor && furniture.hasLid && !furniture.opaque.empty() && !furniture.clear.empty());
+  QVERIFY(std::abs(furniture.half[0] - 0.4f) < 1e-6f && std::abs(furniture.lidHeight - 0.8f) < 1e-6f);
+  for (const render::MeshVertex& v : furniture.opaque) {
+    const float length = std::hypot(v.normal[0], v.normal[1], v.normal[2]);
+    QVERIFY(std::isfinite(v.position[0] + v.position[1] + v.position[2]) && std::abs(length - 1) < 1e-4f);
+  }
+  Environment bare;
+  QVERIFY(render::buildFurniture(bare, false).opaque.empty());
+  // A wall with nothing left of it: outside of the bounds and behind another one.
+  Environment crossed = scene.environment;
+  crossed.walls.push_back(wall("gone", {0.45, 0, 0}, {-1, 0, 0}, 0));
+  QVERIFY(render::wallFace(crossed, 6).corners.empty());
+}
+
+void TestRenderParts::glow_data() {
+  QTest::addColumn<double>("temperature");
+  QTest::addColumn<double>("low");
+  QTest::addColumn<double>("high");
+  QTest::newRow("not held at a temperature") << 0.0 << 0.0 << 0.0;
+  QTest::newRow("room") << 293.15 << 0.0 << 0.0;
+  QTest::newRow("90 degrees Celsius") << 363.15 << 0.2 << 0.6;
+  QTest::newRow("200 degrees Celsius") << 473.15 << 1.0 << 1.0;
+}
+
+void TestRenderParts::glow() {
+  QFETCH(double, temperature);
+  QFETCH(double, low);
+  QFETCH(double, high);
+  const double value = render::glowOf(wall("floor", {0, 0, 0}, {0, 1, 0}, temperature));
+  QVERIFY2(value >= low && value <= high, qPrintable(QString::number(value)));
+}
+
+QTEST_APPLESS_MAIN(TestRenderParts)
+#include "tst_renderparts.moc"

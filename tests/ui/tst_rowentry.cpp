@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a row takes and tells: typing, toggles and choices, notes, assistive technology.
+#include "tests/shared/germannumbers.h"
+#include "tests/ui/rowtesting.h"
+#include "ui/theme/theme.h"
+
+#include <QtGui/QAccessible>
+#include <QtTest/QSignalSpy>
+#include <QtWidgets/QLabel>
+#include <QtWidgets/QLineEdit>
+
+using namespace ps;
+using namespace ps::testing;
+
+class TestRowEntry : public QObject {
+  Q_OBJECT
+ private Q_SLOTS:
+  void typingActsOnEnter_data();
+  void typingActsOnEnter();
+  void typedNonsenseLeavesTheValue();
+  void untouchedTypingChangesNothing();
+  void ctrlClickTypes();
+  void tabGoesOn();
+  void toggleAndChoiceAct();
+  void mixedRowsScale();
+  void derivedRowsLeadToTheirSource();
+  void curvesAskForTheirEditor();
+  void noHandWhereNothingHappens();
+  void limitsStandUnderTheRow();
+  void rowsAreAccessible_data();
+  void rowsAreAccessible();
+};
+
+void TestRowEntry::typingActsOnEnter_data() {
+  QTest::addColumn<QByteArray>("key");
+  QTest::addColumn<QString>("text");
+  QTest::addColumn<double>("value");
+  QTest::newRow("bare") << QByteArray("plate_temperature") << "120" << 393.15;
+  QTest::newRow("unit") << QByteArray("plate_temperature") << "25 °C" << 298.15;
+  QTest::newRow("other unit") << QByteArray("plate_temperature") << "300 K" << 300.0;
+  QTest::newRow("comma") << QByteArray("conductivity") << "1,5" << 1.5;
+  QTest::newRow("point") << QByteArray("conductivity") << "1.5" << 1.5;
+  QTest::newRow("quotient") << QByteArray("conductivity") << "1/3" << 1.0 / 3;
+  QTest::newRow("factor") << QByteArray("conductivity") << "*2" << 4.4;
+  QTest::newRow("beyond the soft range") << QByteArray("plate_temperature") << "900" << 1173.15;
+  QTest::newRow("prefix") << QByteArray("youngs_modulus") << "42 MPa" << 4.2e7;
+  QTest::newRow("whole") << QByteArray("substeps") << "12" << 12.0;
+}
+
+/// Key by key through the line edit, in a program and a C library that speak German.
+void TestRowEntry::typingActsOnEnter() {
+  QFETCH(QByteArray, key);
+  QFETCH(QString, text);
+  QFETCH(double, value);
+  const GermanNumbers german;
+  if (!german.problem().isEmpty()) QSKIP(qPrintable(german.problem()));
+  ParameterRow row(model(key.constData()));
+  show(row);
+  Listener listener(row);
+  QTest::mouseClick(&row, Qt::LeftButton, {}, row.fieldRect().center());
+  auto* edit = row.findChild<QLineEdit*>();
+  QVERIFY(edit && edit->hasSelectedText());
+  QTest::keyClicks(edit, text);
+  QCOMPARE(listener.sequence, QString());  // nothing before Enter
+  QTest::keyClick(edit, Qt::Key_Return);
+  QVERIFY(std::abs(row.number() - value) <= 1e-12 * value);
+  QCOMPARE(listener.sequence, QStringLiteral("BLE"));
+  QVERIFY(!row.has(RowState::Editing));
+}
+
+void TestRowEntry::typedNonsenseLeavesTheValue() {
+  ParameterRow row(model("plate_temperature"));
+  show(row);
+  Listener listener(row);
+  row.startTyping();
+  auto* edit = row.findChild<QLineEdit*>();
+  for (const char* text : {"hot", "25 m", "9999", "-400"}) {
+    edit->selectAll();
+    QTest::keyClicks(edit, QString::fromUtf8(text));
+    QTest::keyClick(edit, Qt::Key_Return);
+    QVERIFY2(row.has(RowState::Error) && row.has(RowState::Editing), text);
+    QCOMPARE(row.number(), 293.15);
+  }
+  auto* note = row.findChild<QLabel*>(QStringLiteral("psError"));
+  QVERIFY(note && note->text().contains(QStringLiteral("at least")));
+  QTest::keyClick(edit, Qt::Key_Escape);
+  QVERIFY(!row.has(RowState::Error) && !row.has(RowState::Editing));
+  QCOMPARE(listener.sequence, QString());
+}
+
+void TestRowEntry::untouchedTypingChangesNothing() {
+  ParameterRow row(model("plate_temperature"));
+  row.setValue(293.123456789);  // the field shows four digits of it
+  show(row);
+  Listener listener(row);
+  row.startTyping();
+  QTest::keyClick(row.findChild<QLineEdit*>(), Qt::Key_Return);
+  QCOMPARE(row.number(), 293.123456789);
+  QCOMPARE(listener.sequence, QString());
+}
+
+void TestRowEntry::ctrlClickTypes() {
+  ParameterRow row(model("plate_temperature"));
+  show(row);
+  Listener listener(row);
+  QTest::mouseClick(&row, Qt::LeftButton, Qt::ControlModifier, onSlider(row, 0.9));
+  QVERIFY(row.has(RowState::Editing));
+  QCOMPARE(listener.sequence, QString());
+}
+
+void TestRowEntry::tabGoesOn() {
+  ParameterPanel panel;
+  panel.setModel(rowModels(list(), {}));
+  panel.resize(392, 600);
+  show(panel);
+  ParameterRow* row = panel.row(QStringLiteral("plate_temperature"));
+  row->startTyping();
+  auto* edit = row->findChild<QLineEdit*>();
+  QTest::keyClicks(edit, QStringLiteral("30"));
+  QTest::keyClick(edit, Qt::Key_Tab);
+  QCOMPARE(row->number(), 303.15);
+  QTRY_VERIFY(panel.row(QStringLiteral("conductivity"))->hasFocus());
+}
+
+void TestRowEntry::toggleAndChoiceAct() {
+  ParameterRow toggle(model("gravity_on"));
+  show(toggle);
+  Listener told(toggle);
+  QTest::mouseClick(&toggle, Qt::LeftButton, {}, QPoint(toggle.fieldRect().right() - 15, 13));
+  QCOMPARE(told.sequence, QStringLiteral("BLE"));
+  QCOMPARE(std::get<bool>(toggle.model().value), false);
+  QCOMPARE(toggle.valueText(), QStringLiteral("off"));
+  ParameterRow choice(model("kernel"));
+  show(choice);
+  Listener chosen(choice);
+  QTest::mouseClick(&choice, Qt::LeftButton, {}, QPoint(choice.fieldRect().right() - 8, 13));  // the last segment
+  QCOMPARE(std::get<std::string>(choice.model().value), std::string("poly_6"));
+  QCOMPARE(choice.valueText(), QStringLiteral("Poly 6"));
+  choice.setFocus(Qt::TabFocusReason);
+  QTest::keyClick(&choice, Qt::Key_Up);
+  QCOMPARE(std::get<std::string>(choice.model().value), std::string("wendland_c2"));
+  QCOMPARE(chosen.sequence, QStringLiteral("BLEBLE"));
+}
+
+void TestRowEntry::mixedRowsScale() {
+  ParameterRow row(model("conductivity"));
+  row.setMixed(true);
+  show(row);
+  QCOMPARE(row.valueText(), QStringLiteral("—"));
+  Listener listener(row);
+  QSignalSpy scaled(&row, &ParameterRow::scaled);
+  QVERIFY(row.enter(QStringLiteral("*2")));
+  QCOMPARE(scaled.count(), 1);
+  QCOMPARE(scaled[0][1].toDouble(), 2.0);
+  QCOMPARE(listener.sequence, QString());
+  QVERIFY(row.enter(QStringLiteral("3")));  // sets all
+  QVERIFY(!row.has(RowState::Mixed));
+  QCOMPARE(listener.sequence, QStringLiteral("BLE"));
+}
+
+void TestRowEntry::derivedRowsLeadToTheirSource() {
+  ParameterRow row(model("plate_temperature"));
+  row.setDerivedFrom(QStringLiteral("from pressure"));
+  show(row);
+  QSignalSpy asked(&row, &ParameterRow::sourceRequested);
+  Listener listener(row);
+  QTest::mouseClick(&row, Qt::LeftButton, {}, row.fieldRect().center());
+  QCOMPARE(asked.count(), 1);
+  QVERIFY(!row.has(RowState::Editing));
+  QVERIFY(!row.enter(QStringLiteral("5")));
+  QCOMPARE(listener.sequence, QString());
+}
+
+void TestRowEntry::curvesAskForTheirEditor() {
+  RowModel start = model("conductivity");
+  Response curve;
+  curve.kind = Response::Kind::Curve;
+  curve.points = {{250, 2}, {350, 3}};
+  start.value = start.defaultValue = curve;
+  start.temperature = 300;
+  ParameterRow row(start);
+  show(row);
+  QCOMPARE(row.valueText(), QStringLiteral("2.50 W/(m·K)"));  // at the operating point
+  QSignalSpy asked(&row, &ParameterRow::curveRequested);
+  QTest::mouseClick(&row, Qt::LeftButton, {}, row.sliderRect().center());
+  QCOMPARE(asked.count(), 1);
+  QVERIFY(!row.isChanged());
+  QTest::mouseMove(&row, row.sliderRect().center());
+  QTRY_COMPARE(row.cursor().shape(), Qt::PointingHandCursor);
+  QVERIFY(row.enter(QStringLiteral("*2")));
+  QCOMPARE(std::get<Response>(row.model().value).points[1].y, 6.0);
+  row.reset();
+  QVERIFY(std::get<Response>(row.model().value) == curve);
+}
+
+/// Where nobody answers a click, the pointer does not promise that somebody will.
+void TestRowEntry::noHandWhereNothingHappens() {
+  std::vector<RowModel> rows = rowModels(list(), {});
+  Response curve;
+  curve.kind = Response::Kind::Curve;
+  curve.points = {{250, 2}, {350, 3}};
+  for (RowModel& row : rows) {
+    if (row.key == QLatin1String("conductivity")) row.value = curve;
+    if (row.key == QLatin1String("plate_temperature")) row.derivedFrom = QStringLiteral("from pressure");
+  }
+  ParameterPanel panel;
+  panel.setModel(rows);
+  panel.resize(392, 600);
+  show(panel);
+  for (const char* key : {"conductivity", "plate_temperature"}) {
+    ParameterRow* row = panel.row(QLatin1String(key));
+    QTest::mouseMove(row, row->fieldRect().center());
+    QTest::mouseMove(row, row->sliderRect().center());
+    QTest::qWait(20);
+    QCOMPARE(row->cursor().shape(), Qt::ArrowCursor);
+  }
+}
+
+void TestRowEntry::limitsStandUnderTheRow() {
+  ParameterRow row(model("youngs_modulus"));
+  show(row);
+  QCOMPARE(row.height(), kRowHeight);
+  row.setLimit(QStringLiteral("At 8 substeps the solver reaches **42 MPa**; the ice moves a little softer than real. "
+                              "[Use 24 substeps](solver/substeps=24)"),
+               4.2e7);
+  auto* note = row.findChild<QLabel*>(QStringLiteral("psLimit"));
+  QVERIFY(note);
+  QVERIFY(row.height() > kRowHeight + 30);
+  QVERIFY(row.rect().contains(note->geometry()));
+  QVERIFY(note->height() >= note->heightForWidth(note->width()));
+  QSignalSpy clicked(&row, &ParameterRow::linkActivated);
+  Q_EMIT note->linkActivated(QStringLiteral("solver/substeps=24"));
+  QCOMPARE(clicked[0][1].toString(), QStringLiteral("solver/substeps=24"));
+  QVERIFY(note->text().contains(QStringLiteral("href=\"solver/substeps=24\"")));
+  row.setLimit({});
+  QCOMPARE(row.height(), kRowHeight);
+}
+
+void TestRowEntry::rowsAreAccessible_data() {
+  QTest::addColumn<QByteArray>("key");
+  QTest::addColumn<int>("role");
+  QTest::addColumn<QString>("value");
+  QTest::newRow("number") << QByteArray("plate_temperature") << int(QAccessible::Slider) << "20.0 °C";
+  QTest::newRow("response") << QByteArray("conductivity") << int(QAccessible::Slider) << "2.20 W/(m·K)";
+  QTest::newRow("integer") << QByteArray("substeps") << int(QAccessible::Slider) << "4";
+  QTest::newRow("toggle") << QByteArray("gravity_on") << int(QAccessible::CheckBox) << "on";
+  QTest::newRow("choice") << QByteArray("kernel") << int(QAccessible::ComboBox) << "Cubic spline";
+}
+
+void TestRowEntry::rowsAreAccessible() {
+  QFETCH(QByteArray, key);
+  QFETCH(int, role);
+  QFETCH(QString, value);
+  ParameterRow row(model(key.constData()));
+  QAccessibleInterface* face = QAccessible::queryAccessibleInterface(&row);
+  QVERIFY(face);
+  QCOMPARE(int(face->role()), role);
+  QCOMPARE(face->text(QAccessible::Name), QString::fromUtf8(row.model().declaration.label));
+  QCOMPARE(face->text(QAccessible::Value), value);
+  QCOMPARE(face->text(QAccessible::Description), QString::fromUtf8(row.model().declaration.help));
+  QAccessibleValueInterface* number = face->valueInterface();
+  QVERIFY(number);
+  QCOMPARE(number->currentValue().toDouble(), row.number());
+  QVERIFY(number->maximumValue().toDouble() > number->minimumValue().toDouble());
+  Listener listener(row);
+  number->setCurrentValue(role == QAccessible::CheckBox ? 0.0 : number->maximumValue().toDouble());
+  QCOMPARE(listener.sequence, QStringLiteral("BLE"));
+}
+
+int main(int argc, char** argv) {
+  QApplication application(argc, argv);
+  Theme::apply(application, true);
+  TestRowEntry test;
+  return QTest::qExec(&test, argc, argv);
+}
+
+#include "tst_rowentry.moc"
