@@ -218,7 +218,7 @@ class ProjectChecker {
   void checkPinned() {
     for (size_t i = 0; i < m_project.view.pinned.size(); ++i) {
       const auto address = Address::parse(m_project.view.pinned[i]);
-      if (!address || !findSet(m_project, *address)) {
+      if (!address || (!findSet(m_project, *address) && !sceneValue(m_project, address->key))) {
         warn(at("/view/pinned", i), "the scene has no parameter '" + m_project.view.pinned[i] + "'");
       }
     }

@@ -9,7 +9,7 @@ namespace {
 
 /// Number of parts between owner and key, or -1 for an unknown owner.
 int idParts(std::string_view owner) {
-  if (owner == "environment" || owner == "solver" || owner == "thermal") return 0;
+  if (owner == "environment" || owner == "solver" || owner == "thermal" || owner == "scene") return 0;
   if (owner == "material" || owner == "wall" || owner == "body") return 1;
   return owner == "constraint" ? 2 : -1;
 }

@@ -160,9 +160,9 @@ constexpr double kMaximumParticles = 20e6;
 
 /// Names one parameter of a project: "material/water/conductivity_solid", "wall/floor/temperature",
 /// "environment/ambient_pressure", "solver/substeps", "thermal/KEY", "body/ice/temperature",
-/// "constraint/ice/bonds/KEY".
+/// "constraint/ice/bonds/KEY", "scene/gravity".
 struct Address {
-  std::string owner;  ///< material, wall, environment, solver, thermal, body, constraint
+  std::string owner;  ///< material, wall, environment, solver, thermal, body, constraint, scene
   std::string id;     ///< of the owner; constraint: "ice/bonds"; "" where there is one
   std::string key;
   std::string text() const;
@@ -172,5 +172,13 @@ struct Address {
 /// The set that holds an address's value, or nullptr when the owner does not exist.
 ParameterSet* findSet(Project& project, const Address& address);
 const ParameterSet* findSet(const Project& project, const Address& address);
+
+/// What a scene says outside of its parameter sets, by the key of a "scene" address: "gravity" in m/s² along the
+/// scene's own direction, "thermal_model" as a plugin's id or "none". Nothing for other keys.
+std::optional<Value> sceneValue(const Project& project, const std::string& key);
+/// Sets it; where there was no gravity it points down. False, and nothing happens, for other keys and types.
+bool setSceneValue(Project& project, const std::string& key, const Value& value);
+/// Declarations of the two; `models` are the ids of installed thermal models.
+std::vector<api::ParameterDeclaration> sceneParameters(const std::vector<std::string>& models);
 
 }  // namespace ps

@@ -238,6 +238,10 @@ void Engine::update(const Project& project) {
 }
 
 bool Engine::setParameter(const Address& address, const Value& value) {
+  if (Project changed = m->project; setSceneValue(changed, address.owner == "scene" ? address.key : "", value)) {
+    update(changed);
+    return true;
+  }
   ParameterSet* set = findSet(m->project, address);
   if (!set) return false;
   const ParameterSet before = *set;

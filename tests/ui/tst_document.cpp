@@ -88,6 +88,27 @@ class TestDocument : public QObject {
     QCOMPARE(document.undoStack().count(), 4);
   }
 
+  void gravityAndThermalModelAreEditsLikeOthers() {
+    Document document;
+    document.setPlugins(m_plugins.get());
+    document.open(smallScene(), {});
+    const Address gravity{"scene", "", "gravity"}, model{"scene", "", "thermal_model"};
+    document.beginGesture();
+    for (const double g : {5.0, 0.0, 1.62}) QCOMPARE(document.setParameter(gravity, g), QString());
+    document.endGesture();
+    QCOMPARE(document.undoStack().count(), 1);
+    QCOMPARE(document.project().environment.gravity[1], -1.62);
+    QVERIFY(!document.setParameter(gravity, -3.0).isEmpty());
+    QVERIFY(!document.setParameter(model, std::string("phlogiston")).isEmpty());
+    QCOMPARE(document.setParameter(model, std::string("none")), QString());
+    QCOMPARE(document.project().solver.thermalModel, std::string());
+    document.undoStack().undo();
+    QCOMPARE(document.project().solver.thermalModel, std::string("enthalpy"));
+    document.undoStack().undo();
+    QCOMPARE(document.project().environment.gravity[1], -9.81);
+    QVERIFY(!document.isDirty());
+  }
+
   void aDragTakenBackLeavesNothing() {
     Document document;
     document.setPlugins(m_plugins.get());

@@ -27,6 +27,7 @@ class TstSimulation : public QObject {
   void bornAsDeclared();
   void anEditActsOnTheNextFrame();
   void anEditOfTheSceneSurvivesReset();
+  void gravityAndThermalModelActOnTheNextFrame();
   void spacingActsAtTheNextReset();
   void sketchesKeepTheirPlaceAtAnotherSpacing_data();
   void sketchesKeepTheirPlaceAtAnotherSpacing();
@@ -120,6 +121,28 @@ void TstSimulation::anEditOfTheSceneSurvivesReset() {
   QVERIFY(std::abs(engine.stats().temperatureMean - 263.15) < 1e-6);
   engine.reset();
   QVERIFY(std::abs(engine.stats().temperatureMean - 253.15) < 1e-6);
+}
+
+void TstSimulation::gravityAndThermalModelActOnTheNextFrame() {
+  Project project = scenes::iceOnPlate(5, 370);
+  std::get<BoxShape>(project.bodies[0].shape).center[1] += 1;
+  Engine engine(project, m_plugins);
+  QVERIFY(engine.setParameter({"scene", "", "gravity"}, 0.0));
+  for (int f = 0; f < 5; ++f) engine.step();
+  for (size_t i = 0; i < engine.solver().particles().size(); ++i)
+    QCOMPARE(engine.solver().particles().velocity()[i].y, 0.0f);
+  QVERIFY(engine.setParameter({"scene", "", "gravity"}, 2.0));
+  engine.step();
+  // One frame of free fall: g dt, within what bonds and density may do to it in that time.
+  QVERIFY(std::abs(engine.solver().particles().velocity()[0].y + 2.0f / 60) < 0.005f);
+  QVERIFY(!engine.solver().thermalEnergies().empty());
+  QVERIFY(engine.setParameter({"scene", "", "thermal_model"}, std::string("none")));
+  engine.step();
+  QVERIFY(engine.solver().thermalEnergies().empty());
+  QVERIFY(engine.setParameter({"scene", "", "thermal_model"}, std::string("enthalpy")));
+  QCOMPARE(engine.step().flags, StepFlags{0});
+  QVERIFY(!engine.solver().thermalEnergies().empty());
+  QVERIFY(!engine.setParameter({"scene", "", "colour"}, 1.0));
 }
 
 void TstSimulation::spacingActsAtTheNextReset() {

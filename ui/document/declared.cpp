@@ -6,6 +6,7 @@
 #include "core/plugin_host/registry.h"
 
 #include <algorithm>
+#include <map>
 
 namespace ps {
 namespace {
@@ -41,6 +42,17 @@ Response responseFrom(const Value& value) {
   return Response(0.0);
 }
 
+/// What is installed decides on the choices, and so does a model that is not: each list made stays for good.
+api::ParameterList sceneDeclarations(const Project& project, const PluginRegistry& plugins) {
+  static std::map<std::vector<std::string>, std::vector<api::ParameterDeclaration>> lists;
+  std::vector<std::string> models = plugins.ids(PluginKind::Thermal);
+  const std::string& present = project.solver.thermalModel;
+  if (!present.empty() && std::find(models.begin(), models.end(), present) == models.end()) models.push_back(present);
+  auto& list = lists[models];
+  if (list.empty()) list = sceneParameters(models);
+  return {list.data(), list.size()};
+}
+
 }  // namespace
 
 api::ParameterList declarationsOf(const Project& project, const PluginRegistry* plugins, const Address& address) {
@@ -50,6 +62,7 @@ api::ParameterList declarationsOf(const Project& project, const PluginRegistry* 
   if (address.owner == "body") return bodyParameters();
   if (address.owner == "material" && propertyIndex(address.key) >= 0) return propertyCatalogue();
   if (!plugins) return {};
+  if (address.owner == "scene") return sceneDeclarations(project, *plugins);
   if (address.owner == "material") {
     const SceneMaterial* material = materialById(project, address.id);
     const api::MaterialPlugin* plugin = material ? plugins->materialPlugin(material->base) : nullptr;
@@ -95,6 +108,7 @@ Value defaultOf(const Project& project, const PluginRegistry* plugins, const Add
 }
 
 Value valueAt(const Project& project, const PluginRegistry* plugins, const Address& address) {
+  if (address.owner == "scene") return sceneValue(project, address.key).value_or(0.0);
   const ParameterSet* set = findSet(project, address);
   const api::ParameterDeclaration* declaration = declarationOf(project, plugins, address);
   if (set && declaration) {
@@ -152,6 +166,8 @@ QString ownerLabel(const Project& project, const Address& address) {
     name = "Solver";
   } else if (address.owner == "thermal") {
     name = "Thermal model";
+  } else if (address.owner == "scene") {
+    name = "Scene";
   }
   return QString::fromStdString(name);
 }
@@ -182,7 +198,7 @@ std::vector<Address> allAddresses(const Project& project, const PluginRegistry* 
     add("material", material.id, "");
   }
   for (const SceneWall& wall : project.environment.walls) add("wall", wall.id, "");
-  for (const char* owner : {"environment", "solver", "thermal"}) add(owner, "", "");
+  for (const char* owner : {"scene", "environment", "solver", "thermal"}) add(owner, "", "");
   return addresses;
 }
 

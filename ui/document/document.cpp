@@ -64,14 +64,18 @@ void Document::endGesture() {
 }
 
 QString Document::setParameter(const Address& address, const Value& value) {
+  const std::optional<Value> outside = address.owner == "scene" ? sceneValue(m_project, address.key) : std::nullopt;
   const ParameterSet* set = findSet(m_project, address);
-  if (!set) return QStringLiteral("%1 is no longer part of the scene.").arg(QString::fromStdString(address.text()));
+  if (!set && !outside)
+    return QStringLiteral("%1 is no longer part of the scene.").arg(QString::fromStdString(address.text()));
   if (const QString problem = problemWith(m_project, m_plugins, address, value); !problem.isEmpty()) return problem;
   const api::ParameterDeclaration* declared = declaration(address);
-  const auto found = set->values.find(address.key);
-  const std::optional<Value> before = found == set->values.end() ? std::nullopt : std::optional(found->second);
-  std::optional<Value> after = conformed(value, *declared);
-  if (*after == conformed(defaultValue(address), *declared)) after.reset();
+  std::optional<Value> before = outside, after = conformed(value, *declared);
+  if (set) {
+    const auto found = set->values.find(address.key);
+    if (found != set->values.end()) before = found->second;
+    if (*after == conformed(defaultValue(address), *declared)) after.reset();
+  }
   if (m_gestureDepth == 0) ++m_gesture;
   const QString text =
       m_gestureText.isEmpty() || m_gestureDepth == 0
@@ -161,8 +165,11 @@ void Document::setView(const ViewState& view) {
 
 void Document::applyParameter(const Address& address, const std::optional<Value>& value) {
   ParameterSet* set = findSet(m_project, address);
-  if (!set) return;
-  if (value) {
+  const bool outside = address.owner == "scene" && value && setSceneValue(m_project, address.key, *value);
+  if (!set && !outside) return;
+  if (outside) {
+    // Done.
+  } else if (value) {
     set->values[address.key] = *value;
   } else {
     set->values.erase(address.key);

@@ -15,9 +15,7 @@ namespace {
 
 /// "Hot plate temperature": the label of a row that stands away from its owner.
 QString awayLabel(const Project& project, const Address& address, const QString& label) {
-  if (address.owner == "solver" || address.owner == "environment" || address.owner == "thermal" ||
-      address.owner == "material")
-    return label;
+  if (address.owner != "wall" && address.owner != "body" && address.owner != "constraint") return label;
   return ownerLabel(project, address) + QLatin1Char(' ') + label.left(1).toLower() + label.mid(1);
 }
 
@@ -100,21 +98,28 @@ void Inspector::addRows(std::vector<RowModel>& rows, const std::string& owner, c
   }
 }
 
+/// The row of one address; nothing where it has no declaration or no owner.
+std::optional<RowModel> Inspector::rowOf(const Address& address) const {
+  const api::ParameterDeclaration* declaration = m_document.declaration(address);
+  if (!declaration || (address.owner != "scene" && !findSet(m_document.project(), address))) return std::nullopt;
+  RowModel row;
+  row.key = QString::fromStdString(address.text());
+  row.declaration = *declaration;
+  row.value = m_document.value(address);
+  row.defaultValue = m_document.defaultValue(address);
+  return row;
+}
+
 void Inspector::addPinned(std::vector<RowModel>& rows) {
   std::vector<RowModel> pinned;
   const Project& project = m_document.project();
   for (const std::string& text : project.view.pinned) {
     const auto address = Address::parse(text);
-    const api::ParameterDeclaration* declaration = address ? m_document.declaration(*address) : nullptr;
-    if (!declaration || !findSet(project, *address)) continue;
-    RowModel row;
-    row.key = QString::fromStdString(text);
-    row.declaration = *declaration;
-    row.declaration.label = keep(awayLabel(project, *address, QString::fromUtf8(declaration->label)));
-    row.value = m_document.value(*address);
-    row.defaultValue = m_document.defaultValue(*address);
-    row.pinned = true;
-    pinned.push_back(std::move(row));
+    std::optional<RowModel> row = address ? rowOf(*address) : std::nullopt;
+    if (!row) continue;
+    row->declaration.label = keep(awayLabel(project, *address, QString::fromUtf8(row->declaration.label)));
+    row->pinned = true;
+    pinned.push_back(std::move(*row));
   }
   rows.insert(rows.begin(), std::make_move_iterator(pinned.begin()), std::make_move_iterator(pinned.end()));
 }
@@ -184,6 +189,7 @@ void Inspector::rebuildMaterial() {
 void Inspector::rebuildScene() {
   const Project& project = m_document.project();
   std::vector<RowModel> rows;
+  if (auto gravity = rowOf({"scene", "", "gravity"})) rows.push_back(std::move(*gravity));
   addRows(rows, "environment", "", environmentParameters());
   for (const SceneWall& wall : project.environment.walls) {
     addRows(rows, "wall", wall.id, wallParameters(), QString::fromStdString(wall.name.empty() ? wall.id : wall.name));
@@ -196,6 +202,7 @@ void Inspector::rebuildScene() {
 
 void Inspector::rebuildSolver() {
   std::vector<RowModel> rows;
+  if (auto choice = rowOf({"scene", "", "thermal_model"})) rows.push_back(std::move(*choice));
   addRows(rows, "solver", "", solverParameters());
   const std::string& id = m_document.project().solver.thermalModel;
   const api::ThermalPlugin* model = m_document.plugins() ? m_document.plugins()->thermal(id) : nullptr;
@@ -228,6 +235,7 @@ void Inspector::onChanged(const ChangeEvent& event) {
     const Address& address = parameter->address;
     const QString key = QString::fromStdString(address.text());
     for (ParameterPanel* panel : panels()) panel->setValue(key, m_document.value(address));
+    if (address.owner == "scene" && address.key == "thermal_model") rebuildSolver();
     if (address.owner == "material" && propertyIndex(address.key) < 0) refreshProperties(address.id);
   } else if (std::holds_alternative<ProjectOpened>(event)) {
     m_bodyId = m_document.project().bodies.empty() ? std::string() : m_document.project().bodies.front().id;
@@ -285,7 +293,7 @@ ParameterPanel* Inspector::panelFor(const Address& address) {
     setBody(address.id.substr(0, address.id.find('/')));
     return m_body;
   }
-  if (address.owner == "wall" || address.owner == "environment") return m_scene;
+  if (address.owner == "wall" || address.owner == "environment" || address.key == "gravity") return m_scene;
   return m_solver;
 }
 

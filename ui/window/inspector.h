@@ -6,6 +6,7 @@
 
 #include <QtCore/QObject>
 
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -49,6 +50,7 @@ class Inspector : public QObject {
   /// Rows of one owner; a group of its own replaces the declarations' groups.
   void addRows(std::vector<RowModel>& rows, const std::string& owner, const std::string& id, api::ParameterList list,
                const QString& group = {}, const ParameterSet& defaults = {});
+  std::optional<RowModel> rowOf(const Address& address) const;
   void addPinned(std::vector<RowModel>& rows);
   const char* keep(const QString& text);
 
