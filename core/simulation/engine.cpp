@@ -277,7 +277,6 @@ std::vector<uint32_t> Engine::addCells(const Body& body, const std::vector<std::
   return ids;
 }
 
-void Engine::removeParticles(const std::vector<uint32_t>& ids) { m->solver->remove(ids); }
 TakenMatter Engine::takeParticles(const std::vector<uint32_t>& ids) { return m->solver->take(ids); }
 void Engine::putBack(const TakenMatter& matter) { m->solver->putBack(matter); }
 

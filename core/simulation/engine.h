@@ -35,7 +35,6 @@ class Engine {
   /// Adds a sketched body, or more cells of one that exists, at rest; cells where a live particle is within 0.9
   /// spacings stay free. Returns the ids of the new particles.
   std::vector<uint32_t> addCells(const Body& body, const std::vector<std::array<int, 3>>& cells, int palette);
-  void removeParticles(const std::vector<uint32_t>& ids);
   /// Removes particles and keeps them, with all their fields and bonds, for putBack(). Until the next reset.
   TakenMatter takeParticles(const std::vector<uint32_t>& ids);
   void putBack(const TakenMatter& matter);
@@ -87,10 +86,7 @@ class EngineThread {
   void reset();
   void setParameter(const Address& address, const Value& value);
   void update(const Project& project);
-  void addCells(const Body& body, std::vector<std::array<int, 3>> cells, int palette,
-                std::function<void(std::vector<uint32_t>)> done);
-  void removeParticles(std::vector<uint32_t> ids);
-  /// Any other work between frames.
+  /// Any other work between frames: strokes, erasures.
   void post(std::function<void(Engine&)> command);
 
   bool playing() const;

@@ -284,20 +284,6 @@ void EngineThread::update(const Project& project) {
   m->push([impl = m.get(), project] { impl->edit([&](Engine& engine) { engine.update(project); }); });
 }
 
-void EngineThread::addCells(const Body& body, std::vector<std::array<int, 3>> cells, int palette,
-                            std::function<void(std::vector<uint32_t>)> done) {
-  m->push([impl = m.get(), body, cells = std::move(cells), palette, done = std::move(done)] {
-    impl->edit([&](Engine& engine) {
-      std::vector<uint32_t> ids = engine.addCells(body, cells, palette);
-      if (done) done(std::move(ids));
-    });
-  });
-}
-
-void EngineThread::removeParticles(std::vector<uint32_t> ids) {
-  m->push([impl = m.get(), ids = std::move(ids)] { impl->edit([&](Engine& engine) { engine.removeParticles(ids); }); });
-}
-
 void EngineThread::post(std::function<void(Engine&)> command) {
   m->push([impl = m.get(), command = std::move(command)] { impl->edit(command); });
 }

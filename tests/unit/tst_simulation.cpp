@@ -225,7 +225,7 @@ void TstSimulation::cellsAvoidLiveParticlesAndComeBackOut() {
   QVERIFY(engine.addCells(sketchedWater(), cells, 0).empty());
   const auto voxels = std::get<VoxelShape>(sketchedWater().shape);
   QCOMPARE(engine.particlesIn(voxels, cells), ids);
-  engine.removeParticles(ids);
+  engine.takeParticles(ids);
   QCOMPARE(engine.solver().particles().size(), before);
   const StepReport report = engine.step();
   QCOMPARE(report.flags, 0u);
@@ -443,7 +443,7 @@ void TstSimulation::threadPlaysPausesStepsAndResets() {
   QVERIFY(waitFor([&] { return thread.snapshot()->stats.frame == 0; }));
   QCOMPARE(thread.history(0).size(), size_t{1});
   std::promise<std::vector<uint32_t>> born;
-  thread.addCells(sketchedWater(), {{0, 0, 0}}, 0, [&](auto ids) { born.set_value(ids); });
+  thread.post([&](Engine& engine) { born.set_value(engine.addCells(sketchedWater(), {{0, 0, 0}}, 0)); });
   QCOMPARE(born.get_future().get().size(), size_t{1});
   QVERIFY(published > 5);
 }
