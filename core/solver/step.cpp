@@ -178,6 +178,7 @@ void Solver::Impl::substep(uint32_t index) {
       contact.project(store);
       wallStage.projectNear(store);
     });
+    timed(Stage::Structure, [&] { constraints.projectGroups(store, index, it); });
   }
   timed(Stage::Contact, [&] {
     wallStage.project(store);
