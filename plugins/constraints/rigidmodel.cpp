@@ -84,6 +84,7 @@ class Body {
   Vector velocity() const { return valueVector(RigidModel::kVelocityX); }
   Vector spin() const { return valueVector(RigidModel::kSpinX); }
   Quaternion rotation() const { return m_rotation; }
+  bool hasPose() const { return std::isfinite(m_centre.x + m_centre.y + m_centre.z); }
   void setMotion(Vector velocity, Vector spin) {
     setValues(RigidModel::kVelocityX, velocity);
     setValues(RigidModel::kSpinX, spin);
@@ -206,6 +207,12 @@ Momentum momentumOf(const Body& body, const Float4* points, Velocity&& velocityO
   return sum;
 }
 
+Vector centreOf(const Float4* points, const Body& body) {
+  Vector sum;
+  for (size_t k = body.first(); k < body.last(); ++k) sum += body.mass(k) * vectorOf(points[body.particle(k)]);
+  return 1 / body.mass() * sum;
+}
+
 /// Absorbs what happened to the members' positions into the pose, and the pose's change into the velocities.
 void absorb(Body& body, const ParticleView& p, double dt) {
   const Body::Fit fit = body.fit(p.position);
@@ -314,7 +321,9 @@ void RigidModel::buildGroups(const ConstraintContext& context, const ParticleVie
 void RigidModel::predictGroups(const ConstraintContext& context, const ParticleView& p, const GroupBatch& batch) const {
   for (size_t g = 0; g < batch.count; ++g) {
     Body body(p, batch, g);
-    // Edits, a bound or a frame taken back may have moved members since the pose was written.
+    // A frame that went wrong leaves no pose; edits, a bound or a frame taken back may have moved members since it was
+    // written.
+    if (!body.hasPose()) body.setPose(centreOf(p.previous, body), {});
     if (const Body::Fit fit = body.fit(p.previous); fit.moved) {
       body.setPose(body.centre() + fit.shift, body.rotationOf(fit));
     }
