@@ -220,6 +220,22 @@ void RigidContact::project(ParticleStore& store) {
   }
 }
 
+void RigidContact::hold(ParticleStore& store, std::span<const api::Float4> held) const {
+  if (held.empty()) return;
+  for (const Body& body : m_bodies) {
+    Vector3 back;
+    for (const uint32_t i : body.members) {
+      const Vector3 way = vectorOf(held[i]);
+      if (dot(way, way) > dot(back, back)) back = way;
+    }
+    if (dot(back, back) == 0) continue;
+    for (const uint32_t i : body.members) {
+      api::Float4& x = store.position()[i];
+      x.x += static_cast<float>(back.x), x.y += static_cast<float>(back.y), x.z += static_cast<float>(back.z);
+    }
+  }
+}
+
 void RigidContact::bounce(ParticleStore& store) {
   if (std::none_of(m_contacts.begin(), m_contacts.end(), [](const Contact& c) { return c.met; })) return;
   for (Body& body : m_bodies) {

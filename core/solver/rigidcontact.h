@@ -15,8 +15,8 @@ namespace ps {
 /// contacts are few. Afterwards restitution as a pass over velocities (Mueller et al. 2020, section 3.6), which also
 /// takes out speed that only the removal of an overlap has given. Particles are spheres, but where a face of the
 /// lattice takes part its own normal is used, so that layers do not interlock. A box therefore tips as if its base were
-/// one spacing narrower, and an edge of it is round. It cannot do: stop a body that crosses another within one substep;
-/// walls are half-spaces and stop everything.
+/// one spacing narrower, and an edge of it is round. It cannot do: stop a body that crosses
+/// another moving one within one substep.
 class RigidContact {
  public:
   void configure(const SolverSettings& settings, const std::vector<Wall>& walls,
@@ -33,6 +33,9 @@ class RigidContact {
   void begin(const ParticleStore& store);
   /// Moves bodies, and single particles that touch them, out of each other.
   void project(ParticleStore& store);
+  /// Moves each body back by the longest of its members' ways in `held` (SweptClamp): it stops at a layer of static
+  /// particles that it would have crossed, however fast it is.
+  void hold(ParticleStore& store, std::span<const api::Float4> held) const;
   /// Restitution, when velocities are known.
   void bounce(ParticleStore& store);
 

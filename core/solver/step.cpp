@@ -189,7 +189,8 @@ void Solver::Impl::substep(uint32_t index) {
   }
   timed(Stage::Contact, [&] {
     wallStage.project(store);
-    swept.apply(store, neighbours, wallStage);
+    swept.apply(store, neighbours, wallStage, rigid.members());
+    rigid.hold(store, swept.held());
     velocities(dt);
   });
   timed(Stage::Viscosity, [&] { viscosity.apply(store, neighbours, density); });

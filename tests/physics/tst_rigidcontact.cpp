@@ -208,6 +208,29 @@ class TestRigidContact : public QObject {
     QVERIFY2(std::max({low.fastest, mid.fastest, high.fastest}) < 0.02, qPrintable(QString::number(high.fastest)));
   }
 
+  void fastBodyStopsAtALayer_data() {
+    QTest::addColumn<double>("speed");
+    for (const double speed : {5.0, 20.0, 100.0}) QTest::addRow("%g m/s", speed) << speed;
+  }
+  void fastBodyStopsAtALayer() {
+    QFETCH(double, speed);
+    Solver solver;
+    SolverSettings settings = settingsOf(0.02);
+    settings.gravity = {0, 0, 0};
+    prepare(solver, settings, matter(0.3, 0.2, 0));
+    solver.spawn(fixedPoints(lattice(20, 1, 20, 0.02, -0.01)));
+    spawnRigid(solver, lattice(5, 5, 5, 0.02, 0.153), 1, {0.1 * speed, -speed, 0});
+    const std::vector<double> shape = distances(solver, 1);
+    const double before = sumsOf(solver, 1).energy;
+    for (int f = 0; f < 10; ++f) {
+      QCOMPARE(solver.step().flags, 0u);
+      if (std::abs(sumsOf(solver, 1).centre.x) > 0.2) break;  // slid over the edge
+      QVERIFY2(motionOf(solver, 1).bottom > 0.01, qPrintable(QString::number(motionOf(solver, 1).bottom)));
+    }
+    QVERIFY(sumsOf(solver, 1).energy < before);
+    QVERIFY(greatestChange(shape, distances(solver, 1)) < 2e-6);
+  }
+
   void goesOnAfterAFrameThatWentWrong() {
     Solver solver;
     prepare(solver, settingsOf(0.02));
