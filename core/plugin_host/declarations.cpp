@@ -175,13 +175,21 @@ std::string problemOfFields(api::List<api::FieldDeclaration> list) {
 
 std::string problemOfTraits(const api::ConstraintTraits& traits) {
   using Form = api::ConstraintTraits::Form;
-  if (traits.form != Form::Structural && traits.form != Form::Neighbour) return "its form is unknown to this program";
+  if (traits.form > Form::Group) return "its form is unknown to this program";
   if (traits.form == Form::Structural && (traits.arity < 2 || traits.arity > 4))
     return "a structural constraint joins 2 to 4 particles, not " + std::to_string(traits.arity);
-  if (std::string problem = problemOfFields(traits.values); !problem.empty()) return "per-constraint " + problem;
-  for (size_t i = 0; i < traits.values.count; ++i)
-    if (traits.values[i].type != api::FieldType::Float32)
-      return "the per-constraint value '" + std::string(traits.values[i].name) + "' must be a Float32";
+  const auto problemOfValues = [](api::List<api::FieldDeclaration> values, const std::string& whose) -> std::string {
+    if (std::string problem = problemOfFields(values); !problem.empty()) return whose + " " + problem;
+    for (size_t i = 0; i < values.count; ++i)
+      if (values[i].type != api::FieldType::Float32)
+        return "the " + whose + " value '" + std::string(values[i].name) + "' must be a Float32";
+    return {};
+  };
+  if (std::string problem = problemOfValues(traits.values, "per-constraint"); !problem.empty()) return problem;
+  // Only a plugin that has groups was built with a header that knows member values.
+  if (traits.form == Form::Group) {
+    if (std::string problem = problemOfValues(traits.memberValues, "per-member"); !problem.empty()) return problem;
+  }
   return problemOfFields(traits.fields);
 }
 

@@ -15,7 +15,7 @@ namespace {
 
 constexpr size_t kBatchGrain = 1024;
 constexpr size_t kGatherGrain = 256;
-constexpr size_t kMostValues = 16;
+constexpr size_t kMostValues = GroupLists::kMostValues;
 constexpr uint32_t kGone = ~0u;
 
 /// A run of constraints with pointers to its values; lives while a plugin is called.
@@ -85,6 +85,12 @@ uint32_t ConstraintSystem::addSet(const api::ConstraintPlugin* plugin, std::stri
   }
   if (traits.values.count > kMostValues)
     throw Error("constraint plugin '" + set.name + "' declares more than 16 values");
+  if (traits.form == api::ConstraintTraits::Form::Group) {
+    if (traits.memberValues.count > kMostValues)
+      throw Error("constraint plugin '" + set.name + "' declares more than 16 values of a member");
+    set.groups = std::make_unique<GroupLists>(traits.values.count, traits.memberValues.count);
+    set.rigid = traits.rigid != 0;
+  }
   set.arity = set.structural ? traits.arity : 0;
   set.valueCount = set.structural ? traits.values.count : 0;
   set.values.resize(set.valueCount);
@@ -113,26 +119,15 @@ api::ConstraintContext ConstraintSystem::context(const Set& set, double dt, uint
           {m_materials.data(), m_materials.size()}};
 }
 
-template <class Call>
-bool ConstraintSystem::guarded(Set& set, Call&& call) {
-  if (set.disabled) return false;
-  std::string problem;
-  try {
-    call();
-    return true;
-  } catch (const std::exception& e) {
-    problem = e.what();
-  } catch (...) {
-    problem = "threw something that is no std::exception";
-  }
+void ConstraintSystem::putAside(Set& set, std::string problem) {
   set.disabled = true;
   set.count = 0;
   set.particles.clear();
   for (auto& v : set.values) v.clear();
   set.colourStart.assign(1, 0);
+  if (set.groups) set.groups->clear();
   m_graphValid = false;
-  m_faults.push_back({set.name, problem});
-  return false;
+  m_faults.push_back({set.name, std::move(problem)});
 }
 
 template <class Call>
@@ -224,6 +219,7 @@ void ConstraintSystem::apply(Set& set, const ParticleStore& store, const Edits& 
 void ConstraintSystem::build(uint32_t index, const ParticleStore& store, const Neighbours& neighbours,
                              std::span<const uint32_t> members) {
   Set& set = m_sets.at(index);
+  if (set.groups) buildGroups(set, store, neighbours, members);
   if (!set.structural) return;
   Edits edits;
   Sink sink(*this, set, store, edits);
@@ -240,6 +236,7 @@ void ConstraintSystem::remap(std::span<const uint32_t> order) {
   for (size_t k = 0; k < order.size(); ++k) m_newIndex[order[k]] = static_cast<uint32_t>(k);
   for (Set& set : m_sets) {
     for (uint32_t& i : set.particles) i = m_newIndex[i];
+    if (set.groups) set.groups->renumber(m_newIndex);
   }
   m_graphValid = false;
 }
@@ -259,6 +256,7 @@ void ConstraintSystem::removeParticles(const ParticleStore& store, std::span<con
     }
     apply(set, store, edits);
     for (uint32_t& i : set.particles) i = m_newIndex[i];
+    if (set.groups) set.groups->renumber(m_newIndex);
   }
   m_graphValid = false;
 }
@@ -268,6 +266,7 @@ CopiedConstraints ConstraintSystem::copy(const ParticleStore& store, std::span<c
   for (const Set& set : m_sets) {
     CopiedConstraints::Set& copied = copies.sets.emplace_back();
     copied.name = set.name;
+    if (set.groups) copied.groups = set.groups->copy(store, ascending);
     for (size_t k = 0; k < set.count; ++k) {
       const uint32_t* particles = set.particles.data() + k * set.arity;
       if (std::none_of(particles, particles + set.arity,
@@ -284,8 +283,10 @@ CopiedConstraints ConstraintSystem::copy(const ParticleStore& store, std::span<c
 void ConstraintSystem::putBack(const ParticleStore& store, const CopiedConstraints& copies) {
   for (const CopiedConstraints::Set& copied : copies.sets) {
     const auto found = std::find_if(m_sets.begin(), m_sets.end(), [&](const Set& s) { return s.name == copied.name; });
-    if (found == m_sets.end() || found->disabled || found->arity == 0) continue;
+    if (found == m_sets.end() || found->disabled) continue;
     Set& set = *found;
+    if (set.groups) putGroupsBack(set, store, copied.groups);
+    if (!set.structural) continue;
     Edits edits;
     Sink sink(*this, set, store, edits);
     std::vector<uint32_t> particles(set.arity);
@@ -307,6 +308,7 @@ void ConstraintSystem::predict(const ParticleStore& store, uint32_t substep) {
     const api::ConstraintContext c = context(set, m_settings.dt / m_settings.substeps, substep, 0);
     guarded(set, [&] { forBatches(set, [&](const api::ConstraintBatch& b) { set.plugin->predict(c, view, b); }); });
   }
+  predictGroups(store, substep);
 }
 
 void ConstraintSystem::projectStructure(const ParticleStore& store, uint32_t substep, uint32_t iteration) {
@@ -322,7 +324,7 @@ void ConstraintSystem::projectNeighbours(ParticleStore& store, const Neighbours&
                                          uint32_t iteration) {
   const api::ParticleView view = store.view();
   for (Set& set : m_sets) {
-    if (set.structural || set.disabled) continue;
+    if (set.structural || set.groups || set.disabled) continue;
     m_correction.assign(store.size() + 1, api::Float4{0, 0, 0, 0});
     const api::ConstraintContext c = context(set, m_settings.dt / m_settings.substeps, substep, iteration);
     const bool done = guarded(set, [&] {
@@ -349,11 +351,13 @@ void ConstraintSystem::deriveVelocities(const ParticleStore& store, uint32_t sub
     guarded(set,
             [&] { forBatches(set, [&](const api::ConstraintBatch& b) { set.plugin->deriveVelocities(c, view, b); }); });
   }
+  deriveGroupVelocities(store, substep);
 }
 
 bool ConstraintSystem::topology(const ParticleStore& store, const Neighbours& neighbours) {
   bool changed = false;
   for (Set& set : m_sets) {
+    if (set.groups) changed = groupTopology(set, store, neighbours) || changed;
     if (!set.structural || set.disabled) continue;
     BatchView all;
     for (size_t v = 0; v < set.valueCount; ++v) all.values[v] = set.values[v].data();
@@ -375,6 +379,7 @@ bool ConstraintSystem::topology(const ParticleStore& store, const Neighbours& ne
 double ConstraintSystem::energy(const ParticleStore& store) {
   double sum = 0;
   for (Set& set : m_sets) {
+    if (set.groups) sum += groupEnergy(set, store);
     if (set.count == 0) continue;
     BatchView all;
     for (size_t v = 0; v < set.valueCount; ++v) all.values[v] = set.values[v].data();
@@ -405,7 +410,7 @@ void ConstraintSystem::limits(const ParticleStore& store, std::vector<Limit>& ou
 
 size_t ConstraintSystem::count() const {
   size_t sum = 0;
-  for (const Set& set : m_sets) sum += set.count;
+  for (const Set& set : m_sets) sum += set.count + (set.groups ? set.groups->count() : 0);
   return sum;
 }
 
@@ -417,31 +422,8 @@ void ConstraintSystem::addTo(Hash& hash, const ParticleStore& store) const {
     hash.add(set.count);
     hash.add(ids.data(), ids.size() * sizeof(uint32_t));
     for (const auto& v : set.values) hash.add(v.data(), v.size() * sizeof(float));
+    if (set.groups) set.groups->addTo(hash, store);
   }
-}
-
-const StructureGraph& ConstraintSystem::graph(size_t particles) {
-  if (m_graphValid && m_graph.begin.size() == particles + 1) return m_graph;
-  std::vector<uint32_t>& begin = m_graph.begin;
-  begin.assign(particles + 1, 0);
-  for (const Set& set : m_sets) {
-    for (const uint32_t i : set.particles) begin[i + 1] += static_cast<uint32_t>(set.arity) - 1;
-  }
-  for (size_t i = 0; i < particles; ++i) begin[i + 1] += begin[i];
-  m_graph.partner.resize(begin[particles]);
-  m_newIndex.assign(begin.begin(), begin.end());
-  for (const Set& set : m_sets) {
-    for (size_t k = 0; k < set.count; ++k) {
-      const uint32_t* p = set.particles.data() + k * set.arity;
-      for (size_t a = 0; a < set.arity; ++a) {
-        for (size_t b = 0; b < set.arity; ++b) {
-          if (a != b) m_graph.partner[m_newIndex[p[a]]++] = p[b];
-        }
-      }
-    }
-  }
-  m_graphValid = true;
-  return m_graph;
 }
 
 std::vector<PluginFault> ConstraintSystem::takeFaults() { return std::exchange(m_faults, {}); }

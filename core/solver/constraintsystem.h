@@ -2,10 +2,12 @@
 #pragma once
 #include "core/matter/material.h"
 #include "core/particles/neighbours.h"
+#include "core/solver/grouplists.h"
 #include "core/solver/settings.h"
 
 #include <phasesketch/constraint.h>
 
+#include <memory>
 #include <string>
 #include <unordered_set>
 #include <vector>
@@ -18,14 +20,19 @@ namespace ps {
 
 class Hash;
 
-/// Who is tied to whom by structural constraints.
+/// Who is tied to whom, by structural constraints or as members of one group.
 struct StructureGraph {
   std::vector<uint32_t> begin, partner;
+  std::vector<uint32_t> groupBegin, group;  ///< groups of each particle, ascending
   size_t ties(uint32_t i) const { return i + size_t{1} < begin.size() ? begin[i + 1] - begin[i] : 0; }
   bool tied(uint32_t i, uint32_t j) const {
     if (i + size_t{1} >= begin.size()) return false;
     for (uint32_t k = begin[i]; k < begin[i + 1]; ++k) {
       if (partner[k] == j) return true;
+    }
+    for (uint32_t a = groupBegin[i], b = groupBegin[j]; a < groupBegin[i + 1] && b < groupBegin[j + 1];) {
+      if (group[a] == group[b]) return true;
+      ++(group[a] < group[b] ? a : b);
     }
     return false;
   }
@@ -37,6 +44,7 @@ struct CopiedConstraints {
     std::string name;
     std::vector<uint32_t> id;   ///< arity per constraint
     std::vector<float> values;  ///< as many per constraint as the plugin declares
+    std::vector<CopiedGroup> groups;
   };
   std::vector<Set> sets;
 };
@@ -59,19 +67,23 @@ class ConstraintSystem {
 
   /// Constraints that touch one of these ascending indices.
   CopiedConstraints copy(const ParticleStore& store, std::span<const uint32_t> ascending) const;
-  /// Adds copied constraints again wherever all their particles live.
+  /// Adds copied constraints again wherever all their particles live; puts members of groups back into them.
   void putBack(const ParticleStore& store, const CopiedConstraints& copies);
 
   void predict(const ParticleStore& store, uint32_t substep);
   void projectStructure(const ParticleStore& store, uint32_t substep, uint32_t iteration);
   void projectNeighbours(ParticleStore& store, const Neighbours& neighbours, uint32_t substep, uint32_t iteration);
+  void projectGroups(const ParticleStore& store, uint32_t substep, uint32_t iteration);
   void deriveVelocities(const ParticleStore& store, uint32_t substep);
   /// Once per frame. True when the structure has changed.
   bool topology(const ParticleStore& store, const Neighbours& neighbours);
   double energy(const ParticleStore& store);  ///< J
   void limits(const ParticleStore& store, std::vector<Limit>& out);
 
-  size_t count() const;
+  /// Members of each group that moves as one body; valid until the structure or the order changes.
+  std::vector<std::span<const uint32_t>> rigidGroups() const;
+
+  size_t count() const;  ///< structural constraints and groups
   void addTo(Hash& hash, const ParticleStore& store) const;
   /// Ties between pairs of particles, for contact; renewed when the structure or the order has changed.
   const StructureGraph& graph(size_t particles);
@@ -79,6 +91,7 @@ class ConstraintSystem {
   std::vector<PluginFault> takeFaults();
 
  private:
+  void addGroupsTo(StructureGraph& graph, size_t particles) const;
   struct Key {
     uint64_t a, b;
     bool operator==(const Key&) const = default;
@@ -99,18 +112,46 @@ class ConstraintSystem {
     std::vector<size_t> colourStart;         ///< first constraint of each colour; one entry more than there are colours
     std::vector<std::vector<uint64_t>> used;  ///< [word of 64 colours][particle id]
     std::unordered_set<Key, KeyHash> keys;    ///< sets of particle ids; only asked, never walked through
+    std::unique_ptr<GroupLists> groups;       ///< of a plugin of groups, which uses none of the lists above
+    bool rigid = false;
   };
   struct Edits;
   class Sink;
+  class Groups;  ///< collects the edits of groups
 
   api::ConstraintContext context(const Set& set, double dt, uint32_t substep, uint32_t iteration) const;
+  /// Runs a call into a plugin; what throws is put aside, its constraints dropped.
   template <class Call>
-  bool guarded(Set& set, Call&& call);
+  bool guarded(Set& set, Call&& call) {
+    if (set.disabled) return false;
+    std::string problem;
+    try {
+      call();
+      return true;
+    } catch (const std::exception& e) {
+      problem = e.what();
+    } catch (...) {
+      problem = "threw something that is no std::exception";
+    }
+    putAside(set, std::move(problem));
+    return false;
+  }
+  void putAside(Set& set, std::string problem);
   template <class Call>
   void forBatches(Set& set, Call&& call);
   Key keyOf(const Set& set, const ParticleStore& store, const uint32_t* particles) const;
   size_t takeColour(Set& set, const ParticleStore& store, const uint32_t* particles) const;
   void apply(Set& set, const ParticleStore& store, const Edits& edits);
+  // In constraintgroups.cpp.
+  template <class Call>
+  void forGroups(Set& set, double dt, uint32_t substep, uint32_t iteration, Call&& call);
+  void predictGroups(const ParticleStore& store, uint32_t substep);
+  void deriveGroupVelocities(const ParticleStore& store, uint32_t substep);
+  void buildGroups(Set& set, const ParticleStore& store, const Neighbours& neighbours,
+                   std::span<const uint32_t> members);
+  bool groupTopology(Set& set, const ParticleStore& store, const Neighbours& neighbours);
+  double groupEnergy(Set& set, const ParticleStore& store);
+  void putGroupsBack(Set& set, const ParticleStore& store, std::span<const CopiedGroup> copies);
 
   SolverSettings m_settings;
   std::vector<const api::MaterialView*> m_materials;

@@ -27,7 +27,8 @@ void SolidContact::configure(const SolverSettings& settings, std::span<const Bak
   for (const BakedMaterial& m : materials) m_friction.push_back(index < 0 ? 0.3f : static_cast<float>(m.scalar(index)));
 }
 
-void SolidContact::refresh(const ParticleStore& store, const Neighbours& neighbours, ConstraintSystem& constraints) {
+void SolidContact::refresh(const ParticleStore& store, const Neighbours& neighbours, ConstraintSystem& constraints,
+                           std::span<const uint8_t> rigid) {
   m_any = false;
   m_solids.clear();
   m_found.clear();
@@ -51,11 +52,11 @@ void SolidContact::refresh(const ParticleStore& store, const Neighbours& neighbo
     chunk.other.clear();
     for (size_t k = first; k < last; ++k) {
       const uint32_t i = m_solids[k];
-      if (graph.ties(i) >= kEnclosed) continue;
+      if (graph.ties(i) >= kEnclosed || rigid[i] != 0) continue;
       const size_t before = chunk.other.size();
       for (uint32_t q = view.begin[i]; q < view.last[i]; ++q) {
         const uint32_t j = view.index[q];
-        if (motion[j] != api::Motion::Solid && motion[j] != api::Motion::Static) continue;
+        if ((motion[j] != api::Motion::Solid && motion[j] != api::Motion::Static) || rigid[j] != 0) continue;
         const float x = position[i].x - position[j].x, y = position[i].y - position[j].y,
                     z = position[i].z - position[j].z;
         if (x * x + y * y + z * z < reach2 && !graph.tied(i, j)) chunk.other.push_back(j);

@@ -14,8 +14,10 @@ inline constexpr double kSkinSpacings = 0.2;
 class SolidContact {
  public:
   void configure(const SolverSettings& settings, std::span<const BakedMaterial> materials);
-  /// Finds the pairs that may touch, after a new order or a new structure, and when stale().
-  void refresh(const ParticleStore& store, const Neighbours& neighbours, ConstraintSystem& constraints);
+  /// Finds the pairs that may touch, after a new order or a new structure, and when stale(). Members of rigid bodies (1
+  /// in `rigid`) are left to RigidContact.
+  void refresh(const ParticleStore& store, const Neighbours& neighbours, ConstraintSystem& constraints,
+               std::span<const uint8_t> rigid);
   /// True when a solid has moved more than half the skin since the pairs were found. Liquid that splashes asks for new
   /// neighbour lists far more often than solids ask for new pairs.
   bool stale(const ParticleStore& store) const;

@@ -4,6 +4,7 @@
 #include "core/solver/density.h"
 #include "core/solver/gasforces.h"
 #include "core/solver/phasestage.h"
+#include "core/solver/rigidcontact.h"
 #include "core/solver/solver.h"
 #include "core/solver/sweptclamp.h"
 #include "core/solver/viscosity.h"
@@ -37,6 +38,7 @@ struct Solver::Impl {
   WallStage wallStage;
   SweptClamp swept;
   SolidContact contact;
+  RigidContact rigid;
   GasForces gas;
   HeatStage heat;
   PhaseStage phase;

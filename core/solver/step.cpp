@@ -63,6 +63,7 @@ void Solver::Impl::runFrame() {
   }
   report.faults = constraints.takeFaults();
   if (std::optional<std::string> fault = heat.takeFault()) report.faults.push_back({modelName, std::move(*fault)});
+  if (!report.faults.empty()) structureChanged = true;
   for (const PluginFault& fault : report.faults) {
     raise(StepFlag::PluginFault, "plugin '" + fault.plugin + "': " + fault.what);
   }
@@ -97,6 +98,7 @@ void Solver::Impl::backToLastGood() {
   if (!lastGoodValid) return;
   store.copyFrom(lastGood);
   heat.setLedger(lastGoodLedger);
+  rigid.forget();
   reordered = true;
 }
 
@@ -117,9 +119,11 @@ void Solver::Impl::freshLists() {
 
 void Solver::Impl::listsChanged(bool newStructure) {
   density.refreshLists(store, neighbours);
-  wallStage.refreshLists(store);
+  if (newStructure) rigid.refreshBodies(store, constraints);
+  wallStage.refreshLists(store, rigid.members());
   swept.refreshLists(store, neighbours);
-  if (newStructure || contact.stale(store)) contact.refresh(store, neighbours, constraints);
+  rigid.refreshContacts(store, neighbours, constraints);
+  if (newStructure || contact.stale(store)) contact.refresh(store, neighbours, constraints, rigid.members());
 }
 
 void Solver::Impl::predict(double dt) {
@@ -165,10 +169,12 @@ void Solver::Impl::substep(uint32_t index) {
       neighbours.build(store);
       listsChanged(false);
     } else if (contact.stale(store)) {
-      contact.refresh(store, neighbours, constraints);
+      contact.refresh(store, neighbours, constraints, rigid.members());
+      rigid.refreshContacts(store, neighbours, constraints);
     }
   });
   timed(Stage::Structure, [&] { constraints.predict(store, index); });
+  timed(Stage::Contact, [&] { rigid.begin(store); });
   for (int iteration = 0; iteration < settings.iterations; ++iteration) {
     const uint32_t it = static_cast<uint32_t>(iteration);
     timed(Stage::Structure, [&] { constraints.projectStructure(store, index, it); });
@@ -178,14 +184,18 @@ void Solver::Impl::substep(uint32_t index) {
       contact.project(store);
       wallStage.projectNear(store);
     });
+    timed(Stage::Structure, [&] { constraints.projectGroups(store, index, it); });
+    timed(Stage::Contact, [&] { rigid.project(store); });
   }
   timed(Stage::Contact, [&] {
     wallStage.project(store);
-    swept.apply(store, neighbours, wallStage);
+    swept.apply(store, neighbours, wallStage, rigid.members());
+    rigid.hold(store, swept.held());
     velocities(dt);
   });
   timed(Stage::Viscosity, [&] { viscosity.apply(store, neighbours, density); });
   timed(Stage::Structure, [&] { constraints.deriveVelocities(store, index); });
+  timed(Stage::Contact, [&] { rigid.bounce(store); });
   timed(Stage::Density, [&] { density.decayCompression(store, dt); });
 }
 

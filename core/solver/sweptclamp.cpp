@@ -130,8 +130,11 @@ Point SweptClamp::sweep(Point from, Point way) const {
   return from;
 }
 
-void SweptClamp::apply(ParticleStore& store, const Neighbours& neighbours, const WallStage& walls) const {
+void SweptClamp::apply(ParticleStore& store, const Neighbours& neighbours, const WallStage& walls,
+                       std::span<const uint8_t> rigid) {
+  m_held.clear();
   if (m_centers.empty()) return;
+  m_held.resize(store.size(), {0, 0, 0, 0});
   api::Float4* position = store.position();
   forChunks(store.size(), 512, [&](size_t first, size_t last) {
     for (size_t i = first; i < last; ++i) {
@@ -140,9 +143,12 @@ void SweptClamp::apply(ParticleStore& store, const Neighbours& neighbours, const
       Point end = sweep(from, minus(to, from));
       if (end == to) continue;
       walls.clamp(end);
-      position[i].x = static_cast<float>(end[0]);
-      position[i].y = static_cast<float>(end[1]);
-      position[i].z = static_cast<float>(end[2]);
+      const api::Float4 at{static_cast<float>(end[0]), static_cast<float>(end[1]), static_cast<float>(end[2]),
+                           position[i].w};
+      if (rigid[i] == 0)
+        position[i] = at;
+      else
+        m_held[i] = {at.x - position[i].x, at.y - position[i].y, at.z - position[i].z, 0};
     }
   });
 }

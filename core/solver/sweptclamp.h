@@ -9,7 +9,7 @@ namespace ps {
 /// from its old to its final position against spheres of 0.75 spacings around static ones, exactly (a quadratic), and
 /// slides on along what it meets. The largest opening of a lattice layer leaves 0.71 spacings, so 0.75 closes it, and
 /// resting contact (about one spacing) is left alone.
-/// Moving solids are not obstacles here: see SolidContact.
+/// Moving solids are not obstacles here: see SolidContact and RigidContact.
 class SweptClamp {
  public:
   void configure(const SolverSettings& settings);
@@ -17,7 +17,12 @@ class SweptClamp {
   void refresh(const ParticleStore& store);
   /// After new lists: which particles have a static one in their list.
   void refreshLists(const ParticleStore& store, const Neighbours& neighbours);
-  void apply(ParticleStore& store, const Neighbours& neighbours, const WallStage& walls) const;
+  /// Members of rigid bodies (1 in `rigid`) are not moved: see held().
+  void apply(ParticleStore& store, const Neighbours& neighbours, const WallStage& walls,
+             std::span<const uint8_t> rigid);
+  /// For each particle the way back (m) by which a member of a rigid body would have to be moved; empty when there is
+  /// nothing static.
+  std::span<const api::Float4> held() const { return m_held; }
 
  private:
   struct Hit {
@@ -35,6 +40,7 @@ class SweptClamp {
   std::vector<std::array<double, 3>> m_centers;  ///< in order of cell
   std::vector<uint32_t> m_cellStart;
   std::vector<uint8_t> m_nearStatic;
+  std::vector<api::Float4> m_held;
 };
 
 }  // namespace ps

@@ -21,10 +21,11 @@ void WallStage::configure(const SolverSettings& settings, const std::vector<Wall
   }
 }
 
-void WallStage::refreshLists(const ParticleStore& store) {
+void WallStage::refreshLists(const ParticleStore& store, std::span<const uint8_t> rigid) {
   m_near.clear();
+  m_rigid.assign(rigid.begin(), rigid.end());
   for (size_t i = 0; i < store.size(); ++i) {
-    if (store.velocity()[i].w == 0) continue;
+    if (store.velocity()[i].w == 0 || rigid[i] != 0) continue;
     for (const Plane& p : m_planes) {
       if (p.depthOf(store.position()[i]) < -m_reach) continue;
       m_near.push_back(static_cast<uint32_t>(i));
@@ -64,7 +65,7 @@ void WallStage::project(ParticleStore& store) const {
   const api::Float4 *position = store.position(), *velocity = store.velocity();
   forChunks(store.size(), 2048, [&](size_t first, size_t last) {
     for (size_t i = first; i < last; ++i) {
-      if (velocity[i].w == 0) continue;
+      if (velocity[i].w == 0 || m_rigid[i] != 0) continue;
       for (const Plane& p : m_planes) {
         const float depth = p.depthOf(position[i]);
         if (depth > 0) projectOne(p, store, i, depth);

@@ -13,8 +13,9 @@ namespace ps {
 class WallStage {
  public:
   void configure(const SolverSettings& settings, const std::vector<Wall>& walls);
-  /// After new lists: who may reach a wall before the next ones.
-  void refreshLists(const ParticleStore& store);
+  /// After new lists: who may reach a wall before the next ones. Members of rigid bodies (1 in `rigid`) are left to
+  /// RigidContact.
+  void refreshLists(const ParticleStore& store, std::span<const uint8_t> rigid);
   /// Those near a wall; for the iterations.
   void projectNear(ParticleStore& store) const;
   /// All particles; for the ends of a substep.
@@ -31,6 +32,7 @@ class WallStage {
 
   std::vector<Plane> m_planes;
   std::vector<uint32_t> m_near;
+  std::vector<uint8_t> m_rigid;
   float m_reach = 0;  ///< m, beyond the resting distance
 };
 

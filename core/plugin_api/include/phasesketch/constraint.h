@@ -8,12 +8,18 @@ namespace ps::api {
 
 /// Structural constraints carry `arity` particles each, and `values` floats of their own (rest length, lambda, ...).
 /// Neighbour constraints have no lists: they gather over neighbours and write their own particle's correction.
+/// Group constraints hold any number of particles together; `values` belong to the group, `memberValues` to each of its
+/// members (a place in the undeformed shape, a weight, ...).
 struct ConstraintTraits {
-  enum class Form : uint32_t { Structural, Neighbour };
+  enum class Form : uint32_t { Structural, Neighbour, Group };
   Form form;
-  uint32_t arity;                 ///< structural: 2 .. 4
-  List<FieldDeclaration> values;  ///< structural: per-constraint values, Float32 each
-  List<FieldDeclaration> fields;  ///< per-particle fields, made by the host, zero at birth
+  uint32_t arity;                         ///< structural: 2 .. 4
+  List<FieldDeclaration> values;          ///< structural, group: values of each, at most 16, Float32
+  List<FieldDeclaration> fields;          ///< per-particle fields, made by the host, zero at birth
+  List<FieldDeclaration> memberValues{};  ///< group: values of each member, at most 16, Float32
+  /// Group: 1 when members keep their distances. Contact and friction then act on the group as one body, which moves by
+  /// its mass and its inertia, in place of particle by particle.
+  uint32_t rigid = 0;
 };
 
 struct ConstraintContext {
@@ -45,6 +51,32 @@ class ConstraintSink {
   ~ConstraintSink() = default;
 };
 
+/// A run of groups that share no particle: project them in any order, or all at once. The members of group g are
+/// particles[begin[g]] .. particles[begin[g + 1] - 1], in the order in which they were added.
+struct GroupBatch {
+  size_t count;
+  const size_t* begin;         ///< count + 1 places in `particles` and in the arrays of `memberValues`
+  const uint32_t* particles;   ///< indices
+  float* const* values;        ///< [declared value][group]
+  float* const* memberValues;  ///< [declared member value][place]
+  /// 1 where members were erased, or put back by undo, since the last groupTopology(): what is left may have fallen
+  /// apart.
+  const uint8_t* changed;
+};
+
+/// Takes new groups while building or in groupTopology().
+class GroupSink {
+ public:
+  /// `particles`: `count` indices, none twice. `values`: one per declared value. `memberValues`: for each member in
+  /// turn one per declared member value.
+  virtual void add(const uint32_t* particles, size_t count, const float* values, const float* memberValues) = 0;
+  /// Removes group `g` of the batch given to the call; its particles live on.
+  virtual void remove(size_t g) = 0;
+
+ protected:
+  ~GroupSink() = default;
+};
+
 /// Something that the model could not deliver at the chosen step.
 class LimitSink {
  public:
@@ -73,8 +105,30 @@ class ConstraintPlugin : public Plugin {
                         const ConstraintBatch& /*all*/, ConstraintSink&) const {}
   /// Elastic energy of the batch in J.
   virtual double energy(const ConstraintContext&, const ParticleView&, const ConstraintBatch&) const { return 0; }
-  /// What the solver cannot deliver with this step.
+  /// What the solver cannot deliver with this step; asked of every form.
   virtual void limits(const ConstraintContext&, const ParticleView&, LimitSink&) const {}
+
+  // Groups. All of these may throw.
+  /// Makes the groups of newly created particles `members` (ascending indices); may replace groups of `all`, so that
+  /// matter added to a body joins it.
+  virtual void buildGroups(const ConstraintContext&, const ParticleView&, const NeighbourView&,
+                           Span<const uint32_t> /*members*/, const GroupBatch& /*all*/, GroupSink&) const {}
+  /// Once per substep and batch, before the first iteration; the particles have moved by their velocities already.
+  virtual void predictGroups(const ConstraintContext&, const ParticleView&, const GroupBatch&) const {}
+  /// Once per iteration, after structure, density and contact of single particles, before contact of rigid bodies.
+  virtual void projectGroups(const ConstraintContext&, const ParticleView&, const GroupBatch&) const {}
+  /// Once per substep, after velocities follow from positions, v = (x - previous)/dt, and viscosity has changed them.
+  /// May move the group's particles for the last time.
+  virtual void deriveGroupVelocities(const ConstraintContext&, const ParticleView&, const GroupBatch&) const {}
+  /// Once per frame, after heat: may remove groups of `all` and add new ones.
+  virtual void groupTopology(const ConstraintContext&, const ParticleView&, const NeighbourView&,
+                             const GroupBatch& /*all*/, GroupSink&) const {}
+  /// When undo has put members back into groups whose others may have moved on: puts them in their places.
+  /// `returned[place]` is 1 for those that came back.
+  virtual void restoreMembers(const ConstraintContext&, const ParticleView&, const GroupBatch& /*all*/,
+                              const uint8_t* /*returned*/) const {}
+  /// Elastic energy of the batch in J.
+  virtual double groupEnergy(const ConstraintContext&, const ParticleView&, const GroupBatch&) const { return 0; }
 
   // Neighbour-based. May throw.
   /// Writes correction[i] (x, y, z in m) for i in [first, last); reads any particle, moves none.

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "core/particles/particlestore.h"
+
+#include <phasesketch/constraint.h>
+
+#include <array>
+#include <vector>
+
+namespace ps {
+
+class Hash;
+
+/// A group outside a solver, by the ids of its members.
+struct CopiedGroup {
+  std::vector<uint32_t> id;
+  std::vector<uint8_t> taken;  ///< 1 for those that were taken out
+  std::vector<float> values, memberValues;
+};
+
+/// Index lists and values of the groups of one constraint plugin. Groups lie in order of colour: those of one colour
+/// share no particle. Colours are dealt out anew, in order, whenever groups come or go, so that they depend on the
+/// history of the scene alone.
+class GroupLists {
+ public:
+  static constexpr size_t kMostValues = 16;
+
+  /// What a plugin adds and removes; it takes effect when the call has returned.
+  struct Edits {
+    std::vector<uint8_t> removed;  ///< per group; empty: none
+    std::vector<size_t> begin{0};
+    std::vector<uint32_t> particles;
+    std::vector<float> values, memberValues;  ///< row by row
+    bool empty() const { return removed.empty() && particles.empty(); }
+  };
+  /// A batch with the pointers that it needs.
+  struct Batch {
+    std::array<float*, kMostValues> values{}, memberValues{};
+    api::GroupBatch view{};
+  };
+
+  GroupLists(size_t values, size_t memberValues);
+
+  size_t count() const { return m_begin.size() - 1; }
+  size_t colours() const { return m_colourStart.size() - 1; }
+  /// First group of a colour, or count() for the last.
+  size_t colourStart(size_t colour) const { return m_colourStart[colour]; }
+  std::span<const uint32_t> members(size_t group) const {
+    return {m_particles.data() + m_begin[group], m_begin[group + 1] - m_begin[group]};
+  }
+  size_t valueCount() const { return m_values.size(); }
+  size_t memberValueCount() const { return m_memberValues.size(); }
+  /// Groups [first, last); valid until the lists change. `batch` is filled in place, because it points into itself.
+  void fill(Batch& batch, size_t first, size_t last);
+
+  void clear();
+  void apply(const Edits& edits, size_t particles);
+  /// newIndex[old index]; kGone drops the member, and the group with its last one.
+  void renumber(std::span<const uint32_t> newIndex);
+  void forgetChanges() { m_changed.assign(count(), 0); }
+
+  std::vector<CopiedGroup> copy(const ParticleStore& store, std::span<const uint32_t> ascending) const;
+  /// Members that were taken out join the group that now holds most of their old companions; without one the copied
+  /// group stands again, of all that live. Returns 1 for every place whose member came back.
+  std::vector<uint8_t> putBack(const ParticleStore& store, std::span<const CopiedGroup> copies);
+  void addTo(Hash& hash, const ParticleStore& store) const;
+
+  static constexpr uint32_t kGone = ~0u;
+
+ private:
+  void append(std::span<const uint32_t> particles, const float* values, const float* memberValues, uint8_t changed);
+  void colour(size_t particles);
+  /// The group that holds most of those marked, or count().
+  size_t homeOf(std::span<const uint8_t> companion) const;
+
+  std::vector<size_t> m_begin{0};
+  std::vector<uint32_t> m_particles;
+  std::vector<std::vector<float>> m_values, m_memberValues;  ///< [value][group], [value][place]
+  std::vector<uint8_t> m_changed;
+  std::vector<size_t> m_colourStart{0};
+};
+
+}  // namespace ps

@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/solver/rigidcontact.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ps {
+namespace {
+
+/// Most passes over all contacts in one iteration of the solver: they are cheap beside density, and stacks need many.
+constexpr int kSweeps = 20;
+/// Fewer are enough when none has moved anything by more than this, in spacings.
+constexpr double kStill = 1e-5;
+/// Share of the last substep's impulses that the next one starts from: with all of them the split among contacts that
+/// bear the same load wanders, and bodies creep.
+constexpr double kResumed = 0.8;
+/// Faster than this share of the speed that gravity gives in two substeps a contact slides.
+constexpr double kSlides = 0.1;
+
+}  // namespace
+
+/// Centre, and the turn since the start of the substep.
+void RigidContact::readCentre(const ParticleStore& store, Body& body) const {
+  body.centre = body.shift = body.turn = {};
+  body.touched = false;
+  for (const uint32_t i : body.members)
+    body.centre = body.centre + double{store.mass()[i]} * vectorOf(store.position()[i]);
+  body.centre = 1 / body.mass * body.centre;
+  Vector3 moment;
+  for (const uint32_t i : body.members) {
+    const Vector3 at = vectorOf(store.position()[i]), way = at - vectorOf(store.previous()[i]);
+    moment = moment + double{store.mass()[i]} * cross(at - body.centre, way);
+  }
+  body.turned = times(body.inverseInertia, moment);
+}
+
+void RigidContact::readMasses(const ParticleStore& store, Body& body) const {
+  body.mass = 0;
+  for (const uint32_t i : body.members) body.mass += double{store.mass()[i]};
+  readCentre(store, body);
+  double xx = 0, yy = 0, zz = 0, xy = 0, xz = 0, yz = 0;
+  for (const uint32_t i : body.members) {
+    const double m = store.mass()[i];
+    const Vector3 r = vectorOf(store.position()[i]) - body.centre;
+    xx += m * (r.y * r.y + r.z * r.z), yy += m * (r.x * r.x + r.z * r.z), zz += m * (r.x * r.x + r.y * r.y);
+    xy -= m * r.x * r.y, xz -= m * r.x * r.z, yz -= m * r.y * r.z;
+  }
+  // A row of particles has no inertia about itself; a little of its own keeps the matrix invertible.
+  const double own = 1e-3 * (xx + yy + zz);
+  xx += own, yy += own, zz += own;
+  const double a = yy * zz - yz * yz, b = xz * yz - xy * zz, c = xy * yz - xz * yy;
+  const double scale = 1 / (xx * a + xy * b + xz * c);
+  body.inverseInertia[0] = {scale * a, scale * b, scale * c};
+  body.inverseInertia[1] = {scale * b, scale * (xx * zz - xz * xz), scale * (xy * xz - xx * yz)};
+  body.inverseInertia[2] = {scale * c, scale * (xy * xz - xx * yz), scale * (xx * yy - xy * xy)};
+}
+
+/// Velocity and angular velocity into shift and turn.
+void RigidContact::readMotion(const ParticleStore& store, Body& body) const {
+  readCentre(store, body);
+  Vector3 momentum, angular;
+  for (const uint32_t i : body.members) {
+    const Vector3 p = double{store.mass()[i]} * vectorOf(store.velocity()[i]);
+    momentum = momentum + p;
+    angular = angular + cross(vectorOf(store.position()[i]) - body.centre, p);
+  }
+  body.shift = 1 / body.mass * momentum;
+  body.turn = times(body.inverseInertia, angular);
+}
+
+/// How far a side has gone since positions were read; the body's turn is small, so its sine is itself.
+Vector3 RigidContact::movedBy(const ParticleStore& store, const Side& side) const {
+  if (side.body != kNone) return m_bodies[side.body].shift + cross(m_bodies[side.body].turn, side.arm);
+  return side.inverseMass > 0 ? vectorOf(store.position()[side.particle]) - side.start : Vector3{};
+}
+
+double RigidContact::inverseMass(const Side& side, Vector3 direction) const {
+  if (side.body == kNone) return side.inverseMass;
+  const Body& body = m_bodies[side.body];
+  const Vector3 lever = cross(side.arm, direction);
+  return 1 / body.mass + dot(lever, times(body.inverseInertia, lever));
+}
+
+void RigidContact::push(ParticleStore& store, const Side& side, Vector3 impulse) {
+  if (side.body != kNone) {
+    Body& body = m_bodies[side.body];
+    body.shift = body.shift + 1 / body.mass * impulse;
+    body.turn = body.turn + times(body.inverseInertia, cross(side.arm, impulse));
+    body.touched = true;
+  } else if (side.inverseMass > 0) {
+    api::Float4& x = store.position()[side.particle];
+    x.x += static_cast<float>(side.inverseMass * impulse.x);
+    x.y += static_cast<float>(side.inverseMass * impulse.y);
+    x.z += static_cast<float>(side.inverseMass * impulse.z);
+  }
+}
+
+/// Speed along the surface, in m/s.
+double RigidContact::slideOf(const Contact& c, Vector3 speed) {
+  const Vector3 along = speed - dot(speed, c.normal) * c.normal;
+  return std::sqrt(dot(along, along));
+}
+
+void RigidContact::begin(const ParticleStore& store) {
+  for (Body& body : m_bodies) {
+    if (body.hasContacts) readMasses(store, body);
+  }
+  for (Contact& c : m_contacts) {
+    c.active = true;
+    if (c.plane == kNone) orient(store, c);
+    Vector3 speed = vectorOf(store.velocity()[c.a.particle]);
+    if (c.b.particle != kNone) speed = speed - vectorOf(store.velocity()[c.b.particle]);
+    const double before = c.approach;
+    c.approach = dot(speed, c.normal);
+    // What carried a body in the last substep is the best guess for this one; an impact is over.
+    if (!c.met) c.slides = slideOf(c, speed) > m_slowest;
+    if (!c.active || before < -m_slowest) c.push = 0, c.rub = {};
+    c.push *= kResumed;
+    c.rub = kResumed * c.rub;
+    c.met = false;
+  }
+  m_resume = true;
+}
+
+/// A side's place of contact; returns its way since the start of the substep.
+Vector3 RigidContact::readSide(const ParticleStore& store, Side& side, Vector3 place) const {
+  if (side.particle == kNone) return {};
+  side.start = vectorOf(store.position()[side.particle]);
+  const Vector3 way = side.start - vectorOf(store.previous()[side.particle]);
+  if (side.body == kNone) return way;
+  const Body& body = m_bodies[side.body];
+  side.arm = place - body.centre;
+  return way + cross(body.turned, place - side.start);
+}
+
+void RigidContact::readPlaces(const ParticleStore& store) {
+  for (Contact& c : m_contacts) {
+    if (!c.active) continue;
+    const Vector3 a = vectorOf(store.position()[c.a.particle]);
+    Vector3 place = a - 0.5 * m_spacing * c.normal;
+    c.gap = dot(a, c.normal) - c.distance;
+    if (c.b.particle != kNone) {
+      // Both sides at one place, or a couple would be left over. A free particle can take its push at its centre only.
+      const Vector3 b = vectorOf(store.position()[c.b.particle]);
+      place = c.b.inverseMass > 0 ? b : 0.5 * (a + b);
+      c.gap -= dot(b, c.normal);
+    }
+    c.way = readSide(store, c.a, place) - readSide(store, c.b, place);
+    c.mass = 1 / (inverseMass(c.a, c.normal) + inverseMass(c.b, c.normal));
+  }
+}
+
+/// Starts from the impulses of the last substep.
+void RigidContact::resume(ParticleStore& store) {
+  for (Contact& c : m_contacts) {
+    if (c.push == 0) continue;
+    c.rub = c.rub - dot(c.rub, c.normal) * c.normal;
+    const Vector3 impulse = c.push * c.normal + c.rub;
+    push(store, c.a, impulse);
+    push(store, c.b, -1.0 * impulse);
+  }
+  m_resume = false;
+}
+
+/// Returns how far it moved the two, in m.
+double RigidContact::solve(ParticleStore& store, Contact& c) {
+  if (!c.active) return 0;
+  const double gap = c.gap + dot(movedBy(store, c.a) - movedBy(store, c.b), c.normal);
+  if (gap >= 0 && c.push == 0) return 0;
+  c.met = true;
+  const double before = c.push;
+  c.push = std::max(0.0, before - gap * c.mass);
+  const Vector3 pushed = (c.push - before) * c.normal;
+  push(store, c.a, pushed);
+  push(store, c.b, -1.0 * pushed);
+  // Tangential way since the start of the substep, to be taken back as far as the cone allows.
+  const Vector3 moved = c.way + movedBy(store, c.a) - movedBy(store, c.b),
+                way = moved - dot(moved, c.normal) * c.normal;
+  const double length = std::sqrt(dot(way, way));
+  Vector3 wanted = c.rub;
+  if (length > 0) {
+    const Vector3 direction = 1 / length * way;
+    wanted = wanted - length / (inverseMass(c.a, direction) + inverseMass(c.b, direction)) * direction;
+  }
+  // One coefficient for the whole substep: contacts that share a load each ask for all of it on their way to the
+  // solution, and would take that for slipping.
+  const double most = (c.slides ? c.kineticFriction : c.staticFriction) * c.push;
+  const double size = std::sqrt(dot(wanted, wanted));
+  if (size > most) wanted = most / size * wanted;
+  const Vector3 rubbed = wanted - c.rub;
+  c.rub = wanted;
+  push(store, c.a, rubbed);
+  push(store, c.b, -1.0 * rubbed);
+  return (std::abs(c.push - before) + std::sqrt(dot(rubbed, rubbed))) / c.mass;
+}
+
+void RigidContact::project(ParticleStore& store) {
+  if (m_contacts.empty()) return;
+  for (Body& body : m_bodies) {
+    if (body.hasContacts) readCentre(store, body);
+  }
+  readPlaces(store);
+  if (m_resume) resume(store);
+  for (int sweep = 0; sweep < kSweeps; ++sweep) {
+    double most = 0;
+    for (Contact& c : m_contacts) most = std::max(most, solve(store, c));
+    if (most < kStill * m_spacing) break;
+  }
+  for (const Body& body : m_bodies) {
+    if (!body.hasContacts || !body.touched) continue;
+    // The rotation whose quaternion is (turn/2, 1), normalised: by the angle 2 atan(|turn|/2).
+    const double s = 2 / (1 + 0.25 * dot(body.turn, body.turn));
+    for (const uint32_t i : body.members) {
+      const Vector3 r = vectorOf(store.position()[i]) - body.centre;
+      const Vector3 half = 0.5 * cross(body.turn, r);
+      const Vector3 x = body.centre + body.shift + r + s * (half + 0.5 * cross(body.turn, half));
+      api::Float4& to = store.position()[i];
+      to.x = static_cast<float>(x.x), to.y = static_cast<float>(x.y), to.z = static_cast<float>(x.z);
+    }
+  }
+}
+
+void RigidContact::hold(ParticleStore& store, std::span<const api::Float4> held) const {
+  if (held.empty()) return;
+  for (const Body& body : m_bodies) {
+    Vector3 back;
+    for (const uint32_t i : body.members) {
+      const Vector3 way = vectorOf(held[i]);
+      if (dot(way, way) > dot(back, back)) back = way;
+    }
+    if (dot(back, back) == 0) continue;
+    for (const uint32_t i : body.members) {
+      api::Float4& x = store.position()[i];
+      x.x += static_cast<float>(back.x), x.y += static_cast<float>(back.y), x.z += static_cast<float>(back.z);
+    }
+  }
+}
+
+void RigidContact::bounce(ParticleStore& store) {
+  if (std::none_of(m_contacts.begin(), m_contacts.end(), [](const Contact& c) { return c.met; })) return;
+  for (Body& body : m_bodies) {
+    if (body.hasContacts) readMotion(store, body);
+  }
+  readPlaces(store);
+  const auto speedOf = [&](const Side& side) {
+    if (side.particle == kNone) return Vector3{};
+    if (side.body == kNone) return vectorOf(store.velocity()[side.particle]);
+    return m_bodies[side.body].shift + cross(m_bodies[side.body].turn, side.arm);
+  };
+  const auto give = [&](const Side& side, Vector3 impulse) {
+    if (side.body != kNone) return push(store, side, impulse);
+    if (!(side.inverseMass > 0)) return;
+    api::Float4& v = store.velocity()[side.particle];
+    v.x += static_cast<float>(side.inverseMass * impulse.x);
+    v.y += static_cast<float>(side.inverseMass * impulse.y);
+    v.z += static_cast<float>(side.inverseMass * impulse.z);
+  };
+  for (int sweep = 0; sweep < kSweeps; ++sweep) {
+    for (const Contact& c : m_contacts) {
+      if (!c.met) continue;
+      const double wanted = c.approach < -m_slowest ? -c.restitution * c.approach : 0;
+      const double change = wanted - dot(speedOf(c.a) - speedOf(c.b), c.normal);
+      // What met without bearing anything in the end may part, but not approach.
+      if (change < 0 && c.push == 0) continue;
+      const Vector3 impulse = change * c.mass * c.normal;
+      give(c.a, impulse);
+      give(c.b, -1.0 * impulse);
+    }
+  }
+  for (Contact& c : m_contacts) {
+    if (c.met) c.slides = slideOf(c, speedOf(c.a) - speedOf(c.b)) > kSlides * m_slowest;
+  }
+  for (const Body& body : m_bodies) {
+    if (!body.hasContacts || !body.touched) continue;
+    for (const uint32_t i : body.members) {
+      const Vector3 v = body.shift + cross(body.turn, vectorOf(store.position()[i]) - body.centre);
+      api::Float4& to = store.velocity()[i];
+      to.x = static_cast<float>(v.x), to.y = static_cast<float>(v.y), to.z = static_cast<float>(v.z);
+    }
+  }
+}
+
+}  // namespace ps

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "core/matter/material.h"
+#include "core/solver/constraintsystem.h"
+#include "core/solver/vector3.h"
+
+namespace ps {
+
+/// Contact of rigid bodies with walls, with each other, and with other solid and static particles. A contact acts on
+/// the body as a whole, by its generalised inverse mass 1/M + (r x n).I^-1 (r x n) (Mueller et al. 2020, eq. 2):
+/// projecting member by member and matching the shape afterwards creeps down a slope. Per substep every contact adds up
+/// its normal impulse, which stays positive, and its friction, which stays within the cone: the static one, or the
+/// kinetic one of a contact that slid at the end of the last substep. Projected Gauss-Seidel, started from the impulses
+/// of the last substep, serial, in an order scattered by the particles' ids, so that threads have no part in it:
+/// contacts are few. Afterwards restitution as a pass over velocities (Mueller et al. 2020, section 3.6), which also
+/// takes out speed that only the removal of an overlap has given. Particles are spheres, but where a face of the
+/// lattice takes part its own normal is used, so that layers do not interlock. A box therefore tips as if its base were
+/// one spacing narrower, and an edge of it is round. It cannot do: stop a body that crosses
+/// another moving one within one substep.
+class RigidContact {
+ public:
+  void configure(const SolverSettings& settings, const std::vector<Wall>& walls,
+                 std::span<const BakedMaterial> materials);
+  /// Which particles belong to a rigid body (1), by index: other contact leaves them alone.
+  std::span<const uint8_t> members() const { return m_isMember; }
+  /// After a new order or a new structure: who belongs to which body.
+  void refreshBodies(const ParticleStore& store, const ConstraintSystem& constraints);
+  /// After new lists, or when solids have moved more than half the skin: which contacts may come about.
+  void refreshContacts(const ParticleStore& store, const Neighbours& neighbours, ConstraintSystem& constraints);
+  /// Drops what contacts bore, when a frame is taken back.
+  void forget() { m_contacts.clear(); }
+  /// Once per substep, when positions have been predicted.
+  void begin(const ParticleStore& store);
+  /// Moves bodies, and single particles that touch them, out of each other.
+  void project(ParticleStore& store);
+  /// Moves each body back by the longest of its members' ways in `held` (SweptClamp): it stops at a layer of static
+  /// particles that it would have crossed, however fast it is.
+  void hold(ParticleStore& store, std::span<const api::Float4> held) const;
+  /// Restitution, when velocities are known.
+  void bounce(ParticleStore& store);
+
+ private:
+  static constexpr uint32_t kNone = ~0u;
+  struct Body {
+    std::vector<uint32_t> members;
+    double mass = 0;                          ///< kg
+    std::array<Vector3, 3> inverseInertia{};  ///< rows, 1/(kg m2), about the centre
+    Vector3 centre;                           ///< m
+    Vector3 shift, turn;  ///< m, rad: what contacts did since positions were read; m/s, rad/s in bounce()
+    Vector3 turned;       ///< rad, since the start of the substep, when positions were read
+    bool touched = false, hasContacts = false;
+  };
+  /// One side of a contact: a point of a body, a free particle, or nothing that moves.
+  struct Side {
+    uint32_t particle = kNone, body = kNone;
+    double inverseMass = 0;  ///< 1/kg of a free particle
+    Vector3 start{};         ///< m, the particle when positions were read
+    Vector3 arm{};           ///< m, from the body's centre to the place of contact
+  };
+  struct Contact {
+    Side a, b;
+    uint32_t plane = kNone;
+    uint64_t key = 0;  ///< the same for the two, whatever their indices
+    double staticFriction = 0, kineticFriction = 0, restitution = 0;
+    Vector3 normal;                                    ///< from b to a
+    double distance = 0;                               ///< m, along the normal at rest; for a plane its offset
+    double gap = 0;                                    ///< m, when positions were read
+    Vector3 way;                                       ///< m, of a against b since the start of the substep, likewise
+    double mass = 0;                                   ///< kg, generalised, along the normal
+    bool active = false, met = false, slides = false;  ///< met: overlapped at some time of the substep
+    double push = 0;                                   ///< kg m, summed over the substep
+    Vector3 rub;                                       ///< kg m
+    double approach = 0;                               ///< m/s, normal speed before the substep
+  };
+  struct Plane {
+    Vector3 normal;
+    double offset, friction;
+  };
+  /// Outward normal of a lattice at one of its particles; `neighbours` tells a face from an edge.
+  struct Surface {
+    Vector3 normal;
+    uint32_t neighbours = 0;
+  };
+
+  Vector3 movedBy(const ParticleStore& store, const Side& side) const;
+  Vector3 readSide(const ParticleStore& store, Side& side, Vector3 place) const;
+  double inverseMass(const Side& side, Vector3 direction) const;
+  void push(ParticleStore& store, const Side& side, Vector3 impulse);
+  void addContact(const ParticleStore& store, uint32_t i, uint32_t j);
+  void addPlane(const ParticleStore& store, uint32_t i, size_t plane);
+  void keepImpulses();
+  Surface surfaceOf(const ParticleStore& store, uint32_t i, Vector3 outward) const;
+  void orient(const ParticleStore& store, Contact& contact) const;
+  static double slideOf(const Contact& contact, Vector3 speed);
+  double solve(ParticleStore& store, Contact& contact);
+  void resume(ParticleStore& store);
+  void readPlaces(const ParticleStore& store);
+  void readMasses(const ParticleStore& store, Body& body) const;
+  void readMotion(const ParticleStore& store, Body& body) const;
+  void readCentre(const ParticleStore& store, Body& body) const;
+
+  bool m_resume = false;  ///< the substep's first pass is to come
+  double m_spacing = 0, m_slowest = 0;
+  std::vector<Plane> m_planes;
+  struct Rub {
+    double resting, sliding, bounce;
+  };
+  std::vector<Rub> m_materials;
+  std::vector<uint8_t> m_isMember;
+  std::vector<uint32_t> m_bodyOf;
+  std::vector<Body> m_bodies;
+  std::vector<Contact> m_contacts, m_former;         ///< former: by key
+  std::vector<uint32_t> m_ownBegin, m_own, m_ownOf;  ///< same-body neighbours of those that touch others
+};
+
+}  // namespace ps

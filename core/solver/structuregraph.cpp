@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/solver/constraintsystem.h"
+
+namespace ps {
+
+const StructureGraph& ConstraintSystem::graph(size_t particles) {
+  if (m_graphValid && m_graph.begin.size() == particles + 1) return m_graph;
+  std::vector<uint32_t>& begin = m_graph.begin;
+  begin.assign(particles + 1, 0);
+  for (const Set& set : m_sets) {
+    for (const uint32_t i : set.particles) begin[i + 1] += static_cast<uint32_t>(set.arity) - 1;
+  }
+  for (size_t i = 0; i < particles; ++i) begin[i + 1] += begin[i];
+  m_graph.partner.resize(begin[particles]);
+  m_newIndex.assign(begin.begin(), begin.end());
+  for (const Set& set : m_sets) {
+    for (size_t k = 0; k < set.count; ++k) {
+      const uint32_t* p = set.particles.data() + k * set.arity;
+      for (size_t a = 0; a < set.arity; ++a) {
+        for (size_t b = 0; b < set.arity; ++b) {
+          if (a != b) m_graph.partner[m_newIndex[p[a]]++] = p[b];
+        }
+      }
+    }
+  }
+  addGroupsTo(m_graph, particles);
+  m_graphValid = true;
+  return m_graph;
+}
+
+void ConstraintSystem::addGroupsTo(StructureGraph& graph, size_t particles) const {
+  graph.groupBegin.assign(particles + 1, 0);
+  const auto eachMember = [&](auto&& visit) {
+    uint32_t serial = 0;
+    for (const Set& set : m_sets) {
+      for (size_t g = 0; set.groups && g < set.groups->count(); ++g, ++serial) {
+        for (const uint32_t i : set.groups->members(g)) visit(i, serial);
+      }
+    }
+  };
+  eachMember([&](uint32_t i, uint32_t) { ++graph.groupBegin[i + 1]; });
+  for (size_t i = 0; i < particles; ++i) graph.groupBegin[i + 1] += graph.groupBegin[i];
+  graph.group.resize(graph.groupBegin[particles]);
+  std::vector<uint32_t> next(graph.groupBegin.begin(), graph.groupBegin.end());
+  eachMember([&](uint32_t i, uint32_t serial) { graph.group[next[i]++] = serial; });
+}
+
+}  // namespace ps

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <phasesketch/constraint.h>
+
+namespace ps::constraint {
+
+/// Rigid bodies of particles. Prediction: the body's linear and angular momentum are those of its members' velocities
+/// (whatever gave them: gravity, drag, a brush); it moves on by v dt, and turns by the midpoint rule at constant
+/// angular momentum, which holds the gyroscopic term and keeps momentum to rounding. Correction: what contact and
+/// liquid did to its particles is absorbed by shape matching (Mueller et al. 2005; rotation by Mueller et al. 2016)
+/// into a change of the pose, and the velocities follow as increments from the predicted one, v += dc/dt, w += log(R
+/// R_pred^T)/dt, so that a free body loses no spin. Momentum that viscosity gave to members goes to the body. Members
+/// that cease to be solid leave; what is left falls into pieces that hang together in the undeformed shape. Heat scales
+/// the whole body by its mean strain. It cannot do: deform, break by force, or grow by freezing.
+class RigidModel : public api::ConstraintPlugin {
+ public:
+  enum Parameter { kLeastMembers, kParameterCount };
+  enum Value {
+    kCentreX,
+    kCentreY,
+    kCentreZ,
+    kRotationX,
+    kRotationY,
+    kRotationZ,
+    kRotationW,
+    kScale,
+    kVelocityX,
+    kVelocityY,
+    kVelocityZ,
+    kSpinX,
+    kSpinY,
+    kSpinZ,
+    kValueCount
+  };
+  enum MemberValue { kRestX, kRestY, kRestZ, kRestVolume, kMemberValueCount };
+
+  const char* label() const noexcept override;
+  const char* help() const noexcept override;
+  api::ParameterList parameters() const noexcept override;
+  api::ConstraintTraits traits() const noexcept override;
+
+  void buildGroups(const api::ConstraintContext& context, const api::ParticleView& particles,
+                   const api::NeighbourView& lists, api::Span<const uint32_t> members, const api::GroupBatch& all,
+                   api::GroupSink& sink) const override;
+  void predictGroups(const api::ConstraintContext& context, const api::ParticleView& particles,
+                     const api::GroupBatch& batch) const override;
+  void projectGroups(const api::ConstraintContext& context, const api::ParticleView& particles,
+                     const api::GroupBatch& batch) const override;
+  void deriveGroupVelocities(const api::ConstraintContext& context, const api::ParticleView& particles,
+                             const api::GroupBatch& batch) const override;
+  void groupTopology(const api::ConstraintContext& context, const api::ParticleView& particles,
+                     const api::NeighbourView& lists, const api::GroupBatch& all, api::GroupSink& sink) const override;
+  void restoreMembers(const api::ConstraintContext& context, const api::ParticleView& particles,
+                      const api::GroupBatch& all, const uint8_t* returned) const override;
+};
+
+}  // namespace ps::constraint

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rotation.h"
+
+#include <algorithm>
+
+namespace ps::constraint {
+
+Quaternion normalised(Quaternion q) {
+  const double length2 = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
+  if (!(length2 > 1e-30) || !std::isfinite(length2)) return {};
+  const double s = 1 / std::sqrt(length2);
+  return {s * q.x, s * q.y, s * q.z, s * q.w};
+}
+
+Matrix matrixOf(Quaternion q) {
+  const double xx = q.x * q.x, yy = q.y * q.y, zz = q.z * q.z, xy = q.x * q.y, xz = q.x * q.z, yz = q.y * q.z,
+               wx = q.w * q.x, wy = q.w * q.y, wz = q.w * q.z;
+  return {{Vector{1 - 2 * (yy + zz), 2 * (xy - wz), 2 * (xz + wy)},
+           Vector{2 * (xy + wz), 1 - 2 * (xx + zz), 2 * (yz - wx)},
+           Vector{2 * (xz - wy), 2 * (yz + wx), 1 - 2 * (xx + yy)}}};
+}
+
+Quaternion exponential(Vector v) {
+  // Halved until the series of sine and cosine are exact to 1e-16, then squared as often.
+  int halvings = 0;
+  double scale = 0.5;
+  for (double angle2 = 0.25 * dot(v, v); angle2 > 0.01 && halvings < 40; angle2 *= 0.25, scale *= 0.5) ++halvings;
+  const double s = scale * scale * dot(v, v);
+  const double sine = scale * (1 - s / 6 * (1 - s / 20 * (1 - s / 42 * (1 - s / 72))));
+  const double cosine = 1 - s / 2 * (1 - s / 12 * (1 - s / 30 * (1 - s / 56)));
+  Quaternion q{sine * v.x, sine * v.y, sine * v.z, cosine};
+  for (int k = 0; k < halvings; ++k) q = q * q;
+  return normalised(q);
+}
+
+Vector logarithm(Quaternion q) {
+  q = normalised(q);
+  if (q.w < 0) q = {-q.x, -q.y, -q.z, -q.w};
+  double scale = 2;
+  // Square roots of the rotation until the series of the arc sine is exact to 1e-14.
+  for (int k = 0; k < 8 && q.x * q.x + q.y * q.y + q.z * q.z > 1e-3; ++k, scale *= 2) {
+    q = normalised({q.x, q.y, q.z, q.w + 1});
+  }
+  const double s = q.x * q.x + q.y * q.y + q.z * q.z;
+  const double perSine = scale * (1 + s * (1.0 / 6 + s * (3.0 / 40 + s * (15.0 / 336 + s * (105.0 / 3456)))));
+  return {perSine * q.x, perSine * q.y, perSine * q.z};
+}
+
+Quaternion rotationOf(const Matrix& a, Quaternion q) {
+  constexpr int kMost = 60;
+  constexpr double kExact2 = 1e-26;  // rad^2
+  const std::array<Vector, 3> columns{a.column(0), a.column(1), a.column(2)};
+  for (int k = 0; k < kMost; ++k) {
+    const Matrix r = matrixOf(q);
+    Vector turn;
+    double scale = 0;
+    for (size_t c = 0; c < 3; ++c) {
+      turn += cross(r.column(c), columns[c]);
+      scale += dot(r.column(c), columns[c]);
+    }
+    const double size = std::abs(scale);
+    if (!(size > 0)) break;
+    turn = 1 / size * turn;
+    const double angle2 = dot(turn, turn);
+    if (!(angle2 > kExact2) || !std::isfinite(angle2)) break;
+    if (angle2 > 1) turn = 1 / std::sqrt(angle2) * turn;
+    q = normalised(exponential(turn) * q);
+  }
+  return q;
+}
+
+Matrix pseudoInverse(const Matrix& m) {
+  double a[3][3] = {
+      {m.row[0].x, m.row[0].y, m.row[0].z}, {m.row[1].x, m.row[1].y, m.row[1].z}, {m.row[2].x, m.row[2].y, m.row[2].z}};
+  double axes[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};  // columns
+  for (int sweep = 0; sweep < 12; ++sweep) {
+    for (int p = 0; p < 2; ++p) {
+      for (int q = p + 1; q < 3; ++q) {
+        if (a[p][q] == 0) continue;
+        const double theta = (a[q][q] - a[p][p]) / (2 * a[p][q]);
+        const double t = (theta >= 0 ? 1 : -1) / (std::abs(theta) + std::sqrt(theta * theta + 1));
+        const double c = 1 / std::sqrt(t * t + 1), s = t * c;
+        for (int k = 0; k < 3; ++k) {
+          const double akp = a[k][p], akq = a[k][q];
+          a[k][p] = c * akp - s * akq, a[k][q] = s * akp + c * akq;
+        }
+        for (int k = 0; k < 3; ++k) {
+          const double apk = a[p][k], aqk = a[q][k];
+          a[p][k] = c * apk - s * aqk, a[q][k] = s * apk + c * aqk;
+        }
+        for (auto& axis : axes) {
+          const double xp = axis[p], xq = axis[q];
+          axis[p] = c * xp - s * xq, axis[q] = s * xp + c * xq;
+        }
+      }
+    }
+  }
+  const double least = 1e-6 * std::max({a[0][0], a[1][1], a[2][2]});
+  Matrix inverse;
+  for (size_t k = 0; k < 3; ++k) {
+    if (!(a[k][k] > least)) continue;
+    const Vector axis{axes[0][k], axes[1][k], axes[2][k]};
+    addOuter(inverse, 1 / a[k][k], axis, axis);
+  }
+  return inverse;
+}
+
+double cubeRoot(double s) {
+  double y = 1 + (s - 1) / 3;
+  for (int k = 0; k < 4; ++k) {
+    const double y3 = y * y * y;
+    y *= (y3 + 2 * s) / (2 * y3 + s);
+  }
+  return y;
+}
+
+}  // namespace ps::constraint

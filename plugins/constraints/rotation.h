@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <array>
+#include <cmath>
+
+// Rotations in double precision from additions, products and square roots alone: the same bits on every machine, which
+// the sines of a standard library do not promise.
+namespace ps::constraint {
+
+struct Vector {
+  double x = 0, y = 0, z = 0;
+};
+inline Vector operator+(Vector a, Vector b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+inline Vector operator-(Vector a, Vector b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+inline Vector operator*(double s, Vector a) { return {s * a.x, s * a.y, s * a.z}; }
+inline Vector& operator+=(Vector& a, Vector b) { return a = a + b; }
+inline double dot(Vector a, Vector b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline Vector cross(Vector a, Vector b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+/// Three rows.
+struct Matrix {
+  std::array<Vector, 3> row{};
+  Vector column(size_t k) const {
+    const auto at = [&](const Vector& v) { return k == 0 ? v.x : k == 1 ? v.y : v.z; };
+    return {at(row[0]), at(row[1]), at(row[2])};
+  }
+};
+inline Vector operator*(const Matrix& m, Vector v) { return {dot(m.row[0], v), dot(m.row[1], v), dot(m.row[2], v)}; }
+inline Vector transposedTimes(const Matrix& m, Vector v) { return v.x * m.row[0] + v.y * m.row[1] + v.z * m.row[2]; }
+/// m += s a b^T
+inline void addOuter(Matrix& m, double s, Vector a, Vector b) {
+  m.row[0] += s * a.x * b;
+  m.row[1] += s * a.y * b;
+  m.row[2] += s * a.z * b;
+}
+
+struct Quaternion {
+  double x = 0, y = 0, z = 0, w = 1;
+};
+inline Quaternion operator*(Quaternion a, Quaternion b) {
+  return {a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y, a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x,
+          a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w, a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z};
+}
+inline Quaternion conjugate(Quaternion q) { return {-q.x, -q.y, -q.z, q.w}; }
+/// Of unit length; no rotation for what has no length or is no number.
+Quaternion normalised(Quaternion q);
+Matrix matrixOf(Quaternion q);
+/// Rotation by the angle |v| in rad about v.
+Quaternion exponential(Vector v);
+/// Its inverse: the shorter of the two ways, at most pi rad.
+Vector logarithm(Quaternion q);
+
+/// Rotation R that maximises the trace of R^T A: the rotational part of A, by the quaternion iteration of Mueller,
+/// Bender, Chentanez & Macklin 2016, started from `q`. What A leaves open (a line, a point) stays as in `q`.
+Quaternion rotationOf(const Matrix& a, Quaternion q);
+
+/// Inverse of a symmetric, positive semidefinite matrix, zero along axes whose eigenvalue is below 1e-6 of the largest
+/// (a row of particles has no inertia about itself). Jacobi's eigenvalue method.
+Matrix pseudoInverse(const Matrix& m);
+
+/// For ratios near 1, by Halley's method: exact to 1e-12 from 0.5 to 2.
+double cubeRoot(double s);
+
+}  // namespace ps::constraint
