@@ -46,7 +46,7 @@ void Solver::Impl::runFrame() {
     timed(Stage::Neighbours, [&] { freshLists(); });
     if (good) keepLastGood();
     timed(Stage::Phase, [&] { gas.measure(store, neighbours); });
-    timed(Stage::Viscosity, [&] { viscosity.refresh(store, density); });
+    timed(Stage::Viscosity, [&] { viscosity.refresh(store, neighbours, density); });
     for (int s = 0; s < settings.substeps && good; ++s) {
       substep(static_cast<uint32_t>(s));
       good = !rejectIfNotFinite();
@@ -76,6 +76,7 @@ void Solver::Impl::closeFrame() {
     report.densityErrorMean = error.mean;
     report.densityErrorMax = error.max;
   });
+  report.viscosityIterations = viscosity.iterations();
   if (report.densityErrorMean > kDiverged) {
     const float* c = store.densityError();
     const size_t worst = static_cast<size_t>(std::max_element(c, c + store.size()) - c);
@@ -119,6 +120,7 @@ void Solver::Impl::listsChanged(bool newStructure) {
   density.refreshLists(store, neighbours);
   wallStage.refreshLists(store);
   swept.refreshLists(store, neighbours);
+  viscosity.listsChanged();
   if (newStructure || contact.stale(store)) contact.refresh(store, neighbours, constraints);
 }
 
