@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "core/solver/density.h"
+#include "core/solver/viscousgroups.h"
 
 #include <array>
 
@@ -12,7 +13,7 @@ struct SymmetricBlock {
 };
 
 /// Viscosity beyond what a filter delivers, after Weiler, Koschier, Brand & Bender 2018, "A physically consistent
-/// implicit viscosity solver for SPH fluids", eq. 7 and 8: (M + dt K) dv = -dt K v*, where each pair resists along its
+/// implicit viscosity solver for SPH fluids": (M + dt K) dv = -dt K v*, where each pair resists along its
 /// own line, k_ij = 10 mu_ij V_i V_j G_ij x_ij (x) x_ij, so that momentum and angular momentum stay (for G see
 /// kStressNormalisation).
 /// Solved matrix-free by conjugate gradients with the 3 x 3 diagonal blocks as preconditioner, from the last dv.
@@ -25,7 +26,7 @@ struct SymmetricBlock {
 /// P the mass-orthogonal projection), where every iterate keeps both to rounding.
 ///
 /// All sums run in segments of a fixed size, in one order, in double: neither threads nor instruction sets matter.
-/// Error: it delivers 1.01 to 1.08 of the viscosity, as particles lie, with 2 spacings of reach.
+/// Error: it delivers 1.01 to 1.09 of the viscosity, as particles lie, with 2 spacings of reach.
 class ImplicitViscosity {
  public:
   void configure(const SolverSettings& settings, const std::vector<Wall>& walls);
@@ -49,40 +50,25 @@ class ImplicitViscosity {
   double residual() const { return m_residual; }   ///< the largest of a substep since refresh(), relative
 
  private:
-  enum class Role : uint8_t { None, Viscous, Free, Fixed };
+  using Role = ViscousGroups::Role;
+  using Segment = ViscousGroups::Segment;
   struct Plane {
     float x, y, z, offset;
   };
-  /// Particles that act on each other, and the rigid motion to be taken from their changes of velocity.
-  struct Group {
-    uint32_t firstSegment = 0, lastSegment = 0;
-    bool anchored = false;  ///< lists hold boundary particles
-    bool closed = false;
-    double mass = 0;  ///< kg
-    std::array<double, 3> center{}, linear{}, angular{};
-    std::array<double, 9> inverseInertia{};
-  };
-  struct Segment {
-    uint32_t group, first, last;  ///< of m_rows
-  };
-  /// Of one segment: mass, first and second moments, or momenta.
-  using Sums = std::array<double, 10>;
-
   Role roleOf(const ParticleStore& store, std::span<const float> viscous, size_t i) const;
-  void findGroups(const ParticleStore& store, const Neighbours& neighbours);
-  void flood(uint32_t seed, const api::NeighbourView& view, bool& anchored);
+  void findGroups(const Neighbours& neighbours);
   void loadPoints(const ParticleStore& store, const DensityStage& density);
   void assemble(const ParticleStore& store, const PairLists& lists, double scale, const float* viscosity);
   bool addWalls(const api::Float4& at, float weight, SymmetricBlock& block) const;
-  void measureGroups(const ParticleStore& store);
   /// Product of A, with `massShare` (0 or 1) of M, and m_direction.
   void multiply(const ParticleStore& store, const PairLists& lists, size_t first, size_t last, float massShare);
-  void addMomenta(const ParticleStore& store, const api::Float4* vectors, size_t segment);
-  void reduceMomenta();
-  api::Float4 withoutRigidMotion(const ParticleStore& store, const Group& group, uint32_t i, api::Float4 v) const;
   double sum(size_t which) const;
   void start(ParticleStore& store, const PairLists& lists, const api::Float4* guess);
+  double curvature(const ParticleStore& store, const PairLists& lists);
+  double advance(const ParticleStore& store, float step, bool change);
+  void redirect(const ParticleStore& store, float keep);
   void iterate(const ParticleStore& store, const PairLists& lists);
+  uint32_t row(size_t k) const { return m_groups.rows()[k]; }
   template <class Body>
   void forSegments(const Body& body);
 
@@ -96,16 +82,13 @@ class ImplicitViscosity {
 
   std::vector<Role> m_roles;
   std::vector<float> m_viscous;
-  std::vector<uint32_t> m_rows, m_stack;
-  std::vector<uint8_t> m_found;
-  std::vector<Group> m_groups;
-  std::vector<Segment> m_segments;
+  ViscousGroups m_groups;
   std::vector<api::Float4> m_points, m_direction;  ///< by particle
   std::vector<float> m_coefficient;                ///< by slot of the lists
   std::vector<SymmetricBlock> m_own, m_inverse;    ///< by row, as all below
   std::vector<api::Float4> m_diagonal, m_offDiagonal, m_change, m_rest, m_preconditioned, m_product;
   std::vector<float> m_shear;
-  std::vector<Sums> m_sums;                      ///< by segment
+  std::vector<uint8_t> m_touched;                ///< by segment: a wall holds some of it
   std::vector<std::array<double, 2>> m_partial;  ///< by segment
   double m_target = 0, m_reference = 0, m_residualSquare = 0;
 };

@@ -50,11 +50,11 @@ struct StressField {
   const float* viscous;       ///< 1 for particles of the implicit stage; a pair counts when one of two is
 };
 
-/// Weight of a pair's resistance, g(q) = (1 - q)2 (1 + 1/q). Weiler et al. 2018 have -F/(r2 + 0.01 R2) in its place;
-/// any weight with the same int g r4 dV gives the same viscosity in the continuum, and that one delivers 0.70 of it to
-/// shear along a lattice with 2 spacings of reach (0.79 to layers that slide), this one 1.07 (1.01), and 1.02 to 1.06
-/// in disorder, whatever the direction.
-inline constexpr double kStressNormalisation = 378 / (5 * 3.14159265358979324);  ///< times g/R7 it has int .. dV = 3
+/// Weight of a pair's resistance, g(q) = (1 - q)2 (1 + 1/q), times this and 1/R7: then int g r4 dV = 3, as for the
+/// -F/(r2 + 0.01 R2) that Weiler et al. 2018 have in its place. Any weight of that moment gives the same viscosity in
+/// the continuum; with 2 spacings of reach theirs delivers 0.70 of it to shear along a lattice (0.79 to layers that
+/// slide), this one 1.07 (1.01), and 1.02 to 1.06 in disorder.
+inline constexpr double kStressNormalisation = 378 / (5 * 3.14159265358979324);
 
 /// For the particles which[first .. last), with x = x_i - x_j:
 /// coefficient[slot] = factor (mu_i + mu_j)/2 V_i V_j g(q) for each slot of their lists, and the sums of
