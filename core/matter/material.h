@@ -17,8 +17,8 @@ namespace ps {
 /// conductivity_{solid,liquid,gas}, melting_temperature, solidus, liquidus, latent_heat_fusion, boiling_temperature,
 /// latent_heat_vaporization, molar_mass, triple_temperature, triple_pressure, latent_heat_sublimation,
 /// critical_temperature, melting_slope, expansion_linear, expansion_volumetric, youngs_modulus, poisson_ratio,
-/// viscosity, friction_static, friction_kinetic, restitution, melt_break_fraction, freeze_bond_fraction, bond_radius,
-/// emissivity, gas_volume_factor, sinters, color_red/green/blue (sRGB 0..1, how the editor draws it).
+/// viscosity, yield_stress, friction_static, friction_kinetic, restitution, melt_break_fraction, freeze_bond_fraction,
+/// bond_radius, emissivity, gas_volume_factor, sinters, color_red/green/blue (sRGB 0..1, how the editor draws it).
 api::ParameterList propertyCatalogue();
 /// Index into the catalogue, or -1.
 int propertyIndex(std::string_view key);
@@ -66,6 +66,7 @@ class BakedMaterial final : public api::MaterialView {
   double kirchhoff(double temperature) const;
   double youngsModulus(double temperature) const;  ///< Pa
   double viscosity(double temperature) const;      ///< Pa s, liquid
+  double yieldStress(double temperature) const;    ///< Pa, liquid; 0: flows under any stress
   double scalar(int propertyIndex) const { return m_scalars[static_cast<size_t>(propertyIndex)]; }
 
  private:

@@ -45,6 +45,25 @@ constexpr api::ParameterDeclaration kSolver[] = {
             "Least share of the neighbours' mean velocity that a particle takes over; it keeps water quiet "
             "where its real viscosity asks less.",
             "0.05 for water, 0.2 for oil-like calm, 0 for none", "Schechter & Bridson 2012"}),
+    choice({"viscosity_model", "Viscosity", "", ""}, "automatic|xsph|implicit", 0,
+           {"Viscosity",
+            "How liquids resist shear. A filter of velocities is cheap and reaches oil; the implicit solver reaches "
+            "honey, lava and glass. Automatic takes the filter where it suffices.",
+            "automatic: water by the filter, honey implicit", "Monaghan 1992; Weiler et al. 2018"}),
+    number({"viscosity_max", "Thickest mush", "µ_max", "Pa·s"}, {1e4, 10, 1e6, 1e-3, 1e12},
+           {"Viscosity",
+            "Bound on the viscosity of matter within its melting range, which grows without end as its crystals begin "
+            "to touch; from there on bonds hold it.",
+            "10000 Pa·s: cold butter", "Krieger & Dougherty 1959"},
+           kAsStored, api::Scale::Logarithmic),
+    number({"viscosity_tolerance", "Tolerance", "", ""}, {0.01, 1e-4, 0.1, 1e-6, 0.5},
+           {"Viscosity", "Relative residual at which the implicit solver stops.",
+            "0.01: a column of honey slumps as with 0.001, in half the time", "Weiler et al. 2018"},
+           kAsStored, api::Scale::Logarithmic),
+    integer({"viscosity_iterations", "Most iterations", "", ""}, {100, 10, 300, 1, 10000},
+            {"Viscosity",
+             "Where the implicit solver stops even if the tolerance is not met; what was reached is then reported.",
+             "15 suffice for honey at 10 mm, thicker matter needs more", "Weiler et al. 2018"}),
     number(
         {"damping", "Damping", "", "1/s"}, {0, 0, 5, 0, 100},
         {"Motion", "Takes speed from everything, as thick air would.", "0 for none, 0.5 to 1 for hanging ropes", ""}),

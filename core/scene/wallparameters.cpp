@@ -22,6 +22,12 @@ constexpr api::ParameterDeclaration kWall[] = {
     number({"friction", "Friction", "µ", ""}, {0.3, 0, 1, 0, 10},
            {"Contact", "How strongly solids stick and drag on the wall: sideways force per pressing force.",
             "ice on steel 0.03, wood on wood 0.4, rubber on asphalt 0.9", ""}),
+    toggle(
+        {"no_slip", "Thick liquids stick", "", ""}, true,
+        {"Contact",
+         "Whether liquids of the implicit viscosity solver cling to the wall, as real ones do. Off, they slide along "
+         "it without resistance, as along a plane of symmetry.",
+         "on: honey on a plate; off: honey on an oiled plate", "Weiler et al. 2018"}),
 };
 
 }  // namespace

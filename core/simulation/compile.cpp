@@ -63,6 +63,13 @@ SolverSettings compileSettings(const Project& project) {
   s.relaxation = number("relaxation");
   s.chebyshevRadius = number("chebyshev_radius");
   s.xsphMinimum = number("xsph_minimum");
+  const std::string viscosity = choiceOf(project.solver.parameters, list, "viscosity_model");
+  s.viscosityModel = viscosity == "xsph"       ? ViscosityModel::Xsph
+                     : viscosity == "implicit" ? ViscosityModel::Implicit
+                                               : ViscosityModel::Automatic;
+  s.viscosityMax = number("viscosity_max");
+  s.viscosityTolerance = number("viscosity_tolerance");
+  s.viscosityIterations = static_cast<int>(number("viscosity_iterations"));
   s.damping = number("damping");
   s.gasDrag = number("gas_parcel_diameter");
   s.gravity = double3(project.environment.gravity);
@@ -97,6 +104,7 @@ std::vector<Wall> compileWalls(const Project& project) {
     wall.normal = {n[0] / length, n[1] / length, n[2] / length};
     wall.offset = wall.normal.x * source.point[0] + wall.normal.y * source.point[1] + wall.normal.z * source.point[2];
     wall.friction = numberOf(source.parameters, list, "friction");
+    wall.noSlip = toggleOf(source.parameters, list, "no_slip");
     wall.heat = choiceOf(source.parameters, list, "heat") == "fixed_temperature" ? WallHeat::FixedTemperature
                                                                                  : WallHeat::Adiabatic;
     wall.temperature = numberOf(source.parameters, list, "temperature");

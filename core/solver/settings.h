@@ -11,6 +11,10 @@ namespace ps {
 
 enum class DensitySolver { Jacobi, Chebyshev };
 
+/// Which stage delivers viscosity: the implicit one for what the filter cannot reach, the filter alone, the implicit
+/// one for all liquids.
+enum class ViscosityModel { Automatic, Xsph, Implicit };
+
 struct SolverSettings {
   double spacing = 0.02;      ///< m, rest distance of neighbouring particles
   double supportRatio = 2.0;  ///< support radius / spacing
@@ -22,7 +26,11 @@ struct SolverSettings {
       0.5;  ///< omega of the Jacobi density step; 0.5 with Chebyshev, 0.6 without: with 1 resting liquid boils
   double chebyshevRadius = 0.8;  ///< assumed spectral radius
   double xsphMinimum = 0.05;     ///< XSPH coefficient that keeps the particles quiet where the real viscosity asks less
-  double damping = 0;            ///< 1/s, of velocities, before gravity
+  ViscosityModel viscosityModel = ViscosityModel::Automatic;
+  double viscosityMax = 1e4;         ///< Pa s, of mush whose crystals touch
+  double viscosityTolerance = 0.01;  ///< of the implicit solve, relative residual
+  int viscosityIterations = 100;     ///< at most, of the implicit solve per substep
+  double damping = 0;                ///< 1/s, of velocities, before gravity
   api::Double3 gravity{0, -9.81, 0};
   double gasDrag = 0.2;  ///< m, gas_parcel_diameter of the drag law
 };
@@ -36,6 +44,7 @@ struct Wall {
   api::Double3 normal{0, 1, 0};  ///< unit vector into the scene
   double offset = 0;             ///< m
   double friction = 0.3;
+  bool noSlip = true;  ///< implicit viscosity: liquid sticks to it
   WallHeat heat = WallHeat::Adiabatic;
   double temperature = 293.15;   ///< K
   double filmCoefficient = 500;  ///< W/(m2 K), condensation on walls below the boiling point

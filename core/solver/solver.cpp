@@ -103,7 +103,7 @@ void Solver::Impl::configure() {
   const std::span<const BakedMaterial> table(materials);
   constraints.configure(settings, table);
   density.configure(settings, walls);
-  viscosity.configure(settings, table);
+  viscosity.configure(settings, walls, table);
   wallStage.configure(settings, walls);
   swept.configure(settings);
   contact.configure(settings, table);

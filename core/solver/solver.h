@@ -36,12 +36,13 @@ struct StepReport {
   std::array<double, static_cast<size_t>(Stage::Count)> milliseconds{};
   double totalMilliseconds = 0;
   double densityErrorMean = 0, densityErrorMax = 0;  ///< fraction, liquid particles, after the last iteration
+  int viscosityIterations = 0;                       ///< of the implicit viscosity, the most of a substep
 };
 
 /// One engine: substepped XPBD (Macklin et al. 2019) with position-based density (Macklin & Mueller 2013, volume form
-/// of Solenthaler & Pajarola 2008), structural and neighbour constraints from plugins, XSPH viscosity, enthalpy heat,
-/// phase change. Gather, not scatter: every loop writes its own particle only, so the result is the same for any number
-/// of threads and any instruction set.
+/// of Solenthaler & Pajarola 2008), structural and neighbour constraints from plugins, XSPH or
+/// implicit viscosity, enthalpy heat, phase change. Gather, not scatter: every loop writes its own particle only, so
+/// the result is the same for any number of threads and any instruction set.
 class Solver {
  public:
   Solver();

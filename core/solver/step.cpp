@@ -46,7 +46,7 @@ void Solver::Impl::runFrame() {
     timed(Stage::Neighbours, [&] { freshLists(); });
     if (good) keepLastGood();
     timed(Stage::Phase, [&] { gas.measure(store, neighbours); });
-    timed(Stage::Viscosity, [&] { viscosity.refresh(store, density); });
+    timed(Stage::Viscosity, [&] { viscosity.refresh(store, neighbours, density); });
     for (int s = 0; s < settings.substeps && good; ++s) {
       substep(static_cast<uint32_t>(s));
       good = !rejectIfNotFinite();
@@ -77,6 +77,7 @@ void Solver::Impl::closeFrame() {
     report.densityErrorMean = error.mean;
     report.densityErrorMax = error.max;
   });
+  report.viscosityIterations = viscosity.iterations();
   if (report.densityErrorMean > kDiverged) {
     const float* c = store.densityError();
     const size_t worst = static_cast<size_t>(std::max_element(c, c + store.size()) - c);
@@ -123,6 +124,7 @@ void Solver::Impl::listsChanged(bool newStructure) {
   wallStage.refreshLists(store, rigid.members());
   swept.refreshLists(store, neighbours);
   rigid.refreshContacts(store, neighbours, constraints);
+  viscosity.listsChanged();
   if (newStructure || contact.stale(store)) contact.refresh(store, neighbours, constraints, rigid.members());
 }
 

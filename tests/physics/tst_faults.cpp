@@ -260,7 +260,7 @@ class TestFaults : public QObject {
   }
 
  private:
-  const ps::constraint::BondModel m_bonds;
+  ps::constraint::BondModel m_bonds;
 };
 
 QTEST_APPLESS_MAIN(TestFaults)

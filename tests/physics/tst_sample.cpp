@@ -38,10 +38,11 @@ class TestSample : public QObject {
 nlohmann::json TestSample::run(const QStringList& more) {
   const QString report = m_folder.filePath("report.json");
   QFile::remove(report);
+  const QString sample = QStringLiteral(PS_SOURCE_DIR "/projects/ice-on-hot-plate.json");
   QProcess process;
   process.start(PS_BINARY_DIR "/bin/phasesketch-cli",
-                QStringList{"simulate", PS_SOURCE_DIR "/projects/ice-on-hot-plate.json", "--set",
-                            "solver/particle_spacing=0.04", "--threads", "1", "--quiet", "--report", report} +
+                QStringList{"simulate", sample, "--set", "solver/particle_spacing=0.04", "--threads", "1", "--quiet",
+                            "--report", report} +
                     more);
   if (!process.waitForFinished(280000) || process.exitCode() != 0) {
     qWarning("%s", process.readAllStandardError().constData());

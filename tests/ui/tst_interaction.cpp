@@ -176,7 +176,7 @@ class TestInteraction : public QObject {
       if (release) QTest::mouseRelease(view(), Qt::LeftButton, {}, end + QPoint(0, way));
     };
     QTest::mouseMove(view(), end);
-    QTRY_COMPARE(view()->cursor().shape(), Qt::SizeVerCursor);
+    QTRY_COMPARE_WITH_TIMEOUT(view()->cursor().shape(), Qt::SizeVerCursor, kLong);
     drag(true);
     QTRY_VERIFY_WITH_TIMEOUT(view()->legendRange() != before, kLong);
     const auto after = view()->legendRange();

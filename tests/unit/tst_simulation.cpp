@@ -3,6 +3,7 @@
 #include "core/base/error.h"
 #include "core/base/log.h"
 #include "core/plugin_host/registry.h"
+#include "core/simulation/compile.h"
 #include "core/simulation/engine.h"
 #include "core/simulation/lattice.h"
 #include "core/simulation/measure.h"
@@ -42,6 +43,7 @@ class TstSimulation : public QObject {
   void noTwoParticlesInOnePlace();
   void endlessParticlesAreRefused();
   void runsWithoutAnyPlugin();
+  void viscosityIsCompiledAsDeclared();
   void threadPlaysPausesStepsAndResets();
   void threadTellsWhatCannotBeOpened();
   void snapshotsOfTwoRunsNeverCompare();
@@ -472,6 +474,31 @@ void TstSimulation::snapshotsOfTwoRunsNeverCompare() {
   const uint64_t before = a.snapshot()->revision;
   a.reset();
   QVERIFY(a.snapshot()->revision != before);
+}
+
+void TstSimulation::viscosityIsCompiledAsDeclared() {
+  Project project = scenes::iceOnPlate(2, 293.15);
+  const SolverSettings plain = compileSettings(project), defaults;
+  QCOMPARE(plain.viscosityModel, defaults.viscosityModel);
+  QCOMPARE(plain.viscosityMax, defaults.viscosityMax);
+  QCOMPARE(plain.viscosityTolerance, defaults.viscosityTolerance);
+  QCOMPARE(plain.viscosityIterations, defaults.viscosityIterations);
+  QVERIFY(compileWalls(project)[0].noSlip);
+  auto& values = project.solver.parameters.values;
+  values["viscosity_max"] = 12.0;
+  values["viscosity_tolerance"] = 0.002;
+  values["viscosity_iterations"] = 17.0;
+  project.environment.walls[0].parameters.values["no_slip"] = false;
+  for (const auto& [name, model] : {std::pair{"automatic", ViscosityModel::Automatic},
+                                    {"xsph", ViscosityModel::Xsph},
+                                    {"implicit", ViscosityModel::Implicit}}) {
+    values["viscosity_model"] = std::string(name);
+    QCOMPARE(compileSettings(project).viscosityModel, model);
+  }
+  QCOMPARE(compileSettings(project).viscosityMax, 12.0);
+  QCOMPARE(compileSettings(project).viscosityTolerance, 0.002);
+  QCOMPARE(compileSettings(project).viscosityIterations, 17);
+  QVERIFY(!compileWalls(project)[0].noSlip);
 }
 
 QTEST_GUILESS_MAIN(TstSimulation)

@@ -69,9 +69,13 @@ Autosave::Autosave(Document& document, Worker& worker, const QString& directory,
   takeStem();
   m_timer.setInterval(kInterval);
   connect(&m_timer, &QTimer::timeout, this, &Autosave::saveNow);
+  m_rest.setSingleShot(true);
+  m_rest.setInterval(kRest);
+  connect(&m_rest, &QTimer::timeout, this, &Autosave::saveNow);
   connect(&document, &Document::replacing, this, &Autosave::putAside);
   connect(&document, &Document::changed, this, [this](const ChangeEvent& event) {
     if (std::holds_alternative<ProjectOpened>(event)) m_takenOver.clear();
+    if (m_timer.isActive()) m_rest.start();
   });
 }
 
@@ -141,6 +145,7 @@ QString Autosave::close() {
   m_worker.wait();
   if (!problem.isEmpty()) return problem;
   m_timer.stop();
+  m_rest.stop();
   m_lock.reset();
   return {};
 }

@@ -41,13 +41,14 @@ struct ReplacedWork {
   Project project;
 };
 
-/// Keeps a copy of unsaved work in the user's state directory: every 30 s, when another project takes its place, and at
-/// close. Closing therefore asks nothing, and a crash loses half a minute at most. UI thread only; files are written by
-/// the worker.
+/// Keeps a copy of unsaved work in the user's state directory: every 30 s, 2 s after the last change, when another
+/// project takes its place, and at close. Closing therefore asks nothing, and a crash loses seconds. UI thread only;
+/// files are written by the worker.
 class Autosave : public QObject {
   Q_OBJECT
  public:
   static constexpr int kInterval = 30000;  ///< ms
+  static constexpr int kRest = 2000;       ///< ms without a change, after which a copy is made
   /// `directory`: created when missing. `worker` must end before this object does.
   Autosave(Document& document, Worker& worker, const QString& directory, QObject* parent = nullptr);
   ~Autosave() override;
@@ -83,7 +84,7 @@ class Autosave : public QObject {
   Worker& m_worker;
   QString m_directory, m_stem, m_problem;
   std::unique_ptr<QLockFile> m_lock;
-  QTimer m_timer;
+  QTimer m_timer, m_rest;
   QStringList m_takenOver;  ///< stems
   uint64_t m_written = 0;   ///< Document::changeCount() of the last copy that was written
   int m_writing = 0, m_count = 0;

@@ -99,12 +99,17 @@ std::pair<double, double> GraphView::valueExtent(double first, double last) cons
   }
   if (extent.empty()) return {0, 1};
   // A reference line just beyond the data is worth showing; one far away would press the data flat.
-  const double span = std::max(extent.high - extent.low, 1e-6 * std::max(1.0, std::abs(extent.high)));
+  // Less than half a percent is drawn flat: ticks that close would have no end of digits.
+  const double least = std::max(1e-6, 5e-3 * std::max(std::abs(extent.low), std::abs(extent.high)));
+  const double span = std::max(extent.high - extent.low, least);
   const SampleSeries::Extent drawn = extent;
   for (const ReferenceLine& line : d->references) {
     if (line.value > drawn.low - 0.75 * span && line.value < drawn.high + 0.75 * span) extent.add(line.value);
   }
-  const double margin = 0.12 * std::max(extent.high - extent.low, span);
+  const double middle = 0.5 * (extent.low + extent.high);
+  extent.low = std::min(extent.low, middle - 0.5 * span);
+  extent.high = std::max(extent.high, middle + 0.5 * span);
+  const double margin = 0.12 * (extent.high - extent.low);
   return {extent.low - margin, clearOfTitle(extent.low - margin, extent.high)};
 }
 
