@@ -18,6 +18,7 @@ Project smallScene() { return scenes::iceOnPlate(5, 370); }
 
 std::vector<std::array<int, 3>> cube(int side, int x, int y, int z) {
   std::vector<std::array<int, 3>> cells;
+  cells.reserve(static_cast<size_t>(side * side * side));
   for (int k = 0; k < side * side * side; ++k)
     cells.push_back({x + k % side, y + k / side % side, z + k / side / side});
   return cells;

@@ -175,6 +175,7 @@ void TstSimulation::sketchesKeepTheirPlaceAtAnotherSpacing() {
   Body body = sketchedWater();
   auto& voxels = std::get<VoxelShape>(body.shape);
   std::vector<CellIndex> cells;
+  cells.reserve(64);
   for (int k = 0; k < 16; ++k) voxels.runs.push_back({0, k % 4, k / 4, 4, 0});
   for (int k = 0; k < 64; ++k) cells.push_back({k % 4, k / 4 % 4, k / 16});
   project.bodies = {body};

@@ -162,6 +162,7 @@ void ParameterRow::Private::paintSparkline(QPainter& painter) const {
   const auto [cold, hot] = sparklineRange(response, model.temperature);
   const int samples = std::max(2, static_cast<int>(box.width()) - 2);
   std::vector<double> values;
+  values.reserve(static_cast<size_t>(samples));
   for (int i = 0; i < samples; ++i) values.push_back(response.at(cold + (hot - cold) * i / (samples - 1)));
   const bool logarithmic =
       declaration().scale == api::Scale::Logarithmic && *std::min_element(values.begin(), values.end()) > 0;

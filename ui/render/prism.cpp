@@ -138,6 +138,7 @@ void addRim(std::vector<MeshVertex>& out, const Face& floor, const Vec3& normal,
     for (const bool end : {false, true}) {
       if (floor.walled[end ? j : (i + n - 1) % n]) continue;
       std::vector<Vec3> cap;
+      cap.reserve(profile.size());
       for (const auto& [offset, up] : profile)
         cap.push_back(plus(offsetOutline(floor.corners, normal, offset)[end ? j : i], normal, up));
       addCap(out, cap, plus({0, 0, 0}, along, end ? 1 : -1), end, material);

@@ -56,13 +56,9 @@ void BrushPanel::setBrush(const BrushSettings& brush) {
 
 void BrushPanel::onEdited(const QString& key, const Value& value, Edit edit) {
   if (edit == Edit::Begin) return;
-  if (key == QLatin1String("shape")) {
-    m_brush.shape = std::get<std::string>(value);
-  } else if (key == QLatin1String("radius")) {
-    m_brush.radius = std::get<double>(value);
-  } else {
-    m_brush.temperature = std::get<double>(value);
-  }
+  if (key == QLatin1String("shape")) m_brush.shape = std::get<std::string>(value);
+  if (key == QLatin1String("radius")) m_brush.radius = std::get<double>(value);
+  if (key == QLatin1String("temperature")) m_brush.temperature = std::get<double>(value);
   Q_EMIT brushEdited(m_brush);
 }
 

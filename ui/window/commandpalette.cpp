@@ -64,6 +64,7 @@ std::vector<size_t> paletteMatches(const std::vector<PaletteEntry>& entries, con
   }
   std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<size_t> order;
+  order.reserve(found.size());
   for (const auto& [rank, index] : found) order.push_back(index);
   return order;
 }

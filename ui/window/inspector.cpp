@@ -177,12 +177,15 @@ void Inspector::rebuildMaterial() {
   if (const api::MaterialPlugin* plugin = plugins ? plugins->materialPlugin(material->base) : nullptr) {
     addRows(rows, "material", material->id, plugin->parameters(), QString::fromUtf8(plugin->label()));
   }
+  addPinned(rows);
   if (missing) {
-    for (RowModel& row : rows)
+    const QString own = QStringLiteral("material/%1/").arg(QString::fromStdString(material->id));
+    for (RowModel& row : rows) {
+      if (!row.key.startsWith(own)) continue;
       row.disabledReason =
           QStringLiteral("The material's plugin is not installed. Values are kept as they stand in the file.");
+    }
   }
-  addPinned(rows);
   m_material->setModel(std::move(rows));
 }
 
