@@ -17,6 +17,7 @@
 #include <QtGui/QAccessible>
 #include <QtGui/QAction>
 #include <QtGui/QContextMenuEvent>
+#include <QtGui/QMouseEvent>
 #include <QtGui/QSurfaceFormat>
 #include <QtTest/QSignalSpy>
 #include <QtTest/QTest>
@@ -152,46 +153,6 @@ class TestInteraction : public QObject {
     QTest::mouseRelease(view(), Qt::RightButton, {}, QPoint(300, 240));
     QVERIFY(!QApplication::activePopupWidget());
     QVERIFY(view()->navigator().camera().distance < before.distance);
-  }
-
-  void legendEndsCanBeDragged_data() {
-    QTest::addColumn<bool>("upper");
-    QTest::newRow("upper") << true;
-    QTest::newRow("lower") << false;
-  }
-  /// A tenth of the bar is a tenth of the range; nothing else moves; a double click is automatic again.
-  void legendEndsCanBeDragged() {
-    QFETCH(bool, upper);
-    m_window->action(QStringLiteral("view.colour2"))->trigger();
-    QTRY_VERIFY_WITH_TIMEOUT(!view()->overlayHits().legendBar.isEmpty(), kLong);
-    const auto before = view()->legendRange();
-    const Camera camera = view()->navigator().camera();
-    const QRectF bar = view()->overlayHits().legendBar;
-    const QPoint end((upper ? bar.topRight() : bar.bottomRight()).toPoint() + QPoint(10, 0));
-    const int way = static_cast<int>(bar.height() / 10) * (upper ? -1 : 1);
-    const auto drag = [&](bool release) {
-      QTest::mousePress(view(), Qt::LeftButton, {}, end);
-      QTest::mouseMove(view(), end + QPoint(0, way / 2));
-      QTest::mouseMove(view(), end + QPoint(0, way));
-      if (release) QTest::mouseRelease(view(), Qt::LeftButton, {}, end + QPoint(0, way));
-    };
-    QTest::mouseMove(view(), end);
-    QTRY_COMPARE_WITH_TIMEOUT(view()->cursor().shape(), Qt::SizeVerCursor, kLong);
-    drag(true);
-    QTRY_VERIFY_WITH_TIMEOUT(view()->legendRange() != before, kLong);
-    const auto after = view()->legendRange();
-    const double width = before.second - before.first,
-                 moved = upper ? after.second - before.second : before.first - after.first;
-    QVERIFY2(std::abs(moved - width / 10) < width / 50, qPrintable(QString::number(moved)));  // a pixel, then rounding
-    QCOMPARE(upper ? after.first : after.second, upper ? before.first : before.second);
-    QCOMPARE(view()->navigator().camera().azimuth, camera.azimuth);
-    drag(false);
-    QVERIFY(view()->cancelGesture());  // Esc
-    QTest::mouseRelease(view(), Qt::LeftButton, {}, end + QPoint(0, way));
-    view()->repaint();
-    QVERIFY(view()->legendRange() == after);
-    QTest::mouseDClick(view(), Qt::LeftButton, {}, bar.center().toPoint());
-    QTRY_VERIFY_WITH_TIMEOUT(view()->legendRange() == before, kLong);
   }
 
   /// The ends pass one another at no drag, and stand on values that can be read.
