@@ -155,6 +155,52 @@ class TestInteraction : public QObject {
     QVERIFY(view()->navigator().camera().distance < before.distance);
   }
 
+  void legendEndsCanBeDragged_data() {
+    QTest::addColumn<bool>("upper");
+    QTest::newRow("upper") << true;
+    QTest::newRow("lower") << false;
+  }
+  /// A tenth of the bar is a tenth of the range; nothing else moves; a double click is automatic again.
+  void legendEndsCanBeDragged() {
+    QFETCH(bool, upper);
+    m_window->action(QStringLiteral("view.colour2"))->trigger();
+    view()->grabFramebuffer();  // the legend lies where the new colour's last painting put it
+    QVERIFY(!view()->overlayHits().legendBar.isEmpty());
+    const auto before = view()->legendRange();
+    const Camera camera = view()->navigator().camera();
+    const QRectF bar = view()->overlayHits().legendBar;
+    const QPoint end((upper ? bar.topRight() : bar.bottomRight()).toPoint() + QPoint(10, 0));
+    const int way = static_cast<int>(bar.height() / 10) * (upper ? -1 : 1);
+    // Not by the pointer of the screen, over which windows of other tests may lie.
+    const auto send = [&](QEvent::Type type, const QPoint& at, Qt::MouseButton button, Qt::MouseButtons held) {
+      QMouseEvent event(type, at, view()->mapToGlobal(at), button, held, Qt::NoModifier);
+      QApplication::sendEvent(view(), &event);
+    };
+    const auto drag = [&](bool release) {
+      send(QEvent::MouseButtonPress, end, Qt::LeftButton, Qt::LeftButton);
+      for (const int share : {2, 1})
+        send(QEvent::MouseMove, end + QPoint(0, way / share), Qt::NoButton, Qt::LeftButton);
+      if (release) send(QEvent::MouseButtonRelease, end + QPoint(0, way), Qt::LeftButton, Qt::NoButton);
+    };
+    send(QEvent::MouseMove, end, Qt::NoButton, Qt::NoButton);
+    QCOMPARE(view()->cursor().shape(), Qt::SizeVerCursor);
+    drag(true);
+    QTRY_VERIFY_WITH_TIMEOUT(view()->legendRange() != before, kLong);
+    const auto after = view()->legendRange();
+    const double width = before.second - before.first,
+                 moved = upper ? after.second - before.second : before.first - after.first;
+    QVERIFY2(std::abs(moved - width / 10) < width / 50, qPrintable(QString::number(moved)));  // a pixel, then rounding
+    QCOMPARE(upper ? after.first : after.second, upper ? before.first : before.second);
+    QCOMPARE(view()->navigator().camera().azimuth, camera.azimuth);
+    drag(false);
+    QVERIFY(view()->cancelGesture());  // Esc
+    send(QEvent::MouseButtonRelease, end + QPoint(0, way), Qt::LeftButton, Qt::NoButton);
+    view()->repaint();
+    QVERIFY(view()->legendRange() == after);
+    QTest::mouseDClick(view(), Qt::LeftButton, {}, bar.center().toPoint());
+    QTRY_VERIFY_WITH_TIMEOUT(view()->legendRange() == before, kLong);
+  }
+
   /// The ends pass one another at no drag, and stand on values that can be read.
   void legendRangesStayInOrder() {
     LegendRange range;
