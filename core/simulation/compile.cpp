@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace ps {
 namespace {
@@ -71,7 +72,15 @@ SolverSettings compileSettings(const Project& project) {
   s.viscosityTolerance = number("viscosity_tolerance");
   s.viscosityIterations = static_cast<int>(number("viscosity_iterations"));
   s.damping = number("damping");
+  s.gasModel = choiceOf(project.solver.parameters, list, "gas_model") == "thesis" ? GasModel::Thesis : GasModel::Parcel;
   s.gasDrag = number("gas_parcel_diameter");
+  s.addedMass = number("added_mass");
+  const auto air = [&](const char* key) {
+    return numberOf(project.environment.parameters, environmentParameters(), key);
+  };
+  s.airDrag = air("air_drag");
+  const double heading = air("wind_direction") * std::numbers::pi / 180;
+  s.wind = {air("wind_speed") * std::cos(heading), 0, air("wind_speed") * std::sin(heading)};
   s.gravity = double3(project.environment.gravity);
   return s;
 }

@@ -180,7 +180,7 @@ std::unique_ptr<Engine::Impl> Engine::Impl::rebuilt(const Project& source) const
 void Engine::Impl::recompile(const std::string& owner) {
   if (owner == "material") bakeMaterials();
   if (owner == "wall") solver->setWalls(compileWalls(project));
-  if (owner == "solver") {
+  if (owner == "solver" || owner == "environment") {  // wind and drag are the environment's
     SolverSettings settings = compileSettings(project);
     settings.spacing = spacing;
     solver->setSettings(settings);
