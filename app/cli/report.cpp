@@ -15,6 +15,10 @@ nlohmann::json jsonOf(const Spread& spread) {
   return {{"mean", spread.mean}, {"median", spread.median}, {"p95", spread.p95}};
 }
 
+nlohmann::json jsonOf(const FlowAmount& amount) {
+  return {{"count", amount.count}, {"mass", amount.mass}, {"energy", amount.energy}};
+}
+
 double liquidCount(const FrameStats& stats) {
   return static_cast<double>(stats.phases[static_cast<size_t>(api::Phase::Liquid)].count +
                              stats.phases[static_cast<size_t>(api::Phase::Boiling)].count);
@@ -80,6 +84,7 @@ nlohmann::json Report::json(Engine& engine, double wallSeconds) const {
             {"exchanged", m_last.heat.exchanged},
             {"elastic", engine.solver().elasticEnergy()},
             {"drift", m_last.thermalEnergy - m_start.thermalEnergy - m_last.heat.net()}}},
+          {"flow", {{"poured", jsonOf(m_last.flow.poured)}, {"drained", jsonOf(m_last.flow.drained)}}},
           {"phases", phases},
           {"temperature",
            {{"min", m_last.temperatureMin}, {"mean", m_last.temperatureMean}, {"max", m_last.temperatureMax}}}};

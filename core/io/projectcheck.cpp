@@ -23,15 +23,19 @@ class ProjectChecker {
     checkIds(m_project.materials, "/materials");
     checkIds(m_project.bodies, "/bodies");
     checkIds(m_project.environment.walls, "/environment/walls");
+    checkIds(m_project.emitters, "/emitters");
+    checkIds(m_project.sinks, "/sinks");
     checkIds(m_project.probes, "/probes");
     for (size_t i = 0; i < m_project.materials.size(); ++i) checkMaterial(m_project.materials[i], at("/materials", i));
     for (size_t i = 0; i < m_project.bodies.size(); ++i) checkBody(m_project.bodies[i], at("/bodies", i));
+    for (size_t i = 0; i < m_project.emitters.size(); ++i) checkEmitter(m_project.emitters[i], at("/emitters", i));
+    for (size_t i = 0; i < m_project.sinks.size(); ++i) checkSink(m_project.sinks[i], at("/sinks", i));
     checkEnvironment(m_project.environment);
     checkSolver(m_project.solver);
     for (size_t i = 0; i < m_project.probes.size(); ++i) {
       const std::string& body = m_project.probes[i].body;
-      if (!body.empty() && !contains(m_project.bodies, body)) {
-        fail(at("/probes", i) + "/body", "there is no body '" + body + "'");
+      if (!body.empty() && !contains(m_project.bodies, body) && !contains(m_project.emitters, body)) {
+        fail(at("/probes", i) + "/body", "there is no body or emitter '" + body + "'");
       }
     }
     checkPinned();
@@ -192,18 +196,44 @@ class ProjectChecker {
     }
   }
 
-  void checkEnvironment(const Environment& environment) const {
+  void checkEmitter(const Emitter& emitter, const std::string& pointer) const {
+    checkMaterialExists(emitter.material, pointer + "/material");
+    checkSet(emitter.parameters, emitterParameters(), pointer);
+    if (contains(m_project.bodies, emitter.id)) {
+      fail(pointer + "/id", "'" + emitter.id + "' is a body's already; its particles could not be told apart");
+    }
+    const Environment& environment = m_project.environment;
     for (size_t a = 0; a < 3; ++a) {
-      if (environment.boundsMinimum[a] >= environment.boundsMaximum[a]) {
-        fail(at("/environment/bounds/maximum", a),
-             "must be above the minimum, " + numberText(environment.boundsMinimum[a]) + " m");
+      if (emitter.point[a] < environment.boundsMinimum[a] || emitter.point[a] > environment.boundsMaximum[a]) {
+        fail(at(pointer + "/point", a), "lies outside of the scene's bounds");
       }
     }
-    for (size_t i = 0; i < environment.walls.size(); ++i) {
-      const Vec3& n = environment.walls[i].normal;
-      if (!(std::hypot(n[0], n[1], n[2]) > 1e-6)) {
-        fail(at("/environment/walls", i) + "/normal", "must have a direction: at least one part away from zero");
+    requireDirection(emitter.direction, pointer + "/direction");
+  }
+
+  void checkSink(const Sink& sink, const std::string& pointer) const {
+    checkSet(sink.parameters, sinkParameters(), pointer);
+    requireBox(sink.minimum, sink.maximum, pointer);
+  }
+
+  void requireBox(const Vec3& minimum, const Vec3& maximum, const std::string& pointer) const {
+    for (size_t a = 0; a < 3; ++a) {
+      if (minimum[a] >= maximum[a]) {
+        fail(at(pointer + "/maximum", a), "must be above the minimum, " + numberText(minimum[a]) + " m");
       }
+    }
+  }
+
+  void requireDirection(const Vec3& v, const std::string& pointer) const {
+    if (!(std::hypot(v[0], v[1], v[2]) > 1e-6)) {
+      fail(pointer, "must have a direction: at least one part away from zero");
+    }
+  }
+
+  void checkEnvironment(const Environment& environment) const {
+    requireBox(environment.boundsMinimum, environment.boundsMaximum, "/environment/bounds");
+    for (size_t i = 0; i < environment.walls.size(); ++i) {
+      requireDirection(environment.walls[i].normal, at("/environment/walls", i) + "/normal");
     }
   }
 

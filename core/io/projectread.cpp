@@ -117,6 +117,31 @@ Body readBody(json& value, const PluginRegistry& plugins) {
   return body;
 }
 
+Emitter readEmitter(json& value) {
+  JsonTaker taker(value);
+  Emitter emitter;
+  emitter.id = taker.text("id");
+  emitter.name = taker.text("name");
+  emitter.material = taker.text("material");
+  emitter.point = taker.vector("point", emitter.point);
+  emitter.direction = taker.vector("direction", emitter.direction);
+  taker.parameters(emitter.parameters, emitterParameters());
+  emitter.unknown = taker.rest();
+  return emitter;
+}
+
+Sink readSink(json& value) {
+  JsonTaker taker(value);
+  Sink sink;
+  sink.id = taker.text("id");
+  sink.name = taker.text("name");
+  sink.minimum = taker.vector("minimum", sink.minimum);
+  sink.maximum = taker.vector("maximum", sink.maximum);
+  taker.parameters(sink.parameters, sinkParameters());
+  sink.unknown = taker.rest();
+  return sink;
+}
+
 SceneWall readWall(json& value) {
   JsonTaker taker(value);
   SceneWall wall;
@@ -201,6 +226,8 @@ Project readDocument(json& document, const PluginRegistry& plugins) {
   project.pluginsRequired = taker.names("pluginsRequired");
   project.materials = readList(taker, "materials", [&](json& item) { return readMaterial(item, plugins); });
   project.bodies = readList(taker, "bodies", [&](json& item) { return readBody(item, plugins); });
+  project.emitters = readList(taker, "emitters", readEmitter);
+  project.sinks = readList(taker, "sinks", readSink);
   json environment = taker.has("environment") ? taker.take("environment") : json::object();
   project.environment = readEnvironment(environment);
   json solver = taker.has("solver") ? taker.take("solver") : json::object();

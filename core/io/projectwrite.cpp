@@ -90,6 +90,25 @@ json writeBody(const Body& body) {
   return out;
 }
 
+json writeEmitter(const Emitter& emitter) {
+  json out{{"id", emitter.id},
+           {"material", emitter.material},
+           {"point", jsonFromVector(emitter.point)},
+           {"direction", jsonFromVector(emitter.direction)}};
+  putText(out, "name", emitter.name);
+  putParameters(out, emitter.parameters);
+  putUnknown(out, emitter.unknown);
+  return out;
+}
+
+json writeSink(const Sink& sink) {
+  json out{{"id", sink.id}, {"minimum", jsonFromVector(sink.minimum)}, {"maximum", jsonFromVector(sink.maximum)}};
+  putText(out, "name", sink.name);
+  putParameters(out, sink.parameters);
+  putUnknown(out, sink.unknown);
+  return out;
+}
+
 json writeEnvironment(const Environment& environment) {
   json out{{"gravity", jsonFromVector(environment.gravity)},
            {"bounds",
@@ -189,6 +208,8 @@ std::string writeProject(const Project& project) {
   putText(out, "title", project.title);
   putText(out, "description", project.description);
   if (!project.pluginsRequired.empty()) out["pluginsRequired"] = project.pluginsRequired;
+  if (!project.emitters.empty()) out["emitters"] = writeList(project.emitters, writeEmitter);
+  if (!project.sinks.empty()) out["sinks"] = writeList(project.sinks, writeSink);
   if (!project.probes.empty()) out["probes"] = writeList(project.probes, writeProbe);
   putUnknown(out, project.unknown);
   requireFinite(out, "");

@@ -167,6 +167,25 @@ json environmentSchema() {
                 {}, "what surrounds the matter");
 }
 
+json emitterSchema() {
+  return object(withParameters({{"id", ref("id")},
+                                {"name", text("name shown to people")},
+                                {"material", ref("id")},
+                                {"point", vector3("m", "centre of the mouth")},
+                                {"direction", vector3("", "of the jet, any length but zero")}},
+                               emitterParameters()),
+                {"id", "material", "point", "direction"}, "a nozzle that adds matter while the scene runs");
+}
+
+json sinkSchema() {
+  return object(withParameters({{"id", ref("id")},
+                                {"name", text("name shown to people")},
+                                {"minimum", vector3("m", "corner of the box")},
+                                {"maximum", vector3("m", "the corner opposite")}},
+                               sinkParameters()),
+                {"id", "minimum", "maximum"}, "a box that takes away what enters it");
+}
+
 json solverSchema() {
   const json thermal =
       object({{"model",
@@ -208,6 +227,8 @@ json buildProjectSchema() {
               {"pluginsRequired", listOf(ref("plugin"), "missing ones are an error")},
               {"materials", listOf(ref("material"), "materials of the scene")},
               {"bodies", listOf(ref("body"), "matter at the start")},
+              {"emitters", listOf(emitterSchema(), "matter that comes while the scene runs")},
+              {"sinks", listOf(sinkSchema(), "where matter goes")},
               {"environment", environmentSchema()},
               {"solver", solverSchema()},
               {"probes", listOf(probeSchema(), "what is measured")},

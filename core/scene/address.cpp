@@ -10,7 +10,9 @@ namespace {
 /// Number of parts between owner and key, or -1 for an unknown owner.
 int idParts(std::string_view owner) {
   if (owner == "environment" || owner == "solver" || owner == "thermal" || owner == "scene") return 0;
-  if (owner == "material" || owner == "wall" || owner == "body") return 1;
+  if (owner == "material" || owner == "wall" || owner == "body" || owner == "emitter" || owner == "sink") {
+    return 1;
+  }
   return owner == "constraint" ? 2 : -1;
 }
 
@@ -37,6 +39,14 @@ Set* setOf(P& project, const Address& address) {
   if (address.owner == "body") {
     auto* body = byId(project.bodies, address.id);
     return body ? &body->parameters : nullptr;
+  }
+  if (address.owner == "emitter") {
+    auto* emitter = byId(project.emitters, address.id);
+    return emitter ? &emitter->parameters : nullptr;
+  }
+  if (address.owner == "sink") {
+    auto* sink = byId(project.sinks, address.id);
+    return sink ? &sink->parameters : nullptr;
   }
   if (address.owner != "constraint") return nullptr;
   const size_t slash = address.id.find('/');

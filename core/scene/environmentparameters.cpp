@@ -20,6 +20,16 @@ constexpr api::ParameterDeclaration kEnvironment[] = {
            {"Air", "How fast air takes heat from vapour in the open: heat per surface, time and degree.",
             "still air 5 to 10, breeze 25, 0 for none",
             "Incropera et al., Fundamentals of Heat and Mass Transfer, ch. 1"}),
+    number({"wind_speed", "Wind", "u", "m/s"}, {0, 0, 10, 0, 340},
+           {"Air", "Speed of the air. It carries vapour along, and drops and solids too where they have an air drag.",
+            "draught 0.3, breeze 3, hair dryer 10", ""}),
+    number({"wind_direction", "Wind blows towards", "", "°"}, {0, 0, 360, -3600, 3600},
+           {"Air", "Heading of the wind, level with the ground: 0 along x, 90 along z.", "180: against x", ""}),
+    number({"air_drag", "Air drag of drops and solids", "C_d", ""}, {0, 0, 1.2, 0, 10},
+           {"Air",
+            "Drag coefficient of single particles of liquids and solids in air, and with it the air's small lift. 0 is "
+            "a vacuum to them. Vapour has a drag of its own.",
+            "sphere 0.47, cube 1.05, 0 for none", "Hoerner 1965, Fluid-Dynamic Drag"}),
 };
 
 }  // namespace

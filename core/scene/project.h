@@ -84,6 +84,24 @@ struct Body {
   Unknown unknown;
 };
 
+/// A round nozzle that adds matter while the scene runs.
+struct Emitter {
+  std::string id, name;      ///< the id is unique among bodies as well: its particles belong to it
+  std::string material;      ///< SceneMaterial::id
+  Vec3 point{0, 0.5, 0};     ///< m, centre of the mouth
+  Vec3 direction{0, -1, 0};  ///< of the jet; any length but zero
+  ParameterSet parameters;   ///< see emitterParameters(): speed, diameter, temperature, start, stop, most
+  Unknown unknown;
+};
+
+/// A box that takes away what enters it.
+struct Sink {
+  std::string id, name;
+  Vec3 minimum{-0.1, -0.1, -0.1}, maximum{0.1, 0.1, 0.1};  ///< m
+  ParameterSet parameters;                                 ///< see sinkParameters(): open
+  Unknown unknown;
+};
+
 /// A half-space with a name: floor, lid, sides of a tray.
 struct SceneWall {
   std::string id, name;
@@ -132,6 +150,8 @@ struct Project {
   std::vector<std::string> pluginsUsed, pluginsRequired;
   std::vector<SceneMaterial> materials;
   std::vector<Body> bodies;
+  std::vector<Emitter> emitters;
+  std::vector<Sink> sinks;
   Environment environment;
   SolverOptions solver;
   std::vector<Probe> probes;
@@ -145,6 +165,8 @@ api::ParameterList environmentParameters();  ///< ambient_pressure, ambient_temp
 api::ParameterList solverParameters();       ///< particle_spacing, substeps, iterations, thermal_time_scale, ...
 api::ParameterList wallParameters();
 api::ParameterList bodyParameters();
+api::ParameterList emitterParameters();
+api::ParameterList sinkParameters();
 /// Keys of what a probe can measure: "temperature", "mass", "speed", ...
 const std::vector<std::string>& probeQuantities();
 std::string probeUnit(const std::string& quantity);   ///< SI: "K", "kg", "1" for counts; "" for an unknown quantity
@@ -159,10 +181,10 @@ double particleCount(const Project& project);
 constexpr double kMaximumParticles = 20e6;
 
 /// Names one parameter of a project: "material/water/conductivity_solid", "wall/floor/temperature",
-/// "environment/ambient_pressure", "solver/substeps", "thermal/KEY", "body/ice/temperature",
-/// "constraint/ice/bonds/KEY", "scene/gravity".
+/// "environment/ambient_pressure", "solver/substeps", "thermal/KEY", "body/ice/temperature", "emitter/tap/speed",
+/// "sink/drain/open", "constraint/ice/bonds/KEY", "scene/gravity".
 struct Address {
-  std::string owner;  ///< material, wall, environment, solver, thermal, body, constraint, scene
+  std::string owner;  ///< material, wall, environment, solver, thermal, body, emitter, sink, constraint, scene
   std::string id;     ///< of the owner; constraint: "ice/bonds"; "" where there is one
   std::string key;
   std::string text() const;

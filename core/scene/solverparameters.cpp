@@ -67,6 +67,16 @@ constexpr api::ParameterDeclaration kSolver[] = {
     number(
         {"damping", "Damping", "", "1/s"}, {0, 0, 5, 0, 100},
         {"Motion", "Takes speed from everything, as thick air would.", "0 for none, 0.5 to 1 for hanging ropes", ""}),
+    choice(
+        {"gas_model", "Model of vapour", "", ""}, "parcel|thesis", 0,
+        {"Motion",
+         "How vapour rises and swells. Parcels follow the densities of vapour and air, feel drag and wind, and swell "
+         "by the material's size of a parcel. The thesis's laws depend on latent heat alone: vapour rises with 1 m/s² "
+         "at the end and swells to 1.43, without drag.",
+         "parcel: steam rises, carbon dioxide sinks", "Thesis 2020, eq. 4.9 and 4.10, for the second"}),
+    number({"added_mass", "Added mass of a steam parcel", "C_a", ""}, {0.5, 0, 1, 0, 10},
+           {"Motion", "Air that a parcel must push aside as it speeds up, as a share of the air it displaces.",
+            "sphere 0.5, 0 for none: steam then starts twice as fast", "Batchelor 1967, ch. 6"}),
     number({"gas_parcel_diameter", "Size of a steam parcel", "D", "m"}, {0.2, 0.02, 1, 1e-3, 100},
            {"Motion", "Diameter with which a parcel of vapour drags through air. Larger rises faster.",
             "0.2 m rises about 1 m/s", ""}),

@@ -5,9 +5,11 @@
 #include "core/matter/material.h"
 #include "core/plugin_host/registry.h"
 #include "core/simulation/lattice.h"
+#include "core/solver/vector3.h"
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace ps {
 namespace {
@@ -31,12 +33,17 @@ Spawn spawnOf(const Project& project, const PluginRegistry& plugins, const Body&
   return spawn;
 }
 
+void setMatter(Spawn& spawn, std::span<const BakedMaterial> materials, uint32_t material, double temperature,
+               const std::string& phase) {
+  spawn.material = material;
+  spawn.temperature = temperature;
+  spawn.phase = birthPhase(phase, materials[material].caloric(), temperature);
+}
+
 void setMatter(Spawn& spawn, const Project& project, std::span<const BakedMaterial> materials,
                const std::string& material, double temperature, const Body& body) {
-  spawn.material = materialIndex(project, material, body.name);
-  spawn.temperature = temperature;
-  const std::string asked = choiceOf(body.parameters, bodyParameters(), "phase");
-  spawn.phase = birthPhase(asked, materials[spawn.material].caloric(), temperature);
+  setMatter(spawn, materials, materialIndex(project, material, body.name), temperature,
+            choiceOf(body.parameters, bodyParameters(), "phase"));
 }
 
 const EvaluatedMaterial* lastOf(const SceneMaterial& source, const EvaluatedMaterials* evaluated) {
@@ -71,7 +78,15 @@ SolverSettings compileSettings(const Project& project) {
   s.viscosityTolerance = number("viscosity_tolerance");
   s.viscosityIterations = static_cast<int>(number("viscosity_iterations"));
   s.damping = number("damping");
+  s.gasModel = choiceOf(project.solver.parameters, list, "gas_model") == "thesis" ? GasModel::Thesis : GasModel::Parcel;
   s.gasDrag = number("gas_parcel_diameter");
+  s.addedMass = number("added_mass");
+  const auto air = [&](const char* key) {
+    return numberOf(project.environment.parameters, environmentParameters(), key);
+  };
+  s.airDrag = air("air_drag");
+  const double heading = air("wind_direction") * std::numbers::pi / 180;
+  s.wind = {air("wind_speed") * std::cos(heading), 0, air("wind_speed") * std::sin(heading)};
   s.gravity = double3(project.environment.gravity);
   return s;
 }
@@ -194,6 +209,33 @@ Spawn compileCells(const Project& project, const PluginRegistry& plugins, std::s
   Spawn spawn = spawnOf(project, plugins, body);
   spawn.position = cellCentres(voxels, spacing, cells);
   setMatter(spawn, project, materials, paint.material, paint.temperature, body);
+  return spawn;
+}
+
+Spawn compileLayer(const Project& project, std::span<const BakedMaterial> materials, const Emitter& emitter,
+                   double spacing, double offset) {
+  const auto number = [&](const char* key) { return numberOf(emitter.parameters, emitterParameters(), key); };
+  const Vec3& d = emitter.direction;
+  const Vector3 direction = 1 / std::hypot(d[0], d[1], d[2]) * Vector3{d[0], d[1], d[2]};
+  // Across the jet: level where it is not upright.
+  const Vector3 across = std::abs(direction.y) < 0.9 ? Vector3{0, 1, 0} : Vector3{1, 0, 0};
+  const Vector3 turned = cross(direction, across), side = 1 / std::sqrt(dot(turned, turned)) * turned;
+  const Vector3 up = cross(direction, side);
+  const Vector3 centre = Vector3{emitter.point[0], emitter.point[1], emitter.point[2]} + offset * direction;
+  const Vector3 velocity = number("speed") * direction;
+  const double radius = number("diameter") / 2;
+  const int reach = static_cast<int>(std::floor(radius / spacing));
+  Spawn spawn;
+  setMatter(spawn, materials, materialIndex(project, emitter.material, emitter.name), number("temperature"),
+            "automatic");
+  for (int row = -reach; row <= reach; ++row) {
+    for (int column = -reach; column <= reach; ++column) {
+      if (std::hypot(row, column) * spacing > radius && (row != 0 || column != 0)) continue;
+      const Vector3 p = centre + spacing * row * side + spacing * column * up;
+      spawn.position.push_back({p.x, p.y, p.z});
+      spawn.velocity.push_back({velocity.x, velocity.y, velocity.z});
+    }
+  }
   return spawn;
 }
 

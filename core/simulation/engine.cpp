@@ -6,6 +6,7 @@
 #include "core/plugin_host/registry.h"
 #include "core/simulation/compile.h"
 #include "core/simulation/lattice.h"
+#include "core/simulation/matterflow.h"
 #include "core/simulation/measure.h"
 
 #include <algorithm>
@@ -65,6 +66,8 @@ struct Engine::Impl {
   void setThermal();
   uint32_t constraintSet(const std::string& plugin, const ParameterSet& parameters);
   std::vector<uint32_t> born(Spawn spawn, const Body& body);
+  std::vector<uint32_t> born(Spawn spawn, const std::string& id, const std::string& name);
+  void exchangeMatter();
 
   Project project;
   PluginRegistry& plugins;
@@ -77,6 +80,7 @@ struct Engine::Impl {
   std::vector<std::string> bodyNames;  // for messages, by the index that particles carry
   std::vector<std::string> probeNames;
   StepReport lastReport;
+  MatterFlow flow;
   uint64_t revision = 0;
   double spacing = 0;  ///< of the particles that live; the project's acts at the next reset
 };
@@ -130,17 +134,34 @@ uint32_t Engine::Impl::bodyIndex(const std::string& id) {
   return index;
 }
 
-std::vector<uint32_t> Engine::Impl::born(Spawn spawn, const Body& body) {
-  spawn.body = bodyIndex(body.id);
+std::vector<uint32_t> Engine::Impl::born(Spawn spawn, const std::string& id, const std::string& name) {
+  spawn.body = bodyIndex(id);
   bodyNames.resize(bodyIds->size());
-  bodyNames[spawn.body] = body.name.empty() ? body.id : body.name;
+  bodyNames[spawn.body] = name.empty() ? id : name;
   solver->setBodyNames(bodyNames);
+  return solver->spawn(spawn);
+}
+
+std::vector<uint32_t> Engine::Impl::born(Spawn spawn, const Body& body) {
   if (!spawn.fixed) {
     for (const BodyConstraint& c : body.constraints) {
       if (plugins.constraint(c.plugin)) spawn.constraintSets.push_back(constraintSet(c.plugin, c.parameters));
     }
   }
-  return solver->spawn(spawn);
+  return born(std::move(spawn), body.id, body.name);
+}
+
+/// Emitters and sinks, after a frame.
+void Engine::Impl::exchangeMatter() {
+  flow.drain(*solver, project);
+  const auto bodyOf = [this](const Emitter& emitter) { return bodyIndex(emitter.id); };
+  const auto birth = [this](Spawn spawn, const Emitter& emitter) {
+    const SceneMaterial& material = project.materials[spawn.material];
+    const auto count = static_cast<double>(solver->particles().size() + spawn.position.size());
+    if (!plugins.material(material.base) || count > kMaximumParticles) return;  // a placeholder; a full machine
+    born(std::move(spawn), emitter.id, emitter.name);
+  };
+  flow.pour(*solver, project, materials, spacing, compileSettings(project).dt, bodyOf, birth);
 }
 
 void Engine::Impl::build() {
@@ -167,6 +188,7 @@ void Engine::Impl::build() {
                                  " particles whose places are taken; move it away from what it overlaps");
     }
   }
+  for (const Emitter& emitter : project.emitters) bodyIndex(emitter.id);
   for (const Probe& probe : project.probes) probeNames.push_back(probeTitle(probe));
 }
 
@@ -180,7 +202,7 @@ std::unique_ptr<Engine::Impl> Engine::Impl::rebuilt(const Project& source) const
 void Engine::Impl::recompile(const std::string& owner) {
   if (owner == "material") bakeMaterials();
   if (owner == "wall") solver->setWalls(compileWalls(project));
-  if (owner == "solver") {
+  if (owner == "solver" || owner == "environment") {  // wind and drag are the environment's
     SolverSettings settings = compileSettings(project);
     settings.spacing = spacing;
     solver->setSettings(settings);
@@ -212,6 +234,7 @@ Engine::~Engine() = default;
 StepReport Engine::step() {
   m->lastReport = m->solver->step();
   for (const PluginFault& fault : m->lastReport.faults) m->plugins.fault(fault.plugin, fault.what);
+  if (!(m->lastReport.flags & static_cast<StepFlags>(StepFlag::NotFinite))) m->exchangeMatter();
   return m->lastReport;
 }
 
@@ -300,6 +323,7 @@ SnapshotPtr Engine::snapshot() const {
 
 FrameStats Engine::stats() const {
   FrameStats stats = measure(*m->solver, m->lastReport);
+  stats.flow = m->flow.total();
   for (const Probe& probe : m->project.probes) {
     stats.probes.push_back(measureProbe(*m->solver, *m->bodyIds, probe));
   }

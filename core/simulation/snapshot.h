@@ -16,6 +16,15 @@ struct PhaseAmount {
   double mass = 0;  ///< kg
 };
 
+/// Matter that crossed into the scene or out of it since the start.
+struct FlowAmount {
+  uint64_t count = 0;
+  double mass = 0, energy = 0;  ///< kg, J
+};
+struct FlowTotal {
+  FlowAmount poured, drained;
+};
+
 /// What one frame amounts to; small, kept for graphs and reports.
 struct FrameStats {
   uint64_t frame = 0;
@@ -25,6 +34,7 @@ struct FrameStats {
   double densityErrorMean = 0, densityErrorMax = 0;
   double thermalEnergy = 0, kineticEnergy = 0;  ///< J
   HeatLedger heat;
+  FlowTotal flow;
   std::array<double, static_cast<size_t>(Stage::Count)> milliseconds{};
   double totalMilliseconds = 0;
   std::vector<double> probes;  ///< in the order of Project::probes

@@ -2,6 +2,7 @@
 #include "core/solver/gasforces.h"
 
 #include "core/base/parallel.h"
+#include "core/solver/gaslaws.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,11 +12,8 @@ namespace ps {
 namespace {
 
 constexpr size_t kGrain = 512;
-constexpr double kGasConstant = 8.314462618;  ///< J/(mol K)
-constexpr double kMolarMassAir = 0.0289647;   ///< kg/mol
-constexpr double kAddedMass = 0.5;            ///< of a sphere
-constexpr double kDragCoefficient = 0.5;      ///< of a sphere at the Reynolds numbers of puffs of steam
-constexpr double kColdest = 20;               ///< K, below which the ideal gas law is not asked
+constexpr double kMolarMassUnknown = 0.0289647;  ///< kg/mol, of matter that does not say: that of air
+constexpr double kDragCoefficient = 0.5;         ///< of a sphere at the Reynolds numbers of puffs of steam
 
 }  // namespace
 
@@ -27,25 +25,23 @@ void GasForces::configure(const SolverSettings& solver, const ThermalSettings& t
   m_molarMass.clear();
   for (const BakedMaterial& material : materials) {
     const double molarMass = material.scalar(propertyIndex("molar_mass"));
-    m_molarMass.push_back(molarMass > 0 ? molarMass : kMolarMassAir);
+    m_molarMass.push_back(molarMass > 0 ? molarMass : kMolarMassUnknown);
   }
 }
 
 double GasForces::vapourDensity(uint32_t material, double temperature) const {
-  return m_thermal.ambientPressure * m_molarMass[material] / (kGasConstant * std::max(temperature, kColdest));
+  return idealGasDensity(m_thermal.ambientPressure, m_molarMass[material], temperature);
 }
 
-double GasForces::airDensity() const {
-  return m_thermal.ambientPressure * kMolarMassAir / (kGasConstant * std::max(m_thermal.ambientTemperature, kColdest));
-}
+double GasForces::airDensity() const { return ps::airDensity(m_thermal.ambientPressure, m_thermal.ambientTemperature); }
 
-float GasForces::immersionOf(const ParticleStore& store, const api::NeighbourView& lists, size_t i) const {
+float GasForces::filled(const ParticleStore& store, const api::NeighbourView& lists, size_t i, bool withLiquid) const {
   const Kernel kernel(m_solver.kernel, m_solver.spacing * m_solver.supportRatio);
   const api::Float4 xi = store.position()[i];
   double around = 0;
   for (uint32_t k = lists.begin[i]; k < lists.last[i]; ++k) {
     const uint32_t j = lists.index[k];
-    if (store.motion()[j] != api::Motion::Liquid) continue;
+    if (withLiquid && store.motion()[j] != api::Motion::Liquid) continue;
     const api::Float4 xj = store.position()[j];
     const double dx = double{xi.x} - double{xj.x}, dy = double{xi.y} - double{xj.y}, dz = double{xi.z} - double{xj.z};
     around += double{xj.w} * kernel.value(std::sqrt(dx * dx + dy * dy + dz * dz));
@@ -55,37 +51,50 @@ float GasForces::immersionOf(const ParticleStore& store, const api::NeighbourVie
 }
 
 void GasForces::measure(const ParticleStore& store, const Neighbours& neighbours) {
-  m_immersion.resize(store.size());
+  m_filled.resize(store.size());
   const api::NeighbourView lists = neighbours.view();
   const auto body = [&](size_t first, size_t last) {
     for (size_t i = first; i < last; ++i) {
-      m_immersion[i] = store.gasFraction()[i] > 0 ? immersionOf(store, lists, i) : 0.0f;
+      const bool vapour = store.gasFraction()[i] > 0;
+      m_filled[i] = vapour || m_solver.airDrag > 0 ? filled(store, lists, i, vapour) : 0.0f;
     }
   };
   parallelFor(store.size(), kGrain, std::cref(body));
 }
 
+GasForces::Pull GasForces::pullOf(const ParticleStore& store, size_t i) const {
+  const double f = store.gasFraction()[i];
+  // Particles born since the last measurement count as being in the open.
+  const double open = 1 - (i < m_filled.size() ? double{m_filled[i]} : 0);
+  if (f > 0) {
+    const double ratio = airDensity() / vapourDensity(store.material()[i], store.temperature()[i]);
+    const double lift = 1 - open + open * parcelLift(ratio, m_solver.addedMass);
+    const double drag = m_solver.gasDrag > 0 ? f * open * dragRate(ratio, kDragCoefficient, m_solver.gasDrag) : 0;
+    return {(1 - f) - f * lift, drag};
+  }
+  if (!(m_solver.airDrag > 0)) return {1, 0};
+  const double ratio = airDensity() * double{store.position()[i].w} / double{store.mass()[i]};
+  return {1 - open * ratio, open * dragRate(ratio, m_solver.airDrag, m_solver.spacing)};
+}
+
 void GasForces::apply(ParticleStore& store, size_t first, size_t last, double dt) const {
-  const api::Double3 g = m_solver.gravity;
-  const double air = airDensity();
+  const api::Double3 g = m_solver.gravity, u = m_solver.wind;
+  const double strength = std::sqrt(g.x * g.x + g.y * g.y + g.z * g.z);
+  const bool thesis = m_solver.gasModel == GasModel::Thesis;
   for (size_t i = first; i < last; ++i) {
     api::Float4& v = store.velocity()[i];
     if (!(v.w > 0)) continue;
-    const double f = store.gasFraction()[i];
-    double weight = 1, slow = 1;  // share of gravity that acts; factor of drag
-    if (f > 0) {
-      // Particles born since the last measurement count as being in the open.
-      const double phi = i < m_immersion.size() ? m_immersion[i] : 0;
-      const double ratio = air / vapourDensity(store.material()[i], store.temperature()[i]);
-      const double lift = phi + (1 - phi) * (ratio - 1) / (1 + kAddedMass * ratio);
-      weight = (1 - f) - f * lift;
-      const double k = 0.75 * kDragCoefficient * ratio / m_solver.gasDrag;
-      const double speed = std::sqrt(double{v.x} * double{v.x} + double{v.y} * double{v.y} + double{v.z} * double{v.z});
-      if (m_solver.gasDrag > 0) slow = 1 / (1 + f * (1 - phi) * k * speed * dt);
+    Pull pull{1, 0};
+    if (thesis && store.gasFraction()[i] > 0) {
+      if (strength > 0) pull.weight = -thesisGravity(store.gasFraction()[i]) / strength;
+    } else {
+      pull = pullOf(store, i);
     }
-    v.x = static_cast<float>((double{v.x} + dt * weight * g.x) * slow);
-    v.y = static_cast<float>((double{v.y} + dt * weight * g.y) * slow);
-    v.z = static_cast<float>((double{v.z} + dt * weight * g.z) * slow);
+    const double x = double{v.x} - u.x, y = double{v.y} - u.y, z = double{v.z} - u.z;
+    const double slow = 1 / (1 + pull.drag * std::sqrt(x * x + y * y + z * z) * dt);
+    v.x = static_cast<float>(u.x + (x + dt * pull.weight * g.x) * slow);
+    v.y = static_cast<float>(u.y + (y + dt * pull.weight * g.y) * slow);
+    v.z = static_cast<float>(u.z + (z + dt * pull.weight * g.z) * slow);
   }
 }
 

@@ -8,24 +8,28 @@
 
 namespace ps {
 
-/// Gravity, and for vapour the parcel model. A vapour particle swells far less than real vapour, so its lift is worked
-/// out from physical densities, along the gravity vector, with f the gas fraction and phi the share of its surroundings
-/// that is liquid:
+/// Gravity, and what the air around does to matter. A vapour particle swells far less than real vapour, so its lift is
+/// worked out from physical densities, along the gravity vector, with f the gas fraction and phi the share of its
+/// surroundings that is liquid:
 ///
-///   a = f (phi g + (1 - phi) g (rho_air/rho - 1)/(1 + C rho_air/rho)) - (1 - f) g
+///   a = f (phi g + (1 - phi) g parcelLift(rho_air/rho)) - (1 - f) g
 ///
-/// upwards, with C = 0.5, the added mass of a sphere; and drag, semi-implicit, with Cd = 0.5 and D = gasDrag:
+/// upwards; and drag towards the wind u, semi-implicit, with Cd = 0.5 and D = gasDrag:
 ///
-///   dv/dt = -f (1 - phi) k |v| v,   k = 3 Cd rho_air/(4 rho D)
+///   dv/dt = -f (1 - phi) k |v - u| (v - u),   k = dragRate(rho_air/rho)
 ///
 /// rho and rho_air are those of ideal gases at the particle's temperature and at the ambient one. Inside liquid the
 /// density constraint pushes as Archimedes would; the plain +g only undoes the weight. Vapour heavier than air sinks.
-/// Not modelled: wind, mixing with air.
+/// With airDrag, liquids and solids feel the air as well, each particle as a sphere of a spacing's diameter in the
+/// share of its surroundings that is empty, with the air's lift: a single drop falls as it should, while a block is
+/// dragged by its surface's particles, which is about its real drag and knows neither lee nor lift. The thesis's model
+/// replaces the vapour's forces by thesisGravity(), without drag. Not modelled: mixing with air, air set in motion by
+/// matter.
 class GasForces {
  public:
   void configure(const SolverSettings& solver, const ThermalSettings& thermal,
                  std::span<const BakedMaterial> materials);
-  /// Once per frame: how much of the neighbourhood is liquid.
+  /// Once per frame: how much of the neighbourhood is liquid, or for airDrag any matter.
   void measure(const ParticleStore& store, const Neighbours& neighbours);
   /// Adds dt times the acceleration to the velocities of particles [first, last) that move.
   void apply(ParticleStore& store, size_t first, size_t last, double dt) const;
@@ -36,13 +40,19 @@ class GasForces {
   double airDensity() const;
 
  private:
-  float immersionOf(const ParticleStore& store, const api::NeighbourView& lists, size_t i) const;
+  /// Share of the surroundings that is filled: with liquid, or with anything.
+  float filled(const ParticleStore& store, const api::NeighbourView& lists, size_t i, bool withLiquid) const;
+  struct Pull {
+    double weight;  ///< share of gravity that acts
+    double drag;    ///< 1/m
+  };
+  Pull pullOf(const ParticleStore& store, size_t i) const;
 
   SolverSettings m_solver;
   ThermalSettings m_thermal;
   std::span<const BakedMaterial> m_materials;
   std::vector<double> m_molarMass;  ///< kg/mol, per material
-  std::vector<float> m_immersion;
+  std::vector<float> m_filled;
 };
 
 }  // namespace ps

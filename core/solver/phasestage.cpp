@@ -2,6 +2,7 @@
 #include "core/solver/phasestage.h"
 
 #include "core/base/parallel.h"
+#include "core/solver/gaslaws.h"
 
 #include <algorithm>
 #include <functional>
@@ -55,9 +56,13 @@ double PhaseStage::meltThreshold(uint32_t material, uint32_t id) const {
 }
 
 double PhaseStage::targetVolume(const ParticleStore& store, size_t i) const {
-  return double{store.mass()[i]} /
-         m_materials[store.material()[i]].restDensity(store.temperature()[i], store.solidFraction()[i],
-                                                      store.liquidFraction()[i], store.gasFraction()[i]);
+  const BakedMaterial& material = m_materials[store.material()[i]];
+  const double solid = store.solidFraction()[i], liquid = store.liquidFraction()[i], gas = store.gasFraction()[i];
+  const double mass = store.mass()[i], temperature = store.temperature()[i];
+  if (m_solver.gasModel == GasModel::Thesis && gas > 0) {
+    return mass / material.condensedDensity(temperature, solid) * thesisVolume(gas);
+  }
+  return mass / material.restDensity(temperature, solid, liquid, gas);
 }
 
 void PhaseStage::initialise(ParticleStore& store, size_t first, size_t last) {

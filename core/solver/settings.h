@@ -15,6 +15,9 @@ enum class DensitySolver { Jacobi, Chebyshev };
 /// one for all liquids.
 enum class ViscosityModel { Automatic, Xsph, Implicit };
 
+/// How vapour moves: by physical densities, or by the thesis's laws of latent heat.
+enum class GasModel { Parcel, Thesis };
+
 struct SolverSettings {
   double spacing = 0.02;      ///< m, rest distance of neighbouring particles
   double supportRatio = 2.0;  ///< support radius / spacing
@@ -32,7 +35,11 @@ struct SolverSettings {
   int viscosityIterations = 100;     ///< at most, of the implicit solve per substep
   double damping = 0;                ///< 1/s, of velocities, before gravity
   api::Double3 gravity{0, -9.81, 0};
-  double gasDrag = 0.2;  ///< m, gas_parcel_diameter of the drag law
+  GasModel gasModel = GasModel::Parcel;
+  double gasDrag = 0.2;        ///< m, gas_parcel_diameter of the drag law
+  double addedMass = 0.5;      ///< added mass coefficient of a parcel; 0.5 for a sphere
+  double airDrag = 0;          ///< drag coefficient of single particles of liquids and solids; 0: no air for them
+  api::Double3 wind{0, 0, 0};  ///< m/s, velocity of the ambient air
 };
 
 /// Heat at a wall.

@@ -74,8 +74,9 @@ void main() {
     vec2 bend = nView.xy * reach * vec2(size.y / size.x, 1.0);
     vec3 behind = toLinear(textureLod(behindTexture, clamp(uv - bend, vec2(0.0), vec2(1.0)), 0.0).rgb);
     float veil = 1.0 - decay(0.20 * thickness);
-    vec3 clearness = mix(vec3(1.0), base * base * 0.9 + 0.1, veil);
-    vec3 body = (base * base * 0.8 + 0.15) * (0.22 + 0.55 * diffuse * mix(0.5, 1.0, key)) + warm * 0.12;
+    // Linear in the material's colour: a square of it would turn honey's orange into brick.
+    vec3 clearness = mix(vec3(1.0), base * 0.75 + 0.02, veil);
+    vec3 body = (base * 0.6 + 0.08) * (0.22 + 0.55 * diffuse * mix(0.5, 1.0, key)) + warm * 0.12;
     c = mix(behind * clearness, body, veil * 0.50);
     c = mix(c, reflected, min(fresnel + 0.06, 1.0)) + shine;
   }

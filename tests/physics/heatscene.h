@@ -8,6 +8,7 @@
 #include "enthalpymodel.h"
 
 #include <cmath>
+#include <map>
 #include <vector>
 
 /// Particles on a lattice with heat alone: no motion. What the tests of the thermal stages are built from.
@@ -53,6 +54,41 @@ class Noise {
  private:
   uint64_t m_state = 1234567;
 };
+
+/// Water with its phase diagram (IAPWS, CRC Handbook).
+inline ps::Material fullWater() {
+  Matter matter = water();
+  matter.boiling = 373.124;
+  ps::Material m = materialOf(matter);
+  m.properties["molar_mass"] = 0.01801528;
+  m.properties["triple_temperature"] = 273.16;
+  m.properties["triple_pressure"] = 611.657;
+  m.properties["latent_heat_sublimation"] = 2834e3;
+  m.properties["critical_temperature"] = 647.096;
+  m.properties["density_solid"] = 917.0;
+  m.properties["density_liquid"] = 998.0;
+  return m;
+}
+
+/// Carbon dioxide, which sublimes at 1 atm.
+inline ps::Material dryIce() {
+  ps::Material m = fullWater();
+  for (const auto& [key, value] : std::map<std::string, double>{{"melting_temperature", 216.592},
+                                                                {"boiling_temperature", 194.686},
+                                                                {"latent_heat_fusion", 198e3},
+                                                                {"latent_heat_vaporization", 348e3},
+                                                                {"latent_heat_sublimation", 571e3},
+                                                                {"molar_mass", 0.04401},
+                                                                {"triple_temperature", 216.592},
+                                                                {"triple_pressure", 517950.0},
+                                                                {"critical_temperature", 304.13},
+                                                                {"heat_capacity_solid", 1300.0},
+                                                                {"heat_capacity_liquid", 1950.0},
+                                                                {"heat_capacity_gas", 846.0}}) {
+    m.properties[key] = value;
+  }
+  return m;
+}
 
 class Scene {
  public:

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Plateaus, pressure, vapour and what they do to mechanics: the thermal models, nucleation and film condensation,
-// PhaseStage and GasForces.
-#include "core/solver/gasforces.h"
+// PhaseStage.
 #include "heatscene.h"
 #include "thesislatentmodel.h"
 
@@ -10,45 +9,13 @@
 #include <algorithm>
 #include <set>
 
-using heattest::Matter;
+using heattest::dryIce;
+using heattest::fullWater;
 using heattest::Scene;
 using ps::api::Motion;
 using ps::api::Phase;
 
 namespace {
-
-ps::Material fullWater() {
-  Matter matter = heattest::water();
-  matter.boiling = 373.124;
-  ps::Material m = heattest::materialOf(matter);
-  m.properties["molar_mass"] = 0.01801528;
-  m.properties["triple_temperature"] = 273.16;
-  m.properties["triple_pressure"] = 611.657;
-  m.properties["latent_heat_sublimation"] = 2834e3;
-  m.properties["critical_temperature"] = 647.096;
-  m.properties["density_solid"] = 917.0;
-  m.properties["density_liquid"] = 998.0;
-  return m;
-}
-
-ps::Material dryIce() {
-  ps::Material m = fullWater();
-  for (const auto& [key, value] : std::map<std::string, double>{{"melting_temperature", 216.592},
-                                                                {"boiling_temperature", 194.686},
-                                                                {"latent_heat_fusion", 198e3},
-                                                                {"latent_heat_vaporization", 348e3},
-                                                                {"latent_heat_sublimation", 571e3},
-                                                                {"molar_mass", 0.04401},
-                                                                {"triple_temperature", 216.592},
-                                                                {"triple_pressure", 517950.0},
-                                                                {"critical_temperature", 304.13},
-                                                                {"heat_capacity_solid", 1300.0},
-                                                                {"heat_capacity_liquid", 1950.0},
-                                                                {"heat_capacity_gas", 846.0}}) {
-    m.properties[key] = value;
-  }
-  return m;
-}
 
 /// One particle heated with a constant power by a model alone.
 class Kettle {
@@ -343,79 +310,6 @@ class TestPhaseChange : public QObject {
     set(0, 0.61f, 0.39f);
     QCOMPARE(count(Motion::Liquid), 1000);
     QCOMPARE(store.velocity()[0].w, 1.0f / store.mass()[0]);
-  }
-
-  void vapourRisesAndSinksByItsDensity_data() {
-    QTest::addColumn<bool>("carbonDioxide");
-    QTest::addColumn<double>("kelvin");
-    QTest::addColumn<double>("density");
-    QTest::addColumn<double>("upwards");  // m/s2
-    QTest::newRow("steam") << false << 373.15 << 0.588356 << 5.07426;
-    // 2.749 kg/m3: 9.81 (1.2041/2.749 - 1)/(1 + 0.219)
-    QTest::newRow("cold carbon dioxide") << true << 194.7 << 2.7548 << -4.5323;
-  }
-  void vapourRisesAndSinksByItsDensity() {
-    QFETCH(bool, carbonDioxide);
-    QFETCH(double, kelvin);
-    QFETCH(double, density);
-    QFETCH(double, upwards);
-    Scene scene;
-    scene.addMaterial(carbonDioxide ? dryIce() : fullWater());
-    scene.addBox({0, 0, 0}, {1, 1, 1}, 0);
-    scene.start([=](size_t) { return kelvin; }, [](size_t) { return Phase::Gas; });
-    ps::GasForces forces;
-    forces.configure(scene.solver, scene.thermal, scene.materials);
-    QVERIFY(std::abs(forces.vapourDensity(0, kelvin) / density - 1) < 0.01);
-    QVERIFY(std::abs(forces.airDensity() / 1.2041 - 1) < 0.01);
-    forces.measure(scene.store, scene.neighbours);
-    const double dt = 1e-4;
-    forces.apply(scene.store, 0, 1, dt);
-    const double seen = double{scene.store.velocity()[0].y} / dt;
-    QVERIFY2(std::abs(seen / upwards - 1) < 0.01, qPrintable(QString::number(seen)));
-    // Drag ends the rise: lift = k v^2 with k = 3 Cd rho_air/(4 rho D).
-    for (int k = 0; k < 200000; ++k) forces.apply(scene.store, 0, 1, 1e-3);
-    const double drag = 0.75 * 0.5 * 1.2041 / density / 0.2, terminal = std::sqrt(std::abs(upwards) / drag);
-    QVERIFY(std::abs(std::abs(double{scene.store.velocity()[0].y}) / terminal - 1) < 0.02);
-  }
-
-  void gravityActsAlongItsVectorAndMayBeZero() {
-    Scene scene;
-    scene.addMaterial(fullWater());
-    scene.addBox({0, 0, 0}, {2, 1, 1}, 0);
-    scene.start([](size_t i) { return i == 0 ? 400.0 : 300.0; });
-    scene.solver.gravity = {3, 0, 4};
-    ps::GasForces forces;
-    forces.configure(scene.solver, scene.thermal, scene.materials);
-    forces.measure(scene.store, scene.neighbours);
-    forces.apply(scene.store, 0, 2, 0.01);
-    const auto* v = scene.store.velocity();
-    QVERIFY(std::abs(double{v[1].x} - 0.03) < 1e-7 && v[1].y == 0 && std::abs(double{v[1].z} - 0.04) < 1e-7);
-    QVERIFY(v[0].x < 0 && v[0].z < 0);  // vapour goes the other way
-    scene.solver.gravity = {0, 0, 0};
-    forces.configure(scene.solver, scene.thermal, scene.materials);
-    const float speed = v[1].z;
-    forces.apply(scene.store, 0, 2, 0.01);
-    QCOMPARE(v[1].z, speed);
-    QVERIFY(std::isfinite(v[0].x));
-    scene.store.velocity()[1].w = 0;
-    scene.solver.gravity = {0, -9.81, 0};
-    forces.configure(scene.solver, scene.thermal, scene.materials);
-    forces.apply(scene.store, 0, 2, 0.01);
-    QCOMPARE(v[1].y, 0.0f);  // what does not move is left alone
-  }
-
-  void bubblesAreLiftedInsideLiquid() {
-    Scene scene;
-    scene.addMaterial(fullWater());
-    scene.addBox({0, 0, 0}, {7, 7, 7}, 0);
-    const size_t centre = 3 * 49 + 3 * 7 + 3;
-    scene.start([=](size_t i) { return i == centre ? 380.0 : 300.0; });
-    ps::GasForces forces;
-    forces.configure(scene.solver, scene.thermal, scene.materials);
-    forces.measure(scene.store, scene.neighbours);
-    forces.apply(scene.store, centre, centre + 1, 1e-3);
-    // Wholly immersed: +1 g, and no drag of air.
-    QVERIFY(std::abs(double{scene.store.velocity()[centre].y} / 9.81e-3 - 1) < 0.01);
   }
 };
 

@@ -507,7 +507,7 @@ class TestPluginHost : public QObject {
 
   void ownMaterialsHoldWhatTheHandbooksSay() {
     const PluginRegistry registry{PluginRegistry::Options{}};
-    for (const char* id : {"water", "wax", "iron", "tin", "chocolate", "butter", "honey", "glass", "lava"})
+    for (const char* id : {"water", "wax", "iron", "tin", "chocolate", "butter", "honey", "glass", "lava", "wood"})
       QVERIFY2(registry.material(id), id);
     const Material& water = *registry.material("water");
     const Response& density = water.properties.at("density_liquid");
@@ -527,7 +527,7 @@ class TestPluginHost : public QObject {
     QVERIFY(plain.properties.at("density_liquid") == Response(998.2));
     const Material& wax = *registry.material("wax");
     QVERIFY(wax.properties.at("solidus").constant < wax.properties.at("liquidus").constant);
-    for (const char* id : {"water", "wax", "iron", "tin", "honey", "glass", "lava", "chocolate"})
+    for (const char* id : {"water", "wax", "iron", "tin", "honey", "glass", "lava", "wood", "chocolate"})
       for (const auto& [key, ignored] : registry.material(id)->properties)
         QVERIFY2(key.starts_with("color_") || !registry.material(id)->provenance.at(key).source.empty(), key.c_str());
   }

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/scene/declare.h"
+#include "core/scene/project.h"
+
+namespace ps {
+namespace {
+
+using namespace declare;
+
+constexpr api::ParameterDeclaration kEmitter[] = {
+    number({"speed", "Speed", "v", "m/s"}, {1, 0, 5, 0, 100},
+           {"Jet", "Speed with which matter leaves the mouth. 0 closes it.", "kitchen tap 1, garden hose 5", ""}),
+    number({"diameter", "Width of the mouth", "d", "m"}, {0.06, 0.02, 0.3, 1e-4, 10},
+           {"Jet", "Diameter of the round mouth, filled with particles a spacing apart, with one at least.",
+            "tap 20 mm, pipe 60 mm", ""},
+           {"mm", 1000, 0}),
+    number({"temperature", "Temperature", "T", "K"}, {293.15, 173.15, 773.15, 1, 10000},
+           {"Jet", "Temperature of what comes out; matter has the phase that is stable at it.",
+            "cold tap 10 °C, kettle's steam 110 °C", ""},
+           kCelsius),
+    number({"start", "Opens at", "", "s"}, {0, 0, 60, 0, 1e9}, {"Time", "When it begins to pour.", "0 at once", ""}),
+    number({"stop", "Closes at", "", "s"}, {1e9, 0, 60, 0, 1e9},
+           {"Time", "When it stops pouring.", "10 for ten seconds of rain", ""}),
+    integer({"most", "At most", "", ""}, {20000, 100, 100000, 0, 20000000},
+            {"Time",
+             "Particles of this emitter that may live at a time: it waits while there are so many, so that a tap left "
+             "open does not fill the computer.",
+             "20000; with a sink below it never stops", ""}),
+};
+
+constexpr api::ParameterDeclaration kSink[] = {
+    toggle({"open", "Open", "", ""}, true,
+           {"Sink", "Takes away every particle whose centre comes into the box. Matter held in place stays.",
+            "a drain, the end of a river", ""}),
+};
+
+}  // namespace
+
+api::ParameterList emitterParameters() { return api::listOf(kEmitter); }
+api::ParameterList sinkParameters() { return api::listOf(kSink); }
+
+}  // namespace ps
