@@ -28,12 +28,7 @@ class ProjectChecker {
     for (size_t i = 0; i < m_project.bodies.size(); ++i) checkBody(m_project.bodies[i], at("/bodies", i));
     checkEnvironment(m_project.environment);
     checkSolver(m_project.solver);
-    for (size_t i = 0; i < m_project.probes.size(); ++i) {
-      const std::string& body = m_project.probes[i].body;
-      if (!body.empty() && !contains(m_project.bodies, body)) {
-        fail(at("/probes", i) + "/body", "there is no body '" + body + "'");
-      }
-    }
+    for (size_t i = 0; i < m_project.probes.size(); ++i) checkProbe(m_project.probes[i], at("/probes", i));
     checkPinned();
     for (size_t i = 0; i < m_project.pluginsUsed.size(); ++i) {
       const std::string& id = m_project.pluginsUsed[i];
@@ -173,9 +168,29 @@ class ProjectChecker {
     }
   }
 
+  void checkRegion(const Region& region, const std::string& pointer) const {
+    for (size_t a = 0; a < 3; ++a) {
+      if (region.minimum[a] > region.maximum[a]) {
+        fail(at(pointer + "/maximum", a), "must not be below the minimum, " + numberText(region.minimum[a]) + " m");
+      }
+    }
+  }
+
+  void checkProbe(const Probe& probe, const std::string& pointer) const {
+    if (!probe.body.empty() && !contains(m_project.bodies, probe.body)) {
+      fail(pointer + "/body", "there is no body '" + probe.body + "'");
+    }
+    if (probe.region) checkRegion(*probe.region, pointer + "/region");
+    if (probe.wave && !probeIsMean(probe.quantity)) {
+      fail(pointer + "/wave", "needs a quantity that each particle has, as velocity_y; '" + probe.quantity +
+                                  "' is of all of them together");
+    }
+  }
+
   void checkBody(const Body& body, const std::string& pointer) {
     checkMaterialExists(body.material, pointer + "/material");
     checkSet(body.parameters, bodyParameters(), pointer);
+    for (size_t i = 0; i < body.pins.size(); ++i) checkRegion(body.pins[i], at(pointer + "/pins", i));
     if (const auto* voxels = std::get_if<VoxelShape>(&body.shape)) {
       checkVoxels(*voxels, pointer + "/shape/voxels");
       addParticles(body, pointer + "/shape/voxels/runs");

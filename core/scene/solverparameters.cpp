@@ -8,7 +8,7 @@ namespace {
 using namespace declare;
 
 constexpr api::ParameterDeclaration kSolver[] = {
-    number({"particle_spacing", "Particle spacing", "d", "m"}, {0.02, 0.005, 0.05, 0.0005, 1},
+    number({"particle_spacing", "Particle spacing", "d", "m"}, {0.02, 0.005, 0.05, 0.0005, 10},
            {"Resolution",
             "Distance between neighbouring particles. Half of it makes eight times as many. Acts at the "
             "next reset.",
@@ -70,6 +70,17 @@ constexpr api::ParameterDeclaration kSolver[] = {
     number({"gas_parcel_diameter", "Size of a steam parcel", "D", "m"}, {0.2, 0.02, 1, 1e-3, 100},
            {"Motion", "Diameter with which a parcel of vapour drags through air. Larger rises faster.",
             "0.2 m rises about 1 m/s", ""}),
+    number({"added_mass", "Air carried along by steam", "C_a", ""}, {0.5, 0, 1, 0, 10},
+           {"Motion",
+            "How much air a parcel of vapour must set in motion with itself, in volumes of its own. It halves how fast "
+            "steam starts to rise.",
+            "0.5 for a sphere, 0 for none", "Batchelor 1967"}),
+    number(
+        {"air_drag", "Air drag", "C_d", ""}, {0, 0, 1.5, 0, 10},
+        {"Motion",
+         "How strongly air brakes and lifts loose solid and liquid particles, each as a sphere of its volume. Inside "
+         "of matter it does not act. 0 takes the air away.",
+         "0.47 for a sphere: hail, drops", "Clift, Grace & Weber 1978"}),
     number({"thermal_time_scale", "Time lapse of heat", "S", ""}, {1, 1, 20000, 0, 1e7},
            {"Heat",
             "Makes all heat flow this much faster than motion. Material data stay real; the thermal clock runs "

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numbers>
 
 namespace ps {
 namespace {
@@ -13,7 +14,6 @@ namespace {
 constexpr size_t kGrain = 512;
 constexpr double kGasConstant = 8.314462618;  ///< J/(mol K)
 constexpr double kMolarMassAir = 0.0289647;   ///< kg/mol
-constexpr double kAddedMass = 0.5;            ///< of a sphere
 constexpr double kDragCoefficient = 0.5;      ///< of a sphere at the Reynolds numbers of puffs of steam
 constexpr double kColdest = 20;               ///< K, below which the ideal gas law is not asked
 
@@ -54,12 +54,39 @@ float GasForces::immersionOf(const ParticleStore& store, const api::NeighbourVie
   return static_cast<float>(std::min(1.0, around / std::max(0.2, 1 - own)));
 }
 
+/// 0 in the open, 1 inside of matter.
+float GasForces::coverOf(const ParticleStore& store, const api::NeighbourView& lists, size_t i) const {
+  const Kernel kernel(m_solver.kernel, m_solver.spacing * m_solver.supportRatio);
+  const api::Float4 xi = store.position()[i];
+  double around = 0;
+  for (uint32_t k = lists.begin[i]; k < lists.last[i]; ++k) {
+    const api::Float4 xj = store.position()[lists.index[k]];
+    const double dx = double{xi.x} - double{xj.x}, dy = double{xi.y} - double{xj.y}, dz = double{xi.z} - double{xj.z};
+    around += double{xj.w} * kernel.value(std::sqrt(dx * dx + dy * dy + dz * dz));
+  }
+  return static_cast<float>(std::min(1.0, around / std::max(0.2, 1 - double{xi.w} * kernel.value(0))));
+}
+
+/// Drag 1/2 rho C_d A v^2 on a sphere of the particle's volume, by a step that cannot turn the velocity round; lift by
+/// the weight of the air in its place.
+GasForces::AirEffect GasForces::airOn(const ParticleStore& store, size_t i, double dt) const {
+  const api::Float4 v = store.velocity()[i];
+  const double volume = store.position()[i].w, open = 1 - (i < m_cover.size() ? m_cover[i] : 0.0f);
+  const double radius = std::cbrt(0.75 * volume / std::numbers::pi), area = std::numbers::pi * radius * radius;
+  const double air = airDensity(), perMass = double{v.w};
+  const double speed = std::sqrt(double{v.x} * double{v.x} + double{v.y} * double{v.y} + double{v.z} * double{v.z});
+  return {1 - open * air * volume * perMass,
+          1 / (1 + open * 0.5 * air * m_solver.airDrag * area * perMass * speed * dt)};
+}
+
 void GasForces::measure(const ParticleStore& store, const Neighbours& neighbours) {
   m_immersion.resize(store.size());
+  if (m_solver.airDrag > 0) m_cover.resize(store.size());
   const api::NeighbourView lists = neighbours.view();
   const auto body = [&](size_t first, size_t last) {
     for (size_t i = first; i < last; ++i) {
       m_immersion[i] = store.gasFraction()[i] > 0 ? immersionOf(store, lists, i) : 0.0f;
+      if (m_solver.airDrag > 0) m_cover[i] = coverOf(store, lists, i);
     }
   };
   parallelFor(store.size(), kGrain, std::cref(body));
@@ -73,11 +100,16 @@ void GasForces::apply(ParticleStore& store, size_t first, size_t last, double dt
     if (!(v.w > 0)) continue;
     const double f = store.gasFraction()[i];
     double weight = 1, slow = 1;  // share of gravity that acts; factor of drag
+    if (!(f > 0) && m_solver.airDrag > 0) {
+      const AirEffect effect = airOn(store, i, dt);
+      weight = effect.weight;
+      slow = effect.slow;
+    }
     if (f > 0) {
       // Particles born since the last measurement count as being in the open.
       const double phi = i < m_immersion.size() ? m_immersion[i] : 0;
       const double ratio = air / vapourDensity(store.material()[i], store.temperature()[i]);
-      const double lift = phi + (1 - phi) * (ratio - 1) / (1 + kAddedMass * ratio);
+      const double lift = phi + (1 - phi) * (ratio - 1) / (1 + m_solver.addedMass * ratio);
       weight = (1 - f) - f * lift;
       const double k = 0.75 * kDragCoefficient * ratio / m_solver.gasDrag;
       const double speed = std::sqrt(double{v.x} * double{v.x} + double{v.y} * double{v.y} + double{v.z} * double{v.z});

@@ -14,13 +14,14 @@ namespace ps {
 ///
 ///   a = f (phi g + (1 - phi) g (rho_air/rho - 1)/(1 + C rho_air/rho)) - (1 - f) g
 ///
-/// upwards, with C = 0.5, the added mass of a sphere; and drag, semi-implicit, with Cd = 0.5 and D = gasDrag:
+/// upwards, with C = addedMass; and drag, semi-implicit, with Cd = 0.5 and D = gasDrag:
 ///
 ///   dv/dt = -f (1 - phi) k |v| v,   k = 3 Cd rho_air/(4 rho D)
 ///
 /// rho and rho_air are those of ideal gases at the particle's temperature and at the ambient one. Inside liquid the
 /// density constraint pushes as Archimedes would; the plain +g only undoes the weight. Vapour heavier than air sinks.
-/// Not modelled: wind, mixing with air.
+/// Not modelled: wind, mixing with air. Where airDrag is set, loose solid and liquid particles feel the air as spheres
+/// of their volume.
 class GasForces {
  public:
   void configure(const SolverSettings& solver, const ThermalSettings& thermal,
@@ -36,13 +37,18 @@ class GasForces {
   double airDensity() const;
 
  private:
+  struct AirEffect {
+    double weight, slow;  ///< share of gravity that acts, factor on the velocity
+  };
+  float coverOf(const ParticleStore& store, const api::NeighbourView& lists, size_t i) const;
+  AirEffect airOn(const ParticleStore& store, size_t i, double dt) const;
   float immersionOf(const ParticleStore& store, const api::NeighbourView& lists, size_t i) const;
 
   SolverSettings m_solver;
   ThermalSettings m_thermal;
   std::span<const BakedMaterial> m_materials;
   std::vector<double> m_molarMass;  ///< kg/mol, per material
-  std::vector<float> m_immersion;
+  std::vector<float> m_immersion, m_cover;
 };
 
 }  // namespace ps
