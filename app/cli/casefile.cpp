@@ -103,7 +103,7 @@ CaseCheck readCheck(Entry& entry, const std::vector<CaseRun>& configurations) {
     if (std::find(names.begin(), names.end(), check.measure) == names.end()) {
       entry.fail("'" + check.measure + "' is no measure");
     }
-    for (const char* key : {"from", "to", "time", "value", "level", "frames"}) {
+    for (const char* key : {"from", "to", "time", "value", "level", "periods", "frames"}) {
       if (const auto value = entry.number(key)) check.options[key] = *value;
     }
     check.times = entry.number("times").value_or(check.times);

@@ -65,12 +65,13 @@ double fastest(const Series& s, size_t frames) {
   return most;
 }
 
-double period(const Series& s, double level) {
+double period(const Series& s, double level, double most) {
   std::vector<double> crossings;
   for (size_t k = 1; k < s.value.size(); ++k) {
     if (s.value[k - 1] > level && s.value[k] <= level) crossings.push_back(timeAt(s, k, level));
   }
   if (crossings.size() < 2) return kNone;
+  if (most < static_cast<double>(crossings.size() - 1)) crossings.resize(static_cast<size_t>(most) + 1);
   return (crossings.back() - crossings.front()) / static_cast<double>(crossings.size() - 1);
 }
 
@@ -93,7 +94,10 @@ const std::map<std::string, Measure>& measures() {
        }},
       {"fastest", [](const Series& s,
                      const json& o) { return fastest(s, static_cast<size_t>(std::max(1.0, option(o, "frames", 1)))); }},
-      {"period", [](const Series& s, const json& o) { return period(s, option(o, "level", 0)); }},
+      {"period",
+       [](const Series& s, const json& o) {
+         return period(s, option(o, "level", 0), std::max(1.0, option(o, "periods", kInfinity)));
+       }},
   };
   return all;
 }

@@ -20,7 +20,7 @@ struct Series {
 /// when {value}                    time in s at which it first passes a value
 /// slope {from, to}                between the times at which it first passes two values
 /// fastest {frames}                largest change per second over that many frames
-/// period {level}                  mean time between downward crossings
+/// period {level, periods}         mean time between downward crossings, of the first few or of all
 std::vector<std::string> measureNames();
 /// One number. NaN where the series does not have it: a value that is never passed, a probe without particles.
 double measureOf(const Series& series, const std::string& measure, const nlohmann::json& options);
