@@ -15,6 +15,7 @@ int benchCommand(CommandArguments arguments);
 int validateCommand(CommandArguments arguments);
 int schemaCommand(CommandArguments arguments);
 int pluginsCommand(CommandArguments arguments);
+int casesCommand(CommandArguments arguments);
 
 std::string simulateHelp();
 std::string renderHelp();
@@ -22,6 +23,7 @@ std::string benchHelp();
 std::string validateHelp();
 std::string schemaHelp();
 std::string pluginsHelp();
+std::string casesHelp();
 
 inline constexpr int kFine = 0, kFailed = 1, kBadInput = 2;
 

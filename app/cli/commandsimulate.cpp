@@ -28,24 +28,6 @@ constexpr OptionSpec kOptions[] = {
     kQuiet,
 };
 
-/// Runs the frames; false when Ctrl+C or a broken state ended them early.
-bool runFrames(Engine& engine, long frames, Report& report, ProbeTable* probes, RecordingWriter* recording,
-               bool quiet) {
-  Progress progress(frames, quiet);
-  if (recording) recording->add(*engine.snapshot());
-  for (long frame = 1; frame <= frames; ++frame) {
-    const StepReport step = engine.step();
-    const FrameStats stats = engine.stats();
-    report.add(step, stats);
-    if (probes) probes->add(stats);
-    if (recording) recording->add(*engine.snapshot());
-    progress.show(frame, stats);
-    if (step.flags & static_cast<StepFlags>(StepFlag::NotFinite)) return false;
-    if (interrupted()) return false;
-  }
-  return true;
-}
-
 void summarise(const Report& report, Engine& engine, double wall) {
   const FrameStats stats = engine.stats();
   const double factor = wall > 0 ? stats.time / wall : 0;
@@ -77,8 +59,17 @@ int simulateCommand(CommandArguments given) {
   if (arguments.has("--record")) recording.emplace(arguments.text("--record"), project);
   Report report(engine.stats());
   const double start = now();
-  const bool whole =
-      runFrames(engine, frames, report, probes ? &*probes : nullptr, recording ? &*recording : nullptr, quiet);
+  if (recording) recording->add(*engine.snapshot());
+  bool whole = false;
+  {
+    Progress progress(frames, quiet);
+    whole = runFrames(engine, frames, [&](const StepReport& step, const FrameStats& stats) {
+      report.add(step, stats);
+      if (probes) probes->add(stats);
+      if (recording) recording->add(*engine.snapshot());
+      progress.show(static_cast<long>(report.frames()), stats);
+    });
+  }
   const double wall = now() - start;
   if (probes) probes->finish();
   if (recording) recording->finish();

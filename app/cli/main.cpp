@@ -22,6 +22,7 @@ constexpr Command kCommands[] = {
     {"render", "draws a project or a recording as pictures or a film", renderCommand, renderHelp},
     {"bench", "measures the solver's speed on this machine", benchCommand, benchHelp},
     {"validate", "checks projects", validateCommand, validateHelp},
+    {"cases", "runs experiments and compares them with what theory expects", casesCommand, casesHelp},
     {"plugins", "lists plugins, and what is wrong with broken ones", pluginsCommand, pluginsHelp},
     {"schema", "prints the JSON Schema of projects", schemaCommand, schemaHelp},
 };
@@ -48,7 +49,7 @@ int complain(const std::string& message, int code) {
 
 int run(const std::vector<std::string>& arguments) {
   if (arguments.empty())
-    return complain("which command? simulate, render, bench, validate, plugins; --help says more", kBadInput);
+    return complain("which command? simulate, render, bench, validate, cases, plugins; --help says more", kBadInput);
   if (arguments[0] == "--help" || arguments[0] == "-h" || arguments[0] == "help") {
     std::fputs(overview().c_str(), stdout);
     return kFine;

@@ -24,20 +24,42 @@ std::string cell(double value) {
 
 }  // namespace
 
+std::vector<std::string> columnTitles(const std::vector<std::string>& probeNames) {
+  std::vector<std::string> titles{"time_s", "thermal_time_s"};
+  titles.insert(titles.end(), probeNames.begin(), probeNames.end());
+  for (const char* phase : {"solid", "melting", "liquid", "boiling", "gas"}) {
+    titles.push_back(std::string(phase) + ".mass[kg]");
+  }
+  titles.emplace_back("all.temperature[K]");
+  return titles;
+}
+
+std::vector<double> columnValues(const FrameStats& stats) {
+  std::vector<double> values{stats.time, stats.thermalTime};
+  values.insert(values.end(), stats.probes.begin(), stats.probes.end());
+  for (const PhaseAmount& phase : stats.phases) values.push_back(phase.mass);
+  values.push_back(stats.temperatureMean);
+  return values;
+}
+
 ProbeTable::ProbeTable(const std::string& path, const std::vector<std::string>& probeNames)
     : m_path(path), m_file(path, std::ios::binary | std::ios::trunc) {
   if (!m_file) throw Error(path + ": cannot be written; choose another folder");
-  m_file << "time_s,thermal_time_s";
-  for (const std::string& name : probeNames) m_file << ',' << quoted(name);
-  for (const char* phase : {"solid", "melting", "liquid", "boiling", "gas"}) m_file << ',' << phase << ".mass[kg]";
-  m_file << ",all.temperature[K]\n";
+  const char* separator = "";
+  for (const std::string& title : columnTitles(probeNames)) {
+    m_file << separator << quoted(title);
+    separator = ",";
+  }
+  m_file << '\n';
 }
 
 void ProbeTable::add(const FrameStats& stats) {
-  m_file << cell(stats.time) << ',' << cell(stats.thermalTime);
-  for (const double value : stats.probes) m_file << ',' << cell(value);
-  for (const PhaseAmount& phase : stats.phases) m_file << ',' << cell(phase.mass);
-  m_file << ',' << cell(stats.temperatureMean) << '\n';
+  const char* separator = "";
+  for (const double value : columnValues(stats)) {
+    m_file << separator << cell(value);
+    separator = ",";
+  }
+  m_file << '\n';
 }
 
 void ProbeTable::finish() {

@@ -8,9 +8,13 @@
 
 namespace ps::cli {
 
-/// What graphs show, as CSV (RFC 4180, decimal points): time_s, thermal_time_s, the project's probes as
-/// name.quantity[unit], the mass in each phase and the mean temperature of all matter. One row per frame; an empty cell
-/// where a probe saw no particle.
+/// Titles of the columns: time_s, thermal_time_s, the project's probes as name.quantity[unit], the mass in each phase
+/// and the mean temperature of all matter.
+std::vector<std::string> columnTitles(const std::vector<std::string>& probeNames);
+/// One frame's values under them; NaN where a probe saw no particle.
+std::vector<double> columnValues(const FrameStats& stats);
+
+/// What graphs show, as CSV (RFC 4180, decimal points): one row per frame; an empty cell where a probe saw no particle.
 class ProbeTable {
  public:
   /// Throws Error when the file cannot be written.

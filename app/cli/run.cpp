@@ -70,6 +70,16 @@ bool interrupted() {
   return listening && g_interrupted != 0;
 }
 
+bool runFrames(Engine& engine, long frames, const std::function<void(const StepReport&, const FrameStats&)>& each) {
+  for (long frame = 1; frame <= frames; ++frame) {
+    const StepReport step = engine.step();
+    each(step, engine.stats());
+    if (step.flags & static_cast<StepFlags>(StepFlag::NotFinite)) return false;
+    if (interrupted()) return false;
+  }
+  return true;
+}
+
 Progress::Progress(long frames, bool quiet)
     : m_frames(frames), m_on(!quiet && ::isatty(STDERR_FILENO) == 1), m_start(now()), m_last(m_start) {}
 

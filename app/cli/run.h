@@ -5,6 +5,7 @@
 #include "core/simulation/engine.h"
 
 #include <chrono>
+#include <functional>
 #include <string>
 
 namespace ps::cli {
@@ -32,6 +33,9 @@ double frameLength(const Project& project);
 double now();
 /// True once the user has pressed Ctrl+C; the first call starts listening.
 bool interrupted();
+
+/// Runs frames and hands each one over; false when Ctrl+C or a broken state ended them early.
+bool runFrames(Engine& engine, long frames, const std::function<void(const StepReport&, const FrameStats&)>& each);
 
 /// One line on a terminal's standard error that says how far a run is; nothing where there is no terminal.
 class Progress {

@@ -32,12 +32,7 @@ class ProjectChecker {
     for (size_t i = 0; i < m_project.sinks.size(); ++i) checkSink(m_project.sinks[i], at("/sinks", i));
     checkEnvironment(m_project.environment);
     checkSolver(m_project.solver);
-    for (size_t i = 0; i < m_project.probes.size(); ++i) {
-      const std::string& body = m_project.probes[i].body;
-      if (!body.empty() && !contains(m_project.bodies, body) && !contains(m_project.emitters, body)) {
-        fail(at("/probes", i) + "/body", "there is no body or emitter '" + body + "'");
-      }
-    }
+    for (size_t i = 0; i < m_project.probes.size(); ++i) checkProbe(m_project.probes[i], at("/probes", i));
     checkPinned();
     for (size_t i = 0; i < m_project.pluginsUsed.size(); ++i) {
       const std::string& id = m_project.pluginsUsed[i];
@@ -177,9 +172,30 @@ class ProjectChecker {
     }
   }
 
+  void checkRegion(const Region& region, const std::string& pointer) const {
+    for (size_t a = 0; a < 3; ++a) {
+      if (region.minimum[a] > region.maximum[a]) {
+        fail(at(pointer + "/maximum", a), "must not be below the minimum, " + numberText(region.minimum[a]) + " m");
+      }
+    }
+  }
+
+  void checkProbe(const Probe& probe, const std::string& pointer) const {
+    const std::string& body = probe.body;
+    if (!body.empty() && !contains(m_project.bodies, body) && !contains(m_project.emitters, body)) {
+      fail(pointer + "/body", "there is no body or emitter '" + body + "'");
+    }
+    if (probe.region) checkRegion(*probe.region, pointer + "/region");
+    if (probe.wave && !probeIsMean(probe.quantity)) {
+      fail(pointer + "/wave", "needs a quantity that each particle has, as velocity_y; '" + probe.quantity +
+                                  "' is of all of them together");
+    }
+  }
+
   void checkBody(const Body& body, const std::string& pointer) {
     checkMaterialExists(body.material, pointer + "/material");
     checkSet(body.parameters, bodyParameters(), pointer);
+    for (size_t i = 0; i < body.pins.size(); ++i) checkRegion(body.pins[i], at(pointer + "/pins", i));
     if (const auto* voxels = std::get_if<VoxelShape>(&body.shape)) {
       checkVoxels(*voxels, pointer + "/shape/voxels");
       addParticles(body, pointer + "/shape/voxels/runs");

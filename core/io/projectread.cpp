@@ -83,6 +83,36 @@ BoxShape readBox(json& value) {
   return box;
 }
 
+Region readRegion(json& value) {
+  JsonTaker taker(value);
+  Region region;
+  region.minimum = taker.vector("minimum", region.minimum);
+  region.maximum = taker.vector("maximum", region.maximum);
+  region.unknown = taker.rest();
+  return region;
+}
+
+Wave readWave(json& value) {
+  JsonTaker taker(value);
+  Wave wave;
+  wave.axis = taker.text("axis")[0] - 'x';
+  wave.wavelength = taker.number("wavelength", wave.wavelength);
+  wave.phase = taker.number("phase", wave.phase);
+  wave.velocity = taker.vector("velocity", wave.velocity);
+  wave.unknown = taker.rest();
+  return wave;
+}
+
+/// Reads a member that need not be there with `read(json&)`.
+template <class Read>
+auto readOptional(JsonTaker& taker, const char* key, Read read) {
+  std::optional<decltype(read(std::declval<json&>()))> out;
+  if (!taker.has(key)) return out;
+  json value = taker.take(key);
+  out = read(value);
+  return out;
+}
+
 BodyConstraint readConstraint(json& value, const PluginRegistry& plugins) {
   JsonTaker taker(value);
   BodyConstraint constraint;
@@ -109,6 +139,10 @@ Body readBody(json& value, const PluginRegistry& plugins) {
   }
   taker.keep("shape", std::move(shape));
   body.velocity = taker.vector("velocity", body.velocity);
+  body.spin = taker.vector("spin", body.spin);
+  body.velocityWave = readOptional(taker, "velocity_wave", readWave);
+  body.temperatureGradient = taker.vector("temperature_gradient", body.temperatureGradient);
+  body.pins = readList(taker, "pins", readRegion);
   body.constraints = readList(taker, "constraints", [&](json& item) { return readConstraint(item, plugins); });
   body.visible = taker.toggle("visible", true);
   body.locked = taker.toggle("locked", false);
@@ -194,6 +228,8 @@ Probe readProbe(json& value) {
   probe.quantity = taker.text("quantity");
   probe.body = taker.text("body");
   probe.phase = taker.text("phase");
+  probe.region = readOptional(taker, "region", readRegion);
+  probe.wave = readOptional(taker, "wave", readWave);
   probe.unknown = taker.rest();
   return probe;
 }

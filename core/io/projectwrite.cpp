@@ -73,11 +73,33 @@ json writeShape(const std::variant<BoxShape, VoxelShape>& shape) {
   return {{"box", std::move(out)}};
 }
 
+json writeRegion(const Region& region) {
+  json out{{"minimum", jsonFromVector(region.minimum)}, {"maximum", jsonFromVector(region.maximum)}};
+  putUnknown(out, region.unknown);
+  return out;
+}
+
+void putVector(json& object, const char* key, const Vec3& vector) {
+  if (vector != Vec3{0, 0, 0}) object[key] = jsonFromVector(vector);
+}
+
+json writeWave(const Wave& wave) {
+  json out{{"axis", std::string(1, static_cast<char>('x' + wave.axis))}, {"wavelength", jsonNumber(wave.wavelength)}};
+  if (wave.phase != 0) out["phase"] = jsonNumber(wave.phase);
+  putVector(out, "velocity", wave.velocity);
+  putUnknown(out, wave.unknown);
+  return out;
+}
+
 json writeBody(const Body& body) {
   json out{{"id", body.id}, {"material", body.material}, {"shape", writeShape(body.shape)}};
   putText(out, "name", body.name);
   putParameters(out, body.parameters);
-  if (body.velocity != Vec3{0, 0, 0}) out["velocity"] = jsonFromVector(body.velocity);
+  putVector(out, "velocity", body.velocity);
+  putVector(out, "spin", body.spin);
+  if (body.velocityWave) out["velocity_wave"] = writeWave(*body.velocityWave);
+  putVector(out, "temperature_gradient", body.temperatureGradient);
+  for (const Region& pin : body.pins) out["pins"].push_back(writeRegion(pin));
   for (const BodyConstraint& constraint : body.constraints) {
     json entry{{"plugin", constraint.plugin}};
     putSet(entry, "parameters", constraint.parameters);
@@ -140,6 +162,8 @@ json writeProbe(const Probe& probe) {
   putText(out, "name", probe.name);
   putText(out, "body", probe.body);
   putText(out, "phase", probe.phase);
+  if (probe.region) out["region"] = writeRegion(*probe.region);
+  if (probe.wave) out["wave"] = writeWave(*probe.wave);
   putUnknown(out, probe.unknown);
   return out;
 }

@@ -122,7 +122,7 @@ json voxelSchema() {
       {"brush", "radius", "palette", "samples"}, "how cells were drawn");
   return object(
       {{"origin", vector3("m", "centre of cell (0, 0, 0)")},
-       {"spacing", number(0.0005, 1, "m", "edge of a cell; the scene's particle spacing where it is left out")},
+       {"spacing", number(0.0005, 10, "m", "edge of a cell; the scene's particle spacing where it is left out")},
        {"palette", listOf(paint, "materials of the cells")},
        {"runs", listOf(tuple({coordinate, coordinate, coordinate, integer(1, 1'000'000, "cells along x"),
                               integer(0, 65535, "index into the palette")},
@@ -132,6 +132,18 @@ json voxelSchema() {
       {"origin", "palette", "runs"}, "sketched cells");
 }
 
+json regionSchema(const char* description) {
+  return object({{"minimum", vector3("m", "")}, {"maximum", vector3("m", "")}}, {"minimum", "maximum"}, description);
+}
+
+json waveSchema(json more, const std::vector<std::string>& required, const char* description) {
+  json properties{{"axis", oneOfNames({"x", "y", "z"}, "along which it changes")},
+                  {"wavelength", number(1e-6, kFarthest, "m", "")},
+                  {"phase", number(-kFarthest, kFarthest, "rad", "at the origin of the scene")}};
+  properties.update(more);
+  return object(std::move(properties), required, description);
+}
+
 json bodySchema() {
   const json constraint =
       object({{"plugin", ref("plugin")}, {"parameters", freeParameters("the constraint's own parameters")}}, {"plugin"},
@@ -139,16 +151,23 @@ json bodySchema() {
   const json shape{{"oneOf",
                     {object({{"box", boxSchema()}}, {"box"}, "a block"),
                      object({{"voxels", voxelSchema()}}, {"voxels"}, "a sketch")}}};
-  return object(withParameters({{"id", ref("id")},
-                                {"name", text("name shown to people")},
-                                {"material", ref("id")},
-                                {"shape", shape},
-                                {"velocity", vector3("m/s", "velocity at the start")},
-                                {"constraints", listOf(constraint, "what holds it together")},
-                                {"visible", toggle("drawn")},
-                                {"locked", toggle("protected from edits")}},
-                               bodyParameters()),
-                {"id", "material", "shape"}, "matter at the start");
+  return object(
+      withParameters({{"id", ref("id")},
+                      {"name", text("name shown to people")},
+                      {"material", ref("id")},
+                      {"shape", shape},
+                      {"velocity", vector3("m/s", "velocity at the start")},
+                      {"spin", vector3("rad/s", "turns about its centre at the start")},
+                      {"velocity_wave", waveSchema({{"velocity", vector3("m/s", "amplitude")}},
+                                                   {"axis", "wavelength", "velocity"}, "a sine added to the velocity")},
+                      {"temperature_gradient", vector3("K/m", "about the body's centre, where its temperature holds")},
+                      {"pins", listOf(regionSchema("a box; its faces belong to it"),
+                                      "particles that stand in one of these at the start are held in place")},
+                      {"constraints", listOf(constraint, "what holds it together")},
+                      {"visible", toggle("drawn")},
+                      {"locked", toggle("protected from edits")}},
+                     bodyParameters()),
+      {"id", "material", "shape"}, "matter at the start");
 }
 
 json environmentSchema() {
@@ -200,7 +219,10 @@ json probeSchema() {
                  {"name", {{"type", "string"}, {"maxLength", 200}, {"description", "name in graphs and tables"}}},
                  {"quantity", oneOfNames(probeQuantities(), "what is measured")},
                  {"body", {{"type", "string"}, {"description", "id of a body; empty for all particles"}}},
-                 {"phase", oneOfNames({"", "solid", "melting", "liquid", "boiling", "gas"}, "empty for all")}},
+                 {"phase", oneOfNames({"", "solid", "melting", "liquid", "boiling", "gas"}, "empty for all")},
+                 {"region", regionSchema("only particles that stood in it at the start; its faces belong to it")},
+                 {"wave", waveSchema(json::object(), {"axis", "wavelength"},
+                                     "measures the amplitude of this sine in the quantity, not the quantity")}},
                 {"id", "quantity"}, "something measured each frame");
 }
 

@@ -124,10 +124,10 @@ constexpr ParameterDeclaration kProperties[] = {
      "ice cubes do, iron does not", ""},
 
     // Mechanics
-    {"density_solid", "Density, solid", "ρ_s", "kg/m³", kResponse, kLinear, 1000, 500, 10000, 1, 3e4, "", 1, 0, "",
+    {"density_solid", "Density, solid", "ρ_s", "kg/m³", kResponse, kLinear, 1000, 500, 10000, 0.1, 3e4, "", 1, 0, "",
      "Mechanics", "Mass of one cubic metre of the solid; against the liquid's it decides whether the solid floats.",
      "ice 917, wax 900, glass 2500, iron 7874, lead 11340 kg/m³", "CRC Handbook of Chemistry and Physics"},
-    {"density_liquid", "Density, liquid", "ρ_l", "kg/m³", kResponse, kLinear, 1000, 500, 10000, 1, 3e4, "", 1, 0, "",
+    {"density_liquid", "Density, liquid", "ρ_l", "kg/m³", kResponse, kLinear, 1000, 500, 10000, 0.1, 3e4, "", 1, 0, "",
      "Mechanics", "Mass of one cubic metre of the liquid; where it falls with temperature, hot liquid rises.",
      "water 998, ethanol 789, molten wax 780, liquid iron 7035 kg/m³", "CRC Handbook of Chemistry and Physics"},
     {"expansion_linear", "Expansion, solid", "α", "1/K", kNumber, kLinear, 0, 0, 3e-4, -1e-3, 1e-2, "10\u207b\u2076/K",

@@ -18,6 +18,14 @@ constexpr api::ParameterDeclaration kBody[] = {
     toggle({"fixed", "Held in place", "", ""}, false,
            {"Start", "Keeps every particle where it is; heat still flows through it.",
             "a pan, a mould, a rock in a stream", ""}),
+    number({"jitter", "Disorder", "", ""}, {0, 0, 0.3, 0, 0.5},
+           {"Start",
+            "How far each particle stands off its place in the lattice at the start, along each axis, as a share of "
+            "the spacing.",
+            "0 for a crystal, 0.2 like a liquid that was shaken", ""}),
+    integer({"seed", "Kind of disorder", "", ""}, {1, 1, 100, 0, 4294967295.0},
+            {"Start", "Another number places the particles otherwise; the same number always alike.",
+             "compare runs with 1, 2 and 3 to see what chance does", ""}),
 };
 
 }  // namespace

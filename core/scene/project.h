@@ -73,12 +73,39 @@ struct BodyConstraint {
   Unknown unknown;
 };
 
+/// A box in space, its faces included.
+struct Region {
+  Vec3 minimum{0, 0, 0}, maximum{0, 0, 0};  ///< m
+  Unknown unknown{};
+  bool contains(const Vec3& p) const {
+    for (size_t a = 0; a < 3; ++a) {
+      if (p[a] < minimum[a] || p[a] > maximum[a]) return false;
+    }
+    return true;
+  }
+  bool operator==(const Region&) const = default;
+};
+
+/// A sine along an axis of the scene: what a body adds to its velocity at the start, or what a probe looks for.
+struct Wave {
+  int axis = 0;            ///< 0 x, 1 y, 2 z
+  double wavelength = 1;   ///< m
+  double phase = 0;        ///< radians at the origin of the scene
+  Vec3 velocity{0, 0, 0};  ///< m/s, amplitude; of bodies
+  Unknown unknown{};
+  bool operator==(const Wave&) const = default;
+};
+
 struct Body {
   std::string id, name;
   std::string material;  ///< SceneMaterial::id; sketched bodies: of their first palette entry
   std::variant<BoxShape, VoxelShape> shape;
-  ParameterSet parameters;  ///< see bodyParameters(): temperature, phase, fixed
-  Vec3 velocity{0, 0, 0};   ///< m/s
+  ParameterSet parameters;            ///< see bodyParameters(): temperature, phase, fixed, jitter, seed
+  Vec3 velocity{0, 0, 0};             ///< m/s
+  Vec3 spin{0, 0, 0};                 ///< rad/s about the body's centre, on top of `velocity`
+  std::optional<Wave> velocityWave;   ///< on top of both
+  Vec3 temperatureGradient{0, 0, 0};  ///< K/m about the body's centre, where `temperature` holds
+  std::vector<Region> pins;           ///< what stands in one of them at the start is held in place
   std::vector<BodyConstraint> constraints;
   bool visible = true, locked = false;
   Unknown unknown;
@@ -129,9 +156,11 @@ struct SolverOptions {
 /// Something to measure each frame.
 struct Probe {
   std::string id, name;
-  std::string quantity;  ///< "temperature", "mass", "speed", ... see probeQuantities()
-  std::string body;      ///< Body::id; "" for all particles
-  std::string phase;     ///< "solid", "melting", "liquid", "boiling", "gas"; "" for all
+  std::string quantity;          ///< "temperature", "mass", "speed", ... see probeQuantities()
+  std::string body;              ///< Body::id; "" for all particles
+  std::string phase;             ///< "solid", "melting", "liquid", "boiling", "gas"; "" for all
+  std::optional<Region> region;  ///< only what stood in it at the start
+  std::optional<Wave> wave;      ///< measures the amplitude of this wave in the quantity, not the quantity itself
   Unknown unknown;
 };
 
@@ -171,6 +200,8 @@ api::ParameterList sinkParameters();
 const std::vector<std::string>& probeQuantities();
 std::string probeUnit(const std::string& quantity);   ///< SI: "K", "kg", "1" for counts; "" for an unknown quantity
 std::string probeLabel(const std::string& quantity);  ///< "Mean temperature"; "" for an unknown quantity
+/// Whether a wave can be looked for in it: a mean of something that each particle has.
+bool probeIsMean(const std::string& quantity);
 
 /// Layers of particles `spacing` m apart that fill an edge of a box: whole ones, at least one.
 double layersAlong(double edge, double spacing);

@@ -8,7 +8,7 @@ namespace {
 using namespace declare;
 
 constexpr api::ParameterDeclaration kSolver[] = {
-    number({"particle_spacing", "Particle spacing", "d", "m"}, {0.02, 0.005, 0.05, 0.0005, 1},
+    number({"particle_spacing", "Particle spacing", "d", "m"}, {0.02, 0.005, 0.05, 0.0005, 10},
            {"Resolution",
             "Distance between neighbouring particles. Half of it makes eight times as many. Acts at the "
             "next reset.",

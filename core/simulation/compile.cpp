@@ -46,6 +46,63 @@ void setMatter(Spawn& spawn, const Project& project, std::span<const BakedMateri
             choiceOf(body.parameters, bodyParameters(), "phase"));
 }
 
+Vec3 vec3(const api::Double3& p) { return {p.x, p.y, p.z}; }
+
+/// Mean of the places of all particles.
+Vec3 centreOf(const std::vector<Spawn>& spawns) {
+  Vec3 sum{0, 0, 0};
+  size_t count = 0;
+  for (const Spawn& spawn : spawns) {
+    for (const api::Double3& p : spawn.position) sum[0] += p.x, sum[1] += p.y, sum[2] += p.z;
+    count += spawn.position.size();
+  }
+  for (double& c : sum) c /= static_cast<double>(std::max<size_t>(count, 1));
+  return sum;
+}
+
+double sineAt(const Wave& wave, const Vec3& p) {
+  return std::sin(2 * std::numbers::pi * p[static_cast<size_t>(wave.axis)] / wave.wavelength + wave.phase);
+}
+
+/// What changes over a body at the start.
+void setFields(Spawn& spawn, const Body& body, const Vec3& centre, const api::Caloric& caloric) {
+  const std::string asked = choiceOf(body.parameters, bodyParameters(), "phase");
+  const Vec3 &w = body.spin, &gradient = body.temperatureGradient;
+  const bool warped = gradient != Vec3{0, 0, 0};
+  for (const api::Double3& place : spawn.position) {
+    const Vec3 p = vec3(place), r{p[0] - centre[0], p[1] - centre[1], p[2] - centre[2]};
+    Vec3 v = body.velocity;
+    for (size_t a = 0; a < 3; ++a) {
+      const size_t b = (a + 1) % 3, c = (a + 2) % 3;
+      v[a] += w[b] * r[c] - w[c] * r[b];
+      if (body.velocityWave) v[a] += body.velocityWave->velocity[a] * sineAt(*body.velocityWave, p);
+    }
+    spawn.velocity.push_back(double3(v));
+    if (!warped) continue;
+    const double t = spawn.temperature + gradient[0] * r[0] + gradient[1] * r[1] + gradient[2] * r[2];
+    if (!(t >= 1)) {
+      throw InputError("body '" + body.name + "': its temperature gradient would cool it to " + numberText(t) +
+                       " K; raise its temperature or lower the gradient");
+    }
+    spawn.temperatures.push_back(t);
+    spawn.phases.push_back(birthPhase(asked, caloric, t));
+  }
+}
+
+/// Takes the particles that stand in one of the body's pins out of `spawn`: a batch of fixed ones.
+Spawn takePinned(Spawn& spawn, const Body& body) {
+  Spawn pinned = spawn;
+  pinned.position.clear();
+  pinned.fixed = true;
+  std::erase_if(spawn.position, [&](const api::Double3& p) {
+    const bool held =
+        std::any_of(body.pins.begin(), body.pins.end(), [&](const Region& pin) { return pin.contains(vec3(p)); });
+    if (held) pinned.position.push_back(p);
+    return held;
+  });
+  return pinned;
+}
+
 const EvaluatedMaterial* lastOf(const SceneMaterial& source, const EvaluatedMaterials* evaluated) {
   if (!evaluated) return nullptr;
   const auto found = evaluated->find(source.id);
@@ -198,8 +255,23 @@ std::vector<Spawn> compileBody(const Project& project, const PluginRegistry& plu
       }
     }
   }
-  for (Spawn& spawn : spawns) spawn.velocity.assign(spawn.position.size(), double3(body.velocity));
-  return spawns;
+  const double jitter = numberOf(body.parameters, bodyParameters(), "jitter");
+  const double seed = numberOf(body.parameters, bodyParameters(), "seed");
+  const Vec3 centre = centreOf(spawns);
+  std::vector<Spawn> all;
+  for (Spawn& spawn : spawns) {
+    // By place in the lattice: disorder does not decide who is pinned.
+    Spawn pinned = takePinned(spawn, body);
+    for (Spawn* part : {&pinned, &spawn}) {
+      setFields(*part, body, centre, materials[part->material].caloric());
+      disturb(part->position, spacing, jitter, static_cast<uint32_t>(seed));
+    }
+    if (!pinned.position.empty()) all.push_back(std::move(pinned));
+    all.push_back(std::move(spawn));
+  }
+  // What is held is there before what hangs on it, whatever it is made of.
+  std::stable_sort(all.begin(), all.end(), [](const Spawn& a, const Spawn& b) { return a.fixed && !b.fixed; });
+  return all;
 }
 
 Spawn compileCells(const Project& project, const PluginRegistry& plugins, std::span<const BakedMaterial> materials,

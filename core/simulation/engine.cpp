@@ -42,11 +42,19 @@ size_t dropTaken(Spawn& spawn, TakenPlaces& taken) {
     taken.add(place);
     spawn.position[kept] = place;
     spawn.velocity[kept] = spawn.velocity[k];
+    if (!spawn.temperatures.empty()) {
+      spawn.temperatures[kept] = spawn.temperatures[k];
+      spawn.phases[kept] = spawn.phases[k];
+    }
     ++kept;
   }
   const size_t dropped = spawn.position.size() - kept;
   spawn.position.resize(kept);
   spawn.velocity.resize(kept);
+  if (!spawn.temperatures.empty()) {
+    spawn.temperatures.resize(kept);
+    spawn.phases.resize(kept);
+  }
   return dropped;
 }
 
@@ -79,6 +87,7 @@ struct Engine::Impl {
   std::shared_ptr<const std::vector<std::string>> bodyIds = std::make_shared<const std::vector<std::string>>();
   std::vector<std::string> bodyNames;  // for messages, by the index that particles carry
   std::vector<std::string> probeNames;
+  std::vector<Vec3> start;  ///< m, places at the start by the particles' ids, if a probe has a region
   StepReport lastReport;
   MatterFlow flow;
   uint64_t revision = 0;
@@ -175,12 +184,17 @@ void Engine::Impl::build() {
   solver->setWalls(compileWalls(project));
   bakeMaterials();
   setThermal();
+  const bool regions = std::any_of(project.probes.begin(), project.probes.end(),
+                                   [](const Probe& probe) { return probe.region.has_value(); });
   TakenPlaces taken(kOverlap * spacing, static_cast<size_t>(count));
   for (const Body& body : project.bodies) {
     bodyIndex(body.id);  // of one without particles too
     size_t dropped = 0;
     for (Spawn& spawn : compileBody(project, plugins, materials, body)) {
       dropped += dropTaken(spawn, taken);
+      for (size_t k = 0; regions && k < spawn.position.size(); ++k) {
+        start.push_back({spawn.position[k].x, spawn.position[k].y, spawn.position[k].z});
+      }
       born(std::move(spawn), body);
     }
     if (dropped > 0) {
@@ -324,8 +338,9 @@ SnapshotPtr Engine::snapshot() const {
 FrameStats Engine::stats() const {
   FrameStats stats = measure(*m->solver, m->lastReport);
   stats.flow = m->flow.total();
+  const ProbeView view{*m->solver, *m->bodyIds, compileWalls(m->project), m->spacing, m->start};
   for (const Probe& probe : m->project.probes) {
-    stats.probes.push_back(measureProbe(*m->solver, *m->bodyIds, probe));
+    stats.probes.push_back(measureProbe(view, probe));
   }
   return stats;
 }

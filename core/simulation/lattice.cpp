@@ -20,6 +20,14 @@ double squaredDistance(const api::Double3& a, const api::Double3& b) {
   return x * x + y * y + z * z;
 }
 
+/// A step of the generator SplitMix64 (Steele, Lea & Flood 2014): every bit of the result hangs on every bit given.
+uint64_t mixed(uint64_t x) {
+  x += 0x9e3779b97f4a7c15u;
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+  return x ^ (x >> 31);
+}
+
 api::Double3 positionOf(const ParticleStore& store, size_t i) {
   const api::Float4& p = store.position()[i];
   return {p.x, p.y, p.z};
@@ -80,6 +88,18 @@ std::vector<api::Double3> boxLattice(const BoxShape& box, double spacing) {
     }
   }
   return positions;
+}
+
+void disturb(std::vector<api::Double3>& positions, double spacing, double jitter, uint32_t seed) {
+  if (!(jitter > 0)) return;
+  for (api::Double3& p : positions) {
+    uint64_t state = seed;
+    for (const double c : {p.x, p.y, p.z}) state = mixed(state ^ static_cast<uint64_t>(std::llround(c / spacing * 64)));
+    for (double* c : {&p.x, &p.y, &p.z}) {
+      state = mixed(state);
+      *c += jitter * spacing * (static_cast<double>(state >> 11) * 0x1p-52 - 1);
+    }
+  }
 }
 
 std::vector<CellIndex> cellsOf(const VoxelShape& voxels, int palette) {

@@ -13,6 +13,8 @@ using CellIndex = std::array<int, 3>;
 
 /// Centres in m of a cubic lattice that fills a box, at least one particle per axis, centred in it.
 std::vector<api::Double3> boxLattice(const BoxShape& box, double spacing);
+/// Moves each place by up to `jitter` spacings along each axis, by a hash of the place and the seed.
+void disturb(std::vector<api::Double3>& positions, double spacing, double jitter, uint32_t seed);
 /// Cells of one palette entry, in order of the runs.
 std::vector<CellIndex> cellsOf(const VoxelShape& voxels, int palette);
 /// Cells of edge `to` m whose centres lie in `cells` of edge `from` m; both lattices share the lower corner of cell

@@ -37,13 +37,7 @@ struct Tally {
     largest = std::max(largest, value);
     ++count;
   }
-  double orNothing(double value) const { return count ? value : std::numeric_limits<double>::quiet_NaN(); }
 };
-
-const char* phaseName(api::Phase phase) {
-  static constexpr const char* kNames[] = {"solid", "melting", "liquid", "boiling", "gas"};
-  return kNames[static_cast<size_t>(phase)];
-}
 
 }  // namespace
 
@@ -74,37 +68,6 @@ FrameStats measure(const Solver& solver, const StepReport& report) {
   stats.milliseconds = report.milliseconds;
   stats.totalMilliseconds = report.totalMilliseconds;
   return stats;
-}
-
-double measureProbe(const Solver& solver, const std::vector<std::string>& bodyIds, const Probe& probe) {
-  const ParticleStore& store = solver.particles();
-  const size_t body = static_cast<size_t>(std::find(bodyIds.begin(), bodyIds.end(), probe.body) - bodyIds.begin());
-  const std::string& quantity = probe.quantity;
-  const size_t massSuffix = quantity.size() > 5 && quantity.ends_with("_mass") ? quantity.size() - 5 : 0;
-  const std::string phase = massSuffix ? quantity.substr(0, massSuffix) : probe.phase;
-  const auto energies = quantity == "thermal_energy" ? solver.thermalEnergies() : std::span<const double>();
-  Tally tally;
-  double energy = 0;
-  for (size_t i = 0; i < store.size(); ++i) {
-    if (store.motion()[i] == api::Motion::Static) continue;
-    if (!probe.body.empty() && store.body()[i] != body) continue;
-    if (!phase.empty() && phase != phaseName(store.phase()[i])) continue;
-    const double squared = squaredSpeed(store.velocity()[i]);
-    energy += quantity == "kinetic_energy" ? 0.5 * store.mass()[i] * squared : energies.empty() ? 0 : energies[i];
-    tally.add(store.mass()[i], quantity.starts_with("temperature") ? store.temperature()[i]
-                               : quantity.starts_with("height")    ? double{store.position()[i].y}
-                                                                   : std::sqrt(squared));
-  }
-  if (quantity == "count") return static_cast<double>(tally.count);
-  if (quantity == "mass" || massSuffix) return tally.mass;
-  if (quantity.ends_with("_energy")) return energy;
-  if (quantity.ends_with("_min")) return tally.orNothing(tally.smallest);
-  if (quantity.ends_with("_max")) return tally.orNothing(tally.largest);
-  return tally.orNothing(tally.sum / tally.mass);
-}
-
-std::string probeTitle(const Probe& probe) {
-  return probe.name + "." + probe.quantity + "[" + probeUnit(probe.quantity) + "]";
 }
 
 void fillSnapshot(Snapshot& snapshot, const Solver& solver) {

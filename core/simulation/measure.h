@@ -2,6 +2,7 @@
 #pragma once
 #include "core/simulation/snapshot.h"
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -9,9 +10,17 @@ namespace ps {
 
 /// Phases, temperatures and energies of a solver's state, summed in a fixed order.
 FrameStats measure(const Solver& solver, const StepReport& report);
-/// Value of a probe now, in the unit of its quantity; means are weighted with mass, NaN where nothing matches.
-/// `bodyIds`: Body::id by the particles' body index.
-double measureProbe(const Solver& solver, const std::vector<std::string>& bodyIds, const Probe& probe);
+/// What probes look at.
+struct ProbeView {
+  const Solver& solver;
+  const std::vector<std::string>& bodyIds;  ///< Body::id by the particles' body index
+  std::vector<Wall> walls{};
+  double spacing = 0;             ///< m, of the particles
+  std::span<const Vec3> start{};  ///< m, places at the start by the particles' ids
+};
+/// Value of a probe now, in the unit of its quantity; means are weighted with mass, NaN where nothing matches. Fixed
+/// particles are not seen.
+double measureProbe(const ProbeView& view, const Probe& probe);
 /// "name.quantity[unit]"
 std::string probeTitle(const Probe& probe);
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numbers>
 
 namespace ps {
 namespace {
@@ -73,8 +74,9 @@ GasForces::Pull GasForces::pullOf(const ParticleStore& store, size_t i) const {
     return {(1 - f) - f * lift, drag};
   }
   if (!(m_solver.airDrag > 0)) return {1, 0};
-  const double ratio = airDensity() * double{store.position()[i].w} / double{store.mass()[i]};
-  return {1 - open * ratio, open * dragRate(ratio, m_solver.airDrag, m_solver.spacing)};
+  const double volume = store.position()[i].w, diameter = std::cbrt(6 * volume / std::numbers::pi);
+  const double ratio = airDensity() * volume / double{store.mass()[i]};
+  return {1 - open * ratio, open * dragRate(ratio, m_solver.airDrag, diameter)};
 }
 
 void GasForces::apply(ParticleStore& store, size_t first, size_t last, double dt) const {

@@ -20,11 +20,10 @@ namespace ps {
 ///
 /// rho and rho_air are those of ideal gases at the particle's temperature and at the ambient one. Inside liquid the
 /// density constraint pushes as Archimedes would; the plain +g only undoes the weight. Vapour heavier than air sinks.
-/// With airDrag, liquids and solids feel the air as well, each particle as a sphere of a spacing's diameter in the
-/// share of its surroundings that is empty, with the air's lift: a single drop falls as it should, while a block is
-/// dragged by its surface's particles, which is about its real drag and knows neither lee nor lift. The thesis's model
-/// replaces the vapour's forces by thesisGravity(), without drag. Not modelled: mixing with air, air set in motion by
-/// matter.
+/// With airDrag, liquids and solids feel the air as well, each particle as a sphere of its volume in the share of its
+/// surroundings that is empty, with the air's lift: a single drop falls as it should, while a block is dragged by its
+/// surface's particles, which is about its real drag and knows neither lee nor lift. The thesis's model replaces the
+/// vapour's forces by thesisGravity(), without drag. Not modelled: mixing with air, air set in motion by matter.
 class GasForces {
  public:
   void configure(const SolverSettings& solver, const ThermalSettings& thermal,

@@ -132,6 +132,9 @@ std::vector<uint32_t> Solver::spawn(const Spawn& spawn) {
   if (spawn.material >= m->materials.size()) throw Error("particles of a material that is not in the table");
   if (!spawn.velocity.empty() && spawn.velocity.size() != count)
     throw Error("as many velocities as positions are needed");
+  if (!spawn.temperatures.empty() && spawn.temperatures.size() != count)
+    throw Error("as many temperatures as positions are needed");
+  if (!spawn.phases.empty() && spawn.phases.size() != count) throw Error("as many phases as positions are needed");
   m->configure();
   ParticleStore& store = m->store;
   const double energyBefore = m->frame > 0 ? m->heat.energy(store) : 0;
@@ -147,13 +150,16 @@ std::vector<uint32_t> Solver::spawn(const Spawn& spawn) {
     store.velocity()[i] = {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0};
     store.material()[i] = spawn.material;
     store.body()[i] = spawn.body;
-    store.phase()[i] = spawn.phase;
-    store.motion()[i] = spawn.fixed ? api::Motion::Static : motionOf(spawn.phase);
+    const api::Phase born = spawn.phases.empty() ? spawn.phase : spawn.phases[k];
+    store.phase()[i] = born;
+    store.motion()[i] = spawn.fixed ? api::Motion::Static : motionOf(born);
     ids[k] = store.id()[i];
     members[k] = static_cast<uint32_t>(i);
   }
-  const std::vector<double> temperature(count, spawn.temperature);
-  const std::vector<api::Phase> phase(count, spawn.phase);
+  const std::vector<double> temperature =
+      spawn.temperatures.empty() ? std::vector<double>(count, spawn.temperature) : spawn.temperatures;
+  const std::vector<api::Phase> phase =
+      spawn.phases.empty() ? std::vector<api::Phase>(count, spawn.phase) : spawn.phases;
   const BakedMaterial& material = m->materials[spawn.material];
   const auto setMass = [&] {
     for (size_t i = first; i < last; ++i) {
@@ -164,9 +170,9 @@ std::vector<uint32_t> Solver::spawn(const Spawn& spawn) {
     }
   };
   const auto setState = [&] {
-    const Fractions f = fractionsOf(spawn.phase);
     for (size_t i = first; i < last; ++i) {
-      store.temperature()[i] = spawn.temperature;
+      const Fractions f = fractionsOf(phase[i - first]);
+      store.temperature()[i] = temperature[i - first];
       store.solidFraction()[i] = f.solid, store.liquidFraction()[i] = f.liquid, store.gasFraction()[i] = f.gas;
     }
   };

@@ -19,6 +19,8 @@ struct Spawn {
   uint32_t body = 0;
   double temperature = 293.15;  ///< K
   api::Phase phase = api::Phase::Liquid;
+  std::vector<double> temperatures;      ///< K, one each; empty: `temperature` for all
+  std::vector<api::Phase> phases;        ///< one each; empty: `phase` for all
   bool fixed = false;                    ///< static boundary particles
   std::vector<uint32_t> constraintSets;  ///< built over the new particles
 };

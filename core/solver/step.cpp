@@ -150,12 +150,14 @@ void Solver::Impl::velocities(double dt) {
   forChunks(store.size(), kGrain, [&](size_t first, size_t last) {
     const api::Float4 *position = store.position(), *previous = store.previous();
     api::Float4* velocity = store.velocity();
-    const float rate = static_cast<float>(1 / dt);
+    const float rate = static_cast<float>(1 / dt), step = static_cast<float>(dt);
     for (size_t i = first; i < last; ++i) {
       if (velocity[i].w == 0) continue;
-      velocity[i].x = rate * (position[i].x - previous[i].x);
-      velocity[i].y = rate * (position[i].y - previous[i].y);
-      velocity[i].z = rate * (position[i].z - previous[i].z);
+      // The way over the time, as what was predicted and what constraints added to it: where nothing was added, the
+      // velocity stays as it is, instead of the difference of two rounded places.
+      velocity[i].x += rate * (position[i].x - (previous[i].x + step * velocity[i].x));
+      velocity[i].y += rate * (position[i].y - (previous[i].y + step * velocity[i].y));
+      velocity[i].z += rate * (position[i].z - (previous[i].z + step * velocity[i].z));
     }
   });
 }

@@ -18,9 +18,11 @@ using api::ParticleView;
 
 /// At creation: axial and face-diagonal neighbours of a cubic lattice, 1 and 1.414 spacings away.
 constexpr float kLatticeRadius = 1.5f;
+/// The axial ones alone.
+constexpr float kAxialRadius = 1.2f;
 /// Two dry pieces touch when their particles are closer than this, in spacings.
 constexpr float kDryRadius = 1.05f;
-constexpr double kStiffnessOfModulus = 0.4;  // k/(E dx)
+constexpr double kStiffnessOfModulus = 0.4;  // k/(E dx) of 18 neighbours; of 6 it is 1
 constexpr float kLeastStiffness = 1e-20f;    // N/m, keeps the compliance finite
 /// Set while a particle is fluid, cleared when it has found partners: only what was liquid joins.
 constexpr const char* kThawed = "bonds.thawed";
@@ -40,6 +42,37 @@ constexpr api::ParameterDeclaration kParameters[] = {
      "the "
      "same, and takes more iterations to come to rest.",
      "100 at 4 substeps of 4 iterations", "Macklin et al. 2019"},
+    {"neighbours", "Neighbours at the start", "", "", api::ParameterKind::Choice, api::Scale::Linear, 0, 0, 1, 0, 1, "",
+     1, 0, "eighteen|six", "Structure",
+     "Which neighbours of its lattice a particle is tied to when the body is made: the nearest and those across a "
+     "face's diagonal, or the nearest alone, which gives way to shear without resistance.",
+     "eighteen for solids; six for rods, chains and textbook lattices", ""},
+    {"across_materials", "Ties different materials", "", "", api::ParameterKind::Toggle, api::Scale::Linear, 0, 0, 1, 0,
+     1, "", 1, 0, "", "Structure",
+     "Whether a body of several materials is one piece, as if they were welded where they touch at the start.",
+     "on: a strip of two metals", ""},
+    {"spring_stiffness", "Stiffness of a bond", "k", "N/m", api::ParameterKind::Number, api::Scale::Linear, 0, 0, 1e6,
+     0, 1e15, "", 1, 0, "", "Springs",
+     "Stiffness of every bond, in place of the one that follows from Young's modulus; 0 takes Young's modulus.",
+     "0 for matter, 1000 N/m for a mattress's spring", ""},
+    {"rest_ratio", "Length of a bond at rest", "", "", api::ParameterKind::Number, api::Scale::Linear, 1, 0.5, 1.5,
+     0.01, 10, "", 1, 0, "", "Springs",
+     "Length of a bond at rest as a share of the distance at which it is made at the start: below 1 the body is drawn "
+     "tight, above 1 it is squeezed.",
+     "1 at rest, 0.99 a taut string", ""},
+    {"reference_temperature", "Temperature of the lengths at rest", "T_ref", "K", api::ParameterKind::Number,
+     api::Scale::Linear, 0, 0, 773.15, 0, 1e4, "", 1, 0, "", "Springs",
+     "At which temperature the bonds made at the start have their lengths: a body that starts warmer expands at once. "
+     "0 takes the temperature at which each of them is made.",
+     "0 for matter at ease; 293.15 K for a strip of metal cast at 20 °C", ""},
+    {"solver", "Method", "", "", api::ParameterKind::Choice, api::Scale::Linear, 0, 0, 1, 0, 1, "", 1, 0, "xpbd|pbd",
+     "Legacy",
+     "Extended position-based dynamics follows stiffness in N/m whatever the step. The classic method, kept for "
+     "comparison, takes a share of the error in each iteration: its stiffness grows with iterations and substeps.",
+     "xpbd; pbd shows why the extended method was made", "Müller et al. 2007; Macklin et al. 2016"},
+    {"pbd_stiffness", "Share per iteration", "k", "", api::ParameterKind::Number, api::Scale::Linear, 0.5, 0, 1, 0, 1,
+     "", 1, 0, "", "Legacy", "Share of a bond's error that the classic method takes out in one iteration.",
+     "0.1 soft, 1 as stiff as the iterations allow", "Müller et al. 2007"},
 };
 
 constexpr api::FieldDeclaration kValues[] = {
@@ -117,6 +150,15 @@ std::vector<ModulusTable> modulusTables(const ConstraintContext& context, const 
   return tables;
 }
 
+bool isSet(const ConstraintContext& context, BondModel::Parameter parameter) {
+  return context.parameters[parameter] > 0.5;
+}
+
+/// k/(E dx) of the lattice that the body is made of.
+double stiffnessOfModulus(const ConstraintContext& context) {
+  return isSet(context, BondModel::kNeighbours) ? 1 : kStiffnessOfModulus;
+}
+
 /// k in N/m that the step resolves for a pair of inverse masses.
 double stiffnessLimit(const ConstraintContext& context, double inverseMasses) {
   return context.parameters[BondModel::kStiffnessRatio] * 2 / (inverseMasses * context.dt * context.dt);
@@ -175,11 +217,23 @@ std::vector<Candidate> findCandidates(const ConstraintContext& context, const Pa
   return result;
 }
 
-void addBond(const ParticleView& p, uint32_t i, uint32_t j, api::ConstraintSink& sink) {
+/// `ratio`: of the length at rest to the distance; `volume`: m³, of both particles, at which it has that length.
+void addBond(const ParticleView& p, uint32_t i, uint32_t j, float ratio, float volume, api::ConstraintSink& sink) {
   const uint32_t pair[2] = {i, j};
-  const float length = std::sqrt(distanceSquared(p, i, j));
-  const float values[BondModel::kValueCount] = {length, p.position[i].w + p.position[j].w, 0, length, 0};
+  const float length = ratio * std::sqrt(distanceSquared(p, i, j));
+  const float values[BondModel::kValueCount] = {length, volume, 0, length, 0};
   sink.add(pair, values);
+}
+
+float presentVolume(const ParticleView& p, uint32_t i, uint32_t j) { return p.position[i].w + p.position[j].w; }
+
+/// m³ of a solid particle at the temperature of reference.
+float referenceVolume(const ConstraintContext& context, const ParticleView& p, uint32_t i) {
+  const double reference = context.parameters[BondModel::kReferenceTemperature];
+  if (!(reference > 0)) return p.position[i].w;
+  const api::MaterialView& material = *context.materials[p.material[i]];
+  return static_cast<float>(double{p.position[i].w} * material.property("density_solid", p.temperature[i]) /
+                            material.property("density_solid", reference));
 }
 
 }  // namespace
@@ -206,15 +260,19 @@ void BondModel::build(const ConstraintContext& context, const ParticleView& p, c
                       api::Span<const uint32_t> members, api::ConstraintSink& sink) const {
   std::vector<uint8_t> isMember(p.count, 0);
   for (const uint32_t i : members) isMember[i] = 1;
-  const float radius = kLatticeRadius * static_cast<float>(context.spacing);
+  const float reach = isSet(context, kNeighbours) ? kAxialRadius : kLatticeRadius;
+  const float radius = reach * static_cast<float>(context.spacing);
+  const float ratio = static_cast<float>(context.parameters[kRestRatio]);
+  const bool across = isSet(context, kAcross);
   for (const uint32_t i : members) {
     if (p.motion[i] != Motion::Solid) continue;
     for (uint32_t q = lists.begin[i]; q < lists.last[i]; ++q) {
       const uint32_t j = lists.index[q];
       // New matter ties to its own, and to what is there already of the same body.
       if (isMember[j] != 0 ? j < i : p.body[j] != p.body[i]) continue;
-      if (p.motion[j] != Motion::Solid || p.material[j] != p.material[i]) continue;
-      if (distanceSquared(p, i, j) < radius * radius) addBond(p, i, j, sink);
+      if (!holds(p.motion[j]) || (!across && p.material[j] != p.material[i])) continue;
+      if (!(distanceSquared(p, i, j) < radius * radius)) continue;
+      addBond(p, i, j, ratio, referenceVolume(context, p, i) + referenceVolume(context, p, j), sink);
     }
   }
 }
@@ -223,6 +281,7 @@ void BondModel::predict(const ConstraintContext& context, const ParticleView& p,
   std::fill(batch.values[kMultiplier], batch.values[kMultiplier] + batch.count, 0.0f);
   if (context.substep != 0) return;  // volumes and temperatures change once a frame
   const std::vector<ModulusTable> tables = modulusTables(context, p, batch);
+  const double given = context.parameters[kSpringStiffness], ofModulus = stiffnessOfModulus(context);
   for (size_t k = 0; k < batch.count; ++k) {
     const uint32_t i = batch.particles[2 * k], j = batch.particles[2 * k + 1];
     const float volumes = (p.position[i].w + p.position[j].w) / batch.values[kReferenceVolume][k];
@@ -230,13 +289,15 @@ void BondModel::predict(const ConstraintContext& context, const ParticleView& p,
     const double ei = tables[p.material[i]].at(p.temperature[i]), ej = tables[p.material[j]].at(p.temperature[j]);
     const double modulus = ei + ej > 0 ? 2 * ei * ej / (ei + ej) : 0;
     const double inverseMasses = double{p.velocity[i].w} + double{p.velocity[j].w};
-    double stiffness = kStiffnessOfModulus * modulus * context.spacing;
+    double stiffness = given > 0 ? given : ofModulus * modulus * context.spacing;
     if (inverseMasses > 0) stiffness = std::min(stiffness, stiffnessLimit(context, inverseMasses));
     batch.values[kCompliance][k] = 1 / std::max(static_cast<float>(stiffness), kLeastStiffness);
   }
 }
 
 void BondModel::project(const ConstraintContext& context, const ParticleView& p, const ConstraintBatch& batch) const {
+  const bool classic = isSet(context, kSolver);
+  const float share = static_cast<float>(context.parameters[kPbdStiffness]);
   const float perDt2 = static_cast<float>(1 / (context.dt * context.dt));
   const float damping = static_cast<float>(context.parameters[kDamping] / context.dt);
   float* multiplier = batch.values[kMultiplier];
@@ -248,6 +309,12 @@ void BondModel::project(const ConstraintContext& context, const ParticleView& p,
     const float x = a.x - b.x, y = a.y - b.y, z = a.z - b.z;
     const float distance = std::sqrt(x * x + y * y + z * z);
     if (!(distance > 0) || !(wa + wb > 0)) continue;
+    if (classic) {
+      const float s = -share * (distance - length[k]) / ((wa + wb) * distance), sa = s * wa, sb = s * wb;
+      a.x += sa * x, a.y += sa * y, a.z += sa * z;
+      b.x -= sb * x, b.y -= sb * y, b.z -= sb * z;
+      continue;
+    }
     const float softness = compliance[k] * perDt2;
     float error = distance - length[k] + softness * multiplier[k];
     if (damping > 0) {
@@ -284,7 +351,7 @@ void BondModel::topology(const ConstraintContext& context, const ParticleView& p
   const uint32_t most = static_cast<uint32_t>(context.parameters[kBondMax]);
   for (const Candidate& c : candidates) {
     if (degree[c.i] >= most || degree[c.j] >= most) continue;
-    addBond(p, c.i, c.j, sink);
+    addBond(p, c.i, c.j, 1, presentVolume(p, c.i, c.j), sink);
     ++degree[c.i], ++degree[c.j];
   }
   for (const Candidate& c : candidates) {
@@ -315,12 +382,19 @@ void BondModel::limits(const ConstraintContext& context, const ParticleView& p, 
     used[p.material[i]].temperature.include(p.temperature[i]);
     used[p.material[i]].inverseMass = std::max(used[p.material[i]].inverseMass, double{p.velocity[i].w});
   }
+  if (isSet(context, kSolver)) return;  // the classic method promises no stiffness
+  const double given = context.parameters[kSpringStiffness];
   for (size_t m = 0; m < used.size(); ++m) {
     if (used[m].temperature.empty() || !(used[m].inverseMass > 0)) continue;
+    const double most = stiffnessLimit(context, 2 * used[m].inverseMass);
+    if (given > 0) {
+      if (given > most) sink.limit("bonds.spring_stiffness", given, most, "N/m");
+      continue;
+    }
     const api::MaterialView& material = *context.materials[m];
     const double asked = std::max(material.property("youngs_modulus", used[m].temperature.low),
                                   material.property("youngs_modulus", used[m].temperature.high));
-    const double delivered = stiffnessLimit(context, 2 * used[m].inverseMass) / (kStiffnessOfModulus * context.spacing);
+    const double delivered = most / (stiffnessOfModulus(context) * context.spacing);
     const std::string what = std::string(material.id()) + ".youngs_modulus";
     if (asked > delivered) sink.limit(what.c_str(), asked, delivered, "Pa");
   }

@@ -6,14 +6,27 @@ namespace ps::constraint {
 
 /// Elastic solids as lattices of springs: XPBD distance constraints (Macklin et al. 2016, eq. 18) between a particle
 /// and its 18 nearest of a cubic lattice. Six axial and twelve diagonal springs of one stiffness k make an isotropic
-/// solid with Poisson's ratio 1/4 and E = 2.5 k/dx, so k = 0.4 E dx with E at the pair's mean temperature. Rest lengths
+/// solid with Poisson's ratio 1/4 and E = 2.5 k/dx, so k = 0.4 E dx with E at the pair's mean temperature. With the six
+/// axial ones alone, k = E dx: pulled along an axis it is as stiff, and sheared it has no stiffness. Rest lengths
 /// follow the particles' rest volumes, l = l_ref ((V_i + V_j)/V_ref)^(1/3), so heat dilates the solid. Bonds break
 /// where a particle ceases to be solid and form where one has frozen. It cannot do: another Poisson's ratio,
 /// plasticity, fracture by force, or a stiffness beyond what the substeps resolve (limits() says so). The outermost
 /// layer is softer, having fewer springs.
 class BondModel : public api::ConstraintPlugin {
  public:
-  enum Parameter { kBondMax, kDamping, kStiffnessRatio, kParameterCount };
+  enum Parameter {
+    kBondMax,
+    kDamping,
+    kStiffnessRatio,
+    kNeighbours,
+    kAcross,
+    kSpringStiffness,
+    kRestRatio,
+    kReferenceTemperature,
+    kSolver,
+    kPbdStiffness,
+    kParameterCount
+  };
   enum Value { kRestLength, kReferenceVolume, kMultiplier, kLength, kCompliance, kValueCount };
 
   const char* label() const noexcept override;

@@ -76,7 +76,12 @@ inline ps::Spawn fixedPoints(std::vector<ps::api::Double3> points) {
   return spawn;
 }
 
-inline std::vector<double> bondParameters() { return {18, 0, 100}; }
+inline std::vector<double> bondParameters() {
+  std::vector<double> values;
+  const ps::constraint::BondModel bonds;
+  for (size_t i = 0; i < bonds.parameters().count; ++i) values.push_back(bonds.parameters()[i].defaultValue);
+  return values;
+}
 
 struct Motion {
   double rms = 0, fastest = 0, top = -1e30, bottom = 1e30;  ///< m/s, m

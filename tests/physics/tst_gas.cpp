@@ -7,6 +7,7 @@
 #include <QTest>
 
 #include <algorithm>
+#include <numbers>
 
 using heattest::dryIce;
 using heattest::fullWater;
@@ -19,8 +20,7 @@ namespace {
 class Grains {
  public:
   Grains(double diameter, double drag, std::array<int, 3> count = {1, 1, 1}) {
-    m_scene.spacing = diameter;
-    m_scene.solver.spacing = diameter;
+    m_scene.spacing = m_scene.solver.spacing = diameter * std::cbrt(std::numbers::pi / 6);  // a cube of its volume
     m_scene.solver.airDrag = drag;
     m_scene.addMaterial(fullWater());
     m_scene.addBox({0, 0, 0}, count, 0);

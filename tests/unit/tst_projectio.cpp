@@ -70,7 +70,10 @@ constexpr const char* kFull = R"({
       "viscosity": {"law": "arrhenius", "coefficients": [0.001, 16000.5, 293.15]}, "density_solid": 916.7}},
     {"id": "slime", "base": "org.example.gone", "parameters": {"stickiness": [1, 2, {"deep": null}]}}],
   "bodies": [
-    {"id": "a", "material": "water", "temperature": 263.15000000000003, "fixed": true, "velocity": [0, -1e-7, 0],
+    {"id": "a", "material": "water", "temperature": 263.15000000000003, "fixed": true, "velocity": [0, -1e-7, 0], "jitter": 0.2, "seed": 7,
+     "spin": [0, 6.283185307179586, 0], "temperature_gradient": [-20.5, 0, 0],
+     "velocity_wave": {"axis": "z", "wavelength": 0.8, "phase": 1.5, "velocity": [0, 0.1, 0]},
+     "pins": [{"minimum": [-1, 0.12, -1], "maximum": [1, 0.2, 1]}],
      "shape": {"box": {"center": [0, 0.1, 0], "size": [0.1, 0.1, 0.1]}}, "visible": false, "locked": true},
     {"id": "b", "material": "slime", "constraints": [{"plugin": "org.example.gone", "parameters": {"k": 3}}],
      "shape": {"voxels": {"origin": [0, 0, 0.3333333333333333], "palette": [{"material": "slime", "temperature": 300}],
@@ -81,7 +84,8 @@ constexpr const char* kFull = R"({
     "walls": [{"id": "floor", "point": [0, 0, 0], "normal": [0, 2, 0], "heat": "fixed_temperature", "temperature": 400}]},
   "solver": {"substeps": 8, "kernel": "wendland_c2", "moment_correction": false,
              "thermal": {"model": "org.example.gone", "parameters": {"x": 1.5}}},
-  "probes": [{"id": "p", "name": "Kern, innen", "quantity": "temperature", "body": "a", "phase": "solid"}],
+  "probes": [{"id": "p", "name": "Kern, innen", "quantity": "temperature", "body": "a", "phase": "solid",
+              "region": {"minimum": [0, 0, 0], "maximum": [0.1, 0.1, 0.1]}, "wave": {"axis": "y", "wavelength": 2}}],
   "duration": 12.5, "view": {"colour": "phase", "pinned": ["wall/floor/temperature"]}
 })";
 
@@ -152,6 +156,10 @@ void TestProjectIo::unknownKeysSurvive_data() {
                               "/bodies/1/shape/voxels/strokes/0",
                               "/bodies/1/constraints/0",
                               "/bodies/1/constraints/0/parameters",
+                              "/bodies/0/pins/0",
+                              "/bodies/0/velocity_wave",
+                              "/probes/0/region",
+                              "/probes/0/wave",
                               "/environment",
                               "/environment/bounds",
                               "/environment/walls/0",
@@ -213,6 +221,19 @@ void TestProjectIo::wrongValuesNameThePlace_data() {
   row("half a substep", "solver/substeps=2.5", "/solver/substeps: must be a whole number, not the number 2.5");
   row("no such material", "bodies/0/material=lead", "/bodies/0/material: the scene has no material 'lead'");
   row("no such body", "probes/0/body=nobody", "/probes/0/body: there is no body 'nobody'");
+  row("pin inside out", "bodies/0/pins=[{\"minimum\": [0, 1, 0], \"maximum\": [1, 0, 1]}]",
+      "/bodies/0/pins/0/maximum/1: must not be below the minimum, 1 m");
+  row("wave along nothing", "bodies/0/velocity_wave={\"axis\": \"w\", \"wavelength\": 1, \"velocity\": [0, 0, 0]}",
+      "/bodies/0/velocity_wave/axis: must be one of x, y, z, not the text 'w'");
+  row("wave of no length", "bodies/0/velocity_wave={\"axis\": \"x\", \"wavelength\": 0, \"velocity\": [0, 0, 0]}",
+      "/bodies/0/velocity_wave/wavelength: must be at least ");
+  row("two spins", "bodies/0/spin=[0, 1]", "/bodies/0/spin: must have 3 elements, not 2");
+  row("too much disorder", "bodies/0/jitter=0.6", "/bodies/0/jitter: must be at most 0.5, not 0.6");
+  row("region inside out", "probes/0/region={\"minimum\": [0, 0, 2], \"maximum\": [1, 1, 1]}",
+      "/probes/0/region/maximum/2: must not be below the minimum, 2 m");
+  row("wave in a sum",
+      "probes/0={\"id\": \"p\", \"quantity\": \"mass\", \"wave\": {\"axis\": \"x\", \"wavelength\": 1}}",
+      "/probes/0/wave: needs a quantity that each particle has, as velocity_y; 'mass' is of all of them together");
   row("id taken", "environment/walls/1/id=floor", "/environment/walls/1/id: 'floor' is taken already");
   row("id with a slash", "bodies/0/id=a/b", "/bodies/0/id: must be a name of letters");
   row("two coordinates", "bodies/0/shape/box/center=[0, 1]", "/bodies/0/shape/box/center: must have 3 elements, not 2");
@@ -418,7 +439,7 @@ void TestProjectIo::schemaNamesEveryDeclaredKey() {
   expect(properties["environment"]["properties"], environmentParameters(), 3);
   expect(properties["environment"]["properties"]["walls"]["items"]["properties"], wallParameters(), 4);
   expect(properties["solver"]["properties"], solverParameters(), 1);
-  expect(schema["$defs"]["body"]["properties"], bodyParameters(), 8);
+  expect(schema["$defs"]["body"]["properties"], bodyParameters(), 12);
   expect(schema["$defs"]["material"]["properties"]["properties"]["properties"], propertyCatalogue(), 0);
 }
 
@@ -427,7 +448,8 @@ void TestProjectIo::plainKeysAreNoParameters() {
   for (const char* key : {"gravity", "bounds", "walls"}) QVERIFY(!findDeclaration(environmentParameters(), key));
   for (const char* key : {"id", "name", "point", "normal"}) QVERIFY(!findDeclaration(wallParameters(), key));
   QVERIFY(!findDeclaration(solverParameters(), "thermal"));
-  for (const char* key : {"id", "name", "material", "shape", "velocity", "constraints", "visible", "locked"}) {
+  for (const char* key : {"id", "name", "material", "shape", "velocity", "spin", "velocity_wave",
+                          "temperature_gradient", "pins", "constraints", "visible", "locked"}) {
     QVERIFY(!findDeclaration(bodyParameters(), key));
   }
 }

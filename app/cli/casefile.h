@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <nlohmann/json.hpp>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace ps::cli {
+
+/// One number that a case must show.
+struct CaseCheck {
+  std::string what;                          ///< "period", for people
+  std::string run;                           ///< CaseRun::name, of the only run to judge; "" for each
+  std::string column, minus;                 ///< titles of the probes' table; `minus` is taken off it, "" for none
+  std::string measure;                       ///< see measureNames()
+  nlohmann::json options;                    ///< of the measure
+  double times = 1, plus = 0;                ///< what is judged: the measured number times one, plus the other
+  std::string material, property;            ///< instead of a run: a property of an installed material
+  double temperature = 293.15;               ///< K, of the property
+  bool spread = false;                       ///< across all runs: largest over smallest, less 1
+  std::vector<double> expected;              ///< one for all runs, or one for each; none for a bound alone
+  std::optional<double> relative, absolute;  ///< tolerances
+  std::optional<double> atLeast, atMost;     ///< bounds
+};
+
+/// Changes of a project, as --set takes them.
+using Edits = std::vector<std::string>;
+
+struct CaseRun {
+  std::string name;  ///< "5 iterations"; "" for the only one
+  Edits edits;
+};
+
+/// An experiment: a project, numbers for it, and what theory says about the outcome.
+struct Case {
+  std::string id, why, project;  ///< `project`: path; "" where no run is needed
+  Edits edits;
+  std::vector<CaseRun> runs;  ///< at least one
+  long frames = 0;
+  std::vector<CaseCheck> checks;
+};
+
+/// Reads {"cases": [...]}; paths of projects are relative to the file's folder. Throws InputError with
+/// "file:/json/pointer: what is wrong".
+std::vector<Case> readCases(const std::string& path);
+
+}  // namespace ps::cli

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/cli/casemeasure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <map>
+
+namespace ps::cli {
+namespace {
+
+using nlohmann::json;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+const double kNone = std::numeric_limits<double>::quiet_NaN();
+
+double option(const json& options, const char* key, double fallback) {
+  const auto found = options.find(key);
+  return found == options.end() ? fallback : found->get<double>();
+}
+
+/// Share of the way from value k - 1 to value k at which `level` lies.
+double shareOf(const Series& s, size_t k, double level) {
+  return (level - s.value[k - 1]) / (s.value[k] - s.value[k - 1]);
+}
+
+double timeAt(const Series& s, size_t k, double level) {
+  return s.time[k - 1] + shareOf(s, k, level) * (s.time[k] - s.time[k - 1]);
+}
+
+double mean(const Series& s, const json& options) {
+  const double from = option(options, "from", -kInfinity), to = option(options, "to", kInfinity);
+  double sum = 0;
+  size_t count = 0;
+  for (size_t k = 0; k < s.time.size(); ++k) {
+    if (s.time[k] < from || s.time[k] > to) continue;
+    sum += s.value[k];
+    ++count;
+  }
+  return count ? sum / static_cast<double>(count) : kNone;
+}
+
+double at(const Series& s, double time) {
+  for (size_t k = 1; k < s.time.size(); ++k) {
+    if (s.time[k - 1] > time || s.time[k] < time) continue;
+    return s.value[k - 1] + (time - s.time[k - 1]) / (s.time[k] - s.time[k - 1]) * (s.value[k] - s.value[k - 1]);
+  }
+  return kNone;
+}
+
+double when(const Series& s, double level) {
+  for (size_t k = 1; k < s.value.size(); ++k) {
+    if ((s.value[k - 1] < level) != (s.value[k] < level)) return timeAt(s, k, level);
+  }
+  return kNone;
+}
+
+double fastest(const Series& s, size_t frames) {
+  double most = kNone;
+  for (size_t k = frames; k < s.value.size(); ++k) {
+    const double rate = (s.value[k] - s.value[k - frames]) / (s.time[k] - s.time[k - frames]);
+    if (!(rate <= most)) most = rate;
+  }
+  return most;
+}
+
+double period(const Series& s, double level, double most) {
+  std::vector<double> crossings;
+  for (size_t k = 1; k < s.value.size(); ++k) {
+    if (s.value[k - 1] > level && s.value[k] <= level) crossings.push_back(timeAt(s, k, level));
+  }
+  if (crossings.size() < 2) return kNone;
+  if (most < static_cast<double>(crossings.size() - 1)) crossings.resize(static_cast<size_t>(most) + 1);
+  return (crossings.back() - crossings.front()) / static_cast<double>(crossings.size() - 1);
+}
+
+using Measure = std::function<double(const Series&, const json&)>;
+
+const std::map<std::string, Measure>& measures() {
+  static const std::map<std::string, Measure> all{
+      {"last", [](const Series& s, const json&) { return s.value.back(); }},
+      {"first", [](const Series& s, const json&) { return s.value.front(); }},
+      {"change", [](const Series& s, const json&) { return s.value.back() - s.value.front(); }},
+      {"minimum", [](const Series& s, const json&) { return *std::min_element(s.value.begin(), s.value.end()); }},
+      {"maximum", [](const Series& s, const json&) { return *std::max_element(s.value.begin(), s.value.end()); }},
+      {"mean", mean},
+      {"at", [](const Series& s, const json& o) { return at(s, option(o, "time", 0)); }},
+      {"when", [](const Series& s, const json& o) { return when(s, option(o, "value", 0)); }},
+      {"slope",
+       [](const Series& s, const json& o) {
+         const double from = option(o, "from", 0), to = option(o, "to", 0);
+         return (to - from) / (when(s, to) - when(s, from));
+       }},
+      {"fastest", [](const Series& s,
+                     const json& o) { return fastest(s, static_cast<size_t>(std::max(1.0, option(o, "frames", 1)))); }},
+      {"period",
+       [](const Series& s, const json& o) {
+         return period(s, option(o, "level", 0), std::max(1.0, option(o, "periods", kInfinity)));
+       }},
+  };
+  return all;
+}
+
+}  // namespace
+
+std::vector<std::string> measureNames() {
+  std::vector<std::string> names;
+  for (const auto& [name, measure] : measures()) names.push_back(name);
+  return names;
+}
+
+double measureOf(const Series& series, const std::string& measure, const json& options) {
+  return series.value.empty() ? kNone : measures().at(measure)(series, options);
+}
+
+}  // namespace ps::cli

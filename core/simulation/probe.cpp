@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+// What probes read off the particles: sums in the order of the store, the same for any number of threads.
+#include "core/simulation/measure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numbers>
+
+namespace ps {
+namespace {
+
+/// Particles that may run ahead of a front without being it: spray.
+constexpr size_t kSpray = 2;
+
+const char* phaseName(api::Phase phase) {
+  static constexpr const char* kNames[] = {"solid", "melting", "liquid", "boiling", "gas"};
+  return kNames[static_cast<size_t>(phase)];
+}
+
+/// x, y or z of a vector.
+double part(const api::Float4& v, size_t axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
+
+double squaredSpeed(const api::Float4& v) { return double{v.x} * v.x + double{v.y} * v.y + double{v.z} * v.z; }
+
+/// A quantity's key, taken apart: "velocity_x_max" is velocity, axis 0, max.
+struct Key {
+  std::string base, statistic;
+  size_t axis = 0;
+
+  explicit Key(const std::string& quantity) : base(quantity) {
+    for (const char* end : {"_min", "_max"}) {
+      if (base.ends_with(end)) statistic = take(4).substr(1);
+    }
+    if (base.size() > 2 && base[base.size() - 2] == '_' && base.back() >= 'x') {
+      axis = static_cast<size_t>(take(2).back() - 'x');
+    }
+  }
+
+ private:
+  std::string take(size_t letters) {
+    std::string end = base.substr(base.size() - letters);
+    base.resize(base.size() - letters);
+    return end;
+  }
+};
+
+double nothing() { return std::numeric_limits<double>::quiet_NaN(); }
+
+class Measurement {
+ public:
+  Measurement(const ProbeView& view, const Probe& probe)
+      : m_view(view), m_store(view.solver.particles()), m_probe(probe), m_key(probe.quantity) {
+    choose();
+  }
+
+  double value() const {
+    const std::string& base = m_key.base;
+    if (base == "count") return static_cast<double>(m_chosen.size());
+    if (base == "mass" || base.ends_with("_mass")) return sum([](size_t) { return 1.0; });
+    if (base == "kinetic_energy") return sum([&](size_t i) { return 0.5 * squaredSpeed(m_store.velocity()[i]); });
+    if (base == "thermal_energy") return thermalEnergy();
+    if (base == "momentum") return sum([&](size_t i) { return part(m_store.velocity()[i], m_key.axis); });
+    if (base == "outside") return static_cast<double>(beyondWalls());
+    if (m_chosen.empty()) return nothing();
+    if (base == "spin") return spin();
+    if (base == "front") return front();
+    if (base == "extent") return largest() - smallest();
+    if (m_probe.wave) return amplitude(*m_probe.wave);
+    if (m_key.statistic == "min") return smallest();
+    if (m_key.statistic == "max") return largest();
+    return sum([&](size_t i) { return ofParticle(i); }) / sum([](size_t) { return 1.0; });
+  }
+
+ private:
+  void choose() {
+    const auto& ids = m_view.bodyIds;
+    const auto body = static_cast<size_t>(std::find(ids.begin(), ids.end(), m_probe.body) - ids.begin());
+    const bool byMass = m_key.base.ends_with("_mass");
+    const std::string phase = byMass ? m_key.base.substr(0, m_key.base.size() - 5) : m_probe.phase;
+    for (size_t i = 0; i < m_store.size(); ++i) {
+      if (m_store.motion()[i] == api::Motion::Static) continue;
+      if (!m_probe.body.empty() && m_store.body()[i] != body) continue;
+      if (!phase.empty() && phase != phaseName(m_store.phase()[i])) continue;
+      const size_t id = m_store.id()[i];
+      if (m_probe.region && (id >= m_view.start.size() || !m_probe.region->contains(m_view.start[id]))) continue;
+      m_chosen.push_back(i);
+    }
+  }
+
+  double ofParticle(size_t i) const {
+    if (m_key.base == "temperature") return m_store.temperature()[i];
+    if (m_key.base == "height") return m_store.position()[i].y;
+    if (m_key.base == "compression") return std::max(0.0, double{m_store.densityError()[i]});
+    if (m_key.base == "velocity") return part(m_store.velocity()[i], m_key.axis);
+    if (m_key.base == "speed") return std::sqrt(squaredSpeed(m_store.velocity()[i]));
+    return part(m_store.position()[i], m_key.axis);
+  }
+
+  /// Sum of m f.
+  template <class F>
+  double sum(F&& of) const {
+    double total = 0;
+    for (const size_t i : m_chosen) total += double{m_store.mass()[i]} * of(i);
+    return total;
+  }
+
+  double smallest() const {
+    double least = std::numeric_limits<double>::infinity();
+    for (const size_t i : m_chosen) least = std::min(least, ofParticle(i));
+    return least;
+  }
+  double largest() const {
+    double most = -std::numeric_limits<double>::infinity();
+    for (const size_t i : m_chosen) most = std::max(most, ofParticle(i));
+    return most;
+  }
+
+  double thermalEnergy() const {
+    const std::span<const double> energies = m_view.solver.thermalEnergies();
+    double total = 0;
+    for (const size_t i : m_chosen) total += energies.empty() ? 0 : energies[i];
+    return total;
+  }
+
+  /// L/I about an axis through the centre of mass.
+  double spin() const {
+    const size_t b = (m_key.axis + 1) % 3, c = (m_key.axis + 2) % 3;
+    const double mass = sum([](size_t) { return 1.0; });
+    const auto centre = [&](size_t a) { return sum([&](size_t i) { return part(m_store.position()[i], a); }) / mass; };
+    const double cb = centre(b), cc = centre(c);
+    double angular = 0, inertia = 0;
+    for (const size_t i : m_chosen) {
+      const double m = m_store.mass()[i], rb = part(m_store.position()[i], b) - cb,
+                   rc = part(m_store.position()[i], c) - cc;
+      angular += m * (rb * part(m_store.velocity()[i], c) - rc * part(m_store.velocity()[i], b));
+      inertia += m * (rb * rb + rc * rc);
+    }
+    return inertia > 0 ? angular / inertia : nothing();
+  }
+
+  double front() const {
+    std::vector<double> places;
+    for (const size_t i : m_chosen) places.push_back(ofParticle(i));
+    const size_t rank = std::min(kSpray, places.size() - 1);
+    std::nth_element(places.begin(), places.begin() + static_cast<std::ptrdiff_t>(rank), places.end(),
+                     std::greater<>());
+    return places[rank] + 0.5 * m_view.spacing;
+  }
+
+  /// Of a sine, by its projection: exact for matter that is spread evenly over whole waves.
+  double amplitude(const Wave& wave) const {
+    const auto axis = static_cast<size_t>(wave.axis);
+    double total = 0;
+    for (const size_t i : m_chosen) {
+      const double at = 2 * std::numbers::pi * part(m_store.position()[i], axis) / wave.wavelength + wave.phase;
+      total += ofParticle(i) * std::sin(at);
+    }
+    return 2 * total / static_cast<double>(m_chosen.size());
+  }
+
+  size_t beyondWalls() const {
+    size_t count = 0;
+    for (const size_t i : m_chosen) {
+      const api::Float4& p = m_store.position()[i];
+      count += std::any_of(m_view.walls.begin(), m_view.walls.end(), [&](const Wall& w) {
+        return w.normal.x * p.x + w.normal.y * p.y + w.normal.z * p.z < w.offset;
+      });
+    }
+    return count;
+  }
+
+  const ProbeView& m_view;
+  const ParticleStore& m_store;
+  const Probe& m_probe;
+  const Key m_key;
+  std::vector<size_t> m_chosen;
+};
+
+}  // namespace
+
+double measureProbe(const ProbeView& view, const Probe& probe) { return Measurement(view, probe).value(); }
+
+std::string probeTitle(const Probe& probe) {
+  return probe.name + "." + probe.quantity + "[" + probeUnit(probe.quantity) + "]";
+}
+
+}  // namespace ps
