@@ -220,6 +220,7 @@ class TestInteraction : public QObject {
     }
     QVERIFY(all.contains(QStringLiteral("Ctrl+Z\tUndo")));
     QVERIFY(all.contains(QStringLiteral("Ctrl+Shift+Z, Ctrl+Y\tRedo")));
+    QVERIFY(all.contains(QStringLiteral("3, Alt+3\tLook from: Top")));
     QVERIFY(!all.filter(QStringLiteral("Alt+Drag")).isEmpty());
     m_window->action(QStringLiteral("help.shortcuts"))->trigger();
     m_window->action(QStringLiteral("help.shortcuts"))->trigger();

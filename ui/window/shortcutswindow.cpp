@@ -7,6 +7,7 @@
 #include <QtGui/QAction>
 #include <QtWidgets/QDialog>
 #include <QtWidgets/QHeaderView>
+#include <QtWidgets/QMenu>
 #include <QtWidgets/QMenuBar>
 #include <QtWidgets/QTreeWidget>
 #include <QtWidgets/QVBoxLayout>
@@ -16,16 +17,26 @@ namespace {
 
 const QString kName = QStringLiteral("psShortcuts");
 
+/// "Look from: Front": a submenu's entries mean little without its title.
+QString nameOf(const QAction& action, const QString& menu) {
+  const QString plain = action.property(kPlainText).toString();
+  if (!plain.isEmpty()) return plain;
+  const QString text = action.text().remove(QLatin1Char('&')).remove(QStringLiteral("…"));
+  for (const QObject* owner : action.associatedObjects()) {
+    const auto* in = qobject_cast<const QMenu*>(owner);
+    if (in && in->title() != menu) return in->title() + QStringLiteral(": ") + text;
+  }
+  return text;
+}
+
 ShortcutGroup menuGroup(const MainWindow& window, const QString& title) {
   ShortcutGroup group{title, {}};
   const QString prefix = title.toLower() + QLatin1Char('.');
   for (const QAction* action : window.findChildren<QAction*>(Qt::FindDirectChildrenOnly)) {
     if (!action->objectName().startsWith(prefix) || action->shortcuts().isEmpty()) continue;
-    const QString plain = action->property(kPlainText).toString();
-    group.lines.emplace_back(
-        QKeySequence::listToString(action->shortcuts(), QKeySequence::NativeText)
-            .replace(QStringLiteral("; "), QStringLiteral(", ")),
-        plain.isEmpty() ? action->text().remove(QLatin1Char('&')).remove(QStringLiteral("…")) : plain);
+    QStringList keys;
+    for (const QKeySequence& sequence : action->shortcuts()) keys << sequence.toString(QKeySequence::NativeText);
+    group.lines.emplace_back(keys.join(QStringLiteral(", ")), nameOf(*action, title));
   }
   return group;
 }
@@ -67,6 +78,9 @@ void openShortcuts(MainWindow& window) {
     for (const ShortcutGroup& group : shortcutGroups(window)) {
       auto* head = new QTreeWidgetItem(list, {group.title});
       head->setFirstColumnSpanned(true);
+      QFont bold = list->font();
+      bold.setWeight(QFont::DemiBold);
+      head->setFont(0, bold);
       for (const auto& [keys, does] : group.lines) new QTreeWidgetItem(head, {does, keys});
     }
     list->expandAll();
