@@ -39,6 +39,12 @@ std::string overview() {
          "Exit codes: 0 fine, 1 the run failed or set flags, 2 bad input.\n";
 }
 
+std::string commandNames() {
+  std::string names;
+  for (const Command& command : kCommands) names += (names.empty() ? "" : ", ") + std::string(command.name);
+  return names;
+}
+
 /// Messages are one line, whatever a file's name or text holds.
 int complain(const std::string& message, int code) {
   std::string line;
@@ -48,8 +54,7 @@ int complain(const std::string& message, int code) {
 }
 
 int run(const std::vector<std::string>& arguments) {
-  if (arguments.empty())
-    return complain("which command? simulate, render, bench, validate, cases, plugins; --help says more", kBadInput);
+  if (arguments.empty()) return complain("which command? " + commandNames() + "; --help says more", kBadInput);
   if (arguments[0] == "--help" || arguments[0] == "-h" || arguments[0] == "help") {
     std::fputs(overview().c_str(), stdout);
     return kFine;

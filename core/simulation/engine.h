@@ -92,7 +92,8 @@ class EngineThread {
   bool playing() const;
   SnapshotPtr snapshot() const;          ///< newest; nullptr before the first
   SnapshotPtr previousSnapshot() const;  ///< the one before it, of the same revision, else nullptr
-  /// All frames' statistics since the last reset, appended from index `from`.
+  /// All frames' statistics since the last reset, appended from index `from`. An edit between two frames replaces the
+  /// last entry.
   std::vector<FrameStats> history(size_t from) const;
   /// Failures in the order they came, from number `from` on; the oldest are forgotten after a few hundred. A step's
   /// flag is told when it is raised after a second without it. The thread pauses at a NaN and when a plugin fails.

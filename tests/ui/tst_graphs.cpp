@@ -24,6 +24,9 @@ class TestGraphs : public QObject {
   void ticksAreNice();
   void noSpikeIsLost();
   void joinedSamplesKeepExtremes();
+  void theTimeOfTheLastSampleReplacesIt();
+  void labelsKeepTheDigitsOfTheAxis_data();
+  void labelsKeepTheDigitsOfTheAxis();
   void graphPaintsASpike();
   void graphZoomsPansAndFits();
   void graphSeeks();
@@ -110,6 +113,56 @@ void TestGraphs::joinedSamplesKeepExtremes() {
   QCOMPARE(series.lastValue(), std::sin(static_cast<double>(count - 1)));
   series.append(5, 1000);  // earlier than the last: ignored
   QCOMPARE(series.extent(0, series.size()).high, 99.0);
+}
+
+/// What was edited at a frame that is drawn already takes the place of its older values, in blocks and in joined
+/// samples too.
+void TestGraphs::theTimeOfTheLastSampleReplacesIt() {
+  SampleSeries series;
+  series.append(0, 5);
+  series.append(0, -3);
+  QCOMPARE(series.size(), size_t{1});
+  QCOMPARE(series.lastValue(), -3.0);
+  QCOMPARE(series.extent(0, 1).high, -3.0);
+  series.append(0, kNaN);
+  QVERIFY(series.extent(0, 1).empty());
+  for (size_t i = 1; i < 3 * SampleSeries::kBlock; ++i) series.append(static_cast<double>(i), 1);
+  series.append(series.lastTime(), 70);
+  QCOMPARE(series.extent(0, series.size()).high, 70.0);
+  series.append(series.lastTime(), 2);
+  QCOMPARE(series.extent(0, series.size()).high, 2.0);
+  for (size_t i = series.size(); i <= SampleSeries::kCapacity + 1; ++i) series.append(static_cast<double>(i), 1);
+  QVERIFY(series.size() < SampleSeries::kCapacity);  // joined: the last sample stands for two
+  const auto last = static_cast<double>(SampleSeries::kCapacity + 1);
+  series.append(last, 90);
+  series.append(last, 3);
+  QCOMPARE(series.extent(0, series.size()).high, 3.0);
+  QCOMPARE(series[series.size() - 1].low, 1.0);
+  QCOMPARE(series[series.size() - 1].high, 3.0);
+  series.append(last - 1, 90);  // earlier than the last: ignored
+  QCOMPARE(series.extent(0, series.size()).high, 3.0);
+}
+
+void TestGraphs::labelsKeepTheDigitsOfTheAxis_data() {
+  QTest::addColumn<double>("low");
+  QTest::addColumn<double>("high");
+  QTest::addColumn<double>("value");
+  QTest::addColumn<QString>("text");
+  QTest::newRow("nearly zero on tens") << -12.0 << 14.0 << -5.23e-4 << QStringLiteral("0.0");
+  QTest::newRow("tens") << -12.0 << 60.0 << 43.21 << QStringLiteral("43.2");
+  QTest::newRow("hundreds") << 0.0 << 600.0 << 431.26 << QStringLiteral("431.3");
+  QTest::newRow("thousands") << 0.0 << 6000.0 << 4312.6 << QStringLiteral("4\u202F313");
+  QTest::newRow("a hundred, closely") << 100.0 << 100.5 << 100.257 << QStringLiteral("100.3");
+  QTest::newRow("parts") << 0.0 << 1.0 << 0.4567 << QStringLiteral("0.457");
+  QTest::newRow("millionths") << 0.0 << 3e-6 << 2.5e-6 << QStringLiteral("2.50 × 10⁻⁶");
+}
+
+void TestGraphs::labelsKeepTheDigitsOfTheAxis() {
+  QFETCH(double, low);
+  QFETCH(double, high);
+  QFETCH(double, value);
+  QFETCH(QString, text);
+  QCOMPARE(curveText(niceTicks(low, high, 5), value), text);
 }
 
 /// One sample among 20,000 that is 40 times higher than the others reaches the top of the picture.

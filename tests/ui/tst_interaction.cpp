@@ -12,6 +12,8 @@
 #include "ui/window/mainwindow.h"
 #include "ui/window/materialspanel.h"
 #include "ui/window/noticebar.h"
+#include "ui/window/shortcutswindow.h"
+#include "ui/window/transport.h"
 
 #include <QtCore/QTimer>
 #include <QtGui/QAccessible>
@@ -22,7 +24,9 @@
 #include <QtTest/QSignalSpy>
 #include <QtTest/QTest>
 #include <QtWidgets/QApplication>
+#include <QtWidgets/QDialog>
 #include <QtWidgets/QMenu>
+#include <QtWidgets/QMenuBar>
 
 #include <algorithm>
 #include <cmath>
@@ -106,6 +110,8 @@ class TestInteraction : public QObject {
     choose(QStringLiteral("Pin"));
     QCOMPARE(pinned(), 1);
     QCOMPARE(document().project().view.pinned.back(), key.toStdString());
+    for (const ParameterRow* row : panel->rows())
+      QCOMPARE(row->model().isPinned && row->key() == key, row->key() == key);
     choose(QStringLiteral("Remove"));
     QCOMPARE(pinned(), 0);
   }
@@ -153,6 +159,84 @@ class TestInteraction : public QObject {
     QTest::mouseRelease(view(), Qt::RightButton, {}, QPoint(300, 240));
     QVERIFY(!QApplication::activePopupWidget());
     QVERIFY(view()->navigator().camera().distance < before.distance);
+  }
+
+  void aWallIsShownWhole() {
+    m_window->inspectorDock()->showPage(QStringLiteral("Body"));
+    m_window->outliner()->setFocus();
+    Q_EMIT m_window->outliner()->selectionChanged(OutlineKind::Wall, "lid");
+    QCOMPARE(m_window->inspectorDock()->currentPage(), QStringLiteral("Scene"));
+    ParameterPanel* panel = m_window->inspector().scenePanel();
+    const ParameterRow* row = panel->row(QStringLiteral("wall/lid/temperature"));
+    QVERIFY(row && panel->rect().contains(row->mapTo(panel, row->rect().bottomLeft())));
+    QVERIFY(!panel->isAncestorOf(QApplication::focusWidget()));
+    QVERIFY(m_window->inspector().bodyPanel()->rows().empty());  // no body is selected
+  }
+
+  /// The lid is far above the ice and belongs to the scene; so it does with F when nothing is selected.
+  void framingShowsTheTray_data() {
+    QTest::addColumn<QString>("action");
+    QTest::newRow("all") << "view.frameAll";
+    QTest::newRow("selection, when there is none") << "view.frame";
+  }
+  void framingShowsTheTray() {
+    QFETCH(QString, action);
+    view()->show(StandardView::Scene);
+    view()->setSelectedBody({});
+    m_window->action(action)->trigger();
+    const auto& walls = document().project().environment.walls;
+    const auto lid = std::find_if(walls.begin(), walls.end(), [](const SceneWall& wall) { return wall.id == "lid"; });
+    QVERIFY(lid != walls.end());
+    for (const double x : {-0.36, 0.36}) {
+      for (const double z : {-0.36, 0.36}) {
+        const auto seen =
+            project(view()->navigator().camera(), view()->width(), view()->height(), {x, lid->point[1], z});
+        QVERIFY(seen && (*seen)[0] >= 0 && (*seen)[0] <= view()->width() && (*seen)[1] >= 0 &&
+                (*seen)[1] <= view()->height());
+      }
+    }
+  }
+
+  void themesAreMarked() {
+    for (const bool dark : {false, true}) {
+      m_window->setDark(dark);
+      Q_EMIT viewMenu()->aboutToShow();
+      QCOMPARE(m_window->action(QStringLiteral("view.dark"))->isChecked(), dark);
+      QCOMPARE(m_window->action(QStringLiteral("view.light"))->isChecked(), !dark);
+    }
+  }
+
+  /// The list is made from the actions themselves: every shortcut is in it.
+  void everyShortcutIsListed() {
+    QStringList all;
+    for (const ShortcutGroup& group : shortcutGroups(*m_window)) {
+      QVERIFY2(!group.lines.empty(), qPrintable(group.title));
+      for (const auto& [keys, does] : group.lines) all << keys + QLatin1Char('\t') + does;
+    }
+    for (const QAction* action : m_window->findChildren<QAction*>(Qt::FindDirectChildrenOnly)) {
+      if (!action->objectName().contains(QLatin1Char('.')) || action->shortcut().isEmpty()) continue;
+      const QString keys = action->shortcut().toString(QKeySequence::NativeText);
+      QVERIFY2(!all.filter(keys).isEmpty(), qPrintable(action->objectName()));
+    }
+    QVERIFY(all.contains(QStringLiteral("Ctrl+Z\tUndo")));
+    QVERIFY(all.contains(QStringLiteral("Ctrl+Shift+Z, Ctrl+Y\tRedo")));
+    QVERIFY(all.contains(QStringLiteral("3, Alt+3\tLook from: Top")));
+    QVERIFY(!all.filter(QStringLiteral("Alt+Drag")).isEmpty());
+    m_window->action(QStringLiteral("help.shortcuts"))->trigger();
+    m_window->action(QStringLiteral("help.shortcuts"))->trigger();
+    const auto windows = m_window->findChildren<QDialog*>();
+    QCOMPARE(windows.size(), 1);
+    QVERIFY(windows.front()->isVisible() && !windows.front()->isModal());
+    windows.front()->close();
+  }
+
+  /// Words go whole, the span of time last.
+  void theClockOfHeatFits() {
+    const ThermalTexts texts{QStringLiteral("Heat ×2000 = "), QStringLiteral("2 h 20 min"),
+                             QStringLiteral(" of real heating")};
+    QCOMPARE(texts.fitting(texts.width()).whole(), texts.whole());
+    QCOMPARE(texts.fitting(texts.width() - 1).whole(), QStringLiteral("Heat ×2000 = 2 h 20 min"));
+    QCOMPARE(texts.fitting(10).whole(), QStringLiteral("2 h 20 min"));
   }
 
   void legendEndsCanBeDragged_data() {
@@ -324,6 +408,12 @@ class TestInteraction : public QObject {
   Session& session() { return m_window->session(); }
   Document& document() { return session().document(); }
   Viewport* view() { return m_window->viewport(); }
+  QMenu* viewMenu() {
+    for (const QAction* menu : m_window->findChild<QMenuBar*>()->actions()) {
+      if (menu->text() == QStringLiteral("View")) return menu->menu();
+    }
+    return nullptr;
+  }
   /// The view shows the scene after a reset: the brush stands on what it shows.
   void toTheStart() {
     const uint64_t revision = session().snapshot()->revision;

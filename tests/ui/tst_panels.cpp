@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/ui/rowtesting.h"
+#include "ui/panels/groupheading.h"
 #include "ui/theme/theme.h"
 
 #include <QtCore/QPointer>
@@ -8,14 +9,42 @@
 #include <QtWidgets/QLabel>
 #include <QtWidgets/QLineEdit>
 #include <QtWidgets/QMenu>
+#include <QtWidgets/QScrollArea>
+#include <QtWidgets/QToolTip>
 
 using namespace ps;
 using namespace ps::testing;
+
+namespace {
+
+/// Opens a row's menu by the keyboard and takes the entry that begins with `text`.
+void chooseFromMenu(ParameterRow& row, const QString& text) {
+  bool found = false;
+  QTimer::singleShot(0, &row, [&] {
+    auto* menu = qobject_cast<QMenu*>(QApplication::activePopupWidget());
+    QVERIFY(menu);
+    for (QAction* action : menu->actions()) {
+      if (!action->text().startsWith(text)) continue;
+      found = true;
+      menu->setActiveAction(action);
+    }
+    QTest::keyClick(menu, found ? Qt::Key_Return : Qt::Key_Escape);
+  });
+  QContextMenuEvent ask(QContextMenuEvent::Keyboard, QPoint(20, 10), row.mapToGlobal(QPoint(20, 10)));
+  QApplication::sendEvent(&row, &ask);
+  QVERIFY2(found, qPrintable(text));
+}
+
+}  // namespace
 
 class TestPanels : public QObject {
   Q_OBJECT
  private Q_SLOTS:
   void panelGroupsAndFilters();
+  void headingsCountWhatIsShown();
+  void revealPutsTheHeadingOnTop();
+  void explainShowsTheTip();
+  void pinnedOriginalsOfferTheWayBack();
   void panelCountsChanges();
   void pinnedRowsFollowTheirOriginals();
   void panelKeepsFoldsOverAModel();
@@ -59,6 +88,94 @@ void TestPanels::panelGroupsAndFilters() {
   QVERIFY(panel.isRowShown(panel.row(QStringLiteral("conductivity"))));
   QTRY_VERIFY(panel.row(QStringLiteral("conductivity"))->hasFocus());
   QVERIFY(!panel.reveal(QStringLiteral("nothing")));
+}
+
+void TestPanels::headingsCountWhatIsShown() {
+  std::vector<RowModel> rows = rowModels(list(), {});
+  RowModel pinned = rows[0];
+  pinned.pinned = true;
+  rows.push_back(pinned);
+  ParameterPanel panel;
+  panel.setModel(rows);
+  const auto counts = [&panel] {
+    QStringList texts;
+    for (const GroupHeading* heading : panel.findChildren<GroupHeading*>()) {
+      if (!heading->isHidden()) texts << heading->title() + QLatin1Char(' ') + heading->count();
+    }
+    return texts.join(QStringLiteral(", "));
+  };
+  QCOMPARE(counts(), QStringLiteral("Try these 1 pinned, Heat 2, Mechanics 4"));
+  panel.setFilter(QStringLiteral("conductivity"));
+  QCOMPARE(counts(), QStringLiteral("Heat 1 of 2"));
+  panel.setFilter({});
+  panel.setChangedOnly(true);
+  panel.row(QStringLiteral("substeps"))->enter(QStringLiteral("7"));
+  panel.setFilter(QStringLiteral("substeps"));
+  QCOMPARE(counts(), QStringLiteral("Mechanics 1 of 4"));
+}
+
+/// A group far down is seen whole, from its heading on, and who asked keeps the focus where told so.
+void TestPanels::revealPutsTheHeadingOnTop() {
+  static const char* const groups[] = {"Left side", "Right side", "Cold lid", "Hot plate", "Front"};
+  std::vector<RowModel> rows;
+  for (const char* name : groups) {
+    for (RowModel& row : rowModels(list(), {}, {}, QString::fromLatin1(name) + QLatin1Char('/'))) {
+      row.declaration.group = name;
+      rows.push_back(std::move(row));
+    }
+  }
+  ParameterPanel panel;
+  panel.setModel(rows);
+  panel.resize(392, 300);
+  show(panel);
+  QVERIFY(panel.reveal(QStringLiteral("Cold lid/plate_temperature"), false));
+  const ParameterRow* row = panel.row(QStringLiteral("Cold lid/plate_temperature"));
+  QVERIFY(!row->hasFocus());
+  const auto* scroll = panel.findChild<QScrollArea*>();
+  for (const GroupHeading* heading : panel.findChildren<GroupHeading*>()) {
+    if (heading->title() == QStringLiteral("Cold lid")) {
+      QCOMPARE(heading->mapTo(scroll->viewport(), QPoint(0, 0)).y(), 0);
+    }
+  }
+  panel.setGroupFolded(QStringLiteral("Hot plate"), true);
+  QVERIFY(panel.reveal(QStringLiteral("Hot plate/conductivity")));
+  QTRY_VERIFY(panel.row(QStringLiteral("Hot plate/conductivity"))->hasFocus());
+  QVERIFY(scroll->viewport()->rect().contains(
+      panel.row(QStringLiteral("Hot plate/conductivity"))->mapTo(scroll->viewport(), QPoint(1, 1))));
+}
+
+/// The tip asked for by the menu outlives the events that the closing menu leaves behind.
+void TestPanels::explainShowsTheTip() {
+  ParameterPanel panel;
+  panel.setModel(rowModels(list(), {}));
+  panel.resize(392, 600);
+  show(panel);
+  chooseFromMenu(*panel.row(QStringLiteral("conductivity")), QStringLiteral("Explain"));
+  // As the window system has it: the window is activated once the menu has let go of the keys.
+  QCoreApplication::postEvent(&panel, new QEvent(QEvent::WindowActivate));
+  QTRY_VERIFY(QToolTip::isVisible());
+  QTest::qWait(400);  // a tip that is sent away goes after 300 ms
+  QVERIFY(QToolTip::isVisible());
+  QVERIFY2(QToolTip::text().contains(QStringLiteral("How well heat passes")), qPrintable(QToolTip::text()));
+  QToolTip::hideText();
+}
+
+void TestPanels::pinnedOriginalsOfferTheWayBack() {
+  ParameterPanel panel;
+  panel.setModel(rowModels(list(), {}));
+  QList<bool> asked;
+  connect(&panel, &ParameterPanel::pinToggled, &panel, [&asked](const QString&, bool pinned) { asked << pinned; });
+  panel.setModel(rowModels(list(), {}));  // rows offer what is listened to
+  panel.resize(392, 600);
+  show(panel);
+  ParameterRow& row = *panel.row(QStringLiteral("conductivity"));
+  chooseFromMenu(row, QStringLiteral("Pin to"));
+  panel.setPinned({QStringLiteral("conductivity")});
+  chooseFromMenu(row, QStringLiteral("Remove from"));
+  QCOMPARE(asked, (QList<bool>{true, false}));
+  panel.setModel(rowModels(list(), {}));
+  QVERIFY(panel.row(QStringLiteral("conductivity"))->model().isPinned);
+  QVERIFY(!panel.row(QStringLiteral("substeps"))->model().isPinned);
 }
 
 void TestPanels::panelCountsChanges() {

@@ -18,6 +18,8 @@ class TestRowEntry : public QObject {
   void typingActsOnEnter_data();
   void typingActsOnEnter();
   void typedNonsenseLeavesTheValue();
+  void anErrorGoesWithTheTextThatItIsAbout();
+  void choicesReadAsNames();
   void untouchedTypingChangesNothing();
   void ctrlClickTypes();
   void tabGoesOn();
@@ -86,6 +88,31 @@ void TestRowEntry::typedNonsenseLeavesTheValue() {
   QTest::keyClick(edit, Qt::Key_Escape);
   QVERIFY(!row.has(RowState::Error) && !row.has(RowState::Editing));
   QCOMPARE(listener.sequence, QString());
+}
+
+void TestRowEntry::anErrorGoesWithTheTextThatItIsAbout() {
+  ParameterRow row(model("plate_temperature"));
+  show(row);
+  row.startTyping();
+  auto* edit = row.findChild<QLineEdit*>();
+  for (const bool undo : {true, false}) {
+    edit->selectAll();
+    QTest::keyClicks(edit, QStringLiteral("99999"));
+    QTest::keyClick(edit, Qt::Key_Return);
+    QVERIFY(row.has(RowState::Error));
+    if (undo) {
+      edit->undo();
+    } else {
+      QTest::keyClick(edit, Qt::Key_Backspace);
+    }
+    QVERIFY(row.has(RowState::Editing) && !row.has(RowState::Error));
+  }
+}
+
+void TestRowEntry::choicesReadAsNames() {
+  QCOMPARE(choiceLabel(QStringLiteral("wendland_c2")), QStringLiteral("Wendland C2"));
+  QCOMPARE(choiceLabel(QStringLiteral("cubic_spline")), QStringLiteral("Cubic spline"));
+  QCOMPARE(choiceLabel(QStringLiteral("poly_6")), QStringLiteral("Poly 6"));
 }
 
 void TestRowEntry::untouchedTypingChangesNothing() {

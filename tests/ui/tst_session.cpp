@@ -32,6 +32,7 @@
 #include <QtWidgets/QMessageBox>
 #include <QtWidgets/QPushButton>
 #include <QtWidgets/QTabBar>
+#include <QtWidgets/QToolButton>
 #include <QtWidgets/QTreeView>
 
 #include <clocale>
@@ -135,6 +136,88 @@ class TestSession : public QObject {
     discard->click();
     QVERIFY(!m_window->notice()->isVisible());
     QCOMPARE(QDir(copies()).entryList({QStringLiteral("*.note")}).size(), 1);
+  }
+
+  /// Three windows were closed with unsaved work: one is open again, the others are offered one after the other, and
+  /// again by the menu when they were kept for later.
+  void allUnsavedWorkIsOffered() {
+    for (const double kelvin : {353.0, 354.0, 355.0}) {
+      open(m_sample);
+      edit(kelvin);
+      QVERIFY(m_window->close());
+    }
+    open();
+    QCOMPARE(floorOf(*m_window), 355.0);
+    QTRY_COMPARE(QDir(copies()).entryList({QStringLiteral("*.note")}).size(), 3);
+    const auto press = [this](const QString& text) {
+      QPushButton* button = noticeButton(*m_window, text);
+      QVERIFY2(button, qPrintable(text));
+      button->click();
+    };
+    QCOMPARE(m_window->notice()->topic(), QStringLiteral("restore"));
+    press(QStringLiteral("Keep for later"));
+    QCOMPARE(m_window->notice()->topic(), QStringLiteral("restore"));
+    press(QStringLiteral("Keep for later"));
+    QVERIFY(!m_window->notice()->isVisible());
+    QAction* again = m_window->action(QStringLiteral("file.restore"));
+    m_window->paletteEntries();  // looks what waits, as the menu does before it shows
+    QVERIFY(again->isEnabled());
+    again->trigger();
+    QSignalSpy opened(&m_window->session().files(), &DocumentFiles::opened);
+    press(QStringLiteral("Restore"));
+    QVERIFY(opened.wait(kLong));
+    QCOMPARE(floorOf(*m_window), 354.0);
+    QTRY_COMPARE(m_window->notice()->topic(), QStringLiteral("replaced"));  // 355 K
+    m_window->notice()->close(QStringLiteral("replaced"));
+    QCOMPARE(m_window->notice()->topic(), QStringLiteral("restore"));
+    press(QStringLiteral("Restore"));
+    QVERIFY(opened.wait(kLong));
+    QCOMPARE(floorOf(*m_window), 353.0);
+  }
+
+  void withoutUnsavedWorkThereIsNothingToRestore() {
+    open();
+    m_window->paletteEntries();
+    QVERIFY(!m_window->action(QStringLiteral("file.restore"))->isEnabled());
+  }
+
+  /// What waits for a decision waits below other notices, and comes back when they go.
+  void theWayBackSurvivesOtherNotices() {
+    open();
+    edit(355);
+    press(*m_window, Qt::Key_N, Qt::ControlModifier);
+    QTRY_COMPARE(m_window->notice()->topic(), QStringLiteral("replaced"));
+    const QString broken = file(QStringLiteral("broken.json"));
+    QFile out(broken);
+    QVERIFY(out.open(QIODevice::WriteOnly) && out.write("{") == 1);
+    out.close();
+    m_window->openFile(broken);
+    QTRY_COMPARE(m_window->notice()->topic(), QStringLiteral("open"));
+    m_window->notice()->show(QStringLiteral("stroke"), MessageLevel::Warning, QStringLiteral("Nothing was drawn."), {});
+    m_window->notice()->show(QStringLiteral("stroke"), MessageLevel::Warning, QStringLiteral("Nothing again."), {});
+    QCOMPARE(m_window->notice()->text().trimmed(), QStringLiteral("Nothing again."));
+    m_window->notice()->findChild<QToolButton*>()->click();  // dismiss
+    QCOMPARE(m_window->notice()->topic(), QStringLiteral("open"));
+    m_window->notice()->findChild<QToolButton*>()->click();
+    QCOMPARE(m_window->notice()->topic(), QStringLiteral("replaced"));
+    noticeButton(*m_window, QStringLiteral("Back to it"))->click();
+    QCOMPARE(floorOf(*m_window), 355.0);
+    QVERIFY(!m_window->notice()->isVisible());
+    QCOMPARE(m_window->notice()->topic(), QString());
+  }
+
+  /// A notice without buttons is news: the next one takes its place.
+  void newsGiveWay() {
+    NoticeBar bar;
+    bar.show(QStringLiteral("a"), MessageLevel::Info, QStringLiteral("Decide."), {}, {{QStringLiteral("Yes"), [] {}}});
+    bar.show(QStringLiteral("b"), MessageLevel::Info, QStringLiteral("News."), {});
+    bar.show(QStringLiteral("c"), MessageLevel::Info, QStringLiteral("Other news."), {});
+    QCOMPARE(bar.topic(), QStringLiteral("c"));
+    bar.close(QStringLiteral("nothing"));
+    bar.close(QStringLiteral("c"));
+    QCOMPARE(bar.topic(), QStringLiteral("a"));
+    bar.close(QStringLiteral("a"));
+    QVERIFY(bar.isHidden());
   }
 
   void newSceneOverUnsavedWorkLeavesAWayBack() {

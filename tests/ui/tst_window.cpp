@@ -6,6 +6,7 @@
 #include "ui/document/document.h"
 #include "ui/document/documentfiles.h"
 #include "ui/graphs/graphview.h"
+#include "ui/graphs/phasestackview.h"
 #include "ui/panels/parameterpanel.h"
 #include "ui/render/camera.h"
 #include "ui/theme/theme.h"
@@ -266,7 +267,8 @@ class TestWindow : public QObject {
 
   void aClickSelectsABody() {
     Viewport* view = m_window->viewport();
-    view->frameAll();
+    view->setSelectedBody("ice");
+    view->frameSelection();
     QSignalSpy picked(view, &Viewport::bodyPicked);
     QTest::mouseClick(view, Qt::LeftButton, {}, QPoint(view->width() / 2, view->height() / 2));
     QCOMPARE(picked.count(), 1);
@@ -328,7 +330,11 @@ class TestWindow : public QObject {
     QTest::newRow("parameter") << "conductivity solid"
                                << "Conductivity, solid";
     QTest::newRow("wall") << "hot plate temperature"
-                          << "Temperature";
+                          << "Hot plate temperature";
+    QTest::newRow("own things before what replaces the scene") << "plate"
+                                                               << "Hot plate heat";
+    QTest::newRow("what replaces the scene by its name") << "open sample"
+                                                         << "Open sample “Ice on a hot plate”";
     QTest::newRow("solver") << "substeps"
                             << "Substeps";
     QTest::newRow("action") << "frame all"
@@ -352,6 +358,24 @@ class TestWindow : public QObject {
     QCOMPARE(m_window->inspectorDock()->currentPage(), QStringLiteral("Solver"));
     QVERIFY(m_window->revealParameter({"material", "water", "viscosity"}));
     QCOMPARE(m_window->inspectorDock()->currentPage(), QStringLiteral("Material"));
+  }
+
+  /// Matter drawn and erased while the clock stands shows in the graphs at once.
+  void graphsFollowEditsWhileItStands() {
+    session().reset();
+    idsNow(session());
+    const PhaseStackView* graph = m_window->graphs()->phases();
+    QTRY_COMPARE_WITH_TIMEOUT(graph->sampleCount(), size_t{1}, kLong);
+    const QString before = graph->summary();
+    const auto taken = onEngine<std::shared_ptr<TakenMatter>>(*session().engine(), [](Engine& e) {
+      const ParticleStore& store = e.solver().particles();
+      return std::make_shared<TakenMatter>(
+          e.takeParticles(std::vector<uint32_t>(store.id(), store.id() + store.size() / 2)));
+    });
+    QTRY_VERIFY_WITH_TIMEOUT(graph->summary() != before, kLong);
+    QCOMPARE(graph->sampleCount(), size_t{1});
+    session().engine()->post([taken](Engine& e) { e.putBack(*taken); });
+    QTRY_COMPARE_WITH_TIMEOUT(graph->summary(), before, kLong);
   }
 
   void thePluginPageShowsABrokenOne() {
@@ -400,7 +424,7 @@ class TestWindow : public QObject {
     QCOMPARE(std::count_if(log.begin(), log.end(), [&](const Message& m) { return m.text == said && m.count == 1; }),
              1);
     document().undoStack().undo();
-    QTRY_VERIFY_WITH_TIMEOUT(!m_window->notice()->isVisible(), kLong);
+    QTRY_VERIFY_WITH_TIMEOUT(m_window->notice()->topic() != QStringLiteral("step"), kLong);
   }
 
   void hidingABodyEmptiesTheView() {

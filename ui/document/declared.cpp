@@ -172,6 +172,11 @@ QString ownerLabel(const Project& project, const Address& address) {
   return QString::fromStdString(name);
 }
 
+QString awayLabel(const Project& project, const Address& address, const QString& label) {
+  if (address.owner != "wall" && address.owner != "body" && address.owner != "constraint") return label;
+  return ownerLabel(project, address) + QLatin1Char(' ') + label.left(1).toLower() + label.mid(1);
+}
+
 QColor colourOf(const Project& project, const PluginRegistry* plugins, const std::string& material) {
   const auto channel = [&](const char* key) {
     const Value value = valueAt(project, plugins, {"material", material, key});

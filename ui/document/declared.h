@@ -29,6 +29,9 @@ ParameterSet materialDefaults(const Project& project, const PluginRegistry* plug
 QString problemWith(const Project& project, const PluginRegistry* plugins, const Address& address, const Value& value);
 /// Who an address belongs to, as people call it: "Water", "Hot plate", "Solver".
 QString ownerLabel(const Project& project, const Address& address);
+/// What a parameter is called away from its owner's other ones: "Hot plate temperature"; a label that says enough by
+/// itself stays.
+QString awayLabel(const Project& project, const Address& address, const QString& label);
 /// How matter of a scene material is shown at 20 °C; grey where nothing says so.
 QColor colourOf(const Project& project, const PluginRegistry* plugins, const std::string& material);
 /// Addresses of every declared parameter of the project, in the order of the outliner.

@@ -23,9 +23,6 @@ struct Series {
   SampleSeries samples;
 };
 
-/// Values at the end of a line: three significant digits are enough beside a curve.
-QString labelValue(double value) { return formatNumber(value, std::abs(value) >= 100 ? 4 : 3); }
-
 }  // namespace
 
 struct GraphView::Private {
@@ -215,7 +212,8 @@ void GraphView::paintLabels(QPainter& painter) {
         samples.lastTime() > last)
       continue;
     const QPointF end(x(samples.lastTime()), y(samples.lastValue()));
-    labels.push_back({end.y() - 8, end, i, d->series[i].name + QLatin1Char(' ') + labelValue(samples.lastValue())});
+    labels.push_back(
+        {end.y() - 8, end, i, d->series[i].name + QLatin1Char(' ') + curveText(valueTicks(), samples.lastValue())});
   }
   // From the top down, each label at its line's end or as little below it as keeps the texts apart.
   std::sort(labels.begin(), labels.end(), [](const Label& a, const Label& b) { return a.top < b.top; });

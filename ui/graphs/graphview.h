@@ -27,7 +27,8 @@ class GraphView : public TimePlot {
   int addSeries(const QString& name, const QString& unit = {});
   int seriesCount() const;
   void removeAllSeries();
-  /// Adds a sample. Times ascend per series (an earlier one is ignored); a value that is not finite leaves a gap.
+  /// Adds a sample. Times ascend per series: the last one's time again replaces its value, an earlier one is ignored.
+  /// A value that is not finite leaves a gap.
   void append(int series, double time, double value);
   /// Removes all samples, keeps the lines: after a reset.
   void clear();

@@ -5,25 +5,55 @@
 #include <cmath>
 
 namespace ps {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+/// What stands for the samples of `before` and one more value; of a gap and a value the later one holds.
+SampleSeries::Sample with(SampleSeries::Sample before, double value) {
+  if (!(before.low <= value)) before.low = value;
+  if (!(before.high >= value)) before.high = value;
+  if (std::isnan(value)) before.low = before.high = value;
+  return before;
+}
+
+}  // namespace
 
 void SampleSeries::append(double time, double value) {
-  if (!m_samples.empty() && !(time > m_samples.back().time)) return;
-  m_last = std::isfinite(value) ? value : std::numeric_limits<double>::quiet_NaN();
-  const double stored = m_last;
+  const double stored = std::isfinite(value) ? value : kNaN;
+  if (!m_samples.empty() && !(time > m_lastTime)) {
+    if (time == m_lastTime) replaceLast(stored);
+    return;
+  }
+  m_lastTime = time;
+  m_last = stored;
   if (m_pending > 0 && m_pending < m_stride) {
-    Sample& into = m_samples.back();
-    if (!(into.low <= stored)) into.low = stored;  // a gap takes the value
-    if (!(into.high >= stored)) into.high = stored;
-    if (std::isnan(stored)) into.low = into.high = stored;
+    m_before = m_samples.back();
+    m_samples.back() = with(m_before, stored);
     ++m_pending;
   } else {
     if (m_samples.size() >= kCapacity) join();
-    m_samples.push_back({time, stored, stored});
+    m_before = {time, kNaN, kNaN};
+    m_samples.push_back(with(m_before, stored));
     m_pending = 1;
   }
   const size_t block = (m_samples.size() - 1) / kBlock;
   if (block == m_blocks.size()) m_blocks.emplace_back();
   if (!std::isnan(stored)) m_blocks[block].add(stored);
+}
+
+void SampleSeries::replaceLast(double stored) {
+  if (stored == m_last || (std::isnan(stored) && std::isnan(m_last))) return;
+  m_last = stored;
+  m_samples.back() = with(m_before, stored);
+  m_blocks.back() = {};
+  for (size_t i = (m_blocks.size() - 1) * kBlock; i < m_samples.size(); ++i) addToBlock(i);
+}
+
+void SampleSeries::addToBlock(size_t index) {
+  if (std::isnan(m_samples[index].low)) return;
+  m_blocks[index / kBlock].add(m_samples[index].low);
+  m_blocks[index / kBlock].add(m_samples[index].high);
 }
 
 void SampleSeries::join() {
@@ -36,11 +66,7 @@ void SampleSeries::join() {
   m_samples.resize(half);
   m_stride *= 2;
   m_blocks.assign((half + kBlock - 1) / kBlock, {});
-  for (size_t i = 0; i < half; ++i) {
-    if (std::isnan(m_samples[i].low)) continue;
-    m_blocks[i / kBlock].add(m_samples[i].low);
-    m_blocks[i / kBlock].add(m_samples[i].high);
-  }
+  for (size_t i = 0; i < half; ++i) addToBlock(i);
 }
 
 void SampleSeries::clear() { *this = SampleSeries(); }

@@ -32,7 +32,7 @@ class SampleSeries {
   };
   static constexpr size_t kCapacity = 1u << 18, kBlock = 64;
 
-  /// A time that does not ascend is ignored.
+  /// The time of the last sample again replaces its value; an earlier time is ignored.
   void append(double time, double value);
   void clear();
   size_t size() const { return m_samples.size(); }
@@ -50,10 +50,13 @@ class SampleSeries {
 
  private:
   void join();
+  void replaceLast(double stored);
+  void addToBlock(size_t index);
   std::vector<Sample> m_samples;
   std::vector<Extent> m_blocks;
   size_t m_stride = 1, m_pending = 0;  ///< samples that one stands for, and how many of the last are in
-  double m_last = std::numeric_limits<double>::quiet_NaN();
+  double m_last = std::numeric_limits<double>::quiet_NaN(), m_lastTime = 0;
+  Sample m_before{};  ///< the last one as it was without the last value
 };
 
 }  // namespace ps

@@ -106,6 +106,16 @@ QString tickText(const Ticks& ticks, int index) {
                      std::clamp(static_cast<int>(std::ceil(std::log10(most / ticks.step))) + 2, 2, 15));
 }
 
+QString curveText(const Ticks& axis, double value) {
+  const double most =
+      axis.count > 0 ? std::max(std::abs(axis.at(0)), std::abs(axis.at(axis.count - 1))) : std::abs(value);
+  const int significant = std::abs(value) >= 100 ? 4 : 3;
+  if (!(most < 1e6 && most >= 1e-3)) return formatNumber(value, significant);  // the axis has powers of ten
+  const int wanted =
+      value == 0 ? significant : significant - 1 - static_cast<int>(std::floor(std::log10(std::abs(value))));
+  return formatFixed(value, std::clamp(wanted, axis.decimals, axis.decimals + 1));
+}
+
 TimePlot::TimePlot(QWidget* parent) : QWidget(parent), d(std::make_unique<Private>()) {
   installAccessibility();
   setMouseTracking(true);
@@ -189,6 +199,8 @@ double TimePlot::timeAt(double position) const {
 
 double TimePlot::presentTime() const { return d->present; }
 
+const Ticks& TimePlot::valueTicks() const { return d->values; }
+
 double TimePlot::titleStrip() const { return std::min(kTitle, plotRect().height() / 2); }
 
 double TimePlot::clearOfTitle(double low, double high) const {
@@ -202,11 +214,10 @@ void TimePlot::paintEvent(QPaintEvent*) {
   QPainter painter(this);
   painter.fillRect(rect(), theme[Token::Panel]);
   const auto range = timeRange();
-  Ticks values;
   if (hasData()) {
     std::tie(d->low, d->high) = valueExtent(range.first, range.second);
-    values = niceTicks(d->low, d->high, std::max(2, static_cast<int>(plotRect().height() / 26)));
-    d->left = widthOf(values) + 9;
+    d->values = niceTicks(d->low, d->high, std::max(2, static_cast<int>(plotRect().height() / 26)));
+    d->left = widthOf(d->values) + 9;
   }
   const QRectF plot = plotRect();
   painter.fillRect(snapped(painter, plot), theme[Token::Field]);
@@ -217,7 +228,7 @@ void TimePlot::paintEvent(QPaintEvent*) {
   }
   const Ticks times = niceTicks(range.first, range.second, std::max(2, static_cast<int>(plot.width() / 64)));
   paintTimeAxis(painter, plot, range, times);
-  paintValueAxis(painter, plot, {d->low, d->high}, values);
+  paintValueAxis(painter, plot, {d->low, d->high}, d->values);
   painter.save();
   painter.setClipRect(plot);
   paintData(painter);

@@ -20,6 +20,9 @@ struct Ticks {
 Ticks niceTicks(double low, double high, int most);
 /// A tick's label, with as many digits as tell it from its neighbours.
 QString tickText(const Ticks& ticks, int index);
+/// A value beside a curve: three significant digits (four from 100 on), but at least the decimals of the axis' labels
+/// and at most one more, so that what is nearly zero reads "0.0" on an axis of tens.
+QString curveText(const Ticks& axis, double value);
 
 /// What live plots share: the time axis (s), zoom by wheel, drag to pan, double-click to fit, the cursor line of the
 /// present time, the read-out under the pointer. Derived classes draw values.
@@ -64,6 +67,7 @@ class TimePlot : public QWidget {
   double y(double value) const;
   double timeAt(double x) const;
   double presentTime() const;
+  const Ticks& valueTicks() const;  ///< of the value axis, as of the last paint
   /// Height of the strip at the plot's top that belongs to its title, logical pixels.
   double titleStrip() const;
   /// Upper end of a value axis from `low` on, so that `high` stays below the title.

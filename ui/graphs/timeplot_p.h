@@ -14,6 +14,7 @@ struct TimePlot::Private {
   bool fitted = true;
   double first = 0, last = 10;  ///< s, shown while not fitted
   double low = 0, high = 1;     ///< values shown, as of the last paint
+  Ticks values;                 ///< of the value axis, as of the last paint
   double left = 0;              ///< room for the value axis, logical pixels, as of the last paint
   QPointF hover{-1, -1};        ///< outside: no read-out
   bool pressed = false, panning = false;

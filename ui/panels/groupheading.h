@@ -11,7 +11,8 @@ class GroupHeading : public QWidget {
  public:
   explicit GroupHeading(const QString& title, QWidget* parent = nullptr);
   QString title() const { return m_title; }
-  void setCount(const QString& count);  ///< "8", "3 pinned"
+  void setCount(const QString& count);  ///< "8", "3 of 8", "3 pinned"
+  const QString& count() const { return m_count; }
   bool isFolded() const { return m_folded; }
   void setFolded(bool folded);
   QSize sizeHint() const override { return {200, kHeight}; }

@@ -7,6 +7,7 @@
 #include "ui/panels/parameterrow_p.h"
 #include "ui/theme/theme.h"
 
+#include <QtCore/QCoreApplication>
 #include <QtCore/QEvent>
 #include <QtCore/QMetaMethod>
 #include <QtCore/QSet>
@@ -33,6 +34,13 @@ struct Group {
   GroupHeading* heading = nullptr;
   std::vector<ParameterRow*> rows;
 };
+
+/// "16", "6 of 16" while not all are shown.
+QString countText(const Group& group, size_t shown) {
+  const size_t all = group.rows.size();
+  const QString count = shown < all ? QStringLiteral("%1 of %2").arg(shown).arg(all) : QString::number(all);
+  return group.heading->title() == kPinnedGroup ? count + QStringLiteral(" pinned") : count;
+}
 
 bool matches(const ParameterRow& row, const QString& filter) {
   if (filter.isEmpty()) return true;
@@ -70,7 +78,7 @@ struct ParameterPanel::Private {
   QLabel* empty;
   QString emptyText = QStringLiteral("Select something, or press Ctrl+K");
   std::vector<Group> groups;
-  QSet<QString> folded;
+  QSet<QString> folded, pinned;
 
   void build(std::vector<RowModel> models);
   Group& group(const QString& title, QVBoxLayout* layout);
@@ -172,12 +180,11 @@ void ParameterPanel::Private::build(std::vector<RowModel> models) {
     for (const RowModel& model : models) {
       if (titleOf(model) != title) continue;
       auto* row = new ParameterRow(model, content);
+      row->setIsPinned(pinned.contains(model.key));
       into.rows.push_back(row);
       layout->addWidget(row);
       connectRow(row);
     }
-    const auto count = static_cast<int>(into.rows.size());
-    into.heading->setCount(title == kPinnedGroup ? QStringLiteral("%1 pinned").arg(count) : QString::number(count));
   }
   layout->addStretch(1);
   if (QWidget* old = scroll->takeWidget()) {
@@ -270,6 +277,7 @@ void ParameterPanel::Private::show() {
       row->setVisible(match && (searching || !group.heading->isFolded()));
     }
     group.heading->setVisible(matching > 0);
+    group.heading->setCount(countText(group, matching));
     total += group.rows.size();
     shown += matching;
   }
@@ -304,6 +312,10 @@ void ParameterPanel::setDefaultValue(const QString& key, const Value& value) {
 }
 void ParameterPanel::setMixed(const QString& key, bool mixed) {
   d->each(key, [&](ParameterRow* row) { row->setMixed(mixed); });
+}
+void ParameterPanel::setPinned(const QStringList& keys) {
+  d->pinned = QSet<QString>(keys.begin(), keys.end());
+  for (ParameterRow* row : rows()) row->setIsPinned(d->pinned.contains(row->key()));
 }
 void ParameterPanel::setLimit(const QString& key, const QString& text, double delivered) {
   d->each(key, [&](ParameterRow* row) { row->setLimit(text, delivered); });
@@ -354,21 +366,24 @@ void ParameterPanel::setGroupFolded(const QString& group, bool folded) {
 
 bool ParameterPanel::isRowShown(const ParameterRow* row) const { return row && !row->isHidden(); }
 
-bool ParameterPanel::reveal(const QString& key) {
+bool ParameterPanel::reveal(const QString& key, bool focus) {
   ParameterRow* found = row(key);
   if (!found) return false;
+  const GroupHeading* heading = nullptr;
   for (const Group& group : d->groups) {
-    if (std::find(group.rows.begin(), group.rows.end(), found) != group.rows.end()) {
-      setGroupFolded(group.heading->title(), false);
-    }
+    if (std::find(group.rows.begin(), group.rows.end(), found) != group.rows.end()) heading = group.heading;
   }
+  setGroupFolded(heading->title(), false);
   if (found->isHidden()) {
     setFilter({});
     setChangedOnly(false);
   }
   d->content->layout()->activate();
+  QEvent request(QEvent::LayoutRequest);
+  QCoreApplication::sendEvent(d->scroll, &request);  // the scroll bar knows the present height now
+  d->scroll->verticalScrollBar()->setValue(heading->y());
   d->scroll->ensureWidgetVisible(found);
-  found->setFocus(Qt::TabFocusReason);
+  if (focus) found->setFocus(Qt::TabFocusReason);
   return true;
 }
 

@@ -37,6 +37,8 @@ class ParameterPanel : public QWidget {
   void setValue(const QString& key, const Value& value);
   void setDefaultValue(const QString& key, const Value& value);
   void setMixed(const QString& key, bool mixed);
+  /// Keys of what is pinned, in this panel or another: what the rows' menus offer follows. Holds for later models too.
+  void setPinned(const QStringList& keys);
   /// Note under the row; see ParameterRow::setLimit. "" removes it.
   void setLimit(const QString& key, const QString& text, double delivered = std::numeric_limits<double>::quiet_NaN());
   void setError(const QString& key, const QString& text);
@@ -51,8 +53,9 @@ class ParameterPanel : public QWidget {
   void setChangedOnly(bool on);
   void setGroupFolded(const QString& group, bool folded);
   bool isRowShown(const ParameterRow* row) const;  ///< by filter and folding
-  /// Scrolls to a row, unfolds its group and gives it the focus. False: no such row.
-  bool reveal(const QString& key);
+  /// Unfolds a row's group, scrolls so that its heading stands on top (unless the row would be out of sight then) and
+  /// gives the row the focus where asked. False: no such row.
+  bool reveal(const QString& key, bool focus = true);
 
  Q_SIGNALS:
   void edited(const QString& key, const ps::Value& value, ps::Edit edit);

@@ -102,6 +102,8 @@ void ParameterRow::setDefaultValue(const Value& value) {
   d->refresh();
 }
 
+void ParameterRow::setIsPinned(bool isPinned) { d->model.isPinned = isPinned; }
+
 void ParameterRow::setMixed(bool mixed) {
   d->model.mixed = mixed;
   d->refresh();
@@ -144,7 +146,10 @@ void ParameterRow::setError(const QString& text) {
 void ParameterRow::Private::styleNotes() {
   const auto show = [this](QLabel*& label, const char* name, const QString& text) {
     if (text.isEmpty()) {
-      if (label) label->deleteLater();
+      if (label) {
+        label->setParent(nullptr);  // gone from sight at once
+        label->deleteLater();       // its link may be what asked for this
+      }
       label = nullptr;
       return;
     }

@@ -24,7 +24,8 @@ struct RowModel {
   api::ParameterDeclaration declaration{};
   Value value;
   Value defaultValue;           ///< "changed" means different from this; a reset goes here
-  bool pinned = false;          ///< belongs to "Try these"
+  bool pinned = false;          ///< the copy that stands in "Try these"
+  bool isPinned = false;        ///< such a copy exists, or is this row
   bool mixed = false;           ///< several selected owners disagree
   QString disabledReason;       ///< not empty: disabled, the tooltip says why
   QString derivedFrom;          ///< not empty: computed, no field: "from pressure"
@@ -63,6 +64,7 @@ class ParameterRow : public QWidget {
   void setValue(const Value& value);
   void setDefaultValue(const Value& value);
   void setMixed(bool mixed);
+  void setIsPinned(bool isPinned);
   void setDisabledReason(const QString& reason);
   void setDerivedFrom(const QString& derivedFrom);
   void setTemperature(double kelvin);  ///< operating point of a response

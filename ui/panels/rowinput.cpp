@@ -235,6 +235,7 @@ void ParameterRow::Private::startTyping(const QString& text) {
   edit->setText(text.isEmpty() && !model.mixed ? shown : text);
   edit->setModified(!text.isEmpty());
   edit->installEventFilter(q);
+  QObject::connect(edit, &QLineEdit::textChanged, q, [this] { q->setError({}); });  // it was about the text before
   edit->show();
   edit->setFocus(Qt::OtherFocusReason);
   if (text.isEmpty()) edit->selectAll();

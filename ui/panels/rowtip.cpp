@@ -6,6 +6,7 @@
 
 #include <QtCore/QMetaMethod>
 #include <QtCore/QPointer>
+#include <QtCore/QTimer>
 #include <QtGui/QClipboard>
 #include <QtGui/QContextMenuEvent>
 #include <QtGui/QGuiApplication>
@@ -14,6 +15,8 @@
 
 namespace ps {
 namespace {
+
+constexpr int kMenuGone = 100;  ///< ms after which a closed menu's events have come
 
 QString line(const char* head, const QString& text) {
   if (text.isEmpty()) return {};
@@ -70,8 +73,8 @@ void ParameterRow::Private::openContextMenu(const QPoint& global) {
   QAction* pin = nullptr;
   QAction* plot = nullptr;
   if (offered(QMetaMethod::fromSignal(&ParameterRow::pinToggled))) {
-    pin = menu->addAction(model.pinned ? QStringLiteral("Remove from “Try these”")
-                                       : QStringLiteral("Pin to “Try these”"));
+    pin = menu->addAction(model.isPinned ? QStringLiteral("Remove from “Try these”")
+                                         : QStringLiteral("Pin to “Try these”"));
   }
   if (offered(QMetaMethod::fromSignal(&ParameterRow::plotRequested))) plot = menu->addAction(QStringLiteral("Plot"));
   QAction* explain = menu->addAction(QStringLiteral("Explain"));
@@ -88,11 +91,16 @@ void ParameterRow::Private::openContextMenu(const QPoint& global) {
   else if (chosen == constant)
     single(valueOfNumber(declaration(), q->number()));
   else if (chosen == pin)
-    Q_EMIT q->pinToggled(model.key, !model.pinned);
+    Q_EMIT q->pinToggled(model.key, !model.isPinned);
   else if (chosen == plot)
     Q_EMIT q->plotRequested(model.key);
   else if (chosen == explain)
-    QToolTip::showText(global, toolTipText(), q);
+    this->explain(global);
+}
+
+/// Once the menu's events are over: those that it leaves behind (the pointer's return, the focus) take a tip away.
+void ParameterRow::Private::explain(const QPoint& global) {
+  QTimer::singleShot(kMenuGone, q, [this, global] { QToolTip::showText(global, toolTipText(), q); });
 }
 
 void ParameterRow::contextMenuEvent(QContextMenuEvent* event) { d->openContextMenu(event->globalPos()); }

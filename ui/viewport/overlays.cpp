@@ -5,6 +5,7 @@
 #include "ui/theme/numbers.h"
 #include "ui/theme/paint.h"
 #include "ui/theme/theme.h"
+#include "ui/viewport/gestures.h"
 
 #include <QtCore/QStringList>
 #include <QtGui/QPainter>
@@ -91,17 +92,21 @@ struct Hint {
   QString keys, does;
 };
 
+/// The tool's gestures, and the keys that somebody new needs next.
 std::vector<Hint> hintsFor(ViewTool tool) {
-  if (tool == ViewTool::Select) {
-    return {{QStringLiteral("Drag"), QStringLiteral("orbit")}, {QStringLiteral("Shift+Drag"), QStringLiteral("pan")},
-            {QStringLiteral("Wheel"), QStringLiteral("zoom")}, {QStringLiteral("Space"), QStringLiteral("pause")},
-            {QStringLiteral("F"), QStringLiteral("frame")},    {QStringLiteral("B"), QStringLiteral("sketch")}};
+  std::vector<Hint> hints;
+  for (const Gesture& gesture : gesturesOf(tool)) {
+    if (!gesture.hint.isEmpty()) hints.push_back({gesture.keys, gesture.hint});
   }
-  return {{QStringLiteral("Drag"), tool == ViewTool::Brush ? QStringLiteral("draws") : QStringLiteral("erases")},
-          {QStringLiteral("Ctrl"), tool == ViewTool::Brush ? QStringLiteral("erases") : QStringLiteral("draws")},
-          {QStringLiteral("[ ]"), QStringLiteral("size")},
-          {QStringLiteral("Alt+Drag"), QStringLiteral("orbit")},
-          {QStringLiteral("Q"), QStringLiteral("back to select")}};
+  if (tool == ViewTool::Select) {
+    hints.push_back({QStringLiteral("Space"), QStringLiteral("pause")});
+    hints.push_back({QStringLiteral("F"), QStringLiteral("frame")});
+    hints.push_back({QStringLiteral("B"), QStringLiteral("sketch")});
+  } else {
+    hints.push_back({QStringLiteral("[ ]"), QStringLiteral("size")});
+    hints.push_back({QStringLiteral("Q"), QStringLiteral("back to select")});
+  }
+  return hints;
 }
 
 QRectF paintHint(QPainter& painter, const OverlayState& state) {

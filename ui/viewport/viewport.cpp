@@ -4,6 +4,7 @@
 #include "core/base/error.h"
 #include "core/simulation/engine.h"
 #include "ui/document/document.h"
+#include "ui/render/furniture.h"
 #include "ui/theme/numbers.h"
 #include "ui/theme/theme.h"
 #include "ui/viewport/hiddenbodies.h"
@@ -20,6 +21,30 @@ namespace {
 
 constexpr double kSlowSnapshots = 40;  // ms; only slower ones are interpolated, faster ones are shown as they come
 constexpr int kMajor = 4, kMinor = 3;
+
+using Box = std::optional<std::pair<Vec3, Vec3>>;
+
+Box united(const Box& a, const Box& b) {
+  if (!a || !b) return a ? a : b;
+  Box box = a;
+  for (size_t k = 0; k < 3; ++k) {
+    box->first[k] = std::min(a->first[k], b->first[k]);
+    box->second[k] = std::max(a->second[k], b->second[k]);
+  }
+  return box;
+}
+
+/// Around the walls that end in the scene: all of their edges lie on other walls. One that goes on to the bounds, like
+/// a floor without sides, is as large as the world and would make everything else small.
+Box trayOf(const Environment& environment) {
+  Box box;
+  for (size_t i = 0; i < environment.walls.size(); ++i) {
+    const render::Face face = render::wallFace(environment, i);
+    if (!std::all_of(face.walled.begin(), face.walled.end(), [](bool walled) { return walled; })) continue;
+    for (const Vec3& corner : face.corners) box = united(box, std::pair(corner, corner));
+  }
+  return box;
+}
 
 }  // namespace
 
@@ -290,6 +315,10 @@ std::optional<std::pair<Vec3, Vec3>> Viewport::boxOf(const std::string& body) co
 }
 
 void Viewport::frameSelection() {
+  if (m_selectedBody.empty()) {
+    frameAll();
+    return;
+  }
   const auto box = boxOf(m_selectedBody);
   if (!box) return;
   m_navigator.setSize(size());
@@ -299,7 +328,7 @@ void Viewport::frameSelection() {
 }
 
 void Viewport::frameAll() {
-  const auto box = boxOf({});
+  const auto box = united(boxOf({}), trayOf(m_scene.environment));
   m_navigator.setSize(size());
   m_navigator.frame(box ? *box : std::pair(m_scene.environment.boundsMinimum, m_scene.environment.boundsMaximum));
   storeView();

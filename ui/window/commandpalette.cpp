@@ -58,6 +58,7 @@ std::vector<size_t> paletteMatches(const std::vector<PaletteEntry>& entries, con
     if (!matches) continue;
     const QString joined = words.join(QLatin1Char(' '));
     const int rank = words.isEmpty() || entry.title.startsWith(joined, Qt::CaseInsensitive) ? 0
+                     : entry.replaces                                                       ? 3
                      : entry.title.contains(words.front(), Qt::CaseInsensitive)             ? 1
                                                                                             : 2;
     found.emplace_back(rank, i);

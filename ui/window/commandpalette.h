@@ -19,9 +19,11 @@ struct PaletteEntry {
   QString keys;   ///< shortcut, or the value
   QString words;  ///< further words to find it by
   std::function<void()> run;
+  bool replaces = false;  ///< puts another scene in the place of this one
 };
 
 /// Entries that match every word of `query`, best first: titles that begin with it, then titles, then other words.
+/// What replaces the scene comes last unless its title begins with the query.
 std::vector<size_t> paletteMatches(const std::vector<PaletteEntry>& entries, const QString& query);
 
 /// The search field over the window: type, arrows choose, Enter runs or jumps, Esc closes.

@@ -13,12 +13,6 @@
 namespace ps {
 namespace {
 
-/// "Hot plate temperature": the label of a row that stands away from its owner.
-QString awayLabel(const Project& project, const Address& address, const QString& label) {
-  if (address.owner != "wall" && address.owner != "body" && address.owner != "constraint") return label;
-  return ownerLabel(project, address) + QLatin1Char(' ') + label.left(1).toLower() + label.mid(1);
-}
-
 QString gradeText(const PluginRegistry* plugins, const std::string& base) {
   const Material* material = plugins ? plugins->material(base) : nullptr;
   if (!material || material->provenance.empty()) return {};
@@ -233,6 +227,13 @@ void Inspector::setMaterial(const std::string& id) {
   rebuildMaterial();
 }
 
+/// Rows that are pinned offer to be taken out of "Try these", in whichever panel they stand.
+void Inspector::markPinned() {
+  QStringList keys;
+  for (const std::string& key : m_document.project().view.pinned) keys << QString::fromStdString(key);
+  for (ParameterPanel* panel : panels()) panel->setPinned(keys);
+}
+
 void Inspector::onChanged(const ChangeEvent& event) {
   if (const auto* parameter = std::get_if<ParameterChanged>(&event)) {
     const Address& address = parameter->address;
@@ -244,10 +245,12 @@ void Inspector::onChanged(const ChangeEvent& event) {
     m_bodyId = m_document.project().bodies.empty() ? std::string() : m_document.project().bodies.front().id;
     m_materialId.clear();
     m_limited.clear();
+    markPinned();
     rebuild();
   } else if (std::holds_alternative<BodyChanged>(event) || std::holds_alternative<StrokeChanged>(event)) {
     rebuildBody();
   } else if (std::holds_alternative<PinsChanged>(event)) {
+    markPinned();
     rebuildMaterial();
   }
 }

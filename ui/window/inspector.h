@@ -52,6 +52,7 @@ class Inspector : public QObject {
                const QString& group = {}, const ParameterSet& defaults = {});
   std::optional<RowModel> rowOf(const Address& address) const;
   void addPinned(std::vector<RowModel>& rows);
+  void markPinned();
   const char* keep(const QString& text);
 
   Document& m_document;

@@ -259,8 +259,10 @@ void MainWindow::onSnapshot() {
 }
 
 void MainWindow::appendHistory() {
-  const std::vector<FrameStats> fresh = m_session->engine()->history(m_historyRead);
-  m_historyRead += fresh.size();
+  // The frame read last comes again: the scene may have been edited since, and its newer values replace the older ones.
+  const size_t from = m_historyRead > 0 ? m_historyRead - 1 : 0;
+  const std::vector<FrameStats> fresh = m_session->engine()->history(from);
+  m_historyRead = from + fresh.size();
   for (const FrameStats& stats : fresh) {
     m_graphs->append(stats);
     m_energy->append(stats);
@@ -355,15 +357,15 @@ void MainWindow::selectBody(const std::string& id) {
 
 void MainWindow::onOutlinerSelection(OutlineKind kind, const std::string& id) {
   if (Viewport* view = viewport()) view->setSelectedBody(kind == OutlineKind::Body ? id : std::string());
+  m_inspector->setBody(kind == OutlineKind::Body ? id : std::string());
   if (kind == OutlineKind::Body) {
-    m_inspector->setBody(id);
     if (const Body* body = m_session->document().body(id)) {
       m_inspector->setMaterial(body->material);
       m_materials->setCurrent(body->material);
     }
     if (m_right->currentPage() != QLatin1String("Material")) m_right->showPage(QStringLiteral("Body"));
   } else if (kind == OutlineKind::Wall) {
-    revealParameter({"wall", id, "heat"});
+    revealParameter({"wall", id, "heat"}, false);  // the outliner keeps the focus: arrows walk on
   } else if (kind == OutlineKind::Environment || kind == OutlineKind::Scene) {
     m_right->showPage(QStringLiteral("Scene"));
   } else {
@@ -371,7 +373,7 @@ void MainWindow::onOutlinerSelection(OutlineKind kind, const std::string& id) {
   }
 }
 
-bool MainWindow::revealParameter(const Address& address) {
+bool MainWindow::revealParameter(const Address& address, bool focus) {
   ParameterPanel* panel = m_inspector->panelFor(address);
   if (!panel) return false;
   const QString page = panel == m_inspector->bodyPanel()       ? QStringLiteral("Body")
@@ -381,7 +383,7 @@ bool MainWindow::revealParameter(const Address& address) {
   m_right->showPage(page);
   panel->setFilter({});
   panel->setChangedOnly(false);
-  return panel->reveal(QString::fromStdString(address.text()));
+  return panel->reveal(QString::fromStdString(address.text()), focus);
 }
 
 void MainWindow::showMessage(MessageLevel level, const QString& where, const QString& text) {

@@ -70,8 +70,8 @@ class MainWindow : public QMainWindow {
   std::vector<PaletteEntry> paletteEntries();
   void openFile(const QString& path);
   void saveTo(const QString& path);
-  /// Jumps to a parameter's row: chooses its owner and tab, scrolls, gives it the focus.
-  bool revealParameter(const Address& address);
+  /// Jumps to a parameter's row: chooses its owner and tab, scrolls, gives it the focus where asked.
+  bool revealParameter(const Address& address, bool focus = true);
 
  Q_SIGNALS:
   void projectShown();  ///< the first snapshot of an opened project is on screen
@@ -105,6 +105,8 @@ class MainWindow : public QMainWindow {
   void makeSketchMenu();
   void makeHelpMenu();
   void fillRecent();
+  void checkTheme();              ///< the mark at the one in force
+  void updateRestore();           ///< enabled while unsaved work waits
   void setFilesEnabled(bool on);  ///< what needs plugins, in the menu File
   void openPalette();
   void setWorkspace(int index);
@@ -127,7 +129,10 @@ class MainWindow : public QMainWindow {
   void updateTitle();
   // mainwindowrestore.cpp
   void openFirst();
+  std::vector<AutosavedSession> unsavedWork() const;
+  void offerAtStart();
   void offerRestore();
+  void offerNext();  ///< of m_offered
   void connectAutosave();
   void showReplaced(const QString& text);
   // mainwindow.cpp
@@ -174,6 +179,7 @@ class MainWindow : public QMainWindow {
   uint64_t m_revision = 0, m_before = 0;  ///< of the snapshot seen last; of the one when a project was opened
   uint64_t m_warnedAt = 0;                ///< change count of work that a first attempt to close could not keep
   std::shared_ptr<const ReplacedWork> m_replaced;
+  QStringList m_offered;  ///< stems of unsaved work that is still to be decided about
   uint64_t m_eventsRead = 0;
   QByteArray m_beforeFull;
 };

@@ -6,6 +6,7 @@
 #include "ui/document/documentfiles.h"
 #include "ui/graphs/graphview.h"
 #include "ui/graphs/phasestackview.h"
+#include "ui/panels/rowvalue.h"
 #include "ui/theme/numbers.h"
 #include "ui/viewport/viewport.h"
 #include "ui/window/dock.h"
@@ -13,11 +14,13 @@
 #include "ui/window/mainwindow.h"
 #include "ui/window/materialspanel.h"
 #include "ui/window/pluginpage.h"
+#include "ui/window/shortcutswindow.h"
 #include "ui/window/topbar.h"
 #include "ui/window/viewportpane.h"
 
 #include <QtCore/QFileInfo>
 #include <QtGui/QAction>
+#include <QtGui/QActionGroup>
 #include <QtGui/QKeyEvent>
 #include <QtWidgets/QAbstractButton>
 #include <QtWidgets/QAbstractItemView>
@@ -31,13 +34,14 @@
 namespace ps {
 namespace {
 
+constexpr const char* kReplaces = "replacesScene";  ///< of actions: see PaletteEntry::replaces
+
 QString cleanText(const QAction& action) { return action.text().remove(QLatin1Char('&')); }
 
 QString valueText(const Value& value, const api::ParameterDeclaration& declaration) {
   if (const auto* number = std::get_if<double>(&value)) return formatValue(declaration, *number);
   if (const auto* toggle = std::get_if<bool>(&value)) return *toggle ? QStringLiteral("on") : QStringLiteral("off");
-  if (const auto* choice = std::get_if<std::string>(&value))
-    return QString::fromStdString(*choice).replace(QLatin1Char('_'), QLatin1Char(' '));
+  if (const auto* choice = std::get_if<std::string>(&value)) return choiceLabel(QString::fromStdString(*choice));
   return formatValue(declaration, std::get<Response>(value).at(293.15));
 }
 
@@ -81,6 +85,7 @@ void MainWindow::makeActions() {
   QUndoStack& undo = m_session->document().undoStack();
   const auto adopt = [this](QAction* action, const char* name, const QList<QKeySequence>& keys) {
     action->setParent(this);
+    action->setProperty(kPlainText, cleanText(*action));  // its text goes on to say what is undone
     action->setObjectName(QString::fromLatin1(name));
     action->setShortcuts(keys);
     addAction(action);
@@ -121,6 +126,8 @@ void MainWindow::makeFileMenu() {
     add(menu, QStringLiteral("file.sample"), QStringLiteral("Open sample “Ice on a hot plate”"), {},
         [this] { openFile(m_options.sample); });
   }
+  add(menu, QStringLiteral("file.restore"), QStringLiteral("Restore unsaved work…"), {}, [this] { offerRestore(); });
+  connect(menu, &QMenu::aboutToShow, this, &MainWindow::updateRestore);
   menu->addSeparator();
   add(menu, QStringLiteral("file.save"), QStringLiteral("Save"), {QKeySequence(QStringLiteral("Ctrl+S"))},
       [this] { save(); });
@@ -133,6 +140,9 @@ void MainWindow::makeFileMenu() {
   menu->addSeparator();
   add(menu, QStringLiteral("file.quit"), QStringLiteral("Quit"), {QKeySequence(QStringLiteral("Ctrl+Q"))},
       [this] { close(); });
+  for (const char* name : {"file.new", "file.open", "file.sample", "file.restore"}) {
+    if (QAction* replacing = action(QString::fromLatin1(name))) replacing->setProperty(kReplaces, true);
+  }
   setFilesEnabled(false);
 }
 
@@ -142,6 +152,8 @@ void MainWindow::setFilesEnabled(bool on) {
   }
   m_recent->setEnabled(on);
 }
+
+void MainWindow::updateRestore() { action(QStringLiteral("file.restore"))->setEnabled(!unsavedWork().empty()); }
 
 void MainWindow::fillRecent() {
   m_recent->clear();
@@ -193,8 +205,15 @@ void MainWindow::makeViewMenu() {
         {QKeySequence(QStringLiteral("Ctrl+%1").arg(i + 1))}, [this, i] { setColour(i); });
   }
   menu->addSeparator();
-  add(menu, QStringLiteral("view.dark"), QStringLiteral("Dark theme"), {}, [this] { setDark(true); });
-  add(menu, QStringLiteral("view.light"), QStringLiteral("Light theme"), {}, [this] { setDark(false); });
+  auto* themes = new QActionGroup(this);
+  for (const bool dark : {true, false}) {
+    QAction* theme =
+        add(menu, dark ? QStringLiteral("view.dark") : QStringLiteral("view.light"),
+            dark ? QStringLiteral("Dark theme") : QStringLiteral("Light theme"), {}, [this, dark] { setDark(dark); });
+    theme->setCheckable(true);
+    themes->addAction(theme);
+  }
+  connect(menu, &QMenu::aboutToShow, this, &MainWindow::checkTheme);
   menu->addSeparator();
   add(menu, QStringLiteral("view.full"), QStringLiteral("Full viewport"), {QKeySequence(QStringLiteral("F11"))},
       [this] { setFullViewport(!m_fullViewport); });
@@ -204,6 +223,10 @@ void MainWindow::makeViewMenu() {
   });
   add(menu, QStringLiteral("view.hint"), QStringLiteral("Show hints"), {},
       viewAct([](Viewport& v) { v.setHintShown(!v.hintShown()); }));
+}
+
+void MainWindow::checkTheme() {
+  action(m_dark ? QStringLiteral("view.dark") : QStringLiteral("view.light"))->setChecked(true);
 }
 
 void MainWindow::makeSimulationMenu() {
@@ -237,6 +260,8 @@ void MainWindow::makeSketchMenu() {
 
 void MainWindow::makeHelpMenu() {
   QMenu* menu = m_top->menus()->addMenu(QStringLiteral("Help"));
+  add(menu, QStringLiteral("help.shortcuts"), QStringLiteral("Keyboard shortcuts"),
+      {QKeySequence(QStringLiteral("F1"))}, [this] { openShortcuts(*this); });
   add(menu, QStringLiteral("help.plugins"), QStringLiteral("Plugins"), {}, [this] {
     m_plugins->refresh();
     m_centre->setCurrentWidget(m_plugins);
@@ -282,6 +307,7 @@ void MainWindow::stepBrush(int direction) {
 }
 
 std::vector<PaletteEntry> MainWindow::paletteEntries() {
+  updateRestore();
   std::vector<PaletteEntry> entries;
   const QList<QAction*> actions = findChildren<QAction*>(Qt::FindDirectChildrenOnly);
   for (QAction* action : actions) {
@@ -290,15 +316,19 @@ std::vector<PaletteEntry> MainWindow::paletteEntries() {
       continue;
     QString where = action->objectName().section(QLatin1Char('.'), 0, 0);
     where = where.left(1).toUpper() + where.mid(1);
-    entries.push_back({cleanText(*action), where, action->shortcut().toString(QKeySequence::NativeText), {}, [action] {
-                         action->trigger();
-                       }});
+    entries.push_back({cleanText(*action),
+                       where,
+                       action->shortcut().toString(QKeySequence::NativeText),
+                       {},
+                       [action] { action->trigger(); },
+                       action->property(kReplaces).toBool()});
   }
   Document& document = m_session->document();
   for (const Address& address : allAddresses(document.project(), document.plugins())) {
     const auto* declaration = document.declaration(address);
     if (!declaration) continue;
-    entries.push_back({QString::fromUtf8(declaration->label), ownerLabel(document.project(), address),
+    const QString label = QString::fromUtf8(declaration->label);
+    entries.push_back({awayLabel(document.project(), address, label), ownerLabel(document.project(), address),
                        valueText(document.value(address), *declaration),
                        QString::fromUtf8(declaration->group) + QLatin1Char(' ') +
                            QString::fromStdString(address.text()).replace(QLatin1Char('_'), QLatin1Char(' ')),

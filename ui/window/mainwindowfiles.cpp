@@ -103,7 +103,7 @@ void MainWindow::onOpened(const QString& path, const QStringList& warnings, doub
                                                  : QStringLiteral("%1 remarks").arg(warnings.size())),
                    warnings.front());
   }
-  if (std::exchange(m_first, false)) offerRestore();
+  if (std::exchange(m_first, false)) offerAtStart();
   updateTitle();
 }
 
@@ -117,6 +117,7 @@ void MainWindow::onOpenFailed(const QString& path, const QString& problem) {
   std::vector<NoticeBar::Button> buttons{{QStringLiteral("Open another…"), [this] { chooseOpen(); }}};
   if (first) {
     m_session->files().newProject();  // the window must not stay empty
+    offerAtStart();
     if (!m_options.sample.isEmpty() && !isSample(path))
       buttons.push_back({QStringLiteral("Open the sample"), [this] { openFile(m_options.sample); }});
   }

@@ -11,6 +11,8 @@
 #include <QtCore/QFileInfo>
 #include <QtGui/QCloseEvent>
 
+#include <algorithm>
+
 namespace ps {
 namespace {
 
@@ -52,26 +54,51 @@ void MainWindow::openFirst() {
   }
 }
 
-/// The newest unsaved work of other sessions is offered, one at a time; what they had saved needs no copy.
-void MainWindow::offerRestore() {
-  notice()->close(QStringLiteral("restore"));
+/// Copies of unsaved work that no window has open, newest first.
+std::vector<AutosavedSession> MainWindow::unsavedWork() const {
+  if (!m_session->autosave()) return {};
+  std::vector<AutosavedSession> waiting = m_session->autosave()->leftBehind();
+  waiting.erase(std::remove_if(waiting.begin(), waiting.end(),
+                               [](const AutosavedSession& session) { return session.copy.isEmpty(); }),
+                waiting.end());
+  return waiting;
+}
+
+/// Once the first project is there. What earlier sessions had saved needs no note any more.
+void MainWindow::offerAtStart() {
   if (!m_options.restore || !m_session->autosave()) return;
   for (const AutosavedSession& session : m_session->autosave()->leftBehind()) {
-    if (session.copy.isEmpty()) {
-      Autosave::discard(session);
-      continue;
-    }
+    if (session.copy.isEmpty()) Autosave::discard(session);
+  }
+  offerRestore();
+}
+
+/// Offers all unsaved work that waits, one after another.
+void MainWindow::offerRestore() {
+  m_offered.clear();
+  for (const AutosavedSession& session : unsavedWork()) m_offered << session.stem;
+  offerNext();
+}
+
+void MainWindow::offerNext() {
+  notice()->close(QStringLiteral("restore"));
+  for (const AutosavedSession& session : unsavedWork()) {
+    if (!m_offered.contains(session.stem)) continue;
+    const auto decided = [this, stem = session.stem] {
+      m_offered.removeAll(stem);
+      offerNext();
+    };
     notice()->show(QStringLiteral("restore"), MessageLevel::Info, QStringLiteral("Unsaved work can be restored."),
                    whyLeftBehind(session),
                    {{QStringLiteral("Restore"),
-                     [this, session] {
-                       notice()->close(QStringLiteral("restore"));
+                     [this, session, decided] {
                        m_session->files().reopen(session);
+                       decided();
                      }},
-                    {QStringLiteral("Keep for later"), [this] { notice()->close(QStringLiteral("restore")); }},
-                    {QStringLiteral("Discard"), [this, session] {
+                    {QStringLiteral("Keep for later"), decided},
+                    {QStringLiteral("Discard"), [session, decided] {
                        Autosave::discard(session);
-                       offerRestore();
+                       decided();
                      }}});
     return;
   }

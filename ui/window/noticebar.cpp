@@ -12,6 +12,8 @@
 #include <QtWidgets/QToolButton>
 #include <QtWidgets/QVBoxLayout>
 
+#include <algorithm>
+
 namespace ps {
 namespace {
 
@@ -27,7 +29,7 @@ Token markOf(MessageLevel level) {
 }  // namespace
 
 NoticeBar::NoticeBar(QWidget* parent)
-    : QWidget(parent), m_title(new QLabel), m_text(new QLabel), m_buttons(new QHBoxLayout) {
+    : QWidget(parent), m_title(new QLabel), m_text(new QLabel), m_more(new QLabel), m_buttons(new QHBoxLayout) {
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(40, 8, 8, 8);
   row->setSpacing(8);
@@ -41,50 +43,82 @@ NoticeBar::NoticeBar(QWidget* parent)
   row->addLayout(words, 1);
   m_buttons->setSpacing(6);
   row->addLayout(m_buttons);
+  m_more->setProperty("role", "muted");
+  row->addWidget(m_more);
   auto* dismiss = new QToolButton;
   dismiss->setIcon(icon(QStringLiteral("close")));
   dismiss->setAccessibleName(QStringLiteral("Dismiss"));
   dismiss->setFocusPolicy(Qt::TabFocus);
-  connect(dismiss, &QToolButton::clicked, this, [this] { close(m_topic); });
+  connect(dismiss, &QToolButton::clicked, this, [this] { close(topic()); });
   row->addWidget(dismiss);
   hide();
 }
 
 void NoticeBar::show(const QString& topic, MessageLevel level, const QString& title, const QString& text,
                      std::vector<Button> buttons) {
-  m_topic = topic;
-  m_level = level;
-  m_title->setText(title);
-  m_text->setText(text);
-  m_text->setVisible(!text.isEmpty());
-  while (QLayoutItem* item = m_buttons->takeAt(0)) {
-    if (item->widget()) item->widget()->deleteLater();
-    delete item;
-  }
-  for (Button& button : buttons) {
-    auto* push = new QPushButton(button.text);
-    push->setFocusPolicy(Qt::TabFocus);
-    connect(push, &QPushButton::clicked, this, [act = std::move(button.act)] { act(); });
-    m_buttons->addWidget(push, 0, Qt::AlignVCenter);
-  }
-  setAccessibleName(title + QStringLiteral(" ") + text);
-  setVisible(true);
-  update();
+  remove(topic);
+  if (!m_notices.empty() && m_notices.back().buttons.empty()) m_notices.pop_back();
+  m_notices.push_back({topic, level, title, text, std::move(buttons)});
+  refresh();
 }
 
 void NoticeBar::close(const QString& topic) {
-  if (topic == m_topic) hide();
+  const bool shown = topic == this->topic();
+  remove(topic);
+  if (shown || m_notices.empty())
+    refresh();
+  else
+    showWaiting();
 }
+
+void NoticeBar::remove(const QString& topic) {
+  m_notices.erase(
+      std::remove_if(m_notices.begin(), m_notices.end(), [&](const Notice& notice) { return notice.topic == topic; }),
+      m_notices.end());
+}
+
+void NoticeBar::refresh() {
+  while (QLayoutItem* item = m_buttons->takeAt(0)) {
+    if (item->widget()) {
+      item->widget()->setParent(nullptr);
+      item->widget()->deleteLater();  // it may be what asked for this
+    }
+    delete item;
+  }
+  setVisible(!m_notices.empty());
+  if (m_notices.empty()) return;
+  const Notice& notice = m_notices.back();
+  m_title->setText(notice.title);
+  m_text->setText(notice.text);
+  m_text->setVisible(!notice.text.isEmpty());
+  for (const Button& button : notice.buttons) {
+    auto* push = new QPushButton(button.text);
+    push->setFocusPolicy(Qt::TabFocus);
+    connect(push, &QPushButton::clicked, this, [act = button.act] { act(); });
+    m_buttons->addWidget(push, 0, Qt::AlignVCenter);
+  }
+  setAccessibleName(text());
+  showWaiting();
+  update();
+}
+
+void NoticeBar::showWaiting() {
+  m_more->setText(QStringLiteral("%1 more").arg(m_notices.size() - 1));
+  m_more->setVisible(m_notices.size() > 1);
+}
+
+QString NoticeBar::topic() const { return m_notices.empty() ? QString() : m_notices.back().topic; }
 
 QString NoticeBar::text() const { return m_title->text() + QLatin1Char(' ') + m_text->text(); }
 
 void NoticeBar::paintEvent(QPaintEvent*) {
   QPainter painter(this);
   const Theme& theme = Theme::current();
-  painter.fillRect(rect(), theme[groundOf(m_level)]);
-  painter.fillRect(QRect(0, 0, 3, height()), theme[markOf(m_level)]);
-  paintIcon(painter, QRectF(14, height() / 2.0 - 8, 16, 16), QString::fromLatin1(messageIcon(m_level)),
-            theme[markOf(m_level)]);
+  const MessageLevel level = m_notices.empty() ? MessageLevel::Info : m_notices.back().level;
+  painter.fillRect(rect(), theme[groundOf(level)]);
+  painter.fillRect(QRect(0, 0, 3, height()), theme[markOf(level)]);
+  paintIcon(painter, QRectF(14, height() / 2.0 - 8, 16, 16), QString::fromLatin1(messageIcon(level)),
+            theme[markOf(level)]);
 }
 
 }  // namespace ps

@@ -13,7 +13,8 @@ class QHBoxLayout;
 
 namespace ps {
 
-/// A bar over a dock: what happened, where, what to do, with buttons. Never a dialog.
+/// A bar over a dock: what happened, where, what to do, with buttons. Never a dialog. The newest notice shows; those
+/// with buttons wait below it until somebody decides, those without (the message log has them too) give way.
 class NoticeBar : public QWidget {
   Q_OBJECT
  public:
@@ -22,20 +23,29 @@ class NoticeBar : public QWidget {
     QString text;
     std::function<void()> act;
   };
-  /// `topic`: a later notice of the same topic replaces this one, and close(topic) takes it away.
+  /// `topic`: a later notice of the same topic replaces this one, and close(topic) takes it away; what waits below
+  /// shows.
   void show(const QString& topic, MessageLevel level, const QString& title, const QString& text,
             std::vector<Button> buttons = {});
   void close(const QString& topic);
-  const QString& topic() const { return m_topic; }
+  QString topic() const;  ///< of the notice that shows; "" when none does
   QString text() const;
 
  protected:
   void paintEvent(QPaintEvent* event) override;
 
  private:
-  QString m_topic;
-  MessageLevel m_level = MessageLevel::Info;
-  QLabel *m_title, *m_text;
+  struct Notice {
+    QString topic;
+    MessageLevel level;
+    QString title, text;
+    std::vector<Button> buttons;
+  };
+  void remove(const QString& topic);
+  void refresh();      ///< shows the last of the notices
+  void showWaiting();  ///< how many are below it
+  std::vector<Notice> m_notices;
+  QLabel *m_title, *m_text, *m_more;
   QHBoxLayout* m_buttons;
 };
 

@@ -32,6 +32,53 @@ QToolButton* toolButton(const QString& iconName, const QString& tip) {
 
 }  // namespace
 
+/// The clock of accelerated heat. It takes the room that is left and lays nothing else out anew as its digits change;
+/// where the room is short, the words around the span of time go first.
+class ThermalClock : public QWidget {
+ public:
+  ThermalClock() { setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Preferred); }
+  void setTexts(const ThermalTexts& texts) {
+    m_texts = texts;
+    setAccessibleName(texts.whole());
+    update();
+  }
+
+ protected:
+  void paintEvent(QPaintEvent*) override {
+    if (m_texts.span.isEmpty()) return;
+    QPainter painter(this);
+    const Theme& theme = Theme::current();
+    paintIcon(painter, QRectF(0, (height() - kIcon) / 2.0, kIcon, kIcon), QStringLiteral("clock"), theme[Token::Muted]);
+    const ThermalTexts shown = m_texts.fitting(width() - kIcon - kGap);
+    double x = kIcon + kGap;
+    const auto write = [&](const QString& text, TextRole role, Token token) {
+      const double w = textWidth(text, Theme::font(role));
+      paintText(painter, QRectF(x, 0, w + 1, height()), Qt::AlignLeft | Qt::AlignVCenter, text, Theme::font(role),
+                theme[token]);
+      x += w;
+    };
+    write(shown.before, TextRole::Normal, Token::Text2);
+    write(shown.span, TextRole::Medium, Token::Text);
+    write(shown.after, TextRole::Normal, Token::Text2);
+  }
+
+ private:
+  static constexpr int kIcon = 16, kGap = 4;
+  ThermalTexts m_texts;
+};
+
+double ThermalTexts::width() const {
+  return textWidth(before, Theme::font(TextRole::Normal)) + textWidth(span, Theme::font(TextRole::Medium)) +
+         textWidth(after, Theme::font(TextRole::Normal));
+}
+
+ThermalTexts ThermalTexts::fitting(double room) const {
+  ThermalTexts shown = *this;
+  if (shown.width() > room) shown.after.clear();
+  if (shown.width() > room) shown.before.clear();
+  return shown;
+}
+
 Transport::Transport(QWidget* parent)
     : QWidget(parent),
       m_reset(toolButton(QStringLiteral("reset-to-start"), QStringLiteral("Back to the start (Home)"))),
@@ -39,8 +86,7 @@ Transport::Transport(QWidget* parent)
       m_play(new QPushButton),
       m_time(new QLabel),
       m_duration(new QLabel),
-      m_thermal(new QLabel),
-      m_thermalIcon(new QLabel) {
+      m_thermal(new ThermalClock) {
   setFixedHeight(kHeight);
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(8, 0, 12, 4);
@@ -51,7 +97,6 @@ Transport::Transport(QWidget* parent)
   m_play->setFocusPolicy(Qt::TabFocus);
   m_time->setFont(Theme::font(TextRole::Time));
   m_duration->setProperty("role", "muted");
-  m_thermal->setProperty("role", "text2");
   row->addWidget(m_reset);
   row->addWidget(m_play);
   row->addWidget(m_step);
@@ -59,9 +104,7 @@ Transport::Transport(QWidget* parent)
   row->addWidget(m_time);
   row->addWidget(m_duration);
   row->addSpacing(18);
-  row->addWidget(m_thermalIcon);
-  row->addWidget(m_thermal);
-  row->addStretch(1);
+  row->addWidget(m_thermal, 1);
   connect(m_reset, &QToolButton::clicked, this, &Transport::resetRequested);
   connect(m_step, &QToolButton::clicked, this, &Transport::stepRequested);
   connect(m_play, &QPushButton::clicked, this, &Transport::playRequested);
@@ -75,7 +118,6 @@ void Transport::styleButtons() {
   const Theme& theme = Theme::current();
   m_play->setIcon(QIcon(iconPixmap(m_playing ? QStringLiteral("pause") : QStringLiteral("play"), theme[Token::OnAccent],
                                    16, devicePixelRatioF())));
-  m_thermalIcon->setPixmap(iconPixmap(QStringLiteral("clock"), theme[Token::Muted], 16, devicePixelRatioF()));
 }
 
 void Transport::setPlaying(bool playing) {
@@ -111,18 +153,16 @@ void Transport::setSnapshot(const SnapshotPtr& snapshot) {
 
 QString Transport::timeText() const { return clockText(m_seconds); }
 
-QString Transport::thermalText() const {
+ThermalTexts Transport::thermalTexts() const {
   if (m_scale == 1) return {};
-  return QStringLiteral("Heat ×%1 = <span style='font-weight:500; color:%3'>%2</span> of real heating")
-      .arg(formatShort(m_scale), spanText(m_thermalSeconds), Theme::current()[Token::Text].name());
+  return {QStringLiteral("Heat ×%1 = ").arg(formatShort(m_scale)), spanText(m_thermalSeconds),
+          QStringLiteral(" of real heating")};
 }
 
 void Transport::refresh() {
   m_time->setText(timeText());
   m_duration->setText(QStringLiteral("/ ") + clockText(m_total).left(5));
-  m_thermal->setText(thermalText());
-  m_thermal->setVisible(m_scale != 1);
-  m_thermalIcon->setVisible(m_scale != 1);
+  m_thermal->setTexts(thermalTexts());
   update(0, height() - 5, width(), 5);
 }
 

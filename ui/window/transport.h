@@ -10,6 +10,16 @@ class QToolButton;
 
 namespace ps {
 
+class ThermalClock;
+
+/// "Heat ×2000 = ", "2 h 20 min", " of real heating"; all empty while heat keeps real time.
+struct ThermalTexts {
+  QString before, span, after;
+  QString whole() const { return before + span + after; }
+  double width() const;                     ///< logical pixels
+  ThermalTexts fitting(double room) const;  ///< without what has no room, the span last
+};
+
 /// Reset, step, play; the two clocks; how much of the planned duration has passed.
 class Transport : public QWidget {
   Q_OBJECT
@@ -21,7 +31,7 @@ class Transport : public QWidget {
   void setTimeScale(double scale);  ///< thermal seconds per mechanical second
   void setSnapshot(const SnapshotPtr& snapshot);
   QString timeText() const;
-  QString thermalText() const;
+  ThermalTexts thermalTexts() const;
 
  Q_SIGNALS:
   void resetRequested();
@@ -37,7 +47,8 @@ class Transport : public QWidget {
   void styleButtons();
   QToolButton *m_reset, *m_step;
   QPushButton* m_play;
-  QLabel *m_time, *m_duration, *m_thermal, *m_thermalIcon;
+  QLabel *m_time, *m_duration;
+  ThermalClock* m_thermal;
   bool m_playing = false;
   double m_seconds = 0, m_thermalSeconds = 0, m_total = 60, m_scale = 1;
 };

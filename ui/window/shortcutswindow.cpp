@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/window/shortcutswindow.h"
+
+#include "ui/viewport/gestures.h"
+#include "ui/window/mainwindow.h"
+
+#include <QtGui/QAction>
+#include <QtWidgets/QDialog>
+#include <QtWidgets/QHeaderView>
+#include <QtWidgets/QMenu>
+#include <QtWidgets/QMenuBar>
+#include <QtWidgets/QTreeWidget>
+#include <QtWidgets/QVBoxLayout>
+
+namespace ps {
+namespace {
+
+const QString kName = QStringLiteral("psShortcuts");
+
+/// "Look from: Front": a submenu's entries mean little without its title.
+QString nameOf(const QAction& action, const QString& menu) {
+  const QString plain = action.property(kPlainText).toString();
+  if (!plain.isEmpty()) return plain;
+  const QString text = action.text().remove(QLatin1Char('&')).remove(QStringLiteral("…"));
+  for (const QObject* owner : action.associatedObjects()) {
+    const auto* in = qobject_cast<const QMenu*>(owner);
+    if (in && in->title() != menu) return in->title() + QStringLiteral(": ") + text;
+  }
+  return text;
+}
+
+ShortcutGroup menuGroup(const MainWindow& window, const QString& title) {
+  ShortcutGroup group{title, {}};
+  const QString prefix = title.toLower() + QLatin1Char('.');
+  for (const QAction* action : window.findChildren<QAction*>(Qt::FindDirectChildrenOnly)) {
+    if (!action->objectName().startsWith(prefix) || action->shortcuts().isEmpty()) continue;
+    QStringList keys;
+    for (const QKeySequence& sequence : action->shortcuts()) keys << sequence.toString(QKeySequence::NativeText);
+    group.lines.emplace_back(keys.join(QStringLiteral(", ")), nameOf(*action, title));
+  }
+  return group;
+}
+
+ShortcutGroup toolGroup(const QString& title, ViewTool tool) {
+  ShortcutGroup group{title, {}};
+  for (const Gesture& gesture : gesturesOf(tool)) group.lines.emplace_back(gesture.keys, gesture.does);
+  return group;
+}
+
+}  // namespace
+
+std::vector<ShortcutGroup> shortcutGroups(const MainWindow& window) {
+  std::vector<ShortcutGroup> groups;
+  const auto* bar = window.findChild<QMenuBar*>();
+  for (const QAction* menu : bar->actions()) {
+    ShortcutGroup group = menuGroup(window, menu->text().remove(QLatin1Char('&')));
+    if (!group.lines.empty()) groups.push_back(std::move(group));
+  }
+  groups.push_back(toolGroup(QStringLiteral("In the scene"), ViewTool::Select));
+  groups.push_back(toolGroup(QStringLiteral("In the scene with the brush"), ViewTool::Brush));
+  groups.push_back(toolGroup(QStringLiteral("In the scene with the eraser"), ViewTool::Erase));
+  return groups;
+}
+
+void openShortcuts(MainWindow& window) {
+  auto* dialog = window.findChild<QDialog*>(kName);
+  if (!dialog) {
+    dialog = new QDialog(&window);
+    dialog->setObjectName(kName);
+    dialog->setWindowTitle(QStringLiteral("Keyboard shortcuts"));
+    dialog->setAttribute(Qt::WA_DeleteOnClose);
+    auto* list = new QTreeWidget;
+    list->setAccessibleName(dialog->windowTitle());
+    list->setColumnCount(2);
+    list->setHeaderHidden(true);
+    list->setRootIsDecorated(false);
+    list->setSelectionMode(QAbstractItemView::SingleSelection);
+    for (const ShortcutGroup& group : shortcutGroups(window)) {
+      auto* head = new QTreeWidgetItem(list, {group.title});
+      head->setFirstColumnSpanned(true);
+      QFont bold = list->font();
+      bold.setWeight(QFont::DemiBold);
+      head->setFont(0, bold);
+      for (const auto& [keys, does] : group.lines) new QTreeWidgetItem(head, {does, keys});
+    }
+    list->expandAll();
+    list->header()->setSectionResizeMode(0, QHeaderView::Stretch);
+    list->header()->setStretchLastSection(false);
+    list->header()->setSectionResizeMode(1, QHeaderView::ResizeToContents);
+    auto* column = new QVBoxLayout(dialog);
+    column->setContentsMargins(8, 8, 8, 8);
+    column->addWidget(list);
+    dialog->resize(520, 640);
+  }
+  dialog->show();
+  dialog->raise();
+  dialog->activateWindow();
+}
+
+}  // namespace ps
