@@ -154,7 +154,9 @@ void Engine::Impl::build() {
   solver->setWalls(compileWalls(project));
   bakeMaterials();
   setThermal();
-  TakenPlaces taken(kOverlap * spacing, static_cast<size_t>(count));
+  const Bounds bounds = compileBounds(project);
+  TakenPlaces taken(kOverlap * spacing, static_cast<size_t>(count),
+                    Period(bounds.minimum, bounds.maximum, bounds.periodic));
   for (const Body& body : project.bodies) {
     bodyIndex(body.id);  // of one without particles too
     size_t dropped = 0;

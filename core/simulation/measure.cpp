@@ -92,7 +92,7 @@ double measureProbe(const Solver& solver, const std::vector<std::string>& bodyId
     const double squared = squaredSpeed(store.velocity()[i]);
     energy += quantity == "kinetic_energy" ? 0.5 * store.mass()[i] * squared : energies.empty() ? 0 : energies[i];
     tally.add(store.mass()[i], quantity.starts_with("temperature") ? store.temperature()[i]
-                               : quantity.starts_with("height")    ? double{store.position()[i].y}
+                               : quantity.starts_with("height")    ? store.wrappedPosition(i).y
                                                                    : std::sqrt(squared));
   }
   if (quantity == "count") return static_cast<double>(tally.count);
@@ -110,6 +110,7 @@ std::string probeTitle(const Probe& probe) {
 void fillSnapshot(Snapshot& snapshot, const Solver& solver) {
   const ParticleStore& store = solver.particles();
   const size_t n = store.size();
+  snapshot.period = store.period();
   snapshot.position.resize(n);
   snapshot.temperature.resize(n);
   snapshot.speed.resize(n);
@@ -121,8 +122,10 @@ void fillSnapshot(Snapshot& snapshot, const Solver& solver) {
   snapshot.body.assign(store.body(), store.body() + n);
   snapshot.material.assign(store.material(), store.material() + n);
   for (size_t i = 0; i < n; ++i) {
-    const api::Float4& p = store.position()[i];
-    snapshot.position[i] = {p.x, p.y, p.z, std::cbrt(p.w * 0.75f / std::numbers::pi_v<float>)};
+    const api::Double3 p = store.wrappedPosition(i);
+    const float volume = store.position()[i].w;
+    snapshot.position[i] = {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z),
+                            std::cbrt(volume * 0.75f / std::numbers::pi_v<float>)};
     snapshot.temperature[i] = static_cast<float>(store.temperature()[i]);
     snapshot.speed[i] = static_cast<float>(std::sqrt(squaredSpeed(store.velocity()[i])));
   }

@@ -41,7 +41,6 @@ void SolidContact::refresh(const ParticleStore& store, const Neighbours& neighbo
   if (m_solids.empty()) return;
   const StructureGraph& graph = constraints.graph(store.size());
   const api::NeighbourView view = neighbours.view();
-  const api::Float4* position = store.position();
   const float reach2 = static_cast<float>(m_reach * m_reach);
   const size_t chunks = (m_solids.size() + kGrain - 1) / kGrain;
   m_chunks.resize(std::max(m_chunks.size(), chunks));
@@ -57,9 +56,8 @@ void SolidContact::refresh(const ParticleStore& store, const Neighbours& neighbo
       for (uint32_t q = view.begin[i]; q < view.last[i]; ++q) {
         const uint32_t j = view.index[q];
         if ((motion[j] != api::Motion::Solid && motion[j] != api::Motion::Static) || rigid[j] != 0) continue;
-        const float x = position[i].x - position[j].x, y = position[i].y - position[j].y,
-                    z = position[i].z - position[j].z;
-        if (x * x + y * y + z * z < reach2 && !graph.tied(i, j)) chunk.other.push_back(j);
+        const api::Float4 d = store.separation(i, j);
+        if (d.x * d.x + d.y * d.y + d.z * d.z < reach2 && !graph.tied(i, j)) chunk.other.push_back(j);
       }
       if (chunk.other.size() == before) continue;
       chunk.who.push_back(i);
@@ -82,13 +80,11 @@ bool SolidContact::stale(const ParticleStore& store) const {
 }
 
 size_t SolidContact::touching(const ParticleStore& store, const Chunk& chunk, size_t k) const {
-  const api::Float4 a = store.position()[chunk.who[k]];
   const float diameter2 = static_cast<float>(m_diameter * m_diameter);
   size_t count = 0;
   for (uint32_t q = chunk.begin[k]; q < chunk.begin[k + 1]; ++q) {
-    const api::Float4 b = store.position()[chunk.other[q]];
-    const float x = a.x - b.x, y = a.y - b.y, z = a.z - b.z;
-    count += x * x + y * y + z * z < diameter2 ? 1 : 0;
+    const api::Float4 d = store.separation(chunk.who[k], chunk.other[q]);
+    count += d.x * d.x + d.y * d.y + d.z * d.z < diameter2 ? 1 : 0;
   }
   return count;
 }
@@ -105,7 +101,7 @@ api::Float4 SolidContact::correctionOf(const ParticleStore& store, const Chunk& 
   for (uint32_t q = chunk.begin[k]; q < chunk.begin[k + 1]; ++q) {
     const uint32_t j = chunk.other[q];
     const api::Float4 b = position[j], bFrom = previous[j];
-    float nx = a.x - b.x, ny = a.y - b.y, nz = a.z - b.z;
+    auto [nx, ny, nz, unused] = store.separation(i, j);
     const float distance = std::sqrt(nx * nx + ny * ny + nz * nz), depth = diameter - distance;
     if (!(depth > 0) || !(distance > 0)) continue;
     nx /= distance, ny /= distance, nz /= distance;

@@ -5,9 +5,6 @@
 
 namespace ps {
 
-/// Extra reach of the neighbour lists, in spacings: they hold until a particle has moved half of it.
-inline constexpr double kSkinSpacings = 0.2;
-
 /// Contact of solid particles that no constraint ties together, with each other and with static ones: spheres of 0.95
 /// spacings, mass-weighted, Coulomb friction on the way of the substep (Macklin et al. 2014, sections 5 and 6.1),
 /// averaged over a particle's contacts. Sphere contact is bumpy: a box tips as if its base were one spacing narrower.

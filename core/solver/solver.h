@@ -54,6 +54,7 @@ class Solver {
   void setThermal(const ThermalSettings& settings, const api::ThermalPlugin* model, std::string name,
                   std::vector<double> modelParameters);
   void setWalls(std::vector<Wall> walls);
+  /// Throws InputError when a periodic box is too small for the reach of its particles; so does setSettings().
   void setBounds(const Bounds& bounds);
   /// What messages call the bodies, by index.
   void setBodyNames(std::vector<std::string> names);

@@ -56,6 +56,11 @@ struct Solver::Impl {
 
   void runFrame();
   void freshLists();
+  /// Whether something lies so many images away from the periodic box that single precision begins to tell.
+  bool strayed() const;
+  /// In a periodic box: brings back what has left it. What is tied together moves as one, and when it has strayed.
+  void comeHome();
+  void bringPiecesHome(const StructureGraph& graph);
   void keepLastGood();
   void backToLastGood();
   void listsChanged(bool newStructure);

@@ -104,7 +104,9 @@ void Solver::Impl::backToLastGood() {
 }
 
 void Solver::Impl::freshLists() {
+  if (store.period().any() && strayed()) reordered = true;
   if (reordered || neighbours.stale(store) || frame >= lastSort + kSortInterval) {
+    if (store.period().any()) comeHome();
     neighbours.sortAndBuild(store);
     constraints.remap(neighbours.lastOrder());
     lastSort = frame;
@@ -230,7 +232,8 @@ void Solver::Impl::checkBounds() {
     if (store.velocity()[i].w == 0) continue;
     float* c[3] = {&p.x, &p.y, &p.z};
     bool outside = false;
-    for (int a = 0; a < 3; ++a) {
+    for (size_t a = 0; a < 3; ++a) {
+      if (bounds.periodic[a]) continue;
       const float inside = static_cast<float>(std::clamp(double{*c[a]}, low[a], high[a]));
       outside = outside || inside != *c[a];
       if (*c[a] < low[a] || *c[a] > high[a]) *c[a] = inside;

@@ -12,6 +12,7 @@ namespace {
 using Point = std::array<double, 3>;
 constexpr double kContact = 0.75;  // spacings
 constexpr int kBounces = 4;
+constexpr double kMostBoxes = 1000;  ///< periods that a particle may cross in a substep and still be swept
 
 Point pointOf(const api::Float4& p) { return {p.x, p.y, p.z}; }
 double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
@@ -35,9 +36,12 @@ int SweptClamp::cellOf(double coordinate, int axis) const {
 
 void SweptClamp::refresh(const ParticleStore& store) {
   m_centers.clear();
+  m_period = store.period();
   const api::Motion* motion = store.motion();
   for (size_t i = 0; i < store.size(); ++i) {
-    if (motion[i] == api::Motion::Static) m_centers.push_back(pointOf(store.position()[i]));
+    if (motion[i] != api::Motion::Static) continue;
+    const api::Double3 p = store.wrappedPosition(i);
+    m_centers.push_back({p.x, p.y, p.z});
   }
   if (m_centers.empty()) return;
   m_low = m_high = m_centers[0];
@@ -82,11 +86,55 @@ bool SweptClamp::maySkip(const ParticleStore& store, const Neighbours& neighbour
 
 SweptClamp::Hit SweptClamp::firstHit(const Point& from, const Point& way) const {
   Hit hit;
+  if (!m_period.any()) {
+    firstHit(from, way, hit);
+    return hit;
+  }
+  // In pieces no longer than the box, so that each has few images.
+  double boxes = 1;
+  for (size_t a = 0; a < 3; ++a) boxes = std::max(boxes, std::abs(way[a]) * double{m_period.inverse(a)});
+  if (!(boxes < kMostBoxes)) return hit;
+  const int pieces = static_cast<int>(std::ceil(boxes));
+  Point part = way;
+  for (double& c : part) c /= pieces;
+  for (int k = 0; k < pieces && hit.time > 1; ++k) {
+    hit = {};
+    imagesHit(along(from, k, part), part, hit);
+    hit.time = hit.time <= 1 ? (k + hit.time) / pieces : 2;
+  }
+  return hit;
+}
+
+/// Tries all images of a way that meet the box of the static particles.
+void SweptClamp::imagesHit(const Point& from, const Point& way, Hit& hit) const {
+  std::array<int, 3> first{}, last{};
+  for (size_t a = 0; a < 3; ++a) {
+    if (!(m_period.length(a) > 0)) continue;
+    const double least = std::min(from[a], from[a] + way[a]) - m_radius,
+                 most = std::max(from[a], from[a] + way[a]) + m_radius;
+    first[a] = static_cast<int>(std::ceil((least - m_high[a]) * double{m_period.inverse(a)}));
+    last[a] = static_cast<int>(std::floor((most - m_low[a]) * double{m_period.inverse(a)}));
+  }
+  for (int z = first[2]; z <= last[2]; ++z) {
+    for (int y = first[1]; y <= last[1]; ++y) {
+      for (int x = first[0]; x <= last[0]; ++x) {
+        const Point shift{x * double{m_period.length(0)}, y * double{m_period.length(1)},
+                          z * double{m_period.length(2)}};
+        const double before = hit.time;
+        firstHit(minus(from, shift), way, hit);
+        if (hit.time < before) hit.center = along(hit.center, 1, shift);
+      }
+    }
+  }
+}
+
+/// Replaces `hit` by an earlier one.
+void SweptClamp::firstHit(const Point& from, const Point& way, Hit& hit) const {
   int low[3], high[3];
   for (size_t a = 0; a < 3; ++a) {
     const double least = std::min(from[a], from[a] + way[a]) - m_radius,
                  most = std::max(from[a], from[a] + way[a]) + m_radius;
-    if (!(most >= m_low[a]) || !(least <= m_high[a])) return hit;
+    if (!(most >= m_low[a]) || !(least <= m_high[a])) return;
     low[a] = cellOf(least, static_cast<int>(a));
     high[a] = cellOf(most, static_cast<int>(a));
   }
@@ -111,7 +159,6 @@ SweptClamp::Hit SweptClamp::firstHit(const Point& from, const Point& way) const 
       for (uint32_t k = begin; k < end; ++k) test(m_centers[k]);
     }
   }
-  return hit;
 }
 
 Point SweptClamp::sweep(Point from, Point way) const {

@@ -31,10 +31,13 @@ class SweptClamp {
   };
   bool maySkip(const ParticleStore& store, const Neighbours& neighbours, size_t i) const;
   Hit firstHit(const std::array<double, 3>& from, const std::array<double, 3>& way) const;
+  void firstHit(const std::array<double, 3>& from, const std::array<double, 3>& way, Hit& hit) const;
+  void imagesHit(const std::array<double, 3>& from, const std::array<double, 3>& way, Hit& hit) const;
   std::array<double, 3> sweep(std::array<double, 3> from, std::array<double, 3> way) const;
   int cellOf(double coordinate, int axis) const;
 
   double m_radius = 0, m_cell = 1, m_safeWay = 0;
+  Period m_period;
   std::array<double, 3> m_low{}, m_high{};
   std::array<int, 3> m_cells{1, 1, 1};
   std::vector<std::array<double, 3>> m_centers;  ///< in order of cell
