@@ -31,15 +31,16 @@ void moveBack(ParticleStore& store, size_t i, const Images& by) {
   }
 }
 
-bool isTied(const StructureGraph& graph, size_t i) {
-  return graph.begin[i + 1] > graph.begin[i] || graph.groupBegin[i + 1] > graph.groupBegin[i];
+bool movesNot(const ParticleStore& store, size_t i) {
+  const api::Float4& v = store.velocity()[i];
+  return v.w == 0 && v.x == 0 && v.y == 0 && v.z == 0;
 }
 
 }  // namespace
 
 bool Solver::Impl::strayed() const {
   for (size_t i = 0; i < store.size(); ++i) {
-    if (store.velocity()[i].w == 0) continue;
+    if (movesNot(store, i)) continue;
     const Images by = imagesOf(store, i);
     if (std::max({std::abs(by.x), std::abs(by.y), std::abs(by.z)}) > kFarImages) return true;
   }
@@ -49,11 +50,11 @@ bool Solver::Impl::strayed() const {
 void Solver::Impl::comeHome() {
   const StructureGraph& graph = constraints.graph(store.size());
   bool far = false;
-  for (size_t i = 0; i < store.size(); ++i) {
-    if (store.velocity()[i].w == 0) continue;
+  for (uint32_t i = 0; i < store.size(); ++i) {
+    if (movesNot(store, i)) continue;
     const Images by = imagesOf(store, i);
     if (by.x == 0 && by.y == 0 && by.z == 0) continue;
-    if (!isTied(graph, i))
+    if (graph.isFree(i))
       moveBack(store, i, by);
     else
       far = far || std::max({std::abs(by.x), std::abs(by.y), std::abs(by.z)}) > kFarImages;
@@ -88,12 +89,12 @@ void Solver::Impl::bringPiecesHome(const StructureGraph& graph) {
   for (uint32_t i = 0; i < n; ++i) {
     const uint32_t piece = find(i);
     if (leader[piece] == n || store.id()[i] < store.id()[leader[piece]]) leader[piece] = i;
-    if (store.velocity()[i].w == 0) held[piece] = 1;
+    if (movesNot(store, i)) held[piece] = 1;
   }
   std::vector<Images> by(n);
   for (uint32_t i = 0; i < n; ++i) by[i] = imagesOf(store, leader[find(i)]);
   for (uint32_t i = 0; i < n; ++i) {
-    if (isTied(graph, i) && held[find(i)] == 0) moveBack(store, i, by[i]);
+    if (!graph.isFree(i) && held[find(i)] == 0) moveBack(store, i, by[i]);
   }
 }
 

@@ -9,22 +9,20 @@
 namespace ps {
 namespace {
 constexpr size_t kGrain = 256;
-constexpr double kDiameter = 0.95;  // spacings
 /// Contacts of one particle usually lean apart, so half of them may act at full strength.
 constexpr int kRelaxation = 2;
-/// Ties of a particle inside a cubic lattice, six along the axes and twelve along the diagonals: its own structure
-/// fills all places around it, so that nothing else can touch it.
-constexpr size_t kEnclosed = 18;
 
 }  // namespace
 
 void SolidContact::configure(const SolverSettings& settings, std::span<const BakedMaterial> materials) {
-  m_diameter = kDiameter * settings.spacing;
+  m_diameter = kContactDiameter * settings.spacing;
   m_reach = m_diameter + kSkinSpacings * settings.spacing;
   m_halfSkin = 0.5 * kSkinSpacings * settings.spacing;
   m_friction.clear();
-  const int index = propertyIndex("friction_kinetic");
-  for (const BakedMaterial& m : materials) m_friction.push_back(index < 0 ? 0.3f : static_cast<float>(m.scalar(index)));
+  for (const BakedMaterial& m : materials) {
+    m_friction.push_back({static_cast<float>(m.scalar(propertyIndex("friction_static"))),
+                          static_cast<float>(m.scalar(propertyIndex("friction_kinetic")))});
+  }
 }
 
 void SolidContact::refresh(const ParticleStore& store, const Neighbours& neighbours, ConstraintSystem& constraints,
@@ -95,7 +93,7 @@ api::Float4 SolidContact::correctionOf(const ParticleStore& store, const Chunk& 
   const api::Float4 a = position[i], aFrom = previous[i];
   const float diameter = static_cast<float>(m_diameter);
   const auto frictionOf = [&](uint32_t p) {
-    return store.material()[p] < m_friction.size() ? m_friction[store.material()[p]] : 0.0f;
+    return store.material()[p] < m_friction.size() ? m_friction[store.material()[p]] : Friction{0, 0};
   };
   api::Float4 sum{0, 0, 0, 0};
   for (uint32_t q = chunk.begin[k]; q < chunk.begin[k + 1]; ++q) {
@@ -110,8 +108,10 @@ api::Float4 SolidContact::correctionOf(const ParticleStore& store, const Chunk& 
           tz = (a.z - aFrom.z) - (b.z - bFrom.z);
     const float along = tx * nx + ty * ny + tz * nz;
     tx -= along * nx, ty -= along * ny, tz -= along * nz;
-    const float way = std::sqrt(tx * tx + ty * ty + tz * tz), most = 0.5f * (frictionOf(i) + frictionOf(j)) * depth;
-    const float hold = way > most ? most / way : 1;
+    const float way = std::sqrt(tx * tx + ty * ty + tz * tz);
+    const Friction fi = frictionOf(i), fj = frictionOf(j);
+    const float resting = 0.5f * (fi.resting + fj.resting) * depth, sliding = 0.5f * (fi.sliding + fj.sliding) * depth;
+    const float hold = way > resting ? std::min(1.0f, sliding / way) : 1;
     const float share = velocity[i].w / (velocity[i].w + velocity[j].w) * kRelaxation /
                         static_cast<float>(std::max({m_contacts[i], m_contacts[j], uint8_t{kRelaxation}}));
     sum.x += share * (depth * nx - hold * tx);

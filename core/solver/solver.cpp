@@ -130,6 +130,7 @@ void Solver::Impl::configure() {
   wallStage.configure(settings, walls);
   swept.configure(settings);
   contact.configure(settings, table);
+  impacts.configure(settings, walls, table);
   rigid.configure(settings, walls, table);
   gas.configure(settings, thermal, table);
   heat.configure(thermal, settings, walls, table, model, modelParameters);
@@ -200,7 +201,7 @@ std::vector<uint32_t> Solver::spawn(const Spawn& spawn) {
   m->phase.initialise(store, first, last);
   for (size_t i = first; i < last && spawn.fixed; ++i) {
     store.motion()[i] = api::Motion::Static;
-    store.velocity()[i] = {0, 0, 0, 0};
+    store.velocity()[i].w = 0;
   }
   if (!spawn.constraintSets.empty()) {
     m->neighbours.build(store);

@@ -19,7 +19,7 @@ struct Spawn {
   uint32_t body = 0;
   double temperature = 293.15;  ///< K
   api::Phase phase = api::Phase::Liquid;
-  bool fixed = false;                    ///< static boundary particles
+  bool fixed = false;  ///< static boundary particles: they go on at their velocity, whatever they meet
   std::vector<uint32_t> constraintSets;  ///< built over the new particles
 };
 

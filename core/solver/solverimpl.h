@@ -3,6 +3,7 @@
 #include "core/solver/contact.h"
 #include "core/solver/density.h"
 #include "core/solver/gasforces.h"
+#include "core/solver/impacts.h"
 #include "core/solver/phasestage.h"
 #include "core/solver/rigidcontact.h"
 #include "core/solver/solver.h"
@@ -38,6 +39,7 @@ struct Solver::Impl {
   WallStage wallStage;
   SweptClamp swept;
   SolidContact contact;
+  Impacts impacts;
   RigidContact rigid;
   GasForces gas;
   HeatStage heat;

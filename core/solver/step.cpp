@@ -136,11 +136,10 @@ void Solver::Impl::predict(double dt) {
     const float keep = static_cast<float>(1 / (1 + settings.damping * dt)), step = static_cast<float>(dt);
     for (size_t i = first; i < last; ++i) {
       previous[i] = position[i];
-      velocity[i].x *= keep, velocity[i].y *= keep, velocity[i].z *= keep;
+      if (velocity[i].w > 0) velocity[i].x *= keep, velocity[i].y *= keep, velocity[i].z *= keep;
     }
     gas.apply(store, first, last, dt);
-    for (size_t i = first; i < last; ++i) {
-      if (velocity[i].w == 0) continue;
+    for (size_t i = first; i < last; ++i) {  // what is fixed moves too, at the velocity it was given
       position[i].x += step * velocity[i].x;
       position[i].y += step * velocity[i].y;
       position[i].z += step * velocity[i].z;
@@ -178,7 +177,10 @@ void Solver::Impl::substep(uint32_t index) {
     }
   });
   timed(Stage::Structure, [&] { constraints.predict(store, index); });
-  timed(Stage::Contact, [&] { rigid.begin(store); });
+  timed(Stage::Contact, [&] {
+    rigid.begin(store);
+    impacts.begin(store, contact, constraints, rigid.members());
+  });
   for (int iteration = 0; iteration < settings.iterations; ++iteration) {
     const uint32_t it = static_cast<uint32_t>(iteration);
     timed(Stage::Structure, [&] { constraints.projectStructure(store, index, it); });
@@ -186,6 +188,7 @@ void Solver::Impl::substep(uint32_t index) {
     timed(Stage::Structure, [&] { constraints.projectNeighbours(store, neighbours, index, it); });
     timed(Stage::Contact, [&] {
       contact.project(store);
+      impacts.project(store);
       wallStage.projectNear(store);
     });
     timed(Stage::Structure, [&] { constraints.projectGroups(store, index, it); });
@@ -199,7 +202,10 @@ void Solver::Impl::substep(uint32_t index) {
   });
   timed(Stage::Viscosity, [&] { viscosity.apply(store, neighbours, density); });
   timed(Stage::Structure, [&] { constraints.deriveVelocities(store, index); });
-  timed(Stage::Contact, [&] { rigid.bounce(store); });
+  timed(Stage::Contact, [&] {
+    impacts.bounce(store);
+    rigid.bounce(store);
+  });
   timed(Stage::Density, [&] { density.decayCompression(store, dt); });
 }
 

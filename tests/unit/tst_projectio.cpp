@@ -425,7 +425,7 @@ void TestProjectIo::schemaNamesEveryDeclaredKey() {
     QCOMPARE(properties.size(), list.count + others);
   };
   const json& properties = schema.at("properties");
-  expect(properties["environment"]["properties"], environmentParameters(), 3);
+  expect(properties["environment"]["properties"], environmentParameters(), 4);
   expect(properties["environment"]["properties"]["walls"]["items"]["properties"], wallParameters(), 4);
   expect(properties["solver"]["properties"], solverParameters(), 1);
   expect(schema["$defs"]["body"]["properties"], bodyParameters(), 8);

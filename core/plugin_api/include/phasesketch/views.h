@@ -2,8 +2,6 @@
 #pragma once
 #include <phasesketch/types.h>
 
-#include <cmath>
-
 namespace ps::api {
 
 /// Named fields of the particle store.
@@ -47,7 +45,8 @@ inline Float4 separation(const ParticleView& particles, size_t i, size_t j) {
   const auto shorten = [](float& c, double period) {
     if (!(period > 0)) return;
     const float length = static_cast<float>(period);
-    c -= length * std::round(c / length);
+    const float images = c / length;
+    c -= length * static_cast<float>(static_cast<int64_t>(images + (images < 0 ? -0.5f : 0.5f)));
   };
   shorten(d.x, particles.period.x);
   shorten(d.y, particles.period.y);
