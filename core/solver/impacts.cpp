@@ -3,13 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace ps {
 namespace {
 
 /// Ways in spacings: who goes farther in a substep is looked for beyond the pairs that contact knows; a pair that comes
 /// closer by more may pass through itself.
-constexpr double kFast = 0.25, kCrossing = 0.4;
+constexpr double kFast = 0.2, kCrossing = 0.4;
+/// Passes over all impacts of a substep, for those that share a particle.
+constexpr int kPasses = 4;
 constexpr double kMostCells = 1 << 20;  ///< along an axis
 
 }  // namespace
@@ -33,31 +36,55 @@ double Impacts::restitutionOf(const ParticleStore& store, uint32_t i) const {
   return material < m_restitution.size() ? m_restitution[material] : 0;
 }
 
-void Impacts::begin(const ParticleStore& store, const SolidContact& contact, ConstraintSystem& constraints,
-                    std::span<const uint8_t> rigid) {
+void Impacts::sweep(ParticleStore& store, ConstraintSystem& constraints, std::span<const uint8_t> rigid) {
   m_impacts.clear();
+  m_stops.clear();
+  findFast(store, constraints.graph(store.size()), rigid);
+  if (m_impacts.empty()) return;
+  sortByTime(store);
+  keepFirst(store);
+  for (const Impact& k : m_impacts) {
+    if (!k.crosses) continue;
+    for (const uint32_t i : {k.a, k.b}) {
+      if (store.velocity()[i].w > 0 && m_first[i] <= 1) stop(store, i);
+    }
+  }
+}
+
+/// Leaves a particle where it meets the first other one; bounce() gives back the rest of its velocity.
+void Impacts::stop(ParticleStore& store, uint32_t i) {
+  const double rest = 1 - m_first[i];
+  m_first[i] = 2;
+  const api::Float4 v = store.velocity()[i];
+  const Vector3 left = rest * vectorOf(v);
+  m_stops.push_back({i, left});
+  api::Float4& x = store.position()[i];
+  x.x -= static_cast<float>(m_dt * left.x);
+  x.y -= static_cast<float>(m_dt * left.y);
+  x.z -= static_cast<float>(m_dt * left.z);
+}
+
+void Impacts::collect(const ParticleStore& store, const SolidContact& contact, ConstraintSystem& constraints,
+                      std::span<const uint8_t> rigid) {
   const StructureGraph& graph = constraints.graph(store.size());
-  findWalls(store, rigid);
   Impact impact;
   contact.forPairs([&](uint32_t i, uint32_t j) {
-    if (test(store, graph, i, j, impact)) m_impacts.push_back(impact);
+    if (test(store, graph, i, j, impact) && !impact.crosses) m_impacts.push_back(impact);
   });
-  findFast(store, graph, rigid);
-  if (m_impacts.empty()) return;
+  findWalls(store, rigid);
+  if (!m_impacts.empty()) sortByTime(store);
+}
+
+/// A pair may have been found twice; what it says is the same.
+void Impacts::sortByTime(const ParticleStore& store) {
   const auto key = [&](const Impact& k) {
     const uint32_t a = store.id()[k.a], b = k.b == kNone ? kNone : store.id()[k.b];
-    return uint64_t{std::min(a, b)} << 32 | std::max(a, b);
+    return std::tuple(k.time, std::min(a, b), std::max(a, b), k.plane);
   };
-  std::stable_sort(m_impacts.begin(), m_impacts.end(), [&](const Impact& x, const Impact& y) {
-    return x.time != y.time ? x.time < y.time : key(x) < key(y);
-  });
-  // A pair may have been found twice; what it says is the same. Walls have no id: each of them counts.
+  std::sort(m_impacts.begin(), m_impacts.end(), [&](const Impact& x, const Impact& y) { return key(x) < key(y); });
   m_impacts.erase(std::unique(m_impacts.begin(), m_impacts.end(),
-                              [&](const Impact& x, const Impact& y) {
-                                return x.b != kNone && x.time == y.time && key(x) == key(y);
-                              }),
+                              [&](const Impact& x, const Impact& y) { return key(x) == key(y); }),
                   m_impacts.end());
-  keepFirst(store);
 }
 
 /// What a fast particle would have met behind its first impact it does not meet.
@@ -84,7 +111,8 @@ void Impacts::findWalls(const ParticleStore& store, std::span<const uint8_t> rig
   for (uint32_t i = 0; i < store.size(); ++i) {
     if (store.motion()[i] != api::Motion::Solid || rigid[i] != 0 || !(store.velocity()[i].w > 0)) continue;
     const Vector3 speed = vectorOf(store.velocity()[i]);
-    for (const Plane& p : m_planes) {
+    for (uint32_t plane = 0; plane < m_planes.size(); ++plane) {
+      const Plane& p = m_planes[plane];
       const double approach = dot(speed, p.normal);
       if (!(approach < -m_slowest)) continue;
       const double gap = std::max(0.0, dot(vectorOf(store.previous()[i]), p.normal) - p.offset);
@@ -92,7 +120,7 @@ void Impacts::findWalls(const ParticleStore& store, std::span<const uint8_t> rig
       if (time > 1) continue;
       // Gravity has acted for `time` of the substep when it touches, not for all of it.
       const double met = approach - (1 - time) * m_dt * dot(m_gravity, p.normal);
-      m_impacts.push_back({i, kNone, time, p.normal, met, restitutionOf(store, i), false, false});
+      m_impacts.push_back({i, kNone, plane, time, p.normal, met, restitutionOf(store, i), false, false});
     }
   }
 }
@@ -124,7 +152,7 @@ bool Impacts::test(const ParticleStore& store, const StructureGraph& graph, uint
   if (vj.w == 0) impact.approach -= (1 - time) * m_dt * dot(m_gravity, impact.normal);
   if (!(impact.approach < -m_slowest)) return false;
   if (graph.tied(i, j)) return false;
-  impact.a = i, impact.b = j, impact.time = time;
+  impact.a = i, impact.b = j, impact.plane = kNone, impact.time = time;
   impact.restitution = std::max(restitutionOf(store, i), restitutionOf(store, j));
   impact.crosses = -impact.approach * m_dt > kCrossing * m_spacing;
   impact.loose = graph.isFree(i) && graph.isFree(j);
@@ -215,46 +243,24 @@ void Impacts::findFast(const ParticleStore& store, const StructureGraph& graph, 
   }
 }
 
-void Impacts::project(ParticleStore& store) const {
-  for (const Impact& k : m_impacts) {
-    if (!k.crosses) continue;
-    // Against the way since the substep began: the pair may have crossed the nearest image long ago.
-    const api::Float4 &pa = store.previous()[k.a], &pb = store.previous()[k.b];
-    float x = pa.x - pb.x, y = pa.y - pb.y, z = pa.z - pb.z;
-    store.period().shorten(x, y, z);
-    api::Float4 &a = store.position()[k.a], &b = store.position()[k.b];
-    const Vector3 line = Vector3{x, y, z} + (vectorOf(a) - vectorOf(pa)) - (vectorOf(b) - vectorOf(pb));
-    const double depth = m_diameter - dot(line, k.normal);
-    if (!(depth > 0)) continue;
-    const double wa = store.velocity()[k.a].w, wb = store.velocity()[k.b].w;
-    const double push = depth / (wa + wb);
-    const auto move = [&](api::Float4& p, double by) {
-      p.x += static_cast<float>(by * k.normal.x);
-      p.y += static_cast<float>(by * k.normal.y);
-      p.z += static_cast<float>(by * k.normal.z);
-    };
-    move(a, wa * push);
-    move(b, -wb * push);
-  }
-}
-
 void Impacts::bounce(ParticleStore& store) const {
-  for (const Impact& k : m_impacts) {
-    api::Float4& va = store.velocity()[k.a];
-    Vector3 speed = vectorOf(va);
-    double weights = va.w;
-    if (k.b != kNone) speed = speed - vectorOf(store.velocity()[k.b]), weights += double{store.velocity()[k.b].w};
-    const double change = -k.restitution * k.approach - dot(speed, k.normal);
-    // Speed that only the removal of an overlap gave is taken out; what ties gave is theirs.
-    if (change < 0 && !k.loose) continue;
-    const double impulse = change / weights;
-    const auto give = [&](api::Float4& v, double by) {
-      v.x += static_cast<float>(by * k.normal.x);
-      v.y += static_cast<float>(by * k.normal.y);
-      v.z += static_cast<float>(by * k.normal.z);
-    };
-    give(va, impulse * double{va.w});
-    if (k.b != kNone) give(store.velocity()[k.b], -impulse * double{store.velocity()[k.b].w});
+  const auto give = [](api::Float4& v, Vector3 by) {
+    v.x += static_cast<float>(by.x), v.y += static_cast<float>(by.y), v.z += static_cast<float>(by.z);
+  };
+  for (const Stop& s : m_stops) give(store.velocity()[s.particle], s.left);
+  for (int pass = 0; pass < kPasses; ++pass) {
+    for (const Impact& k : m_impacts) {
+      api::Float4& va = store.velocity()[k.a];
+      Vector3 speed = vectorOf(va);
+      double weights = va.w;
+      if (k.b != kNone) speed = speed - vectorOf(store.velocity()[k.b]), weights += double{store.velocity()[k.b].w};
+      const double change = -k.restitution * k.approach - dot(speed, k.normal);
+      // Speed that only the removal of an overlap gave is taken out; what ties or another impact gave is theirs.
+      if (change < 0 && (pass > 0 || !k.loose)) continue;
+      const Vector3 impulse = change / weights * k.normal;
+      give(va, double{va.w} * impulse);
+      if (k.b != kNone) give(store.velocity()[k.b], -double{store.velocity()[k.b].w} * impulse);
+    }
   }
 }
 

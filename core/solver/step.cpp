@@ -165,6 +165,7 @@ void Solver::Impl::substep(uint32_t index) {
   const double dt = settings.dt / settings.substeps;
   timed(Stage::Contact, [&] {
     predict(dt);
+    impacts.sweep(store, constraints, rigid.members());
     wallStage.project(store);
   });
   timed(Stage::Neighbours, [&] {
@@ -179,7 +180,7 @@ void Solver::Impl::substep(uint32_t index) {
   timed(Stage::Structure, [&] { constraints.predict(store, index); });
   timed(Stage::Contact, [&] {
     rigid.begin(store);
-    impacts.begin(store, contact, constraints, rigid.members());
+    impacts.collect(store, contact, constraints, rigid.members());
   });
   for (int iteration = 0; iteration < settings.iterations; ++iteration) {
     const uint32_t it = static_cast<uint32_t>(iteration);
@@ -188,7 +189,6 @@ void Solver::Impl::substep(uint32_t index) {
     timed(Stage::Structure, [&] { constraints.projectNeighbours(store, neighbours, index, it); });
     timed(Stage::Contact, [&] {
       contact.project(store);
-      impacts.project(store);
       wallStage.projectNear(store);
     });
     timed(Stage::Structure, [&] { constraints.projectGroups(store, index, it); });

@@ -193,8 +193,10 @@ SweptClamp::Hit SweptClamp::firstHit(const Sweep& sweep) const {
 }
 
 Point SweptClamp::sweepOf(Sweep sweep) const {
+  Point carrier{};
   for (int bounce = 0; bounce <= kBounces; ++bounce) {
     const Hit hit = firstHit(sweep);
+    carrier = hit.way;
     if (hit.time > 1) return along(sweep.from, 1, sweep.way);
     sweep.from = along(sweep.from, hit.time, sweep.way);
     Point normal = minus(sweep.from, hit.center);
@@ -208,7 +210,7 @@ Point SweptClamp::sweepOf(Sweep sweep) const {
     sweep.way = along(sweep.way, -std::min(0.0, dot(apart, normal)), normal);
     if (m_longest == 0 && dot(sweep.way, sweep.way) < 1e-12 * m_radius * m_radius) return sweep.from;
   }
-  return sweep.from;
+  return along(sweep.from, sweep.span, carrier);  // wedged in: stays with what it met last
 }
 
 void SweptClamp::apply(ParticleStore& store, const Neighbours& neighbours, const WallStage& walls,
