@@ -3,6 +3,7 @@
 
 #include "core/matter/material.h"
 #include "core/plugin_host/registry.h"
+#include "core/solver/settings.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,6 +13,9 @@
 
 namespace ps {
 namespace {
+
+/// Share of a wall's normal along a periodic axis that rounding explains.
+constexpr double kLeaning = 1e-6;
 
 class ProjectChecker {
  public:
@@ -31,6 +35,7 @@ class ProjectChecker {
     for (size_t i = 0; i < m_project.emitters.size(); ++i) checkEmitter(m_project.emitters[i], at("/emitters", i));
     for (size_t i = 0; i < m_project.sinks.size(); ++i) checkSink(m_project.sinks[i], at("/sinks", i));
     checkEnvironment(m_project.environment);
+    checkPeriods();
     checkSolver(m_project.solver);
     for (size_t i = 0; i < m_project.probes.size(); ++i) checkProbe(m_project.probes[i], at("/probes", i));
     checkPinned();
@@ -249,7 +254,36 @@ class ProjectChecker {
   void checkEnvironment(const Environment& environment) const {
     requireBox(environment.boundsMinimum, environment.boundsMaximum, "/environment/bounds");
     for (size_t i = 0; i < environment.walls.size(); ++i) {
-      requireDirection(environment.walls[i].normal, at("/environment/walls", i) + "/normal");
+      const Vec3& n = environment.walls[i].normal;
+      const std::string normal = at("/environment/walls", i) + "/normal";
+      requireDirection(n, normal);
+      for (size_t a = 0; a < 3; ++a) {
+        if (!environment.periodic[a] || std::abs(n[a]) <= kLeaning * std::hypot(n[0], n[1], n[2])) continue;
+        fail(at(normal, a),
+             std::string("must be 0: the scene is periodic along ") + "xyz"[a] +
+                 ", and a wall that leans along it would not meet its own image; let gravity lean instead");
+      }
+    }
+  }
+
+  void checkPeriods() const {
+    const auto solver = [&](const char* key) { return numberOf(m_project.solver.parameters, solverParameters(), key); };
+    SolverSettings settings;
+    settings.spacing = solver("particle_spacing");
+    settings.supportRatio = solver("support_ratio");
+    const double least = leastPeriod(settings);
+    for (size_t a = 0; a < 3; ++a) {
+      const double edge = m_project.environment.boundsMaximum[a] - m_project.environment.boundsMinimum[a];
+      if (!m_project.environment.periodic[a] || edge >= least) continue;
+      fail(at("/environment/bounds/maximum", a),
+           std::string("the scene is periodic along ") + "xyz"[a] + ", so this edge, " + numberText(edge) +
+               " m, must be three times the reach of a particle or longer: " + numberText(least) + " m");
+    }
+  }
+
+  void requireDirection(const Vec3& v, const std::string& pointer) const {
+    if (!(std::hypot(v[0], v[1], v[2]) > 1e-6)) {
+      fail(pointer, "must have a direction: at least one part away from zero");
     }
   }
 

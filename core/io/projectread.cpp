@@ -199,6 +199,7 @@ Environment readEnvironment(json& value) {
     environment.boundsMaximum = inner.vector("maximum", environment.boundsMaximum);
     taker.keep("bounds", std::move(bounds));
   }
+  if (taker.has("periodic")) environment.periodic = taker.take("periodic").get<std::array<bool, 3>>();
   environment.walls = readList(taker, "walls", readWall);
   taker.parameters(environment.parameters, environmentParameters());
   environment.unknown = taker.rest();

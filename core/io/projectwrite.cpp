@@ -137,6 +137,7 @@ json writeEnvironment(const Environment& environment) {
             {{"minimum", jsonFromVector(environment.boundsMinimum)},
              {"maximum", jsonFromVector(environment.boundsMaximum)}}},
            {"walls", json::array()}};
+  if (environment.periodic != std::array<bool, 3>{}) out["periodic"] = environment.periodic;
   putParameters(out, environment.parameters);
   for (const SceneWall& wall : environment.walls) {
     json entry{{"id", wall.id}, {"point", jsonFromVector(wall.point)}, {"normal", jsonFromVector(wall.normal)}};

@@ -179,8 +179,17 @@ json environmentSchema() {
                            {"id", "point", "normal"}, "a half-space that particles cannot enter");
   const json bounds = object({{"minimum", vector3("m", "")}, {"maximum", vector3("m", "")}}, {"minimum", "maximum"},
                              "particles that leave this box are lost");
+  const json periodic{
+      {"type", "array"},
+      {"items", toggle("")},
+      {"minItems", 3},
+      {"maxItems", 3},
+      {"description",
+       "whether the bounds repeat along x, y and z: what leaves by one face comes in by the other; such "
+       "an edge is at least three times as long as particles reach, and no wall leans along it"}};
   return object(withParameters({{"gravity", vector3("m/s²", "gravity")},
                                 {"bounds", bounds},
+                                {"periodic", periodic},
                                 {"walls", listOf(wall, "floor, lid, sides of a tray")}},
                                environmentParameters()),
                 {}, "what surrounds the matter");

@@ -15,7 +15,25 @@ namespace ps {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-void SearchSlots(const SearchGrid& grid, size_t first, size_t last, uint32_t* counts, std::vector<uint32_t>& found) {
+/// Cells within one of `cell` along one axis as runs in ascending order, each with what its particles' distances need
+/// added: a period where the run lies beyond a face.
+struct Runs {
+  int count = 0, first[2], last[2];
+  float shift[2];
+  void add(int a, int b, float by) {
+    first[count] = a, last[count] = b, shift[count] = by;
+    ++count;
+  }
+  Runs(int cell, int cells, float period) {
+    const bool wraps = period > 0;
+    if (wraps && cell == cells - 1) add(0, 0, -period);
+    add(HWY_MAX(cell - 1, 0), HWY_MIN(cell + 1, cells - 1), 0);
+    if (wraps && cell == 0) add(cells - 1, cells - 1, period);
+  }
+};
+
+template <bool kPeriodic>
+void searchSlotsOf(const SearchGrid& grid, size_t first, size_t last, uint32_t* counts, std::vector<uint32_t>& found) {
   const hn::CappedTag<float, 16> d;
   const hn::RebindToSigned<decltype(d)> di;
   constexpr size_t kLanes = HWY_MIN(HWY_LANES(float), 16);
@@ -28,28 +46,55 @@ void SearchSlots(const SearchGrid& grid, size_t first, size_t last, uint32_t* co
     const auto px = hn::Set(d, grid.x[slot]), py = hn::Set(d, grid.y[slot]), pz = hn::Set(d, grid.z[slot]);
     const auto self = hn::Set(di, static_cast<int32_t>(slot));
     const size_t before = used;
-    for (int z = HWY_MAX(cz - 1, 0); z <= HWY_MIN(cz + 1, nz - 1); ++z) {
-      for (int y = HWY_MAX(cy - 1, 0); y <= HWY_MIN(cy + 1, ny - 1); ++y) {
-        const int row = (z * ny + y) * nx;
-        const uint32_t begin = grid.cellStart[row + HWY_MAX(cx - 1, 0)];
-        const uint32_t end = grid.cellStart[row + HWY_MIN(cx + 1, nx - 1) + 1];
-        if (found.size() < used + (end - begin) + 2 * kLanes) found.resize(used + (end - begin) + 256);
-        const auto stop = hn::Set(di, static_cast<int32_t>(end));
-        for (uint32_t k = begin; k < end; k += kLanes) {
-          const auto dx = hn::Sub(px, hn::LoadU(d, grid.x + k));
-          const auto dy = hn::Sub(py, hn::LoadU(d, grid.y + k));
-          const auto dz = hn::Sub(pz, hn::LoadU(d, grid.z + k));
-          const auto d2 = hn::Add(hn::Mul(dx, dx), hn::Add(hn::Mul(dy, dy), hn::Mul(dz, dz)));
-          const auto slots = hn::Add(iota, hn::Set(di, static_cast<int32_t>(k)));
-          const auto near = hn::RebindMask(di, hn::Lt(d2, radius2));
-          const auto wanted = hn::And(near, hn::AndNot(hn::Eq(slots, self), hn::Lt(slots, stop)));
-          used += hn::CompressStore(slots, wanted, di, reinterpret_cast<int32_t*>(found.data() + used));
+    const auto scan = [&](uint32_t begin, uint32_t end, float byX, float byY, float byZ) HWY_ATTR {
+      if (found.size() < used + (end - begin) + 2 * kLanes) found.resize(used + (end - begin) + 256);
+      const auto stop = hn::Set(di, static_cast<int32_t>(end));
+      for (uint32_t k = begin; k < end; k += kLanes) {
+        auto dx = hn::Sub(px, hn::LoadU(d, grid.x + k));
+        auto dy = hn::Sub(py, hn::LoadU(d, grid.y + k));
+        auto dz = hn::Sub(pz, hn::LoadU(d, grid.z + k));
+        if constexpr (kPeriodic) {
+          dx = hn::Add(dx, hn::Set(d, byX)), dy = hn::Add(dy, hn::Set(d, byY)), dz = hn::Add(dz, hn::Set(d, byZ));
         }
+        const auto d2 = hn::Add(hn::Mul(dx, dx), hn::Add(hn::Mul(dy, dy), hn::Mul(dz, dz)));
+        const auto slots = hn::Add(iota, hn::Set(di, static_cast<int32_t>(k)));
+        const auto near = hn::RebindMask(di, hn::Lt(d2, radius2));
+        const auto wanted = hn::And(near, hn::AndNot(hn::Eq(slots, self), hn::Lt(slots, stop)));
+        used += hn::CompressStore(slots, wanted, di, reinterpret_cast<int32_t*>(found.data() + used));
+      }
+    };
+    const auto scanRow = [&](int y, int z, int from, int to, float byX, float byY, float byZ) HWY_ATTR {
+      const int row = (z * ny + y) * nx;
+      scan(grid.cellStart[row + from], grid.cellStart[row + to + 1], byX, byY, byZ);
+    };
+    if constexpr (kPeriodic) {
+      const Runs xs(cx, nx, grid.period[0]), ys(cy, ny, grid.period[1]), zs(cz, nz, grid.period[2]);
+      for (int c = 0; c < zs.count; ++c) {
+        for (int z = zs.first[c]; z <= zs.last[c]; ++z) {
+          for (int b = 0; b < ys.count; ++b) {
+            for (int y = ys.first[b]; y <= ys.last[b]; ++y) {
+              for (int a = 0; a < xs.count; ++a)
+                scanRow(y, z, xs.first[a], xs.last[a], xs.shift[a], ys.shift[b], zs.shift[c]);
+            }
+          }
+        }
+      }
+    } else {
+      for (int z = HWY_MAX(cz - 1, 0); z <= HWY_MIN(cz + 1, nz - 1); ++z) {
+        for (int y = HWY_MAX(cy - 1, 0); y <= HWY_MIN(cy + 1, ny - 1); ++y)
+          scanRow(y, z, HWY_MAX(cx - 1, 0), HWY_MIN(cx + 1, nx - 1), 0, 0, 0);
       }
     }
     counts[slot - first] = static_cast<uint32_t>(used - before);
   }
   found.resize(used);
+}
+
+void SearchSlots(const SearchGrid& grid, size_t first, size_t last, uint32_t* counts, std::vector<uint32_t>& found) {
+  if (grid.period[0] > 0 || grid.period[1] > 0 || grid.period[2] > 0)
+    searchSlotsOf<true>(grid, first, last, counts, found);
+  else
+    searchSlotsOf<false>(grid, first, last, counts, found);
 }
 
 }  // namespace HWY_NAMESPACE

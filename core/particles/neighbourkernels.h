@@ -14,6 +14,7 @@ struct SearchGrid {
   const uint32_t* cellStart;  ///< first slot of each cell; one entry more than there are cells
   int cells[3];
   float radiusSquared;  ///< m2
+  float period[3];      ///< m, 0 along an open axis; else coordinates lie within one box, at least 3 cells long
 };
 
 /// Appends to `found` the slots closer than the radius to each slot of [first, last), ascending, without the slot

@@ -47,22 +47,31 @@ void Neighbours::assignCells(const ParticleStore& store) {
     m_origin[a] = low[a] <= high[a] ? double{low[a]} : 0;
     extent[a] = low[a] <= high[a] ? double{high[a]} - double{low[a]} : 0;
   }
-  // A hair more than the radius, so that rounding never puts two neighbours two cells apart; larger where a lonely
-  // particle stretches the grid.
-  m_cellSize = (m_support + m_skin) * 1.0001;
+  const Period& period = store.period();
+  // Cells are larger where a lonely particle stretches the grid. A periodic axis is cut into whole ones.
+  double cellSize = (m_support + m_skin) * kCellMargin;
   const double most = static_cast<double>(8 * n + 4096);
-  const auto cellsAlong = [&](int a) { return std::floor(extent[a] / m_cellSize) + 1; };
-  while (cellsAlong(0) * cellsAlong(1) * cellsAlong(2) > most) m_cellSize *= 1.25;
-  for (int a = 0; a < 3; ++a) m_cells[a] = static_cast<int>(cellsAlong(a));
+  const auto cellsAlong = [&](size_t a) {
+    if (period.length(a) > 0) return std::max(3.0, std::floor(double{period.length(a)} / cellSize));
+    return std::floor(extent[a] / cellSize) + 1;
+  };
+  while (cellsAlong(0) * cellsAlong(1) * cellsAlong(2) > most) cellSize *= 1.25;
+  for (size_t a = 0; a < 3; ++a) {
+    m_cells[a] = static_cast<int>(cellsAlong(a));
+    m_perCell[a] = 1 / cellSize;
+    if (!(period.length(a) > 0)) continue;
+    m_origin[a] = period.low(a);
+    m_perCell[a] = m_cells[a] * double{period.inverse(a)};
+  }
 
-  const double inverse = 1 / m_cellSize;
   m_cellOf.resize(n);
   m_cellStart.assign(
       static_cast<size_t>(m_cells[0]) * static_cast<size_t>(m_cells[1]) * static_cast<size_t>(m_cells[2]) + 1, 0);
   for (size_t i = 0; i < n; ++i) {
-    const int x = cellIndex(position[i].x, m_origin[0], inverse, m_cells[0]);
-    const int y = cellIndex(position[i].y, m_origin[1], inverse, m_cells[1]);
-    const int z = cellIndex(position[i].z, m_origin[2], inverse, m_cells[2]);
+    const api::Double3 p = store.wrappedPosition(i);
+    const int x = cellIndex(p.x, m_origin[0], m_perCell[0], m_cells[0]);
+    const int y = cellIndex(p.y, m_origin[1], m_perCell[1], m_cells[1]);
+    const int z = cellIndex(p.z, m_origin[2], m_perCell[2], m_cells[2]);
     m_cellOf[i] = static_cast<uint32_t>((z * m_cells[1] + y) * m_cells[0] + x);
     ++m_cellStart[m_cellOf[i] + 1];
   }
@@ -102,9 +111,10 @@ void Neighbours::searchLists(const ParticleStore& store) {
   for (std::vector<float>* v : {&m_x, &m_y, &m_z}) v->resize(n + kSpareSlots);
   for (size_t slot = 0; slot < n; ++slot) {
     const size_t i = indexOf(slot);
-    m_x[slot] = position[i].x;
-    m_y[slot] = position[i].y;
-    m_z[slot] = position[i].z;
+    const api::Double3 p = store.wrappedPosition(i);
+    m_x[slot] = static_cast<float>(p.x);
+    m_y[slot] = static_cast<float>(p.y);
+    m_z[slot] = static_cast<float>(p.z);
     m_cellOfSlot[slot] = m_cellOf[i];
   }
   const double radius = m_support + m_skin;
@@ -114,7 +124,8 @@ void Neighbours::searchLists(const ParticleStore& store) {
                         m_cellOfSlot.data(),
                         m_cellStart.data(),
                         {m_cells[0], m_cells[1], m_cells[2]},
-                        static_cast<float>(radius * radius)};
+                        static_cast<float>(radius * radius),
+                        {store.period().length(0), store.period().length(1), store.period().length(2)}};
   const size_t chunks = (n + kSlotsPerChunk - 1) / kSlotsPerChunk;
   if (m_chunks.size() < chunks) m_chunks.resize(chunks);
   m_counts.resize(n);

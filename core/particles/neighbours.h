@@ -7,7 +7,8 @@ namespace ps {
 /// Cell-sorted neighbour search (counting sort into cells of the search radius, rows of 27 cells).
 /// Lists hold all other particles within search radius = support + skin, in order of cell, padded to kListPad with
 /// the dummy index size(), one after another in order of index. They stay valid until a particle has moved half the
-/// skin.
+/// skin. Along a periodic axis of the store pairs are found across the faces of the box; it must be three times as long
+/// as the search radius (see leastPeriod()).
 class Neighbours {
  public:
   static constexpr size_t kListPad = 16;
@@ -24,6 +25,8 @@ class Neighbours {
 
   api::NeighbourView view() const;
   double support() const { return m_support; }
+  /// m, the shortest box that may repeat itself: no particle then meets another one twice.
+  static double leastPeriod(double searchRadius) { return 3 * kCellMargin * searchRadius; }
   /// Positions that the present lists were made for.
   std::span<const api::Float4> built() const { return m_built; }
 
@@ -44,7 +47,9 @@ class Neighbours {
   std::vector<api::Float4> m_built;
   std::vector<Chunk> m_chunks;
   bool m_sorted = false;
-  double m_origin[3] = {0, 0, 0}, m_cellSize = 1;
+  /// A hair more than the radius, so that rounding never puts two neighbours two cells apart.
+  static constexpr double kCellMargin = 1.0001;
+  double m_origin[3] = {0, 0, 0}, m_perCell[3] = {1, 1, 1};  ///< m, 1/m
   int m_cells[3] = {1, 1, 1};
 };
 

@@ -278,8 +278,10 @@ size_t ParticleStore::indexOf(uint32_t id) const {
 }
 
 api::ParticleView ParticleStore::view() const {
-  return {m_size,  m_position, m_previous,    m_velocity,      m_mass,           m_id,          m_material, m_body,
-          m_phase, m_motion,   m_temperature, m_solidFraction, m_liquidFraction, m_gasFraction, this};
+  return {m_size,           m_position,    m_previous,    m_velocity,
+          m_mass,           m_id,          m_material,    m_body,
+          m_phase,          m_motion,      m_temperature, m_solidFraction,
+          m_liquidFraction, m_gasFraction, this,          {m_period.length(0), m_period.length(1), m_period.length(2)}};
 }
 
 void ParticleStore::addTo(Hash& hash) const {

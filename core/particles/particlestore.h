@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "core/particles/period.h"
+
 #include <phasesketch/views.h>
 
 #include <cstddef>
@@ -64,6 +66,21 @@ class ParticleStore final : public api::FieldAccess {
   std::vector<FieldInfo> fields() const;
   void* find(const char* name, api::FieldType type) const noexcept override;
 
+  /// How the space around the particles repeats itself; open at first.
+  const Period& period() const { return m_period; }
+  void setPeriod(const Period& period) { m_period = period; }
+  /// From particle j to particle i, of the nearest images of the two; in m, w is 0.
+  api::Float4 separation(size_t i, size_t j) const {
+    const api::Float4 &a = m_position[i], &b = m_position[j];
+    api::Float4 d{a.x - b.x, a.y - b.y, a.z - b.z, 0};
+    m_period.shorten(d.x, d.y, d.z);
+    return d;
+  }
+  /// Position of a particle in m, or of its image within the periodic box.
+  api::Double3 wrappedPosition(size_t i) const {
+    return m_period.wrapped({m_position[i].x, m_position[i].y, m_position[i].z});
+  }
+
   api::Float4* position() const { return m_position; }
   api::Float4* previous() const { return m_previous; }
   api::Float4* velocity() const { return m_velocity; }
@@ -112,6 +129,7 @@ class ParticleStore final : public api::FieldAccess {
   };
   std::unique_ptr<std::byte[], AlignedDelete> m_scratch;
   size_t m_scratchBytes = 0;
+  Period m_period;
   std::vector<uint32_t> m_indexOfId;
   size_t m_size = 0, m_capacity = 0;
   uint32_t m_nextId = 0;

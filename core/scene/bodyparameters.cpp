@@ -16,8 +16,8 @@ constexpr api::ParameterDeclaration kBody[] = {
            {"Start", "Phase when the scene begins; automatic takes the one that is stable at the temperature.",
             "at exactly 0 °C: solid for ice, liquid for water", ""}),
     toggle({"fixed", "Held in place", "", ""}, false,
-           {"Start", "Keeps every particle where it is; heat still flows through it.",
-            "a pan, a mould, a rock in a stream", ""}),
+           {"Start", "Nothing moves it: it stands, or goes on at its velocity. Heat still flows through it.",
+            "a pan, a mould, a rock in a stream, a paddle", ""}),
     number({"jitter", "Disorder", "", ""}, {0, 0, 0.3, 0, 0.5},
            {"Start",
             "How far each particle stands off its place in the lattice at the start, along each axis, as a share of "

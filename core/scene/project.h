@@ -142,6 +142,8 @@ struct Environment {
   ParameterSet parameters;  ///< see environmentParameters()
   Vec3 gravity{0, -9.81, 0};
   Vec3 boundsMinimum{-1, 0, -1}, boundsMaximum{1, 2, 1};  ///< m
+  std::array<bool, 3>
+      periodic{};  ///< axes along which the bounds repeat: what leaves by one face comes in by the other
   std::vector<SceneWall> walls;
   Unknown unknown;
 };

@@ -187,7 +187,8 @@ std::vector<Wall> compileWalls(const Project& project) {
 }
 
 Bounds compileBounds(const Project& project) {
-  return {double3(project.environment.boundsMinimum), double3(project.environment.boundsMaximum)};
+  const Environment& environment = project.environment;
+  return {double3(environment.boundsMinimum), double3(environment.boundsMaximum), environment.periodic};
 }
 
 std::vector<Material> compileMaterials(const Project& project, const PluginRegistry& plugins,

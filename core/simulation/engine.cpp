@@ -186,7 +186,9 @@ void Engine::Impl::build() {
   setThermal();
   const bool regions = std::any_of(project.probes.begin(), project.probes.end(),
                                    [](const Probe& probe) { return probe.region.has_value(); });
-  TakenPlaces taken(kOverlap * spacing, static_cast<size_t>(count));
+  const Bounds bounds = compileBounds(project);
+  TakenPlaces taken(kOverlap * spacing, static_cast<size_t>(count),
+                    Period(bounds.minimum, bounds.maximum, bounds.periodic));
   for (const Body& body : project.bodies) {
     bodyIndex(body.id);  // of one without particles too
     size_t dropped = 0;

@@ -28,15 +28,10 @@ uint64_t mixed(uint64_t x) {
   return x ^ (x >> 31);
 }
 
-api::Double3 positionOf(const ParticleStore& store, size_t i) {
-  const api::Float4& p = store.position()[i];
-  return {p.x, p.y, p.z};
-}
-
 }  // namespace
 
-TakenPlaces::TakenPlaces(double clearance, size_t expected)
-    : m_clearance(clearance), m_first(std::bit_ceil(std::max<size_t>(expected, 16)), kNone) {
+TakenPlaces::TakenPlaces(double clearance, size_t expected, const Period& period)
+    : m_period(period), m_clearance(clearance), m_first(std::bit_ceil(std::max<size_t>(expected, 16)), kNone) {
   m_points.reserve(expected);
   m_next.reserve(expected);
 }
@@ -48,14 +43,40 @@ size_t TakenPlaces::slotOf(const CellIndex& cell) const {
   return static_cast<size_t>(hash >> 32) & (m_first.size() - 1);
 }
 
-void TakenPlaces::add(const api::Double3& p) {
+void TakenPlaces::add(const api::Double3& place) {
+  const api::Double3 p = m_period.wrapped(place);
   uint32_t& first = m_first[slotOf(cellAt(p, {0, 0, 0}, 2 * m_clearance))];
   m_next.push_back(first);
   first = static_cast<uint32_t>(m_points.size());
   m_points.push_back(p);
 }
 
-bool TakenPlaces::isFree(const api::Double3& p) const {
+bool TakenPlaces::isFree(const api::Double3& place) const {
+  const api::Double3 p = m_period.wrapped(place);
+  if (!m_period.any()) return isFreeHere(p);
+  // Near a face of a periodic box the points beyond it count too.
+  const double at[3] = {p.x, p.y, p.z};
+  double shift[3][2] = {};
+  int images[3] = {1, 1, 1};
+  for (size_t a = 0; a < 3; ++a) {
+    const double length = m_period.length(a);
+    if (!(length > 0)) continue;
+    if (at[a] - m_period.low(a) < m_clearance)
+      shift[a][images[a]++] = length;
+    else if (m_period.low(a) + length - at[a] < m_clearance)
+      shift[a][images[a]++] = -length;
+  }
+  for (int z = 0; z < images[2]; ++z) {
+    for (int y = 0; y < images[1]; ++y) {
+      for (int x = 0; x < images[0]; ++x) {
+        if (!isFreeHere({p.x + shift[0][x], p.y + shift[1][y], p.z + shift[2][z]})) return false;
+      }
+    }
+  }
+  return true;
+}
+
+bool TakenPlaces::isFreeHere(const api::Double3& p) const {
   const double r = m_clearance;
   const CellIndex low = cellAt({p.x - r, p.y - r, p.z - r}, {0, 0, 0}, 2 * r),
                   high = cellAt({p.x + r, p.y + r, p.z + r}, {0, 0, 0}, 2 * r);
@@ -148,8 +169,8 @@ std::vector<api::Double3> cellCentres(const VoxelShape& voxels, double spacing, 
 
 std::vector<api::Double3> freePositions(const ParticleStore& store, const std::vector<api::Double3>& positions,
                                         double clearance) {
-  TakenPlaces taken(clearance, store.size() + positions.size());
-  for (size_t i = 0; i < store.size(); ++i) taken.add(positionOf(store, i));
+  TakenPlaces taken(clearance, store.size() + positions.size(), store.period());
+  for (size_t i = 0; i < store.size(); ++i) taken.add(store.wrappedPosition(i));
   std::vector<api::Double3> free;
   for (const api::Double3& p : positions) {
     if (!taken.isFree(p)) continue;
@@ -165,7 +186,7 @@ std::vector<uint32_t> idsInCells(const ParticleStore& store, const VoxelShape& v
   const Vec3 origin{voxels.origin[0] - hair, voxels.origin[1] - hair, voxels.origin[2] - hair};
   std::vector<uint32_t> ids;
   for (size_t i = 0; i < store.size(); ++i) {
-    const CellIndex cell = cellAt(positionOf(store, i), origin, voxels.spacing);
+    const CellIndex cell = cellAt(store.wrappedPosition(i), origin, voxels.spacing);
     if (std::binary_search(cells.begin(), cells.end(), cell)) ids.push_back(store.id()[i]);
   }
   std::sort(ids.begin(), ids.end());

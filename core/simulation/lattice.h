@@ -30,14 +30,17 @@ std::vector<api::Double3> cellCentres(const VoxelShape& voxels, double spacing, 
 /// the order of its points nor on the table's size.
 class TakenPlaces {
  public:
-  /// `clearance` in m; `expected` points make the table long enough, more make it slower.
-  TakenPlaces(double clearance, size_t expected);
+  /// `clearance` in m; `expected` points make the table long enough, more make it slower. In a periodic box distances
+  /// are those of the nearest images.
+  TakenPlaces(double clearance, size_t expected, const Period& period = {});
   void add(const api::Double3& p);
   bool isFree(const api::Double3& p) const;  ///< no point nearer than `clearance`
 
  private:
   static constexpr uint32_t kNone = ~0u;
+  bool isFreeHere(const api::Double3& p) const;
   size_t slotOf(const CellIndex& cell) const;
+  Period m_period;
   double m_clearance;
   std::vector<uint32_t> m_first, m_next;  ///< indices of points
   std::vector<api::Double3> m_points;

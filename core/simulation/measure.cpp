@@ -73,6 +73,7 @@ FrameStats measure(const Solver& solver, const StepReport& report) {
 void fillSnapshot(Snapshot& snapshot, const Solver& solver) {
   const ParticleStore& store = solver.particles();
   const size_t n = store.size();
+  snapshot.period = store.period();
   snapshot.position.resize(n);
   snapshot.temperature.resize(n);
   snapshot.speed.resize(n);
@@ -84,8 +85,10 @@ void fillSnapshot(Snapshot& snapshot, const Solver& solver) {
   snapshot.body.assign(store.body(), store.body() + n);
   snapshot.material.assign(store.material(), store.material() + n);
   for (size_t i = 0; i < n; ++i) {
-    const api::Float4& p = store.position()[i];
-    snapshot.position[i] = {p.x, p.y, p.z, std::cbrt(p.w * 0.75f / std::numbers::pi_v<float>)};
+    const api::Double3 p = store.wrappedPosition(i);
+    const float volume = store.position()[i].w;
+    snapshot.position[i] = {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z),
+                            std::cbrt(volume * 0.75f / std::numbers::pi_v<float>)};
     snapshot.temperature[i] = static_cast<float>(store.temperature()[i]);
     snapshot.speed[i] = static_cast<float>(std::sqrt(squaredSpeed(store.velocity()[i])));
   }

@@ -47,6 +47,7 @@ struct Snapshot {
   double spacing = 0;     ///< m, of the particles; the project's may be another until the next reset
   StepFlags flags = 0;
   std::vector<Limit> limits;
+  Period period;                      ///< positions lie within its box: one that jumps by it has crossed a face
   std::vector<api::Float4> position;  ///< m; w: radius of a sphere of the rest volume, m
   std::vector<float> temperature;     ///< K
   std::vector<float> speed;           ///< m/s

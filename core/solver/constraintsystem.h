@@ -24,6 +24,7 @@ class Hash;
 struct StructureGraph {
   std::vector<uint32_t> begin, partner;
   std::vector<uint32_t> groupBegin, group;  ///< groups of each particle, ascending
+  bool isFree(uint32_t i) const { return begin[i + 1] == begin[i] && groupBegin[i + 1] == groupBegin[i]; }
   size_t ties(uint32_t i) const { return i + size_t{1} < begin.size() ? begin[i + 1] - begin[i] : 0; }
   bool tied(uint32_t i, uint32_t j) const {
     if (i + size_t{1} >= begin.size()) return false;

@@ -9,22 +9,20 @@
 namespace ps {
 namespace {
 constexpr size_t kGrain = 256;
-constexpr double kDiameter = 0.95;  // spacings
 /// Contacts of one particle usually lean apart, so half of them may act at full strength.
 constexpr int kRelaxation = 2;
-/// Ties of a particle inside a cubic lattice, six along the axes and twelve along the diagonals: its own structure
-/// fills all places around it, so that nothing else can touch it.
-constexpr size_t kEnclosed = 18;
 
 }  // namespace
 
 void SolidContact::configure(const SolverSettings& settings, std::span<const BakedMaterial> materials) {
-  m_diameter = kDiameter * settings.spacing;
+  m_diameter = kContactDiameter * settings.spacing;
   m_reach = m_diameter + kSkinSpacings * settings.spacing;
   m_halfSkin = 0.5 * kSkinSpacings * settings.spacing;
   m_friction.clear();
-  const int index = propertyIndex("friction_kinetic");
-  for (const BakedMaterial& m : materials) m_friction.push_back(index < 0 ? 0.3f : static_cast<float>(m.scalar(index)));
+  for (const BakedMaterial& m : materials) {
+    m_friction.push_back({static_cast<float>(m.scalar(propertyIndex("friction_static"))),
+                          static_cast<float>(m.scalar(propertyIndex("friction_kinetic")))});
+  }
 }
 
 void SolidContact::refresh(const ParticleStore& store, const Neighbours& neighbours, ConstraintSystem& constraints,
@@ -41,7 +39,6 @@ void SolidContact::refresh(const ParticleStore& store, const Neighbours& neighbo
   if (m_solids.empty()) return;
   const StructureGraph& graph = constraints.graph(store.size());
   const api::NeighbourView view = neighbours.view();
-  const api::Float4* position = store.position();
   const float reach2 = static_cast<float>(m_reach * m_reach);
   const size_t chunks = (m_solids.size() + kGrain - 1) / kGrain;
   m_chunks.resize(std::max(m_chunks.size(), chunks));
@@ -57,9 +54,8 @@ void SolidContact::refresh(const ParticleStore& store, const Neighbours& neighbo
       for (uint32_t q = view.begin[i]; q < view.last[i]; ++q) {
         const uint32_t j = view.index[q];
         if ((motion[j] != api::Motion::Solid && motion[j] != api::Motion::Static) || rigid[j] != 0) continue;
-        const float x = position[i].x - position[j].x, y = position[i].y - position[j].y,
-                    z = position[i].z - position[j].z;
-        if (x * x + y * y + z * z < reach2 && !graph.tied(i, j)) chunk.other.push_back(j);
+        const api::Float4 d = store.separation(i, j);
+        if (d.x * d.x + d.y * d.y + d.z * d.z < reach2 && !graph.tied(i, j)) chunk.other.push_back(j);
       }
       if (chunk.other.size() == before) continue;
       chunk.who.push_back(i);
@@ -82,13 +78,11 @@ bool SolidContact::stale(const ParticleStore& store) const {
 }
 
 size_t SolidContact::touching(const ParticleStore& store, const Chunk& chunk, size_t k) const {
-  const api::Float4 a = store.position()[chunk.who[k]];
   const float diameter2 = static_cast<float>(m_diameter * m_diameter);
   size_t count = 0;
   for (uint32_t q = chunk.begin[k]; q < chunk.begin[k + 1]; ++q) {
-    const api::Float4 b = store.position()[chunk.other[q]];
-    const float x = a.x - b.x, y = a.y - b.y, z = a.z - b.z;
-    count += x * x + y * y + z * z < diameter2 ? 1 : 0;
+    const api::Float4 d = store.separation(chunk.who[k], chunk.other[q]);
+    count += d.x * d.x + d.y * d.y + d.z * d.z < diameter2 ? 1 : 0;
   }
   return count;
 }
@@ -99,13 +93,13 @@ api::Float4 SolidContact::correctionOf(const ParticleStore& store, const Chunk& 
   const api::Float4 a = position[i], aFrom = previous[i];
   const float diameter = static_cast<float>(m_diameter);
   const auto frictionOf = [&](uint32_t p) {
-    return store.material()[p] < m_friction.size() ? m_friction[store.material()[p]] : 0.0f;
+    return store.material()[p] < m_friction.size() ? m_friction[store.material()[p]] : Friction{0, 0};
   };
   api::Float4 sum{0, 0, 0, 0};
   for (uint32_t q = chunk.begin[k]; q < chunk.begin[k + 1]; ++q) {
     const uint32_t j = chunk.other[q];
     const api::Float4 b = position[j], bFrom = previous[j];
-    float nx = a.x - b.x, ny = a.y - b.y, nz = a.z - b.z;
+    auto [nx, ny, nz, unused] = store.separation(i, j);
     const float distance = std::sqrt(nx * nx + ny * ny + nz * nz), depth = diameter - distance;
     if (!(depth > 0) || !(distance > 0)) continue;
     nx /= distance, ny /= distance, nz /= distance;
@@ -114,8 +108,10 @@ api::Float4 SolidContact::correctionOf(const ParticleStore& store, const Chunk& 
           tz = (a.z - aFrom.z) - (b.z - bFrom.z);
     const float along = tx * nx + ty * ny + tz * nz;
     tx -= along * nx, ty -= along * ny, tz -= along * nz;
-    const float way = std::sqrt(tx * tx + ty * ty + tz * tz), most = 0.5f * (frictionOf(i) + frictionOf(j)) * depth;
-    const float hold = way > most ? most / way : 1;
+    const float way = std::sqrt(tx * tx + ty * ty + tz * tz);
+    const Friction fi = frictionOf(i), fj = frictionOf(j);
+    const float resting = 0.5f * (fi.resting + fj.resting) * depth, sliding = 0.5f * (fi.sliding + fj.sliding) * depth;
+    const float hold = way > resting ? std::min(1.0f, sliding / way) : 1;
     const float share = velocity[i].w / (velocity[i].w + velocity[j].w) * kRelaxation /
                         static_cast<float>(std::max({m_contacts[i], m_contacts[j], uint8_t{kRelaxation}}));
     sum.x += share * (depth * nx - hold * tx);

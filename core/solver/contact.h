@@ -5,12 +5,14 @@
 
 namespace ps {
 
-/// Extra reach of the neighbour lists, in spacings: they hold until a particle has moved half of it.
-inline constexpr double kSkinSpacings = 0.2;
+/// Solid particles meet as spheres of this diameter, in spacings.
+inline constexpr double kContactDiameter = 0.95;
 
-/// Contact of solid particles that no constraint ties together, with each other and with static ones: spheres of 0.95
-/// spacings, mass-weighted, Coulomb friction on the way of the substep (Macklin et al. 2014, sections 5 and 6.1),
-/// averaged over a particle's contacts. Sphere contact is bumpy: a box tips as if its base were one spacing narrower.
+/// Contact of solid particles that no constraint ties together, with each other and with static ones: spheres,
+/// mass-weighted, averaged over a particle's contacts. Friction acts on the way of the substep (Macklin et al. 2014,
+/// eq. 24): all of it is taken back within the static cone, else as much as the kinetic one allows; a pair has the mean
+/// of its materials' coefficients, as RigidContact. Sphere contact is bumpy: a box tips as if its base were one spacing
+/// narrower.
 class SolidContact {
  public:
   void configure(const SolverSettings& settings, std::span<const BakedMaterial> materials);
@@ -22,8 +24,24 @@ class SolidContact {
   /// neighbour lists far more often than solids ask for new pairs.
   bool stale(const ParticleStore& store) const;
   void project(ParticleStore& store);
+  /// visit(i, j) for every pair that may touch, i a solid; pairs of two solids may come from both sides.
+  template <class Visit>
+  void forPairs(Visit&& visit) const {
+    if (!m_any) return;
+    for (const Chunk& chunk : m_chunks) {
+      for (size_t k = 0; k < chunk.who.size(); ++k) {
+        for (uint32_t q = chunk.begin[k]; q < chunk.begin[k + 1]; ++q) visit(chunk.who[k], chunk.other[q]);
+      }
+    }
+  }
+  /// Ties of a particle inside a cubic lattice, six along the axes and twelve along the diagonals: its own structure
+  /// fills all places around it, so that nothing else can touch it.
+  static constexpr size_t kEnclosed = 18;
 
  private:
+  struct Friction {
+    float resting, sliding;
+  };
   struct Chunk {
     std::vector<uint32_t> who, begin, other;
     std::vector<api::Float4> correction;
@@ -32,7 +50,7 @@ class SolidContact {
   size_t touching(const ParticleStore& store, const Chunk& chunk, size_t k) const;
 
   double m_diameter = 0, m_reach = 0, m_halfSkin = 0;
-  std::vector<float> m_friction;  ///< per material
+  std::vector<Friction> m_friction;  ///< per material
   std::vector<Chunk> m_chunks;
   std::vector<uint32_t> m_solids;
   std::vector<api::Float4> m_found;  ///< where the solids were when the pairs were found

@@ -72,10 +72,10 @@ void DensityStage::configure(const SolverSettings& settings, const std::vector<W
   m_halfSpace = HalfSpaceTable(kernel);
 }
 
-PairLists DensityStage::lists(const Neighbours& neighbours) const {
+PairLists DensityStage::lists(const ParticleStore& store, const Neighbours& neighbours) const {
   const api::NeighbourView view = neighbours.view();
-  return {view.begin, view.last,         view.end,
-          view.index, m_settings.kernel, static_cast<float>(1 / (m_support * m_support))};
+  const float inverseSquare = static_cast<float>(1 / (m_support * m_support));
+  return {view.begin, view.last, view.end, view.index, m_settings.kernel, inverseSquare, store.period()};
 }
 
 void DensityStage::refresh(const ParticleStore& store, const Neighbours& neighbours) {
@@ -96,7 +96,7 @@ void DensityStage::refresh(const ParticleStore& store, const Neighbours& neighbo
   m_volume[n] = m_weight[n] = 0;
   refreshLists(store, neighbours);
   if (m_fluid.empty()) return;
-  const PairLists pairs = lists(neighbours);
+  const PairLists pairs = lists(store, neighbours);
   solidVolumes(store, pairs, api::Motion::Solid, kSolidLeast, kSolidMost);
   solidVolumes(store, pairs, api::Motion::Static, kStaticLeast, kStaticMost);
   const float scale = static_cast<float>(m_scale);
@@ -217,7 +217,7 @@ void DensityStage::move(ParticleStore& store, const PairLists& pairs, float cheb
 
 void DensityStage::project(ParticleStore& store, const Neighbours& neighbours, int iteration) {
   if (m_fluid.empty()) return;
-  const PairLists pairs = lists(neighbours);
+  const PairLists pairs = lists(store, neighbours);
   const double wanted = m_settings.relaxation;
   const float relaxation =
       static_cast<float>(m_settings.iterations == 1 ? std::min(wanted, kSingleStepRelaxation) : wanted);
@@ -249,7 +249,7 @@ DensityError DensityStage::measure(ParticleStore& store, const Neighbours& neigh
   m_sums.resize(std::max(m_sums.size(), fluids));
   m_constraints.resize(fluids);
   m_excess.resize(fluids);
-  const PairLists pairs = lists(neighbours);
+  const PairLists pairs = lists(store, neighbours);
   forChunks(fluids, kGrain, [&](size_t first, size_t last) {
     multipliers(store, pairs, static_cast<float>(m_settings.relaxation), first, last);
   });
@@ -272,7 +272,7 @@ DensityError DensityStage::measure(ParticleStore& store, const Neighbours& neigh
 void DensityStage::handOver(ParticleStore& store, const Neighbours& neighbours, std::span<const uint32_t> melted) {
   if (melted.empty()) return;
   loadPoints(store);
-  const PairLists pairs = lists(neighbours);
+  const PairLists pairs = lists(store, neighbours);
   m_sums.resize(std::max(m_sums.size(), melted.size()));
   forChunks(melted.size(), kGrain, [&](size_t first, size_t last) {
     sumDensity(pairs, m_points.data(), m_weight.data(), melted.data(), first, last, m_sums.data());

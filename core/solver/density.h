@@ -54,7 +54,7 @@ class DensityStage {
   std::span<const uint32_t> fluid() const { return m_fluid; }
   /// Solid particles that have a fluid neighbour, ascending.
   std::span<const uint32_t> wetSolids() const { return m_wet; }
-  PairLists lists(const Neighbours& neighbours) const;
+  PairLists lists(const ParticleStore& store, const Neighbours& neighbours) const;
   /// Volumes as the density sum counts them, times kernelScale(); by particle, with the dummy's 0 at the end.
   std::span<const float> volumes() const { return m_volume; }
   double kernelScale() const { return m_scale; }  ///< 1/m3: W = scale * w(q)

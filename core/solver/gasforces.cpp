@@ -43,9 +43,9 @@ float GasForces::filled(const ParticleStore& store, const api::NeighbourView& li
   for (uint32_t k = lists.begin[i]; k < lists.last[i]; ++k) {
     const uint32_t j = lists.index[k];
     if (withLiquid && store.motion()[j] != api::Motion::Liquid) continue;
-    const api::Float4 xj = store.position()[j];
-    const double dx = double{xi.x} - double{xj.x}, dy = double{xi.y} - double{xj.y}, dz = double{xi.z} - double{xj.z};
-    around += double{xj.w} * kernel.value(std::sqrt(dx * dx + dy * dy + dz * dz));
+    const api::Float4 d = store.separation(i, j);
+    const double dx = d.x, dy = d.y, dz = d.z;
+    around += double{store.position()[j].w} * kernel.value(std::sqrt(dx * dx + dy * dy + dz * dz));
   }
   const double own = double{xi.w} * kernel.value(0);
   return static_cast<float>(std::min(1.0, around / std::max(0.2, 1 - own)));

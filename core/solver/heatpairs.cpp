@@ -47,7 +47,9 @@ void HeatPairs::build(const ParticleStore& store, const api::NeighbourView& list
     }
   };
   parallelFor(n, kGrain, std::cref(matter));
-  const auto first = [&](size_t a, size_t b) { measure(store, lists, a, b); };
+  const auto first = [&](size_t a, size_t b) {
+    store.period().any() ? measure<true>(store, lists, a, b) : measure<false>(store, lists, a, b);
+  };
   parallelFor(n, kGrain, std::cref(first));
   const auto second = [this](size_t a, size_t b) { conduct(a, b); };
   parallelFor(n, kGrain, std::cref(second));
@@ -95,10 +97,12 @@ float HeatPairs::condensedAround(const ParticleStore& store, size_t i) const {
   return static_cast<float>(std::min(1.0, around / std::max(0.2, 1 - double{store.position()[i].w} * self)));
 }
 
+template <bool kPeriodic>
 void HeatPairs::measure(const ParticleStore& store, const api::NeighbourView& lists, size_t first, size_t last) {
   const float limit = static_cast<float>(m_options.support * m_options.support), tiny = 1e-12f * limit;
   const api::Float4* x = store.position();
   const uint32_t* material = store.material();
+  const Period& period = store.period();
   const float selfKernel = static_cast<float>(Kernel(m_options.kernel, m_options.support).value(0));
   for (size_t i = first; i < last; ++i) {
     uint32_t front = lists.begin[i], back = lists.end[i];
@@ -106,7 +110,10 @@ void HeatPairs::measure(const ParticleStore& store, const api::NeighbourView& li
     end[i] = back;
     const api::Float4 xi = x[i];
     const auto square = [&](uint32_t j) {
-      const float dx = xi.x - x[j].x, dy = xi.y - x[j].y, dz = xi.z - x[j].z;
+      float dx = xi.x - x[j].x, dy = xi.y - x[j].y, dz = xi.z - x[j].z;
+      if constexpr (kPeriodic) {
+        dx = period.shortest(dx, 0), dy = period.shortest(dy, 1), dz = period.shortest(dz, 2);
+      }
       return std::max(dx * dx + dy * dy + dz * dz, tiny);
     };
     if (m_oneMaterial) {  // without a branch: entries of the skin are written and overwritten

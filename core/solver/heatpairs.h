@@ -39,6 +39,7 @@ class HeatPairs {
 
  private:
   void prepare(size_t count, size_t slots);
+  template <bool kPeriodic>
   void measure(const ParticleStore& store, const api::NeighbourView& lists, size_t first, size_t last);
   void conduct(size_t first, size_t last);
   void differentiate(uint32_t first, uint32_t last);

@@ -316,7 +316,7 @@ void ImplicitViscosity::apply(ParticleStore& store, const Neighbours& neighbours
   if (m_dirty) findGroups(neighbours);
   auto* field = static_cast<api::Float4*>(store.find(kField, api::FieldType::Float4));
   if (m_groups.rows().empty() || !field) return;
-  const PairLists lists = density.lists(neighbours);
+  const PairLists lists = density.lists(store, neighbours);
   loadPoints(store, density);
   assemble(store, lists, density.kernelScale(), viscosity);
   m_groups.measure(store, m_touched, m_settings.spacing);
@@ -342,7 +342,7 @@ void ImplicitViscosity::shearRates(const ParticleStore& store, const Neighbours&
   if (m_dirty) findGroups(neighbours);
   rates.resize(store.size() + kSpare, 0.0f);
   loadPoints(store, density);
-  const PairLists lists = density.lists(neighbours);
+  const PairLists lists = density.lists(store, neighbours);
   const api::Float4* velocity = store.velocity();
   const float scale = static_cast<float>(5 * kStressNormalisation / (seventhPower(m_support) * density.kernelScale()));
   forSegments([&](size_t, const Segment& segment) {

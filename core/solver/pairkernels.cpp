@@ -24,6 +24,8 @@ using V = hn::Vec<D>;
 using DBlock = hn::Full128<float>;
 using VBlock = hn::Vec<DBlock>;
 constexpr size_t kLanes = HWY_MIN(HWY_LANES(float), kVirtualLanes);
+/// Images that two particles may be apart at most; the dummy lies farther away than that.
+constexpr int kMostImages = 1000;
 constexpr size_t kParts = kVirtualLanes / kLanes;  // accumulators: 1 on AVX-512, 2 on AVX2, 4 with 16-byte vectors
 
 struct Vectors4 {
@@ -148,12 +150,35 @@ struct Wendland {
   HWY_INLINE V slope() const { return hn::Mul(slopeOverQ(), q); }
 };
 
+/// How offsets are measured: as they are, or to the nearest image. Chosen once per call, so that open space does not
+/// pay.
+struct OpenSpace {
+  HWY_INLINE explicit OpenSpace(const PairLists&) {}
+  HWY_INLINE V shortest(V d, size_t) const { return d; }
+};
+
+struct PeriodicSpace {
+  V length[3], inverse[3];
+  HWY_INLINE explicit PeriodicSpace(const PairLists& lists) {
+    for (size_t a = 0; a < 3; ++a)
+      length[a] = hn::Set(D(), lists.period.length(a)), inverse[a] = hn::Set(D(), lists.period.inverse(a));
+  }
+  /// Rounding halves to even is odd in d: a pair looks the same from both sides. The dummy stays far away.
+  HWY_INLINE V shortest(V d, size_t axis) const {
+    const V most = hn::Set(D(), static_cast<float>(kMostImages));
+    const V images = hn::Round(hn::Mul(d, inverse[axis]));
+    return hn::Sub(d, hn::Mul(length[axis], hn::Max(hn::Neg(most), hn::Min(images, most))));
+  }
+};
+
 struct Offsets {
   V x, y, z, q2;
 };
 
-HWY_INLINE Offsets offsetsTo(V px, V py, V pz, const Vectors4& other, V inverseSupportSquared) {
-  const V x = hn::Sub(px, other.x), y = hn::Sub(py, other.y), z = hn::Sub(pz, other.z);
+template <class Space>
+HWY_INLINE Offsets offsetsTo(const Space& space, V px, V py, V pz, const Vectors4& other, V inverseSupportSquared) {
+  const V x = space.shortest(hn::Sub(px, other.x), 0), y = space.shortest(hn::Sub(py, other.y), 1),
+          z = space.shortest(hn::Sub(pz, other.z), 2);
   const V d2 = hn::Add(hn::Mul(x, x), hn::Add(hn::Mul(y, y), hn::Mul(z, z)));
   // Coincident particles: q is kept from zero, the direction is zero all the same.
   return {x, y, z, hn::Max(hn::Mul(d2, inverseSupportSquared), hn::Set(D(), 1e-12f))};
@@ -176,10 +201,11 @@ HWY_INLINE void forNeighbours(const PairLists& lists, size_t i, Body&& body) {
   }
 }
 
-template <class Shape>
+template <class Space, class Shape>
 HWY_INLINE void densityLoop(const PairLists& lists, const api::Float4* points, const float* weight,
                             const uint32_t* which, size_t first, size_t last, DensitySums* out) {
   const D d;
+  const Space space(lists);
   const V inverseR2 = hn::Set(d, lists.inverseSupportSquared);
   for (size_t k = first; k < last; ++k) {
     const size_t i = which[k];
@@ -187,7 +213,7 @@ HWY_INLINE void densityLoop(const PairLists& lists, const api::Float4* points, c
     Lanes s, gx, gy, gz, g2;
     forNeighbours(lists, i, [&](size_t p, const uint32_t* id) HWY_ATTR {
       const Vectors4 other = loadTransposed(points, id);
-      const Offsets r = offsetsTo(px, py, pz, other, inverseR2);
+      const Offsets r = offsetsTo(space, px, py, pz, other, inverseR2);
       const Shape w(r.q2);
       s.add(p, hn::Mul(other.w, w.value()));
       const V f = hn::Mul(other.w, w.slopeOverQ());
@@ -201,10 +227,11 @@ HWY_INLINE void densityLoop(const PairLists& lists, const api::Float4* points, c
   }
 }
 
-template <class Shape>
+template <class Space, class Shape>
 HWY_INLINE void multiplierLoop(const PairLists& lists, const api::Float4* points, const uint32_t* which, size_t first,
                                size_t last, api::Float4* out) {
   const D d;
+  const Space space(lists);
   const V inverseR2 = hn::Set(d, lists.inverseSupportSquared);
   for (size_t k = first; k < last; ++k) {
     const size_t i = which[k];
@@ -212,7 +239,7 @@ HWY_INLINE void multiplierLoop(const PairLists& lists, const api::Float4* points
     Lanes gx, gy, gz;
     forNeighbours(lists, i, [&](size_t p, const uint32_t* id) HWY_ATTR {
       const Vectors4 other = loadTransposed(points, id);
-      const Offsets r = offsetsTo(px, py, pz, other, inverseR2);
+      const Offsets r = offsetsTo(space, px, py, pz, other, inverseR2);
       const V f = hn::Mul(other.w, Shape(r.q2).slopeOverQ());
       gx.add(p, hn::Mul(f, r.x)), gy.add(p, hn::Mul(f, r.y)), gz.add(p, hn::Mul(f, r.z));
     });
@@ -220,11 +247,12 @@ HWY_INLINE void multiplierLoop(const PairLists& lists, const api::Float4* points
   }
 }
 
-template <class Shape>
+template <class Space, class Shape>
 HWY_INLINE void viscosityLoop(const PairLists& lists, const api::Float4* position, const api::Float4* velocity,
                               const float* coefficient, const uint32_t* which, size_t first, size_t last,
                               api::Float4* out) {
   const D d;
+  const Space space(lists);
   const V inverseR2 = hn::Set(d, lists.inverseSupportSquared), zero = hn::Zero(d), half = hn::Set(d, 0.5f);
   for (size_t k = first; k < last; ++k) {
     const size_t i = which[k];
@@ -239,7 +267,7 @@ HWY_INLINE void viscosityLoop(const PairLists& lists, const api::Float4* positio
       const V theirs = loadByIndex(coefficient, id);
       const auto bothFluid = hn::And(ownFluid, hn::Ge(theirs, zero));
       const V c = hn::IfThenElse(bothFluid, hn::Mul(half, hn::Add(own, theirs)), hn::Max(zero, hn::Max(own, theirs)));
-      const Shape w(offsetsTo(px, py, pz, at, inverseR2).q2);
+      const Shape w(offsetsTo(space, px, py, pz, at, inverseR2).q2);
       const V mass = hn::Div(inverseMass, hn::Mul(half, hn::Add(inverseMass, moving.w)));
       const V f = hn::Mul(hn::Mul(c, hn::Mul(half, hn::Add(volume, at.w))), hn::Mul(mass, w.value()));
       sx.add(p, hn::Mul(f, hn::Sub(moving.x, vx)));
@@ -258,10 +286,12 @@ HWY_INLINE V stressWeight(V q2) {
   return hn::Mul(hn::Mul(a, a), hn::Add(one, inverseQ));
 }
 
+template <class Space>
 HWY_INLINE void coefficientLoop(const PairLists& lists, const StressField& field, float factor, const uint32_t* which,
                                 size_t first, size_t last, float* coefficient, api::Float4* diagonal,
                                 api::Float4* offDiagonal) {
   const D d;
+  const Space space(lists);
   const V inverseR2 = hn::Set(d, lists.inverseSupportSquared), zero = hn::Zero(d), half = hn::Set(d, 0.5f);
   for (size_t k = first; k < last; ++k) {
     const size_t i = which[k];
@@ -277,7 +307,7 @@ HWY_INLINE void coefficientLoop(const PairLists& lists, const StressField& field
       const V mean =
           hn::IfThenElse(bothFluid, hn::Mul(half, hn::Add(own, theirs)), hn::Max(zero, hn::Max(own, theirs)));
       const V counts = hn::Max(ownViscous, loadByIndex(field.viscous, id));
-      const Offsets r = offsetsTo(px, py, pz, other, inverseR2);
+      const Offsets r = offsetsTo(space, px, py, pz, other, inverseR2);
       const V volumes = hn::Mul(volume, other.w);
       const V c = hn::Mul(hn::Mul(hn::Mul(scale, volumes), hn::Mul(mean, counts)), stressWeight(r.q2));
       hn::StoreU(c, d, coefficient + (id - lists.index));
@@ -290,10 +320,12 @@ HWY_INLINE void coefficientLoop(const PairLists& lists, const StressField& field
   }
 }
 
+template <class Space>
 HWY_INLINE void stressLoop(const PairLists& lists, const api::Float4* points, const float* coefficient,
                            const api::Float4* vectors, const uint32_t* which, size_t first, size_t last,
                            api::Float4* out) {
   const D d;
+  const Space space(lists);
   for (size_t k = first; k < last; ++k) {
     const size_t i = which[k];
     const api::Float4 p0 = points[i], u0 = vectors[i];
@@ -302,7 +334,8 @@ HWY_INLINE void stressLoop(const PairLists& lists, const api::Float4* points, co
     Lanes sx, sy, sz;
     forNeighbours(lists, i, [&](size_t p, const uint32_t* id) HWY_ATTR {
       const Vectors4 at = loadTransposed(points, id), u = loadTransposed(vectors, id);
-      const V x = hn::Sub(px, at.x), y = hn::Sub(py, at.y), z = hn::Sub(pz, at.z);
+      const V x = space.shortest(hn::Sub(px, at.x), 0), y = space.shortest(hn::Sub(py, at.y), 1),
+              z = space.shortest(hn::Sub(pz, at.z), 2);
       const V along =
           hn::Add(hn::Mul(x, hn::Sub(ux, u.x)), hn::Add(hn::Mul(y, hn::Sub(uy, u.y)), hn::Mul(z, hn::Sub(uz, u.z))));
       const V f = hn::Mul(hn::LoadU(d, coefficient + (id - lists.index)), along);
@@ -312,9 +345,11 @@ HWY_INLINE void stressLoop(const PairLists& lists, const api::Float4* points, co
   }
 }
 
+template <class Space>
 HWY_INLINE void shearLoop(const PairLists& lists, const api::Float4* points, const api::Float4* velocity,
                           const uint32_t* which, size_t first, size_t last, float* out) {
   const D d;
+  const Space space(lists);
   const V inverseR2 = hn::Set(d, lists.inverseSupportSquared);
   for (size_t k = first; k < last; ++k) {
     const size_t i = which[k];
@@ -324,7 +359,7 @@ HWY_INLINE void shearLoop(const PairLists& lists, const api::Float4* points, con
     Lanes sum;
     forNeighbours(lists, i, [&](size_t p, const uint32_t* id) HWY_ATTR {
       const Vectors4 at = loadTransposed(points, id), u = loadTransposed(velocity, id);
-      const Offsets r = offsetsTo(px, py, pz, at, inverseR2);
+      const Offsets r = offsetsTo(space, px, py, pz, at, inverseR2);
       const V along = hn::Add(hn::Mul(r.x, hn::Sub(ux, u.x)),
                               hn::Add(hn::Mul(r.y, hn::Sub(uy, u.y)), hn::Mul(r.z, hn::Sub(uz, u.z))));
       sum.add(p, hn::Mul(hn::Mul(at.w, stressWeight(r.q2)), hn::Mul(along, along)));
@@ -333,44 +368,75 @@ HWY_INLINE void shearLoop(const PairLists& lists, const api::Float4* points, con
   }
 }
 
+template <class T>
+struct Choice {
+  using Type = T;
+};
+
+/// body(Choice<Space>): one branch per call decides for all pairs.
+template <class Body>
+HWY_INLINE void bySpace(const PairLists& lists, Body&& body) {
+  if (lists.period.any())
+    body(Choice<PeriodicSpace>());
+  else
+    body(Choice<OpenSpace>());
+}
+
+template <class Body>
+HWY_INLINE void bySpaceAndKernel(const PairLists& lists, Body&& body) {
+  bySpace(lists, [&](auto space) HWY_ATTR {
+    if (lists.kernel == KernelShape::CubicSpline)
+      body(space, Choice<Spline>());
+    else
+      body(space, Choice<Wendland>());
+  });
+}
+
 void SumDensity(const PairLists& lists, const api::Float4* points, const float* weight, const uint32_t* which,
                 size_t first, size_t last, DensitySums* out) {
-  if (lists.kernel == KernelShape::CubicSpline)
-    densityLoop<Spline>(lists, points, weight, which, first, last, out);
-  else
-    densityLoop<Wendland>(lists, points, weight, which, first, last, out);
+  bySpaceAndKernel(lists, [&](auto space, auto shape) HWY_ATTR {
+    densityLoop<typename decltype(space)::Type, typename decltype(shape)::Type>(lists, points, weight, which, first,
+                                                                                last, out);
+  });
 }
 
 void SumMultipliers(const PairLists& lists, const api::Float4* points, const uint32_t* which, size_t first, size_t last,
                     api::Float4* out) {
-  if (lists.kernel == KernelShape::CubicSpline)
-    multiplierLoop<Spline>(lists, points, which, first, last, out);
-  else
-    multiplierLoop<Wendland>(lists, points, which, first, last, out);
+  bySpaceAndKernel(lists, [&](auto space, auto shape) HWY_ATTR {
+    multiplierLoop<typename decltype(space)::Type, typename decltype(shape)::Type>(lists, points, which, first, last,
+                                                                                   out);
+  });
 }
 
 void SumViscosity(const PairLists& lists, const api::Float4* position, const api::Float4* velocity,
                   const float* coefficient, const uint32_t* which, size_t first, size_t last, api::Float4* out) {
-  if (lists.kernel == KernelShape::CubicSpline)
-    viscosityLoop<Spline>(lists, position, velocity, coefficient, which, first, last, out);
-  else
-    viscosityLoop<Wendland>(lists, position, velocity, coefficient, which, first, last, out);
+  bySpaceAndKernel(lists, [&](auto space, auto shape) HWY_ATTR {
+    viscosityLoop<typename decltype(space)::Type, typename decltype(shape)::Type>(lists, position, velocity,
+                                                                                  coefficient, which, first, last, out);
+  });
 }
 
 void StressCoefficients(const PairLists& lists, const StressField& field, float factor, const uint32_t* which,
                         size_t first, size_t last, float* coefficient, api::Float4* diagonal,
                         api::Float4* offDiagonal) {
-  coefficientLoop(lists, field, factor, which, first, last, coefficient, diagonal, offDiagonal);
+  bySpace(lists, [&](auto space) HWY_ATTR {
+    coefficientLoop<typename decltype(space)::Type>(lists, field, factor, which, first, last, coefficient, diagonal,
+                                                    offDiagonal);
+  });
 }
 
 void SumStress(const PairLists& lists, const api::Float4* points, const float* coefficient, const api::Float4* vectors,
                const uint32_t* which, size_t first, size_t last, api::Float4* out) {
-  stressLoop(lists, points, coefficient, vectors, which, first, last, out);
+  bySpace(lists, [&](auto space) HWY_ATTR {
+    stressLoop<typename decltype(space)::Type>(lists, points, coefficient, vectors, which, first, last, out);
+  });
 }
 
 void SumShear(const PairLists& lists, const api::Float4* points, const api::Float4* velocity, const uint32_t* which,
               size_t first, size_t last, float* out) {
-  shearLoop(lists, points, velocity, which, first, last, out);
+  bySpace(lists, [&](auto space) HWY_ATTR {
+    shearLoop<typename decltype(space)::Type>(lists, points, velocity, which, first, last, out);
+  });
 }
 
 }  // namespace HWY_NAMESPACE

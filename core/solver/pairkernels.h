@@ -3,6 +3,7 @@
 #include <phasesketch/views.h>
 
 #include "core/math/kernels.h"
+#include "core/particles/period.h"
 
 #include <cstdint>
 #include <string>
@@ -18,6 +19,7 @@ struct PairLists {
   const uint32_t *begin, *last, *end, *index;
   KernelShape kernel;
   float inverseSupportSquared;  ///< 1/R2
+  Period period;                ///< pairs are measured between their nearest images
 };
 
 /// Sums of one particle's density constraint. Volumes are multiplied by the kernel's factor (8/(pi R3) for the spline),

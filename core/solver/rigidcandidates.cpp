@@ -108,7 +108,7 @@ void RigidContact::refreshContacts(const ParticleStore& store, const Neighbours&
   const api::Motion* motion = store.motion();
   const double skin = kSkinSpacings * m_spacing, reach = std::hypot(kFaceDistance, kFaceWidth) * m_spacing + skin;
   const auto distance2 = [&](uint32_t i, uint32_t j) {
-    const Vector3 d = vectorOf(store.position()[i]) - vectorOf(store.position()[j]);
+    const Vector3 d = vectorOf(store.separation(i, j));
     return dot(d, d);
   };
   const auto needSurface = [&](uint32_t i) {
@@ -154,7 +154,7 @@ void RigidContact::refreshContacts(const ParticleStore& store, const Neighbours&
 /// `outward` tells the sides of a sheet apart.
 RigidContact::Surface RigidContact::surfaceOf(const ParticleStore& store, uint32_t i, Vector3 outward) const {
   const std::span<const uint32_t> own(m_own.data() + m_ownBegin[m_ownOf[i]], m_own.data() + m_ownBegin[m_ownOf[i] + 1]);
-  const auto fromNeighbour = [&](uint32_t j) { return vectorOf(store.position()[i]) - vectorOf(store.position()[j]); };
+  const auto fromNeighbour = [&](uint32_t j) { return vectorOf(store.separation(i, j)); };
   const auto unit = [](Vector3 v, double length) { return 1 / length * v; };
   // A layer one particle thick: all neighbours lie in one plane.
   Vector3 across;
@@ -179,7 +179,7 @@ RigidContact::Surface RigidContact::surfaceOf(const ParticleStore& store, uint32
 
 /// Normal and distance at rest of a contact of particles.
 void RigidContact::orient(const ParticleStore& store, Contact& c) const {
-  const Vector3 line = vectorOf(store.position()[c.a.particle]) - vectorOf(store.position()[c.b.particle]);
+  const Vector3 line = vectorOf(store.separation(c.a.particle, c.b.particle));
   const double length = std::sqrt(dot(line, line));
   c.active = length > 0;
   if (!c.active) return;

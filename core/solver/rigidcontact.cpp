@@ -137,15 +137,16 @@ void RigidContact::readPlaces(const ParticleStore& store) {
   for (Contact& c : m_contacts) {
     if (!c.active) continue;
     const Vector3 a = vectorOf(store.position()[c.a.particle]);
-    Vector3 place = a - 0.5 * m_spacing * c.normal;
+    Vector3 place = a - 0.5 * m_spacing * c.normal, image;
     c.gap = dot(a, c.normal) - c.distance;
     if (c.b.particle != kNone) {
       // Both sides at one place, or a couple would be left over. A free particle can take its push at its centre only.
-      const Vector3 b = vectorOf(store.position()[c.b.particle]);
+      const Vector3 line = vectorOf(store.separation(c.a.particle, c.b.particle)), b = a - line;
       place = c.b.inverseMass > 0 ? b : 0.5 * (a + b);
-      c.gap -= dot(b, c.normal);
+      c.gap = dot(line, c.normal) - c.distance;
+      image = b - vectorOf(store.position()[c.b.particle]);
     }
-    c.way = readSide(store, c.a, place) - readSide(store, c.b, place);
+    c.way = readSide(store, c.a, place) - readSide(store, c.b, place - image);
     c.mass = 1 / (inverseMass(c.a, c.normal) + inverseMass(c.b, c.normal));
   }
 }

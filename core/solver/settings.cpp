@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/solver/settings.h"
 
+#include "core/particles/neighbours.h"
+
 namespace ps {
 
 std::vector<std::string> flagNames(StepFlags flags) {
@@ -17,6 +19,10 @@ std::vector<std::string> flagNames(StepFlags flags) {
     if ((flags & static_cast<StepFlags>(entry.flag)) != 0) names.emplace_back(entry.name);
   }
   return names;
+}
+
+double leastPeriod(const SolverSettings& settings) {
+  return Neighbours::leastPeriod((settings.supportRatio + kSkinSpacings) * settings.spacing);
 }
 
 const char* stageName(Stage stage) {

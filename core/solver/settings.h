@@ -4,6 +4,7 @@
 
 #include "core/math/kernels.h"
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -59,7 +60,14 @@ struct Wall {
 
 struct Bounds {
   api::Double3 minimum{-1, 0, -1}, maximum{1, 2, 1};  ///< m; a particle that leaves by more than its size is lost
+  /// Axes along which the box repeats itself: what leaves by one face comes in by the other.
+  std::array<bool, 3> periodic{};
 };
+
+/// Extra reach of the neighbour lists, in spacings: they hold until a particle has moved half of it.
+inline constexpr double kSkinSpacings = 0.2;
+/// m, the shortest edge along which a box may repeat itself: three times the reach of the neighbour lists.
+double leastPeriod(const SolverSettings& settings);
 
 struct ThermalSettings {
   double timeScale = 1;  ///< thermal_time_scale: all heat fluxes times this; final states unchanged

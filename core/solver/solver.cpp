@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 namespace ps {
 namespace {
@@ -48,6 +49,19 @@ void requirePositive(double value, const char* name) {
     throw InputError(std::string("solver: ") + name + " must be a positive number");
 }
 
+void requireRoomForImages(const SolverSettings& settings, const Bounds& bounds) {
+  const double least = leastPeriod(settings);
+  const double edges[3] = {bounds.maximum.x - bounds.minimum.x, bounds.maximum.y - bounds.minimum.y,
+                           bounds.maximum.z - bounds.minimum.z};
+  for (size_t a = 0; a < 3; ++a) {
+    if (!bounds.periodic[a] || edges[a] >= least) continue;
+    char lengths[64];
+    std::snprintf(lengths, sizeof lengths, "%.4g m long; it must be %.4g m", edges[a], least);
+    throw InputError(std::string("the scene is periodic along ") + "xyz"[a] + ", where it is " + lengths +
+                     " or longer, three times the reach of its particles");
+  }
+}
+
 }  // namespace
 
 Solver::Solver() : m(std::make_unique<Impl>()) {}
@@ -59,6 +73,7 @@ void Solver::setSettings(const SolverSettings& settings) {
   if (settings.substeps < 1) throw InputError("solver: substeps must be 1 or more");
   if (settings.iterations < 1) throw InputError("solver: iterations must be 1 or more");
   if (!(settings.supportRatio > 1)) throw InputError("solver: support_ratio must be more than 1");
+  requireRoomForImages(settings, m->bounds);
   m->settings = settings;
   m->configured = false;
 }
@@ -78,7 +93,11 @@ void Solver::setWalls(std::vector<Wall> walls) {
   m->configured = false;
 }
 
-void Solver::setBounds(const Bounds& bounds) { m->bounds = bounds; }
+void Solver::setBounds(const Bounds& bounds) {
+  requireRoomForImages(m->settings, bounds);
+  m->bounds = bounds;
+  m->configured = false;
+}
 
 void Solver::setBodyNames(std::vector<std::string> names) { m->bodyNames = std::move(names); }
 
@@ -98,6 +117,10 @@ void Solver::setConstraintParameters(uint32_t set, std::vector<double> parameter
 
 void Solver::Impl::configure() {
   if (configured) return;
+  if (const Period period(bounds.minimum, bounds.maximum, bounds.periodic); !(period == store.period())) {
+    store.setPeriod(period);
+    reordered = true;
+  }
   const double support = settings.spacing * settings.supportRatio;
   if (support != neighbours.support()) neighbours.configure(support, kSkinSpacings * settings.spacing);
   const std::span<const BakedMaterial> table(materials);
@@ -107,6 +130,7 @@ void Solver::Impl::configure() {
   wallStage.configure(settings, walls);
   swept.configure(settings);
   contact.configure(settings, table);
+  impacts.configure(settings, walls, table);
   rigid.configure(settings, walls, table);
   gas.configure(settings, thermal, table);
   heat.configure(thermal, settings, walls, table, model, modelParameters);
@@ -183,7 +207,7 @@ std::vector<uint32_t> Solver::spawn(const Spawn& spawn) {
   m->phase.initialise(store, first, last);
   for (size_t i = first; i < last && spawn.fixed; ++i) {
     store.motion()[i] = api::Motion::Static;
-    store.velocity()[i] = {0, 0, 0, 0};
+    store.velocity()[i].w = 0;
   }
   if (!spawn.constraintSets.empty()) {
     m->neighbours.build(store);

@@ -19,9 +19,9 @@ struct Spawn {
   uint32_t body = 0;
   double temperature = 293.15;  ///< K
   api::Phase phase = api::Phase::Liquid;
-  std::vector<double> temperatures;      ///< K, one each; empty: `temperature` for all
-  std::vector<api::Phase> phases;        ///< one each; empty: `phase` for all
-  bool fixed = false;                    ///< static boundary particles
+  std::vector<double> temperatures;  ///< K, one each; empty: `temperature` for all
+  std::vector<api::Phase> phases;    ///< one each; empty: `phase` for all
+  bool fixed = false;                ///< static boundary particles: they go on at their velocity, whatever they meet
   std::vector<uint32_t> constraintSets;  ///< built over the new particles
 };
 
@@ -56,6 +56,7 @@ class Solver {
   void setThermal(const ThermalSettings& settings, const api::ThermalPlugin* model, std::string name,
                   std::vector<double> modelParameters);
   void setWalls(std::vector<Wall> walls);
+  /// Throws InputError when a periodic box is too small for the reach of its particles; so does setSettings().
   void setBounds(const Bounds& bounds);
   /// What messages call the bodies, by index.
   void setBodyNames(std::vector<std::string> names);

@@ -3,6 +3,7 @@
 #include "core/solver/contact.h"
 #include "core/solver/density.h"
 #include "core/solver/gasforces.h"
+#include "core/solver/impacts.h"
 #include "core/solver/phasestage.h"
 #include "core/solver/rigidcontact.h"
 #include "core/solver/solver.h"
@@ -38,6 +39,7 @@ struct Solver::Impl {
   WallStage wallStage;
   SweptClamp swept;
   SolidContact contact;
+  Impacts impacts;
   RigidContact rigid;
   GasForces gas;
   HeatStage heat;
@@ -56,6 +58,11 @@ struct Solver::Impl {
 
   void runFrame();
   void freshLists();
+  /// Whether something lies so many images away from the periodic box that single precision begins to tell.
+  bool strayed() const;
+  /// In a periodic box: brings back what has left it. What is tied together moves as one, and when it has strayed.
+  void comeHome();
+  void bringPiecesHome(const StructureGraph& graph);
   void keepLastGood();
   void backToLastGood();
   void listsChanged(bool newStructure);

@@ -104,7 +104,9 @@ void Solver::Impl::backToLastGood() {
 }
 
 void Solver::Impl::freshLists() {
+  if (store.period().any() && strayed()) reordered = true;
   if (reordered || neighbours.stale(store) || frame >= lastSort + kSortInterval) {
+    if (store.period().any()) comeHome();
     neighbours.sortAndBuild(store);
     constraints.remap(neighbours.lastOrder());
     lastSort = frame;
@@ -134,11 +136,10 @@ void Solver::Impl::predict(double dt) {
     const float keep = static_cast<float>(1 / (1 + settings.damping * dt)), step = static_cast<float>(dt);
     for (size_t i = first; i < last; ++i) {
       previous[i] = position[i];
-      velocity[i].x *= keep, velocity[i].y *= keep, velocity[i].z *= keep;
+      if (velocity[i].w > 0) velocity[i].x *= keep, velocity[i].y *= keep, velocity[i].z *= keep;
     }
     gas.apply(store, first, last, dt);
-    for (size_t i = first; i < last; ++i) {
-      if (velocity[i].w == 0) continue;
+    for (size_t i = first; i < last; ++i) {  // what is fixed moves too, at the velocity it was given
       position[i].x += step * velocity[i].x;
       position[i].y += step * velocity[i].y;
       position[i].z += step * velocity[i].z;
@@ -166,6 +167,7 @@ void Solver::Impl::substep(uint32_t index) {
   const double dt = settings.dt / settings.substeps;
   timed(Stage::Contact, [&] {
     predict(dt);
+    impacts.sweep(store, constraints, rigid.members());
     wallStage.project(store);
   });
   timed(Stage::Neighbours, [&] {
@@ -178,7 +180,10 @@ void Solver::Impl::substep(uint32_t index) {
     }
   });
   timed(Stage::Structure, [&] { constraints.predict(store, index); });
-  timed(Stage::Contact, [&] { rigid.begin(store); });
+  timed(Stage::Contact, [&] {
+    rigid.begin(store);
+    impacts.collect(store, contact, constraints, rigid.members());
+  });
   for (int iteration = 0; iteration < settings.iterations; ++iteration) {
     const uint32_t it = static_cast<uint32_t>(iteration);
     timed(Stage::Structure, [&] { constraints.projectStructure(store, index, it); });
@@ -199,7 +204,10 @@ void Solver::Impl::substep(uint32_t index) {
   });
   timed(Stage::Viscosity, [&] { viscosity.apply(store, neighbours, density); });
   timed(Stage::Structure, [&] { constraints.deriveVelocities(store, index); });
-  timed(Stage::Contact, [&] { rigid.bounce(store); });
+  timed(Stage::Contact, [&] {
+    impacts.bounce(store);
+    rigid.bounce(store);
+  });
   timed(Stage::Density, [&] { density.decayCompression(store, dt); });
 }
 
@@ -232,7 +240,8 @@ void Solver::Impl::checkBounds() {
     if (store.velocity()[i].w == 0) continue;
     float* c[3] = {&p.x, &p.y, &p.z};
     bool outside = false;
-    for (int a = 0; a < 3; ++a) {
+    for (size_t a = 0; a < 3; ++a) {
+      if (bounds.periodic[a]) continue;
       const float inside = static_cast<float>(std::clamp(double{*c[a]}, low[a], high[a]));
       outside = outside || inside != *c[a];
       if (*c[a] < low[a] || *c[a] > high[a]) *c[a] = inside;

@@ -146,7 +146,7 @@ void ViscosityStage::filter(ParticleStore& store, const Neighbours& neighbours, 
   m_which.assign(fluid.begin(), fluid.end());
   m_which.insert(m_which.end(), wet.begin(), wet.end());
   m_change.resize(m_which.size());
-  const PairLists pairs = density.lists(neighbours);
+  const PairLists pairs = density.lists(store, neighbours);
   const float scale = static_cast<float>(density.kernelScale());
   forChunks(m_which.size(), kGrain, [&](size_t first, size_t last) {
     sumViscosity(pairs, store.position(), store.velocity(), m_coefficient.data(), m_which.data(), first, last,

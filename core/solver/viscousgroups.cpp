@@ -70,17 +70,19 @@ void ViscousGroups::measure(const ParticleStore& store, std::span<const uint8_t>
     m_sums[s] = sums;
   });
   for (Group& group : m_groups) {
-    if (group.closed) measureInertia(group, spacing);
+    if (group.closed) measureInertia(group, spacing, !store.period().any());
   }
 }
 
-void ViscousGroups::measureInertia(Group& group, double spacing) const {
+void ViscousGroups::measureInertia(Group& group, double spacing, bool turns) const {
   Sums t{};
   for (size_t s = group.firstSegment; s < group.lastSegment; ++s) {
     for (size_t a = 0; a < 10; ++a) t[a] += m_sums[s][a];
   }
   group.mass = t[0];
   group.center = {t[1] / t[0], t[2] / t[0], t[3] / t[0]};
+  group.inverseInertia = {};
+  if (!turns) return;
   const auto [x, y, z] = group.center;
   const double xx = t[4] - t[0] * x * x, yy = t[5] - t[0] * y * y, zz = t[6] - t[0] * z * z;
   const double xy = t[7] - t[0] * x * y, xz = t[8] - t[0] * x * z, yz = t[9] - t[0] * y * z;

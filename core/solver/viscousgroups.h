@@ -9,7 +9,8 @@
 namespace ps {
 
 /// The unknowns of the implicit viscosity, in groups that do not act on each other, and the rigid motion of each group
-/// that no boundary touches: taken from a change of velocity, it leaves one that keeps linear and angular momentum.
+/// that no boundary touches: taken from a change of velocity, it leaves one that keeps linear and angular momentum. In
+/// a periodic box, where a group has no centre and angular momentum is nothing that stays, only the linear one counts.
 /// Rows are cut into segments of a fixed size within a group; sums are kept per segment and added in order.
 class ViscousGroups {
  public:
@@ -43,7 +44,7 @@ class ViscousGroups {
   /// Mass, first and second moments, or momenta.
   using Sums = std::array<double, 10>;
   void flood(uint32_t seed, std::span<const Role> roles, const api::NeighbourView& view, bool& anchored);
-  void measureInertia(Group& group, double spacing) const;
+  void measureInertia(Group& group, double spacing, bool turns) const;
 
   std::vector<uint32_t> m_rows, m_stack;
   std::vector<uint8_t> m_found;

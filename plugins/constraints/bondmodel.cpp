@@ -98,9 +98,8 @@ float cubeRoot(float s) {
 }
 
 float distanceSquared(const ParticleView& p, uint32_t i, uint32_t j) {
-  const float x = p.position[i].x - p.position[j].x, y = p.position[i].y - p.position[j].y,
-              z = p.position[i].z - p.position[j].z;
-  return x * x + y * y + z * z;
+  const api::Float4 d = api::separation(p, i, j);
+  return d.x * d.x + d.y * d.y + d.z * d.z;
 }
 
 bool holds(Motion m) { return m == Motion::Solid || m == Motion::Static; }
@@ -306,7 +305,7 @@ void BondModel::project(const ConstraintContext& context, const ParticleView& p,
     const uint32_t i = batch.particles[2 * k], j = batch.particles[2 * k + 1];
     api::Float4 &a = p.position[i], &b = p.position[j];
     const float wa = p.velocity[i].w, wb = p.velocity[j].w;
-    const float x = a.x - b.x, y = a.y - b.y, z = a.z - b.z;
+    const auto [x, y, z, unused] = api::separation(p, i, j);
     const float distance = std::sqrt(x * x + y * y + z * z);
     if (!(distance > 0) || !(wa + wb > 0)) continue;
     if (classic) {

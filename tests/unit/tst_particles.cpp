@@ -7,6 +7,7 @@
 #include <QTest>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 using ps::Neighbours;
@@ -142,6 +143,71 @@ class TestParticles : public QObject {
     neighbours.sortAndBuild(store);
     QCOMPARE(problemOf(store, neighbours), QString());
     ps::setThreadCount(0);
+  }
+
+  /// Every image within the radius counts once. Pairs that lie on the radius to rounding may be in or out.
+  void listsEqualBruteForceAcrossFaces_data() {
+    QTest::addColumn<double>("x");
+    QTest::addColumn<double>("y");
+    QTest::addColumn<double>("z");
+    const double least = Neighbours::leastPeriod(kSupport + kSkin);
+    QTest::newRow("along x") << 0.25 << 0.0 << 0.0;
+    QTest::newRow("along y and z") << 0.0 << 0.26 << 0.3;
+    QTest::newRow("three cells") << least << least << least;
+    QTest::newRow("wider than its particles") << 900.0 << 0.3 << 0.0;
+  }
+  void listsEqualBruteForceAcrossFaces() {
+    QFETCH(double, x);
+    QFETCH(double, y);
+    QFETCH(double, z);
+    const double length[3] = {x, y, z};
+    const ps::Period period({-1, 0, 3}, {-1 + x, y, 3 + z}, {x > 0, y > 0, z > 0});
+    ParticleStore store;
+    fill(store, "random");
+    store.setPeriod(period);
+    Random random(5);
+    for (size_t i = 0; i < store.size(); i += 3) {  // some lie in other images
+      store.position()[i].x += static_cast<float>(x * std::floor(6 * random.next() - 3));
+      store.position()[i].y += static_cast<float>(y * std::floor(6 * random.next() - 3));
+      store.position()[i].z -= static_cast<float>(z * std::floor(6 * random.next() - 3));
+    }
+    Neighbours neighbours;
+    neighbours.configure(kSupport, kSkin);
+    for (int pass = 0; pass < 2; ++pass) {
+      if (pass == 0)
+        neighbours.build(store);
+      else
+        neighbours.sortAndBuild(store);
+      const ps::api::NeighbourView view = neighbours.view();
+      size_t pairs = 0;
+      for (uint32_t i = 0; i < store.size(); ++i) {
+        std::vector<uint32_t> found(view.index + view.begin[i], view.index + view.last[i]);
+        if (pass == 1) QVERIFY(std::is_sorted(found.begin(), found.end()));
+        std::sort(found.begin(), found.end());
+        QVERIFY(std::adjacent_find(found.begin(), found.end()) == found.end());
+        for (uint32_t j = 0; j < store.size(); ++j) {
+          if (j == i) continue;
+          double square = 0;
+          const ps::api::Float4 &a = store.position()[i], &b = store.position()[j];
+          const double d[3] = {double{a.x} - double{b.x}, double{a.y} - double{b.y}, double{a.z} - double{b.z}};
+          for (size_t axis = 0; axis < 3; ++axis) {
+            const double image = length[axis] > 0 ? std::remainder(d[axis], length[axis]) : d[axis];
+            square += image * image;
+          }
+          const double gap = std::sqrt(square) - (kSupport + kSkin);
+          const bool listed = std::binary_search(found.begin(), found.end(), j);
+          // A coordinate of 900 m is known to 6e-5 m.
+          const double rounding = x > 100 ? 4e-4 : 1e-6;
+          if (std::abs(gap) > rounding) QCOMPARE(listed, gap < 0);
+          const ps::api::Float4 there = store.separation(i, j), back = ps::api::separation(store.view(), j, i);
+          QVERIFY(std::abs(std::sqrt(there.x * there.x + there.y * there.y + there.z * there.z) -
+                           std::sqrt(back.x * back.x + back.y * back.y + back.z * back.z)) < 1e-5f);
+          if (listed) QVERIFY(there.x == -store.separation(j, i).x && there.y == -store.separation(j, i).y);
+          pairs += listed ? 1 : 0;
+        }
+      }
+      QVERIFY(pairs > 1000);
+    }
   }
 
   void idsFindTheirParticle() {

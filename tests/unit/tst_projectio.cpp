@@ -80,8 +80,8 @@ constexpr const char* kFull = R"({
        "runs": [[0, 0, 0, 4, 0], [-2, 1, 0, 1, 0]],
        "strokes": [{"brush": "sphere", "radius": 0.02, "palette": 0, "erase": true,
                     "samples": [[0, 0, 0, 1, 0], [0.1, 0, 0, 0.5, 0.25]]}]}}}],
-  "environment": {"gravity": [0, -1.62, 0], "bounds": {"minimum": [-1, -1, -1], "maximum": [1, 1, 1]},
-    "walls": [{"id": "floor", "point": [0, 0, 0], "normal": [0, 2, 0], "heat": "fixed_temperature", "temperature": 400}]},
+  "environment": {"gravity": [0, -1.62, 0], "periodic": [false, true, false], "bounds": {"minimum": [-1, -1, -1], "maximum": [1, 1, 1]},
+    "walls": [{"id": "floor", "point": [0, 0, 0], "normal": [2, 0, 0], "heat": "fixed_temperature", "temperature": 400}]},
   "solver": {"substeps": 8, "kernel": "wendland_c2", "moment_correction": false,
              "thermal": {"model": "org.example.gone", "parameters": {"x": 1.5}}},
   "probes": [{"id": "p", "name": "Kern, innen", "quantity": "temperature", "body": "a", "phase": "solid",
@@ -134,6 +134,7 @@ void TestProjectIo::everythingSurvives() {
   const Project project = parse(kFull).project;
   QCOMPARE(project.bodies.size(), size_t{2});
   QCOMPARE(std::get<VoxelShape>(project.bodies[1].shape).runs[1].x, -2);
+  QCOMPARE(project.environment.periodic, (std::array<bool, 3>{false, true, false}));
   QCOMPARE(std::get<VoxelShape>(project.bodies[1].shape).spacing, 0.02);  // not said: the scene's
   const Project coarser = parse(writeProject(project), {"solver/particle_spacing=0.04"}).project;
   QCOMPARE(std::get<VoxelShape>(coarser.bodies[1].shape).spacing, 0.02);  // a sketch keeps its own
@@ -244,6 +245,15 @@ void TestProjectIo::wrongValuesNameThePlace_data() {
       "/environment/walls/0/normal: must have a direction");
   row("inside out", "environment/bounds/maximum=[-9, 1, 1]",
       "/environment/bounds/maximum/0: must be above the minimum");
+  row("one axis periodic", "environment/periodic=[true]", "/environment/periodic: must have 3 elements, not 1");
+  row("a wall that leans along a periodic axis", "environment/periodic=[true, false, false]",
+      "/environment/walls/1/normal/0: must be 0: the scene is periodic along x, and a wall that leans along it");
+  row("a periodic box too small",
+      "environment={\"periodic\": [false, true, false], \"bounds\": {\"minimum\": [0, 0, 0], \"maximum\": [1, 0.1, "
+      "1]}}",
+      "/environment/bounds/maximum/1: the scene is periodic along y, so this edge, 0.1 m, must be three times the "
+      "reach "
+      "of a particle or longer: 0.13");
   row("solidus above liquidus", "materials/0/properties={\"solidus\": 300, \"liquidus\": 280}",
       "/materials/0/properties");
   row("missing required plugin", "pluginsRequired=[\"org.example.gone\"]",
@@ -436,7 +446,7 @@ void TestProjectIo::schemaNamesEveryDeclaredKey() {
     QCOMPARE(properties.size(), list.count + others);
   };
   const json& properties = schema.at("properties");
-  expect(properties["environment"]["properties"], environmentParameters(), 3);
+  expect(properties["environment"]["properties"], environmentParameters(), 4);
   expect(properties["environment"]["properties"]["walls"]["items"]["properties"], wallParameters(), 4);
   expect(properties["solver"]["properties"], solverParameters(), 1);
   expect(schema["$defs"]["body"]["properties"], bodyParameters(), 12);

@@ -78,7 +78,11 @@ class Evaluator {
     api::Float4 p = s.position[i];
     if (old != kNone) {
       const api::Float4& q = m_previous->position[old];
-      p = {mix(p.x, q.x), mix(p.y, q.y), mix(p.z, q.z), mix(p.w, q.w)};
+      // Through the face that it has crossed, not across the whole box.
+      const auto along = [&](float now, float before, size_t axis) {
+        return before + s.period.shortest(now - before, axis) * m_blend;
+      };
+      p = {along(p.x, q.x, 0), along(p.y, q.y, 1), along(p.z, q.z, 2), mix(p.w, q.w)};
     }
     const auto blended = [&](const std::vector<float> Snapshot::*field) {
       const float value = (s.*field)[i];

@@ -42,14 +42,12 @@ void Cohesion::gather(const ConstraintContext& context, const ParticleView& part
   const double strength = context.parameters.size > 0 ? context.parameters[0] : kStrength;
   for (size_t i = first; i < last; ++i) {
     if (particles.motion[i] != Motion::Liquid) continue;
-    const Float4 p = particles.position[i];
     double x = 0, y = 0, z = 0;
     for (uint32_t q = neighbours.begin[i]; q < neighbours.last[i]; ++q) {
       const uint32_t j = neighbours.index[q];
       if (particles.motion[j] != Motion::Liquid) continue;
-      const Float4 other = particles.position[j];
-      const double dx = double{p.x} - double{other.x}, dy = double{p.y} - double{other.y};
-      const double dz = double{p.z} - double{other.z};
+      const Float4 line = separation(particles, i, j);
+      const double dx = line.x, dy = line.y, dz = line.z;
       const double squared = dx * dx + dy * dy + dz * dz;
       if (squared >= h * h) continue;  // the lists reach farther than the support
       const double weight = double{particles.mass[j]} * kernel(squared, h);

@@ -32,7 +32,27 @@ struct ParticleView {
   const float* liquidFraction;
   const float* gasFraction;
   const FieldAccess* fields;
+  /// Edge lengths in m by which space repeats itself, 0 along an open axis. Positions may lie in any image of the box;
+  /// measure between particles with separation(), unless they are tied, and so at home in one image.
+  Double3 period;
 };
+
+/// From particle j to particle i, x, y, z in m, of the nearest images of the two; seen from the other side it is the
+/// same to the last bit. Where space is open: position[i] - position[j].
+inline Float4 separation(const ParticleView& particles, size_t i, size_t j) {
+  const Float4 &a = particles.position[i], &b = particles.position[j];
+  Float4 d{a.x - b.x, a.y - b.y, a.z - b.z, 0};
+  const auto shorten = [](float& c, double period) {
+    if (!(period > 0)) return;
+    const float length = static_cast<float>(period);
+    const float images = c / length;
+    c -= length * static_cast<float>(static_cast<int64_t>(images + (images < 0 ? -0.5f : 0.5f)));
+  };
+  shorten(d.x, particles.period.x);
+  shorten(d.y, particles.period.y);
+  shorten(d.z, particles.period.z);
+  return d;
+}
 
 /// Neighbours of particle i: index[begin[i]] .. index[last[i] - 1], without i itself, in an order that depends on
 /// positions alone. Lists are padded to 16 entries, up to end[i], with the index `count` of a dummy far away.
