@@ -70,6 +70,11 @@ constexpr api::ParameterDeclaration kSolver[] = {
     number({"gas_parcel_diameter", "Size of a steam parcel", "D", "m"}, {0.2, 0.02, 1, 1e-3, 100},
            {"Motion", "Diameter with which a parcel of vapour drags through air. Larger rises faster.",
             "0.2 m rises about 1 m/s", ""}),
+    choice({"gas_model", "Vapour", "", ""}, "parcel|thesis", 0,
+           {"Motion",
+            "How boiling matter swells and rises: as a parcel with the weight of real vapour in air, or by the two "
+            "curves of the 2020 thesis, in which matter falls almost until it is all vapour, then rises at 1 m/s².",
+            "parcel; thesis for comparison: it hardly boils over", "Thesis 2020, eq. 4.9 and 4.10"}),
     number({"added_mass", "Air carried along by steam", "C_a", ""}, {0.5, 0, 1, 0, 10},
            {"Motion",
             "How much air a parcel of vapour must set in motion with itself, in volumes of its own. It halves how fast "

@@ -129,6 +129,7 @@ SolverSettings compileSettings(const Project& project) {
   s.viscosityTolerance = number("viscosity_tolerance");
   s.viscosityIterations = static_cast<int>(number("viscosity_iterations"));
   s.damping = number("damping");
+  s.gasModel = choiceOf(project.solver.parameters, list, "gas_model") == "thesis" ? GasModel::Thesis : GasModel::Parcel;
   s.gasDrag = number("gas_parcel_diameter");
   s.addedMass = number("added_mass");
   s.airDrag = number("air_drag");

@@ -2,6 +2,7 @@
 #include "core/solver/gasforces.h"
 
 #include "core/base/parallel.h"
+#include "core/math/thesis.h"
 
 #include <algorithm>
 #include <cmath>
@@ -105,7 +106,10 @@ void GasForces::apply(ParticleStore& store, size_t first, size_t last, double dt
       weight = effect.weight;
       slow = effect.slow;
     }
-    if (f > 0) {
+    if (f > 0 && m_solver.gasModel == GasModel::Thesis) {
+      const double strength = std::sqrt(g.x * g.x + g.y * g.y + g.z * g.z);
+      if (strength > 0) weight = -thesisGravity(f) / strength;
+    } else if (f > 0) {
       // Particles born since the last measurement count as being in the open.
       const double phi = i < m_immersion.size() ? m_immersion[i] : 0;
       const double ratio = air / vapourDensity(store.material()[i], store.temperature()[i]);

@@ -9,6 +9,9 @@
 
 namespace ps {
 
+/// What vapour does: a parcel of its real weight in air and a bounded size, or the thesis's two curves.
+enum class GasModel { Parcel, Thesis };
+
 enum class DensitySolver { Jacobi, Chebyshev };
 
 /// Which stage delivers viscosity: the implicit one for what the filter cannot reach, the filter alone, the implicit
@@ -32,6 +35,7 @@ struct SolverSettings {
   int viscosityIterations = 100;     ///< at most, of the implicit solve per substep
   double damping = 0;                ///< 1/s, of velocities, before gravity
   api::Double3 gravity{0, -9.81, 0};
+  GasModel gasModel = GasModel::Parcel;
   double gasDrag = 0.2;    ///< m, gas_parcel_diameter of the drag law
   double addedMass = 0.5;  ///< of a parcel of vapour: air that it carries along, in its own volume; 0.5 for a sphere
   double airDrag = 0;      ///< drag coefficient of loose solid and liquid particles in air; 0: they feel no air
