@@ -95,7 +95,9 @@ CaseCheck readCheck(Entry& entry, const std::vector<CaseRun>& configurations) {
     entry.fail("there is no run '" + check.run + "'");
   }
   check.property = entry.text("property");
-  if (check.property.empty()) {
+  check.function = entry.text("function");
+  check.arguments = entry.numbers("arguments");
+  if (check.property.empty() && check.function.empty()) {
     check.column = entry.neededText("column");
     check.minus = entry.text("minus");
     check.measure = entry.neededText("measure");
@@ -108,7 +110,7 @@ CaseCheck readCheck(Entry& entry, const std::vector<CaseRun>& configurations) {
     }
     check.times = entry.number("times").value_or(check.times);
     check.plus = entry.number("plus").value_or(check.plus);
-  } else {
+  } else if (check.function.empty()) {
     check.material = entry.neededText("material");
     check.temperature = entry.number("temperature").value_or(check.temperature);
   }

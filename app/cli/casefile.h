@@ -16,6 +16,8 @@ struct CaseCheck {
   std::string measure;                       ///< see measureNames()
   nlohmann::json options;                    ///< of the measure
   double times = 1, plus = 0;                ///< what is judged: the measured number times one, plus the other
+  std::string function;                      ///< instead of a run: see valueOfFunction()
+  std::vector<double> arguments;             ///< of the function
   std::string material, property;            ///< instead of a run: a property of an installed material
   double temperature = 293.15;               ///< K, of the property
   bool spread = false;                       ///< across all runs: largest over smallest, less 1

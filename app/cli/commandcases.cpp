@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/cli/casefile.h"
+#include "app/cli/casefunctions.h"
 #include "app/cli/casemeasure.h"
 #include "app/cli/commands.h"
 #include "app/cli/probetable.h"
@@ -134,6 +135,10 @@ double measured(const CaseCheck& check, const Table& table) {
 
 void judge(const Case& what, const CaseCheck& check, const std::vector<Table>& tables, const PluginRegistry& plugins,
            Verdicts& verdicts) {
+  if (!check.function.empty()) {
+    verdicts.add(what, check.what, check, expectedOf(check, 0), valueOfFunction(check.function, check.arguments));
+    return;
+  }
   if (!check.property.empty()) {
     verdicts.add(what, check.what, check, expectedOf(check, 0), propertyOf(check, plugins));
     return;

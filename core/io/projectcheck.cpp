@@ -281,12 +281,6 @@ class ProjectChecker {
     }
   }
 
-  void requireDirection(const Vec3& v, const std::string& pointer) const {
-    if (!(std::hypot(v[0], v[1], v[2]) > 1e-6)) {
-      fail(pointer, "must have a direction: at least one part away from zero");
-    }
-  }
-
   void checkSolver(const SolverOptions& solver) {
     if (solver.thermalModel.empty()) return;
     checkPlugin(PluginKind::Thermal, solver.thermalModel, "/solver/thermal/model", "no heat flows");

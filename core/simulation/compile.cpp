@@ -267,6 +267,7 @@ std::vector<Spawn> compileBody(const Project& project, const PluginRegistry& plu
       setFields(*part, body, centre, materials[part->material].caloric());
       disturb(part->position, spacing, jitter, static_cast<uint32_t>(seed));
     }
+    pinned.velocity.assign(pinned.position.size(), {0, 0, 0});
     if (!pinned.position.empty()) all.push_back(std::move(pinned));
     all.push_back(std::move(spawn));
   }

@@ -144,6 +144,16 @@ void ConstraintSystem::putGroupsBack(Set& set, const ParticleStore& store, std::
   });
 }
 
+std::vector<uint8_t> ConstraintSystem::groupMembers(const ParticleStore& store) const {
+  std::vector<uint8_t> result(store.size(), 0);
+  for (const Set& set : m_sets) {
+    for (size_t g = 0; set.groups && g < set.groups->count(); ++g) {
+      for (const uint32_t i : set.groups->members(g)) result[i] = 1;
+    }
+  }
+  return result;
+}
+
 std::vector<std::span<const uint32_t>> ConstraintSystem::rigidGroups() const {
   std::vector<std::span<const uint32_t>> result;
   for (const Set& set : m_sets) {

@@ -81,6 +81,8 @@ class ConstraintSystem {
   double energy(const ParticleStore& store);  ///< J
   void limits(const ParticleStore& store, std::vector<Limit>& out);
 
+  /// 1 for each particle that is a member of a group.
+  std::vector<uint8_t> groupMembers(const ParticleStore& store) const;
   /// Members of each group that moves as one body; valid until the structure or the order changes.
   std::vector<std::span<const uint32_t>> rigidGroups() const;
 

@@ -2,6 +2,7 @@
 #include "core/solver/gasforces.h"
 
 #include "core/base/parallel.h"
+#include "core/math/thesis.h"
 #include "core/solver/gaslaws.h"
 
 #include <algorithm>

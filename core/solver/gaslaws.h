@@ -16,14 +16,4 @@ double parcelLift(double ratio, double addedMass);
 /// k = 3 Cd ratio/(4 D).
 double dragRate(double ratio, double dragCoefficient, double diameter);
 
-/// Density of boiling matter as a share of the liquid's by the thesis's law (eq. 4.9) at a vaporised fraction 0 to 1,
-/// as printed: 0.0025 at 1. The thesis's own table ends at 0.7, see thesisVolume().
-double thesisDensityScale(double fraction);
-/// Volume of boiling matter as a multiple of the liquid's: the inverse of thesisDensityScale() held to 0.7 at least,
-/// the density of gas in the thesis's table 4.3.
-double thesisVolume(double fraction);
-/// Acceleration in m/s2 against the direction of gravity by the thesis's law (eq. 4.10): -9.8 for liquid, +1 for
-/// vapour, nearly a jump at the end. It holds for no other gravity.
-double thesisGravity(double fraction);
-
 }  // namespace ps

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/solver/phasestage.h"
 
+#include "core/math/thesis.h"
+
 #include "core/base/parallel.h"
-#include "core/solver/gaslaws.h"
 
 #include <algorithm>
 #include <functional>
@@ -28,6 +29,10 @@ double scatter(uint32_t id) {
   h ^= h >> 16;
   return static_cast<double>(h) / 2147483648.0 - 1;
 }
+
+/// Least share of the liquid's density in the thesis's model: its table's 700 kg/m³ of water vapour. The curve ends at
+/// 0.0025, at which a parcel would be wider than its neighbours' reach.
+constexpr double kThinnestThesis = 0.7;
 
 Phase phaseOf(double solid, double liquid, double gas) {
   if (gas >= kMistThreshold) return Phase::Gas;
@@ -55,14 +60,17 @@ double PhaseStage::meltThreshold(uint32_t material, uint32_t id) const {
   return std::clamp(rule.meltBreak + kMeltScatter * scatter(id), lowest, 0.98);
 }
 
-double PhaseStage::targetVolume(const ParticleStore& store, size_t i) const {
+double PhaseStage::restDensity(const ParticleStore& store, size_t i) const {
   const BakedMaterial& material = m_materials[store.material()[i]];
-  const double solid = store.solidFraction()[i], liquid = store.liquidFraction()[i], gas = store.gasFraction()[i];
-  const double mass = store.mass()[i], temperature = store.temperature()[i];
+  const double t = store.temperature()[i], solid = store.solidFraction()[i], gas = store.gasFraction()[i];
   if (m_solver.gasModel == GasModel::Thesis && gas > 0) {
-    return mass / material.condensedDensity(temperature, solid) * thesisVolume(gas);
+    return material.condensedDensity(t, solid) * std::max(thesisDensityScale(gas), kThinnestThesis);
   }
-  return mass / material.restDensity(temperature, solid, liquid, gas);
+  return material.restDensity(t, solid, store.liquidFraction()[i], gas);
+}
+
+double PhaseStage::targetVolume(const ParticleStore& store, size_t i) const {
+  return double{store.mass()[i]} / restDensity(store, i);
 }
 
 void PhaseStage::initialise(ParticleStore& store, size_t first, size_t last) {

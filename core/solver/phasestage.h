@@ -23,6 +23,8 @@ class PhaseStage {
   /// One frame. `melted` receives the indices of particles that ceased to be solid (for the compression hand-over).
   /// True when any particle became solid.
   bool update(ParticleStore& store, std::vector<uint32_t>& melted);
+  /// kg/m³ at its temperature and fractions.
+  double restDensity(const ParticleStore& store, size_t i) const;
   /// Share of a solid particle that must have melted before it lets go.
   double meltThreshold(uint32_t material, uint32_t id) const;
 

@@ -184,12 +184,9 @@ std::vector<uint32_t> Solver::spawn(const Spawn& spawn) {
       spawn.temperatures.empty() ? std::vector<double>(count, spawn.temperature) : spawn.temperatures;
   const std::vector<api::Phase> phase =
       spawn.phases.empty() ? std::vector<api::Phase>(count, spawn.phase) : spawn.phases;
-  const BakedMaterial& material = m->materials[spawn.material];
   const auto setMass = [&] {
     for (size_t i = first; i < last; ++i) {
-      const double density = material.restDensity(store.temperature()[i], store.solidFraction()[i],
-                                                  store.liquidFraction()[i], store.gasFraction()[i]);
-      store.mass()[i] = static_cast<float>(density * cell);
+      store.mass()[i] = static_cast<float>(m->phase.restDensity(store, i) * cell);
       store.velocity()[i].w = spawn.fixed ? 0 : 1 / store.mass()[i];
     }
   };

@@ -50,6 +50,7 @@ struct Solver::Impl {
   double energyOffset = 0;  ///< J: thermal energy minus the ledger's net, when both were last known to be right
   bool configured = false, modelChanged = false, structureChanged = true, reordered = true;
   std::vector<uint32_t> melted;
+  std::vector<uint8_t> grouped;  ///< 1 for members of groups
   StepReport report;
 
   void configure();

@@ -122,7 +122,10 @@ void Solver::Impl::freshLists() {
 
 void Solver::Impl::listsChanged(bool newStructure) {
   density.refreshLists(store, neighbours);
-  if (newStructure) rigid.refreshBodies(store, constraints);
+  if (newStructure) {
+    rigid.refreshBodies(store, constraints);
+    grouped = constraints.groupMembers(store);
+  }
   wallStage.refreshLists(store, rigid.members());
   swept.refreshLists(store, neighbours);
   rigid.refreshContacts(store, neighbours, constraints);
@@ -154,11 +157,15 @@ void Solver::Impl::velocities(double dt) {
     const float rate = static_cast<float>(1 / dt), step = static_cast<float>(dt);
     for (size_t i = first; i < last; ++i) {
       if (velocity[i].w == 0) continue;
-      // The way over the time, as what was predicted and what constraints added to it: where nothing was added, the
-      // velocity stays as it is, instead of the difference of two rounded places.
-      velocity[i].x += rate * (position[i].x - (previous[i].x + step * velocity[i].x));
-      velocity[i].y += rate * (position[i].y - (previous[i].y + step * velocity[i].y));
-      velocity[i].z += rate * (position[i].z - (previous[i].z + step * velocity[i].z));
+      const api::Float4 &x = position[i], &from = previous[i];
+      api::Float4& v = velocity[i];
+      // Nothing has touched it: its velocity is what it was, and not the difference of two rounded places. Plugins of
+      // groups count on that difference.
+      const bool free = x.x == from.x + step * v.x && x.y == from.y + step * v.y && x.z == from.z + step * v.z;
+      if (free && grouped[i] == 0) continue;
+      v.x = rate * (x.x - from.x);
+      v.y = rate * (x.y - from.y);
+      v.z = rate * (x.z - from.z);
     }
   });
 }

@@ -139,44 +139,6 @@ class TestConstraint : public ps::api::ConstraintPlugin {
   ps::api::ParameterList parameters() const noexcept override { return {}; }
 };
 
-/// XPBD springs from each particle to the one born before it. Parameters: stiffness in N/m, rest length in m.
-class SpringChain final : public TestConstraint {
- public:
-  ps::api::ConstraintTraits traits() const noexcept override {
-    static constexpr ps::api::FieldDeclaration kValues[] = {{"multiplier", "", "", ps::api::FieldType::Float32}};
-    return {ps::api::ConstraintTraits::Form::Structural, 2, ps::api::listOf(kValues), {}};
-  }
-  void build(const ps::api::ConstraintContext&, const ps::api::ParticleView& p, const ps::api::NeighbourView&,
-             ps::api::Span<const uint32_t> members, ps::api::ConstraintSink& sink) const override {
-    for (const uint32_t i : members) {
-      for (uint32_t j = 0; j < p.count; ++j) {
-        const uint32_t pair[2] = {j, i};
-        const float value = 0;
-        if (p.id[j] + 1 == p.id[i]) sink.add(pair, &value);
-      }
-    }
-  }
-  void predict(const ps::api::ConstraintContext&, const ps::api::ParticleView&,
-               const ps::api::ConstraintBatch& b) const override {
-    std::fill(b.values[0], b.values[0] + b.count, 0.0f);
-  }
-  void project(const ps::api::ConstraintContext& c, const ps::api::ParticleView& p,
-               const ps::api::ConstraintBatch& b) const override {
-    const double softness = 1 / (c.parameters[0] * c.dt * c.dt);
-    for (size_t k = 0; k < b.count; ++k) {
-      ps::api::Float4 &xi = p.position[b.particles[2 * k]], &xj = p.position[b.particles[2 * k + 1]];
-      const double wi = p.velocity[b.particles[2 * k]].w, wj = p.velocity[b.particles[2 * k + 1]].w;
-      const double d[3] = {double{xi.x} - xj.x, double{xi.y} - xj.y, double{xi.z} - xj.z};
-      const double length = std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
-      const double change = -(length - c.parameters[1] + softness * b.values[0][k]) / (wi + wj + softness);
-      b.values[0][k] += static_cast<float>(change);
-      const double s = change / length;
-      xi = {float(xi.x + s * wi * d[0]), float(xi.y + s * wi * d[1]), float(xi.z + s * wi * d[2]), xi.w};
-      xj = {float(xj.x - s * wj * d[0]), float(xj.y - s * wj * d[1]), float(xj.z - s * wj * d[2]), xj.w};
-    }
-  }
-};
-
 /// Adds and removes constraints every frame and counts batches in which a particle appears twice.
 class ColourWatch final : public TestConstraint {
  public:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What air does to matter: lift and drag of vapour parcels, of single drops and solids, wind, and the thesis's laws.
 #include "core/solver/gasforces.h"
-#include "core/solver/gaslaws.h"
+
 #include "heatscene.h"
 
 #include <QTest>
@@ -188,19 +188,6 @@ class TestGas : public QObject {
       QVERIFY2(std::abs(double{v.x} - 3) < 0.1 && std::abs(double{v.z} + 4) < 0.1, qPrintable(QString::number(v.x)));
       QVERIFY(v.y == 0);
     }
-  }
-
-  void thesisLaws() {
-    // Case o1, 1e-4 relative as the reference asks.
-    const double f[] = {0, 0.25, 0.5, 0.75, 0.9, 0.99, 1};
-    const double beta[] = {0.997488, 0.952214, 0.5, 0.0477862, 0.00826616, 0.00283062, 0.00251214};
-    const double g[] = {-9.8, -9.53294, -9.15654, -8.51309, -7.66252, -5.52571, 1.0};
-    for (size_t k = 0; k < 7; ++k) {
-      QVERIFY(std::abs(ps::thesisDensityScale(f[k]) / beta[k] - 1) < 1e-4);
-      QVERIFY(std::abs(ps::thesisGravity(f[k]) / g[k] - 1) < 1e-4);
-    }
-    QVERIFY(ps::thesisGravity(0.99998) < 0 && ps::thesisGravity(0.999985) > 0);
-    QVERIFY(std::abs(ps::thesisVolume(1) - 1 / 0.7) < 1e-12);
   }
 
   void thesisVapourRisesAndSwellsByItsLaws() {

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/cli/casefunctions.h"
+
+#include "core/base/error.h"
+#include "core/math/convection.h"
+#include "core/math/response.h"
+#include "core/math/thesis.h"
+
+#include <map>
+
+namespace ps::cli {
+namespace {
+
+using Numbers = std::vector<double>;
+
+/// E(dT)/E0 by the law that materials may choose.
+double thesisStiffness(double difference) {
+  constexpr double kAnywhere = 300;  // K
+  Response law;
+  law.kind = Response::Kind::Law;
+  law.law = "thesis_sigmoid";
+  law.coefficients = {1, kAnywhere, 1};
+  return law.at(kAnywhere + difference);
+}
+
+struct Function {
+  size_t arguments;
+  double (*value)(const Numbers&);
+};
+
+const std::map<std::string, Function> kFunctions{
+    {"thesis_density_scale", {1, [](const Numbers& a) { return thesisDensityScale(a[0]); }}},
+    {"thesis_gravity", {1, [](const Numbers& a) { return thesisGravity(a[0]); }}},
+    {"thesis_stiffness", {1, [](const Numbers& a) { return thesisStiffness(a[0]); }}},
+    {"rayleigh_number",
+     {6,
+      [](const Numbers& a) {
+        return rayleighNumber({a[0], a[1], a[2], a[3], a[4], a[5]});
+      }}},
+};
+
+}  // namespace
+
+double valueOfFunction(const std::string& name, const std::vector<double>& arguments) {
+  const auto found = kFunctions.find(name);
+  if (found == kFunctions.end()) throw InputError("there is no function '" + name + "'");
+  if (arguments.size() != found->second.arguments) {
+    throw InputError("the function '" + name + "' takes " + std::to_string(found->second.arguments) + " arguments");
+  }
+  return found->second.value(arguments);
+}
+
+}  // namespace ps::cli
