@@ -34,6 +34,7 @@ std::vector<Quantity> allQuantities() {
       mean("compression", "Mean compression", "1"),
       {"compression_max", "Highest compression", "1"},
       {"outside", "Particles beyond a wall", "1"},
+      {"gap", "Distance to other bodies", "m"},
   };
   for (const std::string axis : {"x", "y", "z"}) {
     const auto add = [&](const std::string& key, const std::string& end, const std::string& label, const char* unit,

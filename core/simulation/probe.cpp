@@ -66,6 +66,7 @@ class Measurement {
     if (m_chosen.empty()) return nothing();
     if (base == "spin") return spin();
     if (base == "front") return front();
+    if (base == "gap") return gap();
     if (base == "extent") return largest() - smallest();
     if (m_probe.wave) return amplitude(*m_probe.wave);
     if (m_key.statistic == "min") return smallest();
@@ -138,6 +139,29 @@ class Measurement {
       inertia += m * (rb * rb + rc * rc);
     }
     return inertia > 0 ? angular / inertia : nothing();
+  }
+
+  /// From the centre of one of the chosen to the nearest centre of another body: others are sorted along x, and looked
+  /// at outwards from there until x alone is farther than the nearest.
+  double gap() const {
+    const api::Float4* place = m_store.position();
+    std::vector<uint32_t> others;
+    for (uint32_t i = 0; i < m_store.size(); ++i) others.push_back(i);
+    std::sort(others.begin(), others.end(), [&](uint32_t a, uint32_t b) { return place[a].x < place[b].x; });
+    double nearest = std::numeric_limits<double>::infinity();  // squared
+    for (const size_t i : m_chosen) {
+      const auto look = [&](uint32_t j) {
+        const double x = double{place[i].x} - place[j].x, y = double{place[i].y} - place[j].y,
+                     z = double{place[i].z} - place[j].z;
+        if (m_store.body()[j] != m_store.body()[i]) nearest = std::min(nearest, x * x + y * y + z * z);
+        return x * x <= nearest;
+      };
+      const auto here = std::lower_bound(others.begin(), others.end(), place[i].x,
+                                         [&](uint32_t j, float x) { return place[j].x < x; });
+      for (auto j = here; j != others.end() && look(*j);) ++j;
+      for (auto j = here; j != others.begin() && look(*(j - 1));) --j;
+    }
+    return std::isfinite(nearest) ? std::sqrt(nearest) : nothing();
   }
 
   double front() const {

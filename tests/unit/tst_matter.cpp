@@ -248,9 +248,9 @@ class TestMatter : public QObject {
     row("conductivity_liquid", falling, 360, 0);
     row("conductivity_solid", falling, 360, 0);
     row("conductivity_gas", falling, 360, 0);
-    row("density_liquid", law("linear", {-5, 0, 300}), 300, 1);
+    row("density_liquid", law("linear", {-5, 0, 300}), 300, 0.1);
     row("density_solid", law("vogel", {5, 200, 140}), 260, 3e4);
-    row("density_liquid", law("arrhenius", {1000, 0, 1e-310}), 300, 1);  // no number
+    row("density_liquid", law("arrhenius", {1000, 0, 1e-310}), 300, 0.1);  // no number
     row("youngs_modulus", law("exponential", {1e8, 293.15, 2}), 100, 1e13);
     row("viscosity", law("vogel", {-1.6, 4000, 520}), 400, 1e15);
   }

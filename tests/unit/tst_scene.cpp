@@ -77,8 +77,8 @@ void TestScene::wrongValuesAreExplained_data() {
                         << "";
   QTest::newRow("too small") << -0.02 << "particle_spacing"
                              << "must be at least 0.0005 m, not −0.02";
-  QTest::newRow("too large") << 5.0 << "particle_spacing"
-                             << "must be at most 1 m, not 5";
+  QTest::newRow("too large") << 50.0 << "particle_spacing"
+                             << "must be at most 10 m, not 50";
   QTest::newRow("NaN") << nan << "particle_spacing"
                        << "must be a finite number, not NaN";
   QTest::newRow("infinite") << infinity << "particle_spacing"
