@@ -15,6 +15,8 @@ nlohmann::json jsonOf(const Spread& spread) {
   return {{"mean", spread.mean}, {"median", spread.median}, {"p95", spread.p95}};
 }
 
+nlohmann::json jsonOf(const api::Double3& v) { return {v.x, v.y, v.z}; }
+
 double liquidCount(const FrameStats& stats) {
   return static_cast<double>(stats.phases[static_cast<size_t>(api::Phase::Liquid)].count +
                              stats.phases[static_cast<size_t>(api::Phase::Boiling)].count);
@@ -41,6 +43,11 @@ void Report::add(const StepReport& step, const FrameStats& stats) {
   m_errorSum += liquid * step.densityErrorMean;
   m_liquid += liquid;
   m_errorMax = std::max(m_errorMax, step.densityErrorMax);
+  if (frames() == 1) m_momentum.start = step.momentum.start;
+  m_momentum.end = step.momentum.end;
+  api::Double3& external = m_momentum.external;
+  external = {external.x + step.momentum.external.x, external.y + step.momentum.external.y,
+              external.z + step.momentum.external.z};
   m_last = stats;
 }
 
@@ -80,6 +87,10 @@ nlohmann::json Report::json(Engine& engine, double wallSeconds) const {
             {"exchanged", m_last.heat.exchanged},
             {"elastic", engine.solver().elasticEnergy()},
             {"drift", m_last.thermalEnergy - m_start.thermalEnergy - m_last.heat.net()}}},
+          {"momentum",
+           {{"start", jsonOf(m_momentum.start)},
+            {"end", jsonOf(m_momentum.end)},
+            {"external", jsonOf(m_momentum.external)}}},
           {"phases", phases},
           {"temperature",
            {{"min", m_last.temperatureMin}, {"mean", m_last.temperatureMean}, {"max", m_last.temperatureMax}}}};

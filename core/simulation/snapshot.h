@@ -25,6 +25,7 @@ struct FrameStats {
   double densityErrorMean = 0, densityErrorMax = 0;
   double thermalEnergy = 0, kineticEnergy = 0;  ///< J
   HeatLedger heat;
+  MomentumRecord momentum;  ///< of the last frame
   std::array<double, static_cast<size_t>(Stage::Count)> milliseconds{};
   double totalMilliseconds = 0;
   std::vector<double> probes;  ///< in the order of Project::probes

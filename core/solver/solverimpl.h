@@ -51,6 +51,9 @@ struct Solver::Impl {
   bool configured = false, modelChanged = false, structureChanged = true, reordered = true;
   std::vector<uint32_t> melted;
   StepReport report;
+  Received external;  ///< kg m/s, in this frame
+  ChunkSum weight;
+  bool hangsOnFixed = false;  ///< something that moves is tied to what is fixed
 
   void configure();
   void settleEnergy() { energyOffset = heat.energy(store) - heat.ledger().net(); }
@@ -68,6 +71,13 @@ struct Solver::Impl {
   void listsChanged(bool newStructure);
   void substep(uint32_t index);
   void predict(double dt);
+  Vector3 momentum() const;      ///< kg m/s, of what moves
+  Vector3 displacement() const;  ///< kg m, since the start of the substep, of what moves
+  /// Calls into plugins, and books what comes from outside: nothing, unless something hangs on what is fixed.
+  template <class Call>
+  void structure(Call&& call, double dt);
+  void bookContact(double dt);
+  void findTiesToFixed();
   void velocities(double dt);
   /// False when the thermal model threw; the frame is then taken back.
   bool exchangeHeat();
