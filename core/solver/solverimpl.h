@@ -10,6 +10,7 @@
 #include "core/solver/sweptclamp.h"
 #include "core/solver/viscosity.h"
 #include "core/solver/walls.h"
+#include "core/solver/wetcontact.h"
 
 #include <chrono>
 
@@ -40,6 +41,7 @@ struct Solver::Impl {
   SweptClamp swept;
   SolidContact contact;
   Impacts impacts;
+  WetContact wet;
   RigidContact rigid;
   GasForces gas;
   HeatStage heat;

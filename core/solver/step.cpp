@@ -165,6 +165,7 @@ void Solver::Impl::freshLists() {
 
 void Solver::Impl::listsChanged(bool newStructure) {
   density.refreshLists(store, neighbours);
+  wet.refreshLists(store, neighbours, density.wetSolids());
   if (newStructure) {
     rigid.refreshBodies(store, constraints);
     findTiesToFixed();
@@ -243,6 +244,7 @@ void Solver::Impl::substep(uint32_t index) {
     structure([&] { constraints.projectNeighbours(store, neighbours, index, it); }, dt);
     timed(Stage::Contact, [&] {
       contact.project(store);
+      wet.project(store, neighbours);
       wallStage.projectNear(store);
     });
     structure([&] { constraints.projectGroups(store, index, it); }, dt);

@@ -137,9 +137,12 @@ class TestPairings : public QObject {
         const double depth = wall.normal.x * x.x + wall.normal.y * x.y + wall.normal.z * x.z - wall.offset;
         lowest = std::min(lowest, depth / kSpacing);
       }
-      if (p.motion()[i] != ps::api::Motion::Solid) continue;
+      // Two fluids mix; what is solid takes up room.
+      const auto isHard = [&](size_t k) {
+        return p.motion()[k] == ps::api::Motion::Solid || p.motion()[k] == ps::api::Motion::Static;
+      };
       for (size_t j = 0; j < p.size(); ++j) {
-        if (p.body()[j] == p.body()[i]) continue;
+        if (p.body()[j] == p.body()[i] || !(isHard(i) || isHard(j))) continue;
         const ps::api::Float4 d = p.separation(i, j);
         nearest = std::min(nearest, std::sqrt(double{d.x} * d.x + double{d.y} * d.y + double{d.z} * d.z) / kSpacing);
       }
@@ -151,7 +154,7 @@ class TestPairings : public QObject {
         "given",
         nearest, lowest, fastest, open / weight, open / given);
     QVERIFY(lowest > 0.25);   // a centre belongs half a spacing inside
-    QVERIFY(nearest > 0.75);  // spheres of one spacing
+    QVERIFY(nearest > 0.749);  // spheres of one spacing; liquid lies on fixed matter at 0.75, to rounding
     QVERIFY(open < 1e-3 * weight);
   }
 };
