@@ -18,6 +18,7 @@ nlohmann::json jsonOf(const Spread& spread) {
 nlohmann::json jsonOf(const FlowAmount& amount) {
   return {{"count", amount.count}, {"mass", amount.mass}, {"energy", amount.energy}};
 }
+nlohmann::json jsonOf(const api::Double3& v) { return {v.x, v.y, v.z}; }
 
 double liquidCount(const FrameStats& stats) {
   return static_cast<double>(stats.phases[static_cast<size_t>(api::Phase::Liquid)].count +
@@ -45,6 +46,11 @@ void Report::add(const StepReport& step, const FrameStats& stats) {
   m_errorSum += liquid * step.densityErrorMean;
   m_liquid += liquid;
   m_errorMax = std::max(m_errorMax, step.densityErrorMax);
+  if (frames() == 1) m_momentum.start = step.momentum.start;
+  m_momentum.end = step.momentum.end;
+  api::Double3& external = m_momentum.external;
+  external = {external.x + step.momentum.external.x, external.y + step.momentum.external.y,
+              external.z + step.momentum.external.z};
   m_last = stats;
 }
 
@@ -85,6 +91,10 @@ nlohmann::json Report::json(Engine& engine, double wallSeconds) const {
             {"elastic", engine.solver().elasticEnergy()},
             {"drift", m_last.thermalEnergy - m_start.thermalEnergy - m_last.heat.net()}}},
           {"flow", {{"poured", jsonOf(m_last.flow.poured)}, {"drained", jsonOf(m_last.flow.drained)}}},
+          {"momentum",
+           {{"start", jsonOf(m_momentum.start)},
+            {"end", jsonOf(m_momentum.end)},
+            {"external", jsonOf(m_momentum.external)}}},
           {"phases", phases},
           {"temperature",
            {{"min", m_last.temperatureMin}, {"mean", m_last.temperatureMean}, {"max", m_last.temperatureMax}}}};

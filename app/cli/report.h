@@ -39,6 +39,7 @@ class Report {
   std::string m_message;
   std::vector<double> m_total;
   std::array<std::vector<double>, static_cast<size_t>(Stage::Count)> m_stages;
+  MomentumRecord m_momentum;  ///< start of the first frame, end of the last, impulse of all
   double m_errorSum = 0, m_errorMax = 0, m_liquid = 0;
 };
 

@@ -65,6 +65,7 @@ FrameStats measure(const Solver& solver, const StepReport& report) {
   stats.thermalEnergy = solver.thermalEnergy();
   stats.kineticEnergy = kineticEnergy(store);
   stats.heat = solver.heatLedger();
+  stats.momentum = report.momentum;
   stats.milliseconds = report.milliseconds;
   stats.totalMilliseconds = report.totalMilliseconds;
   return stats;

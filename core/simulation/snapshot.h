@@ -35,6 +35,7 @@ struct FrameStats {
   double thermalEnergy = 0, kineticEnergy = 0;  ///< J
   HeatLedger heat;
   FlowTotal flow;
+  MomentumRecord momentum;  ///< of the last frame
   std::array<double, static_cast<size_t>(Stage::Count)> milliseconds{};
   double totalMilliseconds = 0;
   std::vector<double> probes;  ///< in the order of Project::probes

@@ -87,7 +87,7 @@ size_t SolidContact::touching(const ParticleStore& store, const Chunk& chunk, si
   return count;
 }
 
-api::Float4 SolidContact::correctionOf(const ParticleStore& store, const Chunk& chunk, size_t k) const {
+api::Float4 SolidContact::correctionOf(const ParticleStore& store, Chunk& chunk, size_t k) const {
   const uint32_t i = chunk.who[k];
   const api::Float4 *position = store.position(), *previous = store.previous(), *velocity = store.velocity();
   const api::Float4 a = position[i], aFrom = previous[i];
@@ -114,9 +114,10 @@ api::Float4 SolidContact::correctionOf(const ParticleStore& store, const Chunk& 
     const float hold = way > resting ? std::min(1.0f, sliding / way) : 1;
     const float share = velocity[i].w / (velocity[i].w + velocity[j].w) * kRelaxation /
                         static_cast<float>(std::max({m_contacts[i], m_contacts[j], uint8_t{kRelaxation}}));
-    sum.x += share * (depth * nx - hold * tx);
-    sum.y += share * (depth * ny - hold * ty);
-    sum.z += share * (depth * nz - hold * tz);
+    const float x = share * (depth * nx - hold * tx), y = share * (depth * ny - hold * ty),
+                z = share * (depth * nz - hold * tz);
+    sum.x += x, sum.y += y, sum.z += z;
+    if (velocity[j].w == 0) chunk.fromFixed = chunk.fromFixed + double{store.mass()[i]} * Vector3{x, y, z};
   }
   return sum;
 }
@@ -138,6 +139,10 @@ void SolidContact::project(ParticleStore& store) {
     api::Float4& x = store.position()[chunk.who[k]];
     x.x += chunk.correction[k].x, x.y += chunk.correction[k].y, x.z += chunk.correction[k].z;
   });
+  for (Chunk& chunk : m_chunks) {
+    m_given.add(chunk.fromFixed);
+    chunk.fromFixed = {};
+  }
 }
 
 }  // namespace ps

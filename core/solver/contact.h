@@ -2,6 +2,7 @@
 #pragma once
 #include "core/matter/material.h"
 #include "core/solver/constraintsystem.h"
+#include "core/solver/impulse.h"
 
 namespace ps {
 
@@ -24,6 +25,8 @@ class SolidContact {
   /// neighbour lists far more often than solids ask for new pairs.
   bool stale(const ParticleStore& store) const;
   void project(ParticleStore& store);
+  /// What fixed particles moved, kg m.
+  Received& given() { return m_given; }
   /// visit(i, j) for every pair that may touch, i a solid; pairs of two solids may come from both sides.
   template <class Visit>
   void forPairs(Visit&& visit) const {
@@ -45,13 +48,15 @@ class SolidContact {
   struct Chunk {
     std::vector<uint32_t> who, begin, other;
     std::vector<api::Float4> correction;
+    Vector3 fromFixed;  ///< kg m
   };
-  api::Float4 correctionOf(const ParticleStore& store, const Chunk& chunk, size_t k) const;
+  api::Float4 correctionOf(const ParticleStore& store, Chunk& chunk, size_t k) const;
   size_t touching(const ParticleStore& store, const Chunk& chunk, size_t k) const;
 
   double m_diameter = 0, m_reach = 0, m_halfSkin = 0;
   std::vector<Friction> m_friction;  ///< per material
   std::vector<Chunk> m_chunks;
+  Received m_given;
   std::vector<uint32_t> m_solids;
   std::vector<api::Float4> m_found;  ///< where the solids were when the pairs were found
   std::vector<uint8_t> m_contacts;

@@ -114,8 +114,10 @@ void DensityStage::refreshLists(const ParticleStore& store, const Neighbours& ne
     for (uint32_t q = view.begin[i]; q < view.last[i]; ++q) m_touched[view.index[q]] = 1;
   }
   m_wet.clear();
+  m_touchesFixed = false;
   const api::Motion* motion = store.motion();
   for (size_t i = 0; i < n; ++i) {
+    m_touchesFixed = m_touchesFixed || (m_touched[i] != 0 && store.velocity()[i].w == 0);
     if (m_touched[i] != 0 && motion[i] == api::Motion::Solid) m_wet.push_back(static_cast<uint32_t>(i));
   }
 }
@@ -212,6 +214,7 @@ void DensityStage::move(ParticleStore& store, const PairLists& pairs, float cheb
     }
     carried = {dx, dy, dz, 0};
     x.x += dx, x.y += dy, x.z += dz;
+    m_moved.add(first / kGrain, store.mass()[i], {dx, dy, dz});
   }
 }
 
@@ -236,7 +239,9 @@ void DensityStage::project(ParticleStore& store, const Neighbours& neighbours, i
   m_some.assign(m_fluid.begin(), m_fluid.end());
   m_some.insert(m_some.end(), m_wet.begin(), m_wet.end());
   forChunks(fluids, kGrain, [&](size_t first, size_t last) { multipliers(store, pairs, relaxation, first, last); });
+  m_moved.start((moving + kGrain - 1) / kGrain);
   forChunks(moving, kGrain, [&](size_t first, size_t last) { move(store, pairs, m_chebyshev, first, last); });
+  if (m_touchesFixed || !m_planes.empty()) m_given.add(m_moved.total());
 }
 
 DensityError DensityStage::measure(ParticleStore& store, const Neighbours& neighbours) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "core/particles/neighbours.h"
+#include "core/solver/impulse.h"
 #include "core/solver/pairkernels.h"
 #include "core/solver/settings.h"
 
@@ -44,6 +45,11 @@ class DensityStage {
   /// One iteration; moves fluid particles and the solids that touch them.
   void project(ParticleStore& store, const Neighbours& neighbours, int iteration);
   /// C and lambda at the present positions, written to the store.
+  /// What project() moved in sum where walls or fixed particles took part, kg m. Particles among themselves move by
+  /// equal and opposite amounts.
+  Received& given() { return m_given; }
+  /// Fixed particles have fluid near.
+  bool touchesFixed() const { return m_touchesFixed; }
   DensityError measure(ParticleStore& store, const Neighbours& neighbours);
   /// Hands the present compression over to particles that have just become fluid: they start without a push, and the
   /// offset decays (see decayCompression). Call after refresh().
@@ -82,6 +88,9 @@ class DensityStage {
   std::vector<uint8_t> m_touched;
   std::vector<float> m_volume, m_weight, m_excess;
   std::vector<api::Float4> m_points, m_multipliers;
+  ChunkSum m_moved;
+  Received m_given;
+  bool m_touchesFixed = false;
   std::vector<DensitySums> m_sums;
   std::vector<Constraint> m_constraints;
   std::vector<api::Float4> m_moves, m_carried;

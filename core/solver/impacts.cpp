@@ -243,7 +243,7 @@ void Impacts::findFast(const ParticleStore& store, const StructureGraph& graph, 
   }
 }
 
-void Impacts::bounce(ParticleStore& store) const {
+void Impacts::bounce(ParticleStore& store) {
   const auto give = [](api::Float4& v, Vector3 by) {
     v.x += static_cast<float>(by.x), v.y += static_cast<float>(by.y), v.z += static_cast<float>(by.z);
   };
@@ -259,6 +259,7 @@ void Impacts::bounce(ParticleStore& store) const {
       if (change < 0 && (pass > 0 || !k.loose)) continue;
       const Vector3 impulse = change / weights * k.normal;
       give(va, double{va.w} * impulse);
+      if (k.b == kNone || store.velocity()[k.b].w == 0) m_given.add(impulse);
       if (k.b != kNone) give(store.velocity()[k.b], -double{store.velocity()[k.b].w} * impulse);
     }
   }

@@ -23,7 +23,9 @@ class Impacts {
   void collect(const ParticleStore& store, const SolidContact& contact, ConstraintSystem& constraints,
                std::span<const uint8_t> rigid);
   /// When velocities are known.
-  void bounce(ParticleStore& store) const;
+  void bounce(ParticleStore& store);
+  /// What walls and fixed particles gave in bounce(), kg m/s.
+  Received& given() { return m_given; }
 
  private:
   static constexpr uint32_t kNone = ~0u;
@@ -64,6 +66,7 @@ class Impacts {
   std::vector<double> m_restitution;  ///< by material
   std::vector<Impact> m_impacts;
   std::vector<Stop> m_stops;
+  Received m_given;
   std::vector<Sought> m_solids;
   std::vector<std::pair<uint64_t, uint32_t>> m_cells;  ///< cell and index into m_solids, sorted
   std::vector<double> m_first;                         ///< by particle: time of its first impact; 2: none

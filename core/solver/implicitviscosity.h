@@ -39,6 +39,8 @@ class ImplicitViscosity {
   /// Nobody is viscous this frame.
   void rest();
   bool resting() const { return !m_active; }
+  /// A boundary took part in the last apply().
+  bool held() const { return m_active && m_groups.anyHeld(); }
 
   /// After velocities follow from positions. `viscosity`: Pa s, negative for what has none; size() + 16 entries.
   void apply(ParticleStore& store, const Neighbours& neighbours, const DensityStage& density, const float* viscosity);

@@ -221,8 +221,17 @@ void RigidContact::project(ParticleStore& store) {
   }
 }
 
-void RigidContact::hold(ParticleStore& store, std::span<const api::Float4> held) const {
-  if (held.empty()) return;
+Vector3 RigidContact::pushed() const {
+  Vector3 sum;
+  for (const Contact& c : m_contacts) {
+    if (isOutside(c)) sum = sum + c.push * c.normal + c.rub;
+  }
+  return sum;
+}
+
+Vector3 RigidContact::hold(ParticleStore& store, std::span<const api::Float4> held) const {
+  Vector3 moved;
+  if (held.empty()) return moved;
   for (const Body& body : m_bodies) {
     Vector3 back;
     for (const uint32_t i : body.members) {
@@ -233,8 +242,10 @@ void RigidContact::hold(ParticleStore& store, std::span<const api::Float4> held)
     for (const uint32_t i : body.members) {
       api::Float4& x = store.position()[i];
       x.x += static_cast<float>(back.x), x.y += static_cast<float>(back.y), x.z += static_cast<float>(back.z);
+      moved = moved + double{store.mass()[i]} * back;
     }
   }
+  return moved;
 }
 
 void RigidContact::bounce(ParticleStore& store) {
@@ -266,6 +277,7 @@ void RigidContact::bounce(ParticleStore& store) {
       const Vector3 impulse = change * c.mass * c.normal;
       give(c.a, impulse);
       give(c.b, -1.0 * impulse);
+      if (isOutside(c)) m_given.add(impulse);
     }
   }
   for (Contact& c : m_contacts) {

@@ -2,6 +2,7 @@
 #pragma once
 #include "core/matter/material.h"
 #include "core/solver/constraintsystem.h"
+#include "core/solver/impulse.h"
 #include "core/solver/vector3.h"
 
 namespace ps {
@@ -35,9 +36,14 @@ class RigidContact {
   void project(ParticleStore& store);
   /// Moves each body back by the longest of its members' ways in `held` (SweptClamp): it stops at a layer of static
   /// particles that it would have crossed, however fast it is.
-  void hold(ParticleStore& store, std::span<const api::Float4> held) const;
+  /// Returns what it moved, kg m.
+  Vector3 hold(ParticleStore& store, std::span<const api::Float4> held) const;
   /// Restitution, when velocities are known.
   void bounce(ParticleStore& store);
+  /// What walls and fixed particles gave to bodies in this substep up to now: by contact in kg m, in bounce() in kg
+  /// m/s.
+  Vector3 pushed() const;
+  Received& given() { return m_given; }
 
  private:
   static constexpr uint32_t kNone = ~0u;
@@ -99,6 +105,9 @@ class RigidContact {
   void readMotion(const ParticleStore& store, Body& body) const;
   void readCentre(const ParticleStore& store, Body& body) const;
 
+  static bool isOutside(const Contact& contact) { return contact.b.body == kNone && !(contact.b.inverseMass > 0); }
+
+  Received m_given;
   bool m_resume = false;  ///< the substep's first pass is to come
   double m_spacing = 0, m_slowest = 0;
   std::vector<Plane> m_planes;

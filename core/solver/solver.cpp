@@ -130,6 +130,7 @@ void Solver::Impl::configure() {
   wallStage.configure(settings, walls);
   swept.configure(settings);
   contact.configure(settings, table);
+  wet.configure(settings.spacing);
   impacts.configure(settings, walls, table);
   rigid.configure(settings, walls, table);
   gas.configure(settings, thermal, table);

@@ -31,6 +31,14 @@ struct TakenMatter {
   CopiedConstraints constraints;
 };
 
+/// Momentum of moving matter over one frame, kg m/s. What is open, end - start - external, is rounding: forces between
+/// particles come in pairs.
+struct MomentumRecord {
+  api::Double3 start{0, 0, 0}, end{0, 0, 0};
+  /// Impulse of all that is no moving matter: gravity, air, damping, walls, fixed particles and what hangs on them.
+  api::Double3 external{0, 0, 0};
+};
+
 struct StepReport {
   StepFlags flags = 0;
   std::string message;  ///< the culprit: "particle 17 of 'Ice block': position is not finite"
@@ -39,6 +47,7 @@ struct StepReport {
   double totalMilliseconds = 0;
   double densityErrorMean = 0, densityErrorMax = 0;  ///< fraction, liquid particles, after the last iteration
   int viscosityIterations = 0;                       ///< of the implicit viscosity, the most of a substep
+  MomentumRecord momentum;
 };
 
 /// One engine: substepped XPBD (Macklin et al. 2019) with position-based density (Macklin & Mueller 2013, volume form

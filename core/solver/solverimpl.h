@@ -10,6 +10,7 @@
 #include "core/solver/sweptclamp.h"
 #include "core/solver/viscosity.h"
 #include "core/solver/walls.h"
+#include "core/solver/wetcontact.h"
 
 #include <chrono>
 
@@ -40,6 +41,7 @@ struct Solver::Impl {
   SweptClamp swept;
   SolidContact contact;
   Impacts impacts;
+  WetContact wet;
   RigidContact rigid;
   GasForces gas;
   HeatStage heat;
@@ -52,6 +54,9 @@ struct Solver::Impl {
   std::vector<uint32_t> melted;
   std::vector<uint8_t> grouped;  ///< 1 for members of groups
   StepReport report;
+  Received external;  ///< kg m/s, in this frame
+  ChunkSum weight;
+  bool hangsOnFixed = false;  ///< something that moves is tied to what is fixed
 
   void configure();
   void settleEnergy() { energyOffset = heat.energy(store) - heat.ledger().net(); }
@@ -69,6 +74,13 @@ struct Solver::Impl {
   void listsChanged(bool newStructure);
   void substep(uint32_t index);
   void predict(double dt);
+  Vector3 momentum() const;      ///< kg m/s, of what moves
+  Vector3 displacement() const;  ///< kg m, since the start of the substep, of what moves
+  /// Calls into plugins, and books what comes from outside: nothing, unless something hangs on what is fixed.
+  template <class Call>
+  void structure(Call&& call, double dt);
+  void bookContact(double dt);
+  void findTiesToFixed();
   void velocities(double dt);
   /// False when the thermal model threw; the frame is then taken back.
   bool exchangeHeat();

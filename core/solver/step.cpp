@@ -22,7 +22,44 @@ bool finite(const api::Float4& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w);
 }
 
+api::Double3 double3Of(Vector3 v) { return {v.x, v.y, v.z}; }
+
 }  // namespace
+
+Vector3 Solver::Impl::momentum() const {
+  Vector3 sum;
+  for (size_t i = 0; i < store.size(); ++i) {
+    if (store.velocity()[i].w > 0) sum = sum + double{store.mass()[i]} * vectorOf(store.velocity()[i]);
+  }
+  return sum;
+}
+
+Vector3 Solver::Impl::displacement() const {
+  Vector3 sum;
+  for (size_t i = 0; i < store.size(); ++i) {
+    if (store.velocity()[i].w == 0) continue;
+    sum = sum + double{store.mass()[i]} * (vectorOf(store.position()[i]) - vectorOf(store.previous()[i]));
+  }
+  return sum;
+}
+
+template <class Call>
+void Solver::Impl::structure(Call&& call, double dt) {
+  timed(Stage::Structure, [&] {
+    const Vector3 before = hangsOnFixed ? displacement() : Vector3{};
+    call();
+    if (hangsOnFixed) external.add(1 / dt * (displacement() - before));
+  });
+}
+
+void Solver::Impl::findTiesToFixed() {
+  const StructureGraph& graph = constraints.graph(store.size());
+  const auto isFixed = [&](uint32_t i) { return store.velocity()[i].w == 0; };
+  hangsOnFixed = false;
+  for (uint32_t i = 0; i < store.size() && !hangsOnFixed; ++i) {
+    if (isFixed(i)) hangsOnFixed = !graph.isFree(i);
+  }
+}
 
 std::string Solver::Impl::describe(size_t i) const {
   const uint32_t body = store.body()[i];
@@ -45,13 +82,19 @@ void Solver::Impl::runFrame() {
     good = !rejectIfNotFinite();
     timed(Stage::Neighbours, [&] { freshLists(); });
     if (good) keepLastGood();
+    external.take();
+    report.momentum.start = double3Of(momentum());
     timed(Stage::Phase, [&] { gas.measure(store, neighbours); });
     timed(Stage::Viscosity, [&] { viscosity.refresh(store, neighbours, density); });
     for (int s = 0; s < settings.substeps && good; ++s) {
       substep(static_cast<uint32_t>(s));
       good = !rejectIfNotFinite();
     }
-    if (good) checkBounds();
+    if (good) {
+      checkBounds();
+      report.momentum.end = double3Of(momentum());
+      report.momentum.external = double3Of(external.take());
+    }
     if (good) timed(Stage::Heat, [&] { good = exchangeHeat(); });
     good = good && !rejectIfNotFinite();
     if (good) closeFrame();
@@ -122,9 +165,11 @@ void Solver::Impl::freshLists() {
 
 void Solver::Impl::listsChanged(bool newStructure) {
   density.refreshLists(store, neighbours);
+  wet.refreshLists(store, neighbours, density.wetSolids());
   if (newStructure) {
     rigid.refreshBodies(store, constraints);
     grouped = constraints.groupMembers(store);
+    findTiesToFixed();
   }
   wallStage.refreshLists(store, rigid.members());
   swept.refreshLists(store, neighbours);
@@ -134,20 +179,28 @@ void Solver::Impl::listsChanged(bool newStructure) {
 }
 
 void Solver::Impl::predict(double dt) {
+  weight.start((store.size() + kGrain - 1) / kGrain);
   forChunks(store.size(), kGrain, [&](size_t first, size_t last) {
     api::Float4 *position = store.position(), *previous = store.previous(), *velocity = store.velocity();
+    Vector3 before, after;
     const float keep = static_cast<float>(1 / (1 + settings.damping * dt)), step = static_cast<float>(dt);
     for (size_t i = first; i < last; ++i) {
       previous[i] = position[i];
+      if (velocity[i].w > 0) before = before + double{store.mass()[i]} * vectorOf(velocity[i]);
       if (velocity[i].w > 0) velocity[i].x *= keep, velocity[i].y *= keep, velocity[i].z *= keep;
     }
     gas.apply(store, first, last, dt);
+    for (size_t i = first; i < last; ++i) {
+      if (velocity[i].w > 0) after = after + double{store.mass()[i]} * vectorOf(velocity[i]);
+    }
+    weight.add(first / kGrain, 1, after - before);
     for (size_t i = first; i < last; ++i) {  // what is fixed moves too, at the velocity it was given
       position[i].x += step * velocity[i].x;
       position[i].y += step * velocity[i].y;
       position[i].z += step * velocity[i].z;
     }
   });
+  external.add(weight.total());
 }
 
 void Solver::Impl::velocities(double dt) {
@@ -186,36 +239,51 @@ void Solver::Impl::substep(uint32_t index) {
       rigid.refreshContacts(store, neighbours, constraints);
     }
   });
-  timed(Stage::Structure, [&] { constraints.predict(store, index); });
+  structure([&] { constraints.predict(store, index); }, dt);
   timed(Stage::Contact, [&] {
     rigid.begin(store);
     impacts.collect(store, contact, constraints, rigid.members());
   });
   for (int iteration = 0; iteration < settings.iterations; ++iteration) {
     const uint32_t it = static_cast<uint32_t>(iteration);
-    timed(Stage::Structure, [&] { constraints.projectStructure(store, index, it); });
+    structure([&] { constraints.projectStructure(store, index, it); }, dt);
     timed(Stage::Density, [&] { density.project(store, neighbours, iteration); });
-    timed(Stage::Structure, [&] { constraints.projectNeighbours(store, neighbours, index, it); });
+    structure([&] { constraints.projectNeighbours(store, neighbours, index, it); }, dt);
     timed(Stage::Contact, [&] {
       contact.project(store);
+      wet.project(store, neighbours);
       wallStage.projectNear(store);
     });
-    timed(Stage::Structure, [&] { constraints.projectGroups(store, index, it); });
+    structure([&] { constraints.projectGroups(store, index, it); }, dt);
     timed(Stage::Contact, [&] { rigid.project(store); });
   }
   timed(Stage::Contact, [&] {
     wallStage.project(store);
     swept.apply(store, neighbours, wallStage, rigid.members());
-    rigid.hold(store, swept.held());
+    external.add(1 / dt * rigid.hold(store, swept.held()));
     velocities(dt);
+    bookContact(dt);
   });
   timed(Stage::Viscosity, [&] { viscosity.apply(store, neighbours, density); });
-  timed(Stage::Structure, [&] { constraints.deriveVelocities(store, index); });
+  timed(Stage::Structure, [&] {
+    const Vector3 before = hangsOnFixed ? momentum() : Vector3{};
+    constraints.deriveVelocities(store, index);
+    if (hangsOnFixed) external.add(momentum() - before);
+  });
   timed(Stage::Contact, [&] {
     impacts.bounce(store);
     rigid.bounce(store);
   });
+  for (Received* given : {&viscosity.given(), &impacts.given(), &rigid.given()}) external.add(given->take());
   timed(Stage::Density, [&] { density.decayCompression(store, dt); });
+}
+
+/// What walls and fixed particles moved in this substep, as impulse.
+void Solver::Impl::bookContact(double dt) {
+  Vector3 moved = rigid.pushed();
+  for (Received* given : {&wallStage.given(), &contact.given(), &density.given(), &swept.given()})
+    moved = moved + given->take();
+  external.add(1 / dt * moved);
 }
 
 bool Solver::Impl::exchangeHeat() {
@@ -254,6 +322,7 @@ void Solver::Impl::checkBounds() {
       if (*c[a] < low[a] || *c[a] > high[a]) *c[a] = inside;
     }
     if (!outside) continue;
+    external.add(-double{store.mass()[i]} * vectorOf(store.velocity()[i]));
     store.velocity()[i] = {0, 0, 0, store.velocity()[i].w};
     ++lost;
     if (culprit == store.size() || store.id()[i] < store.id()[culprit]) culprit = i;

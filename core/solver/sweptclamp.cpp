@@ -13,6 +13,7 @@ namespace {
 using Point = std::array<double, 3>;
 constexpr double kContact = 0.75;  // spacings
 constexpr int kBounces = 4;
+constexpr size_t kGrain = 512;
 constexpr double kMostBoxes = 1000;  ///< periods that a particle may cross in a substep and still be swept
 
 Point pointOf(const api::Float4& p) { return {p.x, p.y, p.z}; }
@@ -229,7 +230,8 @@ void SweptClamp::apply(ParticleStore& store, const Neighbours& neighbours, const
   }
   m_held.resize(store.size(), {0, 0, 0, 0});
   api::Float4* position = store.position();
-  forChunks(store.size(), 512, [&](size_t first, size_t last) {
+  m_moved.start((store.size() + kGrain - 1) / kGrain);
+  forChunks(store.size(), kGrain, [&](size_t first, size_t last) {
     for (size_t i = first; i < last; ++i) {
       if (store.velocity()[i].w == 0 || maySkip(store, neighbours, i)) continue;
       const Point from = pointOf(store.previous()[i]), to = pointOf(position[i]);
@@ -239,12 +241,15 @@ void SweptClamp::apply(ParticleStore& store, const Neighbours& neighbours, const
       walls.clamp(end);
       const api::Float4 at{static_cast<float>(end[0]), static_cast<float>(end[1]), static_cast<float>(end[2]),
                            position[i].w};
-      if (rigid[i] == 0)
+      if (rigid[i] == 0) {
+        m_moved.add(first / kGrain, store.mass()[i], vectorOf(at) - vectorOf(position[i]));
         position[i] = at;
-      else
+      } else {
         m_held[i] = {at.x - position[i].x, at.y - position[i].y, at.z - position[i].z, 0};
+      }
     }
   });
+  m_given.add(m_moved.total());
 }
 
 }  // namespace ps

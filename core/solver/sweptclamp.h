@@ -24,6 +24,8 @@ class SweptClamp {
   /// For each particle the way back (m) by which a member of a rigid body would have to be moved; empty when there is
   /// nothing static.
   std::span<const api::Float4> held() const { return m_held; }
+  /// What apply() moved, kg m.
+  Received& given() { return m_given; }
 
  private:
   using Point = std::array<double, 3>;
@@ -60,6 +62,8 @@ class SweptClamp {
   std::vector<uint32_t> m_cellStart, m_cellOf;
   std::vector<uint8_t> m_nearStatic;
   std::vector<api::Float4> m_held;
+  ChunkSum m_moved;
+  Received m_given;
 };
 
 }  // namespace ps

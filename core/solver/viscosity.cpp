@@ -161,12 +161,27 @@ void ViscosityStage::filter(ParticleStore& store, const Neighbours& neighbours, 
   }
 }
 
+/// Of all that viscosity moves, kg m/s.
+Vector3 ViscosityStage::momentumOf(const ParticleStore& store, const DensityStage& density) const {
+  Vector3 sum;
+  for (const std::span<const uint32_t> list : {density.fluid(), density.wetSolids()}) {
+    for (const uint32_t i : list) sum = sum + double{store.mass()[i]} * vectorOf(store.velocity()[i]);
+  }
+  return sum;
+}
+
 void ViscosityStage::apply(ParticleStore& store, const Neighbours& neighbours, const DensityStage& density) {
   if (density.fluid().empty() || m_coefficient.size() < store.size()) return;
-  if (m_filters) filter(store, neighbours, density);
+  if (m_filters) {
+    const Vector3 before = density.touchesFixed() ? momentumOf(store, density) : Vector3{};
+    filter(store, neighbours, density);
+    if (density.touchesFixed()) m_given.add(momentumOf(store, density) - before);
+  }
   if (m_implicit.resting()) return;
   if (m_yields) addYieldStress(store);
+  const Vector3 before = momentumOf(store, density);
   m_implicit.apply(store, neighbours, density, m_viscosity.data());
+  if (m_implicit.held()) m_given.add(momentumOf(store, density) - before);
   if (m_yields) m_implicit.shearRates(store, neighbours, density, m_shearRate);
 }
 

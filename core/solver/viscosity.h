@@ -2,6 +2,7 @@
 #pragma once
 #include "core/matter/material.h"
 #include "core/solver/implicitviscosity.h"
+#include "core/solver/impulse.h"
 
 namespace ps {
 
@@ -24,6 +25,8 @@ class ViscosityStage {
   /// After velocities follow from positions.
   void apply(ParticleStore& store, const Neighbours& neighbours, const DensityStage& density);
   void limits(const ParticleStore& store, std::vector<Limit>& out) const;
+  /// What walls and fixed particles gave in apply(), kg m/s.
+  Received& given() { return m_given; }
   int iterations() const { return m_implicit.iterations(); }  ///< of the implicit stage, the most of a substep
 
  private:
@@ -34,6 +37,7 @@ class ViscosityStage {
   bool isLiquid(const ParticleStore& store, size_t i) const {
     return store.motion()[i] == api::Motion::Liquid && store.material()[i] < m_materials.size() && store.mass()[i] > 0;
   }
+  Vector3 momentumOf(const ParticleStore& store, const DensityStage& density) const;
   void addYieldStress(const ParticleStore& store);
 
   SolverSettings m_settings;
@@ -45,6 +49,7 @@ class ViscosityStage {
   std::vector<float> m_coefficient;                          ///< XSPH's
   std::vector<float> m_plastic, m_yieldStress, m_shearRate;  ///< Pa s, Pa, 1/s
   std::vector<float> m_viscosity, m_viscous;                 ///< what the implicit stage is asked, and for whom
+  Received m_given;
   std::vector<uint32_t> m_which;
   std::vector<api::Float4> m_change;
 };

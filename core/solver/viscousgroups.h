@@ -2,6 +2,7 @@
 #pragma once
 #include "core/particles/neighbours.h"
 
+#include <algorithm>
 #include <array>
 #include <span>
 #include <vector>
@@ -23,6 +24,10 @@ class ViscousGroups {
   void find(std::span<const Role> roles, const api::NeighbourView& view);
   std::span<const uint32_t> rows() const { return m_rows; }
   std::span<const Segment> segments() const { return m_segments; }
+  /// Some group is held by a boundary, as measure() found.
+  bool anyHeld() const {
+    return std::any_of(m_groups.begin(), m_groups.end(), [](const Group& g) { return !g.closed; });
+  }
 
   /// Mass, centre and inertia of each group without a fixed particle in its lists and a segment in `touched`.
   void measure(const ParticleStore& store, std::span<const uint8_t> touched, double spacing);

@@ -29,6 +29,7 @@ class TestRenderParts : public QObject {
   void automaticRanges();
   void colourNamesRoundTrip();
   void interpolatesById();
+  void interpolatesThroughTheFaceOfAPeriodicBox();
   void revisionsDoNotMix();
   void hidesOnlyWhatIsCovered();
   void leavesOutWhatIsBuried();
@@ -213,6 +214,21 @@ void TestRenderParts::interpolatesById() {
   // 7 is at 100 + 0.25 * 400 = 200 K: the colour of a quarter of the range. One step of the table is 1/1023.
   const auto expected = colourAt(ColourBy::Temperature, 0.25, (273.15 - 100) / 400);
   QVERIFY(std::abs(out.particles[2].red - expected[0]) < 0.005f);
+}
+
+void TestRenderParts::interpolatesThroughTheFaceOfAPeriodicBox() {
+  Snapshot before, now;
+  now.period = before.period = Period({-1, -1, -1}, {1, 1, 1}, {true, false, false});
+  addParticle(before, {0.9, 0.9, 0}, 0.01, 0, api::Motion::Liquid);
+  addParticle(now, {-0.9, -0.9, 0}, 0.01, 0, api::Motion::Liquid);  // through x, across y
+  render::InstanceRequest request;
+  request.now = &now;
+  request.previous = &before;
+  request.blend = 0.25f;
+  render::Instances out;
+  render::collectInstances(request, out);
+  QVERIFY(std::abs(out.particles[0].x - 0.95f) < 1e-6f);
+  QVERIFY(std::abs(out.particles[0].y - 0.45f) < 1e-6f);
 }
 
 void TestRenderParts::revisionsDoNotMix() {

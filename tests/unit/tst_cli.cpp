@@ -127,12 +127,13 @@ void TestCli::simulateWritesTheReportsKeys() {
   const nlohmann::json r = jsonFile(folder.filePath("r.json"));
   QCOMPARE(keysOf(r), (Keys{"particles", "frames", "substeps", "iterations", "dt", "simulated_s", "wall_s", "threads",
                             "backend", "isa", "state_hash", "flags", "limits", "ms_per_frame", "density_error",
-                            "energy", "phases", "temperature"}));
+                            "energy", "momentum", "phases", "temperature"}));
   QCOMPARE(keysOf(r["ms_per_frame"]),
            (Keys{"total", "neighbours", "density", "structure", "contact", "viscosity", "heat", "phase"}));
   for (const auto& stage : r["ms_per_frame"]) QCOMPARE(keysOf(stage), (Keys{"mean", "median", "p95"}));
   QCOMPARE(keysOf(r["density_error"]), (Keys{"mean", "max"}));
   QCOMPARE(keysOf(r["energy"]), (Keys{"start", "end", "exchanged", "drift", "elastic"}));
+  QCOMPARE(keysOf(r["momentum"]), (Keys{"start", "end", "external"}));
   QCOMPARE(keysOf(r["phases"]), (Keys{"solid", "melting", "liquid", "boiling", "gas"}));
   QCOMPARE(keysOf(r["temperature"]), (Keys{"min", "mean", "max"}));
   QCOMPARE(r["frames"].get<int>(), 30);

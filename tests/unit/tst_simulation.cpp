@@ -39,6 +39,7 @@ class TstSimulation : public QObject {
   void aBodyKeepsItsParticles();
   void cellsThatCannotBeMadeLeaveNoTrace();
   void noTwoParticlesInOnePlace();
+  void periodicBoxesHoldOneImageOfEach();
   void endlessParticlesAreRefused();
   void runsWithoutAnyPlugin();
   void viscosityIsCompiledAsDeclared();
@@ -352,6 +353,31 @@ void TstSimulation::noTwoParticlesInOnePlace() {
   Engine beside(project, m_plugins);
   QCOMPARE(beside.solver().particles().size(), size_t{432});
   QCOMPARE(told.size(), size_t{1});
+}
+
+void TstSimulation::periodicBoxesHoldOneImageOfEach() {
+  Project project = scenes::iceOnPlate(4, 293.15);
+  const double d = numberOf(project.solver.parameters, solverParameters(), "particle_spacing");
+  project.environment.walls.clear();
+  project.environment.boundsMinimum = {-5 * d, -1, -1};
+  project.environment.boundsMaximum = {5 * d, 1, 1};
+  project.environment.periodic = {true, false, false};
+  project.bodies[0].shape = BoxShape{{4 * d, 0, 0}, {12 * d, 4 * d, 4 * d}};  // two layers longer than the box
+  Engine engine(project, m_plugins);
+  QCOMPARE(engine.solver().particles().size(), size_t{10 * 4 * 4});
+  const SnapshotPtr seen = engine.snapshot();
+  for (const api::Float4& p : seen->position) QVERIFY(std::abs(p.x) <= static_cast<float>(5 * d));
+  QVERIFY(seen->period.length(0) > 0);
+  // Cells that lie beyond the face are taken already; those of the next row are free.
+  Body body = sketchedWater();
+  auto& voxels = std::get<VoxelShape>(body.shape);
+  voxels.spacing = d;
+  voxels.origin = {5.5 * d, 1.5 * d, 1.5 * d};
+  QCOMPARE(engine.addCells(body, {{0, 0, 0}}, 0).size(), size_t{0});
+  QCOMPARE(engine.addCells(body, {{0, 1, 0}}, 0).size(), size_t{1});
+  project.environment.boundsMaximum[0] = 0;
+  QVERIFY_THROWS_EXCEPTION(InputError, engine.update(project));
+  QVERIFY_THROWS_EXCEPTION(InputError, Engine(project, m_plugins));
 }
 
 void TstSimulation::endlessParticlesAreRefused() {
