@@ -31,7 +31,7 @@ class ProjectChecker {
     for (size_t i = 0; i < m_project.probes.size(); ++i) {
       const std::string& body = m_project.probes[i].body;
       if (!body.empty() && !contains(m_project.bodies, body)) {
-        fail(at("/probes", i) + "/body", "there is no body '" + body + "'");
+        warn(at("/probes", i) + "/body", "there is no body '" + body + "'; the probe measures nothing");
       }
     }
     checkPinned();

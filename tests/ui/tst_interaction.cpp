@@ -244,6 +244,161 @@ class TestInteraction : public QObject {
     QCOMPARE(document().undoStack().count(), 4);
   }
 
+  void anInstalledMaterialIsAddedAndDrawn() {
+    auto* panel = m_window->findChild<MaterialsPanel*>();
+    const QRect tile = panel->tileOf("wax");
+    QVERIFY(!tile.isEmpty() && panel->rect().contains(tile));
+    QTest::mouseClick(panel, Qt::LeftButton, {}, tile.center());
+    QCOMPARE(document().project().materials.size(), size_t{2});
+    QCOMPARE(document().project().materials[1].base, std::string("wax"));
+    QCOMPARE(panel->currentLabel(), QStringLiteral("Wax"));
+    QCOMPARE(view()->brush().material, std::string("wax"));
+    QCOMPARE(m_window->inspector().material(), std::string("wax"));
+    QVERIFY(m_window->inspector().materialPanel()->row(QStringLiteral("material/wax/viscosity")));
+    m_window->action(QStringLiteral("sketch.brush"))->trigger();
+    const size_t before = idsNow(session()).size();
+    stroke(QPoint(view()->width() / 2 - 60, view()->height() / 2), {72, 0}, true);
+    QVERIFY(idsNow(session()).size() > before);
+    QCOMPARE(document().project().bodies.back().material, std::string("wax"));
+    document().undoStack().undo();
+    document().undoStack().undo();
+    QCOMPARE(document().project().materials.size(), size_t{1});
+    QCOMPARE(panel->currentLabel(), QStringLiteral("Water"));
+    QCOMPARE(view()->brush().material, std::string("water"));
+    QCOMPARE(m_window->inspector().material(), std::string("water"));
+  }
+
+  void thePaletteAddsAMaterial() {
+    m_window->action(QStringLiteral("edit.search"))->trigger();
+    CommandPalette* palette = m_window->palette();
+    palette->field()->setText(QStringLiteral("wax"));
+    QCOMPARE(palette->currentTitle(), QStringLiteral("Add material Wax"));
+    QTest::keyClick(palette->field(), Qt::Key_Return);
+    QCOMPARE(document().project().materials.back().base, std::string("wax"));
+  }
+
+  void anUnusedMaterialIsRemovedByItsMenu() {
+    auto* panel = m_window->findChild<MaterialsPanel*>();
+    panel->addInstalled("wax");
+    const auto menuAt = [&](const std::string& id) {
+      const QPoint at = panel->tileOf(id).center();
+      QContextMenuEvent ask(QContextMenuEvent::Mouse, at, panel->mapToGlobal(at));
+      QApplication::sendEvent(panel, &ask);
+      return panel->findChild<QMenu*>();
+    };
+    QMenu* menu = menuAt("water");
+    QVERIFY(menu && !menu->actions().front()->isEnabled());
+    QVERIFY2(menu->actions().front()->text().contains(QStringLiteral("“Ice block” is of it")),
+             qPrintable(menu->actions().front()->text()));
+    delete menu;
+    menu = menuAt("wax");
+    QVERIFY(menu && menu->actions().front()->isEnabled());
+    menu->actions().front()->trigger();
+    delete menu;
+    QCOMPARE(document().project().materials.size(), size_t{1});
+    document().undoStack().undo();
+    QCOMPARE(document().project().materials.size(), size_t{2});
+  }
+
+  /// Enter adds what the arrows have walked to; walking alone adds nothing.
+  void materialsAreAddedWithoutAMouse() {
+    auto* panel = m_window->findChild<MaterialsPanel*>();
+    QTest::keyClick(panel, Qt::Key_Down);
+    QCOMPARE(document().undoStack().count(), 0);
+    QTest::keyClick(panel, Qt::Key_Return);
+    QCOMPARE(document().project().materials.size(), size_t{2});
+  }
+
+  void deleteTakesTheSelectedBody_data() {
+    QTest::addColumn<QString>("where");
+    for (const char* where : {"outliner", "view", "menu"}) QTest::newRow(where) << QString::fromLatin1(where);
+  }
+  void deleteTakesTheSelectedBody() {
+    QFETCH(QString, where);
+    const size_t before = idsNow(session()).size();
+    QVERIFY(before > 0);
+    m_window->outliner()->select(OutlineKind::Body, "ice");
+    QWidget* target = where == QLatin1String("view") ? static_cast<QWidget*>(view()) : m_window->outliner()->view();
+    target->setFocus();
+    if (where == QLatin1String("menu")) {
+      auto* outliner = m_window->outliner()->view();
+      const QPoint at = outliner->visualRect(outliner->currentIndex()).center();
+      Q_EMIT outliner->customContextMenuRequested(at);
+      QMenu* menu = nullptr;
+      QTRY_VERIFY((menu = qobject_cast<QMenu*>(QApplication::activePopupWidget())));
+      QStringList names;
+      for (QAction* action : menu->actions()) names << action->objectName();
+      menu->close();
+      for (const char* name : {"edit.rename", "edit.visible", "edit.locked", "view.frame", "edit.delete"})
+        QVERIFY2(names.contains(QString::fromLatin1(name)), name);
+      m_window->action(QStringLiteral("edit.delete"))->trigger();
+    } else {
+      QTest::keyClick(target, Qt::Key_Delete);
+    }
+    QVERIFY(!document().body("ice"));
+    QVERIFY(idsNow(session()).empty());
+    QCOMPARE(m_window->outliner()->selectedBody(), std::string());
+    document().undoStack().undo();
+    QVERIFY(document().body("ice"));
+    QCOMPARE(idsNow(session()).size(), before);
+  }
+
+  void deleteElsewhereTakesNothing() {
+    m_window->outliner()->select(OutlineKind::Body, "ice");
+    QWidget* panel = m_window->findChild<MaterialsPanel*>();
+    panel->setFocus();
+    QTest::keyClick(panel, Qt::Key_Delete);
+    QVERIFY(document().body("ice"));
+    // A click beside everything selects nothing, so that Delete has nothing to take.
+    QTest::mouseClick(view(), Qt::LeftButton, {}, QPoint(view()->width() / 2, 60));
+    QTest::keyClick(view(), Qt::Key_Delete);
+    QVERIFY(document().body("ice"));
+  }
+
+  void aLockedBodyIsNotDeleted() {
+    m_window->outliner()->select(OutlineKind::Body, "ice");
+    m_window->action(QStringLiteral("edit.locked"))->trigger();
+    m_window->action(QStringLiteral("edit.delete"))->trigger();
+    QVERIFY(document().body("ice"));
+    QVERIFY(m_window->notice()->isVisible());
+    QVERIFY2(m_window->notice()->text().contains(QStringLiteral("is locked")), qPrintable(m_window->notice()->text()));
+    m_window->action(QStringLiteral("edit.locked"))->trigger();
+    m_window->action(QStringLiteral("edit.delete"))->trigger();
+    QVERIFY(!document().body("ice") && !m_window->notice()->isVisible());
+  }
+
+  void structureIsARow() {
+    m_window->inspector().setBody("ice");
+    ParameterPanel* panel = m_window->inspector().bodyPanel();
+    const QString key = QStringLiteral("body/ice/structure");
+    QVERIFY(panel->row(key));
+    QCOMPARE(panel->row(key)->valueText(), QStringLiteral("Bonds"));
+    panel->row(key)->reset();  // to none
+    QVERIFY(document().body("ice")->constraints.empty());
+    QCOMPARE(panel->row(key)->valueText(), QStringLiteral("None"));
+    QCOMPARE(document().undoStack().count(), 1);
+    document().undoStack().undo();
+    QCOMPARE(panel->row(key)->valueText(), QStringLiteral("Bonds"));
+  }
+
+  void wallsWithoutHeatGreyItsRows() {
+    ParameterPanel* panel = m_window->inspector().scenePanel();
+    const auto idle = [&](const char* key) {
+      return panel->row(QStringLiteral("wall/floor/") + QLatin1String(key))->has(RowState::Disabled);
+    };
+    ParameterRow* pinned = m_window->inspector().materialPanel()->row(QStringLiteral("wall/floor/temperature"));
+    QVERIFY(pinned && !pinned->has(RowState::Disabled) && !idle("temperature") && !idle("film_coefficient"));
+    document().setParameter({"wall", "floor", "heat"}, std::string("adiabatic"));
+    QVERIFY(pinned->has(RowState::Disabled) && idle("temperature") && idle("film_coefficient"));
+    QVERIFY(!idle("friction") && !idle("heat"));
+    QVERIFY(pinned->model().disabledReason.contains(QStringLiteral("lets no heat through")));
+    document().undoStack().undo();
+    QVERIFY(!pinned->has(RowState::Disabled) && !idle("temperature"));
+    document().setParameter({"wall", "floor", "heat"}, std::string("adiabatic"));
+    m_window->inspector().rebuild();  // new rows stand still too
+    QVERIFY(idle("temperature") && idle("film_coefficient"));
+  }
+
   void toolAndMaterialAreTold() {
     const auto value = [](QWidget* widget) {
       return QAccessible::queryAccessibleInterface(widget)->text(QAccessible::Value);

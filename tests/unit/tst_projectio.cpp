@@ -212,7 +212,6 @@ void TestProjectIo::wrongValuesNameThePlace_data() {
   row("huge temperature", "bodies/0/temperature=1e308", "/bodies/0/temperature: must be at most 10000 K, not 1e+308");
   row("half a substep", "solver/substeps=2.5", "/solver/substeps: must be a whole number, not the number 2.5");
   row("no such material", "bodies/0/material=lead", "/bodies/0/material: the scene has no material 'lead'");
-  row("no such body", "probes/0/body=nobody", "/probes/0/body: there is no body 'nobody'");
   row("id taken", "environment/walls/1/id=floor", "/environment/walls/1/id: 'floor' is taken already");
   row("id with a slash", "bodies/0/id=a/b", "/bodies/0/id: must be a name of letters");
   row("two coordinates", "bodies/0/shape/box/center=[0, 1]", "/bodies/0/shape/box/center: must have 3 elements, not 2");
