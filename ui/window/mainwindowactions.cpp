@@ -50,7 +50,8 @@ bool takesKey(const QObject* widget, int key) {
   switch (key) {
     case Qt::Key_Delete:
       // Deletes where what is selected can be seen to be: in the outliner and in the view.
-      return !qobject_cast<const QAbstractItemView*>(widget) && !qobject_cast<const Viewport*>(widget);
+      return widget == QApplication::focusWidget() && !qobject_cast<const Viewport*>(widget) &&
+             !qobject_cast<const Outliner*>(widget->parent());
     case Qt::Key_Space:
       return qobject_cast<const QAbstractButton*>(widget) || qobject_cast<const QComboBox*>(widget);
     case Qt::Key_Left:
