@@ -190,7 +190,10 @@ void MainWindow::onChanged(const ChangeEvent& event) {
     if (Viewport* view = viewport(); view && owner == "wall") view->bodiesChanged();
   } else if (std::holds_alternative<BodyChanged>(event) || std::holds_alternative<StrokeChanged>(event)) {
     m_outliner->rebuild();
-    if (Viewport* view = viewport()) view->bodiesChanged();
+    if (Viewport* view = viewport()) {
+      view->setSelectedBody(m_outliner->selectedBody());  // it may be gone
+      view->bodiesChanged();
+    }
   } else if (std::holds_alternative<MaterialsChanged>(event)) {
     m_materials->rebuild();
     useCurrentMaterial();
