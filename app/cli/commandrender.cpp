@@ -145,7 +145,9 @@ int renderProject(const Arguments& arguments, const std::string& path) {
     }
   }
   const long pictures = painter.finish();
-  if (!arguments.has("--quiet")) std::printf("%ld pictures in %s\n", pictures, arguments.text("--out").c_str());
+  if (!arguments.has("--quiet"))
+    std::printf("%s in %s\n", counted(static_cast<size_t>(pictures), "picture").c_str(),
+                arguments.text("--out").c_str());
   if (!flags) return interrupted() ? kFailed : kFine;
   throw Error(path + ": the run set flags: " + flagNames(flags).front() + (message.empty() ? "" : ": " + message));
 }
@@ -164,7 +166,9 @@ int renderRecording(const Arguments& arguments, const std::string& path) {
     painter.draw(*recording.frame(static_cast<size_t>(frame)), frame);
   }
   const long pictures = painter.finish();
-  if (!arguments.has("--quiet")) std::printf("%ld pictures in %s\n", pictures, arguments.text("--out").c_str());
+  if (!arguments.has("--quiet"))
+    std::printf("%s in %s\n", counted(static_cast<size_t>(pictures), "picture").c_str(),
+                arguments.text("--out").c_str());
   if (!recording.damage().empty()) throw Error(recording.damage() + "; the frames before it were drawn");
   return kFine;
 }

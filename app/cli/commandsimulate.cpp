@@ -33,7 +33,7 @@ void summarise(const Report& report, Engine& engine, double wall) {
   const double factor = wall > 0 ? stats.time / wall : 0;
   std::printf("%zu frames, %.6g s simulated in %.3g s (%.3g times real time), %.3g ms per frame\n", report.frames(),
               stats.time, wall, factor, report.total().median);
-  std::printf("%zu particles, state hash %s\n", engine.solver().particles().size(),
+  std::printf("%s, state hash %s\n", counted(engine.solver().particles().size(), "particle").c_str(),
               hashText(engine.solver().stateHash()).c_str());
 }
 

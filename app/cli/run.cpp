@@ -46,6 +46,10 @@ Project parseFor(const Arguments& arguments, const std::string& text, const std:
   return warned(arguments, parseProject(text, name, plugins, arguments.all("--set")));
 }
 
+std::string counted(size_t count, const std::string& noun) {
+  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
 double frameLength(const Project& project) { return numberOf(project.solver.parameters, solverParameters(), "dt"); }
 
 long frameCount(const Arguments& arguments, const Project& project) {

@@ -27,6 +27,8 @@ Project parseFor(const Arguments& arguments, const std::string& text, const std:
                  const PluginRegistry& plugins);
 /// Frames of a run: --frames, --seconds (mechanical time), or the project's duration.
 long frameCount(const Arguments& arguments, const Project& project);
+/// "1 picture", "2 pictures".
+std::string counted(size_t count, const std::string& noun);
 /// s, one frame.
 double frameLength(const Project& project);
 /// s since a fixed point.

@@ -185,10 +185,10 @@ class ProjectChecker {
     }
   }
 
-  void checkProbe(const Probe& probe, const std::string& pointer) const {
+  void checkProbe(const Probe& probe, const std::string& pointer) {
     const std::string& body = probe.body;
     if (!body.empty() && !contains(m_project.bodies, body) && !contains(m_project.emitters, body)) {
-      fail(pointer + "/body", "there is no body or emitter '" + body + "'");
+      warn(pointer + "/body", "there is no body or emitter '" + body + "'; the probe measures nothing");
     }
     if (probe.region) checkRegion(*probe.region, pointer + "/region");
     if (probe.wave && !probeIsMean(probe.quantity)) {

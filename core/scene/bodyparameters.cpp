@@ -32,4 +32,13 @@ constexpr api::ParameterDeclaration kBody[] = {
 
 api::ParameterList bodyParameters() { return api::listOf(kBody); }
 
+api::ParameterDeclaration structureParameter(const std::vector<std::string>& plugins) {
+  std::string choices;
+  for (const std::string& id : plugins) choices += id + "|";
+  choices += kNoStructure;
+  return choice({kStructureKey, "Held together by", "", ""}, kept(choices), static_cast<int>(plugins.size()),
+                {"Structure", "What keeps the body's solid matter in one piece. Acts at the next reset.",
+                 "none for sand and liquids, bonds for ice that melts and breaks, rigid for a stone", ""});
+}
+
 }  // namespace ps

@@ -2,6 +2,9 @@
 #pragma once
 #include <phasesketch/parameter.h>
 
+#include <set>
+#include <string>
+
 // Short forms for the scene's own declarations; private to this room.
 namespace ps::declare {
 
@@ -22,6 +25,12 @@ struct Display {
 };
 inline constexpr Display kAsStored{"", 1, 0};
 inline constexpr Display kCelsius{"°C", 1, -273.15};
+
+/// The same text at the same place for ever: declarations keep pointers to it.
+inline const char* kept(const std::string& text) {
+  static std::set<std::string> texts;
+  return texts.insert(text).first->c_str();
+}
 
 constexpr api::ParameterDeclaration number(Names n, Range r, Words w, Display d = kAsStored,
                                            api::Scale scale = api::Scale::Linear,

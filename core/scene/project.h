@@ -198,6 +198,11 @@ api::ParameterList wallParameters();
 api::ParameterList bodyParameters();
 api::ParameterList emitterParameters();
 api::ParameterList sinkParameters();
+/// What holds a body together is one of its constraints rather than a parameter; panels show it as one.
+inline constexpr const char* kStructureKey = "structure";
+inline constexpr const char* kNoStructure = "none";
+/// Its declaration as a choice; `plugins` are the ids of what can hold a body.
+api::ParameterDeclaration structureParameter(const std::vector<std::string>& plugins);
 /// Keys of what a probe can measure: "temperature", "mass", "speed", ...
 const std::vector<std::string>& probeQuantities();
 std::string probeUnit(const std::string& quantity);   ///< SI: "K", "kg", "1" for counts; "" for an unknown quantity

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 namespace ps {
 namespace {
@@ -19,12 +18,6 @@ constexpr api::ParameterDeclaration kGravity =
             "floating 0, Moon 1.62, Mars 3.72, Earth 9.81, Jupiter 24.8", ""});
 
 double length(const Vec3& v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
-
-/// The same text at the same place for ever: declarations keep pointers to it.
-const char* kept(const std::string& text) {
-  static std::set<std::string> texts;
-  return texts.insert(text).first->c_str();
-}
 
 }  // namespace
 

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <string>
 #include <utility>
 
 namespace ps {
@@ -58,12 +59,41 @@ size_t dropTaken(Spawn& spawn, TakenPlaces& taken) {
   return dropped;
 }
 
+auto byId(const std::vector<SceneMaterial>& materials, const std::string& id) {
+  return std::find_if(materials.begin(), materials.end(), [&](const SceneMaterial& m) { return m.id == id; });
+}
+
+/// Particles carry indices of materials: as long as they live, each keeps its place, one that has left the document
+/// too, for undo may bring back matter of it. New ones come last.
+std::vector<SceneMaterial> inTheirPlaces(const std::vector<SceneMaterial>& living,
+                                         const std::vector<SceneMaterial>& wanted) {
+  std::vector<SceneMaterial> placed;
+  for (const SceneMaterial& old : living) {
+    const auto now = byId(wanted, old.id);
+    placed.push_back(now == wanted.end() ? old : *now);
+  }
+  for (const SceneMaterial& material : wanted) {
+    if (byId(living, material.id) == living.end()) placed.push_back(material);
+  }
+  return placed;
+}
+
+std::vector<std::string> idsOf(const std::vector<SceneMaterial>& materials) {
+  std::vector<std::string> ids;
+  ids.reserve(materials.size());
+  for (const SceneMaterial& material : materials) ids.push_back(material.id);
+  return ids;
+}
+
 }  // namespace
 
 struct Engine::Impl {
-  Impl(const Project& source, PluginRegistry& registry) : project(source), plugins(registry) {}
+  Impl(const Project& source, PluginRegistry& registry)
+      : project(source), materialOrder(idsOf(source.materials)), plugins(registry) {}
 
   void build();
+  /// The project with the materials that the document has, in its order.
+  Project document() const;
   /// Another one, built from a project. What throws on the way leaves this one as it was.
   std::unique_ptr<Impl> rebuilt(const Project& source) const;
   /// Index of a body for its particles: a body keeps it as long as particles live, whatever comes and goes before it.
@@ -78,6 +108,7 @@ struct Engine::Impl {
   void exchangeMatter();
 
   Project project;
+  std::vector<std::string> materialOrder;  ///< ids of the document's; others in `project` leave at the next reset
   PluginRegistry& plugins;
   std::unique_ptr<Solver> solver;
   std::vector<BakedMaterial> materials;
@@ -173,6 +204,13 @@ void Engine::Impl::exchangeMatter() {
   flow.pour(*solver, project, materials, spacing, compileSettings(project).dt, bodyOf, birth);
 }
 
+Project Engine::Impl::document() const {
+  Project source = project;
+  source.materials.clear();
+  for (const std::string& id : materialOrder) source.materials.push_back(*byId(project.materials, id));
+  return source;
+}
+
 void Engine::Impl::build() {
   const double count = particleCount(project);
   requireRoom(count);
@@ -254,19 +292,12 @@ StepReport Engine::step() {
   return m->lastReport;
 }
 
-void Engine::reset() { m = m->rebuilt(m->project); }
+void Engine::reset() { m = m->rebuilt(m->document()); }
 
 void Engine::update(const Project& project) {
-  // Particles carry indices of materials: as long as they live, a material keeps its place.
-  const auto& living = m->project.materials;
-  const auto sameId = [](const auto& a, const auto& b) { return a.id == b.id; };
-  const bool keepsMaterials = project.materials.size() >= living.size() &&
-                              std::equal(living.begin(), living.end(), project.materials.begin(), sameId);
-  if (!keepsMaterials) {
-    m = m->rebuilt(project);
-    return;
-  }
-  const Project before = std::exchange(m->project, project);
+  Project next = project;
+  next.materials = inTheirPlaces(m->project.materials, project.materials);
+  const Project before = std::exchange(m->project, std::move(next));
   try {
     m->recompileAll();
   } catch (...) {
@@ -274,10 +305,11 @@ void Engine::update(const Project& project) {
     m->recompileAll();
     throw;
   }
+  m->materialOrder = idsOf(project.materials);
 }
 
 bool Engine::setParameter(const Address& address, const Value& value) {
-  if (Project changed = m->project; setSceneValue(changed, address.owner == "scene" ? address.key : "", value)) {
+  if (Project changed = m->document(); setSceneValue(changed, address.owner == "scene" ? address.key : "", value)) {
     update(changed);
     return true;
   }
@@ -312,6 +344,22 @@ std::vector<uint32_t> Engine::addCells(const Body& body, const std::vector<std::
     bodies.push_back(body);
   } else {
     *known = body;
+  }
+  return ids;
+}
+
+std::vector<uint32_t> Engine::addBody(const Body& body) {
+  Project project = m->project;
+  project.solver.parameters.values["particle_spacing"] = m->spacing;
+  std::vector<uint32_t> ids;
+  for (Spawn& spawn : compileBody(project, m->plugins, m->materials, body)) {
+    const std::vector<api::Double3> free = freePositions(m->solver->particles(), spawn.position, 0.9 * m->spacing);
+    spawn.position = free;
+    spawn.velocity.resize(free.size());  // one for the whole body
+    requireRoom(static_cast<double>(m->solver->particles().size() + free.size()));
+    if (free.empty()) continue;
+    const std::vector<uint32_t> fresh = m->born(std::move(spawn), body);
+    ids.insert(ids.end(), fresh.begin(), fresh.end());
   }
   return ids;
 }

@@ -26,8 +26,8 @@ class Engine {
   // Edits. Each throws, InputError mostly, and then has changed nothing.
 
   void reset();  ///< back to the start, with all edits kept
-  /// The document changed as a whole (undo, a new body, gravity): takes over every parameter at once; bodies, which are
-  /// particles by now, at the next reset.
+  /// The document changed as a whole (undo, a new body, gravity): takes over every parameter and material at once;
+  /// bodies, which are particles by now, at the next reset.
   void update(const Project& project);
   /// A parameter changed: recompiles what it touches. Returns false when it acts at the next reset only
   /// (body parameters, particle_spacing).
@@ -35,6 +35,9 @@ class Engine {
   /// Adds a sketched body, or more cells of one that exists, at rest; cells where a live particle is within 0.9
   /// spacings stay free. Returns the ids of the new particles.
   std::vector<uint32_t> addCells(const Body& body, const std::vector<std::array<int, 3>>& cells, int palette);
+  /// Adds a body as it is at the start, without what would stand within 0.9 spacings of a live particle. Returns the
+  /// ids of the new particles.
+  std::vector<uint32_t> addBody(const Body& body);
   /// Removes particles and keeps them, with all their fields and bonds, for putBack(). Until the next reset.
   TakenMatter takeParticles(const std::vector<uint32_t>& ids);
   void putBack(const TakenMatter& matter);

@@ -35,6 +35,7 @@ class TestGraphs : public QObject {
   void labelsKeepClearOfTheTitle_data();
   void labelsKeepClearOfTheTitle();
   void stackAddsUp();
+  void nothingIsNoData();
   void paintingIsFast();
   void graphsAreAccessible();
 };
@@ -314,6 +315,25 @@ void TestGraphs::stackAddsUp() {
 
 /// 20,000 samples in three lines: the aim is 4 ms on the reference machine; ten times that catches a walk over all
 /// samples on a slow one.
+/// Samples without a value, or of no mass at all, leave the plot to its sentence.
+void TestGraphs::nothingIsNoData() {
+  GraphView graph;
+  graph.addSeries(QStringLiteral("Mean"), QStringLiteral("°C"));
+  graph.setEmptyText(QStringLiteral("No matter yet"));
+  PhaseStackView stack;
+  stack.setEmptyText(QStringLiteral("No matter yet"));
+  for (int k = 0; k < 5; ++k) {
+    graph.append(0, k, std::nan(""));
+    stack.append(k, {0, 0, 0, 0, 0});
+  }
+  QCOMPARE(graph.summary(), QStringLiteral("No matter yet"));
+  QCOMPARE(stack.summary(), QStringLiteral("No matter yet"));
+  graph.append(0, 5, 20.0);
+  stack.append(5, {0, 0, 1, 0, 0});
+  QVERIFY(graph.summary().contains(QStringLiteral("Mean")));
+  QVERIFY(stack.summary() != QStringLiteral("No matter yet"));
+}
+
 void TestGraphs::paintingIsFast() {
   GraphView graph;
   for (int s = 0; s < 3; ++s) {

@@ -8,10 +8,13 @@
 #include "ui/document/documentfiles.h"
 #include "ui/document/worker.h"
 #include "ui/graphs/graphview.h"
+#include "ui/panels/panelheader.h"
+#include "ui/panels/parameterpanel.h"
 #include "ui/render/camera.h"
 #include "ui/theme/theme.h"
 #include "ui/viewport/viewport.h"
 #include "ui/window/graphspanel.h"
+#include "ui/window/inspector.h"
 #include "ui/window/mainwindow.h"
 #include "ui/window/noticebar.h"
 #include "ui/window/transport.h"
@@ -232,6 +235,37 @@ class TestSession : public QObject {
     QCOMPARE(floorOf(*m_window), 355.0);
     QVERIFY(document().isDirty());
     QVERIFY(!m_window->notice()->isVisible());
+  }
+
+  void theTitleNamesTheFile() {
+    open(file(QStringLiteral("sample.json")));
+    QCOMPARE(m_window->windowTitle(), QStringLiteral("sample.json[*] – Ice on a plate – PhaseSketch"));
+    QVERIFY(!m_window->isWindowModified());
+    edit(350);
+    QVERIFY(m_window->isWindowModified());
+    m_window->saveTo(file(QStringLiteral("mine [*].json")));
+    QTRY_VERIFY(!m_window->isWindowModified());
+    QCOMPARE(m_window->windowTitle(), QStringLiteral("mine [*][*].json[*] – Ice on a plate – PhaseSketch"));
+    press(*m_window, Qt::Key_N, Qt::ControlModifier);
+    QCOMPARE(m_window->windowTitle(), QStringLiteral("Untitled[*] – New scene – PhaseSketch"));
+  }
+
+  /// Nothing runs, a sentence says how to begin, and graphs have no axes of nothing.
+  void aNewSceneInvites() {
+    open();
+    QCOMPARE(m_window->viewport()->invitation(), QString());
+    const uint64_t revision = session().snapshot()->revision;
+    press(*m_window, Qt::Key_N, Qt::ControlModifier);
+    QTRY_VERIFY_WITH_TIMEOUT(session().snapshot()->revision != revision && session().snapshot()->id.empty(), kLong);
+    settle();
+    QTRY_VERIFY(m_window->viewport()->invitation().startsWith(QStringLiteral("Press B and draw")));
+    QVERIFY(!session().playing());
+    QCOMPARE(session().snapshot()->stats.frame, uint64_t{0});
+    QTRY_COMPARE(m_window->graphs()->temperatures()->summary(), QStringLiteral("No matter yet"));
+    QCOMPARE(m_window->inspector().scenePanel()->findChild<PanelHeader*>()->accessibleDescription(),
+             QStringLiteral("0 bodies, 1 wall"));
+    press(*m_window, Qt::Key_B);
+    QCOMPARE(m_window->viewport()->invitation(), QStringLiteral("Draw with the left button"));
   }
 
   void aCloseThatCanKeepNothingWarnsOnce() {

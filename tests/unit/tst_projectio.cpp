@@ -221,7 +221,6 @@ void TestProjectIo::wrongValuesNameThePlace_data() {
   row("huge temperature", "bodies/0/temperature=1e308", "/bodies/0/temperature: must be at most 10000 K, not 1e+308");
   row("half a substep", "solver/substeps=2.5", "/solver/substeps: must be a whole number, not the number 2.5");
   row("no such material", "bodies/0/material=lead", "/bodies/0/material: the scene has no material 'lead'");
-  row("no such body", "probes/0/body=nobody", "/probes/0/body: there is no body or emitter 'nobody'");
   row("pin inside out", "bodies/0/pins=[{\"minimum\": [0, 1, 0], \"maximum\": [1, 0, 1]}]",
       "/bodies/0/pins/0/maximum/1: must not be below the minimum, 1 m");
   row("wave along nothing", "bodies/0/velocity_wave={\"axis\": \"w\", \"wavelength\": 1, \"velocity\": [0, 0, 0]}",

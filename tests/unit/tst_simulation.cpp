@@ -202,14 +202,18 @@ void TstSimulation::refusedEditsLeaveTheSceneAsItWas() {
   Project broken = engine.project();
   broken.environment.walls[0].normal = {0, 0, 0};
   QVERIFY_THROWS_EXCEPTION(InputError, engine.update(broken));
-  // What is built anew before it fails: other materials, and a body made of none.
-  Project unbuildable = engine.project();
+  // Bodies act at the next reset: of a material that has left the document, or never was in it, none can be built.
+  // Living matter keeps its substance meanwhile.
+  const Project whole = engine.project();
+  Project unbuildable = whole;
   unbuildable.materials[0].id = "other";
-  QVERIFY_THROWS_EXCEPTION(InputError, engine.update(unbuildable));
+  engine.update(unbuildable);
   QCOMPARE(engine.project().materials[0].id, std::string("water"));
-  unbuildable = engine.project();
+  QVERIFY_THROWS_EXCEPTION(InputError, engine.reset());
+  engine.update(whole);
+  unbuildable = whole;
   unbuildable.bodies[0].material = "phlogiston";
-  engine.update(unbuildable);  // bodies act at the next reset
+  engine.update(unbuildable);
   const uint64_t revision = engine.snapshot()->revision;
   QVERIFY_THROWS_EXCEPTION(InputError, engine.reset());
   QCOMPARE(engine.snapshot()->revision, revision);

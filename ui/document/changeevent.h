@@ -10,6 +10,7 @@
 namespace ps {
 
 struct StrokeRecord;
+struct StrokeTrace;
 
 /// Another project altogether.
 struct ProjectOpened {
@@ -20,10 +21,14 @@ struct ParameterChanged {
   Address address;
   std::optional<Value> value;
 };
-/// A body was renamed, hidden, locked, added or removed without particles being touched.
+/// A body was renamed, hidden, locked, given another structure; or it came or went together with its matter, of which
+/// `matter` keeps track (nullptr: no particle is touched).
 struct BodyChanged {
   std::string id;
+  std::shared_ptr<StrokeTrace> matter{};
 };
+/// The scene has one material more, or less.
+struct MaterialsChanged {};
 /// A stroke was made (`live`: its particles are in the engine already), undone or redone.
 struct StrokeChanged {
   std::shared_ptr<StrokeRecord> stroke;
@@ -37,7 +42,7 @@ struct PinsChanged {};
 struct FileChanged {};
 
 /// What happened to a document, as one value: receivers visit it.
-using ChangeEvent =
-    std::variant<ProjectOpened, ParameterChanged, BodyChanged, StrokeChanged, ViewChanged, PinsChanged, FileChanged>;
+using ChangeEvent = std::variant<ProjectOpened, ParameterChanged, BodyChanged, MaterialsChanged, StrokeChanged,
+                                 ViewChanged, PinsChanged, FileChanged>;
 
 }  // namespace ps

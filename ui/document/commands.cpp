@@ -27,13 +27,21 @@ bool ParameterCommand::mergeWith(const QUndoCommand* other) {
   return true;
 }
 
-BodiesCommand::BodiesCommand(Document& document, std::vector<SceneEdit> edits, const QString& text)
-    : QUndoCommand(text), m_document(document), m_edits(std::move(edits)) {}
+BodiesCommand::BodiesCommand(Document& document, std::vector<SceneEdit> edits, const QString& text,
+                             std::shared_ptr<StrokeTrace> matter)
+    : QUndoCommand(text), m_document(document), m_edits(std::move(edits)), m_matter(std::move(matter)) {}
 
 void BodiesCommand::undo() { apply(false); }
 void BodiesCommand::redo() { apply(true); }
 
-void BodiesCommand::apply(bool forward) { m_document.applyBodies(m_edits, forward); }
+void BodiesCommand::apply(bool forward) { m_document.applyBodies(m_edits, forward, m_matter); }
+
+MaterialCommand::MaterialCommand(Document& document, SceneMaterial material, size_t index, bool adds,
+                                 const QString& text)
+    : QUndoCommand(text), m_document(document), m_material(std::move(material)), m_index(index), m_adds(adds) {}
+
+void MaterialCommand::undo() { m_document.applyMaterial(m_material, m_index, !m_adds); }
+void MaterialCommand::redo() { m_document.applyMaterial(m_material, m_index, m_adds); }
 
 StrokeCommand::StrokeCommand(Document& document, std::shared_ptr<StrokeRecord> stroke, const QString& text)
     : QUndoCommand(text), m_document(document), m_stroke(std::move(stroke)) {}

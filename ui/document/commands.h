@@ -28,10 +28,12 @@ class ParameterCommand : public QUndoCommand {
   int m_gesture;
 };
 
-/// Bodies replaced, added or removed as values: names, visibility, locks.
+/// Bodies replaced as values: names, visibility, locks, structure. With `matter`: added or removed with their
+/// particles.
 class BodiesCommand : public QUndoCommand {
  public:
-  BodiesCommand(Document& document, std::vector<SceneEdit> edits, const QString& text);
+  BodiesCommand(Document& document, std::vector<SceneEdit> edits, const QString& text,
+                std::shared_ptr<StrokeTrace> matter = nullptr);
   void undo() override;
   void redo() override;
 
@@ -39,6 +41,21 @@ class BodiesCommand : public QUndoCommand {
   void apply(bool forward);
   Document& m_document;
   std::vector<SceneEdit> m_edits;
+  std::shared_ptr<StrokeTrace> m_matter;
+};
+
+/// A material that comes into the scene, or leaves it.
+class MaterialCommand : public QUndoCommand {
+ public:
+  MaterialCommand(Document& document, SceneMaterial material, size_t index, bool adds, const QString& text);
+  void undo() override;
+  void redo() override;
+
+ private:
+  Document& m_document;
+  SceneMaterial m_material;
+  size_t m_index;
+  bool m_adds;
 };
 
 /// A finished stroke. Its particles are in the engine before the command is pushed.

@@ -53,13 +53,49 @@ api::ParameterList sceneDeclarations(const Project& project, const PluginRegistr
   return {list.data(), list.size()};
 }
 
+/// As sceneDeclarations(), for one body.
+api::ParameterList bodyDeclarations(const Project& project, const PluginRegistry& plugins, const std::string& id) {
+  static std::map<std::vector<std::string>, std::vector<api::ParameterDeclaration>> lists;
+  std::vector<std::string> choices;
+  for (const std::string& plugin : plugins.ids(PluginKind::Constraint)) {
+    if (holdsTogether(plugin, &plugins)) choices.push_back(plugin);
+  }
+  const auto body = itemById(project.bodies, id);
+  if (body != project.bodies.end()) {
+    const std::string present = structureOf(*body, &plugins);
+    if (present != kNoStructure && std::find(choices.begin(), choices.end(), present) == choices.end())
+      choices.push_back(present);
+  }
+  auto& list = lists[choices];
+  if (list.empty()) {
+    const api::ParameterList own = bodyParameters();
+    for (size_t i = 0; i < own.count; ++i) list.push_back(own[i]);
+    list.push_back(structureParameter(choices));
+  }
+  return {list.data(), list.size()};
+}
+
 }  // namespace
+
+bool holdsTogether(const std::string& id, const PluginRegistry* plugins) {
+  const api::ConstraintPlugin* plugin = plugins ? plugins->constraint(id) : nullptr;
+  return !plugin || plugin->traits().form != api::ConstraintTraits::Form::Neighbour;
+}
+
+std::string structureOf(const Body& body, const PluginRegistry* plugins) {
+  for (const BodyConstraint& constraint : body.constraints) {
+    if (holdsTogether(constraint.plugin, plugins)) return constraint.plugin;
+  }
+  return kNoStructure;
+}
 
 api::ParameterList declarationsOf(const Project& project, const PluginRegistry* plugins, const Address& address) {
   if (address.owner == "environment") return environmentParameters();
   if (address.owner == "solver") return solverParameters();
   if (address.owner == "wall") return wallParameters();
-  if (address.owner == "body") return bodyParameters();
+  if (address.owner == "body") {
+    return plugins ? bodyDeclarations(project, *plugins, address.id) : bodyParameters();
+  }
   if (address.owner == "material" && propertyIndex(address.key) >= 0) return propertyCatalogue();
   if (!plugins) return {};
   if (address.owner == "scene") return sceneDeclarations(project, *plugins);
@@ -109,6 +145,10 @@ Value defaultOf(const Project& project, const PluginRegistry* plugins, const Add
 
 Value valueAt(const Project& project, const PluginRegistry* plugins, const Address& address) {
   if (address.owner == "scene") return sceneValue(project, address.key).value_or(0.0);
+  if (address.owner == "body" && address.key == kStructureKey) {
+    const auto body = itemById(project.bodies, address.id);
+    return body == project.bodies.end() ? std::string(kNoStructure) : structureOf(*body, plugins);
+  }
   const ParameterSet* set = findSet(project, address);
   const api::ParameterDeclaration* declaration = declarationOf(project, plugins, address);
   if (set && declaration) {

@@ -32,6 +32,11 @@ QString ownerLabel(const Project& project, const Address& address);
 /// What a parameter is called away from its owner's other ones: "Hot plate temperature"; a label that says enough by
 /// itself stays.
 QString awayLabel(const Project& project, const Address& address, const QString& label);
+/// Whether a constraint plugin ties matter together; one that is not installed counts, one that acts between neighbours
+/// does not.
+bool holdsTogether(const std::string& plugin, const PluginRegistry* plugins);
+/// The constraint plugin that holds a body together, or kNoStructure.
+std::string structureOf(const Body& body, const PluginRegistry* plugins);
 /// How matter of a scene material is shown at 20 °C; grey where nothing says so.
 QColor colourOf(const Project& project, const PluginRegistry* plugins, const std::string& material);
 /// Addresses of every declared parameter of the project, in the order of the outliner.

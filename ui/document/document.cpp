@@ -64,6 +64,11 @@ void Document::endGesture() {
 }
 
 QString Document::setParameter(const Address& address, const Value& value) {
+  if (address.owner == "body" && address.key == kStructureKey) {
+    if (const QString problem = problemWith(m_project, m_plugins, address, value); !problem.isEmpty()) return problem;
+    setStructure(address.id, std::get<std::string>(value));
+    return {};
+  }
   const std::optional<Value> outside = address.owner == "scene" ? sceneValue(m_project, address.key) : std::nullopt;
   const ParameterSet* set = findSet(m_project, address);
   if (!set && !outside)
@@ -178,10 +183,23 @@ void Document::applyParameter(const Address& address, const std::optional<Value>
   tell(ParameterChanged{address, value});
 }
 
-void Document::applyBodies(const std::vector<SceneEdit>& edits, bool forward) {
+void Document::applyBodies(const std::vector<SceneEdit>& edits, bool forward,
+                           const std::shared_ptr<StrokeTrace>& matter) {
   applyEdits(m_project, edits, forward);
   ++m_changes;
-  for (const SceneEdit& edit : edits) tell(BodyChanged{bodyOf(edit)});
+  for (const SceneEdit& edit : edits) tell(BodyChanged{bodyOf(edit), matter});
+}
+
+void Document::applyMaterial(const SceneMaterial& material, size_t index, bool present) {
+  std::vector<SceneMaterial>& materials = m_project.materials;
+  const auto place = materials.begin() + static_cast<std::ptrdiff_t>(index);
+  if (present) {
+    materials.insert(place, material);
+  } else {
+    materials.erase(place);
+  }
+  ++m_changes;
+  tell(MaterialsChanged{});
 }
 
 void Document::applyStroke(const std::shared_ptr<StrokeRecord>& stroke, bool done, bool live) {

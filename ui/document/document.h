@@ -64,8 +64,22 @@ class Document : public QObject {
   void setBodyLocked(const std::string& id, bool locked);
   /// A name and id that no body has yet: "sketch-2".
   std::string freeBodyId(const std::string& stem) const;
+  /// Takes a body out of the scene with its matter. Returns "" or why it stays.
+  QString removeBody(const std::string& id);
+  /// A copy on top of it. Returns "" or why there is none.
+  QString duplicateBody(const std::string& id);
+  /// What holds a body together: a constraint plugin's id in place of those that did, or "none". Acts at the next
+  /// reset.
+  void setStructure(const std::string& id, const std::string& plugin);
   /// Notes a stroke whose particles are in the engine already.
   void addStroke(std::shared_ptr<StrokeRecord> stroke);
+
+  // Materials
+  /// The scene's material of an installed one, added where there is none yet. Returns its id.
+  std::string addMaterial(const std::string& base);
+  /// "" or why a material cannot leave the scene: which body is of it.
+  QString whyMaterialStays(const std::string& id) const;
+  QString removeMaterial(const std::string& id);  ///< returns whyMaterialStays()
 
   // View: saved with the project, no undo steps except pins
   void setPinned(const std::string& address, bool pinned);
@@ -74,7 +88,8 @@ class Document : public QObject {
 
   // Used by commands
   void applyParameter(const Address& address, const std::optional<Value>& value);
-  void applyBodies(const std::vector<SceneEdit>& edits, bool forward);
+  void applyBodies(const std::vector<SceneEdit>& edits, bool forward, const std::shared_ptr<StrokeTrace>& matter);
+  void applyMaterial(const SceneMaterial& material, size_t index, bool present);
   void applyStroke(const std::shared_ptr<StrokeRecord>& stroke, bool done, bool live);
   void applyPins(const std::vector<std::string>& pins);
 

@@ -100,7 +100,7 @@ void DocumentFiles::bringBack(const ReplacedWork& work) {
 
 void DocumentFiles::newProject() {
   ++m_request;
-  m_document.open(emptyProject(), {});
+  m_document.open(emptyProject(), {}, false, false);
   Q_EMIT opened({}, {}, 0);
 }
 

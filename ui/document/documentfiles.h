@@ -27,7 +27,7 @@ class DocumentFiles : public QObject {
   /// it was left.
   void reopen(const AutosavedSession& session);
   void bringBack(const ReplacedWork& work);  ///< dirty, without its history
-  void newProject();
+  void newProject();                         ///< paused: there is nothing to run
   void save(const QString& path);
 
   static QStringList recent();  ///< newest first, existing files only

@@ -50,17 +50,25 @@ void putBack(Engine& engine, StrokeTrace& trace) {
   trace.taken.clear();
 }
 
-/// A run that has just begun: finds the particles that the cells of strokes have become.
+std::vector<uint32_t> idsOfBody(Engine& engine, const std::string& body) {
+  const ParticleStore& store = engine.solver().particles();
+  return ofBody(engine, {store.id(), store.id() + store.size()}, body);
+}
+
+/// Finds the particles that the cells of a stroke have become; nothing has moved yet.
+void findMatter(Engine& engine, uint64_t run, const StrokeRecord& stroke, bool done) {
+  StrokeTrace& trace = *stroke.trace;
+  trace.ids.clear();
+  trace.taken.clear();
+  if (stroke.erase || !done) return;
+  trace.ids = ofBody(engine, engine.particlesIn(stroke.lattice, stroke.cells), stroke.body);
+  trace.run = run;
+}
+
+/// A run that has just begun.
 void beginRun(Engine& engine, uint64_t& run, const std::vector<SceneLink::KnownStroke>& strokes) {
   ++run;
-  for (const auto& [stroke, done] : strokes) {
-    StrokeTrace& trace = *stroke->trace;
-    trace.ids.clear();
-    trace.taken.clear();
-    if (stroke->erase || !done) continue;
-    trace.ids = ofBody(engine, engine.particlesIn(stroke->lattice, stroke->cells), stroke->body);
-    trace.run = run;
-  }
+  for (const auto& [stroke, done] : strokes) findMatter(engine, run, *stroke, done);
 }
 
 /// Matter that an erasure carved out of bodies at the start, back in its cells. `bodies`: as they are without it.
@@ -100,9 +108,46 @@ void SceneLink::onChanged(const ChangeEvent& event) {
     } else {
       pushProject();
     }
+  } else if (const auto* body = std::get_if<BodyChanged>(&event)) {
+    onBody(*body);
+  } else if (std::holds_alternative<MaterialsChanged>(event)) {
+    if (isBroken()) {
+      rebuild(false);
+    } else {
+      pushProject();
+    }
   } else if (stroke) {
     onStroke(*stroke);
   }
+}
+
+void SceneLink::onBody(const BodyChanged& event) {
+  if (isBroken()) {
+    rebuild(false);
+    return;
+  }
+  if (event.matter && !m_document.body(event.id)) {
+    m_engine.post([run = m_run, trace = event.matter, id = event.id](Engine& engine) {
+      trace->run = *run;
+      trace->taken.clear();
+      take(engine, *trace, idsOfBody(engine, id));
+    });
+  }
+  pushProject();
+  const Body* body = event.matter ? m_document.body(event.id) : nullptr;
+  if (!body) return;
+  m_engine.post([run = m_run, trace = event.matter, body = *body, strokes = strokes()](Engine& engine) {
+    if (trace->run == *run) {
+      putBack(engine, *trace);
+      return;
+    }
+    engine.addBody(body);
+    trace->run = *run;
+    trace->taken.clear();
+    for (const auto& [stroke, done] : strokes) {
+      if (stroke->body == body.id) findMatter(engine, *run, *stroke, done);
+    }
+  });
 }
 
 void SceneLink::remember(const StrokeChanged& event) {

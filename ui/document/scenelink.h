@@ -44,6 +44,7 @@ class SceneLink : public QObject {
   void onStroke(const StrokeChanged& event);
   void undoStroke(const std::shared_ptr<StrokeRecord>& stroke);
   void redoStroke(const std::shared_ptr<StrokeRecord>& stroke);
+  void onBody(const BodyChanged& event);
   void pushProject();
   std::vector<KnownStroke> strokes() const;
 

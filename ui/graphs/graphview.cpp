@@ -77,7 +77,8 @@ std::pair<double, double> GraphView::extent(int series, double first, double las
 size_t GraphView::sampleCount(int series) const { return d->series.at(static_cast<size_t>(series)).samples.size(); }
 
 bool GraphView::hasData() const {
-  return std::any_of(d->series.begin(), d->series.end(), [](const Series& series) { return !series.samples.empty(); });
+  return std::any_of(d->series.begin(), d->series.end(),
+                     [](const Series& series) { return !series.samples.extent(0, series.samples.size()).empty(); });
 }
 
 double GraphView::lastTime() const {

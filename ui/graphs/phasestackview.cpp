@@ -51,7 +51,10 @@ void PhaseStackView::clear() {
 }
 
 size_t PhaseStackView::sampleCount() const { return d->cumulative[0].size(); }
-bool PhaseStackView::hasData() const { return !d->cumulative[0].empty(); }
+bool PhaseStackView::hasData() const {
+  const SampleSeries& total = d->cumulative[kPhases - 1];
+  return total.extent(0, total.size()).high > 0;
+}
 double PhaseStackView::lastTime() const { return d->cumulative[0].lastTime(); }
 
 std::pair<double, double> PhaseStackView::valueExtent(double, double) const {

@@ -133,6 +133,7 @@ void TimePlot::setTitle(const QString& title) {
 QString TimePlot::title() const { return d->title; }
 
 void TimePlot::setEmptyText(const QString& text) {
+  if (d->emptyText == text) return;
   d->emptyText = text;
   update();
 }

@@ -281,7 +281,8 @@ void ParameterPanel::Private::show() {
     total += group.rows.size();
     shown += matching;
   }
-  filter->setPlaceholderText(QStringLiteral("Filter %1 parameters").arg(total));
+  filter->setPlaceholderText(
+      (total == 1 ? QStringLiteral("Filter %1 parameter") : QStringLiteral("Filter %1 parameters")).arg(total));
   filter->setVisible(total > 0);
   changed->setVisible(total > 0);
   scroll->setVisible(shown > 0);
@@ -309,6 +310,9 @@ void ParameterPanel::setValue(const QString& key, const Value& value) {
 }
 void ParameterPanel::setDefaultValue(const QString& key, const Value& value) {
   d->each(key, [&](ParameterRow* row) { row->setDefaultValue(value); });
+}
+void ParameterPanel::setDisabledReason(const QString& key, const QString& reason) {
+  d->each(key, [&](ParameterRow* row) { row->setDisabledReason(reason); });
 }
 void ParameterPanel::setMixed(const QString& key, bool mixed) {
   d->each(key, [&](ParameterRow* row) { row->setMixed(mixed); });

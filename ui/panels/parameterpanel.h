@@ -41,6 +41,7 @@ class ParameterPanel : public QWidget {
   void setPinned(const QStringList& keys);
   /// Note under the row; see ParameterRow::setLimit. "" removes it.
   void setLimit(const QString& key, const QString& text, double delivered = std::numeric_limits<double>::quiet_NaN());
+  void setDisabledReason(const QString& key, const QString& reason);  ///< "" enables it
   void setError(const QString& key, const QString& text);
   /// Operating point of a response row, or of all of them.
   void setTemperature(const QString& key, double kelvin);

@@ -203,6 +203,14 @@ void paintTag(QPainter& painter, const OverlayState& state, const SceneTag& tag)
             theme[Token::Text]);
 }
 
+void paintInvitation(QPainter& painter, const OverlayState& state) {
+  const QFont font = Theme::font(TextRole::Normal);
+  QRectF rect(0, 0, textWidth(state.invitation, font) + 4 * kPadding, kLine + 2 * kPadding);
+  rect.moveCenter(QPointF(state.size.width() / 2, state.size.height() / 2));
+  paintGround(painter, rect);
+  paintText(painter, rect, Qt::AlignCenter, state.invitation, font, Theme::current()[Token::Text2]);
+}
+
 class CursorPainter {
  public:
   CursorPainter(QPainter& painter, const OverlayState& state) : m_painter(painter), m_state(state) {}
@@ -324,7 +332,7 @@ OverlayHits paintOverlays(QPainter& painter, const OverlayState& state) {
   paintLegendOver(painter, state, hits);
   if (state.hint) hits.hintClose = paintHint(painter, state);
   paintBall(painter, state, hits);
-  if (!state.message.isEmpty()) paintMessage(painter, state.size, {}, state.message);
+  if (!state.invitation.isEmpty()) paintInvitation(painter, state);
   return hits;
 }
 

@@ -42,7 +42,7 @@ struct OverlayState {
   ViewTool tool = ViewTool::Select;
   std::optional<SceneTag> tag;
   std::optional<BrushCursor> cursor;
-  QString message;  ///< a problem, in the middle
+  QString invitation;  ///< in the middle of an empty scene: what to do
 };
 
 /// What the pointer can hit.

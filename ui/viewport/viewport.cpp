@@ -208,8 +208,16 @@ OverlayState Viewport::overlayState() const {
   state.hint = m_hint;
   state.tool = m_tool;
   state.tag = tag();
+  state.invitation = invitation();
   if (m_tool != ViewTool::Select && m_drag != Drag::Orbit && m_drag != Drag::Pan) state.cursor = m_cursor;
   return state;
+}
+
+QString Viewport::invitation() const {
+  const bool bare = m_now && m_now->bodyIds && m_now->id.empty() && m_hidden.empty();
+  if (!bare || m_stroke.active() || m_tool == ViewTool::Erase) return {};
+  return m_tool == ViewTool::Brush ? QStringLiteral("Draw with the left button")
+                                   : QStringLiteral("Press B and draw, or choose a material at the left");
 }
 
 std::optional<SceneTag> Viewport::tag() const {

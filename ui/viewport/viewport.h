@@ -60,6 +60,8 @@ class Viewport : public QOpenGLWidget {
   std::pair<double, double> legendRange() const { return m_range; }
   /// Tool, brush and what is marked, in words: what a screen reader says.
   QString summary() const;
+  /// What to do in a scene without matter; "" where there is some.
+  QString invitation() const;
   /// Phase marks of the legend: of the first material in the scene.
   void setTransitions(double meltingPoint, double boilingPoint);
 

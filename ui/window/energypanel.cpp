@@ -4,6 +4,7 @@
 #include "ui/graphs/graphview.h"
 #include "ui/theme/numbers.h"
 #include "ui/theme/theme.h"
+#include "ui/window/graphspanel.h"
 
 #include <QtWidgets/QHBoxLayout>
 #include <QtWidgets/QLabel>
@@ -28,6 +29,7 @@ EnergyPanel::EnergyPanel(QWidget* parent) : QWidget(parent), m_graph(new GraphVi
   m_graph->addSeries(QStringLiteral("In matter"), QStringLiteral("kJ"));
   m_graph->addSeries(QStringLiteral("Through walls"), QStringLiteral("kJ"));
   m_graph->addSeries(QStringLiteral("Through air"), QStringLiteral("kJ"));
+  m_graph->setEmptyText(QStringLiteral("No matter yet"));
   m_ledger->setTextFormat(Qt::RichText);
   m_ledger->setMinimumWidth(230);
   m_ledger->setAlignment(Qt::AlignVCenter | Qt::AlignLeft);
@@ -38,6 +40,8 @@ EnergyPanel::EnergyPanel(QWidget* parent) : QWidget(parent), m_graph(new GraphVi
 void EnergyPanel::setDuration(double seconds) { m_graph->setDuration(seconds); }
 
 void EnergyPanel::append(const FrameStats& stats) {
+  if (!m_shown && !hasMatter(stats)) return;  // a flat line of nothing
+  m_shown = true;
   // Matter drawn before the first step belongs to the start.
   if (!m_started) m_start = stats.thermalEnergy - stats.heat.net();
   m_started = stats.frame > 0;
@@ -67,7 +71,7 @@ QString EnergyPanel::balanceText() const {
 
 void EnergyPanel::clear() {
   m_graph->clear();
-  m_started = false;
+  m_started = m_shown = false;
 }
 
 }  // namespace ps

@@ -23,7 +23,7 @@ class EnergyPanel : public QWidget {
  private:
   GraphView* m_graph;
   QLabel* m_ledger;
-  bool m_started = false;
+  bool m_started = false, m_shown = false;  ///< m_shown: there has been matter
   double m_start = 0;
   FrameStats m_last;
 };

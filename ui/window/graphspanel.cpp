@@ -6,6 +6,7 @@
 
 #include <QtWidgets/QHBoxLayout>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -14,6 +15,8 @@ namespace {
 
 constexpr double kZero = 273.15;
 constexpr size_t kMostSeries = 5;
+const QString kNotRun = QStringLiteral("Press Space to run");
+const QString kNoMatter = QStringLiteral("No matter yet");
 
 QByteArray numberCell(double value) {
   if (!std::isfinite(value)) return {};
@@ -30,6 +33,10 @@ QByteArray quoted(const std::string& text) {
 
 }  // namespace
 
+bool hasMatter(const FrameStats& stats) {
+  return std::any_of(stats.phases.begin(), stats.phases.end(), [](const PhaseAmount& phase) { return phase.mass > 0; });
+}
+
 GraphsPanel::GraphsPanel(QWidget* parent)
     : QWidget(parent), m_temperatures(new GraphView), m_phases(new PhaseStackView) {
   auto* row = new QHBoxLayout(this);
@@ -37,9 +44,9 @@ GraphsPanel::GraphsPanel(QWidget* parent)
   row->setSpacing(8);
   m_temperatures->setTitle(QStringLiteral("Temperature, °C"));
   m_temperatures->setUnit(QStringLiteral("°C"));
-  m_temperatures->setEmptyText(QStringLiteral("Press Space to run"));
+  m_temperatures->setEmptyText(kNotRun);
   m_phases->setTitle(QStringLiteral("Mass by phase, g"));
-  m_phases->setEmptyText(QStringLiteral("Press Space to run"));
+  m_phases->setEmptyText(kNotRun);
   row->addWidget(m_temperatures, 1);
   row->addWidget(m_phases, 1);
   const auto link = [](TimePlot* from, TimePlot* to) {
@@ -86,6 +93,9 @@ void GraphsPanel::append(const FrameStats& stats) {
   }
   std::array<double, 5> kilograms{};
   for (size_t i = 0; i < kilograms.size(); ++i) kilograms[i] = stats.phases[i].mass;
+  const QString empty = hasMatter(stats) ? kNotRun : kNoMatter;
+  m_temperatures->setEmptyText(empty);
+  m_phases->setEmptyText(empty);
   m_phases->append(stats.time, kilograms);
   m_temperatures->setPresentTime(stats.time);
   m_phases->setPresentTime(stats.time);

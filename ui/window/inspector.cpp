@@ -13,6 +13,14 @@
 namespace ps {
 namespace {
 
+/// "" or why a value of this address does nothing as the scene is.
+QString whyIdle(const Project& project, const Address& address) {
+  if (address.owner != "wall" || (address.key != "temperature" && address.key != "film_coefficient")) return {};
+  const ParameterSet* set = findSet(project, address);
+  if (!set || choiceOf(*set, wallParameters(), "heat") == "fixed_temperature") return {};
+  return QStringLiteral("The wall lets no heat through. Set its heat to a fixed temperature first.");
+}
+
 QString gradeText(const PluginRegistry* plugins, const std::string& base) {
   const Material* material = plugins ? plugins->material(base) : nullptr;
   if (!material || material->provenance.empty()) return {};
@@ -88,6 +96,8 @@ void Inspector::addRows(std::vector<RowModel>& rows, const std::string& owner, c
   const QString prefix = QString::fromStdString(id.empty() ? owner + "/" : owner + "/" + id + "/");
   for (RowModel& row : rowModels(list, *set, defaults, prefix)) {
     if (!group.isEmpty()) row.declaration.group = keep(group);
+    if (const auto address = Address::parse(row.key.toStdString()))
+      row.disabledReason = whyIdle(m_document.project(), *address);
     rows.push_back(std::move(row));
   }
 }
@@ -101,6 +111,7 @@ std::optional<RowModel> Inspector::rowOf(const Address& address) const {
   row.declaration = *declaration;
   row.value = m_document.value(address);
   row.defaultValue = m_document.defaultValue(address);
+  row.disabledReason = whyIdle(m_document.project(), address);
   return row;
 }
 
@@ -134,6 +145,7 @@ void Inspector::rebuildBody() {
   m_body->setHeader(QString::fromStdString(body->name),
                     matter + (sketched ? QStringLiteral(" · sketched") : QStringLiteral(" · block")));
   addRows(rows, "body", body->id, bodyParameters());
+  if (auto structure = rowOf({"body", body->id, kStructureKey})) rows.push_back(std::move(*structure));
   for (const BodyConstraint& constraint : body->constraints) {
     const std::string id = body->id + "/" + constraint.plugin;
     const api::ConstraintPlugin* plugin =
@@ -191,10 +203,16 @@ void Inspector::rebuildScene() {
   for (const SceneWall& wall : project.environment.walls) {
     addRows(rows, "wall", wall.id, wallParameters(), QString::fromStdString(wall.name.empty() ? wall.id : wall.name));
   }
-  m_scene->setHeader(
-      m_document.title(),
-      QStringLiteral("%1 bodies, %2 walls").arg(project.bodies.size()).arg(project.environment.walls.size()));
+  showSceneHeader();
   m_scene->setModel(std::move(rows));
+}
+
+void Inspector::showSceneHeader() {
+  const Project& project = m_document.project();
+  m_scene->setHeader(m_document.title(),
+                     countText(project.bodies.size(), QStringLiteral("body"), QStringLiteral("bodies")) +
+                         QStringLiteral(", ") +
+                         countText(project.environment.walls.size(), QStringLiteral("wall"), QStringLiteral("walls")));
 }
 
 void Inspector::rebuildSolver() {
@@ -240,6 +258,13 @@ void Inspector::onChanged(const ChangeEvent& event) {
     const QString key = QString::fromStdString(address.text());
     for (ParameterPanel* panel : panels()) panel->setValue(key, m_document.value(address));
     if (address.owner == "scene" && address.key == "thermal_model") rebuildSolver();
+    if (address.owner == "wall" && address.key == "heat") {
+      for (const char* idle : {"temperature", "film_coefficient"}) {
+        const Address other{"wall", address.id, idle};
+        const QString why = whyIdle(m_document.project(), other);
+        for (ParameterPanel* panel : panels()) panel->setDisabledReason(QString::fromStdString(other.text()), why);
+      }
+    }
     if (address.owner == "material" && propertyIndex(address.key) < 0) refreshProperties(address.id);
   } else if (std::holds_alternative<ProjectOpened>(event)) {
     m_bodyId = m_document.project().bodies.empty() ? std::string() : m_document.project().bodies.front().id;
@@ -249,6 +274,9 @@ void Inspector::onChanged(const ChangeEvent& event) {
     rebuild();
   } else if (std::holds_alternative<BodyChanged>(event) || std::holds_alternative<StrokeChanged>(event)) {
     rebuildBody();
+    showSceneHeader();
+  } else if (std::holds_alternative<MaterialsChanged>(event)) {
+    rebuildMaterial();
   } else if (std::holds_alternative<PinsChanged>(event)) {
     markPinned();
     rebuildMaterial();

@@ -46,6 +46,7 @@ class Inspector : public QObject {
   void rebuildMaterial();
   void refreshProperties(const std::string& material);
   void rebuildScene();
+  void showSceneHeader();
   void rebuildSolver();
   /// Rows of one owner; a group of its own replaces the declarations' groups.
   void addRows(std::vector<RowModel>& rows, const std::string& owner, const std::string& id, api::ParameterList list,

@@ -103,6 +103,8 @@ void MainWindow::connectPanels() {
   connect(m_transport, &Transport::stepRequested, m_session.get(), &Session::step);
   connect(m_transport, &Transport::resetRequested, m_session.get(), &Session::reset);
   connect(m_outliner, &Outliner::selectionChanged, this, &MainWindow::onOutlinerSelection);
+  connect(m_outliner, &Outliner::bodyMenuRequested, this,
+          [this](const QPoint& global) { openBodyMenu(*this, global); });
   connect(m_materials, &MaterialsPanel::picked, this, [this](const std::string& id) {
     m_inspector->setMaterial(id);
     if (Viewport* view = viewport()) {
@@ -188,7 +190,14 @@ void MainWindow::onChanged(const ChangeEvent& event) {
     if (Viewport* view = viewport(); view && owner == "wall") view->bodiesChanged();
   } else if (std::holds_alternative<BodyChanged>(event) || std::holds_alternative<StrokeChanged>(event)) {
     m_outliner->rebuild();
-    if (Viewport* view = viewport()) view->bodiesChanged();
+    if (Viewport* view = viewport()) {
+      view->setSelectedBody(m_outliner->selectedBody());  // it may be gone
+      view->bodiesChanged();
+    }
+  } else if (std::holds_alternative<MaterialsChanged>(event)) {
+    m_materials->rebuild();
+    useCurrentMaterial();
+    updateTransitions();
   } else if (std::holds_alternative<ViewChanged>(event)) {
     m_pane->setColour(colourByName(m_session->document().project().view.colour));
   }
@@ -210,13 +219,17 @@ void MainWindow::onProjectOpened() {
   m_graphs->setProject(project);
   updateTransitions();
   m_pane->setColour(colourByName(project.view.colour));
-  if (Viewport* view = viewport()) {
-    view->projectOpened();
-    BrushSettings brush = view->brush();
-    brush.material = m_materials->current();
-    view->setBrush(brush);
-  }
+  if (Viewport* view = viewport()) view->projectOpened();
+  useCurrentMaterial();
   m_brush->setBrush(viewport() ? viewport()->brush() : BrushSettings{});
+}
+
+void MainWindow::useCurrentMaterial() {
+  Viewport* view = viewport();
+  if (!view) return;
+  BrushSettings brush = view->brush();
+  brush.material = m_materials->current();
+  view->setBrush(brush);
 }
 
 /// Where the scene's first material changes phase at the air's pressure: marks in the legend, lines in the graph.
@@ -349,8 +362,20 @@ void MainWindow::refreshStatus() {
   m_status->setState(state);
 }
 
+void MainWindow::refuse(const QString& title, const QString& why) {
+  if (why.isEmpty()) {
+    notice()->close(QStringLiteral("refused"));
+  } else {
+    notice()->show(QStringLiteral("refused"), MessageLevel::Warning, title, why);
+    m_session->log().add(MessageLevel::Warning, QStringLiteral("Scene"), title + QLatin1Char(' ') + why);
+  }
+}
+
 void MainWindow::selectBody(const std::string& id) {
-  if (id.empty()) return;
+  if (id.empty()) {
+    m_outliner->selectNothing();
+    return;
+  }
   m_outliner->select(OutlineKind::Body, id);
   onOutlinerSelection(OutlineKind::Body, id);
 }

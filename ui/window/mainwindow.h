@@ -148,8 +148,10 @@ class MainWindow : public QMainWindow {
   void showFailure(const EngineEvent& event);
   void showBroken(const QString& problem);  ///< the scene could not be built
   void updateTransitions();
+  void useCurrentMaterial();  ///< as the brush's
   void selectBody(const std::string& id);
   void onOutlinerSelection(OutlineKind kind, const std::string& id);
+  void refuse(const QString& title, const QString& why);  ///< a notice; with "" for `why` the last one goes
   void showMessage(MessageLevel level, const QString& where, const QString& text);
 
   Options m_options;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Menus, keys and the command palette: every action is declared once here.
+#include "core/matter/material.h"
+#include "core/plugin_host/registry.h"
 #include "core/simulation/engine.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
@@ -31,6 +33,8 @@
 #include <QtWidgets/QStackedWidget>
 #include <QtWidgets/QTabBar>
 
+#include <set>
+
 namespace ps {
 namespace {
 
@@ -48,6 +52,10 @@ QString valueText(const Value& value, const api::ParameterDeclaration& declarati
 /// Whether a key is for a widget that has the focus rather than for the window: Space presses buttons, arrows walk.
 bool takesKey(const QObject* widget, int key) {
   switch (key) {
+    case Qt::Key_Delete:
+      // Deletes where what is selected can be seen to be: in the outliner and in the view.
+      return widget == QApplication::focusWidget() && !qobject_cast<const Viewport*>(widget) &&
+             !qobject_cast<const Outliner*>(widget->parent());
     case Qt::Key_Space:
       return qobject_cast<const QAbstractButton*>(widget) || qobject_cast<const QComboBox*>(widget);
     case Qt::Key_Left:
@@ -175,6 +183,13 @@ void MainWindow::makeEditMenu() {
   add(menu, QStringLiteral("edit.visible"), QStringLiteral("Show or hide body"), {},
       [this] { m_outliner->toggleVisible(); });
   add(menu, QStringLiteral("edit.locked"), QStringLiteral("Lock body"), {}, [this] { m_outliner->toggleLocked(); });
+  add(menu, QStringLiteral("edit.duplicate"), QStringLiteral("Duplicate body"),
+      {QKeySequence(QStringLiteral("Ctrl+D"))}, [this] {
+        refuse(QStringLiteral("Nothing was copied."), m_session->document().duplicateBody(m_outliner->selectedBody()));
+      });
+  add(menu, QStringLiteral("edit.delete"), QStringLiteral("Delete body"), {QKeySequence(Qt::Key_Delete)}, [this] {
+    refuse(QStringLiteral("Nothing was deleted."), m_session->document().removeBody(m_outliner->selectedBody()));
+  });
   menu->addSeparator();
   menu->addAction(action(QStringLiteral("edit.search")));
 }
@@ -333,6 +348,19 @@ std::vector<PaletteEntry> MainWindow::paletteEntries() {
                        QString::fromUtf8(declaration->group) + QLatin1Char(' ') +
                            QString::fromStdString(address.text()).replace(QLatin1Char('_'), QLatin1Char(' ')),
                        [this, address] { revealParameter(address); }});
+  }
+  if (const PluginRegistry* plugins = m_session->plugins()) {
+    std::set<std::string> present;
+    for (const SceneMaterial& material : document.project().materials) present.insert(material.base);
+    for (const std::string& base : plugins->ids(PluginKind::Material)) {
+      if (present.count(base)) continue;
+      const std::string& label = plugins->material(base)->label;
+      entries.push_back({QStringLiteral("Add material %1").arg(QString::fromStdString(label.empty() ? base : label)),
+                         QStringLiteral("Materials"),
+                         {},
+                         QString::fromStdString(base),
+                         [this, base] { m_materials->addInstalled(base); }});
+    }
   }
   return entries;
 }

@@ -92,7 +92,7 @@ void MainWindow::chooseSave() {
 }
 
 void MainWindow::onOpened(const QString& path, const QStringList& warnings, double seconds) {
-  for (const char* topic : {"open", "save", "stroke"}) notice()->close(QString::fromLatin1(topic));
+  for (const char* topic : {"open", "save", "stroke", "refused"}) notice()->close(QString::fromLatin1(topic));
   m_fileText.clear();
   for (const QString& warning : warnings) m_session->log().add(MessageLevel::Warning, nameOf(path), warning);
   m_session->log().add(MessageLevel::Ok, nameOf(path), QStringLiteral("Opened in %1 s.").arg(seconds, 0, 'f', 2));
@@ -198,8 +198,15 @@ void MainWindow::exportPicture() {
 
 void MainWindow::updateTitle() {
   const Document& document = m_session->document();
-  setWindowTitle(document.title() +
-                 (document.isDirty() ? QStringLiteral(" • PhaseSketch") : QStringLiteral(" – PhaseSketch")));
+  const QString file = document.path().isEmpty() ? QStringLiteral("Untitled") : QFileInfo(document.path()).fileName();
+  const auto literal = [](QString text) {  // Qt's mark for unsaved changes must not come from a name
+    return text.replace(QStringLiteral("[*]"), QStringLiteral("[*][*]"));
+  };
+  QString title = literal(file) + QStringLiteral("[*]");
+  const QString own = QString::fromStdString(document.project().title);
+  if (!own.isEmpty()) title += QStringLiteral(" – ") + literal(own);
+  setWindowTitle(title + QStringLiteral(" – PhaseSketch"));
+  setWindowModified(document.isDirty());
 }
 
 void MainWindow::dragEnterEvent(QDragEnterEvent* event) {

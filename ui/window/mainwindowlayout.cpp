@@ -22,6 +22,7 @@
 #include <QtGui/QResizeEvent>
 #include <QtGui/QScreen>
 #include <QtWidgets/QApplication>
+#include <QtWidgets/QScrollArea>
 #include <QtWidgets/QStackedWidget>
 #include <QtWidgets/QToolBar>
 #include <QtWidgets/QToolButton>
@@ -58,7 +59,16 @@ void MainWindow::makeDocks() {
   m_left->addPage(QStringLiteral("Outliner"), m_outliner);
   m_materialsDock = new Dock(QStringLiteral("dock.materials"), QStringLiteral("Materials"), this);
   m_materials = new MaterialsPanel(document);
-  m_materialsDock->addPage(QStringLiteral("Materials"), m_materials);
+  auto* scroll = new QScrollArea;
+  scroll->setFrameShape(QFrame::NoFrame);
+  scroll->setWidgetResizable(true);
+  scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  scroll->setFocusPolicy(Qt::NoFocus);
+  scroll->setWidget(m_materials);
+  connect(m_materials, &MaterialsPanel::revealed, scroll, [scroll](const QRect& tile) {
+    scroll->ensureVisible(tile.center().x(), tile.center().y(), 0, tile.height() / 2);
+  });
+  m_materialsDock->addPage(QStringLiteral("Materials"), scroll);
 
   m_right = new Dock(QStringLiteral("dock.inspector"), QStringLiteral("Inspector"), this);
   m_brush = new BrushPanel(document);

@@ -6,11 +6,14 @@
 #include <string>
 #include <vector>
 
+class QPainter;
+
 namespace ps {
 
 class Document;
 
-/// Materials of the scene as a grid of painted balls; a click makes one the brush's matter and shows its values.
+/// Materials of the scene as a grid of painted balls; a click makes one the brush's matter and shows its values. Below
+/// them those that are installed besides; a click brings one into the scene.
 class MaterialsPanel : public QWidget {
   Q_OBJECT
  public:
@@ -19,11 +22,18 @@ class MaterialsPanel : public QWidget {
   void setCurrent(const std::string& id);
   const std::string& current() const { return m_current; }
   QString currentLabel() const;  ///< "" when there is none
+  /// Brings an installed material into the scene and makes it the current one.
+  void addInstalled(const std::string& base);
+  /// Of a scene's material by its id, or of one that can be added by its base; empty when there is none.
+  QRect tileOf(const std::string& id) const;
   QSize sizeHint() const override { return {204, 140}; }
   QSize minimumSizeHint() const override { return {120, 90}; }
+  bool hasHeightForWidth() const override { return true; }
+  int heightForWidth(int width) const override;
 
  Q_SIGNALS:
   void picked(const std::string& id);
+  void revealed(const QRect& tile);  ///< the keyboard has moved to it
 
  protected:
   void paintEvent(QPaintEvent* event) override;
@@ -31,23 +41,31 @@ class MaterialsPanel : public QWidget {
   void mouseMoveEvent(QMouseEvent* event) override;
   void leaveEvent(QEvent* event) override;
   void keyPressEvent(QKeyEvent* event) override;
+  void contextMenuEvent(QContextMenuEvent* event) override;
+  void focusOutEvent(QFocusEvent* event) override;
 
  private:
   struct Tile {
-    std::string id;
+    std::string id;  ///< of one that can be added: its base
     QString label;
     QColor colour;
     bool missing = false;
+    bool installed = false;  ///< can be added
   };
-  QRect tileRect(size_t index) const;
+  QRect tileRect(size_t index) const { return tileRect(index, width()); }
+  QRect tileRect(size_t index, int width) const;
+  QRect headingRect(int width) const;
   int columns() const;
   int tileAt(const QPoint& at) const;
+  void paintTile(QPainter& painter, size_t index) const;
   void pick(size_t index);
+  void moveTo(int index);
 
   Document& m_document;
   std::vector<Tile> m_tiles;
+  size_t m_own = 0;  ///< tiles of the scene; the rest can be added
   std::string m_current;
-  int m_hover = -1;
+  int m_hover = -1, m_cursor = -1;  ///< m_cursor: where the keyboard is among what can be added
 };
 
 }  // namespace ps

@@ -38,6 +38,10 @@ Outliner::Outliner(Document& document, QWidget* parent)
           [this](const std::string& id, bool on) { m_document.setBodyLocked(id, on); });
   connect(delegate, &OutlinerDelegate::renamed, this,
           [this](const std::string& id, const QString& name) { m_document.renameBody(id, name); });
+  m_view->setContextMenuPolicy(Qt::CustomContextMenu);
+  connect(m_view, &QTreeView::customContextMenuRequested, this, [this](const QPoint& at) {
+    if (!selectedBody().empty()) Q_EMIT bodyMenuRequested(m_view->viewport()->mapToGlobal(at));
+  });
   connect(m_view->selectionModel(), &QItemSelectionModel::currentChanged, this, [this] {
     if (m_building) return;
     const auto [kind, id] = selected();
@@ -185,16 +189,23 @@ std::pair<OutlineKind, std::string> Outliner::selected() const {
           index.data(outline::kId).toString().toStdString()};
 }
 
-void Outliner::toggleVisible() {
+void Outliner::selectNothing() {
+  m_building = true;
+  m_view->setCurrentIndex({});
+  m_building = false;
+}
+
+std::string Outliner::selectedBody() const {
   const auto [kind, id] = selected();
-  const Body* body = kind == OutlineKind::Body ? m_document.body(id) : nullptr;
-  if (body) m_document.setBodyVisible(id, !body->visible);
+  return kind == OutlineKind::Body && m_document.body(id) ? id : std::string();
+}
+
+void Outliner::toggleVisible() {
+  if (const Body* body = m_document.body(selectedBody())) m_document.setBodyVisible(body->id, !body->visible);
 }
 
 void Outliner::toggleLocked() {
-  const auto [kind, id] = selected();
-  const Body* body = kind == OutlineKind::Body ? m_document.body(id) : nullptr;
-  if (body) m_document.setBodyLocked(id, !body->locked);
+  if (const Body* body = m_document.body(selectedBody())) m_document.setBodyLocked(body->id, !body->locked);
 }
 
 void Outliner::renameSelected() {

@@ -26,7 +26,8 @@ inline constexpr int kKind = Qt::UserRole + 1, kId = Qt::UserRole + 2, kIcon = Q
                      kLocked = Qt::UserRole + 7, kPlaceholder = Qt::UserRole + 8;
 }
 
-/// Bodies, walls, probes and air as a tree: icon, name, count, swatch, lock, eye. F2 renames a body.
+/// Bodies, walls, probes and air as a tree: icon, name, count, swatch, lock, eye. F2 renames a body; its menu is the
+/// window's.
 class Outliner : public QWidget {
   Q_OBJECT
  public:
@@ -38,11 +39,14 @@ class Outliner : public QWidget {
   void renameSelected();
   void toggleVisible();  ///< of the selected body
   void toggleLocked();
+  void selectNothing();              ///< tells nobody
+  std::string selectedBody() const;  ///< "" when something else is, or nothing
   QTreeView* view() const { return m_view; }
   QSize sizeHint() const override { return {204, 300}; }
 
  Q_SIGNALS:
   void selectionChanged(ps::OutlineKind kind, const std::string& id);
+  void bodyMenuRequested(const QPoint& global);  ///< of the selected body
 
  private:
   QStandardItem* add(QStandardItem* parent, OutlineKind kind, const std::string& id, const QString& name,

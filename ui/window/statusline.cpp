@@ -60,7 +60,8 @@ std::vector<StatusLine::Part> StatusLine::leftParts() const {
   parts.push_back({state, {}});
   if (!m_state.snapshot) return parts;
   const FrameStats& stats = m_state.snapshot->stats;
-  parts.push_back({formatFixed(static_cast<double>(m_state.snapshot->id.size())), QStringLiteral("particles")});
+  parts.push_back({formatFixed(static_cast<double>(m_state.snapshot->id.size())),
+                   m_state.snapshot->id.size() == 1 ? QStringLiteral("particle") : QStringLiteral("particles")});
   const auto slowest = std::max_element(m_stages.begin(), m_stages.end());
   QString detail = QStringLiteral("/frame");
   if (*slowest > 0) {

@@ -7,19 +7,37 @@
 #include <QtWidgets/QMenu>
 
 namespace ps {
+namespace {
 
-void openViewMenu(MainWindow& window, const QPoint& global) {
+void add(const MainWindow& window, QMenu* to, const QString& name) {
+  if (QAction* action = window.action(name)) to->addAction(action);
+}
+
+QMenu* newMenu(MainWindow& window) {
   auto* menu = new QMenu(&window);
   menu->setAttribute(Qt::WA_DeleteOnClose);
-  const auto add = [&window](QMenu* to, const QString& name) {
-    if (QAction* action = window.action(name)) to->addAction(action);
-  };
-  add(menu, QStringLiteral("view.frame"));
-  add(menu, QStringLiteral("view.frameAll"));
+  return menu;
+}
+
+}  // namespace
+
+void openViewMenu(MainWindow& window, const QPoint& global) {
+  QMenu* menu = newMenu(window);
+  add(window, menu, QStringLiteral("view.frame"));
+  add(window, menu, QStringLiteral("view.frameAll"));
   QMenu* views = menu->addMenu(QStringLiteral("Look from"));
-  for (int i = 1; i <= 9; ++i) add(views, QStringLiteral("view.look%1").arg(i));
+  for (int i = 1; i <= 9; ++i) add(window, views, QStringLiteral("view.look%1").arg(i));
   QMenu* colours = menu->addMenu(QStringLiteral("Colour"));
-  for (int i = 1; i <= 5; ++i) add(colours, QStringLiteral("view.colour%1").arg(i));
+  for (int i = 1; i <= 5; ++i) add(window, colours, QStringLiteral("view.colour%1").arg(i));
+  menu->popup(global);
+}
+
+void openBodyMenu(MainWindow& window, const QPoint& global) {
+  QMenu* menu = newMenu(window);
+  for (const char* name : {"edit.rename", "edit.visible", "edit.locked", "view.frame"})
+    add(window, menu, QString::fromLatin1(name));
+  menu->addSeparator();
+  for (const char* name : {"edit.duplicate", "edit.delete"}) add(window, menu, QString::fromLatin1(name));
   menu->popup(global);
 }
 

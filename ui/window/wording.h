@@ -10,6 +10,8 @@ struct EngineEvent;
 
 /// With a full stop.
 QString sentence(const QString& text);
+/// "1 body", "2 bodies".
+QString countText(size_t count, const QString& one, const QString& many);
 /// "2 h 20 min", "41 min", "38 s": spans of time as people say them.
 QString spanText(double seconds);
 /// "00:42.00": minutes, seconds, hundredths.

@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: Apache-2.0
+// What comes into a scene and leaves it, without a window: bodies with their matter, materials, structure.
+#include "core/io/projectio.h"
+#include "core/plugin_host/registry.h"
+#include "core/simulation/engine.h"
+#include "tests/shared/scenes.h"
+#include "ui/document/declared.h"
+#include "ui/document/document.h"
+#include "ui/document/scenelink.h"
+
+#include <QtTest/QTest>
+
+#include <cmath>
+#include <functional>
+#include <future>
+#include <map>
+#include <memory>
+
+using namespace ps;
+
+namespace {
+
+/// Waits until the engine has done all that was asked of it, and runs `ask` on its thread.
+template <class T>
+T onEngine(EngineThread& engine, std::function<T(Engine&)> ask) {
+  auto promise = std::make_shared<std::promise<T>>();
+  std::future<T> future = promise->get_future();
+  engine.post([promise, ask](Engine& e) { promise->set_value(ask(e)); });
+  return future.get();
+}
+
+/// Heights by ids: the same matter in the same places.
+std::map<uint32_t, float> matterNow(EngineThread& engine) {
+  return onEngine<std::map<uint32_t, float>>(engine, [](Engine& e) {
+    const ParticleStore& store = e.solver().particles();
+    std::map<uint32_t, float> matter;
+    for (size_t i = 0; i < store.size(); ++i) matter[store.id()[i]] = static_cast<float>(store.position()[i].y);
+    return matter;
+  });
+}
+
+size_t countNow(EngineThread& engine) { return matterNow(engine).size(); }
+
+/// Frame and number of constraints.
+std::pair<uint64_t, size_t> clockAndStructure(EngineThread& engine) {
+  return onEngine<std::pair<uint64_t, size_t>>(
+      engine, [](Engine& e) { return std::pair(e.solver().frame(), e.solver().constraintCount()); });
+}
+
+void step(EngineThread& engine, int frames) {
+  onEngine<int>(engine, [frames](Engine& e) {
+    for (int k = 0; k < frames; ++k) e.step();
+    return 0;
+  });
+}
+
+}  // namespace
+
+class TestContent : public QObject {
+  Q_OBJECT
+ private Q_SLOTS:
+  void initTestCase() { m_plugins = std::make_unique<PluginRegistry>(); }
+  void init() {
+    m_document = std::make_unique<Document>();
+    m_document->setPlugins(m_plugins.get());
+    m_engine = std::make_unique<EngineThread>(*m_plugins, [] {});
+    m_link = std::make_unique<SceneLink>(*m_document, *m_engine);
+    Project project = scenes::iceOnPlate(5, 370);
+    project.bodies.push_back(scenes::block("second", 2, 0.03, {0, 0.5, 0}, 263.15));
+    m_document->open(project, {}, false, false);
+  }
+  void cleanup() {
+    m_link.reset();
+    m_engine.reset();
+    m_document.reset();
+  }
+
+  void aDeletedBodyComesBackWhole_data() {
+    QTest::addColumn<int>("frames");
+    QTest::addColumn<bool>("reset");
+    QTest::newRow("at once") << 0 << false;
+    QTest::newRow("after it has moved") << 5 << false;
+    QTest::newRow("after a reset without it") << 5 << true;
+  }
+  void aDeletedBodyComesBackWhole() {
+    QFETCH(int, frames);
+    QFETCH(bool, reset);
+    step(*m_engine, frames);
+    const std::string before = text();
+    const auto matter = matterNow(*m_engine);
+    const auto structure = clockAndStructure(*m_engine).second;
+    QCOMPARE(m_document->removeBody("ice"), QString());
+    QVERIFY(!m_document->body("ice"));
+    QCOMPARE(countNow(*m_engine), size_t{8});
+    if (reset) {
+      m_link->reset();
+      QCOMPARE(countNow(*m_engine), size_t{8});
+    }
+    m_document->undoStack().undo();
+    QCOMPARE(text(), before);
+    QCOMPARE(m_document->project().bodies.front().id, std::string("ice"));
+    QCOMPARE(countNow(*m_engine), matter.size());
+    QCOMPARE(clockAndStructure(*m_engine).second, structure);
+    if (!reset) QVERIFY(matterNow(*m_engine) == matter);
+    m_document->undoStack().redo();
+    QCOMPARE(countNow(*m_engine), size_t{8});
+  }
+
+  /// A file with a probe on a body that is gone still opens.
+  void aDeletedBodyLeavesAFileThatOpens() {
+    QCOMPARE(m_document->removeBody("ice"), QString());
+    const LoadedProject loaded = parseProject(text(), "scene.json", *m_plugins);
+    QCOMPARE(loaded.project.bodies.size(), size_t{1});
+    QCOMPARE(loaded.warnings.size(), size_t{1});
+    QVERIFY(loaded.warnings[0].text.find("measures nothing") != std::string::npos);
+  }
+
+  void aLockedBodyStays() {
+    m_document->setBodyLocked("ice", true);
+    const int steps = m_document->undoStack().count();
+    QVERIFY(m_document->removeBody("ice").contains(QStringLiteral("is locked")));
+    QVERIFY(m_document->body("ice"));
+    QCOMPARE(m_document->undoStack().count(), steps);
+  }
+
+  /// The strokes of a sketched body know their particles again after it went, a reset, and it came back.
+  void strokesOfADeletedBodyCanStillBeUndone() {
+    const size_t before = countNow(*m_engine);
+    paint();
+    QCOMPARE(countNow(*m_engine), before + 27);
+    m_document->removeBody("drops");
+    m_link->reset();
+    QCOMPARE(countNow(*m_engine), before);
+    m_document->undoStack().undo();
+    QCOMPARE(countNow(*m_engine), before + 27);
+    m_document->undoStack().undo();
+    QCOMPARE(countNow(*m_engine), before);
+    QVERIFY(!m_document->body("drops"));
+  }
+
+  void aDuplicateStandsOnTop() {
+    const size_t before = countNow(*m_engine);
+    QCOMPARE(m_document->duplicateBody("second"), QString());
+    QCOMPARE(countNow(*m_engine), before + 8);
+    const Body& copy = m_document->project().bodies.at(2);
+    QCOMPARE(copy.id, std::string("second-2"));
+    QCOMPARE(copy.name, std::string("second copy"));
+    // Twice 30 mm high, and a layer of 30 mm between the two.
+    QVERIFY(std::abs(std::get<BoxShape>(copy.shape).center[1] - 0.59) < 1e-12);
+    m_document->undoStack().undo();
+    QCOMPARE(countNow(*m_engine), before);
+    paint();
+    QCOMPARE(m_document->duplicateBody("drops"), QString());
+    QCOMPARE(countNow(*m_engine), before + 54);
+    m_link->reset();
+    QCOMPARE(countNow(*m_engine), before + 54);
+    Project low = m_document->project();
+    low.environment.boundsMaximum[1] = 0.55;
+    m_document->open(low, {}, false, false);
+    QVERIFY(m_document->duplicateBody("second").contains(QStringLiteral("no room")));
+  }
+
+  void aMaterialComesAndGoesWhileItRuns() {
+    step(*m_engine, 3);
+    const std::string before = text();
+    const std::string wax = m_document->addMaterial("wax");
+    QCOMPARE(wax, std::string("wax"));
+    QCOMPARE(m_document->project().materials.back().label, m_plugins->material("wax")->label);
+    QVERIFY(text().find("\"base\": \"wax\"") != std::string::npos);
+    QCOMPARE(m_document->addMaterial("wax"), wax);  // it is there
+    QCOMPARE(m_document->undoStack().count(), 1);
+    paint("wax");
+    QCOMPARE(countNow(*m_engine), size_t{125 + 8 + 27});
+    QVERIFY(m_document->whyMaterialStays(wax).contains(QStringLiteral("drops")));
+    QVERIFY(!m_document->removeMaterial(wax).isEmpty());
+    QCOMPARE(m_document->undoStack().count(), 2);
+    m_document->undoStack().undo();
+    m_document->undoStack().undo();
+    QCOMPARE(text(), before);
+    QCOMPARE(countNow(*m_engine), size_t{125 + 8});
+    QCOMPARE(clockAndStructure(*m_engine).first, uint64_t{3});  // the run goes on
+    m_document->undoStack().redo();
+    m_document->undoStack().redo();
+    QCOMPARE(countNow(*m_engine), size_t{125 + 8 + 27});
+    m_link->reset();
+    QCOMPARE(countNow(*m_engine), size_t{125 + 8 + 27});
+  }
+
+  /// Matter keeps its substance when a material before it leaves the scene, now and after a reset.
+  void anUnusedMaterialLeaves() {
+    Project project = m_document->project();
+    SceneMaterial wax;
+    wax.id = wax.base = "wax";
+    project.materials.insert(project.materials.begin(), wax);
+    m_document->open(project, {}, false, false);
+    const auto ofWater = [this] {
+      return onEngine<bool>(*m_engine, [](Engine& e) {
+        const ParticleStore& store = e.solver().particles();
+        for (size_t i = 0; i < store.size(); ++i) {
+          if (e.project().materials.at(store.material()[i]).id != "water") return false;
+        }
+        return store.size() > 0;
+      });
+    };
+    QVERIFY(ofWater());
+    QCOMPARE(m_document->removeMaterial("wax"), QString());
+    QVERIFY(ofWater());
+    QCOMPARE(m_document->setParameter({"scene", "", "gravity"}, 5.0), QString());
+    m_link->reset();
+    QVERIFY(ofWater());
+    QCOMPARE(onEngine<size_t>(*m_engine, [](Engine& e) { return e.project().materials.size(); }), size_t{1});
+    m_document->undoStack().undo();
+    m_document->undoStack().undo();
+    QCOMPARE(m_document->project().materials.front().id, std::string("wax"));
+    QVERIFY(ofWater());
+    QVERIFY(m_document->whyMaterialStays("water").contains(QStringLiteral("ice")));
+  }
+
+  void structureIsChosen() {
+    const Address structure{"body", "second", kStructureKey};
+    QCOMPARE(std::get<std::string>(m_document->value(structure)), std::string("bonds"));
+    QVERIFY(QString::fromUtf8(m_document->declaration(structure)->choices).contains(QStringLiteral("rigid")));
+    const std::string before = text();
+    const auto bonds = clockAndStructure(*m_engine).second;
+    QVERIFY(!m_document->setParameter(structure, std::string("glue")).isEmpty());
+    QCOMPARE(m_document->setParameter(structure, std::string("rigid")), QString());
+    QCOMPARE(m_document->body("second")->constraints.size(), size_t{1});
+    QCOMPARE(m_document->body("second")->constraints[0].plugin, std::string("rigid"));
+    QCOMPARE(parseProject(text(), "scene.json", *m_plugins).project.bodies[1].constraints[0].plugin,
+             std::string("rigid"));
+    QCOMPARE(clockAndStructure(*m_engine).second, bonds);
+    m_link->reset();
+    const auto rigid = clockAndStructure(*m_engine).second;
+    QVERIFY(rigid < bonds);  // one group in place of the bonds of eight particles
+    QCOMPARE(m_document->setParameter(structure, std::string(kNoStructure)), QString());
+    QVERIFY(m_document->body("second")->constraints.empty());
+    m_link->reset();
+    QCOMPARE(clockAndStructure(*m_engine).second, rigid - 1);
+    m_document->undoStack().undo();
+    m_document->undoStack().undo();
+    QCOMPARE(text(), before);
+  }
+
+ private:
+  std::string text() const { return writeProject(m_document->project()); }
+
+  /// A stroke of 27 cells far above the blocks.
+  void paint(const std::string& material = "water") {
+    auto stroke = std::make_shared<StrokeRecord>();
+    stroke->lattice.origin = {0.015, 0.015, 0.015};
+    stroke->lattice.spacing = 0.03;
+    for (int k = 0; k < 27; ++k) stroke->cells.push_back({k % 3 - 1, 26 + k / 3 % 3, k / 9 - 1});
+    stroke->body = "drops";
+    Body drops;
+    drops.id = drops.name = "drops";
+    drops.material = material;
+    VoxelShape voxels = stroke->lattice;
+    voxels.palette.push_back({material, 293.15, {}});
+    drops.shape = voxels;
+    const auto body = std::make_shared<const Body>(drops);
+    m_link->paint(*stroke, body, stroke->cells);
+    stroke->edits.push_back(paintEdit(m_document->project(), *body, stroke->cells, 0, {}));
+    m_document->addStroke(stroke);
+  }
+
+  std::unique_ptr<PluginRegistry> m_plugins;
+  std::unique_ptr<Document> m_document;
+  std::unique_ptr<EngineThread> m_engine;
+  std::unique_ptr<SceneLink> m_link;
+};
+
+QTEST_GUILESS_MAIN(TestContent)
+#include "tst_content.moc"

@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: Apache-2.0
+// Bodies and materials come and go by hands in the real window; rows that follow.
+#include "core/simulation/engine.h"
+#include "ui/document/document.h"
+#include "ui/panels/parameterpanel.h"
+#include "ui/theme/theme.h"
+#include "ui/viewport/viewport.h"
+#include "ui/window/inspector.h"
+#include "ui/window/mainwindow.h"
+#include "ui/window/materialspanel.h"
+#include "ui/window/noticebar.h"
+
+#include <QtGui/QAction>
+#include <QtGui/QContextMenuEvent>
+#include <QtGui/QSurfaceFormat>
+#include <QtTest/QSignalSpy>
+#include <QtTest/QTest>
+#include <QtWidgets/QApplication>
+#include <QtWidgets/QLineEdit>
+#include <QtWidgets/QMenu>
+#include <QtWidgets/QTreeView>
+
+#include <future>
+#include <set>
+
+using namespace ps;
+
+namespace {
+
+const QString kSample = QStringLiteral(PS_SOURCE_DIR "/projects/ice-on-hot-plate.json");
+constexpr int kLong = 30000;  // ms; software rendering on a busy machine
+
+std::set<uint32_t> idsNow(Session& session) {
+  auto promise = std::make_shared<std::promise<std::set<uint32_t>>>();
+  auto future = promise->get_future();
+  session.engine()->post([promise](Engine& engine) {
+    const ParticleStore& store = engine.solver().particles();
+    promise->set_value({store.id(), store.id() + store.size()});
+  });
+  return future.get();
+}
+
+}  // namespace
+
+class TestContentWindow : public QObject {
+  Q_OBJECT
+ private Q_SLOTS:
+  void initTestCase() {
+    Theme::apply(*qApp, true);
+    MainWindow::Options options;
+    options.project = options.sample = kSample;
+    options.restore = false;
+    options.session.autosave = false;
+    m_window = std::make_unique<MainWindow>(options);
+    m_window->resize(1280, 800);
+    m_window->show();
+    QVERIFY(QTest::qWaitForWindowExposed(m_window.get()));
+    QSignalSpy shown(m_window.get(), &MainWindow::projectShown);
+    m_window->start();
+    QVERIFY(shown.wait(kLong));
+    QApplication::setActiveWindow(m_window.get());
+  }
+
+  void init() {
+    session().pause();
+    while (document().undoStack().canUndo()) document().undoStack().undo();
+    toTheStart();
+    view()->setTool(ViewTool::Select);
+    view()->show(StandardView::Scene);
+  }
+
+  void cleanupTestCase() { m_window.reset(); }
+
+  void anInstalledMaterialIsAddedAndDrawn() {
+    auto* panel = m_window->findChild<MaterialsPanel*>();
+    const QRect tile = panel->tileOf("wax");
+    QVERIFY(!tile.isEmpty() && panel->rect().contains(tile));
+    QTest::mouseClick(panel, Qt::LeftButton, {}, tile.center());
+    QCOMPARE(document().project().materials.size(), size_t{2});
+    QCOMPARE(document().project().materials[1].base, std::string("wax"));
+    QCOMPARE(panel->currentLabel(), QStringLiteral("Paraffin wax"));
+    QCOMPARE(view()->brush().material, std::string("wax"));
+    QCOMPARE(m_window->inspector().material(), std::string("wax"));
+    QVERIFY(m_window->inspector().materialPanel()->row(QStringLiteral("material/wax/viscosity")));
+    m_window->action(QStringLiteral("sketch.brush"))->trigger();
+    const size_t before = idsNow(session()).size();
+    stroke(QPoint(view()->width() / 2 - 60, view()->height() / 2), {72, 0}, true);
+    QVERIFY(idsNow(session()).size() > before);
+    QCOMPARE(document().project().bodies.back().material, std::string("wax"));
+    document().undoStack().undo();
+    document().undoStack().undo();
+    QCOMPARE(document().project().materials.size(), size_t{1});
+    QCOMPARE(panel->currentLabel(), QStringLiteral("Water"));
+    QCOMPARE(view()->brush().material, std::string("water"));
+    QCOMPARE(m_window->inspector().material(), std::string("water"));
+  }
+
+  void thePaletteAddsAMaterial() {
+    document().undoStack().clear();  // what can be done again has the word too
+    m_window->action(QStringLiteral("edit.search"))->trigger();
+    CommandPalette* palette = m_window->palette();
+    palette->field()->setText(QStringLiteral("wax"));
+    QCOMPARE(palette->currentTitle(), QStringLiteral("Add material Paraffin wax"));
+    QTest::keyClick(palette->field(), Qt::Key_Return);
+    QCOMPARE(document().project().materials.back().base, std::string("wax"));
+  }
+
+  void anUnusedMaterialIsRemovedByItsMenu() {
+    auto* panel = m_window->findChild<MaterialsPanel*>();
+    panel->addInstalled("wax");
+    const auto menuAt = [&](const std::string& id) {
+      const QPoint at = panel->tileOf(id).center();
+      QContextMenuEvent ask(QContextMenuEvent::Mouse, at, panel->mapToGlobal(at));
+      QApplication::sendEvent(panel, &ask);
+      return panel->findChild<QMenu*>();
+    };
+    QMenu* menu = menuAt("water");
+    QVERIFY(menu && !menu->actions().front()->isEnabled());
+    QVERIFY2(menu->actions().front()->text().contains(QStringLiteral("“Ice block” is of it")),
+             qPrintable(menu->actions().front()->text()));
+    delete menu;
+    menu = menuAt("wax");
+    QVERIFY(menu && menu->actions().front()->isEnabled());
+    menu->actions().front()->trigger();
+    delete menu;
+    QCOMPARE(document().project().materials.size(), size_t{1});
+    document().undoStack().undo();
+    QCOMPARE(document().project().materials.size(), size_t{2});
+  }
+
+  /// Enter adds what the arrows have walked to; walking alone adds nothing.
+  void materialsAreAddedWithoutAMouse() {
+    auto* panel = m_window->findChild<MaterialsPanel*>();
+    QTest::keyClick(panel, Qt::Key_Down);
+    QCOMPARE(document().project().materials.size(), size_t{1});
+    QTest::keyClick(panel, Qt::Key_Return);
+    QCOMPARE(document().project().materials.size(), size_t{2});
+  }
+
+  void deleteTakesTheSelectedBody_data() {
+    QTest::addColumn<QString>("where");
+    for (const char* where : {"outliner", "view", "menu"}) QTest::newRow(where) << QString::fromLatin1(where);
+  }
+  void deleteTakesTheSelectedBody() {
+    QFETCH(QString, where);
+    const size_t before = idsNow(session()).size();
+    QVERIFY(before > 0);
+    m_window->outliner()->select(OutlineKind::Body, "ice");
+    QWidget* target = where == QLatin1String("view") ? static_cast<QWidget*>(view()) : m_window->outliner()->view();
+    target->setFocus();
+    if (where == QLatin1String("menu")) {
+      auto* outliner = m_window->outliner()->view();
+      const QPoint at = outliner->visualRect(outliner->currentIndex()).center();
+      Q_EMIT outliner->customContextMenuRequested(at);
+      QMenu* menu = nullptr;
+      QTRY_VERIFY((menu = qobject_cast<QMenu*>(QApplication::activePopupWidget())));
+      QStringList names;
+      for (QAction* action : menu->actions()) names << action->objectName();
+      menu->close();
+      for (const char* name : {"edit.rename", "edit.visible", "edit.locked", "view.frame", "edit.delete"})
+        QVERIFY2(names.contains(QString::fromLatin1(name)), name);
+      m_window->action(QStringLiteral("edit.delete"))->trigger();
+    } else {
+      QTest::keyClick(target, Qt::Key_Delete);
+    }
+    QVERIFY(!document().body("ice"));
+    QVERIFY(idsNow(session()).empty());
+    QCOMPARE(m_window->outliner()->selectedBody(), std::string());
+    document().undoStack().undo();
+    QVERIFY(document().body("ice"));
+    QCOMPARE(idsNow(session()).size(), before);
+  }
+
+  void deleteElsewhereTakesNothing() {
+    m_window->outliner()->select(OutlineKind::Body, "ice");
+    QWidget* panel = m_window->findChild<MaterialsPanel*>();
+    panel->setFocus();
+    QTest::keyClick(panel, Qt::Key_Delete);
+    QVERIFY(document().body("ice"));
+    // A click beside everything selects nothing, so that Delete has nothing to take.
+    QTest::mouseClick(view(), Qt::LeftButton, {}, QPoint(view()->width() / 2, 60));
+    QTest::keyClick(view(), Qt::Key_Delete);
+    QVERIFY(document().body("ice"));
+  }
+
+  void aLockedBodyIsNotDeleted() {
+    m_window->outliner()->select(OutlineKind::Body, "ice");
+    m_window->action(QStringLiteral("edit.locked"))->trigger();
+    m_window->action(QStringLiteral("edit.delete"))->trigger();
+    QVERIFY(document().body("ice"));
+    QVERIFY(m_window->notice()->isVisible());
+    QVERIFY2(m_window->notice()->text().contains(QStringLiteral("is locked")), qPrintable(m_window->notice()->text()));
+    m_window->action(QStringLiteral("edit.locked"))->trigger();
+    m_window->action(QStringLiteral("edit.delete"))->trigger();
+    QVERIFY(!document().body("ice") && !m_window->notice()->isVisible());
+  }
+
+  void structureIsARow() {
+    m_window->inspector().setBody("ice");
+    ParameterPanel* panel = m_window->inspector().bodyPanel();
+    const QString key = QStringLiteral("body/ice/structure");
+    QVERIFY(panel->row(key));
+    QCOMPARE(panel->row(key)->valueText(), QStringLiteral("Bonds"));
+    panel->row(key)->reset();  // to none
+    QVERIFY(document().body("ice")->constraints.empty());
+    QCOMPARE(panel->row(key)->valueText(), QStringLiteral("None"));
+    QCOMPARE(document().undoStack().count(), 1);
+    document().undoStack().undo();
+    QCOMPARE(panel->row(key)->valueText(), QStringLiteral("Bonds"));
+  }
+
+  void wallsWithoutHeatGreyItsRows() {
+    ParameterPanel* panel = m_window->inspector().scenePanel();
+    const auto idle = [&](const char* key) {
+      return panel->row(QStringLiteral("wall/floor/") + QLatin1String(key))->has(RowState::Disabled);
+    };
+    ParameterRow* pinned = m_window->inspector().materialPanel()->row(QStringLiteral("wall/floor/temperature"));
+    QVERIFY(pinned && !pinned->has(RowState::Disabled) && !idle("temperature") && !idle("film_coefficient"));
+    document().setParameter({"wall", "floor", "heat"}, std::string("adiabatic"));
+    QVERIFY(pinned->has(RowState::Disabled) && idle("temperature") && idle("film_coefficient"));
+    QVERIFY(!idle("friction") && !idle("heat"));
+    QVERIFY(pinned->model().disabledReason.contains(QStringLiteral("lets no heat through")));
+    document().undoStack().undo();
+    QVERIFY(!pinned->has(RowState::Disabled) && !idle("temperature"));
+    document().setParameter({"wall", "floor", "heat"}, std::string("adiabatic"));
+    m_window->inspector().rebuild();  // new rows stand still too
+    QVERIFY(idle("temperature") && idle("film_coefficient"));
+  }
+
+ private:
+  Session& session() { return m_window->session(); }
+  Document& document() { return session().document(); }
+  Viewport* view() { return m_window->viewport(); }
+  /// The view shows the scene after a reset: the brush stands on what it shows.
+  void toTheStart() {
+    const uint64_t revision = session().snapshot()->revision;
+    session().reset();
+    QTRY_VERIFY_WITH_TIMEOUT(session().snapshot()->revision != revision && view()->snapshot() == session().snapshot(),
+                             kLong);
+  }
+  void stroke(const QPoint& from, const QPoint& way, bool release) {
+    QTest::mousePress(view(), Qt::LeftButton, {}, from);
+    for (int k = 1; k <= 6; ++k) QTest::mouseMove(view(), from + way * k / 6);
+    if (release) QTest::mouseRelease(view(), Qt::LeftButton, {}, from + way);
+  }
+
+  std::unique_ptr<MainWindow> m_window;
+};
+
+int main(int argc, char** argv) {
+  QSurfaceFormat format;
+  format.setVersion(4, 3);
+  format.setProfile(QSurfaceFormat::CoreProfile);
+  format.setDepthBufferSize(24);
+  QSurfaceFormat::setDefaultFormat(format);
+  QApplication application(argc, argv);
+  TestContentWindow test;
+  return QTest::qExec(&test, argc, argv);
+}
+#include "tst_contentwindow.moc"

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+// What comes into a document's scene and leaves it: bodies with their matter, materials.
+#include "core/matter/material.h"
+#include "core/plugin_host/registry.h"
+#include "ui/document/commands.h"
+#include "ui/document/declared.h"
+#include "ui/document/document.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ps {
+namespace {
+
+QString text(const std::string& utf8) { return QString::fromStdString(utf8); }
+
+/// Lowest and highest point of a body's shape above the origin, m.
+std::pair<double, double> heights(const Body& body) {
+  if (const auto* box = std::get_if<BoxShape>(&body.shape)) {
+    return {box->center[1] - box->size[1] / 2, box->center[1] + box->size[1] / 2};
+  }
+  const auto& voxels = std::get<VoxelShape>(body.shape);
+  if (voxels.runs.empty()) return {voxels.origin[1], voxels.origin[1]};
+  const auto [low, high] = std::minmax_element(voxels.runs.begin(), voxels.runs.end(),
+                                               [](const auto& a, const auto& b) { return a.y < b.y; });
+  return {voxels.origin[1] + (low->y - 0.5) * voxels.spacing, voxels.origin[1] + (high->y + 0.5) * voxels.spacing};
+}
+
+/// Moves a body up; sketched ones by whole cells, so that they stay on the lattice of the brush.
+void lift(Body& body, double metres) {
+  if (auto* box = std::get_if<BoxShape>(&body.shape)) {
+    box->center[1] += metres;
+    return;
+  }
+  auto& voxels = std::get<VoxelShape>(body.shape);
+  const double cells = std::ceil(metres / voxels.spacing - 1e-6);
+  for (VoxelShape::Run& run : voxels.runs) run.y += static_cast<int>(cells);
+  for (VoxelShape::Stroke& stroke : voxels.strokes) {
+    for (auto& sample : stroke.samples) sample[1] += cells * voxels.spacing;
+  }
+}
+
+bool isOf(const Body& body, const std::string& material) {
+  const auto* voxels = std::get_if<VoxelShape>(&body.shape);
+  return body.material == material ||
+         (voxels && std::any_of(voxels->palette.begin(), voxels->palette.end(),
+                                [&](const VoxelShape::Paint& paint) { return paint.material == material; }));
+}
+
+}  // namespace
+
+QString Document::removeBody(const std::string& id) {
+  const Body* old = body(id);
+  if (!old) return {};
+  if (old->locked) return QStringLiteral("“%1” is locked. Unlock it first.").arg(text(old->name));
+  const BodyEdit edit{id, *old, std::nullopt, static_cast<size_t>(old - m_project.bodies.data())};
+  m_undo.push(new BodiesCommand(*this, {edit}, QStringLiteral("deletion of %1").arg(text(old->name)),
+                                std::make_shared<StrokeTrace>()));
+  return {};
+}
+
+QString Document::duplicateBody(const std::string& id) {
+  const Body* old = body(id);
+  if (!old) return {};
+  Body copy = *old;
+  copy.id = freeBodyId(id);
+  copy.name = old->name + " copy";
+  copy.locked = false;
+  const double spacing = numberOf(m_project.solver.parameters, solverParameters(), "particle_spacing");
+  const auto [low, high] = heights(*old);
+  lift(copy, high - low + spacing);  // a layer of air keeps the two apart
+  if (heights(copy).second > m_project.environment.boundsMaximum[1]) {
+    return QStringLiteral("Above “%1” is no room for a copy.").arg(text(old->name));
+  }
+  const auto place = static_cast<size_t>(old - m_project.bodies.data()) + 1;
+  const QString title = QStringLiteral("copy of %1").arg(text(old->name));
+  m_undo.push(
+      new BodiesCommand(*this, {BodyEdit{copy.id, std::nullopt, copy, place}}, title, std::make_shared<StrokeTrace>()));
+  return {};
+}
+
+void Document::setStructure(const std::string& id, const std::string& plugin) {
+  const Body* old = body(id);
+  if (!old || structureOf(*old, m_plugins) == plugin) return;
+  editBody(id, QStringLiteral("structure of %1").arg(text(old->name)), [&](Body& b) {
+    const auto holds = [&](const BodyConstraint& c) { return holdsTogether(c.plugin, m_plugins); };
+    const auto first = std::find_if(b.constraints.begin(), b.constraints.end(), holds);
+    const auto place = first - b.constraints.begin();
+    b.constraints.erase(std::remove_if(first, b.constraints.end(), holds), b.constraints.end());
+    if (plugin != kNoStructure) b.constraints.insert(b.constraints.begin() + place, BodyConstraint{plugin, {}, {}});
+  });
+}
+
+std::string Document::addMaterial(const std::string& base) {
+  std::vector<SceneMaterial>& materials = m_project.materials;
+  const auto present =
+      std::find_if(materials.begin(), materials.end(), [&](const SceneMaterial& m) { return m.base == base; });
+  if (present != materials.end()) return present->id;
+  const auto taken = [&](const std::string& id) {
+    return std::any_of(materials.begin(), materials.end(), [&](const SceneMaterial& m) { return m.id == id; });
+  };
+  SceneMaterial material;
+  material.base = material.id = base;
+  for (int n = 2; taken(material.id); ++n) material.id = base + "-" + std::to_string(n);
+  const Material* installed = m_plugins ? m_plugins->material(base) : nullptr;
+  material.label = installed && !installed->label.empty() ? installed->label : base;
+  const std::string id = material.id;
+  const QString title = QStringLiteral("adding %1").arg(text(material.label));
+  m_undo.push(new MaterialCommand(*this, std::move(material), materials.size(), true, title));
+  return id;
+}
+
+QString Document::whyMaterialStays(const std::string& id) const {
+  for (const Body& body : m_project.bodies) {
+    if (isOf(body, id)) return QStringLiteral("“%1” is of it").arg(text(body.name));
+  }
+  return {};
+}
+
+QString Document::removeMaterial(const std::string& id) {
+  const QString problem = whyMaterialStays(id);
+  const auto found = std::find_if(m_project.materials.begin(), m_project.materials.end(),
+                                  [&](const SceneMaterial& m) { return m.id == id; });
+  if (!problem.isEmpty() || found == m_project.materials.end()) return problem;
+  const QString title = QStringLiteral("removing %1").arg(text(found->label.empty() ? id : found->label));
+  m_undo.push(
+      new MaterialCommand(*this, *found, static_cast<size_t>(found - m_project.materials.begin()), false, title));
+  return {};
+}
+
+}  // namespace ps
