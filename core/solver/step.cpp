@@ -13,6 +13,9 @@ namespace {
 constexpr size_t kGrain = 512;
 /// Frames after which particles are sorted by cell again although the lists still hold.
 constexpr uint64_t kSortInterval = 60;
+/// One Gauss-Seidel pass a substep leaves stiff springs an error that the next one answers with a push: cloth whips and
+/// blocks explode.
+constexpr int kLeastStructurePasses = 2;
 /// Mean density error that no longer deserves the name of a solution.
 constexpr double kDiverged = 0.5;
 /// How far the heat balance may be open: a share of what was exchanged, and of the whole for rounding.
@@ -177,9 +180,12 @@ void Solver::Impl::substep(uint32_t index) {
   });
   timed(Stage::Structure, [&] { constraints.predict(store, index); });
   timed(Stage::Contact, [&] { rigid.begin(store); });
+  const int structurePasses = settings.iterations == 1 ? kLeastStructurePasses : 1;
   for (int iteration = 0; iteration < settings.iterations; ++iteration) {
     const uint32_t it = static_cast<uint32_t>(iteration);
-    timed(Stage::Structure, [&] { constraints.projectStructure(store, index, it); });
+    timed(Stage::Structure, [&] {
+      for (int pass = 0; pass < structurePasses; ++pass) constraints.projectStructure(store, index, it);
+    });
     timed(Stage::Density, [&] { density.project(store, neighbours, iteration); });
     timed(Stage::Structure, [&] { constraints.projectNeighbours(store, neighbours, index, it); });
     timed(Stage::Contact, [&] {
