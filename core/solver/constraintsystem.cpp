@@ -70,6 +70,7 @@ uint32_t ConstraintSystem::addSet(const api::ConstraintPlugin* plugin, std::stri
   set.plugin = plugin;
   set.name = std::move(name);
   set.parameters = std::move(parameters);
+  set.thin = traits.thin != 0;
   set.structural = traits.form == api::ConstraintTraits::Form::Structural;
   if (set.structural && (traits.arity < 2 || traits.arity > 4)) {
     throw Error("constraint plugin '" + set.name + "' declares an arity outside 2 to 4");
@@ -230,6 +231,8 @@ void ConstraintSystem::build(uint32_t index, const ParticleStore& store, const N
   const uint32_t body = store.body()[members[0]];
   if (body >= set.used.size()) set.used.resize(body + size_t{1}, 0);
   set.used[body] = 1;
+  if (body >= m_thin.size()) m_thin.resize(body + size_t{1}, 0);
+  if (set.thin) m_thin[body] = 1;
   if (body >= set.bodyParameters.size()) set.bodyParameters.resize(body + size_t{1});
   refreshParameters(set);
   if (set.groups) buildGroups(set, store, neighbours, members);

@@ -84,6 +84,9 @@ class ConstraintSystem {
   /// Members of each group that moves as one body; valid until the structure or the order changes.
   std::vector<std::span<const uint32_t>> rigidGroups() const;
 
+  /// 1 for bodies that use a plugin of sheets or lines, by their index.
+  std::span<const uint8_t> thinBodies() const { return m_thin; }
+
   size_t count() const;  ///< structural constraints and groups
   void addTo(Hash& hash, const ParticleStore& store) const;
   /// Ties between pairs of particles, for contact; renewed when the structure or the order has changed.
@@ -123,7 +126,7 @@ class ConstraintSystem {
     std::vector<std::vector<uint64_t>> taken;  ///< [word of 64 colours][particle id]
     std::unordered_set<Key, KeyHash> keys;     ///< sets of particle ids; only asked, never walked through
     std::unique_ptr<GroupLists> groups;        ///< of a plugin of groups, which uses none of the lists above
-    bool rigid = false;
+    bool rigid = false, thin = false;
   };
   struct Edits;
   class Sink;
@@ -179,6 +182,7 @@ class ConstraintSystem {
   std::vector<uint32_t> m_newIndex, m_keptParticles;
   std::vector<std::vector<float>> m_keptValues;
   std::vector<api::Float4> m_correction;
+  std::vector<uint8_t> m_thin;
   StructureGraph m_graph;
   bool m_graphValid = false;
   std::vector<PluginFault> m_faults;

@@ -107,6 +107,7 @@ void Solver::Impl::configure() {
   wallStage.configure(settings, walls);
   swept.configure(settings);
   contact.configure(settings, table);
+  sheets.configure(settings);
   rigid.configure(settings, walls, table);
   gas.configure(settings, thermal, table);
   heat.configure(thermal, settings, walls, table, model, modelParameters);

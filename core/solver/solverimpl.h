@@ -5,6 +5,7 @@
 #include "core/solver/gasforces.h"
 #include "core/solver/phasestage.h"
 #include "core/solver/rigidcontact.h"
+#include "core/solver/sheetcontact.h"
 #include "core/solver/solver.h"
 #include "core/solver/sweptclamp.h"
 #include "core/solver/viscosity.h"
@@ -38,6 +39,7 @@ struct Solver::Impl {
   WallStage wallStage;
   SweptClamp swept;
   SolidContact contact;
+  SheetContact sheets;
   RigidContact rigid;
   GasForces gas;
   HeatStage heat;

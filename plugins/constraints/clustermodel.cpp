@@ -65,6 +65,9 @@ constexpr api::FieldDeclaration kMemberValues[] = {
     {"multiplier_x", "kg·m", "XPBD multiplier of the substep, x", kFloat},
     {"multiplier_y", "kg·m", "XPBD multiplier, y", kFloat},
     {"multiplier_z", "kg·m", "XPBD multiplier, z", kFloat},
+    {"way_x", "m", "Way that its velocity took it in the substep, x", kFloat},
+    {"way_y", "m", "Way, y", kFloat},
+    {"way_z", "m", "Way, z", kFloat},
 };
 
 bool holds(Motion m) { return m == Motion::Solid || m == Motion::Static; }
@@ -77,7 +80,7 @@ struct NewCluster {
     particles.push_back(particle);
     for (const double c : {rest.x, rest.y, rest.z}) memberValues.push_back(static_cast<float>(c));
     memberValues.push_back(volume);
-    memberValues.insert(memberValues.end(), 3, 0.0f);
+    memberValues.insert(memberValues.end(), ClusterModel::kMemberValueCount - ClusterModel::kMultiplierX, 0.0f);
   }
   void emit(Quaternion q, double volume, float scale, api::GroupSink& sink) const {
     const float values[ClusterModel::kValueCount] = {static_cast<float>(q.x),
@@ -255,6 +258,12 @@ void ClusterModel::predictGroups(const ConstraintContext& context, const Particl
     for (const MemberValue v : {kMultiplierX, kMultiplierY, kMultiplierZ}) {
       std::fill(batch.memberValues[v] + batch.begin[g], batch.memberValues[v] + batch.begin[g + 1], 0.0f);
     }
+    for (size_t k = batch.begin[g]; k < batch.begin[g + 1]; ++k) {
+      const api::Float4 &x = p.position[batch.particles[k]], &from = p.previous[batch.particles[k]];
+      batch.memberValues[kWayX][k] = x.x - from.x;
+      batch.memberValues[kWayY][k] = x.y - from.y;
+      batch.memberValues[kWayZ][k] = x.z - from.z;
+    }
     if (context.substep != 0) continue;  // volumes and temperatures change once a frame
     const ClusterShape shape(p, batch, g);
     batch.values[kScale][g] = static_cast<float>(shape.scaleOfVolumes());
@@ -286,6 +295,27 @@ void ClusterModel::projectGroups(const ConstraintContext& context, const Particl
       shape.setMultiplier(k, shape.multiplier(k) + step);
       setVector(x, vectorOf(x) + double{p.velocity[i].w} * step);
     }
+  }
+}
+
+void ClusterModel::deriveGroupVelocities(const ConstraintContext& context, const ParticleView& p,
+                                         const GroupBatch& batch) const {
+  // The substep ends with v = (x - previous)/dt. The cluster moved each member by multiplier/m, across the way that its
+  // velocity had taken it: that cost the angular momentum sum way x multiplier/dt. Its pulls, taken where the members
+  // are now, should not turn it either.
+  for (size_t g = 0; g < batch.count; ++g) {
+    const ClusterShape shape(p, batch, g);
+    Vector lost;
+    bool moved = false, held = false;
+    for (size_t k = batch.begin[g]; k < batch.begin[g + 1]; ++k) {
+      const uint32_t i = batch.particles[k];
+      held = held || p.velocity[i].w == 0;
+      const Vector pull = shape.multiplier(k);
+      moved = moved || dot(pull, pull) > 0;
+      const Vector way{batch.memberValues[kWayX][k], batch.memberValues[kWayY][k], batch.memberValues[kWayZ][k]};
+      lost += 1 / context.dt * cross(way - vectorOf(p.position[i]), pull);
+    }
+    if (moved && !held) shape.turn(lost);
   }
 }
 

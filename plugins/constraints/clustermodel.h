@@ -10,14 +10,27 @@ namespace ps::constraint {
 /// The springs of a cluster have k_i = kappa m_i with kappa = E V/(sum m r²/3), where V is the volume that the cluster
 /// answers for: each particle's, divided by the number of clusters that hold it. A uniform strain then stores E/2 of
 /// its square per volume: Young's modulus E, from the material at the members' mean temperature, with Poisson's ratio
-/// 0. Weights by mass keep each cluster's linear momentum, and its angular momentum to rounding. It cannot do: keep the
+/// 0. Weights by mass keep each cluster's linear momentum. Angular momentum, which velocities from positions lose at a
+/// rate of w² dt, is given back (deriveGroupVelocities). It cannot do: keep the
 /// volume under large strain, plasticity, fracture by force, strains that change within a cluster (it is stiffer
 /// against them), or take back matter that has melted.
 class ClusterModel : public api::ConstraintPlugin {
  public:
   enum Parameter { kRadius, kSpacing, kDamping, kStiffnessRatio, kParameterCount };
   enum Value { kRotationX, kRotationY, kRotationZ, kRotationW, kVolume, kScale, kKappa, kValueCount };
-  enum MemberValue { kRestX, kRestY, kRestZ, kRestVolume, kMultiplierX, kMultiplierY, kMultiplierZ, kMemberValueCount };
+  enum MemberValue {
+    kRestX,
+    kRestY,
+    kRestZ,
+    kRestVolume,
+    kMultiplierX,
+    kMultiplierY,
+    kMultiplierZ,
+    kWayX,
+    kWayY,
+    kWayZ,
+    kMemberValueCount
+  };
 
   const char* label() const noexcept override;
   const char* help() const noexcept override;
@@ -31,6 +44,8 @@ class ClusterModel : public api::ConstraintPlugin {
                      const api::GroupBatch& batch) const override;
   void projectGroups(const api::ConstraintContext& context, const api::ParticleView& particles,
                      const api::GroupBatch& batch) const override;
+  void deriveGroupVelocities(const api::ConstraintContext& context, const api::ParticleView& particles,
+                             const api::GroupBatch& batch) const override;
   void groupTopology(const api::ConstraintContext& context, const api::ParticleView& particles,
                      const api::NeighbourView& lists, const api::GroupBatch& all, api::GroupSink& sink) const override;
   void restoreMembers(const api::ConstraintContext& context, const api::ParticleView& particles,

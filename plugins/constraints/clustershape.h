@@ -28,6 +28,8 @@ class ClusterShape {
   void setMultiplier(size_t k, Vector value) const;
   /// Way of each member since the start of the substep, without the rigid motion of the whole; call after fit().
   void findDeformation(std::vector<Vector>& change) const;
+  /// Adds the rigid turn of the members where they are that has an angular momentum of `angular` kg m²/s.
+  void turn(Vector angular) const;
   Vector meanVelocity(const uint8_t* without) const;
 
   /// Cube root of the members' rest volumes against those when they joined.

@@ -148,7 +148,7 @@ class StretchGraph {
 }  // namespace
 
 api::ConstraintTraits SpringModel::traits() const noexcept {
-  return {api::ConstraintTraits::Form::Structural, 2, api::listOf(kValues), {}};
+  return {api::ConstraintTraits::Form::Structural, 2, api::listOf(kValues), {}, {}, 0, 1};
 }
 
 void SpringModel::build(const ConstraintContext& context, const ParticleView& p, const NeighbourView& lists,

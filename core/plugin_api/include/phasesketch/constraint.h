@@ -20,6 +20,8 @@ struct ConstraintTraits {
   /// Group: 1 when members keep their distances. Contact and friction then act on the group as one body, which moves by
   /// its mass and its inertia, in place of particle by particle.
   uint32_t rigid = 0;
+  /// 1 for what makes sheets and lines one particle thick: liquid is kept off their particles.
+  uint32_t thin = 0;
 };
 
 struct ConstraintContext {
