@@ -102,7 +102,7 @@ struct Engine::Impl {
   void recompileAll();
   void bakeMaterials();
   void setThermal();
-  uint32_t constraintSet(const std::string& plugin, const ParameterSet& parameters);
+  uint32_t constraintSet(const std::string& plugin);
   std::vector<uint32_t> born(Spawn spawn, const Body& body);
   std::vector<uint32_t> born(Spawn spawn, const std::string& id, const std::string& name);
   void exchangeMatter();
@@ -155,10 +155,10 @@ void Engine::Impl::setThermal() {
   solver->setThermal(compileThermal(project), model, project.solver.thermalModel, std::move(parameters));
 }
 
-uint32_t Engine::Impl::constraintSet(const std::string& id, const ParameterSet& parameters) {
+uint32_t Engine::Impl::constraintSet(const std::string& id) {
   if (const auto found = constraintSets.find(id); found != constraintSets.end()) return found->second;
   const api::ConstraintPlugin* plugin = plugins.constraint(id);
-  const uint32_t set = solver->addConstraintSet(plugin, id, numbersOf(parameters, plugin->parameters()));
+  const uint32_t set = solver->addConstraintSet(plugin, id, numbersOf({}, plugin->parameters()));
   constraintSets.emplace(id, set);
   return set;
 }
@@ -185,7 +185,11 @@ std::vector<uint32_t> Engine::Impl::born(Spawn spawn, const std::string& id, con
 std::vector<uint32_t> Engine::Impl::born(Spawn spawn, const Body& body) {
   if (!spawn.fixed) {
     for (const BodyConstraint& c : body.constraints) {
-      if (plugins.constraint(c.plugin)) spawn.constraintSets.push_back(constraintSet(c.plugin, c.parameters));
+      const api::ConstraintPlugin* plugin = plugins.constraint(c.plugin);
+      if (!plugin) continue;
+      const uint32_t set = constraintSet(c.plugin);
+      solver->setConstraintParameters(set, spawn.body, numbersOf(c.parameters, plugin->parameters()));
+      spawn.constraintSets.push_back(set);
     }
   }
   return born(std::move(spawn), body.id, body.name);
@@ -269,7 +273,7 @@ void Engine::Impl::recompile(const std::string& owner) {
         const auto set = constraintSets.find(c.plugin);
         const api::ConstraintPlugin* plugin = plugins.constraint(c.plugin);
         if (set == constraintSets.end() || !plugin) continue;
-        solver->setConstraintParameters(set->second, numbersOf(c.parameters, plugin->parameters()));
+        solver->setConstraintParameters(set->second, bodyIndex(body.id), numbersOf(c.parameters, plugin->parameters()));
       }
     }
   }

@@ -47,14 +47,17 @@ class ConstraintSystem::Groups final : public api::GroupSink {
 };
 
 template <class Call>
-void ConstraintSystem::forGroups(Set& set, double dt, uint32_t substep, uint32_t iteration, Call&& call) {
+void ConstraintSystem::forGroups(Set& set, uint32_t substep, uint32_t iteration, Call&& call) {
   if (!set.groups || set.groups->count() == 0) return;
   GroupLists& groups = *set.groups;
-  const api::ConstraintContext c = context(set, dt, substep, iteration);
   const auto run = [&](size_t first, size_t last) {
-    GroupLists::Batch batch;
-    groups.fill(batch, first, last);
-    call(c, batch.view);
+    for (size_t next = first; first < last; first = next) {
+      const uint32_t body = groups.body(first);
+      while (next < last && groups.body(next) == body) ++next;
+      GroupLists::Batch batch;
+      groups.fill(batch, first, next);
+      call(context(set, substepTime(), substep, iteration, body), batch.view);
+    }
   };
   guarded(set, [&] {
     for (size_t colour = 0; colour < groups.colours(); ++colour) {
@@ -72,21 +75,21 @@ void ConstraintSystem::forGroups(Set& set, double dt, uint32_t substep, uint32_t
 
 void ConstraintSystem::predictGroups(const ParticleStore& store, uint32_t substep) {
   for (Set& set : m_sets) {
-    forGroups(set, m_settings.dt / m_settings.substeps, substep, 0,
+    forGroups(set, substep, 0,
               [&](const auto& c, const api::GroupBatch& batch) { set.plugin->predictGroups(c, store.view(), batch); });
   }
 }
 
 void ConstraintSystem::projectGroups(const ParticleStore& store, uint32_t substep, uint32_t iteration) {
   for (Set& set : m_sets) {
-    forGroups(set, m_settings.dt / m_settings.substeps, substep, iteration,
+    forGroups(set, substep, iteration,
               [&](const auto& c, const api::GroupBatch& batch) { set.plugin->projectGroups(c, store.view(), batch); });
   }
 }
 
 void ConstraintSystem::deriveGroupVelocities(const ParticleStore& store, uint32_t substep) {
   for (Set& set : m_sets) {
-    forGroups(set, m_settings.dt / m_settings.substeps, substep, 0, [&](const auto& c, const api::GroupBatch& batch) {
+    forGroups(set, substep, 0, [&](const auto& c, const api::GroupBatch& batch) {
       set.plugin->deriveGroupVelocities(c, store.view(), batch);
     });
   }
@@ -98,10 +101,10 @@ void ConstraintSystem::buildGroups(Set& set, const ParticleStore& store, const N
   set.groups->fill(all, 0, set.groups->count());
   Groups sink(*set.groups, store);
   if (guarded(set, [&] {
-        set.plugin->buildGroups(context(set, m_settings.dt, 0, 0), store.view(), neighbours.view(),
-                                {members.data(), members.size()}, all.view, sink);
+        set.plugin->buildGroups(context(set, m_settings.dt, 0, 0, store.body()[members[0]]), store.view(),
+                                neighbours.view(), {members.data(), members.size()}, all.view, sink);
       })) {
-    set.groups->apply(sink.edits(), store.size());
+    set.groups->apply(sink.edits(), {store.body(), store.size()});
     m_graphValid = false;
   }
 }
@@ -118,17 +121,21 @@ bool ConstraintSystem::groupTopology(Set& set, const ParticleStore& store, const
   }
   set.groups->forgetChanges();
   if (sink.edits().empty()) return false;
-  set.groups->apply(sink.edits(), store.size());
+  set.groups->apply(sink.edits(), {store.body(), store.size()});
   m_graphValid = false;
   return true;
 }
 
 double ConstraintSystem::groupEnergy(Set& set, const ParticleStore& store) {
   double sum = 0;
-  GroupLists::Batch all;
-  set.groups->fill(all, 0, set.groups->count());
+  GroupLists& groups = *set.groups;
   guarded(set, [&] {
-    sum = set.plugin->groupEnergy(context(set, m_settings.dt / m_settings.substeps, 0, 0), store.view(), all.view);
+    for (size_t first = 0, next = 0; first < groups.count(); first = next) {
+      while (next < groups.count() && groups.body(next) == groups.body(first)) ++next;
+      GroupLists::Batch batch;
+      groups.fill(batch, first, next);
+      sum += set.plugin->groupEnergy(context(set, substepTime(), 0, 0, groups.body(first)), store.view(), batch.view);
+    }
   });
   return sum;
 }

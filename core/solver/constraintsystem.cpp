@@ -3,7 +3,6 @@
 
 #include "core/base/error.h"
 #include "core/base/hash.h"
-#include "core/solver/chunks.h"
 
 #include <algorithm>
 #include <array>
@@ -13,16 +12,8 @@
 namespace ps {
 namespace {
 
-constexpr size_t kBatchGrain = 1024;
-constexpr size_t kGatherGrain = 256;
 constexpr size_t kMostValues = GroupLists::kMostValues;
 constexpr uint32_t kGone = ~0u;
-
-/// A run of constraints with pointers to its values; lives while a plugin is called.
-struct BatchView {
-  std::array<float*, kMostValues> values{};
-  api::ConstraintBatch batch{};
-};
 
 }  // namespace
 
@@ -79,6 +70,7 @@ uint32_t ConstraintSystem::addSet(const api::ConstraintPlugin* plugin, std::stri
   set.plugin = plugin;
   set.name = std::move(name);
   set.parameters = std::move(parameters);
+  set.thin = traits.thin != 0;
   set.structural = traits.form == api::ConstraintTraits::Form::Structural;
   if (set.structural && (traits.arity < 2 || traits.arity > 4)) {
     throw Error("constraint plugin '" + set.name + "' declares an arity outside 2 to 4");
@@ -103,20 +95,35 @@ uint32_t ConstraintSystem::addSet(const api::ConstraintPlugin* plugin, std::stri
   return static_cast<uint32_t>(m_sets.size() - 1);
 }
 
-void ConstraintSystem::setParameters(uint32_t set, std::vector<double> parameters) {
-  m_sets.at(set).parameters = std::move(parameters);
+void ConstraintSystem::setParameters(uint32_t index, uint32_t body, std::vector<double> parameters) {
+  Set& set = m_sets.at(index);
+  if (body >= set.bodyParameters.size()) set.bodyParameters.resize(body + size_t{1});
+  set.bodyParameters[body] = std::move(parameters);
+  refreshParameters(set);
 }
 
-api::ConstraintContext ConstraintSystem::context(const Set& set, double dt, uint32_t substep,
-                                                 uint32_t iteration) const {
-  return {dt,
-          m_settings.spacing,
-          m_settings.spacing * m_settings.supportRatio,
-          m_settings.gravity,
-          substep,
-          iteration,
-          {set.parameters.data(), set.parameters.size()},
-          {m_materials.data(), m_materials.size()}};
+void ConstraintSystem::refreshParameters(Set& set) {
+  set.parametersOf.clear();
+  for (const std::vector<double>& own : set.bodyParameters) {
+    const std::vector<double>& values = own.empty() ? set.parameters : own;
+    set.parametersOf.push_back({values.data(), values.size()});
+  }
+}
+
+api::ConstraintContext ConstraintSystem::context(const Set& set, double dt, uint32_t substep, uint32_t iteration,
+                                                 uint32_t body) const {
+  api::ConstraintContext c{dt,
+                           m_settings.spacing,
+                           m_settings.spacing * m_settings.supportRatio,
+                           m_settings.gravity,
+                           substep,
+                           iteration,
+                           {set.parameters.data(), set.parameters.size()},
+                           {m_materials.data(), m_materials.size()},
+                           body,
+                           {set.parametersOf.data(), set.parametersOf.size()}};
+  c.parameters = c.parametersOf(body);
+  return c;
 }
 
 void ConstraintSystem::putAside(Set& set, std::string problem) {
@@ -125,27 +132,10 @@ void ConstraintSystem::putAside(Set& set, std::string problem) {
   set.particles.clear();
   for (auto& v : set.values) v.clear();
   set.colourStart.assign(1, 0);
+  set.runs.clear();
   if (set.groups) set.groups->clear();
   m_graphValid = false;
   m_faults.push_back({set.name, std::move(problem)});
-}
-
-template <class Call>
-void ConstraintSystem::forBatches(Set& set, Call&& call) {
-  const auto run = [&](size_t first, size_t last) {
-    BatchView view;
-    for (size_t v = 0; v < set.valueCount; ++v) view.values[v] = set.values[v].data() + first;
-    view.batch = {last - first, set.particles.data() + first * set.arity, view.values.data()};
-    call(view.batch);
-  };
-  for (size_t colour = 0; colour + 1 < set.colourStart.size(); ++colour) {
-    const size_t begin = set.colourStart[colour], count = set.colourStart[colour + 1] - begin;
-    if (count == 0) continue;
-    if (count <= kBatchGrain)
-      run(begin, begin + count);
-    else
-      forChunks(count, kBatchGrain, [&](size_t first, size_t last) { run(begin + first, begin + last); });
-  }
 }
 
 ConstraintSystem::Key ConstraintSystem::keyOf(const Set& set, const ParticleStore& store,
@@ -158,8 +148,8 @@ ConstraintSystem::Key ConstraintSystem::keyOf(const Set& set, const ParticleStor
 
 size_t ConstraintSystem::takeColour(Set& set, const ParticleStore& store, const uint32_t* particles) const {
   for (size_t word = 0;; ++word) {
-    if (word == set.used.size()) set.used.emplace_back();
-    std::vector<uint64_t>& used = set.used[word];
+    if (word == set.taken.size()) set.taken.emplace_back();
+    std::vector<uint64_t>& used = set.taken[word];
     uint64_t taken = 0;
     for (size_t a = 0; a < set.arity; ++a) {
       const uint32_t id = store.id()[particles[a]];
@@ -183,7 +173,7 @@ void ConstraintSystem::apply(Set& set, const ParticleStore& store, const Edits& 
       if (edits.removed[k] == 0) continue;
       for (size_t a = 0; a < arity; ++a) {
         const uint32_t particle = set.particles[k * arity + a];
-        if (particle != kGone) set.used[colour / 64][store.id()[particle]] &= ~(uint64_t{1} << (colour % 64));
+        if (particle != kGone) set.taken[colour / 64][store.id()[particle]] &= ~(uint64_t{1} << (colour % 64));
       }
     }
   }
@@ -197,34 +187,60 @@ void ConstraintSystem::apply(Set& set, const ParticleStore& store, const Edits& 
   m_keptValues.resize(std::max(m_keptValues.size(), set.valueCount));
   for (auto& v : m_keptValues) v.clear();
   std::vector<size_t> starts(1, 0);
+  std::vector<Run> runs;
+  struct Place {
+    uint32_t body;
+    bool isNew;
+    size_t k;
+  };
+  std::vector<Place> places;
   for (size_t colour = 0; colour < newOfColour.size(); ++colour) {
+    places.clear();
     const bool old = colour + 1 < set.colourStart.size();
     for (size_t k = old ? set.colourStart[colour] : 0; old && k < set.colourStart[colour + 1]; ++k) {
       if (edits.removedCount > 0 && edits.removed[k] != 0) continue;
-      for (size_t a = 0; a < arity; ++a) m_keptParticles.push_back(set.particles[k * arity + a]);
-      for (size_t v = 0; v < set.valueCount; ++v) m_keptValues[v].push_back(set.values[v][k]);
+      places.push_back({store.body()[set.particles[k * arity]], false, k});
     }
     for (const uint32_t k : newOfColour[colour]) {
-      for (size_t a = 0; a < arity; ++a) m_keptParticles.push_back(edits.particles[k * arity + a]);
-      for (size_t v = 0; v < set.valueCount; ++v) m_keptValues[v].push_back(edits.values[k * set.valueCount + v]);
+      places.push_back({store.body()[edits.particles[k * arity]], true, k});
+    }
+    const auto byBody = [](const Place& a, const Place& b) { return a.body < b.body; };
+    if (!std::is_sorted(places.begin(), places.end(), byBody)) std::stable_sort(places.begin(), places.end(), byBody);
+    for (size_t q = 0; q < places.size(); ++q) {
+      const Place& place = places[q];
+      if (q == 0 || place.body != places[q - 1].body) runs.push_back({m_keptParticles.size() / arity, place.body});
+      const uint32_t* from = (place.isNew ? edits.particles : set.particles).data() + place.k * arity;
+      m_keptParticles.insert(m_keptParticles.end(), from, from + arity);
+      for (size_t v = 0; v < set.valueCount; ++v) {
+        m_keptValues[v].push_back(place.isNew ? edits.values[place.k * set.valueCount + v] : set.values[v][place.k]);
+      }
     }
     starts.push_back(m_keptParticles.size() / arity);
   }
   set.particles.swap(m_keptParticles);
   for (size_t v = 0; v < set.valueCount; ++v) set.values[v].swap(m_keptValues[v]);
   set.colourStart = std::move(starts);
+  set.runs = std::move(runs);
   set.count = set.particles.size() / arity;
 }
 
 void ConstraintSystem::build(uint32_t index, const ParticleStore& store, const Neighbours& neighbours,
                              std::span<const uint32_t> members) {
   Set& set = m_sets.at(index);
+  if (members.empty()) return;
+  const uint32_t body = store.body()[members[0]];
+  if (body >= set.used.size()) set.used.resize(body + size_t{1}, 0);
+  set.used[body] = 1;
+  if (body >= m_thin.size()) m_thin.resize(body + size_t{1}, 0);
+  if (set.thin) m_thin[body] = 1;
+  if (body >= set.bodyParameters.size()) set.bodyParameters.resize(body + size_t{1});
+  refreshParameters(set);
   if (set.groups) buildGroups(set, store, neighbours, members);
   if (!set.structural) return;
   Edits edits;
   Sink sink(*this, set, store, edits);
   if (guarded(set, [&] {
-        set.plugin->build(context(set, m_settings.dt, 0, 0), store.view(), neighbours.view(),
+        set.plugin->build(context(set, m_settings.dt, 0, 0, body), store.view(), neighbours.view(),
                           {members.data(), members.size()}, sink);
       })) {
     apply(set, store, edits);
@@ -301,71 +317,18 @@ void ConstraintSystem::putBack(const ParticleStore& store, const CopiedConstrain
   }
 }
 
-void ConstraintSystem::predict(const ParticleStore& store, uint32_t substep) {
-  const api::ParticleView view = store.view();
-  for (Set& set : m_sets) {
-    if (set.count == 0) continue;
-    const api::ConstraintContext c = context(set, m_settings.dt / m_settings.substeps, substep, 0);
-    guarded(set, [&] { forBatches(set, [&](const api::ConstraintBatch& b) { set.plugin->predict(c, view, b); }); });
-  }
-  predictGroups(store, substep);
-}
-
-void ConstraintSystem::projectStructure(const ParticleStore& store, uint32_t substep, uint32_t iteration) {
-  const api::ParticleView view = store.view();
-  for (Set& set : m_sets) {
-    if (set.count == 0) continue;
-    const api::ConstraintContext c = context(set, m_settings.dt / m_settings.substeps, substep, iteration);
-    guarded(set, [&] { forBatches(set, [&](const api::ConstraintBatch& b) { set.plugin->project(c, view, b); }); });
-  }
-}
-
-void ConstraintSystem::projectNeighbours(ParticleStore& store, const Neighbours& neighbours, uint32_t substep,
-                                         uint32_t iteration) {
-  const api::ParticleView view = store.view();
-  for (Set& set : m_sets) {
-    if (set.structural || set.groups || set.disabled) continue;
-    m_correction.assign(store.size() + 1, api::Float4{0, 0, 0, 0});
-    const api::ConstraintContext c = context(set, m_settings.dt / m_settings.substeps, substep, iteration);
-    const bool done = guarded(set, [&] {
-      forChunks(store.size(), kGatherGrain, [&](size_t first, size_t last) {
-        set.plugin->gather(c, view, neighbours.view(), first, last, m_correction.data());
-      });
-    });
-    if (!done) continue;
-    api::Float4* position = store.position();
-    for (size_t i = 0; i < store.size(); ++i) {
-      if (store.velocity()[i].w == 0) continue;
-      position[i].x += m_correction[i].x;
-      position[i].y += m_correction[i].y;
-      position[i].z += m_correction[i].z;
-    }
-  }
-}
-
-void ConstraintSystem::deriveVelocities(const ParticleStore& store, uint32_t substep) {
-  const api::ParticleView view = store.view();
-  for (Set& set : m_sets) {
-    if (set.count == 0) continue;
-    const api::ConstraintContext c = context(set, m_settings.dt / m_settings.substeps, substep, 0);
-    guarded(set,
-            [&] { forBatches(set, [&](const api::ConstraintBatch& b) { set.plugin->deriveVelocities(c, view, b); }); });
-  }
-  deriveGroupVelocities(store, substep);
-}
-
 bool ConstraintSystem::topology(const ParticleStore& store, const Neighbours& neighbours) {
   bool changed = false;
   for (Set& set : m_sets) {
     if (set.groups) changed = groupTopology(set, store, neighbours) || changed;
     if (!set.structural || set.disabled) continue;
-    BatchView all;
-    for (size_t v = 0; v < set.valueCount; ++v) all.values[v] = set.values[v].data();
-    all.batch = {set.count, set.particles.data(), all.values.data()};
+    std::array<float*, kMostValues> values{};
+    for (size_t v = 0; v < set.valueCount; ++v) values[v] = set.values[v].data();
+    const api::ConstraintBatch all{set.count, set.particles.data(), values.data()};
     Edits edits;
     Sink sink(*this, set, store, edits);
     if (!guarded(set, [&] {
-          set.plugin->topology(context(set, m_settings.dt, 0, 0), store.view(), neighbours.view(), all.batch, sink);
+          set.plugin->topology(context(set, m_settings.dt, 0, 0), store.view(), neighbours.view(), all, sink);
         })) {
       changed = true;
       continue;
@@ -374,38 +337,6 @@ bool ConstraintSystem::topology(const ParticleStore& store, const Neighbours& ne
     apply(set, store, edits);
   }
   return changed;
-}
-
-double ConstraintSystem::energy(const ParticleStore& store) {
-  double sum = 0;
-  for (Set& set : m_sets) {
-    if (set.groups) sum += groupEnergy(set, store);
-    if (set.count == 0) continue;
-    BatchView all;
-    for (size_t v = 0; v < set.valueCount; ++v) all.values[v] = set.values[v].data();
-    all.batch = {set.count, set.particles.data(), all.values.data()};
-    guarded(set, [&] {
-      sum += set.plugin->energy(context(set, m_settings.dt / m_settings.substeps, 0, 0), store.view(), all.batch);
-    });
-  }
-  return sum;
-}
-
-void ConstraintSystem::limits(const ParticleStore& store, std::vector<Limit>& out) {
-  class Collect final : public api::LimitSink {
-   public:
-    explicit Collect(std::vector<Limit>& limits) : m_limits(limits) {}
-    void limit(const char* what, double asked, double delivered, const char* unit) override {
-      m_limits.push_back({what, asked, delivered, unit});
-    }
-
-   private:
-    std::vector<Limit>& m_limits;
-  } sink(out);
-  for (Set& set : m_sets) {
-    guarded(set,
-            [&] { set.plugin->limits(context(set, m_settings.dt / m_settings.substeps, 0, 0), store.view(), sink); });
-  }
 }
 
 size_t ConstraintSystem::count() const {

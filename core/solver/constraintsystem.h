@@ -57,7 +57,8 @@ class ConstraintSystem {
   void configure(const SolverSettings& settings, std::span<const BakedMaterial> materials);
   uint32_t addSet(const api::ConstraintPlugin* plugin, std::string name, std::vector<double> parameters,
                   ParticleStore& store);
-  void setParameters(uint32_t set, std::vector<double> parameters);
+  /// A body's own, in place of the set's.
+  void setParameters(uint32_t set, uint32_t body, std::vector<double> parameters);
 
   /// Builds the constraints of newly created particles (ascending indices).
   void build(uint32_t set, const ParticleStore& store, const Neighbours& neighbours, std::span<const uint32_t> members);
@@ -86,6 +87,9 @@ class ConstraintSystem {
   /// Members of each group that moves as one body; valid until the structure or the order changes.
   std::vector<std::span<const uint32_t>> rigidGroups() const;
 
+  /// 1 for bodies that use a plugin of sheets or lines, by their index.
+  std::span<const uint8_t> thinBodies() const { return m_thin; }
+
   size_t count() const;  ///< structural constraints and groups
   void addTo(Hash& hash, const ParticleStore& store) const;
   /// Ties between pairs of particles, for contact; renewed when the structure or the order has changed.
@@ -104,25 +108,37 @@ class ConstraintSystem {
       return static_cast<size_t>((k.a ^ (k.b * 0x9E3779B97F4A7C15ull)) * 0xD6E8FEB86659FD93ull >> 7);
     }
   };
+  /// Constraints from here on, up to the next run, belong to one body and one colour.
+  struct Run {
+    size_t first;
+    uint32_t body;
+  };
   struct Set {
     const api::ConstraintPlugin* plugin = nullptr;
     std::string name;
-    std::vector<double> parameters;
+    std::vector<double> parameters;                     ///< of bodies without their own
+    std::vector<std::vector<double>> bodyParameters;    ///< by body; empty: the set's
+    std::vector<api::Span<const double>> parametersOf;  ///< both, as plugins see them
+    std::vector<uint8_t> used;                          ///< 1 for bodies that use the plugin
     bool structural = true, disabled = false;
     size_t arity = 2, valueCount = 0, count = 0;
     std::vector<uint32_t> particles;         ///< arity per constraint, in order of colour
     std::vector<std::vector<float>> values;  ///< [value][constraint]
     std::vector<size_t> colourStart;         ///< first constraint of each colour; one entry more than there are colours
-    std::vector<std::vector<uint64_t>> used;  ///< [word of 64 colours][particle id]
-    std::unordered_set<Key, KeyHash> keys;    ///< sets of particle ids; only asked, never walked through
-    std::unique_ptr<GroupLists> groups;       ///< of a plugin of groups, which uses none of the lists above
-    bool rigid = false;
+    std::vector<Run> runs;                   ///< within a colour in order of bodies
+    std::vector<std::vector<uint64_t>> taken;  ///< [word of 64 colours][particle id]
+    std::unordered_set<Key, KeyHash> keys;     ///< sets of particle ids; only asked, never walked through
+    std::unique_ptr<GroupLists> groups;        ///< of a plugin of groups, which uses none of the lists above
+    bool rigid = false, thin = false;
   };
   struct Edits;
   class Sink;
   class Groups;  ///< collects the edits of groups
 
-  api::ConstraintContext context(const Set& set, double dt, uint32_t substep, uint32_t iteration) const;
+  api::ConstraintContext context(const Set& set, double dt, uint32_t substep, uint32_t iteration,
+                                 uint32_t body = api::ConstraintContext::kNoBody) const;
+  double substepTime() const { return m_settings.dt / m_settings.substeps; }
+  static void refreshParameters(Set& set);
   /// Runs a call into a plugin; what throws is put aside, its constraints dropped.
   template <class Call>
   bool guarded(Set& set, Call&& call) {
@@ -140,14 +156,21 @@ class ConstraintSystem {
     return false;
   }
   void putAside(Set& set, std::string problem);
-  template <class Call>
-  void forBatches(Set& set, Call&& call);
   Key keyOf(const Set& set, const ParticleStore& store, const uint32_t* particles) const;
   size_t takeColour(Set& set, const ParticleStore& store, const uint32_t* particles) const;
   void apply(Set& set, const ParticleStore& store, const Edits& edits);
+  // In constraintcalls.cpp.
+  template <class Call>
+  void forBatches(Set& set, uint32_t substep, uint32_t iteration, Call&& call);
+  template <class Call>
+  static void forRuns(const Set& set, size_t first, size_t last, Call&& call);
+  bool gather(Set& set, uint32_t body, const ParticleStore& store, const Neighbours& neighbours, uint32_t substep,
+              uint32_t iteration);
+  template <class Takes>
+  void applyCorrection(ParticleStore& store, Takes&& takes) const;
   // In constraintgroups.cpp.
   template <class Call>
-  void forGroups(Set& set, double dt, uint32_t substep, uint32_t iteration, Call&& call);
+  void forGroups(Set& set, uint32_t substep, uint32_t iteration, Call&& call);
   void predictGroups(const ParticleStore& store, uint32_t substep);
   void deriveGroupVelocities(const ParticleStore& store, uint32_t substep);
   void buildGroups(Set& set, const ParticleStore& store, const Neighbours& neighbours,
@@ -162,6 +185,7 @@ class ConstraintSystem {
   std::vector<uint32_t> m_newIndex, m_keptParticles;
   std::vector<std::vector<float>> m_keptValues;
   std::vector<api::Float4> m_correction;
+  std::vector<uint8_t> m_thin;
   StructureGraph m_graph;
   bool m_graphValid = false;
   std::vector<PluginFault> m_faults;

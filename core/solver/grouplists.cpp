@@ -21,17 +21,18 @@ void GroupLists::fill(Batch& batch, size_t first, size_t last) {
 }
 
 void GroupLists::append(std::span<const uint32_t> particles, const float* values, const float* memberValues,
-                        uint8_t changed) {
+                        uint8_t changed, uint32_t body) {
   m_particles.insert(m_particles.end(), particles.begin(), particles.end());
   m_begin.push_back(m_particles.size());
   m_changed.push_back(changed);
+  m_body.push_back(body);
   for (size_t v = 0; v < m_values.size(); ++v) m_values[v].push_back(values[v]);
   for (size_t k = 0; k < particles.size(); ++k) {
     for (auto& column : m_memberValues) column.push_back(*memberValues++);
   }
 }
 
-void GroupLists::apply(const Edits& edits, size_t particles) {
+void GroupLists::apply(const Edits& edits, std::span<const uint32_t> body) {
   if (edits.empty()) return;
   GroupLists old(m_values.size(), m_memberValues.size());
   std::swap(old, *this);
@@ -43,14 +44,15 @@ void GroupLists::apply(const Edits& edits, size_t particles) {
     for (size_t k = old.m_begin[g]; k < old.m_begin[g + 1]; ++k) {
       for (const auto& column : old.m_memberValues) memberValues.push_back(column[k]);
     }
-    append(old.members(g), values.data(), memberValues.data(), old.m_changed[g]);
+    append(old.members(g), values.data(), memberValues.data(), old.m_changed[g], old.m_body[g]);
   }
   for (size_t g = 0; g + 1 < edits.begin.size(); ++g) {
     append({edits.particles.data() + edits.begin[g], edits.begin[g + 1] - edits.begin[g]},
            edits.values.data() + g * m_values.size(),
-           edits.memberValues.data() + edits.begin[g] * m_memberValues.size(), 0);
+           edits.memberValues.data() + edits.begin[g] * m_memberValues.size(), 0,
+           body[edits.particles[edits.begin[g]]]);
   }
-  colour(particles);
+  colour(body.size());
 }
 
 void GroupLists::colour(size_t particles) {
@@ -72,7 +74,9 @@ void GroupLists::colour(size_t particles) {
   }
   std::vector<size_t> order(count());
   for (size_t g = 0; g < order.size(); ++g) order[g] = g;
-  std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) { return colourOf[a] < colourOf[b]; });
+  std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) {
+    return colourOf[a] != colourOf[b] ? colourOf[a] < colourOf[b] : m_body[a] < m_body[b];
+  });
   GroupLists old(m_values.size(), m_memberValues.size());
   std::swap(old, *this);
   m_colourStart.assign(colours + 1, 0);
@@ -86,6 +90,7 @@ void GroupLists::colour(size_t particles) {
     m_particles.insert(m_particles.end(), old.members(g).begin(), old.members(g).end());
     m_begin.push_back(m_particles.size());
     m_changed.push_back(old.m_changed[g]);
+    m_body.push_back(old.m_body[g]);
   }
   for (size_t c = 0; c < colours; ++c) m_colourStart[c + 1] += m_colourStart[c];
 }
@@ -106,6 +111,7 @@ void GroupLists::renumber(std::span<const uint32_t> newIndex) {
       }
       if (place == before) continue;
       m_changed[group] = m_changed[g] != 0 || place - before < last - first ? 1 : 0;
+      m_body[group] = m_body[g];
       for (auto& column : m_values) column[group] = column[g];
       m_begin[++group] = place;
     }
@@ -114,6 +120,7 @@ void GroupLists::renumber(std::span<const uint32_t> newIndex) {
   m_particles.resize(place);
   m_begin.resize(group + 1);
   m_changed.resize(group);
+  m_body.resize(group);
   for (auto& column : m_values) column.resize(group);
   for (auto& column : m_memberValues) column.resize(place);
   m_colourStart = std::move(colourStart);
@@ -183,7 +190,7 @@ std::vector<uint8_t> GroupLists::putBack(const ParticleStore& store, std::span<c
     }
     if (edits.particles.empty()) continue;
     edits.begin.push_back(edits.particles.size());
-    apply(edits, store.size());
+    apply(edits, {store.body(), store.size()});
   }
   std::vector<uint8_t> returned(m_particles.size(), 0);
   for (size_t g = 0; g < count(); ++g) {

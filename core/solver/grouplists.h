@@ -18,9 +18,9 @@ struct CopiedGroup {
   std::vector<float> values, memberValues;
 };
 
-/// Index lists and values of the groups of one constraint plugin. Groups lie in order of colour: those of one colour
-/// share no particle. Colours are dealt out anew, in order, whenever groups come or go, so that they depend on the
-/// history of the scene alone.
+/// Index lists and values of the groups of one constraint plugin. Groups lie in order of colour, and within a
+/// colour of body: those of one colour share no particle. Colours are dealt out anew, in order, whenever groups come or
+/// go, so that they depend on the history of the scene alone.
 class GroupLists {
  public:
   static constexpr size_t kMostValues = 16;
@@ -48,13 +48,16 @@ class GroupLists {
   std::span<const uint32_t> members(size_t group) const {
     return {m_particles.data() + m_begin[group], m_begin[group + 1] - m_begin[group]};
   }
+  /// The body that the group belongs to: that of its first member when it was added.
+  uint32_t body(size_t group) const { return m_body[group]; }
   size_t valueCount() const { return m_values.size(); }
   size_t memberValueCount() const { return m_memberValues.size(); }
   /// Groups [first, last); valid until the lists change. `batch` is filled in place, because it points into itself.
   void fill(Batch& batch, size_t first, size_t last);
 
   void clear();
-  void apply(const Edits& edits, size_t particles);
+  /// `body`: of each particle.
+  void apply(const Edits& edits, std::span<const uint32_t> body);
   /// newIndex[old index]; kGone drops the member, and the group with its last one.
   void renumber(std::span<const uint32_t> newIndex);
   void forgetChanges() { m_changed.assign(count(), 0); }
@@ -68,7 +71,8 @@ class GroupLists {
   static constexpr uint32_t kGone = ~0u;
 
  private:
-  void append(std::span<const uint32_t> particles, const float* values, const float* memberValues, uint8_t changed);
+  void append(std::span<const uint32_t> particles, const float* values, const float* memberValues, uint8_t changed,
+              uint32_t body);
   void colour(size_t particles);
   /// The group that holds most of those marked, or count().
   size_t homeOf(std::span<const uint8_t> companion) const;
@@ -77,6 +81,7 @@ class GroupLists {
   std::vector<uint32_t> m_particles;
   std::vector<std::vector<float>> m_values, m_memberValues;  ///< [value][group], [value][place]
   std::vector<uint8_t> m_changed;
+  std::vector<uint32_t> m_body;
   std::vector<size_t> m_colourStart{0};
 };
 

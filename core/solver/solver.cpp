@@ -111,8 +111,8 @@ uint32_t Solver::addConstraintSet(const api::ConstraintPlugin* plugin, std::stri
   return m->constraints.addSet(plugin, std::move(name), std::move(parameters), m->store);
 }
 
-void Solver::setConstraintParameters(uint32_t set, std::vector<double> parameters) {
-  m->constraints.setParameters(set, std::move(parameters));
+void Solver::setConstraintParameters(uint32_t set, uint32_t body, std::vector<double> parameters) {
+  m->constraints.setParameters(set, body, std::move(parameters));
 }
 
 void Solver::Impl::configure() {
@@ -132,6 +132,7 @@ void Solver::Impl::configure() {
   contact.configure(settings, table);
   wet.configure(settings.spacing);
   impacts.configure(settings, walls, table);
+  sheets.configure(settings);
   rigid.configure(settings, walls, table);
   gas.configure(settings, thermal, table);
   heat.configure(thermal, settings, walls, table, model, modelParameters);

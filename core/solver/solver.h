@@ -71,9 +71,10 @@ class Solver {
   void setBodyNames(std::vector<std::string> names);
   /// Indices of materials must keep their meaning while particles live.
   void setMaterials(std::vector<BakedMaterial> materials);
-  /// Adds a set of constraints of one plugin; returns its index. `name` is the plugin's id, for messages.
+  /// Adds a set of constraints of one plugin; returns its index. `name` is the plugin's id, for messages; `parameters`
+  /// are those of bodies that have none of their own.
   uint32_t addConstraintSet(const api::ConstraintPlugin* plugin, std::string name, std::vector<double> parameters);
-  void setConstraintParameters(uint32_t set, std::vector<double> parameters);
+  void setConstraintParameters(uint32_t set, uint32_t body, std::vector<double> parameters);
 
   /// Returns the ids of the new particles. Mass is rest density times spacing^3 of the state at birth.
   std::vector<uint32_t> spawn(const Spawn& spawn);

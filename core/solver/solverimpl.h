@@ -6,6 +6,7 @@
 #include "core/solver/impacts.h"
 #include "core/solver/phasestage.h"
 #include "core/solver/rigidcontact.h"
+#include "core/solver/sheetcontact.h"
 #include "core/solver/solver.h"
 #include "core/solver/sweptclamp.h"
 #include "core/solver/viscosity.h"
@@ -42,6 +43,7 @@ struct Solver::Impl {
   SolidContact contact;
   Impacts impacts;
   WetContact wet;
+  SheetContact sheets;
   RigidContact rigid;
   GasForces gas;
   HeatStage heat;

@@ -13,6 +13,11 @@ namespace {
 constexpr size_t kGrain = 512;
 /// Frames after which particles are sorted by cell again although the lists still hold.
 constexpr uint64_t kSortInterval = 60;
+/// One Gauss-Seidel pass a substep leaves stiff springs an error that the next one answers with a push: cloth whips and
+/// blocks explode.
+constexpr int kLeastStructurePasses = 2;
+/// Liquid on a sheet outweighs it many times, and must not press it apart before its springs have answered.
+constexpr int kSheetPasses = 4;
 /// Mean density error that no longer deserves the name of a solution.
 constexpr double kDiverged = 0.5;
 /// How far the heat balance may be open: a share of what was exchanged, and of the whole for rounding.
@@ -174,6 +179,7 @@ void Solver::Impl::listsChanged(bool newStructure) {
   wallStage.refreshLists(store, rigid.members());
   swept.refreshLists(store, neighbours);
   rigid.refreshContacts(store, neighbours, constraints);
+  sheets.refresh(store, neighbours, constraints.thinBodies());
   viscosity.listsChanged();
   if (newStructure || contact.stale(store)) contact.refresh(store, neighbours, constraints, rigid.members());
 }
@@ -244,9 +250,14 @@ void Solver::Impl::substep(uint32_t index) {
     rigid.begin(store);
     impacts.collect(store, contact, constraints, rigid.members());
   });
+  const int structurePasses =
+      std::max(sheets.any() ? kSheetPasses : 1, settings.iterations == 1 ? kLeastStructurePasses : 1);
   for (int iteration = 0; iteration < settings.iterations; ++iteration) {
     const uint32_t it = static_cast<uint32_t>(iteration);
-    structure([&] { constraints.projectStructure(store, index, it); }, dt);
+    for (int pass = 0; pass < structurePasses; ++pass) {
+      structure([&] { constraints.projectStructure(store, index, it); }, dt);
+      timed(Stage::Contact, [&] { sheets.project(store); });
+    }
     timed(Stage::Density, [&] { density.project(store, neighbours, iteration); });
     structure([&] { constraints.projectNeighbours(store, neighbours, index, it); }, dt);
     timed(Stage::Contact, [&] {

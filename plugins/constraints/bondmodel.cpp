@@ -347,9 +347,9 @@ void BondModel::topology(const ConstraintContext& context, const ParticleView& p
     if (!holds(p.motion[i]) || !holds(p.motion[j])) continue;
     ++degree[i], ++degree[j];
   }
-  const uint32_t most = static_cast<uint32_t>(context.parameters[kBondMax]);
+  const auto most = [&](uint32_t i) { return static_cast<uint32_t>(context.parametersOf(p.body[i])[kBondMax]); };
   for (const Candidate& c : candidates) {
-    if (degree[c.i] >= most || degree[c.j] >= most) continue;
+    if (degree[c.i] >= most(c.i) || degree[c.j] >= most(c.j)) continue;
     addBond(p, c.i, c.j, 1, presentVolume(p, c.i, c.j), sink);
     ++degree[c.i], ++degree[c.j];
   }
@@ -377,7 +377,7 @@ void BondModel::limits(const ConstraintContext& context, const ParticleView& p, 
   };
   std::vector<Used> used(context.materials.size);
   for (size_t i = 0; i < p.count; ++i) {
-    if (p.motion[i] != Motion::Solid || p.material[i] >= used.size()) continue;
+    if (p.motion[i] != Motion::Solid || p.body[i] != context.body || p.material[i] >= used.size()) continue;
     used[p.material[i]].temperature.include(p.temperature[i]);
     used[p.material[i]].inverseMass = std::max(used[p.material[i]].inverseMass, double{p.velocity[i].w});
   }

@@ -241,8 +241,8 @@ struct NewGroup {
   }
 };
 
-size_t leastMembers(const ConstraintContext& context) {
-  return static_cast<size_t>(std::max(1.0, context.parameters[RigidModel::kLeastMembers]));
+size_t leastMembers(api::Span<const double> parameters) {
+  return static_cast<size_t>(std::max(1.0, parameters[RigidModel::kLeastMembers]));
 }
 
 /// Centre of mass of particles where they are now.
@@ -302,7 +302,7 @@ void RigidModel::buildGroups(const ConstraintContext& context, const ParticleVie
     }
   }
   for (const std::vector<size_t>& set : sets.sets()) {
-    if (set.size() < leastMembers(context)) continue;
+    if (set.size() < leastMembers(context.parameters)) continue;
     const bool touched = std::any_of(set.begin(), set.end(), [&](size_t i) { return isNew[i] != 0; });
     if (!touched) continue;
     // The undeformed shape is what stands here now: offsets from the first particle, so that they stay small.
@@ -375,6 +375,7 @@ void RigidModel::groupTopology(const ConstraintContext& context, const ParticleV
                                const GroupBatch& all, api::GroupSink& sink) const {
   for (size_t g = 0; g < all.count; ++g) {
     const Body body(p, all, g);
+    const size_t least = leastMembers(context.parametersOf(p.body[body.particle(body.first())]));
     std::vector<size_t> kept;
     for (size_t k = body.first(); k < body.last(); ++k) {
       if (p.motion[body.particle(k)] == Motion::Solid) kept.push_back(k);
@@ -386,11 +387,11 @@ void RigidModel::groupTopology(const ConstraintContext& context, const ParticleV
     for (const size_t k : kept) rest.push_back(body.rest(k));
     const std::vector<std::vector<size_t>> pieces = piecesOf(rest, kReach * context.spacing);
     const bool whole = pieces.size() == 1 && kept.size() == before;
-    if (whole && before >= leastMembers(context)) continue;
+    if (whole && before >= least) continue;
     sink.remove(g);
     // Members keep their velocities, and a body takes its momentum from them: none is lost by falling apart.
     for (const std::vector<size_t>& piece : pieces) {
-      if (piece.size() < leastMembers(context)) continue;
+      if (piece.size() < least) continue;
       NewGroup group;
       for (const size_t member : piece) {
         const size_t k = kept[member];

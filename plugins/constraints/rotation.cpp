@@ -46,9 +46,8 @@ Vector logarithm(Quaternion q) {
   return {perSine * q.x, perSine * q.y, perSine * q.z};
 }
 
-Quaternion rotationOf(const Matrix& a, Quaternion q) {
+Quaternion rotationOf(const Matrix& a, Quaternion q, double exact) {
   constexpr int kMost = 60;
-  constexpr double kExact2 = 1e-26;  // rad^2
   const std::array<Vector, 3> columns{a.column(0), a.column(1), a.column(2)};
   for (int k = 0; k < kMost; ++k) {
     const Matrix r = matrixOf(q);
@@ -62,7 +61,7 @@ Quaternion rotationOf(const Matrix& a, Quaternion q) {
     if (!(size > 0)) break;
     turn = 1 / size * turn;
     const double angle2 = dot(turn, turn);
-    if (!(angle2 > kExact2) || !std::isfinite(angle2)) break;
+    if (!(angle2 > exact * exact) || !std::isfinite(angle2)) break;
     if (angle2 > 1) turn = 1 / std::sqrt(angle2) * turn;
     q = normalised(exponential(turn) * q);
   }
@@ -103,6 +102,14 @@ Matrix pseudoInverse(const Matrix& m) {
     addOuter(inverse, 1 / a[k][k], axis, axis);
   }
   return inverse;
+}
+
+Matrix symmetricInverse(const Matrix& m) {
+  const Vector x = cross(m.row[1], m.row[2]), y = cross(m.row[2], m.row[0]), z = cross(m.row[0], m.row[1]);
+  const double determinant = dot(m.row[0], x), size = m.row[0].x + m.row[1].y + m.row[2].z;
+  if (!(determinant > 1e-4 * size * size * size)) return pseudoInverse(m);
+  const double s = 1 / determinant;
+  return {{s * x, s * y, s * z}};
 }
 
 double cubeRoot(double s) {

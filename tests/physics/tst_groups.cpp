@@ -122,7 +122,7 @@ class TestGroups : public QObject {
         edits.particles.insert(edits.particles.end(), members.begin(), members.end());
         edits.begin.push_back(edits.particles.size());
       }
-      groups.apply(edits, kParticles);
+      groups.apply(edits, std::vector<uint32_t>(kParticles, 0));
       for (uint32_t i = 0; i < kParticles; ++i) newIndex[i] = kParticles - 1 - i;
       if (round == 3) newIndex[7] = ps::GroupLists::kGone;
       groups.renumber(newIndex);

@@ -153,7 +153,7 @@ class TestPairings : public QObject {
         "nearest %.2f d, wall at %.2f d, fastest %.3f m/s; momentum open by %.1e of a frame's weight, %.1e of what was "
         "given",
         nearest, lowest, fastest, open / weight, open / given);
-    QVERIFY(lowest > 0.25);   // a centre belongs half a spacing inside
+    QVERIFY(lowest > 0.25);    // a centre belongs half a spacing inside
     QVERIFY(nearest > 0.749);  // spheres of one spacing; liquid lies on fixed matter at 0.75, to rounding
     QVERIFY(open < 1e-3 * weight);
   }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "onehash.h"
 #include "rigidscene.h"
 
 #include <QTest>
@@ -228,31 +229,9 @@ class TestRigid : public QObject {
     QVERIFY(length(after.angular - before.angular) < 1e-5 * length(before.angular));
   }
 
-  void everyThreadCountGivesOneHash_data() {
-    QTest::addColumn<int>("threads");
-    QTest::newRow("2 threads") << 2;
-    QTest::newRow("8 threads") << 8;
-  }
-  void everyThreadCountGivesOneHash() {
-    QFETCH(int, threads);
-    ps::setThreadCount(1);
-    static const uint64_t reference = hashOfEverything(60);
-    QVERIFY(reference != 0);
-    ps::setThreadCount(threads);
-    QCOMPARE(hashOfEverything(60), reference);
-  }
-
-  void everyInstructionSetGivesOneHash_data() {
-    QTest::addColumn<QString>("name");
-    for (const std::string& name : ps::availableInstructionSets())
-      QTest::addRow("%s", name.c_str()) << QString::fromStdString(name);
-  }
-  void everyInstructionSetGivesOneHash() {
-    QFETCH(QString, name);
-    static const uint64_t reference = hashOfEverything(60);
-    QVERIFY(reference != 0);
-    ps::setInstructionSet(name.toStdString());
-    QCOMPARE(hashOfEverything(60), reference);
+  void everyMachineGivesOneHash_data() { onehash::addRows(); }
+  void everyMachineGivesOneHash() {
+    onehash::verify([] { return hashOfEverything(60); });
   }
 
   void newMatterJoinsItsBody() {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/plugin_host/registry.h"
+#include "onehash.h"
 #include "viscosityscene.h"
 
 #include <QTest>
@@ -259,31 +260,9 @@ class TestViscosity : public QObject {
     QVERIFY(near(lost, expected, 0.25));  // its foot is held, its ends are no free cylinder
   }
 
-  void everyThreadCountGivesOneHash_data() {
-    QTest::addColumn<int>("threads");
-    QTest::newRow("2 threads") << 2;
-    QTest::newRow("8 threads") << 8;
-  }
-  void everyThreadCountGivesOneHash() {
-    QFETCH(int, threads);
-    ps::setThreadCount(1);
-    static const uint64_t reference = hashOfThick(20);
-    QVERIFY(reference != 0);
-    ps::setThreadCount(threads);
-    QCOMPARE(hashOfThick(20), reference);
-  }
-
-  void everyInstructionSetGivesOneHash_data() {
-    QTest::addColumn<QString>("name");
-    for (const std::string& name : ps::availableInstructionSets())
-      QTest::addRow("%s", name.c_str()) << QString::fromStdString(name);
-  }
-  void everyInstructionSetGivesOneHash() {
-    QFETCH(QString, name);
-    static const uint64_t reference = hashOfThick(20);
-    QVERIFY(reference != 0);
-    ps::setInstructionSet(name.toStdString());
-    QCOMPARE(hashOfThick(20), reference);
+  void everyMachineGivesOneHash_data() { onehash::addRows(); }
+  void everyMachineGivesOneHash() {
+    onehash::verify([] { return hashOfThick(20); });
   }
 
   void waterIsLeftAlone() {

@@ -26,6 +26,7 @@ class TstSimulation : public QObject {
   void boxFillsItsSize();
   void bornAsDeclared();
   void anEditActsOnTheNextFrame();
+  void anEditOfABodysConstraintReachesThatBodyAlone();
   void anEditOfTheSceneSurvivesReset();
   void gravityAndThermalModelActOnTheNextFrame();
   void spacingActsAtTheNextReset();
@@ -114,6 +115,33 @@ void TstSimulation::anEditActsOnTheNextFrame() {
   warmed.step();
   QVERIFY(warmed.stats().thermalEnergy > cold.stats().thermalEnergy);
   QVERIFY(warmed.stats().heat.walls > 0);
+}
+
+void TstSimulation::anEditOfABodysConstraintReachesThatBodyAlone() {
+  Project project = scenes::iceOnPlate(3, 293.15);
+  project.environment = scenes::tray(1, 2);
+  for (const char* id : {"left", "right"}) {
+    Body block = scenes::block(id, 3, 0.03, {id[0] == 'l' ? -0.5 : 0.5, 0.4, 0}, 263.15);
+    block.constraints[0].parameters.values["damping"] = id[0] == 'l' ? 0.0 : 0.01;
+    project.bodies.push_back(block);
+  }
+  for (SceneMaterial& m : project.materials) m.properties.values["youngs_modulus"] = 2e4;
+  const auto heights = [](Engine& engine, uint32_t body) {
+    std::vector<float> y;
+    const ParticleStore& p = engine.solver().particles();
+    for (uint32_t id = 0; id < p.size(); ++id) {
+      if (p.body()[p.indexOf(id)] == body) y.push_back(p.position()[p.indexOf(id)].y);
+    }
+    return y;
+  };
+  Engine left(project, m_plugins), both(project, m_plugins);
+  for (int f = 0; f < 30; ++f) {
+    if (f == 5) QVERIFY(left.setParameter(*Address::parse("constraint/left/bonds/damping"), Value(0.02)));
+    QCOMPARE(left.step().flags, 0u);
+    QCOMPARE(both.step().flags, 0u);
+  }
+  QVERIFY(heights(left, 1) != heights(both, 1));
+  QVERIFY(heights(left, 2) == heights(both, 2));  // bit for bit
 }
 
 void TstSimulation::anEditOfTheSceneSurvivesReset() {

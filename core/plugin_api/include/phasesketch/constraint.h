@@ -20,6 +20,8 @@ struct ConstraintTraits {
   /// Group: 1 when members keep their distances. Contact and friction then act on the group as one body, which moves by
   /// its mass and its inertia, in place of particle by particle.
   uint32_t rigid = 0;
+  /// 1 for what makes sheets and lines one particle thick: liquid is kept off their particles.
+  uint32_t thin = 0;
 };
 
 struct ConstraintContext {
@@ -28,11 +30,20 @@ struct ConstraintContext {
   double supportRadius;
   Double3 gravity;
   uint32_t substep, iteration;
-  Span<const double> parameters;  ///< in the order of parameters()
+  /// In the order of parameters(), as the body has them that the batch belongs to: constraints belong to the body of
+  /// their first particle. Calls that reach the constraints of all bodies get the defaults: see parametersOf().
+  Span<const double> parameters;
   Span<const MaterialView* const> materials;
+  uint32_t body = kNoBody;  ///< index of that body, as in ParticleView::body
+  Span<const Span<const double>> bodyParameters{};
+  static constexpr uint32_t kNoBody = ~0u;
+  /// Parameters of any body, by its index; the defaults of one that does not use this plugin.
+  Span<const double> parametersOf(uint32_t index) const {
+    return index < bodyParameters.size ? bodyParameters[index] : parameters;
+  }
 };
 
-/// A run of constraints that share no particle (one colour): project them in any order, or all at once.
+/// A run of constraints of one body that share no particle (one colour): project them in any order, or all at once.
 struct ConstraintBatch {
   size_t count;
   const uint32_t* particles;  ///< arity * count indices
@@ -51,8 +62,8 @@ class ConstraintSink {
   ~ConstraintSink() = default;
 };
 
-/// A run of groups that share no particle: project them in any order, or all at once. The members of group g are
-/// particles[begin[g]] .. particles[begin[g + 1] - 1], in the order in which they were added.
+/// A run of groups of one body that share no particle: project them in any order, or all at once. The members of group
+/// g are particles[begin[g]] .. particles[begin[g + 1] - 1], in the order in which they were added.
 struct GroupBatch {
   size_t count;
   const size_t* begin;         ///< count + 1 places in `particles` and in the arrays of `memberValues`
@@ -100,12 +111,13 @@ class ConstraintPlugin : public Plugin {
   virtual void project(const ConstraintContext&, const ParticleView&, const ConstraintBatch&) const {}
   /// Once per substep, after velocities follow from positions.
   virtual void deriveVelocities(const ConstraintContext&, const ParticleView&, const ConstraintBatch&) const {}
-  /// Once per frame, after heat: may remove constraints of `all` and add new ones.
+  /// Once per frame, after heat: may remove constraints of `all`, those of every body, and add new ones.
   virtual void topology(const ConstraintContext&, const ParticleView&, const NeighbourView&,
                         const ConstraintBatch& /*all*/, ConstraintSink&) const {}
   /// Elastic energy of the batch in J.
   virtual double energy(const ConstraintContext&, const ParticleView&, const ConstraintBatch&) const { return 0; }
-  /// What the solver cannot deliver with this step; asked of every form.
+  /// What the solver cannot deliver for the particles of `context.body` with this step; asked of every form, for each
+  /// body that uses the plugin. `what` is "MATERIAL.property", or "PLUGIN.parameter" for a parameter of its own.
   virtual void limits(const ConstraintContext&, const ParticleView&, LimitSink&) const {}
 
   // Groups. All of these may throw.
@@ -120,7 +132,7 @@ class ConstraintPlugin : public Plugin {
   /// Once per substep, after velocities follow from positions, v = (x - previous)/dt, and viscosity has changed them.
   /// May move the group's particles for the last time.
   virtual void deriveGroupVelocities(const ConstraintContext&, const ParticleView&, const GroupBatch&) const {}
-  /// Once per frame, after heat: may remove groups of `all` and add new ones.
+  /// Once per frame, after heat: may remove groups of `all`, those of every body, and add new ones.
   virtual void groupTopology(const ConstraintContext&, const ParticleView&, const NeighbourView&,
                              const GroupBatch& /*all*/, GroupSink&) const {}
   /// When undo has put members back into groups whose others may have moved on: puts them in their places.
@@ -131,7 +143,8 @@ class ConstraintPlugin : public Plugin {
   virtual double groupEnergy(const ConstraintContext&, const ParticleView&, const GroupBatch&) const { return 0; }
 
   // Neighbour-based. May throw.
-  /// Writes correction[i] (x, y, z in m) for i in [first, last); reads any particle, moves none.
+  /// Writes correction[i] (x, y, z in m) for i in [first, last); reads any particle, moves none. Only what it writes
+  /// for particles of bodies that use the plugin, with just these parameters, is taken.
   virtual void gather(const ConstraintContext&, const ParticleView&, const NeighbourView&, size_t /*first*/,
                       size_t /*last*/, Float4* /*correction*/) const {}
 };

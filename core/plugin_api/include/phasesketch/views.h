@@ -56,7 +56,8 @@ inline Float4 separation(const ParticleView& particles, size_t i, size_t j) {
 
 /// Neighbours of particle i: index[begin[i]] .. index[last[i] - 1], without i itself, in an order that depends on
 /// positions alone. Lists are padded to 16 entries, up to end[i], with the index `count` of a dummy far away.
-/// Pairs, or their nearest images, lie within `searchRadius`, which exceeds the support: kernels must cut off themselves.
+/// Pairs, or their nearest images, lie within `searchRadius`, which exceeds the support: kernels must cut off
+/// themselves.
 struct NeighbourView {
   const uint32_t* begin;
   const uint32_t* last;

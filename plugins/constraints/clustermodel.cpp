@@ -1,0 +1,402 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "clustermodel.h"
+
+#include "clustershape.h"
+#include "rigidpieces.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace ps::constraint {
+namespace {
+
+using api::ConstraintContext;
+using api::GroupBatch;
+using api::Motion;
+using api::NeighbourView;
+using api::ParameterKind;
+using api::ParticleView;
+using api::Scale;
+
+constexpr const char* kSource = "Mueller et al. 2005; Rivers & James 2007";
+/// Fewer members do not span a volume.
+constexpr size_t kLeastMembers = 4;
+/// Particles hang together across the axial and face-diagonal steps of a cubic lattice, 1 and 1.414 spacings.
+constexpr double kReach = 1.5;
+
+constexpr api::ParameterDeclaration kParameters[] = {
+    {"radius", "Radius of a cluster", "R", "", ParameterKind::Number, Scale::Linear, 2.5, 1.5, 5, 1.2, 20, "×", 1, 0,
+     "", "Structure",
+     "In particle spacings. Larger clusters carry a push farther in one step and cost more; smaller ones follow finer "
+     "bulges.",
+     "2.5 jelly, 4 a firm rubber ball", kSource},
+    {"spacing", "Distance of clusters", "D", "", ParameterKind::Number, Scale::Linear, 2, 1, 4, 0.5, 20, "×", 1, 0, "",
+     "Structure",
+     "In particle spacings, from one cluster's centre to the next. Less than the radius, so that they overlap and hold "
+     "together.",
+     "2 for a radius of 2.5", kSource},
+    {"damping", "Inner friction", "τ", "s", ParameterKind::Number, Scale::Linear, 0.002, 0, 0.05, 0, 1, "ms", 1000, 0,
+     "", "Structure", "How long the shape resists a change: quiets wobbling, not falling or turning.",
+     "0 wobbles on, 2 ms jelly, 20 ms dough", "Macklin et al. 2016, eq. 26"},
+    {"max_stiffness_ratio", "Stiffness the step may resolve", "s", "", ParameterKind::Number, Scale::Logarithmic, 100,
+     1, 10000, 0.01, 1e6, "", 1, 0, "", "Structure",
+     "Largest k dt²/m of a member's spring. Beyond about 100 more stiffness only makes the solver work harder.",
+     "100 at 4 substeps of 4 iterations", "Macklin et al. 2019"},
+};
+
+constexpr api::FieldType kFloat = api::FieldType::Float32;
+constexpr api::FieldDeclaration kValues[] = {
+    {"rotation_x", "", "Rotation from the undeformed shape, unit quaternion, x", kFloat},
+    {"rotation_y", "", "Rotation, y", kFloat},
+    {"rotation_z", "", "Rotation, z", kFloat},
+    {"rotation_w", "", "Rotation, w", kFloat},
+    {"volume", "m³", "Volume that the cluster answers for", kFloat},
+    {"scale", "", "Size against the undeformed shape", kFloat},
+    {"kappa", "1/s²", "Stiffness per mass of its members' springs", kFloat},
+};
+constexpr api::FieldDeclaration kMemberValues[] = {
+    {"rest_x", "m", "Place in the undeformed shape, x", kFloat},
+    {"rest_y", "m", "Place in the undeformed shape, y", kFloat},
+    {"rest_z", "m", "Place in the undeformed shape, z", kFloat},
+    {"rest_volume", "m³", "Rest volume when it joined", kFloat},
+    {"multiplier_x", "kg·m", "XPBD multiplier of the substep, x", kFloat},
+    {"multiplier_y", "kg·m", "XPBD multiplier, y", kFloat},
+    {"multiplier_z", "kg·m", "XPBD multiplier, z", kFloat},
+    {"way_x", "m", "Way that its velocity took it in the substep, x", kFloat},
+    {"way_y", "m", "Way, y", kFloat},
+    {"way_z", "m", "Way, z", kFloat},
+};
+
+bool holds(Motion m) { return m == Motion::Solid || m == Motion::Static; }
+
+/// A new cluster of particles, given by their places in the undeformed frame.
+struct NewCluster {
+  std::vector<uint32_t> particles;
+  std::vector<float> memberValues;
+  void add(uint32_t particle, Vector rest, float volume) {
+    particles.push_back(particle);
+    for (const double c : {rest.x, rest.y, rest.z}) memberValues.push_back(static_cast<float>(c));
+    memberValues.push_back(volume);
+    memberValues.insert(memberValues.end(), ClusterModel::kMemberValueCount - ClusterModel::kMultiplierX, 0.0f);
+  }
+  void emit(Quaternion q, double volume, float scale, api::GroupSink& sink) const {
+    const float values[ClusterModel::kValueCount] = {static_cast<float>(q.x),
+                                                     static_cast<float>(q.y),
+                                                     static_cast<float>(q.z),
+                                                     static_cast<float>(q.w),
+                                                     static_cast<float>(volume),
+                                                     scale,
+                                                     0};
+    sink.add(particles.data(), particles.size(), values, memberValues.data());
+  }
+};
+
+/// Finds the clusters of newly created particles: those within a radius of the points of a coarse lattice, as far as
+/// they hang together, and one more around each particle that no point has reached.
+class Builder {
+ public:
+  Builder(const ConstraintContext& context, const ParticleView& p, api::Span<const uint32_t> members)
+      : m_p(p),
+        m_radius(context.parameters[ClusterModel::kRadius] * context.spacing),
+        m_step(std::min(context.parameters[ClusterModel::kSpacing] * context.spacing, m_radius)),
+        m_reach(kReach * context.spacing),
+        m_isNew(p.count, 0),
+        m_membership(p.count, 0) {
+    for (const uint32_t i : members) m_isNew[i] = p.motion[i] == Motion::Solid ? 1 : 0;
+    for (uint32_t i = 0; i < p.count; ++i) {
+      if (p.body[i] == context.body && holds(p.motion[i])) m_body.push_back(i);
+    }
+  }
+  void count(const GroupBatch& all) {
+    for (size_t g = 0; g < all.count; ++g) {
+      for (size_t k = all.begin[g]; k < all.begin[g + 1]; ++k) ++m_membership[all.particles[k]];
+    }
+  }
+  void find() {
+    if (m_body.empty()) return;
+    sortByCell();
+    Vector low{1e30, 1e30, 1e30}, high{-1e30, -1e30, -1e30};
+    for (const uint32_t i : m_body) {
+      if (m_isNew[i] == 0) continue;
+      const Vector x = vectorOf(m_p.position[i]);
+      low = {std::min(low.x, x.x), std::min(low.y, x.y), std::min(low.z, x.z)};
+      high = {std::max(high.x, x.x), std::max(high.y, x.y), std::max(high.z, x.z)};
+    }
+    if (low.x > high.x) return;
+    // As many points along each side as keep them no farther apart than asked, in the middle of it.
+    const auto points = [&](double side) { return static_cast<int>(std::floor(side / m_step + 0.999)) + 1; };
+    const std::array<int, 3> n{points(high.x - low.x), points(high.y - low.y), points(high.z - low.z)};
+    const auto place = [&](double a, double b, int k, int of) {
+      return of == 1 ? 0.5 * (a + b) : a + (b - a) * k / (of - 1);
+    };
+    for (int z = 0; z < n[2]; ++z) {
+      for (int y = 0; y < n[1]; ++y) {
+        for (int x = 0; x < n[0]; ++x) {
+          around({place(low.x, high.x, x, n[0]), place(low.y, high.y, y, n[1]), place(low.z, high.z, z, n[2])});
+        }
+      }
+    }
+    for (const uint32_t i : m_body) {
+      if (m_isNew[i] != 0 && m_membership[i] == 0) around(vectorOf(m_p.position[i]));
+    }
+  }
+  void emit(api::GroupSink& sink) const {
+    for (const std::vector<uint32_t>& found : m_found) {
+      NewCluster cluster;
+      double volume = 0;
+      const Vector origin = vectorOf(m_p.position[found[0]]);
+      for (const uint32_t i : found) {
+        const float own = m_p.position[i].w;
+        cluster.add(i, vectorOf(m_p.position[i]) - origin, own);
+        volume += double{own} / m_membership[i];
+      }
+      cluster.emit({}, volume, 1, sink);
+    }
+  }
+
+ private:
+  using Cell = std::array<int64_t, 3>;
+  Cell cellOf(Vector x) const {
+    const auto along = [&](double c) { return static_cast<int64_t>(std::floor(c / m_radius)); };
+    return {along(x.x), along(x.y), along(x.z)};
+  }
+  void sortByCell() {
+    for (const uint32_t i : m_body) m_cells.push_back({cellOf(vectorOf(m_p.position[i])), i});
+    std::sort(m_cells.begin(), m_cells.end());
+  }
+  void around(Vector centre) {
+    std::vector<uint32_t> near;
+    bool anyNew = false;
+    const Cell middle = cellOf(centre);
+    for (int64_t x = middle[0] - 1; x <= middle[0] + 1; ++x) {
+      for (int64_t y = middle[1] - 1; y <= middle[1] + 1; ++y) {
+        // The three cells of a row along z lie one after the other.
+        auto entry = std::lower_bound(m_cells.begin(), m_cells.end(), std::pair{Cell{x, y, middle[2] - 1}, 0u});
+        for (; entry != m_cells.end() && entry->first <= Cell{x, y, middle[2] + 1}; ++entry) {
+          const Vector d = vectorOf(m_p.position[entry->second]) - centre;
+          if (dot(d, d) > m_radius * m_radius * (1 + 1e-6)) continue;
+          near.push_back(entry->second);
+          anyNew = anyNew || m_isNew[entry->second] != 0;
+        }
+      }
+    }
+    if (!anyNew) return;
+    std::sort(near.begin(), near.end());
+    std::vector<Vector> places;
+    for (const uint32_t i : near) places.push_back(vectorOf(m_p.position[i]));
+    for (const std::vector<size_t>& piece : piecesOf(places, m_reach)) {
+      if (piece.size() < kLeastMembers) continue;
+      std::vector<uint32_t>& found = m_found.emplace_back();
+      for (const size_t k : piece) {
+        found.push_back(near[k]);
+        ++m_membership[near[k]];
+      }
+    }
+  }
+
+  const ParticleView& m_p;
+  double m_radius, m_step, m_reach;
+  std::vector<uint8_t> m_isNew;
+  std::vector<uint32_t> m_membership, m_body;
+  std::vector<std::pair<Cell, uint32_t>> m_cells;
+  std::vector<std::vector<uint32_t>> m_found;
+};
+
+/// Young's modulus in Pa of a cluster's members, at their mean temperature; of several materials the mean by volume.
+double modulusOf(const ConstraintContext& context, const ParticleView& p, const GroupBatch& batch, size_t g) {
+  double temperature = 0, modulus = 0, volume = 0;
+  for (size_t k = batch.begin[g]; k < batch.begin[g + 1]; ++k) temperature += p.temperature[batch.particles[k]];
+  temperature /= static_cast<double>(batch.begin[g + 1] - batch.begin[g]);
+  uint32_t known = ~0u;
+  double ofKnown = 0;
+  for (size_t k = batch.begin[g]; k < batch.begin[g + 1]; ++k) {
+    const uint32_t i = batch.particles[k];
+    if (p.material[i] != known) {
+      known = p.material[i];
+      ofKnown = context.materials[known]->property("youngs_modulus", temperature);
+    }
+    modulus += double{p.position[i].w} * ofKnown;
+    volume += double{p.position[i].w};
+  }
+  return volume > 0 ? modulus / volume : 0;
+}
+
+}  // namespace
+
+const char* ClusterModel::label() const noexcept { return "Soft clusters"; }
+
+const char* ClusterModel::help() const noexcept {
+  return "Makes a solid soft: many overlapping clusters, each of which pulls its particles back to the shape they had "
+         "(shape matching, Mueller et al. 2005; extended position-based dynamics, Macklin et al. 2016). As stiff as "
+         "the "
+         "material's Young's modulus says, with Poisson's ratio 0: it does not bulge when squeezed. It always returns "
+         "to its shape and never breaks by force; what melts leaves it for good. For jelly and rubber; bonds suit "
+         "stiffer matter.";
+}
+
+api::ParameterList ClusterModel::parameters() const noexcept { return api::listOf(kParameters); }
+
+api::ConstraintTraits ClusterModel::traits() const noexcept {
+  return {api::ConstraintTraits::Form::Group, 0, api::listOf(kValues), {}, api::listOf(kMemberValues)};
+}
+
+void ClusterModel::buildGroups(const ConstraintContext& context, const ParticleView& p, const NeighbourView&,
+                               api::Span<const uint32_t> members, const GroupBatch& all, api::GroupSink& sink) const {
+  Builder builder(context, p, members);
+  builder.count(all);
+  builder.find();
+  builder.emit(sink);
+}
+
+void ClusterModel::predictGroups(const ConstraintContext& context, const ParticleView& p,
+                                 const GroupBatch& batch) const {
+  const double most = context.parameters[kStiffnessRatio] / (context.dt * context.dt);
+  for (size_t g = 0; g < batch.count; ++g) {
+    for (const MemberValue v : {kMultiplierX, kMultiplierY, kMultiplierZ}) {
+      std::fill(batch.memberValues[v] + batch.begin[g], batch.memberValues[v] + batch.begin[g + 1], 0.0f);
+    }
+    for (size_t k = batch.begin[g]; k < batch.begin[g + 1]; ++k) {
+      const api::Float4 &x = p.position[batch.particles[k]], &from = p.previous[batch.particles[k]];
+      batch.memberValues[kWayX][k] = x.x - from.x;
+      batch.memberValues[kWayY][k] = x.y - from.y;
+      batch.memberValues[kWayZ][k] = x.z - from.z;
+    }
+    if (context.substep != 0) continue;  // volumes and temperatures change once a frame
+    const ClusterShape shape(p, batch, g);
+    batch.values[kScale][g] = static_cast<float>(shape.scaleOfVolumes());
+    const double moment = shape.restMoment();
+    const double kappa = moment > 0 ? modulusOf(context, p, batch, g) * batch.values[kVolume][g] / moment : 0;
+    batch.values[kKappa][g] = static_cast<float>(std::min(kappa, most));
+  }
+}
+
+void ClusterModel::projectGroups(const ConstraintContext& context, const ParticleView& p,
+                                 const GroupBatch& batch) const {
+  const double friction = context.parameters[kDamping] / context.dt;
+  std::vector<Vector> change;
+  for (size_t g = 0; g < batch.count; ++g) {
+    const double kappa = batch.values[kKappa][g];
+    if (!(kappa > 0)) continue;
+    const double softness = 1 / (kappa * context.dt * context.dt);
+    ClusterShape shape(p, batch, g);
+    shape.fit();
+    if (friction > 0) shape.findDeformation(change);
+    for (size_t k = batch.begin[g]; k < batch.begin[g + 1]; ++k) {
+      const uint32_t i = batch.particles[k];
+      api::Float4& x = p.position[i];
+      const double mass = p.mass[i];
+      Vector error = vectorOf(x) - shape.goal(k);
+      if (friction > 0) error += friction * change[k - batch.begin[g]];
+      // The multiplier of a vector constraint of inverse mass 1/m and compliance 1/(kappa m).
+      const Vector step = -1 / (1 + friction + softness) * (mass * error + softness * shape.multiplier(k));
+      shape.setMultiplier(k, shape.multiplier(k) + step);
+      setVector(x, vectorOf(x) + double{p.velocity[i].w} * step);
+    }
+  }
+}
+
+void ClusterModel::deriveGroupVelocities(const ConstraintContext& context, const ParticleView& p,
+                                         const GroupBatch& batch) const {
+  // The substep ends with v = (x - previous)/dt. The cluster moved each member by multiplier/m, across the way that its
+  // velocity had taken it: that cost the angular momentum sum way x multiplier/dt. Its pulls, taken where the members
+  // are now, should not turn it either.
+  for (size_t g = 0; g < batch.count; ++g) {
+    const ClusterShape shape(p, batch, g);
+    Vector lost;
+    bool moved = false, held = false;
+    for (size_t k = batch.begin[g]; k < batch.begin[g + 1]; ++k) {
+      const uint32_t i = batch.particles[k];
+      held = held || p.velocity[i].w == 0;
+      const Vector pull = shape.multiplier(k);
+      moved = moved || dot(pull, pull) > 0;
+      const Vector way{batch.memberValues[kWayX][k], batch.memberValues[kWayY][k], batch.memberValues[kWayZ][k]};
+      lost += 1 / context.dt * cross(way - vectorOf(p.position[i]), pull);
+    }
+    if (moved && !held) shape.turn(lost);
+  }
+}
+
+void ClusterModel::groupTopology(const ConstraintContext& context, const ParticleView& p, const NeighbourView&,
+                                 const GroupBatch& all, api::GroupSink& sink) const {
+  for (size_t g = 0; g < all.count; ++g) {
+    std::vector<size_t> kept;
+    for (size_t k = all.begin[g]; k < all.begin[g + 1]; ++k) {
+      if (holds(p.motion[all.particles[k]])) kept.push_back(k);
+    }
+    const size_t before = all.begin[g + 1] - all.begin[g];
+    if (kept.size() == before && all.changed[g] == 0) continue;
+    const ClusterShape shape(p, all, g);
+    std::vector<Vector> rest;
+    double volume = 0;  // that its members had
+    for (size_t k = all.begin[g]; k < all.begin[g + 1]; ++k) volume += double{all.memberValues[kRestVolume][k]};
+    for (const size_t k : kept) rest.push_back(shape.rest(k));
+    const std::vector<std::vector<size_t>> pieces = piecesOf(rest, kReach * context.spacing);
+    if (pieces.size() == 1 && kept.size() == before && before >= kLeastMembers) continue;
+    sink.remove(g);
+    for (const std::vector<size_t>& piece : pieces) {
+      if (piece.size() < kLeastMembers) continue;
+      NewCluster cluster;
+      double held = 0;
+      for (const size_t member : piece) {
+        const size_t k = kept[member];
+        cluster.add(all.particles[k], shape.rest(k), all.memberValues[kRestVolume][k]);
+        held += double{all.memberValues[kRestVolume][k]};
+      }
+      cluster.emit(shape.rotation(), all.values[kVolume][g] * held / volume, all.values[kScale][g], sink);
+    }
+  }
+}
+
+void ClusterModel::restoreMembers(const ConstraintContext&, const ParticleView& p, const GroupBatch& all,
+                                  const uint8_t* returned) const {
+  for (size_t g = 0; g < all.count; ++g) {
+    const uint8_t *first = returned + all.begin[g], *last = returned + all.begin[g + 1];
+    const auto back = std::count(first, last, uint8_t{1});
+    if (back == 0 || back == last - first) continue;
+    ClusterShape shape(p, all, g);
+    shape.fit(returned);
+    for (size_t k = all.begin[g]; k < all.begin[g + 1]; ++k) {
+      if (returned[k] == 0) continue;
+      setVector(p.position[all.particles[k]], shape.goal(k));
+      setVector(p.velocity[all.particles[k]], shape.meanVelocity(returned));
+    }
+  }
+}
+
+double ClusterModel::groupEnergy(const ConstraintContext&, const ParticleView& p, const GroupBatch& batch) const {
+  double sum = 0;
+  for (size_t g = 0; g < batch.count; ++g) {
+    ClusterShape shape(p, batch, g);
+    shape.fit();
+    for (size_t k = batch.begin[g]; k < batch.begin[g + 1]; ++k) {
+      const Vector error = vectorOf(p.position[batch.particles[k]]) - shape.goal(k);
+      sum += 0.5 * batch.values[kKappa][g] * p.mass[batch.particles[k]] * dot(error, error);
+    }
+  }
+  return sum;
+}
+
+void ClusterModel::limits(const ConstraintContext& context, const ParticleView& p, api::LimitSink& sink) const {
+  // A cluster of radius R deep inside has sum m r²/3 = m R²/5 of its mass m, shared as often as its volume.
+  const double radius = context.parameters[kRadius] * context.spacing,
+               step = std::min(context.parameters[kSpacing] * context.spacing, radius);
+  const double shares = std::max(1.0, 4.18879 * radius * radius * radius / (step * step * step));
+  const double most = context.parameters[kStiffnessRatio] / (context.dt * context.dt) * radius * radius / 5 * shares;
+  std::vector<double> asked(context.materials.size, 0), density(context.materials.size, 0);
+  for (size_t i = 0; i < p.count; ++i) {
+    if (p.body[i] != context.body || p.motion[i] != Motion::Solid) continue;
+    const double modulus = context.materials[p.material[i]]->property("youngs_modulus", p.temperature[i]);
+    if (modulus <= asked[p.material[i]]) continue;
+    asked[p.material[i]] = modulus;
+    density[p.material[i]] = double{p.mass[i]} / double{p.position[i].w};
+  }
+  for (size_t m = 0; m < asked.size(); ++m) {
+    const std::string what = std::string(context.materials[m]->id()) + ".youngs_modulus";
+    if (asked[m] > most * density[m]) sink.limit(what.c_str(), asked[m], most * density[m], "Pa");
+  }
+}
+
+}  // namespace ps::constraint

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <phasesketch/constraint.h>
+
+namespace ps::constraint {
+
+/// Soft bodies as overlapping clusters (Mueller et al. 2005; Rivers & James 2007): each cluster pulls its members
+/// towards their places in its undeformed shape, carried along by the rotation that fits best. The pull is a spring for
+/// each member, solved as XPBD (Macklin et al. 2016), so that stiffness is a material's, not an effect of iterations.
+/// The springs of a cluster have k_i = kappa m_i with kappa = E V/(sum m r²/3), where V is the volume that the cluster
+/// answers for: each particle's, divided by the number of clusters that hold it. A uniform strain then stores E/2 of
+/// its square per volume: Young's modulus E, from the material at the members' mean temperature, with Poisson's ratio
+/// 0. Weights by mass keep each cluster's linear momentum. Angular momentum, which velocities from positions lose at a
+/// rate of w² dt, is given back (deriveGroupVelocities). It cannot do: keep the
+/// volume under large strain, plasticity, fracture by force, strains that change within a cluster (it is stiffer
+/// against them), or take back matter that has melted.
+class ClusterModel : public api::ConstraintPlugin {
+ public:
+  enum Parameter { kRadius, kSpacing, kDamping, kStiffnessRatio, kParameterCount };
+  enum Value { kRotationX, kRotationY, kRotationZ, kRotationW, kVolume, kScale, kKappa, kValueCount };
+  enum MemberValue {
+    kRestX,
+    kRestY,
+    kRestZ,
+    kRestVolume,
+    kMultiplierX,
+    kMultiplierY,
+    kMultiplierZ,
+    kWayX,
+    kWayY,
+    kWayZ,
+    kMemberValueCount
+  };
+
+  const char* label() const noexcept override;
+  const char* help() const noexcept override;
+  api::ParameterList parameters() const noexcept override;
+  api::ConstraintTraits traits() const noexcept override;
+
+  void buildGroups(const api::ConstraintContext& context, const api::ParticleView& particles,
+                   const api::NeighbourView& lists, api::Span<const uint32_t> members, const api::GroupBatch& all,
+                   api::GroupSink& sink) const override;
+  void predictGroups(const api::ConstraintContext& context, const api::ParticleView& particles,
+                     const api::GroupBatch& batch) const override;
+  void projectGroups(const api::ConstraintContext& context, const api::ParticleView& particles,
+                     const api::GroupBatch& batch) const override;
+  void deriveGroupVelocities(const api::ConstraintContext& context, const api::ParticleView& particles,
+                             const api::GroupBatch& batch) const override;
+  void groupTopology(const api::ConstraintContext& context, const api::ParticleView& particles,
+                     const api::NeighbourView& lists, const api::GroupBatch& all, api::GroupSink& sink) const override;
+  void restoreMembers(const api::ConstraintContext& context, const api::ParticleView& particles,
+                      const api::GroupBatch& all, const uint8_t* returned) const override;
+  double groupEnergy(const api::ConstraintContext& context, const api::ParticleView& particles,
+                     const api::GroupBatch& batch) const override;
+  void limits(const api::ConstraintContext& context, const api::ParticleView& particles,
+              api::LimitSink& sink) const override;
+};
+
+}  // namespace ps::constraint

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "clustermodel.h"
+#include "rotation.h"
+
+#include <vector>
+
+namespace ps::constraint {
+
+inline Vector vectorOf(const api::Float4& v) { return {v.x, v.y, v.z}; }
+inline void setVector(api::Float4& to, Vector from) {
+  to.x = static_cast<float>(from.x), to.y = static_cast<float>(from.y), to.z = static_cast<float>(from.z);
+}
+
+/// One cluster of a batch: its undeformed shape, and where its members are pulled to. Places `k` count through the
+/// batch's arrays.
+class ClusterShape {
+ public:
+  ClusterShape(const api::ParticleView& particles, const api::GroupBatch& batch, size_t group);
+
+  /// Finds the centre and the rotation of the members where they are, and keeps the rotation. Leaves out those with
+  /// `without[k]` = 1.
+  void fit(const uint8_t* without = nullptr);
+  Vector goal(size_t k) const { return m_centre + m_turned * (rest(k) - m_restCentre); }
+  Vector rest(size_t k) const;  ///< place in the undeformed frame
+  Quaternion rotation() const { return m_rotation; }
+  Vector multiplier(size_t k) const;
+  void setMultiplier(size_t k, Vector value) const;
+  /// Way of each member since the start of the substep, without the rigid motion of the whole; call after fit().
+  void findDeformation(std::vector<Vector>& change) const;
+  /// Adds the rigid turn of the members where they are that has an angular momentum of `angular` kg m²/s.
+  void turn(Vector angular) const;
+  Vector meanVelocity(const uint8_t* without) const;
+
+  /// Cube root of the members' rest volumes against those when they joined.
+  double scaleOfVolumes() const;
+  /// kg m², sum m r²/3 of the undeformed shape.
+  double restMoment() const;
+
+ private:
+  double mass(size_t k) const { return m_p.mass[m_batch.particles[k]]; }
+  template <class Visit>
+  void each(const uint8_t* without, Visit&& visit) const {
+    for (size_t k = m_first; k < m_last; ++k) {
+      if (!without || without[k] == 0) visit(k);
+    }
+  }
+
+  const api::ParticleView& m_p;
+  const api::GroupBatch& m_batch;
+  size_t m_group, m_first, m_last;
+  Vector m_restCentre, m_centre;
+  Quaternion m_rotation;
+  Matrix m_turned;  ///< rotation times scale
+};
+
+}  // namespace ps::constraint
