@@ -262,6 +262,57 @@ class TestMechanics : public QObject {
     QCOMPARE(solver.particles().position()[solver.particles().indexOf(2)].x, 2.0f);
   }
 
+  /// Two bodies share a plugin, not its parameters; what freezes across their border still bonds, and undo keeps whose
+  /// is whose.
+  void bodiesHaveTheirOwnParameters() {
+    const ps::constraint::BondModel bonds;
+    const auto stretched = [&](double left, double right, bool frozen, bool undone) {
+      Solver solver;
+      SolverSettings settings = settingsOf(0.02);
+      settings.gravity = {0, 0, 0};
+      prepare(solver, settings);
+      const uint32_t set = solver.addConstraintSet(&bonds, "bonds", bondParameters());
+      std::vector<double> parameters = bondParameters();
+      constexpr size_t kDamping = ps::constraint::BondModel::kDamping;
+      parameters[kDamping] = left;
+      solver.setConstraintParameters(set, 0, parameters);
+      parameters[kDamping] = right;
+      solver.setConstraintParameters(set, 1, parameters);
+      std::vector<std::vector<uint32_t>> ids;
+      for (const uint32_t body : {0u, 1u}) {
+        ps::Spawn spawn = ice(lattice(3, 3, 3, 0.02, frozen ? 0.06 * body : 0.5 * body), set);
+        spawn.body = body;
+        spawn.phase = frozen ? ps::api::Phase::Liquid : ps::api::Phase::Solid;
+        for (const auto& p : spawn.position) spawn.velocity.push_back({5 * p.x, 0, 0});
+        ids.push_back(solver.spawn(spawn));
+      }
+      if (frozen) {  // both at once; no thermal model keeps them so
+        ps::ParticleStore& p = solver.particles();
+        solver.step();
+        for (size_t i = 0; i < p.size(); ++i) p.solidFraction()[i] = 1, p.liquidFraction()[i] = 0;
+      }
+      solver.step();
+      if (undone) solver.putBack(solver.take(ids[1]));
+      for (int f = 0; f < 8; ++f) solver.step();
+      std::array<std::vector<float>, 2> x;
+      for (const uint32_t body : {0u, 1u}) {
+        for (const uint32_t id : ids[body]) {
+          const size_t i = solver.particles().indexOf(id);
+          x[body].push_back(solver.particles().position()[i].x);
+        }
+      }
+      return std::pair{x, solver.constraintCount()};
+    };
+    const auto [apart, count] = stretched(0, 0.01, false, false);
+    QVERIFY(apart[0] != apart[1]);
+    QVERIFY(stretched(0, 0, false, false).first[0] == apart[0]);  // bit for bit: the other's do not reach it
+    QVERIFY(stretched(0.01, 0.01, false, false).first[1] == apart[1]);
+    const auto [undone, countUndone] = stretched(0, 0.01, false, true);
+    QVERIFY(undone[0] == apart[0] && undone[1] == apart[1]);
+    QCOMPARE(countUndone, count);
+    QVERIFY(stretched(0, 0.01, true, false).second > count);  // bonds across
+  }
+
   void frozenLiquidBondsAgain() {
     const ps::constraint::BondModel bonds;
     const ps::thermal::EnthalpyModel enthalpy;

@@ -507,7 +507,8 @@ class TestPluginHost : public QObject {
 
   void ownMaterialsHoldWhatTheHandbooksSay() {
     const PluginRegistry registry{PluginRegistry::Options{}};
-    for (const char* id : {"water", "wax", "iron", "tin", "chocolate", "butter", "honey", "glass", "lava", "wood"})
+    for (const char* id : {"water", "wax", "iron", "tin", "chocolate", "butter", "honey", "glass", "lava", "cotton",
+                           "hemp", "jelly", "rubber", "wood"})
       QVERIFY2(registry.material(id), id);
     const Material& water = *registry.material("water");
     const Response& density = water.properties.at("density_liquid");
