@@ -188,7 +188,7 @@ std::vector<uint32_t> Engine::Impl::born(Spawn spawn, const Body& body) {
       const api::ConstraintPlugin* plugin = plugins.constraint(c.plugin);
       if (!plugin) continue;
       const uint32_t set = constraintSet(c.plugin);
-      solver->setConstraintParameters(set, spawn.body, numbersOf(c.parameters, plugin->parameters()));
+      solver->setConstraintParameters(set, bodyIndex(body.id), numbersOf(c.parameters, plugin->parameters()));
       spawn.constraintSets.push_back(set);
     }
   }

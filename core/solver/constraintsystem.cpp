@@ -345,6 +345,10 @@ size_t ConstraintSystem::count() const {
   return sum;
 }
 
+bool ConstraintSystem::shareParticles() const {
+  return std::any_of(m_sets.begin(), m_sets.end(), [](const Set& set) { return set.colourStart.size() > 2; });
+}
+
 void ConstraintSystem::addTo(Hash& hash, const ParticleStore& store) const {
   std::vector<uint32_t> ids;
   for (const Set& set : m_sets) {

@@ -94,6 +94,8 @@ class ConstraintSystem {
   void addTo(Hash& hash, const ParticleStore& store) const;
   /// Ties between pairs of particles, for contact; renewed when the structure or the order has changed.
   const StructureGraph& graph(size_t particles);
+  /// Whether structural constraints share particles, so that one pass over them leaves an error.
+  bool shareParticles() const;
   /// Those that threw since the last call.
   std::vector<PluginFault> takeFaults();
 

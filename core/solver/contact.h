@@ -6,8 +6,9 @@
 
 namespace ps {
 
-/// Solid particles meet as spheres of this diameter, in spacings.
-inline constexpr double kContactDiameter = 0.95;
+/// Solid particles meet as spheres of this diameter, in spacings: a little below one, so that neighbours of a lattice
+/// at rest are left alone.
+inline constexpr double kContactDiameter = 0.955;
 
 /// Contact of solid particles that no constraint ties together, with each other and with static ones: spheres,
 /// mass-weighted, averaged over a particle's contacts. Friction acts on the way of the substep (Macklin et al. 2014,

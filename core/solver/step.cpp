@@ -250,8 +250,8 @@ void Solver::Impl::substep(uint32_t index) {
     rigid.begin(store);
     impacts.collect(store, contact, constraints, rigid.members());
   });
-  const int structurePasses =
-      std::max(sheets.any() ? kSheetPasses : 1, settings.iterations == 1 ? kLeastStructurePasses : 1);
+  const bool oneIsTooFew = settings.iterations == 1 && constraints.shareParticles();
+  const int structurePasses = std::max(sheets.any() ? kSheetPasses : 1, oneIsTooFew ? kLeastStructurePasses : 1);
   for (int iteration = 0; iteration < settings.iterations; ++iteration) {
     const uint32_t it = static_cast<uint32_t>(iteration);
     for (int pass = 0; pass < structurePasses; ++pass) {
@@ -270,7 +270,7 @@ void Solver::Impl::substep(uint32_t index) {
   }
   timed(Stage::Contact, [&] {
     wallStage.project(store);
-    swept.apply(store, neighbours, wallStage, rigid.members());
+    swept.apply(store, neighbours, wallStage, constraints.graph(store.size()), rigid.members());
     external.add(1 / dt * rigid.hold(store, swept.held()));
     velocities(dt);
     bookContact(dt);

@@ -215,7 +215,7 @@ Point SweptClamp::sweepOf(Sweep sweep) const {
 }
 
 void SweptClamp::apply(ParticleStore& store, const Neighbours& neighbours, const WallStage& walls,
-                       std::span<const uint8_t> rigid) {
+                       const StructureGraph& graph, std::span<const uint8_t> rigid) {
   m_held.clear();
   if (m_static.empty()) return;
   if (m_longest > 0) {  // some move: where they are in this substep
@@ -235,7 +235,7 @@ void SweptClamp::apply(ParticleStore& store, const Neighbours& neighbours, const
     for (size_t i = first; i < last; ++i) {
       if (store.velocity()[i].w == 0 || maySkip(store, neighbours, i)) continue;
       const Point from = pointOf(store.previous()[i]), to = pointOf(position[i]);
-      const bool single = store.motion()[i] == api::Motion::Solid && rigid[i] == 0;
+      const bool single = store.motion()[i] == api::Motion::Solid && graph.isFree(static_cast<uint32_t>(i));
       Point end = sweepOf({from, minus(to, from), 0, 1, single});
       if (end == to) continue;
       walls.clamp(end);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "core/particles/neighbours.h"
+#include "core/solver/constraintsystem.h"
 #include "core/solver/walls.h"
 
 namespace ps {
@@ -18,8 +19,9 @@ class SweptClamp {
   void refresh(const ParticleStore& store);
   /// After new lists: which particles have a static one in their list.
   void refreshLists(const ParticleStore& store, const Neighbours& neighbours);
-  /// Members of rigid bodies (1 in `rigid`) are not moved: see held().
-  void apply(ParticleStore& store, const Neighbours& neighbours, const WallStage& walls,
+  /// Members of rigid bodies (1 in `rigid`) are not moved: see held(). What a constraint ties may come nearer to what
+  /// it is tied to than contact allows.
+  void apply(ParticleStore& store, const Neighbours& neighbours, const WallStage& walls, const StructureGraph& graph,
              std::span<const uint8_t> rigid);
   /// For each particle the way back (m) by which a member of a rigid body would have to be moved; empty when there is
   /// nothing static.

@@ -19,7 +19,7 @@ struct Answer {
 Answer answerOf(const QStringList& arguments) {
   QProcess process;
   process.start(PS_BINARY_DIR "/bin/phasesketch-cli", arguments);
-  if (!process.waitForFinished(280000)) return {};
+  if (!process.waitForFinished(-1)) return {};
   return {process.exitCode(), QString::fromUtf8(process.readAllStandardOutput()),
           QString::fromUtf8(process.readAllStandardError())};
 }

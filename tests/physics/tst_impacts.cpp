@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Swept collision, restitution and friction of particles that belong to no rigid body.
+#include "core/solver/contact.h"
 #include "mechanicsscene.h"
 
 #include <QTest>
@@ -81,7 +82,7 @@ class TestImpacts : public QObject {
   void init() { ps::setThreadCount(2); }
   void cleanup() { ps::setInstructionSet(""); }
 
-  /// Case l3, with liquid too. Solids meet the wall as spheres of 0.95 d, so that centres come no nearer than the
+  /// Case l3, with liquid too. Solids meet the wall as spheres of 0.955 d, so that centres come no nearer than the
   /// case's 0.05 d of tolerance allow, to rounding; liquid stops at 0.75 d, at which the largest opening is closed.
   void nothingPassesALayer_data() {
     QTest::addColumn<double>("speed");  // d/dt
@@ -123,7 +124,7 @@ class TestImpacts : public QObject {
         nearest = std::min(nearest, std::hypot(std::hypot(p.x - w.x, p.y - w.y), p.z - w.z));
       if (nearest < 1.3 * kSize && std::abs(p.y) > 9 * kSize) break;  // slides off
     }
-    const double expected = (solid ? 0.95 : 0.75) * kSize;
+    const double expected = (solid ? ps::kContactDiameter : 0.75) * kSize;
     QVERIFY2(nearest > expected - 1e-6, qPrintable(QString::number(nearest / kSize)));
     QVERIFY2(nearest < 1.3 * kSize, qPrintable(QString::number(nearest / kSize)));
   }
@@ -250,7 +251,7 @@ class TestImpacts : public QObject {
     double rest = 0.01;
     if (particles) {
       solver.spawn(fixedPoints({{0, 0, 0}}));
-      rest = 0.95 * 0.02;
+      rest = ps::kContactDiameter * 0.02;
     } else {
       solver.setWalls({slope(0, 0.3)});
     }
@@ -322,7 +323,7 @@ class TestImpacts : public QObject {
     settings.gravity = {kGravity * pull, -kGravity, 0};
     prepareWide(solver, settings, grain(0, 0.6, 0.3));
     solver.spawn(fixedPoints({{0, 0, 0}}));
-    const uint32_t id = solver.spawn(solids({{0, 0.95 * 0.02, 0}}))[0];
+    const uint32_t id = solver.spawn(solids({{0, ps::kContactDiameter * 0.02, 0}}))[0];
     QVERIFY(run(solver, 1));
     const double way = positionOf(solver, id).x, free = 0.5 * kGravity * pull * kFrame * kFrame * 1.25;  // 4 substeps
     qInfo("moved %.2e of %.2e m", way, free);

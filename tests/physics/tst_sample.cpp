@@ -44,7 +44,7 @@ nlohmann::json TestSample::run(const QStringList& more) {
                 QStringList{"simulate", sample, "--set", "solver/particle_spacing=0.04", "--threads", "1", "--quiet",
                             "--report", report} +
                     more);
-  if (!process.waitForFinished(280000) || process.exitCode() != 0) {
+  if (!process.waitForFinished(-1) || process.exitCode() != 0) {
     qWarning("%s", process.readAllStandardError().constData());
     return nullptr;
   }

@@ -102,7 +102,8 @@ class TestSoft : public QObject {
   void extensionIsThatOfTheBarNotOfTheSteps_data() {
     QTest::addColumn<bool>("clusters");
     QTest::addColumn<double>("tolerance");  // against Hooke's law
-    // The outermost layer has fewer bonds: 4 x 4 particles are 2.08/2.5 as stiff (PHYSICS.md, 4.3).
+    // The outermost layer has fewer bonds: 4 x 4 particles are 2.08/2.5 as stiff: a spring
+    // lattice of that size, solved exactly.
     QTest::newRow("bonds") << false << 0.25;
     // Clusters reach past the layer that is held, and answer more stiffly where the strain changes.
     QTest::newRow("clusters") << true << 0.2;

@@ -248,7 +248,7 @@ class TestPluginHost : public QObject {
     row("null_property", "property 1: its key is a null pointer");
     row("unknown_property", "did you mean \"density_solid\"?");
     row("duplicate_property", "is given twice");
-    row("negative_density", "must be at least 1 kg/m³, not -3");
+    row("negative_density", "must be at least 0.1 kg/m³, not -3");
     row("infinite_property", "not a finite number");
     row("bad_grade", "its grade must be");
     row("unknown_law", "unknown law 'vogle'");
@@ -456,7 +456,7 @@ class TestPluginHost : public QObject {
     QTest::newRow("word for a number") << replaced("1050", "\"heavy\"")
                                        << "/density_solid: must be a number, not the text 'heavy'";
     QTest::newRow("negative density") << replaced("1050", "{\"value\": -1050}")
-                                      << "/density_solid/value: must be at least 1 kg/m³, not -1050";
+                                      << "/density_solid/value: must be at least 0.1 kg/m³, not -1050";
     QTest::newRow("no value") << replaced("1050", "{\"grade\": \"A\"}") << "/density_solid: needs one of";
     QTest::newRow("two values") << replaced("1050", "{\"value\": 1, \"points\": []}") << "/density_solid: needs one of";
     QTest::newRow("bad grade") << replaced("1050", "{\"value\": 1050, \"grade\": \"D\"}")

@@ -362,8 +362,10 @@ class TestWindow : public QObject {
 
   /// Matter drawn and erased while the clock stands shows in the graphs at once.
   void graphsFollowEditsWhileItStands() {
+    const uint64_t revision = session().snapshot()->revision;
     session().reset();
-    idsNow(session());
+    QTRY_VERIFY_WITH_TIMEOUT(session().snapshot()->revision != revision, kLong);
+    QTest::qWait(100);  // the graphs are cleared when the window hears of it
     const PhaseStackView* graph = m_window->graphs()->phases();
     QTRY_COMPARE_WITH_TIMEOUT(graph->sampleCount(), size_t{1}, kLong);
     const QString before = graph->summary();
