@@ -130,7 +130,7 @@ void Solver::Impl::configure() {
   wallStage.configure(settings, walls);
   swept.configure(settings);
   contact.configure(settings, table);
-  wet.configure(settings.spacing);
+  wet.configure(settings.spacing, kSkinSpacings * settings.spacing);
   impacts.configure(settings, walls, table);
   sheets.configure(settings);
   rigid.configure(settings, walls, table);

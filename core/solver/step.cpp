@@ -262,7 +262,7 @@ void Solver::Impl::substep(uint32_t index) {
     structure([&] { constraints.projectNeighbours(store, neighbours, index, it); }, dt);
     timed(Stage::Contact, [&] {
       contact.project(store);
-      wet.project(store, neighbours);
+      wet.project(store);
       wallStage.projectNear(store);
     });
     structure([&] { constraints.projectGroups(store, index, it); }, dt);

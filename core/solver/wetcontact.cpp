@@ -12,45 +12,58 @@ constexpr double kDistance = 0.8;  // spacings
 constexpr size_t kGrain = 256;
 }  // namespace
 
-void WetContact::configure(double spacing) { m_distance = static_cast<float>(kDistance * spacing); }
+void WetContact::configure(double spacing, double skin) {
+  m_distance = static_cast<float>(kDistance * spacing);
+  m_reach = static_cast<float>(kDistance * spacing + skin);
+}
 
 void WetContact::refreshLists(const ParticleStore& store, const Neighbours& neighbours, std::span<const uint32_t> wet) {
-  m_who.assign(wet.begin(), wet.end());
-  m_isWho.assign(store.size(), 0);
+  m_who.clear();
+  m_partner.clear();
+  m_begin.assign(1, 0);
   m_contacts.assign(store.size() + 1, 0);
-  const api::NeighbourView view = neighbours.view();
-  for (const uint32_t i : wet) {
-    for (uint32_t q = view.begin[i]; q < view.last[i]; ++q) {
-      const uint32_t j = view.index[q];
-      if (store.motion()[j] != api::Motion::Liquid || m_isWho[j] != 0) continue;
-      m_isWho[j] = 1;
-      m_who.push_back(j);
-    }
-  }
+  for (const uint32_t i : wet) findPartners(store, neighbours, i, api::Motion::Liquid);
+  m_found = m_partner;  // liquid, each as often as it is near a solid
+  std::sort(m_found.begin(), m_found.end());
+  m_found.erase(std::unique(m_found.begin(), m_found.end()), m_found.end());
+  for (const uint32_t j : m_found) findPartners(store, neighbours, j, api::Motion::Solid);
   m_move.resize(m_who.size());
 }
 
-/// visit(j, line from j to i, its length) for each partner of i that is too near.
-template <class Visit>
-void WetContact::forPartners(const ParticleStore& store, const api::NeighbourView& view, uint32_t i,
-                             Visit&& visit) const {
-  const api::Motion wanted = store.motion()[i] == api::Motion::Liquid ? api::Motion::Solid : api::Motion::Liquid;
+/// Those that may come too near before the lists are renewed: nobody moves more than half the skin until then.
+void WetContact::findPartners(const ParticleStore& store, const Neighbours& neighbours, uint32_t i,
+                              api::Motion wanted) {
+  const api::NeighbourView view = neighbours.view();
+  const std::span<const api::Float4> at = neighbours.built();
   for (uint32_t q = view.begin[i]; q < view.last[i]; ++q) {
     const uint32_t j = view.index[q];
     if (store.motion()[j] != wanted) continue;
-    const api::Float4 line = store.separation(i, j);
+    float x = at[i].x - at[j].x, y = at[i].y - at[j].y, z = at[i].z - at[j].z;
+    store.period().shorten(x, y, z);
+    if (x * x + y * y + z * z < m_reach * m_reach) m_partner.push_back(j);
+  }
+  if (m_partner.size() == m_begin.back()) return;
+  m_who.push_back(i);
+  m_begin.push_back(m_partner.size());
+}
+
+/// visit(j, line from j to i, its length) for each partner of the k-th particle that is too near.
+template <class Visit>
+void WetContact::forPartners(const ParticleStore& store, size_t k, Visit&& visit) const {
+  for (size_t q = m_begin[k]; q < m_begin[k + 1]; ++q) {
+    const uint32_t j = m_partner[q];
+    const api::Float4 line = store.separation(m_who[k], j);
     const float square = line.x * line.x + line.y * line.y + line.z * line.z;
     if (square < m_distance * m_distance && square > 0) visit(j, line, std::sqrt(square));
   }
 }
 
-void WetContact::project(ParticleStore& store, const Neighbours& neighbours) {
-  if (m_who.empty()) return;
-  const api::NeighbourView view = neighbours.view();
+void WetContact::project(ParticleStore& store) {
+  if (m_partner.empty()) return;
   forChunks(m_who.size(), kGrain, [&](size_t first, size_t last) {
     for (size_t k = first; k < last; ++k) {
       size_t count = 0;
-      forPartners(store, view, m_who[k], [&](uint32_t, const api::Float4&, float) { ++count; });
+      forPartners(store, k, [&](uint32_t, const api::Float4&, float) { ++count; });
       m_contacts[m_who[k]] = static_cast<uint8_t>(std::min<size_t>(255, count));
     }
   });
@@ -60,7 +73,7 @@ void WetContact::project(ParticleStore& store, const Neighbours& neighbours) {
       const float wi = store.velocity()[i].w;
       api::Float4 move{0, 0, 0, 0};
       if (m_contacts[i] > 0) {
-        forPartners(store, view, i, [&](uint32_t j, const api::Float4& line, float length) {
+        forPartners(store, k, [&](uint32_t j, const api::Float4& line, float length) {
           const float most = static_cast<float>(std::max(m_contacts[i], m_contacts[j]));
           const float by = wi / (wi + store.velocity()[j].w) * (m_distance - length) / (length * most);
           move.x += by * line.x, move.y += by * line.y, move.z += by * line.z;

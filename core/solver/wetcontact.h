@@ -11,18 +11,22 @@ namespace ps {
 /// rest lies farther apart and does not notice.
 class WetContact {
  public:
-  void configure(double spacing);
+  /// Both in m; `skin` is that of the neighbour lists.
+  void configure(double spacing, double skin);
   /// After new lists: who has a partner. `wet`: solids with fluid in their list.
   void refreshLists(const ParticleStore& store, const Neighbours& neighbours, std::span<const uint32_t> wet);
-  void project(ParticleStore& store, const Neighbours& neighbours);
+  void project(ParticleStore& store);
 
  private:
   template <class Visit>
-  void forPartners(const ParticleStore& store, const api::NeighbourView& view, uint32_t i, Visit&& visit) const;
+  void forPartners(const ParticleStore& store, size_t k, Visit&& visit) const;
+  void findPartners(const ParticleStore& store, const Neighbours& neighbours, uint32_t i, api::Motion wanted);
 
-  float m_distance = 0;  ///< m
+  float m_distance = 0, m_reach = 0;  ///< m
+  std::vector<size_t> m_begin;        ///< of each of `m_who` in m_partner, and the end
+  std::vector<uint32_t> m_partner, m_found;
   std::vector<uint32_t> m_who;
-  std::vector<uint8_t> m_isWho, m_contacts;
+  std::vector<uint8_t> m_contacts;
   std::vector<api::Float4> m_move;
 };
 

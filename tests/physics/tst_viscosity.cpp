@@ -12,9 +12,12 @@ namespace {
 std::atomic<size_t> g_allocations{0};
 }
 
-void* operator new(size_t size) {
+void* operator new(size_t size, const std::nothrow_t&) noexcept {
   ++g_allocations;
-  if (void* memory = std::malloc(std::max<size_t>(1, size))) return memory;
+  return std::malloc(std::max<size_t>(1, size));
+}
+void* operator new(size_t size) {
+  if (void* memory = operator new(size, std::nothrow)) return memory;
   throw std::bad_alloc();
 }
 void operator delete(void* memory) noexcept { std::free(memory); }
