@@ -106,6 +106,30 @@ class TestContent : public QObject {
     QCOMPARE(countNow(*m_engine), size_t{8});
   }
 
+  /// A tap is found by its name, its sliders act while it runs, and what it pours stays in the scene's materials.
+  void aTapIsTurnedLive() {
+    Project project = scenes::iceOnPlate(3, 293.15);
+    Emitter tap;
+    tap.id = "tap";
+    tap.name = "Cold tap";
+    tap.material = "water";
+    tap.point = {0, 0.8, 0};
+    project.emitters.push_back(tap);
+    project.bodies.clear();
+    m_document->open(project, {}, false, false);
+    const Address speed{"emitter", "tap", "speed"};
+    const std::vector<Address> all = allAddresses(m_document->project(), m_plugins.get());
+    QVERIFY(std::find(all.begin(), all.end(), speed) != all.end());
+    QCOMPARE(awayLabel(m_document->project(), speed, QStringLiteral("Speed")), QStringLiteral("Cold tap speed"));
+    QVERIFY(m_document->whyMaterialStays("water").contains(QStringLiteral("Cold tap")));
+    m_document->setParameter(speed, 0.0);
+    step(*m_engine, 20);
+    QCOMPARE(countNow(*m_engine), size_t{0});  // shut from the start
+    m_document->undoStack().undo();
+    step(*m_engine, 20);
+    QVERIFY(countNow(*m_engine) > 0);
+  }
+
   /// A file with a probe on a body that is gone still opens.
   void aDeletedBodyLeavesAFileThatOpens() {
     QCOMPARE(m_document->removeBody("ice"), QString());

@@ -93,6 +93,8 @@ api::ParameterList declarationsOf(const Project& project, const PluginRegistry* 
   if (address.owner == "environment") return environmentParameters();
   if (address.owner == "solver") return solverParameters();
   if (address.owner == "wall") return wallParameters();
+  if (address.owner == "emitter") return emitterParameters();
+  if (address.owner == "sink") return sinkParameters();
   if (address.owner == "body") {
     return plugins ? bodyDeclarations(project, *plugins, address.id) : bodyParameters();
   }
@@ -197,6 +199,12 @@ QString ownerLabel(const Project& project, const Address& address) {
   } else if (address.owner == "wall") {
     const auto wall = itemById(project.environment.walls, first);
     if (wall != project.environment.walls.end() && !wall->name.empty()) name = wall->name;
+  } else if (address.owner == "emitter") {
+    const auto emitter = itemById(project.emitters, first);
+    if (emitter != project.emitters.end() && !emitter->name.empty()) name = emitter->name;
+  } else if (address.owner == "sink") {
+    const auto sink = itemById(project.sinks, first);
+    if (sink != project.sinks.end() && !sink->name.empty()) name = sink->name;
   } else if (address.owner == "body" || address.owner == "constraint") {
     const auto body = itemById(project.bodies, first);
     if (body != project.bodies.end() && !body->name.empty()) name = body->name;
@@ -213,7 +221,8 @@ QString ownerLabel(const Project& project, const Address& address) {
 }
 
 QString awayLabel(const Project& project, const Address& address, const QString& label) {
-  if (address.owner != "wall" && address.owner != "body" && address.owner != "constraint") return label;
+  static constexpr const char* kNamed[] = {"wall", "body", "constraint", "emitter", "sink"};
+  if (std::find(std::begin(kNamed), std::end(kNamed), address.owner) == std::end(kNamed)) return label;
   return ownerLabel(project, address) + QLatin1Char(' ') + label.left(1).toLower() + label.mid(1);
 }
 
@@ -242,6 +251,8 @@ std::vector<Address> allAddresses(const Project& project, const PluginRegistry* 
     add("material", material.id, property);
     add("material", material.id, "");
   }
+  for (const Emitter& emitter : project.emitters) add("emitter", emitter.id, "");
+  for (const Sink& sink : project.sinks) add("sink", sink.id, "");
   for (const SceneWall& wall : project.environment.walls) add("wall", wall.id, "");
   for (const char* owner : {"scene", "environment", "solver", "thermal"}) add(owner, "", "");
   return addresses;

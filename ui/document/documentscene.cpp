@@ -114,6 +114,9 @@ QString Document::whyMaterialStays(const std::string& id) const {
   for (const Body& body : m_project.bodies) {
     if (isOf(body, id)) return QStringLiteral("“%1” is of it").arg(text(body.name));
   }
+  for (const Emitter& emitter : m_project.emitters) {
+    if (emitter.material == id) return QStringLiteral("“%1” pours it").arg(text(emitter.name));
+  }
   return {};
 }
 

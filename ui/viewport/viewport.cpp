@@ -215,7 +215,8 @@ OverlayState Viewport::overlayState() const {
 
 QString Viewport::invitation() const {
   const bool bare = m_now && m_now->bodyIds && m_now->id.empty() && m_hidden.empty();
-  if (!bare || m_stroke.active() || m_tool == ViewTool::Erase) return {};
+  const bool pours = m_document && !m_document->project().emitters.empty();  // there will be matter
+  if (!bare || pours || m_stroke.active() || m_tool == ViewTool::Erase) return {};
   return m_tool == ViewTool::Brush ? QStringLiteral("Draw with the left button")
                                    : QStringLiteral("Press B and draw, or choose a material at the left");
 }

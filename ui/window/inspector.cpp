@@ -200,9 +200,13 @@ void Inspector::rebuildScene() {
   std::vector<RowModel> rows;
   if (auto gravity = rowOf({"scene", "", "gravity"})) rows.push_back(std::move(*gravity));
   addRows(rows, "environment", "", environmentParameters());
-  for (const SceneWall& wall : project.environment.walls) {
-    addRows(rows, "wall", wall.id, wallParameters(), QString::fromStdString(wall.name.empty() ? wall.id : wall.name));
-  }
+  const auto named = [&](const char* owner, const auto& items, api::ParameterList list) {
+    for (const auto& item : items)
+      addRows(rows, owner, item.id, list, QString::fromStdString(item.name.empty() ? item.id : item.name));
+  };
+  named("emitter", project.emitters, emitterParameters());
+  named("sink", project.sinks, sinkParameters());
+  named("wall", project.environment.walls, wallParameters());
   showSceneHeader();
   m_scene->setModel(std::move(rows));
 }
@@ -327,7 +331,10 @@ ParameterPanel* Inspector::panelFor(const Address& address) {
     setBody(address.id.substr(0, address.id.find('/')));
     return m_body;
   }
-  if (address.owner == "wall" || address.owner == "environment" || address.key == "gravity") return m_scene;
+  static constexpr const char* kScene[] = {"wall", "environment", "emitter", "sink"};
+  if (std::find(std::begin(kScene), std::end(kScene), address.owner) != std::end(kScene) || address.key == "gravity") {
+    return m_scene;
+  }
   return m_solver;
 }
 

@@ -389,6 +389,10 @@ void MainWindow::onOutlinerSelection(OutlineKind kind, const std::string& id) {
       m_materials->setCurrent(body->material);
     }
     if (m_right->currentPage() != QLatin1String("Material")) m_right->showPage(QStringLiteral("Body"));
+  } else if (kind == OutlineKind::Emitter) {
+    revealParameter({"emitter", id, "speed"}, false);
+  } else if (kind == OutlineKind::Sink) {
+    revealParameter({"sink", id, "open"}, false);
   } else if (kind == OutlineKind::Wall) {
     revealParameter({"wall", id, "heat"}, false);  // the outliner keeps the focus: arrows walk on
   } else if (kind == OutlineKind::Environment || kind == OutlineKind::Scene) {

@@ -87,6 +87,14 @@ void Outliner::rebuild() {
   const Project& project = m_document.project();
   QStandardItem* scene = add(nullptr, OutlineKind::Scene, "", m_document.title(), QStringLiteral("folder"));
   addBodies(scene);
+  const auto nameOf = [](const auto& item) { return QString::fromStdString(item.name.empty() ? item.id : item.name); };
+  for (const Emitter& emitter : project.emitters) {
+    QStandardItem* item = add(scene, OutlineKind::Emitter, emitter.id, nameOf(emitter), QStringLiteral("droplet"));
+    item->setData(colourOf(project, m_document.plugins(), emitter.material), outline::kSwatch);
+  }
+  for (const Sink& sink : project.sinks) {
+    add(scene, OutlineKind::Sink, sink.id, nameOf(sink), QStringLiteral("download"));
+  }
   for (const SceneWall& wall : project.environment.walls) {
     const bool held = choiceOf(wall.parameters, wallParameters(), "heat") == "fixed_temperature";
     QStandardItem* item = add(scene, OutlineKind::Wall, wall.id, QString::fromStdString(wall.name),
@@ -138,6 +146,11 @@ void Outliner::refreshCounts() {
   for (const Body& body : project.bodies) {
     if (QStandardItem* item = find(OutlineKind::Body, body.id)) {
       item->setData(formatFixed(static_cast<double>(counts[body.id])), outline::kDetail);
+    }
+  }
+  for (const Emitter& emitter : project.emitters) {
+    if (QStandardItem* item = find(OutlineKind::Emitter, emitter.id)) {
+      item->setData(formatFixed(static_cast<double>(counts[emitter.id])), outline::kDetail);
     }
   }
   for (size_t i = 0; i < project.probes.size() && i < m_snapshot->stats.probes.size(); ++i) {

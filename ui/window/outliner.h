@@ -17,7 +17,7 @@ namespace ps {
 class Document;
 
 /// What a row of the outliner stands for.
-enum class OutlineKind { Scene, Body, Wall, Probes, Probe, Environment };
+enum class OutlineKind { Scene, Body, Emitter, Sink, Wall, Probes, Probe, Environment };
 
 /// Roles of the outliner's items.
 namespace outline {
