@@ -50,7 +50,7 @@ void MatterFlow::pour(Solver& solver, const Project& project, std::span<const Ba
   for (const Emitter& emitter : project.emitters) {
     const auto number = [&](const char* key) { return numberOf(emitter.parameters, emitterParameters(), key); };
     const double end = std::min(solver.time(), number("stop")), begin = std::max(solver.time() - dt, number("start"));
-    if (!(end > begin)) continue;
+    if (!(end > begin) || !(number("speed") > 0)) continue;
     double& travelled = m_travelled.try_emplace(emitter.id, spacing).first->second;  // the first layer at once
     travelled += number("speed") * (end - begin);
     // What was due while the scene was at its fill is not made up for.
