@@ -144,6 +144,7 @@ void judge(const Case& what, const CaseCheck& check, const std::vector<Table>& t
     return;
   }
   std::vector<double> got;
+  got.reserve(tables.size());
   for (const Table& table : tables) got.push_back(measured(check, table));
   if (check.spread) {
     const auto [least, most] = std::minmax_element(got.begin(), got.end());

@@ -136,7 +136,7 @@ json regionSchema(const char* description) {
   return object({{"minimum", vector3("m", "")}, {"maximum", vector3("m", "")}}, {"minimum", "maximum"}, description);
 }
 
-json waveSchema(json more, const std::vector<std::string>& required, const char* description) {
+json waveSchema(const json& more, const std::vector<std::string>& required, const char* description) {
   json properties{{"axis", oneOfNames({"x", "y", "z"}, "along which it changes")},
                   {"wavelength", number(1e-6, kFarthest, "m", "")},
                   {"phase", number(-kFarthest, kFarthest, "rad", "at the origin of the scene")}};

@@ -186,6 +186,7 @@ class Builder {
     if (!anyNew) return;
     std::sort(near.begin(), near.end());
     std::vector<Vector> places;
+    places.reserve(near.size());
     for (const uint32_t i : near) places.push_back(vectorOf(m_p.position[i]));
     for (const std::vector<size_t>& piece : piecesOf(places, m_reach)) {
       if (piece.size() < kLeastMembers) continue;
@@ -332,6 +333,7 @@ void ClusterModel::groupTopology(const ConstraintContext& context, const Particl
     std::vector<Vector> rest;
     double volume = 0;  // that its members had
     for (size_t k = all.begin[g]; k < all.begin[g + 1]; ++k) volume += double{all.memberValues[kRestVolume][k]};
+    rest.reserve(kept.size());
     for (const size_t k : kept) rest.push_back(shape.rest(k));
     const std::vector<std::vector<size_t>> pieces = piecesOf(rest, kReach * context.spacing);
     if (pieces.size() == 1 && kept.size() == before && before >= kLeastMembers) continue;
