@@ -80,10 +80,11 @@ void MaterialsPanel::rebuild() {
   }
   m_own = m_tiles.size();
   for (const std::string& base : plugins ? plugins->ids(PluginKind::Material) : std::vector<std::string>{}) {
-    if (bases.count(base)) continue;
+    const Material* material = plugins->material(base);
+    if (!material || bases.count(base)) continue;
     Project with;  // a scene of it alone says how it looks
     with.materials.push_back({base, {}, base, {}, {}, {}});
-    const std::string& label = plugins->material(base)->label;
+    const std::string& label = material->label;
     m_tiles.push_back(
         {base, QString::fromStdString(label.empty() ? base : label), colourOf(with, plugins, base), false, true});
   }
