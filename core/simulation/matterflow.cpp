@@ -13,11 +13,6 @@ namespace {
 /// Nearer to another particle nothing is born: less than a spacing, as the jet may slow down below the mouth.
 constexpr double kClearance = 0.8;  // spacings
 
-bool holds(const Sink& sink, const api::Float4& p) {
-  return p.x >= sink.minimum[0] && p.x <= sink.maximum[0] && p.y >= sink.minimum[1] && p.y <= sink.maximum[1] &&
-         p.z >= sink.minimum[2] && p.z <= sink.maximum[2];
-}
-
 double massOf(const ParticleStore& store, std::span<const uint32_t> ids) {
   double mass = 0;
   for (const uint32_t id : ids) mass += double{store.mass()[store.indexOf(id)]};
@@ -31,8 +26,10 @@ void MatterFlow::drain(Solver& solver, const Project& project) {
   std::vector<uint32_t> ids;
   for (const Sink& sink : project.sinks) {
     if (!toggleOf(sink.parameters, sinkParameters(), "open")) continue;
+    const Region box{sink.minimum, sink.maximum};
     for (size_t i = 0; i < store.size(); ++i) {
-      if (store.motion()[i] != api::Motion::Static && holds(sink, store.position()[i])) ids.push_back(store.id()[i]);
+      const api::Double3 p = store.wrappedPosition(i);
+      if (store.motion()[i] != api::Motion::Static && box.contains({p.x, p.y, p.z})) ids.push_back(store.id()[i]);
     }
   }
   if (ids.empty()) return;

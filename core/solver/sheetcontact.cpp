@@ -36,7 +36,6 @@ void SheetContact::refresh(const ParticleStore& store, const Neighbours& neighbo
     m_side[i] = sheet ? kSheet : motion == api::Motion::Liquid ? kLiquid : uint8_t{0};
   }
   const api::NeighbourView view = neighbours.view();
-  const api::Float4* position = store.position();
   const float reach2 = static_cast<float>(m_reach * m_reach);
   for (uint32_t i = 0; i < n; ++i) {
     if (m_side[i] == 0) continue;
@@ -44,9 +43,8 @@ void SheetContact::refresh(const ParticleStore& store, const Neighbours& neighbo
     for (uint32_t q = view.begin[i]; q < view.last[i]; ++q) {
       const uint32_t j = view.index[q];
       if (m_side[i] + m_side[j] != kSheet + kLiquid || m_side[j] == 0) continue;
-      const float x = position[i].x - position[j].x, y = position[i].y - position[j].y,
-                  z = position[i].z - position[j].z;
-      if (x * x + y * y + z * z < reach2) m_other.push_back(j);
+      const api::Float4 d = store.separation(i, j);
+      if (d.x * d.x + d.y * d.y + d.z * d.z < reach2) m_other.push_back(j);
     }
     if (m_other.size() == before) continue;
     m_contacts.push_back({i, static_cast<uint32_t>(before), static_cast<uint32_t>(m_other.size())});
@@ -65,15 +63,11 @@ void SheetContact::project(ParticleStore& store) {
       for (size_t k = first; k < last; ++k) body(k);
     });
   };
-  const auto between = [&](uint32_t i, uint32_t j) {
-    const api::Float4 a = position[i], b = position[j];
-    return api::Float4{a.x - b.x, a.y - b.y, a.z - b.z, 0};
-  };
   everywhere([&](size_t k) {
     const Contact& c = m_contacts[k];
     int touching = 0;
     for (uint32_t q = c.begin; q < c.end; ++q) {
-      const api::Float4 d = between(c.who, m_other[q]);
+      const api::Float4 d = store.separation(c.who, m_other[q]);
       touching += d.x * d.x + d.y * d.y + d.z * d.z < diameter * diameter ? 1 : 0;
     }
     m_count[c.who] = static_cast<uint8_t>(std::min(255, touching));
@@ -83,7 +77,7 @@ void SheetContact::project(ParticleStore& store) {
     api::Float4 sum{0, 0, 0, 0};
     for (uint32_t q = c.begin; q < c.end; ++q) {
       const uint32_t j = m_other[q];
-      const api::Float4 d = between(c.who, j);
+      const api::Float4 d = store.separation(c.who, j);
       const float distance = std::sqrt(d.x * d.x + d.y * d.y + d.z * d.z), depth = diameter - distance;
       if (!(depth > 0) || !(distance > 0)) continue;
       const float most = static_cast<float>(std::max({int{m_count[c.who]}, int{m_count[j]}, kRelaxation}));

@@ -32,6 +32,7 @@ constexpr Kind kKinds[] = {
     {"rigid", "rigid", Shape::Block, Phase::Solid, kIce},   {"soft", "bonds", Shape::Block, Phase::Solid, kJelly},
     {"grains", "", Shape::Block, Phase::Solid, kIce},       {"liquid", "", Shape::Block, Phase::Liquid, kWater},
     {"viscous", "", Shape::Block, Phase::Liquid, kSyrup},   {"gas", "", Shape::Block, Phase::Gas, kWater},
+    {"cloth", "cloth", Shape::Sheet, Phase::Solid, kIce},   {"rope", "rope", Shape::Row, Phase::Solid, kIce},
     {"ground", "", Shape::Sheet, Phase::Solid, kIce, true},
 };
 
