@@ -467,7 +467,7 @@ class TestDocument : public QObject {
     QVERIFY(addresses.size() > 60);
     for (const Address& address : addresses) {
       QVERIFY2(declarationOf(project, m_plugins.get(), address) != nullptr, address.text().c_str());
-      QVERIFY2(problemWith(project, m_plugins.get(), address, valueAt(project, m_plugins.get(), address)).isEmpty(),
+      QVERIFY2(problemWith(project, m_plugins.get(), address, valueAt(project, m_plugins.get(), address)).empty(),
                address.text().c_str());
     }
   }

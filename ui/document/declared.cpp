@@ -1,201 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/document/declared.h"
 
-#include "core/base/error.h"
-#include "core/matter/material.h"
-#include "core/plugin_host/registry.h"
-
 #include <algorithm>
-#include <map>
 
 namespace ps {
 namespace {
 
 template <class Items>
-auto itemById(Items& items, const std::string& id) {
+auto itemById(const Items& items, const std::string& id) {
   return std::find_if(items.begin(), items.end(), [&](const auto& item) { return item.id == id; });
 }
 
-const SceneMaterial* materialById(const Project& project, const std::string& id) {
-  const auto found = itemById(project.materials, id);
-  return found == project.materials.end() ? nullptr : &*found;
-}
-
-/// The installed material with the scene's own plugin parameters; nullopt when it is not installed or its law fails.
-std::optional<Material> baseMaterial(const SceneMaterial& source, const PluginRegistry* plugins) {
-  if (!plugins) return std::nullopt;
-  if (const api::MaterialPlugin* plugin = plugins->materialPlugin(source.base)) {
-    try {
-      return plugins->evaluated(source.base, numbersOf(source.parameters, plugin->parameters()));
-    } catch (const Error&) {
-      return std::nullopt;  // the registry has noted the plugin's fault
-    }
-  }
-  const Material* installed = plugins->material(source.base);
-  return installed ? std::optional<Material>(*installed) : std::nullopt;
-}
-
-Response responseFrom(const Value& value) {
-  if (const auto* response = std::get_if<Response>(&value)) return *response;
-  if (const auto* number = std::get_if<double>(&value)) return Response(*number);
-  if (const auto* toggle = std::get_if<bool>(&value)) return Response(*toggle ? 1.0 : 0.0);
-  return Response(0.0);
-}
-
-/// What is installed decides on the choices, and so does a model that is not: each list made stays for good.
-api::ParameterList sceneDeclarations(const Project& project, const PluginRegistry& plugins) {
-  static std::map<std::vector<std::string>, std::vector<api::ParameterDeclaration>> lists;
-  std::vector<std::string> models = plugins.ids(PluginKind::Thermal);
-  const std::string& present = project.solver.thermalModel;
-  if (!present.empty() && std::find(models.begin(), models.end(), present) == models.end()) models.push_back(present);
-  auto& list = lists[models];
-  if (list.empty()) list = sceneParameters(models);
-  return {list.data(), list.size()};
-}
-
-/// As sceneDeclarations(), for one body.
-api::ParameterList bodyDeclarations(const Project& project, const PluginRegistry& plugins, const std::string& id) {
-  static std::map<std::vector<std::string>, std::vector<api::ParameterDeclaration>> lists;
-  std::vector<std::string> choices;
-  for (const std::string& plugin : plugins.ids(PluginKind::Constraint)) {
-    if (holdsTogether(plugin, &plugins)) choices.push_back(plugin);
-  }
-  const auto body = itemById(project.bodies, id);
-  if (body != project.bodies.end()) {
-    const std::string present = structureOf(*body, &plugins);
-    if (present != kNoStructure && std::find(choices.begin(), choices.end(), present) == choices.end())
-      choices.push_back(present);
-  }
-  auto& list = lists[choices];
-  if (list.empty()) {
-    const api::ParameterList own = bodyParameters();
-    for (size_t i = 0; i < own.count; ++i) list.push_back(own[i]);
-    list.push_back(structureParameter(choices));
-  }
-  return {list.data(), list.size()};
-}
-
 }  // namespace
-
-bool holdsTogether(const std::string& id, const PluginRegistry* plugins) {
-  const api::ConstraintPlugin* plugin = plugins ? plugins->constraint(id) : nullptr;
-  return !plugin || plugin->traits().form != api::ConstraintTraits::Form::Neighbour;
-}
-
-std::string structureOf(const Body& body, const PluginRegistry* plugins) {
-  for (const BodyConstraint& constraint : body.constraints) {
-    if (holdsTogether(constraint.plugin, plugins)) return constraint.plugin;
-  }
-  return kNoStructure;
-}
-
-api::ParameterList declarationsOf(const Project& project, const PluginRegistry* plugins, const Address& address) {
-  if (address.owner == "environment") return environmentParameters();
-  if (address.owner == "solver") return solverParameters();
-  if (address.owner == "wall") return wallParameters();
-  if (address.owner == "emitter") return emitterParameters();
-  if (address.owner == "sink") return sinkParameters();
-  if (address.owner == "body") {
-    return plugins ? bodyDeclarations(project, *plugins, address.id) : bodyParameters();
-  }
-  if (address.owner == "material" && propertyIndex(address.key) >= 0) return propertyCatalogue();
-  if (!plugins) return {};
-  if (address.owner == "scene") return sceneDeclarations(project, *plugins);
-  if (address.owner == "material") {
-    const SceneMaterial* material = materialById(project, address.id);
-    const api::MaterialPlugin* plugin = material ? plugins->materialPlugin(material->base) : nullptr;
-    return plugin ? plugin->parameters() : api::ParameterList{};
-  }
-  if (address.owner == "thermal") {
-    const api::ThermalPlugin* plugin = plugins->thermal(project.solver.thermalModel);
-    return plugin ? plugin->parameters() : api::ParameterList{};
-  }
-  if (address.owner != "constraint") return {};
-  const size_t slash = address.id.find('/');
-  const api::ConstraintPlugin* plugin =
-      slash == std::string::npos ? nullptr : plugins->constraint(address.id.substr(slash + 1));
-  return plugin ? plugin->parameters() : api::ParameterList{};
-}
-
-const api::ParameterDeclaration* declarationOf(const Project& project, const PluginRegistry* plugins,
-                                               const Address& address) {
-  return findDeclaration(declarationsOf(project, plugins, address), address.key);
-}
-
-Value conformed(Value value, const api::ParameterDeclaration& declaration) {
-  if (declaration.kind == api::ParameterKind::Response) return responseFrom(value);
-  if (const auto* response = std::get_if<Response>(&value)) value = response->at(293.15);
-  if (declaration.kind == api::ParameterKind::Toggle) {
-    if (const auto* number = std::get_if<double>(&value)) return *number > 0.5;
-  }
-  return value;
-}
-
-Value defaultOf(const Project& project, const PluginRegistry* plugins, const Address& address) {
-  const api::ParameterDeclaration* declaration = declarationOf(project, plugins, address);
-  if (!declaration) return 0.0;
-  if (address.owner == "material" && propertyIndex(address.key) >= 0) {
-    if (const SceneMaterial* material = materialById(project, address.id)) {
-      if (const auto base = baseMaterial(*material, plugins)) {
-        const auto found = base->properties.find(address.key);
-        if (found != base->properties.end()) return conformed(found->second, *declaration);
-      }
-    }
-  }
-  return conformed(valueOf({}, *declaration), *declaration);
-}
-
-Value valueAt(const Project& project, const PluginRegistry* plugins, const Address& address) {
-  if (address.owner == "scene") return sceneValue(project, address.key).value_or(0.0);
-  if (address.owner == "body" && address.key == kStructureKey) {
-    const auto body = itemById(project.bodies, address.id);
-    return body == project.bodies.end() ? std::string(kNoStructure) : structureOf(*body, plugins);
-  }
-  const ParameterSet* set = findSet(project, address);
-  const api::ParameterDeclaration* declaration = declarationOf(project, plugins, address);
-  if (set && declaration) {
-    const auto found = set->values.find(address.key);
-    if (found != set->values.end()) return conformed(found->second, *declaration);
-  }
-  return defaultOf(project, plugins, address);
-}
-
-ParameterSet materialDefaults(const Project& project, const PluginRegistry* plugins, const std::string& id) {
-  ParameterSet defaults;
-  const SceneMaterial* material = materialById(project, id);
-  if (!material) return defaults;
-  const auto base = baseMaterial(*material, plugins);
-  if (!base) return defaults;
-  for (const auto& [key, response] : base->properties) {
-    if (const auto* declaration = findDeclaration(propertyCatalogue(), key)) {
-      defaults.values[key] = conformed(response, *declaration);
-    }
-  }
-  return defaults;
-}
-
-QString problemWith(const Project& project, const PluginRegistry* plugins, const Address& address, const Value& value) {
-  const api::ParameterDeclaration* declaration = declarationOf(project, plugins, address);
-  if (!declaration) return QStringLiteral("Nothing declares this value; its plugin may be missing.");
-  if (const std::string problem = problemOf(value, *declaration); !problem.empty()) {
-    return QString::fromUtf8(declaration->label) + QLatin1Char(' ') + QString::fromStdString(problem) +
-           QLatin1Char('.');
-  }
-  if (address.owner != "material" || propertyIndex(address.key) < 0) return {};
-  const SceneMaterial* source = materialById(project, address.id);
-  auto material = source ? baseMaterial(*source, plugins) : std::nullopt;
-  if (!material) return {};
-  for (const auto& [key, changed] : source->properties.values) material->properties[key] = responseFrom(changed);
-  material->properties[address.key] = responseFrom(value);
-  return QString::fromStdString(problemOf(*material));
-}
 
 QString ownerLabel(const Project& project, const Address& address) {
   const std::string first = address.id.substr(0, address.id.find('/'));
   std::string name = first;
   if (address.owner == "material") {
-    const SceneMaterial* material = materialById(project, first);
-    if (material && !material->label.empty()) name = material->label;
+    const auto material = itemById(project.materials, first);
+    if (material != project.materials.end() && !material->label.empty()) name = material->label;
   } else if (address.owner == "wall") {
     const auto wall = itemById(project.environment.walls, first);
     if (wall != project.environment.walls.end() && !wall->name.empty()) name = wall->name;
@@ -234,28 +57,6 @@ QColor colourOf(const Project& project, const PluginRegistry* plugins, const std
     return static_cast<float>(std::clamp(number ? *number : response ? response->at(293.15) : 0.5, 0.0, 1.0));
   };
   return QColor::fromRgbF(channel("color_red"), channel("color_green"), channel("color_blue"));
-}
-
-std::vector<Address> allAddresses(const Project& project, const PluginRegistry* plugins) {
-  std::vector<Address> addresses;
-  const auto add = [&](const std::string& owner, const std::string& id, const std::string& anyKey) {
-    const api::ParameterList list = declarationsOf(project, plugins, {owner, id, anyKey});
-    for (size_t i = 0; i < list.count; ++i) addresses.push_back({owner, id, list[i].key});
-  };
-  const std::string property = propertyCatalogue().count > 0 ? propertyCatalogue()[0].key : "";
-  for (const Body& body : project.bodies) {
-    add("body", body.id, "");
-    for (const BodyConstraint& constraint : body.constraints) add("constraint", body.id + "/" + constraint.plugin, "");
-  }
-  for (const SceneMaterial& material : project.materials) {
-    add("material", material.id, property);
-    add("material", material.id, "");
-  }
-  for (const Emitter& emitter : project.emitters) add("emitter", emitter.id, "");
-  for (const Sink& sink : project.sinks) add("sink", sink.id, "");
-  for (const SceneWall& wall : project.environment.walls) add("wall", wall.id, "");
-  for (const char* owner : {"scene", "environment", "solver", "thermal"}) add(owner, "", "");
-  return addresses;
 }
 
 }  // namespace ps

@@ -1,45 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "core/scene/project.h"
+#include "core/simulation/declared.h"
 
 #include <QtCore/QString>
 #include <QtGui/QColor>
 
-#include <vector>
-
-// What an address means in a project: its declaration, its default, the value in force. Pure functions; without plugins
-// (nullptr, or one not installed) an address of theirs has no declaration.
+// How people see what an address means.
 namespace ps {
 
-class PluginRegistry;
-
-/// The declarations among which an address's key is found; empty when unknown.
-api::ParameterList declarationsOf(const Project& project, const PluginRegistry* plugins, const Address& address);
-const api::ParameterDeclaration* declarationOf(const Project& project, const PluginRegistry* plugins,
-                                               const Address& address);
-/// A value brought to the type that its declaration stores: a number for a response and back.
-Value conformed(Value value, const api::ParameterDeclaration& declaration);
-/// What a reset goes to: the installed material's value for material properties, else the declaration's default.
-Value defaultOf(const Project& project, const PluginRegistry* plugins, const Address& address);
-/// Explicit value or default.
-Value valueAt(const Project& project, const PluginRegistry* plugins, const Address& address);
-/// Defaults of all properties of a scene material, for rows that show what changed.
-ParameterSet materialDefaults(const Project& project, const PluginRegistry* plugins, const std::string& material);
-/// "" or why a project with this value would not hold together: out of its hard range, a solidus above the liquidus.
-QString problemWith(const Project& project, const PluginRegistry* plugins, const Address& address, const Value& value);
 /// Who an address belongs to, as people call it: "Water", "Hot plate", "Solver".
 QString ownerLabel(const Project& project, const Address& address);
 /// What a parameter is called away from its owner's other ones: "Hot plate temperature"; a label that says enough by
 /// itself stays.
 QString awayLabel(const Project& project, const Address& address, const QString& label);
-/// Whether a constraint plugin ties matter together; one that is not installed counts, one that acts between neighbours
-/// does not.
-bool holdsTogether(const std::string& plugin, const PluginRegistry* plugins);
-/// The constraint plugin that holds a body together, or kNoStructure.
-std::string structureOf(const Body& body, const PluginRegistry* plugins);
 /// How matter of a scene material is shown at 20 °C; grey where nothing says so.
 QColor colourOf(const Project& project, const PluginRegistry* plugins, const std::string& material);
-/// Addresses of every declared parameter of the project, in the order of the outliner.
-std::vector<Address> allAddresses(const Project& project, const PluginRegistry* plugins);
 
 }  // namespace ps

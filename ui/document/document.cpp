@@ -64,8 +64,9 @@ void Document::endGesture() {
 }
 
 QString Document::setParameter(const Address& address, const Value& value) {
+  const auto refusal = [&] { return QString::fromStdString(problemWith(m_project, m_plugins, address, value)); };
   if (address.owner == "body" && address.key == kStructureKey) {
-    if (const QString problem = problemWith(m_project, m_plugins, address, value); !problem.isEmpty()) return problem;
+    if (const QString problem = refusal(); !problem.isEmpty()) return problem;
     setStructure(address.id, std::get<std::string>(value));
     return {};
   }
@@ -73,7 +74,7 @@ QString Document::setParameter(const Address& address, const Value& value) {
   const ParameterSet* set = findSet(m_project, address);
   if (!set && !outside)
     return QStringLiteral("%1 is no longer part of the scene.").arg(QString::fromStdString(address.text()));
-  if (const QString problem = problemWith(m_project, m_plugins, address, value); !problem.isEmpty()) return problem;
+  if (const QString problem = refusal(); !problem.isEmpty()) return problem;
   const api::ParameterDeclaration* declared = declaration(address);
   std::optional<Value> before = outside, after = conformed(value, *declared);
   if (set) {
