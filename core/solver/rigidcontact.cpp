@@ -14,6 +14,8 @@ constexpr double kStill = 1e-5;
 /// Share of the last substep's impulses that the next one starts from: with all of them the split among contacts that
 /// bear the same load wanders, and bodies creep.
 constexpr double kResumed = 0.8;
+/// Share of what creep has left over that each substep asks back, and the most that it remembers, in spacings.
+constexpr double kRecalled = 0.2, kMostDrift = 0.01;
 /// Faster than this share of the speed that gravity gives in two substeps a contact slides.
 constexpr double kSlides = 0.1;
 
@@ -101,6 +103,15 @@ double RigidContact::slideOf(const Contact& c, Vector3 speed) {
   return std::sqrt(dot(along, along));
 }
 
+/// Adds up what friction left over in the last substep, as long as the two stick.
+void RigidContact::remember(Contact& c) const {
+  const bool sticks = c.active && c.met && !c.slides && !c.yields;
+  c.drift = sticks ? c.drift + c.left : Vector3{};
+  c.left = {};
+  const double length = std::sqrt(dot(c.drift, c.drift)), most = kMostDrift * m_spacing;
+  if (length > most) c.drift = most / length * c.drift;
+}
+
 void RigidContact::begin(const ParticleStore& store) {
   for (Body& body : m_bodies) {
     if (body.hasContacts) readMasses(store, body);
@@ -117,6 +128,7 @@ void RigidContact::begin(const ParticleStore& store) {
     if (!c.active || before < -m_slowest) c.push = 0, c.rub = {};
     c.push *= kResumed;
     c.rub = kResumed * c.rub;
+    remember(c);
     c.met = false;
   }
   m_resume = true;
@@ -175,7 +187,7 @@ double RigidContact::solve(ParticleStore& store, Contact& c) {
   push(store, c.a, pushed);
   push(store, c.b, -1.0 * pushed);
   // Tangential way since the start of the substep, to be taken back as far as the cone allows.
-  const Vector3 moved = c.way + movedBy(store, c.a) - movedBy(store, c.b),
+  const Vector3 moved = c.way + kRecalled * c.drift + movedBy(store, c.a) - movedBy(store, c.b),
                 way = moved - dot(moved, c.normal) * c.normal;
   const double length = std::sqrt(dot(way, way));
   Vector3 wanted = c.rub;
@@ -187,7 +199,8 @@ double RigidContact::solve(ParticleStore& store, Contact& c) {
   // solution, and would take that for slipping.
   const double most = (c.slides ? c.kineticFriction : c.staticFriction) * c.push;
   const double size = std::sqrt(dot(wanted, wanted));
-  if (size > most) wanted = most / size * wanted;
+  c.yields = size > most;
+  if (c.yields) wanted = most / size * wanted;
   const Vector3 rubbed = wanted - c.rub;
   c.rub = wanted;
   push(store, c.a, rubbed);
@@ -206,6 +219,11 @@ void RigidContact::project(ParticleStore& store) {
     double most = 0;
     for (Contact& c : m_contacts) most = std::max(most, solve(store, c));
     if (most < kStill * m_spacing) break;
+  }
+  for (Contact& c : m_contacts) {
+    if (!c.met) continue;
+    const Vector3 moved = c.way + movedBy(store, c.a) - movedBy(store, c.b);
+    c.left = moved - dot(moved, c.normal) * c.normal;
   }
   for (const Body& body : m_bodies) {
     if (!body.hasContacts || !body.touched) continue;

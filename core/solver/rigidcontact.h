@@ -11,13 +11,14 @@ namespace ps {
 /// the body as a whole, by its generalised inverse mass 1/M + (r x n).I^-1 (r x n) (Mueller et al. 2020, eq. 2):
 /// projecting member by member and matching the shape afterwards creeps down a slope. Per substep every contact adds up
 /// its normal impulse, which stays positive, and its friction, which stays within the cone: the static one, or the
-/// kinetic one of a contact that slid at the end of the last substep. Projected Gauss-Seidel, started from the impulses
-/// of the last substep, serial, in an order scattered by the particles' ids, so that threads have no part in it:
-/// contacts are few. Afterwards restitution as a pass over velocities (Mueller et al. 2020, section 3.6), which also
-/// takes out speed that only the removal of an overlap has given. Particles are spheres, but where a face of the
-/// lattice takes part its own normal is used, so that layers do not interlock. A box therefore tips as if its base were
-/// one spacing narrower, and an edge of it is round. It cannot do: stop a body that crosses
-/// another moving one within one substep.
+/// kinetic one of a contact that slid at the end of the last substep. While two stick, what friction could not take
+/// back in one substep is asked for in those after it, so that a stack does not creep by what iterations leave over.
+/// Projected Gauss-Seidel, started from the impulses of the last substep, serial, in an order scattered by the
+/// particles' ids, so that threads have no part in it: contacts are few. Afterwards restitution as a pass over
+/// velocities (Mueller et al. 2020, section 3.6), which also takes out speed that only the removal of an overlap has
+/// given. Particles are spheres, but where a face of the lattice takes part its own normal is used, so that layers do
+/// not interlock. A box therefore tips as if its base were one spacing narrower, and an edge of it is round. It cannot
+/// do: stop a body that crosses another moving one within one substep.
 class RigidContact {
  public:
   void configure(const SolverSettings& settings, const std::vector<Wall>& walls,
@@ -76,7 +77,10 @@ class RigidContact {
     bool active = false, met = false, slides = false;  ///< met: overlapped at some time of the substep
     double push = 0;                                   ///< kg m, summed over the substep
     Vector3 rub;                                       ///< kg m
-    double approach = 0;                               ///< m/s, normal speed before the substep
+    bool yields = false;                               ///< friction is all that the cone allows
+    Vector3 left;         ///< m, tangential way in the substep that friction has not taken back
+    Vector3 drift;        ///< m, the sum of it since the two began to stick
+    double approach = 0;  ///< m/s, normal speed before the substep
   };
   struct Plane {
     Vector3 normal;
@@ -97,6 +101,7 @@ class RigidContact {
   void keepImpulses();
   Surface surfaceOf(const ParticleStore& store, uint32_t i, Vector3 outward) const;
   void orient(const ParticleStore& store, Contact& contact) const;
+  void remember(Contact& contact) const;
   static double slideOf(const Contact& contact, Vector3 speed);
   double solve(ParticleStore& store, Contact& contact);
   void resume(ParticleStore& store);
