@@ -6,6 +6,7 @@
 #include <functional>
 #include <limits>
 #include <map>
+#include <numeric>
 
 namespace ps::cli {
 namespace {
@@ -29,17 +30,24 @@ double timeAt(const Series& s, size_t k, double level) {
   return s.time[k - 1] + shareOf(s, k, level) * (s.time[k] - s.time[k - 1]);
 }
 
-double mean(const Series& s, const json& options) {
+/// The values between the times `from` and `to`.
+std::vector<double> within(const Series& s, const json& options) {
   const double from = option(options, "from", -kInfinity), to = option(options, "to", kInfinity);
-  double sum = 0;
-  size_t count = 0;
+  std::vector<double> values;
   for (size_t k = 0; k < s.time.size(); ++k) {
-    if (s.time[k] < from || s.time[k] > to) continue;
-    sum += s.value[k];
-    ++count;
+    if (s.time[k] >= from && s.time[k] <= to) values.push_back(s.value[k]);
   }
-  return count ? sum / static_cast<double>(count) : kNone;
+  return values;
 }
+
+using Numbers = const std::vector<double>&;
+double mean(Numbers values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+double minimum(Numbers values) { return *std::min_element(values.begin(), values.end()); }
+double maximum(Numbers values) { return *std::max_element(values.begin(), values.end()); }
+double change(Numbers values) { return values.back() - values.front(); }
+double range(Numbers values) { return maximum(values) - minimum(values); }
 
 double at(const Series& s, double time) {
   for (size_t k = 1; k < s.time.size(); ++k) {
@@ -77,14 +85,23 @@ double period(const Series& s, double level, double most) {
 
 using Measure = std::function<double(const Series&, const json&)>;
 
+/// A measure of the values of a span of time.
+Measure over(double (*of)(Numbers)) {
+  return [of](const Series& s, const json& options) {
+    const std::vector<double> values = within(s, options);
+    return values.empty() ? kNone : of(values);
+  };
+}
+
 const std::map<std::string, Measure>& measures() {
   static const std::map<std::string, Measure> all{
       {"last", [](const Series& s, const json&) { return s.value.back(); }},
       {"first", [](const Series& s, const json&) { return s.value.front(); }},
-      {"change", [](const Series& s, const json&) { return s.value.back() - s.value.front(); }},
-      {"minimum", [](const Series& s, const json&) { return *std::min_element(s.value.begin(), s.value.end()); }},
-      {"maximum", [](const Series& s, const json&) { return *std::max_element(s.value.begin(), s.value.end()); }},
-      {"mean", mean},
+      {"change", over(change)},
+      {"range", over(range)},
+      {"minimum", over(minimum)},
+      {"maximum", over(maximum)},
+      {"mean", over(mean)},
       {"at", [](const Series& s, const json& o) { return at(s, option(o, "time", 0)); }},
       {"when", [](const Series& s, const json& o) { return when(s, option(o, "value", 0)); }},
       {"slope",

@@ -2,6 +2,7 @@
 #include "app/cli/commands.h"
 #include "app/cli/probetable.h"
 #include "app/cli/report.h"
+#include "app/cli/rest.h"
 #include "app/cli/run.h"
 #include "core/base/error.h"
 #include "core/base/hash.h"
@@ -58,6 +59,7 @@ int simulateCommand(CommandArguments given) {
   if (arguments.has("--probes")) probes.emplace(arguments.text("--probes"), engine.probeNames());
   if (arguments.has("--record")) recording.emplace(arguments.text("--record"), project);
   Report report(engine.stats());
+  Rest rest(frames);
   const double start = now();
   if (recording) recording->add(*engine.snapshot());
   bool whole = false;
@@ -65,6 +67,7 @@ int simulateCommand(CommandArguments given) {
     Progress progress(frames, quiet);
     whole = runFrames(engine, frames, [&](const StepReport& step, const FrameStats& stats) {
       report.add(step, stats);
+      rest.add(engine, stats);
       if (probes) probes->add(stats);
       if (recording) recording->add(*engine.snapshot());
       progress.show(static_cast<long>(report.frames()), stats);
@@ -74,7 +77,9 @@ int simulateCommand(CommandArguments given) {
   if (probes) probes->finish();
   if (recording) recording->finish();
   if (arguments.has("--report")) {
-    writeFileAtomically(arguments.text("--report"), writeJson(report.json(engine, wall)));
+    nlohmann::json content = report.json(engine, wall);
+    content["rest"] = rest.json(engine);
+    writeFileAtomically(arguments.text("--report"), writeJson(content));
   }
   if (!quiet) summarise(report, engine, wall);
   if (report.flags()) {
