@@ -17,14 +17,16 @@ constexpr OptionSpec kOptions[] = {
     {"--seconds", "S", "mechanical time of each run; without it 10"},
     {"--only", "ADDRESS", "soaks this parameter alone; may repeat, and the beginning of an address will do"},
     {"--list", "", "names the runs and does none"},
+    kSet,
     kThreads,
     kIsa,
 };
 
 /// More particles than this many times the project's own are not soaked: a run would take hours.
 constexpr double kMostGrowth = 4;
-/// Part of a run before the slider moves, so that it meets matter in motion.
-constexpr double kBefore = 0.05;
+/// Part of a run before the slider moves, so that it meets matter in motion; part after which a run that is still bit
+/// for bit the project's own one ends, for the scene does not use what was moved.
+constexpr double kBefore = 0.05, kProof = 0.25;
 
 struct Change {
   Address address;
@@ -34,9 +36,11 @@ struct Change {
 struct Outcome {
   StepFlags flags = 0;
   std::string message;
-  double topSpeed = 0;  ///< m/s
+  double topSpeed = 0;  ///< m/s, since the change
   std::vector<std::string> limits;
   double milliseconds = 0;  ///< mean of a frame
+  uint64_t proof = 0;       ///< hash of the state at kProof
+  bool unused = false;      ///< the change has changed nothing until then
 };
 
 std::string shown(const Value& value) {
@@ -99,8 +103,9 @@ double topSpeed(const ParticleStore& store) {
   return most;
 }
 
-/// One run; `change` may be nullptr. Throws InputError for a change that the scene refuses.
-Outcome soak(const Project& project, PluginRegistry& plugins, const Change* change, double seconds) {
+/// One run; `change` is nullptr for the project as it is, whose `proof` others compare themselves with. Throws
+/// InputError for a change that the scene refuses.
+Outcome soak(const Project& project, PluginRegistry& plugins, const Change* change, double seconds, uint64_t proof) {
   Engine engine(project, plugins);
   Outcome outcome;
   double sum = 0;
@@ -118,7 +123,11 @@ Outcome soak(const Project& project, PluginRegistry& plugins, const Change* chan
   };
   bool whole = run(kBefore * seconds);
   if (whole && change && !engine.setParameter(change->address, change->value)) engine.reset();
-  whole = whole && run(seconds - kBefore * seconds);
+  outcome.topSpeed = 0;
+  whole = whole && run((kProof - kBefore) * seconds);
+  outcome.proof = engine.solver().stateHash();
+  outcome.unused = whole && change && outcome.proof == proof;
+  whole = whole && (outcome.unused || run((1 - kProof) * seconds));
   if (!whole && interrupted()) throw Error("stopped");
   for (const Limit& limit : engine.solver().limits()) outcome.limits.push_back(limit.what);
   outcome.milliseconds = sum / static_cast<double>(std::max(1L, frames));
@@ -148,7 +157,7 @@ class Verdicts {
   explicit Verdicts(std::string project) : m_project(std::move(project)) {}
 
   void add(const Project& project, const Outcome& outcome, const Change* change) {
-    std::string verdict = "fine";
+    std::string verdict = outcome.unused ? "not used here" : "fine";
     if (outcome.flags != 0) {
       const std::string why = explanation(project, outcome, change);
       verdict.clear();
@@ -198,6 +207,11 @@ int soakProject(const std::string& path, const Arguments& arguments, PluginRegis
   const Project project = loadFor(arguments, path, plugins);
   const double seconds = arguments.number("--seconds", 1e-3, 1e6).value_or(10);
   const std::vector<Change> changes = changesOf(project, plugins, arguments.all("--only"));
+  for (const std::string& start : arguments.all("--only")) {
+    const bool any = std::any_of(changes.begin(), changes.end(),
+                                 [&](const Change& change) { return change.address.text().starts_with(start); });
+    if (!any) throw InputError(path + ": no slider begins with '" + start + "'; --list names them");
+  }
   if (arguments.has("--list")) {
     for (const Change& change : changes) {
       std::printf("%s  %s = %s\n", nameOf(path).c_str(), change.address.text().c_str(), shown(change.value).c_str());
@@ -205,9 +219,12 @@ int soakProject(const std::string& path, const Arguments& arguments, PluginRegis
     return 0;
   }
   Verdicts verdicts(nameOf(path));
+  uint64_t proof = 0;
   const auto attempt = [&](const Change* change) {
     try {
-      verdicts.add(project, soak(project, plugins, change, seconds), change);
+      const Outcome outcome = soak(project, plugins, change, seconds, proof);
+      if (!change) proof = outcome.proof;
+      verdicts.add(project, outcome, change);
     } catch (const InputError& error) {
       change ? verdicts.refuse(*change, error.what()) : verdicts.fail(change, error.what());
     } catch (const std::exception& error) {
@@ -215,7 +232,7 @@ int soakProject(const std::string& path, const Arguments& arguments, PluginRegis
       verdicts.fail(change, error.what());
     }
   };
-  if (!arguments.has("--only")) attempt(nullptr);
+  attempt(nullptr);
   for (const Change& change : changes) {
     const std::string problem = problemWith(project, &plugins, change.address, change.value);
     const std::string reason = problem.empty() ? whyLeftOut(project, change) : std::string();
@@ -235,8 +252,9 @@ int soakProject(const std::string& path, const Arguments& arguments, PluginRegis
 std::string soakHelp() {
   return "phasesketch-cli soak PROJECT... [options]\n\nRuns each project as it is, and again with each of its sliders "
          "moved to either end of its range while it runs,\none at a time. Prints one line per run: what was moved, the "
-         "highest speed of a particle, the mean length of a\nframe, and whether flags were raised. Exit code 1 when a "
-         "run set a flag that its slider does not explain.\n\n" +
+         "highest speed of a particle, the mean length of a\nframe, and whether flags were raised. A slider that has "
+         "changed nothing in a quarter of the run is not used "
+         "by the scene\nand ends there. Exit code 1 when a run set a flag that its slider does not explain.\n\n" +
          optionHelp(kOptions);
 }
 

@@ -84,7 +84,7 @@ void TestCli::exitCodesAndOneLine_data() {
   };
   row("help", {"--help"}, 0, "");
   row("simulate help", {"simulate", "--help"}, 0, "");
-  row("no command", {}, 2, "which command? simulate, render, bench, validate, cases, plugins, schema;");
+  row("no command", {}, 2, "which command? simulate, render, bench, validate, cases, soak, plugins, schema;");
   row("unknown command", {"simmulate"}, 2, "unknown command 'simmulate'");
   row("unknown option", {"simulate", kSample, "--fast"}, 2, "unknown option --fast");
   row("missing value", {"simulate", kSample, "--seconds"}, 2, "--seconds needs a value");
@@ -128,13 +128,16 @@ void TestCli::simulateWritesTheReportsKeys() {
   QCOMPARE(keysOf(r),
            (Keys{"particles",     "frames",  "substeps", "iterations", "dt",     "simulated_s", "wall_s",
                  "threads",       "backend", "isa",      "state_hash", "flags",  "limits",      "ms_per_frame",
-                 "density_error", "energy",  "flow",     "momentum",   "phases", "temperature"}));
+                 "density_error", "energy",  "flow",     "momentum",   "phases", "rest",        "temperature"}));
   QCOMPARE(keysOf(r["ms_per_frame"]),
            (Keys{"total", "neighbours", "density", "structure", "contact", "viscosity", "heat", "phase"}));
   for (const auto& stage : r["ms_per_frame"]) QCOMPARE(keysOf(stage), (Keys{"mean", "median", "p95"}));
   QCOMPARE(keysOf(r["density_error"]), (Keys{"mean", "max"}));
   QCOMPARE(keysOf(r["energy"]), (Keys{"start", "end", "exchanged", "drift", "elastic"}));
   QCOMPARE(keysOf(r["momentum"]), (Keys{"start", "end", "external"}));
+  QCOMPARE(keysOf(r["rest"]), (Keys{"from_s", "kinetic_energy", "speed_rms", "moved"}));
+  QVERIFY(std::abs(r["rest"]["from_s"].get<double>() - 0.25) < 1e-9);
+  QVERIFY(r["rest"]["moved"]["solid_particle"].get<double>() > 0);  // it still falls, or slides where it landed
   QCOMPARE(keysOf(r["phases"]), (Keys{"solid", "melting", "liquid", "boiling", "gas"}));
   QCOMPARE(keysOf(r["temperature"]), (Keys{"min", "mean", "max"}));
   QCOMPARE(r["frames"].get<int>(), 30);
