@@ -47,8 +47,8 @@ constexpr ParameterDeclaration kProperties[] = {
     // Phase change
     {"melting_temperature", "Melting point", "T_m", "K", kNumber, kLinear, 273.15, 50, 2000, 0, 1e4, "°C", 1, kCelsius,
      "", "Phase change",
-     "Where solid and liquid are in balance at 1 atm; heat then melts the matter without warming it. Absolute zero "
-     "(\u2212273.15 °C) means that it never melts, it only grows thin, as glass and honey do.",
+     "Where solid and liquid are in balance at 1 atm; heat then melts the matter without warming it. None: it "
+     "never melts, it only grows thin, as glass and honey do.",
      "water 0, gallium 29.8, candle wax 58, lead 327, iron 1538 °C", "CRC Handbook of Chemistry and Physics"},
     {"latent_heat_fusion", "Latent heat, melting", "L_f", "J/kg", kNumber, kLinear, 2e5, 0, 1e6, 0, 1e8, "kJ/kg", 1e-3,
      0, "", "Phase change", "Heat that one kilogram takes up while it melts, and gives back while it freezes.",
@@ -68,8 +68,7 @@ constexpr ParameterDeclaration kProperties[] = {
      "water \u22120.074, most metals +0.03 K/MPa", "Wagner, Riethmann, Feistel & Harvey 2011"},
     {"boiling_temperature", "Boiling point", "T_b", "K", kNumber, kLinear, 0, 0, 3500, 0, 1e4, "°C", 1, kCelsius, "",
      "Phase change",
-     "Boiling point at 1 atm; the ambient pressure moves it. Absolute zero (\u2212273.15 °C) means that it never "
-     "boils. For "
+     "Boiling point at 1 atm; the ambient pressure moves it. None: it never boils. For "
      "what turns from solid to gas at 1 atm, such as dry ice: the temperature at which it does.",
      "nitrogen \u2212195.8, ethanol 78.3, water 99.97, lead 1749 °C", "NIST Chemistry WebBook"},
     {"latent_heat_vaporization", "Latent heat, boiling", "L_v", "J/kg", kNumber, kLinear, 5e5, 1e5, 1e7, 0, 1e9,
@@ -84,8 +83,7 @@ constexpr ParameterDeclaration kProperties[] = {
      "water 18.0, air 29.0, carbon dioxide 44.0, ethanol 46.1 g/mol", "IUPAC atomic weights"},
     {"triple_temperature", "Triple point, temperature", "T_3", "K", kNumber, kLinear, 0, 0, 2000, 0, 1e4, "°C", 1,
      kCelsius, "", "Phase change",
-     "Where solid, liquid and vapour are in balance. Absolute zero (\u2212273.15 °C): not known, the boiling curve is "
-     "then "
+     "Where solid, liquid and vapour are in balance. None: not known, the boiling curve is then "
      "drawn from the boiling point alone.",
      "water 0.01, carbon dioxide \u221256.6, nitrogen \u2212210.0 °C", "NIST Chemistry WebBook"},
     {"triple_pressure", "Triple point, pressure", "p_3", "Pa", kNumber, kLogarithmic, 0, 0, 1e6, 0, 1e9, "kPa", 1e-3, 0,
@@ -100,8 +98,7 @@ constexpr ParameterDeclaration kProperties[] = {
      "water 2834, carbon dioxide 571 kJ/kg", "IAPWS R14-08"},
     {"critical_temperature", "Critical temperature", "T_c", "K", kNumber, kLinear, 0, 0, 5000, 0, 1e5, "°C", 1,
      kCelsius, "", "Phase change",
-     "The boiling point rises no further than this, however high the pressure. Absolute zero (\u2212273.15 °C): not "
-     "known.",
+     "The boiling point rises no further than this, however high the pressure. None: not known.",
      "water 373.9, carbon dioxide 31.0, ethanol 240.8 °C", "NIST Chemistry WebBook"},
     {"gas_volume_factor", "Size of a vapour parcel", "v_g", "", kNumber, kLinear, 2.5, 1, 2.5, 1, 3, "×", 1, 0, "",
      "Phase change",

@@ -50,6 +50,7 @@ class TestTheme : public QObject {
   void iconsTintAndStaySharp();
   void numbersAreFormatted_data();
   void numbersAreFormatted();
+  void absoluteZeroStandsForNone();
   void errorsBelowRoundingAreNotSpelledOut();
   void fieldsKeepTheirDecimals_data();
   void fieldsKeepTheirDecimals();
@@ -256,6 +257,22 @@ void TestTheme::fieldsKeepTheirDecimals() {
   d.maximum = maximum;
   d.scale = logarithmic ? api::Scale::Logarithmic : api::Scale::Linear;
   QCOMPARE(formatField(d, value), text);
+}
+
+void TestTheme::absoluteZeroStandsForNone() {
+  api::ParameterDeclaration d = declaration("K", "°C", 1, -273.15);
+  d.maximum = 3500;
+  d.hardMaximum = 1e4;
+  QCOMPARE(formatValue(d, 0), QStringLiteral("none"));
+  QCOMPARE(formatValue(d, 273.15), QStringLiteral("0.0 °C"));
+  for (const char* text : {"none", " None "}) {
+    const Typed typed = parseTyped(QString::fromUtf8(text), d, 300);
+    QVERIFY2(typed.problem.isEmpty() && typed.value == 0, text);
+  }
+  d.hardMinimum = 1;  // a body has a temperature
+  QVERIFY(!formatValue(d, 0).contains(QStringLiteral("none")));
+  QVERIFY(!parseTyped(QStringLiteral("none"), d, 300).problem.isEmpty());
+  QCOMPARE(formatValue(declaration("m"), 0), QStringLiteral("0.000 m"));
 }
 
 void TestTheme::typedTextIsUnderstood_data() {

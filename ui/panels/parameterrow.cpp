@@ -63,6 +63,7 @@ bool ParameterRow::Private::drawsSymbol() const {
 
 QString ParameterRow::Private::unitText() const {
   // The field is narrow: "W/(m·K)" is shown as "W/m·K"; the tooltip has it in full.
+  if (standsForNone(declaration(), q->number())) return {};
   QString unit = displayUnit(declaration());
   unit.remove(QLatin1Char('(')).remove(QLatin1Char(')'));
   return unit;

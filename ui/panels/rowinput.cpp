@@ -231,7 +231,9 @@ void ParameterRow::Private::startTyping(const QString& text) {
   edit->setAccessibleName(QString::fromUtf8(declaration().label));
   edit->setGeometry(q->fieldRect());
   // All digits of the value, not only those of the field: what is not touched must not be rounded.
-  const QString shown = formatShort(toDisplay(declaration(), q->number()), 7);
+  const double number = q->number();
+  const QString shown = standsForNone(declaration(), number) ? formatField(declaration(), number)
+                                                             : formatShort(toDisplay(declaration(), number), 7);
   edit->setText(text.isEmpty() && !model.mixed ? shown : text);
   edit->setModified(!text.isEmpty());
   edit->installEventFilter(q);

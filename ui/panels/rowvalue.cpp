@@ -164,7 +164,7 @@ QString refusal(const ParameterDeclaration& d, double value) {
 }
 
 bool isOutOfRange(const ParameterDeclaration& d, double value) {
-  if (d.kind == ParameterKind::Toggle || d.kind == ParameterKind::Choice) return false;
+  if (d.kind == ParameterKind::Toggle || d.kind == ParameterKind::Choice || standsForNone(d, value)) return false;
   const double slack = 1e-12 * std::max(std::abs(d.minimum), std::abs(d.maximum));
   return value < d.minimum - slack || value > d.maximum + slack;
 }

@@ -9,6 +9,7 @@
 #include <charconv>
 #include <cmath>
 #include <string>
+#include <string_view>
 
 namespace ps {
 namespace {
@@ -226,6 +227,8 @@ qsizetype unitStart(const QString& text) {
   return 0;
 }
 
+constexpr QLatin1String kNone("none");
+
 }  // namespace
 
 QString formatNumber(double value, int significant) { return formatted(value, significant, -1); }
@@ -258,7 +261,12 @@ QString displayUnit(const api::ParameterDeclaration& d) {
   return QString::fromUtf8(d.displayUnit && *d.displayUnit ? d.displayUnit : d.unit ? d.unit : "");
 }
 
+bool standsForNone(const api::ParameterDeclaration& d, double stored) {
+  return stored == 0 && d.displayOffset != 0 && d.hardMinimum <= 0 && std::string_view(d.unit) == "K";
+}
+
 QString formatField(const api::ParameterDeclaration& d, double stored) {
+  if (standsForNone(d, stored)) return kNone;
   double shown = toDisplay(d, stored);
   // 273.15 K - 273.15 is not always 0: what lies under the last bit of the sum is no information.
   if (std::abs(shown) < 1e-12 * std::abs(d.displayOffset)) shown = 0;
@@ -267,7 +275,7 @@ QString formatField(const api::ParameterDeclaration& d, double stored) {
 }
 
 QString formatValue(const api::ParameterDeclaration& d, double stored) {
-  const QString unit = displayUnit(d);
+  const QString unit = standsForNone(d, stored) ? QString() : displayUnit(d);
   return unit.isEmpty() ? formatField(d, stored) : formatField(d, stored) + QLatin1Char(' ') + unit;
 }
 
@@ -284,6 +292,7 @@ std::optional<double> parseNumber(const QString& text) {
 Typed parseTyped(const QString& typed, const api::ParameterDeclaration& d, double current) {
   Typed result;
   QString text = typed.trimmed();
+  if (standsForNone(d, 0) && text.compare(kNone, Qt::CaseInsensitive) == 0) return result;
   const QChar first = text.isEmpty() ? QChar() : text[0];
   const bool divides = first == QLatin1Char('/') || first == QChar(0x00F7);
   if (divides || first == QLatin1Char('*') || first == QChar(0x00D7)) {

@@ -29,6 +29,9 @@ double toDisplay(const api::ParameterDeclaration& declaration, double stored);
 double fromDisplay(const api::ParameterDeclaration& declaration, double shown);
 /// The unit that people see: displayUnit, or unit where it is empty.
 QString displayUnit(const api::ParameterDeclaration& declaration);
+/// Whether a temperature is left out: a material that never boils has its boiling point at absolute zero. Shown and
+/// typed as "none".
+bool standsForNone(const api::ParameterDeclaration& declaration, double stored);
 /// A stored value as its field shows it, without unit: four significant digits, without zeros at the end that are finer
 /// than the slider's range can tell (a logarithmic one: three significant digits; what has another zero than SI:
 /// tenths).
@@ -46,9 +49,9 @@ struct Typed {
   QString problem;        ///< "" or one sentence that says what is wrong
 };
 
-/// Reads "25", "25 °C", "77 °F", "300 K", "1,5", "1/3", "2*(3+4)", "*2", "/3", "1e-3", "3 × 10⁻⁶", "2.5 GPa".
-/// A bare number is in the displayed unit; a unit must be of the same kind as the declaration's ("m" for a length).
-/// `current` (SI) is what relative input starts from. Does not look at ranges.
+/// Reads "25", "none" where a value may be left out, "25 °C", "77 °F", "300 K", "1,5", "1/3", "2*(3+4)", "*2", "/3",
+/// "1e-3", "3 × 10⁻⁶", "2.5 GPa". A bare number is in the displayed unit; a unit must be of the same kind as the
+/// declaration's ("m" for a length). `current` (SI) is what relative input starts from. Does not look at ranges.
 Typed parseTyped(const QString& text, const api::ParameterDeclaration& declaration, double current);
 
 /// The number or sum alone ("1,5", "−3 × 10⁻⁶", "1/3", "24 594"), without a unit; nullopt when it is none.
