@@ -99,12 +99,12 @@ std::string packFrame(const Snapshot& s) {
   Packer packer;
   const size_t n = s.position.size();
   packer.value(uint64_t{n});
-  packer.value(uint64_t{s.materialColour.size()});
+  packer.value(uint64_t{s.materialLook.size()});
   packer.value(s.stats.frame);
   packer.value(s.stats.time);
   packer.value(s.stats.thermalTime);
   packer.value(s.revision);
-  packer.array(s.materialColour, s.materialColour.size());
+  packer.array(s.materialLook, s.materialLook.size());
   packer.array(s.position, n);
   packer.array(s.temperature, n);
   packer.array(s.speed, n);
@@ -126,7 +126,7 @@ std::shared_ptr<Snapshot> unpackFrame(const std::string& bytes, const std::strin
   s->stats.time = unpacker.value<double>();
   s->stats.thermalTime = unpacker.value<double>();
   s->revision = unpacker.value<uint64_t>();
-  unpacker.array(s->materialColour, colours);
+  unpacker.array(s->materialLook, colours);
   unpacker.array(s->position, n);
   unpacker.array(s->temperature, n);
   unpacker.array(s->speed, n);
@@ -214,6 +214,10 @@ void RecordingReader::readHeader() {
   if (version->get<double>() > kRecordingVersion) {
     throw InputError(m_path + ": was made by a newer version (recording format " + version->dump() +
                      "); update PhaseSketch");
+  }
+  if (version->get<double>() < kRecordingVersion) {
+    throw InputError(m_path + ": was made by an older version (recording format " + version->dump() +
+                     "); simulate its project again");
   }
   m_project = header["project"].dump();
 }

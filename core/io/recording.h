@@ -14,7 +14,7 @@
 // Frames follow each other, so that a recording that was cut off is good up to there.
 namespace ps {
 
-inline constexpr int kRecordingVersion = 1;
+inline constexpr int kRecordingVersion = 2;
 
 class RecordingWriter {
  public:

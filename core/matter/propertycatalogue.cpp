@@ -175,6 +175,11 @@ constexpr ParameterDeclaration kProperties[] = {
      "version do not radiate.",
      "polished metal 0.05, rusty iron 0.8, wax 0.9, ice 0.97",
      "Incropera et al., Fundamentals of Heat and Mass Transfer"},
+    {"clearness", "Clearness", "", "", kNumber, kLinear, 0, 0, 1, 0, 1, "%", 100, 0, "", "Light",
+     "How far light goes into the solid, for its look alone: clear matter is frosted and light shines through its "
+     "gaps, "
+     "opaque matter shows its colour.",
+     "ice, glass 100 %, jelly 80 %, wax 60 %, wood, iron 0 %", ""},
     {"color_red", "Red", "R", "", kNumber, kLinear, 0.7, 0, 1, 0, 1, "%", 100, 0, "", "Light",
      "Red part of the colour in which the matter is drawn (sRGB).", "ice 75 %, chocolate 29 %, lava 90 %", ""},
     {"color_green", "Green", "G", "", kNumber, kLinear, 0.7, 0, 1, 0, 1, "%", 100, 0, "", "Light",

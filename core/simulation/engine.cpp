@@ -114,7 +114,7 @@ struct Engine::Impl {
   std::vector<BakedMaterial> materials;
   EvaluatedMaterials evaluated;
   std::map<std::string, uint32_t> constraintSets;  // one per plugin: structure may join matter of any two bodies
-  std::vector<std::array<float, 3>> colours;
+  std::vector<std::array<float, 4>> looks;
   std::shared_ptr<const std::vector<std::string>> bodyIds = std::make_shared<const std::vector<std::string>>();
   std::vector<std::string> bodyNames;  // for messages, by the index that particles carry
   std::vector<std::string> probeNames;
@@ -128,19 +128,19 @@ struct Engine::Impl {
 void Engine::Impl::bakeMaterials() {
   const double pressure = compileThermal(project).ambientPressure;
   std::vector<BakedMaterial> baked;
-  std::vector<std::array<float, 3>> bakedColours;
+  std::vector<std::array<float, 4>> bakedLooks;
   EvaluatedMaterials known = evaluated;
   for (const Material& material : compileMaterials(project, plugins, &known)) {
     baked.emplace_back(material, pressure);
-    std::array<float, 3> colour{};
-    for (size_t c = 0; c < 3; ++c) {
-      constexpr const char* kKeys[] = {"color_red", "color_green", "color_blue"};
-      colour[c] = static_cast<float>(baked.back().property(kKeys[c], 293.15));
+    std::array<float, 4> look{};
+    for (size_t c = 0; c < look.size(); ++c) {
+      constexpr const char* kKeys[] = {"color_red", "color_green", "color_blue", "clearness"};
+      look[c] = static_cast<float>(baked.back().property(kKeys[c], 293.15));
     }
-    bakedColours.push_back(colour);
+    bakedLooks.push_back(look);
   }
   evaluated = std::move(known);
-  colours = std::move(bakedColours);
+  looks = std::move(bakedLooks);
   materials = baked;
   solver->setMaterials(std::move(baked));
 }
@@ -384,7 +384,7 @@ SnapshotPtr Engine::snapshot() const {
   snapshot->spacing = m->spacing;
   snapshot->flags = m->lastReport.flags;
   snapshot->bodyIds = m->bodyIds;
-  snapshot->materialColour = m->colours;
+  snapshot->materialLook = m->looks;
   fillSnapshot(*snapshot, *m->solver);
   return snapshot;
 }

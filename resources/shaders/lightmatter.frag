@@ -6,8 +6,8 @@ out vec4 colour;
 
 vec3 shadeMatter(vec3 n, vec3 v, vec3 base, float kind, float key, float open) {
   float data = matter.z;
-  bool matte = kind == 3.0;
-  float wet = kind == 2.0 ? 1.0 : 0.0, clear = matte ? 0.0 : 1.0 - data;
+  bool matte = kind == 3.0, wetted = kind >= 32.0;
+  float wet = wetted ? 1.0 : 0.0, clear = kind < 16.0 ? 0.0 : (kind - (wetted ? 32.0 : 16.0)) / 15.0;
   float facing = max(dot(n, v), 0.0), direct = dot(n, light.xyz);
   float wrap = 0.35 * clear;
   float diffuse = max((direct + wrap) / (1.0 + wrap), 0.0) * mix(key, 1.0, 0.22 * clear);
@@ -20,7 +20,7 @@ vec3 shadeMatter(vec3 n, vec3 v, vec3 base, float kind, float key, float open) {
   float fresnel = 1.0 - facing;
   fresnel *= fresnel * fresnel;
   vec3 h = normalize(v + light.xyz);
-  float gloss = matte ? 0.02 : mix(0.55, 0.14, data) + 0.35 * wet;
+  float gloss = matte ? 0.02 : mix(mix(0.25, 0.55, clear), 0.14, data) + 0.35 * wet;
   float shine = max(dot(n, h), 0.0);
   shine *= shine;
   shine *= shine;

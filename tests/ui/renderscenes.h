@@ -51,7 +51,7 @@ inline RenderScene tray() {
 // A block of ice in a puddle under steam: every kind of matter that is drawn differently.
 inline Snapshot everything() {
   Snapshot s;
-  s.materialColour = {{0.75f, 0.87f, 0.98f}};
+  s.materialLook = {{0.75f, 0.87f, 0.98f, 1}};
   uint32_t id = 0;
   for (int i = 0; i < 8; ++i)
     for (int j = 0; j < 8; ++j)

@@ -274,7 +274,7 @@ void TestRender::theSelectedBodyHasAnOutline() {
   QFETCH(int, motion);
   Renderer renderer;
   Snapshot s;
-  s.materialColour = {{0.75f, 0.87f, 0.98f}};
+  s.materialLook = {{0.75f, 0.87f, 0.98f, 1}};
   constexpr double kRadius = 0.08;
   const Vec3 chosen{-0.15, 0.3, 0}, other{0.15, 0.3, 0};
   addParticle(s, chosen, kRadius, 0, static_cast<api::Motion>(motion));

@@ -191,7 +191,7 @@ void TestRenderParts::colourNamesRoundTrip() {
 
 void TestRenderParts::interpolatesById() {
   Snapshot before, now;
-  before.materialColour = now.materialColour = {{0.5f, 0.5f, 0.5f}};
+  before.materialLook = now.materialLook = {{0.5f, 0.5f, 0.5f, 1}};
   addParticle(before, {0, 0, 0}, 0.01, 7, api::Motion::Solid, 100);
   addParticle(before, {1, 0, 0}, 0.01, 3, api::Motion::Solid, 200);
   addParticle(now, {1, 1, 0}, 0.03, 3, api::Motion::Solid, 300);

@@ -32,7 +32,7 @@ Snapshot snapshotOf(size_t frame) {
   s.stats.time = 0.1 * static_cast<double>(frame);
   s.stats.thermalTime = 600 * s.stats.time;
   s.revision = 7;
-  s.materialColour = {{0.1f, 0.2f, 0.3f}, {1, 0, 1}};
+  s.materialLook = {{0.1f, 0.2f, 0.3f, 0.4f}, {1, 0, 1, 0}};
   for (size_t i = 0; i < kParticles; ++i) {
     const float x = static_cast<float>(i) + 0.01f * static_cast<float>(frame);
     s.position.push_back({x, -x, 1 / (x + 1), 0.01f});
@@ -90,7 +90,7 @@ void TestRecording::framesReadBack() {
     QVERIFY(sameBytes(got->gasFraction, expected.gasFraction) && sameBytes(got->phase, expected.phase));
     QVERIFY(sameBytes(got->motion, expected.motion) && sameBytes(got->id, expected.id));
     QVERIFY(sameBytes(got->body, expected.body) && sameBytes(got->material, expected.material));
-    QVERIFY(sameBytes(got->materialColour, expected.materialColour));
+    QVERIFY(sameBytes(got->materialLook, expected.materialLook));
   }
 }
 
@@ -143,6 +143,8 @@ void TestRecording::brokenHeadersAreRefused_data() {
                               << "its header is broken";
   QTest::newRow("newer") << whole("{\"format\": \"phasesketch-recording\", \"version\": 9, \"project\": {}}")
                          << "newer version";
+  QTest::newRow("older") << whole("{\"format\": \"phasesketch-recording\", \"version\": 1, \"project\": {}}")
+                         << "older version (recording format 1)";
 }
 
 void TestRecording::brokenHeadersAreRefused() {

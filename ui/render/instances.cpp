@@ -35,16 +35,22 @@ Colour towardsWhite(const Colour& c, float amount) {
   return {c[0] + (1 - c[0]) * amount, c[1] + (1 - c[1]) * amount, c[2] + (1 - c[2]) * amount};
 }
 
-// The three states of one material look different: frozen matter scatters light, foam is white.
-Colour materialColour(const Snapshot& s, size_t i) {
+/// sRGB and clearness.
+std::array<float, 4> lookOf(const Snapshot& s, size_t i) {
   const size_t material = s.material[i];
-  const Colour own = material < s.materialColour.size() ? s.materialColour[material] : Colour{0.6f, 0.6f, 0.6f};
+  return material < s.materialLook.size() ? s.materialLook[material] : std::array<float, 4>{0.6f, 0.6f, 0.6f, 0};
+}
+
+// The three states of one material look different: clear matter scatters light when it is frozen, foam is white.
+Colour materialColour(const Snapshot& s, size_t i) {
+  const auto [red, green, blue, clearness] = lookOf(s, i);
+  const Colour own{red, green, blue};
   const float light = luma(own), scatter = std::sqrt(light) * (1 - 0.85f * light);
   switch (s.motion[i]) {
     case api::Motion::Static:
       return own;
     case api::Motion::Solid:
-      return towardsWhite(own, (s.phase[i] == api::Phase::Solid ? 0.85f : 0.5f) * scatter);
+      return towardsWhite(own, (s.phase[i] == api::Phase::Solid ? 0.85f : 0.5f) * scatter * clearness);
     case api::Motion::Liquid:
       return towardsWhite(own, 0.7f * std::clamp(s.gasFraction[i], 0.f, 1.f));
     case api::Motion::Gas:
@@ -53,11 +59,13 @@ Colour materialColour(const Snapshot& s, size_t i) {
   return own;
 }
 
-Kind kindOf(const InstanceRequest& request, size_t i) {
+/// As shaders read it: a Kind, and for solids and what melts its clearness in steps above it.
+float kindOf(const InstanceRequest& request, size_t i) {
   const Snapshot& s = *request.now;
-  if (s.motion[i] == api::Motion::Static) return Kind::Matte;
-  if (request.colour != ColourBy::Material) return Kind::Plain;
-  return s.phase[i] == api::Phase::Solid ? Kind::Clear : Kind::Wet;
+  if (s.motion[i] == api::Motion::Static) return static_cast<float>(Kind::Matte);
+  if (request.colour != ColourBy::Material) return static_cast<float>(Kind::Plain);
+  const Kind kind = s.phase[i] == api::Phase::Solid ? Kind::Solid : Kind::Wet;
+  return static_cast<float>(kind) + std::round(kClearest * std::clamp(lookOf(s, i)[3], 0.f, 1.f));
 }
 
 // Everything that does not depend on the order in which particles are drawn.
@@ -170,7 +178,7 @@ void collectInstances(const InstanceRequest& request, Instances& out) {
       radii += static_cast<double>(p.radius);
       ++counted;
     }
-    p.extra = static_cast<float>(kindOf(request, i));
+    p.extra = kindOf(request, i);
     const bool surface = motion == api::Motion::Liquid && request.surfaces;
     (surface ? liquids : spheres).push_back(p);
     if (request.outlined != s.body[i]) continue;

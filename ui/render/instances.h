@@ -8,8 +8,10 @@
 
 namespace ps::render {
 
-/// How a surface answers light; the shaders know the same numbers. A mote is plain and casts no shadow.
-enum class Kind { Plain = 0, Clear = 1, Wet = 2, Matte = 3, PlateTop = 4, PlateSide = 5, Dark = 6, Mote = 7 };
+/// How a surface answers light; the shaders know the same numbers. A mote is plain and casts no shadow. Solid and wet
+/// matter add their clearness, from 0 to kClearest.
+enum class Kind { Plain = 0, Matte = 3, PlateTop = 4, PlateSide = 5, Dark = 6, Mote = 7, Solid = 16, Wet = 32 };
+inline constexpr float kClearest = 15;
 
 /// One particle as the shaders read it: two texels.
 struct Instance {

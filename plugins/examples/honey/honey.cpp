@@ -34,6 +34,7 @@ constexpr MaterialProperty kProperties[] = {
     constant("conductivity_liquid", 0.35, kTypical, 'C'),
     constant("conductivity_solid", 0.35, kTypical, 'C'),
     constant("melting_temperature", 0, "a glass former: it never melts, it grows thin", 'B'),
+    constant("clearness", 1, "", 'C'),
     constant("color_red", 0.85, "", 'C'),
     constant("color_green", 0.55, "", 'C'),
     constant("color_blue", 0.1, "", 'C')};

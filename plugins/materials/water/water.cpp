@@ -78,6 +78,7 @@ const MaterialProperty kProperties[] = {
     {"bond_radius", constant(1.7), kChosen, 'C'},
     {"gas_volume_factor", constant(2.5), kChosen, 'C'},
     {"sinters", constant(1), "ice cubes in contact grow together (Faraday 1860)", 'B'},
+    {"clearness", constant(1), kChosen, 'C'},
     {"color_red", constant(0.75), kChosen, 'C'},
     {"color_green", constant(0.87), kChosen, 'C'},
     {"color_blue", constant(0.98), kChosen, 'C'},
