@@ -15,9 +15,10 @@ constexpr api::ParameterDeclaration kBody[] = {
     choice({"phase", "Phase at the start", "", ""}, "automatic|solid|liquid|gas", 0,
            {"Start", "Phase when the scene begins; automatic takes the one that is stable at the temperature.",
             "at exactly 0 °C: solid for ice, liquid for water", ""}),
-    toggle({"fixed", "Held in place", "", ""}, false,
-           {"Start", "Nothing moves it: it stands, or goes on at its velocity. Heat still flows through it.",
-            "a pan, a mould, a rock in a stream, a paddle", ""}),
+    toggle(
+        {"fixed", "Held in place", "", ""}, false,
+        {"Start", "Nothing moves it: it stands, or goes on and turns as its velocity and spin say. Heat still flows.",
+         "a pan, a mould, a rock in a stream, a paddle", ""}),
     number({"jitter", "Disorder", "", ""}, {0, 0, 0.3, 0, 0.5},
            {"Start",
             "How far each particle stands off its place in the lattice at the start, along each axis, as a share of "
@@ -26,6 +27,13 @@ constexpr api::ParameterDeclaration kBody[] = {
     integer({"seed", "Kind of disorder", "", ""}, {1, 1, 100, 0, 4294967295.0},
             {"Start", "Another number places the particles otherwise; the same number always alike.",
              "compare runs with 1, 2 and 3 to see what chance does", ""}),
+    number({"motion_start", "Sets off at", "", "s"}, {0, 0, 60, 0, 1e9},
+           {"Motion",
+            "When a body that is held in place, and has a velocity or a spin, begins to move. Until then it stands.",
+            "2 lets the water come to rest before the paddle turns", ""}),
+    number({"motion_stop", "Stops at", "", "s"}, {0, 0, 60, 0, 1e9},
+           {"Motion", "When a body that is held in place, and moves, stands still again; 0 for never.",
+            "10 for a stirrer that is switched off", ""}),
 };
 
 }  // namespace

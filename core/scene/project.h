@@ -100,12 +100,12 @@ struct Body {
   std::string id, name;
   std::string material;  ///< SceneMaterial::id; sketched bodies: of their first palette entry
   std::variant<BoxShape, VoxelShape> shape;
-  ParameterSet parameters;            ///< see bodyParameters(): temperature, phase, fixed, jitter, seed
-  Vec3 velocity{0, 0, 0};             ///< m/s
-  Vec3 spin{0, 0, 0};                 ///< rad/s about the body's centre, on top of `velocity`
-  std::optional<Wave> velocityWave;   ///< on top of both
+  ParameterSet parameters;            ///< see bodyParameters(): temperature, phase, fixed, jitter, seed, motion_*
+  Vec3 velocity{0, 0, 0};             ///< m/s at the start; of a fixed body from motion_start to motion_stop
+  Vec3 spin{0, 0, 0};                 ///< rad/s about the body's centre, on top of `velocity`, likewise
+  std::optional<Wave> velocityWave;   ///< on top of both; not of fixed bodies
   Vec3 temperatureGradient{0, 0, 0};  ///< K/m about the body's centre, where `temperature` holds
-  std::vector<Region> pins;           ///< what stands in one of them at the start is held in place
+  std::vector<Region> pins;  ///< what stands in one of them at the start is held in place; a fixed body needs none
   std::vector<BodyConstraint> constraints;
   bool visible = true, locked = false;
   Unknown unknown;

@@ -49,12 +49,16 @@ void setMatter(Spawn& spawn, const Project& project, std::span<const BakedMateri
 Vec3 vec3(const api::Double3& p) { return {p.x, p.y, p.z}; }
 
 /// Mean of the places of all particles.
-Vec3 centreOf(const std::vector<Spawn>& spawns) {
+Vec3 centreOf(const Body& body, double spacing) {
+  if (const auto* box = std::get_if<BoxShape>(&body.shape)) return box->center;
+  const auto& voxels = std::get<VoxelShape>(body.shape);
   Vec3 sum{0, 0, 0};
   size_t count = 0;
-  for (const Spawn& spawn : spawns) {
-    for (const api::Double3& p : spawn.position) sum[0] += p.x, sum[1] += p.y, sum[2] += p.z;
-    count += spawn.position.size();
+  for (size_t palette = 0; palette < voxels.palette.size(); ++palette) {
+    for (const api::Double3& p : cellCentres(voxels, spacing, cellsOf(voxels, static_cast<int>(palette)))) {
+      sum[0] += p.x, sum[1] += p.y, sum[2] += p.z;
+      ++count;
+    }
   }
   for (double& c : sum) c /= static_cast<double>(std::max<size_t>(count, 1));
   return sum;
@@ -64,7 +68,7 @@ double sineAt(const Wave& wave, const Vec3& p) {
   return std::sin(2 * std::numbers::pi * p[static_cast<size_t>(wave.axis)] / wave.wavelength + wave.phase);
 }
 
-/// What changes over a body at the start.
+/// What changes over a body at the start. What is fixed has no velocity of its own: see compileMotion().
 void setFields(Spawn& spawn, const Body& body, const Vec3& centre, const api::Caloric& caloric) {
   const std::string asked = choiceOf(body.parameters, bodyParameters(), "phase");
   const Vec3 &w = body.spin, &gradient = body.temperatureGradient;
@@ -77,7 +81,7 @@ void setFields(Spawn& spawn, const Body& body, const Vec3& centre, const api::Ca
       v[a] += w[b] * r[c] - w[c] * r[b];
       if (body.velocityWave) v[a] += body.velocityWave->velocity[a] * sineAt(*body.velocityWave, p);
     }
-    spawn.velocity.push_back(double3(v));
+    spawn.velocity.push_back(spawn.fixed ? api::Double3{0, 0, 0} : double3(v));
     if (!warped) continue;
     const double t = spawn.temperature + gradient[0] * r[0] + gradient[1] * r[1] + gradient[2] * r[2];
     if (!(t >= 1)) {
@@ -258,7 +262,7 @@ std::vector<Spawn> compileBody(const Project& project, const PluginRegistry& plu
   }
   const double jitter = numberOf(body.parameters, bodyParameters(), "jitter");
   const double seed = numberOf(body.parameters, bodyParameters(), "seed");
-  const Vec3 centre = centreOf(spawns);
+  const Vec3 centre = centreOf(body, spacing);
   std::vector<Spawn> all;
   for (Spawn& spawn : spawns) {
     // By place in the lattice: disorder does not decide who is pinned.
@@ -267,13 +271,21 @@ std::vector<Spawn> compileBody(const Project& project, const PluginRegistry& plu
       setFields(*part, body, centre, materials[part->material].caloric());
       disturb(part->position, spacing, jitter, static_cast<uint32_t>(seed));
     }
-    pinned.velocity.assign(pinned.position.size(), {0, 0, 0});
     if (!pinned.position.empty()) all.push_back(std::move(pinned));
     all.push_back(std::move(spawn));
   }
   // What is held is there before what hangs on it, whatever it is made of.
   std::stable_sort(all.begin(), all.end(), [](const Spawn& a, const Spawn& b) { return a.fixed && !b.fixed; });
   return all;
+}
+
+BodyMotion compileMotion(const Body& body, double spacing) {
+  const auto number = [&](const char* key) { return numberOf(body.parameters, bodyParameters(), key); };
+  if (!toggleOf(body.parameters, bodyParameters(), "fixed")) return {};
+  BodyMotion motion{{}, double3(body.velocity), double3(body.spin), number("motion_start")};
+  if (const double stop = number("motion_stop"); stop > 0) motion.stop = stop;
+  if (body.velocity != Vec3{0, 0, 0} || body.spin != Vec3{0, 0, 0}) motion.centre = double3(centreOf(body, spacing));
+  return motion;
 }
 
 Spawn compileCells(const Project& project, const PluginRegistry& plugins, std::span<const BakedMaterial> materials,

@@ -42,6 +42,8 @@ bool isPlaceholder(const Project& project, const Body& body, const PluginRegistr
 /// and the constraints are the engine's to set. `materials`: the scene's, baked.
 std::vector<Spawn> compileBody(const Project& project, const PluginRegistry& plugins,
                                std::span<const BakedMaterial> materials, const Body& body);
+/// How a fixed body moves; none of others.
+BodyMotion compileMotion(const Body& body, double spacing);
 /// One batch of a sketched body's cells, filled with particles of `spacing` m.
 Spawn compileCells(const Project& project, const PluginRegistry& plugins, std::span<const BakedMaterial> materials,
                    const Body& body, int palette, const std::vector<std::array<int, 3>>& cells, double spacing);

@@ -183,7 +183,9 @@ std::vector<uint32_t> Engine::Impl::born(Spawn spawn, const std::string& id, con
 }
 
 std::vector<uint32_t> Engine::Impl::born(Spawn spawn, const Body& body) {
-  if (!spawn.fixed) {
+  if (spawn.fixed) {
+    solver->setMotion(bodyIndex(body.id), compileMotion(body, spacing));
+  } else {
     for (const BodyConstraint& c : body.constraints) {
       const api::ConstraintPlugin* plugin = plugins.constraint(c.plugin);
       if (!plugin) continue;
@@ -267,6 +269,9 @@ void Engine::Impl::recompile(const std::string& owner) {
   }
   if (owner == "environment") bakeMaterials();  // pressure moves melting and boiling points
   if (owner == "environment" || owner == "solver" || owner == "thermal") setThermal();
+  if (owner == "body") {
+    for (const Body& body : project.bodies) solver->setMotion(bodyIndex(body.id), compileMotion(body, spacing));
+  }
   if (owner == "constraint") {
     for (const Body& body : project.bodies) {
       for (const BodyConstraint& c : body.constraints) {
@@ -281,7 +286,7 @@ void Engine::Impl::recompile(const std::string& owner) {
 
 void Engine::Impl::recompileAll() {
   solver->setBounds(compileBounds(project));
-  for (const char* owner : {"wall", "solver", "environment", "constraint"}) recompile(owner);
+  for (const char* owner : {"wall", "solver", "environment", "constraint", "body"}) recompile(owner);
 }
 
 Engine::Engine(const Project& project, PluginRegistry& plugins) : m(std::make_unique<Impl>(project, plugins)) {
@@ -321,7 +326,8 @@ bool Engine::setParameter(const Address& address, const Value& value) {
   if (!set) return false;
   const ParameterSet before = *set;
   set->values[address.key] = value;
-  const bool actsNow = address.owner != "body" && address.key != "particle_spacing";
+  const bool moves = address.key == "motion_start" || address.key == "motion_stop";
+  const bool actsNow = (address.owner != "body" || moves) && address.key != "particle_spacing";
   try {
     if (actsNow) {
       m->recompile(address.owner);

@@ -29,14 +29,16 @@ void SolidContact::refresh(const ParticleStore& store, const Neighbours& neighbo
                            std::span<const uint8_t> rigid) {
   m_any = false;
   m_solids.clear();
+  m_watched.clear();
   m_found.clear();
   const api::Motion* motion = store.motion();
   for (size_t i = 0; i < store.size(); ++i) {
-    if (motion[i] != api::Motion::Solid) continue;
-    m_solids.push_back(static_cast<uint32_t>(i));
+    if (motion[i] != api::Motion::Solid && motion[i] != api::Motion::Static) continue;
+    if (motion[i] == api::Motion::Solid) m_solids.push_back(static_cast<uint32_t>(i));
+    m_watched.push_back(static_cast<uint32_t>(i));
     m_found.push_back(store.position()[i]);
   }
-  if (m_solids.empty()) return;
+  if (m_solids.empty()) return m_watched.clear();
   const StructureGraph& graph = constraints.graph(store.size());
   const api::NeighbourView view = neighbours.view();
   const float reach2 = static_cast<float>(m_reach * m_reach);
@@ -69,8 +71,8 @@ void SolidContact::refresh(const ParticleStore& store, const Neighbours& neighbo
 
 bool SolidContact::stale(const ParticleStore& store) const {
   const float limit2 = static_cast<float>(m_halfSkin * m_halfSkin);
-  for (size_t k = 0; k < m_solids.size(); ++k) {
-    const api::Float4 a = store.position()[m_solids[k]], b = m_found[k];
+  for (size_t k = 0; k < m_watched.size(); ++k) {
+    const api::Float4 a = store.position()[m_watched[k]], b = m_found[k];
     const float x = a.x - b.x, y = a.y - b.y, z = a.z - b.z;
     if (x * x + y * y + z * z > limit2) return true;
   }

@@ -22,8 +22,8 @@ class SolidContact {
   /// in `rigid`) are left to RigidContact.
   void refresh(const ParticleStore& store, const Neighbours& neighbours, ConstraintSystem& constraints,
                std::span<const uint8_t> rigid);
-  /// True when a solid has moved more than half the skin since the pairs were found. Liquid that splashes asks for new
-  /// neighbour lists far more often than solids ask for new pairs.
+  /// True when a solid or a static one has moved more than half the skin since the pairs were found. Liquid that
+  /// splashes asks for new neighbour lists far more often than solids ask for new pairs.
   bool stale(const ParticleStore& store) const;
   void project(ParticleStore& store);
   /// What fixed particles moved, kg m.
@@ -58,8 +58,8 @@ class SolidContact {
   std::vector<Friction> m_friction;  ///< per material
   std::vector<Chunk> m_chunks;
   Received m_given;
-  std::vector<uint32_t> m_solids;
-  std::vector<api::Float4> m_found;  ///< where the solids were when the pairs were found
+  std::vector<uint32_t> m_solids, m_watched;  ///< watched: static ones too
+  std::vector<api::Float4> m_found;           ///< where those watched were when the pairs were found
   std::vector<uint8_t> m_contacts;
   bool m_any = false;
 };

@@ -115,6 +115,8 @@ void Solver::setConstraintParameters(uint32_t set, uint32_t body, std::vector<do
   m->constraints.setParameters(set, body, std::move(parameters));
 }
 
+void Solver::setMotion(uint32_t body, const BodyMotion& motion) { m->motion.set(body, motion, m->store); }
+
 void Solver::Impl::configure() {
   if (configured) return;
   if (const Period period(bounds.minimum, bounds.maximum, bounds.periodic); !(period == store.period())) {
@@ -208,6 +210,7 @@ std::vector<uint32_t> Solver::spawn(const Spawn& spawn) {
     store.motion()[i] = api::Motion::Static;
     store.velocity()[i].w = 0;
   }
+  m->motion.adopt(store, first, last, m->time);
   if (!spawn.constraintSets.empty()) {
     m->neighbours.build(store);
     for (const uint32_t set : spawn.constraintSets) m->constraints.build(set, store, m->neighbours, members);
@@ -241,7 +244,8 @@ void Solver::putBack(const TakenMatter& matter) {
   if (matter.particles.id.empty()) return;
   m->configure();
   const double before = m->heat.energy(m->store);
-  m->store.putBack(matter.particles);
+  const size_t first = m->store.putBack(matter.particles);
+  m->motion.putBack(m->store, first, m->store.size(), m->time);
   m->constraints.putBack(m->store, matter.constraints);
   m->matterChanged(before);
 }
@@ -280,6 +284,7 @@ uint64_t Solver::stateHash() const {
   Hash hash;
   m->store.addTo(hash);
   m->constraints.addTo(hash, m->store);
+  m->motion.addTo(hash);
   hash.add(m->frame);
   hash.add(m->time);
   hash.add(m->thermalTime);

@@ -2,6 +2,7 @@
 #pragma once
 #include "core/solver/constraintsystem.h"
 #include "core/solver/heat.h"
+#include "core/solver/prescribedmotion.h"
 #include "core/solver/settings.h"
 
 #include <phasesketch/constraint.h>
@@ -19,9 +20,10 @@ struct Spawn {
   uint32_t body = 0;
   double temperature = 293.15;  ///< K
   api::Phase phase = api::Phase::Liquid;
-  std::vector<double> temperatures;  ///< K, one each; empty: `temperature` for all
-  std::vector<api::Phase> phases;    ///< one each; empty: `phase` for all
-  bool fixed = false;                ///< static boundary particles: they go on at their velocity, whatever they meet
+  std::vector<double> temperatures;      ///< K, one each; empty: `temperature` for all
+  std::vector<api::Phase> phases;        ///< one each; empty: `phase` for all
+  bool fixed = false;                    ///< static boundary particles: they go on at their velocity, or as
+                                         ///< setMotion() says, whatever they meet
   std::vector<uint32_t> constraintSets;  ///< built over the new particles
 };
 
@@ -76,6 +78,9 @@ class Solver {
   uint32_t addConstraintSet(const api::ConstraintPlugin* plugin, std::string name, std::vector<double> parameters);
   void setConstraintParameters(uint32_t set, uint32_t body, std::vector<double> parameters);
 
+  /// How the fixed particles of a body move, those to come too; the body goes on from where it is.
+  void setMotion(uint32_t body, const BodyMotion& motion);
+
   /// Returns the ids of the new particles. Mass is rest density times spacing^3 of the state at birth.
   std::vector<uint32_t> spawn(const Spawn& spawn);
   /// Removes particles by id; ids already gone are skipped. Their energy is booked as a source.
@@ -100,7 +105,7 @@ class Solver {
   double thermalEnergy() const;                     ///< J
   std::span<const double> thermalEnergies() const;  ///< J per particle, until the next call; empty without a model
   double elasticEnergy() const;                     ///< J, stored in constraints, as their plugins say
-  /// All particle fields by id, constraints, clocks.
+  /// All particle fields by id, constraints, prescribed motions, clocks.
   uint64_t stateHash() const;
 
  private:

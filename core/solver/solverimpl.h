@@ -5,6 +5,7 @@
 #include "core/solver/gasforces.h"
 #include "core/solver/impacts.h"
 #include "core/solver/phasestage.h"
+#include "core/solver/prescribedmotion.h"
 #include "core/solver/rigidcontact.h"
 #include "core/solver/sheetcontact.h"
 #include "core/solver/solver.h"
@@ -33,7 +34,9 @@ struct Solver::Impl {
   ParticleStore store;
   ParticleStore lastGood;  ///< as the frame began, in the order that the constraints know
   HeatLedger lastGoodLedger;
+  PrescribedMotion lastGoodMotion;
   bool lastGoodValid = false;  ///< not after particles were added or removed
+  PrescribedMotion motion;
   Neighbours neighbours;
   ConstraintSystem constraints;
   DensityStage density;
@@ -75,7 +78,7 @@ struct Solver::Impl {
   void backToLastGood();
   void listsChanged(bool newStructure);
   void substep(uint32_t index);
-  void predict(double dt);
+  void predict(uint32_t index, double dt);
   Vector3 momentum() const;      ///< kg m/s, of what moves
   Vector3 displacement() const;  ///< kg m, since the start of the substep, of what moves
   /// Calls into plugins, and books what comes from outside: nothing, unless something hangs on what is fixed.

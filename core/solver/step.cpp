@@ -140,6 +140,7 @@ void Solver::Impl::closeFrame() {
 void Solver::Impl::keepLastGood() {
   lastGood.copyFrom(store);
   lastGoodLedger = heat.ledger();
+  lastGoodMotion = motion;
   lastGoodValid = true;
 }
 
@@ -147,6 +148,7 @@ void Solver::Impl::backToLastGood() {
   if (!lastGoodValid) return;
   store.copyFrom(lastGood);
   heat.setLedger(lastGoodLedger);
+  motion = lastGoodMotion;
   rigid.forget();
   reordered = true;
 }
@@ -162,7 +164,7 @@ void Solver::Impl::freshLists() {
     structureChanged = true;
   }
   density.refresh(store, neighbours);
-  swept.refresh(store);
+  swept.refresh(store, motion.movesWithin(time, settings.dt));
   if (!structureChanged) return;
   listsChanged(true);
   structureChanged = false;
@@ -184,7 +186,8 @@ void Solver::Impl::listsChanged(bool newStructure) {
   if (newStructure || contact.stale(store)) contact.refresh(store, neighbours, constraints, rigid.members());
 }
 
-void Solver::Impl::predict(double dt) {
+void Solver::Impl::predict(uint32_t index, double dt) {
+  motion.advance(store.period(), time + index * dt, dt);
   weight.start((store.size() + kGrain - 1) / kGrain);
   forChunks(store.size(), kGrain, [&](size_t first, size_t last) {
     api::Float4 *position = store.position(), *previous = store.previous(), *velocity = store.velocity();
@@ -205,6 +208,7 @@ void Solver::Impl::predict(double dt) {
       position[i].y += step * velocity[i].y;
       position[i].z += step * velocity[i].z;
     }
+    motion.lead(store, first, last);
   });
   external.add(weight.total());
 }
@@ -232,7 +236,7 @@ void Solver::Impl::velocities(double dt) {
 void Solver::Impl::substep(uint32_t index) {
   const double dt = settings.dt / settings.substeps;
   timed(Stage::Contact, [&] {
-    predict(dt);
+    predict(index, dt);
     impacts.sweep(store, constraints, rigid.members());
     wallStage.project(store);
   });

@@ -27,6 +27,7 @@ void SweptClamp::configure(const SolverSettings& settings) {
   m_radius = kContact * settings.spacing;
   m_contact = kContactDiameter * settings.spacing;
   m_leastCell = 1.5 * settings.spacing;
+  m_halfSkin = 0.5 * kSkinSpacings * settings.spacing;
   // A list reaches a support radius; whoever has moved less than this since, without a static entry, has met none.
   m_safeWay = 0.9 * (settings.supportRatio - kContactDiameter) * settings.spacing;
 }
@@ -37,19 +38,19 @@ int SweptClamp::cellOf(double coordinate, int axis) const {
   return t > 0 ? (t < m_cells[a] ? static_cast<int>(t) : m_cells[a] - 1) : 0;
 }
 
-void SweptClamp::refresh(const ParticleStore& store) {
+void SweptClamp::refresh(const ParticleStore& store, bool led) {
   m_period = store.period();
   m_static.clear();
   m_unsorted.clear();
   m_obstacles.clear();
-  m_longest = 0;
+  m_longest = led ? 1 : 0;  // known when they have moved
   for (uint32_t i = 0; i < store.size(); ++i) {
     if (store.motion()[i] != api::Motion::Static) continue;
     const api::Double3 p = store.wrappedPosition(i);
     m_static.push_back(i);
     m_unsorted.push_back({{p.x, p.y, p.z}, {}});
     const Point speed = pointOf(store.velocity()[i]);
-    if (dot(speed, speed) > 0) m_longest = 1;  // known when it has moved
+    if (dot(speed, speed) > 0) m_longest = 1;
   }
   if (!m_unsorted.empty()) sortIntoCells();
 }
@@ -91,11 +92,13 @@ void SweptClamp::refreshLists(const ParticleStore& store, const Neighbours& neig
 }
 
 bool SweptClamp::maySkip(const ParticleStore& store, const Neighbours& neighbours, size_t i) const {
-  if (m_nearStatic[i] != 0 || m_longest > 0) return false;
+  if (m_nearStatic[i] != 0) return false;
+  // Static ones that move have gone no farther since than lists allow, and in this substep.
+  const double safeWay = m_longest > 0 ? m_safeWay - m_halfSkin - m_longest : m_safeWay;
   const Point built = pointOf(neighbours.built()[i]);
   for (const api::Float4& end : {store.previous()[i], store.position()[i]}) {
     const Point d = minus(pointOf(end), built);
-    if (!(dot(d, d) < m_safeWay * m_safeWay)) return false;
+    if (!(safeWay > 0 && dot(d, d) < safeWay * safeWay)) return false;
   }
   return true;
 }

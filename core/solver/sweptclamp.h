@@ -15,8 +15,8 @@ namespace ps {
 class SweptClamp {
  public:
   void configure(const SolverSettings& settings);
-  /// Once per frame: finds the static particles.
-  void refresh(const ParticleStore& store);
+  /// Once per frame: finds the static particles; `led`: some of them will be set in motion in it.
+  void refresh(const ParticleStore& store, bool led);
   /// After new lists: which particles have a static one in their list.
   void refreshLists(const ParticleStore& store, const Neighbours& neighbours);
   /// Members of rigid bodies (1 in `rigid`) are not moved: see held(). What a constraint ties may come nearer to what
@@ -54,8 +54,8 @@ class SweptClamp {
   Point sweepOf(Sweep sweep) const;
   int cellOf(double coordinate, int axis) const;
 
-  double m_radius = 0, m_contact = 0, m_cell = 1, m_leastCell = 1, m_safeWay = 0;  ///< m
-  double m_longest = 0;                                                            ///< m, of the obstacles' ways
+  double m_radius = 0, m_contact = 0, m_cell = 1, m_leastCell = 1, m_safeWay = 0, m_halfSkin = 0;  ///< m
+  double m_longest = 0;  ///< m, of the obstacles' ways
   Period m_period;
   Point m_low{}, m_high{};
   std::array<int, 3> m_cells{1, 1, 1};

@@ -77,6 +77,7 @@ inline std::vector<double> distances(const ps::Solver& solver, uint32_t body) {
   }
   std::sort(members.begin(), members.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<double> result;
+  result.reserve(members.size());
   for (const auto& m : members) result.push_back(length(m.second - members[0].second));
   return result;
 }
