@@ -292,7 +292,7 @@ class ProjectChecker {
   void checkPinned() {
     for (size_t i = 0; i < m_project.view.pinned.size(); ++i) {
       const auto address = Address::parse(m_project.view.pinned[i]);
-      if (!address || (!findSet(m_project, *address) && !sceneValue(m_project, address->key))) {
+      if (!address || (!findSet(m_project, *address) && !outsideValue(m_project, *address))) {
         warn(at("/view/pinned", i), "the scene has no parameter '" + m_project.view.pinned[i] + "'");
       }
     }

@@ -233,12 +233,15 @@ struct Address {
 ParameterSet* findSet(Project& project, const Address& address);
 const ParameterSet* findSet(const Project& project, const Address& address);
 
-/// What a scene says outside of its parameter sets, by the key of a "scene" address: "gravity" in m/s² along the
-/// scene's own direction, "thermal_model" as a plugin's id or "none". Nothing for other keys.
-std::optional<Value> sceneValue(const Project& project, const std::string& key);
-/// Sets it; where there was no gravity it points down. False, and nothing happens, for other keys and types.
-bool setSceneValue(Project& project, const std::string& key, const Value& value);
-/// Declarations of the two; `models` are the ids of installed thermal models.
+/// What a project says outside of its parameter sets: "scene/gravity" in m/s² along the scene's own direction,
+/// "scene/thermal_model" as a plugin's id or "none", and the components of a body's motion, "body/ID/velocity_x" in m/s
+/// to "body/ID/spin_z" in rad/s. Nothing for other addresses.
+std::optional<Value> outsideValue(const Project& project, const Address& address);
+/// Sets it; where there was no gravity it points down. False, and nothing happens, for other addresses and types.
+bool setOutsideValue(Project& project, const Address& address, const Value& value);
+/// Declarations of those of the scene; `models` are the ids of installed thermal models.
 std::vector<api::ParameterDeclaration> sceneParameters(const std::vector<std::string>& models);
+/// Declarations of a body's velocity and spin, by component.
+api::ParameterList bodyMotionParameters();
 
 }  // namespace ps

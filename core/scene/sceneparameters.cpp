@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace ps {
 namespace {
@@ -17,30 +18,80 @@ constexpr api::ParameterDeclaration kGravity =
            {"Gravity", "How strongly everything is pulled down.",
             "floating 0, Moon 1.62, Mars 3.72, Earth 9.81, Jupiter 24.8", ""});
 
+constexpr const char* kThermalModel = "thermal_model";
+
+constexpr Words kVelocity{"Motion",
+                          "Speed along this axis: of a body that is held in place as long as it moves, of any other at "
+                          "the start, from the next reset on.",
+                          "a paddle 0.2, a thrown ball 10", ""};
+constexpr Words kSpin{
+    "Motion",
+    "Turning about this axis through the body's centre, anticlockwise where the axis points at you: of "
+    "a body that is held in place as long as it moves, of any other at the start, from the next reset "
+    "on.",
+    "a stirrer 180, a turntable 200, one turn a second 360", ""};
+constexpr Display kDegrees{"°/s", 180 / std::numbers::pi, 0};
+
+constexpr api::ParameterDeclaration kMotion[] = {
+    number({"velocity_x", "Velocity along x", "v_x", "m/s"}, {0, -5, 5, -1e4, 1e4}, kVelocity),
+    number({"velocity_y", "Velocity along y", "v_y", "m/s"}, {0, -5, 5, -1e4, 1e4}, kVelocity),
+    number({"velocity_z", "Velocity along z", "v_z", "m/s"}, {0, -5, 5, -1e4, 1e4}, kVelocity),
+    number({"spin_x", "Spin about x", "ω_x", "rad/s"}, {0, -20, 20, -1e4, 1e4}, kSpin, kDegrees),
+    number({"spin_y", "Spin about y", "ω_y", "rad/s"}, {0, -20, 20, -1e4, 1e4}, kSpin, kDegrees),
+    number({"spin_z", "Spin about z", "ω_z", "rad/s"}, {0, -20, 20, -1e4, 1e4}, kSpin, kDegrees),
+};
+
+struct Component {
+  Vec3 Body::*vector;
+  size_t axis;
+};
+
+std::optional<Component> componentOf(const std::string& key) {
+  for (size_t i = 0; i < std::size(kMotion); ++i) {
+    if (key == kMotion[i].key) return Component{i < 3 ? &Body::velocity : &Body::spin, i % 3};
+  }
+  return std::nullopt;
+}
+
 double length(const Vec3& v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
 
 }  // namespace
 
-std::optional<Value> sceneValue(const Project& project, const std::string& key) {
-  if (key == kGravity.key) return length(project.environment.gravity);
-  if (key != "thermal_model") return std::nullopt;
+std::optional<Value> outsideValue(const Project& project, const Address& address) {
+  if (address.owner == "body") {
+    const auto body =
+        std::find_if(project.bodies.begin(), project.bodies.end(), [&](const Body& b) { return b.id == address.id; });
+    const std::optional<Component> component = componentOf(address.key);
+    if (body == project.bodies.end() || !component) return std::nullopt;
+    return ((*body).*(component->vector))[component->axis];
+  }
+  if (address.owner != "scene") return std::nullopt;
+  if (address.key == kGravity.key) return length(project.environment.gravity);
+  if (address.key != kThermalModel) return std::nullopt;
   return project.solver.thermalModel.empty() ? std::string(kNoModel) : project.solver.thermalModel;
 }
 
-bool setSceneValue(Project& project, const std::string& key, const Value& value) {
-  if (const auto* strength = std::get_if<double>(&value); strength && key == kGravity.key) {
+bool setOutsideValue(Project& project, const Address& address, const Value& value) {
+  const std::optional<Value> before = outsideValue(project, address);
+  if (!before || before->index() != value.index()) return false;
+  if (address.owner == "body") {
+    const auto body =
+        std::find_if(project.bodies.begin(), project.bodies.end(), [&](const Body& b) { return b.id == address.id; });
+    const Component component = *componentOf(address.key);
+    ((*body).*(component.vector))[component.axis] = std::get<double>(value);
+  } else if (address.key == kThermalModel) {
+    const auto& model = std::get<std::string>(value);
+    project.solver.thermalModel = model == kNoModel ? std::string() : model;
+  } else {
     Vec3& gravity = project.environment.gravity;
-    const double before = length(gravity);
-    for (double& component : gravity) component = before > 0 ? component * (*strength / before) : 0;
-    if (!(before > 0)) gravity[1] = -*strength;
-    return true;
+    const double strength = std::get<double>(value), old = std::get<double>(*before);
+    for (double& part : gravity) part = old > 0 ? part * (strength / old) : 0;
+    if (!(old > 0)) gravity[1] = -strength;
   }
-  if (const auto* model = std::get_if<std::string>(&value); model && key == "thermal_model") {
-    project.solver.thermalModel = *model == kNoModel ? std::string() : *model;
-    return true;
-  }
-  return false;
+  return true;
 }
+
+api::ParameterList bodyMotionParameters() { return api::listOf(kMotion); }
 
 std::vector<api::ParameterDeclaration> sceneParameters(const std::vector<std::string>& models) {
   std::string choices;
@@ -48,7 +99,7 @@ std::vector<api::ParameterDeclaration> sceneParameters(const std::vector<std::st
   choices += kNoModel;
   const auto standard = std::find(models.begin(), models.end(), SolverOptions{}.thermalModel);
   return {kGravity,
-          choice({"thermal_model", "Thermal model", "", ""}, kept(choices), static_cast<int>(standard - models.begin()),
+          choice({kThermalModel, "Thermal model", "", ""}, kept(choices), static_cast<int>(standard - models.begin()),
                  {"Heat", "How matter keeps its heat. Matter starts with the new model from its temperature and phase.",
                   "enthalpy for everything; the thesis's bookkeeping for comparison", ""})};
 }

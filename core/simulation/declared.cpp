@@ -54,22 +54,25 @@ api::ParameterList sceneDeclarations(const Project& project, const PluginRegistr
 }
 
 /// As sceneDeclarations(), for one body.
-api::ParameterList bodyDeclarations(const Project& project, const PluginRegistry& plugins, const std::string& id) {
+api::ParameterList bodyDeclarations(const Project& project, const PluginRegistry* plugins, const std::string& id) {
   static std::map<std::vector<std::string>, std::vector<api::ParameterDeclaration>> lists;
   std::vector<std::string> choices;
-  for (const std::string& plugin : plugins.ids(PluginKind::Constraint)) {
-    if (holdsTogether(plugin, &plugins)) choices.push_back(plugin);
+  if (plugins) {
+    for (const std::string& plugin : plugins->ids(PluginKind::Constraint)) {
+      if (holdsTogether(plugin, plugins)) choices.push_back(plugin);
+    }
   }
   const auto body = itemById(project.bodies, id);
   if (body != project.bodies.end()) {
-    const std::string present = structureOf(*body, &plugins);
+    const std::string present = structureOf(*body, plugins);
     if (present != kNoStructure && std::find(choices.begin(), choices.end(), present) == choices.end())
       choices.push_back(present);
   }
   auto& list = lists[choices];
   if (list.empty()) {
-    const api::ParameterList own = bodyParameters();
-    for (size_t i = 0; i < own.count; ++i) list.push_back(own[i]);
+    for (const api::ParameterList& part : {bodyParameters(), bodyMotionParameters()}) {
+      for (size_t i = 0; i < part.count; ++i) list.push_back(part[i]);
+    }
     list.push_back(structureParameter(choices));
   }
   return {list.data(), list.size()};
@@ -95,9 +98,7 @@ api::ParameterList declarationsOf(const Project& project, const PluginRegistry* 
   if (address.owner == "wall") return wallParameters();
   if (address.owner == "emitter") return emitterParameters();
   if (address.owner == "sink") return sinkParameters();
-  if (address.owner == "body") {
-    return plugins ? bodyDeclarations(project, *plugins, address.id) : bodyParameters();
-  }
+  if (address.owner == "body") return bodyDeclarations(project, plugins, address.id);
   if (address.owner == "material" && propertyIndex(address.key) >= 0) return propertyCatalogue();
   if (!plugins) return {};
   if (address.owner == "scene") return sceneDeclarations(project, *plugins);
@@ -146,7 +147,7 @@ Value defaultOf(const Project& project, const PluginRegistry* plugins, const Add
 }
 
 Value valueAt(const Project& project, const PluginRegistry* plugins, const Address& address) {
-  if (address.owner == "scene") return sceneValue(project, address.key).value_or(0.0);
+  if (const std::optional<Value> outside = outsideValue(project, address)) return *outside;
   if (address.owner == "body" && address.key == kStructureKey) {
     const auto body = itemById(project.bodies, address.id);
     return body == project.bodies.end() ? std::string(kNoStructure) : structureOf(*body, plugins);

@@ -63,6 +63,13 @@ auto byId(const std::vector<SceneMaterial>& materials, const std::string& id) {
   return std::find_if(materials.begin(), materials.end(), [&](const SceneMaterial& m) { return m.id == id; });
 }
 
+/// Whether a value outside of the parameter sets acts at once: motion does so where it is prescribed.
+bool actsOnTheRun(const Project& project, const Address& address) {
+  const auto body =
+      std::find_if(project.bodies.begin(), project.bodies.end(), [&](const Body& b) { return b.id == address.id; });
+  return body == project.bodies.end() || toggleOf(body->parameters, bodyParameters(), "fixed");
+}
+
 /// Particles carry indices of materials: as long as they live, each keeps its place, one that has left the document
 /// too, for undo may bring back matter of it. New ones come last.
 std::vector<SceneMaterial> inTheirPlaces(const std::vector<SceneMaterial>& living,
@@ -318,9 +325,9 @@ void Engine::update(const Project& project) {
 }
 
 bool Engine::setParameter(const Address& address, const Value& value) {
-  if (Project changed = m->document(); setSceneValue(changed, address.owner == "scene" ? address.key : "", value)) {
+  if (Project changed = m->document(); setOutsideValue(changed, address, value)) {
     update(changed);
-    return true;
+    return actsOnTheRun(changed, address);
   }
   ParameterSet* set = findSet(m->project, address);
   if (!set) return false;

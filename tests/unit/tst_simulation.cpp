@@ -29,6 +29,7 @@ class TstSimulation : public QObject {
   void anEditOfABodysConstraintReachesThatBodyAlone();
   void anEditOfTheSceneSurvivesReset();
   void gravityAndThermalModelActOnTheNextFrame();
+  void motionActsAtOnceWhereItIsPrescribed();
   void spacingActsAtTheNextReset();
   void sketchesKeepTheirPlaceAtAnotherSpacing_data();
   void sketchesKeepTheirPlaceAtAnotherSpacing();
@@ -150,6 +151,29 @@ void TstSimulation::anEditOfTheSceneSurvivesReset() {
   QVERIFY(std::abs(engine.stats().temperatureMean - 263.15) < 1e-6);
   engine.reset();
   QVERIFY(std::abs(engine.stats().temperatureMean - 253.15) < 1e-6);
+}
+
+void TstSimulation::motionActsAtOnceWhereItIsPrescribed() {
+  Project project = scenes::iceOnPlate(4, 260);
+  project.environment.gravity = {0, 0, 0};
+  project.environment.walls.clear();
+  Body& body = project.bodies[0];
+  body.parameters.values["fixed"] = true;
+  const std::string id = body.id;
+  Engine engine(project, m_plugins);
+  const auto height = [&] { return engine.solver().particles().position()[0].y; };
+  const float before = height();
+  QVERIFY(engine.setParameter({"body", id, "velocity_y"}, 0.6));
+  engine.step();
+  QVERIFY(std::abs(height() - before - 0.01f) < 1e-6f);  // 0.6 m/s for 1/60 s
+  body.parameters.values["fixed"] = false;
+  Engine loose(project, m_plugins);
+  QVERIFY(!loose.setParameter({"body", id, "velocity_y"}, 0.6));
+  loose.step();
+  QVERIFY(std::abs(loose.solver().particles().velocity()[0].y) < 1e-3f);
+  loose.reset();
+  loose.step();
+  QVERIFY(std::abs(loose.solver().particles().velocity()[0].y - 0.6f) < 1e-3f);
 }
 
 void TstSimulation::gravityAndThermalModelActOnTheNextFrame() {

@@ -70,14 +70,14 @@ QString Document::setParameter(const Address& address, const Value& value) {
     setStructure(address.id, std::get<std::string>(value));
     return {};
   }
-  const std::optional<Value> outside = address.owner == "scene" ? sceneValue(m_project, address.key) : std::nullopt;
+  const std::optional<Value> outside = outsideValue(m_project, address);
   const ParameterSet* set = findSet(m_project, address);
   if (!set && !outside)
     return QStringLiteral("%1 is no longer part of the scene.").arg(QString::fromStdString(address.text()));
   if (const QString problem = refusal(); !problem.isEmpty()) return problem;
   const api::ParameterDeclaration* declared = declaration(address);
   std::optional<Value> before = outside, after = conformed(value, *declared);
-  if (set) {
+  if (set && !outside) {
     const auto found = set->values.find(address.key);
     if (found != set->values.end()) before = found->second;
     if (*after == conformed(defaultValue(address), *declared)) after.reset();
@@ -171,7 +171,7 @@ void Document::setView(const ViewState& view) {
 
 void Document::applyParameter(const Address& address, const std::optional<Value>& value) {
   ParameterSet* set = findSet(m_project, address);
-  const bool outside = address.owner == "scene" && value && setSceneValue(m_project, address.key, *value);
+  const bool outside = value && setOutsideValue(m_project, address, *value);
   if (!set && !outside) return;
   if (outside) {
     // Done.

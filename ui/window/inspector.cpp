@@ -15,6 +15,11 @@ namespace {
 
 /// "" or why a value of this address does nothing as the scene is.
 QString whyIdle(const Project& project, const Address& address) {
+  if (address.owner == "body" && address.key.starts_with("motion_")) {
+    const ParameterSet* set = findSet(project, address);
+    if (!set || toggleOf(*set, bodyParameters(), "fixed")) return {};
+    return QStringLiteral("Only a body that is held in place moves by itself. Hold it in place first.");
+  }
   if (address.owner != "wall" || (address.key != "temperature" && address.key != "film_coefficient")) return {};
   const ParameterSet* set = findSet(project, address);
   if (!set || choiceOf(*set, wallParameters(), "heat") == "fixed_temperature") return {};
@@ -145,6 +150,10 @@ void Inspector::rebuildBody() {
   m_body->setHeader(QString::fromStdString(body->name),
                     matter + (sketched ? QStringLiteral(" · sketched") : QStringLiteral(" · block")));
   addRows(rows, "body", body->id, bodyParameters());
+  const api::ParameterList motion = bodyMotionParameters();
+  for (size_t i = 0; i < motion.count; ++i) {
+    if (auto row = rowOf({"body", body->id, motion[i].key})) rows.push_back(std::move(*row));
+  }
   if (auto structure = rowOf({"body", body->id, kStructureKey})) rows.push_back(std::move(*structure));
   for (const BodyConstraint& constraint : body->constraints) {
     const std::string id = body->id + "/" + constraint.plugin;
@@ -256,19 +265,23 @@ void Inspector::markPinned() {
   for (ParameterPanel* panel : panels()) panel->setPinned(keys);
 }
 
+/// Other rows of the owner, which may have come to act or ceased to.
+void Inspector::refreshIdle(const Address& address, std::initializer_list<const char*> keys) {
+  for (const char* key : keys) {
+    const Address other{address.owner, address.id, key};
+    const QString why = whyIdle(m_document.project(), other);
+    for (ParameterPanel* panel : panels()) panel->setDisabledReason(QString::fromStdString(other.text()), why);
+  }
+}
+
 void Inspector::onChanged(const ChangeEvent& event) {
   if (const auto* parameter = std::get_if<ParameterChanged>(&event)) {
     const Address& address = parameter->address;
     const QString key = QString::fromStdString(address.text());
     for (ParameterPanel* panel : panels()) panel->setValue(key, m_document.value(address));
     if (address.owner == "scene" && address.key == "thermal_model") rebuildSolver();
-    if (address.owner == "wall" && address.key == "heat") {
-      for (const char* idle : {"temperature", "film_coefficient"}) {
-        const Address other{"wall", address.id, idle};
-        const QString why = whyIdle(m_document.project(), other);
-        for (ParameterPanel* panel : panels()) panel->setDisabledReason(QString::fromStdString(other.text()), why);
-      }
-    }
+    if (address.owner == "wall" && address.key == "heat") refreshIdle(address, {"temperature", "film_coefficient"});
+    if (address.owner == "body" && address.key == "fixed") refreshIdle(address, {"motion_start", "motion_stop"});
     if (address.owner == "material" && propertyIndex(address.key) < 0) refreshProperties(address.id);
   } else if (std::holds_alternative<ProjectOpened>(event)) {
     m_bodyId = m_document.project().bodies.empty() ? std::string() : m_document.project().bodies.front().id;

@@ -37,6 +37,7 @@ class Inspector : public QObject {
   ParameterPanel* panelFor(const Address& address);
 
  private:
+  void refreshIdle(const Address& address, std::initializer_list<const char*> keys);
   std::vector<ParameterPanel*> panels() const { return {m_body, m_material, m_scene, m_solver}; }
   void connectPanel(ParameterPanel* panel);
   void onEdited(const QString& key, const Value& value, Edit edit);
