@@ -292,9 +292,10 @@ Engine::~Engine() = default;
 
 StepReport Engine::step() {
   m->flow.steer(*m->solver, m->project, compileSettings(m->project).dt);
+  const uint64_t before = m->solver->frame();
   m->lastReport = m->solver->step();
   for (const PluginFault& fault : m->lastReport.faults) m->plugins.fault(fault.plugin, fault.what);
-  if (!(m->lastReport.flags & static_cast<StepFlags>(StepFlag::NotFinite))) m->exchangeMatter();
+  if (m->solver->frame() != before) m->exchangeMatter();  // not of a frame that was taken back
   return m->lastReport;
 }
 

@@ -6,12 +6,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace ps {
 namespace {
 
-/// Nearer to another particle nothing is born or let go: less than a spacing, as the jet may slow down below the mouth.
+/// Nearer to another particle nothing is born: less than a spacing, as the jet may slow down below the mouth.
 constexpr double kClearance = 0.8;  // spacings
+/// Nearer to another particle nothing is let go. What is held presses what stands in its way aside, as a pump does;
+/// where it cannot, in a vessel that is full, it stays.
+constexpr double kPressed = 0.5;  // spacings
 
 double numberOf(const Emitter& emitter, const char* key) {
   return ps::numberOf(emitter.parameters, emitterParameters(), key);
@@ -76,22 +80,14 @@ void MatterFlow::drain(Solver& solver, const Project& project) {
   m_total.drained.energy += before - solver.heatLedger().sources;
 }
 
-void MatterFlow::takeBack(Solver& solver, std::span<const uint32_t> ids) {
+void MatterFlow::takeBack(Solver& solver, Layer ids) {
+  std::erase(ids, kNone);
   if (ids.empty()) return;
   const double before = solver.heatLedger().sources;
   m_given.count -= ids.size();
   m_given.mass -= massOf(solver.particles(), ids);
   solver.remove(ids);
   m_given.energy += solver.heatLedger().sources - before;
-}
-
-void MatterFlow::takeBack(Solver& solver, Pipe& pipe) {
-  std::vector<uint32_t> ids;
-  for (const Layer& layer : pipe.layers) {
-    std::copy_if(layer.begin(), layer.end(), std::back_inserter(ids), [](uint32_t id) { return id != kNone; });
-  }
-  pipe.layers.clear();
-  takeBack(solver, ids);
 }
 
 void MatterFlow::steer(Solver& solver, const Project& project, double dt) {
@@ -105,7 +101,9 @@ void MatterFlow::steer(Solver& solver, const Project& project, double dt) {
         pipe.diameter != numberOf(*emitter, "diameter") ||
         !(openBetween(*emitter, solver.time(), solver.time() + dt) > 0)) {
       changed = changed || !pipe.layers.empty();
-      takeBack(solver, pipe);
+      for (const Layer& layer : pipe.layers) takeBack(solver, layer);
+      pipe.layers.clear();
+      pipe.last.clear();
       at = gone ? m_pipes.erase(at) : std::next(at);
       continue;
     }
@@ -124,54 +122,90 @@ void MatterFlow::steer(Solver& solver, const Project& project, double dt) {
   if (changed) settle(solver);
 }
 
-/// Gives birth to the particles of a layer at these of its places.
-std::vector<uint32_t> MatterFlow::born(const Job& job, Spawn spawn, const std::vector<size_t>& places) {
-  if (places.empty()) return {};
-  std::vector<api::Double3> position;
-  for (const size_t k : places) position.push_back(spawn.position[k]);
-  spawn.position = std::move(position);
-  spawn.velocity.resize(places.size());  // all the same
+/// Gives birth to the particles of a layer at these of its places, and notes their ids there.
+void MatterFlow::born(const Job& job, const Spawn& layer, const std::vector<size_t>& places, Layer& ids) {
+  if (places.empty()) return;
+  Spawn spawn = layer;
+  spawn.position.clear();
+  spawn.velocity.clear();
+  for (const size_t k : places) {
+    spawn.position.push_back(layer.position[k]);
+    spawn.velocity.push_back(layer.velocity[k]);
+  }
   const double before = job.solver.heatLedger().sources;
-  const std::vector<uint32_t> ids = job.birth(std::move(spawn), job.emitter);
-  m_given.count += ids.size();
-  m_given.mass += massOf(job.solver.particles(), ids);
+  const std::vector<uint32_t> fresh = job.birth(std::move(spawn), job.emitter);
+  for (size_t k = 0; k < fresh.size(); ++k) ids[places[k]] = fresh[k];
+  m_given.count += fresh.size();
+  m_given.mass += massOf(job.solver.particles(), fresh);
   m_given.energy += job.solver.heatLedger().sources - before;
-  return ids;
+}
+
+/// The next layer as it is by now, `offset` m down the jet. It crossed the mouth within the frame, but nothing has
+/// drawn it along since: it gets its share of what has become of the layer before it, in line between that one and the
+/// mouth. Otherwise a jet that runs away from its mouth would open wherever a layer comes a frame later than others.
+Spawn MatterFlow::crossed(const Job& job, const Pipe& pipe, double offset) const {
+  Spawn spawn = job.layer(offset);
+  const Spawn before = job.layer(offset + job.spacing);
+  const ParticleStore& store = job.solver.particles();
+  const double share = offset / (offset + job.spacing);
+  for (size_t k = 0; k < pipe.last.size(); ++k) {
+    const size_t i = store.indexOf(pipe.last[k]);
+    if (i >= store.size()) continue;
+    const api::Float4 &p = store.position()[i], &v = store.velocity()[i];
+    api::Double3 &x = spawn.position[k], &u = spawn.velocity[k];
+    const api::Double3& from = before.position[k];
+    float dx = static_cast<float>(p.x - from.x), dy = static_cast<float>(p.y - from.y),
+          dz = static_cast<float>(p.z - from.z);
+    store.period().shorten(dx, dy, dz);
+    if (std::hypot(dx, dy, dz) > job.spacing) continue;  // it has gone its own way
+    x.x += share * dx, x.y += share * dy, x.z += share * dz;
+    u.x += share * (v.x - u.x), u.y += share * (v.y - u.y), u.z += share * (v.z - u.z);
+  }
+  return spawn;
 }
 
 /// The next layer leaves: what is held of it is let go, the rest is born.
 void MatterFlow::cross(const Job& job, Pipe& pipe, double offset, double& living) {
-  Spawn spawn = job.layer(offset);
+  const Spawn spawn = crossed(job, pipe, offset);
   Layer held(spawn.position.size(), kNone);
   if (!pipe.layers.empty()) {
     held = std::move(pipe.layers.front());
     pipe.layers.pop_front();
   }
   const ParticleStore& store = job.solver.particles();
-  TakenPlaces taken(kClearance * job.spacing, store.size(), store.period());
+  TakenPlaces taken(kClearance * job.spacing, store.size(), store.period()),
+      pressed(kPressed * job.spacing, store.size(), store.period());
   for (size_t i = 0; i < store.size(); ++i) {
-    if (!isHeld(store, i)) taken.add(store.wrappedPosition(i));
+    if (isHeld(store, i)) continue;
+    taken.add(store.wrappedPosition(i));
+    pressed.add(store.wrappedPosition(i));
   }
-  std::vector<size_t> fresh;
-  std::vector<uint32_t> leaving, staying;
+  std::vector<size_t> places;
   for (size_t k = 0; k < held.size(); ++k) {
-    if (!taken.isFree(spawn.position[k])) {
-      if (held[k] != kNone) staying.push_back(held[k]);
-    } else if (held[k] != kNone) {
-      leaving.push_back(held[k]);
-    } else {
-      fresh.push_back(k);
-    }
+    if ((held[k] == kNone ? taken : pressed).isFree(spawn.position[k])) places.push_back(k);
   }
   // What was due while the scene was at its fill is not made up for.
-  if (living + static_cast<double>(leaving.size() + fresh.size()) > job.most) {
-    staying.insert(staying.end(), leaving.begin(), leaving.end());
-    leaving.clear();
-    fresh.clear();
+  if (living + static_cast<double>(places.size()) > job.most) places.clear();
+  Layer leaving(held.size(), kNone);
+  std::vector<size_t> fresh;
+  for (const size_t k : places) {
+    leaving[k] = std::exchange(held[k], kNone);
+    if (leaving[k] == kNone) {
+      fresh.push_back(k);
+      continue;
+    }
+    const size_t i = store.indexOf(leaving[k]);
+    const api::Double3 &x = spawn.position[k], &v = spawn.velocity[k];
+    store.position()[i] = {static_cast<float>(x.x), static_cast<float>(x.y), static_cast<float>(x.z),
+                           store.position()[i].w};
+    store.velocity()[i] = {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0};
   }
-  takeBack(job.solver, staying);
   job.solver.release(leaving);
-  living += static_cast<double>(leaving.size() + born(job, std::move(spawn), fresh).size());
+  takeBack(job.solver, held);
+  born(job, spawn, fresh, leaving);
+  living +=
+      static_cast<double>(leaving.size() - static_cast<size_t>(std::count(leaving.begin(), leaving.end(), kNone)));
+  pipe.last = std::move(leaving);
 }
 
 /// Adds what the pipe lacks behind the mouth. In a wall or in what stands fixed nothing is held: those support the jet.
@@ -190,8 +224,7 @@ void MatterFlow::fill(const Job& job, Pipe& pipe) {
       if (taken.isFree(spawn.position[k]) && clearOfWalls(walls, spawn.position[k], job.spacing)) places.push_back(k);
     }
     Layer layer(spawn.position.size(), kNone);
-    const std::vector<uint32_t> ids = born(job, std::move(spawn), places);
-    for (size_t k = 0; k < ids.size(); ++k) layer[places[k]] = ids[k];
+    born(job, spawn, places, layer);
     pipe.layers.push_back(std::move(layer));
   }
 }
@@ -231,7 +264,7 @@ void MatterFlow::pour(Solver& solver, const Project& project, std::span<const Ba
     const double open = openBetween(emitter, solver.time() - dt, solver.time());
     if (!(open > 0)) continue;
     const Job job{solver, project, materials, emitter, spacing, numberOf(emitter, "most"), birth};
-    Pipe& pipe = m_pipes.try_emplace(emitter.id, Pipe{spacing, {}, {}, {}, 0}).first->second;  // the first at once
+    Pipe& pipe = m_pipes.try_emplace(emitter.id, Pipe{spacing, {}, {}, {}, {}, 0}).first->second;  // the first at once
     pipe.point = emitter.point, pipe.direction = emitter.direction;
     pipe.diameter = numberOf(emitter, "diameter");
     const ParticleStore& store = solver.particles();

@@ -41,6 +41,7 @@ class MatterFlow {
   struct Pipe {
     double travelled = 0;      ///< m, of the jet since its last layer crossed the mouth
     std::deque<Layer> layers;  ///< held, a spacing apart; the first is the next to cross
+    Layer last;                ///< that has crossed
     Vec3 point{}, direction{};
     double diameter = 0;  ///< m
   };
@@ -48,9 +49,9 @@ class MatterFlow {
 
   void cross(const Job& job, Pipe& pipe, double offset, double& living);
   void fill(const Job& job, Pipe& pipe);
-  std::vector<uint32_t> born(const Job& job, Spawn spawn, const std::vector<size_t>& places);
-  void takeBack(Solver& solver, std::span<const uint32_t> ids);
-  void takeBack(Solver& solver, Pipe& pipe);
+  Spawn crossed(const Job& job, const Pipe& pipe, double offset) const;
+  void born(const Job& job, const Spawn& layer, const std::vector<size_t>& places, Layer& ids);
+  void takeBack(Solver& solver, Layer ids);
   void settle(const Solver& solver);
 
   std::map<std::string, Pipe> m_pipes;  ///< by Emitter::id
