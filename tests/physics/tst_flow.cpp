@@ -170,6 +170,32 @@ class TestFlow : public QObject {
     QCOMPARE(engine.stats().flow.held.count, static_cast<uint64_t>(held));
   }
 
+  void everyPhasePours_data() {
+    QTest::addColumn<double>("temperature");
+    QTest::addColumn<int>("phase");
+    QTest::newRow("grains of ice") << 263.15 << static_cast<int>(ps::api::Phase::Solid);
+    QTest::newRow("steam") << 420.0 << static_cast<int>(ps::api::Phase::Gas);
+  }
+  /// Into water that a second tap pours beside it.
+  void everyPhasePours() {
+    QFETCH(double, temperature);
+    QFETCH(int, phase);
+    json scene = tapScene();
+    scene["environment"]["gravity"] = {0, -9.81, 0};
+    scene["environment"]["walls"] = {{{"id", "floor"}, {"point", {0, 0.8, 0}}, {"normal", {0, 1, 0}}}};
+    scene["emitters"].push_back(scene["emitters"][0]);
+    scene["emitters"][1].update({{"id", "spout"}, {"point", {0.07, 1, 0}}, {"temperature", temperature}});
+    ps::Engine engine(load(scene), m_plugins);
+    for (int frame = 0; frame < 60; ++frame) {
+      const ps::StepReport report = engine.step();
+      QVERIFY2(report.flags == 0, report.message.c_str());
+      verifyBooks(engine.stats());
+      if (QTest::currentTestFailed()) return;
+    }
+    QVERIFY(engine.stats().phases[static_cast<size_t>(phase)].count > 100);
+    QVERIFY(engine.stats().flow.held.count > 30);
+  }
+
   void aPipeMissesWallsAndWhatStandsFixed_data() {
     QTest::addColumn<QString>("pointer");
     QTest::addColumn<QString>("value");
