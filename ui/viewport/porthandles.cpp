@@ -131,6 +131,7 @@ std::vector<PortHandle> knobsOf(const Port& port, const Emitter& emitter, const 
 }
 std::vector<PortHandle> knobsOf(const Port& port, const Sink& sink, const PortView&) {
   std::vector<PortHandle> knobs;
+  knobs.reserve(8);
   for (int k = 0; k < 8; ++k) knobs.push_back({port, PortHandle::Part::Corner, k, cornerOf(sink, k)});
   return knobs;
 }
