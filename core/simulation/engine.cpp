@@ -211,8 +211,9 @@ void Engine::Impl::exchangeMatter() {
   const auto birth = [this](Spawn spawn, const Emitter& emitter) {
     const SceneMaterial& material = project.materials[spawn.material];
     const auto count = static_cast<double>(solver->particles().size() + spawn.position.size());
-    if (!plugins.material(material.base) || count > kMaximumParticles) return;  // a placeholder; a full machine
-    born(std::move(spawn), emitter.id, emitter.name);
+    const bool refused =
+        !plugins.material(material.base) || count > kMaximumParticles;  // a placeholder; a full machine
+    return refused ? std::vector<uint32_t>{} : born(std::move(spawn), emitter.id, emitter.name);
   };
   flow.pour(*solver, project, materials, spacing, compileSettings(project).dt, bodyOf, birth);
 }
@@ -302,9 +303,11 @@ Engine::Engine(const Project& project, PluginRegistry& plugins) : m(std::make_un
 Engine::~Engine() = default;
 
 StepReport Engine::step() {
+  m->flow.steer(*m->solver, m->project, compileSettings(m->project).dt);
+  const uint64_t before = m->solver->frame();
   m->lastReport = m->solver->step();
   for (const PluginFault& fault : m->lastReport.faults) m->plugins.fault(fault.plugin, fault.what);
-  if (!(m->lastReport.flags & static_cast<StepFlags>(StepFlag::NotFinite))) m->exchangeMatter();
+  if (m->solver->frame() != before) m->exchangeMatter();  // not of a frame that was taken back
   return m->lastReport;
 }
 
@@ -322,6 +325,7 @@ void Engine::update(const Project& project) {
     throw;
   }
   m->materialOrder = idsOf(project.materials);
+  m->flow.steer(*m->solver, m->project, compileSettings(m->project).dt);
 }
 
 bool Engine::setParameter(const Address& address, const Value& value) {
@@ -381,7 +385,11 @@ std::vector<uint32_t> Engine::addBody(const Body& body) {
   return ids;
 }
 
-TakenMatter Engine::takeParticles(const std::vector<uint32_t>& ids) { return m->solver->take(ids); }
+TakenMatter Engine::takeParticles(const std::vector<uint32_t>& ids) {
+  std::vector<uint32_t> some;
+  std::copy_if(ids.begin(), ids.end(), std::back_inserter(some), [&](uint32_t id) { return !m->flow.holds(id); });
+  return m->solver->take(some);
+}
 void Engine::putBack(const TakenMatter& matter) { m->solver->putBack(matter); }
 
 std::vector<uint32_t> Engine::particlesIn(const VoxelShape& lattice,

@@ -38,7 +38,8 @@ class Engine {
   /// Adds a body as it is at the start, without what would stand within 0.9 spacings of a live particle. Returns the
   /// ids of the new particles.
   std::vector<uint32_t> addBody(const Body& body);
-  /// Removes particles and keeps them, with all their fields and bonds, for putBack(). Until the next reset.
+  /// Removes particles and keeps them, with all their fields and bonds, for putBack(). Until the next reset. What an
+  /// emitter holds stays.
   TakenMatter takeParticles(const std::vector<uint32_t>& ids);
   void putBack(const TakenMatter& matter);
   /// Ids of live particles whose centre lies in one of the cells of a lattice.

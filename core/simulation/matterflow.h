@@ -4,6 +4,7 @@
 #include "core/simulation/snapshot.h"
 #include "core/solver/solver.h"
 
+#include <deque>
 #include <functional>
 #include <map>
 #include <span>
@@ -12,22 +13,49 @@ namespace ps {
 
 /// Emitters and sinks of one run. Matter comes and goes between two frames; its energy is booked as a source in the
 /// heat ledger, its amount in total().
+///
+/// A mouth is the end of a short pipe: the layers that come next, as many as a particle's reach is long, are there
+/// already, held at the speed of the jet, so that what has just left leans on them instead of on nothing. A layer is
+/// poured when it crosses the mouth. A tap that is shut holds nothing.
 class MatterFlow {
  public:
-  /// Gives birth to an emitter's particles.
-  using Birth = std::function<void(Spawn, const Emitter&)>;
+  /// Gives birth to an emitter's particles; returns their ids, or none where there can be none.
+  using Birth = std::function<std::vector<uint32_t>(Spawn, const Emitter&)>;
 
   /// Takes away what the sinks hold.
   void drain(Solver& solver, const Project& project);
+  /// Before a frame of `dt` s, or after an edit: what is held takes the speed of its emitter, and goes back where the
+  /// emitter has been shut, moved or taken away.
+  void steer(Solver& solver, const Project& project, double dt);
   /// Pours what is due between the solver's time less `dt` and its time, in layers a spacing apart, each as far down
-  /// the jet as it has come since it left the mouth, so that the mean flow is speed times area whatever the frame.
-  /// `bodyOf` says which body an emitter's particles are of. A place that is taken stays empty.
+  /// the jet as it has come since it left the mouth, so that the mean flow is speed times area whatever the frame; then
+  /// fills the pipes up. `bodyOf` says which body an emitter's particles are of. A place that is taken stays empty.
   void pour(Solver& solver, const Project& project, std::span<const BakedMaterial> materials, double spacing, double dt,
             const std::function<uint32_t(const Emitter&)>& bodyOf, const Birth& birth);
+  bool holds(uint32_t id) const;
   const FlowTotal& total() const { return m_total; }
 
  private:
-  std::map<std::string, double> m_travelled;  ///< m, of the jet since its last layer, by Emitter::id
+  static constexpr uint32_t kNone = ~0u;
+  using Layer = std::vector<uint32_t>;  ///< ids by place in compileLayer(); kNone: nothing is held there
+  struct Pipe {
+    double travelled = 0;      ///< m, of the jet since its last layer crossed the mouth
+    std::deque<Layer> layers;  ///< held, a spacing apart; the first is the next to cross
+    Layer last;                ///< that has crossed
+    Vec3 point{}, direction{};
+    double diameter = 0;  ///< m
+  };
+  struct Job;
+
+  void cross(const Job& job, Pipe& pipe, double offset, double& living);
+  void fill(const Job& job, Pipe& pipe);
+  Spawn crossed(const Job& job, const Pipe& pipe, double offset) const;
+  void born(const Job& job, const Spawn& layer, const std::vector<size_t>& places, Layer& ids);
+  void takeBack(Solver& solver, Layer ids);
+  void settle(const Solver& solver);
+
+  std::map<std::string, Pipe> m_pipes;  ///< by Emitter::id
+  FlowAmount m_given;                   ///< what was born less what went back
   FlowTotal m_total;
 };
 

@@ -19,7 +19,7 @@ double kineticEnergy(const ParticleStore& store) {
   return parallelSum(store.size(), kGrain, [&](size_t first, size_t last) {
     double sum = 0;
     for (size_t i = first; i < last; ++i) {
-      if (store.motion()[i] != api::Motion::Static) sum += 0.5 * store.mass()[i] * squaredSpeed(store.velocity()[i]);
+      if (store.velocity()[i].w > 0) sum += 0.5 * store.mass()[i] * squaredSpeed(store.velocity()[i]);
     }
     return sum;
   });
@@ -49,7 +49,7 @@ FrameStats measure(const Solver& solver, const StepReport& report) {
   stats.thermalTime = solver.thermalTime();
   Tally temperature;
   for (size_t i = 0; i < store.size(); ++i) {
-    if (store.motion()[i] == api::Motion::Static) continue;
+    if (store.velocity()[i].w == 0) continue;
     PhaseAmount& amount = stats.phases[static_cast<size_t>(store.phase()[i])];
     ++amount.count;
     amount.mass += store.mass()[i];

@@ -81,7 +81,7 @@ class Measurement {
     const bool byMass = m_key.base.ends_with("_mass");
     const std::string phase = byMass ? m_key.base.substr(0, m_key.base.size() - 5) : m_probe.phase;
     for (size_t i = 0; i < m_store.size(); ++i) {
-      if (m_store.motion()[i] == api::Motion::Static) continue;
+      if (m_store.velocity()[i].w == 0) continue;
       if (!m_probe.body.empty() && m_store.body()[i] != body) continue;
       if (!phase.empty() && phase != phaseName(m_store.phase()[i])) continue;
       const size_t id = m_store.id()[i];

@@ -16,20 +16,22 @@ struct PhaseAmount {
   double mass = 0;  ///< kg
 };
 
-/// Matter that crossed into the scene or out of it since the start.
 struct FlowAmount {
   uint64_t count = 0;
   double mass = 0, energy = 0;  ///< kg, J
 };
+/// Matter that crossed into the scene by the mouths of emitters, and out of it by sinks, since the start, with the heat
+/// that mouths let through; and what is held behind mouths now. Poured + held - drained is what the heat ledger calls
+/// sources, less what was sketched and erased.
 struct FlowTotal {
-  FlowAmount poured, drained;
+  FlowAmount poured, drained, held;
 };
 
 /// What one frame amounts to; small, kept for graphs and reports.
 struct FrameStats {
   uint64_t frame = 0;
   double time = 0, thermalTime = 0;                                    ///< s
-  std::array<PhaseAmount, 5> phases;                                   ///< by api::Phase, static particles left out
+  std::array<PhaseAmount, 5> phases;                                   ///< by api::Phase; not of what is fixed or held
   double temperatureMin = 0, temperatureMean = 0, temperatureMax = 0;  ///< K, mean by mass
   double densityErrorMean = 0, densityErrorMax = 0;
   double thermalEnergy = 0, kineticEnergy = 0;  ///< J

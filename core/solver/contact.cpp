@@ -51,7 +51,7 @@ void SolidContact::refresh(const ParticleStore& store, const Neighbours& neighbo
     chunk.other.clear();
     for (size_t k = first; k < last; ++k) {
       const uint32_t i = m_solids[k];
-      if (graph.ties(i) >= kEnclosed || rigid[i] != 0) continue;
+      if (graph.ties(i) >= kEnclosed || rigid[i] != 0 || store.velocity()[i].w == 0) continue;
       const size_t before = chunk.other.size();
       for (uint32_t q = view.begin[i]; q < view.last[i]; ++q) {
         const uint32_t j = view.index[q];

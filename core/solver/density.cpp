@@ -89,7 +89,7 @@ void DensityStage::refresh(const ParticleStore& store, const Neighbours& neighbo
   const api::Float4 *position = store.position(), *velocity = store.velocity();
   for (size_t i = 0; i < n; ++i) {
     m_volume[i] = position[i].w;
-    if (isFluid(motion[i])) m_fluid.push_back(static_cast<uint32_t>(i));
+    if (isFluid(motion[i]) && velocity[i].w > 0) m_fluid.push_back(static_cast<uint32_t>(i));
   }
   const api::Float4 dummy{kFarAway, kFarAway, kFarAway, 0};
   m_points[n] = m_multipliers[n] = dummy;
@@ -117,8 +117,9 @@ void DensityStage::refreshLists(const ParticleStore& store, const Neighbours& ne
   m_touchesFixed = false;
   const api::Motion* motion = store.motion();
   for (size_t i = 0; i < n; ++i) {
-    m_touchesFixed = m_touchesFixed || (m_touched[i] != 0 && store.velocity()[i].w == 0);
-    if (m_touched[i] != 0 && motion[i] == api::Motion::Solid) m_wet.push_back(static_cast<uint32_t>(i));
+    const bool moves = store.velocity()[i].w > 0;
+    m_touchesFixed = m_touchesFixed || (m_touched[i] != 0 && !moves);
+    if (m_touched[i] != 0 && moves && motion[i] == api::Motion::Solid) m_wet.push_back(static_cast<uint32_t>(i));
   }
 }
 

@@ -206,8 +206,8 @@ std::vector<uint32_t> Solver::spawn(const Spawn& spawn) {
   if (!m->heat.initialise(store, first, last, temperature, phase)) setState();
   setMass();  // the model's fractions are the better ones
   m->phase.initialise(store, first, last);
-  for (size_t i = first; i < last && spawn.fixed; ++i) {
-    store.motion()[i] = api::Motion::Static;
+  for (size_t i = first; i < last && (spawn.fixed || spawn.held); ++i) {
+    if (spawn.fixed) store.motion()[i] = api::Motion::Static;
     store.velocity()[i].w = 0;
   }
   m->motion.adopt(store, first, last, m->time);
@@ -217,6 +217,16 @@ std::vector<uint32_t> Solver::spawn(const Spawn& spawn) {
   }
   m->matterChanged(energyBefore);
   return ids;
+}
+
+void Solver::release(std::span<const uint32_t> ids) {
+  ParticleStore& store = m->store;
+  for (const uint32_t id : ids) {
+    const size_t i = store.indexOf(id);
+    if (i < store.size()) store.velocity()[i].w = 1 / store.mass()[i];
+  }
+  m->structureChanged = true;
+  m->lastGoodValid = false;
 }
 
 void Solver::remove(std::span<const uint32_t> ids) { take(ids); }

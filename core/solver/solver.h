@@ -20,10 +20,13 @@ struct Spawn {
   uint32_t body = 0;
   double temperature = 293.15;  ///< K
   api::Phase phase = api::Phase::Liquid;
-  std::vector<double> temperatures;      ///< K, one each; empty: `temperature` for all
-  std::vector<api::Phase> phases;        ///< one each; empty: `phase` for all
-  bool fixed = false;                    ///< static boundary particles: they go on at their velocity, or as
-                                         ///< setMotion() says, whatever they meet
+  std::vector<double> temperatures;  ///< K, one each; empty: `temperature` for all
+  std::vector<api::Phase> phases;    ///< one each; empty: `phase` for all
+  bool fixed = false;                ///< static boundary particles: they go on at their velocity, or as
+                                     ///< setMotion() says, whatever they meet
+  /// Matter on its way in: its neighbours feel it as what it is, but it goes on at its velocity, whatever it meets,
+  /// until it is released.
+  bool held = false;
   std::vector<uint32_t> constraintSets;  ///< built over the new particles
 };
 
@@ -83,6 +86,8 @@ class Solver {
 
   /// Returns the ids of the new particles. Mass is rest density times spacing^3 of the state at birth.
   std::vector<uint32_t> spawn(const Spawn& spawn);
+  /// Lets held particles go at the velocity that they have; ids already gone are skipped.
+  void release(std::span<const uint32_t> ids);
   /// Removes particles by id; ids already gone are skipped. Their energy is booked as a source.
   void remove(std::span<const uint32_t> ids);
   /// As remove(), and keeps what was there for putBack().

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Emitters and sinks: matter that comes and goes while a project runs, and the books about it.
+#include "onehash.h"
+
 #include "core/base/error.h"
 #include "core/io/projectio.h"
 #include "core/plugin_host/registry.h"
@@ -28,6 +30,16 @@ json tapScene() {
     "environment": {"gravity": [0, 0, 0], "bounds": {"minimum": [-5, -50, -5], "maximum": [5, 5, 5]}},
     "solver": {"particle_spacing": 0.02, "xsph_minimum": 0, "thermal": {"model": "enthalpy"}}, "duration": 10
   })");
+}
+
+/// A thread of cold honey, 16.5 mm thick, that falls freely.
+json honeyScene() {
+  json scene = tapScene();
+  scene["materials"][0]["base"] = "honey";
+  scene["environment"]["gravity"] = {0, -9.81, 0};
+  scene["solver"] = {{"particle_spacing", 0.004}, {"iterations", 2}, {"thermal", {{"model", "enthalpy"}}}};
+  scene["emitters"][0].update({{"diameter", 0.0165}, {"speed", 0.2}, {"temperature", 268.15}});
+  return scene;
 }
 
 }  // namespace
@@ -63,13 +75,46 @@ class TestFlow : public QObject {
     scene["emitters"][0]["diameter"] = 0.01;  // one particle wide
     ps::Engine engine(load(scene), m_plugins);
     for (int frame = 0; frame < 59; ++frame) engine.step();
-    std::vector<double> heights;
-    const ps::ParticleStore& store = engine.solver().particles();
-    for (size_t i = 0; i < store.size(); ++i) heights.push_back(double{store.position()[i].y});
-    std::sort(heights.begin(), heights.end());
-    QCOMPARE(heights.size(), size_t{50});
+    const std::vector<double> heights = heightsOf(engine, true);
+    QCOMPARE(heights.size(), size_t{52});
+    QCOMPARE(engine.stats().flow.poured.count, uint64_t{50});
+    QCOMPARE(engine.stats().flow.held.count, uint64_t{2});  // as many as a particle's reach is long
     // A drop alone has no density error and keeps its speed: 1e-5 m is the rounding of positions over 60 frames.
     for (size_t k = 1; k < heights.size(); ++k) QVERIFY(std::abs(heights[k] - heights[k - 1] - kSpacing) < 1e-5);
+  }
+
+  void aThreadOfHoneyLeavesWhole() {
+    ps::Engine engine(load(honeyScene()), m_plugins);
+    for (int frame = 0; frame < 13; ++frame) engine.step();
+    const std::vector<double> heights = heightsOf(engine, false);
+    QVERIFY(heights.size() > 100);
+    double gap = 1 - heights.back();
+    for (size_t k = 1; k < heights.size(); ++k) gap = std::max(gap, heights[k] - heights[k - 1]);
+    // A thread whose newest layer leans on nothing falls apart: 63 mm. Held by its pipe it is stretched by gravity,
+    // which acts a substep before viscosity does, 0.04 m/s of 0.2, and by its weight: 5.0 mm; 5.6 mm where layers are
+    // let go without what has drawn the layer before them. From 8 mm on, two spacings, layers no longer feel each
+    // other.
+    QVERIFY2(gap < 1.35 * 0.004, qPrintable(QString::number(gap)));
+  }
+
+  void aFullVesselTakesNoMore() {
+    json scene = tapScene();
+    scene["environment"]["gravity"] = {0, -9.81, 0};
+    scene["emitters"][0]["point"] = {0, 0.15, 0};
+    const auto wall = [](const char* id, std::vector<double> point, std::vector<double> normal) {
+      return json{{"id", id}, {"point", point}, {"normal", normal}};
+    };
+    scene["environment"]["walls"] = {wall("left", {-0.1, 0, 0}, {1, 0, 0}), wall("right", {0.1, 0, 0}, {-1, 0, 0}),
+                                     wall("floor", {0, 0, 0}, {0, 1, 0}),   wall("lid", {0, 0.2, 0}, {0, -1, 0}),
+                                     wall("back", {0, 0, -0.1}, {0, 0, 1}), wall("front", {0, 0, 0.1}, {0, 0, -1})};
+    ps::Engine engine(load(scene), m_plugins);
+    for (int frame = 0; frame < 240; ++frame) QCOMPARE(engine.step().flags, ps::StepFlags{0});
+    const ps::FrameStats stats = engine.stats();
+    verifyBooks(stats);
+    // Room for 10 x 10 x 10; three times as much is due. A crowd that is pressed has 0.5 % too many neighbours.
+    QVERIFY2(stats.flow.poured.count > 850 && stats.flow.poured.count <= 1000,
+             qPrintable(QString::number(stats.flow.poured.count)));
+    QVERIFY(stats.densityErrorMean < 0.02);
   }
 
   void whatComesAndGoesIsBooked() {
@@ -78,16 +123,125 @@ class TestFlow : public QObject {
     scene["sinks"] = {{{"id", "drain"}, {"minimum", {-1, -0.6, -1}}, {"maximum", {1, 0.4, 1}}}};
     scene["emitters"][0]["temperature"] = 350;
     const ps::FrameStats stats = run(scene, 180);
-    const auto& [poured, drained] = stats.flow;
-    double mass = 0;
-    uint64_t count = 0;
-    for (const ps::PhaseAmount& phase : stats.phases) mass += phase.mass, count += phase.count;
-    QVERIFY(drained.count > 500 && count > 100);
-    QCOMPARE(poured.count, drained.count + count);
-    QVERIFY(std::abs(poured.mass - drained.mass - mass) < 1e-9 * poured.mass);  // sums of doubles
-    QVERIFY(std::abs(poured.energy - drained.energy - stats.heat.sources) < 1e-9 * poured.energy);
-    QVERIFY(std::abs(stats.thermalEnergy - stats.heat.net()) < 1e-9 * poured.energy);
-    QVERIFY(poured.energy > 0 && drained.energy > 0);
+    QVERIFY(stats.flow.drained.count > 500 && stats.flow.poured.count > stats.flow.drained.count + 100);
+    QVERIFY(stats.flow.poured.energy > 0 && stats.flow.drained.energy > 0);
+    verifyBooks(stats);
+  }
+
+  void whatIsHeldGoesBack_data() {
+    QTest::addColumn<QString>("pointer");
+    QTest::addColumn<QString>("value");
+    QTest::addColumn<int>("held");
+    const int pipe = 2 * 13;
+    QTest::newRow("nothing changes") << "/emitters/0/name"
+                                     << "\"Tap\"" << pipe;
+    QTest::newRow("moved") << "/emitters/0/point"
+                           << "[1,1,0]" << pipe;
+    QTest::newRow("turned") << "/emitters/0/direction"
+                            << "[1,0,0]" << pipe;
+    QTest::newRow("narrower") << "/emitters/0/diameter"
+                              << "0.01" << 2;
+    QTest::newRow("faster") << "/emitters/0/speed"
+                            << "3" << pipe;
+    QTest::newRow("colder") << "/emitters/0/temperature"
+                            << "280" << pipe;
+    QTest::newRow("shut") << "/emitters/0/speed"
+                          << "0" << 0;
+    QTest::newRow("closes") << "/emitters/0/stop"
+                            << "0.2" << 0;
+    QTest::newRow("taken away") << "/emitters"
+                                << "[]" << 0;
+  }
+  void whatIsHeldGoesBack() {
+    QFETCH(QString, pointer);
+    QFETCH(QString, value);
+    QFETCH(int, held);
+    json scene = tapScene();
+    scene["emitters"][0]["temperature"] = 350;
+    ps::Engine engine(load(scene), m_plugins);
+    for (int frame = 0; frame < 20; ++frame) engine.step();
+    scene[json::json_pointer(pointer.toStdString())] = json::parse(value.toStdString());
+    engine.update(load(scene));
+    for (int frame = 0; frame < 20; ++frame) {
+      engine.step();
+      verifyBooks(engine.stats());
+      if (QTest::currentTestFailed()) return;
+    }
+    QCOMPARE(engine.stats().flow.held.count, static_cast<uint64_t>(held));
+  }
+
+  void everyPhasePours_data() {
+    QTest::addColumn<double>("temperature");
+    QTest::addColumn<int>("phase");
+    QTest::newRow("grains of ice") << 263.15 << static_cast<int>(ps::api::Phase::Solid);
+    QTest::newRow("steam") << 420.0 << static_cast<int>(ps::api::Phase::Gas);
+  }
+  /// Into water that a second tap pours beside it.
+  void everyPhasePours() {
+    QFETCH(double, temperature);
+    QFETCH(int, phase);
+    json scene = tapScene();
+    scene["environment"]["gravity"] = {0, -9.81, 0};
+    scene["environment"]["walls"] = {{{"id", "floor"}, {"point", {0, 0.8, 0}}, {"normal", {0, 1, 0}}}};
+    scene["emitters"].push_back(scene["emitters"][0]);
+    scene["emitters"][1].update({{"id", "spout"}, {"point", {0.07, 1, 0}}, {"temperature", temperature}});
+    ps::Engine engine(load(scene), m_plugins);
+    for (int frame = 0; frame < 60; ++frame) {
+      const ps::StepReport report = engine.step();
+      QVERIFY2(report.flags == 0, report.message.c_str());
+      verifyBooks(engine.stats());
+      if (QTest::currentTestFailed()) return;
+    }
+    QVERIFY(engine.stats().phases[static_cast<size_t>(phase)].count > 100);
+    QVERIFY(engine.stats().flow.held.count > 30);
+  }
+
+  void aPipeMissesWallsAndWhatStandsFixed_data() {
+    QTest::addColumn<QString>("pointer");
+    QTest::addColumn<QString>("value");
+    QTest::newRow("a wall") << "/environment/walls/0"
+                            << R"({"id":"lid","point":[0,1.01,0],"normal":[0,-1,0]})";
+    QTest::newRow("a fixed body") << "/bodies/0"
+                                  << R"({"id":"block","material":"water","fixed":true,
+                                         "shape":{"box":{"center":[0,1.067,0],"size":[0.2,0.12,0.2]}}})";
+  }
+  void aPipeMissesWallsAndWhatStandsFixed() {
+    QFETCH(QString, pointer);
+    QFETCH(QString, value);
+    json scene = tapScene();
+    scene[json::json_pointer(pointer.toStdString())] = json::parse(value.toStdString());
+    const ps::FrameStats stats = run(scene, 60);
+    QCOMPARE(stats.flow.held.count, uint64_t{0});
+    QCOMPARE(stats.flow.poured.count, uint64_t{51 * 13});  // it pours all the same
+  }
+
+  void neitherSinkNorEraserTakesWhatIsHeld() {
+    json scene = tapScene();
+    scene["sinks"] = {{{"id", "drain"}, {"minimum", {-1, 0, -1}}, {"maximum", {1, 2, 1}}}};
+    ps::Engine engine(load(scene), m_plugins);
+    for (int frame = 0; frame < 10; ++frame) engine.step();
+    const ps::ParticleStore& store = engine.solver().particles();
+    const std::vector<uint32_t> all(store.id(), store.id() + store.size());
+    const ps::TakenMatter taken = engine.takeParticles(all);
+    QCOMPARE(taken.particles.id.size(), size_t{13});  // the layer that has just crossed
+    QCOMPARE(store.size(), size_t{26});
+    engine.putBack(taken);
+    for (int frame = 0; frame < 10; ++frame) engine.step();
+    QCOMPARE(store.size(), size_t{26} + 13);
+    verifyBooks(engine.stats());
+  }
+
+  void everyMachineGivesOneHash_data() { onehash::addRows(); }
+  void everyMachineGivesOneHash() {
+    onehash::verify([this] {
+      ps::Engine engine(load(honeyScene()), m_plugins);
+      for (int frame = 0; frame < 20; ++frame) engine.step();
+      return engine.solver().stateHash();
+    });
+  }
+  void cleanup() {
+    ps::setThreadCount(2);
+    ps::setInstructionSet("");
   }
 
   void aTapOpensClosesAndWaits() {
@@ -181,6 +335,27 @@ class TestFlow : public QObject {
   }
 
  private:
+  /// m, ascending, of what moves freely or of all.
+  static std::vector<double> heightsOf(ps::Engine& engine, bool all) {
+    std::vector<double> heights;
+    const ps::ParticleStore& store = engine.solver().particles();
+    for (size_t i = 0; i < store.size(); ++i) {
+      if (all || store.velocity()[i].w > 0) heights.push_back(double{store.position()[i].y});
+    }
+    std::sort(heights.begin(), heights.end());
+    return heights;
+  }
+  /// What has come and not gone is there, and so is its heat, within the rounding of sums.
+  static void verifyBooks(const ps::FrameStats& stats) {
+    const auto& [poured, drained, held] = stats.flow;
+    double mass = 0;
+    uint64_t count = 0;
+    for (const ps::PhaseAmount& phase : stats.phases) mass += phase.mass, count += phase.count;
+    QCOMPARE(poured.count, drained.count + count);
+    QVERIFY(std::abs(poured.mass - drained.mass - mass) < 1e-9 * poured.mass);
+    QVERIFY(std::abs(poured.energy + held.energy - drained.energy - stats.heat.sources) < 1e-9 * poured.energy);
+    QVERIFY(std::abs(stats.thermalEnergy - stats.heat.net()) < 1e-9 * poured.energy);
+  }
   ps::Project load(const json& scene) { return ps::parseProject(scene.dump(), "scene.json", m_plugins).project; }
   ps::FrameStats run(const json& scene, int frames) {
     ps::Engine engine(load(scene), m_plugins);

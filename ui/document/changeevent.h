@@ -27,6 +27,10 @@ struct BodyChanged {
   std::string id;
   std::shared_ptr<StrokeTrace> matter{};
 };
+/// An emitter or a sink came, went or was renamed; `moved`: nothing but its place has changed.
+struct PortChanged {
+  bool moved = false;
+};
 /// The scene has one material more, or less.
 struct MaterialsChanged {};
 /// A stroke was made (`live`: its particles are in the engine already), undone or redone.
@@ -42,7 +46,7 @@ struct PinsChanged {};
 struct FileChanged {};
 
 /// What happened to a document, as one value: receivers visit it.
-using ChangeEvent = std::variant<ProjectOpened, ParameterChanged, BodyChanged, MaterialsChanged, StrokeChanged,
-                                 ViewChanged, PinsChanged, FileChanged>;
+using ChangeEvent = std::variant<ProjectOpened, ParameterChanged, BodyChanged, PortChanged, MaterialsChanged,
+                                 StrokeChanged, ViewChanged, PinsChanged, FileChanged>;
 
 }  // namespace ps

@@ -36,6 +36,31 @@ void BodiesCommand::redo() { apply(true); }
 
 void BodiesCommand::apply(bool forward) { m_document.applyBodies(m_edits, forward, m_matter); }
 
+namespace {
+bool samePlace(const Emitter& a, const Emitter& b) { return a.point == b.point && a.direction == b.direction; }
+bool samePlace(const Sink& a, const Sink& b) { return a.minimum == b.minimum && a.maximum == b.maximum; }
+}  // namespace
+
+PortCommand::PortCommand(Document& document, AnyPortEdit edit, int gesture, const QString& text)
+    : QUndoCommand(text), m_document(document), m_edit(std::move(edit)), m_gesture(gesture) {}
+
+void PortCommand::undo() { m_document.applyPort(m_edit, false); }
+void PortCommand::redo() { m_document.applyPort(m_edit, true); }
+
+bool PortCommand::mergeWith(const QUndoCommand* other) {
+  const auto* next = static_cast<const PortCommand*>(other);
+  if (next->m_gesture != m_gesture || next->m_edit.index() != m_edit.index()) return false;
+  return std::visit(
+      [&](auto& edit) {
+        const auto& later = std::get<std::decay_t<decltype(edit)>>(next->m_edit);
+        if (!edit.before || !edit.after || !later.after || later.after->id != edit.after->id) return false;
+        edit.after = later.after;
+        setObsolete(samePlace(*edit.before, *edit.after) && edit.before->name == edit.after->name);
+        return true;
+      },
+      m_edit);
+}
+
 MaterialCommand::MaterialCommand(Document& document, SceneMaterial material, size_t index, bool adds,
                                  const QString& text)
     : QUndoCommand(text), m_document(document), m_material(std::move(material)), m_index(index), m_adds(adds) {}

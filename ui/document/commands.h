@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "ui/document/port.h"
 #include "ui/document/strokerecord.h"
 
 #include <QtGui/QUndoCommand>
@@ -42,6 +43,22 @@ class BodiesCommand : public QUndoCommand {
   Document& m_document;
   std::vector<SceneEdit> m_edits;
   std::shared_ptr<StrokeTrace> m_matter;
+};
+
+/// An emitter or a sink that comes, goes, moves or is renamed. Moves of one gesture merge; one that ends where it began
+/// vanishes.
+class PortCommand : public QUndoCommand {
+ public:
+  PortCommand(Document& document, AnyPortEdit edit, int gesture, const QString& text);
+  void undo() override;
+  void redo() override;
+  int id() const override { return 2; }
+  bool mergeWith(const QUndoCommand* other) override;
+
+ private:
+  Document& m_document;
+  AnyPortEdit m_edit;
+  int m_gesture;
 };
 
 /// A material that comes into the scene, or leaves it.

@@ -134,7 +134,7 @@ void Document::setBodyLocked(const std::string& id, bool locked) {
 std::string Document::freeBodyId(const std::string& stem) const {
   for (int n = 1;; ++n) {
     const std::string id = n == 1 ? stem : stem + "-" + std::to_string(n);
-    if (!body(id)) return id;
+    if (!body(id) && !emitter(id)) return id;
   }
 }
 

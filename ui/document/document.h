@@ -2,6 +2,7 @@
 #pragma once
 #include "core/scene/project.h"
 #include "ui/document/changeevent.h"
+#include "ui/document/port.h"
 #include "ui/document/strokerecord.h"
 
 #include <QtCore/QObject>
@@ -62,7 +63,7 @@ class Document : public QObject {
   void renameBody(const std::string& id, const QString& name);
   void setBodyVisible(const std::string& id, bool visible);
   void setBodyLocked(const std::string& id, bool locked);
-  /// A name and id that no body has yet: "sketch-2".
+  /// An id that no body and no emitter has yet: "sketch-2".
   std::string freeBodyId(const std::string& stem) const;
   /// Takes a body out of the scene with its matter. Returns "" or why it stays.
   QString removeBody(const std::string& id);
@@ -73,6 +74,20 @@ class Document : public QObject {
   void setStructure(const std::string& id, const std::string& plugin);
   /// Notes a stroke whose particles are in the engine already.
   void addStroke(std::shared_ptr<StrokeRecord> stroke);
+
+  // Emitters and sinks. They stay within the scene's bounds.
+  const Emitter* emitter(const std::string& id) const;
+  const Sink* sink(const std::string& id) const;
+  QString portName(const Port& port) const;  ///< "" when it is gone
+  /// Its id, "tap" or "drain" where it has none, gets a number when it is taken; a name comes from the id.
+  Port addEmitter(Emitter emitter);
+  Port addSink(Sink sink);
+  /// Replaces the one of its id: another place or name. Within a gesture all edits are one undo step.
+  void editEmitter(Emitter after, const QString& title);
+  void editSink(Sink after, const QString& title);
+  void renamePort(const Port& port, const QString& name);
+  void removePort(const Port& port);  ///< what it poured stays
+  std::optional<Port> duplicatePort(const Port& port);
 
   // Materials
   /// The scene's material of an installed one, added where there is none yet. Returns its id.
@@ -89,6 +104,7 @@ class Document : public QObject {
   // Used by commands
   void applyParameter(const Address& address, const std::optional<Value>& value);
   void applyBodies(const std::vector<SceneEdit>& edits, bool forward, const std::shared_ptr<StrokeTrace>& matter);
+  void applyPort(const AnyPortEdit& edit, bool forward);
   void applyMaterial(const SceneMaterial& material, size_t index, bool present);
   void applyStroke(const std::shared_ptr<StrokeRecord>& stroke, bool done, bool live);
   void applyPins(const std::vector<std::string>& pins);
@@ -100,6 +116,8 @@ class Document : public QObject {
  private:
   void tell(const ChangeEvent& event);
   void editBody(const std::string& id, const QString& text, const std::function<void(Body&)>& change);
+  template <class Item>
+  void pushPort(std::optional<Item> before, std::optional<Item> after, size_t index, const QString& title);
 
   const PluginRegistry* m_plugins = nullptr;
   Project m_project;

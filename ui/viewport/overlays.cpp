@@ -103,7 +103,7 @@ std::vector<Hint> hintsFor(ViewTool tool) {
     hints.push_back({QStringLiteral("F"), QStringLiteral("frame")});
     hints.push_back({QStringLiteral("B"), QStringLiteral("sketch")});
   } else {
-    hints.push_back({QStringLiteral("[ ]"), QStringLiteral("size")});
+    if (draws(tool)) hints.push_back({QStringLiteral("[ ]"), QStringLiteral("size")});
     hints.push_back({QStringLiteral("Q"), QStringLiteral("back to select")});
   }
   return hints;

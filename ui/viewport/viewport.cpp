@@ -184,6 +184,7 @@ void Viewport::paintGL() {
   {
     QPainter painter(this);
     if (m_renderer) {
+      paintPortsOver(painter);
       m_hits = paintOverlays(painter, overlayState());
     } else {
       painter.fillRect(rect(), Theme::current()[Token::Panel]);
@@ -209,7 +210,7 @@ OverlayState Viewport::overlayState() const {
   state.tool = m_tool;
   state.tag = tag();
   state.invitation = invitation();
-  if (m_tool != ViewTool::Select && m_drag != Drag::Orbit && m_drag != Drag::Pan) state.cursor = m_cursor;
+  if (draws(m_tool) && m_drag != Drag::Orbit && m_drag != Drag::Pan) state.cursor = m_cursor;
   return state;
 }
 
@@ -246,6 +247,9 @@ void Viewport::projectOpened() {
   m_legendRange.reset();
   m_tagged.reset();
   m_selectedBody.clear();
+  m_selectedPort.reset();
+  m_hoveredPort.reset();
+  endPortDrag(true);
   setColour(colourByName(m_document->project().view.colour));
   bodiesChanged();
 }
@@ -268,8 +272,12 @@ void Viewport::setTool(ViewTool tool) {
   if (tool == m_tool) return;
   m_stroke.cancel();
   m_tool = tool;
+  m_placing = {};
+  m_cursor.reset();
   if (tool == ViewTool::Select) {
     unsetCursor();
+  } else if (places(tool)) {
+    setCursor(Qt::CrossCursor);
   } else {
     setCursor(Qt::BlankCursor);
     updateCursor(mapFromGlobal(QCursor::pos()), {});
@@ -324,11 +332,11 @@ std::optional<std::pair<Vec3, Vec3>> Viewport::boxOf(const std::string& body) co
 }
 
 void Viewport::frameSelection() {
-  if (m_selectedBody.empty()) {
+  if (m_selectedBody.empty() && !m_selectedPort) {
     frameAll();
     return;
   }
-  const auto box = boxOf(m_selectedBody);
+  const auto box = m_selectedPort ? boxAround(*m_selectedPort) : boxOf(m_selectedBody);
   if (!box) return;
   m_navigator.setSize(size());
   m_navigator.frame(*box);

@@ -3,6 +3,7 @@
 #include "ui/render/renderer.h"
 #include "ui/viewport/legendrange.h"
 #include "ui/viewport/overlays.h"
+#include "ui/viewport/porthandles.h"
 #include "ui/viewport/stroketool.h"
 #include "ui/viewport/viewnavigator.h"
 #include "ui/viewport/viewtool.h"
@@ -49,6 +50,10 @@ class Viewport : public QOpenGLWidget {
   void frameSelection();
   void frameAll();
   void setSelectedBody(const std::string& id);
+  void setSelectedPort(const std::optional<Port>& port);
+  const std::optional<Port>& selectedPort() const { return m_selectedPort; }
+  /// What the pointer would take hold of there, in the widget's pixels.
+  std::optional<PortHandle> portHandleAt(const QPointF& position) const;
   bool hintShown() const { return m_hint; }
   void setHintShown(bool on);
   /// Esc: gives up a drag or stroke. False when there was none.
@@ -67,6 +72,8 @@ class Viewport : public QOpenGLWidget {
 
  Q_SIGNALS:
   void bodyPicked(const std::string& id);  ///< "" for none
+  void portPicked(const ps::Port& port);
+  void placingRefused(const QString& why);
   void toolChanged(ps::ViewTool tool);
   void brushChanged();
   void strokeRefused(const QString& why);
@@ -87,7 +94,11 @@ class Viewport : public QOpenGLWidget {
   void resizeEvent(QResizeEvent* event) override;
 
  private:
-  enum class Drag { None, Orbit, Pan, Dolly, Stroke, Click, LegendHigh, LegendLow };
+  enum class Drag { None, Orbit, Pan, Dolly, Stroke, Click, LegendHigh, LegendLow, Place, Port };
+  struct Surface {
+    Vec3 point{0, 0, 0};   ///< m
+    Vec3 normal{0, 0, 0};  ///< unit; zero in the air
+  };
   Drag dragFor(const QMouseEvent& event) const;
   void releaseGl();
   void requestPaint();
@@ -97,9 +108,11 @@ class Viewport : public QOpenGLWidget {
   std::optional<BodyOutline> outline() const;
   std::optional<SceneTag> tag() const;
   std::optional<std::pair<Vec3, Vec3>> boxOf(const std::string& body) const;
+  std::optional<std::pair<Vec3, Vec3>> boxAround(const Port& port) const;
   void pick(const QPointF& position);
   bool clickOverlay(const QPointF& position);
-  std::optional<Vec3> surfaceAt(const QPointF& position) const;
+  std::optional<Surface> surfaceAt(const QPointF& position) const;
+  Vec3 normalAt(const Vec3& point) const;
   std::optional<Vec3> strokePoint(const QPointF& position);
   Vec3 brushExtent() const;
   void updateCursor(const QPointF& position, Qt::KeyboardModifiers modifiers);
@@ -108,6 +121,18 @@ class Viewport : public QOpenGLWidget {
   static void installAccessibility();               ///< may be called often
   void announce();                                  ///< tells assistive technology of another summary()
   void beginStroke(const QMouseEvent& event);
+  // viewportports.cpp
+  PortView portView() const;
+  void paintPortsOver(QPainter& painter) const;
+  Ray rayAt(const QPointF& position) const;
+  double spacing() const;
+  void updatePlacing(const QPointF& position);  ///< under the pointer, or as it is being dragged
+  Emitter tapAt(const QPointF& position) const;
+  Sink drainAt(const QPointF& position) const;
+  void finishPlacing();
+  bool takePort(const QPointF& position);
+  void dragPort(const QPointF& position, Qt::KeyboardModifiers modifiers);
+  void endPortDrag(bool keep);
   double floorHeight() const;
   void storeView();
 
@@ -135,6 +160,16 @@ class Viewport : public QOpenGLWidget {
   DrawingPlane m_strokePlane;
   QElapsedTimer m_strokeClock;
   std::optional<BrushCursor> m_cursor;
+
+  std::optional<Port> m_selectedPort, m_hoveredPort;
+  std::optional<Surface> m_placeSurface;  ///< under the pointer, or where a drag began
+  std::variant<std::monostate, Emitter, Sink> m_placing;
+  struct Grip {
+    PortHandle handle;
+    std::variant<Emitter, Sink> before;
+    bool moved = false;
+  };
+  std::optional<Grip> m_grip;
 
   Drag m_drag = Drag::None;
   QPointF m_pressed, m_last;

@@ -37,6 +37,8 @@ QString Viewport::summary() const {
   QStringList parts;
   if (m_tool == ViewTool::Select) {
     parts << QStringLiteral("Select and orbit");
+  } else if (places(m_tool)) {
+    parts << (m_tool == ViewTool::Tap ? QStringLiteral("Place a tap") : QStringLiteral("Place a drain"));
   } else {
     parts << (m_tool == ViewTool::Brush ? QStringLiteral("Brush") : QStringLiteral("Eraser"))
           << QString::fromStdString(m_brush.shape) << QStringLiteral("radius ") + lengthText(m_brush.radius);
@@ -49,6 +51,7 @@ QString Viewport::summary() const {
       parts << QStringLiteral("height ") + lengthText(std::max(0.0, m_cursor->centre[1] - m_cursor->floor));
     }
   }
+  if (m_selectedPort && m_document) parts << m_document->portName(*m_selectedPort);
   if (const auto marked = tag()) parts << marked->name + QLatin1Char(' ') + marked->value;
   return parts.join(QStringLiteral(", "));
 }

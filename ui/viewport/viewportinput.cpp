@@ -19,11 +19,11 @@ constexpr double kEnd = 9;  // pixels around an end of the legend that take hold
 
 Viewport::Drag Viewport::dragFor(const QMouseEvent& event) const {
   const bool shift = event.modifiers() & Qt::ShiftModifier, alt = event.modifiers() & Qt::AltModifier;
-  const bool drawing = m_tool != ViewTool::Select;
+  const bool drawing = draws(m_tool) || places(m_tool);
   if (event.button() == Qt::RightButton) return Drag::Dolly;
   if (event.button() == Qt::MiddleButton) return drawing && !shift ? Drag::Orbit : Drag::Pan;
   if (event.button() != Qt::LeftButton) return Drag::None;
-  if (drawing) return alt ? Drag::Orbit : Drag::Stroke;
+  if (drawing) return alt ? Drag::Orbit : places(m_tool) ? Drag::Place : Drag::Stroke;
   return shift ? Drag::Pan : Drag::Click;
 }
 
@@ -34,8 +34,10 @@ void Viewport::mousePressEvent(QMouseEvent* event) {
   m_before = m_navigator.camera();
   m_legendBefore = m_legendRange;
   if (event->button() == Qt::LeftButton && clickOverlay(event->position())) return;
+  if (event->button() == Qt::LeftButton && m_tool == ViewTool::Select && takePort(event->position())) return;
   m_drag = dragFor(*event);
   if (m_drag == Drag::Stroke) beginStroke(*event);
+  if (m_drag == Drag::Place) updatePlacing(event->position());
 }
 
 void Viewport::mouseMoveEvent(QMouseEvent* event) {
@@ -55,6 +57,10 @@ void Viewport::mouseMoveEvent(QMouseEvent* event) {
   } else if (m_drag == Drag::LegendHigh || m_drag == Drag::LegendLow) {
     m_legendRange = m_legendBefore;
     m_legendRange.moveEnd(m_drag == Drag::LegendHigh, (m_pressed.y() - position.y()) / m_hits.legendBar.height());
+  } else if (m_drag == Drag::Place) {
+    updatePlacing(position);
+  } else if (m_drag == Drag::Port) {
+    dragPort(position, event->modifiers());
   } else if (m_drag == Drag::Stroke) {
     const auto point = strokePoint(position);
     if (!point) return;
@@ -66,9 +72,11 @@ void Viewport::mouseMoveEvent(QMouseEvent* event) {
       Q_EMIT strokeRefused(problem);
     }
   } else {
+    const std::optional<Port> hovered = m_hoveredPort;
     updatePointer(position);
-    if (m_tool == ViewTool::Select) return;
-    updateCursor(position, event->modifiers());
+    if (m_tool == ViewTool::Select && hovered == m_hoveredPort) return;
+    if (draws(m_tool)) updateCursor(position, event->modifiers());
+    if (places(m_tool)) updatePlacing(position);
   }
   requestPaint();
 }
@@ -83,6 +91,10 @@ void Viewport::mouseReleaseEvent(QMouseEvent* event) {
     pick(event->position());
   } else if (drag == Drag::Stroke) {
     m_stroke.finish();
+  } else if (drag == Drag::Place) {
+    finishPlacing();
+  } else if (drag == Drag::Port) {
+    endPortDrag(true);
   } else if (drag == Drag::Dolly && still) {
     Q_EMIT viewMenuRequested(event->globalPosition().toPoint());
   } else if (drag == Drag::Orbit || drag == Drag::Pan || drag == Drag::Dolly) {
@@ -110,8 +122,16 @@ Viewport::Drag Viewport::legendEndAt(const QPointF& position) const {
 
 /// The shape of the pointer; while drawing, the brush itself is the pointer.
 void Viewport::updatePointer(const QPointF& position) {
+  m_hoveredPort.reset();
+  const auto handle = m_tool == ViewTool::Select && !m_hits.legend.contains(position) ? portHandleAt(position)
+                                                                                      : std::optional<PortHandle>();
+  if (handle) m_hoveredPort = handle->port;
   if (legendEndAt(position) != Drag::None) {
     setCursor(Qt::SizeVerCursor);
+  } else if (handle) {
+    setCursor(handle->part == PortHandle::Part::Whole ? Qt::SizeAllCursor : Qt::PointingHandCursor);
+  } else if (places(m_tool)) {
+    setCursor(Qt::CrossCursor);
   } else if (m_tool == ViewTool::Select || m_hits.legend.contains(position)) {
     setCursor(Qt::ArrowCursor);
   } else {
@@ -122,14 +142,19 @@ void Viewport::updatePointer(const QPointF& position) {
 void Viewport::wheelEvent(QWheelEvent* event) {
   m_navigator.zoomAt(event->position(), event->angleDelta().y() / kNotch);
   storeView();
-  if (m_tool != ViewTool::Select) updateCursor(event->position(), event->modifiers());
+  if (draws(m_tool)) updateCursor(event->position(), event->modifiers());
+  if (places(m_tool)) updatePlacing(event->position());
   requestPaint();
   event->accept();
 }
 
 void Viewport::leaveEvent(QEvent* event) {
   QOpenGLWidget::leaveEvent(event);
-  if (m_drag == Drag::None) m_cursor.reset();
+  if (m_drag == Drag::None) {
+    m_cursor.reset();
+    m_placing = {};
+    m_hoveredPort.reset();
+  }
   update();
 }
 
@@ -137,6 +162,8 @@ bool Viewport::cancelGesture() {
   const bool busy = m_drag != Drag::None || m_stroke.active();
   if (m_drag == Drag::Orbit || m_drag == Drag::Pan || m_drag == Drag::Dolly) m_navigator.restore(m_before);
   if (m_drag == Drag::LegendHigh || m_drag == Drag::LegendLow) m_legendRange = m_legendBefore;
+  if (m_drag == Drag::Place) m_placing = {};
+  if (m_drag == Drag::Port) endPortDrag(false);
   m_stroke.cancel();
   m_drag = Drag::None;
   update();
@@ -170,11 +197,16 @@ void Viewport::pick(const QPointF& position) {
     if (hit) {
       const uint32_t body = m_now->body[*hit];
       if (m_now->bodyIds && body < m_now->bodyIds->size()) id = (*m_now->bodyIds)[body];
-      m_selectedBody = id;
       m_tagged = {m_now->revision, m_now->id[*hit]};
     }
   }
+  if (m_document && m_document->emitter(id)) {
+    announce();
+    Q_EMIT portPicked({false, id});
+    return;
+  }
   m_selectedBody = id;
+  m_selectedPort.reset();
   announce();
   Q_EMIT bodyPicked(id);
 }
@@ -188,9 +220,9 @@ double Viewport::floorHeight() const {
   return height;
 }
 
-std::optional<Vec3> Viewport::surfaceAt(const QPointF& position) const {
+std::optional<Viewport::Surface> Viewport::surfaceAt(const QPointF& position) const {
   const Camera& camera = m_navigator.camera();
-  const Ray ray = rayThrough(camera, width(), height(), position.x(), position.y());
+  const Ray ray = rayAt(position);
   if (m_now) {
     if (const auto hit = pickParticle(*m_now, camera, width(), height(), position.x(), position.y())) {
       const api::Float4& p = m_now->position[*hit];
@@ -198,8 +230,9 @@ std::optional<Vec3> Viewport::surfaceAt(const QPointF& position) const {
       const Vec3 centre{p.x, p.y, p.z};
       for (size_t i = 0; i < 3; ++i) along += (centre[i] - ray.origin[i]) * ray.direction[i];
       along -= static_cast<double>(p.w);
-      return Vec3{ray.origin[0] + along * ray.direction[0], ray.origin[1] + along * ray.direction[1],
-                  ray.origin[2] + along * ray.direction[2]};
+      const Vec3 point{ray.origin[0] + along * ray.direction[0], ray.origin[1] + along * ray.direction[1],
+                       ray.origin[2] + along * ray.direction[2]};
+      return Surface{point, normalAt(point)};
     }
   }
   const Environment& e = m_scene.environment;
@@ -207,8 +240,9 @@ std::optional<Vec3> Viewport::surfaceAt(const QPointF& position) const {
   const auto within = [&](size_t axis) {
     return (*floor)[axis] >= e.boundsMinimum[axis] && (*floor)[axis] <= e.boundsMaximum[axis];
   };
-  if (floor && within(0) && within(2)) return floor;
-  return meetPlane(ray, camera.target, frameOf(camera).forward);  // in the air, at the depth one looks at
+  if (floor && within(0) && within(2)) return Surface{*floor, {0, 1, 0}};
+  const auto air = meetPlane(ray, camera.target, frameOf(camera).forward);  // at the depth one looks at
+  return air ? std::optional(Surface{*air, {0, 0, 0}}) : std::nullopt;
 }
 
 Vec3 Viewport::brushExtent() const { return m_stroke.extent(m_brush); }
@@ -225,8 +259,8 @@ void Viewport::updateCursor(const QPointF& position, Qt::KeyboardModifiers modif
   cursor.erase = (m_tool == ViewTool::Erase) != bool(modifiers & Qt::ControlModifier);
   cursor.floor = floorHeight();
   const CameraFrame frame = frameOf(m_navigator.camera());
-  m_strokePlane = drawingPlaneFor(*surface, frame.forward);
-  cursor.centre = *surface;
+  m_strokePlane = drawingPlaneFor(surface->point, frame.forward);
+  cursor.centre = surface->point;
   if (!cursor.erase) {
     // A brush stands on the surface instead of half inside it.
     for (size_t i = 0; i < 3; ++i) cursor.centre[i] += m_strokePlane.normal[i] * cursor.extent[i];
@@ -253,7 +287,7 @@ void Viewport::beginStroke(const QMouseEvent& event) {
 
 /// While a stroke is drawn it stays on the plane on which it began; along a ray that misses it, nothing is drawn.
 std::optional<Vec3> Viewport::strokePoint(const QPointF& position) {
-  const Ray ray = rayThrough(m_navigator.camera(), width(), height(), position.x(), position.y());
+  const Ray ray = rayAt(position);
   auto point = meet(ray, m_strokePlane, 100);
   if (!point) return point;
   const Environment& e = m_scene.environment;

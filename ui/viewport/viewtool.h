@@ -6,7 +6,10 @@
 
 namespace ps {
 
-enum class ViewTool { Select, Brush, Erase };
+enum class ViewTool { Select, Brush, Erase, Tap, Drain };
+inline bool draws(ViewTool tool) { return tool == ViewTool::Brush || tool == ViewTool::Erase; }
+/// Puts an emitter or a sink.
+inline bool places(ViewTool tool) { return tool == ViewTool::Tap || tool == ViewTool::Drain; }
 
 /// How the brush draws; shared by the viewport, its bar and the brush panel.
 struct BrushSettings {

@@ -292,6 +292,8 @@ void Inspector::onChanged(const ChangeEvent& event) {
   } else if (std::holds_alternative<BodyChanged>(event) || std::holds_alternative<StrokeChanged>(event)) {
     rebuildBody();
     showSceneHeader();
+  } else if (const auto* port = std::get_if<PortChanged>(&event)) {
+    if (!port->moved) rebuildScene();
   } else if (std::holds_alternative<MaterialsChanged>(event)) {
     rebuildMaterial();
   } else if (std::holds_alternative<PinsChanged>(event)) {

@@ -103,8 +103,8 @@ void MainWindow::connectPanels() {
   connect(m_transport, &Transport::stepRequested, m_session.get(), &Session::step);
   connect(m_transport, &Transport::resetRequested, m_session.get(), &Session::reset);
   connect(m_outliner, &Outliner::selectionChanged, this, &MainWindow::onOutlinerSelection);
-  connect(m_outliner, &Outliner::bodyMenuRequested, this,
-          [this](const QPoint& global) { openBodyMenu(*this, global); });
+  connect(m_outliner, &Outliner::menuRequested, this,
+          [this](const QPoint& global) { openItemMenu(*this, global, m_outliner->selectedPort().has_value()); });
   connect(m_materials, &MaterialsPanel::picked, this, [this](const std::string& id) {
     m_inspector->setMaterial(id);
     if (Viewport* view = viewport()) {
@@ -141,6 +141,9 @@ void MainWindow::connectPanels() {
   });
   m_pane->setBrush(view->brush());
   connect(view, &Viewport::bodyPicked, this, &MainWindow::selectBody);
+  connect(view, &Viewport::portPicked, this, &MainWindow::selectPort);
+  connect(view, &Viewport::placingRefused, this,
+          [this](const QString& why) { refuse(QStringLiteral("Nothing was placed."), why); });
   connect(view, &Viewport::toolChanged, this, &MainWindow::setTool);
   connect(view, &Viewport::viewMenuRequested, this, [this](const QPoint& global) { openViewMenu(*this, global); });
   connect(view, &Viewport::strokeRefused, this, [this](const QString& why) {
@@ -194,6 +197,9 @@ void MainWindow::onChanged(const ChangeEvent& event) {
       view->setSelectedBody(m_outliner->selectedBody());  // it may be gone
       view->bodiesChanged();
     }
+  } else if (const auto* port = std::get_if<PortChanged>(&event)) {
+    if (!port->moved) m_outliner->rebuild();
+    if (Viewport* view = viewport()) view->setSelectedPort(m_outliner->selectedPort());  // it may be gone
   } else if (std::holds_alternative<MaterialsChanged>(event)) {
     m_materials->rebuild();
     useCurrentMaterial();
@@ -374,14 +380,23 @@ void MainWindow::refuse(const QString& title, const QString& why) {
 void MainWindow::selectBody(const std::string& id) {
   if (id.empty()) {
     m_outliner->selectNothing();
+    if (Viewport* view = viewport()) view->setSelectedPort({});
     return;
   }
   m_outliner->select(OutlineKind::Body, id);
   onOutlinerSelection(OutlineKind::Body, id);
 }
 
+void MainWindow::selectPort(const Port& port) {
+  m_outliner->select(port.sink ? OutlineKind::Sink : OutlineKind::Emitter, port.id);
+  onOutlinerSelection(port.sink ? OutlineKind::Sink : OutlineKind::Emitter, port.id);
+}
+
 void MainWindow::onOutlinerSelection(OutlineKind kind, const std::string& id) {
-  if (Viewport* view = viewport()) view->setSelectedBody(kind == OutlineKind::Body ? id : std::string());
+  if (Viewport* view = viewport()) {
+    view->setSelectedBody(kind == OutlineKind::Body ? id : std::string());
+    view->setSelectedPort(m_outliner->selectedPort());
+  }
   m_inspector->setBody(kind == OutlineKind::Body ? id : std::string());
   if (kind == OutlineKind::Body) {
     if (const Body* body = m_session->document().body(id)) {

@@ -113,6 +113,8 @@ class MainWindow : public QMainWindow {
   void setTool(ViewTool tool);
   void setColour(int index);
   void stepBrush(int direction);
+  void duplicateSelected();  ///< body, tap or drain
+  void deleteSelected();
   // mainwindowfiles.cpp
   void chooseOpen();
   void save();
@@ -150,6 +152,7 @@ class MainWindow : public QMainWindow {
   void updateTransitions();
   void useCurrentMaterial();  ///< as the brush's
   void selectBody(const std::string& id);
+  void selectPort(const Port& port);
   void onOutlinerSelection(OutlineKind kind, const std::string& id);
   void refuse(const QString& title, const QString& why);  ///< a notice; with "" for `why` the last one goes
   void showMessage(MessageLevel level, const QString& where, const QString& text);

@@ -178,20 +178,35 @@ void MainWindow::makeEditMenu() {
   menu->addAction(action(QStringLiteral("edit.undo")));
   menu->addAction(action(QStringLiteral("edit.redo")));
   menu->addSeparator();
-  add(menu, QStringLiteral("edit.rename"), QStringLiteral("Rename body"), {QKeySequence(QStringLiteral("F2"))},
+  add(menu, QStringLiteral("edit.rename"), QStringLiteral("Rename"), {QKeySequence(QStringLiteral("F2"))},
       [this] { m_outliner->renameSelected(); });
   add(menu, QStringLiteral("edit.visible"), QStringLiteral("Show or hide body"), {},
       [this] { m_outliner->toggleVisible(); });
   add(menu, QStringLiteral("edit.locked"), QStringLiteral("Lock body"), {}, [this] { m_outliner->toggleLocked(); });
-  add(menu, QStringLiteral("edit.duplicate"), QStringLiteral("Duplicate body"),
-      {QKeySequence(QStringLiteral("Ctrl+D"))}, [this] {
-        refuse(QStringLiteral("Nothing was copied."), m_session->document().duplicateBody(m_outliner->selectedBody()));
-      });
-  add(menu, QStringLiteral("edit.delete"), QStringLiteral("Delete body"), {QKeySequence(Qt::Key_Delete)}, [this] {
-    refuse(QStringLiteral("Nothing was deleted."), m_session->document().removeBody(m_outliner->selectedBody()));
-  });
+  add(menu, QStringLiteral("edit.duplicate"), QStringLiteral("Duplicate"), {QKeySequence(QStringLiteral("Ctrl+D"))},
+      [this] { duplicateSelected(); });
+  add(menu, QStringLiteral("edit.delete"), QStringLiteral("Delete"), {QKeySequence(Qt::Key_Delete)},
+      [this] { deleteSelected(); });
   menu->addSeparator();
   menu->addAction(action(QStringLiteral("edit.search")));
+}
+
+void MainWindow::duplicateSelected() {
+  Document& document = m_session->document();
+  if (const auto port = m_outliner->selectedPort()) {
+    if (const auto copy = document.duplicatePort(*port)) selectPort(*copy);
+  } else {
+    refuse(QStringLiteral("Nothing was copied."), document.duplicateBody(m_outliner->selectedBody()));
+  }
+}
+
+void MainWindow::deleteSelected() {
+  Document& document = m_session->document();
+  if (const auto port = m_outliner->selectedPort()) {
+    document.removePort(*port);
+  } else {
+    refuse(QStringLiteral("Nothing was deleted."), document.removeBody(m_outliner->selectedBody()));
+  }
 }
 
 void MainWindow::makeViewMenu() {
@@ -266,6 +281,10 @@ void MainWindow::makeSketchMenu() {
       [this] { setTool(ViewTool::Brush); });
   add(menu, QStringLiteral("sketch.erase"), QStringLiteral("Erase"), {QKeySequence(QStringLiteral("E"))},
       [this] { setTool(ViewTool::Erase); });
+  add(menu, QStringLiteral("sketch.tap"), QStringLiteral("Place a tap"), {QKeySequence(QStringLiteral("T"))},
+      [this] { setTool(ViewTool::Tap); });
+  add(menu, QStringLiteral("sketch.drain"), QStringLiteral("Place a drain"), {QKeySequence(QStringLiteral("D"))},
+      [this] { setTool(ViewTool::Drain); });
   menu->addSeparator();
   add(menu, QStringLiteral("sketch.smaller"), QStringLiteral("Smaller brush"), {QKeySequence(QStringLiteral("["))},
       [this] { stepBrush(-1); });
@@ -300,7 +319,7 @@ void MainWindow::setTool(ViewTool tool) {
   if (!view) return;
   if (view->tool() != tool) view->setTool(tool);  // comes back here by toolChanged()
   m_pane->setTool(tool);
-  const bool sketching = tool != ViewTool::Select;
+  const bool sketching = draws(tool);
   const QSignalBlocker quiet(m_top->workspaces());
   m_top->workspaces()->setCurrentIndex(sketching ? 1 : 0);
   const bool shown = m_right->currentPage() == QLatin1String("Brush");

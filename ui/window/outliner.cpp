@@ -36,11 +36,16 @@ Outliner::Outliner(Document& document, QWidget* parent)
           [this](const std::string& id, bool on) { m_document.setBodyVisible(id, on); });
   connect(delegate, &OutlinerDelegate::lockToggled, this,
           [this](const std::string& id, bool on) { m_document.setBodyLocked(id, on); });
-  connect(delegate, &OutlinerDelegate::renamed, this,
-          [this](const std::string& id, const QString& name) { m_document.renameBody(id, name); });
+  connect(delegate, &OutlinerDelegate::renamed, this, [this](int kind, const std::string& id, const QString& name) {
+    if (kind == static_cast<int>(OutlineKind::Body)) {
+      m_document.renameBody(id, name);
+    } else {
+      m_document.renamePort({kind == static_cast<int>(OutlineKind::Sink), id}, name);
+    }
+  });
   m_view->setContextMenuPolicy(Qt::CustomContextMenu);
   connect(m_view, &QTreeView::customContextMenuRequested, this, [this](const QPoint& at) {
-    if (!selectedBody().empty()) Q_EMIT bodyMenuRequested(m_view->viewport()->mapToGlobal(at));
+    if (!selectedBody().empty() || selectedPort()) Q_EMIT menuRequested(m_view->viewport()->mapToGlobal(at));
   });
   connect(m_view->selectionModel(), &QItemSelectionModel::currentChanged, this, [this] {
     if (m_building) return;
@@ -55,7 +60,7 @@ QStandardItem* Outliner::add(QStandardItem* parent, OutlineKind kind, const std:
   item->setData(static_cast<int>(kind), outline::kKind);
   item->setData(QString::fromStdString(id), outline::kId);
   item->setData(icon, outline::kIcon);
-  item->setEditable(kind == OutlineKind::Body);
+  item->setEditable(kind == OutlineKind::Body || kind == OutlineKind::Emitter || kind == OutlineKind::Sink);
   if (parent) {
     parent->appendRow(item);
   } else {
@@ -89,11 +94,11 @@ void Outliner::rebuild() {
   addBodies(scene);
   const auto nameOf = [](const auto& item) { return QString::fromStdString(item.name.empty() ? item.id : item.name); };
   for (const Emitter& emitter : project.emitters) {
-    QStandardItem* item = add(scene, OutlineKind::Emitter, emitter.id, nameOf(emitter), QStringLiteral("droplet"));
+    QStandardItem* item = add(scene, OutlineKind::Emitter, emitter.id, nameOf(emitter), QStringLiteral("tap"));
     item->setData(colourOf(project, m_document.plugins(), emitter.material), outline::kSwatch);
   }
   for (const Sink& sink : project.sinks) {
-    add(scene, OutlineKind::Sink, sink.id, nameOf(sink), QStringLiteral("download"));
+    add(scene, OutlineKind::Sink, sink.id, nameOf(sink), QStringLiteral("drain"));
   }
   for (const SceneWall& wall : project.environment.walls) {
     const bool held = choiceOf(wall.parameters, wallParameters(), "heat") == "fixed_temperature";
@@ -213,6 +218,13 @@ std::string Outliner::selectedBody() const {
   return kind == OutlineKind::Body && m_document.body(id) ? id : std::string();
 }
 
+std::optional<Port> Outliner::selectedPort() const {
+  const auto [kind, id] = selected();
+  if (kind == OutlineKind::Emitter && m_document.emitter(id)) return Port{false, id};
+  if (kind == OutlineKind::Sink && m_document.sink(id)) return Port{true, id};
+  return std::nullopt;
+}
+
 void Outliner::toggleVisible() {
   if (const Body* body = m_document.body(selectedBody())) m_document.setBodyVisible(body->id, !body->visible);
 }
@@ -222,7 +234,7 @@ void Outliner::toggleLocked() {
 }
 
 void Outliner::renameSelected() {
-  if (selected().first == OutlineKind::Body) m_view->edit(m_view->currentIndex());
+  if (!selectedBody().empty() || selectedPort()) m_view->edit(m_view->currentIndex());
 }
 
 }  // namespace ps

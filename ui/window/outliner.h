@@ -2,6 +2,7 @@
 #pragma once
 #include "core/simulation/snapshot.h"
 #include "ui/document/changeevent.h"
+#include "ui/document/port.h"
 
 #include <QtWidgets/QWidget>
 
@@ -26,8 +27,8 @@ inline constexpr int kKind = Qt::UserRole + 1, kId = Qt::UserRole + 2, kIcon = Q
                      kLocked = Qt::UserRole + 7, kPlaceholder = Qt::UserRole + 8;
 }
 
-/// Bodies, walls, probes and air as a tree: icon, name, count, swatch, lock, eye. F2 renames a body; its menu is the
-/// window's.
+/// Bodies, walls, probes and air as a tree: icon, name, count, swatch, lock, eye. F2 renames a body, tap
+/// or drain; their menu is the window's.
 class Outliner : public QWidget {
   Q_OBJECT
  public:
@@ -41,12 +42,13 @@ class Outliner : public QWidget {
   void toggleLocked();
   void selectNothing();              ///< tells nobody
   std::string selectedBody() const;  ///< "" when something else is, or nothing
+  std::optional<Port> selectedPort() const;
   QTreeView* view() const { return m_view; }
   QSize sizeHint() const override { return {204, 300}; }
 
  Q_SIGNALS:
   void selectionChanged(ps::OutlineKind kind, const std::string& id);
-  void bodyMenuRequested(const QPoint& global);  ///< of the selected body
+  void menuRequested(const QPoint& global);  ///< of the selected body, tap or drain
 
  private:
   QStandardItem* add(QStandardItem* parent, OutlineKind kind, const std::string& id, const QString& name,

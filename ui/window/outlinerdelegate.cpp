@@ -95,7 +95,9 @@ bool OutlinerDelegate::editorEvent(QEvent* event, QAbstractItemModel* model, con
 }
 
 void OutlinerDelegate::setModelData(QWidget* editor, QAbstractItemModel*, const QModelIndex& index) const {
-  if (auto* line = qobject_cast<QLineEdit*>(editor)) Q_EMIT renamed(idOf(index), line->text());
+  if (auto* line = qobject_cast<QLineEdit*>(editor)) {
+    Q_EMIT renamed(index.data(outline::kKind).toInt(), idOf(index), line->text());
+  }
 }
 
 void OutlinerDelegate::updateEditorGeometry(QWidget* editor, const QStyleOptionViewItem& option,

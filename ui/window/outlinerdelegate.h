@@ -24,7 +24,7 @@ class OutlinerDelegate : public QStyledItemDelegate {
  Q_SIGNALS:
   void visibleToggled(const std::string& id, bool on) const;
   void lockToggled(const std::string& id, bool on) const;
-  void renamed(const std::string& id, const QString& name) const;
+  void renamed(int kind, const std::string& id, const QString& name) const;  ///< `kind`: OutlineKind
 };
 
 }  // namespace ps

@@ -59,6 +59,8 @@ std::vector<ShortcutGroup> shortcutGroups(const MainWindow& window) {
   groups.push_back(toolGroup(QStringLiteral("In the scene"), ViewTool::Select));
   groups.push_back(toolGroup(QStringLiteral("In the scene with the brush"), ViewTool::Brush));
   groups.push_back(toolGroup(QStringLiteral("In the scene with the eraser"), ViewTool::Erase));
+  groups.push_back(toolGroup(QStringLiteral("In the scene with a tap"), ViewTool::Tap));
+  groups.push_back(toolGroup(QStringLiteral("In the scene with a drain"), ViewTool::Drain));
   return groups;
 }
 

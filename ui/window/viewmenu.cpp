@@ -32,10 +32,13 @@ void openViewMenu(MainWindow& window, const QPoint& global) {
   menu->popup(global);
 }
 
-void openBodyMenu(MainWindow& window, const QPoint& global) {
+void openItemMenu(MainWindow& window, const QPoint& global, bool port) {
   QMenu* menu = newMenu(window);
-  for (const char* name : {"edit.rename", "edit.visible", "edit.locked", "view.frame"})
-    add(window, menu, QString::fromLatin1(name));
+  add(window, menu, QStringLiteral("edit.rename"));
+  for (const char* name : {"edit.visible", "edit.locked"}) {
+    if (!port) add(window, menu, QString::fromLatin1(name));
+  }
+  add(window, menu, QStringLiteral("view.frame"));
   menu->addSeparator();
   for (const char* name : {"edit.duplicate", "edit.delete"}) add(window, menu, QString::fromLatin1(name));
   menu->popup(global);

@@ -10,7 +10,7 @@ class MainWindow;
 /// The menu of the scene's view, at a place of the screen: frame, look from, colour. The window's own actions, with
 /// their keys.
 void openViewMenu(MainWindow& window, const QPoint& global);
-/// The menu of the selected body, likewise.
-void openBodyMenu(MainWindow& window, const QPoint& global);
+/// The menu of the selected body, or of the selected tap or drain, likewise.
+void openItemMenu(MainWindow& window, const QPoint& global, bool port);
 
 }  // namespace ps

@@ -84,7 +84,9 @@ QWidget* ViewportPane::makeBar() {
   };
   for (const Tool& t :
        {Tool{ViewTool::Select, "select", "Select and orbit (Q)"}, Tool{ViewTool::Brush, "brush", "Draw matter (B)"},
-        Tool{ViewTool::Erase, "erase", "Erase matter (E)"}}) {
+        Tool{ViewTool::Erase, "erase", "Erase matter (E)"},
+        Tool{ViewTool::Tap, "tap", "Place a tap that pours matter (T)"},
+        Tool{ViewTool::Drain, "drain", "Place a drain that takes matter away (D)"}}) {
     QToolButton* button = checkable(QString::fromLatin1(t.icon), QString::fromLatin1(t.tip));
     m_tools->addButton(button, static_cast<int>(t.tool));
     row->addWidget(button);
@@ -150,7 +152,7 @@ void ViewportPane::setColour(ColourBy colour) {
 
 void ViewportPane::setTool(ViewTool tool) {
   m_tools->button(static_cast<int>(tool))->setChecked(true);
-  m_brushBar->setVisible(tool != ViewTool::Select);
+  m_brushBar->setVisible(draws(tool));
 }
 
 void ViewportPane::setBrush(const BrushSettings& brush) {

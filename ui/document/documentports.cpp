@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+// Emitters and sinks of a document: they come, go, move and are renamed.
+#include "ui/document/commands.h"
+#include "ui/document/document.h"
+
+#include <algorithm>
+
+namespace ps {
+namespace {
+
+QString text(const std::string& utf8) { return QString::fromStdString(utf8); }
+
+template <class Items>
+auto at(Items& items, const std::string& id) {
+  return std::find_if(items.begin(), items.end(), [&](const auto& item) { return item.id == id; });
+}
+
+template <class Item>
+const Item* itemOf(const std::vector<Item>& items, const std::string& id) {
+  const auto found = at(items, id);
+  return found == items.end() ? nullptr : &*found;
+}
+
+std::vector<Emitter>& itemsOf(Project& project, const Emitter&) { return project.emitters; }
+std::vector<Sink>& itemsOf(Project& project, const Sink&) { return project.sinks; }
+
+/// "Tap 2" of "tap-2".
+std::string nameFromId(const std::string& id) {
+  QString name = text(id).replace(QLatin1Char('-'), QLatin1Char(' '));
+  name[0] = name[0].toUpper();
+  return name.toStdString();
+}
+
+QString nameOf(const auto& item) { return text(item.name.empty() ? item.id : item.name); }
+
+/// The nearest place within the bounds.
+Vec3 within(const Environment& environment, Vec3 p) {
+  for (size_t a = 0; a < 3; ++a) p[a] = std::clamp(p[a], environment.boundsMinimum[a], environment.boundsMaximum[a]);
+  return p;
+}
+void keepWithin(const Environment& environment, Emitter& emitter) {
+  emitter.point = within(environment, emitter.point);
+}
+void keepWithin(const Environment& environment, Sink& sink) {
+  Vec3 centre;
+  for (size_t a = 0; a < 3; ++a) centre[a] = 0.5 * (sink.minimum[a] + sink.maximum[a]);
+  const Vec3 inside = within(environment, centre);
+  for (size_t a = 0; a < 3; ++a) sink.minimum[a] += inside[a] - centre[a], sink.maximum[a] += inside[a] - centre[a];
+}
+
+/// Beside its original, along x.
+void moveAside(const Environment& environment, Emitter& emitter) {
+  const double step = 1.5 * numberOf(emitter.parameters, emitterParameters(), "diameter");
+  emitter.point[0] += emitter.point[0] + step > environment.boundsMaximum[0] ? -step : step;
+}
+void moveAside(const Environment& environment, Sink& sink) {
+  const double width = sink.maximum[0] - sink.minimum[0];
+  const double step = sink.maximum[0] + width > environment.boundsMaximum[0] ? -width : width;
+  sink.minimum[0] += step, sink.maximum[0] += step;
+}
+
+}  // namespace
+
+const Emitter* Document::emitter(const std::string& id) const { return itemOf(m_project.emitters, id); }
+const Sink* Document::sink(const std::string& id) const { return itemOf(m_project.sinks, id); }
+
+QString Document::portName(const Port& port) const {
+  if (port.sink) return sink(port.id) ? nameOf(*sink(port.id)) : QString();
+  return emitter(port.id) ? nameOf(*emitter(port.id)) : QString();
+}
+
+template <class Item>
+void Document::pushPort(std::optional<Item> before, std::optional<Item> after, size_t index, const QString& title) {
+  if (m_gestureDepth == 0) ++m_gesture;
+  m_undo.push(new PortCommand(*this, PortEdit<Item>{std::move(before), std::move(after), index}, m_gesture, title));
+}
+
+Port Document::addEmitter(Emitter emitter) {
+  emitter.id = freeBodyId(emitter.id.empty() ? "tap" : emitter.id);
+  if (emitter.name.empty()) emitter.name = nameFromId(emitter.id);
+  keepWithin(m_project.environment, emitter);
+  const Port port{false, emitter.id};
+  const QString title = QStringLiteral("placing %1").arg(nameOf(emitter));
+  pushPort<Emitter>({}, std::move(emitter), m_project.emitters.size(), title);
+  return port;
+}
+
+Port Document::addSink(Sink sink) {
+  const std::string stem = sink.id.empty() ? "drain" : sink.id;
+  sink.id = stem;
+  for (int n = 2; this->sink(sink.id); ++n) sink.id = stem + "-" + std::to_string(n);
+  if (sink.name.empty()) sink.name = nameFromId(sink.id);
+  keepWithin(m_project.environment, sink);
+  const Port port{true, sink.id};
+  const QString title = QStringLiteral("placing %1").arg(nameOf(sink));
+  pushPort<Sink>({}, std::move(sink), m_project.sinks.size(), title);
+  return port;
+}
+
+void Document::editEmitter(Emitter after, const QString& title) {
+  const Emitter* before = emitter(after.id);
+  if (!before) return;
+  keepWithin(m_project.environment, after);
+  pushPort<Emitter>(*before, std::move(after), 0, title);
+}
+
+void Document::editSink(Sink after, const QString& title) {
+  const Sink* before = sink(after.id);
+  if (!before) return;
+  keepWithin(m_project.environment, after);
+  pushPort<Sink>(*before, std::move(after), 0, title);
+}
+
+void Document::renamePort(const Port& port, const QString& name) {
+  const QString old = portName(port), wanted = name.trimmed();
+  if (old.isEmpty() || wanted.isEmpty() || wanted == old) return;
+  const QString title = QStringLiteral("rename of %1").arg(old);
+  if (port.sink) {
+    Sink after = *sink(port.id);
+    after.name = wanted.toStdString();
+    editSink(std::move(after), title);
+  } else {
+    Emitter after = *emitter(port.id);
+    after.name = wanted.toStdString();
+    editEmitter(std::move(after), title);
+  }
+}
+
+void Document::removePort(const Port& port) {
+  const QString title = QStringLiteral("deletion of %1").arg(portName(port));
+  if (const Sink* old = port.sink ? sink(port.id) : nullptr) {
+    pushPort<Sink>(*old, {}, static_cast<size_t>(old - m_project.sinks.data()), title);
+  } else if (const Emitter* from = port.sink ? nullptr : emitter(port.id)) {
+    pushPort<Emitter>(*from, {}, static_cast<size_t>(from - m_project.emitters.data()), title);
+  }
+}
+
+std::optional<Port> Document::duplicatePort(const Port& port) {
+  const auto copyOf = [&](auto copy) {
+    copy.name = nameOf(copy).toStdString() + " copy";
+    moveAside(m_project.environment, copy);
+    return copy;
+  };
+  if (port.sink) return sink(port.id) ? std::optional(addSink(copyOf(*sink(port.id)))) : std::nullopt;
+  return emitter(port.id) ? std::optional(addEmitter(copyOf(*emitter(port.id)))) : std::nullopt;
+}
+
+void Document::applyPort(const AnyPortEdit& edit, bool forward) {
+  bool moved = false;
+  std::visit(
+      [&](const auto& known) {
+        const auto& [before, after, index] = known;
+        const auto& from = forward ? before : after;
+        const auto& to = forward ? after : before;
+        auto& items = itemsOf(m_project, *(from ? from : to));
+        if (from && to) {
+          moved = from->name == to->name;
+          *at(items, from->id) = *to;
+        } else if (to) {
+          items.insert(items.begin() + static_cast<std::ptrdiff_t>(index), *to);
+        } else {
+          items.erase(at(items, from->id));
+        }
+      },
+      edit);
+  ++m_changes;
+  tell(PortChanged{moved});
+}
+
+}  // namespace ps
