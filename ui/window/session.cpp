@@ -41,12 +41,12 @@ void Session::start() {
   m_worker->run([this, paths = m_options.pluginPaths] {
     PluginRegistry::Options options;
     options.extraPaths = paths;
-    auto plugins = std::make_shared<std::unique_ptr<PluginRegistry>>(std::make_unique<PluginRegistry>(options));
-    QMetaObject::invokeMethod(this, [this, plugins] { adoptPlugins(std::move(*plugins)); });
+    QMetaObject::invokeMethod(this,
+                              [this, plugins = std::make_shared<PluginRegistry>(options)] { adoptPlugins(plugins); });
   });
 }
 
-void Session::adoptPlugins(std::unique_ptr<PluginRegistry> plugins) {
+void Session::adoptPlugins(std::shared_ptr<PluginRegistry> plugins) {
   std::setlocale(LC_NUMERIC, "C");  // a plugin may have set it
   m_plugins = std::move(plugins);
   m_document->setPlugins(m_plugins.get());

@@ -63,14 +63,14 @@ class Session : public QObject {
   void playingChanged();
 
  private:
-  void adoptPlugins(std::unique_ptr<PluginRegistry> plugins);
+  void adoptPlugins(std::shared_ptr<PluginRegistry> plugins);
 
   Options m_options;
   std::unique_ptr<MessageLog> m_log;
   std::unique_ptr<Document> m_document;
   std::unique_ptr<DocumentFiles> m_files;
   std::unique_ptr<Autosave> m_autosave;
-  std::unique_ptr<PluginRegistry> m_plugins;
+  std::shared_ptr<PluginRegistry> m_plugins;
   std::atomic<bool> m_pending{false};
   bool m_wasPlaying = false, m_closed = false;
   std::unique_ptr<EngineThread> m_engine;
