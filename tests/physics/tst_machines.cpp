@@ -31,11 +31,11 @@ class TestMachines : public QObject {
   }
 
   void gearsInWater() {
-    QVERIFY(run("gears-in-water.json", 6));
-    // The drive turns at -3.5 rad/s from the first second on; a gear as large that lies on it turns the other way at as
-    // much, less what it hops over teeth. The mean over the last four seconds.
-    const double spin = mean(column("Iron gear.spin_z[rad/s]"), 2 * 60);
-    QVERIFY2(spin > 1.5 && spin < 4, qPrintable(QString::number(spin)));
+    QVERIFY(run("gears-in-water.json", 8));
+    // The drive turns at -2.8 rad/s from the first second on; a gear as large that lies on it turns the other way at as
+    // much, less what it hops over teeth, up to half of it. The mean over the last five seconds.
+    const double spin = mean(column("Iron gear.spin_z[rad/s]"), 3 * 60);
+    QVERIFY2(spin > 1.4 && spin < 3.5, qPrintable(QString::number(spin)));
     // It stays between its guides, above the drive; stone stays on the ground and wood on the water, 0.3 m deep.
     const QList<double> iron = column("Iron gear.height[m]");
     QVERIFY2(least(iron) > 0.38 && most(iron) < 0.52, qPrintable(QString("%1 %2").arg(least(iron)).arg(most(iron))));
