@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <memory>
 
 namespace ps::cli {
 namespace {
@@ -124,7 +125,8 @@ Outcome soak(const Project& project, PluginRegistry& plugins, const Change* chan
   bool whole = run(kBefore * seconds);
   if (whole && change && !engine.setParameter(change->address, change->value)) engine.reset();
   outcome.topSpeed = 0;
-  whole = whole && run((kProof - kBefore) * seconds);
+  const bool again = engine.solver().time() == 0;  // after a reset: as long as the run that it is compared with
+  whole = whole && run((again ? kProof : kProof - kBefore) * seconds);
   outcome.proof = engine.solver().stateHash();
   outcome.unused = whole && change && outcome.proof == proof;
   whole = whole && (outcome.unused || run((1 - kProof) * seconds));
@@ -203,10 +205,11 @@ std::string whyLeftOut(const Project& project, const Change& change) {
   return numberText(std::round(count)) + " particles";
 }
 
-int soakProject(const std::string& path, const Arguments& arguments, PluginRegistry& plugins) {
-  const Project project = loadFor(arguments, path, plugins);
+int soakProject(const std::string& path, const Arguments& arguments) {
+  auto plugins = std::make_unique<PluginRegistry>();
+  const Project project = loadFor(arguments, path, *plugins);
   const double seconds = arguments.number("--seconds", 1e-3, 1e6).value_or(10);
-  const std::vector<Change> changes = changesOf(project, plugins, arguments.all("--only"));
+  const std::vector<Change> changes = changesOf(project, *plugins, arguments.all("--only"));
   for (const std::string& start : arguments.all("--only")) {
     const bool any = std::any_of(changes.begin(), changes.end(),
                                  [&](const Change& change) { return change.address.text().starts_with(start); });
@@ -222,7 +225,9 @@ int soakProject(const std::string& path, const Arguments& arguments, PluginRegis
   uint64_t proof = 0;
   const auto attempt = [&](const Change* change) {
     try {
-      const Outcome outcome = soak(project, plugins, change, seconds, proof);
+      const Outcome outcome = soak(project, *plugins, change, seconds, proof);
+      // A plugin that has thrown is put aside for good; the next run shall have it.
+      if (outcome.flags & static_cast<StepFlags>(StepFlag::PluginFault)) plugins = std::make_unique<PluginRegistry>();
       if (!change) proof = outcome.proof;
       verdicts.add(project, outcome, change);
     } catch (const InputError& error) {
@@ -234,7 +239,7 @@ int soakProject(const std::string& path, const Arguments& arguments, PluginRegis
   };
   attempt(nullptr);
   for (const Change& change : changes) {
-    const std::string problem = problemWith(project, &plugins, change.address, change.value);
+    const std::string problem = problemWith(project, plugins.get(), change.address, change.value);
     const std::string reason = problem.empty() ? whyLeftOut(project, change) : std::string();
     if (!problem.empty()) {
       verdicts.refuse(change, problem);
@@ -262,9 +267,8 @@ int soakCommand(CommandArguments given) {
   const Arguments arguments(given, kOptions);
   if (arguments.positional().empty()) throw InputError("which project? --help says more");
   applyMachineOptions(arguments);
-  PluginRegistry plugins;
   int failed = 0;
-  for (const std::string& path : arguments.positional()) failed += soakProject(path, arguments, plugins);
+  for (const std::string& path : arguments.positional()) failed += soakProject(path, arguments);
   if (failed == 0) return kFine;
   throw Error(counted(static_cast<size_t>(failed), "run") + " failed");
 }

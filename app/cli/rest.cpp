@@ -36,6 +36,7 @@ void Rest::add(Engine& engine, const FrameStats& stats) {
 }
 
 nlohmann::json Rest::json(Engine& engine) const {
+  if (m_half == 0 || m_frames <= m_half) return nullptr;
   const ParticleStore& store = engine.solver().particles();
   struct Centre {
     double mass = 0;
@@ -58,7 +59,7 @@ nlohmann::json Rest::json(Engine& engine) const {
   }
   double farthest = 0;
   for (const auto& [body, centre] : bodies) farthest = std::max(farthest, length(centre.moved) / centre.mass);
-  const auto watched = static_cast<double>(std::max(1L, m_frames - m_half));
+  const auto watched = static_cast<double>(m_frames - m_half);
   return {{"from_s", m_start},
           {"kinetic_energy", {{"highest", m_highest}, {"mean", m_sum / watched}, {"end", m_end}}},
           {"speed_rms", {{"mean", m_speedSum / watched}, {"highest", m_speedHighest}}},

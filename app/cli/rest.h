@@ -16,7 +16,7 @@ class Rest {
   void add(Engine& engine, const FrameStats& stats);
   /// Kinetic energy in J (`highest` of the whole run, `mean` of the second half, `end`), the mean and the highest rms
   /// speed of the second half in m/s, and in m how far bodies (their centre of mass) and solid particles have moved in
-  /// it, the farthest of each. Matter that came or went meanwhile is left out.
+  /// it, the farthest of each. Matter that came or went meanwhile is left out. null for a run that ended before.
   nlohmann::json json(Engine& engine) const;
 
  private:

@@ -197,10 +197,23 @@ class ProjectChecker {
     }
   }
 
+  void checkMotion(const Body& body, const std::string& pointer) {
+    if (!toggleOf(body.parameters, bodyParameters(), "fixed")) return;
+    const auto number = [&](const char* key) { return numberOf(body.parameters, bodyParameters(), key); };
+    if (body.velocityWave) {
+      warn(pointer + "/velocity_wave", "a fixed body keeps its shape, the wave is left out; use velocity and spin");
+    }
+    if (number("motion_stop") > 0 && number("motion_stop") <= number("motion_start")) {
+      warn(pointer + "/motion_stop",
+           "the body stops before it sets off and never moves; give a time after motion_start");
+    }
+  }
+
   void checkBody(const Body& body, const std::string& pointer) {
     checkMaterialExists(body.material, pointer + "/material");
     checkSet(body.parameters, bodyParameters(), pointer);
     for (size_t i = 0; i < body.pins.size(); ++i) checkRegion(body.pins[i], at(pointer + "/pins", i));
+    checkMotion(body, pointer);
     if (const auto* voxels = std::get_if<VoxelShape>(&body.shape)) {
       checkVoxels(*voxels, pointer + "/shape/voxels");
       addParticles(body, pointer + "/shape/voxels/runs");

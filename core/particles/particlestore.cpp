@@ -86,7 +86,7 @@ ParticleStore::ParticleStore() {
   declare(field::kMaterial, UInt32, "", "Index into the material table");
   declare(field::kBody, UInt32, "", "Index of the body that it was made by");
   declare(field::kPhase, UInt8, "", "Solid, melting, liquid, boiling or gas");
-  declare(field::kMotion, UInt8, "", "How it moves: held by structure, liquid, gas, not at all");
+  declare(field::kMotion, UInt8, "", "How it moves: held by structure, liquid, gas, as prescribed");
   declare(field::kTemperature, Float64, "K", "Temperature");
   declare(field::kSolidFraction, Float32, "", "Share of the mass that is solid");
   declare(field::kLiquidFraction, Float32, "", "Share of the mass that is liquid");

@@ -281,7 +281,6 @@ std::vector<Spawn> compileBody(const Project& project, const PluginRegistry& plu
 
 BodyMotion compileMotion(const Body& body, double spacing) {
   const auto number = [&](const char* key) { return numberOf(body.parameters, bodyParameters(), key); };
-  if (!toggleOf(body.parameters, bodyParameters(), "fixed")) return {};
   BodyMotion motion{{}, double3(body.velocity), double3(body.spin), number("motion_start")};
   if (const double stop = number("motion_stop"); stop > 0) motion.stop = stop;
   if (body.velocity != Vec3{0, 0, 0} || body.spin != Vec3{0, 0, 0}) motion.centre = double3(centreOf(body, spacing));

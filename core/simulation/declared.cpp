@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <map>
+#include <mutex>
 
 namespace ps {
 namespace {
@@ -42,12 +43,16 @@ Response responseFrom(const Value& value) {
   return Response(0.0);
 }
 
+/// Guards the lists below, which are made when they are first asked for.
+std::mutex g_lists;
+
 /// What is installed decides on the choices, and so does a model that is not: each list made stays for good.
 api::ParameterList sceneDeclarations(const Project& project, const PluginRegistry& plugins) {
   static std::map<std::vector<std::string>, std::vector<api::ParameterDeclaration>> lists;
   std::vector<std::string> models = plugins.ids(PluginKind::Thermal);
   const std::string& present = project.solver.thermalModel;
   if (!present.empty() && std::find(models.begin(), models.end(), present) == models.end()) models.push_back(present);
+  const std::lock_guard lock(g_lists);
   auto& list = lists[models];
   if (list.empty()) list = sceneParameters(models);
   return {list.data(), list.size()};
@@ -68,6 +73,7 @@ api::ParameterList bodyDeclarations(const Project& project, const PluginRegistry
     if (present != kNoStructure && std::find(choices.begin(), choices.end(), present) == choices.end())
       choices.push_back(present);
   }
+  const std::lock_guard lock(g_lists);
   auto& list = lists[choices];
   if (list.empty()) {
     for (const api::ParameterList& part : {bodyParameters(), bodyMotionParameters()}) {

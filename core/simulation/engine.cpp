@@ -63,13 +63,6 @@ auto byId(const std::vector<SceneMaterial>& materials, const std::string& id) {
   return std::find_if(materials.begin(), materials.end(), [&](const SceneMaterial& m) { return m.id == id; });
 }
 
-/// Whether a value outside of the parameter sets acts at once: motion does so where it is prescribed.
-bool actsOnTheRun(const Project& project, const Address& address) {
-  const auto body =
-      std::find_if(project.bodies.begin(), project.bodies.end(), [&](const Body& b) { return b.id == address.id; });
-  return body == project.bodies.end() || toggleOf(body->parameters, bodyParameters(), "fixed");
-}
-
 /// Particles carry indices of materials: as long as they live, each keeps its place, one that has left the document
 /// too, for undo may bring back matter of it. New ones come last.
 std::vector<SceneMaterial> inTheirPlaces(const std::vector<SceneMaterial>& living,
@@ -110,6 +103,8 @@ struct Engine::Impl {
   void bakeMaterials();
   void setThermal();
   uint32_t constraintSet(const std::string& plugin);
+  /// Leads the bodies that were born fixed, whatever the document says of them by now; one that has left it stands.
+  void lead();
   std::vector<uint32_t> born(Spawn spawn, const Body& body);
   std::vector<uint32_t> born(Spawn spawn, const std::string& id, const std::string& name);
   void exchangeMatter();
@@ -123,6 +118,7 @@ struct Engine::Impl {
   std::map<std::string, uint32_t> constraintSets;  // one per plugin: structure may join matter of any two bodies
   std::vector<std::array<float, 4>> looks;
   std::shared_ptr<const std::vector<std::string>> bodyIds = std::make_shared<const std::vector<std::string>>();
+  std::vector<uint8_t> fixedBodies;    // 1 for bodies that were born fixed, by the same index
   std::vector<std::string> bodyNames;  // for messages, by the index that particles carry
   std::vector<std::string> probeNames;
   std::vector<Vec3> start;  ///< m, places at the start by the particles' ids, if a probe has a region
@@ -190,9 +186,13 @@ std::vector<uint32_t> Engine::Impl::born(Spawn spawn, const std::string& id, con
 }
 
 std::vector<uint32_t> Engine::Impl::born(Spawn spawn, const Body& body) {
-  if (spawn.fixed) {
-    solver->setMotion(bodyIndex(body.id), compileMotion(body, spacing));
-  } else {
+  if (toggleOf(body.parameters, bodyParameters(), "fixed")) {
+    const uint32_t index = bodyIndex(body.id);
+    fixedBodies.resize(bodyIds->size());
+    fixedBodies[index] = 1;
+    solver->setMotion(index, compileMotion(body, spacing));
+  }
+  if (!spawn.fixed) {
     for (const BodyConstraint& c : body.constraints) {
       const api::ConstraintPlugin* plugin = plugins.constraint(c.plugin);
       if (!plugin) continue;
@@ -277,9 +277,7 @@ void Engine::Impl::recompile(const std::string& owner) {
   }
   if (owner == "environment") bakeMaterials();  // pressure moves melting and boiling points
   if (owner == "environment" || owner == "solver" || owner == "thermal") setThermal();
-  if (owner == "body") {
-    for (const Body& body : project.bodies) solver->setMotion(bodyIndex(body.id), compileMotion(body, spacing));
-  }
+  if (owner == "body") lead();
   if (owner == "constraint") {
     for (const Body& body : project.bodies) {
       for (const BodyConstraint& c : body.constraints) {
@@ -289,6 +287,15 @@ void Engine::Impl::recompile(const std::string& owner) {
         solver->setConstraintParameters(set->second, bodyIndex(body.id), numbersOf(c.parameters, plugin->parameters()));
       }
     }
+  }
+}
+
+void Engine::Impl::lead() {
+  for (uint32_t index = 0; index < fixedBodies.size(); ++index) {
+    if (!fixedBodies[index]) continue;
+    const auto body = std::find_if(project.bodies.begin(), project.bodies.end(),
+                                   [&](const Body& b) { return b.id == (*bodyIds)[index]; });
+    solver->setMotion(index, body == project.bodies.end() ? BodyMotion{} : compileMotion(*body, spacing));
   }
 }
 
@@ -331,7 +338,9 @@ void Engine::update(const Project& project) {
 bool Engine::setParameter(const Address& address, const Value& value) {
   if (Project changed = m->document(); setOutsideValue(changed, address, value)) {
     update(changed);
-    return actsOnTheRun(changed, address);
+    if (address.owner != "body") return true;
+    const uint32_t index = m->bodyIndex(address.id);
+    return index < m->fixedBodies.size() && m->fixedBodies[index];
   }
   ParameterSet* set = findSet(m->project, address);
   if (!set) return false;
@@ -374,11 +383,10 @@ std::vector<uint32_t> Engine::addBody(const Body& body) {
   project.solver.parameters.values["particle_spacing"] = m->spacing;
   std::vector<uint32_t> ids;
   for (Spawn& spawn : compileBody(project, m->plugins, m->materials, body)) {
-    const std::vector<api::Double3> free = freePositions(m->solver->particles(), spawn.position, 0.9 * m->spacing);
-    spawn.position = free;
-    spawn.velocity.resize(free.size());  // one for the whole body
-    requireRoom(static_cast<double>(m->solver->particles().size() + free.size()));
-    if (free.empty()) continue;
+    TakenPlaces taken = takenPlaces(m->solver->particles(), 0.9 * m->spacing, spawn.position.size());
+    dropTaken(spawn, taken);
+    requireRoom(static_cast<double>(m->solver->particles().size() + spawn.position.size()));
+    if (spawn.position.empty()) continue;
     const std::vector<uint32_t> fresh = m->born(std::move(spawn), body);
     ids.insert(ids.end(), fresh.begin(), fresh.end());
   }

@@ -44,10 +44,12 @@ std::string currentProblem() {
 struct EngineThread::Impl {
   Impl(PluginRegistry& registry, std::function<void()> callback) : plugins(registry), published(std::move(callback)) {}
 
-  void push(std::function<void()> command) {
+  /// `whole`: takes over everything that another such command would, so that one just before it need not run.
+  void push(std::function<void()> command, bool whole = false) {
     {
       const std::lock_guard lock(mutex);
-      commands.push_back(std::move(command));
+      if (whole && !commands.empty() && commands.back().whole) commands.pop_back();
+      commands.push_back({std::move(command), whole});
     }
     wake.notify_one();
   }
@@ -75,7 +77,11 @@ struct EngineThread::Impl {
 
   std::mutex mutex;
   std::condition_variable_any wake;
-  std::deque<std::function<void()>> commands;
+  struct Command {
+    std::function<void()> run;
+    bool whole = false;
+  };
+  std::deque<Command> commands;
   bool playing = false;
   SnapshotPtr newest, previous;
   std::vector<FrameStats> history;
@@ -101,7 +107,7 @@ void EngineThread::Impl::run(const std::stop_token& stop) {
       }
       if (stop.stop_requested()) return;
       if (!commands.empty()) {
-        command = std::move(commands.front());
+        command = std::move(commands.front().run);
         commands.pop_front();
       } else {
         advance = playing && Clock::now() >= due;
@@ -281,7 +287,7 @@ void EngineThread::setParameter(const Address& address, const Value& value) {
 }
 
 void EngineThread::update(const Project& project) {
-  m->push([impl = m.get(), project] { impl->edit([&](Engine& engine) { engine.update(project); }); });
+  m->push([impl = m.get(), project] { impl->edit([&](Engine& engine) { engine.update(project); }); }, true);
 }
 
 void EngineThread::post(std::function<void(Engine&)> command) {

@@ -167,10 +167,15 @@ std::vector<api::Double3> cellCentres(const VoxelShape& voxels, double spacing, 
   return centres;
 }
 
+TakenPlaces takenPlaces(const ParticleStore& store, double clearance, size_t more) {
+  TakenPlaces taken(clearance, store.size() + more, store.period());
+  for (size_t i = 0; i < store.size(); ++i) taken.add(store.wrappedPosition(i));
+  return taken;
+}
+
 std::vector<api::Double3> freePositions(const ParticleStore& store, const std::vector<api::Double3>& positions,
                                         double clearance) {
-  TakenPlaces taken(clearance, store.size() + positions.size(), store.period());
-  for (size_t i = 0; i < store.size(); ++i) taken.add(store.wrappedPosition(i));
+  TakenPlaces taken = takenPlaces(store, clearance, positions.size());
   std::vector<api::Double3> free;
   for (const api::Double3& p : positions) {
     if (!taken.isFree(p)) continue;

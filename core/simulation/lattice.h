@@ -46,6 +46,8 @@ class TakenPlaces {
   std::vector<api::Double3> m_points;
 };
 
+/// The places of a store's particles, and room for `more`.
+TakenPlaces takenPlaces(const ParticleStore& store, double clearance, size_t more);
 /// Leaves out positions that have a live particle (or an earlier one of the list) within `clearance` m.
 std::vector<api::Double3> freePositions(const ParticleStore& store, const std::vector<api::Double3>& positions,
                                         double clearance);

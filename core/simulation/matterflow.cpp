@@ -14,7 +14,7 @@ namespace {
 /// Nearer to another particle nothing is born: less than a spacing, as the jet may slow down below the mouth.
 constexpr double kClearance = 0.8;  // spacings
 /// Nearer to another particle nothing is let go. What is held presses what stands in its way aside, as a pump does;
-/// where it cannot, in a vessel that is full, it stays.
+/// where it cannot, in a vessel that is full, it is taken back, and new matter stands ready.
 constexpr double kPressed = 0.5;  // spacings
 
 double numberOf(const Emitter& emitter, const char* key) {

@@ -69,7 +69,7 @@ void PrescribedMotion::set(uint32_t body, const BodyMotion& motion, ParticleStor
   if (m_frames.size() <= body) m_frames.resize(body + size_t{1});
   Frame& frame = m_frames[body];
   frame.motion = motion;
-  frame.centre = vectorOf(motion.centre);
+  frame.centre = frame.origin = vectorOf(motion.centre);
   frame.rows = matrixOf(frame.turn);
   frame.exists = true;
   for (size_t i = 0; i < store.size(); ++i) {
@@ -103,9 +103,12 @@ bool PrescribedMotion::movesWithin(double time, double dt) const {
   });
 }
 
-void PrescribedMotion::putBack(ParticleStore& store, size_t first, size_t last, double time) const {
+void PrescribedMotion::putBack(ParticleStore& store, size_t first, size_t last) const {
   for (size_t i = first; i < last; ++i) {
-    if (frameOf(store, i) && placesIn(store)[i].w == 0) adopt(store, i, i + 1, time);  // taken before there was a frame
+    const Frame* frame = frameOf(store, i);
+    if (!frame || placesIn(store)[i].w != 0) continue;
+    const Vector3 place = ps::vectorOf(store.position()[i]) - frame->origin;
+    placesIn(store)[i] = {static_cast<float>(place.x), static_cast<float>(place.y), static_cast<float>(place.z), 1};
   }
   lead(store, first, last);
   std::copy(store.position() + first, store.position() + last, store.previous() + first);
@@ -147,9 +150,15 @@ void PrescribedMotion::lead(ParticleStore& store, size_t first, size_t last) con
 }
 
 void PrescribedMotion::addTo(Hash& hash) const {
-  for (const Frame& frame : m_frames) {
+  for (size_t body = 0; body < m_frames.size(); ++body) {
+    const Frame& frame = m_frames[body];
     if (!frame.exists) continue;
-    for (const double c : {frame.centre.x, frame.centre.y, frame.centre.z}) hash.add(c);
+    const BodyMotion& m = frame.motion;
+    hash.add(uint64_t{body});
+    for (const double c : {frame.centre.x, frame.centre.y, frame.centre.z, m.velocity.x, m.velocity.y, m.velocity.z,
+                           m.spin.x, m.spin.y, m.spin.z, m.start, m.stop}) {
+      hash.add(c);
+    }
     for (const double c : frame.turn) hash.add(c);
   }
 }

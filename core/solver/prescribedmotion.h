@@ -27,8 +27,9 @@ class PrescribedMotion {
   void set(uint32_t body, const BodyMotion& motion, ParticleStore& store);
   /// New particles of bodies that have a frame take their places in it, and its velocity at `time` (s).
   void adopt(ParticleStore& store, size_t first, size_t last, double time) const;
-  /// Matter that was away has missed the way of its frame, and stands at its place in it again.
-  void putBack(ParticleStore& store, size_t first, size_t last, double time) const;
+  /// Matter that was away has missed the way of its frame, and stands at its place in it again; what was taken before
+  /// there was a frame, at the place that it would have been given.
+  void putBack(ParticleStore& store, size_t first, size_t last) const;
   /// Whether a body is on its way at some time of the next `dt` s.
   bool movesWithin(double time, double dt) const;
   /// Moves the frames on through a substep of `dt` s that begins at `time`.
@@ -41,7 +42,7 @@ class PrescribedMotion {
  private:
   struct Frame {
     BodyMotion motion;
-    Vector3 centre;                 ///< m
+    Vector3 centre, origin;         ///< m, now and when the frame was made
     double turn[4] = {0, 0, 0, 1};  ///< quaternion x, y, z, w of unit length
     std::array<Vector3, 3> rows{};  ///< the same as a matrix
     Vector3 velocity, spin;         ///< m/s and rad/s, of the last substep

@@ -14,8 +14,9 @@ constexpr double kStill = 1e-5;
 /// Share of the last substep's impulses that the next one starts from: with all of them the split among contacts that
 /// bear the same load wanders, and bodies creep.
 constexpr double kResumed = 0.8;
-/// Share of what creep has left over that each substep asks back, and the most that it remembers, in spacings.
-constexpr double kRecalled = 0.2, kMostDrift = 0.01;
+/// Share of what creep has left over that each substep asks back. In spacings, the most that it remembers, and what is
+/// creep in one substep: more is motion, and to ask that back would push.
+constexpr double kRecalled = 0.2, kMostDrift = 1e-3, kCreep = 1e-4;
 /// Faster than this share of the speed that gravity gives in two substeps a contact slides.
 constexpr double kSlides = 0.1;
 
@@ -105,7 +106,8 @@ double RigidContact::slideOf(const Contact& c, Vector3 speed) {
 
 /// Adds up what friction left over in the last substep, as long as the two stick.
 void RigidContact::remember(Contact& c) const {
-  const bool sticks = c.active && c.met && !c.slides && !c.yields;
+  const bool creeps = dot(c.left, c.left) < kCreep * kCreep * m_spacing * m_spacing;
+  const bool sticks = c.active && c.met && creeps && !c.slides && !c.yields;
   c.drift = sticks ? c.drift + c.left : Vector3{};
   c.left = {};
   const double length = std::sqrt(dot(c.drift, c.drift)), most = kMostDrift * m_spacing;

@@ -255,7 +255,7 @@ void Solver::putBack(const TakenMatter& matter) {
   m->configure();
   const double before = m->heat.energy(m->store);
   const size_t first = m->store.putBack(matter.particles);
-  m->motion.putBack(m->store, first, m->store.size(), m->time);
+  m->motion.putBack(m->store, first, m->store.size());
   m->constraints.putBack(m->store, matter.constraints);
   m->matterChanged(before);
 }

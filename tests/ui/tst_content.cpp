@@ -173,6 +173,10 @@ class TestContent : public QObject {
     QVERIFY(std::abs(std::get<BoxShape>(copy.shape).center[1] - 0.59) < 1e-12);
     m_document->undoStack().undo();
     QCOMPARE(countNow(*m_engine), before);
+    // Matter of the copy may come back by redo: another one is not mistaken for it.
+    QCOMPARE(m_document->duplicateBody("second"), QString());
+    QCOMPARE(m_document->project().bodies.at(2).id, std::string("second-3"));
+    m_document->undoStack().undo();
     paint();
     QCOMPARE(m_document->duplicateBody("drops"), QString());
     QCOMPARE(countNow(*m_engine), before + 54);

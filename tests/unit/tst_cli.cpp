@@ -18,6 +18,7 @@ class TestCli : public QObject {
   void exitCodesAndOneLine_data();
   void exitCodesAndOneLine();
   void simulateWritesTheReportsKeys();
+  void aRunOfOneFrameSaysNothingOfRest();
   void probesHaveOneRowPerFrame();
   void sameProjectGivesTheSameHash();
   void pluginsAreListed();
@@ -148,6 +149,14 @@ void TestCli::simulateWritesTheReportsKeys() {
   for (const auto& phase : r["phases"]) count += phase["count"].get<size_t>();
   QCOMPARE(count, size_t{125});
   QVERIFY(std::abs(r["simulated_s"].get<double>() - 0.5) < 1e-9);  // 30 frames of 1/60 s, rounding of the sum
+}
+
+void TestCli::aRunOfOneFrameSaysNothingOfRest() {
+  QTemporaryDir folder;
+  const Ran ran = cli(smallScene({"--frames", "1", "--report", folder.filePath("r.json")}));
+  QVERIFY2(ran.code == 0, ran.err.constData());
+  const nlohmann::json r = jsonFile(folder.filePath("r.json"));
+  QVERIFY(r.contains("rest") && r["rest"].is_null());
 }
 
 void TestCli::probesHaveOneRowPerFrame() {

@@ -30,6 +30,7 @@ class TstSimulation : public QObject {
   void anEditOfTheSceneSurvivesReset();
   void gravityAndThermalModelActOnTheNextFrame();
   void motionActsAtOnceWhereItIsPrescribed();
+  void aTurningBodyBesideAnotherKeepsItsOwnSpeeds();
   void spacingActsAtTheNextReset();
   void sketchesKeepTheirPlaceAtAnotherSpacing_data();
   void sketchesKeepTheirPlaceAtAnotherSpacing();
@@ -174,6 +175,24 @@ void TstSimulation::motionActsAtOnceWhereItIsPrescribed() {
   loose.reset();
   loose.step();
   QVERIFY(std::abs(loose.solver().particles().velocity()[0].y - 0.6f) < 1e-3f);
+}
+
+void TstSimulation::aTurningBodyBesideAnotherKeepsItsOwnSpeeds() {
+  Project project = scenes::iceOnPlate(4, 260);
+  Engine engine(project, m_plugins);
+  Body body = project.bodies[0];
+  body.id = "turning";
+  auto& box = std::get<BoxShape>(body.shape);
+  box.center[0] += box.size[0] / 2;  // half of it is taken
+  body.spin = {0, 0, 2};
+  const std::vector<uint32_t> ids = engine.addBody(body);
+  QVERIFY(ids.size() > 16 && ids.size() < 64);
+  const ParticleStore& store = engine.solver().particles();
+  for (const uint32_t id : ids) {
+    const size_t i = store.indexOf(id);
+    const api::Float4 p = store.position()[i], v = store.velocity()[i];
+    QVERIFY(std::abs(v.x + 2 * (p.y - box.center[1])) < 1e-6 && std::abs(v.y - 2 * (p.x - box.center[0])) < 1e-6);
+  }
 }
 
 void TstSimulation::gravityAndThermalModelActOnTheNextFrame() {

@@ -24,6 +24,9 @@ void Document::open(Project project, const QString& path, bool dirty, bool play)
   m_gestureDepth = 0;
   m_neverClean = dirty;
   m_undo.clear();
+  m_usedIds.clear();
+  for (const Body& body : m_project.bodies) m_usedIds.insert(body.id);
+  for (const Emitter& emitter : m_project.emitters) m_usedIds.insert(emitter.id);
   m_opened = ++m_changes;
   tell(ProjectOpened{play});
   tell(FileChanged{});
@@ -131,10 +134,10 @@ void Document::setBodyLocked(const std::string& id, bool locked) {
       [&](Body& b) { b.locked = locked; });
 }
 
-std::string Document::freeBodyId(const std::string& stem) const {
+std::string Document::freeBodyId(const std::string& stem) {
   for (int n = 1;; ++n) {
-    const std::string id = n == 1 ? stem : stem + "-" + std::to_string(n);
-    if (!body(id) && !emitter(id)) return id;
+    std::string id = n == 1 ? stem : stem + "-" + std::to_string(n);
+    if (!body(id) && !emitter(id) && m_usedIds.insert(id).second) return id;
   }
 }
 

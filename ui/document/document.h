@@ -12,6 +12,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -63,8 +64,9 @@ class Document : public QObject {
   void renameBody(const std::string& id, const QString& name);
   void setBodyVisible(const std::string& id, bool visible);
   void setBodyLocked(const std::string& id, bool locked);
-  /// An id that no body and no emitter has yet: "sketch-2".
-  std::string freeBodyId(const std::string& stem) const;
+  /// An id that no body and no emitter has had since the project was opened: "sketch-2". Matter of those that are gone
+  /// may live on in the scene, or come back by undo.
+  std::string freeBodyId(const std::string& stem);
   /// Takes a body out of the scene with its matter. Returns "" or why it stays.
   QString removeBody(const std::string& id);
   /// A copy on top of it. Returns "" or why there is none.
@@ -126,6 +128,7 @@ class Document : public QObject {
   int m_gesture = 0, m_gestureDepth = 0;
   QString m_gestureText;
   bool m_neverClean = false;             ///< the file holds no state of this history
+  std::set<std::string> m_usedIds;       ///< of bodies and emitters
   uint64_t m_changes = 0, m_opened = 0;  ///< changes: now, and when the project was opened
 };
 

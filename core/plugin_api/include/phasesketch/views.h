@@ -20,9 +20,9 @@ struct ParticleView {
   size_t count;
   Float4* position;        ///< x, y, z in m; w: rest volume in m3
   const Float4* previous;  ///< x, y, z in m at the start of the substep
-  Float4* velocity;        ///< x, y, z in m/s; w: inverse mass in 1/kg, 0 for what does not move
-  const float* mass;       ///< kg
-  const uint32_t* id;      ///< stable for life
+  Float4* velocity;   ///< x, y, z in m/s; w: inverse mass in 1/kg, 0 for what nothing can push, whether it moves or not
+  const float* mass;  ///< kg
+  const uint32_t* id;  ///< stable for life
   const uint32_t* material;
   const uint32_t* body;
   const Phase* phase;
