@@ -12,6 +12,13 @@ struct Answer {
   QString table, problem;
 };
 
+/// s of each run; a sanitizer makes a frame fifty times as long.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+const QString kSeconds = QStringLiteral("0.07");
+#else
+const QString kSeconds = QStringLiteral("0.5");
+#endif
+
 Answer soak(const QStringList& arguments) {
   QProcess process;
   process.start(PS_BINARY_DIR "/bin/phasesketch-cli", QStringList{"soak"} + arguments);
@@ -57,7 +64,7 @@ class TestSoak : public QObject {
     QFETCH(QString, slider);
     QFETCH(int, runs);
     const QString name = QTest::currentDataTag();
-    const Answer answer = soak({sample(name), "--only", slider, "--seconds", "0.5"});
+    const Answer answer = soak({sample(name), "--only", slider, "--seconds", kSeconds});
     qInfo("%s", qPrintable(answer.table));
     QVERIFY2(answer.code == 0, qPrintable(answer.table + answer.problem));
     const QStringList lines = answer.table.trimmed().split('\n');

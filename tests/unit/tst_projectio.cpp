@@ -36,6 +36,7 @@ class TestProjectIo : public QObject {
   void hostileTextIsRefused();
   void hostileFilesAreRefused();
   void missingPluginsAreWarningsUnlessRequired();
+  void motionThatComesToNothingIsWarnedOf();
   void materialsAreCheckedAtTheScenesParameters();
   void reservedNamesAreKeptAndTold();
   void newerFilesOpenOnlyWhenTheySaySo();
@@ -346,12 +347,23 @@ void TestProjectIo::hostileFilesAreRefused() {
 
 void TestProjectIo::missingPluginsAreWarningsUnlessRequired() {
   const LoadedProject loaded = parse(kFull);
-  QCOMPARE(loaded.warnings.size(), size_t{1});
+  QCOMPARE(loaded.warnings.size(), size_t{2});  // the other is of motionThatComesToNothingIsWarnedOf()
   QCOMPARE(
       QString::fromStdString(loaded.warnings[0].text),
       "scene.json:/materials/1/base: the plugin 'org.example.gone' is not installed; bodies made of it stand still");
   QVERIFY(!loaded.warnings[0].error);
   QVERIFY(problemOf(kFull, {"pluginsRequired=[\"org.example.gone\"]"}).contains("/pluginsRequired/0"));
+}
+
+void TestProjectIo::motionThatComesToNothingIsWarnedOf() {
+  const auto last = [&](const std::vector<std::string>& edits) {
+    const LoadedProject loaded = parse(kFull, edits);
+    return loaded.warnings.empty() ? QString() : QString::fromStdString(loaded.warnings.back().text);
+  };
+  QVERIFY(last({}).startsWith("scene.json:/bodies/0/velocity_wave: a fixed body keeps its shape"));
+  QVERIFY(last({"bodies/0/motion_start=3", "bodies/0/motion_stop=2"})
+              .startsWith("scene.json:/bodies/0/motion_stop: the body stops before it sets off"));
+  QVERIFY(!last({"bodies/0/fixed=false", "bodies/0/motion_start=3", "bodies/0/motion_stop=2"}).contains("/bodies/0/"));
 }
 
 void TestProjectIo::materialsAreCheckedAtTheScenesParameters() {
