@@ -6,9 +6,9 @@
 
 namespace ps {
 
-/// Keeps liquid out of solids: their particles stay 0.76 spacings apart, weighted by mass and averaged over a particle's
-/// contacts. Density alone keeps volumes apart, not pairs: what is squeezed, or thick, sinks into a lattice. Matter at
-/// rest lies farther apart and does not notice.
+/// Keeps liquid out of solids: their particles stay 0.76 spacings apart, weighted by mass and averaged over a
+/// particle's contacts. Density alone keeps volumes apart, not pairs: what is squeezed, or thick, sinks into a lattice.
+/// Matter at rest lies farther apart and does not notice.
 class WetContact {
  public:
   /// Both in m; `skin` is that of the neighbour lists.
