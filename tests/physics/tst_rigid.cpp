@@ -295,7 +295,7 @@ class TestRigid : public QObject {
     return solver.spawn(spawn);
   }
 
-  const ps::constraint::RigidModel m_rigid;
+  const ps::constraint::RigidModel m_rigid{};
 };
 
 QTEST_APPLESS_MAIN(TestRigid)

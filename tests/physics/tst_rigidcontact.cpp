@@ -260,8 +260,8 @@ class TestRigidContact : public QObject {
     solver.spawn(spawn);
   }
 
-  const ps::constraint::RigidModel m_rigid;
-  const ps::constraint::BondModel m_bonds;
+  const ps::constraint::RigidModel m_rigid{};
+  const ps::constraint::BondModel m_bonds{};
 };
 
 QTEST_APPLESS_MAIN(TestRigidContact)
