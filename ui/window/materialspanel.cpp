@@ -80,7 +80,7 @@ void MaterialsPanel::rebuild() {
   }
   m_own = m_tiles.size();
   for (const std::string& base : plugins ? plugins->ids(PluginKind::Material) : std::vector<std::string>{}) {
-    const Material* material = plugins->material(base);
+    const Material* material = plugins ? plugins->material(base) : nullptr;
     if (!material || bases.count(base)) continue;
     Project with;  // a scene of it alone says how it looks
     with.materials.push_back({base, {}, base, {}, {}, {}});
