@@ -211,9 +211,8 @@ void Engine::Impl::exchangeMatter() {
   const auto birth = [this](Spawn spawn, const Emitter& emitter) {
     const SceneMaterial& material = project.materials[spawn.material];
     const auto count = static_cast<double>(solver->particles().size() + spawn.position.size());
-    const bool refused =
-        !plugins.material(material.base) || count > kMaximumParticles;  // a placeholder; a full machine
-    return refused ? std::vector<uint32_t>{} : born(std::move(spawn), emitter.id, emitter.name);
+    if (!plugins.material(material.base) || count > kMaximumParticles) return std::vector<uint32_t>{};
+    return born(std::move(spawn), emitter.id, emitter.name);
   };
   flow.pour(*solver, project, materials, spacing, compileSettings(project).dt, bodyOf, birth);
 }

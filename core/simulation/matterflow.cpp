@@ -268,9 +268,10 @@ void MatterFlow::pour(Solver& solver, const Project& project, std::span<const Ba
     pipe.point = emitter.point, pipe.direction = emitter.direction;
     pipe.diameter = numberOf(emitter, "diameter");
     const ParticleStore& store = solver.particles();
+    const uint32_t body = bodyOf(emitter);
     double living = 0;
     for (size_t i = 0; i < store.size(); ++i) {
-      if (store.body()[i] == bodyOf(emitter) && isFree(store, i)) ++living;
+      if (store.body()[i] == body && isFree(store, i)) ++living;
     }
     pipe.travelled += numberOf(emitter, "speed") * open;
     for (; pipe.travelled >= spacing; pipe.travelled -= spacing) cross(job, pipe, pipe.travelled - spacing, living);

@@ -89,10 +89,9 @@ void RigidContact::keepImpulses() {
   for (Contact& c : m_contacts) {
     const auto found = std::lower_bound(m_former.begin(), m_former.end(), c, before);
     if (found == m_former.end() || found->key != c.key) continue;
-    c.push = found->push, c.rub = found->rub, c.approach = found->approach, c.drift = found->drift,
-    c.left = found->left;
-    c.yields = found->yields;
-    c.met = found->met, c.slides = found->slides;
+    c.push = found->push, c.rub = found->rub, c.approach = found->approach;
+    c.drift = found->drift, c.left = found->left;
+    c.met = found->met, c.slides = found->slides, c.yields = found->yields;
   }
 }
 
