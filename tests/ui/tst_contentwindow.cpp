@@ -1,64 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bodies and materials come and go by hands in the real window; rows that follow.
-#include "core/simulation/engine.h"
+#include "tests/ui/samplewindow.h"
 #include "ui/document/document.h"
 #include "ui/panels/parameterpanel.h"
-#include "ui/theme/theme.h"
 #include "ui/viewport/viewport.h"
 #include "ui/window/inspector.h"
-#include "ui/window/mainwindow.h"
 #include "ui/window/materialspanel.h"
 #include "ui/window/noticebar.h"
 
 #include <QtGui/QAction>
 #include <QtGui/QContextMenuEvent>
 #include <QtGui/QSurfaceFormat>
-#include <QtTest/QSignalSpy>
-#include <QtTest/QTest>
-#include <QtWidgets/QApplication>
 #include <QtWidgets/QLineEdit>
 #include <QtWidgets/QMenu>
 #include <QtWidgets/QTreeView>
 
-#include <future>
 #include <set>
 
 using namespace ps;
 
-namespace {
-
-const QString kSample = QStringLiteral(PS_SOURCE_DIR "/projects/ice-on-hot-plate.json");
-constexpr int kLong = 30000;  // ms; software rendering on a busy machine
-
-std::set<uint32_t> idsNow(Session& session) {
-  auto promise = std::make_shared<std::promise<std::set<uint32_t>>>();
-  auto future = promise->get_future();
-  session.engine()->post([promise](Engine& engine) {
-    const ParticleStore& store = engine.solver().particles();
-    promise->set_value({store.id(), store.id() + store.size()});
-  });
-  return future.get();
-}
-
-}  // namespace
+namespace {}  // namespace
 
 class TestContentWindow : public QObject {
   Q_OBJECT
  private Q_SLOTS:
   void initTestCase() {
-    Theme::apply(*qApp, true);
-    MainWindow::Options options;
-    options.project = options.sample = kSample;
-    options.restore = false;
-    options.session.autosave = false;
-    m_window = std::make_unique<MainWindow>(options);
-    m_window->resize(1280, 800);
-    m_window->show();
-    QVERIFY(QTest::qWaitForWindowExposed(m_window.get()));
-    QSignalSpy shown(m_window.get(), &MainWindow::projectShown);
-    m_window->start();
-    QVERIFY(shown.wait(kLong));
-    QApplication::setActiveWindow(m_window.get());
+    m_window = sampleWindow({1280, 800});
+    QVERIFY(m_window);
   }
 
   void init() {

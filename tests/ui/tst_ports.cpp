@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Taps and drains by hands in the real window: placed, selected, dragged, renamed, copied, deleted.
-#include "core/simulation/engine.h"
+#include "tests/ui/samplewindow.h"
 #include "ui/document/document.h"
 #include "ui/panels/parameterpanel.h"
-#include "ui/theme/theme.h"
 #include "ui/viewport/porthandles.h"
 #include "ui/viewport/viewport.h"
 #include "ui/window/inspector.h"
-#include "ui/window/mainwindow.h"
 #include "ui/window/noticebar.h"
 #include "ui/window/outliner.h"
 
@@ -15,30 +13,15 @@
 #include <QtGui/QContextMenuEvent>
 #include <QtGui/QMouseEvent>
 #include <QtGui/QSurfaceFormat>
-#include <QtTest/QSignalSpy>
-#include <QtTest/QTest>
-#include <QtWidgets/QApplication>
 #include <QtWidgets/QLineEdit>
 #include <QtWidgets/QMenu>
 #include <QtWidgets/QTreeView>
 
 #include <cmath>
-#include <future>
 
 using namespace ps;
 
 namespace {
-
-const QString kSample = QStringLiteral(PS_SOURCE_DIR "/projects/ice-on-hot-plate.json");
-constexpr int kLong = 30000;  // ms; software rendering on a busy machine
-
-template <class Result>
-Result ask(Session& session, std::function<Result(Engine&)> question) {
-  auto promise = std::make_shared<std::promise<Result>>();
-  auto future = promise->get_future();
-  session.engine()->post([promise, question](Engine& engine) { promise->set_value(question(engine)); });
-  return future.get();
-}
 
 double distance(const Vec3& a, const Vec3& b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
 
@@ -48,19 +31,8 @@ class TestPorts : public QObject {
   Q_OBJECT
  private Q_SLOTS:
   void initTestCase() {
-    Theme::apply(*qApp, true);
-    MainWindow::Options options;
-    options.project = options.sample = kSample;
-    options.restore = false;
-    options.session.autosave = false;
-    m_window = std::make_unique<MainWindow>(options);
-    m_window->resize(1000, 700);
-    m_window->show();
-    QVERIFY(QTest::qWaitForWindowExposed(m_window.get()));
-    QSignalSpy shown(m_window.get(), &MainWindow::projectShown);
-    m_window->start();
-    QVERIFY(shown.wait(kLong));
-    QApplication::setActiveWindow(m_window.get());
+    m_window = sampleWindow({1000, 700});
+    QVERIFY(m_window);
   }
 
   void init() {
@@ -136,7 +108,7 @@ class TestPorts : public QObject {
     QVERIFY(edge > 10.5 * session().snapshot()->spacing);  // wider than a click makes it
     QCOMPARE(outliner()->selected(), std::pair(OutlineKind::Sink, std::string("drain")));
     placedTap();  // above it
-    const FlowTotal flow = ask<FlowTotal>(session(), [](Engine& engine) {
+    const FlowTotal flow = onEngine<FlowTotal>(session(), [](Engine& engine) {
       for (int frame = 0; frame < 40; ++frame) engine.step();
       return engine.stats().flow;
     });
@@ -155,7 +127,8 @@ class TestPorts : public QObject {
 
     QVERIFY((pixelOf(moved.point) - at - QPoint(60, 0)).manhattanLength() <= 2);
     QCOMPARE(document().undoStack().count(), steps + 1);
-    const Vec3 lives = ask<Vec3>(session(), [](Engine& engine) { return engine.project().emitters.front().point; });
+    const Vec3 lives =
+        onEngine<Vec3>(session(), [](Engine& engine) { return engine.project().emitters.front().point; });
     QCOMPARE(lives, moved.point);
     document().undoStack().undo();
     QCOMPARE(project().emitters.front().point, tap.point);

@@ -2,19 +2,17 @@
 // The whole window on a real scene: the road from a slider to the simulation and back.
 #include "core/io/projectio.h"
 #include "core/plugin_host/registry.h"
-#include "core/simulation/engine.h"
+#include "tests/ui/samplewindow.h"
 #include "ui/document/document.h"
 #include "ui/document/documentfiles.h"
 #include "ui/graphs/graphview.h"
 #include "ui/graphs/phasestackview.h"
 #include "ui/panels/parameterpanel.h"
 #include "ui/render/camera.h"
-#include "ui/theme/theme.h"
 #include "ui/viewport/viewport.h"
 #include "ui/window/dock.h"
 #include "ui/window/graphspanel.h"
 #include "ui/window/inspector.h"
-#include "ui/window/mainwindow.h"
 #include "ui/window/noticebar.h"
 #include "ui/window/pluginpage.h"
 #include "ui/window/screenshot.h"
@@ -24,47 +22,26 @@
 #include <QtCore/QTemporaryDir>
 #include <QtGui/QAction>
 #include <QtGui/QSurfaceFormat>
-#include <QtTest/QSignalSpy>
-#include <QtTest/QTest>
-#include <QtWidgets/QApplication>
 #include <QtWidgets/QLineEdit>
 
 #include <algorithm>
 #include <clocale>
 #include <cmath>
 #include <functional>
-#include <future>
 #include <set>
 
 using namespace ps;
 
 namespace {
 
-const QString kSample = QStringLiteral(PS_SOURCE_DIR "/projects/ice-on-hot-plate.json");
 const Address kFloor{"wall", "floor", "temperature"};
-constexpr int kLong = 30000;  // ms; software rendering on a busy machine
-
-template <class T>
-T onEngine(EngineThread& engine, std::function<T(Engine&)> ask) {
-  auto promise = std::make_shared<std::promise<T>>();
-  std::future<T> future = promise->get_future();
-  engine.post([promise, ask](Engine& e) { promise->set_value(ask(e)); });
-  return future.get();
-}
 
 double floorInEngine(Session& session) {
-  return onEngine<double>(*session.engine(), [](Engine& e) {
+  return onEngine<double>(session, [](Engine& e) {
     for (const SceneWall& wall : e.project().environment.walls) {
       if (wall.id == "floor") return numberOf(wall.parameters, wallParameters(), "temperature");
     }
     return 0.0;
-  });
-}
-
-std::set<uint32_t> idsNow(Session& session) {
-  return onEngine<std::set<uint32_t>>(*session.engine(), [](Engine& e) {
-    const ParticleStore& store = e.solver().particles();
-    return std::set<uint32_t>(store.id(), store.id() + store.size());
   });
 }
 
@@ -86,21 +63,8 @@ class TestWindow : public QObject {
     QVERIFY(broken.open(QIODevice::WriteOnly));
     broken.write("not a library");
     broken.close();
-    Theme::apply(*qApp, true);
-    MainWindow::Options options;
-    options.project = kSample;
-    options.sample = kSample;
-    options.restore = false;
-    options.session.autosave = false;
-    options.session.pluginPaths = {m_plugins.path().toStdString()};
-    m_window = std::make_unique<MainWindow>(options);
-    m_window->resize(1280, 800);
-    m_window->show();
-    QVERIFY(QTest::qWaitForWindowExposed(m_window.get()));
-    QSignalSpy shown(m_window.get(), &MainWindow::projectShown);
-    m_window->start();
-    QVERIFY(shown.wait(kLong));
-    QApplication::setActiveWindow(m_window.get());
+    m_window = sampleWindow({1280, 800}, {m_plugins.path().toStdString()});
+    QVERIFY(m_window);
   }
 
   void init() {
@@ -148,7 +112,7 @@ class TestWindow : public QObject {
     const auto heatIn = [&](double kelvin) {
       document().setParameter(kFloor, kelvin);
       session().reset();
-      return onEngine<double>(*session().engine(), [](Engine& e) {
+      return onEngine<double>(session(), [](Engine& e) {
         for (int k = 0; k < 10; ++k) e.step();
         return e.stats().heat.walls;
       });
@@ -369,7 +333,7 @@ class TestWindow : public QObject {
     const PhaseStackView* graph = m_window->graphs()->phases();
     QTRY_COMPARE_WITH_TIMEOUT(graph->sampleCount(), size_t{1}, kLong);
     const QString before = graph->summary();
-    const auto taken = onEngine<std::shared_ptr<TakenMatter>>(*session().engine(), [](Engine& e) {
+    const auto taken = onEngine<std::shared_ptr<TakenMatter>>(session(), [](Engine& e) {
       const ParticleStore& store = e.solver().particles();
       return std::make_shared<TakenMatter>(
           e.takeParticles(std::vector<uint32_t>(store.id(), store.id() + store.size() / 2)));
