@@ -53,7 +53,7 @@ std::pair<double, double> temperatureRange(const Project& project) {
   };
   for (const Body& body : project.bodies) include(numberOf(body.parameters, bodyParameters(), "temperature"));
   for (const SceneWall& wall : project.environment.walls) {
-    if (choiceOf(wall.parameters, wallParameters(), "heat") != "fixed_temperature") continue;
+    if (!hasTemperature(wall)) continue;
     include(numberOf(wall.parameters, wallParameters(), "temperature"));
   }
   return {least, most > least ? most : least + 1};

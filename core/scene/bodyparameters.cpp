@@ -27,6 +27,12 @@ constexpr api::ParameterDeclaration kBody[] = {
     integer({"seed", "Kind of disorder", "", ""}, {1, 1, 100, 0, 4294967295.0},
             {"Start", "Another number places the particles otherwise; the same number always alike.",
              "compare runs with 1, 2 and 3 to see what chance does", ""}),
+    number({"surface_area", "Surface in air", "A", "m²"}, {0, 0, 0.1, 0, 1e6},
+           {"Heat",
+            "Surface of the whole body that air and radiation reach, shared among the particles that are found "
+            "outside. 0: "
+            "as these particles show it, to some 5 %.",
+            "0 for all but experiments with a known surface", ""}),
     number({"motion_start", "Sets off at", "", "s"}, {0, 0, 60, 0, 1e9},
            {"Motion",
             "When a body that is held in place, and has a velocity or a spin, begins to move. Until then it stands.",

@@ -16,10 +16,19 @@ constexpr api::ParameterDeclaration kEnvironment[] = {
            {"Air", "Temperature of the air, which cools or warms vapour that flies through it.",
             "freezer −18 °C, room 20 °C, oven 220 °C", ""},
            kCelsius),
-    number({"air_convection", "Air cooling", "h", "W/(m²·K)"}, {5, 0, 50, 0, 1e5},
-           {"Air", "How fast air takes heat from vapour in the open: heat per surface, time and degree.",
-            "still air 5 to 10, breeze 25, 0 for none",
-            "Incropera et al., Fundamentals of Heat and Mass Transfer, ch. 1"}),
+    number(
+        {"air_convection", "Air cooling", "h", "W/(m²·K)"}, {5, 0, 50, 0, 1e5},
+        {"Air",
+         "How fast still air takes heat from everything that it touches: heat per surface, time and degree. Wind from "
+         "2 m/s on takes more, as chilled fingers know; with 0 no air takes heat, however it blows.",
+         "still air 5 to 10, breeze 25, 0 for none",
+         "Incropera et al., Fundamentals of Heat and Mass Transfer, ch. 1; Siple & Passel 1945"}),
+    number({"air_heat_capacity", "Heat capacity of the air", "C", "J/K"}, {0, 0, 1e4, 0, 1e12},
+           {"Air",
+            "For a closed box: its air as one lump that grows warmer by the heat it takes. 0 for so much air that it "
+            "keeps "
+            "its temperature.",
+            "1200 J/K for each cubic metre", ""}),
     number({"wind_speed", "Wind", "u", "m/s"}, {0, 0, 10, 0, 340},
            {"Air", "Speed of the air. It carries vapour along, and drops and solids too where they have an air drag.",
             "draught 0.3, breeze 3, hair dryer 10", ""}),
@@ -30,6 +39,22 @@ constexpr api::ParameterDeclaration kEnvironment[] = {
             "Drag coefficient of single particles of liquids and solids in air, and with it the air's small lift. 0 is "
             "a vacuum to them. Vapour has a drag of its own.",
             "sphere 0.47, cube 1.05, 0 for none", "Hoerner 1965, Fluid-Dynamic Drag"}),
+    toggle({"radiation", "Heat radiation", "", ""}, false,
+           {"Radiation",
+            "Whether hot surfaces radiate heat at what they see: other matter, walls that have a temperature, and what "
+            "surrounds the scene. It is what cools glowing matter.",
+            "on for lava, molten metal and candles; hardly matters below 100 °C",
+            "Incropera et al., Fundamentals of Heat and Mass Transfer, ch. 12 and 13"}),
+    number({"surroundings_temperature", "Temperature around", "T_s", "K"}, {293.15, 3, 1273.15, 0, 10000},
+           {"Radiation", "Temperature of what the scene is seen to stand in, for heat radiation.",
+            "room 20 °C, furnace 1200 °C, clear night sky −40 °C, space −270 °C", ""},
+           kCelsius),
+    number({"contact_conductance", "Contact between bodies", "h_c", "W/(m²·K)"}, {0, 0, 10000, 0, 1e9},
+           {"Contact",
+            "How well heat passes from one body to another where at least one is solid: rough surfaces touch at few "
+            "points. 0 for perfect contact.",
+            "iron on iron 2000 to 20000, with grease 50000, loose 500",
+            "Incropera et al., Fundamentals of Heat and Mass Transfer, ch. 3"}),
 };
 
 }  // namespace

@@ -134,9 +134,11 @@ struct SceneWall {
   std::string id, name;
   Vec3 point{0, 0, 0};      ///< m, on the wall
   Vec3 normal{0, 1, 0};     ///< into the scene; any length but zero
-  ParameterSet parameters;  ///< see wallParameters(): heat, temperature, friction, film_coefficient
+  ParameterSet parameters;  ///< see wallParameters(): heat, temperature, friction, film_coefficient, ...
   Unknown unknown;
 };
+/// Whether its parameter `temperature` acts: its surface or the fluid behind it has one.
+bool hasTemperature(const SceneWall& wall);
 
 struct Environment {
   ParameterSet parameters;  ///< see environmentParameters()

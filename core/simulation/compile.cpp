@@ -165,6 +165,10 @@ ThermalSettings compileThermal(const Project& project) {
   t.ambientPressure = ambient("ambient_pressure");
   t.ambientTemperature = ambient("ambient_temperature");
   t.airConvection = ambient("air_convection");
+  t.airHeatCapacity = ambient("air_heat_capacity");
+  t.contactConductance = ambient("contact_conductance");
+  t.radiation = toggleOf(project.environment.parameters, environmentParameters(), "radiation");
+  t.surroundingsTemperature = ambient("surroundings_temperature");
   return t;
 }
 
@@ -181,9 +185,15 @@ std::vector<Wall> compileWalls(const Project& project) {
     wall.offset = wall.normal.x * source.point[0] + wall.normal.y * source.point[1] + wall.normal.z * source.point[2];
     wall.friction = numberOf(source.parameters, list, "friction");
     wall.noSlip = toggleOf(source.parameters, list, "no_slip");
-    wall.heat = choiceOf(source.parameters, list, "heat") == "fixed_temperature" ? WallHeat::FixedTemperature
-                                                                                 : WallHeat::Adiabatic;
+    const std::string heat = choiceOf(source.parameters, list, "heat");
+    wall.heat = heat == "fixed_temperature" ? WallHeat::FixedTemperature
+                : heat == "fixed_flux"      ? WallHeat::FixedFlux
+                : heat == "convective"      ? WallHeat::Convective
+                                            : WallHeat::Adiabatic;
     wall.temperature = numberOf(source.parameters, list, "temperature");
+    wall.flux = numberOf(source.parameters, list, "heat_flux");
+    wall.convection = numberOf(source.parameters, list, "convection");
+    wall.emissivity = numberOf(source.parameters, list, "emissivity");
     wall.filmCoefficient = numberOf(source.parameters, list, "film_coefficient");
     walls.push_back(wall);
   }

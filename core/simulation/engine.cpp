@@ -155,7 +155,15 @@ void Engine::Impl::setThermal() {
   }
   std::vector<double> parameters;
   if (model) parameters = numbersOf(project.solver.thermalParameters, model->parameters());
-  solver->setThermal(compileThermal(project), model, project.solver.thermalModel, std::move(parameters));
+  ThermalSettings settings = compileThermal(project);
+  settings.surfaceArea.assign(bodyIds->size(), 0);
+  for (const Body& body : project.bodies) {
+    const auto found = std::find(bodyIds->begin(), bodyIds->end(), body.id);
+    if (found == bodyIds->end()) continue;
+    settings.surfaceArea[static_cast<size_t>(found - bodyIds->begin())] =
+        numberOf(body.parameters, bodyParameters(), "surface_area");
+  }
+  solver->setThermal(settings, model, project.solver.thermalModel, std::move(parameters));
 }
 
 uint32_t Engine::Impl::constraintSet(const std::string& id) {
@@ -256,6 +264,7 @@ void Engine::Impl::build() {
     }
   }
   for (const Emitter& emitter : project.emitters) bodyIndex(emitter.id);
+  setThermal();  // what it says of bodies goes by their indices
   for (const Probe& probe : project.probes) probeNames.push_back(probeTitle(probe));
 }
 
@@ -275,7 +284,7 @@ void Engine::Impl::recompile(const std::string& owner) {
     solver->setSettings(settings);
   }
   if (owner == "environment") bakeMaterials();  // pressure moves melting and boiling points
-  if (owner == "environment" || owner == "solver" || owner == "thermal") setThermal();
+  if (owner == "environment" || owner == "solver" || owner == "thermal" || owner == "body") setThermal();
   if (owner == "body") lead();
   if (owner == "constraint") {
     for (const Body& body : project.bodies) {
@@ -345,8 +354,9 @@ bool Engine::setParameter(const Address& address, const Value& value) {
   if (!set) return false;
   const ParameterSet before = *set;
   set->values[address.key] = value;
-  const bool moves = address.key == "motion_start" || address.key == "motion_stop";
-  const bool actsNow = (address.owner != "body" || moves) && address.key != "particle_spacing";
+  constexpr std::string_view kLive[] = {"motion_start", "motion_stop", "surface_area"};  // of a body
+  const bool live = std::find(std::begin(kLive), std::end(kLive), address.key) != std::end(kLive);
+  const bool actsNow = (address.owner != "body" || live) && address.key != "particle_spacing";
   try {
     if (actsNow) {
       m->recompile(address.owner);

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numbers>
 
 namespace ps {
 namespace {
@@ -34,15 +33,6 @@ double smallestCapacity(const api::Caloric& c, double solid, double liquid, doub
   return smallest;
 }
 
-/// Volume^(2/3), m2, for a volume near spacing^3. Newton's cube root, because the C library's may differ in its last
-/// bit between machines.
-double faceOf(double volume, double spacing) {
-  const double scaled = volume / (spacing * spacing * spacing);
-  double x = 1;
-  for (int k = 0; k < 6; ++k) x = (2 * x + scaled / (x * x)) / 3;
-  return x * x * spacing * spacing;
-}
-
 }  // namespace
 
 void HeatStage::configure(const ThermalSettings& settings, const SolverSettings& solver, std::vector<Wall> walls,
@@ -50,11 +40,8 @@ void HeatStage::configure(const ThermalSettings& settings, const SolverSettings&
                           std::vector<double> modelParameters) {
   m_settings = settings;
   m_solver = solver;
-  m_walls.clear();
-  for (Wall& wall : walls) {
-    if (wall.heat == WallHeat::FixedTemperature) m_walls.push_back(std::move(wall));
-  }
   m_materials = materials;
+  m_surroundings.configure(settings, solver, std::move(walls), materials);
   m_materialViews.clear();
   for (const BakedMaterial& material : materials) m_materialViews.push_back(&material);
   if (model != m_model) {
@@ -174,36 +161,34 @@ std::span<const double> HeatStage::energies(const ParticleStore& store) const {
   return {m_energies.data(), store.size()};
 }
 
-void HeatStage::snapshotRange(const ParticleStore& store, Snapshot& snapshot, size_t first, size_t last) const {
+void HeatStage::snapshotRange(const ParticleStore& store, HeatInstant& instant, size_t first, size_t last) const {
   const uint32_t* material = store.material();
   const double* temperature = store.temperature();
   for (size_t i = first; i < last; ++i) {
-    snapshot.temperature[i] = temperature[i];
-    snapshot.potential[i] = m_materials[material[i]].kirchhoff(temperature[i]);
+    instant.temperature[i] = temperature[i];
+    instant.potential[i] = m_materials[material[i]].kirchhoff(temperature[i]);
   }
 }
 
-/// Everything that stays the same during a frame: pairs, wall and air conductances, the stable step.
-void HeatStage::prepare(ParticleStore& store, const Neighbours& neighbours) {
+/// Everything that stays the same during a frame: pairs, what lies around, the stable step.
+void HeatStage::prepare(ParticleStore& store, const Neighbours& neighbours, uint64_t frame) {
   const size_t n = store.size();
   m_partials.resize(chunksOf(n));
   for (auto* list : {&m_joules, &m_frameJoules, &m_watts, &m_perConductivity, &m_fixedConductance}) list->resize(n);
-  for (auto* list : {&m_now, &m_next}) {
-    list->potential.resize(n);
-    list->temperature.resize(n);
-  }
-  m_wallConductance.resize(n * m_walls.size());
-  m_touchesWall.resize(n);
-  m_airConductance.resize(n);
+  m_now.resize(n);
+  m_next.resize(n);
   m_boilingPartners.resize(n);
-  m_pairs.build(
-      store, neighbours.view(), m_materials,
-      {m_solver.spacing * m_solver.supportRatio, m_solver.spacing, m_solver.kernel, m_settings.momentCorrection});
+  m_pairs.build(store, neighbours.view(), m_materials,
+                {m_solver.spacing * m_solver.supportRatio, m_solver.spacing, m_solver.kernel,
+                 m_settings.momentCorrection, m_settings.contactConductance});
+  m_surroundings.measure(store, neighbours.view(), m_pairs, frame);
+  m_surroundings.setAir(m_settings.ambientTemperature + m_ledger.airWarming);
+  m_airTaken = 0;
   const auto body = [&](size_t first, size_t last) {
     Partial& partial = m_partials[first / kGrain];
     partial = {};
     snapshotRange(store, m_now, first, last);
-    measureSurroundings(store, first, last, partial);
+    sumConductances(store, first, last, partial);
     partial.fastest = fastestRate(store, first, last);
   };
   parallelFor(n, kGrain, std::cref(body));
@@ -212,54 +197,27 @@ void HeatStage::prepare(ParticleStore& store, const Neighbours& neighbours) {
   findLimit();
 }
 
-/// Walls as a layer of boundary matter of volume dx^3 half a spacing behind the plane, smeared out along it:
-/// G = 4 V dx A(d + dx/2), A(h) = integral of -F over the plane at distance h = 2 pi W(h). The temperature holds on the
-/// plane itself. Air touches vapour where no liquid surrounds it.
-void HeatStage::measureSurroundings(const ParticleStore& store, size_t first, size_t last, Partial& partial) {
-  const double dx = m_solver.spacing;
-  const Kernel kernel(m_solver.kernel, dx * m_solver.supportRatio);
+void HeatStage::sumConductances(const ParticleStore& store, size_t first, size_t last, Partial& partial) {
   for (size_t i = first; i < last; ++i) {
-    const api::Float4 x = store.position()[i];
-    const double volume = m_pairs.volume[i];
-    double perConductivity = 0;
-    uint8_t touches = 0;
-    for (size_t w = 0; w < m_walls.size(); ++w) {
-      const Wall& wall = m_walls[w];
-      const double depth =
-          wall.normal.x * double{x.x} + wall.normal.y * double{x.y} + wall.normal.z * double{x.z} - wall.offset;
-      const double height = std::max(depth, 0.0) + 0.5 * dx;
-      const double g = 4 * volume * dx * 2 * std::numbers::pi * kernel.value(height);
-      m_wallConductance[i * m_walls.size() + w] = static_cast<float>(g);
-      perConductivity += g;
-      touches |= g > 0;
-    }
-    m_touchesWall[i] = touches;
-    const double g = store.gasFraction()[i];
-    double air = 0;
-    if (g > 0) {
-      ++partial.boiling;
-      const double open = std::max(0.0, 1 - 2 * double{m_pairs.immersion[i]});
-      air = open * g * m_settings.airConvection * faceOf(store.position()[i].w, dx);
-    }
-    m_airConductance[i] = static_cast<float>(air);
-    m_perConductivity[i] = perConductivity + m_pairs.sameTotal[i];
-    m_fixedConductance[i] = air + m_pairs.otherTotal[i];
+    if (store.gasFraction()[i] > 0) ++partial.boiling;
+    m_perConductivity[i] = m_surroundings.perConductivity(i) + m_pairs.sameTotal[i];
+    m_fixedConductance[i] = m_surroundings.fixedConductance(store, i) + m_pairs.otherTotal[i];
   }
 }
 
-bool HeatStage::advance(ParticleStore& store, const Neighbours& neighbours, double dt) {
+bool HeatStage::advance(ParticleStore& store, const Neighbours& neighbours, double dt, uint64_t frame) {
   m_substeps = 0;
   m_swept = false;
   m_delivered = m_settings.timeScale;
   if (!works() || store.size() == 0) return true;
-  return guarded([&] { exchange(store, neighbours, dt); });
+  return guarded([&] { exchange(store, neighbours, dt, frame); });
 }
 
-void HeatStage::exchange(ParticleStore& store, const Neighbours& neighbours, double dt) {
+void HeatStage::exchange(ParticleStore& store, const Neighbours& neighbours, double dt, uint64_t frame) {
   if (m_modelChanged) adopt(store);
   double time = dt * m_settings.timeScale;
   if (!(time > 0)) return;
-  prepare(store, neighbours);
+  prepare(store, neighbours, frame);
   const api::ParticleView view = store.view();
   const api::NeighbourView lists = neighbours.view();
   askPairLaw(view, lists);
@@ -314,6 +272,7 @@ void HeatStage::explicitStep(ParticleStore& store, const api::ParticleView& view
   };
   parallelFor(store.size(), kGrain, std::cref(body));
   std::swap(m_now, m_next);
+  warmAir();
   findLimit();
 }
 
@@ -335,38 +294,39 @@ double HeatStage::fastestRate(const ParticleStore& store, size_t first, size_t l
 void HeatStage::findLimit() {
   double fastest = 0;
   for (const Partial& partial : m_partials) fastest = std::max(fastest, partial.fastest);
+  if (m_settings.airHeatCapacity > 0)
+    fastest = std::max(fastest, m_surroundings.airConductance() / m_settings.airHeatCapacity);
   m_limit = fastest > 0 ? 1 / fastest : 1e30;
 }
 
-/// What drives heat from wall w into particle i, W/m: the Kirchhoff difference, as inside matter, up to the boiling
-/// (or sublimation) point. Beyond it the matter that touches the wall conducts as itself, not as the vapour that
-/// Kirchhoff's integral would put between them: a film of vapour insulates only as far as the particle itself has
-/// become vapour.
-double HeatStage::wallDrive(const ParticleStore& store, size_t i, size_t w) const {
-  const BakedMaterial& material = m_materials[store.material()[i]];
-  const api::Caloric& caloric = material.caloric();
-  const double boiling = caloric.sublimes ? caloric.meltingPoint : caloric.boilingPoint;
-  const double here = m_now.temperature[i], there = m_walls[w].temperature;
-  if (here <= boiling && there <= boiling) return material.kirchhoff(there) - m_now.potential[i];
-  const double gas = double{store.gasFraction()[i]};
-  const double solid = caloric.sublimes ? 1 : 0;
-  const double k =
-      (1 - gas) * material.conductivity(boiling, solid, 1 - solid, 0) + gas * material.conductivity(boiling, 0, 0, 1);
-  return material.kirchhoff(std::min(there, boiling)) - material.kirchhoff(std::min(here, boiling)) +
-         k * (std::max(there, boiling) - std::max(here, boiling));
+/// The lump of air answers for what it has given since it was last asked.
+void HeatStage::warmAir() {
+  if (!(m_settings.airHeatCapacity > 0)) return;
+  double given = 0;
+  for (const Partial& partial : m_partials) given += partial.air;
+  m_ledger.airWarming -= (given - m_airTaken) / m_settings.airHeatCapacity;
+  m_airTaken = given;
+  m_surroundings.setAir(m_settings.ambientTemperature + m_ledger.airWarming);
 }
 
-/// Heat from neighbours, walls and air during `step` s of thermal time, from the snapshot alone.
+void HeatStage::book(HeatBooks& books, HeatSurroundings::Kind kind, double joules) {
+  (kind == HeatSurroundings::Kind::Wall  ? books.walls
+   : kind == HeatSurroundings::Kind::Air ? books.air
+                                         : books.radiation) += joules;
+  books.exchanged += std::abs(joules);
+}
+
+/// Heat from neighbours and what lies around during `step` s of thermal time, from the snapshot alone.
 void HeatStage::gather(const ParticleStore& store, double step, size_t first, size_t last, Partial& partial) {
   const double* potential = m_now.potential.data();
   const double* temperature = m_now.temperature.data();
   const uint32_t* partner = m_pairs.partner.data();
   const float* conductance = m_pairs.conductance.data();
-  const size_t walls = m_walls.size();
   for (size_t i = first; i < last; ++i) {
+    const double t = temperature[i];
     double watts = 0;
     if (!m_pairLaw) {
-      const double here = potential[i], t = temperature[i];
+      const double here = potential[i];
       double sum[4] = {0, 0, 0, 0};  // four chains keep the adder busy; their order is fixed
       uint32_t k = m_pairs.begin[i];
       const uint32_t same = m_pairs.same[i];
@@ -379,19 +339,14 @@ void HeatStage::gather(const ParticleStore& store, double step, size_t first, si
       }
       watts = (sum[0] + sum[1]) + (sum[2] + sum[3]);
     }
-    double fromWalls = 0;
-    if (m_touchesWall[i]) {
-      for (size_t w = 0; w < walls; ++w) {
-        const double joules = step * double{m_wallConductance[i * walls + w]} * wallDrive(store, i, w);
-        fromWalls += joules;
-        partial.exchanged += std::abs(joules);
-      }
-    }
-    const double fromAir = step * double{m_airConductance[i]} * (m_settings.ambientTemperature - temperature[i]);
-    partial.walls += fromWalls;
-    partial.air += fromAir;
-    partial.exchanged += std::abs(fromAir);
-    m_joules[i] = step * watts + (fromWalls + fromAir);
+    m_surroundings.forEachInSight(store, i, m_now, [&](uint32_t j, double g) { watts += g * (temperature[j] - t); });
+    double around = 0;
+    m_surroundings.forEach(store, i, m_now, [&](HeatSurroundings::Kind kind, double g, double target) {
+      const double joules = step * g * (target - t);
+      around += joules;
+      book(partial, kind, joules);
+    });
+    m_joules[i] = step * watts + around;
   }
 }
 
@@ -416,13 +371,15 @@ void HeatStage::gatherPairLaw(const api::NeighbourView& lists, double step, size
   }
 }
 
-/// What comes once a frame (film, nucleation) and the model's own sources.
+/// What comes once a frame (film, nucleation), walls of given flux and the model's own sources.
 void HeatStage::addFrameHeat(double step, bool firstStep, size_t first, size_t last, Partial& partial) {
   for (size_t i = first; i < last; ++i) {
     const double source = m_watts[i] * step;
     partial.sources += source;
     partial.exchanged += std::abs(source);
-    m_joules[i] += source + (firstStep ? m_frameJoules[i] : 0);
+    const double flux = m_surroundings.watts(i) * step;
+    if (flux != 0) book(partial, HeatSurroundings::Kind::Wall, flux);
+    m_joules[i] += source + flux + (firstStep ? m_frameJoules[i] : 0);
   }
 }
 
@@ -430,6 +387,7 @@ void HeatStage::closeBooks() {
   for (const Partial& partial : m_partials) {
     m_ledger.walls += partial.walls;
     m_ledger.air += partial.air;
+    m_ledger.radiation += partial.radiation;
     m_ledger.sources += partial.sources;
     m_ledger.exchanged += partial.exchanged;
   }

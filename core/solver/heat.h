@@ -6,6 +6,7 @@
 #include "core/particles/neighbours.h"
 #include "core/solver/heatbody.h"
 #include "core/solver/heatpairs.h"
+#include "core/solver/heatsurroundings.h"
 #include "core/solver/settings.h"
 
 #include <optional>
@@ -17,15 +18,19 @@
 namespace ps {
 
 /// The thermal half of a frame: pairwise conduction (Cleary & Monaghan 1999 between materials, Kirchhoff within one),
-/// walls, air, film condensation, nucleation. Heat is exchanged in equal and opposite joules, so that a closed system
-/// keeps its energy to rounding. Kinds of heat a model cannot do: see the thermal plugin's help.
+/// walls, air and radiation (HeatSurroundings), film condensation, nucleation. Heat is exchanged in equal and opposite
+/// joules, so that a closed system keeps its energy to rounding. Kinds of heat a model cannot do: see the thermal
+/// plugin's help.
 ///
 /// Explicit substeps of thermal_cfl times the Gershgorin limit, measured before each from the pairs at hand; above
 /// kMaxExplicit of them, pairwise exponential sweeps (heatrelax.cpp), which stay stable at any step and lose accuracy
 /// slowly. What even these cannot follow is not done: the thermal clock then runs slower, see
 /// thermalTimeScaleDelivered(). A model's own pair law is stepped at the limit of the host's conduction and never
-/// swept, so a law much stronger than that needs a smaller thermal_cfl. Not modelled: radiation, convection of air,
-/// evaporation below the boiling point.
+/// swept, so a law much stronger than that needs a smaller thermal_cfl. Not modelled: evaporation below the boiling
+/// point.
+///
+/// A finite lump of air (airHeatCapacity) keeps one temperature, which follows what it gives and takes; its energy and
+/// the particles' are constant together.
 ///
 /// A model that throws is put aside for good: from then on no heat flows, and takeFault() tells what it said.
 class HeatStage {
@@ -44,7 +49,8 @@ class HeatStage {
                   std::span<const api::Phase> phase);
   /// One frame of `dt` s of mechanical time. Lists must be fresh. Updates temperature and fractions, not volumes.
   /// False when the model threw: particles are then half changed, the ledger is not.
-  bool advance(ParticleStore& store, const Neighbours& neighbours, double dt);
+  /// `frame`, its number, chooses the rays of radiation.
+  bool advance(ParticleStore& store, const Neighbours& neighbours, double dt, uint64_t frame = 0);
   /// Re-derives temperature and fractions after a change of pressure or material. Where that changes the energy too,
   /// it is booked as a source.
   void derive(ParticleStore& store);
@@ -77,13 +83,9 @@ class HeatStage {
   bool usedSweeps() const { return m_swept; }
 
  private:
-  struct Partial {
-    double walls = 0, air = 0, sources = 0, exchanged = 0, fastest = 0;  ///< J; fastest: largest rate in 1/s
+  struct Partial : HeatBooks {
+    double fastest = 0;  ///< largest rate in 1/s
     int boiling = 0;
-  };
-  /// Potential in W/m and temperature in K of a frozen instant.
-  struct Snapshot {
-    std::vector<double> potential, temperature;
   };
 
   template <class Call>
@@ -92,11 +94,11 @@ class HeatStage {
   void startState(ParticleStore& store, size_t first, size_t last, std::span<const double> temperature,
                   std::span<const api::Phase> phase);
   void adopt(ParticleStore& store);
-  void exchange(ParticleStore& store, const Neighbours& neighbours, double dt);
+  void exchange(ParticleStore& store, const Neighbours& neighbours, double dt, uint64_t frame);
   void deriveRange(ParticleStore& store, size_t first, size_t last);
-  void snapshotRange(const ParticleStore& store, Snapshot& snapshot, size_t first, size_t last) const;
-  void prepare(ParticleStore& store, const Neighbours& neighbours);
-  void measureSurroundings(const ParticleStore& store, size_t first, size_t last, Partial& partial);
+  void snapshotRange(const ParticleStore& store, HeatInstant& instant, size_t first, size_t last) const;
+  void prepare(ParticleStore& store, const Neighbours& neighbours, uint64_t frame);
+  void sumConductances(const ParticleStore& store, size_t first, size_t last, Partial& partial);
   void collectFrameHeat(const ParticleStore& store, const api::ParticleView& view, double frame);
   void filmHeat(const ParticleStore& store, size_t i, double frame, Partial& partial);
   void countBoiling(const ParticleStore& store, size_t first, size_t last);
@@ -105,7 +107,8 @@ class HeatStage {
   double latentContent(const ParticleStore& store, size_t i) const;
   double fastestRate(const ParticleStore& store, size_t first, size_t last) const;
   void findLimit();
-  double wallDrive(const ParticleStore& store, size_t i, size_t w) const;
+  static void book(HeatBooks& books, HeatSurroundings::Kind kind, double joules);
+  void warmAir();
   double takeExplicitSteps(ParticleStore& store, const api::ParticleView& view, const api::NeighbourView& lists,
                            double time);
   double takeSweeps(ParticleStore& store, const api::ParticleView& view, double time);
@@ -118,13 +121,15 @@ class HeatStage {
   void sweep(ParticleStore& store, const api::ParticleView& view, double step, bool firstStep);
   HeatBody heatBody(const ParticleStore& store, size_t i) const;
   void relaxPair(size_t i, uint32_t k, bool sameMaterial, double time);
-  void relaxToward(size_t i, double conductance, double target, double time, double& book);
+  void relaxBodies(size_t i, size_t j, double conductance, double time);
+  double relaxToward(size_t i, double conductance, double target, double time);
   void relaxSurroundings(const ParticleStore& store, size_t i, double time);
+  void relaxSights(const ParticleStore& store, size_t i, double time);
   void closeBooks();
 
   ThermalSettings m_settings;
   SolverSettings m_solver;
-  std::vector<Wall> m_walls;  ///< those that give or take heat
+  HeatSurroundings m_surroundings;
   std::span<const BakedMaterial> m_materials;
   std::vector<const api::MaterialView*> m_materialViews;
   const api::ThermalPlugin* m_model = nullptr;
@@ -138,7 +143,7 @@ class HeatStage {
   bool m_swept = false, m_pairLaw = false, m_boiling = false;
 
   HeatPairs m_pairs;
-  Snapshot m_now, m_next;
+  HeatInstant m_now, m_next;
   std::vector<Partial> m_partials;
   std::vector<double> m_joules;       ///< of the present substep
   std::vector<double> m_frameJoules;  ///< film and nucleation, once a frame
@@ -146,11 +151,9 @@ class HeatStage {
   std::vector<double> m_pairWatts;    ///< the model's own pair law, per list entry
   std::vector<double> m_newTemperature;
   std::vector<api::Phase> m_newPhase;
-  std::vector<float> m_wallConductance;  ///< m, particle times walls + wall
-  std::vector<uint8_t> m_touchesWall;
-  std::vector<float> m_airConductance;     ///< W/K
+  double m_airTaken = 0;                   ///< J of this frame that the lump of air has answered for
   std::vector<double> m_perConductivity;   ///< m: pairs of one material and walls, to be multiplied by k
-  std::vector<double> m_fixedConductance;  ///< W/K: other materials and air
+  std::vector<double> m_fixedConductance;  ///< W/K: other materials, air and radiation
   std::vector<uint32_t> m_boilingPartners;
   mutable std::vector<double> m_energies;  ///< J, scratch of energy()
   mutable double m_lastEnergy = 0;         ///< J, of m_lastCount particles

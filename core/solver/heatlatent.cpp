@@ -63,8 +63,9 @@ void HeatStage::filmHeat(const ParticleStore& store, size_t i, double frame, Par
   const double dx = m_solver.spacing, t = store.temperature()[i];
   const api::Float4 x = store.position()[i];
   double joules = 0;
-  for (const Wall& wall : m_walls) {
-    if (wall.temperature >= c.boilingPoint) continue;
+  for (const Wall& wall : m_surroundings.walls()) {
+    const bool cold = wall.heat == WallHeat::FixedTemperature && wall.temperature < c.boilingPoint;
+    if (!cold) continue;
     const double depth =
         wall.normal.x * double{x.x} + wall.normal.y * double{x.y} + wall.normal.z * double{x.z} - wall.offset;
     if (depth < kFilmReach * dx) joules += wall.filmCoefficient * dx * dx * (wall.temperature - t) * frame;

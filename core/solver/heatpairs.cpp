@@ -19,7 +19,7 @@ constexpr float kFullSupport = 0.95f;
 
 void HeatPairs::prepare(size_t count, size_t slots) {
   for (auto* list : {&begin, &same, &other, &end}) list->resize(count);
-  for (auto* values : {&conductivity, &volume, &immersion, &m_inverseMoment}) values->resize(count + 1);
+  for (auto* values : {&conductivity, &volume, &filled, &immersion, &m_inverseMoment}) values->resize(count + 1);
   sameTotal.resize(count);
   otherTotal.resize(count);
   if (partner.size() >= slots) return;
@@ -51,7 +51,10 @@ void HeatPairs::build(const ParticleStore& store, const api::NeighbourView& list
     store.period().any() ? measure<true>(store, lists, a, b) : measure<false>(store, lists, a, b);
   };
   parallelFor(n, kGrain, std::cref(first));
-  const auto second = [this](size_t a, size_t b) { conduct(a, b); };
+  const auto second = [&](size_t a, size_t b) {
+    conduct(a, b);
+    if (m_options.contactConductance > 0) resist(store, a, b);
+  };
   parallelFor(n, kGrain, std::cref(second));
 }
 
@@ -138,18 +141,19 @@ void HeatPairs::measure(const ParticleStore& store, const api::NeighbourView& li
     other[i] = back;
     differentiate(begin[i], front);
     differentiate(back, end[i]);
-    float moment = 0, filled = volume[i] * selfKernel;
+    float moment = 0, full = volume[i] * selfKernel;
     const auto add = [&](uint32_t from, uint32_t to) {
       for (uint32_t k = from; k < to; ++k) {
         const float v = volume[partner[k]];
         moment += v * (conductance[k] * m_square[k]);
-        filled += v * m_kernel[k];
+        full += v * m_kernel[k];
       }
     };
     add(begin[i], front);
     add(back, end[i]);
     const float m = std::clamp(moment / 3, 0.8f, 1.25f);
-    m_inverseMoment[i] = m_options.momentCorrection && filled > kFullSupport ? 1 / m : 1.0f;
+    m_inverseMoment[i] = m_options.momentCorrection && full > kFullSupport ? 1 / m : 1.0f;
+    filled[i] = full;
     immersion[i] = store.gasFraction()[i] > 0 ? condensedAround(store, i) : 0.0f;
   }
 }
@@ -182,6 +186,28 @@ void HeatPairs::conduct(size_t first, size_t last) {
       others += double{conductance[k]};
     }
     otherTotal[i] = others;
+  }
+}
+
+/// The resistance of contacts, from both sides by the same operations.
+void HeatPairs::resist(const ParticleStore& store, size_t first, size_t last) {
+  const uint32_t* body = store.body();
+  const float* solid = store.solidFraction();
+  const auto film = static_cast<float>(m_options.contactConductance * m_options.spacing);
+  for (size_t i = first; i < last; ++i) {
+    const auto take = [&](uint32_t from, uint32_t to) {
+      double total = 0;
+      for (uint32_t k = from; k < to; ++k) {
+        const uint32_t j = partner[k];
+        const float sum = conductivity[i] + conductivity[j];
+        if (body[i] != body[j] && std::max(solid[i], solid[j]) > 0.5f && sum > 0)
+          conductance[k] /= 1.0f + 2.0f * (conductivity[i] * conductivity[j]) / (sum * film);
+        total += double{conductance[k]};
+      }
+      return total;
+    };
+    sameTotal[i] = take(begin[i], same[i]);
+    otherTotal[i] = take(other[i], end[i]);
   }
 }
 

@@ -15,14 +15,17 @@ namespace ps {
 
 /// Thermal conductances between neighbours (Cleary & Monaghan 1999): for particles of one material per unit of
 /// conductivity, G = -2 F V_i V_j in m, to be multiplied by a difference of Kirchhoff potentials in W/m; for particles
-/// of different materials with the harmonic mean of their conductivities, in W/K. V is the rest volume of the condensed
-/// matter, which conducts better than 1/sum W under disorder and does not swell with vapour.
+/// of different materials with the harmonic mean of their conductivities, in W/K. A contact conductance h lies in
+/// series with the slab of one spacing that a pair stands for, G' = G/(1 + k/(h dx)). V is the rest volume of the
+/// condensed matter, which conducts better than 1/sum W under disorder and does not swell with vapour.
 class HeatPairs {
  public:
   struct Options {
     double support = 0.04, spacing = 0.02;  ///< m
     KernelShape kernel = KernelShape::CubicSpline;
     bool momentCorrection = true;
+    /// W/(m2 K) between particles of different bodies of which at least one is solid, in series; 0: perfect contact.
+    double contactConductance = 0;
   };
   /// Lists may be older than the positions by less than their skin. Temperature and fractions must be current.
   void build(const ParticleStore& store, const api::NeighbourView& lists, std::span<const BakedMaterial> materials,
@@ -35,6 +38,7 @@ class HeatPairs {
   std::vector<double> sameTotal, otherTotal;  ///< sums of conductance over each particle's two ranges
   std::vector<float> conductivity;            ///< W/(m K), mixture of the phases present
   std::vector<float> volume;                  ///< m3, condensed
+  std::vector<float> filled;                  ///< sum of V W, with condensed volumes; below 1 beside a surface
   std::vector<float> immersion;  ///< share of the surroundings that keeps air away, 0..1; only of particles with vapour
 
  private:
@@ -42,6 +46,7 @@ class HeatPairs {
   template <bool kPeriodic>
   void measure(const ParticleStore& store, const api::NeighbourView& lists, size_t first, size_t last);
   void conduct(size_t first, size_t last);
+  void resist(const ParticleStore& store, size_t first, size_t last);
   void differentiate(uint32_t first, uint32_t last);
   float condensedAround(const ParticleStore& store, size_t i) const;
 

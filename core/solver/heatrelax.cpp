@@ -60,15 +60,19 @@ HeatBody HeatStage::heatBody(const ParticleStore& store, size_t i) const {
 void HeatStage::relaxPair(size_t i, uint32_t k, bool sameMaterial, double time) {
   const uint32_t j = m_pairs.partner[k];
   if (j < i) return;
-  HeatBody &a = m_bodies[i], &b = m_bodies[j];
-  const double difference = b.temperature - a.temperature;
-  if (difference == 0) return;
-  double conductance = m_pairs.conductance[k];
+  double conductance = double{m_pairs.conductance[k]};
   if (sameMaterial) {  // Kirchhoff: the mean conductivity between the two temperatures of the snapshot
     const double gap = m_now.temperature[j] - m_now.temperature[i];
     conductance *= std::abs(gap) > 1e-9 ? (m_now.potential[j] - m_now.potential[i]) / gap
                                         : 0.5 * (double{m_pairs.conductivity[i]} + double{m_pairs.conductivity[j]});
   }
+  relaxBodies(i, j, conductance, time);
+}
+
+void HeatStage::relaxBodies(size_t i, size_t j, double conductance, double time) {
+  HeatBody &a = m_bodies[i], &b = m_bodies[j];
+  const double difference = b.temperature - a.temperature;
+  if (difference == 0) return;
   const double inverse = a.inverseAgainst(difference) + b.inverseAgainst(-difference);
   if (!(inverse > 0)) return;
   const double joules = decay(conductance * time * inverse) / inverse * difference;
@@ -78,29 +82,30 @@ void HeatStage::relaxPair(size_t i, uint32_t k, bool sameMaterial, double time) 
   m_joules[j] -= joules;
 }
 
-/// Against something that keeps its temperature.
-void HeatStage::relaxToward(size_t i, double conductance, double target, double time, double& book) {
+/// Against something that keeps its temperature; returns the joules.
+double HeatStage::relaxToward(size_t i, double conductance, double target, double time) {
   HeatBody& body = m_bodies[i];
   const double difference = target - body.temperature;
-  if (difference == 0 || !(conductance > 0)) return;
+  if (difference == 0 || !(conductance > 0)) return 0;
   const double inverse = body.inverseAgainst(difference);
-  if (!(inverse > 0)) return;
+  if (!(inverse > 0)) return 0;
   const double joules = decay(conductance * time * inverse) / inverse * difference;
   body.take(joules);
   m_joules[i] += joules;
-  book += joules;
-  m_partials[0].exchanged += std::abs(joules);
+  return joules;
 }
 
 void HeatStage::relaxSurroundings(const ParticleStore& store, size_t i, double time) {
-  relaxToward(i, m_airConductance[i], m_settings.ambientTemperature, time, m_partials[0].air);
-  if (!m_touchesWall[i]) return;
-  const size_t walls = m_walls.size();
-  for (size_t w = 0; w < walls; ++w) {
-    const double gap = m_walls[w].temperature - m_now.temperature[i];
-    const double k = std::abs(gap) > 1e-9 ? wallDrive(store, i, w) / gap : double{m_pairs.conductivity[i]};
-    relaxToward(i, double{m_wallConductance[i * walls + w]} * k, m_walls[w].temperature, time, m_partials[0].walls);
-  }
+  m_surroundings.forEach(store, i, m_now, [&](HeatSurroundings::Kind kind, double conductance, double target) {
+    book(m_partials[0], kind, relaxToward(i, conductance, target, time));
+    if (kind == HeatSurroundings::Kind::Air) warmAir();
+  });
+}
+
+void HeatStage::relaxSights(const ParticleStore& store, size_t i, double time) {
+  m_surroundings.forEachInSight(store, i, m_now, [&](uint32_t j, double conductance) {
+    if (j > i) relaxBodies(i, j, conductance, time);
+  });
 }
 
 void HeatStage::sweep(ParticleStore& store, const api::ParticleView& view, double step, bool firstStep) {
@@ -113,8 +118,10 @@ void HeatStage::sweep(ParticleStore& store, const api::ParticleView& view, doubl
     relaxSurroundings(store, i, half);
     for (uint32_t k = m_pairs.begin[i]; k < m_pairs.same[i]; ++k) relaxPair(i, k, true, half);
     for (uint32_t k = m_pairs.other[i]; k < m_pairs.end[i]; ++k) relaxPair(i, k, false, half);
+    relaxSights(store, i, half);
   }
   for (size_t i = n; i-- > 0;) {
+    relaxSights(store, i, half);
     for (uint32_t k = m_pairs.end[i]; k-- > m_pairs.other[i];) relaxPair(i, k, false, half);
     for (uint32_t k = m_pairs.same[i]; k-- > m_pairs.begin[i];) relaxPair(i, k, true, half);
     relaxSurroundings(store, i, half);

@@ -43,8 +43,8 @@ struct SolverSettings {
   api::Double3 wind{0, 0, 0};  ///< m/s, velocity of the ambient air
 };
 
-/// Heat at a wall.
-enum class WallHeat { Adiabatic, FixedTemperature };
+/// Heat at a wall: none, a temperature held on its surface, heat per area, or a fluid that flows behind it.
+enum class WallHeat { Adiabatic, FixedTemperature, FixedFlux, Convective };
 
 /// A half-space boundary: particles stay where normal . x >= offset.
 struct Wall {
@@ -54,7 +54,10 @@ struct Wall {
   double friction = 0.3;
   bool noSlip = true;  ///< implicit viscosity: liquid sticks to it
   WallHeat heat = WallHeat::Adiabatic;
-  double temperature = 293.15;   ///< K
+  double temperature = 293.15;   ///< K, of the surface, or of the fluid behind a convective wall
+  double flux = 0;               ///< W/m2 into the matter that touches it, of FixedFlux
+  double convection = 100;       ///< W/(m2 K), of Convective
+  double emissivity = 0.9;       ///< of FixedTemperature and Convective, where heat is radiated
   double filmCoefficient = 500;  ///< W/(m2 K), condensation on walls below the boiling point
 };
 
@@ -75,7 +78,12 @@ struct ThermalSettings {
   bool momentCorrection = true;
   double ambientPressure = 101325;     ///< Pa
   double ambientTemperature = 293.15;  ///< K
-  double airConvection = 5;            ///< W/(m2 K), vapour in the open air
+  double airConvection = 5;            ///< W/(m2 K), of still air on free surfaces
+  double airHeatCapacity = 0;          ///< J/K of the air around; 0: as much air as it takes
+  double contactConductance = 0;       ///< W/(m2 K) between different bodies, one of them solid; 0: perfect contact
+  bool radiation = false;
+  double surroundingsTemperature = 293.15;  ///< K, of what surrounds the scene
+  std::vector<double> surfaceArea;          ///< m2 by index of body; 0, or none: as its particles show
   double nucleation = 0.3;             ///< share of latent heat that boiling neighbours pass on
 };
 
@@ -107,10 +115,12 @@ struct Limit {
 enum class Stage { Neighbours, Density, Structure, Contact, Viscosity, Heat, Phase, Count };
 const char* stageName(Stage stage);
 
-/// Heat that entered the particles since the start, in J; `exchanged` adds up absolute amounts.
+/// Heat that entered the particles since the start, in J; `exchanged` adds up absolute amounts. `radiation` is what came
+/// from around the scene: walls' is theirs, and what particles radiate at each other stays.
 struct HeatLedger {
-  double walls = 0, air = 0, sources = 0, exchanged = 0;
-  double net() const { return walls + air + sources; }
+  double walls = 0, air = 0, radiation = 0, sources = 0, exchanged = 0;
+  double airWarming = 0;  ///< K by which a finite lump of air is warmer than at the start
+  double net() const { return walls + air + radiation + sources; }
 };
 
 }  // namespace ps

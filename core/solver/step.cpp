@@ -306,7 +306,7 @@ bool Solver::Impl::exchangeHeat() {
     neighbours.build(store);
     listsChanged(false);
   }
-  if (heat.advance(store, neighbours, settings.dt)) return true;
+  if (heat.advance(store, neighbours, settings.dt, frame)) return true;
   backToLastGood();
   return false;
 }

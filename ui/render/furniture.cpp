@@ -123,7 +123,7 @@ void placeFloor(Furniture& out, const Environment& environment) {
 }  // namespace
 
 double glowOf(const SceneWall& wall) {
-  if (choiceOf(wall.parameters, wallParameters(), "heat") != "fixed_temperature") return 0;
+  if (!hasTemperature(wall)) return 0;
   const double kelvin = numberOf(wall.parameters, wallParameters(), "temperature");
   const double t = std::clamp((kelvin - 310) / (440 - 310), 0.0, 1.0);
   return t * t * (3 - 2 * t);

@@ -29,6 +29,7 @@ EnergyPanel::EnergyPanel(QWidget* parent) : QWidget(parent), m_graph(new GraphVi
   m_graph->addSeries(QStringLiteral("In matter"), QStringLiteral("kJ"));
   m_graph->addSeries(QStringLiteral("Through walls"), QStringLiteral("kJ"));
   m_graph->addSeries(QStringLiteral("Through air"), QStringLiteral("kJ"));
+  m_graph->addSeries(QStringLiteral("Through radiation"), QStringLiteral("kJ"));
   m_graph->setEmptyText(QStringLiteral("No matter yet"));
   m_ledger->setTextFormat(Qt::RichText);
   m_ledger->setMinimumWidth(230);
@@ -48,6 +49,7 @@ void EnergyPanel::append(const FrameStats& stats) {
   m_graph->append(0, stats.time, (stats.thermalEnergy - m_start) / 1000);
   m_graph->append(1, stats.time, stats.heat.walls / 1000);
   m_graph->append(2, stats.time, stats.heat.air / 1000);
+  m_graph->append(3, stats.time, stats.heat.radiation / 1000);
   m_graph->setPresentTime(stats.time);
   m_last = stats;
   const auto line = [](const QString& name, const QString& value) {
@@ -58,6 +60,7 @@ void EnergyPanel::append(const FrameStats& stats) {
                     line(QStringLiteral("Heat in matter"), kilojoules(stats.thermalEnergy - m_start)) +
                     line(QStringLiteral("Through walls"), kilojoules(stats.heat.walls)) +
                     line(QStringLiteral("Through air"), kilojoules(stats.heat.air)) +
+                    line(QStringLiteral("Through radiation"), kilojoules(stats.heat.radiation)) +
                     line(QStringLiteral("Sketched and erased"), kilojoules(stats.heat.sources)) +
                     line(QStringLiteral("Motion"), kilojoules(stats.kineticEnergy)) +
                     line(QStringLiteral("Balance open by"), balanceText()) + QStringLiteral("</table>"));

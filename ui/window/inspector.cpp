@@ -13,6 +13,35 @@
 namespace ps {
 namespace {
 
+/// Which kinds of heat at a wall a row of it belongs to.
+struct WallRow {
+  const char* key;
+  std::initializer_list<const char*> heats;
+  const char* first;  ///< what to do for it to act
+};
+const WallRow kWallRows[] = {
+    {"temperature", {"fixed_temperature", "convective"}, "Set its heat to a fixed temperature or to convective first."},
+    {"heat_flux", {"fixed_flux"}, "Set its heat to a fixed flux first."},
+    {"convection", {"convective"}, "Set its heat to convective first."},
+    {"emissivity", {"fixed_temperature", "convective"}, "Set its heat to a fixed temperature or to convective first."},
+    {"film_coefficient", {"fixed_temperature"}, "Set its heat to a fixed temperature first."},
+};
+
+QString whyWallIdle(const Project& project, const Address& address) {
+  const ParameterSet* set = findSet(project, address);
+  if (!set) return {};
+  const std::string heat = choiceOf(*set, wallParameters(), "heat");
+  for (const WallRow& row : kWallRows) {
+    if (address.key != row.key || std::find(row.heats.begin(), row.heats.end(), heat) != row.heats.end()) continue;
+    const char* now = heat == "adiabatic"           ? "The wall lets no heat through. "
+                      : heat == "fixed_temperature" ? "The wall is held at a temperature. "
+                      : heat == "fixed_flux"        ? "The wall gives a fixed flux of heat. "
+                                                    : "A fluid behind the wall gives and takes its heat. ";
+    return QString::fromUtf8(now) + QString::fromUtf8(row.first);
+  }
+  return {};
+}
+
 /// "" or why a value of this address does nothing as the scene is.
 QString whyIdle(const Project& project, const Address& address) {
   if (address.owner == "body" && address.key.starts_with("motion_")) {
@@ -20,10 +49,11 @@ QString whyIdle(const Project& project, const Address& address) {
     if (!set || toggleOf(*set, bodyParameters(), "fixed")) return {};
     return QStringLiteral("Only a body that is held in place moves by itself. Hold it in place first.");
   }
-  if (address.owner != "wall" || (address.key != "temperature" && address.key != "film_coefficient")) return {};
-  const ParameterSet* set = findSet(project, address);
-  if (!set || choiceOf(*set, wallParameters(), "heat") == "fixed_temperature") return {};
-  return QStringLiteral("The wall lets no heat through. Set its heat to a fixed temperature first.");
+  if (address.owner == "environment" && address.key == "surroundings_temperature") {
+    if (toggleOf(project.environment.parameters, environmentParameters(), "radiation")) return {};
+    return QStringLiteral("Nothing radiates heat here. Switch heat radiation on first.");
+  }
+  return address.owner == "wall" ? whyWallIdle(project, address) : QString();
 }
 
 QString gradeText(const PluginRegistry* plugins, const std::string& base) {
@@ -280,7 +310,10 @@ void Inspector::onChanged(const ChangeEvent& event) {
     const QString key = QString::fromStdString(address.text());
     for (ParameterPanel* panel : panels()) panel->setValue(key, m_document.value(address));
     if (address.owner == "scene" && address.key == "thermal_model") rebuildSolver();
-    if (address.owner == "wall" && address.key == "heat") refreshIdle(address, {"temperature", "film_coefficient"});
+    if (address.owner == "wall" && address.key == "heat")
+      refreshIdle(address, {"temperature", "heat_flux", "convection", "emissivity", "film_coefficient"});
+    if (address.owner == "environment" && address.key == "radiation")
+      refreshIdle(address, {"surroundings_temperature"});
     if (address.owner == "body" && address.key == "fixed") refreshIdle(address, {"motion_start", "motion_stop"});
     if (address.owner == "material" && propertyIndex(address.key) < 0) refreshProperties(address.id);
   } else if (std::holds_alternative<ProjectOpened>(event)) {

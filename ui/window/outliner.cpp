@@ -101,7 +101,7 @@ void Outliner::rebuild() {
     add(scene, OutlineKind::Sink, sink.id, nameOf(sink), QStringLiteral("drain"));
   }
   for (const SceneWall& wall : project.environment.walls) {
-    const bool held = choiceOf(wall.parameters, wallParameters(), "heat") == "fixed_temperature";
+    const bool held = hasTemperature(wall);
     QStandardItem* item = add(scene, OutlineKind::Wall, wall.id, QString::fromStdString(wall.name),
                               held ? QStringLiteral("plate") : QStringLiteral("wall"));
     if (held) {
