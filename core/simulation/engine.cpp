@@ -105,6 +105,7 @@ struct Engine::Impl {
   uint32_t constraintSet(const std::string& plugin);
   /// Leads the bodies that were born fixed, whatever the document says of them by now; one that has left it stands.
   void lead();
+  void heatBodies() { solver->setHeating(compileHeating(project, *bodyIds)); }
   std::vector<uint32_t> born(Spawn spawn, const Body& body);
   std::vector<uint32_t> born(Spawn spawn, const std::string& id, const std::string& name);
   void exchangeMatter();
@@ -255,6 +256,7 @@ void Engine::Impl::build() {
                                  " particles whose places are taken; move it away from what it overlaps");
     }
   }
+  heatBodies();
   for (const Emitter& emitter : project.emitters) bodyIndex(emitter.id);
   for (const Probe& probe : project.probes) probeNames.push_back(probeTitle(probe));
 }
@@ -276,7 +278,10 @@ void Engine::Impl::recompile(const std::string& owner) {
   }
   if (owner == "environment") bakeMaterials();  // pressure moves melting and boiling points
   if (owner == "environment" || owner == "solver" || owner == "thermal") setThermal();
-  if (owner == "body") lead();
+  if (owner == "body") {
+    lead();
+    heatBodies();
+  }
   if (owner == "constraint") {
     for (const Body& body : project.bodies) {
       for (const BodyConstraint& c : body.constraints) {
@@ -345,8 +350,9 @@ bool Engine::setParameter(const Address& address, const Value& value) {
   if (!set) return false;
   const ParameterSet before = *set;
   set->values[address.key] = value;
-  const bool moves = address.key == "motion_start" || address.key == "motion_stop";
-  const bool actsNow = (address.owner != "body" || moves) && address.key != "particle_spacing";
+  const bool ofLivingBody =
+      address.key == "motion_start" || address.key == "motion_stop" || address.key == "heating_power";
+  const bool actsNow = (address.owner != "body" || ofLivingBody) && address.key != "particle_spacing";
   try {
     if (actsNow) {
       m->recompile(address.owner);
@@ -374,6 +380,7 @@ std::vector<uint32_t> Engine::addCells(const Body& body, const std::vector<std::
   } else {
     *known = body;
   }
+  m->heatBodies();
   return ids;
 }
 
@@ -389,6 +396,7 @@ std::vector<uint32_t> Engine::addBody(const Body& body) {
     const std::vector<uint32_t> fresh = m->born(std::move(spawn), body);
     ids.insert(ids.end(), fresh.begin(), fresh.end());
   }
+  m->heatBodies();
   return ids;
 }
 
