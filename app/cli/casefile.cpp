@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/cli/casefile.h"
 
+#include "app/cli/casefunctions.h"
 #include "app/cli/casemeasure.h"
 #include "core/base/error.h"
 #include "core/base/jsontext.h"
@@ -85,6 +86,54 @@ class Entry {
   std::set<std::string> m_known;
 };
 
+void oneOf(const Entry& entry, const std::vector<std::string>& names, const std::string& name, const char* noun) {
+  if (std::find(names.begin(), names.end(), name) == names.end()) entry.fail("'" + name + "' is no " + noun);
+}
+
+void readColumn(Entry& entry, CaseCheck& check) {
+  check.column = entry.neededText("column");
+  check.minus = entry.text("minus");
+  check.measure = entry.neededText("measure");
+  oneOf(entry, measureNames(), check.measure, "measure");
+  for (const char* key : {"from", "to", "time", "value", "level", "periods", "frames"}) {
+    if (const auto value = entry.number(key)) check.options[key] = *value;
+  }
+  if (const std::string clock = entry.text("clock"); !clock.empty()) {
+    oneOf(entry, {"thermal", "mechanical"}, clock, "clock");
+    check.thermalClock = clock == "thermal";
+  }
+  check.times = entry.number("times").value_or(check.times);
+  check.plus = entry.number("plus").value_or(check.plus);
+}
+
+void readProfile(Entry& entry, CaseCheck& check) {
+  oneOf(entry, profileLaws(), check.profile.law, "profile");
+  check.profile.measure = entry.neededText("measure");
+  oneOf(entry, profileMeasures(), check.profile.measure, "measure of a profile");
+  check.profile.arguments = check.arguments;
+  const std::string axis = entry.text("axis");
+  oneOf(entry, {"", "x", "y", "z"}, axis, "axis");
+  check.profile.axis = axis.empty() ? 0 : static_cast<size_t>(axis[0] - 'x');
+  check.profile.from = entry.number("from").value_or(check.profile.from);
+  check.profile.to = entry.number("to").value_or(check.profile.to);
+}
+
+/// Where the number comes from: a column, a profile, a function, or a material.
+void readSource(Entry& entry, CaseCheck& check) {
+  check.property = entry.text("property");
+  check.equilibrium = entry.text("equilibrium");
+  check.function = entry.text("function");
+  check.profile.law = entry.text("profile");
+  check.arguments = entry.numbers("arguments");
+  if (!check.function.empty()) return;
+  if (!check.profile.law.empty()) return readProfile(entry, check);
+  if (check.property.empty() && check.equilibrium.empty()) return readColumn(entry, check);
+  if (!check.equilibrium.empty()) oneOf(entry, equilibriumNames(), check.equilibrium, "equilibrium");
+  check.material = entry.neededText("material");
+  check.temperature = entry.number("temperature").value_or(check.temperature);
+  check.pressure = entry.number("pressure").value_or(check.pressure);
+}
+
 CaseCheck readCheck(Entry& entry, const std::vector<CaseRun>& configurations) {
   const size_t runs = configurations.size();
   CaseCheck check;
@@ -94,26 +143,7 @@ CaseCheck readCheck(Entry& entry, const std::vector<CaseRun>& configurations) {
   if (!check.run.empty() && std::none_of(configurations.begin(), configurations.end(), named)) {
     entry.fail("there is no run '" + check.run + "'");
   }
-  check.property = entry.text("property");
-  check.function = entry.text("function");
-  check.arguments = entry.numbers("arguments");
-  if (check.property.empty() && check.function.empty()) {
-    check.column = entry.neededText("column");
-    check.minus = entry.text("minus");
-    check.measure = entry.neededText("measure");
-    const std::vector<std::string> names = measureNames();
-    if (std::find(names.begin(), names.end(), check.measure) == names.end()) {
-      entry.fail("'" + check.measure + "' is no measure");
-    }
-    for (const char* key : {"from", "to", "time", "value", "level", "periods", "frames"}) {
-      if (const auto value = entry.number(key)) check.options[key] = *value;
-    }
-    check.times = entry.number("times").value_or(check.times);
-    check.plus = entry.number("plus").value_or(check.plus);
-  } else if (check.function.empty()) {
-    check.material = entry.neededText("material");
-    check.temperature = entry.number("temperature").value_or(check.temperature);
-  }
+  readSource(entry, check);
   if (const json* spread = entry.find("spread")) check.spread = spread->is_boolean() && spread->get<bool>();
   check.expected = entry.numbers("expected");
   check.relative = entry.number("relative");

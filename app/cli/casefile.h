@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "app/cli/caseprofile.h"
+
 #include <nlohmann/json.hpp>
 
 #include <optional>
@@ -15,11 +17,16 @@ struct CaseCheck {
   std::string column, minus;                 ///< titles of the probes' table; `minus` is taken off it, "" for none
   std::string measure;                       ///< see measureNames()
   nlohmann::json options;                    ///< of the measure
+  bool thermalClock = false;                 ///< times are those of heat, thermal_time_scale as many
   double times = 1, plus = 0;                ///< what is judged: the measured number times one, plus the other
   std::string function;                      ///< instead of a run: see valueOfFunction()
   std::vector<double> arguments;             ///< of the function
-  std::string material, property;            ///< instead of a run: a property of an installed material
-  double temperature = 293.15;               ///< K, of the property
+  ProfileCheck profile;                      ///< instead of a column: temperatures of all particles at the end
+  std::string material, property;            ///< instead of a column: a property of a material of the scene, or else
+                                             ///< of an installed one
+  std::string equilibrium;                   ///< likewise, of its phase diagram: see equilibriumNames()
+  double temperature = 293.15;               ///< K, of both
+  double pressure = 101325;                  ///< Pa, of both
   bool spread = false;                       ///< across all runs: largest over smallest, less 1
   std::vector<double> expected;              ///< one for all runs, or one for each; none for a bound alone
   std::optional<double> relative, absolute;  ///< tolerances

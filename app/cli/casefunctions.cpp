@@ -39,7 +39,41 @@ const std::map<std::string, Function> kFunctions{
       }}},
 };
 
+double phaseAt(const api::Caloric& c, double t) {
+  if (c.sublimes) return t < c.meltingPoint ? 0 : t > c.meltingPoint ? 2 : 1;
+  if (c.melts && t < c.solidus) return 0;
+  if (c.melts && t <= c.liquidus) return 0.5;
+  return t < c.boilingPoint ? 1 : t > c.boilingPoint ? 2 : 1.5;
+}
+
+using Equilibrium = double (*)(const Material&, const api::Caloric&, double pressure, double temperature);
+
+const std::map<std::string, Equilibrium> kEquilibria{
+    {"boiling_point",
+     [](const Material& m, const api::Caloric&, double p, double) { return phaseDiagramOf(m).boilingPoint(p); }},
+    {"melting_point",
+     [](const Material& m, const api::Caloric&, double p, double) { return phaseDiagramOf(m).meltingPoint(p); }},
+    {"sublimation_point",
+     [](const Material& m, const api::Caloric&, double p, double) { return phaseDiagramOf(m).sublimationPoint(p); }},
+    {"latent_heat_boiling",
+     [](const Material&, const api::Caloric& c, double, double) {
+       return c.latentHeatVaporization -
+              (c.heatCapacityLiquid - c.heatCapacityGas) * (c.boilingPoint - c.boilingPoint0);
+     }},
+    {"phase", [](const Material&, const api::Caloric& c, double, double t) { return phaseAt(c, t); }},
+};
+
 }  // namespace
+
+std::vector<std::string> equilibriumNames() {
+  std::vector<std::string> names;
+  for (const auto& [name, value] : kEquilibria) names.push_back(name);
+  return names;
+}
+
+double equilibriumOf(const Material& material, const std::string& name, double pressure, double temperature) {
+  return kEquilibria.at(name)(material, BakedMaterial(material, pressure).caloric(), pressure, temperature);
+}
 
 double valueOfFunction(const std::string& name, const std::vector<double>& arguments) {
   const auto found = kFunctions.find(name);

@@ -64,6 +64,30 @@ double when(const Series& s, double level) {
   return kNone;
 }
 
+/// Frames of the first stretch strictly between two values; first > last without two of them.
+struct Stretch {
+  size_t first = 1, last = 0;
+};
+Stretch plateau(const Series& s, double from, double to) {
+  const double low = std::min(from, to), high = std::max(from, to);
+  const auto within = [&](size_t k) { return s.value[k] > low && s.value[k] < high; };
+  size_t first = 0;
+  while (first < s.value.size() && !within(first)) ++first;
+  size_t end = first;
+  while (end < s.value.size() && within(end)) ++end;
+  return end >= first + 2 ? Stretch{first, end - 1} : Stretch{};
+}
+
+double begins(const Series& s, double from, double to) {
+  const Stretch p = plateau(s, from, to);
+  return p.last > p.first ? timeAt(s, p.first + 1, from) : kNone;
+}
+
+double ends(const Series& s, double from, double to) {
+  const Stretch p = plateau(s, from, to);
+  return p.last > p.first ? timeAt(s, p.last, to) : kNone;
+}
+
 double fastest(const Series& s, size_t frames) {
   double most = kNone;
   for (size_t k = frames; k < s.value.size(); ++k) {
@@ -93,6 +117,12 @@ Measure over(double (*of)(Numbers)) {
   };
 }
 
+Measure ofPlateau(double (*of)(const Series&, double, double)) {
+  return [of](const Series& s, const json& options) {
+    return of(s, option(options, "from", 0), option(options, "to", 1));
+  };
+}
+
 const std::map<std::string, Measure>& measures() {
   static const std::map<std::string, Measure> all{
       {"last", [](const Series& s, const json&) { return s.value.back(); }},
@@ -109,6 +139,10 @@ const std::map<std::string, Measure>& measures() {
          const double from = option(o, "from", 0), to = option(o, "to", 0);
          return (to - from) / (when(s, to) - when(s, from));
        }},
+      {"begins", ofPlateau([](const Series& s, double from, double to) { return begins(s, from, to); })},
+      {"ends", ofPlateau([](const Series& s, double from, double to) { return ends(s, from, to); })},
+      {"lasts",
+       ofPlateau([](const Series& s, double from, double to) { return ends(s, from, to) - begins(s, from, to); })},
       {"fastest", [](const Series& s,
                      const json& o) { return fastest(s, static_cast<size_t>(std::max(1.0, option(o, "frames", 1)))); }},
       {"period",

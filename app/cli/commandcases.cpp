@@ -8,6 +8,7 @@
 #include "core/base/error.h"
 #include "core/matter/material.h"
 #include "core/plugin_host/registry.h"
+#include "core/simulation/compile.h"
 
 #include <algorithm>
 #include <cmath>
@@ -24,38 +25,62 @@ constexpr OptionSpec kOptions[] = {
     kIsa,
 };
 
-/// Columns of one run.
-struct Table {
+/// What one run left behind.
+struct Outcome {
   std::vector<std::string> titles;
-  std::vector<std::vector<double>> rows;
+  std::vector<std::vector<double>> rows;  ///< the probes' table and the heat balance, by frame
+  std::vector<Material> materials;        ///< of the scene
+  TemperatureField field;                 ///< at the end
 
-  Series series(const std::string& title) const {
+  Series series(const std::string& title, bool thermalClock) const {
     const auto found = std::find(titles.begin(), titles.end(), title);
     if (found == titles.end()) throw InputError("the project has no probe that gives the column '" + title + "'");
     const auto column = static_cast<size_t>(found - titles.begin());
     Series result;
     for (const std::vector<double>& row : rows) {
-      result.time.push_back(row[0]);
+      result.time.push_back(row[thermalClock ? 1 : 0]);
       result.value.push_back(row[column]);
     }
     return result;
   }
 };
 
-Table run(const Case& what, const CaseRun& configuration, const Edits& more, PluginRegistry& plugins) {
+/// What every run gives beside its probes: thermal energy; what came in by walls, air and sources since the start, and
+/// the amounts of it; what of the change of energy none of these explains, and that as a share of the sum of |m h|.
+constexpr const char* kHeatTitles[] = {"heat.energy[J]",    "heat.walls[J]", "heat.air[J]",       "heat.sources[J]",
+                                       "heat.exchanged[J]", "heat.open[J]",  "heat.open_share[1]"};
+
+void addHeat(Engine& engine, const FrameStats& start, const FrameStats& now, std::vector<double>& row) {
+  double sum = 0;
+  for (const double energy : engine.solver().thermalEnergies()) sum += std::abs(energy);
+  const HeatLedger &before = start.heat, &heat = now.heat;
+  const double open = now.thermalEnergy - start.thermalEnergy - (heat.net() - before.net());
+  for (const double value :
+       {now.thermalEnergy, heat.walls - before.walls, heat.air - before.air, heat.sources - before.sources,
+        heat.exchanged - before.exchanged, open, sum > 0 ? std::abs(open) / sum : 0.0}) {
+    row.push_back(value);
+  }
+}
+
+Outcome run(const Case& what, const CaseRun& configuration, const Edits& more, PluginRegistry& plugins) {
   Edits edits = what.edits;
   edits.insert(edits.end(), configuration.edits.begin(), configuration.edits.end());
   edits.insert(edits.end(), more.begin(), more.end());
-  Engine engine(loadProject(what.project, plugins, edits).project, plugins);
-  Table table{columnTitles(engine.probeNames()), {}};
+  const Project project = loadProject(what.project, plugins, edits).project;
+  Engine engine(project, plugins);
+  Outcome outcome{columnTitles(engine.probeNames()), {}, compileMaterials(project, plugins), {}};
+  outcome.titles.insert(outcome.titles.end(), std::begin(kHeatTitles), std::end(kHeatTitles));
   std::string problem;
+  const FrameStats start = engine.stats();
   const bool whole = runFrames(engine, what.frames, [&](const StepReport& step, const FrameStats& stats) {
     if (problem.empty()) problem = step.message;
-    table.rows.push_back(columnValues(stats));
+    outcome.rows.push_back(columnValues(stats));
+    addHeat(engine, start, stats, outcome.rows.back());
   });
   if (!problem.empty()) throw Error("the run set flags: " + problem);
   if (!whole) throw Error("stopped early");
-  return table;
+  outcome.field = temperatureField(engine);
+  return outcome;
 }
 
 std::string shown(double value) {
@@ -116,36 +141,53 @@ std::optional<double> expectedOf(const CaseCheck& check, size_t run) {
   return check.expected[check.expected.size() > 1 ? run : 0];
 }
 
-double propertyOf(const CaseCheck& check, const PluginRegistry& plugins) {
+/// The scene's material of that name, or the installed one.
+const Material& materialOf(const CaseCheck& check, const Outcome* outcome, const PluginRegistry& plugins) {
+  if (outcome) {
+    for (const Material& material : outcome->materials) {
+      if (material.id == check.material) return material;
+    }
+  }
   const Material* material = plugins.material(check.material);
   if (!material) throw InputError("there is no material '" + check.material + "'");
-  if (propertyIndex(check.property) < 0) throw InputError("there is no property '" + check.property + "'");
-  constexpr double kStandardPressure = 101325;  // Pa
-  return BakedMaterial(*material, kStandardPressure).property(check.property.c_str(), check.temperature);
+  return *material;
 }
 
-double measured(const CaseCheck& check, const Table& table) {
-  Series series = table.series(check.column);
+double ofMaterial(const CaseCheck& check, const Outcome* outcome, const PluginRegistry& plugins) {
+  const Material& material = materialOf(check, outcome, plugins);
+  if (!check.equilibrium.empty()) {
+    return equilibriumOf(material, check.equilibrium, check.pressure, check.temperature);
+  }
+  if (propertyIndex(check.property) < 0) throw InputError("there is no property '" + check.property + "'");
+  return BakedMaterial(material, check.pressure).property(check.property.c_str(), check.temperature);
+}
+
+double measured(const CaseCheck& check, const Outcome& outcome) {
+  if (!check.profile.law.empty()) return profileValue(outcome.field, check.profile);
+  Series series = outcome.series(check.column, check.thermalClock);
   if (!check.minus.empty()) {
-    const Series other = table.series(check.minus);
+    const Series other = outcome.series(check.minus, check.thermalClock);
     for (size_t k = 0; k < series.value.size(); ++k) series.value[k] -= other.value[k];
   }
   return check.times * measureOf(series, check.measure, check.options) + check.plus;
 }
 
-void judge(const Case& what, const CaseCheck& check, const std::vector<Table>& tables, const PluginRegistry& plugins,
-           Verdicts& verdicts) {
+void judge(const Case& what, const CaseCheck& check, const std::vector<Outcome>& outcomes,
+           const PluginRegistry& plugins, Verdicts& verdicts) {
   if (!check.function.empty()) {
     verdicts.add(what, check.what, check, expectedOf(check, 0), valueOfFunction(check.function, check.arguments));
     return;
   }
-  if (!check.property.empty()) {
-    verdicts.add(what, check.what, check, expectedOf(check, 0), propertyOf(check, plugins));
+  const bool fromMaterial = !check.property.empty() || !check.equilibrium.empty();
+  if (fromMaterial && outcomes.empty()) {
+    verdicts.add(what, check.what, check, expectedOf(check, 0), ofMaterial(check, nullptr, plugins));
     return;
   }
   std::vector<double> got;
-  got.reserve(tables.size());
-  for (const Table& table : tables) got.push_back(measured(check, table));
+  got.reserve(outcomes.size());
+  for (const Outcome& outcome : outcomes) {
+    got.push_back(fromMaterial ? ofMaterial(check, &outcome, plugins) : measured(check, outcome));
+  }
   if (check.spread) {
     const auto [least, most] = std::minmax_element(got.begin(), got.end());
     verdicts.add(what, check.what, check, std::nullopt, *most / *least - 1);
@@ -161,13 +203,13 @@ void judge(const Case& what, const CaseCheck& check, const std::vector<Table>& t
 void runCase(const Case& what, const Edits& more, PluginRegistry& plugins, Verdicts& verdicts) {
   std::string current;
   try {
-    std::vector<Table> tables;
+    std::vector<Outcome> outcomes;
     for (const CaseRun& configuration : what.runs) {
       current = configuration.name;
-      if (!what.project.empty()) tables.push_back(run(what, configuration, more, plugins));
+      if (!what.project.empty()) outcomes.push_back(run(what, configuration, more, plugins));
     }
     current.clear();
-    for (const CaseCheck& check : what.checks) judge(what, check, tables, plugins, verdicts);
+    for (const CaseCheck& check : what.checks) judge(what, check, outcomes, plugins, verdicts);
   } catch (const Error& error) {
     verdicts.fail(what, current, error.what());
   }

@@ -229,6 +229,7 @@ Probe readProbe(json& value) {
   probe.quantity = taker.text("quantity");
   probe.body = taker.text("body");
   probe.phase = taker.text("phase");
+  probe.fixed = taker.toggle("fixed", false);
   probe.region = readOptional(taker, "region", readRegion);
   probe.wave = readOptional(taker, "wave", readWave);
   probe.unknown = taker.rest();

@@ -163,6 +163,7 @@ json writeProbe(const Probe& probe) {
   putText(out, "name", probe.name);
   putText(out, "body", probe.body);
   putText(out, "phase", probe.phase);
+  if (probe.fixed) out["fixed"] = true;
   if (probe.region) out["region"] = writeRegion(*probe.region);
   if (probe.wave) out["wave"] = writeWave(*probe.wave);
   putUnknown(out, probe.unknown);

@@ -229,6 +229,7 @@ json probeSchema() {
                  {"quantity", oneOfNames(probeQuantities(), "what is measured")},
                  {"body", {{"type", "string"}, {"description", "id of a body; empty for all particles"}}},
                  {"phase", oneOfNames({"", "solid", "melting", "liquid", "boiling", "gas"}, "empty for all")},
+                 {"fixed", {{"type", "boolean"}, {"description", "sees what is held in place as well"}}},
                  {"region", regionSchema("only particles that stood in it at the start; its faces belong to it")},
                  {"wave", waveSchema(json::object(), {"axis", "wavelength"},
                                      "measures the amplitude of this sine in the quantity, not the quantity")}},

@@ -12,9 +12,13 @@ constexpr api::ParameterDeclaration kBody[] = {
            {"Start", "Temperature of the whole body when the scene begins. Acts at the next reset.",
             "ice from a freezer −18 °C, room 20 °C, boiling water 100 °C", ""},
            kCelsius),
-    choice({"phase", "Phase at the start", "", ""}, "automatic|solid|liquid|gas", 0,
-           {"Start", "Phase when the scene begins; automatic takes the one that is stable at the temperature.",
-            "at exactly 0 °C: solid for ice, liquid for water", ""}),
+    choice(
+        {"phase", "Phase at the start", "", ""}, "automatic|solid|liquid|gas", 0,
+        {"Start",
+         "Phase when the scene begins; automatic takes the one that is stable at the temperature. Another one brings "
+         "its own heat along and turns at once: water of −10 °C begins as slush, of 90 °C at half the pressure it "
+         "boils.",
+         "at exactly 0 °C: solid for ice, liquid for water", ""}),
     toggle(
         {"fixed", "Held in place", "", ""}, false,
         {"Start", "Nothing moves it: it stands, or goes on and turns as its velocity and spin say. Heat still flows.",
@@ -27,11 +31,16 @@ constexpr api::ParameterDeclaration kBody[] = {
     integer({"seed", "Kind of disorder", "", ""}, {1, 1, 100, 0, 4294967295.0},
             {"Start", "Another number places the particles otherwise; the same number always alike.",
              "compare runs with 1, 2 and 3 to see what chance does", ""}),
+    number({"heating_power", "Heating power", "P", "W"}, {0, -500, 2000, -1e9, 1e9},
+           {"Heat",
+            "Heat that comes up inside the body per second of thermal time, the same in each gram of it; below zero "
+            "it is taken away, down to 1 K. What has melted or boiled off goes on being heated.",
+            "body warmth 80, immersion heater 300, kettle 2000, −100 for a fridge", ""}),
     number({"surface_area", "Surface in air", "A", "m²"}, {0, 0, 0.1, 0, 1e6},
            {"Heat",
             "Surface of the whole body that air and radiation reach, shared among the particles that are found "
             "outside. 0: "
-            "as these particles show it, to some 5 %.",
+            "as these particles show it, to some 10 %.",
             "0 for all but experiments with a known surface", ""}),
     number({"motion_start", "Sets off at", "", "s"}, {0, 0, 60, 0, 1e9},
            {"Motion",

@@ -100,7 +100,7 @@ struct Body {
   std::string id, name;
   std::string material;  ///< SceneMaterial::id; sketched bodies: of their first palette entry
   std::variant<BoxShape, VoxelShape> shape;
-  ParameterSet parameters;            ///< see bodyParameters(): temperature, phase, fixed, jitter, seed, motion_*
+  ParameterSet parameters;            ///< see bodyParameters(): temperature, phase, fixed, heating_power, motion_*, ...
   Vec3 velocity{0, 0, 0};             ///< m/s at the start; of a fixed body from motion_start to motion_stop
   Vec3 spin{0, 0, 0};                 ///< rad/s about the body's centre, on top of `velocity`, likewise
   std::optional<Wave> velocityWave;   ///< on top of both; not of fixed bodies
@@ -163,6 +163,7 @@ struct Probe {
   std::string quantity;          ///< "temperature", "mass", "speed", ... see probeQuantities()
   std::string body;              ///< Body::id; "" for all particles
   std::string phase;             ///< "solid", "melting", "liquid", "boiling", "gas"; "" for all
+  bool fixed = false;            ///< sees what is held in place as well
   std::optional<Region> region;  ///< only what stood in it at the start
   std::optional<Wave> wave;      ///< measures the amplitude of this wave in the quantity, not the quantity itself
   Unknown unknown;

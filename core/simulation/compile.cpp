@@ -297,6 +297,15 @@ BodyMotion compileMotion(const Body& body, double spacing) {
   return motion;
 }
 
+std::vector<double> compileHeating(const Project& project, const std::vector<std::string>& bodyIds) {
+  std::vector<double> watts(bodyIds.size(), 0.0);
+  for (const Body& body : project.bodies) {
+    const auto index = static_cast<size_t>(std::find(bodyIds.begin(), bodyIds.end(), body.id) - bodyIds.begin());
+    if (index < watts.size()) watts[index] = numberOf(body.parameters, bodyParameters(), "heating_power");
+  }
+  return watts;
+}
+
 Spawn compileCells(const Project& project, const PluginRegistry& plugins, std::span<const BakedMaterial> materials,
                    const Body& body, int palette, const std::vector<std::array<int, 3>>& cells, double spacing) {
   const auto& voxels = std::get<VoxelShape>(body.shape);

@@ -105,6 +105,7 @@ struct Engine::Impl {
   uint32_t constraintSet(const std::string& plugin);
   /// Leads the bodies that were born fixed, whatever the document says of them by now; one that has left it stands.
   void lead();
+  void heatBodies() { solver->setHeating(compileHeating(project, *bodyIds)); }
   std::vector<uint32_t> born(Spawn spawn, const Body& body);
   std::vector<uint32_t> born(Spawn spawn, const std::string& id, const std::string& name);
   void exchangeMatter();
@@ -263,6 +264,7 @@ void Engine::Impl::build() {
                                  " particles whose places are taken; move it away from what it overlaps");
     }
   }
+  heatBodies();
   for (const Emitter& emitter : project.emitters) bodyIndex(emitter.id);
   setThermal();  // what it says of bodies goes by their indices
   for (const Probe& probe : project.probes) probeNames.push_back(probeTitle(probe));
@@ -285,7 +287,10 @@ void Engine::Impl::recompile(const std::string& owner) {
   }
   if (owner == "environment") bakeMaterials();  // pressure moves melting and boiling points
   if (owner == "environment" || owner == "solver" || owner == "thermal" || owner == "body") setThermal();
-  if (owner == "body") lead();
+  if (owner == "body") {
+    lead();
+    heatBodies();
+  }
   if (owner == "constraint") {
     for (const Body& body : project.bodies) {
       for (const BodyConstraint& c : body.constraints) {
@@ -354,7 +359,7 @@ bool Engine::setParameter(const Address& address, const Value& value) {
   if (!set) return false;
   const ParameterSet before = *set;
   set->values[address.key] = value;
-  constexpr std::string_view kLive[] = {"motion_start", "motion_stop", "surface_area"};  // of a body
+  constexpr std::string_view kLive[] = {"motion_start", "motion_stop", "heating_power", "surface_area"};  // of a body
   const bool live = std::find(std::begin(kLive), std::end(kLive), address.key) != std::end(kLive);
   const bool actsNow = (address.owner != "body" || live) && address.key != "particle_spacing";
   try {
@@ -384,6 +389,7 @@ std::vector<uint32_t> Engine::addCells(const Body& body, const std::vector<std::
   } else {
     *known = body;
   }
+  m->heatBodies();
   return ids;
 }
 
@@ -399,6 +405,7 @@ std::vector<uint32_t> Engine::addBody(const Body& body) {
     const std::vector<uint32_t> fresh = m->born(std::move(spawn), body);
     ids.insert(ids.end(), fresh.begin(), fresh.end());
   }
+  m->heatBodies();
   return ids;
 }
 

@@ -19,7 +19,7 @@ struct ProbeView {
   std::span<const Vec3> start{};  ///< m, places at the start by the particles' ids
 };
 /// Value of a probe now, in the unit of its quantity; means are weighted with mass, NaN where nothing matches. Fixed
-/// particles are not seen, but count as other bodies.
+/// particles are seen by probes that say so alone, but count as other bodies.
 double measureProbe(const ProbeView& view, const Probe& probe);
 /// "name.quantity[unit]"
 std::string probeTitle(const Probe& probe);

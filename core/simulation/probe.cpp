@@ -81,7 +81,7 @@ class Measurement {
     const bool byMass = m_key.base.ends_with("_mass");
     const std::string phase = byMass ? m_key.base.substr(0, m_key.base.size() - 5) : m_probe.phase;
     for (size_t i = 0; i < m_store.size(); ++i) {
-      if (m_store.velocity()[i].w == 0) continue;
+      if (m_store.velocity()[i].w == 0 && !m_probe.fixed) continue;
       if (!m_probe.body.empty() && m_store.body()[i] != body) continue;
       if (!phase.empty() && phase != phaseName(m_store.phase()[i])) continue;
       const size_t id = m_store.id()[i];
@@ -92,6 +92,9 @@ class Measurement {
 
   double ofParticle(size_t i) const {
     if (m_key.base == "temperature") return m_store.temperature()[i];
+    if (m_key.base == "solid_fraction") return m_store.solidFraction()[i];
+    if (m_key.base == "liquid_fraction") return m_store.liquidFraction()[i];
+    if (m_key.base == "gas_fraction") return m_store.gasFraction()[i];
     if (m_key.base == "height") return m_store.position()[i].y;
     if (m_key.base == "compression") return std::max(0.0, double{m_store.densityError()[i]});
     if (m_key.base == "velocity") return part(m_store.velocity()[i], m_key.axis);

@@ -232,7 +232,7 @@ void HeatStage::exchange(ParticleStore& store, const Neighbours& neighbours, dou
 /// stable step is measured anew after each one, as freezing matter may conduct several times better than its liquid.
 double HeatStage::takeExplicitSteps(ParticleStore& store, const api::ParticleView& view,
                                     const api::NeighbourView& lists, double time) {
-  const double share = std::clamp(m_settings.cfl, 0.01, 1.0);
+  const double share = std::clamp(m_settings.cfl, 0.01, 5.0);
   if (time > kMaxExplicit * share * m_limit && !m_pairLaw) return 0;
   double left = time;
   while (left > 0 && m_substeps < kMaxExplicit) {

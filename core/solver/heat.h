@@ -6,6 +6,7 @@
 #include "core/particles/neighbours.h"
 #include "core/solver/heatbody.h"
 #include "core/solver/heatpairs.h"
+#include "core/solver/heatsources.h"
 #include "core/solver/heatsurroundings.h"
 #include "core/solver/settings.h"
 
@@ -67,6 +68,8 @@ class HeatStage {
     m_ledger.sources += joules;
     m_ledger.exchanged += joules < 0 ? -joules : joules;
   }
+  /// Power of bodies, whatever the model.
+  BodyHeating& bodyHeating() { return m_bodyHeating; }
   /// False without a model, and when it was put aside.
   bool works() const { return m_model != nullptr && !m_putAside; }
   /// What the model said when it threw; once.
@@ -143,11 +146,12 @@ class HeatStage {
   bool m_swept = false, m_pairLaw = false, m_boiling = false;
 
   HeatPairs m_pairs;
+  BodyHeating m_bodyHeating;
   HeatInstant m_now, m_next;
   std::vector<Partial> m_partials;
   std::vector<double> m_joules;       ///< of the present substep
   std::vector<double> m_frameJoules;  ///< film and nucleation, once a frame
-  std::vector<double> m_watts;        ///< the model's own sources, W of thermal time
+  std::vector<double> m_watts;        ///< the model's own sources and bodies' power, W of thermal time
   std::vector<double> m_pairWatts;    ///< the model's own pair law, per list entry
   std::vector<double> m_newTemperature;
   std::vector<api::Phase> m_newPhase;

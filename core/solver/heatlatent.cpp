@@ -41,8 +41,10 @@ void HeatStage::collectFrameHeat(const ParticleStore& store, const api::Particle
   std::fill(m_watts.begin(), m_watts.begin() + static_cast<std::ptrdiff_t>(n), 0.0);
   std::fill(m_frameJoules.begin(), m_frameJoules.begin() + static_cast<std::ptrdiff_t>(n), 0.0);
   const api::ThermalContext where = context();
+  m_bodyHeating.measure(store);
   const auto sources = [&](size_t first, size_t last) {
     m_model->sources(where, view, first, last, m_watts.data());
+    m_bodyHeating.addTo(store, first, last, m_watts);
     if (!m_boiling) return;
     for (size_t i = first; i < last; ++i) filmHeat(store, i, frame, m_partials[first / kGrain]);
     countBoiling(store, first, last);

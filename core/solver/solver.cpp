@@ -117,6 +117,8 @@ void Solver::setConstraintParameters(uint32_t set, uint32_t body, std::vector<do
 
 void Solver::setMotion(uint32_t body, const BodyMotion& motion) { m->motion.set(body, motion, m->store); }
 
+void Solver::setHeating(std::span<const double> watts) { m->heat.bodyHeating().set(watts); }
+
 void Solver::Impl::configure() {
   if (configured) return;
   if (const Period period(bounds.minimum, bounds.maximum, bounds.periodic); !(period == store.period())) {

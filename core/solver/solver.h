@@ -84,6 +84,9 @@ class Solver {
   /// How the fixed particles of a body move, those to come too; the body goes on from where it is.
   void setMotion(uint32_t body, const BodyMotion& motion);
 
+  /// W of thermal time that come up inside each body, by index; bodies beyond the list have none. See BodyHeating.
+  void setHeating(std::span<const double> watts);
+
   /// Returns the ids of the new particles. Mass is rest density times spacing^3 of the state at birth.
   std::vector<uint32_t> spawn(const Spawn& spawn);
   /// Lets held particles go at the velocity that they have; ids already gone are skipped.

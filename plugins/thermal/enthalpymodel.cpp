@@ -71,26 +71,33 @@ ThermalState stateAt(const api::Caloric& c, double h) {
   return {c.meltingPoint0 + (h - c.latentHeatFusion) / c.heatCapacityLiquid, 0, 1, 0};
 }
 
+namespace {
+
+/// Within a melting range, or on a sharp melting point, solid and liquid stand beside each other.
+double meltingEnthalpy(const api::Caloric& c, double t, api::Phase phase) {
+  const double low = solidEnthalpy(c, c.solidus), high = liquidEnthalpy(c, c.liquidus);
+  if (c.liquidus > c.solidus) return low + (t - c.solidus) / (c.liquidus - c.solidus) * (high - low);
+  if (phase == api::Phase::Solid) return low;
+  return phase == api::Phase::Melting ? 0.5 * (low + high) : high;
+}
+
+double balancedEnthalpy(const api::Caloric& c, double t) {
+  if (c.sublimes && t == c.meltingPoint) return 0.5 * (solidEnthalpy(c, t) + gasEnthalpy(c, t));
+  if ((c.melts || c.sublimes) && t < c.solidus) return solidEnthalpy(c, t);
+  if (t < c.boilingPoint) return liquidEnthalpy(c, t);
+  return t > c.boilingPoint ? gasEnthalpy(c, t) : 0.5 * (liquidEnthalpy(c, t) + gasEnthalpy(c, t));
+}
+
+}  // namespace
+
 double enthalpyAt(const api::Caloric& c, double t, api::Phase phase) {
   using api::Phase;
-  if (c.sublimes) {
-    if (t < c.meltingPoint || (t == c.meltingPoint && phase == Phase::Solid)) return solidEnthalpy(c, t);
-    if (t > c.meltingPoint || phase == Phase::Gas) return gasEnthalpy(c, t);
-    return 0.5 * (solidEnthalpy(c, t) + gasEnthalpy(c, t));
-  }
-  if (c.melts) {
-    if (t < c.solidus) return solidEnthalpy(c, t);
-    if (t <= c.liquidus) {
-      const double low = solidEnthalpy(c, c.solidus), high = liquidEnthalpy(c, c.liquidus);
-      if (c.liquidus > c.solidus) return low + (t - c.solidus) / (c.liquidus - c.solidus) * (high - low);
-      if (phase == Phase::Solid) return low;
-      return phase == Phase::Melting ? 0.5 * (low + high) : high;
-    }
-  }
-  if (t < c.boilingPoint) return liquidEnthalpy(c, t);
-  if (t > c.boilingPoint || phase == Phase::Gas) return gasEnthalpy(c, t);
-  if (phase == Phase::Boiling) return 0.5 * (liquidEnthalpy(c, t) + gasEnthalpy(c, t));
-  return liquidEnthalpy(c, t);
+  const bool hasSolid = c.melts || c.sublimes, hasGas = std::isfinite(c.boilingPoint0);
+  if (phase == Phase::Gas && hasGas) return gasEnthalpy(c, t);
+  if (c.melts && !c.sublimes && t >= c.solidus && t <= c.liquidus) return meltingEnthalpy(c, t, phase);
+  if (phase == Phase::Solid && hasSolid) return solidEnthalpy(c, t);
+  if (phase == Phase::Liquid) return liquidEnthalpy(c, t);
+  return balancedEnthalpy(c, t);
 }
 
 const char* EnthalpyModel::label() const noexcept { return "Enthalpy"; }
@@ -102,7 +109,11 @@ const char* EnthalpyModel::help() const noexcept {
          "run "
          "both ways, a melting range and sublimation are included, and a change of pressure keeps the energy. Matter "
          "is "
-         "always in balance: no supercooling, no evaporation below the boiling point, one heat capacity per phase.";
+         "always in balance: no supercooling, no evaporation below the boiling point, one heat capacity per phase. A "
+         "body "
+         "that is told to begin in another phase than its temperature and pressure allow begins with that phase's "
+         "heat, "
+         "and is at once what that heat means: liquid water of 90 °C at 50 kPa is 81 °C and 1.6 % vapour.";
 }
 
 api::List<api::FieldDeclaration> EnthalpyModel::fields() const noexcept {

@@ -18,8 +18,11 @@ double gasEnthalpy(const api::Caloric& caloric, double temperature);
 
 /// State of balance at a specific enthalpy in J/kg (Voller & Cross 1981): piecewise linear and monotone.
 ThermalState stateAt(const api::Caloric& caloric, double enthalpy);
-/// Specific enthalpy in J/kg at a temperature; `phase` decides on a plateau (melting and boiling: half way) and asks
-/// for nothing elsewhere: water of 263 K is ice.
+/// Specific enthalpy in J/kg of a phase at a temperature, on a plateau too (melting and boiling: half way). Away from
+/// the balance it is that of the phase asked for all the same, on its straight line: liquid water of 263 K holds more
+/// than ice, and stateAt() then says how much of it turns to ice at once. Within a melting range both phases are there,
+/// in the shares of the temperature. A phase that the material does not have, melting and boiling off their plateaus:
+/// what is in balance.
 double enthalpyAt(const api::Caloric& caloric, double temperature, api::Phase phase);
 
 /// The enthalpy method: specific enthalpy is the one state variable, everything else follows from it.

@@ -113,15 +113,18 @@ struct Particle {
   }
 };
 
-State stateAt(const api::Caloric& c, double t, api::Phase phase) {
-  if (c.melts && t < c.meltingPoint) return State::Solid;
-  if (c.melts && t == c.meltingPoint) {
-    if (phase == api::Phase::Solid) return State::Solid;
-    if (phase == api::Phase::Melting) return State::MeltingFreezing;
-  }
-  if (t < c.boilingPoint) return State::Fluid;
-  if (t > c.boilingPoint || phase == api::Phase::Gas) return State::Gas;
-  return phase == api::Phase::Boiling ? State::BoilingCondensing : State::Fluid;
+/// What a phase at a temperature amounts to, with the sharp plateaus that the algorithm knows.
+ThermalState startOf(api::Caloric c, double t, api::Phase phase) {
+  c.sublimes = 0;
+  c.solidus = c.liquidus = c.meltingPoint;
+  return ps::thermal::stateAt(c, enthalpyAt(c, t, phase));
+}
+
+State stateOf(const ThermalState& start) {
+  if (start.solid >= 1) return State::Solid;
+  if (start.gas >= 1) return State::Gas;
+  if (start.solid > 0) return State::MeltingFreezing;
+  return start.gas > 0 ? State::BoilingCondensing : State::Fluid;
 }
 
 }  // namespace
@@ -152,12 +155,11 @@ void ThesisLatentModel::initialise(const api::ThermalContext& context, const api
   const Fields f(particles);
   for (size_t i = first; i < last; ++i) {
     const api::Caloric& c = caloricOf(context, particles, i);
-    const State state = stateAt(c, temperature[i], phase[i]);
-    f.state[i] = state;
-    f.temperature[i] = temperature[i];
-    const double melting = meltingThreshold(c), boiling = state >= State::BoilingCondensing ? boilingThreshold(c) : 0;
-    f.melting[i] = state == State::Solid ? 0 : state == State::MeltingFreezing ? 0.5 * melting : melting;
-    f.boiling[i] = state == State::BoilingCondensing ? 0.5 * boiling : boiling;
+    const ThermalState start = startOf(c, temperature[i], phase[i]);
+    f.state[i] = stateOf(start);
+    f.temperature[i] = start.temperature;
+    f.melting[i] = (1 - start.solid) * meltingThreshold(c);
+    f.boiling[i] = start.gas * boilingThreshold(c);
   }
 }
 
