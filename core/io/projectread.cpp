@@ -31,6 +31,7 @@ SceneMaterial readMaterial(json& value, const PluginRegistry& plugins) {
   material.id = taker.text("id");
   material.label = taker.text("label");
   material.base = taker.text("base");
+  if (taker.has("adheres_to")) material.adheresTo = taker.names("adheres_to");
   taker.parameters("properties", material.properties, propertyCatalogue());
   taker.parameters("parameters", material.parameters, parametersOf(plugins.materialPlugin(material.base)));
   material.unknown = taker.rest();

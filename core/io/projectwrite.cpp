@@ -28,6 +28,7 @@ json writeMaterial(const SceneMaterial& material) {
   putText(out, "label", material.label);
   putSet(out, "properties", material.properties);
   putSet(out, "parameters", material.parameters);
+  if (material.adheresTo) out["adheres_to"] = *material.adheresTo;
   putUnknown(out, material.unknown);
   return out;
 }

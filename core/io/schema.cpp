@@ -90,7 +90,10 @@ json materialSchema() {
                  {"label", text("name shown to people")},
                  {"base", ref("plugin")},
                  {"properties", parameterListSchema(propertyCatalogue())},
-                 {"parameters", freeParameters("the material plugin's own parameters")}},
+                 {"parameters", freeParameters("the material plugin's own parameters")},
+                 {"adheres_to", listOf(text("id of a material, installed or of the scene"),
+                                       "materials that it holds on to when one of the two freezes, in place of those "
+                                       "that the installed one names")}},
                 {"id", "base"}, "an installed material with changed properties");
 }
 

@@ -147,7 +147,7 @@ struct BakedMaterial::Tables {
 };
 
 BakedMaterial::BakedMaterial(const Material& material, double pressure)
-    : m_id(material.id), m_caloric(caloricOf(material, pressure)) {
+    : m_id(material.id), m_adheresTo(material.adheresTo), m_caloric(caloricOf(material, pressure)) {
   const api::ParameterList list = propertyCatalogue();
   m_scalars.resize(list.count);
   for (size_t i = 0; i < list.count; ++i) m_scalars[i] = valueOf(material, list[i].key, kReferenceTemperature);
@@ -159,6 +159,10 @@ double BakedMaterial::property(const char* key, double temperature) const noexce
   if (index < 0) return std::numeric_limits<double>::quiet_NaN();
   const ResponseTable* table = m_tables->byProperty[static_cast<size_t>(index)];
   return table ? table->at(temperature) : m_scalars[static_cast<size_t>(index)];
+}
+
+bool BakedMaterial::adheresTo(const api::MaterialView& other) const noexcept {
+  return std::find(m_adheresTo.begin(), m_adheresTo.end(), std::string_view(other.id())) != m_adheresTo.end();
 }
 
 double BakedMaterial::restDensity(double temperature, double solid, double liquid, double gas) const {

@@ -33,6 +33,9 @@ struct Material {
   std::string id, label;
   std::map<std::string, Response> properties;
   std::map<std::string, Provenance> provenance;
+  /// Ids of materials that it holds on to when one of the two freezes: ice to wood, wax to its wick. Either of the two
+  /// may name the other.
+  std::vector<std::string> adheresTo{};
 };
 
 /// A property at a temperature in K, the catalogue's default where the material leaves it out; NaN for an unknown key.
@@ -53,6 +56,7 @@ class BakedMaterial final : public api::MaterialView {
   const char* id() const noexcept override { return m_id.c_str(); }
   const api::Caloric& caloric() const noexcept override { return m_caloric; }
   double property(const char* key, double temperature) const noexcept override;
+  bool adheresTo(const api::MaterialView& other) const noexcept override;
 
   /// Density in kg/m3 of the mixture of fractions at a temperature in K; vapour counts as gas_volume_factor times the
   /// liquid's volume (a parcel, not its real volume, which is some 1600 times the liquid's).
@@ -72,6 +76,7 @@ class BakedMaterial final : public api::MaterialView {
  private:
   struct Tables;
   std::string m_id;
+  std::vector<std::string> m_adheresTo;
   api::Caloric m_caloric{};
   std::vector<double> m_scalars;
   std::shared_ptr<const Tables> m_tables;

@@ -133,6 +133,14 @@ void readProperties(const Place& place, Material& material) {
   if (const std::string problem = problemOf(material); !problem.empty()) place.fail(problem);
 }
 
+void readAdheresTo(const Place& place, Material& material) {
+  for (size_t i = 0; i < place.list().value.size(); ++i) {
+    const Place id = place.at(i);
+    if (const std::string problem = problemOfId(id.text()); !problem.empty()) id.fail(problem);
+    material.adheresTo.push_back(id.text());
+  }
+}
+
 void readFormat(const Place& root) {
   if (!root.has("format"))
     Place{root.value, root.file, "/format"}.fail(
@@ -153,7 +161,8 @@ Material parseMaterialJson(std::string_view text, const std::string& name, Plugi
   const Place root{document, name, ""};
   root.object();
   readFormat(root);
-  root.only({"format", "version", "id", "label", "licence", "author", "help", "data_version", "properties"});
+  root.only(
+      {"format", "version", "id", "label", "licence", "author", "help", "data_version", "adheres_to", "properties"});
   Material material;
   const Place id = root.needed("id");
   if (const std::string problem = problemOfId(id.text()); !problem.empty()) id.fail(problem);
@@ -167,6 +176,8 @@ Material parseMaterialJson(std::string_view text, const std::string& name, Plugi
   info.version = root.has("data_version") ? root.at("data_version").text() : "1.0.0";
   if (const std::string problem = problemOfVersion(info.version); !problem.empty())
     root.at("data_version").fail(problem);
+  if (root.has("adheres_to")) readAdheresTo(root.at("adheres_to"), material);
+  info.adheresTo = material.adheresTo;
   readProperties(root.needed("properties"), material);
   return material;
 }

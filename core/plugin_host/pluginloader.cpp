@@ -37,6 +37,7 @@ std::string checkCommon(const api::Plugin& plugin, PluginInfo& info) {
 std::string readMaterial(const PluginInfo& info, LoadedPlugin& loaded) {
   loaded.declared.id = info.id;
   loaded.declared.label = info.label;
+  loaded.declared.adheresTo = info.adheresTo;
   const api::MaterialPlugin& plugin = *loaded.materialPlugin;
   if (std::string problem = readProperties(plugin.properties(), loaded.declared); !problem.empty()) return problem;
   if (std::string problem = problemOfProperties(loaded.declared); !problem.empty()) return problem;

@@ -76,6 +76,21 @@ std::string readCapabilities(const QJsonObject& metadata, std::vector<std::strin
   return {};
 }
 
+/// Reads a material's optional list "adheres_to"; "" or why the plugin cannot be used.
+std::string readAdheresTo(const QJsonObject& metadata, std::vector<std::string>& adheresTo) {
+  const QJsonValue list = metadata["adheres_to"];
+  const std::string rule =
+      "its metadata need a list of the ids of materials under the key \"adheres_to\", or none; correct the JSON file "
+      "that Q_PLUGIN_METADATA names and build the plugin again";
+  if (list.isUndefined()) return {};
+  if (!list.isArray()) return rule;
+  for (const QJsonValue& value : list.toArray()) {
+    adheresTo.push_back(value.toString().toStdString());
+    if (!problemOfId(adheresTo.back()).empty()) return rule;
+  }
+  return {};
+}
+
 /// The kind that the IID stands for, or a problem.
 std::optional<PluginKind> kindOfIid(const std::string& iid, std::string& problem) {
   for (const KindOfPlugin& known : kKinds)
@@ -113,6 +128,7 @@ std::string checkedMetadata(const QJsonObject& root, PluginInfo& info) {
   if (std::string what = problemOfApi(info.api); !what.empty()) return what;
   if (const std::string what = problemOfVersion(info.version); !what.empty())
     return "the version \"" + info.version + "\" " + what;
+  if (std::string what = readAdheresTo(own, info.adheresTo); !what.empty()) return what;
   return readCapabilities(own, info.capabilities);
 }
 

@@ -22,6 +22,7 @@ struct PluginInfo {
   enum class State { Loaded, Refused, Quarantined };
   std::string id, label, version, api, licence, author, help, path;
   std::vector<std::string> capabilities;  ///< what it needs of the program beyond its kind's interface
+  std::vector<std::string> adheresTo;     ///< of materials: Material::adheresTo
   PluginKind kind = PluginKind::Material;
   State state = State::Refused;
   std::string problem;  ///< one line: what, where, what to do; "" when loaded

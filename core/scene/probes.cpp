@@ -20,6 +20,7 @@ std::vector<Quantity> allQuantities() {
       {"temperature_max", "Highest temperature", "K"},
       {"mass", "Mass", "kg"},
       {"count", "Particles", "1"},
+      {"pieces", "Pieces of solid matter", "1"},
       {"solid_mass", "Solid mass", "kg"},
       {"melting_mass", "Melting mass", "kg"},
       {"liquid_mass", "Liquid mass", "kg"},

@@ -23,6 +23,9 @@ struct SceneMaterial {
   std::string base;         ///< id of the installed material: "water"
   ParameterSet properties;  ///< keys of the property catalogue
   ParameterSet parameters;  ///< the plugin's own
+  /// Ids of materials, installed or of the scene, that it holds on to when one of the two freezes, in place of those
+  /// that the installed one names.
+  std::optional<std::vector<std::string>> adheresTo;
   Unknown unknown;
 };
 
@@ -204,6 +207,8 @@ api::ParameterList sinkParameters();
 /// What holds a body together is one of its constraints rather than a parameter; panels show it as one.
 inline constexpr const char* kStructureKey = "structure";
 inline constexpr const char* kNoStructure = "none";
+/// What holds matter together that has frozen and belongs to no structure that takes it back.
+inline constexpr const char* kFrozenStructure = "bonds";
 /// Its declaration as a choice; `plugins` are the ids of what can hold a body.
 api::ParameterDeclaration structureParameter(const std::vector<std::string>& plugins);
 /// Keys of what a probe can measure: "temperature", "mass", "speed", ...

@@ -147,6 +147,10 @@ void Engine::Impl::bakeMaterials() {
   looks = std::move(bakedLooks);
   materials = baked;
   solver->setMaterials(std::move(baked));
+  // What has melted may freeze far from what held it.
+  const bool melts =
+      std::any_of(materials.begin(), materials.end(), [](const BakedMaterial& m) { return m.caloric().melts != 0; });
+  if (melts && plugins.constraint(kFrozenStructure)) constraintSet(kFrozenStructure);
 }
 
 void Engine::Impl::setThermal() {

@@ -14,6 +14,9 @@ namespace {
 /// Particles that may run ahead of a front without being it: spray.
 constexpr size_t kSpray = 2;
 
+/// Particles that make a piece: fewer do not fill a volume.
+constexpr size_t kLeastPiece = 4;
+
 const char* phaseName(api::Phase phase) {
   static constexpr const char* kNames[] = {"solid", "melting", "liquid", "boiling", "gas"};
   return kNames[static_cast<size_t>(phase)];
@@ -57,6 +60,7 @@ class Measurement {
 
   double value() const {
     const std::string& base = m_key.base;
+    if (base == "pieces") return static_cast<double>(pieces());
     if (base == "count") return static_cast<double>(m_chosen.size());
     if (base == "mass" || base.ends_with("_mass")) return sum([](size_t) { return 1.0; });
     if (base == "kinetic_energy") return sum([&](size_t i) { return 0.5 * squaredSpeed(m_store.velocity()[i]); });
@@ -185,6 +189,22 @@ class Measurement {
       total += ofParticle(i) * std::sin(at);
     }
     return 2 * total / static_cast<double>(m_chosen.size());
+  }
+
+  /// Solid bodies that some of the chosen belong to: what hangs together and is large enough to be called one.
+  size_t pieces() const {
+    const std::vector<uint32_t> piece = m_view.solver.pieces();
+    std::vector<size_t> size(piece.size(), 0);
+    for (const uint32_t p : piece) {
+      if (p != Solver::kNoPiece) ++size[p];
+    }
+    size_t count = 0;
+    for (const size_t i : m_chosen) {
+      if (piece[i] == Solver::kNoPiece || size[piece[i]] < kLeastPiece) continue;
+      ++count;
+      size[piece[i]] = 0;  // counted
+    }
+    return count;
   }
 
   size_t beyondWalls() const {

@@ -319,8 +319,11 @@ void ConstraintSystem::putBack(const ParticleStore& store, const CopiedConstrain
 
 bool ConstraintSystem::topology(const ParticleStore& store, const Neighbours& neighbours) {
   bool changed = false;
+  // What freezes beside a group may join it; who is left joins by springs.
   for (Set& set : m_sets) {
     if (set.groups) changed = groupTopology(set, store, neighbours) || changed;
+  }
+  for (Set& set : m_sets) {
     if (!set.structural || set.disabled) continue;
     std::array<float*, kMostValues> values{};
     for (size_t v = 0; v < set.valueCount; ++v) values[v] = set.values[v].data();

@@ -94,6 +94,9 @@ class ConstraintSystem {
   void addTo(Hash& hash, const ParticleStore& store) const;
   /// Ties between pairs of particles, for contact; renewed when the structure or the order has changed.
   const StructureGraph& graph(size_t particles);
+  /// For each particle a number that all share whom ties hold together; kNoPiece for what is tied to nothing.
+  std::vector<uint32_t> pieces(size_t particles);
+  static constexpr uint32_t kNoPiece = ~0u;
   /// Whether structural constraints share particles, so that one pass over them leaves an error.
   bool shareParticles() const;
   /// Those that threw since the last call.

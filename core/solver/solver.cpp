@@ -270,6 +270,7 @@ StepReport Solver::step() {
 ParticleStore& Solver::particles() { return m->store; }
 const ParticleStore& Solver::particles() const { return m->store; }
 size_t Solver::constraintCount() const { return m->constraints.count(); }
+std::vector<uint32_t> Solver::pieces() const { return m->constraints.pieces(m->store.size()); }
 double Solver::time() const { return m->time; }
 double Solver::thermalTime() const { return m->thermalTime; }
 uint64_t Solver::frame() const { return m->frame; }

@@ -105,6 +105,10 @@ class Solver {
   ParticleStore& particles();
   const ParticleStore& particles() const;
   size_t constraintCount() const;
+  /// For each particle which piece of solid matter it belongs to: a number that all share whom structure ties together.
+  /// kNoPiece for loose matter.
+  std::vector<uint32_t> pieces() const;
+  static constexpr uint32_t kNoPiece = ~0u;
   double time() const;         ///< s, mechanical
   double thermalTime() const;  ///< s, thermal_time_scale times as fast
   uint64_t frame() const;

@@ -28,6 +28,35 @@ const StructureGraph& ConstraintSystem::graph(size_t particles) {
   return m_graph;
 }
 
+std::vector<uint32_t> ConstraintSystem::pieces(size_t particles) {
+  const StructureGraph& ties = graph(particles);
+  std::vector<uint32_t> piece(particles, kNoPiece), open;
+  std::vector<std::vector<uint32_t>> members;  // of groups, by their serial
+  for (uint32_t i = 0; i < particles; ++i) {
+    for (uint32_t k = ties.groupBegin[i]; k < ties.groupBegin[i + 1]; ++k) {
+      if (ties.group[k] >= members.size()) members.resize(ties.group[k] + size_t{1});
+      members[ties.group[k]].push_back(i);
+    }
+  }
+  for (uint32_t first = 0; first < particles; ++first) {
+    if (piece[first] != kNoPiece || ties.isFree(first)) continue;
+    const auto reach = [&](uint32_t i) {
+      if (piece[i] == kNoPiece) piece[i] = first, open.push_back(i);
+    };
+    reach(first);
+    while (!open.empty()) {
+      const uint32_t i = open.back();
+      open.pop_back();
+      for (uint32_t k = ties.begin[i]; k < ties.begin[i + 1]; ++k) reach(ties.partner[k]);
+      for (uint32_t k = ties.groupBegin[i]; k < ties.groupBegin[i + 1]; ++k) {
+        for (const uint32_t j : members[ties.group[k]]) reach(j);
+        members[ties.group[k]].clear();
+      }
+    }
+  }
+  return piece;
+}
+
 void ConstraintSystem::addGroupsTo(StructureGraph& graph, size_t particles) const {
   graph.groupBegin.assign(particles + 1, 0);
   const auto eachMember = [&](auto&& visit) {

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bondmodel.h"
 
+#include "joining.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -20,12 +23,8 @@ using api::ParticleView;
 constexpr float kLatticeRadius = 1.5f;
 /// The axial ones alone.
 constexpr float kAxialRadius = 1.2f;
-/// Two dry pieces touch when their particles are closer than this, in spacings.
-constexpr float kDryRadius = 1.05f;
 constexpr double kStiffnessOfModulus = 0.4;  // k/(E dx) of 18 neighbours; of 6 it is 1
 constexpr float kLeastStiffness = 1e-20f;    // N/m, keeps the compliance finite
-/// Set while a particle is fluid, cleared when it has found partners: only what was liquid joins.
-constexpr const char* kThawed = "bonds.thawed";
 
 constexpr api::ParameterDeclaration kParameters[] = {
     {"bond_max", "Bonds per particle", "n", "", api::ParameterKind::Integer, api::Scale::Linear, 18, 6, 32, 1, 64, "",
@@ -73,6 +72,21 @@ constexpr api::ParameterDeclaration kParameters[] = {
     {"pbd_stiffness", "Share per iteration", "k", "", api::ParameterKind::Number, api::Scale::Linear, 0.5, 0, 1, 0, 1,
      "", 1, 0, "", "Legacy", "Share of a bond's error that the classic method takes out in one iteration.",
      "0.1 soft, 1 as stiff as the iterations allow", "Müller et al. 2007"},
+    {"bond_rule", "Rule of melting and freezing", "", "", api::ParameterKind::Choice, api::Scale::Linear, 0, 0, 1, 0, 1,
+     "", 1, 0, "default|thesis_alg5", "Legacy",
+     "The thesis's solid manager, kept for comparison: a bond breaks only when both its ends have begun to melt, and "
+     "what is freezing ties itself to whatever solid lies within 1.1 spacings, of any material, at most four times.",
+     "default; thesis_alg5 drags molten drops along and welds what touches", "algorithm 5 of the 2020 thesis"},
+    {"stiffness_law", "Law of stiffness", "", "", api::ParameterKind::Choice, api::Scale::Linear, 0, 0, 1, 0, 1, "", 1,
+     0, "material|thesis_sigmoid", "Legacy",
+     "Where Young's modulus comes from: the material's own at the present temperature, or, kept for comparison, the "
+     "material's at the temperature at which a bond has its length, times the thesis's 2/(1 + exp(dT/s)), dT the "
+     "warming since and s the row below.",
+     "material; thesis_sigmoid is twice as stiff in the cold and soft a few kelvin warmer",
+     "equation 4.5 of the 2020 thesis"},
+    {"stiffness_softening", "Softens over", "s", "K", api::ParameterKind::Number, api::Scale::Logarithmic, 1, 0.1, 100,
+     1e-3, 1e4, "", 1, 0, "", "Legacy", "Warming over which the thesis's law of stiffness takes effect.",
+     "1 K as printed in the thesis, 30 K for wax", "equation 4.5 of the 2020 thesis"},
 };
 
 constexpr api::FieldDeclaration kValues[] = {
@@ -81,10 +95,7 @@ constexpr api::FieldDeclaration kValues[] = {
     {"multiplier", "N·s²", "XPBD multiplier of the substep", api::FieldType::Float32},
     {"length", "m", "Length at rest at the present volumes", api::FieldType::Float32},
     {"compliance", "m/N", "Inverse stiffness at the present temperature", api::FieldType::Float32},
-};
-
-constexpr api::FieldDeclaration kFields[] = {
-    {kThawed, "", "1 while the particle has been fluid since its last bond", api::FieldType::UInt8},
+    {"temperature", "K", "At which it has its length at rest", api::FieldType::Float32},
 };
 
 /// Cube root of a ratio near 1 by two steps of Halley's method: the same bits everywhere, 1e-6 exact from 0.4 to 2.5.
@@ -139,6 +150,7 @@ std::vector<ModulusTable> modulusTables(const ConstraintContext& context, const 
   for (size_t k = 0; k < 2 * batch.count; ++k) {
     const uint32_t i = batch.particles[k];
     ranges[particles.material[i]].include(particles.temperature[i]);
+    ranges[particles.material[i]].include(double{batch.values[BondModel::kTemperature][k / 2]});
   }
   std::vector<ModulusTable> tables;
   tables.reserve(ranges.size());
@@ -158,73 +170,22 @@ double stiffnessOfModulus(const ConstraintContext& context) {
   return isSet(context, BondModel::kNeighbours) ? 1 : kStiffnessOfModulus;
 }
 
+/// e to the power of x, the same bits everywhere: by the series, exact to 1e-15, of what is left beside a power of two.
+double exponential(double x) {
+  x = std::clamp(x, -600.0, 600.0);
+  const double twos = std::floor(x * std::numbers::log2e + 0.5), rest = x - twos * std::numbers::ln2;
+  double sum = 1;
+  for (int k = 14; k > 0; --k) sum = 1 + sum * rest / k;
+  return std::ldexp(sum, static_cast<int>(twos));
+}
+
+/// The thesis's share of the modulus that is left after a warming, equation 4.5.
+double thesisShare(double warming, double softening) { return 2 / (1 + exponential(warming / softening)); }
+
 /// k in N/m that the step resolves for a pair of inverse masses.
 double stiffnessLimit(const ConstraintContext& context, double inverseMasses) {
   return context.parameters[BondModel::kStiffnessRatio] * 2 / (inverseMasses * context.dt * context.dt);
 }
-
-struct Candidate {
-  float distanceSquared;
-  uint32_t lowId, highId, i, j;
-};
-
-bool nearer(const Candidate& a, const Candidate& b) {
-  if (a.distanceSquared != b.distanceSquared) return a.distanceSquared < b.distanceSquared;
-  return a.lowId != b.lowId ? a.lowId < b.lowId : a.highId < b.highId;
-}
-
-/// What topology() needs to know of each material.
-struct JoinRule {
-  float freezeFraction, radius;
-  bool sinters;
-};
-
-std::vector<JoinRule> joinRules(const ConstraintContext& context) {
-  std::vector<JoinRule> rules;
-  for (const api::MaterialView* m : context.materials) {
-    const double temperature = m->caloric().meltingPoint0;
-    rules.push_back({static_cast<float>(m->property("freeze_bond_fraction", temperature)),
-                     static_cast<float>(m->property("bond_radius", temperature) * context.spacing),
-                     m->property("sinters", temperature) > 0.5});
-  }
-  return rules;
-}
-
-std::vector<Candidate> findCandidates(const ConstraintContext& context, const ParticleView& p,
-                                      const NeighbourView& lists, const uint8_t* thawed) {
-  const std::vector<JoinRule> rules = joinRules(context);
-  const float dry = kDryRadius * static_cast<float>(context.spacing);
-  std::vector<Candidate> result;
-  for (uint32_t i = 0; i < p.count; ++i) {
-    if (p.motion[i] != Motion::Solid) continue;
-    const JoinRule& rule = rules[p.material[i]];
-    const bool fresh = thawed[i] != 0;
-    if ((!fresh && !rule.sinters) || p.solidFraction[i] < rule.freezeFraction) continue;
-    for (uint32_t q = lists.begin[i]; q < lists.last[i]; ++q) {
-      const uint32_t j = lists.index[q];
-      if (!fresh && p.body[i] == p.body[j]) continue;  // dry pieces join only across bodies
-      if (p.motion[j] != Motion::Solid || p.material[j] != p.material[i] || p.solidFraction[j] < rule.freezeFraction)
-        continue;
-      // Each pair once: by the fresh one, or by the lower of two alike.
-      const bool alike = (thawed[j] != 0) == fresh;
-      if (alike ? j < i : !fresh) continue;
-      const float d2 = distanceSquared(p, i, j), reach = fresh ? rule.radius : dry;
-      if (d2 < reach * reach) result.push_back({d2, std::min(p.id[i], p.id[j]), std::max(p.id[i], p.id[j]), i, j});
-    }
-  }
-  std::sort(result.begin(), result.end(), nearer);
-  return result;
-}
-
-/// `ratio`: of the length at rest to the distance; `volume`: m³, of both particles, at which it has that length.
-void addBond(const ParticleView& p, uint32_t i, uint32_t j, float ratio, float volume, api::ConstraintSink& sink) {
-  const uint32_t pair[2] = {i, j};
-  const float length = ratio * std::sqrt(distanceSquared(p, i, j));
-  const float values[BondModel::kValueCount] = {length, volume, 0, length, 0};
-  sink.add(pair, values);
-}
-
-float presentVolume(const ParticleView& p, uint32_t i, uint32_t j) { return p.position[i].w + p.position[j].w; }
 
 /// m³ of a solid particle at the temperature of reference.
 float referenceVolume(const ConstraintContext& context, const ParticleView& p, uint32_t i) {
@@ -241,24 +202,36 @@ const char* BondModel::label() const noexcept { return "Bonds"; }
 
 const char* BondModel::help() const noexcept {
   return "Holds a solid together with springs between each particle and its 18 nearest (extended position-based "
-         "dynamics, "
-         "Macklin et al. 2016). Their stiffness follows Young's modulus at the particles' temperature, their length "
-         "the "
-         "particles' volume. They break where matter melts and form again where it freezes. Poisson's ratio is always "
-         "1/4; "
-         "nothing breaks by force; very stiff matter is as stiff as the substeps can resolve.";
+         "dynamics, Macklin et al. 2016). Their stiffness follows Young's modulus at the particles' temperature, their "
+         "length the particles' volume. They break where matter melts and form again where it freezes: with matter of "
+         "its own kind, or of one that either material says it holds on to (adheres_to). Dry pieces join only where "
+         "their material sinters, as ice does. Bonds also take back what has melted out of cloth, ropes and soft "
+         "bodies, and what was liquid from the start. Poisson's ratio is always 1/4; nothing breaks by force; very "
+         "stiff matter is as stiff as the substeps can resolve.";
 }
 
 api::ParameterList BondModel::parameters() const noexcept { return api::listOf(kParameters); }
 
 api::ConstraintTraits BondModel::traits() const noexcept {
-  return {api::ConstraintTraits::Form::Structural, 2, api::listOf(kValues), api::listOf(kFields)};
+  return {api::ConstraintTraits::Form::Structural, 2, api::listOf(kValues), api::listOf(kJoiningFields)};
+}
+
+void BondModel::addBond(const ParticleView& p, uint32_t i, uint32_t j, const Length& length,
+                        api::ConstraintSink& sink) {
+  const uint32_t pair[2] = {i, j};
+  const float rest = length.ratio * std::sqrt(distanceSquared(p, i, j));
+  const double now = 0.5 * (p.temperature[i] + p.temperature[j]);
+  const auto temperature = static_cast<float>(length.temperature > 0 ? length.temperature : now);
+  const float values[kValueCount] = {rest, length.volume, 0, rest, 0, temperature};
+  sink.add(pair, values);
 }
 
 void BondModel::build(const ConstraintContext& context, const ParticleView& p, const NeighbourView& lists,
                       api::Span<const uint32_t> members, api::ConstraintSink& sink) const {
   std::vector<uint8_t> isMember(p.count, 0);
   for (const uint32_t i : members) isMember[i] = 1;
+  const Joining joining(context, p);
+  for (const uint32_t i : members) joining.setKeeper(i, Keeper::Bonds);
   const float reach = isSet(context, kNeighbours) ? kAxialRadius : kLatticeRadius;
   const float radius = reach * static_cast<float>(context.spacing);
   const float ratio = static_cast<float>(context.parameters[kRestRatio]);
@@ -271,7 +244,9 @@ void BondModel::build(const ConstraintContext& context, const ParticleView& p, c
       if (isMember[j] != 0 ? j < i : p.body[j] != p.body[i]) continue;
       if (!holds(p.motion[j]) || (!across && p.material[j] != p.material[i])) continue;
       if (!(distanceSquared(p, i, j) < radius * radius)) continue;
-      addBond(p, i, j, ratio, referenceVolume(context, p, i) + referenceVolume(context, p, j), sink);
+      const Length length{ratio, referenceVolume(context, p, i) + referenceVolume(context, p, j),
+                          context.parameters[kReferenceTemperature]};
+      addBond(p, i, j, length, sink);
     }
   }
 }
@@ -281,11 +256,18 @@ void BondModel::predict(const ConstraintContext& context, const ParticleView& p,
   if (context.substep != 0) return;  // volumes and temperatures change once a frame
   const std::vector<ModulusTable> tables = modulusTables(context, p, batch);
   const double given = context.parameters[kSpringStiffness], ofModulus = stiffnessOfModulus(context);
+  const bool thesis = isSet(context, kStiffnessLaw);
+  const double softening = context.parameters[kSoftening];
   for (size_t k = 0; k < batch.count; ++k) {
     const uint32_t i = batch.particles[2 * k], j = batch.particles[2 * k + 1];
     const float volumes = (p.position[i].w + p.position[j].w) / batch.values[kReferenceVolume][k];
     batch.values[kLength][k] = batch.values[kRestLength][k] * cubeRoot(volumes);
-    const double ei = tables[p.material[i]].at(p.temperature[i]), ej = tables[p.material[j]].at(p.temperature[j]);
+    const double made = double{batch.values[kTemperature][k]};
+    const auto modulusOf = [&](uint32_t of) {
+      const ModulusTable& table = tables[p.material[of]];
+      return thesis ? table.at(made) * thesisShare(p.temperature[of] - made, softening) : table.at(p.temperature[of]);
+    };
+    const double ei = modulusOf(i), ej = modulusOf(j);
     const double modulus = ei + ej > 0 ? 2 * ei * ej / (ei + ej) : 0;
     const double inverseMasses = double{p.velocity[i].w} + double{p.velocity[j].w};
     double stiffness = given > 0 ? given : ofModulus * modulus * context.spacing;
@@ -327,35 +309,6 @@ void BondModel::project(const ConstraintContext& context, const ParticleView& p,
     const float s = change / distance, sa = s * wa, sb = s * wb;
     a.x += sa * x, a.y += sa * y, a.z += sa * z;
     b.x -= sb * x, b.y -= sb * y, b.z -= sb * z;
-  }
-}
-
-void BondModel::topology(const ConstraintContext& context, const ParticleView& p, const NeighbourView& lists,
-                         const ConstraintBatch& all, api::ConstraintSink& sink) const {
-  auto* thawed = static_cast<uint8_t*>(p.fields->find(kThawed, api::FieldType::UInt8));
-  for (size_t i = 0; i < p.count; ++i) {
-    if (!holds(p.motion[i])) thawed[i] = 1;
-  }
-  for (size_t k = 0; k < all.count; ++k) {
-    if (!holds(p.motion[all.particles[2 * k]]) || !holds(p.motion[all.particles[2 * k + 1]])) sink.remove(k);
-  }
-  const std::vector<Candidate> candidates = findCandidates(context, p, lists, thawed);
-  if (candidates.empty()) return;
-  std::vector<uint32_t> degree(p.count, 0);
-  for (size_t k = 0; k < all.count; ++k) {
-    const uint32_t i = all.particles[2 * k], j = all.particles[2 * k + 1];
-    if (!holds(p.motion[i]) || !holds(p.motion[j])) continue;
-    ++degree[i], ++degree[j];
-  }
-  const auto most = [&](uint32_t i) { return static_cast<uint32_t>(context.parametersOf(p.body[i])[kBondMax]); };
-  for (const Candidate& c : candidates) {
-    if (degree[c.i] >= most(c.i) || degree[c.j] >= most(c.j)) continue;
-    addBond(p, c.i, c.j, 1, presentVolume(p, c.i, c.j), sink);
-    ++degree[c.i], ++degree[c.j];
-  }
-  for (const Candidate& c : candidates) {
-    if (degree[c.i] > 0) thawed[c.i] = 0;
-    if (degree[c.j] > 0) thawed[c.j] = 0;
   }
 }
 

@@ -9,9 +9,11 @@ namespace ps::constraint {
 /// solid with Poisson's ratio 1/4 and E = 2.5 k/dx, so k = 0.4 E dx with E at the pair's mean temperature. With the six
 /// axial ones alone, k = E dx: pulled along an axis it is as stiff, and sheared it has no stiffness. Rest lengths
 /// follow the particles' rest volumes, l = l_ref ((V_i + V_j)/V_ref)^(1/3), so heat dilates the solid. Bonds break
-/// where a particle ceases to be solid and form where one has frozen. It cannot do: another Poisson's ratio,
-/// plasticity, fracture by force, or a stiffness beyond what the substeps resolve (limits() says so). The outermost
-/// layer is softer, having fewer springs.
+/// where a particle ceases to be solid and form by the rule of Joining: where one has frozen, and where dry pieces that
+/// sinter are pressed together. Matter of other bodies is taken in too, but pairs that rigid bodies take back are left
+/// to them. The parameters of the group Legacy choose the 2020 thesis's rules instead. It cannot do: another Poisson's
+/// ratio, plasticity, fracture by force, or a stiffness beyond what the substeps resolve (limits() says so). The
+/// outermost layer is softer, having fewer springs.
 class BondModel : public api::ConstraintPlugin {
  public:
   enum Parameter {
@@ -25,9 +27,12 @@ class BondModel : public api::ConstraintPlugin {
     kReferenceTemperature,
     kSolver,
     kPbdStiffness,
+    kBondRule,
+    kStiffnessLaw,
+    kSoftening,
     kParameterCount
   };
-  enum Value { kRestLength, kReferenceVolume, kMultiplier, kLength, kCompliance, kValueCount };
+  enum Value { kRestLength, kReferenceVolume, kMultiplier, kLength, kCompliance, kTemperature, kValueCount };
 
   const char* label() const noexcept override;
   const char* help() const noexcept override;
@@ -47,6 +52,15 @@ class BondModel : public api::ConstraintPlugin {
                 const api::ConstraintBatch& batch) const override;
   void limits(const api::ConstraintContext& context, const api::ParticleView& particles,
               api::LimitSink& sink) const override;
+
+ private:
+  /// At rest: share of the distance, volume of both in m³ and temperature in K at which it is; 0 K: the present one.
+  struct Length {
+    float ratio, volume;
+    double temperature;
+  };
+  static void addBond(const api::ParticleView& particles, uint32_t i, uint32_t j, const Length& length,
+                      api::ConstraintSink& sink);
 };
 
 }  // namespace ps::constraint

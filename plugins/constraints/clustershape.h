@@ -7,11 +7,6 @@
 
 namespace ps::constraint {
 
-inline Vector vectorOf(const api::Float4& v) { return {v.x, v.y, v.z}; }
-inline void setVector(api::Float4& to, Vector from) {
-  to.x = static_cast<float>(from.x), to.y = static_cast<float>(from.y), to.z = static_cast<float>(from.z);
-}
-
 /// One cluster of a batch: its undeformed shape, and where its members are pulled to. Places `k` count through the
 /// batch's arrays.
 class ClusterShape {

@@ -10,8 +10,12 @@ namespace ps::constraint {
 /// liquid did to its particles is absorbed by shape matching (Mueller et al. 2005; rotation by Mueller et al. 2016)
 /// into a change of the pose, and the velocities follow as increments from the predicted one, v += dc/dt, w += log(R
 /// R_pred^T)/dt, so that a free body loses no spin. Momentum that viscosity gave to members goes to the body. Members
-/// that cease to be solid leave; what is left falls into pieces that hang together in the undeformed shape. Heat scales
-/// the whole body by its mean strain. It cannot do: deform, break by force, or grow by freezing.
+/// that cease to be solid leave; what is left falls into pieces that hang together in the undeformed shape. What
+/// freezes beside a piece, by the rule of Joining, becomes part of it, of its own body or of nobody's; matter of the
+/// body that freezes in the open forms a piece as soon as `least_members` touch; two pieces that touch by three pairs
+/// or more for half a second, frozen together or sintering, become one. All of this keeps linear and angular momentum:
+/// a body takes its own from its members. Heat scales the whole body by its mean strain. It cannot do: deform, break by
+/// force, freeze together across the faces of a periodic scene, or freeze onto fixed matter (bonds do).
 class RigidModel : public api::ConstraintPlugin {
  public:
   enum Parameter { kLeastMembers, kParameterCount };

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <phasesketch/types.h>
+
 #include <array>
 #include <cmath>
 
@@ -17,6 +19,11 @@ inline Vector& operator+=(Vector& a, Vector b) { return a = a + b; }
 inline double dot(Vector a, Vector b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 inline Vector cross(Vector a, Vector b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+inline Vector vectorOf(const api::Float4& v) { return {v.x, v.y, v.z}; }
+inline void setVector(api::Float4& to, Vector from) {
+  to.x = static_cast<float>(from.x), to.y = static_cast<float>(from.y), to.z = static_cast<float>(from.z);
 }
 
 /// Three rows.

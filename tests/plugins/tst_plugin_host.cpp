@@ -115,6 +115,7 @@ class TestPluginHost : public QObject {
     QCOMPARE(registry.plugins().size(), size_t(5));
     QVERIFY(registry.brush("fixture.brush") && registry.constraint("fixture.constraint"));
     QVERIFY(registry.thermal("fixture.thermal") && registry.materialPlugin("fixture.material"));
+    QCOMPARE(registry.material("fixture.material")->adheresTo, std::vector<std::string>{"water"});
     QVERIFY(registry.material("soap") && !registry.materialPlugin("soap"));
     QVERIFY(!registry.brush("fixture.thermal") && !registry.material("fixture.brush") && !registry.has("nobody"));
     QCOMPARE(registry.ids(PluginKind::Material), (std::vector<std::string>{"fixture.material", "soap"}));
@@ -450,6 +451,10 @@ class TestPluginHost : public QObject {
     QTest::newRow("bad id") << replaced("\"soap\"", "\"So ap\"") << ":/id: must be lower-case";
     QTest::newRow("no licence") << replaced("\"licence\"", "\"author\"") << ":/licence: is missing";
     QTest::newRow("unknown key") << replaced("\"licence\"", "\"colour\": 1, \"licence\"") << ":/colour: is not a key";
+    QTest::newRow("no id of a material") << replaced("\"licence\"", "\"adheres_to\": [\"Old wood\"], \"licence\"")
+                                         << ":/adheres_to/0: must be lower-case";
+    QTest::newRow("no list of materials") << replaced("\"licence\"", "\"adheres_to\": \"wood\", \"licence\"")
+                                          << ":/adheres_to: must be a list, not the text 'wood'";
     QTest::newRow("unknown property")
         << replaced("density_solid", "densty_solid")
         << ":/properties/densty_solid: is not a property that PhaseSketch knows; did you mean \"density_solid\"?";
@@ -492,7 +497,7 @@ class TestPluginHost : public QObject {
   void materialFileKeepsSourcesAndForms() {
     PluginInfo info;
     const Material m = parseMaterialJson(R"({"format": "phasesketch-material", "version": 1, "id": "a.b", "label": "AB",
-      "licence": "MIT", "data_version": "2.1", "help": "h", "properties": {
+      "licence": "MIT", "data_version": "2.1", "help": "h", "adheres_to": ["water", "wax"], "properties": {
       "density_solid": {"points": [[200, 900], [300, 890]], "source": "Kell", "grade": "A"}, "sinters": true,
       "viscosity": {"law": "vogel", "coefficients": [-4.6, 247.8, 140]}}})",
                                          "ab.json", info);
@@ -502,6 +507,7 @@ class TestPluginHost : public QObject {
     QCOMPARE(m.provenance.at("viscosity").grade, 'C');
     QCOMPARE(m.properties.at("density_solid").at(250), 895.0);
     QCOMPARE(m.properties.at("sinters").constant, 1.0);
+    QCOMPARE(m.adheresTo, (std::vector<std::string>{"water", "wax"}));
     QVERIFY(m.properties.at("viscosity").kind == Response::Kind::Law);
   }
 

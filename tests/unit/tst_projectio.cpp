@@ -68,7 +68,8 @@ constexpr const char* kFull = R"({
   "format": "phasesketch", "version": 1, "title": "Tüte \"ü\"", "pluginsUsed": ["org.example.gone"],
   "materials": [
     {"id": "water", "base": "water", "properties": {"conductivity_solid": {"curve": [[200, 3.1], [273.15, 2.2]]},
-      "viscosity": {"law": "arrhenius", "coefficients": [0.001, 16000.5, 293.15]}, "density_solid": 916.7}},
+      "viscosity": {"law": "arrhenius", "coefficients": [0.001, 16000.5, 293.15]}, "density_solid": 916.7},
+      "adheres_to": ["slime"]},
     {"id": "slime", "base": "org.example.gone", "parameters": {"stickiness": [1, 2, {"deep": null}]}}],
   "bodies": [
     {"id": "a", "material": "water", "temperature": 263.15000000000003, "fixed": true, "velocity": [0, -1e-7, 0], "jitter": 0.2, "seed": 7,
@@ -134,6 +135,7 @@ void TestProjectIo::everythingSurvives() {
   }
   const Project project = parse(kFull).project;
   QCOMPARE(project.bodies.size(), size_t{2});
+  QCOMPARE(project.materials[0].adheresTo, (std::optional<std::vector<std::string>>{{"slime"}}));
   QCOMPARE(std::get<VoxelShape>(project.bodies[1].shape).runs[1].x, -2);
   QCOMPARE(project.environment.periodic, (std::array<bool, 3>{false, true, false}));
   QCOMPARE(std::get<VoxelShape>(project.bodies[1].shape).spacing, 0.02);  // not said: the scene's

@@ -87,6 +87,9 @@ class MaterialView {
   virtual const Caloric& caloric() const noexcept = 0;
   /// Value of a property of the catalogue at a temperature in K; NaN for an unknown key. Not for inner loops: bake.
   virtual double property(const char* key, double temperature) const noexcept = 0;
+  /// Whether it names the other one in its `adheres_to`: where either does, matter that freezes holds on to solid
+  /// matter of the other material as it does to its own.
+  virtual bool adheresTo(const MaterialView& /*other*/) const noexcept { return false; }
 
  protected:
   ~MaterialView() = default;

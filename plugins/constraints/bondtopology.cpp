@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which bonds break and form, once per frame.
+#include "bondmodel.h"
+#include "joining.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace ps::constraint {
+namespace {
+
+using api::ConstraintBatch;
+using api::ConstraintContext;
+using api::Motion;
+using api::NeighbourView;
+using api::ParticleView;
+using api::Phase;
+
+/// Two dry pieces touch when their particles are closer than this, in spacings.
+constexpr float kDryRadius = 1.05f;
+/// Of the thesis: how far what is freezing reaches, in spacings, and how many bonds it makes.
+constexpr float kThesisRadius = 1.1f;
+constexpr uint32_t kThesisMost = 4;
+
+bool holds(Motion m) { return m == Motion::Solid || m == Motion::Static; }
+
+float distanceSquared(const ParticleView& p, uint32_t i, uint32_t j) {
+  const api::Float4 d = api::separation(p, i, j);
+  return d.x * d.x + d.y * d.y + d.z * d.z;
+}
+
+struct Candidate {
+  float distanceSquared;
+  uint32_t lowId, highId, i, j;
+};
+
+bool nearer(const Candidate& a, const Candidate& b) {
+  if (a.distanceSquared != b.distanceSquared) return a.distanceSquared < b.distanceSquared;
+  return a.lowId != b.lowId ? a.lowId < b.lowId : a.highId < b.highId;
+}
+
+bool byThesis(const ConstraintContext& context, const ParticleView& p, uint32_t i) {
+  return context.parametersOf(p.body[i])[BondModel::kBondRule] > 0.5;
+}
+
+/// Whether a bond lets go. The thesis asks that both ends are in the change of phase; here one that is past it counts
+/// too, or a bond whose ends melt within one frame would stay for good.
+bool letsGo(const ConstraintContext& context, const ParticleView& p, uint32_t i, uint32_t j) {
+  if (!byThesis(context, p, i)) return !holds(p.motion[i]) || !holds(p.motion[j]);
+  return p.solidFraction[i] < 1 && p.solidFraction[j] < 1;
+}
+
+/// Who is bonded to whom.
+class BondGraph {
+ public:
+  BondGraph(size_t particles, const ConstraintBatch& all, const std::vector<uint8_t>& gone) : m_begin(particles + 1) {
+    const auto eachEnd = [&](auto&& visit) {
+      for (size_t k = 0; k < all.count; ++k) {
+        if (gone[k] != 0) continue;
+        visit(all.particles[2 * k], all.particles[2 * k + 1]);
+        visit(all.particles[2 * k + 1], all.particles[2 * k]);
+      }
+    };
+    eachEnd([&](uint32_t i, uint32_t) { ++m_begin[i + 1]; });
+    for (size_t i = 0; i < particles; ++i) m_begin[i + 1] += m_begin[i];
+    m_partner.resize(m_begin[particles]);
+    std::vector<uint32_t> next(m_begin.begin(), m_begin.end());
+    eachEnd([&](uint32_t i, uint32_t j) { m_partner[next[i]++] = j; });
+  }
+  uint32_t degree(uint32_t i) const { return m_begin[i + 1] - m_begin[i]; }
+  bool tied(uint32_t i, uint32_t j) const {
+    return std::find(m_partner.begin() + m_begin[i], m_partner.begin() + m_begin[i + 1], j) !=
+           m_partner.begin() + m_begin[i + 1];
+  }
+
+ private:
+  std::vector<uint32_t> m_begin, m_partner;
+};
+
+/// Finds the pairs that may join.
+class Search {
+ public:
+  Search(const ConstraintContext& context, const ParticleView& p, const NeighbourView& lists, const Joining& joining,
+         const BondGraph& bonds)
+      : m_context(context), m_p(p), m_lists(lists), m_joining(joining), m_bonds(bonds) {}
+
+  std::vector<Candidate> candidates() && {
+    for (uint32_t i = 0; i < m_p.count; ++i) {
+      if (byThesis(m_context, m_p, i))
+        freezeByThesis(i);
+      else if (m_p.motion[i] == Motion::Solid && (m_joining.fresh(i) || m_joining.dryJoiner(i)))
+        join(i);
+    }
+    std::sort(m_found.begin(), m_found.end(), nearer);
+    return std::move(m_found);
+  }
+
+ private:
+  template <class Takes>
+  void collect(uint32_t i, float reach, Takes&& takes) {
+    for (uint32_t q = m_lists.begin[i]; q < m_lists.last[i]; ++q) {
+      const uint32_t j = m_lists.index[q];
+      const float d2 = distanceSquared(m_p, i, j);
+      if (!(d2 < reach * reach) || !takes(j) || m_bonds.tied(i, j)) continue;
+      m_found.push_back({d2, std::min(m_p.id[i], m_p.id[j]), std::max(m_p.id[i], m_p.id[j]), i, j});
+    }
+  }
+  void join(uint32_t i) {
+    const bool fresh = m_joining.fresh(i);
+    const float reach = fresh ? m_joining.reach(i) : kDryRadius * static_cast<float>(m_context.spacing);
+    collect(i, reach, [&](uint32_t j) {
+      if (!holds(m_p.motion[j]) || (m_joining.isRigid(i) && m_joining.isRigid(j))) return false;
+      // Each pair once: by the fresh one, or by the lower of two alike.
+      const bool alike = m_joining.fresh(j) == fresh && m_p.motion[j] == Motion::Solid;
+      if (alike && j < i) return false;
+      return fresh ? m_joining.mayFreeze(i, j) : maySinter(i, j);
+    });
+  }
+  /// Within a body its pieces grow together, but not its loose grains.
+  bool maySinter(uint32_t i, uint32_t j) const {
+    const bool pieces = m_p.body[i] != m_p.body[j] || (m_bonds.degree(i) > 0 && m_bonds.degree(j) > 0);
+    return pieces && m_joining.maySinter(i, j);
+  }
+  void freezeByThesis(uint32_t i) {
+    if (m_p.phase[i] != Phase::Melting || !m_joining.fresh(i)) return;
+    collect(i, kThesisRadius * static_cast<float>(m_context.spacing),
+            [&](uint32_t j) { return holds(m_p.motion[j]) && m_p.phase[j] == Phase::Solid; });
+  }
+
+  const ConstraintContext& m_context;
+  const ParticleView& m_p;
+  const NeighbourView& m_lists;
+  const Joining& m_joining;
+  const BondGraph& m_bonds;
+  std::vector<Candidate> m_found;
+};
+
+}  // namespace
+
+void BondModel::topology(const ConstraintContext& context, const ParticleView& p, const NeighbourView& lists,
+                         const ConstraintBatch& all, api::ConstraintSink& sink) const {
+  const Joining joining(context, p);
+  joining.noteFluid();
+  std::vector<uint8_t> gone(all.count, 0);
+  for (size_t k = 0; k < all.count; ++k) {
+    if (!letsGo(context, p, all.particles[2 * k], all.particles[2 * k + 1])) continue;
+    gone[k] = 1;
+    sink.remove(k);
+  }
+  if (!joining.anybody()) return;
+  const BondGraph bonds(p.count, all, gone);
+  const std::vector<Candidate> candidates = Search(context, p, lists, joining, bonds).candidates();
+  if (candidates.empty()) return;
+  std::vector<uint32_t> degree(p.count);
+  for (uint32_t i = 0; i < p.count; ++i) degree[i] = bonds.degree(i);
+  for (const Candidate& c : candidates) {
+    const auto full = [&](uint32_t i) {
+      return degree[i] >= static_cast<uint32_t>(context.parametersOf(p.body[i])[kBondMax]);
+    };
+    if (byThesis(context, p, c.i) ? degree[c.i] >= kThesisMost : full(c.i) || full(c.j)) continue;
+    addBond(p, c.i, c.j, {1, p.position[c.i].w + p.position[c.j].w, 0}, sink);
+    ++degree[c.i], ++degree[c.j];
+  }
+  for (const Candidate& c : candidates) {
+    if (degree[c.i] > 0) joining.freshness(c.i) = 0;
+    if (degree[c.j] > 0) joining.freshness(c.j) = 0;
+  }
+}
+
+}  // namespace ps::constraint

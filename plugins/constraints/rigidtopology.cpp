@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: Apache-2.0
+// How rigid bodies melt apart, grow by freezing and grow together, once per frame.
+#include "joining.h"
+#include "rigidbody.h"
+#include "rigidpieces.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace ps::constraint {
+namespace {
+
+using api::ConstraintContext;
+using api::GroupBatch;
+using api::Motion;
+using api::NeighbourView;
+using api::ParticleView;
+
+constexpr uint32_t kNone = ~0u;
+/// Faces of two bodies touch a spacing apart, where their lattices do not match with particles up to 1.22 spacings
+/// away from each other.
+constexpr double kTouchReach = 1.25;
+/// Pairs that must touch, and for how long in s, until two bodies are one: a brush in passing does not join them.
+constexpr size_t kLeastPairs = 3;
+constexpr double kHoldTime = 0.5;
+/// What Joining::freshness() says of a particle that a body has taken, while others may still freeze to it.
+constexpr uint8_t kTaken = 2;
+
+/// A body in the making: places of a group's members that are left, and particles that have come to them.
+struct Piece {
+  size_t group = 0;  ///< of the batch; its count for a piece that begins
+  std::vector<size_t> kept;
+  std::vector<uint32_t> joined;
+  bool changed = false;
+};
+
+class Reshaping {
+ public:
+  Reshaping(const ConstraintContext& context, const ParticleView& p, const NeighbourView& lists, const GroupBatch& all)
+      : m_context(context),
+        m_p(p),
+        m_lists(lists),
+        m_all(all),
+        m_joining(context, p),
+        m_touch(static_cast<float*>(p.fields->find(kTouchField, api::FieldType::Float32))),
+        m_gone(all.count, 0) {
+    m_joining.noteFluid();
+  }
+
+  void run(api::GroupSink& sink) {
+    for (size_t g = 0; g < m_all.count; ++g) split(g);
+    const bool edited = std::any_of(m_all.changed, m_all.changed + m_all.count, [](uint8_t c) { return c != 0; });
+    if (edited || m_joining.anybody()) {
+      m_pieceOf.assign(m_p.count, kNone);
+      for (uint32_t piece = 0; piece < m_pieces.size(); ++piece) {
+        for (const size_t k : m_pieces[piece].kept) m_pieceOf[m_all.particles[k]] = piece;
+      }
+      freeze();
+      growTogether();
+    }
+    for (size_t g = 0; g < m_all.count; ++g) {
+      if (m_gone[g] != 0) sink.remove(g);
+    }
+    for (const Piece& piece : m_pieces) {
+      if (piece.changed) emit(piece, sink);
+    }
+  }
+
+ private:
+  size_t least(uint32_t particle) const { return leastMembers(m_context.parametersOf(m_p.body[particle])); }
+
+  /// Members that have melted leave; what is left falls into what hangs together.
+  void split(size_t g) {
+    std::vector<size_t> kept;
+    for (size_t k = m_all.begin[g]; k < m_all.begin[g + 1]; ++k) {
+      if (m_p.motion[m_all.particles[k]] == Motion::Solid) kept.push_back(k);
+    }
+    const size_t before = m_all.begin[g + 1] - m_all.begin[g];
+    if (kept.size() == before && m_all.changed[g] == 0) {
+      m_pieces.push_back({g, std::move(kept), {}, false});
+      return;
+    }
+    const RigidBody body(m_p, m_all, g);
+    std::vector<Vector> rest;
+    rest.reserve(kept.size());
+    for (const size_t k : kept) rest.push_back(body.rest(k));
+    const std::vector<std::vector<size_t>> pieces = piecesOf(rest, kRigidReach * m_context.spacing);
+    const size_t fewest = least(m_all.particles[m_all.begin[g]]);
+    const bool whole = pieces.size() == 1 && kept.size() == before && before >= fewest;
+    m_gone[g] = whole ? 0 : 1;
+    for (const std::vector<size_t>& members : pieces) {
+      if (members.size() < fewest) continue;
+      Piece piece{g, {}, {}, !whole};
+      for (const size_t member : members) piece.kept.push_back(kept[member]);
+      m_pieces.push_back(std::move(piece));
+    }
+  }
+
+  double squaredDistance(uint32_t i, uint32_t j) const {
+    const Vector d = vectorOf(m_p.position[i]) - vectorOf(m_p.position[j]);
+    return dot(d, d);
+  }
+  /// Splitting later must not find a gap where something froze: never farther than its own reach.
+  double squaredReach(uint32_t i) const {
+    const double reach = std::min(double{m_joining.reach(i)}, kRigidReach * m_context.spacing);
+    return reach * reach;
+  }
+
+  /// What has frozen joins the piece of its nearest neighbour; what none is near begins a new one.
+  void freeze() {
+    std::vector<uint32_t> loose;
+    std::vector<std::pair<uint32_t, uint32_t>> joins;
+    for (uint32_t i = 0; i < m_p.count; ++i) {
+      const bool free = m_p.motion[i] == Motion::Solid && m_pieceOf[i] == kNone && m_joining.fresh(i);
+      if (!free || m_joining.keeper(i) == Keeper::Bonds || !m_joining.frozen(i)) continue;
+      const uint32_t host = nearestMember(i);
+      if (host != kNone)
+        joins.emplace_back(i, m_pieceOf[host]);
+      else if (m_joining.keeper(i) == Keeper::Rigid)
+        loose.push_back(i);
+    }
+    for (const auto& [i, piece] : joins) take(i, piece);
+    if (loose.size() > 1) begin(loose);
+  }
+  uint32_t nearestMember(uint32_t i) const {
+    uint32_t nearest = kNone;
+    double least = squaredReach(i);
+    for (uint32_t q = m_lists.begin[i]; q < m_lists.last[i]; ++q) {
+      const uint32_t j = m_lists.index[q];
+      if (m_pieceOf[j] == kNone || !m_joining.mayFreeze(i, j)) continue;
+      const double d2 = squaredDistance(i, j);
+      if (d2 > least || (d2 == least && nearest != kNone && m_p.id[j] > m_p.id[nearest])) continue;
+      nearest = j, least = d2;
+    }
+    return nearest;
+  }
+  void take(uint32_t i, uint32_t piece) {
+    m_pieces[piece].joined.push_back(i);
+    m_pieces[piece].changed = true;
+    if (m_pieces[piece].group < m_all.count) m_gone[m_pieces[piece].group] = 1;
+    m_pieceOf[i] = piece;
+    m_joining.freshness(i) = kTaken;
+    if (m_joining.keeper(i) == Keeper::None) m_joining.setKeeper(i, Keeper::Guest);
+  }
+  void begin(const std::vector<uint32_t>& loose) {
+    std::vector<uint32_t> slot(m_p.count, kNone);
+    for (uint32_t s = 0; s < loose.size(); ++s) slot[loose[s]] = s;
+    DisjointSets sets(loose.size());
+    for (uint32_t s = 0; s < loose.size(); ++s) {
+      const uint32_t i = loose[s];
+      const double reach = squaredReach(i);
+      for (uint32_t q = m_lists.begin[i]; q < m_lists.last[i]; ++q) {
+        const uint32_t j = m_lists.index[q];
+        if (slot[j] != kNone && m_joining.mayFreeze(i, j) && squaredDistance(i, j) < reach) sets.unite(s, slot[j]);
+      }
+    }
+    for (const std::vector<size_t>& set : sets.sets()) {
+      if (set.size() < std::max<size_t>(2, least(loose[set[0]]))) continue;
+      m_pieces.push_back({m_all.count, {}, {}, true});
+      for (const size_t s : set) take(loose[s], static_cast<uint32_t>(m_pieces.size() - 1));
+    }
+  }
+
+  /// One of the two was put back by undo: the pieces of its body that it touches were one.
+  bool returned(uint32_t i, uint32_t j) const {
+    return m_p.body[i] == m_p.body[j] && std::max(m_touch[i], m_touch[j]) >= kReturned;
+  }
+  /// How two members of different pieces hold on to each other now.
+  enum class Grip { None, Dry, Wet };
+  Grip grip(uint32_t i, uint32_t j) const {
+    const double d2 = squaredDistance(i, j), touch = kTouchReach * m_context.spacing;
+    if (returned(i, j) && d2 < squaredReach(i)) return Grip::Wet;
+    if (d2 < std::max(squaredReach(i), squaredReach(j)) && m_joining.mayFreeze(i, j)) return Grip::Wet;
+    return d2 < touch * touch && m_joining.maySinter(i, j) ? Grip::Dry : Grip::None;
+  }
+  /// Pieces whose members have touched for long enough become one.
+  void growTogether() {
+    std::vector<std::pair<uint32_t, uint32_t>> touching;  // particles
+    for (uint32_t i = 0; i < m_p.count; ++i) {
+      if (m_pieceOf[i] == kNone) continue;
+      bool touches = false, wet = false;
+      for (uint32_t q = m_lists.begin[i]; q < m_lists.last[i]; ++q) {
+        const uint32_t j = m_lists.index[q];
+        if (m_pieceOf[j] == kNone || m_pieceOf[j] == m_pieceOf[i]) continue;
+        const Grip g = grip(i, j);
+        if (g == Grip::None) continue;
+        touches = true;
+        wet = wet || g == Grip::Wet;
+        if (i < j) touching.emplace_back(i, j);
+      }
+      m_touched.push_back(touches ? m_touch[i] + static_cast<float>(m_context.dt) : 0.0f);
+      // Dry by now, once nobody else is near.
+      m_drying.push_back(m_joining.fresh(i) && !wet ? 1 : 0);
+    }
+    std::vector<std::pair<uint32_t, uint32_t>> held;  // pieces
+    for (const auto& [i, j] : touching) {
+      if (!returned(i, j) && std::min(m_touch[i], m_touch[j]) < static_cast<float>(kHoldTime)) continue;
+      held.push_back(std::minmax(m_pieceOf[i], m_pieceOf[j]));
+    }
+    keepTouches();
+    std::sort(held.begin(), held.end());
+    DisjointSets sets(m_pieces.size());
+    for (size_t k = 0, next = 0; k < held.size(); k = next) {
+      while (next < held.size() && held[next] == held[k]) ++next;
+      if (next - k >= kLeastPairs) sets.unite(held[k].first, held[k].second);
+    }
+    for (uint32_t piece = 0; piece < m_pieces.size(); ++piece) {
+      if (const size_t into = sets.find(piece); into != piece) merge(piece, into);
+    }
+  }
+  void keepTouches() {
+    size_t k = 0;
+    for (uint32_t i = 0; i < m_p.count; ++i) {
+      if (m_pieceOf[i] == kNone) continue;
+      m_touch[i] = m_touched[k] < kReturned ? m_touched[k] : 0.0f;
+      if (m_drying[k++] != 0) m_joining.freshness(i) = 0;
+    }
+  }
+  void merge(uint32_t from, size_t into) {
+    Piece &a = m_pieces[into], &b = m_pieces[from];
+    for (const Piece* piece : {&a, &b}) {
+      if (piece->group < m_all.count) m_gone[piece->group] = 1;
+    }
+    for (const size_t k : b.kept) a.joined.push_back(m_all.particles[k]);
+    a.joined.insert(a.joined.end(), b.joined.begin(), b.joined.end());
+    a.changed = true;
+    b = {m_all.count, {}, {}, false};
+  }
+
+  /// Members keep their velocities, and a body takes its momentum from them: none is lost on the way.
+  void emit(const Piece& piece, api::GroupSink& sink) const {
+    NewRigidGroup group;
+    if (piece.group == m_all.count) {
+      const Vector origin = vectorOf(m_p.position[piece.joined[0]]);
+      for (const uint32_t i : piece.joined) group.add(i, vectorOf(m_p.position[i]) - origin, m_p.position[i].w);
+      group.emit(centreOf(m_p, group.particles), {}, 1, sink);
+      return;
+    }
+    const RigidBody body(m_p, m_all, piece.group);
+    for (const size_t k : piece.kept) {
+      const Vector place{m_all.memberValues[RigidModel::kRestX][k], m_all.memberValues[RigidModel::kRestY][k],
+                         m_all.memberValues[RigidModel::kRestZ][k]};
+      group.add(m_all.particles[k], place, m_all.memberValues[RigidModel::kRestVolume][k]);
+    }
+    const double scale = body.scale(), shrunk = 1 / (scale * scale * scale);
+    for (const uint32_t i : piece.joined) {
+      group.add(i, body.restOf(vectorOf(m_p.position[i])), static_cast<float>(double{m_p.position[i].w} * shrunk));
+    }
+    group.emit(centreOf(m_p, group.particles), body.rotation(), m_all.values[RigidModel::kScale][piece.group], sink);
+  }
+
+  const ConstraintContext& m_context;
+  const ParticleView& m_p;
+  const NeighbourView& m_lists;
+  const GroupBatch& m_all;
+  const Joining m_joining;
+  float* m_touch;
+  std::vector<uint8_t> m_gone;  ///< groups that do not stay as they are
+  std::vector<Piece> m_pieces;
+  std::vector<uint32_t> m_pieceOf;  ///< by particle
+  std::vector<uint8_t> m_drying;    ///< of members, in order: nobody is left who may freeze to it
+  std::vector<float> m_touched;     ///< s, likewise: what m_touch is after this frame
+};
+
+}  // namespace
+
+void RigidModel::groupTopology(const ConstraintContext& context, const ParticleView& p, const NeighbourView& lists,
+                               const GroupBatch& all, api::GroupSink& sink) const {
+  Reshaping(context, p, lists, all).run(sink);
+}
+
+}  // namespace ps::constraint
