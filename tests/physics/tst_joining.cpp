@@ -294,6 +294,60 @@ class TestJoining : public QObject {
     QVERIFY2(motionOf(solver, 0).rms < 0.002, qPrintable(QString::number(motionOf(solver, 0).rms)));
   }
 
+  /// What is soft melts too: half of it leaves, the other half holds; then all of it; frozen again, bonds hold it.
+  void softMatterMelts_data() {
+    QTest::addColumn<int>("kind");
+    QTest::addColumn<int>("least");  // particles of the largest piece in the end
+    QTest::newRow("clusters") << 0 << 110;
+    QTest::newRow("cloth") << 1 << 55;
+    QTest::newRow("rope") << 2 << 4;
+  }
+  void softMatterMelts() {
+    QFETCH(int, kind);
+    QFETCH(int, least);
+    const ps::constraint::ClusterModel clusters;
+    const ps::constraint::ClothModel cloth;
+    const ps::constraint::RopeModel rope;
+    const ps::api::ConstraintPlugin* const plugins[] = {&clusters, &cloth, &rope};
+    const std::vector<Point> shapes[] = {lattice(5, 5, 5, kSpacing, 0), lattice(8, 1, 8, kSpacing, 0),
+                                         lattice(12, 1, 1, kSpacing, 0)};
+    ps::Material wax = matterOf("wax", 330);
+    wax.properties["youngs_modulus"] = 1e4;
+    Solver solver;
+    prepare(solver, settingsOf(kSpacing), wax);
+    solver.setWalls(tray(0.24));
+    solver.setThermal({}, &m_enthalpy, "enthalpy", {});
+    std::vector<double> parameters = parametersOf(*plugins[kind]);
+    if (kind == 2) parameters[ps::constraint::RopeModel::kStretchStiffness] = 10;  // N, what the step resolves
+    const uint32_t set = solver.addConstraintSet(plugins[kind], "soft", parameters);
+    addSet(solver, false);
+    const std::vector<Point>& points = shapes[kind];
+    solver.spawn(solid(points, set));
+    const Sums before = sumsOf(solver);
+    const ps::ParticleStore& p = solver.particles();
+    const auto heatAll = [&](double joules) { setEnthalpy(solver, joules, [](size_t) { return true; }); };
+    QVERIFY(runOn(solver, 5));
+    const size_t ties = solver.constraintCount();
+    const std::vector<uint32_t> half =
+        setEnthalpy(solver, kMolten, [&](size_t i) { return points[p.id()[i]].x < -0.001; });
+    QVERIFY(runOn(solver, 60));
+    QVERIFY(solver.constraintCount() > 0);
+    if (kind != 0) QVERIFY(solver.constraintCount() < ties);  // clusters shrink instead
+    const std::vector<uint32_t> piece = solver.pieces();
+    for (const uint32_t id : half) QCOMPARE(piece[p.indexOf(id)], Solver::kNoPiece);
+    QCOMPARE(piecesOf(solver).largest, points.size() - half.size());
+    heatAll(kMolten);
+    QVERIFY(runOn(solver, 60));
+    QCOMPARE(solver.constraintCount(), size_t{0});
+    heatAll(kFrozen);
+    QVERIFY(runOn(solver, 60));
+    QVERIFY2(piecesOf(solver).largest >= static_cast<size_t>(least),
+             qPrintable(QString::number(piecesOf(solver).largest)));
+    QVERIFY(solver.limits().empty());
+    QCOMPARE(sumsOf(solver).count, points.size());
+    QCOMPARE(sumsOf(solver).mass, before.mass);
+  }
+
   /// Lists of installed materials may name what the scene calls otherwise; the scene's own list takes their place.
   void namesAreThoseOfTheScene() {
     const ps::PluginRegistry registry;
