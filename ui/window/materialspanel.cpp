@@ -83,7 +83,7 @@ void MaterialsPanel::rebuild() {
     const Material* material = plugins ? plugins->material(base) : nullptr;
     if (!material || bases.count(base)) continue;
     Project with;  // a scene of it alone says how it looks
-    with.materials.push_back({base, {}, base, {}, {}, {}});
+    with.materials.push_back({base, {}, base, {}, {}, {}, {}});
     const std::string& label = material->label;
     m_tiles.push_back(
         {base, QString::fromStdString(label.empty() ? base : label), colourOf(with, plugins, base), false, true});
