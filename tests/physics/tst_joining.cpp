@@ -3,6 +3,7 @@
 #include "core/plugin_host/registry.h"
 #include "core/simulation/compile.h"
 #include "core/simulation/engine.h"
+#include "onehash.h"
 #include "softscene.h"
 #include "tests/shared/scenes.h"
 
@@ -74,12 +75,55 @@ bool runOn(Solver& solver, int frames) {
   return true;
 }
 
+/// A pond that freezes to rigid pieces beside a bonded block on another, and wax on wood. 0 when something failed or
+/// nothing grew together.
+uint64_t hashOfEverything(int frames) {
+  static const ps::thermal::EnthalpyModel enthalpy;
+  static const ps::constraint::BondModel bonds;
+  static const ps::constraint::RigidModel rigid;
+  Solver solver;
+  prepare(solver, settingsOf(kSpacing));
+  solver.setMaterials({ps::BakedMaterial(matterOf("ice", 273.15, true), 101325),
+                       ps::BakedMaterial(matterOf("wood", 2000, false, {"wax"}), 101325),
+                       ps::BakedMaterial(matterOf("wax", 330), 101325)});
+  std::vector<ps::Wall> walls = tray(0.24);
+  walls[0].heat = walls[1].heat = ps::WallHeat::FixedTemperature;
+  walls[0].temperature = walls[1].temperature = 233;
+  solver.setWalls(walls);
+  ps::ThermalSettings thermal;
+  thermal.timeScale = 20000;
+  solver.setThermal(thermal, &enthalpy, "enthalpy", {});
+  const uint32_t bonded = solver.addConstraintSet(&bonds, "bonds", bondParameters());
+  const uint32_t set = solver.addConstraintSet(&rigid, "rigid", rigidParameters());
+  uint32_t body = 0;
+  const auto add = [&](ps::Spawn spawn, uint32_t material) {
+    spawn.body = body++;
+    spawn.material = material;
+    solver.spawn(spawn);
+  };
+  ps::Spawn pond = liquid(lattice(12, 2, 12, kSpacing, 0), 274);
+  pond.constraintSets = {set};
+  add(pond, 0);
+  add(ice(lattice(4, 3, 4, kSpacing, 0.08), bonded, 250), 0);
+  add(ice(lattice(4, 3, 4, kSpacing, 0.14), bonded, 250), 0);
+  add(ice(lattice(3, 2, 3, kSpacing, 0.22), set, 300), 1);
+  add(liquid(lattice(3, 2, 3, kSpacing, 0.26), 331), 2);
+  if (!run(solver, frames)) return 0;
+  return piecesOf(solver).largest >= 96 ? solver.stateHash() : 0;
+}
+
 }  // namespace
 
 class TestJoining : public QObject {
   Q_OBJECT
  private Q_SLOTS:
   void init() { ps::setThreadCount(2); }
+  void cleanup() { ps::setInstructionSet(""); }
+
+  void everyMachineGivesOneHash_data() { onehash::addRows(); }
+  void everyMachineGivesOneHash() {
+    onehash::verify([] { return hashOfEverything(80); });
+  }
 
   /// A block stands on a table, or is poured onto it and freezes.
   void whatJoins_data() {
