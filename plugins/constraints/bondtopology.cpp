@@ -43,6 +43,10 @@ bool byThesis(const ConstraintContext& context, const ParticleView& p, uint32_t 
   return context.parametersOf(p.body[i])[BondModel::kBondRule] > 0.5;
 }
 
+uint32_t mostBonds(const ConstraintContext& context, const ParticleView& p, uint32_t i) {
+  return static_cast<uint32_t>(context.parametersOf(p.body[i])[BondModel::kBondMax]);
+}
+
 /// Whether a bond lets go. The thesis asks that both ends are in the change of phase; here one that is past it counts
 /// too, or a bond whose ends melt within one frame would stay for good.
 bool letsGo(const ConstraintContext& context, const ParticleView& p, uint32_t i, uint32_t j) {
@@ -106,6 +110,7 @@ class Search {
     }
   }
   void join(uint32_t i) {
+    if (m_bonds.degree(i) >= mostBonds(m_context, m_p, i)) return;  // as deep inside a block
     const bool fresh = m_joining.fresh(i);
     const float reach = fresh ? m_joining.reach(i) : kDryRadius * static_cast<float>(m_context.spacing);
     collect(i, reach, [&](uint32_t j) {
@@ -154,9 +159,7 @@ void BondModel::topology(const ConstraintContext& context, const ParticleView& p
   std::vector<uint32_t> degree(p.count);
   for (uint32_t i = 0; i < p.count; ++i) degree[i] = bonds.degree(i);
   for (const Candidate& c : candidates) {
-    const auto full = [&](uint32_t i) {
-      return degree[i] >= static_cast<uint32_t>(context.parametersOf(p.body[i])[kBondMax]);
-    };
+    const auto full = [&](uint32_t i) { return degree[i] >= mostBonds(context, p, i); };
     if (byThesis(context, p, c.i) ? degree[c.i] >= kThesisMost : full(c.i) || full(c.j)) continue;
     addBond(p, c.i, c.j, {1, p.position[c.i].w + p.position[c.j].w, 0}, sink);
     ++degree[c.i], ++degree[c.j];

@@ -44,7 +44,7 @@ const char* ClothModel::help() const noexcept {
          "thick. Its mass per area is the material's density times the particle spacing: 50 kg/m³ at 2 cm make 1 "
          "kg/m². "
          "Water runs through where the cloth is stretched to more than one particle spacing per thread; folds finer "
-         "than two spacings do not show.";
+         "than two spacings do not show. What melts leaves it for good, and is held by bonds when it freezes again.";
 }
 
 api::ParameterList ClothModel::parameters() const noexcept { return api::listOf(kParameters); }

@@ -234,7 +234,8 @@ const char* ClusterModel::help() const noexcept {
          "(shape matching, Mueller et al. 2005; extended position-based dynamics, Macklin et al. 2016). As stiff as "
          "the "
          "material's Young's modulus says, with Poisson's ratio 0: it does not bulge when squeezed. It always returns "
-         "to its shape and never breaks by force; what melts leaves it for good. For jelly and rubber; bonds suit "
+         "to its shape and never breaks by force; what melts leaves it for good, and is held by bonds when it freezes "
+         "again. For jelly and rubber; bonds suit "
          "stiffer matter.";
 }
 

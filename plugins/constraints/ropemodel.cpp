@@ -39,7 +39,9 @@ const char* RopeModel::help() const noexcept {
          "position-based dynamics, Macklin et al. 2016). Draw a thin line, or a box that is one particle high and "
          "deep. "
          "Its mass per length is the material's density times the square of the particle spacing. Heavy loads stretch "
-         "it more than they should unless there are many substeps; it does not resist twist.";
+         "it more than they should unless there are many substeps; it does not resist twist. What melts leaves it for "
+         "good, and is held by bonds when "
+         "it freezes again.";
 }
 
 api::ParameterList RopeModel::parameters() const noexcept { return api::listOf(kParameters); }

@@ -3,6 +3,7 @@
 #include "core/plugin_host/registry.h"
 #include "core/simulation/compile.h"
 #include "core/simulation/engine.h"
+#include "onehash.h"
 #include "softscene.h"
 #include "tests/shared/scenes.h"
 
@@ -74,12 +75,55 @@ bool runOn(Solver& solver, int frames) {
   return true;
 }
 
+/// A pond that freezes to rigid pieces beside a bonded block on another, and wax on wood. 0 when something failed or
+/// nothing grew together.
+uint64_t hashOfEverything(int frames) {
+  static const ps::thermal::EnthalpyModel enthalpy;
+  static const ps::constraint::BondModel bonds;
+  static const ps::constraint::RigidModel rigid;
+  Solver solver;
+  prepare(solver, settingsOf(kSpacing));
+  solver.setMaterials({ps::BakedMaterial(matterOf("ice", 273.15, true), 101325),
+                       ps::BakedMaterial(matterOf("wood", 2000, false, {"wax"}), 101325),
+                       ps::BakedMaterial(matterOf("wax", 330), 101325)});
+  std::vector<ps::Wall> walls = tray(0.24);
+  walls[0].heat = walls[1].heat = ps::WallHeat::FixedTemperature;
+  walls[0].temperature = walls[1].temperature = 233;
+  solver.setWalls(walls);
+  ps::ThermalSettings thermal;
+  thermal.timeScale = 20000;
+  solver.setThermal(thermal, &enthalpy, "enthalpy", {});
+  const uint32_t bonded = solver.addConstraintSet(&bonds, "bonds", bondParameters());
+  const uint32_t set = solver.addConstraintSet(&rigid, "rigid", rigidParameters());
+  uint32_t body = 0;
+  const auto add = [&](ps::Spawn spawn, uint32_t material) {
+    spawn.body = body++;
+    spawn.material = material;
+    solver.spawn(spawn);
+  };
+  ps::Spawn pond = liquid(lattice(12, 2, 12, kSpacing, 0), 274);
+  pond.constraintSets = {set};
+  add(pond, 0);
+  add(ice(lattice(4, 3, 4, kSpacing, 0.08), bonded, 250), 0);
+  add(ice(lattice(4, 3, 4, kSpacing, 0.14), bonded, 250), 0);
+  add(ice(lattice(3, 2, 3, kSpacing, 0.22), set, 300), 1);
+  add(liquid(lattice(3, 2, 3, kSpacing, 0.26), 331), 2);
+  if (!run(solver, frames)) return 0;
+  return piecesOf(solver).largest >= 96 ? solver.stateHash() : 0;
+}
+
 }  // namespace
 
 class TestJoining : public QObject {
   Q_OBJECT
  private Q_SLOTS:
   void init() { ps::setThreadCount(2); }
+  void cleanup() { ps::setInstructionSet(""); }
+
+  void everyMachineGivesOneHash_data() { onehash::addRows(); }
+  void everyMachineGivesOneHash() {
+    onehash::verify([] { return hashOfEverything(80); });
+  }
 
   /// A block stands on a table, or is poured onto it and freezes.
   void whatJoins_data() {
@@ -292,6 +336,60 @@ class TestJoining : public QObject {
     QVERIFY2(pieces.largest >= 250, qPrintable(QString::number(pieces.largest)));
     if (structure == 1) QCOMPARE(solver.constraintCount(), size_t{1});
     QVERIFY2(motionOf(solver, 0).rms < 0.002, qPrintable(QString::number(motionOf(solver, 0).rms)));
+  }
+
+  /// What is soft melts too: half of it leaves, the other half holds; then all of it; frozen again, bonds hold it.
+  void softMatterMelts_data() {
+    QTest::addColumn<int>("kind");
+    QTest::addColumn<int>("least");  // particles of the largest piece in the end
+    QTest::newRow("clusters") << 0 << 110;
+    QTest::newRow("cloth") << 1 << 55;
+    QTest::newRow("rope") << 2 << 4;
+  }
+  void softMatterMelts() {
+    QFETCH(int, kind);
+    QFETCH(int, least);
+    const ps::constraint::ClusterModel clusters;
+    const ps::constraint::ClothModel cloth;
+    const ps::constraint::RopeModel rope;
+    const ps::api::ConstraintPlugin* const plugins[] = {&clusters, &cloth, &rope};
+    const std::vector<Point> shapes[] = {lattice(5, 5, 5, kSpacing, 0), lattice(8, 1, 8, kSpacing, 0),
+                                         lattice(12, 1, 1, kSpacing, 0)};
+    ps::Material wax = matterOf("wax", 330);
+    wax.properties["youngs_modulus"] = 1e4;
+    Solver solver;
+    prepare(solver, settingsOf(kSpacing), wax);
+    solver.setWalls(tray(0.24));
+    solver.setThermal({}, &m_enthalpy, "enthalpy", {});
+    std::vector<double> parameters = parametersOf(*plugins[kind]);
+    if (kind == 2) parameters[ps::constraint::RopeModel::kStretchStiffness] = 10;  // N, what the step resolves
+    const uint32_t set = solver.addConstraintSet(plugins[kind], "soft", parameters);
+    addSet(solver, false);
+    const std::vector<Point>& points = shapes[kind];
+    solver.spawn(solid(points, set));
+    const Sums before = sumsOf(solver);
+    const ps::ParticleStore& p = solver.particles();
+    const auto heatAll = [&](double joules) { setEnthalpy(solver, joules, [](size_t) { return true; }); };
+    QVERIFY(runOn(solver, 5));
+    const size_t ties = solver.constraintCount();
+    const std::vector<uint32_t> half =
+        setEnthalpy(solver, kMolten, [&](size_t i) { return points[p.id()[i]].x < -0.001; });
+    QVERIFY(runOn(solver, 60));
+    QVERIFY(solver.constraintCount() > 0);
+    if (kind != 0) QVERIFY(solver.constraintCount() < ties);  // clusters shrink instead
+    const std::vector<uint32_t> piece = solver.pieces();
+    for (const uint32_t id : half) QCOMPARE(piece[p.indexOf(id)], Solver::kNoPiece);
+    QCOMPARE(piecesOf(solver).largest, points.size() - half.size());
+    heatAll(kMolten);
+    QVERIFY(runOn(solver, 60));
+    QCOMPARE(solver.constraintCount(), size_t{0});
+    heatAll(kFrozen);
+    QVERIFY(runOn(solver, 60));
+    QVERIFY2(piecesOf(solver).largest >= static_cast<size_t>(least),
+             qPrintable(QString::number(piecesOf(solver).largest)));
+    QVERIFY(solver.limits().empty());
+    QCOMPARE(sumsOf(solver).count, points.size());
+    QCOMPARE(sumsOf(solver).mass, before.mass);
   }
 
   /// Lists of installed materials may name what the scene calls otherwise; the scene's own list takes their place.

@@ -58,6 +58,7 @@ void TstExperiments::aProbeOfEveryQuantity() {
       {"temperature_max", 400},
       {"mass", 16},
       {"count", 5},
+      {"pieces", 0},  // nothing is tied
       {"solid_mass", 1},
       {"melting_mass", 2},
       {"liquid_mass", 3},
