@@ -109,6 +109,7 @@ class Scene {
   std::vector<ps::BakedMaterial> materials;
   ps::thermal::EnthalpyModel enthalpy;
   const ps::api::ThermalPlugin* model = &enthalpy;
+  std::vector<double> modelParameters;
 
   Scene() { thermal.airConvection = 0; }
 
@@ -136,7 +137,7 @@ class Scene {
   /// Settings reach the stage; call after any change.
   void configure() {
     solver.spacing = spacing;
-    heat.configure(thermal, solver, walls, materials, model, {});
+    heat.configure(thermal, solver, walls, materials, model, modelParameters);
     phase.configure(solver, materials);
     neighbours.configure(solver.supportRatio * spacing, 0.02 * spacing);
   }
