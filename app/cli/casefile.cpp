@@ -167,12 +167,13 @@ Case readCase(Entry& entry, const std::filesystem::path& folder) {
   result.why = entry.text("why");
   if (const std::string project = entry.text("project"); !project.empty()) result.project = (folder / project).string();
   result.edits = entry.edits("set");
-  result.frames = static_cast<long>(entry.number("frames").value_or(0));
+  const double frames = entry.number("frames").value_or(0);
   for (Entry& run : entry.list("runs")) {
-    result.runs.push_back({run.neededText("name"), run.edits("set")});
+    const double own = run.number("frames").value_or(frames);
+    result.runs.push_back({run.neededText("name"), run.edits("set"), static_cast<long>(own)});
     run.refuseOthers();
   }
-  if (result.runs.empty()) result.runs.emplace_back();
+  if (result.runs.empty()) result.runs.push_back({"", {}, static_cast<long>(frames)});
   for (Entry& check : entry.list("checks")) result.checks.push_back(readCheck(check, result.runs));
   if (result.checks.empty()) entry.fail("checks nothing");
   entry.refuseOthers();

@@ -39,6 +39,7 @@ using Edits = std::vector<std::string>;
 struct CaseRun {
   std::string name;  ///< "5 iterations"; "" for the only one
   Edits edits;
+  long frames = 0;
 };
 
 /// An experiment: a project, numbers for it, and what theory says about the outcome.
@@ -46,7 +47,6 @@ struct Case {
   std::string id, why, project;  ///< `project`: path; "" where no run is needed
   Edits edits;
   std::vector<CaseRun> runs;  ///< at least one
-  long frames = 0;
   std::vector<CaseCheck> checks;
 };
 

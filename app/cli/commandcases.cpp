@@ -72,7 +72,7 @@ Outcome run(const Case& what, const CaseRun& configuration, const Edits& more, P
   outcome.titles.insert(outcome.titles.end(), std::begin(kHeatTitles), std::end(kHeatTitles));
   std::string problem;
   const FrameStats start = engine.stats();
-  const bool whole = runFrames(engine, what.frames, [&](const StepReport& step, const FrameStats& stats) {
+  const bool whole = runFrames(engine, configuration.frames, [&](const StepReport& step, const FrameStats& stats) {
     if (problem.empty()) problem = step.message;
     outcome.rows.push_back(columnValues(stats));
     addHeat(engine, start, stats, outcome.rows.back());

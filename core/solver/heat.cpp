@@ -58,6 +58,7 @@ api::ThermalContext HeatStage::context() const {
   context.ambientTemperature = m_settings.ambientTemperature;
   context.parameters = {m_parameters.data(), m_parameters.size()};
   context.materials = {m_materialViews.data(), m_materialViews.size()};
+  context.supportRadius = m_solver.spacing * m_solver.supportRatio;
   return context;
 }
 
@@ -294,6 +295,7 @@ double HeatStage::fastestRate(const ParticleStore& store, size_t first, size_t l
 void HeatStage::findLimit() {
   double fastest = 0;
   for (const Partial& partial : m_partials) fastest = std::max(fastest, partial.fastest);
+  fastest += m_pairRate;
   if (m_settings.airHeatCapacity > 0)
     fastest = std::max(fastest, m_surroundings.airConductance() / m_settings.airHeatCapacity);
   m_limit = fastest > 0 ? 1 / fastest : 1e30;
@@ -356,11 +358,17 @@ void HeatStage::askPairLaw(const api::ParticleView& view, const api::NeighbourVi
   const api::ThermalContext where = context();
   const size_t probe = std::min(n, kGrain);
   m_pairLaw = m_model->pairFlux(where, view, lists, 0, probe, m_pairWatts.data());
-  if (!m_pairLaw || probe == n) return;
+  m_pairRate = 0;
+  if (!m_pairLaw) return;
+  const auto* rates = static_cast<const api::PairRates*>(m_model->extension(api::kPairRates));
+  m_lawRates.assign(chunksOf(n), 0.0);
   const auto body = [&](size_t first, size_t last) {
-    m_model->pairFlux(where, view, lists, probe + first, probe + last, m_pairWatts.data());
+    if (first >= probe) m_model->pairFlux(where, view, lists, first, last, m_pairWatts.data());
+    if (rates) m_lawRates[first / kGrain] = rates->fastestPairRate(where, view, lists, first, last);
   };
-  parallelFor(n - probe, kGrain, std::cref(body));
+  parallelFor(n, kGrain, std::cref(body));
+  m_pairRate = *std::max_element(m_lawRates.begin(), m_lawRates.end());
+  findLimit();
 }
 
 void HeatStage::gatherPairLaw(const api::NeighbourView& lists, double step, size_t first, size_t last) {

@@ -26,9 +26,9 @@ namespace ps {
 /// Explicit substeps of thermal_cfl times the Gershgorin limit, measured before each from the pairs at hand; above
 /// kMaxExplicit of them, pairwise exponential sweeps (heatrelax.cpp), which stay stable at any step and lose accuracy
 /// slowly. What even these cannot follow is not done: the thermal clock then runs slower, see
-/// thermalTimeScaleDelivered(). A model's own pair law is stepped at the limit of the host's conduction and never
-/// swept, so a law much stronger than that needs a smaller thermal_cfl. Not modelled: evaporation below the boiling
-/// point.
+/// thermalTimeScaleDelivered(). A model's own pair law is never swept; it is stepped at the limit of the host's
+/// conduction and of what the model says of its law (api::PairRates), or else of the former alone. Not modelled:
+/// evaporation below the boiling point.
 ///
 /// A finite lump of air (airHeatCapacity) keeps one temperature, which follows what it gives and takes; its energy and
 /// the particles' are constant together.
@@ -153,6 +153,8 @@ class HeatStage {
   std::vector<double> m_frameJoules;  ///< film and nucleation, once a frame
   std::vector<double> m_watts;        ///< the model's own sources and bodies' power, W of thermal time
   std::vector<double> m_pairWatts;    ///< the model's own pair law, per list entry
+  std::vector<double> m_lawRates;     ///< 1/s, the fastest of that law, by chunk
+  double m_pairRate = 0;              ///< and of all
   std::vector<double> m_newTemperature;
   std::vector<api::Phase> m_newPhase;
   double m_airTaken = 0;                   ///< J of this frame that the lump of air has answered for

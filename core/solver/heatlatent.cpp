@@ -44,7 +44,7 @@ void HeatStage::collectFrameHeat(const ParticleStore& store, const api::Particle
   m_bodyHeating.measure(store);
   const auto sources = [&](size_t first, size_t last) {
     m_model->sources(where, view, first, last, m_watts.data());
-    m_bodyHeating.addTo(store, first, last, m_watts);
+    m_bodyHeating.addTo(store, m_materials, frame, first, last, m_watts);
     if (!m_boiling) return;
     for (size_t i = first; i < last; ++i) filmHeat(store, i, frame, m_partials[first / kGrain]);
     countBoiling(store, first, last);

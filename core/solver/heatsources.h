@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "core/matter/material.h"
 #include "core/particles/particlestore.h"
 
-#include <cstdint>
 #include <span>
 #include <vector>
 
 namespace ps {
 
 /// Heat that comes up inside bodies, in W of thermal time: the power of each body, spread evenly over the mass of those
-/// of its particles that are there now, held ones and vapour among them. Cooling leaves out what is at 1 K already,
+/// of its particles that are there now, held ones and vapour among them. Cooling leaves each particle at 1 K at least,
 /// where the tables of materials begin. Matter of no body, as emitters pour it, has no power.
 class BodyHeating {
  public:
@@ -17,12 +17,11 @@ class BodyHeating {
   void set(std::span<const double> watts) { m_watts.assign(watts.begin(), watts.end()); }
   /// Makes ready for a frame: adds up the mass of heated bodies in the order of the store.
   void measure(const ParticleStore& store);
-  /// Adds W to particles [first, last).
-  void addTo(const ParticleStore& store, size_t first, size_t last, std::span<double> watts) const;
+  /// Adds W to particles [first, last) for a frame of `frame` s of thermal time.
+  void addTo(const ParticleStore& store, std::span<const BakedMaterial> materials, double frame, size_t first,
+             size_t last, std::span<double> watts) const;
 
  private:
-  bool takesPart(const ParticleStore& store, size_t i) const;
-
   std::vector<double> m_watts;    ///< W by body
   std::vector<double> m_perMass;  ///< W/kg by body; empty when nothing is heated
 };

@@ -90,6 +90,12 @@ inline ps::Material dryIce() {
   return m;
 }
 
+/// What is stable at a temperature; on the melting and the boiling point the liquid.
+inline ps::api::Phase balancedPhase(const ps::api::Caloric& c, double kelvin) {
+  if ((c.melts || c.sublimes) && kelvin < c.solidus) return ps::api::Phase::Solid;
+  return kelvin <= c.boilingPoint ? ps::api::Phase::Liquid : ps::api::Phase::Gas;
+}
+
 class Scene {
  public:
   double spacing = 0.005;
@@ -103,6 +109,7 @@ class Scene {
   std::vector<ps::BakedMaterial> materials;
   ps::thermal::EnthalpyModel enthalpy;
   const ps::api::ThermalPlugin* model = &enthalpy;
+  std::vector<double> modelParameters;
 
   Scene() { thermal.airConvection = 0; }
 
@@ -130,7 +137,7 @@ class Scene {
   /// Settings reach the stage; call after any change.
   void configure() {
     solver.spacing = spacing;
-    heat.configure(thermal, solver, walls, materials, model, {});
+    heat.configure(thermal, solver, walls, materials, model, modelParameters);
     phase.configure(solver, materials);
     neighbours.configure(solver.supportRatio * spacing, 0.02 * spacing);
   }
@@ -156,7 +163,8 @@ class Scene {
   }
   template <class Temperature>
   void start(const Temperature& temperature) {
-    start(temperature, [](size_t) { return ps::api::Phase::Liquid; });
+    start(temperature,
+          [&](size_t i) { return balancedPhase(materials[store.material()[i]].caloric(), temperature(i)); });
   }
 
   /// Advances `seconds` in frames of up to 35 explicit heat steps, as nothing moves.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every row of tests/cases/cases.json, through the program that people run; see tests/cases/README.md.
 #include <QFile>
+#include <QMap>
 #include <QProcess>
 #include <QSet>
 #include <QTest>
@@ -76,6 +77,28 @@ class TestCases : public QObject {
     QVERIFY(answer.problem.contains("1 number misses its tolerance"));
   }
 
+  /// Profiles, plateaus and phase diagrams too: what others put into the projects reaches the numbers.
+  void thermalNumbersFollowTheProject() {
+    const auto verdicts = [](const QStringList& more) {
+      const Answer answer = answerOf(QStringList{"cases", kFile} + more);
+      QMap<QString, bool> fine;
+      for (const QString& line : answer.table.trimmed().split('\n')) {
+        fine[line.mid(30, 44).trimmed()] = line.endsWith("yes");
+      }
+      return fine;
+    };
+    auto fine = verdicts({"--only", "d5_wall", "--set", "materials/matter/properties/conductivity_liquid=1.1"});
+    QVERIFY(!fine["flux, W/m2, lattice"] && fine["L2 of the straight profile, lattice"]);
+    fine = verdicts({"--only", "d5_wall", "--set", "environment/walls/right/temperature=383.15"});
+    QVERIFY(!fine["L2 of the straight profile, lattice"]);
+    fine = verdicts({"--only", "g3_boiling", "--set", "bodies/body/heating_power=480"});
+    QVERIFY(fine["plateau, K"] && !fine["boiling begins, s"] && !fine["boiling lasts, s"]);
+    fine = verdicts({"--only", "g3_boiling", "--set", "materials/water/properties/latent_heat_vaporization=2200000"});
+    QVERIFY(!fine["latent heat there, J/kg"] && !fine["boiling lasts, s"] && fine["boiling begins, s"]);
+    fine = verdicts({"--only", "e2_stefan", "--set", "environment/walls/wall/temperature=333.15"});
+    QVERIFY(!fine["front after 1500 s, m, lattice"]);
+  }
+
   void wrongRowsNameThePlace_data() {
     QTest::addColumn<QString>("row");
     QTest::addColumn<QString>("problem");
@@ -88,6 +111,18 @@ class TestCases : public QObject {
         << "/cases/0/tolerance: is no key of a case";
     QTest::newRow("unknown measure") << R"({"id": "a", "checks": [{"what": "x", "column": "c", "measure": "median"}]})"
                                      << "/cases/0/checks/0: 'median' is no measure";
+    QTest::newRow("unknown profile")
+        << R"({"id": "a", "checks": [{"what": "x", "profile": "parabola", "measure": "l2", "at_most": 1}]})"
+        << "/cases/0/checks/0: 'parabola' is no profile";
+    QTest::newRow("unknown measure of a profile")
+        << R"({"id": "a", "checks": [{"what": "x", "profile": "line", "measure": "last", "at_most": 1}]})"
+        << "/cases/0/checks/0: 'last' is no measure of a profile";
+    QTest::newRow("unknown equilibrium")
+        << R"({"id": "a", "checks": [{"what": "x", "equilibrium": "dew", "material": "water", "at_most": 1}]})"
+        << "/cases/0/checks/0: 'dew' is no equilibrium";
+    QTest::newRow("unknown clock")
+        << R"({"id": "a", "checks": [{"what": "x", "column": "c", "measure": "last", "clock": "sun", "at_most": 1}]})"
+        << "/cases/0/checks/0: 'sun' is no clock";
     QTest::newRow("no tolerance")
         << R"({"id": "a", "checks": [{"what": "x", "column": "c", "measure": "last", "expected": 1}]})"
         << "/cases/0/checks/0: needs an expected value and its tolerance, or a bound";

@@ -7,6 +7,7 @@
 #include <QTest>
 
 #include <algorithm>
+#include <optional>
 #include <set>
 
 using heattest::dryIce;
@@ -21,13 +22,14 @@ namespace {
 class Kettle {
  public:
   Kettle(const ps::api::ThermalPlugin& model, const ps::Material& material, double pressure, double mass, double kelvin,
-         Phase phase = Phase::Liquid) {
+         std::optional<Phase> phase = std::nullopt) {
     m_scene.pressure = pressure;
     m_scene.model = &model;
     m_scene.addMaterial(material);
     m_scene.addBox({0, 0, 0}, {1, 1, 1}, 0);
     m_scene.store.mass()[0] = static_cast<float>(mass);
-    m_scene.start([=](size_t) { return kelvin; }, [=](size_t) { return phase; });
+    const Phase born = phase.value_or(heattest::balancedPhase(m_scene.materials[0].caloric(), kelvin));
+    m_scene.start([=](size_t) { return kelvin; }, [=](size_t) { return born; });
   }
   void heat(double joules) {
     const ps::api::MaterialView* view = &m_scene.materials[0];
@@ -91,6 +93,55 @@ class TestPhaseChange : public QObject {
         QVERIFY2(std::abs(late) < 1.5, text);
       if (thesis && e == 4) QVERIFY2(late > 1, text);
     }
+  }
+
+  void phasesAwayFromTheBalanceKeepTheirHeat_data() {
+    QTest::addColumn<bool>("thesis");
+    QTest::addColumn<double>("pressure");
+    QTest::addColumn<double>("kelvin");
+    QTest::addColumn<int>("phase");
+    QTest::addColumn<QList<double>>("state");  // K, solid, liquid, vapour
+    for (const bool thesis : {false, true}) {
+      const auto row = [&](const char* name, double pressure, double kelvin, Phase phase, const QList<double>& state) {
+        QTest::addRow("%s%s", name, thesis ? ", thesis" : "")
+            << thesis << pressure << kelvin << static_cast<int>(phase) << state;
+      };
+      // x = c_l (T0 - T_b)/L_v(T_b), reference case i6.
+      row("flash boiling", 5e4, 363.15, Phase::Liquid, {354.24825, 0, 1 - 0.0162148, 0.0162148});
+      row("undercooled water", 101325, 263.15, Phase::Liquid, {273.15, 41860.0 / 334e3, 1 - 41860.0 / 334e3, 0});
+      // 1 kg of ice that would be at 20 °C holds 42 kJ.
+      row("ice in a warm room", 101325, 293.15, Phase::Solid, {273.15, 1 - 42000.0 / 334e3, 42000.0 / 334e3, 0});
+      // Steam of 80 °C is short of c_g (T_b - T) of its latent heat.
+      row("cold steam", 101325, 353.15, Phase::Gas, {373.124, 0, 2010 * 19.974 / 2257e3, 1 - 2010 * 19.974 / 2257e3});
+      row("ice", 101325, 263.15, Phase::Solid, {263.15, 1, 0, 0});
+      row("water", 101325, 293.15, Phase::Liquid, {293.15, 0, 1, 0});
+      row("steam", 101325, 400, Phase::Gas, {400, 0, 0, 1});
+    }
+  }
+  /// The heat of the phase asked for, on its own straight line, and what is in balance with that heat.
+  void phasesAwayFromTheBalanceKeepTheirHeat() {
+    QFETCH(bool, thesis);
+    QFETCH(double, pressure);
+    QFETCH(double, kelvin);
+    QFETCH(int, phase);
+    QFETCH(QList<double>, state);
+    const ps::thermal::EnthalpyModel enthalpy;
+    const ps::thermal::ThesisLatentModel latent;
+    const ps::api::ThermalPlugin* model = &enthalpy;
+    if (thesis) model = &latent;
+    Kettle kettle(*model, fullWater(), pressure, 1, kelvin, static_cast<Phase>(phase));
+    const double t = kelvin - 273.15;
+    const double line = static_cast<Phase>(phase) == Phase::Solid ? 2100 * t
+                        : static_cast<Phase>(phase) == Phase::Liquid
+                            ? 334e3 + 4186 * t
+                            : 334e3 + 4186 * 99.974 + 2257e3 + 2010 * (kelvin - 373.124);
+    QVERIFY2(std::abs(kettle.energy() - line) < 1e-3, qPrintable(QString::number(kettle.energy() - line)));
+    QVERIFY2(std::abs(kettle.temperature() - state[0]) < 1e-3, qPrintable(QString::number(kettle.temperature())));
+    QVERIFY(std::abs(kettle.solid() - state[1]) < 1e-6);
+    QVERIFY(std::abs(kettle.liquid() - state[2]) < 1e-6);
+    QVERIFY(std::abs(kettle.gas() - state[3]) < 1e-6);
+    kettle.heat(0);  // nothing is dropped by the first step
+    QVERIFY(std::abs(kettle.energy() - line) < 1e-3);
   }
 
   void plateausFollowThePressure_data() {

@@ -2,6 +2,7 @@
 // Broken plugins are fixtures: each must give exactly one line that names the file and the fault, and leave the rest
 // alone.
 #include "core/base/error.h"
+#include "core/matter/material.h"
 #include "core/plugin_host/materialjson.h"
 #include "core/plugin_host/pluginmetadata.h"
 #include "core/plugin_host/quarantine.h"
@@ -513,8 +514,9 @@ class TestPluginHost : public QObject {
 
   void ownMaterialsHoldWhatTheHandbooksSay() {
     const PluginRegistry registry{PluginRegistry::Options{}};
-    for (const char* id : {"water", "wax", "iron", "tin", "chocolate", "butter", "honey", "glass", "lava", "cotton",
-                           "hemp", "jelly", "rubber", "wood"})
+    for (const char* id : {"water",     "wax",  "iron",    "tin",     "chocolate", "butter",   "honey",
+                           "glass",     "lava", "cotton",  "hemp",    "jelly",     "rubber",   "wood",
+                           "aluminium", "co2",  "ethanol", "gallium", "lead",      "nitrogen", "steel"})
       QVERIFY2(registry.material(id), id);
     const Material& water = *registry.material("water");
     const Response& density = water.properties.at("density_liquid");
@@ -534,7 +536,27 @@ class TestPluginHost : public QObject {
     QVERIFY(plain.properties.at("density_liquid") == Response(998.2));
     const Material& wax = *registry.material("wax");
     QVERIFY(wax.properties.at("solidus").constant < wax.properties.at("liquidus").constant);
-    for (const char* id : {"water", "wax", "iron", "tin", "honey", "glass", "lava", "wood", "chocolate"})
+    // Dry ice has no liquid at 1 atm, and no other has its triple point above that.
+    const BakedMaterial dryIce(*registry.material("co2"), 101325);
+    QVERIFY(dryIce.caloric().sublimes && std::abs(dryIce.caloric().meltingPoint - 194.686) < 1e-3);
+    QVERIFY(!BakedMaterial(*registry.material("co2"), 6e5).caloric().sublimes);
+    for (const char* id : {"aluminium", "ethanol", "gallium", "lead", "nitrogen", "steel", "tin", "iron", "water"}) {
+      const BakedMaterial baked(*registry.material(id), 101325);
+      QVERIFY2(!baked.caloric().sublimes && baked.caloric().melts, id);
+      // Only water and gallium float on their melt.
+      const bool floats =
+          baked.condensedDensity(baked.caloric().solidus, 1) < baked.condensedDensity(baked.caloric().liquidus, 0);
+      QVERIFY2(floats == (std::string_view(id) == "water" || std::string_view(id) == "gallium"), id);
+    }
+    // Saturation at other pressures: ethanol 326.0 K at 33.7 kPa (its Antoine equation), nitrogen 83.6 K at 200 kPa (NIST); the lines through
+    // boiling and triple point are within 1 % of the way to absolute zero.
+    const auto boils = [&](const char* id, double pressure) {
+      return phaseDiagramOf(*registry.material(id)).boilingPoint(pressure);
+    };
+    QVERIFY2(std::abs(boils("ethanol", 33.7e3) - 326) < 3, qPrintable(QString::number(boils("ethanol", 33.7e3))));
+    QVERIFY2(std::abs(boils("nitrogen", 2e5) - 83.6) < 0.8, qPrintable(QString::number(boils("nitrogen", 2e5))));
+    for (const char* id : {"water", "wax", "iron", "tin", "honey", "glass", "lava", "wood", "chocolate", "aluminium",
+                           "co2", "ethanol", "gallium", "lead", "nitrogen", "steel"})
       for (const auto& [key, ignored] : registry.material(id)->properties)
         QVERIFY2(key.starts_with("color_") || key == "clearness" ||
                      !registry.material(id)->provenance.at(key).source.empty(),

@@ -199,8 +199,10 @@ void TestCli::pluginsAreListed() {
   }
   QVERIFY(water);
   for (const auto& plugin : list["plugins"]) {
-    const bool opens = plugin["id"] == "thesis_latent";
-    QCOMPARE(plugin["capabilities"].dump(), std::string(opens ? R"(["opens_energy"])" : "[]"));
+    const std::string expected = plugin["id"] == "thesis_latent"      ? R"(["opens_energy"])"
+                                 : plugin["id"] == "thesis_diffusion" ? R"(["pair_rates"])"
+                                                                      : "[]";
+    QCOMPARE(plugin["capabilities"].dump(), expected);
   }
   QVERIFY(list["properties"].size() > 20);
   QVERIFY(QString(cli({"plugins"}).out).contains("water"));

@@ -22,6 +22,8 @@ class TstExperiments : public QObject {
   void aProbeSeesItsRegionAndItsWave();
   void aBodyStartsAsItsFieldsSay();
   void disorderHangsOnTheSeedAlone();
+  void bodiesAreHeatedByTheirPower();
+  void coolingEndsAboveZero();
 
  private:
   PluginRegistry m_plugins;
@@ -42,6 +44,7 @@ void TstExperiments::aProbeOfEveryQuantity() {
   const float velocity[][2] = {{3, 4}, {0, 0}, {1, 0}, {0, 2}, {6, 8}};
   const float excess[] = {0.5f, -0.25f, 0.25f, 0, 0.125f};
   const double temperature[] = {280, 300, 320, 350, 400};
+  const float solid[] = {1, 0.5f, 0, 0, 0}, liquid[] = {0, 0.5f, 1, 0.25f, 0}, gas[] = {0, 0, 0, 0.75f, 1};
   for (size_t i = 0; i < 5; ++i) {
     store.mass()[i] = mass[i];
     store.position()[i] = {static_cast<float>(i), height[i], 0.25f, store.position()[i].w};
@@ -49,6 +52,7 @@ void TstExperiments::aProbeOfEveryQuantity() {
     store.velocity()[i] = {velocity[i][0], velocity[i][1], 0, store.velocity()[i].w};
     store.temperature()[i] = temperature[i];
     store.phase()[i] = static_cast<api::Phase>(i);
+    store.solidFraction()[i] = solid[i], store.liquidFraction()[i] = liquid[i], store.gasFraction()[i] = gas[i];
   }
   const double energy = engine.solver().thermalEnergy();
   QVERIFY(energy != 0);
@@ -64,7 +68,10 @@ void TstExperiments::aProbeOfEveryQuantity() {
       {"liquid_mass", 3},
       {"boiling_mass", 4},
       {"gas_mass", 6},
-      {"speed", 4.75},  // (5 + 0 + 3 1 + 4 2 + 6 10) / 16
+      {"solid_fraction", 0.125},    // (1 + 2 0.5) / 16
+      {"liquid_fraction", 0.3125},  // (2 0.5 + 3 + 4 0.25) / 16
+      {"gas_fraction", 0.5625},     // (4 0.75 + 6) / 16
+      {"speed", 4.75},              // (5 + 0 + 3 1 + 4 2 + 6 10) / 16
       {"speed_max", 10},
       {"height", 1.03125},  // (0.5 + 2 0.25 + 3 1 + 4 0.125 + 6 2) / 16
       {"height_max", 2},
@@ -161,6 +168,12 @@ void TstExperiments::aProbeSeesItsRegionAndItsWave() {
   QCOMPARE(values[2], 2.0);
   for (int i = 0; i < 60; ++i) engine.step();
   QCOMPARE(engine.stats().probes[2], 2.0);  // they have left, and are still the same
+  probe.quantity = "mass";
+  probe.body = "other";
+  const ProbeView view{engine.solver(), engine.bodyIds()};
+  QCOMPARE(measureProbe(view, probe), 0.0);
+  probe.fixed = true;  // then it sees what is held in place as well
+  QVERIFY(measureProbe(view, probe) > 0);
 }
 
 void TstExperiments::aBodyStartsAsItsFieldsSay() {
@@ -216,6 +229,80 @@ void TstExperiments::disorderHangsOnTheSeedAlone() {
   QVERIFY(most < 0.2001 && most > 0.18);
   QVERIFY2(std::abs(sum) < 0.03, qPrintable(QString::number(sum)));  // 0.2/sqrt(3)/sqrt(216) is 0.008
   QVERIFY(other > 0.005);
+}
+
+namespace {
+
+/// Two blocks of water far apart, held in place, of which the first is heated with 100 W and the second cooled with
+/// 40 W; heat runs ten times as fast as motion, 0.1 s a frame.
+Project twoHeated() {
+  Project project;
+  project.materials.push_back(scenes::water());
+  for (const char* id : {"one", "two"}) {
+    Body block = scenes::block(id, 3, 0.02, {id[0] == 'o' ? 0.0 : 0.5, 0, 0}, 293.15);
+    block.parameters.values = {
+        {"fixed", true}, {"temperature", 293.15}, {"heating_power", id[0] == 'o' ? 100.0 : -40.0}};
+    project.bodies.push_back(block);
+    Probe probe;
+    probe.id = probe.name = probe.body = id;
+    probe.quantity = "thermal_energy";
+    probe.fixed = true;
+    project.probes.push_back(probe);
+  }
+  project.solver.parameters.values = {{"particle_spacing", 0.02}, {"thermal_time_scale", 10.0}, {"dt", 0.01}};
+  return project;
+}
+
+}  // namespace
+
+void TstExperiments::bodiesAreHeatedByTheirPower() {
+  Engine engine(twoHeated(), m_plugins);
+  std::vector<double> before = engine.stats().probes;
+  const auto gained = [&](int frames) {
+    for (int k = 0; k < frames; ++k) engine.step();
+    const std::vector<double> after = engine.stats().probes;
+    const QList<double> change{after[0] - before[0], after[1] - before[1]};
+    before = after;
+    return change;
+  };
+  const auto near = [](double a, double b) { return std::abs(a - b) < 1e-6; };  // J of 7e4: rounding is 1e-11
+  QList<double> change = gained(5);
+  QVERIFY2(near(change[0], 50) && near(change[1], -20), qPrintable(QString::number(change[0])));
+  QVERIFY(near(engine.solver().heatLedger().sources, 30) && near(engine.solver().heatLedger().exchanged, 70));
+  const ParticleStore& store = engine.solver().particles();
+  for (size_t i = 1; i < store.size(); ++i) {  // evenly
+    if (store.body()[i] == store.body()[0]) QVERIFY(std::abs(store.temperature()[i] - store.temperature()[0]) < 1e-9);
+  }
+  QVERIFY(engine.setParameter({"body", "one", "heating_power"}, 500.0));  // at once
+  change = gained(1);
+  QVERIFY(near(change[0], 50) && near(change[1], -4));
+  // What is left takes it all.
+  std::vector<uint32_t> some;
+  for (size_t i = 0; i < store.size(); ++i) {
+    if (store.body()[i] == 0 && some.size() < 20) some.push_back(store.id()[i]);
+  }
+  engine.takeParticles(some);
+  before = engine.stats().probes;
+  change = gained(1);
+  QVERIFY2(near(change[0], 50), qPrintable(QString::number(change[0])));
+  Project without = engine.project();
+  without.bodies.erase(without.bodies.begin());  // has left the document: matter that lingers is not heated
+  engine.update(without);
+  change = gained(1);
+  QVERIFY(near(change[0], 0) && near(change[1], -4));
+}
+
+void TstExperiments::coolingEndsAboveZero() {
+  Project project = twoHeated();
+  project.bodies[1].parameters.values["heating_power"] = -1e7;
+  Engine engine(project, m_plugins);
+  for (int k = 0; k < 60; ++k) QCOMPARE(engine.step().flags, StepFlags{0});
+  const ParticleStore& store = engine.solver().particles();
+  for (size_t i = 0; i < store.size(); ++i) {
+    if (store.body()[i] == 1)
+      QVERIFY2(store.temperature()[i] >= 1 - 1e-9 && store.temperature()[i] < 2,
+               qPrintable(QString::number(store.temperature()[i])));
+  }
 }
 
 QTEST_GUILESS_MAIN(TstExperiments)

@@ -170,7 +170,7 @@ class TestMatter : public QObject {
     QFETCH(double, pressure);
     QFETCH(QString, phase);
     const BakedMaterial baked(waterMaterial(), pressure);
-    const double h = ps::thermal::enthalpyAt(baked.caloric(), kelvin, ps::api::Phase::Liquid);
+    const double h = ps::thermal::enthalpyAt(baked.caloric(), kelvin, ps::api::Phase::Boiling);
     const ps::thermal::ThermalState state = ps::thermal::stateAt(baked.caloric(), h);
     QCOMPARE(state.solid, phase == "solid" ? 1.0 : 0.0);
     QCOMPARE(state.liquid, phase == "liquid" ? 1.0 : 0.0);

@@ -10,11 +10,28 @@ namespace ps::api {
 /// host then lists the open balance among the limits of the model, where it would otherwise flag a fault.
 inline constexpr const char* kOpensEnergy = "opens_energy";
 
+/// Capability of a model with a pair law of its own: extension(kPairRates) is its PairRates. The host then takes heat
+/// steps that are stable for that law as well; without it, as for its own conduction alone.
+inline constexpr const char* kPairRates = "pair_rates";
+
 struct ThermalContext {
   double pressure;                ///< Pa
   double ambientTemperature;      ///< K
   Span<const double> parameters;  ///< in the order of parameters()
   Span<const MaterialView* const> materials;
+  double supportRadius = 0;  ///< m, from which on kernels are zero
+};
+
+/// How fast a model's own pair law acts.
+class PairRates {
+ public:
+  /// The largest, among particles [first, last), of the sum of conductances to all neighbours over the particle's
+  /// smallest heat capacity, in 1/s (Gershgorin's bound). May throw.
+  virtual double fastestPairRate(const ThermalContext&, const ParticleView&, const NeighbourView&, size_t first,
+                                 size_t last) const = 0;
+
+ protected:
+  ~PairRates() = default;
 };
 
 /// What a thermal model writes for the host, per particle.
