@@ -91,6 +91,13 @@ constexpr api::ParameterDeclaration kSolver[] = {
             "Length of a heat step as a share of the longest one that keeps temperatures in bounds. Above 1 they may "
             "overshoot, from 1.5 to 2 on they explode: for experiments.",
             "0.5 is monotone and safe", "Cleary & Monaghan 1999"}),
+    choice(
+        {"heat_steps", "Heat steps by", "", ""}, "automatic|explicit", 0,
+        {"Heat",
+         "Automatic takes up to 40 short steps a frame and, where these are too few, sweeps that are stable but let a "
+         "freezing front lag by a tenth and more. Explicit takes as many short steps as it needs, however long that "
+         "lasts.",
+         "automatic to play, explicit to measure", "Cleary & Monaghan 1999"}),
     toggle({"moment_correction", "Exact conduction in disorder", "", ""}, true,
            {"Heat", "Corrects each pair's conduction for the disorder of its neighbours; keeps energy exactly.",
             "on: 0.36 % error in shaken matter, off: 0.44 %", "Cleary & Monaghan 1999"}),

@@ -160,6 +160,8 @@ ThermalSettings compileThermal(const Project& project) {
   ThermalSettings t;
   t.timeScale = solver("thermal_time_scale");
   t.cfl = solver("thermal_cfl");
+  t.steps = choiceOf(project.solver.parameters, solverParameters(), "heat_steps") == "explicit" ? HeatSteps::Explicit
+                                                                                                : HeatSteps::Automatic;
   t.momentCorrection = toggleOf(project.solver.parameters, solverParameters(), "moment_correction");
   t.nucleation = solver("nucleation");
   t.ambientPressure = ambient("ambient_pressure");

@@ -234,9 +234,10 @@ void HeatStage::exchange(ParticleStore& store, const Neighbours& neighbours, dou
 double HeatStage::takeExplicitSteps(ParticleStore& store, const api::ParticleView& view,
                                     const api::NeighbourView& lists, double time) {
   const double share = std::clamp(m_settings.cfl, 0.01, 5.0);
-  if (time > kMaxExplicit * share * m_limit && !m_pairLaw) return 0;
+  const int most = m_settings.steps == HeatSteps::Explicit ? kMostExplicit : kMaxExplicit;
+  if (time > most * share * m_limit && !m_pairLaw) return 0;
   double left = time;
-  while (left > 0 && m_substeps < kMaxExplicit) {
+  while (left > 0 && m_substeps < most) {
     const double steps = std::max(1.0, std::ceil(left / (share * m_limit)));
     const double step = left / steps;
     explicitStep(store, view, lists, step, m_substeps == 0);

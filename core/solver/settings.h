@@ -43,6 +43,9 @@ struct SolverSettings {
   api::Double3 wind{0, 0, 0};  ///< m/s, velocity of the ambient air
 };
 
+/// Which steps carry heat: explicit ones as long as a frame affords them, or explicit ones however many it takes.
+enum class HeatSteps { Automatic, Explicit };
+
 /// Heat at a wall: none, a temperature held on its surface, heat per area, or a fluid that flows behind it.
 enum class WallHeat { Adiabatic, FixedTemperature, FixedFlux, Convective };
 
@@ -75,6 +78,7 @@ double leastPeriod(const SolverSettings& settings);
 struct ThermalSettings {
   double timeScale = 1;  ///< thermal_time_scale: all heat fluxes times this; final states unchanged
   double cfl = 0.5;      ///< thermal_cfl: fraction of the Gershgorin limit per explicit step
+  HeatSteps steps = HeatSteps::Automatic;
   bool momentCorrection = true;
   double ambientPressure = 101325;     ///< Pa
   double ambientTemperature = 293.15;  ///< K

@@ -19,7 +19,8 @@ namespace ps::thermal {
 /// particle and event: 0.2 to 0.5 % of the heat supplied to a melting column at half the stable step, proportional to
 /// the step; events on a heating curve come one to three steps late. Energy is therefore not conserved and the balance
 /// stays open. No melting range, no sublimation (a solid above its sublimation point becomes fluid, then boils), and a
-/// change of pressure on a plateau loses heat as well.
+/// change of pressure on a plateau loses heat as well. Matter that is to begin in a phase away from the balance begins
+/// as the enthalpy model has it, in the state that this phase's heat means.
 class ThesisLatentModel : public api::ThermalPlugin {
  public:
   enum State : unsigned char { Solid, MeltingFreezing, Fluid, BoilingCondensing, Gas };
