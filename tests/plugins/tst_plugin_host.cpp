@@ -507,8 +507,8 @@ class TestPluginHost : public QObject {
 
   void ownMaterialsHoldWhatTheHandbooksSay() {
     const PluginRegistry registry{PluginRegistry::Options{}};
-    for (const char* id : {"water", "wax", "iron", "tin", "chocolate", "butter", "honey", "glass", "lava", "cotton",
-                           "hemp", "jelly", "rubber", "wood"})
+    for (const char* id : {"water", "wax", "iron", "bronze", "tin", "chocolate", "butter", "honey", "glass", "lava",
+                           "cotton", "hemp", "jelly", "rubber", "wood"})
       QVERIFY2(registry.material(id), id);
     const Material& water = *registry.material("water");
     const Response& density = water.properties.at("density_liquid");
@@ -528,7 +528,7 @@ class TestPluginHost : public QObject {
     QVERIFY(plain.properties.at("density_liquid") == Response(998.2));
     const Material& wax = *registry.material("wax");
     QVERIFY(wax.properties.at("solidus").constant < wax.properties.at("liquidus").constant);
-    for (const char* id : {"water", "wax", "iron", "tin", "honey", "glass", "lava", "wood", "chocolate"})
+    for (const char* id : {"water", "wax", "iron", "bronze", "tin", "honey", "glass", "lava", "wood", "chocolate"})
       for (const auto& [key, ignored] : registry.material(id)->properties)
         QVERIFY2(key.starts_with("color_") || key == "clearness" ||
                      !registry.material(id)->provenance.at(key).source.empty(),
