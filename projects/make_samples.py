@@ -62,26 +62,32 @@ def kettle_with_lid():
 
 
 def candle():
-    d, radius, high = 0.004, 6.3, 26
-    wick = cells_as_runs(lambda i, j, k: abs(i) < 1 and abs(k) < 1, (0, high - 4, 0), (0, high + 3, 0))
-    dip = lambda i, j, k: j >= high - 1 - max(0, 2 - 0.45 * math.hypot(i, k))  # a hollow about the wick
-    wax = cells_as_runs(lambda i, j, k: disc(i, k, radius) and not dip(i, j, k) and not (i == k == 0 and j >= high - 4),
-                        (-7, 0, -7), (7, high - 1, 7))
+    d, radius, high = 0.01, 4.6, 18
+    wicked = lambda i, j, k: abs(i) + abs(k) <= (1 if j < high + 1 else 0) and j >= high - 5
+    wick = cells_as_runs(wicked, (-1, high - 5, -1), (1, high + 2, 1))
+    dip = lambda i, j, k: j >= high - 5 and math.hypot(i, k) < min(3.3, 5.4 + j - high)  # a hollow about the wick
+    wax = cells_as_runs(lambda i, j, k: disc(i, k, radius) and not dip(i, j, k) and not wicked(i, j, k), (-6, 0, -6), (6, high - 1, 6))
+    pool = cells_as_runs(lambda i, j, k: dip(i, j, k) and not wicked(i, j, k), (-6, high - 5, -6), (6, high - 1, 6))
     at = (0, 0.5 * d, 0)
-    bodies = [sketched("wick", "Burning wick", "wick", wick, at, d, 600.0, fixed=True),
-              sketched("candle", "Candle", "wax", wax, at, d, ROOM, holds="rigid")]
+    core = [{"minimum": [-1, -1, -1], "maximum": [1, d, 1]},
+            {"minimum": [-1.6 * d, -1, -1.6 * d], "maximum": [1.6 * d, 9 * d, 1.6 * d]}]
+    bodies = [sketched("wick", "Burning wick", "wick", wick, at, d, 635.0, fixed=True),
+              sketched("candle", "Candle", "wax", wax, at, d, ROOM, holds="bonds", pins=core),
+              sketched("pool", "Pool of wax", "wax", pool, at, d, 350.0)]
     return project(
         "Candle",
-        "A candle of paraffin about a wick held at 330 °C: a pool of wax forms, overflows and freezes again on its way down "
-        "or on the table. There is no flame, only its heat. Heat runs 300 times faster than it really would.",
+        "A thick candle of paraffin about a wick of 362 °C: the pool about it grows, overflows, and freezes again on its "
+        "way down or on the table. There is no flame, only its heat; the candle's core is held in place, as a spike would. Heat "
+        "runs 3,000 times faster than it really would.",
         [material("wax", "Paraffin wax"),
          material("wood", "Wick, so heavy with heat that it stays hot", "wick", heat_capacity_solid=1e5,
-                  conductivity_solid=5, density_solid=20000)],
-        bodies, tray(0.06, 0.06, ROOM, None, "Table"), ((-0.1, -0.05, -0.1), (0.1, 0.25, 0.1)), solver(d, 300),
-        [probe("Wax", "temperature", "wax", body="candle"), probe("Solid wax", "solid_mass", body="candle"),
-         probe("Soft wax", "melting_mass", body="candle"), probe("Molten wax", "liquid_mass", body="candle"),
-         probe("Candle", "height", "height", body="candle")],
-        60, view((0, 0.055, 0), 0.33, 30, 18, "temperature",
+                  conductivity_solid=20, density_solid=20000)],
+        bodies, tray(0.16, 0.16, ROOM, None, "Table"), ((-0.2, -0.05, -0.2), (0.2, 0.4, 0.2)),
+        solver(d, 3000, substeps=6),
+        [probe("Wax", "temperature", "wax", body="candle"), probe("Solid wax", "solid_mass"),
+         probe("Soft wax", "melting_mass"), probe("Molten wax", "liquid_mass"),
+         probe("Candle", "height_max", "height", body="candle")],
+        60, view((0, 0.085, 0), 0.62, 30, 22, "temperature",
                  ["solver/thermal_time_scale", "material/wax/viscosity", "material/wick/conductivity_solid"]))
 
 
@@ -94,7 +100,7 @@ def bronze_casting():
     vents = lambda i, j, k: j > top - 6 and math.hypot(i - 0.5, abs(k) - 6) < 2.6  # above the ears
     hollow = lambda i, j, k: distance(i, j, k) < 0 or sprue(i, j, k) or vents(i, j, k)
     solid = lambda i, j, k: not hollow(i, j, k) and (
-        distance(i, j, k) < 2.6 * unit or j > 12 and math.hypot(i + 8, k) < 5.6
+        distance(i, j, k) < 3.2 * unit or j > 12 and math.hypot(i + 8, k) < 5.6
         or math.hypot(i - 0.5, abs(k) - 6) < 4.6 and j > top - 6)
     mould = cells_as_runs(solid, (-24, 0, -16), (24, top + 2, 0))
     at = (0, 0.5 * d, -0.5 * d)
@@ -108,14 +114,16 @@ def bronze_casting():
                   solidus=1980, liquidus=1990, melting_temperature=1990, color_red=0.62, color_green=0.5,
                   color_blue=0.36)],
         [sketched("mould", "Mould", "sand", mould, at, d, ROOM, fixed=True)],
-        [wall("floor", "Floor", (0, 0, 0), (0, 1, 0)), wall("cut", "Cut through the mould", (0, 0, 0), (0, 0, -1))],
-        ((-0.4, -0.1, -0.35), (0.4, 0.9, 0.05)), solver(d, 100),
+        [wall("floor", "Floor", (0, 0, 0), (0, 1, 0)), wall("cut", "Cut through the mould", (0, 0, 0), (0, 0, -1)),
+         wall("left", "Left of the pit", (-0.36, 0, 0), (1, 0, 0)), wall("right", "Right of the pit", (0.36, 0, 0), (-1, 0, 0)),
+         wall("back", "Back of the pit", (0, 0, -0.26), (0, 0, 1))],
+        ((-0.4, -0.1, -0.35), (0.4, 3, 0.05)), solver(d, 100, substeps=6),
         [probe("Bronze", "temperature", "bronze", body="ladle"), probe("Bronze", "height_max", "level", body="ladle"),
          probe("Poured", "mass", "poured", body="ladle"), probe("Frozen", "solid_mass", "frozen", body="ladle"),
          probe("Freezing", "melting_mass", "freezing", body="ladle"), probe("Molten", "liquid_mass", "molten", body="ladle")],
         60, view((0, 0.28, -0.05), 1.1, 12, 14, "material",
                  ["emitter/ladle/temperature", "emitter/ladle/speed", "solver/thermal_time_scale"]),
-        emitters=[tap("ladle", "Ladle", "bronze", (-8 * d, 0.66, -0.02), 1423.15, 1, 0.04, most=4200)])
+        emitters=[tap("ladle", "Ladle", "bronze", (-8 * d, 0.66, -0.02), 1423.15, 0.8, 0.036, most=4700)])
 
 
 def lava_over_ice():
@@ -145,28 +153,30 @@ def lava_over_ice():
 def freezing_pond():
     d = 0.025
     bed = lambda i, k: max(1, min(10, round(1 + 9 * ((i / 19) ** 2 + (k / 13) ** 2) ** 2)))
-    earth = cells_as_runs(lambda i, j, k: bed(i, k) - 2 <= j < bed(i, k), (-19, 0, -13), (19, 9, 13))
-    water = cells_as_runs(lambda i, j, k: bed(i, k) <= j, (-19, 0, -13), (19, 8, 13))
+    earth = cells_as_runs(lambda i, j, k: j < bed(i, k), (-19, 0, -13), (19, 9, 0))
+    water = cells_as_runs(lambda i, j, k: bed(i, k) <= j, (-19, 0, -13), (19, 8, 0))
     at = (0, 0.5 * d, 0)
-    top = 9 * d + 0.35 * d
-    walls = tray(0.5, 0.35)
-    walls.append(wall("frost", "Frosty air", (0, top, 0), (0, -1, 0), 253.15, friction=0))
+    walls = [wall("floor", "Below", (0, 0, 0), (0, 1, 0)), wall("left", "Left side", (-19.5 * d, 0, 0), (1, 0, 0)),
+             wall("right", "Right side", (19.5 * d, 0, 0), (-1, 0, 0)),
+             wall("back", "Back", (0, 0, -13.5 * d), (0, 0, 1)),
+             wall("cut", "Cut through the pond", (0, 0, 0.5 * d), (0, 0, -1), friction=0),
+             wall("frost", "Frosty air", (0, 9.35 * d, 0), (0, -1, 0), 253.15, friction=0)]
     return project(
         "Freezing pond",
-        "A pond of 6 °C under air of −20 °C, which lies on it like a cold lid. Water is densest at 4 °C: the coldest stays "
-        "above, a sheet of ice grows downwards, and the fish keep their 4 °C at the bottom. Switch off \"Densest at 4 °C\" "
-        "and the cold sinks. Heat runs 5,000 times faster than it really would.",
+        "Half a pond of 6 °C under air of −20 °C, which lies on it like a cold lid. Water is densest at 4 °C: the coldest "
+        "stays above, a sheet of ice grows downwards, and what lives at the bottom has its 4 °C for longest. Heat runs 3,000 "
+        "times faster than it really would.",
         [material("water", "Water"),
          material("lava", "Earth", "earth", color_red=0.36, color_green=0.28, color_blue=0.2)],
         [sketched("earth", "Bed", "earth", earth, at, d, 279.15, fixed=True),
          sketched("water", "Water", "water", water, at, d, 279.15, holds="bonds")],
-        walls, ((-0.6, -0.1, -0.45), (0.6, 0.5, 0.45)), solver(d, 5000),
+        walls, ((-0.6, -0.1, -0.45), (0.6, 0.5, 0.1)), solver(d, 3000),
         [probe("Pond", "temperature", "mean", body="water"),
          probe("At the bottom", "temperature", "bottom", body="water",
                region={"minimum": [-0.2, 0, -0.2], "maximum": [0.2, 3 * d, 0.2]}),
          probe("Ice", "solid_mass", body="water"), probe("Freezing", "melting_mass", body="water"),
          probe("Water", "liquid_mass", body="water")],
-        40, view((0, 0.1, 0), 1.5, 30, 26, "temperature",
+        40, view((0, 0.1, -0.1), 1.6, 14, 20, "temperature",
                  ["wall/frost/temperature", "material/water/density_maximum", "solver/thermal_time_scale"]))
 
 
@@ -179,15 +189,16 @@ def dry_ice():
     return project(
         "Dry ice in warm water",
         "Lumps of frozen carbon dioxide, −83 °C, fall into warm water. They never melt: at the air's pressure they turn "
-        "straight to gas, which is heavier than air and creeps over the rim. The water cools. Heat runs 200 times faster "
-        "than it really would.",
-        [material("water", "Water"), CO2], bodies, tray(0.18, 0.18), ((-0.4, -0.1, -0.4), (0.4, 0.9, 0.4)),
-        solver(d, 200),
+        "straight to gas, which bubbles up, is heavier than air and stays above the water as a cold fog. The water cools. "
+        "Heat runs 50 times faster than it really would.",
+        [material("water", "Water"), CO2], bodies, tray(0.18, 0.18), ((-0.4, -0.1, -0.4), (0.4, 3, 0.4)),
+        solver(d, 50),
         [probe("Dry ice", "temperature_min", "co2"), probe("Water", "temperature", "water", body="water")] +
         [probe("Dry ice, lump %d" % n, "solid_mass", "solid%d" % n, body="lump%d" % n) for n in (1, 2, 3)] +
         [probe("Gas", "gas_mass", "gas")],
         40, view((0, 0.14, 0), 1.0, 30, 18, "material",
-                 ["body/water/temperature", "environment/ambient_pressure", "solver/thermal_time_scale"]))
+                 ["body/water/temperature", "environment/ambient_pressure", "solver/thermal_time_scale"]),
+        sinks=[sink("room", "The room takes what rises", (-0.4, 0.7, -0.4), (0.4, 3, 0.4))])
 
 
 def pressure_cooker():

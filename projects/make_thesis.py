@@ -134,7 +134,7 @@ def dilation():
         "There is no gravity, so that nothing else changes its shape, and a foot is held to the plate. Heat runs 2,000 times "
         "faster than it really would. Thesis, figure 4.9.",
         [material("iron", "Iron, swelling tenfold", expansion_linear=1.18e-4, youngs_modulus=1e9)], bodies,
-        tray(0.6, 0.5, 1473.15, None, "Hot plate"), ((-0.7, -0.1, -0.6), (0.7, 1.4, 0.6)), solver(d, 2000),
+        tray(0.6, 0.5, 1473.15, None, "Hot plate"), ((-0.7, -0.1, -0.6), (0.7, 1.4, 0.6)), solver(d, 2000, damping=2),
         [probe("Rabbit", "temperature", "mean"), probe("Rabbit, coldest", "temperature_min", "coldest"),
          probe("Length", "extent_x", "length"), probe("Height", "extent_y", "height"),
          probe("Width", "extent_z", "width"), probe("Rabbit", "solid_mass", "solid")],
