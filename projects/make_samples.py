@@ -45,15 +45,15 @@ def kettle_with_lid():
     lid = cells_as_runs(lambda i, j, k: disc(i, k, outer) if j < high + 2 else disc(i, k, 2.5),
                         (-12, high, -12), (12, high + 3, 12))
     at = (0, 0.5 * d, 0)
-    bodies = [sketched("kettle", "Kettle", "iron", shell + beak, at, d, ROOM, fixed=True),
+    bodies = [sketched("kettle", "Kettle", "iron", shell + beak, at, d, 353.15, fixed=True),
               sketched("lid", "Lid", "steel", lid, at, d, ROOM, holds="rigid"),
               sketched("water", "Water", "water", water, at, d, 353.15)]
     return project(
         "Kettle with a lid",
         "Hot water in an iron kettle on a plate. It comes to the boil, and its steam leaves by the spout; what reaches the "
-        "cold lid becomes drops and falls back. Heat runs 400 times faster than it really would.",
+        "cold lid becomes drops and falls back. Heat runs 500 times faster than it really would.",
         [material("water", "Water"), material("iron", "Iron"), material("iron", "Lid", "steel", density_solid=2700)],
-        bodies, tray(0.25, 0.25, 453.15, None, "Hot plate"), ((-0.45, -0.1, -0.45), (0.45, 0.75, 0.45)), solver(d, 400),
+        bodies, tray(0.25, 0.25, 453.15, None, "Hot plate"), ((-0.45, -0.1, -0.45), (0.45, 0.75, 0.45)), solver(d, 500),
         [probe("Water", "temperature", "water", body="water"),
          probe("Lid", "temperature", "lid", body="lid"), probe("Lid", "height", "lid_height", body="lid")] + PHASES[2:],
         60, view((0.03, 0.13, 0), 0.9, 25, 22, "material",
@@ -123,7 +123,7 @@ def bronze_casting():
          probe("Freezing", "melting_mass", "freezing", body="ladle"), probe("Molten", "liquid_mass", "molten", body="ladle")],
         60, view((0, 0.28, -0.05), 1.1, 12, 14, "material",
                  ["emitter/ladle/temperature", "emitter/ladle/speed", "solver/thermal_time_scale"]),
-        emitters=[tap("ladle", "Ladle", "bronze", (-8 * d, 0.66, -0.02), 1423.15, 0.8, 0.036, most=4700)])
+        emitters=[tap("ladle", "Ladle", "bronze", (-8 * d, 0.66, -0.02), 1423.15, 0.8, 0.036, most=4450)])
 
 
 def lava_over_ice():
