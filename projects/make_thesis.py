@@ -58,7 +58,7 @@ def condensation(count_x, layers, count_z, words, environment, lid):
     top = 3.4 * high
     bodies = [box("steam", "Steam", "water", (0, top - high / 2 - d, 0), (x, high, z), 378.15, phase="gas")]
     return project(
-        "Condensation", "A closed box is full of steam of 105 °C. " + words, [WATER], bodies,
+        "Condensation", "Steam of 105 °C hangs in the upper part of a closed box. " + words, [WATER], bodies,
         tray(x / 2, z / 2, None, lid, "Floor", "Cold lid", top),
         ((-x / 2 - 0.1, -0.1, -z / 2 - 0.1), (x / 2 + 0.1, top + 0.1, z / 2 + 0.1)), solver(d, 1000),
         [probe("All matter", "temperature", "mean"), probe("All matter", "height", "height"),
@@ -113,10 +113,10 @@ def full_simulation():
     return project(
         "Full simulation",
         "A rabbit of ice sits on a plate of 160 °C. It melts from its feet up, the water boils, steam rises to a cold lid "
-        "and falls back as drops: three states and four changes in one scene. Heat runs 10,000 times faster than it "
+        "and falls back as drops: three states and four changes in one scene. Heat runs 4,000 times faster than it "
         "really would. Thesis, figure 4.11: 27,100 particles.",
         [WATER], bodies, tray(x, z, 433.15, 283.15, "Hot plate", "Cold lid", 1.5),
-        ((-x - 0.1, -0.1, -z - 0.1), (x + 0.1, 1.6, z + 0.1)), solver(d, 10000),
+        ((-x - 0.1, -0.1, -z - 0.1), (x + 0.1, 1.6, z + 0.1)), solver(d, 4000),
         [probe("All matter", "temperature", "mean"), probe("Rabbit", "height_max", "top", body="rabbit"),
          probe("Boiling water", "temperature_max", "plateau", phase="boiling")] + PHASES,
         40, view((0, 0.6, 0), 3.2, pinned=["wall/floor/temperature", "wall/lid/temperature",
