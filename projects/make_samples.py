@@ -50,8 +50,8 @@ def kettle_with_lid():
               sketched("water", "Water", "water", water, at, d, 353.15)]
     return project(
         "Kettle with a lid",
-        "Hot water in an iron kettle on a plate. It comes to the boil, and its steam leaves by the spout; what reaches the "
-        "cold lid becomes drops and falls back. Heat runs 500 times faster than it really would.",
+        "Hot water in an iron kettle on a plate of 180 °C. It comes to the boil under its lid, and its steam leaves by the "
+        "spout. Heat runs 500 times faster than it really would.",
         [material("water", "Water"), material("iron", "Iron"), material("iron", "Lid", "steel", density_solid=2700)],
         bodies, tray(0.25, 0.25, 453.15, None, "Hot plate"), ((-0.45, -0.1, -0.45), (0.45, 0.75, 0.45)), solver(d, 500),
         [probe("Water", "temperature", "water", body="water"),
@@ -189,8 +189,7 @@ def dry_ice():
     return project(
         "Dry ice in warm water",
         "Lumps of frozen carbon dioxide, −83 °C, fall into warm water. They never melt: at the air's pressure they turn "
-        "straight to gas, which bubbles up, is heavier than air and stays above the water as a cold fog. The water cools. "
-        "Heat runs 50 times faster than it really would.",
+        "straight to gas, which bubbles up and throws the water about. The water cools. Heat runs 50 times faster than it really would.",
         [material("water", "Water"), CO2], bodies, tray(0.18, 0.18), ((-0.4, -0.1, -0.4), (0.4, 3, 0.4)),
         solver(d, 50),
         [probe("Dry ice", "temperature_min", "co2"), probe("Water", "temperature", "water", body="water")] +
