@@ -88,7 +88,8 @@ def candle():
          probe("Soft wax", "melting_mass"), probe("Molten wax", "liquid_mass"),
          probe("Candle", "height_max", "height", body="candle")],
         60, view((0, 0.085, 0), 0.62, 30, 22, "temperature",
-                 ["solver/thermal_time_scale", "material/wax/viscosity", "material/wick/conductivity_solid"]))
+                 ["solver/thermal_time_scale", "material/wax/viscosity", "material/wick/conductivity_solid"]),
+        environment={"radiation": True})
 
 
 def bronze_casting():
@@ -123,6 +124,7 @@ def bronze_casting():
          probe("Freezing", "melting_mass", "freezing", body="ladle"), probe("Molten", "liquid_mass", "molten", body="ladle")],
         60, view((0, 0.28, -0.05), 1.1, 12, 14, "material",
                  ["emitter/ladle/temperature", "emitter/ladle/speed", "solver/thermal_time_scale"]),
+        environment={"radiation": True},
         emitters=[tap("ladle", "Ladle", "bronze", (-8 * d, 0.66, -0.02), 1423.15, 0.8, 0.036, most=4450)])
 
 
@@ -146,6 +148,7 @@ def lava_over_ice():
          probe("Water", "liquid_mass", "water", body="ice"), probe("Steam", "gas_mass", "steam", body="ice")],
         40, view((0, 0.15, 0), 1.4, 30, 24, "material",
                  ["emitter/vent/temperature", "material/lava/viscosity", "solver/thermal_time_scale"]),
+        environment={"radiation": True},
         emitters=[tap("vent", "Vent", "lava", (-0.36, 0.42, 0), 1473.15, 0.35, 0.12, most=3000)],
         sinks=[sink("sky", "The sky takes the steam", (-0.55, 0.9, -0.3), (0.55, 1.2, 0.3))])
 
@@ -159,11 +162,10 @@ def freezing_pond():
     walls = [wall("floor", "Below", (0, 0, 0), (0, 1, 0)), wall("left", "Left side", (-19.5 * d, 0, 0), (1, 0, 0)),
              wall("right", "Right side", (19.5 * d, 0, 0), (-1, 0, 0)),
              wall("back", "Back", (0, 0, -13.5 * d), (0, 0, 1)),
-             wall("cut", "Cut through the pond", (0, 0, 0.5 * d), (0, 0, -1), friction=0),
-             wall("frost", "Frosty air", (0, 9.35 * d, 0), (0, -1, 0), 253.15, friction=0)]
+             wall("cut", "Cut through the pond", (0, 0, 0.5 * d), (0, 0, -1), friction=0)]
     return project(
         "Freezing pond",
-        "Half a pond of 6 °C under air of −20 °C, which lies on it like a cold lid. Water is densest at 4 °C: the coldest "
+        "Half a pond of 6 °C under wind of −20 °C. Water is densest at 4 °C: the coldest "
         "stays above, a sheet of ice grows downwards, and what lives at the bottom has its 4 °C for longest. Heat runs 3,000 "
         "times faster than it really would.",
         [material("water", "Water"),
@@ -177,7 +179,8 @@ def freezing_pond():
          probe("Ice", "solid_mass", body="water"), probe("Freezing", "melting_mass", body="water"),
          probe("Water", "liquid_mass", body="water")],
         40, view((0, 0.1, -0.1), 1.6, 14, 20, "temperature",
-                 ["wall/frost/temperature", "material/water/density_maximum", "solver/thermal_time_scale"]))
+                 ["environment/ambient_temperature", "environment/wind_speed", "solver/thermal_time_scale"]),
+        environment={"ambient_temperature": 253.15, "air_convection": 10, "wind_speed": 8})
 
 
 def dry_ice():
@@ -190,7 +193,7 @@ def dry_ice():
         "Dry ice in warm water",
         "Lumps of frozen carbon dioxide, −83 °C, fall into warm water. They never melt: at the air's pressure they turn "
         "straight to gas, which bubbles up and throws the water about. The water cools. Heat runs 50 times faster than it really would.",
-        [material("water", "Water"), CO2], bodies, tray(0.18, 0.18), ((-0.4, -0.1, -0.4), (0.4, 3, 0.4)),
+        [material("water", "Water"), material("co2", "Dry ice")], bodies, tray(0.18, 0.18), ((-0.4, -0.1, -0.4), (0.4, 3, 0.4)),
         solver(d, 50),
         [probe("Dry ice", "temperature_min", "co2"), probe("Water", "temperature", "water", body="water")] +
         [probe("Dry ice, lump %d" % n, "solid_mass", "solid%d" % n, body="lump%d" % n) for n in (1, 2, 3)] +
@@ -251,18 +254,9 @@ def foundry():
         [probe("Iron", "temperature", "iron", body="iron"), probe("Iron", "height", "height", body="iron"),
          probe("Frozen", "solid_mass", "frozen", body="iron"), probe("Molten", "liquid_mass", "molten", body="iron")],
         40, view((-0.1, 0.38, 0), 2.2, 35, 22, "temperature",
-                 ["body/ladle/spin_z", "material/iron/viscosity", "solver/thermal_time_scale"]))
+                 ["body/ladle/spin_z", "material/iron/viscosity", "solver/thermal_time_scale"]),
+        environment={"radiation": True})
 
-
-# Carbon dioxide: NIST Chemistry WebBook and CRC Handbook (triple point 216.592 K and 517.95 kPa; 194.686 K and 571 kJ/kg
-# where it sublimes at 101325 Pa). Once a material "co2" is installed, base="co2" says all of it.
-CO2 = material("wax", "Dry ice", "co2", density_solid=1562, density_liquid=1178, heat_capacity_solid=1270,
-               heat_capacity_liquid=1950, heat_capacity_gas=790, conductivity_solid=0.6, conductivity_liquid=0.18,
-               conductivity_gas=0.011, melting_temperature=216.592, solidus=216.592, liquidus=216.592,
-               latent_heat_fusion=205000, boiling_temperature=194.686, latent_heat_vaporization=350000,
-               latent_heat_sublimation=571000, triple_temperature=216.592, triple_pressure=517950,
-               critical_temperature=304.128, molar_mass=0.04401, youngs_modulus=1e9, clearness=0.2, color_red=0.95,
-               color_green=0.97, color_blue=1)
 
 SAMPLES = {
     "kettle-with-lid": kettle_with_lid,

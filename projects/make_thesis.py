@@ -32,7 +32,8 @@ def heat_transfer():
          probe("Cold water, highest", "temperature_max", "cold_max", body="cold"),
          probe("All water", "thermal_energy", "energy")],
         20, view((0, 0.2, 0), 1.5, pinned=["body/hot/temperature", "solver/thermal_time_scale",
-                                           "material/water/conductivity_liquid"]))
+                                           "material/water/conductivity_liquid"]),
+        environment={"air_convection": 0})
 
 
 def vaporisation(count_x, layers, count_z, words):
@@ -89,7 +90,8 @@ def rabbit_under_water(title, words, ice, water, scale):
          probe("New ice", "solid_mass", "new_ice", body="shower"),
          probe("Rabbit", "height_max", "top", body="rabbit")] + PHASES[:3],
         30, view((0, 0.5, 0), 2.9, pinned=["emitter/shower/temperature", "emitter/shower/speed",
-                                           "solver/thermal_time_scale"]), emitters=[shower])
+                                           "solver/thermal_time_scale"]),
+        environment={"air_convection": 0}, emitters=[shower])
 
 
 def melting():
@@ -140,7 +142,7 @@ def dilation():
          probe("Width", "extent_z", "width"), probe("Rabbit", "solid_mass", "solid")],
         20, view((0, 0.42, 0), 2.2, pinned=["wall/floor/temperature", "material/iron/expansion_linear",
                                             "solver/thermal_time_scale"]),
-        environment={"gravity": [0, 0, 0]})
+        environment={"gravity": [0, 0, 0], "air_convection": 0})
 
 
 def convection():
@@ -165,7 +167,8 @@ def convection():
          probe("From the cold side", "height", "cold", region=region(x / 2 - 0.06, 1)),
          probe("Water", "kinetic_energy", "kinetic"), probe("Water", "temperature_max", "hottest")],
         30, view((0, 0.18, 0), 1.7, pinned=["wall/left/temperature", "wall/right/temperature",
-                                            "material/water/expansion_volumetric", "solver/thermal_time_scale"]))
+                                            "material/water/expansion_volumetric", "solver/thermal_time_scale"]),
+        environment={"air_convection": 0})
 
 
 SCENES = {

@@ -31,7 +31,8 @@ constexpr std::array<KindOfPlugin, 4> kKinds{{{PluginKind::Material, PHASESKETCH
 ///   opens_energy  a thermal model may say, through Plugin::extension(), that it drops or invents heat by design; the
 ///                 open balance is then a limit of the model and no fault
 ///   pair_rates    a thermal model with a pair law of its own may say, likewise, how fast that law acts
-constexpr std::array<std::string_view, 2> kCapabilities{"opens_energy", "pair_rates"};
+///   holds_frozen  structure may say, likewise, that it takes in frozen matter of any body
+constexpr std::array<std::string_view, 3> kCapabilities{"opens_energy", "pair_rates", "holds_frozen"};
 
 bool isLower(char c) { return c >= 'a' && c <= 'z'; }
 bool isDigit(char c) { return c >= '0' && c <= '9'; }

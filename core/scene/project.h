@@ -207,8 +207,6 @@ api::ParameterList sinkParameters();
 /// What holds a body together is one of its constraints rather than a parameter; panels show it as one.
 inline constexpr const char* kStructureKey = "structure";
 inline constexpr const char* kNoStructure = "none";
-/// What holds matter together that has frozen and belongs to no structure that takes it back.
-inline constexpr const char* kFrozenStructure = "bonds";
 /// Its declaration as a choice; `plugins` are the ids of what can hold a body.
 api::ParameterDeclaration structureParameter(const std::vector<std::string>& plugins);
 /// Keys of what a probe can measure: "temperature", "mass", "speed", ...

@@ -101,6 +101,8 @@ struct Engine::Impl {
   void recompile(const std::string& owner);
   void recompileAll();
   void bakeMaterials();
+  /// Adds the structure of matter that has frozen and that nothing takes back.
+  void holdFrozen();
   void setThermal();
   uint32_t constraintSet(const std::string& plugin);
   /// Leads the bodies that were born fixed, whatever the document says of them by now; one that has left it stands.
@@ -150,7 +152,16 @@ void Engine::Impl::bakeMaterials() {
   // What has melted may freeze far from what held it.
   const bool melts =
       std::any_of(materials.begin(), materials.end(), [](const BakedMaterial& m) { return m.caloric().melts != 0; });
-  if (melts && plugins.constraint(kFrozenStructure)) constraintSet(kFrozenStructure);
+  if (melts) holdFrozen();
+}
+
+void Engine::Impl::holdFrozen() {
+  for (const std::string& id : plugins.ids(PluginKind::Constraint)) {
+    const api::ConstraintPlugin* plugin = plugins.constraint(id);
+    if (!plugin || !plugin->extension(api::kHoldsFrozen)) continue;
+    constraintSet(id);
+    return;
+  }
 }
 
 void Engine::Impl::setThermal() {

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace ps::constraint {
@@ -224,6 +225,10 @@ void BondModel::addBond(const ParticleView& p, uint32_t i, uint32_t j, const Len
   const auto temperature = static_cast<float>(length.temperature > 0 ? length.temperature : now);
   const float values[kValueCount] = {rest, length.volume, 0, rest, 0, temperature};
   sink.add(pair, values);
+}
+
+const void* BondModel::extension(const char* name) const noexcept {
+  return std::string_view(name) == api::kHoldsFrozen ? this : nullptr;
 }
 
 void BondModel::build(const ConstraintContext& context, const ParticleView& p, const NeighbourView& lists,

@@ -38,6 +38,7 @@ class BondModel : public api::ConstraintPlugin {
   const char* help() const noexcept override;
   api::ParameterList parameters() const noexcept override;
   api::ConstraintTraits traits() const noexcept override;
+  const void* extension(const char* name) const noexcept override;
 
   void build(const api::ConstraintContext& context, const api::ParticleView& particles, const api::NeighbourView& lists,
              api::Span<const uint32_t> members, api::ConstraintSink& sink) const override;

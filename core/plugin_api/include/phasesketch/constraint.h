@@ -6,6 +6,10 @@
 
 namespace ps::api {
 
+/// Capability of structure that takes in matter of any body that has frozen and that nothing else takes back:
+/// extension(kHoldsFrozen) is not nullptr. Scenes whose matter melts use the first such plugin that is installed.
+inline constexpr const char* kHoldsFrozen = "holds_frozen";
+
 /// Structural constraints carry `arity` particles each, and `values` floats of their own (rest length, lambda, ...).
 /// Neighbour constraints have no lists: they gather over neighbours and write their own particle's correction.
 /// Group constraints hold any number of particles together; `values` belong to the group, `memberValues` to each of its
