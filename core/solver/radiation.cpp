@@ -13,6 +13,7 @@ namespace {
 
 constexpr size_t kGrain = 64;
 constexpr double kLift = 1.5;           ///< spacings above a centre, along its normal, at which its rays begin
+constexpr double kNear = 2.5;           ///< spacings within which matter touches, and does not radiate at each other
 constexpr double kPlane = 0.8;          ///< length of the mean open direction from which on a surface counts as plane
 constexpr double kHalfWidth = 0.45;     ///< spacings, of a particle as rays see it: no ray slips through a layer
 constexpr double kMostCells = 1 << 22;  ///< beyond it cells grow
@@ -113,12 +114,12 @@ void Radiation::follow(const ParticleStore& store, const OpenSurface& surface, s
       const Vector3 way{unit[0], unit[1], unit[2]};
       const auto part = static_cast<float>(area * double{fan.share[d]});
       const Target wall = nearestWall(walls, start, way);
-      const uint32_t met = m_grid.firstOn(start, way, wall.distance, i);
+      const uint32_t met = m_grid.firstOn(store, start, way, wall.distance, i);
       if (met != Grid::kEmpty) {
         m_met[e * m_perParticle + k] = met;
         m_area[e * m_perParticle + k] = part;
       } else if (wall.index == walls.size()) {
-        m_sky[i] += part;
+        if (m_grid.comesOut(way)) m_sky[i] += part;
       } else if (exchanges(walls[wall.index])) {
         m_wall[i * m_walls + wall.index] += part;
       }
@@ -146,6 +147,7 @@ void Radiation::couple(size_t count) {
 }
 
 void Radiation::Grid::build(const ParticleStore& store, double spacing) {
+  near = kNear * spacing;
   span(store, spacing);
   cells.assign(static_cast<size_t>(count[0]) * static_cast<size_t>(count[1]) * static_cast<size_t>(count[2]), kEmpty);
   fill(store, spacing);
@@ -208,8 +210,16 @@ void Radiation::Grid::fill(const ParticleStore& store, double spacing) {
   }
 }
 
+bool Radiation::Grid::about(const ParticleStore& store, uint32_t self, uint32_t other) const {
+  const api::Float4 &a = store.position()[self], &b = store.position()[other];
+  float x = a.x - b.x, y = a.y - b.y, z = a.z - b.z;
+  store.period().shorten(x, y, z);
+  return double{x} * double{x} + double{y} * double{y} + double{z} * double{z} < near * near;
+}
+
 /// Steps from cell to cell (Amanatides & Woo 1987).
-uint32_t Radiation::Grid::firstOn(const Vector3& from, const Vector3& way, double longest, uint32_t self) const {
+uint32_t Radiation::Grid::firstOn(const ParticleStore& store, const Vector3& from, const Vector3& way, double longest,
+                                  uint32_t self) const {
   const double start[3] = {from.x, from.y, from.z}, slope[3] = {way.x, way.y, way.z};
   double enter = 0, leave = longest;
   for (size_t a = 0; a < 3; ++a) {  // where the ray is within the box
@@ -240,7 +250,7 @@ uint32_t Radiation::Grid::firstOn(const Vector3& from, const Vector3& way, doubl
   for (;;) {
     const size_t row = static_cast<size_t>(cell[2]) * static_cast<size_t>(count[1]) + static_cast<size_t>(cell[1]);
     const uint32_t met = cells[row * static_cast<size_t>(count[0]) + static_cast<size_t>(cell[0])];
-    if (met != kEmpty && met != self) return met;
+    if (met != kEmpty && !about(store, self, met)) return met;
     const size_t a = next[0] <= next[1] && next[0] <= next[2] ? 0 : next[1] <= next[2] ? 1 : 2;
     if (next[a] > leave) return kEmpty;
     next[a] += each[a];

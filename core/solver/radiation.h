@@ -46,14 +46,22 @@ class Radiation {
     static constexpr uint32_t kEmpty = 0xffffffffu;
     double low[3] = {}, high[3] = {}, edge[3] = {};  ///< m
     int count[3] = {1, 1, 1};
+    double near = 0;  ///< m, around a particle, within which rays pass what is there
     bool repeats[3] = {};
     std::vector<uint32_t> cells;
 
     void build(const ParticleStore& store, double spacing);
-    /// First particle but `self` within `longest` m of `from` along the unit vector `way`; kEmpty: none.
-    uint32_t firstOn(const Vector3& from, const Vector3& way, double longest, uint32_t self) const;
+    /// First particle within `longest` m of `from` along the unit vector `way`, but those that lie about `self`;
+    /// kEmpty: none.
+    uint32_t firstOn(const ParticleStore& store, const Vector3& from, const Vector3& way, double longest,
+                     uint32_t self) const;
+    /// Whether a ray along `way` comes out anywhere: not between the faces of a period.
+    bool comesOut(const Vector3& way) const {
+      return (!repeats[0] && way.x != 0) || (!repeats[1] && way.y != 0) || (!repeats[2] && way.z != 0);
+    }
 
    private:
+    bool about(const ParticleStore& store, uint32_t self, uint32_t other) const;
     void span(const ParticleStore& store, double spacing);
     void fill(const ParticleStore& store, double spacing);
   };
