@@ -542,8 +542,8 @@ class TestPluginHost : public QObject {
           baked.condensedDensity(baked.caloric().solidus, 1) < baked.condensedDensity(baked.caloric().liquidus, 0);
       QVERIFY2(floats == (std::string_view(id) == "water" || std::string_view(id) == "gallium"), id);
     }
-    // Saturation at other pressures: ethanol 326.0 K at 33.7 kPa (its Antoine equation), nitrogen 83.6 K at 200 kPa (NIST); the lines through
-    // boiling and triple point are within 1 % of the way to absolute zero.
+    // Saturation at other pressures: ethanol 326.0 K at 33.7 kPa (its Antoine equation), nitrogen 83.6 K at 200 kPa
+    // (NIST); the lines through boiling and triple point are within 1 % of the way to absolute zero.
     const auto boils = [&](const char* id, double pressure) {
       return phaseDiagramOf(*registry.material(id)).boilingPoint(pressure);
     };
