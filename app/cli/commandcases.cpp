@@ -223,7 +223,7 @@ bool chosen(const Case& what, const std::vector<std::string>& only) {
 }  // namespace
 
 std::string casesHelp() {
-  return "phasesketch-cli cases FILE [options]\n\nRuns the experiments of a file: projects with the numbers of each "
+  return "phasesketch-cli cases FILE... [options]\n\nRuns the experiments of files: projects with the numbers of each "
          "case, and what theory expects. Prints the\ntable \"case, what, expected, got, tolerance, ok\". Exit code 1 "
          "when a case misses its tolerance.\n\n" +
          optionHelp(kOptions);
@@ -231,12 +231,15 @@ std::string casesHelp() {
 
 int casesCommand(CommandArguments given) {
   const Arguments arguments(given, kOptions);
-  const std::string path = onlyFile(arguments, "file of cases");
+  if (arguments.positional().empty()) throw InputError("which file of cases? --help says more");
   applyMachineOptions(arguments);
-  std::vector<Case> cases = readCases(path);
+  std::vector<Case> cases;
+  for (const std::string& path : arguments.positional()) {
+    for (Case& what : readCases(path)) cases.push_back(std::move(what));
+  }
   const std::vector<std::string>& only = arguments.all("--only");
   std::erase_if(cases, [&](const Case& what) { return !chosen(what, only); });
-  if (cases.empty()) throw InputError(path + ": has no case '" + only.front() + "'; --list names them");
+  if (cases.empty()) throw InputError("there is no case '" + only.front() + "'; --list names them");
   if (arguments.has("--list")) {
     for (const Case& what : cases) std::puts(what.id.c_str());
     return kFine;
@@ -246,7 +249,7 @@ int casesCommand(CommandArguments given) {
   for (const Case& what : cases) runCase(what, arguments.all(kSet.name), plugins, verdicts);
   if (verdicts.failed() == 0) return kFine;
   const bool one = verdicts.failed() == 1;
-  throw Error(path + ": " + std::to_string(verdicts.failed()) +
+  throw Error(std::to_string(verdicts.failed()) +
               (one ? " number misses its tolerance" : " numbers miss their tolerance"));
 }
 

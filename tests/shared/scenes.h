@@ -5,9 +5,10 @@
 // Scenes that tests and benchmarks share, built as the editor would build them.
 namespace ps::scenes {
 
-/// A tray of the given half width with a floor, four walls and a lid, all adiabatic.
+/// A tray of the given half width with a floor, four walls and a lid, all adiabatic, without air that cools.
 inline Environment tray(double halfWidth, double height) {
   Environment environment;
+  environment.parameters.values["air_convection"] = 0.0;
   environment.boundsMinimum = {-halfWidth, 0, -halfWidth};
   environment.boundsMaximum = {halfWidth, height, halfWidth};
   const auto wall = [&](const char* id, Vec3 point, Vec3 normal) {

@@ -249,6 +249,7 @@ Project twoHeated() {
     probe.fixed = true;
     project.probes.push_back(probe);
   }
+  project.environment.parameters.values["air_convection"] = 0.0;
   project.solver.parameters.values = {{"particle_spacing", 0.02}, {"thermal_time_scale", 10.0}, {"dt", 0.01}};
   return project;
 }

@@ -201,7 +201,8 @@ void TestProjectIo::wrongValuesNameThePlace_data() {
   row("number for a choice", "environment/walls/0/heat=1",
       "/environment/walls/0/heat: must be a name, not the number 1");
   row("unknown choice", "environment/walls/0/heat=warm",
-      "/environment/walls/0/heat: must be one of adiabatic, fixed_temperature, not the text 'warm'");
+      "/environment/walls/0/heat: must be one of adiabatic, fixed_temperature, fixed_flux, convective, not the text "
+      "'warm'");
   row("list for an object", "solver=[]", "/solver: must be an object in { }, not a list");
   row("object for a list", "bodies={}", "/bodies: must be a list, not an object");
   row("null", "duration=null", "/duration: must be a number, not null");
