@@ -240,8 +240,8 @@ def foundry():
     at = (0, 0.5 * d, 0)
     return project(
         "Foundry",
-        "A ladle tips and pours iron of 1,650 °C into three ingot moulds of sand, where it freezes. Heat runs 100 times "
-        "faster than it really would.",
+        "A ladle tips and pours iron of 1,650 °C into three ingot moulds of sand, where it glows and freezes. Heat runs 25 "
+        "times faster than it really would.",
         [material("iron", "Iron"),
          material("lava", "Foundry sand", "sand", density_solid=1600, conductivity_solid=0.9, heat_capacity_solid=1100,
                   solidus=2180, liquidus=2190, melting_temperature=2190, color_red=0.62, color_green=0.5,
@@ -250,7 +250,7 @@ def foundry():
                   motion_stop=9),
          sketched("mould", "Moulds", "sand", mould, at, d, ROOM, fixed=True),
          sketched("iron", "Iron", "iron", melt, at, d, 1923.15)],
-        tray(0.7, 0.3), ((-0.8, -0.1, -0.4), (0.8, 1.2, 0.4)), solver(d, 100),
+        tray(0.7, 0.3), ((-0.8, -0.1, -0.4), (0.8, 1.2, 0.4)), solver(d, 25),
         [probe("Iron", "temperature", "iron", body="iron"), probe("Iron", "height", "height", body="iron"),
          probe("Frozen", "solid_mass", "frozen", body="iron"), probe("Molten", "liquid_mass", "molten", body="iron")],
         40, view((-0.1, 0.38, 0), 2.2, 35, 22, "temperature",
