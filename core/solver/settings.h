@@ -88,7 +88,7 @@ struct ThermalSettings {
   bool radiation = false;
   double surroundingsTemperature = 293.15;  ///< K, of what surrounds the scene
   std::vector<double> surfaceArea;          ///< m2 by index of body; 0, or none: as its particles show
-  double nucleation = 0.3;             ///< share of latent heat that boiling neighbours pass on
+  double nucleation = 0.3;                  ///< share of latent heat that boiling neighbours pass on
 };
 
 /// Failures of a step; each says what to do about it.
@@ -119,8 +119,8 @@ struct Limit {
 enum class Stage { Neighbours, Density, Structure, Contact, Viscosity, Heat, Phase, Count };
 const char* stageName(Stage stage);
 
-/// Heat that entered the particles since the start, in J; `exchanged` adds up absolute amounts. `radiation` is what came
-/// from around the scene: walls' is theirs, and what particles radiate at each other stays.
+/// Heat that entered the particles since the start, in J; `exchanged` adds up absolute amounts. `radiation` is what
+/// came from around the scene: walls' is theirs, and what particles radiate at each other stays.
 struct HeatLedger {
   double walls = 0, air = 0, radiation = 0, sources = 0, exchanged = 0;
   double airWarming = 0;  ///< K by which a finite lump of air is warmer than at the start

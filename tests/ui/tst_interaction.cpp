@@ -316,8 +316,8 @@ class TestInteraction : public QObject {
     history[1].time = 0.1;
     history[1].phases[2].mass = 2.5;
     history[1].probes = {0.5};
-    const QByteArray csv = historyCsv(
-        history, {{"a", "Ice, core", "temperature", "", "", {}, {}, {}, {}}, {"b", "n", "count", "", "", {}, {}, {}, {}}});
+    const QByteArray csv = historyCsv(history, {{"a", "Ice, core", "temperature", "", "", {}, {}, {}, {}},
+                                                {"b", "n", "count", "", "", {}, {}, {}, {}}});
     QCOMPARE(csv, QByteArray("time_s,thermal_time_s,mean.temperature[K],solid.mass[kg],melting.mass[kg],"
                              "liquid.mass[kg],boiling.mass[kg],gas.mass[kg],\"Ice, core.temperature[K]\",n.count[1]\n"
                              "0,0,263.15,0,0,0,0,0,0.3333333333333333,\n"
