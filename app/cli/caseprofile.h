@@ -36,11 +36,13 @@ struct ProfileCheck {
 ///   and Tc weighted with sqrt(k rho c) (Carslaw & Jaeger 1959): bodies so long that the far ends do not know yet.
 /// line: a place in m and its temperature in K, another place and its temperature: two walls, long after the start.
 std::vector<std::string> profileLaws();
-/// l2, linf  root of the mean square, and the largest, difference from the law over its difference of temperatures
-/// contact   K: mean of the particles within a spacing of the contact, those of each side weighted with its
-/// conductivity slip      spacings by which the two walls of a line seem to stand back: a straight line through what
-/// stands two
-///           spacings off them and farther, carried on to their temperatures; the larger of the two
+/// l2, linf: root of the mean square, and the largest, difference from the law over its difference of temperatures.
+///
+/// contact: K, mean of the particles within a spacing of the contact, those of each side weighted with its
+/// conductivity.
+///
+/// slip: spacings by which the two walls of a line seem to stand back: a straight line through what stands two spacings
+/// off them and farther, carried on to their temperatures; the larger of the two.
 std::vector<std::string> profileMeasures();
 /// NaN where no particle is in the range. Throws InputError when the law takes other arguments.
 double profileValue(const TemperatureField& field, const ProfileCheck& check);

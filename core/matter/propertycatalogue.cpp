@@ -171,8 +171,8 @@ constexpr ParameterDeclaration kProperties[] = {
 
     // Light
     {"emissivity", "Emissivity", "ε", "", kNumber, kLinear, 0.9, 0, 1, 0, 1, "", 1, 0, "", "Light",
-     "How well the surface radiates heat, against a perfect black one. Kept with the material; the heat models of this "
-     "version do not radiate.",
+     "How well the surface radiates and absorbs heat, against a perfect black one. It acts where the scene's heat "
+     "radiation is on.",
      "polished metal 0.05, rusty iron 0.8, wax 0.9, ice 0.97",
      "Incropera et al., Fundamentals of Heat and Mass Transfer"},
     {"clearness", "Clearness", "", "", kNumber, kLinear, 0, 0, 1, 0, 1, "%", 100, 0, "", "Light",

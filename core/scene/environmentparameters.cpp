@@ -13,7 +13,7 @@ constexpr api::ParameterDeclaration kEnvironment[] = {
             "sea level 101.3 kPa, Mount Everest 33.7, pressure cooker 200", ""},
            {"kPa", 1e-3, 0}, api::Scale::Logarithmic),
     number({"ambient_temperature", "Air temperature", "Tₐ", "K"}, {293.15, 223.15, 473.15, 1, 10000},
-           {"Air", "Temperature of the air, which cools or warms vapour that flies through it.",
+           {"Air", "Temperature of the air, which cools or warms all that it touches.",
             "freezer −18 °C, room 20 °C, oven 220 °C", ""},
            kCelsius),
     number(
@@ -30,7 +30,9 @@ constexpr api::ParameterDeclaration kEnvironment[] = {
             "its temperature.",
             "1200 J/K for each cubic metre", ""}),
     number({"wind_speed", "Wind", "u", "m/s"}, {0, 0, 10, 0, 340},
-           {"Air", "Speed of the air. It carries vapour along, and drops and solids too where they have an air drag.",
+           {"Air",
+            "Speed of the air. It carries vapour along, drops and solids too where they have an air drag, and cools "
+            "faster.",
             "draught 0.3, breeze 3, hair dryer 10", ""}),
     number({"wind_direction", "Wind blows towards", "", "°"}, {0, 0, 360, -3600, 3600},
            {"Air", "Heading of the wind, level with the ground: 0 along x, 90 along z.", "180: against x", ""}),

@@ -107,7 +107,6 @@ struct Engine::Impl {
   uint32_t constraintSet(const std::string& plugin);
   /// Leads the bodies that were born fixed, whatever the document says of them by now; one that has left it stands.
   void lead();
-  void heatBodies() { solver->setHeating(compileHeating(project, *bodyIds)); }
   std::vector<uint32_t> born(Spawn spawn, const Body& body);
   std::vector<uint32_t> born(Spawn spawn, const std::string& id, const std::string& name);
   void exchangeMatter();
@@ -279,9 +278,8 @@ void Engine::Impl::build() {
                                  " particles whose places are taken; move it away from what it overlaps");
     }
   }
-  heatBodies();
   for (const Emitter& emitter : project.emitters) bodyIndex(emitter.id);
-  setThermal();  // what it says of bodies goes by their indices
+  recompile("body");  // what is said of bodies goes by their indices
   for (const Probe& probe : project.probes) probeNames.push_back(probeTitle(probe));
 }
 
@@ -304,7 +302,7 @@ void Engine::Impl::recompile(const std::string& owner) {
   if (owner == "environment" || owner == "solver" || owner == "thermal" || owner == "body") setThermal();
   if (owner == "body") {
     lead();
-    heatBodies();
+    solver->setHeating(compileHeating(project, *bodyIds));
   }
   if (owner == "constraint") {
     for (const Body& body : project.bodies) {
@@ -404,7 +402,7 @@ std::vector<uint32_t> Engine::addCells(const Body& body, const std::vector<std::
   } else {
     *known = body;
   }
-  m->heatBodies();
+  m->recompile("body");
   return ids;
 }
 
@@ -420,7 +418,7 @@ std::vector<uint32_t> Engine::addBody(const Body& body) {
     const std::vector<uint32_t> fresh = m->born(std::move(spawn), body);
     ids.insert(ids.end(), fresh.begin(), fresh.end());
   }
-  m->heatBodies();
+  m->recompile("body");
   return ids;
 }
 

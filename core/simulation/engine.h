@@ -30,7 +30,7 @@ class Engine {
   /// bodies, which are particles by now, at the next reset; how fixed ones move acts at once.
   void update(const Project& project);
   /// A parameter changed: recompiles what it touches. Returns false when it acts at the next reset only
-  /// (body parameters but motion_start, motion_stop and heating_power; particle_spacing).
+  /// (body parameters but motion_start, motion_stop, heating_power and surface_area; particle_spacing).
   bool setParameter(const Address& address, const Value& value);
   /// Adds a sketched body, or more cells of one that exists, at rest; cells where a live particle is within 0.9
   /// spacings stay free. Returns the ids of the new particles.

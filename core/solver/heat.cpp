@@ -184,7 +184,6 @@ void HeatStage::prepare(ParticleStore& store, const Neighbours& neighbours, uint
                  m_settings.momentCorrection, m_settings.contactConductance});
   m_surroundings.measure(store, neighbours.view(), m_pairs, frame);
   m_surroundings.setAir(m_settings.ambientTemperature + m_ledger.airWarming);
-  m_airTaken = 0;
   const auto body = [&](size_t first, size_t last) {
     Partial& partial = m_partials[first / kGrain];
     partial = {};
@@ -261,6 +260,7 @@ double HeatStage::takeSweeps(ParticleStore& store, const api::ParticleView& view
 void HeatStage::explicitStep(ParticleStore& store, const api::ParticleView& view, const api::NeighbourView& lists,
                              double step, bool firstStep) {
   const api::ThermalContext where = context();
+  const double airBefore = airHeat();
   if (m_pairLaw && !firstStep) askPairLaw(view, lists);
   const auto body = [&](size_t first, size_t last) {
     Partial& partial = m_partials[first / kGrain];
@@ -274,7 +274,7 @@ void HeatStage::explicitStep(ParticleStore& store, const api::ParticleView& view
   };
   parallelFor(store.size(), kGrain, std::cref(body));
   std::swap(m_now, m_next);
-  warmAir();
+  takeFromAir(airHeat() - airBefore);
   findLimit();
 }
 
@@ -302,13 +302,17 @@ void HeatStage::findLimit() {
   m_limit = fastest > 0 ? 1 / fastest : 1e30;
 }
 
-/// The lump of air answers for what it has given since it was last asked.
-void HeatStage::warmAir() {
-  if (!(m_settings.airHeatCapacity > 0)) return;
+/// J that air has given in this frame so far.
+double HeatStage::airHeat() const {
   double given = 0;
   for (const Partial& partial : m_partials) given += partial.air;
-  m_ledger.airWarming -= (given - m_airTaken) / m_settings.airHeatCapacity;
-  m_airTaken = given;
+  return given;
+}
+
+/// A lump of air cools by what it gives.
+void HeatStage::takeFromAir(double joules) {
+  if (!(m_settings.airHeatCapacity > 0)) return;
+  m_ledger.airWarming -= joules / m_settings.airHeatCapacity;
   m_surroundings.setAir(m_settings.ambientTemperature + m_ledger.airWarming);
 }
 

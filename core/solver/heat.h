@@ -113,7 +113,8 @@ class HeatStage {
   double fastestRate(const ParticleStore& store, size_t first, size_t last) const;
   void findLimit();
   static void book(HeatBooks& books, HeatSurroundings::Kind kind, double joules);
-  void warmAir();
+  double airHeat() const;
+  void takeFromAir(double joules);
   double takeExplicitSteps(ParticleStore& store, const api::ParticleView& view, const api::NeighbourView& lists,
                            double time);
   double takeSweeps(ParticleStore& store, const api::ParticleView& view, double time);
@@ -159,7 +160,6 @@ class HeatStage {
   double m_pairRate = 0;              ///< and of all
   std::vector<double> m_newTemperature;
   std::vector<api::Phase> m_newPhase;
-  double m_airTaken = 0;                   ///< J of this frame that the lump of air has answered for
   std::vector<double> m_perConductivity;   ///< m: pairs of one material and walls, to be multiplied by k
   std::vector<double> m_fixedConductance;  ///< W/K: other materials, air and radiation
   std::vector<uint32_t> m_boilingPartners;

@@ -97,8 +97,9 @@ double HeatStage::relaxToward(size_t i, double conductance, double target, doubl
 
 void HeatStage::relaxSurroundings(const ParticleStore& store, size_t i, double time) {
   m_surroundings.forEach(store, i, m_now, [&](HeatSurroundings::Kind kind, double conductance, double target) {
-    book(m_partials[0], kind, relaxToward(i, conductance, target, time));
-    if (kind == HeatSurroundings::Kind::Air) warmAir();
+    const double joules = relaxToward(i, conductance, target, time);
+    book(m_partials[0], kind, joules);
+    if (kind == HeatSurroundings::Kind::Air) takeFromAir(joules);
   });
 }
 

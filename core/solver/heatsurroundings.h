@@ -50,7 +50,6 @@ class HeatSurroundings {
   std::span<const Wall> walls() const { return m_walls; }
   /// K, of the air around; a finite lump of air changes it.
   void setAir(double temperature) { m_air = temperature; }
-  double air() const { return m_air; }
 
   /// Conductances of particle i for the stable step: in m, to be multiplied by k, and in W/K.
   double perConductivity(size_t i) const { return m_perConductivity[i]; }

@@ -56,14 +56,17 @@ void EnergyPanel::append(const FrameStats& stats) {
     return QStringLiteral("<tr><td>%1&nbsp;&nbsp;&nbsp;</td><td align='right'>%2</td></tr>")
         .arg(name, value.toHtmlEscaped());
   };
-  m_ledger->setText(QStringLiteral("<table>") +
-                    line(QStringLiteral("Heat in matter"), kilojoules(stats.thermalEnergy - m_start)) +
-                    line(QStringLiteral("Through walls"), kilojoules(stats.heat.walls)) +
-                    line(QStringLiteral("Through air"), kilojoules(stats.heat.air)) +
-                    line(QStringLiteral("Through radiation"), kilojoules(stats.heat.radiation)) +
-                    line(QStringLiteral("Sketched and erased"), kilojoules(stats.heat.sources)) +
-                    line(QStringLiteral("Motion"), kilojoules(stats.kineticEnergy)) +
-                    line(QStringLiteral("Balance open by"), balanceText()) + QStringLiteral("</table>"));
+  m_ledger->setText(
+      QStringLiteral("<table>") + line(QStringLiteral("Heat in matter"), kilojoules(stats.thermalEnergy - m_start)) +
+      line(QStringLiteral("Through walls"), kilojoules(stats.heat.walls)) +
+      line(QStringLiteral("Through air"), kilojoules(stats.heat.air)) +
+      line(QStringLiteral("Through radiation"), kilojoules(stats.heat.radiation)) +
+      (stats.heat.airWarming == 0
+           ? QString()
+           : line(QStringLiteral("Air warmed by"), formatFixed(stats.heat.airWarming, 1) + QStringLiteral(" K"))) +
+      line(QStringLiteral("Sketched and erased"), kilojoules(stats.heat.sources)) +
+      line(QStringLiteral("Motion"), kilojoules(stats.kineticEnergy)) +
+      line(QStringLiteral("Balance open by"), balanceText()) + QStringLiteral("</table>"));
 }
 
 QString EnergyPanel::balanceText() const {
