@@ -69,8 +69,8 @@ def condensation(count_x, layers, count_z, words, environment, lid):
         environment=environment)
 
 
-def rabbit_under_water(title, words, ice, water, scale):
-    """Figures 4.5 and 4.6: the same scene at other temperatures. A shallow pool and a shower, not a block of water that
+def rabbit_under_water(title, words, ice, water, scale, pours):
+    """Figures 4.5 and 4.6: the same scene at other temperatures, the shower on for `pours` s. A shallow pool and a shower, not a block of water that
     drops: that one squirts metres high where it is caught between rabbit and tray."""
     d, height = 0.02, 1.0
     x, z, layers = 0.61, 0.43, 4
@@ -80,7 +80,7 @@ def rabbit_under_water(title, words, ice, water, scale):
     bodies = [figure("rabbit", "Ice rabbit", "water", height, d, ice, phase="solid", holds="rigid"),
               sketched("water", "Water in the tray", "water", pool, (0, 0.5 * d, 0), d, water)]
     shower = {"id": "shower", "name": "Shower", "material": "water", "point": [0, 1.2, 0], "direction": [0, -1, 0],
-              "speed": 1.5, "diameter": 0.26, "temperature": water, "stop": 1, "most": 20000}
+              "speed": 1.5, "diameter": 0.26, "temperature": water, "stop": pours, "most": 20000}
     return project(
         title, words, [WATER], bodies, tray(x, z, friction=0.3), ((-x - 0.1, -0.1, -z - 0.1), (x + 0.1, 2.6, z + 0.1)),
         solver(d, scale),
@@ -98,14 +98,14 @@ def melting():
     return rabbit_under_water(
         "Melting", "Water of 95 °C falls over a rabbit of ice and stands around it: the rabbit melts, thin ears and feet "
         "first, and the water cools. Heat runs 6,000 times faster than it really would. Thesis, figure 4.5: 34,600 "
-        "particles.", 268.15, 368.15, 6000)
+        "particles.", 268.15, 368.15, 6000, 1.11)
 
 
 def solidification():
     return rabbit_under_water(
         "Solidification", "Water of 2 °C falls over a rabbit of ice from a deep freezer, of −90 °C. It has not enough heat "
         "to melt it; the rabbit grows a coat of new ice instead. Heat runs 4,000 times faster than it really would. "
-        "Thesis, figure 4.6: 33,500 particles.", 183.15, 275.15, 4000)
+        "Thesis, figure 4.6: 33,500 particles.", 183.15, 275.15, 4000, 1)
 
 
 def full_simulation():

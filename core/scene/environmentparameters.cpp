@@ -8,9 +8,9 @@ namespace {
 using namespace declare;
 
 constexpr api::ParameterDeclaration kEnvironment[] = {
-    number({"ambient_pressure", "Air pressure", "p", "Pa"}, {101325, 1000, 500000, 1, 1e8},
+    number({"ambient_pressure", "Air pressure", "p", "Pa"}, {101325, 10, 500000, 1, 1e8},
            {"Air", "Pressure of the air around everything. It sets where matter boils and whether it melts at all.",
-            "sea level 101.3 kPa, Mount Everest 33.7, pressure cooker 200", ""},
+            "sea level 101.3 kPa, Mount Everest 33.7, pressure cooker 200, freeze drying 0.1", ""},
            {"kPa", 1e-3, 0}, api::Scale::Logarithmic),
     number({"ambient_temperature", "Air temperature", "Tₐ", "K"}, {293.15, 223.15, 473.15, 1, 10000},
            {"Air", "Temperature of the air, which cools or warms all that it touches.",

@@ -110,11 +110,17 @@ void DensityStage::refreshLists(const ParticleStore& store, const Neighbours& ne
   const size_t n = store.size();
   const api::NeighbourView view = neighbours.view();
   m_touched.assign(n + kSpare, 0);
-  for (const uint32_t i : m_fluid) {
-    for (uint32_t q = view.begin[i]; q < view.last[i]; ++q) m_touched[view.index[q]] = 1;
-  }
   m_wet.clear();
   m_touchesFixed = false;
+  if (m_fluid.empty()) return;
+  m_isFluid.assign(n, 0);
+  for (const uint32_t i : m_fluid) m_isFluid[i] = 1;
+  forChunks(n, kGrain, [&](size_t first, size_t last) {
+    for (size_t i = first; i < last; ++i) {
+      for (uint32_t q = view.begin[i]; q < view.last[i] && m_isFluid[i] == 0 && m_touched[i] == 0; ++q)
+        m_touched[i] = m_isFluid[view.index[q]];
+    }
+  });
   const api::Motion* motion = store.motion();
   for (size_t i = 0; i < n; ++i) {
     const bool moves = store.velocity()[i].w > 0;
@@ -149,10 +155,12 @@ void DensityStage::solidVolumes(const ParticleStore& store, const PairLists& pai
 
 void DensityStage::loadPoints(const ParticleStore& store) {
   const api::Float4* position = store.position();
-  for (size_t i = 0; i < store.size(); ++i) {
-    m_points[i] = {position[i].x, position[i].y, position[i].z, m_volume[i]};
-    m_multipliers[i] = {position[i].x, position[i].y, position[i].z, 0};
-  }
+  forChunks(store.size(), kGrain, [&](size_t first, size_t last) {
+    for (size_t i = first; i < last; ++i) {
+      m_points[i] = {position[i].x, position[i].y, position[i].z, m_volume[i]};
+      m_multipliers[i] = {position[i].x, position[i].y, position[i].z, 0};
+    }
+  });
 }
 
 float DensityStage::addWalls(const api::Float4& at, Constraint& gradient) const {

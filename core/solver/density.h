@@ -85,7 +85,7 @@ class DensityStage {
   double m_scale = 0, m_support = 0;
   float m_chebyshev = 1;
   std::vector<uint32_t> m_fluid, m_wet, m_some;
-  std::vector<uint8_t> m_touched;
+  std::vector<uint8_t> m_touched, m_isFluid;
   std::vector<float> m_volume, m_weight, m_excess;
   std::vector<api::Float4> m_points, m_multipliers;
   ChunkSum m_moved;

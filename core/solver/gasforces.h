@@ -28,6 +28,8 @@ class GasForces {
  public:
   void configure(const SolverSettings& solver, const ThermalSettings& thermal,
                  std::span<const BakedMaterial> materials);
+  /// K; a finite lump of air warms. Until told otherwise the ambient one.
+  void setAir(double temperature) { m_thermal.ambientTemperature = temperature; }
   /// Once per frame: how much of the neighbourhood is liquid, or for airDrag any matter.
   void measure(const ParticleStore& store, const Neighbours& neighbours);
   /// Adds dt times the acceleration to the velocities of particles [first, last) that move.

@@ -39,6 +39,7 @@ void HeatStage::configure(const ThermalSettings& settings, const SolverSettings&
                           std::span<const BakedMaterial> materials, const api::ThermalPlugin* model,
                           std::vector<double> modelParameters) {
   m_settings = settings;
+  if (!(settings.airHeatCapacity > 0)) m_ledger.airWarming = 0;  // endless air keeps its temperature
   m_solver = solver;
   m_materials = materials;
   m_surroundings.configure(settings, solver, std::move(walls), materials);
@@ -55,7 +56,7 @@ void HeatStage::configure(const ThermalSettings& settings, const SolverSettings&
 api::ThermalContext HeatStage::context() const {
   api::ThermalContext context{};
   context.pressure = m_settings.ambientPressure;
-  context.ambientTemperature = m_settings.ambientTemperature;
+  context.ambientTemperature = m_settings.ambientTemperature + m_ledger.airWarming;
   context.parameters = {m_parameters.data(), m_parameters.size()};
   context.materials = {m_materialViews.data(), m_materialViews.size()};
   context.supportRadius = m_solver.spacing * m_solver.supportRatio;
@@ -221,19 +222,27 @@ void HeatStage::exchange(ParticleStore& store, const Neighbours& neighbours, dou
   const api::ParticleView view = store.view();
   const api::NeighbourView lists = neighbours.view();
   askPairLaw(view, lists);
-  collectFrameHeat(store, view, time);
+  collectFrameHeat(store, view, std::min(time, mostTime()));
   time -= takeExplicitSteps(store, view, lists, time);
   if (time > 0 && !m_pairLaw) time -= takeSweeps(store, view, time);
   if (time > 1e-9 * dt * m_settings.timeScale) m_delivered = m_settings.timeScale - time / dt;
   closeBooks();
 }
 
+/// Thermal seconds that this frame can do.
+double HeatStage::mostTime() const {
+  const double steps = std::clamp(m_settings.cfl, 0.01, 5.0) * mostExplicit();
+  return m_limit * (m_pairLaw ? steps : std::max<double>(steps, kMaxSweeps * kSweepLength));
+}
+
+int HeatStage::mostExplicit() const { return m_settings.steps == HeatSteps::Explicit ? kMostExplicit : kMaxExplicit; }
+
 /// Returns the thermal seconds done: all, or none where kMaxExplicit stable steps would not do from the start. The
 /// stable step is measured anew after each one, as freezing matter may conduct several times better than its liquid.
 double HeatStage::takeExplicitSteps(ParticleStore& store, const api::ParticleView& view,
                                     const api::NeighbourView& lists, double time) {
   const double share = std::clamp(m_settings.cfl, 0.01, 5.0);
-  const int most = m_settings.steps == HeatSteps::Explicit ? kMostExplicit : kMaxExplicit;
+  const int most = mostExplicit();
   if (time > most * share * m_limit && !m_pairLaw) return 0;
   double left = time;
   while (left > 0 && m_substeps < most) {

@@ -112,6 +112,8 @@ class HeatStage {
   double latentContent(const ParticleStore& store, size_t i) const;
   double fastestRate(const ParticleStore& store, size_t first, size_t last) const;
   void findLimit();
+  double mostTime() const;
+  int mostExplicit() const;
   static void book(HeatBooks& books, HeatSurroundings::Kind kind, double joules);
   double airHeat() const;
   void takeFromAir(double joules);
@@ -128,7 +130,7 @@ class HeatStage {
   HeatBody heatBody(const ParticleStore& store, size_t i) const;
   void relaxPair(size_t i, uint32_t k, bool sameMaterial, double time);
   void relaxBodies(size_t i, size_t j, double conductance, double time);
-  double relaxToward(size_t i, double conductance, double target, double time);
+  double relaxToward(size_t i, double conductance, double target, double inverseCapacity, double time);
   void relaxSurroundings(const ParticleStore& store, size_t i, double time);
   void relaxSights(const ParticleStore& store, size_t i, double time);
   void closeBooks();

@@ -82,12 +82,12 @@ void HeatStage::relaxBodies(size_t i, size_t j, double conductance, double time)
   m_joules[j] -= joules;
 }
 
-/// Against something that keeps its temperature; returns the joules.
-double HeatStage::relaxToward(size_t i, double conductance, double target, double time) {
+/// Against something of `inverseCapacity`, in K/J, 0 where it keeps its temperature; returns the joules.
+double HeatStage::relaxToward(size_t i, double conductance, double target, double inverseCapacity, double time) {
   HeatBody& body = m_bodies[i];
   const double difference = target - body.temperature;
   if (difference == 0 || !(conductance > 0)) return 0;
-  const double inverse = body.inverseAgainst(difference);
+  const double inverse = body.inverseAgainst(difference) + inverseCapacity;
   if (!(inverse > 0)) return 0;
   const double joules = decay(conductance * time * inverse) / inverse * difference;
   body.take(joules);
@@ -96,10 +96,12 @@ double HeatStage::relaxToward(size_t i, double conductance, double target, doubl
 }
 
 void HeatStage::relaxSurroundings(const ParticleStore& store, size_t i, double time) {
+  const double lump = m_settings.airHeatCapacity > 0 ? 1 / m_settings.airHeatCapacity : 0;
   m_surroundings.forEach(store, i, m_now, [&](HeatSurroundings::Kind kind, double conductance, double target) {
-    const double joules = relaxToward(i, conductance, target, time);
+    const bool air = kind == HeatSurroundings::Kind::Air;
+    const double joules = relaxToward(i, conductance, target, air ? lump : 0, time);
     book(m_partials[0], kind, joules);
-    if (kind == HeatSurroundings::Kind::Air) takeFromAir(joules);
+    if (air) takeFromAir(joules);
   });
 }
 

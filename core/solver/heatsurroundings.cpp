@@ -11,6 +11,8 @@ namespace ps {
 namespace {
 
 constexpr size_t kGrain = 256;
+/// Frames from one look for free surfaces to the next.
+constexpr uint64_t kSurfaceFrames = 4;
 constexpr double kGentle = 2, kStrong = 20;  ///< m/s, where the law of wind holds
 
 /// Volume^(2/3), m2, for a volume near spacing^3. Newton's cube root, because the C library's may differ in its last
@@ -22,7 +24,8 @@ double faceOf(double volume, double spacing) {
   return x * x * spacing * spacing;
 }
 
-double windChill(double speed) { return 10.45 - speed + 10 * std::sqrt(speed); }
+/// W/(m2 K) of a law in kcal/(m2 h K).
+double windChill(double speed) { return 1.163 * (10.45 - speed + 10 * std::sqrt(speed)); }
 
 /// W/(m2 K) with the wind's share; without still air's there is no air to take heat.
 double convectionIn(double still, double wind) {
@@ -57,6 +60,7 @@ void HeatSurroundings::configure(const ThermalSettings& settings, const SolverSe
   m_wholeLayer = 0;
   for (int layer = 1; layer <= 4; ++layer) m_wholeLayer += kernel.value(layer * dx);
   m_wholeLayer *= 4 * dx * dx * dx * dx * 2 * std::numbers::pi;
+  m_surface.forget();
   if (!settings.radiation) m_radiation.forget();
 }
 
@@ -68,7 +72,8 @@ void HeatSurroundings::measure(const ParticleStore& store, const api::NeighbourV
   m_airConductance.resize(n);
   m_perConductivity.resize(n);
   m_watts.resize(n);
-  if (m_surfaces) m_surface.measure(store, lists, pairs.filled, m_walls, m_solver.spacing, m_settings.surfaceArea);
+  if (m_surfaces && (frame % kSurfaceFrames == 0 || !m_surface.fits(store)))
+    m_surface.measure(store, lists, pairs.filled, m_walls, m_solver.spacing, m_settings.surfaceArea);
   if (m_settings.radiation) m_radiation.trace(store, m_surface, m_walls, m_solver.spacing, frame);
   forChunks(n, kGrain, [&](size_t first, size_t last) {
     for (size_t i = first; i < last; ++i) measureOne(store, pairs, i);
@@ -125,18 +130,20 @@ void HeatSurroundings::touchWalls(const ParticleStore& store, const HeatPairs& p
 
 double HeatSurroundings::fixedConductance(const ParticleStore& store, size_t i) const {
   double sum = double{m_airConductance[i]};
+  const double t = store.temperature()[i];
+  if (m_settings.radiation) {
+    for (const Radiation::Sight& sight : m_radiation.sights(i))
+      sum += double{sight.area} * linear(t, store.temperature()[sight.partner]);
+  }
   if (!m_touches[i]) return sum;
   for (size_t w = 0; w < m_walls.size(); ++w) {
     if (m_walls[w].heat == WallHeat::Convective) sum += double{m_wallConductance[i * m_walls.size() + w]};
   }
   if (!m_settings.radiation) return sum;
-  const double t = store.temperature()[i];
   sum += emissivity(store, i) * m_radiation.sky(i) * linear(t, m_settings.surroundingsTemperature);
   for (size_t w = 0; w < m_walls.size(); ++w) {
     if (const double area = m_radiation.wall(i, w); area > 0) sum += area * linear(t, m_walls[w].temperature);
   }
-  for (const Radiation::Sight& sight : m_radiation.sights(i))
-    sum += double{sight.area} * linear(t, store.temperature()[sight.partner]);
   return sum;
 }
 

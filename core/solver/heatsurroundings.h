@@ -33,8 +33,8 @@ struct HeatBooks {
 /// a whole layer: on a lattice the shares add up to the area exactly. Convection: 1/U = 1/h + (dx/2)/k.
 ///
 /// Air: G = A U on free surfaces (OpenSurface) with the same U; vapour by its own size where no liquid surrounds it.
-/// Wind of 2 to 20 m/s takes h = 10.45 - v + 10 sqrt(v) W/(m2 K) (Siple & Passel 1945) where that is more than still
-/// air's; below 2 m/s between the two. Not modelled: air that moves by itself, lee.
+/// Wind of 2 to 20 m/s takes h = 10.45 - v + 10 sqrt(v) kcal/(m2 h K), v in m/s (Siple & Passel 1945), where that is
+/// more than still air's; below 2 m/s between the two. Not modelled: air that moves by itself, lee.
 ///
 /// Radiation of grey surfaces (Radiation): eps sigma A (T^4 - T'^4) to the surroundings and to walls that have a
 /// temperature, with 1/eps = 1/eps_1 + 1/eps_2 - 1 between two surfaces.

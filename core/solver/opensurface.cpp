@@ -10,7 +10,9 @@ namespace ps {
 namespace {
 
 constexpr size_t kGrain = 512;
-constexpr float kFullSupport = 0.95f;
+/// Sum of V W from which on a particle lies inside. In disorder many on the surface come near 1; those inside are soon
+/// covered anyway.
+constexpr float kInside = 1.1f;
 constexpr double kCone = 0.7313537;  ///< cosine of 43 degrees
 constexpr float kReach = 2;          ///< spacings to a neighbour that covers
 constexpr double kBesideWall = 1;    ///< spacings to a wall that covers
@@ -110,8 +112,13 @@ void OpenSurface::measure(const ParticleStore& store, const api::NeighbourView& 
     store.period().any() ? cover<true>(store, lists, filled, walls, first, last)
                          : cover<false>(store, lists, filled, walls, first, last);
   });
+  m_id.assign(store.id(), store.id() + store.size());
   if (std::any_of(scaledArea.begin(), scaledArea.end(), [](double area) { return area > 0; }))
     scaleToBodies(store, scaledArea);
+}
+
+bool OpenSurface::fits(const ParticleStore& store) const {
+  return m_id.size() == store.size() && std::equal(m_id.begin(), m_id.end(), store.id());
 }
 
 template <bool kPeriodic>
@@ -125,7 +132,7 @@ void OpenSurface::cover(const ParticleStore& store, const api::NeighbourView& li
   const float reach = kReach * kReach * dx * dx * 1.0001f, tiny = 1e-8f * dx * dx;
   for (size_t i = first; i < last; ++i) {
     m_open[i] = 0;
-    if (motion[i] == api::Motion::Gas || filled[i] >= kFullSupport) continue;
+    if (motion[i] == api::Motion::Gas || filled[i] >= kInside) continue;
     uint64_t covered = 0;
     for (size_t w = 0; w < walls.size(); ++w) {
       const api::Double3& n = walls[w].normal;

@@ -28,6 +28,10 @@ class OpenSurface {
   /// where the surface is what was found; otherwise the body's particles share this area as they would share theirs.
   void measure(const ParticleStore& store, const api::NeighbourView& lists, std::span<const float> filled,
                std::span<const Wall> walls, double spacing, std::span<const double> scaledArea);
+  /// Whether what was measured last still says which particle is which.
+  bool fits(const ParticleStore& store) const;
+  /// Walls or numbers have changed.
+  void forget() { m_id.clear(); }
   /// Bit d: direction d is open.
   uint64_t open(size_t i) const { return m_open[i]; }
   /// m2 that each open direction of particle i stands for.
@@ -44,6 +48,7 @@ class OpenSurface {
   std::vector<uint64_t> m_open, m_behindWall;
   std::vector<float> m_scale;
   std::vector<double> m_found;  ///< m2 by body
+  std::vector<uint32_t> m_id;   ///< of the particles, as they were measured
 };
 
 }  // namespace ps

@@ -134,9 +134,8 @@ void Solver::Impl::configure() {
   wallStage.configure(settings, walls);
   swept.configure(settings);
   contact.configure(settings, table);
-  wet.configure(settings.spacing, kSkinSpacings * settings.spacing);
   impacts.configure(settings, walls, table);
-  sheets.configure(settings);
+  for (LiquidContact* kept : {&wet, &sheets}) kept->configure(settings.spacing, kSkinSpacings * settings.spacing);
   rigid.configure(settings, walls, table);
   gas.configure(settings, thermal, table);
   heat.configure(thermal, settings, walls, table, model, modelParameters);

@@ -66,6 +66,16 @@ void Solver::Impl::findTiesToFixed() {
   }
 }
 
+void Solver::Impl::findThinSolids() {
+  const std::span<const uint8_t> thin = constraints.thinBodies();
+  thinSolids.clear();
+  if (std::find(thin.begin(), thin.end(), uint8_t{1}) == thin.end()) return;
+  for (uint32_t i = 0; i < store.size(); ++i) {
+    const uint32_t body = store.body()[i];
+    if (store.motion()[i] == api::Motion::Solid && body < thin.size() && thin[body] != 0) thinSolids.push_back(i);
+  }
+}
+
 std::string Solver::Impl::describe(size_t i) const {
   const uint32_t body = store.body()[i];
   const std::string name = body < bodyNames.size() ? "'" + bodyNames[body] + "'" : "body " + std::to_string(body);
@@ -89,6 +99,7 @@ void Solver::Impl::runFrame() {
     if (good) keepLastGood();
     external.take();
     report.momentum.start = double3Of(momentum());
+    gas.setAir(thermal.ambientTemperature + heat.ledger().airWarming);
     timed(Stage::Phase, [&] { gas.measure(store, neighbours); });
     timed(Stage::Viscosity, [&] { viscosity.refresh(store, neighbours, density); });
     for (int s = 0; s < settings.substeps && good; ++s) {
@@ -171,17 +182,18 @@ void Solver::Impl::freshLists() {
 }
 
 void Solver::Impl::listsChanged(bool newStructure) {
-  density.refreshLists(store, neighbours);
-  wet.refreshLists(store, neighbours, density.wetSolids());
+  if (!newStructure) density.refreshLists(store, neighbours);  // else it has just been refreshed
+  wet.refresh(store, neighbours, density.wetSolids());
   if (newStructure) {
     rigid.refreshBodies(store, constraints);
     grouped = constraints.groupMembers(store);
     findTiesToFixed();
+    findThinSolids();
   }
   wallStage.refreshLists(store, rigid.members());
   swept.refreshLists(store, neighbours);
   rigid.refreshContacts(store, neighbours, constraints);
-  sheets.refresh(store, neighbours, constraints.thinBodies());
+  sheets.refresh(store, neighbours, thinSolids);
   viscosity.listsChanged();
   if (newStructure || contact.stale(store)) contact.refresh(store, neighbours, constraints, rigid.members());
 }
@@ -296,7 +308,8 @@ void Solver::Impl::substep(uint32_t index) {
 /// What walls and fixed particles moved in this substep, as impulse.
 void Solver::Impl::bookContact(double dt) {
   Vector3 moved = rigid.pushed();
-  for (Received* given : {&wallStage.given(), &contact.given(), &density.given(), &swept.given()})
+  for (Received* given :
+       {&wallStage.given(), &contact.given(), &wet.given(), &sheets.given(), &density.given(), &swept.given()})
     moved = moved + given->take();
   external.add(1 / dt * moved);
 }

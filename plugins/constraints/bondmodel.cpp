@@ -114,8 +114,6 @@ float distanceSquared(const ParticleView& p, uint32_t i, uint32_t j) {
   return d.x * d.x + d.y * d.y + d.z * d.z;
 }
 
-bool holds(Motion m) { return m == Motion::Solid || m == Motion::Static; }
-
 /// Young's modulus over a range of temperatures, sampled once per batch: a property is too slow for the inner loop.
 class ModulusTable {
  public:

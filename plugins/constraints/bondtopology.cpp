@@ -22,8 +22,6 @@ constexpr float kDryRadius = 1.05f;
 constexpr float kThesisRadius = 1.1f;
 constexpr uint32_t kThesisMost = 4;
 
-bool holds(Motion m) { return m == Motion::Solid || m == Motion::Static; }
-
 float distanceSquared(const ParticleView& p, uint32_t i, uint32_t j) {
   const api::Float4 d = api::separation(p, i, j);
   return d.x * d.x + d.y * d.y + d.z * d.z;
@@ -54,10 +52,12 @@ bool letsGo(const ConstraintContext& context, const ParticleView& p, uint32_t i,
   return p.solidFraction[i] < 1 && p.solidFraction[j] < 1;
 }
 
-/// Who is bonded to whom.
+/// How many bonds a particle has, and to whom, where it may take more.
 class BondGraph {
  public:
-  BondGraph(size_t particles, const ConstraintBatch& all, const std::vector<uint8_t>& gone) : m_begin(particles + 1) {
+  template <class Open>
+  BondGraph(size_t particles, const ConstraintBatch& all, const std::vector<uint8_t>& gone, const Open& open)
+      : m_degree(particles), m_begin(particles + 1) {
     const auto eachEnd = [&](auto&& visit) {
       for (size_t k = 0; k < all.count; ++k) {
         if (gone[k] != 0) continue;
@@ -65,20 +65,22 @@ class BondGraph {
         visit(all.particles[2 * k + 1], all.particles[2 * k]);
       }
     };
-    eachEnd([&](uint32_t i, uint32_t) { ++m_begin[i + 1]; });
-    for (size_t i = 0; i < particles; ++i) m_begin[i + 1] += m_begin[i];
+    eachEnd([&](uint32_t i, uint32_t) { ++m_degree[i]; });
+    for (uint32_t i = 0; i < particles; ++i) m_begin[i + 1] = m_begin[i] + (open(i, m_degree[i]) ? m_degree[i] : 0);
     m_partner.resize(m_begin[particles]);
     std::vector<uint32_t> next(m_begin.begin(), m_begin.end());
-    eachEnd([&](uint32_t i, uint32_t j) { m_partner[next[i]++] = j; });
+    eachEnd([&](uint32_t i, uint32_t j) {
+      if (m_begin[i] != m_begin[i + 1]) m_partner[next[i]++] = j;
+    });
   }
-  uint32_t degree(uint32_t i) const { return m_begin[i + 1] - m_begin[i]; }
+  uint32_t degree(uint32_t i) const { return m_degree[i]; }
   bool tied(uint32_t i, uint32_t j) const {
     return std::find(m_partner.begin() + m_begin[i], m_partner.begin() + m_begin[i + 1], j) !=
            m_partner.begin() + m_begin[i + 1];
   }
 
  private:
-  std::vector<uint32_t> m_begin, m_partner;
+  std::vector<uint32_t> m_degree, m_begin, m_partner;
 };
 
 /// Finds the pairs that may join.
@@ -152,8 +154,15 @@ void BondModel::topology(const ConstraintContext& context, const ParticleView& p
     gone[k] = 1;
     sink.remove(k);
   }
-  if (!joining.anybody()) return;
-  const BondGraph bonds(p.count, all, gone);
+  const auto thesisRules = [](api::Span<const double> parameters) {
+    return parameters.size > BondModel::kBondRule && parameters[BondModel::kBondRule] > 0.5;
+  };
+  const bool thesis = std::any_of(context.bodyParameters.begin(), context.bodyParameters.end(), thesisRules) ||
+                      thesisRules(context.parameters);
+  if (!thesis && !joining.anybody()) return;
+  const BondGraph bonds(p.count, all, gone, [&](uint32_t i, uint32_t degree) {
+    return byThesis(context, p, i) || degree < mostBonds(context, p, i);
+  });
   const std::vector<Candidate> candidates = Search(context, p, lists, joining, bonds).candidates();
   if (candidates.empty()) return;
   std::vector<uint32_t> degree(p.count);

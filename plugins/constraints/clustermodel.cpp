@@ -70,8 +70,6 @@ constexpr api::FieldDeclaration kMemberValues[] = {
     {"way_z", "m", "Way, z", kFloat},
 };
 
-bool holds(Motion m) { return m == Motion::Solid || m == Motion::Static; }
-
 /// A new cluster of particles, given by their places in the undeformed frame.
 struct NewCluster {
   std::vector<uint32_t> particles;

@@ -28,8 +28,6 @@ constexpr api::FieldDeclaration kValues[] = {
     {"multiplier", "N·s²", "XPBD multiplier of the substep", api::FieldType::Float32},
 };
 
-bool holds(Motion m) { return m == Motion::Solid || m == Motion::Static; }
-
 struct Difference {
   float x, y, z;
   float length() const { return std::sqrt(x * x + y * y + z * z); }

@@ -418,55 +418,6 @@ class TestJoining : public QObject {
 
   /// In the engine, as the probe counts: two blocks grow together and are two again after a reset; a block cut through
   /// is one again after undo.
-  void resetAndUndo_data() {
-    QTest::addColumn<QString>("structure");
-    QTest::newRow("bonds") << "bonds";
-    QTest::newRow("rigid") << "rigid";
-  }
-  void resetAndUndo() {
-    QFETCH(QString, structure);
-    ps::PluginRegistry registry;
-    ps::Project project;
-    project.materials.push_back(ps::scenes::water());
-    project.environment = ps::scenes::tray(0.2, 1);
-    project.solver.parameters.values["particle_spacing"] = kSpacing;
-    for (const int k : {0, 1}) {
-      ps::Body body =
-          ps::scenes::block(k == 0 ? "lower" : "upper", 4, kSpacing, {0, (4 * k + 2) * kSpacing, 0}, 263.15);
-      body.constraints[0].plugin = structure.toStdString();
-      project.bodies.push_back(body);
-    }
-    const char* const bodies[] = {"", "lower"};
-    for (const char* body : bodies) {
-      ps::Probe probe;
-      probe.id = probe.name = std::string("pieces") + body;
-      probe.quantity = "pieces";
-      probe.body = body;
-      project.probes.push_back(probe);
-    }
-    ps::Engine engine(project, registry);
-    const auto pieces = [&] { return engine.stats().probes; };
-    QCOMPARE(pieces(), (std::vector<double>{2, 1}));
-    for (int f = 0; f < 60; ++f) QCOMPARE(engine.step().flags, 0u);
-    QCOMPARE(pieces(), (std::vector<double>{1, 1}));
-    engine.reset();
-    QCOMPARE(pieces(), (std::vector<double>{2, 1}));
-    for (int f = 0; f < 60; ++f) engine.step();
-    QCOMPARE(pieces(), (std::vector<double>{1, 1}));
-    // Two layers out of the upper block, and back again.
-    const ps::ParticleStore& p = engine.solver().particles();
-    std::vector<uint32_t> cut;
-    for (size_t i = 0; i < p.size(); ++i) {
-      if (p.position()[i].y > 5 * kSpacing && p.position()[i].y < 7 * kSpacing) cut.push_back(p.id()[i]);
-    }
-    QCOMPARE(cut.size(), size_t{32});
-    const ps::TakenMatter taken = engine.takeParticles(cut);
-    engine.step();
-    QCOMPARE(pieces(), (std::vector<double>{2, 1}));
-    engine.putBack(taken);
-    engine.step();
-    QCOMPARE(pieces(), (std::vector<double>{1, 1}));
-  }
 
  private:
   using Point = ps::api::Double3;

@@ -64,7 +64,7 @@ void EnergyPanel::append(const FrameStats& stats) {
       (stats.heat.airWarming == 0
            ? QString()
            : line(QStringLiteral("Air warmed by"), formatFixed(stats.heat.airWarming, 1) + QStringLiteral(" K"))) +
-      line(QStringLiteral("Sketched and erased"), kilojoules(stats.heat.sources)) +
+      line(QStringLiteral("Heated, sketched, erased"), kilojoules(stats.heat.sources)) +
       line(QStringLiteral("Motion"), kilojoules(stats.kineticEnergy)) +
       line(QStringLiteral("Balance open by"), balanceText()) + QStringLiteral("</table>"));
 }

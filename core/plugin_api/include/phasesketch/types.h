@@ -47,6 +47,8 @@ enum class Phase : uint8_t { Solid, Melting, Liquid, Boiling, Gas };
 
 /// How a particle moves: held by structure, free liquid, vapour parcel, or not at all.
 enum class Motion : uint8_t { Solid, Liquid, Gas, Static };
+/// Whether matter that moves so keeps its shape.
+inline bool holds(Motion motion) { return motion == Motion::Solid || motion == Motion::Static; }
 
 enum class FieldType : uint32_t { Float32, Float64, UInt8, UInt32, Float4 };
 
