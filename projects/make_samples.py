@@ -71,17 +71,16 @@ def candle():
     at = (0, 0.5 * d, 0)
     core = [{"minimum": [-1, -1, -1], "maximum": [1, d, 1]},
             {"minimum": [-1.6 * d, -1, -1.6 * d], "maximum": [1.6 * d, 9 * d, 1.6 * d]}]
-    bodies = [sketched("wick", "Burning wick", "wick", wick, at, d, 635.0, fixed=True),
+    bodies = [sketched("wick", "Burning wick", "wick", wick, at, d, 450.0, fixed=True, heating_power=15),
               sketched("candle", "Candle", "wax", wax, at, d, ROOM, holds="bonds", pins=core),
               sketched("pool", "Pool of wax", "wax", pool, at, d, 350.0)]
     return project(
         "Candle",
-        "A thick candle of paraffin about a wick of 362 °C: the pool about it grows, overflows, and freezes again on its "
-        "way down or on the table. There is no flame, only its heat; the candle's core is held in place, as a spike would. Heat "
-        "runs 3,000 times faster than it really would.",
+        "A thick candle of paraffin. Of its flame there is only the heat, 15 W in the wick: the pool about it grows and overflows "
+        "until air and radiation take as much as the flame gives; with 16 W it breaks its rim, runs out and freezes on the table. Its "
+        "core is held in place, as a spike would. Heat runs 3,000 times faster than it really would.",
         [material("wax", "Paraffin wax"),
-         material("wood", "Wick, so heavy with heat that it stays hot", "wick", heat_capacity_solid=1e5,
-                  conductivity_solid=20, density_solid=20000,
+         material("wood", "Wick, soaked with wax", "wick", conductivity_solid=20,
                   melting_temperature=1500, solidus=1490, liquidus=1500)],
         bodies, tray(0.16, 0.16, ROOM, None, "Table"), ((-0.2, -0.05, -0.2), (0.2, 0.4, 0.2)),
         solver(d, 3000, substeps=6),
@@ -89,7 +88,7 @@ def candle():
          probe("Soft wax", "melting_mass"), probe("Molten wax", "liquid_mass"),
          probe("Candle", "height_max", "height", body="candle")],
         60, view((0, 0.085, 0), 0.62, 30, 22, "temperature",
-                 ["solver/thermal_time_scale", "material/wax/viscosity", "material/wick/conductivity_solid"]),
+                 ["solver/thermal_time_scale", "material/wax/viscosity", "body/wick/heating_power"]),
         environment={"radiation": True})
 
 
@@ -241,7 +240,7 @@ def foundry():
     at = (0, 0.5 * d, 0)
     return project(
         "Foundry",
-        "A ladle tips and pours iron of 1,650 °C into three ingot moulds of sand, where it glows and freezes. Heat runs 25 "
+        "A ladle tips and pours iron of 1,650 °C into three ingot moulds of sand, where it glows and freezes. Heat runs 10 "
         "times faster than it really would.",
         [material("iron", "Iron"),
          material("lava", "Foundry sand", "sand", density_solid=1600, conductivity_solid=0.9, heat_capacity_solid=1100,
@@ -251,7 +250,7 @@ def foundry():
                   motion_stop=9),
          sketched("mould", "Moulds", "sand", mould, at, d, ROOM, fixed=True),
          sketched("iron", "Iron", "iron", melt, at, d, 1923.15)],
-        tray(0.7, 0.3), ((-0.8, -0.1, -0.4), (0.8, 1.2, 0.4)), solver(d, 25),
+        tray(0.7, 0.3), ((-0.8, -0.1, -0.4), (0.8, 1.2, 0.4)), solver(d, 10),
         [probe("Iron", "temperature", "iron", body="iron"), probe("Iron", "height", "height", body="iron"),
          probe("Frozen", "solid_mass", "frozen", body="iron"), probe("Molten", "liquid_mass", "molten", body="iron")],
         40, view((-0.1, 0.38, 0), 2.2, 35, 22, "temperature",

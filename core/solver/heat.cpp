@@ -36,13 +36,13 @@ double smallestCapacity(const api::Caloric& c, double solid, double liquid, doub
 }  // namespace
 
 void HeatStage::configure(const ThermalSettings& settings, const SolverSettings& solver, std::vector<Wall> walls,
-                          std::span<const BakedMaterial> materials, const api::ThermalPlugin* model,
-                          std::vector<double> modelParameters) {
+                          const Bounds& bounds, std::span<const BakedMaterial> materials,
+                          const api::ThermalPlugin* model, std::vector<double> modelParameters) {
   m_settings = settings;
   if (!(settings.airHeatCapacity > 0)) m_ledger.airWarming = 0;  // endless air keeps its temperature
   m_solver = solver;
   m_materials = materials;
-  m_surroundings.configure(settings, solver, std::move(walls), materials);
+  m_surroundings.configure(settings, solver, std::move(walls), bounds, materials);
   m_materialViews.clear();
   for (const BakedMaterial& material : materials) m_materialViews.push_back(&material);
   if (model != m_model) {

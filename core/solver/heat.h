@@ -44,7 +44,7 @@ class HeatStage {
 
   /// References stay valid until the next configure(). `model` may be nullptr: no heat flows.
   void configure(const ThermalSettings& settings, const SolverSettings& solver, std::vector<Wall> walls,
-                 std::span<const BakedMaterial> materials, const api::ThermalPlugin* model,
+                 const Bounds& bounds, std::span<const BakedMaterial> materials, const api::ThermalPlugin* model,
                  std::vector<double> modelParameters);
   /// Sets state, temperature and fractions of particles [first, last); the two spans hold one value per particle of
   /// that range. Declares the model's fields in the store when they are new. False when the model threw.

@@ -43,9 +43,10 @@ double inSeries(double film, double conductivity, double spacing) {
 }  // namespace
 
 void HeatSurroundings::configure(const ThermalSettings& settings, const SolverSettings& solver, std::vector<Wall> walls,
-                                 std::span<const BakedMaterial> materials) {
+                                 const Bounds& bounds, std::span<const BakedMaterial> materials) {
   m_settings = settings;
   m_solver = solver;
+  m_bounds = bounds;
   m_walls = std::move(walls);
   m_materials = materials;
   m_emissivity.clear();
@@ -74,7 +75,7 @@ void HeatSurroundings::measure(const ParticleStore& store, const api::NeighbourV
   m_watts.resize(n);
   if (m_surfaces && (frame % kSurfaceFrames == 0 || !m_surface.fits(store)))
     m_surface.measure(store, lists, pairs.filled, m_walls, m_solver.spacing, m_settings.surfaceArea);
-  if (m_settings.radiation) m_radiation.trace(store, m_surface, m_walls, m_solver.spacing, frame);
+  if (m_settings.radiation) m_radiation.trace(store, m_surface, m_walls, m_bounds, m_solver.spacing, frame);
   forChunks(n, kGrain, [&](size_t first, size_t last) {
     for (size_t i = first; i < last; ++i) measureOne(store, pairs, i);
   });

@@ -44,7 +44,7 @@ class HeatSurroundings {
   static constexpr double kStefanBoltzmann = 5.670374419e-8;  ///< W/(m2 K4), CODATA 2018
 
   void configure(const ThermalSettings& settings, const SolverSettings& solver, std::vector<Wall> walls,
-                 std::span<const BakedMaterial> materials);
+                 const Bounds& bounds, std::span<const BakedMaterial> materials);
   /// Once a frame, when pairs are built and temperatures are current.
   void measure(const ParticleStore& store, const api::NeighbourView& lists, const HeatPairs& pairs, uint64_t frame);
   std::span<const Wall> walls() const { return m_walls; }
@@ -79,6 +79,7 @@ class HeatSurroundings {
 
   ThermalSettings m_settings;
   SolverSettings m_solver;
+  Bounds m_bounds;
   std::vector<Wall> m_walls;
   std::span<const BakedMaterial> m_materials;
   std::vector<double> m_emissivity;  ///< by material

@@ -15,8 +15,8 @@ namespace ps {
 /// wall stands beside the particle; its surface is 6 dx2 times the share that is left. Vapour neither covers nor has a
 /// surface.
 ///
-/// The total of a cube of 8^3 particles is 2 % too large, that of a sphere of radius 5 dx 7 % too small; in disorder of
-/// a fifth of a spacing both are 10 % too small. A particle on its own has 6 dx2. The open directions of a plane
+/// The total of a cube of 8^3 particles is 2 % too large, that of a sphere of radius 5 dx 5 % too small; in disorder of
+/// a fifth of a spacing 1 and 3 % too small. A particle on its own has 6 dx2. The open directions of a plane
 /// surface lie within about 50 degrees of its normal.
 class OpenSurface {
  public:
@@ -24,7 +24,7 @@ class OpenSurface {
   /// Unit vectors of a Fibonacci lattice on the sphere, from pole to pole along z.
   static const std::array<std::array<float, 3>, kDirections>& directions();
 
-  /// `filled`: sum of V W of each particle; only those below 0.95 are looked at. `scaledArea`: m2 by index of body, 0
+  /// `filled`: sum of V W of each particle; only those below 1.1 are looked at. `scaledArea`: m2 by index of body, 0
   /// where the surface is what was found; otherwise the body's particles share this area as they would share theirs.
   void measure(const ParticleStore& store, const api::NeighbourView& lists, std::span<const float> filled,
                std::span<const Wall> walls, double spacing, std::span<const double> scaledArea);

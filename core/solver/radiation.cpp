@@ -18,6 +18,8 @@ constexpr double kPlane = 0.8;          ///< length of the mean open direction f
 constexpr double kHalfWidth = 0.45;     ///< spacings, of a particle as rays see it: no ray slips through a layer
 constexpr double kMostCells = 1 << 22;  ///< beyond it cells grow
 constexpr double kFar = 1e30;
+/// Mirrors that a ray follows; what is still between them then exchanges nothing.
+constexpr int kMostMirrors = 64;
 
 /// Number that spreads neighbouring ids over the directions.
 uint32_t spread(uint32_t id) { return (id * 0x9e3779b1u) >> 16; }
@@ -41,6 +43,15 @@ Target nearestWall(std::span<const Wall> walls, const Vector3& from, const Vecto
     if (distance < nearest.distance) nearest = {w, distance};
   }
   return nearest;
+}
+
+/// Bounds may lie in the walls themselves: a spacing more counts as within.
+bool within(const Bounds& bounds, const Vector3& x, double spacing) {
+  const api::Double3 &low = bounds.minimum, &high = bounds.maximum;
+  const auto inside = [&](size_t axis, double at, double from, double to) {
+    return bounds.periodic[axis] || (at >= from - spacing && at <= to + spacing);
+  };
+  return inside(0, x.x, low.x, high.x) && inside(1, x.y, low.y, high.y) && inside(2, x.z, low.z, high.z);
 }
 
 /// Shares of a particle's area along each direction, and where its rays begin above its centre.
@@ -79,8 +90,10 @@ void Radiation::forget() {
 }
 
 void Radiation::trace(const ParticleStore& store, const OpenSurface& surface, std::span<const Wall> walls,
-                      double spacing, uint64_t frame) {
+                      const Bounds& bounds, double spacing, uint64_t frame) {
   const size_t n = store.size();
+  m_bounds = bounds;
+  m_spacing = spacing;
   m_walls = walls.size();
   m_sky.assign(n, 0.0f);
   m_wall.assign(n * m_walls, 0.0f);
@@ -113,18 +126,43 @@ void Radiation::follow(const ParticleStore& store, const OpenSurface& surface, s
       const auto& unit = OpenSurface::directions()[d];
       const Vector3 way{unit[0], unit[1], unit[2]};
       const auto part = static_cast<float>(area * double{fan.share[d]});
-      const Target wall = nearestWall(walls, start, way);
-      const uint32_t met = m_grid.firstOn(store, start, way, wall.distance, i);
-      if (met != Grid::kEmpty) {
-        m_met[e * m_perParticle + k] = met;
+      const End end = endOf(store, walls, start, way, i);
+      if (end.particle != Grid::kEmpty) {
+        m_met[e * m_perParticle + k] = end.particle;
         m_area[e * m_perParticle + k] = part;
-      } else if (wall.index == walls.size()) {
-        if (m_grid.comesOut(way)) m_sky[i] += part;
-      } else if (exchanges(walls[wall.index])) {
-        m_wall[i * m_walls + wall.index] += part;
+      } else if (end.sky) {
+        m_sky[i] += part;
+      } else if (end.wall < walls.size()) {
+        m_wall[i * m_walls + end.wall] += part;
       }
     }
   }
+}
+
+Radiation::End Radiation::endOf(const ParticleStore& store, std::span<const Wall> walls, Vector3 from, Vector3 way,
+                                uint32_t self) const {
+  End end{Grid::kEmpty, walls.size(), false};
+  for (int mirrors = 0; mirrors <= kMostMirrors; ++mirrors) {
+    const Target wall = nearestWall(walls, from, way);
+    end.particle = m_grid.firstOn(store, from, way, wall.distance, self);
+    if (end.particle != Grid::kEmpty) return end;
+    if (wall.index == walls.size()) {
+      end.sky = m_grid.comesOut(way);
+      return end;
+    }
+    if (exchanges(walls[wall.index])) {
+      end.wall = wall.index;
+      return end;
+    }
+    from = from + wall.distance * way;
+    if (!within(m_bounds, from, m_spacing)) {
+      end.sky = true;
+      return end;
+    }
+    const Vector3 normal{walls[wall.index].normal.x, walls[wall.index].normal.y, walls[wall.index].normal.z};
+    way = way - 2 * dot(normal, way) * normal;
+  }
+  return end;
 }
 
 /// Lists of who sees whom from the rays, in order of rays: both ends of a ray carry the same area.

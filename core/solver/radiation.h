@@ -17,16 +17,18 @@ namespace ps {
 /// loses to the last bit; the other half comes from the rays that go back. Up to kRays rays a frame: with a large
 /// surface each frame follows part of the directions, and some frames all of them.
 ///
-/// It cannot do: reflection (what is not absorbed at the first meeting stays with its source, exact between parallel
-/// plates only), vapour and flames that radiate or shade, and gaps of less than three spacings. Walls that let no heat
-/// through send back what they receive.
+/// Walls that let no heat through are mirrors, as far as the scene's bounds reach: beyond, what would meet them has
+/// left the scene, since walls are endless and a tray is not.
+///
+/// It cannot do: reflection by matter and warm walls (what is not absorbed at the first meeting stays with its source,
+/// exact between parallel plates only), vapour and flames that radiate or shade, gaps of less than three spacings.
 class Radiation {
  public:
   static constexpr size_t kRays = 65536;
 
   /// `frame` chooses the directions where not all are followed.
-  void trace(const ParticleStore& store, const OpenSurface& surface, std::span<const Wall> walls, double spacing,
-             uint64_t frame);
+  void trace(const ParticleStore& store, const OpenSurface& surface, std::span<const Wall> walls, const Bounds& bounds,
+             double spacing, uint64_t frame);
   void forget();
 
   /// Area in m2 with which particle i sees partner.
@@ -65,11 +67,20 @@ class Radiation {
     void span(const ParticleStore& store, double spacing);
     void fill(const ParticleStore& store, double spacing);
   };
+  /// Where a ray ends: at a particle, at a wall that has a temperature, outside, or nowhere.
+  struct End {
+    uint32_t particle;
+    size_t wall;
+    bool sky;
+  };
+  End endOf(const ParticleStore& store, std::span<const Wall> walls, Vector3 from, Vector3 way, uint32_t self) const;
   void follow(const ParticleStore& store, const OpenSurface& surface, std::span<const Wall> walls, double spacing,
               uint64_t frame, size_t first, size_t last);
   void couple(size_t count);
 
   Grid m_grid;
+  Bounds m_bounds;
+  double m_spacing = 0;  ///< m
   size_t m_walls = 0, m_perParticle = 64;
   std::vector<uint32_t> m_emitters;  ///< particles with a surface
   std::vector<uint32_t> m_met;       ///< per ray: the particle it met, or kEmpty

@@ -138,7 +138,7 @@ void Solver::Impl::configure() {
   for (LiquidContact* kept : {&wet, &sheets}) kept->configure(settings.spacing, kSkinSpacings * settings.spacing);
   rigid.configure(settings, walls, table);
   gas.configure(settings, thermal, table);
-  heat.configure(thermal, settings, walls, table, model, modelParameters);
+  heat.configure(thermal, settings, walls, bounds, table, model, modelParameters);
   phase.configure(settings, table);
   heat.derive(store);
   if (modelChanged) settleEnergy();  // two models may count the energy of the same matter differently

@@ -103,6 +103,7 @@ class Scene {
   ps::ThermalSettings thermal;
   ps::SolverSettings solver;
   std::vector<ps::Wall> walls;
+  ps::Bounds bounds;
   ps::ParticleStore store;
   ps::Neighbours neighbours;
   ps::HeatStage heat;
@@ -137,7 +138,7 @@ class Scene {
   /// Settings reach the stage; call after any change.
   void configure() {
     solver.spacing = spacing;
-    heat.configure(thermal, solver, walls, materials, model, modelParameters);
+    heat.configure(thermal, solver, walls, bounds, materials, model, modelParameters);
     phase.configure(solver, materials);
     neighbours.configure(solver.supportRatio * spacing, 0.02 * spacing);
   }
