@@ -86,6 +86,7 @@ def rabbit_under_water(title, words, ice, water, scale, pours):
         solver(d, scale),
         [probe("Rabbit", "temperature", "rabbit", body="rabbit"),
          probe("Water", "temperature_max", "water"),
+         probe("Water in the tray", "temperature", "tray", body="water"),
          probe("Rabbit, solid", "solid_mass", "rabbit_solid", body="rabbit"),
          probe("New ice", "solid_mass", "new_ice", body="shower"),
          probe("Rabbit", "height_max", "top", body="rabbit")] + PHASES[:3],

@@ -45,11 +45,12 @@ struct Outcome {
   }
 };
 
-/// What every run gives beside its probes: thermal energy; what came in by walls, air, radiation and sources since the
-/// start, and the amounts of it; what of the change of energy none of these explains, and that as a share of the sum of
-/// |m h|.
-constexpr const char* kHeatTitles[] = {"heat.energy[J]",  "heat.walls[J]",     "heat.air[J]",  "heat.radiation[J]",
-                                       "heat.sources[J]", "heat.exchanged[J]", "heat.open[J]", "heat.open_share[1]"};
+/// What every run gives beside its probes: thermal energy; what came in by walls, air, radiation, heaters and with
+/// matter since the start, and the amounts of it; what of the change of energy none of these explains, and that as a
+/// share of the sum of |m h|.
+constexpr const char* kHeatTitles[] = {"heat.energy[J]",    "heat.walls[J]",   "heat.air[J]",
+                                       "heat.radiation[J]", "heat.heaters[J]", "heat.sources[J]",
+                                       "heat.exchanged[J]", "heat.open[J]",    "heat.open_share[1]"};
 
 void addHeat(Engine& engine, const FrameStats& start, const FrameStats& now, std::vector<double>& row) {
   double sum = 0;
@@ -58,7 +59,8 @@ void addHeat(Engine& engine, const FrameStats& start, const FrameStats& now, std
   const double open = now.thermalEnergy - start.thermalEnergy - (heat.net() - before.net());
   for (const double value :
        {now.thermalEnergy, heat.walls - before.walls, heat.air - before.air, heat.radiation - before.radiation,
-        heat.sources - before.sources, heat.exchanged - before.exchanged, open, sum > 0 ? std::abs(open) / sum : 0.0}) {
+        heat.heaters - before.heaters, heat.sources - before.sources, heat.exchanged - before.exchanged, open,
+        sum > 0 ? std::abs(open) / sum : 0.0}) {
     row.push_back(value);
   }
 }

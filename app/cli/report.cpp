@@ -90,6 +90,7 @@ nlohmann::json Report::json(Engine& engine, double wallSeconds) const {
             {"walls", m_last.heat.walls},
             {"air", m_last.heat.air},
             {"radiation", m_last.heat.radiation},
+            {"heaters", m_last.heat.heaters},
             {"sources", m_last.heat.sources},
             {"air_warming", m_last.heat.airWarming},
             {"exchanged", m_last.heat.exchanged},

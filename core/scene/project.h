@@ -166,7 +166,7 @@ struct Probe {
   std::string quantity;          ///< "temperature", "mass", "speed", ... see probeQuantities()
   std::string body;              ///< Body::id; "" for all particles
   std::string phase;             ///< "solid", "melting", "liquid", "boiling", "gas"; "" for all
-  bool fixed = false;            ///< sees what is held in place as well
+  bool fixed = false;            ///< sees what is held in place as well, as one of a fixed body always does
   std::optional<Region> region;  ///< only what stood in it at the start
   std::optional<Wave> wave;      ///< measures the amplitude of this wave in the quantity, not the quantity itself
   Unknown unknown;

@@ -55,6 +55,9 @@ FrameStats measure(const Solver& solver, const StepReport& report) {
     amount.mass += store.mass()[i];
     temperature.add(store.mass()[i], store.temperature()[i]);
   }
+  if (temperature.count == 0) {  // what is fixed has a temperature too
+    for (size_t i = 0; i < store.size(); ++i) temperature.add(store.mass()[i], store.temperature()[i]);
+  }
   if (temperature.count) {
     stats.temperatureMin = temperature.smallest;
     stats.temperatureMean = temperature.sum / temperature.mass;

@@ -83,15 +83,23 @@ class Measurement {
     const auto& ids = m_view.bodyIds;
     const auto body = static_cast<size_t>(std::find(ids.begin(), ids.end(), m_probe.body) - ids.begin());
     const bool byMass = m_key.base.ends_with("_mass");
+    const bool still = m_probe.fixed || (!m_probe.body.empty() && !moves(body));
     const std::string phase = byMass ? m_key.base.substr(0, m_key.base.size() - 5) : m_probe.phase;
     for (size_t i = 0; i < m_store.size(); ++i) {
-      if (m_store.velocity()[i].w == 0 && !m_probe.fixed) continue;
+      if (m_store.velocity()[i].w == 0 && !still) continue;
       if (!m_probe.body.empty() && m_store.body()[i] != body) continue;
       if (!phase.empty() && phase != phaseName(m_store.phase()[i])) continue;
       const size_t id = m_store.id()[i];
       if (m_probe.region && (id >= m_view.start.size() || !m_probe.region->contains(m_view.start[id]))) continue;
       m_chosen.push_back(i);
     }
+  }
+
+  bool moves(size_t body) const {
+    for (size_t i = 0; i < m_store.size(); ++i) {
+      if (m_store.body()[i] == body && m_store.velocity()[i].w != 0) return true;
+    }
+    return false;
   }
 
   double ofParticle(size_t i) const {

@@ -22,7 +22,7 @@ struct FlowAmount {
 };
 /// Matter that crossed into the scene by the mouths of emitters, and out of it by sinks, since the start, with the heat
 /// that mouths let through; and what is held behind mouths now. Poured + held - drained is what the heat ledger calls
-/// sources, less what was sketched and erased and what bodies' heating power gave.
+/// sources, less what was sketched and erased.
 struct FlowTotal {
   FlowAmount poured, drained, held;
 };

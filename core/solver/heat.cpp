@@ -397,7 +397,7 @@ void HeatStage::gatherPairLaw(const api::NeighbourView& lists, double step, size
 void HeatStage::addFrameHeat(double step, bool firstStep, size_t first, size_t last, Partial& partial) {
   for (size_t i = first; i < last; ++i) {
     const double source = m_watts[i] * step;
-    partial.sources += source;
+    partial.heaters += source;
     partial.exchanged += std::abs(source);
     const double flux = m_surroundings.watts(i) * step;
     if (flux != 0) book(partial, HeatSurroundings::Kind::Wall, flux);
@@ -410,7 +410,7 @@ void HeatStage::closeBooks() {
     m_ledger.walls += partial.walls;
     m_ledger.air += partial.air;
     m_ledger.radiation += partial.radiation;
-    m_ledger.sources += partial.sources;
+    m_ledger.heaters += partial.heaters;
     m_ledger.exchanged += partial.exchanged;
   }
 }

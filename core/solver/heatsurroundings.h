@@ -22,7 +22,7 @@ struct HeatInstant {
 
 /// Heat that came into one chunk of particles, J; `exchanged` adds up absolute amounts.
 struct HeatBooks {
-  double walls = 0, air = 0, radiation = 0, sources = 0, exchanged = 0;
+  double walls = 0, air = 0, radiation = 0, heaters = 0, exchanged = 0;
 };
 
 /// What lies around a particle and gives or takes heat without being a particle.

@@ -87,7 +87,7 @@ struct ThermalSettings {
   double contactConductance = 0;       ///< W/(m2 K) between different bodies, one of them solid; 0: perfect contact
   bool radiation = false;
   double surroundingsTemperature = 293.15;  ///< K, of what surrounds the scene
-  std::vector<double> surfaceArea;          ///< m2 by index of body; 0, or none: as its particles show
+  std::vector<double> surfaceArea{};        ///< m2 by index of body; 0, or none: as its particles show
   double nucleation = 0.3;                  ///< share of latent heat that boiling neighbours pass on
 };
 
@@ -120,11 +120,13 @@ enum class Stage { Neighbours, Density, Structure, Contact, Viscosity, Heat, Pha
 const char* stageName(Stage stage);
 
 /// Heat that entered the particles since the start, in J; `exchanged` adds up absolute amounts. `radiation` is what
-/// came from around the scene: walls' is theirs, and what particles radiate at each other stays.
+/// came from around the scene: walls' is theirs, and what particles radiate at each other stays. `heaters`: bodies'
+/// heating power and sources of the thermal model. `sources`: what came and went with matter, or by another thermal
+/// model.
 struct HeatLedger {
-  double walls = 0, air = 0, radiation = 0, sources = 0, exchanged = 0;
+  double walls = 0, air = 0, radiation = 0, heaters = 0, sources = 0, exchanged = 0;
   double airWarming = 0;  ///< K by which a finite lump of air is warmer than at the start
-  double net() const { return walls + air + radiation + sources; }
+  double net() const { return walls + air + radiation + heaters + sources; }
 };
 
 }  // namespace ps

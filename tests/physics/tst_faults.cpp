@@ -92,12 +92,6 @@ class ThrowingModel final : public ps::thermal::EnthalpyModel {
   Where m_where;
 };
 
-ps::ThermalSettings sped(double timeScale) {
-  ps::ThermalSettings thermal;
-  thermal.timeScale = timeScale;
-  return thermal;
-}
-
 /// Water in a tray whose floor is hot.
 void prepareHotTray(Solver& solver, const ps::api::ThermalPlugin& model, ps::ThermalSettings thermal = {}) {
   prepare(solver, settingsOf(0.02));
@@ -190,7 +184,7 @@ class TestFaults : public QObject {
     const ThrowingModel model(static_cast<ThrowingModel::Where>(where));
     model.armed = fromTheStart;
     Solver solver;
-    prepareHotTray(solver, model, sped(100));
+    prepareHotTray(solver, model, {.timeScale = 100});
     solver.spawn(liquid(lattice(8, 8, 8, 0.02, 0), 300));
     if (!fromTheStart) QVERIFY(run(solver, 10));
     const double before = solver.particles().temperature()[0], exchanged = solver.heatLedger().exchanged;
@@ -219,7 +213,7 @@ class TestFaults : public QObject {
     const ThrowingModel model(ThrowingModel::NotANumber);
     model.armed = false;
     Solver solver;
-    prepareHotTray(solver, model, sped(100));
+    prepareHotTray(solver, model, {.timeScale = 100});
     solver.spawn(liquid(lattice(8, 8, 8, 0.02, 0), 300));
     QVERIFY(run(solver, 10));
     const double energy = solver.thermalEnergy(), net = solver.heatLedger().net();
@@ -235,7 +229,7 @@ class TestFaults : public QObject {
   void declaredLossIsALimitAndNoFault() {
     const ps::thermal::ThesisLatentModel thesis;
     Solver solver;
-    prepareHotTray(solver, thesis, sped(2000));
+    prepareHotTray(solver, thesis, {.timeScale = 2000});
     solver.spawn(ice(lattice(8, 4, 8, 0.02, 0), solver.addConstraintSet(&m_bonds, "bonds", bondParameters()), 260));
     QVERIFY(run(solver, 200));
     const std::vector<ps::Limit> limits = solver.limits();

@@ -410,8 +410,8 @@ class TestHeat : public QObject {
     // 500 J/K each: 2 W/K times 100 K, and 3 W, in one explicit step.
     QVERIFY(std::abs(scene.store.temperature()[0] - 300 - 203 * seconds / 500) < 1e-10);
     QVERIFY(std::abs(scene.store.temperature()[1] - 400 + 197 * seconds / 500) < 1e-10);
-    QVERIFY(std::abs(scene.heat.ledger().sources - 6 * seconds) < 1e-12);
-    QCOMPARE(scene.heat.ledger().net(), scene.heat.ledger().sources);
+    QVERIFY(std::abs(scene.heat.ledger().heaters - 6 * seconds) < 1e-12);
+    QCOMPARE(scene.heat.ledger().net(), scene.heat.ledger().heaters);
   }
 
   void anotherModelTakesOverTemperaturesAndBooksTheDifference() {

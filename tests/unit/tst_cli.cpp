@@ -134,7 +134,7 @@ void TestCli::simulateWritesTheReportsKeys() {
            (Keys{"total", "neighbours", "density", "structure", "contact", "viscosity", "heat", "phase"}));
   for (const auto& stage : r["ms_per_frame"]) QCOMPARE(keysOf(stage), (Keys{"mean", "median", "p95"}));
   QCOMPARE(keysOf(r["density_error"]), (Keys{"mean", "max"}));
-  QCOMPARE(keysOf(r["energy"]), (Keys{"start", "end", "walls", "air", "radiation", "sources", "air_warming",
+  QCOMPARE(keysOf(r["energy"]), (Keys{"start", "end", "walls", "air", "radiation", "heaters", "sources", "air_warming",
                                       "exchanged", "drift", "elastic"}));
   QCOMPARE(keysOf(r["momentum"]), (Keys{"start", "end", "external"}));
   QCOMPARE(keysOf(r["rest"]), (Keys{"from_s", "kinetic_energy", "speed_rms", "moved"}));

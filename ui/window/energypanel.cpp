@@ -30,6 +30,7 @@ EnergyPanel::EnergyPanel(QWidget* parent) : QWidget(parent), m_graph(new GraphVi
   m_graph->addSeries(QStringLiteral("Through walls"), QStringLiteral("kJ"));
   m_graph->addSeries(QStringLiteral("Through air"), QStringLiteral("kJ"));
   m_graph->addSeries(QStringLiteral("Through radiation"), QStringLiteral("kJ"));
+  m_graph->addSeries(QStringLiteral("By heaters"), QStringLiteral("kJ"));
   m_graph->setEmptyText(QStringLiteral("No matter yet"));
   m_ledger->setTextFormat(Qt::RichText);
   m_ledger->setMinimumWidth(230);
@@ -50,6 +51,7 @@ void EnergyPanel::append(const FrameStats& stats) {
   m_graph->append(1, stats.time, stats.heat.walls / 1000);
   m_graph->append(2, stats.time, stats.heat.air / 1000);
   m_graph->append(3, stats.time, stats.heat.radiation / 1000);
+  m_graph->append(4, stats.time, stats.heat.heaters / 1000);
   m_graph->setPresentTime(stats.time);
   m_last = stats;
   const auto line = [](const QString& name, const QString& value) {
@@ -64,7 +66,8 @@ void EnergyPanel::append(const FrameStats& stats) {
       (stats.heat.airWarming == 0
            ? QString()
            : line(QStringLiteral("Air warmed by"), formatFixed(stats.heat.airWarming, 1) + QStringLiteral(" K"))) +
-      line(QStringLiteral("Heated, sketched, erased"), kilojoules(stats.heat.sources)) +
+      line(QStringLiteral("By heaters"), kilojoules(stats.heat.heaters)) +
+      line(QStringLiteral("Came with matter"), kilojoules(stats.heat.sources)) +
       line(QStringLiteral("Motion"), kilojoules(stats.kineticEnergy)) +
       line(QStringLiteral("Balance open by"), balanceText()) + QStringLiteral("</table>"));
 }
