@@ -357,10 +357,11 @@ void Inspector::setSnapshot(const Snapshot& snapshot) {
     const QString key = limitAddress(limit);
     if (key.isEmpty()) continue;
     limited.insert(key);
-    if (m_limited.count(key)) continue;
+    // Said anew each time: the substeps change what is reached, and rows may have been made anew.
     const double substeps = numberOf(m_document.project().solver.parameters, solverParameters(), "substeps");
     const QString text = limitText(limit) +
-                         QStringLiteral(". [Use %1 substeps](solver/substeps=%1)").arg(static_cast<int>(substeps) * 2);
+                         QStringLiteral(". [Use %1 substeps](solver/substeps=%1) to come closer")
+                             .arg(static_cast<int>(substeps) * 2);
     for (ParameterPanel* panel : panels()) panel->setLimit(key, text, limit.delivered);
   }
   for (const QString& key : m_limited) {
