@@ -352,6 +352,24 @@ class TestWindow : public QObject {
     document().setParameter(substeps, before);
   }
 
+  /// A curve is read at the temperature of its own material, not of what else is in the scene.
+  void curvesAreReadAtTheirMatter() {
+    m_window->inspector().setMaterial("water");
+    ParameterPanel* panel = m_window->inspector().materialPanel();
+    const ParameterRow* row = panel->row(QStringLiteral("material/water/viscosity"));
+    QVERIFY(row);
+    Snapshot snapshot;
+    snapshot.stats.temperatureMean = 900;
+    m_window->inspector().setSnapshot(snapshot);
+    QCOMPARE(row->model().temperature, 900.0);  // it has no matter
+    snapshot.material = {0, 0, 1};
+    snapshot.temperature = {280, 300, 1400};
+    m_window->inspector().setSnapshot(snapshot);
+    QCOMPARE(row->model().temperature, 290.0);
+    m_window->inspector().rebuild();  // rows made anew begin there
+    QCOMPARE(panel->row(QStringLiteral("material/water/viscosity"))->model().temperature, 290.0);
+  }
+
   /// Matter drawn and erased while the clock stands shows in the graphs at once.
   void graphsFollowEditsWhileItStands() {
     const uint64_t revision = session().snapshot()->revision;
