@@ -431,6 +431,8 @@ void TestTheme::legendShowsItsMarks() {
   const QImage without = painted({}), with = painted({{0, QStringLiteral("melts")}});
   QVERIFY(without != with);
   QVERIFY(painted({{900, QStringLiteral("boils")}}) == without);  // beyond the range: not drawn
+  QVERIFY(painted({{9.81e-5, QStringLiteral("melts")}}) == with);  // not a power of ten: nobody sees the difference
+  QVERIFY(painted({{1.5, QStringLiteral("melts")}}) != with);
   // The bar is dark blue at the bottom and dark red at the top.
   const QColor bottom = without.pixelColor(16, without.height() - 14), top = without.pixelColor(16, 38);
   QVERIFY(bottom.blue() > bottom.red() && top.red() > top.blue());
