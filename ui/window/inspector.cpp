@@ -370,6 +370,9 @@ void Inspector::onChanged(const ChangeEvent& event) {
     showSceneHeader();
   } else if (const auto* port = std::get_if<PortChanged>(&event)) {
     if (!port->moved) rebuildScene();
+  } else if (std::holds_alternative<WallsChanged>(event)) {
+    rebuildScene();
+    rebuildMaterial();  // one of its rows may be pinned
   } else if (std::holds_alternative<MaterialsChanged>(event)) {
     rebuildMaterial();
   } else if (std::holds_alternative<PinsChanged>(event)) {
