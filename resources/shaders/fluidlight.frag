@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The liquid's surface from its smoothed distances: Fresnel reflection of the studio over what lies behind, bent and
-// tinted by the thickness; in data colours an opaque lit surface.
+// tinted by the thickness; where matter is not clear, and in data colours, an opaque lit surface.
 uniform sampler2D fluidTexture;      // smoothed distance, kFar where there is none
 uniform sampler2D fluidNormal;       // in view space, 0..1
 uniform sampler2D fluidColour;       // colour times thickness, thickness, in radii
+uniform sampler2D fluidClear;        // clearness times thickness
 uniform sampler2D distanceTexture;   // of what is opaque
 uniform sampler2D behindTexture;     // the picture so far
 uniform sampler2DShadow shadowTexture;
@@ -79,6 +80,13 @@ void main() {
     vec3 body = (base * 0.6 + 0.08) * (0.22 + 0.55 * diffuse * mix(0.5, 1.0, key)) + warm * 0.12;
     c = mix(behind * clearness, body, veil * 0.50);
     c = mix(c, reflected, min(fresnel + 0.06, 1.0)) + shine;
+    float clear = clamp(textureLod(fluidClear, uv, 0.0).r / max(thickness, 1e-4), 0.0, 1.0);
+    if (clear < 0.99) {
+      vec3 sky = mix(vec3(0.20, 0.21, 0.24), vec3(0.44, 0.47, 0.53), 0.5 + 0.5 * n.y);
+      float direct = max(dot(n, light.xyz), 0.0) * key;
+      vec3 dense = base * (sky + vec3(0.80, 0.775, 0.73) * direct + warm * 0.3);
+      c = mix(dense + reflected * (fresnel * 0.5 + 0.03) + shine * 0.7, c, clear);
+    }
   }
   colour = vec4(toScreen(tone(c)), edge);
 }

@@ -6,7 +6,10 @@
 #include "tests/shared/scenes.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
+#include "ui/document/documentfiles.h"
 #include "ui/document/scenelink.h"
+#include "ui/document/wallside.h"
+#include "ui/document/worker.h"
 
 #include <QtTest/QTest>
 
@@ -242,6 +245,58 @@ class TestContent : public QObject {
     QCOMPARE(m_document->project().materials.front().id, std::string("wax"));
     QVERIFY(ofWater());
     QVERIFY(m_document->whyMaterialStays("water").contains(QStringLiteral("ice")));
+  }
+
+  void wallsComeAndGoWhileItRuns() {
+    const auto wallsNow = [&] {
+      return onEngine<size_t>(*m_engine, [](Engine& e) { return e.project().environment.walls.size(); });
+    };
+    Project open = m_document->project();
+    std::erase_if(open.environment.walls, [](const SceneWall& wall) { return wall.normal[0] != 0; });
+    m_document->open(open, {}, false, false);
+    step(*m_engine, 3);
+    const std::string before = text();
+    const size_t walls = wallsNow();
+    QCOMPARE(m_document->addWalls(kUprightSides), QString());
+    QCOMPARE(m_document->undoStack().count(), 1);
+    constexpr size_t kAdded = 2;  // front and back stand
+    QCOMPARE(wallsNow(), walls + kAdded);
+    const SceneWall* left = m_document->wall("left");
+    QVERIFY(left && left->point[0] > m_document->project().environment.boundsMinimum[0]);
+    QCOMPARE(left->normal, (Vec3{1, 0, 0}));
+    QVERIFY(!hasTemperature(*left));
+    QVERIFY(m_document->addWalls({"left"}).contains(QStringLiteral("Left side")));  // it stands there already
+    QCOMPARE(m_document->undoStack().count(), 1);
+    QCOMPARE(parseProject(text(), "scene.json", *m_plugins).project.environment.walls.size(), walls + kAdded);
+    m_document->removeWall("left");
+    QCOMPARE(wallsNow(), walls + kAdded - 1);
+    m_document->undoStack().undo();
+    m_document->undoStack().undo();
+    QCOMPARE(text(), before);
+    QCOMPARE(wallsNow(), walls);
+    QCOMPARE(clockAndStructure(*m_engine).first, uint64_t{3});  // the run goes on
+  }
+
+  void noWallCrossesWhatRepeats() {
+    Project project = m_document->project();
+    project.environment.periodic[0] = true;
+    std::erase_if(project.environment.walls, [](const SceneWall& wall) { return wall.normal[0] != 0; });
+    m_document->open(project, {}, false, false);
+    QVERIFY(m_document->addWalls({"left"}).contains(QStringLiteral("along x")));
+    QVERIFY(!m_document->wall("left"));
+  }
+
+  /// Nothing that is drawn in it runs off.
+  void aNewSceneIsATray() {
+    Worker worker;
+    DocumentFiles files(*m_document, worker);
+    files.newProject();
+    const Environment& environment = m_document->project().environment;
+    QCOMPARE(environment.walls.size(), size_t{5});
+    for (const SceneWall& wall : environment.walls) QVERIFY(!hasTemperature(wall));
+    QVERIFY(!m_document->addWalls(kUprightSides).isEmpty());
+    QVERIFY(!m_document->addWalls({"floor"}).isEmpty());
+    QCOMPARE(m_document->addWalls({"lid"}), QString());
   }
 
   void structureIsChosen() {

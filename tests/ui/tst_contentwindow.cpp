@@ -13,6 +13,7 @@
 #include <QtGui/QSurfaceFormat>
 #include <QtWidgets/QLineEdit>
 #include <QtWidgets/QMenu>
+#include <QtWidgets/QPushButton>
 #include <QtWidgets/QTreeView>
 
 #include <set>
@@ -103,6 +104,46 @@ class TestContentWindow : public QObject {
     QCOMPARE(document().project().materials.size(), size_t{1});
     QTest::keyClick(panel, Qt::Key_Return);
     QCOMPARE(document().project().materials.size(), size_t{2});
+  }
+
+  void aWallIsDeletedAndAdded() {
+    const size_t walls = document().project().environment.walls.size();
+    m_window->outliner()->select(OutlineKind::Wall, "left");
+    m_window->action(QStringLiteral("edit.delete"))->trigger();
+    QCOMPARE(document().project().environment.walls.size(), walls - 1);
+    QVERIFY(!document().wall("left"));
+    m_window->action(QStringLiteral("sketch.wall.left"))->trigger();
+    QVERIFY(document().wall("left"));
+    QCOMPARE(m_window->outliner()->selected(), std::pair(OutlineKind::Wall, std::string("left")));
+    QVERIFY(m_window->inspector().scenePanel()->row(QStringLiteral("wall/left/heat")));
+    m_window->action(QStringLiteral("sketch.wall.left"))->trigger();
+    QVERIFY2(m_window->notice()->text().contains(QStringLiteral("already")), qPrintable(m_window->notice()->text()));
+    document().undoStack().undo();
+    document().undoStack().undo();
+    QCOMPARE(document().project().environment.walls.size(), walls);
+  }
+
+  /// What has nothing to do with the last edit does not offer to undo it.
+  void lostMatterOffersSides() {
+    document().setParameter({"wall", "floor", "temperature"}, 350.0);
+    document().removeWall("left");
+    onEngine<int>(session(), [](Engine& engine) {
+      ParticleStore& store = engine.solver().particles();
+      for (size_t i = 0; i < store.size(); ++i) store.position()[i].x -= 5;
+      return 0;
+    });
+    session().step();
+    QTRY_VERIFY_WITH_TIMEOUT(m_window->notice()->text().contains(QStringLiteral("Matter left the scene")), kLong);
+    QStringList buttons;
+    QPushButton* sides = nullptr;
+    for (QPushButton* button : m_window->notice()->findChildren<QPushButton*>()) {
+      buttons << button->text();
+      if (button->text() == QStringLiteral("Add sides")) sides = button;
+    }
+    QVERIFY2(!buttons.contains(QStringLiteral("Undo")), qPrintable(buttons.join(QLatin1Char(','))));
+    QVERIFY2(sides, qPrintable(buttons.join(QLatin1Char(','))));
+    sides->click();
+    QVERIFY(document().wall("left"));
   }
 
   void deleteTakesTheSelectedBody_data() {

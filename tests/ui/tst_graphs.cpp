@@ -35,6 +35,7 @@ class TestGraphs : public QObject {
   void labelsKeepClearOfTheTitle_data();
   void labelsKeepClearOfTheTitle();
   void stackAddsUp();
+  void unitsTakePrefixes();
   void nothingIsNoData();
   void paintingIsFast();
   void graphsAreAccessible();
@@ -311,6 +312,28 @@ void TestGraphs::stackAddsUp() {
   QCOMPARE(at(0.4), QColor(0x3A, 0x63, 0xB8));
   QCOMPARE(at(0.87), QColor(0x45, 0xC4, 0xB8));
   QCOMPARE(at(0.97), QColor(0xF5, 0xF1, 0xE6));
+}
+
+/// The axis takes the prefix that its values need, and says so; the read-out takes the one of each value.
+void TestGraphs::unitsTakePrefixes() {
+  PhaseStackView stack;
+  stack.resize(400, 200);
+  stack.append(0, {0.002, 0, 0, 0, 0});
+  stack.grab();
+  QCOMPARE(stack.axisTitle(), QStringLiteral("Mass by phase, g"));
+  stack.append(1, {141, 0, 0.00154, 0, 0});
+  stack.grab();
+  QCOMPARE(stack.axisTitle(), QStringLiteral("Mass by phase, kg"));
+  QVERIFY2(stack.summary().contains(QStringLiteral("141.0 kg")), qPrintable(stack.summary()));
+  QVERIFY2(stack.summary().contains(QStringLiteral("1.540 g")), qPrintable(stack.summary()));
+  GraphView graph;
+  graph.resize(400, 200);
+  graph.setTitle(QStringLiteral("Energy"));
+  graph.setPrefixedUnit(QStringLiteral("J"));
+  graph.append(graph.addSeries(QStringLiteral("In matter")), 1, 76395660.018);
+  graph.grab();
+  QCOMPARE(graph.axisTitle(), QStringLiteral("Energy, MJ"));
+  QVERIFY2(graph.summary().contains(QStringLiteral("In matter  76.40 MJ")), qPrintable(graph.summary()));
 }
 
 /// 20,000 samples in three lines: the aim is 4 ms on the reference machine; ten times that catches a walk over all

@@ -66,6 +66,8 @@ class TestRender : public QObject {
   void sphereCoversItsProjection_data();
   void sphereCoversItsProjection();
   void nearerSphereWins();
+  void onlyClearLiquidIsSeenThrough_data();
+  void onlyClearLiquidIsSeenThrough();
   void sizesAtTheEdge_data();
   void sizesAtTheEdge();
   void tooLargeAPictureIsRefused_data();
@@ -171,6 +173,40 @@ void TestRender::nearerSphereWins() {
       const auto c = pixelAt(renderImage(renderer, s, scene, o), kWidth / 2, kHeight / 2);
       QVERIFY2(solidInFront == (c[2] > c[0]), qPrintable(QString("%1 %2 %3").arg(c[0]).arg(c[1]).arg(c[2])));
     }
+}
+
+void TestRender::onlyClearLiquidIsSeenThrough_data() {
+  QTest::addColumn<float>("clearness");
+  QTest::addColumn<int>("colour");
+  QTest::newRow("water") << 1.f << int(ColourBy::Material);
+  QTest::newRow("lava") << 0.f << int(ColourBy::Material);
+  QTest::newRow("lava coloured by temperature") << 0.f << int(ColourBy::Temperature);
+}
+
+/// A sphere behind a curtain of liquid shows in the picture only where the liquid is clear.
+void TestRender::onlyClearLiquidIsSeenThrough() {
+  QFETCH(float, clearness);
+  QFETCH(int, colour);
+  Renderer renderer;
+  Snapshot curtain;
+  curtain.materialLook = {{0.9f, 0.3f, 0.1f, clearness}, {0, 1, 0, 0}};
+  for (int i = 0; i < 16; ++i)
+    for (int j = 0; j < 16; ++j)
+      addParticle(curtain, {i * 0.02 - 0.15, 0.15 + j * 0.02, 0}, 0.0124, static_cast<uint32_t>(16 * i + j),
+                  api::Motion::Liquid);
+  Snapshot behind = curtain;
+  addParticle(behind, {0, 0.3, -0.15}, 0.06, 999, api::Motion::Solid);
+  behind.material.back() = 1;
+  RenderOptions o = options(static_cast<ColourBy>(colour));
+  o.camera = Camera{{0, 0.3, 0}, 1, 0, 0};
+  const auto without = pixelAt(renderImage(renderer, curtain, RenderScene{}, o), kWidth / 2, kHeight / 2);
+  const auto with = pixelAt(renderImage(renderer, behind, RenderScene{}, o), kWidth / 2, kHeight / 2);
+  const int seen = std::abs(with[0] - without[0]) + std::abs(with[1] - without[1]) + std::abs(with[2] - without[2]);
+  const QByteArray all =
+      QByteArray::number(seen) + " red " + QByteArray::number(without[0]) + " blue " + QByteArray::number(without[2]);
+  QVERIFY2(clearness > 0.5f ? seen > 60 : seen < 6, all.constData());
+  // Opaque matter has its own colour.
+  if (clearness < 0.5f && o.colour == ColourBy::Material) QVERIFY2(without[0] > 2 * without[2], all.constData());
 }
 
 void TestRender::sizesAtTheEdge_data() {

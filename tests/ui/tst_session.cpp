@@ -263,7 +263,7 @@ class TestSession : public QObject {
     QCOMPARE(session().snapshot()->stats.frame, uint64_t{0});
     QTRY_COMPARE(m_window->graphs()->temperatures()->summary(), QStringLiteral("No matter yet"));
     QCOMPARE(m_window->inspector().scenePanel()->findChild<PanelHeader*>()->accessibleDescription(),
-             QStringLiteral("0 bodies, 1 wall"));
+             QStringLiteral("0 bodies, 5 walls"));
     press(*m_window, Qt::Key_B);
     QCOMPARE(m_window->viewport()->invitation(), QStringLiteral("Draw with the left button"));
   }

@@ -22,6 +22,7 @@
 #include <QtCore/QTemporaryDir>
 #include <QtGui/QAction>
 #include <QtGui/QSurfaceFormat>
+#include <QtWidgets/QLabel>
 #include <QtWidgets/QLineEdit>
 
 #include <algorithm>
@@ -322,6 +323,51 @@ class TestWindow : public QObject {
     QCOMPARE(m_window->inspectorDock()->currentPage(), QStringLiteral("Solver"));
     QVERIFY(m_window->revealParameter({"material", "water", "viscosity"}));
     QCOMPARE(m_window->inspectorDock()->currentPage(), QStringLiteral("Material"));
+  }
+
+  /// What the solver reaches, and what the note's link asks for, change with the substeps.
+  void aNoteOfALimitFollowsTheSubsteps() {
+    const Address substeps{"solver", "", "substeps"};
+    const double before = std::get<double>(document().value(substeps));
+    m_window->inspector().setMaterial("water");
+    Snapshot snapshot;
+    const auto noteWith = [&](double delivered) {
+      snapshot.limits = {{"water.youngs_modulus", 9.3e9, delivered, "Pa"}};
+      m_window->inspector().setSnapshot(snapshot);
+      ParameterRow* row = m_window->inspector().materialPanel()->row(QStringLiteral("material/water/youngs_modulus"));
+      const auto* note = row ? row->findChild<QLabel*>(QStringLiteral("psLimit")) : nullptr;
+      return note ? note->text() : QString();
+    };
+    document().setParameter(substeps, 4.0);
+    const QString coarse = noteWith(5e6);
+    QVERIFY2(coarse.contains(QStringLiteral("5.00 MPa")) && coarse.contains(QStringLiteral("substeps=8")),
+             qPrintable(coarse));
+    document().setParameter(substeps, 8.0);
+    const QString fine = noteWith(2e7);
+    QVERIFY2(fine.contains(QStringLiteral("20.0 MPa")) && fine.contains(QStringLiteral("substeps=16")), qPrintable(fine));
+    m_window->inspector().rebuild();  // rows made anew say it again
+    QCOMPARE(noteWith(2e7), fine);
+    snapshot.limits.clear();
+    m_window->inspector().setSnapshot(snapshot);
+    document().setParameter(substeps, before);
+  }
+
+  /// A curve is read at the temperature of its own material, not of what else is in the scene.
+  void curvesAreReadAtTheirMatter() {
+    m_window->inspector().setMaterial("water");
+    ParameterPanel* panel = m_window->inspector().materialPanel();
+    const ParameterRow* row = panel->row(QStringLiteral("material/water/viscosity"));
+    QVERIFY(row);
+    Snapshot snapshot;
+    snapshot.stats.temperatureMean = 900;
+    m_window->inspector().setSnapshot(snapshot);
+    QCOMPARE(row->model().temperature, 900.0);  // it has no matter
+    snapshot.material = {0, 0, 1};
+    snapshot.temperature = {280, 300, 1400};
+    m_window->inspector().setSnapshot(snapshot);
+    QCOMPARE(row->model().temperature, 290.0);
+    m_window->inspector().rebuild();  // rows made anew begin there
+    QCOMPARE(panel->row(QStringLiteral("material/water/viscosity"))->model().temperature, 290.0);
   }
 
   /// Matter drawn and erased while the clock stands shows in the graphs at once.

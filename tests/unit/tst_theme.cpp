@@ -50,6 +50,7 @@ class TestTheme : public QObject {
   void iconsTintAndStaySharp();
   void numbersAreFormatted_data();
   void numbersAreFormatted();
+  void prefixesKeepNumbersShort();
   void absoluteZeroStandsForNone();
   void errorsBelowRoundingAreNotSpelledOut();
   void fieldsKeepTheirDecimals_data();
@@ -221,6 +222,19 @@ void TestTheme::numbersAreFormatted() {
     QCOMPARE(formatFixed(-0.04, 1), QStringLiteral("0.0"));  // no minus before zero
   }
   QCOMPARE(spaced(formatQuantity(3e-6, QStringLiteral("m"))), QString::fromUtf8("3 × 10⁻⁶ m"));
+}
+
+void TestTheme::prefixesKeepNumbersShort() {
+  const auto text = [](double value, const char* unit) { return formatPrefixed(value, QString::fromUtf8(unit)); };
+  QCOMPARE(text(76395660.018, "J"), QStringLiteral("76.40 MJ"));
+  QCOMPARE(text(141000, "g"), QStringLiteral("141.0 kg"));
+  QCOMPARE(text(1.54, "g"), QStringLiteral("1.540 g"));
+  QCOMPARE(text(0.00154, "g"), QStringLiteral("1.540 mg"));
+  QCOMPARE(text(999.96, "J"), QStringLiteral("1.000 kJ"));  // as it is rounded
+  QCOMPARE(text(-2500, "J"), QString::fromUtf8("−2.500 kJ"));
+  QCOMPARE(text(0, "J"), QStringLiteral("0 J"));
+  QCOMPARE(text(-1e-12, "J"), QStringLiteral("0 J"));
+  QCOMPARE(text(std::numeric_limits<double>::quiet_NaN(), "J"), QString::fromUtf8("— J"));
 }
 
 void TestTheme::errorsBelowRoundingAreNotSpelledOut() {
@@ -430,7 +444,9 @@ void TestTheme::legendShowsItsMarks() {
   };
   const QImage without = painted({}), with = painted({{0, QStringLiteral("melts")}});
   QVERIFY(without != with);
-  QVERIFY(painted({{900, QStringLiteral("boils")}}) == without);  // beyond the range: not drawn
+  QVERIFY(painted({{900, QStringLiteral("boils")}}) == without);   // beyond the range: not drawn
+  QVERIFY(painted({{9.81e-5, QStringLiteral("melts")}}) == with);  // not a power of ten: nobody sees the difference
+  QVERIFY(painted({{1.5, QStringLiteral("melts")}}) != with);
   // The bar is dark blue at the bottom and dark red at the top.
   const QColor bottom = without.pixelColor(16, without.height() - 14), top = without.pixelColor(16, 38);
   QVERIFY(bottom.blue() > bottom.red() && top.red() > top.blue());

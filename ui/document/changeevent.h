@@ -31,6 +31,8 @@ struct BodyChanged {
 struct PortChanged {
   bool moved = false;
 };
+/// Walls came or went.
+struct WallsChanged {};
 /// The scene has one material more, or less.
 struct MaterialsChanged {};
 /// A stroke was made (`live`: its particles are in the engine already), undone or redone.
@@ -46,7 +48,7 @@ struct PinsChanged {};
 struct FileChanged {};
 
 /// What happened to a document, as one value: receivers visit it.
-using ChangeEvent = std::variant<ProjectOpened, ParameterChanged, BodyChanged, PortChanged, MaterialsChanged,
-                                 StrokeChanged, ViewChanged, PinsChanged, FileChanged>;
+using ChangeEvent = std::variant<ProjectOpened, ParameterChanged, BodyChanged, PortChanged, WallsChanged,
+                                 MaterialsChanged, StrokeChanged, ViewChanged, PinsChanged, FileChanged>;
 
 }  // namespace ps

@@ -61,6 +61,13 @@ bool PortCommand::mergeWith(const QUndoCommand* other) {
       m_edit);
 }
 
+WallsCommand::WallsCommand(Document& document, std::vector<SceneWall> before, std::vector<SceneWall> after,
+                           const QString& text)
+    : QUndoCommand(text), m_document(document), m_before(std::move(before)), m_after(std::move(after)) {}
+
+void WallsCommand::undo() { m_document.applyWalls(m_before); }
+void WallsCommand::redo() { m_document.applyWalls(m_after); }
+
 MaterialCommand::MaterialCommand(Document& document, SceneMaterial material, size_t index, bool adds,
                                  const QString& text)
     : QUndoCommand(text), m_document(document), m_material(std::move(material)), m_index(index), m_adds(adds) {}

@@ -61,6 +61,18 @@ class PortCommand : public QUndoCommand {
   int m_gesture;
 };
 
+/// Walls that come or go: the list before and after.
+class WallsCommand : public QUndoCommand {
+ public:
+  WallsCommand(Document& document, std::vector<SceneWall> before, std::vector<SceneWall> after, const QString& text);
+  void undo() override;
+  void redo() override;
+
+ private:
+  Document& m_document;
+  std::vector<SceneWall> m_before, m_after;
+};
+
 /// A material that comes into the scene, or leaves it.
 class MaterialCommand : public QUndoCommand {
  public:

@@ -91,6 +91,13 @@ class Document : public QObject {
   void removePort(const Port& port);  ///< what it poured stays
   std::optional<Port> duplicatePort(const Port& port);
 
+  // Walls
+  const SceneWall* wall(const std::string& id) const;
+  /// Walls that let no heat through, where the scene ends: ids of kWallSides. As one step; sides that are closed
+  /// already are left out. Returns "" or why none came.
+  QString addWalls(const std::vector<std::string>& sides);
+  void removeWall(const std::string& id);
+
   // Materials
   /// The scene's material of an installed one, added where there is none yet. Returns its id.
   std::string addMaterial(const std::string& base);
@@ -107,6 +114,7 @@ class Document : public QObject {
   void applyParameter(const Address& address, const std::optional<Value>& value);
   void applyBodies(const std::vector<SceneEdit>& edits, bool forward, const std::shared_ptr<StrokeTrace>& matter);
   void applyPort(const AnyPortEdit& edit, bool forward);
+  void applyWalls(const std::vector<SceneWall>& walls);
   void applyMaterial(const SceneMaterial& material, size_t index, bool present);
   void applyStroke(const std::shared_ptr<StrokeRecord>& stroke, bool done, bool live);
   void applyPins(const std::vector<std::string>& pins);

@@ -4,11 +4,14 @@
 #include "core/io/projectio.h"
 #include "ui/document/autosave.h"
 #include "ui/document/document.h"
+#include "ui/document/wallside.h"
 #include "ui/document/worker.h"
 
 #include <QtCore/QElapsedTimer>
 #include <QtCore/QFileInfo>
 #include <QtCore/QSettings>
+
+#include <string_view>
 
 namespace ps {
 namespace {
@@ -24,12 +27,12 @@ Project emptyProject() {
   water.id = water.base = "water";
   water.label = "Water";
   project.materials.push_back(water);
-  SceneWall floor;
-  floor.id = "floor";
-  floor.name = "Floor";
-  project.environment.walls.push_back(floor);
-  project.environment.boundsMinimum = {-1, -0.2, -1};
-  project.environment.boundsMaximum = {1, 2, 1};
+  for (const WallSide& side : kWallSides) {
+    if (std::string_view(side.id) != "lid")
+      project.environment.walls.push_back(wallOn(side, {-0.3, 0, -0.3}, {0.3, 0.8, 0.3}));
+  }
+  project.environment.boundsMinimum = {-0.4, -0.2, -0.4};
+  project.environment.boundsMaximum = {0.4, 1, 0.4};
   project.pluginsUsed = {"bonds", "enthalpy", "water"};
   return project;
 }

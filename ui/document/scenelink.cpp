@@ -110,7 +110,8 @@ void SceneLink::onChanged(const ChangeEvent& event) {
     }
   } else if (const auto* body = std::get_if<BodyChanged>(&event)) {
     onBody(*body);
-  } else if (std::holds_alternative<MaterialsChanged>(event) || std::holds_alternative<PortChanged>(event)) {
+  } else if (std::holds_alternative<MaterialsChanged>(event) || std::holds_alternative<PortChanged>(event) ||
+             std::holds_alternative<WallsChanged>(event)) {
     if (isBroken()) {
       rebuild(false);
     } else {

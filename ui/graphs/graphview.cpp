@@ -98,7 +98,9 @@ std::pair<double, double> GraphView::valueExtent(double first, double last) cons
   if (extent.empty()) return {0, 1};
   // A reference line just beyond the data is worth showing; one far away would press the data flat.
   // Less than half a percent is drawn flat: ticks that close would have no end of digits.
-  const double least = std::max(1e-6, 5e-3 * std::max(std::abs(extent.low), std::abs(extent.high)));
+  // So is what a prefix of its unit would blow up: a millijoule.
+  const double least =
+      std::max(prefixedUnit().isEmpty() ? 1e-6 : 1e-3, 5e-3 * std::max(std::abs(extent.low), std::abs(extent.high)));
   const double span = std::max(extent.high - extent.low, least);
   const SampleSeries::Extent drawn = extent;
   for (const ReferenceLine& line : d->references) {
@@ -195,10 +197,11 @@ void GraphView::paintLabels(QPainter& painter) {
   const QFont font = Theme::font(TextRole::Small);
   QColor ground = theme[Token::Field];
   ground.setAlphaF(0.75f);
-  const QRectF heading(plot.left() + 7, plot.top() + 3, std::min(textWidth(title(), font) + 1, plot.width() - 14), 16);
+  const QRectF heading(plot.left() + 7, plot.top() + 3, std::min(textWidth(axisTitle(), font) + 1, plot.width() - 14),
+                       16);
   if (!title().isEmpty())
     painter.fillRect(heading.adjusted(-2, 1, 2, -1), ground);  // the line of the present time passes here
-  paintText(painter, heading, Qt::AlignLeft | Qt::AlignVCenter, title(), font, theme[Token::Text2]);
+  paintText(painter, heading, Qt::AlignLeft | Qt::AlignVCenter, axisTitle(), font, theme[Token::Text2]);
   struct Label {
     double top;
     QPointF end;
@@ -213,8 +216,8 @@ void GraphView::paintLabels(QPainter& painter) {
         samples.lastTime() > last)
       continue;
     const QPointF end(x(samples.lastTime()), y(samples.lastValue()));
-    labels.push_back(
-        {end.y() - 8, end, i, d->series[i].name + QLatin1Char(' ') + curveText(valueTicks(), samples.lastValue())});
+    labels.push_back({end.y() - 8, end, i,
+                      d->series[i].name + QLatin1Char(' ') + curveText(valueTicks(), onAxis(samples.lastValue()))});
   }
   // From the top down, each label at its line's end or as little below it as keeps the texts apart.
   std::sort(labels.begin(), labels.end(), [](const Label& a, const Label& b) { return a.top < b.top; });
@@ -244,9 +247,10 @@ QStringList GraphView::readOut(double time) const {
   for (const Series& series : d->series) {
     const double value = series.samples.valueAt(time);
     const QString unit = series.unit.isEmpty() ? d->unit : series.unit;
-    if (std::isfinite(value))
-      lines << series.name + QStringLiteral("  ") + formatNumber(value) +
-                   (unit.isEmpty() ? unit : QLatin1Char(' ') + unit);
+    const QString text = !prefixedUnit().isEmpty() ? formatPrefixed(value, prefixedUnit())
+                         : unit.isEmpty()          ? formatNumber(value)
+                                                   : formatNumber(value) + QLatin1Char(' ') + unit;
+    if (std::isfinite(value)) lines << series.name + QStringLiteral("  ") + text;
   }
   return lines.size() > 1 ? lines : QStringList();
 }

@@ -18,6 +18,7 @@ namespace {
 
 constexpr size_t kPhases = 5;
 constexpr double kGrams = 1e3;
+const QString kUnit = QStringLiteral("g");
 
 }  // namespace
 
@@ -31,7 +32,8 @@ struct PhaseStackView::Private {
 };
 
 PhaseStackView::PhaseStackView(QWidget* parent) : TimePlot(parent), d(std::make_unique<Private>()) {
-  setTitle(QStringLiteral("Mass by phase, g"));
+  setTitle(QStringLiteral("Mass by phase"));
+  setPrefixedUnit(kUnit);
 }
 PhaseStackView::~PhaseStackView() = default;
 
@@ -102,7 +104,7 @@ void PhaseStackView::paintLabels(QPainter& painter) {
   const ColourMap& map = colourMap(QStringLiteral("phase"));
   const double end = std::min(lastTime(), timeRange().second);
   paintText(painter, QRectF(plot.left() + 7, plot.top() + 3, plot.width() - 14, 16), Qt::AlignRight | Qt::AlignVCenter,
-            title(), font, theme[Token::Muted]);
+            axisTitle(), font, theme[Token::Muted]);
   struct Label {
     double middle, top;
     size_t phase;
@@ -114,9 +116,8 @@ void PhaseStackView::paintLabels(QPainter& painter) {
     const double mass = d->massAt(phase, end);
     if (!(mass > 1e-4 * total)) continue;
     const double middle = y(d->cumulative[phase].valueAt(end) - mass / 2);
-    labels.push_back(
-        {middle, middle - 8, phase,
-         phaseName(static_cast<api::Phase>(phase)) + QLatin1Char(' ') + formatShort(mass, 3) + QStringLiteral(" g")});
+    labels.push_back({middle, middle - 8, phase,
+                      phaseName(static_cast<api::Phase>(phase)) + QLatin1Char(' ') + formatPrefixed(mass, kUnit, 3)});
   }
   for (size_t i = 0; i < labels.size(); ++i) {
     labels[i].top = std::max(labels[i].top, i == 0 ? plot.top() + titleStrip() - 3 : labels[i - 1].top + 16);
@@ -151,8 +152,7 @@ QStringList PhaseStackView::readOut(double time) const {
   for (size_t phase = kPhases; phase-- > 0;) {
     const double mass = d->massAt(phase, time);
     if (mass > 0)
-      lines << phaseName(static_cast<api::Phase>(phase)) + QStringLiteral("  ") + formatNumber(mass) +
-                   QStringLiteral(" g");
+      lines << phaseName(static_cast<api::Phase>(phase)) + QStringLiteral("  ") + formatPrefixed(mass, kUnit);
   }
   return lines.size() > 1 ? lines : QStringList();
 }

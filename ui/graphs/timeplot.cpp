@@ -132,6 +132,16 @@ void TimePlot::setTitle(const QString& title) {
 }
 QString TimePlot::title() const { return d->title; }
 
+void TimePlot::setPrefixedUnit(const QString& unit) {
+  d->unit = unit;
+  dataChanged();
+}
+QString TimePlot::prefixedUnit() const { return d->unit; }
+double TimePlot::onAxis(double value) const { return value / d->prefix.factor; }
+QString TimePlot::axisTitle() const {
+  return d->unit.isEmpty() ? d->title : d->title + QStringLiteral(", ") + d->prefix.symbol + d->unit;
+}
+
 void TimePlot::setEmptyText(const QString& text) {
   if (d->emptyText == text) return;
   d->emptyText = text;
@@ -217,7 +227,8 @@ void TimePlot::paintEvent(QPaintEvent*) {
   const auto range = timeRange();
   if (hasData()) {
     std::tie(d->low, d->high) = valueExtent(range.first, range.second);
-    d->values = niceTicks(d->low, d->high, std::max(2, static_cast<int>(plotRect().height() / 26)));
+    if (!d->unit.isEmpty()) d->prefix = prefixFor(std::max(std::abs(d->low), std::abs(d->high)));
+    d->values = niceTicks(onAxis(d->low), onAxis(d->high), std::max(2, static_cast<int>(plotRect().height() / 26)));
     d->left = widthOf(d->values) + 9;
   }
   const QRectF plot = plotRect();
@@ -229,7 +240,7 @@ void TimePlot::paintEvent(QPaintEvent*) {
   }
   const Ticks times = niceTicks(range.first, range.second, std::max(2, static_cast<int>(plot.width() / 64)));
   paintTimeAxis(painter, plot, range, times);
-  paintValueAxis(painter, plot, {d->low, d->high}, d->values);
+  paintValueAxis(painter, plot, {onAxis(d->low), onAxis(d->high)}, d->values);
   painter.save();
   painter.setClipRect(plot);
   paintData(painter);

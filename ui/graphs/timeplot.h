@@ -34,6 +34,10 @@ class TimePlot : public QWidget {
 
   void setTitle(const QString& title);  ///< "Temperature, °C"
   QString title() const;
+  QString axisTitle() const;  ///< with the unit of the axis as of the last paint, where it takes a prefix
+  /// Unit of the values without a prefix, "J" or "g": the axis takes the prefix that suits it, and the title says it.
+  /// "" for values that are shown as they are.
+  void setPrefixedUnit(const QString& unit);
   void setEmptyText(const QString& text);  ///< shown while there is no data
   /// The axis shows at least [0, seconds] while it is fitted; longer data extend it.
   void setDuration(double seconds);
@@ -67,7 +71,9 @@ class TimePlot : public QWidget {
   double y(double value) const;
   double timeAt(double x) const;
   double presentTime() const;
-  const Ticks& valueTicks() const;  ///< of the value axis, as of the last paint
+  const Ticks& valueTicks() const;    ///< of the value axis, as of the last paint, in its unit with prefix
+  double onAxis(double value) const;  ///< a value in the unit of the axis
+  QString prefixedUnit() const;
   /// Height of the strip at the plot's top that belongs to its title, logical pixels.
   double titleStrip() const;
   /// Upper end of a value axis from `low` on, so that `high` stays below the title.

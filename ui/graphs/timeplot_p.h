@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "ui/graphs/timeplot.h"
+#include "ui/theme/numbers.h"
 
 #include <limits>
 
@@ -14,6 +15,8 @@ struct TimePlot::Private {
   bool fitted = true;
   double first = 0, last = 10;  ///< s, shown while not fitted
   double low = 0, high = 1;     ///< values shown, as of the last paint
+  QString unit;                 ///< see setPrefixedUnit
+  UnitPrefix prefix;            ///< of the value axis, as of the last paint
   Ticks values;                 ///< of the value axis, as of the last paint
   double left = 0;              ///< room for the value axis, logical pixels, as of the last paint
   QPointF hover{-1, -1};        ///< outside: no read-out

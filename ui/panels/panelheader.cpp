@@ -16,6 +16,7 @@ PanelHeader::PanelHeader(QWidget* parent) : QWidget(parent) {
 }
 
 void PanelHeader::setTexts(const QString& name, const QString& subtitle, const QString& detail) {
+  if (name == m_name && subtitle == m_subtitle && detail == m_detail) return;
   m_name = name;
   m_subtitle = subtitle;
   m_detail = detail;

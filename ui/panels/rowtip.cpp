@@ -38,6 +38,7 @@ QString ParameterRow::Private::toolTipText() const {
   if (!isCurve(model.defaultValue) && isNumeric()) {
     text += line("Default", formatValue(p, numberOfValue(p, model.defaultValue, model.temperature)));
   }
+  if (showsCurve()) text += line("Shown at", formatFixed(model.temperature - 273.15, 1) + QStringLiteral(" °C"));
   text += line("Example", QString::fromUtf8(p.example ? p.example : ""));
   text += line("Source", !model.source.isEmpty() ? model.source : QString::fromUtf8(p.source ? p.source : ""));
   return text;

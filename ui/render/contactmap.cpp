@@ -27,7 +27,7 @@ void blur(std::vector<float>& grid, int radius) {
 
 }  // namespace
 
-void fillContactMap(const Instances& instances, bool clear, ContactMap& map) {
+void fillContactMap(const Instances& instances, ContactMap& map) {
   constexpr int n = ContactMap::kCells;
   constexpr size_t kCount = static_cast<size_t>(n * n);
   for (auto& sum : map.sums) sum.assign(kCount, 0);
@@ -42,7 +42,7 @@ void fillContactMap(const Instances& instances, bool clear, ContactMap& map) {
     const float height = p.y - p.radius - map.floor;
     if (x < 0 || z < 0 || x >= n || z >= n || height < -2 * p.radius) continue;
     const size_t at = static_cast<size_t>(z * n + x);
-    const float share = 3.14f * p.radius * p.radius / cell * (i >= instances.spheres && clear ? 0.3f : 1);
+    const float share = 3.14f * p.radius * p.radius / cell * (i >= instances.spheres + instances.dense ? 0.3f : 1);
     const float w = share * std::exp(-std::max(0.f, height) / reach);
     close[at] += w;
     wide[at] += share * std::exp(-std::max(0.f, height) / tall) * 0.35f;

@@ -59,14 +59,18 @@ Colour materialColour(const Snapshot& s, size_t i) {
   return own;
 }
 
-/// As shaders read it: a Kind, and for solids and what melts its clearness in steps above it.
+/// As shaders read it: a Kind, and for solids and liquids its clearness in steps above it.
 float kindOf(const InstanceRequest& request, size_t i) {
   const Snapshot& s = *request.now;
   if (s.motion[i] == api::Motion::Static) return static_cast<float>(Kind::Matte);
   if (request.colour != ColourBy::Material) return static_cast<float>(Kind::Plain);
-  const Kind kind = s.phase[i] == api::Phase::Solid ? Kind::Solid : Kind::Wet;
+  const bool flows = s.motion[i] == api::Motion::Liquid;
+  const Kind kind = s.phase[i] == api::Phase::Solid && !flows ? Kind::Solid : Kind::Wet;
   return static_cast<float>(kind) + std::round(kClearest * std::clamp(lookOf(s, i)[3], 0.f, 1.f));
 }
+
+/// Whether a liquid's surface hides more than it shows; all do where colours are data.
+bool isDense(const Instance& p) { return p.extra < static_cast<float>(Kind::Wet) + kClearest / 2; }
 
 // Everything that does not depend on the order in which particles are drawn.
 class Evaluator {
@@ -191,6 +195,7 @@ void collectInstances(const InstanceRequest& request, Instances& out) {
   if (request.cull) dropBuried(out.sphereExtent, out.radius, spheres);
   out.visible = request.cull ? sortVisible(*request.cull, spheres) : spheres.size();
   for (const Instance& p : liquids) out.liquidExtent.add(p.x, p.y, p.z, p.radius * 1.6f);
+  out.dense = static_cast<size_t>(std::partition(liquids.begin(), liquids.end(), isDense) - liquids.begin());
   for (const Instance& p : vapours) out.vapourExtent.add(p.x, p.y, p.z, p.radius * 8);
   out.spheres = spheres.size();
   out.liquids = liquids.size();

@@ -57,6 +57,7 @@ struct InstanceRequest {
 struct Instances {
   std::vector<Instance> particles;
   size_t visible = 0, spheres = 0, liquids = 0, vapours = 0, outlined = 0;
+  size_t dense = 0;  ///< of the liquids, the first ones: they hide what lies behind them and cast shadows
   Extent sphereExtent, liquidExtent, vapourExtent;
   float radius = 0.01f;                                ///< mean of what is neither vapour nor static, m
   std::vector<Instance> all, liquid, vapour, outline;  ///< while it is filled; kept for their memory
@@ -70,7 +71,7 @@ void collectInstances(const InstanceRequest& request, Instances& out);
 size_t sortVisible(const CullView& view, std::vector<Instance>& spheres);
 /// Leaves out spheres whose 26 neighbouring cells, 2 `radius` wide, all hold others.
 void dropBuried(const Extent& extent, float radius, std::vector<Instance>& list);
-/// Fills texels from spheres and liquids; liquids count less where `clear`.
-void fillContactMap(const Instances& instances, bool clear, ContactMap& map);
+/// Fills texels from spheres and liquids; clear liquids count less.
+void fillContactMap(const Instances& instances, ContactMap& map);
 
 }  // namespace ps::render

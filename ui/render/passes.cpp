@@ -162,7 +162,7 @@ void Passes::drawShadow(const Frame& frame) {
   glUniformMatrix4fv(program.at("toLight"), 1, GL_FALSE, frame.toLight.data());
   glUniform2f(program.at("radiusScale"), frame.shadowScale[0], frame.shadowScale[1]);
   // Clear liquid casts no hard shadow; the contact map dims the floor a little under it.
-  drawParticles(program, 0, 3 * (frame.instances.spheres + (frame.data ? frame.instances.liquids : 0)));
+  drawParticles(program, 0, 3 * (frame.instances.spheres + frame.instances.dense));
 }
 
 void Passes::drawSurfaces(const Frame& frame) {
@@ -241,7 +241,7 @@ void Passes::drawLight(const Frame& frame) {
 
 void Passes::drawFluid(const Frame& frame) {
   const int scale = m_quality.fluidScale, width = reduced(frame.width, scale), height = reduced(frame.height, scale);
-  for (Texture* texture : {&m_fluid, &m_fluidOther, &m_fluidColour, &m_fluidDepth, &m_fluidNormal})
+  for (Texture* texture : {&m_fluid, &m_fluidOther, &m_fluidColour, &m_fluidClear, &m_fluidDepth, &m_fluidNormal})
     texture->resize(width, height);
   m_behind.resize(frame.width, frame.height);
   const size_t first = frame.instances.spheres, count = frame.instances.liquids;
@@ -256,8 +256,9 @@ void Passes::drawFluid(const Frame& frame) {
     drawParticles(m_programs.fluidDepth, first, 3 * count);
   }
   {
-    const Target target({&m_fluidColour}, nullptr);
+    const Target target({&m_fluidColour, &m_fluidClear}, nullptr);
     clearColour(0, 0, 0, 0, 0);
+    clearColour(1, 0, 0, 0, 0);
     glDisable(GL_DEPTH_TEST);
     glEnable(GL_BLEND);
     glBlendFunc(GL_ONE, GL_ONE);
@@ -279,6 +280,7 @@ void Passes::drawFluid(const Frame& frame) {
   program.texture("fluidTexture", 0, m_fluid.name());
   program.texture("fluidColour", 1, m_fluidColour.name());
   program.texture("fluidNormal", 5, m_fluidNormal.name());
+  program.texture("fluidClear", 6, m_fluidClear.name());
   program.texture("distanceTexture", 2, m_distance.name());
   program.texture("behindTexture", 3, m_behind.name());
   program.texture("shadowTexture", 4, m_shadow.name());

@@ -109,6 +109,7 @@ class Passes {
   Texture m_picture{GL_RGBA8, GL_LINEAR}, m_behind{GL_RGBA8, GL_LINEAR};
   Texture m_shadow{GL_DEPTH_COMPONENT24, GL_LINEAR};
   Texture m_fluid{GL_R32F, GL_NEAREST}, m_fluidOther{GL_R32F, GL_NEAREST}, m_fluidColour{GL_RGBA16F, GL_LINEAR};
+  Texture m_fluidClear{GL_R16F, GL_LINEAR};
   Texture m_fluidNormal{GL_RGB10_A2, GL_LINEAR}, m_cloud{GL_R8, GL_LINEAR, GL_REPEAT};
   Texture m_fluidDepth{GL_DEPTH_COMPONENT24, GL_NEAREST};
   Texture m_steam{GL_RGBA16F, GL_LINEAR};

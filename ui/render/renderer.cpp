@@ -68,7 +68,7 @@ std::array<int, 4> pixelsOf(const Extent& extent, const Camera& camera, int widt
 /// Fits the shadow picture around what casts, from the light's side, and reaches down to the ground.
 void fitShadow(Frame& frame) {
   Extent casters = frame.instances.sphereExtent;
-  if (frame.data) join(casters, frame.instances.liquidExtent);
+  if (frame.instances.dense) join(casters, frame.instances.liquidExtent);
   if (casters.empty()) casters.add(0, 0, 0, 1);
   casters.minimum[1] = std::min(casters.minimum[1], frame.furniture.ground);
   const Vec3 right{kLight[2] / std::hypot(kLight[0], kLight[2]), 0, -kLight[0] / std::hypot(kLight[0], kLight[2])};
@@ -211,7 +211,7 @@ void placeContactMap(Frame& frame) {
     frame.contact.size[k] = 2 * half;
   }
   frame.contact.floor = furniture.floor;
-  render::fillContactMap(frame.instances, !frame.data, frame.contact);
+  render::fillContactMap(frame.instances, frame.contact);
 }
 
 }  // namespace

@@ -118,15 +118,17 @@ void paintTicks(QPainter& painter, const QRectF& rect, const Scale& scale, const
         top && !unit.isEmpty() ? formatShort(value, 3) + QLatin1Char(' ') + unit : formatShort(value, 3);
     if (ladder.take(scale.y(value))) label(value, text, 9, theme[Token::Text2]);
   }
+  const double step = tickStep(scale.range.second - scale.range.first, 6);
   for (const LegendMark& mark : marks) {
     if (!scale.inside(mark.value) || !ladder.take(scale.y(mark.value))) continue;
-    const QString number = formatShort(mark.value, 3);
+    // What the scale cannot show is no information: ice under 1 bar melts at 0.0001 °C.
+    const double grain = step / 1000;
+    const QString number = formatShort(std::round(mark.value / grain) * grain, 3);
     label(mark.value, number, 12, theme[Token::Text]);
     const double x = scale.bar.right() + 12 + textWidth(number, font) + 5;
     paintText(painter, QRectF(x, scale.y(mark.value) - 8, rect.right() - x - 4, 16), Qt::AlignLeft | Qt::AlignVCenter,
               mark.label, font, theme[Token::Muted]);
   }
-  const double step = tickStep(scale.range.second - scale.range.first, 6);
   for (double value = std::ceil(scale.range.first / step) * step; value < scale.range.second; value += step) {
     if (ladder.take(scale.y(value)))
       label(value, formatShort(std::abs(value) < step / 1e6 ? 0 : value, 3), 9, theme[Token::Text2]);

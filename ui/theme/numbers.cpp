@@ -239,6 +239,21 @@ QString formatFixed(double value, int decimals) {
   return std::isfinite(value) ? dressed(digits(value, std::chars_format::fixed, decimals)) : QStringLiteral("—");
 }
 
+UnitPrefix prefixFor(double value, int significant) {
+  static const QString symbols[] = {QStringLiteral("µ"), QStringLiteral("m"), QString(),          QStringLiteral("k"),
+                                    QStringLiteral("M"), QStringLiteral("G"), QStringLiteral("T")};
+  if (value == 0 || !std::isfinite(value)) return {};
+  const int thousands = std::clamp(static_cast<int>(std::floor(exponentOf(value, significant) / 3.0)), -2, 4);
+  return {std::pow(1000.0, thousands), symbols[thousands + 2]};
+}
+
+QString formatPrefixed(double value, const QString& unit, int significant) {
+  // Less than a thousandth of the least prefix is rounding.
+  if (std::abs(value) < 1e-9) value = 0;
+  const UnitPrefix prefix = prefixFor(value, significant);
+  return formatNumber(value / prefix.factor, significant) + QLatin1Char(' ') + prefix.symbol + unit;
+}
+
 QString formatError(double relative) {
   const double size = std::abs(relative);
   return size > 0 && size < 1e-9 ? QStringLiteral("< 10⁻⁹") : formatShort(size, 1);

@@ -20,6 +20,15 @@ QString formatFixed(double value, int decimals = 0);
 /// formatShort with the unit after a space: "120 °C".
 QString formatQuantity(double value, const QString& unit, int significant = 4);
 
+/// A prefix of its unit that keeps a value between 1 and 1000: 1e6 and "M". `value` is in the unit.
+struct UnitPrefix {
+  double factor = 1;
+  QString symbol;
+};
+UnitPrefix prefixFor(double value, int significant = 4);
+/// With the prefix that keeps it short: "76.40 MJ", "1.540 g", "0 J". For values in J, g, Pa, m.
+QString formatPrefixed(double value, const QString& unit, int significant = 4);
+
 /// A relative error, whatever its sign, to one digit: "3 × 10⁻⁶". Below 10⁻⁹ it is rounding and its digits say
 /// nothing: "< 10⁻⁹".
 QString formatError(double relative);

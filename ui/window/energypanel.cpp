@@ -15,7 +15,7 @@
 namespace ps {
 namespace {
 
-QString kilojoules(double joules) { return formatFixed(joules / 1000, 1) + QStringLiteral(" kJ"); }
+QString joules(double value) { return formatPrefixed(value, QStringLiteral("J")); }
 
 }  // namespace
 
@@ -23,14 +23,11 @@ EnergyPanel::EnergyPanel(QWidget* parent) : QWidget(parent), m_graph(new GraphVi
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(6, 4, 12, 4);
   row->setSpacing(12);
-  m_graph->setTitle(QStringLiteral("Energy since the start, kJ"));
-  m_graph->setUnit(QStringLiteral("kJ"));
+  m_graph->setTitle(QStringLiteral("Energy since the start"));
+  m_graph->setPrefixedUnit(QStringLiteral("J"));
   m_graph->setEmptyText(QStringLiteral("Press Space to run"));
-  m_graph->addSeries(QStringLiteral("In matter"), QStringLiteral("kJ"));
-  m_graph->addSeries(QStringLiteral("Through walls"), QStringLiteral("kJ"));
-  m_graph->addSeries(QStringLiteral("Through air"), QStringLiteral("kJ"));
-  m_graph->addSeries(QStringLiteral("Through radiation"), QStringLiteral("kJ"));
-  m_graph->addSeries(QStringLiteral("By heaters"), QStringLiteral("kJ"));
+  for (const char* name : {"In matter", "Through walls", "Through air", "Through radiation", "By heaters"})
+    m_graph->addSeries(QString::fromLatin1(name));
   m_graph->setEmptyText(QStringLiteral("No matter yet"));
   m_ledger->setTextFormat(Qt::RichText);
   m_ledger->setMinimumWidth(230);
@@ -47,11 +44,11 @@ void EnergyPanel::append(const FrameStats& stats) {
   // Matter drawn before the first step belongs to the start.
   if (!m_started) m_start = stats.thermalEnergy - stats.heat.net();
   m_started = stats.frame > 0;
-  m_graph->append(0, stats.time, (stats.thermalEnergy - m_start) / 1000);
-  m_graph->append(1, stats.time, stats.heat.walls / 1000);
-  m_graph->append(2, stats.time, stats.heat.air / 1000);
-  m_graph->append(3, stats.time, stats.heat.radiation / 1000);
-  m_graph->append(4, stats.time, stats.heat.heaters / 1000);
+  m_graph->append(0, stats.time, stats.thermalEnergy - m_start);
+  m_graph->append(1, stats.time, stats.heat.walls);
+  m_graph->append(2, stats.time, stats.heat.air);
+  m_graph->append(3, stats.time, stats.heat.radiation);
+  m_graph->append(4, stats.time, stats.heat.heaters);
   m_graph->setPresentTime(stats.time);
   m_last = stats;
   const auto line = [](const QString& name, const QString& value) {
@@ -59,23 +56,24 @@ void EnergyPanel::append(const FrameStats& stats) {
         .arg(name, value.toHtmlEscaped());
   };
   m_ledger->setText(
-      QStringLiteral("<table>") + line(QStringLiteral("Heat in matter"), kilojoules(stats.thermalEnergy - m_start)) +
-      line(QStringLiteral("Through walls"), kilojoules(stats.heat.walls)) +
-      line(QStringLiteral("Through air"), kilojoules(stats.heat.air)) +
-      line(QStringLiteral("Through radiation"), kilojoules(stats.heat.radiation)) +
+      QStringLiteral("<table>") + line(QStringLiteral("Heat in matter"), joules(stats.thermalEnergy - m_start)) +
+      line(QStringLiteral("Through walls"), joules(stats.heat.walls)) +
+      line(QStringLiteral("Through air"), joules(stats.heat.air)) +
+      line(QStringLiteral("Through radiation"), joules(stats.heat.radiation)) +
       (stats.heat.airWarming == 0
            ? QString()
            : line(QStringLiteral("Air warmed by"), formatFixed(stats.heat.airWarming, 1) + QStringLiteral(" K"))) +
-      line(QStringLiteral("By heaters"), kilojoules(stats.heat.heaters)) +
-      line(QStringLiteral("Came with matter"), kilojoules(stats.heat.sources)) +
-      line(QStringLiteral("Motion"), kilojoules(stats.kineticEnergy)) +
+      line(QStringLiteral("By heaters"), joules(stats.heat.heaters)) +
+      line(QStringLiteral("Came with matter"), joules(stats.heat.sources)) +
+      line(QStringLiteral("Motion"), joules(stats.kineticEnergy)) +
       line(QStringLiteral("Balance open by"), balanceText()) + QStringLiteral("</table>"));
 }
 
 QString EnergyPanel::balanceText() const {
   const double open = m_last.thermalEnergy - m_start - m_last.heat.net();
   const double share = m_last.heat.exchanged > 0 ? open / m_last.heat.exchanged : 0;
-  return formatShort(std::abs(open), 2) + QStringLiteral(" J (") + formatError(share) + QStringLiteral(")");
+  return formatPrefixed(std::abs(open), QStringLiteral("J"), 2) + QStringLiteral(" (") + formatError(share) +
+         QStringLiteral(")");
 }
 
 void EnergyPanel::clear() {

@@ -45,7 +45,6 @@ GraphsPanel::GraphsPanel(QWidget* parent)
   m_temperatures->setTitle(QStringLiteral("Temperature, °C"));
   m_temperatures->setUnit(QStringLiteral("°C"));
   m_temperatures->setEmptyText(kNotRun);
-  m_phases->setTitle(QStringLiteral("Mass by phase, g"));
   m_phases->setEmptyText(kNotRun);
   row->addWidget(m_temperatures, 1);
   row->addWidget(m_phases, 1);

@@ -56,6 +56,12 @@ QString whyIdle(const Project& project, const Address& address) {
   return address.owner == "wall" ? whyWallIdle(project, address) : QString();
 }
 
+/// The material that a row belongs to; "" for other rows.
+std::string materialOf(const QString& key) {
+  const auto address = Address::parse(key.toStdString());
+  return address && address->owner == "material" ? address->id : std::string();
+}
+
 QString gradeText(const PluginRegistry* plugins, const std::string& base) {
   const Material* material = plugins ? plugins->material(base) : nullptr;
   if (!material || material->provenance.empty()) return {};
@@ -209,15 +215,7 @@ void Inspector::rebuildMaterial() {
   m_materialId = material->id;
   const PluginRegistry* plugins = m_document.plugins();
   const bool missing = plugins && !plugins->material(material->base);
-  QStringList bodies;
-  for (const Body& body : project.bodies) {
-    if (body.material == material->id) bodies << QString::fromStdString(body.name);
-  }
-  m_material->setHeader(QString::fromStdString(material->label.empty() ? material->id : material->label),
-                        missing
-                            ? QStringLiteral("Plugin “%1” is not installed").arg(QString::fromStdString(material->base))
-                            : bodies.join(QStringLiteral(", ")),
-                        gradeText(plugins, material->base), colourOf(project, plugins, material->id));
+  showMaterialHeader();
   addRows(rows, "material", material->id, propertyCatalogue(), {}, materialDefaults(project, plugins, material->id));
   if (const api::MaterialPlugin* plugin = plugins ? plugins->materialPlugin(material->base) : nullptr) {
     addRows(rows, "material", material->id, plugin->parameters(), QString::fromUtf8(plugin->label()));
@@ -231,7 +229,51 @@ void Inspector::rebuildMaterial() {
           QStringLiteral("The material's plugin is not installed. Values are kept as they stand in the file.");
     }
   }
+  for (RowModel& row : rows) row.temperature = temperatureOf(materialOf(row.key));
   m_material->setModel(std::move(rows));
+}
+
+void Inspector::showMaterialHeader() {
+  const Project& project = m_document.project();
+  const auto material = std::find_if(project.materials.begin(), project.materials.end(),
+                                     [&](const SceneMaterial& m) { return m.id == m_materialId; });
+  if (material == project.materials.end()) return;
+  const PluginRegistry* plugins = m_document.plugins();
+  const bool missing = plugins && !plugins->material(material->base);
+  QStringList bodies;
+  for (const Body& body : project.bodies) {
+    if (body.material == material->id) bodies << QString::fromStdString(body.name);
+  }
+  QStringList detail{QStringLiteral("At %1 °C").arg(formatFixed(temperatureOf(m_materialId) - 273.15, 1))};
+  if (const QString grade = gradeText(plugins, material->base); !grade.isEmpty()) detail << grade;
+  m_material->setHeader(QString::fromStdString(material->label.empty() ? material->id : material->label),
+                        missing
+                            ? QStringLiteral("Plugin “%1” is not installed").arg(QString::fromStdString(material->base))
+                            : bodies.join(QStringLiteral(", ")),
+                        detail.join(QStringLiteral(" · ")), colourOf(project, plugins, material->id));
+}
+
+double Inspector::temperatureOf(const std::string& material) const {
+  const auto mean = m_mean.find(material);
+  return mean == m_mean.end() ? m_sceneMean : mean->second;
+}
+
+void Inspector::showTemperatures(const Snapshot& snapshot) {
+  const std::vector<SceneMaterial>& materials = m_document.project().materials;
+  std::vector<double> sums(materials.size()), counts(materials.size());
+  for (size_t i = 0; i < snapshot.material.size(); ++i) {
+    const size_t material = snapshot.material[i];
+    if (material >= sums.size()) continue;  // the scene has lost one since
+    sums[material] += static_cast<double>(snapshot.temperature[i]);
+    ++counts[material];
+  }
+  if (snapshot.stats.temperatureMean > 0) m_sceneMean = snapshot.stats.temperatureMean;
+  m_mean.clear();
+  for (size_t k = 0; k < materials.size(); ++k) {
+    if (counts[k] > 0) m_mean[materials[k].id] = sums[k] / counts[k];
+  }
+  for (ParameterRow* row : m_material->rows()) row->setTemperature(temperatureOf(materialOf(row->key())));
+  showMaterialHeader();
 }
 
 void Inspector::rebuildScene() {
@@ -320,6 +362,7 @@ void Inspector::onChanged(const ChangeEvent& event) {
     m_bodyId = m_document.project().bodies.empty() ? std::string() : m_document.project().bodies.front().id;
     m_materialId.clear();
     m_limited.clear();
+    m_mean.clear();
     markPinned();
     rebuild();
   } else if (std::holds_alternative<BodyChanged>(event) || std::holds_alternative<StrokeChanged>(event)) {
@@ -327,6 +370,9 @@ void Inspector::onChanged(const ChangeEvent& event) {
     showSceneHeader();
   } else if (const auto* port = std::get_if<PortChanged>(&event)) {
     if (!port->moved) rebuildScene();
+  } else if (std::holds_alternative<WallsChanged>(event)) {
+    rebuildScene();
+    rebuildMaterial();  // one of its rows may be pinned
   } else if (std::holds_alternative<MaterialsChanged>(event)) {
     rebuildMaterial();
   } else if (std::holds_alternative<PinsChanged>(event)) {
@@ -349,18 +395,17 @@ void Inspector::refreshProperties(const std::string& material) {
 }
 
 void Inspector::setSnapshot(const Snapshot& snapshot) {
-  if (snapshot.stats.temperatureMean > 0) {
-    m_material->setTemperature(snapshot.stats.temperatureMean);
-  }
+  showTemperatures(snapshot);
   std::set<QString> limited;
   for (const Limit& limit : snapshot.limits) {
     const QString key = limitAddress(limit);
     if (key.isEmpty()) continue;
     limited.insert(key);
-    if (m_limited.count(key)) continue;
+    // Said anew each time: the substeps change what is reached, and rows may have been made anew.
     const double substeps = numberOf(m_document.project().solver.parameters, solverParameters(), "substeps");
-    const QString text = limitText(limit) +
-                         QStringLiteral(". [Use %1 substeps](solver/substeps=%1)").arg(static_cast<int>(substeps) * 2);
+    const QString text =
+        limitText(limit) +
+        QStringLiteral(". [Use %1 substeps](solver/substeps=%1) to come closer").arg(static_cast<int>(substeps) * 2);
     for (ParameterPanel* panel : panels()) panel->setLimit(key, text, limit.delivered);
   }
   for (const QString& key : m_limited) {

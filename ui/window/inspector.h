@@ -6,6 +6,7 @@
 
 #include <QtCore/QObject>
 
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -45,6 +46,10 @@ class Inspector : public QObject {
   void onLink(const QString& key, const QString& link);
   void rebuildBody();
   void rebuildMaterial();
+  void showMaterialHeader();
+  void showTemperatures(const Snapshot& snapshot);
+  /// K, at which a material's curves are read: the mean of its particles, or of all matter where it has none.
+  double temperatureOf(const std::string& material) const;
   void refreshProperties(const std::string& material);
   void rebuildScene();
   void showSceneHeader();
@@ -62,6 +67,8 @@ class Inspector : public QObject {
   std::string m_bodyId, m_materialId;
   std::set<std::string> m_texts;  ///< headings and labels that rows borrow; grows with names only
   std::set<QString> m_limited;
+  double m_sceneMean = 293.15;           ///< K
+  std::map<std::string, double> m_mean;  ///< K, by material; of those that have particles
 };
 
 }  // namespace ps

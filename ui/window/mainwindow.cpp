@@ -9,6 +9,7 @@
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
 #include "ui/document/documentfiles.h"
+#include "ui/document/wallside.h"
 #include "ui/theme/theme.h"
 #include "ui/window/brushpanel.h"
 #include "ui/window/dock.h"
@@ -200,6 +201,9 @@ void MainWindow::onChanged(const ChangeEvent& event) {
   } else if (const auto* port = std::get_if<PortChanged>(&event)) {
     if (!port->moved) m_outliner->rebuild();
     if (Viewport* view = viewport()) view->setSelectedPort(m_outliner->selectedPort());  // it may be gone
+  } else if (std::holds_alternative<WallsChanged>(event)) {
+    m_outliner->rebuild();
+    if (Viewport* view = viewport()) view->bodiesChanged();
   } else if (std::holds_alternative<MaterialsChanged>(event)) {
     m_materials->rebuild();
     useCurrentMaterial();
@@ -330,7 +334,10 @@ void MainWindow::showFailure(const EngineEvent& event) {
   m_session->log().add(level, QStringLiteral("Simulation"), text);
   if (notice()->isVisible() && notice()->text() == text) return;  // one of its buttons may be under the pointer
   std::vector<NoticeBar::Button> buttons;
-  if (m_session->document().undoStack().canUndo())
+  // Matter runs off without any edit to blame.
+  if (failure.lost)
+    buttons.push_back({QStringLiteral("Add sides"), [this] { addWalls(kUprightSides); }});
+  else if (m_session->document().undoStack().canUndo())
     buttons.push_back({QStringLiteral("Undo"), [this] { m_session->document().undoStack().undo(); }});
   buttons.push_back({QStringLiteral("Reset"), [this] { m_session->reset(); }});
   notice()->show(QStringLiteral("step"), level, failure.title, failure.text, std::move(buttons));

@@ -115,6 +115,7 @@ class MainWindow : public QMainWindow {
   void stepBrush(int direction);
   void duplicateSelected();  ///< body, tap or drain
   void deleteSelected();
+  void addWalls(const std::vector<std::string>& sides);  ///< of kWallSides
   // mainwindowfiles.cpp
   void chooseOpen();
   void save();

@@ -6,6 +6,7 @@
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
 #include "ui/document/documentfiles.h"
+#include "ui/document/wallside.h"
 #include "ui/graphs/graphview.h"
 #include "ui/graphs/phasestackview.h"
 #include "ui/panels/rowvalue.h"
@@ -204,9 +205,21 @@ void MainWindow::deleteSelected() {
   Document& document = m_session->document();
   if (const auto port = m_outliner->selectedPort()) {
     document.removePort(*port);
+  } else if (const auto [kind, id] = m_outliner->selected(); kind == OutlineKind::Wall) {
+    document.removeWall(id);
   } else {
     refuse(QStringLiteral("Nothing was deleted."), document.removeBody(m_outliner->selectedBody()));
   }
+}
+
+void MainWindow::addWalls(const std::vector<std::string>& sides) {
+  Document& document = m_session->document();
+  const QString problem = document.addWalls(sides);
+  refuse(QStringLiteral("No wall was added."), problem);
+  if (!problem.isEmpty()) return;
+  const std::string id = document.project().environment.walls.back().id;
+  m_outliner->select(OutlineKind::Wall, id);
+  onOutlinerSelection(OutlineKind::Wall, id);
 }
 
 void MainWindow::makeViewMenu() {
@@ -285,6 +298,16 @@ void MainWindow::makeSketchMenu() {
       [this] { setTool(ViewTool::Tap); });
   add(menu, QStringLiteral("sketch.drain"), QStringLiteral("Place a drain"), {QKeySequence(QStringLiteral("D"))},
       [this] { setTool(ViewTool::Drain); });
+  QMenu* walls = menu->addMenu(QStringLiteral("Add wall"));
+  for (const WallSide& side : kWallSides) {
+    const QString id = QString::fromLatin1(side.id);
+    add(walls, QStringLiteral("sketch.wall.") + id,
+        QStringLiteral("Add wall: %1").arg(QString::fromLatin1(side.name).toLower()), {},
+        [this, side] { addWalls({side.id}); });
+  }
+  walls->addSeparator();
+  add(walls, QStringLiteral("sketch.walls"), QStringLiteral("Add walls: all four sides"), {},
+      [this] { addWalls(kUprightSides); });
   menu->addSeparator();
   add(menu, QStringLiteral("sketch.smaller"), QStringLiteral("Smaller brush"), {QKeySequence(QStringLiteral("["))},
       [this] { stepBrush(-1); });

@@ -17,6 +17,21 @@
 #include <cmath>
 
 namespace ps {
+namespace {
+
+/// "20.5 °C", "1.540 g", "76.40 MJ", "24 594".
+QString probeText(double value, const std::string& unit) {
+  if (!std::isfinite(value)) return QStringLiteral("—");
+  if (unit == "K") return formatFixed(value - 273.15, 1) + QStringLiteral(" °C");
+  if (unit == "kg") return formatPrefixed(value * 1e3, QStringLiteral("g"));
+  if (unit == "J") return formatPrefixed(value, QStringLiteral("J"));
+  // Particles are counted; shares and ratios are not whole.
+  if (unit == "1") return formatFixed(value, value == std::round(value) ? 0 : 3);
+  return formatFixed(value, 3) + QLatin1Char(' ') + QString::fromStdString(unit);
+}
+
+}  // namespace
+
 Outliner::Outliner(Document& document, QWidget* parent)
     : QWidget(parent), m_document(document), m_model(new QStandardItemModel(this)), m_view(new QTreeView) {
   auto* column = new QVBoxLayout(this);
@@ -161,21 +176,7 @@ void Outliner::refreshCounts() {
   for (size_t i = 0; i < project.probes.size() && i < m_snapshot->stats.probes.size(); ++i) {
     QStandardItem* item = find(OutlineKind::Probe, project.probes[i].id);
     if (!item) continue;
-    const std::string unit = probeUnit(project.probes[i].quantity);
-    double value = m_snapshot->stats.probes[i];
-    QString shown = QString::fromStdString(unit == "1" ? "" : unit);
-    int decimals = 3;
-    if (unit == "K") {
-      value -= 273.15;
-      shown = QStringLiteral("°C");
-      decimals = 1;
-    } else if (unit == "kg") {
-      decimals = 2;
-    } else if (unit == "1") {
-      decimals = 0;
-    }
-    item->setData(std::isfinite(value) ? formatFixed(value, decimals) + QLatin1Char(' ') + shown : QStringLiteral("—"),
-                  outline::kDetail);
+    item->setData(probeText(m_snapshot->stats.probes[i], probeUnit(project.probes[i].quantity)), outline::kDetail);
   }
 }
 

@@ -47,7 +47,7 @@ FailureText failureText(const EngineEvent& event) {
   }
   if (has(StepFlag::LostParticle)) {
     return {QStringLiteral("Matter left the scene."),
-            detail + QStringLiteral("Raise the substeps, or close the scene with walls.")};
+            detail + QStringLiteral("Close that side with a wall; where one stands, raise the substeps."), true};
   }
   if (has(StepFlag::Diverged)) {
     return {QStringLiteral("The liquid is squeezed more than the solver can mend."),

@@ -19,6 +19,7 @@ QString clockText(double seconds);
 /// What went wrong and what to do about it, for a notice; of anything but Settled.
 struct FailureText {
   QString title, text;
+  bool lost = false;  ///< matter left the scene
 };
 FailureText failureText(const EngineEvent& event);
 /// "water.youngs_modulus" as an address text: "material/water/youngs_modulus"; "" when it has no owner.

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "core/scene/project.h"
+
+#include <string>
+#include <vector>
+
+namespace ps {
+
+/// A face of a box, where a wall may stand and look inward.
+struct WallSide {
+  const char* id;
+  const char* name;
+  size_t axis;
+  bool upper;  ///< at the box' maximum along the axis
+};
+inline constexpr WallSide kWallSides[] = {
+    {"floor", "Floor", 1, false},     {"lid", "Lid", 1, true},    {"left", "Left side", 0, false},
+    {"right", "Right side", 0, true}, {"back", "Back", 2, false}, {"front", "Front", 2, true},
+};
+/// The four that keep matter from running off.
+inline const std::vector<std::string> kUprightSides{"left", "right", "back", "front"};
+
+/// A wall that lets no heat through, on that face of the box.
+SceneWall wallOn(const WallSide& side, const Vec3& minimum, const Vec3& maximum);
+
+}  // namespace ps
