@@ -52,6 +52,7 @@ class TestTheme : public QObject {
   void numbersAreFormatted();
   void prefixesKeepNumbersShort();
   void absoluteZeroStandsForNone();
+  void theLastSecondStandsForNever();
   void errorsBelowRoundingAreNotSpelledOut();
   void fieldsKeepTheirDecimals_data();
   void fieldsKeepTheirDecimals();
@@ -287,6 +288,18 @@ void TestTheme::absoluteZeroStandsForNone() {
   QVERIFY(!formatValue(d, 0).contains(QStringLiteral("none")));
   QVERIFY(!parseTyped(QStringLiteral("none"), d, 300).problem.isEmpty());
   QCOMPARE(formatValue(declaration("m"), 0), QStringLiteral("0.000 m"));
+}
+
+void TestTheme::theLastSecondStandsForNever() {
+  api::ParameterDeclaration d = declaration("s");
+  d.maximum = 60;
+  d.hardMaximum = 1e9;
+  QCOMPARE(formatValue(d, 1e9), QStringLiteral("never"));
+  QCOMPARE(formatValue(d, 10), QStringLiteral("10.0 s"));
+  const Typed typed = parseTyped(QStringLiteral("Never"), d, 10);
+  QVERIFY2(typed.problem.isEmpty() && typed.value == 1e9, qPrintable(typed.problem));
+  d.hardMaximum = 100;  // a time that is always there
+  QVERIFY(!parseTyped(QStringLiteral("never"), d, 10).problem.isEmpty());
 }
 
 void TestTheme::typedTextIsUnderstood_data() {
