@@ -289,6 +289,17 @@ class TestWindow : public QObject {
     QTRY_COMPARE_WITH_TIMEOUT(session().snapshot()->stats.frame, uint64_t{0}, kLong);
   }
 
+  void theEndSaysWhatFollows() {
+    Transport transport;
+    transport.setDuration(60);
+    auto snapshot = std::make_shared<Snapshot>();
+    snapshot->stats.time = 60;
+    transport.setSnapshot(snapshot);
+    QVERIFY(transport.durationText().contains(QStringLiteral("end")));
+    transport.setPlaying(true);
+    QCOMPARE(transport.durationText(), QStringLiteral("/ 01:00"));
+  }
+
   /// A pinned row of another material than the panel's has its name.
   void pinnedRowsNameTheirMaterial() {
     document().addMaterial("wax");
