@@ -13,6 +13,8 @@
 #include <QtGui/QPainter>
 #include <QtTest/QTest>
 #include <QtWidgets/QApplication>
+#include <QtWidgets/QDialog>
+#include <QtWidgets/QVBoxLayout>
 
 #include <cmath>
 #include <limits>
@@ -65,6 +67,7 @@ class TestTheme : public QObject {
   void whatIsShownCanBeTyped();
   void pivotSitsOnTheMeltingPoint();
   void legendShowsItsMarks();
+  void dialogsHaveMargins();
 };
 
 void TestTheme::contrastSuffices_data() {
@@ -463,6 +466,15 @@ void TestTheme::legendShowsItsMarks() {
   // The bar is dark blue at the bottom and dark red at the top.
   const QColor bottom = without.pixelColor(16, without.height() - 14), top = without.pixelColor(16, 38);
   QVERIFY(bottom.blue() > bottom.red() && top.red() > top.blue());
+}
+
+/// Panels lie edge to edge; what Qt builds by itself does not.
+void TestTheme::dialogsHaveMargins() {
+  QWidget panel;
+  QDialog dialog;
+  const QVBoxLayout inPanel(&panel), inDialog(&dialog);
+  QCOMPARE(inPanel.contentsMargins(), QMargins(0, 0, 0, 0));
+  QCOMPARE(inDialog.contentsMargins(), QMargins(12, 12, 12, 12));
 }
 
 int main(int argc, char** argv) {
