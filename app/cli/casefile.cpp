@@ -23,7 +23,10 @@ class Entry {
     if (!object.is_object()) fail("must be an object in { }");
   }
 
-  [[noreturn]] void fail(const std::string& what) const { throw InputError(m_place + ": " + what); }
+  /// The file's own object has its colon: "cases.json:".
+  [[noreturn]] void fail(const std::string& what) const {
+    throw InputError(m_place + (m_place.ends_with(':') ? " " : ": ") + what);
+  }
 
   const json* find(const char* key) {
     m_known.insert(key);

@@ -82,9 +82,9 @@ int main(int argc, char** argv) {
   options.session.autosave = !picture;
   options.exitOnBadProject = picture;
   options.dark = arguments.dark.value_or(true);
+  options.themeAsked = arguments.dark.has_value();
   ps::MainWindow window(options);
   if (arguments.size.isValid()) window.resize(arguments.size);
-  if (arguments.dark) window.setDark(*arguments.dark);
   window.show();
   std::unique_ptr<ps::PictureByCommand> byCommand;
   if (picture) byCommand = std::make_unique<ps::PictureByCommand>(window, arguments.screenshot, arguments.after);

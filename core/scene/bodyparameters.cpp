@@ -28,7 +28,7 @@ constexpr api::ParameterDeclaration kBody[] = {
             "How far each particle stands off its place in the lattice at the start, along each axis, as a share of "
             "the spacing.",
             "0 for a crystal, 0.2 like a liquid that was shaken", ""}),
-    integer({"seed", "Kind of disorder", "", ""}, {1, 1, 100, 0, 4294967295.0},
+    integer({"seed", "Seed of the disorder", "", ""}, {1, 1, 100, 0, 4294967295.0},
             {"Start", "Another number places the particles otherwise; the same number always alike.",
              "compare runs with 1, 2 and 3 to see what chance does", ""}),
     number({"heating_power", "Heating power", "P", "W"}, {0, -500, 2000, -1e9, 1e9},

@@ -23,7 +23,7 @@ constexpr api::ParameterDeclaration kWall[] = {
          "it is convective.",
          "freezer −18 °C, tap water 10 °C, hot plate 150 °C", ""},
         kCelsius),
-    number({"heat_flux", "Heat flux", "q", "W/m²"}, {0, -20000, 20000, -1e9, 1e9},
+    number({"heat_flux", "Heat flux", "q", "W/m²"}, {0, -60000, 60000, -1e9, 1e9},
            {"Heat", "Heat that the wall gives to each square metre of matter that touches it; below zero it takes.",
             "sunshine 1000, hob 20000 to 60000 W/m²", ""}),
     number({"convection", "Convection behind it", "h", "W/(m²·K)"}, {100, 0, 2000, 0, 1e6},

@@ -131,7 +131,12 @@ void EngineThread::Impl::step() {
   const StepReport report = engine->step();
   if (report.flags & kPausing) halt();
   tellOf(report);
-  publish(engine->snapshot());
+  SnapshotPtr snapshot = engine->snapshot();
+  // Play stops at the end of the scene, once: played from there, it goes on.
+  const Project& project = engine->project();
+  const double last = project.duration - numberOf(project.solver.parameters, solverParameters(), "dt") / 2;
+  if (newest && newest->stats.time < last && snapshot->stats.time >= last) halt();
+  publish(std::move(snapshot));
 }
 
 /// Real time when the solver can keep up, as fast as it goes when it cannot.

@@ -55,7 +55,7 @@ double squareOf(const api::ParticleView& p, size_t i, size_t j) {
 
 }  // namespace
 
-const char* ThesisDiffusionModel::label() const noexcept { return "Diffusion, thesis"; }
+const char* ThesisDiffusionModel::label() const noexcept { return "Thesis diffusion"; }
 
 const char* ThesisDiffusionModel::help() const noexcept {
   return "The explicit heat model of the thesis: temperatures even out with one diffusivity for all matter, and the "

@@ -129,7 +129,7 @@ State stateOf(const ThermalState& start) {
 
 }  // namespace
 
-const char* ThesisLatentModel::label() const noexcept { return "Latent heat, thesis"; }
+const char* ThesisLatentModel::label() const noexcept { return "Thesis latent heat"; }
 
 const char* ThesisLatentModel::help() const noexcept {
   return "The latent-heat bookkeeping of the thesis, with the rule added that lets a particle leave a plateau: for "

@@ -112,6 +112,7 @@ void TestRowEntry::anErrorGoesWithTheTextThatItIsAbout() {
 void TestRowEntry::choicesReadAsNames() {
   QCOMPARE(choiceLabel(QStringLiteral("wendland_c2")), QStringLiteral("Wendland C2"));
   QCOMPARE(choiceLabel(QStringLiteral("cubic_spline")), QStringLiteral("Cubic spline"));
+  QCOMPARE(choiceLabel(QStringLiteral("xpbd")), QStringLiteral("XPBD"));
   QCOMPARE(choiceLabel(QStringLiteral("poly_6")), QStringLiteral("Poly 6"));
 }
 

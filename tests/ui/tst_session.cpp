@@ -41,6 +41,7 @@
 #include <clocale>
 #include <functional>
 #include <future>
+#include <optional>
 
 using namespace ps;
 
@@ -101,6 +102,26 @@ class TestSession : public QObject {
     QCOMPARE(m_window->viewport()->navigator().camera().elevation, seen.elevation);
     QCOMPARE(m_window->viewport()->navigator().camera().distance, seen.distance);
     QCOMPARE(m_window->viewport()->colour(), ColourBy::Phase);
+  }
+
+  /// A theme that is asked for on the command line holds for that once; one chosen in the menu stays.
+  void theThemeOfTheCommandLineIsNotKept() {
+    const auto darkAtStart = [this](std::optional<bool> asked) {
+      make({}, asked);
+      return m_window->isDark();
+    };
+    m_window.reset();
+    make();
+    m_window->setDark(true);
+    QVERIFY(m_window->close());
+    QCOMPARE(darkAtStart(false), false);
+    QVERIFY(m_window->close());
+    QCOMPARE(darkAtStart({}), true);
+    QCOMPARE(darkAtStart(false), false);
+    m_window->setDark(true);
+    m_window->setDark(false);  // by hand
+    QCOMPARE(darkAtStart({}), false);
+    m_window->setDark(true);
   }
 
   void aNamedProjectLeavesOtherWorkOnOffer() {
@@ -479,9 +500,11 @@ class TestSession : public QObject {
     return in.open(QIODevice::ReadOnly) ? in.readAll() : QByteArray();
   }
 
-  void make(const QString& project = {}) {
+  void make(const QString& project = {}, std::optional<bool> dark = {}) {
     m_window.reset();
     MainWindow::Options options;
+    options.dark = dark.value_or(true);
+    options.themeAsked = dark.has_value();
     options.project = project;
     options.sample = m_sample;
     options.session.autosaveDirectory = copies();

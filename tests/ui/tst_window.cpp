@@ -289,6 +289,36 @@ class TestWindow : public QObject {
     QTRY_COMPARE_WITH_TIMEOUT(session().snapshot()->stats.frame, uint64_t{0}, kLong);
   }
 
+  void theEndSaysWhatFollows() {
+    Transport transport;
+    transport.setDuration(60);
+    auto snapshot = std::make_shared<Snapshot>();
+    snapshot->stats.time = 60;
+    transport.setSnapshot(snapshot);
+    QVERIFY(transport.durationText().contains(QStringLiteral("end")));
+    transport.setPlaying(true);
+    QCOMPARE(transport.durationText(), QStringLiteral("/ 01:00"));
+  }
+
+  /// A pinned row of another material than the panel's has its name.
+  void pinnedRowsNameTheirMaterial() {
+    document().addMaterial("wax");
+    const std::string address = "material/wax/viscosity";
+    document().setPinned(address, true);
+    const auto label = [&](const char* shown) {
+      m_window->inspector().setMaterial(shown);
+      const auto rows = m_window->inspector().materialPanel()->rows();
+      const auto pin = std::find_if(rows.begin(), rows.end(), [&](const ParameterRow* row) {
+        return row->model().pinned && row->key() == QString::fromStdString(address);
+      });
+      return pin == rows.end() ? QString() : QString::fromUtf8((*pin)->model().declaration.label);
+    };
+    QCOMPARE(label("wax"), QStringLiteral("Viscosity, liquid"));
+    QCOMPARE(label("water"), QStringLiteral("Viscosity, liquid · Paraffin wax"));
+    document().undoStack().undo();
+    document().undoStack().undo();
+  }
+
   void thePaletteFindsParametersAndActions_data() {
     QTest::addColumn<QString>("query");
     QTest::addColumn<QString>("title");
@@ -344,7 +374,8 @@ class TestWindow : public QObject {
              qPrintable(coarse));
     document().setParameter(substeps, 8.0);
     const QString fine = noteWith(2e7);
-    QVERIFY2(fine.contains(QStringLiteral("20.0 MPa")) && fine.contains(QStringLiteral("substeps=16")), qPrintable(fine));
+    QVERIFY2(fine.contains(QStringLiteral("20.0 MPa")) && fine.contains(QStringLiteral("substeps=16")),
+             qPrintable(fine));
     m_window->inspector().rebuild();  // rows made anew say it again
     QCOMPARE(noteWith(2e7), fine);
     snapshot.limits.clear();

@@ -103,6 +103,7 @@ void TestCli::exitCodesAndOneLine_data() {
   row("render where", {"render", kSample}, 2, "--out is missing");
   row("render size", {"render", kSample, "--out", "x", "--size", "big"}, 2, "--size must be");
   row("unknown scene", {"bench", "no-such-scene"}, 2, "no-such-scene: neither a file");
+  row("no table of cases", {"cases", kSample}, 2, "ice-on-hot-plate.json: has no cases");
   row("nothing to allow", {"plugins", "--allow", "no-such-plugin"}, 2, "no plugin 'no-such-plugin'");
 }
 

@@ -47,6 +47,7 @@ class TstSimulation : public QObject {
   void runsWithoutAnyPlugin();
   void viscosityIsCompiledAsDeclared();
   void threadPlaysPausesStepsAndResets();
+  void threadStopsAtTheEnd();
   void threadTellsWhatCannotBeOpened();
   void snapshotsOfTwoRunsNeverCompare();
 
@@ -495,6 +496,23 @@ void TstSimulation::threadPlaysPausesStepsAndResets() {
   thread.post([&](Engine& engine) { born.set_value(engine.addCells(sketchedWater(), {{0, 0, 0}}, 0)); });
   QCOMPARE(born.get_future().get().size(), size_t{1});
   QVERIFY(published > 5);
+}
+
+/// Play ends where the scene ends, to the frame, and goes on from there when asked again.
+void TstSimulation::threadStopsAtTheEnd() {
+  EngineThread thread(m_plugins, {});
+  Project project = scenes::iceOnPlate(3, 293.15);
+  project.duration = 0.2;  // 12 frames
+  thread.open(project, true);
+  QVERIFY(waitFor([&] { return thread.snapshot() && !thread.playing(); }));
+  thread.post([](Engine&) {});
+  QVERIFY(waitFor([&] { return thread.snapshot()->stats.frame == 12; }));
+  thread.play();
+  QVERIFY(waitFor([&] { return thread.snapshot()->stats.frame > 20; }));
+  QVERIFY(thread.playing());
+  thread.reset();
+  QVERIFY(waitFor([&] { return !thread.playing(); }));
+  QCOMPARE(thread.snapshot()->stats.frame, uint64_t{12});
 }
 
 void TstSimulation::threadTellsWhatCannotBeOpened() {

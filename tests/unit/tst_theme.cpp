@@ -13,6 +13,8 @@
 #include <QtGui/QPainter>
 #include <QtTest/QTest>
 #include <QtWidgets/QApplication>
+#include <QtWidgets/QDialog>
+#include <QtWidgets/QVBoxLayout>
 
 #include <cmath>
 #include <limits>
@@ -52,6 +54,7 @@ class TestTheme : public QObject {
   void numbersAreFormatted();
   void prefixesKeepNumbersShort();
   void absoluteZeroStandsForNone();
+  void theLastSecondStandsForNever();
   void errorsBelowRoundingAreNotSpelledOut();
   void fieldsKeepTheirDecimals_data();
   void fieldsKeepTheirDecimals();
@@ -64,6 +67,7 @@ class TestTheme : public QObject {
   void whatIsShownCanBeTyped();
   void pivotSitsOnTheMeltingPoint();
   void legendShowsItsMarks();
+  void dialogsHaveMargins();
 };
 
 void TestTheme::contrastSuffices_data() {
@@ -289,6 +293,18 @@ void TestTheme::absoluteZeroStandsForNone() {
   QCOMPARE(formatValue(declaration("m"), 0), QStringLiteral("0.000 m"));
 }
 
+void TestTheme::theLastSecondStandsForNever() {
+  api::ParameterDeclaration d = declaration("s");
+  d.maximum = 60;
+  d.hardMaximum = 1e9;
+  QCOMPARE(formatValue(d, 1e9), QStringLiteral("never"));
+  QCOMPARE(formatValue(d, 10), QStringLiteral("10.0 s"));
+  const Typed typed = parseTyped(QStringLiteral("Never"), d, 10);
+  QVERIFY2(typed.problem.isEmpty() && typed.value == 1e9, qPrintable(typed.problem));
+  d.hardMaximum = 100;  // a time that is always there
+  QVERIFY(!parseTyped(QStringLiteral("never"), d, 10).problem.isEmpty());
+}
+
 void TestTheme::typedTextIsUnderstood_data() {
   QTest::addColumn<QString>("text");
   QTest::addColumn<QString>("unit");  // stored | shown | scale | offset
@@ -450,6 +466,15 @@ void TestTheme::legendShowsItsMarks() {
   // The bar is dark blue at the bottom and dark red at the top.
   const QColor bottom = without.pixelColor(16, without.height() - 14), top = without.pixelColor(16, 38);
   QVERIFY(bottom.blue() > bottom.red() && top.red() > top.blue());
+}
+
+/// Panels lie edge to edge; what Qt builds by itself does not.
+void TestTheme::dialogsHaveMargins() {
+  QWidget panel;
+  QDialog dialog;
+  const QVBoxLayout inPanel(&panel), inDialog(&dialog);
+  QCOMPARE(inPanel.contentsMargins(), QMargins(0, 0, 0, 0));
+  QCOMPARE(inDialog.contentsMargins(), QMargins(12, 12, 12, 12));
 }
 
 int main(int argc, char** argv) {

@@ -27,6 +27,7 @@
 namespace ps {
 namespace {
 
+constexpr int kMostPinnedLabel = 150;
 constexpr int kSymbolsFrom = 360;  ///< narrower panels hide the symbols
 const QString kPinnedGroup = QStringLiteral("Try these");
 
@@ -249,7 +250,9 @@ void ParameterPanel::Private::measure() {
       // Toggles and choices have no slider to align and may use its room.
       const auto kind = row->model().declaration.kind;
       if (kind == api::ParameterKind::Toggle || kind == api::ParameterKind::Choice) continue;
-      const int wanted = row->wantedLabelWidth();
+      // A pinned row has its owner's name in it, which may be of any length and must not take every row's slider.
+      const int most = row->model().pinned ? kMostPinnedLabel : std::numeric_limits<int>::max();
+      const int wanted = std::min(row->wantedLabelWidth(), most);
       if (wanted <= kMinimumLabel + 14) label = std::max(label, wanted);
       longest = std::max(longest, wanted);
     }

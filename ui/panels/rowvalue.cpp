@@ -142,12 +142,13 @@ QStringList choiceNames(const ParameterDeclaration& d) {
 }
 
 QString choiceLabel(const QString& name) {
+  static const QStringList kAbbreviations{QStringLiteral("pbd"), QStringLiteral("xpbd"), QStringLiteral("xsph")};
   QStringList words = name.split(QLatin1Char('_'));
   for (QString& word : words) {
     // A letter with a number is a name: "Wendland C2".
     const bool numbered = word.size() > 1 && word[0].isLetter() &&
                           std::all_of(word.begin() + 1, word.end(), [](QChar c) { return c.isDigit(); });
-    if (numbered) word = word.toUpper();
+    if (numbered || kAbbreviations.contains(word)) word = word.toUpper();
   }
   QString label = words.join(QLatin1Char(' '));
   if (!label.isEmpty()) label[0] = label[0].toUpper();

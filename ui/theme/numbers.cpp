@@ -227,7 +227,17 @@ qsizetype unitStart(const QString& text) {
   return 0;
 }
 
-constexpr QLatin1String kNone("none");
+/// A value that stands for none, and the word for it.
+struct NoValue {
+  double stored;
+  QLatin1String word;
+};
+std::optional<NoValue> noValueOf(const api::ParameterDeclaration& d) {
+  const std::string_view unit = d.unit ? d.unit : "";
+  if (unit == "K" && d.displayOffset != 0 && d.hardMinimum <= 0) return NoValue{0, QLatin1String("none")};
+  if (unit == "s" && d.hardMaximum >= 1e9) return NoValue{d.hardMaximum, QLatin1String("never")};
+  return std::nullopt;
+}
 
 }  // namespace
 
@@ -277,11 +287,12 @@ QString displayUnit(const api::ParameterDeclaration& d) {
 }
 
 bool standsForNone(const api::ParameterDeclaration& d, double stored) {
-  return stored == 0 && d.displayOffset != 0 && d.hardMinimum <= 0 && std::string_view(d.unit) == "K";
+  const std::optional<NoValue> none = noValueOf(d);
+  return none && stored == none->stored;
 }
 
 QString formatField(const api::ParameterDeclaration& d, double stored) {
-  if (standsForNone(d, stored)) return kNone;
+  if (standsForNone(d, stored)) return noValueOf(d)->word;
   double shown = toDisplay(d, stored);
   // 273.15 K - 273.15 is not always 0: what lies under the last bit of the sum is no information.
   if (std::abs(shown) < 1e-12 * std::abs(d.displayOffset)) shown = 0;
@@ -307,7 +318,10 @@ std::optional<double> parseNumber(const QString& text) {
 Typed parseTyped(const QString& typed, const api::ParameterDeclaration& d, double current) {
   Typed result;
   QString text = typed.trimmed();
-  if (standsForNone(d, 0) && text.compare(kNone, Qt::CaseInsensitive) == 0) return result;
+  if (const auto none = noValueOf(d); none && text.compare(none->word, Qt::CaseInsensitive) == 0) {
+    result.value = none->stored;
+    return result;
+  }
   const QChar first = text.isEmpty() ? QChar() : text[0];
   const bool divides = first == QLatin1Char('/') || first == QChar(0x00F7);
   if (divides || first == QLatin1Char('*') || first == QChar(0x00D7)) {

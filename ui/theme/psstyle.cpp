@@ -6,6 +6,7 @@
 #include "ui/theme/theme.h"
 
 #include <QtGui/QPainter>
+#include <QtWidgets/QDialog>
 #include <QtWidgets/QStyleFactory>
 #include <QtWidgets/QStyleOption>
 
@@ -49,7 +50,7 @@ int PsStyle::pixelMetric(PixelMetric metric, const QStyleOption* option, const Q
     case PM_LayoutTopMargin:
     case PM_LayoutRightMargin:
     case PM_LayoutBottomMargin:
-      return 0;
+      return qobject_cast<const QDialog*>(widget) ? 12 : 0;  // Qt's own dialogs ask nobody else
     case PM_LayoutHorizontalSpacing:
     case PM_LayoutVerticalSpacing:
       return 6;

@@ -163,7 +163,11 @@ void Inspector::addPinned(std::vector<RowModel>& rows) {
     const auto address = Address::parse(text);
     std::optional<RowModel> row = address ? rowOf(*address) : std::nullopt;
     if (!row) continue;
-    row->declaration.label = keep(awayLabel(project, *address, QString::fromUtf8(row->declaration.label)));
+    QString label = awayLabel(project, *address, QString::fromUtf8(row->declaration.label));
+    // Of another material than the panel's: its name tells the two apart. It may be long and stands last.
+    if (address->owner == "material" && address->id != m_materialId)
+      label += QStringLiteral(" · ") + ownerLabel(project, *address);
+    row->declaration.label = keep(label);
     row->pinned = true;
     pinned.push_back(std::move(*row));
   }

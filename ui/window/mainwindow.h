@@ -47,6 +47,7 @@ class MainWindow : public QMainWindow {
     bool restore = true;            ///< last session, window state and theme of the user's settings
     bool exitOnBadProject = false;  ///< for pictures by command: startFailed() instead of a notice
     bool dark = true;               ///< where `restore` finds nothing or is off
+    bool themeAsked = false;        ///< `dark` holds for this time, whatever is stored, and is not stored
   };
   explicit MainWindow(const Options& options);
   ~MainWindow() override;

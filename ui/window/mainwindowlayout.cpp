@@ -135,7 +135,7 @@ void MainWindow::sizeDocks() {
 
 void MainWindow::restoreWindow() {
   const QSettings settings;
-  m_dark = settings.value(QLatin1String(kTheme), m_dark).toBool();
+  if (!m_options.themeAsked) m_dark = settings.value(QLatin1String(kTheme), m_dark).toBool();
   if (m_dark != Theme::current().dark()) Theme::apply(*qApp, m_dark);
   if (settings.contains(QLatin1String(kGeometry))) {
     restoreGeometry(settings.value(QLatin1String(kGeometry)).toByteArray());
@@ -147,7 +147,7 @@ void MainWindow::restoreWindow() {
 void MainWindow::saveWindow() const {
   if (!m_options.restore) return;
   QSettings settings;
-  settings.setValue(QLatin1String(kTheme), m_dark);
+  if (!m_options.themeAsked) settings.setValue(QLatin1String(kTheme), m_dark);
   settings.setValue(QLatin1String(kGeometry), saveGeometry());
   settings.setValue(QLatin1String(kState), m_fullViewport ? m_beforeFull : saveState(kStateVersion));
   if (const Viewport* view = viewport()) settings.setValue(QLatin1String(kHint), view->hintShown());
@@ -156,6 +156,7 @@ void MainWindow::saveWindow() const {
 void MainWindow::setDark(bool dark) {
   if (dark == m_dark) return;
   m_dark = dark;
+  m_options.themeAsked = false;
   Theme::apply(*qApp, dark);
   if (m_options.restore) QSettings().setValue(QLatin1String(kTheme), dark);
   m_inspector->rebuild();

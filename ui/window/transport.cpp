@@ -126,6 +126,7 @@ void Transport::setPlaying(bool playing) {
   m_play->setToolTip(tip);
   m_play->setAccessibleName(tip);
   styleButtons();
+  refresh();
 }
 
 void Transport::setReady(bool ready) {
@@ -153,6 +154,12 @@ void Transport::setSnapshot(const SnapshotPtr& snapshot) {
 
 QString Transport::timeText() const { return clockText(m_seconds); }
 
+QString Transport::durationText() const {
+  const bool end = !m_playing && m_seconds > m_total - 0.02;
+  return QStringLiteral("/ ") + clockText(m_total).left(5) +
+         (end ? QStringLiteral("  The end: Space goes on, Home begins anew") : QString());
+}
+
 ThermalTexts Transport::thermalTexts() const {
   if (m_scale == 1) return {};
   return {QStringLiteral("Heat ×%1 = ").arg(formatShort(m_scale)), spanText(m_thermalSeconds),
@@ -161,7 +168,7 @@ ThermalTexts Transport::thermalTexts() const {
 
 void Transport::refresh() {
   m_time->setText(timeText());
-  m_duration->setText(QStringLiteral("/ ") + clockText(m_total).left(5));
+  m_duration->setText(durationText());
   m_thermal->setTexts(thermalTexts());
   update(0, height() - 5, width(), 5);
 }

@@ -30,6 +30,7 @@ class Transport : public QWidget {
   void setDuration(double seconds);
   void setTimeScale(double scale);  ///< thermal seconds per mechanical second
   void setSnapshot(const SnapshotPtr& snapshot);
+  QString durationText() const;  ///< "/ 01:00", and what goes on from there while it stands at the end
   QString timeText() const;
   ThermalTexts thermalTexts() const;
 
