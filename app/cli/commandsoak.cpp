@@ -85,8 +85,8 @@ std::vector<Change> changesOf(const Project& project, const PluginRegistry& plug
     const std::string text = address.text();
     const bool chosen = only.empty() || std::any_of(only.begin(), only.end(),
                                                     [&](const std::string& start) { return text.starts_with(start); });
-    const bool structure = address.owner == "body" && address.key == kStructureKey;  // an edit of the document
-    if (!chosen || structure) continue;
+    const bool edit = address.owner == "body" && (address.key == kStructureKey || address.key == kBodyMaterialKey);
+    if (!chosen || edit) continue;  // an edit of the document acts on no run
     const api::ParameterDeclaration* declaration = declarationOf(project, &plugins, address);
     for (Value& value : endsOf(*declaration, valueAt(project, &plugins, address))) {
       changes.push_back({address, std::move(value)});

@@ -4,8 +4,10 @@
 #include "core/base/error.h"
 #include "core/matter/material.h"
 #include "core/plugin_host/registry.h"
+#include "core/scene/declare.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <mutex>
 
@@ -58,10 +60,19 @@ api::ParameterList sceneDeclarations(const Project& project, const PluginRegistr
   return {list.data(), list.size()};
 }
 
+api::ParameterDeclaration bodyMaterialParameter(const std::vector<std::string>& materials) {
+  std::string choices;
+  for (const std::string& id : materials) choices += (choices.empty() ? "" : "|") + id;
+  return declare::choice({kBodyMaterialKey, "Made of", "", ""}, declare::kept(choices), 0,
+                         {"Matter", "The material of the body, one of the scene's. Acts at the next reset.",
+                          "tin for a spoon that melts in soup", ""});
+}
+
 /// As sceneDeclarations(), for one body.
 api::ParameterList bodyDeclarations(const Project& project, const PluginRegistry* plugins, const std::string& id) {
-  static std::map<std::vector<std::string>, std::vector<api::ParameterDeclaration>> lists;
-  std::vector<std::string> choices;
+  static std::map<std::array<std::vector<std::string>, 2>, std::vector<api::ParameterDeclaration>> lists;
+  std::vector<std::string> choices, materials;
+  for (const SceneMaterial& material : project.materials) materials.push_back(material.id);
   if (plugins) {
     for (const std::string& plugin : plugins->ids(PluginKind::Constraint)) {
       if (holdsTogether(plugin, plugins)) choices.push_back(plugin);
@@ -74,12 +85,13 @@ api::ParameterList bodyDeclarations(const Project& project, const PluginRegistry
       choices.push_back(present);
   }
   const std::lock_guard lock(g_lists);
-  auto& list = lists[choices];
+  auto& list = lists[{choices, materials}];
   if (list.empty()) {
     for (const api::ParameterList& part : {bodyParameters(), bodyMotionParameters()}) {
       for (size_t i = 0; i < part.count; ++i) list.push_back(part[i]);
     }
     list.push_back(structureParameter(choices));
+    if (!materials.empty()) list.push_back(bodyMaterialParameter(materials));
   }
   return {list.data(), list.size()};
 }
@@ -141,6 +153,7 @@ Value conformed(Value value, const api::ParameterDeclaration& declaration) {
 Value defaultOf(const Project& project, const PluginRegistry* plugins, const Address& address) {
   const api::ParameterDeclaration* declaration = declarationOf(project, plugins, address);
   if (!declaration) return 0.0;
+  if (address.owner == "body" && address.key == kBodyMaterialKey) return valueAt(project, plugins, address);
   if (address.owner == "material" && propertyIndex(address.key) >= 0) {
     if (const SceneMaterial* material = materialById(project, address.id)) {
       if (const auto base = baseMaterial(*material, plugins)) {
@@ -157,6 +170,10 @@ Value valueAt(const Project& project, const PluginRegistry* plugins, const Addre
   if (address.owner == "body" && address.key == kStructureKey) {
     const auto body = itemById(project.bodies, address.id);
     return body == project.bodies.end() ? std::string(kNoStructure) : structureOf(*body, plugins);
+  }
+  if (address.owner == "body" && address.key == kBodyMaterialKey) {
+    const auto body = itemById(project.bodies, address.id);
+    return body == project.bodies.end() ? std::string() : body->material;
   }
   const ParameterSet* set = findSet(project, address);
   const api::ParameterDeclaration* declaration = declarationOf(project, plugins, address);

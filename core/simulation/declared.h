@@ -11,6 +11,9 @@ namespace ps {
 
 class PluginRegistry;
 
+/// What a body is made of is no parameter either; panels show it as one, a choice among the scene's materials.
+inline constexpr const char* kBodyMaterialKey = "material";
+
 /// The declarations among which an address's key is found; empty when unknown.
 api::ParameterList declarationsOf(const Project& project, const PluginRegistry* plugins, const Address& address);
 const api::ParameterDeclaration* declarationOf(const Project& project, const PluginRegistry* plugins,

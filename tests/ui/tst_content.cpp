@@ -299,6 +299,24 @@ class TestContent : public QObject {
     QCOMPARE(m_document->addWalls({"lid"}), QString());
   }
 
+  void materialOfABodyIsChosen() {
+    const Address made{"body", "second", kBodyMaterialKey};
+    const std::string before = text(), old = std::get<std::string>(m_document->value(made));
+    QCOMPARE(old, m_document->body("second")->material);
+    QVERIFY(m_document->value(made) == m_document->defaultValue(made));      // never shown as changed
+    QVERIFY(!m_document->setParameter(made, std::string("tin")).isEmpty());  // not of this scene
+    QCOMPARE(m_document->addMaterial("tin"), std::string("tin"));
+    QCOMPARE(m_document->setParameter(made, std::string("tin")), QString());
+    const Project saved = parseProject(text(), "scene.json", *m_plugins).project;
+    QCOMPARE(saved.bodies[1].material, std::string("tin"));
+    QCOMPARE(saved.bodies[0].material, old);
+    m_link->reset();
+    QVERIFY(!m_document->removeMaterial("tin").isEmpty());
+    m_document->undoStack().undo();
+    m_document->undoStack().undo();
+    QCOMPARE(text(), before);
+  }
+
   void structureIsChosen() {
     const Address structure{"body", "second", kStructureKey};
     QCOMPARE(std::get<std::string>(m_document->value(structure)), std::string("bonds"));

@@ -73,6 +73,11 @@ QString Document::setParameter(const Address& address, const Value& value) {
     setStructure(address.id, std::get<std::string>(value));
     return {};
   }
+  if (address.owner == "body" && address.key == kBodyMaterialKey) {
+    if (const QString problem = refusal(); !problem.isEmpty()) return problem;
+    setBodyMaterial(address.id, std::get<std::string>(value));
+    return {};
+  }
   const std::optional<Value> outside = outsideValue(m_project, address);
   const ParameterSet* set = findSet(m_project, address);
   if (!set && !outside)

@@ -74,6 +74,7 @@ class Document : public QObject {
   /// What holds a body together: a constraint plugin's id in place of those that did, or "none". Acts at the next
   /// reset.
   void setStructure(const std::string& id, const std::string& plugin);
+  void setBodyMaterial(const std::string& id, const std::string& material);
   /// Notes a stroke whose particles are in the engine already.
   void addStroke(std::shared_ptr<StrokeRecord> stroke);
 

@@ -91,6 +91,19 @@ void Document::setStructure(const std::string& id, const std::string& plugin) {
   });
 }
 
+void Document::setBodyMaterial(const std::string& id, const std::string& material) {
+  const Body* old = body(id);
+  if (!old || old->material == material) return;
+  editBody(id, QStringLiteral("material of %1").arg(text(old->name)), [&](Body& b) {
+    if (auto* voxels = std::get_if<VoxelShape>(&b.shape)) {
+      for (VoxelShape::Paint& paint : voxels->palette) {
+        if (paint.material == b.material) paint.material = material;
+      }
+    }
+    b.material = material;
+  });
+}
+
 std::string Document::addMaterial(const std::string& base) {
   std::vector<SceneMaterial>& materials = m_project.materials;
   const auto present =

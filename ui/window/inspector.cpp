@@ -189,6 +189,7 @@ void Inspector::rebuildBody() {
   }
   m_body->setHeader(QString::fromStdString(body->name),
                     matter + (sketched ? QStringLiteral(" · sketched") : QStringLiteral(" · block")));
+  if (auto material = rowOf({"body", body->id, kBodyMaterialKey})) rows.push_back(std::move(*material));
   addRows(rows, "body", body->id, bodyParameters());
   const api::ParameterList motion = bodyMotionParameters();
   for (size_t i = 0; i < motion.count; ++i) {
