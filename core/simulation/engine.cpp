@@ -442,6 +442,7 @@ SnapshotPtr Engine::snapshot() const {
   snapshot->spacing = m->spacing;
   snapshot->flags = m->lastReport.flags;
   snapshot->bodyIds = m->bodyIds;
+  snapshot->materialIds = idsOf(m->project.materials);
   snapshot->materialLook = m->looks;
   fillSnapshot(*snapshot, *m->solver);
   return snapshot;

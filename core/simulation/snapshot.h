@@ -60,6 +60,7 @@ struct Snapshot {
   std::vector<api::Motion> motion;
   std::vector<uint32_t> id, body, material;
   std::shared_ptr<const std::vector<std::string>> bodyIds;  ///< Body::id by the index in `body`
+  std::vector<std::string> materialIds;                     ///< SceneMaterial::id by the index in `material`
   std::vector<std::array<float, 4>> materialLook;           ///< sRGB and clearness, 0..1, by material index
 };
 using SnapshotPtr = std::shared_ptr<const Snapshot>;

@@ -33,7 +33,7 @@ void SolidContact::refresh(const ParticleStore& store, const Neighbours& neighbo
   m_found.clear();
   const api::Motion* motion = store.motion();
   for (size_t i = 0; i < store.size(); ++i) {
-    if (motion[i] != api::Motion::Solid && motion[i] != api::Motion::Static) continue;
+    if (!api::holds(motion[i])) continue;
     if (motion[i] == api::Motion::Solid) m_solids.push_back(static_cast<uint32_t>(i));
     m_watched.push_back(static_cast<uint32_t>(i));
     m_found.push_back(store.position()[i]);
@@ -42,7 +42,7 @@ void SolidContact::refresh(const ParticleStore& store, const Neighbours& neighbo
   const StructureGraph& graph = constraints.graph(store.size());
   const api::NeighbourView view = neighbours.view();
   const float reach2 = static_cast<float>(m_reach * m_reach);
-  const size_t chunks = (m_solids.size() + kGrain - 1) / kGrain;
+  const size_t chunks = chunkCount(m_solids.size(), kGrain);
   m_chunks.resize(std::max(m_chunks.size(), chunks));
   for (Chunk& chunk : m_chunks) chunk.who.clear();
   forChunks(m_solids.size(), kGrain, [&](size_t first, size_t last) {
@@ -55,7 +55,7 @@ void SolidContact::refresh(const ParticleStore& store, const Neighbours& neighbo
       const size_t before = chunk.other.size();
       for (uint32_t q = view.begin[i]; q < view.last[i]; ++q) {
         const uint32_t j = view.index[q];
-        if ((motion[j] != api::Motion::Solid && motion[j] != api::Motion::Static) || rigid[j] != 0) continue;
+        if (!api::holds(motion[j]) || rigid[j] != 0) continue;
         const api::Float4 d = store.separation(i, j);
         if (d.x * d.x + d.y * d.y + d.z * d.z < reach2 && !graph.tied(i, j)) chunk.other.push_back(j);
       }

@@ -248,7 +248,7 @@ void DensityStage::project(ParticleStore& store, const Neighbours& neighbours, i
   m_some.assign(m_fluid.begin(), m_fluid.end());
   m_some.insert(m_some.end(), m_wet.begin(), m_wet.end());
   forChunks(fluids, kGrain, [&](size_t first, size_t last) { multipliers(store, pairs, relaxation, first, last); });
-  m_moved.start((moving + kGrain - 1) / kGrain);
+  m_moved.start(chunkCount(moving, kGrain));
   forChunks(moving, kGrain, [&](size_t first, size_t last) { move(store, pairs, m_chebyshev, first, last); });
   if (m_touchesFixed || !m_planes.empty()) m_given.add(m_moved.total());
 }

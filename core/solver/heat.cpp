@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/solver/heat.h"
 
-#include "core/base/parallel.h"
+#include "core/solver/chunks.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,8 +11,6 @@ namespace ps {
 namespace {
 
 constexpr size_t kGrain = 256;
-
-size_t chunksOf(size_t count) { return (count + kGrain - 1) / kGrain; }
 
 /// Largest k/c in kg/(m s) of the phases that a particle consists of: how fast it answers to a conductance.
 double fastestPhase(const BakedMaterial& material, double t, double solid, double liquid, double gas) {
@@ -56,7 +54,7 @@ void HeatStage::configure(const ThermalSettings& settings, const SolverSettings&
 api::ThermalContext HeatStage::context() const {
   api::ThermalContext context{};
   context.pressure = m_settings.ambientPressure;
-  context.ambientTemperature = m_settings.ambientTemperature + m_ledger.airWarming;
+  context.ambientTemperature = airTemperature();
   context.parameters = {m_parameters.data(), m_parameters.size()};
   context.materials = {m_materialViews.data(), m_materialViews.size()};
   context.supportRadius = m_solver.spacing * m_solver.supportRatio;
@@ -175,7 +173,7 @@ void HeatStage::snapshotRange(const ParticleStore& store, HeatInstant& instant, 
 /// Everything that stays the same during a frame: pairs, what lies around, the stable step.
 void HeatStage::prepare(ParticleStore& store, const Neighbours& neighbours, uint64_t frame) {
   const size_t n = store.size();
-  m_partials.resize(chunksOf(n));
+  m_partials.resize(chunkCount(n, kGrain));
   for (auto* list : {&m_joules, &m_frameJoules, &m_watts, &m_perConductivity, &m_fixedConductance}) list->resize(n);
   m_now.resize(n);
   m_next.resize(n);
@@ -184,7 +182,7 @@ void HeatStage::prepare(ParticleStore& store, const Neighbours& neighbours, uint
                 {m_solver.spacing * m_solver.supportRatio, m_solver.spacing, m_solver.kernel,
                  m_settings.momentCorrection, m_settings.contactConductance});
   m_surroundings.measure(store, neighbours.view(), m_pairs, frame);
-  m_surroundings.setAir(m_settings.ambientTemperature + m_ledger.airWarming);
+  m_surroundings.setAir(airTemperature());
   const auto body = [&](size_t first, size_t last) {
     Partial& partial = m_partials[first / kGrain];
     partial = {};
@@ -222,18 +220,19 @@ void HeatStage::exchange(ParticleStore& store, const Neighbours& neighbours, dou
   const api::ParticleView view = store.view();
   const api::NeighbourView lists = neighbours.view();
   askPairLaw(view, lists);
-  collectFrameHeat(store, view, std::min(time, mostTime()));
+  collectFrameHeat(store, view, std::min(time, std::max(explicitTime(), sweepTime())));
   time -= takeExplicitSteps(store, view, lists, time);
   if (time > 0 && !m_pairLaw) time -= takeSweeps(store, view, time);
   if (time > 1e-9 * dt * m_settings.timeScale) m_delivered = m_settings.timeScale - time / dt;
   closeBooks();
 }
 
-/// Thermal seconds that this frame can do.
-double HeatStage::mostTime() const {
-  const double steps = std::clamp(m_settings.cfl, 0.01, 5.0) * mostExplicit();
-  return m_limit * (m_pairLaw ? steps : std::max<double>(steps, kMaxSweeps * kSweepLength));
-}
+/// Thermal seconds that one frame's explicit steps can do, and its sweeps.
+double HeatStage::explicitTime() const { return mostExplicit() * explicitShare() * m_limit; }
+double HeatStage::sweepTime() const { return m_pairLaw ? 0 : kMaxSweeps * kSweepLength * m_limit; }
+
+/// Of the stable step.
+double HeatStage::explicitShare() const { return std::clamp(m_settings.cfl, 0.01, 5.0); }
 
 int HeatStage::mostExplicit() const { return m_settings.steps == HeatSteps::Explicit ? kMostExplicit : kMaxExplicit; }
 
@@ -241,9 +240,9 @@ int HeatStage::mostExplicit() const { return m_settings.steps == HeatSteps::Expl
 /// stable step is measured anew after each one, as freezing matter may conduct several times better than its liquid.
 double HeatStage::takeExplicitSteps(ParticleStore& store, const api::ParticleView& view,
                                     const api::NeighbourView& lists, double time) {
-  const double share = std::clamp(m_settings.cfl, 0.01, 5.0);
+  const double share = explicitShare();
   const int most = mostExplicit();
-  if (time > most * share * m_limit && !m_pairLaw) return 0;
+  if (time > explicitTime() && !m_pairLaw) return 0;
   double left = time;
   while (left > 0 && m_substeps < most) {
     const double steps = std::max(1.0, std::ceil(left / (share * m_limit)));
@@ -257,7 +256,7 @@ double HeatStage::takeExplicitSteps(ParticleStore& store, const api::ParticleVie
 
 double HeatStage::takeSweeps(ParticleStore& store, const api::ParticleView& view, double time) {
   m_swept = true;
-  const double done = std::min(time, kMaxSweeps * kSweepLength * m_limit);
+  const double done = std::min(time, sweepTime());
   const int sweeps = std::max(1, static_cast<int>(std::ceil(done / (kSweepLength * m_limit))));
   for (int k = 0; k < sweeps; ++k) {
     sweep(store, view, done / sweeps, m_substeps == 0);
@@ -322,7 +321,7 @@ double HeatStage::airHeat() const {
 void HeatStage::takeFromAir(double joules) {
   if (!(m_settings.airHeatCapacity > 0)) return;
   m_ledger.airWarming -= joules / m_settings.airHeatCapacity;
-  m_surroundings.setAir(m_settings.ambientTemperature + m_ledger.airWarming);
+  m_surroundings.setAir(airTemperature());
 }
 
 void HeatStage::book(HeatBooks& books, HeatSurroundings::Kind kind, double joules) {
@@ -375,7 +374,7 @@ void HeatStage::askPairLaw(const api::ParticleView& view, const api::NeighbourVi
   m_pairRate = 0;
   if (!m_pairLaw) return;
   const auto* rates = static_cast<const api::PairRates*>(m_model->extension(api::kPairRates));
-  m_lawRates.assign(chunksOf(n), 0.0);
+  m_lawRates.assign(chunkCount(n, kGrain), 0.0);
   const auto body = [&](size_t first, size_t last) {
     if (first >= probe) m_model->pairFlux(where, view, lists, first, last, m_pairWatts.data());
     if (rates) m_lawRates[first / kGrain] = rates->fastestPairRate(where, view, lists, first, last);

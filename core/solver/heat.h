@@ -63,6 +63,8 @@ class HeatStage {
   /// Energy of each particle in J; valid until the next call of anything here. Empty without a model.
   std::span<const double> energies(const ParticleStore& store) const;
   const HeatLedger& ledger() const { return m_ledger; }
+  /// K; a finite lump of air is warmer than at the start by what matter gave it.
+  double airTemperature() const { return m_settings.ambientTemperature + m_ledger.airWarming; }
   /// Back to the books of an earlier frame, when the particles go back to it.
   void setLedger(const HeatLedger& ledger) { m_ledger = ledger; }
   /// Joules that left or came with removed or added particles are booked here.
@@ -112,7 +114,9 @@ class HeatStage {
   double latentContent(const ParticleStore& store, size_t i) const;
   double fastestRate(const ParticleStore& store, size_t first, size_t last) const;
   void findLimit();
-  double mostTime() const;
+  double explicitTime() const;
+  double sweepTime() const;
+  double explicitShare() const;
   int mostExplicit() const;
   static void book(HeatBooks& books, HeatSurroundings::Kind kind, double joules);
   double airHeat() const;

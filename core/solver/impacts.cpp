@@ -165,7 +165,7 @@ void Impacts::findFast(const ParticleStore& store, const StructureGraph& graph, 
   double fastest = 0;
   for (uint32_t i = 0; i < store.size(); ++i) {
     const api::Motion motion = store.motion()[i];
-    if ((motion != api::Motion::Solid && motion != api::Motion::Static) || rigid[i] != 0) continue;
+    if (!api::holds(motion) || rigid[i] != 0) continue;
     const double way = wayOf(store, i);
     m_solids.push_back({i, way});
     if (std::isfinite(way)) fastest = std::max(fastest, way);

@@ -11,8 +11,6 @@ namespace {
 
 constexpr size_t kGrain = 256;
 
-size_t chunksOf(size_t count) { return (count + kGrain - 1) / kGrain; }
-
 float squared(const api::Float4& d) { return d.x * d.x + d.y * d.y + d.z * d.z; }
 
 }  // namespace
@@ -24,7 +22,7 @@ void LiquidContact::configure(double spacing, double skin) {
 
 void LiquidContact::refresh(const ParticleStore& store, const Neighbours& neighbours,
                             std::span<const uint32_t> solids) {
-  const size_t chunks = chunksOf(solids.size());
+  const size_t chunks = chunkCount(solids.size(), kGrain);
   m_chunks.resize(std::max(m_chunks.size(), chunks));
   forChunks(solids.size(), kGrain, [&](size_t first, size_t last) {
     findLiquids(store, neighbours, solids.subspan(first, last - first), m_chunks[first / kGrain]);
@@ -121,7 +119,7 @@ void LiquidContact::project(ParticleStore& store) {
     }
     m_touching[contact.who] = static_cast<uint8_t>(std::min(255, touching));
   });
-  m_fromFixed.start(chunksOf(m_contacts.size()));
+  m_fromFixed.start(chunkCount(m_contacts.size(), kGrain));
   everywhere([&](size_t k) {
     Vector3 fromFixed;
     m_moves[k] = moveOf(store, m_contacts[k], fromFixed);

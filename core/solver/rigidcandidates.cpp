@@ -133,7 +133,7 @@ void RigidContact::refreshContacts(const ParticleStore& store, const Neighbours&
     }
     for (uint32_t q = view.begin[i]; q < view.last[i]; ++q) {
       const uint32_t j = view.index[q];
-      if (motion[j] != api::Motion::Solid && motion[j] != api::Motion::Static) continue;
+      if (!api::holds(motion[j])) continue;
       // Each pair of bodies once, from the body that comes first.
       if (m_bodyOf[j] != kNone && m_bodyOf[j] <= m_bodyOf[i]) continue;
       if (!(distance2(i, j) < reach * reach) || graph.tied(i, j)) continue;

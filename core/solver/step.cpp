@@ -99,7 +99,7 @@ void Solver::Impl::runFrame() {
     if (good) keepLastGood();
     external.take();
     report.momentum.start = double3Of(momentum());
-    gas.setAir(thermal.ambientTemperature + heat.ledger().airWarming);
+    gas.setAir(heat.airTemperature());
     timed(Stage::Phase, [&] { gas.measure(store, neighbours); });
     timed(Stage::Viscosity, [&] { viscosity.refresh(store, neighbours, density); });
     for (int s = 0; s < settings.substeps && good; ++s) {
@@ -200,7 +200,7 @@ void Solver::Impl::listsChanged(bool newStructure) {
 
 void Solver::Impl::predict(uint32_t index, double dt) {
   motion.advance(store.period(), time + index * dt, dt);
-  weight.start((store.size() + kGrain - 1) / kGrain);
+  weight.start(chunkCount(store.size(), kGrain));
   forChunks(store.size(), kGrain, [&](size_t first, size_t last) {
     api::Float4 *position = store.position(), *previous = store.previous(), *velocity = store.velocity();
     Vector3 before, after;

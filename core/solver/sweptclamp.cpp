@@ -233,7 +233,7 @@ void SweptClamp::apply(ParticleStore& store, const Neighbours& neighbours, const
   }
   m_held.resize(store.size(), {0, 0, 0, 0});
   api::Float4* position = store.position();
-  m_moved.start((store.size() + kGrain - 1) / kGrain);
+  m_moved.start(chunkCount(store.size(), kGrain));
   forChunks(store.size(), kGrain, [&](size_t first, size_t last) {
     for (size_t i = first; i < last; ++i) {
       if (store.velocity()[i].w == 0 || maySkip(store, neighbours, i)) continue;

@@ -53,7 +53,7 @@ Vector3 WallStage::projectOne(const Plane& p, ParticleStore& store, size_t i, fl
 
 void WallStage::projectNear(ParticleStore& store) {
   const api::Float4* position = store.position();
-  m_moved.start((m_near.size() + kGrain - 1) / kGrain);
+  m_moved.start(chunkCount(m_near.size(), kGrain));
   forChunks(m_near.size(), kGrain, [&](size_t first, size_t last) {
     for (size_t k = first; k < last; ++k) {
       const uint32_t i = m_near[k];
@@ -69,7 +69,7 @@ void WallStage::projectNear(ParticleStore& store) {
 void WallStage::project(ParticleStore& store) {
   if (m_planes.empty()) return;
   const api::Float4 *position = store.position(), *velocity = store.velocity();
-  m_moved.start((store.size() + kGrain - 1) / kGrain);
+  m_moved.start(chunkCount(store.size(), kGrain));
   forChunks(store.size(), kGrain, [&](size_t first, size_t last) {
     for (size_t i = first; i < last; ++i) {
       if (velocity[i].w == 0 || m_rigid[i] != 0) continue;

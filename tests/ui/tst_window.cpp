@@ -393,7 +393,8 @@ class TestWindow : public QObject {
     snapshot.stats.temperatureMean = 900;
     m_window->inspector().setSnapshot(snapshot);
     QCOMPARE(row->model().temperature, 900.0);  // it has no matter
-    snapshot.material = {0, 0, 1};
+    snapshot.materialIds = {"lost", "water"};   // the document has lost one; the engine keeps its place until a reset
+    snapshot.material = {1, 1, 0};
     snapshot.temperature = {280, 300, 1400};
     m_window->inspector().setSnapshot(snapshot);
     QCOMPARE(row->model().temperature, 290.0);

@@ -12,6 +12,7 @@ class PanelHeader : public QWidget {
  public:
   explicit PanelHeader(QWidget* parent = nullptr);
   void setTexts(const QString& name, const QString& subtitle, const QString& detail);
+  void setDetail(const QString& detail) { setTexts(m_name, m_subtitle, detail); }
   void setSwatch(const QColor& colour);  ///< invalid: none
   QSize sizeHint() const override;
 

@@ -145,6 +145,8 @@ void ParameterPanel::setHeader(const QString& name, const QString& subtitle, con
   d->header->setVisible(!name.isEmpty());
 }
 
+void ParameterPanel::setHeaderDetail(const QString& detail) { d->header->setDetail(detail); }
+
 void ParameterPanel::setEmptyText(const QString& text) {
   d->emptyText = text;
   d->show();
@@ -329,12 +331,6 @@ void ParameterPanel::setLimit(const QString& key, const QString& text, double de
 }
 void ParameterPanel::setError(const QString& key, const QString& text) {
   d->each(key, [&](ParameterRow* row) { row->setError(text); });
-}
-void ParameterPanel::setTemperature(const QString& key, double kelvin) {
-  d->each(key, [&](ParameterRow* row) { row->setTemperature(kelvin); });
-}
-void ParameterPanel::setTemperature(double kelvin) {
-  for (ParameterRow* row : rows()) row->setTemperature(kelvin);
 }
 
 ParameterRow* ParameterPanel::row(const QString& key) const {

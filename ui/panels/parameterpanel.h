@@ -27,6 +27,7 @@ class ParameterPanel : public QWidget {
 
   /// Block at the top: name, line below it, small line below that. An invalid swatch draws none.
   void setHeader(const QString& name, const QString& subtitle, const QString& detail = {}, const QColor& swatch = {});
+  void setHeaderDetail(const QString& detail);
   /// Replaces all rows. Pinned ones stand in a group "Try these" on top, others by the declaration's group in the order
   /// in which groups first appear. Keeps scroll position, folded groups and the filter. Gestures still open end first;
   /// a row may ask for this from its own menu or signal.
@@ -43,9 +44,6 @@ class ParameterPanel : public QWidget {
   void setLimit(const QString& key, const QString& text, double delivered = std::numeric_limits<double>::quiet_NaN());
   void setDisabledReason(const QString& key, const QString& reason);  ///< "" enables it
   void setError(const QString& key, const QString& text);
-  /// Operating point of a response row, or of all of them.
-  void setTemperature(const QString& key, double kelvin);
-  void setTemperature(double kelvin);
 
   ParameterRow* row(const QString& key) const;  ///< first with that key, or nullptr
   std::vector<ParameterRow*> rows() const;      ///< all, in order

@@ -249,13 +249,17 @@ void Inspector::showMaterialHeader() {
   for (const Body& body : project.bodies) {
     if (body.material == material->id) bodies << QString::fromStdString(body.name);
   }
-  QStringList detail{QStringLiteral("At %1 °C").arg(formatFixed(temperatureOf(m_materialId) - 273.15, 1))};
-  if (const QString grade = gradeText(plugins, material->base); !grade.isEmpty()) detail << grade;
+  m_grade = gradeText(plugins, material->base);
   m_material->setHeader(QString::fromStdString(material->label.empty() ? material->id : material->label),
                         missing
                             ? QStringLiteral("Plugin “%1” is not installed").arg(QString::fromStdString(material->base))
                             : bodies.join(QStringLiteral(", ")),
-                        detail.join(QStringLiteral(" · ")), colourOf(project, plugins, material->id));
+                        materialDetail(), colourOf(project, plugins, material->id));
+}
+
+QString Inspector::materialDetail() const {
+  const QString at = QStringLiteral("At %1 °C").arg(formatFixed(temperatureOf(m_materialId) - 273.15, 1));
+  return m_grade.isEmpty() ? at : at + QStringLiteral(" · ") + m_grade;
 }
 
 double Inspector::temperatureOf(const std::string& material) const {
@@ -264,21 +268,22 @@ double Inspector::temperatureOf(const std::string& material) const {
 }
 
 void Inspector::showTemperatures(const Snapshot& snapshot) {
-  const std::vector<SceneMaterial>& materials = m_document.project().materials;
-  std::vector<double> sums(materials.size()), counts(materials.size());
+  // The engine keeps a material that the document has lost until the next reset: places differ, ids do not.
+  const std::vector<std::string>& ids = snapshot.materialIds;
+  std::vector<double> sums(ids.size()), counts(ids.size());
   for (size_t i = 0; i < snapshot.material.size(); ++i) {
     const size_t material = snapshot.material[i];
-    if (material >= sums.size()) continue;  // the scene has lost one since
+    if (material >= sums.size()) continue;  // no snapshot of an engine
     sums[material] += static_cast<double>(snapshot.temperature[i]);
     ++counts[material];
   }
   if (snapshot.stats.temperatureMean > 0) m_sceneMean = snapshot.stats.temperatureMean;
   m_mean.clear();
-  for (size_t k = 0; k < materials.size(); ++k) {
-    if (counts[k] > 0) m_mean[materials[k].id] = sums[k] / counts[k];
+  for (size_t k = 0; k < ids.size(); ++k) {
+    if (counts[k] > 0) m_mean[ids[k]] = sums[k] / counts[k];
   }
   for (ParameterRow* row : m_material->rows()) row->setTemperature(temperatureOf(materialOf(row->key())));
-  showMaterialHeader();
+  if (!m_materialId.empty()) m_material->setHeaderDetail(materialDetail());
 }
 
 void Inspector::rebuildScene() {

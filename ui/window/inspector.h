@@ -47,6 +47,7 @@ class Inspector : public QObject {
   void rebuildBody();
   void rebuildMaterial();
   void showMaterialHeader();
+  QString materialDetail() const;
   void showTemperatures(const Snapshot& snapshot);
   /// K, at which a material's curves are read: the mean of its particles, or of all matter where it has none.
   double temperatureOf(const std::string& material) const;
@@ -67,6 +68,7 @@ class Inspector : public QObject {
   std::string m_bodyId, m_materialId;
   std::set<std::string> m_texts;  ///< headings and labels that rows borrow; grows with names only
   std::set<QString> m_limited;
+  QString m_grade;                       ///< of the material's sources, as the header says it
   double m_sceneMean = 293.15;           ///< K
   std::map<std::string, double> m_mean;  ///< K, by material; of those that have particles
 };
