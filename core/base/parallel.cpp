@@ -51,7 +51,9 @@ void setThreadCount(int count) {
 }
 
 int threadCount() {
-  return g_threads > 0 ? g_threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  // Asked once: the answer comes from a file of the operating system, and every loop asks.
+  static const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  return g_threads > 0 ? g_threads : cores;
 }
 
 void parallelFor(size_t count, size_t grain, const std::function<void(size_t, size_t)>& body) {
