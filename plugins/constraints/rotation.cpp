@@ -5,21 +5,6 @@
 
 namespace ps::constraint {
 
-Quaternion normalised(Quaternion q) {
-  const double length2 = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
-  if (!(length2 > 1e-30) || !std::isfinite(length2)) return {};
-  const double s = 1 / std::sqrt(length2);
-  return {s * q.x, s * q.y, s * q.z, s * q.w};
-}
-
-Matrix matrixOf(Quaternion q) {
-  const double xx = q.x * q.x, yy = q.y * q.y, zz = q.z * q.z, xy = q.x * q.y, xz = q.x * q.z, yz = q.y * q.z,
-               wx = q.w * q.x, wy = q.w * q.y, wz = q.w * q.z;
-  return {{Vector{1 - 2 * (yy + zz), 2 * (xy - wz), 2 * (xz + wy)},
-           Vector{2 * (xy + wz), 1 - 2 * (xx + zz), 2 * (yz - wx)},
-           Vector{2 * (xz - wy), 2 * (yz + wx), 1 - 2 * (xx + yy)}}};
-}
-
 Quaternion exponential(Vector v) {
   // Halved until the series of sine and cosine are exact to 1e-16, then squared as often.
   int halvings = 0;
@@ -46,20 +31,37 @@ Vector logarithm(Quaternion q) {
   return {perSine * q.x, perSine * q.y, perSine * q.z};
 }
 
+namespace {
+
+/// H^-1 g for a symmetric H that is safely positive definite: no eigenvalue far below the others, whose sum is `sum`.
+bool solved(double xx, double yy, double zz, double xy, double xz, double yz, double sum, Vector g, Vector& x) {
+  constexpr double kSafe = 1e-4;
+  const double a = yy * zz - yz * yz, b = xz * yz - xy * zz, c = xy * yz - xz * yy, minor = xx * yy - xy * xy;
+  const double determinant = xx * a + xy * b + xz * c;
+  if (!(xx > 0) || !(minor > 0) || !(determinant > kSafe * sum * sum * sum)) return false;
+  x = 1 / determinant *
+      Vector{a * g.x + b * g.y + c * g.z, b * g.x + (xx * zz - xz * xz) * g.y + (xy * xz - xx * yz) * g.z,
+             c * g.x + (xy * xz - xx * yz) * g.y + minor * g.z};
+  return true;
+}
+
+}  // namespace
+
 Quaternion rotationOf(const Matrix& a, Quaternion q, double exact) {
   constexpr int kMost = 60;
-  const std::array<Vector, 3> columns{a.column(0), a.column(1), a.column(2)};
   for (int k = 0; k < kMost; ++k) {
+    // M = A R^T: its axial vector is the slope of the trace against a turn, tr(M) - M its curvature.
     const Matrix r = matrixOf(q);
-    Vector turn;
-    double scale = 0;
-    for (size_t c = 0; c < 3; ++c) {
-      turn += cross(r.column(c), columns[c]);
-      scale += dot(r.column(c), columns[c]);
-    }
-    const double size = std::abs(scale);
+    Matrix m;
+    for (size_t i = 0; i < 3; ++i) m.row[i] = r * a.row[i];
+    const double trace = m.row[0].x + m.row[1].y + m.row[2].z, size = std::abs(trace);
     if (!(size > 0)) break;
-    turn = 1 / size * turn;
+    const Vector slope{m.row[2].y - m.row[1].z, m.row[0].z - m.row[2].x, m.row[1].x - m.row[0].y};
+    Vector turn;
+    if (!solved(trace - m.row[0].x, trace - m.row[1].y, trace - m.row[2].z, -0.5 * (m.row[0].y + m.row[1].x),
+                -0.5 * (m.row[0].z + m.row[2].x), -0.5 * (m.row[1].z + m.row[2].y), 2 * trace, slope, turn)) {
+      turn = 1 / size * slope;
+    }
     const double angle2 = dot(turn, turn);
     if (!(angle2 > exact * exact) || !std::isfinite(angle2)) break;
     if (angle2 > 1) turn = 1 / std::sqrt(angle2) * turn;

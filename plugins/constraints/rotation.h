@@ -52,16 +52,28 @@ inline Quaternion operator*(Quaternion a, Quaternion b) {
 }
 inline Quaternion conjugate(Quaternion q) { return {-q.x, -q.y, -q.z, q.w}; }
 /// Of unit length; no rotation for what has no length or is no number.
-Quaternion normalised(Quaternion q);
-Matrix matrixOf(Quaternion q);
+inline Quaternion normalised(Quaternion q) {
+  const double length2 = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
+  if (!(length2 > 1e-30) || !std::isfinite(length2)) return {};
+  const double s = 1 / std::sqrt(length2);
+  return {s * q.x, s * q.y, s * q.z, s * q.w};
+}
+inline Matrix matrixOf(Quaternion q) {
+  const double xx = q.x * q.x, yy = q.y * q.y, zz = q.z * q.z, xy = q.x * q.y, xz = q.x * q.z, yz = q.y * q.z,
+               wx = q.w * q.x, wy = q.w * q.y, wz = q.w * q.z;
+  return {{Vector{1 - 2 * (yy + zz), 2 * (xy - wz), 2 * (xz + wy)},
+           Vector{2 * (xy + wz), 1 - 2 * (xx + zz), 2 * (yz - wx)},
+           Vector{2 * (xz - wy), 2 * (yz + wx), 1 - 2 * (xx + yy)}}};
+}
 /// Rotation by the angle |v| in rad about v.
 Quaternion exponential(Vector v);
 /// Its inverse: the shorter of the two ways, at most pi rad.
 Vector logarithm(Quaternion q);
 
-/// Rotation R that maximises the trace of R^T A: the rotational part of A, by the quaternion iteration of Mueller,
-/// Bender, Chentanez & Macklin 2016, started from `q`, until a step turns by less than `exact` rad. What A leaves open
-/// (a line, a point) stays as in `q`.
+/// Rotation R that maximises the trace of R^T A: the rotational part of A, by Newton's method on the rotations,
+/// started from `q`, until a step turns by less than `exact` rad. Where the curvature of the trace is no help (a line,
+/// a point, matter turned inside out) a step is that of Mueller, Bender, Chentanez & Macklin 2016, which is slower and
+/// always safe. What A leaves open stays as in `q`.
 Quaternion rotationOf(const Matrix& a, Quaternion q, double exact = 1e-13);
 
 /// Inverse of a symmetric, positive semidefinite matrix, zero along axes whose eigenvalue is below 1e-6 of the largest
