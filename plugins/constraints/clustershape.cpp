@@ -15,36 +15,23 @@ ClusterShape::ClusterShape(const api::ParticleView& particles, const api::GroupB
       {value(Model::kRotationX), value(Model::kRotationY), value(Model::kRotationZ), value(Model::kRotationW)});
 }
 
-Vector ClusterShape::rest(size_t k) const {
-  return {m_batch.memberValues[Model::kRestX][k], m_batch.memberValues[Model::kRestY][k],
-          m_batch.memberValues[Model::kRestZ][k]};
-}
-
-Vector ClusterShape::multiplier(size_t k) const {
-  return {m_batch.memberValues[Model::kMultiplierX][k], m_batch.memberValues[Model::kMultiplierY][k],
-          m_batch.memberValues[Model::kMultiplierZ][k]};
-}
-
-void ClusterShape::setMultiplier(size_t k, Vector value) const {
-  m_batch.memberValues[Model::kMultiplierX][k] = static_cast<float>(value.x);
-  m_batch.memberValues[Model::kMultiplierY][k] = static_cast<float>(value.y);
-  m_batch.memberValues[Model::kMultiplierZ][k] = static_cast<float>(value.z);
-}
-
 void ClusterShape::fit(const uint8_t* without) {
+  // Sums over places seen from a member, so that nothing large cancels; moments about the centres follow from them.
+  const Vector origin = vectorOf(m_p.position[m_batch.particles[m_first]]);
   double total = 0;
-  m_centre = m_restCentre = {};
-  each(without, [&](size_t k) {
-    total += mass(k);
-    m_restCentre += mass(k) * rest(k);
-    m_centre += mass(k) * vectorOf(m_p.position[m_batch.particles[k]]);
-  });
-  m_restCentre = 1 / total * m_restCentre;
-  m_centre = 1 / total * m_centre;
+  Vector place, restPlace;
   Matrix moments;
   each(without, [&](size_t k) {
-    addOuter(moments, mass(k), vectorOf(m_p.position[m_batch.particles[k]]) - m_centre, rest(k) - m_restCentre);
+    const double m = mass(k);
+    const Vector r = rest(k), weighted = m * (vectorOf(m_p.position[m_batch.particles[k]]) - origin);
+    total += m;
+    restPlace += m * r;
+    place += weighted;
+    addOuter(moments, 1, weighted, r);
   });
+  m_restCentre = 1 / total * restPlace;
+  addOuter(moments, -1, place, m_restCentre);
+  m_centre = origin + 1 / total * place;
   m_rotation = rotationOf(moments, m_rotation, kExact);
   const double parts[] = {m_rotation.x, m_rotation.y, m_rotation.z, m_rotation.w};
   for (size_t v = 0; v < 4; ++v) m_batch.values[Model::kRotationX + v][m_group] = static_cast<float>(parts[v]);

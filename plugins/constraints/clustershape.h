@@ -17,10 +17,21 @@ class ClusterShape {
   /// `without[k]` = 1.
   void fit(const uint8_t* without = nullptr);
   Vector goal(size_t k) const { return m_centre + m_turned * (rest(k) - m_restCentre); }
-  Vector rest(size_t k) const;  ///< place in the undeformed frame
+  /// Place in the undeformed frame.
+  Vector rest(size_t k) const {
+    const auto value = [&](ClusterModel::MemberValue v) { return m_batch.memberValues[v][k]; };
+    return {value(ClusterModel::kRestX), value(ClusterModel::kRestY), value(ClusterModel::kRestZ)};
+  }
   Quaternion rotation() const { return m_rotation; }
-  Vector multiplier(size_t k) const;
-  void setMultiplier(size_t k, Vector value) const;
+  Vector multiplier(size_t k) const {
+    const auto value = [&](ClusterModel::MemberValue v) { return m_batch.memberValues[v][k]; };
+    return {value(ClusterModel::kMultiplierX), value(ClusterModel::kMultiplierY), value(ClusterModel::kMultiplierZ)};
+  }
+  void setMultiplier(size_t k, Vector value) const {
+    m_batch.memberValues[ClusterModel::kMultiplierX][k] = static_cast<float>(value.x);
+    m_batch.memberValues[ClusterModel::kMultiplierY][k] = static_cast<float>(value.y);
+    m_batch.memberValues[ClusterModel::kMultiplierZ][k] = static_cast<float>(value.z);
+  }
   /// Way of each member since the start of the substep, without the rigid motion of the whole; call after fit().
   void findDeformation(std::vector<Vector>& change) const;
   /// Adds the rigid turn of the members where they are that has an angular momentum of `angular` kg m²/s.
