@@ -77,11 +77,22 @@ Vector3 RigidContact::movedBy(const ParticleStore& store, const Side& side) cons
   return side.inverseMass > 0 ? vectorOf(store.position()[side.particle]) - side.start : Vector3{};
 }
 
-double RigidContact::inverseMass(const Side& side, Vector3 direction) const {
-  if (side.body == kNone) return side.inverseMass;
+/// What an impulse of 1 kg m along a unit vector does to a side.
+RigidContact::Response RigidContact::responseOf(const Side& side, Vector3 direction) const {
+  if (side.body == kNone) return {side.inverseMass, {}};
   const Body& body = m_bodies[side.body];
-  const Vector3 lever = cross(side.arm, direction);
-  return 1 / body.mass + dot(lever, times(body.inverseInertia, lever));
+  const Vector3 lever = cross(side.arm, direction), turn = times(body.inverseInertia, lever);
+  return {1 / body.mass + dot(lever, turn), turn};
+}
+
+/// `response` is that of the side along `impulse`, which is `size` long.
+void RigidContact::push(ParticleStore& store, const Side& side, Vector3 impulse, double size,
+                        const Response& response) {
+  if (side.body == kNone) return push(store, side, impulse);
+  Body& body = m_bodies[side.body];
+  body.shift = body.shift + 1 / body.mass * impulse;
+  body.turn = body.turn + size * response.turn;
+  body.touched = true;
 }
 
 void RigidContact::push(ParticleStore& store, const Side& side, Vector3 impulse) {
@@ -148,6 +159,7 @@ Vector3 RigidContact::readSide(const ParticleStore& store, Side& side, Vector3 p
 }
 
 void RigidContact::readPlaces(const ParticleStore& store) {
+  m_open.clear();
   for (Contact& c : m_contacts) {
     if (!c.active) continue;
     const Vector3 a = vectorOf(store.position()[c.a.particle]);
@@ -161,8 +173,20 @@ void RigidContact::readPlaces(const ParticleStore& store) {
       image = b - vectorOf(store.position()[c.b.particle]);
     }
     c.way = readSide(store, c.a, place) - readSide(store, c.b, place - image);
-    c.mass = 1 / (inverseMass(c.a, c.normal) + inverseMass(c.b, c.normal));
+    c.ofA = responseOf(c.a, c.normal);
+    c.ofB = responseOf(c.b, c.normal);
+    c.mass = 1 / (c.ofA.inverseMass + c.ofB.inverseMass);
+    m_open.push_back({&c, c.normal, cross(c.a.arm, c.normal), cross(c.b.arm, c.normal), c.gap, c.a.body, c.b.body});
   }
+}
+
+/// m, by how far the two are apart now.
+double RigidContact::gapOf(const ParticleStore& store, const Open& open) const {
+  const auto along = [&](uint32_t body, Vector3 lever, const Side& side) {
+    if (body == kNone) return dot(movedBy(store, side), open.normal);
+    return dot(m_bodies[body].shift, open.normal) + dot(m_bodies[body].turn, lever);
+  };
+  return open.gap + along(open.bodyA, open.leverA, open.contact->a) - along(open.bodyB, open.leverB, open.contact->b);
 }
 
 /// Starts from the impulses of the last substep.
@@ -178,36 +202,38 @@ void RigidContact::resume(ParticleStore& store) {
 }
 
 /// Returns how far it moved the two, in m.
-double RigidContact::solve(ParticleStore& store, Contact& c) {
-  if (!c.active) return 0;
-  const double gap = c.gap + dot(movedBy(store, c.a) - movedBy(store, c.b), c.normal);
-  if (gap >= 0 && c.push == 0) return 0;
+double RigidContact::solve(ParticleStore& store, Contact& c, double gap) {
   c.met = true;
   const double before = c.push;
   c.push = std::max(0.0, before - gap * c.mass);
-  const Vector3 pushed = (c.push - before) * c.normal;
-  push(store, c.a, pushed);
-  push(store, c.b, -1.0 * pushed);
+  const double more = c.push - before;
+  push(store, c.a, more * c.normal, more, c.ofA);
+  push(store, c.b, -more * c.normal, -more, c.ofB);
   // Tangential way since the start of the substep, to be taken back as far as the cone allows.
   const Vector3 moved = c.way + kRecalled * c.drift + movedBy(store, c.a) - movedBy(store, c.b),
                 way = moved - dot(moved, c.normal) * c.normal;
   const double length = std::sqrt(dot(way, way));
-  Vector3 wanted = c.rub;
-  if (length > 0) {
-    const Vector3 direction = 1 / length * way;
-    wanted = wanted - length / (inverseMass(c.a, direction) + inverseMass(c.b, direction)) * direction;
-  }
+  const Vector3 direction = length > 0 ? 1 / length * way : Vector3{};
+  const Response ofA = responseOf(c.a, direction), ofB = responseOf(c.b, direction);
+  double rubbed = length > 0 ? length / (ofA.inverseMass + ofB.inverseMass) : 0;
+  const Vector3 wanted = c.rub - rubbed * direction;
   // One coefficient for the whole substep: contacts that share a load each ask for all of it on their way to the
   // solution, and would take that for slipping.
   const double most = (c.slides ? c.kineticFriction : c.staticFriction) * c.push;
   const double size = std::sqrt(dot(wanted, wanted));
   c.yields = size > most;
-  if (c.yields) wanted = most / size * wanted;
-  const Vector3 rubbed = wanted - c.rub;
-  c.rub = wanted;
-  push(store, c.a, rubbed);
-  push(store, c.b, -1.0 * rubbed);
-  return (std::abs(c.push - before) + std::sqrt(dot(rubbed, rubbed))) / c.mass;
+  if (c.yields) {
+    const Vector3 change = most / size * wanted - c.rub;
+    push(store, c.a, change);
+    push(store, c.b, -1.0 * change);
+    c.rub = c.rub + change;
+    rubbed = std::sqrt(dot(change, change));
+  } else {
+    push(store, c.a, -rubbed * direction, -rubbed, ofA);
+    push(store, c.b, rubbed * direction, rubbed, ofB);
+    c.rub = wanted;
+  }
+  return (std::abs(more) + rubbed) / c.mass;
 }
 
 void RigidContact::project(ParticleStore& store) {
@@ -219,7 +245,10 @@ void RigidContact::project(ParticleStore& store) {
   if (m_resume) resume(store);
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
     double most = 0;
-    for (Contact& c : m_contacts) most = std::max(most, solve(store, c));
+    for (const Open& open : m_open) {
+      const double gap = gapOf(store, open);
+      if (gap < 0 || open.contact->push != 0) most = std::max(most, solve(store, *open.contact, gap));
+    }
     if (most < kStill * m_spacing) break;
   }
   for (Contact& c : m_contacts) {

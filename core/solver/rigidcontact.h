@@ -64,8 +64,13 @@ class RigidContact {
     Vector3 start{};         ///< m, the particle when positions were read
     Vector3 arm{};           ///< m, from the body's centre to the place of contact
   };
+  struct Response {
+    double inverseMass = 0;  ///< 1/kg, generalised: how far the place of contact moves
+    Vector3 turn;            ///< rad/(kg m), of the body
+  };
   struct Contact {
     Side a, b;
+    Response ofA, ofB;  ///< along the normal
     uint32_t plane = kNone;
     uint64_t key = 0;  ///< the same for the two, whatever their indices
     double staticFriction = 0, kineticFriction = 0, restitution = 0;
@@ -82,6 +87,13 @@ class RigidContact {
     Vector3 drift;        ///< m, the sum of it since the two began to stick
     double approach = 0;  ///< m/s, normal speed before the substep
   };
+  /// What tells whether an active contact touches: the sweeps ask far more often than there is something to do.
+  struct Open {
+    Contact* contact;
+    Vector3 normal, leverA, leverB;  ///< arm x normal of each side
+    double gap;
+    uint32_t bodyA, bodyB;
+  };
   struct Plane {
     Vector3 normal;
     double offset, friction;
@@ -94,7 +106,8 @@ class RigidContact {
 
   Vector3 movedBy(const ParticleStore& store, const Side& side) const;
   Vector3 readSide(const ParticleStore& store, Side& side, Vector3 place) const;
-  double inverseMass(const Side& side, Vector3 direction) const;
+  Response responseOf(const Side& side, Vector3 direction) const;
+  void push(ParticleStore& store, const Side& side, Vector3 impulse, double size, const Response& response);
   void push(ParticleStore& store, const Side& side, Vector3 impulse);
   void addContact(const ParticleStore& store, uint32_t i, uint32_t j);
   void addPlane(const ParticleStore& store, uint32_t i, size_t plane);
@@ -103,7 +116,8 @@ class RigidContact {
   void orient(const ParticleStore& store, Contact& contact) const;
   void remember(Contact& contact) const;
   static double slideOf(const Contact& contact, Vector3 speed);
-  double solve(ParticleStore& store, Contact& contact);
+  double gapOf(const ParticleStore& store, const Open& open) const;
+  double solve(ParticleStore& store, Contact& contact, double gap);
   void resume(ParticleStore& store);
   void readPlaces(const ParticleStore& store);
   void readMasses(const ParticleStore& store, Body& body) const;
@@ -124,6 +138,7 @@ class RigidContact {
   std::vector<uint32_t> m_bodyOf;
   std::vector<Body> m_bodies;
   std::vector<Contact> m_contacts, m_former;         ///< former: by key
+  std::vector<Open> m_open;                          ///< in the same order
   std::vector<uint32_t> m_ownBegin, m_own, m_ownOf;  ///< same-body neighbours of those that touch others
 };
 
