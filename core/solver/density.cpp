@@ -115,12 +115,21 @@ void DensityStage::refreshLists(const ParticleStore& store, const Neighbours& ne
   if (m_fluid.empty()) return;
   m_isFluid.assign(n, 0);
   for (const uint32_t i : m_fluid) m_isFluid[i] = 1;
-  forChunks(n, kGrain, [&](size_t first, size_t last) {
-    for (size_t i = first; i < last; ++i) {
-      for (uint32_t q = view.begin[i]; q < view.last[i] && m_isFluid[i] == 0 && m_touched[i] == 0; ++q)
-        m_touched[i] = m_isFluid[view.index[q]];
+  // From the side of those that are fewer.
+  if (2 * m_fluid.size() < n) {
+    for (const uint32_t i : m_fluid) {
+      for (uint32_t q = view.begin[i]; q < view.last[i]; ++q) m_touched[view.index[q]] = 1;
     }
-  });
+    for (const uint32_t i : m_fluid) m_touched[i] = 0;
+  } else {
+    forChunks(n, kGrain, [&](size_t first, size_t last) {
+      for (size_t i = first; i < last; ++i) {
+        if (m_isFluid[i] != 0) continue;
+        for (uint32_t q = view.begin[i]; q < view.last[i] && m_touched[i] == 0; ++q)
+          m_touched[i] = m_isFluid[view.index[q]];
+      }
+    });
+  }
   const api::Motion* motion = store.motion();
   for (size_t i = 0; i < n; ++i) {
     const bool moves = store.velocity()[i].w > 0;
