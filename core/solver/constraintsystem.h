@@ -97,6 +97,11 @@ class ConstraintSystem {
   /// For each particle a number that all share whom ties hold together; kNoPiece for what is tied to nothing.
   std::vector<uint32_t> pieces(size_t particles);
   static constexpr uint32_t kNoPiece = ~0u;
+  /// What moves and may be pulled by something fixed, in ascending order: the particles of each plugin that ties fixed
+  /// ones or shares particles with one that does; all of them where a plugin gathers over neighbours.
+  void findHanging(const ParticleStore& store, std::vector<uint32_t>& hanging) const;
+  /// Whether a plugin gathers over neighbours.
+  bool gathers() const;
   /// Whether structural constraints share particles, so that one pass over them leaves an error.
   bool shareParticles() const;
   /// Those that threw since the last call.

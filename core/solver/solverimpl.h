@@ -64,7 +64,7 @@ struct Solver::Impl {
   StepReport report;
   Received external;  ///< kg m/s, in this frame
   ChunkSum weight;
-  bool hangsOnFixed = false;  ///< something that moves is tied to what is fixed
+  std::vector<uint32_t> hanging;  ///< what moves and may be pulled by what is fixed, ascending
 
   void configure();
   void settleEnergy() { energyOffset = heat.energy(store) - heat.ledger().net(); }
@@ -82,13 +82,13 @@ struct Solver::Impl {
   void listsChanged(bool newStructure);
   void substep(uint32_t index);
   void predict(uint32_t index, double dt);
-  Vector3 momentum() const;      ///< kg m/s, of what moves
-  Vector3 displacement() const;  ///< kg m, since the start of the substep, of what moves
+  Vector3 momentum() const;               ///< kg m/s, of what moves
+  Vector3 momentumOfHanging() const;      ///< kg m/s
+  Vector3 displacementOfHanging() const;  ///< kg m, since the start of the substep
   /// Calls into plugins, and books what comes from outside: nothing, unless something hangs on what is fixed.
   template <class Call>
   void structure(Call&& call, double dt);
   void bookContact(double dt);
-  void findTiesToFixed();
   void findThinSolids();
   void velocities(double dt);
   /// False when the thermal model threw; the frame is then taken back.

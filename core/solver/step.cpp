@@ -39,10 +39,15 @@ Vector3 Solver::Impl::momentum() const {
   return sum;
 }
 
-Vector3 Solver::Impl::displacement() const {
+Vector3 Solver::Impl::momentumOfHanging() const {
   Vector3 sum;
-  for (size_t i = 0; i < store.size(); ++i) {
-    if (store.velocity()[i].w == 0) continue;
+  for (const uint32_t i : hanging) sum = sum + double{store.mass()[i]} * vectorOf(store.velocity()[i]);
+  return sum;
+}
+
+Vector3 Solver::Impl::displacementOfHanging() const {
+  Vector3 sum;
+  for (const uint32_t i : hanging) {
     sum = sum + double{store.mass()[i]} * (vectorOf(store.position()[i]) - vectorOf(store.previous()[i]));
   }
   return sum;
@@ -51,19 +56,10 @@ Vector3 Solver::Impl::displacement() const {
 template <class Call>
 void Solver::Impl::structure(Call&& call, double dt) {
   timed(Stage::Structure, [&] {
-    const Vector3 before = hangsOnFixed ? displacement() : Vector3{};
+    const Vector3 before = displacementOfHanging();
     call();
-    if (hangsOnFixed) external.add(1 / dt * (displacement() - before));
+    external.add(1 / dt * (displacementOfHanging() - before));
   });
-}
-
-void Solver::Impl::findTiesToFixed() {
-  const StructureGraph& graph = constraints.graph(store.size());
-  const auto isFixed = [&](uint32_t i) { return store.velocity()[i].w == 0; };
-  hangsOnFixed = false;
-  for (uint32_t i = 0; i < store.size() && !hangsOnFixed; ++i) {
-    if (isFixed(i)) hangsOnFixed = !graph.isFree(i);
-  }
 }
 
 void Solver::Impl::findThinSolids() {
@@ -187,7 +183,7 @@ void Solver::Impl::listsChanged(bool newStructure) {
   if (newStructure) {
     rigid.refreshBodies(store, constraints);
     grouped = constraints.groupMembers(store);
-    findTiesToFixed();
+    constraints.findHanging(store, hanging);
     findThinSolids();
   }
   wallStage.refreshLists(store, rigid.members());
@@ -275,7 +271,7 @@ void Solver::Impl::substep(uint32_t index) {
       timed(Stage::Contact, [&] { sheets.project(store); });
     }
     timed(Stage::Density, [&] { density.project(store, neighbours, iteration); });
-    structure([&] { constraints.projectNeighbours(store, neighbours, index, it); }, dt);
+    if (constraints.gathers()) structure([&] { constraints.projectNeighbours(store, neighbours, index, it); }, dt);
     timed(Stage::Contact, [&] {
       contact.project(store);
       wet.project(store);
@@ -293,9 +289,9 @@ void Solver::Impl::substep(uint32_t index) {
   });
   timed(Stage::Viscosity, [&] { viscosity.apply(store, neighbours, density); });
   timed(Stage::Structure, [&] {
-    const Vector3 before = hangsOnFixed ? momentum() : Vector3{};
+    const Vector3 before = momentumOfHanging();
     constraints.deriveVelocities(store, index);
-    if (hangsOnFixed) external.add(momentum() - before);
+    external.add(momentumOfHanging() - before);
   });
   timed(Stage::Contact, [&] {
     impacts.bounce(store);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/solver/constraintsystem.h"
 
+#include <algorithm>
+
 namespace ps {
 
 const StructureGraph& ConstraintSystem::graph(size_t particles) {
@@ -55,6 +57,38 @@ std::vector<uint32_t> ConstraintSystem::pieces(size_t particles) {
     }
   }
   return piece;
+}
+
+bool ConstraintSystem::gathers() const {
+  return std::any_of(m_sets.begin(), m_sets.end(), [](const Set& set) {
+    return !set.structural && !set.groups && !set.disabled && std::count(set.used.begin(), set.used.end(), 1) > 0;
+  });
+}
+
+void ConstraintSystem::findHanging(const ParticleStore& store, std::vector<uint32_t>& hanging) const {
+  const auto isFixed = [&](uint32_t i) { return store.velocity()[i].w == 0; };
+  const auto visit = [](const Set& set, auto&& each) {
+    for (const uint32_t i : set.particles) each(i);
+    for (size_t g = 0; set.groups && g < set.groups->count(); ++g) {
+      for (const uint32_t i : set.groups->members(g)) each(i);
+    }
+  };
+  std::vector<uint8_t> hangs(store.size(), gathers() ? 1 : 0), taken(m_sets.size(), 0);
+  for (bool grown = true; grown;) {  // a plugin's ties hang where one of them does
+    grown = false;
+    for (size_t s = 0; s < m_sets.size(); ++s) {
+      bool any = false;
+      if (taken[s] == 0) visit(m_sets[s], [&](uint32_t i) { any = any || isFixed(i) || hangs[i] != 0; });
+      if (!any) continue;
+      visit(m_sets[s], [&](uint32_t i) { hangs[i] = 1; });
+      taken[s] = 1;
+      grown = true;
+    }
+  }
+  hanging.clear();
+  for (uint32_t i = 0; i < store.size(); ++i) {
+    if (hangs[i] != 0 && !isFixed(i)) hanging.push_back(i);
+  }
 }
 
 void ConstraintSystem::addGroupsTo(StructureGraph& graph, size_t particles) const {
