@@ -28,7 +28,7 @@ void RigidContact::readCentre(const ParticleStore& store, Body& body) const {
   body.touched = false;
   for (const uint32_t i : body.members)
     body.centre = body.centre + double{store.mass()[i]} * vectorOf(store.position()[i]);
-  body.centre = 1 / body.mass * body.centre;
+  body.centre = body.inverseMass * body.centre;
   Vector3 moment;
   for (const uint32_t i : body.members) {
     const Vector3 at = vectorOf(store.position()[i]), way = at - vectorOf(store.previous()[i]);
@@ -38,8 +38,9 @@ void RigidContact::readCentre(const ParticleStore& store, Body& body) const {
 }
 
 void RigidContact::readMasses(const ParticleStore& store, Body& body) const {
-  body.mass = 0;
-  for (const uint32_t i : body.members) body.mass += double{store.mass()[i]};
+  double mass = 0;
+  for (const uint32_t i : body.members) mass += double{store.mass()[i]};
+  body.inverseMass = 1 / mass;
   readCentre(store, body);
   double xx = 0, yy = 0, zz = 0, xy = 0, xz = 0, yz = 0;
   for (const uint32_t i : body.members) {
@@ -67,7 +68,7 @@ void RigidContact::readMotion(const ParticleStore& store, Body& body) const {
     momentum = momentum + p;
     angular = angular + cross(vectorOf(store.position()[i]) - body.centre, p);
   }
-  body.shift = 1 / body.mass * momentum;
+  body.shift = body.inverseMass * momentum;
   body.turn = times(body.inverseInertia, angular);
 }
 
@@ -77,20 +78,20 @@ Vector3 RigidContact::movedBy(const ParticleStore& store, const Side& side) cons
   return side.inverseMass > 0 ? vectorOf(store.position()[side.particle]) - side.start : Vector3{};
 }
 
-/// What an impulse of 1 kg m along a unit vector does to a side.
-RigidContact::Response RigidContact::responseOf(const Side& side, Vector3 direction) const {
-  if (side.body == kNone) return {side.inverseMass, {}};
+RigidContact::Response RigidContact::responseOf(const Side& side, Vector3 impulse) const {
+  const double square = dot(impulse, impulse);
+  if (side.body == kNone) return {side.inverseMass * square, {}};
   const Body& body = m_bodies[side.body];
-  const Vector3 lever = cross(side.arm, direction), turn = times(body.inverseInertia, lever);
-  return {1 / body.mass + dot(lever, turn), turn};
+  const Vector3 lever = cross(side.arm, impulse), turn = times(body.inverseInertia, lever);
+  return {body.inverseMass * square + dot(lever, turn), turn};
 }
 
-/// `response` is that of the side along `impulse`, which is `size` long.
+/// `response` is that of the side to the impulse divided by `size`.
 void RigidContact::push(ParticleStore& store, const Side& side, Vector3 impulse, double size,
                         const Response& response) {
   if (side.body == kNone) return push(store, side, impulse);
   Body& body = m_bodies[side.body];
-  body.shift = body.shift + 1 / body.mass * impulse;
+  body.shift = body.shift + body.inverseMass * impulse;
   body.turn = body.turn + size * response.turn;
   body.touched = true;
 }
@@ -98,7 +99,7 @@ void RigidContact::push(ParticleStore& store, const Side& side, Vector3 impulse,
 void RigidContact::push(ParticleStore& store, const Side& side, Vector3 impulse) {
   if (side.body != kNone) {
     Body& body = m_bodies[side.body];
-    body.shift = body.shift + 1 / body.mass * impulse;
+    body.shift = body.shift + body.inverseMass * impulse;
     body.turn = body.turn + times(body.inverseInertia, cross(side.arm, impulse));
     body.touched = true;
   } else if (side.inverseMass > 0) {
@@ -201,7 +202,7 @@ void RigidContact::resume(ParticleStore& store) {
   m_resume = false;
 }
 
-/// Returns how far it moved the two, in m.
+/// Returns the square of how far it moved the two, in m².
 double RigidContact::solve(ParticleStore& store, Contact& c, double gap) {
   c.met = true;
   const double before = c.push;
@@ -212,28 +213,28 @@ double RigidContact::solve(ParticleStore& store, Contact& c, double gap) {
   // Tangential way since the start of the substep, to be taken back as far as the cone allows.
   const Vector3 moved = c.way + kRecalled * c.drift + movedBy(store, c.a) - movedBy(store, c.b),
                 way = moved - dot(moved, c.normal) * c.normal;
-  const double length = std::sqrt(dot(way, way));
-  const Vector3 direction = length > 0 ? 1 / length * way : Vector3{};
-  const Response ofA = responseOf(c.a, direction), ofB = responseOf(c.b, direction);
-  double rubbed = length > 0 ? length / (ofA.inverseMass + ofB.inverseMass) : 0;
-  const Vector3 wanted = c.rub - rubbed * direction;
+  const double square = dot(way, way);
+  const Response ofA = responseOf(c.a, way), ofB = responseOf(c.b, way);
+  const double back = square > 0 ? square / (ofA.inverseMass + ofB.inverseMass) : 0;
+  const Vector3 wanted = c.rub - back * way;
   // One coefficient for the whole substep: contacts that share a load each ask for all of it on their way to the
   // solution, and would take that for slipping.
-  const double most = (c.slides ? c.kineticFriction : c.staticFriction) * c.push;
-  const double size = std::sqrt(dot(wanted, wanted));
-  c.yields = size > most;
+  const double most = (c.slides ? c.kineticFriction : c.staticFriction) * c.push, size2 = dot(wanted, wanted);
+  c.yields = size2 > most * most;
+  double rubbed2 = back * back * square;
   if (c.yields) {
-    const Vector3 change = most / size * wanted - c.rub;
+    const Vector3 change = most / std::sqrt(size2) * wanted - c.rub;
     push(store, c.a, change);
     push(store, c.b, -1.0 * change);
     c.rub = c.rub + change;
-    rubbed = std::sqrt(dot(change, change));
+    rubbed2 = dot(change, change);
   } else {
-    push(store, c.a, -rubbed * direction, -rubbed, ofA);
-    push(store, c.b, rubbed * direction, rubbed, ofB);
+    push(store, c.a, -back * way, -back, ofA);
+    push(store, c.b, back * way, back, ofB);
     c.rub = wanted;
   }
-  return (std::abs(more) + rubbed) / c.mass;
+  const double perMass = c.ofA.inverseMass + c.ofB.inverseMass;
+  return (more * more + rubbed2) * perMass * perMass;
 }
 
 void RigidContact::project(ParticleStore& store) {
@@ -249,7 +250,7 @@ void RigidContact::project(ParticleStore& store) {
       const double gap = gapOf(store, open);
       if (gap < 0 || open.contact->push != 0) most = std::max(most, solve(store, *open.contact, gap));
     }
-    if (most < kStill * m_spacing) break;
+    if (most < kStill * kStill * m_spacing * m_spacing) break;
   }
   for (Contact& c : m_contacts) {
     if (!c.met) continue;

@@ -50,7 +50,7 @@ class RigidContact {
   static constexpr uint32_t kNone = ~0u;
   struct Body {
     std::vector<uint32_t> members;
-    double mass = 0;                          ///< kg
+    double inverseMass = 0;                   ///< 1/kg
     std::array<Vector3, 3> inverseInertia{};  ///< rows, 1/(kg m2), about the centre
     Vector3 centre;                           ///< m
     Vector3 shift, turn;  ///< m, rad: what contacts did since positions were read; m/s, rad/s in bounce()
@@ -64,9 +64,11 @@ class RigidContact {
     Vector3 start{};         ///< m, the particle when positions were read
     Vector3 arm{};           ///< m, from the body's centre to the place of contact
   };
+  /// What an impulse does to a side: how far its place of contact moves along it, times its length (for a unit vector
+  /// the generalised inverse mass, 1/kg), and how the body turns.
   struct Response {
-    double inverseMass = 0;  ///< 1/kg, generalised: how far the place of contact moves
-    Vector3 turn;            ///< rad/(kg m), of the body
+    double inverseMass = 0;
+    Vector3 turn;
   };
   struct Contact {
     Side a, b;
@@ -106,7 +108,7 @@ class RigidContact {
 
   Vector3 movedBy(const ParticleStore& store, const Side& side) const;
   Vector3 readSide(const ParticleStore& store, Side& side, Vector3 place) const;
-  Response responseOf(const Side& side, Vector3 direction) const;
+  Response responseOf(const Side& side, Vector3 impulse) const;
   void push(ParticleStore& store, const Side& side, Vector3 impulse, double size, const Response& response);
   void push(ParticleStore& store, const Side& side, Vector3 impulse);
   void addContact(const ParticleStore& store, uint32_t i, uint32_t j);
