@@ -11,6 +11,8 @@ namespace ps {
 namespace {
 
 constexpr size_t kGrain = 256;
+/// K: smaller differences are the rounding of temperatures.
+constexpr double kSameTemperature = 1e-9;
 
 /// Largest k/c in kg/(m s) of the phases that a particle consists of: how fast it answers to a conductance.
 double fastestPhase(const BakedMaterial& material, double t, double solid, double liquid, double gas) {
@@ -216,15 +218,44 @@ void HeatStage::exchange(ParticleStore& store, const Neighbours& neighbours, dou
   if (m_modelChanged) adopt(store);
   double time = dt * m_settings.timeScale;
   if (!(time > 0)) return;
-  prepare(store, neighbours, frame);
   const api::ParticleView view = store.view();
   const api::NeighbourView lists = neighbours.view();
+  if (isBalanced(store, view, lists, time)) return passTime(store, view, time);
+  prepare(store, neighbours, frame);
   askPairLaw(view, lists);
   collectFrameHeat(store, view, std::min(time, std::max(explicitTime(), sweepTime())));
   time -= takeExplicitSteps(store, view, lists, time);
   if (time > 0 && !m_pairLaw) time -= takeSweeps(store, view, time);
   if (time > 1e-9 * dt * m_settings.timeScale) m_delivered = m_settings.timeScale - time / dt;
   closeBooks();
+}
+
+/// Whether nothing warms or cools anything else, nor itself; vapour is never left alone, for the sake of nucleation.
+bool HeatStage::isBalanced(const ParticleStore& store, const api::ParticleView& view, const api::NeighbourView& lists,
+                           double time) {
+  const double *temperature = store.temperature(), *end = temperature + store.size();
+  const auto [low, high] = std::minmax_element(temperature, end);
+  m_surroundings.setAir(airTemperature());
+  if (!(*high - *low < kSameTemperature) || !m_surroundings.isLike(*low, kSameTemperature)) return false;
+  const float* gas = store.gasFraction();
+  if (std::any_of(gas, gas + store.size(), [](float share) { return share > 0; })) return false;
+  askPairLaw(view, lists);
+  if (m_pairLaw) return false;
+  m_watts.resize(store.size());
+  m_frameJoules.resize(store.size());
+  m_boiling = false;
+  collectFrameHeat(store, view, time);
+  return std::all_of(m_watts.begin(), m_watts.end(), [](double watts) { return watts == 0; });
+}
+
+void HeatStage::passTime(ParticleStore& store, const api::ParticleView& view, double time) {
+  m_joules.assign(store.size(), 0.0);
+  const api::ThermalContext where = context();
+  const auto body = [&](size_t first, size_t last) {
+    m_model->addHeat(where, view, first, last, m_joules.data(), time);
+    deriveRange(store, first, last);
+  };
+  parallelFor(store.size(), kGrain, std::cref(body));
 }
 
 /// Thermal seconds that one frame's explicit steps can do, and its sweeps.

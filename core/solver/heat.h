@@ -31,6 +31,9 @@ namespace ps {
 /// conduction and of what the model says of its law (api::PairRates), or else of the former alone. Not modelled:
 /// evaporation below the boiling point.
 ///
+/// Where all is as warm as everything around it, to 1e-9 K, nothing is exchanged and no pairs are made: only the model
+/// is told that time has passed.
+///
 /// A finite lump of air (airHeatCapacity) keeps one temperature, which follows what it gives and takes; its energy and
 /// the particles' are constant together.
 ///
@@ -102,6 +105,9 @@ class HeatStage {
                   std::span<const api::Phase> phase);
   void adopt(ParticleStore& store);
   void exchange(ParticleStore& store, const Neighbours& neighbours, double dt, uint64_t frame);
+  bool isBalanced(const ParticleStore& store, const api::ParticleView& view, const api::NeighbourView& lists,
+                  double time);
+  void passTime(ParticleStore& store, const api::ParticleView& view, double time);
   void deriveRange(ParticleStore& store, size_t first, size_t last);
   void snapshotRange(const ParticleStore& store, HeatInstant& instant, size_t first, size_t last) const;
   void prepare(ParticleStore& store, const Neighbours& neighbours, uint64_t frame);

@@ -83,6 +83,16 @@ void HeatSurroundings::measure(const ParticleStore& store, const api::NeighbourV
   for (size_t i = 0; i < n; ++i) m_airTotal += double{m_airConductance[i]};
 }
 
+bool HeatSurroundings::isLike(double temperature, double tolerance) const {
+  const auto isNear = [&](double other) { return std::abs(other - temperature) < tolerance; };
+  if (m_convection > 0 && !isNear(m_air)) return false;
+  if (m_settings.radiation && !isNear(m_settings.surroundingsTemperature)) return false;
+  return std::all_of(m_walls.begin(), m_walls.end(), [&](const Wall& wall) {
+    if (wall.heat == WallHeat::FixedFlux) return wall.flux == 0;
+    return wall.heat == WallHeat::Adiabatic || isNear(wall.temperature);
+  });
+}
+
 void HeatSurroundings::measureOne(const ParticleStore& store, const HeatPairs& pairs, size_t i) {
   const double dx = m_solver.spacing, gas = double{store.gasFraction()[i]};
   m_perConductivity[i] = 0;

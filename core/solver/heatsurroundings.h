@@ -51,6 +51,10 @@ class HeatSurroundings {
   /// K, of the air around; a finite lump of air changes it.
   void setAir(double temperature) { m_air = temperature; }
 
+  /// Whether matter of this temperature would exchange nothing with what lies around, which is as warm within
+  /// `tolerance` K.
+  bool isLike(double temperature, double tolerance) const;
+
   /// Conductances of particle i for the stable step: in m, to be multiplied by k, and in W/K.
   double perConductivity(size_t i) const { return m_perConductivity[i]; }
   double fixedConductance(const ParticleStore& store, size_t i) const;
