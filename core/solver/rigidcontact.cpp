@@ -17,6 +17,10 @@ constexpr double kResumed = 0.8;
 /// Share of what creep has left over that each substep asks back. In spacings, the most that it remembers, and what is
 /// creep in one substep: more is motion, and to ask that back would push.
 constexpr double kRecalled = 0.2, kMostDrift = 1e-3, kCreep = 1e-4;
+/// How far a body may sink into a wall, in spacings. In a corner each pass goes half of what is left; a body that two
+/// walls are too narrow for ends up in the middle.
+constexpr double kDeepest = 0.5;
+constexpr int kInwardPasses = 8;
 /// Faster than this share of the speed that gravity gives in two substeps a contact slides.
 constexpr double kSlides = 0.1;
 
@@ -288,11 +292,40 @@ Vector3 RigidContact::hold(ParticleStore& store, std::span<const api::Float4> he
       const Vector3 way = vectorOf(held[i]);
       if (dot(way, way) > dot(back, back)) back = way;
     }
-    if (dot(back, back) == 0) continue;
-    for (const uint32_t i : body.members) {
-      api::Float4& x = store.position()[i];
-      x.x += static_cast<float>(back.x), x.y += static_cast<float>(back.y), x.z += static_cast<float>(back.z);
-      moved = moved + double{store.mass()[i]} * back;
+    if (dot(back, back) > 0) moved = moved + shift(store, body, back);
+  }
+  return moved;
+}
+
+/// Returns what it moved, kg m.
+Vector3 RigidContact::shift(ParticleStore& store, const Body& body, Vector3 way) {
+  Vector3 moved;
+  for (const uint32_t i : body.members) {
+    api::Float4& x = store.position()[i];
+    x.x += static_cast<float>(way.x), x.y += static_cast<float>(way.y), x.z += static_cast<float>(way.z);
+    moved = moved + double{store.mass()[i]} * way;
+  }
+  return moved;
+}
+
+Vector3 RigidContact::keepInside(ParticleStore& store) const {
+  const double most = kDeepest * m_spacing;
+  Vector3 moved;
+  for (const Body& body : m_bodies) {
+    if (!body.hasContacts) continue;
+    for (int pass = 0; pass < kInwardPasses; ++pass) {
+      Vector3 way;
+      int walls = 0;
+      for (const Plane& plane : m_planes) {
+        double depth = 0;
+        for (const uint32_t i : body.members)
+          depth = std::max(depth, plane.offset - dot(plane.normal, vectorOf(store.position()[i])));
+        if (!(depth > most)) continue;
+        way = way + (depth - most) * plane.normal;
+        ++walls;
+      }
+      if (walls == 0) break;
+      moved = moved + shift(store, body, 1.0 / walls * way);
     }
   }
   return moved;

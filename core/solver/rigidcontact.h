@@ -39,6 +39,9 @@ class RigidContact {
   /// particles that it would have crossed, however fast it is.
   /// Returns what it moved, kg m.
   Vector3 hold(ParticleStore& store, std::span<const api::Float4> held) const;
+  /// Moves bodies back that walls could not hold: led bodies may press harder than any contact, and a wall gives way
+  /// last. Returns what it moved, kg m.
+  Vector3 keepInside(ParticleStore& store) const;
   /// Restitution, when velocities are known.
   void bounce(ParticleStore& store);
   /// What walls and fixed particles gave to bodies in this substep up to now: by contact in kg m, in bounce() in kg
@@ -106,6 +109,7 @@ class RigidContact {
     uint32_t neighbours = 0;
   };
 
+  static Vector3 shift(ParticleStore& store, const Body& body, Vector3 way);
   Vector3 movedBy(const ParticleStore& store, const Side& side) const;
   Vector3 readSide(const ParticleStore& store, Side& side, Vector3 place) const;
   Response responseOf(const Side& side, Vector3 impulse) const;

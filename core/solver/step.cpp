@@ -284,6 +284,7 @@ void Solver::Impl::substep(uint32_t index) {
     wallStage.project(store);
     swept.apply(store, neighbours, wallStage, constraints.graph(store.size()), rigid.members());
     external.add(1 / dt * rigid.hold(store, swept.held()));
+    external.add(1 / dt * rigid.keepInside(store));
     velocities(dt);
     bookContact(dt);
   });

@@ -231,6 +231,27 @@ class TestRigidContact : public QObject {
     QVERIFY(greatestChange(shape, distances(solver, 1)) < 2e-6);
   }
 
+  /// A press that nothing stops: the wall gives way last, so that nothing is lost.
+  void pressedBodyStaysInside() {
+    Solver solver;
+    prepare(solver, settingsOf(0.02));
+    solver.setWalls(tray(0.3));
+    ps::Spawn press = fixedPoints(lattice(9, 2, 9, 0.02, 0.15));
+    press.body = 2;
+    press.velocity.assign(press.position.size(), {0, -1, 0});
+    solver.spawn(press);
+    spawnRigid(solver, lattice(5, 5, 5, 0.02, 0), 1);
+    const std::vector<double> shape = distances(solver, 1);
+    double lowest = 1;
+    for (int f = 0; f < 30; ++f) {
+      QCOMPARE(solver.step().flags, 0u);
+      lowest = std::min(lowest, motionOf(solver, 1).bottom);
+    }
+    // Its lowest particles would lie half a spacing above the wall and may sink in by as much.
+    QVERIFY2(lowest > -1e-4 && lowest < 0.008, qPrintable(QString::number(lowest)));
+    QVERIFY(greatestChange(shape, distances(solver, 1)) < 2e-6);
+  }
+
   void goesOnAfterAFrameThatWentWrong() {
     Solver solver;
     prepare(solver, settingsOf(0.02));
