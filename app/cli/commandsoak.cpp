@@ -85,7 +85,8 @@ std::vector<Change> changesOf(const Project& project, const PluginRegistry& plug
     const std::string text = address.text();
     const bool chosen = only.empty() || std::any_of(only.begin(), only.end(),
                                                     [&](const std::string& start) { return text.starts_with(start); });
-    const bool edit = address.owner == "body" && (address.key == kStructureKey || address.key == kBodyMaterialKey);
+    const bool edit = (address.owner == "body" && (address.key == kStructureKey || address.key == kBodyMaterialKey)) ||
+                      !adhesionPartner(address).empty();
     if (!chosen || edit) continue;  // an edit of the document acts on no run
     const api::ParameterDeclaration* declaration = declarationOf(project, &plugins, address);
     for (Value& value : endsOf(*declaration, valueAt(project, &plugins, address))) {
@@ -104,6 +105,10 @@ double topSpeed(const ParticleStore& store) {
   return most;
 }
 
+void addLimits(Engine& engine, Outcome& outcome) {
+  for (const Limit& limit : engine.solver().limits()) outcome.limits.push_back(limit.what);
+}
+
 /// One run; `change` is nullptr for the project as it is, whose `proof` others compare themselves with. Throws
 /// InputError for a change that the scene refuses.
 Outcome soak(const Project& project, PluginRegistry& plugins, const Change* change, double seconds, uint64_t proof) {
@@ -114,6 +119,7 @@ Outcome soak(const Project& project, PluginRegistry& plugins, const Change* chan
   const auto each = [&](const StepReport& step, const FrameStats&) {
     outcome.flags |= step.flags;
     if (outcome.message.empty()) outcome.message = step.message;
+    if (step.flags != 0 && outcome.limits.empty()) addLimits(engine, outcome);  // what went on as it happened
     outcome.topSpeed = std::max(outcome.topSpeed, topSpeed(engine.solver().particles()));
     sum += step.totalMilliseconds;
     ++frames;
@@ -131,7 +137,7 @@ Outcome soak(const Project& project, PluginRegistry& plugins, const Change* chan
   outcome.unused = whole && change && outcome.proof == proof;
   whole = whole && (outcome.unused || run((1 - kProof) * seconds));
   if (!whole && interrupted()) throw Error("stopped");
-  for (const Limit& limit : engine.solver().limits()) outcome.limits.push_back(limit.what);
+  if (outcome.limits.empty()) addLimits(engine, outcome);
   outcome.milliseconds = sum / static_cast<double>(std::max(1L, frames));
   return outcome;
 }

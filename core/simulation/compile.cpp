@@ -4,6 +4,7 @@
 #include "core/base/error.h"
 #include "core/matter/material.h"
 #include "core/plugin_host/registry.h"
+#include "core/simulation/declared.h"
 #include "core/simulation/lattice.h"
 #include "core/solver/vector3.h"
 
@@ -207,22 +208,6 @@ Bounds compileBounds(const Project& project) {
   return {double3(environment.boundsMinimum), double3(environment.boundsMaximum), environment.periodic};
 }
 
-namespace {
-
-/// Whom a material holds on to, by the ids of the scene's materials: lists may name installed ones.
-std::vector<std::string> adhesionOf(const Project& project, const std::vector<std::string>& named) {
-  std::vector<std::string> ids;
-  for (const SceneMaterial& m : project.materials) {
-    const auto isNamed = [&](const std::string& id) {
-      return std::find(named.begin(), named.end(), id) != named.end();
-    };
-    if (isNamed(m.id) || isNamed(m.base)) ids.push_back(m.id);
-  }
-  return ids;
-}
-
-}  // namespace
-
 std::vector<Material> compileMaterials(const Project& project, const PluginRegistry& plugins,
                                        EvaluatedMaterials* evaluated) {
   std::vector<Material> materials;
@@ -244,7 +229,7 @@ std::vector<Material> compileMaterials(const Project& project, const PluginRegis
     }
     material.id = source.id;
     if (!source.label.empty()) material.label = source.label;
-    material.adheresTo = adhesionOf(project, source.adheresTo.value_or(material.adheresTo));
+    material.adheresTo = namedInScene(project, source.adheresTo.value_or(material.adheresTo));
     for (const auto& [key, value] : source.properties.values) material.properties[key] = responseOf(value);
     if (const std::string problem = problemOf(material); !problem.empty()) {
       throw InputError("material '" + source.id + "': " + problem);

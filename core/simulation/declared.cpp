@@ -38,6 +38,10 @@ std::optional<Material> baseMaterial(const SceneMaterial& source, const PluginRe
   return installed ? std::optional<Material>(*installed) : std::nullopt;
 }
 
+bool contains(const std::vector<std::string>& ids, const std::string& id) {
+  return std::find(ids.begin(), ids.end(), id) != ids.end();
+}
+
 Response responseFrom(const Value& value) {
   if (const auto* response = std::get_if<Response>(&value)) return *response;
   if (const auto* number = std::get_if<double>(&value)) return Response(*number);
@@ -96,7 +100,50 @@ api::ParameterList bodyDeclarations(const Project& project, const PluginRegistry
   return {list.data(), list.size()};
 }
 
+/// As sceneDeclarations(): toggles of one material for all others.
+api::ParameterList adhesionDeclarations(const Project& project, const std::string& id) {
+  static std::map<std::vector<std::array<std::string, 2>>, std::vector<api::ParameterDeclaration>> lists;
+  std::vector<std::array<std::string, 2>> others;
+  for (const SceneMaterial& other : project.materials) {
+    if (other.id != id) others.push_back({other.id, other.label.empty() ? other.id : other.label});
+  }
+  const std::lock_guard lock(g_lists);
+  auto& list = lists[others];
+  for (size_t k = list.size(); k < others.size(); ++k) {
+    list.push_back(declare::toggle(
+        {declare::kept(kAdheresKey + others[k][0]), declare::kept("Holds on to " + others[k][1]), "", ""}, false,
+        {"Freezing",
+         "Whether the two grow together where one of them freezes beside the other as a solid. It is enough that one "
+         "of "
+         "the two says so. What is dry on both sides is never joined by it.",
+         "wax in a glass: yes; iron poured on sand: no", ""}));
+  }
+  return {list.data(), list.size()};
+}
+
 }  // namespace
+
+std::string adhesionPartner(const Address& address) {
+  return address.owner == "material" && address.key.starts_with(kAdheresKey)
+             ? address.key.substr(std::string_view(kAdheresKey).size())
+             : std::string();
+}
+
+std::vector<std::string> namedInScene(const Project& project, const std::vector<std::string>& named) {
+  std::vector<std::string> ids;
+  for (const SceneMaterial& m : project.materials) {
+    if (contains(named, m.id) || contains(named, m.base)) ids.push_back(m.id);
+  }
+  return ids;
+}
+
+std::vector<std::string> adhesionOf(const Project& project, const PluginRegistry* plugins, const std::string& id,
+                                    const std::vector<std::string>* listed) {
+  if (listed) return namedInScene(project, *listed);
+  const SceneMaterial* material = materialById(project, id);
+  const auto base = material ? baseMaterial(*material, plugins) : std::nullopt;
+  return base ? namedInScene(project, base->adheresTo) : std::vector<std::string>{};
+}
 
 bool holdsTogether(const std::string& id, const PluginRegistry* plugins) {
   const api::ConstraintPlugin* plugin = plugins ? plugins->constraint(id) : nullptr;
@@ -118,6 +165,7 @@ api::ParameterList declarationsOf(const Project& project, const PluginRegistry* 
   if (address.owner == "sink") return sinkParameters();
   if (address.owner == "body") return bodyDeclarations(project, plugins, address.id);
   if (address.owner == "material" && propertyIndex(address.key) >= 0) return propertyCatalogue();
+  if (!adhesionPartner(address).empty()) return adhesionDeclarations(project, address.id);
   if (!plugins) return {};
   if (address.owner == "scene") return sceneDeclarations(project, *plugins);
   if (address.owner == "material") {
@@ -154,6 +202,8 @@ Value defaultOf(const Project& project, const PluginRegistry* plugins, const Add
   const api::ParameterDeclaration* declaration = declarationOf(project, plugins, address);
   if (!declaration) return 0.0;
   if (address.owner == "body" && address.key == kBodyMaterialKey) return valueAt(project, plugins, address);
+  if (const std::string other = adhesionPartner(address); !other.empty())
+    return contains(adhesionOf(project, plugins, address.id, nullptr), other);
   if (address.owner == "material" && propertyIndex(address.key) >= 0) {
     if (const SceneMaterial* material = materialById(project, address.id)) {
       if (const auto base = baseMaterial(*material, plugins)) {
@@ -175,6 +225,9 @@ Value valueAt(const Project& project, const PluginRegistry* plugins, const Addre
     const auto body = itemById(project.bodies, address.id);
     return body == project.bodies.end() ? std::string() : body->material;
   }
+  const SceneMaterial* material = address.owner == "material" ? materialById(project, address.id) : nullptr;
+  if (const std::string other = adhesionPartner(address); material && material->adheresTo && !other.empty())
+    return contains(namedInScene(project, *material->adheresTo), other);
   const ParameterSet* set = findSet(project, address);
   const api::ParameterDeclaration* declaration = declarationOf(project, plugins, address);
   if (set && declaration) {
@@ -228,6 +281,7 @@ std::vector<Address> allAddresses(const Project& project, const PluginRegistry* 
   for (const SceneMaterial& material : project.materials) {
     add("material", material.id, property);
     add("material", material.id, "");
+    if (project.materials.size() > 1) add("material", material.id, kAdheresKey + material.id);
   }
   for (const Emitter& emitter : project.emitters) add("emitter", emitter.id, "");
   for (const Sink& sink : project.sinks) add("sink", sink.id, "");

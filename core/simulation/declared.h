@@ -14,6 +14,17 @@ class PluginRegistry;
 /// What a body is made of is no parameter either; panels show it as one, a choice among the scene's materials.
 inline constexpr const char* kBodyMaterialKey = "material";
 
+/// Whom a material holds on to when one of the two freezes is a list (SceneMaterial::adheresTo); panels show a toggle
+/// for each other material of the scene, whose key is this with the other's id behind it.
+inline constexpr const char* kAdheresKey = "adheres_to.";
+/// The other material's id, or "" where the address is no such toggle.
+std::string adhesionPartner(const Address& address);
+/// Those of the scene's materials whom `named` means: their own ids, or those of the installed ones that they are.
+std::vector<std::string> namedInScene(const Project& project, const std::vector<std::string>& named);
+/// Whom a material holds on to in this scene; nullptr for `listed` asks what its installed one says.
+std::vector<std::string> adhesionOf(const Project& project, const PluginRegistry* plugins, const std::string& material,
+                                    const std::vector<std::string>* listed);
+
 /// The declarations among which an address's key is found; empty when unknown.
 api::ParameterList declarationsOf(const Project& project, const PluginRegistry* plugins, const Address& address);
 const api::ParameterDeclaration* declarationOf(const Project& project, const PluginRegistry* plugins,

@@ -317,6 +317,28 @@ class TestContent : public QObject {
     QCOMPARE(text(), before);
   }
 
+  void adhesionIsChosen() {
+    const std::string id = m_document->project().materials[0].id, before = text();
+    QVERIFY(!m_document->declaration({"material", id, kAdheresKey + id}));  // matter of one kind always joins
+    QCOMPARE(m_document->addMaterial("tin"), std::string("tin"));
+    const std::string added = text();
+    const Address holds{"material", id, std::string(kAdheresKey) + "tin"};
+    QCOMPARE(QString::fromUtf8(m_document->declaration(holds)->label), QStringLiteral("Holds on to Tin"));
+    QVERIFY(m_document->value(holds) == Value(false));
+    QCOMPARE(m_document->setParameter(holds, true), QString());
+    QVERIFY(m_document->value(holds) == Value(true));
+    QVERIFY(m_document->value({"material", "tin", kAdheresKey + id}) == Value(false));
+    QCOMPARE(*parseProject(text(), "scene.json", *m_plugins).project.materials[0].adheresTo,
+             std::vector<std::string>{"tin"});
+    QCOMPARE(m_document->setParameter(holds, false), QString());  // as it was installed: nothing to save
+    QCOMPARE(text(), added);
+    m_document->undoStack().undo();
+    QVERIFY(m_document->value(holds) == Value(true));
+    m_document->undoStack().undo();
+    m_document->undoStack().undo();
+    QCOMPARE(text(), before);
+  }
+
   void structureIsChosen() {
     const Address structure{"body", "second", kStructureKey};
     QCOMPARE(std::get<std::string>(m_document->value(structure)), std::string("bonds"));

@@ -68,12 +68,12 @@ WallsCommand::WallsCommand(Document& document, std::vector<SceneWall> before, st
 void WallsCommand::undo() { m_document.applyWalls(m_before); }
 void WallsCommand::redo() { m_document.applyWalls(m_after); }
 
-MaterialCommand::MaterialCommand(Document& document, SceneMaterial material, size_t index, bool adds,
-                                 const QString& text)
-    : QUndoCommand(text), m_document(document), m_material(std::move(material)), m_index(index), m_adds(adds) {}
+MaterialsCommand::MaterialsCommand(Document& document, std::vector<SceneMaterial> before,
+                                   std::vector<SceneMaterial> after, const QString& text)
+    : QUndoCommand(text), m_document(document), m_before(std::move(before)), m_after(std::move(after)) {}
 
-void MaterialCommand::undo() { m_document.applyMaterial(m_material, m_index, !m_adds); }
-void MaterialCommand::redo() { m_document.applyMaterial(m_material, m_index, m_adds); }
+void MaterialsCommand::undo() { m_document.applyMaterials(m_before); }
+void MaterialsCommand::redo() { m_document.applyMaterials(m_after); }
 
 StrokeCommand::StrokeCommand(Document& document, std::shared_ptr<StrokeRecord> stroke, const QString& text)
     : QUndoCommand(text), m_document(document), m_stroke(std::move(stroke)) {}

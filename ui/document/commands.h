@@ -73,18 +73,17 @@ class WallsCommand : public QUndoCommand {
   std::vector<SceneWall> m_before, m_after;
 };
 
-/// A material that comes into the scene, or leaves it.
-class MaterialCommand : public QUndoCommand {
+/// Materials that come or go, or hold on to others: the list before and after.
+class MaterialsCommand : public QUndoCommand {
  public:
-  MaterialCommand(Document& document, SceneMaterial material, size_t index, bool adds, const QString& text);
+  MaterialsCommand(Document& document, std::vector<SceneMaterial> before, std::vector<SceneMaterial> after,
+                   const QString& text);
   void undo() override;
   void redo() override;
 
  private:
   Document& m_document;
-  SceneMaterial m_material;
-  size_t m_index;
-  bool m_adds;
+  std::vector<SceneMaterial> m_before, m_after;
 };
 
 /// A finished stroke. Its particles are in the engine before the command is pushed.

@@ -78,6 +78,11 @@ QString Document::setParameter(const Address& address, const Value& value) {
     setBodyMaterial(address.id, std::get<std::string>(value));
     return {};
   }
+  if (const std::string other = adhesionPartner(address); !other.empty()) {
+    if (const QString problem = refusal(); !problem.isEmpty()) return problem;
+    setAdhesion(address.id, other, std::get<bool>(conformed(value, *declaration(address))));
+    return {};
+  }
   const std::optional<Value> outside = outsideValue(m_project, address);
   const ParameterSet* set = findSet(m_project, address);
   if (!set && !outside)
@@ -199,14 +204,8 @@ void Document::applyBodies(const std::vector<SceneEdit>& edits, bool forward,
   for (const SceneEdit& edit : edits) tell(BodyChanged{bodyOf(edit), matter});
 }
 
-void Document::applyMaterial(const SceneMaterial& material, size_t index, bool present) {
-  std::vector<SceneMaterial>& materials = m_project.materials;
-  const auto place = materials.begin() + static_cast<std::ptrdiff_t>(index);
-  if (present) {
-    materials.insert(place, material);
-  } else {
-    materials.erase(place);
-  }
+void Document::applyMaterials(const std::vector<SceneMaterial>& materials) {
+  m_project.materials = materials;
   ++m_changes;
   tell(MaterialsChanged{});
 }

@@ -75,6 +75,8 @@ class Document : public QObject {
   /// reset.
   void setStructure(const std::string& id, const std::string& plugin);
   void setBodyMaterial(const std::string& id, const std::string& material);
+  /// Whether a material holds on to another one of the scene.
+  void setAdhesion(const std::string& id, const std::string& other, bool holds);
   /// Notes a stroke whose particles are in the engine already.
   void addStroke(std::shared_ptr<StrokeRecord> stroke);
 
@@ -116,7 +118,7 @@ class Document : public QObject {
   void applyBodies(const std::vector<SceneEdit>& edits, bool forward, const std::shared_ptr<StrokeTrace>& matter);
   void applyPort(const AnyPortEdit& edit, bool forward);
   void applyWalls(const std::vector<SceneWall>& walls);
-  void applyMaterial(const SceneMaterial& material, size_t index, bool present);
+  void applyMaterials(const std::vector<SceneMaterial>& materials);
   void applyStroke(const std::shared_ptr<StrokeRecord>& stroke, bool done, bool live);
   void applyPins(const std::vector<std::string>& pins);
 

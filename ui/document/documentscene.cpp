@@ -104,6 +104,31 @@ void Document::setBodyMaterial(const std::string& id, const std::string& materia
   });
 }
 
+void Document::setAdhesion(const std::string& id, const std::string& other, bool holds) {
+  std::vector<SceneMaterial> after = m_project.materials;
+  const auto material = std::find_if(after.begin(), after.end(), [&](const SceneMaterial& m) { return m.id == id; });
+  if (material == after.end()) return;
+  const Material* installed = m_plugins ? m_plugins->material(material->base) : nullptr;
+  const std::vector<std::string> own = installed ? installed->adheresTo : std::vector<std::string>{};
+  const std::vector<std::string> before = material->adheresTo.value_or(own);
+  std::vector<std::string> partners = namedInScene(m_project, before), list;
+  if ((std::find(partners.begin(), partners.end(), other) != partners.end()) == holds) return;
+  if (holds) {
+    partners.push_back(other);
+  } else {
+    std::erase(partners, other);
+  }
+  // What is not in the scene stays named.
+  for (const std::string& name : before) {
+    if (namedInScene(m_project, {name}).empty()) list.push_back(name);
+  }
+  list.insert(list.end(), partners.begin(), partners.end());
+  material->adheresTo = list;
+  if (namedInScene(m_project, list) == namedInScene(m_project, own)) material->adheresTo.reset();
+  const QString title = QStringLiteral("what %1 holds on to").arg(text(material->label.empty() ? id : material->label));
+  m_undo.push(new MaterialsCommand(*this, m_project.materials, std::move(after), title));
+}
+
 std::string Document::addMaterial(const std::string& base) {
   std::vector<SceneMaterial>& materials = m_project.materials;
   const auto present =
@@ -119,7 +144,9 @@ std::string Document::addMaterial(const std::string& base) {
   material.label = installed && !installed->label.empty() ? installed->label : base;
   const std::string id = material.id;
   const QString title = QStringLiteral("adding %1").arg(text(material.label));
-  m_undo.push(new MaterialCommand(*this, std::move(material), materials.size(), true, title));
+  std::vector<SceneMaterial> after = materials;
+  after.push_back(std::move(material));
+  m_undo.push(new MaterialsCommand(*this, materials, std::move(after), title));
   return id;
 }
 
@@ -139,8 +166,9 @@ QString Document::removeMaterial(const std::string& id) {
                                   [&](const SceneMaterial& m) { return m.id == id; });
   if (!problem.isEmpty() || found == m_project.materials.end()) return problem;
   const QString title = QStringLiteral("removing %1").arg(text(found->label.empty() ? id : found->label));
-  m_undo.push(
-      new MaterialCommand(*this, *found, static_cast<size_t>(found - m_project.materials.begin()), false, title));
+  std::vector<SceneMaterial> after = m_project.materials;
+  std::erase_if(after, [&](const SceneMaterial& m) { return m.id == id; });
+  m_undo.push(new MaterialsCommand(*this, m_project.materials, std::move(after), title));
   return {};
 }
 

@@ -225,6 +225,9 @@ void Inspector::rebuildMaterial() {
   if (const api::MaterialPlugin* plugin = plugins ? plugins->materialPlugin(material->base) : nullptr) {
     addRows(rows, "material", material->id, plugin->parameters(), QString::fromUtf8(plugin->label()));
   }
+  for (const SceneMaterial& other : project.materials) {
+    if (auto row = rowOf({"material", material->id, kAdheresKey + other.id})) rows.push_back(std::move(*row));
+  }
   addPinned(rows);
   if (missing) {
     const QString own = QStringLiteral("material/%1/").arg(QString::fromStdString(material->id));
