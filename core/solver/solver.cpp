@@ -12,6 +12,9 @@
 namespace ps {
 namespace {
 
+/// Mean excess of density that a liquid has only where it has no room.
+constexpr double kSqueezed = 0.1;
+
 struct Fractions {
   float solid, liquid, gas;
 };
@@ -287,8 +290,10 @@ std::vector<Limit> Solver::limits() const {
   if (m->frame > 0 && delivered < asked) result.push_back({"solver.thermal_time_scale", asked, delivered, ""});
   if (m->heat.opensEnergy()) {
     // Lost since the matter was last added, taken or put back by hand.
-    if (const double open = m->openEnergy(); open != 0) result.push_back({"heat balance", 0, open, "J"});
+    if (const double open = m->openEnergy(); open != 0) result.push_back({kBalanceLimit, 0, open, "J"});
   }
+  const double dt = m->settings.dt, excess = m->report.densityErrorMean;
+  if (excess > kSqueezed && m->motion.movesWithin(m->time - dt, dt)) result.push_back({kSqueezeLimit, 0, excess, "1"});
   return result;
 }
 

@@ -44,6 +44,11 @@ struct MomentumRecord {
   api::Double3 external{0, 0, 0};
 };
 
+/// Limits that are no parameter's: the heat balance is open by so many joules; bodies that are led squeeze liquid that
+/// has nowhere to go, by this mean excess of its density.
+inline constexpr const char* kBalanceLimit = "heat balance";
+inline constexpr const char* kSqueezeLimit = "led bodies";
+
 struct StepReport {
   StepFlags flags = 0;
   std::string message;  ///< the culprit: "particle 17 of 'Ice block': position is not finite"

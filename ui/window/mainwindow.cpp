@@ -368,8 +368,7 @@ void MainWindow::refreshStatus() {
   if (state.snapshot && !state.snapshot->limits.empty()) {
     const Limit& first = state.snapshot->limits.front();
     const size_t count = state.snapshot->limits.size();
-    state.note = (count == 1 ? QStringLiteral("1 note: ") : QStringLiteral("%1 notes: ").arg(count)) +
-                 limitText(first).section(QLatin1Char(':'), 0, 0) + QStringLiteral(" is limited by the step");
+    state.note = (count == 1 ? QStringLiteral("1 note: ") : QStringLiteral("%1 notes: ").arg(count)) + limitNote(first);
     m_noteAddress = limitAddress(first);
   }
   m_status->setState(state);

@@ -75,6 +75,15 @@ QString limitAddress(const Limit& limit) {
   return QStringLiteral("material/%1/%2").arg(owner, key);
 }
 
+QString limitNote(const Limit& limit) {
+  if (limit.what == kBalanceLimit)
+    return QStringLiteral("heat balance open by %1").arg(formatQuantity(limit.delivered, QStringLiteral("J")));
+  if (limit.what == kSqueezeLimit)
+    return QStringLiteral("a fixed body on its way squeezes liquid that has nowhere to go (%1 % too dense)")
+        .arg(formatFixed(100 * limit.delivered, 0));
+  return limitText(limit).section(QLatin1Char(':'), 0, 0) + QStringLiteral(" is limited by the step");
+}
+
 QString limitText(const Limit& limit) {
   const QString what = QString::fromStdString(limit.what);
   const std::string key = what.mid(what.indexOf(QLatin1Char('.')) + 1).toStdString();

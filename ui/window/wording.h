@@ -26,5 +26,7 @@ FailureText failureText(const EngineEvent& event);
 QString limitAddress(const Limit& limit);
 /// "Young's modulus: the solver reaches 42.0 MPa of 9.3 GPa at this step."
 QString limitText(const Limit& limit);
+/// The same in a few words, for the status line.
+QString limitNote(const Limit& limit);
 
 }  // namespace ps
