@@ -54,12 +54,13 @@ Quaternion rotationOf(const Matrix& a, Quaternion q, double exact) {
     const Matrix r = matrixOf(q);
     Matrix m;
     for (size_t i = 0; i < 3; ++i) m.row[i] = r * a.row[i];
-    const double trace = m.row[0].x + m.row[1].y + m.row[2].z, size = std::abs(trace);
-    if (!(size > 0)) break;
+    const double trace = m.row[0].x + m.row[1].y + m.row[2].z;
     const Vector slope{m.row[2].y - m.row[1].z, m.row[0].z - m.row[2].x, m.row[1].x - m.row[0].y};
     Vector turn;
     if (!solved(trace - m.row[0].x, trace - m.row[1].y, trace - m.row[2].z, -0.5 * (m.row[0].y + m.row[1].x),
                 -0.5 * (m.row[0].z + m.row[2].x), -0.5 * (m.row[1].z + m.row[2].y), 2 * trace, slope, turn)) {
+      const double size = std::max(std::abs(trace), std::sqrt(dot(slope, slope)));  // at a right angle the trace is 0
+      if (!(size > 0)) break;
       turn = 1 / size * slope;
     }
     const double angle2 = dot(turn, turn);
