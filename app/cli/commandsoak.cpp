@@ -150,12 +150,16 @@ std::string explanation(const Project& project, const Outcome& outcome, const Ch
   const std::string& key = change->address.key;
   const bool lost = (outcome.flags & static_cast<StepFlags>(StepFlag::LostParticle)) != 0;
   const bool diverged = (outcome.flags & static_cast<StepFlags>(StepFlag::Diverged)) != 0;
-  if (diverged && change->address.owner != "solver" && outcome.limits.empty()) return {};
-  if (lost && project.environment.walls.size() >= 6 && outcome.limits.empty()) return {};
-  std::string why;
-  if (diverged)
-    why = change->address.owner == "solver" ? "coarser than the scene needs: " + key : outcome.limits.front();
-  if (lost) why += std::string(why.empty() ? "" : "; ") + "the scene is open";
+  // Only who moves a body can ask it to leave no room.
+  const auto counts = [&](const std::string& limit) {
+    return limit != kSqueezeLimit || change->address.owner == "body";
+  };
+  const auto found = std::find_if(outcome.limits.begin(), outcome.limits.end(), counts);
+  const std::string limit = found == outcome.limits.end() ? std::string() : *found;
+  const bool closed = project.environment.walls.size() >= 6, coarse = change->address.owner == "solver";
+  if (((diverged && !coarse) || (lost && closed)) && limit.empty()) return {};
+  std::string why = diverged && coarse ? "coarser than the scene needs: " + key : limit;
+  if (lost && !closed) why += std::string(why.empty() ? "" : "; ") + "the scene is open";
   return why;
 }
 

@@ -229,7 +229,8 @@ std::vector<Material> compileMaterials(const Project& project, const PluginRegis
     }
     material.id = source.id;
     if (!source.label.empty()) material.label = source.label;
-    material.adheresTo = namedInScene(project, source.adheresTo.value_or(material.adheresTo));
+    material.adheresTo =
+        source.adheresTo ? namedInScene(project, *source.adheresTo) : namedByInstalled(project, material.adheresTo);
     for (const auto& [key, value] : source.properties.values) material.properties[key] = responseOf(value);
     if (const std::string problem = problemOf(material); !problem.empty()) {
       throw InputError("material '" + source.id + "': " + problem);

@@ -104,6 +104,7 @@ api::ParameterList bodyDeclarations(const Project& project, const PluginRegistry
 api::ParameterList adhesionDeclarations(const Project& project, const std::string& id) {
   static std::map<std::vector<std::array<std::string, 2>>, std::vector<api::ParameterDeclaration>> lists;
   std::vector<std::array<std::string, 2>> others;
+  if (!materialById(project, id)) return {};
   for (const SceneMaterial& other : project.materials) {
     if (other.id != id) others.push_back({other.id, other.label.empty() ? other.id : other.label});
   }
@@ -132,17 +133,18 @@ std::string adhesionPartner(const Address& address) {
 std::vector<std::string> namedInScene(const Project& project, const std::vector<std::string>& named) {
   std::vector<std::string> ids;
   for (const SceneMaterial& m : project.materials) {
-    if (contains(named, m.id) || contains(named, m.base)) ids.push_back(m.id);
+    const bool byBase = contains(named, m.base) && !materialById(project, m.base);
+    if (contains(named, m.id) || byBase) ids.push_back(m.id);
   }
   return ids;
 }
 
-std::vector<std::string> adhesionOf(const Project& project, const PluginRegistry* plugins, const std::string& id,
-                                    const std::vector<std::string>* listed) {
-  if (listed) return namedInScene(project, *listed);
-  const SceneMaterial* material = materialById(project, id);
-  const auto base = material ? baseMaterial(*material, plugins) : std::nullopt;
-  return base ? namedInScene(project, base->adheresTo) : std::vector<std::string>{};
+std::vector<std::string> namedByInstalled(const Project& project, const std::vector<std::string>& named) {
+  std::vector<std::string> ids;
+  for (const SceneMaterial& m : project.materials) {
+    if (contains(named, m.id) || contains(named, m.base)) ids.push_back(m.id);
+  }
+  return ids;
 }
 
 bool holdsTogether(const std::string& id, const PluginRegistry* plugins) {
@@ -202,8 +204,11 @@ Value defaultOf(const Project& project, const PluginRegistry* plugins, const Add
   const api::ParameterDeclaration* declaration = declarationOf(project, plugins, address);
   if (!declaration) return 0.0;
   if (address.owner == "body" && address.key == kBodyMaterialKey) return valueAt(project, plugins, address);
-  if (const std::string other = adhesionPartner(address); !other.empty())
-    return contains(adhesionOf(project, plugins, address.id, nullptr), other);
+  if (const std::string other = adhesionPartner(address); !other.empty()) {
+    const SceneMaterial* source = materialById(project, address.id);
+    const Material* installed = source && plugins ? plugins->material(source->base) : nullptr;
+    return installed && contains(namedByInstalled(project, installed->adheresTo), other);
+  }
   if (address.owner == "material" && propertyIndex(address.key) >= 0) {
     if (const SceneMaterial* material = materialById(project, address.id)) {
       if (const auto base = baseMaterial(*material, plugins)) {

@@ -19,11 +19,11 @@ inline constexpr const char* kBodyMaterialKey = "material";
 inline constexpr const char* kAdheresKey = "adheres_to.";
 /// The other material's id, or "" where the address is no such toggle.
 std::string adhesionPartner(const Address& address);
-/// Those of the scene's materials whom `named` means: their own ids, or those of the installed ones that they are.
+/// Which of the scene's materials a list of the scene means: by their ids, and by a name that is none of these ids, all
+/// that are the installed one of that name.
 std::vector<std::string> namedInScene(const Project& project, const std::vector<std::string>& named);
-/// Whom a material holds on to in this scene; nullptr for `listed` asks what its installed one says.
-std::vector<std::string> adhesionOf(const Project& project, const PluginRegistry* plugins, const std::string& material,
-                                    const std::vector<std::string>* listed);
+/// Which of them the list of an installed material means: all that are, or are called as, one of those named.
+std::vector<std::string> namedByInstalled(const Project& project, const std::vector<std::string>& named);
 
 /// The declarations among which an address's key is found; empty when unknown.
 api::ParameterList declarationsOf(const Project& project, const PluginRegistry* plugins, const Address& address);

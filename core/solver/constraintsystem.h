@@ -99,6 +99,7 @@ class ConstraintSystem {
   static constexpr uint32_t kNoPiece = ~0u;
   /// What moves and may be pulled by something fixed, in ascending order: the particles of each plugin that ties fixed
   /// ones or shares particles with one that does; all of them where a plugin gathers over neighbours.
+  /// None where nothing is fixed.
   void findHanging(const ParticleStore& store, std::vector<uint32_t>& hanging) const;
   /// Whether a plugin gathers over neighbours.
   bool gathers() const;

@@ -115,8 +115,8 @@ void DensityStage::refreshLists(const ParticleStore& store, const Neighbours& ne
   if (m_fluid.empty()) return;
   m_isFluid.assign(n, 0);
   for (const uint32_t i : m_fluid) m_isFluid[i] = 1;
-  // From the side of those that are fewer.
-  if (2 * m_fluid.size() < n) {
+  // Few fluid particles tell their neighbours; of many, each of the others looks for one, all at once.
+  if (8 * m_fluid.size() < n) {
     for (const uint32_t i : m_fluid) {
       for (uint32_t q = view.begin[i]; q < view.last[i]; ++q) m_touched[view.index[q]] = 1;
     }

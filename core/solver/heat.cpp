@@ -239,7 +239,7 @@ bool HeatStage::isBalanced(const ParticleStore& store, const api::ParticleView& 
   if (!(*high - *low < kSameTemperature) || !m_surroundings.isLike(*low, kSameTemperature)) return false;
   const float* gas = store.gasFraction();
   if (std::any_of(gas, gas + store.size(), [](float share) { return share > 0; })) return false;
-  askPairLaw(view, lists);
+  if (!m_pairLaw) askPairLaw(view, lists);  // a model that had one in the last frame has one
   if (m_pairLaw) return false;
   m_watts.resize(store.size());
   m_frameJoules.resize(store.size());

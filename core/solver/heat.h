@@ -31,8 +31,8 @@ namespace ps {
 /// conduction and of what the model says of its law (api::PairRates), or else of the former alone. Not modelled:
 /// evaporation below the boiling point.
 ///
-/// Where all is as warm as everything around it, to 1e-9 K, nothing is exchanged and no pairs are made: only the model
-/// is told that time has passed.
+/// Where all is as warm as everything around it, to 1e-9 K, nothing is exchanged and no pairs are made: the model is
+/// asked for sources and told that the whole frame's time has passed.
 ///
 /// A finite lump of air (airHeatCapacity) keeps one temperature, which follows what it gives and takes; its energy and
 /// the particles' are constant together.

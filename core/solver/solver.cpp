@@ -293,7 +293,7 @@ std::vector<Limit> Solver::limits() const {
     if (const double open = m->openEnergy(); open != 0) result.push_back({kBalanceLimit, 0, open, "J"});
   }
   const double dt = m->settings.dt, excess = m->report.densityErrorMean;
-  if (excess > kSqueezed && m->motion.movesWithin(m->time - dt, dt)) result.push_back({kSqueezeLimit, 0, excess, "1"});
+  if (excess > kSqueezed && m->motion.movesWithin(m->time - dt, dt)) result.push_back({kSqueezeLimit, 0, excess, ""});
   return result;
 }
 

@@ -44,8 +44,8 @@ struct MomentumRecord {
   api::Double3 external{0, 0, 0};
 };
 
-/// Limits that are no parameter's: the heat balance is open by so many joules; bodies that are led squeeze liquid that
-/// has nowhere to go, by this mean excess of its density.
+/// Limits that are no parameter's: the heat balance is open by so many joules; liquid is too dense by this mean excess
+/// while a body is led, which may leave it no room.
 inline constexpr const char* kBalanceLimit = "heat balance";
 inline constexpr const char* kSqueezeLimit = "led bodies";
 

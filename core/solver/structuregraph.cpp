@@ -73,6 +73,10 @@ void ConstraintSystem::findHanging(const ParticleStore& store, std::vector<uint3
       for (const uint32_t i : set.groups->members(g)) each(i);
     }
   };
+  bool anyFixed = false;
+  for (uint32_t i = 0; i < store.size() && !anyFixed; ++i) anyFixed = isFixed(i);
+  hanging.clear();
+  if (!anyFixed) return;
   std::vector<uint8_t> hangs(store.size(), gathers() ? 1 : 0), taken(m_sets.size(), 0);
   for (bool grown = true; grown;) {  // a plugin's ties hang where one of them does
     grown = false;
@@ -85,7 +89,6 @@ void ConstraintSystem::findHanging(const ParticleStore& store, std::vector<uint3
       grown = true;
     }
   }
-  hanging.clear();
   for (uint32_t i = 0; i < store.size(); ++i) {
     if (hangs[i] != 0 && !isFixed(i)) hanging.push_back(i);
   }

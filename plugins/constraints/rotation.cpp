@@ -33,16 +33,33 @@ Vector logarithm(Quaternion q) {
 
 namespace {
 
-/// H^-1 g for a symmetric H that is safely positive definite: no eigenvalue far below the others, whose sum is `sum`.
-bool solved(double xx, double yy, double zz, double xy, double xz, double yz, double sum, Vector g, Vector& x) {
+struct Symmetric {
+  double xx, yy, zz, xy, xz, yz;
+  double trace() const { return xx + yy + zz; }
+};
+
+/// H^-1 g where H is safely positive definite: no eigenvalue far below the others.
+bool solve(const Symmetric& h, Vector g, Vector& x) {
   constexpr double kSafe = 1e-4;
-  const double a = yy * zz - yz * yz, b = xz * yz - xy * zz, c = xy * yz - xz * yy, minor = xx * yy - xy * xy;
-  const double determinant = xx * a + xy * b + xz * c;
-  if (!(xx > 0) || !(minor > 0) || !(determinant > kSafe * sum * sum * sum)) return false;
+  const double a = h.yy * h.zz - h.yz * h.yz, b = h.xz * h.yz - h.xy * h.zz, c = h.xy * h.yz - h.xz * h.yy;
+  const double minor = h.xx * h.yy - h.xy * h.xy, e = h.xy * h.xz - h.xx * h.yz;
+  const double determinant = h.xx * a + h.xy * b + h.xz * c, sum = h.trace();
+  if (!(sum > 0) || !(h.xx > 0) || !(minor > 0) || !(determinant > kSafe * sum * sum * sum)) return false;
   x = 1 / determinant *
-      Vector{a * g.x + b * g.y + c * g.z, b * g.x + (xx * zz - xz * xz) * g.y + (xy * xz - xx * yz) * g.z,
-             c * g.x + (xy * xz - xx * yz) * g.y + minor * g.z};
+      Vector{a * g.x + b * g.y + c * g.z, b * g.x + (h.xx * h.zz - h.xz * h.xz) * g.y + e * g.z,
+             c * g.x + e * g.y + minor * g.z};
   return true;
+}
+
+/// The same with as much added to the diagonal as makes any H positive definite (Gershgorin): a step uphill.
+bool solveDamped(Symmetric h, Vector g, Vector& x) {
+  constexpr double kFloor = 0.02;  // of the diagonal
+  const double lowest = std::min({h.xx - std::abs(h.xy) - std::abs(h.xz), h.yy - std::abs(h.xy) - std::abs(h.yz),
+                                  h.zz - std::abs(h.xz) - std::abs(h.yz)});
+  const double more =
+      std::max(0.0, -lowest) + kFloor * (std::abs(h.xx) + std::abs(h.yy) + std::abs(h.zz) + std::abs(lowest));
+  h.xx += more, h.yy += more, h.zz += more;
+  return solve(h, g, x);
 }
 
 }  // namespace
@@ -56,13 +73,14 @@ Quaternion rotationOf(const Matrix& a, Quaternion q, double exact) {
     for (size_t i = 0; i < 3; ++i) m.row[i] = r * a.row[i];
     const double trace = m.row[0].x + m.row[1].y + m.row[2].z;
     const Vector slope{m.row[2].y - m.row[1].z, m.row[0].z - m.row[2].x, m.row[1].x - m.row[0].y};
+    const Symmetric curvature{trace - m.row[0].x,
+                              trace - m.row[1].y,
+                              trace - m.row[2].z,
+                              -0.5 * (m.row[0].y + m.row[1].x),
+                              -0.5 * (m.row[0].z + m.row[2].x),
+                              -0.5 * (m.row[1].z + m.row[2].y)};
     Vector turn;
-    if (!solved(trace - m.row[0].x, trace - m.row[1].y, trace - m.row[2].z, -0.5 * (m.row[0].y + m.row[1].x),
-                -0.5 * (m.row[0].z + m.row[2].x), -0.5 * (m.row[1].z + m.row[2].y), 2 * trace, slope, turn)) {
-      const double size = std::max(std::abs(trace), std::sqrt(dot(slope, slope)));  // at a right angle the trace is 0
-      if (!(size > 0)) break;
-      turn = 1 / size * slope;
-    }
+    if (!solve(curvature, slope, turn) && !solveDamped(curvature, slope, turn)) break;
     const double angle2 = dot(turn, turn);
     if (!(angle2 > exact * exact) || !std::isfinite(angle2)) break;
     if (angle2 > 1) turn = 1 / std::sqrt(angle2) * turn;

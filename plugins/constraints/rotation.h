@@ -71,9 +71,9 @@ Quaternion exponential(Vector v);
 Vector logarithm(Quaternion q);
 
 /// Rotation R that maximises the trace of R^T A: the rotational part of A, by Newton's method on the rotations,
-/// started from `q`, until a step turns by less than `exact` rad. Where the curvature of the trace is no help (a line,
-/// a point, matter turned inside out) a step is that of Mueller, Bender, Chentanez & Macklin 2016, which is slower and
-/// always safe. What A leaves open stays as in `q`.
+/// started from `q`, until a step turns by less than `exact` rad. Where the trace is not curved downwards in every
+/// direction (a line, a point, far from the solution) the curvature is shifted until it is, so that each step goes up
+/// (Levenberg's method). What A leaves open stays as in `q`.
 Quaternion rotationOf(const Matrix& a, Quaternion q, double exact = 1e-13);
 
 /// Inverse of a symmetric, positive semidefinite matrix, zero along axes whose eigenvalue is below 1e-6 of the largest

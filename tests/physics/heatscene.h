@@ -171,7 +171,7 @@ class Scene {
   /// Advances `seconds` in frames of up to 35 explicit heat steps, as nothing moves.
   void run(double seconds) {
     heat.advance(store, neighbours, 1e-9);  // measures the stable step
-    const double frame = 35 * thermal.cfl * heat.gershgorinLimit();
+    const double limit = heat.gershgorinLimit(), frame = limit > 0 ? 35 * thermal.cfl * limit : seconds;
     const int frames = std::max(1, static_cast<int>(std::ceil(seconds / frame)));
     for (int k = 0; k < frames; ++k) heat.advance(store, neighbours, seconds / frames);
   }

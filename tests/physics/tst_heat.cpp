@@ -391,6 +391,14 @@ class TestHeat : public QObject {
       scene.walls[0].heat = ps::WallHeat::FixedFlux;
       scene.walls[0].flux = 100;
     });
+    row("fluid behind a wall", [](Scene& scene) {
+      scene.walls[0].heat = ps::WallHeat::Convective;
+      scene.walls[0].temperature += 1;
+    });
+    row("lump of air", [](Scene& scene) {
+      scene.thermal.airHeatCapacity = 1000;
+      scene.thermal.ambientTemperature -= 1;
+    });
     row("surroundings", [](Scene& scene) {
       scene.thermal.radiation = true;
       scene.thermal.surroundingsTemperature += 1;
@@ -418,11 +426,13 @@ class TestHeat : public QObject {
     for (int k = 0; k < 5; ++k) scene.heat.advance(scene.store, scene.neighbours, 1.0 / 60);
     QCOMPARE(scene.heat.energy(scene.store), before);
     QCOMPARE(scene.heat.ledger().exchanged, 0.0);
+    QCOMPARE(scene.heat.gershgorinLimit(), 0.0);  // nothing was measured
     change(scene);
     scene.configure();
     scene.neighbours.build(scene.store);
     scene.heat.advance(scene.store, scene.neighbours, 1.0 / 60);
     QVERIFY(scene.heat.ledger().exchanged > 0);
+    QVERIFY(scene.heat.gershgorinLimit() > 0);
   }
 
   /// Exponential sweeps of 15 times the stable step against explicit steps, across a plateau.

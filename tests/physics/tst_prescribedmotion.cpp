@@ -159,6 +159,32 @@ class TestPrescribedMotion : public QObject {
       QVERIFY(length(vecOf(solver.particles().velocity()[i])) == 0);
   }
 
+  /// A piston that leaves water no room is told; one that stands over it is not.
+  void squeezedWaterIsTold() {
+    Solver solver;
+    prepare(solver, settingsOf(0.02));
+    solver.setWalls(tray(0.2));
+    solver.spawn(liquid(lattice(10, 5, 10, 0.02, 0)));
+    ps::Spawn piston = fixedPoints(lattice(10, 2, 10, 0.02, 0.12));
+    piston.body = 1;
+    solver.setMotion(1, {{0, 0.14, 0}, {0, -0.2, 0}, {0, 0, 0}, 0.2, 0.6});
+    solver.spawn(piston);
+    const auto told = [&] {
+      const std::vector<ps::Limit> limits = solver.limits();
+      return std::any_of(limits.begin(), limits.end(), [](const ps::Limit& limit) {
+        return limit.what == ps::kSqueezeLimit && limit.delivered > 0.1;
+      });
+    };
+    QVERIFY(run(solver, 12));  // 0.2 s: it stands
+    QVERIFY(!told());
+    bool ever = false;
+    for (int f = 0; f < 24; ++f) {
+      solver.step();
+      ever = ever || told();
+    }
+    QVERIFY(ever);
+  }
+
   /// Friction holds a block at r as long as w² r < mu g: 2.45 m/s² at 0.25.
   void turntable_data() {
     QTest::addColumn<double>("spin");

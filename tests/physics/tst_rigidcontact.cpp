@@ -244,12 +244,33 @@ class TestRigidContact : public QObject {
     const std::vector<double> shape = distances(solver, 1);
     double lowest = 1;
     for (int f = 0; f < 30; ++f) {
-      QCOMPARE(solver.step().flags, 0u);
+      const ps::StepReport report = solver.step();
+      QCOMPARE(report.flags, 0u);
+      const ps::MomentumRecord& m = report.momentum;
+      QVERIFY2(std::abs(m.end.y - m.start.y - m.external.y) < 1e-5 * std::abs(m.external.y) + 1e-6,
+               qPrintable(QString::number(m.end.y - m.start.y - m.external.y)));
       lowest = std::min(lowest, motionOf(solver, 1).bottom);
     }
     // Its lowest particles would lie half a spacing above the wall and may sink in by as much.
     QVERIFY2(lowest > -1e-4 && lowest < 0.008, qPrintable(QString::number(lowest)));
     QVERIFY(greatestChange(shape, distances(solver, 1)) < 2e-6);
+  }
+
+  /// Between two walls that are closer than it is long, a body ends up in the middle.
+  void bodyTooLongIsShared() {
+    Solver solver;
+    SolverSettings settings = settingsOf(0.02);
+    settings.gravity = {0, 0, 0};
+    prepare(solver, settings);
+    std::vector<ps::Wall> walls(2);
+    for (size_t k = 0; k < 2; ++k) {
+      walls[k].normal = {k == 0 ? 1.0 : -1.0, 0, 0};
+      walls[k].offset = -0.05;
+    }
+    solver.setWalls(walls);
+    spawnRigid(solver, moved(lattice(8, 3, 3, 0.02, 0), {0.04, 0, 0}));  // 16 cm in a gap of 10
+    for (int f = 0; f < 30; ++f) QCOMPARE(solver.step().flags, 0u);
+    QVERIFY2(std::abs(sumsOf(solver).centre.x) < 0.005, qPrintable(QString::number(sumsOf(solver).centre.x)));
   }
 
   void goesOnAfterAFrameThatWentWrong() {

@@ -49,7 +49,8 @@ class TestRotation : public QObject {
     for (const Vector turn : {Vector{0, 0, 0}, Vector{1e-4, 0, 2e-4}, Vector{0.5, -1, 0.2}, Vector{0, 2.5, 0.4}}) {
       const Quaternion wanted = exponential(turn);
       const Matrix a = product(matrixOf(wanted), stretch);
-      for (const Vector away : {Vector{0, 0, 0}, Vector{0.01, 0, 0}, Vector{-0.4, 0.3, 0.5}, Vector{1, 1.2, -1}}) {
+      for (const Vector away :
+           {Vector{0, 0, 0}, Vector{0.01, 0, 0}, Vector{-0.4, 0.3, 0.5}, Vector{1, 1.2, -1}, Vector{0, 0, 3.12}}) {
         const Quaternion found = rotationOf(a, exponential(away) * wanted);
         const double error = angleBetween(found, wanted);
         QVERIFY2(error < 1e-10, qPrintable(QString::number(error)));

@@ -2,6 +2,7 @@
 // What comes into a scene and leaves it, without a window: bodies with their matter, materials, structure.
 #include "core/io/projectio.h"
 #include "core/plugin_host/registry.h"
+#include "core/simulation/compile.h"
 #include "core/simulation/engine.h"
 #include "tests/shared/scenes.h"
 #include "ui/document/declared.h"
@@ -337,6 +338,31 @@ class TestContent : public QObject {
     m_document->undoStack().undo();
     m_document->undoStack().undo();
     QCOMPARE(text(), before);
+  }
+
+  /// A name in a scene's list is first of all that of a material of the scene; of two that are the same installed one
+  /// each has its own toggle.
+  void adhesionTellsMaterialsOfOneKindApart() {
+    Project project = m_document->project();
+    const std::string id = project.materials[0].id;
+    project.materials.push_back({"tin", "", "tin", {}, {}, {}, {}});
+    project.materials.push_back({"pewter", "", "tin", {}, {}, {}, {}});
+    project.materials[0].adheresTo = {"clay"};  // not of this scene
+    m_document->open(project, {});
+    const Address tin{"material", id, std::string(kAdheresKey) + "tin"},
+        pewter{"material", id, std::string(kAdheresKey) + "pewter"};
+    const std::string before = text();
+    const auto set = [&](const Address& address, bool on) { return m_document->setParameter(address, on); };
+    QCOMPARE(set(tin, true), QString());
+    QVERIFY(m_document->value(tin) == Value(true) && m_document->value(pewter) == Value(false));
+    QCOMPARE(set(pewter, true), QString());
+    QCOMPARE(set(tin, false), QString());
+    QVERIFY(m_document->value(tin) == Value(false) && m_document->value(pewter) == Value(true));
+    const std::vector<Material> compiled = compileMaterials(m_document->project(), *m_plugins);
+    QCOMPARE(compiled[0].adheresTo, std::vector<std::string>{"pewter"});
+    QCOMPARE(set(pewter, false), QString());
+    QCOMPARE(text(), before);  // clay is still named
+    QVERIFY(!set({"material", "lost", std::string(kAdheresKey) + "tin"}, true).isEmpty());
   }
 
   void structureIsChosen() {

@@ -33,7 +33,7 @@ struct PortChanged {
 };
 /// Walls came or went.
 struct WallsChanged {};
-/// The scene has one material more, or less.
+/// The scene has one material more, or less, or one holds on to others than before.
 struct MaterialsChanged {};
 /// A stroke was made (`live`: its particles are in the engine already), undone or redone.
 struct StrokeChanged {

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace ps {
 namespace {
@@ -109,9 +110,9 @@ void Document::setAdhesion(const std::string& id, const std::string& other, bool
   const auto material = std::find_if(after.begin(), after.end(), [&](const SceneMaterial& m) { return m.id == id; });
   if (material == after.end()) return;
   const Material* installed = m_plugins ? m_plugins->material(material->base) : nullptr;
-  const std::vector<std::string> own = installed ? installed->adheresTo : std::vector<std::string>{};
-  const std::vector<std::string> before = material->adheresTo.value_or(own);
-  std::vector<std::string> partners = namedInScene(m_project, before), list;
+  const std::vector<std::string> names = installed ? installed->adheresTo : std::vector<std::string>{};
+  const std::vector<std::string> byNames = namedByInstalled(m_project, names);
+  std::vector<std::string> partners = material->adheresTo ? namedInScene(m_project, *material->adheresTo) : byNames;
   if ((std::find(partners.begin(), partners.end(), other) != partners.end()) == holds) return;
   if (holds) {
     partners.push_back(other);
@@ -119,12 +120,21 @@ void Document::setAdhesion(const std::string& id, const std::string& other, bool
     std::erase(partners, other);
   }
   // What is not in the scene stays named.
-  for (const std::string& name : before) {
-    if (namedInScene(m_project, {name}).empty()) list.push_back(name);
+  const auto absent = [&](const std::vector<std::string>& from) {
+    std::set<std::string> left;
+    for (const std::string& name : from) {
+      if (namedByInstalled(m_project, {name}).empty()) left.insert(name);
+    }
+    return left;
+  };
+  const std::set<std::string> others = absent(material->adheresTo.value_or(names));
+  const std::set<std::string> wanted(partners.begin(), partners.end());
+  if (others == absent(names) && wanted == std::set<std::string>(byNames.begin(), byNames.end())) {
+    material->adheresTo.reset();
+  } else {
+    material->adheresTo.emplace(others.begin(), others.end());
+    material->adheresTo->insert(material->adheresTo->end(), partners.begin(), partners.end());
   }
-  list.insert(list.end(), partners.begin(), partners.end());
-  material->adheresTo = list;
-  if (namedInScene(m_project, list) == namedInScene(m_project, own)) material->adheresTo.reset();
   const QString title = QStringLiteral("what %1 holds on to").arg(text(material->label.empty() ? id : material->label));
   m_undo.push(new MaterialsCommand(*this, m_project.materials, std::move(after), title));
 }

@@ -366,8 +366,12 @@ void MainWindow::refreshStatus() {
   state.graphics = m_graphicsText;
   state.file = m_session->document().isDirty() && m_fileText.isEmpty() ? QStringLiteral("Not saved") : m_fileText;
   if (state.snapshot && !state.snapshot->limits.empty()) {
-    const Limit& first = state.snapshot->limits.front();
-    const size_t count = state.snapshot->limits.size();
+    // One that no row can show comes first.
+    const std::vector<Limit>& limits = state.snapshot->limits;
+    const auto lonely =
+        std::find_if(limits.begin(), limits.end(), [](const Limit& limit) { return limitAddress(limit).isEmpty(); });
+    const Limit& first = lonely == limits.end() ? limits.front() : *lonely;
+    const size_t count = limits.size();
     state.note = (count == 1 ? QStringLiteral("1 note: ") : QStringLiteral("%1 notes: ").arg(count)) + limitNote(first);
     m_noteAddress = limitAddress(first);
   }

@@ -79,7 +79,7 @@ QString limitNote(const Limit& limit) {
   if (limit.what == kBalanceLimit)
     return QStringLiteral("heat balance open by %1").arg(formatQuantity(limit.delivered, QStringLiteral("J")));
   if (limit.what == kSqueezeLimit)
-    return QStringLiteral("a fixed body on its way squeezes liquid that has nowhere to go (%1 % too dense)")
+    return QStringLiteral("liquid is %1 % too dense, a fixed body on its way may leave it no room")
         .arg(formatFixed(100 * limit.delivered, 0));
   return limitText(limit).section(QLatin1Char(':'), 0, 0) + QStringLiteral(" is limited by the step");
 }
