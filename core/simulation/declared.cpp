@@ -113,7 +113,7 @@ api::ParameterList adhesionDeclarations(const Project& project, const std::strin
   for (size_t k = list.size(); k < others.size(); ++k) {
     list.push_back(declare::toggle(
         {declare::kept(kAdheresKey + others[k][0]), declare::kept("Holds on to " + others[k][1]), "", ""}, false,
-        {"Freezing",
+        {"Phase change",
          "Whether the two grow together where one of them freezes beside the other as a solid. It is enough that one "
          "of "
          "the two says so. What is dry on both sides is never joined by it.",
