@@ -308,18 +308,24 @@ Vector3 RigidContact::shift(ParticleStore& store, const Body& body, Vector3 way)
   return moved;
 }
 
+/// m, how far a body would be behind a wall if its members were at `points`.
+double RigidContact::depthOf(const Plane& plane, const Body& body, const api::Float4* points) {
+  double depth = 0;
+  for (const uint32_t i : body.members) depth = std::max(depth, plane.offset - dot(plane.normal, vectorOf(points[i])));
+  return depth;
+}
+
 Vector3 RigidContact::keepInside(ParticleStore& store) const {
   const double most = kDeepest * m_spacing;
   Vector3 moved;
   for (const Body& body : m_bodies) {
     if (!body.hasContacts) continue;
+    int walls = 0;
     for (int pass = 0; pass < kInwardPasses; ++pass) {
       Vector3 way;
-      int walls = 0;
+      walls = 0;
       for (const Plane& plane : m_planes) {
-        double depth = 0;
-        for (const uint32_t i : body.members)
-          depth = std::max(depth, plane.offset - dot(plane.normal, vectorOf(store.position()[i])));
+        const double depth = depthOf(plane, body, store.position());
         if (!(depth > most)) continue;
         way = way + (depth - most) * plane.normal;
         ++walls;
@@ -327,6 +333,25 @@ Vector3 RigidContact::keepInside(ParticleStore& store) const {
       if (walls == 0) break;
       moved = moved + shift(store, body, 1.0 / walls * way);
     }
+    if (walls > 1) moved = moved + takeBack(store, body);
+  }
+  return moved;
+}
+
+/// A turn that walls leave no room for does not take place: the body stays where it was, unless that was worse.
+Vector3 RigidContact::takeBack(ParticleStore& store, const Body& body) const {
+  double now = 0, before = 0;
+  for (const Plane& plane : m_planes) {
+    now = std::max(now, depthOf(plane, body, store.position()));
+    before = std::max(before, depthOf(plane, body, store.previous()));
+  }
+  Vector3 moved;
+  if (now <= before || now < kDeepest * m_spacing + kCreep * m_spacing) return moved;
+  for (const uint32_t i : body.members) {
+    api::Float4& x = store.position()[i];
+    const api::Float4& from = store.previous()[i];
+    moved = moved + double{store.mass()[i]} * (vectorOf(from) - vectorOf(x));
+    x.x = from.x, x.y = from.y, x.z = from.z;
   }
   return moved;
 }

@@ -110,6 +110,8 @@ class RigidContact {
   };
 
   static Vector3 shift(ParticleStore& store, const Body& body, Vector3 way);
+  Vector3 takeBack(ParticleStore& store, const Body& body) const;
+  static double depthOf(const Plane& plane, const Body& body, const api::Float4* points);
   Vector3 movedBy(const ParticleStore& store, const Side& side) const;
   Vector3 readSide(const ParticleStore& store, Side& side, Vector3 place) const;
   Response responseOf(const Side& side, Vector3 impulse) const;
