@@ -384,7 +384,7 @@ class TestHeat : public QObject {
   /// What is as warm as all around it is left alone, and wakes whatever changes.
   void balanceIsLeftAloneUntilItEnds_data() {
     QTest::addColumn<std::function<void(Scene&)>>("change");
-    const auto row = [](const char* name, std::function<void(Scene&)> change) { QTest::newRow(name) << change; };
+    const auto row = [](const char* name, const std::function<void(Scene&)>& change) { QTest::newRow(name) << change; };
     row("air", [](Scene& scene) { scene.thermal.ambientTemperature += 1; });
     row("wall", [](Scene& scene) { scene.walls[0].temperature += 1; });
     row("flux of a wall", [](Scene& scene) {
