@@ -54,8 +54,7 @@ int validateCommand(CommandArguments given) {
 
 std::string schemaHelp() {
   return "phasesketch-cli schema\n\nPrints the JSON Schema (draft 2020-12) of projects, made from the declarations of "
-         "this "
-         "program's parameters.\n";
+         "this program's parameters.\n";
 }
 
 int schemaCommand(CommandArguments given) {

@@ -93,8 +93,7 @@ constexpr ParameterDeclaration kProperties[] = {
     {"latent_heat_sublimation", "Latent heat, sublimation", "L_s", "J/kg", kNumber, kLinear, 0, 0, 1e7, 0, 1e9, "kJ/kg",
      1e-3, 0, "", "Phase change",
      "Slope of the curve on which solid turns to vapour. The heat that is really taken up follows from the other "
-     "latent "
-     "heats and heat capacities, so that no energy is lost when the pressure changes.",
+     "latent heats and heat capacities, so that no energy is lost when the pressure changes.",
      "water 2834, carbon dioxide 571 kJ/kg", "IAPWS R14-08"},
     {"critical_temperature", "Critical temperature", "T_c", "K", kNumber, kLinear, 0, 0, 5000, 0, 1e5, "°C", 1,
      kCelsius, "", "Phase change",
@@ -103,8 +102,7 @@ constexpr ParameterDeclaration kProperties[] = {
     {"gas_volume_factor", "Size of a vapour parcel", "v_g", "", kNumber, kLinear, 2.5, 1, 2.5, 1, 3, "×", 1, 0, "",
      "Phase change",
      "Volume of a vapour particle against the same particle as liquid. Real steam swells 1600 times; the particle "
-     "stands "
-     "for the core of the puff, and its lift still comes from the real density.",
+     "stands for the core of the puff, and its lift still comes from the real density.",
      "1 sluggish bubbles, 2.5 lively boiling", "chosen so that a parcel's own kernel stays below full density"},
     {"melt_break_fraction", "Bonds break at melt", "f_b", "", kNumber, kLinear, 0.5, 0.2, 0.9, 0.05, 1, "", 1, 0, "",
      "Phase change",
@@ -134,8 +132,7 @@ constexpr ParameterDeclaration kProperties[] = {
     {"expansion_volumetric", "Expansion, liquid", "β", "1/K", kNumber, kLinear, 0, 0, 2e-3, -1e-2, 5e-2,
      "10\u207b\u2076/K", 1e6, 0, "", "Mechanics",
      "How much more room the liquid takes per degree, counted from 20 °C; it drives convection. A density drawn as a "
-     "curve "
-     "takes its place.",
+     "curve takes its place.",
      "water 207, molten wax 800, ethanol 1090 × 10\u207b\u2076/K", "CRC Handbook of Chemistry and Physics"},
     {"youngs_modulus", "Young's modulus", "E", "Pa", kResponse, kLogarithmic, 1e7, 1e4, 1e12, 0, 1e13, "MPa", 1e-6, 0,
      "", "Mechanics",
@@ -177,8 +174,7 @@ constexpr ParameterDeclaration kProperties[] = {
      "Incropera et al., Fundamentals of Heat and Mass Transfer"},
     {"clearness", "Clearness", "", "", kNumber, kLinear, 0, 0, 1, 0, 1, "%", 100, 0, "", "Light",
      "How far light goes into the solid, for its look alone: clear matter is frosted and light shines through its "
-     "gaps, "
-     "opaque matter shows its colour.",
+     "gaps, opaque matter shows its colour.",
      "ice, glass 100 %, jelly 80 %, wax 60 %, wood, iron 0 %", ""},
     {"color_red", "Red", "R", "", kNumber, kLinear, 0.7, 0, 1, 0, 1, "%", 100, 0, "", "Light",
      "Red part of the colour in which the matter is drawn (sRGB).", "ice 75 %, chocolate 29 %, lava 90 %", ""},

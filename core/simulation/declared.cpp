@@ -115,8 +115,7 @@ api::ParameterList adhesionDeclarations(const Project& project, const std::strin
         {declare::kept(kAdheresKey + others[k][0]), declare::kept("Holds on to " + others[k][1]), "", ""}, false,
         {"Phase change",
          "Whether the two grow together where one of them freezes beside the other as a solid. It is enough that one "
-         "of "
-         "the two says so. What is dry on both sides is never joined by it.",
+         "of the two says so. What is dry on both sides is never joined by it.",
          "wax in a glass: yes; iron poured on sand: no", ""}));
   }
   return {list.data(), list.size()};

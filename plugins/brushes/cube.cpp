@@ -53,10 +53,8 @@ const char* CubeBrush::label() const noexcept { return "Cube"; }
 
 const char* CubeBrush::help() const noexcept {
   return "Draws a square strand: a cube, whose half edge is the brush's radius, is filled or emptied at every point of "
-         "the "
-         "stroke. A cube of n particle spacings holds n cells along each edge. It knows the lattice only, not what "
-         "stands "
-         "in the way; occupied cells are left as they are.";
+         "the stroke. A cube of n particle spacings holds n cells along each edge. It knows the lattice only, not what "
+         "stands in the way; occupied cells are left as they are.";
 }
 
 ps::api::ParameterList CubeBrush::parameters() const noexcept { return ps::api::listOf(kParameters); }

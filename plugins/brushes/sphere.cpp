@@ -31,8 +31,7 @@ const char* SphereBrush::label() const noexcept { return "Sphere"; }
 
 const char* SphereBrush::help() const noexcept {
   return "Draws a round strand: every cell whose centre is within the radius of the stroke is filled, or emptied. It "
-         "knows "
-         "the lattice only, not what stands in the way; occupied cells are left as they are.";
+         "knows the lattice only, not what stands in the way; occupied cells are left as they are.";
 }
 
 ps::api::ParameterList SphereBrush::parameters() const noexcept { return ps::api::listOf(kParameters); }

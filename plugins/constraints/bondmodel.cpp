@@ -39,8 +39,7 @@ constexpr api::ParameterDeclaration kParameters[] = {
     {"max_stiffness_ratio", "Stiffness the step may resolve", "s", "", api::ParameterKind::Number,
      api::Scale::Logarithmic, 100, 1, 10000, 0.01, 1e6, "", 1, 0, "", "Structure",
      "Largest k dt²/m of a bond. Beyond about 100 more stiffness only makes the solver work harder: the block looks "
-     "the "
-     "same, and takes more iterations to come to rest.",
+     "the same, and takes more iterations to come to rest.",
      "100 at 4 substeps of 4 iterations", "Macklin et al. 2019"},
     {"neighbours", "Neighbours at the start", "", "", api::ParameterKind::Choice, api::Scale::Linear, 0, 0, 1, 0, 1, "",
      1, 0, "eighteen|six", "Structure",

@@ -134,8 +134,7 @@ const char* ThesisLatentModel::label() const noexcept { return "Thesis latent he
 const char* ThesisLatentModel::help() const noexcept {
   return "The latent-heat bookkeeping of the thesis, with the rule added that lets a particle leave a plateau: for "
          "comparison. Each plateau drops the heat that overshoots it, up to about half a percent of what is supplied, "
-         "so "
-         "the energy balance stays open and melting and boiling come a few steps late. No melting range and no "
+         "so the energy balance stays open and melting and boiling come a few steps late. No melting range and no "
          "sublimation. Choose Enthalpy for everything else.";
 }
 

@@ -48,8 +48,7 @@ const char* Ring::label() const noexcept { return "Ring"; }
 
 const char* Ring::help() const noexcept {
   return "Stamps a ring that lies flat: all cells whose centres are within the tube around a circle of the brush's "
-         "radius. "
-         "It knows the lattice only, not what stands in the way.";
+         "radius. It knows the lattice only, not what stands in the way.";
 }
 
 ParameterList Ring::parameters() const noexcept { return listOf(kParameters); }
