@@ -53,6 +53,7 @@ class TestTheme : public QObject {
   void numbersAreFormatted_data();
   void numbersAreFormatted();
   void prefixesKeepNumbersShort();
+  void narrowFieldsTakeAPrefix();
   void absoluteZeroStandsForNone();
   void theLastSecondStandsForNever();
   void errorsBelowRoundingAreNotSpelledOut();
@@ -239,6 +240,20 @@ void TestTheme::prefixesKeepNumbersShort() {
   QCOMPARE(text(0, "J"), QStringLiteral("0 J"));
   QCOMPARE(text(-1e-12, "J"), QStringLiteral("0 J"));
   QCOMPARE(text(std::numeric_limits<double>::quiet_NaN(), "J"), QString::fromUtf8("— J"));
+}
+
+void TestTheme::narrowFieldsTakeAPrefix() {
+  const auto text = [](const api::ParameterDeclaration& d, double stored) {
+    const FieldText shown = shortField(d, stored);
+    return shown.value + QLatin1Char(' ') + shown.unit;
+  };
+  const api::ParameterDeclaration viscosity = declaration("Pa·s", "mPa·s", 1e3), density = declaration("kg/m³"),
+                                  area = declaration("m²");
+  QCOMPARE(text(viscosity, 3970), QString::fromUtf8("3.97 kPa·s"));
+  QCOMPARE(text(viscosity, 1e-3), QString::fromUtf8("1 mPa·s"));
+  QCOMPARE(text(viscosity, 1e15), QString::fromUtf8("1\u202f000 TPa·s"));
+  QCOMPARE(text(density, 12000), formatField(density, 12000) + QString::fromUtf8(" kg/m³"));  // there is no kkg
+  QCOMPARE(text(area, 12000), formatField(area, 12000) + QString::fromUtf8(" m²"));           // km² is another thing
 }
 
 void TestTheme::errorsBelowRoundingAreNotSpelledOut() {

@@ -61,12 +61,21 @@ bool ParameterRow::Private::drawsSymbol() const {
   return q->wantedLabelWidth() <= room + 3;
 }
 
-QString ParameterRow::Private::unitText() const {
+FieldText ParameterRow::Private::fieldText() const {
+  const api::ParameterDeclaration& p = declaration();
+  const double number = q->number();
+  FieldText text{model.mixed ? QStringLiteral("—") : formatField(p, number),
+                 standsForNone(p, number) ? QString() : displayUnit(p)};
   // The field is narrow: "W/(m·K)" is shown as "W/m·K"; the tooltip has it in full.
-  if (standsForNone(declaration(), q->number())) return {};
-  QString unit = displayUnit(declaration());
-  unit.remove(QLatin1Char('(')).remove(QLatin1Char(')'));
-  return unit;
+  const auto narrowed = [](FieldText wide) {
+    wide.unit.remove(QLatin1Char('(')).remove(QLatin1Char(')'));
+    return wide;
+  };
+  text = narrowed(text);
+  const double room = q->fieldRect().width() - kFieldLeft - (kUnitLeft - kValueRight) - kFieldRight;
+  const double wanted =
+      textWidth(text.value, Theme::font(TextRole::Medium)) + textWidth(text.unit, Theme::font(TextRole::Normal));
+  return wanted <= room || model.mixed ? text : narrowed(shortField(p, number));
 }
 
 ParameterRow::ParameterRow(RowModel model, QWidget* parent) : QWidget(parent), d(std::make_unique<Private>(this)) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "ui/panels/parameterrow.h"
+#include "ui/theme/numbers.h"
 
 #include <QtCore/QPointF>
 #include <QtCore/QRect>
@@ -19,7 +20,7 @@ inline constexpr int kRowHeight = 26, kRowLeft = 12, kRowRight = 42, kRowRightNa
                      kFieldHeight = 22;
 inline constexpr int kSymbolWidth = 26, kSliderGap = 6, kMinimumSlider = 40, kMinimumLabel = 120;
 /// Right end of the value and left end of the unit, from the field's left.
-inline constexpr int kValueRight = 54, kUnitLeft = 60;
+inline constexpr int kFieldLeft = 7, kValueRight = 54, kUnitLeft = 60, kFieldRight = 3;
 /// A gesture by wheel or keys, or a click that a double-click may follow, ends after this long without more of it.
 inline constexpr int kSettleMilliseconds = 400;
 
@@ -58,7 +59,7 @@ struct ParameterRow::Private {
   bool showsCurve() const;
   bool leadsTo(const QPoint& at) const;  ///< a click there asks for something that somebody listens to
   bool drawsSymbol() const;              ///< a label that needs the symbol's room takes it
-  QString unitText() const;              ///< as the field shows it
+  FieldText fieldText() const;           ///< what stands in the field
 
   void begin();
   void change(const Value& value);

@@ -218,16 +218,15 @@ void ParameterRow::Private::paintField(QPainter& painter) const {
   if (edit) return;
   const Token token = disabled ? Token::Disabled : wrong ? Token::Error : warning ? Token::Warning : Token::Text;
   const QFont font = Theme::font(TextRole::Medium), unitFont = Theme::font(TextRole::Normal);
-  const QString value = model.mixed ? QStringLiteral("—") : formatField(declaration(), q->number());
-  const QString unit = unitText();
+  const auto [value, unit] = fieldText();
   // Value and unit meet at a common line in all rows; a long value or a long unit moves it as far as it must.
   double valueRight = field.left() + kValueRight;
   valueRight = std::min(valueRight, field.right() - 6 - (kUnitLeft - kValueRight) - textWidth(unit, unitFont));
-  valueRight = std::max(valueRight, field.left() + 7 + textWidth(value, font));
+  valueRight = std::max(valueRight, field.left() + kFieldLeft + textWidth(value, font));
   paintText(painter, QRectF(QPointF(field.left() + 4, field.top()), QPointF(valueRight, field.bottom())),
             Qt::AlignRight | Qt::AlignVCenter, value, font, theme[token]);
   const double unitLeft = valueRight + kUnitLeft - kValueRight;
-  paintText(painter, QRectF(QPointF(unitLeft, field.top()), QPointF(field.right() - 3, field.bottom())),
+  paintText(painter, QRectF(QPointF(unitLeft, field.top()), QPointF(field.right() - kFieldRight, field.bottom())),
             Qt::AlignLeft | Qt::AlignVCenter, unit, unitFont, theme[disabled ? Token::Disabled : Token::Muted]);
 }
 

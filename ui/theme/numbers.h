@@ -47,6 +47,12 @@ bool standsForNone(const api::ParameterDeclaration& declaration, double stored);
 QString formatField(const api::ParameterDeclaration& declaration, double stored);
 /// The same with its displayed unit.
 QString formatValue(const api::ParameterDeclaration& declaration, double stored);
+/// The same for a narrow place: where SI knows a prefix for the unit, the one that keeps the number short: "3.97 kPa·s"
+/// for 3 970 000 mPa·s.
+struct FieldText {
+  QString value, unit;
+};
+FieldText shortField(const api::ParameterDeclaration& declaration, double stored);
 /// A stored value times a factor as people see it: twice 10 °C is 20 °C.
 double scaledValue(const api::ParameterDeclaration& declaration, double stored, double factor);
 
