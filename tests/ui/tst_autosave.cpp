@@ -72,6 +72,29 @@ class TestAutosave : public QObject {
     QVERIFY(desk.autosave.leftBehind().empty());
   }
 
+  /// After "Save as" a copy that stayed behind would be restored into the file before, and overwrite it.
+  void savingTakesTheCopyAway() {
+    Desk desk(*m_plugins, m_copies);
+    desk.autosave.start();
+    desk.document.open(scenes::iceOnPlate(5, 370), QStringLiteral("/nowhere/scene.json"));
+    desk.edit(351);
+    QSignalSpy written(&desk.autosave, &Autosave::autosaved);
+    desk.autosave.saveNow();
+    QVERIFY(written.wait());
+    const QString path = m_directory->filePath(QStringLiteral("copy.json"));
+    QSignalSpy saved(&desk.files, &DocumentFiles::saved);
+    desk.files.save(path);
+    QVERIFY(saved.wait());
+    desk.worker.wait();  // the note went its way when the document heard of the file
+    const QDir copies(m_copies);
+    QCOMPARE(copies.entryList({QStringLiteral("*.json")}), QStringList());
+    QFile note(copies.filePath(copies.entryList({QStringLiteral("*.note")}).value(0)));
+    QVERIFY(note.open(QIODevice::ReadOnly));
+    const QByteArray text = note.readAll();
+    QVERIFY2(text.contains(path.toUtf8()), text.constData());
+    QVERIFY2(text.contains("\"unsaved\": false"), text.constData());
+  }
+
   /// Closed while it was still starting: what the session before it had open is still the newest.
   void aSessionThatOpenedNothingLeavesNothing() {
     {

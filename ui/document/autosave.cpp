@@ -75,7 +75,11 @@ Autosave::Autosave(Document& document, Worker& worker, const QString& directory,
   connect(&document, &Document::replacing, this, &Autosave::putAside);
   connect(&document, &Document::changed, this, [this](const ChangeEvent& event) {
     if (std::holds_alternative<ProjectOpened>(event)) m_takenOver.clear();
-    if (m_timer.isActive()) m_rest.start();
+    if (std::holds_alternative<FileChanged>(event)) m_moved = true;
+    if (!m_timer.isActive()) return;
+    m_rest.start();
+    // Until the note says so, a restored copy would belong to the file before, and be saved there.
+    if (m_moved && m_written == m_document.changeCount()) saveNow();
   });
 }
 
@@ -135,7 +139,7 @@ void Autosave::takeOver(const AutosavedSession& session) {
 void Autosave::start() { m_timer.start(); }
 
 void Autosave::saveNow() {
-  if (m_writing == 0 && m_written != m_document.changeCount()) write(SessionEnd::None);
+  if (m_writing == 0 && (m_moved || m_written != m_document.changeCount())) write(SessionEnd::None);
 }
 
 QString Autosave::close() {
@@ -191,6 +195,7 @@ std::function<QString()> Autosave::copyJob(const AutosavedSession& session) cons
 
 void Autosave::write(SessionEnd end) {
   ++m_writing;
+  m_moved = false;
   const AutosavedSession session = present(end);
   m_worker.run([this, session, count = m_document.changeCount(), takenOver = m_takenOver, job = copyJob(session)] {
     const QString problem = job();
@@ -205,6 +210,7 @@ void Autosave::written(const AutosavedSession& session, uint64_t count, const QS
   const bool replaced = session.end == SessionEnd::Replaced, fresh = replaced || problem != m_problem;
   if (!replaced) m_problem = problem;
   if (!problem.isEmpty()) {
+    m_moved = m_moved || !replaced;
     if (fresh) Q_EMIT failed(problem, replaced);
     return;
   }

@@ -61,7 +61,7 @@ class Autosave : public QObject {
   void takeOver(const AutosavedSession& session);
 
   void start();    ///< the timer
-  void saveNow();  ///< when something changed since the last copy
+  void saveNow();  ///< when something changed since the last copy, were it only the file that the work belongs to
   /// Last copy, with the note that the session ended in order; blocks until it is written. Returns "", or why it could
   /// not be: the session then goes on.
   QString close();
@@ -87,6 +87,7 @@ class Autosave : public QObject {
   QTimer m_timer, m_rest;
   QStringList m_takenOver;  ///< stems
   uint64_t m_written = 0;   ///< Document::changeCount() of the last copy that was written
+  bool m_moved = false;     ///< the work was saved, or belongs to another file, since the last copy
   int m_writing = 0, m_count = 0;
 };
 
