@@ -41,7 +41,11 @@ void summarise(const Report& report, Engine& engine, double wall) {
 }  // namespace
 
 std::string simulateHelp() {
-  return "phasesketch-cli simulate PROJECT [options]\n\nRuns a project without a window.\n\n" + optionHelp(kOptions);
+  return "phasesketch-cli simulate PROJECT [options]\n\nRuns a project without a window.\n\n" + optionHelp(kOptions) +
+         "\nThe report is in SI units but for milliseconds, where a key says ms. Thermal energy counts from the solid "
+         "at "
+         "its\nmelting point, so that matter colder than that has less than none; what a run means is the "
+         "difference.\n";
 }
 
 int simulateCommand(CommandArguments given) {
@@ -50,7 +54,8 @@ int simulateCommand(CommandArguments given) {
   const bool quiet = arguments.has("--quiet");
   applyMachineOptions(arguments);
   PluginRegistry plugins;
-  const Project project = loadFor(arguments, path, plugins);
+  std::vector<std::string> warnings;
+  const Project project = loadFor(arguments, path, plugins, &warnings);
   const long frames = frameCount(arguments, project);
   if (arguments.has("--report")) requireWritable(arguments.text("--report"));
   Engine engine(project, plugins);
@@ -79,6 +84,9 @@ int simulateCommand(CommandArguments given) {
   if (arguments.has("--report")) {
     nlohmann::json content = report.json(engine, wall);
     content["rest"] = rest.json(engine);
+    content["program"] = "phasesketch " PS_VERSION;
+    content["project"] = {{"file", path}, {"title", project.title}};
+    content["warnings"] = warnings;
     writeFileAtomically(arguments.text("--report"), writeJson(content));
   }
   if (!quiet) summarise(report, engine, wall);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/cli/arguments.h"
 #include "app/cli/commands.h"
+#include "app/cli/run.h"
 #include "core/base/error.h"
 #include "core/base/jsontext.h"
 #include "core/io/projectio.h"
@@ -43,7 +44,8 @@ int validateCommand(CommandArguments given) {
       const LoadedProject loaded = loadProject(path, plugins);
       if (quiet) continue;
       for (const ProjectMessage& warning : loaded.warnings) say(stderr, "warning: " + warning.text);
-      say(stdout, path + ": fine");
+      const size_t count = loaded.warnings.size();
+      say(stdout, path + (count == 0 ? ": fine" : ": can be opened, with " + counted(count, "warning")));
     } catch (const InputError& error) {
       say(stderr, error.what());
       code = kBadInput;

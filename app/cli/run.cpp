@@ -15,9 +15,10 @@ namespace {
 constexpr long kMostFrames = 100'000'000;
 volatile std::sig_atomic_t g_interrupted = 0;
 
-Project warned(const Arguments& arguments, LoadedProject&& loaded) {
-  if (!arguments.has("--quiet")) {
-    for (const ProjectMessage& warning : loaded.warnings) std::fprintf(stderr, "warning: %s\n", warning.text.c_str());
+Project warned(const Arguments& arguments, LoadedProject&& loaded, std::vector<std::string>* warnings = nullptr) {
+  for (const ProjectMessage& warning : loaded.warnings) {
+    if (!arguments.has("--quiet")) std::fprintf(stderr, "warning: %s\n", warning.text.c_str());
+    if (warnings) warnings->push_back(warning.text);
   }
   return std::move(loaded.project);
 }
@@ -37,8 +38,9 @@ std::string onlyFile(const Arguments& arguments, const char* what) {
   return arguments.positional()[0];
 }
 
-Project loadFor(const Arguments& arguments, const std::string& path, const PluginRegistry& plugins) {
-  return warned(arguments, loadProject(path, plugins, arguments.all("--set")));
+Project loadFor(const Arguments& arguments, const std::string& path, const PluginRegistry& plugins,
+                std::vector<std::string>* warnings) {
+  return warned(arguments, loadProject(path, plugins, arguments.all("--set")), warnings);
 }
 
 Project parseFor(const Arguments& arguments, const std::string& text, const std::string& name,

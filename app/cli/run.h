@@ -20,8 +20,9 @@ inline constexpr OptionSpec kQuiet{"--quiet", "", "says nothing but errors"};
 void applyMachineOptions(const Arguments& arguments);
 /// The one positional argument; throws InputError when there is none or more.
 std::string onlyFile(const Arguments& arguments, const char* what);
-/// Loads with --set, warnings on standard error.
-Project loadFor(const Arguments& arguments, const std::string& path, const PluginRegistry& plugins);
+/// Loads with --set, warnings on standard error, and in `warnings` where it is given.
+Project loadFor(const Arguments& arguments, const std::string& path, const PluginRegistry& plugins,
+                std::vector<std::string>* warnings = nullptr);
 /// The same for text that stands for a file.
 Project parseFor(const Arguments& arguments, const std::string& text, const std::string& name,
                  const PluginRegistry& plugins);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/io/projectcheck.h"
 
+#include "core/base/nearest.h"
 #include "core/matter/material.h"
 #include "core/plugin_host/registry.h"
 #include "core/solver/settings.h"
@@ -74,7 +75,9 @@ class ProjectChecker {
 
   void warnMissing(const std::string& id, const std::string& pointer, const std::string& consequence) {
     if (!m_missing.insert(id).second) return;
-    std::string reason = "is not installed";
+    std::vector<std::string> installed;
+    for (const PluginInfo& info : m_plugins.plugins()) installed.push_back(info.id);
+    std::string reason = "is not installed" + didYouMean(id, installed);
     for (const PluginInfo& info : m_plugins.plugins()) {
       if (info.id == id && !info.problem.empty()) reason = "cannot be used (" + info.problem + ")";
     }

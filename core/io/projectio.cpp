@@ -96,14 +96,14 @@ void checkRequired(const json& document, const std::string& name, const PluginRe
 /// Checks "parameters" of one owner against what its plugin declares.
 template <class Plugin>
 void checkParameters(const json& owner, const Plugin* plugin, const std::string& name, const std::string& pointer,
-                     std::vector<std::string>& unknown) {
+                     std::vector<UnknownKey>& unknown) {
   const auto parameters = owner.find("parameters");
   if (!plugin || parameters == owner.end()) return;
   checkAgainst(parameterListSchema(plugin->parameters()), *parameters, name, pointer + "/parameters", unknown);
 }
 
 void checkPluginParameters(const json& document, const std::string& name, const PluginRegistry& plugins,
-                           std::vector<std::string>& unknown) {
+                           std::vector<UnknownKey>& unknown) {
   const json &materials = document.at("materials"), &bodies = document.at("bodies");
   for (size_t i = 0; i < materials.size(); ++i) {
     checkParameters(materials[i], plugins.materialPlugin(materials[i].at("base").get<std::string>()), name,
@@ -160,14 +160,15 @@ void applyEdit(json& document, const std::string& edit) {
 void checkDocument(const json& document, const std::string& name, const PluginRegistry& plugins,
                    std::vector<ProjectMessage>& warnings) {
   checkFormat(document, name);
-  std::vector<std::string> unknown;
+  std::vector<UnknownKey> unknown;
   checkAgainst(projectSchema(), document, name, "", unknown);
   checkRequired(document, name, plugins);
   checkPluginParameters(document, name, plugins, unknown);
   warnReserved(document, name, warnings);
   constexpr size_t kMost = 20;
   for (size_t i = 0; i < std::min(unknown.size(), kMost); ++i) {
-    warnings.push_back({false, name + ":" + unknown[i] + ": is not known here; it is kept and has no effect"});
+    warnings.push_back({false, name + ":" + unknown[i].pointer + ": is not known here" + unknown[i].meant +
+                                   "; it is kept and has no effect"});
   }
   if (unknown.size() > kMost) {
     warnings.push_back(

@@ -23,10 +23,15 @@ nlohmann::json parameterSchema(const api::ParameterDeclaration& declaration);
 /// An object with these parameters; other keys are allowed.
 nlohmann::json parameterListSchema(api::ParameterList list);
 
+/// A key that a schema does not name.
+struct UnknownKey {
+  std::string pointer;
+  std::string meant;  ///< " (did you mean 'environment'?)", or ""
+};
 /// Checks a value against a schema made by the functions above ("$ref" is looked up in projectSchema()).
-/// Throws InputError "name:pointer: what is wrong" for the first thing wrong. `unknown` receives the pointers of keys
-/// that the schema does not name ("$..." and "x-..." are meant for others and left out).
+/// Throws InputError "name:pointer: what is wrong" for the first thing wrong. `unknown` receives the keys that the
+/// schema does not name ("$..." and "x-..." are meant for others and left out).
 void checkAgainst(const nlohmann::json& schema, const nlohmann::json& value, const std::string& name,
-                  const std::string& pointer, std::vector<std::string>& unknown);
+                  const std::string& pointer, std::vector<UnknownKey>& unknown);
 
 }  // namespace ps

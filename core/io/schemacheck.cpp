@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/base/error.h"
 #include "core/base/jsontext.h"
+#include "core/base/nearest.h"
 #include "core/io/schema.h"
 #include "core/scene/parameterset.h"
 
@@ -36,7 +37,7 @@ std::string typeName(const std::string& type) {
 
 class Checker {
  public:
-  Checker(const std::string& name, std::vector<std::string>& unknown) : m_name(name), m_unknown(unknown) {}
+  Checker(const std::string& name, std::vector<UnknownKey>& unknown) : m_name(name), m_unknown(unknown) {}
 
   void check(const json& schema, const json& value, const std::string& pointer) const {
     if (const auto ref = schema.find("$ref"); ref != schema.end()) {
@@ -146,19 +147,23 @@ class Checker {
       if (known != properties->end()) {
         check(*known, member, pointer + "/" + pointerPart(key));
       } else if (!key.starts_with("$") && !key.starts_with("x-")) {
-        m_unknown.push_back(pointer + "/" + pointerPart(key));
+        std::vector<std::string> absent;
+        for (const auto& [name, unused] : properties->items()) {
+          if (!value.contains(name)) absent.push_back(name);
+        }
+        m_unknown.push_back({pointer + "/" + pointerPart(key), didYouMean(key, absent)});
       }
     }
   }
 
   const std::string& m_name;
-  std::vector<std::string>& m_unknown;
+  std::vector<UnknownKey>& m_unknown;
 };
 
 }  // namespace
 
 void checkAgainst(const json& schema, const json& value, const std::string& name, const std::string& pointer,
-                  std::vector<std::string>& unknown) {
+                  std::vector<UnknownKey>& unknown) {
   Checker(name, unknown).check(schema, value, pointer);
 }
 

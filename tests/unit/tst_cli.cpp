@@ -127,10 +127,11 @@ void TestCli::simulateWritesTheReportsKeys() {
   const Ran ran = cli(smallScene({"--frames", "30", "--report", folder.filePath("r.json")}));
   QVERIFY2(ran.code == 0, ran.err.constData());
   const nlohmann::json r = jsonFile(folder.filePath("r.json"));
-  QCOMPARE(keysOf(r),
-           (Keys{"particles",     "frames",  "substeps", "iterations", "dt",     "simulated_s", "wall_s",
-                 "threads",       "backend", "isa",      "state_hash", "flags",  "limits",      "ms_per_frame",
-                 "density_error", "energy",  "flow",     "momentum",   "phases", "rest",        "temperature"}));
+  QCOMPARE(keysOf(r), (Keys{"program",    "project",    "warnings",    "particles", "frames",       "substeps",
+                            "iterations", "dt",         "simulated_s", "wall_s",    "threads",      "backend",
+                            "isa",        "state_hash", "flags",       "limits",    "ms_per_frame", "density_error",
+                            "energy",     "flow",       "momentum",    "phases",    "rest",         "temperature"}));
+  QVERIFY(r["warnings"].empty());
   QCOMPARE(keysOf(r["ms_per_frame"]),
            (Keys{"total", "neighbours", "density", "structure", "contact", "viscosity", "heat", "phase"}));
   for (const auto& stage : r["ms_per_frame"]) QCOMPARE(keysOf(stage), (Keys{"mean", "median", "p95"}));

@@ -30,6 +30,7 @@ class TestProjectIo : public QObject {
   void everythingSurvives();
   void unknownKeysSurvive_data();
   void unknownKeysSurvive();
+  void slipsAreNamed();
   void wrongValuesNameThePlace_data();
   void wrongValuesNameThePlace();
   void hostileTextIsRefused_data();
@@ -187,6 +188,22 @@ void TestProjectIo::unknownKeysSurvive() {
   QVERIFY(json::parse(once).contains(place));
   QCOMPARE(json::parse(once)[place].dump(), value.dump());
   QCOMPARE(writeProject(parse(once).project), once);
+}
+
+void TestProjectIo::slipsAreNamed() {
+  const auto warningsOf = [&](const char* place, const json& value) {
+    json document = json::parse(kFull);
+    document[json::json_pointer(place)] = value;
+    std::string all;
+    for (const ProjectMessage& message : parse(document.dump()).warnings) all += message.text + "\n";
+    return QString::fromStdString(all);
+  };
+  const QString slip = warningsOf("/bodies/0/constrants", json::array());
+  QVERIFY2(slip.contains(QStringLiteral("(did you mean 'constraints'?)")), qPrintable(slip));
+  const QString plugin = warningsOf("/bodies/0/constraints", json::array({{{"plugin", "rigit"}}}));
+  QVERIFY2(plugin.contains(QStringLiteral("(did you mean 'rigid'?)")), qPrintable(plugin));
+  const QString foreign = warningsOf("/bodies/0/somethingElse", 1);
+  QVERIFY2(foreign.contains(QStringLiteral("not known here; it is kept")), qPrintable(foreign));
 }
 
 void TestProjectIo::wrongValuesNameThePlace_data() {
