@@ -63,6 +63,7 @@ nlohmann::json Report::json(Engine& engine, double wallSeconds) const {
   for (const Limit& limit : engine.solver().limits()) {
     limits.push_back(
         {{"what", limit.what}, {"asked", limit.asked}, {"delivered", limit.delivered}, {"unit", limit.unit}});
+    if (limit.body >= 0) limits.back()["body"] = engine.bodyIds()[static_cast<size_t>(limit.body)];
   }
   nlohmann::json phases;
   static constexpr const char* kPhases[] = {"solid", "melting", "liquid", "boiling", "gas"};

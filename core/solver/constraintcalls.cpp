@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <string_view>
 
 namespace ps {
 namespace {
@@ -138,25 +139,32 @@ double ConstraintSystem::energy(const ParticleStore& store) {
 }
 
 void ConstraintSystem::limits(const ParticleStore& store, std::vector<Limit>& out) {
-  /// Bodies of one material meet the same limit: the one that is missed by most is told.
+  /// Bodies of one material meet the same limit: the one that is missed by most is told. A parameter of the plugin is
+  /// each body's own.
   class Collect final : public api::LimitSink {
    public:
     explicit Collect(std::vector<Limit>& limits) : m_limits(limits) {}
     void limit(const char* what, double asked, double delivered, const char* unit) override {
-      const auto found = std::find_if(m_limits.begin(), m_limits.end(), [&](const Limit& l) { return l.what == what; });
+      const int body = std::string_view(what).starts_with(plugin + ".") ? asking : -1;
+      const auto found = std::find_if(m_limits.begin(), m_limits.end(),
+                                      [&](const Limit& l) { return l.what == what && l.body == body; });
       if (found == m_limits.end()) {
-        m_limits.push_back({what, asked, delivered, unit});
+        m_limits.push_back({what, asked, delivered, unit, body});
       } else if (asked * found->delivered > found->asked * delivered) {
         found->asked = asked, found->delivered = delivered;
       }
     }
+    std::string plugin;
+    int asking = -1;
 
    private:
     std::vector<Limit>& m_limits;
   } sink(out);
   for (Set& set : m_sets) {
+    sink.plugin = set.name;
     for (uint32_t body = 0; body < set.used.size(); ++body) {
       if (set.used[body] == 0) continue;
+      sink.asking = static_cast<int>(body);
       guarded(set, [&] { set.plugin->limits(context(set, substepTime(), 0, 0, body), store.view(), sink); });
     }
   }

@@ -111,9 +111,10 @@ struct PluginFault {
 
 /// Asked for and not delivered at this step.
 struct Limit {
-  std::string what;  ///< parameter key and owner: "water.youngs_modulus"
+  std::string what;  ///< parameter key and owner: "water.youngs_modulus", "rope.stretch_stiffness"
   double asked = 0, delivered = 0;
   std::string unit;
+  int body = -1;  ///< the one whose plugin's own parameter it is; -1: a material's, the solver's
 };
 
 enum class Stage { Neighbours, Density, Structure, Contact, Viscosity, Heat, Phase, Count };

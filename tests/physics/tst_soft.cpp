@@ -384,6 +384,9 @@ class TestSoft : public QObject {
     QCOMPARE(limits[0].what, std::string("cloth.stretch_stiffness"));
     QCOMPARE(limits[0].asked, 1e5);
     QVERIFY(std::abs(limits[0].delivered / 2304 - 1) < 1e-4);  // 100 m/dt²
+    QCOMPARE(limits[0].body, 1);
+    solver.setConstraintParameters(set, 0, parametersOf(cloth, {{ClothModel::kStretchStiffness, 2e5}}));
+    QCOMPARE(solver.limits().size(), size_t{2});  // each body has its own
   }
 };
 

@@ -383,6 +383,31 @@ class TestWindow : public QObject {
     document().setParameter(substeps, before);
   }
 
+  /// Of a plugin's own parameter, under the row of the body that it is of.
+  void aLimitOfAPluginStandsAtItsBody() {
+    const Body& body = document().project().bodies.front();
+    QVERIFY(!body.constraints.empty());
+    const std::string plugin = body.constraints.front().plugin;
+    QCOMPARE(plugin, std::string("bonds"));
+    m_window->inspector().setBody(body.id);
+    Snapshot snapshot;
+    snapshot.bodyIds = std::make_shared<const std::vector<std::string>>(std::vector<std::string>{"other", body.id});
+    const auto noteOf = [&](int index) {
+      snapshot.limits = {{"bonds.spring_stiffness", 5e5, 2e4, "N/m", index}};
+      m_window->inspector().setSnapshot(snapshot);
+      const QString key = QStringLiteral("constraint/%1/bonds/spring_stiffness").arg(QString::fromStdString(body.id));
+      ParameterRow* row = m_window->inspector().bodyPanel()->row(key);
+      const auto* note = row ? row->findChild<QLabel*>(QStringLiteral("psLimit")) : nullptr;
+      return note ? note->text() : QString();
+    };
+    const QString own = noteOf(1);
+    QVERIFY2(own.contains(QStringLiteral("the solver reaches")) && !own.contains(QStringLiteral("bonds.")),
+             qPrintable(own));
+    QCOMPARE(noteOf(0), QString());
+    snapshot.limits.clear();
+    m_window->inspector().setSnapshot(snapshot);
+  }
+
   /// A curve is read at the temperature of its own material, not of what else is in the scene.
   void curvesAreReadAtTheirMatter() {
     m_window->inspector().setMaterial("water");

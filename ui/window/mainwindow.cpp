@@ -368,12 +368,15 @@ void MainWindow::refreshStatus() {
   if (state.snapshot && !state.snapshot->limits.empty()) {
     // One that no row can show comes first.
     const std::vector<Limit>& limits = state.snapshot->limits;
+    const auto addressOf = [&](const Limit& limit) { return limitAddress(limit, *state.snapshot); };
     const auto lonely =
-        std::find_if(limits.begin(), limits.end(), [](const Limit& limit) { return limitAddress(limit).isEmpty(); });
+        std::find_if(limits.begin(), limits.end(), [&](const Limit& limit) { return addressOf(limit).isEmpty(); });
     const Limit& first = lonely == limits.end() ? limits.front() : *lonely;
+    m_noteAddress = addressOf(first);
+    const auto address = Address::parse(m_noteAddress.toStdString());
     const size_t count = limits.size();
-    state.note = (count == 1 ? QStringLiteral("1 note: ") : QStringLiteral("%1 notes: ").arg(count)) + limitNote(first);
-    m_noteAddress = limitAddress(first);
+    state.note = (count == 1 ? QStringLiteral("1 note: ") : QStringLiteral("%1 notes: ").arg(count)) +
+                 limitNote(first, address ? m_session->document().declaration(*address) : nullptr);
   }
   m_status->setState(state);
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/window/wording.h"
 
-#include "core/matter/material.h"
 #include "core/simulation/engine.h"
 #include "ui/theme/numbers.h"
 
@@ -64,7 +63,7 @@ FailureText failureText(const EngineEvent& event) {
   return {QStringLiteral("That change could not be made."), message};
 }
 
-QString limitAddress(const Limit& limit) {
+QString limitAddress(const Limit& limit, const Snapshot& snapshot) {
   const QString what = QString::fromStdString(limit.what);
   const qsizetype dot = what.indexOf(QLatin1Char('.'));
   if (dot < 1) return {};
@@ -72,23 +71,22 @@ QString limitAddress(const Limit& limit) {
   if (owner == QLatin1String("solver") || owner == QLatin1String("environment") || owner == QLatin1String("thermal")) {
     return owner + QLatin1Char('/') + key;
   }
-  return QStringLiteral("material/%1/%2").arg(owner, key);
+  if (limit.body < 0) return QStringLiteral("material/%1/%2").arg(owner, key);
+  const auto body = static_cast<size_t>(limit.body);
+  if (!snapshot.bodyIds || body >= snapshot.bodyIds->size()) return {};
+  return QStringLiteral("constraint/%1/%2/%3").arg(QString::fromStdString((*snapshot.bodyIds)[body]), owner, key);
 }
 
-QString limitNote(const Limit& limit) {
+QString limitNote(const Limit& limit, const api::ParameterDeclaration* declaration) {
   if (limit.what == kBalanceLimit)
     return QStringLiteral("heat balance open by %1").arg(formatQuantity(limit.delivered, QStringLiteral("J")));
   if (limit.what == kSqueezeLimit)
     return QStringLiteral("liquid is %1 % too dense, a fixed body on its way may leave it no room")
         .arg(formatFixed(100 * limit.delivered, 0));
-  return limitText(limit).section(QLatin1Char(':'), 0, 0) + QStringLiteral(" is limited by the step");
+  return limitText(limit, declaration).section(QLatin1Char(':'), 0, 0) + QStringLiteral(" is limited by the step");
 }
 
-QString limitText(const Limit& limit) {
-  const QString what = QString::fromStdString(limit.what);
-  const std::string key = what.mid(what.indexOf(QLatin1Char('.')) + 1).toStdString();
-  const auto* declaration = findDeclaration(propertyCatalogue(), key);
-  if (!declaration) declaration = findDeclaration(solverParameters(), key);
+QString limitText(const Limit& limit, const api::ParameterDeclaration* declaration) {
   if (declaration) {
     return QStringLiteral("%1: the solver reaches %2 of %3 at this step")
         .arg(QString::fromUtf8(declaration->label), formatValue(*declaration, limit.delivered),
@@ -96,7 +94,8 @@ QString limitText(const Limit& limit) {
   }
   const QString unit = QString::fromStdString(limit.unit);
   return QStringLiteral("%1: the solver reaches %2 of %3 at this step")
-      .arg(what, formatQuantity(limit.delivered, unit), formatQuantity(limit.asked, unit));
+      .arg(QString::fromStdString(limit.what), formatQuantity(limit.delivered, unit),
+           formatQuantity(limit.asked, unit));
 }
 
 }  // namespace ps

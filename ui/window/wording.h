@@ -22,11 +22,13 @@ struct FailureText {
   bool lost = false;  ///< matter left the scene
 };
 FailureText failureText(const EngineEvent& event);
-/// "water.youngs_modulus" as an address text: "material/water/youngs_modulus"; "" when it has no owner.
-QString limitAddress(const Limit& limit);
-/// "Young's modulus: the solver reaches 42.0 MPa of 9.3 GPa at this step."
-QString limitText(const Limit& limit);
+/// "water.youngs_modulus" as an address text: "material/water/youngs_modulus"; "" when it has no owner. A limit of the
+/// snapshot.
+QString limitAddress(const Limit& limit, const Snapshot& snapshot);
+/// "Young's modulus: the solver reaches 42.0 MPa of 9.3 GPa at this step." `declaration`: of its address; nullptr where
+/// it has none.
+QString limitText(const Limit& limit, const api::ParameterDeclaration* declaration);
 /// The same in a few words, for the status line.
-QString limitNote(const Limit& limit);
+QString limitNote(const Limit& limit, const api::ParameterDeclaration* declaration);
 
 }  // namespace ps
