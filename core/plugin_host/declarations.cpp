@@ -72,7 +72,8 @@ std::string problemOfTexts(const api::ParameterDeclaration& p) {
                                                        {"group", p.group},
                                                        {"help", p.help},
                                                        {"example", p.example},
-                                                       {"source", p.source}};
+                                                       {"source", p.source},
+                                                       {"leastWord", p.leastWord ? p.leastWord : ""}};
   for (const auto& [name, text] : texts)
     if (const std::string problem = problemOfText(text); !problem.empty())
       return std::string("its ") + name + " " + problem;

@@ -36,19 +36,20 @@ constexpr api::ParameterDeclaration kBody[] = {
             "Heat that comes up inside the body per second of thermal time, the same in each gram of it; below zero "
             "it is taken away, down to 1 K. What has melted or boiled off goes on being heated.",
             "body warmth 80, immersion heater 300, kettle 2000, −100 for a fridge", ""}),
-    number({"surface_area", "Surface in air", "A", "m²"}, {0, 0, 0.1, 0, 1e6},
-           {"Heat",
-            "Surface of the whole body that air and radiation reach, shared among the particles that are found "
-            "outside. 0: "
-            "as these particles show it, to some 10 %.",
-            "0 for all but experiments with a known surface", ""}),
+    leastMeans("found",
+               number({"surface_area", "Surface in air", "A", "m²"}, {0, 0, 0.1, 0, 1e6},
+                      {"Heat",
+                       "Surface of the whole body that air and radiation reach, shared among the particles that are "
+                       "found outside. 0: as these particles show it, to some 10 %.",
+                       "0 for all but experiments with a known surface", ""})),
     number({"motion_start", "Sets off at", "", "s"}, {0, 0, 60, 0, 1e9},
            {"Motion",
             "When a body that is held in place, and has a velocity or a spin, begins to move. Until then it stands.",
             "2 lets the water come to rest before the paddle turns", ""}),
-    number({"motion_stop", "Stops at", "", "s"}, {0, 0, 60, 0, 1e9},
-           {"Motion", "When a body that is held in place, and moves, stands still again; 0 for never.",
-            "10 for a stirrer that is switched off", ""}),
+    leastMeans("never",
+               number({"motion_stop", "Stops at", "", "s"}, {0, 0, 60, 0, 1e9},
+                      {"Motion", "When a body that is held in place, and moves, stands still again; 0 for never.",
+                       "10 for a stirrer that is switched off", ""})),
 };
 
 }  // namespace

@@ -39,6 +39,12 @@ constexpr api::ParameterDeclaration number(Names n, Range r, Words w, Display d 
           r.hardMaximum, d.unit,  d.scale,  d.offset, "",   w.group, w.help,  w.example, w.source};
 }
 
+/// With a word for its hard minimum.
+constexpr api::ParameterDeclaration leastMeans(const char* word, api::ParameterDeclaration d) {
+  d.leastWord = word;
+  return d;
+}
+
 constexpr api::ParameterDeclaration integer(Names n, Range r, Words w) {
   return number(n, r, w, kAsStored, api::Scale::Linear, api::ParameterKind::Integer);
 }

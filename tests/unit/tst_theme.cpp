@@ -318,6 +318,11 @@ void TestTheme::theLastSecondStandsForNever() {
   QVERIFY2(typed.problem.isEmpty() && typed.value == 1e9, qPrintable(typed.problem));
   d.hardMaximum = 100;  // a time that is always there
   QVERIFY(!parseTyped(QStringLiteral("never"), d, 10).problem.isEmpty());
+  d.leastWord = "at once";
+  d.hardMinimum = 0;
+  QCOMPARE(formatValue(d, 0), QStringLiteral("at once"));
+  QCOMPARE(formatValue(d, 10), QStringLiteral("10.0 s"));
+  QCOMPARE(parseTyped(QStringLiteral("At once"), d, 10).value, 0.0);
 }
 
 void TestTheme::typedTextIsUnderstood_data() {

@@ -230,12 +230,13 @@ qsizetype unitStart(const QString& text) {
 /// A value that stands for none, and the word for it.
 struct NoValue {
   double stored;
-  QLatin1String word;
+  QString word;
 };
 std::optional<NoValue> noValueOf(const api::ParameterDeclaration& d) {
+  if (d.leastWord) return NoValue{d.hardMinimum, QString::fromUtf8(d.leastWord)};
   const std::string_view unit = d.unit ? d.unit : "";
-  if (unit == "K" && d.displayOffset != 0 && d.hardMinimum <= 0) return NoValue{0, QLatin1String("none")};
-  if (unit == "s" && d.hardMaximum >= 1e9) return NoValue{d.hardMaximum, QLatin1String("never")};
+  if (unit == "K" && d.displayOffset != 0 && d.hardMinimum <= 0) return NoValue{0, QStringLiteral("none")};
+  if (unit == "s" && d.hardMaximum >= 1e9) return NoValue{d.hardMaximum, QStringLiteral("never")};
   return std::nullopt;
 }
 

@@ -39,7 +39,8 @@ double fromDisplay(const api::ParameterDeclaration& declaration, double shown);
 /// The unit that people see: displayUnit, or unit where it is empty.
 QString displayUnit(const api::ParameterDeclaration& declaration);
 /// Whether a value is left out: a material that never boils has its boiling point at absolute zero, a tap that never
-/// closes does so after 1e9 s. Shown and typed as "none" and "never".
+/// closes does so after 1e9 s, a rope that never tears does so at 0. Shown and typed as "none", "never" or the
+/// declaration's own word.
 bool standsForNone(const api::ParameterDeclaration& declaration, double stored);
 /// A stored value as its field shows it, without unit: four significant digits, without zeros at the end that are finer
 /// than the slider's range can tell (a logarithmic one: three significant digits; what has another zero than SI:

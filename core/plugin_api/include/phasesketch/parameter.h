@@ -31,11 +31,12 @@ struct ParameterDeclaration {
   const char* displayUnit;  ///< "°C"; "" shows `unit`
   double displayScale;      ///< shown = stored * displayScale + displayOffset
   double displayOffset;
-  const char* choices;  ///< "cubic_spline|wendland_c2"; "" unless Choice
-  const char* group;    ///< heading in the panel: "Heat"
-  const char* help;     ///< one plain sentence
-  const char* example;  ///< "ice 2.2, wood 0.15, copper 400"
-  const char* source;   ///< paper or handbook; "" for none
+  const char* choices;              ///< "cubic_spline|wendland_c2"; "" unless Choice
+  const char* group;                ///< heading in the panel: "Heat"
+  const char* help;                 ///< one plain sentence
+  const char* example;              ///< "ice 2.2, wood 0.15, copper 400"
+  const char* source;               ///< paper or handbook; "" for none
+  const char* leastWord = nullptr;  ///< what hardMinimum means where it is no amount: "never"; nullptr: itself
 };
 using ParameterList = List<ParameterDeclaration>;
 
