@@ -157,6 +157,21 @@ double Response::at(double kelvin) const {
   return 0;
 }
 
+Response Response::scaled(double factor) const {
+  Response result = *this;
+  result.constant *= factor;
+  for (api::ResponsePoint& point : result.points) point.y *= factor;
+  if (kind != Kind::Law || !lawProblem(law, coefficients).empty()) return result;
+  std::vector<double>& c = result.coefficients;
+  if (law == "vogel") {
+    c[0] += std::log10(factor);
+  } else {
+    c[0] *= factor;
+    if (law == "linear") c[1] *= factor;
+  }
+  return result;
+}
+
 std::string Response::problem() const {
   switch (kind) {
     case Kind::Constant:

@@ -23,6 +23,8 @@ struct Response {
 
   /// Value at a temperature in K; 0 for a response with a problem().
   double at(double kelvin) const;
+  /// Everywhere `factor` times as much, a factor above 0: of a law too.
+  Response scaled(double factor) const;
   /// "" when well formed, else what is wrong ("points must ascend in x", "unknown law 'vogle'").
   std::string problem() const;
   bool operator==(const Response& other) const;

@@ -27,6 +27,7 @@ class TestRowEntry : public QObject {
   void mixedRowsScale();
   void derivedRowsLeadToTheirSource();
   void curvesAskForTheirEditor();
+  void curvesAreScaledAndReplaced();
   void noHandWhereNothingHappens();
   void limitsStandUnderTheRow();
   void rowsAreAccessible_data();
@@ -240,8 +241,39 @@ void TestRowEntry::noHandWhereNothingHappens() {
     QTest::mouseMove(row, row->fieldRect().center());
     QTest::mouseMove(row, row->sliderRect().center());
     QTest::qWait(20);
-    QCOMPARE(row->cursor().shape(), Qt::ArrowCursor);
+    QCOMPARE(row->cursor().shape(), row->model().derivedFrom.isEmpty() ? Qt::SizeHorCursor : Qt::ArrowCursor);
   }
+}
+
+/// Without an editor, too: a drag scales all of it, a number takes its place.
+void TestRowEntry::curvesAreScaledAndReplaced() {
+  RowModel start = model("conductivity");
+  Response curve;
+  curve.kind = Response::Kind::Curve;
+  curve.points = {{250, 2}, {350, 3}};
+  start.value = start.defaultValue = curve;
+  ParameterRow row(start);
+  show(row);
+  const Listener listener(row);
+  const QPoint from = row.sliderRect().center(), to = from + QPoint(row.sliderRect().width() / 5, 0);
+  QTest::mousePress(&row, Qt::LeftButton, {}, from);
+  QTest::mouseMove(&row, to);
+  QTest::mouseRelease(&row, Qt::LeftButton, {}, to);
+  row.finishEditing();
+  const double factor = std::pow(10.0, double(to.x() - from.x()) / row.sliderRect().width());
+  const Response scaled = std::get<Response>(row.model().value);
+  QVERIFY(std::abs(scaled.points[0].y - 2 * factor) < 1e-12 && std::abs(scaled.points[1].y - 3 * factor) < 1e-12);
+  QCOMPARE(listener.sequence, QStringLiteral("BLE"));
+  QTest::mouseDClick(&row, Qt::LeftButton, {}, from);
+  QVERIFY(!row.isChanged());
+  QVERIFY(!row.enter(QStringLiteral("*-1")));
+  QTest::mouseClick(&row, Qt::LeftButton, {}, row.fieldRect().center());
+  auto* edit = row.findChild<QLineEdit*>();
+  QVERIFY(edit);
+  QTest::keyClicks(edit, QStringLiteral("5"));
+  QTest::keyClick(edit, Qt::Key_Return);
+  QCOMPARE(row.number(), 5.0);
+  QVERIFY(!row.has(RowState::Curve));
 }
 
 void TestRowEntry::limitsStandUnderTheRow() {

@@ -59,6 +59,20 @@ class TestResponse : public QObject {
              qPrintable(QString::number(response.at(kelvin), 'g', 9)));
   }
 
+  void scaledIsTimesTheFactorEverywhere() {
+    Response curve;
+    curve.kind = Response::Kind::Curve;
+    curve.points = {{250, 2}, {300, 5}, {350, 3}};
+    for (const Response& response :
+         {Response(4.0), curve, law("linear", {3, 0.01, 293}), law("exponential", {1e8, 293, 12}),
+          law("arrhenius", {10, 95e3, 293}), law("vogel", {-4.6, 247.8, 140}), law("thesis_sigmoid", {2, 300, 5})}) {
+      for (const double t : {260.0, 293.0, 340.0}) {
+        const double asked = 2.5 * response.at(t);
+        QVERIFY2(std::abs(response.scaled(2.5).at(t) - asked) <= 1e-12 * asked, response.law.c_str());
+      }
+    }
+  }
+
   void lawsStayFiniteEverywhere() {
     for (const Response& response :
          {law("vogel", {-4.6, 247.8, 140}), law("arrhenius", {10, 95e3, 293}), law("exponential", {1e8, 293, 0.01})}) {

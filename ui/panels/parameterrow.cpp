@@ -58,7 +58,7 @@ bool ParameterRow::Private::showsCurve() const { return isCurve(model.value); }
 bool ParameterRow::Private::drawsSymbol() const {
   if (!showSymbol || !isNumeric() || !declaration().symbol || !*declaration().symbol) return false;
   const int room = q->sliderRect().left() - kSymbolWidth - kRowLeft;
-  return q->wantedLabelWidth() <= room + 3;
+  return q->wantedLabelWidth() <= room;
 }
 
 FieldText ParameterRow::Private::fieldText() const {
@@ -334,14 +334,10 @@ bool ParameterRow::enterNumber(double value) {
 }
 
 bool ParameterRow::Private::scaleCurve(double factor) {
-  Response response = std::get<Response>(model.value);
-  if (response.kind != Response::Kind::Curve) {
-    q->setError(QStringLiteral("A law is not scaled as a whole; type a number to replace it by a constant"));
-    return false;
-  }
-  for (api::ResponsePoint& point : response.points) point.y *= factor;
-  if (const std::string problem = problemOf(Value(response), declaration()); !problem.empty()) {
-    q->setError(QString::fromStdString("The curve " + problem));
+  const Response response = std::get<Response>(model.value).scaled(factor);
+  if (const std::string problem = problemOf(Value(response), declaration()); !problem.empty() || !(factor > 0)) {
+    q->setError(factor > 0 ? QString::fromStdString("The curve " + problem)
+                           : QStringLiteral("A curve is scaled by a factor above 0"));
     return false;
   }
   q->setError({});

@@ -48,15 +48,16 @@ struct ParameterRow::Private {
   QTimer settle;
   bool dragging = false;
   bool dragCancelled = false;  ///< Esc: wait for the button to be released
-  double dragPosition = 0;     ///< 0..1 on the slider, not rounded
+  double dragPosition = 0;     ///< 0..1 on the slider, not rounded; on a sparkline the tens by which it is scaled
   double dragX = 0;
+  Value dragCurve;       ///< what a drag on the sparkline scales
   double wheelRest = 0;  ///< parts of a wheel step
 
   const api::ParameterDeclaration& declaration() const { return model.declaration; }
   bool isEditable() const { return model.disabledReason.isEmpty() && model.derivedFrom.isEmpty(); }
   bool isNumeric() const;  ///< has a slider or sparkline, and a field
-  bool hasSlider() const { return isNumeric() && !showsCurve(); }
   bool showsCurve() const;
+  bool hasEditor() const;                ///< of curves: somebody listens
   bool leadsTo(const QPoint& at) const;  ///< a click there asks for something that somebody listens to
   bool drawsSymbol() const;              ///< a label that needs the symbol's room takes it
   FieldText fieldText() const;           ///< what stands in the field

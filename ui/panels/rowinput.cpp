@@ -46,6 +46,11 @@ void ParameterRow::Private::dragTo(double x, Qt::KeyboardModifiers modifiers) {
   const bool fine = modifiers & Qt::ShiftModifier;
   dragPosition += (x - dragX) / q->sliderRect().width() * (fine ? 0.1 : 1);
   dragX = x;
+  if (showsCurve()) {
+    const Value scaled = std::get<Response>(dragCurve).scaled(std::pow(10.0, dragPosition));
+    if (problemOf(scaled, declaration()).empty()) change(scaled);
+    return;
+  }
   const double value = valueAtPosition(declaration(), dragPosition);
   const double kept =
       modifiers & Qt::AltModifier ? snappedToRound(declaration(), value) : roundedForSlider(declaration(), value, fine);
@@ -73,15 +78,20 @@ void ParameterRow::Private::pressed(const QPoint& at, Qt::KeyboardModifiers modi
       break;
   }
   const bool onField = q->fieldRect().contains(at), onSlider = grown(q->sliderRect()).contains(at);
-  if (showsCurve()) {
-    if (onField || onSlider || curveRect().contains(at)) Q_EMIT q->curveRequested(model.key);
-  } else if (onField) {
+  if (onField) {
     q->startTyping();
+  } else if (showsCurve() && curveRect().contains(at)) {
+    Q_EMIT q->curveRequested(model.key);
   } else if (onSlider) {
     begin();
     dragging = true;
     dragCancelled = false;
     dragX = at.x();
+    if (showsCurve()) {
+      dragCurve = model.value;
+      dragPosition = 0;
+      return;
+    }
     dragPosition = sliderPosition(declaration(), q->number());
     if (model.mixed || std::abs(at.x() - handleX()) > kGrip) {
       const QRectF track = q->sliderRect();
@@ -106,11 +116,15 @@ void ParameterRow::mousePressEvent(QMouseEvent* event) {
   }
 }
 
+bool ParameterRow::Private::hasEditor() const {
+  return showsCurve() && isEditable() && q->isSignalConnected(QMetaMethod::fromSignal(&ParameterRow::curveRequested));
+}
+
 bool ParameterRow::Private::leadsTo(const QPoint& at) const {
   if (at.x() <= q->labelRect().right()) return false;
-  const auto heard = [this](auto signal) { return q->isSignalConnected(QMetaMethod::fromSignal(signal)); };
-  if (!model.derivedFrom.isEmpty()) return heard(&ParameterRow::sourceRequested);
-  return showsCurve() && isEditable() && heard(&ParameterRow::curveRequested);
+  if (!model.derivedFrom.isEmpty())
+    return q->isSignalConnected(QMetaMethod::fromSignal(&ParameterRow::sourceRequested));
+  return hasEditor() && (grown(q->sliderRect()).contains(at) || curveRect().contains(at));
 }
 
 void ParameterRow::mouseMoveEvent(QMouseEvent* event) {
@@ -119,14 +133,20 @@ void ParameterRow::mouseMoveEvent(QMouseEvent* event) {
     return;
   }
   const QPoint at = event->position().toPoint();
-  const bool types = d->isEditable() && d->hasSlider() && fieldRect().contains(at);
-  setCursor(types ? Qt::IBeamCursor : d->leadsTo(at) ? Qt::PointingHandCursor : Qt::ArrowCursor);
+  const bool types = d->isEditable() && d->isNumeric() && fieldRect().contains(at),
+             scales = d->isEditable() && d->showsCurve() && grown(sliderRect()).contains(at);
+  setCursor(types            ? Qt::IBeamCursor
+            : d->leadsTo(at) ? Qt::PointingHandCursor
+            : scales         ? Qt::SizeHorCursor
+                             : Qt::ArrowCursor);
 }
 
 void ParameterRow::mouseReleaseEvent(QMouseEvent* event) {
   if (event->button() != Qt::LeftButton || !d->dragging) return;
   d->dragging = false;
+  const bool clicked = d->showsCurve() && !d->dragCancelled && d->dragPosition == 0;
   d->dragCancelled = false;
+  if (clicked) Q_EMIT curveRequested(key());
   // A double-click that resets begins with a click: both are one gesture, so the end waits for it a little.
   if (d->open) d->settle.start();
   update();
@@ -135,7 +155,7 @@ void ParameterRow::mouseReleaseEvent(QMouseEvent* event) {
 void ParameterRow::mouseDoubleClickEvent(QMouseEvent* event) {
   if (event->button() != Qt::LeftButton || !d->isEditable()) return;
   const QPoint at = event->position().toPoint();
-  if (labelRect().contains(at) || (d->hasSlider() && grown(sliderRect()).contains(at))) {
+  if (labelRect().contains(at) || (d->isNumeric() && grown(sliderRect()).contains(at))) {
     d->dragging = false;
     reset();
   } else if (!d->isNumeric()) {
@@ -210,7 +230,7 @@ void ParameterRow::keyPressEvent(QKeyEvent* event) {
         d->toggle();
       else if (d->declaration().kind == api::ParameterKind::Choice)
         d->openChoiceMenu();
-      else if (d->showsCurve())
+      else if (d->hasEditor())
         Q_EMIT curveRequested(key());
       else
         startTyping();
