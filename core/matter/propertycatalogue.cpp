@@ -136,8 +136,8 @@ constexpr ParameterDeclaration kProperties[] = {
      "water 207, molten wax 800, ethanol 1090 × 10\u207b\u2076/K", "CRC Handbook of Chemistry and Physics"},
     {"youngs_modulus", "Young's modulus", "E", "Pa", kResponse, kLogarithmic, 1e7, 1e4, 1e12, 0, 1e13, "MPa", 1e-6, 0,
      "", "Mechanics",
-     "Stiffness of the solid. The solver reaches a few ten megapascal; beyond that it says how stiff the matter really "
-     "is.",
+     "Stiffness of the solid, where bonds or clusters hold it together; a rigid body does not give way at all. The "
+     "solver reaches a few ten megapascal; beyond that it says how stiff the matter really is.",
      "jelly 0.01, rubber 5, wax 100, ice 9300, steel 210000 MPa", "Gammon et al. 1983 (ice), CRC Handbook"},
     {"poisson_ratio", "Poisson's ratio", "ν", "", kNumber, kLinear, 0.25, 0, 0.49, -0.99, 0.499, "", 1, 0, "",
      "Mechanics",
@@ -157,7 +157,9 @@ constexpr ParameterDeclaration kProperties[] = {
      "materials the mean of theirs counts, on a wall the wall's own.",
      "ice on steel 0.05, wood on wood 0.4, rubber on concrete 1", "CRC Handbook of Chemistry and Physics"},
     {"friction_kinetic", "Friction, sliding", "µ_k", "", kNumber, kLinear, 0.2, 0, 1.5, 0, 10, "", 1, 0, "",
-     "Mechanics", "Grip while sliding; usually a little less than at rest.",
+     "Mechanics",
+     "Grip while sliding; usually a little less than at rest. Between two materials the mean of theirs counts, on a "
+     "wall the wall's own.",
      "ice on steel 0.03, wood on wood 0.3, rubber 0.8", "CRC Handbook of Chemistry and Physics"},
     {"restitution", "Bounce", "e", "", kNumber, kLinear, 0.1, 0, 1, 0, 1, "", 1, 0, "", "Mechanics",
      "Share of its speed that a piece keeps when it hits something; of two materials the one that bounces more counts.",

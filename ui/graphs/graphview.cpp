@@ -233,9 +233,9 @@ void GraphView::paintLabels(QPainter& painter) {
     painter.setBrush(theme.series(static_cast<int>(label.series)));
     painter.drawEllipse(label.end, 3, 3);
     if (label.top < plot.top() + titleStrip() - 4) continue;  // too low a plot for all of them
-    // Right of the end where there is room, else left of it.
+    // Right of the end where the plot has room, else left of it.
     const double width = textWidth(label.text, font);
-    const bool right = label.end.x() + 8 + width < this->width() - 2;
+    const bool right = label.end.x() + 8 + width < plot.right() - 2;
     QRectF rect(right ? label.end.x() + 8 : label.end.x() - 8 - width, label.top, width + 1, 16);
     painter.fillRect(rect.adjusted(-2, 1, 2, -1), ground);
     paintText(painter, rect, Qt::AlignLeft | Qt::AlignVCenter, label.text, font, theme[Token::Text]);

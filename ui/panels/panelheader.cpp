@@ -50,8 +50,8 @@ void PanelHeader::paintEvent(QPaintEvent*) {
             theme[Token::Text]);
   paintText(painter, QRectF(area.left(), 30, area.width(), 17), align, m_subtitle, Theme::font(TextRole::Normal),
             theme[Token::Text2]);
-  paintText(painter, QRectF(area.left(), 47, area.width(), 16), align, m_detail, Theme::font(TextRole::Small),
-            theme[Token::Muted]);
+  paintText(painter, QRectF(area.left(), m_subtitle.isEmpty() ? 30 : 47, area.width(), 16), align, m_detail,
+            Theme::font(TextRole::Small), theme[Token::Muted]);
 }
 
 void paintBall(QPainter& painter, const QRectF& rect, const QColor& colour) {

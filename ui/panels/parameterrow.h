@@ -29,7 +29,7 @@ struct RowModel {
   bool mixed = false;           ///< several selected owners disagree
   QString disabledReason;       ///< not empty: disabled, the tooltip says why
   QString derivedFrom;          ///< not empty: computed, no field: "from pressure"
-  QString source;               ///< of this value; "": the declaration's
+  QString source;               ///< of the default value; "": the declaration's
   double temperature = 293.15;  ///< K, operating point of a response
 };
 

@@ -35,12 +35,23 @@ QString ParameterRow::Private::toolTipText() const {
   if (isNumeric() && p.maximum > p.minimum) {
     text += line("Range", QStringLiteral("%1 to %2").arg(formatField(p, p.minimum), formatValue(p, p.maximum)));
   }
+  if (q->has(RowState::OutOfRange)) {
+    text += line("", QStringLiteral("The value lies beyond the slider. It is allowed and acts, typed values may reach "
+                                    "from %1 to %2.")
+                         .arg(formatField(p, p.hardMinimum), formatValue(p, p.hardMaximum)));
+  }
   if (!isCurve(model.defaultValue) && isNumeric()) {
     text += line("Default", formatValue(p, numberOfValue(p, model.defaultValue, model.temperature)));
   }
   if (showsCurve()) text += line("Shown at", formatFixed(model.temperature - 273.15, 1) + QStringLiteral(" °C"));
+  if (showsCurve() && isEditable()) {
+    text += line("", QStringLiteral("Drag sideways to scale the curve. A number that is typed takes its place, *2 "
+                                    "doubles it."));
+  }
   text += line("Example", QString::fromUtf8(p.example ? p.example : ""));
-  text += line("Source", !model.source.isEmpty() ? model.source : QString::fromUtf8(p.source ? p.source : ""));
+  const bool ofDefault = !model.source.isEmpty() && q->isChanged();
+  text += line(ofDefault ? "Default from" : "Source",
+               !model.source.isEmpty() ? model.source : QString::fromUtf8(p.source ? p.source : ""));
   return text;
 }
 

@@ -62,6 +62,14 @@ std::string materialOf(const QString& key) {
   return address && address->owner == "material" ? address->id : std::string();
 }
 
+QString sourceText(const Provenance& provenance) {
+  const char* grade = provenance.grade == 'A'   ? "reference data, grade A"
+                      : provenance.grade == 'B' ? "handbook data, grade B"
+                                                : "typical value, grade C";
+  const QString from = QString::fromStdString(provenance.source);
+  return (from.isEmpty() ? from : from + QStringLiteral("; ")) + QLatin1String(grade);
+}
+
 QString gradeText(const PluginRegistry* plugins, const std::string& base) {
   const Material* material = plugins ? plugins->material(base) : nullptr;
   if (!material || material->provenance.empty()) return {};
@@ -222,6 +230,12 @@ void Inspector::rebuildMaterial() {
   const bool missing = plugins && !plugins->material(material->base);
   showMaterialHeader();
   addRows(rows, "material", material->id, propertyCatalogue(), {}, materialDefaults(project, plugins, material->id));
+  if (const Material* installed = plugins ? plugins->material(material->base) : nullptr) {
+    for (RowModel& row : rows) {
+      const auto from = installed->provenance.find(row.declaration.key);
+      if (from != installed->provenance.end()) row.source = sourceText(from->second);
+    }
+  }
   if (const api::MaterialPlugin* plugin = plugins ? plugins->materialPlugin(material->base) : nullptr) {
     addRows(rows, "material", material->id, plugin->parameters(), QString::fromUtf8(plugin->label()));
   }
@@ -251,6 +265,9 @@ void Inspector::showMaterialHeader() {
   QStringList bodies;
   for (const Body& body : project.bodies) {
     if (body.material == material->id) bodies << QString::fromStdString(body.name);
+  }
+  for (const Emitter& emitter : project.emitters) {
+    if (emitter.material == material->id) bodies << QString::fromStdString(emitter.name);
   }
   m_grade = gradeText(plugins, material->base);
   m_material->setHeader(QString::fromStdString(material->label.empty() ? material->id : material->label),
@@ -381,8 +398,10 @@ void Inspector::onChanged(const ChangeEvent& event) {
   } else if (std::holds_alternative<BodyChanged>(event) || std::holds_alternative<StrokeChanged>(event)) {
     rebuildBody();
     showSceneHeader();
+    showMaterialHeader();
   } else if (const auto* port = std::get_if<PortChanged>(&event)) {
     if (!port->moved) rebuildScene();
+    showMaterialHeader();
   } else if (std::holds_alternative<WallsChanged>(event)) {
     rebuildScene();
     rebuildMaterial();  // one of its rows may be pinned
@@ -411,13 +430,14 @@ void Inspector::setSnapshot(const Snapshot& snapshot) {
   showTemperatures(snapshot);
   std::set<QString> limited;
   for (const Limit& limit : snapshot.limits) {
-    const QString key = limitAddress(limit);
-    if (key.isEmpty()) continue;
+    const QString key = limitAddress(limit, snapshot);
+    const auto address = Address::parse(key.toStdString());
+    if (!address) continue;
     limited.insert(key);
     // Said anew each time: the substeps change what is reached, and rows may have been made anew.
     const double substeps = numberOf(m_document.project().solver.parameters, solverParameters(), "substeps");
     const QString text =
-        limitText(limit) +
+        limitText(limit, m_document.declaration(*address)) +
         QStringLiteral(". [Use %1 substeps](solver/substeps=%1) to come closer").arg(static_cast<int>(substeps) * 2);
     for (ParameterPanel* panel : panels()) panel->setLimit(key, text, limit.delivered);
   }
