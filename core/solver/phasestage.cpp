@@ -73,14 +73,15 @@ double PhaseStage::targetVolume(const ParticleStore& store, size_t i) const {
   return double{store.mass()[i]} / restDensity(store, i);
 }
 
-void PhaseStage::initialise(ParticleStore& store, size_t first, size_t last) {
+void PhaseStage::initialise(ParticleStore& store, size_t first, size_t last, bool bound) {
   for (size_t i = first; i < last; ++i) {
     const double s = store.solidFraction()[i], l = store.liquidFraction()[i], g = store.gasFraction()[i];
     store.position()[i].w = static_cast<float>(targetVolume(store, i));
     store.phase()[i] = phaseOf(s, l, g);
     Motion& motion = store.motion()[i];
     if (motion != Motion::Static) {
-      motion = g >= kVapourThreshold ? Motion::Gas : s >= 0.5 ? Motion::Solid : Motion::Liquid;
+      const bool holds = s >= 0.5 || (bound && s > 0 && 1 - s < meltThreshold(store.material()[i], store.id()[i]));
+      motion = g >= kVapourThreshold ? Motion::Gas : holds ? Motion::Solid : Motion::Liquid;
     }
     const float mass = store.mass()[i];
     store.velocity()[i].w = motion == Motion::Static || !(mass > 0) ? 0.0f : 1.0f / mass;

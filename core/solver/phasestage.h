@@ -18,8 +18,9 @@ class PhaseStage {
  public:
   void configure(const SolverSettings& solver, std::span<const BakedMaterial> materials);
   /// Rest volume, phase, motion and inverse mass of newborn particles [first, last), without ramp. Mass, temperature
-  /// and fractions must be set; motion Static stays.
-  void initialise(ParticleStore& store, size_t first, size_t last);
+  /// and fractions must be set; motion Static stays. What is half solid begins as a solid; `bound` matter, which
+  /// something holds together, as long as it would hold when it is warmed up to there.
+  void initialise(ParticleStore& store, size_t first, size_t last, bool bound);
   /// One frame. `melted` receives the indices of particles that ceased to be solid (for the compression hand-over).
   /// True when any particle became solid.
   bool update(ParticleStore& store, std::vector<uint32_t>& melted);

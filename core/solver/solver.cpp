@@ -209,7 +209,7 @@ std::vector<uint32_t> Solver::spawn(const Spawn& spawn) {
   setMass();
   if (!m->heat.initialise(store, first, last, temperature, phase)) setState();
   setMass();  // the model's fractions are the better ones
-  m->phase.initialise(store, first, last);
+  m->phase.initialise(store, first, last, !spawn.constraintSets.empty());
   for (size_t i = first; i < last && (spawn.fixed || spawn.held); ++i) {
     if (spawn.fixed) store.motion()[i] = api::Motion::Static;
     store.velocity()[i].w = 0;

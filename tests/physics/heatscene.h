@@ -159,7 +159,7 @@ class Scene {
       }
     }
     heat.initialise(store, 0, store.size(), t, p);
-    phase.initialise(store, 0, store.size());
+    phase.initialise(store, 0, store.size(), false);
     neighbours.build(store);
   }
   template <class Temperature>

@@ -362,6 +362,33 @@ class TestPhaseChange : public QObject {
     QCOMPARE(count(Motion::Liquid), 1000);
     QCOMPARE(store.velocity()[0].w, 1.0f / store.mass()[0]);
   }
+
+  /// Butter on the table is half molten and stands, where something holds it; out of a tap it runs.
+  void boundMatterBeginsAsItWouldHoldWhenWarmed() {
+    Scene scene;
+    ps::Material fat = fullWater();
+    fat.properties["melt_break_fraction"] = 0.9;
+    scene.addMaterial(fat);
+    scene.addBox({0, 0, 0}, {10, 10, 10}, 0);
+    scene.start([](size_t) { return 263.15; });
+    ps::ParticleStore& store = scene.store;
+    const auto begin = [&](float solid, bool bound) {
+      for (size_t i = 0; i < store.size(); ++i) {
+        store.solidFraction()[i] = solid;
+        store.liquidFraction()[i] = 1 - solid;
+      }
+      scene.phase.initialise(store, 0, store.size(), bound);
+      const auto count = std::count(store.motion(), store.motion() + store.size(), Motion::Solid);
+      std::vector<uint32_t> melted;
+      if (bound) scene.phase.update(store, melted);
+      return melted.empty() ? static_cast<int>(count) : -1;  // what begins to hold goes on to
+    };
+    QCOMPARE(begin(0.45f, false), 0);
+    QCOMPARE(begin(0.45f, true), 1000);  // thresholds are spread from 0.6 of melted fraction on
+    const int held = begin(0.2f, true);
+    QVERIFY2(held > 0 && held < 1000, qPrintable(QString::number(held)));
+    QCOMPARE(begin(0, true), 0);
+  }
 };
 
 QTEST_APPLESS_MAIN(TestPhaseChange)
