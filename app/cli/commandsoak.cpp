@@ -150,7 +150,7 @@ std::string explanation(const Project& project, const Outcome& outcome, const Ch
   const std::string& key = change->address.key;
   const bool lost = (outcome.flags & static_cast<StepFlags>(StepFlag::LostParticle)) != 0;
   const bool diverged = (outcome.flags & static_cast<StepFlags>(StepFlag::Diverged)) != 0;
-  // Only who moves a body can ask it to leave no room.
+  // Only who moves a body can ask it to leave no room, or to be squeezed by what it strikes.
   const auto counts = [&](const std::string& limit) {
     return limit != kSqueezeLimit || change->address.owner == "body";
   };

@@ -11,6 +11,9 @@ namespace {
 constexpr size_t kGrain = 256;
 /// Contacts of one particle usually lean apart, so half of them may act at full strength.
 constexpr int kRelaxation = 2;
+/// Neighbours of a particle against those of an undisturbed one, from which on its own structure may no longer keep
+/// others away: a lattice that is struck hard folds into itself.
+constexpr double kCrowded = 1.4;
 
 }  // namespace
 
@@ -18,6 +21,7 @@ void SolidContact::configure(const SolverSettings& settings, std::span<const Bak
   m_diameter = kContactDiameter * settings.spacing;
   m_reach = m_diameter + kSkinSpacings * settings.spacing;
   m_halfSkin = 0.5 * kSkinSpacings * settings.spacing;
+  m_crowded = static_cast<uint32_t>(kCrowded * 4.18879 * std::pow(settings.supportRatio, 3));
   m_friction.clear();
   for (const BakedMaterial& m : materials) {
     m_friction.push_back({static_cast<float>(m.scalar(propertyIndex("friction_static"))),
@@ -28,6 +32,7 @@ void SolidContact::configure(const SolverSettings& settings, std::span<const Bak
 void SolidContact::refresh(const ParticleStore& store, const Neighbours& neighbours, ConstraintSystem& constraints,
                            std::span<const uint8_t> rigid) {
   m_any = false;
+  m_squeezedShare = 0;
   m_solids.clear();
   m_watched.clear();
   m_found.clear();
@@ -44,14 +49,19 @@ void SolidContact::refresh(const ParticleStore& store, const Neighbours& neighbo
   const float reach2 = static_cast<float>(m_reach * m_reach);
   const size_t chunks = chunkCount(m_solids.size(), kGrain);
   m_chunks.resize(std::max(m_chunks.size(), chunks));
-  for (Chunk& chunk : m_chunks) chunk.who.clear();
+  for (Chunk& chunk : m_chunks) {
+    chunk.who.clear();
+    chunk.squeezed = 0;
+  }
   forChunks(m_solids.size(), kGrain, [&](size_t first, size_t last) {
     Chunk& chunk = m_chunks[first / kGrain];
     chunk.begin.assign(1, 0);
     chunk.other.clear();
     for (size_t k = first; k < last; ++k) {
       const uint32_t i = m_solids[k];
-      if (graph.ties(i) >= kEnclosed || rigid[i] != 0 || store.velocity()[i].w == 0) continue;
+      const bool enclosed = graph.ties(i) >= kEnclosed;
+      if ((enclosed && view.last[i] - view.begin[i] <= m_crowded) || rigid[i] != 0 || store.velocity()[i].w == 0)
+        continue;
       const size_t before = chunk.other.size();
       for (uint32_t q = view.begin[i]; q < view.last[i]; ++q) {
         const uint32_t j = view.index[q];
@@ -60,12 +70,18 @@ void SolidContact::refresh(const ParticleStore& store, const Neighbours& neighbo
         if (d.x * d.x + d.y * d.y + d.z * d.z < reach2 && !graph.tied(i, j)) chunk.other.push_back(j);
       }
       if (chunk.other.size() == before) continue;
+      if (enclosed) ++chunk.squeezed;
       chunk.who.push_back(i);
       chunk.begin.push_back(static_cast<uint32_t>(chunk.other.size()));
     }
     chunk.correction.resize(chunk.who.size());
   });
-  for (const Chunk& chunk : m_chunks) m_any = m_any || !chunk.who.empty();
+  size_t squeezed = 0;
+  for (const Chunk& chunk : m_chunks) {
+    m_any = m_any || !chunk.who.empty();
+    squeezed += chunk.squeezed;
+  }
+  m_squeezedShare = static_cast<double>(squeezed) / static_cast<double>(m_solids.size());
   m_contacts.assign(store.size() + 1, 1);
 }
 

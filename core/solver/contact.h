@@ -26,6 +26,9 @@ class SolidContact {
   /// splashes asks for new neighbour lists far more often than solids ask for new pairs.
   bool stale(const ParticleStore& store) const;
   void project(ParticleStore& store);
+  /// Share of the solids inside a lattice that is squeezed so far that its own, untied particles meet, when the pairs
+  /// were found: by a third at least.
+  double squeezedShare() const { return m_squeezedShare; }
   /// What fixed particles moved, kg m.
   Received& given() { return m_given; }
   /// visit(i, j) for every pair that may touch, i a solid; pairs of two solids may come from both sides.
@@ -39,7 +42,7 @@ class SolidContact {
     }
   }
   /// Ties of a particle inside a cubic lattice, six along the axes and twelve along the diagonals: its own structure
-  /// fills all places around it, so that nothing else can touch it.
+  /// fills all places around it, so that nothing else can touch it unless it is squeezed.
   static constexpr size_t kEnclosed = 18;
 
  private:
@@ -49,12 +52,15 @@ class SolidContact {
   struct Chunk {
     std::vector<uint32_t> who, begin, other;
     std::vector<api::Float4> correction;
-    Vector3 fromFixed;  ///< kg m
+    Vector3 fromFixed;    ///< kg m
+    size_t squeezed = 0;  ///< of a lattice, and yet within reach of others
   };
   api::Float4 correctionOf(const ParticleStore& store, Chunk& chunk, size_t k) const;
   size_t touching(const ParticleStore& store, const Chunk& chunk, size_t k) const;
 
   double m_diameter = 0, m_reach = 0, m_halfSkin = 0;
+  uint32_t m_crowded = 0;  ///< neighbours
+  double m_squeezedShare = 0;
   std::vector<Friction> m_friction;  ///< per material
   std::vector<Chunk> m_chunks;
   Received m_given;

@@ -277,7 +277,6 @@ DensityError DensityStage::measure(ParticleStore& store, const Neighbours& neigh
     multipliers(store, pairs, static_cast<float>(m_settings.relaxation), first, last);
   });
   DensityError result;
-  size_t liquids = 0;
   for (size_t k = 0; k < fluids; ++k) {
     const uint32_t i = m_fluid[k];
     error[i] = m_excess[k];
@@ -286,9 +285,9 @@ DensityError DensityStage::measure(ParticleStore& store, const Neighbours& neigh
     const double c = std::max(0.0f, m_excess[k]);
     result.mean += c;
     result.max = std::max(result.max, c);
-    ++liquids;
+    ++result.liquids;
   }
-  if (liquids > 0) result.mean /= static_cast<double>(liquids);
+  if (result.liquids > 0) result.mean /= static_cast<double>(result.liquids);
   return result;
 }
 

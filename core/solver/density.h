@@ -27,6 +27,7 @@ class HalfSpaceTable {
 
 struct DensityError {
   double mean = 0, max = 0;  ///< of max(C, 0) over liquid particles, as a fraction
+  size_t liquids = 0;
 };
 
 /// Position-based density (Macklin & Mueller 2013, eq. 1 to 12) in the volume form of Solenthaler & Pajarola 2008:

@@ -14,6 +14,7 @@ namespace {
 
 /// Mean excess of density that a liquid has only where it has no room.
 constexpr double kSqueezed = 0.1;
+constexpr double kSqueezedShare = 0.05;  ///< of the solids
 
 struct Fractions {
   float solid, liquid, gas;
@@ -293,7 +294,8 @@ std::vector<Limit> Solver::limits() const {
     if (const double open = m->openEnergy(); open != 0) result.push_back({kBalanceLimit, 0, open, "J"});
   }
   const double dt = m->settings.dt, excess = m->report.densityErrorMean;
-  if (excess > kSqueezed && m->motion.movesWithin(m->time - dt, dt)) result.push_back({kSqueezeLimit, 0, excess, ""});
+  const bool squeezes = m->motion.movesWithin(m->time - dt, dt) || m->contact.squeezedShare() > kSqueezedShare;
+  if (excess > kSqueezed && squeezes) result.push_back({kSqueezeLimit, 0, excess, ""});
   return result;
 }
 

@@ -45,9 +45,9 @@ struct MomentumRecord {
 };
 
 /// Limits that are no parameter's: the heat balance is open by so many joules; liquid is too dense by this mean excess
-/// while a body is led, which may leave it no room.
+/// while a body is led, or solids are squeezed themselves, which may leave it no room.
 inline constexpr const char* kBalanceLimit = "heat balance";
-inline constexpr const char* kSqueezeLimit = "led bodies";
+inline constexpr const char* kSqueezeLimit = "squeezed liquid";
 
 struct StepReport {
   StepFlags flags = 0;

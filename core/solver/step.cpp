@@ -20,6 +20,7 @@ constexpr int kLeastStructurePasses = 2;
 constexpr int kSheetPasses = 4;
 /// Mean density error that no longer deserves the name of a solution.
 constexpr double kDiverged = 0.5;
+constexpr double kLeastLiquid = 0.01;  ///< share of what moves, below which the mean says nothing of the solver
 /// How far the heat balance may be open: a share of what was exchanged, and of the whole for rounding.
 constexpr double kOpenExchange = 1e-6, kOpenRounding = 1e-11;
 
@@ -127,13 +128,15 @@ void Solver::Impl::runFrame() {
 }
 
 void Solver::Impl::closeFrame() {
-  timed(Stage::Density, [&] {
-    const DensityError error = density.measure(store, neighbours);
-    report.densityErrorMean = error.mean;
-    report.densityErrorMax = error.max;
-  });
+  DensityError error;
+  timed(Stage::Density, [&] { error = density.measure(store, neighbours); });
+  report.densityErrorMean = error.mean;
+  report.densityErrorMax = error.max;
   report.viscosityIterations = viscosity.iterations();
-  if (report.densityErrorMean > kDiverged) {
+  // A few drops in soft matter that is being squeezed are as dense as it is, which no solver could mend.
+  const api::Motion* motions = store.motion();
+  const auto moving = [&] { return store.size() - std::count(motions, motions + store.size(), api::Motion::Static); };
+  if (error.mean > kDiverged && double(error.liquids) >= kLeastLiquid * double(moving())) {
     const float* c = store.densityError();
     const size_t worst = static_cast<size_t>(std::max_element(c, c + store.size()) - c);
     raise(StepFlag::Diverged, describe(worst) + ": density error " + std::to_string(static_cast<int>(100 * c[worst])) +

@@ -166,6 +166,27 @@ class TestFaults : public QObject {
     QVERIFY(solver.particles().position()[0].x < 3.03f);
   }
 
+  /// What is far too dense for one step to mend is told; drops that are next to nothing of the matter are not the
+  /// solver's failure.
+  void squeezedLiquidIsToldUnlessItIsADrop() {
+    for (const bool drop : {false, true}) {
+      Solver solver;
+      prepare(solver, settingsOf(0.02));
+      std::vector<ps::api::Double3> shell;  // with room for one particle in the middle
+      for (const ps::api::Double3& p : lattice(7, 7, 7, 0.02, 0.5)) {
+        if (std::abs(p.x) + std::abs(p.y - 0.57) + std::abs(p.z) > 0.015) shell.push_back(p);
+      }
+      solver.spawn(fixedPoints(shell));
+      solver.spawn(liquid(lattice(3, 3, 3, 0.006, 0.561)));
+      ps::Spawn heap = ice(lattice(14, 14, 14, 0.02, -1), 0);
+      heap.constraintSets.clear();
+      if (drop) solver.spawn(heap);
+      const StepReport report = solver.step();
+      QVERIFY2(report.densityErrorMean > 0.5, qPrintable(QString::number(report.densityErrorMean)));
+      QCOMPARE((report.flags & static_cast<ps::StepFlags>(ps::StepFlag::Diverged)) != 0, !drop);
+    }
+  }
+
   void throwingThermalModelIsPutAside_data() {
     QTest::addColumn<int>("where");
     QTest::addColumn<bool>("fromTheStart");

@@ -255,6 +255,34 @@ class TestSoft : public QObject {
     QVERIFY(left < 0.01 * 0.02);
   }
 
+  /// Thrown at a floor faster than its bonds can follow, a block is flattened; where it is squeezed its particles meet
+  /// as those of two bodies do, so that it does not stay folded into itself.
+  void aBlockThatIsStruckDoesNotFoldIntoItself() {
+    const BondModel bonds;
+    Solver solver;
+    prepare(solver, settingsOf(0.02), matter(917, 1e6));
+    solver.setWalls(tray(2));
+    const uint32_t set = solver.addConstraintSet(&bonds, "bonds", parametersOf(bonds));
+    ps::Spawn block = solid(grid(14, 12, 14, 0.02, {-0.13, 0.01, -0.13}), set);
+    block.velocity.assign(block.position.size(), {0, -5, 0});
+    solver.spawn(block);
+    QVERIFY(run(solver, 60));
+    const auto close = [&](double distance) {
+      const ps::ParticleStore& p = solver.particles();
+      size_t count = 0;
+      for (uint32_t i = 0; i < p.size(); ++i) {
+        for (uint32_t j = 0; j < i; ++j) {
+          const ps::api::Float4 d = p.separation(i, j);
+          count += std::sqrt(double{d.x} * d.x + double{d.y} * d.y + double{d.z} * d.z) < distance ? 1 : 0;
+        }
+      }
+      return count;
+    };
+    const size_t folded = close(0.01);
+    qInfo("pairs nearer than half a spacing: %zu of %zu particles", folded, solver.particles().size());
+    QVERIFY(folded < 150);  // without contact inside the lattice more than a thousand
+  }
+
   void clustersKeepMomentum_data() {
     QTest::addColumn<bool>("turning");
     QTest::newRow("momentum of one that flies and wobbles") << false;

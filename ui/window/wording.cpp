@@ -81,7 +81,7 @@ QString limitNote(const Limit& limit, const api::ParameterDeclaration* declarati
   if (limit.what == kBalanceLimit)
     return QStringLiteral("heat balance open by %1").arg(formatQuantity(limit.delivered, QStringLiteral("J")));
   if (limit.what == kSqueezeLimit)
-    return QStringLiteral("liquid is %1 % too dense, a fixed body on its way may leave it no room")
+    return QStringLiteral("liquid is %1 % too dense, solid matter on its way or squeezed may leave it no room")
         .arg(formatFixed(100 * limit.delivered, 0));
   return limitText(limit, declaration).section(QLatin1Char(':'), 0, 0) + QStringLiteral(" is limited by the step");
 }
