@@ -262,7 +262,17 @@ void DensityStage::project(ParticleStore& store, const Neighbours& neighbours, i
   if (m_touchesFixed || !m_planes.empty()) m_given.add(m_moved.total());
 }
 
-DensityError DensityStage::measure(ParticleStore& store, const Neighbours& neighbours) {
+namespace {
+
+bool isInside(const api::Float4& p, const Bounds& bounds) {
+  const api::Double3 &low = bounds.minimum, &high = bounds.maximum;
+  const double x = p.x, y = p.y, z = p.z;
+  return x >= low.x && x <= high.x && y >= low.y && y <= high.y && z >= low.z && z <= high.z;
+}
+
+}  // namespace
+
+DensityError DensityStage::measure(ParticleStore& store, const Neighbours& neighbours, const Bounds& bounds) {
   float *error = store.densityError(), *lambda = store.lambda();
   std::fill(error, error + store.size(), 0.0f);
   std::fill(lambda, lambda + store.size(), 0.0f);
@@ -281,7 +291,7 @@ DensityError DensityStage::measure(ParticleStore& store, const Neighbours& neigh
     const uint32_t i = m_fluid[k];
     error[i] = m_excess[k];
     lambda[i] = m_constraints[k].lambda;
-    if (store.motion()[i] != api::Motion::Liquid) continue;
+    if (store.motion()[i] != api::Motion::Liquid || !isInside(store.position()[i], bounds)) continue;
     const double c = std::max(0.0f, m_excess[k]);
     result.mean += c;
     result.max = std::max(result.max, c);

@@ -45,13 +45,14 @@ class DensityStage {
   void refreshLists(const ParticleStore& store, const Neighbours& neighbours);
   /// One iteration; moves fluid particles and the solids that touch them.
   void project(ParticleStore& store, const Neighbours& neighbours, int iteration);
-  /// C and lambda at the present positions, written to the store.
   /// What project() moved in sum where walls or fixed particles took part, kg m. Particles among themselves move by
   /// equal and opposite amounts.
   Received& given() { return m_given; }
   /// Fixed particles have fluid near.
   bool touchesFixed() const { return m_touchesFixed; }
-  DensityError measure(ParticleStore& store, const Neighbours& neighbours);
+  /// C and lambda at the present positions, written to the store. What was stopped outside of the bounds stands crowded
+  /// there, and is left out of the error.
+  DensityError measure(ParticleStore& store, const Neighbours& neighbours, const Bounds& bounds);
   /// Hands the present compression over to particles that have just become fluid: they start without a push, and the
   /// offset decays (see decayCompression). Call after refresh().
   void handOver(ParticleStore& store, const Neighbours& neighbours, std::span<const uint32_t> melted);

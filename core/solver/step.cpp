@@ -129,7 +129,7 @@ void Solver::Impl::runFrame() {
 
 void Solver::Impl::closeFrame() {
   DensityError error;
-  timed(Stage::Density, [&] { error = density.measure(store, neighbours); });
+  timed(Stage::Density, [&] { error = density.measure(store, neighbours, bounds); });
   report.densityErrorMean = error.mean;
   report.densityErrorMax = error.max;
   report.viscosityIterations = viscosity.iterations();

@@ -166,6 +166,17 @@ class TestFaults : public QObject {
     QVERIFY(solver.particles().position()[0].x < 3.03f);
   }
 
+  /// Layer upon layer stops at the edge of the scene; that it is lost is all there is to tell.
+  void whatLeavesInACrowdIsLostAndNoMore() {
+    Solver solver;
+    prepare(solver, settingsOf(0.02));
+    ps::Spawn jet = liquid(lattice(6, 20, 6, 0.02, 2.6));
+    jet.velocity.assign(jet.position.size(), {0, 15, 0});
+    solver.spawn(jet);
+    const StepReport report = solver.step();
+    QCOMPARE(report.flags, static_cast<ps::StepFlags>(ps::StepFlag::LostParticle));
+  }
+
   /// What is far too dense for one step to mend is told; drops that are next to nothing of the matter are not the
   /// solver's failure.
   void squeezedLiquidIsToldUnlessItIsADrop() {
