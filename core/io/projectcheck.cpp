@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <set>
 #include <tuple>
 
@@ -63,7 +64,7 @@ class ProjectChecker {
 
   /// Refuses a plugin of another kind; warns once per plugin that is not there.
   void checkPlugin(PluginKind kind, const std::string& id, const std::string& pointer, const std::string& consequence) {
-    if (!m_plugins.has(id)) return warnMissing(id, pointer, consequence);
+    if (!m_plugins.has(id)) return warnMissing(id, pointer, consequence, kind);
     for (const PluginInfo& info : m_plugins.plugins()) {
       if (info.id != id || info.state != PluginInfo::State::Loaded || info.kind == kind) continue;
       const auto words = [](PluginKind k) {
@@ -73,10 +74,13 @@ class ProjectChecker {
     }
   }
 
-  void warnMissing(const std::string& id, const std::string& pointer, const std::string& consequence) {
+  void warnMissing(const std::string& id, const std::string& pointer, const std::string& consequence,
+                   std::optional<PluginKind> kind = std::nullopt) {
     if (!m_missing.insert(id).second) return;
     std::vector<std::string> installed;
-    for (const PluginInfo& info : m_plugins.plugins()) installed.push_back(info.id);
+    for (const PluginInfo& info : m_plugins.plugins()) {
+      if (info.state == PluginInfo::State::Loaded && (!kind || info.kind == *kind)) installed.push_back(info.id);
+    }
     std::string reason = "is not installed" + didYouMean(id, installed);
     for (const PluginInfo& info : m_plugins.plugins()) {
       if (info.id == id && !info.problem.empty()) reason = "cannot be used (" + info.problem + ")";

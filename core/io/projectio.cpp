@@ -165,14 +165,13 @@ void checkDocument(const json& document, const std::string& name, const PluginRe
   checkRequired(document, name, plugins);
   checkPluginParameters(document, name, plugins, unknown);
   warnReserved(document, name, warnings);
-  constexpr size_t kMost = 20;
-  for (size_t i = 0; i < std::min(unknown.size(), kMost); ++i) {
+  for (size_t i = 0; i < std::min(unknown.size(), kMostUnknown); ++i) {
     warnings.push_back({false, name + ":" + unknown[i].pointer + ": is not known here" + unknown[i].meant +
                                    "; it is kept and has no effect"});
   }
-  if (unknown.size() > kMost) {
+  if (unknown.size() > kMostUnknown) {
     warnings.push_back(
-        {false, name + ":/: " + std::to_string(unknown.size() - kMost) + " more keys are not known here"});
+        {false, name + ":/: " + std::to_string(unknown.size() - kMostUnknown) + " more keys are not known here"});
   }
 }
 

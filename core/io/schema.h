@@ -23,6 +23,8 @@ nlohmann::json parameterSchema(const api::ParameterDeclaration& declaration);
 /// An object with these parameters; other keys are allowed.
 nlohmann::json parameterListSchema(api::ParameterList list);
 
+/// Of so many unknown keys each is told.
+inline constexpr size_t kMostUnknown = 20;
 /// A key that a schema does not name.
 struct UnknownKey {
   std::string pointer;

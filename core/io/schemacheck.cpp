@@ -148,8 +148,9 @@ class Checker {
         check(*known, member, pointer + "/" + pointerPart(key));
       } else if (!key.starts_with("$") && !key.starts_with("x-")) {
         std::vector<std::string> absent;
+        const bool told = m_unknown.size() < kMostUnknown;  // the others are counted
         for (const auto& [name, unused] : properties->items()) {
-          if (!value.contains(name)) absent.push_back(name);
+          if (told && !value.contains(name)) absent.push_back(name);
         }
         m_unknown.push_back({pointer + "/" + pointerPart(key), didYouMean(key, absent)});
       }

@@ -11,9 +11,21 @@ namespace {
 constexpr size_t kGrain = 256;
 /// Contacts of one particle usually lean apart, so half of them may act at full strength.
 constexpr int kRelaxation = 2;
-/// Neighbours of a particle against those of an undisturbed one, from which on its own structure may no longer keep
-/// others away: a lattice that is struck hard folds into itself.
-constexpr double kCrowded = 1.4;
+/// A lattice that is struck hard folds into itself: where it is squeezed along every axis to this share of its spacing,
+/// or to less along some, its structure may no longer keep others away.
+constexpr double kCrowded = 0.9;
+
+/// Points of a cubic lattice around one of them, up to a distance in spacings.
+uint32_t latticeNeighbours(double distance) {
+  const int n = static_cast<int>(distance);
+  uint32_t count = 0;
+  for (int x = -n; x <= n; ++x) {
+    for (int y = -n; y <= n; ++y) {
+      for (int z = -n; z <= n; ++z) count += x * x + y * y + z * z <= distance * distance ? 1 : 0;
+    }
+  }
+  return count - 1;
+}
 
 }  // namespace
 
@@ -21,7 +33,7 @@ void SolidContact::configure(const SolverSettings& settings, std::span<const Bak
   m_diameter = kContactDiameter * settings.spacing;
   m_reach = m_diameter + kSkinSpacings * settings.spacing;
   m_halfSkin = 0.5 * kSkinSpacings * settings.spacing;
-  m_crowded = static_cast<uint32_t>(kCrowded * 4.18879 * std::pow(settings.supportRatio, 3));
+  m_crowded = latticeNeighbours((settings.supportRatio + kSkinSpacings) / kCrowded);
   m_friction.clear();
   for (const BakedMaterial& m : materials) {
     m_friction.push_back({static_cast<float>(m.scalar(propertyIndex("friction_static"))),
@@ -48,34 +60,38 @@ void SolidContact::refresh(const ParticleStore& store, const Neighbours& neighbo
   const api::NeighbourView view = neighbours.view();
   const float reach2 = static_cast<float>(m_reach * m_reach);
   const size_t chunks = chunkCount(m_solids.size(), kGrain);
-  m_chunks.resize(std::max(m_chunks.size(), chunks));
+  m_chunks.resize(std::max(m_chunks.size(), chunks + 1));
   for (Chunk& chunk : m_chunks) {
     chunk.who.clear();
+    chunk.mirrored.clear();
     chunk.squeezed = 0;
   }
+  const auto isEnclosed = [&](uint32_t i) { return graph.ties(i) >= kEnclosed; };
+  const auto isShut = [&](uint32_t i) { return isEnclosed(i) && view.last[i] - view.begin[i] <= m_crowded; };
   forChunks(m_solids.size(), kGrain, [&](size_t first, size_t last) {
     Chunk& chunk = m_chunks[first / kGrain];
     chunk.begin.assign(1, 0);
     chunk.other.clear();
     for (size_t k = first; k < last; ++k) {
       const uint32_t i = m_solids[k];
-      const bool enclosed = graph.ties(i) >= kEnclosed;
-      if ((enclosed && view.last[i] - view.begin[i] <= m_crowded) || rigid[i] != 0 || store.velocity()[i].w == 0)
-        continue;
+      if (isShut(i) || rigid[i] != 0 || store.velocity()[i].w == 0) continue;
       const size_t before = chunk.other.size();
       for (uint32_t q = view.begin[i]; q < view.last[i]; ++q) {
         const uint32_t j = view.index[q];
         if (!api::holds(motion[j]) || rigid[j] != 0) continue;
         const api::Float4 d = store.separation(i, j);
-        if (d.x * d.x + d.y * d.y + d.z * d.z < reach2 && !graph.tied(i, j)) chunk.other.push_back(j);
+        if (!(d.x * d.x + d.y * d.y + d.z * d.z < reach2) || graph.tied(i, j)) continue;
+        chunk.other.push_back(j);
+        if (motion[j] == api::Motion::Solid && store.velocity()[j].w > 0 && isShut(j)) chunk.mirrored.push_back({j, i});
       }
       if (chunk.other.size() == before) continue;
-      if (enclosed) ++chunk.squeezed;
+      if (isEnclosed(i)) ++chunk.squeezed;
       chunk.who.push_back(i);
       chunk.begin.push_back(static_cast<uint32_t>(chunk.other.size()));
     }
     chunk.correction.resize(chunk.who.size());
   });
+  addMirrored(chunks);
   size_t squeezed = 0;
   for (const Chunk& chunk : m_chunks) {
     m_any = m_any || !chunk.who.empty();
@@ -83,6 +99,25 @@ void SolidContact::refresh(const ParticleStore& store, const Neighbours& neighbo
   }
   m_squeezedShare = static_cast<double>(squeezed) / static_cast<double>(m_solids.size());
   m_contacts.assign(store.size() + 1, 1);
+}
+
+/// What an open particle meets inside of a lattice feels it too: each of a pair moves its own share.
+void SolidContact::addMirrored(size_t chunks) {
+  Chunk& last = m_chunks[chunks];
+  for (size_t c = 0; c < chunks; ++c)
+    last.mirrored.insert(last.mirrored.end(), m_chunks[c].mirrored.begin(), m_chunks[c].mirrored.end());
+  std::sort(last.mirrored.begin(), last.mirrored.end());
+  last.begin.assign(1, 0);
+  last.other.clear();
+  for (const auto& [i, j] : last.mirrored) {
+    if (last.who.empty() || last.who.back() != i) {
+      last.who.push_back(i);
+      last.begin.push_back(last.begin.back());
+    }
+    last.other.push_back(j);
+    ++last.begin.back();
+  }
+  last.correction.resize(last.who.size());
 }
 
 bool SolidContact::stale(const ParticleStore& store) const {

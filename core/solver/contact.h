@@ -4,6 +4,8 @@
 #include "core/solver/constraintsystem.h"
 #include "core/solver/impulse.h"
 
+#include <utility>
+
 namespace ps {
 
 /// Solid particles meet as spheres of this diameter, in spacings: a little below one, so that neighbours of a lattice
@@ -52,14 +54,16 @@ class SolidContact {
   struct Chunk {
     std::vector<uint32_t> who, begin, other;
     std::vector<api::Float4> correction;
-    Vector3 fromFixed;    ///< kg m
-    size_t squeezed = 0;  ///< of a lattice, and yet within reach of others
+    std::vector<std::pair<uint32_t, uint32_t>> mirrored;  ///< pairs whose first is not looked at by itself
+    Vector3 fromFixed;                                    ///< kg m
+    size_t squeezed = 0;                                  ///< of a lattice, and yet within reach of others
   };
   api::Float4 correctionOf(const ParticleStore& store, Chunk& chunk, size_t k) const;
+  void addMirrored(size_t chunks);
   size_t touching(const ParticleStore& store, const Chunk& chunk, size_t k) const;
 
   double m_diameter = 0, m_reach = 0, m_halfSkin = 0;
-  uint32_t m_crowded = 0;  ///< neighbours
+  uint32_t m_crowded = 0;  ///< neighbours that a particle has when its lattice is squeezed
   double m_squeezedShare = 0;
   std::vector<Friction> m_friction;  ///< per material
   std::vector<Chunk> m_chunks;

@@ -171,7 +171,8 @@ void Impacts::findFast(const ParticleStore& store, const StructureGraph& graph, 
     if (std::isfinite(way)) fastest = std::max(fastest, way);
   }
   if (!(fastest > kFast * m_spacing)) return;
-  // Only what is not enclosed by its own structure can be met, and the cells are as wide as the longest way needs.
+  // Only what is not enclosed by its own structure can be met in passing, and the cells are as wide as the longest way
+  // needs.
   std::erase_if(m_solids, [&](const Sought& s) { return graph.ties(s.particle) >= SolidContact::kEnclosed; });
   const Period& period = store.period();
   double size = 2 * fastest + m_diameter;

@@ -195,6 +195,9 @@ class TestFaults : public QObject {
       const StepReport report = solver.step();
       QVERIFY2(report.densityErrorMean > 0.5, qPrintable(QString::number(report.densityErrorMean)));
       QCOMPARE((report.flags & static_cast<ps::StepFlags>(ps::StepFlag::Diverged)) != 0, !drop);
+      const std::vector<ps::Limit> limits = solver.limits();
+      const auto told = [](const ps::Limit& limit) { return limit.what == ps::kSqueezeLimit; };
+      QCOMPARE(std::any_of(limits.begin(), limits.end(), told), drop);
     }
   }
 

@@ -85,14 +85,23 @@ class TestAutosave : public QObject {
     QSignalSpy saved(&desk.files, &DocumentFiles::saved);
     desk.files.save(path);
     QVERIFY(saved.wait());
-    desk.worker.wait();  // the note went its way when the document heard of the file
-    const QDir copies(m_copies);
-    QCOMPARE(copies.entryList({QStringLiteral("*.json")}), QStringList());
-    QFile note(copies.filePath(copies.entryList({QStringLiteral("*.note")}).value(0)));
-    QVERIFY(note.open(QIODevice::ReadOnly));
-    const QByteArray text = note.readAll();
-    QVERIFY2(text.contains(path.toUtf8()), text.constData());
-    QVERIFY2(text.contains("\"unsaved\": false"), text.constData());
+    const auto verifyNote = [&](const QString& file) {
+      desk.worker.wait();  // the note went its way when the document heard of the file
+      const QDir copies(m_copies);
+      QCOMPARE(copies.entryList({QStringLiteral("*.json")}), QStringList());
+      QFile note(copies.filePath(copies.entryList({QStringLiteral("*.note")}).value(0)));
+      QVERIFY(note.open(QIODevice::ReadOnly));
+      const QByteArray text = note.readAll();
+      QVERIFY2(text.contains(file.toUtf8()), text.constData());
+      QVERIFY2(text.contains("\"unsaved\": false"), text.constData());
+    };
+    verifyNote(path);
+    desk.edit(355);  // saved elsewhere before a copy of it was made
+    QCoreApplication::processEvents();
+    const QString other = m_directory->filePath(QStringLiteral("other.json"));
+    desk.files.save(other);
+    QVERIFY(saved.wait());
+    verifyNote(other);
   }
 
   /// Closed while it was still starting: what the session before it had open is still the newest.

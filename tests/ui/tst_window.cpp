@@ -404,6 +404,14 @@ class TestWindow : public QObject {
     QVERIFY2(own.contains(QStringLiteral("the solver reaches")) && !own.contains(QStringLiteral("bonds.")),
              qPrintable(own));
     QCOMPARE(noteOf(0), QString());
+    QCOMPARE(noteOf(1), own);
+    m_window->inspector().setBody(body.id);  // rows made anew while nothing runs
+    QCOMPARE(m_window->inspector()
+                 .bodyPanel()
+                 ->row(QStringLiteral("constraint/%1/bonds/spring_stiffness").arg(QString::fromStdString(body.id)))
+                 ->findChild<QLabel*>(QStringLiteral("psLimit"))
+                 ->text(),
+             own);
     snapshot.limits.clear();
     m_window->inspector().setSnapshot(snapshot);
   }

@@ -18,6 +18,7 @@ class TestCli : public QObject {
   void exitCodesAndOneLine_data();
   void exitCodesAndOneLine();
   void simulateWritesTheReportsKeys();
+  void reportsHoldWarningsAndWhoseLimitsTheyAre();
   void aRunOfOneFrameSaysNothingOfRest();
   void probesHaveOneRowPerFrame();
   void sameProjectGivesTheSameHash();
@@ -152,6 +153,33 @@ void TestCli::simulateWritesTheReportsKeys() {
   for (const auto& phase : r["phases"]) count += phase["count"].get<size_t>();
   QCOMPARE(count, size_t{125});
   QVERIFY(std::abs(r["simulated_s"].get<double>() - 0.5) < 1e-9);  // 30 frames of 1/60 s, rounding of the sum
+}
+
+void TestCli::reportsHoldWarningsAndWhoseLimitsTheyAre() {
+  QTemporaryDir folder;
+  nlohmann::json project = jsonFile(kSample);
+  project["enviro"] = 1;
+  project["title"] = "Slip";
+  project["bodies"][0]["shape"]["box"]["size"] = {0.1, 0.1, 0.1};
+  project["bodies"][0]["constraints"] = {{{"plugin", "cloth"}, {"parameters", {{"stretch_stiffness", 1e9}}}}};
+  const QString path = folder.filePath("slip.json");
+  QFile file(path);
+  QVERIFY(file.open(QIODevice::WriteOnly));
+  file.write(QByteArray::fromStdString(project.dump()));
+  file.close();
+  const Ran valid = cli({"validate", path});
+  QCOMPARE(valid.code, 0);
+  QVERIFY2(valid.out.contains("can be opened, with 1 warning"), valid.out.constData());
+  const Ran ran =
+      cli({"simulate", path, "--frames", "1", "--threads", "1", "--quiet", "--report", folder.filePath("r.json")});
+  QVERIFY2(ran.code == 0, ran.err.constData());
+  const nlohmann::json r = jsonFile(folder.filePath("r.json"));
+  QCOMPARE(r["project"]["title"].get<std::string>(), std::string("Slip"));
+  QCOMPARE(r["project"]["file"].get<std::string>(), path.toStdString());
+  QCOMPARE(r["warnings"].size(), size_t{1});
+  QVERIFY(r["warnings"][0].get<std::string>().find("/enviro: is not known here") != std::string::npos);
+  QCOMPARE(r["limits"][0]["what"].get<std::string>(), std::string("cloth.stretch_stiffness"));
+  QVERIFY(r["limits"][0]["body"] == project["bodies"][0]["id"]);
 }
 
 void TestCli::aRunOfOneFrameSaysNothingOfRest() {

@@ -323,6 +323,7 @@ void TestTheme::theLastSecondStandsForNever() {
   QCOMPARE(formatValue(d, 0), QStringLiteral("at once"));
   QCOMPARE(formatValue(d, 10), QStringLiteral("10.0 s"));
   QCOMPARE(parseTyped(QStringLiteral("At once"), d, 10).value, 0.0);
+  QVERIFY(!formatBound(d, 0).contains(QStringLiteral("once")));  // "must be at least 0 s"
 }
 
 void TestTheme::typedTextIsUnderstood_data() {

@@ -79,7 +79,7 @@ Autosave::Autosave(Document& document, Worker& worker, const QString& directory,
     if (!m_timer.isActive()) return;
     m_rest.start();
     // Until the note says so, a restored copy would belong to the file before, and be saved there.
-    if (m_moved && m_written == m_document.changeCount()) saveNow();
+    if (m_moved && (m_written == m_document.changeCount() || !m_document.isDirty())) saveNow();
   });
 }
 
@@ -216,6 +216,7 @@ void Autosave::written(const AutosavedSession& session, uint64_t count, const QS
   }
   for (const QString& stem : takenOver) m_takenOver.removeAll(stem);
   m_written = std::max(m_written, count);
+  if (m_moved && m_timer.isActive()) saveNow();  // the file came to be another one meanwhile
   if (!replaced && !session.copy.isEmpty()) Q_EMIT autosaved(session.time);
 }
 

@@ -46,6 +46,12 @@ QLabel* makeNote(ParameterRow* row, const char* name) {
 
 constexpr int kNoteGap = 5;
 
+/// The field is narrow: "W/(m·K)" is shown as "W/m·K"; the tooltip has it in full.
+FieldText withoutBrackets(FieldText text) {
+  text.unit.remove(QLatin1Char('(')).remove(QLatin1Char(')'));
+  return text;
+}
+
 }  // namespace
 
 bool ParameterRow::Private::isNumeric() const {
@@ -62,20 +68,19 @@ bool ParameterRow::Private::drawsSymbol() const {
 }
 
 FieldText ParameterRow::Private::fieldText() const {
-  const api::ParameterDeclaration& p = declaration();
   const double number = q->number();
-  FieldText text{model.mixed ? QStringLiteral("—") : formatField(p, number),
-                 standsForNone(p, number) ? QString() : displayUnit(p)};
-  // The field is narrow: "W/(m·K)" is shown as "W/m·K"; the tooltip has it in full.
-  const auto narrowed = [](FieldText wide) {
-    wide.unit.remove(QLatin1Char('(')).remove(QLatin1Char(')'));
-    return wide;
-  };
-  text = narrowed(text);
+  if (needsPrefix()) return withoutBrackets(shortField(declaration(), number));
+  return withoutBrackets({model.mixed ? QStringLiteral("—") : formatField(declaration(), number),
+                          standsForNone(declaration(), number) ? QString() : displayUnit(declaration())});
+}
+
+bool ParameterRow::Private::needsPrefix() const {
+  const double number = q->number();
+  if (model.mixed || standsForNone(declaration(), number)) return false;
+  const FieldText text = withoutBrackets({formatField(declaration(), number), displayUnit(declaration())});
   const double room = q->fieldRect().width() - kFieldLeft - (kUnitLeft - kValueRight) - kFieldRight;
-  const double wanted =
-      textWidth(text.value, Theme::font(TextRole::Medium)) + textWidth(text.unit, Theme::font(TextRole::Normal));
-  return wanted <= room || model.mixed ? text : narrowed(shortField(p, number));
+  return textWidth(text.value, Theme::font(TextRole::Medium)) + textWidth(text.unit, Theme::font(TextRole::Normal)) >
+         room;
 }
 
 ParameterRow::ParameterRow(RowModel model, QWidget* parent) : QWidget(parent), d(std::make_unique<Private>(this)) {
@@ -308,7 +313,9 @@ void ParameterRow::finishEditing() {
 
 bool ParameterRow::enter(const QString& text) {
   if (!d->isEditable() || !d->isNumeric()) return false;
-  const Typed typed = parseTyped(text, d->declaration(), number());
+  // A bare number is in the unit that the field showed when the typing began.
+  const bool bare = !d->editUnit.isEmpty() && parseNumber(text);
+  const Typed typed = parseTyped(bare ? text + QLatin1Char(' ') + d->editUnit : text, d->declaration(), number());
   if (!typed.problem.isEmpty()) {
     setError(typed.problem);
     return false;

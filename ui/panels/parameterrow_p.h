@@ -41,6 +41,7 @@ struct ParameterRow::Private {
   QLabel* limit = nullptr;
   QLabel* error = nullptr;
   QLineEdit* edit = nullptr;
+  QString editUnit;  ///< of bare numbers in `edit`; "": the displayed one
 
   // A gesture: open from Begin to End.
   bool open = false;
@@ -50,7 +51,9 @@ struct ParameterRow::Private {
   bool dragCancelled = false;  ///< Esc: wait for the button to be released
   double dragPosition = 0;     ///< 0..1 on the slider, not rounded; on a sparkline the tens by which it is scaled
   double dragX = 0;
-  Value dragCurve;       ///< what a drag on the sparkline scales
+  Value dragCurve;  ///< what a drag on the sparkline scales
+  double dragFrom = 0;
+  bool scaled = false;   ///< by this drag
   double wheelRest = 0;  ///< parts of a wheel step
 
   const api::ParameterDeclaration& declaration() const { return model.declaration; }
@@ -61,6 +64,7 @@ struct ParameterRow::Private {
   bool leadsTo(const QPoint& at) const;  ///< a click there asks for something that somebody listens to
   bool drawsSymbol() const;              ///< a label that needs the symbol's room takes it
   FieldText fieldText() const;           ///< what stands in the field
+  bool needsPrefix() const;              ///< the value is too long for the field in its own unit
 
   void begin();
   void change(const Value& value);

@@ -18,7 +18,14 @@
 namespace ps {
 namespace {
 
-constexpr int kGrip = 7;  ///< a press this near to the handle's centre holds it; farther away the handle jumps
+constexpr double kStill = 3;  ///< a curve is not scaled by a click whose hand is not quite still
+constexpr int kGrip = 7;      ///< a press this near to the handle's centre holds it; farther away the handle jumps
+
+/// To three digits.
+double roundedFactor(double factor) {
+  const double unit = std::pow(10.0, std::floor(std::log10(factor)) - 2);
+  return std::round(factor / unit) * unit;
+}
 
 QRect grown(const QRect& rect) { return rect.adjusted(-4, 0, 4, 0); }
 
@@ -47,8 +54,9 @@ void ParameterRow::Private::dragTo(double x, Qt::KeyboardModifiers modifiers) {
   dragPosition += (x - dragX) / q->sliderRect().width() * (fine ? 0.1 : 1);
   dragX = x;
   if (showsCurve()) {
-    const Value scaled = std::get<Response>(dragCurve).scaled(std::pow(10.0, dragPosition));
-    if (problemOf(scaled, declaration()).empty()) change(scaled);
+    scaled = scaled || std::abs(x - dragFrom) >= kStill;
+    const Value value = std::get<Response>(dragCurve).scaled(roundedFactor(std::pow(10.0, dragPosition)));
+    if (scaled && problemOf(value, declaration()).empty()) change(value);
     return;
   }
   const double value = valueAtPosition(declaration(), dragPosition);
@@ -90,6 +98,8 @@ void ParameterRow::Private::pressed(const QPoint& at, Qt::KeyboardModifiers modi
     if (showsCurve()) {
       dragCurve = model.value;
       dragPosition = 0;
+      dragFrom = at.x();
+      scaled = false;
       return;
     }
     dragPosition = sliderPosition(declaration(), q->number());
@@ -144,7 +154,7 @@ void ParameterRow::mouseMoveEvent(QMouseEvent* event) {
 void ParameterRow::mouseReleaseEvent(QMouseEvent* event) {
   if (event->button() != Qt::LeftButton || !d->dragging) return;
   d->dragging = false;
-  const bool clicked = d->showsCurve() && !d->dragCancelled && d->dragPosition == 0;
+  const bool clicked = d->showsCurve() && !d->dragCancelled && !d->scaled;
   d->dragCancelled = false;
   if (clicked) Q_EMIT curveRequested(key());
   // A double-click that resets begins with a click: both are one gesture, so the end waits for it a little.
@@ -252,8 +262,14 @@ void ParameterRow::Private::startTyping(const QString& text) {
   edit->setGeometry(q->fieldRect());
   // All digits of the value, not only those of the field: what is not touched must not be rounded.
   const double number = q->number();
-  const QString shown = standsForNone(declaration(), number) ? formatField(declaration(), number)
-                                                             : formatShort(toDisplay(declaration(), number), 7);
+  QString shown = standsForNone(declaration(), number) ? formatField(declaration(), number)
+                                                       : formatShort(toDisplay(declaration(), number), 7);
+  editUnit.clear();
+  if (needsPrefix()) {
+    const FieldText prefixed = shortField(declaration(), number, 7);
+    editUnit = prefixed.unit;
+    shown = prefixed.value + QLatin1Char(' ') + prefixed.unit;
+  }
   edit->setText(text.isEmpty() && !model.mixed ? shown : text);
   edit->setModified(!text.isEmpty());
   edit->installEventFilter(q);
@@ -268,6 +284,7 @@ void ParameterRow::Private::closeEdit() {
   if (!edit) return;
   QLineEdit* closing = edit;
   edit = nullptr;
+  editUnit.clear();
   closing->removeEventFilter(q);
   closing->hide();
   closing->deleteLater();

@@ -33,12 +33,12 @@ QString ParameterRow::Private::toolTipText() const {
   if (!model.disabledReason.isEmpty()) text += line("", model.disabledReason);
   text += line("", QString::fromUtf8(p.help ? p.help : ""));
   if (isNumeric() && p.maximum > p.minimum) {
-    text += line("Range", QStringLiteral("%1 to %2").arg(formatField(p, p.minimum), formatValue(p, p.maximum)));
+    text += line("Range", QStringLiteral("%1 to %2").arg(formatBound(p, p.minimum), formatBound(p, p.maximum)));
   }
   if (q->has(RowState::OutOfRange)) {
     text += line("", QStringLiteral("The value lies beyond the slider. It is allowed and acts, typed values may reach "
                                     "from %1 to %2.")
-                         .arg(formatField(p, p.hardMinimum), formatValue(p, p.hardMaximum)));
+                         .arg(formatBound(p, p.hardMinimum), formatBound(p, p.hardMaximum)));
   }
   if (!isCurve(model.defaultValue) && isNumeric()) {
     text += line("Default", formatValue(p, numberOfValue(p, model.defaultValue, model.temperature)));

@@ -159,8 +159,8 @@ QString refusal(const ParameterDeclaration& d, double value) {
   if (!std::isfinite(value)) return QStringLiteral("Must be a finite number");
   if (d.kind == ParameterKind::Integer && value != std::round(value)) return QStringLiteral("Must be a whole number");
   // A negative display scale would swap the two; none is declared.
-  if (value < d.hardMinimum) return QStringLiteral("Must be at least %1").arg(formatValue(d, d.hardMinimum));
-  if (value > d.hardMaximum) return QStringLiteral("Must be at most %1").arg(formatValue(d, d.hardMaximum));
+  if (value < d.hardMinimum) return QStringLiteral("Must be at least %1").arg(formatBound(d, d.hardMinimum));
+  if (value > d.hardMaximum) return QStringLiteral("Must be at most %1").arg(formatBound(d, d.hardMaximum));
   return {};
 }
 

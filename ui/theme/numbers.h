@@ -53,7 +53,9 @@ QString formatValue(const api::ParameterDeclaration& declaration, double stored)
 struct FieldText {
   QString value, unit;
 };
-FieldText shortField(const api::ParameterDeclaration& declaration, double stored);
+FieldText shortField(const api::ParameterDeclaration& declaration, double stored, int significant = 3);
+/// A limit of the range with its unit: always the amount, never the word that it may stand for.
+QString formatBound(const api::ParameterDeclaration& declaration, double stored);
 /// A stored value times a factor as people see it: twice 10 °C is 20 °C.
 double scaledValue(const api::ParameterDeclaration& declaration, double stored, double factor);
 

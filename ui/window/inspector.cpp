@@ -211,6 +211,7 @@ void Inspector::rebuildBody() {
     if (plugin) addRows(rows, "constraint", id, plugin->parameters(), QString::fromUtf8(plugin->label()));
   }
   m_body->setModel(std::move(rows));
+  showLimits();
 }
 
 void Inspector::rebuildMaterial() {
@@ -230,12 +231,6 @@ void Inspector::rebuildMaterial() {
   const bool missing = plugins && !plugins->material(material->base);
   showMaterialHeader();
   addRows(rows, "material", material->id, propertyCatalogue(), {}, materialDefaults(project, plugins, material->id));
-  if (const Material* installed = plugins ? plugins->material(material->base) : nullptr) {
-    for (RowModel& row : rows) {
-      const auto from = installed->provenance.find(row.declaration.key);
-      if (from != installed->provenance.end()) row.source = sourceText(from->second);
-    }
-  }
   if (const api::MaterialPlugin* plugin = plugins ? plugins->materialPlugin(material->base) : nullptr) {
     addRows(rows, "material", material->id, plugin->parameters(), QString::fromUtf8(plugin->label()));
   }
@@ -251,8 +246,24 @@ void Inspector::rebuildMaterial() {
           QStringLiteral("The material's plugin is not installed. Values are kept as they stand in the file.");
     }
   }
-  for (RowModel& row : rows) row.temperature = temperatureOf(materialOf(row.key));
+  for (RowModel& row : rows) {
+    const std::string owner = materialOf(row.key);
+    row.temperature = temperatureOf(owner);
+    row.source = sourceOf(owner, row.declaration.key);
+  }
   m_material->setModel(std::move(rows));
+  showLimits();
+}
+
+/// Where the installed material's figure comes from; "" where nothing says so.
+QString Inspector::sourceOf(const std::string& material, const char* key) const {
+  const std::vector<SceneMaterial>& all = m_document.project().materials;
+  const auto owner = std::find_if(all.begin(), all.end(), [&](const SceneMaterial& m) { return m.id == material; });
+  const PluginRegistry* plugins = m_document.plugins();
+  const Material* installed = owner != all.end() && plugins ? plugins->material(owner->base) : nullptr;
+  if (!installed) return {};
+  const auto from = installed->provenance.find(key);
+  return from == installed->provenance.end() ? QString() : sourceText(from->second);
 }
 
 void Inspector::showMaterialHeader() {
@@ -267,7 +278,7 @@ void Inspector::showMaterialHeader() {
     if (body.material == material->id) bodies << QString::fromStdString(body.name);
   }
   for (const Emitter& emitter : project.emitters) {
-    if (emitter.material == material->id) bodies << QString::fromStdString(emitter.name);
+    if (emitter.material == material->id) bodies << ownerLabel(project, {"emitter", emitter.id, "speed"});
   }
   m_grade = gradeText(plugins, material->base);
   m_material->setHeader(QString::fromStdString(material->label.empty() ? material->id : material->label),
@@ -320,6 +331,7 @@ void Inspector::rebuildScene() {
   named("wall", project.environment.walls, wallParameters());
   showSceneHeader();
   m_scene->setModel(std::move(rows));
+  showLimits();
 }
 
 void Inspector::showSceneHeader() {
@@ -340,6 +352,7 @@ void Inspector::rebuildSolver() {
   m_solver->setHeader(QStringLiteral("Solver"), model ? QStringLiteral("Heat by ") + QString::fromUtf8(model->label())
                                                       : QStringLiteral("No heat"));
   m_solver->setModel(std::move(rows));
+  showLimits();
 }
 
 void Inspector::rebuild() {
@@ -392,6 +405,7 @@ void Inspector::onChanged(const ChangeEvent& event) {
     m_bodyId = m_document.project().bodies.empty() ? std::string() : m_document.project().bodies.front().id;
     m_materialId.clear();
     m_limited.clear();
+    m_limits.clear();
     m_mean.clear();
     markPinned();
     rebuild();
@@ -428,13 +442,19 @@ void Inspector::refreshProperties(const std::string& material) {
 
 void Inspector::setSnapshot(const Snapshot& snapshot) {
   showTemperatures(snapshot);
+  m_limits = snapshot.limits;
+  m_limitBodies = snapshot.bodyIds;
+  showLimits();
+}
+
+/// Said anew each time: the substeps change what is reached, and rows may have been made anew.
+void Inspector::showLimits() {
   std::set<QString> limited;
-  for (const Limit& limit : snapshot.limits) {
-    const QString key = limitAddress(limit, snapshot);
+  for (const Limit& limit : m_limits) {
+    const QString key = limitAddress(limit, m_limitBodies.get());
     const auto address = Address::parse(key.toStdString());
     if (!address) continue;
     limited.insert(key);
-    // Said anew each time: the substeps change what is reached, and rows may have been made anew.
     const double substeps = numberOf(m_document.project().solver.parameters, solverParameters(), "substeps");
     const QString text =
         limitText(limit, m_document.declaration(*address)) +

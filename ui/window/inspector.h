@@ -47,6 +47,8 @@ class Inspector : public QObject {
   void rebuildBody();
   void rebuildMaterial();
   void showMaterialHeader();
+  QString sourceOf(const std::string& material, const char* key) const;
+  void showLimits();
   QString materialDetail() const;
   void showTemperatures(const Snapshot& snapshot);
   /// K, at which a material's curves are read: the mean of its particles, or of all matter where it has none.
@@ -67,7 +69,9 @@ class Inspector : public QObject {
   ParameterPanel *m_body, *m_material, *m_scene, *m_solver;
   std::string m_bodyId, m_materialId;
   std::set<std::string> m_texts;  ///< headings and labels that rows borrow; grows with names only
-  std::set<QString> m_limited;
+  std::set<QString> m_limited;    ///< rows that have a note
+  std::vector<Limit> m_limits;    ///< of the last snapshot: a paused scene publishes none when rows are made anew
+  std::shared_ptr<const std::vector<std::string>> m_limitBodies;
   QString m_grade;                       ///< of the material's sources, as the header says it
   double m_sceneMean = 293.15;           ///< K
   std::map<std::string, double> m_mean;  ///< K, by material; of those that have particles

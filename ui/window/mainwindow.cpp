@@ -368,7 +368,7 @@ void MainWindow::refreshStatus() {
   if (state.snapshot && !state.snapshot->limits.empty()) {
     // One that no row can show comes first.
     const std::vector<Limit>& limits = state.snapshot->limits;
-    const auto addressOf = [&](const Limit& limit) { return limitAddress(limit, *state.snapshot); };
+    const auto addressOf = [&](const Limit& limit) { return limitAddress(limit, state.snapshot->bodyIds.get()); };
     const auto lonely =
         std::find_if(limits.begin(), limits.end(), [&](const Limit& limit) { return addressOf(limit).isEmpty(); });
     const Limit& first = lonely == limits.end() ? limits.front() : *lonely;

@@ -63,9 +63,9 @@ FailureText failureText(const EngineEvent& event) {
   return {QStringLiteral("That change could not be made."), message};
 }
 
-QString limitAddress(const Limit& limit, const Snapshot& snapshot) {
+QString limitAddress(const Limit& limit, const std::vector<std::string>* bodies) {
   const QString what = QString::fromStdString(limit.what);
-  const qsizetype dot = what.indexOf(QLatin1Char('.'));
+  const qsizetype dot = what.lastIndexOf(QLatin1Char('.'));  // ids may have some themselves: "org.example.cable"
   if (dot < 1) return {};
   const QString owner = what.left(dot), key = what.mid(dot + 1);
   if (owner == QLatin1String("solver") || owner == QLatin1String("environment") || owner == QLatin1String("thermal")) {
@@ -73,8 +73,8 @@ QString limitAddress(const Limit& limit, const Snapshot& snapshot) {
   }
   if (limit.body < 0) return QStringLiteral("material/%1/%2").arg(owner, key);
   const auto body = static_cast<size_t>(limit.body);
-  if (!snapshot.bodyIds || body >= snapshot.bodyIds->size()) return {};
-  return QStringLiteral("constraint/%1/%2/%3").arg(QString::fromStdString((*snapshot.bodyIds)[body]), owner, key);
+  if (!bodies || body >= bodies->size()) return {};
+  return QStringLiteral("constraint/%1/%2/%3").arg(QString::fromStdString((*bodies)[body]), owner, key);
 }
 
 QString limitNote(const Limit& limit, const api::ParameterDeclaration* declaration) {

@@ -22,9 +22,9 @@ struct FailureText {
   bool lost = false;  ///< matter left the scene
 };
 FailureText failureText(const EngineEvent& event);
-/// "water.youngs_modulus" as an address text: "material/water/youngs_modulus"; "" when it has no owner. A limit of the
-/// snapshot.
-QString limitAddress(const Limit& limit, const Snapshot& snapshot);
+/// "water.youngs_modulus" as an address text: "material/water/youngs_modulus"; "" when it has no owner. `bodies`:
+/// Snapshot::bodyIds, by which the limit counts.
+QString limitAddress(const Limit& limit, const std::vector<std::string>* bodies);
 /// "Young's modulus: the solver reaches 42.0 MPa of 9.3 GPa at this step." `declaration`: of its address; nullptr where
 /// it has none.
 QString limitText(const Limit& limit, const api::ParameterDeclaration* declaration);
