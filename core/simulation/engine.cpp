@@ -263,20 +263,26 @@ void Engine::Impl::build() {
   const Bounds bounds = compileBounds(project);
   TakenPlaces taken(kOverlap * spacing, static_cast<size_t>(count),
                     Period(bounds.minimum, bounds.maximum, bounds.periodic));
+  std::vector<std::pair<Spawn, const Body*>> spawns;
   for (const Body& body : project.bodies) {
     bodyIndex(body.id);  // of one without particles too
     size_t dropped = 0;
     for (Spawn& spawn : compileBody(project, plugins, materials, body)) {
       dropped += dropTaken(spawn, taken);
-      for (size_t k = 0; regions && k < spawn.position.size(); ++k) {
-        start.push_back({spawn.position[k].x, spawn.position[k].y, spawn.position[k].z});
-      }
-      born(std::move(spawn), body);
+      spawns.emplace_back(std::move(spawn), &body);
     }
     if (dropped > 0) {
       log(LogLevel::Warning, "body '" + body.name + "': left out " + std::to_string(dropped) +
                                  " particles whose places are taken; move it away from what it overlaps");
     }
+  }
+  // What is held in place first, wherever it stands in the list: a rope is tied to the posts that are there.
+  std::stable_partition(spawns.begin(), spawns.end(), [](const auto& item) { return item.first.fixed; });
+  for (auto& [spawn, body] : spawns) {
+    for (size_t k = 0; regions && k < spawn.position.size(); ++k) {
+      start.push_back({spawn.position[k].x, spawn.position[k].y, spawn.position[k].z});
+    }
+    born(std::move(spawn), *body);
   }
   for (const Emitter& emitter : project.emitters) bodyIndex(emitter.id);
   recompile("body");  // what is said of bodies goes by their indices

@@ -27,6 +27,7 @@ class TstSimulation : public QObject {
   void bornAsDeclared();
   void anEditActsOnTheNextFrame();
   void anEditOfABodysConstraintReachesThatBodyAlone();
+  void theOrderOfBodiesTiesNothingLess();
   void anEditOfTheSceneSurvivesReset();
   void gravityAndThermalModelActOnTheNextFrame();
   void motionActsAtOnceWhereItIsPrescribed();
@@ -145,6 +146,35 @@ void TstSimulation::anEditOfABodysConstraintReachesThatBodyAlone() {
   }
   QVERIFY(heights(left, 1) != heights(both, 1));
   QVERIFY(heights(left, 2) == heights(both, 2));  // bit for bit
+}
+
+/// A rope before its post in the list is tied to it all the same.
+void TstSimulation::theOrderOfBodiesTiesNothingLess() {
+  for (const bool postFirst : {true, false}) {
+    Project project = scenes::iceOnPlate(3, 263.15);
+    project.bodies.clear();
+    project.materials[0].properties.values["sinters"] = false;  // or the two would freeze together
+    const double dx = 0.02;
+    Body post = scenes::block("post", 3, dx, {-0.04, 0.5, 0}, 263.15), rope = post;
+    post.parameters.values["fixed"] = true;
+    post.constraints.clear();
+    rope.id = rope.name = "rope";
+    rope.shape = BoxShape{{0.09, 0.5, 0}, {0.2, dx, dx}, {}};
+    rope.parameters.values["fixed"] = false;
+    rope.constraints = {{"rope", {}, {}}};
+    rope.constraints[0].parameters.values["tied_to_fixed"] = true;
+    project.bodies = postFirst ? std::vector<Body>{post, rope} : std::vector<Body>{rope, post};
+    project.solver.parameters.values["particle_spacing"] = dx;
+    Engine engine(project, m_plugins);
+    QCOMPARE(engine.bodyIds()[0], project.bodies[0].id);
+    for (int f = 0; f < 40; ++f) QCOMPARE(engine.step().flags, 0u);
+    double top = 0;
+    const ParticleStore& p = engine.solver().particles();
+    for (size_t i = 0; i < p.size(); ++i) {
+      if (engine.bodyIds()[p.body()[i]] == "rope") top = std::max(top, double{p.position()[i].y});
+    }
+    QVERIFY2(top > 0.45, qPrintable(QString::number(top)));  // untied it lies on the plate
+  }
 }
 
 void TstSimulation::anEditOfTheSceneSurvivesReset() {
