@@ -187,8 +187,7 @@ void print(const json& scene) {
 std::string benchHelp() {
   return "phasesketch-cli bench [SCENE...] [options]\n\nMeasures the path that simulate runs. A scene is a project "
          "file, the name of a sample, or 'tank', water at\nrest; without one: ice-on-hot-plate and tank. iterations "
-         "are those of a "
-         "whole frame; ns_per_pair is the density\nstage over ordered pairs within the support.\n\n" +
+         "are those of a whole frame; ns_per_pair is the density\nstage over ordered pairs within the support.\n\n" +
          optionHelp(kOptions);
 }
 

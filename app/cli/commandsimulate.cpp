@@ -43,8 +43,7 @@ void summarise(const Report& report, Engine& engine, double wall) {
 std::string simulateHelp() {
   return "phasesketch-cli simulate PROJECT [options]\n\nRuns a project without a window.\n\n" + optionHelp(kOptions) +
          "\nThe report is in SI units but for milliseconds, where a key says ms. Thermal energy counts from the solid "
-         "at "
-         "its\nmelting point, so that matter colder than that has less than none; what a run means is the "
+         "at its\nmelting point, so that matter colder than that has less than none; what a run means is the "
          "difference.\n";
 }
 

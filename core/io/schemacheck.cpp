@@ -135,6 +135,14 @@ class Checker {
     }
   }
 
+  static std::vector<std::string> absentFrom(const json& value, const json& properties) {
+    std::vector<std::string> absent;
+    for (const auto& [name, unused] : properties.items()) {
+      if (!value.contains(name)) absent.push_back(name);
+    }
+    return absent;
+  }
+
   void checkObject(const json& schema, const json& value, const std::string& pointer) const {
     for (const json& key : schema.value("required", json::array())) {
       if (!value.contains(key.get_ref<const std::string&>()))
@@ -147,12 +155,9 @@ class Checker {
       if (known != properties->end()) {
         check(*known, member, pointer + "/" + pointerPart(key));
       } else if (!key.starts_with("$") && !key.starts_with("x-")) {
-        std::vector<std::string> absent;
         const bool told = m_unknown.size() < kMostUnknown;  // the others are counted
-        for (const auto& [name, unused] : properties->items()) {
-          if (told && !value.contains(name)) absent.push_back(name);
-        }
-        m_unknown.push_back({pointer + "/" + pointerPart(key), didYouMean(key, absent)});
+        m_unknown.push_back(
+            {pointer + "/" + pointerPart(key), told ? didYouMean(key, absentFrom(value, *properties)) : ""});
       }
     }
   }

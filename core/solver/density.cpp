@@ -26,6 +26,12 @@ constexpr double kHandOverTime = 0.1;  // s
 
 bool isFluid(api::Motion m) { return m == api::Motion::Liquid || m == api::Motion::Gas; }
 
+bool isInside(const api::Float4& p, const Bounds& bounds) {
+  const api::Double3 &low = bounds.minimum, &high = bounds.maximum;
+  const double x = p.x, y = p.y, z = p.z;
+  return x >= low.x && x <= high.x && y >= low.y && y <= high.y && z >= low.z && z <= high.z;
+}
+
 }  // namespace
 
 HalfSpaceTable::HalfSpaceTable(const Kernel& kernel) : m_values(kIntervals + 1) {
@@ -261,16 +267,6 @@ void DensityStage::project(ParticleStore& store, const Neighbours& neighbours, i
   forChunks(moving, kGrain, [&](size_t first, size_t last) { move(store, pairs, m_chebyshev, first, last); });
   if (m_touchesFixed || !m_planes.empty()) m_given.add(m_moved.total());
 }
-
-namespace {
-
-bool isInside(const api::Float4& p, const Bounds& bounds) {
-  const api::Double3 &low = bounds.minimum, &high = bounds.maximum;
-  const double x = p.x, y = p.y, z = p.z;
-  return x >= low.x && x <= high.x && y >= low.y && y <= high.y && z >= low.z && z <= high.z;
-}
-
-}  // namespace
 
 DensityError DensityStage::measure(ParticleStore& store, const Neighbours& neighbours, const Bounds& bounds) {
   float *error = store.densityError(), *lambda = store.lambda();

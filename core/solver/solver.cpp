@@ -14,7 +14,6 @@ namespace {
 
 /// Mean excess of density that a liquid has only where it has no room.
 constexpr double kSqueezed = 0.1;
-constexpr double kSqueezedDrops = 0.5;
 constexpr double kSqueezedShare = 0.05;  ///< of the solids
 
 struct Fractions {
@@ -296,7 +295,7 @@ std::vector<Limit> Solver::limits() const {
   }
   const double dt = m->settings.dt, excess = m->report.densityErrorMean;
   // Drops too few to speak for the solver (see StepFlag::Diverged) are told here.
-  const bool drops = excess > kSqueezedDrops && (m->report.flags & static_cast<StepFlags>(StepFlag::Diverged)) == 0;
+  const bool drops = excess > kDiverged && (m->report.flags & static_cast<StepFlags>(StepFlag::Diverged)) == 0;
   const bool squeezes = drops || m->motion.movesWithin(m->time - dt, dt) || m->contact.squeezedShare() > kSqueezedShare;
   if (excess > kSqueezed && squeezes) result.push_back({kSqueezeLimit, 0, excess, ""});
   return result;

@@ -17,6 +17,9 @@
 
 namespace ps {
 
+/// Mean density error that no longer deserves the name of a solution.
+inline constexpr double kDiverged = 0.5;
+
 /// What a solver holds, and one frame cut into its parts. Indices of particles change only in freshLists(), at the
 /// start of a frame: whatever is kept by index within a frame stays true.
 struct Solver::Impl {

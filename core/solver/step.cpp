@@ -18,8 +18,6 @@ constexpr uint64_t kSortInterval = 60;
 constexpr int kLeastStructurePasses = 2;
 /// Liquid on a sheet outweighs it many times, and must not press it apart before its springs have answered.
 constexpr int kSheetPasses = 4;
-/// Mean density error that no longer deserves the name of a solution.
-constexpr double kDiverged = 0.5;
 constexpr double kLeastLiquid = 0.01;  ///< share of what moves, below which the mean says nothing of the solver
 /// How far the heat balance may be open: a share of what was exchanged, and of the whole for rounding.
 constexpr double kOpenExchange = 1e-6, kOpenRounding = 1e-11;

@@ -341,10 +341,13 @@ bool ParameterRow::enterNumber(double value) {
 }
 
 bool ParameterRow::Private::scaleCurve(double factor) {
+  if (!(factor > 0)) {
+    q->setError(QStringLiteral("A curve is scaled by a factor above 0"));
+    return false;
+  }
   const Response response = std::get<Response>(model.value).scaled(factor);
-  if (const std::string problem = problemOf(Value(response), declaration()); !problem.empty() || !(factor > 0)) {
-    q->setError(factor > 0 ? QString::fromStdString("The curve " + problem)
-                           : QStringLiteral("A curve is scaled by a factor above 0"));
+  if (const std::string problem = problemOf(Value(response), declaration()); !problem.empty()) {
+    q->setError(QString::fromStdString("The curve " + problem));
     return false;
   }
   q->setError({});

@@ -265,8 +265,8 @@ void ParameterRow::Private::startTyping(const QString& text) {
   QString shown = standsForNone(declaration(), number) ? formatField(declaration(), number)
                                                        : formatShort(toDisplay(declaration(), number), 7);
   editUnit.clear();
-  if (needsPrefix()) {
-    const FieldText prefixed = shortField(declaration(), number, 7);
+  const FieldText prefixed = shortField(declaration(), number, 7);
+  if (needsPrefix() && prefixed.unit != displayUnit(declaration())) {
     editUnit = prefixed.unit;
     shown = prefixed.value + QLatin1Char(' ') + prefixed.unit;
   }
