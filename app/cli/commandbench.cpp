@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/cli/commands.h"
-#include "app/cli/report.h"
 #include "app/cli/run.h"
 #include "core/base/error.h"
 #include "core/base/jsontext.h"
 #include "core/base/parallel.h"
+#include "core/experiments/report.h"
 #include "core/io/textfile.h"
 #include "core/particles/neighbours.h"
 #include "core/plugin_host/registry.h"

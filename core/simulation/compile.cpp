@@ -2,11 +2,11 @@
 #include "core/simulation/compile.h"
 
 #include "core/base/error.h"
+#include "core/math/vector3.h"
 #include "core/matter/material.h"
 #include "core/plugin_host/registry.h"
 #include "core/simulation/declared.h"
 #include "core/simulation/lattice.h"
-#include "core/solver/vector3.h"
 
 #include <algorithm>
 #include <cmath>

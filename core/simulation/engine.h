@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "core/simulation/snapshot.h"
+#include "core/solver/solver.h"
 
 #include <functional>
 #include <memory>

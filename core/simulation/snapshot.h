@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "core/particles/period.h"
 #include "core/scene/project.h"
-#include "core/solver/solver.h"
+#include "core/solver/report.h"
 
 #include <array>
 #include <cstdint>

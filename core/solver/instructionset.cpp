@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/base/error.h"
-#include "core/solver/pairkernels.h"
+#include "core/solver/fluid/pairkernels.h"
 #include "core/solver/solver.h"
 
 #include <hwy/targets.h>

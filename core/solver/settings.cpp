@@ -5,46 +5,8 @@
 
 namespace ps {
 
-std::vector<std::string> flagNames(StepFlags flags) {
-  static constexpr struct {
-    StepFlag flag;
-    const char* name;
-  } kNames[] = {{StepFlag::NotFinite, "not_finite"},
-                {StepFlag::LostParticle, "lost_particle"},
-                {StepFlag::Diverged, "diverged"},
-                {StepFlag::PluginFault, "plugin_fault"},
-                {StepFlag::EnergyOpen, "energy_open"}};
-  std::vector<std::string> names;
-  for (const auto& entry : kNames) {
-    if ((flags & static_cast<StepFlags>(entry.flag)) != 0) names.emplace_back(entry.name);
-  }
-  return names;
-}
-
 double leastPeriod(const SolverSettings& settings) {
   return Neighbours::leastPeriod((settings.supportRatio + kSkinSpacings) * settings.spacing);
-}
-
-const char* stageName(Stage stage) {
-  switch (stage) {
-    case Stage::Neighbours:
-      return "neighbours";
-    case Stage::Density:
-      return "density";
-    case Stage::Structure:
-      return "structure";
-    case Stage::Contact:
-      return "contact";
-    case Stage::Viscosity:
-      return "viscosity";
-    case Stage::Heat:
-      return "heat";
-    case Stage::Phase:
-      return "phase";
-    case Stage::Count:
-      break;
-  }
-  return "";
 }
 
 }  // namespace ps

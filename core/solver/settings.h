@@ -91,44 +91,4 @@ struct ThermalSettings {
   double nucleation = 0.3;                  ///< share of latent heat that boiling neighbours pass on
 };
 
-/// Failures of a step; each says what to do about it.
-enum class StepFlag : unsigned {
-  NotFinite = 1,     ///< a NaN or infinity: raise substeps, or undo the last change of a stiffness or temperature
-  LostParticle = 2,  ///< a particle left the bounds: raise substeps, or close the scene with walls
-  Diverged = 4,      ///< density error above 50 %, in the mean over liquid that is 1 % of what moves, or more: raise
-                     ///< iterations, lower the relaxation
-  PluginFault = 8,   ///< a plugin threw: see the message; the scene goes on without it
-  EnergyOpen = 16,   ///< heat balance open by more than 1e-6 of what was exchanged: report a bug in the thermal model
-};
-using StepFlags = unsigned;
-/// "not_finite", "lost_particle", ...
-std::vector<std::string> flagNames(StepFlags flags);
-
-/// A plugin that threw, and what it said; the solver goes on without it.
-struct PluginFault {
-  std::string plugin;  ///< id
-  std::string what;
-};
-
-/// Asked for and not delivered at this step.
-struct Limit {
-  std::string what;  ///< parameter key and owner: "water.youngs_modulus", "rope.stretch_stiffness"
-  double asked = 0, delivered = 0;
-  std::string unit;
-  int body = -1;  ///< the one whose plugin's own parameter it is; -1: a material's, the solver's
-};
-
-enum class Stage { Neighbours, Density, Structure, Contact, Viscosity, Heat, Phase, Count };
-const char* stageName(Stage stage);
-
-/// Heat that entered the particles since the start, in J; `exchanged` adds up absolute amounts. `radiation` is what
-/// came from around the scene: walls' is theirs, and what particles radiate at each other stays. `heaters`: bodies'
-/// heating power and sources of the thermal model. `sources`: what came and went with matter, or by another thermal
-/// model.
-struct HeatLedger {
-  double walls = 0, air = 0, radiation = 0, heaters = 0, sources = 0, exchanged = 0;
-  double airWarming = 0;  ///< K by which a finite lump of air is warmer than at the start
-  double net() const { return walls + air + radiation + heaters + sources; }
-};
-
 }  // namespace ps

@@ -3,7 +3,7 @@
 
 #include "core/base/error.h"
 #include "core/base/hash.h"
-#include "core/solver/solverimpl.h"
+#include "core/solver/frame/solverimpl.h"
 
 #include <algorithm>
 #include <cmath>
@@ -247,7 +247,8 @@ TakenMatter Solver::take(std::span<const uint32_t> ids) {
   std::sort(indices.begin(), indices.end());
   indices.erase(std::unique(indices.begin(), indices.end()), indices.end());
   if (indices.empty()) return {};
-  const TakenMatter taken{store.copy(indices), m->constraints.copy(store, indices)};
+  TakenMatter taken{store.copy(indices),
+                    std::make_shared<const CopiedConstraints>(m->constraints.copy(store, indices))};
   const double before = m->heat.energy(store);
   m->constraints.removeParticles(store, indices);
   store.remove(indices);
@@ -261,7 +262,7 @@ void Solver::putBack(const TakenMatter& matter) {
   const double before = m->heat.energy(m->store);
   const size_t first = m->store.putBack(matter.particles);
   m->motion.putBack(m->store, first, m->store.size());
-  m->constraints.putBack(m->store, matter.constraints);
+  m->constraints.putBack(m->store, *matter.constraints);
   m->matterChanged(before);
 }
 

@@ -1,64 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "core/solver/constraintsystem.h"
-#include "core/solver/heat.h"
-#include "core/solver/prescribedmotion.h"
+#include "core/matter/material.h"
+#include "core/particles/particlestore.h"
+#include "core/solver/matter.h"
+#include "core/solver/motion.h"
+#include "core/solver/report.h"
 #include "core/solver/settings.h"
 
 #include <phasesketch/constraint.h>
+#include <phasesketch/thermal.h>
 
-#include <array>
 #include <memory>
+#include <span>
+#include <string>
+#include <vector>
 
 namespace ps {
-
-/// Particles to be born: one entry per particle.
-struct Spawn {
-  std::vector<api::Double3> position;  ///< m
-  std::vector<api::Double3> velocity;  ///< m/s; empty: at rest
-  uint32_t material = 0;               ///< index into the material table
-  uint32_t body = 0;
-  double temperature = 293.15;  ///< K
-  api::Phase phase = api::Phase::Liquid;
-  std::vector<double> temperatures;  ///< K, one each; empty: `temperature` for all
-  std::vector<api::Phase> phases;    ///< one each; empty: `phase` for all
-  bool fixed = false;                ///< static boundary particles: they go on at their velocity, or as
-                                     ///< setMotion() says, whatever they meet
-  /// Matter on its way in: its neighbours feel it as what it is, but it goes on at its velocity, whatever it meets,
-  /// until it is released.
-  bool held = false;
-  std::vector<uint32_t> constraintSets;  ///< built over the new particles
-};
-
-/// Matter outside a solver, with every field and the structure that held it; opaque to its keeper.
-struct TakenMatter {
-  CopiedParticles particles;
-  CopiedConstraints constraints;
-};
-
-/// Momentum of moving matter over one frame, kg m/s. What is open, end - start - external, is rounding: forces between
-/// particles come in pairs.
-struct MomentumRecord {
-  api::Double3 start{0, 0, 0}, end{0, 0, 0};
-  /// Impulse of all that is no moving matter: gravity, air, damping, walls, fixed particles and what hangs on them.
-  api::Double3 external{0, 0, 0};
-};
-
-/// Limits that are no parameter's: the heat balance is open by so many joules; liquid is too dense by this mean excess
-/// while a body is led, or solids are squeezed themselves, which may leave it no room.
-inline constexpr const char* kBalanceLimit = "heat balance";
-inline constexpr const char* kSqueezeLimit = "squeezed liquid";
-
-struct StepReport {
-  StepFlags flags = 0;
-  std::string message;  ///< the culprit: "particle 17 of 'Ice block': position is not finite"
-  std::vector<PluginFault> faults;
-  std::array<double, static_cast<size_t>(Stage::Count)> milliseconds{};
-  double totalMilliseconds = 0;
-  double densityErrorMean = 0, densityErrorMax = 0;  ///< fraction, liquid particles, after the last iteration
-  int viscosityIterations = 0;                       ///< of the implicit viscosity, the most of a substep
-  MomentumRecord momentum;
-};
 
 /// One engine: substepped XPBD (Macklin et al. 2019) with position-based density (Macklin & Mueller 2013, volume form
 /// of Solenthaler & Pajarola 2008), structural and neighbour constraints from plugins, XSPH or

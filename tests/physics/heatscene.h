@@ -3,8 +3,8 @@
 #include "core/matter/material.h"
 #include "core/particles/neighbours.h"
 #include "core/particles/particlestore.h"
-#include "core/solver/heat.h"
-#include "core/solver/phasestage.h"
+#include "core/solver/heat/heat.h"
+#include "core/solver/heat/phasestage.h"
 #include "enthalpymodel.h"
 
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What air does to matter: lift and drag of vapour parcels, of single drops and solids, wind, and the thesis's laws.
-#include "core/solver/gasforces.h"
+#include "core/solver/fluid/gasforces.h"
 
 #include "heatscene.h"
 

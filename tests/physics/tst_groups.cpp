@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The host of group constraints: overlapping groups stay right whatever happens to the particles.
-#include "core/solver/grouplists.h"
+#include "core/solver/structure/grouplists.h"
 #include "mechanicsscene.h"
 
 #include <QTest>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Swept collision, restitution and friction of particles that belong to no rigid body.
-#include "core/solver/contact.h"
+#include "core/solver/contact/solidcontact.h"
 #include "mechanicsscene.h"
 
 #include <QTest>

@@ -3,7 +3,7 @@
 #include "heatscene.h"
 
 #include "core/base/parallel.h"
-#include "core/solver/opensurface.h"
+#include "core/solver/heat/opensurface.h"
 
 #include <QtTest/QTest>
 

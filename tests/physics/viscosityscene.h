@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "core/solver/viscosity.h"
+#include "core/solver/fluid/viscosity.h"
 #include "mechanicsscene.h"
 
 #include <array>

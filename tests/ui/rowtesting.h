@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "ui/panels/parameterpanel.h"
-#include "ui/panels/parameterrow_p.h"
-#include "ui/panels/rowvalue.h"
+#include "ui/rows/parameterpanel.h"
+#include "ui/rows/parameterrow_p.h"
+#include "ui/rows/rowvalue.h"
 
 #include <QtGui/QMouseEvent>
 #include <QtGui/QWheelEvent>

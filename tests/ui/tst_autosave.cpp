@@ -3,10 +3,10 @@
 #include "core/io/projectio.h"
 #include "core/plugin_host/registry.h"
 #include "tests/shared/scenes.h"
-#include "ui/document/autosave.h"
 #include "ui/document/document.h"
-#include "ui/document/documentfiles.h"
-#include "ui/document/worker.h"
+#include "ui/session/autosave.h"
+#include "ui/session/documentfiles.h"
+#include "ui/session/worker.h"
 
 #include <QtCore/QDir>
 #include <QtCore/QTemporaryDir>

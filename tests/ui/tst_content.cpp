@@ -7,10 +7,10 @@
 #include "tests/shared/scenes.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
-#include "ui/document/documentfiles.h"
-#include "ui/document/scenelink.h"
 #include "ui/document/wallside.h"
-#include "ui/document/worker.h"
+#include "ui/session/documentfiles.h"
+#include "ui/session/scenelink.h"
+#include "ui/session/worker.h"
 
 #include <QtTest/QTest>
 

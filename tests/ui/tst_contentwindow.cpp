@@ -2,10 +2,10 @@
 // Bodies and materials come and go by hands in the real window; rows that follow.
 #include "tests/ui/samplewindow.h"
 #include "ui/document/document.h"
-#include "ui/panels/parameterpanel.h"
+#include "ui/panels/inspector.h"
+#include "ui/panels/materialspanel.h"
+#include "ui/rows/parameterpanel.h"
 #include "ui/viewport/viewport.h"
-#include "ui/window/inspector.h"
-#include "ui/window/materialspanel.h"
 #include "ui/window/noticebar.h"
 
 #include <QtGui/QAction>

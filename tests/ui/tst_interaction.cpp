@@ -2,16 +2,16 @@
 // Hands in the real window: menus of rows and of the view, strokes, legend.
 #include "tests/ui/samplewindow.h"
 #include "ui/document/document.h"
-#include "ui/document/documentfiles.h"
-#include "ui/panels/parameterpanel.h"
+#include "ui/graphs/graphspanel.h"
+#include "ui/panels/inspector.h"
+#include "ui/panels/materialspanel.h"
+#include "ui/rows/parameterpanel.h"
+#include "ui/session/documentfiles.h"
+#include "ui/timeline/transport.h"
 #include "ui/viewport/viewport.h"
 #include "ui/window/dock.h"
-#include "ui/window/graphspanel.h"
-#include "ui/window/inspector.h"
-#include "ui/window/materialspanel.h"
 #include "ui/window/noticebar.h"
 #include "ui/window/shortcutswindow.h"
-#include "ui/window/transport.h"
 
 #include <QtCore/QTimer>
 #include <QtGui/QAccessible>

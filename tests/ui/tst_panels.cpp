@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/ui/rowtesting.h"
-#include "ui/panels/groupheading.h"
+#include "ui/rows/groupheading.h"
 #include "ui/theme/theme.h"
 
 #include <QtCore/QPointer>

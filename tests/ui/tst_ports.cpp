@@ -2,12 +2,12 @@
 // Taps and drains by hands in the real window: placed, selected, dragged, renamed, copied, deleted.
 #include "tests/ui/samplewindow.h"
 #include "ui/document/document.h"
-#include "ui/panels/parameterpanel.h"
-#include "ui/viewport/porthandles.h"
+#include "ui/panels/inspector.h"
+#include "ui/panels/outliner.h"
+#include "ui/rows/parameterpanel.h"
+#include "ui/tools/porthandles.h"
 #include "ui/viewport/viewport.h"
-#include "ui/window/inspector.h"
 #include "ui/window/noticebar.h"
-#include "ui/window/outliner.h"
 
 #include <QtGui/QAction>
 #include <QtGui/QContextMenuEvent>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/math/kernels.h"
-#include "core/solver/density.h"
+#include "core/solver/fluid/density.h"
 
 #include <QTest>
 

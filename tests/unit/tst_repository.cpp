@@ -130,6 +130,14 @@ void RepositoryTest::rulesCatchWhatTheyForbid_data() {
   include("SDK with std containers", "core/plugin_api/include/phasesketch/a.h", "<vector>", 1);
   include("SDK with Qt", "core/plugin_api/include/phasesketch/a.h", "<QObject>", 1);
   include("SDK's Qt entry", "core/plugin_api/include/phasesketch/qtentry.h", "<QObject>", 0);
+  include("a stage from outside", "core/simulation/a.h", "\"core/solver/heat/radiation.h\"", 1);
+  include("a stage from the interface", "ui/panels/a.h", "\"core/solver/fluid/density.h\"", 1);
+  include("a stage from the face", "core/solver/solver.cpp", "\"core/solver/frame/solverimpl.h\"", 0);
+  include("a stage from the frame", "core/solver/frame/step.cpp", "\"core/solver/heat/heat.h\"", 0);
+  include("a stage from an earlier one", "core/solver/structure/a.cpp", "\"core/solver/heat/heat.h\"", 1);
+  include("the solver from a stage", "core/solver/heat/a.cpp", "\"core/solver/solver.h\"", 1);
+  include("the face's values from a stage", "core/solver/heat/a.cpp", "\"core/solver/settings.h\"", 0);
+  include("an unknown room of the solver", "core/solver/solver.cpp", "\"core/solver/attic/a.h\"", 1);
   include("relative path", "core/solver/a.cpp", "\"solver.h\"", 1);
   include("climbing path", "plugins/materials/a.cpp", "\"../../core/base/error.h\"", 1);
   include("plugin to core", "plugins/materials/a.cpp", "\"core/base/error.h\"", 1);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "core/scene/project.h"
-#include "core/solver/solver.h"
+#include "core/solver/matter.h"
 
 #include <array>
 #include <cstdint>

@@ -5,7 +5,7 @@
 #include "ui/theme/numbers.h"
 #include "ui/theme/paint.h"
 #include "ui/theme/theme.h"
-#include "ui/viewport/gestures.h"
+#include "ui/tools/gestures.h"
 
 #include <QtCore/QStringList>
 #include <QtGui/QPainter>

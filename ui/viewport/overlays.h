@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "ui/render/camera.h"
-#include "ui/viewport/viewtool.h"
+#include "ui/tools/viewtool.h"
 
 #include <QtCore/QPointF>
 #include <QtCore/QRectF>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "ui/render/renderer.h"
+#include "ui/tools/porthandles.h"
+#include "ui/tools/stroketool.h"
+#include "ui/tools/viewnavigator.h"
+#include "ui/tools/viewtool.h"
 #include "ui/viewport/legendrange.h"
 #include "ui/viewport/overlays.h"
-#include "ui/viewport/porthandles.h"
-#include "ui/viewport/stroketool.h"
-#include "ui/viewport/viewnavigator.h"
-#include "ui/viewport/viewtool.h"
 
 #include <QtCore/QElapsedTimer>
 #include <QtCore/QTimer>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "ui/document/changeevent.h"
-#include "ui/viewport/viewtool.h"
+#include "ui/panels/outliner.h"
+#include "ui/session/session.h"
+#include "ui/tools/viewtool.h"
 #include "ui/window/commandpalette.h"
-#include "ui/window/outliner.h"
-#include "ui/window/session.h"
 
 #include <QtCore/QElapsedTimer>
 #include <QtCore/QTimer>

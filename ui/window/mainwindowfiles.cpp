@@ -2,14 +2,14 @@
 // Opening, saving, exporting, and what is said about it. No failure here touches the present scene.
 #include "core/simulation/engine.h"
 #include "ui/document/document.h"
-#include "ui/document/documentfiles.h"
-#include "ui/document/worker.h"
+#include "ui/graphs/graphspanel.h"
+#include "ui/session/documentfiles.h"
+#include "ui/session/wording.h"
+#include "ui/session/worker.h"
 #include "ui/viewport/viewport.h"
-#include "ui/window/graphspanel.h"
 #include "ui/window/mainwindow.h"
 #include "ui/window/noticebar.h"
 #include "ui/window/screenshot.h"
-#include "ui/window/wording.h"
 
 #include <QtCore/QBuffer>
 #include <QtCore/QFileInfo>

@@ -3,10 +3,10 @@
 // of, and the close of the window.
 #include "core/simulation/engine.h"
 #include "ui/document/document.h"
-#include "ui/document/documentfiles.h"
+#include "ui/session/documentfiles.h"
+#include "ui/session/wording.h"
 #include "ui/window/mainwindow.h"
 #include "ui/window/noticebar.h"
-#include "ui/window/wording.h"
 
 #include <QtCore/QFileInfo>
 #include <QtGui/QCloseEvent>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "ui/window/messagelog.h"
+#include "ui/session/messagelog.h"
 
 #include <QtWidgets/QWidget>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/window/shortcutswindow.h"
 
-#include "ui/viewport/gestures.h"
+#include "ui/tools/gestures.h"
 #include "ui/window/mainwindow.h"
 
 #include <QtGui/QAction>

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/experiments/casefile.h"
+
+#include "core/base/error.h"
+#include "core/base/jsontext.h"
+#include "core/experiments/casefunctions.h"
+#include "core/experiments/casemeasure.h"
+#include "core/io/textfile.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+namespace ps {
+namespace {
+
+using nlohmann::json;
+
+/// One object of the file; complains about what is missing, of another type, or not known.
+class Entry {
+ public:
+  Entry(const json& object, std::string place) : m_object(object), m_place(std::move(place)) {
+    if (!object.is_object()) fail("must be an object in { }");
+  }
+
+  /// The file's own object has its colon: "cases.json:".
+  [[noreturn]] void fail(const std::string& what) const {
+    throw InputError(m_place + (m_place.ends_with(':') ? " " : ": ") + what);
+  }
+
+  const json* find(const char* key) {
+    m_known.insert(key);
+    const auto found = m_object.find(key);
+    return found == m_object.end() ? nullptr : &*found;
+  }
+  std::string text(const char* key) {
+    const json* value = find(key);
+    if (!value) return "";
+    if (!value->is_string()) throw InputError(m_place + "/" + key + ": must be a text");
+    return value->get<std::string>();
+  }
+  std::string neededText(const char* key) {
+    const std::string value = text(key);
+    if (value.empty()) throw InputError(m_place + "/" + key + ": is missing");
+    return value;
+  }
+  std::optional<double> number(const char* key) {
+    const json* value = find(key);
+    if (!value) return std::nullopt;
+    if (!value->is_number()) throw InputError(m_place + "/" + key + ": must be a number");
+    return value->get<double>();
+  }
+  std::vector<double> numbers(const char* key) {
+    const json* value = find(key);
+    if (!value) return {};
+    if (value->is_number()) return {value->get<double>()};
+    const bool fine = value->is_array() && !value->empty() &&
+                      std::all_of(value->begin(), value->end(), [](const json& v) { return v.is_number(); });
+    if (!fine) throw InputError(m_place + "/" + key + ": must be a number or a list of numbers");
+    return value->get<std::vector<double>>();
+  }
+  Edits edits(const char* key) {
+    Edits all;
+    const json* value = find(key);
+    if (!value) return all;
+    if (!value->is_object()) throw InputError(m_place + "/" + key + ": must be an object of JSON pointers and values");
+    for (const auto& [pointer, changed] : value->items()) all.push_back(pointer + "=" + changed.dump());
+    return all;
+  }
+  std::vector<Entry> list(const char* key) {
+    std::vector<Entry> all;
+    const json* value = find(key);
+    if (!value) return all;
+    if (!value->is_array()) throw InputError(m_place + "/" + key + ": must be a list");
+    for (size_t i = 0; i < value->size(); ++i) {
+      all.emplace_back((*value)[i], m_place + "/" + key + "/" + std::to_string(i));
+    }
+    return all;
+  }
+  void refuseOthers() const {
+    for (const auto& [key, value] : m_object.items()) {
+      if (!m_known.contains(key)) throw InputError(m_place + "/" + key + ": is no key of a case");
+    }
+  }
+
+ private:
+  const json& m_object;
+  std::string m_place;
+  std::set<std::string> m_known;
+};
+
+void oneOf(const Entry& entry, const std::vector<std::string>& names, const std::string& name, const char* noun) {
+  if (std::find(names.begin(), names.end(), name) == names.end()) entry.fail("'" + name + "' is no " + noun);
+}
+
+void readColumn(Entry& entry, CaseCheck& check) {
+  check.column = entry.neededText("column");
+  check.minus = entry.text("minus");
+  check.measure = entry.neededText("measure");
+  oneOf(entry, measureNames(), check.measure, "measure");
+  for (const char* key : {"from", "to", "time", "value", "level", "periods", "frames"}) {
+    if (const auto value = entry.number(key)) check.options[key] = *value;
+  }
+  if (const std::string clock = entry.text("clock"); !clock.empty()) {
+    oneOf(entry, {"thermal", "mechanical"}, clock, "clock");
+    check.thermalClock = clock == "thermal";
+  }
+  check.times = entry.number("times").value_or(check.times);
+  check.plus = entry.number("plus").value_or(check.plus);
+}
+
+void readProfile(Entry& entry, CaseCheck& check) {
+  oneOf(entry, profileLaws(), check.profile.law, "profile");
+  check.profile.measure = entry.neededText("measure");
+  oneOf(entry, profileMeasures(), check.profile.measure, "measure of a profile");
+  check.profile.arguments = check.arguments;
+  const std::string axis = entry.text("axis");
+  oneOf(entry, {"", "x", "y", "z"}, axis, "axis");
+  check.profile.axis = axis.empty() ? 0 : static_cast<size_t>(axis[0] - 'x');
+  check.profile.from = entry.number("from").value_or(check.profile.from);
+  check.profile.to = entry.number("to").value_or(check.profile.to);
+}
+
+/// Where the number comes from: a column, a profile, a function, or a material.
+void readSource(Entry& entry, CaseCheck& check) {
+  check.property = entry.text("property");
+  check.equilibrium = entry.text("equilibrium");
+  check.function = entry.text("function");
+  check.profile.law = entry.text("profile");
+  check.arguments = entry.numbers("arguments");
+  if (!check.function.empty()) return;
+  if (!check.profile.law.empty()) return readProfile(entry, check);
+  if (check.property.empty() && check.equilibrium.empty()) return readColumn(entry, check);
+  if (!check.equilibrium.empty()) oneOf(entry, equilibriumNames(), check.equilibrium, "equilibrium");
+  check.material = entry.neededText("material");
+  check.temperature = entry.number("temperature").value_or(check.temperature);
+  check.pressure = entry.number("pressure").value_or(check.pressure);
+}
+
+CaseCheck readCheck(Entry& entry, const std::vector<CaseRun>& configurations) {
+  const size_t runs = configurations.size();
+  CaseCheck check;
+  check.what = entry.neededText("what");
+  check.run = entry.text("run");
+  const auto named = [&](const CaseRun& run) { return run.name == check.run; };
+  if (!check.run.empty() && std::none_of(configurations.begin(), configurations.end(), named)) {
+    entry.fail("there is no run '" + check.run + "'");
+  }
+  readSource(entry, check);
+  if (const json* spread = entry.find("spread")) check.spread = spread->is_boolean() && spread->get<bool>();
+  check.expected = entry.numbers("expected");
+  check.relative = entry.number("relative");
+  check.absolute = entry.number("absolute");
+  check.atLeast = entry.number("at_least");
+  check.atMost = entry.number("at_most");
+  if (check.expected.size() > 1 && check.expected.size() != runs) {
+    entry.fail("expects " + std::to_string(check.expected.size()) + " values for " + std::to_string(runs) +
+               (runs == 1 ? " run" : " runs"));
+  }
+  const bool toleranced = check.relative || check.absolute;
+  if (check.expected.empty() == toleranced) entry.fail("needs an expected value and its tolerance, or a bound");
+  if (!toleranced && !check.atLeast && !check.atMost) entry.fail("needs a tolerance or a bound");
+  entry.refuseOthers();
+  return check;
+}
+
+Case readCase(Entry& entry, const std::filesystem::path& folder) {
+  Case result;
+  result.id = entry.neededText("id");
+  result.why = entry.text("why");
+  if (const std::string project = entry.text("project"); !project.empty()) result.project = (folder / project).string();
+  result.edits = entry.edits("set");
+  const double frames = entry.number("frames").value_or(0);
+  for (Entry& run : entry.list("runs")) {
+    const double own = run.number("frames").value_or(frames);
+    result.runs.push_back({run.neededText("name"), run.edits("set"), static_cast<long>(own)});
+    run.refuseOthers();
+  }
+  if (result.runs.empty()) result.runs.push_back({"", {}, static_cast<long>(frames)});
+  for (Entry& check : entry.list("checks")) result.checks.push_back(readCheck(check, result.runs));
+  if (result.checks.empty()) entry.fail("checks nothing");
+  entry.refuseOthers();
+  return result;
+}
+
+}  // namespace
+
+std::vector<Case> readCases(const std::string& path) {
+  const json document = parseJson(readFile(path, kMaximumProjectBytes), path);
+  Entry root(document, path + ":");
+  std::vector<Case> cases;
+  std::set<std::string> ids;
+  for (Entry& entry : root.list("cases")) {
+    cases.push_back(readCase(entry, std::filesystem::path(path).parent_path()));
+    if (!ids.insert(cases.back().id).second) entry.fail("'" + cases.back().id + "' is there already");
+  }
+  if (cases.empty()) root.fail("has no cases");
+  return cases;
+}
+
+}  // namespace ps

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/experiments/probetable.h"
+
+#include "core/base/error.h"
+
+#include <charconv>
+#include <cmath>
+
+namespace ps {
+namespace {
+
+std::string quoted(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string out = "\"";
+  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return out + "\"";
+}
+
+std::string cell(double value) {
+  if (!std::isfinite(value)) return "";
+  char buffer[40];
+  return std::string(buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr);
+}
+
+}  // namespace
+
+std::vector<std::string> columnTitles(const std::vector<std::string>& probeNames) {
+  std::vector<std::string> titles{"time_s", "thermal_time_s"};
+  titles.insert(titles.end(), probeNames.begin(), probeNames.end());
+  for (const char* phase : {"solid", "melting", "liquid", "boiling", "gas"}) {
+    titles.push_back(std::string(phase) + ".mass[kg]");
+  }
+  titles.emplace_back("all.temperature[K]");
+  return titles;
+}
+
+std::vector<double> columnValues(const FrameStats& stats) {
+  std::vector<double> values{stats.time, stats.thermalTime};
+  values.insert(values.end(), stats.probes.begin(), stats.probes.end());
+  for (const PhaseAmount& phase : stats.phases) values.push_back(phase.mass);
+  values.push_back(stats.temperatureMean);
+  return values;
+}
+
+ProbeTable::ProbeTable(const std::string& path, const std::vector<std::string>& probeNames)
+    : m_path(path), m_file(path, std::ios::binary | std::ios::trunc) {
+  if (!m_file) throw Error(path + ": cannot be written; choose another folder");
+  const char* separator = "";
+  for (const std::string& title : columnTitles(probeNames)) {
+    m_file << separator << quoted(title);
+    separator = ",";
+  }
+  m_file << '\n';
+}
+
+void ProbeTable::add(const FrameStats& stats) {
+  const char* separator = "";
+  for (const double value : columnValues(stats)) {
+    m_file << separator << cell(value);
+    separator = ",";
+  }
+  m_file << '\n';
+}
+
+void ProbeTable::finish() {
+  m_file.close();
+  if (m_file.fail()) throw Error(m_path + ": could not be written to its end; the disk is full");
+}
+
+}  // namespace ps

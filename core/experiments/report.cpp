@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/experiments/report.h"
+
+#include "core/base/hash.h"
+#include "core/base/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace ps {
+namespace {
+
+nlohmann::json jsonOf(const Spread& spread) {
+  return {{"mean", spread.mean}, {"median", spread.median}, {"p95", spread.p95}};
+}
+
+nlohmann::json jsonOf(const FlowAmount& amount) {
+  return {{"count", amount.count}, {"mass", amount.mass}, {"energy", amount.energy}};
+}
+nlohmann::json jsonOf(const api::Double3& v) { return {v.x, v.y, v.z}; }
+
+double liquidCount(const FrameStats& stats) {
+  return static_cast<double>(stats.phases[static_cast<size_t>(api::Phase::Liquid)].count +
+                             stats.phases[static_cast<size_t>(api::Phase::Boiling)].count);
+}
+
+}  // namespace
+
+Spread spreadOf(std::vector<double> values) {
+  if (values.empty()) return {};
+  const double mean = std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+  std::sort(values.begin(), values.end());
+  const auto at = [&](double share) {
+    return values[static_cast<size_t>(std::ceil(share * static_cast<double>(values.size()))) - 1];
+  };
+  return {mean, at(0.5), at(0.95)};
+}
+
+void Report::add(const StepReport& step, const FrameStats& stats) {
+  if (step.flags && !m_flags) m_message = step.message;
+  m_flags |= step.flags;
+  m_total.push_back(step.totalMilliseconds);
+  for (size_t s = 0; s < m_stages.size(); ++s) m_stages[s].push_back(step.milliseconds[s]);
+  const double liquid = liquidCount(stats);
+  m_errorSum += liquid * step.densityErrorMean;
+  m_liquid += liquid;
+  m_errorMax = std::max(m_errorMax, step.densityErrorMax);
+  if (frames() == 1) m_momentum.start = step.momentum.start;
+  m_momentum.end = step.momentum.end;
+  api::Double3& external = m_momentum.external;
+  external = {external.x + step.momentum.external.x, external.y + step.momentum.external.y,
+              external.z + step.momentum.external.z};
+  m_last = stats;
+}
+
+nlohmann::json Report::json(Engine& engine, double wallSeconds) const {
+  const ParameterSet& set = engine.project().solver.parameters;
+  const auto number = [&](const char* key) { return numberOf(set, solverParameters(), key); };
+  nlohmann::json milliseconds{{"total", jsonOf(total())}};
+  for (size_t s = 0; s < m_stages.size(); ++s) milliseconds[stageName(static_cast<Stage>(s))] = jsonOf(stage(s));
+  nlohmann::json limits = nlohmann::json::array();
+  for (const Limit& limit : engine.solver().limits()) {
+    limits.push_back(
+        {{"what", limit.what}, {"asked", limit.asked}, {"delivered", limit.delivered}, {"unit", limit.unit}});
+    if (limit.body >= 0) limits.back()["body"] = engine.bodyIds()[static_cast<size_t>(limit.body)];
+  }
+  nlohmann::json phases;
+  static constexpr const char* kPhases[] = {"solid", "melting", "liquid", "boiling", "gas"};
+  for (size_t p = 0; p < 5; ++p) {
+    phases[kPhases[p]] = {{"count", m_last.phases[p].count}, {"mass", m_last.phases[p].mass}};
+  }
+  return {{"particles", engine.solver().particles().size()},
+          {"frames", frames()},
+          {"substeps", static_cast<int>(number("substeps"))},
+          {"iterations", static_cast<int>(number("iterations"))},
+          {"dt", number("dt")},
+          {"simulated_s", m_last.time - m_start.time},
+          {"wall_s", wallSeconds},
+          {"threads", threadCount()},
+          {"backend", "cpu"},
+          {"isa", instructionSet()},
+          {"state_hash", hashText(engine.solver().stateHash())},
+          {"flags", flagNames(m_flags)},
+          {"limits", limits},
+          {"ms_per_frame", milliseconds},
+          {"density_error", {{"mean", meanDensityError()}, {"max", maxDensityError()}}},
+          {"energy",
+           {{"start", m_start.thermalEnergy},
+            {"end", m_last.thermalEnergy},
+            {"walls", m_last.heat.walls},
+            {"air", m_last.heat.air},
+            {"radiation", m_last.heat.radiation},
+            {"heaters", m_last.heat.heaters},
+            {"sources", m_last.heat.sources},
+            {"air_warming", m_last.heat.airWarming},
+            {"exchanged", m_last.heat.exchanged},
+            {"elastic", engine.solver().elasticEnergy()},
+            {"drift", m_last.thermalEnergy - m_start.thermalEnergy - m_last.heat.net()}}},
+          {"flow",
+           {{"poured", jsonOf(m_last.flow.poured)},
+            {"drained", jsonOf(m_last.flow.drained)},
+            {"held", jsonOf(m_last.flow.held)}}},
+          {"momentum",
+           {{"start", jsonOf(m_momentum.start)},
+            {"end", jsonOf(m_momentum.end)},
+            {"external", jsonOf(m_momentum.external)}}},
+          {"phases", phases},
+          {"temperature",
+           {{"min", m_last.temperatureMin}, {"mean", m_last.temperatureMean}, {"max", m_last.temperatureMax}}}};
+}
+
+}  // namespace ps

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "core/math/vector3.h"
+
+#include <vector>
+
+namespace ps {
+
+/// Sum of vectors of a loop over chunks: one partial sum per chunk, added in order, so that threads have no part in it.
+class ChunkSum {
+ public:
+  void start(size_t chunks) { m_partial.assign(chunks, {}); }
+  void add(size_t chunk, double factor, Vector3 v) { m_partial[chunk] = m_partial[chunk] + factor * v; }
+  Vector3 total() const {
+    Vector3 sum;
+    for (const Vector3& v : m_partial) sum = sum + v;
+    return sum;
+  }
+
+ private:
+  std::vector<Vector3> m_partial;
+};
+
+/// What something outside gave to moving matter since it was last asked.
+class Received {
+ public:
+  void add(Vector3 v) { m_sum = m_sum + v; }
+  Vector3 take() {
+    const Vector3 sum = m_sum;
+    m_sum = {};
+    return sum;
+  }
+
+ private:
+  Vector3 m_sum;
+};
+
+}  // namespace ps

@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/solver/contact/impacts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace ps {
+namespace {
+
+/// Ways in spacings: who goes farther in a substep is looked for beyond the pairs that contact knows; a pair that comes
+/// closer by more may pass through itself.
+constexpr double kFast = 0.2, kCrossing = 0.4;
+/// Passes over all impacts of a substep, for those that share a particle.
+constexpr int kPasses = 4;
+constexpr double kMostCells = 1 << 20;  ///< along an axis
+
+}  // namespace
+
+void Impacts::configure(const SolverSettings& settings, const std::vector<Wall>& walls,
+                        std::span<const BakedMaterial> materials) {
+  m_dt = settings.dt / settings.substeps;
+  m_spacing = settings.spacing;
+  m_diameter = kContactDiameter * settings.spacing;
+  m_gravity = {settings.gravity.x, settings.gravity.y, settings.gravity.z};
+  m_slowest = 2 * std::sqrt(dot(m_gravity, m_gravity)) * m_dt;
+  m_planes.clear();
+  for (const Wall& w : walls)
+    m_planes.push_back({{w.normal.x, w.normal.y, w.normal.z}, w.offset + 0.5 * settings.spacing});
+  m_restitution.clear();
+  for (const BakedMaterial& m : materials) m_restitution.push_back(m.scalar(propertyIndex("restitution")));
+}
+
+double Impacts::restitutionOf(const ParticleStore& store, uint32_t i) const {
+  const uint32_t material = store.material()[i];
+  return material < m_restitution.size() ? m_restitution[material] : 0;
+}
+
+void Impacts::sweep(ParticleStore& store, ConstraintSystem& constraints, std::span<const uint8_t> rigid) {
+  m_impacts.clear();
+  m_stops.clear();
+  findFast(store, constraints.graph(store.size()), rigid);
+  if (m_impacts.empty()) return;
+  sortByTime(store);
+  keepFirst(store);
+  for (const Impact& k : m_impacts) {
+    if (!k.crosses) continue;
+    for (const uint32_t i : {k.a, k.b}) {
+      if (store.velocity()[i].w > 0 && m_first[i] <= 1) stop(store, i);
+    }
+  }
+}
+
+/// Leaves a particle where it meets the first other one; bounce() gives back the rest of its velocity.
+void Impacts::stop(ParticleStore& store, uint32_t i) {
+  const double rest = 1 - m_first[i];
+  m_first[i] = 2;
+  const api::Float4 v = store.velocity()[i];
+  const Vector3 left = rest * vectorOf(v);
+  m_stops.push_back({i, left});
+  api::Float4& x = store.position()[i];
+  x.x -= static_cast<float>(m_dt * left.x);
+  x.y -= static_cast<float>(m_dt * left.y);
+  x.z -= static_cast<float>(m_dt * left.z);
+}
+
+void Impacts::collect(const ParticleStore& store, const SolidContact& contact, ConstraintSystem& constraints,
+                      std::span<const uint8_t> rigid) {
+  const StructureGraph& graph = constraints.graph(store.size());
+  Impact impact;
+  contact.forPairs([&](uint32_t i, uint32_t j) {
+    if (test(store, graph, i, j, impact) && !impact.crosses) m_impacts.push_back(impact);
+  });
+  findWalls(store, rigid);
+  if (!m_impacts.empty()) sortByTime(store);
+}
+
+/// A pair may have been found twice; what it says is the same.
+void Impacts::sortByTime(const ParticleStore& store) {
+  const auto key = [&](const Impact& k) {
+    const uint32_t a = store.id()[k.a], b = k.b == kNone ? kNone : store.id()[k.b];
+    return std::tuple(k.time, std::min(a, b), std::max(a, b), k.plane);
+  };
+  std::sort(m_impacts.begin(), m_impacts.end(), [&](const Impact& x, const Impact& y) { return key(x) < key(y); });
+  m_impacts.erase(std::unique(m_impacts.begin(), m_impacts.end(),
+                              [&](const Impact& x, const Impact& y) { return key(x) == key(y); }),
+                  m_impacts.end());
+}
+
+/// What a fast particle would have met behind its first impact it does not meet.
+void Impacts::keepFirst(const ParticleStore& store) {
+  m_first.assign(store.size(), 2);
+  for (const Impact& k : m_impacts) {
+    if (!k.crosses) continue;
+    for (const uint32_t i : {k.a, k.b}) m_first[i] = std::min(m_first[i], k.time);
+  }
+  const auto firstOf = [&](uint32_t i, double time) { return isFast(store, i) && time <= m_first[i]; };
+  std::erase_if(m_impacts,
+                [&](const Impact& k) { return k.crosses && !firstOf(k.a, k.time) && !firstOf(k.b, k.time); });
+}
+
+double Impacts::wayOf(const ParticleStore& store, uint32_t i) const {
+  const Vector3 v = vectorOf(store.velocity()[i]);
+  return m_dt * std::sqrt(dot(v, v));
+}
+
+bool Impacts::isFast(const ParticleStore& store, uint32_t i) const { return wayOf(store, i) > kFast * m_spacing; }
+
+void Impacts::findWalls(const ParticleStore& store, std::span<const uint8_t> rigid) {
+  if (m_planes.empty()) return;
+  for (uint32_t i = 0; i < store.size(); ++i) {
+    if (store.motion()[i] != api::Motion::Solid || rigid[i] != 0 || !(store.velocity()[i].w > 0)) continue;
+    const Vector3 speed = vectorOf(store.velocity()[i]);
+    for (uint32_t plane = 0; plane < m_planes.size(); ++plane) {
+      const Plane& p = m_planes[plane];
+      const double approach = dot(speed, p.normal);
+      if (!(approach < -m_slowest)) continue;
+      const double gap = std::max(0.0, dot(vectorOf(store.previous()[i]), p.normal) - p.offset);
+      const double time = gap / (-approach * m_dt);
+      if (time > 1) continue;
+      // Gravity has acted for `time` of the substep when it touches, not for all of it.
+      const double met = approach - (1 - time) * m_dt * dot(m_gravity, p.normal);
+      m_impacts.push_back({i, kNone, plane, time, p.normal, met, restitutionOf(store, i), false, false});
+    }
+  }
+}
+
+/// Sweeps the spheres of i and j along their relative way.
+bool Impacts::test(const ParticleStore& store, const StructureGraph& graph, uint32_t i, uint32_t j,
+                   Impact& impact) const {
+  const api::Float4 &vi = store.velocity()[i], &vj = store.velocity()[j];
+  const Vector3 speed = vectorOf(vi) - vectorOf(vj), way = m_dt * speed;
+  // Where they were: the predicted line, and the way back.
+  const Vector3 at = vectorOf(store.previous()[i]) - vectorOf(store.previous()[j]);
+  float x = static_cast<float>(at.x), y = static_cast<float>(at.y), z = static_cast<float>(at.z);
+  store.period().shorten(x, y, z);
+  const Vector3 line{x, y, z};
+  const double along = dot(line, way), way2 = dot(way, way), gap = dot(line, line) - m_diameter * m_diameter;
+  if (!(along < 0) || !(way2 > 0)) return false;
+  double time = 0;
+  if (gap > 0) {
+    const double discriminant = along * along - way2 * gap;
+    if (discriminant < 0) return false;
+    time = (-along - std::sqrt(discriminant)) / way2;
+    if (time > 1) return false;
+  }
+  const Vector3 touch = line + time * way;
+  const double length = std::sqrt(dot(touch, touch));
+  if (!(length > 0)) return false;
+  impact.normal = 1 / length * touch;
+  impact.approach = dot(speed, impact.normal);
+  if (vj.w == 0) impact.approach -= (1 - time) * m_dt * dot(m_gravity, impact.normal);
+  if (!(impact.approach < -m_slowest)) return false;
+  if (graph.tied(i, j)) return false;
+  impact.a = i, impact.b = j, impact.plane = kNone, impact.time = time;
+  impact.restitution = std::max(restitutionOf(store, i), restitutionOf(store, j));
+  impact.crosses = -impact.approach * m_dt > kCrossing * m_spacing;
+  impact.loose = graph.isFree(i) && graph.isFree(j);
+  return true;
+}
+
+/// Pairs of fast particles, from a grid of the places where the substep began.
+void Impacts::findFast(const ParticleStore& store, const StructureGraph& graph, std::span<const uint8_t> rigid) {
+  m_solids.clear();
+  double fastest = 0;
+  for (uint32_t i = 0; i < store.size(); ++i) {
+    const api::Motion motion = store.motion()[i];
+    if (!api::holds(motion) || rigid[i] != 0) continue;
+    const double way = wayOf(store, i);
+    m_solids.push_back({i, way});
+    if (std::isfinite(way)) fastest = std::max(fastest, way);
+  }
+  if (!(fastest > kFast * m_spacing)) return;
+  // Only what is not enclosed by its own structure can be met in passing, and the cells are as wide as the longest way
+  // needs.
+  std::erase_if(m_solids, [&](const Sought& s) { return graph.ties(s.particle) >= SolidContact::kEnclosed; });
+  const Period& period = store.period();
+  double size = 2 * fastest + m_diameter;
+  Vector3 low{1e30, 1e30, 1e30}, high{-1e30, -1e30, -1e30};
+  const auto placeOf = [&](uint32_t i) {
+    const api::Float4& p = store.previous()[i];
+    const api::Double3 w = period.wrapped({p.x, p.y, p.z});
+    return Vector3{w.x, w.y, w.z};
+  };
+  for (const Sought& s : m_solids) {
+    const Vector3 p = placeOf(s.particle);
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  const double extent = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+  size = std::max(size, extent / kMostCells);
+  const auto cellOf = [&](double c, double from) { return static_cast<int64_t>((c - from) / size) + 1; };
+  const auto keyOf = [](int64_t x, int64_t y, int64_t z) {
+    return static_cast<uint64_t>(z) << 42 | static_cast<uint64_t>(y) << 21 | static_cast<uint64_t>(x);
+  };
+  m_cells.clear();
+  for (uint32_t k = 0; k < m_solids.size(); ++k) {
+    const Vector3 p = placeOf(m_solids[k].particle);
+    m_cells.push_back({keyOf(cellOf(p.x, low.x), cellOf(p.y, low.y), cellOf(p.z, low.z)), k});
+  }
+  std::sort(m_cells.begin(), m_cells.end());
+  Impact impact;
+  const auto meet = [&](uint32_t k, const Vector3& at) {
+    const int64_t x = cellOf(at.x, low.x), y = cellOf(at.y, low.y), z = cellOf(at.z, low.z);
+    for (int64_t dz = -1; dz <= 1; ++dz) {
+      for (int64_t dy = -1; dy <= 1; ++dy) {
+        if (x + 1 < 0 || y + dy < 0 || z + dz < 0) continue;
+        auto c = std::lower_bound(m_cells.begin(), m_cells.end(),
+                                  std::pair(keyOf(std::max<int64_t>(0, x - 1), y + dy, z + dz), 0u));
+        for (const uint64_t last = keyOf(x + 1, y + dy, z + dz); c != m_cells.end() && c->first <= last; ++c) {
+          const Sought& other = m_solids[c->second];
+          // A pair of two fast ones is asked by the first of them.
+          if (c->second == k || (other.way > kFast * m_spacing && c->second < k)) continue;
+          uint32_t i = m_solids[k].particle, j = other.particle;
+          if (store.velocity()[i].w == 0) std::swap(i, j);
+          if (store.velocity()[i].w == 0) continue;
+          if (test(store, graph, i, j, impact)) m_impacts.push_back(impact);
+        }
+      }
+    }
+  };
+  for (uint32_t k = 0; k < m_solids.size(); ++k) {
+    if (!(m_solids[k].way > kFast * m_spacing) || !std::isfinite(m_solids[k].way)) continue;
+    const Vector3 at = placeOf(m_solids[k].particle);
+    // Around the box too, as far as a pair's nearest images go.
+    std::array<std::array<double, 3>, 3> shift{};
+    std::array<int, 3> images{1, 1, 1};
+    const double place[3] = {at.x, at.y, at.z};
+    for (size_t a = 0; a < 3; ++a) {
+      const double length = period.length(a);
+      if (!(length > 0)) continue;
+      const double from = place[a] - period.low(a);
+      if (from < size) shift[a][static_cast<size_t>(images[a]++)] = length;
+      if (length - from < size) shift[a][static_cast<size_t>(images[a]++)] = -length;
+    }
+    for (int c = 0; c < images[2]; ++c) {
+      for (int b = 0; b < images[1]; ++b) {
+        for (int a = 0; a < images[0]; ++a) {
+          meet(k, at + Vector3{shift[0][static_cast<size_t>(a)], shift[1][static_cast<size_t>(b)],
+                               shift[2][static_cast<size_t>(c)]});
+        }
+      }
+    }
+  }
+}
+
+void Impacts::bounce(ParticleStore& store) {
+  const auto give = [](api::Float4& v, Vector3 by) {
+    v.x += static_cast<float>(by.x), v.y += static_cast<float>(by.y), v.z += static_cast<float>(by.z);
+  };
+  for (const Stop& s : m_stops) give(store.velocity()[s.particle], s.left);
+  for (int pass = 0; pass < kPasses; ++pass) {
+    for (const Impact& k : m_impacts) {
+      api::Float4& va = store.velocity()[k.a];
+      Vector3 speed = vectorOf(va);
+      double weights = va.w;
+      if (k.b != kNone) speed = speed - vectorOf(store.velocity()[k.b]), weights += double{store.velocity()[k.b].w};
+      const double change = -k.restitution * k.approach - dot(speed, k.normal);
+      // Speed that only the removal of an overlap gave is taken out; what ties or another impact gave is theirs.
+      if (change < 0 && (pass > 0 || !k.loose)) continue;
+      const Vector3 impulse = change / weights * k.normal;
+      give(va, double{va.w} * impulse);
+      if (k.b == kNone || store.velocity()[k.b].w == 0) m_given.add(impulse);
+      if (k.b != kNone) give(store.velocity()[k.b], -double{store.velocity()[k.b].w} * impulse);
+    }
+  }
+}
+
+}  // namespace ps

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "core/math/vector3.h"
+#include "core/solver/contact/solidcontact.h"
+
+namespace ps {
+
+/// Impacts of single solid particles (members of rigid bodies are left to RigidContact) with each other, with static
+/// ones and with walls. At the start of a substep each pair's spheres are swept along their relative way, exactly:
+/// whatever would pass through another one between two positions waits where they meet, and when velocities are known
+/// the pair parts at `restitution` times the speed at which it met (Mueller et al. 2020, section 3.6). Pairs take the
+/// larger restitution of their materials, walls that of what meets them. What meets more slowly than gravity pulls in
+/// two substeps does not bounce. What waits loses up to a substep of its way, never of its velocity.
+/// Serial, in order of time: impacts are few. It cannot do: find what a particle would hit after its first impact of a
+/// substep, where that is not static.
+class Impacts {
+ public:
+  void configure(const SolverSettings& settings, const std::vector<Wall>& walls,
+                 std::span<const BakedMaterial> materials);
+  /// When positions have been predicted: stops those that would pass through each other.
+  void sweep(ParticleStore& store, ConstraintSystem& constraints, std::span<const uint8_t> rigid);
+  /// When lists are fresh: finds all other impacts of the substep.
+  void collect(const ParticleStore& store, const SolidContact& contact, ConstraintSystem& constraints,
+               std::span<const uint8_t> rigid);
+  /// When velocities are known.
+  void bounce(ParticleStore& store);
+  /// What walls and fixed particles gave in bounce(), kg m/s.
+  Received& given() { return m_given; }
+
+ private:
+  static constexpr uint32_t kNone = ~0u;
+  struct Impact {
+    uint32_t a, b, plane;  ///< two particles, or one and a wall
+    double time;           ///< share of the substep
+    Vector3 normal;        ///< towards a
+    double approach;       ///< m/s, below 0
+    double restitution;
+    bool crosses;  ///< fast enough to pass through
+    bool loose;    ///< neither is tied to anything
+  };
+  struct Plane {
+    Vector3 normal;
+    double offset;
+  };
+  struct Stop {
+    uint32_t particle;
+    Vector3 left;  ///< m/s, share of the velocity that it has not travelled at
+  };
+  struct Sought {
+    uint32_t particle;
+    double way;  ///< m
+  };
+  double restitutionOf(const ParticleStore& store, uint32_t i) const;
+  double wayOf(const ParticleStore& store, uint32_t i) const;  ///< m, in this substep
+  bool isFast(const ParticleStore& store, uint32_t i) const;
+  void findWalls(const ParticleStore& store, std::span<const uint8_t> rigid);
+  void findFast(const ParticleStore& store, const StructureGraph& graph, std::span<const uint8_t> rigid);
+  bool test(const ParticleStore& store, const StructureGraph& graph, uint32_t i, uint32_t j, Impact& impact) const;
+  void sortByTime(const ParticleStore& store);
+  void keepFirst(const ParticleStore& store);
+  void stop(ParticleStore& store, uint32_t i);
+
+  double m_dt = 0, m_diameter = 0, m_spacing = 0, m_slowest = 0;
+  Vector3 m_gravity;
+  std::vector<Plane> m_planes;
+  std::vector<double> m_restitution;  ///< by material
+  std::vector<Impact> m_impacts;
+  std::vector<Stop> m_stops;
+  Received m_given;
+  std::vector<Sought> m_solids;
+  std::vector<std::pair<uint64_t, uint32_t>> m_cells;  ///< cell and index into m_solids, sorted
+  std::vector<double> m_first;                         ///< by particle: time of its first impact; 2: none
+};
+
+}  // namespace ps

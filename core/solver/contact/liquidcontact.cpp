@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/solver/contact/liquidcontact.h"
+
+#include "core/base/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ps {
+namespace {
+
+constexpr size_t kGrain = 256;
+
+float squared(const api::Float4& d) { return d.x * d.x + d.y * d.y + d.z * d.z; }
+
+}  // namespace
+
+void LiquidContact::configure(double spacing, double skin) {
+  m_diameter = static_cast<float>(m_options.diameter * spacing);
+  m_reach = static_cast<float>(m_options.diameter * spacing + skin);
+}
+
+void LiquidContact::refresh(const ParticleStore& store, const Neighbours& neighbours,
+                            std::span<const uint32_t> solids) {
+  const size_t chunks = chunkCount(solids.size(), kGrain);
+  m_chunks.resize(std::max(m_chunks.size(), chunks));
+  forChunks(solids.size(), kGrain, [&](size_t first, size_t last) {
+    findLiquids(store, neighbours, solids.subspan(first, last - first), m_chunks[first / kGrain]);
+  });
+  m_contacts.clear();
+  m_partner.clear();
+  for (size_t c = 0; c < chunks; ++c) {
+    const auto base = static_cast<uint32_t>(m_partner.size());
+    for (const Contact& found : m_chunks[c].contacts)
+      m_contacts.push_back({found.who, base + found.begin, base + found.end});
+    m_partner.insert(m_partner.end(), m_chunks[c].liquids.begin(), m_chunks[c].liquids.end());
+  }
+  if (m_contacts.empty()) return;
+  addSolidsOfLiquids(store.size());
+  m_touching.assign(store.size(), 0);
+  m_moves.resize(m_contacts.size());
+}
+
+/// From where they were when the lists were made: nobody moves more than half the skin until the next ones.
+void LiquidContact::findLiquids(const ParticleStore& store, const Neighbours& neighbours,
+                                std::span<const uint32_t> solids, Chunk& chunk) const {
+  chunk.contacts.clear();
+  chunk.liquids.clear();
+  const api::NeighbourView view = neighbours.view();
+  const std::span<const api::Float4> at = neighbours.built();
+  for (const uint32_t i : solids) {
+    const auto before = static_cast<uint32_t>(chunk.liquids.size());
+    for (uint32_t q = view.begin[i]; q < view.last[i]; ++q) {
+      const uint32_t j = view.index[q];
+      if (store.motion()[j] != api::Motion::Liquid) continue;
+      float x = at[i].x - at[j].x, y = at[i].y - at[j].y, z = at[i].z - at[j].z;
+      store.period().shorten(x, y, z);
+      if (x * x + y * y + z * z < m_reach * m_reach) chunk.liquids.push_back(j);
+    }
+    const auto after = static_cast<uint32_t>(chunk.liquids.size());
+    if (after > before) chunk.contacts.push_back({i, before, after});
+  }
+}
+
+/// The same pairs as the liquid sees them.
+void LiquidContact::addSolidsOfLiquids(size_t particles) {
+  m_next.assign(particles, 0);
+  for (const uint32_t j : m_partner) ++m_next[j];
+  const size_t solids = m_contacts.size();
+  auto end = static_cast<uint32_t>(m_partner.size());
+  m_partner.resize(2 * m_partner.size());
+  for (uint32_t j = 0; j < particles; ++j) {
+    if (m_next[j] == 0) continue;
+    const uint32_t begin = end;
+    end += m_next[j];
+    m_contacts.push_back({j, begin, end});
+    m_next[j] = begin;
+  }
+  for (size_t k = 0; k < solids; ++k) {
+    const Contact& contact = m_contacts[k];
+    for (uint32_t q = contact.begin; q < contact.end; ++q) m_partner[m_next[m_partner[q]]++] = contact.who;
+  }
+}
+
+/// m. `fromFixed` grows by what partners that do not move have moved, in kg m.
+api::Float4 LiquidContact::moveOf(const ParticleStore& store, const Contact& contact, Vector3& fromFixed) const {
+  const uint32_t i = contact.who;
+  const float wi = store.velocity()[i].w;
+  api::Float4 move{0, 0, 0, 0};
+  if (m_touching[i] == 0 || wi == 0) return move;
+  for (uint32_t q = contact.begin; q < contact.end; ++q) {
+    const uint32_t j = m_partner[q];
+    const api::Float4 line = store.separation(i, j);
+    const float square = squared(line);
+    if (!(square < m_diameter * m_diameter) || !(square > 0)) continue;
+    const float length = std::sqrt(square), wj = store.velocity()[j].w;
+    const auto most = static_cast<float>(std::max({int{m_touching[i]}, int{m_touching[j]}, m_options.relaxation}));
+    const float by =
+        wi / (wi + wj) * static_cast<float>(m_options.relaxation) * (m_diameter - length) / (length * most);
+    move.x += by * line.x, move.y += by * line.y, move.z += by * line.z;
+    if (wj == 0) fromFixed = fromFixed + double{store.mass()[i]} * Vector3{by * line.x, by * line.y, by * line.z};
+  }
+  return move;
+}
+
+void LiquidContact::project(ParticleStore& store) {
+  if (m_contacts.empty()) return;
+  const auto everywhere = [&](auto&& body) {
+    forChunks(m_contacts.size(), kGrain, [&](size_t first, size_t last) {
+      for (size_t k = first; k < last; ++k) body(k);
+    });
+  };
+  everywhere([&](size_t k) {
+    const Contact& contact = m_contacts[k];
+    int touching = 0;
+    for (uint32_t q = contact.begin; q < contact.end; ++q) {
+      const float square = squared(store.separation(contact.who, m_partner[q]));
+      touching += square < m_diameter * m_diameter ? 1 : 0;
+    }
+    m_touching[contact.who] = static_cast<uint8_t>(std::min(255, touching));
+  });
+  m_fromFixed.start(chunkCount(m_contacts.size(), kGrain));
+  everywhere([&](size_t k) {
+    Vector3 fromFixed;
+    m_moves[k] = moveOf(store, m_contacts[k], fromFixed);
+    m_fromFixed.add(k / kGrain, 1, fromFixed);
+  });
+  everywhere([&](size_t k) {
+    api::Float4& x = store.position()[m_contacts[k].who];
+    x.x += m_moves[k].x, x.y += m_moves[k].y, x.z += m_moves[k].z;
+  });
+  m_given.add(m_fromFixed.total());
+}
+
+}  // namespace ps

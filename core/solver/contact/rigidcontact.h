@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "core/math/vector3.h"
+#include "core/matter/material.h"
+#include "core/particles/impulse.h"
+#include "core/solver/structure/constraintsystem.h"
+
+namespace ps {
+
+/// Contact of rigid bodies with walls, with each other, and with other solid and static particles. A contact acts on
+/// the body as a whole, by its generalised inverse mass 1/M + (r x n).I^-1 (r x n) (Mueller et al. 2020, eq. 2):
+/// projecting member by member and matching the shape afterwards creeps down a slope. Per substep every contact adds up
+/// its normal impulse, which stays positive, and its friction, which stays within the cone: the static one, or the
+/// kinetic one of a contact that slid at the end of the last substep. While two stick, what friction could not take
+/// back in one substep is asked for in those after it, so that a stack does not creep by what iterations leave over.
+/// Projected Gauss-Seidel, started from the impulses of the last substep, serial, in an order scattered by the
+/// particles' ids, so that threads have no part in it: contacts are few. Afterwards restitution as a pass over
+/// velocities (Mueller et al. 2020, section 3.6), which also takes out speed that only the removal of an overlap has
+/// given. Particles are spheres, but where a face of the lattice takes part its own normal is used, so that layers do
+/// not interlock. A box therefore tips as if its base were one spacing narrower, and an edge of it is round. It cannot
+/// do: stop a body that crosses another moving one within one substep.
+class RigidContact {
+ public:
+  void configure(const SolverSettings& settings, const std::vector<Wall>& walls,
+                 std::span<const BakedMaterial> materials);
+  /// Which particles belong to a rigid body (1), by index: other contact leaves them alone.
+  std::span<const uint8_t> members() const { return m_isMember; }
+  /// After a new order or a new structure: who belongs to which body.
+  void refreshBodies(const ParticleStore& store, const ConstraintSystem& constraints);
+  /// After new lists, or when solids have moved more than half the skin: which contacts may come about.
+  void refreshContacts(const ParticleStore& store, const Neighbours& neighbours, ConstraintSystem& constraints);
+  /// Drops what contacts bore, when a frame is taken back.
+  void forget() { m_contacts.clear(); }
+  /// Once per substep, when positions have been predicted.
+  void begin(const ParticleStore& store);
+  /// Moves bodies, and single particles that touch them, out of each other.
+  void project(ParticleStore& store);
+  /// Moves each body back by the longest of its members' ways in `held` (SweptClamp): it stops at a layer of static
+  /// particles that it would have crossed, however fast it is.
+  /// Returns what it moved, kg m.
+  Vector3 hold(ParticleStore& store, std::span<const api::Float4> held) const;
+  /// Moves bodies back that walls could not hold: led bodies may press harder than any contact, and a wall gives way
+  /// last. Returns what it moved, kg m.
+  Vector3 keepInside(ParticleStore& store) const;
+  /// Restitution, when velocities are known.
+  void bounce(ParticleStore& store);
+  /// What walls and fixed particles gave to bodies in this substep up to now: by contact in kg m, in bounce() in kg
+  /// m/s.
+  Vector3 pushed() const;
+  Received& given() { return m_given; }
+
+ private:
+  static constexpr uint32_t kNone = ~0u;
+  struct Body {
+    std::vector<uint32_t> members;
+    double inverseMass = 0;                   ///< 1/kg
+    std::array<Vector3, 3> inverseInertia{};  ///< rows, 1/(kg m2), about the centre
+    Vector3 centre;                           ///< m
+    Vector3 shift, turn;  ///< m, rad: what contacts did since positions were read; m/s, rad/s in bounce()
+    Vector3 turned;       ///< rad, since the start of the substep, when positions were read
+    bool touched = false, hasContacts = false;
+  };
+  /// One side of a contact: a point of a body, a free particle, or nothing that moves.
+  struct Side {
+    uint32_t particle = kNone, body = kNone;
+    double inverseMass = 0;  ///< 1/kg of a free particle
+    Vector3 start{};         ///< m, the particle when positions were read
+    Vector3 arm{};           ///< m, from the body's centre to the place of contact
+  };
+  /// What an impulse does to a side: how far its place of contact moves along it, times its length (for a unit vector
+  /// the generalised inverse mass, 1/kg), and how the body turns.
+  struct Response {
+    double inverseMass = 0;
+    Vector3 turn;
+  };
+  struct Contact {
+    Side a, b;
+    Response ofA, ofB;  ///< along the normal
+    uint32_t plane = kNone;
+    uint64_t key = 0;  ///< the same for the two, whatever their indices
+    double staticFriction = 0, kineticFriction = 0, restitution = 0;
+    Vector3 normal;                                    ///< from b to a
+    double distance = 0;                               ///< m, along the normal at rest; for a plane its offset
+    double gap = 0;                                    ///< m, when positions were read
+    Vector3 way;                                       ///< m, of a against b since the start of the substep, likewise
+    double mass = 0;                                   ///< kg, generalised, along the normal
+    bool active = false, met = false, slides = false;  ///< met: overlapped at some time of the substep
+    double push = 0;                                   ///< kg m, summed over the substep
+    Vector3 rub;                                       ///< kg m
+    bool yields = false;                               ///< friction is all that the cone allows
+    Vector3 left;         ///< m, tangential way in the substep that friction has not taken back
+    Vector3 drift;        ///< m, the sum of it since the two began to stick
+    double approach = 0;  ///< m/s, normal speed before the substep
+  };
+  /// What tells whether an active contact touches: the sweeps ask far more often than there is something to do.
+  struct Open {
+    Contact* contact;
+    Vector3 normal, leverA, leverB;  ///< arm x normal of each side
+    double gap;
+    uint32_t bodyA, bodyB;
+  };
+  struct Plane {
+    Vector3 normal;
+    double offset, friction;
+  };
+  /// Outward normal of a lattice at one of its particles; `neighbours` tells a face from an edge.
+  struct Surface {
+    Vector3 normal;
+    uint32_t neighbours = 0;
+  };
+
+  static Vector3 shift(ParticleStore& store, const Body& body, Vector3 way);
+  Vector3 takeBack(ParticleStore& store, const Body& body) const;
+  static double depthOf(const Plane& plane, const Body& body, const api::Float4* points);
+  Vector3 movedBy(const ParticleStore& store, const Side& side) const;
+  Vector3 readSide(const ParticleStore& store, Side& side, Vector3 place) const;
+  Response responseOf(const Side& side, Vector3 impulse) const;
+  void push(ParticleStore& store, const Side& side, Vector3 impulse, double size, const Response& response);
+  void push(ParticleStore& store, const Side& side, Vector3 impulse);
+  void addContact(const ParticleStore& store, uint32_t i, uint32_t j);
+  void addPlane(const ParticleStore& store, uint32_t i, size_t plane);
+  void keepImpulses();
+  Surface surfaceOf(const ParticleStore& store, uint32_t i, Vector3 outward) const;
+  void orient(const ParticleStore& store, Contact& contact) const;
+  void remember(Contact& contact) const;
+  static double slideOf(const Contact& contact, Vector3 speed);
+  double gapOf(const ParticleStore& store, const Open& open) const;
+  double solve(ParticleStore& store, Contact& contact, double gap);
+  void resume(ParticleStore& store);
+  void readPlaces(const ParticleStore& store);
+  void readMasses(const ParticleStore& store, Body& body) const;
+  void readMotion(const ParticleStore& store, Body& body) const;
+  void readCentre(const ParticleStore& store, Body& body) const;
+
+  static bool isOutside(const Contact& contact) { return contact.b.body == kNone && !(contact.b.inverseMass > 0); }
+
+  Received m_given;
+  bool m_resume = false;  ///< the substep's first pass is to come
+  double m_spacing = 0, m_slowest = 0;
+  std::vector<Plane> m_planes;
+  struct Rub {
+    double resting, sliding, bounce;
+  };
+  std::vector<Rub> m_materials;
+  std::vector<uint8_t> m_isMember;
+  std::vector<uint32_t> m_bodyOf;
+  std::vector<Body> m_bodies;
+  std::vector<Contact> m_contacts, m_former;         ///< former: by key
+  std::vector<Open> m_open;                          ///< in the same order
+  std::vector<uint32_t> m_ownBegin, m_own, m_ownOf;  ///< same-body neighbours of those that touch others
+};
+
+}  // namespace ps

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "core/particles/neighbours.h"
+#include "core/solver/contact/walls.h"
+#include "core/solver/structure/constraintsystem.h"
+
+namespace ps {
+
+/// The last word on positions: nothing passes a layer of static particles, however fast it or the layer is. Each moving
+/// particle is swept from its old to its final position against spheres of 0.75 spacings around static ones, exactly (a
+/// quadratic, in the frame of the static one, which may have a velocity), and slides on along what it meets. The
+/// largest opening of a lattice layer leaves 0.71 spacings, so 0.75 closes it, and resting contact (about one spacing)
+/// is left alone. Single solids that come from outside stop where contact holds them, at kContactDiameter. Moving
+/// solids are not obstacles here: see Impacts, SolidContact and RigidContact.
+class SweptClamp {
+ public:
+  void configure(const SolverSettings& settings);
+  /// Once per frame: finds the static particles; `led`: some of them will be set in motion in it.
+  void refresh(const ParticleStore& store, bool led);
+  /// After new lists: which particles have a static one in their list.
+  void refreshLists(const ParticleStore& store, const Neighbours& neighbours);
+  /// Members of rigid bodies (1 in `rigid`) are not moved: see held(). What a constraint ties may come nearer to what
+  /// it is tied to than contact allows.
+  void apply(ParticleStore& store, const Neighbours& neighbours, const WallStage& walls, const StructureGraph& graph,
+             std::span<const uint8_t> rigid);
+  /// For each particle the way back (m) by which a member of a rigid body would have to be moved; empty when there is
+  /// nothing static.
+  std::span<const api::Float4> held() const { return m_held; }
+  /// What apply() moved, kg m.
+  Received& given() { return m_given; }
+
+ private:
+  using Point = std::array<double, 3>;
+  struct Obstacle {
+    Point center{}, way{};  ///< m: when the substep begins, and during it
+  };
+  struct Hit {
+    double time = 2;  ///< of the part, 0..1
+    Point center{};   ///< then
+    Point way{};      ///< of the obstacle in the whole substep
+  };
+  /// A part of a particle's way in a substep.
+  struct Sweep {
+    Point from{}, way{};
+    double begin = 0, span = 1;  ///< shares of the substep: passed before, and taken by this part
+    bool single = false;         ///< a solid that is no member of a rigid body
+  };
+  void sortIntoCells();
+  bool maySkip(const ParticleStore& store, const Neighbours& neighbours, size_t i) const;
+  Hit firstHit(const Sweep& sweep) const;
+  void imagesHit(const Sweep& sweep, Hit& hit) const;
+  void firstHit(const Sweep& sweep, Hit& hit) const;
+  void test(const Sweep& sweep, const Obstacle& obstacle, Hit& hit) const;
+  Point sweepOf(Sweep sweep) const;
+  int cellOf(double coordinate, int axis) const;
+
+  double m_radius = 0, m_contact = 0, m_cell = 1, m_leastCell = 1, m_safeWay = 0, m_halfSkin = 0;  ///< m
+  double m_longest = 0;  ///< m, of the obstacles' ways
+  Period m_period;
+  Point m_low{}, m_high{};
+  std::array<int, 3> m_cells{1, 1, 1};
+  std::vector<uint32_t> m_static;
+  std::vector<Obstacle> m_obstacles, m_unsorted;  ///< the first in order of cell
+  std::vector<uint32_t> m_cellStart, m_cellOf;
+  std::vector<uint8_t> m_nearStatic;
+  std::vector<api::Float4> m_held;
+  ChunkSum m_moved;
+  Received m_given;
+};
+
+}  // namespace ps

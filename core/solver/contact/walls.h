@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "core/particles/impulse.h"
+#include "core/particles/particlestore.h"
+#include "core/solver/settings.h"
+
+#include <array>
+
+namespace ps {
+
+/// Half-space walls: a particle's centre stays half a spacing inside. Projection onto a plane is already swept, so that
+/// nothing passes a wall at any speed. Solids rub: the tangential way of the substep is reduced by up to friction times
+/// the depth (Macklin et al. 2014, eq. 24).
+class WallStage {
+ public:
+  void configure(const SolverSettings& settings, const std::vector<Wall>& walls);
+  /// After new lists: who may reach a wall before the next ones. Members of rigid bodies (1 in `rigid`) are left to
+  /// RigidContact.
+  void refreshLists(const ParticleStore& store, std::span<const uint8_t> rigid);
+  /// Those near a wall; for the iterations.
+  void projectNear(ParticleStore& store);
+  /// All particles; for the ends of a substep.
+  void project(ParticleStore& store);
+  /// One particle, without friction; `position` in m.
+  void clamp(std::array<double, 3>& position) const;
+  /// What project() and projectNear() moved, kg m.
+  Received& given() { return m_given; }
+
+ private:
+  struct Plane {
+    float x, y, z, offset, friction;
+    float depthOf(const api::Float4& p) const { return offset - (x * p.x + y * p.y + z * p.z); }
+  };
+  /// Returns how far it was moved, m.
+  Vector3 projectOne(const Plane& plane, ParticleStore& store, size_t i, float depth) const;
+
+  std::vector<Plane> m_planes;
+  std::vector<uint32_t> m_near;
+  std::vector<uint8_t> m_rigid;
+  ChunkSum m_moved;
+  Received m_given;
+  float m_reach = 0;  ///< m, beyond the resting distance
+};
+
+}  // namespace ps

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "core/particles/impulse.h"
+#include "core/particles/neighbours.h"
+#include "core/solver/fluid/pairkernels.h"
+#include "core/solver/settings.h"
+
+namespace ps {
+
+/// Share of the kernel that lies beyond a plane at a distance d, and its slope: how a wall counts in a density sum
+/// without particles of its own.
+class HalfSpaceTable {
+ public:
+  HalfSpaceTable() = default;
+  explicit HalfSpaceTable(const Kernel& kernel);
+  struct Value {
+    float share, slope;  ///< 1, 1/m
+  };
+  /// `distance` in m, negative ones count as 0.
+  Value at(float distance) const;
+
+ private:
+  static constexpr int kIntervals = 256;
+  std::vector<Value> m_values;
+  float m_perMetre = 0;
+};
+
+struct DensityError {
+  double mean = 0, max = 0;  ///< of max(C, 0) over liquid particles, as a fraction
+  size_t liquids = 0;
+};
+
+/// Position-based density (Macklin & Mueller 2013, eq. 1 to 12) in the volume form of Solenthaler & Pajarola 2008:
+/// C_i = sum_j V_j W_ij - 1 over all phases and boundary particles, an inequality (C <= 0), solved by under-relaxed
+/// Jacobi steps or their Chebyshev semi-iteration (Golub & Varga 1961).
+/// Solid and static particles have no constraint of their own. They count with the volume that their own kind leaves
+/// them, 1/sum W (Akinci et al. 2012, eq. 4, within bounds), or else ice would sink.
+/// It cannot pull: there is no surface tension and no negative pressure.
+class DensityStage {
+ public:
+  void configure(const SolverSettings& settings, const std::vector<Wall>& walls);
+  /// After a change of order, of motion or of volumes: who takes part, and with which volume.
+  void refresh(const ParticleStore& store, const Neighbours& neighbours);
+  /// After new lists in the same order.
+  void refreshLists(const ParticleStore& store, const Neighbours& neighbours);
+  /// One iteration; moves fluid particles and the solids that touch them.
+  void project(ParticleStore& store, const Neighbours& neighbours, int iteration);
+  /// What project() moved in sum where walls or fixed particles took part, kg m. Particles among themselves move by
+  /// equal and opposite amounts.
+  Received& given() { return m_given; }
+  /// Fixed particles have fluid near.
+  bool touchesFixed() const { return m_touchesFixed; }
+  /// C and lambda at the present positions, written to the store. What was stopped outside of the bounds stands crowded
+  /// there, and is left out of the error.
+  DensityError measure(ParticleStore& store, const Neighbours& neighbours, const Bounds& bounds);
+  /// Hands the present compression over to particles that have just become fluid: they start without a push, and the
+  /// offset decays (see decayCompression). Call after refresh().
+  void handOver(ParticleStore& store, const Neighbours& neighbours, std::span<const uint32_t> melted);
+  void decayCompression(ParticleStore& store, double dt) const;
+
+  /// Liquid and gas particles, ascending.
+  std::span<const uint32_t> fluid() const { return m_fluid; }
+  /// Solid particles that have a fluid neighbour, ascending.
+  std::span<const uint32_t> wetSolids() const { return m_wet; }
+  PairLists lists(const ParticleStore& store, const Neighbours& neighbours) const;
+  /// Volumes as the density sum counts them, times kernelScale(); by particle, with the dummy's 0 at the end.
+  std::span<const float> volumes() const { return m_volume; }
+  double kernelScale() const { return m_scale; }  ///< 1/m3: W = scale * w(q)
+
+ private:
+  struct Plane {
+    float x, y, z, offset;
+  };
+  struct Constraint {
+    float x, y, z, lambda;  ///< gradient in 1/m, multiplier
+  };
+  void solidVolumes(const ParticleStore& store, const PairLists& lists, api::Motion motion, float least, float most);
+  void loadPoints(const ParticleStore& store);
+  float addWalls(const api::Float4& at, Constraint& gradient) const;
+  void multipliers(const ParticleStore& store, const PairLists& lists, float relaxation, size_t first, size_t last);
+  void move(ParticleStore& store, const PairLists& lists, float chebyshev, size_t first, size_t last);
+
+  SolverSettings m_settings;
+  std::vector<Plane> m_planes;
+  HalfSpaceTable m_halfSpace;
+  KernelShape m_halfSpaceKernel = KernelShape::CubicSpline;
+  double m_scale = 0, m_support = 0;
+  float m_chebyshev = 1;
+  std::vector<uint32_t> m_fluid, m_wet, m_some;
+  std::vector<uint8_t> m_touched, m_isFluid;
+  std::vector<float> m_volume, m_weight, m_excess;
+  std::vector<api::Float4> m_points, m_multipliers;
+  ChunkSum m_moved;
+  Received m_given;
+  bool m_touchesFixed = false;
+  std::vector<DensitySums> m_sums;
+  std::vector<Constraint> m_constraints;
+  std::vector<api::Float4> m_moves, m_carried;
+};
+
+}  // namespace ps

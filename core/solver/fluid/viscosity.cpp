@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/solver/fluid/viscosity.h"
+
+#include "core/base/parallel.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <numbers>
+
+namespace ps {
+namespace {
+
+constexpr size_t kGrain = 128;
+constexpr size_t kSpare = 16;
+constexpr float kImplicit = -2;  ///< marks a coefficient, until gatherThick() has seen it
+/// Share of solid at which crystals touch and mush stops to flow.
+constexpr double kPackedFraction = 0.6;
+/// Shear rate at which matter below its yield stress may creep, 1/s: thin enough for the iteration, and a slope that
+/// should rest takes a quarter of an hour to lean over.
+constexpr float kCreep = 1e-3f;
+
+/// int W x^2 dV = 4 pi/3 int W r^4 dr, by Simpson's rule.
+double secondMoment(const Kernel& kernel) {
+  constexpr int kSteps = 200;
+  const double step = kernel.supportRadius() / kSteps;
+  const auto integrand = [&](double r) { return kernel.value(r) * r * r * r * r; };
+  double sum = 0;
+  for (int k = 0; k < kSteps; ++k) {
+    const double r = k * step;
+    sum += step / 6 * (integrand(r) + 4 * integrand(r + 0.5 * step) + integrand(r + step));
+  }
+  return 4 * std::numbers::pi / 3 * sum;
+}
+
+}  // namespace
+
+void ViscosityStage::configure(const SolverSettings& settings, const std::vector<Wall>& walls,
+                               std::span<const BakedMaterial> materials) {
+  m_settings = settings;
+  m_materials = materials;
+  m_secondMoment = secondMoment(Kernel(settings.kernel, settings.spacing * settings.supportRatio));
+  m_implicit.configure(settings, walls);
+  m_mushy.clear();
+  for (const BakedMaterial& material : materials) {
+    const api::Caloric& c = material.caloric();
+    m_mushy.push_back(c.melts != 0 && c.solidus < c.liquidus ? 1 : 0);
+  }
+}
+
+double ViscosityStage::filterReach() const { return m_secondMoment * m_settings.substeps / (2 * m_settings.dt); }
+
+double ViscosityStage::viscosityOf(const ParticleStore& store, size_t i) const {
+  const uint32_t material = store.material()[i];
+  const double liquid = m_materials[material].viscosity(store.temperature()[i]), solid = store.solidFraction()[i];
+  if (m_mushy[material] == 0 || !(solid > 0)) return liquid;
+  const double room = 1 - solid / kPackedFraction;
+  const double most = std::max(liquid, m_settings.viscosityMax);
+  return room > 0 ? std::min(most, liquid / (room * std::sqrt(room))) : most;
+}
+
+void ViscosityStage::refresh(ParticleStore& store, const Neighbours& neighbours, const DensityStage& density) {
+  const size_t n = store.size();
+  m_coefficient.assign(n + kSpare, -1.0f);  // the dummy counts as no fluid
+  const double reach = filterReach();
+  const ViscosityModel model = m_settings.viscosityModel;
+  const float least = static_cast<float>(std::clamp(m_settings.xsphMinimum, 0.0, 1.0));
+  const std::span<const uint32_t> fluid = density.fluid();
+  std::atomic<bool> thick = false, filters = false, yields = false;
+  forChunks(fluid.size(), 4 * kGrain, [&](size_t first, size_t last) {
+    for (size_t k = first; k < last; ++k) {
+      const uint32_t i = fluid[k];
+      float c = least;
+      if (isLiquid(store, i)) {
+        const double density0 = double{store.mass()[i]} / double{store.position()[i].w};
+        const double nu = viscosityOf(store, i) / density0;
+        const BakedMaterial& material = m_materials[store.material()[i]];
+        const bool yield = material.yieldStress(store.temperature()[i]) > 0;
+        c = std::clamp(static_cast<float>(nu / reach), least, 1.0f);
+        if (model == ViscosityModel::Implicit || (model == ViscosityModel::Automatic && (nu > reach || yield))) {
+          // Calmed only where its own viscosity is less than calming gives.
+          m_coefficient[i] = kImplicit - (nu < double{least} * reach ? least : 0);
+          thick = true;
+          if (yield) yields = true;
+          continue;
+        }
+      }
+      if (c > 0) filters = true;
+      m_coefficient[i] = c;
+    }
+  });
+  m_filters = filters;
+  m_yields = yields;
+  if (!thick) {
+    m_implicit.rest();
+    return;
+  }
+  gatherThick(store, density);
+  m_implicit.refresh(store, m_viscous);
+  if (m_yields) m_implicit.shearRates(store, neighbours, density, m_shearRate);
+}
+
+/// For the implicit stage: who, with which viscosity; particles marked by refresh() get their XSPH coefficient.
+void ViscosityStage::gatherThick(const ParticleStore& store, const DensityStage& density) {
+  const size_t n = store.size();
+  m_viscosity.assign(n + kSpare, -1.0f);
+  m_viscous.assign(n + kSpare, 0.0f);
+  m_yieldStress.assign(m_yields ? n : 0, 0.0f);
+  m_shearRate.assign(m_yields ? n + kSpare : 0, 0.0f);
+  const double reach = m_implicit.greatestViscosity();
+  std::atomic<bool> filters = m_filters;
+  const std::span<const uint32_t> fluid = density.fluid();
+  forChunks(fluid.size(), 4 * kGrain, [&](size_t first, size_t last) {
+    for (size_t k = first; k < last; ++k) {
+      const uint32_t i = fluid[k];
+      if (!isLiquid(store, i)) continue;
+      const double most = reach * double{store.mass()[i]} / double{store.position()[i].w};
+      m_viscosity[i] = static_cast<float>(std::min(most, viscosityOf(store, i)));
+      if (m_coefficient[i] >= 0) continue;
+      m_coefficient[i] = kImplicit - m_coefficient[i];
+      if (m_coefficient[i] > 0) filters = true;
+      m_viscous[i] = 1;
+      if (m_yields) {
+        m_yieldStress[i] = static_cast<float>(m_materials[store.material()[i]].yieldStress(store.temperature()[i]));
+      }
+    }
+  });
+  m_filters = filters;
+  m_plastic = m_viscosity;
+}
+
+/// mu_p + tau_y/(gamma_dot + epsilon), within reach.
+void ViscosityStage::addYieldStress(const ParticleStore& store) {
+  const float reach = static_cast<float>(m_implicit.greatestViscosity());
+  forChunks(store.size(), 4 * kGrain, [&](size_t first, size_t last) {
+    for (size_t i = first; i < last; ++i) {
+      if (m_yieldStress[i] <= 0) continue;
+      const float most = reach * store.mass()[i] / store.position()[i].w;
+      m_viscosity[i] = std::min(most, m_plastic[i] + m_yieldStress[i] / (m_shearRate[i] + kCreep));
+    }
+  });
+}
+
+void ViscosityStage::filter(ParticleStore& store, const Neighbours& neighbours, const DensityStage& density) {
+  const std::span<const uint32_t> fluid = density.fluid(), wet = density.wetSolids();
+  m_which.assign(fluid.begin(), fluid.end());
+  m_which.insert(m_which.end(), wet.begin(), wet.end());
+  m_change.resize(m_which.size());
+  const PairLists pairs = density.lists(store, neighbours);
+  const float scale = static_cast<float>(density.kernelScale());
+  forChunks(m_which.size(), kGrain, [&](size_t first, size_t last) {
+    sumViscosity(pairs, store.position(), store.velocity(), m_coefficient.data(), m_which.data(), first, last,
+                 m_change.data());
+  });
+  api::Float4* velocity = store.velocity();
+  for (size_t k = 0; k < m_which.size(); ++k) {
+    api::Float4& v = velocity[m_which[k]];
+    v.x += scale * m_change[k].x;
+    v.y += scale * m_change[k].y;
+    v.z += scale * m_change[k].z;
+  }
+}
+
+/// Of all that viscosity moves, kg m/s.
+Vector3 ViscosityStage::momentumOf(const ParticleStore& store, const DensityStage& density) const {
+  Vector3 sum;
+  for (const std::span<const uint32_t> list : {density.fluid(), density.wetSolids()}) {
+    for (const uint32_t i : list) sum = sum + double{store.mass()[i]} * vectorOf(store.velocity()[i]);
+  }
+  return sum;
+}
+
+void ViscosityStage::apply(ParticleStore& store, const Neighbours& neighbours, const DensityStage& density) {
+  if (density.fluid().empty() || m_coefficient.size() < store.size()) return;
+  if (m_filters) {
+    const Vector3 before = density.touchesFixed() ? momentumOf(store, density) : Vector3{};
+    filter(store, neighbours, density);
+    if (density.touchesFixed()) m_given.add(momentumOf(store, density) - before);
+  }
+  if (m_implicit.resting()) return;
+  if (m_yields) addYieldStress(store);
+  const Vector3 before = momentumOf(store, density);
+  m_implicit.apply(store, neighbours, density, m_viscosity.data());
+  if (m_implicit.held()) m_given.add(momentumOf(store, density) - before);
+  if (m_yields) m_implicit.shearRates(store, neighbours, density, m_shearRate);
+}
+
+void ViscosityStage::limits(const ParticleStore& store, std::vector<Limit>& out) const {
+  struct Asked {
+    double viscosity = 0, density = 1, yieldStress = 0;  // Pa s, kg/m3, Pa
+  };
+  std::vector<Asked> asked(m_materials.size());
+  for (size_t i = 0; i < store.size(); ++i) {
+    if (!isLiquid(store, i)) continue;
+    Asked& most = asked[store.material()[i]];
+    const double viscosity = viscosityOf(store, i);
+    most.yieldStress = std::max(most.yieldStress, m_materials[store.material()[i]].yieldStress(store.temperature()[i]));
+    if (viscosity <= most.viscosity) continue;
+    most.viscosity = viscosity;
+    most.density = double{store.mass()[i]} / double{store.position()[i].w};
+  }
+  const bool filterAlone = m_settings.viscosityModel == ViscosityModel::Xsph;
+  const double reach = filterAlone ? filterReach() : m_implicit.greatestViscosity();
+  for (size_t m = 0; m < asked.size(); ++m) {
+    const double delivered = reach * asked[m].density;
+    const std::string id = m_materials[m].id();
+    if (asked[m].viscosity > delivered) out.push_back({id + ".viscosity", asked[m].viscosity, delivered, "Pa·s"});
+    if (filterAlone && asked[m].yieldStress > 0) out.push_back({id + ".yield_stress", asked[m].yieldStress, 0, "Pa"});
+  }
+  if (m_implicit.residual() > m_settings.viscosityTolerance)
+    out.push_back({"solver.viscosity_tolerance", m_settings.viscosityTolerance, m_implicit.residual(), ""});
+}
+
+}  // namespace ps

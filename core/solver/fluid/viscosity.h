@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "core/matter/material.h"
+#include "core/particles/impulse.h"
+#include "core/solver/fluid/implicitviscosity.h"
+#include "core/solver/report.h"
+
+namespace ps {
+
+/// Viscosity of liquids. Thin ones by the XSPH filter of Monaghan 1992, momentum-conserving, over fluid particles and
+/// the solids they touch: a coefficient c acts like the kinematic viscosity nu = c s2/(2 dt), s2 = int W x^2 dV
+/// (0.075 R^2 for the cubic spline), so c follows from the material's viscosity. At c = 1 the filter is exhausted; what
+/// is thicker, and what has a yield stress, goes to ImplicitViscosity, as SolverSettings::viscosityModel says.
+///
+/// Mush, matter within its melting range, is a suspension of its crystals: mu = mu_l (1 - s/0.6)^-1.5, s the solid
+/// fraction (Krieger & Dougherty 1959), at most viscosityMax. Half-molten particles of a pure substance are no mush: a
+/// front crosses them. Yield stress (Bingham): mu_eff = mu + tau_y/(gamma_dot + 0.001/s), gamma_dot of the last
+/// substep; below it matter creeps instead of resting.
+class ViscosityStage {
+ public:
+  void configure(const SolverSettings& settings, const std::vector<Wall>& walls,
+                 std::span<const BakedMaterial> materials);
+  void listsChanged() { m_implicit.listsChanged(); }
+  /// Once per frame: coefficients and viscosities of all particles from their temperatures.
+  void refresh(ParticleStore& store, const Neighbours& neighbours, const DensityStage& density);
+  /// After velocities follow from positions.
+  void apply(ParticleStore& store, const Neighbours& neighbours, const DensityStage& density);
+  void limits(const ParticleStore& store, std::vector<Limit>& out) const;
+  /// What walls and fixed particles gave in apply(), kg m/s.
+  Received& given() { return m_given; }
+  int iterations() const { return m_implicit.iterations(); }  ///< of the implicit stage, the most of a substep
+
+ private:
+  double filterReach() const;                                      ///< m2/s, at c = 1
+  double viscosityOf(const ParticleStore& store, size_t i) const;  ///< Pa s, without yield stress
+  void filter(ParticleStore& store, const Neighbours& neighbours, const DensityStage& density);
+  void gatherThick(const ParticleStore& store, const DensityStage& density);
+  bool isLiquid(const ParticleStore& store, size_t i) const {
+    return store.motion()[i] == api::Motion::Liquid && store.material()[i] < m_materials.size() && store.mass()[i] > 0;
+  }
+  Vector3 momentumOf(const ParticleStore& store, const DensityStage& density) const;
+  void addYieldStress(const ParticleStore& store);
+
+  SolverSettings m_settings;
+  std::span<const BakedMaterial> m_materials;
+  ImplicitViscosity m_implicit;
+  double m_secondMoment = 0;     ///< s2, m2
+  std::vector<uint8_t> m_mushy;  ///< by material: melts over a range
+  bool m_yields = false, m_filters = false;
+  std::vector<float> m_coefficient;                          ///< XSPH's
+  std::vector<float> m_plastic, m_yieldStress, m_shearRate;  ///< Pa s, Pa, 1/s
+  std::vector<float> m_viscosity, m_viscous;                 ///< what the implicit stage is asked, and for whom
+  Received m_given;
+  std::vector<uint32_t> m_which;
+  std::vector<api::Float4> m_change;
+};
+
+}  // namespace ps

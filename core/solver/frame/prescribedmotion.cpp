@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/solver/frame/prescribedmotion.h"
+
+#include "core/base/hash.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ps {
+namespace {
+
+constexpr const char* kPlace = "prescribed_place";  // w: 1 when it has been taken
+
+Vector3 vectorOf(const api::Double3& v) { return {v.x, v.y, v.z}; }
+
+bool rests(const BodyMotion& motion) {
+  const Vector3 v = vectorOf(motion.velocity), w = vectorOf(motion.spin);
+  return dot(v, v) == 0 && dot(w, w) == 0;
+}
+
+/// Seconds of the `dt` after `time` in which a body is on its way.
+double secondsWithin(const BodyMotion& motion, double time, double dt) {
+  return std::clamp(std::min(motion.stop, time + dt) - std::max(motion.start, time), 0.0, dt);
+}
+
+/// Turns a unit quaternion by the angle |v| in rad about v.
+void turnBy(double (&q)[4], Vector3 v) {
+  // Halved until the series of sine and cosine are exact to 1e-16, then squared as often.
+  int halvings = 0;
+  double scale = 0.5;
+  for (double angle2 = 0.25 * dot(v, v); angle2 > 0.01 && halvings < 40; angle2 *= 0.25, scale *= 0.5) ++halvings;
+  const double s = scale * scale * dot(v, v);
+  Vector3 a = scale * (1 - s / 6 * (1 - s / 20 * (1 - s / 42 * (1 - s / 72)))) * v;
+  double w = 1 - s / 2 * (1 - s / 12 * (1 - s / 30 * (1 - s / 56)));
+  for (; halvings > 0; --halvings) {
+    const double square = w * w - dot(a, a);
+    a = 2 * w * a;
+    w = square;
+  }
+  const Vector3 b{q[0], q[1], q[2]}, turned = w * b + q[3] * a + cross(a, b);
+  const double real = w * q[3] - dot(a, b), length = std::sqrt(real * real + dot(turned, turned));
+  q[0] = turned.x / length, q[1] = turned.y / length, q[2] = turned.z / length, q[3] = real / length;
+}
+
+std::array<Vector3, 3> matrixOf(const double (&q)[4]) {
+  const auto [x, y, z, w] = q;
+  return {Vector3{1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)},
+          Vector3{2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)},
+          Vector3{2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)}};
+}
+
+Vector3 transposedTimes(const std::array<Vector3, 3>& rows, Vector3 v) {
+  return v.x * rows[0] + v.y * rows[1] + v.z * rows[2];
+}
+
+api::Float4* placesIn(const ParticleStore& store) {
+  return static_cast<api::Float4*>(store.find(kPlace, api::FieldType::Float4));
+}
+
+}  // namespace
+
+void PrescribedMotion::set(uint32_t body, const BodyMotion& motion, ParticleStore& store) {
+  if (body < m_frames.size() && m_frames[body].exists) {
+    m_frames[body].motion = motion;
+    return;
+  }
+  if (rests(motion)) return;
+  store.declare(kPlace, api::FieldType::Float4, "m", "Place in the frame of a body whose motion is prescribed");
+  if (m_frames.size() <= body) m_frames.resize(body + size_t{1});
+  Frame& frame = m_frames[body];
+  frame.motion = motion;
+  frame.centre = frame.origin = vectorOf(motion.centre);
+  frame.rows = matrixOf(frame.turn);
+  frame.exists = true;
+  for (size_t i = 0; i < store.size(); ++i) {
+    if (store.body()[i] == body) adopt(store, i, i + 1, -1);
+  }
+}
+
+const PrescribedMotion::Frame* PrescribedMotion::frameOf(const ParticleStore& store, size_t i) const {
+  const uint32_t body = store.body()[i];
+  const bool led = body < m_frames.size() && m_frames[body].exists && store.motion()[i] == api::Motion::Static;
+  return led ? &m_frames[body] : nullptr;
+}
+
+void PrescribedMotion::adopt(ParticleStore& store, size_t first, size_t last, double time) const {
+  api::Float4* places = placesIn(store);
+  for (size_t i = first; i < last; ++i) {
+    const Frame* frame = frameOf(store, i);
+    if (!frame) continue;
+    const Vector3 arm = ps::vectorOf(store.position()[i]) - frame->centre, p = transposedTimes(frame->rows, arm);
+    places[i] = {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z), 1};
+    const BodyMotion& motion = frame->motion;
+    const bool moves = motion.start <= time && time < motion.stop;
+    const Vector3 v = moves ? vectorOf(motion.velocity) + cross(vectorOf(motion.spin), arm) : Vector3{};
+    store.velocity()[i] = {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0};
+  }
+}
+
+bool PrescribedMotion::movesWithin(double time, double dt) const {
+  return std::any_of(m_frames.begin(), m_frames.end(), [&](const Frame& frame) {
+    return frame.exists && !rests(frame.motion) && secondsWithin(frame.motion, time, dt) > 0;
+  });
+}
+
+void PrescribedMotion::putBack(ParticleStore& store, size_t first, size_t last) const {
+  for (size_t i = first; i < last; ++i) {
+    const Frame* frame = frameOf(store, i);
+    if (!frame || placesIn(store)[i].w != 0) continue;
+    const Vector3 place = ps::vectorOf(store.position()[i]) - frame->origin;
+    placesIn(store)[i] = {static_cast<float>(place.x), static_cast<float>(place.y), static_cast<float>(place.z), 1};
+  }
+  lead(store, first, last);
+  std::copy(store.position() + first, store.position() + last, store.previous() + first);
+}
+
+void PrescribedMotion::advance(const Period& period, double time, double dt) {
+  for (Frame& frame : m_frames) {
+    if (!frame.exists) continue;
+    const double seconds = secondsWithin(frame.motion, time, dt);
+    const Vector3 way = seconds * vectorOf(frame.motion.velocity), turn = seconds * vectorOf(frame.motion.spin);
+    const Vector3 moved = frame.centre + way;
+    const api::Double3 home = period.wrapped({moved.x, moved.y, moved.z});
+    frame.centre = vectorOf(home);
+    turnBy(frame.turn, turn);
+    frame.rows = matrixOf(frame.turn);
+    frame.velocity = 1 / dt * way;
+    frame.spin = 1 / dt * turn;
+  }
+}
+
+void PrescribedMotion::lead(ParticleStore& store, size_t first, size_t last) const {
+  if (m_frames.empty()) return;
+  const api::Float4* places = placesIn(store);
+  const Period& period = store.period();
+  const auto coordinate = [&](double to, float from, size_t axis) {
+    const double length = period.length(axis);
+    return static_cast<float>(length > 0 ? to - length * std::floor((to - double{from}) / length + 0.5) : to);
+  };
+  for (size_t i = first; i < last; ++i) {
+    const Frame* frame = frameOf(store, i);
+    if (!frame) continue;
+    const Vector3 arm = times(frame->rows, ps::vectorOf(places[i])), to = frame->centre + arm,
+                  v = frame->velocity + cross(frame->spin, arm);
+    api::Float4& x = store.position()[i];
+    const api::Float4& from = store.previous()[i];
+    x.x = coordinate(to.x, from.x, 0), x.y = coordinate(to.y, from.y, 1), x.z = coordinate(to.z, from.z, 2);
+    store.velocity()[i] = {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0};
+  }
+}
+
+void PrescribedMotion::addTo(Hash& hash) const {
+  for (size_t body = 0; body < m_frames.size(); ++body) {
+    const Frame& frame = m_frames[body];
+    if (!frame.exists) continue;
+    const BodyMotion& m = frame.motion;
+    hash.add(uint64_t{body});
+    for (const double c : {frame.centre.x, frame.centre.y, frame.centre.z, m.velocity.x, m.velocity.y, m.velocity.z,
+                           m.spin.x, m.spin.y, m.spin.z, m.start, m.stop}) {
+      hash.add(c);
+    }
+    for (const double c : frame.turn) hash.add(c);
+  }
+}
+
+}  // namespace ps

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "core/math/vector3.h"
+#include "core/particles/particlestore.h"
+#include "core/solver/motion.h"
+
+#include <vector>
+
+namespace ps {
+
+class Hash;
+
+/// Moves fixed particles of bodies as their motions prescribe, whatever they meet. Each body has a frame, a centre and
+/// a turn in double precision, and its particles keep their places in it: however long it turns, its shape stays that
+/// of the start to the rounding of a position. Only products, sums and square roots: the same bits on every machine.
+class PrescribedMotion {
+ public:
+  /// The first motion that is none at rest gives the body a frame, and its fixed particles their places in it; further
+  /// ones say how it goes on from where it is.
+  void set(uint32_t body, const BodyMotion& motion, ParticleStore& store);
+  /// New particles of bodies that have a frame take their places in it, and its velocity at `time` (s).
+  void adopt(ParticleStore& store, size_t first, size_t last, double time) const;
+  /// Matter that was away has missed the way of its frame, and stands at its place in it again; what was taken before
+  /// there was a frame, at the place that it would have been given.
+  void putBack(ParticleStore& store, size_t first, size_t last) const;
+  /// Whether a body is on its way at some time of the next `dt` s.
+  bool movesWithin(double time, double dt) const;
+  /// Moves the frames on through a substep of `dt` s that begins at `time`.
+  void advance(const Period& period, double time, double dt);
+  /// Positions and velocities of the particles first..last-1 that have a place in a frame, in the image nearest to
+  /// their previous positions. A body that is on its way for a part of the substep has that part of its velocity.
+  void lead(ParticleStore& store, size_t first, size_t last) const;
+  void addTo(Hash& hash) const;
+
+ private:
+  struct Frame {
+    BodyMotion motion;
+    Vector3 centre, origin;         ///< m, now and when the frame was made
+    double turn[4] = {0, 0, 0, 1};  ///< quaternion x, y, z, w of unit length
+    std::array<Vector3, 3> rows{};  ///< the same as a matrix
+    Vector3 velocity, spin;         ///< m/s and rad/s, of the last substep
+    bool exists = false;
+  };
+  const Frame* frameOf(const ParticleStore& store, size_t i) const;
+
+  std::vector<Frame> m_frames;  ///< by index of the body
+};
+
+}  // namespace ps

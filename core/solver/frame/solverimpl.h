@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "core/solver/contact/impacts.h"
+#include "core/solver/contact/liquidcontact.h"
+#include "core/solver/contact/rigidcontact.h"
+#include "core/solver/contact/solidcontact.h"
+#include "core/solver/contact/sweptclamp.h"
+#include "core/solver/contact/walls.h"
+#include "core/solver/fluid/density.h"
+#include "core/solver/fluid/gasforces.h"
+#include "core/solver/fluid/viscosity.h"
+#include "core/solver/frame/prescribedmotion.h"
+#include "core/solver/heat/heat.h"
+#include "core/solver/heat/phasestage.h"
+#include "core/solver/solver.h"
+#include "core/solver/structure/constraintsystem.h"
+
+#include <chrono>
+
+namespace ps {
+
+/// Mean density error that no longer deserves the name of a solution.
+inline constexpr double kDiverged = 0.5;
+
+/// What a solver holds, and one frame cut into its parts. Indices of particles change only in freshLists(), at the
+/// start of a frame: whatever is kept by index within a frame stays true.
+struct Solver::Impl {
+  SolverSettings settings;
+  ThermalSettings thermal;
+  const api::ThermalPlugin* model = nullptr;
+  std::string modelName;
+  std::vector<double> modelParameters;
+  std::vector<Wall> walls;
+  Bounds bounds;
+  std::vector<std::string> bodyNames;
+  std::vector<BakedMaterial> materials;
+
+  ParticleStore store;
+  ParticleStore lastGood;  ///< as the frame began, in the order that the constraints know
+  HeatLedger lastGoodLedger;
+  PrescribedMotion lastGoodMotion;
+  bool lastGoodValid = false;  ///< not after particles were added or removed
+  PrescribedMotion motion;
+  Neighbours neighbours;
+  ConstraintSystem constraints;
+  DensityStage density;
+  ViscosityStage viscosity;
+  WallStage wallStage;
+  SweptClamp swept;
+  SolidContact contact;
+  Impacts impacts;
+  /// What is squeezed, or thick, sinks into a lattice. A wider distance, and ice sinks: at 0.8 wholly.
+  LiquidContact wet{{0.76, 1}};
+  /// A layer one particle thick fills less than half of a liquid particle's kernel. At rest the gaps of a square
+  /// lattice let nothing through, 0.71 spacings from four particles; cloth stretched by more than a quarter leaks.
+  LiquidContact sheets{{0.9, 2}};
+  std::vector<uint32_t> thinSolids;  ///< particles of sheets and lines, ascending
+  RigidContact rigid;
+  GasForces gas;
+  HeatStage heat;
+  PhaseStage phase;
+
+  uint64_t frame = 0, lastSort = 0;
+  double time = 0, thermalTime = 0;
+  double energyOffset = 0;  ///< J: thermal energy minus the ledger's net, when both were last known to be right
+  bool configured = false, modelChanged = false, structureChanged = true, reordered = true;
+  std::vector<uint32_t> melted;
+  std::vector<uint8_t> grouped;  ///< 1 for members of groups
+  StepReport report;
+  Received external;  ///< kg m/s, in this frame
+  ChunkSum weight;
+  std::vector<uint32_t> hanging;  ///< what moves and may be pulled by what is fixed, ascending
+
+  void configure();
+  void settleEnergy() { energyOffset = heat.energy(store) - heat.ledger().net(); }
+  void matterChanged(double energyBefore);
+
+  void runFrame();
+  void freshLists();
+  /// Whether something lies so many images away from the periodic box that single precision begins to tell.
+  bool strayed() const;
+  /// In a periodic box: brings back what has left it. What is tied together moves as one, and when it has strayed.
+  void comeHome();
+  void bringPiecesHome(const StructureGraph& graph);
+  void keepLastGood();
+  void backToLastGood();
+  void listsChanged(bool newStructure);
+  void substep(uint32_t index);
+  void predict(uint32_t index, double dt);
+  Vector3 momentum() const;               ///< kg m/s, of what moves
+  Vector3 momentumOfHanging() const;      ///< kg m/s
+  Vector3 displacementOfHanging() const;  ///< kg m, since the start of the substep
+  /// Calls into plugins, and books what comes from outside: nothing, unless something hangs on what is fixed.
+  template <class Call>
+  void structure(Call&& call, double dt);
+  void bookContact(double dt);
+  void findThinSolids();
+  void velocities(double dt);
+  /// False when the thermal model threw; the frame is then taken back.
+  bool exchangeHeat();
+  void changePhases();
+  void checkBounds();
+  /// J by which the heat balance is open; 0 within what rounding explains.
+  double openEnergy();
+  void checkEnergy();
+  void closeFrame();
+  /// Id of the first particle whose position, velocity or temperature is no finite number, or -1.
+  int64_t firstNotFinite(std::string& what) const;
+  bool rejectIfNotFinite();
+  /// "particle 17 of 'Ice block'".
+  std::string describe(size_t i) const;
+  void raise(StepFlag flag, const std::string& message);
+
+  template <class Call>
+  void timed(Stage stage, Call&& call) {
+    const auto start = std::chrono::steady_clock::now();
+    call();
+    const std::chrono::duration<double, std::milli> passed = std::chrono::steady_clock::now() - start;
+    report.milliseconds[static_cast<size_t>(stage)] += passed.count();
+  }
+};
+
+}  // namespace ps

@@ -1,0 +1,397 @@
+// SPDX-License-Identifier: Apache-2.0
+// One frame: substepped XPBD (Macklin et al. 2019), then heat, then phase changes, which edit the structure. Every loop
+// writes only its own particle, so that the result does not depend on the number of threads.
+#include "core/base/parallel.h"
+#include "core/solver/frame/solverimpl.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ps {
+namespace {
+
+constexpr size_t kGrain = 512;
+/// Frames after which particles are sorted by cell again although the lists still hold.
+constexpr uint64_t kSortInterval = 60;
+/// One Gauss-Seidel pass a substep leaves stiff springs an error that the next one answers with a push: cloth whips and
+/// blocks explode.
+constexpr int kLeastStructurePasses = 2;
+/// Liquid on a sheet outweighs it many times, and must not press it apart before its springs have answered.
+constexpr int kSheetPasses = 4;
+constexpr double kLeastLiquid = 0.01;  ///< share of what moves, below which the mean says nothing of the solver
+/// How far the heat balance may be open: a share of what was exchanged, and of the whole for rounding.
+constexpr double kOpenExchange = 1e-6, kOpenRounding = 1e-11;
+
+bool finite(const api::Float4& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w);
+}
+
+api::Double3 double3Of(Vector3 v) { return {v.x, v.y, v.z}; }
+
+}  // namespace
+
+Vector3 Solver::Impl::momentum() const {
+  Vector3 sum;
+  for (size_t i = 0; i < store.size(); ++i) {
+    if (store.velocity()[i].w > 0) sum = sum + double{store.mass()[i]} * vectorOf(store.velocity()[i]);
+  }
+  return sum;
+}
+
+Vector3 Solver::Impl::momentumOfHanging() const {
+  Vector3 sum;
+  for (const uint32_t i : hanging) sum = sum + double{store.mass()[i]} * vectorOf(store.velocity()[i]);
+  return sum;
+}
+
+Vector3 Solver::Impl::displacementOfHanging() const {
+  Vector3 sum;
+  for (const uint32_t i : hanging) {
+    sum = sum + double{store.mass()[i]} * (vectorOf(store.position()[i]) - vectorOf(store.previous()[i]));
+  }
+  return sum;
+}
+
+template <class Call>
+void Solver::Impl::structure(Call&& call, double dt) {
+  timed(Stage::Structure, [&] {
+    const Vector3 before = displacementOfHanging();
+    call();
+    external.add(1 / dt * (displacementOfHanging() - before));
+  });
+}
+
+void Solver::Impl::findThinSolids() {
+  const std::span<const uint8_t> thin = constraints.thinBodies();
+  thinSolids.clear();
+  if (std::find(thin.begin(), thin.end(), uint8_t{1}) == thin.end()) return;
+  for (uint32_t i = 0; i < store.size(); ++i) {
+    const uint32_t body = store.body()[i];
+    if (store.motion()[i] == api::Motion::Solid && body < thin.size() && thin[body] != 0) thinSolids.push_back(i);
+  }
+}
+
+std::string Solver::Impl::describe(size_t i) const {
+  const uint32_t body = store.body()[i];
+  const std::string name = body < bodyNames.size() ? "'" + bodyNames[body] + "'" : "body " + std::to_string(body);
+  return "particle " + std::to_string(store.id()[i]) + " of " + name;
+}
+
+void Solver::Impl::raise(StepFlag flag, const std::string& message) {
+  report.flags |= static_cast<StepFlags>(flag);
+  if (!report.message.empty()) report.message += "; ";
+  report.message += message;
+}
+
+void Solver::Impl::runFrame() {
+  report = {};
+  const auto start = std::chrono::steady_clock::now();
+  configure();
+  bool good = true;
+  if (store.size() > 0) {
+    good = !rejectIfNotFinite();
+    timed(Stage::Neighbours, [&] { freshLists(); });
+    if (good) keepLastGood();
+    external.take();
+    report.momentum.start = double3Of(momentum());
+    gas.setAir(heat.airTemperature());
+    timed(Stage::Phase, [&] { gas.measure(store, neighbours); });
+    timed(Stage::Viscosity, [&] { viscosity.refresh(store, neighbours, density); });
+    for (int s = 0; s < settings.substeps && good; ++s) {
+      substep(static_cast<uint32_t>(s));
+      good = !rejectIfNotFinite();
+    }
+    if (good) {
+      checkBounds();
+      report.momentum.end = double3Of(momentum());
+      report.momentum.external = double3Of(external.take());
+    }
+    if (good) timed(Stage::Heat, [&] { good = exchangeHeat(); });
+    good = good && !rejectIfNotFinite();
+    if (good) closeFrame();
+  }
+  if (good) {
+    ++frame;
+    time += settings.dt;
+    thermalTime += settings.dt * std::min(thermal.timeScale, heat.thermalTimeScaleDelivered());
+  }
+  report.faults = constraints.takeFaults();
+  if (std::optional<std::string> fault = heat.takeFault()) report.faults.push_back({modelName, std::move(*fault)});
+  if (!report.faults.empty()) structureChanged = true;
+  for (const PluginFault& fault : report.faults) {
+    raise(StepFlag::PluginFault, "plugin '" + fault.plugin + "': " + fault.what);
+  }
+  report.totalMilliseconds =
+      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+void Solver::Impl::closeFrame() {
+  DensityError error;
+  timed(Stage::Density, [&] { error = density.measure(store, neighbours, bounds); });
+  report.densityErrorMean = error.mean;
+  report.densityErrorMax = error.max;
+  report.viscosityIterations = viscosity.iterations();
+  // A few drops in soft matter that is being squeezed are as dense as it is, which no solver could mend.
+  const api::Motion* motions = store.motion();
+  const auto moving = [&] { return store.size() - std::count(motions, motions + store.size(), api::Motion::Static); };
+  if (error.mean > kDiverged && double(error.liquids) >= kLeastLiquid * double(moving())) {
+    const float* c = store.densityError();
+    const size_t worst = static_cast<size_t>(std::max_element(c, c + store.size()) - c);
+    raise(StepFlag::Diverged, describe(worst) + ": density error " + std::to_string(static_cast<int>(100 * c[worst])) +
+                                  " %, mean " + std::to_string(static_cast<int>(100 * report.densityErrorMean)) + " %");
+  }
+  timed(Stage::Phase, [&] { changePhases(); });
+  timed(Stage::Structure, [&] { structureChanged = constraints.topology(store, neighbours) || structureChanged; });
+  checkEnergy();
+}
+
+void Solver::Impl::keepLastGood() {
+  lastGood.copyFrom(store);
+  lastGoodLedger = heat.ledger();
+  lastGoodMotion = motion;
+  lastGoodValid = true;
+}
+
+void Solver::Impl::backToLastGood() {
+  if (!lastGoodValid) return;
+  store.copyFrom(lastGood);
+  heat.setLedger(lastGoodLedger);
+  motion = lastGoodMotion;
+  rigid.forget();
+  reordered = true;
+}
+
+void Solver::Impl::freshLists() {
+  if (store.period().any() && strayed()) reordered = true;
+  if (reordered || neighbours.stale(store) || frame >= lastSort + kSortInterval) {
+    if (store.period().any()) comeHome();
+    neighbours.sortAndBuild(store);
+    constraints.remap(neighbours.lastOrder());
+    lastSort = frame;
+    reordered = false;
+    structureChanged = true;
+  }
+  density.refresh(store, neighbours);
+  swept.refresh(store, motion.movesWithin(time, settings.dt));
+  if (!structureChanged) return;
+  listsChanged(true);
+  structureChanged = false;
+}
+
+void Solver::Impl::listsChanged(bool newStructure) {
+  if (!newStructure) density.refreshLists(store, neighbours);  // else it has just been refreshed
+  wet.refresh(store, neighbours, density.wetSolids());
+  if (newStructure) {
+    rigid.refreshBodies(store, constraints);
+    grouped = constraints.groupMembers(store);
+    constraints.findHanging(store, hanging);
+    findThinSolids();
+  }
+  wallStage.refreshLists(store, rigid.members());
+  swept.refreshLists(store, neighbours);
+  rigid.refreshContacts(store, neighbours, constraints);
+  sheets.refresh(store, neighbours, thinSolids);
+  viscosity.listsChanged();
+  if (newStructure || contact.stale(store)) contact.refresh(store, neighbours, constraints, rigid.members());
+}
+
+void Solver::Impl::predict(uint32_t index, double dt) {
+  motion.advance(store.period(), time + index * dt, dt);
+  weight.start(chunkCount(store.size(), kGrain));
+  forChunks(store.size(), kGrain, [&](size_t first, size_t last) {
+    api::Float4 *position = store.position(), *previous = store.previous(), *velocity = store.velocity();
+    Vector3 before, after;
+    const float keep = static_cast<float>(1 / (1 + settings.damping * dt)), step = static_cast<float>(dt);
+    for (size_t i = first; i < last; ++i) {
+      previous[i] = position[i];
+      if (velocity[i].w > 0) before = before + double{store.mass()[i]} * vectorOf(velocity[i]);
+      if (velocity[i].w > 0) velocity[i].x *= keep, velocity[i].y *= keep, velocity[i].z *= keep;
+    }
+    gas.apply(store, first, last, dt);
+    for (size_t i = first; i < last; ++i) {
+      if (velocity[i].w > 0) after = after + double{store.mass()[i]} * vectorOf(velocity[i]);
+    }
+    weight.add(first / kGrain, 1, after - before);
+    for (size_t i = first; i < last; ++i) {  // what is fixed moves too, at the velocity it was given
+      position[i].x += step * velocity[i].x;
+      position[i].y += step * velocity[i].y;
+      position[i].z += step * velocity[i].z;
+    }
+    motion.lead(store, first, last);
+  });
+  external.add(weight.total());
+}
+
+void Solver::Impl::velocities(double dt) {
+  forChunks(store.size(), kGrain, [&](size_t first, size_t last) {
+    const api::Float4 *position = store.position(), *previous = store.previous();
+    api::Float4* velocity = store.velocity();
+    const float rate = static_cast<float>(1 / dt), step = static_cast<float>(dt);
+    for (size_t i = first; i < last; ++i) {
+      if (velocity[i].w == 0) continue;
+      const api::Float4 &x = position[i], &from = previous[i];
+      api::Float4& v = velocity[i];
+      // Nothing has touched it: its velocity is what it was, and not the difference of two rounded places. Plugins of
+      // groups count on that difference.
+      const bool free = x.x == from.x + step * v.x && x.y == from.y + step * v.y && x.z == from.z + step * v.z;
+      if (free && grouped[i] == 0) continue;
+      v.x = rate * (x.x - from.x);
+      v.y = rate * (x.y - from.y);
+      v.z = rate * (x.z - from.z);
+    }
+  });
+}
+
+void Solver::Impl::substep(uint32_t index) {
+  const double dt = settings.dt / settings.substeps;
+  timed(Stage::Contact, [&] {
+    predict(index, dt);
+    impacts.sweep(store, constraints, rigid.members());
+    wallStage.project(store);
+  });
+  timed(Stage::Neighbours, [&] {
+    if (neighbours.stale(store)) {
+      neighbours.build(store);
+      listsChanged(false);
+    } else if (contact.stale(store)) {
+      contact.refresh(store, neighbours, constraints, rigid.members());
+      rigid.refreshContacts(store, neighbours, constraints);
+    }
+  });
+  structure([&] { constraints.predict(store, index); }, dt);
+  timed(Stage::Contact, [&] {
+    rigid.begin(store);
+    impacts.collect(store, contact, constraints, rigid.members());
+  });
+  const bool oneIsTooFew = settings.iterations == 1 && constraints.shareParticles();
+  const int structurePasses = std::max(sheets.any() ? kSheetPasses : 1, oneIsTooFew ? kLeastStructurePasses : 1);
+  for (int iteration = 0; iteration < settings.iterations; ++iteration) {
+    const uint32_t it = static_cast<uint32_t>(iteration);
+    for (int pass = 0; pass < structurePasses; ++pass) {
+      structure([&] { constraints.projectStructure(store, index, it); }, dt);
+      timed(Stage::Contact, [&] { sheets.project(store); });
+    }
+    timed(Stage::Density, [&] { density.project(store, neighbours, iteration); });
+    if (constraints.gathers()) structure([&] { constraints.projectNeighbours(store, neighbours, index, it); }, dt);
+    timed(Stage::Contact, [&] {
+      contact.project(store);
+      wet.project(store);
+      wallStage.projectNear(store);
+    });
+    structure([&] { constraints.projectGroups(store, index, it); }, dt);
+    timed(Stage::Contact, [&] { rigid.project(store); });
+  }
+  timed(Stage::Contact, [&] {
+    wallStage.project(store);
+    swept.apply(store, neighbours, wallStage, constraints.graph(store.size()), rigid.members());
+    external.add(1 / dt * rigid.hold(store, swept.held()));
+    external.add(1 / dt * rigid.keepInside(store));
+    velocities(dt);
+    bookContact(dt);
+  });
+  timed(Stage::Viscosity, [&] { viscosity.apply(store, neighbours, density); });
+  timed(Stage::Structure, [&] {
+    const Vector3 before = momentumOfHanging();
+    constraints.deriveVelocities(store, index);
+    external.add(momentumOfHanging() - before);
+  });
+  timed(Stage::Contact, [&] {
+    impacts.bounce(store);
+    rigid.bounce(store);
+  });
+  for (Received* given : {&viscosity.given(), &impacts.given(), &rigid.given()}) external.add(given->take());
+  timed(Stage::Density, [&] { density.decayCompression(store, dt); });
+}
+
+/// What walls and fixed particles moved in this substep, as impulse.
+void Solver::Impl::bookContact(double dt) {
+  Vector3 moved = rigid.pushed();
+  for (Received* given :
+       {&wallStage.given(), &contact.given(), &wet.given(), &sheets.given(), &density.given(), &swept.given()})
+    moved = moved + given->take();
+  external.add(1 / dt * moved);
+}
+
+bool Solver::Impl::exchangeHeat() {
+  if (neighbours.stale(store)) {
+    neighbours.build(store);
+    listsChanged(false);
+  }
+  if (heat.advance(store, neighbours, settings.dt, frame)) return true;
+  backToLastGood();
+  return false;
+}
+
+void Solver::Impl::changePhases() {
+  melted.clear();
+  if (phase.update(store, melted)) structureChanged = true;
+  if (melted.empty()) return;
+  density.refresh(store, neighbours);
+  density.handOver(store, neighbours, melted);
+  structureChanged = true;
+}
+
+void Solver::Impl::checkBounds() {
+  const double size = settings.spacing;
+  const double low[3] = {bounds.minimum.x - size, bounds.minimum.y - size, bounds.minimum.z - size};
+  const double high[3] = {bounds.maximum.x + size, bounds.maximum.y + size, bounds.maximum.z + size};
+  size_t lost = 0, culprit = store.size();
+  for (size_t i = 0; i < store.size(); ++i) {
+    api::Float4& p = store.position()[i];
+    if (store.velocity()[i].w == 0) continue;
+    float* c[3] = {&p.x, &p.y, &p.z};
+    bool outside = false;
+    for (size_t a = 0; a < 3; ++a) {
+      if (bounds.periodic[a]) continue;
+      const float inside = static_cast<float>(std::clamp(double{*c[a]}, low[a], high[a]));
+      outside = outside || inside != *c[a];
+      if (*c[a] < low[a] || *c[a] > high[a]) *c[a] = inside;
+    }
+    if (!outside) continue;
+    external.add(-double{store.mass()[i]} * vectorOf(store.velocity()[i]));
+    store.velocity()[i] = {0, 0, 0, store.velocity()[i].w};
+    ++lost;
+    if (culprit == store.size() || store.id()[i] < store.id()[culprit]) culprit = i;
+  }
+  if (lost == 0) return;
+  const std::string others = lost > 1 ? " and " + std::to_string(lost - 1) + " more" : "";
+  raise(StepFlag::LostParticle, describe(culprit) + others + " left the bounds and stopped there");
+}
+
+double Solver::Impl::openEnergy() {
+  const double energy = heat.energy(store), open = energy - heat.ledger().net() - energyOffset;
+  if (!heat.works()) return 0;
+  const double allowed = kOpenExchange * heat.ledger().exchanged + kOpenRounding * std::abs(energy) + 1e-9;
+  return std::abs(open) > allowed ? open : 0;
+}
+
+void Solver::Impl::checkEnergy() {
+  const double open = openEnergy();
+  if (open == 0 || heat.opensEnergy()) return;
+  raise(StepFlag::EnergyOpen, "heat balance open by " + std::to_string(open) + " J of " +
+                                  std::to_string(heat.ledger().exchanged) + " J exchanged");
+}
+
+int64_t Solver::Impl::firstNotFinite(std::string& what) const {
+  int64_t culprit = -1;
+  for (size_t i = 0; i < store.size(); ++i) {
+    const bool position = finite(store.position()[i]), velocity = finite(store.velocity()[i]),
+               temperature = std::isfinite(store.temperature()[i]);
+    if (position && velocity && temperature) continue;
+    if (culprit >= 0 && store.id()[i] > store.id()[static_cast<size_t>(culprit)]) continue;
+    culprit = static_cast<int64_t>(i);
+    what = !position ? "position" : !velocity ? "velocity" : "temperature";
+  }
+  return culprit;
+}
+
+bool Solver::Impl::rejectIfNotFinite() {
+  std::string what;
+  const int64_t culprit = firstNotFinite(what);
+  if (culprit < 0) return false;
+  raise(StepFlag::NotFinite, describe(static_cast<size_t>(culprit)) + ": " + what + " is not finite");
+  backToLastGood();
+  return true;
+}
+
+}  // namespace ps

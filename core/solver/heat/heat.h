@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <phasesketch/thermal.h>
+
+#include "core/matter/material.h"
+#include "core/particles/neighbours.h"
+#include "core/solver/heat/heatbody.h"
+#include "core/solver/heat/heatpairs.h"
+#include "core/solver/heat/heatsources.h"
+#include "core/solver/heat/heatsurroundings.h"
+#include "core/solver/report.h"
+#include "core/solver/settings.h"
+
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace ps {
+
+/// The thermal half of a frame: pairwise conduction (Cleary & Monaghan 1999 between materials, Kirchhoff within one),
+/// walls, air and radiation (HeatSurroundings), film condensation, nucleation. Heat is exchanged in equal and opposite
+/// joules, so that a closed system keeps its energy to rounding. Kinds of heat a model cannot do: see the thermal
+/// plugin's help.
+///
+/// Explicit substeps of thermal_cfl times the Gershgorin limit, measured before each from the pairs at hand; above
+/// kMaxExplicit of them, pairwise exponential sweeps (heatrelax.cpp), which stay stable at any step and lose accuracy:
+/// a front that freezes from a wall lags by 9 % in frames of 45 explicit steps, by 16 % in frames of 150. That is what
+/// HeatSteps::Explicit is for. What even sweeps cannot follow is not done: the thermal clock then runs slower, see
+/// thermalTimeScaleDelivered(). A model's own pair law is never swept; it is stepped at the limit of the host's
+/// conduction and of what the model says of its law (api::PairRates), or else of the former alone. Not modelled:
+/// evaporation below the boiling point.
+///
+/// Where all is as warm as everything around it, to 1e-9 K, nothing is exchanged and no pairs are made: the model is
+/// asked for sources and told that the whole frame's time has passed.
+///
+/// A finite lump of air (airHeatCapacity) keeps one temperature, which follows what it gives and takes; its energy and
+/// the particles' are constant together.
+///
+/// A model that throws is put aside for good: from then on no heat flows, and takeFault() tells what it said.
+class HeatStage {
+ public:
+  static constexpr int kMaxExplicit = 40;        ///< explicit substeps per frame
+  static constexpr int kMostExplicit = 1000000;  ///< of HeatSteps::Explicit
+  static constexpr int kMaxSweeps = 12;          ///< exponential sweeps per frame
+  static constexpr double kSweepLength = 20;     ///< longest sweep in units of the Gershgorin limit
+
+  /// References stay valid until the next configure(). `model` may be nullptr: no heat flows.
+  void configure(const ThermalSettings& settings, const SolverSettings& solver, std::vector<Wall> walls,
+                 const Bounds& bounds, std::span<const BakedMaterial> materials, const api::ThermalPlugin* model,
+                 std::vector<double> modelParameters);
+  /// Sets state, temperature and fractions of particles [first, last); the two spans hold one value per particle of
+  /// that range. Declares the model's fields in the store when they are new. False when the model threw.
+  bool initialise(ParticleStore& store, size_t first, size_t last, std::span<const double> temperature,
+                  std::span<const api::Phase> phase);
+  /// One frame of `dt` s of mechanical time. Lists must be fresh. Updates temperature and fractions, not volumes.
+  /// False when the model threw: particles are then half changed, the ledger is not.
+  /// `frame`, its number, chooses the rays of radiation.
+  bool advance(ParticleStore& store, const Neighbours& neighbours, double dt, uint64_t frame = 0);
+  /// Re-derives temperature and fractions after a change of pressure or material. Where that changes the energy too,
+  /// it is booked as a source.
+  void derive(ParticleStore& store);
+  /// J, the model's, summed in order of index chunks. Not to be called from two threads at once. Of a model put aside,
+  /// what it said last.
+  double energy(const ParticleStore& store) const;
+  /// Energy of each particle in J; valid until the next call of anything here. Empty without a model.
+  std::span<const double> energies(const ParticleStore& store) const;
+  const HeatLedger& ledger() const { return m_ledger; }
+  /// K; a finite lump of air is warmer than at the start by what matter gave it.
+  double airTemperature() const { return m_settings.ambientTemperature + m_ledger.airWarming; }
+  /// Back to the books of an earlier frame, when the particles go back to it.
+  void setLedger(const HeatLedger& ledger) { m_ledger = ledger; }
+  /// Joules that left or came with removed or added particles are booked here.
+  void book(double joules) {
+    m_ledger.sources += joules;
+    m_ledger.exchanged += joules < 0 ? -joules : joules;
+  }
+  /// Power of bodies, whatever the model.
+  BodyHeating& bodyHeating() { return m_bodyHeating; }
+  /// False without a model, and when it was put aside.
+  bool works() const { return m_model != nullptr && !m_putAside; }
+  /// What the model said when it threw; once.
+  std::optional<std::string> takeFault() { return std::exchange(m_fault, std::nullopt); }
+  /// True when the model drops or invents heat by design (api::kOpensEnergy).
+  bool opensEnergy() const { return works() && m_model->extension(api::kOpensEnergy) != nullptr; }
+
+  /// Thermal seconds per mechanical second that the last frame really did; below ThermalSettings::timeScale where the
+  /// heat would have been too fast for kMaxSweeps sweeps.
+  double thermalTimeScaleDelivered() const { return m_delivered; }
+  /// Largest stable explicit step as last measured, in s of thermal time: min over particles of m c / sum of G.
+  double gershgorinLimit() const { return m_limit; }
+  /// True when the last frame used exponential sweeps, for all or the rest of its time.
+  bool usedSweeps() const { return m_swept; }
+
+ private:
+  struct Partial : HeatBooks {
+    double fastest = 0;  ///< largest rate in 1/s
+    int boiling = 0;
+  };
+
+  template <class Call>
+  bool guarded(Call&& call) const;
+  api::ThermalContext context() const;
+  void startState(ParticleStore& store, size_t first, size_t last, std::span<const double> temperature,
+                  std::span<const api::Phase> phase);
+  void adopt(ParticleStore& store);
+  void exchange(ParticleStore& store, const Neighbours& neighbours, double dt, uint64_t frame);
+  bool isBalanced(const ParticleStore& store, const api::ParticleView& view, const api::NeighbourView& lists,
+                  double time);
+  void passTime(ParticleStore& store, const api::ParticleView& view, double time);
+  void deriveRange(ParticleStore& store, size_t first, size_t last);
+  void snapshotRange(const ParticleStore& store, HeatInstant& instant, size_t first, size_t last) const;
+  void prepare(ParticleStore& store, const Neighbours& neighbours, uint64_t frame);
+  void sumConductances(const ParticleStore& store, size_t first, size_t last, Partial& partial);
+  void collectFrameHeat(const ParticleStore& store, const api::ParticleView& view, double frame);
+  void filmHeat(const ParticleStore& store, size_t i, double frame, Partial& partial);
+  void countBoiling(const ParticleStore& store, size_t first, size_t last);
+  void nucleate(const ParticleStore& store, size_t first, size_t last);
+  bool boils(const ParticleStore& store, size_t i) const;
+  double latentContent(const ParticleStore& store, size_t i) const;
+  double fastestRate(const ParticleStore& store, size_t first, size_t last) const;
+  void findLimit();
+  double explicitTime() const;
+  double sweepTime() const;
+  double explicitShare() const;
+  int mostExplicit() const;
+  static void book(HeatBooks& books, HeatSurroundings::Kind kind, double joules);
+  double airHeat() const;
+  void takeFromAir(double joules);
+  double takeExplicitSteps(ParticleStore& store, const api::ParticleView& view, const api::NeighbourView& lists,
+                           double time);
+  double takeSweeps(ParticleStore& store, const api::ParticleView& view, double time);
+  void explicitStep(ParticleStore& store, const api::ParticleView& view, const api::NeighbourView& lists, double step,
+                    bool firstStep);
+  void gather(const ParticleStore& store, double step, size_t first, size_t last, Partial& partial);
+  void askPairLaw(const api::ParticleView& view, const api::NeighbourView& lists);
+  void gatherPairLaw(const api::NeighbourView& lists, double step, size_t first, size_t last);
+  void addFrameHeat(double step, bool firstStep, size_t first, size_t last, Partial& partial);
+  void sweep(ParticleStore& store, const api::ParticleView& view, double step, bool firstStep);
+  HeatBody heatBody(const ParticleStore& store, size_t i) const;
+  void relaxPair(size_t i, uint32_t k, bool sameMaterial, double time);
+  void relaxBodies(size_t i, size_t j, double conductance, double time);
+  double relaxToward(size_t i, double conductance, double target, double inverseCapacity, double time);
+  void relaxSurroundings(const ParticleStore& store, size_t i, double time);
+  void relaxSights(const ParticleStore& store, size_t i, double time);
+  void closeBooks();
+
+  ThermalSettings m_settings;
+  SolverSettings m_solver;
+  HeatSurroundings m_surroundings;
+  std::span<const BakedMaterial> m_materials;
+  std::vector<const api::MaterialView*> m_materialViews;
+  const api::ThermalPlugin* m_model = nullptr;
+  bool m_modelChanged = false;
+  mutable bool m_putAside = false;  ///< the model threw
+  mutable std::optional<std::string> m_fault;
+  std::vector<double> m_parameters;
+  HeatLedger m_ledger;
+  int m_substeps = 0;  ///< explicit steps and sweeps of this frame
+  double m_delivered = 1, m_limit = 0;
+  bool m_swept = false, m_pairLaw = false, m_boiling = false;
+
+  HeatPairs m_pairs;
+  BodyHeating m_bodyHeating;
+  HeatInstant m_now, m_next;
+  std::vector<Partial> m_partials;
+  std::vector<double> m_joules;       ///< of the present substep
+  std::vector<double> m_frameJoules;  ///< film and nucleation, once a frame
+  std::vector<double> m_watts;        ///< the model's own sources and bodies' power, W of thermal time
+  std::vector<double> m_pairWatts;    ///< the model's own pair law, per list entry
+  std::vector<double> m_lawRates;     ///< 1/s, the fastest of that law, by chunk
+  double m_pairRate = 0;              ///< and of all
+  std::vector<double> m_newTemperature;
+  std::vector<api::Phase> m_newPhase;
+  std::vector<double> m_perConductivity;   ///< m: pairs of one material and walls, to be multiplied by k
+  std::vector<double> m_fixedConductance;  ///< W/K: other materials, air and radiation
+  std::vector<uint32_t> m_boilingPartners;
+  mutable std::vector<double> m_energies;  ///< J, scratch of energy()
+  mutable double m_lastEnergy = 0;         ///< J, of m_lastCount particles
+  mutable size_t m_lastCount = 0;
+  std::vector<HeatBody> m_bodies;  ///< of a sweep
+};
+
+}  // namespace ps

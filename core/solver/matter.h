@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "core/particles/particlestore.h"
+
+#include <memory>
+#include <vector>
+
+namespace ps {
+
+/// Particles to be born: one entry per particle.
+struct Spawn {
+  std::vector<api::Double3> position;  ///< m
+  std::vector<api::Double3> velocity;  ///< m/s; empty: at rest
+  uint32_t material = 0;               ///< index into the material table
+  uint32_t body = 0;
+  double temperature = 293.15;  ///< K
+  api::Phase phase = api::Phase::Liquid;
+  std::vector<double> temperatures;  ///< K, one each; empty: `temperature` for all
+  std::vector<api::Phase> phases;    ///< one each; empty: `phase` for all
+  bool fixed = false;                ///< static boundary particles: they go on at their velocity, or as
+                                     ///< setMotion() says, whatever they meet
+  /// Matter on its way in: its neighbours feel it as what it is, but it goes on at its velocity, whatever it meets,
+  /// until it is released.
+  bool held = false;
+  std::vector<uint32_t> constraintSets;  ///< built over the new particles
+};
+
+struct CopiedConstraints;
+
+/// Matter outside a solver, with every field and the structure that held it; opaque to its keeper.
+struct TakenMatter {
+  CopiedParticles particles;
+  std::shared_ptr<const CopiedConstraints> constraints;
+};
+
+}  // namespace ps

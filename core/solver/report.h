@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <phasesketch/types.h>
+
+#include <array>
+#include <string>
+#include <vector>
+
+// What the solver tells of a frame: plain values, without any stage of it.
+namespace ps {
+
+/// Failures of a step; each says what to do about it.
+enum class StepFlag : unsigned {
+  NotFinite = 1,     ///< a NaN or infinity: raise substeps, or undo the last change of a stiffness or temperature
+  LostParticle = 2,  ///< a particle left the bounds: raise substeps, or close the scene with walls
+  Diverged = 4,      ///< density error above 50 %, in the mean over liquid that is 1 % of what moves, or more: raise
+                     ///< iterations, lower the relaxation
+  PluginFault = 8,   ///< a plugin threw: see the message; the scene goes on without it
+  EnergyOpen = 16,   ///< heat balance open by more than 1e-6 of what was exchanged: report a bug in the thermal model
+};
+using StepFlags = unsigned;
+/// "not_finite", "lost_particle", ...
+std::vector<std::string> flagNames(StepFlags flags);
+
+/// A plugin that threw, and what it said; the solver goes on without it.
+struct PluginFault {
+  std::string plugin;  ///< id
+  std::string what;
+};
+
+/// Asked for and not delivered at this step.
+struct Limit {
+  std::string what;  ///< parameter key and owner: "water.youngs_modulus", "rope.stretch_stiffness"
+  double asked = 0, delivered = 0;
+  std::string unit;
+  int body = -1;  ///< the one whose plugin's own parameter it is; -1: a material's, the solver's
+};
+
+enum class Stage { Neighbours, Density, Structure, Contact, Viscosity, Heat, Phase, Count };
+const char* stageName(Stage stage);
+
+/// Heat that entered the particles since the start, in J; `exchanged` adds up absolute amounts. `radiation` is what
+/// came from around the scene: walls' is theirs, and what particles radiate at each other stays. `heaters`: bodies'
+/// heating power and sources of the thermal model. `sources`: what came and went with matter, or by another thermal
+/// model.
+struct HeatLedger {
+  double walls = 0, air = 0, radiation = 0, heaters = 0, sources = 0, exchanged = 0;
+  double airWarming = 0;  ///< K by which a finite lump of air is warmer than at the start
+  double net() const { return walls + air + radiation + heaters + sources; }
+};
+
+/// Momentum of moving matter over one frame, kg m/s. What is open, end - start - external, is rounding: forces between
+/// particles come in pairs.
+struct MomentumRecord {
+  api::Double3 start{0, 0, 0}, end{0, 0, 0};
+  /// Impulse of all that is no moving matter: gravity, air, damping, walls, fixed particles and what hangs on them.
+  api::Double3 external{0, 0, 0};
+};
+
+/// Limits that are no parameter's: the heat balance is open by so many joules; liquid is too dense by this mean excess
+/// while a body is led, or solids are squeezed themselves, which may leave it no room.
+inline constexpr const char* kBalanceLimit = "heat balance";
+inline constexpr const char* kSqueezeLimit = "squeezed liquid";
+
+struct StepReport {
+  StepFlags flags = 0;
+  std::string message;  ///< the culprit: "particle 17 of 'Ice block': position is not finite"
+  std::vector<PluginFault> faults;
+  std::array<double, static_cast<size_t>(Stage::Count)> milliseconds{};
+  double totalMilliseconds = 0;
+  double densityErrorMean = 0, densityErrorMax = 0;  ///< fraction, liquid particles, after the last iteration
+  int viscosityIterations = 0;                       ///< of the implicit viscosity, the most of a substep
+  MomentumRecord momentum;
+};
+
+}  // namespace ps

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+// The part of ConstraintSystem that calls plugins of structure and of neighbours, batch by batch.
+#include "core/base/parallel.h"
+#include "core/solver/structure/constraintsystem.h"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+namespace ps {
+namespace {
+
+constexpr size_t kBatchGrain = 1024;
+constexpr size_t kGatherGrain = 256;
+
+/// A run of constraints with pointers to its values; lives while a plugin is called.
+struct BatchView {
+  std::array<float*, GroupLists::kMostValues> values{};
+  api::ConstraintBatch batch{};
+};
+
+}  // namespace
+
+template <class Call>
+void ConstraintSystem::forRuns(const Set& set, size_t first, size_t last, Call&& call) {
+  auto run =
+      std::upper_bound(set.runs.begin(), set.runs.end(), first, [](size_t k, const Run& r) { return k < r.first; });
+  for (--run; first < last; ++run) {
+    const size_t end = run + 1 == set.runs.end() ? last : std::min(last, (run + 1)->first);
+    call(run->body, first, end);
+    first = end;
+  }
+}
+
+template <class Call>
+void ConstraintSystem::forBatches(Set& set, uint32_t substep, uint32_t iteration, Call&& call) {
+  const auto run = [&](size_t first, size_t last) {
+    forRuns(set, first, last, [&](uint32_t body, size_t from, size_t to) {
+      BatchView view;
+      for (size_t v = 0; v < set.valueCount; ++v) view.values[v] = set.values[v].data() + from;
+      view.batch = {to - from, set.particles.data() + from * set.arity, view.values.data()};
+      call(context(set, substepTime(), substep, iteration, body), view.batch);
+    });
+  };
+  for (size_t colour = 0; colour + 1 < set.colourStart.size(); ++colour) {
+    const size_t begin = set.colourStart[colour], count = set.colourStart[colour + 1] - begin;
+    if (count == 0) continue;
+    if (count <= kBatchGrain)
+      run(begin, begin + count);
+    else
+      forChunks(count, kBatchGrain, [&](size_t first, size_t last) { run(begin + first, begin + last); });
+  }
+}
+
+void ConstraintSystem::predict(const ParticleStore& store, uint32_t substep) {
+  for (Set& set : m_sets) {
+    guarded(set, [&] {
+      forBatches(set, substep, 0, [&](const auto& c, const auto& b) { set.plugin->predict(c, store.view(), b); });
+    });
+  }
+  predictGroups(store, substep);
+}
+
+void ConstraintSystem::projectStructure(const ParticleStore& store, uint32_t substep, uint32_t iteration) {
+  for (Set& set : m_sets) {
+    guarded(set, [&] {
+      forBatches(set, substep, iteration,
+                 [&](const auto& c, const auto& b) { set.plugin->project(c, store.view(), b); });
+    });
+  }
+}
+
+void ConstraintSystem::projectNeighbours(ParticleStore& store, const Neighbours& neighbours, uint32_t substep,
+                                         uint32_t iteration) {
+  for (Set& set : m_sets) {
+    if (set.structural || set.groups || set.disabled) continue;
+    for (uint32_t body = 0; body < set.used.size(); ++body) {
+      if (set.used[body] == 0) continue;
+      // Bodies of the same parameters share a pass, that of the first of them.
+      const auto alike = [&](uint32_t other) {
+        if (other >= set.used.size() || set.used[other] == 0) return false;
+        const api::Span<const double> a = set.parametersOf[body], b = set.parametersOf[other];
+        return std::equal(a.begin(), a.end(), b.begin(), b.end());
+      };
+      bool done = false;
+      for (uint32_t other = 0; other < body; ++other) done = done || alike(other);
+      if (!done && gather(set, body, store, neighbours, substep, iteration)) applyCorrection(store, alike);
+    }
+  }
+}
+
+bool ConstraintSystem::gather(Set& set, uint32_t body, const ParticleStore& store, const Neighbours& neighbours,
+                              uint32_t substep, uint32_t iteration) {
+  m_correction.assign(store.size() + 1, api::Float4{0, 0, 0, 0});
+  const api::ConstraintContext c = context(set, substepTime(), substep, iteration, body);
+  return guarded(set, [&] {
+    forChunks(store.size(), kGatherGrain, [&](size_t first, size_t last) {
+      set.plugin->gather(c, store.view(), neighbours.view(), first, last, m_correction.data());
+    });
+  });
+}
+
+template <class Takes>
+void ConstraintSystem::applyCorrection(ParticleStore& store, Takes&& takes) const {
+  api::Float4* position = store.position();
+  for (size_t i = 0; i < store.size(); ++i) {
+    if (store.velocity()[i].w == 0 || !takes(store.body()[i])) continue;
+    position[i].x += m_correction[i].x;
+    position[i].y += m_correction[i].y;
+    position[i].z += m_correction[i].z;
+  }
+}
+
+void ConstraintSystem::deriveVelocities(const ParticleStore& store, uint32_t substep) {
+  for (Set& set : m_sets) {
+    guarded(set, [&] {
+      forBatches(set, substep, 0,
+                 [&](const auto& c, const auto& b) { set.plugin->deriveVelocities(c, store.view(), b); });
+    });
+  }
+  deriveGroupVelocities(store, substep);
+}
+
+double ConstraintSystem::energy(const ParticleStore& store) {
+  double sum = 0;
+  for (Set& set : m_sets) {
+    if (set.groups) sum += groupEnergy(set, store);
+    if (set.count == 0) continue;
+    guarded(set, [&] {
+      forRuns(set, 0, set.count, [&](uint32_t body, size_t first, size_t last) {
+        BatchView view;
+        for (size_t v = 0; v < set.valueCount; ++v) view.values[v] = set.values[v].data() + first;
+        view.batch = {last - first, set.particles.data() + first * set.arity, view.values.data()};
+        sum += set.plugin->energy(context(set, substepTime(), 0, 0, body), store.view(), view.batch);
+      });
+    });
+  }
+  return sum;
+}
+
+void ConstraintSystem::limits(const ParticleStore& store, std::vector<Limit>& out) {
+  /// Bodies of one material meet the same limit: the one that is missed by most is told. A parameter of the plugin is
+  /// each body's own.
+  class Collect final : public api::LimitSink {
+   public:
+    explicit Collect(std::vector<Limit>& limits) : m_limits(limits) {}
+    void limit(const char* what, double asked, double delivered, const char* unit) override {
+      const int body = std::string_view(what).starts_with(plugin + ".") ? asking : -1;
+      const auto found = std::find_if(m_limits.begin(), m_limits.end(),
+                                      [&](const Limit& l) { return l.what == what && l.body == body; });
+      if (found == m_limits.end()) {
+        m_limits.push_back({what, asked, delivered, unit, body});
+      } else if (asked * found->delivered > found->asked * delivered) {
+        found->asked = asked, found->delivered = delivered;
+      }
+    }
+    std::string plugin;
+    int asking = -1;
+
+   private:
+    std::vector<Limit>& m_limits;
+  } sink(out);
+  for (Set& set : m_sets) {
+    sink.plugin = set.name;
+    for (uint32_t body = 0; body < set.used.size(); ++body) {
+      if (set.used[body] == 0) continue;
+      sink.asking = static_cast<int>(body);
+      guarded(set, [&] { set.plugin->limits(context(set, substepTime(), 0, 0, body), store.view(), sink); });
+    }
+  }
+}
+
+}  // namespace ps

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+// The part of ConstraintSystem that hosts plugins of groups.
+#include "core/base/error.h"
+#include "core/base/parallel.h"
+#include "core/solver/structure/constraintsystem.h"
+
+#include <algorithm>
+
+namespace ps {
+namespace {
+/// Members that are worth a chunk of their own.
+constexpr size_t kMembersPerChunk = 512;
+}  // namespace
+
+/// Collects what a plugin adds and removes; it takes effect when the call has returned.
+class ConstraintSystem::Groups final : public api::GroupSink {
+ public:
+  Groups(const GroupLists& lists, const ParticleStore& store)
+      : m_lists(lists), m_particles(store.size()), m_lastUse(store.size(), 0) {}
+  void add(const uint32_t* particles, size_t count, const float* values, const float* memberValues) override {
+    if (count == 0) throw Error("added a group without members");
+    ++m_serial;
+    for (size_t k = 0; k < count; ++k) {
+      if (particles[k] >= m_particles) throw Error("added a group with a particle that does not exist");
+      if (m_lastUse[particles[k]] == m_serial) throw Error("added a group that names a particle twice");
+      m_lastUse[particles[k]] = m_serial;
+    }
+    m_edits.particles.insert(m_edits.particles.end(), particles, particles + count);
+    m_edits.begin.push_back(m_edits.particles.size());
+    m_edits.values.insert(m_edits.values.end(), values, values + m_lists.valueCount());
+    m_edits.memberValues.insert(m_edits.memberValues.end(), memberValues,
+                                memberValues + count * m_lists.memberValueCount());
+  }
+  void remove(size_t g) override {
+    if (g >= m_lists.count()) throw Error("removed a group that does not exist");
+    m_edits.removed.resize(m_lists.count(), 0);
+    m_edits.removed[g] = 1;
+  }
+  const GroupLists::Edits& edits() const { return m_edits; }
+
+ private:
+  const GroupLists& m_lists;
+  size_t m_particles;
+  std::vector<uint32_t> m_lastUse;
+  uint32_t m_serial = 0;
+  GroupLists::Edits m_edits;
+};
+
+template <class Call>
+void ConstraintSystem::forGroups(Set& set, uint32_t substep, uint32_t iteration, Call&& call) {
+  if (!set.groups || set.groups->count() == 0) return;
+  GroupLists& groups = *set.groups;
+  const auto run = [&](size_t first, size_t last) {
+    for (size_t next = first; first < last; first = next) {
+      const uint32_t body = groups.body(first);
+      while (next < last && groups.body(next) == body) ++next;
+      GroupLists::Batch batch;
+      groups.fill(batch, first, next);
+      call(context(set, substepTime(), substep, iteration, body), batch.view);
+    }
+  };
+  guarded(set, [&] {
+    for (size_t colour = 0; colour < groups.colours(); ++colour) {
+      const size_t begin = groups.colourStart(colour), count = groups.colourStart(colour + 1) - begin;
+      if (count == 0) continue;
+      const size_t members = static_cast<size_t>(&groups.members(begin + count - 1).back() - &groups.members(begin)[0]);
+      const size_t grain = std::max<size_t>(1, kMembersPerChunk * count / (members + 1));
+      if (count <= grain)
+        run(begin, begin + count);
+      else
+        forChunks(count, grain, [&](size_t first, size_t last) { run(begin + first, begin + last); });
+    }
+  });
+}
+
+void ConstraintSystem::predictGroups(const ParticleStore& store, uint32_t substep) {
+  for (Set& set : m_sets) {
+    forGroups(set, substep, 0,
+              [&](const auto& c, const api::GroupBatch& batch) { set.plugin->predictGroups(c, store.view(), batch); });
+  }
+}
+
+void ConstraintSystem::projectGroups(const ParticleStore& store, uint32_t substep, uint32_t iteration) {
+  for (Set& set : m_sets) {
+    forGroups(set, substep, iteration,
+              [&](const auto& c, const api::GroupBatch& batch) { set.plugin->projectGroups(c, store.view(), batch); });
+  }
+}
+
+void ConstraintSystem::deriveGroupVelocities(const ParticleStore& store, uint32_t substep) {
+  for (Set& set : m_sets) {
+    forGroups(set, substep, 0, [&](const auto& c, const api::GroupBatch& batch) {
+      set.plugin->deriveGroupVelocities(c, store.view(), batch);
+    });
+  }
+}
+
+void ConstraintSystem::buildGroups(Set& set, const ParticleStore& store, const Neighbours& neighbours,
+                                   std::span<const uint32_t> members) {
+  GroupLists::Batch all;
+  set.groups->fill(all, 0, set.groups->count());
+  Groups sink(*set.groups, store);
+  if (guarded(set, [&] {
+        set.plugin->buildGroups(context(set, m_settings.dt, 0, 0, store.body()[members[0]]), store.view(),
+                                neighbours.view(), {members.data(), members.size()}, all.view, sink);
+      })) {
+    set.groups->apply(sink.edits(), {store.body(), store.size()});
+    m_graphValid = false;
+  }
+}
+
+bool ConstraintSystem::groupTopology(Set& set, const ParticleStore& store, const Neighbours& neighbours) {
+  if (set.disabled) return false;
+  GroupLists::Batch all;
+  set.groups->fill(all, 0, set.groups->count());
+  Groups sink(*set.groups, store);
+  if (!guarded(set, [&] {
+        set.plugin->groupTopology(context(set, m_settings.dt, 0, 0), store.view(), neighbours.view(), all.view, sink);
+      })) {
+    return true;
+  }
+  set.groups->forgetChanges();
+  if (sink.edits().empty()) return false;
+  set.groups->apply(sink.edits(), {store.body(), store.size()});
+  m_graphValid = false;
+  return true;
+}
+
+double ConstraintSystem::groupEnergy(Set& set, const ParticleStore& store) {
+  double sum = 0;
+  GroupLists& groups = *set.groups;
+  guarded(set, [&] {
+    for (size_t first = 0, next = 0; first < groups.count(); first = next) {
+      while (next < groups.count() && groups.body(next) == groups.body(first)) ++next;
+      GroupLists::Batch batch;
+      groups.fill(batch, first, next);
+      sum += set.plugin->groupEnergy(context(set, substepTime(), 0, 0, groups.body(first)), store.view(), batch.view);
+    }
+  });
+  return sum;
+}
+
+void ConstraintSystem::putGroupsBack(Set& set, const ParticleStore& store, std::span<const CopiedGroup> copies) {
+  if (copies.empty()) return;
+  const std::vector<uint8_t> returned = set.groups->putBack(store, copies);
+  m_graphValid = false;
+  GroupLists::Batch all;
+  set.groups->fill(all, 0, set.groups->count());
+  guarded(set, [&] {
+    set.plugin->restoreMembers(context(set, m_settings.dt, 0, 0), store.view(), all.view, returned.data());
+  });
+}
+
+std::vector<uint8_t> ConstraintSystem::groupMembers(const ParticleStore& store) const {
+  std::vector<uint8_t> result(store.size(), 0);
+  for (const Set& set : m_sets) {
+    for (size_t g = 0; set.groups && g < set.groups->count(); ++g) {
+      for (const uint32_t i : set.groups->members(g)) result[i] = 1;
+    }
+  }
+  return result;
+}
+
+std::vector<std::span<const uint32_t>> ConstraintSystem::rigidGroups() const {
+  std::vector<std::span<const uint32_t>> result;
+  for (const Set& set : m_sets) {
+    if (!set.groups || !set.rigid) continue;
+    for (size_t g = 0; g < set.groups->count(); ++g) result.push_back(set.groups->members(g));
+  }
+  return result;
+}
+
+}  // namespace ps

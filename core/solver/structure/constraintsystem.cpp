@@ -1,0 +1,369 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/solver/structure/constraintsystem.h"
+
+#include "core/base/error.h"
+#include "core/base/hash.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <utility>
+
+namespace ps {
+namespace {
+
+constexpr size_t kMostValues = GroupLists::kMostValues;
+constexpr uint32_t kGone = ~0u;
+
+}  // namespace
+
+struct ConstraintSystem::Edits {
+  std::vector<uint8_t> removed;  ///< per constraint; empty: none
+  size_t removedCount = 0;
+  std::vector<uint32_t> particles;
+  std::vector<float> values;
+  bool empty() const { return removedCount == 0 && particles.empty(); }
+};
+
+/// Collects what a plugin adds and removes; it takes effect when the call has returned.
+class ConstraintSystem::Sink final : public api::ConstraintSink {
+ public:
+  Sink(ConstraintSystem& system, Set& set, const ParticleStore& store, Edits& edits)
+      : m_system(system), m_set(set), m_store(store), m_edits(edits) {}
+  void add(const uint32_t* particles, const float* values) override {
+    for (size_t a = 0; a < m_set.arity; ++a) {
+      if (particles[a] >= m_store.size()) throw Error("added a constraint on a particle that does not exist");
+      for (size_t b = 0; b < a; ++b) {
+        if (particles[a] == particles[b]) throw Error("added a constraint that names a particle twice");
+      }
+    }
+    if (!m_set.keys.insert(m_system.keyOf(m_set, m_store, particles)).second) return;
+    m_edits.particles.insert(m_edits.particles.end(), particles, particles + m_set.arity);
+    m_edits.values.insert(m_edits.values.end(), values, values + m_set.valueCount);
+  }
+  void remove(size_t k) override {
+    if (k >= m_set.count) throw Error("removed a constraint that does not exist");
+    if (m_edits.removed.empty()) m_edits.removed.assign(m_set.count, 0);
+    if (m_edits.removed[k] != 0) return;
+    m_edits.removed[k] = 1;
+    ++m_edits.removedCount;
+    m_set.keys.erase(m_system.keyOf(m_set, m_store, m_set.particles.data() + k * m_set.arity));
+  }
+
+ private:
+  ConstraintSystem& m_system;
+  Set& m_set;
+  const ParticleStore& m_store;
+  Edits& m_edits;
+};
+
+void ConstraintSystem::configure(const SolverSettings& settings, std::span<const BakedMaterial> materials) {
+  m_settings = settings;
+  m_materials.clear();
+  for (const BakedMaterial& m : materials) m_materials.push_back(&m);
+}
+
+uint32_t ConstraintSystem::addSet(const api::ConstraintPlugin* plugin, std::string name, std::vector<double> parameters,
+                                  ParticleStore& store) {
+  const api::ConstraintTraits traits = plugin->traits();
+  Set set;
+  set.plugin = plugin;
+  set.name = std::move(name);
+  set.parameters = std::move(parameters);
+  set.thin = traits.thin != 0;
+  set.structural = traits.form == api::ConstraintTraits::Form::Structural;
+  if (set.structural && (traits.arity < 2 || traits.arity > 4)) {
+    throw Error("constraint plugin '" + set.name + "' declares an arity outside 2 to 4");
+  }
+  if (traits.values.count > kMostValues)
+    throw Error("constraint plugin '" + set.name + "' declares more than 16 values");
+  if (traits.form == api::ConstraintTraits::Form::Group) {
+    if (traits.memberValues.count > kMostValues)
+      throw Error("constraint plugin '" + set.name + "' declares more than 16 values of a member");
+    set.groups = std::make_unique<GroupLists>(traits.values.count, traits.memberValues.count);
+    set.rigid = traits.rigid != 0;
+  }
+  set.arity = set.structural ? traits.arity : 0;
+  set.valueCount = set.structural ? traits.values.count : 0;
+  set.values.resize(set.valueCount);
+  set.colourStart.assign(1, 0);
+  for (size_t k = 0; k < traits.fields.count; ++k) {
+    const api::FieldDeclaration& f = traits.fields[k];
+    store.declare(f.name, f.type, f.unit, f.help);
+  }
+  m_sets.push_back(std::move(set));
+  return static_cast<uint32_t>(m_sets.size() - 1);
+}
+
+void ConstraintSystem::setParameters(uint32_t index, uint32_t body, std::vector<double> parameters) {
+  Set& set = m_sets.at(index);
+  if (body >= set.bodyParameters.size()) set.bodyParameters.resize(body + size_t{1});
+  set.bodyParameters[body] = std::move(parameters);
+  refreshParameters(set);
+}
+
+void ConstraintSystem::refreshParameters(Set& set) {
+  set.parametersOf.clear();
+  for (const std::vector<double>& own : set.bodyParameters) {
+    const std::vector<double>& values = own.empty() ? set.parameters : own;
+    set.parametersOf.push_back({values.data(), values.size()});
+  }
+}
+
+api::ConstraintContext ConstraintSystem::context(const Set& set, double dt, uint32_t substep, uint32_t iteration,
+                                                 uint32_t body) const {
+  api::ConstraintContext c{dt,
+                           m_settings.spacing,
+                           m_settings.spacing * m_settings.supportRatio,
+                           m_settings.gravity,
+                           substep,
+                           iteration,
+                           {set.parameters.data(), set.parameters.size()},
+                           {m_materials.data(), m_materials.size()},
+                           body,
+                           {set.parametersOf.data(), set.parametersOf.size()}};
+  c.parameters = c.parametersOf(body);
+  return c;
+}
+
+void ConstraintSystem::putAside(Set& set, std::string problem) {
+  set.disabled = true;
+  set.count = 0;
+  set.particles.clear();
+  for (auto& v : set.values) v.clear();
+  set.colourStart.assign(1, 0);
+  set.runs.clear();
+  if (set.groups) set.groups->clear();
+  m_graphValid = false;
+  m_faults.push_back({set.name, std::move(problem)});
+}
+
+ConstraintSystem::Key ConstraintSystem::keyOf(const Set& set, const ParticleStore& store,
+                                              const uint32_t* particles) const {
+  std::array<uint32_t, 4> ids{kGone, kGone, kGone, kGone};
+  for (size_t a = 0; a < set.arity; ++a) ids[a] = store.id()[particles[a]];
+  std::sort(ids.begin(), ids.end());  // unused places sort to the end
+  return {uint64_t{ids[0]} << 32 | ids[1], uint64_t{ids[2]} << 32 | ids[3]};
+}
+
+size_t ConstraintSystem::takeColour(Set& set, const ParticleStore& store, const uint32_t* particles) const {
+  for (size_t word = 0;; ++word) {
+    if (word == set.taken.size()) set.taken.emplace_back();
+    std::vector<uint64_t>& used = set.taken[word];
+    uint64_t taken = 0;
+    for (size_t a = 0; a < set.arity; ++a) {
+      const uint32_t id = store.id()[particles[a]];
+      if (id >= used.size()) used.resize(id + 1 + used.size() / 2, 0);
+      taken |= used[id];
+    }
+    if (taken == ~uint64_t{0}) continue;
+    const int bit = std::countr_one(taken);
+    for (size_t a = 0; a < set.arity; ++a) used[store.id()[particles[a]]] |= uint64_t{1} << bit;
+    return 64 * word + static_cast<size_t>(bit);
+  }
+}
+
+void ConstraintSystem::apply(Set& set, const ParticleStore& store, const Edits& edits) {
+  if (edits.empty()) return;
+  m_graphValid = false;
+  const size_t arity = set.arity, added = edits.particles.size() / arity;
+  // Colours that removed constraints give back are free for new ones.
+  for (size_t colour = 0; edits.removedCount > 0 && colour + 1 < set.colourStart.size(); ++colour) {
+    for (size_t k = set.colourStart[colour]; k < set.colourStart[colour + 1]; ++k) {
+      if (edits.removed[k] == 0) continue;
+      for (size_t a = 0; a < arity; ++a) {
+        const uint32_t particle = set.particles[k * arity + a];
+        if (particle != kGone) set.taken[colour / 64][store.id()[particle]] &= ~(uint64_t{1} << (colour % 64));
+      }
+    }
+  }
+  std::vector<std::vector<uint32_t>> newOfColour(set.colourStart.size() - 1);
+  for (size_t k = 0; k < added; ++k) {
+    const size_t colour = takeColour(set, store, edits.particles.data() + k * arity);
+    if (colour >= newOfColour.size()) newOfColour.resize(colour + 1);
+    newOfColour[colour].push_back(static_cast<uint32_t>(k));
+  }
+  m_keptParticles.clear();
+  m_keptValues.resize(std::max(m_keptValues.size(), set.valueCount));
+  for (auto& v : m_keptValues) v.clear();
+  std::vector<size_t> starts(1, 0);
+  std::vector<Run> runs;
+  struct Place {
+    uint32_t body;
+    bool isNew;
+    size_t k;
+  };
+  std::vector<Place> places;
+  for (size_t colour = 0; colour < newOfColour.size(); ++colour) {
+    places.clear();
+    const bool old = colour + 1 < set.colourStart.size();
+    for (size_t k = old ? set.colourStart[colour] : 0; old && k < set.colourStart[colour + 1]; ++k) {
+      if (edits.removedCount > 0 && edits.removed[k] != 0) continue;
+      places.push_back({store.body()[set.particles[k * arity]], false, k});
+    }
+    for (const uint32_t k : newOfColour[colour]) {
+      places.push_back({store.body()[edits.particles[k * arity]], true, k});
+    }
+    const auto byBody = [](const Place& a, const Place& b) { return a.body < b.body; };
+    if (!std::is_sorted(places.begin(), places.end(), byBody)) std::stable_sort(places.begin(), places.end(), byBody);
+    for (size_t q = 0; q < places.size(); ++q) {
+      const Place& place = places[q];
+      if (q == 0 || place.body != places[q - 1].body) runs.push_back({m_keptParticles.size() / arity, place.body});
+      const uint32_t* from = (place.isNew ? edits.particles : set.particles).data() + place.k * arity;
+      m_keptParticles.insert(m_keptParticles.end(), from, from + arity);
+      for (size_t v = 0; v < set.valueCount; ++v) {
+        m_keptValues[v].push_back(place.isNew ? edits.values[place.k * set.valueCount + v] : set.values[v][place.k]);
+      }
+    }
+    starts.push_back(m_keptParticles.size() / arity);
+  }
+  set.particles.swap(m_keptParticles);
+  for (size_t v = 0; v < set.valueCount; ++v) set.values[v].swap(m_keptValues[v]);
+  set.colourStart = std::move(starts);
+  set.runs = std::move(runs);
+  set.count = set.particles.size() / arity;
+}
+
+void ConstraintSystem::build(uint32_t index, const ParticleStore& store, const Neighbours& neighbours,
+                             std::span<const uint32_t> members) {
+  Set& set = m_sets.at(index);
+  if (members.empty()) return;
+  const uint32_t body = store.body()[members[0]];
+  if (body >= set.used.size()) set.used.resize(body + size_t{1}, 0);
+  set.used[body] = 1;
+  if (body >= m_thin.size()) m_thin.resize(body + size_t{1}, 0);
+  if (set.thin) m_thin[body] = 1;
+  if (body >= set.bodyParameters.size()) set.bodyParameters.resize(body + size_t{1});
+  refreshParameters(set);
+  if (set.groups) buildGroups(set, store, neighbours, members);
+  if (!set.structural) return;
+  Edits edits;
+  Sink sink(*this, set, store, edits);
+  if (guarded(set, [&] {
+        set.plugin->build(context(set, m_settings.dt, 0, 0, body), store.view(), neighbours.view(),
+                          {members.data(), members.size()}, sink);
+      })) {
+    apply(set, store, edits);
+  }
+}
+
+void ConstraintSystem::remap(std::span<const uint32_t> order) {
+  m_newIndex.resize(order.size());
+  for (size_t k = 0; k < order.size(); ++k) m_newIndex[order[k]] = static_cast<uint32_t>(k);
+  for (Set& set : m_sets) {
+    for (uint32_t& i : set.particles) i = m_newIndex[i];
+    if (set.groups) set.groups->renumber(m_newIndex);
+  }
+  m_graphValid = false;
+}
+
+void ConstraintSystem::removeParticles(const ParticleStore& store, std::span<const uint32_t> ascending) {
+  m_newIndex.assign(store.size(), 0);
+  for (const uint32_t i : ascending) m_newIndex[i] = kGone;
+  uint32_t next = 0;
+  for (uint32_t& i : m_newIndex) i = i == kGone ? kGone : next++;
+  for (Set& set : m_sets) {
+    Edits edits;
+    Sink sink(*this, set, store, edits);
+    for (size_t k = 0; k < set.count; ++k) {
+      for (size_t a = 0; a < set.arity; ++a) {
+        if (m_newIndex[set.particles[k * set.arity + a]] == kGone) sink.remove(k);
+      }
+    }
+    apply(set, store, edits);
+    for (uint32_t& i : set.particles) i = m_newIndex[i];
+    if (set.groups) set.groups->renumber(m_newIndex);
+  }
+  m_graphValid = false;
+}
+
+CopiedConstraints ConstraintSystem::copy(const ParticleStore& store, std::span<const uint32_t> ascending) const {
+  CopiedConstraints copies;
+  for (const Set& set : m_sets) {
+    CopiedConstraints::Set& copied = copies.sets.emplace_back();
+    copied.name = set.name;
+    if (set.groups) copied.groups = set.groups->copy(store, ascending);
+    for (size_t k = 0; k < set.count; ++k) {
+      const uint32_t* particles = set.particles.data() + k * set.arity;
+      if (std::none_of(particles, particles + set.arity,
+                       [&](uint32_t i) { return std::binary_search(ascending.begin(), ascending.end(), i); })) {
+        continue;
+      }
+      for (size_t a = 0; a < set.arity; ++a) copied.id.push_back(store.id()[particles[a]]);
+      for (size_t v = 0; v < set.valueCount; ++v) copied.values.push_back(set.values[v][k]);
+    }
+  }
+  return copies;
+}
+
+void ConstraintSystem::putBack(const ParticleStore& store, const CopiedConstraints& copies) {
+  for (const CopiedConstraints::Set& copied : copies.sets) {
+    const auto found = std::find_if(m_sets.begin(), m_sets.end(), [&](const Set& s) { return s.name == copied.name; });
+    if (found == m_sets.end() || found->disabled) continue;
+    Set& set = *found;
+    if (set.groups) putGroupsBack(set, store, copied.groups);
+    if (!set.structural) continue;
+    Edits edits;
+    Sink sink(*this, set, store, edits);
+    std::vector<uint32_t> particles(set.arity);
+    for (size_t k = 0; (k + 1) * set.arity <= copied.id.size(); ++k) {
+      for (size_t a = 0; a < set.arity; ++a) {
+        particles[a] = static_cast<uint32_t>(store.indexOf(copied.id[k * set.arity + a]));
+      }
+      if (std::any_of(particles.begin(), particles.end(), [&](uint32_t i) { return i >= store.size(); })) continue;
+      sink.add(particles.data(), copied.values.data() + k * set.valueCount);
+    }
+    apply(set, store, edits);
+  }
+}
+
+bool ConstraintSystem::topology(const ParticleStore& store, const Neighbours& neighbours) {
+  bool changed = false;
+  // What freezes beside a group may join it; who is left joins by springs.
+  for (Set& set : m_sets) {
+    if (set.groups) changed = groupTopology(set, store, neighbours) || changed;
+  }
+  for (Set& set : m_sets) {
+    if (!set.structural || set.disabled) continue;
+    std::array<float*, kMostValues> values{};
+    for (size_t v = 0; v < set.valueCount; ++v) values[v] = set.values[v].data();
+    const api::ConstraintBatch all{set.count, set.particles.data(), values.data()};
+    Edits edits;
+    Sink sink(*this, set, store, edits);
+    if (!guarded(set, [&] {
+          set.plugin->topology(context(set, m_settings.dt, 0, 0), store.view(), neighbours.view(), all, sink);
+        })) {
+      changed = true;
+      continue;
+    }
+    changed = changed || !edits.empty();
+    apply(set, store, edits);
+  }
+  return changed;
+}
+
+size_t ConstraintSystem::count() const {
+  size_t sum = 0;
+  for (const Set& set : m_sets) sum += set.count + (set.groups ? set.groups->count() : 0);
+  return sum;
+}
+
+bool ConstraintSystem::shareParticles() const {
+  return std::any_of(m_sets.begin(), m_sets.end(), [](const Set& set) { return set.colourStart.size() > 2; });
+}
+
+void ConstraintSystem::addTo(Hash& hash, const ParticleStore& store) const {
+  std::vector<uint32_t> ids;
+  for (const Set& set : m_sets) {
+    ids.resize(set.particles.size());
+    for (size_t k = 0; k < ids.size(); ++k) ids[k] = store.id()[set.particles[k]];
+    hash.add(set.count);
+    hash.add(ids.data(), ids.size() * sizeof(uint32_t));
+    for (const auto& v : set.values) hash.add(v.data(), v.size() * sizeof(float));
+    if (set.groups) set.groups->addTo(hash, store);
+  }
+}
+
+std::vector<PluginFault> ConstraintSystem::takeFaults() { return std::exchange(m_faults, {}); }
+
+}  // namespace ps

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "core/matter/material.h"
+#include "core/particles/neighbours.h"
+#include "core/solver/report.h"
+#include "core/solver/settings.h"
+#include "core/solver/structure/grouplists.h"
+
+#include <phasesketch/constraint.h>
+
+#include <memory>
+#include <string>
+#include <unordered_set>
+#include <vector>
+
+// Why colours: constraints that share a particle must not run at the same time, and their order decides the result. A
+// greedy colouring puts each into the first colour that none of its particles uses; within a colour any order gives the
+// same bits, and the colours run one after the other. It is kept up to date as bonds break and form, so that it depends
+// on the history of the scene alone, never on threads.
+namespace ps {
+
+class Hash;
+
+/// Who is tied to whom, by structural constraints or as members of one group.
+struct StructureGraph {
+  std::vector<uint32_t> begin, partner;
+  std::vector<uint32_t> groupBegin, group;  ///< groups of each particle, ascending
+  bool isFree(uint32_t i) const { return begin[i + 1] == begin[i] && groupBegin[i + 1] == groupBegin[i]; }
+  size_t ties(uint32_t i) const { return i + size_t{1} < begin.size() ? begin[i + 1] - begin[i] : 0; }
+  bool tied(uint32_t i, uint32_t j) const {
+    if (i + size_t{1} >= begin.size()) return false;
+    for (uint32_t k = begin[i]; k < begin[i + 1]; ++k) {
+      if (partner[k] == j) return true;
+    }
+    for (uint32_t a = groupBegin[i], b = groupBegin[j]; a < groupBegin[i + 1] && b < groupBegin[j + 1];) {
+      if (group[a] == group[b]) return true;
+      ++(group[a] < group[b] ? a : b);
+    }
+    return false;
+  }
+};
+
+/// Constraints by the ids of their particles: what undo keeps of a structure that was taken apart.
+struct CopiedConstraints {
+  struct Set {
+    std::string name;
+    std::vector<uint32_t> id;   ///< arity per constraint
+    std::vector<float> values;  ///< as many per constraint as the plugin declares
+    std::vector<CopiedGroup> groups;
+  };
+  std::vector<Set> sets;
+};
+
+/// Host of constraint plugins: owns their index lists and values, keeps them valid when particles are sorted, removed
+/// and added, and calls each plugin once per batch. A plugin that throws is switched off; the others go on.
+class ConstraintSystem {
+ public:
+  void configure(const SolverSettings& settings, std::span<const BakedMaterial> materials);
+  uint32_t addSet(const api::ConstraintPlugin* plugin, std::string name, std::vector<double> parameters,
+                  ParticleStore& store);
+  /// A body's own, in place of the set's.
+  void setParameters(uint32_t set, uint32_t body, std::vector<double> parameters);
+
+  /// Builds the constraints of newly created particles (ascending indices).
+  void build(uint32_t set, const ParticleStore& store, const Neighbours& neighbours, std::span<const uint32_t> members);
+  /// After ParticleStore::permute.
+  void remap(std::span<const uint32_t> order);
+  /// Before ParticleStore::remove of these ascending indices: drops what refers to them, renumbers the others.
+  void removeParticles(const ParticleStore& store, std::span<const uint32_t> ascending);
+
+  /// Constraints that touch one of these ascending indices.
+  CopiedConstraints copy(const ParticleStore& store, std::span<const uint32_t> ascending) const;
+  /// Adds copied constraints again wherever all their particles live; puts members of groups back into them.
+  void putBack(const ParticleStore& store, const CopiedConstraints& copies);
+
+  void predict(const ParticleStore& store, uint32_t substep);
+  void projectStructure(const ParticleStore& store, uint32_t substep, uint32_t iteration);
+  void projectNeighbours(ParticleStore& store, const Neighbours& neighbours, uint32_t substep, uint32_t iteration);
+  void projectGroups(const ParticleStore& store, uint32_t substep, uint32_t iteration);
+  void deriveVelocities(const ParticleStore& store, uint32_t substep);
+  /// Once per frame. True when the structure has changed.
+  bool topology(const ParticleStore& store, const Neighbours& neighbours);
+  double energy(const ParticleStore& store);  ///< J
+  void limits(const ParticleStore& store, std::vector<Limit>& out);
+
+  /// 1 for each particle that is a member of a group.
+  std::vector<uint8_t> groupMembers(const ParticleStore& store) const;
+  /// Members of each group that moves as one body; valid until the structure or the order changes.
+  std::vector<std::span<const uint32_t>> rigidGroups() const;
+
+  /// 1 for bodies that use a plugin of sheets or lines, by their index.
+  std::span<const uint8_t> thinBodies() const { return m_thin; }
+
+  size_t count() const;  ///< structural constraints and groups
+  void addTo(Hash& hash, const ParticleStore& store) const;
+  /// Ties between pairs of particles, for contact; renewed when the structure or the order has changed.
+  const StructureGraph& graph(size_t particles);
+  /// For each particle a number that all share whom ties hold together; kNoPiece for what is tied to nothing.
+  std::vector<uint32_t> pieces(size_t particles);
+  static constexpr uint32_t kNoPiece = ~0u;
+  /// What moves and may be pulled by something fixed, in ascending order: the particles of each plugin that ties fixed
+  /// ones or shares particles with one that does; all of them where a plugin gathers over neighbours.
+  /// None where nothing is fixed.
+  void findHanging(const ParticleStore& store, std::vector<uint32_t>& hanging) const;
+  /// Whether a plugin gathers over neighbours.
+  bool gathers() const;
+  /// Whether structural constraints share particles, so that one pass over them leaves an error.
+  bool shareParticles() const;
+  /// Those that threw since the last call.
+  std::vector<PluginFault> takeFaults();
+
+ private:
+  void addGroupsTo(StructureGraph& graph, size_t particles) const;
+  struct Key {
+    uint64_t a, b;
+    bool operator==(const Key&) const = default;
+  };
+  struct KeyHash {
+    size_t operator()(const Key& k) const {
+      return static_cast<size_t>((k.a ^ (k.b * 0x9E3779B97F4A7C15ull)) * 0xD6E8FEB86659FD93ull >> 7);
+    }
+  };
+  /// Constraints from here on, up to the next run, belong to one body and one colour.
+  struct Run {
+    size_t first;
+    uint32_t body;
+  };
+  struct Set {
+    const api::ConstraintPlugin* plugin = nullptr;
+    std::string name;
+    std::vector<double> parameters;                     ///< of bodies without their own
+    std::vector<std::vector<double>> bodyParameters;    ///< by body; empty: the set's
+    std::vector<api::Span<const double>> parametersOf;  ///< both, as plugins see them
+    std::vector<uint8_t> used;                          ///< 1 for bodies that use the plugin
+    bool structural = true, disabled = false;
+    size_t arity = 2, valueCount = 0, count = 0;
+    std::vector<uint32_t> particles;         ///< arity per constraint, in order of colour
+    std::vector<std::vector<float>> values;  ///< [value][constraint]
+    std::vector<size_t> colourStart;         ///< first constraint of each colour; one entry more than there are colours
+    std::vector<Run> runs;                   ///< within a colour in order of bodies
+    std::vector<std::vector<uint64_t>> taken;  ///< [word of 64 colours][particle id]
+    std::unordered_set<Key, KeyHash> keys;     ///< sets of particle ids; only asked, never walked through
+    std::unique_ptr<GroupLists> groups;        ///< of a plugin of groups, which uses none of the lists above
+    bool rigid = false, thin = false;
+  };
+  struct Edits;
+  class Sink;
+  class Groups;  ///< collects the edits of groups
+
+  api::ConstraintContext context(const Set& set, double dt, uint32_t substep, uint32_t iteration,
+                                 uint32_t body = api::ConstraintContext::kNoBody) const;
+  double substepTime() const { return m_settings.dt / m_settings.substeps; }
+  static void refreshParameters(Set& set);
+  /// Runs a call into a plugin; what throws is put aside, its constraints dropped.
+  template <class Call>
+  bool guarded(Set& set, Call&& call) {
+    if (set.disabled) return false;
+    std::string problem;
+    try {
+      call();
+      return true;
+    } catch (const std::exception& e) {
+      problem = e.what();
+    } catch (...) {
+      problem = "threw something that is no std::exception";
+    }
+    putAside(set, std::move(problem));
+    return false;
+  }
+  void putAside(Set& set, std::string problem);
+  Key keyOf(const Set& set, const ParticleStore& store, const uint32_t* particles) const;
+  size_t takeColour(Set& set, const ParticleStore& store, const uint32_t* particles) const;
+  void apply(Set& set, const ParticleStore& store, const Edits& edits);
+  // In constraintcalls.cpp.
+  template <class Call>
+  void forBatches(Set& set, uint32_t substep, uint32_t iteration, Call&& call);
+  template <class Call>
+  static void forRuns(const Set& set, size_t first, size_t last, Call&& call);
+  bool gather(Set& set, uint32_t body, const ParticleStore& store, const Neighbours& neighbours, uint32_t substep,
+              uint32_t iteration);
+  template <class Takes>
+  void applyCorrection(ParticleStore& store, Takes&& takes) const;
+  // In constraintgroups.cpp.
+  template <class Call>
+  void forGroups(Set& set, uint32_t substep, uint32_t iteration, Call&& call);
+  void predictGroups(const ParticleStore& store, uint32_t substep);
+  void deriveGroupVelocities(const ParticleStore& store, uint32_t substep);
+  void buildGroups(Set& set, const ParticleStore& store, const Neighbours& neighbours,
+                   std::span<const uint32_t> members);
+  bool groupTopology(Set& set, const ParticleStore& store, const Neighbours& neighbours);
+  double groupEnergy(Set& set, const ParticleStore& store);
+  void putGroupsBack(Set& set, const ParticleStore& store, std::span<const CopiedGroup> copies);
+
+  SolverSettings m_settings;
+  std::vector<const api::MaterialView*> m_materials;
+  std::vector<Set> m_sets;
+  std::vector<uint32_t> m_newIndex, m_keptParticles;
+  std::vector<std::vector<float>> m_keptValues;
+  std::vector<api::Float4> m_correction;
+  std::vector<uint8_t> m_thin;
+  StructureGraph m_graph;
+  bool m_graphValid = false;
+  std::vector<PluginFault> m_faults;
+};
+
+}  // namespace ps

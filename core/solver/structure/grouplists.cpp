@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/solver/structure/grouplists.h"
+
+#include "core/base/hash.h"
+
+#include <algorithm>
+#include <bit>
+#include <utility>
+
+namespace ps {
+
+GroupLists::GroupLists(size_t values, size_t memberValues) : m_values(values), m_memberValues(memberValues) {}
+
+void GroupLists::clear() { *this = GroupLists(m_values.size(), m_memberValues.size()); }
+
+void GroupLists::fill(Batch& batch, size_t first, size_t last) {
+  for (size_t v = 0; v < m_values.size(); ++v) batch.values[v] = m_values[v].data() + first;
+  for (size_t v = 0; v < m_memberValues.size(); ++v) batch.memberValues[v] = m_memberValues[v].data();
+  batch.view = {last - first,        m_begin.data() + first,    m_particles.data(),
+                batch.values.data(), batch.memberValues.data(), m_changed.data() + first};
+}
+
+void GroupLists::append(std::span<const uint32_t> particles, const float* values, const float* memberValues,
+                        uint8_t changed, uint32_t body) {
+  m_particles.insert(m_particles.end(), particles.begin(), particles.end());
+  m_begin.push_back(m_particles.size());
+  m_changed.push_back(changed);
+  m_body.push_back(body);
+  for (size_t v = 0; v < m_values.size(); ++v) m_values[v].push_back(values[v]);
+  for (size_t k = 0; k < particles.size(); ++k) {
+    for (auto& column : m_memberValues) column.push_back(*memberValues++);
+  }
+}
+
+void GroupLists::apply(const Edits& edits, std::span<const uint32_t> body) {
+  if (edits.empty()) return;
+  GroupLists old(m_values.size(), m_memberValues.size());
+  std::swap(old, *this);
+  std::vector<float> values(m_values.size()), memberValues;
+  for (size_t g = 0; g < old.count(); ++g) {
+    if (!edits.removed.empty() && edits.removed[g] != 0) continue;
+    for (size_t v = 0; v < values.size(); ++v) values[v] = old.m_values[v][g];
+    memberValues.clear();
+    for (size_t k = old.m_begin[g]; k < old.m_begin[g + 1]; ++k) {
+      for (const auto& column : old.m_memberValues) memberValues.push_back(column[k]);
+    }
+    append(old.members(g), values.data(), memberValues.data(), old.m_changed[g], old.m_body[g]);
+  }
+  for (size_t g = 0; g + 1 < edits.begin.size(); ++g) {
+    append({edits.particles.data() + edits.begin[g], edits.begin[g + 1] - edits.begin[g]},
+           edits.values.data() + g * m_values.size(),
+           edits.memberValues.data() + edits.begin[g] * m_memberValues.size(), 0,
+           body[edits.particles[edits.begin[g]]]);
+  }
+  colour(body.size());
+}
+
+void GroupLists::colour(size_t particles) {
+  std::vector<std::vector<uint64_t>> used;  // [word of 64 colours][particle]
+  std::vector<size_t> colourOf(count());
+  size_t colours = 0;
+  for (size_t g = 0; g < count(); ++g) {
+    for (size_t word = 0;; ++word) {
+      if (word == used.size()) used.emplace_back(particles, 0);
+      uint64_t taken = 0;
+      for (const uint32_t i : members(g)) taken |= used[word][i];
+      if (taken == ~uint64_t{0}) continue;
+      const size_t bit = static_cast<size_t>(std::countr_one(taken));
+      for (const uint32_t i : members(g)) used[word][i] |= uint64_t{1} << bit;
+      colourOf[g] = 64 * word + bit;
+      break;
+    }
+    colours = std::max(colours, colourOf[g] + 1);
+  }
+  std::vector<size_t> order(count());
+  for (size_t g = 0; g < order.size(); ++g) order[g] = g;
+  std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) {
+    return colourOf[a] != colourOf[b] ? colourOf[a] < colourOf[b] : m_body[a] < m_body[b];
+  });
+  GroupLists old(m_values.size(), m_memberValues.size());
+  std::swap(old, *this);
+  m_colourStart.assign(colours + 1, 0);
+  for (const size_t g : order) {
+    ++m_colourStart[colourOf[g] + 1];
+    for (size_t v = 0; v < m_values.size(); ++v) m_values[v].push_back(old.m_values[v][g]);
+    for (size_t v = 0; v < m_memberValues.size(); ++v) {
+      const float* column = old.m_memberValues[v].data();
+      m_memberValues[v].insert(m_memberValues[v].end(), column + old.m_begin[g], column + old.m_begin[g + 1]);
+    }
+    m_particles.insert(m_particles.end(), old.members(g).begin(), old.members(g).end());
+    m_begin.push_back(m_particles.size());
+    m_changed.push_back(old.m_changed[g]);
+    m_body.push_back(old.m_body[g]);
+  }
+  for (size_t c = 0; c < colours; ++c) m_colourStart[c + 1] += m_colourStart[c];
+}
+
+void GroupLists::renumber(std::span<const uint32_t> newIndex) {
+  size_t place = 0, group = 0, start = 0;
+  std::vector<size_t> colourStart(1, 0);
+  for (size_t c = 0; c < colours(); ++c) {
+    for (size_t g = m_colourStart[c]; g < m_colourStart[c + 1]; ++g) {
+      const size_t first = start, last = m_begin[g + 1], before = place;
+      start = last;
+      for (size_t k = first; k < last; ++k) {
+        const uint32_t index = newIndex[m_particles[k]];
+        if (index == kGone) continue;
+        m_particles[place] = index;
+        for (auto& column : m_memberValues) column[place] = column[k];
+        ++place;
+      }
+      if (place == before) continue;
+      m_changed[group] = m_changed[g] != 0 || place - before < last - first ? 1 : 0;
+      m_body[group] = m_body[g];
+      for (auto& column : m_values) column[group] = column[g];
+      m_begin[++group] = place;
+    }
+    colourStart.push_back(group);
+  }
+  m_particles.resize(place);
+  m_begin.resize(group + 1);
+  m_changed.resize(group);
+  m_body.resize(group);
+  for (auto& column : m_values) column.resize(group);
+  for (auto& column : m_memberValues) column.resize(place);
+  m_colourStart = std::move(colourStart);
+}
+
+std::vector<CopiedGroup> GroupLists::copy(const ParticleStore& store, std::span<const uint32_t> ascending) const {
+  std::vector<CopiedGroup> copies;
+  for (size_t g = 0; g < count(); ++g) {
+    CopiedGroup copied;
+    bool any = false;
+    for (const uint32_t i : members(g)) {
+      const bool taken = std::binary_search(ascending.begin(), ascending.end(), i);
+      copied.id.push_back(store.id()[i]);
+      copied.taken.push_back(taken ? 1 : 0);
+      any = any || taken;
+    }
+    if (!any) continue;
+    for (const auto& column : m_values) copied.values.push_back(column[g]);
+    for (size_t k = m_begin[g]; k < m_begin[g + 1]; ++k) {
+      for (const auto& column : m_memberValues) copied.memberValues.push_back(column[k]);
+    }
+    copies.push_back(std::move(copied));
+  }
+  return copies;
+}
+
+size_t GroupLists::homeOf(std::span<const uint8_t> companion) const {
+  size_t home = count(), most = 0;
+  for (size_t g = 0; g < count(); ++g) {
+    size_t held = 0;
+    for (const uint32_t i : members(g)) held += companion[i];
+    // Of equals the smaller one: the rest of the group itself, not another that overlaps it.
+    if (held == 0 || held < most || (held == most && members(g).size() >= members(home).size())) continue;
+    home = g, most = held;
+  }
+  return home;
+}
+
+std::vector<uint8_t> GroupLists::putBack(const ParticleStore& store, std::span<const CopiedGroup> copies) {
+  std::vector<uint8_t> isBack(store.size(), 0), companion;
+  for (const CopiedGroup& copied : copies) {
+    companion.assign(store.size(), 0);
+    std::vector<uint32_t> index(copied.id.size());
+    for (size_t k = 0; k < index.size(); ++k) {
+      index[k] = static_cast<uint32_t>(store.indexOf(copied.id[k]));
+      if (index[k] < store.size()) (copied.taken[k] != 0 ? isBack : companion)[index[k]] = 1;
+    }
+    const size_t home = homeOf(companion);
+    const bool alone = home == count();
+    Edits edits;
+    if (!alone) {
+      edits.removed.assign(count(), 0);
+      edits.removed[home] = 1;
+      for (size_t k = m_begin[home]; k < m_begin[home + 1]; ++k) {
+        edits.particles.push_back(m_particles[k]);
+        for (const auto& column : m_memberValues) edits.memberValues.push_back(column[k]);
+      }
+      for (const auto& column : m_values) edits.values.push_back(column[home]);
+    } else {
+      edits.values = copied.values;
+    }
+    for (size_t k = 0; k < index.size(); ++k) {
+      if (index[k] >= store.size() || (!alone && copied.taken[k] == 0)) continue;
+      edits.particles.push_back(index[k]);
+      const float* row = copied.memberValues.data() + k * m_memberValues.size();
+      edits.memberValues.insert(edits.memberValues.end(), row, row + m_memberValues.size());
+    }
+    if (edits.particles.empty()) continue;
+    edits.begin.push_back(edits.particles.size());
+    apply(edits, {store.body(), store.size()});
+  }
+  std::vector<uint8_t> returned(m_particles.size(), 0);
+  for (size_t g = 0; g < count(); ++g) {
+    for (size_t k = m_begin[g]; k < m_begin[g + 1]; ++k) {
+      returned[k] = isBack[m_particles[k]];
+      if (returned[k] != 0) m_changed[g] = 1;
+    }
+  }
+  return returned;
+}
+
+void GroupLists::addTo(Hash& hash, const ParticleStore& store) const {
+  std::vector<uint32_t> ids(m_particles.size());
+  for (size_t k = 0; k < ids.size(); ++k) ids[k] = store.id()[m_particles[k]];
+  hash.add(count());
+  hash.add(m_begin.data(), m_begin.size() * sizeof(size_t));
+  hash.add(ids.data(), ids.size() * sizeof(uint32_t));
+  for (const auto& column : m_values) hash.add(column.data(), column.size() * sizeof(float));
+  for (const auto& column : m_memberValues) hash.add(column.data(), column.size() * sizeof(float));
+}
+
+}  // namespace ps

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/solver/structure/constraintsystem.h"
+
+#include <algorithm>
+
+namespace ps {
+
+const StructureGraph& ConstraintSystem::graph(size_t particles) {
+  if (m_graphValid && m_graph.begin.size() == particles + 1) return m_graph;
+  std::vector<uint32_t>& begin = m_graph.begin;
+  begin.assign(particles + 1, 0);
+  for (const Set& set : m_sets) {
+    for (const uint32_t i : set.particles) begin[i + 1] += static_cast<uint32_t>(set.arity) - 1;
+  }
+  for (size_t i = 0; i < particles; ++i) begin[i + 1] += begin[i];
+  m_graph.partner.resize(begin[particles]);
+  m_newIndex.assign(begin.begin(), begin.end());
+  for (const Set& set : m_sets) {
+    for (size_t k = 0; k < set.count; ++k) {
+      const uint32_t* p = set.particles.data() + k * set.arity;
+      for (size_t a = 0; a < set.arity; ++a) {
+        for (size_t b = 0; b < set.arity; ++b) {
+          if (a != b) m_graph.partner[m_newIndex[p[a]]++] = p[b];
+        }
+      }
+    }
+  }
+  addGroupsTo(m_graph, particles);
+  m_graphValid = true;
+  return m_graph;
+}
+
+std::vector<uint32_t> ConstraintSystem::pieces(size_t particles) {
+  const StructureGraph& ties = graph(particles);
+  std::vector<uint32_t> piece(particles, kNoPiece), open;
+  std::vector<std::vector<uint32_t>> members;  // of groups, by their serial
+  for (uint32_t i = 0; i < particles; ++i) {
+    for (uint32_t k = ties.groupBegin[i]; k < ties.groupBegin[i + 1]; ++k) {
+      if (ties.group[k] >= members.size()) members.resize(ties.group[k] + size_t{1});
+      members[ties.group[k]].push_back(i);
+    }
+  }
+  for (uint32_t first = 0; first < particles; ++first) {
+    if (piece[first] != kNoPiece || ties.isFree(first)) continue;
+    const auto reach = [&](uint32_t i) {
+      if (piece[i] == kNoPiece) piece[i] = first, open.push_back(i);
+    };
+    reach(first);
+    while (!open.empty()) {
+      const uint32_t i = open.back();
+      open.pop_back();
+      for (uint32_t k = ties.begin[i]; k < ties.begin[i + 1]; ++k) reach(ties.partner[k]);
+      for (uint32_t k = ties.groupBegin[i]; k < ties.groupBegin[i + 1]; ++k) {
+        for (const uint32_t j : members[ties.group[k]]) reach(j);
+        members[ties.group[k]].clear();
+      }
+    }
+  }
+  return piece;
+}
+
+bool ConstraintSystem::gathers() const {
+  return std::any_of(m_sets.begin(), m_sets.end(), [](const Set& set) {
+    return !set.structural && !set.groups && !set.disabled && std::count(set.used.begin(), set.used.end(), 1) > 0;
+  });
+}
+
+void ConstraintSystem::findHanging(const ParticleStore& store, std::vector<uint32_t>& hanging) const {
+  const auto isFixed = [&](uint32_t i) { return store.velocity()[i].w == 0; };
+  const auto visit = [](const Set& set, auto&& each) {
+    for (const uint32_t i : set.particles) each(i);
+    for (size_t g = 0; set.groups && g < set.groups->count(); ++g) {
+      for (const uint32_t i : set.groups->members(g)) each(i);
+    }
+  };
+  bool anyFixed = false;
+  for (uint32_t i = 0; i < store.size() && !anyFixed; ++i) anyFixed = isFixed(i);
+  hanging.clear();
+  if (!anyFixed) return;
+  std::vector<uint8_t> hangs(store.size(), gathers() ? 1 : 0), taken(m_sets.size(), 0);
+  for (bool grown = true; grown;) {  // a plugin's ties hang where one of them does
+    grown = false;
+    for (size_t s = 0; s < m_sets.size(); ++s) {
+      bool any = false;
+      if (taken[s] == 0) visit(m_sets[s], [&](uint32_t i) { any = any || isFixed(i) || hangs[i] != 0; });
+      if (!any) continue;
+      visit(m_sets[s], [&](uint32_t i) { hangs[i] = 1; });
+      taken[s] = 1;
+      grown = true;
+    }
+  }
+  for (uint32_t i = 0; i < store.size(); ++i) {
+    if (hangs[i] != 0 && !isFixed(i)) hanging.push_back(i);
+  }
+}
+
+void ConstraintSystem::addGroupsTo(StructureGraph& graph, size_t particles) const {
+  graph.groupBegin.assign(particles + 1, 0);
+  const auto eachMember = [&](auto&& visit) {
+    uint32_t serial = 0;
+    for (const Set& set : m_sets) {
+      for (size_t g = 0; set.groups && g < set.groups->count(); ++g, ++serial) {
+        for (const uint32_t i : set.groups->members(g)) visit(i, serial);
+      }
+    }
+  };
+  eachMember([&](uint32_t i, uint32_t) { ++graph.groupBegin[i + 1]; });
+  for (size_t i = 0; i < particles; ++i) graph.groupBegin[i + 1] += graph.groupBegin[i];
+  graph.group.resize(graph.groupBegin[particles]);
+  std::vector<uint32_t> next(graph.groupBegin.begin(), graph.groupBegin.end());
+  eachMember([&](uint32_t i, uint32_t serial) { graph.group[next[i]++] = serial; });
+}
+
+}  // namespace ps

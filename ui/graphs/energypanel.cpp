@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/graphs/energypanel.h"
+
+#include "ui/graphs/graphspanel.h"
+#include "ui/graphs/graphview.h"
+#include "ui/theme/numbers.h"
+#include "ui/theme/theme.h"
+
+#include <QtWidgets/QHBoxLayout>
+#include <QtWidgets/QLabel>
+
+#include <algorithm>
+#include <cmath>
+
+namespace ps {
+namespace {
+
+QString joules(double value) { return formatPrefixed(value, QStringLiteral("J")); }
+
+}  // namespace
+
+EnergyPanel::EnergyPanel(QWidget* parent) : QWidget(parent), m_graph(new GraphView), m_ledger(new QLabel) {
+  auto* row = new QHBoxLayout(this);
+  row->setContentsMargins(6, 4, 12, 4);
+  row->setSpacing(12);
+  m_graph->setTitle(QStringLiteral("Energy since the start"));
+  m_graph->setPrefixedUnit(QStringLiteral("J"));
+  m_graph->setEmptyText(QStringLiteral("Press Space to run"));
+  for (const char* name : {"In matter", "Through walls", "Through air", "Through radiation", "By heaters"})
+    m_graph->addSeries(QString::fromLatin1(name));
+  m_graph->setEmptyText(QStringLiteral("No matter yet"));
+  m_ledger->setTextFormat(Qt::RichText);
+  m_ledger->setMinimumWidth(230);
+  m_ledger->setAlignment(Qt::AlignVCenter | Qt::AlignLeft);
+  row->addWidget(m_graph, 1);
+  row->addWidget(m_ledger);
+}
+
+void EnergyPanel::setDuration(double seconds) { m_graph->setDuration(seconds); }
+
+void EnergyPanel::append(const FrameStats& stats) {
+  if (!m_shown && !hasMatter(stats)) return;  // a flat line of nothing
+  m_shown = true;
+  // Matter drawn before the first step belongs to the start.
+  if (!m_started) m_start = stats.thermalEnergy - stats.heat.net();
+  m_started = stats.frame > 0;
+  m_graph->append(0, stats.time, stats.thermalEnergy - m_start);
+  m_graph->append(1, stats.time, stats.heat.walls);
+  m_graph->append(2, stats.time, stats.heat.air);
+  m_graph->append(3, stats.time, stats.heat.radiation);
+  m_graph->append(4, stats.time, stats.heat.heaters);
+  m_graph->setPresentTime(stats.time);
+  m_last = stats;
+  const auto line = [](const QString& name, const QString& value) {
+    return QStringLiteral("<tr><td>%1&nbsp;&nbsp;&nbsp;</td><td align='right'>%2</td></tr>")
+        .arg(name, value.toHtmlEscaped());
+  };
+  m_ledger->setText(
+      QStringLiteral("<table>") + line(QStringLiteral("Heat in matter"), joules(stats.thermalEnergy - m_start)) +
+      line(QStringLiteral("Through walls"), joules(stats.heat.walls)) +
+      line(QStringLiteral("Through air"), joules(stats.heat.air)) +
+      line(QStringLiteral("Through radiation"), joules(stats.heat.radiation)) +
+      (stats.heat.airWarming == 0
+           ? QString()
+           : line(QStringLiteral("Air warmed by"), formatFixed(stats.heat.airWarming, 1) + QStringLiteral(" K"))) +
+      line(QStringLiteral("By heaters"), joules(stats.heat.heaters)) +
+      line(QStringLiteral("Came with matter"), joules(stats.heat.sources)) +
+      line(QStringLiteral("Motion"), joules(stats.kineticEnergy)) +
+      line(QStringLiteral("Balance open by"), balanceText()) + QStringLiteral("</table>"));
+}
+
+QString EnergyPanel::balanceText() const {
+  const double open = m_last.thermalEnergy - m_start - m_last.heat.net();
+  const double share = m_last.heat.exchanged > 0 ? open / m_last.heat.exchanged : 0;
+  return formatPrefixed(std::abs(open), QStringLiteral("J"), 2) + QStringLiteral(" (") + formatError(share) +
+         QStringLiteral(")");
+}
+
+void EnergyPanel::clear() {
+  m_graph->clear();
+  m_started = m_shown = false;
+}
+
+}  // namespace ps

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/graphs/graphspanel.h"
+
+#include "ui/graphs/graphview.h"
+#include "ui/graphs/phasestackview.h"
+
+#include <QtWidgets/QHBoxLayout>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+namespace ps {
+namespace {
+
+constexpr double kZero = 273.15;
+constexpr size_t kMostSeries = 5;
+const QString kNotRun = QStringLiteral("Press Space to run");
+const QString kNoMatter = QStringLiteral("No matter yet");
+
+QByteArray numberCell(double value) {
+  if (!std::isfinite(value)) return {};
+  char buffer[32];
+  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value);
+  return {buffer, static_cast<qsizetype>(end.ptr - buffer)};
+}
+
+QByteArray quoted(const std::string& text) {
+  QByteArray cell = QByteArray::fromStdString(text);
+  if (!cell.contains(',') && !cell.contains('"')) return cell;
+  return '"' + cell.replace("\"", "\"\"") + '"';
+}
+
+}  // namespace
+
+bool hasMatter(const FrameStats& stats) {
+  return std::any_of(stats.phases.begin(), stats.phases.end(), [](const PhaseAmount& phase) { return phase.mass > 0; });
+}
+
+GraphsPanel::GraphsPanel(QWidget* parent)
+    : QWidget(parent), m_temperatures(new GraphView), m_phases(new PhaseStackView) {
+  auto* row = new QHBoxLayout(this);
+  row->setContentsMargins(6, 4, 6, 4);
+  row->setSpacing(8);
+  m_temperatures->setTitle(QStringLiteral("Temperature, °C"));
+  m_temperatures->setUnit(QStringLiteral("°C"));
+  m_temperatures->setEmptyText(kNotRun);
+  m_phases->setEmptyText(kNotRun);
+  row->addWidget(m_temperatures, 1);
+  row->addWidget(m_phases, 1);
+  const auto link = [](TimePlot* from, TimePlot* to) {
+    connect(from, &TimePlot::timeRangeChanged, to, &TimePlot::setTimeRange);
+    connect(from, &TimePlot::fitted, to, &TimePlot::fit);
+  };
+  link(m_temperatures, m_phases);
+  link(m_phases, m_temperatures);
+}
+
+void GraphsPanel::setProject(const Project& project) {
+  m_temperatures->removeAllSeries();
+  m_phases->clear();
+  m_probes.clear();
+  std::vector<size_t> probes;
+  for (size_t i = 0; i < project.probes.size() && probes.size() + 1 < kMostSeries; ++i) {
+    const Probe& probe = project.probes[i];
+    const bool mean = probe.quantity == "temperature" && probe.body.empty() && probe.phase.empty();
+    if (probeUnit(probe.quantity) == "K" && !mean) probes.push_back(i);
+  }
+  m_temperatures->addSeries(QStringLiteral("Mean"), QStringLiteral("°C"));
+  for (const size_t i : probes)
+    m_temperatures->addSeries(QString::fromStdString(project.probes[i].name), QStringLiteral("°C"));
+  m_probes = std::move(probes);
+  for (TimePlot* plot : {static_cast<TimePlot*>(m_temperatures), static_cast<TimePlot*>(m_phases)}) {
+    plot->setDuration(project.duration);
+    plot->setPresentTime(0);
+    plot->fit();
+  }
+}
+
+void GraphsPanel::setTransitions(double meltingPoint, double boilingPoint) {
+  std::vector<ReferenceLine> lines;
+  if (std::isfinite(meltingPoint) && meltingPoint > 0) lines.push_back({meltingPoint - kZero, QStringLiteral("melts")});
+  if (std::isfinite(boilingPoint)) lines.push_back({boilingPoint - kZero, QStringLiteral("boils")});
+  m_temperatures->setReferenceLines(std::move(lines));
+}
+
+void GraphsPanel::append(const FrameStats& stats) {
+  m_temperatures->append(0, stats.time, stats.temperatureMean > 0 ? stats.temperatureMean - kZero : std::nan(""));
+  for (size_t s = 0; s < m_probes.size(); ++s) {
+    if (m_probes[s] < stats.probes.size())
+      m_temperatures->append(static_cast<int>(s) + 1, stats.time, stats.probes[m_probes[s]] - kZero);
+  }
+  std::array<double, 5> kilograms{};
+  for (size_t i = 0; i < kilograms.size(); ++i) kilograms[i] = stats.phases[i].mass;
+  const QString empty = hasMatter(stats) ? kNotRun : kNoMatter;
+  m_temperatures->setEmptyText(empty);
+  m_phases->setEmptyText(empty);
+  m_phases->append(stats.time, kilograms);
+  m_temperatures->setPresentTime(stats.time);
+  m_phases->setPresentTime(stats.time);
+}
+
+void GraphsPanel::clear() {
+  m_temperatures->clear();
+  m_phases->clear();
+}
+
+QByteArray historyCsv(const std::vector<FrameStats>& history, const std::vector<Probe>& probes) {
+  QByteArray csv =
+      "time_s,thermal_time_s,mean.temperature[K],solid.mass[kg],melting.mass[kg],liquid.mass[kg],boiling.mass[kg],gas."
+      "mass[kg]";
+  for (const Probe& probe : probes)
+    csv += ',' + quoted(probe.name + "." + probe.quantity + "[" + probeUnit(probe.quantity) + "]");
+  csv += '\n';
+  for (const FrameStats& stats : history) {
+    csv += numberCell(stats.time) + ',' + numberCell(stats.thermalTime) + ',' + numberCell(stats.temperatureMean);
+    for (const PhaseAmount& phase : stats.phases) csv += ',' + numberCell(phase.mass);
+    for (size_t i = 0; i < probes.size(); ++i)
+      csv += ',' + (i < stats.probes.size() ? numberCell(stats.probes[i]) : QByteArray());
+    csv += '\n';
+  }
+  return csv;
+}
+
+}  // namespace ps

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "core/simulation/snapshot.h"
+#include "ui/document/changeevent.h"
+#include "ui/rows/parameterpanel.h"
+
+#include <QtCore/QObject>
+
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace ps {
+
+class Document;
+
+/// The panels Body, Material, Scene and Solver, made from declarations alone, kept in step with the document both ways.
+/// Keys of their rows are addresses. Each gesture in a row is one undo step of the document.
+class Inspector : public QObject {
+  Q_OBJECT
+ public:
+  explicit Inspector(Document& document, QObject* parent = nullptr);
+  ParameterPanel* bodyPanel() const { return m_body; }
+  ParameterPanel* materialPanel() const { return m_material; }
+  ParameterPanel* scenePanel() const { return m_scene; }
+  ParameterPanel* solverPanel() const { return m_solver; }
+
+  void rebuild();
+  void setBody(const std::string& id);
+  void setMaterial(const std::string& id);
+  const std::string& material() const { return m_materialId; }
+  void onChanged(const ChangeEvent& event);
+  /// Operating points and notes of limits; a few times a second.
+  void setSnapshot(const Snapshot& snapshot);
+  /// The panel that shows an address, after choosing its owner; nullptr when there is none.
+  ParameterPanel* panelFor(const Address& address);
+
+ private:
+  void refreshIdle(const Address& address, std::initializer_list<const char*> keys);
+  std::vector<ParameterPanel*> panels() const { return {m_body, m_material, m_scene, m_solver}; }
+  void connectPanel(ParameterPanel* panel);
+  void onEdited(const QString& key, const Value& value, Edit edit);
+  void onScaled(const QString& key, double factor);
+  void onLink(const QString& key, const QString& link);
+  void rebuildBody();
+  void rebuildMaterial();
+  void showMaterialHeader();
+  QString sourceOf(const std::string& material, const char* key) const;
+  void showLimits();
+  QString materialDetail() const;
+  void showTemperatures(const Snapshot& snapshot);
+  /// K, at which a material's curves are read: the mean of its particles, or of all matter where it has none.
+  double temperatureOf(const std::string& material) const;
+  void refreshProperties(const std::string& material);
+  void rebuildScene();
+  void showSceneHeader();
+  void rebuildSolver();
+  /// Rows of one owner; a group of its own replaces the declarations' groups.
+  void addRows(std::vector<RowModel>& rows, const std::string& owner, const std::string& id, api::ParameterList list,
+               const QString& group = {}, const ParameterSet& defaults = {});
+  std::optional<RowModel> rowOf(const Address& address) const;
+  void addPinned(std::vector<RowModel>& rows);
+  void markPinned();
+  const char* keep(const QString& text);
+
+  Document& m_document;
+  ParameterPanel *m_body, *m_material, *m_scene, *m_solver;
+  std::string m_bodyId, m_materialId;
+  std::set<std::string> m_texts;  ///< headings and labels that rows borrow; grows with names only
+  std::set<QString> m_limited;    ///< rows that have a note
+  std::vector<Limit> m_limits;    ///< of the last snapshot: a paused scene publishes none when rows are made anew
+  std::shared_ptr<const std::vector<std::string>> m_limitBodies;
+  QString m_grade;                       ///< of the material's sources, as the header says it
+  double m_sceneMean = 293.15;           ///< K
+  std::map<std::string, double> m_mean;  ///< K, by material; of those that have particles
+};
+
+}  // namespace ps

@@ -1,0 +1,284 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/panels/materialspanel.h"
+
+#include "core/matter/material.h"
+#include "core/plugin_host/registry.h"
+#include "ui/document/declared.h"
+#include "ui/document/document.h"
+#include "ui/theme/paint.h"
+#include "ui/theme/theme.h"
+
+#include <QtGui/QMouseEvent>
+#include <QtGui/QPainter>
+#include <QtGui/QRadialGradient>
+#include <QtWidgets/QAccessibleWidget>
+#include <QtWidgets/QMenu>
+
+#include <algorithm>
+#include <cstdlib>
+#include <set>
+#include <string>
+
+namespace ps {
+namespace {
+
+constexpr int kTileWidth = 52, kTileHeight = 58, kMargin = 8, kBall = 28, kHint = 20, kHeading = 22;
+
+int columnsIn(int width) { return std::max(1, (width - kMargin) / kTileWidth); }
+
+void paintBall(QPainter& painter, const QRectF& rect, const QColor& colour) {
+  QRadialGradient shade(rect.center() - QPointF(rect.width() * 0.18, rect.height() * 0.2), rect.width() * 0.75);
+  shade.setColorAt(0, colour.lighter(135));
+  shade.setColorAt(0.55, colour);
+  shade.setColorAt(1, colour.darker(190));
+  painter.setPen(Qt::NoPen);
+  painter.setBrush(shade);
+  painter.drawEllipse(rect);
+}
+
+class MaterialsAccessible final : public QAccessibleWidget {
+ public:
+  explicit MaterialsAccessible(MaterialsPanel* panel) : QAccessibleWidget(panel, QAccessible::List) {}
+  QString text(QAccessible::Text kind) const override {
+    if (kind == QAccessible::Value) return static_cast<const MaterialsPanel*>(widget())->currentLabel();
+    return QAccessibleWidget::text(kind);
+  }
+};
+
+QAccessibleInterface* makeAccessible(const QString& /*className*/, QObject* object) {
+  auto* panel = qobject_cast<MaterialsPanel*>(object);
+  return panel ? new MaterialsAccessible(panel) : nullptr;
+}
+
+void installAccessibility() {
+  static const bool installed = (QAccessible::installFactory(makeAccessible), true);
+  (void)installed;
+}
+
+}  // namespace
+
+MaterialsPanel::MaterialsPanel(Document& document, QWidget* parent) : QWidget(parent), m_document(document) {
+  installAccessibility();
+  setMouseTracking(true);
+  setFocusPolicy(Qt::TabFocus);
+  setAccessibleName(QStringLiteral("Materials"));
+  QSizePolicy policy = sizePolicy();
+  policy.setHeightForWidth(true);  // the area that scrolls it asks
+  setSizePolicy(policy);
+}
+
+void MaterialsPanel::rebuild() {
+  m_tiles.clear();
+  m_hover = m_cursor = -1;
+  const Project& project = m_document.project();
+  const PluginRegistry* plugins = m_document.plugins();
+  std::set<std::string> bases;
+  for (const SceneMaterial& material : project.materials) {
+    bases.insert(material.base);
+    m_tiles.push_back({material.id, QString::fromStdString(material.label.empty() ? material.id : material.label),
+                       colourOf(project, plugins, material.id), plugins && !plugins->material(material.base), false});
+  }
+  m_own = m_tiles.size();
+  for (const std::string& base : plugins ? plugins->ids(PluginKind::Material) : std::vector<std::string>{}) {
+    const Material* material = plugins ? plugins->material(base) : nullptr;
+    if (!material || bases.count(base)) continue;
+    Project with;  // a scene of it alone says how it looks
+    with.materials.push_back({base, {}, base, {}, {}, {}, {}});
+    const std::string& label = material->label;
+    m_tiles.push_back(
+        {base, QString::fromStdString(label.empty() ? base : label), colourOf(with, plugins, base), false, true});
+  }
+  const auto own = m_tiles.begin() + static_cast<std::ptrdiff_t>(m_own);
+  const bool known = std::any_of(m_tiles.begin(), own, [&](const Tile& tile) { return tile.id == m_current; });
+  if (!known) m_current = m_own == 0 ? std::string() : m_tiles.front().id;
+  updateGeometry();
+  update();
+}
+
+void MaterialsPanel::setCurrent(const std::string& id) {
+  if (id == m_current) return;
+  m_current = id;
+  update();
+  if (!QAccessible::isActive()) return;
+  QAccessibleValueChangeEvent event(this, currentLabel());
+  QAccessible::updateAccessibility(&event);
+}
+
+QString MaterialsPanel::currentLabel() const {
+  const auto own = m_tiles.begin() + static_cast<std::ptrdiff_t>(m_own);
+  const auto found = std::find_if(m_tiles.begin(), own, [&](const Tile& tile) { return tile.id == m_current; });
+  return found == own ? QString() : found->label;
+}
+
+int MaterialsPanel::columns() const { return columnsIn(width()); }
+
+QRect MaterialsPanel::headingRect(int width) const {
+  const size_t rows = (m_own + static_cast<size_t>(columnsIn(width)) - 1) / static_cast<size_t>(columnsIn(width));
+  const int top = kMargin + static_cast<int>(rows) * kTileHeight + (m_own > 0 ? kHint : 0);
+  return {kMargin + 4, top, width - 2 * kMargin, kHeading};
+}
+
+QRect MaterialsPanel::tileRect(size_t index, int width) const {
+  const bool own = index < m_own;
+  const auto place = static_cast<int>(own ? index : index - m_own);
+  const int column = place % columnsIn(width), row = place / columnsIn(width);
+  const int top = own ? kMargin : headingRect(width).bottom() + 1;
+  return {kMargin + column * kTileWidth, top + row * kTileHeight, kTileWidth - 4, kTileHeight - 4};
+}
+
+QRect MaterialsPanel::tileOf(const std::string& id) const {
+  const auto found = std::find_if(m_tiles.begin(), m_tiles.end(), [&](const Tile& tile) { return tile.id == id; });
+  return found == m_tiles.end() ? QRect() : tileRect(static_cast<size_t>(found - m_tiles.begin()));
+}
+
+int MaterialsPanel::heightForWidth(int width) const {
+  return (m_tiles.size() > m_own ? tileRect(m_tiles.size() - 1, width) : headingRect(width)).bottom() + kMargin;
+}
+
+int MaterialsPanel::tileAt(const QPoint& at) const {
+  for (size_t i = 0; i < m_tiles.size(); ++i) {
+    if (tileRect(i).contains(at)) return static_cast<int>(i);
+  }
+  return -1;
+}
+
+void MaterialsPanel::paintTile(QPainter& painter, size_t index) const {
+  const Theme& theme = Theme::current();
+  const Tile& tile = m_tiles[index];
+  const QRectF rect = tileRect(index);
+  const bool current = !tile.installed && tile.id == m_current, here = m_cursor == static_cast<int>(index);
+  if (current || here || m_hover == static_cast<int>(index)) {
+    paintBox(painter, rect, theme[current ? Token::Selection : Token::Header],
+             current || here ? theme[Token::Accent] : QColor(), 5);
+  }
+  const QRectF ball(rect.center().x() - kBall / 2.0, rect.top() + 5, kBall, kBall);
+  if (tile.missing) {
+    painter.setPen(QPen(theme[Token::Muted], 1));
+    painter.setBrush(QBrush(theme[Token::Muted], Qt::BDiagPattern));
+    painter.drawEllipse(ball);
+  } else {
+    paintBall(painter, ball, tile.colour);
+  }
+  paintText(painter, QRectF(rect.left() + 1, rect.bottom() - 19, rect.width() - 2, 16), Qt::AlignCenter, tile.label,
+            Theme::font(TextRole::Small),
+            theme[current          ? Token::Text
+                  : tile.installed ? Token::Muted
+                                   : Token::Text2]);
+}
+
+void MaterialsPanel::paintEvent(QPaintEvent*) {
+  QPainter painter(this);
+  painter.setRenderHint(QPainter::Antialiasing);
+  const Theme& theme = Theme::current();
+  painter.fillRect(rect(), theme[Token::Panel]);
+  for (size_t i = 0; i < m_tiles.size(); ++i) paintTile(painter, i);
+  const QRectF heading = headingRect(width());
+  const auto line = [&](const QRectF& place, const QString& text) {
+    paintText(painter, place, Qt::AlignLeft | Qt::AlignVCenter, text, Theme::font(TextRole::Small),
+              theme[Token::Muted]);
+  };
+  if (m_own > 0) line(heading.translated(0, -kHint), QStringLiteral("Press B to draw with it"));
+  if (m_own < m_tiles.size()) line(heading, QStringLiteral("Add"));
+  if (hasFocus()) paintFocusRing(painter, QRectF(rect()).adjusted(1, 1, -1, -1), 4);
+}
+
+void MaterialsPanel::addInstalled(const std::string& base) {
+  const std::string id = m_document.addMaterial(base);
+  setCurrent(id);
+  Q_EMIT picked(id);
+}
+
+void MaterialsPanel::pick(size_t index) {
+  const Tile tile = m_tiles[index];  // adding makes others
+  if (tile.installed) {
+    addInstalled(tile.id);
+    return;
+  }
+  m_cursor = -1;
+  setCurrent(tile.id);
+  Q_EMIT picked(m_current);
+}
+
+void MaterialsPanel::mousePressEvent(QMouseEvent* event) {
+  const int tile = tileAt(event->position().toPoint());
+  if (tile >= 0 && event->button() == Qt::LeftButton) pick(static_cast<size_t>(tile));
+}
+
+void MaterialsPanel::mouseMoveEvent(QMouseEvent* event) {
+  const int at = tileAt(event->position().toPoint());
+  if (at == m_hover) return;
+  m_hover = at;
+  QString tip;
+  if (at >= 0) {
+    const Tile& tile = m_tiles[static_cast<size_t>(at)];
+    tip = tile.installed ? QStringLiteral("Add %1 to the scene").arg(tile.label) : tile.label;
+  }
+  setToolTip(tip);
+  update();
+}
+
+void MaterialsPanel::leaveEvent(QEvent*) {
+  m_hover = -1;
+  update();
+}
+
+void MaterialsPanel::focusOutEvent(QFocusEvent* event) {
+  m_cursor = -1;
+  QWidget::focusOutEvent(event);
+}
+
+/// Arrows pick among the scene's materials, and only walk among what can be added: Enter adds it.
+void MaterialsPanel::keyPressEvent(QKeyEvent* event) {
+  const bool enters = event->key() == Qt::Key_Return || event->key() == Qt::Key_Enter || event->key() == Qt::Key_Space;
+  if (enters && m_cursor >= 0) {
+    pick(static_cast<size_t>(m_cursor));
+    return;
+  }
+  const int step = event->key() == Qt::Key_Right  ? 1
+                   : event->key() == Qt::Key_Left ? -1
+                   : event->key() == Qt::Key_Down ? columns()
+                   : event->key() == Qt::Key_Up   ? -columns()
+                                                  : 0;
+  const auto own = static_cast<int>(m_own), count = static_cast<int>(m_tiles.size());
+  int index = m_cursor;
+  for (int i = 0; i < own && m_cursor < 0; ++i) {
+    if (m_tiles[static_cast<size_t>(i)].id == m_current) index = i;
+  }
+  int next = index + step;
+  // A row of its own begins with what can be added.
+  if (std::abs(step) > 1 && index >= 0 && index < own && next >= own) next = own;
+  if (std::abs(step) > 1 && index >= own && next < own) next = own - 1;
+  if (step == 0 || next < 0 || next >= count) {
+    QWidget::keyPressEvent(event);
+    return;
+  }
+  if (next < own) {
+    pick(static_cast<size_t>(next));
+  } else {
+    m_cursor = next;
+    update();
+  }
+  Q_EMIT revealed(tileRect(static_cast<size_t>(next)));
+}
+
+void MaterialsPanel::contextMenuEvent(QContextMenuEvent* event) {
+  const bool keyboard = event->reason() == QContextMenuEvent::Keyboard;
+  const QRect place = keyboard ? tileOf(m_current) : QRect();
+  const int at = keyboard ? tileAt(place.center()) : tileAt(event->pos());
+  if (at < 0) return;
+  const Tile& tile = m_tiles[static_cast<size_t>(at)];
+  auto* menu = new QMenu(this);
+  menu->setAttribute(Qt::WA_DeleteOnClose);
+  if (tile.installed) {
+    menu->addAction(QStringLiteral("Add to the scene"), this, [this, base = tile.id] { addInstalled(base); });
+  } else {
+    const QString why = m_document.whyMaterialStays(tile.id);
+    QAction* remove = menu->addAction(
+        why.isEmpty() ? QStringLiteral("Remove from the scene") : QStringLiteral("Remove from the scene: %1").arg(why),
+        this, [this, id = tile.id] { m_document.removeMaterial(id); });
+    remove->setEnabled(why.isEmpty());
+  }
+  menu->popup(keyboard ? mapToGlobal(place.center()) : event->globalPos());
+}
+
+}  // namespace ps

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/panels/messagespage.h"
+
+#include "ui/session/messagelog.h"
+#include "ui/theme/icon.h"
+#include "ui/theme/theme.h"
+
+#include <QtCore/QEvent>
+#include <QtGui/QClipboard>
+#include <QtGui/QGuiApplication>
+#include <QtGui/QShowEvent>
+#include <QtGui/QStandardItemModel>
+#include <QtWidgets/QHeaderView>
+#include <QtWidgets/QLabel>
+#include <QtWidgets/QMenu>
+#include <QtWidgets/QTreeView>
+#include <QtWidgets/QVBoxLayout>
+
+namespace ps {
+namespace {
+
+Token tokenOf(MessageLevel level) {
+  switch (level) {
+    case MessageLevel::Ok:
+      return Token::Ok;
+    case MessageLevel::Info:
+      return Token::Info;
+    case MessageLevel::Warning:
+      return Token::Warning;
+    case MessageLevel::Error:
+      return Token::Error;
+  }
+  return Token::Text2;
+}
+
+}  // namespace
+
+MessagesPage::MessagesPage(MessageLog& log, QWidget* parent)
+    : QWidget(parent),
+      m_log(log),
+      m_model(new QStandardItemModel(this)),
+      m_view(new QTreeView),
+      m_empty(new QLabel(QStringLiteral("All quiet"))) {
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(0);
+  m_empty->setAlignment(Qt::AlignCenter);
+  m_empty->setProperty("role", "muted");
+  column->addWidget(m_empty);
+  column->addWidget(m_view);
+  m_view->setModel(m_model);
+  m_view->setHeaderHidden(true);
+  m_view->setRootIsDecorated(false);
+  m_view->setUniformRowHeights(true);
+  m_view->setEditTriggers(QAbstractItemView::NoEditTriggers);
+  m_view->setAccessibleName(QStringLiteral("Messages"));
+  m_view->setContextMenuPolicy(Qt::CustomContextMenu);
+  connect(m_view, &QWidget::customContextMenuRequested, this, [this](const QPoint& at) {
+    QMenu menu;
+    menu.addAction(QStringLiteral("Copy all"), this,
+                   [this] { QGuiApplication::clipboard()->setText(m_log.allText()); });
+    menu.exec(m_view->viewport()->mapToGlobal(at));
+  });
+  connect(&log, &MessageLog::changed, this, &MessagesPage::refresh);
+  refresh();
+}
+
+void MessagesPage::refresh() {
+  if (!isVisible() && m_model->rowCount() > 0) return;  // shown anew in showEvent
+  m_model->clear();
+  const auto& messages = m_log.messages();
+  for (auto it = messages.rbegin(); it != messages.rend(); ++it) {
+    auto* time = new QStandardItem(it->time.toString(QStringLiteral("HH:mm:ss")));
+    const QColor colour = Theme::current()[tokenOf(it->level)];
+    time->setIcon(QIcon(iconPixmap(QString::fromLatin1(messageIcon(it->level)), colour, 16, devicePixelRatioF())));
+    time->setForeground(Theme::current()[Token::Muted]);
+    auto* where = new QStandardItem(it->where);
+    where->setForeground(Theme::current()[Token::Text2]);
+    QString text = it->text;
+    if (it->count > 1) text += QStringLiteral("  (%1 times)").arg(it->count);
+    auto* what = new QStandardItem(text);
+    what->setToolTip(it->text);
+    m_model->appendRow({time, where, what});
+  }
+  m_view->setColumnWidth(0, 96);
+  m_view->setColumnWidth(1, 170);
+  m_empty->setVisible(messages.empty());
+  m_view->setVisible(!messages.empty());
+  if (isVisible()) m_log.markSeen();
+}
+
+void MessagesPage::showEvent(QShowEvent* event) {
+  QWidget::showEvent(event);
+  refresh();
+  m_log.markSeen();
+}
+
+void MessagesPage::changeEvent(QEvent* event) {
+  QWidget::changeEvent(event);
+  if (event->type() == QEvent::StyleChange || event->type() == QEvent::PaletteChange) refresh();
+}
+
+}  // namespace ps

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/panels/outliner.h"
+
+#include "core/plugin_host/registry.h"
+#include "core/simulation/compile.h"
+#include "ui/document/declared.h"
+#include "ui/document/document.h"
+#include "ui/panels/outlinerdelegate.h"
+#include "ui/theme/numbers.h"
+
+#include <QtGui/QColor>
+#include <QtGui/QStandardItemModel>
+#include <QtWidgets/QTreeView>
+#include <QtWidgets/QVBoxLayout>
+
+#include <algorithm>
+#include <cmath>
+
+namespace ps {
+namespace {
+
+/// "20.5 °C", "1.540 g", "76.40 MJ", "24 594".
+QString probeText(double value, const std::string& unit) {
+  if (!std::isfinite(value)) return QStringLiteral("—");
+  if (unit == "K") return formatFixed(value - 273.15, 1) + QStringLiteral(" °C");
+  if (unit == "kg") return formatPrefixed(value * 1e3, QStringLiteral("g"));
+  if (unit == "J") return formatPrefixed(value, QStringLiteral("J"));
+  // Particles are counted; shares and ratios are not whole.
+  if (unit == "1") return formatFixed(value, value == std::round(value) ? 0 : 3);
+  return formatFixed(value, 3) + QLatin1Char(' ') + QString::fromStdString(unit);
+}
+
+}  // namespace
+
+Outliner::Outliner(Document& document, QWidget* parent)
+    : QWidget(parent), m_document(document), m_model(new QStandardItemModel(this)), m_view(new QTreeView) {
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 4, 0, 0);
+  column->addWidget(m_view);
+  m_view->setModel(m_model);
+  m_view->setHeaderHidden(true);
+  m_view->setIndentation(12);
+  m_view->setUniformRowHeights(true);
+  m_view->setExpandsOnDoubleClick(false);
+  m_view->setEditTriggers(QAbstractItemView::EditKeyPressed | QAbstractItemView::DoubleClicked);
+  m_view->setMouseTracking(true);
+  m_view->setAccessibleName(QStringLiteral("Outliner"));
+  auto* delegate = new OutlinerDelegate(m_view);
+  m_view->setItemDelegate(delegate);
+  connect(delegate, &OutlinerDelegate::visibleToggled, this,
+          [this](const std::string& id, bool on) { m_document.setBodyVisible(id, on); });
+  connect(delegate, &OutlinerDelegate::lockToggled, this,
+          [this](const std::string& id, bool on) { m_document.setBodyLocked(id, on); });
+  connect(delegate, &OutlinerDelegate::renamed, this, [this](int kind, const std::string& id, const QString& name) {
+    if (kind == static_cast<int>(OutlineKind::Body)) {
+      m_document.renameBody(id, name);
+    } else {
+      m_document.renamePort({kind == static_cast<int>(OutlineKind::Sink), id}, name);
+    }
+  });
+  m_view->setContextMenuPolicy(Qt::CustomContextMenu);
+  connect(m_view, &QTreeView::customContextMenuRequested, this, [this](const QPoint& at) {
+    if (!selectedBody().empty() || selectedPort()) Q_EMIT menuRequested(m_view->viewport()->mapToGlobal(at));
+  });
+  connect(m_view->selectionModel(), &QItemSelectionModel::currentChanged, this, [this] {
+    if (m_building) return;
+    const auto [kind, id] = selected();
+    Q_EMIT selectionChanged(kind, id);
+  });
+}
+
+QStandardItem* Outliner::add(QStandardItem* parent, OutlineKind kind, const std::string& id, const QString& name,
+                             const QString& icon) {
+  auto* item = new QStandardItem(name);
+  item->setData(static_cast<int>(kind), outline::kKind);
+  item->setData(QString::fromStdString(id), outline::kId);
+  item->setData(icon, outline::kIcon);
+  item->setEditable(kind == OutlineKind::Body || kind == OutlineKind::Emitter || kind == OutlineKind::Sink);
+  if (parent) {
+    parent->appendRow(item);
+  } else {
+    m_model->appendRow(item);
+  }
+  return item;
+}
+
+void Outliner::addBodies(QStandardItem* scene) {
+  const Project& project = m_document.project();
+  const PluginRegistry* plugins = m_document.plugins();
+  for (const Body& body : project.bodies) {
+    const bool sketched = std::holds_alternative<VoxelShape>(body.shape);
+    const bool fixed = toggleOf(body.parameters, bodyParameters(), "fixed");
+    const QString icon = fixed ? QStringLiteral("plate") : sketched ? QStringLiteral("brush") : QStringLiteral("body");
+    QStandardItem* item = add(scene, OutlineKind::Body, body.id, QString::fromStdString(body.name), icon);
+    item->setData(colourOf(project, plugins, body.material), outline::kSwatch);
+    item->setData(body.visible, outline::kVisible);
+    item->setData(body.locked, outline::kLocked);
+    item->setData(plugins && isPlaceholder(project, body, *plugins), outline::kPlaceholder);
+  }
+}
+
+void Outliner::rebuild() {
+  const auto [kind, id] = selected();
+  const bool had = m_view->currentIndex().isValid();
+  m_building = true;
+  m_model->clear();
+  const Project& project = m_document.project();
+  QStandardItem* scene = add(nullptr, OutlineKind::Scene, "", m_document.title(), QStringLiteral("folder"));
+  addBodies(scene);
+  const auto nameOf = [](const auto& item) { return QString::fromStdString(item.name.empty() ? item.id : item.name); };
+  for (const Emitter& emitter : project.emitters) {
+    QStandardItem* item = add(scene, OutlineKind::Emitter, emitter.id, nameOf(emitter), QStringLiteral("tap"));
+    item->setData(colourOf(project, m_document.plugins(), emitter.material), outline::kSwatch);
+  }
+  for (const Sink& sink : project.sinks) {
+    add(scene, OutlineKind::Sink, sink.id, nameOf(sink), QStringLiteral("drain"));
+  }
+  for (const SceneWall& wall : project.environment.walls) {
+    const bool held = hasTemperature(wall);
+    QStandardItem* item = add(scene, OutlineKind::Wall, wall.id, QString::fromStdString(wall.name),
+                              held ? QStringLiteral("plate") : QStringLiteral("wall"));
+    if (held) {
+      const auto* declaration = findDeclaration(wallParameters(), "temperature");
+      item->setData(formatQuantity(toDisplay(*declaration, numberOf(wall.parameters, wallParameters(), "temperature")),
+                                   QStringLiteral("°C"), 3),
+                    outline::kDetail);
+    }
+  }
+  QStandardItem* air =
+      add(scene, OutlineKind::Environment, "", QStringLiteral("Air and gravity"), QStringLiteral("air"));
+  const auto* ambient = findDeclaration(environmentParameters(), "ambient_temperature");
+  air->setData(formatQuantity(toDisplay(*ambient, numberOf(project.environment.parameters, environmentParameters(),
+                                                           "ambient_temperature")),
+                              QStringLiteral("°C"), 3),
+               outline::kDetail);
+  if (!project.probes.empty()) {
+    QStandardItem* probes = add(scene, OutlineKind::Probes, "", QStringLiteral("Probes"), QStringLiteral("folder"));
+    for (const Probe& probe : project.probes) {
+      add(probes, OutlineKind::Probe, probe.id, QString::fromStdString(probe.name), QStringLiteral("probe"));
+    }
+  }
+  m_view->expandAll();
+  refreshCounts();
+  if (had) {
+    if (QStandardItem* item = find(kind, id)) m_view->setCurrentIndex(item->index());
+  }
+  m_building = false;
+}
+
+void Outliner::setSnapshot(const SnapshotPtr& snapshot) {
+  m_snapshot = snapshot;
+  refreshCounts();
+}
+
+void Outliner::refreshCounts() {
+  if (!m_snapshot || m_model->rowCount() == 0) return;
+  std::map<std::string, size_t> counts;
+  if (m_snapshot->bodyIds) {
+    std::vector<size_t> byIndex(m_snapshot->bodyIds->size(), 0);
+    for (const uint32_t body : m_snapshot->body) {
+      if (body < byIndex.size()) ++byIndex[body];
+    }
+    for (size_t i = 0; i < byIndex.size(); ++i) counts[(*m_snapshot->bodyIds)[i]] = byIndex[i];
+  }
+  const Project& project = m_document.project();
+  for (const Body& body : project.bodies) {
+    if (QStandardItem* item = find(OutlineKind::Body, body.id)) {
+      item->setData(formatFixed(static_cast<double>(counts[body.id])), outline::kDetail);
+    }
+  }
+  for (const Emitter& emitter : project.emitters) {
+    if (QStandardItem* item = find(OutlineKind::Emitter, emitter.id)) {
+      item->setData(formatFixed(static_cast<double>(counts[emitter.id])), outline::kDetail);
+    }
+  }
+  for (size_t i = 0; i < project.probes.size() && i < m_snapshot->stats.probes.size(); ++i) {
+    QStandardItem* item = find(OutlineKind::Probe, project.probes[i].id);
+    if (!item) continue;
+    item->setData(probeText(m_snapshot->stats.probes[i], probeUnit(project.probes[i].quantity)), outline::kDetail);
+  }
+}
+
+QStandardItem* Outliner::find(OutlineKind kind, const std::string& id) const {
+  const QString wanted = QString::fromStdString(id);
+  std::vector<QStandardItem*> open{m_model->invisibleRootItem()};
+  while (!open.empty()) {
+    QStandardItem* item = open.back();
+    open.pop_back();
+    for (int row = 0; row < item->rowCount(); ++row) open.push_back(item->child(row));
+    if (item->data(outline::kKind).isValid() && item->data(outline::kKind).toInt() == static_cast<int>(kind) &&
+        item->data(outline::kId).toString() == wanted)
+      return item;
+  }
+  return nullptr;
+}
+
+void Outliner::select(OutlineKind kind, const std::string& id) {
+  if (QStandardItem* item = find(kind, id)) {
+    m_view->setCurrentIndex(item->index());
+    m_view->scrollTo(item->index());
+  }
+}
+
+std::pair<OutlineKind, std::string> Outliner::selected() const {
+  const QModelIndex index = m_view->currentIndex();
+  if (!index.isValid()) return {OutlineKind::Scene, ""};
+  return {static_cast<OutlineKind>(index.data(outline::kKind).toInt()),
+          index.data(outline::kId).toString().toStdString()};
+}
+
+void Outliner::selectNothing() {
+  m_building = true;
+  m_view->setCurrentIndex({});
+  m_building = false;
+}
+
+std::string Outliner::selectedBody() const {
+  const auto [kind, id] = selected();
+  return kind == OutlineKind::Body && m_document.body(id) ? id : std::string();
+}
+
+std::optional<Port> Outliner::selectedPort() const {
+  const auto [kind, id] = selected();
+  if (kind == OutlineKind::Emitter && m_document.emitter(id)) return Port{false, id};
+  if (kind == OutlineKind::Sink && m_document.sink(id)) return Port{true, id};
+  return std::nullopt;
+}
+
+void Outliner::toggleVisible() {
+  if (const Body* body = m_document.body(selectedBody())) m_document.setBodyVisible(body->id, !body->visible);
+}
+
+void Outliner::toggleLocked() {
+  if (const Body* body = m_document.body(selectedBody())) m_document.setBodyLocked(body->id, !body->locked);
+}
+
+void Outliner::renameSelected() {
+  if (!selectedBody().empty() || selectedPort()) m_view->edit(m_view->currentIndex());
+}
+
+}  // namespace ps

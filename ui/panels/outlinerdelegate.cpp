@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/panels/outlinerdelegate.h"
+
+#include "ui/panels/outliner.h"
+#include "ui/theme/icon.h"
+#include "ui/theme/paint.h"
+#include "ui/theme/theme.h"
+
+#include <QtGui/QMouseEvent>
+#include <QtGui/QPainter>
+#include <QtWidgets/QLineEdit>
+
+namespace ps {
+namespace {
+
+constexpr int kRow = 24, kIcon = 16;
+
+std::string idOf(const QModelIndex& index) { return index.data(outline::kId).toString().toStdString(); }
+bool isBody(const QModelIndex& index) {
+  return index.data(outline::kKind).toInt() == static_cast<int>(OutlineKind::Body);
+}
+
+}  // namespace
+
+QRect OutlinerDelegate::eyeRect(const QRect& row) { return {row.right() - 24, row.top() + 2, 20, 20}; }
+/// Takes the place of the count while the pointer is there, and for good when locked.
+QRect OutlinerDelegate::lockRect(const QRect& row) { return {row.right() - 62, row.top() + 2, 20, 20}; }
+
+QSize OutlinerDelegate::sizeHint(const QStyleOptionViewItem&, const QModelIndex&) const { return {100, kRow}; }
+
+void OutlinerDelegate::paint(QPainter* painter, const QStyleOptionViewItem& option, const QModelIndex& index) const {
+  const Theme& theme = Theme::current();
+  painter->save();
+  painter->setRenderHint(QPainter::Antialiasing);
+  const bool selected = option.state & QStyle::State_Selected, hover = option.state & QStyle::State_MouseOver;
+  const bool body = isBody(index), visible = !body || index.data(outline::kVisible).toBool();
+  const QRect row = option.rect;
+  if (selected || hover) painter->fillRect(row, theme[selected ? Token::Selection : Token::Header]);
+  const QRectF text = row.adjusted(kIcon + 10, 0, 0, 0);
+  const QColor ink = theme[!visible ? Token::Disabled : selected ? Token::Text : Token::Text2];
+  paintIcon(*painter, QRectF(row.left() + 4, row.top() + 4, kIcon, kIcon), index.data(outline::kIcon).toString(), ink);
+  double right = row.right() - 6;
+  if (body) {
+    const bool locked = index.data(outline::kLocked).toBool();
+    if (!visible || selected || hover) {
+      paintIcon(*painter, QRectF(eyeRect(row)).adjusted(2, 2, -2, -2),
+                visible ? QStringLiteral("eye") : QStringLiteral("eye-off"), ink);
+    } else {
+      paintIcon(*painter, QRectF(eyeRect(row)).adjusted(2, 2, -2, -2), QStringLiteral("eye"), theme[Token::Muted]);
+    }
+    if (locked || hover) {
+      paintIcon(*painter, QRectF(lockRect(row)).adjusted(2, 2, -2, -2),
+                locked ? QStringLiteral("lock") : QStringLiteral("lock-open"),
+                theme[locked ? Token::Text2 : Token::Muted]);
+    }
+    const QRectF swatch(eyeRect(row).left() - 15, row.center().y() - 5, 11, 11);
+    painter->setPen(QPen(theme[Token::Line2], 1));
+    painter->setBrush(index.data(outline::kPlaceholder).toBool()
+                          ? QBrush(theme[Token::Muted], Qt::BDiagPattern)
+                          : QBrush(index.data(outline::kSwatch).value<QColor>()));
+    painter->drawEllipse(swatch);
+    right = swatch.left() - 6;
+  }
+  const QString detail = index.data(outline::kDetail).toString();
+  const bool lockInstead = body && (index.data(outline::kLocked).toBool() || hover);
+  if (lockInstead) right = lockRect(row).left() - 2;
+  if (!detail.isEmpty() && !lockInstead) {
+    const QFont small = Theme::font(TextRole::Small);
+    const double w = textWidth(detail, small) + 2;
+    paintText(*painter, QRectF(right - w, row.top(), w, row.height()), Qt::AlignRight | Qt::AlignVCenter, detail, small,
+              theme[selected ? Token::Text2 : Token::Muted]);
+    right -= w + 6;
+  }
+  paintText(*painter, QRectF(text.left(), row.top(), right - text.left(), row.height()),
+            Qt::AlignLeft | Qt::AlignVCenter, index.data(Qt::DisplayRole).toString(), Theme::font(TextRole::Normal),
+            visible ? theme[Token::Text] : ink);
+  painter->restore();
+}
+
+bool OutlinerDelegate::editorEvent(QEvent* event, QAbstractItemModel* model, const QStyleOptionViewItem& option,
+                                   const QModelIndex& index) {
+  if (isBody(index) && (event->type() == QEvent::MouseButtonRelease || event->type() == QEvent::MouseButtonDblClick)) {
+    const QPoint at = static_cast<QMouseEvent*>(event)->position().toPoint();
+    const bool release = event->type() == QEvent::MouseButtonRelease;
+    if (eyeRect(option.rect).contains(at)) {
+      if (release) Q_EMIT visibleToggled(idOf(index), !index.data(outline::kVisible).toBool());
+      return true;
+    }
+    if (lockRect(option.rect).contains(at)) {
+      if (release) Q_EMIT lockToggled(idOf(index), !index.data(outline::kLocked).toBool());
+      return true;
+    }
+  }
+  return QStyledItemDelegate::editorEvent(event, model, option, index);
+}
+
+void OutlinerDelegate::setModelData(QWidget* editor, QAbstractItemModel*, const QModelIndex& index) const {
+  if (auto* line = qobject_cast<QLineEdit*>(editor)) {
+    Q_EMIT renamed(index.data(outline::kKind).toInt(), idOf(index), line->text());
+  }
+}
+
+void OutlinerDelegate::updateEditorGeometry(QWidget* editor, const QStyleOptionViewItem& option,
+                                            const QModelIndex&) const {
+  editor->setGeometry(option.rect.adjusted(kIcon + 6, 1, -60, -1));
+}
+
+}  // namespace ps

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/panels/pluginpage.h"
+
+#include "core/plugin_host/registry.h"
+#include "ui/theme/icon.h"
+#include "ui/theme/theme.h"
+
+#include <QtCore/QDir>
+#include <QtCore/QEvent>
+#include <QtGui/QClipboard>
+#include <QtGui/QGuiApplication>
+#include <QtGui/QPainter>
+#include <QtGui/QStandardItemModel>
+#include <QtWidgets/QHBoxLayout>
+#include <QtWidgets/QHeaderView>
+#include <QtWidgets/QLabel>
+#include <QtWidgets/QLineEdit>
+#include <QtWidgets/QPushButton>
+#include <QtWidgets/QTreeView>
+#include <QtWidgets/QVBoxLayout>
+
+namespace ps {
+namespace {
+
+constexpr int kId = Qt::UserRole + 1;
+
+QString kindText(PluginKind kind) {
+  const QString name = QString::fromLatin1(pluginKindName(kind));
+  return name.left(1).toUpper() + name.mid(1);
+}
+
+QString nameOf(const PluginInfo& plugin) {
+  if (!plugin.label.empty()) return QString::fromStdString(plugin.label);
+  if (!plugin.id.empty()) return QString::fromStdString(plugin.id);
+  return QDir(QString::fromStdString(plugin.path)).dirName();
+}
+
+QString stateText(const PluginInfo& plugin) {
+  switch (plugin.state) {
+    case PluginInfo::State::Loaded:
+      return QStringLiteral("Loaded");
+    case PluginInfo::State::Refused:
+      return QStringLiteral("Not loaded");
+    case PluginInfo::State::Quarantined:
+      return QStringLiteral("In quarantine");
+  }
+  return {};
+}
+
+}  // namespace
+
+PluginPage::PluginPage(QWidget* parent)
+    : QWidget(parent),
+      m_model(new QStandardItemModel(this)),
+      m_view(new QTreeView),
+      m_summary(new QLabel),
+      m_details(new QLabel),
+      m_filter(new QLineEdit) {
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(16, 12, 16, 12);
+  column->setSpacing(10);
+  auto* head = new QHBoxLayout;
+  auto* title = new QLabel(QStringLiteral("Plugins"));
+  title->setFont(Theme::font(TextRole::Title));
+  m_summary->setProperty("role", "text2");
+  m_filter->setObjectName(QStringLiteral("psFilter"));
+  m_filter->setPlaceholderText(QStringLiteral("Name, kind, author"));
+  m_filter->setFixedWidth(170);
+  m_filter->setAccessibleName(QStringLiteral("Filter plugins"));
+  connect(m_filter, &QLineEdit::textChanged, this, &PluginPage::filter);
+  auto* copy = new QPushButton(QStringLiteral("Copy list"));
+  auto* back = new QPushButton(QStringLiteral("Back to the scene"));
+  connect(copy, &QPushButton::clicked, this,
+          [this] { QGuiApplication::clipboard()->setText(lines().join(QLatin1Char('\n'))); });
+  connect(back, &QPushButton::clicked, this, &PluginPage::closeRequested);
+  head->addWidget(title);
+  head->addSpacing(8);
+  head->addWidget(m_summary);
+  head->addStretch(1);
+  head->addWidget(m_filter);
+  head->addWidget(copy);
+  head->addWidget(back);
+  column->addLayout(head);
+  m_view->setModel(m_model);
+  m_view->setRootIsDecorated(false);
+  m_view->setUniformRowHeights(true);
+  m_view->setEditTriggers(QAbstractItemView::NoEditTriggers);
+  m_view->setAccessibleName(QStringLiteral("Plugins"));
+  column->addWidget(m_view, 1);
+  m_details->setWordWrap(true);
+  m_details->setTextFormat(Qt::RichText);
+  m_details->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  m_details->setMinimumHeight(110);
+  m_details->setAlignment(Qt::AlignTop | Qt::AlignLeft);
+  column->addWidget(m_details);
+  connect(m_view->selectionModel(), &QItemSelectionModel::currentRowChanged, this, &PluginPage::showDetails);
+}
+
+void PluginPage::setRegistry(PluginRegistry* registry) {
+  m_registry = registry;
+  refresh();
+}
+
+QString PluginPage::summary() const {
+  if (!m_registry) return QStringLiteral("Loading…");
+  int loaded = 0, broken = 0;
+  for (const PluginInfo& plugin : m_registry->plugins()) {
+    ++(plugin.state == PluginInfo::State::Loaded ? loaded : broken);
+  }
+  return broken == 0 ? QStringLiteral("%1 loaded").arg(loaded)
+                     : QStringLiteral("%1 loaded, %2 not").arg(loaded).arg(broken);
+}
+
+void PluginPage::refresh() {
+  m_model->clear();
+  m_model->setHorizontalHeaderLabels({QStringLiteral("Plugin"), QStringLiteral("Kind"), QStringLiteral("Version"),
+                                      QStringLiteral("API"), QStringLiteral("Licence"), QStringLiteral("State"),
+                                      QStringLiteral("Problem")});
+  m_summary->setText(summary());
+  if (!m_registry) return;
+  const Theme& theme = Theme::current();
+  const auto& plugins = m_registry->plugins();
+  for (size_t i = 0; i < plugins.size(); ++i) {
+    const PluginInfo& plugin = plugins[i];
+    const bool good = plugin.state == PluginInfo::State::Loaded;
+    QList<QStandardItem*> row;
+    for (const QString& text : {nameOf(plugin), plugin.id.empty() ? QStringLiteral("—") : kindText(plugin.kind),
+                                QString::fromStdString(plugin.version), QString::fromStdString(plugin.api),
+                                QString::fromStdString(plugin.licence), stateText(plugin),
+                                QString::fromStdString(good ? plugin.note : plugin.problem)}) {
+      row << new QStandardItem(text);
+      row.back()->setForeground(theme[Token::Text2]);
+    }
+    row[0]->setForeground(theme[Token::Text]);
+    row[0]->setData(static_cast<int>(i), kId);
+    row[0]->setIcon(QIcon(iconPixmap(good ? QStringLiteral("check") : QStringLiteral("warning"),
+                                     theme[good ? Token::Ok : Token::Error], 16, devicePixelRatioF())));
+    if (!good) {
+      row[5]->setForeground(theme[Token::Error]);
+      row[6]->setForeground(theme[Token::Error]);
+    }
+    row[6]->setToolTip(row[6]->text());
+    // What needs attention stands on top.
+    if (good) {
+      m_model->appendRow(row);
+    } else {
+      m_model->insertRow(0, row);
+    }
+  }
+  const int widths[] = {200, 100, 70, 50, 100, 100};
+  for (int c = 0; c < 6; ++c) m_view->setColumnWidth(c, widths[c]);
+  filter(m_filter->text());
+  if (m_model->rowCount() > 0) m_view->setCurrentIndex(m_model->index(0, 0));
+}
+
+void PluginPage::select(const std::string& id) {
+  for (int row = 0; m_registry && row < m_model->rowCount(); ++row) {
+    const auto i = static_cast<size_t>(m_model->item(row)->data(kId).toInt());
+    if (m_registry->plugins()[i].id == id) m_view->setCurrentIndex(m_model->index(row, 0));
+  }
+}
+
+void PluginPage::showDetails() {
+  const QModelIndex index = m_view->currentIndex();
+  const QStandardItem* item = index.isValid() ? m_model->item(index.row()) : nullptr;
+  const auto i = item ? static_cast<size_t>(item->data(kId).toInt()) : 0;
+  if (!item || !m_registry || i >= m_registry->plugins().size()) {
+    m_details->clear();
+    return;
+  }
+  const PluginInfo& plugin = m_registry->plugins()[i];
+  const auto text = [](const std::string& s) { return QString::fromStdString(s).toHtmlEscaped(); };
+  QString html = QStringLiteral("<b>%1</b>").arg(nameOf(plugin).toHtmlEscaped());
+  if (!plugin.author.empty()) html += QStringLiteral(" · by ") + text(plugin.author);
+  html += QStringLiteral("<br>");
+  if (!plugin.problem.empty()) {
+    html += QStringLiteral("<span style='color:%1'>%2</span><br>")
+                .arg(Theme::current()[Token::Error].name(), text(plugin.problem));
+  }
+  if (!plugin.note.empty()) html += text(plugin.note) + QStringLiteral("<br>");
+  html += text(plugin.help) + QStringLiteral("<br><span style='color:%1'>%2%3</span>")
+                                  .arg(Theme::current()[Token::Muted].name(),
+                                       plugin.id.empty() ? QString() : text(plugin.id) + QStringLiteral(" · "),
+                                       text(plugin.path));
+  m_details->setText(html);
+}
+
+void PluginPage::filter(const QString& wanted) {
+  for (int row = 0; row < m_model->rowCount(); ++row) {
+    const auto i = static_cast<size_t>(m_model->item(row)->data(kId).toInt());
+    QString all = QString::fromStdString(m_registry->plugins()[i].author + " " + m_registry->plugins()[i].id);
+    for (int c = 0; c < m_model->columnCount(); ++c) all += QLatin1Char(' ') + m_model->item(row, c)->text();
+    m_view->setRowHidden(row, {}, !all.contains(wanted, Qt::CaseInsensitive));
+  }
+}
+
+QStringList PluginPage::lines() const {
+  QStringList list;
+  for (int row = 0; row < m_model->rowCount(); ++row) {
+    QStringList cells;
+    for (int c = 0; c < m_model->columnCount(); ++c) cells << m_model->item(row, c)->text();
+    list << cells.join(QStringLiteral("\t"));
+  }
+  return list;
+}
+
+void PluginPage::paintEvent(QPaintEvent*) {
+  QPainter painter(this);
+  painter.fillRect(rect(), Theme::current()[Token::Panel]);
+}
+
+void PluginPage::changeEvent(QEvent* event) {
+  QWidget::changeEvent(event);
+  if (event->type() == QEvent::PaletteChange) refresh();
+}
+
+}  // namespace ps

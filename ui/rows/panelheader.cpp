@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/rows/panelheader.h"
+
+#include "ui/theme/paint.h"
+#include "ui/theme/theme.h"
+
+#include <QtGui/QPainter>
+#include <QtGui/QRadialGradient>
+
+#include <algorithm>
+
+namespace ps {
+
+PanelHeader::PanelHeader(QWidget* parent) : QWidget(parent) {
+  setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+}
+
+void PanelHeader::setTexts(const QString& name, const QString& subtitle, const QString& detail) {
+  if (name == m_name && subtitle == m_subtitle && detail == m_detail) return;
+  m_name = name;
+  m_subtitle = subtitle;
+  m_detail = detail;
+  setAccessibleName(name);
+  setAccessibleDescription(subtitle);
+  updateGeometry();
+  update();
+}
+
+void PanelHeader::setSwatch(const QColor& colour) {
+  m_swatch = colour;
+  update();
+}
+
+QSize PanelHeader::sizeHint() const {
+  return {300, 10 + 20 + (m_subtitle.isEmpty() ? 0 : 18) + (m_detail.isEmpty() ? 0 : 16)};
+}
+
+void PanelHeader::paintEvent(QPaintEvent*) {
+  const Theme& theme = Theme::current();
+  QPainter painter(this);
+  double left = 12;
+  if (m_swatch.isValid()) {
+    const double side = std::min(40.0, height() - 10.0);
+    paintBall(painter, QRectF(left + 1, 10 + (height() - 10 - side) / 2, side, side), m_swatch);
+    left = 12 + side + 12;
+  }
+  const QRectF area(left, 10, width() - left - 10, height());
+  const int align = Qt::AlignLeft | Qt::AlignVCenter;
+  paintText(painter, QRectF(area.left(), 10, area.width(), 20), align, m_name, Theme::font(TextRole::Heading),
+            theme[Token::Text]);
+  paintText(painter, QRectF(area.left(), 30, area.width(), 17), align, m_subtitle, Theme::font(TextRole::Normal),
+            theme[Token::Text2]);
+  paintText(painter, QRectF(area.left(), m_subtitle.isEmpty() ? 30 : 47, area.width(), 16), align, m_detail,
+            Theme::font(TextRole::Small), theme[Token::Muted]);
+}
+
+void paintBall(QPainter& painter, const QRectF& rect, const QColor& colour) {
+  QRadialGradient light(rect.center() - QPointF(0.18 * rect.width(), 0.22 * rect.height()), 0.72 * rect.width());
+  light.setColorAt(0, colour.lighter(125));
+  light.setColorAt(0.45, colour);
+  light.setColorAt(1, colour.darker(210));
+  painter.save();
+  painter.setRenderHint(QPainter::Antialiasing);
+  painter.setPen(Qt::NoPen);
+  painter.setBrush(light);
+  painter.drawEllipse(rect);
+  painter.restore();
+}
+
+}  // namespace ps

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/rows/parameterrow_p.h"
+#include "ui/rows/rowvalue.h"
+#include "ui/theme/numbers.h"
+#include "ui/theme/theme.h"
+
+#include <QtCore/QMetaMethod>
+#include <QtCore/QPointer>
+#include <QtCore/QTimer>
+#include <QtGui/QClipboard>
+#include <QtGui/QContextMenuEvent>
+#include <QtGui/QGuiApplication>
+#include <QtWidgets/QMenu>
+#include <QtWidgets/QToolTip>
+
+namespace ps {
+namespace {
+
+constexpr int kMenuGone = 100;  ///< ms after which a closed menu's events have come
+
+QString line(const char* head, const QString& text) {
+  if (text.isEmpty()) return {};
+  return QStringLiteral("<div style=\"margin-top:3px\"><span style=\"color:%1\">%2</span> %3</div>")
+      .arg(Theme::current()[Token::Muted].name(), QLatin1String(head), text.toHtmlEscaped());
+}
+
+}  // namespace
+
+QString ParameterRow::Private::toolTipText() const {
+  const api::ParameterDeclaration& p = declaration();
+  const QString unit = displayUnit(p);
+  QString text = QStringLiteral("<div><b>%1</b></div>").arg(QString::fromUtf8(p.label).toHtmlEscaped());
+  if (!model.disabledReason.isEmpty()) text += line("", model.disabledReason);
+  text += line("", QString::fromUtf8(p.help ? p.help : ""));
+  if (isNumeric() && p.maximum > p.minimum) {
+    text += line("Range", QStringLiteral("%1 to %2").arg(formatBound(p, p.minimum), formatBound(p, p.maximum)));
+  }
+  if (q->has(RowState::OutOfRange)) {
+    text += line("", QStringLiteral("The value lies beyond the slider. It is allowed and acts, typed values may reach "
+                                    "from %1 to %2.")
+                         .arg(formatBound(p, p.hardMinimum), formatBound(p, p.hardMaximum)));
+  }
+  if (!isCurve(model.defaultValue) && isNumeric()) {
+    text += line("Default", formatValue(p, numberOfValue(p, model.defaultValue, model.temperature)));
+  }
+  if (showsCurve()) text += line("Shown at", formatFixed(model.temperature - 273.15, 1) + QStringLiteral(" °C"));
+  if (showsCurve() && isEditable()) {
+    text += line("", QStringLiteral("Drag sideways to scale the curve. A number that is typed takes its place, *2 "
+                                    "doubles it."));
+  }
+  text += line("Example", QString::fromUtf8(p.example ? p.example : ""));
+  const bool ofDefault = !model.source.isEmpty() && q->isChanged();
+  text += line(ofDefault ? "Default from" : "Source",
+               !model.source.isEmpty() ? model.source : QString::fromUtf8(p.source ? p.source : ""));
+  return text;
+}
+
+void ParameterRow::Private::openChoiceMenu() {
+  const QPointer<QMenu> menu(new QMenu(q));
+  const QStringList names = choiceNames(declaration());
+  for (qsizetype i = 0; i < names.size(); ++i) {
+    QAction* action = menu->addAction(choiceLabel(names[i]));
+    action->setCheckable(true);
+    action->setChecked(!model.mixed && static_cast<qsizetype>(q->number()) == i);
+    action->setData(static_cast<int>(i));
+  }
+  const QRect rect = choiceRect();
+  menu->setMinimumWidth(rect.width());
+  const QAction* chosen = menu->exec(q->mapToGlobal(rect.bottomLeft() + QPoint(0, 2)));
+  if (!menu) return;  // the row went while its menu was open
+  menu->deleteLater();
+  if (chosen) choose(chosen->data().toInt());
+}
+
+void ParameterRow::Private::openContextMenu(const QPoint& global) {
+  const QPointer<QMenu> menu(new QMenu(q));
+  QAction* copy = menu->addAction(QStringLiteral("Copy value"));
+  QAction* paste = menu->addAction(QStringLiteral("Paste value"));
+  paste->setEnabled(isEditable() && isNumeric() && !QGuiApplication::clipboard()->text().isEmpty());
+  QAction* resetAction = menu->addAction(QStringLiteral("Reset"));
+  resetAction->setEnabled(isEditable() && q->isChanged());
+  QAction* constant = showsCurve() && isEditable() ? menu->addAction(QStringLiteral("Make constant")) : nullptr;
+  menu->addSeparator();
+  const auto offered = [this](const QMetaMethod& signal) { return q->isSignalConnected(signal); };
+  QAction* pin = nullptr;
+  QAction* plot = nullptr;
+  if (offered(QMetaMethod::fromSignal(&ParameterRow::pinToggled))) {
+    pin = menu->addAction(model.isPinned ? QStringLiteral("Remove from “Try these”")
+                                         : QStringLiteral("Pin to “Try these”"));
+  }
+  if (offered(QMetaMethod::fromSignal(&ParameterRow::plotRequested))) plot = menu->addAction(QStringLiteral("Plot"));
+  QAction* explain = menu->addAction(QStringLiteral("Explain"));
+  const QAction* chosen = menu->exec(global);
+  if (!menu) return;  // the row went while its menu was open
+  menu->deleteLater();
+  if (!chosen) return;
+  if (chosen == copy)
+    QGuiApplication::clipboard()->setText(q->valueText());
+  else if (chosen == paste)
+    q->enter(QGuiApplication::clipboard()->text().trimmed());
+  else if (chosen == resetAction)
+    q->reset();
+  else if (chosen == constant)
+    single(valueOfNumber(declaration(), q->number()));
+  else if (chosen == pin)
+    Q_EMIT q->pinToggled(model.key, !model.isPinned);
+  else if (chosen == plot)
+    Q_EMIT q->plotRequested(model.key);
+  else if (chosen == explain)
+    this->explain(global);
+}
+
+/// Once the menu's events are over: those that it leaves behind (the pointer's return, the focus) take a tip away.
+void ParameterRow::Private::explain(const QPoint& global) {
+  QTimer::singleShot(kMenuGone, q, [this, global] { QToolTip::showText(global, toolTipText(), q); });
+}
+
+void ParameterRow::contextMenuEvent(QContextMenuEvent* event) { d->openContextMenu(event->globalPos()); }
+
+}  // namespace ps

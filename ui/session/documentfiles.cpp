@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/session/documentfiles.h"
+
+#include "core/io/projectio.h"
+#include "ui/document/document.h"
+#include "ui/document/wallside.h"
+#include "ui/session/autosave.h"
+#include "ui/session/worker.h"
+
+#include <QtCore/QElapsedTimer>
+#include <QtCore/QFileInfo>
+#include <QtCore/QSettings>
+
+#include <string_view>
+
+namespace ps {
+namespace {
+
+constexpr int kRecentFiles = 10;
+constexpr const char* kRecentKey = "files/recent";
+
+/// An empty tray to begin with.
+Project emptyProject() {
+  Project project;
+  project.title = "New scene";
+  SceneMaterial water;
+  water.id = water.base = "water";
+  water.label = "Water";
+  project.materials.push_back(water);
+  for (const WallSide& side : kWallSides) {
+    if (std::string_view(side.id) != "lid")
+      project.environment.walls.push_back(wallOn(side, {-0.3, 0, -0.3}, {0.3, 0.8, 0.3}));
+  }
+  project.environment.boundsMinimum = {-0.4, -0.2, -0.4};
+  project.environment.boundsMaximum = {0.4, 1, 0.4};
+  project.pluginsUsed = {"bonds", "enthalpy", "water"};
+  return project;
+}
+
+/// The camera and colour of `seen`, with the pins and unknown keys of `stored`.
+ViewState asSeen(ViewState stored, const ViewState& seen) {
+  ViewState view = seen;
+  view.pinned = std::move(stored.pinned);
+  view.unknown = std::move(stored.unknown);
+  return view;
+}
+
+}  // namespace
+
+DocumentFiles::DocumentFiles(Document& document, Worker& worker, QObject* parent)
+    : QObject(parent), m_document(document), m_worker(worker) {}
+
+void DocumentFiles::open(const QString& path) { load(QFileInfo(path).absoluteFilePath(), std::nullopt); }
+
+void DocumentFiles::reopen(const AutosavedSession& session) {
+  load(session.copy.isEmpty() ? session.path : session.copy, session);
+}
+
+/// `session`: the one that is reopened by it.
+void DocumentFiles::load(const QString& path, const std::optional<AutosavedSession>& session) {
+  const int request = ++m_request;
+  const PluginRegistry* plugins = m_document.plugins();
+  if (!plugins) {
+    Q_EMIT openFailed(path, QStringLiteral("Plugins are still being loaded. Open it again in a moment."));
+    return;
+  }
+  m_worker.run([this, request, plugins, path, session] {
+    QElapsedTimer clock;
+    clock.start();
+    LoadedProject loaded;
+    QString problem;
+    try {
+      loaded = loadProject(path.toStdString(), *plugins);
+    } catch (const std::exception& error) {
+      problem = QString::fromUtf8(error.what());
+    }
+    const double seconds = static_cast<double>(clock.elapsed()) / 1000;
+    if (session && session->copy.isEmpty()) loaded.project.view = asSeen(loaded.project.view, session->view);
+    QMetaObject::invokeMethod(this, [this, request, path, session, problem, seconds,
+                                     project = std::move(loaded.project), messages = std::move(loaded.warnings)] {
+      if (request != m_request) return;
+      if (!problem.isEmpty()) {
+        Q_EMIT openFailed(path, problem);
+        return;
+      }
+      QStringList warnings;
+      for (const ProjectMessage& message : messages) warnings << QString::fromStdString(message.text);
+      const QString documentPath = session ? session->path : path;
+      m_document.open(project, documentPath, session && !session->copy.isEmpty());
+      if (!documentPath.isEmpty()) addRecent(documentPath);
+      if (session) Q_EMIT reopened(*session);
+      Q_EMIT opened(documentPath, warnings, seconds);
+    });
+  });
+}
+
+void DocumentFiles::bringBack(const ReplacedWork& work) {
+  ++m_request;
+  m_document.open(work.project, work.session.path, true);
+  Q_EMIT reopened(work.session);
+  Q_EMIT opened(work.session.path, {}, 0);
+}
+
+void DocumentFiles::newProject() {
+  ++m_request;
+  m_document.open(emptyProject(), {}, false, false);
+  Q_EMIT opened({}, {}, 0);
+}
+
+void DocumentFiles::save(const QString& path) {
+  const QString absolute = QFileInfo(path).absoluteFilePath();
+  m_worker.run([this, absolute, count = m_document.changeCount(), project = m_document.project()] {
+    QString problem;
+    try {
+      saveProject(project, absolute.toStdString());
+    } catch (const std::exception& error) {
+      problem = QString::fromUtf8(error.what());
+    }
+    QMetaObject::invokeMethod(this, [this, absolute, count, problem] {
+      if (!problem.isEmpty()) {
+        Q_EMIT saveFailed(absolute, problem, m_document.had(count));
+        return;
+      }
+      addRecent(absolute);
+      Q_EMIT saved(absolute, m_document.saved(absolute, count));
+    });
+  });
+}
+
+QStringList DocumentFiles::recent() {
+  QStringList existing;
+  for (const QString& path : QSettings().value(QLatin1String(kRecentKey)).toStringList()) {
+    if (QFileInfo(path).isFile()) existing << path;
+  }
+  return existing;
+}
+
+void DocumentFiles::addRecent(const QString& path) {
+  QStringList paths = recent();
+  paths.removeAll(path);
+  paths.prepend(path);
+  QSettings().setValue(QLatin1String(kRecentKey), QVariant(paths.mid(0, kRecentFiles)));
+}
+
+}  // namespace ps

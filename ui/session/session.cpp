@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/session/session.h"
+
+#include "core/plugin_host/registry.h"
+#include "core/simulation/engine.h"
+#include "ui/document/document.h"
+#include "ui/session/documentfiles.h"
+#include "ui/session/scenelink.h"
+#include "ui/session/worker.h"
+
+#include <clocale>
+
+namespace ps {
+
+Session::Session(const Options& options, QObject* parent)
+    : QObject(parent),
+      m_options(options),
+      m_log(std::make_unique<MessageLog>()),
+      m_document(std::make_unique<Document>()),
+      m_worker(std::make_unique<Worker>()) {
+  m_log->takeLog();
+  m_files = std::make_unique<DocumentFiles>(*m_document, *m_worker);
+  if (options.autosave) {
+    const QString& directory = options.autosaveDirectory;
+    m_autosave = std::make_unique<Autosave>(*m_document, *m_worker,
+                                            directory.isEmpty() ? Autosave::standardDirectory() : directory);
+    connect(m_files.get(), &DocumentFiles::reopened, m_autosave.get(), &Autosave::takeOver);
+    m_autosave->start();
+  }
+}
+
+Session::~Session() {
+  close();
+  m_worker.reset();
+  m_link.reset();
+  m_engine.reset();
+  m_document->setPlugins(nullptr);
+}
+
+void Session::start() {
+  m_worker->run([this, paths = m_options.pluginPaths] {
+    PluginRegistry::Options options;
+    options.extraPaths = paths;
+    QMetaObject::invokeMethod(this,
+                              [this, plugins = std::make_shared<PluginRegistry>(options)] { adoptPlugins(plugins); });
+  });
+}
+
+void Session::adoptPlugins(std::shared_ptr<PluginRegistry> plugins) {
+  std::setlocale(LC_NUMERIC, "C");  // a plugin may have set it
+  m_plugins = std::move(plugins);
+  m_document->setPlugins(m_plugins.get());
+  m_engine = std::make_unique<EngineThread>(*m_plugins, [this] {
+    if (m_pending.exchange(true)) return;
+    QMetaObject::invokeMethod(
+        this,
+        [this] {
+          m_pending = false;
+          const bool now = playing();
+          Q_EMIT snapshotArrived();
+          if (now != m_wasPlaying) {
+            m_wasPlaying = now;
+            Q_EMIT playingChanged();
+          }
+        },
+        Qt::QueuedConnection);
+  });
+  m_link = std::make_unique<SceneLink>(*m_document, *m_engine);
+  for (const PluginInfo& plugin : m_plugins->plugins()) {
+    if (plugin.problem.empty()) continue;
+    const std::string name = !plugin.id.empty() ? plugin.id : plugin.path;
+    m_log->add(MessageLevel::Warning, QStringLiteral("Plugin ") + QString::fromStdString(name),
+               QString::fromStdString(plugin.problem));
+  }
+  Q_EMIT ready();
+}
+
+SnapshotPtr Session::snapshot() const { return m_engine ? m_engine->snapshot() : nullptr; }
+bool Session::playing() const { return m_engine && m_engine->playing(); }
+
+bool Session::isBroken() const { return m_link && m_link->isBroken(); }
+
+void Session::play() {
+  if (!m_engine) return;
+  if (isBroken()) {
+    m_link->rebuild(true);
+    return;
+  }
+  m_engine->play();
+  m_wasPlaying = true;
+  Q_EMIT playingChanged();
+}
+
+void Session::pause() {
+  if (!m_engine) return;
+  m_engine->pause();
+  m_wasPlaying = false;
+  Q_EMIT playingChanged();
+}
+
+void Session::playPause() {
+  if (playing()) {
+    pause();
+  } else {
+    play();
+  }
+}
+
+void Session::step() {
+  if (!m_engine) return;
+  if (isBroken()) m_link->rebuild(false);
+  m_engine->stepOnce();
+  m_wasPlaying = false;
+  Q_EMIT playingChanged();
+}
+
+void Session::reset() {
+  if (m_link) m_link->reset();
+}
+
+QString Session::close() {
+  if (m_closed || !m_autosave) return {};
+  const QString problem = m_autosave->close();
+  m_closed = problem.isEmpty();
+  return problem;
+}
+
+}  // namespace ps

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "core/simulation/snapshot.h"
+#include "ui/document/changeevent.h"
+#include "ui/session/autosave.h"
+#include "ui/session/messagelog.h"
+
+#include <QtCore/QObject>
+#include <QtCore/QString>
+
+#include <atomic>
+#include <memory>
+
+namespace ps {
+
+class Document;
+class DocumentFiles;
+class EngineThread;
+class PluginRegistry;
+class SceneLink;
+class Worker;
+
+/// What a window works on: plugins, document, engine, files, autosave. Plugins are loaded on a worker thread so that
+/// the window shows first; until ready() there is no engine. Knows no widget.
+class Session : public QObject {
+  Q_OBJECT
+ public:
+  struct Options {
+    bool autosave = true;
+    std::vector<std::string> pluginPaths;  ///< besides the usual ones
+    QString autosaveDirectory;             ///< "": the user's state directory
+  };
+  explicit Session(const Options& options, QObject* parent = nullptr);
+  ~Session() override;
+
+  void start();  ///< begins to load plugins; ready() follows
+  bool isReady() const { return m_engine != nullptr; }
+
+  Document& document() { return *m_document; }
+  DocumentFiles& files() { return *m_files; }
+  MessageLog& log() { return *m_log; }
+  Worker& worker() { return *m_worker; }
+  PluginRegistry* plugins() { return m_plugins.get(); }
+  EngineThread* engine() { return m_engine.get(); }
+  SceneLink* link() { return m_link.get(); }
+  Autosave* autosave() { return m_autosave.get(); }
+
+  SnapshotPtr snapshot() const;
+  void playPause();
+  void play();
+  void pause();
+  void step();
+  void reset();
+  bool playing() const;
+  /// The engine has no scene: the project cannot be built as it is (see SceneLink::isBroken()).
+  bool isBroken() const;
+  /// Last copy of unsaved work, written once. Returns "", or why it could not be: the session then goes on.
+  QString close();
+
+ Q_SIGNALS:
+  void ready();
+  void snapshotArrived();  ///< coalesced: at most one per turn of the event loop
+  void playingChanged();
+
+ private:
+  void adoptPlugins(std::shared_ptr<PluginRegistry> plugins);
+
+  Options m_options;
+  std::unique_ptr<MessageLog> m_log;
+  std::unique_ptr<Document> m_document;
+  std::unique_ptr<DocumentFiles> m_files;
+  std::unique_ptr<Autosave> m_autosave;
+  std::shared_ptr<PluginRegistry> m_plugins;
+  std::atomic<bool> m_pending{false};
+  bool m_wasPlaying = false, m_closed = false;
+  std::unique_ptr<EngineThread> m_engine;
+  std::unique_ptr<SceneLink> m_link;
+  std::unique_ptr<Worker> m_worker;  // ends first: its jobs point at the others
+};
+
+}  // namespace ps

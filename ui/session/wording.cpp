@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/session/wording.h"
+
+#include "core/simulation/engine.h"
+#include "ui/theme/numbers.h"
+
+#include <cmath>
+
+namespace ps {
+
+QString sentence(const QString& text) { return text.endsWith(QLatin1Char('.')) ? text : text + QLatin1Char('.'); }
+
+QString countText(size_t count, const QString& one, const QString& many) {
+  return QString::number(count) + QLatin1Char(' ') + (count == 1 ? one : many);
+}
+
+QString spanText(double seconds) {
+  const auto whole = static_cast<long long>(std::llround(std::max(0.0, seconds)));
+  if (whole < 60) return QStringLiteral("%1 s").arg(whole);
+  const long long minutes = whole / 60, hours = minutes / 60, days = hours / 24;
+  if (hours < 1) return QStringLiteral("%1 min %2 s").arg(minutes).arg(whole % 60);
+  if (days < 1) return QStringLiteral("%1 h %2 min").arg(hours).arg(minutes % 60);
+  return QStringLiteral("%1 d %2 h").arg(days).arg(hours % 24);
+}
+
+QString clockText(double seconds) {
+  const auto hundredths = static_cast<long long>(std::floor(std::max(0.0, seconds) * 100 + 1e-6));
+  return QStringLiteral("%1:%2.%3")
+      .arg(hundredths / 6000, 2, 10, QLatin1Char('0'))
+      .arg(hundredths / 100 % 60, 2, 10, QLatin1Char('0'))
+      .arg(hundredths % 100, 2, 10, QLatin1Char('0'));
+}
+
+FailureText failureText(const EngineEvent& event) {
+  const auto has = [&](StepFlag flag) { return (event.flags & static_cast<StepFlags>(flag)) != 0; };
+  const QString message = QString::fromStdString(event.message);
+  const QString detail = message.isEmpty() ? QString() : message + QStringLiteral(". ");
+  if (has(StepFlag::NotFinite)) {
+    return {QStringLiteral("Paused: the step gave no usable numbers."),
+            detail +
+                QStringLiteral("The last good frame is kept. Undo the last change, or raise the substeps, then play.")};
+  }
+  if (has(StepFlag::PluginFault)) {
+    return {QStringLiteral("Paused: a plugin failed."),
+            detail + QStringLiteral("Play goes on without it; Plugins shows what it said.")};
+  }
+  if (has(StepFlag::LostParticle)) {
+    return {QStringLiteral("Matter left the scene."),
+            detail + QStringLiteral("Close that side with a wall; where one stands, raise the substeps."), true};
+  }
+  if (has(StepFlag::Diverged)) {
+    return {QStringLiteral("The liquid is squeezed more than the solver can mend."),
+            detail + QStringLiteral("Raise the iterations, or lower the relaxation.")};
+  }
+  if (has(StepFlag::EnergyOpen)) {
+    return {QStringLiteral("The energy balance does not close."),
+            detail + QStringLiteral("The thermal model loses heat; choose another under Solver.")};
+  }
+  if (event.kind == EngineEvent::Kind::Stopped) {
+    return {QStringLiteral("Paused: the simulation could not go on."),
+            detail + QStringLiteral("Undo the last change, or reset, then play.")};
+  }
+  return {QStringLiteral("That change could not be made."), message};
+}
+
+QString limitAddress(const Limit& limit, const std::vector<std::string>* bodies) {
+  const QString what = QString::fromStdString(limit.what);
+  const qsizetype dot = what.lastIndexOf(QLatin1Char('.'));  // ids may have some themselves: "org.example.cable"
+  if (dot < 1) return {};
+  const QString owner = what.left(dot), key = what.mid(dot + 1);
+  if (owner == QLatin1String("solver") || owner == QLatin1String("environment") || owner == QLatin1String("thermal")) {
+    return owner + QLatin1Char('/') + key;
+  }
+  if (limit.body < 0) return QStringLiteral("material/%1/%2").arg(owner, key);
+  const auto body = static_cast<size_t>(limit.body);
+  if (!bodies || body >= bodies->size()) return {};
+  return QStringLiteral("constraint/%1/%2/%3").arg(QString::fromStdString((*bodies)[body]), owner, key);
+}
+
+QString limitNote(const Limit& limit, const api::ParameterDeclaration* declaration) {
+  if (limit.what == kBalanceLimit)
+    return QStringLiteral("heat balance open by %1").arg(formatQuantity(limit.delivered, QStringLiteral("J")));
+  if (limit.what == kSqueezeLimit)
+    return QStringLiteral("liquid is %1 % too dense, solid matter on its way or squeezed may leave it no room")
+        .arg(formatFixed(100 * limit.delivered, 0));
+  return limitText(limit, declaration).section(QLatin1Char(':'), 0, 0) + QStringLiteral(" is limited by the step");
+}
+
+QString limitText(const Limit& limit, const api::ParameterDeclaration* declaration) {
+  if (declaration) {
+    return QStringLiteral("%1: the solver reaches %2 of %3 at this step")
+        .arg(QString::fromUtf8(declaration->label), formatValue(*declaration, limit.delivered),
+             formatValue(*declaration, limit.asked));
+  }
+  const QString unit = QString::fromStdString(limit.unit);
+  return QStringLiteral("%1: the solver reaches %2 of %3 at this step")
+      .arg(QString::fromStdString(limit.what), formatQuantity(limit.delivered, unit),
+           formatQuantity(limit.asked, unit));
+}
+
+}  // namespace ps
