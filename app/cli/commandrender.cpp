@@ -65,10 +65,8 @@ RenderOptions optionsFor(const Project& project, const PluginRegistry& plugins, 
   options.width = size.width;
   options.height = size.height;
   options.still = !isFilm(arguments.text("--out"));
-  options.camera.target = project.view.target;
-  options.camera.distance = project.view.distance;
-  options.camera.azimuth = project.view.azimuth;
-  options.camera.elevation = project.view.elevation;
+  const ViewCamera camera = project.view.camera.value_or(ViewCamera());
+  options.camera = {camera.target, camera.distance, camera.azimuth, camera.elevation};
   const std::string colour = arguments.text("--colour", project.view.colour);
   options.colour = colourByName(colour);
   if (colourName(options.colour) != colour) {

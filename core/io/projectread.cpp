@@ -240,10 +240,13 @@ Probe readProbe(json& value) {
 ViewState readView(json& value) {
   JsonTaker taker(value);
   ViewState view;
-  view.target = taker.vector("target", view.target);
-  view.distance = taker.number("distance", view.distance);
-  view.azimuth = taker.number("azimuth", view.azimuth);
-  view.elevation = taker.number("elevation", view.elevation);
+  if (taker.has("target") || taker.has("distance") || taker.has("azimuth") || taker.has("elevation")) {
+    ViewCamera& camera = view.camera.emplace();
+    camera.target = taker.vector("target", camera.target);
+    camera.distance = taker.number("distance", camera.distance);
+    camera.azimuth = taker.number("azimuth", camera.azimuth);
+    camera.elevation = taker.number("elevation", camera.elevation);
+  }
   view.colour = taker.text("colour", view.colour);
   view.pinned = taker.names("pinned");
   view.unknown = taker.rest();

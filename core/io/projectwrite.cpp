@@ -172,11 +172,13 @@ json writeProbe(const Probe& probe) {
 }
 
 json writeView(const ViewState& view) {
-  json out{{"target", jsonFromVector(view.target)},
-           {"distance", jsonNumber(view.distance)},
-           {"azimuth", jsonNumber(view.azimuth)},
-           {"elevation", jsonNumber(view.elevation)},
-           {"colour", view.colour}};
+  json out{{"colour", view.colour}};
+  if (view.camera) {
+    out["target"] = jsonFromVector(view.camera->target);
+    out["distance"] = jsonNumber(view.camera->distance);
+    out["azimuth"] = jsonNumber(view.camera->azimuth);
+    out["elevation"] = jsonNumber(view.camera->elevation);
+  }
   if (!view.pinned.empty()) out["pinned"] = view.pinned;
   putUnknown(out, view.unknown);
   return out;

@@ -249,7 +249,7 @@ json viewSchema() {
        {"elevation", number(-90, 90, "°", "")},
        {"colour", oneOfNames({"material", "temperature", "phase", "speed", "density_error"}, "what colours mean")},
        {"pinned", listOf(text("address of a parameter: wall/floor/temperature"), "rows under Try these")}},
-      {}, "how it is looked at");
+      {}, "how it is looked at; without target, distance and angles the whole scene is shown");
 }
 
 json buildProjectSchema() {

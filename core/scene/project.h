@@ -172,11 +172,17 @@ struct Probe {
   Unknown unknown;
 };
 
-struct ViewState {
-  Vec3 target{0, 0.2, 0};
+/// Orbits its target; y is up.
+struct ViewCamera {
+  Vec3 target{0, 0.2, 0};                               ///< m
   double distance = 1.5, azimuth = 35, elevation = 20;  ///< m, degrees
-  std::string colour = "material";                      ///< material | temperature | phase | speed | density_error
-  std::vector<std::string> pinned;                      ///< addresses of "Try these" rows: "wall/floor/temperature"
+  bool operator==(const ViewCamera&) const = default;
+};
+
+struct ViewState {
+  std::optional<ViewCamera> camera;  ///< none: the whole scene is shown
+  std::string colour = "material";   ///< material | temperature | phase | speed | density_error
+  std::vector<std::string> pinned;   ///< addresses of "Try these" rows: "wall/floor/temperature"
   Unknown unknown;
 };
 

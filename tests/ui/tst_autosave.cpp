@@ -220,10 +220,7 @@ class TestAutosave : public QObject {
     project.view.pinned = {"wall/floor/temperature"};
     saveProject(project, path.toStdString());
     ViewState seen;
-    seen.target = {0.1, 0.25, -0.3};
-    seen.distance = 0.75;
-    seen.azimuth = -120;
-    seen.elevation = 60;
+    seen.camera = ViewCamera{{0.1, 0.25, -0.3}, 0.75, -120, 60};
     {
       Desk desk(*m_plugins, m_copies);
       QSignalSpy opened(&desk.files, &DocumentFiles::opened);
@@ -242,10 +239,7 @@ class TestAutosave : public QObject {
     desk.files.reopen(sessions[0]);
     QVERIFY(opened.wait());
     const ViewState& view = desk.document.project().view;
-    QCOMPARE(view.target, seen.target);
-    QCOMPARE(view.distance, seen.distance);
-    QCOMPARE(view.azimuth, seen.azimuth);
-    QCOMPARE(view.elevation, seen.elevation);
+    QVERIFY(view.camera == seen.camera);
     QCOMPARE(view.colour, std::string("phase"));
     QCOMPARE(view.pinned, project.view.pinned);
     QVERIFY(!desk.document.isDirty());

@@ -28,6 +28,7 @@ class TestProjectIo : public QObject {
   void savingTwiceGivesTheSameBytes_data();
   void savingTwiceGivesTheSameBytes();
   void everythingSurvives();
+  void aViewWithoutACameraStaysWithoutOne();
   void unknownKeysSurvive_data();
   void unknownKeysSurvive();
   void slipsAreNamed();
@@ -144,6 +145,18 @@ void TestProjectIo::everythingSurvives() {
   QCOMPARE(std::get<VoxelShape>(coarser.bodies[1].shape).spacing, 0.02);  // a sketch keeps its own
   QCOMPARE(std::get<double>(project.bodies[0].parameters.values.at("temperature")), 263.15000000000003);
   QCOMPARE(std::get<Response>(project.materials[0].properties.values.at("viscosity")).law, std::string("arrhenius"));
+}
+
+/// No camera means that the whole scene is shown: a default one would look from inside of whatever is larger.
+void TestProjectIo::aViewWithoutACameraStaysWithoutOne() {
+  const Project project = parse(kFull).project;
+  QVERIFY(!project.view.camera);
+  QVERIFY(!json::parse(writeProject(project))["view"].contains("distance"));
+  const Project placed = parse(kFull, {"view/distance=3"}).project;
+  ViewCamera camera;
+  camera.distance = 3;
+  QVERIFY(placed.view.camera == camera);
+  QVERIFY(parse(writeProject(placed)).project.view.camera == camera);
 }
 
 void TestProjectIo::unknownKeysSurvive_data() {

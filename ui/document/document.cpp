@@ -175,12 +175,7 @@ void Document::setColour(const std::string& colour) {
   tell(ViewChanged{});
 }
 
-void Document::setView(const ViewState& view) {
-  m_project.view.target = view.target;
-  m_project.view.distance = view.distance;
-  m_project.view.azimuth = view.azimuth;
-  m_project.view.elevation = view.elevation;
-}
+void Document::setView(const ViewState& view) { m_project.view.camera = view.camera; }
 
 void Document::applyParameter(const Address& address, const std::optional<Value>& value) {
   ParameterSet* set = findSet(m_project, address);

@@ -24,23 +24,28 @@ namespace {
 constexpr const char* kEnds[] = {"", "replaced", "closed"};  // by SessionEnd
 
 QJsonObject toJson(const ViewState& view) {
-  return {{QStringLiteral("target"), QJsonArray{view.target[0], view.target[1], view.target[2]}},
-          {QStringLiteral("distance"), view.distance},
-          {QStringLiteral("azimuth"), view.azimuth},
-          {QStringLiteral("elevation"), view.elevation},
-          {QStringLiteral("colour"), QString::fromStdString(view.colour)}};
+  QJsonObject json{{QStringLiteral("colour"), QString::fromStdString(view.colour)}};
+  if (!view.camera) return json;
+  const Vec3& target = view.camera->target;
+  json.insert(QStringLiteral("target"), QJsonArray{target[0], target[1], target[2]});
+  json.insert(QStringLiteral("distance"), view.camera->distance);
+  json.insert(QStringLiteral("azimuth"), view.camera->azimuth);
+  json.insert(QStringLiteral("elevation"), view.camera->elevation);
+  return json;
 }
 
 ViewState viewOf(const QJsonObject& json) {
   ViewState view;
+  view.colour = json.value(QStringLiteral("colour")).toString(QString::fromStdString(view.colour)).toStdString();
+  if (!json.contains(QStringLiteral("target"))) return view;
+  ViewCamera& camera = view.camera.emplace();
   const auto number = [&](const char* key, double& value) { value = json.value(QLatin1String(key)).toDouble(value); };
   const QJsonArray target = json.value(QStringLiteral("target")).toArray();
   for (int i = 0; i < 3; ++i)
-    view.target[static_cast<size_t>(i)] = target.at(i).toDouble(view.target[static_cast<size_t>(i)]);
-  number("distance", view.distance);
-  number("azimuth", view.azimuth);
-  number("elevation", view.elevation);
-  view.colour = json.value(QStringLiteral("colour")).toString(QString::fromStdString(view.colour)).toStdString();
+    camera.target[static_cast<size_t>(i)] = target.at(i).toDouble(camera.target[static_cast<size_t>(i)]);
+  number("distance", camera.distance);
+  number("azimuth", camera.azimuth);
+  number("elevation", camera.elevation);
   return view;
 }
 

@@ -33,6 +33,7 @@ Project emptyProject() {
   }
   project.environment.boundsMinimum = {-0.4, -0.2, -0.4};
   project.environment.boundsMaximum = {0.4, 1, 0.4};
+  project.view.camera = ViewCamera();
   project.pluginsUsed = {"bonds", "enthalpy", "water"};
   return project;
 }

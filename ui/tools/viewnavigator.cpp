@@ -28,7 +28,8 @@ QString ViewNavigator::viewName() const {
 void ViewNavigator::setScene(const ViewState& view) {
   m_orthographic = false;
   m_name.clear();
-  m_camera = Camera{view.target, view.distance, view.azimuth, view.elevation, kPerspectiveField};
+  const ViewCamera camera = view.camera.value_or(ViewCamera());
+  m_camera = Camera{camera.target, camera.distance, camera.azimuth, camera.elevation, kPerspectiveField};
   m_sceneCamera = m_lastCamera = m_camera;
 }
 
@@ -39,10 +40,8 @@ void ViewNavigator::restore(const Camera& camera) {
 
 ViewState ViewNavigator::view() const {
   ViewState view;
-  view.target = m_camera.target;
-  view.distance = m_orthographic ? m_camera.distance / kLongDistance : m_camera.distance;
-  view.azimuth = m_camera.azimuth;
-  view.elevation = m_camera.elevation;
+  view.camera = ViewCamera{m_camera.target, m_orthographic ? m_camera.distance / kLongDistance : m_camera.distance,
+                           m_camera.azimuth, m_camera.elevation};
   return view;
 }
 
