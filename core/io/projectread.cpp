@@ -210,6 +210,7 @@ Environment readEnvironment(json& value) {
 SolverOptions readSolver(json& value, const PluginRegistry& plugins) {
   JsonTaker taker(value);
   SolverOptions solver;
+  solver.thermalModel = plugins.standard(PluginKind::Thermal);  // files always meant it where they name none
   if (taker.has("thermal")) {
     json thermal = taker.take("thermal");
     JsonTaker inner(thermal);

@@ -32,7 +32,8 @@ constexpr std::array<KindOfPlugin, 4> kKinds{{{PluginKind::Material, PHASESKETCH
 ///                 open balance is then a limit of the model and no fault
 ///   pair_rates    a thermal model with a pair law of its own may say, likewise, how fast that law acts
 ///   holds_frozen  structure may say, likewise, that it takes in frozen matter of any body
-constexpr std::array<std::string_view, 3> kCapabilities{"opens_energy", "pair_rates", "holds_frozen"};
+///   box_stamp     a brush may say, likewise, that its stamp is a box
+constexpr std::array<std::string_view, 4> kCapabilities{"opens_energy", "pair_rates", "holds_frozen", "box_stamp"};
 
 bool isLower(char c) { return c >= 'a' && c <= 'z'; }
 bool isDigit(char c) { return c >= '0' && c <= '9'; }
@@ -113,6 +114,7 @@ std::string checkedMetadata(const QJsonObject& root, PluginInfo& info) {
   const auto kind = kindOfIid(root["IID"].toString().toStdString(), problem);
   const QJsonObject own = root["MetaData"].toObject();
   info.author = own["author"].toString().toStdString();
+  info.standard = own["standard"].toBool();
   info.id = textOf(own, "id", problem);
   const std::string kindName = textOf(own, "kind", problem);
   info.api = textOf(own, "api", problem);

@@ -70,7 +70,10 @@ std::string nameOf(const PluginInfo& info) {
 struct PluginRegistry::Impl {
   explicit Impl(const Options& options) : state(stateDirectory()), quarantine(state) {
     scan(pluginDirectories(options));
-    for (auto& [id, list] : candidates) loadBest(list);
+    for (auto& [id, list] : candidates) {
+      chooseStandard(list);
+      loadBest(list);
+    }
     candidates.clear();
     std::sort(found.begin(), found.end(), before);
     generations.push_back(std::make_unique<const std::vector<PluginInfo>>(std::move(found)));
@@ -78,6 +81,7 @@ struct PluginRegistry::Impl {
 
   void scan(const std::vector<PluginDirectory>& directories);
   void read(const std::string& path, size_t directory);
+  void chooseStandard(const std::vector<Candidate>& list);
   void loadBest(std::vector<Candidate>& list);
   bool load(Candidate& candidate);
   void markFault(const std::string& id, const std::string& message);
@@ -90,6 +94,8 @@ struct PluginRegistry::Impl {
   std::string state;
   Quarantine quarantine;
   std::map<std::string, std::vector<Candidate>> candidates;
+  std::map<PluginKind, std::pair<size_t, std::string>>
+      standards;  ///< directory and id; unchanged after the constructor
   std::vector<PluginInfo> found;
   std::map<std::string, LoadedPlugin> loaded;  ///< unchanged after the constructor
 
@@ -140,6 +146,14 @@ void PluginRegistry::Impl::read(const std::string& path, size_t directory) {
     return;
   }
   same.push_back(std::move(candidate));
+}
+
+void PluginRegistry::Impl::chooseStandard(const std::vector<Candidate>& list) {
+  for (const Candidate& candidate : list) {
+    if (!candidate.info.standard) continue;
+    const auto [place, fresh] = standards.try_emplace(candidate.info.kind, candidate.directory, candidate.info.id);
+    if (!fresh && candidate.directory < place->second.first) place->second = {candidate.directory, candidate.info.id};
+  }
 }
 
 void PluginRegistry::Impl::loadBest(std::vector<Candidate>& list) {
@@ -230,6 +244,11 @@ std::vector<std::string> PluginRegistry::ids(PluginKind kind) const {
   for (const PluginInfo& info : plugins())
     if (info.kind == kind && info.state == PluginInfo::State::Loaded) result.push_back(info.id);
   return result;
+}
+
+std::string PluginRegistry::standard(PluginKind kind) const {
+  const auto found = m->standards.find(kind);
+  return found == m->standards.end() ? std::string() : found->second.second;
 }
 
 bool PluginRegistry::has(const std::string& id) const { return m->get(id) != nullptr; }

@@ -25,9 +25,10 @@ struct PluginInfo {
   std::vector<std::string> adheresTo;     ///< of materials: Material::adheresTo
   PluginKind kind = PluginKind::Material;
   State state = State::Refused;
-  std::string problem;  ///< one line: what, where, what to do; "" when loaded
-  std::string note;     ///< one line about one that is loaded: "replaces version 1.0.0 in FILE"; "" mostly
-  bool json = false;    ///< a material that is a JSON file alone
+  std::string problem;    ///< one line: what, where, what to do; "" when loaded
+  bool standard = false;  ///< its metadata offer it as what is meant where nothing names another one of its kind
+  std::string note;       ///< one line about one that is loaded: "replaces version 1.0.0 in FILE"; "" mostly
+  bool json = false;      ///< a material that is a JSON file alone
 };
 
 const char* pluginStateName(PluginInfo::State state);  ///< "loaded", "refused", "quarantined"
@@ -70,6 +71,10 @@ class PluginRegistry {
   /// Loaded ids of a kind, ascending.
   std::vector<std::string> ids(PluginKind kind) const;
   bool has(const std::string& id) const;
+  /// What is meant where nothing names a plugin of this kind: the one whose metadata say so ("standard": true); of
+  /// several the one that came with the program, then the first by id. Also one that was refused: a file that means it
+  /// must not quietly go on with another. "" where there is none.
+  std::string standard(PluginKind kind) const;
   /// A material with a plugin's own laws evaluated for these own parameters (in the order of its declarations; missing
   /// ones take their defaults). Throws Error for an unknown material, and PluginError when the plugin's law fails: the
   /// plugin is then refused as by fault().

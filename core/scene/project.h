@@ -51,7 +51,7 @@ struct VoxelShape {
     bool operator==(const Paint&) const = default;
   };
   struct Stroke {
-    std::string brush;  ///< plugin id: "sphere"
+    std::string brush;  ///< plugin id
     bool erase = false;
     double radius = 0.05;  ///< m
     int palette = 0;
@@ -71,7 +71,7 @@ struct VoxelShape {
 
 /// A constraint plugin used by a body.
 struct BodyConstraint {
-  std::string plugin;  ///< "bonds"
+  std::string plugin;  ///< its id
   ParameterSet parameters;
   Unknown unknown;
 };
@@ -154,8 +154,8 @@ struct Environment {
 };
 
 struct SolverOptions {
-  ParameterSet parameters;                ///< see solverParameters()
-  std::string thermalModel = "enthalpy";  ///< plugin id; "" for none
+  ParameterSet parameters;   ///< see solverParameters()
+  std::string thermalModel;  ///< plugin id; "" for none. A file that names none means PluginRegistry::standard()
   ParameterSet thermalParameters;
   Unknown unknown;
 };
@@ -251,8 +251,10 @@ const ParameterSet* findSet(const Project& project, const Address& address);
 std::optional<Value> outsideValue(const Project& project, const Address& address);
 /// Sets it; where there was no gravity it points down. False, and nothing happens, for other addresses and types.
 bool setOutsideValue(Project& project, const Address& address, const Value& value);
-/// Declarations of those of the scene; `models` are the ids of installed thermal models.
-std::vector<api::ParameterDeclaration> sceneParameters(const std::vector<std::string>& models);
+/// Declarations of those of the scene; `models` are the ids of installed thermal models, `standard` the one that is
+/// meant where nothing names another.
+std::vector<api::ParameterDeclaration> sceneParameters(const std::vector<std::string>& models,
+                                                       const std::string& standard);
 /// Declarations of a body's velocity and spin, by component.
 api::ParameterList bodyMotionParameters();
 

@@ -93,13 +93,14 @@ bool setOutsideValue(Project& project, const Address& address, const Value& valu
 
 api::ParameterList bodyMotionParameters() { return api::listOf(kMotion); }
 
-std::vector<api::ParameterDeclaration> sceneParameters(const std::vector<std::string>& models) {
+std::vector<api::ParameterDeclaration> sceneParameters(const std::vector<std::string>& models,
+                                                       const std::string& standard) {
   std::string choices;
   for (const std::string& id : models) choices += id + "|";
   choices += kNoModel;
-  const auto standard = std::find(models.begin(), models.end(), SolverOptions{}.thermalModel);
+  const auto first = std::find(models.begin(), models.end(), standard);
   return {kGravity,
-          choice({kThermalModel, "Thermal model", "", ""}, kept(choices), static_cast<int>(standard - models.begin()),
+          choice({kThermalModel, "Thermal model", "", ""}, kept(choices), static_cast<int>(first - models.begin()),
                  {"Heat", "How matter keeps its heat. Matter starts with the new model from its temperature and phase.",
                   "enthalpy for everything; the thesis's bookkeeping for comparison", ""})};
 }

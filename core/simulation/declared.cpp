@@ -54,13 +54,14 @@ std::mutex g_lists;
 
 /// What is installed decides on the choices, and so does a model that is not: each list made stays for good.
 api::ParameterList sceneDeclarations(const Project& project, const PluginRegistry& plugins) {
-  static std::map<std::vector<std::string>, std::vector<api::ParameterDeclaration>> lists;
+  static std::map<std::pair<std::vector<std::string>, std::string>, std::vector<api::ParameterDeclaration>> lists;
   std::vector<std::string> models = plugins.ids(PluginKind::Thermal);
+  const std::string standard = plugins.standard(PluginKind::Thermal);
   const std::string& present = project.solver.thermalModel;
   if (!present.empty() && std::find(models.begin(), models.end(), present) == models.end()) models.push_back(present);
   const std::lock_guard lock(g_lists);
-  auto& list = lists[models];
-  if (list.empty()) list = sceneParameters(models);
+  auto& list = lists[{models, standard}];
+  if (list.empty()) list = sceneParameters(models, standard);
   return {list.data(), list.size()};
 }
 
@@ -149,6 +150,14 @@ std::vector<std::string> namedByInstalled(const Project& project, const std::vec
 bool holdsTogether(const std::string& id, const PluginRegistry* plugins) {
   const api::ConstraintPlugin* plugin = plugins ? plugins->constraint(id) : nullptr;
   return !plugin || plugin->traits().form != api::ConstraintTraits::Form::Neighbour;
+}
+
+std::string frozenStructure(const PluginRegistry& plugins) {
+  for (const std::string& id : plugins.ids(PluginKind::Constraint)) {
+    const api::ConstraintPlugin* plugin = plugins.constraint(id);
+    if (plugin && plugin->extension(api::kHoldsFrozen)) return id;
+  }
+  return {};
 }
 
 std::string structureOf(const Body& body, const PluginRegistry* plugins) {

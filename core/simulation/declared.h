@@ -43,6 +43,9 @@ std::string problemWith(const Project& project, const PluginRegistry* plugins, c
 /// Whether a constraint plugin ties matter together; one that is not installed counts, one that acts between neighbours
 /// does not.
 bool holdsTogether(const std::string& plugin, const PluginRegistry* plugins);
+/// The constraint plugin that takes in frozen matter (api::kHoldsFrozen), first by id; "" where none is installed. What
+/// is sketched as a solid is held by it too.
+std::string frozenStructure(const PluginRegistry& plugins);
 /// The constraint plugin that holds a body together, or kNoStructure.
 std::string structureOf(const Body& body, const PluginRegistry* plugins);
 /// Addresses of every declared parameter of the project, in the order of the outliner.

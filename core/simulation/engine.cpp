@@ -5,6 +5,7 @@
 #include "core/base/log.h"
 #include "core/plugin_host/registry.h"
 #include "core/simulation/compile.h"
+#include "core/simulation/declared.h"
 #include "core/simulation/lattice.h"
 #include "core/simulation/matterflow.h"
 #include "core/simulation/measure.h"
@@ -155,12 +156,7 @@ void Engine::Impl::bakeMaterials() {
 }
 
 void Engine::Impl::holdFrozen() {
-  for (const std::string& id : plugins.ids(PluginKind::Constraint)) {
-    const api::ConstraintPlugin* plugin = plugins.constraint(id);
-    if (!plugin || !plugin->extension(api::kHoldsFrozen)) continue;
-    constraintSet(id);
-    return;
-  }
+  if (const std::string id = frozenStructure(plugins); !id.empty()) constraintSet(id);
 }
 
 void Engine::Impl::setThermal() {

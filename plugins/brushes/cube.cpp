@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cmath>
+#include <string_view>
 
 namespace {
 
@@ -82,4 +83,8 @@ void CubeBrush::stroke(const ps::api::StrokeContext& context, ps::api::EditKind 
 
 ps::api::Double3 CubeBrush::extent(const ps::api::StrokeContext& context) const noexcept {
   return extentOf(axesOf(context), context.radius);
+}
+
+const void* CubeBrush::extension(const char* name) const noexcept {
+  return std::string_view(name) == ps::api::kBoxStamp ? this : nullptr;
 }

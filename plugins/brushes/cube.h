@@ -15,4 +15,5 @@ class CubeBrush final : public QObject, public ps::api::BrushPlugin {
   void stroke(const ps::api::StrokeContext& context, ps::api::EditKind kind,
               ps::api::Span<const ps::api::StrokeSample> samples, ps::api::EditSink& sink) const override;
   ps::api::Double3 extent(const ps::api::StrokeContext& context) const noexcept override;
+  const void* extension(const char* name) const noexcept override;
 };

@@ -31,6 +31,7 @@ constexpr int kCycles = 100;
 /// A tray of water or ice whose walls all take part.
 ps::Project trayOf(const std::array<int, 3>& particles, double height, double temperature, double timeScale) {
   ps::Project project;
+  project.solver.thermalModel = "enthalpy";
   project.materials.push_back(ps::scenes::water());
   project.environment = ps::scenes::tray(0.5 * particles[0] * kSpacing, height);
   project.solver.parameters.values["particle_spacing"] = kSpacing;

@@ -396,6 +396,7 @@ class TestJoining : public QObject {
   void namesAreThoseOfTheScene() {
     const ps::PluginRegistry registry;
     ps::Project project;
+    project.solver.thermalModel = "enthalpy";
     for (const auto& [id, base] :
          {std::pair{"brine", "water"}, std::pair{"plank", "wood"}, std::pair{"ball", "iron"}}) {
       ps::SceneMaterial material;

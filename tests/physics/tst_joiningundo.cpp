@@ -24,6 +24,7 @@ ps::Body iceBlock(const char* id, int layers, int below, const QString& structur
 
 ps::Project projectOf(const std::vector<ps::Body>& bodies) {
   ps::Project project;
+  project.solver.thermalModel = "enthalpy";
   project.materials.push_back(ps::scenes::water());
   project.environment = ps::scenes::tray(0.2, 1);
   project.solver.parameters.values["particle_spacing"] = kSpacing;

@@ -338,6 +338,23 @@ class TestPluginHost : public QObject {
     QCOMPARE(registry.material("soap")->properties.at("density_solid").constant, 1060.0);
   }
 
+  void standardComesWithTheProgram() {
+    const QString path = withSoundPlugins("standard");
+    PluginRegistry alone(only({path.toStdString()}));
+    QCOMPARE(alone.standard(PluginKind::Brush), std::string("fixture.brush"));
+    QCOMPARE(alone.standard(PluginKind::Thermal), std::string());  // installed, but it does not offer itself
+    alone.fault("fixture.brush", "failed");
+    QCOMPARE(alone.standard(PluginKind::Brush), std::string("fixture.brush"));
+    PluginRegistry::Options options = only({path.toStdString()});
+    options.builtIn = true;
+    const PluginRegistry both(options);
+    QVERIFY(both.has("fixture.brush"));
+    QCOMPARE(both.standard(PluginKind::Brush), std::string("sphere"));  // though "fixture.brush" comes first by id
+    QCOMPARE(both.standard(PluginKind::Thermal), std::string("enthalpy"));
+    QCOMPARE(both.standard(PluginKind::Material), std::string("water"));
+    QVERIFY(both.brush("cube")->extension(api::kBoxStamp) && !both.brush("sphere")->extension(api::kBoxStamp));
+  }
+
   void faultTakesAPluginOutOfService() {
     const QString path = withSoundPlugins("running");
     QVERIFY(QFile::copy(fixture("fixture_material"), path + "/material.so"));

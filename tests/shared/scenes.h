@@ -45,11 +45,15 @@ inline Body block(const char* id, int side, double spacing, Vec3 center, double 
   return body;
 }
 
+/// The thermal model of all these scenes.
+inline constexpr const char* kThermalModel = "enthalpy";
+
 /// A small block of ice on a floor held at `floorTemperature` in K, heat a few thousand times as fast as real.
 inline Project iceOnPlate(int side, double floorTemperature, double timeScale = 6000) {
   constexpr double kSpacing = 0.03;
   Project project;
   project.title = "Ice on a plate";
+  project.solver.thermalModel = kThermalModel;
   project.materials.push_back(water());
   project.environment = tray(0.75 * side * kSpacing, 1.2);
   ParameterSet& floor = project.environment.walls[0].parameters;

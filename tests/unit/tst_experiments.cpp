@@ -32,6 +32,7 @@ class TstExperiments : public QObject {
 /// Five particles with numbers that floats hold exactly, so that nothing is lost to rounding.
 void TstExperiments::aProbeOfEveryQuantity() {
   Project project;
+  project.solver.thermalModel = "enthalpy";
   project.materials.push_back(scenes::water());
   Body row = scenes::block("row", 1, 0.03, {0, 0, 0}, 300);
   std::get<BoxShape>(row.shape).size = {0.15, 0.03, 0.03};
@@ -133,6 +134,7 @@ void TstExperiments::aProbeOfEveryQuantity() {
 
 void TstExperiments::aProbeSeesItsRegionAndItsWave() {
   Project project;
+  project.solver.thermalModel = "enthalpy";
   project.materials.push_back(scenes::water());
   project.environment.gravity = {0, 0, 0};
   Body row = scenes::block("row", 1, 0.05, {0.4, 0, 0}, 300);
@@ -181,6 +183,7 @@ void TstExperiments::aProbeSeesItsRegionAndItsWave() {
 
 void TstExperiments::aBodyStartsAsItsFieldsSay() {
   Project project;
+  project.solver.thermalModel = "enthalpy";
   project.materials.push_back(scenes::water());
   project.environment.gravity = {0, 0, 0};
   Body block = scenes::block("block", 4, 0.05, {0.5, 0.5, 0}, 270);
@@ -213,6 +216,7 @@ void TstExperiments::aBodyStartsAsItsFieldsSay() {
 void TstExperiments::disorderHangsOnTheSeedAlone() {
   const auto places = [&](double jitter, double seed) {
     Project project;
+    project.solver.thermalModel = "enthalpy";
     project.materials.push_back(scenes::water());
     project.bodies.push_back(scenes::block("block", 6, 0.05, {0, 0, 0}, 300));
     project.bodies[0].parameters.values = {{"jitter", jitter}, {"seed", seed}};
@@ -240,6 +244,7 @@ namespace {
 /// 40 W; heat runs ten times as fast as motion, 0.1 s a frame.
 Project twoHeated() {
   Project project;
+  project.solver.thermalModel = "enthalpy";
   project.materials.push_back(scenes::water());
   for (const char* id : {"one", "two"}) {
     Body block = scenes::block(id, 3, 0.02, {id[0] == 'o' ? 0.0 : 0.5, 0, 0}, 293.15);

@@ -51,6 +51,7 @@ class TestProjectIo : public QObject {
   void pipesAndDevicesAreWrittenNotReplaced();
   void placesThatCannotBeWrittenAreKnownBefore();
   void failedSaveKeepsTheOldFile();
+  void aFileThatNamesNoThermalModelMeansTheStandardOne();
   void numbersAreShortest();
 
  private:
@@ -587,6 +588,16 @@ void TestProjectIo::failedSaveKeepsTheOldFile() {
   QVERIFY(threw);
   QCOMPARE(readFile(textOf(file), kMaximumProjectBytes), before);
   QCOMPARE(QDir(folder.path()).entryList(QDir::Files).size(), 1);
+}
+
+void TestProjectIo::aFileThatNamesNoThermalModelMeansTheStandardOne() {
+  json document = json::parse(kFull);
+  document["solver"].erase("thermal");
+  QCOMPARE(parse(document.dump()).project.solver.thermalModel, m_plugins->standard(PluginKind::Thermal));
+  document.erase("solver");
+  QCOMPARE(parse(document.dump()).project.solver.thermalModel, m_plugins->standard(PluginKind::Thermal));
+  document["solver"]["thermal"]["model"] = "";
+  QCOMPARE(parse(document.dump()).project.solver.thermalModel, std::string());
 }
 
 void TestProjectIo::numbersAreShortest() {

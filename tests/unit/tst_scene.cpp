@@ -33,6 +33,7 @@ const char* text(const std::string& s) { return s.c_str(); }
 
 Project scene() {
   Project project;
+  project.solver.thermalModel = "enthalpy";
   project.materials.push_back(scenes::water());
   project.bodies.push_back(scenes::block("ice", 3, 0.02, {0, 0.1, 0}, 260));
   project.environment = scenes::tray(0.2, 0.5);

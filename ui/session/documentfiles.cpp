@@ -2,6 +2,7 @@
 #include "ui/session/documentfiles.h"
 
 #include "core/io/projectio.h"
+#include "core/plugin_host/registry.h"
 #include "ui/document/document.h"
 #include "ui/document/wallside.h"
 #include "ui/session/autosave.h"
@@ -19,14 +20,18 @@ namespace {
 constexpr int kRecentFiles = 10;
 constexpr const char* kRecentKey = "files/recent";
 
-/// An empty tray to begin with.
-Project emptyProject() {
+/// An empty tray to begin with, and what the plugins offer as standard.
+Project emptyProject(const PluginRegistry* plugins) {
   Project project;
   project.title = "New scene";
-  SceneMaterial water;
-  water.id = water.base = "water";
-  water.label = "Water";
-  project.materials.push_back(water);
+  if (plugins) {
+    project.solver.thermalModel = plugins->standard(PluginKind::Thermal);
+    SceneMaterial material;
+    material.id = material.base = plugins->standard(PluginKind::Material);
+    const Material* installed = plugins->material(material.base);
+    if (installed) material.label = installed->label;
+    if (!material.base.empty()) project.materials.push_back(material);
+  }
   for (const WallSide& side : kWallSides) {
     if (std::string_view(side.id) != "lid")
       project.environment.walls.push_back(wallOn(side, {-0.3, 0, -0.3}, {0.3, 0.8, 0.3}));
@@ -34,7 +39,6 @@ Project emptyProject() {
   project.environment.boundsMinimum = {-0.4, -0.2, -0.4};
   project.environment.boundsMaximum = {0.4, 1, 0.4};
   project.view.camera = ViewCamera();
-  project.pluginsUsed = {"bonds", "enthalpy", "water"};
   return project;
 }
 
@@ -104,7 +108,7 @@ void DocumentFiles::bringBack(const ReplacedWork& work) {
 
 void DocumentFiles::newProject() {
   ++m_request;
-  m_document.open(emptyProject(), {}, false, false);
+  m_document.open(emptyProject(m_document.plugins()), {}, false, false);
   Q_EMIT opened({}, {}, 0);
 }
 

@@ -6,6 +6,10 @@
 
 namespace ps::api {
 
+/// Capability of a brush whose stamp fills the box of its extent(): extension(kBoxStamp) is not nullptr. The cursor is
+/// then drawn as that box, otherwise as the ball within it.
+inline constexpr const char* kBoxStamp = "box_stamp";
+
 struct StrokeSample {
   Double3 position;  ///< m
   double pressure;   ///< 0 .. 1
