@@ -48,25 +48,6 @@ json jsonOf(api::ParameterList list) {
   return out;
 }
 
-api::ParameterList parametersOf(const PluginRegistry& plugins, const PluginInfo& info) {
-  const api::Plugin* plugin = nullptr;
-  switch (info.kind) {
-    case PluginKind::Material:
-      plugin = plugins.materialPlugin(info.id);
-      break;
-    case PluginKind::Constraint:
-      plugin = plugins.constraint(info.id);
-      break;
-    case PluginKind::Thermal:
-      plugin = plugins.thermal(info.id);
-      break;
-    case PluginKind::Brush:
-      plugin = plugins.brush(info.id);
-      break;
-  }
-  return plugin ? plugin->parameters() : api::ParameterList{};
-}
-
 json jsonOf(const PluginRegistry& plugins, const PluginInfo& info) {
   json out{{"id", info.id},         {"kind", pluginKindName(info.kind)},
            {"label", info.label},   {"version", info.version},
@@ -76,7 +57,7 @@ json jsonOf(const PluginRegistry& plugins, const PluginInfo& info) {
            {"json", info.json},     {"state", pluginStateName(info.state)}};
   if (!info.problem.empty()) out["problem"] = info.problem;
   if (!info.note.empty()) out["note"] = info.note;
-  if (info.state == PluginInfo::State::Loaded) out["parameters"] = jsonOf(parametersOf(plugins, info));
+  if (info.state == PluginInfo::State::Loaded) out["parameters"] = jsonOf(plugins.parameters(info.id));
   return out;
 }
 

@@ -111,11 +111,10 @@ class ProjectChecker {
 
   /// The installed material with its plugin's laws at the scene's own parameters, as the engine will take it.
   Material baseOf(const SceneMaterial& source, const std::string& pointer) const {
-    const auto* plugin = m_plugins.materialPlugin(source.base);
-    if (!plugin) return *m_plugins.material(source.base);
-    checkSet(source.parameters, plugin->parameters(), pointer + "/parameters");
+    if (!m_plugins.materialPlugin(source.base)) return *m_plugins.material(source.base);
+    checkSet(source.parameters, m_plugins.parameters(source.base), pointer + "/parameters");
     try {
-      return m_plugins.evaluated(source.base, numbersOf(source.parameters, plugin->parameters()));
+      return m_plugins.evaluated(source.base, numbersOf(source.parameters, m_plugins.parameters(source.base)));
     } catch (const Error& error) {
       fail(pointer + "/parameters", error.what());
     }
@@ -159,9 +158,7 @@ class ProjectChecker {
     for (size_t i = 0; i < shape.strokes.size(); ++i) {
       const std::string stroke = at(pointer + "/strokes", i);
       if (shape.strokes[i].palette >= colours) fail(stroke + "/palette", "the palette has no such entry");
-      if (const auto* brush = m_plugins.brush(shape.strokes[i].brush)) {
-        checkSet(shape.strokes[i].parameters, brush->parameters(), stroke + "/parameters");
-      }
+      checkSet(shape.strokes[i].parameters, m_plugins.parameters(shape.strokes[i].brush), stroke + "/parameters");
       checkPlugin(PluginKind::Brush, shape.strokes[i].brush, stroke + "/brush",
                   "the stroke's cells are there, but it cannot be drawn again");
     }
@@ -231,9 +228,7 @@ class ProjectChecker {
       const BodyConstraint& constraint = body.constraints[i];
       const std::string place = at(pointer + "/constraints", i);
       checkPlugin(PluginKind::Constraint, constraint.plugin, place + "/plugin", "the body stands still");
-      if (const auto* plugin = m_plugins.constraint(constraint.plugin)) {
-        checkSet(constraint.parameters, plugin->parameters(), place + "/parameters");
-      }
+      checkSet(constraint.parameters, m_plugins.parameters(constraint.plugin), place + "/parameters");
     }
   }
 
@@ -304,9 +299,7 @@ class ProjectChecker {
   void checkSolver(const SolverOptions& solver) {
     if (solver.thermalModel.empty()) return;
     checkPlugin(PluginKind::Thermal, solver.thermalModel, "/solver/thermal/model", "no heat flows");
-    if (const auto* model = m_plugins.thermal(solver.thermalModel)) {
-      checkSet(solver.thermalParameters, model->parameters(), "/solver/thermal/parameters");
-    }
+    checkSet(solver.thermalParameters, m_plugins.parameters(solver.thermalModel), "/solver/thermal/parameters");
   }
 
   void checkPinned() {

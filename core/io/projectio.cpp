@@ -94,40 +94,37 @@ void checkRequired(const json& document, const std::string& name, const PluginRe
 }
 
 /// Checks "parameters" of one owner against what its plugin declares.
-template <class Plugin>
-void checkParameters(const json& owner, const Plugin* plugin, const std::string& name, const std::string& pointer,
-                     std::vector<UnknownKey>& unknown) {
+void checkParameters(const json& owner, const char* key, const PluginRegistry& plugins, const std::string& name,
+                     const std::string& pointer, std::vector<UnknownKey>& unknown) {
   const auto parameters = owner.find("parameters");
-  if (!plugin || parameters == owner.end()) return;
-  checkAgainst(parameterListSchema(plugin->parameters()), *parameters, name, pointer + "/parameters", unknown);
+  const std::string id = owner.at(key).get<std::string>();
+  if (!plugins.has(id) || parameters == owner.end()) return;
+  checkAgainst(parameterListSchema(plugins.parameters(id)), *parameters, name, pointer + "/parameters", unknown);
 }
 
 void checkPluginParameters(const json& document, const std::string& name, const PluginRegistry& plugins,
                            std::vector<UnknownKey>& unknown) {
   const json &materials = document.at("materials"), &bodies = document.at("bodies");
   for (size_t i = 0; i < materials.size(); ++i) {
-    checkParameters(materials[i], plugins.materialPlugin(materials[i].at("base").get<std::string>()), name,
-                    "/materials/" + std::to_string(i), unknown);
+    checkParameters(materials[i], "base", plugins, name, "/materials/" + std::to_string(i), unknown);
   }
   for (size_t b = 0; b < bodies.size(); ++b) {
     const std::string pointer = "/bodies/" + std::to_string(b);
     const json constraints = bodies[b].value("constraints", json::array());
     for (size_t c = 0; c < constraints.size(); ++c) {
-      checkParameters(constraints[c], plugins.constraint(constraints[c].at("plugin").get<std::string>()), name,
-                      pointer + "/constraints/" + std::to_string(c), unknown);
+      checkParameters(constraints[c], "plugin", plugins, name, pointer + "/constraints/" + std::to_string(c), unknown);
     }
     const auto voxels = bodies[b].at("shape").find("voxels");
     if (voxels == bodies[b].at("shape").end() || !voxels->contains("strokes")) continue;
     const json& strokes = voxels->at("strokes");
     for (size_t s = 0; s < strokes.size(); ++s) {
-      checkParameters(strokes[s], plugins.brush(strokes[s].at("brush").get<std::string>()), name,
-                      pointer + "/shape/voxels/strokes/" + std::to_string(s), unknown);
+      checkParameters(strokes[s], "brush", plugins, name, pointer + "/shape/voxels/strokes/" + std::to_string(s),
+                      unknown);
     }
   }
   const json::json_pointer thermal("/solver/thermal");
   if (document.contains(thermal)) {
-    checkParameters(document.at(thermal), plugins.thermal(document.at(thermal).at("model").get<std::string>()), name,
-                    thermal.to_string(), unknown);
+    checkParameters(document.at(thermal), "model", plugins, name, thermal.to_string(), unknown);
   }
 }
 

@@ -20,11 +20,6 @@ auto readList(JsonTaker& taker, const char* key, Read read) {
   return out;
 }
 
-template <class Plugin>
-api::ParameterList parametersOf(const Plugin* plugin) {
-  return plugin ? plugin->parameters() : api::ParameterList{};
-}
-
 SceneMaterial readMaterial(json& value, const PluginRegistry& plugins) {
   JsonTaker taker(value);
   SceneMaterial material;
@@ -33,7 +28,7 @@ SceneMaterial readMaterial(json& value, const PluginRegistry& plugins) {
   material.base = taker.text("base");
   if (taker.has("adheres_to")) material.adheresTo = taker.names("adheres_to");
   taker.parameters("properties", material.properties, propertyCatalogue());
-  taker.parameters("parameters", material.parameters, parametersOf(plugins.materialPlugin(material.base)));
+  taker.parameters("parameters", material.parameters, plugins.parameters(material.base));
   material.unknown = taker.rest();
   return material;
 }
@@ -54,7 +49,7 @@ VoxelShape::Stroke readStroke(json& value, const PluginRegistry& plugins) {
   stroke.erase = taker.toggle("erase", false);
   stroke.radius = taker.number("radius", stroke.radius);
   stroke.palette = static_cast<int>(taker.number("palette", 0));
-  taker.parameters("parameters", stroke.parameters, parametersOf(plugins.brush(stroke.brush)));
+  taker.parameters("parameters", stroke.parameters, plugins.parameters(stroke.brush));
   stroke.samples = readList(taker, "samples", [](json& sample) { return sample.get<std::array<double, 5>>(); });
   stroke.unknown = taker.rest();
   return stroke;
@@ -118,7 +113,7 @@ BodyConstraint readConstraint(json& value, const PluginRegistry& plugins) {
   JsonTaker taker(value);
   BodyConstraint constraint;
   constraint.plugin = taker.text("plugin");
-  taker.parameters("parameters", constraint.parameters, parametersOf(plugins.constraint(constraint.plugin)));
+  taker.parameters("parameters", constraint.parameters, plugins.parameters(constraint.plugin));
   constraint.unknown = taker.rest();
   return constraint;
 }
@@ -215,7 +210,7 @@ SolverOptions readSolver(json& value, const PluginRegistry& plugins) {
     json thermal = taker.take("thermal");
     JsonTaker inner(thermal);
     solver.thermalModel = inner.text("model");
-    inner.parameters("parameters", solver.thermalParameters, parametersOf(plugins.thermal(solver.thermalModel)));
+    inner.parameters("parameters", solver.thermalParameters, plugins.parameters(solver.thermalModel));
     taker.keep("thermal", std::move(thermal));
   }
   taker.parameters(solver.parameters, solverParameters());

@@ -94,6 +94,7 @@ ParticleStore::ParticleStore() {
   declare(field::kCompression, Float32, "", "Compression handed over when the solid melted");
   declare(field::kLambda, Float32, "J", "Multiplier of the density constraint");
   declare(field::kDensityError, Float32, "", "Relative excess density of the last iteration");
+  m_ownFields = m_fields.size();
 }
 
 ParticleStore::~ParticleStore() = default;
@@ -126,6 +127,14 @@ void* ParticleStore::find(const char* name, api::FieldType type) const noexcept 
   const std::string_view wanted(name);
   for (const auto& f : m_fields) {
     if (f->info.type == type && f->info.name == wanted) return f->data.get();
+  }
+  return nullptr;
+}
+
+void* ParticleStore::write(const char* name, api::FieldType type) const noexcept {
+  const std::string_view wanted(name);
+  for (size_t k = m_ownFields; k < m_fields.size(); ++k) {
+    if (m_fields[k]->info.type == type && m_fields[k]->info.name == wanted) return m_fields[k]->data.get();
   }
   return nullptr;
 }

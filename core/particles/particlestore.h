@@ -64,7 +64,9 @@ class ParticleStore final : public api::FieldAccess {
   };
   /// In order of declaration.
   std::vector<FieldInfo> fields() const;
-  void* find(const char* name, api::FieldType type) const noexcept override;
+  void* find(const char* name, api::FieldType type) const noexcept;
+  const void* read(const char* name, api::FieldType type) const noexcept override { return find(name, type); }
+  void* write(const char* name, api::FieldType type) const noexcept override;
 
   /// How the space around the particles repeats itself; open at first.
   const Period& period() const { return m_period; }
@@ -123,7 +125,8 @@ class ParticleStore final : public api::FieldAccess {
   void refreshPointers();
   void writeDummy();
 
-  std::vector<std::unique_ptr<Field>> m_fields;
+  std::vector<std::unique_ptr<Field>> m_fields;  ///< core's own first
+  size_t m_ownFields = 0;
   struct AlignedDelete {
     void operator()(std::byte* p) const;
   };

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstddef>
 #include <set>
 #include <vector>
 
@@ -29,12 +30,18 @@ bool isKey(std::string_view key) {
                      [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_'; });
 }
 
+/// Up to here every plugin knows a declaration; what comes behind has a default.
+template <class T>
+constexpr size_t kLeastSize = sizeof(T);
+template <>
+constexpr size_t kLeastSize<api::ParameterDeclaration> = offsetof(api::ParameterDeclaration, leastWord);
+
 /// A list must have a place to read from, and elements at least as large as the first version's.
 template <class T>
 std::string problemOfList(const api::List<T>& list) {
   if (list.count > kMostDeclarations) return "declares more than " + std::to_string(kMostDeclarations) + " of them";
   if (list.count > 0 && !list.first) return "declares some, but gives a null pointer";
-  if (list.count > 0 && (list.stride < sizeof(T) || list.stride % alignof(T) != 0))
+  if (list.count > 0 && (list.stride < kLeastSize<T> || list.stride % alignof(T) != 0))
     return "gives a stride of " + std::to_string(list.stride) +
            " bytes, which is not a declaration's size; use listOf()";
   return {};
@@ -143,11 +150,11 @@ std::string problemOfRange(const api::ParameterDeclaration& p, double value) {
 
 }  // namespace
 
-std::string problemOfParameters(api::ParameterList list) {
+std::string readParameters(api::ParameterList list, std::vector<api::ParameterDeclaration>& out) {
   if (std::string problem = problemOfList(list); !problem.empty()) return "parameters: " + problem;
   std::set<std::string> keys;
   for (size_t i = 0; i < list.count; ++i) {
-    const api::ParameterDeclaration& p = list[i];
+    const api::ParameterDeclaration p = out.emplace_back(list.at(i));
     if (const std::string problem = problemOfTexts(p); !problem.empty()) return place("parameter", i) + problem;
     const std::string where = "parameter '" + std::string(p.key) + "': ";
     if (!isKey(p.key)) return place("parameter", i) + "its key must be lower_snake_case, not '" + p.key + "'";
@@ -162,7 +169,7 @@ std::string problemOfFields(api::List<api::FieldDeclaration> list) {
   if (std::string problem = problemOfList(list); !problem.empty()) return "fields: " + problem;
   std::set<std::string> names;
   for (size_t i = 0; i < list.count; ++i) {
-    const api::FieldDeclaration& f = list[i];
+    const api::FieldDeclaration f = list.at(i);
     if (!f.name || !*f.name) return place("field", i) + "needs a name";
     for (const char* text : {f.name, f.unit, f.help})
       if (const std::string problem = problemOfText(text); !problem.empty())
@@ -174,24 +181,44 @@ std::string problemOfFields(api::List<api::FieldDeclaration> list) {
   return {};
 }
 
-std::string problemOfTraits(const api::ConstraintTraits& traits) {
-  using Form = api::ConstraintTraits::Form;
-  if (traits.form > Form::Group) return "its form is unknown to this program";
-  if (traits.form == Form::Structural && (traits.arity < 2 || traits.arity > 4))
-    return "a structural constraint joins 2 to 4 particles, not " + std::to_string(traits.arity);
-  const auto problemOfValues = [](api::List<api::FieldDeclaration> values, const std::string& whose) -> std::string {
-    if (std::string problem = problemOfFields(values); !problem.empty()) return whose + " " + problem;
-    for (size_t i = 0; i < values.count; ++i)
-      if (values[i].type != api::FieldType::Float32)
-        return "the " + whose + " value '" + std::string(values[i].name) + "' must be a Float32";
-    return {};
-  };
-  if (std::string problem = problemOfValues(traits.values, "per-constraint"); !problem.empty()) return problem;
-  // Only a plugin that has groups was built with a header that knows member values.
-  if (traits.form == Form::Group) {
-    if (std::string problem = problemOfValues(traits.memberValues, "per-member"); !problem.empty()) return problem;
+namespace {
+
+std::string problemOfValues(api::List<api::FieldDeclaration> values, const std::string& whose) {
+  constexpr size_t kMost = 16;
+  if (std::string problem = problemOfFields(values); !problem.empty()) return whose + " " + problem;
+  if (values.count > kMost) return "it declares more than 16 " + whose + " values";
+  for (size_t i = 0; i < values.count; ++i) {
+    const api::FieldDeclaration value = values.at(i);
+    if (value.type != api::FieldType::Float32)
+      return "the " + whose + " value '" + std::string(value.name) + "' must be a Float32";
   }
+  return {};
+}
+
+constexpr const char* kNoTraits = "its traits() says nothing: return fill(out, {...})";
+
+}  // namespace
+
+std::string problemOfTraits(const api::StructuralPlugin& plugin) {
+  api::StructuralTraits traits;
+  if (!plugin.traits(&traits)) return kNoTraits;
+  if (traits.arity < 2 || traits.arity > 4)
+    return "a structural constraint joins 2 to 4 particles, not " + std::to_string(traits.arity);
+  if (std::string problem = problemOfValues(traits.values, "per-constraint"); !problem.empty()) return problem;
   return problemOfFields(traits.fields);
+}
+
+std::string problemOfTraits(const api::GroupPlugin& plugin) {
+  api::GroupTraits traits;
+  if (!plugin.traits(&traits)) return kNoTraits;
+  if (std::string problem = problemOfValues(traits.values, "per-group"); !problem.empty()) return problem;
+  if (std::string problem = problemOfValues(traits.memberValues, "per-member"); !problem.empty()) return problem;
+  return problemOfFields(traits.fields);
+}
+
+std::string problemOfTraits(const api::NeighbourPlugin& plugin) {
+  api::NeighbourTraits traits;
+  return plugin.traits(&traits) ? problemOfFields(traits.fields) : kNoTraits;
 }
 
 std::string suggestionFor(std::string_view key) {
@@ -210,7 +237,7 @@ std::string suggestionFor(std::string_view key) {
 std::string readProperties(api::List<api::MaterialProperty> list, Material& material) {
   if (std::string problem = problemOfList(list); !problem.empty()) return "properties: " + problem;
   for (size_t i = 0; i < list.count; ++i) {
-    const api::MaterialProperty& property = list[i];
+    const api::MaterialProperty property = list.at(i);
     if (!property.key || !*property.key) return place("property", i) + "its key is a null pointer or empty";
     const std::string where = "property '" + std::string(property.key) + "': ";
     if (const std::string problem = problemOfText(property.source); !problem.empty())

@@ -3,6 +3,7 @@
 
 #include "core/base/error.h"
 #include "core/plugin_host/declarations.h"
+#include "core/plugin_host/hostservices.h"
 
 #include <phasesketch/qtentry.h>
 
@@ -26,12 +27,12 @@ class NumberFormatGuard {
 std::string textOrEmpty(const char* text) { return text ? oneLine(text) : std::string(); }
 
 /// Reads what all kinds declare.
-std::string checkCommon(const api::Plugin& plugin, PluginInfo& info) {
+std::string checkCommon(const api::Plugin& plugin, PluginInfo& info, LoadedPlugin& loaded) {
   const char* label = plugin.label();
   if (!label || !*label) return "its label is empty";
   info.label = textOrEmpty(label);
   info.help = textOrEmpty(plugin.help());
-  return problemOfParameters(plugin.parameters());
+  return readParameters(plugin.parameters(), loaded.parameters);
 }
 
 std::string readMaterial(const PluginInfo& info, LoadedPlugin& loaded) {
@@ -41,30 +42,49 @@ std::string readMaterial(const PluginInfo& info, LoadedPlugin& loaded) {
   const api::MaterialPlugin& plugin = *loaded.materialPlugin;
   if (std::string problem = readProperties(plugin.properties(), loaded.declared); !problem.empty()) return problem;
   if (std::string problem = problemOfProperties(loaded.declared); !problem.empty()) return problem;
-  loaded.material = evaluateLaws(plugin, loaded.declared, {});
+  loaded.material = evaluateLaws(loaded, loaded.declared, {});
   return {};
 }
 
+/// The object as a plugin of one interface, noted; nullptr when it has another.
+template <class Interface>
+Interface* taken(QObject& object, const Interface*& place) {
+  auto* plugin = qobject_cast<Interface*>(&object);
+  place = plugin;
+  return plugin;
+}
+
 std::string connect(QObject& object, PluginInfo& info, LoadedPlugin& loaded) {
-  const api::Plugin* plugin = nullptr;
+  api::Plugin*& plugin = loaded.plugin;
   switch (info.kind) {
     case PluginKind::Material:
-      plugin = loaded.materialPlugin = qobject_cast<api::MaterialPlugin*>(&object);
+      plugin = taken<api::MaterialPlugin>(object, loaded.materialPlugin);
       break;
     case PluginKind::Constraint:
-      plugin = loaded.constraint = qobject_cast<api::ConstraintPlugin*>(&object);
+      if (api::ConstraintPlugin* constraint = taken<api::StructuralPlugin>(object, loaded.structural))
+        plugin = constraint, loaded.constraint = constraint;
+      else if (constraint = taken<api::GroupPlugin>(object, loaded.group); constraint)
+        plugin = constraint, loaded.constraint = constraint;
+      else if (constraint = taken<api::NeighbourPlugin>(object, loaded.neighbour); constraint)
+        plugin = constraint, loaded.constraint = constraint;
       break;
     case PluginKind::Thermal:
-      plugin = loaded.thermal = qobject_cast<api::ThermalPlugin*>(&object);
+      plugin = taken<api::ThermalPlugin>(object, loaded.thermal);
+      break;
+    case PluginKind::HeatSource:
+      plugin = taken<api::HeatSourcePlugin>(object, loaded.heatSource);
       break;
     case PluginKind::Brush:
-      plugin = loaded.brush = qobject_cast<api::BrushPlugin*>(&object);
+      plugin = taken<api::BrushPlugin>(object, loaded.brush);
       break;
   }
   if (!plugin) return std::string("its class lacks Q_INTERFACES for a ") + pluginKindName(info.kind);
-  if (std::string problem = checkCommon(*plugin, info); !problem.empty()) return problem;
-  if (loaded.constraint) return problemOfTraits(loaded.constraint->traits());
+  if (std::string problem = checkCommon(*plugin, info, loaded); !problem.empty()) return problem;
+  if (loaded.structural) return problemOfTraits(*loaded.structural);
+  if (loaded.group) return problemOfTraits(*loaded.group);
+  if (loaded.neighbour) return problemOfTraits(*loaded.neighbour);
   if (loaded.thermal) return problemOfFields(loaded.thermal->fields());
+  if (loaded.heatSource) return problemOfFields(loaded.heatSource->fields());
   return loaded.materialPlugin ? readMaterial(info, loaded) : std::string();
 }
 
@@ -87,15 +107,16 @@ Response curveThrough(const std::vector<double>& x, const std::vector<double>& y
   return curve;
 }
 
-std::vector<double> completed(const std::vector<double>& parameters, api::ParameterList list) {
+std::vector<double> completed(const std::vector<double>& parameters,
+                              const std::vector<api::ParameterDeclaration>& list) {
   std::vector<double> all = parameters;
-  for (size_t i = all.size(); i < list.count; ++i) all.push_back(list[i].defaultValue);
+  for (size_t i = all.size(); i < list.size(); ++i) all.push_back(list[i].defaultValue);
   return all;
 }
 
 }  // namespace
 
-LoadedPlugin loadLibrary(PluginInfo& info) {
+LoadedPlugin loadLibrary(PluginInfo& info, const std::shared_ptr<InstalledMaterials>& materials) {
   const NumberFormatGuard guard;
   LoadedPlugin loaded;
   std::string problem;
@@ -108,6 +129,8 @@ LoadedPlugin loadLibrary(PluginInfo& info) {
           "it could not be loaded: " + oneLine(loader.errorString().toStdString()) + "; build it again for this system";
     } else if (problem = connect(*object, info, loaded); !problem.empty()) {
       problem += "; " + whomToTell(info);
+    } else {
+      loaded.plugin->attach(hostServicesFor(info.id, materials));
     }
   } catch (...) {
     problem = "it failed while it was loaded: " + currentExceptionText() + "; " + whomToTell(info);
@@ -117,9 +140,10 @@ LoadedPlugin loadLibrary(PluginInfo& info) {
   return {};
 }
 
-Material evaluateLaws(const api::MaterialPlugin& plugin, Material material, const std::vector<double>& parameters) {
+Material evaluateLaws(const LoadedPlugin& loaded, Material material, const std::vector<double>& parameters) {
   static const std::vector<double> kTemperatures = lawTemperatures();
-  const std::vector<double> values = completed(parameters, plugin.parameters());
+  const std::vector<double> values = completed(parameters, loaded.parameters);
+  const api::MaterialPlugin& plugin = *loaded.materialPlugin;
   const api::ParameterList catalogue = propertyCatalogue();
   std::vector<double> out(kTemperatures.size());
   for (size_t i = 0; i < catalogue.count; ++i) {

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/plugin_host/pluginmetadata.h"
 
+#include <phasesketch/stamp.h>
+
+#include <QFile>
 #include <QFileInfo>
 #include <QJsonArray>
 #include <QJsonObject>
@@ -21,9 +24,12 @@ struct KindOfPlugin {
   PluginKind kind;
   const char* iid;
 };
-constexpr std::array<KindOfPlugin, 4> kKinds{{{PluginKind::Material, PHASESKETCH_MATERIAL_IID},
-                                              {PluginKind::Constraint, PHASESKETCH_CONSTRAINT_IID},
+constexpr std::array<KindOfPlugin, 7> kKinds{{{PluginKind::Material, PHASESKETCH_MATERIAL_IID},
+                                              {PluginKind::Constraint, PHASESKETCH_STRUCTURAL_IID},
+                                              {PluginKind::Constraint, PHASESKETCH_GROUP_IID},
+                                              {PluginKind::Constraint, PHASESKETCH_NEIGHBOUR_IID},
                                               {PluginKind::Thermal, PHASESKETCH_THERMAL_IID},
+                                              {PluginKind::HeatSource, PHASESKETCH_HEAT_SOURCE_IID},
                                               {PluginKind::Brush, PHASESKETCH_BRUSH_IID}}};
 
 /// What this program offers to plugins beyond the interface of their kind. A plugin lists in its metadata what it
@@ -136,6 +142,50 @@ std::string checkedMetadata(const QJsonObject& root, PluginInfo& info) {
   return readCapabilities(own, info.capabilities);
 }
 
+/// The headers that a plugin was built with: "0.9:1" of the stamp that they leave in it; "" without one.
+std::string stampOf(const std::string& path) {
+  QFile file(QString::fromStdString(path));
+  if (!file.open(QIODevice::ReadOnly)) return {};
+  const uchar* bytes = file.map(0, file.size());
+  if (!bytes) return {};
+  const std::string_view text(reinterpret_cast<const char*>(bytes), static_cast<size_t>(file.size()));
+  constexpr std::string_view kHead = PHASESKETCH_STAMP_HEAD;
+  const size_t at = text.find(kHead);
+  if (at == std::string_view::npos) return {};
+  const std::string_view stamp = text.substr(at + kHead.size(), 16);
+  return std::string(stamp.substr(0, stamp.find('\0')));
+}
+
+struct Stamp {
+  int major = 0, minor = 0, layout = 0;
+};
+std::optional<Stamp> parsedStamp(std::string_view text) {
+  const auto major = takeNumber(text);
+  if (!major || !text.starts_with('.')) return std::nullopt;
+  text.remove_prefix(1);
+  const auto minor = takeNumber(text);
+  if (!minor || !text.starts_with(':')) return std::nullopt;
+  text.remove_prefix(1);
+  const auto layout = takeNumber(text);
+  if (!layout || !text.empty()) return std::nullopt;
+  return Stamp{*major, *minor, *layout};
+}
+
+/// What the compiler saw against what the program has and what the metadata say; `api` is sound.
+std::string problemOfStamp(const std::string& text, std::string_view api) {
+  const auto stamp = parsedStamp(text);
+  if (!stamp) return "it carries no stamp of the plugin headers; build it with those of this program";
+  if (stamp->major != api::kVersionMajor || stamp->layout != api::kLayout)
+    return "it was built with the plugin headers " + text + ", which do not fit this program's, " +
+           PHASESKETCH_STAMP_VERSION + "; build it again with these";
+  takeNumber(api);
+  api.remove_prefix(1);
+  if (*takeNumber(api) > stamp->minor)
+    return "its metadata ask for a later version of the plugin interface than its headers, " + text +
+           ", have; build it with newer ones, or correct \"api\"";
+  return {};
+}
+
 /// Qt's words for a file that is no plugin: "... 'PATH' is not a valid ELF object (file too small)". The path is left
 /// out, the caller says it.
 std::string refusalOf(const QPluginLoader& loader, const std::string& path) {
@@ -200,6 +250,7 @@ PluginInfo readLibraryMetadata(const std::string& path) {
   QPluginLoader loader(QString::fromStdString(path));
   const QJsonObject root = loader.metaData();
   info.problem = root.isEmpty() ? refusalOf(loader, path) : checkedMetadata(root, info);
+  if (info.problem.empty()) info.problem = problemOfStamp(stampOf(path), info.api);
   if (!info.problem.empty()) info.problem = path + ": " + info.problem;
   return info;
 }

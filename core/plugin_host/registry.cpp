@@ -2,6 +2,7 @@
 #include "core/plugin_host/registry.h"
 
 #include "core/base/error.h"
+#include "core/plugin_host/hostservices.h"
 #include "core/plugin_host/materialjson.h"
 #include "core/plugin_host/pluginloader.h"
 #include "core/plugin_host/pluginmetadata.h"
@@ -27,6 +28,8 @@ const char* pluginKindName(PluginKind kind) {
       return "constraint";
     case PluginKind::Thermal:
       return "thermal";
+    case PluginKind::HeatSource:
+      return "heat_source";
     case PluginKind::Brush:
       return "brush";
   }
@@ -75,8 +78,14 @@ struct PluginRegistry::Impl {
       loadBest(list);
     }
     candidates.clear();
+    offerMaterials();
     std::sort(found.begin(), found.end(), before);
     generations.push_back(std::make_unique<const std::vector<PluginInfo>>(std::move(found)));
+  }
+
+  ~Impl() {
+    const std::lock_guard lock(installed->mutex);
+    installed->byId.clear();
   }
 
   void scan(const std::vector<PluginDirectory>& directories);
@@ -91,6 +100,9 @@ struct PluginRegistry::Impl {
     return it == loaded.end() || faulted.contains(id) ? nullptr : &it->second;
   }
 
+  void offerMaterials();
+
+  std::shared_ptr<InstalledMaterials> installed = std::make_shared<InstalledMaterials>();
   std::string state;
   Quarantine quarantine;
   std::map<std::string, std::vector<Candidate>> candidates;
@@ -185,11 +197,18 @@ bool PluginRegistry::Impl::load(Candidate& candidate) {
     return false;
   } else {
     const LoadingLock lock(state, info.id, info.path);
-    plugin = loadLibrary(info);
+    plugin = loadLibrary(info, installed);
   }
   if (!info.problem.empty()) return false;
   loaded[info.id] = std::move(plugin);
   return true;
+}
+
+void PluginRegistry::Impl::offerMaterials() {
+  const std::lock_guard lock(installed->mutex);
+  for (const auto& [id, plugin] : loaded) {
+    if (!plugin.material.id.empty()) installed->byId[id] = &plugin.material;
+  }
 }
 
 void PluginRegistry::Impl::markFault(const std::string& id, const std::string& message) {
@@ -229,6 +248,24 @@ const api::ConstraintPlugin* PluginRegistry::constraint(const std::string& id) c
   return plugin ? plugin->constraint : nullptr;
 }
 
+std::optional<AnyConstraint> PluginRegistry::constraintForm(const std::string& id) const {
+  const LoadedPlugin* plugin = m->get(id);
+  if (!plugin || !plugin->constraint) return std::nullopt;
+  if (plugin->structural) return plugin->structural;
+  if (plugin->group) return plugin->group;
+  return plugin->neighbour;
+}
+
+const api::HeatSourcePlugin* PluginRegistry::heatSource(const std::string& id) const {
+  const LoadedPlugin* plugin = m->get(id);
+  return plugin ? plugin->heatSource : nullptr;
+}
+
+api::ParameterList PluginRegistry::parameters(const std::string& id) const {
+  const LoadedPlugin* plugin = m->get(id);
+  return plugin ? api::listOf(plugin->parameters.data(), plugin->parameters.size()) : api::ParameterList{};
+}
+
 const api::ThermalPlugin* PluginRegistry::thermal(const std::string& id) const {
   const LoadedPlugin* plugin = m->get(id);
   return plugin ? plugin->thermal : nullptr;
@@ -258,7 +295,7 @@ Material PluginRegistry::evaluated(const std::string& id, const std::vector<doub
   if (!plugin || plugin->material.id.empty()) throw Error("The material '" + id + "' is not installed");
   if (!plugin->materialPlugin) return plugin->material;
   try {
-    return evaluateLaws(*plugin->materialPlugin, plugin->declared, parameters);
+    return evaluateLaws(*plugin, plugin->declared, parameters);
   } catch (...) {
     const std::string problem = currentExceptionText();
     m->markFault(id, problem);

@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <phasesketch/brush.h>
-#include <phasesketch/constraint.h>
 #include <phasesketch/material.h>
 #include <phasesketch/thermal.h>
 
 #include "core/base/error.h"
 #include "core/matter/material.h"
+#include "core/solver/anyconstraint.h"
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace ps {
 
-enum class PluginKind { Material, Constraint, Thermal, Brush };
+enum class PluginKind { Material, Constraint, Thermal, HeatSource, Brush };
 const char* pluginKindName(PluginKind kind);  ///< "material", ...
 
 /// One plugin that was found, loaded or not.
@@ -66,8 +67,12 @@ class PluginRegistry {
   const api::MaterialPlugin* materialPlugin(const std::string& id) const;
   const Material* material(const std::string& id) const;
   const api::ConstraintPlugin* constraint(const std::string& id) const;
+  std::optional<AnyConstraint> constraintForm(const std::string& id) const;
   const api::ThermalPlugin* thermal(const std::string& id) const;
+  const api::HeatSourcePlugin* heatSource(const std::string& id) const;
   const api::BrushPlugin* brush(const std::string& id) const;
+  /// What a plugin declares, copied when it was loaded, whatever headers it was built with; empty when not installed.
+  api::ParameterList parameters(const std::string& id) const;
   /// Loaded ids of a kind, ascending.
   std::vector<std::string> ids(PluginKind kind) const;
   bool has(const std::string& id) const;

@@ -214,8 +214,8 @@ std::vector<Material> compileMaterials(const Project& project, const PluginRegis
   EvaluatedMaterials now;
   for (const SceneMaterial& source : project.materials) {
     Material material;
-    if (const api::MaterialPlugin* plugin = plugins.materialPlugin(source.base)) {
-      material = plugins.evaluated(source.base, numbersOf(source.parameters, plugin->parameters()));
+    if (plugins.materialPlugin(source.base)) {
+      material = plugins.evaluated(source.base, numbersOf(source.parameters, plugins.parameters(source.base)));
       now[source.id] = {source.base, source.parameters, material};
     } else if (const Material* installed = plugins.material(source.base)) {
       material = *installed;

@@ -27,9 +27,9 @@ const SceneMaterial* materialById(const Project& project, const std::string& id)
 /// The installed material with the scene's own plugin parameters; nullopt when it is not installed or its law fails.
 std::optional<Material> baseMaterial(const SceneMaterial& source, const PluginRegistry* plugins) {
   if (!plugins) return std::nullopt;
-  if (const api::MaterialPlugin* plugin = plugins->materialPlugin(source.base)) {
+  if (plugins->materialPlugin(source.base)) {
     try {
-      return plugins->evaluated(source.base, numbersOf(source.parameters, plugin->parameters()));
+      return plugins->evaluated(source.base, numbersOf(source.parameters, plugins->parameters(source.base)));
     } catch (const Error&) {
       return std::nullopt;  // the registry has noted the plugin's fault
     }
@@ -148,8 +148,8 @@ std::vector<std::string> namedByInstalled(const Project& project, const std::vec
 }
 
 bool holdsTogether(const std::string& id, const PluginRegistry* plugins) {
-  const api::ConstraintPlugin* plugin = plugins ? plugins->constraint(id) : nullptr;
-  return !plugin || plugin->traits().form != api::ConstraintTraits::Form::Neighbour;
+  const auto plugin = plugins ? plugins->constraintForm(id) : std::nullopt;
+  return !plugin || !std::holds_alternative<const api::NeighbourPlugin*>(*plugin);
 }
 
 std::string frozenStructure(const PluginRegistry& plugins) {
@@ -180,18 +180,12 @@ api::ParameterList declarationsOf(const Project& project, const PluginRegistry* 
   if (address.owner == "scene") return sceneDeclarations(project, *plugins);
   if (address.owner == "material") {
     const SceneMaterial* material = materialById(project, address.id);
-    const api::MaterialPlugin* plugin = material ? plugins->materialPlugin(material->base) : nullptr;
-    return plugin ? plugin->parameters() : api::ParameterList{};
+    return material ? plugins->parameters(material->base) : api::ParameterList{};
   }
-  if (address.owner == "thermal") {
-    const api::ThermalPlugin* plugin = plugins->thermal(project.solver.thermalModel);
-    return plugin ? plugin->parameters() : api::ParameterList{};
-  }
+  if (address.owner == "thermal") return plugins->parameters(project.solver.thermalModel);
   if (address.owner != "constraint") return {};
   const size_t slash = address.id.find('/');
-  const api::ConstraintPlugin* plugin =
-      slash == std::string::npos ? nullptr : plugins->constraint(address.id.substr(slash + 1));
-  return plugin ? plugin->parameters() : api::ParameterList{};
+  return slash == std::string::npos ? api::ParameterList{} : plugins->parameters(address.id.substr(slash + 1));
 }
 
 const api::ParameterDeclaration* declarationOf(const Project& project, const PluginRegistry* plugins,

@@ -165,7 +165,7 @@ void Engine::Impl::setThermal() {
     throw InputError("solver: '" + project.solver.thermalModel + "' is not a thermal model");
   }
   std::vector<double> parameters;
-  if (model) parameters = numbersOf(project.solver.thermalParameters, model->parameters());
+  if (model) parameters = numbersOf(project.solver.thermalParameters, plugins.parameters(project.solver.thermalModel));
   ThermalSettings settings = compileThermal(project);
   settings.surfaceArea.assign(bodyIds->size(), 0);
   for (const Body& body : project.bodies) {
@@ -179,8 +179,7 @@ void Engine::Impl::setThermal() {
 
 uint32_t Engine::Impl::constraintSet(const std::string& id) {
   if (const auto found = constraintSets.find(id); found != constraintSets.end()) return found->second;
-  const api::ConstraintPlugin* plugin = plugins.constraint(id);
-  const uint32_t set = solver->addConstraintSet(plugin, id, numbersOf({}, plugin->parameters()));
+  const uint32_t set = solver->addConstraintSet(*plugins.constraintForm(id), id, numbersOf({}, plugins.parameters(id)));
   constraintSets.emplace(id, set);
   return set;
 }
@@ -213,10 +212,9 @@ std::vector<uint32_t> Engine::Impl::born(Spawn spawn, const Body& body) {
   }
   if (!spawn.fixed) {
     for (const BodyConstraint& c : body.constraints) {
-      const api::ConstraintPlugin* plugin = plugins.constraint(c.plugin);
-      if (!plugin) continue;
+      if (!plugins.constraint(c.plugin)) continue;
       const uint32_t set = constraintSet(c.plugin);
-      solver->setConstraintParameters(set, bodyIndex(body.id), numbersOf(c.parameters, plugin->parameters()));
+      solver->setConstraintParameters(set, bodyIndex(body.id), numbersOf(c.parameters, plugins.parameters(c.plugin)));
       spawn.constraintSets.push_back(set);
     }
   }
@@ -310,9 +308,9 @@ void Engine::Impl::recompile(const std::string& owner) {
     for (const Body& body : project.bodies) {
       for (const BodyConstraint& c : body.constraints) {
         const auto set = constraintSets.find(c.plugin);
-        const api::ConstraintPlugin* plugin = plugins.constraint(c.plugin);
-        if (set == constraintSets.end() || !plugin) continue;
-        solver->setConstraintParameters(set->second, bodyIndex(body.id), numbersOf(c.parameters, plugin->parameters()));
+        if (set == constraintSets.end() || !plugins.constraint(c.plugin)) continue;
+        solver->setConstraintParameters(set->second, bodyIndex(body.id),
+                                        numbersOf(c.parameters, plugins.parameters(c.plugin)));
       }
     }
   }

@@ -121,7 +121,7 @@ StrokeEdits applyBrush(const api::BrushPlugin& brush, const StrokeSetup& setup, 
                                    {setup.up[0], setup.up[1], setup.up[2]},
                                    {setup.parameters.data(), setup.parameters.size()}};
   Collector collector;
-  brush.stroke(context, kind, {samples.data(), samples.size()}, collector);
+  brush.stroke(context, kind, api::listOf(samples.data(), samples.size()), collector);
   return collector.take();
 }
 

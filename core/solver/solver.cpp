@@ -110,8 +110,7 @@ void Solver::setMaterials(std::vector<BakedMaterial> materials) {
   m->configured = false;
 }
 
-uint32_t Solver::addConstraintSet(const api::ConstraintPlugin* plugin, std::string name,
-                                  std::vector<double> parameters) {
+uint32_t Solver::addConstraintSet(const AnyConstraint& plugin, std::string name, std::vector<double> parameters) {
   return m->constraints.addSet(plugin, std::move(name), std::move(parameters), m->store);
 }
 
@@ -120,6 +119,8 @@ void Solver::setConstraintParameters(uint32_t set, uint32_t body, std::vector<do
 }
 
 void Solver::setMotion(uint32_t body, const BodyMotion& motion) { m->motion.set(body, motion, m->store); }
+
+void Solver::setHeatSources(std::vector<HeatSource> sources) { m->heat.setSources(std::move(sources)); }
 
 void Solver::setHeating(std::span<const double> watts) { m->heat.bodyHeating().set(watts); }
 

@@ -2,12 +2,13 @@
 #pragma once
 #include "core/matter/material.h"
 #include "core/particles/particlestore.h"
+#include "core/solver/anyconstraint.h"
+#include "core/solver/heatsource.h"
 #include "core/solver/matter.h"
 #include "core/solver/motion.h"
 #include "core/solver/report.h"
 #include "core/solver/settings.h"
 
-#include <phasesketch/constraint.h>
 #include <phasesketch/thermal.h>
 
 #include <memory>
@@ -40,12 +41,14 @@ class Solver {
   void setMaterials(std::vector<BakedMaterial> materials);
   /// Adds a set of constraints of one plugin; returns its index. `name` is the plugin's id, for messages; `parameters`
   /// are those of bodies that have none of their own.
-  uint32_t addConstraintSet(const api::ConstraintPlugin* plugin, std::string name, std::vector<double> parameters);
+  uint32_t addConstraintSet(const AnyConstraint& plugin, std::string name, std::vector<double> parameters);
   void setConstraintParameters(uint32_t set, uint32_t body, std::vector<double> parameters);
 
   /// How the fixed particles of a body move, those to come too; the body goes on from where it is.
   void setMotion(uint32_t body, const BodyMotion& motion);
 
+  /// Plugins that warm or cool matter, whatever the model; those that threw stay put aside.
+  void setHeatSources(std::vector<HeatSource> sources);
   /// W of thermal time that come up inside each body, by index; bodies beyond the list have none. See BodyHeating.
   void setHeating(std::span<const double> watts);
 

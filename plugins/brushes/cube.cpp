@@ -61,13 +61,14 @@ const char* CubeBrush::help() const noexcept {
 ps::api::ParameterList CubeBrush::parameters() const noexcept { return ps::api::listOf(kParameters); }
 
 void CubeBrush::stroke(const ps::api::StrokeContext& context, ps::api::EditKind kind,
-                       ps::api::Span<const ps::api::StrokeSample> samples, ps::api::EditSink& sink) const {
+                       const ps::api::List<ps::api::StrokeSample>& samples, ps::api::EditSink& sink) const {
   const std::array<Double3, 3> axes = axesOf(context);
   const Double3 extent = extentOf(axes, context.radius);
   // Half open, so that an edge of n spacings holds n cells wherever it starts; the allowance is far above rounding.
   const double low = -context.radius - 1e-9 * context.spacing, high = context.radius - 1e-9 * context.spacing;
   std::vector<ps::api::Cell> cells;
-  for (const ps::api::StrokeSample& sample : samples) {
+  for (size_t s = 0; s < samples.count; ++s) {
+    const ps::api::StrokeSample sample = samples.at(s);
     cells.clear();
     ps::brushes::stamp(
         context, sample.position, extent,

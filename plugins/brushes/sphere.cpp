@@ -37,9 +37,10 @@ const char* SphereBrush::help() const noexcept {
 ps::api::ParameterList SphereBrush::parameters() const noexcept { return ps::api::listOf(kParameters); }
 
 void SphereBrush::stroke(const ps::api::StrokeContext& context, ps::api::EditKind kind,
-                         ps::api::Span<const ps::api::StrokeSample> samples, ps::api::EditSink& sink) const {
+                         const ps::api::List<ps::api::StrokeSample>& samples, ps::api::EditSink& sink) const {
   std::vector<ps::api::Cell> cells;
-  for (const ps::api::StrokeSample& sample : samples) {
+  for (size_t s = 0; s < samples.count; ++s) {
+    const ps::api::StrokeSample sample = samples.at(s);
     const double radius = radiusAt(context, sample.pressure);
     // Centres on the rim count; the allowance is far above rounding and far below a cell.
     const double limit = radius * radius * (1 + 1e-9);

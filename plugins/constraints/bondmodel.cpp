@@ -210,8 +210,8 @@ const char* BondModel::help() const noexcept {
 
 api::ParameterList BondModel::parameters() const noexcept { return api::listOf(kParameters); }
 
-api::ConstraintTraits BondModel::traits() const noexcept {
-  return {api::ConstraintTraits::Form::Structural, 2, api::listOf(kValues), api::listOf(kJoiningFields)};
+bool BondModel::traits(api::StructuralTraits* out) const noexcept {
+  return api::fill(out, {.arity = 2, .values = api::listOf(kValues), .fields = api::listOf(kJoiningFields)});
 }
 
 void BondModel::addBond(const ParticleView& p, uint32_t i, uint32_t j, const Length& length,
@@ -278,7 +278,9 @@ void BondModel::predict(const ConstraintContext& context, const ParticleView& p,
   }
 }
 
-void BondModel::project(const ConstraintContext& context, const ParticleView& p, const ConstraintBatch& batch) const {
+void BondModel::project(const ConstraintContext& context, const api::MovableParticles& particles,
+                        const ConstraintBatch& batch) const {
+  const ParticleView& p = particles;
   const bool classic = isSet(context, kSolver);
   const float share = static_cast<float>(context.parameters[kPbdStiffness]);
   const float perDt2 = static_cast<float>(1 / (context.dt * context.dt));
@@ -287,7 +289,7 @@ void BondModel::project(const ConstraintContext& context, const ParticleView& p,
   const float *length = batch.values[kLength], *compliance = batch.values[kCompliance];
   for (size_t k = 0; k < batch.count; ++k) {
     const uint32_t i = batch.particles[2 * k], j = batch.particles[2 * k + 1];
-    api::Float4 &a = p.position[i], &b = p.position[j];
+    api::Float4 &a = particles.position[i], &b = particles.position[j];
     const float wa = p.velocity[i].w, wb = p.velocity[j].w;
     const auto [x, y, z, unused] = api::separation(p, i, j);
     const float distance = std::sqrt(x * x + y * y + z * z);

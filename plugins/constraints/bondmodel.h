@@ -14,7 +14,7 @@ namespace ps::constraint {
 /// to them. The parameters of the group Legacy choose the 2020 thesis's rules instead. It cannot do: another Poisson's
 /// ratio, plasticity, fracture by force, or a stiffness beyond what the substeps resolve (limits() says so). The
 /// outermost layer is softer, having fewer springs.
-class BondModel : public api::ConstraintPlugin {
+class BondModel : public api::StructuralPlugin {
  public:
   enum Parameter {
     kBondMax,
@@ -37,14 +37,14 @@ class BondModel : public api::ConstraintPlugin {
   const char* label() const noexcept override;
   const char* help() const noexcept override;
   api::ParameterList parameters() const noexcept override;
-  api::ConstraintTraits traits() const noexcept override;
+  bool traits(api::StructuralTraits* out) const noexcept override;
   const void* extension(const char* name) const noexcept override;
 
   void build(const api::ConstraintContext& context, const api::ParticleView& particles, const api::NeighbourView& lists,
              api::Span<const uint32_t> members, api::ConstraintSink& sink) const override;
   void predict(const api::ConstraintContext& context, const api::ParticleView& particles,
                const api::ConstraintBatch& batch) const override;
-  void project(const api::ConstraintContext& context, const api::ParticleView& particles,
+  void project(const api::ConstraintContext& context, const api::MovableParticles& particles,
                const api::ConstraintBatch& batch) const override;
   void topology(const api::ConstraintContext& context, const api::ParticleView& particles,
                 const api::NeighbourView& lists, const api::ConstraintBatch& all,

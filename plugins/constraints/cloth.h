@@ -7,6 +7,6 @@
 /// The plugin "cloth": ClothModel behind Qt's plugin door.
 class ClothPlugin final : public QObject, public ps::constraint::ClothModel {
   Q_OBJECT
-  Q_PLUGIN_METADATA(IID PHASESKETCH_CONSTRAINT_IID FILE "cloth.json")
-  Q_INTERFACES(ps::api::ConstraintPlugin)
+  Q_PLUGIN_METADATA(IID PHASESKETCH_STRUCTURAL_IID FILE "cloth.json")
+  Q_INTERFACES(ps::api::StructuralPlugin)
 };

@@ -237,20 +237,21 @@ const char* ClusterModel::help() const noexcept {
 
 api::ParameterList ClusterModel::parameters() const noexcept { return api::listOf(kParameters); }
 
-api::ConstraintTraits ClusterModel::traits() const noexcept {
-  return {api::ConstraintTraits::Form::Group, 0, api::listOf(kValues), {}, api::listOf(kMemberValues)};
+bool ClusterModel::traits(api::GroupTraits* out) const noexcept {
+  return api::fill(out, {.values = api::listOf(kValues), .memberValues = api::listOf(kMemberValues)});
 }
 
-void ClusterModel::buildGroups(const ConstraintContext& context, const ParticleView& p, const NeighbourView&,
-                               api::Span<const uint32_t> members, const GroupBatch& all, api::GroupSink& sink) const {
+void ClusterModel::build(const ConstraintContext& context, const ParticleView& p, const NeighbourView&,
+                         api::Span<const uint32_t> members, const GroupBatch& all, api::GroupSink& sink) const {
   Builder builder(context, p, members);
   builder.count(all);
   builder.find();
   builder.emit(sink);
 }
 
-void ClusterModel::predictGroups(const ConstraintContext& context, const ParticleView& p,
-                                 const GroupBatch& batch) const {
+void ClusterModel::predict(const ConstraintContext& context, const api::MovableParticles& particles,
+                           const GroupBatch& batch) const {
+  const ParticleView& p = particles;
   const double most = context.parameters[kStiffnessRatio] / (context.dt * context.dt);
   for (size_t g = 0; g < batch.count; ++g) {
     for (const MemberValue v : {kMultiplierX, kMultiplierY, kMultiplierZ}) {
@@ -271,8 +272,9 @@ void ClusterModel::predictGroups(const ConstraintContext& context, const Particl
   }
 }
 
-void ClusterModel::projectGroups(const ConstraintContext& context, const ParticleView& p,
-                                 const GroupBatch& batch) const {
+void ClusterModel::project(const ConstraintContext& context, const api::MovableParticles& particles,
+                           const GroupBatch& batch) const {
+  const ParticleView& p = particles;
   const double friction = context.parameters[kDamping] / context.dt;
   std::vector<Vector> change;
   for (size_t g = 0; g < batch.count; ++g) {
@@ -284,7 +286,7 @@ void ClusterModel::projectGroups(const ConstraintContext& context, const Particl
     if (friction > 0) shape.findDeformation(change);
     for (size_t k = batch.begin[g]; k < batch.begin[g + 1]; ++k) {
       const uint32_t i = batch.particles[k];
-      api::Float4& x = p.position[i];
+      api::Float4& x = particles.position[i];
       const double mass = p.mass[i];
       Vector error = vectorOf(x) - shape.goal(k);
       if (friction > 0) error += friction * change[k - batch.begin[g]];
@@ -296,8 +298,9 @@ void ClusterModel::projectGroups(const ConstraintContext& context, const Particl
   }
 }
 
-void ClusterModel::deriveGroupVelocities(const ConstraintContext& context, const ParticleView& p,
-                                         const GroupBatch& batch) const {
+void ClusterModel::deriveVelocities(const ConstraintContext& context, const api::MovableParticles& particles,
+                                    const GroupBatch& batch) const {
+  const ParticleView& p = particles;
   // The substep ends with v = (x - previous)/dt. The cluster moved each member by multiplier/m, across the way that its
   // velocity had taken it: that cost the angular momentum sum way x multiplier/dt. Its pulls, taken where the members
   // are now, should not turn it either.
@@ -313,12 +316,12 @@ void ClusterModel::deriveGroupVelocities(const ConstraintContext& context, const
       const Vector way{batch.memberValues[kWayX][k], batch.memberValues[kWayY][k], batch.memberValues[kWayZ][k]};
       lost += 1 / context.dt * cross(way - vectorOf(p.position[i]), pull);
     }
-    if (moved && !held) shape.turn(lost);
+    if (moved && !held) shape.turn(lost, particles.velocity);
   }
 }
 
-void ClusterModel::groupTopology(const ConstraintContext& context, const ParticleView& p, const NeighbourView&,
-                                 const GroupBatch& all, api::GroupSink& sink) const {
+void ClusterModel::topology(const ConstraintContext& context, const ParticleView& p, const NeighbourView&,
+                            const GroupBatch& all, api::GroupSink& sink) const {
   for (size_t g = 0; g < all.count; ++g) {
     std::vector<size_t> kept;
     for (size_t k = all.begin[g]; k < all.begin[g + 1]; ++k) {
@@ -349,8 +352,9 @@ void ClusterModel::groupTopology(const ConstraintContext& context, const Particl
   }
 }
 
-void ClusterModel::restoreMembers(const ConstraintContext&, const ParticleView& p, const GroupBatch& all,
-                                  const uint8_t* returned) const {
+void ClusterModel::restoreMembers(const ConstraintContext&, const api::MovableParticles& particles,
+                                  const GroupBatch& all, const uint8_t* returned) const {
+  const ParticleView& p = particles;
   for (size_t g = 0; g < all.count; ++g) {
     const uint8_t *first = returned + all.begin[g], *last = returned + all.begin[g + 1];
     const auto back = std::count(first, last, uint8_t{1});
@@ -359,13 +363,13 @@ void ClusterModel::restoreMembers(const ConstraintContext&, const ParticleView& 
     shape.fit(returned);
     for (size_t k = all.begin[g]; k < all.begin[g + 1]; ++k) {
       if (returned[k] == 0) continue;
-      setVector(p.position[all.particles[k]], shape.goal(k));
-      setVector(p.velocity[all.particles[k]], shape.meanVelocity(returned));
+      setVector(particles.position[all.particles[k]], shape.goal(k));
+      setVector(particles.velocity[all.particles[k]], shape.meanVelocity(returned));
     }
   }
 }
 
-double ClusterModel::groupEnergy(const ConstraintContext&, const ParticleView& p, const GroupBatch& batch) const {
+double ClusterModel::energy(const ConstraintContext&, const ParticleView& p, const GroupBatch& batch) const {
   double sum = 0;
   for (size_t g = 0; g < batch.count; ++g) {
     ClusterShape shape(p, batch, g);

@@ -11,10 +11,10 @@ namespace ps::constraint {
 /// answers for: each particle's, divided by the number of clusters that hold it. A uniform strain then stores E/2 of
 /// its square per volume: Young's modulus E, from the material at the members' mean temperature, with Poisson's ratio
 /// 0. Weights by mass keep each cluster's linear momentum. Angular momentum, which velocities from positions lose at a
-/// rate of w² dt, is given back (deriveGroupVelocities). It cannot do: keep the
+/// rate of w² dt, is given back (deriveVelocities). It cannot do: keep the
 /// volume under large strain, plasticity, fracture by force, strains that change within a cluster (it is stiffer
 /// against them), or take back matter that has melted.
-class ClusterModel : public api::ConstraintPlugin {
+class ClusterModel : public api::GroupPlugin {
  public:
   enum Parameter { kRadius, kSpacing, kDamping, kStiffnessRatio, kParameterCount };
   enum Value { kRotationX, kRotationY, kRotationZ, kRotationW, kVolume, kScale, kKappa, kValueCount };
@@ -35,23 +35,22 @@ class ClusterModel : public api::ConstraintPlugin {
   const char* label() const noexcept override;
   const char* help() const noexcept override;
   api::ParameterList parameters() const noexcept override;
-  api::ConstraintTraits traits() const noexcept override;
+  bool traits(api::GroupTraits* out) const noexcept override;
 
-  void buildGroups(const api::ConstraintContext& context, const api::ParticleView& particles,
-                   const api::NeighbourView& lists, api::Span<const uint32_t> members, const api::GroupBatch& all,
-                   api::GroupSink& sink) const override;
-  void predictGroups(const api::ConstraintContext& context, const api::ParticleView& particles,
-                     const api::GroupBatch& batch) const override;
-  void projectGroups(const api::ConstraintContext& context, const api::ParticleView& particles,
-                     const api::GroupBatch& batch) const override;
-  void deriveGroupVelocities(const api::ConstraintContext& context, const api::ParticleView& particles,
-                             const api::GroupBatch& batch) const override;
-  void groupTopology(const api::ConstraintContext& context, const api::ParticleView& particles,
-                     const api::NeighbourView& lists, const api::GroupBatch& all, api::GroupSink& sink) const override;
-  void restoreMembers(const api::ConstraintContext& context, const api::ParticleView& particles,
+  void build(const api::ConstraintContext& context, const api::ParticleView& particles, const api::NeighbourView& lists,
+             api::Span<const uint32_t> members, const api::GroupBatch& all, api::GroupSink& sink) const override;
+  void predict(const api::ConstraintContext& context, const api::MovableParticles& particles,
+               const api::GroupBatch& batch) const override;
+  void project(const api::ConstraintContext& context, const api::MovableParticles& particles,
+               const api::GroupBatch& batch) const override;
+  void deriveVelocities(const api::ConstraintContext& context, const api::MovableParticles& particles,
+                        const api::GroupBatch& batch) const override;
+  void topology(const api::ConstraintContext& context, const api::ParticleView& particles,
+                const api::NeighbourView& lists, const api::GroupBatch& all, api::GroupSink& sink) const override;
+  void restoreMembers(const api::ConstraintContext& context, const api::MovableParticles& particles,
                       const api::GroupBatch& all, const uint8_t* returned) const override;
-  double groupEnergy(const api::ConstraintContext& context, const api::ParticleView& particles,
-                     const api::GroupBatch& batch) const override;
+  double energy(const api::ConstraintContext& context, const api::ParticleView& particles,
+                const api::GroupBatch& batch) const override;
   void limits(const api::ConstraintContext& context, const api::ParticleView& particles,
               api::LimitSink& sink) const override;
 };

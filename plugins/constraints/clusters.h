@@ -7,6 +7,6 @@
 /// The plugin "clusters": ClusterModel behind Qt's plugin door.
 class ClusterPlugin final : public QObject, public ps::constraint::ClusterModel {
   Q_OBJECT
-  Q_PLUGIN_METADATA(IID PHASESKETCH_CONSTRAINT_IID FILE "clusters.json")
-  Q_INTERFACES(ps::api::ConstraintPlugin)
+  Q_PLUGIN_METADATA(IID PHASESKETCH_GROUP_IID FILE "clusters.json")
+  Q_INTERFACES(ps::api::GroupPlugin)
 };

@@ -87,13 +87,13 @@ void ClusterShape::findDeformation(std::vector<Vector>& change) const {
   }
 }
 
-void ClusterShape::turn(Vector angular) const {
+void ClusterShape::turn(Vector angular, api::Float4* velocity) const {
   const auto place = [&](size_t k) { return vectorOf(m_p.position[m_batch.particles[k]]); };
   const Spread spread = spreadOf(
       m_first, m_last, [&](size_t k) { return mass(k); }, place);
   const Vector spin = symmetricInverse(spread.inertia) * angular;
   for (size_t k = m_first; k < m_last; ++k) {
-    api::Float4& v = m_p.velocity[m_batch.particles[k]];
+    api::Float4& v = velocity[m_batch.particles[k]];
     setVector(v, vectorOf(v) + cross(spin, place(k) - spread.centre));
   }
 }

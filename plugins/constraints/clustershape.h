@@ -35,7 +35,7 @@ class ClusterShape {
   /// Way of each member since the start of the substep, without the rigid motion of the whole; call after fit().
   void findDeformation(std::vector<Vector>& change) const;
   /// Adds the rigid turn of the members where they are that has an angular momentum of `angular` kg m²/s.
-  void turn(Vector angular) const;
+  void turn(Vector angular, api::Float4* velocity) const;
   Vector meanVelocity(const uint8_t* without) const;
 
   /// Cube root of the members' rest volumes against those when they joined.

@@ -5,7 +5,7 @@ namespace ps::constraint {
 namespace {
 
 uint8_t* fieldOf(const api::ParticleView& p, const char* name) {
-  return static_cast<uint8_t*>(p.fields->find(name, api::FieldType::UInt8));
+  return static_cast<uint8_t*>(p.fields->write(name, api::FieldType::UInt8));
 }
 
 bool isFluid(api::Motion motion) { return motion == api::Motion::Liquid || motion == api::Motion::Gas; }

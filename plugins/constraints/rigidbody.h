@@ -81,8 +81,8 @@ class RigidBody {
     setVector(at, m_centre + arm(k));
     return at;
   }
-  void placeMembers() const {
-    for (size_t k = m_first; k < m_last; ++k) m_p.position[particle(k)] = place(k);
+  void placeMembers(api::Float4* position) const {
+    for (size_t k = m_first; k < m_last; ++k) position[particle(k)] = place(k);
   }
 
   /// How far points have left the pose.

@@ -83,13 +83,13 @@ Vector centreOf(const Float4* points, const RigidBody& body) {
 }
 
 /// Absorbs what happened to the members' positions into the pose, and the pose's change into the velocities.
-void absorb(RigidBody& body, const ParticleView& p, double dt) {
-  const RigidBody::Fit fit = body.fit(p.position);
+void absorb(RigidBody& body, const api::MovableParticles& particles, double dt) {
+  const RigidBody::Fit fit = body.fit(particles.position);
   if (!fit.moved) return;
   const Quaternion before = body.rotation(), after = body.rotationOf(fit);
   body.setMotion(body.velocity() + 1 / dt * fit.shift, body.spin() + 1 / dt * logarithm(after * conjugate(before)));
   body.setPose(body.centre() + fit.shift, after);
-  body.placeMembers();
+  body.placeMembers(particles.position);
 }
 
 }  // namespace
@@ -106,13 +106,15 @@ const char* RigidModel::help() const noexcept {
 
 api::ParameterList RigidModel::parameters() const noexcept { return api::listOf(kParameters); }
 
-api::ConstraintTraits RigidModel::traits() const noexcept {
-  return {api::ConstraintTraits::Form::Group, 0, api::listOf(kValues), api::listOf(kFields),
-          api::listOf(kMemberValues),         1};
+bool RigidModel::traits(api::GroupTraits* out) const noexcept {
+  return api::fill(out, {.rigid = 1,
+                         .values = api::listOf(kValues),
+                         .memberValues = api::listOf(kMemberValues),
+                         .fields = api::listOf(kFields)});
 }
 
-void RigidModel::buildGroups(const ConstraintContext& context, const ParticleView& p, const NeighbourView& lists,
-                             api::Span<const uint32_t> members, const GroupBatch& all, api::GroupSink& sink) const {
+void RigidModel::build(const ConstraintContext& context, const ParticleView& p, const NeighbourView& lists,
+                       api::Span<const uint32_t> members, const GroupBatch& all, api::GroupSink& sink) const {
   constexpr size_t kNone = ~size_t{0};
   std::vector<size_t> groupOf(p.count, kNone);
   for (size_t g = 0; g < all.count; ++g) {
@@ -157,7 +159,9 @@ void RigidModel::buildGroups(const ConstraintContext& context, const ParticleVie
   }
 }
 
-void RigidModel::predictGroups(const ConstraintContext& context, const ParticleView& p, const GroupBatch& batch) const {
+void RigidModel::predict(const ConstraintContext& context, const api::MovableParticles& particles,
+                         const GroupBatch& batch) const {
+  const ParticleView& p = particles;
   for (size_t g = 0; g < batch.count; ++g) {
     RigidBody body(p, batch, g);
     // A frame that went wrong leaves no pose; edits, a bound or a frame taken back may have moved members since it was
@@ -178,19 +182,22 @@ void RigidModel::predictGroups(const ConstraintContext& context, const ParticleV
     const Quaternion to = exponential(context.dt * spin) * from;
     body.setMotion(velocity, RigidBody::turned(inverse, to, momentum.angular));
     body.setPose(body.centre() + context.dt * velocity, to);
-    body.placeMembers();
+    body.placeMembers(particles.position);
   }
 }
 
-void RigidModel::projectGroups(const ConstraintContext& context, const ParticleView& p, const GroupBatch& batch) const {
+void RigidModel::project(const ConstraintContext& context, const api::MovableParticles& particles,
+                         const GroupBatch& batch) const {
+  const ParticleView& p = particles;
   for (size_t g = 0; g < batch.count; ++g) {
     RigidBody body(p, batch, g);
-    absorb(body, p, context.dt);
+    absorb(body, particles, context.dt);
   }
 }
 
-void RigidModel::deriveGroupVelocities(const ConstraintContext& context, const ParticleView& p,
-                                       const GroupBatch& batch) const {
+void RigidModel::deriveVelocities(const ConstraintContext& context, const api::MovableParticles& particles,
+                                  const GroupBatch& batch) const {
+  const ParticleView& p = particles;
   const float rate = static_cast<float>(1 / context.dt);
   for (size_t g = 0; g < batch.count; ++g) {
     RigidBody body(p, batch, g);
@@ -200,29 +207,30 @@ void RigidModel::deriveGroupVelocities(const ConstraintContext& context, const P
       return Vector{double{v.x} - double{rate * (x.x - from.x)}, double{v.y} - double{rate * (x.y - from.y)},
                     double{v.z} - double{rate * (x.z - from.z)}};
     });
-    absorb(body, p, context.dt);
+    absorb(body, particles, context.dt);
     const Vector velocity = body.velocity() + 1 / body.mass() * given.linear;
     const Vector spin = body.spin() + RigidBody::turned(body.restInverseInertia(), body.rotation(), given.angular);
     body.setMotion(velocity, spin);
     for (size_t k = body.first(); k < body.last(); ++k) {
-      setVector(p.velocity[body.particle(k)], velocity + cross(spin, body.arm(k)));
+      setVector(particles.velocity[body.particle(k)], velocity + cross(spin, body.arm(k)));
     }
   }
 }
 
-void RigidModel::restoreMembers(const ConstraintContext&, const ParticleView& p, const GroupBatch& all,
+void RigidModel::restoreMembers(const ConstraintContext&, const api::MovableParticles& particles, const GroupBatch& all,
                                 const uint8_t* returned) const {
-  auto* touch = static_cast<float*>(p.fields->find(kTouchField, api::FieldType::Float32));
+  const ParticleView& p = particles;
+  auto* touch = static_cast<float*>(p.fields->write(kTouchField, api::FieldType::Float32));
   for (size_t g = 0; g < all.count; ++g) {
     const size_t first = all.begin[g], last = all.begin[g + 1];
     const size_t back = static_cast<size_t>(std::count(returned + first, returned + last, uint8_t{1}));
     if (back == 0 || back == last - first) continue;
     // The pose of those that stayed, as a group of their own.
-    std::vector<uint32_t> particles;
+    std::vector<uint32_t> stayers;
     std::vector<std::vector<float>> memberValues(kMemberValueCount);
     for (size_t k = first; k < last; ++k) {
       if (returned[k] != 0) continue;
-      particles.push_back(all.particles[k]);
+      stayers.push_back(all.particles[k]);
       for (size_t v = 0; v < kMemberValueCount; ++v) memberValues[v].push_back(all.memberValues[v][k]);
     }
     std::vector<float> values(kValueCount);
@@ -230,9 +238,9 @@ void RigidModel::restoreMembers(const ConstraintContext&, const ParticleView& p,
     for (size_t v = 0; v < kValueCount; ++v) values[v] = all.values[v][g], valuePointers[v] = &values[v];
     std::array<float*, kMemberValueCount> memberPointers{};
     for (size_t v = 0; v < kMemberValueCount; ++v) memberPointers[v] = memberValues[v].data();
-    const std::array<size_t, 2> begin{0, particles.size()};
+    const std::array<size_t, 2> begin{0, stayers.size()};
     const uint8_t changed = 0;
-    const GroupBatch rest{1, begin.data(), particles.data(), valuePointers.data(), memberPointers.data(), &changed};
+    const GroupBatch rest{1, begin.data(), stayers.data(), valuePointers.data(), memberPointers.data(), &changed};
     RigidBody stayed(p, rest, 0);
     const RigidBody::Fit fit = stayed.fit(p.position);
     stayed.setPose(stayed.centre() + fit.shift, stayed.rotationOf(fit));
@@ -244,8 +252,8 @@ void RigidModel::restoreMembers(const ConstraintContext&, const ParticleView& p,
       touch[all.particles[k]] = kReturned;
       const Vector place{all.memberValues[kRestX][k], all.memberValues[kRestY][k], all.memberValues[kRestZ][k]};
       const Vector arm = stayed.armOf(place);
-      setVector(p.position[all.particles[k]], stayed.centre() + arm);
-      setVector(p.velocity[all.particles[k]], velocity + cross(spin, arm));
+      setVector(particles.position[all.particles[k]], stayed.centre() + arm);
+      setVector(particles.velocity[all.particles[k]], velocity + cross(spin, arm));
     }
     RigidBody whole(p, all, g);
     whole.setPose(stayed.centre() + stayed.armOf(whole.restCentre()), stayed.rotation());

@@ -16,7 +16,7 @@ namespace ps::constraint {
 /// or more for half a second, frozen together or sintering, become one. All of this keeps linear and angular momentum:
 /// a body takes its own from its members. Heat scales the whole body by its mean strain. It cannot do: deform, break by
 /// force, freeze together across the faces of a periodic scene, or freeze onto fixed matter (bonds do).
-class RigidModel : public api::ConstraintPlugin {
+class RigidModel : public api::GroupPlugin {
  public:
   enum Parameter { kLeastMembers, kParameterCount };
   enum Value {
@@ -41,20 +41,19 @@ class RigidModel : public api::ConstraintPlugin {
   const char* label() const noexcept override;
   const char* help() const noexcept override;
   api::ParameterList parameters() const noexcept override;
-  api::ConstraintTraits traits() const noexcept override;
+  bool traits(api::GroupTraits* out) const noexcept override;
 
-  void buildGroups(const api::ConstraintContext& context, const api::ParticleView& particles,
-                   const api::NeighbourView& lists, api::Span<const uint32_t> members, const api::GroupBatch& all,
-                   api::GroupSink& sink) const override;
-  void predictGroups(const api::ConstraintContext& context, const api::ParticleView& particles,
-                     const api::GroupBatch& batch) const override;
-  void projectGroups(const api::ConstraintContext& context, const api::ParticleView& particles,
-                     const api::GroupBatch& batch) const override;
-  void deriveGroupVelocities(const api::ConstraintContext& context, const api::ParticleView& particles,
-                             const api::GroupBatch& batch) const override;
-  void groupTopology(const api::ConstraintContext& context, const api::ParticleView& particles,
-                     const api::NeighbourView& lists, const api::GroupBatch& all, api::GroupSink& sink) const override;
-  void restoreMembers(const api::ConstraintContext& context, const api::ParticleView& particles,
+  void build(const api::ConstraintContext& context, const api::ParticleView& particles, const api::NeighbourView& lists,
+             api::Span<const uint32_t> members, const api::GroupBatch& all, api::GroupSink& sink) const override;
+  void predict(const api::ConstraintContext& context, const api::MovableParticles& particles,
+               const api::GroupBatch& batch) const override;
+  void project(const api::ConstraintContext& context, const api::MovableParticles& particles,
+               const api::GroupBatch& batch) const override;
+  void deriveVelocities(const api::ConstraintContext& context, const api::MovableParticles& particles,
+                        const api::GroupBatch& batch) const override;
+  void topology(const api::ConstraintContext& context, const api::ParticleView& particles,
+                const api::NeighbourView& lists, const api::GroupBatch& all, api::GroupSink& sink) const override;
+  void restoreMembers(const api::ConstraintContext& context, const api::MovableParticles& particles,
                       const api::GroupBatch& all, const uint8_t* returned) const override;
 };
 

@@ -44,7 +44,7 @@ class Reshaping {
         m_lists(lists),
         m_all(all),
         m_joining(context, p),
-        m_touch(static_cast<float*>(p.fields->find(kTouchField, api::FieldType::Float32))),
+        m_touch(static_cast<float*>(p.fields->write(kTouchField, api::FieldType::Float32))),
         m_gone(all.count, 0) {
     m_joining.noteFluid();
   }
@@ -266,8 +266,8 @@ class Reshaping {
 
 }  // namespace
 
-void RigidModel::groupTopology(const ConstraintContext& context, const ParticleView& p, const NeighbourView& lists,
-                               const GroupBatch& all, api::GroupSink& sink) const {
+void RigidModel::topology(const ConstraintContext& context, const ParticleView& p, const NeighbourView& lists,
+                          const GroupBatch& all, api::GroupSink& sink) const {
   Reshaping(context, p, lists, all).run(sink);
 }
 

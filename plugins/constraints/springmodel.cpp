@@ -145,8 +145,8 @@ class StretchGraph {
 
 }  // namespace
 
-api::ConstraintTraits SpringModel::traits() const noexcept {
-  return {api::ConstraintTraits::Form::Structural, 2, api::listOf(kValues), {}, {}, 0, 1};
+bool SpringModel::traits(api::StructuralTraits* out) const noexcept {
+  return api::fill(out, {.arity = 2, .thin = 1, .values = api::listOf(kValues)});
 }
 
 void SpringModel::build(const ConstraintContext& context, const ParticleView& p, const NeighbourView& lists,
@@ -164,14 +164,16 @@ void SpringModel::predict(const ConstraintContext&, const ParticleView&, const C
   std::fill(batch.values[kMultiplier], batch.values[kMultiplier] + batch.count, 0.0f);
 }
 
-void SpringModel::project(const ConstraintContext& context, const ParticleView& p, const ConstraintBatch& batch) const {
+void SpringModel::project(const ConstraintContext& context, const api::MovableParticles& particles,
+                          const ConstraintBatch& batch) const {
+  const ParticleView& p = particles;
   const Springs springs = springsOf(context.parameters, context.spacing);
   const double dt2 = context.dt * context.dt;
   const float damping = static_cast<float>(springs.damping / context.dt);
   float* multiplier = batch.values[kMultiplier];
   for (size_t k = 0; k < batch.count; ++k) {
     const uint32_t i = batch.particles[2 * k], j = batch.particles[2 * k + 1];
-    Float4 &a = p.position[i], &b = p.position[j];
+    Float4 &a = particles.position[i], &b = particles.position[j];
     const float wa = p.velocity[i].w, wb = p.velocity[j].w;
     const Difference d = between(a, b);
     const float length = d.length();

@@ -11,17 +11,17 @@ namespace ps::constraint {
 /// et al. 2016, eq. 18 and 26). Springs keep linear and angular momentum. A stretch spring tears when its strain passes
 /// a bound; a shear or bend spring goes with the last particle that held both its ends. Lengths at rest are those at
 /// the start; heat does not change them.
-class SpringModel : public api::ConstraintPlugin {
+class SpringModel : public api::StructuralPlugin {
  public:
   enum Kind { kStretch, kShear, kBend, kKinds };
   enum Value { kRestLength, kKind, kMultiplier, kValueCount };
 
-  api::ConstraintTraits traits() const noexcept override;
+  bool traits(api::StructuralTraits* out) const noexcept override;
   void build(const api::ConstraintContext& context, const api::ParticleView& particles, const api::NeighbourView& lists,
              api::Span<const uint32_t> members, api::ConstraintSink& sink) const override;
   void predict(const api::ConstraintContext& context, const api::ParticleView& particles,
                const api::ConstraintBatch& batch) const override;
-  void project(const api::ConstraintContext& context, const api::ParticleView& particles,
+  void project(const api::ConstraintContext& context, const api::MovableParticles& particles,
                const api::ConstraintBatch& batch) const override;
   void topology(const api::ConstraintContext& context, const api::ParticleView& particles,
                 const api::NeighbourView& lists, const api::ConstraintBatch& all,

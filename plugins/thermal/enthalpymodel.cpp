@@ -10,7 +10,7 @@ namespace {
 constexpr const char* kEnthalpy = "specific_enthalpy";
 
 double* enthalpyOf(const api::ParticleView& particles) {
-  auto* field = static_cast<double*>(particles.fields->find(kEnthalpy, api::FieldType::Float64));
+  auto* field = static_cast<double*>(particles.fields->write(kEnthalpy, api::FieldType::Float64));
   if (!field) throw std::runtime_error("the particles have no field 'specific_enthalpy'");
   return field;
 }

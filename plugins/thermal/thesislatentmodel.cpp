@@ -14,10 +14,11 @@ struct Fields {
   double *temperature, *melting, *boiling;
 
   explicit Fields(const api::ParticleView& particles)
-      : state(static_cast<uint8_t*>(particles.fields->find("thesis_latent.state", api::FieldType::UInt8))),
-        temperature(static_cast<double*>(particles.fields->find("thesis_latent.temperature", api::FieldType::Float64))),
-        melting(static_cast<double*>(particles.fields->find("thesis_latent.melting", api::FieldType::Float64))),
-        boiling(static_cast<double*>(particles.fields->find("thesis_latent.boiling", api::FieldType::Float64))) {
+      : state(static_cast<uint8_t*>(particles.fields->write("thesis_latent.state", api::FieldType::UInt8))),
+        temperature(
+            static_cast<double*>(particles.fields->write("thesis_latent.temperature", api::FieldType::Float64))),
+        melting(static_cast<double*>(particles.fields->write("thesis_latent.melting", api::FieldType::Float64))),
+        boiling(static_cast<double*>(particles.fields->write("thesis_latent.boiling", api::FieldType::Float64))) {
     if (!state || !temperature || !melting || !boiling) {
       throw std::runtime_error("the particles lack a field of 'thesis_latent'");
     }

@@ -132,7 +132,8 @@ inline bool run(ps::Solver& solver, int frames) {
 }
 
 /// What the test plugins share.
-class TestConstraint : public ps::api::ConstraintPlugin {
+template <class Form>
+class TestConstraint : public Form {
  public:
   const char* label() const noexcept override { return "test"; }
   const char* help() const noexcept override { return ""; }
@@ -140,19 +141,20 @@ class TestConstraint : public ps::api::ConstraintPlugin {
 };
 
 /// Adds and removes constraints every frame and counts batches in which a particle appears twice.
-class ColourWatch final : public TestConstraint {
+class ColourWatch final : public TestConstraint<ps::api::StructuralPlugin> {
  public:
   mutable std::atomic<int> clashes{0}, wrongIds{0}, seen{0};
-  ps::api::ConstraintTraits traits() const noexcept override {
+  bool traits(ps::api::StructuralTraits* out) const noexcept override {
     static constexpr ps::api::FieldDeclaration kValues[] = {{"sum_of_ids", "", "", ps::api::FieldType::Float32}};
-    return {ps::api::ConstraintTraits::Form::Structural, 3, ps::api::listOf(kValues), {}};
+    return ps::api::fill(out, {.arity = 3, .values = ps::api::listOf(kValues)});
   }
   void build(const ps::api::ConstraintContext&, const ps::api::ParticleView& p, const ps::api::NeighbourView& lists,
              ps::api::Span<const uint32_t> members, ps::api::ConstraintSink& sink) const override {
     for (const uint32_t i : members) addAround(p, lists, i, sink);
   }
-  void project(const ps::api::ConstraintContext&, const ps::api::ParticleView& p,
+  void project(const ps::api::ConstraintContext&, const ps::api::MovableParticles& particles,
                const ps::api::ConstraintBatch& b) const override {
+    const ps::api::ParticleView& p = particles;
     std::vector<uint8_t> used(p.count, 0);
     for (size_t k = 0; k < b.count; ++k) {
       float sum = 0;
@@ -184,14 +186,12 @@ class ColourWatch final : public TestConstraint {
 };
 
 /// Neighbour form: every particle drifts by 1 mm per iteration along x.
-class Drift final : public TestConstraint {
+class Drift final : public TestConstraint<ps::api::NeighbourPlugin> {
  public:
-  ps::api::ConstraintTraits traits() const noexcept override {
-    return {ps::api::ConstraintTraits::Form::Neighbour, 0, {}, {}};
-  }
+  bool traits(ps::api::NeighbourTraits* out) const noexcept override { return ps::api::fill(out, {}); }
   void gather(const ps::api::ConstraintContext&, const ps::api::ParticleView&, const ps::api::NeighbourView&,
-              size_t first, size_t last, ps::api::Float4* correction) const override {
-    for (size_t i = first; i < last; ++i) correction[i] = {0.001f, 0, 0, 0};
+              ps::api::Span<const uint32_t> members, ps::api::Float4* correction) const override {
+    for (size_t k = 0; k < members.size; ++k) correction[k] = {0.001f, 0, 0, 0};
   }
 };
 

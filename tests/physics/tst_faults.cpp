@@ -15,13 +15,11 @@ using ps::StepReport;
 namespace {
 
 /// Throws where it is told to.
-class ThrowingConstraint final : public TestConstraint {
+class ThrowingConstraint final : public TestConstraint<ps::api::StructuralPlugin> {
  public:
   enum Where { Build, Predict, Project, Topology };
   explicit ThrowingConstraint(Where where) : m_where(where) {}
-  ps::api::ConstraintTraits traits() const noexcept override {
-    return {ps::api::ConstraintTraits::Form::Structural, 2, {}, {}};
-  }
+  bool traits(ps::api::StructuralTraits* out) const noexcept override { return ps::api::fill(out, {}); }
   void build(const ps::api::ConstraintContext&, const ps::api::ParticleView&, const ps::api::NeighbourView&,
              ps::api::Span<const uint32_t> members, ps::api::ConstraintSink& sink) const override {
     const uint32_t pair[2] = {members[0], members[1]};
@@ -32,7 +30,7 @@ class ThrowingConstraint final : public TestConstraint {
                const ps::api::ConstraintBatch&) const override {
     maybe(Predict);
   }
-  void project(const ps::api::ConstraintContext&, const ps::api::ParticleView&,
+  void project(const ps::api::ConstraintContext&, const ps::api::MovableParticles&,
                const ps::api::ConstraintBatch&) const override {
     maybe(Project);
   }
@@ -51,7 +49,7 @@ class ThrowingConstraint final : public TestConstraint {
 /// The enthalpy model, which throws, or turns to NaN, at the call it is told to.
 class ThrowingModel final : public ps::thermal::EnthalpyModel {
  public:
-  enum Where { Initialise, AddHeat, Derive, Energy, Sources, PairFlux, NotANumber };
+  enum Where { Initialise, AddHeat, Derive, Energy, PairFlux, NotANumber };
   explicit ThrowingModel(Where where) : m_where(where) {}
   mutable std::atomic<bool> armed{true};
 
@@ -75,9 +73,6 @@ class ThrowingModel final : public ps::thermal::EnthalpyModel {
               double* joules) const override {
     maybe(Energy);
     EnthalpyModel::energy(c, p, first, last, joules);
-  }
-  void sources(const ps::api::ThermalContext&, const ps::api::ParticleView&, size_t, size_t, double*) const override {
-    maybe(Sources);
   }
   bool pairFlux(const ps::api::ThermalContext&, const ps::api::ParticleView&, const ps::api::NeighbourView&, size_t,
                 size_t, double*) const override {
@@ -204,10 +199,11 @@ class TestFaults : public QObject {
   void throwingThermalModelIsPutAside_data() {
     QTest::addColumn<int>("where");
     QTest::addColumn<bool>("fromTheStart");
-    const std::pair<const char*, ThrowingModel::Where> rows[] = {
-        {"initialise", ThrowingModel::Initialise}, {"add heat", ThrowingModel::AddHeat},
-        {"derive", ThrowingModel::Derive},         {"energy", ThrowingModel::Energy},
-        {"sources", ThrowingModel::Sources},       {"pair flux", ThrowingModel::PairFlux}};
+    const std::pair<const char*, ThrowingModel::Where> rows[] = {{"initialise", ThrowingModel::Initialise},
+                                                                 {"add heat", ThrowingModel::AddHeat},
+                                                                 {"derive", ThrowingModel::Derive},
+                                                                 {"energy", ThrowingModel::Energy},
+                                                                 {"pair flux", ThrowingModel::PairFlux}};
     for (const auto& [name, where] : rows) {
       QTest::addRow("%s at once", name) << int(where) << true;
       if (where != ThrowingModel::Initialise) QTest::addRow("%s later", name) << int(where) << false;

@@ -17,27 +17,26 @@ namespace {
 
 /// Groups that overlap: every third particle with its neighbours. Each group knows the sum of its members' ids, each
 /// member its id. Throws where it is told to.
-class GroupWatch final : public TestConstraint {
+class GroupWatch final : public TestConstraint<GroupPlugin> {
  public:
   enum Where { Nowhere, Build, Predict, Project, Derive, Topology, Restore, Energy };
   explicit GroupWatch(Where where = Nowhere) : m_where(where) {}
   mutable std::atomic<int> wrong{0}, seen{0}, returned{0};
   mutable bool armed = true;
 
-  ConstraintTraits traits() const noexcept override {
+  bool traits(GroupTraits* out) const noexcept override {
     static constexpr FieldDeclaration kGroup[] = {{"sum_of_ids", "", "", FieldType::Float32}};
     static constexpr FieldDeclaration kMember[] = {{"member_id", "", "", FieldType::Float32}};
-    return {ConstraintTraits::Form::Group, 0, listOf(kGroup), {}, listOf(kMember)};
+    return fill(out, {.values = listOf(kGroup), .memberValues = listOf(kMember)});
   }
-  void buildGroups(const ConstraintContext&, const ParticleView& p, const NeighbourView& lists,
-                   Span<const uint32_t> members, const GroupBatch&, GroupSink& sink) const override {
+  void build(const ConstraintContext&, const ParticleView& p, const NeighbourView& lists, Span<const uint32_t> members,
+             const GroupBatch&, GroupSink& sink) const override {
     for (size_t k = 0; k < members.size; k += 3) addAround(p, lists, members[k], sink);
     maybe(Build);
   }
-  void predictGroups(const ConstraintContext&, const ParticleView&, const GroupBatch&) const override {
-    maybe(Predict);
-  }
-  void projectGroups(const ConstraintContext&, const ParticleView& p, const GroupBatch& b) const override {
+  void predict(const ConstraintContext&, const MovableParticles&, const GroupBatch&) const override { maybe(Predict); }
+  void project(const ConstraintContext&, const MovableParticles& particles, const GroupBatch& b) const override {
+    const ParticleView& p = particles;
     maybe(Project);
     for (size_t g = 0; g < b.count; ++g) {
       float sum = 0;
@@ -50,11 +49,11 @@ class GroupWatch final : public TestConstraint {
     }
     seen += static_cast<int>(b.count);
   }
-  void deriveGroupVelocities(const ConstraintContext&, const ParticleView&, const GroupBatch&) const override {
+  void deriveVelocities(const ConstraintContext&, const MovableParticles&, const GroupBatch&) const override {
     maybe(Derive);
   }
-  void groupTopology(const ConstraintContext&, const ParticleView& p, const NeighbourView& lists, const GroupBatch& all,
-                     GroupSink& sink) const override {
+  void topology(const ConstraintContext&, const ParticleView& p, const NeighbourView& lists, const GroupBatch& all,
+                GroupSink& sink) const override {
     maybe(Topology);
     for (size_t g = 0; g < all.count; ++g) {
       if (all.changed[g] != 0) all.values[0][g] = sumOf(p, all, g);
@@ -62,12 +61,12 @@ class GroupWatch final : public TestConstraint {
     }
     for (uint32_t i = 0; i < p.count; i += 20) addAround(p, lists, i, sink);
   }
-  void restoreMembers(const ConstraintContext&, const ParticleView&, const GroupBatch& all,
+  void restoreMembers(const ConstraintContext&, const MovableParticles&, const GroupBatch& all,
                       const uint8_t* back) const override {
     maybe(Restore);
     for (size_t k = 0; k < all.begin[all.count]; ++k) returned += back[k];
   }
-  double groupEnergy(const ConstraintContext&, const ParticleView&, const GroupBatch& all) const override {
+  double energy(const ConstraintContext&, const ParticleView&, const GroupBatch& all) const override {
     maybe(Energy);
     return static_cast<double>(all.count);
   }

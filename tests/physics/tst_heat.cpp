@@ -30,13 +30,9 @@ struct Errors {
   double rms = 0, largest = 0;
 };
 
-/// A model with laws of its own: 2 W/K between any two that touch, and 3 W in each particle.
+/// A model with a law of its own: 2 W/K between any two that touch.
 class OwnLaws final : public ps::thermal::EnthalpyModel {
  public:
-  void sources(const ps::api::ThermalContext&, const ps::api::ParticleView&, size_t first, size_t last,
-               double* watts) const override {
-    for (size_t i = first; i < last; ++i) watts[i] += 3;
-  }
   bool pairFlux(const ps::api::ThermalContext&, const ps::api::ParticleView& view, const ps::api::NeighbourView& lists,
                 size_t first, size_t last, double* watts) const override {
     for (size_t i = first; i < last; ++i) {
@@ -45,6 +41,19 @@ class OwnLaws final : public ps::thermal::EnthalpyModel {
       }
     }
     return true;
+  }
+};
+
+/// As many W in each particle as its parameter says; throws above 1 MW.
+class Heater final : public ps::api::HeatSourcePlugin {
+ public:
+  const char* label() const override { return "Heater"; }
+  const char* help() const override { return ""; }
+  ps::api::ParameterList parameters() const override { return {}; }
+  void addWatts(const ps::api::ThermalContext& context, const ps::api::ParticleView&, size_t first, size_t last,
+                double* watts) const override {
+    if (context.parameters[0] > 1e6) throw std::runtime_error("the fuse has blown");
+    for (size_t i = first; i < last; ++i) watts[i] += context.parameters[0];
   }
 };
 
@@ -460,7 +469,9 @@ class TestHeat : public QObject {
   void modelsMayBringTheirOwnLaws() {
     Scene scene;
     const OwnLaws own;
+    const Heater heater;
     scene.model = &own;
+    scene.heat.setSources({{&heater, "one", {1}}, {&heater, "two", {2}}});
     scene.addMaterial(heattest::materialOf({}));
     scene.addBox({0, 0, 0}, {2, 1, 1}, 0);
     scene.store.mass()[0] = scene.store.mass()[1] = 0.5f;
@@ -472,6 +483,30 @@ class TestHeat : public QObject {
     QVERIFY(std::abs(scene.store.temperature()[1] - 400 + 197 * seconds / 500) < 1e-10);
     QVERIFY(std::abs(scene.heat.ledger().heaters - 6 * seconds) < 1e-12);
     QCOMPARE(scene.heat.ledger().net(), scene.heat.ledger().heaters);
+  }
+
+  void sourcesAddToAnyModelAndNoneColdsBelowOneKelvin() {
+    const Heater heater;
+    const ps::thermal::ThesisLatentModel thesis;
+    for (const bool enthalpy : {true, false}) {
+      Scene scene;
+      if (!enthalpy) scene.model = &thesis;
+      scene.addMaterial(heattest::materialOf({}));
+      scene.addBox({0, 0, 0}, {1, 1, 1}, 0);
+      scene.store.mass()[0] = 0.5f;  // 500 J/K
+      scene.start([](size_t) { return 300.0; });
+      scene.heat.setSources({{&heater, "heater", {500}}});
+      scene.heat.advance(scene.store, scene.neighbours, 1);
+      QVERIFY(std::abs(scene.store.temperature()[0] - 301) < 1e-9);
+      scene.heat.setSources({{&heater, "heater", {500}}, {&heater, "blown", {2e6}}, {&heater, "cooler", {-1e6}}});
+      QVERIFY(scene.heat.advance(scene.store, scene.neighbours, 1));
+      const std::vector<ps::PluginFault> faults = scene.heat.takeSourceFaults();
+      QCOMPARE(faults.size(), size_t{1});
+      QCOMPARE(faults[0].plugin, std::string("blown"));
+      QCOMPARE(faults[0].what, std::string("the fuse has blown"));
+      QVERIFY(scene.store.temperature()[0] >= 1);
+      QVERIFY(scene.heat.takeSourceFaults().empty());
+    }
   }
 
   void anotherModelTakesOverTemperaturesAndBooksTheDifference() {

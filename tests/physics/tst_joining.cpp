@@ -352,7 +352,7 @@ class TestJoining : public QObject {
     const ps::constraint::ClusterModel clusters;
     const ps::constraint::ClothModel cloth;
     const ps::constraint::RopeModel rope;
-    const ps::api::ConstraintPlugin* const plugins[] = {&clusters, &cloth, &rope};
+    const ps::AnyConstraint plugins[] = {&clusters, &cloth, &rope};
     const std::vector<Point> shapes[] = {lattice(5, 5, 5, kSpacing, 0), lattice(8, 1, 8, kSpacing, 0),
                                          lattice(12, 1, 1, kSpacing, 0)};
     ps::Material wax = matterOf("wax", 330);
@@ -361,7 +361,7 @@ class TestJoining : public QObject {
     prepare(solver, settingsOf(kSpacing), wax);
     solver.setWalls(tray(0.24));
     solver.setThermal({}, &m_enthalpy, "enthalpy", {});
-    std::vector<double> parameters = parametersOf(*plugins[kind]);
+    std::vector<double> parameters = parametersOf(ps::commonOf(plugins[kind]));
     if (kind == 2) parameters[ps::constraint::RopeModel::kStretchStiffness] = 10;  // N, what the step resolves
     const uint32_t set = solver.addConstraintSet(plugins[kind], "soft", parameters);
     addSet(solver, false);

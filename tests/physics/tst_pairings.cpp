@@ -107,10 +107,10 @@ class TestPairings : public QObject {
       spawn.fixed = kind.fixed;
       spawn.body = body++;
       if (*kind.constraint) {
-        const ps::api::ConstraintPlugin* plugin = registry.constraint(kind.constraint);
+        const auto plugin = registry.constraintForm(kind.constraint);
         QVERIFY2(plugin, kind.constraint);
         spawn.constraintSets = {
-            solver.addConstraintSet(plugin, kind.constraint, ps::numbersOf({}, plugin->parameters()))};
+            solver.addConstraintSet(*plugin, kind.constraint, ps::numbersOf({}, registry.parameters(kind.constraint)))};
       }
       solver.spawn(spawn);
     }

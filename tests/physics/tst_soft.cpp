@@ -44,15 +44,15 @@ double sagOf(int substeps, int iterations) {
 }
 
 /// How much longer a bar grows that hangs from its top layer, in m, and what Hooke's law says.
-double extensionOf(const ps::api::ConstraintPlugin& plugin, double modulus, int substeps, int iterations) {
+double extensionOf(const ps::AnyConstraint& plugin, double modulus, int substeps, int iterations) {
   Solver solver;
   prepare(solver, stepsOf(kDx, substeps, iterations, 6), matter(1000, modulus));
-  std::vector<double> parameters = parametersOf(plugin);
-  if (dynamic_cast<const ClusterModel*>(&plugin)) {
-    parameters[ClusterModel::kRadius] = 1.8;  // less than half the bar's width
+  std::vector<double> parameters = parametersOf(ps::commonOf(plugin));
+  if (std::holds_alternative<const ps::api::GroupPlugin*>(plugin)) {  // the clusters
+    parameters[ClusterModel::kRadius] = 1.8;                          // less than half the bar's width
     parameters[ClusterModel::kSpacing] = 1.5;
   }
-  const uint32_t set = solver.addConstraintSet(&plugin, "plugin", std::move(parameters));
+  const uint32_t set = solver.addConstraintSet(plugin, "plugin", std::move(parameters));
   solver.spawn(solid(grid(4, 13, 4, kDx, {0, 0.4, 0}), set));
   pin(solver, [](Vec x) { return x.y > 0.99; });
   if (!run(solver, 200)) return 0;
@@ -113,7 +113,7 @@ class TestSoft : public QObject {
     QFETCH(double, tolerance);
     const BondModel bonds;
     const ClusterModel blocks;
-    const ps::api::ConstraintPlugin& plugin = clusters ? static_cast<const ps::api::ConstraintPlugin&>(blocks) : bonds;
+    const ps::AnyConstraint plugin = clusters ? ps::AnyConstraint(&blocks) : ps::AnyConstraint(&bonds);
     const double modulus = 2.9 * 1000 * kDx * kDx * 3600 / 0.4;  // k dt²/m = 2.9 for bonds at one substep
     const double few = extensionOf(plugin, modulus, 1, 32), many = extensionOf(plugin, modulus, 32, 1);
     const double hooke = 1000 * 9.81 * 0.6 * 0.6 / (2 * modulus);
@@ -367,10 +367,10 @@ class TestSoft : public QObject {
     Solver solver;
     prepare(solver, settingsOf(0.02), matter(100, 2e4));
     const auto add = [&](const QString& kind, bool upper, double height) {
-      const std::array<const ps::api::ConstraintPlugin*, 5> plugins{&cloth, &rope, &clusters, &stiff, &bonds};
+      const std::array<ps::AnyConstraint, 5> plugins{&cloth, &rope, &clusters, &stiff, &bonds};
       const std::array<const char*, 5> names{"cloth", "rope", "clusters", "rigid", "bonds"};
       const size_t k = static_cast<size_t>(std::find(names.begin(), names.end(), kind) - names.begin());
-      const uint32_t set = solver.addConstraintSet(plugins[k], names[k], parametersOf(*plugins[k]));
+      const uint32_t set = solver.addConstraintSet(plugins[k], names[k], parametersOf(ps::commonOf(plugins[k])));
       const bool line = kind == "rope", sheet = kind == "cloth";
       const int wide = upper ? 5 : 11, across = line ? 1 : wide, high = line || sheet ? 1 : upper ? 5 : 3;
       const double half = 0.01 * (wide - 1), side = 0.01 * (across - 1);

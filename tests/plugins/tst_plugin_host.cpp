@@ -127,15 +127,71 @@ class TestPluginHost : public QObject {
     QCOMPARE(info.licence, std::string("MIT"));
   }
 
+  /// Structs of an older SDK end earlier, those of a newer one later: both load, with what this program knows.
+  void structsMayGrow_data() {
+    QTest::addColumn<QString>("file");
+    QTest::addColumn<QString>("leastWord");
+    QTest::newRow("older") << "fixture_older"
+                           << "";
+    QTest::newRow("newer") << "fixture_newer"
+                           << "never";
+  }
+  void structsMayGrow() {
+    QFETCH(QString, file);
+    QFETCH(QString, leastWord);
+    const QString path = directory(qPrintable(file));
+    QVERIFY(QFile::copy(fixture(file), path + "/grown.so"));
+    const PluginRegistry registry(only({path.toStdString()}));
+    QCOMPARE(registry.plugins().at(0).problem, std::string());
+    const api::ParameterList parameters = registry.parameters("fixture.grown");
+    QCOMPARE(parameters.count, size_t(3));
+    for (size_t i = 0; i < 3; ++i) {
+      QCOMPARE(QString(parameters[i].key), QStringList({"one", "two", "three"})[static_cast<qsizetype>(i)]);
+      QCOMPARE(parameters[i].defaultValue, static_cast<double>(i + 1));
+      QCOMPARE(QString(parameters[i].leastWord), leastWord);
+    }
+    const auto form = registry.constraintForm("fixture.grown");
+    QVERIFY(form && std::holds_alternative<const api::StructuralPlugin*>(*form));
+    struct {
+      api::StructuralTraits traits;
+      uint64_t behind[4] = {1, 2, 3, 4};
+    } out;
+    QVERIFY(std::get<const api::StructuralPlugin*>(*form)->traits(&out.traits));
+    QCOMPARE(out.traits.arity, 3u);
+    QCOMPARE(out.traits.values.count, size_t(2));
+    QCOMPARE(out.traits.fields.count, size_t(0));  // unsaid by the older one
+    for (uint64_t k = 0; k < 4; ++k) QCOMPARE(out.behind[k], k + 1);
+  }
+
+  void stampsAreCheckedBeforeLoading_data() {
+    QTest::addColumn<QByteArray>("stamp");
+    QTest::addColumn<QString>("expected");
+    QTest::newRow("other layout") << QByteArray("phasesketch-sdk:0.9:9")
+                                  << "built with the plugin headers 0.9:9, which do not fit this program's, 0.9:1";
+    QTest::newRow("other major") << QByteArray("phasesketch-sdk:1.9:1") << "built with the plugin headers 1.9:1";
+    QTest::newRow("older than it says") << QByteArray("phasesketch-sdk:0.8:1") << "ask for a later version";
+    QTest::newRow("none") << QByteArray("no stamp is to be had") << "carries no stamp";
+  }
+  void stampsAreCheckedBeforeLoading() {
+    QFETCH(QByteArray, stamp);
+    QFETCH(QString, expected);
+    const QString path = withSoundPlugins(QString("stamp ") + QTest::currentDataTag());
+    // A sound one would abort if its code ran.
+    const QByteArray bytes = damaged(contents(fixture("fixture_material")), "phasesketch-sdk:0.9:1", stamp);
+    QVERIFY2(!bytes.isEmpty(), "the file does not hold one stamp");
+    QVERIFY(write(path + "/aborting.so", bytes));
+    expectOneRefusal(path, "aborting.so", expected);
+  }
+
   void damagedMetadataAreRefused_data() {
     QTest::addColumn<QByteArray>("from");
     QTest::addColumn<QByteArray>("to");
     QTest::addColumn<QString>("expected");
     const QByteArray api = cborText("api"), licence = cborText("licence"), kind = cborText("kind");
-    QTest::newRow("other major version") << api + cborText("1.0") << api + cborText("2.0")
+    QTest::newRow("other major version") << api + cborText("0.9") << api + cborText("2.0")
                                          << "version 2.0 of the plugin interface";
-    QTest::newRow("later minor version") << api + cborText("1.0") << api + cborText("1.9") << "update PhaseSketch";
-    QTest::newRow("no version") << api + cborText("1.0") << api + cborText("one") << "must be two numbers";
+    QTest::newRow("later minor version") << api + cborText("0.9") << api + cborText("1.9") << "update PhaseSketch";
+    QTest::newRow("no version") << api + cborText("0.9") << api + cborText("one") << "must be two numbers";
     QTest::newRow("missing key") << licence << cborText("license") << "lack the key \"licence\"";
     QTest::newRow("missing id") << cborText("id") << cborText("ID") << "lack the key \"id\"";
     QTest::newRow("bad id") << cborText("fixture.material") << cborText("Fixture Material") << "must be lower-case";
@@ -143,11 +199,11 @@ class TestPluginHost : public QObject {
         << cborText("fixture.material") << cborText("../../etc/passwd") << "must be lower-case";
     QTest::newRow("bad version") << cborText("1.2.3") << cborText("1..23") << "must be numbers joined by dots";
     QTest::newRow("other kind") << kind + cborText("material") << kind + cborText("rustlike") << "kind \"rustlike\"";
-    QTest::newRow("later interface") << QByteArray("org.phasesketch.Material/1\x07", 26)
-                                     << QByteArray("org.phasesketch.Material/2")
-                                     << "this program has org.phasesketch.Material/1";
-    QTest::newRow("another program's") << QByteArray("org.phasesketch.Material/1")
-                                       << QByteArray("org.elsewhere.gui.Style/12") << "another program";
+    QTest::newRow("later interface") << QByteArray("org.phasesketch.Material/0.9")
+                                     << QByteArray("org.phasesketch.Material/2.0")
+                                     << "this program has org.phasesketch.Material/0.9";
+    QTest::newRow("another program's") << QByteArray("org.phasesketch.Material/0.9")
+                                       << QByteArray("org.elsewhere.gui.Style/1.23") << "another program";
   }
   void damagedMetadataAreRefused() {
     QFETCH(QByteArray, from);
@@ -258,6 +314,8 @@ class TestPluginHost : public QObject {
     row("forgetful_law", "its law for 'density_liquid'");
     QTest::newRow("wide_constraint") << "constraint"
                                      << "2 to 4 particles, not 9";
+    QTest::newRow("silent_constraint") << "constraint"
+                                       << "its traits() says nothing";
     QTest::newRow("duplicate_field") << "thermal"
                                      << "field 'fixture.heat': is declared twice";
   }

@@ -80,10 +80,11 @@ std::string coreProblem(View room, const Include& include) {
 
 std::string sdkProblem(View path, const Include& include) {
   if (include.quoted) return "the SDK includes itself as <phasesketch/...>";
-  if (include.target.starts_with("phasesketch/") || include.target == "cstddef" || include.target == "cstdint")
+  if (include.target.starts_with("phasesketch/") || include.target == "cstddef" || include.target == "cstdint" ||
+      include.target == "cstring")
     return {};
   if (path.ends_with("/qtentry.h") && (include.target == "QObject" || include.target == "QtPlugin")) return {};
-  return "the SDK needs nothing but <cstddef> and <cstdint> (qtentry.h: <QObject> and <QtPlugin>)";
+  return "the SDK needs nothing but <cstddef>, <cstdint> and <cstring> (qtentry.h: <QObject> and <QtPlugin>)";
 }
 
 std::string orderProblem(const Room& from, const Room& to) {

@@ -24,11 +24,12 @@ class BallBrush final : public api::BrushPlugin {
   const char* label() const override { return "Ball"; }
   const char* help() const override { return ""; }
   api::ParameterList parameters() const override { return {}; }
-  void stroke(const api::StrokeContext& c, EditKind kind, api::Span<const StrokeSample> samples,
+  void stroke(const api::StrokeContext& c, EditKind kind, const api::List<StrokeSample>& samples,
               api::EditSink& sink) const override {
     const int reach = static_cast<int>(std::ceil(c.radius / c.spacing));
     const SketchGrid grid{{c.origin.x, c.origin.y, c.origin.z}, c.spacing};
-    for (const StrokeSample& s : samples) {
+    for (size_t k = 0; k < samples.count; ++k) {
+      const StrokeSample s = samples.at(k);
       std::vector<Cell> cells;
       const Cell middle = grid.cellAt({s.position.x, s.position.y, s.position.z});
       for (int z = -reach; z <= reach; ++z)
@@ -54,7 +55,7 @@ class GreedyBrush final : public api::BrushPlugin {
   const char* label() const override { return "Greedy"; }
   const char* help() const override { return ""; }
   api::ParameterList parameters() const override { return {}; }
-  void stroke(const api::StrokeContext&, EditKind kind, api::Span<const StrokeSample>,
+  void stroke(const api::StrokeContext&, EditKind kind, const api::List<StrokeSample>&,
               api::EditSink& sink) const override {
     std::vector<Cell> row(1 << 16);
     for (int y = 0; y < 1000; ++y) {

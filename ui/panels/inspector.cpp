@@ -208,7 +208,9 @@ void Inspector::rebuildBody() {
     const std::string id = body->id + "/" + constraint.plugin;
     const api::ConstraintPlugin* plugin =
         m_document.plugins() ? m_document.plugins()->constraint(constraint.plugin) : nullptr;
-    if (plugin) addRows(rows, "constraint", id, plugin->parameters(), QString::fromUtf8(plugin->label()));
+    if (plugin)
+      addRows(rows, "constraint", id, m_document.plugins()->parameters(constraint.plugin),
+              QString::fromUtf8(plugin->label()));
   }
   m_body->setModel(std::move(rows));
   showLimits();
@@ -232,7 +234,7 @@ void Inspector::rebuildMaterial() {
   showMaterialHeader();
   addRows(rows, "material", material->id, propertyCatalogue(), {}, materialDefaults(project, plugins, material->id));
   if (const api::MaterialPlugin* plugin = plugins ? plugins->materialPlugin(material->base) : nullptr) {
-    addRows(rows, "material", material->id, plugin->parameters(), QString::fromUtf8(plugin->label()));
+    addRows(rows, "material", material->id, plugins->parameters(material->base), QString::fromUtf8(plugin->label()));
   }
   for (const SceneMaterial& other : project.materials) {
     if (auto row = rowOf({"material", material->id, kAdheresKey + other.id})) rows.push_back(std::move(*row));
@@ -348,7 +350,7 @@ void Inspector::rebuildSolver() {
   addRows(rows, "solver", "", solverParameters());
   const std::string& id = m_document.project().solver.thermalModel;
   const api::ThermalPlugin* model = m_document.plugins() ? m_document.plugins()->thermal(id) : nullptr;
-  if (model) addRows(rows, "thermal", "", model->parameters(), QString::fromUtf8(model->label()));
+  if (model) addRows(rows, "thermal", "", m_document.plugins()->parameters(id), QString::fromUtf8(model->label()));
   m_solver->setHeader(QStringLiteral("Solver"), model ? QStringLiteral("Heat by ") + QString::fromUtf8(model->label())
                                                       : QStringLiteral("No heat"));
   m_solver->setModel(std::move(rows));

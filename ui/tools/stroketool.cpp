@@ -49,8 +49,7 @@ StrokeSetup StrokeTool::setup(const BrushSettings& brush) const {
   // Cells stand on the level y = 0, half a spacing above it.
   s.grid.origin = {s.grid.spacing / 2, s.grid.spacing / 2, s.grid.spacing / 2};
   s.radius = brush.radius;
-  const api::BrushPlugin* plugin = m_document->plugins() ? m_document->plugins()->brush(brush.shape) : nullptr;
-  if (plugin) s.parameters = numbersOf({}, plugin->parameters());
+  if (m_document->plugins()) s.parameters = numbersOf({}, m_document->plugins()->parameters(brush.shape));
   return s;
 }
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 #
-# phasesketch_add_plugin(NAME KIND material|constraint|thermal|brush METADATA FILE.json SOURCES FILE... [LIBS TARGET...])
+# phasesketch_add_plugin(NAME KIND material|constraint|thermal|heat_source|brush METADATA FILE.json SOURCES FILE... [LIBS TARGET...])
 #
 # Makes the plugin NAME.so, from C++ sources and the metadata that Q_PLUGIN_METADATA names. List the header that holds
 # Q_PLUGIN_METADATA among SOURCES: then an edited JSON file is compiled in at once. Keep the class in that header; moc
@@ -30,7 +30,7 @@ endfunction()
 
 function(phasesketch_add_plugin name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "KIND;METADATA" "SOURCES;LIBS")
-  set(kinds material constraint thermal brush) # here, not at file level: callers are in other directories
+  set(kinds material constraint thermal heat_source brush) # here, not at file level: callers are in other directories
   if(NOT arg_KIND IN_LIST kinds)
     message(FATAL_ERROR "phasesketch_add_plugin(${name}): KIND must be one of ${kinds}")
   endif()

@@ -87,6 +87,8 @@ void Solver::Impl::runFrame() {
   report = {};
   const auto start = std::chrono::steady_clock::now();
   configure();
+  constraints.setTime(time);
+  heat.setClock(time, thermalTime);
   bool good = true;
   if (store.size() > 0) {
     good = !rejectIfNotFinite();
@@ -116,6 +118,7 @@ void Solver::Impl::runFrame() {
     thermalTime += settings.dt * std::min(thermal.timeScale, heat.thermalTimeScaleDelivered());
   }
   report.faults = constraints.takeFaults();
+  for (PluginFault& fault : heat.takeSourceFaults()) report.faults.push_back(std::move(fault));
   if (std::optional<std::string> fault = heat.takeFault()) report.faults.push_back({modelName, std::move(*fault)});
   if (!report.faults.empty()) structureChanged = true;
   for (const PluginFault& fault : report.faults) {

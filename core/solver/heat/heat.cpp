@@ -60,6 +60,8 @@ api::ThermalContext HeatStage::context() const {
   context.parameters = {m_parameters.data(), m_parameters.size()};
   context.materials = {m_materialViews.data(), m_materialViews.size()};
   context.supportRadius = m_solver.spacing * m_solver.supportRatio;
+  context.time = m_time;
+  context.thermalTime = m_thermalTime;
   return context;
 }
 
@@ -92,8 +94,10 @@ bool HeatStage::initialise(ParticleStore& store, size_t first, size_t last, std:
 void HeatStage::startState(ParticleStore& store, size_t first, size_t last, std::span<const double> temperature,
                            std::span<const api::Phase> phase) {
   const auto fields = m_model->fields();
-  for (size_t k = 0; k < fields.count; ++k)
-    store.declare(fields[k].name, fields[k].type, fields[k].unit, fields[k].help);
+  for (size_t k = 0; k < fields.count; ++k) {
+    const api::FieldDeclaration f = fields.at(k);
+    store.declare(f.name, f.type, f.unit, f.help);
+  }
   m_newTemperature.resize(store.size());
   m_newPhase.resize(store.size());
   std::copy(temperature.begin(), temperature.end(), m_newTemperature.begin() + static_cast<std::ptrdiff_t>(first));
@@ -111,8 +115,10 @@ void HeatStage::adopt(ParticleStore& store) {
   const size_t n = store.size();
   if (n == 0) return;
   const auto fields = m_model->fields();
-  for (size_t k = 0; k < fields.count; ++k)
-    store.declare(fields[k].name, fields[k].type, fields[k].unit, fields[k].help);
+  for (size_t k = 0; k < fields.count; ++k) {
+    const api::FieldDeclaration f = fields.at(k);
+    store.declare(f.name, f.type, f.unit, f.help);
+  }
   m_newTemperature.assign(store.temperature(), store.temperature() + n);
   m_model->initialise(context(), store.view(), 0, n, m_newTemperature.data(), store.phase());
   deriveRange(store, 0, n);
@@ -231,7 +237,7 @@ void HeatStage::exchange(ParticleStore& store, const Neighbours& neighbours, dou
 }
 
 /// Whether nothing warms or cools anything else, nor itself; vapour is never left alone, for the sake of nucleation.
-bool HeatStage::isBalanced(const ParticleStore& store, const api::ParticleView& view, const api::NeighbourView& lists,
+bool HeatStage::isBalanced(ParticleStore& store, const api::ParticleView& view, const api::NeighbourView& lists,
                            double time) {
   const double *temperature = store.temperature(), *end = temperature + store.size();
   const auto [low, high] = std::minmax_element(temperature, end);
@@ -423,7 +429,7 @@ void HeatStage::gatherPairLaw(const api::NeighbourView& lists, double step, size
   }
 }
 
-/// What comes once a frame (film, nucleation), walls of given flux and the model's own sources.
+/// What comes once a frame (film, nucleation), walls of given flux and sources.
 void HeatStage::addFrameHeat(double step, bool firstStep, size_t first, size_t last, Partial& partial) {
   for (size_t i = first; i < last; ++i) {
     const double source = m_watts[i] * step;

@@ -8,6 +8,7 @@
 #include "core/solver/heat/heatpairs.h"
 #include "core/solver/heat/heatsources.h"
 #include "core/solver/heat/heatsurroundings.h"
+#include "core/solver/heatsource.h"
 #include "core/solver/report.h"
 #include "core/solver/settings.h"
 
@@ -33,7 +34,7 @@ namespace ps {
 /// evaporation below the boiling point.
 ///
 /// Where all is as warm as everything around it, to 1e-9 K, nothing is exchanged and no pairs are made: the model is
-/// asked for sources and told that the whole frame's time has passed.
+/// told that the whole frame's time has passed.
 ///
 /// A finite lump of air (airHeatCapacity) keeps one temperature, which follows what it gives and takes; its energy and
 /// the particles' are constant together.
@@ -76,6 +77,12 @@ class HeatStage {
     m_ledger.sources += joules;
     m_ledger.exchanged += joules < 0 ? -joules : joules;
   }
+  /// Plugins that warm or cool matter, whatever the model; one that throws is put aside for good.
+  void setSources(std::vector<HeatSource> sources) { m_sources.set(std::move(sources)); }
+  /// Those that threw since the last call.
+  std::vector<PluginFault> takeSourceFaults() { return m_sources.takeFaults(); }
+  /// s of the scene and of its thermal clock, for plugins.
+  void setClock(double time, double thermalTime) { m_time = time, m_thermalTime = thermalTime; }
   /// Power of bodies, whatever the model.
   BodyHeating& bodyHeating() { return m_bodyHeating; }
   /// False without a model, and when it was put aside.
@@ -106,14 +113,13 @@ class HeatStage {
                   std::span<const api::Phase> phase);
   void adopt(ParticleStore& store);
   void exchange(ParticleStore& store, const Neighbours& neighbours, double dt, uint64_t frame);
-  bool isBalanced(const ParticleStore& store, const api::ParticleView& view, const api::NeighbourView& lists,
-                  double time);
+  bool isBalanced(ParticleStore& store, const api::ParticleView& view, const api::NeighbourView& lists, double time);
   void passTime(ParticleStore& store, const api::ParticleView& view, double time);
   void deriveRange(ParticleStore& store, size_t first, size_t last);
   void snapshotRange(const ParticleStore& store, HeatInstant& instant, size_t first, size_t last) const;
   void prepare(ParticleStore& store, const Neighbours& neighbours, uint64_t frame);
   void sumConductances(const ParticleStore& store, size_t first, size_t last, Partial& partial);
-  void collectFrameHeat(const ParticleStore& store, const api::ParticleView& view, double frame);
+  void collectFrameHeat(ParticleStore& store, const api::ParticleView& view, double frame);
   void filmHeat(const ParticleStore& store, size_t i, double frame, Partial& partial);
   void countBoiling(const ParticleStore& store, size_t first, size_t last);
   void nucleate(const ParticleStore& store, size_t first, size_t last);
@@ -159,15 +165,17 @@ class HeatStage {
   HeatLedger m_ledger;
   int m_substeps = 0;  ///< explicit steps and sweeps of this frame
   double m_delivered = 1, m_limit = 0;
+  double m_time = 0, m_thermalTime = 0;
   bool m_swept = false, m_pairLaw = false, m_boiling = false;
 
   HeatPairs m_pairs;
   BodyHeating m_bodyHeating;
+  PluginHeating m_sources;
   HeatInstant m_now, m_next;
   std::vector<Partial> m_partials;
   std::vector<double> m_joules;       ///< of the present substep
   std::vector<double> m_frameJoules;  ///< film and nucleation, once a frame
-  std::vector<double> m_watts;        ///< the model's own sources and bodies' power, W of thermal time
+  std::vector<double> m_watts;        ///< sources and bodies' power, W of thermal time
   std::vector<double> m_pairWatts;    ///< the model's own pair law, per list entry
   std::vector<double> m_lawRates;     ///< 1/s, the fastest of that law, by chunk
   double m_pairRate = 0;              ///< and of all

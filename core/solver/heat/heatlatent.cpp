@@ -36,14 +36,13 @@ double HeatStage::latentContent(const ParticleStore& store, size_t i) const {
   return double{store.mass()[i]} * latentHeatOf(m_materials[store.material()[i]].caloric());
 }
 
-void HeatStage::collectFrameHeat(const ParticleStore& store, const api::ParticleView& view, double frame) {
+void HeatStage::collectFrameHeat(ParticleStore& store, const api::ParticleView& view, double frame) {
   const size_t n = store.size();
   std::fill(m_watts.begin(), m_watts.begin() + static_cast<std::ptrdiff_t>(n), 0.0);
   std::fill(m_frameJoules.begin(), m_frameJoules.begin() + static_cast<std::ptrdiff_t>(n), 0.0);
-  const api::ThermalContext where = context();
+  m_sources.addTo(store, view, context(), m_materials, frame, m_watts);
   m_bodyHeating.measure(store);
   const auto sources = [&](size_t first, size_t last) {
-    m_model->sources(where, view, first, last, m_watts.data());
     m_bodyHeating.addTo(store, m_materials, frame, first, last, m_watts);
     if (!m_boiling) return;
     for (size_t i = first; i < last; ++i) filmHeat(store, i, frame, m_partials[first / kGrain]);

@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/solver/heat/heatsources.h"
 
+#include "core/base/error.h"
+#include "core/base/parallel.h"
+
 #include <algorithm>
+#include <cmath>
 
 namespace ps {
 namespace {
 
 constexpr double kColdest = 1;  // K
+constexpr size_t kGrain = 256;
 
 /// J that may be taken from a particle before it is colder than kColdest, whatever it is made of.
 double heatAbove(const api::Caloric& c, double mass, double temperature) {
@@ -40,6 +45,56 @@ void BodyHeating::addTo(const ParticleStore& store, std::span<const BakedMateria
     }
     watts[i] += share;
   }
+}
+
+void PluginHeating::set(std::vector<HeatSource> sources) { m_sources = std::move(sources); }
+
+void PluginHeating::addTo(ParticleStore& store, const api::ParticleView& view, const api::ThermalContext& where,
+                          std::span<const BakedMaterial> materials, double frame, std::span<double> watts) {
+  for (const HeatSource& source : m_sources) {
+    if (std::find(m_aside.begin(), m_aside.end(), source.name) != m_aside.end()) continue;
+    std::string problem;
+    try {
+      ask(source, store, view, where);
+    } catch (const std::exception& e) {
+      problem = e.what();
+    } catch (...) {
+      problem = "threw something that is no std::exception";
+    }
+    if (!problem.empty()) {
+      m_aside.push_back(source.name);
+      m_faults.push_back({source.name, std::move(problem)});
+      continue;
+    }
+    forChunks(store.size(), kGrain, [&](size_t first, size_t last) {
+      for (size_t i = first; i < last; ++i) {
+        double share = m_watts[i];
+        if (share < 0) {
+          const double there =
+              heatAbove(materials[store.material()[i]].caloric(), store.mass()[i], store.temperature()[i]);
+          share = std::max(share, -there / frame);
+        }
+        watts[i] += share;
+      }
+    });
+  }
+}
+
+void PluginHeating::ask(const HeatSource& source, ParticleStore& store, const api::ParticleView& view,
+                        api::ThermalContext where) {
+  const api::List<api::FieldDeclaration> fields = source.plugin->fields();
+  for (size_t k = 0; k < fields.count; ++k) {
+    const api::FieldDeclaration f = fields.at(k);
+    store.declare(f.name, f.type, f.unit, f.help);
+  }
+  where.parameters = {source.parameters.data(), source.parameters.size()};
+  m_watts.assign(store.size(), 0.0);
+  forChunks(store.size(), kGrain, [&](size_t first, size_t last) {
+    source.plugin->addWatts(where, view, first, last, m_watts.data());
+    for (size_t i = first; i < last; ++i) {
+      if (!std::isfinite(m_watts[i])) throw Error("its heat is not a finite number");
+    }
+  });
 }
 
 }  // namespace ps

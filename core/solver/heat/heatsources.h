@@ -2,8 +2,12 @@
 #pragma once
 #include "core/matter/material.h"
 #include "core/particles/particlestore.h"
+#include "core/solver/heatsource.h"
+#include "core/solver/report.h"
 
 #include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace ps {
@@ -24,6 +28,26 @@ class BodyHeating {
  private:
   std::vector<double> m_watts;    ///< W by body
   std::vector<double> m_perMass;  ///< W/kg by body; empty when nothing is heated
+};
+
+/// Heat that plugins put into matter or take from it, in W of thermal time. Cooling leaves each particle at 1 K at
+/// least. One that throws, or answers with what is no finite number, is put aside for good.
+class PluginHeating {
+ public:
+  void set(std::vector<HeatSource> sources);
+  /// Adds W to all particles for a frame of `frame` s of thermal time. Declares the plugins' fields when they are new.
+  void addTo(ParticleStore& store, const api::ParticleView& view, const api::ThermalContext& where,
+             std::span<const BakedMaterial> materials, double frame, std::span<double> watts);
+  /// Those put aside since the last call.
+  std::vector<PluginFault> takeFaults() { return std::exchange(m_faults, {}); }
+
+ private:
+  void ask(const HeatSource& source, ParticleStore& store, const api::ParticleView& view, api::ThermalContext where);
+
+  std::vector<HeatSource> m_sources;
+  std::vector<std::string> m_aside;
+  std::vector<PluginFault> m_faults;
+  std::vector<double> m_watts;  ///< of one source
 };
 
 }  // namespace ps

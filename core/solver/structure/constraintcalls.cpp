@@ -53,69 +53,76 @@ void ConstraintSystem::forBatches(Set& set, uint32_t substep, uint32_t iteration
 }
 
 void ConstraintSystem::predict(const ParticleStore& store, uint32_t substep) {
+  const api::ParticleView view = store.view();
   for (Set& set : m_sets) {
     guarded(set, [&] {
-      forBatches(set, substep, 0, [&](const auto& c, const auto& b) { set.plugin->predict(c, store.view(), b); });
+      forBatches(set, substep, 0, [&](const auto& c, const auto& b) { set.structural->predict(c, view, b); });
     });
   }
   predictGroups(store, substep);
 }
 
 void ConstraintSystem::projectStructure(const ParticleStore& store, uint32_t substep, uint32_t iteration) {
+  const api::ParticleView view = store.view();
+  const api::MovableParticles particles = movable(store, view);
   for (Set& set : m_sets) {
     guarded(set, [&] {
       forBatches(set, substep, iteration,
-                 [&](const auto& c, const auto& b) { set.plugin->project(c, store.view(), b); });
+                 [&](const auto& c, const auto& b) { set.structural->project(c, particles, b); });
     });
   }
 }
 
+/// Every correction comes from the places that all had before; then each particle takes its own.
 void ConstraintSystem::projectNeighbours(ParticleStore& store, const Neighbours& neighbours, uint32_t substep,
                                          uint32_t iteration) {
+  const api::ParticleView view = store.view();
+  const api::NeighbourView lists = neighbours.view();
   for (Set& set : m_sets) {
-    if (set.structural || set.groups || set.disabled) continue;
-    for (uint32_t body = 0; body < set.used.size(); ++body) {
-      if (set.used[body] == 0) continue;
-      // Bodies of the same parameters share a pass, that of the first of them.
-      const auto alike = [&](uint32_t other) {
-        if (other >= set.used.size() || set.used[other] == 0) return false;
-        const api::Span<const double> a = set.parametersOf[body], b = set.parametersOf[other];
-        return std::equal(a.begin(), a.end(), b.begin(), b.end());
-      };
-      bool done = false;
-      for (uint32_t other = 0; other < body; ++other) done = done || alike(other);
-      if (!done && gather(set, body, store, neighbours, substep, iteration)) applyCorrection(store, alike);
-    }
-  }
-}
-
-bool ConstraintSystem::gather(Set& set, uint32_t body, const ParticleStore& store, const Neighbours& neighbours,
-                              uint32_t substep, uint32_t iteration) {
-  m_correction.assign(store.size() + 1, api::Float4{0, 0, 0, 0});
-  const api::ConstraintContext c = context(set, substepTime(), substep, iteration, body);
-  return guarded(set, [&] {
-    forChunks(store.size(), kGatherGrain, [&](size_t first, size_t last) {
-      set.plugin->gather(c, store.view(), neighbours.view(), first, last, m_correction.data());
+    if (!set.neighbour || set.disabled) continue;
+    findMembers(set, store);
+    m_correction.assign(set.members.size(), api::Float4{0, 0, 0, 0});
+    const api::ConstraintContext c = context(set, substepTime(), substep, iteration);
+    const bool done = guarded(set, [&] {
+      forChunks(set.members.size(), kGatherGrain, [&](size_t first, size_t last) {
+        set.neighbour->gather(c, view, lists, {set.members.data() + first, last - first}, m_correction.data() + first);
+      });
     });
-  });
+    if (!done) continue;
+    forChunks(set.members.size(), kBatchGrain, [&](size_t first, size_t last) {
+      for (size_t k = first; k < last; ++k) {
+        const uint32_t i = set.members[k];
+        if (store.velocity()[i].w == 0) continue;
+        api::Float4& position = store.position()[i];
+        position.x += m_correction[k].x;
+        position.y += m_correction[k].y;
+        position.z += m_correction[k].z;
+      }
+    });
+  }
 }
 
-template <class Takes>
-void ConstraintSystem::applyCorrection(ParticleStore& store, Takes&& takes) const {
-  api::Float4* position = store.position();
-  for (size_t i = 0; i < store.size(); ++i) {
-    if (store.velocity()[i].w == 0 || !takes(store.body()[i])) continue;
-    position[i].x += m_correction[i].x;
-    position[i].y += m_correction[i].y;
-    position[i].z += m_correction[i].z;
+void ConstraintSystem::findMembers(Set& set, const ParticleStore& store) const {
+  if (set.membersOf == store.size()) return;
+  set.members.clear();
+  for (uint32_t i = 0; i < store.size(); ++i) {
+    const uint32_t body = store.body()[i];
+    if (body < set.used.size() && set.used[body] != 0) set.members.push_back(i);
   }
+  set.membersOf = store.size();
+}
+
+void ConstraintSystem::forgetMembers() {
+  for (Set& set : m_sets) set.membersOf = ~size_t{0};
 }
 
 void ConstraintSystem::deriveVelocities(const ParticleStore& store, uint32_t substep) {
+  const api::ParticleView view = store.view();
+  const api::MovableParticles particles = movable(store, view);
   for (Set& set : m_sets) {
     guarded(set, [&] {
       forBatches(set, substep, 0,
-                 [&](const auto& c, const auto& b) { set.plugin->deriveVelocities(c, store.view(), b); });
+                 [&](const auto& c, const auto& b) { set.structural->deriveVelocities(c, particles, b); });
     });
   }
   deriveGroupVelocities(store, substep);
@@ -131,7 +138,7 @@ double ConstraintSystem::energy(const ParticleStore& store) {
         BatchView view;
         for (size_t v = 0; v < set.valueCount; ++v) view.values[v] = set.values[v].data() + first;
         view.batch = {last - first, set.particles.data() + first * set.arity, view.values.data()};
-        sum += set.plugin->energy(context(set, substepTime(), 0, 0, body), store.view(), view.batch);
+        sum += set.structural->energy(context(set, substepTime(), 0, 0, body), store.view(), view.batch);
       });
     });
   }

@@ -74,24 +74,29 @@ void ConstraintSystem::forGroups(Set& set, uint32_t substep, uint32_t iteration,
 }
 
 void ConstraintSystem::predictGroups(const ParticleStore& store, uint32_t substep) {
+  const api::ParticleView view = store.view();
+  const api::MovableParticles particles = movable(store, view);
   for (Set& set : m_sets) {
     forGroups(set, substep, 0,
-              [&](const auto& c, const api::GroupBatch& batch) { set.plugin->predictGroups(c, store.view(), batch); });
+              [&](const auto& c, const api::GroupBatch& batch) { set.group->predict(c, particles, batch); });
   }
 }
 
 void ConstraintSystem::projectGroups(const ParticleStore& store, uint32_t substep, uint32_t iteration) {
+  const api::ParticleView view = store.view();
+  const api::MovableParticles particles = movable(store, view);
   for (Set& set : m_sets) {
     forGroups(set, substep, iteration,
-              [&](const auto& c, const api::GroupBatch& batch) { set.plugin->projectGroups(c, store.view(), batch); });
+              [&](const auto& c, const api::GroupBatch& batch) { set.group->project(c, particles, batch); });
   }
 }
 
 void ConstraintSystem::deriveGroupVelocities(const ParticleStore& store, uint32_t substep) {
+  const api::ParticleView view = store.view();
+  const api::MovableParticles particles = movable(store, view);
   for (Set& set : m_sets) {
-    forGroups(set, substep, 0, [&](const auto& c, const api::GroupBatch& batch) {
-      set.plugin->deriveGroupVelocities(c, store.view(), batch);
-    });
+    forGroups(set, substep, 0,
+              [&](const auto& c, const api::GroupBatch& batch) { set.group->deriveVelocities(c, particles, batch); });
   }
 }
 
@@ -101,8 +106,8 @@ void ConstraintSystem::buildGroups(Set& set, const ParticleStore& store, const N
   set.groups->fill(all, 0, set.groups->count());
   Groups sink(*set.groups, store);
   if (guarded(set, [&] {
-        set.plugin->buildGroups(context(set, m_settings.dt, 0, 0, store.body()[members[0]]), store.view(),
-                                neighbours.view(), {members.data(), members.size()}, all.view, sink);
+        set.group->build(context(set, m_settings.dt, 0, 0, store.body()[members[0]]), store.view(), neighbours.view(),
+                         {members.data(), members.size()}, all.view, sink);
       })) {
     set.groups->apply(sink.edits(), {store.body(), store.size()});
     m_graphValid = false;
@@ -115,7 +120,7 @@ bool ConstraintSystem::groupTopology(Set& set, const ParticleStore& store, const
   set.groups->fill(all, 0, set.groups->count());
   Groups sink(*set.groups, store);
   if (!guarded(set, [&] {
-        set.plugin->groupTopology(context(set, m_settings.dt, 0, 0), store.view(), neighbours.view(), all.view, sink);
+        set.group->topology(context(set, m_settings.dt, 0, 0), store.view(), neighbours.view(), all.view, sink);
       })) {
     return true;
   }
@@ -134,7 +139,7 @@ double ConstraintSystem::groupEnergy(Set& set, const ParticleStore& store) {
       while (next < groups.count() && groups.body(next) == groups.body(first)) ++next;
       GroupLists::Batch batch;
       groups.fill(batch, first, next);
-      sum += set.plugin->groupEnergy(context(set, substepTime(), 0, 0, groups.body(first)), store.view(), batch.view);
+      sum += set.group->energy(context(set, substepTime(), 0, 0, groups.body(first)), store.view(), batch.view);
     }
   });
   return sum;
@@ -146,8 +151,9 @@ void ConstraintSystem::putGroupsBack(Set& set, const ParticleStore& store, std::
   m_graphValid = false;
   GroupLists::Batch all;
   set.groups->fill(all, 0, set.groups->count());
+  const api::ParticleView view = store.view();
   guarded(set, [&] {
-    set.plugin->restoreMembers(context(set, m_settings.dt, 0, 0), store.view(), all.view, returned.data());
+    set.group->restoreMembers(context(set, m_settings.dt, 0, 0), movable(store, view), all.view, returned.data());
   });
 }
 

@@ -63,36 +63,66 @@ void ConstraintSystem::configure(const SolverSettings& settings, std::span<const
   for (const BakedMaterial& m : materials) m_materials.push_back(&m);
 }
 
-uint32_t ConstraintSystem::addSet(const api::ConstraintPlugin* plugin, std::string name, std::vector<double> parameters,
+namespace {
+
+/// What a plugin says of itself; what it leaves unsaid has the defaults.
+template <class Traits, class Plugin>
+Traits traitsOf(const Plugin& plugin, const std::string& name) {
+  Traits traits;
+  if (!plugin.traits(&traits)) throw Error("constraint plugin '" + name + "' does not say what it is");
+  const auto requireFew = [&](const api::List<api::FieldDeclaration>& values, const char* whose) {
+    if (values.count > kMostValues)
+      throw Error("constraint plugin '" + name + "' declares more than 16 values" + whose);
+  };
+  if constexpr (requires { traits.values; }) requireFew(traits.values, "");
+  if constexpr (requires { traits.memberValues; }) requireFew(traits.memberValues, " of a member");
+  return traits;
+}
+
+}  // namespace
+
+uint32_t ConstraintSystem::addSet(const AnyConstraint& plugin, std::string name, std::vector<double> parameters,
                                   ParticleStore& store) {
-  const api::ConstraintTraits traits = plugin->traits();
   Set set;
-  set.plugin = plugin;
+  set.plugin = &commonOf(plugin);
   set.name = std::move(name);
   set.parameters = std::move(parameters);
-  set.thin = traits.thin != 0;
-  set.structural = traits.form == api::ConstraintTraits::Form::Structural;
-  if (set.structural && (traits.arity < 2 || traits.arity > 4)) {
-    throw Error("constraint plugin '" + set.name + "' declares an arity outside 2 to 4");
-  }
-  if (traits.values.count > kMostValues)
-    throw Error("constraint plugin '" + set.name + "' declares more than 16 values");
-  if (traits.form == api::ConstraintTraits::Form::Group) {
-    if (traits.memberValues.count > kMostValues)
-      throw Error("constraint plugin '" + set.name + "' declares more than 16 values of a member");
+  set.colourStart.assign(1, 0);
+  if (const auto* structural = std::get_if<const api::StructuralPlugin*>(&plugin)) {
+    set.structural = *structural;
+    const auto traits = traitsOf<api::StructuralTraits>(*set.structural, set.name);
+    if (traits.arity < 2 || traits.arity > 4) {
+      throw Error("constraint plugin '" + set.name + "' declares an arity outside 2 to 4");
+    }
+    set.arity = traits.arity;
+    set.valueCount = traits.values.count;
+    set.values.resize(set.valueCount);
+    set.thin = traits.thin != 0;
+    declareFields(set, traits.fields, store);
+  } else if (const auto* group = std::get_if<const api::GroupPlugin*>(&plugin)) {
+    set.group = *group;
+    const auto traits = traitsOf<api::GroupTraits>(*set.group, set.name);
     set.groups = std::make_unique<GroupLists>(traits.values.count, traits.memberValues.count);
     set.rigid = traits.rigid != 0;
-  }
-  set.arity = set.structural ? traits.arity : 0;
-  set.valueCount = set.structural ? traits.values.count : 0;
-  set.values.resize(set.valueCount);
-  set.colourStart.assign(1, 0);
-  for (size_t k = 0; k < traits.fields.count; ++k) {
-    const api::FieldDeclaration& f = traits.fields[k];
-    store.declare(f.name, f.type, f.unit, f.help);
+    set.thin = traits.thin != 0;
+    declareFields(set, traits.fields, store);
+  } else {
+    set.neighbour = std::get<const api::NeighbourPlugin*>(plugin);
+    declareFields(set, traitsOf<api::NeighbourTraits>(*set.neighbour, set.name).fields, store);
   }
   m_sets.push_back(std::move(set));
   return static_cast<uint32_t>(m_sets.size() - 1);
+}
+
+void ConstraintSystem::declareFields(Set& set, api::List<api::FieldDeclaration> fields, ParticleStore& store) {
+  try {
+    for (size_t k = 0; k < fields.count; ++k) {
+      const api::FieldDeclaration f = fields.at(k);
+      store.declare(f.name, f.type, f.unit, f.help);
+    }
+  } catch (const Error& clash) {  // what was there first goes on
+    putAside(set, clash.what());
+  }
 }
 
 void ConstraintSystem::setParameters(uint32_t index, uint32_t body, std::vector<double> parameters) {
@@ -121,7 +151,9 @@ api::ConstraintContext ConstraintSystem::context(const Set& set, double dt, uint
                            {set.parameters.data(), set.parameters.size()},
                            {m_materials.data(), m_materials.size()},
                            body,
-                           {set.parametersOf.data(), set.parametersOf.size()}};
+                           0,
+                           {set.parametersOf.data(), set.parametersOf.size()},
+                           m_time};
   c.parameters = c.parametersOf(body);
   return c;
 }
@@ -235,13 +267,14 @@ void ConstraintSystem::build(uint32_t index, const ParticleStore& store, const N
   if (set.thin) m_thin[body] = 1;
   if (body >= set.bodyParameters.size()) set.bodyParameters.resize(body + size_t{1});
   refreshParameters(set);
+  set.membersOf = ~size_t{0};
   if (set.groups) buildGroups(set, store, neighbours, members);
   if (!set.structural) return;
   Edits edits;
   Sink sink(*this, set, store, edits);
   if (guarded(set, [&] {
-        set.plugin->build(context(set, m_settings.dt, 0, 0, body), store.view(), neighbours.view(),
-                          {members.data(), members.size()}, sink);
+        set.structural->build(context(set, m_settings.dt, 0, 0, body), store.view(), neighbours.view(),
+                              {members.data(), members.size()}, sink);
       })) {
     apply(set, store, edits);
   }
@@ -254,6 +287,7 @@ void ConstraintSystem::remap(std::span<const uint32_t> order) {
     for (uint32_t& i : set.particles) i = m_newIndex[i];
     if (set.groups) set.groups->renumber(m_newIndex);
   }
+  forgetMembers();
   m_graphValid = false;
 }
 
@@ -274,6 +308,7 @@ void ConstraintSystem::removeParticles(const ParticleStore& store, std::span<con
     for (uint32_t& i : set.particles) i = m_newIndex[i];
     if (set.groups) set.groups->renumber(m_newIndex);
   }
+  forgetMembers();
   m_graphValid = false;
 }
 
@@ -297,6 +332,7 @@ CopiedConstraints ConstraintSystem::copy(const ParticleStore& store, std::span<c
 }
 
 void ConstraintSystem::putBack(const ParticleStore& store, const CopiedConstraints& copies) {
+  forgetMembers();
   for (const CopiedConstraints::Set& copied : copies.sets) {
     const auto found = std::find_if(m_sets.begin(), m_sets.end(), [&](const Set& s) { return s.name == copied.name; });
     if (found == m_sets.end() || found->disabled) continue;
@@ -331,7 +367,7 @@ bool ConstraintSystem::topology(const ParticleStore& store, const Neighbours& ne
     Edits edits;
     Sink sink(*this, set, store, edits);
     if (!guarded(set, [&] {
-          set.plugin->topology(context(set, m_settings.dt, 0, 0), store.view(), neighbours.view(), all, sink);
+          set.structural->topology(context(set, m_settings.dt, 0, 0), store.view(), neighbours.view(), all, sink);
         })) {
       changed = true;
       continue;

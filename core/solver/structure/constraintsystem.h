@@ -2,11 +2,10 @@
 #pragma once
 #include "core/matter/material.h"
 #include "core/particles/neighbours.h"
+#include "core/solver/anyconstraint.h"
 #include "core/solver/report.h"
 #include "core/solver/settings.h"
 #include "core/solver/structure/grouplists.h"
-
-#include <phasesketch/constraint.h>
 
 #include <memory>
 #include <string>
@@ -56,8 +55,7 @@ struct CopiedConstraints {
 class ConstraintSystem {
  public:
   void configure(const SolverSettings& settings, std::span<const BakedMaterial> materials);
-  uint32_t addSet(const api::ConstraintPlugin* plugin, std::string name, std::vector<double> parameters,
-                  ParticleStore& store);
+  uint32_t addSet(const AnyConstraint& plugin, std::string name, std::vector<double> parameters, ParticleStore& store);
   /// A body's own, in place of the set's.
   void setParameters(uint32_t set, uint32_t body, std::vector<double> parameters);
 
@@ -81,6 +79,7 @@ class ConstraintSystem {
   /// Once per frame. True when the structure has changed.
   bool topology(const ParticleStore& store, const Neighbours& neighbours);
   double energy(const ParticleStore& store);  ///< J
+  void setTime(double seconds) { m_time = seconds; }
   void limits(const ParticleStore& store, std::vector<Limit>& out);
 
   /// 1 for each particle that is a member of a group.
@@ -127,13 +126,16 @@ class ConstraintSystem {
   };
   struct Set {
     const api::ConstraintPlugin* plugin = nullptr;
+    const api::StructuralPlugin* structural = nullptr;  ///< one of the three is the plugin
+    const api::GroupPlugin* group = nullptr;
+    const api::NeighbourPlugin* neighbour = nullptr;
     std::string name;
     std::vector<double> parameters;                     ///< of bodies without their own
     std::vector<std::vector<double>> bodyParameters;    ///< by body; empty: the set's
     std::vector<api::Span<const double>> parametersOf;  ///< both, as plugins see them
     std::vector<uint8_t> used;                          ///< 1 for bodies that use the plugin
-    bool structural = true, disabled = false;
-    size_t arity = 2, valueCount = 0, count = 0;
+    bool disabled = false;
+    size_t arity = 0, valueCount = 0, count = 0;
     std::vector<uint32_t> particles;         ///< arity per constraint, in order of colour
     std::vector<std::vector<float>> values;  ///< [value][constraint]
     std::vector<size_t> colourStart;         ///< first constraint of each colour; one entry more than there are colours
@@ -142,6 +144,8 @@ class ConstraintSystem {
     std::unordered_set<Key, KeyHash> keys;     ///< sets of particle ids; only asked, never walked through
     std::unique_ptr<GroupLists> groups;        ///< of a plugin of groups, which uses none of the lists above
     bool rigid = false, thin = false;
+    std::vector<uint32_t> members;  ///< of a plugin of neighbours: particles of the bodies that use it, ascending
+    size_t membersOf = ~size_t{0};  ///< how many particles there were when they were found; ~0: find them
   };
   struct Edits;
   class Sink;
@@ -176,10 +180,7 @@ class ConstraintSystem {
   void forBatches(Set& set, uint32_t substep, uint32_t iteration, Call&& call);
   template <class Call>
   static void forRuns(const Set& set, size_t first, size_t last, Call&& call);
-  bool gather(Set& set, uint32_t body, const ParticleStore& store, const Neighbours& neighbours, uint32_t substep,
-              uint32_t iteration);
-  template <class Takes>
-  void applyCorrection(ParticleStore& store, Takes&& takes) const;
+  void findMembers(Set& set, const ParticleStore& store) const;
   // In constraintgroups.cpp.
   template <class Call>
   void forGroups(Set& set, uint32_t substep, uint32_t iteration, Call&& call);
@@ -191,7 +192,15 @@ class ConstraintSystem {
   double groupEnergy(Set& set, const ParticleStore& store);
   void putGroupsBack(Set& set, const ParticleStore& store, std::span<const CopiedGroup> copies);
 
+  void declareFields(Set& set, api::List<api::FieldDeclaration> fields, ParticleStore& store);
+  void forgetMembers();
+  /// A view that what is called may move.
+  static api::MovableParticles movable(const ParticleStore& store, const api::ParticleView& view) {
+    return {&view, store.position(), store.velocity()};
+  }
+
   SolverSettings m_settings;
+  double m_time = 0;  ///< s, of the scene
   std::vector<const api::MaterialView*> m_materials;
   std::vector<Set> m_sets;
   std::vector<uint32_t> m_newIndex, m_keptParticles;

@@ -61,7 +61,7 @@ std::vector<uint32_t> ConstraintSystem::pieces(size_t particles) {
 
 bool ConstraintSystem::gathers() const {
   return std::any_of(m_sets.begin(), m_sets.end(), [](const Set& set) {
-    return !set.structural && !set.groups && !set.disabled && std::count(set.used.begin(), set.used.end(), 1) > 0;
+    return set.neighbour && !set.disabled && std::count(set.used.begin(), set.used.end(), 1) > 0;
   });
 }
 

@@ -33,14 +33,14 @@ const char* Cohesion::help() const noexcept {
 
 ParameterList Cohesion::parameters() const noexcept { return listOf(kParameters); }
 
-ConstraintTraits Cohesion::traits() const noexcept { return {ConstraintTraits::Form::Neighbour, 0, {}, {}}; }
+bool Cohesion::traits(NeighbourTraits* out) const noexcept { return fill(out, {}); }
 
 void Cohesion::gather(const ConstraintContext& context, const ParticleView& particles, const NeighbourView& neighbours,
-                      size_t first, size_t last, Float4* correction) const {
+                      Span<const uint32_t> members, Float4* correction) const {
   if (context.iteration > 0) return;  // an acceleration, once per substep; corrections start at zero
   const double h = context.supportRadius;
-  const double strength = context.parameters.size > 0 ? context.parameters[0] : kStrength;
-  for (size_t i = first; i < last; ++i) {
+  for (size_t k = 0; k < members.size; ++k) {
+    const uint32_t i = members[k];
     if (particles.motion[i] != Motion::Liquid) continue;
     double x = 0, y = 0, z = 0;
     for (uint32_t q = neighbours.begin[i]; q < neighbours.last[i]; ++q) {
@@ -55,7 +55,9 @@ void Cohesion::gather(const ConstraintContext& context, const ParticleView& part
       y -= weight * dy;
       z -= weight * dz;
     }
+    const Span<const double> parameters = context.parametersOf(particles.body[i]);
+    const double strength = parameters.size > 0 ? parameters[0] : kStrength;
     const double scale = strength * context.dt * context.dt;  // force / m_i, times dt squared
-    correction[i] = {static_cast<float>(scale * x), static_cast<float>(scale * y), static_cast<float>(scale * z), 0};
+    correction[k] = {static_cast<float>(scale * x), static_cast<float>(scale * y), static_cast<float>(scale * z), 0};
   }
 }

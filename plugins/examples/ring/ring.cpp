@@ -53,10 +53,12 @@ const char* Ring::help() const noexcept {
 
 ParameterList Ring::parameters() const noexcept { return listOf(kParameters); }
 
-void Ring::stroke(const StrokeContext& context, EditKind kind, Span<const StrokeSample> samples, EditSink& sink) const {
+void Ring::stroke(const StrokeContext& context, EditKind kind, const List<StrokeSample>& samples,
+                  EditSink& sink) const {
   const double tube = tubeOf(context), reach = context.radius + tube;
   std::vector<Cell> cells;
-  for (const StrokeSample& sample : samples) {
+  for (size_t s = 0; s < samples.count; ++s) {
+    const StrokeSample sample = samples.at(s);
     const Range x = rangeOf(sample.position.x, context.origin.x, reach, context.spacing);
     const Range y = rangeOf(sample.position.y, context.origin.y, reach, context.spacing);
     const Range z = rangeOf(sample.position.z, context.origin.z, reach, context.spacing);

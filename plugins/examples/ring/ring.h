@@ -13,6 +13,6 @@ class Ring final : public QObject, public ps::api::BrushPlugin {
   const char* help() const noexcept override;
   ps::api::ParameterList parameters() const noexcept override;
   void stroke(const ps::api::StrokeContext& context, ps::api::EditKind kind,
-              ps::api::Span<const ps::api::StrokeSample> samples, ps::api::EditSink& sink) const override;
+              const ps::api::List<ps::api::StrokeSample>& samples, ps::api::EditSink& sink) const override;
   ps::api::Double3 extent(const ps::api::StrokeContext& context) const noexcept override;
 };

@@ -11,7 +11,7 @@ constexpr FieldDeclaration kFields[] = {
     {"org.example.sensible.temperature", "K", "Temperature, from which all else follows", FieldType::Float64}};
 
 double* stateOf(const ParticleView& particles) {
-  auto* field = static_cast<double*>(particles.fields->find(kFields[0].name, kFields[0].type));
+  auto* field = static_cast<double*>(particles.fields->write(kFields[0].name, kFields[0].type));
   if (!field) throw std::runtime_error("the particles lack the field 'org.example.sensible.temperature'");
   return field;
 }

@@ -2,7 +2,7 @@
 #pragma once
 #include <phasesketch/plugin.h>
 
-#define PHASESKETCH_BRUSH_IID "org.phasesketch.Brush/1"
+#define PHASESKETCH_BRUSH_IID "org.phasesketch.Brush/0.9"
 
 namespace ps::api {
 
@@ -43,7 +43,7 @@ class EditSink {
 class BrushPlugin : public Plugin {
  public:
   /// Turns samples into edits. Samples are dense: neighbours lie at most one spacing apart. May throw.
-  virtual void stroke(const StrokeContext&, EditKind, Span<const StrokeSample>, EditSink&) const = 0;
+  virtual void stroke(const StrokeContext&, EditKind, const List<StrokeSample>&, EditSink&) const = 0;
   /// Half extents in m of one stamp, for the cursor.
   virtual Double3 extent(const StrokeContext&) const noexcept = 0;
 };

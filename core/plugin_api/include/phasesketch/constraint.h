@@ -2,31 +2,18 @@
 #pragma once
 #include <phasesketch/plugin.h>
 
-#define PHASESKETCH_CONSTRAINT_IID "org.phasesketch.Constraint/1"
+// What holds particles together or moves them, in three forms: ties of 2 to 4 particles (StructuralPlugin), groups of
+// any number (GroupPlugin), and corrections gathered over neighbours (NeighbourPlugin). All three are of kind
+// "constraint".
+#define PHASESKETCH_STRUCTURAL_IID "org.phasesketch.StructuralConstraint/0.9"
+#define PHASESKETCH_GROUP_IID "org.phasesketch.GroupConstraint/0.9"
+#define PHASESKETCH_NEIGHBOUR_IID "org.phasesketch.NeighbourConstraint/0.9"
 
 namespace ps::api {
 
 /// Capability of structure that takes in matter of any body that has frozen and that nothing else takes back:
 /// extension(kHoldsFrozen) is not nullptr. Scenes whose matter melts use the first such plugin that is installed.
 inline constexpr const char* kHoldsFrozen = "holds_frozen";
-
-/// Structural constraints carry `arity` particles each, and `values` floats of their own (rest length, lambda, ...).
-/// Neighbour constraints have no lists: they gather over neighbours and write their own particle's correction.
-/// Group constraints hold any number of particles together; `values` belong to the group, `memberValues` to each of its
-/// members (a place in the undeformed shape, a weight, ...).
-struct ConstraintTraits {
-  enum class Form : uint32_t { Structural, Neighbour, Group };
-  Form form;
-  uint32_t arity;                         ///< structural: 2 .. 4
-  List<FieldDeclaration> values;          ///< structural, group: values of each, at most 16, Float32
-  List<FieldDeclaration> fields;          ///< per-particle fields, made by the host, zero at birth
-  List<FieldDeclaration> memberValues{};  ///< group: values of each member, at most 16, Float32
-  /// Group: 1 when members keep their distances. Contact and friction then act on the group as one body, which moves by
-  /// its mass and its inertia, in place of particle by particle.
-  uint32_t rigid = 0;
-  /// 1 for what makes sheets and lines one particle thick: liquid is kept off their particles.
-  uint32_t thin = 0;
-};
 
 struct ConstraintContext {
   double dt;       ///< s: substep when projecting, frame in topology()
@@ -39,12 +26,42 @@ struct ConstraintContext {
   Span<const double> parameters;
   Span<const MaterialView* const> materials;
   uint32_t body = kNoBody;  ///< index of that body, as in ParticleView::body
+  uint32_t reserved = 0;
   Span<const Span<const double>> bodyParameters{};
+  double time = 0;  ///< s of the scene, at the start of the frame
   static constexpr uint32_t kNoBody = ~0u;
   /// Parameters of any body, by its index; the defaults of one that does not use this plugin.
   Span<const double> parametersOf(uint32_t index) const {
     return index < bodyParameters.size ? bodyParameters[index] : parameters;
   }
+};
+
+/// Something that the model could not deliver at the chosen step.
+class LimitSink {
+ public:
+  virtual void limit(const char* what, double asked, double delivered, const char* unit) = 0;
+
+ protected:
+  ~LimitSink() = default;
+};
+
+/// What the three forms share.
+class ConstraintPlugin : public Plugin {
+ public:
+  /// What the solver cannot deliver for the particles of `context.body` with this step; asked for each body that uses
+  /// the plugin. `what` is "MATERIAL.property", or "PLUGIN.parameter" for a parameter of its own. May throw.
+  virtual void limits(const ConstraintContext&, const ParticleView&, LimitSink&) const {}
+};
+
+// Structural: `arity` particles each, and `values` floats of their own (rest length, multiplier, ...).
+
+struct StructuralTraits {
+  size_t structSize = sizeof(StructuralTraits);
+  uint32_t arity = 2;  ///< 2 .. 4
+  /// 1 for what makes sheets and lines one particle thick: liquid is kept off their particles.
+  uint32_t thin = 0;
+  List<FieldDeclaration> values{};  ///< values of each, at most 16, Float32
+  List<FieldDeclaration> fields{};  ///< per-particle fields, made by the host, zero at birth
 };
 
 /// A run of constraints of one body that share no particle (one colour): project them in any order, or all at once.
@@ -66,6 +83,41 @@ class ConstraintSink {
   ~ConstraintSink() = default;
 };
 
+/// All of these may throw.
+class StructuralPlugin : public ConstraintPlugin {
+ public:
+  /// False when there is nothing to tell, which refuses the plugin: `return fill(out, {...});`
+  virtual bool traits(StructuralTraits* out) const = 0;
+  /// Makes the constraints of newly created particles `members` (ascending indices).
+  virtual void build(const ConstraintContext&, const ParticleView&, const NeighbourView&, Span<const uint32_t> members,
+                     ConstraintSink&) const = 0;
+  /// Once per substep and batch, before the first iteration: resets multipliers, refreshes rest values.
+  virtual void predict(const ConstraintContext&, const ParticleView&, const ConstraintBatch&) const {}
+  /// One Gauss-Seidel pass over the batch: moves particles by inverse mass.
+  virtual void project(const ConstraintContext&, const MovableParticles&, const ConstraintBatch&) const = 0;
+  /// Once per substep, after velocities follow from positions.
+  virtual void deriveVelocities(const ConstraintContext&, const MovableParticles&, const ConstraintBatch&) const {}
+  /// Once per frame, after heat: may remove constraints of `all`, those of every body, and add new ones.
+  virtual void topology(const ConstraintContext&, const ParticleView&, const NeighbourView&,
+                        const ConstraintBatch& /*all*/, ConstraintSink&) const {}
+  /// Elastic energy of the batch in J.
+  virtual double energy(const ConstraintContext&, const ParticleView&, const ConstraintBatch&) const { return 0; }
+};
+
+// Groups: any number of particles together; `values` belong to the group, `memberValues` to each of its members (a
+// place in the undeformed shape, a weight, ...).
+
+struct GroupTraits {
+  size_t structSize = sizeof(GroupTraits);
+  /// 1 when members keep their distances. Contact and friction then act on the group as one body, which moves by its
+  /// mass and its inertia, in place of particle by particle.
+  uint32_t rigid = 0;
+  uint32_t thin = 0;                      ///< as of StructuralTraits
+  List<FieldDeclaration> values{};        ///< of each group, at most 16, Float32
+  List<FieldDeclaration> memberValues{};  ///< of each member, at most 16, Float32
+  List<FieldDeclaration> fields{};        ///< per-particle fields, made by the host, zero at birth
+};
+
 /// A run of groups of one body that share no particle: project them in any order, or all at once. The members of group
 /// g are particles[begin[g]] .. particles[begin[g + 1] - 1], in the order in which they were added.
 struct GroupBatch {
@@ -74,12 +126,11 @@ struct GroupBatch {
   const uint32_t* particles;   ///< indices
   float* const* values;        ///< [declared value][group]
   float* const* memberValues;  ///< [declared member value][place]
-  /// 1 where members were erased, or put back by undo, since the last groupTopology(): what is left may have fallen
-  /// apart.
+  /// 1 where members were erased, or put back by undo, since the last topology(): what is left may have fallen apart.
   const uint8_t* changed;
 };
 
-/// Takes new groups while building or in groupTopology().
+/// Takes new groups while building or in topology().
 class GroupSink {
  public:
   /// `particles`: `count` indices, none twice. `values`: one per declared value. `memberValues`: for each member in
@@ -92,65 +143,50 @@ class GroupSink {
   ~GroupSink() = default;
 };
 
-/// Something that the model could not deliver at the chosen step.
-class LimitSink {
+/// All of these may throw.
+class GroupPlugin : public ConstraintPlugin {
  public:
-  virtual void limit(const char* what, double asked, double delivered, const char* unit) = 0;
-
- protected:
-  ~LimitSink() = default;
-};
-
-class ConstraintPlugin : public Plugin {
- public:
-  virtual ConstraintTraits traits() const = 0;
-
-  // Structural. All of these may throw.
-  /// Makes the constraints of newly created particles `members` (ascending indices).
-  virtual void build(const ConstraintContext&, const ParticleView&, const NeighbourView&,
-                     Span<const uint32_t> /*members*/, ConstraintSink&) const {}
-  /// Once per substep and batch, before the first iteration: resets multipliers, refreshes rest values.
-  virtual void predict(const ConstraintContext&, const ParticleView&, const ConstraintBatch&) const {}
-  /// One Gauss-Seidel pass over the batch: moves particles by inverse mass.
-  virtual void project(const ConstraintContext&, const ParticleView&, const ConstraintBatch&) const {}
-  /// Once per substep, after velocities follow from positions.
-  virtual void deriveVelocities(const ConstraintContext&, const ParticleView&, const ConstraintBatch&) const {}
-  /// Once per frame, after heat: may remove constraints of `all`, those of every body, and add new ones.
-  virtual void topology(const ConstraintContext&, const ParticleView&, const NeighbourView&,
-                        const ConstraintBatch& /*all*/, ConstraintSink&) const {}
-  /// Elastic energy of the batch in J.
-  virtual double energy(const ConstraintContext&, const ParticleView&, const ConstraintBatch&) const { return 0; }
-  /// What the solver cannot deliver for the particles of `context.body` with this step; asked of every form, for each
-  /// body that uses the plugin. `what` is "MATERIAL.property", or "PLUGIN.parameter" for a parameter of its own.
-  virtual void limits(const ConstraintContext&, const ParticleView&, LimitSink&) const {}
-
-  // Groups. All of these may throw.
+  /// False when there is nothing to tell, which refuses the plugin: `return fill(out, {...});`
+  virtual bool traits(GroupTraits* out) const = 0;
   /// Makes the groups of newly created particles `members` (ascending indices); may replace groups of `all`, so that
   /// matter added to a body joins it.
-  virtual void buildGroups(const ConstraintContext&, const ParticleView&, const NeighbourView&,
-                           Span<const uint32_t> /*members*/, const GroupBatch& /*all*/, GroupSink&) const {}
+  virtual void build(const ConstraintContext&, const ParticleView&, const NeighbourView&, Span<const uint32_t> members,
+                     const GroupBatch& all, GroupSink&) const = 0;
   /// Once per substep and batch, before the first iteration; the particles have moved by their velocities already.
-  virtual void predictGroups(const ConstraintContext&, const ParticleView&, const GroupBatch&) const {}
+  virtual void predict(const ConstraintContext&, const MovableParticles&, const GroupBatch&) const {}
   /// Once per iteration, after structure, density and contact of single particles, before contact of rigid bodies.
-  virtual void projectGroups(const ConstraintContext&, const ParticleView&, const GroupBatch&) const {}
+  virtual void project(const ConstraintContext&, const MovableParticles&, const GroupBatch&) const = 0;
   /// Once per substep, after velocities follow from positions, v = (x - previous)/dt, and viscosity has changed them.
   /// May move the group's particles for the last time.
-  virtual void deriveGroupVelocities(const ConstraintContext&, const ParticleView&, const GroupBatch&) const {}
+  virtual void deriveVelocities(const ConstraintContext&, const MovableParticles&, const GroupBatch&) const {}
   /// Once per frame, after heat: may remove groups of `all`, those of every body, and add new ones.
-  virtual void groupTopology(const ConstraintContext&, const ParticleView&, const NeighbourView&,
-                             const GroupBatch& /*all*/, GroupSink&) const {}
+  virtual void topology(const ConstraintContext&, const ParticleView&, const NeighbourView&, const GroupBatch& /*all*/,
+                        GroupSink&) const {}
   /// When undo has put members back into groups whose others may have moved on: puts them in their places.
   /// `returned[place]` is 1 for those that came back.
-  virtual void restoreMembers(const ConstraintContext&, const ParticleView&, const GroupBatch& /*all*/,
+  virtual void restoreMembers(const ConstraintContext&, const MovableParticles&, const GroupBatch& /*all*/,
                               const uint8_t* /*returned*/) const {}
   /// Elastic energy of the batch in J.
-  virtual double groupEnergy(const ConstraintContext&, const ParticleView&, const GroupBatch&) const { return 0; }
+  virtual double energy(const ConstraintContext&, const ParticleView&, const GroupBatch&) const { return 0; }
+};
 
-  // Neighbour-based. May throw.
-  /// Writes correction[i] (x, y, z in m) for i in [first, last); reads any particle, moves none. Only what it writes
-  /// for particles of bodies that use the plugin, with just these parameters, is taken.
-  virtual void gather(const ConstraintContext&, const ParticleView&, const NeighbourView&, size_t /*first*/,
-                      size_t /*last*/, Float4* /*correction*/) const {}
+// Neighbours: no lists; each particle gathers its own correction.
+
+struct NeighbourTraits {
+  size_t structSize = sizeof(NeighbourTraits);
+  List<FieldDeclaration> fields{};  ///< per-particle fields, made by the host, zero at birth
+};
+
+class NeighbourPlugin : public ConstraintPlugin {
+ public:
+  /// False when there is nothing to tell, which refuses the plugin: `return fill(out, {...});`
+  virtual bool traits(NeighbourTraits* out) const = 0;
+  /// Once per iteration: adds to correction[k] (x, y, z in m, zero at first) how far particle members[k] moves. Members
+  /// are particles of all bodies that use the plugin, by ascending index; parametersOf(particles.body[i]) are those of
+  /// a particle's body. Reads any particle; called with parts of the list from several threads at once. What cannot
+  /// move stays where it is. May throw.
+  virtual void gather(const ConstraintContext&, const ParticleView&, const NeighbourView&, Span<const uint32_t> members,
+                      Float4* correction) const = 0;
 };
 
 }  // namespace ps::api

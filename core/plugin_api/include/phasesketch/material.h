@@ -2,7 +2,7 @@
 #pragma once
 #include <phasesketch/plugin.h>
 
-#define PHASESKETCH_MATERIAL_IID "org.phasesketch.Material/1"
+#define PHASESKETCH_MATERIAL_IID "org.phasesketch.Material/0.9"
 
 namespace ps::api {
 
@@ -12,6 +12,7 @@ struct MaterialProperty {
   ResponseSpec value;
   const char* source;  ///< where the figure comes from
   char grade;          ///< 'A' reference data, 'B' handbook, 'C' representative
+  char reserved[7]{};
 };
 
 class MaterialPlugin : public Plugin {

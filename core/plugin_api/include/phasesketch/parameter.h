@@ -45,6 +45,7 @@ struct ResponsePoint {
 };
 
 /// A property's value: a constant, a monotone curve through points, or a named law of core/math with coefficients.
+/// Never changes: MaterialProperty holds one by value.
 struct ResponseSpec {
   enum class Kind : uint32_t { Constant, Curve, Law };
   Kind kind = Kind::Constant;

@@ -5,21 +5,41 @@
 
 namespace ps::api {
 
-/// What all four kinds share. Objects are stateless after construction and may be called from several threads at once:
-/// whatever a scene needs lives in fields, constraint values and parameters that the host owns.
+/// What a plugin may ask of the program. Lives as long as the process; may be called from any thread. What belongs to
+/// one scene (its time, its materials) comes with each call, in the context: objects of plugins are shared by scenes.
+class Host {
+ public:
+  enum class Severity : uint32_t { Note, Warning };
+  /// One line in the program's log, under the plugin's name. Long texts are cut; more than 100 lines are dropped.
+  virtual void log(Severity severity, const char* text) noexcept = 0;
+  /// Value of a property (a key of the catalogue) of an installed material at a temperature in K; NaN for what is not
+  /// there, and while plugins are being loaded. Not for inner loops.
+  virtual double property(const char* material, const char* key, double temperature) const noexcept = 0;
+  /// Services beyond these, by name; nullptr for what the program does not know.
+  virtual const void* extension(const char* name) const noexcept = 0;
+
+ protected:
+  ~Host() = default;
+};
+
+/// What all kinds share. Objects are stateless after attach() and may be called from several threads at once: whatever
+/// a scene needs lives in fields, constraint values and parameters that the host owns.
 ///
 /// What a plugin declares (label, help, parameters and the lists of its kind) is read when it is loaded, must be the
 /// same at every call and live as long as the object. A constructor or a declaration that throws makes the host refuse
 /// the plugin. Later a function may throw std::exception only where its comment says so; the host then names the
-/// plugin, pauses the scene, and goes on without it.
+/// plugin, pauses the scene, and goes on without it. The same happens where a function returns what cannot be: numbers
+/// that are not finite, temperatures below 0 K, shares outside 0 .. 1, null pointers.
 class Plugin {
  public:
   virtual ~Plugin() = default;
   virtual const char* label() const = 0;         ///< a few words: "Water"
   virtual const char* help() const = 0;          ///< one paragraph: model, source, validity, limits
   virtual ParameterList parameters() const = 0;  ///< own parameters; values arrive in this order
-  /// Capabilities and interfaces beyond those of 1.0, by name; nullptr for what the plugin does not know.
+  /// Capabilities and interfaces beyond those of its kind, by name; nullptr for what the plugin does not know.
   virtual const void* extension(const char* /*name*/) const noexcept { return nullptr; }
+  /// Called once for each list of plugins that it is loaded into, when all it declares has been read. May throw.
+  virtual void attach(Host& /*host*/) {}
 };
 
 }  // namespace ps::api

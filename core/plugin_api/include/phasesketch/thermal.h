@@ -2,7 +2,8 @@
 #pragma once
 #include <phasesketch/plugin.h>
 
-#define PHASESKETCH_THERMAL_IID "org.phasesketch.Thermal/1"
+#define PHASESKETCH_THERMAL_IID "org.phasesketch.Thermal/0.9"
+#define PHASESKETCH_HEAT_SOURCE_IID "org.phasesketch.HeatSource/0.9"
 
 namespace ps::api {
 
@@ -20,6 +21,8 @@ struct ThermalContext {
   Span<const double> parameters;  ///< in the order of parameters()
   Span<const MaterialView* const> materials;
   double supportRadius = 0;  ///< m, from which on kernels are zero
+  double time = 0;           ///< s of the scene, at the start of the frame
+  double thermalTime = 0;    ///< s of its thermal clock, likewise
 };
 
 /// How fast a model's own pair law acts.
@@ -61,15 +64,23 @@ class ThermalPlugin : public Plugin {
                       const ThermalOutput&) const = 0;
   /// Thermal energy of each particle in J, for the ledger. May throw.
   virtual void energy(const ThermalContext&, const ParticleView&, size_t first, size_t last, double* joules) const = 0;
-  /// Optional own sources: adds watts per particle. May throw.
-  virtual void sources(const ThermalContext&, const ParticleView&, size_t /*first*/, size_t /*last*/,
-                       double* /*watts*/) const {}
   /// Optional own pair law: writes, for every list entry q of particles [first, last), the watts that flow from the
   /// neighbour into the particle; must be antisymmetric. False: the host conducts (Cleary & Monaghan 1999). May throw.
   virtual bool pairFlux(const ThermalContext&, const ParticleView&, const NeighbourView&, size_t /*first*/,
                         size_t /*last*/, double* /*watts*/) const {
     return false;
   }
+};
+
+/// Heat that comes up in matter, or is taken from it, whatever the thermal model: an induction coil, light, a reaction.
+/// A scene may use any number of them; what they add up to is booked as heaters.
+class HeatSourcePlugin : public Plugin {
+ public:
+  /// Fields of its own, made by the host, zero at birth.
+  virtual List<FieldDeclaration> fields() const { return {}; }
+  /// Adds W of thermal time to watts[i] of particles [first, last), once a frame; negative ones cool. Reads any
+  /// particle. May throw.
+  virtual void addWatts(const ThermalContext&, const ParticleView&, size_t first, size_t last, double* watts) const = 0;
 };
 
 }  // namespace ps::api

@@ -2,15 +2,29 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 
-// Plain types of the plugin interface. Nothing here needs Qt, Eigen or the standard containers, and every struct may
-// only grow at its end: a plugin built for 1.0 loads in every 1.x.
+// Plain types of the plugin interface. Nothing here needs Qt, Eigen or the standard containers.
+//
+// How the interface grows, so that a binary built once goes on loading:
+// - A struct that crosses grows at its end only, and has no padding there. Span, List, Double3, Float4, Cell,
+//   ResponsePoint and ResponseSpec never change: they are held by others by value.
+// - Arrays of structs cross as List, which says how far apart its elements lie. Whoever reads a list that the other
+// side
+//   has made takes elements with at(), which copes with elements smaller or larger than those it was built for.
+// - A struct that a plugin fills in begins with its own size; the host holds it out with its size and its defaults, and
+//   fill() writes what both sides know.
+// - Classes with virtual functions are frozen. What comes later is asked for by name: Plugin::extension(),
+//   Host::extension().
+// Until version 1.0 anything may still change; kLayout then says that binaries of another layout are refused.
 namespace ps::api {
 
-inline constexpr int kVersionMajor = 1;
-inline constexpr int kVersionMinor = 0;
+inline constexpr int kVersionMajor = 0;
+inline constexpr int kVersionMinor = 9;
+/// Of what crosses. Raised by every change that is no growth in the manner above.
+inline constexpr int kLayout = 1;
 
-/// A view of `size` values of T owned by somebody else.
+/// A view of `size` values of T owned by somebody else. T is a number, a pointer or a struct that never changes.
 template <class T>
 struct Span {
   T* data = nullptr;
@@ -20,19 +34,41 @@ struct Span {
   T* end() const { return data + size; }
 };
 
-/// Elements lie `stride` bytes apart, so that the element type may grow in a later 1.x.
+/// Elements lie `stride` bytes apart, so that the element type may grow.
 template <class T>
 struct List {
   const T* first = nullptr;
   size_t count = 0;
   size_t stride = sizeof(T);
+  /// Of a list made by the same binary.
   const T& operator[](size_t i) const {
     return *reinterpret_cast<const T*>(reinterpret_cast<const char*>(first) + i * stride);
+  }
+  /// Of any list: what an older maker does not know has its default.
+  T at(size_t i) const {
+    T element{};
+    std::memcpy(static_cast<void*>(&element), reinterpret_cast<const char*>(first) + i * stride,
+                stride < sizeof(T) ? stride : sizeof(T));
+    return element;
   }
 };
 template <class T, size_t N>
 constexpr List<T> listOf(const T (&values)[N]) {
   return {values, N, sizeof(T)};
+}
+template <class T>
+constexpr List<T> listOf(const T* values, size_t count) {
+  return {values, count, sizeof(T)};
+}
+
+/// Writes `value` into the struct that the host holds out, as far as both sides know it; true, for the caller to
+/// return.
+template <class T>
+bool fill(T* out, const T& value) {
+  const size_t bytes = out->structSize < sizeof(T) ? out->structSize : sizeof(T);
+  std::memcpy(static_cast<void*>(out), &value, bytes);
+  out->structSize = bytes;
+  return true;
 }
 
 struct alignas(16) Float4 {
@@ -54,10 +90,11 @@ enum class FieldType : uint32_t { Float32, Float64, UInt8, UInt32, Float4 };
 
 /// A per-particle field that a plugin owns. The host stores, sorts, hashes, records and saves it.
 struct FieldDeclaration {
-  const char* name;  ///< unique; a plugin's own names start with its id, "org.example.rust.depth"
+  const char* name;  ///< unique; begins with the plugin's id and a dot: "org.example.rust.depth"
   const char* unit;  ///< SI, "" for none
   const char* help;
   FieldType type;
+  uint32_t reserved = 0;
 };
 
 }  // namespace ps::api

@@ -8,7 +8,9 @@ namespace ps::api {
 class FieldAccess {
  public:
   /// Base of the field, or nullptr when there is none of that name and type. Index it like every other array here.
-  virtual void* find(const char* name, FieldType type) const noexcept = 0;
+  virtual const void* read(const char* name, FieldType type) const noexcept = 0;
+  /// The same to write to, of a field that a plugin has declared; nullptr for the program's own.
+  virtual void* write(const char* name, FieldType type) const noexcept = 0;
 
  protected:
   ~FieldAccess() = default;
@@ -18,11 +20,11 @@ class FieldAccess {
 /// Order is the host's and changes between calls: keep `id`, never an index.
 struct ParticleView {
   size_t count;
-  Float4* position;        ///< x, y, z in m; w: rest volume in m3
+  const Float4* position;  ///< x, y, z in m; w: rest volume in m3
   const Float4* previous;  ///< x, y, z in m at the start of the substep
-  Float4* velocity;   ///< x, y, z in m/s; w: inverse mass in 1/kg, 0 for what nothing can push, whether it moves or not
-  const float* mass;  ///< kg
-  const uint32_t* id;  ///< stable for life
+  const Float4* velocity;  ///< x, y, z in m/s; w: inverse mass in 1/kg, 0 for what nothing can push, moving or not
+  const float* mass;       ///< kg
+  const uint32_t* id;      ///< stable for life
   const uint32_t* material;
   const uint32_t* body;
   const Phase* phase;
@@ -35,6 +37,15 @@ struct ParticleView {
   /// Edge lengths in m by which space repeats itself, 0 along an open axis. Positions may lie in any image of the box;
   /// measure between particles with separation(), unless they are tied, and so at home in one image.
   Double3 period;
+};
+
+/// Particles where a plugin may move them: those of its batch, and x, y, z alone. What it reads comes through the view
+/// of the same particles, which shows at once what has been written.
+struct MovableParticles {
+  const ParticleView* view;
+  Float4* position;  ///< x, y, z in m
+  Float4* velocity;  ///< x, y, z in m/s
+  operator const ParticleView&() const { return *view; }
 };
 
 /// From particle j to particle i, x, y, z in m, of the nearest images of the two; seen from the other side it is the

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/plugin_host/hostservices.h"
+
+#include "core/base/log.h"
+#include "core/plugin_host/pluginloader.h"
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace ps {
+namespace {
+
+constexpr int kMostLines = 100;
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+}  // namespace
+
+void HostServices::log(Severity severity, const char* text) noexcept {
+  const int line = m_lines.fetch_add(1);
+  if (!text || line > kMostLines) return;
+  try {
+    const std::string words = line < kMostLines ? oneLine(text) : "says no more: it has written 100 lines";
+    ps::log(severity == Severity::Warning ? LogLevel::Warning : LogLevel::Info, "plugin '" + m_plugin + "': " + words);
+  } catch (...) {  // a line that cannot be written is lost
+  }
+}
+
+double HostServices::property(const char* material, const char* key, double temperature) const noexcept {
+  if (!material || !key || !std::isfinite(temperature)) return kNone;
+  try {
+    const std::lock_guard lock(m_materials->mutex);
+    const auto found = m_materials->byId.find(material);
+    if (found == m_materials->byId.end()) return kNone;
+    const auto value = found->second->properties.find(key);
+    return value == found->second->properties.end() ? kNone : value->second.at(temperature);
+  } catch (...) {
+    return kNone;
+  }
+}
+
+HostServices& hostServicesFor(const std::string& plugin, const std::shared_ptr<InstalledMaterials>& materials) {
+  static std::mutex mutex;
+  static auto& kept = *new std::vector<std::unique_ptr<HostServices>>;
+  const std::lock_guard lock(mutex);
+  return *kept.emplace_back(std::make_unique<HostServices>(plugin, materials));
+}
+
+}  // namespace ps
