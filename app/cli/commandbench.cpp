@@ -48,8 +48,8 @@ Project tank(int particles) {
   const double half = width / 2;
   project.environment.boundsMinimum = {-half - 1, -1, -half - 1};
   project.environment.boundsMaximum = {half + 1, height + 1, half + 1};
-  const Vec3 points[] = {{0, 0, 0}, {-half, 0, 0}, {half, 0, 0}, {0, 0, -half}, {0, 0, half}};
-  const Vec3 normals[] = {{0, 1, 0}, {1, 0, 0}, {-1, 0, 0}, {0, 0, 1}, {0, 0, -1}};
+  const Vector3 points[] = {{0, 0, 0}, {-half, 0, 0}, {half, 0, 0}, {0, 0, -half}, {0, 0, half}};
+  const Vector3 normals[] = {{0, 1, 0}, {1, 0, 0}, {-1, 0, 0}, {0, 0, 1}, {0, 0, -1}};
   for (size_t i = 0; i < 5; ++i) {
     SceneWall wall;
     wall.id = "wall" + std::to_string(i);

@@ -71,7 +71,7 @@ double JsonTaker::number(const char* key, double fallback) { return has(key) ? t
 
 bool JsonTaker::toggle(const char* key, bool fallback) { return has(key) ? take(key).get<bool>() : fallback; }
 
-Vec3 JsonTaker::vector(const char* key, const Vec3& fallback) {
+Vector3 JsonTaker::vector(const char* key, const Vector3& fallback) {
   if (!has(key)) return fallback;
   const json v = take(key);
   return {v[0].get<double>(), v[1].get<double>(), v[2].get<double>()};
@@ -127,7 +127,7 @@ json jsonFromValue(const Value& value) {
   return jsonFromResponse(std::get<Response>(value));
 }
 
-json jsonFromVector(const Vec3& v) { return json::array({jsonNumber(v[0]), jsonNumber(v[1]), jsonNumber(v[2])}); }
+json jsonFromVector(const Vector3& v) { return json::array({jsonNumber(v[0]), jsonNumber(v[1]), jsonNumber(v[2])}); }
 
 void putParameters(json& object, const ParameterSet& set) {
   for (const auto& [key, value] : set.values) object[key] = jsonFromValue(value);

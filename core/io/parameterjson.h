@@ -17,7 +17,7 @@ class JsonTaker {
   std::string text(const char* key, const std::string& fallback = "");
   double number(const char* key, double fallback);
   bool toggle(const char* key, bool fallback);
-  Vec3 vector(const char* key, const Vec3& fallback);
+  Vector3 vector(const char* key, const Vector3& fallback);
   std::vector<std::string> names(const char* key);
   /// Puts a member back: the part of it that is not known.
   void keep(const std::string& key, nlohmann::json&& rest);
@@ -35,7 +35,7 @@ class JsonTaker {
 /// A checked JSON value as the declaration's kind of value; unknown members of a curve or law stay in `value`.
 Value valueFromJson(nlohmann::json& value, const api::ParameterDeclaration& declaration);
 nlohmann::json jsonFromValue(const Value& value);
-nlohmann::json jsonFromVector(const Vec3& vector);
+nlohmann::json jsonFromVector(const Vector3& vector);
 /// Writes all values of a set as members of an object.
 void putParameters(nlohmann::json& object, const ParameterSet& set);
 /// Adds what a reader did not know, at every level; known members win.

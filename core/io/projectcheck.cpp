@@ -252,7 +252,7 @@ class ProjectChecker {
     requireBox(sink.minimum, sink.maximum, pointer);
   }
 
-  void requireBox(const Vec3& minimum, const Vec3& maximum, const std::string& pointer) const {
+  void requireBox(const Vector3& minimum, const Vector3& maximum, const std::string& pointer) const {
     for (size_t a = 0; a < 3; ++a) {
       if (minimum[a] >= maximum[a]) {
         fail(at(pointer + "/maximum", a), "must be above the minimum, " + numberText(minimum[a]) + " m");
@@ -260,7 +260,7 @@ class ProjectChecker {
     }
   }
 
-  void requireDirection(const Vec3& v, const std::string& pointer) const {
+  void requireDirection(const Vector3& v, const std::string& pointer) const {
     if (!(std::hypot(v[0], v[1], v[2]) > 1e-6)) {
       fail(pointer, "must have a direction: at least one part away from zero");
     }
@@ -269,7 +269,7 @@ class ProjectChecker {
   void checkEnvironment(const Environment& environment) const {
     requireBox(environment.boundsMinimum, environment.boundsMaximum, "/environment/bounds");
     for (size_t i = 0; i < environment.walls.size(); ++i) {
-      const Vec3& n = environment.walls[i].normal;
+      const Vector3& n = environment.walls[i].normal;
       const std::string normal = at("/environment/walls", i) + "/normal";
       requireDirection(n, normal);
       for (size_t a = 0; a < 3; ++a) {

@@ -80,8 +80,8 @@ json writeRegion(const Region& region) {
   return out;
 }
 
-void putVector(json& object, const char* key, const Vec3& vector) {
-  if (vector != Vec3{0, 0, 0}) object[key] = jsonFromVector(vector);
+void putVector(json& object, const char* key, const Vector3& vector) {
+  if (vector != Vector3::Zero()) object[key] = jsonFromVector(vector);
 }
 
 json writeWave(const Wave& wave) {

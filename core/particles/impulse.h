@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "core/math/vector3.h"
+#include "core/math/vector.h"
 
 #include <vector>
 
@@ -10,10 +10,10 @@ namespace ps {
 class ChunkSum {
  public:
   void start(size_t chunks) { m_partial.assign(chunks, {}); }
-  void add(size_t chunk, double factor, Vector3 v) { m_partial[chunk] = m_partial[chunk] + factor * v; }
+  void add(size_t chunk, double factor, const Vector3& v) { m_partial[chunk] += factor * v; }
   Vector3 total() const {
     Vector3 sum;
-    for (const Vector3& v : m_partial) sum = sum + v;
+    for (const Vector3& v : m_partial) sum += v;
     return sum;
   }
 
@@ -24,7 +24,7 @@ class ChunkSum {
 /// What something outside gave to moving matter since it was last asked.
 class Received {
  public:
-  void add(Vector3 v) { m_sum = m_sum + v; }
+  void add(const Vector3& v) { m_sum += v; }
   Vector3 take() {
     const Vector3 sum = m_sum;
     m_sum = {};

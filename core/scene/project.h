@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "core/math/vector.h"
 #include "core/scene/parameterset.h"
 
 #include <nlohmann/json_fwd.hpp>
@@ -10,8 +11,6 @@
 #include <vector>
 
 namespace ps {
-
-using Vec3 = std::array<double, 3>;
 
 /// Keys that this version does not know, kept for the next save. nullptr: none.
 using Unknown = std::shared_ptr<const nlohmann::json>;
@@ -31,8 +30,8 @@ struct SceneMaterial {
 
 /// A block of particles on a cubic lattice of the scene's spacing.
 struct BoxShape {
-  Vec3 center{0, 0, 0};  ///< m
-  Vec3 size{0.1, 0.1, 0.1};
+  Vector3 center{0, 0, 0};  ///< m
+  Vector3 size{0.1, 0.1, 0.1};
   Unknown unknown{};
   bool operator==(const BoxShape&) const = default;
 };
@@ -60,8 +59,8 @@ struct VoxelShape {
     Unknown unknown{};
     bool operator==(const Stroke&) const = default;
   };
-  Vec3 origin{0, 0, 0};   ///< m
-  double spacing = 0.02;  ///< m, edge of a cell
+  Vector3 origin{0, 0, 0};  ///< m
+  double spacing = 0.02;    ///< m, edge of a cell
   std::vector<Paint> palette;
   std::vector<Run> runs;
   std::vector<Stroke> strokes;
@@ -78,9 +77,9 @@ struct BodyConstraint {
 
 /// A box in space, its faces included.
 struct Region {
-  Vec3 minimum{0, 0, 0}, maximum{0, 0, 0};  ///< m
+  Vector3 minimum{0, 0, 0}, maximum{0, 0, 0};  ///< m
   Unknown unknown{};
-  bool contains(const Vec3& p) const {
+  bool contains(const Vector3& p) const {
     for (size_t a = 0; a < 3; ++a) {
       if (p[a] < minimum[a] || p[a] > maximum[a]) return false;
     }
@@ -91,10 +90,10 @@ struct Region {
 
 /// A sine along an axis of the scene: what a body adds to its velocity at the start, or what a probe looks for.
 struct Wave {
-  int axis = 0;            ///< 0 x, 1 y, 2 z
-  double wavelength = 1;   ///< m
-  double phase = 0;        ///< radians at the origin of the scene
-  Vec3 velocity{0, 0, 0};  ///< m/s, amplitude; of bodies
+  int axis = 0;               ///< 0 x, 1 y, 2 z
+  double wavelength = 1;      ///< m
+  double phase = 0;           ///< radians at the origin of the scene
+  Vector3 velocity{0, 0, 0};  ///< m/s, amplitude; of bodies
   Unknown unknown{};
   bool operator==(const Wave&) const = default;
 };
@@ -103,11 +102,11 @@ struct Body {
   std::string id, name;
   std::string material;  ///< SceneMaterial::id; sketched bodies: of their first palette entry
   std::variant<BoxShape, VoxelShape> shape;
-  ParameterSet parameters;            ///< see bodyParameters(): temperature, phase, fixed, heating_power, motion_*, ...
-  Vec3 velocity{0, 0, 0};             ///< m/s at the start; of a fixed body from motion_start to motion_stop
-  Vec3 spin{0, 0, 0};                 ///< rad/s about the body's centre, on top of `velocity`, likewise
-  std::optional<Wave> velocityWave;   ///< on top of both; not of fixed bodies
-  Vec3 temperatureGradient{0, 0, 0};  ///< K/m about the body's centre, where `temperature` holds
+  ParameterSet parameters;           ///< see bodyParameters(): temperature, phase, fixed, heating_power, motion_*, ...
+  Vector3 velocity{0, 0, 0};         ///< m/s at the start; of a fixed body from motion_start to motion_stop
+  Vector3 spin{0, 0, 0};             ///< rad/s about the body's centre, on top of `velocity`, likewise
+  std::optional<Wave> velocityWave;  ///< on top of both; not of fixed bodies
+  Vector3 temperatureGradient{0, 0, 0};  ///< K/m about the body's centre, where `temperature` holds
   std::vector<Region> pins;  ///< what stands in one of them at the start is held in place; a fixed body needs none
   std::vector<BodyConstraint> constraints;
   bool visible = true, locked = false;
@@ -116,27 +115,27 @@ struct Body {
 
 /// A round nozzle that adds matter while the scene runs.
 struct Emitter {
-  std::string id, name;      ///< the id is unique among bodies as well: its particles belong to it
-  std::string material;      ///< SceneMaterial::id
-  Vec3 point{0, 0.5, 0};     ///< m, centre of the mouth
-  Vec3 direction{0, -1, 0};  ///< of the jet; any length but zero
-  ParameterSet parameters;   ///< see emitterParameters(): speed, diameter, temperature, start, stop, most
+  std::string id, name;         ///< the id is unique among bodies as well: its particles belong to it
+  std::string material;         ///< SceneMaterial::id
+  Vector3 point{0, 0.5, 0};     ///< m, centre of the mouth
+  Vector3 direction{0, -1, 0};  ///< of the jet; any length but zero
+  ParameterSet parameters;      ///< see emitterParameters(): speed, diameter, temperature, start, stop, most
   Unknown unknown;
 };
 
 /// A box that takes away what enters it.
 struct Sink {
   std::string id, name;
-  Vec3 minimum{-0.1, -0.1, -0.1}, maximum{0.1, 0.1, 0.1};  ///< m
-  ParameterSet parameters;                                 ///< see sinkParameters(): open
+  Vector3 minimum{-0.1, -0.1, -0.1}, maximum{0.1, 0.1, 0.1};  ///< m
+  ParameterSet parameters;                                    ///< see sinkParameters(): open
   Unknown unknown;
 };
 
 /// A half-space with a name: floor, lid, sides of a tray.
 struct SceneWall {
   std::string id, name;
-  Vec3 point{0, 0, 0};      ///< m, on the wall
-  Vec3 normal{0, 1, 0};     ///< into the scene; any length but zero
+  Vector3 point{0, 0, 0};   ///< m, on the wall
+  Vector3 normal{0, 1, 0};  ///< into the scene; any length but zero
   ParameterSet parameters;  ///< see wallParameters(): heat, temperature, friction, film_coefficient, ...
   Unknown unknown;
 };
@@ -145,8 +144,8 @@ bool hasTemperature(const SceneWall& wall);
 
 struct Environment {
   ParameterSet parameters;  ///< see environmentParameters()
-  Vec3 gravity{0, -9.81, 0};
-  Vec3 boundsMinimum{-1, 0, -1}, boundsMaximum{1, 2, 1};  ///< m
+  Vector3 gravity{0, -9.81, 0};
+  Vector3 boundsMinimum{-1, 0, -1}, boundsMaximum{1, 2, 1};  ///< m
   std::array<bool, 3>
       periodic{};  ///< axes along which the bounds repeat: what leaves by one face comes in by the other
   std::vector<SceneWall> walls;
@@ -174,7 +173,7 @@ struct Probe {
 
 /// Orbits its target; y is up.
 struct ViewCamera {
-  Vec3 target{0, 0.2, 0};                               ///< m
+  Vector3 target{0, 0.2, 0};                            ///< m
   double distance = 1.5, azimuth = 35, elevation = 20;  ///< m, degrees
   bool operator==(const ViewCamera&) const = default;
 };

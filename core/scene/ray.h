@@ -5,8 +5,8 @@
 namespace ps {
 
 struct Ray {
-  Vec3 origin{0, 0, 0};      ///< m
-  Vec3 direction{0, 0, -1};  ///< any length but zero
+  Vector3 origin{0, 0, 0};      ///< m
+  Vector3 direction{0, 0, -1};  ///< any length but zero
 };
 
 }  // namespace ps

@@ -42,7 +42,7 @@ constexpr api::ParameterDeclaration kMotion[] = {
 };
 
 struct Component {
-  Vec3 Body::*vector;
+  Vector3 Body::*vector;
   size_t axis;
 };
 
@@ -52,8 +52,6 @@ std::optional<Component> componentOf(const std::string& key) {
   }
   return std::nullopt;
 }
-
-double length(const Vec3& v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
 
 }  // namespace
 
@@ -66,7 +64,7 @@ std::optional<Value> outsideValue(const Project& project, const Address& address
     return ((*body).*(component->vector))[component->axis];
   }
   if (address.owner != "scene") return std::nullopt;
-  if (address.key == kGravity.key) return length(project.environment.gravity);
+  if (address.key == kGravity.key) return project.environment.gravity.norm();
   if (address.key != kThermalModel) return std::nullopt;
   return project.solver.thermalModel.empty() ? std::string(kNoModel) : project.solver.thermalModel;
 }
@@ -83,10 +81,9 @@ bool setOutsideValue(Project& project, const Address& address, const Value& valu
     const auto& model = std::get<std::string>(value);
     project.solver.thermalModel = model == kNoModel ? std::string() : model;
   } else {
-    Vec3& gravity = project.environment.gravity;
+    Vector3& gravity = project.environment.gravity;
     const double strength = std::get<double>(value), old = std::get<double>(*before);
-    for (double& part : gravity) part = old > 0 ? part * (strength / old) : 0;
-    if (!(old > 0)) gravity[1] = -strength;
+    gravity = old > 0 ? Vector3(gravity * (strength / old)) : Vector3(0, -strength, 0);
   }
   return true;
 }

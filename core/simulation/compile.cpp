@@ -2,7 +2,7 @@
 #include "core/simulation/compile.h"
 
 #include "core/base/error.h"
-#include "core/math/vector3.h"
+#include "core/math/vector.h"
 #include "core/matter/material.h"
 #include "core/plugin_host/registry.h"
 #include "core/simulation/declared.h"
@@ -14,8 +14,6 @@
 
 namespace ps {
 namespace {
-
-api::Double3 double3(const Vec3& v) { return {v[0], v[1], v[2]}; }
 
 /// Phase at birth: as asked, or what is stable at the temperature.
 api::Phase birthPhase(const std::string& asked, const api::Caloric& caloric, double temperature) {
@@ -47,44 +45,37 @@ void setMatter(Spawn& spawn, const Project& project, std::span<const BakedMateri
             choiceOf(body.parameters, bodyParameters(), "phase"));
 }
 
-Vec3 vec3(const api::Double3& p) { return {p.x, p.y, p.z}; }
-
 /// Mean of the places of all particles.
-Vec3 centreOf(const Body& body, double spacing) {
+Vector3 centreOf(const Body& body, double spacing) {
   if (const auto* box = std::get_if<BoxShape>(&body.shape)) return box->center;
   const auto& voxels = std::get<VoxelShape>(body.shape);
-  Vec3 sum{0, 0, 0};
+  Vector3 sum;
   size_t count = 0;
   for (size_t palette = 0; palette < voxels.palette.size(); ++palette) {
     for (const api::Double3& p : cellCentres(voxels, spacing, cellsOf(voxels, static_cast<int>(palette)))) {
-      sum[0] += p.x, sum[1] += p.y, sum[2] += p.z;
+      sum += vectorOf(p);
       ++count;
     }
   }
-  for (double& c : sum) c /= static_cast<double>(std::max<size_t>(count, 1));
-  return sum;
+  return sum / static_cast<double>(std::max<size_t>(count, 1));
 }
 
-double sineAt(const Wave& wave, const Vec3& p) {
+double sineAt(const Wave& wave, const Vector3& p) {
   return std::sin(2 * std::numbers::pi * p[static_cast<size_t>(wave.axis)] / wave.wavelength + wave.phase);
 }
 
 /// What changes over a body at the start. What is fixed has no velocity of its own: see compileMotion().
-void setFields(Spawn& spawn, const Body& body, const Vec3& centre, const api::Caloric& caloric) {
+void setFields(Spawn& spawn, const Body& body, const Vector3& centre, const api::Caloric& caloric) {
   const std::string asked = choiceOf(body.parameters, bodyParameters(), "phase");
-  const Vec3 &w = body.spin, &gradient = body.temperatureGradient;
-  const bool warped = gradient != Vec3{0, 0, 0};
+  const Vector3 &w = body.spin, &gradient = body.temperatureGradient;
+  const bool warped = gradient != Vector3::Zero();
   for (const api::Double3& place : spawn.position) {
-    const Vec3 p = vec3(place), r{p[0] - centre[0], p[1] - centre[1], p[2] - centre[2]};
-    Vec3 v = body.velocity;
-    for (size_t a = 0; a < 3; ++a) {
-      const size_t b = (a + 1) % 3, c = (a + 2) % 3;
-      v[a] += w[b] * r[c] - w[c] * r[b];
-      if (body.velocityWave) v[a] += body.velocityWave->velocity[a] * sineAt(*body.velocityWave, p);
-    }
-    spawn.velocity.push_back(spawn.fixed ? api::Double3{0, 0, 0} : double3(v));
+    const Vector3 p = vectorOf(place), r = p - centre;
+    Vector3 v = body.velocity + w.cross(r);
+    if (body.velocityWave) v += body.velocityWave->velocity * sineAt(*body.velocityWave, p);
+    spawn.velocity.push_back(spawn.fixed ? api::Double3{0, 0, 0} : double3Of(v));
     if (!warped) continue;
-    const double t = spawn.temperature + gradient[0] * r[0] + gradient[1] * r[1] + gradient[2] * r[2];
+    const double t = spawn.temperature + gradient.dot(r);
     if (!(t >= 1)) {
       throw InputError("body '" + body.name + "': its temperature gradient would cool it to " + numberText(t) +
                        " K; raise its temperature or lower the gradient");
@@ -101,7 +92,7 @@ Spawn takePinned(Spawn& spawn, const Body& body) {
   pinned.fixed = true;
   std::erase_if(spawn.position, [&](const api::Double3& p) {
     const bool held =
-        std::any_of(body.pins.begin(), body.pins.end(), [&](const Region& pin) { return pin.contains(vec3(p)); });
+        std::any_of(body.pins.begin(), body.pins.end(), [&](const Region& pin) { return pin.contains(vectorOf(p)); });
     if (held) pinned.position.push_back(p);
     return held;
   });
@@ -149,7 +140,7 @@ SolverSettings compileSettings(const Project& project) {
   s.airDrag = air("air_drag");
   const double heading = air("wind_direction") * std::numbers::pi / 180;
   s.wind = {air("wind_speed") * std::cos(heading), 0, air("wind_speed") * std::sin(heading)};
-  s.gravity = double3(project.environment.gravity);
+  s.gravity = double3Of(project.environment.gravity);
   return s;
 }
 
@@ -178,14 +169,14 @@ ThermalSettings compileThermal(const Project& project) {
 std::vector<Wall> compileWalls(const Project& project) {
   std::vector<Wall> walls;
   for (const SceneWall& source : project.environment.walls) {
-    const Vec3& n = source.normal;
-    const double length = std::hypot(n[0], n[1], n[2]);
+    const double length = source.normal.norm();
     if (!(length > 0)) throw InputError("wall '" + source.name + "': its normal must not be zero");
     const api::ParameterList list = wallParameters();
     Wall wall;
     wall.id = source.id;
-    wall.normal = {n[0] / length, n[1] / length, n[2] / length};
-    wall.offset = wall.normal.x * source.point[0] + wall.normal.y * source.point[1] + wall.normal.z * source.point[2];
+    const Vector3 normal = source.normal / length;
+    wall.normal = double3Of(normal);
+    wall.offset = normal.dot(source.point);
     wall.friction = numberOf(source.parameters, list, "friction");
     wall.noSlip = toggleOf(source.parameters, list, "no_slip");
     const std::string heat = choiceOf(source.parameters, list, "heat");
@@ -205,7 +196,7 @@ std::vector<Wall> compileWalls(const Project& project) {
 
 Bounds compileBounds(const Project& project) {
   const Environment& environment = project.environment;
-  return {double3(environment.boundsMinimum), double3(environment.boundsMaximum), environment.periodic};
+  return {double3Of(environment.boundsMinimum), double3Of(environment.boundsMaximum), environment.periodic};
 }
 
 std::vector<Material> compileMaterials(const Project& project, const PluginRegistry& plugins,
@@ -277,7 +268,7 @@ std::vector<Spawn> compileBody(const Project& project, const PluginRegistry& plu
   }
   const double jitter = numberOf(body.parameters, bodyParameters(), "jitter");
   const double seed = numberOf(body.parameters, bodyParameters(), "seed");
-  const Vec3 centre = centreOf(body, spacing);
+  const Vector3 centre = centreOf(body, spacing);
   std::vector<Spawn> all;
   for (Spawn& spawn : spawns) {
     // By place in the lattice: disorder does not decide who is pinned.
@@ -296,9 +287,10 @@ std::vector<Spawn> compileBody(const Project& project, const PluginRegistry& plu
 
 BodyMotion compileMotion(const Body& body, double spacing) {
   const auto number = [&](const char* key) { return numberOf(body.parameters, bodyParameters(), key); };
-  BodyMotion motion{{}, double3(body.velocity), double3(body.spin), number("motion_start")};
+  BodyMotion motion{{}, double3Of(body.velocity), double3Of(body.spin), number("motion_start")};
   if (const double stop = number("motion_stop"); stop > 0) motion.stop = stop;
-  if (body.velocity != Vec3{0, 0, 0} || body.spin != Vec3{0, 0, 0}) motion.centre = double3(centreOf(body, spacing));
+  if (body.velocity != Vector3::Zero() || body.spin != Vector3::Zero())
+    motion.centre = double3Of(centreOf(body, spacing));
   return motion;
 }
 
@@ -324,14 +316,12 @@ Spawn compileCells(const Project& project, const PluginRegistry& plugins, std::s
 Spawn compileLayer(const Project& project, std::span<const BakedMaterial> materials, const Emitter& emitter,
                    double spacing, double offset) {
   const auto number = [&](const char* key) { return numberOf(emitter.parameters, emitterParameters(), key); };
-  const Vec3& d = emitter.direction;
-  const Vector3 direction = 1 / std::hypot(d[0], d[1], d[2]) * Vector3{d[0], d[1], d[2]};
+  const Vector3 direction = emitter.direction.normalized();
   // Across the jet: level where it is not upright.
-  const Vector3 across = std::abs(direction.y) < 0.9 ? Vector3{0, 1, 0} : Vector3{1, 0, 0};
-  const Vector3 turned = cross(direction, across), side = 1 / std::sqrt(dot(turned, turned)) * turned;
-  const Vector3 up = cross(direction, side);
-  const Vector3 centre = Vector3{emitter.point[0], emitter.point[1], emitter.point[2]} + offset * direction;
-  const Vector3 velocity = number("speed") * direction;
+  const Vector3 across = std::abs(direction.y()) < 0.9 ? Vector3{0, 1, 0} : Vector3{1, 0, 0};
+  const Vector3 side = direction.cross(across).normalized(), up = direction.cross(side);
+  const Vector3 centre = emitter.point + offset * direction;
+  const api::Double3 velocity = double3Of(number("speed") * direction);
   const double radius = number("diameter") / 2;
   const int reach = static_cast<int>(std::floor(radius / spacing));
   Spawn spawn;
@@ -340,9 +330,8 @@ Spawn compileLayer(const Project& project, std::span<const BakedMaterial> materi
   for (int row = -reach; row <= reach; ++row) {
     for (int column = -reach; column <= reach; ++column) {
       if (std::hypot(row, column) * spacing > radius && (row != 0 || column != 0)) continue;
-      const Vector3 p = centre + spacing * row * side + spacing * column * up;
-      spawn.position.push_back({p.x, p.y, p.z});
-      spawn.velocity.push_back({velocity.x, velocity.y, velocity.z});
+      spawn.position.push_back(double3Of(centre + spacing * row * side + spacing * column * up));
+      spawn.velocity.push_back(velocity);
     }
   }
   return spawn;

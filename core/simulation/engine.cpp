@@ -124,7 +124,7 @@ struct Engine::Impl {
   std::vector<uint8_t> fixedBodies;    // 1 for bodies that were born fixed, by the same index
   std::vector<std::string> bodyNames;  // for messages, by the index that particles carry
   std::vector<std::string> probeNames;
-  std::vector<Vec3> start;  ///< m, places at the start by the particles' ids, if a probe has a region
+  std::vector<Vector3> start;  ///< m, places at the start by the particles' ids, if a probe has a region
   StepReport lastReport;
   MatterFlow flow;
   uint64_t revision = 0;

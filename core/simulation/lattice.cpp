@@ -9,7 +9,7 @@
 namespace ps {
 namespace {
 
-CellIndex cellAt(const api::Double3& p, const Vec3& origin, double size) {
+CellIndex cellAt(const api::Double3& p, const Vector3& origin, double size) {
   return {static_cast<int>(std::floor((p.x - origin[0]) / size + 0.5)),
           static_cast<int>(std::floor((p.y - origin[1]) / size + 0.5)),
           static_cast<int>(std::floor((p.z - origin[2]) / size + 0.5))};
@@ -152,13 +152,13 @@ std::vector<CellIndex> resampled(const std::vector<CellIndex>& cells, double fro
   return result;
 }
 
-Vec3 resampledOrigin(const VoxelShape& voxels, double to) {
+Vector3 resampledOrigin(const VoxelShape& voxels, double to) {
   const double shift = (to - voxels.spacing) / 2;
-  return {voxels.origin[0] + shift, voxels.origin[1] + shift, voxels.origin[2] + shift};
+  return voxels.origin + Vector3::Constant(shift);
 }
 
 std::vector<api::Double3> cellCentres(const VoxelShape& voxels, double spacing, const std::vector<CellIndex>& cells) {
-  const Vec3 origin = resampledOrigin(voxels, spacing);
+  const Vector3 origin = resampledOrigin(voxels, spacing);
   std::vector<api::Double3> centres;
   centres.reserve(cells.size());
   for (const CellIndex& c : resampled(cells, voxels.spacing, spacing)) {
@@ -188,7 +188,7 @@ std::vector<api::Double3> freePositions(const ParticleStore& store, const std::v
 std::vector<uint32_t> idsInCells(const ParticleStore& store, const VoxelShape& voxels, std::vector<CellIndex> cells) {
   std::sort(cells.begin(), cells.end());
   const double hair = kOnFace * voxels.spacing;
-  const Vec3 origin{voxels.origin[0] - hair, voxels.origin[1] - hair, voxels.origin[2] - hair};
+  const Vector3 origin = voxels.origin - Vector3::Constant(hair);
   std::vector<uint32_t> ids;
   for (size_t i = 0; i < store.size(); ++i) {
     const CellIndex cell = cellAt(store.wrappedPosition(i), origin, voxels.spacing);

@@ -22,7 +22,7 @@ std::vector<CellIndex> cellsOf(const VoxelShape& voxels, int palette);
 /// `to` may vanish. In order of z, y, x where the edges differ, else as they come.
 std::vector<CellIndex> resampled(const std::vector<CellIndex>& cells, double from, double to);
 /// Centre in m of cell (0, 0, 0) of the lattice that resampled() gives.
-Vec3 resampledOrigin(const VoxelShape& voxels, double to);
+Vector3 resampledOrigin(const VoxelShape& voxels, double to);
 /// Centres in m of the particles of a lattice of `spacing` m that fill cells of a sketch.
 std::vector<api::Double3> cellCentres(const VoxelShape& voxels, double spacing, const std::vector<CellIndex>& cells);
 

@@ -107,14 +107,12 @@ void MatterFlow::steer(Solver& solver, const Project& project, double dt) {
       at = gone ? m_pipes.erase(at) : std::next(at);
       continue;
     }
-    const Vec3& d = emitter->direction;
-    const double rate = numberOf(*emitter, "speed") / std::hypot(d[0], d[1], d[2]);
+    const api::Float4 velocity = float4Of(numberOf(*emitter, "speed") * emitter->direction.normalized(), 0);
     const ParticleStore& store = solver.particles();
     for (const Layer& layer : pipe.layers) {
       for (const uint32_t id : layer) {
         if (id == kNone) continue;
-        store.velocity()[store.indexOf(id)] = {static_cast<float>(rate * d[0]), static_cast<float>(rate * d[1]),
-                                               static_cast<float>(rate * d[2]), 0};
+        store.velocity()[store.indexOf(id)] = velocity;
       }
     }
     ++at;

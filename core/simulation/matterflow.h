@@ -42,7 +42,7 @@ class MatterFlow {
     double travelled = 0;      ///< m, of the jet since its last layer crossed the mouth
     std::deque<Layer> layers;  ///< held, a spacing apart; the first is the next to cross
     Layer last;                ///< that has crossed
-    Vec3 point{}, direction{};
+    Vector3 point{}, direction{};
     double diameter = 0;  ///< m
   };
   struct Job;

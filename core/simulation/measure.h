@@ -16,8 +16,8 @@ struct ProbeView {
   const Solver& solver;
   const std::vector<std::string>& bodyIds;  ///< Body::id by the particles' body index
   std::vector<Wall> walls{};
-  double spacing = 0;             ///< m, of the particles
-  std::span<const Vec3> start{};  ///< m, places at the start by the particles' ids
+  double spacing = 0;                ///< m, of the particles
+  std::span<const Vector3> start{};  ///< m, places at the start by the particles' ids
 };
 /// Value of a probe now, in the unit of its quantity; means are weighted with mass, NaN where nothing matches. Fixed
 /// particles are seen by probes that say so alone, but count as other bodies.

@@ -17,12 +17,12 @@ int32_t indexOn(double coordinate, double origin, double spacing) {
 
 }  // namespace
 
-api::Cell SketchGrid::cellAt(const std::array<double, 3>& point) const {
+api::Cell SketchGrid::cellAt(const Vector3& point) const {
   return {indexOn(point[0], origin[0], spacing), indexOn(point[1], origin[1], spacing),
           indexOn(point[2], origin[2], spacing)};
 }
 
-std::array<double, 3> SketchGrid::centreOf(const api::Cell& cell) const {
+Vector3 SketchGrid::centreOf(const api::Cell& cell) const {
   return {cell.x * spacing + origin[0], cell.y * spacing + origin[1], cell.z * spacing + origin[2]};
 }
 

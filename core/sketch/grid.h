@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "core/math/vector.h"
+
 #include <phasesketch/brush.h>
 
-#include <array>
 #include <compare>
 
 namespace ps {
@@ -17,14 +18,14 @@ constexpr bool sameCell(const api::Cell& a, const api::Cell& b) { return a.x == 
 
 /// A cubic lattice of cells of edge `spacing` (m, > 0); cell (0, 0, 0) is centred at `origin` (m).
 struct SketchGrid {
-  std::array<double, 3> origin{0, 0, 0};
+  Vector3 origin{0, 0, 0};
   double spacing = 0.02;
 
   /// The cell whose cube holds the point: p = floor((Q - C)/dx + 1/2), on each axis. A point on a face belongs to the
   /// cell of the higher index. Points farther away than 2^30 cells (and NaN) are taken to the last cell in reach.
-  api::Cell cellAt(const std::array<double, 3>& point) const;
+  api::Cell cellAt(const Vector3& point) const;
   /// Centre of a cell in m: Q = p dx + C.
-  std::array<double, 3> centreOf(const api::Cell& cell) const;
+  Vector3 centreOf(const api::Cell& cell) const;
 };
 
 }  // namespace ps

@@ -133,7 +133,7 @@ void applyBrush(const api::BrushPlugin& brush, const StrokeSetup& setup, api::Ed
 }
 
 StrokeEdits replayStroke(const api::BrushPlugin& brush, const VoxelShape::Stroke& stroke, const SketchGrid& grid,
-                         const Vec3& up) {
+                         const Vector3& up) {
   std::vector<api::StrokeSample> raw;
   raw.reserve(stroke.samples.size());
   for (const auto& s : stroke.samples) raw.push_back({{s[0], s[1], s[2]}, s[3], s[4]});

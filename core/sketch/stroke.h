@@ -47,7 +47,7 @@ struct StrokeEdits {
 struct StrokeSetup {
   SketchGrid grid;
   double radius = 0.05;            ///< m
-  Vec3 up{0, 1, 0};                ///< unit vector
+  Vector3 up{0, 1, 0};             ///< unit vector
   std::vector<double> parameters;  ///< the brush's own, in the order of its declarations
 };
 
@@ -63,6 +63,6 @@ void applyBrush(const api::BrushPlugin& brush, const StrokeSetup& setup, api::Ed
                 std::span<const api::StrokeSample> samples, CellSet& cells);
 /// Draws a saved stroke again (its samples are the raw ones).
 StrokeEdits replayStroke(const api::BrushPlugin& brush, const VoxelShape::Stroke& stroke, const SketchGrid& grid,
-                         const Vec3& up = {0, 1, 0});
+                         const Vector3& up = {0, 1, 0});
 
 }  // namespace ps

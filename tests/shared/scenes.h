@@ -11,7 +11,7 @@ inline Environment tray(double halfWidth, double height) {
   environment.parameters.values["air_convection"] = 0.0;
   environment.boundsMinimum = {-halfWidth, 0, -halfWidth};
   environment.boundsMaximum = {halfWidth, height, halfWidth};
-  const auto wall = [&](const char* id, Vec3 point, Vec3 normal) {
+  const auto wall = [&](const char* id, Vector3 point, Vector3 normal) {
     SceneWall w;
     w.id = w.name = id;
     w.point = point;
@@ -35,7 +35,7 @@ inline SceneMaterial water() {
 }
 
 /// A block of `side`^3 particles of water at a temperature in K; bonded when it is ice.
-inline Body block(const char* id, int side, double spacing, Vec3 center, double temperature) {
+inline Body block(const char* id, int side, double spacing, Vector3 center, double temperature) {
   Body body;
   body.id = body.name = id;
   body.material = "water";

@@ -9,7 +9,7 @@ namespace ps::testing {
 
 inline constexpr int kWidth = 320, kHeight = 200;  // pixels
 
-inline void addParticle(Snapshot& s, const Vec3& p, double radius, uint32_t id, api::Motion motion,
+inline void addParticle(Snapshot& s, const Vector3& p, double radius, uint32_t id, api::Motion motion,
                         double temperature = 280) {
   s.position.push_back(
       {static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2]), static_cast<float>(radius)});
@@ -26,7 +26,7 @@ inline void addParticle(Snapshot& s, const Vec3& p, double radius, uint32_t id, 
   s.material.push_back(0);
 }
 
-inline SceneWall wall(const char* id, const Vec3& point, const Vec3& normal, double temperature) {
+inline SceneWall wall(const char* id, const Vector3& point, const Vector3& normal, double temperature) {
   SceneWall w;
   w.id = w.name = id;
   w.point = point;

@@ -264,7 +264,7 @@ class TestContent : public QObject {
     QCOMPARE(wallsNow(), walls + kAdded);
     const SceneWall* left = m_document->wall("left");
     QVERIFY(left && left->point[0] > m_document->project().environment.boundsMinimum[0]);
-    QCOMPARE(left->normal, (Vec3{1, 0, 0}));
+    QCOMPARE(left->normal, (Vector3{1, 0, 0}));
     QVERIFY(!hasTemperature(*left));
     QVERIFY(m_document->addWalls({"left"}).contains(QStringLiteral("Left side")));  // it stands there already
     QCOMPARE(m_document->undoStack().count(), 1);

@@ -98,15 +98,15 @@ class TestDocument : public QObject {
     QCOMPARE(document.setParameter(speed, -2.0), QString());
     QCOMPARE(document.setParameter(spin, 3.0), QString());
     QVERIFY(!document.setParameter(spin, 1e9).isEmpty());
-    QVERIFY((document.project().bodies[0].velocity == Vec3{0, -2, 0}));
-    QVERIFY((document.project().bodies[0].spin == Vec3{0, 0, 3}));
+    QVERIFY((document.project().bodies[0].velocity == Vector3{0, -2, 0}));
+    QVERIFY((document.project().bodies[0].spin == Vector3{0, 0, 3}));
     QVERIFY(document.project().bodies[0].parameters.values.count("spin_z") == 0);  // the file has it as a vector
     QCOMPARE(document.setParameter(spin, 0.0), QString());
     document.undoStack().undo();
     QVERIFY(document.value(spin) == Value(3.0));
     document.undoStack().undo();
     document.undoStack().undo();
-    QVERIFY((document.project().bodies[0].velocity == Vec3{0, 0, 0}));
+    QVERIFY((document.project().bodies[0].velocity == Vector3{0, 0, 0}));
     QVERIFY(!document.isDirty());
   }
 

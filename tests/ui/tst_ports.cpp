@@ -23,7 +23,7 @@ using namespace ps;
 
 namespace {
 
-double distance(const Vec3& a, const Vec3& b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
+double distance(const Vector3& a, const Vector3& b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
 
 }  // namespace
 
@@ -58,7 +58,7 @@ class TestPorts : public QObject {
     QCOMPARE(tap.id, std::string("tap"));
     QCOMPARE(tap.name, std::string("Tap"));
     QCOMPARE(tap.material, view()->brush().material);
-    QCOMPARE(tap.direction, (Vec3{0, 1, 0}));
+    QCOMPARE(tap.direction, (Vector3{0, 1, 0}));
     QVERIFY(std::abs(tap.point[1] - 0.5 * session().snapshot()->spacing) < 1e-9);
     QCOMPARE(view()->tool(), ViewTool::Select);
     QCOMPARE(view()->selectedPort(), (Port{false, "tap"}));
@@ -77,7 +77,7 @@ class TestPorts : public QObject {
 
   void draggedUpATapPoursDown() {
     Emitter tap = placedTap();
-    QCOMPARE(tap.direction, (Vec3{0, -1, 0}));
+    QCOMPARE(tap.direction, (Vector3{0, -1, 0}));
     QVERIFY(tap.point[1] > 0.1);
   }
 
@@ -127,8 +127,8 @@ class TestPorts : public QObject {
 
     QVERIFY((pixelOf(moved.point) - at - QPoint(60, 0)).manhattanLength() <= 2);
     QCOMPARE(document().undoStack().count(), steps + 1);
-    const Vec3 lives =
-        onEngine<Vec3>(session(), [](Engine& engine) { return engine.project().emitters.front().point; });
+    const Vector3 lives =
+        onEngine<Vector3>(session(), [](Engine& engine) { return engine.project().emitters.front().point; });
     QCOMPARE(lives, moved.point);
     document().undoStack().undo();
     QCOMPARE(project().emitters.front().point, tap.point);
@@ -238,7 +238,7 @@ class TestPorts : public QObject {
   const Project& project() { return document().project(); }
   Viewport* view() { return m_window->viewport(); }
   Outliner* outliner() { return m_window->findChild<Outliner*>(); }
-  QPoint pixelOf(const Vec3& p) {
+  QPoint pixelOf(const Vector3& p) {
     const auto pixel = ps::project(view()->navigator().camera(), view()->width(), view()->height(), p);
     return pixel ? QPoint(qRound((*pixel)[0]), qRound((*pixel)[1])) : QPoint(-1, -1);
   }

@@ -312,7 +312,7 @@ void TestRender::theSelectedBodyHasAnOutline() {
   Snapshot s;
   s.materialLook = {{0.75f, 0.87f, 0.98f, 1}};
   constexpr double kRadius = 0.08;
-  const Vec3 chosen{-0.15, 0.3, 0}, other{0.15, 0.3, 0};
+  const Vector3 chosen{-0.15, 0.3, 0}, other{0.15, 0.3, 0};
   addParticle(s, chosen, kRadius, 0, static_cast<api::Motion>(motion));
   addParticle(s, other, kRadius, 1, static_cast<api::Motion>(motion));
   s.body = {7, 3};

@@ -52,12 +52,12 @@ void TestRenderParts::cameraMapsPointsToPixelsAndBack() {
   Camera camera;
   camera.azimuth = azimuth;
   camera.elevation = elevation;
-  const Vec3 point{0.1, 0.3, -0.2};
-  const std::optional<Vec3> pixel = project(camera, kWidth, kHeight, point);
+  const Vector3 point{0.1, 0.3, -0.2};
+  const std::optional<Vector3> pixel = project(camera, kWidth, kHeight, point);
   QVERIFY(pixel);
   const Ray ray = rayThrough(camera, kWidth, kHeight, (*pixel)[0], (*pixel)[1]);
   // The ray must pass the point: distance of the point from the line, in metres, to rounding of doubles.
-  Vec3 d{}, offset{};
+  Vector3 d{}, offset{};
   double along = 0, miss = 0;
   for (size_t k = 0; k < 3; ++k) d[k] = point[k] - ray.origin[k], along += d[k] * ray.direction[k];
   for (size_t k = 0; k < 3; ++k) offset[k] = d[k] - ray.direction[k] * along, miss += offset[k] * offset[k];
@@ -67,14 +67,13 @@ void TestRenderParts::cameraMapsPointsToPixelsAndBack() {
 
 void TestRenderParts::matricesAgreeWithProject() {
   Camera camera;
-  const Vec3 point{-0.3, 0.1, 0.25};
-  const auto clip = transform(multiply(projectionMatrix(camera, kWidth, kHeight), viewMatrix(camera)), point);
-  const Vec3 pixel = *project(camera, kWidth, kHeight, point);
+  const Vector3 point{-0.3, 0.1, 0.25};
+  const Vector4 clip = projectionMatrix(camera, kWidth, kHeight) * viewMatrix(camera) * point.homogeneous();
+  const Vector3 pixel = *project(camera, kWidth, kHeight, point);
   QVERIFY(std::abs((clip[0] / clip[3] + 1) / 2 * kWidth - pixel[0]) < 1e-9);
   QVERIFY(std::abs((1 - clip[1] / clip[3]) / 2 * kHeight - pixel[1]) < 1e-9);
   QVERIFY(std::abs(clip[3] - pixel[2]) < 1e-12);
-  const Mat4 one = multiply(viewMatrix(camera), inverse(viewMatrix(camera)));
-  for (size_t i = 0; i < 16; ++i) QVERIFY(std::abs(one[i] - (i % 5 == 0 ? 1 : 0)) < 1e-12);
+  QVERIFY((viewMatrix(camera) * viewMatrix(camera).inverse()).isIdentity(1e-12));
   QVERIFY(!project(camera, kWidth, kHeight, frameOf(camera).eye));
 }
 
@@ -83,16 +82,16 @@ void TestRenderParts::orbitPanAndDollyKeepTheirPromise() {
   orbit(camera, 0, 200);
   QCOMPARE(camera.elevation, 90.0);
   camera = {};
-  const Vec3 before = *project(camera, kWidth, kHeight, {0, 0.2, 0});
+  const Vector3 before = *project(camera, kWidth, kHeight, {0, 0.2, 0});
   pan(camera, kHeight, 17, -9);
-  const Vec3 after = *project(camera, kWidth, kHeight, {0, 0.2, 0});  // it was the target: at the target's depth
+  const Vector3 after = *project(camera, kWidth, kHeight, {0, 0.2, 0});  // it was the target: at the target's depth
   QVERIFY(std::abs(after[0] - before[0] - 17) < 1e-9 && std::abs(after[1] - before[1] + 9) < 1e-9);
 
   camera = {};
   const Ray ray = rayThrough(camera, kWidth, kHeight, 40, 150);
-  const Vec3 under = *meetPlane(ray, camera.target, frameOf(camera).forward);
+  const Vector3 under = *meetPlane(ray, camera.target, frameOf(camera).forward);
   dollyTo(camera, kWidth, kHeight, 40, 150, 0.4);
-  const Vec3 pixel = *project(camera, kWidth, kHeight, under);
+  const Vector3 pixel = *project(camera, kWidth, kHeight, under);
   QVERIFY(std::abs(pixel[0] - 40) < 1e-9 && std::abs(pixel[1] - 150) < 1e-9);
   QVERIFY(std::abs(camera.distance - 0.6) < 1e-12);
 }
@@ -100,10 +99,10 @@ void TestRenderParts::orbitPanAndDollyKeepTheirPromise() {
 void TestRenderParts::frameAllShowsTheWholeBox() {
   for (const auto& [width, height] : {std::pair{320, 200}, {100, 400}}) {
     Camera camera;
-    const Vec3 low{-1, 0, -2}, high{0.5, 3, 1};
+    const Vector3 low{-1, 0, -2}, high{0.5, 3, 1};
     frameAll(camera, width, height, low, high);
     for (int corner = 0; corner < 8; ++corner) {
-      const Vec3 p{corner & 1 ? low[0] : high[0], corner & 2 ? low[1] : high[1], corner & 4 ? low[2] : high[2]};
+      const Vector3 p{corner & 1 ? low[0] : high[0], corner & 2 ? low[1] : high[1], corner & 4 ? low[2] : high[2]};
       const auto pixel = project(camera, width, height, p);
       QVERIFY(pixel && (*pixel)[0] >= 0 && (*pixel)[0] <= width && (*pixel)[1] >= 0 && (*pixel)[1] <= height);
     }
@@ -119,7 +118,7 @@ void TestRenderParts::pickFindsTheNearestSphere() {
   addParticle(s, {0, 0, 0.2}, 0.1, 6, api::Motion::Solid);
   addParticle(s, {0.5, 0, 0}, 0.1, 7, api::Motion::Liquid);
   QCOMPARE(pickParticle(s, camera, kWidth, kHeight, kWidth / 2.0, kHeight / 2.0), std::optional<size_t>(1));
-  const Vec3 third = *project(camera, kWidth, kHeight, {0.5, 0, 0});
+  const Vector3 third = *project(camera, kWidth, kHeight, {0.5, 0, 0});
   QCOMPARE(pickParticle(s, camera, kWidth, kHeight, third[0], third[1]), std::optional<size_t>(2));
   QVERIFY(!pickParticle(s, camera, kWidth, kHeight, 1, 1));
 }
@@ -249,9 +248,9 @@ void TestRenderParts::hidesOnlyWhatIsCovered() {
   Camera camera;
   camera.target = {0, 0, 0};
   camera.elevation = camera.azimuth = 0;
-  const Mat4 m = multiply(projectionMatrix(camera, kWidth, kHeight), viewMatrix(camera));
+  const Matrix4 m = projectionMatrix(camera, kWidth, kHeight) * viewMatrix(camera);
   render::CullView view{{}, kWidth, kHeight};
-  for (size_t i = 0; i < 16; ++i) view.viewProjection[i] = static_cast<float>(m[i]);
+  Eigen::Matrix4f::Map(view.viewProjection.data()) = m.cast<float>();
   const auto sphere = [](float x, float z, float r, float mark) { return render::Instance{x, 0, z, r, 0, 0, 0, mark}; };
   std::vector<render::Instance> list{sphere(0, -0.5f, 0.05f, 1), sphere(0, 0.2f, 0.2f, 2),
                                      sphere(0.25f, -0.5f, 0.1f, 3)};
@@ -286,7 +285,7 @@ void TestRenderParts::wallsAreClippedByEachOther() {
   for (const size_t index : {size_t{0}, size_t{1}}) {
     const render::Face face = render::wallFace(scene.environment, index);
     QCOMPARE(face.corners.size(), size_t{4});
-    for (const Vec3& p : face.corners) {
+    for (const Vector3& p : face.corners) {
       QVERIFY(std::abs(std::abs(p[0]) - 0.4) < 1e-9 && std::abs(std::abs(p[2]) - 0.4) < 1e-9);
       QVERIFY(std::abs(p[1] - (index ? 0.8 : 0)) < 1e-9);
     }

@@ -286,7 +286,7 @@ void TstSimulation::sketchesKeepTheirPlaceAtAnotherSpacing() {
   engine.reset();
   const ParticleStore& store = engine.solver().particles();
   QCOMPARE(static_cast<int>(store.size()), count);
-  const Vec3 corner{-0.015, 0.585, -0.015};
+  const Vector3 corner{-0.015, 0.585, -0.015};
   for (size_t i = 0; i < store.size(); ++i) {
     const api::Float4& p = store.position()[i];
     for (const auto& [place, axis] : {std::pair{p.x, 0}, {p.y, 1}, {p.z, 2}}) {

@@ -36,7 +36,7 @@ class BallBrush final : public api::BrushPlugin {
         for (int y = -reach; y <= reach; ++y)
           for (int x = -reach; x <= reach; ++x) {
             const Cell cell{middle.x + x, middle.y + y, middle.z + z};
-            const Vec3 at = grid.centreOf(cell);
+            const Vector3 at = grid.centreOf(cell);
             if (std::hypot(at[0] - s.position.x, at[1] - s.position.y, at[2] - s.position.z) <= c.radius)
               cells.push_back(cell);
           }

@@ -34,18 +34,15 @@ std::string nameFromId(const std::string& id) {
 QString nameOf(const auto& item) { return text(item.name.empty() ? item.id : item.name); }
 
 /// The nearest place within the bounds.
-Vec3 within(const Environment& environment, Vec3 p) {
-  for (size_t a = 0; a < 3; ++a) p[a] = std::clamp(p[a], environment.boundsMinimum[a], environment.boundsMaximum[a]);
-  return p;
+Vector3 within(const Environment& environment, const Vector3& p) {
+  return p.cwiseMax(environment.boundsMinimum).cwiseMin(environment.boundsMaximum);
 }
 void keepWithin(const Environment& environment, Emitter& emitter) {
   emitter.point = within(environment, emitter.point);
 }
 void keepWithin(const Environment& environment, Sink& sink) {
-  Vec3 centre;
-  for (size_t a = 0; a < 3; ++a) centre[a] = 0.5 * (sink.minimum[a] + sink.maximum[a]);
-  const Vec3 inside = within(environment, centre);
-  for (size_t a = 0; a < 3; ++a) sink.minimum[a] += inside[a] - centre[a], sink.maximum[a] += inside[a] - centre[a];
+  const Vector3 centre = 0.5 * (sink.minimum + sink.maximum), way = within(environment, centre) - centre;
+  sink.minimum += way, sink.maximum += way;
 }
 
 /// Beside its original, along x.

@@ -5,7 +5,6 @@
 #include "ui/document/wallside.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace ps {
 namespace {
@@ -16,8 +15,7 @@ QString nameOf(const SceneWall& wall) { return text(wall.name.empty() ? wall.id 
 
 /// Whether a wall looks the same way: it keeps matter from leaving on that side already.
 bool stands(const SceneWall& wall, const WallSide& side) {
-  const Vec3& n = wall.normal;
-  return (side.upper ? -1 : 1) * n[side.axis] > 0.99 * std::hypot(n[0], n[1], n[2]);
+  return (side.upper ? -1 : 1) * wall.normal[side.axis] > 0.99 * wall.normal.norm();
 }
 
 /// "" or why no wall comes on that side.
@@ -41,12 +39,12 @@ std::string freeId(const std::vector<SceneWall>& walls, const std::string& stem)
 
 }  // namespace
 
-SceneWall wallOn(const WallSide& side, const Vec3& minimum, const Vec3& maximum) {
+SceneWall wallOn(const WallSide& side, const Vector3& minimum, const Vector3& maximum) {
   SceneWall wall;
   wall.id = side.id;
   wall.name = side.name;
-  wall.point = {0, 0, 0};
-  wall.normal = {0, 0, 0};
+  wall.point.setZero();
+  wall.normal.setZero();
   wall.point[side.axis] = (side.upper ? maximum : minimum)[side.axis];
   wall.normal[side.axis] = side.upper ? -1 : 1;
   return wall;
@@ -62,7 +60,7 @@ QString Document::addWalls(const std::vector<std::string>& sides) {
   const Environment& environment = m_project.environment;
   // Just inside the bounds, so that what leans on a wall does not count as lost.
   const double inset = 2 * numberOf(m_project.solver.parameters, solverParameters(), "particle_spacing");
-  Vec3 minimum = environment.boundsMinimum, maximum = environment.boundsMaximum;
+  Vector3 minimum = environment.boundsMinimum, maximum = environment.boundsMaximum;
   for (size_t a = 0; a < 3; ++a) minimum[a] += inset, maximum[a] -= inset;
   std::vector<SceneWall> walls = environment.walls;
   QString problem;

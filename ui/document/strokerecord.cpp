@@ -107,20 +107,20 @@ struct CellBounds {
     }
     return true;
   }
-  bool holds(const std::array<double, 3>& p) const {
+  bool holds(const Vector3& p) const {
     for (size_t k = 0; k < 3; ++k) {
       if (p[k] < minimum[k] || p[k] > maximum[k]) return false;
     }
     return true;
   }
   CellIndex low, high;
-  Vec3 minimum, maximum;  ///< m
+  Vector3 minimum, maximum;  ///< m
 };
 
 /// Centres of a body's matter at the start, within bounds.
-std::vector<std::array<double, 3>> centresWithin(const Body& body, double spacing, const CellBounds& bounds) {
-  std::vector<std::array<double, 3>> centres;
-  const auto add = [&](const std::array<double, 3>& p) {
+std::vector<Vector3> centresWithin(const Body& body, double spacing, const CellBounds& bounds) {
+  std::vector<Vector3> centres;
+  const auto add = [&](const Vector3& p) {
     if (bounds.holds(p)) centres.push_back(p);
   };
   if (const auto* box = std::get_if<BoxShape>(&body.shape)) {
@@ -151,7 +151,7 @@ std::vector<std::array<double, 3>> centresWithin(const Body& body, double spacin
 class PlacesByCell {
  public:
   PlacesByCell(const SketchGrid& grid, const CellBounds& bounds) : m_grid(grid), m_bounds(bounds) {}
-  void add(const std::vector<std::array<double, 3>>& centres) {
+  void add(const std::vector<Vector3>& centres) {
     for (const auto& p : centres) {
       const api::Cell c = m_grid.cellAt(p);
       m_places.push_back({key(c.x, c.y, c.z), p});
@@ -178,7 +178,7 @@ class PlacesByCell {
  private:
   struct Place {
     uint64_t key;
-    std::array<double, 3> place;
+    Vector3 place;
   };
   uint64_t key(int x, int y, int z) const {
     const auto along = [&](int v, size_t k) { return static_cast<uint64_t>(v - m_bounds.low[k] + 1); };

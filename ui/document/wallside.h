@@ -22,6 +22,6 @@ inline constexpr WallSide kWallSides[] = {
 inline const std::vector<std::string> kUprightSides{"left", "right", "back", "front"};
 
 /// A wall that lets no heat through, on that face of the box.
-SceneWall wallOn(const WallSide& side, const Vec3& minimum, const Vec3& maximum);
+SceneWall wallOn(const WallSide& side, const Vector3& minimum, const Vector3& maximum);
 
 }  // namespace ps

@@ -3,38 +3,29 @@
 #include "core/scene/ray.h"
 #include "ui/render/renderer.h"
 
-#include <array>
 #include <optional>
 
 // Pure functions on Camera: no context, no widgets. Pixels are device pixels, (0, 0) is the upper left corner, y runs
 // down; `width` and `height` are those of the picture.
 namespace ps {
 
-/// 4x4, column-major as OpenGL wants it: element (row, column) is at [column * 4 + row].
-using Mat4 = std::array<double, 16>;
-Mat4 multiply(const Mat4& a, const Mat4& b);
-/// a * (v, 1) with the perspective division left to the caller.
-std::array<double, 4> transform(const Mat4& a, const Vec3& v);
-/// Throws Error for a singular matrix.
-Mat4 inverse(const Mat4& a);
-
 /// Orthonormal, in world coordinates; `forward` points into the picture. Defined for every angle, straight down
 /// included.
 struct CameraFrame {
-  Vec3 eye, right, up, forward;
+  Vector3 eye, right, up, forward;
 };
 CameraFrame frameOf(const Camera& camera);
 
 double nearPlane(const Camera& camera);  ///< m
 double farPlane(const Camera& camera);   ///< m
-Mat4 viewMatrix(const Camera& camera);
+Matrix4 viewMatrix(const Camera& camera);
 /// Perspective with depth -1..1; `fieldOfView` is the vertical one.
-Mat4 projectionMatrix(const Camera& camera, int width, int height);
+Matrix4 projectionMatrix(const Camera& camera, int width, int height);
 
 /// From the eye; the direction has unit length.
 Ray rayThrough(const Camera& camera, int width, int height, double x, double y);
 /// Pixel x, pixel y and distance along the view direction in m, or nothing for a point behind the near plane.
-std::optional<Vec3> project(const Camera& camera, int width, int height, const Vec3& world);
+std::optional<Vector3> project(const Camera& camera, int width, int height, const Vector3& world);
 /// Size of a pixel at `depth` metres along the view direction, m.
 double pixelSize(const Camera& camera, int height, double depth);
 
@@ -46,13 +37,13 @@ void pan(Camera& camera, int height, double dx, double dy);
 /// The distance stays within 1 mm and 1 km.
 void dollyTo(Camera& camera, int width, int height, double x, double y, double factor);
 /// Same angles, nearest distance from which the sphere around the box is whole in the picture.
-void frameAll(Camera& camera, int width, int height, const Vec3& minimum, const Vec3& maximum);
+void frameAll(Camera& camera, int width, int height, const Vector3& minimum, const Vector3& maximum);
 
 /// Index of the nearest particle that the ray through the pixel hits, by its sphere; nothing when it hits none.
 /// Static particles count.
 std::optional<size_t> pickParticle(const Snapshot& snapshot, const Camera& camera, int width, int height, double x,
                                    double y);
 /// Where a ray meets a plane, or nothing when it is parallel or behind the origin.
-std::optional<Vec3> meetPlane(const Ray& ray, const Vec3& point, const Vec3& normal);
+std::optional<Vector3> meetPlane(const Ray& ray, const Vector3& point, const Vector3& normal);
 
 }  // namespace ps

@@ -9,20 +9,14 @@
 namespace ps::render {
 namespace {
 
-Vec3 plus(const Vec3& a, const Vec3& b, double s) { return {a[0] + b[0] * s, a[1] + b[1] * s, a[2] + b[2] * s}; }
-double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Vec3 cross(const Vec3& a, const Vec3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-Vec3 unit(const Vec3& a) { return plus({0, 0, 0}, a, 1 / std::max(1e-300, std::sqrt(dot(a, a)))); }
-std::array<float, 3> floats(const Vec3& a) {
-  return {static_cast<float>(a[0]), static_cast<float>(a[1]), static_cast<float>(a[2])};
+std::array<float, 3> floats(const Vector3& a) {
+  return {static_cast<float>(a.x()), static_cast<float>(a.y()), static_cast<float>(a.z())};
 }
 std::array<float, 4> with(const Colour& c, double last) { return {c[0], c[1], c[2], static_cast<float>(last)}; }
 std::array<float, 4> with(const Colour& c, Kind kind) { return with(c, static_cast<double>(kind)); }
 
 struct Plane {
-  Vec3 normal;
+  Vector3 normal;
   double offset;  // inside where normal . x >= offset
   bool wall;
 };
@@ -32,14 +26,14 @@ void clip(Face& face, const Plane& plane) {
   Face out;
   const size_t n = face.corners.size();
   for (size_t i = 0; i < n; ++i) {
-    const Vec3 &a = face.corners[i], &b = face.corners[(i + 1) % n];
-    const double da = dot(plane.normal, a) - plane.offset, db = dot(plane.normal, b) - plane.offset;
+    const Vector3 &a = face.corners[i], &b = face.corners[(i + 1) % n];
+    const double da = plane.normal.dot(a) - plane.offset, db = plane.normal.dot(b) - plane.offset;
     if (da >= 0) {
       out.corners.push_back(a);
       out.walled.push_back(face.walled[i]);
     }
     if ((da >= 0) == (db >= 0)) continue;
-    out.corners.push_back(plus(a, plus(b, a, -1), da / (da - db)));
+    out.corners.push_back(a + da / (da - db) * (b - a));
     out.walled.push_back(da >= 0 ? plane.wall : face.walled[i]);
   }
   face = std::move(out);
@@ -48,7 +42,7 @@ void clip(Face& face, const Plane& plane) {
 std::vector<Plane> planesOf(const Environment& environment, size_t except) {
   std::vector<Plane> planes;
   for (size_t k = 0; k < 3; ++k) {
-    Vec3 axis{0, 0, 0};
+    Vector3 axis{0, 0, 0};
     axis[k] = 1;
     planes.push_back({axis, environment.boundsMinimum[k], false});
     axis[k] = -1;
@@ -56,20 +50,20 @@ std::vector<Plane> planesOf(const Environment& environment, size_t except) {
   }
   for (size_t i = 0; i < environment.walls.size(); ++i) {
     if (i == except) continue;
-    const Vec3 normal = unit(environment.walls[i].normal);
-    planes.push_back({normal, dot(normal, environment.walls[i].point), true});
+    const Vector3 normal = environment.walls[i].normal.normalized();
+    planes.push_back({normal, normal.dot(environment.walls[i].point), true});
   }
   return planes;
 }
 
 enum class Role { Floor, Side, Lid };
 Role roleOf(const SceneWall& wall) {
-  const double up = unit(wall.normal)[1];
+  const double up = wall.normal.normalized()[1];
   return up > 0.7 ? Role::Floor : up < -0.7 ? Role::Lid : Role::Side;
 }
 
-void addEdge(Furniture& out, const Vec3& a, const Vec3& b, double opacityA, double opacityB) {
-  const auto end = [&](const Vec3& here, const Vec3& there, double opacity, float side, float turn) {
+void addEdge(Furniture& out, const Vector3& a, const Vector3& b, double opacityA, double opacityB) {
+  const auto end = [&](const Vector3& here, const Vector3& there, double opacity, float side, float turn) {
     return EdgeVertex{floats(here), floats(there), {side * turn, static_cast<float>(opacity), side, 0}};
   };
   const EdgeVertex corners[4] = {end(a, b, opacityA, -1, 1), end(a, b, opacityA, 1, 1), end(b, a, opacityB, 1, -1),
@@ -83,9 +77,9 @@ void addPane(Furniture& out, const Face& face, double top, bool open) {
   clip(shown, {{0, -1, 0}, -top, false});
   const size_t n = shown.corners.size();
   if (n < 3) return;
-  const auto faded = [&](const Vec3& p) { return open && p[1] > top - 1e-6; };
+  const auto faded = [&](const Vector3& p) { return open && p[1] > top - 1e-6; };
   for (size_t i = 0; i < n; ++i) {
-    const Vec3 &a = shown.corners[i], &b = shown.corners[(i + 1) % n];
+    const Vector3 &a = shown.corners[i], &b = shown.corners[(i + 1) % n];
     if (faded(a) && faded(b)) continue;
     const bool level = std::abs(a[1] - b[1]) < 1e-6;
     if (level && std::min(a[1], b[1]) < out.floor + 1e-6) continue;  // the rim is there
@@ -97,15 +91,14 @@ void addPane(Furniture& out, const Face& face, double top, bool open) {
 
 void placeFloor(Furniture& out, const Environment& environment) {
   out.floor = static_cast<float>(environment.boundsMinimum[1]);
-  Vec3 low = environment.boundsMinimum, high = environment.boundsMaximum;
+  Vector3 low = environment.boundsMinimum, high = environment.boundsMaximum;
   double largest = 0;
   for (size_t i = 0; i < environment.walls.size(); ++i) {
     if (roleOf(environment.walls[i]) != Role::Floor) continue;
     const Face face = wallFace(environment, i);
     if (face.corners.size() < 3) continue;
-    Vec3 first = face.corners[0], last = face.corners[0];
-    for (const Vec3& p : face.corners)
-      for (size_t k = 0; k < 3; ++k) first[k] = std::min(first[k], p[k]), last[k] = std::max(last[k], p[k]);
+    Vector3 first = face.corners[0], last = face.corners[0];
+    for (const Vector3& p : face.corners) first = first.cwiseMin(p), last = last.cwiseMax(p);
     const double area = (last[0] - first[0]) * (last[2] - first[2]);
     if (area <= largest) continue;
     largest = area;
@@ -130,17 +123,16 @@ double glowOf(const SceneWall& wall) {
 }
 
 Face wallFace(const Environment& environment, size_t wall) {
-  const Vec3 normal = unit(environment.walls[wall].normal);
-  const Vec3 helper = std::abs(normal[1]) < 0.9 ? Vec3{0, 1, 0} : Vec3{1, 0, 0};
-  const Vec3 u = unit(cross(helper, normal)), v = cross(normal, u);
+  const Vector3 normal = environment.walls[wall].normal.normalized();
+  const Vector3 helper = std::abs(normal[1]) < 0.9 ? Vector3{0, 1, 0} : Vector3{1, 0, 0};
+  const Vector3 u = helper.cross(normal).normalized(), v = normal.cross(u);
   const double far = 1e3 + 10 * (std::abs(environment.boundsMaximum[0]) + std::abs(environment.boundsMinimum[0]));
-  const Vec3& p = environment.walls[wall].point;
-  Face face{{plus(plus(p, u, -far), v, -far), plus(plus(p, u, far), v, -far), plus(plus(p, u, far), v, far),
-             plus(plus(p, u, -far), v, far)},
+  const Vector3& p = environment.walls[wall].point;
+  Face face{{p - far * u - far * v, p + far * u - far * v, p + far * u + far * v, p - far * u + far * v},
             {false, false, false, false}};
   for (Plane plane : planesOf(environment, wall)) {
     // A wall on the bounds themselves, or just outside of them, is still seen.
-    if (!plane.wall && std::abs(dot(plane.normal, normal)) > 0.999) continue;
+    if (!plane.wall && std::abs(plane.normal.dot(normal)) > 0.999) continue;
     clip(face, plane);
   }
   return face.corners.size() >= 3 ? face : Face{};
@@ -164,7 +156,7 @@ Furniture buildFurniture(const Environment& environment, bool dark) {
   for (size_t i = 0; i < environment.walls.size(); ++i)
     if (roleOf(environment.walls[i]) == Role::Lid) {
       const Face face = wallFace(environment, i);
-      for (const Vec3& p : face.corners) top = open ? p[1] : std::max(top, p[1]), open = false;
+      for (const Vector3& p : face.corners) top = open ? p[1] : std::max(top, p[1]), open = false;
       out.hasLid = out.hasLid || !face.corners.empty();
     }
   if (open) top = std::min(top, environment.boundsMaximum[1]);
@@ -173,13 +165,13 @@ Furniture buildFurniture(const Environment& environment, bool dark) {
   for (size_t i = 0; i < environment.walls.size(); ++i) {
     const Face face = wallFace(environment, i);
     if (face.corners.empty()) continue;
-    const Vec3 normal = unit(environment.walls[i].normal);
+    const Vector3 normal = environment.walls[i].normal.normalized();
     switch (roleOf(environment.walls[i])) {
       case Role::Floor: {
         addSlab(out.opaque, face.corners, normal, {margin, 0.05 * size, 0.012 * size, thickness},
                 with(sceneColour(dark, "metal"), Kind::PlateTop), with(sceneColour(dark, "rim"), Kind::PlateSide));
-        std::vector<Vec3> foot = offsetOutline(face.corners, normal, -0.05 * size);
-        for (Vec3& p : foot) p = plus(p, normal, -0.9 * thickness);
+        std::vector<Vector3> foot = offsetOutline(face.corners, normal, -0.05 * size);
+        for (Vector3& p : foot) p -= 0.9 * thickness * normal;
         const auto shade = with(sceneColour(dark, "foot"), Kind::Dark);
         addSlab(out.opaque, foot, normal, {0, 0.03 * size, 0.004 * size, 0.1 * thickness + 0.035 * size}, shade, shade);
         addRim(out.opaque, face, normal, 0.010 * size, 0.022 * size, with(sceneColour(dark, "rim"), Kind::PlateSide));

@@ -19,7 +19,7 @@ struct EdgeVertex {
 
 /// A convex polygon in space, counter-clockwise as seen from where its normal points.
 struct Face {
-  std::vector<Vec3> corners;
+  std::vector<Vector3> corners;
   std::vector<bool> walled;  ///< the edge from corner i to i + 1 lies on another wall (else on the bounds)
 };
 
@@ -52,15 +52,15 @@ double glowOf(const SceneWall& wall);
 // Solids made of outlines, in prism.cpp.
 
 /// The outline moved outwards by `distance` in its plane, corners mitred.
-std::vector<Vec3> offsetOutline(const std::vector<Vec3>& outline, const Vec3& normal, double distance);
+std::vector<Vector3> offsetOutline(const std::vector<Vector3>& outline, const Vector3& normal, double distance);
 /// A slab under (against the normal of) an outline, with rounded corners and edges.
 struct SlabShape {
   double margin, corner, bevel, thickness;  ///< m
 };
-void addSlab(std::vector<MeshVertex>& out, const std::vector<Vec3>& outline, const Vec3& normal, const SlabShape& shape,
-             const std::array<float, 4>& top, const std::array<float, 4>& side);
+void addSlab(std::vector<MeshVertex>& out, const std::vector<Vector3>& outline, const Vector3& normal,
+             const SlabShape& shape, const std::array<float, 4>& top, const std::array<float, 4>& side);
 /// A frame that stands on the walled edges of a floor.
-void addRim(std::vector<MeshVertex>& out, const Face& floor, const Vec3& normal, double width, double height,
+void addRim(std::vector<MeshVertex>& out, const Face& floor, const Vector3& normal, double width, double height,
             const std::array<float, 4>& material);
 
 }  // namespace ps::render

@@ -19,22 +19,19 @@ using render::FrameUniforms;
 using render::TileSet;
 
 // Towards the key light, a unit vector: high, from the left and front of the usual view.
-const Vec3 kLight = [] {
-  const Vec3 v{-0.34, 0.86, 0.40};
-  const double length = std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-  return Vec3{v[0] / length, v[1] / length, v[2] / length};
-}();
+const Vector3 kLight = Vector3(-0.34, 0.86, 0.40).normalized();
 
-FrameUniforms::Matrix floats(const Mat4& a) {
+/// Column by column, as OpenGL wants it.
+FrameUniforms::Matrix floats(const Matrix4& a) {
   FrameUniforms::Matrix out;
-  std::transform(a.begin(), a.end(), out.begin(), [](double v) { return static_cast<float>(v); });
+  Eigen::Matrix4f::Map(out.data()) = a.cast<float>();
   return out;
 }
 
 float linear(float c) { return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f); }
 
-std::array<Vec3, 8> cornersOf(const Extent& extent) {
-  std::array<Vec3, 8> corners;
+std::array<Vector3, 8> cornersOf(const Extent& extent) {
+  std::array<Vector3, 8> corners;
   for (size_t i = 0; i < 8; ++i)
     for (size_t k = 0; k < 3; ++k)
       corners[i][k] = static_cast<double>(i >> k & 1 ? extent.maximum[k] : extent.minimum[k]);
@@ -52,8 +49,8 @@ void join(Extent& into, const Extent& other) {
 std::array<int, 4> pixelsOf(const Extent& extent, const Camera& camera, int width, int height) {
   double x0 = width, y0 = height, x1 = 0, y1 = 0;
   if (extent.empty()) return {0, 0, 0, 0};
-  for (const Vec3& corner : cornersOf(extent)) {
-    const std::optional<Vec3> p = project(camera, width, height, corner);
+  for (const Vector3& corner : cornersOf(extent)) {
+    const std::optional<Vector3> p = project(camera, width, height, corner);
     if (!p) return {0, 0, width, height};
     x0 = std::min(x0, (*p)[0]), x1 = std::max(x1, (*p)[0]);
     y0 = std::min(y0, (*p)[1]), y1 = std::max(y1, (*p)[1]);
@@ -71,41 +68,37 @@ void fitShadow(Frame& frame) {
   if (frame.instances.dense) join(casters, frame.instances.liquidExtent);
   if (casters.empty()) casters.add(0, 0, 0, 1);
   casters.minimum[1] = std::min(casters.minimum[1], frame.furniture.ground);
-  const Vec3 right{kLight[2] / std::hypot(kLight[0], kLight[2]), 0, -kLight[0] / std::hypot(kLight[0], kLight[2])};
-  const Vec3 up{kLight[1] * right[2], kLight[2] * right[0] - kLight[0] * right[2], -kLight[1] * right[0]};
-  const std::array<Vec3, 3> axes{right, up, {-kLight[0], -kLight[1], -kLight[2]}};
-  Vec3 low{1e30, 1e30, 1e30}, high{-1e30, -1e30, -1e30};
-  for (const Vec3& p : cornersOf(casters))
-    for (size_t k = 0; k < 3; ++k) {
-      const double along = axes[k][0] * p[0] + axes[k][1] * p[1] + axes[k][2] * p[2];
-      low[k] = std::min(low[k], along), high[k] = std::max(high[k], along);
-    }
-  Mat4 toLight{};
-  for (size_t k = 0; k < 3; ++k) {
-    const double scale = 2 / std::max(high[k] - low[k], 1e-6);
-    for (size_t column = 0; column < 3; ++column) toLight[column * 4 + k] = axes[k][column] * scale;
-    toLight[12 + k] = -(high[k] + low[k]) / 2 * scale;
-    if (k < 2) frame.shadowScale[k] = static_cast<float>(scale);
+  const Vector3 right = Vector3::UnitY().cross(kLight).normalized();
+  Matrix3 axes;
+  axes << right.transpose(), kLight.cross(right).transpose(), -kLight.transpose();
+  Vector3 low = Vector3::Constant(1e30), high = -low;
+  for (const Vector3& p : cornersOf(casters)) {
+    const Vector3 along = axes * p;
+    low = low.cwiseMin(along), high = high.cwiseMax(along);
   }
-  toLight[15] = 1;
-  const Mat4 half{0.5, 0, 0, 0, 0, 0.5, 0, 0, 0, 0, 0.5, 0, 0.5, 0.5, 0.5, 1};
+  const Vector3 scale = 2 * (high - low).cwiseMax(1e-6).cwiseInverse();
+  Matrix4 toLight = Matrix4::Identity(), half = 0.5 * Matrix4::Identity();
+  toLight.topLeftCorner<3, 3>() = scale.asDiagonal() * axes;
+  toLight.topRightCorner<3, 1>() = -scale.cwiseProduct(high + low) / 2;
+  half.col(3) << 0.5, 0.5, 0.5, 1;
+  frame.shadowScale = {static_cast<float>(scale.x()), static_cast<float>(scale.y())};
   frame.toLight = floats(toLight);
-  frame.uniforms.shadow = floats(multiply(half, toLight));
+  frame.uniforms.shadow = floats(half * toLight);
 }
 
 void fillUniforms(Frame& frame, const RenderOptions& options, double time) {
   FrameUniforms& u = frame.uniforms;
   const Camera& camera = options.camera;
-  const Mat4 view = viewMatrix(camera), projection = projectionMatrix(camera, frame.width, frame.height);
-  const Vec3 eye = frameOf(camera).eye;
+  const Matrix4 view = viewMatrix(camera), projection = projectionMatrix(camera, frame.width, frame.height);
+  const Vector3 eye = frameOf(camera).eye;
   const render::Furniture& furniture = frame.furniture;
   const auto f = [](double v) { return static_cast<float>(v); };
   u.view = floats(view);
   u.projection = floats(projection);
-  u.inverseView = floats(inverse(view));
+  u.inverseView = floats(view.inverse());
   u.eye = {f(eye[0]), f(eye[1]), f(eye[2]), 0};
   u.size = {f(frame.width), f(frame.height), 1 / f(frame.width), 1 / f(frame.height)};
-  u.lens = {f(1 / projection[0]), f(1 / projection[5]), f(projection[10]), f(projection[14])};
+  u.lens = {f(1 / projection(0, 0)), f(1 / projection(1, 1)), f(projection(2, 2)), f(projection(2, 3))};
   u.light = {f(kLight[0]), f(kLight[1]), f(kLight[2]), options.dark ? 1.f : 0.f};
   u.plate = {furniture.centre[0], furniture.centre[1], furniture.half[0], furniture.half[1]};
   u.ground = {furniture.floor, furniture.ground, furniture.floorHeat, furniture.hasFloor ? 1.f : 0.f};
@@ -119,11 +112,11 @@ void fillUniforms(Frame& frame, const RenderOptions& options, double time) {
 /// Many points to pixels, without the trigonometry of project().
 struct Projector {
   Projector(const Camera& camera, int w, int h)
-      : matrix(floats(multiply(projectionMatrix(camera, w, h), viewMatrix(camera)))),
+      : matrix(floats(projectionMatrix(camera, w, h) * viewMatrix(camera))),
         width(static_cast<float>(w)),
         height(static_cast<float>(h)),
         near(static_cast<float>(nearPlane(camera))),
-        lens(static_cast<float>(projectionMatrix(camera, w, h)[5]) * height / 2) {}
+        lens(static_cast<float>(projectionMatrix(camera, w, h)(1, 1)) * height / 2) {}
 
   /// Pixels from the upper left corner and depth in m; a depth less than `near` makes the others meaningless.
   std::array<float, 3> at(float x, float y, float z) const {
@@ -285,7 +278,7 @@ void Renderer::draw(const Snapshot& now, const Snapshot* previous, double blend,
   }
   const CameraFrame axes = frameOf(options.camera);
   if (m->passes->quality().cull) {
-    const Mat4 view = multiply(projectionMatrix(options.camera, frame.width, frame.height), viewMatrix(options.camera));
+    const Matrix4 view = projectionMatrix(options.camera, frame.width, frame.height) * viewMatrix(options.camera);
     request.cull = render::CullView{floats(view), frame.width, frame.height};
   }
   render::collectInstances(request, frame.instances);

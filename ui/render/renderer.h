@@ -13,7 +13,7 @@ namespace ps {
 
 /// Orbit camera; y is up. Angles in degrees.
 struct Camera {
-  Vec3 target{0, 0.2, 0};
+  Vector3 target{0, 0.2, 0};
   double distance = 1.5, azimuth = 35, elevation = 20, fieldOfView = 35;
 };
 

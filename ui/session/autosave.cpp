@@ -26,7 +26,7 @@ constexpr const char* kEnds[] = {"", "replaced", "closed"};  // by SessionEnd
 QJsonObject toJson(const ViewState& view) {
   QJsonObject json{{QStringLiteral("colour"), QString::fromStdString(view.colour)}};
   if (!view.camera) return json;
-  const Vec3& target = view.camera->target;
+  const Vector3& target = view.camera->target;
   json.insert(QStringLiteral("target"), QJsonArray{target[0], target[1], target[2]});
   json.insert(QStringLiteral("distance"), view.camera->distance);
   json.insert(QStringLiteral("azimuth"), view.camera->azimuth);

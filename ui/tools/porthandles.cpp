@@ -19,16 +19,6 @@ constexpr double kArrow = 44;     // pixels, shortest arrow
 constexpr double kAlongAxis = 5;  // degrees from an axis at which a jet snaps to it
 constexpr int kPoints = 40;       // of a circle
 
-Vec3 plus(const Vec3& a, double s, const Vec3& b) { return {a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]}; }
-double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Vec3 cross(const Vec3& a, const Vec3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-Vec3 unit(const Vec3& v) {
-  const double length = std::sqrt(dot(v, v));
-  return {v[0] / length, v[1] / length, v[2] / length};
-}
-
 double diameterOf(const Emitter& emitter) { return numberOf(emitter.parameters, emitterParameters(), "diameter"); }
 
 double segmentDistance(const QPointF& p, const QPointF& a, const QPointF& b) {
@@ -44,25 +34,26 @@ class Outline {
  public:
   explicit Outline(const PortView& view) : m_view(view) {}
 
-  std::optional<QPointF> at(const Vec3& p) const {
+  std::optional<QPointF> at(const Vector3& p) const {
     const auto pixel =
         project(m_view.camera, static_cast<int>(m_view.size.width()), static_cast<int>(m_view.size.height()), p);
     return pixel ? std::optional(QPointF((*pixel)[0], (*pixel)[1])) : std::nullopt;
   }
 
   void add(const Emitter& emitter) {
-    const Vec3 d = unit(emitter.direction);
-    const Vec3 side = unit(cross(d, std::abs(d[1]) < 0.9 ? Vec3{0, 1, 0} : Vec3{1, 0, 0})), up = cross(d, side);
+    const Vector3 d = emitter.direction.normalized();
+    const Vector3 helper = std::abs(d.y()) < 0.9 ? Vector3{0, 1, 0} : Vector3{1, 0, 0};
+    const Vector3 side = d.cross(helper).normalized(), up = d.cross(side);
     const double radius = diameterOf(emitter) / 2;
-    const auto onRim = [&](int k) {
+    const auto onRim = [&](int k) -> Vector3 {
       const double angle = 2 * std::numbers::pi * k / kPoints;
-      return plus(plus(emitter.point, radius * std::cos(angle), side), radius * std::sin(angle), up);
+      return emitter.point + radius * (std::cos(angle) * side + std::sin(angle) * up);
     };
     for (int k = 0; k < kPoints; ++k) {
       line(onRim(k), onRim(k + 1));
       if (const auto p = at(onRim(k))) face << *p;
     }
-    const Vec3 tip = arrowTip(emitter, m_view.camera, m_view.size.height());
+    const Vector3 tip = arrowTip(emitter, m_view.camera, m_view.size.height());
     line(emitter.point, tip);
     const auto a = at(emitter.point), b = at(tip);
     if (!a || !b) return;
@@ -92,7 +83,7 @@ class Outline {
   QPolygonF face;
 
  private:
-  void line(const Vec3& from, const Vec3& to) {
+  void line(const Vector3& from, const Vector3& to) {
     const auto a = at(from), b = at(to);
     if (a && b) lines.push_back({*a, *b});
   }
@@ -119,12 +110,8 @@ void forPorts(const PortView& view, bool selectedFirst, Visit&& visit) {
 bool works(const Emitter& emitter) { return numberOf(emitter.parameters, emitterParameters(), "speed") > 0; }
 bool works(const Sink& sink) { return toggleOf(sink.parameters, sinkParameters(), "open"); }
 
-Vec3 anchorOf(const Emitter& emitter) { return emitter.point; }
-Vec3 anchorOf(const Sink& sink) {
-  Vec3 centre;
-  for (size_t a = 0; a < 3; ++a) centre[a] = 0.5 * (sink.minimum[a] + sink.maximum[a]);
-  return centre;
-}
+Vector3 anchorOf(const Emitter& emitter) { return emitter.point; }
+Vector3 anchorOf(const Sink& sink) { return 0.5 * (sink.minimum + sink.maximum); }
 
 std::vector<PortHandle> knobsOf(const Port& port, const Emitter& emitter, const PortView& view) {
   return {{port, PortHandle::Part::Tip, 0, arrowTip(emitter, view.camera, view.size.height())}};
@@ -138,15 +125,15 @@ std::vector<PortHandle> knobsOf(const Port& port, const Sink& sink, const PortVi
 
 }  // namespace
 
-Vec3 arrowTip(const Emitter& emitter, const Camera& camera, double height) {
+Vector3 arrowTip(const Emitter& emitter, const Camera& camera, double height) {
   const CameraFrame frame = frameOf(camera);
-  const double depth = std::max(nearPlane(camera), dot(plus(emitter.point, -1, frame.eye), frame.forward));
+  const double depth = std::max(nearPlane(camera), (emitter.point - frame.eye).dot(frame.forward));
   const double length = std::max(2 * diameterOf(emitter), kArrow * pixelSize(camera, static_cast<int>(height), depth));
-  return plus(emitter.point, length, unit(emitter.direction));
+  return emitter.point + length * emitter.direction.normalized();
 }
 
-Vec3 cornerOf(const Sink& sink, int corner) {
-  Vec3 p;
+Vector3 cornerOf(const Sink& sink, int corner) {
+  Vector3 p;
   for (size_t a = 0; a < 3; ++a) p[a] = corner >> a & 1 ? sink.maximum[a] : sink.minimum[a];
   return p;
 }
@@ -202,14 +189,14 @@ void paintPorts(QPainter& painter, const PortView& view) {
   });
 }
 
-Emitter dragged(Emitter emitter, const PortHandle& handle, const Vec3& to) {
-  const Vec3 way = plus(to, -1, handle.part == PortHandle::Part::Tip ? emitter.point : handle.place);
+Emitter dragged(Emitter emitter, const PortHandle& handle, const Vector3& to) {
+  const Vector3 way = to - (handle.part == PortHandle::Part::Tip ? emitter.point : handle.place);
   if (handle.part != PortHandle::Part::Tip) {
-    emitter.point = plus(emitter.point, 1, way);
+    emitter.point += way;
     return emitter;
   }
-  if (!(dot(way, way) > 0)) return emitter;
-  emitter.direction = unit(way);
+  if (!(way.squaredNorm() > 0)) return emitter;
+  emitter.direction = way.normalized();
   for (size_t a = 0; a < 3; ++a) {
     if (std::abs(emitter.direction[a]) < std::cos(kAlongAxis * std::numbers::pi / 180)) continue;
     const double sign = emitter.direction[a] > 0 ? 1 : -1;
@@ -220,7 +207,7 @@ Emitter dragged(Emitter emitter, const PortHandle& handle, const Vec3& to) {
   return emitter;
 }
 
-Sink dragged(Sink sink, const PortHandle& handle, const Vec3& to, double least) {
+Sink dragged(Sink sink, const PortHandle& handle, const Vector3& to, double least) {
   for (size_t a = 0; a < 3; ++a) {
     if (handle.part == PortHandle::Part::Whole) {
       sink.minimum[a] += to[a] - handle.place[a];

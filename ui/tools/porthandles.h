@@ -22,8 +22,8 @@ struct PortHandle {
   enum class Part { Whole, Tip, Corner };
   Port port;
   Part part = Part::Whole;
-  int corner = 0;       ///< bit a set: at the maximum of axis a
-  Vec3 place{0, 0, 0};  ///< m, where it is
+  int corner = 0;          ///< bit a set: at the maximum of axis a
+  Vector3 place{0, 0, 0};  ///< m, where it is
   bool operator==(const PortHandle&) const = default;
 };
 
@@ -37,15 +37,15 @@ struct PortView {
 };
 
 /// Where the arrow of a jet ends, m: two widths of the mouth away, and far enough to be seen.
-Vec3 arrowTip(const Emitter& emitter, const Camera& camera, double height);
-Vec3 cornerOf(const Sink& sink, int corner);
+Vector3 arrowTip(const Emitter& emitter, const Camera& camera, double height);
+Vector3 cornerOf(const Sink& sink, int corner);
 /// What the pointer can take hold of; tips and corners of the selected one only.
 std::optional<PortHandle> handleAt(const PortView& view, const QPointF& position);
 void paintPorts(QPainter& painter, const PortView& view);
 
 // What a drag of a handle to a place in m gives.
-Emitter dragged(Emitter emitter, const PortHandle& handle, const Vec3& to);
+Emitter dragged(Emitter emitter, const PortHandle& handle, const Vector3& to);
 /// `least`: shortest edge, m.
-Sink dragged(Sink sink, const PortHandle& handle, const Vec3& to, double least);
+Sink dragged(Sink sink, const PortHandle& handle, const Vector3& to, double least);
 
 }  // namespace ps

@@ -53,7 +53,7 @@ StrokeSetup StrokeTool::setup(const BrushSettings& brush) const {
   return s;
 }
 
-Vec3 StrokeTool::extent(const BrushSettings& brush) const {
+Vector3 StrokeTool::extent(const BrushSettings& brush) const {
   const api::BrushPlugin* plugin =
       m_document && m_document->plugins() ? m_document->plugins()->brush(brush.shape) : nullptr;
   if (!plugin) return {brush.radius, brush.radius, brush.radius};
@@ -105,7 +105,7 @@ QString StrokeTool::whyNot(const BrushSettings& brush, bool erase, const Snapsho
     return QStringLiteral("The particle spacing of %1 acts at the next reset. Press Home first, or undo the change.")
         .arg(lengthText(spacing()));
   }
-  const Vec3 half = extent(brush);
+  const Vector3 half = extent(brush);
   const double cells = 8 * half[0] * half[1] * half[2] / std::pow(spacing(), 3);
   if (cells > kMaximumStamp) {
     return QStringLiteral(
@@ -116,7 +116,7 @@ QString StrokeTool::whyNot(const BrushSettings& brush, bool erase, const Snapsho
   return {};
 }
 
-QString StrokeTool::begin(const BrushSettings& brush, bool erase, const Snapshot& now, const Vec3& point) {
+QString StrokeTool::begin(const BrushSettings& brush, bool erase, const Snapshot& now, const Vector3& point) {
   if (const QString problem = whyNot(brush, erase, now); !problem.isEmpty()) return problem;
   m_brush = brush;
   m_atStart = now.stats.frame == 0;
@@ -139,7 +139,7 @@ QString StrokeTool::begin(const BrushSettings& brush, bool erase, const Snapshot
   return move(point, 0);
 }
 
-QString StrokeTool::move(const Vec3& point, double seconds) {
+QString StrokeTool::move(const Vector3& point, double seconds) {
   if (!m_record) return {};
   m_stroke.samples.push_back({point[0], point[1], point[2], 1, seconds});
   return guarded([&] { feed(m_resampler->add({{point[0], point[1], point[2]}, 1, seconds})); });
@@ -160,16 +160,13 @@ QString StrokeTool::guarded(Work work) const {
 
 bool StrokeTool::isInside(const api::Cell& cell) const {
   const Environment& environment = m_document->project().environment;
-  const std::array<double, 3> c = m_setup.grid.centreOf(cell);
+  const Vector3 c = m_setup.grid.centreOf(cell);
   const double radius = 0.49 * m_setup.grid.spacing;
   for (size_t i = 0; i < 3; ++i) {
     if (c[i] < environment.boundsMinimum[i] + radius || c[i] > environment.boundsMaximum[i] - radius) return false;
   }
   for (const SceneWall& wall : environment.walls) {
-    const double length = std::hypot(wall.normal[0], wall.normal[1], wall.normal[2]);
-    double d = 0;
-    for (size_t i = 0; i < 3; ++i) d += (c[i] - wall.point[i]) * wall.normal[i];
-    if (d < radius * length) return false;
+    if ((c - wall.point).dot(wall.normal) < radius * wall.normal.norm()) return false;
   }
   return true;
 }

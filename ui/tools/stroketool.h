@@ -26,16 +26,16 @@ class StrokeTool {
   void attach(Document* document, SceneLink* link);
 
   /// "" or why no stroke can begin ("The cube brush is not installed…"). `now`: the scene as it is drawn on.
-  QString begin(const BrushSettings& brush, bool erase, const Snapshot& now, const Vec3& point);
+  QString begin(const BrushSettings& brush, bool erase, const Snapshot& now, const Vector3& point);
   /// "" or what went wrong; the stroke then ends as far as it came.
-  QString move(const Vec3& point, double seconds);
+  QString move(const Vector3& point, double seconds);
   void finish();
   void cancel();
   bool active() const { return m_record != nullptr; }
   size_t cellCount() const { return m_cells.size(); }
 
   /// Half extents of one stamp in m, for the cursor; radius on all axes when the brush is not installed.
-  Vec3 extent(const BrushSettings& brush) const;
+  Vector3 extent(const BrushSettings& brush) const;
 
  private:
   QString whyNot(const BrushSettings& brush, bool erase, const Snapshot& now) const;

@@ -60,7 +60,7 @@ void ViewNavigator::dollyBy(double pixels) {
   dollyTo(m_camera, width(), height(), width() / 2.0, height() / 2.0, std::pow(1.006, -pixels));
 }
 
-void ViewNavigator::frame(const std::pair<Vec3, Vec3>& box) {
+void ViewNavigator::frame(const std::pair<Vector3, Vector3>& box) {
   remember();
   frameAll(m_camera, width(), height(), box.first, box.second);
 }

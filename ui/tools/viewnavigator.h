@@ -29,7 +29,7 @@ class ViewNavigator {
   void panBy(const QPointF& pixels);
   void zoomAt(const QPointF& position, double notches);  ///< wheel: one notch is 12 %
   void dollyBy(double pixels);                           ///< right-drag: down is nearer
-  void frame(const std::pair<Vec3, Vec3>& box);
+  void frame(const std::pair<Vector3, Vector3>& box);
   void show(StandardView view);
   void look(double azimuth, double elevation);
 

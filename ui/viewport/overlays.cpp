@@ -146,21 +146,19 @@ void paintBall(QPainter& painter, const OverlayState& state, OverlayHits& hits) 
   struct End {
     const char* letter;
     Token colour;
-    Vec3 axis;
+    Vector3 axis;
     double azimuth, elevation;
   };
   // Tokens stand for the usual red, green and blue of x, y and z.
   const End ends[] = {{"X", Token::Error, {1, 0, 0}, 90, 0}, {"", Token::Error, {-1, 0, 0}, -90, 0},
                       {"Y", Token::Ok, {0, 1, 0}, 0, 90},    {"", Token::Ok, {0, -1, 0}, 0, -90},
                       {"Z", Token::Info, {0, 0, 1}, 0, 0},   {"", Token::Info, {0, 0, -1}, 180, 0}};
-  const auto along = [](const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; };
   std::vector<const End*> order;
   for (const End& end : ends) order.push_back(&end);
-  std::stable_sort(order.begin(), order.end(), [&](const End* a, const End* b) {
-    return along(a->axis, frame.forward) > along(b->axis, frame.forward);
-  });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](const End* a, const End* b) { return a->axis.dot(frame.forward) > b->axis.dot(frame.forward); });
   for (const End* end : order) {
-    const QPointF at = centre + QPointF(along(end->axis, frame.right), -along(end->axis, frame.up)) * kArm;
+    const QPointF at = centre + QPointF(end->axis.dot(frame.right), -end->axis.dot(frame.up)) * kArm;
     const bool named = end->letter[0] != 0;
     QColor colour = theme[end->colour];
     if (!named) colour.setAlphaF(0.45F);
@@ -239,7 +237,7 @@ class CursorPainter {
   }
 
  private:
-  std::optional<QPointF> at(const Vec3& p) const {
+  std::optional<QPointF> at(const Vector3& p) const {
     const auto pixel =
         project(m_state.camera, static_cast<int>(m_state.size.width()), static_cast<int>(m_state.size.height()), p);
     return pixel ? std::optional(QPointF((*pixel)[0], (*pixel)[1])) : std::nullopt;
@@ -253,14 +251,13 @@ class CursorPainter {
   }
   void sphere(const BrushCursor& cursor, const QPointF& centre, QPainterPath& path) const {
     const CameraFrame frame = frameOf(m_state.camera);
-    double depth = 0;
-    for (size_t i = 0; i < 3; ++i) depth += (cursor.centre[i] - frame.eye[i]) * frame.forward[i];
+    const double depth = (cursor.centre - frame.eye).dot(frame.forward);
     const double r = cursor.extent[0] / pixelSize(m_state.camera, static_cast<int>(m_state.size.height()), depth);
     path.addEllipse(centre, r, r);
   }
   void box(const BrushCursor& cursor, QPainterPath& path) const {
     const auto corner = [&](int k) {
-      Vec3 p = cursor.centre;
+      Vector3 p = cursor.centre;
       for (size_t i = 0; i < 3; ++i) p[i] += (k >> i & 1 ? 1 : -1) * cursor.extent[i];
       return at(p);
     };
@@ -275,7 +272,7 @@ class CursorPainter {
   }
   /// Plumb line and the outline on what lies below.
   void ring(const BrushCursor& cursor, const QColor& colour) {
-    Vec3 foot = cursor.centre;
+    Vector3 foot = cursor.centre;
     foot[1] = cursor.floor;
     if (cursor.centre[1] - cursor.extent[1] < cursor.floor + 1e-4) return;
     QPolygonF outline;

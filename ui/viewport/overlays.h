@@ -17,15 +17,15 @@ namespace ps {
 
 /// A tag at a place of the scene: "Ice block −9.2 °C".
 struct SceneTag {
-  Vec3 place{0, 0, 0};
+  Vector3 place{0, 0, 0};
   QString name, value;
 };
 
 /// The brush under the pointer.
 struct BrushCursor {
-  Vec3 centre{0, 0, 0};  ///< m
-  Vec3 extent{0, 0, 0};  ///< half extents, m
-  double floor = 0;      ///< m, height of what lies below
+  Vector3 centre{0, 0, 0};  ///< m
+  Vector3 extent{0, 0, 0};  ///< half extents, m
+  double floor = 0;         ///< m, height of what lies below
   bool box = false, erase = false;
 };
 

@@ -22,16 +22,11 @@ namespace {
 constexpr double kSlowSnapshots = 40;  // ms; only slower ones are interpolated, faster ones are shown as they come
 constexpr int kMajor = 4, kMinor = 3;
 
-using Box = std::optional<std::pair<Vec3, Vec3>>;
+using Box = std::optional<std::pair<Vector3, Vector3>>;
 
 Box united(const Box& a, const Box& b) {
   if (!a || !b) return a ? a : b;
-  Box box = a;
-  for (size_t k = 0; k < 3; ++k) {
-    box->first[k] = std::min(a->first[k], b->first[k]);
-    box->second[k] = std::max(a->second[k], b->second[k]);
-  }
-  return box;
+  return std::pair<Vector3, Vector3>(a->first.cwiseMin(b->first), a->second.cwiseMax(b->second));
 }
 
 /// Around the walls that end in the scene: all of their edges lie on other walls. One that goes on to the bounds, like
@@ -41,7 +36,7 @@ Box trayOf(const Environment& environment) {
   for (size_t i = 0; i < environment.walls.size(); ++i) {
     const render::Face face = render::wallFace(environment, i);
     if (!std::all_of(face.walled.begin(), face.walled.end(), [](bool walled) { return walled; })) continue;
-    for (const Vec3& corner : face.corners) box = united(box, std::pair(corner, corner));
+    for (const Vector3& corner : face.corners) box = united(box, std::pair(corner, corner));
   }
   return box;
 }
@@ -313,20 +308,19 @@ void Viewport::storeView() {
   if (m_document) m_document->setView(m_navigator.view());
 }
 
-std::optional<std::pair<Vec3, Vec3>> Viewport::boxOf(const std::string& body) const {
-  std::optional<std::pair<Vec3, Vec3>> box;
+std::optional<std::pair<Vector3, Vector3>> Viewport::boxOf(const std::string& body) const {
+  std::optional<std::pair<Vector3, Vector3>> box;
   if (!m_now) return box;
   for (size_t i = 0; i < m_now->position.size(); ++i) {
     const uint32_t index = m_now->body[i];
     if (!body.empty() && (!m_now->bodyIds || index >= m_now->bodyIds->size() || (*m_now->bodyIds)[index] != body))
       continue;
     const api::Float4& p = m_now->position[i];
-    const Vec3 centre{p.x, p.y, p.z};
+    const Vector3 centre = vectorOf(p);
     if (!box) box = {centre, centre};
-    for (size_t k = 0; k < 3; ++k) {
-      box->first[k] = std::min(box->first[k], centre[k] - static_cast<double>(p.w));
-      box->second[k] = std::max(box->second[k], centre[k] + static_cast<double>(p.w));
-    }
+    const Vector3 radius = Vector3::Constant(static_cast<double>(p.w));
+    box->first = box->first.cwiseMin(centre - radius);
+    box->second = box->second.cwiseMax(centre + radius);
   }
   return box;
 }

@@ -96,8 +96,8 @@ class Viewport : public QOpenGLWidget {
  private:
   enum class Drag { None, Orbit, Pan, Dolly, Stroke, Click, LegendHigh, LegendLow, Place, Port };
   struct Surface {
-    Vec3 point{0, 0, 0};   ///< m
-    Vec3 normal{0, 0, 0};  ///< unit; zero in the air
+    Vector3 point{0, 0, 0};   ///< m
+    Vector3 normal{0, 0, 0};  ///< unit; zero in the air
   };
   Drag dragFor(const QMouseEvent& event) const;
   void releaseGl();
@@ -107,14 +107,14 @@ class Viewport : public QOpenGLWidget {
   RenderOptions renderOptions();
   std::optional<BodyOutline> outline() const;
   std::optional<SceneTag> tag() const;
-  std::optional<std::pair<Vec3, Vec3>> boxOf(const std::string& body) const;
-  std::optional<std::pair<Vec3, Vec3>> boxAround(const Port& port) const;
+  std::optional<std::pair<Vector3, Vector3>> boxOf(const std::string& body) const;
+  std::optional<std::pair<Vector3, Vector3>> boxAround(const Port& port) const;
   void pick(const QPointF& position);
   bool clickOverlay(const QPointF& position);
   std::optional<Surface> surfaceAt(const QPointF& position) const;
-  Vec3 normalAt(const Vec3& point) const;
-  std::optional<Vec3> strokePoint(const QPointF& position);
-  Vec3 brushExtent() const;
+  Vector3 normalAt(const Vector3& point) const;
+  std::optional<Vector3> strokePoint(const QPointF& position);
+  Vector3 brushExtent() const;
   void updateCursor(const QPointF& position, Qt::KeyboardModifiers modifiers);
   void updatePointer(const QPointF& position);
   Drag legendEndAt(const QPointF& position) const;  ///< None: there is no end of the legend

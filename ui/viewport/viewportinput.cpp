@@ -214,8 +214,7 @@ void Viewport::pick(const QPointF& position) {
 double Viewport::floorHeight() const {
   double height = m_scene.environment.boundsMinimum[1];
   for (const SceneWall& wall : m_scene.environment.walls) {
-    const double length = std::hypot(wall.normal[0], wall.normal[1], wall.normal[2]);
-    if (wall.normal[1] > 0.9 * length) height = std::max(height, wall.point[1]);
+    if (wall.normal.y() > 0.9 * wall.normal.norm()) height = std::max(height, wall.point[1]);
   }
   return height;
 }
@@ -226,12 +225,8 @@ std::optional<Viewport::Surface> Viewport::surfaceAt(const QPointF& position) co
   if (m_now) {
     if (const auto hit = pickParticle(*m_now, camera, width(), height(), position.x(), position.y())) {
       const api::Float4& p = m_now->position[*hit];
-      double along = 0;
-      const Vec3 centre{p.x, p.y, p.z};
-      for (size_t i = 0; i < 3; ++i) along += (centre[i] - ray.origin[i]) * ray.direction[i];
-      along -= static_cast<double>(p.w);
-      const Vec3 point{ray.origin[0] + along * ray.direction[0], ray.origin[1] + along * ray.direction[1],
-                       ray.origin[2] + along * ray.direction[2]};
+      const double along = (vectorOf(p) - ray.origin).dot(ray.direction) - static_cast<double>(p.w);
+      const Vector3 point = ray.origin + along * ray.direction;
       return Surface{point, normalAt(point)};
     }
   }
@@ -245,7 +240,7 @@ std::optional<Viewport::Surface> Viewport::surfaceAt(const QPointF& position) co
   return air ? std::optional(Surface{*air, {0, 0, 0}}) : std::nullopt;
 }
 
-Vec3 Viewport::brushExtent() const { return m_stroke.extent(m_brush); }
+Vector3 Viewport::brushExtent() const { return m_stroke.extent(m_brush); }
 
 void Viewport::updateCursor(const QPointF& position, Qt::KeyboardModifiers modifiers) {
   const auto surface = surfaceAt(position);
@@ -263,7 +258,7 @@ void Viewport::updateCursor(const QPointF& position, Qt::KeyboardModifiers modif
   cursor.centre = surface->point;
   if (!cursor.erase) {
     // A brush stands on the surface instead of half inside it.
-    for (size_t i = 0; i < 3; ++i) cursor.centre[i] += m_strokePlane.normal[i] * cursor.extent[i];
+    cursor.centre += m_strokePlane.normal.cwiseProduct(cursor.extent);
     m_strokePlane.point = cursor.centre;
   }
   m_cursor = cursor;
@@ -286,7 +281,7 @@ void Viewport::beginStroke(const QMouseEvent& event) {
 }
 
 /// While a stroke is drawn it stays on the plane on which it began; along a ray that misses it, nothing is drawn.
-std::optional<Vec3> Viewport::strokePoint(const QPointF& position) {
+std::optional<Vector3> Viewport::strokePoint(const QPointF& position) {
   const Ray ray = rayAt(position);
   auto point = meet(ray, m_strokePlane, 100);
   if (!point) return point;

@@ -19,12 +19,10 @@ constexpr double kNear = 2.5;       // spacings, of the particles that make a su
 constexpr double kAlongAxis = 0.9;  // cosine from which a surface's normal counts as an axis
 constexpr const char* kPreview = "?";
 
-Vec3 plus(const Vec3& a, double s, const Vec3& b) { return {a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]}; }
-
 /// Upright, facing the camera.
-DrawingPlane uprightThrough(const Vec3& point, const Vec3& forward) {
+DrawingPlane uprightThrough(const Vector3& point, const Vector3& forward) {
   const double length = std::hypot(forward[0], forward[2]);
-  return {point, length > 1e-6 ? Vec3{-forward[0], 0, -forward[2]} : Vec3{0, 0, 1}};
+  return {point, length > 1e-6 ? Vector3{-forward.x(), 0, -forward.z()} : Vector3{0, 0, 1}};
 }
 
 }  // namespace
@@ -39,19 +37,18 @@ double Viewport::spacing() const {
 }
 
 /// Away from the matter around a point of its surface; along an axis where it nearly is.
-Vec3 Viewport::normalAt(const Vec3& point) const {
+Vector3 Viewport::normalAt(const Vector3& point) const {
   const double reach = kNear * m_now->spacing;
-  Vec3 sum{0, 0, 0};
+  Vector3 sum;
   for (const api::Float4& p : m_now->position) {
-    const Vec3 off = plus(point, -1, {p.x, p.y, p.z});
-    if (std::hypot(off[0], off[1], off[2]) < reach) sum = plus(sum, 1, off);
+    const Vector3 off = point - Vector3{p.x, p.y, p.z};
+    if (off.norm() < reach) sum += off;
   }
-  const double length = std::hypot(sum[0], sum[1], sum[2]);
-  if (!(length > 0)) return {0, 1, 0};
-  for (double& c : sum) c /= length;
+  if (!(sum.norm() > 0)) return Vector3::UnitY();
+  sum.normalize();
   for (size_t a = 0; a < 3; ++a) {
     if (std::abs(sum[a]) < kAlongAxis) continue;
-    Vec3 axis{0, 0, 0};
+    Vector3 axis{0, 0, 0};
     axis[a] = sum[a] > 0 ? 1 : -1;
     return axis;
   }
@@ -93,14 +90,14 @@ void Viewport::setSelectedPort(const std::optional<Port>& port) {
   announce();
 }
 
-std::optional<std::pair<Vec3, Vec3>> Viewport::boxAround(const Port& port) const {
+std::optional<std::pair<Vector3, Vector3>> Viewport::boxAround(const Port& port) const {
   if (!m_document) return std::nullopt;
   if (const Sink* sink = port.sink ? m_document->sink(port.id) : nullptr)
     return std::pair(sink->minimum, sink->maximum);
   const Emitter* emitter = port.sink ? nullptr : m_document->emitter(port.id);
   if (!emitter) return std::nullopt;
   const double reach = 3 * numberOf(emitter->parameters, emitterParameters(), "diameter");
-  return std::pair(plus(emitter->point, -reach, {1, 1, 1}), plus(emitter->point, reach, {1, 1, 1}));
+  return std::pair<Vector3, Vector3>(emitter->point.array() - reach, emitter->point.array() + reach);
 }
 
 void Viewport::updatePlacing(const QPointF& position) {
@@ -123,13 +120,13 @@ Emitter Viewport::tapAt(const QPointF& position) const {
   tap.parameters.values["diameter"] = std::clamp(kMouth * spacing(), 1e-4, 10.0);
   tap.parameters.values["temperature"] = m_brush.temperature;
   // Half a spacing off the surface, where the first particle has room.
-  tap.point = plus(m_placeSurface->point, 0.5 * spacing(), m_placeSurface->normal);
-  if (m_placeSurface->normal != Vec3{0, 0, 0}) tap.direction = m_placeSurface->normal;
+  tap.point = m_placeSurface->point + 0.5 * spacing() * m_placeSurface->normal;
+  if (m_placeSurface->normal != Vector3{0, 0, 0}) tap.direction = m_placeSurface->normal;
   if (m_pressed.y() - position.y() < kClick) return tap;
   const DrawingPlane plane = uprightThrough(m_placeSurface->point, frameOf(m_navigator.camera()).forward);
   const auto from = meet(rayAt(m_pressed), plane), to = meet(rayAt(position), plane);
   if (!from || !to || !((*to)[1] > (*from)[1])) return tap;
-  tap.point = plus(m_placeSurface->point, (*to)[1] - (*from)[1], {0, 1, 0});
+  tap.point = m_placeSurface->point + (to->y() - from->y()) * Vector3::UnitY();
   tap.direction = {0, -1, 0};
   return tap;
 }
@@ -140,13 +137,13 @@ Sink Viewport::drainAt(const QPointF& position) const {
   const DrawingPlane plane = drawingPlaneFor(m_placeSurface->point, frameOf(m_navigator.camera()).forward);
   const auto from = meet(rayAt(m_pressed), plane), to = meet(rayAt(position), plane);
   if (m_drag == Drag::Place && from && to) {
-    for (size_t a = 0; a < 3; ++a) half = std::max(half, std::abs((*to)[a] - (*from)[a]));
+    half = std::max(half, (*to - *from).cwiseAbs().maxCoeff());
   }
   Sink drain;
   drain.id = kPreview;
-  const Vec3 centre = plus(m_placeSurface->point, half, m_placeSurface->normal);
-  drain.minimum = plus(centre, -half, {1, 1, 1});
-  drain.maximum = plus(centre, half, {1, 1, 1});
+  const Vector3 centre = m_placeSurface->point + half * m_placeSurface->normal;
+  drain.minimum = centre.array() - half;
+  drain.maximum = centre.array() + half;
   return drain;
 }
 
@@ -199,14 +196,14 @@ void Viewport::dragPort(const QPointF& position, Qt::KeyboardModifiers modifiers
   if (!m_grip || (!m_grip->moved && std::max(std::abs(way.x()), std::abs(way.y())) < kClick)) return;
   m_grip->moved = true;
   const PortHandle& handle = m_grip->handle;
-  const Vec3 forward = frameOf(m_navigator.camera()).forward;
+  const Vector3 forward = frameOf(m_navigator.camera()).forward;
   const bool whole = handle.part == PortHandle::Part::Whole, upright = whole && (modifiers & Qt::ShiftModifier);
   const DrawingPlane plane = upright ? uprightThrough(handle.place, forward)
                              : whole ? drawingPlaneFor(handle.place, forward)
                                      : DrawingPlane{handle.place, forward};
   const auto from = meet(rayAt(m_pressed), plane), to = meet(rayAt(position), plane);
   if (!from || !to) return;
-  Vec3 target = plus(handle.place, 1, plus(*to, -1, *from));
+  Vector3 target = handle.place + (*to - *from);
   if (upright) target = {handle.place[0], target[1], handle.place[2]};
   const QString title = (whole                                     ? QStringLiteral("moving %1")
                          : handle.part == PortHandle::Part::Corner ? QStringLiteral("size of %1")

@@ -22,11 +22,10 @@ void Impacts::configure(const SolverSettings& settings, const std::vector<Wall>&
   m_dt = settings.dt / settings.substeps;
   m_spacing = settings.spacing;
   m_diameter = kContactDiameter * settings.spacing;
-  m_gravity = {settings.gravity.x, settings.gravity.y, settings.gravity.z};
-  m_slowest = 2 * std::sqrt(dot(m_gravity, m_gravity)) * m_dt;
+  m_gravity = vectorOf(settings.gravity);
+  m_slowest = 2 * m_gravity.norm() * m_dt;
   m_planes.clear();
-  for (const Wall& w : walls)
-    m_planes.push_back({{w.normal.x, w.normal.y, w.normal.z}, w.offset + 0.5 * settings.spacing});
+  for (const Wall& w : walls) m_planes.push_back({vectorOf(w.normal), w.offset + 0.5 * settings.spacing});
   m_restitution.clear();
   for (const BakedMaterial& m : materials) m_restitution.push_back(m.scalar(propertyIndex("restitution")));
 }
@@ -58,10 +57,7 @@ void Impacts::stop(ParticleStore& store, uint32_t i) {
   const api::Float4 v = store.velocity()[i];
   const Vector3 left = rest * vectorOf(v);
   m_stops.push_back({i, left});
-  api::Float4& x = store.position()[i];
-  x.x -= static_cast<float>(m_dt * left.x);
-  x.y -= static_cast<float>(m_dt * left.y);
-  x.z -= static_cast<float>(m_dt * left.z);
+  addTo(store.position()[i], -m_dt * left);
 }
 
 void Impacts::collect(const ParticleStore& store, const SolidContact& contact, ConstraintSystem& constraints,
@@ -101,7 +97,7 @@ void Impacts::keepFirst(const ParticleStore& store) {
 
 double Impacts::wayOf(const ParticleStore& store, uint32_t i) const {
   const Vector3 v = vectorOf(store.velocity()[i]);
-  return m_dt * std::sqrt(dot(v, v));
+  return m_dt * v.norm();
 }
 
 bool Impacts::isFast(const ParticleStore& store, uint32_t i) const { return wayOf(store, i) > kFast * m_spacing; }
@@ -113,13 +109,13 @@ void Impacts::findWalls(const ParticleStore& store, std::span<const uint8_t> rig
     const Vector3 speed = vectorOf(store.velocity()[i]);
     for (uint32_t plane = 0; plane < m_planes.size(); ++plane) {
       const Plane& p = m_planes[plane];
-      const double approach = dot(speed, p.normal);
+      const double approach = speed.dot(p.normal);
       if (!(approach < -m_slowest)) continue;
-      const double gap = std::max(0.0, dot(vectorOf(store.previous()[i]), p.normal) - p.offset);
+      const double gap = std::max(0.0, vectorOf(store.previous()[i]).dot(p.normal) - p.offset);
       const double time = gap / (-approach * m_dt);
       if (time > 1) continue;
       // Gravity has acted for `time` of the substep when it touches, not for all of it.
-      const double met = approach - (1 - time) * m_dt * dot(m_gravity, p.normal);
+      const double met = approach - (1 - time) * m_dt * m_gravity.dot(p.normal);
       m_impacts.push_back({i, kNone, plane, time, p.normal, met, restitutionOf(store, i), false, false});
     }
   }
@@ -132,10 +128,10 @@ bool Impacts::test(const ParticleStore& store, const StructureGraph& graph, uint
   const Vector3 speed = vectorOf(vi) - vectorOf(vj), way = m_dt * speed;
   // Where they were: the predicted line, and the way back.
   const Vector3 at = vectorOf(store.previous()[i]) - vectorOf(store.previous()[j]);
-  float x = static_cast<float>(at.x), y = static_cast<float>(at.y), z = static_cast<float>(at.z);
+  float x = static_cast<float>(at.x()), y = static_cast<float>(at.y()), z = static_cast<float>(at.z());
   store.period().shorten(x, y, z);
   const Vector3 line{x, y, z};
-  const double along = dot(line, way), way2 = dot(way, way), gap = dot(line, line) - m_diameter * m_diameter;
+  const double along = line.dot(way), way2 = way.squaredNorm(), gap = line.squaredNorm() - m_diameter * m_diameter;
   if (!(along < 0) || !(way2 > 0)) return false;
   double time = 0;
   if (gap > 0) {
@@ -145,11 +141,11 @@ bool Impacts::test(const ParticleStore& store, const StructureGraph& graph, uint
     if (time > 1) return false;
   }
   const Vector3 touch = line + time * way;
-  const double length = std::sqrt(dot(touch, touch));
+  const double length = touch.norm();
   if (!(length > 0)) return false;
-  impact.normal = 1 / length * touch;
-  impact.approach = dot(speed, impact.normal);
-  if (vj.w == 0) impact.approach -= (1 - time) * m_dt * dot(m_gravity, impact.normal);
+  impact.normal = touch / length;
+  impact.approach = speed.dot(impact.normal);
+  if (vj.w == 0) impact.approach -= (1 - time) * m_dt * m_gravity.dot(impact.normal);
   if (!(impact.approach < -m_slowest)) return false;
   if (graph.tied(i, j)) return false;
   impact.a = i, impact.b = j, impact.plane = kNone, impact.time = time;
@@ -176,18 +172,17 @@ void Impacts::findFast(const ParticleStore& store, const StructureGraph& graph, 
   std::erase_if(m_solids, [&](const Sought& s) { return graph.ties(s.particle) >= SolidContact::kEnclosed; });
   const Period& period = store.period();
   double size = 2 * fastest + m_diameter;
-  Vector3 low{1e30, 1e30, 1e30}, high{-1e30, -1e30, -1e30};
+  Vector3 low = Vector3::Constant(1e30), high = -low;
   const auto placeOf = [&](uint32_t i) {
     const api::Float4& p = store.previous()[i];
-    const api::Double3 w = period.wrapped({p.x, p.y, p.z});
-    return Vector3{w.x, w.y, w.z};
+    return vectorOf(period.wrapped({p.x, p.y, p.z}));
   };
   for (const Sought& s : m_solids) {
     const Vector3 p = placeOf(s.particle);
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
   }
-  const double extent = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+  const double extent = (high - low).maxCoeff();
   size = std::max(size, extent / kMostCells);
   const auto cellOf = [&](double c, double from) { return static_cast<int64_t>((c - from) / size) + 1; };
   const auto keyOf = [](int64_t x, int64_t y, int64_t z) {
@@ -196,12 +191,12 @@ void Impacts::findFast(const ParticleStore& store, const StructureGraph& graph, 
   m_cells.clear();
   for (uint32_t k = 0; k < m_solids.size(); ++k) {
     const Vector3 p = placeOf(m_solids[k].particle);
-    m_cells.push_back({keyOf(cellOf(p.x, low.x), cellOf(p.y, low.y), cellOf(p.z, low.z)), k});
+    m_cells.push_back({keyOf(cellOf(p.x(), low.x()), cellOf(p.y(), low.y()), cellOf(p.z(), low.z())), k});
   }
   std::sort(m_cells.begin(), m_cells.end());
   Impact impact;
   const auto meet = [&](uint32_t k, const Vector3& at) {
-    const int64_t x = cellOf(at.x, low.x), y = cellOf(at.y, low.y), z = cellOf(at.z, low.z);
+    const int64_t x = cellOf(at.x(), low.x()), y = cellOf(at.y(), low.y()), z = cellOf(at.z(), low.z());
     for (int64_t dz = -1; dz <= 1; ++dz) {
       for (int64_t dy = -1; dy <= 1; ++dy) {
         if (x + 1 < 0 || y + dy < 0 || z + dz < 0) continue;
@@ -225,11 +220,10 @@ void Impacts::findFast(const ParticleStore& store, const StructureGraph& graph, 
     // Around the box too, as far as a pair's nearest images go.
     std::array<std::array<double, 3>, 3> shift{};
     std::array<int, 3> images{1, 1, 1};
-    const double place[3] = {at.x, at.y, at.z};
     for (size_t a = 0; a < 3; ++a) {
       const double length = period.length(a);
       if (!(length > 0)) continue;
-      const double from = place[a] - period.low(a);
+      const double from = at[a] - period.low(a);
       if (from < size) shift[a][static_cast<size_t>(images[a]++)] = length;
       if (length - from < size) shift[a][static_cast<size_t>(images[a]++)] = -length;
     }
@@ -245,23 +239,20 @@ void Impacts::findFast(const ParticleStore& store, const StructureGraph& graph, 
 }
 
 void Impacts::bounce(ParticleStore& store) {
-  const auto give = [](api::Float4& v, Vector3 by) {
-    v.x += static_cast<float>(by.x), v.y += static_cast<float>(by.y), v.z += static_cast<float>(by.z);
-  };
-  for (const Stop& s : m_stops) give(store.velocity()[s.particle], s.left);
+  for (const Stop& s : m_stops) addTo(store.velocity()[s.particle], s.left);
   for (int pass = 0; pass < kPasses; ++pass) {
     for (const Impact& k : m_impacts) {
       api::Float4& va = store.velocity()[k.a];
       Vector3 speed = vectorOf(va);
       double weights = va.w;
-      if (k.b != kNone) speed = speed - vectorOf(store.velocity()[k.b]), weights += double{store.velocity()[k.b].w};
-      const double change = -k.restitution * k.approach - dot(speed, k.normal);
+      if (k.b != kNone) speed -= vectorOf(store.velocity()[k.b]), weights += double{store.velocity()[k.b].w};
+      const double change = -k.restitution * k.approach - speed.dot(k.normal);
       // Speed that only the removal of an overlap gave is taken out; what ties or another impact gave is theirs.
       if (change < 0 && (pass > 0 || !k.loose)) continue;
       const Vector3 impulse = change / weights * k.normal;
-      give(va, double{va.w} * impulse);
+      addTo(va, double{va.w} * impulse);
       if (k.b == kNone || store.velocity()[k.b].w == 0) m_given.add(impulse);
-      if (k.b != kNone) give(store.velocity()[k.b], -double{store.velocity()[k.b].w} * impulse);
+      if (k.b != kNone) addTo(store.velocity()[k.b], -double{store.velocity()[k.b].w} * impulse);
     }
   }
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "core/math/vector3.h"
+#include "core/math/vector.h"
 #include "core/solver/contact/solidcontact.h"
 
 namespace ps {

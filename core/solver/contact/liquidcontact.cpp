@@ -98,7 +98,7 @@ api::Float4 LiquidContact::moveOf(const ParticleStore& store, const Contact& con
     const float by =
         wi / (wi + wj) * static_cast<float>(m_options.relaxation) * (m_diameter - length) / (length * most);
     move.x += by * line.x, move.y += by * line.y, move.z += by * line.z;
-    if (wj == 0) fromFixed = fromFixed + double{store.mass()[i]} * Vector3{by * line.x, by * line.y, by * line.z};
+    if (wj == 0) fromFixed += double{store.mass()[i]} * Vector3{by * line.x, by * line.y, by * line.z};
   }
   return move;
 }

@@ -26,12 +26,11 @@ constexpr double kFacing = 0.35;
 void RigidContact::configure(const SolverSettings& settings, const std::vector<Wall>& walls,
                              std::span<const BakedMaterial> materials) {
   m_spacing = settings.spacing;
-  const api::Double3 g = settings.gravity;
   // Slower than what gravity gives in two substeps nothing bounces, or a body at rest would hop.
-  m_slowest = 2 * std::sqrt(g.x * g.x + g.y * g.y + g.z * g.z) * settings.dt / settings.substeps;
+  m_slowest = 2 * vectorOf(settings.gravity).norm() * settings.dt / settings.substeps;
   m_planes.clear();
   for (const Wall& w : walls) {
-    m_planes.push_back({{w.normal.x, w.normal.y, w.normal.z}, w.offset + 0.5 * settings.spacing, w.friction});
+    m_planes.push_back({vectorOf(w.normal), w.offset + 0.5 * settings.spacing, w.friction});
   }
   m_materials.clear();
   for (const BakedMaterial& m : materials) {
@@ -110,7 +109,7 @@ void RigidContact::refreshContacts(const ParticleStore& store, const Neighbours&
   const double skin = kSkinSpacings * m_spacing, reach = std::hypot(kFaceDistance, kFaceWidth) * m_spacing + skin;
   const auto distance2 = [&](uint32_t i, uint32_t j) {
     const Vector3 d = vectorOf(store.separation(i, j));
-    return dot(d, d);
+    return d.squaredNorm();
   };
   const auto needSurface = [&](uint32_t i) {
     if (m_ownOf[i] != kNone) return;
@@ -128,7 +127,7 @@ void RigidContact::refreshContacts(const ParticleStore& store, const Neighbours&
     if (m_isMember[i] == 0) continue;
     const size_t before = m_contacts.size();
     for (size_t p = 0; p < m_planes.size(); ++p) {
-      if (dot(m_planes[p].normal, vectorOf(store.position()[i])) - m_planes[p].offset > skin) continue;
+      if (m_planes[p].normal.dot(vectorOf(store.position()[i])) - m_planes[p].offset > skin) continue;
       addPlane(store, i, p);
     }
     for (uint32_t q = view.begin[i]; q < view.last[i]; ++q) {
@@ -153,55 +152,54 @@ void RigidContact::refreshContacts(const ParticleStore& store, const Neighbours&
 }
 
 /// `outward` tells the sides of a sheet apart.
-RigidContact::Surface RigidContact::surfaceOf(const ParticleStore& store, uint32_t i, Vector3 outward) const {
+RigidContact::Surface RigidContact::surfaceOf(const ParticleStore& store, uint32_t i, const Vector3& outward) const {
   const std::span<const uint32_t> own(m_own.data() + m_ownBegin[m_ownOf[i]], m_own.data() + m_ownBegin[m_ownOf[i] + 1]);
   const auto fromNeighbour = [&](uint32_t j) { return vectorOf(store.separation(i, j)); };
-  const auto unit = [](Vector3 v, double length) { return 1 / length * v; };
   // A layer one particle thick: all neighbours lie in one plane.
   Vector3 across;
   for (const uint32_t j : own) {
-    const Vector3 normal = cross(fromNeighbour(own[0]), fromNeighbour(j));
-    if (dot(normal, normal) > dot(across, across)) across = normal;
+    const Vector3 normal = fromNeighbour(own[0]).cross(fromNeighbour(j));
+    if (normal.squaredNorm() > across.squaredNorm()) across = normal;
   }
-  if (const double size = std::sqrt(dot(across, across)); size > 0.5 * m_spacing * m_spacing) {
-    across = unit(dot(across, outward) < 0 ? -1.0 * across : across, size);
+  if (const double size = across.norm(); size > 0.5 * m_spacing * m_spacing) {
+    across /= across.dot(outward) < 0 ? -size : size;
     const bool sheet = std::all_of(own.begin(), own.end(), [&](uint32_t j) {
-      return std::abs(dot(fromNeighbour(j), across)) < kSheet * m_spacing;
+      return std::abs(fromNeighbour(j).dot(across)) < kSheet * m_spacing;
     });
     if (sheet) return {across, kFaceNeighbours};
   }
   Vector3 sum;
-  for (const uint32_t j : own) sum = sum + fromNeighbour(j);
-  const double length = std::sqrt(dot(sum, sum));
+  for (const uint32_t j : own) sum += fromNeighbour(j);
+  const double length = sum.norm();
   // Inside a lattice the neighbours cancel: there is no face.
   if (!(length > 0.5 * m_spacing)) return {};
-  return {unit(sum, length), static_cast<uint32_t>(own.size())};
+  return {sum / length, static_cast<uint32_t>(own.size())};
 }
 
 /// Normal and distance at rest of a contact of particles.
 void RigidContact::orient(const ParticleStore& store, Contact& c) const {
   const Vector3 line = vectorOf(store.separation(c.a.particle, c.b.particle));
-  const double length = std::sqrt(dot(line, line));
+  const double length = line.norm();
   c.active = length > 0;
   if (!c.active) return;
-  const Surface a = surfaceOf(store, c.a.particle, -1.0 * line), b = surfaceOf(store, c.b.particle, line);
+  const Surface a = surfaceOf(store, c.a.particle, -line), b = surfaceOf(store, c.b.particle, line);
   // A face decides, the flatter one of two. Edges and corners of equal lattices that meet face to face lean evenly to
   // both sides; else they are round.
   Vector3 normal;
   if (a.neighbours == b.neighbours)
     normal = b.normal - a.normal;
   else if (std::max(a.neighbours, b.neighbours) >= kFaceNeighbours)
-    normal = b.neighbours > a.neighbours ? b.normal : -1.0 * a.normal;
-  const double size = std::sqrt(dot(normal, normal));
-  if (size > 0.1) normal = 1 / size * normal;
-  const double along = dot(line, normal);
+    normal = b.neighbours > a.neighbours ? b.normal : Vector3(-a.normal);
+  const double size = normal.norm();
+  if (size > 0.1) normal /= size;
+  const double along = line.dot(normal);
   if (!(size > 0.1) || !(along > kFacing * length)) {
-    c.normal = 1 / length * line;
+    c.normal = line / length;
     c.distance = kRoundDistance * m_spacing;
     return;
   }
   const Vector3 beside = line - along * normal;
-  c.active = dot(beside, beside) < kFaceWidth * kFaceWidth * m_spacing * m_spacing;
+  c.active = beside.squaredNorm() < kFaceWidth * kFaceWidth * m_spacing * m_spacing;
   c.normal = normal;
   c.distance = kFaceDistance * m_spacing;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "core/math/vector3.h"
+#include "core/math/vector.h"
 #include "core/matter/material.h"
 #include "core/particles/impulse.h"
 #include "core/solver/structure/constraintsystem.h"
@@ -53,11 +53,11 @@ class RigidContact {
   static constexpr uint32_t kNone = ~0u;
   struct Body {
     std::vector<uint32_t> members;
-    double inverseMass = 0;                   ///< 1/kg
-    std::array<Vector3, 3> inverseInertia{};  ///< rows, 1/(kg m2), about the centre
-    Vector3 centre;                           ///< m
-    Vector3 shift, turn;  ///< m, rad: what contacts did since positions were read; m/s, rad/s in bounce()
-    Vector3 turned;       ///< rad, since the start of the substep, when positions were read
+    double inverseMass = 0;  ///< 1/kg
+    Matrix3 inverseInertia;  ///< 1/(kg m2), about the centre
+    Vector3 centre;          ///< m
+    Vector3 shift, turn;     ///< m, rad: what contacts did since positions were read; m/s, rad/s in bounce()
+    Vector3 turned;          ///< rad, since the start of the substep, when positions were read
     bool touched = false, hasContacts = false;
   };
   /// One side of a contact: a point of a body, a free particle, or nothing that moves.
@@ -109,21 +109,21 @@ class RigidContact {
     uint32_t neighbours = 0;
   };
 
-  static Vector3 shift(ParticleStore& store, const Body& body, Vector3 way);
+  static Vector3 shift(ParticleStore& store, const Body& body, const Vector3& way);
   Vector3 takeBack(ParticleStore& store, const Body& body) const;
   static double depthOf(const Plane& plane, const Body& body, const api::Float4* points);
   Vector3 movedBy(const ParticleStore& store, const Side& side) const;
-  Vector3 readSide(const ParticleStore& store, Side& side, Vector3 place) const;
-  Response responseOf(const Side& side, Vector3 impulse) const;
-  void push(ParticleStore& store, const Side& side, Vector3 impulse, double size, const Response& response);
-  void push(ParticleStore& store, const Side& side, Vector3 impulse);
+  Vector3 readSide(const ParticleStore& store, Side& side, const Vector3& place) const;
+  Response responseOf(const Side& side, const Vector3& impulse) const;
+  void push(ParticleStore& store, const Side& side, const Vector3& impulse, double size, const Response& response);
+  void push(ParticleStore& store, const Side& side, const Vector3& impulse);
   void addContact(const ParticleStore& store, uint32_t i, uint32_t j);
   void addPlane(const ParticleStore& store, uint32_t i, size_t plane);
   void keepImpulses();
-  Surface surfaceOf(const ParticleStore& store, uint32_t i, Vector3 outward) const;
+  Surface surfaceOf(const ParticleStore& store, uint32_t i, const Vector3& outward) const;
   void orient(const ParticleStore& store, Contact& contact) const;
   void remember(Contact& contact) const;
-  static double slideOf(const Contact& contact, Vector3 speed);
+  static double slideOf(const Contact& contact, const Vector3& speed);
   double gapOf(const ParticleStore& store, const Open& open) const;
   double solve(ParticleStore& store, Contact& contact, double gap);
   void resume(ParticleStore& store);

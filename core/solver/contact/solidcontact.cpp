@@ -170,7 +170,7 @@ api::Float4 SolidContact::correctionOf(const ParticleStore& store, Chunk& chunk,
     const float x = share * (depth * nx - hold * tx), y = share * (depth * ny - hold * ty),
                 z = share * (depth * nz - hold * tz);
     sum.x += x, sum.y += y, sum.z += z;
-    if (velocity[j].w == 0) chunk.fromFixed = chunk.fromFixed + double{store.mass()[i]} * Vector3{x, y, z};
+    if (velocity[j].w == 0) chunk.fromFixed += double{store.mass()[i]} * Vector3{x, y, z};
   }
   return sum;
 }

@@ -165,7 +165,7 @@ void ViscosityStage::filter(ParticleStore& store, const Neighbours& neighbours, 
 Vector3 ViscosityStage::momentumOf(const ParticleStore& store, const DensityStage& density) const {
   Vector3 sum;
   for (const std::span<const uint32_t> list : {density.fluid(), density.wetSolids()}) {
-    for (const uint32_t i : list) sum = sum + double{store.mass()[i]} * vectorOf(store.velocity()[i]);
+    for (const uint32_t i : list) sum += double{store.mass()[i]} * vectorOf(store.velocity()[i]);
   }
   return sum;
 }

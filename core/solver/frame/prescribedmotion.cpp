@@ -11,11 +11,9 @@ namespace {
 
 constexpr const char* kPlace = "prescribed_place";  // w: 1 when it has been taken
 
-Vector3 vectorOf(const api::Double3& v) { return {v.x, v.y, v.z}; }
-
 bool rests(const BodyMotion& motion) {
   const Vector3 v = vectorOf(motion.velocity), w = vectorOf(motion.spin);
-  return dot(v, v) == 0 && dot(w, w) == 0;
+  return v.squaredNorm() == 0 && w.squaredNorm() == 0;
 }
 
 /// Seconds of the `dt` after `time` in which a body is on its way.
@@ -24,33 +22,17 @@ double secondsWithin(const BodyMotion& motion, double time, double dt) {
 }
 
 /// Turns a unit quaternion by the angle |v| in rad about v.
-void turnBy(double (&q)[4], Vector3 v) {
+void turnBy(Quaternion& q, const Vector3& v) {
   // Halved until the series of sine and cosine are exact to 1e-16, then squared as often.
   int halvings = 0;
   double scale = 0.5;
-  for (double angle2 = 0.25 * dot(v, v); angle2 > 0.01 && halvings < 40; angle2 *= 0.25, scale *= 0.5) ++halvings;
-  const double s = scale * scale * dot(v, v);
-  Vector3 a = scale * (1 - s / 6 * (1 - s / 20 * (1 - s / 42 * (1 - s / 72)))) * v;
-  double w = 1 - s / 2 * (1 - s / 12 * (1 - s / 30 * (1 - s / 56)));
-  for (; halvings > 0; --halvings) {
-    const double square = w * w - dot(a, a);
-    a = 2 * w * a;
-    w = square;
-  }
-  const Vector3 b{q[0], q[1], q[2]}, turned = w * b + q[3] * a + cross(a, b);
-  const double real = w * q[3] - dot(a, b), length = std::sqrt(real * real + dot(turned, turned));
-  q[0] = turned.x / length, q[1] = turned.y / length, q[2] = turned.z / length, q[3] = real / length;
-}
-
-std::array<Vector3, 3> matrixOf(const double (&q)[4]) {
-  const auto [x, y, z, w] = q;
-  return {Vector3{1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)},
-          Vector3{2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)},
-          Vector3{2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)}};
-}
-
-Vector3 transposedTimes(const std::array<Vector3, 3>& rows, Vector3 v) {
-  return v.x * rows[0] + v.y * rows[1] + v.z * rows[2];
+  for (double angle2 = 0.25 * v.squaredNorm(); angle2 > 0.01 && halvings < 40; angle2 *= 0.25, scale *= 0.5) ++halvings;
+  const double s = scale * scale * v.squaredNorm();
+  Quaternion turn;
+  turn.vec() = scale * (1 - s / 6 * (1 - s / 20 * (1 - s / 42 * (1 - s / 72)))) * v;
+  turn.w() = 1 - s / 2 * (1 - s / 12 * (1 - s / 30 * (1 - s / 56)));
+  for (; halvings > 0; --halvings) turn = turn * turn;
+  q = (turn * q).normalized();
 }
 
 api::Float4* placesIn(const ParticleStore& store) {
@@ -70,7 +52,7 @@ void PrescribedMotion::set(uint32_t body, const BodyMotion& motion, ParticleStor
   Frame& frame = m_frames[body];
   frame.motion = motion;
   frame.centre = frame.origin = vectorOf(motion.centre);
-  frame.rows = matrixOf(frame.turn);
+  frame.axes = frame.turn.toRotationMatrix();
   frame.exists = true;
   for (size_t i = 0; i < store.size(); ++i) {
     if (store.body()[i] == body) adopt(store, i, i + 1, -1);
@@ -88,12 +70,13 @@ void PrescribedMotion::adopt(ParticleStore& store, size_t first, size_t last, do
   for (size_t i = first; i < last; ++i) {
     const Frame* frame = frameOf(store, i);
     if (!frame) continue;
-    const Vector3 arm = ps::vectorOf(store.position()[i]) - frame->centre, p = transposedTimes(frame->rows, arm);
-    places[i] = {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z), 1};
+    const Vector3 arm = vectorOf(store.position()[i]) - frame->centre;
+    places[i] = float4Of(frame->axes.transpose() * arm, 1);
     const BodyMotion& motion = frame->motion;
     const bool moves = motion.start <= time && time < motion.stop;
-    const Vector3 v = moves ? vectorOf(motion.velocity) + cross(vectorOf(motion.spin), arm) : Vector3{};
-    store.velocity()[i] = {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0};
+    Vector3 v;
+    if (moves) v = vectorOf(motion.velocity) + vectorOf(motion.spin).cross(arm);
+    store.velocity()[i] = float4Of(v, 0);
   }
 }
 
@@ -107,8 +90,7 @@ void PrescribedMotion::putBack(ParticleStore& store, size_t first, size_t last) 
   for (size_t i = first; i < last; ++i) {
     const Frame* frame = frameOf(store, i);
     if (!frame || placesIn(store)[i].w != 0) continue;
-    const Vector3 place = ps::vectorOf(store.position()[i]) - frame->origin;
-    placesIn(store)[i] = {static_cast<float>(place.x), static_cast<float>(place.y), static_cast<float>(place.z), 1};
+    placesIn(store)[i] = float4Of(vectorOf(store.position()[i]) - frame->origin, 1);
   }
   lead(store, first, last);
   std::copy(store.position() + first, store.position() + last, store.previous() + first);
@@ -119,13 +101,11 @@ void PrescribedMotion::advance(const Period& period, double time, double dt) {
     if (!frame.exists) continue;
     const double seconds = secondsWithin(frame.motion, time, dt);
     const Vector3 way = seconds * vectorOf(frame.motion.velocity), turn = seconds * vectorOf(frame.motion.spin);
-    const Vector3 moved = frame.centre + way;
-    const api::Double3 home = period.wrapped({moved.x, moved.y, moved.z});
-    frame.centre = vectorOf(home);
+    frame.centre = vectorOf(period.wrapped(double3Of(frame.centre + way)));
     turnBy(frame.turn, turn);
-    frame.rows = matrixOf(frame.turn);
-    frame.velocity = 1 / dt * way;
-    frame.spin = 1 / dt * turn;
+    frame.axes = frame.turn.toRotationMatrix();
+    frame.velocity = way / dt;
+    frame.spin = turn / dt;
   }
 }
 
@@ -140,12 +120,11 @@ void PrescribedMotion::lead(ParticleStore& store, size_t first, size_t last) con
   for (size_t i = first; i < last; ++i) {
     const Frame* frame = frameOf(store, i);
     if (!frame) continue;
-    const Vector3 arm = times(frame->rows, ps::vectorOf(places[i])), to = frame->centre + arm,
-                  v = frame->velocity + cross(frame->spin, arm);
+    const Vector3 arm = frame->axes * vectorOf(places[i]), to = frame->centre + arm;
     api::Float4& x = store.position()[i];
     const api::Float4& from = store.previous()[i];
-    x.x = coordinate(to.x, from.x, 0), x.y = coordinate(to.y, from.y, 1), x.z = coordinate(to.z, from.z, 2);
-    store.velocity()[i] = {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0};
+    x.x = coordinate(to.x(), from.x, 0), x.y = coordinate(to.y(), from.y, 1), x.z = coordinate(to.z(), from.z, 2);
+    store.velocity()[i] = float4Of(frame->velocity + frame->spin.cross(arm), 0);
   }
 }
 
@@ -155,11 +134,11 @@ void PrescribedMotion::addTo(Hash& hash) const {
     if (!frame.exists) continue;
     const BodyMotion& m = frame.motion;
     hash.add(uint64_t{body});
-    for (const double c : {frame.centre.x, frame.centre.y, frame.centre.z, m.velocity.x, m.velocity.y, m.velocity.z,
-                           m.spin.x, m.spin.y, m.spin.z, m.start, m.stop}) {
+    for (const double c : frame.centre) hash.add(c);
+    for (const double c : {m.velocity.x, m.velocity.y, m.velocity.z, m.spin.x, m.spin.y, m.spin.z, m.start, m.stop}) {
       hash.add(c);
     }
-    for (const double c : frame.turn) hash.add(c);
+    for (const double c : frame.turn.coeffs()) hash.add(c);
   }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "core/math/vector3.h"
+#include "core/math/vector.h"
 #include "core/particles/particlestore.h"
 #include "core/solver/motion.h"
 
@@ -35,10 +35,10 @@ class PrescribedMotion {
  private:
   struct Frame {
     BodyMotion motion;
-    Vector3 centre, origin;         ///< m, now and when the frame was made
-    double turn[4] = {0, 0, 0, 1};  ///< quaternion x, y, z, w of unit length
-    std::array<Vector3, 3> rows{};  ///< the same as a matrix
-    Vector3 velocity, spin;         ///< m/s and rad/s, of the last substep
+    Vector3 centre, origin;                    ///< m, now and when the frame was made
+    Quaternion turn = Quaternion::Identity();  ///< of unit length
+    Matrix3 axes;                              ///< the same as a matrix
+    Vector3 velocity, spin;                    ///< m/s and rad/s, of the last substep
     bool exists = false;
   };
   const Frame* frameOf(const ParticleStore& store, size_t i) const;

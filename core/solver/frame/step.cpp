@@ -26,28 +26,26 @@ bool finite(const api::Float4& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w);
 }
 
-api::Double3 double3Of(Vector3 v) { return {v.x, v.y, v.z}; }
-
 }  // namespace
 
 Vector3 Solver::Impl::momentum() const {
   Vector3 sum;
   for (size_t i = 0; i < store.size(); ++i) {
-    if (store.velocity()[i].w > 0) sum = sum + double{store.mass()[i]} * vectorOf(store.velocity()[i]);
+    if (store.velocity()[i].w > 0) sum += double{store.mass()[i]} * vectorOf(store.velocity()[i]);
   }
   return sum;
 }
 
 Vector3 Solver::Impl::momentumOfHanging() const {
   Vector3 sum;
-  for (const uint32_t i : hanging) sum = sum + double{store.mass()[i]} * vectorOf(store.velocity()[i]);
+  for (const uint32_t i : hanging) sum += double{store.mass()[i]} * vectorOf(store.velocity()[i]);
   return sum;
 }
 
 Vector3 Solver::Impl::displacementOfHanging() const {
   Vector3 sum;
   for (const uint32_t i : hanging) {
-    sum = sum + double{store.mass()[i]} * (vectorOf(store.position()[i]) - vectorOf(store.previous()[i]));
+    sum += double{store.mass()[i]} * (vectorOf(store.position()[i]) - vectorOf(store.previous()[i]));
   }
   return sum;
 }
@@ -207,12 +205,12 @@ void Solver::Impl::predict(uint32_t index, double dt) {
     const float keep = static_cast<float>(1 / (1 + settings.damping * dt)), step = static_cast<float>(dt);
     for (size_t i = first; i < last; ++i) {
       previous[i] = position[i];
-      if (velocity[i].w > 0) before = before + double{store.mass()[i]} * vectorOf(velocity[i]);
+      if (velocity[i].w > 0) before += double{store.mass()[i]} * vectorOf(velocity[i]);
       if (velocity[i].w > 0) velocity[i].x *= keep, velocity[i].y *= keep, velocity[i].z *= keep;
     }
     gas.apply(store, first, last, dt);
     for (size_t i = first; i < last; ++i) {
-      if (velocity[i].w > 0) after = after + double{store.mass()[i]} * vectorOf(velocity[i]);
+      if (velocity[i].w > 0) after += double{store.mass()[i]} * vectorOf(velocity[i]);
     }
     weight.add(first / kGrain, 1, after - before);
     for (size_t i = first; i < last; ++i) {  // what is fixed moves too, at the velocity it was given
@@ -311,7 +309,7 @@ void Solver::Impl::bookContact(double dt) {
   Vector3 moved = rigid.pushed();
   for (Received* given :
        {&wallStage.given(), &contact.given(), &wet.given(), &sheets.given(), &density.given(), &swept.given()})
-    moved = moved + given->take();
+    moved += given->take();
   external.add(1 / dt * moved);
 }
 

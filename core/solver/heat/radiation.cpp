@@ -36,10 +36,10 @@ struct Target {
 Target nearestWall(std::span<const Wall> walls, const Vector3& from, const Vector3& way) {
   Target nearest{walls.size(), kFar};
   for (size_t w = 0; w < walls.size(); ++w) {
-    const Vector3 normal{walls[w].normal.x, walls[w].normal.y, walls[w].normal.z};
-    const double towards = -dot(normal, way);
+    const Vector3 normal = vectorOf(walls[w].normal);
+    const double towards = -normal.dot(way);
     if (!(towards > 0)) continue;
-    const double distance = std::max(0.0, (dot(normal, from) - walls[w].offset) / towards);
+    const double distance = std::max(0.0, (normal.dot(from) - walls[w].offset) / towards);
     if (distance < nearest.distance) nearest = {w, distance};
   }
   return nearest;
@@ -51,7 +51,7 @@ bool within(const Bounds& bounds, const Vector3& x, double spacing) {
   const auto inside = [&](size_t axis, double at, double from, double to) {
     return bounds.periodic[axis] || (at >= from - spacing && at <= to + spacing);
   };
-  return inside(0, x.x, low.x, high.x) && inside(1, x.y, low.y, high.y) && inside(2, x.z, low.z, high.z);
+  return inside(0, x.x(), low.x, high.x) && inside(1, x.y(), low.y, high.y) && inside(2, x.z(), low.z, high.z);
 }
 
 /// Shares of a particle's area along each direction, and where its rays begin above its centre.
@@ -64,18 +64,19 @@ Fan fanOf(uint64_t open) {
   Vector3 mean;
   for (size_t d = 0; d < OpenSurface::kDirections; ++d) {
     const auto& way = OpenSurface::directions()[d];
-    if ((open >> d & 1) != 0) mean = mean + Vector3{way[0], way[1], way[2]};
+    if ((open >> d & 1) != 0) mean += Vector3{way[0], way[1], way[2]};
   }
-  const double length = std::sqrt(dot(mean, mean)), count = std::popcount(open);
+  const double length = mean.norm(), count = std::popcount(open);
   const double plane = std::min(1.0, length / (kPlane * count));
   Fan fan;
-  const Vector3 normal = length > 0 ? 1 / length * mean : Vector3{};
+  const Vector3 normal = mean.normalized();  // zero where there is none
   fan.lift = plane * kLift * normal;
   double cosines = 0;
-  for (const auto& way : OpenSurface::directions()) cosines += std::max(0.0, dot(normal, {way[0], way[1], way[2]}));
+  for (const auto& way : OpenSurface::directions())
+    cosines += std::max(0.0, normal.dot(Vector3{way[0], way[1], way[2]}));
   for (size_t d = 0; d < OpenSurface::kDirections; ++d) {
     const auto& way = OpenSurface::directions()[d];
-    const double cosine = std::max(0.0, dot(normal, {way[0], way[1], way[2]}));
+    const double cosine = std::max(0.0, normal.dot(Vector3{way[0], way[1], way[2]}));
     const double lambert = cosines > 0 ? cosine / cosines : 0, even = (open >> d & 1) != 0 ? 1 / count : 0;
     fan.share[d] = static_cast<float>(plane * lambert + (1 - plane) * even);
   }
@@ -154,13 +155,13 @@ Radiation::End Radiation::endOf(const ParticleStore& store, std::span<const Wall
       end.wall = wall.index;
       return end;
     }
-    from = from + wall.distance * way;
+    from += wall.distance * way;
     if (!within(m_bounds, from, m_spacing)) {
       end.sky = true;
       return end;
     }
-    const Vector3 normal{walls[wall.index].normal.x, walls[wall.index].normal.y, walls[wall.index].normal.z};
-    way = way - 2 * dot(normal, way) * normal;
+    const Vector3 normal = vectorOf(walls[wall.index].normal);
+    way -= 2 * normal.dot(way) * normal;
   }
   return end;
 }
@@ -256,9 +257,8 @@ bool Radiation::Grid::about(const ParticleStore& store, uint32_t self, uint32_t 
 }
 
 /// Steps from cell to cell (Amanatides & Woo 1987).
-uint32_t Radiation::Grid::firstOn(const ParticleStore& store, const Vector3& from, const Vector3& way, double longest,
-                                  uint32_t self) const {
-  const double start[3] = {from.x, from.y, from.z}, slope[3] = {way.x, way.y, way.z};
+uint32_t Radiation::Grid::firstOn(const ParticleStore& store, const Vector3& start, const Vector3& slope,
+                                  double longest, uint32_t self) const {
   double enter = 0, leave = longest;
   for (size_t a = 0; a < 3; ++a) {  // where the ray is within the box
     if (repeats[a]) continue;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "core/math/vector3.h"
+#include "core/math/vector.h"
 #include "core/particles/particlestore.h"
 #include "core/solver/heat/opensurface.h"
 #include "core/solver/settings.h"
@@ -59,7 +59,7 @@ class Radiation {
                      uint32_t self) const;
     /// Whether a ray along `way` comes out anywhere: not between the faces of a period.
     bool comesOut(const Vector3& way) const {
-      return (!repeats[0] && way.x != 0) || (!repeats[1] && way.y != 0) || (!repeats[2] && way.z != 0);
+      return (!repeats[0] && way.x() != 0) || (!repeats[1] && way.y() != 0) || (!repeats[2] && way.z() != 0);
     }
 
    private:
