@@ -85,8 +85,9 @@ std::vector<Change> changesOf(const Project& project, const PluginRegistry& plug
     const std::string text = address.text();
     const bool chosen = only.empty() || std::any_of(only.begin(), only.end(),
                                                     [&](const std::string& start) { return text.starts_with(start); });
-    const bool edit = (address.owner == "body" && (address.key == kStructureKey || address.key == kBodyMaterialKey)) ||
-                      !adhesionPartner(address).empty();
+    const bool edit =
+        (address.owner == Owner::Body && (address.key == kStructureKey || address.key == kBodyMaterialKey)) ||
+        !adhesionPartner(address).empty();
     if (!chosen || edit) continue;  // an edit of the document acts on no run
     const api::ParameterDeclaration* declaration = declarationOf(project, &plugins, address);
     for (Value& value : endsOf(*declaration, valueAt(project, &plugins, address))) {
@@ -152,11 +153,11 @@ std::string explanation(const Project& project, const Outcome& outcome, const Ch
   const bool diverged = (outcome.flags & static_cast<StepFlags>(StepFlag::Diverged)) != 0;
   // Only who moves a body can ask it to leave no room, or to be squeezed by what it strikes.
   const auto counts = [&](const std::string& limit) {
-    return limit != kSqueezeLimit || change->address.owner == "body";
+    return limit != kSqueezeLimit || change->address.owner == Owner::Body;
   };
   const auto found = std::find_if(outcome.limits.begin(), outcome.limits.end(), counts);
   const std::string limit = found == outcome.limits.end() ? std::string() : *found;
-  const bool closed = project.environment.walls.size() >= 6, coarse = change->address.owner == "solver";
+  const bool closed = project.environment.walls.size() >= 6, coarse = change->address.owner == Owner::Solver;
   if (((diverged && !coarse) || (lost && closed)) && limit.empty()) return {};
   std::string why = diverged && coarse ? "coarser than the scene needs: " + key : limit;
   if (lost && !closed) why += std::string(why.empty() ? "" : "; ") + "the scene is open";

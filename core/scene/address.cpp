@@ -1,20 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "core/scene/address.h"
+
 #include "core/matter/material.h"
 #include "core/scene/project.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace ps {
 namespace {
 
-/// Number of parts between owner and key, or -1 for an unknown owner.
-int idParts(std::string_view owner) {
-  if (owner == "environment" || owner == "solver" || owner == "thermal" || owner == "scene") return 0;
-  if (owner == "material" || owner == "wall" || owner == "body" || owner == "emitter" || owner == "sink") {
-    return 1;
-  }
-  return owner == "constraint" ? 2 : -1;
-}
+struct OwnerRow {
+  Owner owner;
+  std::string_view name;
+  int idParts;  ///< between owner and key
+};
+constexpr OwnerRow kRows[] = {
+    {Owner::Material, "material", 1}, {Owner::Wall, "wall", 1},       {Owner::Environment, "environment", 0},
+    {Owner::Solver, "solver", 0},     {Owner::Thermal, "thermal", 0}, {Owner::Body, "body", 1},
+    {Owner::Emitter, "emitter", 1},   {Owner::Sink, "sink", 1},       {Owner::Constraint, "constraint", 2},
+    {Owner::Scene, "scene", 0},
+};
+static_assert(std::size(kRows) == std::size(kOwners));
 
 template <class List>
 auto* byId(List& list, std::string_view id) {
@@ -24,44 +31,57 @@ auto* byId(List& list, std::string_view id) {
 
 template <class P, class Set>
 Set* setOf(P& project, const Address& address) {
-  if (address.owner == "environment") return &project.environment.parameters;
-  if (address.owner == "solver") return &project.solver.parameters;
-  if (address.owner == "thermal") return &project.solver.thermalParameters;
-  if (address.owner == "material") {
-    auto* material = byId(project.materials, address.id);
-    if (!material) return nullptr;
-    return propertyIndex(address.key) >= 0 ? &material->properties : &material->parameters;
-  }
-  if (address.owner == "wall") {
-    auto* wall = byId(project.environment.walls, address.id);
-    return wall ? &wall->parameters : nullptr;
-  }
-  if (address.owner == "body") {
-    auto* body = byId(project.bodies, address.id);
-    return body ? &body->parameters : nullptr;
-  }
-  if (address.owner == "emitter") {
-    auto* emitter = byId(project.emitters, address.id);
-    return emitter ? &emitter->parameters : nullptr;
-  }
-  if (address.owner == "sink") {
-    auto* sink = byId(project.sinks, address.id);
-    return sink ? &sink->parameters : nullptr;
-  }
-  if (address.owner != "constraint") return nullptr;
-  const size_t slash = address.id.find('/');
-  auto* body = byId(project.bodies, std::string_view(address.id).substr(0, slash));
-  if (!body || slash == std::string::npos) return nullptr;
-  const std::string_view plugin = std::string_view(address.id).substr(slash + 1);
-  for (auto& constraint : body->constraints) {
-    if (constraint.plugin == plugin) return &constraint.parameters;
+  const auto parametersOf = [](auto* item) { return item ? &item->parameters : nullptr; };
+  switch (address.owner) {
+    case Owner::Environment:
+      return &project.environment.parameters;
+    case Owner::Solver:
+      return &project.solver.parameters;
+    case Owner::Thermal:
+      return &project.solver.thermalParameters;
+    case Owner::Material: {
+      auto* material = byId(project.materials, address.id);
+      if (!material) return nullptr;
+      return propertyIndex(address.key) >= 0 ? &material->properties : &material->parameters;
+    }
+    case Owner::Wall:
+      return parametersOf(byId(project.environment.walls, address.id));
+    case Owner::Body:
+      return parametersOf(byId(project.bodies, address.id));
+    case Owner::Emitter:
+      return parametersOf(byId(project.emitters, address.id));
+    case Owner::Sink:
+      return parametersOf(byId(project.sinks, address.id));
+    case Owner::Constraint: {
+      auto* body = byId(project.bodies, address.id);
+      if (!body) return nullptr;
+      for (auto& constraint : body->constraints) {
+        if (constraint.plugin == address.plugin) return &constraint.parameters;
+      }
+      return nullptr;
+    }
+    case Owner::Scene:
+      return nullptr;
   }
   return nullptr;
 }
 
 }  // namespace
 
-std::string Address::text() const { return id.empty() ? owner + "/" + key : owner + "/" + id + "/" + key; }
+std::string_view ownerName(Owner owner) {
+  return std::find_if(std::begin(kRows), std::end(kRows), [&](const OwnerRow& row) { return row.owner == owner; })
+      ->name;
+}
+
+std::string Address::prefix() const {
+  std::string text(ownerName(owner));
+  for (const std::string* part : {&id, &plugin}) {
+    if (!part->empty()) text += "/" + *part;
+  }
+  return text + "/";
+}
+
+std::string Address::text() const { return prefix() + key; }
 
 std::optional<Address> Address::parse(std::string_view text) {
   std::vector<std::string> parts(1);
@@ -72,12 +92,13 @@ std::optional<Address> Address::parse(std::string_view text) {
       parts.back() += c;
     }
   }
-  const int ids = idParts(parts[0]);
-  if (ids < 0 || parts.size() != static_cast<size_t>(ids) + 2) return std::nullopt;
+  const auto row =
+      std::find_if(std::begin(kRows), std::end(kRows), [&](const OwnerRow& r) { return r.name == parts[0]; });
+  if (row == std::end(kRows) || parts.size() != static_cast<size_t>(row->idParts) + 2) return std::nullopt;
   if (std::any_of(parts.begin(), parts.end(), [](const std::string& p) { return p.empty(); })) return std::nullopt;
-  Address address{parts[0], "", parts.back()};
-  if (ids > 0) address.id = parts[1];
-  if (ids > 1) address.id += "/" + parts[2];
+  Address address{row->owner, "", parts.back()};
+  if (row->idParts > 0) address.id = parts[1];
+  if (row->idParts > 1) address.plugin = parts[2];
   return address;
 }
 

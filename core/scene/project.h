@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "core/math/vector.h"
+#include "core/scene/address.h"
 #include "core/scene/parameterset.h"
 
 #include <nlohmann/json_fwd.hpp>
@@ -229,17 +230,6 @@ double particleCount(const Project& project);
 /// What a scene may have; more would not fit the memory of a large machine.
 constexpr double kMaximumParticles = 20e6;
 
-/// Names one parameter of a project: "material/water/conductivity_solid", "wall/floor/temperature",
-/// "environment/ambient_pressure", "solver/substeps", "thermal/KEY", "body/ice/temperature", "emitter/tap/speed",
-/// "sink/drain/open", "constraint/ice/bonds/KEY", "scene/gravity".
-struct Address {
-  std::string owner;  ///< material, wall, environment, solver, thermal, body, emitter, sink, constraint, scene
-  std::string id;     ///< of the owner; constraint: "ice/bonds"; "" where there is one
-  std::string key;
-  std::string text() const;
-  static std::optional<Address> parse(std::string_view text);
-  bool operator==(const Address&) const = default;
-};
 /// The set that holds an address's value, or nullptr when the owner does not exist.
 ParameterSet* findSet(Project& project, const Address& address);
 const ParameterSet* findSet(const Project& project, const Address& address);

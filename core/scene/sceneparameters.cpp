@@ -56,14 +56,14 @@ std::optional<Component> componentOf(const std::string& key) {
 }  // namespace
 
 std::optional<Value> outsideValue(const Project& project, const Address& address) {
-  if (address.owner == "body") {
+  if (address.owner == Owner::Body) {
     const auto body =
         std::find_if(project.bodies.begin(), project.bodies.end(), [&](const Body& b) { return b.id == address.id; });
     const std::optional<Component> component = componentOf(address.key);
     if (body == project.bodies.end() || !component) return std::nullopt;
     return ((*body).*(component->vector))[component->axis];
   }
-  if (address.owner != "scene") return std::nullopt;
+  if (address.owner != Owner::Scene) return std::nullopt;
   if (address.key == kGravity.key) return project.environment.gravity.norm();
   if (address.key != kThermalModel) return std::nullopt;
   return project.solver.thermalModel.empty() ? std::string(kNoModel) : project.solver.thermalModel;
@@ -72,7 +72,7 @@ std::optional<Value> outsideValue(const Project& project, const Address& address
 bool setOutsideValue(Project& project, const Address& address, const Value& value) {
   const std::optional<Value> before = outsideValue(project, address);
   if (!before || before->index() != value.index()) return false;
-  if (address.owner == "body") {
+  if (address.owner == Owner::Body) {
     const auto body =
         std::find_if(project.bodies.begin(), project.bodies.end(), [&](const Body& b) { return b.id == address.id; });
     const Component component = *componentOf(address.key);

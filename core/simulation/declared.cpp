@@ -125,7 +125,7 @@ api::ParameterList adhesionDeclarations(const Project& project, const std::strin
 }  // namespace
 
 std::string adhesionPartner(const Address& address) {
-  return address.owner == "material" && address.key.starts_with(kAdheresKey)
+  return address.owner == Owner::Material && address.key.starts_with(kAdheresKey)
              ? address.key.substr(std::string_view(kAdheresKey).size())
              : std::string();
 }
@@ -168,24 +168,33 @@ std::string structureOf(const Body& body, const PluginRegistry* plugins) {
 }
 
 api::ParameterList declarationsOf(const Project& project, const PluginRegistry* plugins, const Address& address) {
-  if (address.owner == "environment") return environmentParameters();
-  if (address.owner == "solver") return solverParameters();
-  if (address.owner == "wall") return wallParameters();
-  if (address.owner == "emitter") return emitterParameters();
-  if (address.owner == "sink") return sinkParameters();
-  if (address.owner == "body") return bodyDeclarations(project, plugins, address.id);
-  if (address.owner == "material" && propertyIndex(address.key) >= 0) return propertyCatalogue();
-  if (!adhesionPartner(address).empty()) return adhesionDeclarations(project, address.id);
-  if (!plugins) return {};
-  if (address.owner == "scene") return sceneDeclarations(project, *plugins);
-  if (address.owner == "material") {
-    const SceneMaterial* material = materialById(project, address.id);
-    return material ? plugins->parameters(material->base) : api::ParameterList{};
+  const auto of = [&](const std::string& id) { return plugins ? plugins->parameters(id) : api::ParameterList{}; };
+  switch (address.owner) {
+    case Owner::Environment:
+      return environmentParameters();
+    case Owner::Solver:
+      return solverParameters();
+    case Owner::Wall:
+      return wallParameters();
+    case Owner::Emitter:
+      return emitterParameters();
+    case Owner::Sink:
+      return sinkParameters();
+    case Owner::Body:
+      return bodyDeclarations(project, plugins, address.id);
+    case Owner::Scene:
+      return plugins ? sceneDeclarations(project, *plugins) : api::ParameterList{};
+    case Owner::Thermal:
+      return of(project.solver.thermalModel);
+    case Owner::Constraint:
+      return of(address.plugin);
+    case Owner::Material:
+      break;
   }
-  if (address.owner == "thermal") return plugins->parameters(project.solver.thermalModel);
-  if (address.owner != "constraint") return {};
-  const size_t slash = address.id.find('/');
-  return slash == std::string::npos ? api::ParameterList{} : plugins->parameters(address.id.substr(slash + 1));
+  if (propertyIndex(address.key) >= 0) return propertyCatalogue();
+  if (!adhesionPartner(address).empty()) return adhesionDeclarations(project, address.id);
+  const SceneMaterial* material = materialById(project, address.id);
+  return material ? of(material->base) : api::ParameterList{};
 }
 
 const api::ParameterDeclaration* declarationOf(const Project& project, const PluginRegistry* plugins,
@@ -205,13 +214,13 @@ Value conformed(Value value, const api::ParameterDeclaration& declaration) {
 Value defaultOf(const Project& project, const PluginRegistry* plugins, const Address& address) {
   const api::ParameterDeclaration* declaration = declarationOf(project, plugins, address);
   if (!declaration) return 0.0;
-  if (address.owner == "body" && address.key == kBodyMaterialKey) return valueAt(project, plugins, address);
+  if (address.owner == Owner::Body && address.key == kBodyMaterialKey) return valueAt(project, plugins, address);
   if (const std::string other = adhesionPartner(address); !other.empty()) {
     const SceneMaterial* source = materialById(project, address.id);
     const Material* installed = source && plugins ? plugins->material(source->base) : nullptr;
     return installed && contains(namedByInstalled(project, installed->adheresTo), other);
   }
-  if (address.owner == "material" && propertyIndex(address.key) >= 0) {
+  if (address.owner == Owner::Material && propertyIndex(address.key) >= 0) {
     if (const SceneMaterial* material = materialById(project, address.id)) {
       if (const auto base = baseMaterial(*material, plugins)) {
         const auto found = base->properties.find(address.key);
@@ -224,15 +233,15 @@ Value defaultOf(const Project& project, const PluginRegistry* plugins, const Add
 
 Value valueAt(const Project& project, const PluginRegistry* plugins, const Address& address) {
   if (const std::optional<Value> outside = outsideValue(project, address)) return *outside;
-  if (address.owner == "body" && address.key == kStructureKey) {
+  if (address.owner == Owner::Body && address.key == kStructureKey) {
     const auto body = itemById(project.bodies, address.id);
     return body == project.bodies.end() ? std::string(kNoStructure) : structureOf(*body, plugins);
   }
-  if (address.owner == "body" && address.key == kBodyMaterialKey) {
+  if (address.owner == Owner::Body && address.key == kBodyMaterialKey) {
     const auto body = itemById(project.bodies, address.id);
     return body == project.bodies.end() ? std::string() : body->material;
   }
-  const SceneMaterial* material = address.owner == "material" ? materialById(project, address.id) : nullptr;
+  const SceneMaterial* material = address.owner == Owner::Material ? materialById(project, address.id) : nullptr;
   if (const std::string other = adhesionPartner(address); material && material->adheresTo && !other.empty())
     return contains(namedInScene(project, *material->adheresTo), other);
   const ParameterSet* set = findSet(project, address);
@@ -265,7 +274,7 @@ std::string problemWith(const Project& project, const PluginRegistry* plugins, c
   if (const std::string problem = problemOf(value, *declaration); !problem.empty()) {
     return std::string(declaration->label) + " " + problem + ".";
   }
-  if (address.owner != "material" || propertyIndex(address.key) < 0) return {};
+  if (address.owner != Owner::Material || propertyIndex(address.key) < 0) return {};
   const SceneMaterial* source = materialById(project, address.id);
   auto material = source ? baseMaterial(*source, plugins) : std::nullopt;
   if (!material) return {};
@@ -276,24 +285,24 @@ std::string problemWith(const Project& project, const PluginRegistry* plugins, c
 
 std::vector<Address> allAddresses(const Project& project, const PluginRegistry* plugins) {
   std::vector<Address> addresses;
-  const auto add = [&](const std::string& owner, const std::string& id, const std::string& anyKey) {
-    const api::ParameterList list = declarationsOf(project, plugins, {owner, id, anyKey});
-    for (size_t i = 0; i < list.count; ++i) addresses.push_back({owner, id, list[i].key});
+  const auto add = [&](const Address& any) {  // any key among them
+    const api::ParameterList list = declarationsOf(project, plugins, any);
+    for (size_t i = 0; i < list.count; ++i) addresses.push_back({any.owner, any.id, list[i].key, any.plugin});
   };
   const std::string property = propertyCatalogue().count > 0 ? propertyCatalogue()[0].key : "";
   for (const Body& body : project.bodies) {
-    add("body", body.id, "");
-    for (const BodyConstraint& constraint : body.constraints) add("constraint", body.id + "/" + constraint.plugin, "");
+    add({Owner::Body, body.id, ""});
+    for (const BodyConstraint& constraint : body.constraints) add({Owner::Constraint, body.id, "", constraint.plugin});
   }
   for (const SceneMaterial& material : project.materials) {
-    add("material", material.id, property);
-    add("material", material.id, "");
-    if (project.materials.size() > 1) add("material", material.id, kAdheresKey + material.id);
+    add({Owner::Material, material.id, property});
+    add({Owner::Material, material.id, ""});
+    if (project.materials.size() > 1) add({Owner::Material, material.id, kAdheresKey + material.id});
   }
-  for (const Emitter& emitter : project.emitters) add("emitter", emitter.id, "");
-  for (const Sink& sink : project.sinks) add("sink", sink.id, "");
-  for (const SceneWall& wall : project.environment.walls) add("wall", wall.id, "");
-  for (const char* owner : {"scene", "environment", "solver", "thermal"}) add(owner, "", "");
+  for (const Emitter& emitter : project.emitters) add({Owner::Emitter, emitter.id, ""});
+  for (const Sink& sink : project.sinks) add({Owner::Sink, sink.id, ""});
+  for (const SceneWall& wall : project.environment.walls) add({Owner::Wall, wall.id, ""});
+  for (const Owner owner : {Owner::Scene, Owner::Environment, Owner::Solver, Owner::Thermal}) add({owner, "", ""});
   return addresses;
 }
 

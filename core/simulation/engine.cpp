@@ -99,7 +99,7 @@ struct Engine::Impl {
   std::unique_ptr<Impl> rebuilt(const Project& source) const;
   /// Index of a body for its particles: a body keeps it as long as particles live, whatever comes and goes before it.
   uint32_t bodyIndex(const std::string& id);
-  void recompile(const std::string& owner);
+  void recompile(Owner owner);
   void recompileAll();
   void bakeMaterials();
   /// Adds the structure of matter that has frozen and that nothing takes back.
@@ -279,7 +279,7 @@ void Engine::Impl::build() {
     born(std::move(spawn), *body);
   }
   for (const Emitter& emitter : project.emitters) bodyIndex(emitter.id);
-  recompile("body");  // what is said of bodies goes by their indices
+  recompile(Owner::Body);  // what is said of bodies goes by their indices
   for (const Probe& probe : project.probes) probeNames.push_back(probeTitle(probe));
 }
 
@@ -290,21 +290,22 @@ std::unique_ptr<Engine::Impl> Engine::Impl::rebuilt(const Project& source) const
   return next;
 }
 
-void Engine::Impl::recompile(const std::string& owner) {
-  if (owner == "material") bakeMaterials();
-  if (owner == "wall") solver->setWalls(compileWalls(project));
-  if (owner == "solver" || owner == "environment") {  // wind and drag are the environment's
+void Engine::Impl::recompile(Owner owner) {
+  if (owner == Owner::Material) bakeMaterials();
+  if (owner == Owner::Wall) solver->setWalls(compileWalls(project));
+  if (owner == Owner::Solver || owner == Owner::Environment) {  // wind and drag are the environment's
     SolverSettings settings = compileSettings(project);
     settings.spacing = spacing;
     solver->setSettings(settings);
   }
-  if (owner == "environment") bakeMaterials();  // pressure moves melting and boiling points
-  if (owner == "environment" || owner == "solver" || owner == "thermal" || owner == "body") setThermal();
-  if (owner == "body") {
+  if (owner == Owner::Environment) bakeMaterials();  // pressure moves melting and boiling points
+  if (owner == Owner::Environment || owner == Owner::Solver || owner == Owner::Thermal || owner == Owner::Body)
+    setThermal();
+  if (owner == Owner::Body) {
     lead();
     solver->setHeating(compileHeating(project, *bodyIds));
   }
-  if (owner == "constraint") {
+  if (owner == Owner::Constraint) {
     for (const Body& body : project.bodies) {
       for (const BodyConstraint& c : body.constraints) {
         const auto set = constraintSets.find(c.plugin);
@@ -327,7 +328,8 @@ void Engine::Impl::lead() {
 
 void Engine::Impl::recompileAll() {
   solver->setBounds(compileBounds(project));
-  for (const char* owner : {"wall", "solver", "environment", "constraint", "body"}) recompile(owner);
+  for (const Owner owner : {Owner::Wall, Owner::Solver, Owner::Environment, Owner::Constraint, Owner::Body})
+    recompile(owner);
 }
 
 Engine::Engine(const Project& project, PluginRegistry& plugins) : m(std::make_unique<Impl>(project, plugins)) {
@@ -364,7 +366,7 @@ void Engine::update(const Project& project) {
 bool Engine::setParameter(const Address& address, const Value& value) {
   if (Project changed = m->document(); setOutsideValue(changed, address, value)) {
     update(changed);
-    if (address.owner != "body") return true;
+    if (address.owner != Owner::Body) return true;
     const uint32_t index = m->bodyIndex(address.id);
     return index < m->fixedBodies.size() && m->fixedBodies[index];
   }
@@ -374,7 +376,7 @@ bool Engine::setParameter(const Address& address, const Value& value) {
   set->values[address.key] = value;
   constexpr std::string_view kLive[] = {"motion_start", "motion_stop", "heating_power", "surface_area"};  // of a body
   const bool live = std::find(std::begin(kLive), std::end(kLive), address.key) != std::end(kLive);
-  const bool actsNow = (address.owner != "body" || live) && address.key != "particle_spacing";
+  const bool actsNow = (address.owner != Owner::Body || live) && address.key != "particle_spacing";
   try {
     if (actsNow) {
       m->recompile(address.owner);
@@ -402,7 +404,7 @@ std::vector<uint32_t> Engine::addCells(const Body& body, const std::vector<std::
   } else {
     *known = body;
   }
-  m->recompile("body");
+  m->recompile(Owner::Body);
   return ids;
 }
 
@@ -418,7 +420,7 @@ std::vector<uint32_t> Engine::addBody(const Body& body) {
     const std::vector<uint32_t> fresh = m->born(std::move(spawn), body);
     ids.insert(ids.end(), fresh.begin(), fresh.end());
   }
-  m->recompile("body");
+  m->recompile(Owner::Body);
   return ids;
 }
 

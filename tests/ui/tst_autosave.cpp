@@ -17,7 +17,7 @@ using namespace ps;
 
 namespace {
 
-const Address kFloor{"wall", "floor", "temperature"};
+const Address kFloor{Owner::Wall, "floor", "temperature"};
 
 /// A document with its files and its autosave, as a session has them.
 struct Desk {

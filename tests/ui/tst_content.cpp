@@ -121,7 +121,7 @@ class TestContent : public QObject {
     project.emitters.push_back(tap);
     project.bodies.clear();
     m_document->open(project, {}, false, false);
-    const Address speed{"emitter", "tap", "speed"};
+    const Address speed{Owner::Emitter, "tap", "speed"};
     const std::vector<Address> all = allAddresses(m_document->project(), m_plugins.get());
     QVERIFY(std::find(all.begin(), all.end(), speed) != all.end());
     QCOMPARE(awayLabel(m_document->project(), speed, QStringLiteral("Speed")), QStringLiteral("Cold tap speed"));
@@ -237,7 +237,7 @@ class TestContent : public QObject {
     QVERIFY(ofWater());
     QCOMPARE(m_document->removeMaterial("wax"), QString());
     QVERIFY(ofWater());
-    QCOMPARE(m_document->setParameter({"scene", "", "gravity"}, 5.0), QString());
+    QCOMPARE(m_document->setParameter({Owner::Scene, "", "gravity"}, 5.0), QString());
     m_link->reset();
     QVERIFY(ofWater());
     QCOMPARE(onEngine<size_t>(*m_engine, [](Engine& e) { return e.project().materials.size(); }), size_t{1});
@@ -301,7 +301,7 @@ class TestContent : public QObject {
   }
 
   void materialOfABodyIsChosen() {
-    const Address made{"body", "second", kBodyMaterialKey};
+    const Address made{Owner::Body, "second", kBodyMaterialKey};
     const std::string before = text(), old = std::get<std::string>(m_document->value(made));
     QCOMPARE(old, m_document->body("second")->material);
     QVERIFY(m_document->value(made) == m_document->defaultValue(made));      // never shown as changed
@@ -320,15 +320,15 @@ class TestContent : public QObject {
 
   void adhesionIsChosen() {
     const std::string id = m_document->project().materials[0].id, before = text();
-    QVERIFY(!m_document->declaration({"material", id, kAdheresKey + id}));  // matter of one kind always joins
+    QVERIFY(!m_document->declaration({Owner::Material, id, kAdheresKey + id}));  // matter of one kind always joins
     QCOMPARE(m_document->addMaterial("tin"), std::string("tin"));
     const std::string added = text();
-    const Address holds{"material", id, std::string(kAdheresKey) + "tin"};
+    const Address holds{Owner::Material, id, std::string(kAdheresKey) + "tin"};
     QCOMPARE(QString::fromUtf8(m_document->declaration(holds)->label), QStringLiteral("Holds on to Tin"));
     QVERIFY(m_document->value(holds) == Value(false));
     QCOMPARE(m_document->setParameter(holds, true), QString());
     QVERIFY(m_document->value(holds) == Value(true));
-    QVERIFY(m_document->value({"material", "tin", kAdheresKey + id}) == Value(false));
+    QVERIFY(m_document->value({Owner::Material, "tin", kAdheresKey + id}) == Value(false));
     QCOMPARE(*parseProject(text(), "scene.json", *m_plugins).project.materials[0].adheresTo,
              std::vector<std::string>{"tin"});
     QCOMPARE(m_document->setParameter(holds, false), QString());  // as it was installed: nothing to save
@@ -349,8 +349,8 @@ class TestContent : public QObject {
     project.materials.push_back({"pewter", "", "tin", {}, {}, {}, {}});
     project.materials[0].adheresTo = {"clay"};  // not of this scene
     m_document->open(project, {});
-    const Address tin{"material", id, std::string(kAdheresKey) + "tin"},
-        pewter{"material", id, std::string(kAdheresKey) + "pewter"};
+    const Address tin{Owner::Material, id, std::string(kAdheresKey) + "tin"},
+        pewter{Owner::Material, id, std::string(kAdheresKey) + "pewter"};
     const std::string before = text();
     const auto set = [&](const Address& address, bool on) { return m_document->setParameter(address, on); };
     QCOMPARE(set(tin, true), QString());
@@ -362,11 +362,11 @@ class TestContent : public QObject {
     QCOMPARE(compiled[0].adheresTo, std::vector<std::string>{"pewter"});
     QCOMPARE(set(pewter, false), QString());
     QCOMPARE(text(), before);  // clay is still named
-    QVERIFY(!set({"material", "lost", std::string(kAdheresKey) + "tin"}, true).isEmpty());
+    QVERIFY(!set({Owner::Material, "lost", std::string(kAdheresKey) + "tin"}, true).isEmpty());
   }
 
   void structureIsChosen() {
-    const Address structure{"body", "second", kStructureKey};
+    const Address structure{Owner::Body, "second", kStructureKey};
     QCOMPARE(std::get<std::string>(m_document->value(structure)), std::string("bonds"));
     QVERIFY(QString::fromUtf8(m_document->declaration(structure)->choices).contains(QStringLiteral("rigid")));
     const std::string before = text();

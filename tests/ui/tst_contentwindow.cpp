@@ -125,7 +125,7 @@ class TestContentWindow : public QObject {
 
   /// What has nothing to do with the last edit does not offer to undo it.
   void lostMatterOffersSides() {
-    document().setParameter({"wall", "floor", "temperature"}, 350.0);
+    document().setParameter({Owner::Wall, "floor", "temperature"}, 350.0);
     document().removeWall("left");
     onEngine<int>(session(), [](Engine& engine) {
       ParticleStore& store = engine.solver().particles();
@@ -225,13 +225,13 @@ class TestContentWindow : public QObject {
     };
     ParameterRow* pinned = m_window->inspector().materialPanel()->row(QStringLiteral("wall/floor/temperature"));
     QVERIFY(pinned && !pinned->has(RowState::Disabled) && !idle("temperature") && !idle("film_coefficient"));
-    document().setParameter({"wall", "floor", "heat"}, std::string("adiabatic"));
+    document().setParameter({Owner::Wall, "floor", "heat"}, std::string("adiabatic"));
     QVERIFY(pinned->has(RowState::Disabled) && idle("temperature") && idle("film_coefficient"));
     QVERIFY(!idle("friction") && !idle("heat"));
     QVERIFY(pinned->model().disabledReason.contains(QStringLiteral("lets no heat through")));
     document().undoStack().undo();
     QVERIFY(!pinned->has(RowState::Disabled) && !idle("temperature"));
-    document().setParameter({"wall", "floor", "heat"}, std::string("adiabatic"));
+    document().setParameter({Owner::Wall, "floor", "heat"}, std::string("adiabatic"));
     m_window->inspector().rebuild();  // new rows stand still too
     QVERIFY(idle("temperature") && idle("film_coefficient"));
   }

@@ -24,8 +24,8 @@ using namespace ps;
 
 namespace {
 
-const Address kFloor{"wall", "floor", "temperature"};
-const Address kScale{"solver", "", "thermal_time_scale"};
+const Address kFloor{Owner::Wall, "floor", "temperature"};
+const Address kScale{Owner::Solver, "", "thermal_time_scale"};
 
 Project smallScene() { return scenes::iceOnPlate(5, 370); }
 
@@ -94,7 +94,7 @@ class TestDocument : public QObject {
     document.setPlugins(m_plugins.get());
     document.open(smallScene(), {});
     const std::string id = document.project().bodies[0].id;
-    const Address speed{"body", id, "velocity_y"}, spin{"body", id, "spin_z"};
+    const Address speed{Owner::Body, id, "velocity_y"}, spin{Owner::Body, id, "spin_z"};
     QCOMPARE(document.setParameter(speed, -2.0), QString());
     QCOMPARE(document.setParameter(spin, 3.0), QString());
     QVERIFY(!document.setParameter(spin, 1e9).isEmpty());
@@ -114,7 +114,7 @@ class TestDocument : public QObject {
     Document document;
     document.setPlugins(m_plugins.get());
     document.open(smallScene(), {});
-    const Address gravity{"scene", "", "gravity"}, model{"scene", "", "thermal_model"};
+    const Address gravity{Owner::Scene, "", "gravity"}, model{Owner::Scene, "", "thermal_model"};
     document.beginGesture();
     for (const double g : {5.0, 0.0, 1.62}) QCOMPARE(document.setParameter(gravity, g), QString());
     document.endGesture();
@@ -168,7 +168,7 @@ class TestDocument : public QObject {
     Document document;
     document.setPlugins(m_plugins.get());
     document.open(smallScene(), {});
-    const Address conductivity{"material", "water", "conductivity_solid"};
+    const Address conductivity{Owner::Material, "water", "conductivity_solid"};
     const Value base = document.defaultValue(conductivity);
     QVERIFY(std::holds_alternative<Response>(base));
     QVERIFY(document.setParameter(conductivity, Response(9.0)).isEmpty());
@@ -224,7 +224,7 @@ class TestDocument : public QObject {
     EngineThread engine(*m_plugins, {});
     SceneLink link(document, engine);
     document.open(smallScene(), {}, false, false);
-    const Address density{"material", "water", "density_liquid"};
+    const Address density{Owner::Material, "water", "density_liquid"};
     const auto set = [&] {
       return onEngine<size_t>(engine,
                               [&](Engine& e) { return findSet(e.project(), density)->values.count(density.key); });
@@ -311,7 +311,7 @@ class TestDocument : public QObject {
     QVERIFY(
         QString::fromStdString(engine.events(0).back().message).contains(QStringLiteral("water"), Qt::CaseInsensitive));
     const auto stroke = paint(document, link);  // the document takes it, no engine yet
-    QCOMPARE(document.setParameter({"material", "water", "boiling_temperature"}, 373.15), QString());
+    QCOMPARE(document.setParameter({Owner::Material, "water", "boiling_temperature"}, 373.15), QString());
     QTRY_VERIFY(!link.isBroken());
     QVERIFY(!engine.playing());
     QCOMPARE(idsNow(engine).size(), size_t{125 + 27});

@@ -32,7 +32,7 @@ using namespace ps;
 
 namespace {
 
-const Address kSpacing{"solver", "", "particle_spacing"};
+const Address kSpacing{Owner::Solver, "", "particle_spacing"};
 
 }  // namespace
 
@@ -96,7 +96,8 @@ class TestInteraction : public QObject {
 
   /// A plugin's own parameter gives properties other defaults: their rows show and compare with those.
   void pluginParametersRefreshProperties() {
-    const Address density{"material", "water", "density_liquid"}, maximum{"material", "water", "density_maximum"};
+    const Address density{Owner::Material, "water", "density_liquid"},
+        maximum{Owner::Material, "water", "density_maximum"};
     const ParameterRow* row = m_window->inspector().materialPanel()->row(QString::fromStdString(density.text()));
     QVERIFY(row && std::holds_alternative<Response>(row->model().value));
     const Value with = row->model().value;

@@ -47,7 +47,7 @@ using namespace ps;
 
 namespace {
 
-const Address kFloor{"wall", "floor", "temperature"};
+const Address kFloor{Owner::Wall, "floor", "temperature"};
 constexpr int kLong = 30000;  // ms; software rendering on a busy machine
 
 double floorOf(MainWindow& window) { return std::get<double>(window.session().document().value(kFloor)); }
@@ -388,7 +388,7 @@ class TestSession : public QObject {
     QVERIFY(!session().playing() && session().snapshot()->id.empty());
     session().reset();  // Home tries again, and says the same
     QTRY_VERIFY(session().isBroken() && m_window->notice()->isVisible());
-    QCOMPARE(document().setParameter({"material", "water", "boiling_temperature"}, 373.15), QString());
+    QCOMPARE(document().setParameter({Owner::Material, "water", "boiling_temperature"}, 373.15), QString());
     QTRY_COMPARE_WITH_TIMEOUT(session().snapshot()->id.size(), size_t{64}, kLong);
     QTRY_VERIFY_WITH_TIMEOUT(!m_window->notice()->isVisible(), kLong);
     session().play();

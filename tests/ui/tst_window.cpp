@@ -35,7 +35,7 @@ using namespace ps;
 
 namespace {
 
-const Address kFloor{"wall", "floor", "temperature"};
+const Address kFloor{Owner::Wall, "floor", "temperature"};
 
 double floorInEngine(Session& session) {
   return onEngine<double>(session, [](Engine& e) {
@@ -349,15 +349,15 @@ class TestWindow : public QObject {
   }
 
   void thePaletteJumpsToARow() {
-    QVERIFY(m_window->revealParameter({"solver", "", "substeps"}));
+    QVERIFY(m_window->revealParameter({Owner::Solver, "", "substeps"}));
     QCOMPARE(m_window->inspectorDock()->currentPage(), QStringLiteral("Solver"));
-    QVERIFY(m_window->revealParameter({"material", "water", "viscosity"}));
+    QVERIFY(m_window->revealParameter({Owner::Material, "water", "viscosity"}));
     QCOMPARE(m_window->inspectorDock()->currentPage(), QStringLiteral("Material"));
   }
 
   /// What the solver reaches, and what the note's link asks for, change with the substeps.
   void aNoteOfALimitFollowsTheSubsteps() {
-    const Address substeps{"solver", "", "substeps"};
+    const Address substeps{Owner::Solver, "", "substeps"};
     const double before = std::get<double>(document().value(substeps));
     m_window->inspector().setMaterial("water");
     Snapshot snapshot;
@@ -491,7 +491,7 @@ class TestWindow : public QObject {
   void aRefusalStaysUntilAnEditWorks() {
     session().reset();
     session().play();
-    document().setParameter({"solver", "", "particle_spacing"}, 0.0005);  // hundreds of millions of particles
+    document().setParameter({Owner::Solver, "", "particle_spacing"}, 0.0005);  // hundreds of millions of particles
     QTRY_VERIFY_WITH_TIMEOUT(m_window->notice()->text().contains(QStringLiteral("a scene may have")), kLong);
     const QString said = m_window->notice()->text();
     QTest::qWait(300);  // several looks at newer frames

@@ -141,7 +141,7 @@ void TstEngineFaults::aLawThatThrowsLeavesTheMatterAsItIs() {
   }
   QCOMPARE(engine.solver().stateHash(), untouched.solver().stateHash());
   // The scene's own changes act, other parameters of the plugin cannot.
-  QVERIFY(engine.setParameter({"material", "lab", "viscosity"}, Response(0.5)));
+  QVERIFY(engine.setParameter({Owner::Material, "lab", "viscosity"}, Response(0.5)));
   QVERIFY(engine.setParameter(kDensity, 1400.0));
   QVERIFY_THROWS_EXCEPTION(PluginError, engine.setParameter(kDensity, 1300.0));
   engine.reset();
@@ -163,7 +163,7 @@ void TstEngineFaults::aLawThatThrowsPausesTheScene() {
 void TstEngineFaults::aRefusedEditIsToldWhileTheSceneGoesOn() {
   EngineThread thread(m_plugins, {});
   thread.open(scenes::iceOnPlate(4, 293.15), true);
-  const Address solidus{"material", "water", "solidus"};
+  const Address solidus{Owner::Material, "water", "solidus"};
   thread.setParameter(solidus, 5000.0);
   QVERIFY(waitFor([&] { return !thread.events(0).empty(); }));
   const uint64_t frame = thread.snapshot()->stats.frame;
@@ -173,7 +173,7 @@ void TstEngineFaults::aRefusedEditIsToldWhileTheSceneGoesOn() {
   const EngineEvent event = thread.events(0).front();
   QVERIFY(event.kind == Kind::Refused && event.flags == 0);
   QVERIFY2(event.message.find("solidus") != std::string::npos, event.message.c_str());
-  thread.setParameter({"solver", "", "damping"}, 0.1);
+  thread.setParameter({Owner::Solver, "", "damping"}, 0.1);
   QVERIFY(waitFor([&] { return !thread.events(event.number + 1).empty(); }));
   QVERIFY(thread.events(event.number + 1).front().kind == Kind::Settled);
 }
@@ -231,7 +231,7 @@ void TstEngineFaults::aFlagInEveryFrameIsToldOnce() {
   const auto steps = ofKind(thread, Kind::Step);
   QCOMPARE(steps.size(), size_t{1});
   QCOMPARE(steps[0].flags, static_cast<StepFlags>(StepFlag::LostParticle));
-  thread.setParameter({"solver", "", "damping"}, 0.1);  // does not mend it
+  thread.setParameter({Owner::Solver, "", "damping"}, 0.1);  // does not mend it
   thread.pause();
   thread.post([](Engine&) {});
   thread.reset();

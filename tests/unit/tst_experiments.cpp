@@ -282,7 +282,7 @@ void TstExperiments::bodiesAreHeatedByTheirPower() {
   for (size_t i = 1; i < store.size(); ++i) {  // evenly
     if (store.body()[i] == store.body()[0]) QVERIFY(std::abs(store.temperature()[i] - store.temperature()[0]) < 1e-9);
   }
-  QVERIFY(engine.setParameter({"body", "one", "heating_power"}, 500.0));  // at once
+  QVERIFY(engine.setParameter({Owner::Body, "one", "heating_power"}, 500.0));  // at once
   change = gained(1);
   QVERIFY(near(change[0], 50) && near(change[1], -4));
   // What is left takes it all.

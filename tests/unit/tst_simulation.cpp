@@ -114,7 +114,7 @@ void TstSimulation::anEditActsOnTheNextFrame() {
   cold.step();
   warmed.step();
   QCOMPARE(cold.solver().stateHash(), warmed.solver().stateHash());
-  QVERIFY(warmed.setParameter({"wall", "floor", "temperature"}, 400.0));
+  QVERIFY(warmed.setParameter({Owner::Wall, "floor", "temperature"}, 400.0));
   cold.step();
   warmed.step();
   QVERIFY(warmed.stats().thermalEnergy > cold.stats().thermalEnergy);
@@ -179,7 +179,7 @@ void TstSimulation::theOrderOfBodiesTiesNothingLess() {
 
 void TstSimulation::anEditOfTheSceneSurvivesReset() {
   Engine engine(scenes::iceOnPlate(5, 293.15), m_plugins);
-  QVERIFY(!engine.setParameter({"body", "ice", "temperature"}, 253.15));
+  QVERIFY(!engine.setParameter({Owner::Body, "ice", "temperature"}, 253.15));
   QVERIFY(std::abs(engine.stats().temperatureMean - 263.15) < 1e-6);
   engine.reset();
   QVERIFY(std::abs(engine.stats().temperatureMean - 253.15) < 1e-6);
@@ -195,12 +195,12 @@ void TstSimulation::motionActsAtOnceWhereItIsPrescribed() {
   Engine engine(project, m_plugins);
   const auto height = [&] { return engine.solver().particles().position()[0].y; };
   const float before = height();
-  QVERIFY(engine.setParameter({"body", id, "velocity_y"}, 0.6));
+  QVERIFY(engine.setParameter({Owner::Body, id, "velocity_y"}, 0.6));
   engine.step();
   QVERIFY(std::abs(height() - before - 0.01f) < 1e-6f);  // 0.6 m/s for 1/60 s
   body.parameters.values["fixed"] = false;
   Engine loose(project, m_plugins);
-  QVERIFY(!loose.setParameter({"body", id, "velocity_y"}, 0.6));
+  QVERIFY(!loose.setParameter({Owner::Body, id, "velocity_y"}, 0.6));
   loose.step();
   QVERIFY(std::abs(loose.solver().particles().velocity()[0].y) < 1e-3f);
   loose.reset();
@@ -230,28 +230,28 @@ void TstSimulation::gravityAndThermalModelActOnTheNextFrame() {
   Project project = scenes::iceOnPlate(5, 370);
   std::get<BoxShape>(project.bodies[0].shape).center[1] += 1;
   Engine engine(project, m_plugins);
-  QVERIFY(engine.setParameter({"scene", "", "gravity"}, 0.0));
+  QVERIFY(engine.setParameter({Owner::Scene, "", "gravity"}, 0.0));
   for (int f = 0; f < 5; ++f) engine.step();
   for (size_t i = 0; i < engine.solver().particles().size(); ++i)
     QCOMPARE(engine.solver().particles().velocity()[i].y, 0.0f);
-  QVERIFY(engine.setParameter({"scene", "", "gravity"}, 2.0));
+  QVERIFY(engine.setParameter({Owner::Scene, "", "gravity"}, 2.0));
   engine.step();
   // One frame of free fall: g dt, within what bonds and density may do to it in that time.
   QVERIFY(std::abs(engine.solver().particles().velocity()[0].y + 2.0f / 60) < 0.005f);
   QVERIFY(!engine.solver().thermalEnergies().empty());
-  QVERIFY(engine.setParameter({"scene", "", "thermal_model"}, std::string("none")));
+  QVERIFY(engine.setParameter({Owner::Scene, "", "thermal_model"}, std::string("none")));
   engine.step();
   QVERIFY(engine.solver().thermalEnergies().empty());
-  QVERIFY(engine.setParameter({"scene", "", "thermal_model"}, std::string("enthalpy")));
+  QVERIFY(engine.setParameter({Owner::Scene, "", "thermal_model"}, std::string("enthalpy")));
   QCOMPARE(engine.step().flags, StepFlags{0});
   QVERIFY(!engine.solver().thermalEnergies().empty());
-  QVERIFY(!engine.setParameter({"scene", "", "colour"}, 1.0));
+  QVERIFY(!engine.setParameter({Owner::Scene, "", "colour"}, 1.0));
 }
 
 void TstSimulation::spacingActsAtTheNextReset() {
   Engine engine(scenes::iceOnPlate(6, 293.15), m_plugins);
-  QVERIFY(!engine.setParameter({"solver", "", "particle_spacing"}, 0.06));
-  QVERIFY(engine.setParameter({"solver", "", "damping"}, 0.1));
+  QVERIFY(!engine.setParameter({Owner::Solver, "", "particle_spacing"}, 0.06));
+  QVERIFY(engine.setParameter({Owner::Solver, "", "damping"}, 0.1));
   for (int i = 0; i < 20; ++i) QCOMPARE(engine.step().flags, 0u);
   const FrameStats stats = engine.stats();  // twice the spacing among living particles would blow the block apart
   QVERIFY2(stats.kineticEnergy < 1, qPrintable(QString::number(stats.kineticEnergy)));
@@ -282,7 +282,7 @@ void TstSimulation::sketchesKeepTheirPlaceAtAnotherSpacing() {
   project.bodies = {body};
   Engine engine(project, m_plugins);
   QCOMPARE(engine.solver().particles().size(), size_t{64});
-  engine.setParameter({"solver", "", "particle_spacing"}, spacing);
+  engine.setParameter({Owner::Solver, "", "particle_spacing"}, spacing);
   engine.reset();
   const ParticleStore& store = engine.solver().particles();
   QCOMPARE(static_cast<int>(store.size()), count);
@@ -300,7 +300,7 @@ void TstSimulation::sketchesKeepTheirPlaceAtAnotherSpacing() {
 
 void TstSimulation::refusedEditsLeaveTheSceneAsItWas() {
   Engine engine(scenes::iceOnPlate(5, 293.15), m_plugins), untouched(scenes::iceOnPlate(5, 293.15), m_plugins);
-  QVERIFY_THROWS_EXCEPTION(InputError, engine.setParameter({"material", "water", "solidus"}, 5000.0));
+  QVERIFY_THROWS_EXCEPTION(InputError, engine.setParameter({Owner::Material, "water", "solidus"}, 5000.0));
   Project broken = engine.project();
   broken.environment.walls[0].normal = {0, 0, 0};
   QVERIFY_THROWS_EXCEPTION(InputError, engine.update(broken));
@@ -487,7 +487,7 @@ void TstSimulation::periodicBoxesHoldOneImageOfEach() {
 }
 
 void TstSimulation::endlessParticlesAreRefused() {
-  const Address spacing{"solver", "", "particle_spacing"};
+  const Address spacing{Owner::Solver, "", "particle_spacing"};
   Engine engine(scenes::iceOnPlate(5, 293.15), m_plugins);
   QVERIFY_THROWS_EXCEPTION(InputError, engine.setParameter(spacing, 0.0005));  // 27 million
   QCOMPARE(numberOf(engine.project().solver.parameters, solverParameters(), "particle_spacing"), 0.03);

@@ -68,12 +68,12 @@ void Document::endGesture() {
 
 QString Document::setParameter(const Address& address, const Value& value) {
   const auto refusal = [&] { return QString::fromStdString(problemWith(m_project, m_plugins, address, value)); };
-  if (address.owner == "body" && address.key == kStructureKey) {
+  if (address.owner == Owner::Body && address.key == kStructureKey) {
     if (const QString problem = refusal(); !problem.isEmpty()) return problem;
     setStructure(address.id, std::get<std::string>(value));
     return {};
   }
-  if (address.owner == "body" && address.key == kBodyMaterialKey) {
+  if (address.owner == Owner::Body && address.key == kBodyMaterialKey) {
     if (const QString problem = refusal(); !problem.isEmpty()) return problem;
     setBodyMaterial(address.id, std::get<std::string>(value));
     return {};

@@ -44,22 +44,22 @@ QString whyWallIdle(const Project& project, const Address& address) {
 
 /// "" or why a value of this address does nothing as the scene is.
 QString whyIdle(const Project& project, const Address& address) {
-  if (address.owner == "body" && address.key.starts_with("motion_")) {
+  if (address.owner == Owner::Body && address.key.starts_with("motion_")) {
     const ParameterSet* set = findSet(project, address);
     if (!set || toggleOf(*set, bodyParameters(), "fixed")) return {};
     return QStringLiteral("Only a body that is held in place moves by itself. Hold it in place first.");
   }
-  if (address.owner == "environment" && address.key == "surroundings_temperature") {
+  if (address.owner == Owner::Environment && address.key == "surroundings_temperature") {
     if (toggleOf(project.environment.parameters, environmentParameters(), "radiation")) return {};
     return QStringLiteral("Nothing radiates heat here. Switch heat radiation on first.");
   }
-  return address.owner == "wall" ? whyWallIdle(project, address) : QString();
+  return address.owner == Owner::Wall ? whyWallIdle(project, address) : QString();
 }
 
 /// The material that a row belongs to; "" for other rows.
 std::string materialOf(const QString& key) {
   const auto address = Address::parse(key.toStdString());
-  return address && address->owner == "material" ? address->id : std::string();
+  return address && address->owner == Owner::Material ? address->id : std::string();
 }
 
 QString sourceText(const Provenance& provenance) {
@@ -137,16 +137,16 @@ void Inspector::onLink(const QString&, const QString& link) {
   if (equals > 0 && address && number) m_document.setParameter(*address, *number);
 }
 
-void Inspector::addRows(std::vector<RowModel>& rows, const std::string& owner, const std::string& id,
-                        api::ParameterList list, const QString& group, const ParameterSet& defaults) {
+void Inspector::addRows(std::vector<RowModel>& rows, Address any, api::ParameterList list, const QString& group,
+                        const ParameterSet& defaults) {
   if (list.count == 0) return;
-  const ParameterSet* set = findSet(m_document.project(), {owner, id, list[0].key});
+  any.key = list[0].key;
+  const ParameterSet* set = findSet(m_document.project(), any);
   if (!set) return;
-  const QString prefix = QString::fromStdString(id.empty() ? owner + "/" : owner + "/" + id + "/");
-  for (RowModel& row : rowModels(list, *set, defaults, prefix)) {
+  for (RowModel& row : rowModels(list, *set, defaults, QString::fromStdString(any.prefix()))) {
     if (!group.isEmpty()) row.declaration.group = keep(group);
-    if (const auto address = Address::parse(row.key.toStdString()))
-      row.disabledReason = whyIdle(m_document.project(), *address);
+    any.key = row.declaration.key;
+    row.disabledReason = whyIdle(m_document.project(), any);
     rows.push_back(std::move(row));
   }
 }
@@ -154,7 +154,7 @@ void Inspector::addRows(std::vector<RowModel>& rows, const std::string& owner, c
 /// The row of one address; nothing where it has no declaration or no owner.
 std::optional<RowModel> Inspector::rowOf(const Address& address) const {
   const api::ParameterDeclaration* declaration = m_document.declaration(address);
-  if (!declaration || (address.owner != "scene" && !findSet(m_document.project(), address))) return std::nullopt;
+  if (!declaration || (address.owner != Owner::Scene && !findSet(m_document.project(), address))) return std::nullopt;
   RowModel row;
   row.key = QString::fromStdString(address.text());
   row.declaration = *declaration;
@@ -173,7 +173,7 @@ void Inspector::addPinned(std::vector<RowModel>& rows) {
     if (!row) continue;
     QString label = awayLabel(project, *address, QString::fromUtf8(row->declaration.label));
     // Of another material than the panel's: its name tells the two apart. It may be long and stands last.
-    if (address->owner == "material" && address->id != m_materialId)
+    if (address->owner == Owner::Material && address->id != m_materialId)
       label += QStringLiteral(" · ") + ownerLabel(project, *address);
     row->declaration.label = keep(label);
     row->pinned = true;
@@ -197,20 +197,19 @@ void Inspector::rebuildBody() {
   }
   m_body->setHeader(QString::fromStdString(body->name),
                     matter + (sketched ? QStringLiteral(" · sketched") : QStringLiteral(" · block")));
-  if (auto material = rowOf({"body", body->id, kBodyMaterialKey})) rows.push_back(std::move(*material));
-  addRows(rows, "body", body->id, bodyParameters());
+  if (auto material = rowOf({Owner::Body, body->id, kBodyMaterialKey})) rows.push_back(std::move(*material));
+  addRows(rows, {Owner::Body, body->id, ""}, bodyParameters());
   const api::ParameterList motion = bodyMotionParameters();
   for (size_t i = 0; i < motion.count; ++i) {
-    if (auto row = rowOf({"body", body->id, motion[i].key})) rows.push_back(std::move(*row));
+    if (auto row = rowOf({Owner::Body, body->id, motion[i].key})) rows.push_back(std::move(*row));
   }
-  if (auto structure = rowOf({"body", body->id, kStructureKey})) rows.push_back(std::move(*structure));
+  if (auto structure = rowOf({Owner::Body, body->id, kStructureKey})) rows.push_back(std::move(*structure));
   for (const BodyConstraint& constraint : body->constraints) {
-    const std::string id = body->id + "/" + constraint.plugin;
+    const Address any{Owner::Constraint, body->id, "", constraint.plugin};
     const api::ConstraintPlugin* plugin =
         m_document.plugins() ? m_document.plugins()->constraint(constraint.plugin) : nullptr;
     if (plugin)
-      addRows(rows, "constraint", id, m_document.plugins()->parameters(constraint.plugin),
-              QString::fromUtf8(plugin->label()));
+      addRows(rows, any, m_document.plugins()->parameters(constraint.plugin), QString::fromUtf8(plugin->label()));
   }
   m_body->setModel(std::move(rows));
   showLimits();
@@ -232,12 +231,13 @@ void Inspector::rebuildMaterial() {
   const PluginRegistry* plugins = m_document.plugins();
   const bool missing = plugins && !plugins->material(material->base);
   showMaterialHeader();
-  addRows(rows, "material", material->id, propertyCatalogue(), {}, materialDefaults(project, plugins, material->id));
+  const Address any{Owner::Material, material->id, ""};
+  addRows(rows, any, propertyCatalogue(), {}, materialDefaults(project, plugins, material->id));
   if (const api::MaterialPlugin* plugin = plugins ? plugins->materialPlugin(material->base) : nullptr) {
-    addRows(rows, "material", material->id, plugins->parameters(material->base), QString::fromUtf8(plugin->label()));
+    addRows(rows, any, plugins->parameters(material->base), QString::fromUtf8(plugin->label()));
   }
   for (const SceneMaterial& other : project.materials) {
-    if (auto row = rowOf({"material", material->id, kAdheresKey + other.id})) rows.push_back(std::move(*row));
+    if (auto row = rowOf({Owner::Material, material->id, kAdheresKey + other.id})) rows.push_back(std::move(*row));
   }
   addPinned(rows);
   if (missing) {
@@ -280,7 +280,7 @@ void Inspector::showMaterialHeader() {
     if (body.material == material->id) bodies << QString::fromStdString(body.name);
   }
   for (const Emitter& emitter : project.emitters) {
-    if (emitter.material == material->id) bodies << ownerLabel(project, {"emitter", emitter.id, "speed"});
+    if (emitter.material == material->id) bodies << ownerLabel(project, {Owner::Emitter, emitter.id, "speed"});
   }
   m_grade = gradeText(plugins, material->base);
   m_material->setHeader(QString::fromStdString(material->label.empty() ? material->id : material->label),
@@ -322,15 +322,15 @@ void Inspector::showTemperatures(const Snapshot& snapshot) {
 void Inspector::rebuildScene() {
   const Project& project = m_document.project();
   std::vector<RowModel> rows;
-  if (auto gravity = rowOf({"scene", "", "gravity"})) rows.push_back(std::move(*gravity));
-  addRows(rows, "environment", "", environmentParameters());
-  const auto named = [&](const char* owner, const auto& items, api::ParameterList list) {
+  if (auto gravity = rowOf({Owner::Scene, "", "gravity"})) rows.push_back(std::move(*gravity));
+  addRows(rows, {Owner::Environment, "", ""}, environmentParameters());
+  const auto named = [&](Owner owner, const auto& items, api::ParameterList list) {
     for (const auto& item : items)
-      addRows(rows, owner, item.id, list, QString::fromStdString(item.name.empty() ? item.id : item.name));
+      addRows(rows, {owner, item.id, ""}, list, QString::fromStdString(item.name.empty() ? item.id : item.name));
   };
-  named("emitter", project.emitters, emitterParameters());
-  named("sink", project.sinks, sinkParameters());
-  named("wall", project.environment.walls, wallParameters());
+  named(Owner::Emitter, project.emitters, emitterParameters());
+  named(Owner::Sink, project.sinks, sinkParameters());
+  named(Owner::Wall, project.environment.walls, wallParameters());
   showSceneHeader();
   m_scene->setModel(std::move(rows));
   showLimits();
@@ -346,11 +346,12 @@ void Inspector::showSceneHeader() {
 
 void Inspector::rebuildSolver() {
   std::vector<RowModel> rows;
-  if (auto choice = rowOf({"scene", "", "thermal_model"})) rows.push_back(std::move(*choice));
-  addRows(rows, "solver", "", solverParameters());
+  if (auto choice = rowOf({Owner::Scene, "", "thermal_model"})) rows.push_back(std::move(*choice));
+  addRows(rows, {Owner::Solver, "", ""}, solverParameters());
   const std::string& id = m_document.project().solver.thermalModel;
   const api::ThermalPlugin* model = m_document.plugins() ? m_document.plugins()->thermal(id) : nullptr;
-  if (model) addRows(rows, "thermal", "", m_document.plugins()->parameters(id), QString::fromUtf8(model->label()));
+  if (model)
+    addRows(rows, {Owner::Thermal, "", ""}, m_document.plugins()->parameters(id), QString::fromUtf8(model->label()));
   m_solver->setHeader(QStringLiteral("Solver"), model ? QStringLiteral("Heat by ") + QString::fromUtf8(model->label())
                                                       : QStringLiteral("No heat"));
   m_solver->setModel(std::move(rows));
@@ -385,7 +386,7 @@ void Inspector::markPinned() {
 /// Other rows of the owner, which may have come to act or ceased to.
 void Inspector::refreshIdle(const Address& address, std::initializer_list<const char*> keys) {
   for (const char* key : keys) {
-    const Address other{address.owner, address.id, key};
+    const Address other{address.owner, address.id, key, address.plugin};
     const QString why = whyIdle(m_document.project(), other);
     for (ParameterPanel* panel : panels()) panel->setDisabledReason(QString::fromStdString(other.text()), why);
   }
@@ -396,13 +397,13 @@ void Inspector::onChanged(const ChangeEvent& event) {
     const Address& address = parameter->address;
     const QString key = QString::fromStdString(address.text());
     for (ParameterPanel* panel : panels()) panel->setValue(key, m_document.value(address));
-    if (address.owner == "scene" && address.key == "thermal_model") rebuildSolver();
-    if (address.owner == "wall" && address.key == "heat")
+    if (address.owner == Owner::Scene && address.key == "thermal_model") rebuildSolver();
+    if (address.owner == Owner::Wall && address.key == "heat")
       refreshIdle(address, {"temperature", "heat_flux", "convection", "emissivity", "film_coefficient"});
-    if (address.owner == "environment" && address.key == "radiation")
+    if (address.owner == Owner::Environment && address.key == "radiation")
       refreshIdle(address, {"surroundings_temperature"});
-    if (address.owner == "body" && address.key == "fixed") refreshIdle(address, {"motion_start", "motion_stop"});
-    if (address.owner == "material" && propertyIndex(address.key) < 0) refreshProperties(address.id);
+    if (address.owner == Owner::Body && address.key == "fixed") refreshIdle(address, {"motion_start", "motion_stop"});
+    if (address.owner == Owner::Material && propertyIndex(address.key) < 0) refreshProperties(address.id);
   } else if (std::holds_alternative<ProjectOpened>(event)) {
     m_bodyId = m_document.project().bodies.empty() ? std::string() : m_document.project().bodies.front().id;
     m_materialId.clear();
@@ -433,7 +434,7 @@ void Inspector::onChanged(const ChangeEvent& event) {
 /// set.
 void Inspector::refreshProperties(const std::string& material) {
   const ParameterSet defaults = materialDefaults(m_document.project(), m_document.plugins(), material);
-  const ParameterSet* own = findSet(m_document.project(), {"material", material, propertyCatalogue()[0].key});
+  const ParameterSet* own = findSet(m_document.project(), {Owner::Material, material, propertyCatalogue()[0].key});
   if (!own) return;
   for (const RowModel& row : rowModels(propertyCatalogue(), *own, defaults,
                                        QStringLiteral("material/%1/").arg(QString::fromStdString(material)))) {
@@ -453,9 +454,9 @@ void Inspector::setSnapshot(const Snapshot& snapshot) {
 void Inspector::showLimits() {
   std::set<QString> limited;
   for (const Limit& limit : m_limits) {
-    const QString key = limitAddress(limit, m_limitBodies.get());
-    const auto address = Address::parse(key.toStdString());
+    const auto address = limitAddress(limit, m_limitBodies.get());
     if (!address) continue;
+    const QString key = QString::fromStdString(address->text());
     limited.insert(key);
     const double substeps = numberOf(m_document.project().solver.parameters, solverParameters(), "substeps");
     const QString text =
@@ -471,19 +472,17 @@ void Inspector::showLimits() {
 }
 
 ParameterPanel* Inspector::panelFor(const Address& address) {
-  if (address.owner == "material") {
+  if (address.owner == Owner::Material) {
     setMaterial(address.id);
     return m_material;
   }
-  if (address.owner == "body" || address.owner == "constraint") {
-    setBody(address.id.substr(0, address.id.find('/')));
+  if (address.owner == Owner::Body || address.owner == Owner::Constraint) {
+    setBody(address.id);
     return m_body;
   }
-  static constexpr const char* kScene[] = {"wall", "environment", "emitter", "sink"};
-  if (std::find(std::begin(kScene), std::end(kScene), address.owner) != std::end(kScene) || address.key == "gravity") {
-    return m_scene;
-  }
-  return m_solver;
+  const bool ofSolver = address.owner == Owner::Solver || address.owner == Owner::Thermal ||
+                        (address.owner == Owner::Scene && address.key == "thermal_model");
+  return ofSolver ? m_solver : m_scene;
 }
 
 }  // namespace ps

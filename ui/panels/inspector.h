@@ -57,9 +57,9 @@ class Inspector : public QObject {
   void rebuildScene();
   void showSceneHeader();
   void rebuildSolver();
-  /// Rows of one owner; a group of its own replaces the declarations' groups.
-  void addRows(std::vector<RowModel>& rows, const std::string& owner, const std::string& id, api::ParameterList list,
-               const QString& group = {}, const ParameterSet& defaults = {});
+  /// Rows of the owner of `any`, whatever its key; a group of its own replaces the declarations' groups.
+  void addRows(std::vector<RowModel>& rows, Address any, api::ParameterList list, const QString& group = {},
+               const ParameterSet& defaults = {});
   std::optional<RowModel> rowOf(const Address& address) const;
   void addPinned(std::vector<RowModel>& rows);
   void markPinned();

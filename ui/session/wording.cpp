@@ -63,18 +63,17 @@ FailureText failureText(const EngineEvent& event) {
   return {QStringLiteral("That change could not be made."), message};
 }
 
-QString limitAddress(const Limit& limit, const std::vector<std::string>* bodies) {
-  const QString what = QString::fromStdString(limit.what);
-  const qsizetype dot = what.lastIndexOf(QLatin1Char('.'));  // ids may have some themselves: "org.example.cable"
-  if (dot < 1) return {};
-  const QString owner = what.left(dot), key = what.mid(dot + 1);
-  if (owner == QLatin1String("solver") || owner == QLatin1String("environment") || owner == QLatin1String("thermal")) {
-    return owner + QLatin1Char('/') + key;
+std::optional<Address> limitAddress(const Limit& limit, const std::vector<std::string>* bodies) {
+  const size_t dot = limit.what.rfind('.');  // ids may have some themselves: "org.example.cable"
+  if (dot == 0 || dot == std::string::npos) return std::nullopt;
+  const std::string owner = limit.what.substr(0, dot), key = limit.what.substr(dot + 1);
+  for (const Owner one : {Owner::Solver, Owner::Environment, Owner::Thermal}) {
+    if (owner == ownerName(one)) return Address{one, "", key};
   }
-  if (limit.body < 0) return QStringLiteral("material/%1/%2").arg(owner, key);
+  if (limit.body < 0) return Address{Owner::Material, owner, key};
   const auto body = static_cast<size_t>(limit.body);
-  if (!bodies || body >= bodies->size()) return {};
-  return QStringLiteral("constraint/%1/%2/%3").arg(QString::fromStdString((*bodies)[body]), owner, key);
+  if (!bodies || body >= bodies->size()) return std::nullopt;
+  return Address{Owner::Constraint, (*bodies)[body], key, owner};
 }
 
 QString limitNote(const Limit& limit, const api::ParameterDeclaration* declaration) {

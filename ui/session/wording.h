@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "core/scene/address.h"
 #include "core/simulation/snapshot.h"
 
 #include <QtCore/QString>
@@ -22,9 +23,9 @@ struct FailureText {
   bool lost = false;  ///< matter left the scene
 };
 FailureText failureText(const EngineEvent& event);
-/// "water.youngs_modulus" as an address text: "material/water/youngs_modulus"; "" when it has no owner. `bodies`:
+/// "water.youngs_modulus" as the address material/water/youngs_modulus; nothing when it has no owner. `bodies`:
 /// Snapshot::bodyIds, by which the limit counts.
-QString limitAddress(const Limit& limit, const std::vector<std::string>* bodies);
+std::optional<Address> limitAddress(const Limit& limit, const std::vector<std::string>* bodies);
 /// "Young's modulus: the solver reaches 42.0 MPa of 9.3 GPa at this step." `declaration`: of its address; nullptr where
 /// it has none.
 QString limitText(const Limit& limit, const api::ParameterDeclaration* declaration);

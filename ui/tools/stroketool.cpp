@@ -86,7 +86,7 @@ Body StrokeTool::paintedBody(const BrushSettings& brush, int& palette) const {
   voxels.spacing = m_setup.grid.spacing;
   voxels.palette.push_back({material->id, brush.temperature, {}});
   body.shape = voxels;
-  const Value melts = valueAt(project, m_document->plugins(), {"material", material->id, "melting_temperature"});
+  const Value melts = valueAt(project, m_document->plugins(), {Owner::Material, material->id, "melting_temperature"});
   const auto* melting = std::get_if<double>(&melts);
   const bool solid = melting && brush.temperature < *melting;
   if (solid && m_document->plugins()->constraint(kBonds)) body.constraints.push_back({kBonds, {}, {}});

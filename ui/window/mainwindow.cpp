@@ -123,8 +123,7 @@ void MainWindow::connectPanels() {
   });
   connect(m_plugins, &PluginPage::closeRequested, this, [this] { m_centre->setCurrentWidget(m_pane); });
   connect(m_status, &StatusLine::noteClicked, this, [this] {
-    const auto address = Address::parse(m_noteAddress.toStdString());
-    if (!address || !revealParameter(*address)) m_bottom->showPage(QStringLiteral("Messages"));
+    if (!m_noteAddress || !revealParameter(*m_noteAddress)) m_bottom->showPage(QStringLiteral("Messages"));
   });
   Viewport* view = viewport();
   if (!view) return;
@@ -185,13 +184,13 @@ void MainWindow::onChanged(const ChangeEvent& event) {
   if (std::holds_alternative<ProjectOpened>(event)) {
     onProjectOpened();
   } else if (const auto* parameter = std::get_if<ParameterChanged>(&event)) {
-    const std::string& owner = parameter->address.owner;
-    if (owner == "wall" || owner == "environment") m_outliner->rebuild();
-    if (owner == "material") m_materials->rebuild();
-    if (owner == "material" || owner == "environment") updateTransitions();
+    const Owner owner = parameter->address.owner;
+    if (owner == Owner::Wall || owner == Owner::Environment) m_outliner->rebuild();
+    if (owner == Owner::Material) m_materials->rebuild();
+    if (owner == Owner::Material || owner == Owner::Environment) updateTransitions();
     m_transport->setTimeScale(
         numberOf(m_session->document().project().solver.parameters, solverParameters(), "thermal_time_scale"));
-    if (Viewport* view = viewport(); view && owner == "wall") view->bodiesChanged();
+    if (Viewport* view = viewport(); view && owner == Owner::Wall) view->bodiesChanged();
   } else if (std::holds_alternative<BodyChanged>(event) || std::holds_alternative<StrokeChanged>(event)) {
     m_outliner->rebuild();
     if (Viewport* view = viewport()) {
@@ -370,13 +369,12 @@ void MainWindow::refreshStatus() {
     const std::vector<Limit>& limits = state.snapshot->limits;
     const auto addressOf = [&](const Limit& limit) { return limitAddress(limit, state.snapshot->bodyIds.get()); };
     const auto lonely =
-        std::find_if(limits.begin(), limits.end(), [&](const Limit& limit) { return addressOf(limit).isEmpty(); });
+        std::find_if(limits.begin(), limits.end(), [&](const Limit& limit) { return !addressOf(limit); });
     const Limit& first = lonely == limits.end() ? limits.front() : *lonely;
     m_noteAddress = addressOf(first);
-    const auto address = Address::parse(m_noteAddress.toStdString());
     const size_t count = limits.size();
     state.note = (count == 1 ? QStringLiteral("1 note: ") : QStringLiteral("%1 notes: ").arg(count)) +
-                 limitNote(first, address ? m_session->document().declaration(*address) : nullptr);
+                 limitNote(first, m_noteAddress ? m_session->document().declaration(*m_noteAddress) : nullptr);
   }
   m_status->setState(state);
 }
@@ -418,11 +416,11 @@ void MainWindow::onOutlinerSelection(OutlineKind kind, const std::string& id) {
     }
     if (m_right->currentPage() != QLatin1String("Material")) m_right->showPage(QStringLiteral("Body"));
   } else if (kind == OutlineKind::Emitter) {
-    revealParameter({"emitter", id, "speed"}, false);
+    revealParameter({Owner::Emitter, id, "speed"}, false);
   } else if (kind == OutlineKind::Sink) {
-    revealParameter({"sink", id, "open"}, false);
+    revealParameter({Owner::Sink, id, "open"}, false);
   } else if (kind == OutlineKind::Wall) {
-    revealParameter({"wall", id, "heat"}, false);  // the outliner keeps the focus: arrows walk on
+    revealParameter({Owner::Wall, id, "heat"}, false);  // the outliner keeps the focus: arrows walk on
   } else if (kind == OutlineKind::Environment || kind == OutlineKind::Scene) {
     m_right->showPage(QStringLiteral("Scene"));
   } else {

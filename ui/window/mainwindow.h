@@ -162,7 +162,8 @@ class MainWindow : public QMainWindow {
   Options m_options;
   std::unique_ptr<Session> m_session;
   bool m_dark = true, m_fullViewport = false, m_opening = false, m_first = true, m_sizeAtShow = true;
-  QString m_graphicsText, m_fileText, m_noteAddress;
+  QString m_graphicsText, m_fileText;
+  std::optional<Address> m_noteAddress;
   TopBar* m_top = nullptr;
   QStackedWidget* m_centre = nullptr;
   ViewportPane* m_pane = nullptr;
