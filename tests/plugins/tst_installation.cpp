@@ -192,12 +192,13 @@ void InstallationTest::cohesionKeepsMomentum() {
   // Water beside mercury: the pulls must be equal and opposite though the masses are not.
   using namespace ps::api;
   QPluginLoader loader(pluginDirectory() + "/cohesion.so");
-  const auto* cohesion = qobject_cast<ConstraintPlugin*>(loader.instance());
+  const auto* cohesion = qobject_cast<NeighbourPlugin*>(loader.instance());
   QVERIFY2(cohesion, qPrintable(loader.errorString()));
   Float4 position[] = {{0, 0, 0, 0}, {0.02f, 0.01f, 0, 0}, {0.01f, 0.02f, 0.01f, 0}};
   Float4 velocity[3]{};
   const float mass[] = {0.008f, 0.108f, 0.008f};
   const Motion motion[] = {Motion::Liquid, Motion::Liquid, Motion::Liquid};
+  const uint32_t body[] = {0, 0, 0}, members[] = {0, 1, 2};
   const uint32_t index[] = {1, 2, 0, 2, 0, 1}, begin[] = {0, 2, 4}, last[] = {2, 4, 6};
   ParticleView particles{};
   particles.count = 3;
@@ -205,6 +206,7 @@ void InstallationTest::cohesionKeepsMomentum() {
   particles.velocity = velocity;
   particles.mass = mass;
   particles.motion = motion;
+  particles.body = body;
   NeighbourView neighbours{};
   neighbours.begin = begin;
   neighbours.last = last;
@@ -213,7 +215,7 @@ void InstallationTest::cohesionKeepsMomentum() {
   context.dt = 1.0 / 60;
   context.supportRadius = 0.04;
   Float4 correction[3]{};
-  cohesion->gather(context, particles, neighbours, 0, 3, correction);
+  cohesion->gather(context, particles, neighbours, {members, 3}, correction);
   double sum[3]{}, size = 0;
   for (int i = 0; i < 3; ++i) {
     const double m = double{mass[i]};
