@@ -6,11 +6,12 @@
 #include "core/io/recording.h"
 #include "core/matter/material.h"
 #include "core/plugin_host/registry.h"
-#include "ui/render/renderer.h"
+#include "ui/render/framing.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 #include <tuple>
 
 namespace ps::cli {
@@ -29,12 +30,9 @@ constexpr OptionSpec kOptions[] = {
     kQuiet,
 };
 
-struct Size {
-  int width = 1280, height = 720;
-};
-
-Size sizeOf(const Arguments& arguments) {
-  Size size;
+PictureSize sizeOf(const Arguments& arguments) {
+  PictureSize size;
+  size.still = !isFilm(arguments.text("--out"));
   const std::string text = arguments.text("--size", "1280x720");
   char rest = 0;
   if (std::sscanf(text.c_str(), "%5dx%5d%c", &size.width, &size.height, &rest) != 2 || size.width < 16 ||
@@ -59,21 +57,15 @@ std::pair<double, double> temperatureRange(const Project& project) {
   return {least, most > least ? most : least + 1};
 }
 
-RenderOptions optionsFor(const Project& project, const PluginRegistry& plugins, const Arguments& arguments) {
-  RenderOptions options;
-  const Size size = sizeOf(arguments);
-  options.width = size.width;
-  options.height = size.height;
-  options.still = !isFilm(arguments.text("--out"));
-  const ViewCamera camera = project.view.camera.value_or(ViewCamera());
-  options.camera = {camera.target, camera.distance, camera.azimuth, camera.elevation};
+Look lookFor(const Project& project, const PluginRegistry& plugins, const Arguments& arguments) {
+  Look look;
   const std::string colour = arguments.text("--colour", project.view.colour);
-  options.colour = colourByName(colour);
-  if (colourName(options.colour) != colour) {
+  look.colour = colourByName(colour);
+  if (colourName(look.colour) != colour) {
     throw InputError("--colour must be material, temperature, phase, speed or density_error, not '" + colour + "'");
   }
-  if (options.colour == ColourBy::Temperature) {
-    std::tie(options.rangeMinimum, options.rangeMaximum) = temperatureRange(project);
+  if (look.colour == ColourBy::Temperature) {
+    std::tie(look.rangeMinimum, look.rangeMaximum) = temperatureRange(project);
   }
   if (!project.materials.empty()) {
     const SceneMaterial& first = project.materials.front();
@@ -81,29 +73,33 @@ RenderOptions optionsFor(const Project& project, const PluginRegistry& plugins, 
     const Material* installed = plugins.material(first.base);
     const auto* given = own == first.properties.values.end() ? nullptr : std::get_if<Response>(&own->second);
     if (given) {
-      options.meltingPoint = given->constant;
+      look.meltingPoint = given->constant;
     } else if (own != first.properties.values.end() && std::holds_alternative<double>(own->second)) {
-      options.meltingPoint = std::get<double>(own->second);
+      look.meltingPoint = std::get<double>(own->second);
     } else if (installed && installed->properties.contains("melting_temperature")) {
-      options.meltingPoint = installed->properties.at("melting_temperature").constant;
+      look.meltingPoint = installed->properties.at("melting_temperature").constant;
     }
   }
-  return options;
+  return look;
 }
 
 /// Draws frames of one project into a sink, without a display.
 class Painter {
  public:
   Painter(const Project& project, const PluginRegistry& plugins, const Arguments& arguments, long every)
-      : m_options(optionsFor(project, plugins, arguments)), m_scene{project.environment} {
+      : m_look(lookFor(project, plugins, arguments)), m_size(sizeOf(arguments)), m_scene{project.environment} {
+    if (const auto& own = project.view.camera) m_camera = {own->target, own->distance, own->azimuth, own->elevation};
     const std::string out = arguments.text("--out");
     const double rate = 1 / (frameLength(project) * static_cast<double>(every));
-    m_sink = makeFrameSink(out, m_options.width, m_options.height, std::clamp(rate, 1e-3, 1000.0));
+    m_sink = makeFrameSink(out, m_size.width, m_size.height, std::clamp(rate, 1e-3, 1000.0));
     m_context.makeCurrent();
     m_renderer = std::make_unique<Renderer>();
   }
   void draw(const Snapshot& snapshot, long frame) {
-    m_sink->add(renderImage(*m_renderer, snapshot, m_scene, m_options), frame);
+    // One view for the whole film: what it begins with.
+    if (!m_camera) m_camera = cameraShowing(snapshot, m_scene.environment, m_size.width, m_size.height);
+    m_renderer->prepare(snapshot, nullptr, 1, m_scene, m_look);
+    m_sink->add(renderImage(*m_renderer, eyeOf(*m_camera, m_size.width, m_size.height), m_size), frame);
     ++m_pictures;
   }
   long finish() {
@@ -112,7 +108,9 @@ class Painter {
   }
 
  private:
-  RenderOptions m_options;
+  Look m_look;
+  PictureSize m_size;
+  std::optional<Camera> m_camera;  // the project's own
   RenderScene m_scene;
   HeadlessContext m_context;
   std::unique_ptr<Renderer> m_renderer;

@@ -18,7 +18,7 @@ float lines(vec2 p, float width) {
 
 void main() {
   vec3 ray = worldRay;
-  vec2 centred = uv - vec2(0.5, 0.56);
+  vec2 centred = uv + 0.5 * projection[2].xy - vec2(0.5, 0.56);  // around the line of sight: two eyes see one glow
   float glow = exp(-dot(centred * vec2(1.25, 1.7), centred * vec2(1.25, 1.7)) * 2.6);
   vec3 dark = mix(vec3(0.088, 0.095, 0.104), vec3(0.235, 0.247, 0.260), glow);
   vec3 bright = mix(vec3(0.735, 0.748, 0.765), vec3(0.902, 0.910, 0.918), glow);

@@ -7,7 +7,7 @@ layout(std140, binding = 0) uniform Frame {
   mat4 shadow;    // world to shadow texture, 0..1
   vec4 eye;       // position
   vec4 size;      // picture: width, height, their inverses, pixels
-  vec4 lens;      // tangents of half the field of view; projection[2][2], projection[3][2]
+  vec4 lens;      // half the window's size at a distance of 1; projection[2][2], projection[3][2]
   vec4 light;     // unit vector to the key light; w: 1 dark theme, 0 light theme
   vec4 plate;     // centre x, z and half size x, z of the floor
   vec4 ground;    // height of the floor, height of the ground below it, glow 0..1, has a floor
@@ -41,7 +41,8 @@ float decay(float x) {
   return t * t;
 }
 
-vec3 viewRay(vec2 uv) { return vec3((uv * 2.0 - 1.0) * lens.xy, -1.0); }
+// The window need not be centred on the line of sight: projection[2] says by how much it is not.
+vec3 viewRay(vec2 uv) { return vec3((uv * 2.0 - 1.0 + projection[2].xy) * lens.xy, -1.0); }
 float windowDepth(float distance) { return 0.5 - 0.5 * (lens.z - lens.w / distance); }
 
 // The studio around the scene as surfaces mirror it, linear: a soft gradient and a large box around the key light.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "ui/render/renderer.h"
+#include "ui/render/camera.h"
 
 #include <cmath>
 
@@ -8,6 +8,20 @@
 namespace ps::testing {
 
 inline constexpr int kWidth = 320, kHeight = 200;  // pixels
+
+/// All that there is to choose of a picture.
+struct Shot {
+  Look look;
+  Camera camera;
+  PictureSize size{kWidth, kHeight, false};
+  Eye eye() const { return eyeOf(camera, size.width, size.height); }
+};
+
+inline std::vector<uint8_t> renderImage(Renderer& renderer, const Snapshot& snapshot, const RenderScene& scene,
+                                        const Shot& shot) {
+  renderer.prepare(snapshot, nullptr, 1, scene, shot.look);
+  return ps::renderImage(renderer, shot.eye(), shot.size);
+}
 
 inline void addParticle(Snapshot& s, const Vector3& p, double radius, uint32_t id, api::Motion motion,
                         double temperature = 280) {

@@ -18,12 +18,10 @@ using namespace ps::testing;
 
 namespace {
 
-RenderOptions options(ColourBy colour = ColourBy::Material, bool dark = true) {
-  RenderOptions o;
-  o.width = kWidth;
-  o.height = kHeight;
-  o.colour = colour;
-  o.dark = dark;
+Shot options(ColourBy colour = ColourBy::Material, bool dark = true) {
+  Shot o;
+  o.look.colour = colour;
+  o.look.dark = dark;
   o.camera.target = {0, 0.2, 0};
   return o;
 }
@@ -105,9 +103,9 @@ void TestRender::picturesAreNotBlank() {
   QFETCH(bool, still);
   Renderer renderer;
   const RenderScene scene = tray();
-  RenderOptions o = options(static_cast<ColourBy>(colour), dark);
+  Shot o = options(static_cast<ColourBy>(colour), dark);
   o.camera.elevation = elevation;
-  o.still = still;
+  o.size.still = still;
   const auto empty = renderImage(renderer, Snapshot{}, RenderScene{}, o);
   const auto image = renderImage(renderer, everything(), scene, o);
   QCOMPARE(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
@@ -136,7 +134,7 @@ void TestRender::sphereCoversItsProjection() {
   QFETCH(double, x);
   QFETCH(double, radius);
   Renderer renderer;
-  RenderOptions o = options(ColourBy::Phase, false);
+  Shot o = options(ColourBy::Phase, false);
   o.camera.target = {0, 0, 0};
   o.camera.azimuth = o.camera.elevation = 0;
   RenderScene scene;
@@ -158,7 +156,7 @@ void TestRender::sphereCoversItsProjection() {
 
 void TestRender::nearerSphereWins() {
   Renderer renderer;
-  RenderOptions o = options(ColourBy::Phase);
+  Shot o = options(ColourBy::Phase);
   o.camera.target = {0, 0, 0};
   o.camera.azimuth = o.camera.elevation = 0;
   RenderScene scene;
@@ -197,7 +195,7 @@ void TestRender::onlyClearLiquidIsSeenThrough() {
   Snapshot behind = curtain;
   addParticle(behind, {0, 0.3, -0.15}, 0.06, 999, api::Motion::Solid);
   behind.material.back() = 1;
-  RenderOptions o = options(static_cast<ColourBy>(colour));
+  Shot o = options(static_cast<ColourBy>(colour));
   o.camera = Camera{{0, 0.3, 0}, 1, 0, 0};
   const auto without = pixelAt(renderImage(renderer, curtain, RenderScene{}, o), kWidth / 2, kHeight / 2);
   const auto with = pixelAt(renderImage(renderer, behind, RenderScene{}, o), kWidth / 2, kHeight / 2);
@@ -206,7 +204,7 @@ void TestRender::onlyClearLiquidIsSeenThrough() {
       QByteArray::number(seen) + " red " + QByteArray::number(without[0]) + " blue " + QByteArray::number(without[2]);
   QVERIFY2(clearness > 0.5f ? seen > 60 : seen < 6, all.constData());
   // Opaque matter has its own colour.
-  if (clearness < 0.5f && o.colour == ColourBy::Material) QVERIFY2(without[0] > 2 * without[2], all.constData());
+  if (clearness < 0.5f && o.look.colour == ColourBy::Material) QVERIFY2(without[0] > 2 * without[2], all.constData());
 }
 
 void TestRender::sizesAtTheEdge_data() {
@@ -221,14 +219,14 @@ void TestRender::sizesAtTheEdge() {
   QFETCH(int, width);
   QFETCH(int, height);
   Renderer renderer;
-  RenderOptions o = options();
-  o.width = width;
-  o.height = height;
+  Shot o = options();
+  o.size.width = width;
+  o.size.height = height;
   Snapshot broken = everything();
   broken.position[3].x = std::numeric_limits<float>::quiet_NaN();
   broken.position[4].w = 0;
   for (const bool still : {false, true}) {
-    o.still = still;
+    o.size.still = still;
     const auto image = renderImage(renderer, broken, tray(), o);
     QCOMPARE(image.size(), static_cast<size_t>(width * height * 4));
     QCOMPARE(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
@@ -256,10 +254,10 @@ void TestRender::tooLargeAPictureIsRefused() {
   const auto before = renderImage(renderer, snapshot, tray(), options());
   GLint most = 0;
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
-  RenderOptions large = options();
-  large.still = still;
-  (wide ? large.width : large.height) = (still ? most / 2 : most) + 1;
-  (wide ? large.height : large.width) = 2;
+  Shot large = options();
+  large.size.still = still;
+  (wide ? large.size.width : large.size.height) = (still ? most / 2 : most) + 1;
+  (wide ? large.size.height : large.size.width) = 2;
   try {
     renderImage(renderer, snapshot, tray(), large);
     QFAIL("drawn");
@@ -279,8 +277,8 @@ void TestRender::furnitureFollowsItsScene() {
   RenderScene cold = tray(), small = tray();
   cold.environment.walls[0].parameters.values["temperature"] = 280.0;
   small.environment.walls[3].point = {0.25, 0, 0};
-  const RenderOptions dark = options(), light = options(ColourBy::Material, false);
-  const std::vector<std::pair<const RenderScene*, const RenderOptions*>> all{
+  const Shot dark = options(), light = options(ColourBy::Material, false);
+  const std::vector<std::pair<const RenderScene*, const Shot*>> all{
       {&cold, &dark}, {&small, &dark}, {&small, &light}, {&cold, &light}, {&cold, &dark}};
   std::vector<std::vector<uint8_t>> pictures;
   for (const auto& [scene, how] : all) {
@@ -316,11 +314,11 @@ void TestRender::theSelectedBodyHasAnOutline() {
   addParticle(s, chosen, kRadius, 0, static_cast<api::Motion>(motion));
   addParticle(s, other, kRadius, 1, static_cast<api::Motion>(motion));
   s.body = {7, 3};
-  RenderOptions o = options(static_cast<ColourBy>(colour));
+  Shot o = options(static_cast<ColourBy>(colour));
   o.camera = Camera{{0, 0.3, 0}, 1.5, 0, 0};
-  o.still = still;
+  o.size.still = still;
   const auto plain = renderImage(renderer, s, tray(), o);
-  o.outline = BodyOutline{7, {1, 0, 1}, {0, 0, 0}};
+  o.look.outline = BodyOutline{7, {1, 0, 1}, {0, 0, 0}};
   const auto outlined = renderImage(renderer, s, tray(), o);
   const double pixel = pixelSize(o.camera, kHeight, 1.5);
   const double growth = motion == int(api::Motion::Liquid) ? 1.25 : 1;  // a surface lies outside its particles
@@ -341,7 +339,7 @@ void TestRender::theSelectedBodyHasAnOutline() {
   // A ring of two pixels less what smoothing takes.
   const double ring = 2 * std::numbers::pi * (growth * kRadius / pixel + 1);
   QVERIFY2(line > 0.7 * ring && line < 2.5 * ring, qPrintable(QStringLiteral("%1 of %2").arg(line).arg(ring)));
-  o.outline->body = 99;
+  o.look.outline->body = 99;
   QVERIFY(renderImage(renderer, s, tray(), o) == plain);
 }
 
@@ -379,13 +377,15 @@ void TestRender::restoresState() {
   glStencilOp(GL_INVERT, GL_ZERO, GL_INCR);
   glClearColor(0.1f, 0.2f, 0.3f, 0.4f);
 
-  renderer.draw(everything(), nullptr, 1, tray(), options());
-
+  renderer.prepare(everything(), nullptr, 1, tray(), options().look);
   const auto is = [](GLenum name, GLint expected) {
     GLint value = -1;
     glGetIntegerv(name, &value);
     return value == expected;
   };
+  QVERIFY(is(GL_DRAW_FRAMEBUFFER_BINDING, static_cast<GLint>(framebuffer)) && is(GL_DEPTH_FUNC, GL_NEVER));
+  renderer.draw(options().eye(), {framebuffer, 0, 0, options().size});
+
   QVERIFY(is(GL_DRAW_FRAMEBUFFER_BINDING, static_cast<GLint>(framebuffer)));
   QVERIFY(is(GL_READ_FRAMEBUFFER_BINDING, static_cast<GLint>(framebuffer)));
   QVERIFY(is(GL_VERTEX_ARRAY_BINDING, static_cast<GLint>(array)));
@@ -447,7 +447,7 @@ void TestRender::leavesNothingBehind() {
 void TestRender::twoThreadsDrawAsOneDoes() {
   const Snapshot snapshot = everything();
   const RenderScene scene = tray();
-  std::array<RenderOptions, 2> views{options(), options(ColourBy::Temperature, false)};
+  std::array<Shot, 2> views{options(), options(ColourBy::Temperature, false)};
   views[1].camera.azimuth = 120;
   std::array<std::vector<uint8_t>, 2> alone, together;
   for (size_t i = 0; i < 2; ++i) {

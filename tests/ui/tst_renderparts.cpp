@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a picture is made of, without OpenGL: camera, colours, instances, furniture.
 #include "tests/ui/renderscenes.h"
-#include "ui/render/camera.h"
+#include "ui/render/framing.h"
 #include "ui/render/furniture.h"
 #include "ui/render/instances.h"
+#include "ui/render/projector.h"
 
 #include <QtTest/QtTest>
 
@@ -21,8 +22,12 @@ class TestRenderParts : public QObject {
   void cameraMapsPointsToPixelsAndBack_data();
   void cameraMapsPointsToPixelsAndBack();
   void matricesAgreeWithProject();
+  void eyesOffTheAxisMapPointsToPixelsAndBack();
+  void aSphereReachesAsFarAsItsRadiiSay();
   void orbitPanAndDollyKeepTheirPromise();
   void frameAllShowsTheWholeBox();
+  void aSceneWithoutACameraIsShownWhole_data();
+  void aSceneWithoutACameraIsShownWhole();
   void pickFindsTheNearestSphere();
   void colourMapEnds_data();
   void colourMapEnds();
@@ -77,6 +82,45 @@ void TestRenderParts::matricesAgreeWithProject() {
   QVERIFY(!project(camera, kWidth, kHeight, frameOf(camera).eye));
 }
 
+void TestRenderParts::eyesOffTheAxisMapPointsToPixelsAndBack() {
+  Camera camera;
+  const double left = -1.2, right = 0.5, down = -0.4, up = 0.9;
+  const Eye eye = eyeThrough(viewMatrix(camera), left, right, down, up, 0.05, 40);
+  QVERIFY(std::abs(nearPlane(eye) - 0.05) < 1e-12);
+  QVERIFY((placeOf(eye) - frameOf(camera).eye).norm() < 1e-12);
+  // Straight ahead is where the window says, not in the middle.
+  const Vector3 ahead = *project(eye, kWidth, kHeight, camera.target);
+  QVERIFY(std::abs(ahead.x() - kWidth * -left / (right - left)) < 1e-9);
+  QVERIFY(std::abs(ahead.y() - kHeight * up / (up - down)) < 1e-9);
+  const Vector3 point{0.1, 0.3, -0.2}, pixel = *project(eye, kWidth, kHeight, point);
+  const Ray ray = rayThrough(eye, kWidth, kHeight, pixel.x(), pixel.y());
+  QVERIFY((point - ray.origin).cross(ray.direction).norm() < 1e-12);
+  Snapshot s;
+  addParticle(s, point, 0.001, 0, api::Motion::Solid);
+  QCOMPARE(pickParticle(s, ray), std::optional<size_t>(0));
+}
+
+/// The picture of a sphere far off the line of sight is an ellipse: no point of it lies farther from the picture of the
+/// centre than the longer radius, give or take what the centre is off the ellipse's, and some lie nearly as far.
+void TestRenderParts::aSphereReachesAsFarAsItsRadiiSay() {
+  const Eye eye = eyeThrough(Matrix4::Identity(), -1, 2, -1, 1, 0.01, 10);
+  const render::Projector projector(eye, 900, 600);
+  const Vector3 centre{1.5, -0.6, -1};
+  const double radius = 0.01;
+  const auto at = projector.at(1.5f, -0.6f, -1);
+  const auto [least, most] = projector.radiiOf(0.01f, at);
+  double farthest = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const double z = 2 * (i + 0.5) / 1000 - 1, angle = 2.4 * i, across = std::sqrt(1 - z * z);
+    const Vector3 p = centre + radius * Vector3{across * std::cos(angle), across * std::sin(angle), z};
+    const Vector3 pixel = *project(eye, 900, 600, p);
+    farthest =
+        std::max(farthest, std::hypot(pixel.x() - static_cast<double>(at.x), pixel.y() - static_cast<double>(at.y)));
+  }
+  QVERIFY2(std::abs(farthest / static_cast<double>(most) - 1) < 0.03, qPrintable(QString::number(farthest)));
+  QVERIFY(std::abs(static_cast<double>(least) - 3) < 1e-3);  // 300 pixels a metre at a depth of 1 m
+}
+
 void TestRenderParts::orbitPanAndDollyKeepTheirPromise() {
   Camera camera;
   orbit(camera, 0, 200);
@@ -107,6 +151,40 @@ void TestRenderParts::frameAllShowsTheWholeBox() {
       QVERIFY(pixel && (*pixel)[0] >= 0 && (*pixel)[0] <= width && (*pixel)[1] >= 0 && (*pixel)[1] <= height);
     }
   }
+}
+
+void TestRenderParts::aSceneWithoutACameraIsShownWhole_data() {
+  QTest::addColumn<double>("scale");
+  QTest::newRow("a cup") << 0.1;
+  QTest::newRow("a table") << 1.0;
+  QTest::newRow("a lake") << 100.0;
+}
+
+/// Whatever its size: every particle and corner of the tray is in the picture, and the eye is not among them.
+void TestRenderParts::aSceneWithoutACameraIsShownWhole() {
+  QFETCH(double, scale);
+  Snapshot s = everything();
+  RenderScene scene = tray();
+  for (api::Float4& p : s.position)
+    for (float* v : {&p.x, &p.y, &p.z, &p.w}) *v *= static_cast<float>(scale);
+  for (SceneWall& w : scene.environment.walls) w.point *= scale;
+  scene.environment.boundsMinimum *= scale;
+  scene.environment.boundsMaximum *= scale;
+  const auto [low, high] = boxOf(s, scene.environment);
+  QVERIFY((high - Vector3(0.4, 0.8, 0.4) * scale).norm() < 1e-6 * scale);  // the tray's, which holds all matter
+  for (const auto& [width, height] : {std::pair{320, 200}, {100, 400}}) {
+    const Camera camera = cameraShowing(s, scene.environment, width, height);
+    for (const api::Float4& p : s.position) {
+      const auto pixel = project(camera, width, height, vectorOf(p));
+      QVERIFY(pixel && pixel->x() >= 0 && pixel->x() <= width && pixel->y() >= 0 && pixel->y() <= height);
+    }
+    const Vector3 eye = frameOf(camera).eye;
+    QVERIFY((eye.array() > high.array()).any());
+  }
+  // Without matter and walls, the bounds.
+  const auto [least, most] = boxOf(Snapshot{}, Environment{});
+  QCOMPARE(least, Environment{}.boundsMinimum);
+  QCOMPARE(most, Environment{}.boundsMaximum);
 }
 
 void TestRenderParts::pickFindsTheNearestSphere() {
@@ -248,16 +326,15 @@ void TestRenderParts::hidesOnlyWhatIsCovered() {
   Camera camera;
   camera.target = {0, 0, 0};
   camera.elevation = camera.azimuth = 0;
-  const Matrix4 m = projectionMatrix(camera, kWidth, kHeight) * viewMatrix(camera);
-  render::CullView view{{}, kWidth, kHeight};
-  Eigen::Matrix4f::Map(view.viewProjection.data()) = m.cast<float>();
+  const render::Projector projector(eyeOf(camera, kWidth, kHeight), kWidth, kHeight);
   const auto sphere = [](float x, float z, float r, float mark) { return render::Instance{x, 0, z, r, 0, 0, 0, mark}; };
-  std::vector<render::Instance> list{sphere(0, -0.5f, 0.05f, 1), sphere(0, 0.2f, 0.2f, 2),
-                                     sphere(0.25f, -0.5f, 0.1f, 3)};
-  QCOMPARE(render::sortVisible(view, list), size_t{2});
-  QCOMPARE(list[0].extra, 2.f);
-  QCOMPARE(list[1].extra, 3.f);  // peeps out behind the large one
-  QCOMPARE(list[2].extra, 1.f);
+  const std::vector<render::Instance> all{sphere(0, -0.5f, 0.05f, 1), sphere(0, 0.2f, 0.2f, 2),
+                                          sphere(0.25f, -0.5f, 0.1f, 3)};
+  std::vector<render::Instance> seen;
+  render::sortVisible(projector, all, seen);
+  QCOMPARE(seen.size(), size_t{2});
+  QCOMPARE(seen[0].extra, 2.f);
+  QCOMPARE(seen[1].extra, 3.f);  // peeps out behind the large one
 }
 
 void TestRenderParts::leavesOutWhatIsBuried() {

@@ -43,21 +43,47 @@ Matrix4 projectionMatrix(const Camera& camera, int width, int height) {
   return p;
 }
 
+Eye eyeOf(const Camera& camera, int width, int height) {
+  return {viewMatrix(camera), projectionMatrix(camera, width, height)};
+}
+
+Eye eyeThrough(const Matrix4& view, double left, double right, double down, double up, double near, double far) {
+  Matrix4 p = Matrix4::Zero();
+  p(0, 0) = 2 / (right - left);
+  p(1, 1) = 2 / (up - down);
+  p(0, 2) = (right + left) / (right - left);
+  p(1, 2) = (up + down) / (up - down);
+  p(2, 2) = -(far + near) / (far - near);
+  p(2, 3) = -2 * far * near / (far - near);
+  p(3, 2) = -1;
+  return {view, p};
+}
+
+Vector3 placeOf(const Eye& eye) {
+  return -(eye.view.topLeftCorner<3, 3>().transpose() * eye.view.topRightCorner<3, 1>());
+}
+
+double nearPlane(const Eye& eye) { return eye.projection(2, 3) / (eye.projection(2, 2) - 1); }
+
+Ray rayThrough(const Eye& eye, int width, int height, double x, double y) {
+  const Matrix4& p = eye.projection;
+  const Vector3 seen{(2 * x / width - 1 + p(0, 2)) / p(0, 0), (1 - 2 * y / height + p(1, 2)) / p(1, 1), -1};
+  const Vector3 direction = eye.view.topLeftCorner<3, 3>().transpose() * seen;
+  return {placeOf(eye), direction.normalized()};
+}
+
 Ray rayThrough(const Camera& camera, int width, int height, double x, double y) {
-  const CameraFrame f = frameOf(camera);
-  const double pixel = 2 * halfHeight(camera) / height;
-  Vector3 d = f.forward + (x - width * 0.5) * pixel * f.right;
-  d += (height * 0.5 - y) * pixel * f.up;
-  return {f.eye, d.normalized()};
+  return rayThrough(eyeOf(camera, width, height), width, height, x, y);
+}
+
+std::optional<Vector3> project(const Eye& eye, int width, int height, const Vector3& world) {
+  const Vector4 clip = eye.projection * (eye.view * world.homogeneous());
+  if (clip.w() < nearPlane(eye)) return std::nullopt;
+  return Vector3{(clip.x() / clip.w() + 1) / 2 * width, (1 - clip.y() / clip.w()) / 2 * height, clip.w()};
 }
 
 std::optional<Vector3> project(const Camera& camera, int width, int height, const Vector3& world) {
-  const CameraFrame f = frameOf(camera);
-  const Vector3 d = world - f.eye;
-  const double depth = d.dot(f.forward);
-  if (depth < nearPlane(camera)) return std::nullopt;
-  const double pixel = pixelSize(camera, height, depth);
-  return Vector3{width * 0.5 + d.dot(f.right) / pixel, height * 0.5 - d.dot(f.up) / pixel, depth};
+  return project(eyeOf(camera, width, height), width, height, world);
 }
 
 double pixelSize(const Camera& camera, int height, double depth) { return 2 * halfHeight(camera) * depth / height; }
@@ -90,9 +116,7 @@ void frameAll(Camera& camera, int width, int height, const Vector3& minimum, con
   camera.distance = radius / std::sin(std::atan(narrow));
 }
 
-std::optional<size_t> pickParticle(const Snapshot& snapshot, const Camera& camera, int width, int height, double x,
-                                   double y) {
-  const Ray ray = rayThrough(camera, width, height, x, y);
+std::optional<size_t> pickParticle(const Snapshot& snapshot, const Ray& ray) {
   std::optional<size_t> hit;
   double nearest = 0;
   for (size_t i = 0; i < snapshot.position.size(); ++i) {
@@ -107,6 +131,11 @@ std::optional<size_t> pickParticle(const Snapshot& snapshot, const Camera& camer
     nearest = distance;
   }
   return hit;
+}
+
+std::optional<size_t> pickParticle(const Snapshot& snapshot, const Camera& camera, int width, int height, double x,
+                                   double y) {
+  return pickParticle(snapshot, rayThrough(camera, width, height, x, y));
 }
 
 std::optional<Vector3> meetPlane(const Ray& ray, const Vector3& point, const Vector3& normal) {

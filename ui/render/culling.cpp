@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/render/instances.h"
+#include "ui/render/projector.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,9 +11,8 @@ namespace ps::render {
 namespace {
 
 struct Disc {
-  float depth, x, y, radius;  // m along the view, pixels
+  float depth, x, y, least, most;  // m along the view, pixels
   uint32_t index;
-  bool seen;
 };
 
 constexpr float kCell = 2;  // pixels
@@ -49,54 +49,40 @@ void dropBuried(const Extent& extent, float radius, std::vector<Instance>& list)
   std::erase_if(list, [&](const Instance& p) { return buried[cellOf(p)] != 0; });
 }
 
-size_t sortVisible(const CullView& view, std::vector<Instance>& spheres) {
-  const auto& m = view.viewProjection;
-  // The length of the second row is that of the projection, whatever the view's rotation: pixels per metre at depth 1.
-  const float lens = std::sqrt(m[1] * m[1] + m[5] * m[5] + m[9] * m[9]) * static_cast<float>(view.height) / 2;
+void sortVisible(const Projector& projector, std::span<const Instance> spheres, std::vector<Instance>& visible) {
   std::vector<Disc> discs(spheres.size());
   for (size_t i = 0; i < spheres.size(); ++i) {
     const Instance& p = spheres[i];
-    const auto row = [&](size_t r) { return m[r] * p.x + m[4 + r] * p.y + m[8 + r] * p.z + m[12 + r]; };
-    const float w = row(3), safe = std::max(w, 1e-6f);
-    discs[i] = {w,
-                (row(0) / safe * 0.5f + 0.5f) * static_cast<float>(view.width),
-                (row(1) / safe * 0.5f + 0.5f) * static_cast<float>(view.height),
-                p.radius * lens / safe,
-                static_cast<uint32_t>(i),
-                true};
+    const Projector::Place at = projector.at(p.x, p.y, p.z);
+    const auto [least, most] = projector.radiiOf(p.radius, at);
+    discs[i] = {at.depth, at.x, at.y, least, most, static_cast<uint32_t>(i)};
   }
   std::sort(discs.begin(), discs.end(),
             [](const Disc& a, const Disc& b) { return a.depth != b.depth ? a.depth < b.depth : a.index < b.index; });
 
-  const int columns = view.width / static_cast<int>(kCell), rows = view.height / static_cast<int>(kCell);
-  std::vector<float> covered(static_cast<size_t>(columns * rows),
-                             1e30f);  // depth of the nearest sphere that fills a cell
-  size_t seen = 0;
-  for (Disc& disc : discs) {
-    const float radius = spheres[disc.index].radius, cx = disc.x / kCell - 0.5f, cy = disc.y / kCell - 0.5f;
-    const float reach = disc.radius / kCell, inner = std::max(reach - 0.8f, 0.f);
+  const int columns = static_cast<int>(projector.width() / kCell), rows = static_cast<int>(projector.height() / kCell);
+  // Depth of the nearest sphere that fills a cell.
+  std::vector<float> covered(static_cast<size_t>(columns * rows), 1e30f);
+  visible.clear();
+  visible.reserve(spheres.size());
+  for (const Disc& disc : discs) {
+    const Instance& sphere = spheres[disc.index];
+    const float radius = sphere.radius, cx = disc.x / kCell - 0.5f, cy = disc.y / kCell - 0.5f;
+    const float reach = disc.most / kCell, inner = std::max(disc.least / kCell - 0.8f, 0.f);
     const auto bound = [](float v, int most) { return static_cast<int>(std::clamp(v, 0.f, static_cast<float>(most))); };
-    if (disc.depth < 2 * radius) continue;  // at the eye: drawn, hides nothing
-    bool any = false;
-    for (int y = bound(std::ceil(cy - reach), rows); y < bound(std::floor(cy + reach) + 1, rows); ++y)
-      for (int x = bound(std::ceil(cx - reach), columns); x < bound(std::floor(cx + reach) + 1, columns); ++x) {
-        float& cell = covered[static_cast<size_t>(y * columns + x)];
-        const float dx = static_cast<float>(x) - cx, dy = static_cast<float>(y) - cy, square = dx * dx + dy * dy;
-        if (square > reach * reach) continue;
-        any = any || cell > disc.depth - radius;
-        if (square < inner * inner) cell = std::min(cell, disc.depth);
-      }
-    disc.seen = any || reach < 1;
+    // At the eye: drawn, hides nothing.
+    bool seen = disc.depth < std::max(2 * radius, projector.near()) || reach < 1;
+    if (disc.depth >= std::max(2 * radius, projector.near()))
+      for (int y = bound(std::ceil(cy - reach), rows); y < bound(std::floor(cy + reach) + 1, rows); ++y)
+        for (int x = bound(std::ceil(cx - reach), columns); x < bound(std::floor(cx + reach) + 1, columns); ++x) {
+          float& cell = covered[static_cast<size_t>(y * columns + x)];
+          const float dx = static_cast<float>(x) - cx, dy = static_cast<float>(y) - cy, square = dx * dx + dy * dy;
+          if (square > reach * reach) continue;
+          seen = seen || cell > disc.depth - radius;
+          if (square < inner * inner) cell = std::min(cell, disc.depth);
+        }
+    if (seen) visible.push_back(sphere);
   }
-  std::vector<Instance> sorted;
-  sorted.reserve(spheres.size());
-  for (const bool wanted : {true, false}) {
-    for (const Disc& disc : discs)
-      if (disc.seen == wanted) sorted.push_back(spheres[disc.index]);
-    if (wanted) seen = sorted.size();
-  }
-  spheres.swap(sorted);
-  return seen;
 }
 
 }  // namespace ps::render

@@ -143,6 +143,18 @@ Target::Target(std::initializer_list<const Texture*> colours, const Texture* dep
 
 Target::~Target() { glDeleteFramebuffers(1, &m_name); }
 
+Fence::~Fence() { glDeleteSync(m_sync); }
+
+void Fence::set() {
+  glDeleteSync(m_sync);
+  m_sync = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+  glFlush();  // a fence that never leaves this context would never be passed
+}
+
+void Fence::wait() const {
+  if (m_sync) glWaitSync(m_sync, 0, GL_TIMEOUT_IGNORED);
+}
+
 VertexArray::VertexArray() { glGenVertexArrays(1, &m_name); }
 VertexArray::~VertexArray() { glDeleteVertexArrays(1, &m_name); }
 

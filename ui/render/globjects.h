@@ -96,6 +96,20 @@ class Target {
   GLuint m_name = 0;
 };
 
+/// Makes what one context has the graphics card do wait for what another had it do before.
+class Fence {
+ public:
+  Fence() = default;
+  ~Fence();
+  Fence(const Fence&) = delete;
+  Fence& operator=(const Fence&) = delete;
+  void set();         ///< after everything up to now
+  void wait() const;  ///< the card does, not the processor
+
+ private:
+  GLsync m_sync = nullptr;
+};
+
 class VertexArray {
  public:
   VertexArray();

@@ -3,6 +3,7 @@
 #include <epoxy/gl.h>
 
 #include "core/base/error.h"
+#include "ui/render/camera.h"
 #include "ui/render/glstate.h"
 #include "ui/render/renderer.h"
 
@@ -112,25 +113,24 @@ struct Picture {
 
 }  // namespace
 
-std::vector<uint8_t> renderImage(Renderer& renderer, const Snapshot& snapshot, const RenderScene& scene,
-                                 const RenderOptions& options) {
-  renderer.checkSize(options);
+std::vector<uint8_t> renderImage(Renderer& renderer, const Eye& eye, const PictureSize& size) {
+  renderer.checkSize(size);
   const render::GlState state;
-  const Picture picture(options.width, options.height);
-  renderer.draw(snapshot, nullptr, 1, scene, options);
+  const Picture picture(size.width, size.height);
+  renderer.draw(eye, {picture.framebuffer, 0, 0, size});
 
-  const size_t row = static_cast<size_t>(options.width) * 4;
-  std::vector<uint8_t> pixels(row * static_cast<size_t>(options.height));
+  const size_t row = static_cast<size_t>(size.width) * 4;
+  std::vector<uint8_t> pixels(row * static_cast<size_t>(size.height));
   glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
   GLint alignment = 4, length = 0;
   glGetIntegerv(GL_PACK_ALIGNMENT, &alignment);
   glGetIntegerv(GL_PACK_ROW_LENGTH, &length);
   glPixelStorei(GL_PACK_ALIGNMENT, 4);
   glPixelStorei(GL_PACK_ROW_LENGTH, 0);
-  glReadPixels(0, 0, options.width, options.height, GL_RGBA, GL_UNSIGNED_BYTE, pixels.data());
+  glReadPixels(0, 0, size.width, size.height, GL_RGBA, GL_UNSIGNED_BYTE, pixels.data());
   glPixelStorei(GL_PACK_ALIGNMENT, alignment);
   glPixelStorei(GL_PACK_ROW_LENGTH, length);
-  for (size_t top = 0, bottom = static_cast<size_t>(options.height) - 1; top < bottom; ++top, --bottom)
+  for (size_t top = 0, bottom = static_cast<size_t>(size.height) - 1; top < bottom; ++top, --bottom)
     std::swap_ranges(pixels.begin() + static_cast<ptrdiff_t>(top * row),
                      pixels.begin() + static_cast<ptrdiff_t>((top + 1) * row),
                      pixels.begin() + static_cast<ptrdiff_t>(bottom * row));

@@ -145,6 +145,14 @@ void Extent::add(float x, float y, float z, float radius) {
   }
 }
 
+std::array<Vector3, 8> Extent::corners() const {
+  std::array<Vector3, 8> corners;
+  for (size_t i = 0; i < 8; ++i)
+    for (size_t k = 0; k < 3; ++k)
+      corners[i][static_cast<Eigen::Index>(k)] = static_cast<double>(i >> k & 1 ? maximum[k] : minimum[k]);
+  return corners;
+}
+
 void collectInstances(const InstanceRequest& request, Instances& out) {
   const Snapshot& s = *request.now;
   const size_t count = s.position.size();
@@ -192,8 +200,7 @@ void collectInstances(const InstanceRequest& request, Instances& out) {
   if (counted) out.radius = static_cast<float>(radii / static_cast<double>(counted));
   out.sphereExtent = out.liquidExtent = out.vapourExtent = {};
   for (const Instance& p : spheres) out.sphereExtent.add(p.x, p.y, p.z, p.radius);
-  if (request.cull) dropBuried(out.sphereExtent, out.radius, spheres);
-  out.visible = request.cull ? sortVisible(*request.cull, spheres) : spheres.size();
+  if (request.dropBuried) dropBuried(out.sphereExtent, out.radius, spheres);
   for (const Instance& p : liquids) out.liquidExtent.add(p.x, p.y, p.z, p.radius * 1.6f);
   out.dense = static_cast<size_t>(std::partition(liquids.begin(), liquids.end(), isDense) - liquids.begin());
   for (const Instance& p : vapours) out.vapourExtent.add(p.x, p.y, p.z, p.radius * 8);
@@ -202,7 +209,7 @@ void collectInstances(const InstanceRequest& request, Instances& out) {
   out.vapours = vapours.size();
   out.particles.insert(out.particles.end(), liquids.begin(), liquids.end());
   out.particles.insert(out.particles.end(), vapours.begin(), vapours.end());
-  if (request.cull && !out.outline.empty()) {
+  if (request.dropBuried && !out.outline.empty()) {
     Extent extent;
     for (const Instance& p : out.outline) extent.add(p.x, p.y, p.z, p.radius);
     dropBuried(extent, out.radius, out.outline);

@@ -4,9 +4,12 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace ps::render {
+
+class Projector;
 
 /// How a surface answers light; the shaders know the same numbers. A mote is plain and casts no shadow. Solid and wet
 /// matter add their clearness, from 0 to kClearest.
@@ -23,6 +26,7 @@ struct Extent {
   std::array<float, 3> minimum{1e30f, 1e30f, 1e30f}, maximum{-1e30f, -1e30f, -1e30f};  ///< m, spheres included
   bool empty() const { return minimum[0] > maximum[0]; }
   void add(float x, float y, float z, float radius);
+  std::array<Vector3, 8> corners() const;
 };
 
 /// A horizontal rectangle of the floor on which a map says what stands above it.
@@ -34,12 +38,6 @@ struct ContactMap {
   std::array<std::vector<float>, 6> sums;     ///< while it is filled: near, far, weights, colours; kept for its memory
 };
 
-/// For what culling needs to know.
-struct CullView {
-  std::array<float, 16> viewProjection;  ///< column-major
-  int width, height;                     ///< pixels
-};
-
 struct InstanceRequest {
   const Snapshot* now = nullptr;
   const Snapshot* previous = nullptr;  ///< nullptr: no interpolation
@@ -49,14 +47,14 @@ struct InstanceRequest {
   bool surfaces = true;                 ///< liquids become a surface, else spheres
   std::array<float, 3> steam{1, 1, 1};  ///< colour of vapour where colours show no data
   std::optional<uint32_t> outlined;     ///< index of the body that gets an outline
-  std::optional<CullView> cull;         ///< sort nearest first, leave out what cannot be seen
+  bool dropBuried = false;              ///< leave out what no view from outside can see
 };
 
-/// What a frame draws, in four ranges of `particles`: spheres (the first `visible` of them can be seen, the others may
-/// cast shadows), liquid of a surface, vapour, and once more what makes the outlined body's picture.
+/// What there is to draw, in four ranges of `particles`: spheres, liquid of a surface, vapour, and once more what makes
+/// the outlined body's picture.
 struct Instances {
   std::vector<Instance> particles;
-  size_t visible = 0, spheres = 0, liquids = 0, vapours = 0, outlined = 0;
+  size_t spheres = 0, liquids = 0, vapours = 0, outlined = 0;
   size_t dense = 0;  ///< of the liquids, the first ones: they hide what lies behind them and cast shadows
   Extent sphereExtent, liquidExtent, vapourExtent;
   float radius = 0.01f;                                ///< mean of what is neither vapour nor static, m
@@ -66,9 +64,9 @@ struct Instances {
 /// Values of `previous` are found by id where the order differs; particles that are new stand where they are now.
 /// Snapshots of different revisions are not mixed.
 void collectInstances(const InstanceRequest& request, Instances& out);
-/// Puts spheres that may be seen first, nearest first, and returns how many those are. A sphere is hidden when spheres
-/// at least a radius nearer cover every cell, 2 pixels wide, of its disc.
-size_t sortVisible(const CullView& view, std::vector<Instance>& spheres);
+/// The spheres that may be seen, nearest first, in place of what `visible` held. A sphere is hidden when spheres at
+/// least a radius nearer cover every cell, 2 pixels wide, of its disc.
+void sortVisible(const Projector& projector, std::span<const Instance> spheres, std::vector<Instance>& visible);
 /// Leaves out spheres whose 26 neighbouring cells, 2 `radius` wide, all hold others.
 void dropBuried(const Extent& extent, float radius, std::vector<Instance>& list);
 /// Fills texels from spheres and liquids; clear liquids count less.

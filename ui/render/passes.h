@@ -2,44 +2,14 @@
 #pragma once
 #include <epoxy/gl.h>
 
-#include "ui/render/furniture.h"
 #include "ui/render/globjects.h"
-#include "ui/render/instances.h"
-#include "ui/render/tiles.h"
+#include "ui/render/layers.h"
+#include "ui/render/prepared.h"
+#include "ui/render/viewframe.h"
 
-#include <array>
 #include <cstdint>
 
 namespace ps::render {
-
-/// The uniform block of frame.glsl, std140.
-struct FrameUniforms {
-  using Matrix = std::array<float, 16>;
-  using Four = std::array<float, 4>;
-  Matrix view, projection, inverseView, shadow;
-  Four eye, size, lens, light, plate, ground, contact, matter, glowTint;
-};
-
-/// Everything about one frame that the passes need.
-struct Frame {
-  FrameUniforms uniforms;
-  Instances instances;
-  Furniture furniture;
-  uint64_t furnitureRevision = 0;  ///< rises with every change of `furniture`
-  ContactMap contact;
-  FrameUniforms::Matrix toLight;              ///< world to clip space of the shadow picture
-  std::array<float, 2> shadowScale{};         ///< metres to clip space
-  TileSet liquid, detail, outline;            ///< what the next three are made of
-  std::vector<TileSet::Corner> detailTiles;   ///< where edges and crevices may be
-  std::vector<TileSet::Corner> liquidTiles;   ///< where liquid may be
-  std::vector<TileSet::Corner> outlineTiles;  ///< where the outline may be
-  BodyOutline outlined;                       ///< of the body that instances.outlined draws, in inner pixels
-  std::array<int, 4> vapourBox{};             ///< x, y, width, height of the pixels that vapour may touch
-  std::array<float, 3> edgeTint{};
-  int width = 0, height = 0;  ///< of the inner targets
-  bool data = false, still = false;
-  bool lidInFront = true;  ///< the eye is above the lid
-};
 
 /// What a machine can afford. Software renderers get fewer samples and smaller soft layers.
 struct Quality {
@@ -52,14 +22,16 @@ struct Quality {
 };
 Quality qualityOf(const char* rendererName);
 
-/// Shaders, textures and buffers, and the passes of a frame in their order: shadow, surfaces, occlusion, light, liquid,
-/// vapour, glass, final, outline.
+/// Shaders, textures and buffers, and the passes in their order: the shadow picture once for everything that is
+/// prepared; surfaces, occlusion, light, liquid, vapour, glass, final, outline for each picture.
 class Passes {
  public:
   Passes();
   int largestPicture() const { return m_largest; }  ///< pixels along each side
   const Quality& quality() const { return m_quality; }
-  void draw(const Frame& frame, GLuint framebuffer);
+  void prepare(const Prepared& prepared);
+  /// What was prepared last, into the framebuffer that the frame names.
+  void draw(const Prepared& prepared, const ViewFrame& frame, Layers& layers);
 
  private:
   struct Programs {
@@ -84,43 +56,41 @@ class Passes {
     Program final{"tiles.vert", "final.frag"}, still{"fullscreen.vert", "final.frag"};
   };
 
-  void resize(int width, int height);
-  void upload(const Frame& frame);
-  void drawShadow(const Frame& frame);
-  void drawSurfaces(const Frame& frame);
-  void drawOcclusion(const Frame& frame);
-  void drawBackground(const Frame& frame);
-  void drawLight(const Frame& frame);
-  void drawFluid(const Frame& frame);
-  void smoothFluid(const Frame& frame);
-  void drawSteam(const Frame& frame);
-  void drawGlass(const Frame& frame);
-  void drawOutline(const Frame& frame, GLuint framebuffer);
-  void drawFinal(const Frame& frame, GLuint framebuffer);
-  void drawParticles(const Program& program, size_t first, size_t vertices);
+  /// What the passes of one picture share.
+  struct Job {
+    const Prepared& prepared;
+    const ViewFrame& frame;
+    Layers& layers;
+    const VertexArray& plain;
+  };
+
+  void uploadPrepared(const Prepared& prepared);
+  void uploadFrame(const ViewFrame& frame);
+  void drawShadow(const Prepared& prepared, const VertexArray& plain);
+  void drawSurfaces(const Job& job);
+  void drawOcclusion(const Job& job);
+  const Texture& drawBackground(const Job& job);
+  void drawLight(const Job& job);
+  void drawFluid(const Job& job);
+  void smoothFluid(const Job& job);
+  void drawSteam(const Job& job);
+  void drawGlass(const Job& job);
+  void drawOutline(const Job& job, const PicturePlace& place);
+  void drawFinal(const Job& job);
+  void drawParticles(const Program& program, const VertexArray& plain, const Buffer& particles, size_t first,
+                     size_t vertices);
   void drawTiles(const Buffer& buffer, const std::vector<TileSet::Corner>& tiles);
-  void drawEverywhere();
 
   Quality m_quality;
   GLint m_largest = 0;
   Programs m_programs;
-  Texture m_surface{GL_RGBA8, GL_NEAREST}, m_normal{GL_RGB10_A2, GL_NEAREST}, m_distance{GL_R32F, GL_NEAREST};
-  Texture m_depth{GL_DEPTH24_STENCIL8, GL_NEAREST}, m_open{GL_R8, GL_LINEAR};
-  Texture m_picture{GL_RGBA8, GL_LINEAR}, m_behind{GL_RGBA8, GL_LINEAR};
-  Texture m_shadow{GL_DEPTH_COMPONENT24, GL_LINEAR};
-  Texture m_fluid{GL_R32F, GL_NEAREST}, m_fluidOther{GL_R32F, GL_NEAREST}, m_fluidColour{GL_RGBA16F, GL_LINEAR};
-  Texture m_fluidClear{GL_R16F, GL_LINEAR};
-  Texture m_fluidNormal{GL_RGB10_A2, GL_LINEAR}, m_cloud{GL_R8, GL_LINEAR, GL_REPEAT};
-  Texture m_fluidDepth{GL_DEPTH_COMPONENT24, GL_NEAREST};
-  Texture m_steam{GL_RGBA16F, GL_LINEAR};
-  Texture m_mask{GL_R8, GL_LINEAR};
-  Texture m_contact{GL_RGBA8, GL_LINEAR}, m_noise{GL_RGBA8, GL_LINEAR_MIPMAP_NEAREST, GL_REPEAT};
-  Texture m_background{GL_RGBA8, GL_NEAREST};
-  FrameUniforms m_backgroundUniforms{};  // for which m_background was drawn
-  uint64_t m_furniture = 0;              // revision that is in the buffers
+  Texture m_shadow{GL_DEPTH_COMPONENT24, GL_LINEAR}, m_contact{GL_RGBA8, GL_LINEAR};
+  Texture m_noise{GL_RGBA8, GL_LINEAR_MIPMAP_NEAREST, GL_REPEAT}, m_cloud{GL_R8, GL_LINEAR, GL_REPEAT};
+  uint64_t m_furniture = 0;  // revision that is in the buffers
   BufferTexture m_particleTexture;
-  Buffer m_uniforms, m_particles, m_opaque, m_clear, m_edges, m_liquidTiles, m_detailTiles, m_outlineTiles;
-  const VertexArray* m_vertexArray = nullptr;  // of the frame being drawn
+  Buffer m_particles, m_opaque, m_clear, m_edges;                              // of what is prepared
+  Buffer m_uniforms, m_visible, m_liquidTiles, m_detailTiles, m_outlineTiles;  // of the picture being drawn
+  Fence m_fence;  // behind the last call, whose context may have been another
 };
 
 }  // namespace ps::render

@@ -26,17 +26,30 @@ struct BodyOutline {
   uint32_t body = 0;                      ///< index as in Snapshot::body
   std::array<float, 3> colour{}, halo{};  ///< sRGB of the line, and of what sets it off from its ground
   float lineWidth = 2, haloWidth = 1.5f;  ///< device pixels
+  bool operator==(const BodyOutline&) const = default;
 };
 
-struct RenderOptions {
-  int width = 1280, height = 720;  ///< device pixels
-  Camera camera;
+/// What a picture shows of its snapshot, from wherever it is seen.
+struct Look {
   ColourBy colour = ColourBy::Material;
   double rangeMinimum = 0, rangeMaximum = 0;  ///< of the colour map; equal: automatic
   bool dark = true;
   double meltingPoint = 273.15;  ///< K, pivot of the temperature map
   std::optional<BodyOutline> outline;
+  bool operator==(const Look&) const = default;
+};
+
+struct PictureSize {
+  int width = 1280, height = 720;  ///< device pixels
   bool still = false;  ///< four samples per pixel: for pictures rather than motion, about four times the work
+  bool operator==(const PictureSize&) const = default;
+};
+
+/// The rectangle of a framebuffer that a picture fills; nothing outside of it is touched.
+struct RenderTarget {
+  uint32_t framebuffer = 0;  ///< its name in the context that is current; 0: the window's own
+  int x = 0, y = 0;          ///< lower left corner, pixels
+  PictureSize size;
 };
 
 /// The scene's furniture that is drawn around particles.
@@ -44,20 +57,24 @@ struct RenderScene {
   Environment environment;  ///< walls, bounds
 };
 
-/// Draws snapshots. Needs a current OpenGL 4.3 context, whoever made it (viewport, headset, headless); knows no
-/// widgets.
+struct Eye;
+
+/// Draws snapshots: each is prepared once and then drawn any number of times, for two eyes, a mirror, a thumbnail, a
+/// frame of a film. Needs a current OpenGL 4.3 context, whoever made it (viewport, headset, headless), which may be
+/// another one for every call as long as all share their objects; knows no widgets. One thread at a time; views on
+/// several threads have a Renderer and a context each. All calls restore the OpenGL state that they change.
 class Renderer {
  public:
   Renderer();   ///< throws Error when shaders do not compile or the context is too old
   ~Renderer();  ///< the same context (or one that shares with it) must be current
   /// Throws Error when the driver cannot draw a picture that large, as draw() does before it changes anything.
-  void checkSize(const RenderOptions& options) const;
-  /// Draws into the framebuffer bound now. `previous` and `blend` in 0..1 interpolate between two snapshots.
-  /// The picture fills (0, 0)..(width, height) of it. Restores the OpenGL state that it changes. One thread at a time;
-  /// any context that shares with the one of the constructor may be current. Views on several threads have a Renderer
-  /// and a context each. Throws Error when the driver runs out of memory.
-  void draw(const Snapshot& now, const Snapshot* previous, double blend, const RenderScene& scene,
-            const RenderOptions& options);
+  void checkSize(const PictureSize& size) const;
+  /// Everything that does not depend on where it is seen from. `previous` (or nullptr) and `blend` in 0..1 interpolate
+  /// between two snapshots; neither is needed afterwards.
+  void prepare(const Snapshot& now, const Snapshot* previous, double blend, const RenderScene& scene, const Look& look);
+  /// Draws what was prepared last. Throws Error when nothing was, and when the driver runs out of memory. The same
+  /// picture whatever was drawn before, and for two sizes in turn without new storage.
+  void draw(const Eye& eye, const RenderTarget& target);
 
  private:
   struct Impl;
@@ -86,8 +103,7 @@ class HeadlessContext {
   std::unique_ptr<Impl> m;
 };
 
-/// Renders into an image of RGBA8 rows from the top; needs a current context.
-std::vector<uint8_t> renderImage(Renderer& renderer, const Snapshot& snapshot, const RenderScene& scene,
-                                 const RenderOptions& options);
+/// Draws what is prepared into an image of RGBA8 rows from the top; needs a current context.
+std::vector<uint8_t> renderImage(Renderer& renderer, const Eye& eye, const PictureSize& size);
 
 }  // namespace ps

@@ -25,11 +25,11 @@ QString ViewNavigator::viewName() const {
   return m_name.isEmpty() ? lens : m_name + QStringLiteral(" · ") + lens.toLower();
 }
 
-void ViewNavigator::setScene(const ViewState& view) {
+void ViewNavigator::setScene(const Camera& camera) {
   m_orthographic = false;
   m_name.clear();
-  const ViewCamera camera = view.camera.value_or(ViewCamera());
-  m_camera = Camera{camera.target, camera.distance, camera.azimuth, camera.elevation, kPerspectiveField};
+  m_camera = camera;
+  m_camera.fieldOfView = kPerspectiveField;
   m_sceneCamera = m_lastCamera = m_camera;
 }
 

@@ -21,9 +21,9 @@ class ViewNavigator {
   QString viewName() const;  ///< "Perspective", "Top", "Orthographic"
 
   void setSize(const QSizeF& size) { m_size = size; }
-  void setScene(const ViewState& view);  ///< the project's camera becomes the scene's view, and is taken
-  void restore(const Camera& camera);    ///< takes back a drag
-  ViewState view() const;                ///< as the project keeps it
+  void setScene(const Camera& camera);  ///< becomes the scene's view, and is taken
+  void restore(const Camera& camera);   ///< takes back a drag
+  ViewState view() const;               ///< as the project keeps it
 
   void orbitBy(const QPointF& pixels);
   void panBy(const QPointF& pixels);

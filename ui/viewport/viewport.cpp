@@ -4,7 +4,7 @@
 #include "core/base/error.h"
 #include "core/simulation/engine.h"
 #include "ui/document/document.h"
-#include "ui/render/furniture.h"
+#include "ui/render/framing.h"
 #include "ui/theme/numbers.h"
 #include "ui/theme/theme.h"
 #include "ui/viewport/hiddenbodies.h"
@@ -21,25 +21,6 @@ namespace {
 
 constexpr double kSlowSnapshots = 40;  // ms; only slower ones are interpolated, faster ones are shown as they come
 constexpr int kMajor = 4, kMinor = 3;
-
-using Box = std::optional<std::pair<Vector3, Vector3>>;
-
-Box united(const Box& a, const Box& b) {
-  if (!a || !b) return a ? a : b;
-  return std::pair<Vector3, Vector3>(a->first.cwiseMin(b->first), a->second.cwiseMax(b->second));
-}
-
-/// Around the walls that end in the scene: all of their edges lie on other walls. One that goes on to the bounds, like
-/// a floor without sides, is as large as the world and would make everything else small.
-Box trayOf(const Environment& environment) {
-  Box box;
-  for (size_t i = 0; i < environment.walls.size(); ++i) {
-    const render::Face face = render::wallFace(environment, i);
-    if (!std::all_of(face.walled.begin(), face.walled.end(), [](bool walled) { return walled; })) continue;
-    for (const Vector3& corner : face.corners) box = united(box, std::pair(corner, corner));
-  }
-  return box;
-}
 
 }  // namespace
 
@@ -129,19 +110,16 @@ double Viewport::blend() const {
   return std::clamp(static_cast<double>(m_sinceSnapshot.elapsed()) / m_interval, 0.0, 1.0);
 }
 
-RenderOptions Viewport::renderOptions() {
-  RenderOptions options;
-  options.width = std::max(1, static_cast<int>(std::lround(width() * devicePixelRatioF())));
-  options.height = std::max(1, static_cast<int>(std::lround(height() * devicePixelRatioF())));
-  options.camera = m_navigator.camera();
-  options.colour = m_colour;
+Look Viewport::look() {
+  Look look;
+  look.colour = m_colour;
   if (m_now) m_range = m_legendRange.update(m_colour, colourRange(*m_now, m_colour));
-  options.rangeMinimum = m_range.first;
-  options.rangeMaximum = m_range.second;
-  options.dark = Theme::current().dark();
-  options.meltingPoint = m_meltingPoint;
-  options.outline = outline();
-  return options;
+  look.rangeMinimum = m_range.first;
+  look.rangeMaximum = m_range.second;
+  look.dark = Theme::current().dark();
+  look.meltingPoint = m_meltingPoint;
+  look.outline = outline();
+  return look;
 }
 
 /// Around the selected body, two logical pixels wide.
@@ -163,13 +141,20 @@ void Viewport::paintGL() {
   QElapsedTimer clock;
   clock.start();
   m_navigator.setSize(size());
+  if (m_unframed && m_now && m_now->revision != *m_unframed) {
+    m_unframed.reset();
+    m_navigator.setScene(cameraShowing(*m_now, m_scene.environment, width(), height()));
+  }
   static const Snapshot kEmpty;
   double share = 1;
   if (m_renderer) {
     share = blend();
     try {
-      m_renderer->draw(m_now ? *m_now : kEmpty, share < 1 ? m_previous.get() : nullptr, share, m_scene,
-                       renderOptions());
+      m_renderer->prepare(m_now ? *m_now : kEmpty, share < 1 ? m_previous.get() : nullptr, share, m_scene, look());
+      const PictureSize pixels{std::max(1, static_cast<int>(std::lround(width() * devicePixelRatioF()))),
+                               std::max(1, static_cast<int>(std::lround(height() * devicePixelRatioF())))};
+      m_renderer->draw(eyeOf(m_navigator.camera(), pixels.width, pixels.height),
+                       {defaultFramebufferObject(), 0, 0, pixels});
     } catch (const std::exception& error) {
       m_problem = QStringLiteral("The scene cannot be drawn: %1").arg(QString::fromUtf8(error.what()));
       m_renderer.reset();
@@ -238,7 +223,11 @@ std::optional<SceneTag> Viewport::tag() const {
 void Viewport::projectOpened() {
   if (!m_document) return;
   m_stroke.cancel();
-  m_navigator.setScene(m_document->project().view);
+  m_unframed.reset();
+  if (const auto& camera = m_document->project().view.camera)
+    m_navigator.setScene({camera->target, camera->distance, camera->azimuth, camera->elevation});
+  else
+    m_unframed = m_now ? m_now->revision : 0;  // framed when there is something of it to see
   m_legendRange.reset();
   m_tagged.reset();
   m_selectedBody.clear();
@@ -308,21 +297,11 @@ void Viewport::storeView() {
   if (m_document) m_document->setView(m_navigator.view());
 }
 
-std::optional<std::pair<Vector3, Vector3>> Viewport::boxOf(const std::string& body) const {
-  std::optional<std::pair<Vector3, Vector3>> box;
-  if (!m_now) return box;
-  for (size_t i = 0; i < m_now->position.size(); ++i) {
-    const uint32_t index = m_now->body[i];
-    if (!body.empty() && (!m_now->bodyIds || index >= m_now->bodyIds->size() || (*m_now->bodyIds)[index] != body))
-      continue;
-    const api::Float4& p = m_now->position[i];
-    const Vector3 centre = vectorOf(p);
-    if (!box) box = {centre, centre};
-    const Vector3 radius = Vector3::Constant(static_cast<double>(p.w));
-    box->first = box->first.cwiseMin(centre - radius);
-    box->second = box->second.cwiseMax(centre + radius);
-  }
-  return box;
+std::optional<Box> Viewport::boxOfBody(const std::string& id) const {
+  if (!m_now || !m_now->bodyIds) return std::nullopt;
+  const auto found = std::find(m_now->bodyIds->begin(), m_now->bodyIds->end(), id);
+  if (found == m_now->bodyIds->end()) return std::nullopt;
+  return boxOf(*m_now, static_cast<uint32_t>(found - m_now->bodyIds->begin()));
 }
 
 void Viewport::frameSelection() {
@@ -330,7 +309,7 @@ void Viewport::frameSelection() {
     frameAll();
     return;
   }
-  const auto box = m_selectedPort ? boxAround(*m_selectedPort) : boxOf(m_selectedBody);
+  const auto box = m_selectedPort ? boxAround(*m_selectedPort) : boxOfBody(m_selectedBody);
   if (!box) return;
   m_navigator.setSize(size());
   m_navigator.frame(*box);
@@ -339,9 +318,9 @@ void Viewport::frameSelection() {
 }
 
 void Viewport::frameAll() {
-  const auto box = united(boxOf({}), trayOf(m_scene.environment));
+  static const Snapshot kEmpty;
   m_navigator.setSize(size());
-  m_navigator.frame(box ? *box : std::pair(m_scene.environment.boundsMinimum, m_scene.environment.boundsMaximum));
+  m_navigator.frame(boxOf(m_now ? *m_now : kEmpty, m_scene.environment));
   storeView();
   update();
 }

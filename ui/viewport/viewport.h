@@ -104,10 +104,10 @@ class Viewport : public QOpenGLWidget {
   void requestPaint();
   double blend() const;
   OverlayState overlayState() const;
-  RenderOptions renderOptions();
+  Look look();
   std::optional<BodyOutline> outline() const;
   std::optional<SceneTag> tag() const;
-  std::optional<std::pair<Vector3, Vector3>> boxOf(const std::string& body) const;
+  std::optional<std::pair<Vector3, Vector3>> boxOfBody(const std::string& id) const;
   std::optional<std::pair<Vector3, Vector3>> boxAround(const Port& port) const;
   void pick(const QPointF& position);
   bool clickOverlay(const QPointF& position);
@@ -142,6 +142,8 @@ class Viewport : public QOpenGLWidget {
   QString m_problem;
   SnapshotPtr m_now, m_previous;
   RenderScene m_scene;
+  /// The project that was opened has no camera of its own, and snapshots of this revision are of the one before.
+  std::optional<uint64_t> m_unframed;
   std::set<std::string> m_hidden;
   std::string m_selectedBody;
   std::optional<std::pair<uint64_t, uint32_t>> m_tagged;  ///< revision and id of the particle clicked last

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: Apache-2.0
+// One prepare, many pictures: eyes, mirrors, thumbnails, films.
+#include <epoxy/gl.h>
+
+#include "core/base/error.h"
+#include "tests/ui/renderscenes.h"
+#include "ui/render/layers.h"
+
+#include <QtTest/QtTest>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace ps;
+using namespace ps::testing;
+
+namespace {
+
+using Image = std::vector<uint8_t>;
+constexpr int kSheetWidth = 800, kSheetHeight = 450;  // pixels
+
+/// A framebuffer that several pictures are drawn into, filled with one colour.
+struct Sheet {
+  Sheet() {
+    glGenFramebuffers(1, &framebuffer);
+    glGenTextures(1, &picture);
+    glBindTexture(GL_TEXTURE_2D, picture);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, kSheetWidth, kSheetHeight, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, picture, 0);
+    glClearColor(1, 0, 1, 1);
+    glClear(GL_COLOR_BUFFER_BIT);
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  }
+  ~Sheet() {
+    glDeleteFramebuffers(1, &framebuffer);
+    glDeleteTextures(1, &picture);
+  }
+  Sheet(const Sheet&) = delete;
+  Sheet& operator=(const Sheet&) = delete;
+
+  /// Rows from the top, as renderImage() gives them.
+  Image read(int x, int y, int width, int height) const {
+    Image pixels(static_cast<size_t>(width * height * 4));
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    glReadPixels(x, y, width, height, GL_RGBA, GL_UNSIGNED_BYTE, pixels.data());
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    const auto row = static_cast<ptrdiff_t>(width) * 4;
+    for (ptrdiff_t top = 0, bottom = height - 1; top < bottom; ++top, --bottom)
+      std::swap_ranges(pixels.begin() + top * row, pixels.begin() + (top + 1) * row, pixels.begin() + bottom * row);
+    return pixels;
+  }
+  GLuint framebuffer = 0, picture = 0;
+};
+
+Eye moved(const Eye& eye, double right) {
+  Eye other = eye;
+  other.view(0, 3) -= right;
+  return other;
+}
+
+/// Left and right eyes of a headset 64 mm apart, whose windows reach farther out than in.
+std::array<Eye, 2> eyesOf(const Camera& camera) {
+  const Matrix4 view = viewMatrix(camera);
+  const double near = nearPlane(camera), far = farPlane(camera);
+  std::array<Eye, 2> eyes{eyeThrough(view, -0.6, 0.4, -0.5, 0.3, near, far),
+                          eyeThrough(view, -0.4, 0.6, -0.5, 0.3, near, far)};
+  for (const size_t i : {0u, 1u}) eyes[i] = moved(eyes[i], i ? 0.032 : -0.032);
+  return eyes;
+}
+
+double meanDifference(const Image& a, const Image& b) {
+  double sum = 0;
+  for (size_t i = 0; i < a.size(); ++i) sum += std::abs(int{a[i]} - int{b[i]});
+  return sum / static_cast<double>(a.size());
+}
+
+}  // namespace
+
+class TestRenderViews : public QObject {
+  Q_OBJECT
+
+ private Q_SLOTS:
+  void initTestCase() { m_context = std::make_unique<HeadlessContext>(); }
+  void cleanupTestCase() { m_context.reset(); }
+
+  void onePrepareServesEveryView_data();
+  void onePrepareServesEveryView();
+  void aWindowBesideTheAxisShowsTheSame_data();
+  void aWindowBesideTheAxisShowsTheSame();
+  void preparedInOneContextDrawnInAnother();
+  void nothingPreparedIsAnError();
+  void sizesTakeTurnsWithoutNewStorage();
+  void picturesKeepTheirBackground();
+
+ private:
+  std::unique_ptr<HeadlessContext> m_context;
+};
+
+void TestRenderViews::onePrepareServesEveryView_data() {
+  QTest::addColumn<int>("colour");
+  QTest::addColumn<bool>("dark");
+  QTest::addColumn<bool>("still");
+  QTest::newRow("matter") << int(ColourBy::Material) << true << false;
+  QTest::newRow("light") << int(ColourBy::Material) << false << false;
+  QTest::newRow("temperature") << int(ColourBy::Temperature) << true << false;
+  QTest::newRow("a still") << int(ColourBy::Material) << true << true;
+}
+
+/// Two eyes, a mirror at another place and a thumbnail of another size side by side in one framebuffer, and the first
+/// eye once more: each is, bit by bit, what a renderer that never drew anything else makes of it.
+void TestRenderViews::onePrepareServesEveryView() {
+  QFETCH(int, colour);
+  QFETCH(bool, dark);
+  QFETCH(bool, still);
+  const Snapshot snapshot = everything();
+  Shot shot;
+  shot.look.colour = static_cast<ColourBy>(colour);
+  shot.look.dark = dark;
+  shot.look.outline = BodyOutline{0, {1, 1, 0}, {0, 0, 0}};
+  Camera above = shot.camera;
+  above.elevation = 80;
+  const auto eyes = eyesOf(shot.camera);
+  const Sheet sheet;
+  struct View {
+    Eye eye;
+    RenderTarget target;
+  };
+  const std::vector<View> views{{eyes[0], {sheet.framebuffer, 0, 0, {300, 240, still}}},
+                                {eyes[1], {sheet.framebuffer, 301, 3, {300, 240, still}}},
+                                {eyeOf(above, 120, 80), {sheet.framebuffer, 620, 17, {120, 80, still}}},
+                                {eyeOf(above, 301, 199), {sheet.framebuffer, 11, 246, {301, 199, still}}},
+                                {eyes[0], {sheet.framebuffer, 0, 0, {300, 240, still}}}};
+  Renderer renderer;
+  renderer.prepare(snapshot, nullptr, 1, tray(), shot.look);
+  for (const View& view : views) renderer.draw(view.eye, view.target);
+  QCOMPARE(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
+  for (const View& view : views) {
+    Renderer fresh;
+    fresh.prepare(snapshot, nullptr, 1, tray(), shot.look);
+    const auto& [framebuffer, x, y, size] = view.target;
+    QVERIFY(sheet.read(x, y, size.width, size.height) == renderImage(fresh, view.eye, size));
+  }
+  QVERIFY(sheet.read(0, 0, 300, 240) != sheet.read(301, 3, 300, 240));
+  // What lies between the pictures is as it was.
+  for (const auto& [x, y, width, height] : {std::array{300, 0, 1, 240}, {301, 0, 440, 3}, {0, 446, kSheetWidth, 4}}) {
+    const Image between = sheet.read(x, y, width, height);
+    for (size_t i = 0; i < between.size(); i += 4) QVERIFY(between[i] == 255 && between[i + 1] == 0);
+  }
+}
+
+void TestRenderViews::aWindowBesideTheAxisShowsTheSame_data() {
+  QTest::addColumn<int>("colour");
+  QTest::newRow("matter") << int(ColourBy::Material);
+  QTest::newRow("temperature") << int(ColourBy::Temperature);
+}
+
+/// Two windows of one size from one place, one around the line of sight and one beside it: where both look they show
+/// the same, but for the pattern of dither and what lies beyond an edge for one of them, which is less than a level on
+/// average. The wrong rays to the lit points, or a glow around the picture's middle, are several.
+void TestRenderViews::aWindowBesideTheAxisShowsTheSame() {
+  QFETCH(int, colour);
+  constexpr int kSide = 448, kAside = 160, kUp = 64;  // pixels; whole tiles, so that small layers have the same grid
+  constexpr double kPixel = 0.7 / kSide;
+  Shot shot;
+  shot.look.colour = static_cast<ColourBy>(colour);
+  shot.camera.distance = 1.2;
+  const Matrix4 view = viewMatrix(shot.camera);
+  const double near = nearPlane(shot.camera), far = farPlane(shot.camera);
+  Renderer renderer;
+  renderer.prepare(everything(), nullptr, 1, tray(), shot.look);
+  const auto seenThrough = [&](int aside, int up) {
+    const double x = aside * kPixel, y = up * kPixel;
+    return renderImage(renderer, eyeThrough(view, x - 0.35, x + 0.35, y - 0.35, y + 0.35, near, far),
+                       {kSide, kSide, false});
+  };
+  const Image centred = seenThrough(0, 0), beside = seenThrough(kAside, kUp);
+  Image expected, both;
+  for (int y = kUp; y < kSide; ++y) {
+    const auto row = [](const Image& image, int x, int line) {
+      return image.begin() + (ptrdiff_t{line} * kSide + x) * 4;
+    };
+    expected.insert(expected.end(), row(centred, kAside, y - kUp), row(centred, 0, y - kUp + 1));
+    both.insert(both.end(), row(beside, 0, y), row(beside, kSide - kAside, y));
+  }
+  const double difference = meanDifference(expected, both);
+  QVERIFY2(difference < 1, qPrintable(QString::number(difference)));
+}
+
+void TestRenderViews::preparedInOneContextDrawnInAnother() {
+  Shot shot;
+  Renderer renderer;
+  const Image alone = renderImage(renderer, everything(), tray(), shot);
+  HeadlessContext other(m_context.get());
+  Snapshot later = everything();
+  for (api::Float4& p : later.position) p.y += 0.05f;
+  for (int i = 0; i < 3; ++i) {
+    m_context->makeCurrent();
+    renderer.prepare(later, nullptr, 1, tray(), shot.look);
+    other.makeCurrent();
+    const Image moved = renderImage(renderer, shot.eye(), shot.size);
+    QVERIFY(moved != alone);
+    renderer.prepare(everything(), nullptr, 1, tray(), shot.look);
+    m_context->makeCurrent();
+    QVERIFY(renderImage(renderer, shot.eye(), shot.size) == alone);
+  }
+  other.makeCurrent();
+  QCOMPARE(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
+  m_context->makeCurrent();
+  QCOMPARE(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
+}
+
+void TestRenderViews::nothingPreparedIsAnError() {
+  Renderer renderer;
+  const Shot shot;
+  QVERIFY_EXCEPTION_THROWN(ps::renderImage(renderer, shot.eye(), shot.size), Error);
+}
+
+void TestRenderViews::sizesTakeTurnsWithoutNewStorage() {
+  render::LayerPool pool;
+  render::Layers& large = pool.at(320, 200);
+  render::Layers& small = pool.at(160, 100);
+  const std::array names{large.picture.name(), small.picture.name()};
+  for (int i = 0; i < 10; ++i) {
+    QVERIFY(&pool.at(320, 200) == &large && &pool.at(160, 100) == &small);
+    QVERIFY(large.picture.name() == names[0] && small.picture.name() == names[1]);
+    QVERIFY(large.picture.width() == 320 && small.picture.width() == 160);
+  }
+  // A window that is being resized asks for many sizes: the ones used last stay.
+  for (int width = 100; width < 110; ++width) {
+    pool.at(width, 100);
+    QVERIFY(&pool.at(320, 200) == &large);
+  }
+  QCOMPARE(pool.size(), render::LayerPool::kSizes);
+  QVERIFY(!pool.find(160, 100));
+  for (uint64_t i = 0; i <= render::LayerPool::kIdle; ++i) pool.at(320, 200);
+  QCOMPARE(pool.size(), size_t{1});
+}
+
+void TestRenderViews::picturesKeepTheirBackground() {
+  render::LayerPool pool;
+  render::Layers& layers = pool.at(64, 64);
+  const auto drawn = [&](uint32_t framebuffer, int x) {
+    auto& background = layers.backgroundOf({framebuffer, x, 0});
+    const bool known = background.uniforms.size[0] > 0;
+    background.uniforms.size[0] = 1;
+    return known;
+  };
+  QVERIFY(!drawn(1, 0) && !drawn(1, 64) && !drawn(2, 0));
+  QVERIFY(drawn(1, 0) && drawn(1, 64) && drawn(2, 0));
+  for (uint32_t i = 10; i < 10 + render::Layers::kBackgrounds; ++i) QVERIFY(!drawn(i, 0));
+  QVERIFY(!drawn(1, 0));
+  QCOMPARE(layers.backgrounds.size(), render::Layers::kBackgrounds);
+}
+
+QTEST_GUILESS_MAIN(TestRenderViews)
+#include "tst_renderviews.moc"

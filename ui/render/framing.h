@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "ui/render/camera.h"
+
+#include <optional>
+#include <utility>
+
+// What a view shows that has no camera of its own.
+namespace ps {
+
+using Box = std::pair<Vector3, Vector3>;  ///< lowest and highest corner, m
+
+/// Around the spheres of a body's particles, or of all without one. Nothing when there are none.
+std::optional<Box> boxOf(const Snapshot& snapshot, std::optional<uint32_t> body = std::nullopt);
+/// Around all matter and the walls that close the scene in; around its bounds where there is neither.
+Box boxOf(const Snapshot& snapshot, const Environment& environment);
+/// From the usual angles, so that the whole of boxOf() is in the picture.
+Camera cameraShowing(const Snapshot& snapshot, const Environment& environment, int width, int height);
+
+}  // namespace ps

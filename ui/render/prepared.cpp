@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/render/prepared.h"
+
+#include "ui/render/colourmap.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace ps::render {
+namespace {
+
+void join(Extent& into, const Extent& other) {
+  for (size_t k = 0; k < 3; ++k) {
+    into.minimum[k] = std::min(into.minimum[k], other.minimum[k]);
+    into.maximum[k] = std::max(into.maximum[k], other.maximum[k]);
+  }
+}
+
+}  // namespace
+
+const Vector3 kKeyLight = Vector3(-0.34, 0.86, 0.40).normalized();
+
+FrameUniforms::Matrix floats(const Matrix4& a) {
+  FrameUniforms::Matrix out;
+  std::transform(a.data(), a.data() + 16, out.begin(), [](double v) { return static_cast<float>(v); });
+  return out;
+}
+
+void Prepared::fill(const Snapshot& now, const Snapshot* previous, double blend, const RenderScene& scene,
+                    const Look& how, bool buried) {
+  look = how;
+  data = look.colour != ColourBy::Material;
+  time = static_cast<float>(std::fmod(now.stats.time, 3600));  // so that a float stays precise in long runs
+  furnish(scene.environment);
+  collect(now, previous, blend, buried);
+  placeContactMap();
+  fitShadow();
+  ready = true;
+}
+
+void Prepared::furnish(const Environment& environment) {
+  if (m_furnished && m_dark == look.dark && sameFurniture(*m_furnished, environment)) return;
+  furniture = buildFurniture(environment, look.dark);
+  ++furnitureRevision;
+  m_furnished = environment;
+  m_dark = look.dark;
+}
+
+void Prepared::collect(const Snapshot& now, const Snapshot* previous, double blend, bool buried) {
+  InstanceRequest request;
+  request.now = &now;
+  request.previous = previous;
+  request.blend = static_cast<float>(blend);
+  request.colour = look.colour;
+  request.meltingPoint = look.meltingPoint;
+  request.minimum = look.rangeMinimum;
+  request.maximum = look.rangeMaximum;
+  if (look.rangeMinimum == look.rangeMaximum)
+    std::tie(request.minimum, request.maximum) = colourRange(now, look.colour);
+  request.surfaces = look.colour != ColourBy::DensityError;
+  request.steam = sceneColour(look.dark, "steam");
+  if (look.outline) request.outlined = look.outline->body;
+  request.dropBuried = !buried;
+  collectInstances(request, instances);
+}
+
+void Prepared::placeContactMap() {
+  for (size_t k = 0; k < 2; ++k) {
+    const float half = std::max(furniture.half[k], 1e-4f) * 1.1f;
+    contact.corner[k] = furniture.centre[k] - half;
+    contact.size[k] = 2 * half;
+  }
+  contact.floor = furniture.floor;
+  fillContactMap(instances, contact);
+}
+
+/// Fits the shadow picture around what casts, from the light's side, and reaches down to the ground.
+void Prepared::fitShadow() {
+  Extent casters = instances.sphereExtent;
+  if (instances.dense) join(casters, instances.liquidExtent);
+  if (casters.empty()) casters.add(0, 0, 0, 1);
+  casters.minimum[1] = std::min(casters.minimum[1], furniture.ground);
+  const Vector3 right = Vector3::UnitY().cross(kKeyLight).normalized();
+  Matrix3 axes;
+  axes << right.transpose(), kKeyLight.cross(right).transpose(), -kKeyLight.transpose();
+  Vector3 low = Vector3::Constant(1e30), high = -low;
+  for (const Vector3& p : casters.corners()) {
+    const Vector3 along = axes * p;
+    low = low.cwiseMin(along), high = high.cwiseMax(along);
+  }
+  const Vector3 scale = 2 * (high - low).cwiseMax(1e-6).cwiseInverse();
+  Matrix4 clip = Matrix4::Identity(), half = 0.5 * Matrix4::Identity();
+  clip.topLeftCorner<3, 3>() = scale.asDiagonal() * axes;
+  clip.topRightCorner<3, 1>() = -scale.cwiseProduct(high + low) / 2;
+  half.col(3) << 0.5, 0.5, 0.5, 1;
+  shadowScale = {static_cast<float>(scale.x()), static_cast<float>(scale.y())};
+  toLight = floats(clip);
+  shadow = floats(half * clip);
+}
+
+}  // namespace ps::render

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <array>
+
+namespace ps::render {
+
+/// The uniform block of frame.glsl, std140.
+struct FrameUniforms {
+  using Matrix = std::array<float, 16>;
+  using Four = std::array<float, 4>;
+  Matrix view, projection, inverseView, shadow;
+  Four eye, size, lens, light, plate, ground, contact, matter, glowTint;
+};
+
+}  // namespace ps::render

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "ui/render/camera.h"
+#include "ui/render/instances.h"
+#include "ui/render/layers.h"
+#include "ui/render/tiles.h"
+
+#include <array>
+#include <vector>
+
+namespace ps::render {
+
+struct Prepared;
+
+/// What one picture of a Prepared needs besides it: where it is seen from, how large it becomes, and what of it shows.
+struct ViewFrame {
+  FrameUniforms uniforms;
+  PicturePlace place;
+  int width = 0, height = 0;                  ///< of the inner targets, pixels
+  bool still = false;                         ///< inner targets have two pixels for one of the picture, along each side
+  bool culled = false;                        ///< `visible` has the spheres that show; else all do
+  bool lidInFront = true;                     ///< the eye is above the lid
+  float lineWidth = 0, haloWidth = 0;         ///< of the outline, inner pixels
+  std::vector<Instance> visible;              ///< nearest first
+  TileSet liquid, detail, outline;            ///< what the next three are made of
+  std::vector<TileSet::Corner> liquidTiles;   ///< where liquid may be
+  std::vector<TileSet::Corner> detailTiles;   ///< where edges and crevices may be
+  std::vector<TileSet::Corner> outlineTiles;  ///< where the outline may be
+  std::array<int, 4> vapourBox{};             ///< x, y, width, height of the pixels that vapour may touch
+
+  /// `cull`: find out what is hidden, and which parts of the picture need which passes. A graphics card draws all of it
+  /// faster than a processor finds out.
+  void fill(const Prepared& prepared, const Eye& eye, const RenderTarget& target, bool cull);
+
+ private:
+  void fillUniforms(const Prepared& prepared, const Eye& eye);
+  void findTiles(const Prepared& prepared, const Eye& eye);
+};
+
+/// Pixels along a side of the inner targets for one of the picture's.
+int innerScale(const PictureSize& size);
+
+}  // namespace ps::render
