@@ -2,6 +2,7 @@
 #include "core/particles/neighbours.h"
 
 #include "core/base/parallel.h"
+#include "core/base/statestream.h"
 #include "core/particles/neighbourkernels.h"
 
 #include <algorithm>
@@ -22,6 +23,10 @@ int cellIndex(double value, double origin, double inverseSize, int cells) {
   return t >= cells ? cells - 1 : static_cast<int>(t);
 }
 
+constexpr const char* kBuiltBlock = "neighbours/built";
+
+std::span<const api::Float4> placesOf(const ParticleStore& store) { return {store.position(), store.size()}; }
+
 }  // namespace
 
 void Neighbours::configure(double support, double skin) {
@@ -30,9 +35,8 @@ void Neighbours::configure(double support, double skin) {
   m_built.clear();
 }
 
-void Neighbours::assignCells(const ParticleStore& store) {
-  const size_t n = store.size();
-  const api::Float4* position = store.position();
+void Neighbours::assignCells(std::span<const api::Float4> position, const Period& period) {
+  const size_t n = position.size();
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   float low[3] = {kInfinity, kInfinity, kInfinity}, high[3] = {-kInfinity, -kInfinity, -kInfinity};
   for (size_t i = 0; i < n; ++i) {
@@ -47,7 +51,6 @@ void Neighbours::assignCells(const ParticleStore& store) {
     m_origin[a] = low[a] <= high[a] ? double{low[a]} : 0;
     extent[a] = low[a] <= high[a] ? double{high[a]} - double{low[a]} : 0;
   }
-  const Period& period = store.period();
   // Cells are larger where a lonely particle stretches the grid. A periodic axis is cut into whole ones.
   double cellSize = (m_support + m_skin) * kCellMargin;
   const double most = static_cast<double>(8 * n + 4096);
@@ -68,7 +71,7 @@ void Neighbours::assignCells(const ParticleStore& store) {
   m_cellStart.assign(
       static_cast<size_t>(m_cells[0]) * static_cast<size_t>(m_cells[1]) * static_cast<size_t>(m_cells[2]) + 1, 0);
   for (size_t i = 0; i < n; ++i) {
-    const api::Double3 p = store.wrappedPosition(i);
+    const api::Double3 p = period.wrapped({position[i].x, position[i].y, position[i].z});
     const int x = cellIndex(p.x, m_origin[0], m_perCell[0], m_cells[0]);
     const int y = cellIndex(p.y, m_origin[1], m_perCell[1], m_cells[1]);
     const int z = cellIndex(p.z, m_origin[2], m_perCell[2], m_cells[2]);
@@ -88,30 +91,46 @@ void Neighbours::assignCells(const ParticleStore& store) {
 }
 
 void Neighbours::sortAndBuild(ParticleStore& store) {
-  assignCells(store);
-  if (m_sorted) return searchLists(store);
+  assignCells(placesOf(store), store.period());
+  if (m_sorted) return searchLists(placesOf(store), store.period());
   store.permute(m_order);
   std::vector<uint32_t>& sorted = m_cellOfSlot;
   sorted.resize(m_order.size());
   for (size_t slot = 0; slot < sorted.size(); ++slot) sorted[slot] = m_cellOf[m_order[slot]];
   m_cellOf.swap(sorted);
   m_sorted = true;
-  searchLists(store);
+  searchLists(placesOf(store), store.period());
 }
 
 void Neighbours::build(const ParticleStore& store) {
-  assignCells(store);
-  searchLists(store);
+  assignCells(placesOf(store), store.period());
+  searchLists(placesOf(store), store.period());
 }
 
-void Neighbours::searchLists(const ParticleStore& store) {
-  const size_t n = store.size();
-  const api::Float4* position = store.position();
+void Neighbours::save(StateWriter& writer, bool valid) const {
+  const std::span<const api::Float4> built(m_built.data(), valid ? m_built.size() : 0);
+  writer.open(kBuiltBlock, StateType::Float4, built.size());
+  writer.put(built.data(), built.size_bytes());
+  writer.close();
+}
+
+void Neighbours::restore(const StateReader& reader, const ParticleStore& store) {
+  m_built.clear();
+  const size_t count = reader.count(kBuiltBlock);
+  if (count == 0) return;
+  std::vector<api::Float4> built(store.size());
+  reader.read(kBuiltBlock, StateType::Float4, built.data(), built.size());
+  assignCells(built, store.period());
+  searchLists(built, store.period());
+}
+
+void Neighbours::searchLists(std::span<const api::Float4> position, const Period& period) {
+  const size_t n = position.size();
   m_cellOfSlot.resize(n);
   for (std::vector<float>* v : {&m_x, &m_y, &m_z}) v->resize(n + kSpareSlots);
   for (size_t slot = 0; slot < n; ++slot) {
     const size_t i = indexOf(slot);
-    const api::Double3 p = store.wrappedPosition(i);
+    const api::Double3 p = period.wrapped({position[i].x, position[i].y, position[i].z});
     m_x[slot] = static_cast<float>(p.x);
     m_y[slot] = static_cast<float>(p.y);
     m_z[slot] = static_cast<float>(p.z);
@@ -125,7 +144,7 @@ void Neighbours::searchLists(const ParticleStore& store) {
                         m_cellStart.data(),
                         {m_cells[0], m_cells[1], m_cells[2]},
                         static_cast<float>(radius * radius),
-                        {store.period().length(0), store.period().length(1), store.period().length(2)}};
+                        {period.length(0), period.length(1), period.length(2)}};
   const size_t chunks = (n + kSlotsPerChunk - 1) / kSlotsPerChunk;
   if (m_chunks.size() < chunks) m_chunks.resize(chunks);
   m_counts.resize(n);
@@ -140,7 +159,7 @@ void Neighbours::searchLists(const ParticleStore& store) {
     writeLists(m_chunks[first / kSlotsPerChunk].found.data(), first, last);
   };
   parallelFor(n, kSlotsPerChunk, std::cref(write));
-  m_built.assign(position, position + n);
+  m_built.assign(position.begin(), position.end());
 }
 
 void Neighbours::layOutLists(size_t count) {

@@ -30,12 +30,18 @@ class Neighbours {
   /// Positions that the present lists were made for.
   std::span<const api::Float4> built() const { return m_built; }
 
+  /// Those positions: the lists follow from them, to the bit. None where `valid` is false: the lists will be made anew
+  /// before anything asks for them.
+  void save(StateWriter& writer, bool valid) const;
+  /// Makes the lists again that were there; `store` must have been restored.
+  void restore(const StateReader& reader, const ParticleStore& store);
+
  private:
   struct Chunk {
     std::vector<uint32_t> found;
   };
-  void assignCells(const ParticleStore& store);
-  void searchLists(const ParticleStore& store);
+  void assignCells(std::span<const api::Float4> position, const Period& period);
+  void searchLists(std::span<const api::Float4> position, const Period& period);
   void layOutLists(size_t count);
   void writeLists(const uint32_t* found, size_t firstSlot, size_t lastSlot);
   /// Right after sorting, slots are indices.

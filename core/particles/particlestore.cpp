@@ -2,7 +2,7 @@
 #include "core/particles/particlestore.h"
 
 #include "core/base/error.h"
-#include "core/base/hash.h"
+#include "core/base/statestream.h"
 
 #include <algorithm>
 #include <cstring>
@@ -16,6 +16,34 @@ constexpr size_t kSpareEntries = 16;  // behind size(): the dummy, and room for 
 
 /// Where the dummy particle lies, m: far from everything, and its distance squared still fits a float.
 constexpr float kFarAway = 1e8f;
+
+/// Numbers that particles may have had: what is read from a file may ask for no more memory than these need.
+constexpr uint32_t kMostIds = 1u << 28;
+constexpr const char* kFieldRoom = "field";  // of state blocks
+
+struct OwnField {
+  const char* name;
+  api::FieldType type;
+  const char *unit, *help;
+};
+constexpr OwnField kOwnFields[] = {
+    {field::kPosition, api::FieldType::Float4, "m", "Position; fourth component: rest volume in m³"},
+    {field::kPrevious, api::FieldType::Float4, "m", "Position at the start of the substep"},
+    {field::kVelocity, api::FieldType::Float4, "m/s", "Velocity; fourth component: inverse mass in 1/kg"},
+    {field::kMass, api::FieldType::Float32, "kg", "Mass, constant for life"},
+    {field::kId, api::FieldType::UInt32, "", "Number of the particle, stable for life"},
+    {field::kMaterial, api::FieldType::UInt32, "", "Index into the material table"},
+    {field::kBody, api::FieldType::UInt32, "", "Index of the body that it was made by"},
+    {field::kPhase, api::FieldType::UInt8, "", "Solid, melting, liquid, boiling or gas"},
+    {field::kMotion, api::FieldType::UInt8, "", "How it moves: held by structure, liquid, gas, as prescribed"},
+    {field::kTemperature, api::FieldType::Float64, "K", "Temperature"},
+    {field::kSolidFraction, api::FieldType::Float32, "", "Share of the mass that is solid"},
+    {field::kLiquidFraction, api::FieldType::Float32, "", "Share of the mass that is liquid"},
+    {field::kGasFraction, api::FieldType::Float32, "", "Share of the mass that is vapour"},
+    {field::kCompression, api::FieldType::Float32, "", "Compression handed over when the solid melted"},
+    {field::kLambda, api::FieldType::Float32, "J", "Multiplier of the density constraint"},
+    {field::kDensityError, api::FieldType::Float32, "", "Relative excess density of the last iteration"},
+};
 
 std::byte* allocateZeroed(size_t count) {
   void* bytes = ::operator new[](count, std::align_val_t(kAlignment));
@@ -37,6 +65,30 @@ size_t sizeOf(api::FieldType type) {
       return 16;
   }
   throw Error("a particle field of an unknown type");
+}
+
+StateType stateTypeOf(api::FieldType type) {
+  switch (type) {
+    case api::FieldType::Float32:
+      return StateType::Float32;
+    case api::FieldType::Float64:
+      return StateType::Float64;
+    case api::FieldType::UInt8:
+      return StateType::UInt8;
+    case api::FieldType::UInt32:
+      return StateType::UInt32;
+    case api::FieldType::Float4:
+      return StateType::Float4;
+  }
+  throw Error("a particle field of an unknown type");
+}
+
+api::FieldType fieldTypeOf(const StateReader::Block& block) {
+  for (const auto type : {api::FieldType::Float32, api::FieldType::Float64, api::FieldType::UInt8,
+                          api::FieldType::UInt32, api::FieldType::Float4}) {
+    if (stateTypeOf(type) == block.type) return type;
+  }
+  StateReader::fail(block.name, "is of a type that fields do not have");
 }
 
 }  // namespace
@@ -77,24 +129,7 @@ void gatherBySize(size_t elementSize, const std::byte* in, std::byte* out, std::
 }  // namespace
 
 ParticleStore::ParticleStore() {
-  using enum api::FieldType;
-  declare(field::kPosition, Float4, "m", "Position; fourth component: rest volume in m³");
-  declare(field::kPrevious, Float4, "m", "Position at the start of the substep");
-  declare(field::kVelocity, Float4, "m/s", "Velocity; fourth component: inverse mass in 1/kg");
-  declare(field::kMass, Float32, "kg", "Mass, constant for life");
-  declare(field::kId, UInt32, "", "Number of the particle, stable for life");
-  declare(field::kMaterial, UInt32, "", "Index into the material table");
-  declare(field::kBody, UInt32, "", "Index of the body that it was made by");
-  declare(field::kPhase, UInt8, "", "Solid, melting, liquid, boiling or gas");
-  declare(field::kMotion, UInt8, "", "How it moves: held by structure, liquid, gas, as prescribed");
-  declare(field::kTemperature, Float64, "K", "Temperature");
-  declare(field::kSolidFraction, Float32, "", "Share of the mass that is solid");
-  declare(field::kLiquidFraction, Float32, "", "Share of the mass that is liquid");
-  declare(field::kGasFraction, Float32, "", "Share of the mass that is vapour");
-  declare(field::kCompression, Float32, "", "Compression handed over when the solid melted");
-  declare(field::kLambda, Float32, "J", "Multiplier of the density constraint");
-  declare(field::kDensityError, Float32, "", "Relative excess density of the last iteration");
-  m_ownFields = m_fields.size();
+  for (const OwnField& f : kOwnFields) declare(f.name, f.type, f.unit, f.help);
 }
 
 ParticleStore::~ParticleStore() = default;
@@ -105,6 +140,7 @@ void ParticleStore::declare(std::string_view name, api::FieldType type, std::str
   for (const auto& f : m_fields) {
     if (f->info.name != name) continue;
     if (f->info.type != type) throw Error("particle field '" + f->info.name + "' is declared with two different types");
+    if (f->info.help.empty()) f->info.unit = unit, f->info.help = help;  // known from a saved state alone
     return;
   }
   auto f = std::make_unique<Field>();
@@ -133,7 +169,7 @@ void* ParticleStore::find(const char* name, api::FieldType type) const noexcept 
 
 void* ParticleStore::write(const char* name, api::FieldType type) const noexcept {
   const std::string_view wanted(name);
-  for (size_t k = m_ownFields; k < m_fields.size(); ++k) {
+  for (size_t k = std::size(kOwnFields); k < m_fields.size(); ++k) {
     if (m_fields[k]->info.type == type && m_fields[k]->info.name == wanted) return m_fields[k]->data.get();
   }
   return nullptr;
@@ -258,30 +294,6 @@ void ParticleStore::permute(std::span<const uint32_t> order) {
   for (size_t i = 0; i < m_size; ++i) m_indexOfId[m_id[i]] = static_cast<uint32_t>(i);
 }
 
-void ParticleStore::copyFrom(const ParticleStore& other) {
-  bool same = m_fields.size() == other.m_fields.size() && m_capacity == other.m_capacity;
-  for (size_t k = 0; same && k < m_fields.size(); ++k) same = m_fields[k]->info.name == other.m_fields[k]->info.name;
-  if (!same) {
-    m_fields.clear();
-    m_capacity = other.m_capacity;
-    for (const auto& f : other.m_fields) {
-      auto copy = std::make_unique<Field>();
-      copy->info = f->info;
-      copy->elementSize = f->elementSize;
-      copy->data.reset(allocateZeroed((m_capacity + kSpareEntries) * f->elementSize));
-      m_fields.push_back(std::move(copy));
-    }
-    refreshPointers();
-  }
-  m_size = other.m_size;
-  m_nextId = other.m_nextId;
-  m_indexOfId.assign(other.m_indexOfId.begin(), other.m_indexOfId.end());
-  for (size_t k = 0; k < m_fields.size(); ++k) {
-    std::memcpy(m_fields[k]->data.get(), other.m_fields[k]->data.get(),
-                (m_size + kSpareEntries) * m_fields[k]->elementSize);
-  }
-}
-
 size_t ParticleStore::indexOf(uint32_t id) const {
   return id < m_indexOfId.size() && m_indexOfId[id] < m_size && m_id[m_indexOfId[id]] == id ? m_indexOfId[id] : m_size;
 }
@@ -293,19 +305,85 @@ api::ParticleView ParticleStore::view() const {
           m_liquidFraction, m_gasFraction, this,          {m_period.length(0), m_period.length(1), m_period.length(2)}};
 }
 
-void ParticleStore::addTo(Hash& hash) const {
-  std::vector<const Field*> byName;
-  for (const auto& f : m_fields) byName.push_back(f.get());
-  std::sort(byName.begin(), byName.end(), [](const Field* a, const Field* b) { return a->info.name < b->info.name; });
-  std::vector<uint32_t> order(m_size);
-  for (size_t i = 0; i < m_size; ++i) order[i] = static_cast<uint32_t>(i);
-  std::sort(order.begin(), order.end(), [this](uint32_t a, uint32_t b) { return m_id[a] < m_id[b]; });
-  std::vector<api::Float4> sorted(m_size + 1);
-  for (const Field* f : byName) {
-    std::byte* bytes = reinterpret_cast<std::byte*>(sorted.data());
-    gatherBySize(f->elementSize, f->data.get(), bytes, order);
-    hash.add(f->info.name.data(), f->info.name.size());
-    hash.add(bytes, m_size * f->elementSize);
+void ParticleStore::save(StateWriter& writer) const {
+  writer.value("particles/count", uint64_t{m_size});
+  writer.value("particles/next_id", m_nextId);
+  for (const auto& f : m_fields) {
+    writer.open({kFieldRoom, f->info.name}, stateTypeOf(f->info.type), m_size);
+    writer.put(f->data.get(), m_size * f->elementSize);
+    writer.close();
+  }
+}
+
+void ParticleStore::restore(const StateReader& reader) {
+  const auto count = reader.value<uint64_t>("particles/count");
+  const auto nextId = reader.value<uint32_t>("particles/next_id");
+  if (nextId > kMostIds) StateReader::fail("particles/next_id", "is beyond " + std::to_string(kMostIds));
+  if (count > nextId) StateReader::fail("particles/count", "is more than there were numbers given");
+  m_size = static_cast<size_t>(count);
+  m_nextId = nextId;
+  if (m_size > m_capacity) {
+    m_capacity = m_size;
+    for (const auto& f : m_fields) f->data.reset(allocateZeroed((m_capacity + kSpareEntries) * f->elementSize));
+  }
+  readFields(reader);
+  refreshPointers();
+  writeDummy();
+  checkValues();
+  indexIds();
+}
+
+/// Fields take the order that they were saved in; those that were not are zero, behind them.
+void ParticleStore::readFields(const StateReader& reader) {
+  for (const OwnField& own : kOwnFields) {
+    if (!reader.has({kFieldRoom, own.name})) StateReader::fail({kFieldRoom, own.name}, "is missing");
+  }
+  std::vector<std::unique_ptr<Field>> former = std::move(m_fields);
+  m_fields.clear();
+  const std::string room = StateName(kFieldRoom, "").text();
+  for (const StateReader::Block& block : reader.blocks()) {
+    if (!block.name.starts_with(room)) continue;
+    const std::string name = block.name.substr(room.size());
+    const api::FieldType type = fieldTypeOf(block);
+    auto known = std::find_if(former.begin(), former.end(), [&](const auto& f) { return f && f->info.name == name; });
+    if (known != former.end()) {
+      if ((*known)->info.type != type) StateReader::fail(block.name, "is of another type than here");
+      m_fields.push_back(std::move(*known));
+    } else {
+      auto fresh = std::make_unique<Field>();
+      fresh->info = {name, {}, {}, type};
+      fresh->elementSize = sizeOf(type);
+      fresh->data.reset(allocateZeroed((m_capacity + kSpareEntries) * fresh->elementSize));
+      m_fields.push_back(std::move(fresh));
+    }
+    reader.read(block.name, block.type, m_fields.back()->data.get(), m_size);
+  }
+  for (size_t k = 0; k < std::size(kOwnFields); ++k) {
+    if (m_fields[k]->info.name != kOwnFields[k].name)
+      StateReader::fail({kFieldRoom, m_fields[k]->info.name}, "stands before fields of the program");
+  }
+  for (auto& f : former) {
+    if (!f) continue;
+    std::memset(f->data.get(), 0, m_size * f->elementSize);
+    m_fields.push_back(std::move(f));
+  }
+}
+
+void ParticleStore::checkValues() const {
+  for (size_t i = 0; i < m_size; ++i) {
+    if (m_phase[i] > api::Phase::Gas) StateReader::fail({kFieldRoom, field::kPhase}, "has a phase that there is not");
+    if (m_motion[i] > api::Motion::Static)
+      StateReader::fail({kFieldRoom, field::kMotion}, "has a motion that there is not");
+  }
+}
+
+void ParticleStore::indexIds() {
+  constexpr uint32_t kGone = ~0u;
+  m_indexOfId.assign(m_nextId, kGone);
+  for (size_t i = 0; i < m_size; ++i) {
+    if (m_id[i] >= m_nextId) StateReader::fail({kFieldRoom, field::kId}, "has a number that was never given");
+    if (m_indexOfId[m_id[i]] != kGone) StateReader::fail({kFieldRoom, field::kId}, "has a number twice");
+    m_indexOfId[m_id[i]] = static_cast<uint32_t>(i);
   }
 }
 

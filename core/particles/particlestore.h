@@ -15,7 +15,8 @@
 
 namespace ps {
 
-class Hash;
+class StateReader;
+class StateWriter;
 
 /// Names of the fields that core itself keeps (types in brackets). All are sorted, hashed, put in snapshots alike.
 namespace field {
@@ -115,18 +116,21 @@ class ParticleStore final : public api::FieldAccess {
   size_t indexOf(uint32_t id) const;
 
   api::ParticleView view() const;
-  /// Becomes a copy of another store, ids included; reuses memory when fields and capacity agree.
-  void copyFrom(const ParticleStore& other);
-  /// All fields in order of name, particles in order of id.
-  void addTo(Hash& hash) const;
+  /// All fields in order of declaration, particles in the order that they stand in: sums depend on it.
+  void save(StateWriter& writer) const;
+  /// Becomes the store that was saved, ids included, with the space around as it is here. Fields that were not saved
+  /// are zero and come last. Throws InputError for what cannot be a store, which is then not to be used any more.
+  void restore(const StateReader& reader);
 
  private:
   struct Field;
   void refreshPointers();
   void writeDummy();
+  void readFields(const StateReader& reader);
+  void indexIds();
+  void checkValues() const;
 
   std::vector<std::unique_ptr<Field>> m_fields;  ///< core's own first
-  size_t m_ownFields = 0;
   struct AlignedDelete {
     void operator()(std::byte* p) const;
   };

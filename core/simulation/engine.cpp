@@ -342,7 +342,7 @@ StepReport Engine::step() {
   const uint64_t before = m->solver->frame();
   m->lastReport = m->solver->step();
   for (const PluginFault& fault : m->lastReport.faults) m->plugins.fault(fault.plugin, fault.what);
-  if (m->solver->frame() != before) m->exchangeMatter();  // not of a frame that was taken back
+  if (m->solver->frame() > before) m->exchangeMatter();  // not of a frame that was taken back
   return m->lastReport;
 }
 

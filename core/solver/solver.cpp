@@ -2,7 +2,6 @@
 #include "core/solver/solver.h"
 
 #include "core/base/error.h"
-#include "core/base/hash.h"
 #include "core/solver/frame/solverimpl.h"
 
 #include <algorithm>
@@ -301,17 +300,6 @@ std::vector<Limit> Solver::limits() const {
   const bool squeezes = drops || m->motion.movesWithin(m->time - dt, dt) || m->contact.squeezedShare() > kSqueezedShare;
   if (excess > kSqueezed && squeezes) result.push_back({kSqueezeLimit, 0, excess, ""});
   return result;
-}
-
-uint64_t Solver::stateHash() const {
-  Hash hash;
-  m->store.addTo(hash);
-  m->constraints.addTo(hash, m->store);
-  m->motion.addTo(hash);
-  hash.add(m->frame);
-  hash.add(m->time);
-  hash.add(m->thermalTime);
-  return hash.value();
 }
 
 }  // namespace ps

@@ -18,6 +18,9 @@
 
 namespace ps {
 
+class StateReader;
+class StateWriter;
+
 /// One engine: substepped XPBD (Macklin et al. 2019) with position-based density (Macklin & Mueller 2013, volume form
 /// of Solenthaler & Pajarola 2008), structural and neighbour constraints from plugins, XSPH or
 /// implicit viscosity, enthalpy heat, phase change. Gather, not scatter: every loop writes its own particle only, so
@@ -64,7 +67,7 @@ class Solver {
   /// throws Error when one of the ids is alive.
   void putBack(const TakenMatter& matter);
 
-  /// One frame. On NotFinite the state of the last good frame is kept.
+  /// One frame. On NotFinite the state goes back to where the last good frame began, clocks and all.
   StepReport step();
 
   ParticleStore& particles();
@@ -82,7 +85,14 @@ class Solver {
   double thermalEnergy() const;                     ///< J
   std::span<const double> thermalEnergies() const;  ///< J per particle, until the next call; empty without a model
   double elasticEnergy() const;                     ///< J, stored in constraints, as their plugins say
-  /// All particle fields by id, constraints, prescribed motions, clocks.
+  /// All that goes on into the next frame: matter with every field and its order, structure, prescribed motions, what
+  /// contacts bore, books, clocks. Changes of settings that are to come take effect first.
+  void save(StateWriter& writer) const;
+  /// Goes on as the solver would have that was saved, to the bit. Settings, materials, constraint sets and the thermal
+  /// model must have been set as they were there. Throws InputError for a state of another scene, or one that is
+  /// damaged; the solver must then not be used any more.
+  void restore(const StateReader& reader);
+  /// Hash of what save() writes.
   uint64_t stateHash() const;
 
  private:

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 
 using ps::Neighbours;
 using ps::ParticleStore;
@@ -92,9 +93,13 @@ QString problemOf(const ParticleStore& store, const Neighbours& neighbours) {
   return {};
 }
 
+/// Of all fields, particles in order of id.
 uint64_t hashOf(const ParticleStore& store) {
+  std::vector<uint32_t> order(store.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return store.id()[a] < store.id()[b]; });
   ps::Hash hash;
-  store.addTo(hash);
+  for (const auto& [name, bytes] : store.copy(order).fields) hash.add(bytes.data(), bytes.size());
   return hash.value();
 }
 
@@ -250,16 +255,6 @@ class TestParticles : public QObject {
     store.declare("rust", ps::api::FieldType::Float32);
     QVERIFY_THROWS_EXCEPTION(ps::Error, store.declare("rust", ps::api::FieldType::Float64));
     QCOMPARE(store.find("rust", ps::api::FieldType::UInt8), static_cast<void*>(nullptr));
-  }
-
-  void copiesAreEqualAndApart() {
-    ParticleStore store, copy;
-    fill(store, "random");
-    copy.copyFrom(store);
-    QCOMPARE(hashOf(copy), hashOf(store));
-    copy.velocity()[3].x = 1;
-    QVERIFY(hashOf(copy) != hashOf(store));
-    QCOMPARE(copy.indexOf(store.id()[7]), size_t{7});
   }
 };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which particles of rigid bodies may touch what, and how they face each other.
+#include "core/base/statestream.h"
 #include "core/solver/contact/rigidcontact.h"
 #include "core/solver/contact/solidcontact.h"
 
@@ -20,6 +21,8 @@ constexpr uint32_t kFaceNeighbours = 11;
 constexpr double kSheet = 0.3;
 /// Least cosine between a face's normal and the line of centres.
 constexpr double kFacing = 0.35;
+/// Numbers of a contact that go on into the next frame.
+constexpr size_t kCarried = 11;
 
 }  // namespace
 
@@ -81,6 +84,43 @@ void RigidContact::addPlane(const ParticleStore& store, uint32_t i, size_t plane
   m_contacts.push_back(c);
 }
 
+/// What a contact carries on, but for its marks.
+template <class AContact, class Visit>
+void RigidContact::eachNumber(AContact& contact, Visit&& visit) {
+  visit(contact.push), visit(contact.approach);
+  for (auto* v : {&contact.rub, &contact.drift, &contact.left}) {
+    for (auto& c : *v) visit(c);
+  }
+}
+
+void RigidContact::save(StateWriter& writer) const {
+  writer.open("rigid/keys", StateType::UInt64, m_contacts.size());
+  for (const Contact& c : m_contacts) writer.put(c.key);
+  writer.close();
+  writer.open("rigid/numbers", StateType::Float64, kCarried * m_contacts.size());
+  for (const Contact& c : m_contacts) eachNumber(c, [&](const double& number) { writer.put(number); });
+  writer.close();
+  writer.open("rigid/marks", StateType::UInt8, m_contacts.size());
+  for (const Contact& c : m_contacts)
+    writer.put(static_cast<uint8_t>((c.met ? 1 : 0) | (c.slides ? 2 : 0) | (c.yields ? 4 : 0)));
+  writer.close();
+}
+
+void RigidContact::restore(const StateReader& reader) {
+  const std::vector<uint64_t> keys = reader.array<uint64_t>("rigid/keys");
+  const std::vector<uint8_t> marks = reader.array<uint8_t>("rigid/marks", keys.size(), 1);
+  StateRuns<double> numbers(reader, "rigid/numbers");
+  m_bodies.clear();
+  m_contacts.assign(keys.size(), {});
+  for (size_t k = 0; k < keys.size(); ++k) {
+    Contact& c = m_contacts[k];
+    c.key = keys[k];
+    eachNumber(c, [&](double& number) { number = numbers.take(1)[0]; });
+    c.met = (marks[k] & 1) != 0, c.slides = (marks[k] & 2) != 0, c.yields = (marks[k] & 4) != 0;
+  }
+  numbers.done();
+}
+
 /// New lists find most contacts again: what they bore goes on.
 void RigidContact::keepImpulses() {
   const auto before = [](const Contact& a, const Contact& b) { return a.key < b.key; };
@@ -107,9 +147,12 @@ void RigidContact::refreshContacts(const ParticleStore& store, const Neighbours&
   const api::NeighbourView view = neighbours.view();
   const api::Motion* motion = store.motion();
   const double skin = kSkinSpacings * m_spacing, reach = std::hypot(kFaceDistance, kFaceWidth) * m_spacing + skin;
+  // Where they were when the lists were made, not where they are: what is found then depends on nothing else.
+  const std::span<const api::Float4> at = neighbours.built();
   const auto distance2 = [&](uint32_t i, uint32_t j) {
-    const Vector3 d = vectorOf(store.separation(i, j));
-    return d.squaredNorm();
+    float x = at[i].x - at[j].x, y = at[i].y - at[j].y, z = at[i].z - at[j].z;
+    store.period().shorten(x, y, z);
+    return Vector3(x, y, z).squaredNorm();
   };
   const auto needSurface = [&](uint32_t i) {
     if (m_ownOf[i] != kNone) return;
@@ -127,7 +170,7 @@ void RigidContact::refreshContacts(const ParticleStore& store, const Neighbours&
     if (m_isMember[i] == 0) continue;
     const size_t before = m_contacts.size();
     for (size_t p = 0; p < m_planes.size(); ++p) {
-      if (m_planes[p].normal.dot(vectorOf(store.position()[i])) - m_planes[p].offset > skin) continue;
+      if (m_planes[p].normal.dot(vectorOf(at[i])) - m_planes[p].offset > skin) continue;
       addPlane(store, i, p);
     }
     for (uint32_t q = view.begin[i]; q < view.last[i]; ++q) {
@@ -181,6 +224,7 @@ void RigidContact::orient(const ParticleStore& store, Contact& c) const {
   const Vector3 line = vectorOf(store.separation(c.a.particle, c.b.particle));
   const double length = line.norm();
   c.active = length > 0;
+  c.normal.setZero();
   if (!c.active) return;
   const Surface a = surfaceOf(store, c.a.particle, -line), b = surfaceOf(store, c.b.particle, line);
   // A face decides, the flatter one of two. Edges and corners of equal lattices that meet face to face lean evenly to

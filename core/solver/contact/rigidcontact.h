@@ -7,6 +7,9 @@
 
 namespace ps {
 
+class StateReader;
+class StateWriter;
+
 /// Contact of rigid bodies with walls, with each other, and with other solid and static particles. A contact acts on
 /// the body as a whole, by its generalised inverse mass 1/M + (r x n).I^-1 (r x n) (Mueller et al. 2020, eq. 2):
 /// projecting member by member and matching the shape afterwards creeps down a slope. Per substep every contact adds up
@@ -27,10 +30,12 @@ class RigidContact {
   std::span<const uint8_t> members() const { return m_isMember; }
   /// After a new order or a new structure: who belongs to which body.
   void refreshBodies(const ParticleStore& store, const ConstraintSystem& constraints);
-  /// After new lists, or when solids have moved more than half the skin: which contacts may come about.
+  /// After new lists or a new structure: which contacts may come about as long as the lists hold, by the positions that
+  /// they were made for.
   void refreshContacts(const ParticleStore& store, const Neighbours& neighbours, ConstraintSystem& constraints);
-  /// Drops what contacts bore, when a frame is taken back.
-  void forget() { m_contacts.clear(); }
+  /// What contacts bore, by the particles that meet: refreshContacts() finds the same ones again.
+  void save(StateWriter& writer) const;
+  void restore(const StateReader& reader);
   /// Once per substep, when positions have been predicted.
   void begin(const ParticleStore& store);
   /// Moves bodies, and single particles that touch them, out of each other.
@@ -120,6 +125,8 @@ class RigidContact {
   void addContact(const ParticleStore& store, uint32_t i, uint32_t j);
   void addPlane(const ParticleStore& store, uint32_t i, size_t plane);
   void keepImpulses();
+  template <class AContact, class Visit>
+  static void eachNumber(AContact& contact, Visit&& visit);
   Surface surfaceOf(const ParticleStore& store, uint32_t i, const Vector3& outward) const;
   void orient(const ParticleStore& store, Contact& contact) const;
   void remember(Contact& contact) const;

@@ -32,7 +32,6 @@ uint32_t latticeNeighbours(double distance) {
 void SolidContact::configure(const SolverSettings& settings, std::span<const BakedMaterial> materials) {
   m_diameter = kContactDiameter * settings.spacing;
   m_reach = m_diameter + kSkinSpacings * settings.spacing;
-  m_halfSkin = 0.5 * kSkinSpacings * settings.spacing;
   m_crowded = latticeNeighbours((settings.supportRatio + kSkinSpacings) / kCrowded);
   m_friction.clear();
   for (const BakedMaterial& m : materials) {
@@ -46,16 +45,12 @@ void SolidContact::refresh(const ParticleStore& store, const Neighbours& neighbo
   m_any = false;
   m_squeezedShare = 0;
   m_solids.clear();
-  m_watched.clear();
-  m_found.clear();
   const api::Motion* motion = store.motion();
-  for (size_t i = 0; i < store.size(); ++i) {
-    if (!api::holds(motion[i])) continue;
-    if (motion[i] == api::Motion::Solid) m_solids.push_back(static_cast<uint32_t>(i));
-    m_watched.push_back(static_cast<uint32_t>(i));
-    m_found.push_back(store.position()[i]);
+  for (uint32_t i = 0; i < store.size(); ++i) {
+    if (motion[i] == api::Motion::Solid) m_solids.push_back(i);
   }
-  if (m_solids.empty()) return m_watched.clear();
+  if (m_solids.empty()) return;
+  const std::span<const api::Float4> at = neighbours.built();
   const StructureGraph& graph = constraints.graph(store.size());
   const api::NeighbourView view = neighbours.view();
   const float reach2 = static_cast<float>(m_reach * m_reach);
@@ -79,8 +74,9 @@ void SolidContact::refresh(const ParticleStore& store, const Neighbours& neighbo
       for (uint32_t q = view.begin[i]; q < view.last[i]; ++q) {
         const uint32_t j = view.index[q];
         if (!api::holds(motion[j]) || rigid[j] != 0) continue;
-        const api::Float4 d = store.separation(i, j);
-        if (!(d.x * d.x + d.y * d.y + d.z * d.z < reach2) || graph.tied(i, j)) continue;
+        float x = at[i].x - at[j].x, y = at[i].y - at[j].y, z = at[i].z - at[j].z;
+        store.period().shorten(x, y, z);
+        if (!(x * x + y * y + z * z < reach2) || graph.tied(i, j)) continue;
         chunk.other.push_back(j);
         if (motion[j] == api::Motion::Solid && store.velocity()[j].w > 0 && isShut(j)) chunk.mirrored.push_back({j, i});
       }
@@ -118,16 +114,6 @@ void SolidContact::addMirrored(size_t chunks) {
     ++last.begin.back();
   }
   last.correction.resize(last.who.size());
-}
-
-bool SolidContact::stale(const ParticleStore& store) const {
-  const float limit2 = static_cast<float>(m_halfSkin * m_halfSkin);
-  for (size_t k = 0; k < m_watched.size(); ++k) {
-    const api::Float4 a = store.position()[m_watched[k]], b = m_found[k];
-    const float x = a.x - b.x, y = a.y - b.y, z = a.z - b.z;
-    if (x * x + y * y + z * z > limit2) return true;
-  }
-  return false;
 }
 
 size_t SolidContact::touching(const ParticleStore& store, const Chunk& chunk, size_t k) const {

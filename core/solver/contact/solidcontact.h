@@ -20,16 +20,13 @@ inline constexpr double kContactDiameter = 0.955;
 class SolidContact {
  public:
   void configure(const SolverSettings& settings, std::span<const BakedMaterial> materials);
-  /// Finds the pairs that may touch, after a new order or a new structure, and when stale(). Members of rigid bodies (1
-  /// in `rigid`) are left to RigidContact.
+  /// Finds the pairs that may touch as long as the lists hold, after new lists or a new structure, by the positions
+  /// that the lists were made for. Members of rigid bodies (1 in `rigid`) are left to RigidContact.
   void refresh(const ParticleStore& store, const Neighbours& neighbours, ConstraintSystem& constraints,
                std::span<const uint8_t> rigid);
-  /// True when a solid or a static one has moved more than half the skin since the pairs were found. Liquid that
-  /// splashes asks for new neighbour lists far more often than solids ask for new pairs.
-  bool stale(const ParticleStore& store) const;
   void project(ParticleStore& store);
-  /// Share of the solids inside a lattice that is squeezed so far that its own, untied particles meet, when the pairs
-  /// were found: by a third at least.
+  /// Share of the solids inside a lattice that is squeezed so far that its own, untied particles meet, when the lists
+  /// were made: by a third at least.
   double squeezedShare() const { return m_squeezedShare; }
   /// What fixed particles moved, kg m.
   Received& given() { return m_given; }
@@ -62,14 +59,13 @@ class SolidContact {
   void addMirrored(size_t chunks);
   size_t touching(const ParticleStore& store, const Chunk& chunk, size_t k) const;
 
-  double m_diameter = 0, m_reach = 0, m_halfSkin = 0;
+  double m_diameter = 0, m_reach = 0;
   uint32_t m_crowded = 0;  ///< neighbours that a particle has when its lattice is squeezed
   double m_squeezedShare = 0;
   std::vector<Friction> m_friction;  ///< per material
   std::vector<Chunk> m_chunks;
   Received m_given;
-  std::vector<uint32_t> m_solids, m_watched;  ///< watched: static ones too
-  std::vector<api::Float4> m_found;           ///< where those watched were when the pairs were found
+  std::vector<uint32_t> m_solids;
   std::vector<uint8_t> m_contacts;
   bool m_any = false;
 };

@@ -22,13 +22,13 @@ void WallStage::configure(const SolverSettings& settings, const std::vector<Wall
   }
 }
 
-void WallStage::refreshLists(const ParticleStore& store, std::span<const uint8_t> rigid) {
+void WallStage::refreshLists(const ParticleStore& store, const Neighbours& neighbours, std::span<const uint8_t> rigid) {
   m_near.clear();
   m_rigid.assign(rigid.begin(), rigid.end());
   for (size_t i = 0; i < store.size(); ++i) {
     if (store.velocity()[i].w == 0 || rigid[i] != 0) continue;
     for (const Plane& p : m_planes) {
-      if (p.depthOf(store.position()[i]) < -m_reach) continue;
+      if (p.depthOf(neighbours.built()[i]) < -m_reach) continue;
       m_near.push_back(static_cast<uint32_t>(i));
       break;
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "core/particles/impulse.h"
-#include "core/particles/particlestore.h"
+#include "core/particles/neighbours.h"
 #include "core/solver/settings.h"
 
 #include <array>
@@ -14,9 +14,9 @@ namespace ps {
 class WallStage {
  public:
   void configure(const SolverSettings& settings, const std::vector<Wall>& walls);
-  /// After new lists: who may reach a wall before the next ones. Members of rigid bodies (1 in `rigid`) are left to
-  /// RigidContact.
-  void refreshLists(const ParticleStore& store, std::span<const uint8_t> rigid);
+  /// After new lists or a new structure: who may reach a wall before the next lists. Members of rigid bodies (1 in
+  /// `rigid`) are left to RigidContact.
+  void refreshLists(const ParticleStore& store, const Neighbours& neighbours, std::span<const uint8_t> rigid);
   /// Those near a wall; for the iterations.
   void projectNear(ParticleStore& store);
   /// All particles; for the ends of a substep.

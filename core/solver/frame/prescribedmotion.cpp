@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/solver/frame/prescribedmotion.h"
 
-#include "core/base/hash.h"
+#include "core/base/statestream.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +9,7 @@
 namespace ps {
 namespace {
 
+constexpr size_t kNumbers = 27;                     // of a frame
 constexpr const char* kPlace = "prescribed_place";  // w: 1 when it has been taken
 
 bool rests(const BodyMotion& motion) {
@@ -128,17 +129,40 @@ void PrescribedMotion::lead(ParticleStore& store, size_t first, size_t last) con
   }
 }
 
-void PrescribedMotion::addTo(Hash& hash) const {
-  for (size_t body = 0; body < m_frames.size(); ++body) {
-    const Frame& frame = m_frames[body];
-    if (!frame.exists) continue;
-    const BodyMotion& m = frame.motion;
-    hash.add(uint64_t{body});
-    for (const double c : frame.centre) hash.add(c);
-    for (const double c : {m.velocity.x, m.velocity.y, m.velocity.z, m.spin.x, m.spin.y, m.spin.z, m.start, m.stop}) {
-      hash.add(c);
+/// Every number of the frames that is carried on, in order; the matrix follows from the turn.
+template <class Frames, class Visit>
+void PrescribedMotion::eachNumber(Frames& frames, Visit&& visit) {
+  const auto each = [&](auto& v) { visit(v.x), visit(v.y), visit(v.z); };
+  for (auto& frame : frames) {
+    each(frame.motion.centre), each(frame.motion.velocity), each(frame.motion.spin);
+    visit(frame.motion.start), visit(frame.motion.stop);
+    for (auto* v : {&frame.centre, &frame.origin, &frame.velocity, &frame.spin}) {
+      for (auto& c : *v) visit(c);
     }
-    for (const double c : frame.turn.coeffs()) hash.add(c);
+    for (Eigen::Index k = 0; k < 4; ++k) visit(frame.turn.coeffs()[k]);
+  }
+}
+
+void PrescribedMotion::save(StateWriter& writer) const {
+  writer.open("motion/exists", StateType::UInt8, m_frames.size());
+  for (const Frame& frame : m_frames) writer.put(static_cast<uint8_t>(frame.exists ? 1 : 0));
+  writer.close();
+  writer.open("motion/frames", StateType::Float64, kNumbers * m_frames.size());
+  eachNumber(m_frames, [&](const double& number) { writer.put(number); });
+  writer.close();
+}
+
+void PrescribedMotion::restore(const StateReader& reader, const ParticleStore& store) {
+  const std::vector<uint8_t> exists = reader.array<uint8_t>("motion/exists");
+  StateRuns<double> numbers(reader, "motion/frames");
+  m_frames.assign(exists.size(), {});
+  eachNumber(m_frames, [&](double& number) { number = numbers.take(1)[0]; });
+  numbers.done();
+  for (size_t body = 0; body < m_frames.size(); ++body) {
+    m_frames[body].exists = exists[body] != 0;
+    m_frames[body].axes = m_frames[body].turn.toRotationMatrix();
+    if (exists[body] != 0 && !placesIn(store))
+      StateReader::fail("motion/frames", "has bodies whose places are missing");
   }
 }
 

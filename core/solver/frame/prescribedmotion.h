@@ -8,7 +8,8 @@
 
 namespace ps {
 
-class Hash;
+class StateReader;
+class StateWriter;
 
 /// Moves fixed particles of bodies as their motions prescribe, whatever they meet. Each body has a frame, a centre and
 /// a turn in double precision, and its particles keep their places in it: however long it turns, its shape stays that
@@ -30,7 +31,9 @@ class PrescribedMotion {
   /// Positions and velocities of the particles first..last-1 that have a place in a frame, in the image nearest to
   /// their previous positions. A body that is on its way for a part of the substep has that part of its velocity.
   void lead(ParticleStore& store, size_t first, size_t last) const;
-  void addTo(Hash& hash) const;
+  void save(StateWriter& writer) const;
+  /// After the store. Motions are those that were saved; set() says otherwise.
+  void restore(const StateReader& reader, const ParticleStore& store);
 
  private:
   struct Frame {
@@ -41,6 +44,8 @@ class PrescribedMotion {
     Vector3 velocity, spin;                    ///< m/s and rad/s, of the last substep
     bool exists = false;
   };
+  template <class Frames, class Visit>
+  static void eachNumber(Frames& frames, Visit&& visit);
   const Frame* frameOf(const ParticleStore& store, size_t i) const;
 
   std::vector<Frame> m_frames;  ///< by index of the body

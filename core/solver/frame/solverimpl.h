@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "core/base/statestream.h"
 #include "core/solver/contact/impacts.h"
 #include "core/solver/contact/liquidcontact.h"
 #include "core/solver/contact/rigidcontact.h"
@@ -36,9 +37,7 @@ struct Solver::Impl {
   std::vector<BakedMaterial> materials;
 
   ParticleStore store;
-  ParticleStore lastGood;  ///< as the frame began, in the order that the constraints know
-  HeatLedger lastGoodLedger;
-  PrescribedMotion lastGoodMotion;
+  StateBuffer lastGood;        ///< all of the state as the frame began
   bool lastGoodValid = false;  ///< not after particles were added or removed
   PrescribedMotion motion;
   Neighbours neighbours;
@@ -76,15 +75,19 @@ struct Solver::Impl {
   void matterChanged(double energyBefore);
 
   void runFrame();
+  bool advance();
   void freshLists();
   /// Whether something lies so many images away from the periodic box that single precision begins to tell.
   bool strayed() const;
   /// In a periodic box: brings back what has left it. What is tied together moves as one, and when it has strayed.
   void comeHome();
   void bringPiecesHome(const StructureGraph& graph);
+  void save(StateWriter& writer) const;
+  void restore(const StateReader& reader);
   void keepLastGood();
   void backToLastGood();
   void listsChanged(bool newStructure);
+  void refreshLiquidContact();
   void substep(uint32_t index);
   void predict(uint32_t index, double dt);
   Vector3 momentum() const;               ///< kg m/s, of what moves

@@ -85,31 +85,7 @@ void Solver::Impl::runFrame() {
   report = {};
   const auto start = std::chrono::steady_clock::now();
   configure();
-  constraints.setTime(time);
-  heat.setClock(time, thermalTime);
-  bool good = true;
-  if (store.size() > 0) {
-    good = !rejectIfNotFinite();
-    timed(Stage::Neighbours, [&] { freshLists(); });
-    if (good) keepLastGood();
-    external.take();
-    report.momentum.start = double3Of(momentum());
-    gas.setAir(heat.airTemperature());
-    timed(Stage::Phase, [&] { gas.measure(store, neighbours); });
-    timed(Stage::Viscosity, [&] { viscosity.refresh(store, neighbours, density); });
-    for (int s = 0; s < settings.substeps && good; ++s) {
-      substep(static_cast<uint32_t>(s));
-      good = !rejectIfNotFinite();
-    }
-    if (good) {
-      checkBounds();
-      report.momentum.end = double3Of(momentum());
-      report.momentum.external = double3Of(external.take());
-    }
-    if (good) timed(Stage::Heat, [&] { good = exchangeHeat(); });
-    good = good && !rejectIfNotFinite();
-    if (good) closeFrame();
-  }
+  const bool good = store.size() == 0 || (!rejectIfNotFinite() && advance());
   if (good) {
     ++frame;
     time += settings.dt;
@@ -124,6 +100,31 @@ void Solver::Impl::runFrame() {
   }
   report.totalMilliseconds =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// False when the frame has been taken back.
+bool Solver::Impl::advance() {
+  keepLastGood();
+  constraints.setTime(time);
+  heat.setClock(time, thermalTime);
+  timed(Stage::Neighbours, [&] { freshLists(); });
+  external.take();
+  report.momentum.start = double3Of(momentum());
+  gas.setAir(heat.airTemperature());
+  timed(Stage::Phase, [&] { gas.measure(store, neighbours); });
+  timed(Stage::Viscosity, [&] { viscosity.refresh(store, neighbours, density); });
+  for (int s = 0; s < settings.substeps; ++s) {
+    substep(static_cast<uint32_t>(s));
+    if (rejectIfNotFinite()) return false;
+  }
+  checkBounds();
+  report.momentum.end = double3Of(momentum());
+  report.momentum.external = double3Of(external.take());
+  bool exchanged = false;
+  timed(Stage::Heat, [&] { exchanged = exchangeHeat(); });
+  if (!exchanged || rejectIfNotFinite()) return false;
+  closeFrame();
+  return true;
 }
 
 void Solver::Impl::closeFrame() {
@@ -146,54 +147,46 @@ void Solver::Impl::closeFrame() {
   checkEnergy();
 }
 
-void Solver::Impl::keepLastGood() {
-  lastGood.copyFrom(store);
-  lastGoodLedger = heat.ledger();
-  lastGoodMotion = motion;
-  lastGoodValid = true;
-}
-
-void Solver::Impl::backToLastGood() {
-  if (!lastGoodValid) return;
-  store.copyFrom(lastGood);
-  heat.setLedger(lastGoodLedger);
-  motion = lastGoodMotion;
-  rigid.forget();
-  reordered = true;
-}
-
 void Solver::Impl::freshLists() {
   if (store.period().any() && strayed()) reordered = true;
   if (reordered || neighbours.stale(store) || frame >= lastSort + kSortInterval) {
     if (store.period().any()) comeHome();
     neighbours.sortAndBuild(store);
     constraints.remap(neighbours.lastOrder());
+    heat.reordered(store);
     lastSort = frame;
     reordered = false;
     structureChanged = true;
   }
   density.refresh(store, neighbours);
   swept.refresh(store, motion.movesWithin(time, settings.dt));
-  if (!structureChanged) return;
-  listsChanged(true);
-  structureChanged = false;
+  if (structureChanged) return listsChanged(true);
+  refreshLiquidContact();  // liquid may have become vapour, or vapour liquid
 }
 
-void Solver::Impl::listsChanged(bool newStructure) {
-  if (!newStructure) density.refreshLists(store, neighbours);  // else it has just been refreshed
+void Solver::Impl::refreshLiquidContact() {
   wet.refresh(store, neighbours, density.wetSolids());
+  sheets.refresh(store, neighbours, thinSolids);
+}
+
+/// Makes everything anew that follows from lists and structure, and from nothing else: whatever is kept there may be
+/// dropped at any time, and a state needs none of it.
+void Solver::Impl::listsChanged(bool newStructure) {
   if (newStructure) {
     rigid.refreshBodies(store, constraints);
     grouped = constraints.groupMembers(store);
     constraints.findHanging(store, hanging);
     findThinSolids();
+    structureChanged = false;
+  } else {
+    density.refreshLists(store, neighbours);  // of a new structure it has just been refreshed
   }
-  wallStage.refreshLists(store, rigid.members());
+  refreshLiquidContact();
+  wallStage.refreshLists(store, neighbours, rigid.members());
   swept.refreshLists(store, neighbours);
   rigid.refreshContacts(store, neighbours, constraints);
-  sheets.refresh(store, neighbours, thinSolids);
   viscosity.listsChanged();
-  if (newStructure || contact.stale(store)) contact.refresh(store, neighbours, constraints, rigid.members());
+  contact.refresh(store, neighbours, constraints, rigid.members());
 }
 
 void Solver::Impl::predict(uint32_t index, double dt) {
@@ -254,9 +247,6 @@ void Solver::Impl::substep(uint32_t index) {
     if (neighbours.stale(store)) {
       neighbours.build(store);
       listsChanged(false);
-    } else if (contact.stale(store)) {
-      contact.refresh(store, neighbours, constraints, rigid.members());
-      rigid.refreshContacts(store, neighbours, constraints);
     }
   });
   structure([&] { constraints.predict(store, index); }, dt);

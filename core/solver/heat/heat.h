@@ -20,6 +20,9 @@
 
 namespace ps {
 
+class StateReader;
+class StateWriter;
+
 /// The thermal half of a frame: pairwise conduction (Cleary & Monaghan 1999 between materials, Kirchhoff within one),
 /// walls, air and radiation (HeatSurroundings), film condensation, nucleation. Heat is exchanged in equal and opposite
 /// joules, so that a closed system keeps its energy to rounding. Kinds of heat a model cannot do: see the thermal
@@ -70,8 +73,13 @@ class HeatStage {
   const HeatLedger& ledger() const { return m_ledger; }
   /// K; a finite lump of air is warmer than at the start by what matter gave it.
   double airTemperature() const { return m_settings.ambientTemperature + m_ledger.airWarming; }
-  /// Back to the books of an earlier frame, when the particles go back to it.
-  void setLedger(const HeatLedger& ledger) { m_ledger = ledger; }
+  /// Particles have another order: what was measured of their surfaces is measured anew.
+  void reordered(const ParticleStore& store) {
+    if (!m_surroundings.surface().fits(store)) m_surroundings.surface().forget();
+  }
+  void save(StateWriter& writer, const ParticleStore& store) const;
+  /// After the store, which must have the fields of the model. A model that has been put aside here stays so.
+  void restore(const StateReader& reader, const ParticleStore& store);
   /// Joules that left or came with removed or added particles are booked here.
   void book(double joules) {
     m_ledger.sources += joules;
@@ -101,6 +109,8 @@ class HeatStage {
   bool usedSweeps() const { return m_swept; }
 
  private:
+  template <class Ledger, class Visit>
+  static void eachOf(Ledger& ledger, Visit&& visit);
   struct Partial : HeatBooks {
     double fastest = 0;  ///< largest rate in 1/s
     int boiling = 0;

@@ -80,6 +80,12 @@ void PluginHeating::addTo(ParticleStore& store, const api::ParticleView& view, c
   }
 }
 
+void PluginHeating::putAside(const std::vector<std::string>& names) {
+  for (const std::string& name : names) {
+    if (std::find(m_aside.begin(), m_aside.end(), name) == m_aside.end()) m_aside.push_back(name);
+  }
+}
+
 void PluginHeating::ask(const HeatSource& source, ParticleStore& store, const api::ParticleView& view,
                         api::ThermalContext where) {
   const api::List<api::FieldDeclaration> fields = source.plugin->fields();

@@ -38,6 +38,9 @@ class PluginHeating {
   /// Adds W to all particles for a frame of `frame` s of thermal time. Declares the plugins' fields when they are new.
   void addTo(ParticleStore& store, const api::ParticleView& view, const api::ThermalContext& where,
              std::span<const BakedMaterial> materials, double frame, std::span<double> watts);
+  /// Ids of all that have been put aside; putAside() adds to them.
+  const std::vector<std::string>& aside() const { return m_aside; }
+  void putAside(const std::vector<std::string>& names);
   /// Those put aside since the last call.
   std::vector<PluginFault> takeFaults() { return std::exchange(m_faults, {}); }
 

@@ -48,6 +48,8 @@ class HeatSurroundings {
   /// Once a frame, when pairs are built and temperatures are current.
   void measure(const ParticleStore& store, const api::NeighbourView& lists, const HeatPairs& pairs, uint64_t frame);
   std::span<const Wall> walls() const { return m_walls; }
+  OpenSurface& surface() { return m_surface; }
+  const OpenSurface& surface() const { return m_surface; }
   /// K, of the air around; a finite lump of air changes it.
   void setAir(double temperature) { m_air = temperature; }
 

@@ -2,6 +2,7 @@
 #include "core/solver/heat/opensurface.h"
 
 #include "core/base/parallel.h"
+#include "core/base/statestream.h"
 
 #include <algorithm>
 #include <cmath>
@@ -119,6 +120,23 @@ void OpenSurface::measure(const ParticleStore& store, const api::NeighbourView& 
 
 bool OpenSurface::fits(const ParticleStore& store) const {
   return m_id.size() == store.size() && std::equal(m_id.begin(), m_id.end(), store.id());
+}
+
+void OpenSurface::save(StateWriter& writer, const ParticleStore& store) const {
+  const size_t count = fits(store) ? m_id.size() : 0;
+  writer.array("heat/open_directions", std::span<const uint64_t>(m_open.data(), count));
+  writer.array("heat/area_scale", std::span<const float>(m_scale.data(), count));
+  writer.array("heat/area_unit", std::span<const double>(&m_unit, count > 0 ? 1 : 0));
+}
+
+void OpenSurface::restore(const StateReader& reader, const ParticleStore& store) {
+  forget();
+  m_open = reader.array<uint64_t>("heat/open_directions");
+  m_scale = reader.array<float>("heat/area_scale", m_open.size(), 1);
+  if (m_open.empty()) return;
+  if (m_open.size() != store.size()) StateReader::fail("heat/open_directions", "is not that of all particles");
+  m_unit = reader.value<double>("heat/area_unit");
+  m_id.assign(store.id(), store.id() + store.size());
 }
 
 template <bool kPeriodic>

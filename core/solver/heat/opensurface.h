@@ -10,6 +10,9 @@
 
 namespace ps {
 
+class StateReader;
+class StateWriter;
+
 /// Which ways out of a particle are open, and with them its share of the free surface. Of 64 directions, spread evenly
 /// over the sphere, those are covered in which a neighbour within two spacings lies no more than 43 degrees aside, or a
 /// wall stands beside the particle; its surface is 6 dx2 times the share that is left. Vapour neither covers nor has a
@@ -32,6 +35,9 @@ class OpenSurface {
   bool fits(const ParticleStore& store) const;
   /// Walls or numbers have changed.
   void forget() { m_id.clear(); }
+  /// What was measured, which may be some frames ago; nothing where it does not fit.
+  void save(StateWriter& writer, const ParticleStore& store) const;
+  void restore(const StateReader& reader, const ParticleStore& store);
   /// Bit d: direction d is open.
   uint64_t open(size_t i) const { return m_open[i]; }
   /// m2 that each open direction of particle i stands for.

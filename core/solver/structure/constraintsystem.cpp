@@ -2,7 +2,6 @@
 #include "core/solver/structure/constraintsystem.h"
 
 #include "core/base/error.h"
-#include "core/base/hash.h"
 
 #include <algorithm>
 #include <array>
@@ -37,6 +36,7 @@ class ConstraintSystem::Sink final : public api::ConstraintSink {
         if (particles[a] == particles[b]) throw Error("added a constraint that names a particle twice");
       }
     }
+    m_system.lookUp(m_set, m_store);
     if (!m_set.keys.insert(m_system.keyOf(m_set, m_store, particles)).second) return;
     m_edits.particles.insert(m_edits.particles.end(), particles, particles + m_set.arity);
     m_edits.values.insert(m_edits.values.end(), values, values + m_set.valueCount);
@@ -45,6 +45,7 @@ class ConstraintSystem::Sink final : public api::ConstraintSink {
     if (k >= m_set.count) throw Error("removed a constraint that does not exist");
     if (m_edits.removed.empty()) m_edits.removed.assign(m_set.count, 0);
     if (m_edits.removed[k] != 0) return;
+    m_system.lookUp(m_set, m_store);
     m_edits.removed[k] = 1;
     ++m_edits.removedCount;
     m_set.keys.erase(m_system.keyOf(m_set, m_store, m_set.particles.data() + k * m_set.arity));
@@ -160,14 +161,18 @@ api::ConstraintContext ConstraintSystem::context(const Set& set, double dt, uint
 
 void ConstraintSystem::putAside(Set& set, std::string problem) {
   set.disabled = true;
+  dropAll(set);
+  m_graphValid = false;
+  m_faults.push_back({set.name, std::move(problem)});
+}
+
+void ConstraintSystem::dropAll(Set& set) {
   set.count = 0;
   set.particles.clear();
   for (auto& v : set.values) v.clear();
   set.colourStart.assign(1, 0);
   set.runs.clear();
   if (set.groups) set.groups->clear();
-  m_graphValid = false;
-  m_faults.push_back({set.name, std::move(problem)});
 }
 
 ConstraintSystem::Key ConstraintSystem::keyOf(const Set& set, const ParticleStore& store,
@@ -386,18 +391,6 @@ size_t ConstraintSystem::count() const {
 
 bool ConstraintSystem::shareParticles() const {
   return std::any_of(m_sets.begin(), m_sets.end(), [](const Set& set) { return set.colourStart.size() > 2; });
-}
-
-void ConstraintSystem::addTo(Hash& hash, const ParticleStore& store) const {
-  std::vector<uint32_t> ids;
-  for (const Set& set : m_sets) {
-    ids.resize(set.particles.size());
-    for (size_t k = 0; k < ids.size(); ++k) ids[k] = store.id()[set.particles[k]];
-    hash.add(set.count);
-    hash.add(ids.data(), ids.size() * sizeof(uint32_t));
-    for (const auto& v : set.values) hash.add(v.data(), v.size() * sizeof(float));
-    if (set.groups) set.groups->addTo(hash, store);
-  }
 }
 
 std::vector<PluginFault> ConstraintSystem::takeFaults() { return std::exchange(m_faults, {}); }

@@ -18,7 +18,8 @@
 // on the history of the scene alone, never on threads.
 namespace ps {
 
-class Hash;
+class StateReader;
+class StateWriter;
 
 /// Who is tied to whom, by structural constraints or as members of one group.
 struct StructureGraph {
@@ -91,7 +92,11 @@ class ConstraintSystem {
   std::span<const uint8_t> thinBodies() const { return m_thin; }
 
   size_t count() const;  ///< structural constraints and groups
-  void addTo(Hash& hash, const ParticleStore& store) const;
+  /// Everything but what plugins are: lists, colours, values, who was put aside, and parameters of single bodies.
+  void save(StateWriter& writer) const;
+  /// After the store; the same sets must have been added, in the same order. Parameters that bodies have here already
+  /// win over those that were saved, and who was put aside here stays so.
+  void restore(const StateReader& reader, const ParticleStore& store);
   /// Ties between pairs of particles, for contact; renewed when the structure or the order has changed.
   const StructureGraph& graph(size_t particles);
   /// For each particle a number that all share whom ties hold together; kNoPiece for what is tied to nothing.
@@ -142,6 +147,7 @@ class ConstraintSystem {
     std::vector<Run> runs;                   ///< within a colour in order of bodies
     std::vector<std::vector<uint64_t>> taken;  ///< [word of 64 colours][particle id]
     std::unordered_set<Key, KeyHash> keys;     ///< sets of particle ids; only asked, never walked through
+    bool lookedUp = true;                      ///< taken and keys agree with the lists; not after restore()
     std::unique_ptr<GroupLists> groups;        ///< of a plugin of groups, which uses none of the lists above
     bool rigid = false, thin = false;
     std::vector<uint32_t> members;  ///< of a plugin of neighbours: particles of the bodies that use it, ascending
@@ -172,7 +178,15 @@ class ConstraintSystem {
     return false;
   }
   void putAside(Set& set, std::string problem);
+  static void dropAll(Set& set);
   Key keyOf(const Set& set, const ParticleStore& store, const uint32_t* particles) const;
+  // In constraintstate.cpp.
+  static void saveParameters(StateWriter& writer, std::string_view room, const Set& set);
+  static void restoreParameters(const StateReader& reader, std::string_view room, Set& set);
+  static void restoreLists(const StateReader& reader, std::string_view room, Set& set, const ParticleStore& store);
+  void restoreThin();
+  /// Makes taken and keys again where they are needed: it takes longer than all the rest of restoring.
+  void lookUp(Set& set, const ParticleStore& store) const;
   size_t takeColour(Set& set, const ParticleStore& store, const uint32_t* particles) const;
   void apply(Set& set, const ParticleStore& store, const Edits& edits);
   // In constraintcalls.cpp.

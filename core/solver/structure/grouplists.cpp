@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/solver/structure/grouplists.h"
 
-#include "core/base/hash.h"
-
 #include <algorithm>
 #include <bit>
 #include <utility>
@@ -200,16 +198,6 @@ std::vector<uint8_t> GroupLists::putBack(const ParticleStore& store, std::span<c
     }
   }
   return returned;
-}
-
-void GroupLists::addTo(Hash& hash, const ParticleStore& store) const {
-  std::vector<uint32_t> ids(m_particles.size());
-  for (size_t k = 0; k < ids.size(); ++k) ids[k] = store.id()[m_particles[k]];
-  hash.add(count());
-  hash.add(m_begin.data(), m_begin.size() * sizeof(size_t));
-  hash.add(ids.data(), ids.size() * sizeof(uint32_t));
-  for (const auto& column : m_values) hash.add(column.data(), column.size() * sizeof(float));
-  for (const auto& column : m_memberValues) hash.add(column.data(), column.size() * sizeof(float));
 }
 
 }  // namespace ps

@@ -5,11 +5,13 @@
 #include <phasesketch/constraint.h>
 
 #include <array>
+#include <string_view>
 #include <vector>
 
 namespace ps {
 
-class Hash;
+class StateReader;
+class StateWriter;
 
 /// A group outside a solver, by the ids of its members.
 struct CopiedGroup {
@@ -66,7 +68,9 @@ class GroupLists {
   /// Members that were taken out join the group that now holds most of their old companions; without one the copied
   /// group stands again, of all that live. Returns 1 for every place whose member came back.
   std::vector<uint8_t> putBack(const ParticleStore& store, std::span<const CopiedGroup> copies);
-  void addTo(Hash& hash, const ParticleStore& store) const;
+  /// `room`: of the blocks' names.
+  void save(StateWriter& writer, std::string_view room) const;
+  void restore(const StateReader& reader, std::string_view room, size_t particles);
 
   static constexpr uint32_t kGone = ~0u;
 
