@@ -21,18 +21,18 @@ void merge(json& target, const json& unknown) {
 
 Response responseFromJson(json& value) {
   if (value.is_number()) return Response(value.get<double>());
-  JsonTaker taker(value);
   Response response;
-  if (taker.has("curve")) {
+  if (const auto curve = value.find("curve"); curve != value.end()) {
     response.kind = Response::Kind::Curve;
-    for (const json& point : taker.take("curve")) {
-      response.points.push_back({point[0].get<double>(), point[1].get<double>()});
-    }
-  } else {
-    response.kind = Response::Kind::Law;
-    response.law = taker.text("law");
-    for (const json& c : taker.take("coefficients")) response.coefficients.push_back(c.get<double>());
+    for (const json& point : *curve) response.points.push_back({point[0].get<double>(), point[1].get<double>()});
+    value.erase(curve);
+    return response;
   }
+  response.kind = Response::Kind::Law;
+  response.law = value.at("law").get<std::string>();
+  response.coefficients = value.at("coefficients").get<std::vector<double>>();
+  value.erase("law");
+  value.erase("coefficients");
   return response;
 }
 
@@ -55,56 +55,16 @@ json jsonFromResponse(const Response& response) {
 
 }  // namespace
 
-json JsonTaker::take(const std::string& key) {
-  const auto found = m_object.find(key);
-  if (found == m_object.end()) return nullptr;
-  json value = std::move(*found);
-  m_object.erase(found);
-  return value;
-}
-
-std::string JsonTaker::text(const char* key, const std::string& fallback) {
-  return has(key) ? take(key).get<std::string>() : fallback;
-}
-
-double JsonTaker::number(const char* key, double fallback) { return has(key) ? take(key).get<double>() : fallback; }
-
-bool JsonTaker::toggle(const char* key, bool fallback) { return has(key) ? take(key).get<bool>() : fallback; }
-
-Vector3 JsonTaker::vector(const char* key, const Vector3& fallback) {
-  if (!has(key)) return fallback;
-  const json v = take(key);
-  return {v[0].get<double>(), v[1].get<double>(), v[2].get<double>()};
-}
-
-std::vector<std::string> JsonTaker::names(const char* key) {
-  return has(key) ? take(key).get<std::vector<std::string>>() : std::vector<std::string>();
-}
-
-void JsonTaker::keep(const std::string& key, json&& rest) {
-  if (!rest.is_null() && !rest.empty()) m_object[key] = std::move(rest);
-}
-
-void JsonTaker::parameters(ParameterSet& set, api::ParameterList list) {
+void takeParameters(json& object, ParameterSet& set, api::ParameterList list) {
   for (size_t i = 0; i < list.count; ++i) {
     const api::ParameterDeclaration& declaration = list[i];
-    if (!has(declaration.key)) continue;
-    json value = take(declaration.key);
+    const auto found = object.find(declaration.key);
+    if (found == object.end()) continue;
+    json value = std::move(*found);
+    object.erase(found);
     set.values[declaration.key] = valueFromJson(value, declaration);
-    if (value.is_object()) keep(declaration.key, std::move(value));
+    if (value.is_object() && !value.empty()) object[declaration.key] = std::move(value);
   }
-}
-
-void JsonTaker::parameters(const char* key, ParameterSet& set, api::ParameterList list) {
-  if (!has(key)) return;
-  json inner = take(key);
-  JsonTaker(inner).parameters(set, list);
-  keep(key, std::move(inner));
-}
-
-Unknown JsonTaker::rest() {
-  if (m_object.empty()) return nullptr;
-  return std::make_shared<const json>(std::move(m_object));
 }
 
 Value valueFromJson(json& value, const api::ParameterDeclaration& declaration) {
@@ -128,6 +88,10 @@ json jsonFromValue(const Value& value) {
 }
 
 json jsonFromVector(const Vector3& v) { return json::array({jsonNumber(v[0]), jsonNumber(v[1]), jsonNumber(v[2])}); }
+
+Vector3 vectorFromJson(const json& list) {
+  return {list[0].get<double>(), list[1].get<double>(), list[2].get<double>()};
+}
 
 void putParameters(json& object, const ParameterSet& set) {
   for (const auto& [key, value] : set.values) object[key] = jsonFromValue(value);

@@ -2,6 +2,7 @@
 #include "core/io/projectcheck.h"
 
 #include "core/base/nearest.h"
+#include "core/io/projectfields.h"
 #include "core/matter/material.h"
 #include "core/plugin_host/registry.h"
 #include "core/solver/settings.h"
@@ -19,31 +20,135 @@ namespace {
 /// Share of a wall's normal along a periodic axis that rounding explains.
 constexpr double kLeaning = 1e-6;
 
-class ProjectChecker {
+/// References, relations between keys, and sizes: what the schema of one key cannot say.
+class ProjectChecker : public FieldVisitor {
  public:
   ProjectChecker(const Project& project, const std::string& name, const PluginRegistry& plugins,
                  std::vector<ProjectMessage>& warnings)
       : m_project(project), m_name(name), m_plugins(plugins), m_warnings(warnings) {}
 
-  void run() {
-    checkIds(m_project.materials, "/materials");
-    checkIds(m_project.bodies, "/bodies");
-    checkIds(m_project.environment.walls, "/environment/walls");
-    checkIds(m_project.emitters, "/emitters");
-    checkIds(m_project.sinks, "/sinks");
-    checkIds(m_project.probes, "/probes");
-    for (size_t i = 0; i < m_project.materials.size(); ++i) checkMaterial(m_project.materials[i], at("/materials", i));
-    for (size_t i = 0; i < m_project.bodies.size(); ++i) checkBody(m_project.bodies[i], at("/bodies", i));
-    for (size_t i = 0; i < m_project.emitters.size(); ++i) checkEmitter(m_project.emitters[i], at("/emitters", i));
-    for (size_t i = 0; i < m_project.sinks.size(); ++i) checkSink(m_project.sinks[i], at("/sinks", i));
-    checkEnvironment(m_project.environment);
+  void run() { fields::projectFields().visit(m_project, "", *this); }
+
+  /// Refuses a plugin of another kind; warns once per plugin that is not there.
+  void plugin(std::optional<PluginKind> kind, const std::string& id, const std::string& pointer,
+              const char* withoutIt) override {
+    if (!m_plugins.has(id)) return warnMissing(id, pointer, withoutIt, kind);
+    if (!kind) return;
+    for (const PluginInfo& info : m_plugins.plugins()) {
+      if (info.id != id || info.state != PluginInfo::State::Loaded || info.kind == *kind) continue;
+      const auto words = [](PluginKind k) {
+        return std::string(pluginKindName(k)) + (k == PluginKind::Thermal ? " model" : "");
+      };
+      fail(pointer, "'" + id + "' is a " + words(info.kind) + ", not a " + words(*kind));
+    }
+  }
+
+  void material(const std::string& id, const std::string& pointer) override {
+    if (!contains(m_project.materials, id)) fail(pointer, "the scene has no material '" + id + "'");
+  }
+
+  void address(const std::string& text, const std::string& pointer) override {
+    const auto address = Address::parse(text);
+    if (address && (findSet(m_project, *address) || outsideValue(m_project, *address))) return;
+    warn(pointer, "the scene has no parameter '" + text + "'");
+  }
+
+  void direction(const Vector3& v, const std::string& pointer) override {
+    if (!(std::hypot(v[0], v[1], v[2]) > 1e-6)) {
+      fail(pointer, "must have a direction: at least one part away from zero");
+    }
+  }
+
+  void repeatedId(const std::string& id, const std::string& pointer) override {
+    fail(pointer, "'" + id + "' is taken already");
+  }
+
+  void parameters(const ParameterSet& set, api::ParameterList list, const std::string& pointer) override {
+    for (const auto& [key, value] : set.values) {
+      const api::ParameterDeclaration* declaration = findDeclaration(list, key);
+      const std::string problem = declaration ? problemOf(value, *declaration) : "";
+      if (!problem.empty()) fail(pointer + "/" + key, problem);
+    }
+  }
+
+  void pluginParameters(const std::string& id, const ParameterSet& set, const std::string& pointer) override {
+    parameters(set, m_plugins.parameters(id), pointer);
+  }
+
+  void object(const SceneMaterial& source, const std::string& pointer) override {
+    if (!m_plugins.material(source.base)) return;
+    Material material = baseOf(source, pointer);
+    for (const auto& [key, value] : source.properties.values) material.properties[key] = responseOf(value);
+    if (const std::string problem = problemOf(material); !problem.empty()) {
+      const std::string key = problem.substr(0, problem.find_first_of(" :"));
+      fail(pointer + "/properties" + (propertyIndex(key) >= 0 ? "/" + key : ""), problem);
+    }
+  }
+
+  void object(const VoxelShape& shape, const std::string& pointer) override {
+    const int colours = static_cast<int>(shape.palette.size());
+    for (size_t i = 0; i < shape.runs.size(); ++i) {
+      if (shape.runs[i].palette >= colours) fail(at(pointer + "/runs", i) + "/4", "the palette has no such entry");
+    }
+    checkOverlaps(shape.runs, pointer + "/runs");
+    for (size_t i = 0; i < shape.strokes.size(); ++i) {
+      if (shape.strokes[i].palette < colours) continue;
+      fail(at(pointer + "/strokes", i) + "/palette", "the palette has no such entry");
+    }
+  }
+
+  void object(const Region& region, const std::string& pointer) override {
+    for (size_t a = 0; a < 3; ++a) {
+      if (region.minimum[a] > region.maximum[a]) {
+        fail(at(pointer + "/maximum", a), "must not be below the minimum, " + numberText(region.minimum[a]) + " m");
+      }
+    }
+  }
+
+  void object(const Body& body, const std::string& pointer) override {
+    checkMotion(body, pointer);
+    const bool sketched = std::holds_alternative<VoxelShape>(body.shape);
+    addParticles(body, pointer + (sketched ? "/shape/voxels/runs" : "/shape/box/size"));
+  }
+
+  void object(const Emitter& emitter, const std::string& pointer) override {
+    if (contains(m_project.bodies, emitter.id)) {
+      fail(pointer + "/id", "'" + emitter.id + "' is a body's already; its particles could not be told apart");
+    }
+    const Environment& environment = m_project.environment;
+    for (size_t a = 0; a < 3; ++a) {
+      if (emitter.point[a] < environment.boundsMinimum[a] || emitter.point[a] > environment.boundsMaximum[a]) {
+        fail(at(pointer + "/point", a), "lies outside of the scene's bounds");
+      }
+    }
+  }
+
+  void object(const Sink& sink, const std::string& pointer) override {
+    requireBox(sink.minimum, sink.maximum, pointer);
+  }
+
+  void object(const Environment& environment, const std::string& pointer) override {
+    requireBox(environment.boundsMinimum, environment.boundsMaximum, pointer + "/bounds");
+    for (size_t i = 0; i < environment.walls.size(); ++i) {
+      const Vector3& n = environment.walls[i].normal;
+      for (size_t a = 0; a < 3; ++a) {
+        if (!environment.periodic[a] || std::abs(n[a]) <= kLeaning * std::hypot(n[0], n[1], n[2])) continue;
+        fail(at(at(pointer + "/walls", i) + "/normal", a),
+             std::string("must be 0: the scene is periodic along ") + "xyz"[a] +
+                 ", and a wall that leans along it would not meet its own image; let gravity lean instead");
+      }
+    }
     checkPeriods();
-    checkSolver(m_project.solver);
-    for (size_t i = 0; i < m_project.probes.size(); ++i) checkProbe(m_project.probes[i], at("/probes", i));
-    checkPinned();
-    for (size_t i = 0; i < m_project.pluginsUsed.size(); ++i) {
-      const std::string& id = m_project.pluginsUsed[i];
-      if (!m_plugins.has(id)) warnMissing(id, at("/pluginsUsed", i), "what it does is left out");
+  }
+
+  void object(const Probe& probe, const std::string& pointer) override {
+    const std::string& body = probe.body;
+    if (!body.empty() && !contains(m_project.bodies, body) && !contains(m_project.emitters, body)) {
+      warn(pointer + "/body", "there is no body or emitter '" + body + "'; the probe measures nothing");
+    }
+    if (probe.wave && !probeIsMean(probe.quantity)) {
+      fail(pointer + "/wave", "needs a quantity that each particle has, as velocity_y; '" + probe.quantity +
+                                  "' is of all of them together");
     }
   }
 
@@ -54,28 +159,12 @@ class ProjectChecker {
     throw InputError(m_name + ":" + pointer + ": " + what);
   }
 
-  [[noreturn]] void failAt(const std::string& owner, const std::string& key, const std::string& what) const {
-    fail(owner + "/" + key, what);
-  }
-
   void warn(const std::string& pointer, const std::string& what) {
     m_warnings.push_back({false, m_name + ":" + pointer + ": " + what});
   }
 
-  /// Refuses a plugin of another kind; warns once per plugin that is not there.
-  void checkPlugin(PluginKind kind, const std::string& id, const std::string& pointer, const std::string& consequence) {
-    if (!m_plugins.has(id)) return warnMissing(id, pointer, consequence, kind);
-    for (const PluginInfo& info : m_plugins.plugins()) {
-      if (info.id != id || info.state != PluginInfo::State::Loaded || info.kind == kind) continue;
-      const auto words = [](PluginKind k) {
-        return std::string(pluginKindName(k)) + (k == PluginKind::Thermal ? " model" : "");
-      };
-      fail(pointer, "'" + id + "' is a " + words(info.kind) + ", not a " + words(kind));
-    }
-  }
-
-  void warnMissing(const std::string& id, const std::string& pointer, const std::string& consequence,
-                   std::optional<PluginKind> kind = std::nullopt) {
+  void warnMissing(const std::string& id, const std::string& pointer, const std::string& withoutIt,
+                   std::optional<PluginKind> kind) {
     if (!m_missing.insert(id).second) return;
     std::vector<std::string> installed;
     for (const PluginInfo& info : m_plugins.plugins()) {
@@ -85,7 +174,7 @@ class ProjectChecker {
     for (const PluginInfo& info : m_plugins.plugins()) {
       if (info.id == id && !info.problem.empty()) reason = "cannot be used (" + info.problem + ")";
     }
-    warn(pointer, "the plugin '" + id + "' " + reason + "; " + consequence);
+    warn(pointer, "the plugin '" + id + "' " + reason + "; " + withoutIt);
   }
 
   template <class List>
@@ -93,47 +182,14 @@ class ProjectChecker {
     return std::any_of(list.begin(), list.end(), [&](const auto& item) { return item.id == id; });
   }
 
-  template <class List>
-  void checkIds(const List& list, const std::string& pointer) const {
-    std::set<std::string> seen;
-    for (size_t i = 0; i < list.size(); ++i) {
-      if (!seen.insert(list[i].id).second) fail(at(pointer, i) + "/id", "'" + list[i].id + "' is taken already");
-    }
-  }
-
-  void checkSet(const ParameterSet& set, api::ParameterList list, const std::string& pointer) const {
-    for (const auto& [key, value] : set.values) {
-      const api::ParameterDeclaration* declaration = findDeclaration(list, key);
-      const std::string problem = declaration ? problemOf(value, *declaration) : "";
-      if (!problem.empty()) failAt(pointer, key, problem);
-    }
-  }
-
   /// The installed material with its plugin's laws at the scene's own parameters, as the engine will take it.
   Material baseOf(const SceneMaterial& source, const std::string& pointer) const {
     if (!m_plugins.materialPlugin(source.base)) return *m_plugins.material(source.base);
-    checkSet(source.parameters, m_plugins.parameters(source.base), pointer + "/parameters");
     try {
       return m_plugins.evaluated(source.base, numbersOf(source.parameters, m_plugins.parameters(source.base)));
     } catch (const Error& error) {
       fail(pointer + "/parameters", error.what());
     }
-  }
-
-  void checkMaterial(const SceneMaterial& source, const std::string& pointer) {
-    checkSet(source.properties, propertyCatalogue(), pointer + "/properties");
-    checkPlugin(PluginKind::Material, source.base, pointer + "/base", "bodies made of it stand still");
-    if (!m_plugins.material(source.base)) return;
-    Material material = baseOf(source, pointer);
-    for (const auto& [key, value] : source.properties.values) material.properties[key] = responseOf(value);
-    if (const std::string problem = problemOf(material); !problem.empty()) {
-      const std::string key = problem.substr(0, problem.find_first_of(" :"));
-      fail(pointer + "/properties" + (propertyIndex(key) >= 0 ? "/" + key : ""), problem);
-    }
-  }
-
-  void checkMaterialExists(const std::string& id, const std::string& pointer) const {
-    if (!contains(m_project.materials, id)) fail(pointer, "the scene has no material '" + id + "'");
   }
 
   void addParticles(const Body& body, const std::string& pointer) {
@@ -144,24 +200,6 @@ class ProjectChecker {
     fail(pointer, "takes " + numberText(std::round(count)) + " particles, which makes more than the " +
                       numberText(kMaximumParticles) +
                       " that a scene may have; make it smaller or raise /solver/particle_spacing");
-  }
-
-  void checkVoxels(const VoxelShape& shape, const std::string& pointer) {
-    const int colours = static_cast<int>(shape.palette.size());
-    for (size_t i = 0; i < shape.palette.size(); ++i) {
-      checkMaterialExists(shape.palette[i].material, at(pointer + "/palette", i) + "/material");
-    }
-    for (size_t i = 0; i < shape.runs.size(); ++i) {
-      if (shape.runs[i].palette >= colours) fail(at(pointer + "/runs", i) + "/4", "the palette has no such entry");
-    }
-    checkOverlaps(shape.runs, pointer + "/runs");
-    for (size_t i = 0; i < shape.strokes.size(); ++i) {
-      const std::string stroke = at(pointer + "/strokes", i);
-      if (shape.strokes[i].palette >= colours) fail(stroke + "/palette", "the palette has no such entry");
-      checkSet(shape.strokes[i].parameters, m_plugins.parameters(shape.strokes[i].brush), stroke + "/parameters");
-      checkPlugin(PluginKind::Brush, shape.strokes[i].brush, stroke + "/brush",
-                  "the stroke's cells are there, but it cannot be drawn again");
-    }
   }
 
   /// Two runs over one cell would make two particles in one place, which no force can part.
@@ -181,26 +219,6 @@ class ProjectChecker {
     }
   }
 
-  void checkRegion(const Region& region, const std::string& pointer) const {
-    for (size_t a = 0; a < 3; ++a) {
-      if (region.minimum[a] > region.maximum[a]) {
-        fail(at(pointer + "/maximum", a), "must not be below the minimum, " + numberText(region.minimum[a]) + " m");
-      }
-    }
-  }
-
-  void checkProbe(const Probe& probe, const std::string& pointer) {
-    const std::string& body = probe.body;
-    if (!body.empty() && !contains(m_project.bodies, body) && !contains(m_project.emitters, body)) {
-      warn(pointer + "/body", "there is no body or emitter '" + body + "'; the probe measures nothing");
-    }
-    if (probe.region) checkRegion(*probe.region, pointer + "/region");
-    if (probe.wave && !probeIsMean(probe.quantity)) {
-      fail(pointer + "/wave", "needs a quantity that each particle has, as velocity_y; '" + probe.quantity +
-                                  "' is of all of them together");
-    }
-  }
-
   void checkMotion(const Body& body, const std::string& pointer) {
     if (!toggleOf(body.parameters, bodyParameters(), "fixed")) return;
     const auto number = [&](const char* key) { return numberOf(body.parameters, bodyParameters(), key); };
@@ -213,70 +231,10 @@ class ProjectChecker {
     }
   }
 
-  void checkBody(const Body& body, const std::string& pointer) {
-    checkMaterialExists(body.material, pointer + "/material");
-    checkSet(body.parameters, bodyParameters(), pointer);
-    for (size_t i = 0; i < body.pins.size(); ++i) checkRegion(body.pins[i], at(pointer + "/pins", i));
-    checkMotion(body, pointer);
-    if (const auto* voxels = std::get_if<VoxelShape>(&body.shape)) {
-      checkVoxels(*voxels, pointer + "/shape/voxels");
-      addParticles(body, pointer + "/shape/voxels/runs");
-    } else {
-      addParticles(body, pointer + "/shape/box/size");
-    }
-    for (size_t i = 0; i < body.constraints.size(); ++i) {
-      const BodyConstraint& constraint = body.constraints[i];
-      const std::string place = at(pointer + "/constraints", i);
-      checkPlugin(PluginKind::Constraint, constraint.plugin, place + "/plugin", "the body stands still");
-      checkSet(constraint.parameters, m_plugins.parameters(constraint.plugin), place + "/parameters");
-    }
-  }
-
-  void checkEmitter(const Emitter& emitter, const std::string& pointer) const {
-    checkMaterialExists(emitter.material, pointer + "/material");
-    checkSet(emitter.parameters, emitterParameters(), pointer);
-    if (contains(m_project.bodies, emitter.id)) {
-      fail(pointer + "/id", "'" + emitter.id + "' is a body's already; its particles could not be told apart");
-    }
-    const Environment& environment = m_project.environment;
-    for (size_t a = 0; a < 3; ++a) {
-      if (emitter.point[a] < environment.boundsMinimum[a] || emitter.point[a] > environment.boundsMaximum[a]) {
-        fail(at(pointer + "/point", a), "lies outside of the scene's bounds");
-      }
-    }
-    requireDirection(emitter.direction, pointer + "/direction");
-  }
-
-  void checkSink(const Sink& sink, const std::string& pointer) const {
-    checkSet(sink.parameters, sinkParameters(), pointer);
-    requireBox(sink.minimum, sink.maximum, pointer);
-  }
-
   void requireBox(const Vector3& minimum, const Vector3& maximum, const std::string& pointer) const {
     for (size_t a = 0; a < 3; ++a) {
       if (minimum[a] >= maximum[a]) {
         fail(at(pointer + "/maximum", a), "must be above the minimum, " + numberText(minimum[a]) + " m");
-      }
-    }
-  }
-
-  void requireDirection(const Vector3& v, const std::string& pointer) const {
-    if (!(std::hypot(v[0], v[1], v[2]) > 1e-6)) {
-      fail(pointer, "must have a direction: at least one part away from zero");
-    }
-  }
-
-  void checkEnvironment(const Environment& environment) const {
-    requireBox(environment.boundsMinimum, environment.boundsMaximum, "/environment/bounds");
-    for (size_t i = 0; i < environment.walls.size(); ++i) {
-      const Vector3& n = environment.walls[i].normal;
-      const std::string normal = at("/environment/walls", i) + "/normal";
-      requireDirection(n, normal);
-      for (size_t a = 0; a < 3; ++a) {
-        if (!environment.periodic[a] || std::abs(n[a]) <= kLeaning * std::hypot(n[0], n[1], n[2])) continue;
-        fail(at(normal, a),
-             std::string("must be 0: the scene is periodic along ") + "xyz"[a] +
-                 ", and a wall that leans along it would not meet its own image; let gravity lean instead");
       }
     }
   }
@@ -293,21 +251,6 @@ class ProjectChecker {
       fail(at("/environment/bounds/maximum", a),
            std::string("the scene is periodic along ") + "xyz"[a] + ", so this edge, " + numberText(edge) +
                " m, must be three times the reach of a particle or longer: " + numberText(least) + " m");
-    }
-  }
-
-  void checkSolver(const SolverOptions& solver) {
-    if (solver.thermalModel.empty()) return;
-    checkPlugin(PluginKind::Thermal, solver.thermalModel, "/solver/thermal/model", "no heat flows");
-    checkSet(solver.thermalParameters, m_plugins.parameters(solver.thermalModel), "/solver/thermal/parameters");
-  }
-
-  void checkPinned() {
-    for (size_t i = 0; i < m_project.view.pinned.size(); ++i) {
-      const auto address = Address::parse(m_project.view.pinned[i]);
-      if (!address || (!findSet(m_project, *address) && !outsideValue(m_project, *address))) {
-        warn(at("/view/pinned", i), "the scene has no parameter '" + m_project.view.pinned[i] + "'");
-      }
     }
   }
 

@@ -3,6 +3,7 @@
 
 #include "core/base/jsontext.h"
 #include "core/io/projectcheck.h"
+#include "core/io/projectfields.h"
 #include "core/io/schema.h"
 #include "core/io/textfile.h"
 #include "core/plugin_host/registry.h"
@@ -93,49 +94,13 @@ void checkRequired(const json& document, const std::string& name, const PluginRe
   }
 }
 
-/// Checks "parameters" of one owner against what its plugin declares.
-void checkParameters(const json& owner, const char* key, const PluginRegistry& plugins, const std::string& name,
-                     const std::string& pointer, std::vector<UnknownKey>& unknown) {
-  const auto parameters = owner.find("parameters");
-  const std::string id = owner.at(key).get<std::string>();
-  if (!plugins.has(id) || parameters == owner.end()) return;
-  checkAgainst(parameterListSchema(plugins.parameters(id)), *parameters, name, pointer + "/parameters", unknown);
-}
-
-void checkPluginParameters(const json& document, const std::string& name, const PluginRegistry& plugins,
-                           std::vector<UnknownKey>& unknown) {
-  const json &materials = document.at("materials"), &bodies = document.at("bodies");
-  for (size_t i = 0; i < materials.size(); ++i) {
-    checkParameters(materials[i], "base", plugins, name, "/materials/" + std::to_string(i), unknown);
-  }
-  for (size_t b = 0; b < bodies.size(); ++b) {
-    const std::string pointer = "/bodies/" + std::to_string(b);
-    const json constraints = bodies[b].value("constraints", json::array());
-    for (size_t c = 0; c < constraints.size(); ++c) {
-      checkParameters(constraints[c], "plugin", plugins, name, pointer + "/constraints/" + std::to_string(c), unknown);
-    }
-    const auto voxels = bodies[b].at("shape").find("voxels");
-    if (voxels == bodies[b].at("shape").end() || !voxels->contains("strokes")) continue;
-    const json& strokes = voxels->at("strokes");
-    for (size_t s = 0; s < strokes.size(); ++s) {
-      checkParameters(strokes[s], "brush", plugins, name, pointer + "/shape/voxels/strokes/" + std::to_string(s),
-                      unknown);
-    }
-  }
-  const json::json_pointer thermal("/solver/thermal");
-  if (document.contains(thermal)) {
-    checkParameters(document.at(thermal), "model", plugins, name, thermal.to_string(), unknown);
-  }
-}
-
 /// Keys that the format has set aside: kept for the program that knows them, and told here, since the scene that opens
 /// is not all that the file holds.
 void warnReserved(const json& document, const std::string& name, std::vector<ProjectMessage>& warnings) {
-  static constexpr std::pair<const char*, const char*> kReserved[] = {
-      {"state", "is kept, but this version does not use it: the scene opens at its start"},
-      {"tracks", "are kept, but this version does not use them: parameters stay as they stand elsewhere in the file"}};
-  for (const auto& [key, what] : kReserved) {
-    if (document.contains(key)) warnings.push_back({false, name + ":/" + key + ": " + what});
+  for (const auto& row : fields::projectFields().rows) {
+    if (row.warning && document.contains(row.key)) {
+      warnings.push_back({false, name + ":/" + row.key + ": " + row.warning});
+    }
   }
 }
 
@@ -158,9 +123,11 @@ void checkDocument(const json& document, const std::string& name, const PluginRe
                    std::vector<ProjectMessage>& warnings) {
   checkFormat(document, name);
   std::vector<UnknownKey> unknown;
-  checkAgainst(projectSchema(), document, name, "", unknown);
+  const auto parameters = [&](const std::string& id) {
+    return plugins.has(id) ? std::optional(plugins.parameters(id)) : std::nullopt;
+  };
+  checkAgainstSchema(document, name, parameters, unknown);
   checkRequired(document, name, plugins);
-  checkPluginParameters(document, name, plugins, unknown);
   warnReserved(document, name, warnings);
   for (size_t i = 0; i < std::min(unknown.size(), kMostUnknown); ++i) {
     warnings.push_back({false, name + ":" + unknown[i].pointer + ": is not known here" + unknown[i].meant +
@@ -170,6 +137,17 @@ void checkDocument(const json& document, const std::string& name, const PluginRe
     warnings.push_back(
         {false, name + ":/: " + std::to_string(unknown.size() - kMostUnknown) + " more keys are not known here"});
   }
+}
+
+Project readDocument(json& document, const PluginRegistry& plugins) {
+  Project project;
+  fields::projectFields().read(project, document, plugins);
+  for (Body& body : project.bodies) {
+    auto* voxels = std::get_if<VoxelShape>(&body.shape);
+    if (voxels && voxels->spacing == 0)
+      voxels->spacing = numberOf(project.solver.parameters, solverParameters(), "particle_spacing");
+  }
+  return project;
 }
 
 LoadedProject parseProject(const std::string& text, const std::string& name, const PluginRegistry& plugins,

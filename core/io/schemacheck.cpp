@@ -37,7 +37,8 @@ std::string typeName(const std::string& type) {
 
 class Checker {
  public:
-  Checker(const std::string& name, std::vector<UnknownKey>& unknown) : m_name(name), m_unknown(unknown) {}
+  Checker(const std::string& name, const PluginParameters& parameters, std::vector<UnknownKey>& unknown)
+      : m_name(name), m_parameters(parameters), m_unknown(unknown) {}
 
   void check(const json& schema, const json& value, const std::string& pointer) const {
     if (const auto ref = schema.find("$ref"); ref != schema.end()) {
@@ -153,7 +154,9 @@ class Checker {
     for (const auto& [key, member] : value.items()) {
       const auto known = properties->find(key);
       if (known != properties->end()) {
-        check(*known, member, pointer + "/" + pointerPart(key));
+        const std::string place = pointer + "/" + pointerPart(key);
+        check(*known, member, place);
+        checkParameters(*known, member, value, place);
       } else if (!key.starts_with("$") && !key.starts_with("x-")) {
         const bool told = m_unknown.size() < kMostUnknown;  // the others are counted
         m_unknown.push_back(
@@ -162,15 +165,26 @@ class Checker {
     }
   }
 
+  /// Against what the plugin declares that a key beside them names.
+  void checkParameters(const json& schema, const json& value, const json& owner, const std::string& pointer) const {
+    const auto plugin = schema.find(kPluginKeyword);
+    if (plugin == schema.end()) return;
+    const auto id = owner.find(plugin->at("key").get_ref<const std::string&>());
+    if (id == owner.end() || !id->is_string()) return;
+    const auto list = m_parameters(id->get<std::string>());
+    if (list) check(parameterListSchema(*list), value, pointer);
+  }
+
   const std::string& m_name;
+  const PluginParameters& m_parameters;
   std::vector<UnknownKey>& m_unknown;
 };
 
 }  // namespace
 
-void checkAgainst(const json& schema, const json& value, const std::string& name, const std::string& pointer,
-                  std::vector<UnknownKey>& unknown) {
-  Checker(name, unknown).check(schema, value, pointer);
+void checkAgainstSchema(const json& project, const std::string& name, const PluginParameters& parameters,
+                        std::vector<UnknownKey>& unknown) {
+  Checker(name, parameters, unknown).check(projectSchema(), project, "");
 }
 
 }  // namespace ps
