@@ -4,7 +4,7 @@
 #include "core/base/error.h"
 #include "core/base/jsontext.h"
 #include "core/base/parallel.h"
-#include "core/experiments/report.h"
+#include "core/experiments/runreport.h"
 #include "core/io/textfile.h"
 #include "core/particles/neighbours.h"
 #include "core/plugin_host/registry.h"
@@ -112,7 +112,7 @@ struct Measured {
 Measured measureScene(const std::string& name, const Project& project, PluginRegistry& plugins, long frames) {
   Engine engine(project, plugins);
   for (long frame = 0; frame < kWarmUp; ++frame) engine.step();
-  Report report(engine.stats());
+  RunReport report(engine.stats());
   for (long frame = 0; frame < frames; ++frame) {
     const StepReport step = engine.step();
     report.add(step, engine.stats());

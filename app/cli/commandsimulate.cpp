@@ -5,8 +5,8 @@
 #include "core/base/hash.h"
 #include "core/base/jsontext.h"
 #include "core/experiments/probetable.h"
-#include "core/experiments/report.h"
-#include "core/experiments/rest.h"
+#include "core/experiments/runreport.h"
+#include "core/experiments/settlingmeasure.h"
 #include "core/io/recording.h"
 #include "core/io/textfile.h"
 #include "core/plugin_host/registry.h"
@@ -29,7 +29,7 @@ constexpr OptionSpec kOptions[] = {
     kQuiet,
 };
 
-void summarise(const Report& report, Engine& engine, double wall) {
+void summarise(const RunReport& report, Engine& engine, double wall) {
   const FrameStats stats = engine.stats();
   const double factor = wall > 0 ? stats.time / wall : 0;
   std::printf("%zu frames, %.6g s simulated in %.3g s (%.3g times real time), %.3g ms per frame\n", report.frames(),
@@ -62,8 +62,8 @@ int simulateCommand(CommandArguments given) {
   std::optional<RecordingWriter> recording;
   if (arguments.has("--probes")) probes.emplace(arguments.text("--probes"), engine.probeNames());
   if (arguments.has("--record")) recording.emplace(arguments.text("--record"), project);
-  Report report(engine.stats());
-  Rest rest(frames);
+  RunReport report(engine.stats());
+  SettlingMeasure settling(frames);
   const double start = now();
   if (recording) recording->add(*engine.snapshot());
   bool whole = false;
@@ -71,7 +71,7 @@ int simulateCommand(CommandArguments given) {
     Progress progress(frames, quiet);
     whole = runFrames(engine, frames, [&](const StepReport& step, const FrameStats& stats) {
       report.add(step, stats);
-      rest.add(engine, stats);
+      settling.add(engine, stats);
       if (probes) probes->add(stats);
       if (recording) recording->add(*engine.snapshot());
       progress.show(static_cast<long>(report.frames()), stats);
@@ -82,7 +82,7 @@ int simulateCommand(CommandArguments given) {
   if (recording) recording->finish();
   if (arguments.has("--report")) {
     nlohmann::json content = report.json(engine, wall);
-    content["rest"] = rest.json(engine);
+    content["rest"] = settling.json(engine);
     content["program"] = "phasesketch " PS_VERSION;
     content["project"] = {{"file", path}, {"title", project.title}};
     content["warnings"] = warnings;

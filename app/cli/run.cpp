@@ -52,8 +52,6 @@ std::string counted(size_t count, const std::string& noun) {
   return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
 }
 
-double frameLength(const Project& project) { return numberOf(project.solver.parameters, solverParameters(), "dt"); }
-
 long frameCount(const Arguments& arguments, const Project& project) {
   if (arguments.has("--frames") && arguments.has("--seconds")) throw InputError("give --frames or --seconds, not both");
   if (const auto frames = arguments.integer("--frames", 0, kMostFrames)) return *frames;
@@ -74,16 +72,6 @@ bool interrupted() {
     return true;
   }();
   return listening && g_interrupted != 0;
-}
-
-bool runFrames(Engine& engine, long frames, const std::function<void(const StepReport&, const FrameStats&)>& each) {
-  for (long frame = 1; frame <= frames; ++frame) {
-    const StepReport step = engine.step();
-    each(step, engine.stats());
-    if (step.flags & static_cast<StepFlags>(StepFlag::NotFinite)) return false;
-    if (interrupted()) return false;
-  }
-  return true;
 }
 
 Progress::Progress(long frames, bool quiet)

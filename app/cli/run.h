@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "app/cli/arguments.h"
+#include "core/experiments/run.h"
 #include "core/io/projectio.h"
 #include "core/simulation/engine.h"
 
 #include <chrono>
-#include <functional>
 #include <string>
 
 namespace ps::cli {
@@ -30,15 +30,15 @@ Project parseFor(const Arguments& arguments, const std::string& text, const std:
 long frameCount(const Arguments& arguments, const Project& project);
 /// "1 picture", "2 pictures".
 std::string counted(size_t count, const std::string& noun);
-/// s, one frame.
-double frameLength(const Project& project);
 /// s since a fixed point.
 double now();
 /// True once the user has pressed Ctrl+C; the first call starts listening.
 bool interrupted();
 
 /// Runs frames and hands each one over; false when Ctrl+C or a broken state ended them early.
-bool runFrames(Engine& engine, long frames, const std::function<void(const StepReport&, const FrameStats&)>& each);
+inline bool runFrames(Engine& engine, long frames, const FrameVisitor& each) {
+  return ps::runFrames(engine, frames, each, interrupted);
+}
 
 /// One line on a terminal's standard error that says how far a run is; nothing where there is no terminal.
 class Progress {

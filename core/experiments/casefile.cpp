@@ -59,8 +59,8 @@ class Entry {
     if (!fine) throw InputError(m_place + "/" + key + ": must be a number or a list of numbers");
     return value->get<std::vector<double>>();
   }
-  Edits edits(const char* key) {
-    Edits all;
+  ProjectEdits edits(const char* key) {
+    ProjectEdits all;
     const json* value = find(key);
     if (!value) return all;
     if (!value->is_object()) throw InputError(m_place + "/" + key + ": must be an object of JSON pointers and values");

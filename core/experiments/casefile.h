@@ -34,18 +34,18 @@ struct CaseCheck {
 };
 
 /// Changes of a project, as --set takes them.
-using Edits = std::vector<std::string>;
+using ProjectEdits = std::vector<std::string>;
 
 struct CaseRun {
   std::string name;  ///< "5 iterations"; "" for the only one
-  Edits edits;
+  ProjectEdits edits;
   long frames = 0;
 };
 
 /// An experiment: a project, numbers for it, and what theory says about the outcome.
 struct Case {
   std::string id, why, project;  ///< `project`: path; "" where no run is needed
-  Edits edits;
+  ProjectEdits edits;
   std::vector<CaseRun> runs;  ///< at least one
   std::vector<CaseCheck> checks;
 };

@@ -5,6 +5,7 @@
 #include <QFile>
 #include <QImage>
 #include <QProcess>
+#include <QRegularExpression>
 #include <QTemporaryDir>
 #include <QTest>
 
@@ -17,6 +18,7 @@ class TestCli : public QObject {
  private Q_SLOTS:
   void exitCodesAndOneLine_data();
   void exitCodesAndOneLine();
+  void tablesKeepTheirColumns();
   void simulateWritesTheReportsKeys();
   void reportsHoldWarningsAndWhoseLimitsTheyAre();
   void aRunOfOneFrameSaysNothingOfRest();
@@ -120,6 +122,31 @@ void TestCli::exitCodesAndOneLine() {
   } else {
     QVERIFY2(QString::fromUtf8(ran.err).contains(says), ran.err.constData());
     QCOMPARE(ran.err.count('\n'), 1);
+  }
+}
+
+/// Scripts read these tables.
+void TestCli::tablesKeepTheirColumns() {
+  const QString table = PS_SOURCE_DIR "/tests/cases/cases.json";
+  const Ran cases = cli({"cases", table, "--only", "i2_sublimation_water"});
+  QVERIFY2(cases.code == 0, cases.err.constData());
+  const QList<QByteArray> rows = cases.out.split('\n');
+  QCOMPARE(rows[0],
+           QByteArray("case                          what                                          expected    "
+                      " got          tolerance         ok"));
+  QVERIFY2(rows[1].startsWith("i2_sublimation_water          sublimation point at 600 Pa, K                "),
+           rows[1].constData());
+  QVERIFY2(rows[1].endsWith("  yes"), rows[1].constData());
+  const Ran soaked = cli({"soak", kSample, "--seconds", "0.05", "--only", "solver/substeps", "--threads", "1"});
+  QVERIFY2(soaked.code == 0, soaked.err.constData());
+  const QString line = QStringLiteral(R"(ice-on-hot-plate      %1 +[0-9.e+-]+ m/s +[0-9.]+ ms  fine)");
+  const QStringList runs = QString::fromUtf8(soaked.out).split('\n', Qt::SkipEmptyParts);
+  QCOMPARE(runs.size(), 3);
+  const QStringList changes{"as it is", "solver/substeps = 1", "solver/substeps = 16"};
+  for (int i = 0; i < 3; ++i) {
+    QVERIFY2(QRegularExpression(QRegularExpression::anchoredPattern(line.arg(changes[i]))).match(runs[i]).hasMatch(),
+             qPrintable(runs[i]));
+    QCOMPARE(runs[i].indexOf(QStringLiteral(" m/s")), 84);
   }
 }
 

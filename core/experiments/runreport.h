@@ -17,10 +17,10 @@ struct Spread {
 Spread spreadOf(std::vector<double> values);
 
 /// Collects a run's frames and writes what --report holds.
-class Report {
+class RunReport {
  public:
   /// `start`: statistics before the first frame.
-  explicit Report(const FrameStats& start) : m_start(start), m_last(start) {}
+  explicit RunReport(const FrameStats& start) : m_start(start), m_last(start) {}
   void add(const StepReport& step, const FrameStats& stats);
 
   StepFlags flags() const { return m_flags; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "core/experiments/report.h"
+#include "core/experiments/runreport.h"
 
 #include "core/base/hash.h"
 #include "core/base/parallel.h"
@@ -37,7 +37,7 @@ Spread spreadOf(std::vector<double> values) {
   return {mean, at(0.5), at(0.95)};
 }
 
-void Report::add(const StepReport& step, const FrameStats& stats) {
+void RunReport::add(const StepReport& step, const FrameStats& stats) {
   if (step.flags && !m_flags) m_message = step.message;
   m_flags |= step.flags;
   m_total.push_back(step.totalMilliseconds);
@@ -54,7 +54,7 @@ void Report::add(const StepReport& step, const FrameStats& stats) {
   m_last = stats;
 }
 
-nlohmann::json Report::json(Engine& engine, double wallSeconds) const {
+nlohmann::json RunReport::json(Engine& engine, double wallSeconds) const {
   const ParameterSet& set = engine.project().solver.parameters;
   const auto number = [&](const char* key) { return numberOf(set, solverParameters(), key); };
   nlohmann::json milliseconds{{"total", jsonOf(total())}};

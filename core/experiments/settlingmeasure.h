@@ -9,10 +9,10 @@
 namespace ps {
 
 /// Whether matter has come to rest: what moves in the second half of a run, and how far it has crept since the first.
-class Rest {
+class SettlingMeasure {
  public:
   /// `frames` of the whole run.
-  explicit Rest(long frames) : m_half(frames / 2) {}
+  explicit SettlingMeasure(long frames) : m_half(frames / 2) {}
   void add(Engine& engine, const FrameStats& stats);
   /// Kinetic energy in J (`highest` of the whole run, `mean` of the second half, `end`), the mean and the highest rms
   /// speed of the second half in m/s, and in m how far bodies (their centre of mass) and solid particles have moved in

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "core/experiments/rest.h"
+#include "core/experiments/settlingmeasure.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@ double length(const api::Double3& v) { return std::sqrt(v.x * v.x + v.y * v.y + 
 
 }  // namespace
 
-void Rest::add(Engine& engine, const FrameStats& stats) {
+void SettlingMeasure::add(Engine& engine, const FrameStats& stats) {
   ++m_frames;
   m_end = stats.kineticEnergy;
   m_highest = std::max(m_highest, m_end);
@@ -35,7 +35,7 @@ void Rest::add(Engine& engine, const FrameStats& stats) {
   m_speedHighest = std::max(m_speedHighest, speed);
 }
 
-nlohmann::json Rest::json(Engine& engine) const {
+nlohmann::json SettlingMeasure::json(Engine& engine) const {
   if (m_half == 0 || m_frames <= m_half) return nullptr;
   const ParticleStore& store = engine.solver().particles();
   struct Centre {

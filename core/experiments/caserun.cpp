@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/experiments/caserun.h"
+
+#include "core/base/error.h"
+#include "core/experiments/casefunctions.h"
+#include "core/experiments/casemeasure.h"
+#include "core/experiments/probetable.h"
+#include "core/io/projectio.h"
+#include "core/matter/material.h"
+#include "core/plugin_host/registry.h"
+#include "core/simulation/compile.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace ps {
+namespace {
+
+/// What one run left behind.
+struct CaseOutcome {
+  std::vector<std::string> titles;
+  std::vector<std::vector<double>> rows;  ///< the probes' table and the heat balance, by frame
+  std::vector<Material> materials;        ///< of the scene
+  TemperatureField field;                 ///< at the end
+
+  Series series(const std::string& title, bool thermalClock) const {
+    const auto found = std::find(titles.begin(), titles.end(), title);
+    if (found == titles.end()) throw InputError("the project has no probe that gives the column '" + title + "'");
+    const auto column = static_cast<size_t>(found - titles.begin());
+    Series result;
+    for (const std::vector<double>& row : rows) {
+      result.time.push_back(row[thermalClock ? 1 : 0]);
+      result.value.push_back(row[column]);
+    }
+    return result;
+  }
+};
+
+/// What every run gives beside its probes: thermal energy; what came in by walls, air, radiation, heaters and with
+/// matter since the start, and the amounts of it; what of the change of energy none of these explains, and that as a
+/// share of the sum of |m h|.
+constexpr const char* kHeatTitles[] = {"heat.energy[J]",    "heat.walls[J]",   "heat.air[J]",
+                                       "heat.radiation[J]", "heat.heaters[J]", "heat.sources[J]",
+                                       "heat.exchanged[J]", "heat.open[J]",    "heat.open_share[1]"};
+
+void addHeat(Engine& engine, const FrameStats& start, const FrameStats& now, std::vector<double>& row) {
+  double sum = 0;
+  for (const double energy : engine.solver().thermalEnergies()) sum += std::abs(energy);
+  const HeatLedger &before = start.heat, &heat = now.heat;
+  const double open = now.thermalEnergy - start.thermalEnergy - (heat.net() - before.net());
+  for (const double value :
+       {now.thermalEnergy, heat.walls - before.walls, heat.air - before.air, heat.radiation - before.radiation,
+        heat.heaters - before.heaters, heat.sources - before.sources, heat.exchanged - before.exchanged, open,
+        sum > 0 ? std::abs(open) / sum : 0.0}) {
+    row.push_back(value);
+  }
+}
+
+CaseOutcome run(const Case& what, const CaseRun& configuration, const ProjectEdits& more, PluginRegistry& plugins,
+                const StopTest& stop) {
+  ProjectEdits edits = what.edits;
+  edits.insert(edits.end(), configuration.edits.begin(), configuration.edits.end());
+  edits.insert(edits.end(), more.begin(), more.end());
+  const Project project = loadProject(what.project, plugins, edits).project;
+  Engine engine(project, plugins);
+  CaseOutcome outcome{columnTitles(engine.probeNames()), {}, compileMaterials(project, plugins), {}};
+  outcome.titles.insert(outcome.titles.end(), std::begin(kHeatTitles), std::end(kHeatTitles));
+  std::string problem;
+  const FrameStats start = engine.stats();
+  const bool whole = runFrames(
+      engine, configuration.frames,
+      [&](const StepReport& step, const FrameStats& stats) {
+        if (problem.empty()) problem = step.message;
+        outcome.rows.push_back(columnValues(stats));
+        addHeat(engine, start, stats, outcome.rows.back());
+      },
+      stop);
+  if (!problem.empty()) throw Error("the run set flags: " + problem);
+  if (!whole) throw Error("stopped early");
+  outcome.field = temperatureField(engine);
+  return outcome;
+}
+
+std::optional<double> expectedOf(const CaseCheck& check, size_t run) {
+  if (check.expected.empty()) return std::nullopt;
+  return check.expected[check.expected.size() > 1 ? run : 0];
+}
+
+/// The scene's material of that name, or the installed one.
+const Material& materialOf(const CaseCheck& check, const CaseOutcome* outcome, const PluginRegistry& plugins) {
+  if (outcome) {
+    for (const Material& material : outcome->materials) {
+      if (material.id == check.material) return material;
+    }
+  }
+  const Material* material = plugins.material(check.material);
+  if (!material) throw InputError("there is no material '" + check.material + "'");
+  return *material;
+}
+
+double ofMaterial(const CaseCheck& check, const CaseOutcome* outcome, const PluginRegistry& plugins) {
+  const Material& material = materialOf(check, outcome, plugins);
+  if (!check.equilibrium.empty()) {
+    return equilibriumOf(material, check.equilibrium, check.pressure, check.temperature);
+  }
+  if (propertyIndex(check.property) < 0) throw InputError("there is no property '" + check.property + "'");
+  return BakedMaterial(material, check.pressure).property(check.property.c_str(), check.temperature);
+}
+
+double measured(const CaseCheck& check, const CaseOutcome& outcome) {
+  if (!check.profile.law.empty()) return profileValue(outcome.field, check.profile);
+  Series series = outcome.series(check.column, check.thermalClock);
+  if (!check.minus.empty()) {
+    const Series other = outcome.series(check.minus, check.thermalClock);
+    for (size_t k = 0; k < series.value.size(); ++k) series.value[k] -= other.value[k];
+  }
+  return check.times * measureOf(series, check.measure, check.options) + check.plus;
+}
+
+void judge(const Case& what, const CaseCheck& check, const std::vector<CaseOutcome>& outcomes,
+           const PluginRegistry& plugins, const VerdictVisitor& each) {
+  if (!check.function.empty()) {
+    each(verdictOf(what, check.what, check, expectedOf(check, 0), valueOfFunction(check.function, check.arguments)));
+    return;
+  }
+  const bool fromMaterial = !check.property.empty() || !check.equilibrium.empty();
+  if (fromMaterial && outcomes.empty()) {
+    each(verdictOf(what, check.what, check, expectedOf(check, 0), ofMaterial(check, nullptr, plugins)));
+    return;
+  }
+  std::vector<double> measuredValues;
+  measuredValues.reserve(outcomes.size());
+  for (const CaseOutcome& outcome : outcomes) {
+    measuredValues.push_back(fromMaterial ? ofMaterial(check, &outcome, plugins) : measured(check, outcome));
+  }
+  if (check.spread) {
+    const auto [least, most] = std::minmax_element(measuredValues.begin(), measuredValues.end());
+    each(verdictOf(what, check.what, check, std::nullopt, *most / *least - 1));
+    return;
+  }
+  for (size_t k = 0; k < measuredValues.size(); ++k) {
+    const std::string& name = what.runs[k].name;
+    if (!check.run.empty() && check.run != name) continue;
+    each(verdictOf(what, check.what + (name.empty() ? "" : ", " + name), check, expectedOf(check, k),
+                   measuredValues[k]));
+  }
+}
+
+}  // namespace
+
+std::string sixDigits(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", value);
+  return text;
+}
+
+CaseVerdict verdictOf(const Case& what, const std::string& name, const CaseCheck& check, std::optional<double> expected,
+                      double measured) {
+  CaseVerdict verdict{what.id, name, expected, measured, "", std::isfinite(measured)};
+  const auto limit = [&](const char* sign, double value, bool holds) {
+    verdict.tolerance += (verdict.tolerance.empty() ? "" : ", ") + std::string(sign) + sixDigits(value);
+    verdict.holds = verdict.holds && holds;
+  };
+  if (check.relative) {
+    verdict.tolerance = "±" + sixDigits(100 * *check.relative) + " %";
+    verdict.holds = verdict.holds && std::abs(measured / *expected - 1) <= *check.relative;
+  }
+  if (check.absolute) limit("±", *check.absolute, std::abs(measured - *expected) <= *check.absolute);
+  if (check.atLeast) limit("≥ ", *check.atLeast, measured >= *check.atLeast);
+  if (check.atMost) limit("≤ ", *check.atMost, measured <= *check.atMost);
+  return verdict;
+}
+
+void runCase(const Case& what, const ProjectEdits& more, PluginRegistry& plugins, const StopTest& stop,
+             const VerdictVisitor& each) {
+  std::string current;
+  try {
+    std::vector<CaseOutcome> outcomes;
+    for (const CaseRun& configuration : what.runs) {
+      current = configuration.name;
+      if (!what.project.empty()) outcomes.push_back(run(what, configuration, more, plugins, stop));
+    }
+    current.clear();
+    for (const CaseCheck& check : what.checks) judge(what, check, outcomes, plugins, each);
+  } catch (const Error& error) {
+    each({what.id, current, std::nullopt, std::nullopt, error.what(), false});
+  }
+}
+
+}  // namespace ps
