@@ -104,6 +104,36 @@ class TestSession : public QObject {
     QCOMPARE(m_window->viewport()->colour(), ColourBy::Phase);
   }
 
+  void aProjectWithoutACameraIsShownWhole() {
+    open();
+    const auto shownWhole = [this] {
+      const Viewport* view = m_window->viewport();
+      const Camera camera = view->navigator().camera();
+      for (const api::Float4& p : view->snapshot()->position) {
+        const auto pixel = project(camera, view->width(), view->height(), vectorOf(p));
+        if (!pixel || pixel->x() < 0 || pixel->x() > view->width() || pixel->y() < 0 || pixel->y() > view->height())
+          return false;
+      }
+      return !view->snapshot()->position.empty();
+    };
+    QTRY_VERIFY_WITH_TIMEOUT(m_window->viewport()->navigator().camera().distance < 1, kLong);  // a cup of ice
+    QVERIFY(shownWhole());
+    // Another one, 10 m aside, is not framed by what stood in the view before.
+    Project far = scenes::iceOnPlate(4, 370);
+    for (Body& body : far.bodies)
+      if (auto* box = std::get_if<BoxShape>(&body.shape)) box->center.x() += 10;
+    for (SceneWall& wall : far.environment.walls) wall.point.x() += 10;
+    far.environment.boundsMinimum.x() += 10;
+    far.environment.boundsMaximum.x() += 10;
+    const QString path = file(QStringLiteral("far.json"));
+    saveProject(far, path.toStdString());
+    m_window->session().files().open(path);
+    QTRY_COMPARE_WITH_TIMEOUT(document().path(), path, kLong);
+    QTRY_VERIFY_WITH_TIMEOUT(m_window->viewport()->navigator().camera().target.x() > 9, kLong);
+    QVERIFY(shownWhole());
+    QVERIFY(!document().isDirty() && !document().project().view.camera);  // nobody has looked elsewhere yet
+  }
+
   /// A theme that is asked for on the command line holds for that once; one chosen in the menu stays.
   void theThemeOfTheCommandLineIsNotKept() {
     const auto darkAtStart = [this](std::optional<bool> asked) {
