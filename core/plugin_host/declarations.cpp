@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/plugin_host/declarations.h"
 
+#include "core/base/nearest.h"
+
 #include <QUtf8StringView>
 
 #include <algorithm>
@@ -125,20 +127,11 @@ std::string problemOfKind(const api::ParameterDeclaration& p) {
   return "its kind is unknown to this program";
 }
 
-/// Levenshtein distance.
-size_t editDistance(std::string_view a, std::string_view b) {
-  std::vector<size_t> row(b.size() + 1);
-  for (size_t j = 0; j <= b.size(); ++j) row[j] = j;
-  for (size_t i = 1; i <= a.size(); ++i) {
-    size_t diagonal = row[0];
-    row[0] = i;
-    for (size_t j = 1; j <= b.size(); ++j) {
-      const size_t above = row[j];
-      row[j] = std::min({above + 1, row[j - 1] + 1, diagonal + (a[i - 1] == b[j - 1] ? 0 : 1)});
-      diagonal = above;
-    }
-  }
-  return row[b.size()];
+std::string suggestionFor(std::string_view key) {
+  const api::ParameterList catalogue = propertyCatalogue();
+  std::vector<std::string> keys;
+  for (size_t i = 0; i < catalogue.count; ++i) keys.emplace_back(catalogue[i].key);
+  return didYouMean(key, keys);
 }
 
 std::string problemOfRange(const api::ParameterDeclaration& p, double value) {
@@ -219,19 +212,6 @@ std::string problemOfTraits(const api::GroupPlugin& plugin) {
 std::string problemOfTraits(const api::NeighbourPlugin& plugin) {
   api::NeighbourTraits traits;
   return plugin.traits(&traits) ? problemOfFields(traits.fields) : kNoTraits;
-}
-
-std::string suggestionFor(std::string_view key) {
-  const api::ParameterList catalogue = propertyCatalogue();
-  const char* nearest = nullptr;
-  size_t best = std::max<size_t>(3, key.size() / 3) + 1;  // farther off it is another word
-  for (size_t i = 0; i < catalogue.count; ++i) {
-    const size_t distance = editDistance(key, catalogue[i].key);
-    if (distance >= best) continue;
-    best = distance;
-    nearest = catalogue[i].key;
-  }
-  return nearest ? std::string("; did you mean \"") + nearest + "\"?" : std::string();
 }
 
 std::string readProperties(api::List<api::MaterialProperty> list, Material& material) {

@@ -28,7 +28,4 @@ std::string problemOfProperties(const Material& material);
 /// "" or what is wrong with one property's value.
 std::string problemOfProperty(const std::string& key, const Response& value);
 
-/// "; did you mean \"density_solid\"?" for a key of the catalogue that is nearly this one, or "".
-std::string suggestionFor(std::string_view key);
-
 }  // namespace ps

@@ -305,7 +305,7 @@ class TestPluginHost : public QObject {
     row("unknown_kind", "kind is unknown");
     row("throwing_properties", "properties failed");
     row("null_property", "property 1: its key is a null pointer");
-    row("unknown_property", "did you mean \"density_solid\"?");
+    row("unknown_property", "(did you mean 'density_solid'?)");
     row("duplicate_property", "is given twice");
     row("negative_density", "must be at least 0.1 kg/m³, not -3");
     row("infinite_property", "not a finite number");
@@ -534,7 +534,7 @@ class TestPluginHost : public QObject {
                                           << ":/adheres_to: must be a list, not the text 'wood'";
     QTest::newRow("unknown property")
         << replaced("density_solid", "densty_solid")
-        << ":/properties/densty_solid: is not a property that PhaseSketch knows; did you mean \"density_solid\"?";
+        << ":/properties/densty_solid: is not a property that PhaseSketch knows (did you mean 'density_solid'?)";
     QTest::newRow("word for a number") << replaced("1050", "\"heavy\"")
                                        << "/density_solid: must be a number, not the text 'heavy'";
     QTest::newRow("negative density") << replaced("1050", "{\"value\": -1050}")
