@@ -53,7 +53,7 @@ template <class Chosen>
 void pin(ps::Solver& solver, Chosen&& chosen) {
   ps::ParticleStore& p = solver.particles();
   for (size_t i = 0; i < p.size(); ++i) {
-    if (!chosen(vecOf(p.position()[i]))) continue;
+    if (!chosen(vectorOf(p.position()[i]))) continue;
     p.motion()[i] = ps::api::Motion::Static;
     p.velocity()[i] = {0, 0, 0, 0};
   }
@@ -65,7 +65,7 @@ inline double gap(const ps::Solver& solver, uint32_t a, uint32_t b) {
   double least = 1e30;
   for (size_t i = 0; i < p.size(); ++i) {
     for (size_t j = 0; p.body()[i] == a && j < p.size(); ++j) {
-      if (p.body()[j] == b) least = std::min(least, length(vecOf(p.position()[i]) - vecOf(p.position()[j])));
+      if (p.body()[j] == b) least = std::min(least, (vectorOf(p.position()[i]) - vectorOf(p.position()[j])).norm());
     }
   }
   return least;

@@ -28,37 +28,32 @@ SolverSettings weightless(double spacing) {
   return settings;
 }
 
-BodyMotion turn(Vec spin, Vec velocity = {}) {
-  return {{0, 0, 0}, {velocity.x, velocity.y, velocity.z}, {spin.x, spin.y, spin.z}};
+BodyMotion turn(const Vector3& spin, const Vector3& velocity = {}) {
+  return {{0, 0, 0}, ps::double3Of(velocity), ps::double3Of(spin)};
 }
 
-/// Rodrigues' formula.
-Vec turned(Vec r, Vec spin, double seconds) {
-  const double rate = length(spin);
-  if (!(rate > 0)) return r;
-  const Vec axis = (1 / rate) * spin;
-  const double c = std::cos(rate * seconds), s = std::sin(rate * seconds);
-  return c * r + s * cross(axis, r) + ((1 - c) * dot(axis, r)) * axis;
+Vector3 turned(const Vector3& r, const Vector3& spin, double seconds) {
+  return Eigen::AngleAxisd(spin.norm() * seconds, spin.normalized()) * r;
 }
 
 /// Places by id.
-std::vector<Vec> placesOf(const Solver& solver) {
+std::vector<Vector3> placesOf(const Solver& solver) {
   const ps::ParticleStore& p = solver.particles();
-  std::vector<Vec> places(p.size());
-  for (size_t i = 0; i < p.size(); ++i) places[p.id()[i]] = vecOf(p.position()[i]);
+  std::vector<Vector3> places(p.size());
+  for (size_t i = 0; i < p.size(); ++i) places[p.id()[i]] = vectorOf(p.position()[i]);
   return places;
 }
 
 /// Farthest that a particle stands from where the motion would have brought it after so many seconds, in m; in a box of
 /// `period` m along x.
-double greatestError(const Solver& solver, const std::vector<Vec>& start, Vec spin, Vec velocity, double seconds,
-                     double period = 0) {
-  const std::vector<Vec> now = placesOf(solver);
+double greatestError(const Solver& solver, const std::vector<Vector3>& start, const Vector3& spin,
+                     const Vector3& velocity, double seconds, double period = 0) {
+  const std::vector<Vector3> now = placesOf(solver);
   double most = 0;
   for (size_t k = 0; k < now.size(); ++k) {
-    Vec d = now[k] - (turned(start[k], spin, seconds) + seconds * velocity);
-    if (period > 0) d.x -= period * std::round(d.x / period);
-    most = std::max(most, length(d));
+    Vector3 d = now[k] - (turned(start[k], spin, seconds) + seconds * velocity);
+    if (period > 0) d.x() -= period * std::round(d.x() / period);
+    most = std::max(most, d.norm());
   }
   return most;
 }
@@ -108,25 +103,25 @@ class TestPrescribedMotion : public QObject {
   }
 
   void keepsShapeAndAngle_data() {
-    QTest::addColumn<Vec>("spin");
-    QTest::addColumn<Vec>("velocity");
+    QTest::addColumn<Vector3>("spin");
+    QTest::addColumn<Vector3>("velocity");
     QTest::addColumn<double>("period");
-    QTest::newRow("upright") << Vec{0, 2, 0} << Vec{} << 0.0;
-    QTest::newRow("about a tilted axis") << Vec{1, -2, 0.5} << Vec{} << 0.0;
-    QTest::newRow("fast") << Vec{0, 0, 90} << Vec{} << 0.0;
-    QTest::newRow("rolling on") << Vec{0, 0, -3} << Vec{0.02, 0.01, 0} << 0.0;
-    QTest::newRow("around a periodic box") << Vec{0, 1, 2} << Vec{0.3, 0, 0} << 1.0;
+    QTest::newRow("upright") << Vector3{0, 2, 0} << Vector3{} << 0.0;
+    QTest::newRow("about a tilted axis") << Vector3{1, -2, 0.5} << Vector3{} << 0.0;
+    QTest::newRow("fast") << Vector3{0, 0, 90} << Vector3{} << 0.0;
+    QTest::newRow("rolling on") << Vector3{0, 0, -3} << Vector3{0.02, 0.01, 0} << 0.0;
+    QTest::newRow("around a periodic box") << Vector3{0, 1, 2} << Vector3{0.3, 0, 0} << 1.0;
   }
   void keepsShapeAndAngle() {
-    QFETCH(Vec, spin);
-    QFETCH(Vec, velocity);
+    QFETCH(Vector3, spin);
+    QFETCH(Vector3, velocity);
     QFETCH(double, period);
     Solver solver;
     prepare(solver, weightless(0.05));
     if (period > 0) solver.setBounds({{-period / 2, -3, -3}, {period / 2, 3, 3}, {true, false, false}});
     solver.setMotion(0, turn(spin, velocity));
     solver.spawn(fixedPoints(lattice(8, 3, 2, 0.05, -0.075)));
-    const std::vector<Vec> start = placesOf(solver);
+    const std::vector<Vector3> start = placesOf(solver);
     QVERIFY(run(solver, 3600));
     // A minute of 14400 substeps. Single precision holds 1.2 m to 6e-8 m, each of the three coordinates and the place.
     const double error = greatestError(solver, start, spin, velocity, 3600 * kStep, period);
@@ -134,20 +129,20 @@ class TestPrescribedMotion : public QObject {
     // v + w x r at the end of the last substep, to the rounding of a velocity.
     const ps::ParticleStore& p = solver.particles();
     for (size_t i = 0; i < p.size(); ++i) {
-      const Vec arm = turned(start[p.id()[i]], spin, 3600 * kStep), v = velocity + cross(spin, arm);
-      QVERIFY(length(vecOf(p.velocity()[i]) - v) < 1e-6 * (1 + length(v)));
+      const Vector3 arm = turned(start[p.id()[i]], spin, 3600 * kStep), v = velocity + spin.cross(arm);
+      QVERIFY((vectorOf(p.velocity()[i]) - v).norm() < 1e-6 * (1 + v.norm()));
     }
   }
 
   void beginsAndEndsWithinASubstep() {
-    const Vec spin{0, 2, 1}, velocity{0.1, 0, 0};
+    const Vector3 spin{0, 2, 1}, velocity{0.1, 0, 0};
     BodyMotion motion = turn(spin, velocity);
     motion.start = 0.503, motion.stop = 1.377;  // neither is a multiple of a substep, 1/240 s
     Solver solver;
     prepare(solver, weightless(0.05));
     solver.setMotion(0, motion);
     solver.spawn(fixedPoints(lattice(6, 2, 2, 0.05, -0.05)));
-    const std::vector<Vec> start = placesOf(solver);
+    const std::vector<Vector3> start = placesOf(solver);
     QVERIFY(run(solver, 30));  // 0.5 s
     QVERIFY(greatestError(solver, start, spin, velocity, 0) < 1e-7);
     QVERIFY(motionOf(solver, 1).fastest == 0);
@@ -156,7 +151,7 @@ class TestPrescribedMotion : public QObject {
     QVERIFY(run(solver, 60));
     QVERIFY(greatestError(solver, start, spin, velocity, motion.stop - motion.start) < 3e-7);
     for (size_t i = 0; i < solver.particles().size(); ++i)
-      QVERIFY(length(vecOf(solver.particles().velocity()[i])) == 0);
+      QVERIFY(vectorOf(solver.particles().velocity()[i]).norm() == 0);
   }
 
   /// A piston that leaves water no room is told; one that stands over it is not.
@@ -210,8 +205,8 @@ class TestPrescribedMotion : public QObject {
     solver.spawn(block);
     QVERIFY(run(solver, 120));
     const Sums s = sumsOf(solver, 0);
-    const Vec back = turned(s.centre, {0, -spin, 0}, solver.time());
-    const double slipped = length(back - Vec{0.5, s.centre.y, 0});
+    const Vector3 back = turned(s.centre, {0, -spin, 0}, solver.time());
+    const double slipped = (back - Vector3{0.5, s.centre.y(), 0}).norm();
     QVERIFY2(stays ? slipped < 0.01 : slipped > 0.1, qPrintable(QString::number(slipped)));
   }
 
@@ -232,11 +227,10 @@ class TestPrescribedMotion : public QObject {
     double gained = 0;
     for (int frame = 0; frame < 120; ++frame) {
       const ps::MomentumRecord m = solver.step().momentum;
-      const Vec change = Vec{m.end.x, m.end.y, m.end.z} - Vec{m.start.x, m.start.y, m.start.z},
-                external{m.external.x, m.external.y, m.external.z};
-      gained = std::max(gained, length(change));
+      const Vector3 change = vectorOf(m.end) - vectorOf(m.start), external{m.external.x, m.external.y, m.external.z};
+      gained = std::max(gained, change.norm());
       // 360 grains of 0.11 kg at some m/s in single precision.
-      QVERIFY2(length(change - external) < 1e-3, qPrintable(QString::number(length(change - external))));
+      QVERIFY2((change - external).norm() < 1e-3, qPrintable(QString::number((change - external).norm())));
     }
     QVERIFY2(gained > 0.5, qPrintable(QString::number(gained)));
   }
@@ -275,9 +269,9 @@ class TestPrescribedMotion : public QObject {
       met = 0;
       for (size_t i = 0; i < p.size(); ++i) {
         if (p.body()[i] == 1) continue;
-        const Vec x = turned(vecOf(p.position()[i]), {0, -36, 0}, solver.time() - motion.start);
-        QVERIFY2(x.z < 0 || x.x > 0.5, qPrintable(QString("%1 %2 %3").arg(x.x).arg(x.y).arg(x.z)));
-        met += length(vecOf(p.velocity()[i])) > 5 ? 1 : 0;
+        const Vector3 x = turned(vectorOf(p.position()[i]), {0, -36, 0}, solver.time() - motion.start);
+        QVERIFY2(x.z() < 0 || x.x() > 0.5, qPrintable(QString("%1 %2 %3").arg(x.x()).arg(x.y()).arg(x.z())));
+        met += vectorOf(p.velocity()[i]).norm() > 5 ? 1 : 0;
       }
     }
     QCOMPARE(met, 9);
@@ -311,12 +305,12 @@ class TestPrescribedMotion : public QObject {
 
   /// What was taken away stands in its body again, where that is by now.
   void comesBackIntoItsPlace() {
-    const Vec spin{0, 0, 2};
+    const Vector3 spin{0, 0, 2};
     Solver solver;
     prepare(solver, weightless(0.05));
     solver.setMotion(0, turn(spin));
     const std::vector<uint32_t> ids = solver.spawn(fixedPoints(lattice(6, 4, 2, 0.05, -0.1)));
-    const std::vector<Vec> start = placesOf(solver);
+    const std::vector<Vector3> start = placesOf(solver);
     QVERIFY(run(solver, 30));
     const ps::TakenMatter taken = solver.take(std::span(ids).first(10));
     QVERIFY(run(solver, 30));
@@ -328,11 +322,11 @@ class TestPrescribedMotion : public QObject {
 
   /// What was taken from a body that stood has missed its way all the same.
   void comesBackIntoABodyThatHasSetOffSince() {
-    const Vec spin{0, 0, 2};
+    const Vector3 spin{0, 0, 2};
     Solver solver;
     prepare(solver, weightless(0.05));
     const std::vector<uint32_t> ids = solver.spawn(fixedPoints(lattice(6, 4, 2, 0.05, -0.1)));
-    const std::vector<Vec> start = placesOf(solver);
+    const std::vector<Vector3> start = placesOf(solver);
     const ps::TakenMatter taken = solver.take(std::span(ids).first(10));
     solver.setMotion(0, turn(spin));
     QVERIFY(run(solver, 60));
@@ -344,12 +338,12 @@ class TestPrescribedMotion : public QObject {
 
   /// The scene pauses at its last good frame, and goes on from there.
   void aFrameTakenBackTakesBackTheTurn() {
-    const Vec spin{0, 0, 2};
+    const Vector3 spin{0, 0, 2};
     Solver solver;
     prepare(solver, weightless(0.05));
     solver.setMotion(0, turn(spin));
     solver.spawn(fixedPoints(lattice(6, 4, 2, 0.05, -0.1)));
-    const std::vector<Vec> start = placesOf(solver);
+    const std::vector<Vector3> start = placesOf(solver);
     QVERIFY(run(solver, 30));
     ps::Spawn grain = ice({{1, 1, 1}}, 0);
     grain.constraintSets.clear();
@@ -374,14 +368,14 @@ class TestPrescribedMotion : public QObject {
     ps::Project project = load(wheelScene());
     ps::Engine engine(project, m_plugins);
     Solver& solver = engine.solver();
-    const std::vector<Vec> start = placesOf(solver);
-    const Vec centre{0.3, 0.5, 0}, velocity{0.1, 0, 0};
+    const std::vector<Vector3> start = placesOf(solver);
+    const Vector3 centre{0.3, 0.5, 0}, velocity{0.1, 0, 0};
     const auto error = [&](double seconds, double angle) {
-      const std::vector<Vec> now = placesOf(solver);
+      const std::vector<Vector3> now = placesOf(solver);
       double most = 0;
       for (size_t k = 0; k < now.size(); ++k) {
-        const Vec there = centre + seconds * velocity + turned(start[k] - centre, {0, 0, 1}, angle);
-        most = std::max(most, length(now[k] - there));
+        const Vector3 there = centre + seconds * velocity + turned(start[k] - centre, {0, 0, 1}, angle);
+        most = std::max(most, (now[k] - there).norm());
       }
       return most;
     };
@@ -416,12 +410,12 @@ class TestPrescribedMotion : public QObject {
       "palette": [{"material": "water", "temperature": 263.15}],
       "runs": [[0, 0, 0, 4, 0], [0, 1, 0, 1, 0]]}})");  // an L; its middle is (1.2, 0.2) cells from the origin
     ps::Engine engine(load(scene), m_plugins);
-    const std::vector<Vec> start = placesOf(engine.solver());
+    const std::vector<Vector3> start = placesOf(engine.solver());
     for (int frame = 0; frame < 60; ++frame) engine.step();
-    const std::vector<Vec> now = placesOf(engine.solver());
-    const Vec centre{0.1 + 1.2 * 0.05, 0.2 + 0.2 * 0.05, 0};
+    const std::vector<Vector3> now = placesOf(engine.solver());
+    const Vector3 centre{0.1 + 1.2 * 0.05, 0.2 + 0.2 * 0.05, 0};
     for (size_t k = 0; k < now.size(); ++k)
-      QVERIFY(length(now[k] - centre - turned(start[k] - centre, {0, 0, 3}, 1)) < 1e-6);
+      QVERIFY((now[k] - centre - turned(start[k] - centre, {0, 0, 3}, 1)).norm() < 1e-6);
   }
 
  private:

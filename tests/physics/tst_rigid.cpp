@@ -67,13 +67,13 @@ class TestRigid : public QObject {
     const std::vector<double> shape = distances(solver, 0);
     QVERIFY(run(solver, 120));
     const Sums s = sumsOf(solver);
-    const double spin = s.angular.y / s.inertia[1][1];
+    const double spin = s.angular.y() / s.inertia(1, 1);
     QVERIFY2(std::abs(spin / kTurn - 1) < 1e-5, qPrintable(QString::number(spin / kTurn - 1)));
     // Two whole turns: it stands as it stood.
     QVERIFY(greatestChange(shape, distances(solver, 0)) < 1e-6);
-    const Vec corner = vecOf(solver.particles().position()[solver.particles().indexOf(0)]);
-    QVERIFY2(length(corner - Vec{points[0].x, points[0].y, points[0].z}) < 1e-4,
-             qPrintable(QString::number(length(corner - Vec{points[0].x, points[0].y, points[0].z}))));
+    const Vector3 corner = vectorOf(solver.particles().position()[solver.particles().indexOf(0)]);
+    QVERIFY2((corner - vectorOf(points[0])).norm() < 1e-4,
+             qPrintable(QString::number((corner - vectorOf(points[0])).norm())));
   }
 
   void asymmetricBodyTumbles() {
@@ -86,10 +86,10 @@ class TestRigid : public QObject {
     for (int f = 0; f < 120; ++f) {
       QCOMPARE(solver.step().flags, 0u);
       const Sums s = sumsOf(solver);
-      mostMomentum = std::max(mostMomentum, length(s.angular - before.angular) / length(before.angular));
+      mostMomentum = std::max(mostMomentum, (s.angular - before.angular).norm() / before.angular.norm());
       mostEnergy = std::max(mostEnergy, std::abs(s.energy / before.energy - 1));
-      leastY = std::min(leastY, std::abs(s.angular.y));
-      QVERIFY(length(s.momentum - before.momentum) < 1e-6 * length(before.momentum));
+      leastY = std::min(leastY, std::abs(s.angular.y()));
+      QVERIFY((s.momentum - before.momentum).norm() < 1e-6 * before.momentum.norm());
     }
     // Angular momentum to float's rounding; energy to the midpoint rule at 0.11 rad a step.
     QVERIFY2(mostMomentum < 1e-5, qPrintable(QString::number(mostMomentum)));
@@ -139,24 +139,24 @@ class TestRigid : public QObject {
     solver.step();
     QCOMPARE(solver.constraintCount(), size_t{2});
     const Sums split = sumsOver(solver, counted);
-    QVERIFY2(length(split.momentum - before.momentum) < 1e-6 * length(before.momentum),
-             qPrintable(QString::number(length(split.momentum - before.momentum) / length(before.momentum))));
-    QVERIFY2(length(split.angular - before.angular) < 1e-5 * length(before.angular),
-             qPrintable(QString::number(length(split.angular - before.angular) / length(before.angular))));
+    QVERIFY2((split.momentum - before.momentum).norm() < 1e-6 * before.momentum.norm(),
+             qPrintable(QString::number((split.momentum - before.momentum).norm() / before.momentum.norm())));
+    QVERIFY2((split.angular - before.angular).norm() < 1e-5 * before.angular.norm(),
+             qPrintable(QString::number((split.angular - before.angular).norm() / before.angular.norm())));
     QVERIFY2(std::abs(split.energy / before.energy - 1) < 1e-4,
              qPrintable(QString::number(split.energy / before.energy - 1)));
     // The halves fly apart, each by itself.
     const double apart = [&] {
       run(solver, 20);
-      const Vec a = sumsOver(solver, [&](size_t i) { return notBridge(i) && points[p.id()[i]].x < 0; }).centre;
-      const Vec b = sumsOver(solver, [&](size_t i) { return notBridge(i) && points[p.id()[i]].x > 0; }).centre;
-      return length(a - b);
+      const Vector3 a = sumsOver(solver, [&](size_t i) { return notBridge(i) && points[p.id()[i]].x < 0; }).centre;
+      const Vector3 b = sumsOver(solver, [&](size_t i) { return notBridge(i) && points[p.id()[i]].x > 0; }).centre;
+      return (a - b).norm();
     }();
     QVERIFY2(apart > 0.25, qPrintable(QString::number(apart)));
     if (byHeat) return;
     const Sums after = sumsOf(solver);
-    QVERIFY(length(after.momentum - before.momentum) < 1e-6 * length(before.momentum));
-    QVERIFY(length(after.angular - before.angular) < 1e-5 * length(before.angular));
+    QVERIFY((after.momentum - before.momentum).norm() < 1e-6 * before.momentum.norm());
+    QVERIFY((after.angular - before.angular).norm() < 1e-5 * before.angular.norm());
   }
 
   /// A rigid block in a blob of compressed liquid, free in space.
@@ -174,11 +174,11 @@ class TestRigid : public QObject {
     const Sums start = sumsOf(solver);
     QVERIFY(run(solver, 10));
     const Sums all = sumsOf(solver), body = sumsOf(solver, 1);
-    QVERIFY2(length(body.momentum) > 0.01 * body.mass, qPrintable(QString::number(length(body.momentum))));
+    QVERIFY2(body.momentum.norm() > 0.01 * body.mass, qPrintable(QString::number(body.momentum.norm())));
     const double scale = std::sqrt(2 * all.energy * all.mass);
     // Float32 positions of 0.1 m over substeps of 4 ms round velocities to 2e-6 m/s; the blob moves at 0.1 m/s.
-    QVERIFY2(length(all.momentum - start.momentum) < 1e-4 * scale,
-             qPrintable(QString::number(length(all.momentum - start.momentum) / scale)));
+    QVERIFY2((all.momentum - start.momentum).norm() < 1e-4 * scale,
+             qPrintable(QString::number((all.momentum - start.momentum).norm() / scale)));
   }
 
   /// Case j4.
@@ -193,7 +193,7 @@ class TestRigid : public QObject {
     const Motion block = motionOf(solver, 1);
     // By the centre of mass: a block of five layers may lie a little aslant.
     const double level = (14 * 14 * 8 + 7 * 7 * 5 * 917.0 / 998) * 8e-6 / (0.28 * 0.28);
-    const double submerged = (level - sumsOf(solver, 1).centre.y) / 0.1 + 0.5;
+    const double submerged = (level - sumsOf(solver, 1).centre.y()) / 0.1 + 0.5;
     QVERIFY2(std::abs(submerged - 0.919) < 0.08, qPrintable(QString::number(submerged)));
     QVERIFY2(block.rms < 0.02, qPrintable(QString::number(block.rms)));
     QVERIFY(greatestChange(shape, distances(solver, 1)) < 1e-6);
@@ -225,8 +225,8 @@ class TestRigid : public QObject {
     QCOMPARE(solver.constraintCount(), size_t{1});
     QVERIFY(greatestChange(shape, distances(solver, 0)) < 2e-6);
     const Sums after = sumsOf(solver);
-    QVERIFY(length(after.momentum - before.momentum) < 1e-6 * length(before.momentum));
-    QVERIFY(length(after.angular - before.angular) < 1e-5 * length(before.angular));
+    QVERIFY((after.momentum - before.momentum).norm() < 1e-6 * before.momentum.norm());
+    QVERIFY((after.angular - before.angular).norm() < 1e-5 * before.angular.norm());
   }
 
   void everyMachineGivesOneHash_data() { onehash::addRows(); }
@@ -253,7 +253,7 @@ class TestRigid : public QObject {
     const Sums before = sumsOf(solver);
     QVERIFY(run(solver, 30));
     QVERIFY(greatestChange(shape, distances(solver, 0)) < 1e-6);
-    QVERIFY(length(sumsOf(solver).momentum - before.momentum) < 1e-5 * length(before.momentum));
+    QVERIFY((sumsOf(solver).momentum - before.momentum).norm() < 1e-5 * before.momentum.norm());
   }
 
   void heatMakesItLonger() {

@@ -36,8 +36,8 @@ std::vector<ps::Wall> plane(double friction) {
   return walls;
 }
 
-std::vector<ps::api::Double3> moved(std::vector<ps::api::Double3> points, Vec by) {
-  for (ps::api::Double3& p : points) p.x += by.x, p.y += by.y, p.z += by.z;
+std::vector<ps::api::Double3> moved(std::vector<ps::api::Double3> points, const Vector3& by) {
+  for (ps::api::Double3& p : points) p = ps::double3Of(vectorOf(p) + by);
   return points;
 }
 
@@ -74,9 +74,9 @@ class TestRigidContact : public QObject {
     else
       solver.setWalls(plane(0.5));
     spawnRigid(solver, lattice(6, 3, 6, 0.05, 0), 1);
-    const double start = sumsOf(solver, 1).centre.x;
+    const double start = sumsOf(solver, 1).centre.x();
     QVERIFY(run(solver, 120));
-    const double way = sumsOf(solver, 1).centre.x - start;
+    const double way = sumsOf(solver, 1).centre.x() - start;
     QVERIFY2(way > least && way < most, qPrintable(QString::number(way)));
   }
 
@@ -87,9 +87,9 @@ class TestRigidContact : public QObject {
       prepare(solver, incline(28, 0.05, 8), matter(0.6, 0.3, 0));
       solver.spawn(fixedPoints(moved(lattice(30, 1, 6, 0.05, -0.05), {0.5, 0, 0})));
       spawnRigid(solver, lattice(4, 2, 4, 0.05, 0), 1, {pushed ? 0.5 : 0, 0, 0});
-      const double start = sumsOf(solver, 1).centre.x;
+      const double start = sumsOf(solver, 1).centre.x();
       QVERIFY(run(solver, 45));
-      const double way = sumsOf(solver, 1).centre.x - start, t = 0.75;
+      const double way = sumsOf(solver, 1).centre.x() - start, t = 0.75;
       const double angle = 28 * std::numbers::pi / 180;
       const double slid = 0.5 * t + 0.5 * 9.81 * (std::sin(angle) - 0.3 * std::cos(angle)) * t * t;
       QVERIFY2(pushed ? std::abs(way / slid - 1) < 0.1 : std::abs(way) < 0.001, qPrintable(QString::number(way)));
@@ -110,13 +110,13 @@ class TestRigidContact : public QObject {
     prepare(solver, incline(degrees, 0.05, 10));
     solver.setWalls(plane(5));
     spawnRigid(solver, lattice(5, 12, 5, 0.05, 0));
-    const Vec start = sumsOf(solver).centre;
+    const Vector3 start = sumsOf(solver).centre;
     QVERIFY(run(solver, 180));
-    const Vec way = sumsOf(solver).centre - start;
+    const Vector3 way = sumsOf(solver).centre - start;
     if (tips)
-      QVERIFY2(way.y < -0.15, qPrintable(QString::number(way.y)));
+      QVERIFY2(way.y() < -0.15, qPrintable(QString::number(way.y())));
     else
-      QVERIFY2(length(way) < 0.001, qPrintable(QString::number(length(way))));
+      QVERIFY2(way.norm() < 0.001, qPrintable(QString::number(way.norm())));
   }
 
   void towerStands() {
@@ -124,13 +124,13 @@ class TestRigidContact : public QObject {
     prepare(solver, settingsOf(0.02), matter(0.5, 0.4, 0.1));
     solver.setWalls(tray(0.6));
     for (uint32_t k = 0; k < 5; ++k) spawnRigid(solver, lattice(5, 5, 5, 0.02, 0.1 * k), k);
-    const Vec start = sumsOf(solver, 4).centre;
+    const Vector3 start = sumsOf(solver, 4).centre;
     QVERIFY(run(solver, 600));
-    QVERIFY2(length(sumsOf(solver, 4).centre - start) < 0.001,
-             qPrintable(QString::number(length(sumsOf(solver, 4).centre - start))));
+    QVERIFY2((sumsOf(solver, 4).centre - start).norm() < 0.001,
+             qPrintable(QString::number((sumsOf(solver, 4).centre - start).norm())));
     for (uint32_t k = 0; k < 5; ++k) {
       const Sums s = sumsOf(solver, k);
-      QVERIFY2(length(s.momentum) < 0.002 * s.mass, qPrintable(QString::number(length(s.momentum) / s.mass)));
+      QVERIFY2(s.momentum.norm() < 0.002 * s.mass, qPrintable(QString::number(s.momentum.norm() / s.mass)));
     }
   }
 
@@ -149,12 +149,12 @@ class TestRigidContact : public QObject {
     double top = 0;
     for (int f = 0; f < 45; ++f) {
       QCOMPARE(solver.step().flags, 0u);
-      if (f > 13) top = std::max(top, sumsOf(solver).centre.y - 0.05);  // it lands after 0.2 s
+      if (f > 13) top = std::max(top, sumsOf(solver).centre.y() - 0.05);  // it lands after 0.2 s
     }
     // The height e^2 h, sampled per frame, and less the way of a substep at impact.
     const double height = restitution * restitution * 0.2;
     QVERIFY2(std::abs(top - height) < 0.06 * height + 0.001, qPrintable(QString::number(top)));
-    QVERIFY(length(sumsOf(solver).angular) < 1e-6);
+    QVERIFY(sumsOf(solver).angular.norm() < 1e-6);
   }
 
   void collisionKeepsMomentum_data() {
@@ -180,12 +180,12 @@ class TestRigidContact : public QObject {
     const Sums before = sumsOf(solver);
     QVERIFY(run(solver, 30));
     const Sums after = sumsOf(solver), hit = sumsOf(solver, 1);
-    QVERIFY2(hit.momentum.x > 0.2 * before.momentum.x, qPrintable(QString::number(hit.momentum.x)));
-    QVERIFY2(length(after.momentum - before.momentum) < 1e-5 * length(before.momentum),
-             qPrintable(QString::number(length(after.momentum - before.momentum) / length(before.momentum))));
+    QVERIFY2(hit.momentum.x() > 0.2 * before.momentum.x(), qPrintable(QString::number(hit.momentum.x())));
+    QVERIFY2((after.momentum - before.momentum).norm() < 1e-5 * before.momentum.norm(),
+             qPrintable(QString::number((after.momentum - before.momentum).norm() / before.momentum.norm())));
     // Contacts are as thick as a spacing: friction on both sides of the gap leaves a couple.
-    QVERIFY2(length(after.angular - before.angular) < 0.05 * length(before.angular),
-             qPrintable(QString::number(length(after.angular - before.angular) / length(before.angular))));
+    QVERIFY2((after.angular - before.angular).norm() < 0.05 * before.angular.norm(),
+             qPrintable(QString::number((after.angular - before.angular).norm() / before.angular.norm())));
     QVERIFY(after.energy < before.energy * 1.001);
   }
 
@@ -224,7 +224,7 @@ class TestRigidContact : public QObject {
     const double before = sumsOf(solver, 1).energy;
     for (int f = 0; f < 10; ++f) {
       QCOMPARE(solver.step().flags, 0u);
-      if (std::abs(sumsOf(solver, 1).centre.x) > 0.2) break;  // slid over the edge
+      if (std::abs(sumsOf(solver, 1).centre.x()) > 0.2) break;  // slid over the edge
       QVERIFY2(motionOf(solver, 1).bottom > 0.01, qPrintable(QString::number(motionOf(solver, 1).bottom)));
     }
     QVERIFY(sumsOf(solver, 1).energy < before);
@@ -293,7 +293,7 @@ class TestRigidContact : public QObject {
     solver.setWalls(tray(0.4));
     spawnRigid(solver, lattice(5, 5, 5, 0.02, 0));
     QVERIFY(run(solver, 10));
-    const Vec centre = sumsOf(solver).centre;
+    const Vector3 centre = sumsOf(solver).centre;
     const std::vector<double> shape = distances(solver, 0);
     // Gravity that is no number makes all members so, and what contacts bear.
     solver.setSettings([] {
@@ -304,14 +304,15 @@ class TestRigidContact : public QObject {
     QCOMPARE(solver.step().flags, static_cast<ps::StepFlags>(ps::StepFlag::NotFinite));
     solver.setSettings(settingsOf(0.02));
     QVERIFY(run(solver, 30));
-    QVERIFY(length(sumsOf(solver).centre - centre) < 1e-4);
+    QVERIFY((sumsOf(solver).centre - centre).norm() < 1e-4);
     QVERIFY(greatestChange(shape, distances(solver, 0)) < 1e-6);
   }
 
  private:
-  void spawnRigid(Solver& solver, std::vector<ps::api::Double3> points, uint32_t body = 0, Vec velocity = {}) {
+  void spawnRigid(Solver& solver, std::vector<ps::api::Double3> points, uint32_t body = 0,
+                  const Vector3& velocity = {}) {
     ps::Spawn spawn = ice(std::move(points), solver.addConstraintSet(&m_rigid, "rigid", rigidParameters()));
-    spawn.velocity.assign(spawn.position.size(), {velocity.x, velocity.y, velocity.z});
+    spawn.velocity.assign(spawn.position.size(), ps::double3Of(velocity));
     spawn.body = body;
     solver.spawn(spawn);
   }
