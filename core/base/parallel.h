@@ -20,6 +20,17 @@ void parallelFor(size_t count, size_t grain, const std::function<void(size_t fir
 /// Sum over chunks of body(first, last), added in chunk order: the same bits for any number of threads.
 double parallelSum(size_t count, size_t grain, const std::function<double(size_t first, size_t last)>& body);
 
+/// Elements of a chunk by what a loop does with each of them: enough that handing a chunk out costs nothing beside it,
+/// few enough that threads end together. What is summed chunk by chunk depends on them in its last bits.
+namespace grain {
+inline constexpr size_t kRays = 64;           ///< follows rays through the scene
+inline constexpr size_t kPairs = 128;         ///< sums over a particle's neighbours, vectorised
+inline constexpr size_t kNeighbours = 256;    ///< looks at its neighbours one by one, or asks its tables
+inline constexpr size_t kParticles = 512;     ///< has to do with the particle alone
+inline constexpr size_t kConstraints = 1024;  ///< a constraint, by a plugin's batch
+inline constexpr size_t kNumbers = 4096;      ///< a few operations on what lies side by side
+}  // namespace grain
+
 inline size_t chunkCount(size_t count, size_t grain) { return (count + grain - 1) / grain; }
 
 /// parallelFor without the allocation that a std::function of a large lambda costs: a steady step allocates nothing.

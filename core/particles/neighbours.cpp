@@ -8,20 +8,11 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 
 namespace ps {
 namespace {
 
-constexpr size_t kSlotsPerChunk = 256;
 constexpr size_t kSpareSlots = 16;
-
-/// Cell of one coordinate, clamped to the grid; not-a-number goes to the first cell.
-int cellIndex(double value, double origin, double inverseSize, int cells) {
-  const double t = (value - origin) * inverseSize;
-  if (!(t > 0)) return 0;
-  return t >= cells ? cells - 1 : static_cast<int>(t);
-}
 
 constexpr const char* kBuiltBlock = "neighbours/built";
 
@@ -36,69 +27,17 @@ void Neighbours::configure(double support, double skin) {
 }
 
 void Neighbours::assignCells(std::span<const api::Float4> position, const Period& period) {
-  const size_t n = position.size();
-  constexpr float kInfinity = std::numeric_limits<float>::infinity();
-  float low[3] = {kInfinity, kInfinity, kInfinity}, high[3] = {-kInfinity, -kInfinity, -kInfinity};
-  for (size_t i = 0; i < n; ++i) {
-    const float p[3] = {position[i].x, position[i].y, position[i].z};
-    for (int a = 0; a < 3; ++a) {  // comparisons with not-a-number are false
-      if (p[a] < low[a] && p[a] > -kInfinity) low[a] = p[a];
-      if (p[a] > high[a] && p[a] < kInfinity) high[a] = p[a];
-    }
-  }
-  double extent[3];
-  for (int a = 0; a < 3; ++a) {
-    m_origin[a] = low[a] <= high[a] ? double{low[a]} : 0;
-    extent[a] = low[a] <= high[a] ? double{high[a]} - double{low[a]} : 0;
-  }
-  // Cells are larger where a lonely particle stretches the grid. A periodic axis is cut into whole ones.
-  double cellSize = (m_support + m_skin) * kCellMargin;
-  const double most = static_cast<double>(8 * n + 4096);
-  const auto cellsAlong = [&](size_t a) {
-    if (period.length(a) > 0) return std::max(3.0, std::floor(double{period.length(a)} / cellSize));
-    return std::floor(extent[a] / cellSize) + 1;
-  };
-  while (cellsAlong(0) * cellsAlong(1) * cellsAlong(2) > most) cellSize *= 1.25;
-  for (size_t a = 0; a < 3; ++a) {
-    m_cells[a] = static_cast<int>(cellsAlong(a));
-    m_perCell[a] = 1 / cellSize;
-    if (!(period.length(a) > 0)) continue;
-    m_origin[a] = period.low(a);
-    m_perCell[a] = m_cells[a] * double{period.inverse(a)};
-  }
-
-  m_cellOf.resize(n);
-  m_cellStart.assign(
-      static_cast<size_t>(m_cells[0]) * static_cast<size_t>(m_cells[1]) * static_cast<size_t>(m_cells[2]) + 1, 0);
-  for (size_t i = 0; i < n; ++i) {
-    const api::Double3 p = period.wrapped({position[i].x, position[i].y, position[i].z});
-    const int x = cellIndex(p.x, m_origin[0], m_perCell[0], m_cells[0]);
-    const int y = cellIndex(p.y, m_origin[1], m_perCell[1], m_cells[1]);
-    const int z = cellIndex(p.z, m_origin[2], m_perCell[2], m_cells[2]);
-    m_cellOf[i] = static_cast<uint32_t>((z * m_cells[1] + y) * m_cells[0] + x);
-    ++m_cellStart[m_cellOf[i] + 1];
-  }
-  for (size_t c = 1; c < m_cellStart.size(); ++c) m_cellStart[c] += m_cellStart[c - 1];
-  m_order.resize(n);
-  m_sorted = true;
-  for (size_t i = 0; i < n; ++i) {  // stable: particles of a cell stay in order of index
-    const uint32_t slot = m_cellStart[m_cellOf[i]]++;
-    m_order[slot] = static_cast<uint32_t>(i);
-    m_sorted = m_sorted && slot == i;
-  }
-  for (size_t c = m_cellStart.size() - 1; c > 0; --c) m_cellStart[c] = m_cellStart[c - 1];
-  m_cellStart[0] = 0;
+  m_grid.sort(position.size(), (m_support + m_skin) * kCellMargin, period, [&](size_t i) {
+    return period.wrapped({position[i].x, position[i].y, position[i].z});
+  });
 }
 
 void Neighbours::sortAndBuild(ParticleStore& store) {
   assignCells(placesOf(store), store.period());
-  if (m_sorted) return searchLists(placesOf(store), store.period());
-  store.permute(m_order);
-  std::vector<uint32_t>& sorted = m_cellOfSlot;
-  sorted.resize(m_order.size());
-  for (size_t slot = 0; slot < sorted.size(); ++slot) sorted[slot] = m_cellOf[m_order[slot]];
-  m_cellOf.swap(sorted);
-  m_sorted = true;
+  if (!m_grid.sorted()) {
+    store.permute(m_grid.order());
+    m_grid.reorder();
+  }
   searchLists(placesOf(store), store.period());
 }
 
@@ -134,31 +73,31 @@ void Neighbours::searchLists(std::span<const api::Float4> position, const Period
     m_x[slot] = static_cast<float>(p.x);
     m_y[slot] = static_cast<float>(p.y);
     m_z[slot] = static_cast<float>(p.z);
-    m_cellOfSlot[slot] = m_cellOf[i];
+    m_cellOfSlot[slot] = m_grid.cellOfEach()[i];
   }
   const double radius = m_support + m_skin;
   const SearchGrid grid{m_x.data(),
                         m_y.data(),
                         m_z.data(),
                         m_cellOfSlot.data(),
-                        m_cellStart.data(),
-                        {m_cells[0], m_cells[1], m_cells[2]},
+                        m_grid.starts().data(),
+                        {m_grid.cells(0), m_grid.cells(1), m_grid.cells(2)},
                         static_cast<float>(radius * radius),
                         {period.length(0), period.length(1), period.length(2)}};
-  const size_t chunks = (n + kSlotsPerChunk - 1) / kSlotsPerChunk;
+  const size_t chunks = chunkCount(n, grain::kNeighbours);
   if (m_chunks.size() < chunks) m_chunks.resize(chunks);
   m_counts.resize(n);
   const auto search = [&](size_t first, size_t last) {
-    Chunk& chunk = m_chunks[first / kSlotsPerChunk];
+    Chunk& chunk = m_chunks[first / grain::kNeighbours];
     chunk.found.clear();
     searchSlots(grid, first, last, m_counts.data() + first, chunk.found);
   };
-  parallelFor(n, kSlotsPerChunk, std::cref(search));
+  parallelFor(n, grain::kNeighbours, std::cref(search));
   layOutLists(n);
   const auto write = [&](size_t first, size_t last) {
-    writeLists(m_chunks[first / kSlotsPerChunk].found.data(), first, last);
+    writeLists(m_chunks[first / grain::kNeighbours].found.data(), first, last);
   };
-  parallelFor(n, kSlotsPerChunk, std::cref(write));
+  parallelFor(n, grain::kNeighbours, std::cref(write));
   m_built.assign(position.begin(), position.end());
 }
 
@@ -183,10 +122,10 @@ void Neighbours::writeLists(const uint32_t* found, size_t firstSlot, size_t last
   for (size_t slot = firstSlot; slot < lastSlot; found += m_counts[slot++]) {
     const size_t i = indexOf(slot), count = m_counts[slot];
     uint32_t *out = m_index.data() + m_begin[i], *last = m_index.data() + m_last[i];
-    if (m_sorted) {
+    if (m_grid.sorted()) {
       std::copy(found, found + count, out);
     } else {
-      for (size_t k = 0; k < count; ++k) out[k] = m_order[found[k]];
+      for (size_t k = 0; k < count; ++k) out[k] = m_grid.order()[found[k]];
     }
     std::fill(last, m_index.data() + m_end[i], dummy);
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "core/particles/cellgrid.h"
 #include "core/particles/particlestore.h"
 
 namespace ps {
@@ -21,7 +22,7 @@ class Neighbours {
   void build(const ParticleStore& store);
   /// True when a particle has moved more than half the skin since the last build, or their number has changed.
   bool stale(const ParticleStore& store) const;
-  std::span<const uint32_t> lastOrder() const { return m_order; }
+  std::span<const uint32_t> lastOrder() const { return m_grid.order(); }
 
   api::NeighbourView view() const;
   double support() const { return m_support; }
@@ -45,18 +46,16 @@ class Neighbours {
   void layOutLists(size_t count);
   void writeLists(const uint32_t* found, size_t firstSlot, size_t lastSlot);
   /// Right after sorting, slots are indices.
-  size_t indexOf(size_t slot) const { return m_sorted ? slot : m_order[slot]; }
+  size_t indexOf(size_t slot) const { return m_grid.sorted() ? slot : m_grid.order()[slot]; }
 
   double m_support = 0, m_skin = 0;
-  std::vector<uint32_t> m_begin, m_last, m_end, m_index, m_order, m_cellStart, m_cellOf, m_cellOfSlot, m_counts;
+  std::vector<uint32_t> m_begin, m_last, m_end, m_index, m_cellOfSlot, m_counts;
   std::vector<float> m_x, m_y, m_z;
   std::vector<api::Float4> m_built;
   std::vector<Chunk> m_chunks;
-  bool m_sorted = false;
   /// A hair more than the radius, so that rounding never puts two neighbours two cells apart.
   static constexpr double kCellMargin = 1.0001;
-  double m_origin[3] = {0, 0, 0}, m_perCell[3] = {1, 1, 1};  ///< m, 1/m
-  int m_cells[3] = {1, 1, 1};
+  CellGrid m_grid;
 };
 
 }  // namespace ps

@@ -11,12 +11,10 @@
 namespace ps {
 namespace {
 
-constexpr size_t kGrain = 4096;
-
 double squaredSpeed(const api::Float4& v) { return double{v.x} * v.x + double{v.y} * v.y + double{v.z} * v.z; }
 
 double kineticEnergy(const ParticleStore& store) {
-  return parallelSum(store.size(), kGrain, [&](size_t first, size_t last) {
+  return parallelSum(store.size(), grain::kNumbers, [&](size_t first, size_t last) {
     double sum = 0;
     for (size_t i = first; i < last; ++i) {
       if (store.velocity()[i].w > 0) sum += 0.5 * store.mass()[i] * squaredSpeed(store.velocity()[i]);

@@ -83,12 +83,11 @@ void apply(Project& project, const CellsEdit& edit, bool forward) {
   if (edit.stroke && !forward) voxels->strokes.pop_back();
 }
 
-/// Where cells lie, on their lattice and in space, with a rim of one cell.
+/// Where cells lie, with a rim of one cell.
 struct CellBounds {
   CellBounds(const VoxelShape& lattice, const std::vector<CellIndex>& cells) {
     constexpr int kMost = std::numeric_limits<int>::max();
-    low = {kMost, kMost, kMost};
-    high = {-kMost, -kMost, -kMost};
+    CellIndex low{kMost, kMost, kMost}, high{-kMost, -kMost, -kMost};
     for (const CellIndex& c : cells) {
       for (size_t k = 0; k < 3; ++k) {
         low[k] = std::min(low[k], c[k] - 1);
@@ -108,12 +107,8 @@ struct CellBounds {
     return true;
   }
   bool holds(const Vector3& p) const {
-    for (size_t k = 0; k < 3; ++k) {
-      if (p[k] < minimum[k] || p[k] > maximum[k]) return false;
-    }
-    return true;
+    return (p.array() >= minimum.array()).all() && (p.array() <= maximum.array()).all();
   }
-  CellIndex low, high;
   Vector3 minimum, maximum;  ///< m
 };
 
@@ -146,49 +141,6 @@ std::vector<Vector3> centresWithin(const Body& body, double spacing, const CellB
   }
   return centres;
 }
-
-/// Places sorted by the cell in which they lie, so that the three cells of a row beside one another are one range.
-class PlacesByCell {
- public:
-  PlacesByCell(const SketchGrid& grid, const CellBounds& bounds) : m_grid(grid), m_bounds(bounds) {}
-  void add(const std::vector<Vector3>& centres) {
-    for (const auto& p : centres) {
-      const api::Cell c = m_grid.cellAt(p);
-      m_places.push_back({key(c.x, c.y, c.z), p});
-    }
-  }
-  void sort() {
-    std::sort(m_places.begin(), m_places.end(), [](const Place& a, const Place& b) { return a.key < b.key; });
-  }
-  bool anyWithin(const CellIndex& cell, double distance) const {
-    const auto centre = m_grid.centreOf({cell[0], cell[1], cell[2]});
-    for (int row = 0; row < 9; ++row) {
-      const int y = cell[1] + row % 3 - 1, z = cell[2] + row / 3 - 1;
-      const uint64_t last = key(cell[0] + 1, y, z);
-      auto at = std::lower_bound(m_places.begin(), m_places.end(), key(cell[0] - 1, y, z),
-                                 [](const Place& place, uint64_t wanted) { return place.key < wanted; });
-      for (; at != m_places.end() && at->key <= last; ++at) {
-        const auto& p = at->place;
-        if (std::hypot(p[0] - centre[0], p[1] - centre[1], p[2] - centre[2]) < distance) return true;
-      }
-    }
-    return false;
-  }
-
- private:
-  struct Place {
-    uint64_t key;
-    Vector3 place;
-  };
-  uint64_t key(int x, int y, int z) const {
-    const auto along = [&](int v, size_t k) { return static_cast<uint64_t>(v - m_bounds.low[k] + 1); };
-    const auto span = [&](size_t k) { return static_cast<uint64_t>(m_bounds.high[k] - m_bounds.low[k] + 3); };
-    return (along(z, 2) * span(1) + along(y, 1)) * span(0) + along(x, 0);
-  }
-  SketchGrid m_grid;
-  const CellBounds& m_bounds;
-  std::vector<Place> m_places;
-};
 
 }  // namespace
 
@@ -232,8 +184,7 @@ std::optional<SceneEdit> eraseEdit(const Body& body, size_t index, const VoxelSh
   if (!stays) rest = asVoxels(body, lattice.spacing);
   const VoxelShape& voxels = stays ? *own : std::get<VoxelShape>(rest->shape);
   const double hair = kOnFace * lattice.spacing;  // as idsInCells() has it
-  const SketchGrid eraser{{lattice.origin[0] - hair, lattice.origin[1] - hair, lattice.origin[2] - hair},
-                          lattice.spacing},
+  const SketchGrid eraser{lattice.origin - Vector3::Constant(hair), lattice.spacing},
       grid{voxels.origin, voxels.spacing};
   const CellSet wanted = cellSet(cells);
   VoxelCanvas canvas(voxels.runs);
@@ -272,14 +223,19 @@ std::vector<std::vector<CellIndex>> takenCells(const SceneEdit& edit, double spa
 std::vector<CellIndex> freeAtStart(const Project& project, const std::string& body, const VoxelShape& lattice,
                                    const std::vector<CellIndex>& cells) {
   const CellBounds bounds(lattice, cells);
-  PlacesByCell taken({lattice.origin, lattice.spacing}, bounds);
+  std::vector<Vector3> places;
   for (const Body& other : project.bodies) {
-    if (other.id != body) taken.add(centresWithin(other, lattice.spacing, bounds));
+    if (other.id == body) continue;
+    const std::vector<Vector3> centres = centresWithin(other, lattice.spacing, bounds);
+    places.insert(places.end(), centres.begin(), centres.end());
   }
-  taken.sort();
+  TakenPlaces taken(0.9 * lattice.spacing, places.size());
+  for (const Vector3& p : places) taken.add(double3Of(p));
+  const SketchGrid grid{lattice.origin, lattice.spacing};
   std::vector<CellIndex> free;
-  std::copy_if(cells.begin(), cells.end(), std::back_inserter(free),
-               [&](const CellIndex& cell) { return !taken.anyWithin(cell, 0.9 * lattice.spacing); });
+  std::copy_if(cells.begin(), cells.end(), std::back_inserter(free), [&](const CellIndex& c) {
+    return taken.isFree(double3Of(grid.centreOf({c[0], c[1], c[2]})));
+  });
   return free;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/render/furniture.h"
 
+#include "core/math/plane.h"
 #include "ui/render/colourmap.h"
 
 #include <algorithm>
@@ -15,45 +16,44 @@ std::array<float, 3> floats(const Vector3& a) {
 std::array<float, 4> with(const Colour& c, double last) { return {c[0], c[1], c[2], static_cast<float>(last)}; }
 std::array<float, 4> with(const Colour& c, Kind kind) { return with(c, static_cast<double>(kind)); }
 
-struct Plane {
-  Vector3 normal;
-  double offset;  // inside where normal . x >= offset
+struct Cut {
+  Plane plane;  // what is above it stays
   bool wall;
 };
 
 // Sutherland-Hodgman against one plane. New edges lie on that plane.
-void clip(Face& face, const Plane& plane) {
+void clip(Face& face, const Cut& cut) {
   Face out;
   const size_t n = face.corners.size();
   for (size_t i = 0; i < n; ++i) {
     const Vector3 &a = face.corners[i], &b = face.corners[(i + 1) % n];
-    const double da = plane.normal.dot(a) - plane.offset, db = plane.normal.dot(b) - plane.offset;
+    const double da = cut.plane.heightOf(a), db = cut.plane.heightOf(b);
     if (da >= 0) {
       out.corners.push_back(a);
       out.walled.push_back(face.walled[i]);
     }
     if ((da >= 0) == (db >= 0)) continue;
     out.corners.push_back(a + da / (da - db) * (b - a));
-    out.walled.push_back(da >= 0 ? plane.wall : face.walled[i]);
+    out.walled.push_back(da >= 0 ? cut.wall : face.walled[i]);
   }
   face = std::move(out);
 }
 
-std::vector<Plane> planesOf(const Environment& environment, size_t except) {
-  std::vector<Plane> planes;
+std::vector<Cut> cutsOf(const Environment& environment, size_t except) {
+  std::vector<Cut> cuts;
   for (size_t k = 0; k < 3; ++k) {
     Vector3 axis{0, 0, 0};
     axis[k] = 1;
-    planes.push_back({axis, environment.boundsMinimum[k], false});
+    cuts.push_back({{axis, environment.boundsMinimum[k]}, false});
     axis[k] = -1;
-    planes.push_back({axis, -environment.boundsMaximum[k], false});
+    cuts.push_back({{axis, -environment.boundsMaximum[k]}, false});
   }
   for (size_t i = 0; i < environment.walls.size(); ++i) {
     if (i == except) continue;
     const Vector3 normal = environment.walls[i].normal.normalized();
-    planes.push_back({normal, normal.dot(environment.walls[i].point), true});
+    cuts.push_back({{normal, normal.dot(environment.walls[i].point)}, true});
   }
-  return planes;
+  return cuts;
 }
 
 enum class Role { Floor, Side, Lid };
@@ -74,7 +74,7 @@ void addEdge(Furniture& out, const Vector3& a, const Vector3& b, double opacityA
 // The edges of a pane from the floor up to a lid, or fading out where the bounds are its only upper end.
 void addPane(Furniture& out, const Face& face, double top, bool open) {
   Face shown = face;
-  clip(shown, {{0, -1, 0}, -top, false});
+  clip(shown, {{{0, -1, 0}, -top}, false});
   const size_t n = shown.corners.size();
   if (n < 3) return;
   const auto faded = [&](const Vector3& p) { return open && p[1] > top - 1e-6; };
@@ -130,10 +130,10 @@ Face wallFace(const Environment& environment, size_t wall) {
   const Vector3& p = environment.walls[wall].point;
   Face face{{p - far * u - far * v, p + far * u - far * v, p + far * u + far * v, p - far * u + far * v},
             {false, false, false, false}};
-  for (Plane plane : planesOf(environment, wall)) {
+  for (const Cut& cut : cutsOf(environment, wall)) {
     // A wall on the bounds themselves, or just outside of them, is still seen.
-    if (!plane.wall && std::abs(plane.normal.dot(normal)) > 0.999) continue;
-    clip(face, plane);
+    if (!cut.wall && std::abs(cut.plane.normal.dot(normal)) > 0.999) continue;
+    clip(face, cut);
   }
   return face.corners.size() >= 3 ? face : Face{};
 }

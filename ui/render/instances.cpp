@@ -12,7 +12,6 @@ namespace ps::render {
 namespace {
 
 constexpr uint32_t kNone = 0xFFFFFFFF;
-constexpr size_t kGrain = 4096;
 constexpr float kSurfaceGrowth = 1.25f;  // a liquid's surface lies about this far out, in radii of its particles
 
 // Index in the previous snapshot by index in this one; empty when both have the same order.
@@ -159,7 +158,7 @@ void collectInstances(const InstanceRequest& request, Instances& out) {
   const Evaluator evaluator(request);
   std::vector<Instance>& all = out.all;
   all.resize(count);
-  parallelFor(count, kGrain, [&](size_t first, size_t last) {
+  parallelFor(count, grain::kNumbers, [&](size_t first, size_t last) {
     for (size_t i = first; i < last; ++i) all[i] = evaluator.at(i);
   });
 

@@ -13,7 +13,6 @@ namespace {
 constexpr double kFast = 0.2, kCrossing = 0.4;
 /// Passes over all impacts of a substep, for those that share a particle.
 constexpr int kPasses = 4;
-constexpr double kMostCells = 1 << 20;  ///< along an axis
 
 }  // namespace
 
@@ -25,7 +24,7 @@ void Impacts::configure(const SolverSettings& settings, const std::vector<Wall>&
   m_gravity = vectorOf(settings.gravity);
   m_slowest = 2 * m_gravity.norm() * m_dt;
   m_planes.clear();
-  for (const Wall& w : walls) m_planes.push_back({vectorOf(w.normal), w.offset + 0.5 * settings.spacing});
+  for (const Wall& w : walls) m_planes.push_back(planeOf(w, 0.5 * settings.spacing));
   m_restitution.clear();
   for (const BakedMaterial& m : materials) m_restitution.push_back(m.scalar(propertyIndex("restitution")));
 }
@@ -111,7 +110,7 @@ void Impacts::findWalls(const ParticleStore& store, std::span<const uint8_t> rig
       const Plane& p = m_planes[plane];
       const double approach = speed.dot(p.normal);
       if (!(approach < -m_slowest)) continue;
-      const double gap = std::max(0.0, vectorOf(store.previous()[i]).dot(p.normal) - p.offset);
+      const double gap = std::max(0.0, p.heightOf(vectorOf(store.previous()[i])));
       const double time = gap / (-approach * m_dt);
       if (time > 1) continue;
       // Gravity has acted for `time` of the substep when it touches, not for all of it.
@@ -170,71 +169,24 @@ void Impacts::findFast(const ParticleStore& store, const StructureGraph& graph, 
   // Only what is not enclosed by its own structure can be met in passing, and the cells are as wide as the longest way
   // needs.
   std::erase_if(m_solids, [&](const Sought& s) { return graph.ties(s.particle) >= SolidContact::kEnclosed; });
-  const Period& period = store.period();
-  double size = 2 * fastest + m_diameter;
-  Vector3 low = Vector3::Constant(1e30), high = -low;
-  const auto placeOf = [&](uint32_t i) {
-    const api::Float4& p = store.previous()[i];
-    return vectorOf(period.wrapped({p.x, p.y, p.z}));
+  const auto placeOf = [&](size_t k) {
+    const api::Float4& p = store.previous()[m_solids[k].particle];
+    return store.period().wrapped({p.x, p.y, p.z});
   };
-  for (const Sought& s : m_solids) {
-    const Vector3 p = placeOf(s.particle);
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
-  const double extent = (high - low).maxCoeff();
-  size = std::max(size, extent / kMostCells);
-  const auto cellOf = [&](double c, double from) { return static_cast<int64_t>((c - from) / size) + 1; };
-  const auto keyOf = [](int64_t x, int64_t y, int64_t z) {
-    return static_cast<uint64_t>(z) << 42 | static_cast<uint64_t>(y) << 21 | static_cast<uint64_t>(x);
-  };
-  m_cells.clear();
-  for (uint32_t k = 0; k < m_solids.size(); ++k) {
-    const Vector3 p = placeOf(m_solids[k].particle);
-    m_cells.push_back({keyOf(cellOf(p.x(), low.x()), cellOf(p.y(), low.y()), cellOf(p.z(), low.z())), k});
-  }
-  std::sort(m_cells.begin(), m_cells.end());
+  m_grid.sort(m_solids.size(), 2 * fastest + m_diameter, store.period(), placeOf);
   Impact impact;
-  const auto meet = [&](uint32_t k, const Vector3& at) {
-    const int64_t x = cellOf(at.x(), low.x()), y = cellOf(at.y(), low.y()), z = cellOf(at.z(), low.z());
-    for (int64_t dz = -1; dz <= 1; ++dz) {
-      for (int64_t dy = -1; dy <= 1; ++dy) {
-        if (x + 1 < 0 || y + dy < 0 || z + dz < 0) continue;
-        auto c = std::lower_bound(m_cells.begin(), m_cells.end(),
-                                  std::pair(keyOf(std::max<int64_t>(0, x - 1), y + dy, z + dz), 0u));
-        for (const uint64_t last = keyOf(x + 1, y + dy, z + dz); c != m_cells.end() && c->first <= last; ++c) {
-          const Sought& other = m_solids[c->second];
-          // A pair of two fast ones is asked by the first of them.
-          if (c->second == k || (other.way > kFast * m_spacing && c->second < k)) continue;
-          uint32_t i = m_solids[k].particle, j = other.particle;
-          if (store.velocity()[i].w == 0) std::swap(i, j);
-          if (store.velocity()[i].w == 0) continue;
-          if (test(store, graph, i, j, impact)) m_impacts.push_back(impact);
-        }
-      }
-    }
-  };
   for (uint32_t k = 0; k < m_solids.size(); ++k) {
     if (!(m_solids[k].way > kFast * m_spacing) || !std::isfinite(m_solids[k].way)) continue;
-    const Vector3 at = placeOf(m_solids[k].particle);
-    // Around the box too, as far as a pair's nearest images go.
-    std::array<std::array<double, 3>, 3> shift{};
-    std::array<int, 3> images{1, 1, 1};
-    for (size_t a = 0; a < 3; ++a) {
-      const double length = period.length(a);
-      if (!(length > 0)) continue;
-      const double from = at[a] - period.low(a);
-      if (from < size) shift[a][static_cast<size_t>(images[a]++)] = length;
-      if (length - from < size) shift[a][static_cast<size_t>(images[a]++)] = -length;
-    }
-    for (int c = 0; c < images[2]; ++c) {
-      for (int b = 0; b < images[1]; ++b) {
-        for (int a = 0; a < images[0]; ++a) {
-          meet(k, at + Vector3{shift[0][static_cast<size_t>(a)], shift[1][static_cast<size_t>(b)],
-                               shift[2][static_cast<size_t>(c)]});
-        }
+    m_grid.around(placeOf(k), [&](uint32_t first, uint32_t last) {
+      for (const uint32_t other : m_grid.order().subspan(first, last - first)) {
+        // A pair of two fast ones is asked by the first of them.
+        if (other == k || (m_solids[other].way > kFast * m_spacing && other < k)) continue;
+        uint32_t i = m_solids[k].particle, j = m_solids[other].particle;
+        if (store.velocity()[i].w == 0) std::swap(i, j);
+        if (store.velocity()[i].w == 0) continue;
+        if (test(store, graph, i, j, impact)) m_impacts.push_back(impact);
       }
-    }
+    });
   }
 }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "core/math/vector.h"
+#include "core/particles/cellgrid.h"
 #include "core/solver/contact/solidcontact.h"
+#include "core/solver/contact/wallplane.h"
 
 namespace ps {
 
@@ -38,10 +39,6 @@ class Impacts {
     bool crosses;  ///< fast enough to pass through
     bool loose;    ///< neither is tied to anything
   };
-  struct Plane {
-    Vector3 normal;
-    double offset;
-  };
   struct Stop {
     uint32_t particle;
     Vector3 left;  ///< m/s, share of the velocity that it has not travelled at
@@ -68,8 +65,8 @@ class Impacts {
   std::vector<Stop> m_stops;
   Received m_given;
   std::vector<Sought> m_solids;
-  std::vector<std::pair<uint64_t, uint32_t>> m_cells;  ///< cell and index into m_solids, sorted
-  std::vector<double> m_first;                         ///< by particle: time of its first impact; 2: none
+  CellGrid m_grid;              ///< of m_solids
+  std::vector<double> m_first;  ///< by particle: time of its first impact; 2: none
 };
 
 }  // namespace ps

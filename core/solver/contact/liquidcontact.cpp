@@ -9,8 +9,6 @@
 namespace ps {
 namespace {
 
-constexpr size_t kGrain = 256;
-
 float squared(const api::Float4& d) { return d.x * d.x + d.y * d.y + d.z * d.z; }
 
 }  // namespace
@@ -22,10 +20,10 @@ void LiquidContact::configure(double spacing, double skin) {
 
 void LiquidContact::refresh(const ParticleStore& store, const Neighbours& neighbours,
                             std::span<const uint32_t> solids) {
-  const size_t chunks = chunkCount(solids.size(), kGrain);
+  const size_t chunks = chunkCount(solids.size(), grain::kNeighbours);
   m_chunks.resize(std::max(m_chunks.size(), chunks));
-  forChunks(solids.size(), kGrain, [&](size_t first, size_t last) {
-    findLiquids(store, neighbours, solids.subspan(first, last - first), m_chunks[first / kGrain]);
+  forChunks(solids.size(), grain::kNeighbours, [&](size_t first, size_t last) {
+    findLiquids(store, neighbours, solids.subspan(first, last - first), m_chunks[first / grain::kNeighbours]);
   });
   m_contacts.clear();
   m_partner.clear();
@@ -106,7 +104,7 @@ api::Float4 LiquidContact::moveOf(const ParticleStore& store, const Contact& con
 void LiquidContact::project(ParticleStore& store) {
   if (m_contacts.empty()) return;
   const auto everywhere = [&](auto&& body) {
-    forChunks(m_contacts.size(), kGrain, [&](size_t first, size_t last) {
+    forChunks(m_contacts.size(), grain::kNeighbours, [&](size_t first, size_t last) {
       for (size_t k = first; k < last; ++k) body(k);
     });
   };
@@ -119,11 +117,11 @@ void LiquidContact::project(ParticleStore& store) {
     }
     m_touching[contact.who] = static_cast<uint8_t>(std::min(255, touching));
   });
-  m_fromFixed.start(chunkCount(m_contacts.size(), kGrain));
+  m_fromFixed.start(chunkCount(m_contacts.size(), grain::kNeighbours));
   everywhere([&](size_t k) {
     Vector3 fromFixed;
     m_moves[k] = moveOf(store, m_contacts[k], fromFixed);
-    m_fromFixed.add(k / kGrain, 1, fromFixed);
+    m_fromFixed.add(k / grain::kNeighbours, 1, fromFixed);
   });
   everywhere([&](size_t k) {
     api::Float4& x = store.position()[m_contacts[k].who];

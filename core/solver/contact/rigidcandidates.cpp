@@ -32,8 +32,10 @@ void RigidContact::configure(const SolverSettings& settings, const std::vector<W
   // Slower than what gravity gives in two substeps nothing bounces, or a body at rest would hop.
   m_slowest = 2 * vectorOf(settings.gravity).norm() * settings.dt / settings.substeps;
   m_planes.clear();
+  m_wallFriction.clear();
   for (const Wall& w : walls) {
-    m_planes.push_back({vectorOf(w.normal), w.offset + 0.5 * settings.spacing, w.friction});
+    m_planes.push_back(planeOf(w, 0.5 * settings.spacing));
+    m_wallFriction.push_back(w.friction);
   }
   m_materials.clear();
   for (const BakedMaterial& m : materials) {
@@ -79,7 +81,7 @@ void RigidContact::addPlane(const ParticleStore& store, uint32_t i, size_t plane
   c.key = uint64_t{store.id()[i]} << 32 | (kNone - plane);
   c.normal = m_planes[plane].normal;
   c.distance = m_planes[plane].offset;
-  c.staticFriction = c.kineticFriction = m_planes[plane].friction;
+  c.staticFriction = c.kineticFriction = m_wallFriction[plane];
   if (store.material()[i] < m_materials.size()) c.restitution = m_materials[store.material()[i]].bounce;
   m_contacts.push_back(c);
 }
@@ -170,7 +172,7 @@ void RigidContact::refreshContacts(const ParticleStore& store, const Neighbours&
     if (m_isMember[i] == 0) continue;
     const size_t before = m_contacts.size();
     for (size_t p = 0; p < m_planes.size(); ++p) {
-      if (m_planes[p].normal.dot(vectorOf(at[i])) - m_planes[p].offset > skin) continue;
+      if (m_planes[p].heightOf(vectorOf(at[i])) > skin) continue;
       addPlane(store, i, p);
     }
     for (uint32_t q = view.begin[i]; q < view.last[i]; ++q) {

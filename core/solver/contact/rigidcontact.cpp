@@ -303,7 +303,7 @@ Vector3 RigidContact::shift(ParticleStore& store, const Body& body, const Vector
 /// m, how far a body would be behind a wall if its members were at `points`.
 double RigidContact::depthOf(const Plane& plane, const Body& body, const api::Float4* points) {
   double depth = 0;
-  for (const uint32_t i : body.members) depth = std::max(depth, plane.offset - plane.normal.dot(vectorOf(points[i])));
+  for (const uint32_t i : body.members) depth = std::max(depth, -plane.heightOf(vectorOf(points[i])));
   return depth;
 }
 

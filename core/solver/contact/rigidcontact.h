@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "core/math/vector.h"
 #include "core/matter/material.h"
 #include "core/particles/impulse.h"
+#include "core/solver/contact/wallplane.h"
 #include "core/solver/structure/constraintsystem.h"
 
 namespace ps {
@@ -104,10 +104,6 @@ class RigidContact {
     double gap;
     uint32_t bodyA, bodyB;
   };
-  struct Plane {
-    Vector3 normal;
-    double offset, friction;
-  };
   /// Outward normal of a lattice at one of its particles; `neighbours` tells a face from an edge.
   struct Surface {
     Vector3 normal;
@@ -144,7 +140,8 @@ class RigidContact {
   Received m_given;
   bool m_resume = false;  ///< the substep's first pass is to come
   double m_spacing = 0, m_slowest = 0;
-  std::vector<Plane> m_planes;
+  std::vector<Plane> m_planes;         ///< of the walls, half a spacing before them
+  std::vector<double> m_wallFriction;  ///< theirs
   struct Rub {
     double resting, sliding, bounce;
   };

@@ -8,7 +8,6 @@
 
 namespace ps {
 namespace {
-constexpr size_t kGrain = 256;
 /// Contacts of one particle usually lean apart, so half of them may act at full strength.
 constexpr int kRelaxation = 2;
 /// A lattice that is struck hard folds into itself: where it is squeezed along every axis to this share of its spacing,
@@ -54,7 +53,7 @@ void SolidContact::refresh(const ParticleStore& store, const Neighbours& neighbo
   const StructureGraph& graph = constraints.graph(store.size());
   const api::NeighbourView view = neighbours.view();
   const float reach2 = static_cast<float>(m_reach * m_reach);
-  const size_t chunks = chunkCount(m_solids.size(), kGrain);
+  const size_t chunks = chunkCount(m_solids.size(), grain::kNeighbours);
   m_chunks.resize(std::max(m_chunks.size(), chunks + 1));
   for (Chunk& chunk : m_chunks) {
     chunk.who.clear();
@@ -63,8 +62,8 @@ void SolidContact::refresh(const ParticleStore& store, const Neighbours& neighbo
   }
   const auto isEnclosed = [&](uint32_t i) { return graph.ties(i) >= kEnclosed; };
   const auto isShut = [&](uint32_t i) { return isEnclosed(i) && view.last[i] - view.begin[i] <= m_crowded; };
-  forChunks(m_solids.size(), kGrain, [&](size_t first, size_t last) {
-    Chunk& chunk = m_chunks[first / kGrain];
+  forChunks(m_solids.size(), grain::kNeighbours, [&](size_t first, size_t last) {
+    Chunk& chunk = m_chunks[first / grain::kNeighbours];
     chunk.begin.assign(1, 0);
     chunk.other.clear();
     for (size_t k = first; k < last; ++k) {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "core/particles/cellgrid.h"
+#include "core/particles/impulse.h"
 #include "core/particles/neighbours.h"
 #include "core/solver/contact/walls.h"
 #include "core/solver/structure/constraintsystem.h"
@@ -30,18 +32,17 @@ class SweptClamp {
   Received& given() { return m_given; }
 
  private:
-  using Point = std::array<double, 3>;
   struct Obstacle {
-    Point center{}, way{};  ///< m: when the substep begins, and during it
+    Vector3 center, way;  ///< m: when the substep begins, and during it
   };
   struct Hit {
     double time = 2;  ///< of the part, 0..1
-    Point center{};   ///< then
-    Point way{};      ///< of the obstacle in the whole substep
+    Vector3 center;   ///< then
+    Vector3 way;      ///< of the obstacle in the whole substep
   };
   /// A part of a particle's way in a substep.
   struct Sweep {
-    Point from{}, way{};
+    Vector3 from, way;
     double begin = 0, span = 1;  ///< shares of the substep: passed before, and taken by this part
     bool single = false;         ///< a solid that is no member of a rigid body
   };
@@ -51,17 +52,15 @@ class SweptClamp {
   void imagesHit(const Sweep& sweep, Hit& hit) const;
   void firstHit(const Sweep& sweep, Hit& hit) const;
   void test(const Sweep& sweep, const Obstacle& obstacle, Hit& hit) const;
-  Point sweepOf(Sweep sweep) const;
-  int cellOf(double coordinate, int axis) const;
+  Vector3 sweepOf(Sweep sweep) const;
 
-  double m_radius = 0, m_contact = 0, m_cell = 1, m_leastCell = 1, m_safeWay = 0, m_halfSkin = 0;  ///< m
-  double m_longest = 0;  ///< m, of the obstacles' ways
+  double m_radius = 0, m_contact = 0, m_cell = 1, m_safeWay = 0, m_halfSkin = 0;  ///< m
+  double m_longest = 0;                                                           ///< m, of the obstacles' ways
   Period m_period;
-  Point m_low{}, m_high{};
-  std::array<int, 3> m_cells{1, 1, 1};
+  Vector3 m_low, m_high;  ///< m, around the obstacles
+  CellGrid m_grid;        ///< of them
   std::vector<uint32_t> m_static;
   std::vector<Obstacle> m_obstacles, m_unsorted;  ///< the first in order of cell
-  std::vector<uint32_t> m_cellStart, m_cellOf;
   std::vector<uint8_t> m_nearStatic;
   std::vector<api::Float4> m_held;
   ChunkSum m_moved;

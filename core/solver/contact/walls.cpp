@@ -10,16 +10,12 @@ namespace ps {
 namespace {
 /// Spacings: iterations move a particle by less than this, and whoever goes further is caught at the substep's end.
 constexpr double kReach = 1;
-constexpr size_t kGrain = 2048;
 }  // namespace
 
 void WallStage::configure(const SolverSettings& settings, const std::vector<Wall>& walls) {
   m_reach = static_cast<float>(kReach * settings.spacing);
   m_planes.clear();
-  for (const Wall& w : walls) {
-    m_planes.push_back({static_cast<float>(w.normal.x), static_cast<float>(w.normal.y), static_cast<float>(w.normal.z),
-                        static_cast<float>(w.offset + 0.5 * settings.spacing), static_cast<float>(w.friction)});
-  }
+  for (const Wall& w : walls) m_planes.emplace_back(w, 0.5 * settings.spacing);
 }
 
 void WallStage::refreshLists(const ParticleStore& store, const Neighbours& neighbours, std::span<const uint8_t> rigid) {
@@ -27,15 +23,15 @@ void WallStage::refreshLists(const ParticleStore& store, const Neighbours& neigh
   m_rigid.assign(rigid.begin(), rigid.end());
   for (size_t i = 0; i < store.size(); ++i) {
     if (store.velocity()[i].w == 0 || rigid[i] != 0) continue;
-    for (const Plane& p : m_planes) {
-      if (p.depthOf(neighbours.built()[i]) < -m_reach) continue;
+    for (const WallPlane& p : m_planes) {
+      if (p.heightOf(neighbours.built()[i]) > m_reach) continue;
       m_near.push_back(static_cast<uint32_t>(i));
       break;
     }
   }
 }
 
-Vector3 WallStage::projectOne(const Plane& p, ParticleStore& store, size_t i, float depth) const {
+Vector3 WallStage::projectOne(const WallPlane& p, ParticleStore& store, size_t i, float depth) const {
   api::Float4& x = store.position()[i];
   const Vector3 before = vectorOf(x);
   x.x += p.x * depth, x.y += p.y * depth, x.z += p.z * depth;
@@ -53,13 +49,13 @@ Vector3 WallStage::projectOne(const Plane& p, ParticleStore& store, size_t i, fl
 
 void WallStage::projectNear(ParticleStore& store) {
   const api::Float4* position = store.position();
-  m_moved.start(chunkCount(m_near.size(), kGrain));
-  forChunks(m_near.size(), kGrain, [&](size_t first, size_t last) {
+  m_moved.start(chunkCount(m_near.size(), grain::kParticles));
+  forChunks(m_near.size(), grain::kParticles, [&](size_t first, size_t last) {
     for (size_t k = first; k < last; ++k) {
       const uint32_t i = m_near[k];
-      for (const Plane& p : m_planes) {
-        const float depth = p.depthOf(position[i]);
-        if (depth > 0) m_moved.add(first / kGrain, store.mass()[i], projectOne(p, store, i, depth));
+      for (const WallPlane& p : m_planes) {
+        const float depth = -p.heightOf(position[i]);
+        if (depth > 0) m_moved.add(first / grain::kParticles, store.mass()[i], projectOne(p, store, i, depth));
       }
     }
   });
@@ -69,26 +65,24 @@ void WallStage::projectNear(ParticleStore& store) {
 void WallStage::project(ParticleStore& store) {
   if (m_planes.empty()) return;
   const api::Float4 *position = store.position(), *velocity = store.velocity();
-  m_moved.start(chunkCount(store.size(), kGrain));
-  forChunks(store.size(), kGrain, [&](size_t first, size_t last) {
+  m_moved.start(chunkCount(store.size(), grain::kParticles));
+  forChunks(store.size(), grain::kParticles, [&](size_t first, size_t last) {
     for (size_t i = first; i < last; ++i) {
       if (velocity[i].w == 0 || m_rigid[i] != 0) continue;
-      for (const Plane& p : m_planes) {
-        const float depth = p.depthOf(position[i]);
-        if (depth > 0) m_moved.add(first / kGrain, store.mass()[i], projectOne(p, store, i, depth));
+      for (const WallPlane& p : m_planes) {
+        const float depth = -p.heightOf(position[i]);
+        if (depth > 0) m_moved.add(first / grain::kParticles, store.mass()[i], projectOne(p, store, i, depth));
       }
     }
   });
   m_given.add(m_moved.total());
 }
 
-void WallStage::clamp(std::array<double, 3>& position) const {
-  for (const Plane& p : m_planes) {
-    const double depth = double{p.offset} - (p.x * position[0] + p.y * position[1] + p.z * position[2]);
-    if (!(depth > 0)) continue;
-    position[0] += p.x * depth;
-    position[1] += p.y * depth;
-    position[2] += p.z * depth;
+void WallStage::clamp(Vector3& position) const {
+  for (const WallPlane& p : m_planes) {
+    const Vector3 normal{p.x, p.y, p.z};
+    const double depth = double{p.offset} - normal.dot(position);
+    if (depth > 0) position += depth * normal;
   }
 }
 

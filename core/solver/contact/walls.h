@@ -2,9 +2,7 @@
 #pragma once
 #include "core/particles/impulse.h"
 #include "core/particles/neighbours.h"
-#include "core/solver/settings.h"
-
-#include <array>
+#include "core/solver/contact/wallplane.h"
 
 namespace ps {
 
@@ -22,19 +20,15 @@ class WallStage {
   /// All particles; for the ends of a substep.
   void project(ParticleStore& store);
   /// One particle, without friction; `position` in m.
-  void clamp(std::array<double, 3>& position) const;
+  void clamp(Vector3& position) const;
   /// What project() and projectNear() moved, kg m.
   Received& given() { return m_given; }
 
  private:
-  struct Plane {
-    float x, y, z, offset, friction;
-    float depthOf(const api::Float4& p) const { return offset - (x * p.x + y * p.y + z * p.z); }
-  };
   /// Returns how far it was moved, m.
-  Vector3 projectOne(const Plane& plane, ParticleStore& store, size_t i, float depth) const;
+  Vector3 projectOne(const WallPlane& plane, ParticleStore& store, size_t i, float depth) const;
 
-  std::vector<Plane> m_planes;
+  std::vector<WallPlane> m_planes;
   std::vector<uint32_t> m_near;
   std::vector<uint8_t> m_rigid;
   ChunkSum m_moved;

@@ -10,7 +10,6 @@
 namespace ps {
 namespace {
 
-constexpr size_t kGrain = 128;
 constexpr size_t kSpare = 16;
 constexpr float kFarAway = 1e8f;
 /// Regularisation of the denominator in 1/spacing^2: only keeps it from zero.
@@ -66,10 +65,7 @@ void DensityStage::configure(const SolverSettings& settings, const std::vector<W
   const bool newKernel = m_halfSpaceKernel != settings.kernel || m_support != settings.spacing * settings.supportRatio;
   m_settings = settings;
   m_planes.clear();
-  for (const Wall& w : walls) {
-    m_planes.push_back({static_cast<float>(w.normal.x), static_cast<float>(w.normal.y), static_cast<float>(w.normal.z),
-                        static_cast<float>(w.offset)});
-  }
+  for (const Wall& w : walls) m_planes.emplace_back(w);
   if (!newKernel && m_scale > 0) return;
   m_halfSpaceKernel = settings.kernel;
   m_support = settings.spacing * settings.supportRatio;
@@ -128,7 +124,7 @@ void DensityStage::refreshLists(const ParticleStore& store, const Neighbours& ne
     }
     for (const uint32_t i : m_fluid) m_touched[i] = 0;
   } else {
-    forChunks(n, kGrain, [&](size_t first, size_t last) {
+    forChunks(n, grain::kPairs, [&](size_t first, size_t last) {
       for (size_t i = first; i < last; ++i) {
         if (m_isFluid[i] != 0) continue;
         for (uint32_t q = view.begin[i]; q < view.last[i] && m_touched[i] == 0; ++q)
@@ -159,7 +155,7 @@ void DensityStage::solidVolumes(const ParticleStore& store, const PairLists& pai
   }
   m_sums.resize(std::max(m_sums.size(), m_some.size()));
   const float scale = static_cast<float>(m_scale);
-  forChunks(m_some.size(), kGrain, [&](size_t first, size_t last) {
+  forChunks(m_some.size(), grain::kPairs, [&](size_t first, size_t last) {
     sumDensity(pairs, m_points.data(), m_weight.data(), m_some.data(), first, last, m_sums.data());
     for (size_t k = first; k < last; ++k) {
       const float own = position[m_some[k]].w;
@@ -170,7 +166,7 @@ void DensityStage::solidVolumes(const ParticleStore& store, const PairLists& pai
 
 void DensityStage::loadPoints(const ParticleStore& store) {
   const api::Float4* position = store.position();
-  forChunks(store.size(), kGrain, [&](size_t first, size_t last) {
+  forChunks(store.size(), grain::kPairs, [&](size_t first, size_t last) {
     for (size_t i = first; i < last; ++i) {
       m_points[i] = {position[i].x, position[i].y, position[i].z, m_volume[i]};
       m_multipliers[i] = {position[i].x, position[i].y, position[i].z, 0};
@@ -181,8 +177,8 @@ void DensityStage::loadPoints(const ParticleStore& store) {
 float DensityStage::addWalls(const api::Float4& at, Constraint& gradient) const {
   const float nearest = static_cast<float>(0.5 * m_settings.spacing), support = static_cast<float>(m_support);
   float excess = 0;
-  for (const Plane& p : m_planes) {
-    const float distance = p.x * at.x + p.y * at.y + p.z * at.z - p.offset;
+  for (const WallPlane& p : m_planes) {
+    const float distance = p.heightOf(at);
     if (distance >= support) continue;
     const HalfSpaceTable::Value value = m_halfSpace.at(std::max(nearest, distance));
     excess += value.share;
@@ -238,7 +234,7 @@ void DensityStage::move(ParticleStore& store, const PairLists& pairs, float cheb
     }
     carried = {dx, dy, dz, 0};
     x.x += dx, x.y += dy, x.z += dz;
-    m_moved.add(first / kGrain, store.mass()[i], {dx, dy, dz});
+    m_moved.add(first / grain::kPairs, store.mass()[i], {dx, dy, dz});
   }
 }
 
@@ -262,9 +258,10 @@ void DensityStage::project(ParticleStore& store, const Neighbours& neighbours, i
   m_moves.resize(moving);
   m_some.assign(m_fluid.begin(), m_fluid.end());
   m_some.insert(m_some.end(), m_wet.begin(), m_wet.end());
-  forChunks(fluids, kGrain, [&](size_t first, size_t last) { multipliers(store, pairs, relaxation, first, last); });
-  m_moved.start(chunkCount(moving, kGrain));
-  forChunks(moving, kGrain, [&](size_t first, size_t last) { move(store, pairs, m_chebyshev, first, last); });
+  forChunks(fluids, grain::kPairs,
+            [&](size_t first, size_t last) { multipliers(store, pairs, relaxation, first, last); });
+  m_moved.start(chunkCount(moving, grain::kPairs));
+  forChunks(moving, grain::kPairs, [&](size_t first, size_t last) { move(store, pairs, m_chebyshev, first, last); });
   if (m_touchesFixed || !m_planes.empty()) m_given.add(m_moved.total());
 }
 
@@ -279,7 +276,7 @@ DensityError DensityStage::measure(ParticleStore& store, const Neighbours& neigh
   m_constraints.resize(fluids);
   m_excess.resize(fluids);
   const PairLists pairs = lists(store, neighbours);
-  forChunks(fluids, kGrain, [&](size_t first, size_t last) {
+  forChunks(fluids, grain::kPairs, [&](size_t first, size_t last) {
     multipliers(store, pairs, static_cast<float>(m_settings.relaxation), first, last);
   });
   DensityError result;
@@ -302,7 +299,7 @@ void DensityStage::handOver(ParticleStore& store, const Neighbours& neighbours, 
   loadPoints(store);
   const PairLists pairs = lists(store, neighbours);
   m_sums.resize(std::max(m_sums.size(), melted.size()));
-  forChunks(melted.size(), kGrain, [&](size_t first, size_t last) {
+  forChunks(melted.size(), grain::kPairs, [&](size_t first, size_t last) {
     sumDensity(pairs, m_points.data(), m_weight.data(), melted.data(), first, last, m_sums.data());
     for (size_t k = first; k < last; ++k) {
       const uint32_t i = melted[k];

@@ -2,8 +2,8 @@
 #pragma once
 #include "core/particles/impulse.h"
 #include "core/particles/neighbours.h"
+#include "core/solver/contact/wallplane.h"
 #include "core/solver/fluid/pairkernels.h"
-#include "core/solver/settings.h"
 
 namespace ps {
 
@@ -68,9 +68,6 @@ class DensityStage {
   double kernelScale() const { return m_scale; }  ///< 1/m3: W = scale * w(q)
 
  private:
-  struct Plane {
-    float x, y, z, offset;
-  };
   struct Constraint {
     float x, y, z, lambda;  ///< gradient in 1/m, multiplier
   };
@@ -81,7 +78,7 @@ class DensityStage {
   void move(ParticleStore& store, const PairLists& lists, float chebyshev, size_t first, size_t last);
 
   SolverSettings m_settings;
-  std::vector<Plane> m_planes;
+  std::vector<WallPlane> m_planes;
   HalfSpaceTable m_halfSpace;
   KernelShape m_halfSpaceKernel = KernelShape::CubicSpline;
   double m_scale = 0, m_support = 0;

@@ -13,7 +13,6 @@
 namespace ps {
 namespace {
 
-constexpr size_t kGrain = 512;
 constexpr double kMolarMassUnknown = 0.0289647;  ///< kg/mol, of matter that does not say: that of air
 constexpr double kDragCoefficient = 0.5;         ///< of a sphere at the Reynolds numbers of puffs of steam
 
@@ -61,7 +60,7 @@ void GasForces::measure(const ParticleStore& store, const Neighbours& neighbours
       m_filled[i] = vapour || m_solver.airDrag > 0 ? filled(store, lists, i, vapour) : 0.0f;
     }
   };
-  parallelFor(store.size(), kGrain, std::cref(body));
+  parallelFor(store.size(), grain::kParticles, std::cref(body));
 }
 
 GasForces::Pull GasForces::pullOf(const ParticleStore& store, size_t i) const {

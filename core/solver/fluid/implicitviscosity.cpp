@@ -10,7 +10,6 @@
 namespace ps {
 namespace {
 
-constexpr size_t kGrain = 128;
 constexpr size_t kSpare = 16;
 constexpr float kFarAway = 1e8f;
 constexpr size_t kIntervals = 256;
@@ -61,9 +60,7 @@ void ImplicitViscosity::configure(const SolverSettings& settings, const std::vec
   m_dirty = true;
   m_planes.clear();
   for (const Wall& w : walls) {
-    if (!w.noSlip) continue;
-    m_planes.push_back({static_cast<float>(w.normal.x), static_cast<float>(w.normal.y), static_cast<float>(w.normal.z),
-                        static_cast<float>(w.offset)});
+    if (w.noSlip) m_planes.emplace_back(w);
   }
   const double support = settings.spacing * settings.supportRatio;
   if (m_support == support) return;
@@ -142,7 +139,7 @@ void ImplicitViscosity::loadPoints(const ParticleStore& store, const DensityStag
   m_direction.resize(n + kSpare);
   const api::Float4* position = store.position();
   const std::span<const float> volume = density.volumes();
-  forChunks(n, 4 * kGrain, [&](size_t first, size_t last) {
+  forChunks(n, grain::kParticles, [&](size_t first, size_t last) {
     for (size_t i = first; i < last; ++i) {
       m_points[i] = {position[i].x, position[i].y, position[i].z, m_roles[i] == Role::None ? 0 : volume[i]};
     }
@@ -154,8 +151,8 @@ void ImplicitViscosity::loadPoints(const ParticleStore& store, const DensityStag
 bool ImplicitViscosity::addWalls(const api::Float4& at, float weight, SymmetricBlock& block) const {
   const float nearest = static_cast<float>(0.5 * m_settings.spacing), support = static_cast<float>(m_support);
   bool touched = false;
-  for (const Plane& p : m_planes) {
-    const float distance = std::max(nearest, p.x * at.x + p.y * at.y + p.z * at.z - p.offset);
+  for (const WallPlane& p : m_planes) {
+    const float distance = std::max(nearest, p.heightOf(at));
     if (distance >= support) continue;
     touched = true;
     const float s = distance / support * static_cast<float>(kIntervals);
@@ -222,7 +219,7 @@ void ImplicitViscosity::multiply(const ParticleStore& store, const PairLists& li
 void ImplicitViscosity::start(ParticleStore& store, const PairLists& lists, const api::Float4* guess) {
   const size_t n = store.size();
   const api::Float4* velocity = store.velocity();
-  forChunks(n, 4 * kGrain, [&](size_t first, size_t last) {
+  forChunks(n, grain::kParticles, [&](size_t first, size_t last) {
     for (size_t i = first; i < last; ++i) m_direction[i] = velocity[i];
   });
   forSegments([&](size_t s, const Segment& segment) {

@@ -54,9 +54,6 @@ class ImplicitViscosity {
  private:
   using Role = ViscousGroups::Role;
   using Segment = ViscousGroups::Segment;
-  struct Plane {
-    float x, y, z, offset;
-  };
   Role roleOf(const ParticleStore& store, std::span<const float> viscous, size_t i) const;
   void findGroups(const Neighbours& neighbours);
   void loadPoints(const ParticleStore& store, const DensityStage& density);
@@ -75,7 +72,7 @@ class ImplicitViscosity {
   void forSegments(const Body& body);
 
   SolverSettings m_settings;
-  std::vector<Plane> m_planes;
+  std::vector<WallPlane> m_planes;
   double m_support = 0;                           ///< m
   std::vector<std::array<float, 2>> m_wallTable;  ///< tangential and normal, over distance 0 .. R, 1/m2 times d
   bool m_active = false, m_dirty = true;

@@ -11,7 +11,6 @@
 namespace ps {
 namespace {
 
-constexpr size_t kGrain = 128;
 constexpr size_t kSpare = 16;
 constexpr float kImplicit = -2;  ///< marks a coefficient, until gatherThick() has seen it
 /// Share of solid at which crystals touch and mush stops to flow.
@@ -67,7 +66,7 @@ void ViscosityStage::refresh(ParticleStore& store, const Neighbours& neighbours,
   const float least = static_cast<float>(std::clamp(m_settings.xsphMinimum, 0.0, 1.0));
   const std::span<const uint32_t> fluid = density.fluid();
   std::atomic<bool> thick = false, filters = false, yields = false;
-  forChunks(fluid.size(), 4 * kGrain, [&](size_t first, size_t last) {
+  forChunks(fluid.size(), grain::kParticles, [&](size_t first, size_t last) {
     for (size_t k = first; k < last; ++k) {
       const uint32_t i = fluid[k];
       float c = least;
@@ -110,7 +109,7 @@ void ViscosityStage::gatherThick(const ParticleStore& store, const DensityStage&
   const double reach = m_implicit.greatestViscosity();
   std::atomic<bool> filters = m_filters;
   const std::span<const uint32_t> fluid = density.fluid();
-  forChunks(fluid.size(), 4 * kGrain, [&](size_t first, size_t last) {
+  forChunks(fluid.size(), grain::kParticles, [&](size_t first, size_t last) {
     for (size_t k = first; k < last; ++k) {
       const uint32_t i = fluid[k];
       if (!isLiquid(store, i)) continue;
@@ -132,7 +131,7 @@ void ViscosityStage::gatherThick(const ParticleStore& store, const DensityStage&
 /// mu_p + tau_y/(gamma_dot + epsilon), within reach.
 void ViscosityStage::addYieldStress(const ParticleStore& store) {
   const float reach = static_cast<float>(m_implicit.greatestViscosity());
-  forChunks(store.size(), 4 * kGrain, [&](size_t first, size_t last) {
+  forChunks(store.size(), grain::kParticles, [&](size_t first, size_t last) {
     for (size_t i = first; i < last; ++i) {
       if (m_yieldStress[i] <= 0) continue;
       const float most = reach * store.mass()[i] / store.position()[i].w;
@@ -148,7 +147,7 @@ void ViscosityStage::filter(ParticleStore& store, const Neighbours& neighbours, 
   m_change.resize(m_which.size());
   const PairLists pairs = density.lists(store, neighbours);
   const float scale = static_cast<float>(density.kernelScale());
-  forChunks(m_which.size(), kGrain, [&](size_t first, size_t last) {
+  forChunks(m_which.size(), grain::kPairs, [&](size_t first, size_t last) {
     sumViscosity(pairs, store.position(), store.velocity(), m_coefficient.data(), m_which.data(), first, last,
                  m_change.data());
   });

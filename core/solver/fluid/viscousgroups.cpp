@@ -60,12 +60,13 @@ void ViscousGroups::measure(const ParticleStore& store, std::span<const uint8_t>
   forChunks(m_segments.size(), 1, [&](size_t s, size_t) {
     const Segment& segment = m_segments[s];
     if (!m_groups[segment.group].closed) return;
-    Sums sums{};
+    Sums sums;
     for (size_t k = segment.first; k < segment.last; ++k) {
-      const api::Float4& p = store.position()[m_rows[k]];
-      const double m = store.mass()[m_rows[k]], x = p.x, y = p.y, z = p.z;
-      const Sums terms{m, m * x, m * y, m * z, m * x * x, m * y * y, m * z * z, m * x * y, m * x * z, m * y * z};
-      for (size_t a = 0; a < 10; ++a) sums[a] += terms[a];
+      const Vector3 p = vectorOf(store.position()[m_rows[k]]);
+      const double m = store.mass()[m_rows[k]];
+      sums.mass += m;
+      sums.first += m * p;
+      sums.second += m * p * p.transpose();
     }
     m_sums[s] = sums;
   });
@@ -75,66 +76,56 @@ void ViscousGroups::measure(const ParticleStore& store, std::span<const uint8_t>
 }
 
 void ViscousGroups::measureInertia(Group& group, double spacing, bool turns) const {
-  Sums t{};
+  Sums sums;
   for (size_t s = group.firstSegment; s < group.lastSegment; ++s) {
-    for (size_t a = 0; a < 10; ++a) t[a] += m_sums[s][a];
+    sums.mass += m_sums[s].mass;
+    sums.first += m_sums[s].first;
+    sums.second += m_sums[s].second;
   }
-  group.mass = t[0];
-  group.center = {t[1] / t[0], t[2] / t[0], t[3] / t[0]};
-  group.inverseInertia = {};
+  group.mass = sums.mass;
+  group.center = sums.first / sums.mass;
+  group.inverseInertia.setZero();
   if (!turns) return;
-  const auto [x, y, z] = group.center;
-  const double xx = t[4] - t[0] * x * x, yy = t[5] - t[0] * y * y, zz = t[6] - t[0] * z * z;
-  const double xy = t[7] - t[0] * x * y, xz = t[8] - t[0] * x * z, yz = t[9] - t[0] * y * z;
+  const Matrix3 moments = sums.second - sums.mass * group.center * group.center.transpose();
   // A group in a line has no inertia about it, and no angular momentum either.
-  const double floor = 1e-9 * (xx + yy + zz + t[0] * spacing * spacing);
-  const double a = yy + zz + floor, b = xx + zz + floor, c = xx + yy + floor;
-  const double m00 = b * c - yz * yz, m01 = xy * c + xz * yz, m02 = xy * yz + xz * b;
-  const double m11 = a * c - xz * xz, m12 = a * yz + xy * xz, m22 = a * b - xy * xy;
-  const double s = 1 / (a * m00 - xy * m01 - xz * m02);
-  group.inverseInertia = {s * m00, s * m01, s * m02, s * m01, s * m11, s * m12, s * m02, s * m12, s * m22};
+  const double floor = 1e-9 * (moments.trace() + sums.mass * spacing * spacing);
+  const Matrix3 inertia = (moments.trace() + floor) * Matrix3::Identity() - moments;
+  group.inverseInertia = inertia.inverse();
 }
 
 void ViscousGroups::addMomenta(const ParticleStore& store, const api::Float4* vectors, size_t segment) {
   const Segment& range = m_segments[segment];
   const Group& group = m_groups[range.group];
   if (!group.closed) return;
-  Sums sums{};
+  Vector3 linear, angular;
   for (size_t k = range.first; k < range.last; ++k) {
-    const api::Float4& p = store.position()[m_rows[k]];
-    const double m = store.mass()[m_rows[k]];
-    const double x = p.x - group.center[0], y = p.y - group.center[1], z = p.z - group.center[2];
-    const double vx = m * vectors[k].x, vy = m * vectors[k].y, vz = m * vectors[k].z;
-    sums[0] += vx, sums[1] += vy, sums[2] += vz;
-    sums[3] += y * vz - z * vy, sums[4] += z * vx - x * vz, sums[5] += x * vy - y * vx;
+    const Vector3 arm = vectorOf(store.position()[m_rows[k]]) - group.center;
+    const Vector3 momentum = double{store.mass()[m_rows[k]]} * vectorOf(vectors[k]);
+    linear += momentum;
+    angular += arm.cross(momentum);
   }
-  m_sums[segment] = sums;
+  m_sums[segment].first = linear;
+  m_sums[segment].angular = angular;
 }
 
 void ViscousGroups::reduceMomenta() {
   for (Group& group : m_groups) {
     if (!group.closed) continue;
-    std::array<double, 6> t{};
+    Vector3 linear, angular;
     for (size_t s = group.firstSegment; s < group.lastSegment; ++s) {
-      for (size_t a = 0; a < 6; ++a) t[a] += m_sums[s][a];
+      linear += m_sums[s].first;
+      angular += m_sums[s].angular;
     }
-    const auto& inverse = group.inverseInertia;
-    for (size_t a = 0; a < 3; ++a) {
-      group.linear[a] = t[a] / group.mass;
-      group.angular[a] = inverse[3 * a] * t[3] + inverse[3 * a + 1] * t[4] + inverse[3 * a + 2] * t[5];
-    }
+    group.linear = linear / group.mass;
+    group.angular = group.inverseInertia * angular;
   }
 }
 
 api::Float4 ViscousGroups::without(const ParticleStore& store, uint32_t index, uint32_t i, const api::Float4& v) const {
   const Group& group = m_groups[index];
   if (!group.closed) return v;
-  const api::Float4& p = store.position()[i];
-  const double x = p.x - group.center[0], y = p.y - group.center[1], z = p.z - group.center[2];
-  const auto& w = group.angular;
-  return {static_cast<float>(v.x - group.linear[0] - (w[1] * z - w[2] * y)),
-          static_cast<float>(v.y - group.linear[1] - (w[2] * x - w[0] * z)),
-          static_cast<float>(v.z - group.linear[2] - (w[0] * y - w[1] * x)), 0};
+  const Vector3 arm = vectorOf(store.position()[i]) - group.center;
+  return float4Of(vectorOf(v) - group.linear - group.angular.cross(arm), 0);
 }
 
 }  // namespace ps

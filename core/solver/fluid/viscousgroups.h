@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "core/math/vector.h"
 #include "core/particles/neighbours.h"
 
 #include <algorithm>
-#include <array>
 #include <span>
 #include <vector>
 
@@ -42,12 +42,16 @@ class ViscousGroups {
     uint32_t firstSegment = 0, lastSegment = 0;
     bool anchored = false;  ///< lists hold fixed particles
     bool closed = false;
-    double mass = 0;                                      ///< kg
-    std::array<double, 3> center{}, linear{}, angular{};  ///< m, m/s, 1/s
-    std::array<double, 9> inverseInertia{};
+    double mass = 0;                  ///< kg
+    Vector3 center, linear, angular;  ///< m, m/s, 1/s
+    Matrix3 inverseInertia;           ///< 1/(kg m2)
   };
-  /// Mass, first and second moments, or momenta.
-  using Sums = std::array<double, 10>;
+  /// Of a segment: mass with its first and second moments, or momenta, linear and angular.
+  struct Sums {
+    double mass = 0;
+    Vector3 first, angular;
+    Matrix3 second;
+  };
   void flood(uint32_t seed, std::span<const Role> roles, const api::NeighbourView& view, bool& anchored);
   void measureInertia(Group& group, double spacing, bool turns) const;
 

@@ -10,7 +10,6 @@
 namespace ps {
 namespace {
 
-constexpr size_t kGrain = 512;
 /// Frames after which particles are sorted by cell again although the lists still hold.
 constexpr uint64_t kSortInterval = 60;
 /// One Gauss-Seidel pass a substep leaves stiff springs an error that the next one answers with a push: cloth whips and
@@ -191,8 +190,8 @@ void Solver::Impl::listsChanged(bool newStructure) {
 
 void Solver::Impl::predict(uint32_t index, double dt) {
   motion.advance(store.period(), time + index * dt, dt);
-  weight.start(chunkCount(store.size(), kGrain));
-  forChunks(store.size(), kGrain, [&](size_t first, size_t last) {
+  weight.start(chunkCount(store.size(), grain::kParticles));
+  forChunks(store.size(), grain::kParticles, [&](size_t first, size_t last) {
     api::Float4 *position = store.position(), *previous = store.previous(), *velocity = store.velocity();
     Vector3 before, after;
     const float keep = static_cast<float>(1 / (1 + settings.damping * dt)), step = static_cast<float>(dt);
@@ -205,7 +204,7 @@ void Solver::Impl::predict(uint32_t index, double dt) {
     for (size_t i = first; i < last; ++i) {
       if (velocity[i].w > 0) after += double{store.mass()[i]} * vectorOf(velocity[i]);
     }
-    weight.add(first / kGrain, 1, after - before);
+    weight.add(first / grain::kParticles, 1, after - before);
     for (size_t i = first; i < last; ++i) {  // what is fixed moves too, at the velocity it was given
       position[i].x += step * velocity[i].x;
       position[i].y += step * velocity[i].y;
@@ -217,7 +216,7 @@ void Solver::Impl::predict(uint32_t index, double dt) {
 }
 
 void Solver::Impl::velocities(double dt) {
-  forChunks(store.size(), kGrain, [&](size_t first, size_t last) {
+  forChunks(store.size(), grain::kParticles, [&](size_t first, size_t last) {
     const api::Float4 *position = store.position(), *previous = store.previous();
     api::Float4* velocity = store.velocity();
     const float rate = static_cast<float>(1 / dt), step = static_cast<float>(dt);

@@ -10,7 +10,6 @@
 namespace ps {
 namespace {
 
-constexpr size_t kGrain = 256;
 /// K: smaller differences are the rounding of temperatures.
 constexpr double kSameTemperature = 1e-9;
 
@@ -137,7 +136,7 @@ void HeatStage::derive(ParticleStore& store) {
     const bool known = m_lastCount > 0 && m_lastCount == store.size();
     const double before = m_lastEnergy;
     const auto body = [&](size_t first, size_t last) { deriveRange(store, first, last); };
-    parallelFor(store.size(), kGrain, std::cref(body));
+    parallelFor(store.size(), grain::kNeighbours, std::cref(body));
     if (!known) return;
     if (const double change = energy(store) - before; change != 0) book(change);
   });
@@ -150,11 +149,11 @@ double HeatStage::energy(const ParticleStore& store) const {
   const api::ThermalContext where = context();
   const api::ParticleView view = store.view();
   const auto body = [&](size_t first, size_t last) { m_model->energy(where, view, first, last, m_energies.data()); };
-  if (!guarded([&] { parallelFor(store.size(), kGrain, std::cref(body)); })) return m_lastEnergy;
+  if (!guarded([&] { parallelFor(store.size(), grain::kNeighbours, std::cref(body)); })) return m_lastEnergy;
   double sum = 0;
-  for (size_t first = 0; first < store.size(); first += kGrain) {
+  for (size_t first = 0; first < store.size(); first += grain::kNeighbours) {
     double chunk = 0;
-    for (size_t i = first; i < std::min(store.size(), first + kGrain); ++i) chunk += m_energies[i];
+    for (size_t i = first; i < std::min(store.size(), first + grain::kNeighbours); ++i) chunk += m_energies[i];
     sum += chunk;
   }
   m_lastEnergy = sum;
@@ -181,7 +180,7 @@ void HeatStage::snapshotRange(const ParticleStore& store, HeatInstant& instant, 
 /// Everything that stays the same during a frame: pairs, what lies around, the stable step.
 void HeatStage::prepare(ParticleStore& store, const Neighbours& neighbours, uint64_t frame) {
   const size_t n = store.size();
-  m_partials.resize(chunkCount(n, kGrain));
+  m_partials.resize(chunkCount(n, grain::kNeighbours));
   for (auto* list : {&m_joules, &m_frameJoules, &m_watts, &m_perConductivity, &m_fixedConductance}) list->resize(n);
   m_now.resize(n);
   m_next.resize(n);
@@ -192,13 +191,13 @@ void HeatStage::prepare(ParticleStore& store, const Neighbours& neighbours, uint
   m_surroundings.measure(store, neighbours.view(), m_pairs, frame);
   m_surroundings.setAir(airTemperature());
   const auto body = [&](size_t first, size_t last) {
-    Partial& partial = m_partials[first / kGrain];
+    Partial& partial = m_partials[first / grain::kNeighbours];
     partial = {};
     snapshotRange(store, m_now, first, last);
     sumConductances(store, first, last, partial);
     partial.fastest = fastestRate(store, first, last);
   };
-  parallelFor(n, kGrain, std::cref(body));
+  parallelFor(n, grain::kNeighbours, std::cref(body));
   m_boiling = false;
   for (const Partial& partial : m_partials) m_boiling = m_boiling || partial.boiling > 0;
   findLimit();
@@ -261,7 +260,7 @@ void HeatStage::passTime(ParticleStore& store, const api::ParticleView& view, do
     m_model->addHeat(where, view, first, last, m_joules.data(), time);
     deriveRange(store, first, last);
   };
-  parallelFor(store.size(), kGrain, std::cref(body));
+  parallelFor(store.size(), grain::kNeighbours, std::cref(body));
 }
 
 /// Thermal seconds that one frame's explicit steps can do, and its sweeps.
@@ -308,7 +307,7 @@ void HeatStage::explicitStep(ParticleStore& store, const api::ParticleView& view
   const double airBefore = airHeat();
   if (m_pairLaw && !firstStep) askPairLaw(view, lists);
   const auto body = [&](size_t first, size_t last) {
-    Partial& partial = m_partials[first / kGrain];
+    Partial& partial = m_partials[first / grain::kNeighbours];
     gather(store, step, first, last, partial);
     if (m_pairLaw) gatherPairLaw(lists, step, first, last);
     addFrameHeat(step, firstStep, first, last, partial);
@@ -317,7 +316,7 @@ void HeatStage::explicitStep(ParticleStore& store, const api::ParticleView& view
     snapshotRange(store, m_next, first, last);
     partial.fastest = fastestRate(store, first, last);
   };
-  parallelFor(store.size(), kGrain, std::cref(body));
+  parallelFor(store.size(), grain::kNeighbours, std::cref(body));
   std::swap(m_now, m_next);
   takeFromAir(airHeat() - airBefore);
   findLimit();
@@ -406,17 +405,17 @@ void HeatStage::askPairLaw(const api::ParticleView& view, const api::NeighbourVi
   const size_t n = view.count, slots = lists.end[n - 1];
   if (m_pairWatts.size() < slots) m_pairWatts.resize(slots + slots / 4);
   const api::ThermalContext where = context();
-  const size_t probe = std::min(n, kGrain);
+  const size_t probe = std::min(n, grain::kNeighbours);
   m_pairLaw = m_model->pairFlux(where, view, lists, 0, probe, m_pairWatts.data());
   m_pairRate = 0;
   if (!m_pairLaw) return;
   const auto* rates = static_cast<const api::PairRates*>(m_model->extension(api::kPairRates));
-  m_lawRates.assign(chunkCount(n, kGrain), 0.0);
+  m_lawRates.assign(chunkCount(n, grain::kNeighbours), 0.0);
   const auto body = [&](size_t first, size_t last) {
     if (first >= probe) m_model->pairFlux(where, view, lists, first, last, m_pairWatts.data());
-    if (rates) m_lawRates[first / kGrain] = rates->fastestPairRate(where, view, lists, first, last);
+    if (rates) m_lawRates[first / grain::kNeighbours] = rates->fastestPairRate(where, view, lists, first, last);
   };
-  parallelFor(n, kGrain, std::cref(body));
+  parallelFor(n, grain::kNeighbours, std::cref(body));
   m_pairRate = *std::max_element(m_lawRates.begin(), m_lawRates.end());
   findLimit();
 }

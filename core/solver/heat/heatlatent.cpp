@@ -10,7 +10,6 @@
 namespace ps {
 namespace {
 
-constexpr size_t kGrain = 256;
 /// Largest share of a particle's remaining vapour that a film takes in one frame.
 constexpr double kFilmShare = 0.3;
 /// Reach of a condensing surface in spacings.
@@ -45,13 +44,13 @@ void HeatStage::collectFrameHeat(ParticleStore& store, const api::ParticleView& 
   const auto sources = [&](size_t first, size_t last) {
     m_bodyHeating.addTo(store, m_materials, frame, first, last, m_watts);
     if (!m_boiling) return;
-    for (size_t i = first; i < last; ++i) filmHeat(store, i, frame, m_partials[first / kGrain]);
+    for (size_t i = first; i < last; ++i) filmHeat(store, i, frame, m_partials[first / grain::kNeighbours]);
     countBoiling(store, first, last);
   };
-  parallelFor(n, kGrain, std::cref(sources));
+  parallelFor(n, grain::kNeighbours, std::cref(sources));
   if (!m_boiling || !(m_settings.nucleation > 0)) return;
   const auto bubbles = [&](size_t first, size_t last) { nucleate(store, first, last); };
-  parallelFor(n, kGrain, std::cref(bubbles));
+  parallelFor(n, grain::kNeighbours, std::cref(bubbles));
 }
 
 /// Vapour close to a wall below the boiling point condenses with the wall's film coefficient, Q = h A (T_w - T):

@@ -10,7 +10,6 @@
 namespace ps {
 namespace {
 
-constexpr size_t kGrain = 256;
 constexpr double kPi = 3.14159265358979323846;
 /// Sum of V W below which a particle's surroundings count as cut off by a surface.
 constexpr float kFullSupport = 0.95f;
@@ -46,16 +45,16 @@ void HeatPairs::build(const ParticleStore& store, const api::NeighbourView& list
       volume[i] = static_cast<float>(static_cast<double>(store.mass()[i]) / material.condensedDensity(t, s));
     }
   };
-  parallelFor(n, kGrain, std::cref(matter));
+  parallelFor(n, grain::kNeighbours, std::cref(matter));
   const auto first = [&](size_t a, size_t b) {
     store.period().any() ? measure<true>(store, lists, a, b) : measure<false>(store, lists, a, b);
   };
-  parallelFor(n, kGrain, std::cref(first));
+  parallelFor(n, grain::kNeighbours, std::cref(first));
   const auto second = [&](size_t a, size_t b) {
     conduct(a, b);
     if (m_options.contactConductance > 0) resist(store, a, b);
   };
-  parallelFor(n, kGrain, std::cref(second));
+  parallelFor(n, grain::kNeighbours, std::cref(second));
 }
 
 /// Writes -F into `conductance` and W, from squared distances; plain arithmetic without branches, which compilers

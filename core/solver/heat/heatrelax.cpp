@@ -14,8 +14,6 @@
 namespace ps {
 namespace {
 
-constexpr size_t kGrain = 256;
-
 /// 1 - exp(-x) for x >= 0 from basic operations alone, to 1e-12: the C library's exp may differ between machines.
 double decay(double x) {
   if (!(x < 40)) return 1;
@@ -131,12 +129,12 @@ void HeatStage::sweep(ParticleStore& store, const api::ParticleView& view, doubl
   }
   const api::ThermalContext where = context();
   const auto apply = [&](size_t first, size_t last) {
-    addFrameHeat(step, firstStep, first, last, m_partials[first / kGrain]);
+    addFrameHeat(step, firstStep, first, last, m_partials[first / grain::kNeighbours]);
     m_model->addHeat(where, view, first, last, m_joules.data(), step);
     deriveRange(store, first, last);
     snapshotRange(store, m_now, first, last);
   };
-  parallelFor(n, kGrain, std::cref(apply));
+  parallelFor(n, grain::kNeighbours, std::cref(apply));
 }
 
 }  // namespace ps

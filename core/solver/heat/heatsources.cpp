@@ -11,7 +11,6 @@ namespace ps {
 namespace {
 
 constexpr double kColdest = 1;  // K
-constexpr size_t kGrain = 256;
 
 /// J that may be taken from a particle before it is colder than kColdest, whatever it is made of.
 double heatAbove(const api::Caloric& c, double mass, double temperature) {
@@ -66,7 +65,7 @@ void PluginHeating::addTo(ParticleStore& store, const api::ParticleView& view, c
       m_faults.push_back({source.name, std::move(problem)});
       continue;
     }
-    forChunks(store.size(), kGrain, [&](size_t first, size_t last) {
+    forChunks(store.size(), grain::kNeighbours, [&](size_t first, size_t last) {
       for (size_t i = first; i < last; ++i) {
         double share = m_watts[i];
         if (share < 0) {
@@ -95,7 +94,7 @@ void PluginHeating::ask(const HeatSource& source, ParticleStore& store, const ap
   }
   where.parameters = {source.parameters.data(), source.parameters.size()};
   m_watts.assign(store.size(), 0.0);
-  forChunks(store.size(), kGrain, [&](size_t first, size_t last) {
+  forChunks(store.size(), grain::kNeighbours, [&](size_t first, size_t last) {
     source.plugin->addWatts(where, view, first, last, m_watts.data());
     for (size_t i = first; i < last; ++i) {
       if (!std::isfinite(m_watts[i])) throw Error("its heat is not a finite number");

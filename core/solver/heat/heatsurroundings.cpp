@@ -10,7 +10,6 @@
 namespace ps {
 namespace {
 
-constexpr size_t kGrain = 256;
 /// Frames from one look for free surfaces to the next.
 constexpr uint64_t kSurfaceFrames = 4;
 constexpr double kGentle = 2, kStrong = 20;  ///< m/s, where the law of wind holds
@@ -76,7 +75,7 @@ void HeatSurroundings::measure(const ParticleStore& store, const api::NeighbourV
   if (m_surfaces && (frame % kSurfaceFrames == 0 || !m_surface.fits(store)))
     m_surface.measure(store, lists, pairs.filled, m_walls, m_solver.spacing, m_settings.surfaceArea);
   if (m_settings.radiation) m_radiation.trace(store, m_surface, m_walls, m_bounds, m_solver.spacing, frame);
-  forChunks(n, kGrain, [&](size_t first, size_t last) {
+  forChunks(n, grain::kNeighbours, [&](size_t first, size_t last) {
     for (size_t i = first; i < last; ++i) measureOne(store, pairs, i);
   });
   m_airTotal = 0;

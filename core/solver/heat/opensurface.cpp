@@ -10,7 +10,6 @@
 namespace ps {
 namespace {
 
-constexpr size_t kGrain = 512;
 /// Sum of V W from which on a particle lies inside. In disorder many on the surface come near 1; those inside are soon
 /// covered anyway.
 constexpr float kInside = 1.1f;
@@ -109,7 +108,7 @@ void OpenSurface::measure(const ParticleStore& store, const api::NeighbourView& 
         m_behindWall[w] |= uint64_t{1} << d;
     }
   }
-  forChunks(store.size(), kGrain, [&](size_t first, size_t last) {
+  forChunks(store.size(), grain::kParticles, [&](size_t first, size_t last) {
     store.period().any() ? cover<true>(store, lists, filled, walls, first, last)
                          : cover<false>(store, lists, filled, walls, first, last);
   });

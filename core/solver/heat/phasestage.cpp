@@ -14,7 +14,6 @@ namespace {
 using api::Motion;
 using api::Phase;
 
-constexpr size_t kGrain = 512;
 constexpr double kVolumeStep = 0.05;      ///< largest change of a rest volume in one frame
 constexpr double kMeltScatter = 0.3;      ///< half width of the melt threshold around melt_break_fraction
 constexpr double kVapourThreshold = 0.5;  ///< gas fraction at which a particle begins to move as vapour
@@ -121,7 +120,7 @@ bool PhaseStage::update(ParticleStore& store, std::vector<uint32_t>& melted) {
       motion = next;
     }
   };
-  parallelFor(store.size(), kGrain, std::cref(body));
+  parallelFor(store.size(), grain::kParticles, std::cref(body));
   bool froze = false;
   for (size_t i = 0; i < m_turns.size(); ++i) {
     if (m_turns[i] == Turn::Melted) melted.push_back(static_cast<uint32_t>(i));

@@ -2,6 +2,7 @@
 #include "core/solver/heat/radiation.h"
 
 #include "core/base/parallel.h"
+#include "core/solver/contact/wallplane.h"
 
 #include <algorithm>
 #include <array>
@@ -11,7 +12,6 @@
 namespace ps {
 namespace {
 
-constexpr size_t kGrain = 64;
 constexpr double kLift = 1.5;           ///< spacings above a centre, along its normal, at which its rays begin
 constexpr double kNear = 2.5;           ///< spacings within which matter touches, and does not radiate at each other
 constexpr double kPlane = 0.8;          ///< length of the mean open direction from which on a surface counts as plane
@@ -36,10 +36,10 @@ struct Target {
 Target nearestWall(std::span<const Wall> walls, const Vector3& from, const Vector3& way) {
   Target nearest{walls.size(), kFar};
   for (size_t w = 0; w < walls.size(); ++w) {
-    const Vector3 normal = vectorOf(walls[w].normal);
-    const double towards = -normal.dot(way);
+    const Plane plane = planeOf(walls[w]);
+    const double towards = -plane.normal.dot(way);
     if (!(towards > 0)) continue;
-    const double distance = std::max(0.0, (normal.dot(from) - walls[w].offset) / towards);
+    const double distance = std::max(0.0, plane.heightOf(from) / towards);
     if (distance < nearest.distance) nearest = {w, distance};
   }
   return nearest;
@@ -107,7 +107,7 @@ void Radiation::trace(const ParticleStore& store, const OpenSurface& surface, st
   m_grid.build(store, spacing);
   m_met.assign(m_emitters.size() * m_perParticle, Grid::kEmpty);
   m_area.resize(m_met.size());
-  forChunks(m_emitters.size(), kGrain,
+  forChunks(m_emitters.size(), grain::kRays,
             [&](size_t first, size_t last) { follow(store, surface, walls, spacing, frame, first, last); });
   couple(n);
 }

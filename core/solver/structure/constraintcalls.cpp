@@ -10,9 +10,6 @@
 namespace ps {
 namespace {
 
-constexpr size_t kBatchGrain = 1024;
-constexpr size_t kGatherGrain = 256;
-
 /// A run of constraints with pointers to its values; lives while a plugin is called.
 struct BatchView {
   std::array<float*, GroupLists::kMostValues> values{};
@@ -45,10 +42,10 @@ void ConstraintSystem::forBatches(Set& set, uint32_t substep, uint32_t iteration
   for (size_t colour = 0; colour + 1 < set.colourStart.size(); ++colour) {
     const size_t begin = set.colourStart[colour], count = set.colourStart[colour + 1] - begin;
     if (count == 0) continue;
-    if (count <= kBatchGrain)
+    if (count <= grain::kConstraints)
       run(begin, begin + count);
     else
-      forChunks(count, kBatchGrain, [&](size_t first, size_t last) { run(begin + first, begin + last); });
+      forChunks(count, grain::kConstraints, [&](size_t first, size_t last) { run(begin + first, begin + last); });
   }
 }
 
@@ -84,12 +81,12 @@ void ConstraintSystem::projectNeighbours(ParticleStore& store, const Neighbours&
     m_correction.assign(set.members.size(), api::Float4{0, 0, 0, 0});
     const api::ConstraintContext c = context(set, substepTime(), substep, iteration);
     const bool done = guarded(set, [&] {
-      forChunks(set.members.size(), kGatherGrain, [&](size_t first, size_t last) {
+      forChunks(set.members.size(), grain::kNeighbours, [&](size_t first, size_t last) {
         set.neighbour->gather(c, view, lists, {set.members.data() + first, last - first}, m_correction.data() + first);
       });
     });
     if (!done) continue;
-    forChunks(set.members.size(), kBatchGrain, [&](size_t first, size_t last) {
+    forChunks(set.members.size(), grain::kConstraints, [&](size_t first, size_t last) {
       for (size_t k = first; k < last; ++k) {
         const uint32_t i = set.members[k];
         if (store.velocity()[i].w == 0) continue;
