@@ -45,7 +45,7 @@ ps::Project trayOf(const std::array<int, 3>& particles, double height, double te
 }
 
 void setWall(Engine& engine, const char* wall, const char* key, const ps::Value& value) {
-  QVERIFY(engine.setParameter({Owner::Wall, wall, key}, value));
+  QVERIFY(engine.setParameter({ps::Owner::Wall, wall, key}, value));
 }
 void setWalls(Engine& engine, const std::vector<const char*>& walls, double temperature) {
   for (const char* wall : walls) {

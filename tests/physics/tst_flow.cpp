@@ -263,8 +263,8 @@ class TestFlow : public QObject {
     ps::Engine engine(load(scene), m_plugins);
     for (int frame = 0; frame < 30; ++frame) engine.step();
     QVERIFY(engine.stats().flow.drained.count == 0);
-    QVERIFY(engine.setParameter({Owner::Sink, "drain", "open"}, true));
-    QVERIFY(engine.setParameter({Owner::Emitter, "tap", "speed"}, 3.0));
+    QVERIFY(engine.setParameter({ps::Owner::Sink, "drain", "open"}, true));
+    QVERIFY(engine.setParameter({ps::Owner::Emitter, "tap", "speed"}, 3.0));
     engine.step();
     QVERIFY(engine.stats().flow.drained.count > 0);
     const ps::ParticleStore& store = engine.solver().particles();

@@ -383,18 +383,18 @@ class TestPrescribedMotion : public QObject {
     for (int frame = 0; frame < 60; ++frame) QCOMPARE(engine.step().flags, 0u);
     QVERIFY2(error(1, 3) < 1e-6, qPrintable(QString::number(error(1, 3))));
     // The next two act at once, from where the wheel is.
-    QVERIFY(engine.setParameter({Owner::Body, "wheel", "motion_stop"}, 1.5));
+    QVERIFY(engine.setParameter({ps::Owner::Body, "wheel", "motion_stop"}, 1.5));
     for (int frame = 0; frame < 60; ++frame) engine.step();
     QVERIFY2(error(1.5, 4.5) < 1e-6, qPrintable(QString::number(error(1.5, 4.5))));
-    QVERIFY(engine.setParameter({Owner::Body, "wheel", "motion_stop"}, 0.0));
+    QVERIFY(engine.setParameter({ps::Owner::Body, "wheel", "motion_stop"}, 0.0));
     project = engine.project();
     project.bodies[0].spin = {0, 0, -1};
     engine.update(project);
     for (int frame = 0; frame < 60; ++frame) engine.step();
     QVERIFY2(error(2.5, 3.5) < 1e-6, qPrintable(QString::number(error(2.5, 3.5))));
-    QVERIFY(
-        !engine.setParameter({Owner::Body, "wheel", "fixed"}, false));  // at the next reset, whatever else is edited
-    QVERIFY(engine.setParameter({Owner::Scene, "", "gravity"}, 0.0));
+    QVERIFY(!engine.setParameter({ps::Owner::Body, "wheel", "fixed"},
+                                 false));  // at the next reset, whatever else is edited
+    QVERIFY(engine.setParameter({ps::Owner::Scene, "", "gravity"}, 0.0));
     for (int frame = 0; frame < 60; ++frame) engine.step();
     QVERIFY2(error(3.5, 2.5) < 1e-6, qPrintable(QString::number(error(3.5, 2.5))));
     engine.reset();
