@@ -62,7 +62,9 @@ Look lookFor(const Project& project, const PluginRegistry& plugins, const Argume
   const std::string colour = arguments.text("--colour", project.view.colour);
   look.colour = colourByName(colour);
   if (colourName(look.colour) != colour) {
-    throw InputError("--colour must be material, temperature, phase, speed or density_error, not '" + colour + "'");
+    std::string names;
+    for (const Colouring& row : colourings()) names += std::string(names.empty() ? "" : ", ") + row.name;
+    throw InputError("--colour must be one of " + names + ", not '" + colour + "'");
   }
   if (look.colour == ColourBy::Temperature) {
     std::tie(look.rangeMinimum, look.rangeMaximum) = temperatureRange(project);

@@ -53,16 +53,6 @@ const Maps& maps() {
   return kMaps;
 }
 
-struct Name {
-  ColourBy colour;
-  const char* name;
-};
-constexpr Name kNames[] = {{ColourBy::Material, "material"},
-                           {ColourBy::Temperature, "temperature"},
-                           {ColourBy::Phase, "phase"},
-                           {ColourBy::Speed, "speed"},
-                           {ColourBy::DensityError, "density_error"}};
-
 Colour sample(const std::vector<Stop>& stops, double t) {
   t = std::clamp(t, 0.0, 1.0);
   size_t i = 1;
@@ -92,37 +82,50 @@ std::pair<double, double> temperatureRange(const Snapshot& snapshot) {
   return {first + kZero, std::max(last, first + kStep) + kZero};
 }
 
+std::pair<double, double> speedRange(const Snapshot& snapshot) {
+  float fastest = 0.05f;  // m/s; slower than that everything counts as at rest
+  for (const float speed : snapshot.speed) fastest = std::max(fastest, speed);
+  return {0, roundUp(fastest)};
+}
+
+template <int kLow, int kHigh, int kParts>
+std::pair<double, double> fixedRange(const Snapshot&) {
+  return {1.0 * kLow / kParts, 1.0 * kHigh / kParts};
+}
+
+template <auto kField>
+float valueOf(const Snapshot& snapshot, size_t particle) {
+  return static_cast<float>((snapshot.*kField)[particle]);
+}
+
+constexpr Colouring kColourings[] = {
+    {ColourBy::Material, "material", nullptr, fixedRange<0, 1, 1>, false, true},
+    {ColourBy::Temperature, "temperature", valueOf<&Snapshot::temperature>, temperatureRange, true, true},
+    {ColourBy::Phase, "phase", valueOf<&Snapshot::phase>, fixedRange<0, 4, 1>, false, true},
+    {ColourBy::Speed, "speed", valueOf<&Snapshot::speed>, speedRange, true, true},
+    // A surface would hide where inside of it the density is wrong.
+    {ColourBy::DensityError, "density_error", valueOf<&Snapshot::densityError>, fixedRange<-5, 5, 100>, true, false},
+};
+
 }  // namespace
 
+std::span<const Colouring> colourings() { return kColourings; }
+
+const Colouring& colouringOf(ColourBy colour) {
+  return *std::find_if(std::begin(kColourings), std::end(kColourings) - 1,
+                       [&](const Colouring& row) { return row.colour == colour; });
+}
+
 ColourBy colourByName(const std::string& name) {
-  for (const Name& entry : kNames)
-    if (name == entry.name) return entry.colour;
+  for (const Colouring& row : kColourings)
+    if (name == row.name) return row.colour;
   return ColourBy::Material;
 }
 
-const char* colourName(ColourBy colour) {
-  for (const Name& entry : kNames)
-    if (colour == entry.colour) return entry.name;
-  return "material";
-}
+const char* colourName(ColourBy colour) { return colouringOf(colour).name; }
 
 std::pair<double, double> colourRange(const Snapshot& snapshot, ColourBy colour) {
-  switch (colour) {
-    case ColourBy::Temperature:
-      return temperatureRange(snapshot);
-    case ColourBy::Phase:
-      return {0, 4};
-    case ColourBy::DensityError:
-      return {-0.05, 0.05};
-    case ColourBy::Speed: {
-      float fastest = 0.05f;  // m/s; slower than that everything counts as at rest
-      for (const float speed : snapshot.speed) fastest = std::max(fastest, speed);
-      return {0, roundUp(fastest)};
-    }
-    case ColourBy::Material:
-      break;
-  }
-  return {0, 1};
+  return colouringOf(colour).range(snapshot);
 }
 
 std::array<float, 3> colourAt(ColourBy colour, double t, double pivot) {

@@ -76,6 +76,7 @@ class Evaluator {
  public:
   explicit Evaluator(const InstanceRequest& request)
       : m_request(request),
+        m_colouring(colouringOf(request.colour)),
         m_table(request.colour, request.minimum, request.maximum, request.meltingPoint),
         m_previous(usable(request) ? request.previous : nullptr),
         m_blend(std::clamp(request.blend, 0.f, 1.f)) {
@@ -95,11 +96,7 @@ class Evaluator {
       };
       p = {along(p.x, q.x, 0), along(p.y, q.y, 1), along(p.z, q.z, 2), mix(p.w, q.w)};
     }
-    const auto blended = [&](const std::vector<float> Snapshot::*field) {
-      const float value = (s.*field)[i];
-      return old == kNone ? value : mix(value, (m_previous->*field)[old]);
-    };
-    const Colour c = colourOf(i, blended);
+    const Colour c = colourOf(i, old);
     return {p.x, p.y, p.z, p.w, c[0], c[1], c[2], 0};
   }
 
@@ -109,25 +106,17 @@ class Evaluator {
            request.previous->revision == request.now->revision;
   }
 
-  template <class Blended>
-  Colour colourOf(size_t i, const Blended& blended) const {
+  Colour colourOf(size_t i, size_t old) const {
     const Snapshot& s = *m_request.now;
-    switch (m_request.colour) {
-      case ColourBy::Temperature:
-        return m_table.at(blended(&Snapshot::temperature));
-      case ColourBy::Speed:
-        return m_table.at(blended(&Snapshot::speed));
-      case ColourBy::DensityError:
-        return m_table.at(blended(&Snapshot::densityError));
-      case ColourBy::Phase:
-        return m_table.at(static_cast<float>(s.phase[i]));
-      case ColourBy::Material:
-        break;
-    }
-    return materialColour(s, i);
+    if (!m_colouring.valueAt) return materialColour(s, i);
+    const float value = m_colouring.valueAt(s, i);
+    if (old == kNone || !m_colouring.blends) return m_table.at(value);
+    const float before = m_colouring.valueAt(*m_previous, old);
+    return m_table.at(before + (value - before) * m_blend);
   }
 
   const InstanceRequest& m_request;
+  const Colouring& m_colouring;
   ColourTable m_table;
   const Snapshot* m_previous;
   float m_blend;

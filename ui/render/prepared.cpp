@@ -58,7 +58,7 @@ void Prepared::collect(const Snapshot& now, const Snapshot* previous, double ble
   request.maximum = look.rangeMaximum;
   if (look.rangeMinimum == look.rangeMaximum)
     std::tie(request.minimum, request.maximum) = colourRange(now, look.colour);
-  request.surfaces = look.colour != ColourBy::DensityError;
+  request.surfaces = colouringOf(look.colour).surfaces;
   request.steam = sceneColour(look.dark, "steam");
   if (look.outline) request.outlined = look.outline->body;
   request.dropBuried = !buried;

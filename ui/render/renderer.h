@@ -5,6 +5,7 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,6 +19,18 @@ struct Camera {
 };
 
 enum class ColourBy { Material, Temperature, Phase, Speed, DensityError };
+/// One way to colour particles. Another one is a name above, a row of colourings() and a map in
+/// resources/theme/maps.json.
+struct Colouring {
+  ColourBy colour;
+  const char* name;                                              ///< in files, on the command line, of its map
+  float (*valueAt)(const Snapshot& snapshot, size_t particle);   ///< nullptr: the material's own colour
+  std::pair<double, double> (*range)(const Snapshot& snapshot);  ///< of the values, for automatic limits
+  bool blends;                                                   ///< values lie between those of two snapshots
+  bool surfaces;                                                 ///< liquids become a surface, else each particle shows
+};
+std::span<const Colouring> colourings();
+const Colouring& colouringOf(ColourBy colour);
 ColourBy colourByName(const std::string& name);  ///< Material for an unknown name
 const char* colourName(ColourBy colour);
 
