@@ -158,9 +158,9 @@ class Checker {
         check(*known, member, place);
         checkParameters(*known, member, value, place);
       } else if (!key.starts_with("$") && !key.starts_with("x-")) {
-        const bool told = m_unknown.size() < kMostUnknown;  // the others are counted
+        const bool named = m_unknown.size() < kMostUnknown;  // the others are counted
         m_unknown.push_back(
-            {pointer + "/" + pointerPart(key), told ? didYouMean(key, absentFrom(value, *properties)) : ""});
+            {pointer + "/" + pointerPart(key), named ? didYouMean(key, absentFrom(value, *properties)) : ""});
       }
     }
   }
