@@ -2,6 +2,7 @@
 // The editor: arguments, graphics format, theme, window.
 #include "app/editor/arguments.h"
 #include "app/editor/picture.h"
+#include "app/editor/quitwatchdog.h"
 #include "core/plugin_host/registry.h"
 #include "ui/theme/theme.h"
 #include "ui/window/mainwindow.h"
@@ -89,5 +90,7 @@ int main(int argc, char** argv) {
   std::unique_ptr<ps::PictureByCommand> byCommand;
   if (picture) byCommand = std::make_unique<ps::PictureByCommand>(window, arguments.screenshot, arguments.after);
   window.start();
-  return QApplication::exec();
+  const int status = QApplication::exec();
+  ps::quitWithin(std::chrono::seconds(10));  // the window has kept what was unsaved
+  return status;
 }

@@ -4,7 +4,10 @@
 #include "ui/document/document.h"
 #include "ui/panels/inspector.h"
 #include "ui/panels/materialspanel.h"
+#include "ui/panels/outliner.h"
 #include "ui/rows/parameterpanel.h"
+#include "ui/session/selection.h"
+#include "ui/tools/toolbox.h"
 #include "ui/viewport/viewport.h"
 #include "ui/window/noticebar.h"
 
@@ -34,7 +37,7 @@ class TestContentWindow : public QObject {
     session().pause();
     while (document().undoStack().canUndo()) document().undoStack().undo();
     toTheStart();
-    view()->setTool(ViewTool::Select);
+    m_window->tools().activate("select");
     view()->show(StandardView::Scene);
   }
 
@@ -48,7 +51,7 @@ class TestContentWindow : public QObject {
     QCOMPARE(document().project().materials.size(), size_t{2});
     QCOMPARE(document().project().materials[1].base, std::string("wax"));
     QCOMPARE(panel->currentLabel(), QStringLiteral("Paraffin wax"));
-    QCOMPARE(view()->brush().material, std::string("wax"));
+    QCOMPARE(m_window->tools().brush().material, std::string("wax"));
     QCOMPARE(m_window->inspector().material(), std::string("wax"));
     QVERIFY(m_window->inspector().materialPanel()->row(QStringLiteral("material/wax/viscosity")));
     m_window->action(QStringLiteral("sketch.brush"))->trigger();
@@ -60,7 +63,7 @@ class TestContentWindow : public QObject {
     document().undoStack().undo();
     QCOMPARE(document().project().materials.size(), size_t{1});
     QCOMPARE(panel->currentLabel(), QStringLiteral("Water"));
-    QCOMPARE(view()->brush().material, std::string("water"));
+    QCOMPARE(m_window->tools().brush().material, std::string("water"));
     QCOMPARE(m_window->inspector().material(), std::string("water"));
   }
 
@@ -108,7 +111,7 @@ class TestContentWindow : public QObject {
 
   void aWallIsDeletedAndAdded() {
     const size_t walls = document().project().environment.walls.size();
-    m_window->outliner()->select(OutlineKind::Wall, "left");
+    m_window->selection().select(OutlineKind::Wall, "left");
     m_window->action(QStringLiteral("edit.delete"))->trigger();
     QCOMPARE(document().project().environment.walls.size(), walls - 1);
     QVERIFY(!document().wall("left"));
@@ -154,7 +157,7 @@ class TestContentWindow : public QObject {
     QFETCH(QString, where);
     const size_t before = idsNow(session()).size();
     QVERIFY(before > 0);
-    m_window->outliner()->select(OutlineKind::Body, "ice");
+    m_window->selection().select(OutlineKind::Body, "ice");
     QWidget* target = where == QLatin1String("view") ? static_cast<QWidget*>(view()) : m_window->outliner()->view();
     target->setFocus();
     if (where == QLatin1String("menu")) {
@@ -174,14 +177,14 @@ class TestContentWindow : public QObject {
     }
     QVERIFY(!document().body("ice"));
     QVERIFY(idsNow(session()).empty());
-    QCOMPARE(m_window->outliner()->selectedBody(), std::string());
+    QCOMPARE(m_window->selection().body(), std::string());
     document().undoStack().undo();
     QVERIFY(document().body("ice"));
     QCOMPARE(idsNow(session()).size(), before);
   }
 
   void deleteElsewhereTakesNothing() {
-    m_window->outliner()->select(OutlineKind::Body, "ice");
+    m_window->selection().select(OutlineKind::Body, "ice");
     QWidget* panel = m_window->findChild<MaterialsPanel*>();
     panel->setFocus();
     QTest::keyClick(panel, Qt::Key_Delete);
@@ -193,7 +196,7 @@ class TestContentWindow : public QObject {
   }
 
   void aLockedBodyIsNotDeleted() {
-    m_window->outliner()->select(OutlineKind::Body, "ice");
+    m_window->selection().select(OutlineKind::Body, "ice");
     m_window->action(QStringLiteral("edit.locked"))->trigger();
     m_window->action(QStringLiteral("edit.delete"))->trigger();
     QVERIFY(document().body("ice"));

@@ -5,9 +5,12 @@
 #include "ui/graphs/graphspanel.h"
 #include "ui/panels/inspector.h"
 #include "ui/panels/materialspanel.h"
+#include "ui/panels/outliner.h"
 #include "ui/rows/parameterpanel.h"
 #include "ui/session/documentfiles.h"
+#include "ui/session/selection.h"
 #include "ui/timeline/transport.h"
+#include "ui/tools/toolbox.h"
 #include "ui/viewport/viewport.h"
 #include "ui/window/dock.h"
 #include "ui/window/noticebar.h"
@@ -48,7 +51,7 @@ class TestInteraction : public QObject {
     session().pause();
     while (document().undoStack().canUndo()) document().undoStack().undo();
     toTheStart();
-    view()->setTool(ViewTool::Select);
+    m_window->tools().activate("select");
     view()->show(StandardView::Scene);
   }
 
@@ -136,7 +139,7 @@ class TestInteraction : public QObject {
   void aWallIsShownWhole() {
     m_window->inspectorDock()->showPage(QStringLiteral("Body"));
     m_window->outliner()->setFocus();
-    Q_EMIT m_window->outliner()->selectionChanged(OutlineKind::Wall, "lid");
+    m_window->selection().select(OutlineKind::Wall, "lid");
     QCOMPARE(m_window->inspectorDock()->currentPage(), QStringLiteral("Scene"));
     ParameterPanel* panel = m_window->inspector().scenePanel();
     const ParameterRow* row = panel->row(QStringLiteral("wall/lid/temperature"));
@@ -154,7 +157,7 @@ class TestInteraction : public QObject {
   void framingShowsTheTray() {
     QFETCH(QString, action);
     view()->show(StandardView::Scene);
-    view()->setSelectedBody({});
+    m_window->selection().clear();
     m_window->action(action)->trigger();
     const auto& walls = document().project().environment.walls;
     const auto lid = std::find_if(walls.begin(), walls.end(), [](const SceneWall& wall) { return wall.id == "lid"; });
@@ -286,7 +289,7 @@ class TestInteraction : public QObject {
   }
 
   void eyeAndLockWithoutAMouse() {
-    m_window->outliner()->select(OutlineKind::Body, "ice");
+    m_window->selection().select(OutlineKind::Body, "ice");
     m_window->action(QStringLiteral("edit.visible"))->trigger();
     QVERIFY(!document().body("ice")->visible);
     m_window->action(QStringLiteral("edit.locked"))->trigger();
@@ -295,7 +298,7 @@ class TestInteraction : public QObject {
     m_window->action(QStringLiteral("edit.locked"))->trigger();
     QVERIFY(document().body("ice")->visible && !document().body("ice")->locked);
     QCOMPARE(document().undoStack().count(), 4);
-    m_window->outliner()->select(OutlineKind::Wall, "floor");
+    m_window->selection().select(OutlineKind::Wall, "floor");
     m_window->action(QStringLiteral("edit.visible"))->trigger();  // a wall has no eye
     QCOMPARE(document().undoStack().count(), 4);
   }
@@ -305,7 +308,7 @@ class TestInteraction : public QObject {
       return QAccessible::queryAccessibleInterface(widget)->text(QAccessible::Value);
     };
     QCOMPARE(value(view()), QStringLiteral("Select and orbit"));
-    view()->setTool(ViewTool::Brush);
+    m_window->tools().activate("brush");
     QVERIFY2(value(view()).startsWith(QStringLiteral("Brush, sphere, radius 50 mm, Water")), qPrintable(value(view())));
     QCOMPARE(value(m_window->findChild<MaterialsPanel*>()), QStringLiteral("Water"));
   }
@@ -362,18 +365,18 @@ class TestInteraction : public QObject {
     const std::set<uint32_t> before = idsNow(session());
     const int steps = document().undoStack().count();
     m_window->action(QStringLiteral("sketch.brush"))->trigger();
-    BrushSettings brush = view()->brush();
+    BrushSettings brush = m_window->tools().brush();
     const double usual = brush.radius;
     brush.radius = radius;
-    view()->setBrush(brush);
-    QSignalSpy refused(view(), &Viewport::strokeRefused);
+    m_window->tools().setBrush(brush);
+    QSignalSpy refused(&m_window->tools(), &Toolbox::refused);
     stroke(QPoint(view()->width() / 2 - 60, view()->height() / 2), {40, 0}, true);
     QCOMPARE(idsNow(session()) == before, !why.isEmpty());
     QCOMPARE(document().undoStack().count() == steps, !why.isEmpty());
     QCOMPARE(refused.count(), why.isEmpty() ? 0 : 1);
-    if (!why.isEmpty()) QVERIFY2(refused[0][0].toString().contains(why), qPrintable(refused[0][0].toString()));
+    if (!why.isEmpty()) QVERIFY2(refused[0][1].toString().contains(why), qPrintable(refused[0][1].toString()));
     brush.radius = usual;
-    view()->setBrush(brush);
+    m_window->tools().setBrush(brush);
   }
 
  private:

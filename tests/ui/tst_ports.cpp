@@ -5,7 +5,9 @@
 #include "ui/panels/inspector.h"
 #include "ui/panels/outliner.h"
 #include "ui/rows/parameterpanel.h"
-#include "ui/tools/porthandles.h"
+#include "ui/session/selection.h"
+#include "ui/tools/toolbox.h"
+#include "ui/viewport/portpainter.h"
 #include "ui/viewport/viewport.h"
 #include "ui/window/noticebar.h"
 
@@ -42,7 +44,7 @@ class TestPorts : public QObject {
     session().reset();
     QTRY_VERIFY_WITH_TIMEOUT(session().snapshot()->revision != revision && view()->snapshot() == session().snapshot(),
                              kLong);
-    view()->setTool(ViewTool::Select);
+    m_window->tools().activate("select");
     view()->show(StandardView::Scene);
   }
 
@@ -50,18 +52,18 @@ class TestPorts : public QObject {
 
   void aClickPlacesATapOnTheSurface() {
     QTest::keyClick(view(), Qt::Key_T);
-    QCOMPARE(view()->tool(), ViewTool::Tap);
+    QCOMPARE(m_window->tools().active(), std::string("tap"));
     QVERIFY(view()->summary().contains(QStringLiteral("tap")));
     QTest::mouseClick(view(), Qt::LeftButton, {}, floorPixel());
     QCOMPARE(project().emitters.size(), size_t{1});
     const Emitter& tap = project().emitters.front();
     QCOMPARE(tap.id, std::string("tap"));
     QCOMPARE(tap.name, std::string("Tap"));
-    QCOMPARE(tap.material, view()->brush().material);
+    QCOMPARE(tap.material, m_window->tools().brush().material);
     QCOMPARE(tap.direction, (Vector3{0, 1, 0}));
     QVERIFY(std::abs(tap.point[1] - 0.5 * session().snapshot()->spacing) < 1e-9);
-    QCOMPARE(view()->tool(), ViewTool::Select);
-    QCOMPARE(view()->selectedPort(), (Port{false, "tap"}));
+    QCOMPARE(m_window->tools().active(), std::string("select"));
+    QCOMPARE(m_window->selection().port(), (Port{false, "tap"}));
     QCOMPARE(outliner()->selected(), std::pair(OutlineKind::Emitter, std::string("tap")));
     QVERIFY(m_window->inspector().scenePanel()->row(QStringLiteral("emitter/tap/speed")));
     QCOMPARE(document().undoStack().count(), 1);
@@ -69,7 +71,7 @@ class TestPorts : public QObject {
     session().step();
     QTRY_VERIFY_WITH_TIMEOUT(session().snapshot()->stats.flow.poured.count > 0, kLong);
     document().undoStack().undo();
-    QVERIFY(project().emitters.empty() && !view()->selectedPort());
+    QVERIFY(project().emitters.empty() && !m_window->selection().port());
     QTRY_COMPARE_WITH_TIMEOUT(session().snapshot()->stats.flow.held.count, uint64_t{0}, kLong);
     document().undoStack().redo();
     QCOMPARE(project().emitters.size(), size_t{1});
@@ -83,7 +85,7 @@ class TestPorts : public QObject {
 
   void aTapOnMatterPoursAwayFromIt() {
     const auto pixel = pixelOf({0, 0.3, 0});  // the ice block is below
-    view()->setTool(ViewTool::Tap);
+    m_window->tools().activate("tap");
     for (int y = 0; y < view()->height(); ++y) {
       const QPoint at(pixel.x(), y);
       if (!pickParticle(*view()->snapshot(), view()->navigator().camera(), view()->width(), view()->height(), at.x(),
@@ -99,11 +101,11 @@ class TestPorts : public QObject {
 
   void aDrainStandsOnTheSurfaceAndTakesMatter() {
     m_window->action(QStringLiteral("sketch.drain"))->trigger();
-    QCOMPARE(view()->tool(), ViewTool::Drain);
+    QCOMPARE(m_window->tools().active(), std::string("drain"));
     drag(floorPixel(), {90, 0}, true);
     QCOMPARE(project().sinks.size(), size_t{1});
     const Sink drain = project().sinks.front();
-    QCOMPARE(view()->selectedPort(), (Port{true, "drain"}));
+    QCOMPARE(m_window->selection().port(), (Port{true, "drain"}));
     const double edge = drain.maximum[0] - drain.minimum[0];
     QVERIFY(edge > 10.5 * session().snapshot()->spacing);  // wider than a click makes it
     QCOMPARE(outliner()->selected(), std::pair(OutlineKind::Sink, std::string("drain")));
@@ -151,7 +153,7 @@ class TestPorts : public QObject {
 
   void theArrowTurnsTheJet() {
     const Emitter tap = placedTap();
-    const QPoint tip = pixelOf(arrowTip(tap, view()->navigator().camera(), view()->height()));
+    const QPoint tip = pixelOf(arrowTip(tap, leastJet(view()->navigator().camera(), view()->height(), tap.point)));
     QCOMPARE(view()->portHandleAt(tip)->part, PortHandle::Part::Tip);
     drag(tip, {50, -25}, true);
     const Emitter& turned = project().emitters.front();
@@ -161,7 +163,7 @@ class TestPorts : public QObject {
   }
 
   void aCornerStretchesADrain() {
-    view()->setTool(ViewTool::Drain);
+    m_window->tools().activate("drain");
     QTest::mouseClick(view(), Qt::LeftButton, {}, floorPixel());
     const Sink drain = project().sinks.front();
     const QPoint corner = pixelOf(cornerOf(drain, 7));
@@ -190,11 +192,11 @@ class TestPorts : public QObject {
     QCOMPARE(project().emitters.size(), size_t{2});
     QCOMPARE(project().emitters.back().name, std::string("Spout copy"));
     QVERIFY(distance(project().emitters.back().point, project().emitters.front().point) > 0.01);
-    QCOMPARE(view()->selectedPort(), (Port{false, project().emitters.back().id}));
+    QCOMPARE(m_window->selection().port(), (Port{false, project().emitters.back().id}));
     view()->setFocus();
     QTest::keyClick(view(), Qt::Key_Delete);
     QCOMPARE(project().emitters.size(), size_t{1});
-    QVERIFY(!view()->selectedPort());
+    QVERIFY(!m_window->selection().port());
     for (int k = 0; k < 2; ++k) document().undoStack().undo();
     QCOMPARE(project().emitters.size(), size_t{1});
     document().undoStack().undo();
@@ -218,15 +220,15 @@ class TestPorts : public QObject {
   void aClickElsewhereSelectsNothing() {
     const Emitter tap = placedTap();
     QTest::mouseClick(view(), Qt::LeftButton, {}, QPoint(30, view()->height() / 2));
-    QVERIFY(!view()->selectedPort());
+    QVERIFY(!m_window->selection().port());
     QTest::mouseClick(view(), Qt::LeftButton, {}, pixelOf(tap.point));
-    QCOMPARE(view()->selectedPort(), (Port{false, tap.id}));
+    QCOMPARE(m_window->selection().port(), (Port{false, tap.id}));
   }
 
   void withoutAMaterialNothingIsPlaced() {
     QCOMPARE(document().removeBody(project().bodies.front().id), QString());
     QCOMPARE(document().removeMaterial("water"), QString());
-    view()->setTool(ViewTool::Tap);
+    m_window->tools().activate("tap");
     QTest::mouseClick(view(), Qt::LeftButton, {}, floorPixel());
     QVERIFY(project().emitters.empty());
     QVERIFY(m_window->findChild<NoticeBar*>()->text().contains(QStringLiteral("no material")));
@@ -245,7 +247,7 @@ class TestPorts : public QObject {
   /// On the plate, beside the ice.
   QPoint floorPixel() { return pixelOf({0.22, 0, 0.1}); }
   Emitter placedTap() {
-    view()->setTool(ViewTool::Tap);
+    m_window->tools().activate("tap");
     drag(floorPixel(), {0, -110}, true);
     return project().emitters.at(0);
   }

@@ -8,6 +8,7 @@
 #include "ui/graphs/graphspanel.h"
 #include "ui/graphs/graphview.h"
 #include "ui/panels/inspector.h"
+#include "ui/panels/outliner.h"
 #include "ui/render/camera.h"
 #include "ui/rows/panelheader.h"
 #include "ui/rows/parameterpanel.h"
@@ -15,6 +16,7 @@
 #include "ui/session/worker.h"
 #include "ui/theme/theme.h"
 #include "ui/timeline/transport.h"
+#include "ui/tools/toolbox.h"
 #include "ui/viewport/viewport.h"
 #include "ui/window/mainwindow.h"
 #include "ui/window/noticebar.h"
@@ -446,9 +448,9 @@ class TestSession : public QObject {
     press(*m_window, Qt::Key_End);
     QVERIFY(m_window->graphs()->temperatures()->isFitted());
     press(*m_window, Qt::Key_Tab);
-    QCOMPARE(m_window->viewport()->tool(), ViewTool::Brush);
+    QCOMPARE(m_window->tools().active(), std::string("brush"));
     press(*m_window, Qt::Key_Tab);
-    QCOMPARE(m_window->viewport()->tool(), ViewTool::Select);
+    QCOMPARE(m_window->tools().active(), std::string("select"));
   }
 
   /// Widgets that walk by arrows keep them; the simulation stays where it is.

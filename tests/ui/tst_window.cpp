@@ -8,11 +8,14 @@
 #include "ui/graphs/graphview.h"
 #include "ui/graphs/phasestackview.h"
 #include "ui/panels/inspector.h"
+#include "ui/panels/outliner.h"
 #include "ui/panels/pluginpage.h"
 #include "ui/render/camera.h"
 #include "ui/rows/parameterpanel.h"
 #include "ui/session/documentfiles.h"
+#include "ui/session/selection.h"
 #include "ui/timeline/transport.h"
+#include "ui/tools/toolbox.h"
 #include "ui/viewport/viewport.h"
 #include "ui/window/dock.h"
 #include "ui/window/noticebar.h"
@@ -176,10 +179,10 @@ class TestWindow : public QObject {
                              kLong);
     const std::set<uint32_t> before = idsNow(session());
     m_window->action(QStringLiteral("sketch.brush"))->trigger();
-    QCOMPARE(view->tool(), ViewTool::Brush);
-    BrushSettings brush = view->brush();
+    QCOMPARE(m_window->tools().active(), std::string("brush"));
+    BrushSettings brush = m_window->tools().brush();
     brush.radius = 0.05;
-    view->setBrush(brush);
+    m_window->tools().setBrush(brush);
     const int steps = document().undoStack().count();
     const QPoint start(view->width() / 2 - 60, view->height() / 2);
     QTest::mousePress(view, Qt::LeftButton, {}, start);
@@ -232,12 +235,11 @@ class TestWindow : public QObject {
 
   void aClickSelectsABody() {
     Viewport* view = m_window->viewport();
-    view->setSelectedBody("ice");
+    m_window->selection().selectBody("ice");
     view->frameSelection();
-    QSignalSpy picked(view, &Viewport::bodyPicked);
+    m_window->selection().clear();
     QTest::mouseClick(view, Qt::LeftButton, {}, QPoint(view->width() / 2, view->height() / 2));
-    QCOMPARE(picked.count(), 1);
-    QCOMPARE(picked.front()[0].value<std::string>(), std::string("ice"));
+    QCOMPARE(m_window->selection().body(), std::string("ice"));
     QCOMPARE(m_window->outliner()->selected().second, std::string("ice"));
   }
 
@@ -247,9 +249,9 @@ class TestWindow : public QObject {
     QTest::addColumn<QString>("expected");
     QTest::newRow("3 looks from the top") << int(Qt::Key_3) << 0 << "elevation 90";
     QTest::newRow("1 looks from the front") << int(Qt::Key_1) << 0 << "elevation 0";
-    QTest::newRow("B draws") << int(Qt::Key_B) << 0 << "tool 1";
-    QTest::newRow("E erases") << int(Qt::Key_E) << 0 << "tool 2";
-    QTest::newRow("Q selects") << int(Qt::Key_Q) << 0 << "tool 0";
+    QTest::newRow("B draws") << int(Qt::Key_B) << 0 << "tool brush";
+    QTest::newRow("E erases") << int(Qt::Key_E) << 0 << "tool erase";
+    QTest::newRow("Q selects") << int(Qt::Key_Q) << 0 << "tool select";
     QTest::newRow("Ctrl+3 colours by phase") << int(Qt::Key_3) << int(Qt::ControlModifier) << "colour phase";
     QTest::newRow("Ctrl+2 colours by temperature")
         << int(Qt::Key_2) << int(Qt::ControlModifier) << "colour temperature";
@@ -265,17 +267,17 @@ class TestWindow : public QObject {
     view->setFocus();
     // Each row begins where its key has something to change.
     view->show(StandardView::Scene);
-    view->setTool(key == Qt::Key_B ? ViewTool::Erase : ViewTool::Brush);
+    m_window->tools().activate(key == Qt::Key_B ? "erase" : "brush");
     document().setColour("speed");
     QTest::keyClick(view, static_cast<Qt::Key>(key), Qt::KeyboardModifiers(modifiers));
     const QStringList state{QStringLiteral("elevation %1").arg(view->navigator().camera().elevation),
-                            QStringLiteral("tool %1").arg(int(view->tool())),
+                            QStringLiteral("tool %1").arg(QString::fromStdString(m_window->tools().active())),
                             QStringLiteral("colour %1").arg(QString::fromStdString(document().project().view.colour)),
                             QStringLiteral("playing %1").arg(session().playing() ? 1 : 0),
                             QStringLiteral("palette %1").arg(m_window->palette()->isVisible() ? 1 : 0)};
     QVERIFY2(state.contains(expected), qPrintable(state.join(QStringLiteral(", "))));
     m_window->palette()->hide();
-    view->setTool(ViewTool::Select);
+    m_window->tools().activate("select");
   }
 
   void stepAndResetMoveTheClock() {
@@ -290,7 +292,10 @@ class TestWindow : public QObject {
   }
 
   void theEndSaysWhatFollows() {
-    Transport transport;
+    Session::Options options;
+    options.autosave = false;
+    Session idle(options);
+    Transport transport(idle);
     transport.setDuration(60);
     auto snapshot = std::make_shared<Snapshot>();
     snapshot->stats.time = 60;
@@ -507,10 +512,10 @@ class TestWindow : public QObject {
   void hidingABodyEmptiesTheView() {
     document().setBodyVisible("ice", false);
     QTRY_VERIFY_WITH_TIMEOUT(m_window->viewport()->snapshot()->id.empty(), kLong);
-    QSignalSpy picked(m_window->viewport(), &Viewport::bodyPicked);
+    m_window->selection().selectBody("ice");
     QTest::mouseClick(m_window->viewport(), Qt::LeftButton, {},
                       QPoint(m_window->viewport()->width() / 2, m_window->viewport()->height() / 2));
-    QCOMPARE(picked.front()[0].value<std::string>(), std::string());
+    QVERIFY(m_window->selection().empty());
     document().undoStack().undo();
   }
 

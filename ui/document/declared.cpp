@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/document/declared.h"
 
+#include "core/plugin_host/registry.h"
+
 #include <algorithm>
 
 namespace ps {
@@ -47,6 +49,31 @@ QString awayLabel(const Project& project, const Address& address, const QString&
   // A material's own rows say what they are of; those of the only owner of their kind need no name.
   if (address.id.empty() || address.owner == Owner::Material) return label;
   return ownerLabel(project, address) + QLatin1Char(' ') + label.left(1).toLower() + label.mid(1);
+}
+
+QString pluginLabel(const PluginRegistry* plugins, const std::string& id) {
+  for (const PluginInfo& plugin : plugins ? plugins->plugins() : std::vector<PluginInfo>{}) {
+    if (plugin.id == id && !plugin.label.empty()) return QString::fromStdString(plugin.label);
+  }
+  return QString::fromStdString(id);
+}
+
+QStringList choiceLabels(const Project& project, const PluginRegistry* plugins, const Address& address,
+                         const api::ParameterDeclaration& declaration) {
+  const bool ofPlugins = (address.owner == Owner::Scene && address.key == "thermal_model") ||
+                         (address.owner == Owner::Body && address.key == kStructureKey);
+  const bool ofMaterials = address.owner == Owner::Body && address.key == kBodyMaterialKey;
+  if (!ofPlugins && !ofMaterials) return {};
+  QStringList labels;
+  for (const QString& name : QString::fromUtf8(declaration.choices).split(QLatin1Char('|'))) {
+    const std::string id = name.toStdString();
+    if (ofMaterials) {
+      labels << ownerLabel(project, {Owner::Material, id, ""});
+    } else {
+      labels << (id == kNoStructure ? QStringLiteral("None") : pluginLabel(plugins, id));
+    }
+  }
+  return labels;
 }
 
 QColor colourOf(const Project& project, const PluginRegistry* plugins, const std::string& material) {

@@ -3,6 +3,7 @@
 #include "core/simulation/declared.h"
 
 #include <QtCore/QString>
+#include <QtCore/QStringList>
 #include <QtGui/QColor>
 
 // How people see what an address means.
@@ -13,6 +14,12 @@ QString ownerLabel(const Project& project, const Address& address);
 /// What a parameter is called away from its owner's other ones: "Hot plate temperature"; a label that says enough by
 /// itself stays.
 QString awayLabel(const Project& project, const Address& address, const QString& label);
+/// What the choices of an address are called, in the order of its declaration: plugins and materials by their labels.
+/// Empty where the names themselves say it.
+QStringList choiceLabels(const Project& project, const PluginRegistry* plugins, const Address& address,
+                         const api::ParameterDeclaration& declaration);
+/// The label of a plugin, installed or found at least; its id otherwise.
+QString pluginLabel(const PluginRegistry* plugins, const std::string& id);
 /// How matter of a scene material is shown at 20 °C; grey where nothing says so.
 QColor colourOf(const Project& project, const PluginRegistry* plugins, const std::string& material);
 

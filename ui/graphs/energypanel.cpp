@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/graphs/energypanel.h"
 
+#include "ui/document/document.h"
 #include "ui/graphs/graphspanel.h"
 #include "ui/graphs/graphview.h"
+#include "ui/session/session.h"
 #include "ui/theme/numbers.h"
 #include "ui/theme/theme.h"
 
@@ -19,7 +21,8 @@ QString joules(double value) { return formatPrefixed(value, QStringLiteral("J"))
 
 }  // namespace
 
-EnergyPanel::EnergyPanel(QWidget* parent) : QWidget(parent), m_graph(new GraphView), m_ledger(new QLabel) {
+EnergyPanel::EnergyPanel(Session& session, QWidget* parent)
+    : QWidget(parent), m_history(session), m_graph(new GraphView), m_ledger(new QLabel) {
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(6, 4, 12, 4);
   row->setSpacing(12);
@@ -34,6 +37,18 @@ EnergyPanel::EnergyPanel(QWidget* parent) : QWidget(parent), m_graph(new GraphVi
   m_ledger->setAlignment(Qt::AlignVCenter | Qt::AlignLeft);
   row->addWidget(m_graph, 1);
   row->addWidget(m_ledger);
+  connect(&session, &Session::valuesDue, this, &EnergyPanel::readHistory);
+  connect(&session.document(), &Document::changed, this, [this, &session](const ChangeEvent& event) {
+    if (!std::holds_alternative<ProjectOpened>(event)) return;
+    clear();
+    setDuration(session.document().project().duration);
+  });
+}
+
+void EnergyPanel::readHistory() {
+  const HistoryReader::Piece piece = m_history.read();
+  if (piece.begins) clear();
+  for (const FrameStats& stats : piece.frames) append(stats);
 }
 
 void EnergyPanel::setDuration(double seconds) { m_graph->setDuration(seconds); }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "core/simulation/snapshot.h"
+#include "ui/session/historyreader.h"
 
 #include <QtWidgets/QWidget>
 
@@ -9,18 +10,21 @@ class QLabel;
 namespace ps {
 
 class GraphView;
+class Session;
 
 /// Where the energy is and where it came from, in kJ since the start, and by how much the balance is open.
 class EnergyPanel : public QWidget {
   Q_OBJECT
  public:
-  explicit EnergyPanel(QWidget* parent = nullptr);
+  explicit EnergyPanel(Session& session, QWidget* parent = nullptr);
   void append(const FrameStats& stats);
   void clear();
   void setDuration(double seconds);
   QString balanceText() const;
 
  private:
+  void readHistory();
+  HistoryReader m_history;
   GraphView* m_graph;
   QLabel* m_ledger;
   bool m_started = false, m_shown = false;  ///< m_shown: there has been matter

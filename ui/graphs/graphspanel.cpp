@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/graphs/graphspanel.h"
 
+#include "ui/document/document.h"
 #include "ui/graphs/graphview.h"
 #include "ui/graphs/phasestackview.h"
+#include "ui/session/session.h"
+#include "ui/session/transitions.h"
 
 #include <QtWidgets/QHBoxLayout>
 
@@ -17,6 +20,7 @@ constexpr double kZero = 273.15;
 constexpr size_t kMostSeries = 5;
 const QString kNotRun = QStringLiteral("Press Space to run");
 const QString kNoMatter = QStringLiteral("No matter yet");
+const QString kAllHeld = QStringLiteral("All matter is held in place; what is held is not measured");
 
 QByteArray numberCell(double value) {
   if (!std::isfinite(value)) return {};
@@ -37,8 +41,12 @@ bool hasMatter(const FrameStats& stats) {
   return std::any_of(stats.phases.begin(), stats.phases.end(), [](const PhaseAmount& phase) { return phase.mass > 0; });
 }
 
-GraphsPanel::GraphsPanel(QWidget* parent)
-    : QWidget(parent), m_temperatures(new GraphView), m_phases(new PhaseStackView) {
+GraphsPanel::GraphsPanel(Session& session, QWidget* parent)
+    : QWidget(parent),
+      m_session(session),
+      m_history(session),
+      m_temperatures(new GraphView),
+      m_phases(new PhaseStackView) {
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(6, 4, 6, 4);
   row->setSpacing(8);
@@ -54,6 +62,20 @@ GraphsPanel::GraphsPanel(QWidget* parent)
   };
   link(m_temperatures, m_phases);
   link(m_phases, m_temperatures);
+  connect(&session, &Session::valuesDue, this, &GraphsPanel::readHistory);
+  connect(&session.transitions(), &Transitions::changed, this,
+          [this, &session] { setTransitions(session.transitions().melts(), session.transitions().boils()); });
+  connect(&session.document(), &Document::changed, this, [this, &session](const ChangeEvent& event) {
+    if (std::holds_alternative<ProjectOpened>(event)) setProject(session.document().project());
+  });
+}
+
+void GraphsPanel::readHistory() {
+  const HistoryReader::Piece piece = m_history.read();
+  if (piece.begins) clear();
+  const SnapshotPtr snapshot = m_session.snapshot();
+  m_anyParticles = snapshot && !snapshot->id.empty();
+  for (const FrameStats& stats : piece.frames) append(stats);
 }
 
 void GraphsPanel::setProject(const Project& project) {
@@ -92,7 +114,7 @@ void GraphsPanel::append(const FrameStats& stats) {
   }
   std::array<double, 5> kilograms{};
   for (size_t i = 0; i < kilograms.size(); ++i) kilograms[i] = stats.phases[i].mass;
-  const QString empty = hasMatter(stats) ? kNotRun : kNoMatter;
+  const QString empty = hasMatter(stats) ? kNotRun : m_anyParticles ? kAllHeld : kNoMatter;
   m_temperatures->setEmptyText(empty);
   m_phases->setEmptyText(empty);
   m_phases->append(stats.time, kilograms);

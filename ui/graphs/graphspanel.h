@@ -3,6 +3,7 @@
 #include "core/scene/project.h"
 #include "core/simulation/snapshot.h"
 #include "ui/graphs/timeplot.h"
+#include "ui/session/historyreader.h"
 
 #include <QtCore/QByteArray>
 #include <QtWidgets/QWidget>
@@ -11,15 +12,15 @@
 
 namespace ps {
 
-class EngineThread;
 class GraphView;
 class PhaseStackView;
+class Session;
 
 /// Live graphs: mean temperature and temperature probes, and the mass in each phase.
 class GraphsPanel : public QWidget {
   Q_OBJECT
  public:
-  explicit GraphsPanel(QWidget* parent = nullptr);
+  explicit GraphsPanel(Session& session, QWidget* parent = nullptr);
   void setProject(const Project& project);  ///< series of its probes
   /// Melting and boiling points as reference lines, K (not finite: none).
   void setTransitions(double meltingPoint, double boilingPoint);
@@ -30,6 +31,10 @@ class GraphsPanel : public QWidget {
   QSize sizeHint() const override { return {700, 150}; }
 
  private:
+  void readHistory();
+  Session& m_session;
+  HistoryReader m_history;
+  bool m_anyParticles = false;  ///< held ones too, which no amount counts
   GraphView* m_temperatures;
   PhaseStackView* m_phases;
   std::vector<size_t> m_probes;  ///< indices into Project::probes of the series after the first

@@ -1,26 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "ui/rows/parameterpanel.h"
-#include "ui/tools/viewtool.h"
+#include "ui/tools/brushsettings.h"
+
+#include <set>
 
 namespace ps {
 
-class Document;
+class Selection;
+class Toolbox;
 
-/// The brush's own rows: shape, size, temperature of new matter, made from declarations like every other panel.
+/// The brush's rows: which one, its size, the temperature of new matter, and what the chosen brush declares itself.
 class BrushPanel : public ParameterPanel {
   Q_OBJECT
  public:
-  explicit BrushPanel(Document& document, QWidget* parent = nullptr);
-  void setBrush(const BrushSettings& brush);
-
- Q_SIGNALS:
-  void brushEdited(const ps::BrushSettings& brush);
+  explicit BrushPanel(Toolbox& tools, QWidget* parent = nullptr);
 
  private:
+  void rebuild();  ///< other rows
+  void refresh();  ///< other values
+  void showMaterial();
+  RowModel shapeRow() const;
+  api::ParameterList ownParameters() const;  ///< of the chosen brush; empty when it is not installed
   void onEdited(const QString& key, const Value& value, Edit edit);
-  Document& m_document;
-  BrushSettings m_brush;
+  const char* keep(const QString& text) const;
+
+  Toolbox& m_tools;
+  QString m_shown;                        ///< the brushes to choose from and the chosen one, whose rows stand here
+  mutable std::set<std::string> m_texts;  ///< that rows borrow; grows with what is installed only
 };
 
 }  // namespace ps

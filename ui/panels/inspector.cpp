@@ -5,6 +5,8 @@
 #include "core/plugin_host/registry.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
+#include "ui/session/selection.h"
+#include "ui/session/session.h"
 #include "ui/session/wording.h"
 #include "ui/theme/numbers.h"
 
@@ -12,6 +14,8 @@
 
 namespace ps {
 namespace {
+
+constexpr qint64 kReadInterval = 200;  // ms between two readings: means go through all particles
 
 /// Which kinds of heat at a wall a row of it belongs to.
 struct WallRow {
@@ -82,9 +86,10 @@ QString gradeText(const PluginRegistry* plugins, const std::string& base) {
 
 }  // namespace
 
-Inspector::Inspector(Document& document, QObject* parent)
+Inspector::Inspector(Session& session, Selection& selection, QObject* parent)
     : QObject(parent),
-      m_document(document),
+      m_session(session),
+      m_document(session.document()),
       m_body(new ParameterPanel),
       m_material(new ParameterPanel),
       m_scene(new ParameterPanel),
@@ -92,6 +97,17 @@ Inspector::Inspector(Document& document, QObject* parent)
   for (ParameterPanel* panel : panels()) connectPanel(panel);
   m_body->setEmptyText(QStringLiteral("Select something, or press Ctrl+K"));
   m_material->setEmptyText(QStringLiteral("Select something, or press Ctrl+K"));
+  connect(&m_document, &Document::changed, this, &Inspector::onChanged);
+  connect(&session, &Session::valuesDue, this, [this] {
+    const SnapshotPtr snapshot = m_session.snapshot();
+    if (!snapshot || (m_sinceRead.isValid() && m_sinceRead.elapsed() < kReadInterval)) return;
+    m_sinceRead.start();
+    setSnapshot(*snapshot);
+  });
+  connect(&selection, &Selection::changed, this, [this, &selection] {
+    if (!selection.empty()) setBody(selection.body());
+  });
+  connect(&selection, &Selection::materialChanged, this, [this, &selection] { setMaterial(selection.material()); });
 }
 
 void Inspector::connectPanel(ParameterPanel* panel) {
@@ -161,6 +177,7 @@ std::optional<RowModel> Inspector::rowOf(const Address& address) const {
   row.value = m_document.value(address);
   row.defaultValue = m_document.defaultValue(address);
   row.disabledReason = whyIdle(m_document.project(), address);
+  row.choiceLabels = choiceLabels(m_document.project(), m_document.plugins(), address, row.declaration);
   return row;
 }
 
@@ -300,6 +317,10 @@ double Inspector::temperatureOf(const std::string& material) const {
   return mean == m_mean.end() ? m_sceneMean : mean->second;
 }
 
+double Inspector::ambientTemperature() const {
+  return numberOf(m_document.project().environment.parameters, environmentParameters(), "ambient_temperature");
+}
+
 void Inspector::showTemperatures(const Snapshot& snapshot) {
   // The engine keeps a material that the document has lost until the next reset: places differ, ids do not.
   const std::vector<std::string>& ids = snapshot.materialIds;
@@ -310,7 +331,7 @@ void Inspector::showTemperatures(const Snapshot& snapshot) {
     sums[material] += static_cast<double>(snapshot.temperature[i]);
     ++counts[material];
   }
-  if (snapshot.stats.temperatureMean > 0) m_sceneMean = snapshot.stats.temperatureMean;
+  m_sceneMean = snapshot.stats.temperatureMean > 0 ? snapshot.stats.temperatureMean : ambientTemperature();
   m_mean.clear();
   for (size_t k = 0; k < ids.size(); ++k) {
     if (counts[k] > 0) m_mean[ids[k]] = sums[k] / counts[k];
@@ -410,6 +431,7 @@ void Inspector::onChanged(const ChangeEvent& event) {
     m_limited.clear();
     m_limits.clear();
     m_mean.clear();
+    m_sceneMean = ambientTemperature();  // what was measured belongs to the project before
     markPinned();
     rebuild();
   } else if (std::holds_alternative<BodyChanged>(event) || std::holds_alternative<StrokeChanged>(event)) {

@@ -4,6 +4,7 @@
 #include "ui/document/changeevent.h"
 #include "ui/rows/parameterpanel.h"
 
+#include <QtCore/QElapsedTimer>
 #include <QtCore/QObject>
 
 #include <map>
@@ -15,13 +16,15 @@
 namespace ps {
 
 class Document;
+class Selection;
+class Session;
 
 /// The panels Body, Material, Scene and Solver, made from declarations alone, kept in step with the document both ways.
 /// Keys of their rows are addresses. Each gesture in a row is one undo step of the document.
 class Inspector : public QObject {
   Q_OBJECT
  public:
-  explicit Inspector(Document& document, QObject* parent = nullptr);
+  Inspector(Session& session, Selection& selection, QObject* parent = nullptr);
   ParameterPanel* bodyPanel() const { return m_body; }
   ParameterPanel* materialPanel() const { return m_material; }
   ParameterPanel* scenePanel() const { return m_scene; }
@@ -31,13 +34,14 @@ class Inspector : public QObject {
   void setBody(const std::string& id);
   void setMaterial(const std::string& id);
   const std::string& material() const { return m_materialId; }
-  void onChanged(const ChangeEvent& event);
-  /// Operating points and notes of limits; a few times a second.
-  void setSnapshot(const Snapshot& snapshot);
   /// The panel that shows an address, after choosing its owner; nullptr when there is none.
   ParameterPanel* panelFor(const Address& address);
 
+  /// Operating points and notes of limits; comes by itself a few times a second.
+  void setSnapshot(const Snapshot& snapshot);
+
  private:
+  void onChanged(const ChangeEvent& event);
   void refreshIdle(const Address& address, std::initializer_list<const char*> keys);
   std::vector<ParameterPanel*> panels() const { return {m_body, m_material, m_scene, m_solver}; }
   void connectPanel(ParameterPanel* panel);
@@ -53,6 +57,7 @@ class Inspector : public QObject {
   void showTemperatures(const Snapshot& snapshot);
   /// K, at which a material's curves are read: the mean of its particles, or of all matter where it has none.
   double temperatureOf(const std::string& material) const;
+  double ambientTemperature() const;  ///< K, at which curves are read where there is no matter
   void refreshProperties(const std::string& material);
   void rebuildScene();
   void showSceneHeader();
@@ -65,7 +70,9 @@ class Inspector : public QObject {
   void markPinned();
   const char* keep(const QString& text);
 
+  Session& m_session;
   Document& m_document;
+  QElapsedTimer m_sinceRead;
   ParameterPanel *m_body, *m_material, *m_scene, *m_solver;
   std::string m_bodyId, m_materialId;
   std::set<std::string> m_texts;  ///< headings and labels that rows borrow; grows with names only

@@ -5,6 +5,7 @@
 #include "core/plugin_host/registry.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
+#include "ui/session/selection.h"
 #include "ui/theme/paint.h"
 #include "ui/theme/theme.h"
 
@@ -57,7 +58,8 @@ void installAccessibility() {
 
 }  // namespace
 
-MaterialsPanel::MaterialsPanel(Document& document, QWidget* parent) : QWidget(parent), m_document(document) {
+MaterialsPanel::MaterialsPanel(Document& document, Selection& selection, QWidget* parent)
+    : QWidget(parent), m_document(document), m_selection(selection) {
   installAccessibility();
   setMouseTracking(true);
   setFocusPolicy(Qt::TabFocus);
@@ -65,6 +67,13 @@ MaterialsPanel::MaterialsPanel(Document& document, QWidget* parent) : QWidget(pa
   QSizePolicy policy = sizePolicy();
   policy.setHeightForWidth(true);  // the area that scrolls it asks
   setSizePolicy(policy);
+  connect(&selection, &Selection::materialChanged, this, &MaterialsPanel::showCurrent);
+  connect(&document, &Document::changed, this, [this](const ChangeEvent& event) {
+    const auto* parameter = std::get_if<ParameterChanged>(&event);
+    if (std::holds_alternative<ProjectOpened>(event) || std::holds_alternative<MaterialsChanged>(event) ||
+        (parameter && parameter->address.owner == Owner::Material))
+      rebuild();
+  });
 }
 
 void MaterialsPanel::rebuild() {
@@ -88,16 +97,11 @@ void MaterialsPanel::rebuild() {
     m_tiles.push_back(
         {base, QString::fromStdString(label.empty() ? base : label), colourOf(with, plugins, base), false, true});
   }
-  const auto own = m_tiles.begin() + static_cast<std::ptrdiff_t>(m_own);
-  const bool known = std::any_of(m_tiles.begin(), own, [&](const Tile& tile) { return tile.id == m_current; });
-  if (!known) m_current = m_own == 0 ? std::string() : m_tiles.front().id;
   updateGeometry();
   update();
 }
 
-void MaterialsPanel::setCurrent(const std::string& id) {
-  if (id == m_current) return;
-  m_current = id;
+void MaterialsPanel::showCurrent() {
   update();
   if (!QAccessible::isActive()) return;
   QAccessibleValueChangeEvent event(this, currentLabel());
@@ -106,7 +110,8 @@ void MaterialsPanel::setCurrent(const std::string& id) {
 
 QString MaterialsPanel::currentLabel() const {
   const auto own = m_tiles.begin() + static_cast<std::ptrdiff_t>(m_own);
-  const auto found = std::find_if(m_tiles.begin(), own, [&](const Tile& tile) { return tile.id == m_current; });
+  const auto found =
+      std::find_if(m_tiles.begin(), own, [&](const Tile& tile) { return tile.id == m_selection.material(); });
   return found == own ? QString() : found->label;
 }
 
@@ -146,7 +151,7 @@ void MaterialsPanel::paintTile(QPainter& painter, size_t index) const {
   const Theme& theme = Theme::current();
   const Tile& tile = m_tiles[index];
   const QRectF rect = tileRect(index);
-  const bool current = !tile.installed && tile.id == m_current, here = m_cursor == static_cast<int>(index);
+  const bool current = !tile.installed && tile.id == m_selection.material(), here = m_cursor == static_cast<int>(index);
   if (current || here || m_hover == static_cast<int>(index)) {
     paintBox(painter, rect, theme[current ? Token::Selection : Token::Header],
              current || here ? theme[Token::Accent] : QColor(), 5);
@@ -182,11 +187,7 @@ void MaterialsPanel::paintEvent(QPaintEvent*) {
   if (hasFocus()) paintFocusRing(painter, QRectF(rect()).adjusted(1, 1, -1, -1), 4);
 }
 
-void MaterialsPanel::addInstalled(const std::string& base) {
-  const std::string id = m_document.addMaterial(base);
-  setCurrent(id);
-  Q_EMIT picked(id);
-}
+void MaterialsPanel::addInstalled(const std::string& base) { m_selection.pickMaterial(m_document.addMaterial(base)); }
 
 void MaterialsPanel::pick(size_t index) {
   const Tile tile = m_tiles[index];  // adding makes others
@@ -195,8 +196,7 @@ void MaterialsPanel::pick(size_t index) {
     return;
   }
   m_cursor = -1;
-  setCurrent(tile.id);
-  Q_EMIT picked(m_current);
+  m_selection.pickMaterial(tile.id);
 }
 
 void MaterialsPanel::mousePressEvent(QMouseEvent* event) {
@@ -242,7 +242,7 @@ void MaterialsPanel::keyPressEvent(QKeyEvent* event) {
   const auto own = static_cast<int>(m_own), count = static_cast<int>(m_tiles.size());
   int index = m_cursor;
   for (int i = 0; i < own && m_cursor < 0; ++i) {
-    if (m_tiles[static_cast<size_t>(i)].id == m_current) index = i;
+    if (m_tiles[static_cast<size_t>(i)].id == m_selection.material()) index = i;
   }
   int next = index + step;
   // A row of its own begins with what can be added.
@@ -263,7 +263,7 @@ void MaterialsPanel::keyPressEvent(QKeyEvent* event) {
 
 void MaterialsPanel::contextMenuEvent(QContextMenuEvent* event) {
   const bool keyboard = event->reason() == QContextMenuEvent::Keyboard;
-  const QRect place = keyboard ? tileOf(m_current) : QRect();
+  const QRect place = keyboard ? tileOf(m_selection.material()) : QRect();
   const int at = keyboard ? tileAt(place.center()) : tileAt(event->pos());
   if (at < 0) return;
   const Tile& tile = m_tiles[static_cast<size_t>(at)];

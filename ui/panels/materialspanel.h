@@ -11,16 +11,15 @@ class QPainter;
 namespace ps {
 
 class Document;
+class Selection;
 
 /// Materials of the scene as a grid of painted balls; a click makes one the brush's matter and shows its values. Below
 /// them those that are installed besides; a click brings one into the scene.
 class MaterialsPanel : public QWidget {
   Q_OBJECT
  public:
-  explicit MaterialsPanel(Document& document, QWidget* parent = nullptr);
+  MaterialsPanel(Document& document, Selection& selection, QWidget* parent = nullptr);
   void rebuild();
-  void setCurrent(const std::string& id);
-  const std::string& current() const { return m_current; }
   QString currentLabel() const;  ///< "" when there is none
   /// Brings an installed material into the scene and makes it the current one.
   void addInstalled(const std::string& base);
@@ -32,7 +31,6 @@ class MaterialsPanel : public QWidget {
   int heightForWidth(int width) const override;
 
  Q_SIGNALS:
-  void picked(const std::string& id);
   void revealed(const QRect& tile);  ///< the keyboard has moved to it
 
  protected:
@@ -45,6 +43,7 @@ class MaterialsPanel : public QWidget {
   void focusOutEvent(QFocusEvent* event) override;
 
  private:
+  void showCurrent();
   struct Tile {
     std::string id;  ///< of one that can be added: its base
     QString label;
@@ -62,9 +61,9 @@ class MaterialsPanel : public QWidget {
   void moveTo(int index);
 
   Document& m_document;
+  Selection& m_selection;
   std::vector<Tile> m_tiles;
-  size_t m_own = 0;  ///< tiles of the scene; the rest can be added
-  std::string m_current;
+  size_t m_own = 0;                 ///< tiles of the scene; the rest can be added
   int m_hover = -1, m_cursor = -1;  ///< m_cursor: where the keyboard is among what can be added
 };
 

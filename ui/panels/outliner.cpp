@@ -6,6 +6,7 @@
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
 #include "ui/panels/outlinerdelegate.h"
+#include "ui/session/session.h"
 #include "ui/theme/numbers.h"
 
 #include <QtGui/QColor>
@@ -18,6 +19,8 @@
 
 namespace ps {
 namespace {
+
+constexpr qint64 kReadInterval = 200;  // ms between two readings: counting goes through all particles
 
 /// "20.5 °C", "1.540 g", "76.40 MJ", "24 594".
 QString probeText(double value, const std::string& unit) {
@@ -32,8 +35,13 @@ QString probeText(double value, const std::string& unit) {
 
 }  // namespace
 
-Outliner::Outliner(Document& document, QWidget* parent)
-    : QWidget(parent), m_document(document), m_model(new QStandardItemModel(this)), m_view(new QTreeView) {
+Outliner::Outliner(Session& session, Selection& selection, QWidget* parent)
+    : QWidget(parent),
+      m_session(session),
+      m_document(session.document()),
+      m_selection(selection),
+      m_model(new QStandardItemModel(this)),
+      m_view(new QTreeView) {
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 4, 0, 0);
   column->addWidget(m_view);
@@ -60,12 +68,17 @@ Outliner::Outliner(Document& document, QWidget* parent)
   });
   m_view->setContextMenuPolicy(Qt::CustomContextMenu);
   connect(m_view, &QTreeView::customContextMenuRequested, this, [this](const QPoint& at) {
-    if (!selectedBody().empty() || selectedPort()) Q_EMIT menuRequested(m_view->viewport()->mapToGlobal(at));
+    if (!m_selection.body().empty() || m_selection.port()) Q_EMIT menuRequested(m_view->viewport()->mapToGlobal(at));
   });
   connect(m_view->selectionModel(), &QItemSelectionModel::currentChanged, this, [this] {
     if (m_building) return;
     const auto [kind, id] = selected();
-    Q_EMIT selectionChanged(kind, id);
+    m_selection.select(kind, id);
+  });
+  connect(&selection, &Selection::changed, this, &Outliner::showSelection);
+  connect(&m_document, &Document::changed, this, &Outliner::onChanged);
+  connect(&session, &Session::valuesDue, this, [this] {
+    if (!m_sinceRead.isValid() || m_sinceRead.elapsed() > kReadInterval) readValues();
   });
 }
 
@@ -100,8 +113,6 @@ void Outliner::addBodies(QStandardItem* scene) {
 }
 
 void Outliner::rebuild() {
-  const auto [kind, id] = selected();
-  const bool had = m_view->currentIndex().isValid();
   m_building = true;
   m_model->clear();
   const Project& project = m_document.project();
@@ -141,14 +152,24 @@ void Outliner::rebuild() {
   }
   m_view->expandAll();
   refreshCounts();
-  if (had) {
-    if (QStandardItem* item = find(kind, id)) m_view->setCurrentIndex(item->index());
-  }
   m_building = false;
+  showSelection();
 }
 
-void Outliner::setSnapshot(const SnapshotPtr& snapshot) {
-  m_snapshot = snapshot;
+void Outliner::onChanged(const ChangeEvent& event) {
+  const auto* parameter = std::get_if<ParameterChanged>(&event);
+  const auto* port = std::get_if<PortChanged>(&event);
+  const bool shows =
+      std::holds_alternative<ProjectOpened>(event) || std::holds_alternative<BodyChanged>(event) ||
+      std::holds_alternative<StrokeChanged>(event) || std::holds_alternative<WallsChanged>(event) ||
+      (port && !port->moved) ||
+      (parameter && (parameter->address.owner == Owner::Wall || parameter->address.owner == Owner::Environment));
+  if (shows) rebuild();
+}
+
+void Outliner::readValues() {
+  m_sinceRead.start();
+  m_snapshot = m_session.snapshot();
   refreshCounts();
 }
 
@@ -194,11 +215,16 @@ QStandardItem* Outliner::find(OutlineKind kind, const std::string& id) const {
   return nullptr;
 }
 
-void Outliner::select(OutlineKind kind, const std::string& id) {
-  if (QStandardItem* item = find(kind, id)) {
+void Outliner::showSelection() {
+  m_building = true;
+  QStandardItem* item = m_selection.empty() ? nullptr : find(m_selection.kind(), m_selection.id());
+  if (!item) {
+    m_view->setCurrentIndex({});
+  } else if (m_view->currentIndex() != item->index()) {
     m_view->setCurrentIndex(item->index());
     m_view->scrollTo(item->index());
   }
+  m_building = false;
 }
 
 std::pair<OutlineKind, std::string> Outliner::selected() const {
@@ -208,34 +234,16 @@ std::pair<OutlineKind, std::string> Outliner::selected() const {
           index.data(outline::kId).toString().toStdString()};
 }
 
-void Outliner::selectNothing() {
-  m_building = true;
-  m_view->setCurrentIndex({});
-  m_building = false;
-}
-
-std::string Outliner::selectedBody() const {
-  const auto [kind, id] = selected();
-  return kind == OutlineKind::Body && m_document.body(id) ? id : std::string();
-}
-
-std::optional<Port> Outliner::selectedPort() const {
-  const auto [kind, id] = selected();
-  if (kind == OutlineKind::Emitter && m_document.emitter(id)) return Port{false, id};
-  if (kind == OutlineKind::Sink && m_document.sink(id)) return Port{true, id};
-  return std::nullopt;
-}
-
 void Outliner::toggleVisible() {
-  if (const Body* body = m_document.body(selectedBody())) m_document.setBodyVisible(body->id, !body->visible);
+  if (const Body* body = m_document.body(m_selection.body())) m_document.setBodyVisible(body->id, !body->visible);
 }
 
 void Outliner::toggleLocked() {
-  if (const Body* body = m_document.body(selectedBody())) m_document.setBodyLocked(body->id, !body->locked);
+  if (const Body* body = m_document.body(m_selection.body())) m_document.setBodyLocked(body->id, !body->locked);
 }
 
 void Outliner::renameSelected() {
-  if (!selectedBody().empty() || selectedPort()) m_view->edit(m_view->currentIndex());
+  if (!m_selection.body().empty() || m_selection.port()) m_view->edit(m_view->currentIndex());
 }
 
 }  // namespace ps

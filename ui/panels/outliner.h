@@ -3,7 +3,9 @@
 #include "core/simulation/snapshot.h"
 #include "ui/document/changeevent.h"
 #include "ui/document/port.h"
+#include "ui/session/selection.h"
 
+#include <QtCore/QElapsedTimer>
 #include <QtWidgets/QWidget>
 
 #include <map>
@@ -16,9 +18,7 @@ class QTreeView;
 namespace ps {
 
 class Document;
-
-/// What a row of the outliner stands for.
-enum class OutlineKind { Scene, Body, Emitter, Sink, Wall, Probes, Probe, Environment };
+class Session;
 
 /// Roles of the outliner's items.
 namespace outline {
@@ -32,35 +32,35 @@ inline constexpr int kKind = Qt::UserRole + 1, kId = Qt::UserRole + 2, kIcon = Q
 class Outliner : public QWidget {
   Q_OBJECT
  public:
-  explicit Outliner(Document& document, QWidget* parent = nullptr);
+  Outliner(Session& session, Selection& selection, QWidget* parent = nullptr);
   void rebuild();
-  void setSnapshot(const SnapshotPtr& snapshot);  ///< counts, probe values
-  void select(OutlineKind kind, const std::string& id);
-  std::pair<OutlineKind, std::string> selected() const;
+  std::pair<OutlineKind, std::string> selected() const;  ///< the row that shows as selected
   void renameSelected();
   void toggleVisible();  ///< of the selected body
   void toggleLocked();
-  void selectNothing();              ///< tells nobody
-  std::string selectedBody() const;  ///< "" when something else is, or nothing
-  std::optional<Port> selectedPort() const;
   QTreeView* view() const { return m_view; }
   QSize sizeHint() const override { return {204, 300}; }
 
  Q_SIGNALS:
-  void selectionChanged(ps::OutlineKind kind, const std::string& id);
   void menuRequested(const QPoint& global);  ///< of the selected body, tap or drain
 
  private:
   QStandardItem* add(QStandardItem* parent, OutlineKind kind, const std::string& id, const QString& name,
                      const QString& icon);
   void addBodies(QStandardItem* scene);
+  void onChanged(const ChangeEvent& event);
+  void showSelection();
+  void readValues();  ///< counts, probe values
   void refreshCounts();
   QStandardItem* find(OutlineKind kind, const std::string& id) const;
 
+  Session& m_session;
   Document& m_document;
+  Selection& m_selection;
   QStandardItemModel* m_model;
   QTreeView* m_view;
   SnapshotPtr m_snapshot;
+  QElapsedTimer m_sinceRead;
   bool m_building = false;
 };
 

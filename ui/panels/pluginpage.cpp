@@ -2,6 +2,8 @@
 #include "ui/panels/pluginpage.h"
 
 #include "core/plugin_host/registry.h"
+#include "core/simulation/engine.h"
+#include "ui/session/session.h"
 #include "ui/theme/icon.h"
 #include "ui/theme/theme.h"
 
@@ -49,7 +51,7 @@ QString stateText(const PluginInfo& plugin) {
 
 }  // namespace
 
-PluginPage::PluginPage(QWidget* parent)
+PluginPage::PluginPage(Session& session, QWidget* parent)
     : QWidget(parent),
       m_model(new QStandardItemModel(this)),
       m_view(new QTreeView),
@@ -94,11 +96,13 @@ PluginPage::PluginPage(QWidget* parent)
   m_details->setAlignment(Qt::AlignTop | Qt::AlignLeft);
   column->addWidget(m_details);
   connect(m_view->selectionModel(), &QItemSelectionModel::currentRowChanged, this, &PluginPage::showDetails);
-}
-
-void PluginPage::setRegistry(PluginRegistry* registry) {
-  m_registry = registry;
-  refresh();
+  connect(&session, &Session::ready, this, [this, &session] {
+    m_registry = session.plugins();
+    refresh();
+  });
+  connect(&session, &Session::happened, this, [this](const EngineEvent& event) {
+    if (event.flags & static_cast<StepFlags>(StepFlag::PluginFault)) refresh();
+  });
 }
 
 QString PluginPage::summary() const {

@@ -13,14 +13,13 @@ class QTreeView;
 namespace ps {
 
 class PluginRegistry;
+class Session;
 
 /// All plugins found, loaded or not: name, kind, version, API, licence, place, state, and what is wrong and what to do.
 class PluginPage : public QWidget {
   Q_OBJECT
  public:
-  explicit PluginPage(QWidget* parent = nullptr);
-  /// nullptr while plugins are being loaded.
-  void setRegistry(PluginRegistry* registry);
+  explicit PluginPage(Session& session, QWidget* parent = nullptr);
   void refresh();
   void select(const std::string& id);
   QString summary() const;
@@ -37,7 +36,7 @@ class PluginPage : public QWidget {
  private:
   void showDetails();
   void filter(const QString& text);
-  PluginRegistry* m_registry = nullptr;
+  PluginRegistry* m_registry = nullptr;  ///< while plugins are being loaded
   QStandardItemModel* m_model;
   QTreeView* m_view;
   QLabel *m_summary, *m_details;

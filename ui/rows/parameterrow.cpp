@@ -70,6 +70,9 @@ bool ParameterRow::Private::drawsSymbol() const {
 FieldText ParameterRow::Private::fieldText() const {
   const double number = q->number();
   if (needsPrefix()) return withoutBrackets(shortField(declaration(), number));
+  // What follows the temperature runs: all its digits stay, so that it keeps its width.
+  if (showsCurve() && !model.mixed && std::isfinite(number))
+    return withoutBrackets({formatNumber(toDisplay(declaration(), number)), displayUnit(declaration())});
   return withoutBrackets({model.mixed ? QStringLiteral("—") : formatField(declaration(), number),
                           standsForNone(declaration(), number) ? QString() : displayUnit(declaration())});
 }
@@ -241,7 +244,9 @@ QString ParameterRow::valueText() const {
       return number() != 0 ? QStringLiteral("on") : QStringLiteral("off");
     case api::ParameterKind::Choice: {
       const std::string* name = std::get_if<std::string>(&d->model.value);
-      return name ? choiceLabel(QString::fromStdString(*name)) : QString();
+      if (!name) return {};
+      const auto index = choiceNames(d->declaration()).indexOf(QString::fromStdString(*name));
+      return index < 0 ? choiceLabel(QString::fromStdString(*name)) : d->choiceTexts()[index];
     }
     default:
       return formatValue(d->declaration(), number());

@@ -3,6 +3,7 @@
 #include "core/scene/parameterset.h"
 
 #include <QtCore/QString>
+#include <QtCore/QStringList>
 #include <QtWidgets/QWidget>
 
 #include <limits>
@@ -27,6 +28,7 @@ struct RowModel {
   bool pinned = false;          ///< the copy that stands in "Try these"
   bool isPinned = false;        ///< such a copy exists, or is this row
   bool mixed = false;           ///< several selected owners disagree
+  QStringList choiceLabels;     ///< of a choice, in the order of its names; empty: made from the names
   QString disabledReason;       ///< not empty: disabled, the tooltip says why
   QString derivedFrom;          ///< not empty: computed, no field: "from pressure"
   QString source;               ///< of the default value; "": the declaration's

@@ -85,7 +85,8 @@ struct ParameterRow::Private {
   QRect switchRect() const;
   /// Rectangles of the segments of a choice; empty when they do not fit (then a menu opens).
   std::vector<QRect> segments() const;
-  QRect choiceRect() const;  ///< of all segments, or of the menu's button
+  QStringList choiceTexts() const;  ///< as shown
+  QRect choiceRect() const;         ///< of all segments, or of the menu's button
   void openChoiceMenu();
   void openContextMenu(const QPoint& global);
   void explain(const QPoint& global);  ///< the tip, asked for

@@ -53,13 +53,20 @@ QRect ParameterRow::Private::switchRect() const {
   return {q->fieldRect().right() + 1 - 34, (kRowHeight - 16) / 2, 28, 16};
 }
 
+QStringList ParameterRow::Private::choiceTexts() const {
+  QStringList texts = choiceNames(declaration());
+  if (model.choiceLabels.size() == texts.size()) return model.choiceLabels;
+  for (QString& text : texts) text = choiceLabel(text);
+  return texts;
+}
+
 std::vector<QRect> ParameterRow::Private::segments() const {
   const QFont font = Theme::font(TextRole::Small);
-  const QStringList names = choiceNames(declaration());
+  const QStringList names = choiceTexts();
   std::vector<int> widths;
   int total = -kSegmentGap;
   for (const QString& name : names) {
-    widths.push_back(static_cast<int>(std::ceil(textWidth(choiceLabel(name), font))) + 2 * kSegmentPadding);
+    widths.push_back(static_cast<int>(std::ceil(textWidth(name, font))) + 2 * kSegmentPadding);
     total += widths.back() + kSegmentGap;
   }
   const int right = q->fieldRect().right() + 1;
@@ -79,8 +86,8 @@ QRect ParameterRow::Private::choiceRect() const {
   if (!rects.empty()) return rects.front().united(rects.back());
   const int right = q->fieldRect().right() + 1;
   int width = kFieldWidth;
-  for (const QString& name : choiceNames(declaration())) {
-    width = std::max(width, static_cast<int>(textWidth(choiceLabel(name), Theme::font(TextRole::Normal))) + 34);
+  for (const QString& name : choiceTexts()) {
+    width = std::max(width, static_cast<int>(textWidth(name, Theme::font(TextRole::Normal))) + 34);
   }
   width = std::min(width, right - kRowLeft - 90);
   return {right - width, (kRowHeight - kFieldHeight) / 2, width, kFieldHeight};
@@ -234,14 +241,13 @@ void ParameterRow::Private::paintChoice(QPainter& painter) const {
   const Theme& theme = Theme::current();
   const bool enabled = isEditable();
   const int chosen = model.mixed ? -1 : static_cast<int>(q->number());
-  const QStringList names = choiceNames(declaration());
+  const QStringList names = choiceTexts();
   const std::vector<QRect> rects = segments();
   for (size_t i = 0; i < rects.size(); ++i) {
     const bool on = static_cast<int>(i) == chosen;
     paintBox(painter, rects[i], theme[on ? Token::Selection : Token::Raised], on ? QColor() : theme[Token::RaisedEdge],
              4);
-    paintText(painter, rects[i], Qt::AlignCenter, choiceLabel(names[static_cast<qsizetype>(i)]),
-              Theme::font(TextRole::Small),
+    paintText(painter, rects[i], Qt::AlignCenter, names[static_cast<qsizetype>(i)], Theme::font(TextRole::Small),
               theme[!enabled ? Token::Disabled
                     : on     ? Token::Text
                              : Token::Text2]);

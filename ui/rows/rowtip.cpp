@@ -57,9 +57,9 @@ QString ParameterRow::Private::toolTipText() const {
 
 void ParameterRow::Private::openChoiceMenu() {
   const QPointer<QMenu> menu(new QMenu(q));
-  const QStringList names = choiceNames(declaration());
+  const QStringList names = choiceTexts();
   for (qsizetype i = 0; i < names.size(); ++i) {
-    QAction* action = menu->addAction(choiceLabel(names[i]));
+    QAction* action = menu->addAction(names[i]);
     action->setCheckable(true);
     action->setChecked(!model.mixed && static_cast<qsizetype>(q->number()) == i);
     action->setData(static_cast<int>(i));

@@ -9,7 +9,11 @@
 #include "ui/session/worker.h"
 
 #include <QtCore/QElapsedTimer>
+#include <QtCore/QFile>
 #include <QtCore/QFileInfo>
+#include <QtCore/QJsonArray>
+#include <QtCore/QJsonDocument>
+#include <QtCore/QJsonObject>
 #include <QtCore/QSettings>
 
 #include <string_view>
@@ -18,6 +22,7 @@ namespace ps {
 namespace {
 
 constexpr int kRecentFiles = 10;
+constexpr const char* kRequiredPointer = ":/pluginsRequired/";  // where loadProject() says that one is missing
 constexpr const char* kRecentKey = "files/recent";
 
 /// An empty tray to begin with, and what the plugins offer as standard.
@@ -42,6 +47,17 @@ Project emptyProject(const PluginRegistry* plugins) {
   return project;
 }
 
+/// With its list of required plugins set aside while it is checked, and kept for the next save.
+LoadedProject loadWithoutRequired(const QString& path, const PluginRegistry& plugins) {
+  LoadedProject loaded = loadProject(path.toStdString(), plugins, {"pluginsRequired=[]"});
+  QFile file(path);
+  if (!file.open(QIODevice::ReadOnly)) return loaded;
+  for (const QJsonValue& id :
+       QJsonDocument::fromJson(file.readAll()).object()[QLatin1String("pluginsRequired")].toArray())
+    loaded.project.pluginsRequired.push_back(id.toString().toStdString());
+  return loaded;
+}
+
 /// The camera and colour of `seen`, with the pins and unknown keys of `stored`.
 ViewState asSeen(ViewState stored, const ViewState& seen) {
   ViewState view = seen;
@@ -57,25 +73,29 @@ DocumentFiles::DocumentFiles(Document& document, Worker& worker, QObject* parent
 
 void DocumentFiles::open(const QString& path) { load(QFileInfo(path).absoluteFilePath(), std::nullopt); }
 
+void DocumentFiles::openAnyway(const QString& path) { load(QFileInfo(path).absoluteFilePath(), std::nullopt, true); }
+
+bool DocumentFiles::lacksRequired(const QString& problem) { return problem.contains(QLatin1String(kRequiredPointer)); }
+
 void DocumentFiles::reopen(const AutosavedSession& session) {
   load(session.copy.isEmpty() ? session.path : session.copy, session);
 }
 
 /// `session`: the one that is reopened by it.
-void DocumentFiles::load(const QString& path, const std::optional<AutosavedSession>& session) {
+void DocumentFiles::load(const QString& path, const std::optional<AutosavedSession>& session, bool anyway) {
   const int request = ++m_request;
   const PluginRegistry* plugins = m_document.plugins();
   if (!plugins) {
     Q_EMIT openFailed(path, QStringLiteral("Plugins are still being loaded. Open it again in a moment."));
     return;
   }
-  m_worker.run([this, request, plugins, path, session] {
+  m_worker.run([this, request, plugins, path, session, anyway] {
     QElapsedTimer clock;
     clock.start();
     LoadedProject loaded;
     QString problem;
     try {
-      loaded = loadProject(path.toStdString(), *plugins);
+      loaded = anyway ? loadWithoutRequired(path, *plugins) : loadProject(path.toStdString(), *plugins);
     } catch (const std::exception& error) {
       problem = QString::fromUtf8(error.what());
     }

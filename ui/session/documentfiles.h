@@ -23,6 +23,10 @@ class DocumentFiles : public QObject {
   DocumentFiles(Document& document, Worker& worker, QObject* parent = nullptr);
 
   void open(const QString& path);
+  /// Though plugins are missing that the project cannot do without, by its own word: what they made stands still.
+  void openAnyway(const QString& path);
+  /// Whether it was for them that openFailed() came.
+  static bool lacksRequired(const QString& problem);
   /// What an earlier session had open: its copy when it has one (the document is then dirty), else its file, seen as
   /// it was left.
   void reopen(const AutosavedSession& session);
@@ -42,7 +46,7 @@ class DocumentFiles : public QObject {
   void saveFailed(const QString& path, const QString& problem, bool present);
 
  private:
-  void load(const QString& path, const std::optional<AutosavedSession>& session);
+  void load(const QString& path, const std::optional<AutosavedSession>& session, bool anyway = false);
   Document& m_document;
   Worker& m_worker;
   int m_request = 0;  ///< of the newest open(): an older one that arrives late is dropped

@@ -6,19 +6,33 @@
 #include "ui/document/document.h"
 #include "ui/session/documentfiles.h"
 #include "ui/session/scenelink.h"
+#include "ui/session/transitions.h"
 #include "ui/session/worker.h"
 
 #include <clocale>
 
 namespace ps {
+namespace {
+constexpr int kValuesInterval = 66;  // ms: values at 15 Hz
+}
 
 Session::Session(const Options& options, QObject* parent)
     : QObject(parent),
       m_options(options),
       m_log(std::make_unique<MessageLog>()),
       m_document(std::make_unique<Document>()),
+      m_transitions(std::make_unique<Transitions>(*m_document)),
       m_worker(std::make_unique<Worker>()) {
   m_log->takeLog();
+  m_values.setInterval(kValuesInterval);
+  m_values.setSingleShot(true);
+  connect(&m_values, &QTimer::timeout, this, &Session::tellValues);
+  connect(m_document.get(), &Document::changed, this, [this](const ChangeEvent& event) {
+    if (!std::holds_alternative<ProjectOpened>(event)) return;
+    m_opening = true;
+    const SnapshotPtr last = snapshot();
+    m_before = last ? last->revision : 0;
+  });
   m_files = std::make_unique<DocumentFiles>(*m_document, *m_worker);
   if (options.autosave) {
     const QString& directory = options.autosaveDirectory;
@@ -57,7 +71,7 @@ void Session::adoptPlugins(std::shared_ptr<PluginRegistry> plugins) {
         [this] {
           m_pending = false;
           const bool now = playing();
-          Q_EMIT snapshotArrived();
+          onSnapshot();
           if (now != m_wasPlaying) {
             m_wasPlaying = now;
             Q_EMIT playingChanged();
@@ -73,6 +87,25 @@ void Session::adoptPlugins(std::shared_ptr<PluginRegistry> plugins) {
                QString::fromStdString(plugin.problem));
   }
   Q_EMIT ready();
+}
+
+void Session::onSnapshot() {
+  if (!m_values.isActive()) m_values.start();
+  Q_EMIT snapshotArrived();
+  const SnapshotPtr now = snapshot();
+  if (!m_opening || !now || now->revision == m_before) return;
+  m_opening = false;
+  tellValues();
+  Q_EMIT projectShown();
+}
+
+void Session::tellValues() {
+  if (!m_engine) return;
+  for (const EngineEvent& event : m_engine->events(m_eventsRead)) {
+    m_eventsRead = event.number + 1;
+    Q_EMIT happened(event);
+  }
+  Q_EMIT valuesDue();
 }
 
 SnapshotPtr Session::snapshot() const { return m_engine ? m_engine->snapshot() : nullptr; }

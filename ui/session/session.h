@@ -7,6 +7,7 @@
 
 #include <QtCore/QObject>
 #include <QtCore/QString>
+#include <QtCore/QTimer>
 
 #include <atomic>
 #include <memory>
@@ -18,7 +19,9 @@ class DocumentFiles;
 class EngineThread;
 class PluginRegistry;
 class SceneLink;
+class Transitions;
 class Worker;
+struct EngineEvent;
 
 /// What a window works on: plugins, document, engine, files, autosave. Plugins are loaded on a worker thread so that
 /// the window shows first; until ready() there is no engine. Knows no widget.
@@ -45,6 +48,8 @@ class Session : public QObject {
   SceneLink* link() { return m_link.get(); }
   Autosave* autosave() { return m_autosave.get(); }
 
+  Transitions& transitions() { return *m_transitions; }
+
   SnapshotPtr snapshot() const;
   void playPause();
   void play();
@@ -60,19 +65,29 @@ class Session : public QObject {
  Q_SIGNALS:
   void ready();
   void snapshotArrived();  ///< coalesced: at most one per turn of the event loop
+  void valuesDue();        ///< there are newer numbers to show: at most 15 times a second
   void playingChanged();
+  void happened(const ps::EngineEvent& event);  ///< in the order of their numbers, none left out
+  void projectShown();                          ///< the first snapshot of an opened project has arrived
 
  private:
   void adoptPlugins(std::shared_ptr<PluginRegistry> plugins);
+  void onSnapshot();
+  void tellValues();
 
   Options m_options;
   std::unique_ptr<MessageLog> m_log;
   std::unique_ptr<Document> m_document;
+  std::unique_ptr<Transitions> m_transitions;
   std::unique_ptr<DocumentFiles> m_files;
   std::unique_ptr<Autosave> m_autosave;
   std::shared_ptr<PluginRegistry> m_plugins;
   std::atomic<bool> m_pending{false};
   bool m_wasPlaying = false, m_closed = false;
+  bool m_opening = true;  ///< the project's first snapshot has not come yet
+  uint64_t m_before = 0;  ///< revision of the last snapshot of the project before
+  uint64_t m_eventsRead = 0;
+  QTimer m_values;
   std::unique_ptr<EngineThread> m_engine;
   std::unique_ptr<SceneLink> m_link;
   std::unique_ptr<Worker> m_worker;  // ends first: its jobs point at the others

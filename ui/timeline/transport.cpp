@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/timeline/transport.h"
 
+#include "ui/document/document.h"
+#include "ui/session/session.h"
 #include "ui/session/wording.h"
 #include "ui/theme/icon.h"
 #include "ui/theme/numbers.h"
@@ -79,8 +81,9 @@ ThermalTexts ThermalTexts::fitting(double room) const {
   return shown;
 }
 
-Transport::Transport(QWidget* parent)
+Transport::Transport(Session& session, QWidget* parent)
     : QWidget(parent),
+      m_session(session),
       m_reset(toolButton(QStringLiteral("reset-to-start"), QStringLiteral("Back to the start (Home)"))),
       m_step(toolButton(QStringLiteral("step"), QStringLiteral("One frame (→)"))),
       m_play(new QPushButton),
@@ -105,13 +108,31 @@ Transport::Transport(QWidget* parent)
   row->addWidget(m_duration);
   row->addSpacing(18);
   row->addWidget(m_thermal, 1);
-  connect(m_reset, &QToolButton::clicked, this, &Transport::resetRequested);
-  connect(m_step, &QToolButton::clicked, this, &Transport::stepRequested);
-  connect(m_play, &QPushButton::clicked, this, &Transport::playRequested);
+  connect(m_reset, &QToolButton::clicked, &session, &Session::reset);
+  connect(m_step, &QToolButton::clicked, &session, &Session::step);
+  connect(m_play, &QPushButton::clicked, &session, &Session::playPause);
+  connect(&session, &Session::ready, this, [this] { setReady(true); });
+  connect(&session, &Session::playingChanged, this, [this] { setPlaying(m_session.playing()); });
+  connect(&session, &Session::valuesDue, this, [this] {
+    setSnapshot(m_session.snapshot());
+    if (m_session.playing() != m_playing) setPlaying(m_session.playing());
+  });
+  connect(&session.document(), &Document::changed, this, &Transport::onChanged);
   styleButtons();
   setPlaying(false);
   setReady(false);
   refresh();
+}
+
+void Transport::onChanged(const ChangeEvent& event) {
+  const bool opened = std::holds_alternative<ProjectOpened>(event);
+  const Project& project = m_session.document().project();
+  if (opened) {
+    setDuration(project.duration);
+    setSnapshot(nullptr);
+  }
+  if (opened || std::holds_alternative<ParameterChanged>(event))
+    setTimeScale(numberOf(project.solver.parameters, solverParameters(), "thermal_time_scale"));
 }
 
 void Transport::styleButtons() {

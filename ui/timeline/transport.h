@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "core/simulation/snapshot.h"
+#include "ui/document/changeevent.h"
 
 #include <QtWidgets/QWidget>
 
@@ -10,6 +11,7 @@ class QToolButton;
 
 namespace ps {
 
+class Session;
 class ThermalClock;
 
 /// "Heat ×2000 = ", "2 h 20 min", " of real heating"; all empty while heat keeps real time.
@@ -24,7 +26,7 @@ struct ThermalTexts {
 class Transport : public QWidget {
   Q_OBJECT
  public:
-  explicit Transport(QWidget* parent = nullptr);
+  explicit Transport(Session& session, QWidget* parent = nullptr);
   void setPlaying(bool playing);
   void setReady(bool ready);
   void setDuration(double seconds);
@@ -34,18 +36,15 @@ class Transport : public QWidget {
   QString timeText() const;
   ThermalTexts thermalTexts() const;
 
- Q_SIGNALS:
-  void resetRequested();
-  void stepRequested();
-  void playRequested();
-
  protected:
   void paintEvent(QPaintEvent* event) override;
   void changeEvent(QEvent* event) override;
 
  private:
+  void onChanged(const ChangeEvent& event);
   void refresh();
   void styleButtons();
+  Session& m_session;
   QToolButton *m_reset, *m_step;
   QPushButton* m_play;
   QLabel *m_time, *m_duration;

@@ -5,7 +5,7 @@
 #include "ui/theme/numbers.h"
 #include "ui/theme/paint.h"
 #include "ui/theme/theme.h"
-#include "ui/tools/gestures.h"
+#include "ui/tools/brushsettings.h"
 
 #include <QtCore/QStringList>
 #include <QtGui/QPainter>
@@ -88,39 +88,18 @@ void paintLegendOver(QPainter& painter, const OverlayState& state, OverlayHits& 
   paintLegend(painter, rect, map, range, unit, marks, pivot);
 }
 
-struct Hint {
-  QString keys, does;
-};
-
-/// The tool's gestures, and the keys that somebody new needs next.
-std::vector<Hint> hintsFor(ViewTool tool) {
-  std::vector<Hint> hints;
-  for (const Gesture& gesture : gesturesOf(tool)) {
-    if (!gesture.hint.isEmpty()) hints.push_back({gesture.keys, gesture.hint});
-  }
-  if (tool == ViewTool::Select) {
-    hints.push_back({QStringLiteral("Space"), QStringLiteral("pause")});
-    hints.push_back({QStringLiteral("F"), QStringLiteral("frame")});
-    hints.push_back({QStringLiteral("B"), QStringLiteral("sketch")});
-  } else {
-    if (draws(tool)) hints.push_back({QStringLiteral("[ ]"), QStringLiteral("size")});
-    hints.push_back({QStringLiteral("Q"), QStringLiteral("back to select")});
-  }
-  return hints;
-}
-
 QRectF paintHint(QPainter& painter, const OverlayState& state) {
   const QFont font = Theme::font(TextRole::Small);
   const Theme& theme = Theme::current();
-  const std::vector<Hint> hints = hintsFor(state.tool);
   const QString close = QStringLiteral("Got it");
   double width = textWidth(close, font) + 2 * kPadding;
-  for (const Hint& hint : hints) width += textWidth(hint.keys, font) + textWidth(hint.does, font) + 12 + 2 * kPadding;
+  for (const OverlayHint& hint : state.hints)
+    width += textWidth(hint.keys, font) + textWidth(hint.does, font) + 12 + 2 * kPadding;
   QRectF rect((state.size.width() - width) / 2, state.size.height() - kMargin - 30, width, 30);
   if (rect.left() < 180 || rect.right() > state.size.width() - 130) return {};  // room for scale bar and legend first
   paintGround(painter, rect, 6);
   double x = rect.left() + kPadding;
-  for (const Hint& hint : hints) {
+  for (const OverlayHint& hint : state.hints) {
     const QRectF key(x, rect.top() + 6, textWidth(hint.keys, font) + 10, 18);
     paintBox(painter, key, theme[Token::Raised], theme[Token::Line2], 3);
     paintText(painter, key, Qt::AlignCenter, hint.keys, font, theme[Token::Text]);
@@ -252,7 +231,8 @@ class CursorPainter {
   void sphere(const BrushCursor& cursor, const QPointF& centre, QPainterPath& path) const {
     const CameraFrame frame = frameOf(m_state.camera);
     const double depth = (cursor.centre - frame.eye).dot(frame.forward);
-    const double r = cursor.extent[0] / pixelSize(m_state.camera, static_cast<int>(m_state.size.height()), depth);
+    const double r =
+        cursor.extent.maxCoeff() / pixelSize(m_state.camera, static_cast<int>(m_state.size.height()), depth);
     path.addEllipse(centre, r, r);
   }
   void box(const BrushCursor& cursor, QPainterPath& path) const {
@@ -327,7 +307,7 @@ OverlayHits paintOverlays(QPainter& painter, const OverlayState& state) {
   paintViewLabel(painter, state);
   paintScaleBar(painter, state);
   paintLegendOver(painter, state, hits);
-  if (state.hint) hits.hintClose = paintHint(painter, state);
+  if (!state.hints.empty()) hits.hintClose = paintHint(painter, state);
   paintBall(painter, state, hits);
   if (!state.invitation.isEmpty()) paintInvitation(painter, state);
   return hits;

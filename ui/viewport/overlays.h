@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "ui/render/camera.h"
-#include "ui/tools/viewtool.h"
+#include "ui/tools/tool.h"
 
 #include <QtCore/QPointF>
 #include <QtCore/QRectF>
@@ -21,12 +21,9 @@ struct SceneTag {
   QString name, value;
 };
 
-/// The brush under the pointer.
-struct BrushCursor {
-  Vector3 centre{0, 0, 0};  ///< m
-  Vector3 extent{0, 0, 0};  ///< half extents, m
-  double floor = 0;         ///< m, height of what lies below
-  bool box = false, erase = false;
+/// One key or gesture of the strip of hints.
+struct OverlayHint {
+  QString keys, does;
 };
 
 /// Everything that is painted over the picture, in logical pixels.
@@ -38,8 +35,7 @@ struct OverlayState {
   std::pair<double, double> range{0, 1};                ///< SI
   double meltingPoint = 273.15, boilingPoint = 373.15;  ///< K; infinite or NaN: no mark
   bool empty = false;                                   ///< no snapshot yet
-  bool hint = false;
-  ViewTool tool = ViewTool::Select;
+  std::vector<OverlayHint> hints;                       ///< empty: no strip
   std::optional<SceneTag> tag;
   std::optional<BrushCursor> cursor;
   QString invitation;  ///< in the middle of an empty scene: what to do

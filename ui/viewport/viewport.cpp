@@ -5,13 +5,23 @@
 #include "core/simulation/engine.h"
 #include "ui/document/document.h"
 #include "ui/render/framing.h"
+#include "ui/session/selection.h"
+#include "ui/session/session.h"
+#include "ui/session/transitions.h"
 #include "ui/theme/numbers.h"
 #include "ui/theme/theme.h"
+#include "ui/tools/toolbox.h"
+#include "ui/tools/tooltable.h"
 #include "ui/viewport/hiddenbodies.h"
+#include "ui/viewport/portpainter.h"
+#include "ui/viewport/viewportaccess.h"
 
+#include <QtGui/QAccessible>
+#include <QtGui/QHelpEvent>
 #include <QtGui/QOpenGLContext>
 #include <QtGui/QPainter>
 #include <QtGui/QResizeEvent>
+#include <QtWidgets/QToolTip>
 
 #include <algorithm>
 #include <cmath>
@@ -21,19 +31,38 @@ namespace {
 
 constexpr double kSlowSnapshots = 40;  // ms; only slower ones are interpolated, faster ones are shown as they come
 constexpr int kMajor = 4, kMinor = 3;
+constexpr double kIceMelts = 273.15;  // K: the pivot of the map where nothing in the scene melts
 
 }  // namespace
 
-Viewport::Viewport(QWidget* parent) : QOpenGLWidget(parent) {
-  installAccessibility();
+Viewport::Viewport(Session& session, Selection& selection, Toolbox& tools, QWidget* parent)
+    : QOpenGLWidget(parent),
+      m_session(session),
+      m_document(session.document()),
+      m_selection(selection),
+      m_tools(tools) {
+  installViewportAccessibility();
   setMouseTracking(true);
   setFocusPolicy(Qt::StrongFocus);
   setMinimumSize(480, 300);
   setAccessibleName(QStringLiteral("Scene"));
   setContextMenuPolicy(Qt::PreventContextMenu);
+  m_clock.start();
   m_paintTimer.setSingleShot(true);
   m_paintTimer.setTimerType(Qt::PreciseTimer);
   connect(&m_paintTimer, &QTimer::timeout, this, qOverload<>(&QWidget::update));
+  connect(&m_document, &Document::changed, this, &Viewport::onChanged);
+  connect(&session, &Session::snapshotArrived, this, &Viewport::snapshotArrived);
+  connect(&session.transitions(), &Transitions::changed, this, qOverload<>(&QWidget::update));
+  connect(&selection, &Selection::changed, this, [this] {
+    update();
+    announce();
+  });
+  connect(&tools, &Toolbox::toolChanged, this, &Viewport::onTool);
+  connect(&tools, &Toolbox::brushChanged, this, [this] {
+    update();
+    announce();
+  });
 }
 
 Viewport::~Viewport() {
@@ -49,18 +78,31 @@ void Viewport::releaseGl() {
   doneCurrent();
 }
 
-void Viewport::attach(Document* document, EngineThread* engine, SceneLink* link) {
-  if (m_document) disconnect(&m_document->undoStack(), nullptr, this, nullptr);
-  m_document = document;
-  m_engine = engine;
-  m_stroke.attach(document, link);
-  // A stroke in the making builds on the document as it was when it began.
-  if (document) {
-    connect(&document->undoStack(), &QUndoStack::indexChanged, this, [this] {
-      if (m_stroke.active()) cancelGesture();
-    });
+void Viewport::onChanged(const ChangeEvent& event) {
+  if (std::holds_alternative<ProjectOpened>(event)) {
+    projectOpened();
+  } else if (std::holds_alternative<BodyChanged>(event) || std::holds_alternative<StrokeChanged>(event) ||
+             std::holds_alternative<WallsChanged>(event)) {
+    bodiesChanged();
+  } else if (const auto* parameter = std::get_if<ParameterChanged>(&event)) {
+    if (parameter->address.owner == Owner::Wall) bodiesChanged();
+  } else if (std::holds_alternative<PortChanged>(event)) {
+    update();
+  } else if (std::holds_alternative<ViewChanged>(event)) {
+    m_colour = colourByName(m_document.project().view.colour);
+    m_legendRange.reset();
+    update();
   }
-  if (!engine) m_now = m_previous = nullptr;
+}
+
+/// Another tool is in hand.
+void Viewport::onTool() {
+  if (m_drag == Drag::Tool) m_drag = Drag::None;
+  const QPoint at = mapFromGlobal(QCursor::pos());
+  if (rect().contains(at)) m_tools.tool().hover(pointerAt(at, {}));
+  updatePointer(at);
+  update();
+  announce();
 }
 
 void Viewport::initializeGL() {
@@ -81,16 +123,16 @@ void Viewport::initializeGL() {
     }
   }
   if (m_problem.isEmpty()) {
-    Q_EMIT glReady(QStringLiteral("OpenGL %1.%2").arg(format.majorVersion()).arg(format.minorVersion()));
+    m_graphics = QStringLiteral("OpenGL %1.%2").arg(format.majorVersion()).arg(format.minorVersion());
+    Q_EMIT glReady();
   } else {
     Q_EMIT glFailed(m_problem);
   }
 }
 
 void Viewport::snapshotArrived() {
-  if (!m_engine) return;
-  m_now = withoutBodies(m_engine->snapshot(), m_hidden);
-  m_previous = withoutBodies(m_engine->previousSnapshot(), m_hidden);
+  m_now = withoutBodies(m_session.engine()->snapshot(), m_hidden);
+  m_previous = withoutBodies(m_session.engine()->previousSnapshot(), m_hidden);
   m_interval = m_sinceSnapshot.isValid() ? std::min<double>(200, static_cast<double>(m_sinceSnapshot.elapsed())) : 0;
   m_sinceSnapshot.start();
   requestPaint();
@@ -117,15 +159,16 @@ Look Viewport::look() {
   look.rangeMinimum = m_range.first;
   look.rangeMaximum = m_range.second;
   look.dark = Theme::current().dark();
-  look.meltingPoint = m_meltingPoint;
+  look.meltingPoint = m_session.transitions().meltsOr(kIceMelts);
   look.outline = outline();
   return look;
 }
 
 /// Around the selected body, two logical pixels wide.
 std::optional<BodyOutline> Viewport::outline() const {
-  if (m_selectedBody.empty() || !m_now || !m_now->bodyIds) return std::nullopt;
-  const auto found = std::find(m_now->bodyIds->begin(), m_now->bodyIds->end(), m_selectedBody);
+  const std::string selected = m_selection.body();
+  if (selected.empty() || !m_now || !m_now->bodyIds) return std::nullopt;
+  const auto found = std::find(m_now->bodyIds->begin(), m_now->bodyIds->end(), selected);
   if (found == m_now->bodyIds->end()) return std::nullopt;
   const auto channels = [](const QColor& c) { return std::array{c.redF(), c.greenF(), c.blueF()}; };
   BodyOutline outline;
@@ -183,28 +226,45 @@ OverlayState Viewport::overlayState() const {
   state.viewName = m_navigator.viewName();
   state.colour = m_colour;
   state.range = m_range;
-  state.meltingPoint = m_meltingPoint;
-  state.boilingPoint = m_boilingPoint;
+  state.meltingPoint = m_session.transitions().meltsOr(kIceMelts);
+  state.boilingPoint = m_session.transitions().boils();
   state.empty = !m_now;
-  state.hint = m_hint;
-  state.tool = m_tool;
+  if (m_hint) state.hints = hints();
   state.tag = tag();
   state.invitation = invitation();
-  if (draws(m_tool) && m_drag != Drag::Orbit && m_drag != Drag::Pan) state.cursor = m_cursor;
+  if (m_drag != Drag::View) state.cursor = m_tools.tool().picture().cursor;
   return state;
 }
 
 QString Viewport::invitation() const {
   const bool bare = m_now && m_now->bodyIds && m_now->id.empty() && m_hidden.empty();
-  const bool pours = m_document && !m_document->project().emitters.empty();  // there will be matter
-  if (!bare || pours || m_stroke.active() || m_tool == ViewTool::Erase) return {};
-  return m_tool == ViewTool::Brush ? QStringLiteral("Draw with the left button")
-                                   : QStringLiteral("Press B and draw, or choose a material at the left");
+  const bool pours = !m_document.project().emitters.empty();  // there will be matter
+  return bare && !pours ? m_tools.tool().invitation() : QString();
+}
+
+/// The tool's gestures, and the keys that somebody new needs next.
+std::vector<OverlayHint> Viewport::hints() const {
+  std::vector<OverlayHint> list;
+  for (const Gesture& gesture : m_tools.tool().gestures()) {
+    if (!gesture.hint.isEmpty()) list.push_back({gesture.keys, gesture.hint});
+  }
+  const ToolRow& first = toolTable().front();
+  if (m_tools.active() == first.id) {
+    list.push_back({QStringLiteral("Space"), QStringLiteral("pause")});
+    list.push_back({QStringLiteral("F"), QStringLiteral("frame")});
+    list.push_back({QString::fromLatin1(toolRow(kBrushTool)->key), QStringLiteral("sketch")});
+    return list;
+  }
+  if (!m_tools.tool().turnsView()) list.push_back({QStringLiteral("Alt+Drag"), QStringLiteral("orbit")});
+  if (m_tools.tool().usesBrush()) list.push_back({QStringLiteral("[ ]"), QStringLiteral("size")});
+  list.push_back({QString::fromLatin1(first.key), QStringLiteral("back to select")});
+  return list;
 }
 
 std::optional<SceneTag> Viewport::tag() const {
-  if (!m_tagged || !m_now || m_now->revision != m_tagged->first || !m_document) return std::nullopt;
-  const auto found = std::find(m_now->id.begin(), m_now->id.end(), m_tagged->second);
+  const auto& marked = m_selection.marked();
+  if (!marked || !m_now || m_now->revision != marked->first) return std::nullopt;
+  const auto found = std::find(m_now->id.begin(), m_now->id.end(), marked->second);
   if (found == m_now->id.end()) return std::nullopt;
   const auto row = static_cast<size_t>(found - m_now->id.begin());
   SceneTag tag;
@@ -212,7 +272,7 @@ std::optional<SceneTag> Viewport::tag() const {
   tag.place = {p.x, p.y, p.z};
   const uint32_t index = m_now->body[row];
   const Body* body =
-      m_now->bodyIds && index < m_now->bodyIds->size() ? m_document->body((*m_now->bodyIds)[index]) : nullptr;
+      m_now->bodyIds && index < m_now->bodyIds->size() ? m_document.body((*m_now->bodyIds)[index]) : nullptr;
   if (body) tag.name = QString::fromStdString(body->name);
   constexpr double kZero = 273.15;
   tag.value = formatFixed(static_cast<double>(m_now->temperature[row]) - kZero, 1) + QStringLiteral(" °C  ") +
@@ -221,69 +281,29 @@ std::optional<SceneTag> Viewport::tag() const {
 }
 
 void Viewport::projectOpened() {
-  if (!m_document) return;
-  m_stroke.cancel();
+  cancelGesture();
   m_unframed.reset();
-  if (const auto& camera = m_document->project().view.camera)
+  const ViewState& view = m_document.project().view;
+  if (const auto& camera = view.camera)
     m_navigator.setScene({camera->target, camera->distance, camera->azimuth, camera->elevation});
   else
     m_unframed = m_now ? m_now->revision : 0;  // framed when there is something of it to see
+  m_colour = colourByName(view.colour);
   m_legendRange.reset();
-  m_tagged.reset();
-  m_selectedBody.clear();
-  m_selectedPort.reset();
-  m_hoveredPort.reset();
-  endPortDrag(true);
-  setColour(colourByName(m_document->project().view.colour));
   bodiesChanged();
 }
 
 void Viewport::bodiesChanged() {
-  if (!m_document) return;
-  m_scene.environment = m_document->project().environment;
+  m_scene.environment = m_document.project().environment;
   m_hidden.clear();
-  for (const Body& body : m_document->project().bodies) {
+  for (const Body& body : m_document.project().bodies) {
     if (!body.visible) m_hidden.insert(body.id);
   }
-  if (m_engine) {
-    m_now = withoutBodies(m_engine->snapshot(), m_hidden);
+  if (m_session.engine()) {
+    m_now = withoutBodies(m_session.engine()->snapshot(), m_hidden);
     m_previous = nullptr;
   }
   requestPaint();
-}
-
-void Viewport::setTool(ViewTool tool) {
-  if (tool == m_tool) return;
-  m_stroke.cancel();
-  m_tool = tool;
-  m_placing = {};
-  m_cursor.reset();
-  if (tool == ViewTool::Select) {
-    unsetCursor();
-  } else if (places(tool)) {
-    setCursor(Qt::CrossCursor);
-  } else {
-    setCursor(Qt::BlankCursor);
-    updateCursor(mapFromGlobal(QCursor::pos()), {});
-  }
-  update();
-  announce();
-  Q_EMIT toolChanged(tool);
-}
-
-void Viewport::setBrush(const BrushSettings& brush) {
-  if (brush == m_brush) return;
-  m_brush = brush;
-  if (m_cursor) m_cursor->extent = brushExtent();
-  update();
-  announce();
-  Q_EMIT brushChanged();
-}
-
-void Viewport::setColour(ColourBy colour) {
-  m_colour = colour;
-  m_legendRange.reset();
-  update();
 }
 
 void Viewport::show(StandardView view) {
@@ -293,9 +313,7 @@ void Viewport::show(StandardView view) {
   update();
 }
 
-void Viewport::storeView() {
-  if (m_document) m_document->setView(m_navigator.view());
-}
+void Viewport::storeView() { m_document.setView(m_navigator.view()); }
 
 std::optional<Box> Viewport::boxOfBody(const std::string& id) const {
   if (!m_now || !m_now->bodyIds) return std::nullopt;
@@ -305,11 +323,13 @@ std::optional<Box> Viewport::boxOfBody(const std::string& id) const {
 }
 
 void Viewport::frameSelection() {
-  if (m_selectedBody.empty() && !m_selectedPort) {
+  const auto port = m_selection.port();
+  const std::string body = m_selection.body();
+  if (body.empty() && !port) {
     frameAll();
     return;
   }
-  const auto box = m_selectedPort ? boxAround(*m_selectedPort) : boxOfBody(m_selectedBody);
+  const auto box = port ? boxAround(*port) : boxOfBody(body);
   if (!box) return;
   m_navigator.setSize(size());
   m_navigator.frame(*box);
@@ -325,10 +345,30 @@ void Viewport::frameAll() {
   update();
 }
 
-void Viewport::setSelectedBody(const std::string& id) {
-  if (m_selectedBody != id) m_tagged.reset();
-  m_selectedBody = id;
-  update();
+std::optional<std::pair<Vector3, Vector3>> Viewport::boxAround(const Port& port) const {
+  if (const Sink* sink = port.sink ? m_document.sink(port.id) : nullptr) return std::pair(sink->minimum, sink->maximum);
+  const Emitter* emitter = port.sink ? nullptr : m_document.emitter(port.id);
+  if (!emitter) return std::nullopt;
+  const double reach = 3 * numberOf(emitter->parameters, emitterParameters(), "diameter");
+  const Vector3 around = Vector3::Constant(reach);
+  return std::pair<Vector3, Vector3>(emitter->point - around, emitter->point + around);
+}
+
+void Viewport::paintPortsOver(QPainter& painter) const {
+  painter.setRenderHint(QPainter::Antialiasing);
+  const Project& project = m_document.project();
+  const ToolPicture picture = m_tools.tool().picture();
+  PortView view;
+  view.ports = {&project.emitters, &project.sinks, m_selection.port()};
+  view.camera = m_navigator.camera();
+  view.size = size();
+  view.hovered = picture.hovered;
+  paintPorts(painter, view);
+  // What would be put there.
+  view.ports = {&picture.emitters, &picture.sinks, {}};
+  for (const Emitter& emitter : picture.emitters) view.hovered = Port{false, emitter.id};
+  for (const Sink& sink : picture.sinks) view.hovered = Port{true, sink.id};
+  paintPorts(painter, view);
 }
 
 void Viewport::setHintShown(bool on) {
@@ -336,10 +376,30 @@ void Viewport::setHintShown(bool on) {
   update();
 }
 
-void Viewport::setTransitions(double meltingPoint, double boilingPoint) {
-  m_meltingPoint = meltingPoint;
-  m_boilingPoint = boilingPoint;
-  update();
+QString Viewport::summary() const {
+  QStringList parts{m_tools.tool().words()};
+  if (const auto port = m_selection.port()) parts << m_document.portName(*port);
+  if (const auto marked = tag()) parts << marked->name + QLatin1Char(' ') + marked->value;
+  return parts.join(QStringLiteral(", "));
+}
+
+void Viewport::announce() {
+  if (!QAccessible::isActive()) return;
+  QAccessibleValueChangeEvent event(this, summary());
+  QAccessible::updateAccessibility(&event);
+}
+
+bool Viewport::event(QEvent* event) {
+  if (event->type() == QEvent::ToolTip) {
+    const auto* help = static_cast<QHelpEvent*>(event);
+    if (!m_hits.legendBar.isEmpty() && m_hits.legend.contains(help->pos())) {
+      QToolTip::showText(help->globalPos(),
+                         QStringLiteral("Drag an end to set the range; double-click for the automatic one."), this,
+                         m_hits.legend.toRect());
+      return true;
+    }
+  }
+  return QOpenGLWidget::event(event);
 }
 
 void Viewport::resizeEvent(QResizeEvent* event) {

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/window/shortcutswindow.h"
 
-#include "ui/tools/gestures.h"
+#include "ui/tools/navigation.h"
+#include "ui/tools/toolbox.h"
+#include "ui/tools/tooltable.h"
 #include "ui/window/mainwindow.h"
 
 #include <QtGui/QAction>
@@ -41,26 +43,24 @@ ShortcutGroup menuGroup(const MainWindow& window, const QString& title) {
   return group;
 }
 
-ShortcutGroup toolGroup(const QString& title, ViewTool tool) {
-  ShortcutGroup group{title, {}};
-  for (const Gesture& gesture : gesturesOf(tool)) group.lines.emplace_back(gesture.keys, gesture.does);
+/// What the buttons do with a tool in hand, and what they do with any.
+ShortcutGroup toolGroup(const ToolRow& row, const Tool& tool) {
+  ShortcutGroup group{QString::fromLatin1(row.page), {}};
+  for (const Gesture& gesture : tool.gestures()) group.lines.emplace_back(gesture.keys, gesture.does);
+  for (const Gesture& gesture : viewGestures(tool)) group.lines.emplace_back(gesture.keys, gesture.does);
   return group;
 }
 
 }  // namespace
 
-std::vector<ShortcutGroup> shortcutGroups(const MainWindow& window) {
+std::vector<ShortcutGroup> shortcutGroups(MainWindow& window) {
   std::vector<ShortcutGroup> groups;
   const auto* bar = window.findChild<QMenuBar*>();
   for (const QAction* menu : bar->actions()) {
     ShortcutGroup group = menuGroup(window, menu->text().remove(QLatin1Char('&')));
     if (!group.lines.empty()) groups.push_back(std::move(group));
   }
-  groups.push_back(toolGroup(QStringLiteral("In the scene"), ViewTool::Select));
-  groups.push_back(toolGroup(QStringLiteral("In the scene with the brush"), ViewTool::Brush));
-  groups.push_back(toolGroup(QStringLiteral("In the scene with the eraser"), ViewTool::Erase));
-  groups.push_back(toolGroup(QStringLiteral("In the scene with a tap"), ViewTool::Tap));
-  groups.push_back(toolGroup(QStringLiteral("In the scene with a drain"), ViewTool::Drain));
+  for (const ToolRow& row : toolTable()) groups.push_back(toolGroup(row, window.tools().tool(row.id)));
   return groups;
 }
 

@@ -17,7 +17,7 @@ struct ShortcutGroup {
   std::vector<std::pair<QString, QString>> lines;  ///< keys, what they do
 };
 /// Every key and gesture, from the window's actions and the view's tools.
-std::vector<ShortcutGroup> shortcutGroups(const MainWindow& window);
+std::vector<ShortcutGroup> shortcutGroups(MainWindow& window);
 /// Shows the list in a window of its own, one per main window; it stays open beside the work.
 void openShortcuts(MainWindow& window);
 

@@ -1,11 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/window/statusline.h"
 
+#include "core/simulation/engine.h"
+#include "ui/document/document.h"
+#include "ui/session/autosave.h"
+#include "ui/session/documentfiles.h"
+#include "ui/session/session.h"
+#include "ui/session/wording.h"
 #include "ui/theme/icon.h"
 #include "ui/theme/numbers.h"
 #include "ui/theme/paint.h"
 #include "ui/theme/theme.h"
+#include "ui/viewport/viewport.h"
 
+#include <QtCore/QDateTime>
 #include <QtGui/QMouseEvent>
 #include <QtGui/QPainter>
 
@@ -15,13 +23,82 @@
 namespace ps {
 namespace {
 constexpr int kHeight = 24;
+constexpr double kSilent = 5;     // s without a frame while playing, after which that is said
+constexpr double kClearly = 1.2;  // times as slow as the stage that is named, to be named instead
 constexpr double kSmooth = 0.08;  // share of a new frame in the shown mean, so that digits can be read
 }  // namespace
 
-StatusLine::StatusLine(QWidget* parent) : QWidget(parent) {
+StatusLine::StatusLine(Session& session, Viewport* view, QWidget* parent)
+    : QWidget(parent), m_session(session), m_view(view) {
   setFixedHeight(kHeight);
   setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
   setAccessibleName(QStringLiteral("Status"));
+  follow();
+  refresh();
+  // Where nothing comes from the engine any more, nothing else asks to be shown.
+  m_sinceValues.start();
+  m_watch.setInterval(1000);
+  connect(&m_watch, &QTimer::timeout, this, [this] {
+    if (m_session.playing()) refresh();
+  });
+  m_watch.start();
+}
+
+void StatusLine::follow() {
+  for (const auto signal : {&Session::ready, &Session::valuesDue, &Session::playingChanged})
+    connect(&m_session, signal, this, &StatusLine::refresh);
+  connect(&m_session, &Session::valuesDue, this, [this] { m_sinceValues.start(); });
+  connect(&m_session, &Session::playingChanged, this, [this] { m_sinceValues.start(); });
+  connect(&m_session.document(), &Document::changed, this, &StatusLine::refresh);
+  const auto say = [this](const QString& what, const QTime& time) {
+    m_fileText = what + time.toString(QStringLiteral("HH:mm"));
+    refresh();
+  };
+  const DocumentFiles& files = m_session.files();
+  connect(&files, &DocumentFiles::opened, this, [this] {
+    m_fileText.clear();
+    refresh();
+  });
+  connect(&files, &DocumentFiles::saved, this, [say](const QString&, bool present) {
+    if (present) say(QStringLiteral("Saved "), QTime::currentTime());
+  });
+  if (m_session.autosave()) {
+    connect(m_session.autosave(), &Autosave::autosaved, this,
+            [say](const QDateTime& time) { say(QStringLiteral("Autosaved "), time.time()); });
+  }
+  if (m_view) connect(m_view, &Viewport::glReady, this, &StatusLine::refresh);
+}
+
+void StatusLine::refresh() {
+  State state;
+  state.ready = m_session.isReady();
+  state.playing = m_session.playing();
+  state.snapshot = m_session.snapshot();
+  state.failed =
+      m_session.isBroken() || (state.snapshot && (state.snapshot->flags & static_cast<StepFlags>(StepFlag::NotFinite)));
+  state.realTime = m_session.engine() ? m_session.engine()->realTimeFactor() : 0;
+  if (m_view) {
+    state.drawMilliseconds = m_view->drawMilliseconds();
+    state.graphics = m_view->graphics();
+  }
+  state.silent = state.playing && m_sinceValues.isValid() ? static_cast<double>(m_sinceValues.elapsed()) / 1000 : 0;
+  state.file = m_session.document().isDirty() && m_fileText.isEmpty() ? QStringLiteral("Not saved") : m_fileText;
+  addNote(state);
+  setState(state);
+}
+
+/// The first of the step's limits; one that no row can show comes before others.
+void StatusLine::addNote(State& state) {
+  m_noteAddress.clear();
+  if (!state.snapshot || state.snapshot->limits.empty()) return;
+  const std::vector<Limit>& limits = state.snapshot->limits;
+  const auto addressOf = [&](const Limit& limit) { return limitAddress(limit, state.snapshot->bodyIds.get()); };
+  const auto lonely = std::find_if(limits.begin(), limits.end(), [&](const Limit& limit) { return !addressOf(limit); });
+  const Limit& first = lonely == limits.end() ? limits.front() : *lonely;
+  const std::optional<Address> address = addressOf(first);
+  if (address) m_noteAddress = QString::fromStdString(address->text());
+  state.note = (limits.size() == 1 ? QStringLiteral("1 note: ") : QStringLiteral("%1 notes: ").arg(limits.size())) +
+               limitNote(first, address ? m_session.document().declaration(*address) : nullptr);
 }
 
 void StatusLine::setState(const State& state) {
@@ -32,6 +109,7 @@ void StatusLine::setState(const State& state) {
     if (state.snapshot->revision != m_revision) {
       m_revision = state.snapshot->revision;
       m_started = false;
+      m_widths.clear();
     }
     // Matter drawn before the first step belongs to the start.
     if (!m_started) m_startEnergy = stats.thermalEnergy - stats.heat.net();
@@ -39,6 +117,9 @@ void StatusLine::setState(const State& state) {
     const double share = fresh ? 1 : kSmooth;
     m_milliseconds += share * (stats.totalMilliseconds - m_milliseconds);
     for (size_t i = 0; i < m_stages.size(); ++i) m_stages[i] += share * (stats.milliseconds[i] - m_stages[i]);
+    // Two that are about as slow must not take turns.
+    const auto slowest = std::max_element(m_stages.begin(), m_stages.end());
+    if (*slowest > kClearly * m_stages[m_slowest]) m_slowest = static_cast<size_t>(slowest - m_stages.begin());
   }
   setAccessibleDescription(parts().join(QStringLiteral(", ")));
   update();
@@ -54,7 +135,9 @@ double StatusLine::drift() const {
 std::vector<StatusLine::Part> StatusLine::leftParts() const {
   std::vector<Part> parts;
   if (!m_state.ready) return {{QStringLiteral("Loading plugins"), {}}};
-  const QString state = m_state.failed    ? QStringLiteral("Paused, see above")
+  const QString state = m_state.failed ? QStringLiteral("Paused, see above")
+                        : m_state.silent > kSilent
+                            ? QStringLiteral("No answer from the simulation for %1 s").arg(formatFixed(m_state.silent))
                         : m_state.playing ? QStringLiteral("Running")
                                           : QStringLiteral("Paused");
   parts.push_back({state, {}});
@@ -62,12 +145,11 @@ std::vector<StatusLine::Part> StatusLine::leftParts() const {
   const FrameStats& stats = m_state.snapshot->stats;
   parts.push_back({formatFixed(static_cast<double>(m_state.snapshot->id.size())),
                    m_state.snapshot->id.size() == 1 ? QStringLiteral("particle") : QStringLiteral("particles")});
-  const auto slowest = std::max_element(m_stages.begin(), m_stages.end());
   QString detail = QStringLiteral("/frame");
-  if (*slowest > 0) {
-    detail += QStringLiteral(" · %1 %2")
-                  .arg(QString::fromLatin1(stageName(static_cast<Stage>(slowest - m_stages.begin()))),
-                       formatFixed(*slowest, 1));
+  if (m_stages[m_slowest] > 0) {
+    detail +=
+        QStringLiteral(" · %1 %2")
+            .arg(QString::fromLatin1(stageName(static_cast<Stage>(m_slowest))), formatFixed(m_stages[m_slowest], 1));
   }
   if (m_state.drawMilliseconds > 0)
     detail += QStringLiteral(" · draw %1").arg(formatFixed(m_state.drawMilliseconds, 1));
@@ -113,15 +195,21 @@ void StatusLine::paintEvent(QPaintEvent*) {
     m_noteRect = QRectF(right, 0, edge - right, height());
     right -= 12;
   }
-  const Token dot = m_state.failed ? Token::Error : m_state.playing ? Token::Ok : Token::Warning;
+  const Token dot = m_state.failed || m_state.silent > kSilent ? Token::Error
+                    : m_state.playing                          ? Token::Ok
+                                                               : Token::Warning;
   painter.setPen(Qt::NoPen);
   painter.setBrush(theme[m_state.ready ? dot : Token::Muted]);
   painter.drawEllipse(QPointF(16, height() / 2.0), 4, 4);
   double x = 26;
   bool first = true;
-  for (const Part& part : leftParts()) {
+  const std::vector<Part> parts = leftParts();
+  if (m_widths.size() != parts.size()) m_widths.assign(parts.size(), 0);
+  for (size_t i = 0; i < parts.size(); ++i) {
+    const Part& part = parts[i];
     const double strong = part.strong.isEmpty() ? 0 : textWidth(part.strong, font) + 4;
-    const double w = strong + textWidth(part.weak, font) + 2;
+    // As wide as it has been: a digit less must not move what stands beside it.
+    const double w = m_widths[i] = std::max(m_widths[i], strong + textWidth(part.weak, font) + 2);
     if (x + w + 12 > right) break;  // no half words: what does not fit is left out
     if (!first) paintVerticalLine(painter, x - 8, 6, height() - 6, theme[Token::Line2]);
     first = false;
@@ -134,7 +222,7 @@ void StatusLine::paintEvent(QPaintEvent*) {
 }
 
 void StatusLine::mouseReleaseEvent(QMouseEvent* event) {
-  if (m_noteRect.contains(event->position())) Q_EMIT noteClicked();
+  if (m_noteRect.contains(event->position())) Q_EMIT noteClicked(m_noteAddress);
 }
 
 }  // namespace ps

@@ -2,12 +2,17 @@
 #pragma once
 #include "core/simulation/snapshot.h"
 
+#include <QtCore/QElapsedTimer>
 #include <QtCore/QString>
+#include <QtCore/QTimer>
 #include <QtWidgets/QWidget>
 
 #include <vector>
 
 namespace ps {
+
+class Session;
+class Viewport;
 
 /// The line at the bottom: state, particles, milliseconds per frame with the slowest stage, real-time factor, density
 /// error, energy drift; notes and files on the right. One painted widget, so that running numbers never push each
@@ -18,20 +23,22 @@ class StatusLine : public QWidget {
   struct State {
     bool ready = false, playing = false, failed = false;
     double realTime = 0, drawMilliseconds = 0;
-    QString graphics;  ///< "OpenGL 4.5"
-    QString note;      ///< "1 note: ice stiffness is limited by the step"
-    QString file;      ///< "Autosaved 14:32"
+    double silent = 0;  ///< s since the engine last said anything while it plays: a plugin may never come back
+    QString graphics;   ///< "OpenGL 4.5"
+    QString note;       ///< "1 note: ice stiffness is limited by the step"
+    QString file;       ///< "Autosaved 14:32"
     SnapshotPtr snapshot;
   };
-  explicit StatusLine(QWidget* parent = nullptr);
-  void setState(const State& state);
+  /// `view`: nullptr where there is no picture.
+  StatusLine(Session& session, Viewport* view, QWidget* parent = nullptr);
+  void setState(const State& state);  ///< until something happens in the session
   const State& state() const { return m_state; }
   /// Energy drift as a share of what was exchanged since the start.
   double drift() const;
   QStringList parts() const;  ///< as shown, left to right
 
  Q_SIGNALS:
-  void noteClicked();
+  void noteClicked(const QString& parameter);  ///< its address; "" where the note has none
 
  protected:
   void paintEvent(QPaintEvent* event) override;
@@ -41,13 +48,23 @@ class StatusLine : public QWidget {
   struct Part {
     QString strong, weak;
   };
+  void follow();
+  void refresh();
+  void addNote(State& state);
   std::vector<Part> leftParts() const;
+  Session& m_session;
+  Viewport* m_view;
+  QString m_fileText, m_noteAddress;
   State m_state;
   uint64_t m_revision = 0;
   bool m_started = false;
   double m_startEnergy = 0, m_milliseconds = 0;
   std::array<double, static_cast<size_t>(Stage::Count)> m_stages{};
   QRectF m_noteRect;
+  QTimer m_watch;
+  QElapsedTimer m_sinceValues;
+  std::vector<double> m_widths;  ///< of the parts on the left, the widest in this run
+  size_t m_slowest = 0;          ///< stage that is named
 };
 
 }  // namespace ps

@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/window/viewportpane.h"
 
+#include "core/plugin_host/registry.h"
+#include "ui/document/declared.h"
+#include "ui/document/document.h"
+#include "ui/session/session.h"
 #include "ui/theme/icon.h"
 #include "ui/theme/paint.h"
 #include "ui/theme/theme.h"
+#include "ui/tools/toolbox.h"
+#include "ui/tools/tooltable.h"
 #include "ui/window/noticebar.h"
 
 #include <QtGui/QGuiApplication>
@@ -20,7 +26,7 @@ namespace ps {
 namespace {
 
 constexpr int kBar = 34;
-const char* const kShapes[] = {"sphere", "cube"};
+constexpr const char* kShape = "shape";  // property of a button: id of its brush
 
 bool canHaveContext() {
   // These platforms may offer contexts, but no widget can show what is drawn in them.
@@ -44,10 +50,12 @@ QToolButton* checkable(const QString& iconName, const QString& tip) {
 
 }  // namespace
 
-ViewportPane::ViewportPane(QWidget* parent)
+ViewportPane::ViewportPane(Session& session, Selection& selection, Toolbox& tools, QWidget* parent)
     : QWidget(parent),
+      m_session(session),
+      m_tools(tools),
       m_notice(new NoticeBar),
-      m_tools(new QButtonGroup(this)),
+      m_buttons(new QButtonGroup(this)),
       m_shapes(new QButtonGroup(this)),
       m_brushBar(new QWidget),
       m_radius(new QLabel),
@@ -58,7 +66,7 @@ ViewportPane::ViewportPane(QWidget* parent)
   column->addWidget(makeBar());
   column->addWidget(m_notice);
   if (canHaveContext()) {
-    m_viewport = new Viewport;
+    m_viewport = new Viewport(session, selection, tools);
     column->addWidget(m_viewport, 1);
   } else {
     auto* none = new QLabel(QStringLiteral(
@@ -70,6 +78,15 @@ ViewportPane::ViewportPane(QWidget* parent)
     none->setMargin(40);
     column->addWidget(none, 1);
   }
+  connect(&tools, &Toolbox::toolChanged, this, &ViewportPane::showTool);
+  connect(&tools, &Toolbox::brushChanged, this, &ViewportPane::showBrush);
+  connect(&session, &Session::ready, this, &ViewportPane::addShapes);
+  connect(&session.document(), &Document::changed, this, [this](const ChangeEvent& event) {
+    if (std::holds_alternative<ProjectOpened>(event) || std::holds_alternative<ViewChanged>(event))
+      m_colour->setCurrentIndex(static_cast<int>(colourByName(m_session.document().project().view.colour)));
+  });
+  showTool();
+  showBrush();
 }
 
 QWidget* ViewportPane::makeBar() {
@@ -78,49 +95,16 @@ QWidget* ViewportPane::makeBar() {
   auto* row = new QHBoxLayout(bar);
   row->setContentsMargins(8, 0, 8, 0);
   row->setSpacing(4);
-  struct Tool {
-    ViewTool tool;
-    const char *icon, *tip;
-  };
-  for (const Tool& t :
-       {Tool{ViewTool::Select, "select", "Select and orbit (Q)"}, Tool{ViewTool::Brush, "brush", "Draw matter (B)"},
-        Tool{ViewTool::Erase, "erase", "Erase matter (E)"},
-        Tool{ViewTool::Tap, "tap", "Place a tap that pours matter (T)"},
-        Tool{ViewTool::Drain, "drain", "Place a drain that takes matter away (D)"}}) {
-    QToolButton* button = checkable(QString::fromLatin1(t.icon), QString::fromLatin1(t.tip));
-    m_tools->addButton(button, static_cast<int>(t.tool));
+  for (const ToolRow& tool : toolTable()) {
+    QToolButton* button =
+        checkable(QString::fromLatin1(tool.icon),
+                  QStringLiteral("%1 (%2)").arg(QString::fromLatin1(tool.tip), QString::fromLatin1(tool.key)));
+    m_buttons->addButton(button, m_buttons->buttons().size());
     row->addWidget(button);
   }
-  m_tools->button(0)->setChecked(true);
-  connect(m_tools, &QButtonGroup::idClicked, this, [this](int id) { Q_EMIT toolPicked(static_cast<ViewTool>(id)); });
-  auto* brush = new QHBoxLayout(m_brushBar);
-  brush->setContentsMargins(10, 0, 0, 0);
-  brush->setSpacing(4);
-  for (int i = 0; i < 2; ++i) {
-    QToolButton* button =
-        checkable(QString::fromLatin1(kShapes[i]), i == 0 ? QStringLiteral("Sphere") : QStringLiteral("Cube"));
-    m_shapes->addButton(button, i);
-    brush->addWidget(button);
-  }
-  connect(m_shapes, &QButtonGroup::idClicked, this, [this](int id) { Q_EMIT shapePicked(kShapes[id]); });
-  auto* label = new QLabel(QStringLiteral("Radius"));
-  label->setProperty("role", "muted");
-  brush->addSpacing(8);
-  brush->addWidget(label);
-  for (const int direction : {-1, 1}) {
-    auto* step = new QToolButton;
-    step->setIcon(icon(direction < 0 ? QStringLiteral("minus") : QStringLiteral("plus")));
-    step->setToolTip(direction < 0 ? QStringLiteral("Smaller ([)") : QStringLiteral("Larger (])"));
-    step->setAccessibleName(step->toolTip());
-    step->setAutoRepeat(true);
-    step->setFocusPolicy(Qt::TabFocus);
-    connect(step, &QToolButton::clicked, this, [this, direction] { Q_EMIT radiusStepped(direction); });
-    brush->addWidget(step);
-    if (direction < 0) brush->addWidget(m_radius);
-  }
-  m_radius->setMinimumWidth(56);
-  m_radius->setAlignment(Qt::AlignCenter);
-  m_brushBar->hide();
+  connect(m_buttons, &QButtonGroup::idClicked, this,
+          [this](int id) { m_tools.activate(toolTable()[static_cast<size_t>(id)].id); });
+  makeBrushBar();
   row->addWidget(m_brushBar);
   row->addStretch(1);
   auto* colourLabel = new QLabel(QStringLiteral("Colour"));
@@ -133,33 +117,80 @@ QWidget* ViewportPane::makeBar() {
   m_colour->setAccessibleName(QStringLiteral("Colour"));
   m_colour->setFocusPolicy(Qt::TabFocus);
   connect(m_colour, &QComboBox::activated, this,
-          [this](int index) { Q_EMIT colourPicked(static_cast<ColourBy>(index)); });
+          [this](int index) { m_session.document().setColour(colourName(static_cast<ColourBy>(index))); });
   row->addWidget(m_colour);
   auto* frame = new QToolButton;
   frame->setIcon(icon(QStringLiteral("frame")));
   frame->setToolTip(QStringLiteral("Frame everything (Shift+F)"));
   frame->setAccessibleName(frame->toolTip());
   frame->setFocusPolicy(Qt::TabFocus);
-  connect(frame, &QToolButton::clicked, this, &ViewportPane::frameRequested);
+  connect(frame, &QToolButton::clicked, this, [this] {
+    if (m_viewport) m_viewport->frameAll();
+  });
   row->addWidget(frame);
   return bar;
 }
 
-void ViewportPane::setColour(ColourBy colour) {
-  m_colour->setCurrentIndex(static_cast<int>(colour));
-  if (m_viewport) m_viewport->setColour(colour);
-}
-
-void ViewportPane::setTool(ViewTool tool) {
-  m_tools->button(static_cast<int>(tool))->setChecked(true);
-  m_brushBar->setVisible(draws(tool));
-}
-
-void ViewportPane::setBrush(const BrushSettings& brush) {
-  for (int i = 0; i < 2; ++i) {
-    if (brush.shape == kShapes[i]) m_shapes->button(i)->setChecked(true);
+void ViewportPane::makeBrushBar() {
+  auto* brush = new QHBoxLayout(m_brushBar);
+  brush->setContentsMargins(10, 0, 0, 0);
+  brush->setSpacing(4);
+  m_shapeRow = new QHBoxLayout;
+  m_shapeRow->setSpacing(4);
+  brush->addLayout(m_shapeRow);
+  connect(m_shapes, &QButtonGroup::buttonClicked, this, [this](const QAbstractButton* button) {
+    BrushSettings settings = m_tools.brush();
+    settings.shape = button->property(kShape).toString().toStdString();
+    m_tools.setBrush(settings);
+  });
+  auto* label = new QLabel(QStringLiteral("Radius"));
+  label->setProperty("role", "muted");
+  brush->addSpacing(8);
+  brush->addWidget(label);
+  for (const int direction : {-1, 1}) {
+    auto* step = new QToolButton;
+    step->setIcon(icon(direction < 0 ? QStringLiteral("minus") : QStringLiteral("plus")));
+    step->setToolTip(direction < 0 ? QStringLiteral("Smaller ([)") : QStringLiteral("Larger (])"));
+    step->setAccessibleName(step->toolTip());
+    step->setAutoRepeat(true);
+    step->setFocusPolicy(Qt::TabFocus);
+    connect(step, &QToolButton::clicked, this, [this, direction] { m_tools.stepBrush(direction); });
+    brush->addWidget(step);
+    if (direction < 0) brush->addWidget(m_radius);
   }
-  m_radius->setText(lengthText(brush.radius));
+  m_radius->setMinimumWidth(56);
+  m_radius->setAlignment(Qt::AlignCenter);
+}
+
+/// A brush has the icon of its id where the program carries one, and the brush's otherwise, with its name beside it.
+void ViewportPane::addShapes() {
+  const PluginRegistry* plugins = m_session.plugins();
+  for (const std::string& id : plugins->ids(PluginKind::Brush)) {
+    const QString name = QString::fromStdString(id), label = pluginLabel(plugins, id);
+    const bool own = iconNames().contains(name);
+    QToolButton* button = checkable(own ? name : QStringLiteral("brush"), label);
+    if (!own) {
+      button->setText(label);
+      button->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+    }
+    button->setProperty(kShape, name);
+    m_shapes->addButton(button);
+    m_shapeRow->addWidget(button);
+  }
+  showBrush();
+}
+
+void ViewportPane::showTool() {
+  for (size_t i = 0; i < toolTable().size(); ++i) {
+    if (m_tools.active() == toolTable()[i].id) m_buttons->button(static_cast<int>(i))->setChecked(true);
+  }
+  m_brushBar->setVisible(m_tools.tool().usesBrush());
+}
+
+void ViewportPane::showBrush() {
+  const QString shape = QString::fromStdString(m_tools.brush().shape);
+  for (QAbstractButton* button : m_shapes->buttons()) button->setChecked(button->property(kShape).toString() == shape);
+  m_radius->setText(lengthText(m_tools.brush().radius));
 }
 
 void ViewportPane::paintEvent(QPaintEvent*) {

@@ -6,6 +6,7 @@
 
 class QButtonGroup;
 class QComboBox;
+class QHBoxLayout;
 class QLabel;
 class QToolButton;
 
@@ -14,33 +15,31 @@ namespace ps {
 class NoticeBar;
 
 /// The middle of the window: tool bar, notices, the viewport. Where no OpenGL can be had at all, a sentence stands in
-/// the viewport's place and everything else works.
+/// the viewport's place and everything else works. Buttons come from the tables of tools and of installed brushes.
 class ViewportPane : public QWidget {
   Q_OBJECT
  public:
-  explicit ViewportPane(QWidget* parent = nullptr);
+  ViewportPane(Session& session, Selection& selection, Toolbox& tools, QWidget* parent = nullptr);
   Viewport* viewport() const { return m_viewport; }  ///< nullptr without OpenGL
   NoticeBar* notice() const { return m_notice; }
-  void setColour(ColourBy colour);
-  void setTool(ViewTool tool);
-  void setBrush(const BrushSettings& brush);
-
- Q_SIGNALS:
-  void colourPicked(ps::ColourBy colour);
-  void toolPicked(ps::ViewTool tool);
-  void shapePicked(const std::string& shape);
-  void radiusStepped(int direction);
-  void frameRequested();
 
  protected:
   void paintEvent(QPaintEvent* event) override;
 
  private:
   QWidget* makeBar();
+  void makeBrushBar();
+  void addShapes();  ///< one button for each brush that is installed
+  void showTool();
+  void showBrush();
+
+  Session& m_session;
+  Toolbox& m_tools;
   Viewport* m_viewport = nullptr;
   NoticeBar* m_notice;
-  QButtonGroup *m_tools, *m_shapes;
+  QButtonGroup *m_buttons, *m_shapes;
   QWidget* m_brushBar;
+  QHBoxLayout* m_shapeRow = nullptr;
   QLabel* m_radius;
   QComboBox* m_colour;
 };

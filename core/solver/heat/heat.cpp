@@ -37,6 +37,8 @@ double smallestCapacity(const api::Caloric& c, double solid, double liquid, doub
 void HeatStage::configure(const ThermalSettings& settings, const SolverSettings& solver, std::vector<Wall> walls,
                           const Bounds& bounds, std::span<const BakedMaterial> materials,
                           const api::ThermalPlugin* model, std::vector<double> modelParameters) {
+  // What was reached for another lapse says nothing of this one, until a frame has tried.
+  if (settings.timeScale != m_settings.timeScale) m_delivered = settings.timeScale;
   m_settings = settings;
   if (!(settings.airHeatCapacity > 0)) m_ledger.airWarming = 0;  // endless air keeps its temperature
   m_solver = solver;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ui/tools/viewtool.h"
+#include "ui/tools/brushsettings.h"
 
 #include "ui/theme/numbers.h"
 
@@ -9,6 +9,11 @@
 namespace ps {
 namespace {
 constexpr double kStep = 1.122018454301963;  // twenty steps per factor of ten
+}
+
+ParameterSet BrushSettings::shapeParameters() const {
+  const auto found = parameters.find(shape);
+  return found == parameters.end() ? ParameterSet{} : found->second;
 }
 
 double largerBrush(double radius) { return std::min(kBrushMaximum, radius * kStep); }

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ui/tools/stroketool.h"
+#include "ui/tools/livestroke.h"
 
 #include "core/plugin_host/registry.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
 #include "ui/session/scenelink.h"
 #include "ui/theme/numbers.h"
+#include "ui/tools/toolbox.h"
 
 #include <algorithm>
 #include <cctype>
@@ -13,8 +14,6 @@
 
 namespace ps {
 namespace {
-
-constexpr const char* kBonds = "bonds";
 
 const SceneMaterial* sceneMaterial(const Project& project, const std::string& id) {
   for (const SceneMaterial& material : project.materials) {
@@ -33,49 +32,27 @@ bool takesMore(const Body& body, const std::string& material, double temperature
 
 }  // namespace
 
-void StrokeTool::attach(Document* document, SceneLink* link) {
-  m_document = document;
-  m_link = link;
-  m_record.reset();
-}
-
-double StrokeTool::spacing() const {
-  return numberOf(m_document->project().solver.parameters, solverParameters(), "particle_spacing");
-}
-
-StrokeSetup StrokeTool::setup(const BrushSettings& brush) const {
+StrokeSetup strokeSetup(const BrushSettings& brush, const PluginRegistry& plugins, double spacing) {
   StrokeSetup s;
-  s.grid.spacing = spacing();
+  s.grid.spacing = spacing;
   // Cells stand on the level y = 0, half a spacing above it.
   s.grid.origin = {s.grid.spacing / 2, s.grid.spacing / 2, s.grid.spacing / 2};
   s.radius = brush.radius;
-  if (m_document->plugins()) s.parameters = numbersOf({}, m_document->plugins()->parameters(brush.shape));
+  s.parameters = numbersOf(brush.shapeParameters(), plugins.parameters(brush.shape));
   return s;
 }
 
-Vector3 StrokeTool::extent(const BrushSettings& brush) const {
-  const api::BrushPlugin* plugin =
-      m_document && m_document->plugins() ? m_document->plugins()->brush(brush.shape) : nullptr;
-  if (!plugin) return {brush.radius, brush.radius, brush.radius};
-  const StrokeSetup s = setup(brush);
-  const api::StrokeContext context{s.grid.spacing,
-                                   {s.grid.origin[0], s.grid.origin[1], s.grid.origin[2]},
-                                   s.radius,
-                                   {0, 1, 0},
-                                   {s.parameters.data(), s.parameters.size()}};
-  const api::Double3 e = plugin->extent(context);
-  return {e.x, e.y, e.z};
-}
-
-Body StrokeTool::paintedBody(const BrushSettings& brush, int& palette) const {
-  const Project& project = m_document->project();
+Body LiveStroke::paintedBody(int& palette) const {
+  const BrushSettings& brush = m_brush;
+  const Document& document = m_box.document();
+  const Project& project = document.project();
   const SceneMaterial* material = sceneMaterial(project, brush.material);
   palette = 0;
   for (const Body& body : project.bodies) {
     if (takesMore(body, material->id, brush.temperature, m_setup.grid)) return body;
   }
   Body body;
-  body.id = m_document->freeBodyId("sketch-" + material->id);
+  body.id = m_box.document().freeBodyId("sketch-" + material->id);
   const std::string label = material->label.empty() ? material->id : material->label;
   body.name = "Sketched " + label;
   body.name[9] = static_cast<char>(std::tolower(static_cast<unsigned char>(body.name[9])));
@@ -86,27 +63,30 @@ Body StrokeTool::paintedBody(const BrushSettings& brush, int& palette) const {
   voxels.spacing = m_setup.grid.spacing;
   voxels.palette.push_back({material->id, brush.temperature, {}});
   body.shape = voxels;
-  const Value melts = valueAt(project, m_document->plugins(), {Owner::Material, material->id, "melting_temperature"});
+  const Value melts = valueAt(project, document.plugins(), {Owner::Material, material->id, "melting_temperature"});
   const auto* melting = std::get_if<double>(&melts);
   const bool solid = melting && brush.temperature < *melting;
-  if (solid && m_document->plugins()->constraint(kBonds)) body.constraints.push_back({kBonds, {}, {}});
+  const std::string structure = solid ? frozenStructure(*document.plugins()) : std::string();
+  if (!structure.empty()) body.constraints.push_back({structure, {}, {}});
   return body;
 }
 
-QString StrokeTool::whyNot(const BrushSettings& brush, bool erase, const Snapshot& now) const {
-  if (!m_document || !m_document->plugins()) return QStringLiteral("Plugins are still being loaded.");
-  if (!m_document->plugins()->brush(brush.shape)) {
+QString LiveStroke::whyNot(bool erase, const Snapshot& now) const {
+  const PluginRegistry* plugins = m_box.document().plugins();
+  if (!plugins || !m_box.link()) return QStringLiteral("Plugins are still being loaded.");
+  const BrushSettings& brush = m_box.brush();
+  if (!plugins->brush(brush.shape)) {
     return QStringLiteral("The brush “%1” is not installed. See Plugins.").arg(QString::fromStdString(brush.shape));
   }
-  if (!erase && m_document->project().materials.empty()) {
+  if (!erase && m_box.document().project().materials.empty()) {
     return QStringLiteral("The scene has no material to draw with. Add one under Materials.");
   }
-  if (now.spacing > 0 && now.spacing != spacing()) {
+  if (now.spacing > 0 && now.spacing != m_box.spacing()) {
     return QStringLiteral("The particle spacing of %1 acts at the next reset. Press Home first, or undo the change.")
-        .arg(lengthText(spacing()));
+        .arg(lengthText(m_box.spacing()));
   }
-  const Vector3 half = extent(brush);
-  const double cells = 8 * half[0] * half[1] * half[2] / std::pow(spacing(), 3);
+  const Vector3 half = m_box.stamp().first;
+  const double cells = 8 * half[0] * half[1] * half[2] / std::pow(m_box.spacing(), 3);
   if (cells > kMaximumStamp) {
     return QStringLiteral(
                "One stamp of this brush would hold up to %1 particles, more than can be drawn at a time. "
@@ -116,11 +96,11 @@ QString StrokeTool::whyNot(const BrushSettings& brush, bool erase, const Snapsho
   return {};
 }
 
-QString StrokeTool::begin(const BrushSettings& brush, bool erase, const Snapshot& now, const Vector3& point) {
-  if (const QString problem = whyNot(brush, erase, now); !problem.isEmpty()) return problem;
-  m_brush = brush;
+QString LiveStroke::begin(bool erase, const Snapshot& now, const Vector3& point, double pressure) {
+  if (const QString problem = whyNot(erase, now); !problem.isEmpty()) return problem;
+  m_brush = m_box.brush();
   m_atStart = now.stats.frame == 0;
-  m_setup = setup(brush);
+  m_setup = strokeSetup(m_brush, *m_box.document().plugins(), m_box.spacing());
   m_resampler = std::make_unique<StrokeResampler>(m_setup.grid.spacing);
   m_cells = {};
   m_record = std::make_shared<StrokeRecord>();
@@ -128,25 +108,26 @@ QString StrokeTool::begin(const BrushSettings& brush, bool erase, const Snapshot
   m_record->lattice.origin = m_setup.grid.origin;
   m_record->lattice.spacing = m_setup.grid.spacing;
   m_stroke = {};
-  m_stroke.brush = brush.shape;
+  m_stroke.brush = m_brush.shape;
+  m_stroke.parameters = m_brush.shapeParameters();
   m_stroke.erase = erase;
-  m_stroke.radius = brush.radius;
+  m_stroke.radius = m_brush.radius;
   if (!erase) {
-    m_body = std::make_shared<const Body>(paintedBody(brush, m_record->palette));
+    m_body = std::make_shared<const Body>(paintedBody(m_record->palette));
     m_record->body = m_body->id;
     m_stroke.palette = m_record->palette;
   }
-  return move(point, 0);
+  return move(point, 0, pressure);
 }
 
-QString StrokeTool::move(const Vector3& point, double seconds) {
+QString LiveStroke::move(const Vector3& point, double seconds, double pressure) {
   if (!m_record) return {};
-  m_stroke.samples.push_back({point[0], point[1], point[2], 1, seconds});
-  return guarded([&] { feed(m_resampler->add({{point[0], point[1], point[2]}, 1, seconds})); });
+  m_stroke.samples.push_back({point[0], point[1], point[2], pressure, seconds});
+  return guarded([&] { feed(m_resampler->add({{point[0], point[1], point[2]}, pressure, seconds})); });
 }
 
 template <class Work>
-QString StrokeTool::guarded(Work work) const {
+QString LiveStroke::guarded(Work work) const {
   try {
     work();
     return {};
@@ -158,11 +139,11 @@ QString StrokeTool::guarded(Work work) const {
   }
 }
 
-bool StrokeTool::isInside(const api::Cell& cell) const {
-  const Environment& environment = m_document->project().environment;
+bool LiveStroke::isInside(const api::Cell& cell) const {
+  const Environment& environment = m_box.document().project().environment;
   const Vector3 c = m_setup.grid.centreOf(cell);
   const double radius = 0.49 * m_setup.grid.spacing;
-  for (size_t i = 0; i < 3; ++i) {
+  for (int i = 0; i < 3; ++i) {
     if (c[i] < environment.boundsMinimum[i] + radius || c[i] > environment.boundsMaximum[i] - radius) return false;
   }
   for (const SceneWall& wall : environment.walls) {
@@ -171,26 +152,27 @@ bool StrokeTool::isInside(const api::Cell& cell) const {
   return true;
 }
 
-void StrokeTool::feed(const std::vector<api::StrokeSample>& samples) {
-  const api::BrushPlugin* plugin = m_document->plugins()->brush(m_brush.shape);
+void LiveStroke::feed(const std::vector<api::StrokeSample>& samples) {
+  const api::BrushPlugin* plugin = m_box.document().plugins()->brush(m_brush.shape);
   if (samples.empty() || !plugin) return;
-  const StrokeEdits edits = applyBrush(*plugin, m_setup, api::EditKind::Add, samples);
+  const bool erase = m_record->erase;
+  const StrokeEdits edits = applyBrush(*plugin, m_setup, erase ? api::EditKind::Remove : api::EditKind::Add, samples);
   std::vector<api::Cell> fresh;
-  for (const api::Cell& cell : edits.added.cells()) {
-    if (!m_cells.contains(cell) && (m_record->erase || isInside(cell))) fresh.push_back(cell);
+  for (const api::Cell& cell : (erase ? edits.removed : edits.added).cells()) {
+    if (!m_cells.contains(cell) && (erase || isInside(cell))) fresh.push_back(cell);
   }
   if (fresh.empty()) return;
   m_cells.add(fresh);
   const std::vector<std::array<int, 3>> cells = CellSet(fresh).indices();
   if (m_record->erase) {
-    m_link->erase(*m_record, cells);
+    m_box.link()->erase(*m_record, cells);
   } else {
-    m_link->paint(*m_record, m_body, cells);
+    m_box.link()->paint(*m_record, m_body, cells);
   }
 }
 
-void StrokeTool::collectErasure(StrokeRecord& record) const {
-  const Project& project = m_document->project();
+void LiveStroke::collectErasure(StrokeRecord& record) const {
+  const Project& project = m_box.document().project();
   for (size_t i = 0; i < project.bodies.size(); ++i) {
     if (project.bodies[i].locked) continue;
     auto edit = eraseEdit(project.bodies[i], i, record.lattice, record.cells);
@@ -198,14 +180,14 @@ void StrokeTool::collectErasure(StrokeRecord& record) const {
   }
 }
 
-void StrokeTool::finish() {
+void LiveStroke::finish() {
   if (!m_record) return;
   guarded([&] { feed(m_resampler->finish()); });  // what came so far stays
   const std::shared_ptr<StrokeRecord> record = std::move(m_record);
   m_record.reset();
   if (m_cells.empty()) return;
   record->cells = m_cells.indices();
-  const Project& project = m_document->project();
+  const Project& project = m_box.document().project();
   if (!record->erase) {
     const auto free = freeAtStart(project, m_body->id, record->lattice, record->cells);
     record->edits.push_back(paintEdit(project, *m_body, free, record->palette, m_stroke));
@@ -213,15 +195,15 @@ void StrokeTool::finish() {
     // Before the first step matter stands where its body put it, so that the bodies themselves can be carved.
     collectErasure(*record);
   }
-  m_document->addStroke(record);
+  m_box.document().addStroke(record);
 }
 
-void StrokeTool::cancel() {
+void LiveStroke::cancel() {
   if (!m_record) return;
   const std::shared_ptr<StrokeRecord> record = std::move(m_record);
   m_record.reset();
   record->cells = m_cells.indices();
-  if (!m_cells.empty()) m_link->cancel(record);
+  if (!m_cells.empty() && m_box.link()) m_box.link()->cancel(record);
 }
 
 }  // namespace ps

@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tools driven by rays, without a widget: what mouse, pen and hands would do with them.
+#include "core/plugin_host/registry.h"
+#include "core/simulation/engine.h"
+#include "core/sketch/stroke.h"
+#include "tests/shared/scenes.h"
+#include "ui/document/document.h"
+#include "ui/session/scenelink.h"
+#include "ui/session/selection.h"
+#include "ui/tools/toolbox.h"
+#include "ui/tools/tooltable.h"
+
+#include <QtTest/QSignalSpy>
+#include <QtTest/QTest>
+
+#include <cmath>
+#include <memory>
+#include <set>
+
+using namespace ps;
+
+namespace {
+
+constexpr double kSpacing = 0.03;
+
+/// From above and in front, at a place of the scene.
+Pointer at(const Vector3& place, const Snapshot* scene = nullptr) {
+  Pointer pointer;
+  pointer.ray.origin = Vector3(0, 1, 1);
+  pointer.ray.direction = (place - pointer.ray.origin).normalized();
+  pointer.forward = Vector3(0, -1, -1).normalized();
+  pointer.target = Vector3(0, 0, 0);
+  pointer.scene = scene;
+  return pointer;
+}
+
+}  // namespace
+
+class TestTools : public QObject {
+  Q_OBJECT
+ private Q_SLOTS:
+  void initTestCase() { m_plugins = std::make_unique<PluginRegistry>(); }
+
+  void init() {
+    m_document = std::make_unique<Document>();
+    m_document->setPlugins(m_plugins.get());
+    m_engine = std::make_unique<EngineThread>(*m_plugins, [] {});
+    m_link = std::make_unique<SceneLink>(*m_document, *m_engine);
+    m_selection = std::make_unique<Selection>(*m_document);
+    m_tools = std::make_unique<Toolbox>(*m_document, *m_selection);
+    m_tools->attach(m_link.get());
+    Project project = scenes::iceOnPlate(5, 370);
+    project.environment = scenes::tray(0.6, 1.2);
+    m_document->open(project, {}, false, false);
+  }
+
+  void cleanup() {
+    m_tools.reset();
+    m_selection.reset();
+    m_link.reset();
+    m_engine.reset();
+    m_document.reset();
+  }
+
+  void theTableIsWhole() {
+    std::set<std::string> ids, keys;
+    for (const ToolRow& row : toolTable()) {
+      QVERIFY(ids.insert(row.id).second && keys.insert(row.key).second);
+      m_tools->activate(row.id);
+      QCOMPARE(m_tools->active(), std::string(row.id));
+      QVERIFY(!m_tools->tool().words().isEmpty() && !m_tools->tool().gestures().empty());
+    }
+    m_tools->activate("hammer");
+    QCOMPARE(m_tools->active(), std::string(toolTable().back().id));
+  }
+
+  void theBrushIsTheStandardOneAndEachIsReached() {
+    QCOMPARE(m_tools->brush().shape, m_plugins->standard(PluginKind::Brush));
+    std::set<std::string> seen;
+    for (size_t i = 0; i < m_plugins->ids(PluginKind::Brush).size(); ++i) {
+      seen.insert(m_tools->brush().shape);
+      m_tools->nextShape();
+    }
+    QCOMPARE(seen.size(), m_plugins->ids(PluginKind::Brush).size());
+    QCOMPARE(m_tools->brush().shape, m_plugins->standard(PluginKind::Brush));
+  }
+
+  void theCursorIsTheBrushsOwn() {
+    setBrush("sphere");
+    QVERIFY(!m_tools->stamp().second);
+    QCOMPARE(m_tools->stamp().first.x(), 0.05);
+    setBrush("cube", "rotation", M_PI / 4);
+    QVERIFY(m_tools->stamp().second);
+    // Turned by 45 degrees, a cube is wider by the root of two.
+    QVERIFY(std::abs(m_tools->stamp().first.x() - 0.05 * std::sqrt(2)) < 1e-12);
+    QVERIFY(std::abs(m_tools->stamp().first.y() - 0.05) < 1e-12);
+  }
+
+  void aStrokeKeepsTheBrushsParameters() {
+    setBrush("cube", "rotation", M_PI / 4);
+    m_tools->activate(kBrushTool);
+    Tool& tool = m_tools->tool();
+    tool.hover(at({0.1, 0, 0.15}));
+    QVERIFY(tool.picture().cursor && tool.picture().cursor->box && !tool.picture().cursor->erase);
+    QVERIFY(tool.press(at({0.1, 0, 0.15})));
+    tool.drag(at({0.14, 0, 0.15}));
+    tool.release(at({0.14, 0, 0.15}));
+    QCOMPARE(m_document->undoStack().count(), 1);
+    QCOMPARE(m_document->project().bodies.size(), size_t{2});
+    const auto& voxels = std::get<VoxelShape>(m_document->project().bodies.back().shape);
+    QCOMPARE(voxels.strokes.size(), size_t{1});
+    QCOMPARE(voxels.strokes[0].brush, std::string("cube"));
+    QCOMPARE(std::get<double>(voxels.strokes[0].parameters.values.at("rotation")), M_PI / 4);
+    // Drawn again from what was saved, the same cells come.
+    const SketchGrid grid{voxels.origin, voxels.spacing};
+    const StrokeEdits again = replayStroke(*m_plugins->brush("cube"), voxels.strokes[0], grid);
+    size_t cells = 0;
+    for (const VoxelShape::Run& run : voxels.runs) cells += static_cast<size_t>(run.length);
+    QCOMPARE(again.added.size(), cells);
+    m_document->undoStack().undo();
+    QCOMPARE(m_document->project().bodies.size(), size_t{1});
+  }
+
+  void pressureReachesTheBrush() {
+    setBrush("sphere");
+    m_tools->activate(kBrushTool);
+    Pointer light = at({0.1, 0, 0.15});
+    light.pressure = 0.2;
+    m_tools->tool().press(light);
+    m_tools->tool().release(light);
+    const auto& voxels = std::get<VoxelShape>(m_document->project().bodies.back().shape);
+    QCOMPARE(voxels.strokes[0].samples[0][3], 0.2);
+  }
+
+  void aStrokeCanBeGivenUp() {
+    setBrush("sphere");
+    m_tools->activate(kBrushTool);
+    m_tools->tool().press(at({0.1, 0, 0.15}));
+    QVERIFY(m_tools->tool().cancel());
+    QVERIFY(!m_tools->tool().cancel());
+    m_tools->tool().release(at({0.1, 0, 0.15}));
+    QCOMPARE(m_document->undoStack().count(), 0);
+  }
+
+  void controlTurnsABrushIntoAnEraser() {
+    setBrush("sphere");
+    Pointer pointer = at({0.1, 0, 0.15});
+    pointer.control = true;
+    m_tools->activate(kBrushTool);
+    m_tools->tool().hover(pointer);
+    QVERIFY(m_tools->tool().picture().cursor->erase);
+    m_tools->activate("erase");
+    m_tools->tool().hover(pointer);
+    QVERIFY(!m_tools->tool().picture().cursor->erase);
+  }
+
+  void aBrushThatIsNotThereSaysSo() {
+    setBrush("org.example.gone");
+    QSignalSpy refused(m_tools.get(), &Toolbox::refused);
+    m_tools->activate(kBrushTool);
+    m_tools->tool().press(at({0.1, 0, 0.15}));
+    QCOMPARE(refused.count(), 1);
+    QVERIFY(refused[0][1].toString().contains(QStringLiteral("org.example.gone")));
+    QCOMPARE(m_document->undoStack().count(), 0);
+  }
+
+  void aTapIsPlacedOnWhatIsUnderTheRay() {
+    m_tools->activate("tap");
+    m_tools->tool().hover(at({0.1, 0, 0.1}));
+    QCOMPARE(m_tools->tool().picture().emitters.size(), size_t{1});
+    m_tools->tool().press(at({0.1, 0, 0.1}));
+    m_tools->tool().release(at({0.1, 0, 0.1}));
+    QCOMPARE(m_document->project().emitters.size(), size_t{1});
+    const Emitter& tap = m_document->project().emitters.front();
+    QVERIFY((tap.point - Vector3(0.1, kSpacing / 2, 0.1)).norm() < 1e-12);
+    QCOMPARE(tap.direction.y(), 1.0);
+    QCOMPARE(m_tools->active(), std::string(kSelectTool));
+    QCOMPARE(m_selection->port(), (Port{false, tap.id}));
+    m_document->undoStack().undo();
+    QVERIFY(!m_selection->port());  // what is gone is not selected
+  }
+
+  void aTapThatIsDraggedUpPoursDown() {
+    m_tools->activate("tap");
+    m_tools->tool().press(at({0.1, 0, 0.1}));
+    m_tools->tool().drag(at({0.1, 0.2, 0.1}));
+    m_tools->tool().release(at({0.1, 0.2, 0.1}));
+    const Emitter& tap = m_document->project().emitters.front();
+    QVERIFY((tap.point - Vector3(0.1, 0.2, 0.1)).norm() < 1e-9);
+    QCOMPARE(tap.direction.y(), -1.0);
+  }
+
+  void aDrainGrowsWithTheDrag() {
+    m_tools->activate("drain");
+    m_tools->tool().press(at({0, 0, 0.1}));
+    m_tools->tool().drag(at({0.2, 0, 0.1}));
+    m_tools->tool().release(at({0.2, 0, 0.1}));
+    const Sink& drain = m_document->project().sinks.front();
+    QVERIFY(std::abs(drain.maximum.x() - drain.minimum.x() - 0.4) < 1e-9);
+    QVERIFY(std::abs(drain.minimum.y()) < 1e-12);
+  }
+
+  void aHandleMovesInOneStepAndBack() {
+    Emitter tap;
+    tap.id = "tap";
+    tap.material = "water";
+    tap.point = Vector3(0, 0.3, 0);
+    m_document->addEmitter(tap);
+    const int steps = m_document->undoStack().count();
+    m_tools->activate(kSelectTool);
+    Tool& tool = m_tools->tool();
+    tool.hover(at(tap.point));
+    QCOMPARE(tool.picture().pointer, PointerShape::Move);
+    QVERIFY(tool.press(at(tap.point)));
+    tool.drag(at({0.1, 0.3, 0}));
+    tool.drag(at({0.15, 0.3, 0}));
+    QVERIFY(std::abs(m_document->project().emitters[0].point.x() - 0.15) < 1e-9);
+    QVERIFY(tool.cancel());
+    QVERIFY((m_document->project().emitters[0].point - tap.point).norm() < 1e-12);
+    QCOMPARE(m_document->undoStack().count(), steps);
+    QVERIFY(tool.press(at(tap.point)));
+    tool.drag(at({0.15, 0.3, 0}));
+    tool.release(at({0.15, 0.3, 0}));
+    QCOMPARE(m_document->undoStack().count(), steps + 1);
+    // Where there is no handle, nothing is taken, and the view may turn.
+    QVERIFY(!tool.press(at({-0.3, 0, 0.3})) && tool.turnsView());
+  }
+
+  void aClickSelectsWhatTheRayHits() {
+    Snapshot scene;
+    scene.bodyIds = std::make_shared<const std::vector<std::string>>(std::vector<std::string>{"ice"});
+    scene.revision = 7;
+    scene.position = {{0, 0, 0, 0.02F}};
+    scene.body = {0};
+    scene.id = {42};
+    m_tools->tool().click(at({0, 0, 0}, &scene));
+    QCOMPARE(m_selection->body(), std::string("ice"));
+    QCOMPARE(m_selection->marked(), (std::pair<uint64_t, uint32_t>{7, 42}));
+    m_tools->tool().click(at({0.2, 0, 0}, &scene));
+    QVERIFY(m_selection->empty() && !m_selection->marked());
+  }
+
+ private:
+  void setBrush(const std::string& shape, const std::string& key = {}, double value = 0) {
+    BrushSettings brush = m_tools->brush();
+    brush.shape = shape;
+    brush.radius = 0.05;
+    brush.temperature = 293.15;
+    if (!key.empty()) brush.parameters[shape].values[key] = value;
+    m_tools->setBrush(brush);
+  }
+
+  std::unique_ptr<PluginRegistry> m_plugins;
+  std::unique_ptr<Document> m_document;
+  std::unique_ptr<EngineThread> m_engine;
+  std::unique_ptr<SceneLink> m_link;
+  std::unique_ptr<Selection> m_selection;
+  std::unique_ptr<Toolbox> m_tools;
+};
+
+QTEST_GUILESS_MAIN(TestTools)
+#include "tst_tools.moc"

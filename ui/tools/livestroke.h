@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "core/simulation/snapshot.h"
+#include "core/sketch/cellset.h"
+#include "core/sketch/stroke.h"
+#include "ui/document/strokerecord.h"
+#include "ui/tools/brushsettings.h"
+
+#include <QtCore/QString>
+
+#include <memory>
+
+namespace ps {
+
+class PluginRegistry;
+class Toolbox;
+
+/// Cells that the box around one stamp of a brush may hold: what can be stamped at every movement of the pointer.
+inline constexpr double kMaximumStamp = 32768;
+
+/// How a brush of these settings draws on a scene of `spacing` m: its own parameters in the order of its declarations.
+StrokeSetup strokeSetup(const BrushSettings& brush, const PluginRegistry& plugins, double spacing);
+
+/// A stroke in the making: takes places along it, lets the brush plugin turn them into cells, sends new cells straight
+/// to the engine, and hands the document one command at the end.
+class LiveStroke {
+ public:
+  explicit LiveStroke(Toolbox& box) : m_box(box) {}
+
+  /// "" or why no stroke can begin ("The brush “x” is not installed…"). `now`: the scene as it is drawn on.
+  QString begin(bool erase, const Snapshot& now, const Vector3& point, double pressure);
+  /// "" or what went wrong; the stroke then ends as far as it came. `seconds` since it began.
+  QString move(const Vector3& point, double seconds, double pressure);
+  void finish();
+  void cancel();
+  bool active() const { return m_record != nullptr; }
+  size_t cellCount() const { return m_cells.size(); }
+
+ private:
+  QString whyNot(bool erase, const Snapshot& now) const;
+  Body paintedBody(int& palette) const;
+  void feed(const std::vector<api::StrokeSample>& samples);
+  template <class Work>
+  QString guarded(Work work) const;  ///< "" or what a brush threw
+  bool isInside(const api::Cell& cell) const;
+  void collectErasure(StrokeRecord& record) const;
+
+  Toolbox& m_box;
+  BrushSettings m_brush;  ///< as it was when the stroke began
+  std::shared_ptr<StrokeRecord> m_record;
+  std::shared_ptr<const Body> m_body;  ///< that an adding stroke paints, as it was before
+  bool m_atStart = false;
+  std::unique_ptr<StrokeResampler> m_resampler;
+  StrokeSetup m_setup;
+  CellSet m_cells;
+  VoxelShape::Stroke m_stroke;
+};
+
+}  // namespace ps

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/tools/surface.h"
+
+#include "ui/render/camera.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ps {
+namespace {
+
+constexpr double kNear = 2.5;       // spacings, of the particles that make a surface
+constexpr double kAlongAxis = 0.9;  // cosine from which a surface's normal counts as an axis
+
+/// Away from the matter around a point of its surface; along an axis where it nearly is.
+Vector3 normalAt(const Snapshot& scene, const Vector3& point) {
+  const double reach = kNear * scene.spacing;
+  Vector3 sum;
+  for (const api::Float4& p : scene.position) {
+    const Vector3 off = point - vectorOf(p);
+    if (off.norm() < reach) sum += off;
+  }
+  if (!(sum.norm() > 0)) return {0, 1, 0};
+  sum.normalize();
+  for (int a = 0; a < 3; ++a) {
+    if (std::abs(sum[a]) < kAlongAxis) continue;
+    Vector3 axis;
+    axis[a] = sum[a] > 0 ? 1 : -1;
+    return axis;
+  }
+  return sum;
+}
+
+}  // namespace
+
+double floorHeight(const Environment& environment) {
+  double height = environment.boundsMinimum[1];
+  for (const SceneWall& wall : environment.walls) {
+    if (wall.normal.y() > 0.9 * wall.normal.norm()) height = std::max(height, wall.point.y());
+  }
+  return height;
+}
+
+double shownSpacing(const Pointer& pointer, double fallback) {
+  return pointer.scene && pointer.scene->spacing > 0 ? pointer.scene->spacing : fallback;
+}
+
+std::optional<Surface> surfaceUnder(const Pointer& pointer, const Environment& environment) {
+  const Ray& ray = pointer.ray;
+  if (pointer.scene) {
+    if (const auto hit = pickParticle(*pointer.scene, ray)) {
+      const api::Float4& p = pointer.scene->position[*hit];
+      const double along = (vectorOf(p) - ray.origin).dot(ray.direction) - static_cast<double>(p.w);
+      const Vector3 point = ray.origin + along * ray.direction;
+      return Surface{point, normalAt(*pointer.scene, point)};
+    }
+  }
+  const auto floor = meetPlane(ray, {0, floorHeight(environment), 0}, {0, 1, 0});
+  const auto within = [&](int axis) {
+    return (*floor)[axis] >= environment.boundsMinimum[axis] && (*floor)[axis] <= environment.boundsMaximum[axis];
+  };
+  if (floor && within(0) && within(2)) return Surface{*floor, Vector3(0, 1, 0)};
+  const auto air = meetPlane(ray, pointer.target, pointer.forward);
+  return air ? std::optional(Surface{*air, Vector3::Zero()}) : std::nullopt;
+}
+
+}  // namespace ps

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "ui/tools/tool.h"
+
+// What lies under a pointer, and lengths of the scene.
+namespace ps {
+
+struct Surface {
+  Vector3 point{0, 0, 0};   ///< m
+  Vector3 normal{0, 0, 0};  ///< unit; zero in the air
+};
+
+/// What the pointer's ray meets first: matter, else the floor within the bounds, else the air at the depth one looks
+/// at. Nothing where the ray runs away from all of them.
+std::optional<Surface> surfaceUnder(const Pointer& pointer, const Environment& environment);
+/// m, of the highest level wall, or of the bounds.
+double floorHeight(const Environment& environment);
+/// m, of the particles as they are shown; `fallback` where there are none.
+double shownSpacing(const Pointer& pointer, double fallback);
+
+}  // namespace ps

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "core/scene/ray.h"
+#include "core/simulation/snapshot.h"
+#include "ui/document/port.h"
+
+#include <QtCore/QString>
+
+#include <optional>
+#include <vector>
+
+// What a tool is: something that turns pointing, pressing and dragging into edits of the document, and says what a view
+// should draw of it. It knows no widget, no picture and no headset: mouse, tablet and hands feed the same one.
+namespace ps {
+
+class Toolbox;
+
+/// Where somebody points, and with what: the mouse in a picture, a pen, a hand with a beam.
+struct Pointer {
+  Ray ray;                    ///< m; its direction has unit length
+  Vector3 forward{0, 0, -1};  ///< unit vector along which the viewer looks: drawing planes face it
+  Vector3 target{0, 0, 0};    ///< m, what the viewer looks at: the depth of what is put in the air
+  double fineness = 1e-3;     ///< tangent of the smallest angle that can be aimed at: a pixel, a tremor of the hand
+  double pressure = 1;        ///< 0 .. 1; a mouse always presses fully
+  double seconds = 0;         ///< on any clock that runs on
+  bool shift = false, control = false;
+  const Snapshot* scene = nullptr;  ///< as the view shows it; nullptr: nothing yet
+};
+
+/// The brush under the pointer.
+struct BrushCursor {
+  Vector3 centre{0, 0, 0};  ///< m
+  Vector3 extent{0, 0, 0};  ///< half extents, m
+  double floor = 0;         ///< m, height of what lies below
+  bool box = false, erase = false;
+};
+
+/// What the pointer itself looks like.
+enum class PointerShape { Arrow, Cross, Hidden, Move, Take };
+
+/// What a view should draw of a tool.
+struct ToolPicture {
+  PointerShape pointer = PointerShape::Arrow;
+  std::optional<BrushCursor> cursor;
+  std::vector<Emitter> emitters;  ///< that would be put there
+  std::vector<Sink> sinks;
+  std::optional<Port> hovered;  ///< would be taken hold of
+};
+
+/// Something that a tool's buttons and keys do, in words.
+struct Gesture {
+  QString keys;  ///< "Shift+Drag"
+  QString does;  ///< "Move the view sideways"
+  QString hint;  ///< a word or two for the strip of hints; "": not there
+};
+
+class Tool {
+ public:
+  explicit Tool(Toolbox& box) : m_box(box) {}
+  virtual ~Tool() = default;
+  Tool(const Tool&) = delete;
+  Tool& operator=(const Tool&) = delete;
+
+  /// Points somewhere with nothing pressed.
+  virtual void hover(const Pointer&) {}
+  /// The main button goes down. False: it is none of the tool's business as long as nothing is clicked; the view may
+  /// turn instead.
+  virtual bool press(const Pointer&) { return false; }
+  virtual void drag(const Pointer&) {}     ///< after a press that was taken
+  virtual void release(const Pointer&) {}  ///< likewise
+  /// Pressed and released at one place, where press() was not taken.
+  virtual void click(const Pointer&) {}
+  /// Gives up what is being dragged. False: there was nothing.
+  virtual bool cancel() { return false; }
+  virtual void leave() {}  ///< points nowhere any more, or another tool takes over
+
+  virtual ToolPicture picture() const { return {}; }
+  /// What a screen reader says of it: "Brush, sphere, radius 50 mm".
+  virtual QString words() const = 0;
+  /// The most used first.
+  virtual std::vector<Gesture> gestures() const = 0;
+  /// What to do in a scene without matter; "" where the tool has nothing to say.
+  virtual QString invitation() const { return {}; }
+  virtual bool usesBrush() const { return false; }  ///< size and shape of the brush matter
+  virtual bool turnsView() const { return false; }  ///< a drag that it does not take turns the view
+  Toolbox& box() const { return m_box; }
+
+ private:
+  Toolbox& m_box;
+};
+
+}  // namespace ps

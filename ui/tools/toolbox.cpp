@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/tools/toolbox.h"
+
+#include "core/plugin_host/registry.h"
+#include "core/sketch/stroke.h"
+#include "ui/document/document.h"
+#include "ui/session/selection.h"
+#include "ui/tools/livestroke.h"
+#include "ui/tools/tooltable.h"
+
+#include <algorithm>
+
+namespace ps {
+
+Toolbox::Toolbox(Document& document, Selection& selection, QObject* parent)
+    : QObject(parent), m_document(document), m_selection(selection), m_active(kSelectTool) {
+  for (const ToolRow& row : toolTable()) m_tools.emplace(row.id, row.make(*this));
+  // What is drawn is of the material that is chosen.
+  connect(&selection, &Selection::materialChanged, this, [this] {
+    BrushSettings brush = m_brush;
+    brush.material = m_selection.material();
+    setBrush(brush);
+  });
+  // A stroke in the making builds on the document as it was when it began.
+  connect(&document.undoStack(), &QUndoStack::indexChanged, this, [this] {
+    if (tool().usesBrush()) tool().cancel();
+  });
+}
+
+Toolbox::~Toolbox() = default;
+
+void Toolbox::attach(SceneLink* link) {
+  tool().leave();
+  m_link = link;
+  const PluginRegistry* plugins = m_document.plugins();
+  if (!link || !plugins || !m_brush.shape.empty()) return;
+  BrushSettings brush = m_brush;
+  brush.shape = plugins->standard(PluginKind::Brush);
+  const std::vector<std::string> installed = plugins->ids(PluginKind::Brush);
+  if (!plugins->brush(brush.shape) && !installed.empty()) brush.shape = installed.front();
+  setBrush(brush);
+}
+
+void Toolbox::activate(const std::string& id) {
+  if (id == m_active || !toolRow(id)) return;
+  tool().cancel();
+  tool().leave();
+  m_active = id;
+  Q_EMIT toolChanged();
+}
+
+void Toolbox::setBrush(const BrushSettings& brush) {
+  if (brush == m_brush) return;
+  m_brush = brush;
+  Q_EMIT brushChanged();
+}
+
+void Toolbox::stepBrush(int direction) {
+  BrushSettings brush = m_brush;
+  brush.radius = direction > 0 ? largerBrush(brush.radius) : smallerBrush(brush.radius);
+  setBrush(brush);
+}
+
+void Toolbox::nextShape() {
+  if (!m_document.plugins()) return;
+  const std::vector<std::string> shapes = m_document.plugins()->ids(PluginKind::Brush);
+  if (shapes.empty()) return;
+  const auto present = std::find(shapes.begin(), shapes.end(), m_brush.shape);
+  BrushSettings brush = m_brush;
+  brush.shape = present == shapes.end() || present + 1 == shapes.end() ? shapes.front() : *(present + 1);
+  setBrush(brush);
+}
+
+double Toolbox::spacing() const {
+  return numberOf(m_document.project().solver.parameters, solverParameters(), "particle_spacing");
+}
+
+std::pair<Vector3, bool> Toolbox::stamp() const {
+  const PluginRegistry* plugins = m_document.plugins();
+  const api::BrushPlugin* plugin = plugins ? plugins->brush(m_brush.shape) : nullptr;
+  if (!plugin) return {Vector3::Constant(m_brush.radius), false};
+  const StrokeSetup setup = strokeSetup(m_brush, *plugins, spacing());
+  const api::StrokeContext context{setup.grid.spacing,
+                                   double3Of(setup.grid.origin),
+                                   setup.radius,
+                                   {0, 1, 0},
+                                   {setup.parameters.data(), setup.parameters.size()}};
+  return {vectorOf(plugin->extent(context)), plugin->extension(api::kBoxStamp) != nullptr};
+}
+
+}  // namespace ps

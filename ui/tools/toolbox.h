@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "ui/tools/brushsettings.h"
+#include "ui/tools/tool.h"
+
+#include <QtCore/QObject>
+
+#include <map>
+#include <memory>
+
+namespace ps {
+
+class Document;
+class SceneLink;
+class Selection;
+
+/// The tools of one editor, which of them is in hand, and the brush that several share. Views feed the tool in hand;
+/// panels and buttons follow the signals.
+class Toolbox : public QObject {
+  Q_OBJECT
+ public:
+  Toolbox(Document& document, Selection& selection, QObject* parent = nullptr);
+  ~Toolbox() override;
+
+  /// nullptr: there is no engine any more. The brush begins with the standard one of the document's plugins.
+  void attach(SceneLink* link);
+
+  const std::string& active() const { return m_active; }  ///< ToolRow::id
+  void activate(const std::string& id);                   ///< an unknown one is ignored
+  Tool& tool() const { return *m_tools.at(m_active); }
+  Tool& tool(const std::string& id) const { return *m_tools.at(id); }
+
+  const BrushSettings& brush() const { return m_brush; }
+  void setBrush(const BrushSettings& brush);
+  void stepBrush(int direction);  ///< larger (1) or smaller (-1)
+  void nextShape();               ///< of those installed, by id
+  /// Half extents of one stamp in m, and whether it fills that box; the radius on all axes when the brush is not
+  /// installed.
+  std::pair<Vector3, bool> stamp() const;
+
+  // For tools
+  Document& document() const { return m_document; }
+  Selection& selection() const { return m_selection; }
+  SceneLink* link() const { return m_link; }
+  double spacing() const;  ///< m, of particles, as the document has it
+  void refuse(const QString& title, const QString& why) { Q_EMIT refused(title, why); }
+
+ Q_SIGNALS:
+  void toolChanged();
+  void brushChanged();
+  void refused(const QString& title, const QString& why);  ///< "Nothing was drawn.", why not
+
+ private:
+  Document& m_document;
+  Selection& m_selection;
+  SceneLink* m_link = nullptr;
+  BrushSettings m_brush;
+  std::map<std::string, std::unique_ptr<Tool>> m_tools;
+  std::string m_active;
+};
+
+}  // namespace ps

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/tools/tooltable.h"
+
+#include "ui/tools/drawtool.h"
+#include "ui/tools/placedrain.h"
+#include "ui/tools/placetap.h"
+#include "ui/tools/selecttool.h"
+
+#include <algorithm>
+
+namespace ps {
+namespace {
+
+template <class T>
+std::unique_ptr<Tool> make(Toolbox& box) {
+  return std::make_unique<T>(box);
+}
+
+}  // namespace
+
+const std::vector<ToolRow>& toolTable() {
+  static const std::vector<ToolRow> kTable{
+      {kSelectTool, "select", "Select and orbit", "Select and orbit", "Q", "In the scene", make<SelectTool>},
+      {kBrushTool, "brush", "Brush", "Draw matter", "B", "In the scene with the brush", make<DrawTool>},
+      {"erase", "erase", "Erase", "Erase matter", "E", "In the scene with the eraser", make<EraseTool>},
+      {"tap", "tap", "Place a tap", "Place a tap that pours matter", "T", "In the scene with a tap", make<PlaceTap>},
+      {"drain", "drain", "Place a drain", "Place a drain that takes matter away", "D", "In the scene with a drain",
+       make<PlaceDrain>},
+  };
+  return kTable;
+}
+
+const ToolRow* toolRow(const std::string& id) {
+  const std::vector<ToolRow>& table = toolTable();
+  const auto found = std::find_if(table.begin(), table.end(), [&](const ToolRow& row) { return id == row.id; });
+  return found == table.end() ? nullptr : &*found;
+}
+
+}  // namespace ps

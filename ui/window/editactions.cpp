@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/window/editactions.h"
+
+#include "ui/document/document.h"
+#include "ui/document/wallside.h"
+#include "ui/panels/outliner.h"
+#include "ui/session/selection.h"
+#include "ui/window/actions.h"
+#include "ui/window/notices.h"
+
+#include <QtGui/QAction>
+#include <QtWidgets/QMainWindow>
+#include <QtWidgets/QMenu>
+
+namespace ps {
+
+void EditActions::makeMenu(QMenu* menu) {
+  menu->addAction(m_actions.find(QStringLiteral("edit.undo")));
+  menu->addAction(m_actions.find(QStringLiteral("edit.redo")));
+  menu->addSeparator();
+  m_actions.add(menu, QStringLiteral("edit.rename"), QStringLiteral("Rename"), {QKeySequence(QStringLiteral("F2"))},
+                [this] { m_outliner.renameSelected(); });
+  m_actions.add(menu, QStringLiteral("edit.visible"), QStringLiteral("Show or hide body"), {},
+                [this] { m_outliner.toggleVisible(); });
+  m_actions.add(menu, QStringLiteral("edit.locked"), QStringLiteral("Lock body"), {},
+                [this] { m_outliner.toggleLocked(); });
+  m_actions.add(menu, QStringLiteral("edit.duplicate"), QStringLiteral("Duplicate"),
+                {QKeySequence(QStringLiteral("Ctrl+D"))}, [this] { duplicateSelected(); });
+  m_actions.add(menu, QStringLiteral("edit.delete"), QStringLiteral("Delete"), {QKeySequence(Qt::Key_Delete)},
+                [this] { deleteSelected(); });
+  menu->addSeparator();
+  menu->addAction(m_actions.find(QStringLiteral("edit.search")));
+}
+
+void EditActions::makeWallMenu(QMenu* menu) {
+  for (const WallSide& side : kWallSides) {
+    m_actions.add(menu, QStringLiteral("sketch.wall.") + QString::fromLatin1(side.id),
+                  QStringLiteral("Add wall: %1").arg(QString::fromLatin1(side.name).toLower()), {},
+                  [this, side] { addWalls({side.id}); });
+  }
+  menu->addSeparator();
+  m_actions.add(menu, QStringLiteral("sketch.walls"), QStringLiteral("Add walls: all four sides"), {},
+                [this] { addWalls(kUprightSides); });
+}
+
+void EditActions::openItemMenu(const QPoint& global) const {
+  auto* menu = new QMenu(&m_actions.window());
+  menu->setAttribute(Qt::WA_DeleteOnClose);
+  const auto add = [&](const char* name) { menu->addAction(m_actions.find(QString::fromLatin1(name))); };
+  add("edit.rename");
+  if (!m_selection.port()) {
+    add("edit.visible");
+    add("edit.locked");
+  }
+  add("view.frame");
+  menu->addSeparator();
+  add("edit.duplicate");
+  add("edit.delete");
+  menu->popup(global);
+}
+
+void EditActions::duplicateSelected() {
+  if (const auto port = m_selection.port()) {
+    if (const auto copy = m_document.duplicatePort(*port)) m_selection.select(*copy);
+  } else {
+    m_notices.refuse(QStringLiteral("Nothing was copied."), m_document.duplicateBody(m_selection.body()));
+  }
+}
+
+void EditActions::deleteSelected() {
+  if (const auto port = m_selection.port()) {
+    m_document.removePort(*port);
+  } else if (m_selection.kind() == OutlineKind::Wall) {
+    m_document.removeWall(std::string(m_selection.id()));  // it leaves the selection meanwhile
+  } else {
+    m_notices.refuse(QStringLiteral("Nothing was deleted."), m_document.removeBody(m_selection.body()));
+  }
+}
+
+void EditActions::addWalls(const std::vector<std::string>& sides) {
+  const QString problem = m_document.addWalls(sides);
+  m_notices.refuse(QStringLiteral("No wall was added."), problem);
+  if (problem.isEmpty()) m_selection.select(OutlineKind::Wall, m_document.project().environment.walls.back().id);
+}
+
+}  // namespace ps

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <string>
+#include <vector>
+
+class QMenu;
+class QPoint;
+
+namespace ps {
+
+class Actions;
+class Document;
+class Notices;
+class Outliner;
+class Selection;
+
+/// What is done with the scene's things: the menu Edit but for undo, and the walls.
+class EditActions {
+ public:
+  EditActions(Document& document, Selection& selection, Outliner& outliner, const Actions& actions, Notices& notices)
+      : m_document(document), m_selection(selection), m_outliner(outliner), m_actions(actions), m_notices(notices) {}
+  void makeMenu(QMenu* menu);
+  void makeWallMenu(QMenu* menu);
+  void openItemMenu(const QPoint& global) const;  ///< of what is selected
+
+ private:
+  void duplicateSelected();
+  void deleteSelected();
+  void addWalls(const std::vector<std::string>& sides);  ///< of kWallSides
+  Document& m_document;
+  Selection& m_selection;
+  Outliner& m_outliner;
+  const Actions& m_actions;
+  Notices& m_notices;
+};
+
+}  // namespace ps

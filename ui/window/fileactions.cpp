@@ -1,0 +1,285 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/window/fileactions.h"
+
+#include "core/simulation/engine.h"
+#include "ui/document/document.h"
+#include "ui/graphs/graphspanel.h"
+#include "ui/session/documentfiles.h"
+#include "ui/session/session.h"
+#include "ui/session/wording.h"
+#include "ui/session/worker.h"
+#include "ui/viewport/viewport.h"
+#include "ui/window/actions.h"
+#include "ui/window/noticebar.h"
+#include "ui/window/notices.h"
+#include "ui/window/restoreoffer.h"
+
+#include <QtCore/QBuffer>
+#include <QtCore/QFileInfo>
+#include <QtCore/QRegularExpression>
+#include <QtCore/QSaveFile>
+#include <QtCore/QStandardPaths>
+#include <QtGui/QAction>
+#include <QtWidgets/QFileDialog>
+#include <QtWidgets/QMainWindow>
+#include <QtWidgets/QMenu>
+
+#include <utility>
+
+namespace ps {
+namespace {
+
+const QString kFilter = QStringLiteral("PhaseSketch projects (*.json);;All files (*)");
+
+QString nameOf(const QString& path) {
+  return path.isEmpty() ? QStringLiteral("New scene") : QFileInfo(path).fileName();
+}
+
+/// A title as a file's name: without what some file system refuses.
+QString fileNameFor(QString title) {
+  return title.replace(QRegularExpression(QStringLiteral("[/\\\\:*?\"<>|]")), QStringLiteral("-"));
+}
+
+/// Asks for a file to write; "" when given up. The ending of `suggestion` completes a name without one before the
+/// question whether an existing file may be replaced, so that it is about the right file.
+QString fileToWrite(QWidget* parent, const QString& title, const QString& suggestion, const QString& filter) {
+  QFileDialog dialog(parent, title, QFileInfo(suggestion).path(), filter);
+  dialog.setAcceptMode(QFileDialog::AcceptSave);
+  dialog.setDefaultSuffix(QFileInfo(suggestion).suffix());
+  dialog.selectFile(QFileInfo(suggestion).fileName());
+  return dialog.exec() == QDialog::Accepted ? dialog.selectedFiles().constFirst() : QString();
+}
+
+}  // namespace
+
+FileActions::FileActions(Session& session, const Actions& actions, Notices& notices, RestoreOffer& restore,
+                         const Options& options, QObject* parent)
+    : QObject(parent),
+      m_session(session),
+      m_actions(actions),
+      m_notices(notices),
+      m_restore(restore),
+      m_options(options) {
+  DocumentFiles& files = session.files();
+  connect(&files, &DocumentFiles::opened, this, &FileActions::onOpened);
+  connect(&files, &DocumentFiles::openFailed, this, &FileActions::onOpenFailed);
+  connect(&files, &DocumentFiles::saveFailed, this, &FileActions::onSaveFailed);
+  connect(&files, &DocumentFiles::saved, this, &FileActions::onSaved);
+  connect(&session, &Session::ready, this, [this] {
+    setEnabled(true);
+    openFirst();
+  });
+}
+
+void FileActions::makeMenu(QMenu* menu, Viewport* view) {
+  m_view = view;
+  m_actions.add(menu, QStringLiteral("file.new"), QStringLiteral("New scene"), {QKeySequence(QStringLiteral("Ctrl+N"))},
+                [this] { m_session.files().newProject(); });
+  m_actions.add(menu, QStringLiteral("file.open"), QStringLiteral("Open…"), {QKeySequence(QStringLiteral("Ctrl+O"))},
+                [this] { chooseOpen(); });
+  m_recent = menu->addMenu(QStringLiteral("Open recent"));
+  connect(m_recent, &QMenu::aboutToShow, this, &FileActions::fillRecent);
+  if (!m_options.sample.isEmpty()) {
+    m_actions.add(menu, QStringLiteral("file.sample"), QStringLiteral("Open sample “Ice on a hot plate”"), {},
+                  [this] { open(m_options.sample); });
+  }
+  m_actions.add(menu, QStringLiteral("file.restore"), QStringLiteral("Restore unsaved work…"), {},
+                [this] { m_restore.offer(); });
+  connect(menu, &QMenu::aboutToShow, this, &FileActions::updateRestore);
+  menu->addSeparator();
+  m_actions.add(menu, QStringLiteral("file.save"), QStringLiteral("Save"), {QKeySequence(QStringLiteral("Ctrl+S"))},
+                [this] { save(); });
+  m_actions.add(menu, QStringLiteral("file.saveAs"), QStringLiteral("Save as…"),
+                {QKeySequence(QStringLiteral("Ctrl+Shift+S"))}, [this] { chooseSave(); });
+  menu->addSeparator();
+  m_actions.add(menu, QStringLiteral("file.picture"), QStringLiteral("Save picture of the scene…"), {},
+                [this] { exportPicture(); });
+  m_actions.add(menu, QStringLiteral("file.csv"), QStringLiteral("Export all frames as CSV…"), {},
+                [this] { exportCsv(); });
+  menu->addSeparator();
+  m_actions.add(menu, QStringLiteral("file.quit"), QStringLiteral("Quit"), {QKeySequence(QStringLiteral("Ctrl+Q"))},
+                [this] { m_actions.window().close(); });
+  for (const char* name : {"file.new", "file.open", "file.sample", "file.restore"}) {
+    if (QAction* replacing = m_actions.find(QString::fromLatin1(name))) replacing->setProperty(kReplaces, true);
+  }
+  setEnabled(false);
+}
+
+void FileActions::setEnabled(bool on) {
+  for (const char* name : {"file.new", "file.open", "file.sample", "file.save", "file.saveAs"}) {
+    if (QAction* needed = m_actions.find(QString::fromLatin1(name))) needed->setEnabled(on);
+  }
+  m_recent->setEnabled(on);
+}
+
+void FileActions::updateRestore() {
+  m_actions.find(QStringLiteral("file.restore"))->setEnabled(m_restore.anyUnsaved());
+}
+
+void FileActions::fillRecent() {
+  m_recent->clear();
+  const QStringList recent = DocumentFiles::recent();
+  for (const QString& path : recent) {
+    m_recent->addAction(QFileInfo(path).completeBaseName() + QStringLiteral("  ·  ") + QFileInfo(path).path(), this,
+                        [this, path] { open(path); });
+  }
+  if (recent.isEmpty()) m_recent->addAction(QStringLiteral("No recent files"))->setEnabled(false);
+}
+
+void FileActions::openFirst() {
+  if (!m_options.project.isEmpty()) {
+    m_session.files().open(m_options.project);
+  } else if (m_restore.reopenLast()) {
+    return;
+  } else if (m_options.sample.isEmpty()) {
+    m_session.files().newProject();
+  } else {
+    m_session.files().open(m_options.sample);
+  }
+}
+
+void FileActions::open(const QString& path) {
+  if (m_session.isReady()) {
+    m_session.files().open(path);
+  } else {
+    m_options.project = path;
+  }
+}
+
+void FileActions::saveTo(const QString& path) { m_session.files().save(path); }
+
+void FileActions::chooseOpen() {
+  const QString path = QFileDialog::getOpenFileName(&m_actions.window(), QStringLiteral("Open a project"),
+                                                    QFileInfo(m_session.document().path()).path(), kFilter);
+  if (!path.isEmpty()) open(path);
+}
+
+/// The sample that comes with the program stays as it is: it is saved under another name.
+bool FileActions::isSample(const QString& path) const {
+  return !m_options.sample.isEmpty() &&
+         QFileInfo(path).canonicalFilePath() == QFileInfo(m_options.sample).canonicalFilePath();
+}
+
+void FileActions::save() {
+  const QString& path = m_session.document().path();
+  if (path.isEmpty() || isSample(path)) {
+    chooseSave();
+  } else {
+    saveTo(path);
+  }
+}
+
+void FileActions::chooseSave() {
+  const Document& document = m_session.document();
+  QString suggestion = document.path();
+  if (suggestion.isEmpty() || isSample(suggestion)) {
+    suggestion = QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation) + QLatin1Char('/') +
+                 fileNameFor(document.title()) + QStringLiteral(".json");
+  }
+  const QString path = fileToWrite(&m_actions.window(), QStringLiteral("Save the project"), suggestion, kFilter);
+  if (!path.isEmpty()) saveTo(path);
+}
+
+void FileActions::onOpened(const QString& path, const QStringList& warnings, double seconds) {
+  for (const char* topic : {"open", "save", "stroke", "refused"}) m_notices.bar().close(QString::fromLatin1(topic));
+  for (const QString& warning : warnings) m_session.log().add(MessageLevel::Warning, nameOf(path), warning);
+  m_session.log().add(MessageLevel::Ok, nameOf(path), QStringLiteral("Opened in %1 s.").arg(seconds, 0, 'f', 2));
+  if (!warnings.isEmpty()) {
+    m_notices.bar().show(QStringLiteral("open"), MessageLevel::Warning,
+                         QStringLiteral("Opened, with %1.")
+                             .arg(warnings.size() == 1 ? QStringLiteral("one remark")
+                                                       : QStringLiteral("%1 remarks").arg(warnings.size())),
+                         warnings.front());
+  }
+  if (std::exchange(m_first, false)) m_restore.offerAtStart();
+}
+
+void FileActions::onOpenFailed(const QString& path, const QString& problem) {
+  const bool first = std::exchange(m_first, false);
+  if (first && m_options.exitOnBadProject) {
+    Q_EMIT startFailed(problem);
+    return;
+  }
+  m_session.log().add(MessageLevel::Error, nameOf(path), problem);
+  std::vector<NoticeBar::Button> buttons{{QStringLiteral("Open another…"), [this] { chooseOpen(); }}};
+  if (DocumentFiles::lacksRequired(problem))
+    buttons.insert(buttons.begin(),
+                   {QStringLiteral("Open anyway"), [this, path] { m_session.files().openAnyway(path); }});
+  if (first) {
+    m_session.files().newProject();  // the window must not stay empty
+    m_restore.offerAtStart();
+    if (!m_options.sample.isEmpty() && !isSample(path))
+      buttons.push_back({QStringLiteral("Open the sample"), [this] { open(m_options.sample); }});
+  }
+  m_notices.bar().show(
+      QStringLiteral("open"), MessageLevel::Error, QStringLiteral("“%1” was not opened.").arg(nameOf(path)),
+      sentence(problem) + (first ? QString() : QStringLiteral(" The present scene is unchanged.")), std::move(buttons));
+}
+
+void FileActions::onSaved(const QString& path, bool present) {
+  m_session.log().add(MessageLevel::Ok, nameOf(path), QStringLiteral("Saved to %1.").arg(path));
+  if (!present) return;
+  m_notices.bar().close(QStringLiteral("save"));
+}
+
+void FileActions::onSaveFailed(const QString& path, const QString& problem, bool present) {
+  m_session.log().add(MessageLevel::Error, nameOf(path), problem);
+  if (!present) {
+    m_restore.showReplaced(QStringLiteral("“%1” was not saved: %2").arg(nameOf(path), sentence(problem)));
+    return;
+  }
+  showNotSaved(problem, QStringLiteral("Your work is kept in memory."));
+}
+
+void FileActions::showNotSaved(const QString& problem, const QString& more) {
+  m_notices.bar().show(QStringLiteral("save"), MessageLevel::Error, QStringLiteral("Not saved."),
+                       sentence(problem) + QLatin1Char(' ') + more,
+                       {{QStringLiteral("Save elsewhere…"), [this] { chooseSave(); }}});
+}
+
+void FileActions::writeFile(const QString& path, std::function<QByteArray()> content, const QString& what) {
+  m_session.worker().run([this, path, content = std::move(content), what] {
+    QSaveFile file(path);
+    const bool good = file.open(QIODevice::WriteOnly) && file.write(content()) >= 0 && file.commit();
+    const QString problem = good ? QString() : file.errorString();
+    QMetaObject::invokeMethod(&m_session, [this, path, what, problem] {
+      if (problem.isEmpty()) {
+        m_session.log().add(MessageLevel::Ok, what, QStringLiteral("Written to %1.").arg(path));
+      } else {
+        m_notices.message(MessageLevel::Error, what, QStringLiteral("%1 was not written: %2").arg(path, problem));
+      }
+    });
+  });
+}
+
+void FileActions::exportCsv() {
+  if (!m_session.engine()) return;
+  const QString path = fileToWrite(&m_actions.window(), QStringLiteral("Export all frames"),
+                                   QStringLiteral("frames.csv"), QStringLiteral("CSV (*.csv)"));
+  if (path.isEmpty()) return;
+  writeFile(
+      path,
+      [history = m_session.engine()->history(0), probes = m_session.document().project().probes] {
+        return historyCsv(history, probes);
+      },
+      QStringLiteral("Frames as CSV"));
+}
+
+void FileActions::exportPicture() {
+  if (!m_view) return;
+  const QString path = fileToWrite(&m_actions.window(), QStringLiteral("Save a picture of the scene"),
+                                   QStringLiteral("scene.png"), QStringLiteral("PNG (*.png)"));
+  if (path.isEmpty()) return;
+  writeFile(
+      path,
+      [image = m_view->grabFramebuffer()] {
+        QByteArray bytes;
+        QBuffer buffer(&bytes);
+        buffer.open(QIODevice::WriteOnly);
+        image.save(&buffer, "PNG");
+        return bytes;
+      },
+      QStringLiteral("Picture"));
+}
+
+}  // namespace ps

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <QtCore/QByteArray>
+#include <QtCore/QObject>
+#include <QtCore/QString>
+
+#include <functional>
+
+class QMenu;
+
+namespace ps {
+
+class Actions;
+class Notices;
+class RestoreOffer;
+class Session;
+class Viewport;
+
+/// The menu File: opening, saving, exporting, and what is said about it. No failure here touches the present scene.
+class FileActions : public QObject {
+  Q_OBJECT
+ public:
+  struct Options {
+    QString project;                ///< to open first; "": the last session, else the sample
+    QString sample;                 ///< path of the first sample; "": an empty scene
+    bool exitOnBadProject = false;  ///< startFailed() instead of a notice
+  };
+  FileActions(Session& session, const Actions& actions, Notices& notices, RestoreOffer& restore, const Options& options,
+              QObject* parent = nullptr);
+  void makeMenu(QMenu* menu, Viewport* view);
+  /// Before plugins are there, it becomes the project to begin with.
+  void open(const QString& path);
+  void saveTo(const QString& path);
+  void exportCsv();
+  void updateRestore();  ///< enabled while unsaved work waits
+  void showNotSaved(const QString& problem, const QString& more);
+
+ Q_SIGNALS:
+  void startFailed(const QString& problem);
+
+ private:
+  void openFirst();
+  void fillRecent();
+  void setEnabled(bool on);  ///< what needs plugins
+  void chooseOpen();
+  void save();
+  void chooseSave();
+  void exportPicture();
+  void writeFile(const QString& path, std::function<QByteArray()> content, const QString& what);
+  void onOpened(const QString& path, const QStringList& warnings, double seconds);
+  void onOpenFailed(const QString& path, const QString& problem);
+  void onSaved(const QString& path, bool present);
+  void onSaveFailed(const QString& path, const QString& problem, bool present);
+  bool isSample(const QString& path) const;
+
+  Session& m_session;
+  const Actions& m_actions;
+  Notices& m_notices;
+  RestoreOffer& m_restore;
+  Options m_options;
+  Viewport* m_view = nullptr;
+  QMenu* m_recent = nullptr;
+  bool m_first = true;
+};
+
+}  // namespace ps

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/window/keyroute.h"
+
+#include "ui/panels/materialspanel.h"
+#include "ui/panels/outliner.h"
+#include "ui/viewport/viewport.h"
+
+#include <QtWidgets/QAbstractButton>
+#include <QtWidgets/QAbstractItemView>
+#include <QtWidgets/QApplication>
+#include <QtWidgets/QComboBox>
+#include <QtWidgets/QMenuBar>
+#include <QtWidgets/QTabBar>
+
+namespace ps {
+
+bool takesKey(const QObject* widget, int key) {
+  switch (key) {
+    case Qt::Key_Delete:
+      // Deletes where what is selected can be seen to be: in the outliner and in the view.
+      return widget == QApplication::focusWidget() && !qobject_cast<const Viewport*>(widget) &&
+             !qobject_cast<const Outliner*>(widget->parent());
+    case Qt::Key_Space:
+      return qobject_cast<const QAbstractButton*>(widget) || qobject_cast<const QComboBox*>(widget);
+    case Qt::Key_Left:
+    case Qt::Key_Right:
+    case Qt::Key_Up:
+    case Qt::Key_Down:
+      if (qobject_cast<const QTabBar*>(widget) || qobject_cast<const QMenuBar*>(widget) ||
+          qobject_cast<const MaterialsPanel*>(widget))
+        return true;
+      [[fallthrough]];
+    case Qt::Key_Home:
+    case Qt::Key_End:
+      return qobject_cast<const QAbstractItemView*>(widget) || qobject_cast<const QComboBox*>(widget);
+    default:
+      return false;
+  }
+}
+
+}  // namespace ps

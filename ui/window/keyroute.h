@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+class QObject;
+
+namespace ps {
+
+/// Whether a key is for a widget that has the focus rather than for the window: Space presses buttons, arrows walk.
+bool takesKey(const QObject* widget, int key);
+
+}  // namespace ps

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/window/notices.h"
+
+#include "core/simulation/engine.h"
+#include "ui/document/document.h"
+#include "ui/session/session.h"
+#include "ui/session/wording.h"
+#include "ui/window/actions.h"
+#include "ui/window/noticebar.h"
+
+#include <QtGui/QAction>
+
+#include <utility>
+#include <vector>
+
+namespace ps {
+namespace {
+
+const QString kStep = QStringLiteral("step");  // topic of what the engine says
+const QString kRefused = QStringLiteral("refused");
+
+}  // namespace
+
+Notices::Notices(Session& session, NoticeBar& bar, const Actions& actions, QObject* parent)
+    : QObject(parent), m_session(session), m_bar(bar), m_actions(actions) {
+  connect(&session, &Session::happened, this, &Notices::onEvent);
+}
+
+void Notices::onEvent(const EngineEvent& event) {
+  if (event.kind == EngineEvent::Kind::Settled) {
+    m_bar.close(kStep);
+  } else if (event.kind == EngineEvent::Kind::NotOpened) {
+    showBroken(QString::fromStdString(event.message));
+  } else {
+    showFailure(event);
+  }
+}
+
+void Notices::showFailure(const EngineEvent& event) {
+  const FailureText failure = failureText(event);
+  const auto level =
+      event.kind == EngineEvent::Kind::Stopped || (event.flags & static_cast<StepFlags>(StepFlag::NotFinite))
+          ? MessageLevel::Error
+          : MessageLevel::Warning;
+  const QString text = failure.title + QLatin1Char(' ') + failure.text;
+  m_session.log().add(level, QStringLiteral("Simulation"), text);
+  if (m_bar.isVisible() && m_bar.text() == text) return;  // one of its buttons may be under the pointer
+  std::vector<NoticeBar::Button> buttons;
+  // Matter runs off without any edit to blame.
+  if (failure.lost) {
+    buttons.push_back({QStringLiteral("Add sides"), [this] {
+                         if (QAction* walls = m_actions.find(QStringLiteral("sketch.walls"))) walls->trigger();
+                       }});
+  } else if (m_session.document().undoStack().canUndo()) {
+    buttons.push_back({QStringLiteral("Undo"), [this] { m_session.document().undoStack().undo(); }});
+  }
+  buttons.push_back({QStringLiteral("Reset"), [this] { m_session.reset(); }});
+  m_bar.show(kStep, level, failure.title, failure.text, std::move(buttons));
+}
+
+void Notices::showBroken(const QString& problem) {
+  const QString title = QStringLiteral("“%1” cannot run as it is.").arg(m_session.document().title());
+  const QString text = sentence(problem) + QStringLiteral(" It is built anew with each change.");
+  std::vector<NoticeBar::Button> buttons;
+  if (m_session.document().undoStack().canUndo())
+    buttons.push_back({QStringLiteral("Undo"), [this] { m_session.document().undoStack().undo(); }});
+  buttons.push_back({QStringLiteral("Open another…"), [this] {
+                       if (QAction* open = m_actions.find(QStringLiteral("file.open"))) open->trigger();
+                     }});
+  m_bar.show(kStep, MessageLevel::Error, title, text, std::move(buttons));
+  m_session.log().add(MessageLevel::Error, QStringLiteral("Simulation"), title + QLatin1Char(' ') + text);
+}
+
+void Notices::refuse(const QString& title, const QString& why) {
+  if (why.isEmpty()) {
+    m_bar.close(kRefused);
+  } else {
+    m_bar.show(kRefused, MessageLevel::Warning, title, why);
+    m_session.log().add(MessageLevel::Warning, QStringLiteral("Scene"), title + QLatin1Char(' ') + why);
+  }
+}
+
+void Notices::message(MessageLevel level, const QString& where, const QString& text) {
+  m_session.log().add(level, where, text);
+  if (level == MessageLevel::Error || level == MessageLevel::Warning) m_bar.show(where, level, where, text);
+}
+
+}  // namespace ps

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "ui/session/messagelog.h"
+
+#include <QtCore/QObject>
+
+namespace ps {
+
+class Actions;
+class NoticeBar;
+class Session;
+struct EngineEvent;
+
+/// What the engine and refused edits have to say, as notices over the view and in the log.
+class Notices : public QObject {
+  Q_OBJECT
+ public:
+  Notices(Session& session, NoticeBar& bar, const Actions& actions, QObject* parent = nullptr);
+  NoticeBar& bar() const { return m_bar; }
+  /// With "" for `why` the last one goes.
+  void refuse(const QString& title, const QString& why);
+  /// Into the log, and over the view where it is a warning or worse.
+  void message(MessageLevel level, const QString& where, const QString& text);
+
+ private:
+  void onEvent(const EngineEvent& event);
+  void showFailure(const EngineEvent& event);
+  void showBroken(const QString& problem);  ///< the scene could not be built
+  Session& m_session;
+  NoticeBar& m_bar;
+  const Actions& m_actions;
+};
+
+}  // namespace ps

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/window/pagechooser.h"
+
+#include "ui/panels/inspector.h"
+#include "ui/session/selection.h"
+#include "ui/tools/toolbox.h"
+#include "ui/window/dock.h"
+#include "ui/window/windowlayout.h"
+
+namespace ps {
+namespace {
+
+const QString kInspector = QStringLiteral("dock.inspector");
+const QString kBody = QStringLiteral("Body"), kMaterial = QStringLiteral("Material"), kScene = QStringLiteral("Scene"),
+              kSolver = QStringLiteral("Solver"), kBrush = QStringLiteral("Brush");
+
+}  // namespace
+
+PageChooser::PageChooser(Selection& selection, Toolbox& tools, Inspector& inspector, WindowLayout& layout,
+                         QObject* parent)
+    : QObject(parent), m_selection(selection), m_tools(tools), m_inspector(inspector), m_layout(layout) {
+  connect(&selection, &Selection::changed, this, &PageChooser::onSelection);
+  connect(&selection, &Selection::materialPicked, this, [this] {
+    if (!m_tools.tool().usesBrush()) m_layout.showPage(kMaterial);
+  });
+  connect(&tools, &Toolbox::toolChanged, this, &PageChooser::onTool);
+}
+
+void PageChooser::onTool() {
+  const bool draws = m_tools.tool().usesBrush(), shown = m_layout.dock(kInspector)->currentPage() == kBrush;
+  if (draws && !shown) m_layout.showPage(kBrush);
+  if (!draws && shown) m_layout.showPage(kMaterial);
+}
+
+void PageChooser::onSelection() {
+  if (m_selection.empty()) return;
+  const std::string id = m_selection.id();
+  switch (m_selection.kind()) {
+    case OutlineKind::Body:
+      if (m_layout.dock(kInspector)->currentPage() != kMaterial) m_layout.showPage(kBody);
+      break;
+    case OutlineKind::Emitter:
+      reveal({Owner::Emitter, id, "speed"}, false);
+      break;
+    case OutlineKind::Sink:
+      reveal({Owner::Sink, id, "open"}, false);
+      break;
+    case OutlineKind::Wall:
+      reveal({Owner::Wall, id, "heat"}, false);  // the outliner keeps the focus: arrows walk on
+      break;
+    case OutlineKind::Environment:
+    case OutlineKind::Scene:
+      m_layout.showPage(kScene);
+      break;
+    case OutlineKind::Probes:
+    case OutlineKind::Probe:
+      m_layout.showPage(QStringLiteral("Graphs"));
+      break;
+  }
+}
+
+bool PageChooser::reveal(const Address& address, bool focus) {
+  ParameterPanel* panel = m_inspector.panelFor(address);
+  if (!panel) return false;
+  m_layout.showPage(panel == m_inspector.bodyPanel()       ? kBody
+                    : panel == m_inspector.materialPanel() ? kMaterial
+                    : panel == m_inspector.scenePanel()    ? kScene
+                                                           : kSolver);
+  panel->setFilter({});
+  panel->setChangedOnly(false);
+  return panel->reveal(QString::fromStdString(address.text()), focus);
+}
+
+}  // namespace ps

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/window/paneltable.h"
+
+#include "ui/graphs/energypanel.h"
+#include "ui/graphs/graphspanel.h"
+#include "ui/panels/brushpanel.h"
+#include "ui/panels/inspector.h"
+#include "ui/panels/materialspanel.h"
+#include "ui/panels/messagespage.h"
+#include "ui/panels/outliner.h"
+#include "ui/session/session.h"
+#include "ui/timeline/transport.h"
+
+#include <QtWidgets/QScrollArea>
+
+namespace ps {
+namespace {
+
+QWidget* makeMaterials(const PanelContext& context) {
+  auto* materials = new MaterialsPanel(context.session.document(), context.selection);
+  auto* scroll = new QScrollArea;
+  scroll->setFrameShape(QFrame::NoFrame);
+  scroll->setWidgetResizable(true);
+  scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  scroll->setFocusPolicy(Qt::NoFocus);
+  scroll->setWidget(materials);
+  QObject::connect(materials, &MaterialsPanel::revealed, scroll, [scroll](const QRect& tile) {
+    scroll->ensureVisible(tile.center().x(), tile.center().y(), 0, tile.height() / 2);
+  });
+  return scroll;
+}
+
+}  // namespace
+
+const std::vector<PanelRow>& panelTable() {
+  using Context = const PanelContext&;
+  static const std::vector<PanelRow> kTable{
+      {"dock.outliner", "Outliner", [](Context c) -> QWidget* { return new Outliner(c.session, c.selection); }},
+      {"dock.materials", "Materials", makeMaterials},
+      {"dock.inspector", "Body", [](Context c) -> QWidget* { return c.inspector.bodyPanel(); }},
+      {"dock.inspector", "Material", [](Context c) -> QWidget* { return c.inspector.materialPanel(); }},
+      {"dock.inspector", "Scene", [](Context c) -> QWidget* { return c.inspector.scenePanel(); }},
+      {"dock.inspector", "Solver", [](Context c) -> QWidget* { return c.inspector.solverPanel(); }},
+      {"dock.inspector", "Brush", [](Context c) -> QWidget* { return new BrushPanel(c.tools); }},
+      {"dock.graphs", "Graphs", [](Context c) -> QWidget* { return new GraphsPanel(c.session); }},
+      {"dock.graphs", "Energy", [](Context c) -> QWidget* { return new EnergyPanel(c.session); }},
+      {"dock.graphs", "Messages", [](Context c) -> QWidget* { return new MessagesPage(c.session.log()); }},
+      {"dock.transport", "Transport", [](Context c) -> QWidget* { return new Transport(c.session); }},
+  };
+  return kTable;
+}
+
+const std::vector<DockRow>& dockTable() {
+  static const std::vector<DockRow> kTable{{"dock.outliner", "Outliner", ""},
+                                           {"dock.materials", "Materials", ""},
+                                           {"dock.inspector", "Inspector", "Material"},
+                                           {"dock.graphs", "Graphs", ""},
+                                           {"dock.transport", "Transport", ""}};
+  return kTable;
+}
+
+}  // namespace ps

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <vector>
+
+class QWidget;
+
+namespace ps {
+
+class Inspector;
+class Selection;
+class Session;
+class Toolbox;
+
+/// What panels are made with; they follow it by themselves.
+struct PanelContext {
+  Session& session;
+  Selection& selection;
+  Toolbox& tools;
+  Inspector& inspector;
+};
+
+/// One page of a dock. A new panel is a class in a file of its own and a row in the table.
+struct PanelRow {
+  const char* dock;   ///< DockRow::name
+  const char* title;  ///< of its tab
+  QWidget* (*make)(const PanelContext&);
+};
+const std::vector<PanelRow>& panelTable();
+
+/// The docks, in the order in which they are laid out.
+struct DockRow {
+  const char* name;  ///< in saved layouts
+  const char* title;
+  const char* first;  ///< page that shows at first; "": the first one
+};
+const std::vector<DockRow>& dockTable();
+
+}  // namespace ps

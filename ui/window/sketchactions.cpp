@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/window/sketchactions.h"
+
+#include "core/plugin_host/registry.h"
+#include "ui/document/declared.h"
+#include "ui/session/session.h"
+#include "ui/tools/toolbox.h"
+#include "ui/tools/tooltable.h"
+#include "ui/window/actions.h"
+
+#include <QtWidgets/QMenu>
+
+namespace ps {
+
+void SketchActions::makeMenu(QMenu* menu) {
+  for (const ToolRow& row : toolTable()) {
+    m_actions.add(menu, QStringLiteral("sketch.") + QString::fromLatin1(row.id), QString::fromLatin1(row.name),
+                  {QKeySequence(QString::fromLatin1(row.key))}, [this, id = row.id] { m_tools.activate(id); });
+  }
+  menu->addSeparator();
+  m_actions.add(menu, QStringLiteral("sketch.smaller"), QStringLiteral("Smaller brush"),
+                {QKeySequence(QStringLiteral("["))}, [this] { m_tools.stepBrush(-1); });
+  m_actions.add(menu, QStringLiteral("sketch.larger"), QStringLiteral("Larger brush"),
+                {QKeySequence(QStringLiteral("]"))}, [this] { m_tools.stepBrush(1); });
+  m_actions.add(menu, QStringLiteral("sketch.shape"), QStringLiteral("Next brush shape"),
+                {QKeySequence(QStringLiteral("N"))}, [this] { m_tools.nextShape(); });
+  m_shapes = menu->addMenu(QStringLiteral("Brush shape"));
+  m_shapes->setEnabled(false);
+}
+
+void SketchActions::addBrushes() {
+  const PluginRegistry* plugins = m_session.plugins();
+  for (const std::string& id : plugins->ids(PluginKind::Brush)) {
+    m_actions.add(m_shapes, QStringLiteral("sketch.shape.") + QString::fromStdString(id),
+                  QStringLiteral("Brush shape: %1").arg(pluginLabel(plugins, id)), {}, [this, id] {
+                    BrushSettings brush = m_tools.brush();
+                    brush.shape = id;
+                    m_tools.setBrush(brush);
+                    if (!m_tools.tool().usesBrush()) m_tools.activate(kBrushTool);
+                  });
+  }
+  m_shapes->setEnabled(!m_shapes->isEmpty());
+}
+
+}  // namespace ps

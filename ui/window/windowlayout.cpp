@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/window/windowlayout.h"
+
+#include "ui/theme/theme.h"
+#include "ui/viewport/viewport.h"
+#include "ui/window/dock.h"
+#include "ui/window/paneltable.h"
+
+#include <QtCore/QSettings>
+#include <QtCore/QTimer>
+#include <QtGui/QScreen>
+#include <QtWidgets/QApplication>
+#include <QtWidgets/QMainWindow>
+
+#include <algorithm>
+#include <map>
+
+namespace ps {
+namespace {
+
+constexpr const char* kTheme = "look/dark";
+constexpr const char* kGeometry = "window/geometry";
+constexpr const char* kState = "window/state";
+constexpr const char* kHint = "view/hint";
+constexpr int kStateVersion = 2;
+constexpr int kWide = 1500;  // from here on the wide column of the layout table
+
+}  // namespace
+
+WindowLayout::WindowLayout(QMainWindow& window, const Options& options)
+    : QObject(&window), m_window(window), m_options(options) {}
+
+void WindowLayout::makeDocks(const PanelContext& context, Viewport* view) {
+  m_view = view;
+  m_window.setCorner(Qt::TopRightCorner, Qt::RightDockWidgetArea);
+  m_window.setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
+  m_window.setCorner(Qt::TopLeftCorner, Qt::LeftDockWidgetArea);
+  m_window.setCorner(Qt::BottomLeftCorner, Qt::BottomDockWidgetArea);
+  m_window.setDockOptions(QMainWindow::AllowNestedDocks | QMainWindow::AllowTabbedDocks);
+  for (const DockRow& row : dockTable()) {
+    const QString name = QString::fromLatin1(row.name), first = QString::fromLatin1(row.first);
+    auto* dock = new Dock(name, QString::fromLatin1(row.title), &m_window);
+    for (const PanelRow& panel : panelTable()) {
+      if (name == QLatin1String(panel.dock)) dock->addPage(QString::fromLatin1(panel.title), panel.make(context));
+    }
+    if (!first.isEmpty()) dock->showPage(first);
+    m_docks.push_back(dock);
+  }
+  // The bar of buttons has neither title nor choice.
+  Dock* transport = m_docks.back();
+  transport->setTitleBarWidget(new QWidget);
+  transport->setFeatures(QDockWidget::NoDockWidgetFeatures);
+}
+
+Dock* WindowLayout::dock(const QString& name) const {
+  const auto found = std::find_if(m_docks.begin(), m_docks.end(), [&](Dock* d) { return d->objectName() == name; });
+  return found == m_docks.end() ? nullptr : *found;
+}
+
+void WindowLayout::showPage(const QString& title) {
+  for (const PanelRow& row : panelTable()) {
+    if (title == QLatin1String(row.title)) dock(QString::fromLatin1(row.dock))->showPage(title);
+  }
+}
+
+void WindowLayout::setPageTitle(const QString& title, const QString& shown) {
+  std::map<QString, int> pages;  // so far, by dock
+  for (const PanelRow& row : panelTable()) {
+    const QString name = QString::fromLatin1(row.dock);
+    const int page = pages[name]++;
+    if (title == QLatin1String(row.title)) dock(name)->setPageTitle(page, shown);
+  }
+}
+
+void WindowLayout::applyDefault() {
+  setFullViewport(false);
+  const QSize screen = m_window.screen() ? m_window.screen()->availableSize() : QSize(1600, 1000);
+  if (!m_window.testAttribute(Qt::WA_Resized))
+    m_window.resize(screen.width() >= 1700 && screen.height() >= 1050 ? QSize(1600, 1000) : QSize(1280, 800));
+  for (Dock* dock : m_docks) {
+    dock->setFloating(false);
+    dock->setVisible(true);
+  }
+  m_window.addDockWidget(Qt::LeftDockWidgetArea, m_docks[0]);
+  m_window.addDockWidget(Qt::RightDockWidgetArea, m_docks[2]);
+  m_window.addDockWidget(Qt::BottomDockWidgetArea, m_docks[3]);
+  m_window.splitDockWidget(m_docks[0], m_docks[1], Qt::Vertical);
+  m_window.splitDockWidget(m_docks[3], m_docks[4], Qt::Vertical);
+  sizeDocks();
+}
+
+void WindowLayout::sizeDocks() {
+  const bool wide = m_window.width() >= kWide;
+  m_window.resizeDocks({m_docks[0], m_docks[2]}, {wide ? 236 : 204, wide ? 392 : 332}, Qt::Horizontal);
+  m_window.resizeDocks({m_docks[0], m_docks[1]}, {wide ? 380 : 270, wide ? 252 : 140}, Qt::Vertical);
+  m_window.resizeDocks({m_docks[3], m_docks[4]}, {wide ? 206 : 182, 40}, Qt::Vertical);
+}
+
+void WindowLayout::restore() {
+  if (!m_options.remember) return;
+  const QSettings settings;
+  if (!m_options.themeAsked) m_options.dark = settings.value(QLatin1String(kTheme), m_options.dark).toBool();
+  if (m_options.dark != Theme::current().dark()) Theme::apply(*qApp, m_options.dark);
+  if (settings.contains(QLatin1String(kGeometry))) {
+    m_window.restoreGeometry(settings.value(QLatin1String(kGeometry)).toByteArray());
+    m_sizeAtShow = !m_window.restoreState(settings.value(QLatin1String(kState)).toByteArray(), kStateVersion);
+  }
+  if (m_view) m_view->setHintShown(settings.value(QLatin1String(kHint), true).toBool());
+}
+
+void WindowLayout::save() const {
+  if (!m_options.remember) return;
+  QSettings settings;
+  if (!m_options.themeAsked) settings.setValue(QLatin1String(kTheme), m_options.dark);
+  settings.setValue(QLatin1String(kGeometry), m_window.saveGeometry());
+  settings.setValue(QLatin1String(kState), m_full ? m_beforeFull : m_window.saveState(kStateVersion));
+  if (m_view) settings.setValue(QLatin1String(kHint), m_view->hintShown());
+}
+
+void WindowLayout::setDark(bool dark) {
+  if (dark == m_options.dark) return;
+  m_options.dark = dark;
+  m_options.themeAsked = false;
+  Theme::apply(*qApp, dark);
+  if (m_options.remember) QSettings().setValue(QLatin1String(kTheme), dark);
+  Q_EMIT themeChanged();
+  for (QWidget* widget : m_window.findChildren<QWidget*>()) widget->update();
+}
+
+void WindowLayout::setFullViewport(bool on) {
+  if (on == m_full) return;
+  if (on) m_beforeFull = m_window.saveState(kStateVersion);
+  m_full = on;
+  for (Dock* dock : m_docks) dock->setVisible(!on);
+  if (!on) m_window.restoreState(m_beforeFull, kStateVersion);
+}
+
+void WindowLayout::onResized(int widthBefore) {
+  if (widthBefore >= 0 && (widthBefore >= kWide) != (m_window.width() >= kWide)) sizeDocks();
+}
+
+/// Sizes given before the window is laid out are not kept.
+void WindowLayout::onShown() {
+  if (m_sizeAtShow) QTimer::singleShot(0, this, &WindowLayout::sizeDocks);
+  m_sizeAtShow = false;
+}
+
+}  // namespace ps
