@@ -4,6 +4,7 @@
 #include "core/base/error.h"
 #include "core/base/jsontext.h"
 #include "core/base/parallel.h"
+#include "core/experiments/drag.h"
 #include "core/experiments/runreport.h"
 #include "core/io/textfile.h"
 #include "core/particles/neighbours.h"
@@ -173,6 +174,40 @@ json machine() {
           {"compiler", __VERSION__}};
 }
 
+/// A slider dragged over the tank, which is the same tank left alone in between.
+json measureDragged(int particles, PluginRegistry& plugins, long frames) {
+  Drag drag = measureDrag(tank(particles), plugins, "water", frames);
+  std::sort(drag.milliseconds.begin(), drag.milliseconds.end());
+  const auto at = [&](double share) {
+    const auto index = static_cast<size_t>(share * static_cast<double>(drag.milliseconds.size()));
+    return drag.milliseconds.empty() ? 0 : drag.milliseconds[std::min(index, drag.milliseconds.size() - 1)];
+  };
+  return {{"name", "drag"},
+          {"particles", drag.particles},
+          {"threads", threadCount()},
+          {"ms", {{"median", at(0.5)}, {"p95", at(0.95)}}},
+          {"edits", drag.edits},
+          {"edits_per_s", drag.editsPerSecond},
+          {"edits_applied", drag.applied},
+          {"tables_baked", drag.baked},
+          {"frames_per_s_alone", drag.framesAlone},
+          {"frames_per_s", drag.framesDragged},
+          {"frames_kept", drag.framesDragged / drag.framesAlone},
+          {"bake_ms", drag.bakeMilliseconds},
+          {"edit_ms", drag.editMilliseconds}};
+}
+
+void printDrag(const json& row) {
+  std::printf(
+      "%-20s %8zu particles  %2d threads  %7.2f ms per frame (p95 %.2f)  %6.1f frames/s, %.1f left alone: "
+      "%.1f %% kept  %.0f edits/s  %.3f ms per edit besides %.3f ms per table\n",
+      "drag", row["particles"].get<size_t>(), row["threads"].get<int>(), row["ms"]["median"].get<double>(),
+      row["ms"]["p95"].get<double>(), row["frames_per_s"].get<double>(), row["frames_per_s_alone"].get<double>(),
+      100 * row["frames_kept"].get<double>(), row["edits_per_s"].get<double>(), row["edit_ms"].get<double>(),
+      row["bake_ms"].get<double>());
+  std::fflush(stdout);
+}
+
 void print(const json& scene) {
   const double milliseconds = scene["ms"]["median"];
   std::printf("%-20s %8zu particles  %2d threads  %7.2f ms per frame (p95 %.2f)  %6.1f frames/s  %.2f ns per pair\n",
@@ -186,8 +221,10 @@ void print(const json& scene) {
 
 std::string benchHelp() {
   return "phasesketch-cli bench [SCENE...] [options]\n\nMeasures the path that simulate runs. A scene is a project "
-         "file, the name of a sample, or 'tank', water at\nrest; without one: ice-on-hot-plate and tank. iterations "
-         "are those of a whole frame; ns_per_pair is the density\nstage over ordered pairs within the support.\n\n" +
+         "file, the name of a sample, 'tank', water at\nrest, or 'drag', the tank while a slider is dragged at 250 "
+         "edits a "
+         "second, beside the same left alone; without one:\nice-on-hot-plate, tank and drag. iterations are those of a "
+         "whole frame; ns_per_pair is the density stage over\nordered pairs within the support.\n\n" +
          optionHelp(kOptions);
 }
 
@@ -198,7 +235,7 @@ int benchCommand(CommandArguments given) {
   if (arguments.has("--json")) requireWritable(arguments.text("--json"));
   applyMachineOptions(arguments);
   std::vector<std::string> names = arguments.positional();
-  if (names.empty()) names = {"ice-on-hot-plate", "tank"};
+  if (names.empty()) names = {"ice-on-hot-plate", "tank", "drag"};
   PluginRegistry plugins;
   constexpr int kCalibrationParticles = 8000;
   const Measured calibration = measureScene("tank", tank(kCalibrationParticles), plugins, 20);
@@ -207,6 +244,11 @@ int benchCommand(CommandArguments given) {
       {"calibration", {{"triad_GB_per_s", triad()}, {"density_ns_per_pair", calibration.densityNanosecondsPerPair}}},
       {"scenes", json::array()}};
   for (const std::string& name : names) {
+    if (name == "drag") {
+      out["scenes"].push_back(measureDragged(static_cast<int>(particles.value_or(100000)), plugins, frames / 4));
+      printDrag(out["scenes"].back());
+      continue;
+    }
     Project project;
     if (name == "tank") {
       project = tank(static_cast<int>(particles.value_or(20000)));

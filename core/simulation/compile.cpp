@@ -99,10 +99,9 @@ Spawn takePinned(Spawn& spawn, const Body& body) {
   return pinned;
 }
 
-const EvaluatedMaterial* lastOf(const SceneMaterial& source, const EvaluatedMaterials* evaluated) {
-  if (!evaluated) return nullptr;
-  const auto found = evaluated->find(source.id);
-  return found != evaluated->end() && found->second.base == source.base ? &found->second : nullptr;
+const EvaluatedMaterial* lastOf(const SceneMaterial& source, const EvaluatedMaterials& evaluated) {
+  const auto found = evaluated.find(source.id);
+  return found != evaluated.end() && found->second.base == source.base ? &found->second : nullptr;
 }
 
 }  // namespace
@@ -199,36 +198,38 @@ Bounds compileBounds(const Project& project) {
   return {double3Of(environment.boundsMinimum), double3Of(environment.boundsMaximum), environment.periodic};
 }
 
-std::vector<Material> compileMaterials(const Project& project, const PluginRegistry& plugins,
-                                       EvaluatedMaterials* evaluated) {
-  std::vector<Material> materials;
-  EvaluatedMaterials now;
-  for (const SceneMaterial& source : project.materials) {
-    Material material;
-    if (plugins.materialPlugin(source.base)) {
-      material = plugins.evaluated(source.base, numbersOf(source.parameters, plugins.parameters(source.base)));
-      now[source.id] = {source.base, source.parameters, material};
-    } else if (const Material* installed = plugins.material(source.base)) {
-      material = *installed;
-    } else if (const EvaluatedMaterial* last = lastOf(source, evaluated)) {
-      if (last->parameters != source.parameters) {
-        throw PluginError("material '" + source.id + "': '" + source.base +
-                          "' failed while it ran, so its parameters stay as they were; start the program again");
-      }
-      material = last->material;
-      now[source.id] = *last;
+Material compileMaterial(const Project& project, const SceneMaterial& source, const PluginRegistry& plugins,
+                         EvaluatedMaterials& evaluated) {
+  Material material;
+  if (plugins.materialPlugin(source.base)) {
+    material = plugins.evaluated(source.base, numbersOf(source.parameters, plugins.parameters(source.base)));
+    evaluated[source.id] = {source.base, source.parameters, material};
+  } else if (const Material* installed = plugins.material(source.base)) {
+    material = *installed;
+  } else if (const EvaluatedMaterial* last = lastOf(source, evaluated)) {
+    if (last->parameters != source.parameters) {
+      throw PluginError("material '" + source.id + "': '" + source.base +
+                        "' failed while it ran, so its parameters stay as they were; start the program again");
     }
-    material.id = source.id;
-    if (!source.label.empty()) material.label = source.label;
-    material.adheresTo =
-        source.adheresTo ? namedInScene(project, *source.adheresTo) : namedByInstalled(project, material.adheresTo);
-    for (const auto& [key, value] : source.properties.values) material.properties[key] = responseOf(value);
-    if (const std::string problem = problemOf(material); !problem.empty()) {
-      throw InputError("material '" + source.id + "': " + problem);
-    }
-    materials.push_back(std::move(material));
+    material = last->material;
   }
-  if (evaluated) *evaluated = std::move(now);
+  material.id = source.id;
+  if (!source.label.empty()) material.label = source.label;
+  material.adheresTo =
+      source.adheresTo ? namedInScene(project, *source.adheresTo) : namedByInstalled(project, material.adheresTo);
+  for (const auto& [key, value] : source.properties.values) material.properties[key] = responseOf(value);
+  if (const std::string problem = problemOf(material); !problem.empty()) {
+    throw InputError("material '" + source.id + "': " + problem);
+  }
+  return material;
+}
+
+std::vector<Material> compileMaterials(const Project& project, const PluginRegistry& plugins) {
+  std::vector<Material> materials;
+  EvaluatedMaterials evaluated;
+  for (const SceneMaterial& source : project.materials) {
+    materials.push_back(compileMaterial(project, source, plugins, evaluated));
+  }
   return materials;
 }
 

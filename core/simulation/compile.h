@@ -27,12 +27,14 @@ struct EvaluatedMaterial {
 };
 using EvaluatedMaterials = std::map<std::string, EvaluatedMaterial>;  ///< by SceneMaterial::id
 
-/// The scene's materials in order. One whose base is not installed gets the catalogue's defaults: its bodies stand
-/// still. `evaluated` is kept up to date, and stands in for a plugin that has failed since: matter does not change its
+/// One of the scene's materials. One whose base is not installed gets the catalogue's defaults: its bodies stand still.
+/// `evaluated` is kept up to date, and stands in for a plugin that has failed since: matter does not change its
 /// substance. Throws InputError when values contradict each other (a solidus above the liquidus), PluginError when a
 /// plugin fails, or has failed and its parameters are others now.
-std::vector<Material> compileMaterials(const Project& project, const PluginRegistry& plugins,
-                                       EvaluatedMaterials* evaluated = nullptr);
+Material compileMaterial(const Project& project, const SceneMaterial& source, const PluginRegistry& plugins,
+                         EvaluatedMaterials& evaluated);
+/// All of them, in order.
+std::vector<Material> compileMaterials(const Project& project, const PluginRegistry& plugins);
 /// Index of a scene material by id; throws InputError naming the body that refers to it.
 uint32_t materialIndex(const Project& project, const std::string& material, const std::string& body);
 /// Whether everything a body needs is installed; a body that lacks something stands still as a placeholder.

@@ -6,9 +6,12 @@
 #include "core/plugin_host/registry.h"
 #include "core/simulation/compile.h"
 #include "core/simulation/declared.h"
+#include "core/simulation/edits.h"
 #include "core/simulation/lattice.h"
+#include "core/simulation/materialtables.h"
 #include "core/simulation/matterflow.h"
 #include "core/simulation/measure.h"
+#include "core/simulation/namedmatter.h"
 
 #include <algorithm>
 #include <atomic>
@@ -35,48 +38,8 @@ void requireRoom(double particles) {
                    " that a scene may have; make its bodies smaller or raise the particle spacing");
 }
 
-/// Leaves out particles that would stand where one stands already, which no force could part; returns how many.
-size_t dropTaken(Spawn& spawn, TakenPlaces& taken) {
-  size_t kept = 0;
-  for (size_t k = 0; k < spawn.position.size(); ++k) {
-    const api::Double3 place = spawn.position[k];
-    if (!taken.isFree(place)) continue;
-    taken.add(place);
-    spawn.position[kept] = place;
-    spawn.velocity[kept] = spawn.velocity[k];
-    if (!spawn.temperatures.empty()) {
-      spawn.temperatures[kept] = spawn.temperatures[k];
-      spawn.phases[kept] = spawn.phases[k];
-    }
-    ++kept;
-  }
-  const size_t dropped = spawn.position.size() - kept;
-  spawn.position.resize(kept);
-  spawn.velocity.resize(kept);
-  if (!spawn.temperatures.empty()) {
-    spawn.temperatures.resize(kept);
-    spawn.phases.resize(kept);
-  }
-  return dropped;
-}
-
 auto byId(const std::vector<SceneMaterial>& materials, const std::string& id) {
   return std::find_if(materials.begin(), materials.end(), [&](const SceneMaterial& m) { return m.id == id; });
-}
-
-/// Particles carry indices of materials: as long as they live, each keeps its place, one that has left the document
-/// too, for undo may bring back matter of it. New ones come last.
-std::vector<SceneMaterial> inTheirPlaces(const std::vector<SceneMaterial>& living,
-                                         const std::vector<SceneMaterial>& wanted) {
-  std::vector<SceneMaterial> placed;
-  for (const SceneMaterial& old : living) {
-    const auto now = byId(wanted, old.id);
-    placed.push_back(now == wanted.end() ? old : *now);
-  }
-  for (const SceneMaterial& material : wanted) {
-    if (byId(living, material.id) == living.end()) placed.push_back(material);
-  }
-  return placed;
 }
 
 std::vector<std::string> idsOf(const std::vector<SceneMaterial>& materials) {
@@ -99,9 +62,11 @@ struct Engine::Impl {
   std::unique_ptr<Impl> rebuilt(const Project& source) const;
   /// Index of a body for its particles: a body keeps it as long as particles live, whatever comes and goes before it.
   uint32_t bodyIndex(const std::string& id);
-  void recompile(Owner owner);
+  bool isFixed(const std::string& body);  ///< whether it was born fixed
+  void recompile(const Touched& touched);
   void recompileAll();
-  void bakeMaterials();
+  void bakeMaterials(const std::string& only = {});
+  void setConstraints();
   /// Adds the structure of matter that has frozen and that nothing takes back.
   void holdFrozen();
   void setThermal();
@@ -116,10 +81,9 @@ struct Engine::Impl {
   std::vector<std::string> materialOrder;  ///< ids of the document's; others in `project` leave at the next reset
   PluginRegistry& plugins;
   std::unique_ptr<Solver> solver;
-  std::vector<BakedMaterial> materials;
-  EvaluatedMaterials evaluated;
+  MaterialTables tables;
+  NamedMatter named;
   std::map<std::string, uint32_t> constraintSets;  // one per plugin: structure may join matter of any two bodies
-  std::vector<std::array<float, 4>> looks;
   std::shared_ptr<const std::vector<std::string>> bodyIds = std::make_shared<const std::vector<std::string>>();
   std::vector<uint8_t> fixedBodies;    // 1 for bodies that were born fixed, by the same index
   std::vector<std::string> bodyNames;  // for messages, by the index that particles carry
@@ -131,28 +95,9 @@ struct Engine::Impl {
   double spacing = 0;  ///< of the particles that live; the project's acts at the next reset
 };
 
-void Engine::Impl::bakeMaterials() {
-  const double pressure = compileThermal(project).ambientPressure;
-  std::vector<BakedMaterial> baked;
-  std::vector<std::array<float, 4>> bakedLooks;
-  EvaluatedMaterials known = evaluated;
-  for (const Material& material : compileMaterials(project, plugins, &known)) {
-    baked.emplace_back(material, pressure);
-    std::array<float, 4> look{};
-    for (size_t c = 0; c < look.size(); ++c) {
-      constexpr const char* kKeys[] = {"color_red", "color_green", "color_blue", "clearness"};
-      look[c] = static_cast<float>(baked.back().property(kKeys[c], 293.15));
-    }
-    bakedLooks.push_back(look);
-  }
-  evaluated = std::move(known);
-  looks = std::move(bakedLooks);
-  materials = baked;
-  solver->setMaterials(std::move(baked));
+void Engine::Impl::bakeMaterials(const std::string& only) {
   // What has melted may freeze far from what held it.
-  const bool melts =
-      std::any_of(materials.begin(), materials.end(), [](const BakedMaterial& m) { return m.caloric().melts != 0; });
-  if (melts) holdFrozen();
+  if (tables.update(project, plugins, *solver, only) && tables.anyMelts()) holdFrozen();
 }
 
 void Engine::Impl::holdFrozen() {
@@ -231,7 +176,7 @@ void Engine::Impl::exchangeMatter() {
     if (!plugins.material(material.base) || count > kMaximumParticles) return std::vector<uint32_t>{};
     return born(std::move(spawn), emitter.id, emitter.name);
   };
-  flow.pour(*solver, project, materials, spacing, compileSettings(project).dt, bodyOf, birth);
+  flow.pour(*solver, project, tables.tables(), spacing, compileSettings(project).dt, bodyOf, birth);
 }
 
 Project Engine::Impl::document() const {
@@ -261,7 +206,7 @@ void Engine::Impl::build() {
   for (const Body& body : project.bodies) {
     bodyIndex(body.id);  // of one without particles too
     size_t dropped = 0;
-    for (Spawn& spawn : compileBody(project, plugins, materials, body)) {
+    for (Spawn& spawn : compileBody(project, plugins, tables.tables(), body)) {
       dropped += dropTaken(spawn, taken);
       spawns.emplace_back(std::move(spawn), &body);
     }
@@ -279,42 +224,51 @@ void Engine::Impl::build() {
     born(std::move(spawn), *body);
   }
   for (const Emitter& emitter : project.emitters) bodyIndex(emitter.id);
-  recompile(Owner::Body);  // what is said of bodies goes by their indices
+  recompile({{Owner::Body}});  // what is said of bodies goes by their indices
   for (const Probe& probe : project.probes) probeNames.push_back(probeTitle(probe));
 }
 
 std::unique_ptr<Engine::Impl> Engine::Impl::rebuilt(const Project& source) const {
   auto next = std::make_unique<Impl>(source, plugins);
-  next->evaluated = evaluated;
+  next->tables = tables;
   next->build();
   return next;
 }
 
-void Engine::Impl::recompile(Owner owner) {
-  if (owner == Owner::Material) bakeMaterials();
-  if (owner == Owner::Wall) solver->setWalls(compileWalls(project));
-  if (owner == Owner::Solver || owner == Owner::Environment) {  // wind and drag are the environment's
+void Engine::Impl::recompile(const Touched& touched) {
+  const auto any = [&](std::initializer_list<Owner> owners) {
+    return std::any_of(owners.begin(), owners.end(), [&](Owner owner) { return touched.owners.count(owner) > 0; });
+  };
+  if (touched.allMaterials) bakeMaterials();
+  for (const std::string& id : touched.materials) bakeMaterials(id);
+  if (any({Owner::Wall})) solver->setWalls(compileWalls(project));
+  if (any({Owner::Solver, Owner::Environment})) {  // wind and drag are the environment's
     SolverSettings settings = compileSettings(project);
     settings.spacing = spacing;
     solver->setSettings(settings);
   }
-  if (owner == Owner::Environment) bakeMaterials();  // pressure moves melting and boiling points
-  if (owner == Owner::Environment || owner == Owner::Solver || owner == Owner::Thermal || owner == Owner::Body)
-    setThermal();
-  if (owner == Owner::Body) {
+  if (any({Owner::Environment, Owner::Solver, Owner::Thermal, Owner::Body})) setThermal();
+  if (any({Owner::Body})) {
     lead();
     solver->setHeating(compileHeating(project, *bodyIds));
   }
-  if (owner == Owner::Constraint) {
-    for (const Body& body : project.bodies) {
-      for (const BodyConstraint& c : body.constraints) {
-        const auto set = constraintSets.find(c.plugin);
-        if (set == constraintSets.end() || !plugins.constraint(c.plugin)) continue;
-        solver->setConstraintParameters(set->second, bodyIndex(body.id),
-                                        numbersOf(c.parameters, plugins.parameters(c.plugin)));
-      }
+  if (any({Owner::Constraint})) setConstraints();
+}
+
+void Engine::Impl::setConstraints() {
+  for (const Body& body : project.bodies) {
+    for (const BodyConstraint& c : body.constraints) {
+      const auto set = constraintSets.find(c.plugin);
+      if (set == constraintSets.end() || !plugins.constraint(c.plugin)) continue;
+      solver->setConstraintParameters(set->second, bodyIndex(body.id),
+                                      numbersOf(c.parameters, plugins.parameters(c.plugin)));
     }
   }
+}
+
+bool Engine::Impl::isFixed(const std::string& body) {
+  const uint32_t index = bodyIndex(body);
+  return index < fixedBodies.size() && fixedBodies[index];
 }
 
 void Engine::Impl::lead() {
@@ -328,8 +282,7 @@ void Engine::Impl::lead() {
 
 void Engine::Impl::recompileAll() {
   solver->setBounds(compileBounds(project));
-  for (const Owner owner : {Owner::Wall, Owner::Solver, Owner::Environment, Owner::Constraint, Owner::Body})
-    recompile(owner);
+  recompile({{Owner::Wall, Owner::Solver, Owner::Environment, Owner::Constraint, Owner::Body}, {}, true});
 }
 
 Engine::Engine(const Project& project, PluginRegistry& plugins) : m(std::make_unique<Impl>(project, plugins)) {
@@ -364,35 +317,48 @@ void Engine::update(const Project& project) {
 }
 
 bool Engine::setParameter(const Address& address, const Value& value) {
-  if (Project changed = m->document(); setOutsideValue(changed, address, value)) {
-    update(changed);
-    if (address.owner != Owner::Body) return true;
-    const uint32_t index = m->bodyIndex(address.id);
-    return index < m->fixedBodies.size() && m->fixedBodies[index];
-  }
-  ParameterSet* set = findSet(m->project, address);
-  if (!set) return false;
-  const ParameterSet before = *set;
-  set->values[address.key] = value;
-  constexpr std::string_view kLive[] = {"motion_start", "motion_stop", "heating_power", "surface_area"};  // of a body
-  const bool live = std::find(std::begin(kLive), std::end(kLive), address.key) != std::end(kLive);
-  const bool actsNow = (address.owner != Owner::Body || live) && address.key != "particle_spacing";
+  const SetParameter edit{address, value};
+  return setParameters({&edit, 1});
+}
+
+bool Engine::setParameters(std::span<const SetParameter> edits) {
+  Touched touched;
+  std::vector<UndoEdit> undo;
+  bool now = true;
   try {
-    if (actsNow) {
-      m->recompile(address.owner);
-    } else {
-      requireRoom(particleCount(m->project));
+    for (const SetParameter& edit : edits) {
+      const When when = writeValue(m->project, edit, touched, undo);
+      if (when == When::NextReset && touched.room) requireRoom(particleCount(m->project));
+      now = now && (when == When::NextFrame || (when == When::IfFixed && m->isFixed(edit.address.id)));
     }
+    m->recompile(touched);
   } catch (...) {
-    *set = before;
-    if (actsNow) m->recompile(address.owner);
+    for (auto step = undo.rbegin(); step != undo.rend(); ++step) (*step)(m->project);
+    m->recompile(touched);
     throw;
   }
-  return actsNow;
+  return now;
+}
+
+void Engine::apply(const Command& command) {
+  if (const auto* edit = std::get_if<SetParameter>(&command)) {
+    setParameters({edit, 1});
+  } else if (const auto* whole = std::get_if<UpdateProject>(&command)) {
+    update(*whole->project);
+  } else if (const auto* start = std::get_if<Reset>(&command)) {
+    reset();
+    for (const NameMatter& named : start->named) m->named.apply(*this, named);
+  } else {
+    std::visit(
+        [this](const auto& matter) {
+          if constexpr (requires(NamedMatter & named) { named.apply(*this, matter); }) m->named.apply(*this, matter);
+        },
+        command);
+  }
 }
 
 std::vector<uint32_t> Engine::addCells(const Body& body, const std::vector<std::array<int, 3>>& cells, int palette) {
-  Spawn spawn = compileCells(m->project, m->plugins, m->materials, body, palette, cells, m->spacing);
+  Spawn spawn = compileCells(m->project, m->plugins, m->tables.tables(), body, palette, cells, m->spacing);
   spawn.position = freePositions(m->solver->particles(), spawn.position, 0.9 * m->spacing);
   requireRoom(static_cast<double>(m->solver->particles().size() + spawn.position.size()));
   std::vector<uint32_t> ids;
@@ -404,7 +370,7 @@ std::vector<uint32_t> Engine::addCells(const Body& body, const std::vector<std::
   } else {
     *known = body;
   }
-  m->recompile(Owner::Body);
+  m->recompile({{Owner::Body}});
   return ids;
 }
 
@@ -412,7 +378,7 @@ std::vector<uint32_t> Engine::addBody(const Body& body) {
   Project project = m->project;
   project.solver.parameters.values["particle_spacing"] = m->spacing;
   std::vector<uint32_t> ids;
-  for (Spawn& spawn : compileBody(project, m->plugins, m->materials, body)) {
+  for (Spawn& spawn : compileBody(project, m->plugins, m->tables.tables(), body)) {
     TakenPlaces taken = takenPlaces(m->solver->particles(), 0.9 * m->spacing, spawn.position.size());
     dropTaken(spawn, taken);
     requireRoom(static_cast<double>(m->solver->particles().size() + spawn.position.size()));
@@ -420,7 +386,7 @@ std::vector<uint32_t> Engine::addBody(const Body& body) {
     const std::vector<uint32_t> fresh = m->born(std::move(spawn), body);
     ids.insert(ids.end(), fresh.begin(), fresh.end());
   }
-  m->recompile(Owner::Body);
+  m->recompile({{Owner::Body}});
   return ids;
 }
 
@@ -445,7 +411,7 @@ SnapshotPtr Engine::snapshot() const {
   snapshot->flags = m->lastReport.flags;
   snapshot->bodyIds = m->bodyIds;
   snapshot->materialIds = idsOf(m->project.materials);
-  snapshot->materialLook = m->looks;
+  snapshot->materialLook = m->tables.looks();
   fillSnapshot(*snapshot, *m->solver);
   return snapshot;
 }
@@ -461,7 +427,8 @@ FrameStats Engine::stats() const {
 }
 
 const Project& Engine::project() const { return m->project; }
-Solver& Engine::solver() { return *m->solver; }
+const Solver& Engine::solver() const { return *m->solver; }
+uint64_t Engine::bakedTables() const { return m->tables.baked(); }
 const std::vector<std::string>& Engine::bodyIds() const { return *m->bodyIds; }
 const std::vector<std::string>& Engine::probeNames() const { return m->probeNames; }
 

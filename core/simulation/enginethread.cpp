@@ -1,19 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "core/simulation/engine.h"
+#include "core/simulation/enginethread.h"
 
 #include "core/plugin_host/registry.h"
+#include "core/simulation/commandqueue.h"
+#include "core/simulation/engine.h"
 
 #include <algorithm>
 #include <chrono>
 #include <condition_variable>
 #include <deque>
+#include <exception>
 #include <mutex>
 #include <new>
+#include <optional>
 #include <thread>
 
-// Why a thread with a queue: the interface must never wait for a step. Commands are closures that run between frames,
-// in order; what the interface reads (snapshot, history, clock) is copied out under a mutex that is held for
-// microseconds.
+// Why a thread with a queue: the interface must never wait for a step. Commands are values that are applied between
+// frames, in order; what the interface reads (snapshot, history, clock) is copied out under a mutex that is held for
+// microseconds. Why the queue merges: a dragged slider gives hundreds of values a second, of which a frame needs the
+// last. Why edits have a budget: they and the frames take turns, so that neither keeps the other from going on.
 namespace ps {
 namespace {
 
@@ -39,23 +44,29 @@ std::string currentProblem() {
   }
 }
 
+double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
 }  // namespace
 
 struct EngineThread::Impl {
   Impl(PluginRegistry& registry, std::function<void()> callback) : plugins(registry), published(std::move(callback)) {}
 
-  /// `whole`: takes over everything that another such command would, so that one just before it need not run.
-  void push(std::function<void()> command, bool whole = false) {
+  template <class Item>
+  void push(Item item, uint64_t commands = 0) {
     {
       const std::lock_guard lock(mutex);
-      if (whole && !commands.empty() && commands.back().whole) commands.pop_back();
-      commands.push_back({std::move(command), whole});
+      queue.push(std::move(item));
+      cost.commands += commands;
     }
     wake.notify_one();
   }
   void run(const std::stop_token& stop);
+  void turn();
+  void workOff();
   void step();
+  void open(const Opening& opening);
   void publish(SnapshotPtr snapshot);
+  void publishEdits();
   void tell(EngineEvent::Kind kind, StepFlags flags, std::string message);
   void tellOf(const StepReport& report);
   /// Kind and flags of what was told last; Settled when that was nothing.
@@ -63,10 +74,15 @@ struct EngineThread::Impl {
   void settle();
   /// Tells of the exception at hand. Never calls the engine, which may be what failed.
   void fail(EngineEvent::Kind kind, StepFlags flags = 0);
+  void refuse();  ///< tells of an edit's exception at hand
   void halt();
   void pace();
-  /// Runs an edit; what cannot be done is told, and the scene stays as it was.
-  void edit(const std::function<void(Engine&)>& command);
+  bool frameIsDue(double ahead = 0);
+  /// Makes an edit; what cannot be done is told, and the scene stays as it was.
+  template <class Action>
+  void edit(Action action);
+  void editAll(const ParameterBatch& batch);
+  void answer(const Question& question);
 
   PluginRegistry& plugins;
   std::function<void()> published;
@@ -74,14 +90,14 @@ struct EngineThread::Impl {
   std::unique_ptr<Engine> engine;
   StepFlags told = 0;  // flags that were told and have been raised since
   int quiet = 0;       // frames without a flag
+  std::stop_token stopping;
+  bool edited = false;  // since the last snapshot
+  double snapshotSeconds = 0;
 
   std::mutex mutex;
   std::condition_variable_any wake;
-  struct Command {
-    std::function<void()> run;
-    bool whole = false;
-  };
-  std::deque<Command> commands;
+  CommandQueue queue;
+  EditCost cost;
   bool playing = false;
   SnapshotPtr newest, previous;
   std::vector<FrameStats> history;
@@ -94,35 +110,66 @@ struct EngineThread::Impl {
 };
 
 void EngineThread::Impl::run(const std::stop_token& stop) {
+  stopping = stop;
   while (!stop.stop_requested()) {
-    std::function<void()> command;
-    bool advance = false;
     {
       std::unique_lock lock(mutex);
       if (playing) {
         const auto until = due;  // wait_until reads it without the lock, and play() writes due
-        wake.wait_until(lock, stop, until, [&] { return !commands.empty(); });
+        wake.wait_until(lock, stop, until, [&] { return !queue.empty(); });
       } else {
-        wake.wait(lock, stop, [&] { return !commands.empty() || playing; });
-      }
-      if (stop.stop_requested()) return;
-      if (!commands.empty()) {
-        command = std::move(commands.front().run);
-        commands.pop_front();
-      } else {
-        advance = playing && Clock::now() >= due;
+        wake.wait(lock, stop, [&] { return !queue.empty() || playing; });
       }
     }
+    if (stop.stop_requested()) return;
     try {
-      if (command) command();
-      if (advance) {
-        step();
-        pace();
-      }
+      turn();
     } catch (...) {
       halt();
       fail(EngineEvent::Kind::Stopped);
     }
+  }
+}
+
+/// Edits for as long as a frame lasts at most, then the frame that is due.
+void EngineThread::Impl::turn() {
+  workOff();
+  if (frameIsDue()) {
+    step();
+    pace();
+  } else if (edited && !frameIsDue(snapshotSeconds)) {  // else the frame's own snapshot shows them, and comes in time
+    publishEdits();
+  }
+}
+
+bool EngineThread::Impl::frameIsDue(double ahead) {
+  const auto soon = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(ahead));
+  const std::lock_guard lock(mutex);
+  return playing && Clock::now() + soon >= due;
+}
+
+void EngineThread::Impl::workOff() {
+  const auto start = Clock::now();
+  for (;;) {
+    std::optional<QueueEntry> entry;
+    {
+      const std::lock_guard lock(mutex);
+      entry = queue.pop();
+    }
+    if (!entry) return;
+    if (const auto* batch = std::get_if<ParameterBatch>(&*entry)) {
+      editAll(*batch);
+    } else if (const auto* command = std::get_if<Command>(&*entry)) {
+      edit([&] { engine->apply(*command); });
+    } else if (const auto* opening = std::get_if<Opening>(&*entry)) {
+      open(*opening);
+    } else if (const auto* question = std::get_if<Question>(&*entry)) {
+      answer(*question);
+    } else {
+      step();
+    }
+    const double frame = engine ? numberOf(engine->project().solver.parameters, solverParameters(), "dt") : 0;
+    if (stopping.stop_requested() || (frameIsDue() && secondsSince(start) >= frame)) return;
   }
 }
 
@@ -131,7 +178,9 @@ void EngineThread::Impl::step() {
   const StepReport report = engine->step();
   if (report.flags & kPausing) halt();
   tellOf(report);
+  const auto start = Clock::now();
   SnapshotPtr snapshot = engine->snapshot();
+  snapshotSeconds = secondsSince(start);
   // Play stops at the end of the scene, once: played from there, it goes on.
   const Project& project = engine->project();
   const double last = project.duration - numberOf(project.solver.parameters, solverParameters(), "dt") / 2;
@@ -189,6 +238,7 @@ void EngineThread::Impl::tellOf(const StepReport& report) {
 }
 
 void EngineThread::Impl::publish(SnapshotPtr snapshot) {
+  edited = false;
   const bool fresh = !newest || newest->revision != snapshot->revision;
   if (fresh) settle();  // told of a run that is over
   {
@@ -211,20 +261,97 @@ void EngineThread::Impl::fail(EngineEvent::Kind kind, StepFlags flags) {
   if (published) published();
 }
 
-void EngineThread::Impl::edit(const std::function<void(Engine&)>& command) {
-  if (!engine) return;
+void EngineThread::Impl::refuse() {
   try {
-    command(*engine);
+    throw;
   } catch (const PluginError&) {
     halt();
-    return fail(EngineEvent::Kind::Refused, static_cast<StepFlags>(StepFlag::PluginFault));
+    fail(EngineEvent::Kind::Refused, static_cast<StepFlags>(StepFlag::PluginFault));
   } catch (...) {
-    return fail(EngineEvent::Kind::Refused);
+    fail(EngineEvent::Kind::Refused);
+  }
+}
+
+template <class Action>
+void EngineThread::Impl::edit(Action action) {
+  if (!engine) return;
+  const auto start = Clock::now();
+  const uint64_t tables = engine->bakedTables();
+  try {
+    action();
+  } catch (...) {
+    return refuse();
+  }
+  edited = true;
+  {
+    const std::lock_guard lock(mutex);
+    ++cost.applied;
+    cost.baked += engine->bakedTables() - tables;
+    cost.seconds += secondsSince(start);
   }
   // An edit that works mends a refusal and what made the scene pause; flags of running steps end by themselves.
   const EngineEvent last = standing();
   if (!(last.flags & ~kPausing)) settle();
+}
+
+void EngineThread::Impl::editAll(const ParameterBatch& batch) {
+  edit([&] {
+    try {
+      engine->setParameters(batch);
+    } catch (...) {
+      if (batch.size() == 1) throw;
+      // Those that are refused together may be good alone; of those that are not, the last one is told.
+      edited = true;
+      std::exception_ptr refusal;
+      for (const SetParameter& one : batch) {
+        try {
+          engine->setParameters({&one, 1});
+        } catch (...) {
+          refusal = std::current_exception();
+        }
+      }
+      if (refusal) std::rethrow_exception(refusal);
+    }
+  });
+}
+
+/// Who asks sees what the snapshot shows.
+void EngineThread::Impl::answer(const Question& question) {
+  if (edited) publishEdits();
+  if (!engine) return;
+  try {
+    question(*engine);
+  } catch (...) {
+    refuse();
+  }
+}
+
+void EngineThread::Impl::publishEdits() {
+  if (!engine) return;
   publish(engine->snapshot());
+}
+
+void EngineThread::Impl::open(const Opening& opening) {
+  try {
+    auto next = std::make_unique<Engine>(*opening.project, plugins);
+    engine = std::move(next);
+  } catch (...) {
+    engine.reset();
+    halt();
+    auto empty = std::make_shared<Snapshot>();
+    empty->revision = nextRevision();
+    publish(std::move(empty));
+    fail(EngineEvent::Kind::NotOpened);
+    return;
+  }
+  {
+    const std::lock_guard lock(mutex);
+    newest = previous = nullptr;
+    playing = opening.play;
+    due = measured = Clock::now();
+    measuredTime = 0;
+  }
+  publishEdits();
 }
 
 EngineThread::EngineThread(PluginRegistry& plugins, std::function<void()> published)
@@ -238,28 +365,7 @@ EngineThread::~EngineThread() {
 }
 
 void EngineThread::open(const Project& project, bool play) {
-  m->push([impl = m.get(), project, play] {
-    try {
-      auto engine = std::make_unique<Engine>(project, impl->plugins);
-      impl->engine = std::move(engine);
-    } catch (...) {
-      impl->engine.reset();
-      impl->halt();
-      auto empty = std::make_shared<Snapshot>();
-      empty->revision = nextRevision();
-      impl->publish(std::move(empty));
-      impl->fail(EngineEvent::Kind::NotOpened);
-      return;
-    }
-    {
-      const std::lock_guard lock(impl->mutex);
-      impl->newest = impl->previous = nullptr;
-      impl->playing = play;
-      impl->due = impl->measured = Clock::now();
-      impl->measuredTime = 0;
-    }
-    impl->publish(impl->engine->snapshot());
-  });
+  m->push(Opening{std::make_shared<const Project>(project), play});
 }
 
 void EngineThread::play() {
@@ -279,25 +385,14 @@ void EngineThread::pause() {
 
 void EngineThread::stepOnce() {
   pause();
-  m->push([impl = m.get()] { impl->step(); });
+  m->push(SingleStep{});
 }
 
-void EngineThread::reset() {
-  m->push([impl = m.get()] { impl->edit([](Engine& engine) { engine.reset(); }); });
-}
-
-void EngineThread::setParameter(const Address& address, const Value& value) {
-  m->push(
-      [impl = m.get(), address, value] { impl->edit([&](Engine& engine) { engine.setParameter(address, value); }); });
-}
-
-void EngineThread::update(const Project& project) {
-  m->push([impl = m.get(), project] { impl->edit([&](Engine& engine) { engine.update(project); }); }, true);
-}
-
-void EngineThread::post(std::function<void(Engine&)> command) {
-  m->push([impl = m.get(), command = std::move(command)] { impl->edit(command); });
-}
+void EngineThread::apply(Command command) { m->push(std::move(command), 1); }
+void EngineThread::reset() { apply(Reset{}); }
+void EngineThread::setParameter(const Address& address, const Value& value) { apply(SetParameter{address, value}); }
+void EngineThread::update(const Project& project) { apply(UpdateProject{std::make_shared<const Project>(project)}); }
+void EngineThread::ask(std::function<void(const Engine&)> question) { m->push(std::move(question)); }
 
 bool EngineThread::playing() const {
   const std::lock_guard lock(m->mutex);
@@ -330,6 +425,11 @@ std::vector<EngineEvent> EngineThread::events(uint64_t from) const {
 double EngineThread::realTimeFactor() const {
   const std::lock_guard lock(m->mutex);
   return m->playing ? m->realTime : 0;
+}
+
+EditCost EngineThread::editCost() const {
+  const std::lock_guard lock(m->mutex);
+  return m->cost;
 }
 
 }  // namespace ps

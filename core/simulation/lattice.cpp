@@ -185,6 +185,30 @@ std::vector<api::Double3> freePositions(const ParticleStore& store, const std::v
   return free;
 }
 
+size_t dropTaken(Spawn& spawn, TakenPlaces& taken) {
+  size_t kept = 0;
+  for (size_t k = 0; k < spawn.position.size(); ++k) {
+    const api::Double3 place = spawn.position[k];
+    if (!taken.isFree(place)) continue;
+    taken.add(place);
+    spawn.position[kept] = place;
+    spawn.velocity[kept] = spawn.velocity[k];
+    if (!spawn.temperatures.empty()) {
+      spawn.temperatures[kept] = spawn.temperatures[k];
+      spawn.phases[kept] = spawn.phases[k];
+    }
+    ++kept;
+  }
+  const size_t dropped = spawn.position.size() - kept;
+  spawn.position.resize(kept);
+  spawn.velocity.resize(kept);
+  if (!spawn.temperatures.empty()) {
+    spawn.temperatures.resize(kept);
+    spawn.phases.resize(kept);
+  }
+  return dropped;
+}
+
 std::vector<uint32_t> idsInCells(const ParticleStore& store, const VoxelShape& voxels, std::vector<CellIndex> cells) {
   std::sort(cells.begin(), cells.end());
   const double hair = kOnFace * voxels.spacing;

@@ -2,6 +2,7 @@
 #pragma once
 #include "core/particles/particlestore.h"
 #include "core/scene/project.h"
+#include "core/solver/matter.h"
 
 #include <array>
 #include <cstdint>
@@ -51,6 +52,9 @@ TakenPlaces takenPlaces(const ParticleStore& store, double clearance, size_t mor
 /// Leaves out positions that have a live particle (or an earlier one of the list) within `clearance` m.
 std::vector<api::Double3> freePositions(const ParticleStore& store, const std::vector<api::Double3>& positions,
                                         double clearance);
+/// Leaves out particles that would stand where one stands already, which no force could part, and notes the others'
+/// places; returns how many were left out.
+size_t dropTaken(Spawn& spawn, TakenPlaces& taken);
 /// Share of a cell by which a point counts as on a face, and so as of the cell of the higher index. Matter of a box may
 /// stand on the faces of a sketch's lattice, and particles know their places in single precision: whoever asks which
 /// cell holds them must not be told by rounding.

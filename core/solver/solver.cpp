@@ -109,6 +109,13 @@ void Solver::setMaterials(std::vector<BakedMaterial> materials) {
   m->configured = false;
 }
 
+void Solver::setMaterial(size_t index, BakedMaterial material) {
+  m->materials.at(index) = std::move(material);
+  m->configured = false;
+}
+
+std::span<const BakedMaterial> Solver::materials() const { return m->materials; }
+
 uint32_t Solver::addConstraintSet(const AnyConstraint& plugin, std::string name, std::vector<double> parameters) {
   return m->constraints.addSet(plugin, std::move(name), std::move(parameters), m->store);
 }

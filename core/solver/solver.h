@@ -42,6 +42,9 @@ class Solver {
   void setBodyNames(std::vector<std::string> names);
   /// Indices of materials must keep their meaning while particles live.
   void setMaterials(std::vector<BakedMaterial> materials);
+  /// Another table in place of one of them.
+  void setMaterial(size_t index, BakedMaterial material);
+  std::span<const BakedMaterial> materials() const;
   /// Adds a set of constraints of one plugin; returns its index. `name` is the plugin's id, for messages; `parameters`
   /// are those of bodies that have none of their own.
   uint32_t addConstraintSet(const AnyConstraint& plugin, std::string name, std::vector<double> parameters);

@@ -4,6 +4,7 @@
 #include "core/base/parallel.h"
 #include "core/plugin_host/registry.h"
 #include "core/simulation/engine.h"
+#include "tests/shared/enginehands.h"
 #include "tests/shared/scenes.h"
 
 #include <QTest>
@@ -110,7 +111,7 @@ size_t outside(Engine& engine, double halfWidth, double height) {
 /// of its bonds when all particles are moved apart and together by `kStrain`; nothing is left moved.
 std::array<double, 3> stiffnessOf(Engine& engine) {
   constexpr double kStrain = 1e-3;
-  ps::ParticleStore& p = engine.solver().particles();
+  ps::ParticleStore& p = ps::tests::solverOf(engine).particles();
   const std::vector<Float4> places(p.position(), p.position() + p.size());
   double volume = 0;
   for (const Float4& x : places) volume += double{x.w};

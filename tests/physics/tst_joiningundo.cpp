@@ -2,6 +2,7 @@
 // What grew together or melted apart is undone: by a reset, and by taking matter away and putting it back.
 #include "core/plugin_host/registry.h"
 #include "core/simulation/engine.h"
+#include "tests/shared/enginehands.h"
 #include "tests/shared/scenes.h"
 
 #include <QTest>
@@ -54,7 +55,7 @@ std::vector<uint32_t> between(ps::Engine& engine, double low, double high) {
 
 /// As a hot wire would, but at once; the books miss this heat, and say so.
 void melt(ps::Engine& engine, const std::vector<uint32_t>& ids) {
-  ps::ParticleStore& p = engine.solver().particles();
+  ps::ParticleStore& p = ps::tests::solverOf(engine).particles();
   auto* h = static_cast<double*>(p.find("specific_enthalpy", ps::api::FieldType::Float64));
   for (const uint32_t id : ids) h[p.indexOf(id)] = kMolten;
 }

@@ -5,6 +5,7 @@
 #include "core/simulation/engine.h"
 #include "onehash.h"
 #include "rigidscene.h"
+#include "tests/shared/enginehands.h"
 
 #include <QTest>
 
@@ -367,7 +368,7 @@ class TestPrescribedMotion : public QObject {
   void aProjectsWheel() {
     ps::Project project = load(wheelScene());
     ps::Engine engine(project, m_plugins);
-    Solver& solver = engine.solver();
+    Solver& solver = ps::tests::solverOf(engine);
     const std::vector<Vector3> start = placesOf(solver);
     const Vector3 centre{0.3, 0.5, 0}, velocity{0.1, 0, 0};
     const auto error = [&](double seconds, double angle) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "core/simulation/engine.h"
+#include "tests/shared/enginehands.h"
 #include "ui/theme/theme.h"
 #include "ui/window/mainwindow.h"
 
@@ -41,10 +41,7 @@ inline std::unique_ptr<MainWindow> sampleWindow(const QSize& size, const std::ve
 /// Asks between two frames, and waits for the answer.
 template <class Result>
 Result onEngine(Session& session, std::function<Result(Engine&)> question) {
-  auto promise = std::make_shared<std::promise<Result>>();
-  auto future = promise->get_future();
-  session.engine()->post([promise, question](Engine& engine) { promise->set_value(question(engine)); });
-  return future.get();
+  return tests::onEngine<Result>(*session.engine(), std::move(question));
 }
 
 inline std::set<uint32_t> idsNow(Session& session) {

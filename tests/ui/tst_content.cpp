@@ -4,6 +4,8 @@
 #include "core/plugin_host/registry.h"
 #include "core/simulation/compile.h"
 #include "core/simulation/engine.h"
+#include "core/simulation/enginethread.h"
+#include "tests/shared/enginehands.h"
 #include "tests/shared/scenes.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
@@ -21,17 +23,9 @@
 #include <memory>
 
 using namespace ps;
+using tests::onEngine;
 
 namespace {
-
-/// Waits until the engine has done all that was asked of it, and runs `ask` on its thread.
-template <class T>
-T onEngine(EngineThread& engine, std::function<T(Engine&)> ask) {
-  auto promise = std::make_shared<std::promise<T>>();
-  std::future<T> future = promise->get_future();
-  engine.post([promise, ask](Engine& e) { promise->set_value(ask(e)); });
-  return future.get();
-}
 
 /// Heights by ids: the same matter in the same places.
 std::map<uint32_t, float> matterNow(EngineThread& engine) {
@@ -132,6 +126,37 @@ class TestContent : public QObject {
     m_document->undoStack().undo();
     step(*m_engine, 20);
     QVERIFY(countNow(*m_engine) > 0);
+  }
+
+  /// What a tap has poured goes with it when its placing is undone, and comes back with it.
+  void anUndoneTapLeavesNoMatter() {
+    Project project = scenes::iceOnPlate(3, 293.15);
+    m_document->open(project, {}, false, false);
+    const auto bodies = countNow(*m_engine);
+    Emitter tap;
+    tap.material = "water";
+    tap.point = {0, 0.8, 0};
+    const Port port = m_document->addEmitter(tap);
+    step(*m_engine, 30);
+    const auto ofTap = [&] {
+      return onEngine<size_t>(*m_engine, [&](Engine& e) {
+        const ParticleStore& store = e.solver().particles();
+        size_t count = 0;
+        for (size_t i = 0; i < store.size(); ++i) count += e.bodyIds().at(store.body()[i]) == port.id;
+        return count;
+      });
+    };
+    const auto poured = onEngine<uint64_t>(*m_engine, [](Engine& e) { return e.stats().flow.poured.count; });
+    QVERIFY(poured > 0 && ofTap() >= poured);
+    m_document->undoStack().undo();
+    QCOMPARE(ofTap(), size_t{0});
+    QCOMPARE(countNow(*m_engine), bodies);
+    m_document->undoStack().redo();
+    QCOMPARE(ofTap(), static_cast<size_t>(poured));
+    step(*m_engine, 10);
+    QVERIFY(ofTap() > poured);
+    m_document->removePort(port);  // a tap that is taken away leaves what it has poured
+    QVERIFY(ofTap() >= poured);
   }
 
   /// A file with a probe on a body that is gone still opens.

@@ -131,7 +131,7 @@ class TestContentWindow : public QObject {
     document().setParameter({Owner::Wall, "floor", "temperature"}, 350.0);
     document().removeWall("left");
     onEngine<int>(session(), [](Engine& engine) {
-      ParticleStore& store = engine.solver().particles();
+      ParticleStore& store = tests::solverOf(engine).particles();
       for (size_t i = 0; i < store.size(); ++i) store.position()[i].x -= 5;
       return 0;
     });

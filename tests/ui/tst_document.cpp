@@ -3,6 +3,8 @@
 #include "core/io/projectio.h"
 #include "core/plugin_host/registry.h"
 #include "core/simulation/engine.h"
+#include "core/simulation/enginethread.h"
+#include "tests/shared/enginehands.h"
 #include "tests/shared/scenes.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
@@ -21,6 +23,7 @@
 #include <set>
 
 using namespace ps;
+using tests::onEngine;
 
 namespace {
 
@@ -28,15 +31,6 @@ const Address kFloor{Owner::Wall, "floor", "temperature"};
 const Address kScale{Owner::Solver, "", "thermal_time_scale"};
 
 Project smallScene() { return scenes::iceOnPlate(5, 370); }
-
-/// Waits until the engine has done all that was asked of it, and runs `ask` on its thread.
-template <class T>
-T onEngine(EngineThread& engine, std::function<T(Engine&)> ask) {
-  auto promise = std::make_shared<std::promise<T>>();
-  std::future<T> future = promise->get_future();
-  engine.post([promise, ask](Engine& e) { promise->set_value(ask(e)); });
-  return future.get();
-}
 
 std::set<uint32_t> idsNow(EngineThread& engine) {
   return onEngine<std::set<uint32_t>>(engine, [](Engine& e) {

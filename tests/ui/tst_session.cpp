@@ -571,7 +571,7 @@ class TestSession : public QObject {
   /// What the engine was asked for is done, and seen.
   void settle() {
     std::promise<void> done;
-    session().engine()->post([&done](Engine&) { done.set_value(); });
+    session().engine()->ask([&done](const Engine&) { done.set_value(); });
     done.get_future().wait();
     QTest::qWait(20);
   }

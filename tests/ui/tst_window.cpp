@@ -449,14 +449,11 @@ class TestWindow : public QObject {
     const PhaseStackView* graph = m_window->graphs()->phases();
     QTRY_COMPARE_WITH_TIMEOUT(graph->sampleCount(), size_t{1}, kLong);
     const QString before = graph->summary();
-    const auto taken = onEngine<std::shared_ptr<TakenMatter>>(session(), [](Engine& e) {
-      const ParticleStore& store = e.solver().particles();
-      return std::make_shared<TakenMatter>(
-          e.takeParticles(std::vector<uint32_t>(store.id(), store.id() + store.size() / 2)));
-    });
+    constexpr MatterKey kKey = 1000000;  // far from those of the document's
+    session().engine()->apply(TakeBody{document().project().bodies.front().id, kKey});
     QTRY_VERIFY_WITH_TIMEOUT(graph->summary() != before, kLong);
     QCOMPARE(graph->sampleCount(), size_t{1});
-    session().engine()->post([taken](Engine& e) { e.putBack(*taken); });
+    session().engine()->apply(PutBack{kKey, {}});
     QTRY_COMPARE_WITH_TIMEOUT(graph->summary(), before, kLong);
   }
 
@@ -522,7 +519,7 @@ class TestWindow : public QObject {
   // Last: a plugin that has failed stays out of service.
   void aPluginThatFailsIsShown() {
     session().play();
-    session().engine()->post([plugins = session().plugins()](Engine&) {
+    session().engine()->ask([plugins = session().plugins()](const Engine&) {
       plugins->fault("cube", "no cells");
       throw PluginError("'cube': no cells");
     });

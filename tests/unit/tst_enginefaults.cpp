@@ -4,6 +4,7 @@
 #include "core/base/error.h"
 #include "core/plugin_host/registry.h"
 #include "core/simulation/engine.h"
+#include "core/simulation/enginethread.h"
 #include "tests/shared/scenes.h"
 
 #include <QDir>
@@ -20,7 +21,7 @@ using Kind = EngineEvent::Kind;
 namespace {
 
 constexpr StepFlags kPluginFault = static_cast<StepFlags>(StepFlag::PluginFault);
-const Address kDensity{"material", "lab", "density"};
+const Address kDensity{Owner::Material, "lab", "density"};
 
 /// Waits at most ten seconds, far longer than any frame of these scenes takes.
 template <class Condition>
@@ -182,7 +183,7 @@ void TstEngineFaults::oldEventsAreForgotten() {
   EngineThread thread(m_plugins, {});
   thread.open(scenes::iceOnPlate(3, 293.15), false);
   for (int i = 0; i < 300; ++i) {
-    thread.post([i](Engine&) { throw InputError("number " + std::to_string(i)); });
+    thread.ask([i](const Engine&) { throw InputError("number " + std::to_string(i)); });
   }
   QVERIFY(waitFor([&] { return thread.events(299).size() == 1; }));
   const auto events = thread.events(0);
@@ -194,8 +195,8 @@ void TstEngineFaults::oldEventsAreForgotten() {
 void TstEngineFaults::whateverIsThrownTheThreadGoesOn() {
   EngineThread thread(m_plugins, {});
   thread.open(scenes::iceOnPlate(3, 293.15), false);
-  thread.post([](Engine&) { throw 7; });
-  thread.post([](Engine&) { throw std::bad_alloc(); });
+  thread.ask([](const Engine&) { throw 7; });
+  thread.ask([](const Engine&) { throw std::bad_alloc(); });
   QVERIFY(waitFor([&] { return ofKind(thread, Kind::Refused).size() == 2; }));
   QVERIFY(ofKind(thread, Kind::Refused)[1].message.find("memory") != std::string::npos);
   thread.stepOnce();
@@ -233,7 +234,7 @@ void TstEngineFaults::aFlagInEveryFrameIsToldOnce() {
   QCOMPARE(steps[0].flags, static_cast<StepFlags>(StepFlag::LostParticle));
   thread.setParameter({Owner::Solver, "", "damping"}, 0.1);  // does not mend it
   thread.pause();
-  thread.post([](Engine&) {});
+  thread.apply(ForgetMatter{});
   thread.reset();
   QVERIFY(waitFor([&] { return thread.snapshot()->stats.frame == 0; }));
   QVERIFY(waitFor([&] { return !ofKind(thread, Kind::Settled).empty(); }));

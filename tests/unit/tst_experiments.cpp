@@ -4,6 +4,7 @@
 #include "core/plugin_host/registry.h"
 #include "core/simulation/engine.h"
 #include "core/simulation/measure.h"
+#include "tests/shared/enginehands.h"
 #include "tests/shared/scenes.h"
 
 #include <QTest>
@@ -39,7 +40,7 @@ void TstExperiments::aProbeOfEveryQuantity() {
   project.bodies.push_back(row);
   project.solver.parameters.values["particle_spacing"] = 0.03;
   Engine engine(project, m_plugins);
-  ParticleStore& store = engine.solver().particles();
+  ParticleStore& store = tests::solverOf(engine).particles();
   QCOMPARE(store.size(), size_t{5});
   const float mass[] = {1, 2, 3, 4, 6}, height[] = {0.5f, 0.25f, 1, 0.125f, 2};
   const float velocity[][2] = {{3, 4}, {0, 0}, {1, 0}, {0, 2}, {6, 8}};

@@ -3,8 +3,10 @@
 #include "core/base/error.h"
 #include "core/base/log.h"
 #include "core/plugin_host/registry.h"
+#include "core/simulation/commandqueue.h"
 #include "core/simulation/compile.h"
 #include "core/simulation/engine.h"
+#include "core/simulation/enginethread.h"
 #include "core/simulation/lattice.h"
 #include "core/simulation/measure.h"
 #include "tests/shared/scenes.h"
@@ -14,8 +16,10 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cmath>
 #include <future>
+#include <thread>
 
 using namespace ps;
 
@@ -49,6 +53,13 @@ class TstSimulation : public QObject {
   void viscosityIsCompiledAsDeclared();
   void threadPlaysPausesStepsAndResets();
   void threadStopsAtTheEnd();
+  void waitingEditsOfOneAddressAreOne();
+  void waitingProjectsReplaceWhatTheyOverwrite();
+  void aMaterialsEditBakesOneTable();
+  void valuesThatDependOnEachOtherComeTogether();
+  void aListOfCommandsRepeatsARun();
+  void aQueueOfEditsIsOneSnapshot();
+  void editsDoNotStarveFrames();
   void threadTellsWhatCannotBeOpened();
   void snapshotsOfTwoRunsNeverCompare();
 
@@ -522,9 +533,9 @@ void TstSimulation::threadPlaysPausesStepsAndResets() {
   thread.reset();
   QVERIFY(waitFor([&] { return thread.snapshot()->stats.frame == 0; }));
   QCOMPARE(thread.history(0).size(), size_t{1});
-  std::promise<std::vector<uint32_t>> born;
-  thread.post([&](Engine& engine) { born.set_value(engine.addCells(sketchedWater(), {{0, 0, 0}}, 0)); });
-  QCOMPARE(born.get_future().get().size(), size_t{1});
+  const size_t before = thread.snapshot()->id.size();
+  thread.apply(AddCells{std::make_shared<const Body>(sketchedWater()), {{0, 0, 0}}, 0, 1});
+  QVERIFY(waitFor([&] { return thread.snapshot()->id.size() == before + 1; }));
   QVERIFY(published > 5);
 }
 
@@ -535,7 +546,7 @@ void TstSimulation::threadStopsAtTheEnd() {
   project.duration = 0.2;  // 12 frames
   thread.open(project, true);
   QVERIFY(waitFor([&] { return thread.snapshot() && !thread.playing(); }));
-  thread.post([](Engine&) {});
+  thread.apply(ForgetMatter{});
   QVERIFY(waitFor([&] { return thread.snapshot()->stats.frame == 12; }));
   thread.play();
   QVERIFY(waitFor([&] { return thread.snapshot()->stats.frame > 20; }));
@@ -543,6 +554,164 @@ void TstSimulation::threadStopsAtTheEnd() {
   thread.reset();
   QVERIFY(waitFor([&] { return !thread.playing(); }));
   QCOMPARE(thread.snapshot()->stats.frame, uint64_t{12});
+}
+
+namespace {
+const Address kDamping{Owner::Solver, "", "damping"}, kSubsteps{Owner::Solver, "", "substeps"};
+}  // namespace
+
+/// A newer value replaces a waiting one of its address; what is no value of a parameter keeps its place.
+void TstSimulation::waitingEditsOfOneAddressAreOne() {
+  CommandQueue queue;
+  for (int k = 0; k < 100; ++k) {
+    queue.push(Command(SetParameter{kDamping, 0.01 * k}));
+    queue.push(Command(SetParameter{kSubsteps, 1.0 + k}));
+  }
+  queue.push(Command(TakeBody{"ice", 1}));
+  queue.push(Command(SetParameter{kDamping, 5.0}));
+  const auto first = queue.pop(), second = queue.pop(), third = queue.pop();
+  QVERIFY(first && second && third && queue.empty());
+  const auto* batch = std::get_if<ParameterBatch>(&*first);
+  QVERIFY(batch && batch->size() == 2);
+  QVERIFY((*batch)[0].address == kDamping && (*batch)[0].value == Value(0.99));
+  QVERIFY((*batch)[1].address == kSubsteps && (*batch)[1].value == Value(100.0));
+  QVERIFY(std::holds_alternative<Command>(*second));
+  const auto* last = std::get_if<ParameterBatch>(&*third);
+  QVERIFY(last && last->size() == 1 && (*last)[0].value == Value(5.0));
+}
+
+void TstSimulation::waitingProjectsReplaceWhatTheyOverwrite() {
+  const auto update = [] { return Command(UpdateProject{std::make_shared<const Project>()}); };
+  CommandQueue queue;
+  queue.push(Command(TakeBody{"ice", 1}));
+  queue.push(update());
+  queue.push(Command(SetParameter{kDamping, 1.0}));
+  queue.push(update());
+  queue.push(Command(SetParameter{kDamping, 2.0}));
+  QVERIFY(std::holds_alternative<TakeBody>(std::get<Command>(*queue.pop())));
+  QVERIFY(std::holds_alternative<UpdateProject>(std::get<Command>(*queue.pop())));
+  const auto last = queue.pop();
+  QVERIFY(std::get<ParameterBatch>(*last)[0].value == Value(2.0));
+  QVERIFY(queue.empty());
+}
+
+void TstSimulation::aMaterialsEditBakesOneTable() {
+  Project project = scenes::iceOnPlate(4, 293.15);
+  for (const char* id : {"wax", "tin"}) {
+    SceneMaterial material;
+    material.id = material.base = id;
+    project.materials.push_back(material);
+  }
+  Engine engine(project, m_plugins);
+  QCOMPARE(engine.bakedTables(), uint64_t{3});
+  QVERIFY(engine.setParameter({Owner::Material, "water", "viscosity"}, Response(0.002)));
+  QCOMPARE(engine.bakedTables(), uint64_t{4});
+  QVERIFY(engine.setParameter({Owner::Wall, "floor", "temperature"}, 300.0));
+  QVERIFY(engine.setParameter({Owner::Environment, "", "ambient_temperature"}, 300.0));
+  engine.update(engine.project());
+  engine.reset();
+  QCOMPARE(engine.bakedTables(), uint64_t{4});
+  QVERIFY(engine.setParameter({Owner::Environment, "", "ambient_pressure"}, 90000.0));
+  QCOMPARE(engine.bakedTables(), uint64_t{7});
+  // The tables are those of a scene that was built so.
+  engine.reset();
+  Engine fresh(engine.project(), m_plugins);
+  for (int k = 0; k < 3; ++k) engine.step(), fresh.step();
+  QCOMPARE(engine.solver().stateHash(), fresh.solver().stateHash());
+}
+
+/// One above the other at each moment in between, so that the first alone would be refused.
+void TstSimulation::valuesThatDependOnEachOtherComeTogether() {
+  Engine engine(scenes::iceOnPlate(4, 293.15), m_plugins);
+  const SetParameter both[] = {{{Owner::Material, "water", "solidus"}, 280.0},
+                               {{Owner::Material, "water", "liquidus"}, 285.0},
+                               {{Owner::Material, "water", "melting_temperature"}, 282.0}};
+  QVERIFY_THROWS_EXCEPTION(InputError, engine.setParameter(both[0].address, both[0].value));
+  engine.setParameters(both);
+  QVERIFY(findSet(engine.project(), both[0].address)->values.at("liquidus") == Value(285.0));
+  const SetParameter wrong[] = {{kDamping, 0.5}, {{Owner::Material, "water", "solidus"}, 5000.0}};
+  QVERIFY_THROWS_EXCEPTION(InputError, engine.setParameters(wrong));
+  QVERIFY(!findSet(engine.project(), kDamping)->values.count("damping"));
+}
+
+void TstSimulation::aListOfCommandsRepeatsARun() {
+  const auto body = std::make_shared<const Body>(sketchedWater());
+  auto changed = std::make_shared<Project>(scenes::iceOnPlate(4, 350));
+  changed->environment.gravity = {0, -5, 0};
+  const VoxelShape lattice = std::get<VoxelShape>(body->shape);
+  const std::vector<std::pair<uint64_t, Command>> log = {
+      {1, SetParameter{kDamping, 0.5}},
+      {2, AddCells{body, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, 0, 1}},
+      {4, TakeMatter{1}},
+      {5, TakeCells{lattice, {{0, -20, 0}, {0, -19, 0}}, {}, 2}},
+      {6, UpdateProject{changed}},
+      {7, PutBack{1}},
+      {8, PutBack{2}},
+      {9, TakeBody{"ice", 3}},
+      {11, ReturnBody{nullptr, 3}},
+      {12, ForgetMatter{{2}}},
+      {14, Reset{{NameMatter{4, "ice", lattice, {{0, -20, 0}}}}}},
+      {16, TakeMatter{4}},
+  };
+  const auto run = [&] {
+    Engine engine(scenes::iceOnPlate(4, 350), m_plugins);
+    auto next = log.begin();
+    for (uint64_t frame = 0; frame < 20; ++frame) {
+      for (; next != log.end() && next->first == frame; ++next) engine.apply(next->second);
+      engine.step();
+    }
+    return engine.solver().stateHash();
+  };
+  QCOMPARE(run(), run());
+}
+
+void TstSimulation::aQueueOfEditsIsOneSnapshot() {
+  std::atomic<int> published{0};
+  EngineThread thread(m_plugins, [&] { ++published; });
+  thread.open(scenes::iceOnPlate(4, 293.15), false);
+  QVERIFY(waitFor([&] { return thread.snapshot() != nullptr; }));
+  std::promise<void> go, waiting;
+  thread.ask([&, wait = go.get_future().share()](const Engine&) {
+    waiting.set_value();
+    wait.wait();
+  });
+  waiting.get_future().wait();
+  const int before = published;
+  for (int k = 0; k < 200; ++k) {
+    thread.setParameter(kDamping, 0.01 * k);
+    thread.setParameter({Owner::Material, "water", "viscosity"}, Response(0.001 + 1e-6 * k));
+  }
+  go.set_value();
+  QVERIFY(waitFor([&] { return published > before; }));
+  std::promise<Value> damping;
+  thread.ask([&](const Engine& e) { damping.set_value(findSet(e.project(), kDamping)->values.at("damping")); });
+  QVERIFY(damping.get_future().get() == Value(1.99));
+  QCOMPARE(published - before, 1);
+  const EditCost cost = thread.editCost();
+  QCOMPARE(cost.commands, uint64_t{400});
+  QCOMPARE(cost.applied, uint64_t{1});
+  QCOMPARE(cost.baked, uint64_t{1});
+}
+
+/// Four seconds of work wait in the queue; frames of 1/60 s go on in between.
+void TstSimulation::editsDoNotStarveFrames() {
+  std::atomic<int> done{0};
+  EngineThread thread(m_plugins, {});
+  thread.open(scenes::iceOnPlate(3, 293.15), true);
+  QVERIFY(waitFor([&] { return thread.snapshot() && thread.snapshot()->stats.frame > 3; }));
+  for (int k = 0; k < 800; ++k) {
+    thread.setParameter(kDamping, 0.001 * k);
+    thread.ask([&](const Engine&) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+      ++done;
+    });
+  }
+  const uint64_t frame = thread.snapshot()->stats.frame;
+  QVERIFY(waitFor([&] { return done > 200; }));
+  QVERIFY(done < 700);
+  // One frame's worth of edits, 4 of 5 ms, between two frames: 50 frames beside 200 of them, and half of it is enough.
+  const uint64_t frames = thread.snapshot()->stats.frame - frame;
+  QVERIFY2(frames > 25, std::to_string(frames).c_str());
 }
 
 void TstSimulation::threadTellsWhatCannotBeOpened() {

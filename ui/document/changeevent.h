@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "core/scene/project.h"
+#include "ui/document/matterref.h"
 
 #include <memory>
 #include <optional>
@@ -10,7 +11,6 @@
 namespace ps {
 
 struct StrokeRecord;
-struct StrokeTrace;
 
 /// Another project altogether.
 struct ProjectOpened {
@@ -21,15 +21,18 @@ struct ParameterChanged {
   Address address;
   std::optional<Value> value;
 };
-/// A body was renamed, hidden, locked, given another structure; or it came or went together with its matter, of which
-/// `matter` keeps track (nullptr: no particle is touched).
+/// A body was renamed, hidden, locked, given another structure; or it came or went together with its matter, which
+/// `matter` names (nullptr: no particle is touched).
 struct BodyChanged {
   std::string id;
-  std::shared_ptr<StrokeTrace> matter{};
+  MatterRef matter{};
 };
-/// An emitter or a sink came, went or was renamed; `moved`: nothing but its place has changed.
+/// An emitter or a sink came, went or was renamed; `moved`: nothing but its place has changed. An emitter whose placing
+/// is undone or redone goes or comes together with what it has poured, which `matter` names.
 struct PortChanged {
   bool moved = false;
+  std::string id{};
+  MatterRef matter{};
 };
 /// Walls came or went.
 struct WallsChanged {};

@@ -27,8 +27,7 @@ bool ParameterCommand::mergeWith(const QUndoCommand* other) {
   return true;
 }
 
-BodiesCommand::BodiesCommand(Document& document, std::vector<SceneEdit> edits, const QString& text,
-                             std::shared_ptr<StrokeTrace> matter)
+BodiesCommand::BodiesCommand(Document& document, std::vector<SceneEdit> edits, const QString& text, MatterRef matter)
     : QUndoCommand(text), m_document(document), m_edits(std::move(edits)), m_matter(std::move(matter)) {}
 
 void BodiesCommand::undo() { apply(false); }

@@ -33,8 +33,7 @@ class ParameterCommand : public QUndoCommand {
 /// particles.
 class BodiesCommand : public QUndoCommand {
  public:
-  BodiesCommand(Document& document, std::vector<SceneEdit> edits, const QString& text,
-                std::shared_ptr<StrokeTrace> matter = nullptr);
+  BodiesCommand(Document& document, std::vector<SceneEdit> edits, const QString& text, MatterRef matter = nullptr);
   void undo() override;
   void redo() override;
 
@@ -42,7 +41,7 @@ class BodiesCommand : public QUndoCommand {
   void apply(bool forward);
   Document& m_document;
   std::vector<SceneEdit> m_edits;
-  std::shared_ptr<StrokeTrace> m_matter;
+  MatterRef m_matter;
 };
 
 /// An emitter or a sink that comes, goes, moves or is renamed. Moves of one gesture merge; one that ends where it began

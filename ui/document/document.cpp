@@ -192,8 +192,7 @@ void Document::applyParameter(const Address& address, const std::optional<Value>
   tell(ParameterChanged{address, value});
 }
 
-void Document::applyBodies(const std::vector<SceneEdit>& edits, bool forward,
-                           const std::shared_ptr<StrokeTrace>& matter) {
+void Document::applyBodies(const std::vector<SceneEdit>& edits, bool forward, const MatterRef& matter) {
   applyEdits(m_project, edits, forward);
   ++m_changes;
   for (const SceneEdit& edit : edits) tell(BodyChanged{bodyOf(edit), matter});

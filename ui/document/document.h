@@ -115,7 +115,7 @@ class Document : public QObject {
 
   // Used by commands
   void applyParameter(const Address& address, const std::optional<Value>& value);
-  void applyBodies(const std::vector<SceneEdit>& edits, bool forward, const std::shared_ptr<StrokeTrace>& matter);
+  void applyBodies(const std::vector<SceneEdit>& edits, bool forward, const MatterRef& matter);
   void applyPort(const AnyPortEdit& edit, bool forward);
   void applyWalls(const std::vector<SceneWall>& walls);
   void applyMaterials(const std::vector<SceneMaterial>& materials);

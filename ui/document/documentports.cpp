@@ -4,6 +4,7 @@
 #include "ui/document/document.h"
 
 #include <algorithm>
+#include <type_traits>
 
 namespace ps {
 namespace {
@@ -69,7 +70,9 @@ QString Document::portName(const Port& port) const {
 template <class Item>
 void Document::pushPort(std::optional<Item> before, std::optional<Item> after, size_t index, const QString& title) {
   if (m_gestureDepth == 0) ++m_gesture;
-  m_undo.push(new PortCommand(*this, PortEdit<Item>{std::move(before), std::move(after), index}, m_gesture, title));
+  MatterRef matter = !before && std::is_same_v<Item, Emitter> ? newMatter() : nullptr;
+  m_undo.push(new PortCommand(*this, PortEdit<Item>{std::move(before), std::move(after), index, std::move(matter)},
+                              m_gesture, title));
 }
 
 Port Document::addEmitter(Emitter emitter) {
@@ -143,15 +146,17 @@ std::optional<Port> Document::duplicatePort(const Port& port) {
 }
 
 void Document::applyPort(const AnyPortEdit& edit, bool forward) {
-  bool moved = false;
+  PortChanged change;
   std::visit(
       [&](const auto& known) {
-        const auto& [before, after, index] = known;
+        const auto& [before, after, index, matter] = known;
         const auto& from = forward ? before : after;
         const auto& to = forward ? after : before;
+        change.id = (from ? from : to)->id;
+        if (!from || !to) change.matter = matter;
         auto& items = itemsOf(m_project, *(from ? from : to));
         if (from && to) {
-          moved = from->name == to->name;
+          change.moved = from->name == to->name;
           *at(items, from->id) = *to;
         } else if (to) {
           items.insert(items.begin() + static_cast<std::ptrdiff_t>(index), *to);
@@ -161,7 +166,7 @@ void Document::applyPort(const AnyPortEdit& edit, bool forward) {
       },
       edit);
   ++m_changes;
-  tell(PortChanged{moved});
+  tell(change);
 }
 
 }  // namespace ps

@@ -55,8 +55,7 @@ QString Document::removeBody(const std::string& id) {
   if (!old) return {};
   if (old->locked) return QStringLiteral("“%1” is locked. Unlock it first.").arg(text(old->name));
   const BodyEdit edit{id, *old, std::nullopt, static_cast<size_t>(old - m_project.bodies.data())};
-  m_undo.push(new BodiesCommand(*this, {edit}, QStringLiteral("deletion of %1").arg(text(old->name)),
-                                std::make_shared<StrokeTrace>()));
+  m_undo.push(new BodiesCommand(*this, {edit}, QStringLiteral("deletion of %1").arg(text(old->name)), newMatter()));
   return {};
 }
 
@@ -75,8 +74,7 @@ QString Document::duplicateBody(const std::string& id) {
   }
   const auto place = static_cast<size_t>(old - m_project.bodies.data()) + 1;
   const QString title = QStringLiteral("copy of %1").arg(text(old->name));
-  m_undo.push(
-      new BodiesCommand(*this, {BodyEdit{copy.id, std::nullopt, copy, place}}, title, std::make_shared<StrokeTrace>()));
+  m_undo.push(new BodiesCommand(*this, {BodyEdit{copy.id, std::nullopt, copy, place}}, title, newMatter()));
   return {};
 }
 

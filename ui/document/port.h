@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "core/scene/project.h"
+#include "ui/document/matterref.h"
 
 #include <optional>
 #include <string>
@@ -15,11 +16,13 @@ struct Port {
   bool operator==(const Port&) const = default;
 };
 
-/// An emitter or a sink before and after an edit; nothing: it did not exist (then `index` says where it goes).
+/// An emitter or a sink before and after an edit; nothing: it did not exist (then `index` says where it goes). `matter`
+/// names what an emitter has poured when its placing is undone.
 template <class Item>
 struct PortEdit {
   std::optional<Item> before, after;
   size_t index = 0;
+  MatterRef matter{};
 };
 using AnyPortEdit = std::variant<PortEdit<Emitter>, PortEdit<Sink>>;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "core/scene/project.h"
-#include "core/solver/matter.h"
+#include "ui/document/matterref.h"
 
 #include <array>
 #include <cstdint>
@@ -29,13 +29,6 @@ struct CellsEdit {
 };
 using SceneEdit = std::variant<BodyEdit, CellsEdit>;
 
-/// What a stroke did to the particles. Belongs to the engine's thread: nothing else reads or writes it.
-struct StrokeTrace {
-  uint64_t run = 0;                ///< of SceneLink; ids of another run mean nothing
-  std::vector<uint32_t> ids;       ///< born by an adding stroke, or put back by an undone erasing one
-  std::vector<TakenMatter> taken;  ///< what is out of the scene now: by an erasing stroke, or an undone adding one
-};
-
 /// One finished stroke.
 struct StrokeRecord {
   bool erase = false;
@@ -44,7 +37,7 @@ struct StrokeRecord {
   std::vector<std::array<int, 3>> cells;  ///< that it touched, on the lattice of `lattice`
   VoxelShape lattice;                     ///< origin and spacing only
   std::vector<SceneEdit> edits;           ///< what it changes in the document
-  std::shared_ptr<StrokeTrace> trace = std::make_shared<StrokeTrace>();
+  MatterRef matter = newMatter();         ///< its particles
 };
 
 /// Applies edits to a project's bodies, forwards or backwards (then in reverse order).

@@ -2,7 +2,7 @@
 #include "ui/panels/pluginpage.h"
 
 #include "core/plugin_host/registry.h"
-#include "core/simulation/engine.h"
+#include "core/simulation/enginethread.h"
 #include "ui/session/session.h"
 #include "ui/theme/icon.h"
 #include "ui/theme/theme.h"

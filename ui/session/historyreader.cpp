@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/session/historyreader.h"
 
-#include "core/simulation/engine.h"
+#include "core/simulation/enginethread.h"
 #include "ui/session/session.h"
 
 namespace ps {

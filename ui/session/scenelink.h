@@ -5,6 +5,7 @@
 
 #include <QtCore/QObject>
 
+#include <map>
 #include <memory>
 #include <string>
 #include <utility>
@@ -16,12 +17,10 @@ class Document;
 class EngineThread;
 
 /// Carries a document's changes to the engine's thread, and the live pieces of a stroke past the document. Commands act
-/// between frames, in order; what they need to remember of particles (ids, fields) stays on the engine's thread.
+/// between frames, in order; what is to be remembered of particles (ids, fields) the engine keeps by name.
 class SceneLink : public QObject {
   Q_OBJECT
  public:
-  using KnownStroke = std::pair<std::shared_ptr<StrokeRecord>, bool>;  ///< and whether it is done, not undone
-
   SceneLink(Document& document, EngineThread& engine, QObject* parent = nullptr);
   ~SceneLink() override;
 
@@ -46,12 +45,22 @@ class SceneLink : public QObject {
   void redoStroke(const std::shared_ptr<StrokeRecord>& stroke);
   void onBody(const BodyChanged& event);
   void pushProject();
-  std::vector<KnownStroke> strokes() const;
+  void onPort(const PortChanged& event);
+  MatterKey keyOf(const MatterRef& matter);  ///< for a command of this run
+  bool isOfThisRun(const MatterRef& matter) const;
+  void forgetMatter();
+  /// The matter of strokes that are done, for the start of a run.
+  std::vector<NameMatter> namedMatter();
 
   Document& m_document;
   EngineThread& m_engine;
-  std::shared_ptr<uint64_t> m_run;                                      ///< counts resets; engine thread only
-  std::vector<std::pair<std::weak_ptr<StrokeRecord>, bool>> m_strokes;  ///< like KnownStroke
+  struct KnownMatter {
+    std::weak_ptr<const MatterKey> matter;
+    uint64_t run = 0;
+  };
+  uint64_t m_run = 1;                                                   ///< counts resets
+  std::map<MatterKey, KnownMatter> m_matter;                            ///< that the engine may know, and of which run
+  std::vector<std::pair<std::weak_ptr<StrokeRecord>, bool>> m_strokes;  ///< and whether it is done, not undone
 };
 
 }  // namespace ps

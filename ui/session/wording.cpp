@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/session/wording.h"
 
-#include "core/simulation/engine.h"
+#include "core/simulation/events.h"
 #include "ui/theme/numbers.h"
 
 #include <cmath>

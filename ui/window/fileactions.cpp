@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/window/fileactions.h"
 
-#include "core/simulation/engine.h"
+#include "core/simulation/enginethread.h"
 #include "ui/document/document.h"
 #include "ui/graphs/graphspanel.h"
 #include "ui/session/documentfiles.h"

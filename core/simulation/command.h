@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "core/scene/project.h"
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+// Whatever changes an engine is one of these values, applied between frames. Why values and not functions: a list of
+// them with their frames, and the state at the start, say all that happened, and can be written down and repeated.
+namespace ps {
+
+/// Names matter that came or went by one edit, so that another one can take it away or bring it back. 0: nobody asks.
+using MatterKey = uint64_t;
+using CellIndices = std::vector<std::array<int, 3>>;
+
+/// A parameter has this value from now on.
+struct SetParameter {
+  Address address;
+  Value value;
+};
+/// The document changed as a whole: see Engine::update().
+struct UpdateProject {
+  std::shared_ptr<const Project> project;
+};
+/// Cells of a sketched body become matter: see Engine::addCells().
+struct AddCells {
+  std::shared_ptr<const Body> body;
+  CellIndices cells;
+  int palette = 0;
+  MatterKey key = 0;  ///< adds what is born to what the key names
+};
+/// Takes what stands in cells of a lattice, except matter of some bodies.
+struct TakeCells {
+  VoxelShape lattice;  ///< origin and spacing only
+  CellIndices cells;
+  std::vector<std::string> spared{};  ///< Body::id
+  MatterKey key = 0;
+};
+/// Takes all matter of a body, an emitter's too; what the key named before is forgotten.
+struct TakeBody {
+  std::string body;  ///< Body::id or Emitter::id
+  MatterKey key = 0;
+};
+/// Takes what a key names, wherever it is by now. Where the key names nothing, because of a reset since, it takes what
+/// stands in the cells instead.
+struct TakeMatter {
+  MatterKey key = 0;
+  VoxelShape lattice{};  ///< origin and spacing only
+  CellIndices cells{};
+};
+/// Puts what was taken under a key back where it was, the last taken first. Where the key names nothing, because of a
+/// reset since, `cells` are added in its place under the key.
+struct PutBack {
+  MatterKey key = 0;
+  std::vector<AddCells> cells{};
+};
+/// Names the matter of a body that stands in cells of a lattice; right after a reset, when nothing has moved.
+struct NameMatter {
+  MatterKey key = 0;
+  std::string body;    ///< Body::id
+  VoxelShape lattice;  ///< origin and spacing only
+  CellIndices cells;
+};
+/// Puts the matter that was taken with a body back; where the key names nothing, the body comes as it is at the start,
+/// and `named` are named in it.
+struct ReturnBody {
+  std::shared_ptr<const Body> body;  ///< nullptr: it comes back from what was taken only
+  MatterKey key = 0;
+  std::vector<NameMatter> named{};
+};
+/// These keys are asked for no more.
+struct ForgetMatter {
+  std::vector<MatterKey> keys;
+};
+/// Back to the start, with all edits kept. Keys name nothing then, except `named`.
+struct Reset {
+  std::vector<NameMatter> named{};
+};
+
+using Command = std::variant<SetParameter, UpdateProject, AddCells, TakeCells, TakeBody, TakeMatter, PutBack,
+                             NameMatter, ReturnBody, ForgetMatter, Reset>;
+
+}  // namespace ps

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "core/simulation/command.h"
+
+#include <deque>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <variant>
+#include <vector>
+
+namespace ps {
+
+class Engine;
+
+struct Opening {
+  std::shared_ptr<const Project> project;
+  bool play = false;
+};
+struct SingleStep {};
+using Question = std::function<void(const Engine&)>;
+/// Values of parameters that wait side by side, one of each address.
+using ParameterBatch = std::vector<SetParameter>;
+using QueueEntry = std::variant<ParameterBatch, Command, Question, Opening, SingleStep>;
+
+/// What waits for the engine's thread. Values for parameters that wait side by side become one entry, in which a newer
+/// value replaces a waiting one of its address, and a whole project replaces what it would overwrite. Everything else
+/// keeps its place. Not for two threads at a time.
+class CommandQueue {
+ public:
+  bool empty() const { return m_entries.empty(); }
+  void push(Command command) {
+    if (auto* edit = std::get_if<SetParameter>(&command)) {
+      set(std::move(*edit));
+      return;
+    }
+    if (std::holds_alternative<UpdateProject>(command)) {  // it says what those before it would have said
+      while (!empty() && (std::holds_alternative<ParameterBatch>(m_entries.back()) || isUpdate(m_entries.back())))
+        m_entries.pop_back();
+    }
+    m_entries.emplace_back(std::move(command));
+  }
+  void push(Question question) { m_entries.emplace_back(std::move(question)); }
+  void push(Opening opening) { m_entries.emplace_back(std::move(opening)); }
+  void push(SingleStep step) { m_entries.emplace_back(step); }
+  std::optional<QueueEntry> pop() {
+    if (empty()) return std::nullopt;
+    QueueEntry first = std::move(m_entries.front());
+    m_entries.pop_front();
+    return first;
+  }
+
+ private:
+  static bool isUpdate(const QueueEntry& entry) {
+    const auto* command = std::get_if<Command>(&entry);
+    return command && std::holds_alternative<UpdateProject>(*command);
+  }
+  void set(SetParameter edit) {
+    if (empty() || !std::holds_alternative<ParameterBatch>(m_entries.back())) m_entries.emplace_back(ParameterBatch{});
+    ParameterBatch& batch = std::get<ParameterBatch>(m_entries.back());
+    std::erase_if(batch, [&](const SetParameter& waiting) { return waiting.address == edit.address; });
+    batch.push_back(std::move(edit));
+  }
+  std::deque<QueueEntry> m_entries;
+};
+
+}  // namespace ps

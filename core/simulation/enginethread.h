@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "core/simulation/command.h"
+#include "core/simulation/events.h"
+#include "core/simulation/snapshot.h"
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace ps {
+
+class Engine;
+class PluginRegistry;
+
+/// What a thread's edits have cost so far.
+struct EditCost {
+  uint64_t commands = 0;  ///< given
+  uint64_t applied = 0;   ///< edits made of them: what waits together for one address is one
+  uint64_t baked = 0;     ///< tables of materials
+  double seconds = 0;     ///< of the engine's thread, without snapshots
+};
+
+/// Runs an Engine on its own thread. Commands are queued and act between frames; a snapshot is published after each
+/// frame, and when the queue is empty after edits. No call here waits for a step.
+class EngineThread {
+ public:
+  /// `published` is called on the engine's thread after each new snapshot.
+  EngineThread(PluginRegistry& plugins, std::function<void()> published);
+  ~EngineThread();
+
+  /// Replaces the scene. One that cannot be built leaves none: an event says why, the snapshot is then empty, of a new
+  /// revision and without body ids, and the thread pauses.
+  void open(const Project& project, bool play);
+  void play();
+  void pause();
+  void stepOnce();
+  /// An edit, after those that were given before. One of a parameter replaces a waiting one of the same address, and
+  /// those that wait side by side are made as one; an UpdateProject replaces what it would overwrite.
+  void apply(Command command);
+  void reset();
+  void setParameter(const Address& address, const Value& value);
+  void update(const Project& project);
+  /// Looks at the engine between frames, after the edits that were given before.
+  void ask(std::function<void(const Engine&)> question);
+
+  bool playing() const;
+  SnapshotPtr snapshot() const;          ///< newest; nullptr before the first
+  SnapshotPtr previousSnapshot() const;  ///< the one before it, of the same revision, else nullptr
+  /// All frames' statistics since the last reset, appended from index `from`. An edit between two frames replaces the
+  /// last entry.
+  std::vector<FrameStats> history(size_t from) const;
+  /// Failures in the order they came, from number `from` on; the oldest are forgotten after a few hundred. A step's
+  /// flag is told when it is raised after a second without it. The thread pauses at a NaN and when a plugin fails.
+  std::vector<EngineEvent> events(uint64_t from) const;
+  double realTimeFactor() const;  ///< simulated seconds per second, over the last second
+  EditCost editCost() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> m;
+};
+
+}  // namespace ps

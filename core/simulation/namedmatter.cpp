@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/simulation/namedmatter.h"
+
+#include "core/simulation/engine.h"
+#include "core/solver/solver.h"
+
+#include <algorithm>
+
+namespace ps {
+namespace {
+
+std::vector<uint32_t> ofBody(const Engine& engine, std::vector<uint32_t> ids, const std::string& body) {
+  const std::vector<std::string>& bodies = engine.bodyIds();
+  const auto index = static_cast<uint32_t>(std::find(bodies.begin(), bodies.end(), body) - bodies.begin());
+  const ParticleStore& store = engine.solver().particles();
+  std::erase_if(ids, [&](uint32_t id) {
+    const size_t row = store.indexOf(id);
+    return row >= store.size() || store.body()[row] != index;
+  });
+  return ids;
+}
+
+/// Without matter of some bodies.
+std::vector<uint32_t> sparing(const Engine& engine, std::vector<uint32_t> ids, const std::vector<std::string>& spared) {
+  if (spared.empty()) return ids;
+  const std::vector<std::string>& bodies = engine.bodyIds();
+  const ParticleStore& store = engine.solver().particles();
+  std::erase_if(ids, [&](uint32_t id) {
+    const size_t row = store.indexOf(id);
+    if (row >= store.size()) return true;
+    const uint32_t body = store.body()[row];
+    return body < bodies.size() && std::find(spared.begin(), spared.end(), bodies[body]) != spared.end();
+  });
+  return ids;
+}
+
+}  // namespace
+
+void NamedMatter::take(Engine& engine, Entry& entry, const std::vector<uint32_t>& ids) {
+  if (!ids.empty()) entry.taken.push_back(engine.takeParticles(ids));
+}
+
+void NamedMatter::putBack(Engine& engine, Entry& entry) {
+  for (auto matter = entry.taken.rbegin(); matter != entry.taken.rend(); ++matter) engine.putBack(*matter);
+  entry.taken.clear();
+}
+
+void NamedMatter::apply(Engine& engine, const AddCells& command) {
+  const std::vector<uint32_t> ids = engine.addCells(*command.body, command.cells, command.palette);
+  if (command.key == 0) return;
+  Entry& entry = m_entries[command.key];
+  entry.ids.insert(entry.ids.end(), ids.begin(), ids.end());
+}
+
+void NamedMatter::apply(Engine& engine, const TakeCells& command) {
+  const std::vector<uint32_t> ids = sparing(engine, engine.particlesIn(command.lattice, command.cells), command.spared);
+  Entry& entry = m_entries[command.key];
+  entry.ids.insert(entry.ids.end(), ids.begin(), ids.end());
+  take(engine, entry, ids);
+}
+
+void NamedMatter::apply(Engine& engine, const TakeBody& command) {
+  const ParticleStore& store = engine.solver().particles();
+  Entry& entry = m_entries[command.key];
+  entry = {ofBody(engine, {store.id(), store.id() + store.size()}, command.body), {}};
+  take(engine, entry, entry.ids);
+}
+
+void NamedMatter::apply(Engine& engine, const TakeMatter& command) {
+  const auto found = m_entries.find(command.key);
+  if (found != m_entries.end() && !found->second.ids.empty()) {
+    take(engine, found->second, found->second.ids);
+  } else if (!command.cells.empty()) {
+    take(engine, m_entries[command.key], engine.particlesIn(command.lattice, command.cells));
+  }
+}
+
+void NamedMatter::apply(Engine& engine, const PutBack& command) {
+  if (const auto found = m_entries.find(command.key); found != m_entries.end()) {
+    putBack(engine, found->second);
+    return;
+  }
+  for (const AddCells& cells : command.cells) apply(engine, cells);
+}
+
+void NamedMatter::apply(Engine& engine, const NameMatter& command) {
+  m_entries[command.key] = {ofBody(engine, engine.particlesIn(command.lattice, command.cells), command.body), {}};
+}
+
+void NamedMatter::apply(Engine& engine, const ReturnBody& command) {
+  if (const auto found = m_entries.find(command.key); found != m_entries.end()) {
+    putBack(engine, found->second);
+    return;
+  }
+  if (!command.body) return;
+  m_entries[command.key] = {engine.addBody(*command.body), {}};
+  for (const NameMatter& named : command.named) apply(engine, named);
+}
+
+void NamedMatter::apply(Engine&, const ForgetMatter& command) {
+  for (const MatterKey key : command.keys) m_entries.erase(key);
+}
+
+}  // namespace ps

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "core/simulation/command.h"
+#include "core/solver/matter.h"
+
+#include <map>
+#include <vector>
+
+namespace ps {
+
+class Engine;
+
+/// What keys of commands name: particles have moved since an edit made them, so only their ids tell them apart. A reset
+/// gives all particles new ids, and nothing is named then.
+class NamedMatter {
+ public:
+  void apply(Engine& engine, const AddCells& command);
+  void apply(Engine& engine, const TakeCells& command);
+  void apply(Engine& engine, const TakeBody& command);
+  void apply(Engine& engine, const TakeMatter& command);
+  void apply(Engine& engine, const PutBack& command);
+  void apply(Engine& engine, const NameMatter& command);
+  void apply(Engine& engine, const ReturnBody& command);
+  void apply(Engine& engine, const ForgetMatter& command);
+
+ private:
+  struct Entry {
+    std::vector<uint32_t> ids;       ///< born by the edit, or taken by it
+    std::vector<TakenMatter> taken;  ///< what is out of the scene now
+  };
+  static void take(Engine& engine, Entry& entry, const std::vector<uint32_t>& ids);
+  static void putBack(Engine& engine, Entry& entry);
+  std::map<MatterKey, Entry> m_entries;
+};
+
+}  // namespace ps
