@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "app/cli/benchstate.h"
 #include "app/cli/commands.h"
 #include "app/cli/run.h"
 #include "core/base/error.h"
@@ -142,7 +143,8 @@ Measured measureScene(const std::string& name, const Project& project, PluginReg
                      {"ns_per_particle_iteration", total.median * 1e6 / (particles * passes)},
                      {"ns_per_pair", measured.densityNanosecondsPerPair},
                      {"bytes_per_particle", bytesPerParticle(store, pairs)},
-                     {"density_error", report.meanDensityError()}};
+                     {"density_error", report.meanDensityError()},
+                     {"state", measureState(engine, total.median)}};
   return measured;
 }
 
@@ -214,6 +216,13 @@ void print(const json& scene) {
               scene["name"].get<std::string>().c_str(), scene["particles"].get<size_t>(), scene["threads"].get<int>(),
               milliseconds, scene["ms"]["p95"].get<double>(), milliseconds > 0 ? 1000 / milliseconds : 0,
               scene["ns_per_pair"].get<double>());
+  const json& state = scene["state"];
+  std::printf(
+      "%-20s %8.0f bytes per particle, saved in %.1f ms, restored in %.1f ms, ready to roll back in %.2f ms, "
+      "%.1f %% of a frame\n",
+      "  state", state["bytes_per_particle"].get<double>(), state["save_ms"].get<double>(),
+      state["restore_ms"].get<double>(), state["rollback_ms"].get<double>(),
+      100 * state["rollback_share"].get<double>());
   std::fflush(stdout);
 }
 

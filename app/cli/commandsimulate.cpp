@@ -4,15 +4,18 @@
 #include "core/base/error.h"
 #include "core/base/hash.h"
 #include "core/base/jsontext.h"
+#include "core/base/statestream.h"
 #include "core/experiments/probetable.h"
 #include "core/experiments/runreport.h"
 #include "core/experiments/settlingmeasure.h"
 #include "core/io/recording.h"
 #include "core/io/textfile.h"
 #include "core/plugin_host/registry.h"
+#include "core/simulation/scenestate.h"
 
 #include <cstdio>
 #include <optional>
+#include <span>
 
 namespace ps::cli {
 namespace {
@@ -20,6 +23,8 @@ namespace {
 constexpr OptionSpec kOptions[] = {
     {"--seconds", "S", "mechanical time to simulate; without it the project's duration"},
     {"--frames", "N", "frames to simulate, instead of --seconds"},
+    {"--from", "FILE", "goes on from a state that --save-state has written; frames count on from there"},
+    {"--save-state", "FILE", "writes the state at the end, all that goes on into the next frame"},
     kThreads,
     kIsa,
     {"--report", "FILE.json", "writes speed, accuracy, energy, phases and the state hash"},
@@ -29,13 +34,35 @@ constexpr OptionSpec kOptions[] = {
     kQuiet,
 };
 
+constexpr size_t kMostStateBytes = size_t{16} << 30;  ///< 800 for each particle that a scene may have
+
+void restoreFrom(const std::string& path, Engine& engine) {
+  const std::string bytes = readFile(path, kMostStateBytes);
+  try {
+    const StateReader reader(std::as_bytes(std::span(bytes)));
+    requireOfProject(reader, engine.project());
+    engine.restore(reader);
+  } catch (const InputError& problem) {
+    throw InputError(path + ": " + problem.what());
+  }
+}
+
+void saveTo(const std::string& path, const Engine& engine) {
+  StateBuffer buffer;
+  StateWriter writer(buffer);
+  engine.save(writer);
+  writer.finish();
+  const std::span<const std::byte> bytes = buffer.bytes();
+  writeFileAtomically(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
 void summarise(const RunReport& report, Engine& engine, double wall) {
   const FrameStats stats = engine.stats();
   const double factor = wall > 0 ? stats.time / wall : 0;
   std::printf("%zu frames, %.6g s simulated in %.3g s (%.3g times real time), %.3g ms per frame\n", report.frames(),
               stats.time, wall, factor, report.total().median);
   std::printf("%s, state hash %s\n", counted(engine.solver().particles().size(), "particle").c_str(),
-              hashText(engine.solver().stateHash()).c_str());
+              hashText(engine.stateHash()).c_str());
 }
 
 }  // namespace
@@ -56,8 +83,11 @@ int simulateCommand(CommandArguments given) {
   std::vector<std::string> warnings;
   const Project project = loadFor(arguments, path, plugins, &warnings);
   const long frames = frameCount(arguments, project);
-  if (arguments.has("--report")) requireWritable(arguments.text("--report"));
+  for (const char* result : {"--report", "--save-state"}) {
+    if (arguments.has(result)) requireWritable(arguments.text(result));
+  }
   Engine engine(project, plugins);
+  if (arguments.has("--from")) restoreFrom(arguments.text("--from"), engine);
   std::optional<ProbeTable> probes;
   std::optional<RecordingWriter> recording;
   if (arguments.has("--probes")) probes.emplace(arguments.text("--probes"), engine.probeNames());
@@ -80,6 +110,7 @@ int simulateCommand(CommandArguments given) {
   const double wall = now() - start;
   if (probes) probes->finish();
   if (recording) recording->finish();
+  if (arguments.has("--save-state")) saveTo(arguments.text("--save-state"), engine);
   if (arguments.has("--report")) {
     nlohmann::json content = report.json(engine, wall);
     content["rest"] = settling.json(engine);

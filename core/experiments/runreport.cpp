@@ -80,7 +80,7 @@ nlohmann::json RunReport::json(Engine& engine, double wallSeconds) const {
           {"threads", threadCount()},
           {"backend", "cpu"},
           {"isa", instructionSet()},
-          {"state_hash", hashText(engine.solver().stateHash())},
+          {"state_hash", hashText(engine.stateHash())},
           {"flags", flagNames(m_flags)},
           {"limits", limits},
           {"ms_per_frame", milliseconds},

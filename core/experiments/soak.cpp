@@ -99,7 +99,7 @@ SoakOutcome soak(const Project& project, PluginRegistry& plugins, const SliderCh
   outcome.topSpeed = 0;
   const bool again = engine.solver().time() == 0;  // after a reset: as long as the run that it is compared with
   whole = whole && run((again ? kProof : kProof - kBefore) * seconds);
-  outcome.proof = engine.solver().stateHash();
+  outcome.proof = engine.stateHash();
   outcome.unused = whole && change && outcome.proof == proof;
   whole = whole && (outcome.unused || run((1 - kProof) * seconds));
   if (!whole && stop && stop()) throw Error("stopped");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "core/simulation/engine.h"
+#include "core/simulation/engineimpl.h"
 
 #include "core/base/error.h"
 #include "core/base/log.h"
@@ -8,10 +8,7 @@
 #include "core/simulation/declared.h"
 #include "core/simulation/edits.h"
 #include "core/simulation/lattice.h"
-#include "core/simulation/materialtables.h"
-#include "core/simulation/matterflow.h"
 #include "core/simulation/measure.h"
-#include "core/simulation/namedmatter.h"
 
 #include <algorithm>
 #include <atomic>
@@ -42,58 +39,7 @@ auto byId(const std::vector<SceneMaterial>& materials, const std::string& id) {
   return std::find_if(materials.begin(), materials.end(), [&](const SceneMaterial& m) { return m.id == id; });
 }
 
-std::vector<std::string> idsOf(const std::vector<SceneMaterial>& materials) {
-  std::vector<std::string> ids;
-  ids.reserve(materials.size());
-  for (const SceneMaterial& material : materials) ids.push_back(material.id);
-  return ids;
-}
-
 }  // namespace
-
-struct Engine::Impl {
-  Impl(const Project& source, PluginRegistry& registry)
-      : project(source), materialOrder(idsOf(source.materials)), plugins(registry) {}
-
-  void build();
-  /// The project with the materials that the document has, in its order.
-  Project document() const;
-  /// Another one, built from a project. What throws on the way leaves this one as it was.
-  std::unique_ptr<Impl> rebuilt(const Project& source) const;
-  /// Index of a body for its particles: a body keeps it as long as particles live, whatever comes and goes before it.
-  uint32_t bodyIndex(const std::string& id);
-  bool isFixed(const std::string& body);  ///< whether it was born fixed
-  void recompile(const Touched& touched);
-  void recompileAll();
-  void bakeMaterials(const std::string& only = {});
-  void setConstraints();
-  /// Adds the structure of matter that has frozen and that nothing takes back.
-  void holdFrozen();
-  void setThermal();
-  uint32_t constraintSet(const std::string& plugin);
-  /// Leads the bodies that were born fixed, whatever the document says of them by now; one that has left it stands.
-  void lead();
-  std::vector<uint32_t> born(Spawn spawn, const Body& body);
-  std::vector<uint32_t> born(Spawn spawn, const std::string& id, const std::string& name);
-  void exchangeMatter();
-
-  Project project;
-  std::vector<std::string> materialOrder;  ///< ids of the document's; others in `project` leave at the next reset
-  PluginRegistry& plugins;
-  std::unique_ptr<Solver> solver;
-  MaterialTables tables;
-  NamedMatter named;
-  std::map<std::string, uint32_t> constraintSets;  // one per plugin: structure may join matter of any two bodies
-  std::shared_ptr<const std::vector<std::string>> bodyIds = std::make_shared<const std::vector<std::string>>();
-  std::vector<uint8_t> fixedBodies;    // 1 for bodies that were born fixed, by the same index
-  std::vector<std::string> bodyNames;  // for messages, by the index that particles carry
-  std::vector<std::string> probeNames;
-  std::vector<Vector3> start;  ///< m, places at the start by the particles' ids, if a probe has a region
-  StepReport lastReport;
-  MatterFlow flow;
-  uint64_t revision = 0;
-  double spacing = 0;  ///< of the particles that live; the project's acts at the next reset
-};
 
 void Engine::Impl::bakeMaterials(const std::string& only) {
   // What has melted may freeze far from what held it.
@@ -186,17 +132,25 @@ Project Engine::Impl::document() const {
   return source;
 }
 
+void Engine::Impl::prepare(double livingSpacing, const std::vector<std::string>& constraints) {
+  solver = std::make_unique<Solver>();
+  revision = nextRevision();
+  spacing = livingSpacing;
+  SolverSettings settings = compileSettings(project);
+  settings.spacing = spacing;
+  solver->setSettings(settings);
+  solver->setBounds(compileBounds(project));
+  solver->setWalls(compileWalls(project));
+  for (const std::string& plugin : constraints) constraintSet(plugin);
+  bakeMaterials();
+  setThermal();
+  for (const Probe& probe : project.probes) probeNames.push_back(probeTitle(probe));
+}
+
 void Engine::Impl::build() {
   const double count = particleCount(project);
   requireRoom(count);
-  solver = std::make_unique<Solver>();
-  revision = nextRevision();
-  spacing = compileSettings(project).spacing;
-  solver->setSettings(compileSettings(project));
-  solver->setBounds(compileBounds(project));
-  solver->setWalls(compileWalls(project));
-  bakeMaterials();
-  setThermal();
+  prepare(compileSettings(project).spacing, {});
   const bool regions = std::any_of(project.probes.begin(), project.probes.end(),
                                    [](const Probe& probe) { return probe.region.has_value(); });
   const Bounds bounds = compileBounds(project);
@@ -225,7 +179,6 @@ void Engine::Impl::build() {
   }
   for (const Emitter& emitter : project.emitters) bodyIndex(emitter.id);
   recompile({{Owner::Body}});  // what is said of bodies goes by their indices
-  for (const Probe& probe : project.probes) probeNames.push_back(probeTitle(probe));
 }
 
 std::unique_ptr<Engine::Impl> Engine::Impl::rebuilt(const Project& source) const {

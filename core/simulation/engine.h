@@ -12,6 +12,8 @@
 namespace ps {
 
 class PluginRegistry;
+class StateReader;
+class StateWriter;
 
 /// A scene compiled into a solver, single-threaded from the caller's point of view: the command line uses it directly,
 /// the editor through EngineThread.
@@ -50,6 +52,15 @@ class Engine {
   void putBack(const TakenMatter& matter);
   /// Ids of live particles whose centre lies in one of the cells of a lattice.
   std::vector<uint32_t> particlesIn(const VoxelShape& lattice, const std::vector<std::array<int, 3>>& cells) const;
+
+  /// All that goes on into the next frame: the solver's state, what emitters hold, and who is who.
+  void save(StateWriter& writer) const;
+  /// Goes on as the engine would have that was saved, to the bit, with this one's document. Throws InputError for a
+  /// state that is damaged or that the document or the installed plugins cannot go on from, and has then changed
+  /// nothing.
+  void restore(const StateReader& reader);
+  /// Hash of what save() writes.
+  uint64_t stateHash() const;
 
   SnapshotPtr snapshot() const;
   FrameStats stats() const;

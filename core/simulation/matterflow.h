@@ -11,6 +11,9 @@
 
 namespace ps {
 
+class StateReader;
+class StateWriter;
+
 /// Emitters and sinks of one run. Matter comes and goes between two frames; its energy is booked as a source in the
 /// heat ledger, its amount in total().
 ///
@@ -34,6 +37,12 @@ class MatterFlow {
             const std::function<uint32_t(const Emitter&)>& bodyOf, const Birth& birth);
   bool holds(uint32_t id) const;
   const FlowTotal& total() const { return m_total; }
+
+  void save(StateWriter& writer) const;
+  /// After the particles.
+  void restore(const StateReader& reader, const ParticleStore& store);
+  /// Throws InputError where what is held does not fit the mouths that the project has.
+  void requireLayers(const Project& project, std::span<const BakedMaterial> materials, double spacing) const;
 
  private:
   static constexpr uint32_t kNone = ~0u;

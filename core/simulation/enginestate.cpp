@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/base/statestream.h"
+#include "core/simulation/engineimpl.h"
+
+namespace ps {
+
+SceneState Engine::Impl::sceneState() const {
+  std::vector<std::string> constraints(constraintSets.size());
+  for (const auto& [plugin, set] : constraintSets) constraints[set] = plugin;
+  return {project.title,
+          project.solver.thermalModel,
+          spacing,
+          idsOf(project.materials),
+          *bodyIds,
+          bodyNames,
+          std::move(constraints),
+          fixedBodies,
+          start};
+}
+
+std::unique_ptr<Engine::Impl> Engine::Impl::restored(const StateReader& reader) const {
+  SceneState state = SceneState::read(reader);
+  const Project source = document();
+  requireGoesOn(state, source, plugins);
+  auto next = std::make_unique<Impl>(source, plugins);
+  next->tables = tables;
+  next->project.materials = materialsInOrder(state, reader, source);
+  next->prepare(state.spacing, state.constraints);
+  next->bodyIds = std::make_shared<const std::vector<std::string>>(std::move(state.bodies));
+  next->fixedBodies = std::move(state.fixedBodies);
+  next->bodyNames = std::move(state.bodyNames);
+  next->start = std::move(state.start);
+  for (const Body& body : source.bodies) next->bodyIndex(body.id);
+  for (const Emitter& emitter : source.emitters) next->bodyIndex(emitter.id);
+  next->solver->setBodyNames(next->bodyNames);
+  next->recompile({{Owner::Body, Owner::Constraint}});
+  next->solver->restore(reader);
+  next->lead();  // as the document says by now
+  next->flow.restore(reader, next->solver->particles());
+  next->flow.requireLayers(next->project, next->tables.tables(), next->spacing);
+  return next;
+}
+
+void Engine::save(StateWriter& writer) const {
+  m->solver->save(writer);
+  m->sceneState().save(writer);
+  m->flow.save(writer);
+}
+
+void Engine::restore(const StateReader& reader) { m = m->restored(reader); }
+
+uint64_t Engine::stateHash() const {
+  StateHash hash;
+  StateWriter writer(hash);
+  save(writer);
+  writer.finish();
+  return hash.value();
+}
+
+}  // namespace ps
