@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/session/scenelink.h"
 
-#include "core/simulation/enginethread.hread.h"
+#include "core/simulation/enginethread.h"
 #include "ui/document/document.h"
 
 #include <algorithm>

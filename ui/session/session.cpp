@@ -2,7 +2,7 @@
 #include "ui/session/session.h"
 
 #include "core/plugin_host/registry.h"
-#include "core/simulation/enginethread.hread.h"
+#include "core/simulation/enginethread.h"
 #include "ui/document/document.h"
 #include "ui/session/documentfiles.h"
 #include "ui/session/scenelink.h"

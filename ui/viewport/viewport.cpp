@@ -2,7 +2,7 @@
 #include "ui/viewport/viewport.h"
 
 #include "core/base/error.h"
-#include "core/simulation/enginethread.hread.h"
+#include "core/simulation/enginethread.h"
 #include "ui/document/document.h"
 #include "ui/render/framing.h"
 #include "ui/session/selection.h"
