@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/cli/arguments.h"
 #include "app/cli/commands.h"
+#include "app/cli/plugintrial.h"
 #include "core/base/error.h"
 #include "core/base/jsontext.h"
 #include "core/matter/material.h"
@@ -18,6 +19,7 @@ using nlohmann::json;
 constexpr OptionSpec kOptions[] = {
     {"--json", "", "as JSON, with the declared parameters and the catalogue of material properties"},
     {"--allow", "ID", "takes a plugin out of quarantine"},
+    {"--check", "FILE", "tries one plugin in a process of its own and says what is wrong with it, or that it is fine"},
 };
 
 const char* kindName(api::ParameterKind kind) {
@@ -87,6 +89,7 @@ std::string pluginsHelp() {
 int pluginsCommand(CommandArguments given) {
   const Arguments arguments(given, kOptions);
   if (!arguments.positional().empty()) throw InputError("unknown argument '" + arguments.positional()[0] + "'");
+  if (arguments.has("--check")) return tryPlugin(arguments.text("--check"));
   PluginRegistry plugins;
   if (arguments.has("--allow")) {
     const std::string id = arguments.text("--allow");

@@ -137,7 +137,7 @@ int renderProject(const Arguments& arguments, const std::string& path) {
       const StepReport step = engine.step();
       if (step.flags && !flags) message = step.message;
       flags |= step.flags;
-      if (step.flags & static_cast<StepFlags>(StepFlag::NotFinite)) break;  // nothing moves any more
+      if (step.flags & kTakenBack) break;  // nothing moves any more
       if (frame % every == 0) painter.draw(*engine.snapshot(), frame);
       progress.show(frame, engine.stats());
     }

@@ -107,6 +107,7 @@ int simulateCommand(CommandArguments given) {
       progress.show(static_cast<long>(report.frames()), stats);
     });
   }
+  report.add(engine.lateFaults());
   const double wall = now() - start;
   if (probes) probes->finish();
   if (recording) recording->finish();

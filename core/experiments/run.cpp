@@ -9,7 +9,7 @@ bool runFrames(Engine& engine, long frames, const FrameVisitor& each, const Stop
   for (long frame = 1; frame <= frames; ++frame) {
     const StepReport step = engine.step();
     each(step, engine.stats());
-    if (step.flags & static_cast<StepFlags>(StepFlag::NotFinite)) return false;
+    if (step.flags & kTakenBack) return false;
     if (stop && stop()) return false;
   }
   return true;

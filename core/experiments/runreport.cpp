@@ -54,6 +54,13 @@ void RunReport::add(const StepReport& step, const FrameStats& stats) {
   m_last = stats;
 }
 
+void RunReport::add(const std::vector<PluginFault>& late) {
+  for (const PluginFault& fault : late) {
+    if (!m_flags) m_message = "plugin '" + fault.plugin + "': " + fault.what;
+    m_flags |= static_cast<StepFlags>(StepFlag::PluginFault);
+  }
+}
+
 nlohmann::json RunReport::json(Engine& engine, double wallSeconds) const {
   const ParameterSet& set = engine.project().solver.parameters;
   const auto number = [&](const char* key) { return numberOf(set, solverParameters(), key); };

@@ -22,6 +22,8 @@ class RunReport {
   /// `start`: statistics before the first frame.
   explicit RunReport(const FrameStats& start) : m_start(start), m_last(start) {}
   void add(const StepReport& step, const FrameStats& stats);
+  /// Plugins that threw after the last frame.
+  void add(const std::vector<PluginFault>& late);
 
   StepFlags flags() const { return m_flags; }
   const std::string& message() const { return m_message; }  ///< of the first flag

@@ -85,6 +85,17 @@ const FieldTable<Environment>& environmentFields() {
   return table;
 }
 
+const FieldTable<UsedHeatSource>& heatSourceFields() {
+  static const FieldTable<UsedHeatSource> table{
+      .help = "a plugin that brings heat",
+      .rows = {field("plugin", &UsedHeatSource::plugin, PluginId{PluginKind::HeatSource, "its heat is missing"}, "")
+                   .required(),
+               pluginParameters(&UsedHeatSource::parameters, "plugin", &UsedHeatSource::plugin, PluginKind::HeatSource,
+                                "the heat source's own parameters")},
+      .unknown = &UsedHeatSource::unknown};
+  return table;
+}
+
 const FieldTable<SolverOptions>& solverFields() {
   const FieldTable<SolverOptions> thermal{
       .help = "how heat is kept",
@@ -92,7 +103,9 @@ const FieldTable<SolverOptions>& solverFields() {
                      "id of a thermal plugin; empty for no heat")
                    .required(),
                pluginParameters(&SolverOptions::thermalParameters, "model", &SolverOptions::thermalModel,
-                                PluginKind::Thermal, "the thermal model's own parameters")}};
+                                PluginKind::Thermal, "the thermal model's own parameters"),
+               field("sources", &SolverOptions::heatSources, List{Object{heatSourceFields()}},
+                     "what warms or cools matter, whatever the model")}};
   static const FieldTable<SolverOptions> table{
       .help = "how it is computed",
       .rows =

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <vector>
 
 namespace ps {
 namespace {
@@ -40,15 +41,30 @@ bool mattersAt(std::string_view key, double temperature, double melting, double 
   return temperature >= melting && (boiling <= 0 || temperature <= boiling);
 }
 
-/// A law must keep the property's range where its phase exists: at 20 °C and at the melting and boiling points. Farther
-/// off, tables hold it within. A viscosity may exceed its maximum even here: a glass at rest.
+/// Temperatures in K at which laws are tried: 20 °C, the melting and boiling points, and a grid from half the melting
+/// point to half as much again as the boiling point, or around 20 °C where matter neither melts nor boils.
+std::vector<double> trialTemperatures(double melting, double boiling) {
+  constexpr int kSteps = 48;
+  std::vector<double> temperatures{293.15};
+  for (const double point : {melting, boiling}) {
+    if (point > 0) temperatures.push_back(point);
+  }
+  const double low = melting > 0 ? 0.5 * melting : boiling > 0 ? 0.5 * boiling : 273.15;
+  const double high = boiling > 0 ? 1.5 * boiling : melting > 0 ? 1.25 * melting : 373.15;
+  for (int k = 0; k <= kSteps; ++k) temperatures.push_back(low + (high - low) * k / kSteps);
+  return temperatures;
+}
+
+/// Where its phase exists a law must be a number and not below the property's least, and at 20 °C and the points not
+/// above its most; elsewhere tables hold it within. A viscosity may exceed its maximum everywhere: a glass at rest.
 std::string lawProblem(const std::string& key, const Response& law, const api::ParameterDeclaration& range,
                        const Values& value) {
   const double melting = value("melting_temperature"), boiling = value("boiling_temperature");
-  for (const double kelvin : {293.15, melting, boiling}) {
-    if (kelvin <= 0 || !mattersAt(key, kelvin, melting, boiling)) continue;
+  for (const double kelvin : trialTemperatures(melting, boiling)) {
+    if (!mattersAt(key, kelvin, melting, boiling)) continue;
     const double y = law.at(kelvin);
-    const bool tooLarge = y > range.hardMaximum && key != "viscosity";
+    const bool point = kelvin == 293.15 || kelvin == melting || kelvin == boiling;
+    const bool tooLarge = point && y > range.hardMaximum && key != "viscosity";
     if (std::isfinite(y) && y >= range.hardMinimum && !tooLarge) continue;
     return key + ": its law gives " + number(y) + " " + range.unit + " at " + celsius(kelvin) +
            "; it must stay between " + number(range.hardMinimum) + " and " + number(range.hardMaximum);

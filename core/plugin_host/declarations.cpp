@@ -9,6 +9,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstddef>
+#include <cstring>
 #include <set>
 #include <vector>
 
@@ -63,12 +64,6 @@ std::string problemOfChoices(std::string_view choices) {
     first = last + 1;
   }
   return {};
-}
-
-/// A text must be there, and UTF-8: it is written into JSON and onto the screen.
-std::string problemOfText(const char* text) {
-  if (!text) return "is a null pointer; use \"\" for none";
-  return QUtf8StringView(text).isValidUtf8() ? "" : "is not UTF-8 text";
 }
 
 std::string problemOfTexts(const api::ParameterDeclaration& p) {
@@ -143,6 +138,13 @@ std::string problemOfRange(const api::ParameterDeclaration& p, double value) {
 
 }  // namespace
 
+std::string problemOfText(const char* text) {
+  constexpr size_t kLongest = 10'000;
+  if (!text) return "is a null pointer; use \"\" for none";
+  if (std::strlen(text) > kLongest) return "is longer than " + std::to_string(kLongest) + " bytes";
+  return QUtf8StringView(text).isValidUtf8() ? "" : "is not UTF-8 text";
+}
+
 std::string readParameters(api::ParameterList list, std::vector<api::ParameterDeclaration>& out) {
   if (std::string problem = problemOfList(list); !problem.empty()) return "parameters: " + problem;
   std::set<std::string> keys;
@@ -158,7 +160,7 @@ std::string readParameters(api::ParameterList list, std::vector<api::ParameterDe
   return {};
 }
 
-std::string problemOfFields(api::List<api::FieldDeclaration> list) {
+std::string problemOfFields(api::List<api::FieldDeclaration> list, const FieldOwner& owner) {
   if (std::string problem = problemOfList(list); !problem.empty()) return "fields: " + problem;
   std::set<std::string> names;
   for (size_t i = 0; i < list.count; ++i) {
@@ -168,6 +170,9 @@ std::string problemOfFields(api::List<api::FieldDeclaration> list) {
       if (const std::string problem = problemOfText(text); !problem.empty())
         return place("field", i) + "a text of it " + problem;
     if (!names.insert(f.name).second) return "field '" + std::string(f.name) + "': is declared twice";
+    if (!owner.named(f.name))
+      return "field '" + std::string(f.name) + "': its name must begin with the plugin's id and a dot, \"" + owner.id +
+             "." + f.name + "\"";
     if (f.type > api::FieldType::Float4)
       return "field '" + std::string(f.name) + "': its type is unknown to this program";
   }
@@ -178,7 +183,7 @@ namespace {
 
 std::string problemOfValues(api::List<api::FieldDeclaration> values, const std::string& whose) {
   constexpr size_t kMost = 16;
-  if (std::string problem = problemOfFields(values); !problem.empty()) return whose + " " + problem;
+  if (std::string problem = problemOfFields(values, {}); !problem.empty()) return whose + " " + problem;
   if (values.count > kMost) return "it declares more than 16 " + whose + " values";
   for (size_t i = 0; i < values.count; ++i) {
     const api::FieldDeclaration value = values.at(i);
@@ -192,26 +197,26 @@ constexpr const char* kNoTraits = "its traits() says nothing: return fill(out, {
 
 }  // namespace
 
-std::string problemOfTraits(const api::StructuralPlugin& plugin) {
+std::string problemOfTraits(const api::StructuralPlugin& plugin, const FieldOwner& owner) {
   api::StructuralTraits traits;
   if (!plugin.traits(&traits)) return kNoTraits;
   if (traits.arity < 2 || traits.arity > 4)
     return "a structural constraint joins 2 to 4 particles, not " + std::to_string(traits.arity);
   if (std::string problem = problemOfValues(traits.values, "per-constraint"); !problem.empty()) return problem;
-  return problemOfFields(traits.fields);
+  return problemOfFields(traits.fields, owner);
 }
 
-std::string problemOfTraits(const api::GroupPlugin& plugin) {
+std::string problemOfTraits(const api::GroupPlugin& plugin, const FieldOwner& owner) {
   api::GroupTraits traits;
   if (!plugin.traits(&traits)) return kNoTraits;
   if (std::string problem = problemOfValues(traits.values, "per-group"); !problem.empty()) return problem;
   if (std::string problem = problemOfValues(traits.memberValues, "per-member"); !problem.empty()) return problem;
-  return problemOfFields(traits.fields);
+  return problemOfFields(traits.fields, owner);
 }
 
-std::string problemOfTraits(const api::NeighbourPlugin& plugin) {
+std::string problemOfTraits(const api::NeighbourPlugin& plugin, const FieldOwner& owner) {
   api::NeighbourTraits traits;
-  return plugin.traits(&traits) ? problemOfFields(traits.fields) : kNoTraits;
+  return plugin.traits(&traits) ? problemOfFields(traits.fields, owner) : kNoTraits;
 }
 
 std::string readProperties(api::List<api::MaterialProperty> list, Material& material) {

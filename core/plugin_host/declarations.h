@@ -14,12 +14,23 @@
 // every declaration as sound. Each function returns "" or the first thing wrong, naming its place.
 namespace ps {
 
+/// A text must be there, of bounded length, and UTF-8: it is written into JSON and onto the screen.
+std::string problemOfText(const char* text);
 /// Copies what a plugin declares, whatever headers it was built with.
 std::string readParameters(api::ParameterList list, std::vector<api::ParameterDeclaration>& out);
-std::string problemOfFields(api::List<api::FieldDeclaration> list);
-std::string problemOfTraits(const api::StructuralPlugin& plugin);
-std::string problemOfTraits(const api::GroupPlugin& plugin);
-std::string problemOfTraits(const api::NeighbourPlugin& plugin);
+/// Whose per-particle fields they are. Names begin with the plugin's id, so that none takes another's away; the
+/// program's own plugins share some.
+struct FieldOwner {
+  std::string id;  ///< "": names are not seen by anybody else
+  bool own = false;
+  bool named(std::string_view field) const {
+    return id.empty() || own || (field.starts_with(id) && field.size() > id.size() + 1 && field[id.size()] == '.');
+  }
+};
+std::string problemOfFields(api::List<api::FieldDeclaration> list, const FieldOwner& owner);
+std::string problemOfTraits(const api::StructuralPlugin& plugin, const FieldOwner& owner);
+std::string problemOfTraits(const api::GroupPlugin& plugin, const FieldOwner& owner);
+std::string problemOfTraits(const api::NeighbourPlugin& plugin, const FieldOwner& owner);
 
 /// Reads a plugin's properties into `material`, with sources and grades.
 std::string readProperties(api::List<api::MaterialProperty> list, Material& material);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/plugin_host/pluginloader.h"
 
+#include "core/base/callee.h"
 #include "core/base/error.h"
+#include "core/base/shorttext.h"
 #include "core/plugin_host/declarations.h"
 #include "core/plugin_host/hostservices.h"
 
@@ -30,8 +32,11 @@ std::string textOrEmpty(const char* text) { return text ? oneLine(text) : std::s
 std::string checkCommon(const api::Plugin& plugin, PluginInfo& info, LoadedPlugin& loaded) {
   const char* label = plugin.label();
   if (!label || !*label) return "its label is empty";
+  for (const auto& [name, text] : {std::pair{"label", label}, std::pair{"help", plugin.help()}})
+    if (const std::string problem = problemOfText(text); !problem.empty())
+      return std::string("its ") + name + " " + problem;
   info.label = textOrEmpty(label);
-  info.help = textOrEmpty(plugin.help());
+  info.help = QString::fromUtf8(plugin.help()).simplified().toStdString();
   return readParameters(plugin.parameters(), loaded.parameters);
 }
 
@@ -80,11 +85,12 @@ std::string connect(QObject& object, PluginInfo& info, LoadedPlugin& loaded) {
   }
   if (!plugin) return std::string("its class lacks Q_INTERFACES for a ") + pluginKindName(info.kind);
   if (std::string problem = checkCommon(*plugin, info, loaded); !problem.empty()) return problem;
-  if (loaded.structural) return problemOfTraits(*loaded.structural);
-  if (loaded.group) return problemOfTraits(*loaded.group);
-  if (loaded.neighbour) return problemOfTraits(*loaded.neighbour);
-  if (loaded.thermal) return problemOfFields(loaded.thermal->fields());
-  if (loaded.heatSource) return problemOfFields(loaded.heatSource->fields());
+  const FieldOwner owner{info.id, info.own};
+  if (loaded.structural) return problemOfTraits(*loaded.structural, owner);
+  if (loaded.group) return problemOfTraits(*loaded.group, owner);
+  if (loaded.neighbour) return problemOfTraits(*loaded.neighbour, owner);
+  if (loaded.thermal) return problemOfFields(loaded.thermal->fields(), owner);
+  if (loaded.heatSource) return problemOfFields(loaded.heatSource->fields(), owner);
   return loaded.materialPlugin ? readMaterial(info, loaded) : std::string();
 }
 
@@ -119,6 +125,7 @@ std::vector<double> completed(const std::vector<double>& parameters,
 LoadedPlugin loadLibrary(PluginInfo& info, const std::shared_ptr<InstalledMaterials>& materials) {
   const NumberFormatGuard guard;
   LoadedPlugin loaded;
+  loaded.id = info.id;
   std::string problem;
   try {
     QPluginLoader loader(QString::fromStdString(info.path));
@@ -142,6 +149,7 @@ LoadedPlugin loadLibrary(PluginInfo& info, const std::shared_ptr<InstalledMateri
 
 Material evaluateLaws(const LoadedPlugin& loaded, Material material, const std::vector<double>& parameters) {
   static const std::vector<double> kTemperatures = lawTemperatures();
+  const CalleeScope callee(loaded.id.c_str());
   const std::vector<double> values = completed(parameters, loaded.parameters);
   const api::MaterialPlugin& plugin = *loaded.materialPlugin;
   const api::ParameterList catalogue = propertyCatalogue();
@@ -179,6 +187,7 @@ std::string currentExceptionText() {
 std::string oneLine(std::string text) {
   for (char& c : text)
     if (static_cast<unsigned char>(c) < 0x20) c = ' ';
+  text = shortText(std::move(text));
   return QString::fromStdString(text).toStdString();  // what is not UTF-8 becomes U+FFFD
 }
 

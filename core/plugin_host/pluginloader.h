@@ -13,6 +13,7 @@ struct InstalledMaterials;
 /// A plugin at work: its kind's pointer is set, of a constraint its form's as well, or only `material.id` for a JSON
 /// material.
 struct LoadedPlugin {
+  std::string id;
   api::Plugin* plugin = nullptr;
   const api::MaterialPlugin* materialPlugin = nullptr;
   const api::ConstraintPlugin* constraint = nullptr;

@@ -32,13 +32,13 @@ bool isInside(const QString& path, const QString& directory) {
 
 class Directories {
  public:
-  void add(const QString& path, const char* origin, bool asked) {
+  void add(const QString& path, const char* origin, bool asked, bool own = false) {
     if (path.isEmpty()) return;
     const QFileInfo info(path);
     const QString canonical = info.exists() ? info.canonicalFilePath() : QDir::cleanPath(info.absoluteFilePath());
     const std::string text = canonical.toStdString();
     std::erase_if(m_list, [&](const PluginDirectory& known) { return known.path == text; });
-    m_list.push_back({text, origin, asked});
+    m_list.push_back({text, origin, asked, own});
   }
   std::vector<PluginDirectory> take() { return std::move(m_list); }
 
@@ -56,11 +56,11 @@ void addBuiltIn(Directories& list) {
        {"../share/phasesketch/plugins", "../lib/phasesketch/plugins", "../" PS_INSTALL_LIBDIR "/phasesketch/plugins"}) {
     const QString path = program + QLatin1Char('/') + QLatin1String(relative);
     if (!QFileInfo(path).isDir()) continue;
-    list.add(path, "the installation", false);
+    list.add(path, "the installation", false, true);
     found = true;
   }
   if (!found && isInside(program, QStringLiteral(PS_BUILD_TREE)))
-    list.add(QStringLiteral(PS_BUILD_TREE_PLUGINS), "the build tree", false);
+    list.add(QStringLiteral(PS_BUILD_TREE_PLUGINS), "the build tree", false, true);
 }
 
 }  // namespace

@@ -12,6 +12,7 @@ struct PluginDirectory {
   std::string path;    ///< absolute
   std::string origin;  ///< "PHASESKETCH_PLUGIN_PATH", ... for messages
   bool asked = false;
+  bool own = false;  ///< the program's own plugins lie here
 };
 
 /// In rising order of precedence; a directory that appears twice keeps its last place.

@@ -111,6 +111,11 @@ bool Quarantine::holds(const std::string& id, const std::string& path) {
   return false;
 }
 
+std::pair<std::string, std::string> Quarantine::recordFor(const std::string& id, const std::string& path) const {
+  const Entry entry = describe(id, path);
+  return {recordPath(m_directory, entry).toStdString(), written(entry).toStdString()};
+}
+
 bool Quarantine::allow(const std::string& id) {
   bool any = false;
   for (const Entry& entry : m_entries)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <string>
+#include <utility>
 #include <vector>
 
 // Why a file lock and not a process number: a plugin that aborts takes its process along without any code of ours
@@ -10,8 +11,8 @@
 // in another container on the same home directory.
 namespace ps {
 
-/// Plugins that took the program down while they were loaded. All state lies in files under one directory; a directory
-/// that cannot be written only means that nothing is remembered.
+/// Plugins that took the program down while they were loaded or ran. All state lies in files under one directory; a
+/// directory that cannot be written only means that nothing is remembered.
 class Quarantine {
  public:
   /// Looks for the locks of dead processes and puts the plugins they name into quarantine.
@@ -23,6 +24,10 @@ class Quarantine {
   };
   /// True when this very file is in quarantine. A record about an older build of the file is dropped.
   bool holds(const std::string& id, const std::string& path);
+  /// The file that puts this plugin into quarantine at the next start, and what it has to hold: for what must write it
+  /// when the program is dying.
+  std::pair<std::string, std::string> recordFor(const std::string& id, const std::string& path) const;
+  const std::string& directory() const { return m_directory; }
   /// Forgets all records of an id; true when there was one.
   bool allow(const std::string& id);
 

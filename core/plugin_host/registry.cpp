@@ -2,6 +2,7 @@
 #include "core/plugin_host/registry.h"
 
 #include "core/base/error.h"
+#include "core/plugin_host/crashwatch.h"
 #include "core/plugin_host/hostservices.h"
 #include "core/plugin_host/materialjson.h"
 #include "core/plugin_host/pluginloader.h"
@@ -73,6 +74,7 @@ std::string nameOf(const PluginInfo& info) {
 struct PluginRegistry::Impl {
   explicit Impl(const Options& options) : state(stateDirectory()), quarantine(state) {
     scan(pluginDirectories(options));
+    watchForCrashes(quarantine);
     for (auto& [id, list] : candidates) {
       chooseStandard(list);
       loadBest(list);
@@ -89,7 +91,7 @@ struct PluginRegistry::Impl {
   }
 
   void scan(const std::vector<PluginDirectory>& directories);
-  void read(const std::string& path, size_t directory);
+  void read(const std::string& path, size_t directory, bool own);
   void chooseStandard(const std::vector<Candidate>& list);
   void loadBest(std::vector<Candidate>& list);
   bool load(Candidate& candidate);
@@ -131,11 +133,11 @@ void PluginRegistry::Impl::scan(const std::vector<PluginDirectory>& directories)
     }
     const QStringList names{QStringLiteral("*.so"), QStringLiteral("*.json")};
     for (const QString& name : directory.entryList(names, QDir::Files, QDir::Name | QDir::LocaleAware))
-      read(directory.filePath(name).toStdString(), d);
+      read(directory.filePath(name).toStdString(), d, directories[d].own);
   }
 }
 
-void PluginRegistry::Impl::read(const std::string& path, size_t directory) {
+void PluginRegistry::Impl::read(const std::string& path, size_t directory, bool own) {
   Candidate candidate;
   candidate.directory = directory;
   if (path.ends_with(".json")) {
@@ -144,6 +146,7 @@ void PluginRegistry::Impl::read(const std::string& path, size_t directory) {
     candidate.info = readLibraryMetadata(path);
   }
   PluginInfo& info = candidate.info;
+  info.own = own && info.id.find('.') == std::string::npos;  // names with a dot are other people's
   if (info.label.empty())
     info.label = info.id.empty() ? QFileInfo(QString::fromStdString(path)).fileName().toStdString() : info.id;
   if (!info.problem.empty()) {
@@ -171,11 +174,13 @@ void PluginRegistry::Impl::chooseStandard(const std::vector<Candidate>& list) {
 void PluginRegistry::Impl::loadBest(std::vector<Candidate>& list) {
   for (size_t i = list.size(); i-- > 0;) {
     PluginInfo& info = list[i].info;
+    info.own = list[0].info.own;
     if (load(list[i])) {
       info.state = PluginInfo::State::Loaded;
       for (size_t other = 0; other < i; ++other)
         info.note += (other == 0 ? "replaces " : " and ") + nameOf(list[other].info);
       found.push_back(info);
+      if (!info.json) noteForCrashes(quarantine, info.id, info.path);
       return;
     }
     if (i > 0) info.problem += "; until then " + nameOf(list[i - 1].info) + " takes its place";
@@ -190,10 +195,11 @@ bool PluginRegistry::Impl::load(Candidate& candidate) {
     plugin.material = std::move(candidate.material);
   } else if (quarantine.holds(info.id, info.path)) {
     info.state = PluginInfo::State::Quarantined;
-    info.problem = info.path +
-                   ": the program crashed while loading it, so it is not loaded any more; allow it again with "
-                   "\"phasesketch-cli plugins --allow " +
-                   info.id + "\" or install another version";
+    info.problem =
+        info.path +
+        ": the program crashed while loading or running it, so it is not loaded any more; allow it again with "
+        "\"phasesketch-cli plugins --allow " +
+        info.id + "\" or install another version";
     return false;
   } else {
     const LoadingLock lock(state, info.id, info.path);

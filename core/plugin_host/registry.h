@@ -30,6 +30,7 @@ struct PluginInfo {
   bool standard = false;  ///< its metadata offer it as what is meant where nothing names another one of its kind
   std::string note;       ///< one line about one that is loaded: "replaces version 1.0.0 in FILE"; "" mostly
   bool json = false;      ///< a material that is a JSON file alone
+  bool own = false;       ///< one of the program's, or in the place of one of them
 };
 
 const char* pluginStateName(PluginInfo::State state);  ///< "loaded", "refused", "quarantined"

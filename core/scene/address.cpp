@@ -16,10 +16,12 @@ struct OwnerRow {
   int idParts;  ///< between owner and key
 };
 constexpr OwnerRow kRows[] = {
-    {Owner::Material, "material", 1}, {Owner::Wall, "wall", 1},       {Owner::Environment, "environment", 0},
-    {Owner::Solver, "solver", 0},     {Owner::Thermal, "thermal", 0}, {Owner::Body, "body", 1},
-    {Owner::Emitter, "emitter", 1},   {Owner::Sink, "sink", 1},       {Owner::Constraint, "constraint", 2},
-    {Owner::Scene, "scene", 0},
+    {Owner::Material, "material", 1},       {Owner::Wall, "wall", 1},
+    {Owner::Environment, "environment", 0}, {Owner::Solver, "solver", 0},
+    {Owner::Thermal, "thermal", 0},         {Owner::Body, "body", 1},
+    {Owner::Emitter, "emitter", 1},         {Owner::Sink, "sink", 1},
+    {Owner::Constraint, "constraint", 2},   {Owner::Scene, "scene", 0},
+    {Owner::HeatSource, "heat_source", 1},
 };
 static_assert(std::size(kRows) == std::size(kOwners));
 
@@ -57,6 +59,12 @@ Set* setOf(P& project, const Address& address) {
       if (!body) return nullptr;
       for (auto& constraint : body->constraints) {
         if (constraint.plugin == address.plugin) return &constraint.parameters;
+      }
+      return nullptr;
+    }
+    case Owner::HeatSource: {
+      for (auto& source : project.solver.heatSources) {
+        if (source.plugin == address.id) return &source.parameters;
       }
       return nullptr;
     }

@@ -8,16 +8,28 @@
 namespace ps {
 
 /// Whose parameters there are.
-enum class Owner : uint8_t { Material, Wall, Environment, Solver, Thermal, Body, Emitter, Sink, Constraint, Scene };
-inline constexpr Owner kOwners[] = {Owner::Material,   Owner::Wall, Owner::Environment, Owner::Solver,
-                                    Owner::Thermal,    Owner::Body, Owner::Emitter,     Owner::Sink,
-                                    Owner::Constraint, Owner::Scene};
+enum class Owner : uint8_t {
+  Material,
+  Wall,
+  Environment,
+  Solver,
+  Thermal,
+  Body,
+  Emitter,
+  Sink,
+  Constraint,
+  Scene,
+  HeatSource
+};
+inline constexpr Owner kOwners[] = {Owner::Material,   Owner::Wall,  Owner::Environment, Owner::Solver,
+                                    Owner::Thermal,    Owner::Body,  Owner::Emitter,     Owner::Sink,
+                                    Owner::Constraint, Owner::Scene, Owner::HeatSource};
 /// As addresses begin: "material", "wall", ...
 std::string_view ownerName(Owner owner);
 
 /// Names one parameter of a project: "material/water/conductivity_solid", "wall/floor/temperature",
 /// "environment/ambient_pressure", "solver/substeps", "thermal/KEY", "body/ice/temperature", "emitter/tap/speed",
-/// "sink/drain/open", "constraint/ice/bonds/KEY", "scene/gravity".
+/// "sink/drain/open", "constraint/ice/bonds/KEY", "heat_source/lamp/KEY", "scene/gravity".
 struct Address {
   Owner owner = Owner::Scene;
   std::string id;  ///< of the owner, of a constraint's body; "" where there is one owner

@@ -153,10 +153,18 @@ struct Environment {
   Unknown unknown;
 };
 
+/// A plugin that warms or cools matter, whatever the thermal model.
+struct UsedHeatSource {
+  std::string plugin;
+  ParameterSet parameters;
+  Unknown unknown;
+};
+
 struct SolverOptions {
   ParameterSet parameters;   ///< see solverParameters()
   std::string thermalModel;  ///< plugin id; "" for none. A file that names none means PluginRegistry::standard()
   ParameterSet thermalParameters;
+  std::vector<UsedHeatSource> heatSources;
   Unknown unknown;
 };
 
@@ -210,6 +218,14 @@ api::ParameterList wallParameters();
 api::ParameterList bodyParameters();
 api::ParameterList emitterParameters();
 api::ParameterList sinkParameters();
+/// Keys of toggles of the scene and of bodies, with a plugin's id behind them: whether the scene uses that heat source,
+/// whether the body uses that constraint between neighbours.
+inline constexpr const char* kHeatSourceKey = "heat_source.";
+inline constexpr const char* kNeighbourKey = "uses.";
+/// The plugin's id, or "" where the key is no such toggle.
+inline std::string pluginBehind(const std::string& key, std::string_view prefix) {
+  return key.starts_with(prefix) ? key.substr(prefix.size()) : std::string();
+}
 /// What holds a body together is one of its constraints rather than a parameter; panels show it as one.
 inline constexpr const char* kStructureKey = "structure";
 inline constexpr const char* kNoStructure = "none";

@@ -65,6 +65,10 @@ std::optional<Value> outsideValue(const Project& project, const Address& address
   }
   if (address.owner != Owner::Scene) return std::nullopt;
   if (address.key == kGravity.key) return project.environment.gravity.norm();
+  if (const std::string source = pluginBehind(address.key, kHeatSourceKey); !source.empty()) {
+    const auto& used = project.solver.heatSources;
+    return std::any_of(used.begin(), used.end(), [&](const UsedHeatSource& s) { return s.plugin == source; });
+  }
   if (address.key != kThermalModel) return std::nullopt;
   return project.solver.thermalModel.empty() ? std::string(kNoModel) : project.solver.thermalModel;
 }
@@ -77,6 +81,9 @@ bool setOutsideValue(Project& project, const Address& address, const Value& valu
         std::find_if(project.bodies.begin(), project.bodies.end(), [&](const Body& b) { return b.id == address.id; });
     const Component component = *componentOf(address.key);
     ((*body).*(component.vector))[component.axis] = std::get<double>(value);
+  } else if (const std::string source = pluginBehind(address.key, kHeatSourceKey); !source.empty()) {
+    std::erase_if(project.solver.heatSources, [&](const UsedHeatSource& s) { return s.plugin == source; });
+    if (std::get<bool>(value)) project.solver.heatSources.push_back({source, {}, {}});
   } else if (address.key == kThermalModel) {
     const auto& model = std::get<std::string>(value);
     project.solver.thermalModel = model == kNoModel ? std::string() : model;

@@ -52,16 +52,40 @@ Response responseFrom(const Value& value) {
 /// Guards the lists below, which are made when they are first asked for.
 std::mutex g_lists;
 
+/// Installed plugins, and those that the scene uses and lacks.
+template <class Used>
+std::vector<std::string> usable(std::vector<std::string> installed, const std::vector<Used>& used) {
+  for (const Used& item : used) {
+    if (!contains(installed, item.plugin)) installed.push_back(item.plugin);
+  }
+  return installed;
+}
+
+api::ParameterDeclaration pluginToggle(const char* prefix, const std::string& id, const char* group,
+                                       const PluginRegistry* plugins) {
+  std::string label = id, help = "A plugin that is not installed.";
+  for (const PluginInfo& info : plugins ? plugins->plugins() : std::vector<PluginInfo>{}) {
+    if (info.id == id) label = info.label, help = info.help;
+  }
+  return declare::toggle({declare::kept(prefix + id), declare::kept(label), "", ""}, false,
+                         {group, declare::kept(help), "", ""});
+}
+
 /// What is installed decides on the choices, and so does a model that is not: each list made stays for good.
 api::ParameterList sceneDeclarations(const Project& project, const PluginRegistry& plugins) {
-  static std::map<std::pair<std::vector<std::string>, std::string>, std::vector<api::ParameterDeclaration>> lists;
+  using Choices = std::array<std::vector<std::string>, 3>;
+  static std::map<Choices, std::vector<api::ParameterDeclaration>> lists;
   std::vector<std::string> models = plugins.ids(PluginKind::Thermal);
   const std::string standard = plugins.standard(PluginKind::Thermal);
   const std::string& present = project.solver.thermalModel;
   if (!present.empty() && std::find(models.begin(), models.end(), present) == models.end()) models.push_back(present);
+  const std::vector<std::string> sources = usable(plugins.ids(PluginKind::HeatSource), project.solver.heatSources);
   const std::lock_guard lock(g_lists);
-  auto& list = lists[{models, standard}];
-  if (list.empty()) list = sceneParameters(models, standard);
+  auto& list = lists[Choices{models, sources, {standard}}];
+  if (list.empty()) {
+    list = sceneParameters(models, standard);
+    for (const std::string& id : sources) list.push_back(pluginToggle(kHeatSourceKey, id, "Heat", &plugins));
+  }
   return {list.data(), list.size()};
 }
 
@@ -75,12 +99,12 @@ api::ParameterDeclaration bodyMaterialParameter(const std::vector<std::string>& 
 
 /// As sceneDeclarations(), for one body.
 api::ParameterList bodyDeclarations(const Project& project, const PluginRegistry* plugins, const std::string& id) {
-  static std::map<std::array<std::vector<std::string>, 2>, std::vector<api::ParameterDeclaration>> lists;
-  std::vector<std::string> choices, materials;
+  static std::map<std::array<std::vector<std::string>, 3>, std::vector<api::ParameterDeclaration>> lists;
+  std::vector<std::string> choices, materials, neighbours;
   for (const SceneMaterial& material : project.materials) materials.push_back(material.id);
   if (plugins) {
     for (const std::string& plugin : plugins->ids(PluginKind::Constraint)) {
-      if (holdsTogether(plugin, plugins)) choices.push_back(plugin);
+      (holdsTogether(plugin, plugins) ? choices : neighbours).push_back(plugin);
     }
   }
   const auto body = itemById(project.bodies, id);
@@ -90,13 +114,15 @@ api::ParameterList bodyDeclarations(const Project& project, const PluginRegistry
       choices.push_back(present);
   }
   const std::lock_guard lock(g_lists);
-  auto& list = lists[{choices, materials}];
+  auto& list = lists[{choices, materials, neighbours}];
   if (list.empty()) {
     for (const api::ParameterList& part : {bodyParameters(), bodyMotionParameters()}) {
       for (size_t i = 0; i < part.count; ++i) list.push_back(part[i]);
     }
     list.push_back(structureParameter(choices));
     if (!materials.empty()) list.push_back(bodyMaterialParameter(materials));
+    for (const std::string& plugin : neighbours)
+      list.push_back(pluginToggle(kNeighbourKey, plugin, "Structure", plugins));
   }
   return {list.data(), list.size()};
 }
@@ -160,6 +186,11 @@ std::string frozenStructure(const PluginRegistry& plugins) {
   return {};
 }
 
+bool uses(const Body& body, const std::string& plugin) {
+  return std::any_of(body.constraints.begin(), body.constraints.end(),
+                     [&](const BodyConstraint& constraint) { return constraint.plugin == plugin; });
+}
+
 std::string structureOf(const Body& body, const PluginRegistry* plugins) {
   for (const BodyConstraint& constraint : body.constraints) {
     if (holdsTogether(constraint.plugin, plugins)) return constraint.plugin;
@@ -188,6 +219,8 @@ api::ParameterList declarationsOf(const Project& project, const PluginRegistry* 
       return of(project.solver.thermalModel);
     case Owner::Constraint:
       return of(address.plugin);
+    case Owner::HeatSource:
+      return of(address.id);
     case Owner::Material:
       break;
   }
@@ -236,6 +269,11 @@ Value valueAt(const Project& project, const PluginRegistry* plugins, const Addre
   if (address.owner == Owner::Body && address.key == kStructureKey) {
     const auto body = itemById(project.bodies, address.id);
     return body == project.bodies.end() ? std::string(kNoStructure) : structureOf(*body, plugins);
+  }
+  if (const std::string plugin = pluginBehind(address.key, kNeighbourKey);
+      address.owner == Owner::Body && !plugin.empty()) {
+    const auto body = itemById(project.bodies, address.id);
+    return body != project.bodies.end() && uses(*body, plugin);
   }
   if (address.owner == Owner::Body && address.key == kBodyMaterialKey) {
     const auto body = itemById(project.bodies, address.id);
@@ -303,6 +341,7 @@ std::vector<Address> allAddresses(const Project& project, const PluginRegistry* 
   for (const Sink& sink : project.sinks) add({Owner::Sink, sink.id, ""});
   for (const SceneWall& wall : project.environment.walls) add({Owner::Wall, wall.id, ""});
   for (const Owner owner : {Owner::Scene, Owner::Environment, Owner::Solver, Owner::Thermal}) add({owner, "", ""});
+  for (const UsedHeatSource& source : project.solver.heatSources) add({Owner::HeatSource, source.plugin, ""});
   return addresses;
 }
 

@@ -46,6 +46,8 @@ bool holdsTogether(const std::string& plugin, const PluginRegistry* plugins);
 /// The constraint plugin that takes in frozen matter (api::kHoldsFrozen), first by id; "" where none is installed. What
 /// is sketched as a solid is held by it too.
 std::string frozenStructure(const PluginRegistry& plugins);
+/// Whether a body has a constraint of this plugin.
+bool uses(const Body& body, const std::string& plugin);
 /// The constraint plugin that holds a body together, or kNoStructure.
 std::string structureOf(const Body& body, const PluginRegistry* plugins);
 /// Addresses of every declared parameter of the project, in the order of the outliner.

@@ -66,6 +66,12 @@ void Engine::Impl::setThermal() {
         numberOf(body.parameters, bodyParameters(), "surface_area");
   }
   solver->setThermal(settings, model, project.solver.thermalModel, std::move(parameters));
+  std::vector<HeatSource> sources;
+  for (const UsedHeatSource& source : project.solver.heatSources) {
+    if (const api::HeatSourcePlugin* plugin = plugins.heatSource(source.plugin))
+      sources.push_back({plugin, source.plugin, numbersOf(source.parameters, plugins.parameters(source.plugin))});
+  }
+  solver->setHeatSources(std::move(sources));
 }
 
 uint32_t Engine::Impl::constraintSet(const std::string& id) {
@@ -200,7 +206,7 @@ void Engine::Impl::recompile(const Touched& touched) {
     settings.spacing = spacing;
     solver->setSettings(settings);
   }
-  if (any({Owner::Environment, Owner::Solver, Owner::Thermal, Owner::Body})) setThermal();
+  if (any({Owner::Environment, Owner::Solver, Owner::Thermal, Owner::HeatSource, Owner::Body})) setThermal();
   if (any({Owner::Body})) {
     lead();
     solver->setHeating(compileHeating(project, *bodyIds));
@@ -250,6 +256,15 @@ StepReport Engine::step() {
   for (const PluginFault& fault : m->lastReport.faults) m->plugins.fault(fault.plugin, fault.what);
   if (m->solver->frame() > before) m->exchangeMatter();  // not of a frame that was taken back
   return m->lastReport;
+}
+
+std::vector<PluginFault> Engine::lateFaults() {
+  (void)m->solver->limits();
+  (void)m->solver->elasticEnergy();
+  (void)m->solver->thermalEnergy();
+  std::vector<PluginFault> faults = m->solver->takeFaults();
+  for (const PluginFault& fault : faults) m->plugins.fault(fault.plugin, fault.what);
+  return faults;
 }
 
 void Engine::reset() { m = m->rebuilt(m->document()); }

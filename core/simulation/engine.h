@@ -25,6 +25,9 @@ class Engine {
 
   /// Plugins that threw in it are refused from now on, in the registry too.
   StepReport step();
+  /// Asks every plugin for its energies and limits, and names those that threw at it since the last step: they are
+  /// refused from now on. For the end of a run, after which no step would tell.
+  std::vector<PluginFault> lateFaults();
 
   // Edits. Each throws, InputError mostly, and then has changed nothing.
 

@@ -25,8 +25,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 /// After these somebody must look before it goes on.
-constexpr StepFlags kPausing =
-    static_cast<StepFlags>(StepFlag::NotFinite) | static_cast<StepFlags>(StepFlag::PluginFault);
+constexpr StepFlags kPausing = kTakenBack | static_cast<StepFlags>(StepFlag::PluginFault);
 /// Frames without a flag after which what was told is over, and would be told again.
 constexpr int kQuiet = 60;
 constexpr size_t kMostEvents = 256;

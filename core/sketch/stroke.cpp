@@ -28,6 +28,7 @@ class Collector final : public api::EditSink {
  public:
   void submit(api::EditKind kind, api::Span<const api::Cell> cells) override {
     if (cells.size > kMaxStrokeCells) refuse();
+    if (!cells.data && cells.size > 0) throw Error("it submitted cells by a null pointer");
     if (kind != m_kind) flush();
     m_kind = kind;
     m_pending.insert(m_pending.end(), cells.begin(), cells.end());

@@ -7,11 +7,9 @@ std::vector<std::string> flagNames(StepFlags flags) {
   static constexpr struct {
     StepFlag flag;
     const char* name;
-  } kNames[] = {{StepFlag::NotFinite, "not_finite"},
-                {StepFlag::LostParticle, "lost_particle"},
-                {StepFlag::Diverged, "diverged"},
-                {StepFlag::PluginFault, "plugin_fault"},
-                {StepFlag::EnergyOpen, "energy_open"}};
+  } kNames[] = {{StepFlag::NotFinite, "not_finite"},   {StepFlag::LostParticle, "lost_particle"},
+                {StepFlag::Diverged, "diverged"},      {StepFlag::PluginFault, "plugin_fault"},
+                {StepFlag::EnergyOpen, "energy_open"}, {StepFlag::Unphysical, "unphysical"}};
   std::vector<std::string> names;
   for (const auto& entry : kNames) {
     if ((flags & static_cast<StepFlags>(entry.flag)) != 0) names.emplace_back(entry.name);

@@ -17,8 +17,12 @@ enum class StepFlag : unsigned {
                      ///< iterations, lower the relaxation
   PluginFault = 8,   ///< a plugin threw: see the message; the scene goes on without it
   EnergyOpen = 16,   ///< heat balance open by more than 1e-6 of what was exchanged: report a bug in the thermal model
+  Unphysical = 32,   ///< a temperature below 0 K, shares outside 0 .. 1, a leap across the scene: see who is named
 };
 using StepFlags = unsigned;
+/// With these the frame was taken back, and would be again: nothing moves any more.
+inline constexpr StepFlags kTakenBack =
+    static_cast<StepFlags>(StepFlag::NotFinite) | static_cast<StepFlags>(StepFlag::Unphysical);
 /// "not_finite", "lost_particle", ...
 std::vector<std::string> flagNames(StepFlags flags);
 

@@ -149,6 +149,7 @@ void Solver::Impl::configure() {
   for (LiquidContact* kept : {&wet, &sheets}) kept->configure(settings.spacing, kSkinSpacings * settings.spacing);
   rigid.configure(settings, walls, table);
   gas.configure(settings, thermal, table);
+  heat.setModelName(modelName);
   heat.configure(thermal, settings, walls, bounds, table, model, modelParameters);
   phase.configure(settings, table);
   heat.derive(store);
@@ -308,5 +309,7 @@ std::vector<Limit> Solver::limits() const {
   if (excess > kSqueezed && squeezes) result.push_back({kSqueezeLimit, 0, excess, ""});
   return result;
 }
+
+std::vector<PluginFault> Solver::takeFaults() { return m->takeFaults(); }
 
 }  // namespace ps

@@ -87,7 +87,9 @@ class Solver {
   const HeatLedger& heatLedger() const;
   double thermalEnergy() const;                     ///< J
   std::span<const double> thermalEnergies() const;  ///< J per particle, until the next call; empty without a model
-  double elasticEnergy() const;                     ///< J, stored in constraints, as their plugins say
+  /// Plugins that threw when they were asked for energies and limits since the last step or call; none of them goes on.
+  std::vector<PluginFault> takeFaults();
+  double elasticEnergy() const;  ///< J, stored in constraints, as their plugins say
   /// All that goes on into the next frame: matter with every field and its order, structure, prescribed motions, what
   /// contacts bore, books, clocks. Changes of settings that are to come take effect first.
   void save(StateWriter& writer) const;

@@ -11,6 +11,7 @@
 #include <QJsonObject>
 #include <QPluginLoader>
 #include <QProcess>
+#include <QRegularExpression>
 #include <QSet>
 #include <QTemporaryDir>
 #include <QTest>
@@ -71,6 +72,8 @@ class InstallationTest : public QObject {
   void examplesBuildOutsideTheTree();
   void commandLineLoadsTheExamples_data();
   void commandLineLoadsTheExamples();
+  void readmesNameWhatIsInstalled();
+  void checkSaysThatExamplesAreFine();
   void examplesRunInAScene();
   void cohesionKeepsMomentum();
   void editorListsTheExamples();
@@ -97,7 +100,8 @@ void InstallationTest::installedFilesAreThere_data() {
   for (const char* path :
        {"bin/phasesketch", "bin/phasesketch-cli", "include/phasesketch/qtentry.h", "lib/phasesketch/plugins/water.so",
         "share/phasesketch/plugins/wax.json", "share/phasesketch/projects/ice-on-hot-plate.json",
-        "share/phasesketch/examples/README.md", "share/doc/PhaseSketch/LICENSE"})
+        "share/phasesketch/examples/README.md", "share/phasesketch/plugins/README.md", "include/phasesketch/stamp.h",
+        "lib/cmake/PhaseSketch/PhaseSketchConfigVersion.cmake", "share/doc/PhaseSketch/LICENSE"})
     QTest::newRow(path) << path;
 }
 
@@ -134,8 +138,14 @@ void InstallationTest::commandLineLoadsTheExamples_data() {
   QTest::addColumn<QString>("kind");
   QTest::newRow("material") << "org.example.honey"
                             << "material";
-  QTest::newRow("constraint") << "org.example.cohesion"
+  QTest::newRow("neighbours") << "org.example.cohesion"
                               << "constraint";
+  QTest::newRow("structure") << "org.example.tether"
+                             << "constraint";
+  QTest::newRow("groups") << "org.example.clump"
+                          << "constraint";
+  QTest::newRow("heat source") << "org.example.lamp"
+                               << "heat_source";
   QTest::newRow("thermal") << "org.example.sensible"
                            << "thermal";
   QTest::newRow("brush") << "org.example.ring"
@@ -155,19 +165,47 @@ void InstallationTest::commandLineLoadsTheExamples() {
   QCOMPARE(entry["licence"].toString(), QStringLiteral("MIT"));
 }
 
+void InstallationTest::readmesNameWhatIsInstalled() {
+  // Every path in code quotes that looks like one of ours must be there.
+  const QString examples = prefix() + "/share/phasesketch/examples";
+  QFile file(examples + "/README.md");
+  QVERIFY(file.open(QIODevice::ReadOnly));
+  const QString text = QString::fromUtf8(file.readAll());
+  QRegularExpressionMatchIterator it =
+      QRegularExpression("^\\| `([a-z]+)` \\|", QRegularExpression::MultilineOption).globalMatch(text);
+  int folders = 0;
+  for (; it.hasNext(); ++folders) {
+    const QString name = it.next().captured(1);
+    QVERIFY2(QFileInfo(examples + "/" + name + "/" + name + ".cpp").isFile(), qPrintable(name));
+  }
+  QCOMPARE(folders, 7);
+  QVERIFY(text.contains("share/phasesketch/plugins"));
+  QVERIFY(!text.contains("bondmodel"));
+}
+
+void InstallationTest::checkSaysThatExamplesAreFine() {
+  for (const char* name : {"honey", "tether", "clump", "cohesion", "sensible", "lamp", "ring"}) {
+    const QString path = pluginDirectory() + "/" + name + ".so";
+    const Outcome outcome = runProgram(program("phasesketch-cli"), {"plugins", "--check", path});
+    QVERIFY2(outcome.code == 0 && outcome.output.startsWith((path + ": fine: ").toUtf8()), outcome.text());
+  }
+}
+
 void InstallationTest::examplesRunInAScene() {
   QFile file(m_dir.filePath("honey.json"));
   QVERIFY(file.open(QIODevice::WriteOnly));
   file.write(R"({
     "format": "phasesketch", "version": 1,
-    "pluginsRequired": ["org.example.cohesion", "org.example.honey", "org.example.sensible"],
+    "pluginsRequired": ["org.example.cohesion", "org.example.clump", "org.example.honey", "org.example.sensible",
+                        "org.example.lamp"],
     "materials": [{"id": "honey", "base": "org.example.honey", "parameters": {"moisture": 0.2}}],
     "bodies": [{"id": "drop", "material": "honey", "temperature": 310,
                 "shape": {"box": {"center": [0, 0.2, 0], "size": [0.16, 0.16, 0.16]}},
-                "constraints": [{"plugin": "org.example.cohesion"}]}],
+                "constraints": [{"plugin": "org.example.cohesion"}, {"plugin": "org.example.clump"}]}],
     "environment": {"bounds": {"minimum": [-0.5, 0, -0.5], "maximum": [0.5, 1, 0.5]},
                     "walls": [{"id": "floor", "point": [0, 0, 0], "normal": [0, 1, 0]}]},
-    "solver": {"particle_spacing": 0.016, "thermal": {"model": "org.example.sensible"}}
+    "solver": {"particle_spacing": 0.016, "thermal": {"model": "org.example.sensible",
+               "sources": [{"plugin": "org.example.lamp", "parameters": {"intensity": 2000}}]}}
   })");
   file.close();
   const QString report = m_dir.filePath("report.json");
@@ -231,7 +269,8 @@ void InstallationTest::cohesionKeepsMomentum() {
 void InstallationTest::editorListsTheExamples() {
   const Outcome list = runProgram(program("phasesketch"), {"--list-plugins"}, pluginDirectory());
   QVERIFY2(list.code == 0, list.text());
-  for (const char* id : {"org.example.honey", "org.example.cohesion", "org.example.sensible", "org.example.ring"}) {
+  for (const char* id : {"org.example.honey", "org.example.tether", "org.example.clump", "org.example.cohesion",
+                         "org.example.sensible", "org.example.lamp", "org.example.ring"}) {
     bool loaded = false;
     for (const QByteArray& line : list.output.split('\n'))
       loaded = loaded || (line.startsWith(id) && line.contains("loaded"));

@@ -318,7 +318,10 @@ class TestPluginHost : public QObject {
     QTest::newRow("silent_constraint") << "constraint"
                                        << "its traits() says nothing";
     QTest::newRow("duplicate_field") << "thermal"
-                                     << "field 'fixture.heat': is declared twice";
+                                     << "field 'fixture.thermal.heat': is declared twice";
+    QTest::newRow("foreign_field")
+        << "thermal"
+        << "must begin with the plugin's id and a dot, \"fixture.thermal.specific_enthalpy\"";
   }
   void faultyCodeIsRefused() {
     QFETCH(QString, kind);

@@ -14,6 +14,7 @@
 #include "ui/session/scenelink.h"
 #include "ui/session/worker.h"
 
+#include <QtCore/QTemporaryDir>
 #include <QtTest/QTest>
 
 #include <cmath>
@@ -57,7 +58,13 @@ void step(EngineThread& engine, int frames) {
 class TestContent : public QObject {
   Q_OBJECT
  private Q_SLOTS:
-  void initTestCase() { m_plugins = std::make_unique<PluginRegistry>(); }
+  void initTestCase() {
+    PluginRegistry::Options options;
+    options.extraPaths = {m_fixtures.path().toStdString()};
+    for (const char* name : {"fixture_neighbour.so", "fixture_source.so"})
+      QVERIFY(QFile::copy(qEnvironmentVariable("PS_FIXTURE_DIR") + "/" + name, m_fixtures.filePath(name)));
+    m_plugins = std::make_unique<PluginRegistry>(options);
+  }
   void init() {
     m_document = std::make_unique<Document>();
     m_document->setPlugins(m_plugins.get());
@@ -390,6 +397,46 @@ class TestContent : public QObject {
     QVERIFY(!set({Owner::Material, "lost", std::string(kAdheresKey) + "tin"}, true).isEmpty());
   }
 
+  /// Constraints between neighbours come beside what holds a body together, as toggles of the body.
+  void neighbourConstraintsAreAdded() {
+    const Address toggle{Owner::Body, "second", std::string(kNeighbourKey) + "fixture.neighbour"};
+    const std::string before = text();
+    QCOMPARE(QString::fromUtf8(m_document->declaration(toggle)->label), QStringLiteral("Idle neighbours"));
+    QVERIFY(m_document->value(toggle) == Value(false));
+    QCOMPARE(m_document->setParameter(toggle, true), QString());
+    QVERIFY(m_document->value(toggle) == Value(true));
+    const Body saved = parseProject(text(), "scene.json", *m_plugins).project.bodies[1];
+    QCOMPARE(saved.constraints.size(), size_t{2});
+    QCOMPARE(saved.constraints[0].plugin, std::string("bonds"));
+    QCOMPARE(saved.constraints[1].plugin, std::string("fixture.neighbour"));
+    QCOMPARE(structureOf(saved, m_plugins.get()), std::string("bonds"));
+    QCOMPARE(m_document->setParameter(toggle, false), QString());
+    QCOMPARE(m_document->body("second")->constraints.size(), size_t{1});
+    m_document->undoStack().undo();
+    m_document->undoStack().undo();
+    QCOMPARE(text(), before);
+    const Address lost{Owner::Body, "second", std::string(kNeighbourKey) + "org.example.lost"};
+    QVERIFY(!m_document->setParameter(lost, true).isEmpty());
+  }
+
+  /// Heat sources are toggles of the scene; what they declare is a slider once they are used.
+  void heatSourcesAreAdded() {
+    const Address toggle{Owner::Scene, "", std::string(kHeatSourceKey) + "fixture.source"};
+    const Address power{Owner::HeatSource, "fixture.source", "power"};
+    const std::string before = text();
+    QVERIFY(m_document->value(toggle) == Value(false));
+    QVERIFY(!m_document->setParameter(power, 3.0).isEmpty());
+    QCOMPARE(m_document->setParameter(toggle, true), QString());
+    QCOMPARE(m_document->setParameter(power, 3.0), QString());
+    const SolverOptions saved = parseProject(text(), "scene.json", *m_plugins).project.solver;
+    QCOMPARE(saved.heatSources.size(), size_t{1});
+    QCOMPARE(saved.heatSources[0].plugin, std::string("fixture.source"));
+    QVERIFY(saved.heatSources[0].parameters.values.at("power") == Value(3.0));
+    m_document->undoStack().undo();
+    m_document->undoStack().undo();
+    QCOMPARE(text(), before);
+  }
+
   void structureIsChosen() {
     const Address structure{Owner::Body, "second", kStructureKey};
     QCOMPARE(std::get<std::string>(m_document->value(structure)), std::string("bonds"));
@@ -437,6 +484,7 @@ class TestContent : public QObject {
     m_document->addStroke(stroke);
   }
 
+  QTemporaryDir m_fixtures;
   std::unique_ptr<PluginRegistry> m_plugins;
   std::unique_ptr<Document> m_document;
   std::unique_ptr<EngineThread> m_engine;

@@ -29,6 +29,10 @@ class TestCli : public QObject {
   void benchWritesItsKeys();
   void recordingsAreDrawn();
   void filmsEndWhereTheRunBreaks();
+  void pluginsThatFailAtTheEndAreTold();
+  void pluginsThatCrashInAStepAreQuarantined();
+  void pluginsAreTried_data();
+  void pluginsAreTried();
   void reportsThatCannotBeWrittenStopTheRunBefore();
 };
 
@@ -323,6 +327,78 @@ void TestCli::filmsEndWhereTheRunBreaks() {
   QCOMPARE(ran.code, 1);
   QVERIFY2(ran.err.contains("the run set flags: not_finite"), ran.err.constData());
   QCOMPARE(QDir(out).entryList(QDir::Files), QStringList{"frame-000000.png"});
+}
+
+namespace {
+
+/// A folder with one fixture, which behaves as it is called.
+bool place(const QTemporaryDir& folder, const QString& fixture, const QString& name) {
+  return QFile::copy(qEnvironmentVariable("PS_FIXTURE_DIR") + "/fixture_" + fixture + ".so",
+                     folder.filePath(name + ".so"));
+}
+
+const QStringList kFixtureScene =
+    smallScene({"--frames", "2", "--set", "bodies/ice/constraints=[{\"plugin\": \"fixture.constraint\"}]"});
+
+}  // namespace
+
+void TestCli::pluginsThatFailAtTheEndAreTold() {
+  const QTemporaryDir folder;
+  QVERIFY(place(folder, "constraint", "throwing_energy"));
+  const Ran ran = cli(kFixtureScene, folder.path());
+  QCOMPARE(ran.code, 1);
+  QVERIFY2(ran.err.contains("plugin_fault: plugin 'fixture.constraint': no energy"), ran.err.constData());
+}
+
+void TestCli::pluginsThatCrashInAStepAreQuarantined() {
+  const QTemporaryDir folder;
+  QVERIFY(place(folder, "constraint", "aborting_step"));
+  qputenv("XDG_STATE_HOME", folder.filePath("state").toUtf8());
+  QCOMPARE(cli(kFixtureScene, folder.path()).code, -1);
+  const Ran list = cli({"plugins"}, folder.path());
+  const Ran again = cli(kFixtureScene, folder.path());
+  const Ran allowed = cli({"plugins", "--allow", "fixture.constraint"}, folder.path());
+  const Ran after = cli({"plugins"}, folder.path());
+  qunsetenv("XDG_STATE_HOME");
+  QVERIFY2(list.out.contains("quarantined") && list.out.contains("crashed while loading or running it"),
+           list.out.constData());
+  QVERIFY2(again.code >= 0, "it crashed once more");
+  QCOMPARE(allowed.code, 0);
+  QVERIFY2(!after.out.contains("quarantined"), after.out.constData());
+}
+
+void TestCli::pluginsAreTried_data() {
+  QTest::addColumn<QString>("fixture");
+  QTest::addColumn<QString>("name");
+  QTest::addColumn<int>("code");
+  QTest::addColumn<QString>("says");
+  const auto row = [](const char* fixture, const char* name, int code, const char* says) {
+    QTest::newRow(name) << fixture << name << code << says;
+  };
+  row("constraint", "sound", 0, ": fine: constraint 'fixture.constraint' 1.2.3, Fixture");
+  row("neighbour", "sound_neighbour", 0, ": fine: constraint 'fixture.neighbour'");
+  row("source", "sound_source", 0, ": fine: heat_source 'fixture.source'");
+  row("material", "sound_material", 0, ": fine: material 'fixture.material'");
+  row("constraint", "wide_constraint", 1, "2 to 4 particles, not 9");
+  row("constraint", "nan_constraint", 1, "plugin 'fixture.constraint' moved it");
+  row("constraint", "throwing_topology", 1, "no more bonds");
+  row("constraint", "throwing_energy", 1, "no energy");
+  row("constraint", "aborting_step", 1, "it crashed (Aborted) when it ran in a scene of ten frames");
+  row("material", "aborting", 1, "it crashed (Aborted) when it was loaded");
+  row("plain", "plain", 1, "it is not a plugin");
+}
+void TestCli::pluginsAreTried() {
+  QFETCH(QString, fixture);
+  QFETCH(QString, name);
+  QFETCH(int, code);
+  QFETCH(QString, says);
+  const QTemporaryDir folder;
+  QVERIFY(place(folder, fixture, name));
+  const Ran ran = cli({"plugins", "--check", folder.filePath(name + ".so")});
+  QVERIFY2(ran.code == code, (ran.out + ran.err).constData());
+  const QByteArray told = code == 0 ? ran.out : ran.err;
+  QVERIFY2(told.contains(says.toUtf8()) && told.contains((name + ".so").toUtf8()), told.constData());
+  QVERIFY(!told.contains("/phasesketch-check-"));
 }
 
 void TestCli::reportsThatCannotBeWrittenStopTheRunBefore() {

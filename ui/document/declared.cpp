@@ -39,6 +39,8 @@ QString ownerLabel(const Project& project, const Address& address) {
       return QStringLiteral("Solver");
     case Owner::Thermal:
       return QStringLiteral("Thermal model");
+    case Owner::HeatSource:
+      return QString::fromStdString(address.id);
     case Owner::Scene:
       return QStringLiteral("Scene");
   }

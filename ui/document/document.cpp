@@ -73,6 +73,12 @@ QString Document::setParameter(const Address& address, const Value& value) {
     setStructure(address.id, std::get<std::string>(value));
     return {};
   }
+  if (const std::string plugin = pluginBehind(address.key, kNeighbourKey);
+      address.owner == Owner::Body && !plugin.empty()) {
+    if (const QString problem = refusal(); !problem.isEmpty()) return problem;
+    setNeighbourConstraint(address.id, plugin, std::get<bool>(conformed(value, *declaration(address))));
+    return {};
+  }
   if (address.owner == Owner::Body && address.key == kBodyMaterialKey) {
     if (const QString problem = refusal(); !problem.isEmpty()) return problem;
     setBodyMaterial(address.id, std::get<std::string>(value));

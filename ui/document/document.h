@@ -74,6 +74,8 @@ class Document : public QObject {
   /// What holds a body together: a constraint plugin's id in place of those that did, or "none". Acts at the next
   /// reset.
   void setStructure(const std::string& id, const std::string& plugin);
+  /// Adds a constraint between neighbours to a body, or takes it away.
+  void setNeighbourConstraint(const std::string& id, const std::string& plugin, bool used);
   void setBodyMaterial(const std::string& id, const std::string& material);
   /// Whether a material holds on to another one of the scene.
   void setAdhesion(const std::string& id, const std::string& other, bool holds);

@@ -90,6 +90,17 @@ void Document::setStructure(const std::string& id, const std::string& plugin) {
   });
 }
 
+void Document::setNeighbourConstraint(const std::string& id, const std::string& plugin, bool used) {
+  const Body* old = body(id);
+  if (!old || uses(*old, plugin) == used) return;
+  const QString title = QStringLiteral("%1 of %2")
+                            .arg(text(declaration({Owner::Body, id, kNeighbourKey + plugin})->label), text(old->name));
+  editBody(id, title, [&](Body& b) {
+    std::erase_if(b.constraints, [&](const BodyConstraint& c) { return c.plugin == plugin; });
+    if (used) b.constraints.push_back(BodyConstraint{plugin, {}, {}});
+  });
+}
+
 void Document::setBodyMaterial(const std::string& id, const std::string& material) {
   const Body* old = body(id);
   if (!old || old->material == material) return;

@@ -221,6 +221,12 @@ void Inspector::rebuildBody() {
     if (auto row = rowOf({Owner::Body, body->id, motion[i].key})) rows.push_back(std::move(*row));
   }
   if (auto structure = rowOf({Owner::Body, body->id, kStructureKey})) rows.push_back(std::move(*structure));
+  const api::ParameterList declared =
+      declarationsOf(m_document.project(), m_document.plugins(), {Owner::Body, body->id, ""});
+  for (size_t i = 0; i < declared.count; ++i) {
+    if (pluginBehind(declared[i].key, kNeighbourKey).empty()) continue;
+    if (auto row = rowOf({Owner::Body, body->id, declared[i].key})) rows.push_back(std::move(*row));
+  }
   for (const BodyConstraint& constraint : body->constraints) {
     const Address any{Owner::Constraint, body->id, "", constraint.plugin};
     const api::ConstraintPlugin* plugin =
@@ -373,6 +379,14 @@ void Inspector::rebuildSolver() {
   const api::ThermalPlugin* model = m_document.plugins() ? m_document.plugins()->thermal(id) : nullptr;
   if (model)
     addRows(rows, {Owner::Thermal, "", ""}, m_document.plugins()->parameters(id), QString::fromUtf8(model->label()));
+  const api::ParameterList scene = declarationsOf(m_document.project(), m_document.plugins(), {Owner::Scene, "", ""});
+  for (size_t i = 0; i < scene.count; ++i) {
+    const std::string source = pluginBehind(scene[i].key, kHeatSourceKey);
+    if (source.empty()) continue;
+    if (auto row = rowOf({Owner::Scene, "", scene[i].key})) rows.push_back(std::move(*row));
+    addRows(rows, {Owner::HeatSource, source, ""}, m_document.plugins()->parameters(source),
+            QString::fromUtf8(scene[i].label));
+  }
   m_solver->setHeader(QStringLiteral("Solver"), model ? QStringLiteral("Heat by ") + QString::fromUtf8(model->label())
                                                       : QStringLiteral("No heat"));
   m_solver->setModel(std::move(rows));

@@ -40,6 +40,12 @@ FailureText failureText(const EngineEvent& event) {
             detail +
                 QStringLiteral("The last good frame is kept. Undo the last change, or raise the substeps, then play.")};
   }
+  if (has(StepFlag::Unphysical)) {
+    return {
+        QStringLiteral("Paused: the step gave what cannot be."),
+        detail + QStringLiteral("The last good frame is kept. Undo the last change, or choose another plugin than the "
+                                "one that is named, then play.")};
+  }
   if (has(StepFlag::PluginFault)) {
     return {QStringLiteral("Paused: a plugin failed."),
             detail + QStringLiteral("Play goes on without it; Plugins shows what it said.")};

@@ -38,10 +38,8 @@ void Notices::onEvent(const EngineEvent& event) {
 
 void Notices::showFailure(const EngineEvent& event) {
   const FailureText failure = failureText(event);
-  const auto level =
-      event.kind == EngineEvent::Kind::Stopped || (event.flags & static_cast<StepFlags>(StepFlag::NotFinite))
-          ? MessageLevel::Error
-          : MessageLevel::Warning;
+  const auto level = event.kind == EngineEvent::Kind::Stopped || (event.flags & kTakenBack) ? MessageLevel::Error
+                                                                                            : MessageLevel::Warning;
   const QString text = failure.title + QLatin1Char(' ') + failure.text;
   m_session.log().add(level, QStringLiteral("Simulation"), text);
   if (m_bar.isVisible() && m_bar.text() == text) return;  // one of its buttons may be under the pointer

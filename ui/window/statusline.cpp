@@ -74,8 +74,7 @@ void StatusLine::refresh() {
   state.ready = m_session.isReady();
   state.playing = m_session.playing();
   state.snapshot = m_session.snapshot();
-  state.failed =
-      m_session.isBroken() || (state.snapshot && (state.snapshot->flags & static_cast<StepFlags>(StepFlag::NotFinite)));
+  state.failed = m_session.isBroken() || (state.snapshot && (state.snapshot->flags & kTakenBack));
   state.realTime = m_session.engine() ? m_session.engine()->realTimeFactor() : 0;
   if (m_view) {
     state.drawMilliseconds = m_view->drawMilliseconds();

@@ -22,6 +22,8 @@ namespace ps {
 
 /// Mean density error that no longer deserves the name of a solution.
 inline constexpr double kDiverged = 0.5;
+/// Spacings by which a plugin may move a particle in one substep, beyond the way of its velocity.
+inline constexpr double kFarthestLeap = 1000;
 
 /// What a solver holds, and one frame cut into its parts. Indices of particles change only in freshLists(), at the
 /// start of a frame: whatever is kept by index within a frame stays true.
@@ -64,6 +66,7 @@ struct Solver::Impl {
   double energyOffset = 0;  ///< J: thermal energy minus the ledger's net, when both were last known to be right
   bool configured = false, modelChanged = false, structureChanged = true, reordered = true;
   std::vector<uint32_t> melted;
+  std::string leapt;             ///< what went too far in this substep; "": nothing
   std::vector<uint8_t> grouped;  ///< 1 for members of groups
   StepReport report;
   Received external;  ///< kg m/s, in this frame
@@ -110,6 +113,12 @@ struct Solver::Impl {
   /// Id of the first particle whose position, velocity or temperature is no finite number, or -1.
   int64_t firstNotFinite(std::string& what) const;
   bool rejectIfNotFinite();
+  void noteLeaps(double dt);
+  bool rejectIfLeapt();
+  bool rejectIfUnphysical();
+  /// "; plugin 'x' moved it", or "" when none did. To be called when the frame has been taken back.
+  std::string whoMovedIt();
+  std::vector<PluginFault> takeFaults();
   /// "particle 17 of 'Ice block'".
   std::string describe(size_t i) const;
   void raise(StepFlag flag, const std::string& message);

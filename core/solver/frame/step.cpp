@@ -21,10 +21,6 @@ constexpr double kLeastLiquid = 0.01;  ///< share of what moves, below which the
 /// How far the heat balance may be open: a share of what was exchanged, and of the whole for rounding.
 constexpr double kOpenExchange = 1e-6, kOpenRounding = 1e-11;
 
-bool finite(const api::Float4& v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w);
-}
-
 }  // namespace
 
 Vector3 Solver::Impl::momentum() const {
@@ -90,10 +86,7 @@ void Solver::Impl::runFrame() {
     time += settings.dt;
     thermalTime += settings.dt * std::min(thermal.timeScale, heat.thermalTimeScaleDelivered());
   }
-  report.faults = constraints.takeFaults();
-  for (PluginFault& fault : heat.takeSourceFaults()) report.faults.push_back(std::move(fault));
-  if (std::optional<std::string> fault = heat.takeFault()) report.faults.push_back({modelName, std::move(*fault)});
-  if (!report.faults.empty()) structureChanged = true;
+  report.faults = takeFaults();
   for (const PluginFault& fault : report.faults) {
     raise(StepFlag::PluginFault, "plugin '" + fault.plugin + "': " + fault.what);
   }
@@ -114,16 +107,24 @@ bool Solver::Impl::advance() {
   timed(Stage::Viscosity, [&] { viscosity.refresh(store, neighbours, density); });
   for (int s = 0; s < settings.substeps; ++s) {
     substep(static_cast<uint32_t>(s));
-    if (rejectIfNotFinite()) return false;
+    if (rejectIfNotFinite() || rejectIfLeapt()) return false;
   }
   checkBounds();
   report.momentum.end = double3Of(momentum());
   report.momentum.external = double3Of(external.take());
   bool exchanged = false;
   timed(Stage::Heat, [&] { exchanged = exchangeHeat(); });
-  if (!exchanged || rejectIfNotFinite()) return false;
+  if (!exchanged || rejectIfNotFinite() || rejectIfUnphysical()) return false;
   closeFrame();
   return true;
+}
+
+std::vector<PluginFault> Solver::Impl::takeFaults() {
+  std::vector<PluginFault> faults = constraints.takeFaults();
+  for (PluginFault& fault : heat.takeSourceFaults()) faults.push_back(std::move(fault));
+  if (std::optional<std::string> fault = heat.takeFault()) faults.push_back({modelName, std::move(*fault)});
+  if (!faults.empty()) structureChanged = true;
+  return faults;
 }
 
 void Solver::Impl::closeFrame() {
@@ -259,16 +260,21 @@ void Solver::Impl::substep(uint32_t index) {
     const uint32_t it = static_cast<uint32_t>(iteration);
     for (int pass = 0; pass < structurePasses; ++pass) {
       structure([&] { constraints.projectStructure(store, index, it); }, dt);
+      if (it == 0 && pass == 0 && constraints.count() > 0) noteLeaps(dt);
       timed(Stage::Contact, [&] { sheets.project(store); });
     }
     timed(Stage::Density, [&] { density.project(store, neighbours, iteration); });
-    if (constraints.gathers()) structure([&] { constraints.projectNeighbours(store, neighbours, index, it); }, dt);
+    if (constraints.gathers()) {
+      structure([&] { constraints.projectNeighbours(store, neighbours, index, it); }, dt);
+      if (it == 0) noteLeaps(dt);
+    }
     timed(Stage::Contact, [&] {
       contact.project(store);
       wet.project(store);
       wallStage.projectNear(store);
     });
     structure([&] { constraints.projectGroups(store, index, it); }, dt);
+    if (it == 0 && constraints.groups()) noteLeaps(dt);
     timed(Stage::Contact, [&] { rigid.project(store); });
   }
   timed(Stage::Contact, [&] {
@@ -321,33 +327,6 @@ void Solver::Impl::changePhases() {
   structureChanged = true;
 }
 
-void Solver::Impl::checkBounds() {
-  const double size = settings.spacing;
-  const double low[3] = {bounds.minimum.x - size, bounds.minimum.y - size, bounds.minimum.z - size};
-  const double high[3] = {bounds.maximum.x + size, bounds.maximum.y + size, bounds.maximum.z + size};
-  size_t lost = 0, culprit = store.size();
-  for (size_t i = 0; i < store.size(); ++i) {
-    api::Float4& p = store.position()[i];
-    if (store.velocity()[i].w == 0) continue;
-    float* c[3] = {&p.x, &p.y, &p.z};
-    bool outside = false;
-    for (size_t a = 0; a < 3; ++a) {
-      if (bounds.periodic[a]) continue;
-      const float inside = static_cast<float>(std::clamp(double{*c[a]}, low[a], high[a]));
-      outside = outside || inside != *c[a];
-      if (*c[a] < low[a] || *c[a] > high[a]) *c[a] = inside;
-    }
-    if (!outside) continue;
-    external.add(-double{store.mass()[i]} * vectorOf(store.velocity()[i]));
-    store.velocity()[i] = {0, 0, 0, store.velocity()[i].w};
-    ++lost;
-    if (culprit == store.size() || store.id()[i] < store.id()[culprit]) culprit = i;
-  }
-  if (lost == 0) return;
-  const std::string others = lost > 1 ? " and " + std::to_string(lost - 1) + " more" : "";
-  raise(StepFlag::LostParticle, describe(culprit) + others + " left the bounds and stopped there");
-}
-
 double Solver::Impl::openEnergy() {
   const double energy = heat.energy(store), open = energy - heat.ledger().net() - energyOffset;
   if (!heat.works()) return 0;
@@ -360,28 +339,6 @@ void Solver::Impl::checkEnergy() {
   if (open == 0 || heat.opensEnergy()) return;
   raise(StepFlag::EnergyOpen, "heat balance open by " + std::to_string(open) + " J of " +
                                   std::to_string(heat.ledger().exchanged) + " J exchanged");
-}
-
-int64_t Solver::Impl::firstNotFinite(std::string& what) const {
-  int64_t culprit = -1;
-  for (size_t i = 0; i < store.size(); ++i) {
-    const bool position = finite(store.position()[i]), velocity = finite(store.velocity()[i]),
-               temperature = std::isfinite(store.temperature()[i]);
-    if (position && velocity && temperature) continue;
-    if (culprit >= 0 && store.id()[i] > store.id()[static_cast<size_t>(culprit)]) continue;
-    culprit = static_cast<int64_t>(i);
-    what = !position ? "position" : !velocity ? "velocity" : "temperature";
-  }
-  return culprit;
-}
-
-bool Solver::Impl::rejectIfNotFinite() {
-  std::string what;
-  const int64_t culprit = firstNotFinite(what);
-  if (culprit < 0) return false;
-  raise(StepFlag::NotFinite, describe(static_cast<size_t>(culprit)) + ": " + what + " is not finite");
-  backToLastGood();
-  return true;
 }
 
 }  // namespace ps

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/solver/heat/heat.h"
 
+#include "core/base/callee.h"
 #include "core/base/parallel.h"
 
 #include <algorithm>
@@ -52,122 +53,6 @@ void HeatStage::configure(const ThermalSettings& settings, const SolverSettings&
   }
   m_model = model;
   m_parameters = std::move(modelParameters);
-}
-
-api::ThermalContext HeatStage::context() const {
-  api::ThermalContext context{};
-  context.pressure = m_settings.ambientPressure;
-  context.ambientTemperature = airTemperature();
-  context.parameters = {m_parameters.data(), m_parameters.size()};
-  context.materials = {m_materialViews.data(), m_materialViews.size()};
-  context.supportRadius = m_solver.spacing * m_solver.supportRatio;
-  context.time = m_time;
-  context.thermalTime = m_thermalTime;
-  return context;
-}
-
-/// Calls what calls the model; false when the model is aside already or throws now.
-template <class Call>
-bool HeatStage::guarded(Call&& call) const {
-  if (!works()) return false;
-  try {
-    call();
-    return true;
-  } catch (const std::exception& problem) {
-    m_fault = problem.what();
-  } catch (...) {
-    m_fault = "threw something that is no std::exception";
-  }
-  m_putAside = true;
-  return false;
-}
-
-bool HeatStage::initialise(ParticleStore& store, size_t first, size_t last, std::span<const double> temperature,
-                           std::span<const api::Phase> phase) {
-  if (!works() || last <= first) return true;
-  return guarded([&] {
-    if (m_modelChanged && first > 0) adopt(store);
-    m_modelChanged = false;
-    startState(store, first, last, temperature, phase);
-  });
-}
-
-void HeatStage::startState(ParticleStore& store, size_t first, size_t last, std::span<const double> temperature,
-                           std::span<const api::Phase> phase) {
-  const auto fields = m_model->fields();
-  for (size_t k = 0; k < fields.count; ++k) {
-    const api::FieldDeclaration f = fields.at(k);
-    store.declare(f.name, f.type, f.unit, f.help);
-  }
-  m_newTemperature.resize(store.size());
-  m_newPhase.resize(store.size());
-  std::copy(temperature.begin(), temperature.end(), m_newTemperature.begin() + static_cast<std::ptrdiff_t>(first));
-  std::copy(phase.begin(), phase.end(), m_newPhase.begin() + static_cast<std::ptrdiff_t>(first));
-  m_model->initialise(context(), store.view(), first, last, m_newTemperature.data(), m_newPhase.data());
-  deriveRange(store, first, last);
-}
-
-/// Another model than the one that wrote the state: starts it from temperature and phase. What it makes of the same
-/// temperatures may differ in energy (on a plateau it cannot know how far the other one was): that is a source.
-void HeatStage::adopt(ParticleStore& store) {
-  m_modelChanged = false;
-  const double before = m_lastEnergy;
-  const bool known = m_lastCount > 0 && m_lastCount == store.size();
-  const size_t n = store.size();
-  if (n == 0) return;
-  const auto fields = m_model->fields();
-  for (size_t k = 0; k < fields.count; ++k) {
-    const api::FieldDeclaration f = fields.at(k);
-    store.declare(f.name, f.type, f.unit, f.help);
-  }
-  m_newTemperature.assign(store.temperature(), store.temperature() + n);
-  m_model->initialise(context(), store.view(), 0, n, m_newTemperature.data(), store.phase());
-  deriveRange(store, 0, n);
-  if (known) book(energy(store) - before);
-}
-
-void HeatStage::deriveRange(ParticleStore& store, size_t first, size_t last) {
-  const api::ThermalOutput output{store.temperature(), store.solidFraction(), store.liquidFraction(),
-                                  store.gasFraction()};
-  m_model->derive(context(), store.view(), first, last, output);
-}
-
-void HeatStage::derive(ParticleStore& store) {
-  guarded([&] {
-    if (m_modelChanged) return adopt(store);
-    const bool known = m_lastCount > 0 && m_lastCount == store.size();
-    const double before = m_lastEnergy;
-    const auto body = [&](size_t first, size_t last) { deriveRange(store, first, last); };
-    parallelFor(store.size(), grain::kNeighbours, std::cref(body));
-    if (!known) return;
-    if (const double change = energy(store) - before; change != 0) book(change);
-  });
-}
-
-double HeatStage::energy(const ParticleStore& store) const {
-  if ((m_modelChanged || m_putAside) && m_lastCount == store.size()) return m_lastEnergy;  // as it was left
-  if (!works() || m_modelChanged || store.size() == 0) return 0;
-  m_energies.resize(store.size());
-  const api::ThermalContext where = context();
-  const api::ParticleView view = store.view();
-  const auto body = [&](size_t first, size_t last) { m_model->energy(where, view, first, last, m_energies.data()); };
-  if (!guarded([&] { parallelFor(store.size(), grain::kNeighbours, std::cref(body)); })) return m_lastEnergy;
-  double sum = 0;
-  for (size_t first = 0; first < store.size(); first += grain::kNeighbours) {
-    double chunk = 0;
-    for (size_t i = first; i < std::min(store.size(), first + grain::kNeighbours); ++i) chunk += m_energies[i];
-    sum += chunk;
-  }
-  m_lastEnergy = sum;
-  m_lastCount = store.size();
-  return sum;
-}
-
-std::span<const double> HeatStage::energies(const ParticleStore& store) const {
-  if (!works() || m_modelChanged) return {};
-  energy(store);
-  if (!works()) return {};
-  return {m_energies.data(), store.size()};
 }
 
 void HeatStage::snapshotRange(const ParticleStore& store, HeatInstant& instant, size_t first, size_t last) const {
@@ -259,6 +144,7 @@ void HeatStage::passTime(ParticleStore& store, const api::ParticleView& view, do
   m_joules.assign(store.size(), 0.0);
   const api::ThermalContext where = context();
   const auto body = [&](size_t first, size_t last) {
+    const CalleeScope callee(m_modelName.c_str());
     m_model->addHeat(where, view, first, last, m_joules.data(), time);
     deriveRange(store, first, last);
   };
@@ -313,6 +199,7 @@ void HeatStage::explicitStep(ParticleStore& store, const api::ParticleView& view
     gather(store, step, first, last, partial);
     if (m_pairLaw) gatherPairLaw(lists, step, first, last);
     addFrameHeat(step, firstStep, first, last, partial);
+    const CalleeScope callee(m_modelName.c_str());
     m_model->addHeat(where, view, first, last, m_joules.data(), step);
     deriveRange(store, first, last);
     snapshotRange(store, m_next, first, last);
@@ -414,6 +301,7 @@ void HeatStage::askPairLaw(const api::ParticleView& view, const api::NeighbourVi
   const auto* rates = static_cast<const api::PairRates*>(m_model->extension(api::kPairRates));
   m_lawRates.assign(chunkCount(n, grain::kNeighbours), 0.0);
   const auto body = [&](size_t first, size_t last) {
+    const CalleeScope callee(m_modelName.c_str());
     if (first >= probe) m_model->pairFlux(where, view, lists, first, last, m_pairWatts.data());
     if (rates) m_lawRates[first / grain::kNeighbours] = rates->fastestPairRate(where, view, lists, first, last);
   };

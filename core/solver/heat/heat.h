@@ -2,6 +2,8 @@
 #pragma once
 #include <phasesketch/thermal.h>
 
+#include "core/base/callee.h"
+#include "core/base/shorttext.h"
 #include "core/matter/material.h"
 #include "core/particles/neighbours.h"
 #include "core/solver/heat/heatbody.h"
@@ -95,6 +97,8 @@ class HeatStage {
   BodyHeating& bodyHeating() { return m_bodyHeating; }
   /// False without a model, and when it was put aside.
   bool works() const { return m_model != nullptr && !m_putAside; }
+  /// The model's id, for messages and crashes.
+  void setModelName(std::string name) { m_modelName = std::move(name); }
   /// What the model said when it threw; once.
   std::optional<std::string> takeFault() { return std::exchange(m_fault, std::nullopt); }
   /// True when the model drops or invents heat by design (api::kOpensEnergy).
@@ -116,8 +120,22 @@ class HeatStage {
     int boiling = 0;
   };
 
+  /// Calls what calls the model; false when the model is aside already or throws now.
   template <class Call>
-  bool guarded(Call&& call) const;
+  bool guarded(Call&& call) const {
+    if (!works()) return false;
+    const CalleeScope callee(m_modelName.c_str());
+    try {
+      call();
+      return true;
+    } catch (const std::exception& problem) {
+      m_fault = shortText(problem.what());
+    } catch (...) {
+      m_fault = "threw something that is no std::exception";
+    }
+    m_putAside = true;
+    return false;
+  }
   api::ThermalContext context() const;
   void startState(ParticleStore& store, size_t first, size_t last, std::span<const double> temperature,
                   std::span<const api::Phase> phase);
@@ -169,6 +187,7 @@ class HeatStage {
   std::vector<const api::MaterialView*> m_materialViews;
   const api::ThermalPlugin* m_model = nullptr;
   bool m_modelChanged = false;
+  std::string m_modelName;
   mutable bool m_putAside = false;  ///< the model threw
   mutable std::optional<std::string> m_fault;
   std::vector<double> m_parameters;

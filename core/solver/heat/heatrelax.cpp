@@ -4,6 +4,7 @@
 // in list order with half the step and then backwards with the other half. E never exceeds what brings the two to one
 // temperature, so any step is stable, and what one gains the other loses, so that energy is kept. The price is
 // accuracy: about 0.5 % of the melted mass at 20 times the Gershgorin limit. Order matters, so this runs on one thread.
+#include "core/base/callee.h"
 #include "core/base/parallel.h"
 #include "core/solver/heat/heat.h"
 
@@ -130,6 +131,7 @@ void HeatStage::sweep(ParticleStore& store, const api::ParticleView& view, doubl
   const api::ThermalContext where = context();
   const auto apply = [&](size_t first, size_t last) {
     addFrameHeat(step, firstStep, first, last, m_partials[first / grain::kNeighbours]);
+    const CalleeScope callee(m_modelName.c_str());
     m_model->addHeat(where, view, first, last, m_joules.data(), step);
     deriveRange(store, first, last);
     snapshotRange(store, m_now, first, last);

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/solver/heat/heatsources.h"
 
+#include "core/base/callee.h"
 #include "core/base/error.h"
 #include "core/base/parallel.h"
+#include "core/base/shorttext.h"
 
 #include <algorithm>
 #include <cmath>
@@ -56,7 +58,7 @@ void PluginHeating::addTo(ParticleStore& store, const api::ParticleView& view, c
     try {
       ask(source, store, view, where);
     } catch (const std::exception& e) {
-      problem = e.what();
+      problem = shortText(e.what());
     } catch (...) {
       problem = "threw something that is no std::exception";
     }
@@ -95,6 +97,7 @@ void PluginHeating::ask(const HeatSource& source, ParticleStore& store, const ap
   where.parameters = {source.parameters.data(), source.parameters.size()};
   m_watts.assign(store.size(), 0.0);
   forChunks(store.size(), grain::kNeighbours, [&](size_t first, size_t last) {
+    const CalleeScope callee(source.name.c_str());
     source.plugin->addWatts(where, view, first, last, m_watts.data());
     for (size_t i = first; i < last; ++i) {
       if (!std::isfinite(m_watts[i])) throw Error("its heat is not a finite number");

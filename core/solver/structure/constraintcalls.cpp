@@ -1,14 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 // The part of ConstraintSystem that calls plugins of structure and of neighbours, batch by batch.
+#include "core/base/error.h"
 #include "core/base/parallel.h"
 #include "core/solver/structure/constraintsystem.h"
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstring>
 #include <string_view>
 
 namespace ps {
 namespace {
+
+constexpr size_t kLongestName = 200, kMostLimits = 100;  // of a body
+
+/// J that a plugin says.
+double finite(double joules) {
+  if (!std::isfinite(joules)) throw Error("its energy is not a finite number");
+  return joules;
+}
 
 /// A run of constraints with pointers to its values; lives while a plugin is called.
 struct BatchView {
@@ -32,6 +43,7 @@ void ConstraintSystem::forRuns(const Set& set, size_t first, size_t last, Call&&
 template <class Call>
 void ConstraintSystem::forBatches(Set& set, uint32_t substep, uint32_t iteration, Call&& call) {
   const auto run = [&](size_t first, size_t last) {
+    const CalleeScope callee(set.name.c_str());
     forRuns(set, first, last, [&](uint32_t body, size_t from, size_t to) {
       BatchView view;
       for (size_t v = 0; v < set.valueCount; ++v) view.values[v] = set.values[v].data() + from;
@@ -63,7 +75,7 @@ void ConstraintSystem::projectStructure(const ParticleStore& store, uint32_t sub
   const api::ParticleView view = store.view();
   const api::MovableParticles particles = movable(store, view);
   for (Set& set : m_sets) {
-    guarded(set, [&] {
+    moving(set, store, [&] {
       forBatches(set, substep, iteration,
                  [&](const auto& c, const auto& b) { set.structural->project(c, particles, b); });
     });
@@ -82,21 +94,41 @@ void ConstraintSystem::projectNeighbours(ParticleStore& store, const Neighbours&
     const api::ConstraintContext c = context(set, substepTime(), substep, iteration);
     const bool done = guarded(set, [&] {
       forChunks(set.members.size(), grain::kNeighbours, [&](size_t first, size_t last) {
+        const CalleeScope callee(set.name.c_str());
         set.neighbour->gather(c, view, lists, {set.members.data() + first, last - first}, m_correction.data() + first);
       });
     });
     if (!done) continue;
-    forChunks(set.members.size(), grain::kConstraints, [&](size_t first, size_t last) {
-      for (size_t k = first; k < last; ++k) {
-        const uint32_t i = set.members[k];
-        if (store.velocity()[i].w == 0) continue;
-        api::Float4& position = store.position()[i];
-        position.x += m_correction[k].x;
-        position.y += m_correction[k].y;
-        position.z += m_correction[k].z;
-      }
-    });
+    moving(set, store, [&] { applyCorrections(set, store); });
   }
+}
+
+void ConstraintSystem::applyCorrections(const Set& set, ParticleStore& store) const {
+  forChunks(set.members.size(), grain::kConstraints, [&](size_t first, size_t last) {
+    for (size_t k = first; k < last; ++k) {
+      const uint32_t i = set.members[k];
+      if (store.velocity()[i].w == 0) continue;
+      api::Float4& position = store.position()[i];
+      position.x += m_correction[k].x;
+      position.y += m_correction[k].y;
+      position.z += m_correction[k].z;
+    }
+  });
+}
+
+void ConstraintSystem::watch(double metres) {
+  m_watched = metres;
+  m_culprit.clear();
+}
+
+bool ConstraintSystem::leapt(const ParticleStore& store) const {
+  const auto most = static_cast<float>(m_watched * m_watched);
+  for (size_t i = 0; i < store.size(); ++i) {
+    const api::Float4 &now = store.position()[i], &then = m_before[i];
+    const float x = now.x - then.x, y = now.y - then.y, z = now.z - then.z;
+    if (!(x * x + y * y + z * z <= most)) return true;
+  }
+  return false;
 }
 
 void ConstraintSystem::findMembers(Set& set, const ParticleStore& store) const {
@@ -135,7 +167,7 @@ double ConstraintSystem::energy(const ParticleStore& store) {
         BatchView view;
         for (size_t v = 0; v < set.valueCount; ++v) view.values[v] = set.values[v].data() + first;
         view.batch = {last - first, set.particles.data() + first * set.arity, view.values.data()};
-        sum += set.structural->energy(context(set, substepTime(), 0, 0, body), store.view(), view.batch);
+        sum += finite(set.structural->energy(context(set, substepTime(), 0, 0, body), store.view(), view.batch));
       });
     });
   }
@@ -149,6 +181,10 @@ void ConstraintSystem::limits(const ParticleStore& store, std::vector<Limit>& ou
    public:
     explicit Collect(std::vector<Limit>& limits) : m_limits(limits) {}
     void limit(const char* what, double asked, double delivered, const char* unit) override {
+      if (!what || !unit) throw Error("told a limit without a name or unit");
+      if (!std::isfinite(asked) || !std::isfinite(delivered)) throw Error("told a limit that is not a finite number");
+      if (std::strlen(what) > kLongestName || std::strlen(unit) > kLongestName || ++told > kMostLimits)
+        throw Error("told more limits, or longer ones, than anybody could read");
       const int body = std::string_view(what).starts_with(plugin + ".") ? asking : -1;
       const auto found = std::find_if(m_limits.begin(), m_limits.end(),
                                       [&](const Limit& l) { return l.what == what && l.body == body; });
@@ -160,6 +196,7 @@ void ConstraintSystem::limits(const ParticleStore& store, std::vector<Limit>& ou
     }
     std::string plugin;
     int asking = -1;
+    size_t told = 0;
 
    private:
     std::vector<Limit>& m_limits;
@@ -169,6 +206,7 @@ void ConstraintSystem::limits(const ParticleStore& store, std::vector<Limit>& ou
     for (uint32_t body = 0; body < set.used.size(); ++body) {
       if (set.used[body] == 0) continue;
       sink.asking = static_cast<int>(body);
+      sink.told = 0;
       guarded(set, [&] { set.plugin->limits(context(set, substepTime(), 0, 0, body), store.view(), sink); });
     }
   }

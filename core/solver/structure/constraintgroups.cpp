@@ -5,6 +5,7 @@
 #include "core/solver/structure/constraintsystem.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace ps {
 namespace {
@@ -19,6 +20,9 @@ class ConstraintSystem::Groups final : public api::GroupSink {
       : m_lists(lists), m_particles(store.size()), m_lastUse(store.size(), 0) {}
   void add(const uint32_t* particles, size_t count, const float* values, const float* memberValues) override {
     if (count == 0) throw Error("added a group without members");
+    const bool hasValues = values || m_lists.valueCount() == 0,
+               hasMembers = memberValues || m_lists.memberValueCount() == 0;
+    if (!particles || !hasValues || !hasMembers) throw Error("added a group by a null pointer");
     ++m_serial;
     for (size_t k = 0; k < count; ++k) {
       if (particles[k] >= m_particles) throw Error("added a group with a particle that does not exist");
@@ -47,10 +51,12 @@ class ConstraintSystem::Groups final : public api::GroupSink {
 };
 
 template <class Call>
-void ConstraintSystem::forGroups(Set& set, uint32_t substep, uint32_t iteration, Call&& call) {
+void ConstraintSystem::forGroups(Set& set, const ParticleStore& store, uint32_t substep, uint32_t iteration,
+                                 Call&& call) {
   if (!set.groups || set.groups->count() == 0) return;
   GroupLists& groups = *set.groups;
   const auto run = [&](size_t first, size_t last) {
+    const CalleeScope callee(set.name.c_str());
     for (size_t next = first; first < last; first = next) {
       const uint32_t body = groups.body(first);
       while (next < last && groups.body(next) == body) ++next;
@@ -59,7 +65,7 @@ void ConstraintSystem::forGroups(Set& set, uint32_t substep, uint32_t iteration,
       call(context(set, substepTime(), substep, iteration, body), batch.view);
     }
   };
-  guarded(set, [&] {
+  moving(set, store, [&] {
     for (size_t colour = 0; colour < groups.colours(); ++colour) {
       const size_t begin = groups.colourStart(colour), count = groups.colourStart(colour + 1) - begin;
       if (count == 0) continue;
@@ -77,7 +83,7 @@ void ConstraintSystem::predictGroups(const ParticleStore& store, uint32_t subste
   const api::ParticleView view = store.view();
   const api::MovableParticles particles = movable(store, view);
   for (Set& set : m_sets) {
-    forGroups(set, substep, 0,
+    forGroups(set, store, substep, 0,
               [&](const auto& c, const api::GroupBatch& batch) { set.group->predict(c, particles, batch); });
   }
 }
@@ -86,7 +92,7 @@ void ConstraintSystem::projectGroups(const ParticleStore& store, uint32_t subste
   const api::ParticleView view = store.view();
   const api::MovableParticles particles = movable(store, view);
   for (Set& set : m_sets) {
-    forGroups(set, substep, iteration,
+    forGroups(set, store, substep, iteration,
               [&](const auto& c, const api::GroupBatch& batch) { set.group->project(c, particles, batch); });
   }
 }
@@ -95,7 +101,7 @@ void ConstraintSystem::deriveGroupVelocities(const ParticleStore& store, uint32_
   const api::ParticleView view = store.view();
   const api::MovableParticles particles = movable(store, view);
   for (Set& set : m_sets) {
-    forGroups(set, substep, 0,
+    forGroups(set, store, substep, 0,
               [&](const auto& c, const api::GroupBatch& batch) { set.group->deriveVelocities(c, particles, batch); });
   }
 }
@@ -139,7 +145,10 @@ double ConstraintSystem::groupEnergy(Set& set, const ParticleStore& store) {
       while (next < groups.count() && groups.body(next) == groups.body(first)) ++next;
       GroupLists::Batch batch;
       groups.fill(batch, first, next);
-      sum += set.group->energy(context(set, substepTime(), 0, 0, groups.body(first)), store.view(), batch.view);
+      const double joules =
+          set.group->energy(context(set, substepTime(), 0, 0, groups.body(first)), store.view(), batch.view);
+      if (!std::isfinite(joules)) throw Error("its energy is not a finite number");
+      sum += joules;
     }
   });
   return sum;

@@ -30,6 +30,7 @@ class ConstraintSystem::Sink final : public api::ConstraintSink {
   Sink(ConstraintSystem& system, Set& set, const ParticleStore& store, Edits& edits)
       : m_system(system), m_set(set), m_store(store), m_edits(edits) {}
   void add(const uint32_t* particles, const float* values) override {
+    if (!particles || (!values && m_set.valueCount > 0)) throw Error("added a constraint by a null pointer");
     for (size_t a = 0; a < m_set.arity; ++a) {
       if (particles[a] >= m_store.size()) throw Error("added a constraint on a particle that does not exist");
       for (size_t b = 0; b < a; ++b) {

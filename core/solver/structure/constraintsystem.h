@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "core/base/callee.h"
+#include "core/base/shorttext.h"
 #include "core/matter/material.h"
 #include "core/particles/neighbours.h"
 #include "core/solver/anyconstraint.h"
@@ -106,12 +108,19 @@ class ConstraintSystem {
   /// ones or shares particles with one that does; all of them where a plugin gathers over neighbours.
   /// None where nothing is fixed.
   void findHanging(const ParticleStore& store, std::vector<uint32_t>& hanging) const;
+  /// Whether a plugin holds groups together.
+  bool groups() const;
   /// Whether a plugin gathers over neighbours.
   bool gathers() const;
   /// Whether structural constraints share particles, so that one pass over them leaves an error.
   bool shareParticles() const;
   /// Those that threw since the last call.
   std::vector<PluginFault> takeFaults();
+  /// From now on it is noted whose call first moves a particle farther than `metres`, or to no number; 0: no longer.
+  /// Costs a copy of all positions at each call: for a frame that has gone wrong.
+  void watch(double metres);
+  /// "" or the plugin that did.
+  const std::string& culprit() const { return m_culprit; }
 
  private:
   void addGroupsTo(StructureGraph& graph, size_t particles) const;
@@ -165,12 +174,13 @@ class ConstraintSystem {
   template <class Call>
   bool guarded(Set& set, Call&& call) {
     if (set.disabled) return false;
+    const CalleeScope callee(set.name.c_str());
     std::string problem;
     try {
       call();
       return true;
     } catch (const std::exception& e) {
-      problem = e.what();
+      problem = shortText(e.what());
     } catch (...) {
       problem = "threw something that is no std::exception";
     }
@@ -179,6 +189,16 @@ class ConstraintSystem {
   }
   void putAside(Set& set, std::string problem);
   static void dropAll(Set& set);
+  /// guarded(), watched.
+  template <class Call>
+  bool moving(Set& set, const ParticleStore& store, Call&& call) {
+    if (!(m_watched > 0) || set.disabled) return guarded(set, call);
+    m_before.assign(store.position(), store.position() + store.size());
+    const bool done = guarded(set, call);
+    if (m_culprit.empty() && leapt(store)) m_culprit = set.name;
+    return done;
+  }
+  bool leapt(const ParticleStore& store) const;
   Key keyOf(const Set& set, const ParticleStore& store, const uint32_t* particles) const;
   // In constraintstate.cpp.
   static void saveParameters(StateWriter& writer, std::string_view room, const Set& set);
@@ -195,9 +215,10 @@ class ConstraintSystem {
   template <class Call>
   static void forRuns(const Set& set, size_t first, size_t last, Call&& call);
   void findMembers(Set& set, const ParticleStore& store) const;
+  void applyCorrections(const Set& set, ParticleStore& store) const;
   // In constraintgroups.cpp.
   template <class Call>
-  void forGroups(Set& set, uint32_t substep, uint32_t iteration, Call&& call);
+  void forGroups(Set& set, const ParticleStore& store, uint32_t substep, uint32_t iteration, Call&& call);
   void predictGroups(const ParticleStore& store, uint32_t substep);
   void deriveGroupVelocities(const ParticleStore& store, uint32_t substep);
   void buildGroups(Set& set, const ParticleStore& store, const Neighbours& neighbours,
@@ -224,6 +245,9 @@ class ConstraintSystem {
   StructureGraph m_graph;
   bool m_graphValid = false;
   std::vector<PluginFault> m_faults;
+  double m_watched = 0;  ///< m
+  std::string m_culprit;
+  std::vector<api::Float4> m_before;  ///< positions, while watched
 };
 
 }  // namespace ps

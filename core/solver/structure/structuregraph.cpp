@@ -59,6 +59,11 @@ std::vector<uint32_t> ConstraintSystem::pieces(size_t particles) {
   return piece;
 }
 
+bool ConstraintSystem::groups() const {
+  return std::any_of(m_sets.begin(), m_sets.end(),
+                     [](const Set& set) { return set.groups && set.groups->count() > 0 && !set.disabled; });
+}
+
 bool ConstraintSystem::gathers() const {
   return std::any_of(m_sets.begin(), m_sets.end(), [](const Set& set) {
     return set.neighbour && !set.disabled && std::count(set.used.begin(), set.used.end(), 1) > 0;

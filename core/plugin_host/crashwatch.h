@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <string>
+
+// Why a signal handler: a plugin that aborts or runs wild in a step takes the program along, and at the next start the
+// scene would play and die again. Every call of a plugin says so in a variable of its thread (core/base/callee.h); a
+// crash arrives on the thread that caused it, so the handler knows the culprit, and a crash of our own, or a process
+// that is killed, accuses nobody. The handler writes a file that was made ready beforehand, and lets the signal do its
+// work.
+namespace ps {
+
+class Quarantine;
+
+/// From now on crashes inside a plugin's code are recorded. Several registries of one process may call it.
+void watchForCrashes(const Quarantine& quarantine);
+/// Makes the record of one plugin ready.
+void noteForCrashes(const Quarantine& quarantine, const std::string& id, const std::string& path);
+
+}  // namespace ps

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#include "lamp.h"
+
+#include <cmath>
+
+namespace {
+
+using namespace ps::api;
+
+constexpr double kIntensity = 1000;  // W/m2
+constexpr double kRadius = 0.1;      // m
+
+constexpr ParameterDeclaration kParameters[] = {
+    {"intensity", "Intensity", "I", "W/m²", ParameterKind::Number, Scale::Linear, kIntensity, 0, 1e5, 0, 1e9, "kW/m²",
+     1e-3, 0, "", "Lamp", "Power that the beam brings to each square metre, all of it absorbed.",
+     "sun 1 kW/m², grill 20 kW/m², cutting laser 10⁷ kW/m²", ""},
+    {"radius", "Radius of the beam", "r", "m", ParameterKind::Number, Scale::Linear, kRadius, 0.01, 1, 0, 100, "cm",
+     100, 0, "", "Lamp", "The beam is round and stands over the origin.", "torch 2 cm, grill 20 cm", ""}};
+
+double parameter(const ThermalContext& context, size_t index, double fallback) {
+  return index < context.parameters.size ? context.parameters[index] : fallback;
+}
+
+}  // namespace
+
+const char* Lamp::label() const noexcept { return "Lamp"; }
+
+const char* Lamp::help() const noexcept {
+  return "A round beam that shines straight down over the origin. Particles that nothing above shades take up what "
+         "falls "
+         "on their share of the surface. It knows no reflection, and light that a clear liquid lets through is "
+         "absorbed "
+         "at its surface.";
+}
+
+ParameterList Lamp::parameters() const noexcept { return listOf(kParameters); }
+
+void Lamp::addWatts(const ThermalContext& context, const ParticleView& particles, size_t first, size_t last,
+                    double* watts) const {
+  const double intensity = parameter(context, 0, kIntensity), radius = parameter(context, 1, kRadius);
+  for (size_t i = first; i < last; ++i) {
+    const Float4& x = particles.position[i];
+    const double dx = x.x, dz = x.z, edge = std::cbrt(double{x.w});  // of the particle's cell, m
+    if (dx * dx + dz * dz > radius * radius) continue;
+    bool lit = true;  // an example: every particle asks every other
+    for (size_t j = 0; j < particles.count && lit; ++j) {
+      const Float4& y = particles.position[j];
+      const double sideX = double{y.x} - dx, sideZ = double{y.z} - dz;
+      lit = !(double{y.y} > double{x.y} + 0.5 * edge && sideX * sideX + sideZ * sideZ < 0.25 * edge * edge);
+    }
+    if (lit) watts[i] += intensity * edge * edge;
+  }
+}
