@@ -2,6 +2,7 @@
 #include "core/base/error.h"
 #include "core/base/hash.h"
 #include "core/base/parallel.h"
+#include "core/particles/cellgrid.h"
 #include "core/particles/neighbours.h"
 
 #include <QTest>
@@ -212,6 +213,46 @@ class TestParticles : public QObject {
         }
       }
       QVERIFY(pairs > 1000);
+    }
+  }
+
+  void cellsAroundAPlaceHoldWhatIsNear_data() {
+    QTest::addColumn<bool>("repeats");
+    QTest::newRow("open") << false;
+    QTest::newRow("across the faces of a period along x and z") << true;
+  }
+  /// Against all pairs; a place beyond the box, or that is no number, must not lead out of the grid.
+  void cellsAroundAPlaceHoldWhatIsNear() {
+    QFETCH(bool, repeats);
+    constexpr double kEdge = 0.09;
+    const ps::Period period = repeats ? ps::Period({-0.5, 0, 0}, {0.5, 1, 0.4}, {true, false, true}) : ps::Period();
+    Random random(3);
+    std::vector<ps::api::Double3> places(400);
+    for (ps::api::Double3& p : places) p = period.wrapped({random.next() - 0.5, random.next(), 0.4 * random.next()});
+    places[7].y = std::nan("");
+    ps::CellGrid grid;
+    grid.sort(places.size(), kEdge, period, [&](size_t i) { return places[i]; });
+    QVERIFY(grid.cells(0) > 3 && grid.cells(1) > 3 && grid.cells(2) > 3);
+    const auto near = [&](const ps::api::Double3& a, const ps::api::Double3& b) {
+      auto x = static_cast<float>(a.x - b.x), y = static_cast<float>(a.y - b.y), z = static_cast<float>(a.z - b.z);
+      period.shorten(x, y, z);
+      return double{x} * double{x} + double{y} * double{y} + double{z} * double{z} < 0.999 * kEdge * kEdge;
+    };
+    std::vector<ps::api::Double3> asked = places;
+    asked.push_back({0, -20, 0.2});
+    for (const ps::api::Double3& place : asked) {
+      std::vector<uint32_t> found, wanted;
+      grid.around(place, [&](uint32_t first, uint32_t last) {
+        for (uint32_t slot = first; slot < last; ++slot) {
+          const uint32_t i = grid.order()[slot];
+          if (near(places[i], place)) found.push_back(i);
+        }
+      });
+      for (uint32_t i = 0; i < places.size(); ++i) {
+        if (near(places[i], place)) wanted.push_back(i);
+      }
+      std::sort(found.begin(), found.end());
+      QCOMPARE(found, wanted);  // each of them once
     }
   }
 
