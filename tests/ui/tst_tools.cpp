@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tools driven by rays, without a widget: what mouse, pen and hands would do with them.
 #include "core/plugin_host/registry.h"
-#include "core/simulation/engine.h"
+#include "core/simulation/enginethread.h"
 #include "core/sketch/stroke.h"
 #include "tests/shared/scenes.h"
 #include "ui/document/document.h"
