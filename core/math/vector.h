@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Linear algebra for what is few: bodies, rays, cameras, sums. It is Eigen's, and this is the one header through which
-// anything here includes it, since all units must agree on its macros (CMakeLists.txt): nothing is vectorised, because
-// packets add in another order and their multiply-adds are fused on Arm, which would show in the state hash; so nothing
-// asks for more alignment than a double either. What is made without a value is zero. Loops over particles are
-// vectorised elsewhere. Results are taken as Vector3, not as auto: that would keep an expression whose parts are gone.
+// Linear algebra for what is few: bodies, rays, cameras, sums. It is Eigen's; whoever turns, crosses or inverts
+// includes the module for it (<Eigen/Geometry>, <Eigen/LU>), which costs too much for everybody. All units must agree
+// on Eigen's macros (CMakeLists.txt): nothing is vectorised, because packets add in another order and their
+// multiply-adds are fused on Arm, which would show in the state hash; so nothing asks for more alignment than a double
+// either. What is made without a value is zero. Loops over particles are vectorised elsewhere. Results are taken as
+// Vector3, not as auto: that would keep an expression whose parts are gone.
 #pragma once
 #include <phasesketch/types.h>
 
 #include <Eigen/Core>
-#include <Eigen/Geometry>
 
 namespace ps {
 
@@ -16,7 +16,7 @@ using Vector3 = Eigen::Vector3d;
 using Vector4 = Eigen::Vector4d;
 using Matrix3 = Eigen::Matrix3d;
 using Matrix4 = Eigen::Matrix4d;
-using Quaternion = Eigen::Quaterniond;
+using Quaternion = Eigen::Quaternion<double>;
 
 // The plain structs of the SDK and of the particle store.
 inline Vector3 vectorOf(const api::Float4& v) { return {v.x, v.y, v.z}; }

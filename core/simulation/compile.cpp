@@ -8,6 +8,8 @@
 #include "core/simulation/declared.h"
 #include "core/simulation/lattice.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>

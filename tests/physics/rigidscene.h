@@ -5,6 +5,8 @@
 
 #include "core/math/vector.h"
 
+#include <Eigen/Geometry>
+
 /// Rigid bodies and what to measure on them.
 namespace rigid {
 

@@ -7,6 +7,8 @@
 #include "rigidscene.h"
 #include "tests/shared/enginehands.h"
 
+#include <Eigen/Geometry>
+
 #include <QTest>
 
 #include <limits>

@@ -6,6 +6,8 @@
 #include "ui/render/instances.h"
 #include "ui/render/projector.h"
 
+#include <Eigen/Geometry>
+
 #include <QtTest/QtTest>
 
 #include <cmath>

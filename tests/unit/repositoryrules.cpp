@@ -129,8 +129,8 @@ std::string arrowProblem(const Room& from, const Room& to) {
 std::string includeProblem(View path, const Include& include) {
   const Room from = roomOf(path);
   if (from.house == "core" && from.name == "plugin_api") return sdkProblem(path, include);
-  if (include.target.starts_with("Eigen/") && path != "core/math/vector.h" && from.house != "plugins")
-    return "Eigen comes through core/math/vector.h";
+  if (include.target == "Eigen/Core" && path != "core/math/vector.h" && from.house != "plugins")
+    return "vectors come through core/math/vector.h";
   std::string problem;
   if (from.house == "core") problem = coreProblem(from.name, include);
   if (from.house == "ui" && from.name == "render" && isQt(include.target)) problem = "ui/render draws without Qt";

@@ -120,6 +120,7 @@ void RepositoryTest::rulesCatchWhatTheyForbid_data() {
   include("core to the SDK", "core/math/a.h", "<phasesketch/types.h>", 0);
   include("Eigen by its one door", "core/math/vector.h", "<Eigen/Core>", 0);
   include("Eigen past its door", "core/solver/a.cpp", "<Eigen/Core>", 1);
+  include("a module of Eigen where it is needed", "core/solver/a.cpp", "<Eigen/Geometry>", 0);
   include("core to an unknown room", "core/simulation/a.h", "\"core/attic/a.h\"", 1);
   include("from an unknown room", "core/attic/a.h", "\"core/base/error.h\"", 1);
   include("core with Qt", "core/io/a.cpp", "<QString>", 1);

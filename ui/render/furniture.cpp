@@ -4,6 +4,8 @@
 #include "core/math/plane.h"
 #include "ui/render/colourmap.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 

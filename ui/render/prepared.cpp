@@ -3,6 +3,8 @@
 
 #include "ui/render/colourmap.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 #include <tuple>

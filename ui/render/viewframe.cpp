@@ -5,6 +5,8 @@
 #include "ui/render/prepared.h"
 #include "ui/render/projector.h"
 
+#include <Eigen/LU>
+
 #include <algorithm>
 #include <cmath>
 #include <optional>

@@ -3,6 +3,8 @@
 
 #include "ui/tools/aim.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>

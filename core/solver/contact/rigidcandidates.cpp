@@ -4,6 +4,8 @@
 #include "core/solver/contact/rigidcontact.h"
 #include "core/solver/contact/solidcontact.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 

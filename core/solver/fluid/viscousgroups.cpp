@@ -3,6 +3,9 @@
 
 #include "core/base/parallel.h"
 
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
 #include <algorithm>
 
 namespace ps {

@@ -4,6 +4,8 @@
 #include "core/particles/particlestore.h"
 #include "core/solver/motion.h"
 
+#include <Eigen/Geometry>
+
 #include <vector>
 
 namespace ps {
