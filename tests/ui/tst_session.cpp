@@ -2,7 +2,7 @@
 // A user's sessions: what is opened first, what is kept at close and offered again, files, keys, and pictures by
 // command.
 #include "core/io/projectio.h"
-#include "core/simulation/engine.h"
+#include "core/simulation/enginethread.h"
 #include "tests/shared/scenes.h"
 #include "ui/document/document.h"
 #include "ui/graphs/graphspanel.h"
