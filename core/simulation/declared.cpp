@@ -5,6 +5,7 @@
 #include "core/matter/material.h"
 #include "core/plugin_host/registry.h"
 #include "core/scene/declare.h"
+#include "core/simulation/sceneproblem.h"
 
 #include <algorithm>
 #include <array>
@@ -312,6 +313,7 @@ std::string problemWith(const Project& project, const PluginRegistry* plugins, c
   if (const std::string problem = problemOf(value, *declaration); !problem.empty()) {
     return std::string(declaration->label) + " " + problem + ".";
   }
+  if (const std::string problem = problemOfSceneWith(project, address, value); !problem.empty()) return problem + ".";
   if (address.owner != Owner::Material || propertyIndex(address.key) < 0) return {};
   const SceneMaterial* source = materialById(project, address.id);
   auto material = source ? baseMaterial(*source, plugins) : std::nullopt;

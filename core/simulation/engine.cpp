@@ -9,6 +9,7 @@
 #include "core/simulation/edits.h"
 #include "core/simulation/lattice.h"
 #include "core/simulation/measure.h"
+#include "core/simulation/sceneproblem.h"
 
 #include <algorithm>
 #include <atomic>
@@ -27,13 +28,6 @@ namespace {
 
 /// Two boxes side by side, both rounded up to whole layers, come within half a spacing: that near is no overlap.
 constexpr double kOverlap = 0.4;  // spacings
-
-void requireRoom(double particles) {
-  if (particles <= kMaximumParticles) return;
-  throw InputError("the scene would have " + numberText(std::round(particles)) + " particles, more than the " +
-                   numberText(kMaximumParticles) +
-                   " that a scene may have; make its bodies smaller or raise the particle spacing");
-}
 
 auto byId(const std::vector<SceneMaterial>& materials, const std::string& id) {
   return std::find_if(materials.begin(), materials.end(), [&](const SceneMaterial& m) { return m.id == id; });

@@ -143,6 +143,7 @@ class TestDocument : public QObject {
     QTest::newRow("below the hard range") << "material/water/density_solid" << -5.0;
     QTest::newRow("not a number") << "wall/floor/temperature" << std::nan("");
     QTest::newRow("contradiction") << "material/water/boiling_temperature" << 200.0;
+    QTest::newRow("too many particles") << "solver/particle_spacing" << 0.0005;  // 27 million
     QTest::newRow("no such owner") << "wall/ceiling/temperature" << 300.0;
     QTest::newRow("no such key") << "wall/floor/colour" << 300.0;
   }

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/simulation/sceneproblem.h"
+
+#include "core/base/error.h"
+#include "core/solver/settings.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ps {
+namespace {
+
+const Address kSpacing{Owner::Solver, "", "particle_spacing"}, kReach{Owner::Solver, "", "support_ratio"};
+
+std::string tooMany(double particles) {
+  return "the scene would have " + numberText(std::round(particles)) + " particles, more than the " +
+         numberText(kMaximumParticles) +
+         " that a scene may have; make its bodies smaller or raise the particle spacing";
+}
+
+std::string roomProblem(const Project& project, double spacing) {
+  double count = 0;
+  for (const Body& body : project.bodies) count += particleCount(body, spacing);
+  return count > kMaximumParticles ? tooMany(count) : std::string();
+}
+
+std::string periodProblem(const Project& project, double spacing, double reach) {
+  SolverSettings settings;
+  settings.spacing = spacing;
+  settings.supportRatio = reach;
+  const double least = leastPeriod(settings);
+  const Environment& environment = project.environment;
+  for (size_t a = 0; a < 3; ++a) {
+    const double edge = environment.boundsMaximum[a] - environment.boundsMinimum[a];
+    if (!environment.periodic[a] || edge >= least) continue;
+    return std::string("the scene repeats itself along ") + "xyz"[a] + " every " + numberText(edge) +
+           " m; with this reach of its particles that must be " + numberText(least) + " m or more";
+  }
+  return {};
+}
+
+/// Of a box, whose coldest particle stands in a corner of its lattice.
+std::string gradientProblem(const Body& body, double temperature, double spacing) {
+  const Vector3& gradient = body.temperatureGradient;
+  const auto* box = std::get_if<BoxShape>(&body.shape);
+  if (!box) return {};
+  double coldest = temperature;
+  for (size_t a = 0; a < 3; ++a)
+    coldest -= std::abs(gradient[a]) * (layersAlong(box->size[a], spacing) - 1) * spacing / 2;
+  if (coldest >= 1) return {};
+  return "its temperature gradient would cool it to " + numberText(coldest) +
+         " K; a higher temperature or a lower gradient is needed";
+}
+
+double solverNumber(const Project& project, const Address& address) {
+  return numberOf(project.solver.parameters, solverParameters(), address.key);
+}
+
+}  // namespace
+
+std::string problemOfSceneWith(const Project& project, const Address& address, const Value& value) {
+  const auto* number = std::get_if<double>(&value);
+  if (!number) return {};
+  if (address == kSpacing) {
+    const std::string problem = roomProblem(project, *number);
+    return problem.empty() ? periodProblem(project, *number, solverNumber(project, kReach)) : problem;
+  }
+  if (address == kReach) return periodProblem(project, solverNumber(project, kSpacing), *number);
+  if (address.owner != Owner::Body || address.key != "temperature") return {};
+  const auto body =
+      std::find_if(project.bodies.begin(), project.bodies.end(), [&](const Body& b) { return b.id == address.id; });
+  return body == project.bodies.end() ? std::string()
+                                      : gradientProblem(*body, *number, solverNumber(project, kSpacing));
+}
+
+void requireRoom(double particles) {
+  if (particles > kMaximumParticles) throw InputError(tooMany(particles));
+}
+
+}  // namespace ps
