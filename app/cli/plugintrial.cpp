@@ -11,6 +11,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstring>
@@ -45,6 +46,7 @@ class Scratch {
 /// In the child: every line through the pipe is what comes next, the last one what came out.
 int childOf(const std::string& path, const std::string& scratch, int pipe) {
   const auto tell = [pipe](std::string line) {
+    std::replace(line.begin(), line.end(), '\n', ' ');  // in what the plugin said
     line += '\n';
     return ::write(pipe, line.data(), line.size()) == static_cast<ssize_t>(line.size());
   };

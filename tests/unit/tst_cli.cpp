@@ -289,7 +289,9 @@ void TestCli::benchWritesItsKeys() {
   QCOMPARE(b["scenes"].size(), size_t{1});
   QCOMPARE(keysOf(b["scenes"][0]),
            (Keys{"name", "particles", "threads", "iterations", "ms", "stages", "ns_per_particle_iteration",
-                 "ns_per_pair", "bytes_per_particle", "density_error"}));
+                 "ns_per_pair", "bytes_per_particle", "density_error", "state"}));
+  QCOMPARE(keysOf(b["scenes"][0]["state"]),
+           (Keys{"bytes_per_particle", "save_ms", "restore_ms", "rollback_ms", "rollback_share"}));
   QCOMPARE(keysOf(b["scenes"][0]["ms"]), (Keys{"median", "p95"}));
 }
 
