@@ -202,7 +202,7 @@ json measureDragged(int particles, PluginRegistry& plugins, long frames) {
 void printDrag(const json& row) {
   std::printf(
       "%-20s %8zu particles  %2d threads  %7.2f ms per frame (p95 %.2f)  %6.1f frames/s, %.1f left alone: "
-      "%.1f %% kept  %.0f edits/s  %.3f ms per edit besides %.3f ms per table\n",
+      "%.1f %% kept  %.0f edits/s  %.3f ms per edit in all, where one table takes %.3f ms\n",
       "drag", row["particles"].get<size_t>(), row["threads"].get<int>(), row["ms"]["median"].get<double>(),
       row["ms"]["p95"].get<double>(), row["frames_per_s"].get<double>(), row["frames_per_s_alone"].get<double>(),
       100 * row["frames_kept"].get<double>(), row["edits_per_s"].get<double>(), row["edit_ms"].get<double>(),

@@ -93,9 +93,7 @@ Drag measureDrag(const Project& project, PluginRegistry& plugins, const std::str
   drag.editsPerSecond = static_cast<double>(drag.edits) / std::max(dragging, 1e-9);
   drag.applied = cost.applied;
   drag.baked = cost.baked;
-  const double baking = 1e-3 * drag.bakeMilliseconds * static_cast<double>(cost.baked);
-  drag.editMilliseconds =
-      1e3 * std::max(0.0, cost.seconds - baking) / static_cast<double>(std::max<uint64_t>(cost.applied, 1));
+  drag.editMilliseconds = 1e3 * cost.seconds / static_cast<double>(std::max<uint64_t>(cost.applied, 1));
   return drag;
 }
 

@@ -18,7 +18,7 @@ struct Drag {
   double framesAlone = 0;            ///< per second, of the scene left alone
   double framesDragged = 0;          ///< per second
   double bakeMilliseconds = 0;       ///< one table
-  double editMilliseconds = 0;       ///< of the engine's thread per applied edit, less the tables that it baked
+  double editMilliseconds = 0;       ///< of the engine's thread per applied edit, the tables that it baked included
   std::vector<double> milliseconds;  ///< of the dragged frames
 };
 
