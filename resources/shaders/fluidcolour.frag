@@ -10,7 +10,8 @@ layout(location = 1) out float clearSum;
 void main() {
   float a = dot(ray, ray), b = dot(ray, sphere.xyz);
   float root = b * b - a * (dot(sphere.xyz, sphere.xyz) - sphere.w * sphere.w);
-  float behind = texelFetch(distanceTexture, ivec2(gl_FragCoord.xy) * scale, 0).r;
+  ivec2 at = min(ivec2(gl_FragCoord.xy) * scale, textureSize(distanceTexture, 0) - 1);
+  float behind = texelFetch(distanceTexture, at, 0).r;
   if (root < 0.0 || behind < -sphere.z - sphere.w) discard;
   float thickness = 2.0 * sqrt(root / a);
   thickness *= thickness / (2.0 * sphere.w);

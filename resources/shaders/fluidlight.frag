@@ -5,6 +5,8 @@ uniform sampler2D fluidTexture;      // smoothed distance, kFar where there is n
 uniform sampler2D fluidNormal;       // in view space, 0..1
 uniform sampler2D fluidColour;       // colour times thickness, thickness, in radii
 uniform sampler2D fluidClear;        // clearness times thickness
+uniform vec2 thicknessSize;          // texels that the picture takes of the last two
+uniform float oneClearness;          // of all liquid; below 0: as fluidClear says
 uniform sampler2D distanceTexture;   // of what is opaque
 uniform sampler2D behindTexture;     // the picture so far
 uniform sampler2DShadow shadowTexture;
@@ -38,7 +40,8 @@ void main() {
   vec3 world = eye.xyz + worldRay * centre.x;
   vec3 v = -worldRay * inversesqrt(dot(worldRay, worldRay));
 
-  vec4 sum = textureLod(fluidColour, uv, 0.0);
+  vec2 part = clamp(uv * thicknessSize, vec2(0.5), thicknessSize - 0.5) / vec2(textureSize(fluidColour, 0));
+  vec4 sum = textureLod(fluidColour, part, 0.0);
   vec3 base = sum.rgb / max(sum.a, 1e-4);
   float thickness = sum.a;  // radii
   // Smooth sums draw a rounder edge than the coarse distances: 0.9 is where a lone sphere ends.
@@ -80,7 +83,8 @@ void main() {
     vec3 body = (base * 0.6 + 0.08) * (0.22 + 0.55 * diffuse * mix(0.5, 1.0, key)) + warm * 0.12;
     c = mix(behind * clearness, body, veil * 0.50);
     c = mix(c, reflected, min(fresnel + 0.06, 1.0)) + shine;
-    float clear = clamp(textureLod(fluidClear, uv, 0.0).r / max(thickness, 1e-4), 0.0, 1.0);
+    float clear = oneClearness;
+    if (clear < 0.0) clear = clamp(textureLod(fluidClear, part, 0.0).r / max(thickness, 1e-4), 0.0, 1.0);
     if (clear < 0.99) {
       vec3 sky = mix(vec3(0.20, 0.21, 0.24), vec3(0.44, 0.47, 0.53), 0.5 + 0.5 * n.y);
       float direct = max(dot(n, light.xyz), 0.0) * key;

@@ -11,6 +11,10 @@ out float open;
 void main() {
   ivec2 here = ivec2(gl_FragCoord.xy) * scale;
   float depth = texelFetch(distanceTexture, here, 0).r;
+  if (depth > kFar * 0.5) {
+    open = 1.0;
+    return;
+  }
   vec2 pixel = vec2(here) + 0.5;
   vec3 p = viewRay(pixel * size.zw) * depth;
   vec3 n = mat3(view) * (texelFetch(normalTexture, here, 0).xyz * 2.0 - 1.0);

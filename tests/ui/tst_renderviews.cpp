@@ -75,6 +75,20 @@ double meanDifference(const Image& a, const Image& b) {
   return sum / static_cast<double>(a.size());
 }
 
+/// A block of 16 particles along each side, 0.32 m wide, around the middle; hot within, cold in its outer layers.
+Snapshot block(api::Motion motion) {
+  Snapshot s;
+  constexpr int n = 16, skin = 4;
+  for (int i = 0; i < n * n * n; ++i) {
+    const std::array at{i % n, i / n % n, i / (n * n)};
+    const bool outer = std::any_of(at.begin(), at.end(), [](int k) { return k < skin || k >= n - skin; });
+    const auto along = [](int k) { return 0.02 * (k - (n - 1) / 2.0); };
+    addParticle(s, {along(at[0]), along(at[1]), along(at[2])}, 0.0124, static_cast<uint32_t>(i), motion,
+                outer ? 280 : 380);
+  }
+  return s;
+}
+
 }  // namespace
 
 class TestRenderViews : public QObject {
@@ -92,6 +106,8 @@ class TestRenderViews : public QObject {
   void nothingPreparedIsAnError();
   void sizesTakeTurnsWithoutNewStorage();
   void picturesKeepTheirBackground();
+  void whatIsBuriedShowsFromAmongIt();
+  void liquidIsAsThickFromNear();
 
  private:
   std::unique_ptr<HeadlessContext> m_context;
@@ -251,6 +267,52 @@ void TestRenderViews::picturesKeepTheirBackground() {
   for (uint32_t i = 10; i < 10 + render::Layers::kBackgrounds; ++i) QVERIFY(!drawn(i, 0));
   QVERIFY(!drawn(1, 0));
   QCOMPARE(layers.backgrounds.size(), render::Layers::kBackgrounds);
+}
+
+// What a view from outside never sees is not drawn for it, but an eye may be inside.
+void TestRenderViews::whatIsBuriedShowsFromAmongIt() {
+  Renderer renderer;
+  Shot shot;
+  shot.look.colour = ColourBy::Temperature;
+  shot.look.rangeMinimum = 270, shot.look.rangeMaximum = 390;
+  shot.camera.target = {0, 0, 0};
+  const Snapshot s = block(api::Motion::Solid);
+  // Red is what the map has for hot, blue for cold.
+  const auto hot = [&](double distance) {
+    shot.camera.distance = distance;
+    const Image image = renderImage(renderer, s, RenderScene{}, shot);
+    size_t count = 0;
+    for (size_t i = 0; i < image.size(); i += 4) count += image[i] > image[i + 2] + 60;
+    return static_cast<double>(count) / static_cast<double>(image.size() / 4);
+  };
+  QCOMPARE(hot(1), 0.0);
+  const double inside = hot(0.03);
+  QVERIFY2(inside > 0.9, qPrintable(QString::number(inside)));
+}
+
+// Its thickness is added up in fewer pixels where particles are large in the picture.
+void TestRenderViews::liquidIsAsThickFromNear() {
+  constexpr int scale = 5;
+  Renderer renderer;
+  Shot shot;
+  shot.camera.target = {0, 0, 0};
+  shot.camera.distance = 0.9;
+  Snapshot s = block(api::Motion::Liquid);
+  s.materialLook = {{0.9f, 0.6f, 0.2f, 1}};
+  const Image small = renderImage(renderer, s, RenderScene{}, shot);
+  shot.size = {scale * kWidth, scale * kHeight, false};
+  const Image large = renderImage(renderer, s, RenderScene{}, shot);
+  Image reduced(small.size());
+  for (size_t y = 0; y < kHeight; ++y)
+    for (size_t x = 0; x < kWidth; ++x)
+      for (size_t k = 0; k < 4; ++k) {
+        int sum = 0;
+        for (size_t i = 0; i < scale * scale; ++i)
+          sum += large[((scale * y + i / scale) * scale * kWidth + scale * x + i % scale) * 4 + k];
+        reduced[(y * kWidth + x) * 4 + k] = static_cast<uint8_t>(sum / (scale * scale));
+      }
+  const double apart = meanDifference(small, reduced);
+  QVERIFY2(apart < 2, qPrintable(QString::number(apart)));
 }
 
 QTEST_GUILESS_MAIN(TestRenderViews)

@@ -35,14 +35,15 @@ void fillContactMap(const Instances& instances, ContactMap& map) {
   const std::array colour{&red, &green, &blue};
   const float cell = map.size[0] * map.size[1] / static_cast<float>(n * n);
   const float reach = instances.radius * 3, tall = 0.18f * std::max(map.size[0], map.size[1]);
-  for (size_t i = 0; i < instances.spheres + instances.liquids; ++i) {
+  const Range liquids = instances.liquidRange(true);
+  for (size_t i = instances.buriedSpheres; i < liquids.first + liquids.count; ++i) {
     const Instance& p = instances.particles[i];
     const int x = static_cast<int>(std::floor((p.x - map.corner[0]) / map.size[0] * n));
     const int z = static_cast<int>(std::floor((p.z - map.corner[1]) / map.size[1] * n));
     const float height = p.y - p.radius - map.floor;
     if (x < 0 || z < 0 || x >= n || z >= n || height < -2 * p.radius) continue;
     const size_t at = static_cast<size_t>(z * n + x);
-    const float share = 3.14f * p.radius * p.radius / cell * (i >= instances.spheres + instances.dense ? 0.3f : 1);
+    const float share = 3.14f * p.radius * p.radius / cell * (i >= liquids.first && !isDense(p) ? 0.3f : 1);
     const float w = share * std::exp(-std::max(0.f, height) / reach);
     close[at] += w;
     wide[at] += share * std::exp(-std::max(0.f, height) / tall) * 0.35f;

@@ -19,34 +19,37 @@ constexpr float kCell = 2;  // pixels
 
 }  // namespace
 
-void dropBuried(const Extent& extent, float radius, std::vector<Instance>& list) {
-  constexpr size_t kMost = 1u << 24;
+size_t exposedFirst(const Extent& extent, float radius, float cell, int full, std::vector<Instance>& list) {
+  constexpr double kMost = 1u << 22;
   std::array<size_t, 3> cells{};
-  const float cell = 2 * radius;
   double total = 1;
   for (size_t k = 0; k < 3; ++k) {
     const float count = (extent.maximum[k] - extent.minimum[k]) / cell + 3;
     total *= static_cast<double>(count);
     cells[k] = static_cast<size_t>(std::min(count, 1e6f));
   }
-  if (list.size() < 1000 || total > static_cast<double>(kMost)) return;
+  if (list.size() < 1000 || total > kMost) return list.size();
   const auto cellOf = [&](const Instance& p) {
     const auto along = [&](float v, size_t k) { return static_cast<size_t>((v - extent.minimum[k]) / cell) + 1; };
     return (along(p.z, 2) * cells[1] + along(p.y, 1)) * cells[0] + along(p.x, 0);
   };
-  std::vector<char> full(cells[0] * cells[1] * cells[2] + 1), buried(full.size());
+  std::vector<uint8_t> held(cells[0] * cells[1] * cells[2] + 1), buried(held.size());
   for (const Instance& p : list)
-    if (p.radius > 0.7f * radius) full[cellOf(p)] = 1;
+    if (p.radius > 0.7f * radius) {
+      uint8_t& count = held[cellOf(p)];
+      count = static_cast<uint8_t>(count + (count < full));
+    }
   const size_t row = cells[0], layer = cells[0] * cells[1];
-  for (size_t at = layer + row + 1; at + layer + row + 1 < full.size(); ++at) {
-    if (!full[at] || !full[at - 1] || !full[at + 1]) continue;
-    bool all = true;
+  const auto threeFull = [&](size_t at) { return held[at - 1] == full && held[at] == full && held[at + 1] == full; };
+  for (size_t at = layer + row + 1; at + layer + row + 1 < held.size(); ++at) {
+    bool all = threeFull(at);
     for (const size_t base : {at - layer - row, at - layer, at - layer + row, at - row, at + row, at + layer - row,
                               at + layer, at + layer + row})
-      all = all && full[base - 1] && full[base] && full[base + 1];
+      all = all && threeFull(base);
     buried[at] = all;
   }
-  std::erase_if(list, [&](const Instance& p) { return buried[cellOf(p)] != 0; });
+  const auto exposed = [&](const Instance& p) { return buried[cellOf(p)] == 0; };
+  return static_cast<size_t>(std::stable_partition(list.begin(), list.end(), exposed) - list.begin());
 }
 
 void sortVisible(const Projector& projector, std::span<const Instance> spheres, std::vector<Instance>& visible) {

@@ -158,4 +158,20 @@ void Fence::wait() const {
 VertexArray::VertexArray() { glGenVertexArrays(1, &m_name); }
 VertexArray::~VertexArray() { glDeleteVertexArrays(1, &m_name); }
 
+void clearColour(GLint buffer, float r, float g, float b, float a) {
+  const float value[] = {r, g, b, a};
+  glClearBufferfv(GL_COLOR, buffer, value);
+}
+void copyPicture(const Texture& from, const Texture& to, const std::array<int, 4>& box) {
+  const Target target({&to}, nullptr), source({&from}, nullptr);
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, target.name());
+  const int right = box[0] + box[2], top = box[1] + box[3];
+  glBlitFramebuffer(box[0], box[1], right, top, box[0], box[1], right, top, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+}
+void clearDepth() {
+  const float one = 1;
+  glDepthMask(GL_TRUE);
+  glClearBufferfv(GL_DEPTH, 0, &one);
+}
+
 }  // namespace ps::render

@@ -2,6 +2,7 @@
 #pragma once
 #include <epoxy/gl.h>
 
+#include <array>
 #include <cstddef>
 #include <initializer_list>
 #include <map>
@@ -121,5 +122,15 @@ class VertexArray {
  private:
   GLuint m_name = 0;
 };
+
+inline constexpr float kFar = 1e6f;  ///< distance where there is nothing, m; frame.glsl knows the same
+
+/// Of the framebuffer that is bound.
+void clearColour(GLint buffer, float r, float g, float b, float a);
+void clearDepth();
+/// Pixels x, y, width, height of a picture of the same size and format: a copy of memory where a processor draws.
+void copyPicture(const Texture& from, const Texture& to, const std::array<int, 4>& box);
+/// Pixels along a side of a picture that has one for each `scale` of `pixels`.
+inline int reduced(int pixels, int scale) { return (pixels + scale - 1) / scale; }
 
 }  // namespace ps::render

@@ -68,9 +68,6 @@ float kindOf(const InstanceRequest& request, size_t i) {
   return static_cast<float>(kind) + std::round(kClearest * std::clamp(lookOf(s, i)[3], 0.f, 1.f));
 }
 
-/// Whether a liquid's surface hides more than it shows; all do where colours are data.
-bool isDense(const Instance& p) { return p.extra < static_cast<float>(Kind::Wet) + kClearest / 2; }
-
 // Everything that does not depend on the order in which particles are drawn.
 class Evaluator {
  public:
@@ -123,7 +120,46 @@ class Evaluator {
   std::vector<uint32_t> m_match;
 };
 
+// Puts the lists one after the other.
+void arrange(Instances& out) {
+  std::vector<Instance>& all = out.particles;
+  const float lattice = 2 * out.radius, coarse = 4 * out.radius;
+  out.spheres = exposedFirst(out.sphereExtent, out.radius, lattice, 1, all);
+  out.buriedSpheres = all.size() - out.spheres;
+  std::rotate(all.begin(), all.begin() + static_cast<ptrdiff_t>(out.spheres), all.end());
+
+  // Liquids have no lattice: a small cell may be empty deep within them.
+  std::vector<Instance>& liquids = out.liquid;
+  const size_t exposed = exposedFirst(out.liquidExtent, out.radius, coarse, 6, liquids);
+  const auto surface = liquids.begin() + static_cast<ptrdiff_t>(exposed);
+  out.dense = static_cast<size_t>(std::partition(liquids.begin(), surface, isDense) - liquids.begin());
+  out.clear = exposed - out.dense;
+  out.buriedLiquids = liquids.size() - exposed;
+  const auto differs = [&](const Instance& p) { return p.extra != liquids[0].extra; };
+  out.clearness.reset();
+  if (!liquids.empty() && std::none_of(liquids.begin(), liquids.end(), differs))
+    out.clearness = std::clamp((liquids[0].extra - static_cast<float>(Kind::Wet)) / kClearest, 0.f, 1.f);
+
+  out.vapours = out.vapour.size();
+  Extent extent;
+  for (const Instance& p : out.outline) extent.add(p.x, p.y, p.z, p.radius);
+  out.outlined = exposedFirst(extent, out.radius, lattice, 1, out.outline);
+  out.outline.resize(out.outlined);
+  for (const std::vector<Instance>* list : {&out.liquid, &out.vapour, &out.outline})
+    all.insert(all.end(), list->begin(), list->end());
+}
+
 }  // namespace
+
+bool isDense(const Instance& p) { return p.extra < static_cast<float>(Kind::Wet) + kClearest / 2; }
+
+bool Extent::holds(const Vector3& p) const {
+  for (size_t k = 0; k < 3; ++k) {
+    const double along = p[static_cast<Eigen::Index>(k)];
+    if (along < static_cast<double>(minimum[k]) || along > static_cast<double>(maximum[k])) return false;
+  }
+  return true;
+}
 
 void Extent::add(float x, float y, float z, float radius) {
   const std::array<float, 3> p{x, y, z};
@@ -188,22 +224,9 @@ void collectInstances(const InstanceRequest& request, Instances& out) {
   if (counted) out.radius = static_cast<float>(radii / static_cast<double>(counted));
   out.sphereExtent = out.liquidExtent = out.vapourExtent = {};
   for (const Instance& p : spheres) out.sphereExtent.add(p.x, p.y, p.z, p.radius);
-  if (request.dropBuried) dropBuried(out.sphereExtent, out.radius, spheres);
   for (const Instance& p : liquids) out.liquidExtent.add(p.x, p.y, p.z, p.radius * 1.6f);
-  out.dense = static_cast<size_t>(std::partition(liquids.begin(), liquids.end(), isDense) - liquids.begin());
   for (const Instance& p : vapours) out.vapourExtent.add(p.x, p.y, p.z, p.radius * 8);
-  out.spheres = spheres.size();
-  out.liquids = liquids.size();
-  out.vapours = vapours.size();
-  out.particles.insert(out.particles.end(), liquids.begin(), liquids.end());
-  out.particles.insert(out.particles.end(), vapours.begin(), vapours.end());
-  if (request.dropBuried && !out.outline.empty()) {
-    Extent extent;
-    for (const Instance& p : out.outline) extent.add(p.x, p.y, p.z, p.radius);
-    dropBuried(extent, out.radius, out.outline);
-  }
-  out.outlined = out.outline.size();
-  out.particles.insert(out.particles.end(), out.outline.begin(), out.outline.end());
+  arrange(out);
 }
 
 }  // namespace ps::render

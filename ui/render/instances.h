@@ -25,6 +25,7 @@ struct Instance {
 struct Extent {
   std::array<float, 3> minimum{1e30f, 1e30f, 1e30f}, maximum{-1e30f, -1e30f, -1e30f};  ///< m, spheres included
   bool empty() const { return minimum[0] > maximum[0]; }
+  bool holds(const Vector3& p) const;
   void add(float x, float y, float z, float radius);
   std::array<Vector3, 8> corners() const;
 };
@@ -47,19 +48,37 @@ struct InstanceRequest {
   bool surfaces = true;                 ///< liquids become a surface, else spheres
   std::array<float, 3> steam{1, 1, 1};  ///< colour of vapour where colours show no data
   std::optional<uint32_t> outlined;     ///< index of the body that gets an outline
-  bool dropBuried = false;              ///< leave out what no view from outside can see
 };
 
-/// What there is to draw, in four ranges of `particles`: spheres, liquid of a surface, vapour, and once more what makes
-/// the outlined body's picture.
+/// A part of a list.
+struct Range {
+  size_t first = 0, count = 0;
+};
+
+/// What there is to draw, in ranges of `particles`. What is buried shows only from among it.
 struct Instances {
   std::vector<Instance> particles;
-  size_t spheres = 0, liquids = 0, vapours = 0, outlined = 0;
-  size_t dense = 0;  ///< of the liquids, the first ones: they hide what lies behind them and cast shadows
+  size_t buriedSpheres = 0, spheres = 0;           ///< in this order
+  size_t dense = 0, clear = 0, buriedLiquids = 0;  ///< of surfaces; the dense ones hide what lies behind them
+  size_t vapours = 0;
+  size_t outlined = 0;             ///< once more what makes the outlined body's picture
+  std::optional<float> clearness;  ///< of all liquids, 0..1, where it is one
   Extent sphereExtent, liquidExtent, vapourExtent;
   float radius = 0.01f;                                ///< mean of what is neither vapour nor static, m
   std::vector<Instance> all, liquid, vapour, outline;  ///< while it is filled; kept for their memory
+
+  size_t liquids() const { return dense + clear + buriedLiquids; }
+  Range sphereRange(bool amongThem) const {
+    return amongThem ? Range{0, buriedSpheres + spheres} : Range{buriedSpheres, spheres};
+  }
+  Range casterRange() const { return {buriedSpheres, spheres + dense}; }
+  Range liquidRange(bool amongThem) const { return {buriedSpheres + spheres, amongThem ? liquids() : dense + clear}; }
+  Range vapourRange() const { return {buriedSpheres + spheres + liquids(), vapours}; }
+  Range outlineRange() const { return {particles.size() - outlined, outlined}; }
 };
+
+/// Whether a liquid's surface hides more than it shows; all do where colours are data.
+bool isDense(const Instance& liquid);
 
 /// Values of `previous` are found by id where the order differs; particles that are new stand where they are now.
 /// Snapshots of different revisions are not mixed.
@@ -67,8 +86,10 @@ void collectInstances(const InstanceRequest& request, Instances& out);
 /// The spheres that may be seen, nearest first, in place of what `visible` held. A sphere is hidden when spheres at
 /// least a radius nearer cover every cell, 2 pixels wide, of its disc.
 void sortVisible(const Projector& projector, std::span<const Instance> spheres, std::vector<Instance>& visible);
-/// Leaves out spheres whose 26 neighbouring cells, 2 `radius` wide, all hold others.
-void dropBuried(const Extent& extent, float radius, std::vector<Instance>& list);
+/// Puts what no view from outside can see behind the rest, which keeps its order: whatever lies in a cell, `cell` (m)
+/// wide, that has `full` spheres or more and 26 neighbours with as many; spheres much smaller than `radius` (m) do not
+/// count. Returns the number of the rest: all of a list too small, or spread too thin, to be worth the search.
+size_t exposedFirst(const Extent& extent, float radius, float cell, int full, std::vector<Instance>& list);
 /// Fills texels from spheres and liquids; clear liquids count less.
 void fillContactMap(const Instances& instances, ContactMap& map);
 

@@ -12,12 +12,10 @@
 namespace ps::render {
 namespace {
 
-constexpr float kFar = 1e6f;              // frame.glsl knows the same
+constexpr int kFineRows = 1600;
 constexpr GLint kMatter = 1, kMetal = 2;  // marks in the stencil: what lights a pixel
 
 constexpr const char* kSoftware[] = {"llvmpipe", "softpipe", "SwiftShader", "SWR"};
-
-int reduced(int pixels, int scale) { return (pixels + scale - 1) / scale; }
 
 void meshAttributes(GLuint buffer) {
   glBindBuffer(GL_ARRAY_BUFFER, buffer);
@@ -33,25 +31,9 @@ void meshAttributes(GLuint buffer) {
 static_assert(sizeof(MeshVertex) == 40 && sizeof(EdgeVertex) == 40 && sizeof(Instance) == 32);
 static_assert(sizeof(FrameUniforms) == 4 * 64 + 9 * 16);
 
-void clearColour(GLint buffer, float r, float g, float b, float a) {
-  const float value[] = {r, g, b, a};
-  glClearBufferfv(GL_COLOR, buffer, value);
-}
-// Same size and format: a copy of memory where a processor draws.
-void copyPicture(const Texture& from, const Texture& to, const std::array<int, 4>& box) {
-  const Target target({&to}, nullptr), source({&from}, nullptr);
-  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, target.name());
-  const int right = box[0] + box[2], top = box[1] + box[3];
-  glBlitFramebuffer(box[0], box[1], right, top, box[0], box[1], right, top, GL_COLOR_BUFFER_BIT, GL_NEAREST);
-}
 void drawEverywhere(const VertexArray& plain) {
   plain.bind();
   glDrawArrays(GL_TRIANGLES, 0, 3);
-}
-void clearDepth() {
-  const float one = 1;
-  glDepthMask(GL_TRUE);
-  glClearBufferfv(GL_DEPTH, 0, &one);
 }
 
 }  // namespace
@@ -98,14 +80,14 @@ void Passes::uploadFrame(const ViewFrame& frame) {
     buffer->upload(GL_ARRAY_BUFFER, tiles->data(), tiles->size() * sizeof(TileSet::Corner));
 }
 
-void Passes::drawParticles(const Program& program, const VertexArray& plain, const Buffer& particles, size_t first,
-                           size_t vertices) {
-  if (!vertices) return;
+void Passes::drawParticles(const Program& program, const VertexArray& plain, const Buffer& particles, Range range,
+                           int triangles) {
+  if (!range.count) return;
   m_particleTexture.bind(7, particles.name());
   glUniform1i(program.at("particles"), 7);
-  glUniform1i(program.at("firstParticle"), static_cast<GLint>(first));
+  glUniform1i(program.at("firstParticle"), static_cast<GLint>(range.first));
   plain.bind();
-  glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(vertices));
+  glDrawArrays(GL_TRIANGLES, 0, 3 * triangles * static_cast<GLsizei>(range.count));
 }
 
 void Passes::drawTiles(const Buffer& buffer, const std::vector<TileSet::Corner>& tiles) {
@@ -127,7 +109,7 @@ void Passes::drawShadow(const Prepared& prepared, const VertexArray& plain) {
   glUniformMatrix4fv(program.at("toLight"), 1, GL_FALSE, prepared.toLight.data());
   glUniform2f(program.at("radiusScale"), prepared.shadowScale[0], prepared.shadowScale[1]);
   // Clear liquid casts no hard shadow; the contact map dims the floor a little under it.
-  drawParticles(program, plain, m_particles, 0, 3 * (prepared.instances.spheres + prepared.instances.dense));
+  drawParticles(program, plain, m_particles, prepared.instances.casterRange());
 }
 
 void Passes::drawSurfaces(const Job& job) {
@@ -142,8 +124,10 @@ void Passes::drawSurfaces(const Job& job) {
   glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
   glStencilFunc(GL_ALWAYS, kMatter, 0xFF);
   m_programs.sphere.use();
-  const size_t spheres = frame.culled ? frame.visible.size() : prepared.instances.spheres;
-  drawParticles(m_programs.sphere, plain, frame.culled ? m_visible : m_particles, 0, 3 * spheres);
+  if (frame.culled)
+    drawParticles(m_programs.sphere, plain, m_visible, {0, frame.visible.size()});
+  else
+    drawParticles(m_programs.sphere, plain, m_particles, prepared.instances.sphereRange(frame.amongSpheres));
   if (!prepared.furniture.opaque.empty()) {
     glStencilFunc(GL_ALWAYS, kMetal, 0xFF);
     m_programs.mesh.use();
@@ -157,7 +141,9 @@ void Passes::drawSurfaces(const Job& job) {
 
 void Passes::drawOcclusion(const Job& job) {
   const auto& [prepared, frame, layers, plain] = job;
-  layers.open.resize(reduced(frame.width, m_quality.occlusionScale), reduced(frame.height, m_quality.occlusionScale));
+  // Crevices are soft: beyond the rows of a desktop's view each second pixel is enough.
+  const int scale = std::max(m_quality.occlusionScale, frame.height > kFineRows ? 2 : 1);
+  layers.open.resize(reduced(frame.width, scale), reduced(frame.height, scale));
   const Target target({&layers.open}, nullptr);
   clearColour(0, 1, 1, 1, 1);
   glDisable(GL_DEPTH_TEST);
@@ -167,7 +153,7 @@ void Passes::drawOcclusion(const Job& job) {
   program.texture("distanceTexture", 1, layers.distance.name());
   glUniform1f(program.at("radius"), prepared.instances.radius * 4.5f);
   glUniform1i(program.at("samples"), m_quality.occlusionSamples);
-  glUniform1i(program.at("scale"), m_quality.occlusionScale);
+  glUniform1i(program.at("scale"), scale);
   drawTiles(m_detailTiles, frame.detailTiles);
 }
 
@@ -212,84 +198,6 @@ void Passes::drawLight(const Job& job) {
   glDisable(GL_STENCIL_TEST);
 }
 
-void Passes::drawFluid(const Job& job) {
-  const auto& [prepared, frame, layers, plain] = job;
-  const int scale = m_quality.fluidScale, width = reduced(frame.width, scale), height = reduced(frame.height, scale);
-  for (Texture* texture : {&layers.fluid, &layers.fluidOther, &layers.fluidColour, &layers.fluidClear,
-                           &layers.fluidDepth, &layers.fluidNormal})
-    texture->resize(width, height);
-  layers.behind.resize(frame.width, frame.height);
-  const size_t first = prepared.instances.spheres, count = prepared.instances.liquids;
-  {
-    const Target target({&layers.fluid}, &layers.fluidDepth);
-    clearDepth();
-    clearColour(0, kFar, 0, 0, 0);
-    glEnable(GL_DEPTH_TEST);
-    glDepthFunc(GL_LESS);
-    m_programs.fluidDepth.use();
-    glUniform1f(m_programs.fluidDepth.at("growth"), 1.25f);
-    drawParticles(m_programs.fluidDepth, plain, m_particles, first, 3 * count);
-  }
-  {
-    const Target target({&layers.fluidColour, &layers.fluidClear}, nullptr);
-    clearColour(0, 0, 0, 0, 0);
-    clearColour(1, 0, 0, 0, 0);
-    glDisable(GL_DEPTH_TEST);
-    glEnable(GL_BLEND);
-    glBlendFunc(GL_ONE, GL_ONE);
-    m_programs.fluidColour.use();
-    m_programs.fluidColour.texture("distanceTexture", 0, layers.distance.name());
-    glUniform1i(m_programs.fluidColour.at("scale"), scale);
-    glUniform1f(m_programs.fluidColour.at("growth"), 1.7f);
-    drawParticles(m_programs.fluidColour, plain, m_particles, first, 3 * count);
-    glDisable(GL_BLEND);
-  }
-  smoothFluid(job);
-
-  copyPicture(layers.picture, layers.behind, {0, 0, frame.width, frame.height});
-  const Target target({&layers.picture}, nullptr);
-  glEnable(GL_BLEND);
-  glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
-  const Program& program = m_programs.fluidLight;
-  program.use();
-  program.texture("fluidTexture", 0, layers.fluid.name());
-  program.texture("fluidColour", 1, layers.fluidColour.name());
-  program.texture("fluidNormal", 5, layers.fluidNormal.name());
-  program.texture("fluidClear", 6, layers.fluidClear.name());
-  program.texture("distanceTexture", 2, layers.distance.name());
-  program.texture("behindTexture", 3, layers.behind.name());
-  program.texture("shadowTexture", 4, m_shadow.name());
-  drawTiles(m_liquidTiles, frame.liquidTiles);
-  glDisable(GL_BLEND);
-}
-
-void Passes::smoothFluid(const Job& job) {
-  const auto& [prepared, frame, layers, plain] = job;
-  const Program& program = m_programs.fluidSmooth;
-  program.use();
-  glUniform1i(program.at("limit"), m_quality.fluidTaps * (frame.still ? 2 : 1));
-  glDepthMask(GL_FALSE);
-  glEnable(GL_DEPTH_TEST);
-  for (int pass = 0; pass < 2 * m_quality.fluidRounds; ++pass) {
-    const Texture& from = pass % 2 ? layers.fluidOther : layers.fluid;
-    const Texture& to = pass % 2 ? layers.fluid : layers.fluidOther;
-    const Target target({&to}, &layers.fluidDepth);
-    glDepthFunc(GL_GREATER);  // where there is liquid
-    if (pass == 0) clearColour(0, kFar, 0, 0, 0);
-    program.texture("fluidTexture", 0, from.name());
-    glUniform2i(program.at("direction"), pass % 2 ? 0 : 1, pass % 2 ? 1 : 0);
-    glUniform1f(program.at("width"), prepared.instances.radius * (pass < 2 ? 1.5f : 0.8f));
-    glUniform1i(program.at("fine"), pass >= 2);
-    drawTiles(m_liquidTiles, frame.liquidTiles);
-  }
-  const Target target({&layers.fluidNormal}, &layers.fluidDepth);
-  clearColour(0, 0.5f, 0.5f, 1, 1);
-  m_programs.fluidNormal.use();
-  m_programs.fluidNormal.texture("fluidTexture", 0, layers.fluid.name());
-  drawTiles(m_liquidTiles, frame.liquidTiles);
-  glDisable(GL_DEPTH_TEST);
-}
-
 void Passes::drawSteam(const Job& job) {
   const auto& [prepared, frame, layers, plain] = job;
   const int scale = m_quality.steamScale;
@@ -297,9 +205,9 @@ void Passes::drawSteam(const Job& job) {
   glDisable(GL_DEPTH_TEST);
   glEnable(GL_BLEND);
   glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-  const size_t count = prepared.instances.vapours;
+  const Range vapours = prepared.instances.vapourRange();
   // Crowded vapour needs fewer sprites a parcel for the same cloud.
-  const int sprites = count > 1500 ? std::max(1, m_quality.steamSprites / 2) : m_quality.steamSprites;
+  const int sprites = vapours.count > 1500 ? std::max(1, m_quality.steamSprites / 2) : m_quality.steamSprites;
   {
     const Target target({&layers.steam}, nullptr);
     clearColour(0, 0, 0, 0, 0);
@@ -311,8 +219,7 @@ void Passes::drawSteam(const Job& job) {
     glUniform1i(program.at("sprites"), sprites);
     glUniform1f(program.at("growth"), 4.6f);
     glUniform1f(program.at("opacity"), (prepared.data ? 0.10f : 0.22f) / static_cast<float>(sprites));
-    drawParticles(program, plain, m_particles, prepared.instances.spheres + prepared.instances.liquids,
-                  6 * count * static_cast<size_t>(sprites));
+    drawParticles(program, plain, m_particles, vapours, 2 * sprites);
   }
   const Target target({&layers.picture}, nullptr);
   m_programs.steamOver.use();
@@ -332,7 +239,7 @@ void Passes::drawGlass(const Job& job) {
   glDepthMask(GL_FALSE);
   glEnable(GL_BLEND);
   glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-  const int fluidScale = prepared.instances.liquids ? m_quality.fluidScale : 0;
+  const int fluidScale = prepared.instances.liquids() ? m_quality.fluidScale : 0;
   const VertexArray array;
   array.bind();
   const auto draw = [&](const Program& program, const Buffer& buffer, size_t vertices) {
@@ -359,7 +266,6 @@ void Passes::drawOutline(const Job& job, const PicturePlace& place) {
   const auto& [prepared, frame, layers, plain] = job;
   // Distances, unlike edges, lose nothing to a smaller mask that is read smoothly.
   layers.mask.resize(reduced(frame.width, m_quality.outlineScale), reduced(frame.height, m_quality.outlineScale));
-  const Instances& instances = prepared.instances;
   const BodyOutline& look = *prepared.look.outline;
   const float reach = frame.lineWidth + frame.haloWidth;
   glDisable(GL_DEPTH_TEST);
@@ -370,8 +276,7 @@ void Passes::drawOutline(const Job& job, const PicturePlace& place) {
     glBlendEquation(GL_MAX);
     m_programs.outlineMask.use();
     glUniform1f(m_programs.outlineMask.at("reach"), reach);
-    drawParticles(m_programs.outlineMask, plain, m_particles, instances.spheres + instances.liquids + instances.vapours,
-                  3 * instances.outlined);
+    drawParticles(m_programs.outlineMask, plain, m_particles, prepared.instances.outlineRange());
     glBlendEquation(GL_FUNC_ADD);
   }
   glBindFramebuffer(GL_FRAMEBUFFER, place.framebuffer);
@@ -427,7 +332,7 @@ void Passes::draw(const Prepared& prepared, const ViewFrame& frame, Layers& laye
   drawSurfaces(job);
   drawOcclusion(job);
   drawLight(job);
-  if (prepared.instances.liquids) drawFluid(job);
+  if (prepared.instances.liquids()) drawFluid(job);
   if (!frame.lidInFront) drawGlass(job);
   if (prepared.instances.vapours) drawSteam(job);
   if (frame.lidInFront) drawGlass(job);

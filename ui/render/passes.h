@@ -22,6 +22,8 @@ struct Quality {
 };
 Quality qualityOf(const char* rendererName);
 
+inline constexpr float kThicknessGrowth = 1.7f;  ///< liquid adds up smoothly from spheres so many times as large
+
 /// Shaders, textures and buffers, and the passes in their order: the shadow picture once for everything that is
 /// prepared; surfaces, occlusion, light, liquid, vapour, glass, final, outline for each picture.
 class Passes {
@@ -72,13 +74,15 @@ class Passes {
   const Texture& drawBackground(const Job& job);
   void drawLight(const Job& job);
   void drawFluid(const Job& job);
+  void drawFluidDepth(const Job& job);
+  void drawThickness(const Job& job);
   void smoothFluid(const Job& job);
   void drawSteam(const Job& job);
   void drawGlass(const Job& job);
   void drawOutline(const Job& job, const PicturePlace& place);
   void drawFinal(const Job& job);
-  void drawParticles(const Program& program, const VertexArray& plain, const Buffer& particles, size_t first,
-                     size_t vertices);
+  void drawParticles(const Program& program, const VertexArray& plain, const Buffer& particles, Range range,
+                     int triangles = 1);
   void drawTiles(const Buffer& buffer, const std::vector<TileSet::Corner>& tiles);
 
   Quality m_quality;

@@ -30,12 +30,12 @@ FrameUniforms::Matrix floats(const Matrix4& a) {
 }
 
 void Prepared::fill(const Snapshot& now, const Snapshot* previous, double blend, const RenderScene& scene,
-                    const Look& how, bool buried) {
+                    const Look& how) {
   look = how;
   data = look.colour != ColourBy::Material;
   time = static_cast<float>(std::fmod(now.stats.time, 3600));  // so that a float stays precise in long runs
   furnish(scene.environment);
-  collect(now, previous, blend, buried);
+  collect(now, previous, blend);
   placeContactMap();
   fitShadow();
   ready = true;
@@ -49,7 +49,7 @@ void Prepared::furnish(const Environment& environment) {
   m_dark = look.dark;
 }
 
-void Prepared::collect(const Snapshot& now, const Snapshot* previous, double blend, bool buried) {
+void Prepared::collect(const Snapshot& now, const Snapshot* previous, double blend) {
   InstanceRequest request;
   request.now = &now;
   request.previous = previous;
@@ -63,7 +63,6 @@ void Prepared::collect(const Snapshot& now, const Snapshot* previous, double ble
   request.surfaces = colouringOf(look.colour).surfaces;
   request.steam = sceneColour(look.dark, "steam");
   if (look.outline) request.outlined = look.outline->body;
-  request.dropBuried = !buried;
   collectInstances(request, instances);
 }
 

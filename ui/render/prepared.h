@@ -24,13 +24,11 @@ struct Prepared {
   bool data = false;                          ///< colours show data
   bool ready = false;
 
-  /// `buried`: keep what no view from outside can see.
-  void fill(const Snapshot& now, const Snapshot* previous, double blend, const RenderScene& scene, const Look& how,
-            bool buried);
+  void fill(const Snapshot& now, const Snapshot* previous, double blend, const RenderScene& scene, const Look& how);
 
  private:
   void furnish(const Environment& environment);
-  void collect(const Snapshot& now, const Snapshot* previous, double blend, bool buried);
+  void collect(const Snapshot& now, const Snapshot* previous, double blend);
   void placeContactMap();
   void fitShadow();
 

@@ -54,7 +54,7 @@ void Renderer::checkSize(const PictureSize& size) const {
 
 void Renderer::prepare(const Snapshot& now, const Snapshot* previous, double blend, const RenderScene& scene,
                        const Look& look) {
-  m->prepared.fill(now, previous, blend, scene, look, !m->passes->quality().cull);
+  m->prepared.fill(now, previous, blend, scene, look);
   const render::GlState state;
   m->passes->prepare(m->prepared);
 }
@@ -64,11 +64,11 @@ void Renderer::draw(const Eye& eye, const RenderTarget& target) {
   if (!m->prepared.ready) throw Error("there is no picture of what was never prepared");
   checkSize(target.size);
   render::ViewFrame& frame = m->frame;
-  frame.fill(m->prepared, eye, target, m->passes->quality().cull);
+  frame.fill(m->prepared, eye, target, m->passes->quality());
 
   const render::GlState state;
   const render::Instances& drawn = m->prepared.instances;
-  const std::array wanted{drawn.liquids > 0, drawn.vapours > 0, drawn.outlined > 0};
+  const std::array wanted{drawn.liquids() > 0, drawn.vapours > 0, drawn.outlined > 0};
   const render::Layers* known = m->pool.find(frame.width, frame.height);
   bool first = !known;
   for (size_t i = 0; i < wanted.size(); ++i) first = first || wanted[i] > known->drawn[i];

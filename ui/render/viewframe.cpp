@@ -2,6 +2,7 @@
 #include "ui/render/viewframe.h"
 
 #include "ui/render/colourmap.h"
+#include "ui/render/passes.h"
 #include "ui/render/prepared.h"
 #include "ui/render/projector.h"
 
@@ -62,18 +63,21 @@ void markEdges(TileSet& tiles, const Projector& projector, const std::vector<Mes
 
 int innerScale(const PictureSize& size) { return size.still ? 2 : 1; }
 
-void ViewFrame::fill(const Prepared& prepared, const Eye& eye, const RenderTarget& target, bool cull) {
+void ViewFrame::fill(const Prepared& prepared, const Eye& eye, const RenderTarget& target, const Quality& quality) {
   const int scale = innerScale(target.size);
   place = {target.framebuffer, target.x, target.y};
   width = target.size.width * scale;
   height = target.size.height * scale;
   still = target.size.still;
-  culled = cull;
+  culled = quality.cull;
   const BodyOutline line = prepared.look.outline.value_or(BodyOutline());
   lineWidth = line.lineWidth * static_cast<float>(scale);
   haloWidth = line.haloWidth * static_cast<float>(scale);
   lidInFront = placeOf(eye).y() > static_cast<double>(prepared.furniture.lidHeight);
   vapourBox = pixelsOf(prepared.instances.vapourExtent, eye, width, height);
+  amongSpheres = prepared.instances.sphereExtent.holds(placeOf(eye));
+  amongLiquids = prepared.instances.liquidExtent.holds(placeOf(eye));
+  chooseThickness(prepared, eye, quality.fluidScale);
   fillUniforms(prepared, eye);
   findTiles(prepared, eye);
 }
@@ -101,17 +105,33 @@ void ViewFrame::fillUniforms(const Prepared& prepared, const Eye& eye) {
   u.glowTint = {linear(glow[0]) * 1.25f, linear(glow[1]) * 1.25f, linear(glow[2]) * 1.25f, 0};
 }
 
+/// How thick liquid is varies no faster than its particles are wide, and adding them up costs by the pixel: from near
+/// or in a large picture the same number of pixels to a particle is enough.
+void ViewFrame::chooseThickness(const Prepared& prepared, const Eye& eye, int finest) {
+  constexpr double kPixels = 2.25;  // in half a particle's width
+  constexpr int kCoarsest = 16;
+  thicknessScale = finest;
+  const Extent& extent = prepared.instances.liquidExtent;
+  if (extent.empty()) return;
+  const auto corners = extent.corners();
+  const Vector3 middle = (corners.front() + corners.back()) / 2;
+  const double distance = std::max((middle - placeOf(eye)).norm(), 0.25 * (corners.back() - corners.front()).norm());
+  const double radius =
+      static_cast<double>(kThicknessGrowth * prepared.instances.radius) * eye.projection(1, 1) * height / 2 / distance;
+  thicknessScale = std::clamp(static_cast<int>(radius / kPixels), finest, kCoarsest);
+}
+
 /// What shows, which parts of the picture have liquid, and which have edges to smooth or crevices to darken.
 void ViewFrame::findTiles(const Prepared& prepared, const Eye& eye) {
   for (TileSet* tiles : {&liquid, &detail, &outline}) tiles->reset(width, height);
   if (culled) {
     const Instances& instances = prepared.instances;
     const Projector projector(eye, width, height);
-    const std::span<const Instance> all(instances.particles);
-    sortVisible(projector, all.first(instances.spheres), visible);
-    markSpheres(liquid, projector, all.subspan(instances.spheres, instances.liquids), 1.4f);
+    const auto part = [&](Range range) { return std::span(instances.particles).subspan(range.first, range.count); };
+    sortVisible(projector, part(instances.sphereRange(amongSpheres)), visible);
+    markSpheres(liquid, projector, part(instances.liquidRange(amongLiquids)), 1.4f);
     markSpheres(detail, projector, visible, 2.5f);
-    markSpheres(outline, projector, all.last(instances.outlined), 1.2f, 3 + lineWidth + haloWidth);
+    markSpheres(outline, projector, part(instances.outlineRange()), 1.2f, 3 + lineWidth + haloWidth);
     markEdges(detail, projector, prepared.furniture.opaque);
     markEdges(detail, projector, prepared.furniture.clear);
   } else {

@@ -11,15 +11,19 @@
 namespace ps::render {
 
 struct Prepared;
+struct Quality;
 
 /// What one picture of a Prepared needs besides it: where it is seen from, how large it becomes, and what of it shows.
 struct ViewFrame {
   FrameUniforms uniforms;
   PicturePlace place;
-  int width = 0, height = 0;                  ///< of the inner targets, pixels
-  bool still = false;                         ///< inner targets have two pixels for one of the picture, along each side
-  bool culled = false;                        ///< `visible` has the spheres that show; else all do
-  bool lidInFront = true;                     ///< the eye is above the lid
+  int width = 0, height = 0;  ///< of the inner targets, pixels
+  bool still = false;         ///< inner targets have two pixels for one of the picture, along each side
+  bool culled = false;        ///< `visible` has the spheres that show; else all do
+  bool lidInFront = true;     ///< the eye is above the lid
+  bool amongSpheres = false;  ///< the eye is among them, and sees what is buried
+  bool amongLiquids = false;
+  int thicknessScale = 2;                     ///< inner pixels along a side for one of the liquid's thickness
   float lineWidth = 0, haloWidth = 0;         ///< of the outline, inner pixels
   std::vector<Instance> visible;              ///< nearest first
   TileSet liquid, detail, outline;            ///< what the next three are made of
@@ -28,12 +32,13 @@ struct ViewFrame {
   std::vector<TileSet::Corner> outlineTiles;  ///< where the outline may be
   std::array<int, 4> vapourBox{};             ///< x, y, width, height of the pixels that vapour may touch
 
-  /// `cull`: find out what is hidden, and which parts of the picture need which passes. A graphics card draws all of it
-  /// faster than a processor finds out.
-  void fill(const Prepared& prepared, const Eye& eye, const RenderTarget& target, bool cull);
+  /// With Quality::cull finds out what is hidden, and which parts of the picture need which passes. A graphics card
+  /// draws all of it faster than a processor finds out.
+  void fill(const Prepared& prepared, const Eye& eye, const RenderTarget& target, const Quality& quality);
 
  private:
   void fillUniforms(const Prepared& prepared, const Eye& eye);
+  void chooseThickness(const Prepared& prepared, const Eye& eye, int finest);
   void findTiles(const Prepared& prepared, const Eye& eye);
 };
 

@@ -117,6 +117,7 @@ void Viewport::initializeGL() {
   } else {
     try {
       m_renderer = std::make_unique<Renderer>();
+      m_shown.reset();
       m_problem.clear();
     } catch (const std::exception& error) {
       m_problem = QStringLiteral("The scene cannot be drawn: %1").arg(QString::fromUtf8(error.what()));
@@ -193,7 +194,10 @@ void Viewport::paintGL() {
   if (m_renderer) {
     share = blend();
     try {
-      m_renderer->prepare(m_now ? *m_now : kEmpty, share < 1 ? m_previous.get() : nullptr, share, m_scene, look());
+      const Shown wanted{m_now, share < 1 ? m_previous : nullptr, share, look()};
+      if (m_shown != wanted)
+        m_renderer->prepare(m_now ? *m_now : kEmpty, wanted.previous.get(), share, m_scene, wanted.look);
+      m_shown = wanted;
       const PictureSize pixels{std::max(1, static_cast<int>(std::lround(width() * devicePixelRatioF()))),
                                std::max(1, static_cast<int>(std::lround(height() * devicePixelRatioF())))};
       m_renderer->draw(eyeOf(m_navigator.camera(), pixels.width, pixels.height),
@@ -295,6 +299,7 @@ void Viewport::projectOpened() {
 
 void Viewport::bodiesChanged() {
   m_scene.environment = m_document.project().environment;
+  m_shown.reset();
   m_hidden.clear();
   for (const Body& body : m_document.project().bodies) {
     if (!body.visible) m_hidden.insert(body.id);

@@ -112,6 +112,14 @@ class Viewport : public QOpenGLWidget {
   QString m_problem, m_graphics;
   SnapshotPtr m_now, m_previous;
   RenderScene m_scene;
+  /// What the renderer has prepared: while only the camera moves, it stays.
+  struct Shown {
+    SnapshotPtr now, previous;
+    double share = 1;
+    Look look;
+    bool operator==(const Shown&) const = default;
+  };
+  std::optional<Shown> m_shown;
   /// The project that was opened has no camera of its own, and snapshots of this revision are of the one before.
   std::optional<uint64_t> m_unframed;
   std::set<std::string> m_hidden;
