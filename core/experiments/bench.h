@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "core/scene/project.h"
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace ps {
+
+class PluginRegistry;
+
+/// Water at rest in a tank, twice as wide as high: the density solver's daily work.
+Project tank(int particles);
+/// Changes the spacing so that box bodies, which hold `present` particles, hold about `particles`.
+void scaleTo(Project& project, long particles, size_t present);
+
+struct BenchScene {
+  nlohmann::json result;  ///< a row of bench's report
+  double densityNanosecondsPerPair = 0;
+};
+/// Steps a scene as simulate does, `frames` times after a warm-up. Throws Error when the run sets a flag, InputError
+/// when there is nothing to measure.
+BenchScene benchScene(const std::string& name, const Project& project, PluginRegistry& plugins, long frames);
+/// A slider dragged over the tank, beside the same tank left alone: a row of bench's report.
+nlohmann::json benchDrag(int particles, PluginRegistry& plugins, long frames);
+
+nlohmann::json benchMachine();
+/// What the machine can do, so that figures of two machines may be compared.
+nlohmann::json benchCalibration(PluginRegistry& plugins);
+
+}  // namespace ps
