@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a picture is made of, without OpenGL: camera, colours, instances, furniture.
+#include "core/sketch/drawingplane.h"
 #include "tests/ui/renderscenes.h"
 #include "ui/render/framing.h"
 #include "ui/render/furniture.h"
@@ -135,7 +136,7 @@ void TestRenderParts::orbitPanAndDollyKeepTheirPromise() {
 
   camera = {};
   const Ray ray = rayThrough(camera, kWidth, kHeight, 40, 150);
-  const Vector3 under = *meetPlane(ray, camera.target, frameOf(camera).forward);
+  const Vector3 under = *meet(ray, {camera.target, frameOf(camera).forward});
   dollyTo(camera, kWidth, kHeight, 40, 150, 0.4);
   const Vector3 pixel = *project(camera, kWidth, kHeight, under);
   QVERIFY(std::abs(pixel[0] - 40) < 1e-9 && std::abs(pixel[1] - 150) < 1e-9);

@@ -140,12 +140,4 @@ std::optional<size_t> pickParticle(const Snapshot& snapshot, const Camera& camer
   return pickParticle(snapshot, rayThrough(camera, width, height, x, y));
 }
 
-std::optional<Vector3> meetPlane(const Ray& ray, const Vector3& point, const Vector3& normal) {
-  const double slope = ray.direction.dot(normal);
-  if (std::abs(slope) < 1e-12) return std::nullopt;
-  const double t = (point - ray.origin).dot(normal) / slope;
-  if (t < 0) return std::nullopt;
-  return ray.origin + t * ray.direction;
-}
-
 }  // namespace ps

@@ -58,7 +58,5 @@ std::optional<size_t> pickParticle(const Snapshot& snapshot, const Ray& ray);
 /// The same for the ray through a pixel.
 std::optional<size_t> pickParticle(const Snapshot& snapshot, const Camera& camera, int width, int height, double x,
                                    double y);
-/// Where a ray meets a plane, or nothing when it is parallel or behind the origin.
-std::optional<Vector3> meetPlane(const Ray& ray, const Vector3& point, const Vector3& normal);
 
 }  // namespace ps

@@ -1,28 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "ui/tools/surface.h"
+#include "ui/tools/placetool.h"
 
 namespace ps {
 
 /// Puts a sink that stands on the surface; a drag makes it wider.
-class PlaceDrain final : public Tool {
+class PlaceDrain final : public PlaceTool<Sink> {
  public:
-  using Tool::Tool;
-  void hover(const Pointer& pointer) override;
-  bool press(const Pointer& pointer) override;
-  void drag(const Pointer& pointer) override;
-  void release(const Pointer& pointer) override;
-  bool cancel() override;
-  void leave() override { cancel(); }
+  using PlaceTool::PlaceTool;
   ToolPicture picture() const override;
   QString words() const override { return QStringLiteral("Place a drain"); }
   std::vector<Gesture> gestures() const override;
 
  private:
-  void update(const Pointer& pointer);
-  std::optional<Pointer> m_pressed;
-  std::optional<Surface> m_surface;  ///< under the pointer, or where the drag began
-  std::optional<Sink> m_drain;       ///< as it would be now
+  Sink at(const Surface& surface, const Pointer* pressed, const Pointer& pointer) const override;
+  void put(Sink drain) override;
 };
 
 }  // namespace ps

@@ -1,28 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "ui/tools/surface.h"
+#include "ui/tools/placetool.h"
 
 namespace ps {
 
 /// Puts an emitter: a click pours away from the surface, a drag up pours down from above it, and so does the air.
-class PlaceTap final : public Tool {
+class PlaceTap final : public PlaceTool<Emitter> {
  public:
-  using Tool::Tool;
-  void hover(const Pointer& pointer) override;
-  bool press(const Pointer& pointer) override;
-  void drag(const Pointer& pointer) override;
-  void release(const Pointer& pointer) override;
-  bool cancel() override;
-  void leave() override { cancel(); }
+  using PlaceTool::PlaceTool;
   ToolPicture picture() const override;
   QString words() const override { return QStringLiteral("Place a tap"); }
   std::vector<Gesture> gestures() const override;
 
  private:
-  void update(const Pointer& pointer);
-  std::optional<Pointer> m_pressed;
-  std::optional<Surface> m_surface;  ///< under the pointer, or where the drag began
-  std::optional<Emitter> m_tap;      ///< as it would be now
+  Emitter at(const Surface& surface, const Pointer* pressed, const Pointer& pointer) const override;
+  void put(Emitter tap) override;
 };
 
 }  // namespace ps

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/tools/surface.h"
 
+#include "core/sketch/drawingplane.h"
 #include "ui/render/camera.h"
 
 #include <algorithm>
@@ -55,12 +56,12 @@ std::optional<Surface> surfaceUnder(const Pointer& pointer, const Environment& e
       return Surface{point, normalAt(*pointer.scene, point)};
     }
   }
-  const auto floor = meetPlane(ray, {0, floorHeight(environment), 0}, {0, 1, 0});
+  const auto floor = meet(ray, {{0, floorHeight(environment), 0}, {0, 1, 0}});
   const auto within = [&](int axis) {
     return (*floor)[axis] >= environment.boundsMinimum[axis] && (*floor)[axis] <= environment.boundsMaximum[axis];
   };
   if (floor && within(0) && within(2)) return Surface{*floor, Vector3(0, 1, 0)};
-  const auto air = meetPlane(ray, pointer.target, pointer.forward);
+  const auto air = meet(ray, {pointer.target, pointer.forward});
   return air ? std::optional(Surface{*air, Vector3::Zero()}) : std::nullopt;
 }
 
