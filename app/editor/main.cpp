@@ -5,11 +5,11 @@
 #include "app/editor/quitwatchdog.h"
 #include "core/plugin_host/registry.h"
 #include "ui/theme/theme.h"
+#include "ui/viewport/viewport.h"
 #include "ui/window/mainwindow.h"
 
 #include <QtCore/QDir>
 #include <QtCore/QFileInfo>
-#include <QtGui/QSurfaceFormat>
 #include <QtWidgets/QApplication>
 
 #include <clocale>
@@ -18,15 +18,6 @@
 namespace {
 
 constexpr const char* kSample = "ice-on-hot-plate.json";
-
-void askForOpenGl() {
-  QSurfaceFormat format;
-  format.setVersion(4, 3);
-  format.setProfile(QSurfaceFormat::CoreProfile);
-  format.setDepthBufferSize(24);
-  format.setSwapInterval(1);
-  QSurfaceFormat::setDefaultFormat(format);
-}
 
 /// Beside the sources when run from the build tree, else in the installation.
 QString samplePath() {
@@ -61,7 +52,7 @@ int main(int argc, char** argv) {
   if (early.problem.isEmpty() && early.version) return std::puts("phasesketch " PS_VERSION) < 0;
   if (early.problem.isEmpty() && early.listPlugins) return listPlugins();
 
-  askForOpenGl();
+  ps::requestViewFormat();
   QGuiApplication::setHighDpiScaleFactorRoundingPolicy(Qt::HighDpiScaleFactorRoundingPolicy::PassThrough);
   QApplication application(argc, argv);
   std::setlocale(LC_NUMERIC, "C");

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "tests/shared/enginehands.h"
+#include "ui/document/document.h"
 #include "ui/theme/theme.h"
+#include "ui/tools/toolbox.h"
+#include "ui/viewport/viewport.h"
 #include "ui/window/mainwindow.h"
 
 #include <QtTest/QSignalSpy>
@@ -50,5 +53,39 @@ inline std::set<uint32_t> idsNow(Session& session) {
     return std::set<uint32_t>(store.id(), store.id() + store.size());
   });
 }
+
+/// What tests of hands in one window share.
+class SampleWindowTest : public QObject {
+ protected:
+  void open() {
+    m_window = sampleWindow({1280, 800});
+    QVERIFY(m_window);
+  }
+  /// The scene as it was opened, paused.
+  void backToTheStart() {
+    session().pause();
+    while (document().undoStack().canUndo()) document().undoStack().undo();
+    toTheStart();
+    m_window->tools().activate("select");
+    view()->show(StandardView::Scene);
+  }
+  /// The view shows the scene after a reset: the brush stands on what it shows.
+  void toTheStart() {
+    const uint64_t revision = session().snapshot()->revision;
+    session().reset();
+    QTRY_VERIFY_WITH_TIMEOUT(session().snapshot()->revision != revision && view()->snapshot() == session().snapshot(),
+                             kLong);
+  }
+  void stroke(const QPoint& from, const QPoint& way, bool release) {
+    QTest::mousePress(view(), Qt::LeftButton, {}, from);
+    for (int k = 1; k <= 6; ++k) QTest::mouseMove(view(), from + way * k / 6);
+    if (release) QTest::mouseRelease(view(), Qt::LeftButton, {}, from + way);
+  }
+  Session& session() { return m_window->session(); }
+  Document& document() { return session().document(); }
+  Viewport* view() { return m_window->viewport(); }
+
+  std::unique_ptr<MainWindow> m_window;
+};
 
 }  // namespace ps

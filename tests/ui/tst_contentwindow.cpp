@@ -13,7 +13,6 @@
 
 #include <QtGui/QAction>
 #include <QtGui/QContextMenuEvent>
-#include <QtGui/QSurfaceFormat>
 #include <QtWidgets/QLineEdit>
 #include <QtWidgets/QMenu>
 #include <QtWidgets/QPushButton>
@@ -23,24 +22,11 @@
 
 using namespace ps;
 
-namespace {}  // namespace
-
-class TestContentWindow : public QObject {
+class TestContentWindow : public SampleWindowTest {
   Q_OBJECT
  private Q_SLOTS:
-  void initTestCase() {
-    m_window = sampleWindow({1280, 800});
-    QVERIFY(m_window);
-  }
-
-  void init() {
-    session().pause();
-    while (document().undoStack().canUndo()) document().undoStack().undo();
-    toTheStart();
-    m_window->tools().activate("select");
-    view()->show(StandardView::Scene);
-  }
-
+  void initTestCase() { open(); }
+  void init() { backToTheStart(); }
   void cleanupTestCase() { m_window.reset(); }
 
   void anInstalledMaterialIsAddedAndDrawn() {
@@ -238,33 +224,10 @@ class TestContentWindow : public QObject {
     m_window->inspector().rebuild();  // new rows stand still too
     QVERIFY(idle("temperature") && idle("film_coefficient"));
   }
-
- private:
-  Session& session() { return m_window->session(); }
-  Document& document() { return session().document(); }
-  Viewport* view() { return m_window->viewport(); }
-  /// The view shows the scene after a reset: the brush stands on what it shows.
-  void toTheStart() {
-    const uint64_t revision = session().snapshot()->revision;
-    session().reset();
-    QTRY_VERIFY_WITH_TIMEOUT(session().snapshot()->revision != revision && view()->snapshot() == session().snapshot(),
-                             kLong);
-  }
-  void stroke(const QPoint& from, const QPoint& way, bool release) {
-    QTest::mousePress(view(), Qt::LeftButton, {}, from);
-    for (int k = 1; k <= 6; ++k) QTest::mouseMove(view(), from + way * k / 6);
-    if (release) QTest::mouseRelease(view(), Qt::LeftButton, {}, from + way);
-  }
-
-  std::unique_ptr<MainWindow> m_window;
 };
 
 int main(int argc, char** argv) {
-  QSurfaceFormat format;
-  format.setVersion(4, 3);
-  format.setProfile(QSurfaceFormat::CoreProfile);
-  format.setDepthBufferSize(24);
-  QSurfaceFormat::setDefaultFormat(format);
+  requestViewFormat();
   QApplication application(argc, argv);
   TestContentWindow test;
   return QTest::qExec(&test, argc, argv);

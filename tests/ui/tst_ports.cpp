@@ -14,7 +14,6 @@
 #include <QtGui/QAction>
 #include <QtGui/QContextMenuEvent>
 #include <QtGui/QMouseEvent>
-#include <QtGui/QSurfaceFormat>
 #include <QtWidgets/QLineEdit>
 #include <QtWidgets/QMenu>
 #include <QtWidgets/QTreeView>
@@ -265,11 +264,7 @@ class TestPorts : public QObject {
 };
 
 int main(int argc, char** argv) {
-  QSurfaceFormat format;
-  format.setVersion(4, 3);
-  format.setProfile(QSurfaceFormat::CoreProfile);
-  format.setDepthBufferSize(24);
-  QSurfaceFormat::setDefaultFormat(format);
+  requestViewFormat();
   QApplication application(argc, argv);
   TestPorts test;
   return QTest::qExec(&test, argc, argv);

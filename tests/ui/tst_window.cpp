@@ -24,7 +24,6 @@
 
 #include <QtCore/QTemporaryDir>
 #include <QtGui/QAction>
-#include <QtGui/QSurfaceFormat>
 #include <QtWidgets/QLabel>
 #include <QtWidgets/QLineEdit>
 
@@ -548,11 +547,7 @@ class TestWindow : public QObject {
 };
 
 int main(int argc, char** argv) {
-  QSurfaceFormat format;
-  format.setVersion(4, 3);
-  format.setProfile(QSurfaceFormat::CoreProfile);
-  format.setDepthBufferSize(24);
-  QSurfaceFormat::setDefaultFormat(format);
+  requestViewFormat();
   QApplication application(argc, argv);
   std::setlocale(LC_NUMERIC, "C");
   TestWindow test;

@@ -21,6 +21,7 @@
 #include <QtGui/QOpenGLContext>
 #include <QtGui/QPainter>
 #include <QtGui/QResizeEvent>
+#include <QtGui/QSurfaceFormat>
 #include <QtWidgets/QToolTip>
 
 #include <algorithm>
@@ -34,6 +35,15 @@ constexpr int kMajor = 4, kMinor = 3;
 constexpr double kIceMelts = 273.15;  // K: the pivot of the map where nothing in the scene melts
 
 }  // namespace
+
+void requestViewFormat() {
+  QSurfaceFormat format;
+  format.setVersion(4, 3);
+  format.setProfile(QSurfaceFormat::CoreProfile);
+  format.setDepthBufferSize(24);
+  format.setSwapInterval(1);
+  QSurfaceFormat::setDefaultFormat(format);
+}
 
 Viewport::Viewport(Session& session, Selection& selection, Toolbox& tools, QWidget* parent)
     : QOpenGLWidget(parent),

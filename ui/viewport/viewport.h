@@ -23,6 +23,9 @@ class Selection;
 class Session;
 class Toolbox;
 
+/// Asks for the OpenGL that views need; before the application is made.
+void requestViewFormat();
+
 /// The scene, live. Draws the newest snapshot, repaints when there is a new one or somebody interacts, and no more
 /// often than leaves the solver time to work. It feeds the tool in hand and draws what that says; it follows session,
 /// document, selection and toolbox by itself. Needs OpenGL 4.3; without it a sentence stands in its place.
