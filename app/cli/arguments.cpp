@@ -2,7 +2,7 @@
 #include "app/cli/arguments.h"
 
 #include "core/base/error.h"
-#include "core/scene/parameterset.h"
+#include "core/parameters/parameterset.h"
 
 #include <algorithm>
 #include <charconv>

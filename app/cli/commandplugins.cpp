@@ -6,7 +6,7 @@
 #include "core/base/jsontext.h"
 #include "core/matter/material.h"
 #include "core/plugin_host/registry.h"
-#include "core/scene/parameterset.h"
+#include "core/parameters/parameterset.h"
 
 #include <algorithm>
 #include <cstdio>

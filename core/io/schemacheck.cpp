@@ -3,7 +3,7 @@
 #include "core/base/jsontext.h"
 #include "core/base/nearest.h"
 #include "core/io/schema.h"
-#include "core/scene/parameterset.h"
+#include "core/parameters/parameterset.h"
 
 #include <cmath>
 #include <limits>

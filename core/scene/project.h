@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "core/math/vector.h"
+#include "core/parameters/parameterset.h"
 #include "core/scene/address.h"
-#include "core/scene/parameterset.h"
 
 #include <nlohmann/json_fwd.hpp>
 

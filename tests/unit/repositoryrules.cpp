@@ -12,9 +12,9 @@ namespace {
 using View = std::string_view;
 
 // Each may include itself and what stands before it. A new room is entered here, where its arrows allow.
-constexpr std::array<View, 12> kCoreRooms = {"base",     "math",       "particles", "matter",
-                                             "solver",   "scene",      "sketch",    "plugin_host",
-                                             "geometry", "simulation", "io",        "experiments"};
+constexpr std::array<View, 13> kCoreRooms = {"base",       "math",  "parameters", "particles",   "matter",
+                                             "solver",     "scene", "sketch",     "plugin_host", "geometry",
+                                             "simulation", "io",    "experiments"};
 constexpr std::array<View, 13> kUiRooms = {"theme",  "render", "document", "session",  "tools", "rows",  "panels",
                                            "curves", "graphs", "timeline", "viewport", "vr",    "window"};
 // Behind the face of the solver: private headers, likewise in order.

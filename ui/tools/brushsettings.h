@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "core/scene/parameterset.h"
+#include "core/parameters/parameterset.h"
 
 #include <QtCore/QString>
 

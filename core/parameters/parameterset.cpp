@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "core/scene/parameterset.h"
+#include "core/parameters/parameterset.h"
 
 #include <algorithm>
 #include <charconv>
