@@ -23,13 +23,14 @@ namespace {
 constexpr qint64 kReadInterval = 200;  // ms between two readings: counting goes through all particles
 
 /// "20.5 °C", "1.540 g", "76.40 MJ", "24 594".
-QString probeText(double value, const std::string& unit) {
+QString probeText(double value, const std::string& quantity) {
   if (!std::isfinite(value)) return QStringLiteral("—");
+  const std::string unit = probeUnit(quantity);
   if (unit == "K") return formatFixed(value - 273.15, 1) + QStringLiteral(" °C");
   if (unit == "kg") return formatPrefixed(value * 1e3, QStringLiteral("g"));
   if (unit == "J") return formatPrefixed(value, QStringLiteral("J"));
-  // Particles are counted; shares and ratios are not whole.
-  if (unit == "1") return formatFixed(value, value == std::round(value) ? 0 : 3);
+  // Particles are counted; shares keep their digits when they happen to be whole.
+  if (unit == "1") return formatFixed(value, !probeIsMean(quantity) && value == std::round(value) ? 0 : 3);
   return formatFixed(value, 3) + QLatin1Char(' ') + QString::fromStdString(unit);
 }
 
@@ -197,7 +198,7 @@ void Outliner::refreshCounts() {
   for (size_t i = 0; i < project.probes.size() && i < m_snapshot->stats.probes.size(); ++i) {
     QStandardItem* item = find(OutlineKind::Probe, project.probes[i].id);
     if (!item) continue;
-    item->setData(probeText(m_snapshot->stats.probes[i], probeUnit(project.probes[i].quantity)), outline::kDetail);
+    item->setData(probeText(m_snapshot->stats.probes[i], project.probes[i].quantity), outline::kDetail);
   }
 }
 

@@ -7,6 +7,17 @@
 #include <cmath>
 
 namespace ps {
+namespace {
+
+constexpr int kRunning = 3;  // significant digits of what may change with every frame
+
+/// All digits stay, zeros too, so that it keeps its width.
+QString runningText(double shown, const QString& unit) {
+  const QString number = formatNumber(shown, kRunning);
+  return unit.isEmpty() ? number : number + QLatin1Char(' ') + unit;
+}
+
+}  // namespace
 
 QString sentence(const QString& text) { return text.endsWith(QLatin1Char('.')) ? text : text + QLatin1Char('.'); }
 
@@ -84,7 +95,8 @@ std::optional<Address> limitAddress(const Limit& limit, const std::vector<std::s
 
 QString limitNote(const Limit& limit, const api::ParameterDeclaration* declaration) {
   if (limit.what == kBalanceLimit)
-    return QStringLiteral("heat balance open by %1").arg(formatQuantity(limit.delivered, QStringLiteral("J")));
+    return QStringLiteral("heat balance open by %1")
+        .arg(formatPrefixed(limit.delivered, QStringLiteral("J"), kRunning));
   if (limit.what == kSqueezeLimit)
     return QStringLiteral("liquid is %1 % too dense, solid matter on its way or squeezed may leave it no room")
         .arg(formatFixed(100 * limit.delivered, 0));
@@ -94,13 +106,13 @@ QString limitNote(const Limit& limit, const api::ParameterDeclaration* declarati
 QString limitText(const Limit& limit, const api::ParameterDeclaration* declaration) {
   if (declaration) {
     return QStringLiteral("%1: the solver reaches %2 of %3 at this step")
-        .arg(QString::fromUtf8(declaration->label), formatValue(*declaration, limit.delivered),
+        .arg(QString::fromUtf8(declaration->label),
+             runningText(toDisplay(*declaration, limit.delivered), displayUnit(*declaration)),
              formatValue(*declaration, limit.asked));
   }
   const QString unit = QString::fromStdString(limit.unit);
   return QStringLiteral("%1: the solver reaches %2 of %3 at this step")
-      .arg(QString::fromStdString(limit.what), formatQuantity(limit.delivered, unit),
-           formatQuantity(limit.asked, unit));
+      .arg(QString::fromStdString(limit.what), runningText(limit.delivered, unit), formatQuantity(limit.asked, unit));
 }
 
 }  // namespace ps
