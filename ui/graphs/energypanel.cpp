@@ -22,7 +22,7 @@ QString joules(double value) { return formatPrefixed(value, QStringLiteral("J"))
 }  // namespace
 
 EnergyPanel::EnergyPanel(Session& session, QWidget* parent)
-    : QWidget(parent), m_history(session), m_graph(new GraphView), m_ledger(new QLabel) {
+    : QWidget(parent), m_session(session), m_history(session), m_graph(new GraphView), m_ledger(new QLabel) {
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(6, 4, 12, 4);
   row->setSpacing(12);
@@ -54,7 +54,9 @@ void EnergyPanel::readHistory() {
 void EnergyPanel::setDuration(double seconds) { m_graph->setDuration(seconds); }
 
 void EnergyPanel::append(const FrameStats& stats) {
-  if (!m_shown && !hasMatter(stats)) return;  // a flat line of nothing
+  const SnapshotPtr snapshot = m_session.snapshot();
+  const bool held = snapshot && !snapshot->id.empty();  // it has heat too, though no phase counts it
+  if (!m_shown && !held && !hasMatter(stats)) return;   // a flat line of nothing
   m_shown = true;
   // Matter drawn before the first step belongs to the start.
   if (!m_started) m_start = stats.thermalEnergy - stats.heat.net();

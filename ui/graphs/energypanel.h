@@ -24,6 +24,7 @@ class EnergyPanel : public QWidget {
 
  private:
   void readHistory();
+  Session& m_session;
   HistoryReader m_history;
   GraphView* m_graph;
   QLabel* m_ledger;
