@@ -5,8 +5,8 @@
 #include "core/base/error.h"
 #include "core/base/jsontext.h"
 #include "core/matter/material.h"
+#include "core/parameters/wording.h"
 #include "core/plugin_host/registry.h"
-#include "core/parameters/parameterset.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -41,6 +41,9 @@ json jsonOf(const api::ParameterDeclaration& d) {
     out["range"] = {jsonNumber(d.minimum), jsonNumber(d.maximum)};
     out["hard_range"] = {jsonNumber(d.hardMinimum), jsonNumber(d.hardMaximum)};
   }
+  if (d.enabledWhen) out["enabled_when"] = d.enabledWhen;
+  if (d.relations) out["relations"] = d.relations;
+  out["acts_at"] = actsAtName(d.actsAt);
   return out;
 }
 

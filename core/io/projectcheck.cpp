@@ -4,6 +4,7 @@
 #include "core/base/nearest.h"
 #include "core/io/projectfields.h"
 #include "core/matter/material.h"
+#include "core/parameters/wording.h"
 #include "core/plugin_host/registry.h"
 #include "core/solver/settings.h"
 
@@ -69,6 +70,11 @@ class ProjectChecker : public FieldVisitor {
       const std::string problem = declaration ? problemOf(value, *declaration) : "";
       if (!problem.empty()) fail(pointer + "/" + key, problem);
     }
+    if (list.first == propertyCatalogue().first) return;  // of the whole material, with what is installed: object()
+    checkRules(set, list, pointer, [&](std::string_view key) -> std::optional<Value> {
+      const api::ParameterDeclaration* declaration = findDeclaration(list, key);
+      return declaration ? std::optional(valueOf(set, *declaration)) : std::nullopt;
+    });
   }
 
   void pluginParameters(const std::string& id, const ParameterSet& set, const std::string& pointer) override {
@@ -83,6 +89,13 @@ class ProjectChecker : public FieldVisitor {
       const std::string key = problem.substr(0, problem.find_first_of(" :"));
       fail(pointer + "/properties" + (propertyIndex(key) >= 0 ? "/" + key : ""), problem);
     }
+    checkRules(source.properties, propertyCatalogue(), pointer + "/properties",
+               [&](std::string_view key) -> std::optional<Value> {
+                 const auto found = material.properties.find(std::string(key));
+                 if (found != material.properties.end()) return found->second;
+                 const api::ParameterDeclaration* declaration = findDeclaration(propertyCatalogue(), key);
+                 return declaration ? std::optional(valueOf({}, *declaration)) : std::nullopt;
+               });
   }
 
   void object(const VoxelShape& shape, const std::string& pointer) override {
@@ -192,6 +205,23 @@ class ProjectChecker : public FieldVisitor {
     }
   }
 
+  /// What declarations say of each other's values; `own` of those of the list.
+  void checkRules(const ParameterSet& set, api::ParameterList list, const std::string& pointer, const ValueOfKey& own) {
+    const ValueOfKey values = [&](std::string_view key) {
+      return key.find('/') == std::string_view::npos ? own(key) : sceneWideValue(m_project, key);
+    };
+    const DeclarationOfKey find = [&](std::string_view key) {
+      return key.find('/') == std::string_view::npos ? findDeclaration(list, key) : sceneWideDeclaration(key);
+    };
+    if (const auto breach = firstBreach(list, values, find, true)) fail(pointer + "/" + breach->key, breach->sentence);
+    if (const auto breach = firstBreach(list, values, find, false)) warn(pointer + "/" + breach->key, breach->sentence);
+    for (const auto& [key, value] : set.values) {
+      const api::ParameterDeclaration* declaration = findDeclaration(list, key);
+      if (declaration && !holds(parseCondition(declaration->enabledWhen), values))
+        warn(pointer + "/" + key, "does nothing as the scene is. " + actsWhenText(*declaration, find));
+    }
+  }
+
   void addParticles(const Body& body, const std::string& pointer) {
     const double spacing = numberOf(m_project.solver.parameters, solverParameters(), "particle_spacing");
     const double count = particleCount(body, spacing);
@@ -221,13 +251,8 @@ class ProjectChecker : public FieldVisitor {
 
   void checkMotion(const Body& body, const std::string& pointer) {
     if (!toggleOf(body.parameters, bodyParameters(), "fixed")) return;
-    const auto number = [&](const char* key) { return numberOf(body.parameters, bodyParameters(), key); };
     if (body.velocityWave) {
       warn(pointer + "/velocity_wave", "a fixed body keeps its shape, the wave is left out; use velocity and spin");
-    }
-    if (number("motion_stop") > 0 && number("motion_stop") <= number("motion_start")) {
-      warn(pointer + "/motion_stop",
-           "the body stops before it sets off and never moves; give a time after motion_start");
     }
   }
 

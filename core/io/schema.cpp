@@ -5,6 +5,7 @@
 #include "core/base/jsontext.h"
 #include "core/io/fieldkinds.h"
 #include "core/io/projectfields.h"
+#include "core/parameters/wording.h"
 
 namespace ps {
 namespace {
@@ -76,7 +77,7 @@ json definitionSchema(const char* name) { return {{"$ref", std::string("#/$defs/
 
 }  // namespace fields
 
-json parameterSchema(const api::ParameterDeclaration& d) {
+json parameterSchema(const api::ParameterDeclaration& d, api::ParameterList list) {
   json schema;
   switch (d.kind) {
     case api::ParameterKind::Toggle:
@@ -97,15 +98,23 @@ json parameterSchema(const api::ParameterDeclaration& d) {
       schema["default"] = jsonNumber(d.defaultValue);
   }
   schema["title"] = d.label;
-  if (*d.help) schema["description"] = d.help;
+  const auto find = [&](std::string_view key) {
+    return key.find('/') == std::string_view::npos ? findDeclaration(list, key) : sceneWideDeclaration(key);
+  };
+  std::string description = d.help;
+  for (const std::string& rule : ruleTexts(d, find)) description += (description.empty() ? "" : " ") + rule;
+  if (!description.empty()) schema["description"] = std::move(description);
   if (*d.example) schema["x-example"] = d.example;
+  if (d.enabledWhen) schema["x-enabledWhen"] = d.enabledWhen;
+  if (d.relations) schema["x-relations"] = d.relations;
+  schema["x-actsAt"] = actsAtName(d.actsAt);
   return schema;
 }
 
 void addParameterSchemas(json& properties, api::ParameterList list) {
   for (size_t i = 0; i < list.count; ++i) {
     if (properties.contains(list[i].key)) throw Error(std::string(list[i].key) + ": is a key of its owner already");
-    properties[list[i].key] = parameterSchema(list[i]);
+    properties[list[i].key] = parameterSchema(list[i], list);
   }
 }
 

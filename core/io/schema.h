@@ -20,8 +20,10 @@ inline constexpr int kProjectVersion = 1;
 /// many coefficients a law takes.
 const nlohmann::json& projectSchema();
 
-/// Schema of one declared parameter; "x-unit" carries its SI unit.
-nlohmann::json parameterSchema(const api::ParameterDeclaration& declaration);
+/// Schema of one declared parameter of a list: "x-unit" carries its SI unit, "x-enabledWhen", "x-relations" and
+/// "x-actsAt" what its declaration says of the others and of time, which stands in words at the end of the description
+/// too.
+nlohmann::json parameterSchema(const api::ParameterDeclaration& declaration, api::ParameterList list);
 /// Adds each as a key. Throws Error for one that stands there already.
 void addParameterSchemas(nlohmann::json& properties, api::ParameterList list);
 /// An object with these parameters; other keys are allowed.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/matter/material.h"
 
+#include "core/parameters/wording.h"
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -89,42 +91,29 @@ std::string rangesOf(const Material& material) {
   return {};
 }
 
-std::string meltingProblem(const Values& value) {
-  const double melting = value("melting_temperature"), solidus = value("solidus"), liquidus = value("liquidus");
-  if (melting <= 0 || solidus == liquidus) return {};
-  if (solidus > liquidus) return "solidus: melting must begin below " + celsius(liquidus) + ", where it ends";
-  if (melting < solidus || melting > liquidus) {
-    return "melting_temperature: must lie within the melting range of " + celsius(solidus) + " to " + celsius(liquidus);
-  }
-  return {};
+/// Of the relations that the catalogue's declarations state.
+std::string relationProblem(const Values& value) {
+  const api::ParameterList list = propertyCatalogue();
+  const auto number = [&](std::string_view key) -> std::optional<Value> {
+    const int index = propertyIndex(key);
+    if (index < 0) return std::nullopt;
+    return value(list[static_cast<size_t>(index)].key);
+  };
+  const auto find = [&](std::string_view key) { return findDeclaration(list, key); };
+  const std::optional<Breach> breach = firstBreach(list, number, find, true);
+  return breach ? breach->key + ": " + breach->sentence : std::string();
 }
 
-std::string boilingProblem(const Values& value) {
-  const double melting = value("melting_temperature"), boiling = value("boiling_temperature");
-  if (boiling <= 0) return {};
-  const double triple = value("triple_temperature"), triplePressure = value("triple_pressure");
-  const double critical = value("critical_temperature");
-  const bool sublimes = triple > 0 && triplePressure > 101325 && boiling < triple;
-  if (!sublimes && melting > 0 && boiling <= melting) {
-    return "boiling_temperature: must be above the melting point of " + celsius(melting) +
-           ", or a triple point above 1 atm must say that the solid turns to vapour";
-  }
-  if (critical > 0 && critical <= boiling) {
-    return "critical_temperature: must be above the boiling point of " + celsius(boiling);
-  }
-  if (triple > 0 && critical > 0 && critical <= triple) {
-    return "critical_temperature: must be above the triple point of " + celsius(triple);
-  }
-  const double latent = value("latent_heat_vaporization");
+/// No relation of two: the latent heat falls with temperature as the heat capacities differ, and must last.
+std::string latentProblem(const Material& material, const Values& value) {
+  const PhaseDiagram diagram = phaseDiagramOf(material);
+  if (diagram.boilingPoint0 <= 0) return {};
+  const double latent = diagram.latentHeatVaporization, melting = diagram.meltingPoint0;
   const double slope = value("heat_capacity_liquid") - value("heat_capacity_gas");
-  const double reference = sublimes ? triple : boiling;
+  const double reference = diagram.boilingReference(), critical = diagram.criticalTemperature;
   for (const double t : {melting > 0 ? melting : reference, critical > 0 ? critical : reference}) {
-    if (latent - slope * (t - reference) <= 0) {
+    if (latent - slope * (t - reference) <= 0)
       return "latent_heat_vaporization: too small for these heat capacities, it would vanish at " + celsius(t);
-    }
-  }
-  if (triple > 0 && triplePressure > 0 && !sublimes && value("latent_heat_sublimation") <= 0) {
-    return "latent_heat_sublimation: must be given together with a triple point";
   }
   return {};
 }
@@ -157,13 +146,8 @@ PhaseDiagram phaseDiagramOf(const Material& material) {
 std::string problemOf(const Material& material) {
   if (std::string problem = rangesOf(material); !problem.empty()) return problem;
   const Values value(material);
-  if (std::string problem = meltingProblem(value); !problem.empty()) return problem;
-  if (std::string problem = boilingProblem(value); !problem.empty()) return problem;
-  if (value("melt_break_fraction") + value("freeze_bond_fraction") <= 1) {
-    return "melt_break_fraction: its sum with freeze_bond_fraction must exceed 1, or bonds break and form in every "
-           "frame";
-  }
-  return {};
+  if (std::string problem = relationProblem(value); !problem.empty()) return problem;
+  return latentProblem(material, value);
 }
 
 }  // namespace ps

@@ -126,6 +126,14 @@ Response responseOf(const Value& value) {
   return toggle && *toggle ? 1.0 : 0.0;
 }
 
+std::optional<NoValue> noValueOf(const api::ParameterDeclaration& d) {
+  if (d.leastWord) return NoValue{d.hardMinimum, d.leastWord};
+  const std::string_view unit = d.unit ? d.unit : "";
+  if (unit == "K" && d.displayOffset != 0 && d.hardMinimum <= 0) return NoValue{0, "none"};
+  if (unit == "s" && d.hardMaximum >= 1e9) return NoValue{d.hardMaximum, "never"};
+  return std::nullopt;
+}
+
 std::string numberText(double value) {
   if (std::isnan(value)) return "NaN";
   char buffer[40];

@@ -5,6 +5,7 @@
 #include "core/math/response.h"
 
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -36,6 +37,12 @@ std::vector<double> numbersOf(const ParameterSet& set, api::ParameterList list);
 Response responseOf(const Value& value);
 /// Names of a Choice, in order.
 std::vector<std::string> choicesOf(const api::ParameterDeclaration& declaration);
+/// A value that stands for none, and the word for it.
+struct NoValue {
+  double stored;
+  const char* word;
+};
+std::optional<NoValue> noValueOf(const api::ParameterDeclaration& declaration);
 /// "" or "must be at least 1 kg/m³, not −5" for a number outside [minimum, maximum].
 std::string rangeProblem(double value, double minimum, double maximum, std::string_view unit);
 /// Shortest text that reads back as the same number, with a real minus sign: "−0.0375".

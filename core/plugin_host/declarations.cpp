@@ -2,6 +2,8 @@
 #include "core/plugin_host/declarations.h"
 
 #include "core/base/nearest.h"
+#include "core/parameters/condition.h"
+#include "core/scene/project.h"
 
 #include <QUtf8StringView>
 
@@ -77,7 +79,9 @@ std::string problemOfTexts(const api::ParameterDeclaration& p) {
                                                        {"help", p.help},
                                                        {"example", p.example},
                                                        {"source", p.source},
-                                                       {"leastWord", p.leastWord ? p.leastWord : ""}};
+                                                       {"leastWord", p.leastWord ? p.leastWord : ""},
+                                                       {"enabledWhen", p.enabledWhen ? p.enabledWhen : ""},
+                                                       {"relations", p.relations ? p.relations : ""}};
   for (const auto& [name, text] : texts)
     if (const std::string problem = problemOfText(text); !problem.empty())
       return std::string("its ") + name + " " + problem;
@@ -122,6 +126,16 @@ std::string problemOfKind(const api::ParameterDeclaration& p) {
   return "its kind is unknown to this program";
 }
 
+/// Of what it says of other parameters of the list, and of the scene's.
+std::string ruleProblem(const api::ParameterDeclaration& p, const std::vector<api::ParameterDeclaration>& all) {
+  if (p.actsAt != api::ActsAt::NextFrame && p.actsAt != api::ActsAt::NextReset)
+    return "its actsAt must be NextFrame or NextReset";
+  return problemOfRules(p, [&](std::string_view key) -> const api::ParameterDeclaration* {
+    if (key.find('/') != std::string_view::npos) return sceneWideDeclaration(key);
+    return findDeclaration(api::listOf(all.data(), all.size()), key);
+  });
+}
+
 std::string suggestionFor(std::string_view key) {
   const api::ParameterList catalogue = propertyCatalogue();
   std::vector<std::string> keys;
@@ -157,6 +171,9 @@ std::string readParameters(api::ParameterList list, std::vector<api::ParameterDe
     if (!*p.label) return where + "needs a label";
     if (const std::string problem = problemOfKind(p); !problem.empty()) return where + problem;
   }
+  for (const api::ParameterDeclaration& p : out)
+    if (const std::string problem = ruleProblem(p, out); !problem.empty())
+      return "parameter '" + std::string(p.key) + "': " + problem;
   return {};
 }
 

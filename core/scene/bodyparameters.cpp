@@ -8,48 +8,60 @@ namespace {
 using namespace declare;
 
 constexpr api::ParameterDeclaration kBody[] = {
-    number({"temperature", "Temperature at the start", "T₀", "K"}, {293.15, 173.15, 773.15, 1, 10000},
-           {"Start", "Temperature of the whole body when the scene begins. Acts at the next reset.",
-            "ice from a freezer −18 °C, room 20 °C, boiling water 100 °C", ""},
-           kCelsius),
-    choice(
+    atReset(number({"temperature", "Temperature at the start", "T₀", "K"}, {293.15, 173.15, 773.15, 1, 10000},
+                   {"Start", "Temperature of the whole body when the scene begins.",
+                    "ice from a freezer −18 °C, room 20 °C, boiling water 100 °C", ""},
+                   kCelsius)),
+    atReset(choice(
         {"phase", "Phase at the start", "", ""}, "automatic|solid|liquid|gas", 0,
         {"Start",
          "Phase when the scene begins; automatic takes the one that is stable at the temperature. Another one brings "
          "its own heat along and turns at once: water of −10 °C begins as slush, of 90 °C at half the pressure it "
          "boils.",
-         "at exactly 0 °C: solid for ice, liquid for water", ""}),
-    toggle(
+         "at exactly 0 °C: solid for ice, liquid for water", ""})),
+    atReset(toggle(
         {"fixed", "Held in place", "", ""}, false,
         {"Start", "Nothing moves it: it stands, or goes on and turns as its velocity and spin say. Heat still flows.",
-         "a pan, a mould, a rock in a stream, a paddle", ""}),
-    number({"jitter", "Disorder", "", ""}, {0, 0, 0.3, 0, 0.5},
-           {"Start",
-            "How far each particle stands off its place in the lattice at the start, along each axis, as a share of "
-            "the spacing.",
-            "0 for a crystal, 0.2 like a liquid that was shaken", ""}),
-    integer({"seed", "Seed of the disorder", "", ""}, {1, 1, 100, 0, 4294967295.0},
-            {"Start", "Another number places the particles otherwise; the same number always alike.",
-             "compare runs with 1, 2 and 3 to see what chance does", ""}),
-    number({"heating_power", "Heating power", "P", "W"}, {0, -500, 2000, -1e9, 1e9},
-           {"Heat",
-            "Heat that comes up inside the body per second of thermal time, the same in each gram of it; below zero "
-            "it is taken away, down to 1 K. What has melted or boiled off goes on being heated.",
-            "body warmth 80, immersion heater 300, kettle 2000, −100 for a fridge", ""}),
+         "a pan, a mould, a rock in a stream, a paddle", ""})),
+    atReset(number(
+        {"jitter", "Disorder", "", ""}, {0, 0, 0.3, 0, 0.5},
+        {"Start",
+         "How far each particle stands off its place in the lattice at the start, along each axis, as a share of "
+         "the spacing.",
+         "0 for a crystal, 0.2 like a liquid that was shaken", ""})),
+    atReset(actingWhen("jitter > 0",
+                       integer({"seed", "Seed of the disorder", "", ""}, {1, 1, 100, 0, 4294967295.0},
+                               {"Start", "Another number places the particles otherwise; the same number always alike.",
+                                "compare runs with 1, 2 and 3 to see what chance does", ""}))),
+    actingWhen(
+        "scene/thermal_model != none",
+        number(
+            {"heating_power", "Heating power", "P", "W"}, {0, -500, 2000, -1e9, 1e9},
+            {"Heat",
+             "Heat that comes up inside the body per second of thermal time, the same in each gram of it; below zero "
+             "it is taken away, down to 1 K. What has melted or boiled off goes on being heated.",
+             "body warmth 80, immersion heater 300, kettle 2000, −100 for a fridge", ""})),
     leastMeans("found",
                number({"surface_area", "Surface in air", "A", "m²"}, {0, 0, 0.1, 0, 1e6},
                       {"Heat",
                        "Surface of the whole body that air and radiation reach, shared among the particles that are "
                        "found outside. 0: as these particles show it, to some 10 %.",
                        "0 for all but experiments with a known surface", ""})),
-    number({"motion_start", "Sets off at", "", "s"}, {0, 0, 60, 0, 1e9},
-           {"Motion",
-            "When a body that is held in place, and has a velocity or a spin, begins to move. Until then it stands.",
-            "2 lets the water come to rest before the paddle turns", ""}),
-    leastMeans("never",
-               number({"motion_stop", "Stops at", "", "s"}, {0, 0, 60, 0, 1e9},
-                      {"Motion", "When a body that is held in place, and moves, stands still again; 0 for never.",
-                       "10 for a stirrer that is switched off", ""})),
+    actingWhen(
+        "fixed = on",
+        number(
+            {"motion_start", "Sets off at", "", "s"}, {0, 0, 60, 0, 1e9},
+            {"Motion",
+             "When a body that is held in place, and has a velocity or a spin, begins to move. Until then it stands.",
+             "2 lets the water come to rest before the paddle turns", ""})),
+    related("should be > motion_start when fixed = on & motion_stop > 0",
+            actingWhen(
+                "fixed = on",
+                leastMeans(
+                    "never",
+                    number({"motion_stop", "Stops at", "", "s"}, {0, 0, 60, 0, 1e9},
+                           {"Motion", "When a body that is held in place, and moves, stands still again; 0 for never.",
+                            "10 for a stirrer that is switched off", ""})))),
 };
 
 }  // namespace
@@ -60,9 +72,9 @@ api::ParameterDeclaration structureParameter(const std::vector<std::string>& plu
   std::string choices;
   for (const std::string& id : plugins) choices += id + "|";
   choices += kNoStructure;
-  return choice({kStructureKey, "Held together by", "", ""}, kept(choices), static_cast<int>(plugins.size()),
-                {"Structure", "What keeps the body's solid matter in one piece. Acts at the next reset.",
-                 "none for sand and liquids, bonds for ice that melts and breaks, rigid for a stone", ""});
+  return atReset(choice({kStructureKey, "Held together by", "", ""}, kept(choices), static_cast<int>(plugins.size()),
+                        {"Structure", "What keeps the body's solid matter in one piece.",
+                         "none for sand and liquids, bonds for ice that melts and breaks, rigid for a stone", ""}));
 }
 
 }  // namespace ps

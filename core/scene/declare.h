@@ -8,6 +8,10 @@
 // Short forms for the scene's own declarations; private to this room.
 namespace ps::declare {
 
+using api::actingWhen;
+using api::atReset;
+using api::related;
+
 /// Default, slider's range, and the range beyond which values are refused; stored unit.
 struct Range {
   double value, minimum, maximum, hardMinimum, hardMaximum;

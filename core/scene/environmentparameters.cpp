@@ -33,29 +33,36 @@ constexpr api::ParameterDeclaration kEnvironment[] = {
             "Speed of the air. It carries vapour along, drops and solids too where they have an air drag, and cools "
             "faster.",
             "draught 0.3, breeze 3, hair dryer 10", ""}),
-    number({"wind_direction", "Wind blows towards", "", "°"}, {0, 0, 360, -3600, 3600},
-           {"Air", "Heading of the wind, level with the ground: 0 along x, 90 along z.", "180: against x", ""}),
+    actingWhen("wind_speed > 0", number({"wind_direction", "Wind blows towards", "", "°"}, {0, 0, 360, -3600, 3600},
+                                        {"Air", "Heading of the wind, level with the ground: 0 along x, 90 along z.",
+                                         "180: against x", ""})),
     number({"air_drag", "Air drag of drops and solids", "C_d", ""}, {0, 0, 1.2, 0, 10},
            {"Air",
             "Drag coefficient of single particles of liquids and solids in air, and with it the air's small lift. 0 is "
             "a vacuum to them. Vapour has a drag of its own.",
             "sphere 0.47, cube 1.05, 0 for none", "Hoerner 1965, Fluid-Dynamic Drag"}),
-    toggle({"radiation", "Heat radiation", "", ""}, false,
-           {"Radiation",
-            "Whether hot surfaces radiate heat at what they see: other matter, walls that have a temperature, and what "
-            "surrounds the scene. It is what cools glowing matter.",
-            "on for lava, molten metal and candles; hardly matters below 100 °C",
-            "Incropera et al., Fundamentals of Heat and Mass Transfer, ch. 12 and 13"}),
-    number({"surroundings_temperature", "Temperature around", "T_s", "K"}, {293.15, 3, 1273.15, 0, 10000},
-           {"Radiation", "Temperature of what the scene is seen to stand in, for heat radiation.",
-            "room 20 °C, furnace 1200 °C, clear night sky −40 °C, space −270 °C", ""},
-           kCelsius),
-    number({"contact_conductance", "Contact between bodies", "h_c", "W/(m²·K)"}, {0, 0, 10000, 0, 1e9},
-           {"Contact",
-            "How well heat passes from one body to another where at least one is solid: rough surfaces touch at few "
-            "points. 0 for perfect contact.",
-            "iron on iron 2000 to 20000, with grease 50000, loose 500",
-            "Incropera et al., Fundamentals of Heat and Mass Transfer, ch. 3"}),
+    actingWhen("scene/thermal_model != none",
+               toggle({"radiation", "Heat radiation", "", ""}, false,
+                      {"Radiation",
+                       "Whether hot surfaces radiate heat at what they see: other matter, walls that have a "
+                       "temperature, and what "
+                       "surrounds the scene. It is what cools glowing matter.",
+                       "on for lava, molten metal and candles; hardly matters below 100 °C",
+                       "Incropera et al., Fundamentals of Heat and Mass Transfer, ch. 12 and 13"})),
+    actingWhen("radiation = on",
+               number({"surroundings_temperature", "Temperature around", "T_s", "K"}, {293.15, 3, 1273.15, 0, 10000},
+                      {"Radiation", "Temperature of what the scene is seen to stand in, for heat radiation.",
+                       "room 20 °C, furnace 1200 °C, clear night sky −40 °C, space −270 °C", ""},
+                      kCelsius)),
+    actingWhen(
+        "scene/thermal_model != none",
+        number(
+            {"contact_conductance", "Contact between bodies", "h_c", "W/(m²·K)"}, {0, 0, 10000, 0, 1e9},
+            {"Contact",
+             "How well heat passes from one body to another where at least one is solid: rough surfaces touch at few "
+             "points. 0 for perfect contact.",
+             "iron on iron 2000 to 20000, with grease 50000, loose 500",
+             "Incropera et al., Fundamentals of Heat and Mass Transfer, ch. 3"})),
 };
 
 }  // namespace

@@ -19,8 +19,8 @@ constexpr api::ParameterDeclaration kEmitter[] = {
             "cold tap 10 °C, kettle's steam 110 °C, lava 1200 °C", ""},
            kCelsius),
     number({"start", "Opens at", "", "s"}, {0, 0, 60, 0, 1e9}, {"Time", "When it begins to pour.", "0 at once", ""}),
-    number({"stop", "Closes at", "", "s"}, {1e9, 0, 60, 0, 1e9},
-           {"Time", "When it stops pouring.", "10 for ten seconds of rain", ""}),
+    related("should be > start", number({"stop", "Closes at", "", "s"}, {1e9, 0, 60, 0, 1e9},
+                                        {"Time", "When it stops pouring.", "10 for ten seconds of rain", ""})),
     integer({"most", "At most", "", ""}, {20000, 100, 100000, 0, 20000000},
             {"Time",
              "Particles of this emitter that may live at a time: it waits while there are so many, so that a tap left "

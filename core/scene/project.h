@@ -260,6 +260,10 @@ bool setOutsideValue(Project& project, const Address& address, const Value& valu
 /// meant where nothing names another.
 std::vector<api::ParameterDeclaration> sceneParameters(const std::vector<std::string>& models,
                                                        const std::string& standard);
+/// What a declaration of any owner may name beside its own list: "environment/KEY", "solver/KEY", "scene/KEY". nullptr,
+/// or nothing, for other keys.
+const api::ParameterDeclaration* sceneWideDeclaration(std::string_view key);
+std::optional<Value> sceneWideValue(const Project& project, std::string_view key);
 /// Declarations of a body's velocity and spin, by component.
 api::ParameterList bodyMotionParameters();
 

@@ -20,25 +20,28 @@ constexpr api::ParameterDeclaration kGravity =
 
 constexpr const char* kThermalModel = "thermal_model";
 
-constexpr Words kVelocity{"Motion",
-                          "Speed along this axis: of a body that is held in place as long as it moves, of any other at "
-                          "the start, from the next reset on.",
-                          "a paddle 0.2, a thrown ball 10", ""};
-constexpr Words kSpin{
-    "Motion",
-    "Turning about this axis through the body's centre, anticlockwise where the axis points at you: of "
-    "a body that is held in place as long as it moves, of any other at the start, from the next reset "
-    "on.",
-    "a stirrer 180, a turntable 200, one turn a second 360", ""};
+constexpr Words kVelocity{
+    "Motion", "Speed along this axis: of a body that is held in place as long as it moves, of any other at the start.",
+    "a paddle 0.2, a thrown ball 10", ""};
+constexpr Words kSpin{"Motion",
+                      "Turning about this axis through the body's centre, anticlockwise where the axis points at you: "
+                      "of a body that is held in place as long as it moves, of any other at the start.",
+                      "a stirrer 180, a turntable 200, one turn a second 360", ""};
 constexpr Display kDegrees{"°/s", 180 / std::numbers::pi, 0};
 
+constexpr api::ParameterDeclaration ofMotion(Names names, Range range, Words words, Display display = kAsStored) {
+  api::ParameterDeclaration d = number(names, range, words, display);
+  d.actsAt = api::ActsAt::NextFrameIfFixed;
+  return d;
+}
+
 constexpr api::ParameterDeclaration kMotion[] = {
-    number({"velocity_x", "Velocity along x", "v_x", "m/s"}, {0, -5, 5, -1e4, 1e4}, kVelocity),
-    number({"velocity_y", "Velocity along y", "v_y", "m/s"}, {0, -5, 5, -1e4, 1e4}, kVelocity),
-    number({"velocity_z", "Velocity along z", "v_z", "m/s"}, {0, -5, 5, -1e4, 1e4}, kVelocity),
-    number({"spin_x", "Spin about x", "ω_x", "rad/s"}, {0, -20, 20, -1e4, 1e4}, kSpin, kDegrees),
-    number({"spin_y", "Spin about y", "ω_y", "rad/s"}, {0, -20, 20, -1e4, 1e4}, kSpin, kDegrees),
-    number({"spin_z", "Spin about z", "ω_z", "rad/s"}, {0, -20, 20, -1e4, 1e4}, kSpin, kDegrees),
+    ofMotion({"velocity_x", "Velocity along x", "v_x", "m/s"}, {0, -5, 5, -1e4, 1e4}, kVelocity),
+    ofMotion({"velocity_y", "Velocity along y", "v_y", "m/s"}, {0, -5, 5, -1e4, 1e4}, kVelocity),
+    ofMotion({"velocity_z", "Velocity along z", "v_z", "m/s"}, {0, -5, 5, -1e4, 1e4}, kVelocity),
+    ofMotion({"spin_x", "Spin about x", "ω_x", "rad/s"}, {0, -20, 20, -1e4, 1e4}, kSpin, kDegrees),
+    ofMotion({"spin_y", "Spin about y", "ω_y", "rad/s"}, {0, -20, 20, -1e4, 1e4}, kSpin, kDegrees),
+    ofMotion({"spin_z", "Spin about z", "ω_z", "rad/s"}, {0, -20, 20, -1e4, 1e4}, kSpin, kDegrees),
 };
 
 struct Component {
@@ -93,6 +96,30 @@ bool setOutsideValue(Project& project, const Address& address, const Value& valu
     gravity = old > 0 ? Vector3(gravity * (strength / old)) : Vector3(0, -strength, 0);
   }
   return true;
+}
+
+const api::ParameterDeclaration* sceneWideDeclaration(std::string_view key) {
+  static const std::vector<api::ParameterDeclaration> scene = sceneParameters({}, {});
+  const std::optional<Address> address = Address::parse(key);
+  if (!address) return nullptr;
+  switch (address->owner) {
+    case Owner::Environment:
+      return findDeclaration(environmentParameters(), address->key);
+    case Owner::Solver:
+      return findDeclaration(solverParameters(), address->key);
+    case Owner::Scene:
+      return findDeclaration(api::listOf(scene.data(), scene.size()), address->key);
+    default:
+      return nullptr;
+  }
+}
+
+std::optional<Value> sceneWideValue(const Project& project, std::string_view key) {
+  const api::ParameterDeclaration* declaration = sceneWideDeclaration(key);
+  if (!declaration) return std::nullopt;
+  const Address address = *Address::parse(key);
+  const ParameterSet* set = findSet(project, address);
+  return set ? valueOf(*set, *declaration) : outsideValue(project, address);
 }
 
 api::ParameterList bodyMotionParameters() { return api::listOf(kMotion); }

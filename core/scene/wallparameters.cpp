@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "core/parameters/condition.h"
 #include "core/scene/declare.h"
 #include "core/scene/project.h"
 
@@ -8,38 +9,47 @@ namespace {
 using namespace declare;
 
 constexpr api::ParameterDeclaration kWall[] = {
-    choice(
-        {"heat", "Heat", "", ""}, "adiabatic|fixed_temperature|fixed_flux|convective", 0,
-        {"Heat",
-         "Whether the wall lets no heat through, is held at a temperature whatever touches it, gives the same heat per "
-         "area whatever its temperature, or lets through what a fluid behind it gives and takes.",
-         "foam box: adiabatic; hot plate: fixed temperature; electric heater: fixed flux; cooling water behind a "
-         "jacket: convective",
-         ""}),
-    number(
-        {"temperature", "Temperature", "T", "K"}, {293.15, 173.15, 773.15, 1, 10000},
-        {"Heat",
-         "Temperature of the wall's surface, where heat is set to a fixed temperature; of the fluid behind it, where "
-         "it is convective.",
-         "freezer −18 °C, tap water 10 °C, hot plate 150 °C", ""},
-        kCelsius),
-    number({"heat_flux", "Heat flux", "q", "W/m²"}, {0, -60000, 60000, -1e9, 1e9},
-           {"Heat", "Heat that the wall gives to each square metre of matter that touches it; below zero it takes.",
-            "sunshine 1000, hob 20000 to 60000 W/m²", ""}),
-    number({"convection", "Convection behind it", "h", "W/(m²·K)"}, {100, 0, 2000, 0, 1e6},
-           {"Heat", "How fast the fluid behind a convective wall gives and takes heat.",
-            "air 5 to 25, water at rest 100 to 1000, stirred 2000 to 10000",
-            "Incropera et al., Fundamentals of Heat and Mass Transfer, ch. 1"}),
-    number(
-        {"emissivity", "Emissivity", "ε", ""}, {0.9, 0, 1, 0, 1},
-        {"Heat",
-         "How well a wall that has a temperature radiates and absorbs, where the scene's heat is radiated. Other walls "
-         "send back what they receive.",
-         "polished metal 0.05, brick, paint and enamel 0.9", "Incropera et al., app. A.11"}),
-    number({"film_coefficient", "Condensation", "h", "W/(m²·K)"}, {500, 0, 5000, 0, 1e6},
-           {"Heat", "How fast vapour gives its heat to this wall where the wall is below the boiling point.",
-            "thin water film 1000 to 5000, with air in the steam 100 to 500, 0 for none",
-            "Nusselt 1916; Incropera et al., Fundamentals of Heat and Mass Transfer, ch. 10"}),
+    actingWhen(
+        "scene/thermal_model != none",
+        choice(
+            {"heat", "Heat", "", ""}, "adiabatic|fixed_temperature|fixed_flux|convective", 0,
+            {"Heat",
+             "Whether the wall lets no heat through, is held at a temperature whatever touches it, gives the same heat "
+             "per "
+             "area whatever its temperature, or lets through what a fluid behind it gives and takes.",
+             "foam box: adiabatic; hot plate: fixed temperature; electric heater: fixed flux; cooling water behind a "
+             "jacket: convective",
+             ""})),
+    actingWhen("heat = fixed_temperature|convective",
+               number({"temperature", "Temperature", "T", "K"}, {293.15, 173.15, 773.15, 1, 10000},
+                      {"Heat",
+                       "Temperature of the wall's surface, where heat is set to a fixed temperature; of the fluid "
+                       "behind it, where "
+                       "it is convective.",
+                       "freezer −18 °C, tap water 10 °C, hot plate 150 °C", ""},
+                      kCelsius)),
+    actingWhen(
+        "heat = fixed_flux",
+        number({"heat_flux", "Heat flux", "q", "W/m²"}, {0, -60000, 60000, -1e9, 1e9},
+               {"Heat", "Heat that the wall gives to each square metre of matter that touches it; below zero it takes.",
+                "sunshine 1000, hob 20000 to 60000 W/m²", ""})),
+    actingWhen("heat = convective",
+               number({"convection", "Convection behind it", "h", "W/(m²·K)"}, {100, 0, 2000, 0, 1e6},
+                      {"Heat", "How fast the fluid behind a convective wall gives and takes heat.",
+                       "air 5 to 25, water at rest 100 to 1000, stirred 2000 to 10000",
+                       "Incropera et al., Fundamentals of Heat and Mass Transfer, ch. 1"})),
+    actingWhen("heat = fixed_temperature|convective & environment/radiation = on",
+               number({"emissivity", "Emissivity", "ε", ""}, {0.9, 0, 1, 0, 1},
+                      {"Heat",
+                       "How well a wall that has a temperature radiates and absorbs, where the scene's heat is "
+                       "radiated. Other walls "
+                       "send back what they receive.",
+                       "polished metal 0.05, brick, paint and enamel 0.9", "Incropera et al., app. A.11"})),
+    actingWhen("heat = fixed_temperature",
+               number({"film_coefficient", "Condensation", "h", "W/(m²·K)"}, {500, 0, 5000, 0, 1e6},
+                      {"Heat", "How fast vapour gives its heat to this wall where the wall is below the boiling point.",
+                       "thin water film 1000 to 5000, with air in the steam 100 to 500, 0 for none",
+                       "Nusselt 1916; Incropera et al., Fundamentals of Heat and Mass Transfer, ch. 10"})),
     number({"friction", "Friction", "µ", ""}, {0.3, 0, 1, 0, 10},
            {"Contact", "How strongly solids stick and drag on the wall: sideways force per pressing force.",
             "ice on steel 0.03, wood on wood 0.4, rubber on asphalt 0.9", ""}),
@@ -56,8 +66,12 @@ constexpr api::ParameterDeclaration kWall[] = {
 api::ParameterList wallParameters() { return api::listOf(kWall); }
 
 bool hasTemperature(const SceneWall& wall) {
-  const std::string heat = choiceOf(wall.parameters, wallParameters(), "heat");
-  return heat == "fixed_temperature" || heat == "convective";
+  const api::ParameterList list = wallParameters();
+  return holds(parseCondition(findDeclaration(list, "temperature")->enabledWhen),
+               [&](std::string_view key) -> std::optional<Value> {
+                 const api::ParameterDeclaration* declaration = findDeclaration(list, key);
+                 return declaration ? std::optional(valueOf(wall.parameters, *declaration)) : std::nullopt;
+               });
 }
 
 }  // namespace ps

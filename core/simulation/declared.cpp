@@ -5,6 +5,7 @@
 #include "core/matter/material.h"
 #include "core/plugin_host/registry.h"
 #include "core/scene/declare.h"
+#include "core/simulation/rules.h"
 #include "core/simulation/sceneproblem.h"
 
 #include <algorithm>
@@ -63,13 +64,15 @@ std::vector<std::string> usable(std::vector<std::string> installed, const std::v
 }
 
 api::ParameterDeclaration pluginToggle(const char* prefix, const std::string& id, const char* group,
-                                       const PluginRegistry* plugins) {
+                                       const PluginRegistry* plugins, api::ActsAt when) {
   std::string label = id, help = "A plugin that is not installed.";
   for (const PluginInfo& info : plugins ? plugins->plugins() : std::vector<PluginInfo>{}) {
     if (info.id == id) label = info.label, help = info.help;
   }
-  return declare::toggle({declare::kept(prefix + id), declare::kept(label), "", ""}, false,
-                         {group, declare::kept(help), "", ""});
+  api::ParameterDeclaration d = declare::toggle({declare::kept(prefix + id), declare::kept(label), "", ""}, false,
+                                                {group, declare::kept(help), "", ""});
+  d.actsAt = when;
+  return d;
 }
 
 /// What is installed decides on the choices, and so does a model that is not: each list made stays for good.
@@ -85,7 +88,8 @@ api::ParameterList sceneDeclarations(const Project& project, const PluginRegistr
   auto& list = lists[Choices{models, sources, {standard}}];
   if (list.empty()) {
     list = sceneParameters(models, standard);
-    for (const std::string& id : sources) list.push_back(pluginToggle(kHeatSourceKey, id, "Heat", &plugins));
+    for (const std::string& id : sources)
+      list.push_back(pluginToggle(kHeatSourceKey, id, "Heat", &plugins, api::ActsAt::NextFrame));
   }
   return {list.data(), list.size()};
 }
@@ -93,9 +97,9 @@ api::ParameterList sceneDeclarations(const Project& project, const PluginRegistr
 api::ParameterDeclaration bodyMaterialParameter(const std::vector<std::string>& materials) {
   std::string choices;
   for (const std::string& id : materials) choices += (choices.empty() ? "" : "|") + id;
-  return declare::choice({kBodyMaterialKey, "Made of", "", ""}, declare::kept(choices), 0,
-                         {"Matter", "The material of the body, one of the scene's. Acts at the next reset.",
-                          "tin for a spoon that melts in soup", ""});
+  return declare::atReset(declare::choice(
+      {kBodyMaterialKey, "Made of", "", ""}, declare::kept(choices), 0,
+      {"Matter", "The material of the body, one of the scene's.", "tin for a spoon that melts in soup", ""}));
 }
 
 /// As sceneDeclarations(), for one body.
@@ -123,7 +127,7 @@ api::ParameterList bodyDeclarations(const Project& project, const PluginRegistry
     list.push_back(structureParameter(choices));
     if (!materials.empty()) list.push_back(bodyMaterialParameter(materials));
     for (const std::string& plugin : neighbours)
-      list.push_back(pluginToggle(kNeighbourKey, plugin, "Structure", plugins));
+      list.push_back(pluginToggle(kNeighbourKey, plugin, "Structure", plugins, api::ActsAt::NextReset));
   }
   return {list.data(), list.size()};
 }
@@ -314,13 +318,17 @@ std::string problemWith(const Project& project, const PluginRegistry* plugins, c
     return std::string(declaration->label) + " " + problem + ".";
   }
   if (const std::string problem = problemOfSceneWith(project, address, value); !problem.empty()) return problem + ".";
-  if (address.owner != Owner::Material || propertyIndex(address.key) < 0) return {};
+  if (address.owner != Owner::Material || propertyIndex(address.key) < 0)
+    return problemOfRelations(project, plugins, address, value);
   const SceneMaterial* source = materialById(project, address.id);
   auto material = source ? baseMaterial(*source, plugins) : std::nullopt;
   if (!material) return {};
   for (const auto& [key, changed] : source->properties.values) material->properties[key] = responseFrom(changed);
   material->properties[address.key] = responseFrom(value);
-  return problemOf(*material);
+  const std::string problem = problemOf(*material), key = problem.substr(0, problem.find(':'));
+  const int index = propertyIndex(key);
+  if (index < 0) return problem;
+  return propertyCatalogue()[static_cast<size_t>(index)].label + problem.substr(key.size()) + ".";
 }
 
 std::vector<Address> allAddresses(const Project& project, const PluginRegistry* plugins) {

@@ -1,29 +1,41 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/simulation/edits.h"
 
+#include "core/simulation/declared.h"
+
 #include <algorithm>
-#include <iterator>
-#include <string_view>
 
 namespace ps {
 namespace {
 
 /// What a project says outside of its parameter sets.
-When writeOutside(Project& project, const SetParameter& edit, const Value& old, Touched& touched,
-                  std::vector<UndoEdit>& undo) {
+bool writeOutside(Project& project, const SetParameter& edit, const Value& old, std::vector<UndoEdit>& undo) {
   const Address& address = edit.address;
   const Vector3 gravity = project.environment.gravity;  // its direction is lost where it is 0
-  if (!setOutsideValue(project, address, edit.value)) return When::Never;
+  if (!setOutsideValue(project, address, edit.value)) return false;
   undo.push_back([address, old, gravity](Project& p) {
     setOutsideValue(p, address, old);
     p.environment.gravity = gravity;
   });
-  if (address.owner == Owner::Body) {
-    touched.owners.insert(Owner::Body);
-    return When::IfFixed;
-  }
-  touched.owners.insert(address.key == "gravity" ? Owner::Solver : Owner::Thermal);
-  return When::NextFrame;
+  return true;
+}
+
+bool write(Project& project, const SetParameter& edit, std::vector<UndoEdit>& undo) {
+  const Address& address = edit.address;
+  if (const std::optional<Value> old = outsideValue(project, address)) return writeOutside(project, edit, *old, undo);
+  ParameterSet* set = findSet(project, address);
+  if (!set) return false;
+  undo.push_back([address, before = *set](Project& p) { *findSet(p, address) = before; });
+  set->values[address.key] = edit.value;
+  return true;
+}
+
+/// The part that a value is compiled into.
+void touch(const Address& address, Touched& touched) {
+  const bool gravity = address.owner == Owner::Scene && address.key == "gravity";
+  touched.owners.insert(gravity ? Owner::Solver : address.owner == Owner::Scene ? Owner::Thermal : address.owner);
+  if (address.owner == Owner::Material) touched.materials.insert(address.id);
+  if (address.key == "ambient_pressure") touched.allMaterials = true;  // it moves melting and boiling points
 }
 
 auto byId(const std::vector<SceneMaterial>& materials, const std::string& id) {
@@ -32,25 +44,13 @@ auto byId(const std::vector<SceneMaterial>& materials, const std::string& id) {
 
 }  // namespace
 
-When writeValue(Project& project, const SetParameter& edit, Touched& touched, std::vector<UndoEdit>& undo) {
-  const Address& address = edit.address;
-  if (const std::optional<Value> old = outsideValue(project, address)) {
-    return writeOutside(project, edit, *old, touched, undo);
-  }
-  ParameterSet* set = findSet(project, address);
-  if (!set) return When::Never;
-  undo.push_back([address, before = *set](Project& p) { *findSet(p, address) = before; });
-  set->values[address.key] = edit.value;
-  constexpr std::string_view kLive[] = {"motion_start", "motion_stop", "heating_power", "surface_area"};  // of a body
-  const bool live = std::find(std::begin(kLive), std::end(kLive), address.key) != std::end(kLive);
-  if ((address.owner == Owner::Body && !live) || address.key == "particle_spacing") {
-    touched.room = true;
-    return When::NextReset;
-  }
-  touched.owners.insert(address.owner);
-  if (address.owner == Owner::Material) touched.materials.insert(address.id);
-  if (address.key == "ambient_pressure") touched.allMaterials = true;  // it moves melting and boiling points
-  return When::NextFrame;
+std::optional<api::ActsAt> writeValue(Project& project, const PluginRegistry& plugins, const SetParameter& edit,
+                                      Touched& touched, std::vector<UndoEdit>& undo) {
+  if (!write(project, edit, undo)) return std::nullopt;
+  const api::ParameterDeclaration* declaration = declarationOf(project, &plugins, edit.address);
+  const api::ActsAt when = declaration ? declaration->actsAt : api::ActsAt::NextFrame;
+  if (when != api::ActsAt::NextReset) touch(edit.address, touched);
+  return when;
 }
 
 std::vector<SceneMaterial> inTheirPlaces(const std::vector<SceneMaterial>& living,

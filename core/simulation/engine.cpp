@@ -289,9 +289,10 @@ bool Engine::setParameters(std::span<const SetParameter> edits) {
   bool now = true;
   try {
     for (const SetParameter& edit : edits) {
-      const When when = writeValue(m->project, edit, touched, undo);
-      if (when == When::NextReset && touched.room) requireRoom(particleCount(m->project));
-      now = now && (when == When::NextFrame || (when == When::IfFixed && m->isFixed(edit.address.id)));
+      const std::optional<api::ActsAt> when = writeValue(m->project, m->plugins, edit, touched, undo);
+      if (when == api::ActsAt::NextReset) requireRoom(particleCount(m->project));
+      now = now &&
+            (when == api::ActsAt::NextFrame || (when == api::ActsAt::NextFrameIfFixed && m->isFixed(edit.address.id)));
     }
     m->recompile(touched);
   } catch (...) {

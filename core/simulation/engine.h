@@ -35,8 +35,8 @@ class Engine {
   /// The document changed as a whole (undo, a new body, gravity): takes over every parameter and material at once;
   /// bodies, which are particles by now, at the next reset; how fixed ones move acts at once.
   void update(const Project& project);
-  /// A parameter changed: recompiles what it touches. Returns false when it acts at the next reset only
-  /// (body parameters but motion_start, motion_stop, heating_power and surface_area; particle_spacing).
+  /// A parameter changed: recompiles what it touches. Returns false when it acts at the next reset only, as its
+  /// declaration says.
   bool setParameter(const Address& address, const Value& value);
   /// Several as one edit: what they touch together is compiled once, and all are refused where one is. Returns whether
   /// all act now.

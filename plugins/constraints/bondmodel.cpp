@@ -14,6 +14,8 @@
 namespace ps::constraint {
 namespace {
 
+using api::actingWhen;
+using api::atReset;
 using api::ConstraintBatch;
 using api::ConstraintContext;
 using api::Motion;
@@ -32,46 +34,54 @@ constexpr api::ParameterDeclaration kParameters[] = {
      1, 0, "", "Structure", "How many neighbours a freezing particle may bond with.",
      "6 brittle like wet sand, 12 firm, 18 as firm as a block made whole",
      "cubic lattice: 6 axial and 12 diagonal neighbours"},
-    {"damping", "Bond damping", "τ", "s", api::ParameterKind::Number, api::Scale::Linear, 0, 0, 0.02, 0, 1, "ms", 1000,
-     0, "", "Structure", "Inner friction: how long a bond resists a change of its length. Quiets rattling solids.",
-     "0 rings, 5 ms dull like wax, 20 ms like dough",
-     "Macklin et al. 2016, eq. 26, with beta = damping times stiffness"},
-    {"max_stiffness_ratio", "Stiffness the step may resolve", "s", "", api::ParameterKind::Number,
-     api::Scale::Logarithmic, 100, 1, 10000, 0.01, 1e6, "", 1, 0, "", "Structure",
-     "Largest k dt²/m of a bond. Beyond about 100 more stiffness only makes the solver work harder: the block looks "
-     "the same, and takes more iterations to come to rest.",
-     "100 at 4 substeps of 4 iterations", "Macklin et al. 2019"},
-    {"neighbours", "Neighbours at the start", "", "", api::ParameterKind::Choice, api::Scale::Linear, 0, 0, 1, 0, 1, "",
-     1, 0, "eighteen|six", "Structure",
-     "Which neighbours of its lattice a particle is tied to when the body is made: the nearest and those across a "
-     "face's diagonal, or the nearest alone, which gives way to shear without resistance.",
-     "eighteen for solids; six for rods, chains and textbook lattices", ""},
-    {"across_materials", "Ties different materials", "", "", api::ParameterKind::Toggle, api::Scale::Linear, 0, 0, 1, 0,
-     1, "", 1, 0, "", "Structure",
-     "Whether a body of several materials is one piece, as if they were welded where they touch at the start.",
-     "on: a strip of two metals", ""},
+    actingWhen("solver = xpbd",
+               {"damping", "Bond damping", "τ", "s", api::ParameterKind::Number, api::Scale::Linear, 0, 0, 0.02, 0, 1,
+                "ms", 1000, 0, "", "Structure",
+                "Inner friction: how long a bond resists a change of its length. Quiets rattling solids.",
+                "0 rings, 5 ms dull like wax, 20 ms like dough",
+                "Macklin et al. 2016, eq. 26, with beta = damping times stiffness"}),
+    actingWhen("solver = xpbd",
+               {"max_stiffness_ratio", "Stiffness the step may resolve", "s", "", api::ParameterKind::Number,
+                api::Scale::Logarithmic, 100, 1, 10000, 0.01, 1e6, "", 1, 0, "", "Structure",
+                "Largest k dt²/m of a bond. Beyond about 100 more stiffness only makes the solver work harder: the "
+                "block looks "
+                "the same, and takes more iterations to come to rest.",
+                "100 at 4 substeps of 4 iterations", "Macklin et al. 2019"}),
+    atReset(
+        {"neighbours", "Neighbours at the start", "", "", api::ParameterKind::Choice, api::Scale::Linear, 0, 0, 1, 0, 1,
+         "", 1, 0, "eighteen|six", "Structure",
+         "Which neighbours of its lattice a particle is tied to when the body is made: the nearest and those across a "
+         "face's diagonal, or the nearest alone, which gives way to shear without resistance.",
+         "eighteen for solids; six for rods, chains and textbook lattices", ""}),
+    atReset({"across_materials", "Ties different materials", "", "", api::ParameterKind::Toggle, api::Scale::Linear, 0,
+             0, 1, 0, 1, "", 1, 0, "", "Structure",
+             "Whether a body of several materials is one piece, as if they were welded where they touch at the start.",
+             "on: a strip of two metals", ""}),
     {"spring_stiffness", "Stiffness of a bond", "k", "N/m", api::ParameterKind::Number, api::Scale::Linear, 0, 0, 1e6,
      0, 1e15, "", 1, 0, "", "Springs",
      "Stiffness of every bond, in place of the one that follows from Young's modulus; 0 takes Young's modulus.",
      "0 for matter, 1000 N/m for a mattress's spring", ""},
-    {"rest_ratio", "Length of a bond at rest", "", "", api::ParameterKind::Number, api::Scale::Linear, 1, 0.5, 1.5,
-     0.01, 10, "", 1, 0, "", "Springs",
-     "Length of a bond at rest as a share of the distance at which it is made at the start: below 1 the body is drawn "
-     "tight, above 1 it is squeezed.",
-     "1 at rest, 0.99 a taut string", ""},
-    {"reference_temperature", "Temperature of the lengths at rest", "T_ref", "K", api::ParameterKind::Number,
-     api::Scale::Linear, 0, 0, 773.15, 0, 1e4, "", 1, 0, "", "Springs",
-     "At which temperature the bonds made at the start have their lengths: a body that starts warmer expands at once. "
-     "0 takes the temperature at which each of them is made.",
-     "0 for matter at ease; 293.15 K for a strip of metal cast at 20 °C", ""},
+    atReset({"rest_ratio", "Length of a bond at rest", "", "", api::ParameterKind::Number, api::Scale::Linear, 1, 0.5,
+             1.5, 0.01, 10, "", 1, 0, "", "Springs",
+             "Length of a bond at rest as a share of the distance at which it is made at the start: below 1 the body "
+             "is drawn "
+             "tight, above 1 it is squeezed.",
+             "1 at rest, 0.99 a taut string", ""}),
+    atReset({"reference_temperature", "Temperature of the lengths at rest", "T_ref", "K", api::ParameterKind::Number,
+             api::Scale::Linear, 0, 0, 773.15, 0, 1e4, "", 1, 0, "", "Springs",
+             "At which temperature the bonds made at the start have their lengths: a body that starts warmer expands "
+             "at once. "
+             "0 takes the temperature at which each of them is made.",
+             "0 for matter at ease; 293.15 K for a strip of metal cast at 20 °C", ""}),
     {"solver", "Method", "", "", api::ParameterKind::Choice, api::Scale::Linear, 0, 0, 1, 0, 1, "", 1, 0, "xpbd|pbd",
      "Legacy",
      "Extended position-based dynamics follows stiffness in N/m whatever the step. The classic method, kept for "
      "comparison, takes a share of the error in each iteration: its stiffness grows with iterations and substeps.",
      "xpbd; pbd shows why the extended method was made", "Müller et al. 2007; Macklin et al. 2016"},
-    {"pbd_stiffness", "Share per iteration", "k", "", api::ParameterKind::Number, api::Scale::Linear, 0.5, 0, 1, 0, 1,
-     "", 1, 0, "", "Legacy", "Share of a bond's error that the classic method takes out in one iteration.",
-     "0.1 soft, 1 as stiff as the iterations allow", "Müller et al. 2007"},
+    actingWhen("solver = pbd", {"pbd_stiffness", "Share per iteration", "k", "", api::ParameterKind::Number,
+                                api::Scale::Linear, 0.5, 0, 1, 0, 1, "", 1, 0, "", "Legacy",
+                                "Share of a bond's error that the classic method takes out in one iteration.",
+                                "0.1 soft, 1 as stiff as the iterations allow", "Müller et al. 2007"}),
     {"bond_rule", "Rule of melting and freezing", "", "", api::ParameterKind::Choice, api::Scale::Linear, 0, 0, 1, 0, 1,
      "", 1, 0, "default|thesis_alg5", "Legacy",
      "The thesis's solid manager, kept for comparison: a bond breaks only when both its ends have begun to melt, and "
@@ -84,9 +94,11 @@ constexpr api::ParameterDeclaration kParameters[] = {
      "warming since and s the row below.",
      "material; thesis_sigmoid is twice as stiff in the cold and soft a few kelvin warmer",
      "equation 4.5 of the 2020 thesis"},
-    {"stiffness_softening", "Softens over", "s", "K", api::ParameterKind::Number, api::Scale::Logarithmic, 1, 0.1, 100,
-     1e-3, 1e4, "", 1, 0, "", "Legacy", "Warming over which the thesis's law of stiffness takes effect.",
-     "1 K as printed in the thesis, 30 K for wax", "equation 4.5 of the 2020 thesis"},
+    actingWhen(
+        "stiffness_law = thesis_sigmoid",
+        {"stiffness_softening", "Softens over", "s", "K", api::ParameterKind::Number, api::Scale::Logarithmic, 1, 0.1,
+         100, 1e-3, 1e4, "", 1, 0, "", "Legacy", "Warming over which the thesis's law of stiffness takes effect.",
+         "1 K as printed in the thesis, 30 K for wax", "equation 4.5 of the 2020 thesis"}),
 };
 
 constexpr api::FieldDeclaration kValues[] = {

@@ -4,6 +4,7 @@
 namespace ps::constraint {
 namespace {
 
+using api::atReset;
 using api::ParameterKind;
 using api::Scale;
 
@@ -46,9 +47,10 @@ constexpr api::ParameterDeclaration kParameters[] = {
      "10 % paper, 25 % cotton, 0 what must hold",
      "maximum strain of the stretch springs, once per frame",
      "never"},
-    {"tied_to_fixed", "Sewn to fixed bodies", "", "", ParameterKind::Toggle, Scale::Linear, 0, 0, 1, 0, 1, "", 1, 0, "",
-     "Structure", "Ties the cloth to the fixed bodies that it touches at the start: a flag to its pole.",
-     "on for flags, curtains and sails", ""},
+    atReset({"tied_to_fixed", "Sewn to fixed bodies", "", "", ParameterKind::Toggle, Scale::Linear, 0, 0, 1, 0, 1, "",
+             1, 0, "", "Structure",
+             "Ties the cloth to the fixed bodies that it touches at the start: a flag to its pole.",
+             "on for flags, curtains and sails", ""}),
 };
 
 }  // namespace

@@ -13,12 +13,14 @@
 namespace ps::constraint {
 namespace {
 
+using api::atReset;
 using api::ConstraintContext;
 using api::GroupBatch;
 using api::Motion;
 using api::NeighbourView;
 using api::ParameterKind;
 using api::ParticleView;
+using api::related;
 using api::Scale;
 
 constexpr const char* kSource = "Mueller et al. 2005; Rivers & James 2007";
@@ -28,16 +30,18 @@ constexpr size_t kLeastMembers = 4;
 constexpr double kReach = 1.5;
 
 constexpr api::ParameterDeclaration kParameters[] = {
-    {"radius", "Radius of a cluster", "R", "", ParameterKind::Number, Scale::Linear, 2.5, 1.5, 5, 1.2, 20, "×", 1, 0,
-     "", "Structure",
-     "In particle spacings. Larger clusters carry a push farther in one step and cost more; smaller ones follow finer "
-     "bulges.",
-     "2.5 jelly, 4 a firm rubber ball", kSource},
-    {"spacing", "Distance of clusters", "D", "", ParameterKind::Number, Scale::Linear, 2, 1, 4, 0.5, 20, "×", 1, 0, "",
-     "Structure",
-     "In particle spacings, from one cluster's centre to the next. Less than the radius, so that they overlap and hold "
-     "together.",
-     "2 for a radius of 2.5", kSource},
+    atReset({"radius", "Radius of a cluster", "R", "", ParameterKind::Number, Scale::Linear, 2.5, 1.5, 5, 1.2, 20, "×",
+             1, 0, "", "Structure",
+             "In particle spacings. Larger clusters carry a push farther in one step and cost more; smaller ones "
+             "follow finer "
+             "bulges.",
+             "2.5 jelly, 4 a firm rubber ball", kSource}),
+    atReset(related("should be < radius", {"spacing", "Distance of clusters", "D", "", ParameterKind::Number,
+                                           Scale::Linear, 2, 1, 4, 0.5, 20, "×", 1, 0, "", "Structure",
+                                           "In particle spacings, from one cluster's centre to the next. Less than the "
+                                           "radius, so that they overlap and hold "
+                                           "together.",
+                                           "2 for a radius of 2.5", kSource})),
     {"damping", "Inner friction", "τ", "s", ParameterKind::Number, Scale::Linear, 0.002, 0, 0.05, 0, 1, "ms", 1000, 0,
      "", "Structure", "How long the shape resists a change: quiets wobbling, not falling or turning.",
      "0 wobbles on, 2 ms jelly, 20 ms dough", "Macklin et al. 2016, eq. 26"},

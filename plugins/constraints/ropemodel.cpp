@@ -4,6 +4,7 @@
 namespace ps::constraint {
 namespace {
 
+using api::atReset;
 using api::ParameterKind;
 using api::Scale;
 
@@ -41,9 +42,10 @@ constexpr api::ParameterDeclaration kParameters[] = {
      "3 % hemp, 20 % nylon, 0 what must hold",
      "maximum strain of the stretch springs, once per frame",
      "never"},
-    {"tied_to_fixed", "Tied to fixed bodies", "", "", ParameterKind::Toggle, Scale::Linear, 0, 0, 1, 0, 1, "", 1, 0, "",
-     "Structure", "Ties the rope to the fixed bodies that it touches at the start: a bridge to its posts.",
-     "on for bridges and swings", ""},
+    atReset({"tied_to_fixed", "Tied to fixed bodies", "", "", ParameterKind::Toggle, Scale::Linear, 0, 0, 1, 0, 1, "",
+             1, 0, "", "Structure",
+             "Ties the rope to the fixed bodies that it touches at the start: a bridge to its posts.",
+             "on for bridges and swings", ""}),
 };
 
 }  // namespace

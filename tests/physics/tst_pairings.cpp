@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every kind of matter meets every other one: one generated test per pair.
-#include "core/plugin_host/registry.h"
 #include "core/parameters/parameterset.h"
+#include "core/plugin_host/registry.h"
 #include "viscosityscene.h"
 
 #include <QTest>

@@ -303,6 +303,11 @@ class TestPluginHost : public QObject {
     row("duplicate_parameter", "is declared twice");
     row("empty_choice", "empty choice");
     row("unknown_kind", "kind is unknown");
+    row("unknown_condition", "its enabledWhen: there is no parameter 'rust'");
+    row("garbled_condition", "\"density is large\" has no comparison in 'is'");
+    row("unknown_relation", "its relations: there is no parameter 'rust'");
+    row("garbled_relation", "needs \"must be\" or \"should be\"");
+    row("body_only", "its actsAt must be NextFrame or NextReset");
     row("throwing_properties", "properties failed");
     row("null_property", "property 1: its key is a null pointer");
     row("unknown_property", "(did you mean 'density_solid'?)");

@@ -2,6 +2,8 @@
 // Bodies and materials come and go by hands in the real window; rows that follow.
 #include "tests/ui/samplewindow.h"
 #include "ui/document/document.h"
+#include "ui/graphs/energypanel.h"
+#include "ui/panels/brushpanel.h"
 #include "ui/panels/inspector.h"
 #include "ui/panels/materialspanel.h"
 #include "ui/panels/outliner.h"
@@ -13,6 +15,7 @@
 
 #include <QtGui/QAction>
 #include <QtGui/QContextMenuEvent>
+#include <QtWidgets/QLabel>
 #include <QtWidgets/QLineEdit>
 #include <QtWidgets/QMenu>
 #include <QtWidgets/QPushButton>
@@ -217,12 +220,52 @@ class TestContentWindow : public SampleWindowTest {
     document().setParameter({Owner::Wall, "floor", "heat"}, std::string("adiabatic"));
     QVERIFY(pinned->has(RowState::Disabled) && idle("temperature") && idle("film_coefficient"));
     QVERIFY(!idle("friction") && !idle("heat"));
-    QVERIFY(pinned->model().disabledReason.contains(QStringLiteral("lets no heat through")));
+    QVERIFY(pinned->model().disabledReason.contains(QStringLiteral("“Heat” is fixed temperature")));
     document().undoStack().undo();
     QVERIFY(!pinned->has(RowState::Disabled) && !idle("temperature"));
     document().setParameter({Owner::Wall, "floor", "heat"}, std::string("adiabatic"));
     m_window->inspector().rebuild();  // new rows stand still too
     QVERIFY(idle("temperature") && idle("film_coefficient"));
+  }
+
+  void whatWaitsForTheResetSaysSo() {
+    m_window->inspector().setBody("ice");
+    ParameterRow* row = m_window->inspector().bodyPanel()->row(QStringLiteral("body/ice/temperature"));
+    QVERIFY(row && row->model().rules.contains(QStringLiteral("Acts at the next reset.")));
+    const auto waits = [&] { return row->has(RowState::Limited); };
+    QVERIFY(!waits());
+    document().setParameter({Owner::Body, "ice", "temperature"}, 250.0);
+    QVERIFY(waits());
+    document().undoStack().undo();
+    QVERIFY(!waits());
+    document().undoStack().redo();
+    m_window->inspector().rebuild();  // new rows say it too
+    row = m_window->inspector().bodyPanel()->row(QStringLiteral("body/ice/temperature"));
+    QVERIFY(waits());
+    Q_EMIT row->linkActivated(row->key(), QStringLiteral("reset"));
+    QTRY_VERIFY(!waits());
+    document().setParameter({Owner::Body, "ice", "heating_power"}, 10.0);
+    QVERIFY(!m_window->inspector().bodyPanel()->row(QStringLiteral("body/ice/heating_power"))->has(RowState::Limited));
+  }
+
+  /// It is in no phase's mass, but has heat all the same.
+  void heldMatterHasItsLedger() {
+    QTRY_VERIFY(session().snapshot() && !session().snapshot()->id.empty());
+    EnergyPanel panel(session());
+    FrameStats held;
+    held.thermalEnergy = 5;
+    panel.append(held);
+    QVERIFY2(panel.findChild<QLabel*>()->text().contains(QStringLiteral("Heat in matter")),
+             qPrintable(panel.findChild<QLabel*>()->text()));
+  }
+
+  void theBrushIsNoPartOfTheScene() {
+    auto* panel = m_window->findChild<BrushPanel*>();
+    QVERIFY(panel && panel->row(QStringLiteral("radius")));
+    const int steps = document().undoStack().count();
+    QVERIFY(panel->row(QStringLiteral("radius"))->enterNumber(0.123));
+    QCOMPARE(m_window->tools().brush().radius, 0.123);
+    QCOMPARE(document().undoStack().count(), steps);
   }
 };
 

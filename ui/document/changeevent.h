@@ -20,6 +20,7 @@ struct ProjectOpened {
 struct ParameterChanged {
   Address address;
   std::optional<Value> value;
+  Value before{};  ///< what held until now
 };
 /// A body was renamed, hidden, locked, given another structure; or it came or went together with its matter, which
 /// `matter` names (nullptr: no particle is touched).

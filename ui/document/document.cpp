@@ -185,6 +185,7 @@ void Document::setView(const ViewState& view) { m_project.view.camera = view.cam
 
 void Document::applyParameter(const Address& address, const std::optional<Value>& value) {
   ParameterSet* set = findSet(m_project, address);
+  const Value before = this->value(address);
   const bool outside = value && setOutsideValue(m_project, address, *value);
   if (!set && !outside) return;
   if (outside) {
@@ -195,7 +196,7 @@ void Document::applyParameter(const Address& address, const std::optional<Value>
     set->values.erase(address.key);
   }
   ++m_changes;
-  tell(ParameterChanged{address, value});
+  tell(ParameterChanged{address, value, before});
 }
 
 void Document::applyBodies(const std::vector<SceneEdit>& edits, bool forward, const MatterRef& matter) {

@@ -118,14 +118,18 @@ void BrushPanel::refresh() {
   }
   for (const auto& [key, value] : commonValues(brush).values) setValue(QString::fromStdString(key), value);
   const ParameterSet set = brush.shapeParameters();
-  for (const RowModel& own : rowModels(ownParameters(), set, {}, kOwn)) setValue(own.key, own.value);
+  for (const RowModel& own : rowModels(ownParameters(), set, {}, kOwn)) {
+    setValue(own.key, own.value);
+    setDisabledReason(own.key, own.disabledReason);
+  }
   showMaterial();
 }
 
 void BrushPanel::showMaterial() {
   const std::string& id = m_tools.brush().material;
   setHeader(ownerLabel(m_tools.document().project(), {Owner::Material, id, ""}),
-            QStringLiteral("Choose other matter under Materials"));
+            QStringLiteral("Choose other matter under Materials"),
+            QStringLiteral("The brush is no part of the scene: undo leaves it as it is"));
 }
 
 void BrushPanel::onEdited(const QString& key, const Value& value, Edit edit) {

@@ -3,8 +3,10 @@
 
 #include "core/matter/material.h"
 #include "core/plugin_host/registry.h"
+#include "core/simulation/rules.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
+#include "ui/panels/rowmodels.h"
 #include "ui/session/selection.h"
 #include "ui/session/session.h"
 #include "ui/session/wording.h"
@@ -17,71 +19,10 @@ namespace {
 
 constexpr qint64 kReadInterval = 200;  // ms between two readings: means go through all particles
 
-/// Which kinds of heat at a wall a row of it belongs to.
-struct WallRow {
-  const char* key;
-  std::initializer_list<const char*> heats;
-  const char* first;  ///< what to do for it to act
-};
-const WallRow kWallRows[] = {
-    {"temperature", {"fixed_temperature", "convective"}, "Set its heat to a fixed temperature or to convective first."},
-    {"heat_flux", {"fixed_flux"}, "Set its heat to a fixed flux first."},
-    {"convection", {"convective"}, "Set its heat to convective first."},
-    {"emissivity", {"fixed_temperature", "convective"}, "Set its heat to a fixed temperature or to convective first."},
-    {"film_coefficient", {"fixed_temperature"}, "Set its heat to a fixed temperature first."},
-};
-
-QString whyWallIdle(const Project& project, const Address& address) {
-  const ParameterSet* set = findSet(project, address);
-  if (!set) return {};
-  const std::string heat = choiceOf(*set, wallParameters(), "heat");
-  for (const WallRow& row : kWallRows) {
-    if (address.key != row.key || std::find(row.heats.begin(), row.heats.end(), heat) != row.heats.end()) continue;
-    const char* now = heat == "adiabatic"           ? "The wall lets no heat through. "
-                      : heat == "fixed_temperature" ? "The wall is held at a temperature. "
-                      : heat == "fixed_flux"        ? "The wall gives a fixed flux of heat. "
-                                                    : "A fluid behind the wall gives and takes its heat. ";
-    return QString::fromUtf8(now) + QString::fromUtf8(row.first);
-  }
-  return {};
-}
-
-/// "" or why a value of this address does nothing as the scene is.
-QString whyIdle(const Project& project, const Address& address) {
-  if (address.owner == Owner::Body && address.key.starts_with("motion_")) {
-    const ParameterSet* set = findSet(project, address);
-    if (!set || toggleOf(*set, bodyParameters(), "fixed")) return {};
-    return QStringLiteral("Only a body that is held in place moves by itself. Hold it in place first.");
-  }
-  if (address.owner == Owner::Environment && address.key == "surroundings_temperature") {
-    if (toggleOf(project.environment.parameters, environmentParameters(), "radiation")) return {};
-    return QStringLiteral("Nothing radiates heat here. Switch heat radiation on first.");
-  }
-  return address.owner == Owner::Wall ? whyWallIdle(project, address) : QString();
-}
-
 /// The material that a row belongs to; "" for other rows.
 std::string materialOf(const QString& key) {
   const auto address = Address::parse(key.toStdString());
   return address && address->owner == Owner::Material ? address->id : std::string();
-}
-
-QString sourceText(const Provenance& provenance) {
-  const char* grade = provenance.grade == 'A'   ? "reference data, grade A"
-                      : provenance.grade == 'B' ? "handbook data, grade B"
-                                                : "typical value, grade C";
-  const QString from = QString::fromStdString(provenance.source);
-  return (from.isEmpty() ? from : from + QStringLiteral("; ")) + QLatin1String(grade);
-}
-
-QString gradeText(const PluginRegistry* plugins, const std::string& base) {
-  const Material* material = plugins ? plugins->material(base) : nullptr;
-  if (!material || material->provenance.empty()) return {};
-  char worst = 'A';
-  for (const auto& [key, provenance] : material->provenance) worst = std::max(worst, provenance.grade);
-  if (worst == 'A') return QStringLiteral("Reference data, grade A");
-  return worst == 'B' ? QStringLiteral("Handbook data, grade B")
-                      : QStringLiteral("Reference, handbook and typical data");
 }
 
 }  // namespace
@@ -93,7 +34,8 @@ Inspector::Inspector(Session& session, Selection& selection, QObject* parent)
       m_body(new ParameterPanel),
       m_material(new ParameterPanel),
       m_scene(new ParameterPanel),
-      m_solver(new ParameterPanel) {
+      m_solver(new ParameterPanel),
+      m_notes(m_document, panels()) {
   for (ParameterPanel* panel : panels()) connectPanel(panel);
   m_body->setEmptyText(QStringLiteral("Select something, or press Ctrl+K"));
   m_material->setEmptyText(QStringLiteral("Select something, or press Ctrl+K"));
@@ -145,8 +87,12 @@ void Inspector::onScaled(const QString& key, double factor) {
   m_document.setParameter(*address, scaledValue(*declaration, std::get<double>(value), factor));
 }
 
-/// Links of notes say what they set: "solver/substeps=8".
+/// Links of notes say what they set: "solver/substeps=8"; or that the scene is to be reset.
 void Inspector::onLink(const QString&, const QString& link) {
+  if (link == QLatin1String(RowNotes::kReset)) {
+    m_session.reset();
+    return;
+  }
   const qsizetype equals = link.indexOf(QLatin1Char('='));
   const auto address = Address::parse(link.left(equals).toStdString());
   const auto number = parseNumber(link.mid(equals + 1));
@@ -162,23 +108,9 @@ void Inspector::addRows(std::vector<RowModel>& rows, Address any, api::Parameter
   for (RowModel& row : rowModels(list, *set, defaults, QString::fromStdString(any.prefix()))) {
     if (!group.isEmpty()) row.declaration.group = keep(group);
     any.key = row.declaration.key;
-    row.disabledReason = whyIdle(m_document.project(), any);
+    addRules(row, m_document, any);
     rows.push_back(std::move(row));
   }
-}
-
-/// The row of one address; nothing where it has no declaration or no owner.
-std::optional<RowModel> Inspector::rowOf(const Address& address) const {
-  const api::ParameterDeclaration* declaration = m_document.declaration(address);
-  if (!declaration || (address.owner != Owner::Scene && !findSet(m_document.project(), address))) return std::nullopt;
-  RowModel row;
-  row.key = QString::fromStdString(address.text());
-  row.declaration = *declaration;
-  row.value = m_document.value(address);
-  row.defaultValue = m_document.defaultValue(address);
-  row.disabledReason = whyIdle(m_document.project(), address);
-  row.choiceLabels = choiceLabels(m_document.project(), m_document.plugins(), address, row.declaration);
-  return row;
 }
 
 void Inspector::addPinned(std::vector<RowModel>& rows) {
@@ -186,7 +118,7 @@ void Inspector::addPinned(std::vector<RowModel>& rows) {
   const Project& project = m_document.project();
   for (const std::string& text : project.view.pinned) {
     const auto address = Address::parse(text);
-    std::optional<RowModel> row = address ? rowOf(*address) : std::nullopt;
+    std::optional<RowModel> row = address ? rowModelOf(m_document, *address) : std::nullopt;
     if (!row) continue;
     QString label = awayLabel(project, *address, QString::fromUtf8(row->declaration.label));
     // Of another material than the panel's: its name tells the two apart. It may be long and stands last.
@@ -214,18 +146,20 @@ void Inspector::rebuildBody() {
   }
   m_body->setHeader(QString::fromStdString(body->name),
                     matter + (sketched ? QStringLiteral(" · sketched") : QStringLiteral(" · block")));
-  if (auto material = rowOf({Owner::Body, body->id, kBodyMaterialKey})) rows.push_back(std::move(*material));
+  if (auto material = rowModelOf(m_document, {Owner::Body, body->id, kBodyMaterialKey}))
+    rows.push_back(std::move(*material));
   addRows(rows, {Owner::Body, body->id, ""}, bodyParameters());
   const api::ParameterList motion = bodyMotionParameters();
   for (size_t i = 0; i < motion.count; ++i) {
-    if (auto row = rowOf({Owner::Body, body->id, motion[i].key})) rows.push_back(std::move(*row));
+    if (auto row = rowModelOf(m_document, {Owner::Body, body->id, motion[i].key})) rows.push_back(std::move(*row));
   }
-  if (auto structure = rowOf({Owner::Body, body->id, kStructureKey})) rows.push_back(std::move(*structure));
+  if (auto structure = rowModelOf(m_document, {Owner::Body, body->id, kStructureKey}))
+    rows.push_back(std::move(*structure));
   const api::ParameterList declared =
       declarationsOf(m_document.project(), m_document.plugins(), {Owner::Body, body->id, ""});
   for (size_t i = 0; i < declared.count; ++i) {
     if (pluginBehind(declared[i].key, kNeighbourKey).empty()) continue;
-    if (auto row = rowOf({Owner::Body, body->id, declared[i].key})) rows.push_back(std::move(*row));
+    if (auto row = rowModelOf(m_document, {Owner::Body, body->id, declared[i].key})) rows.push_back(std::move(*row));
   }
   for (const BodyConstraint& constraint : body->constraints) {
     const Address any{Owner::Constraint, body->id, "", constraint.plugin};
@@ -235,7 +169,7 @@ void Inspector::rebuildBody() {
       addRows(rows, any, m_document.plugins()->parameters(constraint.plugin), QString::fromUtf8(plugin->label()));
   }
   m_body->setModel(std::move(rows));
-  showLimits();
+  m_notes.show();
 }
 
 void Inspector::rebuildMaterial() {
@@ -252,7 +186,6 @@ void Inspector::rebuildMaterial() {
   }
   m_materialId = material->id;
   const PluginRegistry* plugins = m_document.plugins();
-  const bool missing = plugins && !plugins->material(material->base);
   showMaterialHeader();
   const Address any{Owner::Material, material->id, ""};
   addRows(rows, any, propertyCatalogue(), {}, materialDefaults(project, plugins, material->id));
@@ -260,35 +193,17 @@ void Inspector::rebuildMaterial() {
     addRows(rows, any, plugins->parameters(material->base), QString::fromUtf8(plugin->label()));
   }
   for (const SceneMaterial& other : project.materials) {
-    if (auto row = rowOf({Owner::Material, material->id, kAdheresKey + other.id})) rows.push_back(std::move(*row));
+    if (auto row = rowModelOf(m_document, {Owner::Material, material->id, kAdheresKey + other.id}))
+      rows.push_back(std::move(*row));
   }
   addPinned(rows);
-  if (missing) {
-    const QString own = QStringLiteral("material/%1/").arg(QString::fromStdString(material->id));
-    for (RowModel& row : rows) {
-      if (!row.key.startsWith(own)) continue;
-      row.disabledReason =
-          QStringLiteral("The material's plugin is not installed. Values are kept as they stand in the file.");
-    }
-  }
   for (RowModel& row : rows) {
     const std::string owner = materialOf(row.key);
     row.temperature = temperatureOf(owner);
-    row.source = sourceOf(owner, row.declaration.key);
+    row.source = sourceOf(m_document, owner, row.declaration.key);
   }
   m_material->setModel(std::move(rows));
-  showLimits();
-}
-
-/// Where the installed material's figure comes from; "" where nothing says so.
-QString Inspector::sourceOf(const std::string& material, const char* key) const {
-  const std::vector<SceneMaterial>& all = m_document.project().materials;
-  const auto owner = std::find_if(all.begin(), all.end(), [&](const SceneMaterial& m) { return m.id == material; });
-  const PluginRegistry* plugins = m_document.plugins();
-  const Material* installed = owner != all.end() && plugins ? plugins->material(owner->base) : nullptr;
-  if (!installed) return {};
-  const auto from = installed->provenance.find(key);
-  return from == installed->provenance.end() ? QString() : sourceText(from->second);
+  m_notes.show();
 }
 
 void Inspector::showMaterialHeader() {
@@ -349,7 +264,7 @@ void Inspector::showTemperatures(const Snapshot& snapshot) {
 void Inspector::rebuildScene() {
   const Project& project = m_document.project();
   std::vector<RowModel> rows;
-  if (auto gravity = rowOf({Owner::Scene, "", "gravity"})) rows.push_back(std::move(*gravity));
+  if (auto gravity = rowModelOf(m_document, {Owner::Scene, "", "gravity"})) rows.push_back(std::move(*gravity));
   addRows(rows, {Owner::Environment, "", ""}, environmentParameters());
   const auto named = [&](Owner owner, const auto& items, api::ParameterList list) {
     for (const auto& item : items)
@@ -360,7 +275,7 @@ void Inspector::rebuildScene() {
   named(Owner::Wall, project.environment.walls, wallParameters());
   showSceneHeader();
   m_scene->setModel(std::move(rows));
-  showLimits();
+  m_notes.show();
 }
 
 void Inspector::showSceneHeader() {
@@ -373,7 +288,7 @@ void Inspector::showSceneHeader() {
 
 void Inspector::rebuildSolver() {
   std::vector<RowModel> rows;
-  if (auto choice = rowOf({Owner::Scene, "", "thermal_model"})) rows.push_back(std::move(*choice));
+  if (auto choice = rowModelOf(m_document, {Owner::Scene, "", "thermal_model"})) rows.push_back(std::move(*choice));
   addRows(rows, {Owner::Solver, "", ""}, solverParameters());
   const std::string& id = m_document.project().solver.thermalModel;
   const api::ThermalPlugin* model = m_document.plugins() ? m_document.plugins()->thermal(id) : nullptr;
@@ -383,14 +298,14 @@ void Inspector::rebuildSolver() {
   for (size_t i = 0; i < scene.count; ++i) {
     const std::string source = pluginBehind(scene[i].key, kHeatSourceKey);
     if (source.empty()) continue;
-    if (auto row = rowOf({Owner::Scene, "", scene[i].key})) rows.push_back(std::move(*row));
+    if (auto row = rowModelOf(m_document, {Owner::Scene, "", scene[i].key})) rows.push_back(std::move(*row));
     addRows(rows, {Owner::HeatSource, source, ""}, m_document.plugins()->parameters(source),
             QString::fromUtf8(scene[i].label));
   }
   m_solver->setHeader(QStringLiteral("Solver"), model ? QStringLiteral("Heat by ") + QString::fromUtf8(model->label())
                                                       : QStringLiteral("No heat"));
   m_solver->setModel(std::move(rows));
-  showLimits();
+  m_notes.show();
 }
 
 void Inspector::rebuild() {
@@ -418,12 +333,13 @@ void Inspector::markPinned() {
   for (ParameterPanel* panel : panels()) panel->setPinned(keys);
 }
 
-/// Other rows of the owner, which may have come to act or ceased to.
-void Inspector::refreshIdle(const Address& address, std::initializer_list<const char*> keys) {
-  for (const char* key : keys) {
-    const Address other{address.owner, address.id, key, address.plugin};
-    const QString why = whyIdle(m_document.project(), other);
-    for (ParameterPanel* panel : panels()) panel->setDisabledReason(QString::fromStdString(other.text()), why);
+/// Rows that may have come to act or ceased to.
+void Inspector::refreshIdle(const Address& changed) {
+  for (ParameterPanel* panel : panels()) {
+    for (ParameterRow* row : panel->rows()) {
+      const auto own = Address::parse(row->key().toStdString());
+      if (own && mayEnable(row->model().declaration, *own, changed)) row->setDisabledReason(idleText(m_document, *own));
+    }
   }
 }
 
@@ -433,17 +349,13 @@ void Inspector::onChanged(const ChangeEvent& event) {
     const QString key = QString::fromStdString(address.text());
     for (ParameterPanel* panel : panels()) panel->setValue(key, m_document.value(address));
     if (address.owner == Owner::Scene && address.key == "thermal_model") rebuildSolver();
-    if (address.owner == Owner::Wall && address.key == "heat")
-      refreshIdle(address, {"temperature", "heat_flux", "convection", "emissivity", "film_coefficient"});
-    if (address.owner == Owner::Environment && address.key == "radiation")
-      refreshIdle(address, {"surroundings_temperature"});
-    if (address.owner == Owner::Body && address.key == "fixed") refreshIdle(address, {"motion_start", "motion_stop"});
+    refreshIdle(address);
+    m_notes.onChanged(*parameter);
     if (address.owner == Owner::Material && propertyIndex(address.key) < 0) refreshProperties(address.id);
   } else if (std::holds_alternative<ProjectOpened>(event)) {
     m_bodyId = m_document.project().bodies.empty() ? std::string() : m_document.project().bodies.front().id;
     m_materialId.clear();
-    m_limited.clear();
-    m_limits.clear();
+    m_notes.clear();
     m_mean.clear();
     m_sceneMean = ambientTemperature();  // what was measured belongs to the project before
     markPinned();
@@ -481,30 +393,7 @@ void Inspector::refreshProperties(const std::string& material) {
 
 void Inspector::setSnapshot(const Snapshot& snapshot) {
   showTemperatures(snapshot);
-  m_limits = snapshot.limits;
-  m_limitBodies = snapshot.bodyIds;
-  showLimits();
-}
-
-/// Said anew each time: the substeps change what is reached, and rows may have been made anew.
-void Inspector::showLimits() {
-  std::set<QString> limited;
-  for (const Limit& limit : m_limits) {
-    const auto address = limitAddress(limit, m_limitBodies.get());
-    if (!address) continue;
-    const QString key = QString::fromStdString(address->text());
-    limited.insert(key);
-    const double substeps = numberOf(m_document.project().solver.parameters, solverParameters(), "substeps");
-    const QString text =
-        limitText(limit, m_document.declaration(*address)) +
-        QStringLiteral(". [Use %1 substeps](solver/substeps=%1) to come closer").arg(static_cast<int>(substeps) * 2);
-    for (ParameterPanel* panel : panels()) panel->setLimit(key, text, limit.delivered);
-  }
-  for (const QString& key : m_limited) {
-    if (limited.count(key)) continue;
-    for (ParameterPanel* panel : panels()) panel->setLimit(key, {});
-  }
-  m_limited = std::move(limited);
+  m_notes.setSnapshot(snapshot);
 }
 
 ParameterPanel* Inspector::panelFor(const Address& address) {

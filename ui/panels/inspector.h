@@ -2,6 +2,7 @@
 #pragma once
 #include "core/simulation/snapshot.h"
 #include "ui/document/changeevent.h"
+#include "ui/panels/rownotes.h"
 #include "ui/rows/parameterpanel.h"
 
 #include <QtCore/QElapsedTimer>
@@ -42,7 +43,7 @@ class Inspector : public QObject {
 
  private:
   void onChanged(const ChangeEvent& event);
-  void refreshIdle(const Address& address, std::initializer_list<const char*> keys);
+  void refreshIdle(const Address& changed);
   std::vector<ParameterPanel*> panels() const { return {m_body, m_material, m_scene, m_solver}; }
   void connectPanel(ParameterPanel* panel);
   void onEdited(const QString& key, const Value& value, Edit edit);
@@ -51,8 +52,6 @@ class Inspector : public QObject {
   void rebuildBody();
   void rebuildMaterial();
   void showMaterialHeader();
-  QString sourceOf(const std::string& material, const char* key) const;
-  void showLimits();
   QString materialDetail() const;
   void showTemperatures(const Snapshot& snapshot);
   /// K, at which a material's curves are read: the mean of its particles, or of all matter where it has none.
@@ -65,7 +64,6 @@ class Inspector : public QObject {
   /// Rows of the owner of `any`, whatever its key; a group of its own replaces the declarations' groups.
   void addRows(std::vector<RowModel>& rows, Address any, api::ParameterList list, const QString& group = {},
                const ParameterSet& defaults = {});
-  std::optional<RowModel> rowOf(const Address& address) const;
   void addPinned(std::vector<RowModel>& rows);
   void markPinned();
   const char* keep(const QString& text);
@@ -74,11 +72,9 @@ class Inspector : public QObject {
   Document& m_document;
   QElapsedTimer m_sinceRead;
   ParameterPanel *m_body, *m_material, *m_scene, *m_solver;
+  RowNotes m_notes;
   std::string m_bodyId, m_materialId;
-  std::set<std::string> m_texts;  ///< headings and labels that rows borrow; grows with names only
-  std::set<QString> m_limited;    ///< rows that have a note
-  std::vector<Limit> m_limits;    ///< of the last snapshot: a paused scene publishes none when rows are made anew
-  std::shared_ptr<const std::vector<std::string>> m_limitBodies;
+  std::set<std::string> m_texts;         ///< headings and labels that rows borrow; grows with names only
   QString m_grade;                       ///< of the material's sources, as the header says it
   double m_sceneMean = 293.15;           ///< K
   std::map<std::string, double> m_mean;  ///< K, by material; of those that have particles

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/rows/parameterpanel.h"
 
+#include "core/parameters/wording.h"
 #include "ui/rows/filterfield.h"
 #include "ui/rows/groupheading.h"
 #include "ui/rows/panelheader.h"
@@ -57,8 +58,16 @@ bool matches(const ParameterRow& row, const QString& filter) {
 std::vector<RowModel> rowModels(api::ParameterList list, const ParameterSet& set, const ParameterSet& defaults,
                                 const QString& keyPrefix) {
   std::vector<RowModel> rows;
+  const DeclarationOfKey find = [&](std::string_view key) { return findDeclaration(list, key); };
+  const ValueOfKey values = [&](std::string_view key) -> std::optional<Value> {
+    const api::ParameterDeclaration* declaration = find(key);
+    return declaration ? std::optional(valueOf(set, *declaration)) : std::nullopt;
+  };
   for (size_t i = 0; i < list.count; ++i) {
     RowModel row;
+    for (const std::string& rule : ruleTexts(list[i], find)) row.rules << QString::fromStdString(rule);
+    if (!holds(parseCondition(list[i].enabledWhen), values))
+      row.disabledReason = QString::fromStdString(actsWhenText(list[i], find));
     row.key = keyPrefix + QString::fromUtf8(list[i].key);
     row.declaration = list[i];
     row.defaultValue = valueOf(defaults, list[i]);

@@ -12,8 +12,8 @@
 namespace ps {
 
 /// Rows of a list of declarations with the values of `set`. `defaults` are what the values are compared with (a
-/// material's base values); what it lacks has the declaration's default. `keyPrefix` is put before each key:
-/// "material/water/".
+/// material's base values); what it lacks has the declaration's default. Rules are judged by the set alone: what a
+/// declaration says of another owner counts as met. `keyPrefix` is put before each key: "material/water/".
 std::vector<RowModel> rowModels(api::ParameterList list, const ParameterSet& set, const ParameterSet& defaults = {},
                                 const QString& keyPrefix = {});
 

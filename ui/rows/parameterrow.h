@@ -29,6 +29,7 @@ struct RowModel {
   bool isPinned = false;        ///< such a copy exists, or is this row
   bool mixed = false;           ///< several selected owners disagree
   QStringList choiceLabels;     ///< of a choice, in the order of its names; empty: made from the names
+  QStringList rules;            ///< sentences for the tooltip: what bounds the value, when it acts
   QString disabledReason;       ///< not empty: disabled, the tooltip says why
   QString derivedFrom;          ///< not empty: computed, no field: "from pressure"
   QString source;               ///< of the default value; "": the declaration's

@@ -32,6 +32,8 @@ QString ParameterRow::Private::toolTipText() const {
   QString text = QStringLiteral("<div><b>%1</b></div>").arg(QString::fromUtf8(p.label).toHtmlEscaped());
   if (!model.disabledReason.isEmpty()) text += line("", model.disabledReason);
   text += line("", QString::fromUtf8(p.help ? p.help : ""));
+  for (const QString& rule : model.rules)
+    if (rule != model.disabledReason) text += line("", rule);
   if (isNumeric() && p.maximum > p.minimum) {
     text += line("Range", QStringLiteral("%1 to %2").arg(formatBound(p, p.minimum), formatBound(p, p.maximum)));
   }

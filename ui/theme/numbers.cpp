@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/theme/numbers.h"
 
+#include "core/parameters/parameterset.h"
 #include "ui/theme/units.h"
 
 #include <QtCore/QChar>
@@ -227,19 +228,6 @@ qsizetype unitStart(const QString& text) {
   return 0;
 }
 
-/// A value that stands for none, and the word for it.
-struct NoValue {
-  double stored;
-  QString word;
-};
-std::optional<NoValue> noValueOf(const api::ParameterDeclaration& d) {
-  if (d.leastWord) return NoValue{d.hardMinimum, QString::fromUtf8(d.leastWord)};
-  const std::string_view unit = d.unit ? d.unit : "";
-  if (unit == "K" && d.displayOffset != 0 && d.hardMinimum <= 0) return NoValue{0, QStringLiteral("none")};
-  if (unit == "s" && d.hardMaximum >= 1e9) return NoValue{d.hardMaximum, QStringLiteral("never")};
-  return std::nullopt;
-}
-
 }  // namespace
 
 QString formatNumber(double value, int significant) { return formatted(value, significant, -1); }
@@ -293,7 +281,7 @@ bool standsForNone(const api::ParameterDeclaration& d, double stored) {
 }
 
 QString formatField(const api::ParameterDeclaration& d, double stored) {
-  if (standsForNone(d, stored)) return noValueOf(d)->word;
+  if (standsForNone(d, stored)) return QString::fromUtf8(noValueOf(d)->word);
   double shown = toDisplay(d, stored);
   // 273.15 K - 273.15 is not always 0: what lies under the last bit of the sum is no information.
   if (std::abs(shown) < 1e-12 * std::abs(d.displayOffset)) shown = 0;

@@ -14,8 +14,9 @@ constexpr ParameterDeclaration kParameters[] = {
     {"intensity", "Intensity", "I", "W/m²", ParameterKind::Number, Scale::Linear, kIntensity, 0, 1e5, 0, 1e9, "kW/m²",
      1e-3, 0, "", "Lamp", "Power that the beam brings to each square metre, all of it absorbed.",
      "sun 1 kW/m², grill 20 kW/m², cutting laser 10⁷ kW/m²", ""},
-    {"radius", "Radius of the beam", "r", "m", ParameterKind::Number, Scale::Linear, kRadius, 0.01, 1, 0, 100, "cm",
-     100, 0, "", "Lamp", "The beam is round and stands over the origin.", "torch 2 cm, grill 20 cm", ""}};
+    actingWhen("intensity > 0", {"radius", "Radius of the beam", "r", "m", ParameterKind::Number, Scale::Linear,
+                                 kRadius, 0.01, 1, 0, 100, "cm", 100, 0, "", "Lamp",
+                                 "The beam is round and stands over the origin.", "torch 2 cm, grill 20 cm", ""})};
 
 double parameter(const ThermalContext& context, size_t index, double fallback) {
   return index < context.parameters.size ? context.parameters[index] : fallback;

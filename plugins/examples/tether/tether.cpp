@@ -10,9 +10,9 @@ using namespace ps::api;
 
 constexpr double kSlack = 0.05;
 
-constexpr ParameterDeclaration kParameters[] = {
+constexpr ParameterDeclaration kParameters[] = {atReset(
     {"slack", "Slack", "", "", ParameterKind::Number, Scale::Linear, kSlack, 0, 0.5, 0, 10, "%", 100, 0, "", "Tether",
-     "How much longer than at the start a tie may become before it pulls.", "chain 0 %, loose net 20 %", ""}};
+     "How much longer than at the start a tie may become before it pulls.", "chain 0 %, loose net 20 %", ""})};
 constexpr FieldDeclaration kValues[] = {{"longest", "m", "Length from which on it pulls", FieldType::Float32}};
 
 float distance(const ParticleView& particles, uint32_t i, uint32_t j) {

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/panels/rownotes.h"
+
+#include "ui/document/document.h"
+#include "ui/rows/parameterpanel.h"
+#include "ui/session/wording.h"
+
+#include <limits>
+
+namespace ps {
+
+RowNotes::RowNotes(const Document& document, std::vector<ParameterPanel*> panels)
+    : m_document(document), m_panels(std::move(panels)) {}
+
+void RowNotes::clear() {
+  m_limits.clear();
+  m_made.clear();
+  m_shown.clear();
+}
+
+void RowNotes::setSnapshot(const Snapshot& snapshot) {
+  m_limits = snapshot.limits;
+  m_bodies = snapshot.bodyIds;
+  if (snapshot.revision != m_revision) m_made.clear();
+  m_revision = snapshot.revision;
+  show();
+}
+
+void RowNotes::onChanged(const ParameterChanged& change) {
+  const Address& address = change.address;
+  const api::ParameterDeclaration* declaration = m_document.declaration(address);
+  if (!declaration || declaration->actsAt == api::ActsAt::NextFrame) return;
+  const Body* body = m_document.body(address.id);
+  const bool fixed = body && toggleOf(body->parameters, bodyParameters(), "fixed");
+  if (declaration->actsAt == api::ActsAt::NextFrameIfFixed && fixed) return;
+  const auto [made, first] = m_made.try_emplace(address.text(), change.before);
+  if (!first && made->second == m_document.value(address)) m_made.erase(made);
+  show();
+}
+
+void RowNotes::addLimits(std::map<QString, Note>& notes) const {
+  const double substeps = numberOf(m_document.project().solver.parameters, solverParameters(), "substeps");
+  for (const Limit& limit : m_limits) {
+    const auto address = limitAddress(limit, m_bodies.get());
+    if (!address) continue;
+    notes[QString::fromStdString(address->text())] = {
+        limitText(limit, m_document.declaration(*address)) +
+            QStringLiteral(". [Use %1 substeps](solver/substeps=%1) to come closer")
+                .arg(static_cast<int>(substeps) * 2),
+        limit.delivered};
+  }
+}
+
+void RowNotes::addWaiting(std::map<QString, Note>& notes) const {
+  for (const auto& [address, value] : m_made)
+    notes[QString::fromStdString(address)] = {
+        QStringLiteral("Acts at the next reset. [Reset now](%1)").arg(QLatin1String(kReset)),
+        std::numeric_limits<double>::quiet_NaN()};
+}
+
+void RowNotes::show() {
+  std::map<QString, Note> notes;
+  addLimits(notes);
+  addWaiting(notes);
+  for (ParameterPanel* panel : m_panels) {
+    for (const auto& [key, note] : m_shown)
+      if (!notes.count(key)) panel->setLimit(key, {});
+    for (const auto& [key, note] : notes) panel->setLimit(key, note.text, note.delivered);
+  }
+  m_shown = std::move(notes);
+}
+
+}  // namespace ps

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "core/simulation/snapshot.h"
+#include "ui/document/changeevent.h"
+
+#include <QtCore/QString>
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace ps {
+
+class Document;
+class ParameterPanel;
+
+/// The notes under rows: what the solver cannot reach, and what waits for the next reset.
+class RowNotes {
+ public:
+  RowNotes(const Document& document, std::vector<ParameterPanel*> panels);
+
+  void clear();  ///< another project
+  void setSnapshot(const Snapshot& snapshot);
+  void onChanged(const ParameterChanged& change);
+  /// Says all of them anew: substeps change what is reached, and rows may have been made anew.
+  void show();
+
+  /// Target of the link that resets the scene; other links are "ADDRESS=VALUE".
+  static constexpr const char* kReset = "reset";
+
+ private:
+  struct Note {
+    QString text;
+    double delivered;
+  };
+  void addLimits(std::map<QString, Note>& notes) const;
+  void addWaiting(std::map<QString, Note>& notes) const;
+
+  const Document& m_document;
+  std::vector<ParameterPanel*> m_panels;
+  std::vector<Limit> m_limits;  ///< of the last snapshot: a paused scene publishes none when rows are made anew
+  std::shared_ptr<const std::vector<std::string>> m_bodies;
+  uint64_t m_revision = 0;
+  std::map<std::string, Value> m_made;  ///< by address: with what the present matter was made, where that has changed
+  std::map<QString, Note> m_shown;
+};
+
+}  // namespace ps
