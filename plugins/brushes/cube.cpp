@@ -50,15 +50,12 @@ Double3 extentOf(const std::array<Double3, 3>& axes, double half) {
 
 }  // namespace
 
-const char* CubeBrush::label() const noexcept { return "Cube"; }
-
-const char* CubeBrush::help() const noexcept {
-  return "Draws a square strand: a cube, whose half edge is the brush's radius, is filled or emptied at every point of "
-         "the stroke. A cube of n particle spacings holds n cells along each edge. It knows the lattice only, not what "
-         "stands in the way; occupied cells are left as they are.";
-}
-
-ps::api::ParameterList CubeBrush::parameters() const noexcept { return ps::api::listOf(kParameters); }
+CubeBrush::CubeBrush()
+    : Described({"Cube",
+                 "Draws a square strand: a cube, whose half edge is the brush's radius, is filled or emptied at every "
+                 "point of the stroke. A cube of n particle spacings holds n cells along each edge. It knows the "
+                 "lattice only, not what stands in the way; occupied cells are left as they are.",
+                 ps::api::listOf(kParameters)}) {}
 
 void CubeBrush::stroke(const ps::api::StrokeContext& context, ps::api::EditKind kind,
                        const ps::api::List<ps::api::StrokeSample>& samples, ps::api::EditSink& sink) const {

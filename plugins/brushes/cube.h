@@ -3,15 +3,14 @@
 #include <phasesketch/qtentry.h>
 
 /// Stamps a cube of cells at every sample of the stroke, turned about the up direction.
-class CubeBrush final : public QObject, public ps::api::BrushPlugin {
+class CubeBrush final : public QObject, public ps::api::Described<ps::api::BrushPlugin> {
   Q_OBJECT
   Q_PLUGIN_METADATA(IID PHASESKETCH_BRUSH_IID FILE "cube.json")
   Q_INTERFACES(ps::api::BrushPlugin)
 
  public:
-  const char* label() const noexcept override;
-  const char* help() const noexcept override;
-  ps::api::ParameterList parameters() const noexcept override;
+  CubeBrush();
+
   void stroke(const ps::api::StrokeContext& context, ps::api::EditKind kind,
               const ps::api::List<ps::api::StrokeSample>& samples, ps::api::EditSink& sink) const override;
   ps::api::Double3 extent(const ps::api::StrokeContext& context) const noexcept override;

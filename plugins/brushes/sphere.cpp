@@ -27,14 +27,11 @@ double radiusAt(const ps::api::StrokeContext& context, double pressure) {
 
 }  // namespace
 
-const char* SphereBrush::label() const noexcept { return "Sphere"; }
-
-const char* SphereBrush::help() const noexcept {
-  return "Draws a round strand: every cell whose centre is within the radius of the stroke is filled, or emptied. It "
-         "knows the lattice only, not what stands in the way; occupied cells are left as they are.";
-}
-
-ps::api::ParameterList SphereBrush::parameters() const noexcept { return ps::api::listOf(kParameters); }
+SphereBrush::SphereBrush()
+    : Described({"Sphere",
+                 "Draws a round strand: every cell whose centre is within the radius of the stroke is filled, or "
+                 "emptied. It knows the lattice only, not what stands in the way; occupied cells are left as they are.",
+                 ps::api::listOf(kParameters)}) {}
 
 void SphereBrush::stroke(const ps::api::StrokeContext& context, ps::api::EditKind kind,
                          const ps::api::List<ps::api::StrokeSample>& samples, ps::api::EditSink& sink) const {

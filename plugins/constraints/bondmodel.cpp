@@ -208,19 +208,17 @@ float referenceVolume(const ConstraintContext& context, const ParticleView& p, u
 
 }  // namespace
 
-const char* BondModel::label() const noexcept { return "Bonds"; }
-
-const char* BondModel::help() const noexcept {
-  return "Holds a solid together with springs between each particle and its 18 nearest (extended position-based "
-         "dynamics, Macklin et al. 2016). Their stiffness follows Young's modulus at the particles' temperature, their "
-         "length the particles' volume. They break where matter melts and form again where it freezes: with matter of "
-         "its own kind, or of one that either material says it holds on to (adheres_to). Dry pieces join only where "
-         "their material sinters, as ice does. Bonds also take back what has melted out of cloth, ropes and soft "
-         "bodies, and what was liquid from the start. Poisson's ratio is always 1/4; nothing breaks by force; very "
-         "stiff matter is as stiff as the substeps can resolve.";
-}
-
-api::ParameterList BondModel::parameters() const noexcept { return api::listOf(kParameters); }
+BondModel::BondModel()
+    : Described(
+          {"Bonds",
+           "Holds a solid together with springs between each particle and its 18 nearest (extended position-based "
+           "dynamics, Macklin et al. 2016). Their stiffness follows Young's modulus at the particles' temperature, "
+           "their length the particles' volume. They break where matter melts and form again where it freezes: with "
+           "matter of its own kind, or of one that either material says it holds on to (adheres_to). Dry pieces join "
+           "only where their material sinters, as ice does. Bonds also take back what has melted out of cloth, ropes "
+           "and soft bodies, and what was liquid from the start. Poisson's ratio is always 1/4; nothing breaks by "
+           "force; very stiff matter is as stiff as the substeps can resolve.",
+           api::listOf(kParameters)}) {}
 
 bool BondModel::traits(api::StructuralTraits* out) const noexcept {
   return api::fill(out, {.arity = 2, .values = api::listOf(kValues), .fields = api::listOf(kJoiningFields)});

@@ -14,7 +14,7 @@ namespace ps::constraint {
 /// to them. The parameters of the group Legacy choose the 2020 thesis's rules instead. It cannot do: another Poisson's
 /// ratio, plasticity, fracture by force, or a stiffness beyond what the substeps resolve (limits() says so). The
 /// outermost layer is softer, having fewer springs.
-class BondModel : public api::StructuralPlugin {
+class BondModel : public api::Described<api::StructuralPlugin> {
  public:
   enum Parameter {
     kBondMax,
@@ -34,9 +34,8 @@ class BondModel : public api::StructuralPlugin {
   };
   enum Value { kRestLength, kReferenceVolume, kMultiplier, kLength, kCompliance, kTemperature, kValueCount };
 
-  const char* label() const noexcept override;
-  const char* help() const noexcept override;
-  api::ParameterList parameters() const noexcept override;
+  BondModel();
+
   bool traits(api::StructuralTraits* out) const noexcept override;
   const void* extension(const char* name) const noexcept override;
 

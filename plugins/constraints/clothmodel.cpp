@@ -55,18 +55,15 @@ constexpr api::ParameterDeclaration kParameters[] = {
 
 }  // namespace
 
-const char* ClothModel::label() const noexcept { return "Cloth"; }
-
-const char* ClothModel::help() const noexcept {
-  return "Makes a sheet one particle thick behave as cloth: springs against stretch, shear and folds, which may tear "
-         "(extended position-based dynamics, Macklin et al. 2016). Draw a thin sheet, or a box that is one particle "
-         "thick. Its mass per area is the material's density times the particle spacing: 50 kg/m³ at 2 cm make 1 "
-         "kg/m². "
-         "Water runs through where the cloth is stretched to more than one particle spacing per thread; folds finer "
-         "than two spacings do not show. What melts leaves it for good, and is held by bonds when it freezes again.";
-}
-
-api::ParameterList ClothModel::parameters() const noexcept { return api::listOf(kParameters); }
+ClothModel::ClothModel()
+    : SpringModel({"Cloth",
+                   "Makes a sheet one particle thick behave as cloth: springs against stretch, shear and folds, which "
+                   "may tear (extended position-based dynamics, Macklin et al. 2016). Draw a thin sheet, or a box that "
+                   "is one particle thick. Its mass per area is the material's density times the particle spacing: 50 "
+                   "kg/m³ at 2 cm make 1 kg/m². Water runs through where the cloth is stretched to more than one "
+                   "particle spacing per thread; folds finer than two spacings do not show. What melts leaves it for "
+                   "good, and is held by bonds when it freezes again.",
+                   api::listOf(kParameters)}) {}
 
 SpringModel::Springs ClothModel::springsOf(api::Span<const double> parameters, double) const {
   Springs springs;

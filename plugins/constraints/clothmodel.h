@@ -13,9 +13,7 @@ class ClothModel : public SpringModel {
  public:
   enum Parameter { kStretchStiffness, kShearStiffness, kBendStiffness, kDamping, kTearStrain, kTied, kParameterCount };
 
-  const char* label() const noexcept override;
-  const char* help() const noexcept override;
-  api::ParameterList parameters() const noexcept override;
+  ClothModel();
 
  protected:
   Springs springsOf(api::Span<const double> parameters, double spacing) const override;

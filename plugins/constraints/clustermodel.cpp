@@ -229,17 +229,14 @@ double modulusOf(const ConstraintContext& context, const ParticleView& p, const 
 
 }  // namespace
 
-const char* ClusterModel::label() const noexcept { return "Soft clusters"; }
-
-const char* ClusterModel::help() const noexcept {
-  return "Makes a solid soft: many overlapping clusters, each of which pulls its particles back to the shape they had "
-         "(shape matching, Mueller et al. 2005; extended position-based dynamics, Macklin et al. 2016). As stiff as "
-         "the material's Young's modulus says, with Poisson's ratio 0: it does not bulge when squeezed. It always "
-         "returns to its shape and never breaks by force; what melts leaves it for good, and is held by bonds when it "
-         "freezes again. For jelly and rubber; bonds suit stiffer matter.";
-}
-
-api::ParameterList ClusterModel::parameters() const noexcept { return api::listOf(kParameters); }
+ClusterModel::ClusterModel()
+    : Described({"Soft clusters",
+                 "Makes a solid soft: many overlapping clusters, each of which pulls its particles back to the shape "
+                 "they had (shape matching, Mueller et al. 2005; extended position-based dynamics, Macklin et al. "
+                 "2016). As stiff as the material's Young's modulus says, with Poisson's ratio 0: it does not bulge "
+                 "when squeezed. It always returns to its shape and never breaks by force; what melts leaves it for "
+                 "good, and is held by bonds when it freezes again. For jelly and rubber; bonds suit stiffer matter.",
+                 api::listOf(kParameters)}) {}
 
 bool ClusterModel::traits(api::GroupTraits* out) const noexcept {
   return api::fill(out, {.values = api::listOf(kValues), .memberValues = api::listOf(kMemberValues)});

@@ -14,7 +14,7 @@ namespace ps::constraint {
 /// rate of w² dt, is given back (deriveVelocities). It cannot do: keep the
 /// volume under large strain, plasticity, fracture by force, strains that change within a cluster (it is stiffer
 /// against them), or take back matter that has melted.
-class ClusterModel : public api::GroupPlugin {
+class ClusterModel : public api::Described<api::GroupPlugin> {
  public:
   enum Parameter { kRadius, kSpacing, kDamping, kStiffnessRatio, kParameterCount };
   enum Value { kRotationX, kRotationY, kRotationZ, kRotationW, kVolume, kScale, kKappa, kValueCount };
@@ -32,9 +32,8 @@ class ClusterModel : public api::GroupPlugin {
     kMemberValueCount
   };
 
-  const char* label() const noexcept override;
-  const char* help() const noexcept override;
-  api::ParameterList parameters() const noexcept override;
+  ClusterModel();
+
   bool traits(api::GroupTraits* out) const noexcept override;
 
   void build(const api::ConstraintContext& context, const api::ParticleView& particles, const api::NeighbourView& lists,

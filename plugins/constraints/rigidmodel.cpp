@@ -94,17 +94,14 @@ void absorb(RigidBody& body, const api::MovableParticles& particles, double dt) 
 
 }  // namespace
 
-const char* RigidModel::label() const noexcept { return "Rigid"; }
-
-const char* RigidModel::help() const noexcept {
-  return "Holds a solid together as one rigid body that keeps its momentum and its spin (prediction with the "
-         "gyroscopic term; contact absorbed by shape matching, Mueller et al. 2005 and 2016). Liquid pushes it, it "
-         "floats, and where it melts it falls into the pieces that are left. What freezes beside it becomes part of "
-         "it, and pieces that freeze or sinter together for half a second become one. It never bends and never breaks "
-         "by force: for matter too stiff for bonds, such as ice, stone and metal.";
-}
-
-api::ParameterList RigidModel::parameters() const noexcept { return api::listOf(kParameters); }
+RigidModel::RigidModel()
+    : Described({"Rigid",
+                 "Holds a solid together as one rigid body that keeps its momentum and its spin (prediction with the "
+                 "gyroscopic term; contact absorbed by shape matching, Mueller et al. 2005 and 2016). Liquid pushes "
+                 "it, it floats, and where it melts it falls into the pieces that are left. What freezes beside it "
+                 "becomes part of it, and pieces that freeze or sinter together for half a second become one. It never "
+                 "bends and never breaks by force: for matter too stiff for bonds, such as ice, stone and metal.",
+                 api::listOf(kParameters)}) {}
 
 bool RigidModel::traits(api::GroupTraits* out) const noexcept {
   return api::fill(out, {.rigid = 1,

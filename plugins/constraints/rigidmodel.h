@@ -16,7 +16,7 @@ namespace ps::constraint {
 /// or more for half a second, frozen together or sintering, become one. All of this keeps linear and angular momentum:
 /// a body takes its own from its members. Heat scales the whole body by its mean strain. It cannot do: deform, break by
 /// force, freeze together across the faces of a periodic scene, or freeze onto fixed matter (bonds do).
-class RigidModel : public api::GroupPlugin {
+class RigidModel : public api::Described<api::GroupPlugin> {
  public:
   enum Parameter { kLeastMembers, kParameterCount };
   enum Value {
@@ -38,9 +38,8 @@ class RigidModel : public api::GroupPlugin {
   };
   enum MemberValue { kRestX, kRestY, kRestZ, kRestVolume, kMemberValueCount };
 
-  const char* label() const noexcept override;
-  const char* help() const noexcept override;
-  api::ParameterList parameters() const noexcept override;
+  RigidModel();
+
   bool traits(api::GroupTraits* out) const noexcept override;
 
   void build(const api::ConstraintContext& context, const api::ParticleView& particles, const api::NeighbourView& lists,

@@ -50,17 +50,14 @@ constexpr api::ParameterDeclaration kParameters[] = {
 
 }  // namespace
 
-const char* RopeModel::label() const noexcept { return "Rope"; }
-
-const char* RopeModel::help() const noexcept {
-  return "Makes a line one particle thick behave as a rope: springs against stretch and kinks, which may tear "
-         "(extended position-based dynamics, Macklin et al. 2016). Draw a thin line, or a box that is one particle "
-         "high and deep. Its mass per length is the material's density times the square of the particle spacing. Heavy "
-         "loads stretch it more than they should unless there are many substeps; it does not resist twist. What melts "
-         "leaves it for good, and is held by bonds when it freezes again.";
-}
-
-api::ParameterList RopeModel::parameters() const noexcept { return api::listOf(kParameters); }
+RopeModel::RopeModel()
+    : SpringModel({"Rope",
+                   "Makes a line one particle thick behave as a rope: springs against stretch and kinks, which may "
+                   "tear (extended position-based dynamics, Macklin et al. 2016). Draw a thin line, or a box that is "
+                   "one particle high and deep. Its mass per length is the material's density times the square of the "
+                   "particle spacing. Heavy loads stretch it more than they should unless there are many substeps; it "
+                   "does not resist twist. What melts leaves it for good, and is held by bonds when it freezes again.",
+                   api::listOf(kParameters)}) {}
 
 SpringModel::Springs RopeModel::springsOf(api::Span<const double> parameters, double spacing) const {
   Springs springs;

@@ -12,9 +12,7 @@ class RopeModel : public SpringModel {
  public:
   enum Parameter { kStretchStiffness, kBendStiffness, kDamping, kTearStrain, kTied, kParameterCount };
 
-  const char* label() const noexcept override;
-  const char* help() const noexcept override;
-  api::ParameterList parameters() const noexcept override;
+  RopeModel();
 
  protected:
   Springs springsOf(api::Span<const double> parameters, double spacing) const override;

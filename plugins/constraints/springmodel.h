@@ -11,8 +11,9 @@ namespace ps::constraint {
 /// et al. 2016, eq. 18 and 26). Springs keep linear and angular momentum. A stretch spring tears when its strain passes
 /// a bound; a shear or bend spring goes with the last particle that held both its ends. Lengths at rest are those at
 /// the start; heat does not change them.
-class SpringModel : public api::StructuralPlugin {
+class SpringModel : public api::Described<api::StructuralPlugin> {
  public:
+  using Described::Described;
   enum Kind { kStretch, kShear, kBend, kKinds };
   enum Value { kRestLength, kKind, kMultiplier, kValueCount };
 

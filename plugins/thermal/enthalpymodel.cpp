@@ -100,17 +100,16 @@ double enthalpyAt(const api::Caloric& c, double t, api::Phase phase) {
   return balancedEnthalpy(c, t);
 }
 
-const char* EnthalpyModel::label() const noexcept { return "Enthalpy"; }
-
-const char* EnthalpyModel::help() const noexcept {
-  return "Each particle carries its specific enthalpy; temperature and the shares of solid, liquid and vapour follow "
-         "from it (Voller & Cross 1981). No heat is lost at a plateau whatever the step, melting and freezing are one "
-         "law run both ways, a melting range and sublimation are included, and a change of pressure keeps the energy. "
-         "Matter is always in balance: no supercooling, no evaporation below the boiling point, one heat capacity per "
-         "phase. A body that is told to begin in another phase than its temperature and pressure allow begins with "
-         "that phase's heat, and is at once what that heat means: liquid water of 90 °C at 50 kPa is 81 °C and 1.6 % "
-         "vapour.";
-}
+EnthalpyModel::EnthalpyModel()
+    : Described({"Enthalpy",
+                 "Each particle carries its specific enthalpy; temperature and the shares of solid, liquid and vapour "
+                 "follow from it (Voller & Cross 1981). No heat is lost at a plateau whatever the step, melting and "
+                 "freezing are one law run both ways, a melting range and sublimation are included, and a change of "
+                 "pressure keeps the energy. Matter is always in balance: no supercooling, no evaporation below the "
+                 "boiling point, one heat capacity per phase. A body that is told to begin in another phase than its "
+                 "temperature and pressure allow begins with that phase's heat, and is at once what that heat means: "
+                 "liquid water of 90 °C at 50 kPa is 81 °C and 1.6 % vapour.",
+                 {}}) {}
 
 api::List<api::FieldDeclaration> EnthalpyModel::fields() const noexcept {
   static const api::FieldDeclaration list[] = {

@@ -26,11 +26,11 @@ ThermalState stateAt(const api::Caloric& caloric, double enthalpy);
 double enthalpyAt(const api::Caloric& caloric, double temperature, api::Phase phase);
 
 /// The enthalpy method: specific enthalpy is the one state variable, everything else follows from it.
-class EnthalpyModel : public api::ThermalPlugin {
+class EnthalpyModel : public api::Described<api::ThermalPlugin> {
  public:
-  const char* label() const noexcept override;
-  const char* help() const noexcept override;
-  api::ParameterList parameters() const noexcept override { return {}; }
+  EnthalpyModel();
+  using Described::Described;  ///< for models that differ in what they say
+
   api::List<api::FieldDeclaration> fields() const noexcept override;
   void initialise(const api::ThermalContext& context, const api::ParticleView& particles, size_t first, size_t last,
                   const double* temperature, const api::Phase* phase) const override;

@@ -55,16 +55,14 @@ double squareOf(const api::ParticleView& p, size_t i, size_t j) {
 
 }  // namespace
 
-const char* ThesisDiffusionModel::label() const noexcept { return "Thesis diffusion"; }
-
-const char* ThesisDiffusionModel::help() const noexcept {
-  return "The explicit heat model of the thesis: temperatures even out with one diffusivity for all matter, and the "
-         "conductivities of materials play no part inside it. What flows between two particles is the same for both, "
-         "so no energy is lost; melting and boiling are those of the enthalpy model. For comparison: iron and wax warm "
-         "through equally fast. Walls and air still go by the material's conductivity.";
-}
-
-api::ParameterList ThesisDiffusionModel::parameters() const noexcept { return api::listOf(kParameters); }
+ThesisDiffusionModel::ThesisDiffusionModel()
+    : EnthalpyModel(
+          {"Thesis diffusion",
+           "The explicit heat model of the thesis: temperatures even out with one diffusivity for all matter, and the "
+           "conductivities of materials play no part inside it. What flows between two particles is the same for both, "
+           "so no energy is lost; melting and boiling are those of the enthalpy model. For comparison: iron and wax "
+           "warm through equally fast. Walls and air still go by the material's conductivity.",
+           api::listOf(kParameters)}) {}
 
 bool ThesisDiffusionModel::pairFlux(const api::ThermalContext& context, const api::ParticleView& particles,
                                     const api::NeighbourView& neighbours, size_t first, size_t last,

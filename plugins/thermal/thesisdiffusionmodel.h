@@ -20,9 +20,8 @@ namespace ps::thermal {
 /// go by the material's conductivity, as with the other models.
 class ThesisDiffusionModel : public EnthalpyModel, public api::PairRates {
  public:
-  const char* label() const noexcept override;
-  const char* help() const noexcept override;
-  api::ParameterList parameters() const noexcept override;
+  ThesisDiffusionModel();
+
   const void* extension(const char* name) const noexcept override {
     return std::string_view(name) == api::kPairRates ? static_cast<const api::PairRates*>(this) : nullptr;
   }

@@ -130,14 +130,13 @@ State stateOf(const ThermalState& start) {
 
 }  // namespace
 
-const char* ThesisLatentModel::label() const noexcept { return "Thesis latent heat"; }
-
-const char* ThesisLatentModel::help() const noexcept {
-  return "The latent-heat bookkeeping of the thesis, with the rule added that lets a particle leave a plateau: for "
-         "comparison. Each plateau drops the heat that overshoots it, up to about half a percent of what is supplied, "
-         "so the energy balance stays open and melting and boiling come a few steps late. No melting range and no "
-         "sublimation. Choose Enthalpy for everything else.";
-}
+ThesisLatentModel::ThesisLatentModel()
+    : Described({"Thesis latent heat",
+                 "The latent-heat bookkeeping of the thesis, with the rule added that lets a particle leave a plateau: "
+                 "for comparison. Each plateau drops the heat that overshoots it, up to about half a percent of what "
+                 "is supplied, so the energy balance stays open and melting and boiling come a few steps late. No "
+                 "melting range and no sublimation. Choose Enthalpy for everything else.",
+                 {}}) {}
 
 api::List<api::FieldDeclaration> ThesisLatentModel::fields() const noexcept {
   using api::FieldType;

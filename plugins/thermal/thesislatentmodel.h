@@ -21,13 +21,12 @@ namespace ps::thermal {
 /// stays open. No melting range, no sublimation (a solid above its sublimation point becomes fluid, then boils), and a
 /// change of pressure on a plateau loses heat as well. Matter that is to begin in a phase away from the balance begins
 /// as the enthalpy model has it, in the state that this phase's heat means.
-class ThesisLatentModel : public api::ThermalPlugin {
+class ThesisLatentModel : public api::Described<api::ThermalPlugin> {
  public:
   enum State : unsigned char { Solid, MeltingFreezing, Fluid, BoilingCondensing, Gas };
 
-  const char* label() const noexcept override;
-  const char* help() const noexcept override;
-  api::ParameterList parameters() const noexcept override { return {}; }
+  ThesisLatentModel();
+
   api::List<api::FieldDeclaration> fields() const noexcept override;
   /// Algorithm 4 drops the heat that overshoots a plateau.
   const void* extension(const char* name) const noexcept override {

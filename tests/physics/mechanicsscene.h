@@ -133,11 +133,9 @@ inline bool run(ps::Solver& solver, int frames) {
 
 /// What the test plugins share.
 template <class Form>
-class TestConstraint : public Form {
+class TestConstraint : public ps::api::Described<Form> {
  public:
-  const char* label() const noexcept override { return "test"; }
-  const char* help() const noexcept override { return ""; }
-  ps::api::ParameterList parameters() const noexcept override { return {}; }
+  TestConstraint() : ps::api::Described<Form>({"test", "", {}}) {}
 };
 
 /// Adds and removes constraints every frame and counts batches in which a particle appears twice.

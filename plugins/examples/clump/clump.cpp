@@ -14,14 +14,11 @@ constexpr ParameterDeclaration kParameters[] = {
 
 }  // namespace
 
-const char* Clump::label() const noexcept { return "Clump"; }
-
-const char* Clump::help() const noexcept {
-  return "Draws each body together towards its centre of mass, with a force that grows with the distance: a swarm, a "
-         "planet. The pulls of a body add up to nothing, so its momentum is kept to rounding.";
-}
-
-ParameterList Clump::parameters() const noexcept { return listOf(kParameters); }
+Clump::Clump()
+    : Described({"Clump",
+                 "Draws each body together towards its centre of mass, with a force that grows with the distance: a "
+                 "swarm, a planet. The pulls of a body add up to nothing, so its momentum is kept to rounding.",
+                 listOf(kParameters)}) {}
 
 bool Clump::traits(GroupTraits* out) const noexcept { return fill(out, {}); }
 

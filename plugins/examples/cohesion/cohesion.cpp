@@ -22,16 +22,13 @@ double kernel(double squaredDistance, double support) {
 
 }  // namespace
 
-const char* Cohesion::label() const noexcept { return "Cohesion"; }
-
-const char* Cohesion::help() const noexcept {
-  return "Liquid particles pull at each other within the support radius with the force κ m_i m_j W(x_ij) x_ij, which "
-         "gives drops and skins at the scale of a few particles (after Becker & Teschner 2007). It is equal and "
-         "opposite for every pair, whatever their masses: momentum is kept to rounding. The strength is no surface "
-         "tension in N/m: it changes with the particle spacing.";
-}
-
-ParameterList Cohesion::parameters() const noexcept { return listOf(kParameters); }
+Cohesion::Cohesion()
+    : Described({"Cohesion",
+                 "Liquid particles pull at each other within the support radius with the force κ m_i m_j W(x_ij) x_ij, "
+                 "which gives drops and skins at the scale of a few particles (after Becker & Teschner 2007). It is "
+                 "equal and opposite for every pair, whatever their masses: momentum is kept to rounding. The strength "
+                 "is no surface tension in N/m: it changes with the particle spacing.",
+                 listOf(kParameters)}) {}
 
 bool Cohesion::traits(NeighbourTraits* out) const noexcept { return fill(out, {}); }
 

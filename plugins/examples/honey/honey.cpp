@@ -41,14 +41,12 @@ constexpr MaterialProperty kProperties[] = {
 
 }  // namespace
 
-const char* Honey::label() const noexcept { return "Honey"; }
-
-const char* Honey::help() const noexcept {
-  return "Clear honey, a liquid at every temperature. Viscosity follows Arrhenius's law and falls exponentially with "
-         "moisture; the figures are representative and hold from 5 to 60 °C. It neither crystallises nor boils.";
-}
-
-ParameterList Honey::parameters() const noexcept { return listOf(kParameters); }
+Honey::Honey()
+    : Described(
+          {"Honey",
+           "Clear honey, a liquid at every temperature. Viscosity follows Arrhenius's law and falls exponentially with "
+           "moisture; the figures are representative and hold from 5 to 60 °C. It neither crystallises nor boils.",
+           listOf(kParameters)}) {}
 
 List<MaterialProperty> Honey::properties() const noexcept { return listOf(kProperties); }
 

@@ -24,17 +24,12 @@ double parameter(const ThermalContext& context, size_t index, double fallback) {
 
 }  // namespace
 
-const char* Lamp::label() const noexcept { return "Lamp"; }
-
-const char* Lamp::help() const noexcept {
-  return "A round beam that shines straight down over the origin. Particles that nothing above shades take up what "
-         "falls "
-         "on their share of the surface. It knows no reflection, and light that a clear liquid lets through is "
-         "absorbed "
-         "at its surface.";
-}
-
-ParameterList Lamp::parameters() const noexcept { return listOf(kParameters); }
+Lamp::Lamp()
+    : Described({"Lamp",
+                 "A round beam that shines straight down over the origin. Particles that nothing above shades take up "
+                 "what falls on their share of the surface. It knows no reflection, and light that a clear liquid lets "
+                 "through is absorbed at its surface.",
+                 listOf(kParameters)}) {}
 
 void Lamp::addWatts(const ThermalContext& context, const ParticleView& particles, size_t first, size_t last,
                     double* watts) const {

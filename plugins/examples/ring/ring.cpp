@@ -44,14 +44,11 @@ bool inside(const Double3& d, const Double3& up, double radius, double tube) {
 
 }  // namespace
 
-const char* Ring::label() const noexcept { return "Ring"; }
-
-const char* Ring::help() const noexcept {
-  return "Stamps a ring that lies flat: all cells whose centres are within the tube around a circle of the brush's "
-         "radius. It knows the lattice only, not what stands in the way.";
-}
-
-ParameterList Ring::parameters() const noexcept { return listOf(kParameters); }
+Ring::Ring()
+    : Described({"Ring",
+                 "Stamps a ring that lies flat: all cells whose centres are within the tube around a circle of the "
+                 "brush's radius. It knows the lattice only, not what stands in the way.",
+                 listOf(kParameters)}) {}
 
 void Ring::stroke(const StrokeContext& context, EditKind kind, const List<StrokeSample>& samples,
                   EditSink& sink) const {

@@ -22,13 +22,12 @@ const Caloric& caloricOf(const ThermalContext& context, const ParticleView& part
 
 }  // namespace
 
-const char* Sensible::label() const noexcept { return "Sensible heat only"; }
-
-const char* Sensible::help() const noexcept {
-  return "Heat changes the temperature and nothing else: one heat capacity per material (the liquid's) and no latent "
-         "heat, so matter melts and boils the moment it reaches the point. Energy is kept to rounding. For seeing what "
-         "latent heat does, by its absence.";
-}
+Sensible::Sensible()
+    : Described({"Sensible heat only",
+                 "Heat changes the temperature and nothing else: one heat capacity per material (the liquid's) and no "
+                 "latent heat, so matter melts and boils the moment it reaches the point. Energy is kept to rounding. "
+                 "For seeing what latent heat does, by its absence.",
+                 {}}) {}
 
 List<FieldDeclaration> Sensible::fields() const noexcept { return listOf(kFields); }
 

@@ -3,15 +3,14 @@
 #include <phasesketch/qtentry.h>
 
 /// The smallest thermal model: temperature is the state, and there is no latent heat.
-class Sensible final : public QObject, public ps::api::ThermalPlugin {
+class Sensible final : public QObject, public ps::api::Described<ps::api::ThermalPlugin> {
   Q_OBJECT
   Q_PLUGIN_METADATA(IID PHASESKETCH_THERMAL_IID FILE "sensible.json")
   Q_INTERFACES(ps::api::ThermalPlugin)
 
  public:
-  const char* label() const noexcept override;
-  const char* help() const noexcept override;
-  ps::api::ParameterList parameters() const noexcept override { return {}; }
+  Sensible();
+
   ps::api::List<ps::api::FieldDeclaration> fields() const noexcept override;
   void initialise(const ps::api::ThermalContext& context, const ps::api::ParticleView& particles, size_t first,
                   size_t last, const double* temperature, const ps::api::Phase* phase) const override;

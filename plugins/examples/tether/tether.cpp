@@ -22,15 +22,12 @@ float distance(const ParticleView& particles, uint32_t i, uint32_t j) {
 
 }  // namespace
 
-const char* Tether::label() const noexcept { return "Tether"; }
-
-const char* Tether::help() const noexcept {
-  return "Ties each particle to its nearest neighbours by threads that cannot be stretched but hang loose when they "
-         "are "
-         "shorter: a net, chain mail. It never breaks, and gives in only as far as the iterations do not reach.";
-}
-
-ParameterList Tether::parameters() const noexcept { return listOf(kParameters); }
+Tether::Tether()
+    : Described(
+          {"Tether",
+           "Ties each particle to its nearest neighbours by threads that cannot be stretched but hang loose when they "
+           "are shorter: a net, chain mail. It never breaks, and gives in only as far as the iterations do not reach.",
+           listOf(kParameters)}) {}
 
 bool Tether::traits(StructuralTraits* out) const noexcept { return fill(out, {.arity = 2, .values = listOf(kValues)}); }
 

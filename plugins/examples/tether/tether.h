@@ -3,15 +3,14 @@
 #include <phasesketch/qtentry.h>
 
 /// A structural constraint: ties of two particles. The host owns them; this says how they are made and how they pull.
-class Tether final : public QObject, public ps::api::StructuralPlugin {
+class Tether final : public QObject, public ps::api::Described<ps::api::StructuralPlugin> {
   Q_OBJECT
   Q_PLUGIN_METADATA(IID PHASESKETCH_STRUCTURAL_IID FILE "tether.json")
   Q_INTERFACES(ps::api::StructuralPlugin)
 
  public:
-  const char* label() const noexcept override;
-  const char* help() const noexcept override;
-  ps::api::ParameterList parameters() const noexcept override;
+  Tether();
+
   bool traits(ps::api::StructuralTraits* out) const noexcept override;
   void build(const ps::api::ConstraintContext& context, const ps::api::ParticleView& particles,
              const ps::api::NeighbourView& neighbours, ps::api::Span<const uint32_t> members,

@@ -8,15 +8,14 @@
 double waterDensity(double kelvin);
 
 /// Water, ice and steam.
-class WaterMaterial final : public QObject, public ps::api::MaterialPlugin {
+class WaterMaterial final : public QObject, public ps::api::Described<ps::api::MaterialPlugin> {
   Q_OBJECT
   Q_PLUGIN_METADATA(IID PHASESKETCH_MATERIAL_IID FILE "water.json")
   Q_INTERFACES(ps::api::MaterialPlugin)
 
  public:
-  const char* label() const noexcept override;
-  const char* help() const noexcept override;
-  ps::api::ParameterList parameters() const noexcept override;
+  WaterMaterial();
+
   ps::api::List<ps::api::MaterialProperty> properties() const noexcept override;
   bool evaluate(const char* key, ps::api::Span<const double> parameters, ps::api::Span<const double> kelvin,
                 ps::api::Span<double> out) const override;

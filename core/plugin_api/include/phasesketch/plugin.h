@@ -42,4 +42,25 @@ class Plugin {
   virtual void attach(Host& /*host*/) {}
 };
 
+/// What a plugin declares of itself where that is the same for all its objects; the texts outlive the plugin.
+struct About {
+  const char* label;
+  const char* help;
+  ParameterList parameters;
+};
+
+/// A kind of plugin that declares by its constructor: `class Lamp : public QObject, public Described<HeatSourcePlugin>`
+/// with `Lamp::Lamp() : Described({"Lamp", "A round beam ...", listOf(kParameters)}) {}`.
+template <class Kind>
+class Described : public Kind {
+ public:
+  explicit Described(const About& about) noexcept : m_about(about) {}
+  const char* label() const noexcept override { return m_about.label; }
+  const char* help() const noexcept override { return m_about.help; }
+  ParameterList parameters() const noexcept override { return m_about.parameters; }
+
+ private:
+  About m_about;
+};
+
 }  // namespace ps::api
