@@ -387,6 +387,7 @@ void TestDeclarations::relationsRefuse_data() {
   QTest::addColumn<int>("index");
   const Project project = scenes::menagerie();
   for (const Address& address : allAddresses(project, &m_plugins)) {
+    if (address.owner == Owner::Material && address.id != project.materials.front().id) continue;  // all alike
     const std::vector<Relation> relations = parseRelations(declared(project, address));
     for (size_t i = 0; i < relations.size(); ++i)
       QTest::addRow("%s %d", address.text().c_str(), static_cast<int>(i))

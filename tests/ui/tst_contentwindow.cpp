@@ -9,6 +9,7 @@
 #include "ui/panels/outliner.h"
 #include "ui/rows/parameterpanel.h"
 #include "ui/session/selection.h"
+#include "ui/session/wording.h"
 #include "ui/tools/toolbox.h"
 #include "ui/viewport/viewport.h"
 #include "ui/window/noticebar.h"
@@ -257,6 +258,20 @@ class TestContentWindow : public SampleWindowTest {
     panel.append(held);
     QVERIFY2(panel.findChild<QLabel*>()->text().contains(QStringLiteral("Heat in matter")),
              qPrintable(panel.findChild<QLabel*>()->text()));
+  }
+
+  void whatRunsKeepsItsDigits() {
+    Limit limit;
+    limit.what = "stiffness";
+    limit.unit = "MPa";
+    limit.asked = 60;
+    const auto text = [&](double delivered) {
+      limit.delivered = delivered;
+      return limitText(limit, nullptr);
+    };
+    QVERIFY2(text(42).contains(QStringLiteral("reaches 42.0 MPa of 60 MPa")), qPrintable(text(42)));
+    QCOMPARE(text(42.04).size(), text(41.96).size());
+    QCOMPARE(text(42).size(), text(41.9).size());
   }
 
   void theBrushIsNoPartOfTheScene() {
