@@ -20,10 +20,12 @@ namespace {
 constexpr OptionSpec kOptions[] = {
     {"--out", "FOLDER|FILE.mp4", "where the pictures go: PNG files in a folder, or a film (needs ffmpeg)"},
     {"--size", "WxH", "in pixels; without it 1280x720"},
-    {"--seconds", "S", "mechanical time to draw; without it the project's duration or all of the recording"},
+    {"--seconds", "S",
+     "mechanical time to draw; without it what is left of the project's duration, or all of the recording"},
     {"--frames", "N", "frames to simulate, instead of --seconds"},
     {"--every", "N", "draws every Nth frame; without it 1 for films and recordings, 60 for pictures of a project"},
     {"--colour", "NAME", "material, temperature, phase, speed or density_error; without it as the project says"},
+    kAtStart,
     kThreads,
     kIsa,
     kSet,
@@ -122,13 +124,16 @@ class Painter {
 
 int renderProject(const Arguments& arguments, const std::string& path) {
   PluginRegistry plugins;
-  const Project project = loadFor(arguments, path, plugins);
+  Project project = loadFor(arguments, path, plugins);
+  if (arguments.has(kAtStart.name)) project.state = nullptr;
   const bool film = isFilm(arguments.text("--out"));
-  const long frames = frameCount(arguments, project),
-             every = arguments.integer("--every", 1, 1'000'000).value_or(film ? 1 : 60);
+  const long every = arguments.integer("--every", 1, 1'000'000).value_or(film ? 1 : 60);
   Engine engine(project, plugins);
+  tellRemarks(arguments, path, engine);
+  const SnapshotPtr begin = engine.snapshot();
+  const long frames = frameCount(arguments, project, begin->stats.time), first = static_cast<long>(begin->stats.frame);
   Painter painter(project, plugins, arguments, every);
-  painter.draw(*engine.snapshot(), 0);
+  painter.draw(*begin, first);
   StepFlags flags = 0;
   std::string message;
   {
@@ -138,7 +143,7 @@ int renderProject(const Arguments& arguments, const std::string& path) {
       if (step.flags && !flags) message = step.message;
       flags |= step.flags;
       if (step.flags & kTakenBack) break;  // nothing moves any more
-      if (frame % every == 0) painter.draw(*engine.snapshot(), frame);
+      if (frame % every == 0) painter.draw(*engine.snapshot(), first + frame);
       progress.show(frame, engine.stats());
     }
   }
@@ -174,7 +179,9 @@ int renderRecording(const Arguments& arguments, const std::string& path) {
 }  // namespace
 
 std::string renderHelp() {
-  return "phasesketch-cli render PROJECT|RECORDING --out FOLDER|FILE.mp4 [options]\n\nDraws without a display.\n\n" +
+  return "phasesketch-cli render PROJECT|RECORDING --out FOLDER|FILE.mp4 [options]\n\nDraws without a display; a "
+         "project from the "
+         "state that it holds, else from its start.\n\n" +
          optionHelp(kOptions);
 }
 

@@ -11,6 +11,7 @@
 #include "core/io/recording.h"
 #include "core/io/textfile.h"
 #include "core/plugin_host/registry.h"
+#include "core/simulation/projectstate.h"
 #include "core/simulation/scenestate.h"
 
 #include <cstdio>
@@ -21,10 +22,12 @@ namespace ps::cli {
 namespace {
 
 constexpr OptionSpec kOptions[] = {
-    {"--seconds", "S", "mechanical time to simulate; without it the project's duration"},
+    {"--seconds", "S", "mechanical time to simulate; without it what is left of the project's duration"},
     {"--frames", "N", "frames to simulate, instead of --seconds"},
+    kAtStart,
     {"--from", "FILE", "goes on from a state that --save-state has written; frames count on from there"},
     {"--save-state", "FILE", "writes the state at the end, all that goes on into the next frame"},
+    {"--save-project", "FILE.json", "writes the project with that state in it, so that it opens there"},
     kThreads,
     kIsa,
     {"--report", "FILE.json", "writes speed, accuracy, energy, phases and the state hash"},
@@ -47,17 +50,34 @@ void restoreFrom(const std::string& path, Engine& engine) {
   }
 }
 
-void saveTo(const std::string& path, const Engine& engine) {
+void saveResults(const Arguments& arguments, Project project, const Engine& engine) {
+  if (!arguments.has("--save-state") && !arguments.has("--save-project")) return;
   StateBuffer buffer;
   StateWriter writer(buffer);
   engine.save(writer);
   writer.finish();
   const std::span<const std::byte> bytes = buffer.bytes();
-  writeFileAtomically(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  if (arguments.has("--save-state"))
+    writeFileAtomically(arguments.text("--save-state"), {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  if (!arguments.has("--save-project")) return;
+  project.state = projectState(bytes, project.bodies);
+  saveProject(project, arguments.text("--save-project"));
 }
 
-void summarise(const RunReport& report, Engine& engine, double wall) {
+void writeReport(const Arguments& arguments, nlohmann::json content, const Project& project, const FrameStats& begin) {
+  content["program"] = "phasesketch " PS_VERSION;
+  content["project"] = {{"file", arguments.positional()[0]},
+                        {"title", project.title},
+                        {"begun", {{"frame", begin.frame}, {"time_s", begin.time}}}};
+  writeFileAtomically(arguments.text("--report"), writeJson(content));
+}
+
+void summarise(const RunReport& report, const FrameStats& begin, Engine& engine, double wall) {
   const FrameStats stats = engine.stats();
+  if (begin.frame > 0) {
+    std::printf("begun at %.6g s, from the state of frame %llu\n", begin.time,
+                static_cast<unsigned long long>(begin.frame));
+  }
   const double factor = wall > 0 ? stats.time / wall : 0;
   std::printf("%zu frames, %.6g s simulated in %.3g s (%.3g times real time), %.3g ms per frame\n", report.frames(),
               stats.time, wall, factor, report.total().median);
@@ -68,7 +88,10 @@ void summarise(const RunReport& report, Engine& engine, double wall) {
 }  // namespace
 
 std::string simulateHelp() {
-  return "phasesketch-cli simulate PROJECT [options]\n\nRuns a project without a window.\n\n" + optionHelp(kOptions) +
+  return "phasesketch-cli simulate PROJECT [options]\n\nRuns a project without a window, from the state that it holds, "
+         "else "
+         "from its start.\n\n" +
+         optionHelp(kOptions) +
          "\nThe report is in SI units but for milliseconds, where a key says ms. Thermal energy counts from the solid "
          "at its\nmelting point, so that matter colder than that has less than none; what a run means is the "
          "difference.\n";
@@ -81,18 +104,21 @@ int simulateCommand(CommandArguments given) {
   applyMachineOptions(arguments);
   PluginRegistry plugins;
   std::vector<std::string> warnings;
-  const Project project = loadFor(arguments, path, plugins, &warnings);
-  const long frames = frameCount(arguments, project);
-  for (const char* result : {"--report", "--save-state"}) {
+  Project project = loadFor(arguments, path, plugins, &warnings);
+  if (arguments.has(kAtStart.name)) project.state = nullptr;
+  for (const char* result : {"--report", "--save-state", "--save-project"}) {
     if (arguments.has(result)) requireWritable(arguments.text(result));
   }
   Engine engine(project, plugins);
+  tellRemarks(arguments, path, engine, &warnings);
   if (arguments.has("--from")) restoreFrom(arguments.text("--from"), engine);
+  const FrameStats begin = engine.stats();
+  const long frames = frameCount(arguments, project, begin.time);
   std::optional<ProbeTable> probes;
   std::optional<RecordingWriter> recording;
   if (arguments.has("--probes")) probes.emplace(arguments.text("--probes"), engine.probeNames());
   if (arguments.has("--record")) recording.emplace(arguments.text("--record"), project);
-  RunReport report(engine.stats());
+  RunReport report(begin);
   SettlingMeasure settling(frames);
   const double start = now();
   if (recording) recording->add(*engine.snapshot());
@@ -111,16 +137,14 @@ int simulateCommand(CommandArguments given) {
   const double wall = now() - start;
   if (probes) probes->finish();
   if (recording) recording->finish();
-  if (arguments.has("--save-state")) saveTo(arguments.text("--save-state"), engine);
+  saveResults(arguments, project, engine);
   if (arguments.has("--report")) {
     nlohmann::json content = report.json(engine, wall);
     content["rest"] = settling.json(engine);
-    content["program"] = "phasesketch " PS_VERSION;
-    content["project"] = {{"file", path}, {"title", project.title}};
     content["warnings"] = warnings;
-    writeFileAtomically(arguments.text("--report"), writeJson(content));
+    writeReport(arguments, std::move(content), project, begin);
   }
-  if (!quiet) summarise(report, engine, wall);
+  if (!quiet) summarise(report, begin, engine, wall);
   if (report.flags()) {
     std::string names;
     for (const std::string& name : flagNames(report.flags())) names += (names.empty() ? "" : ", ") + name;

@@ -37,11 +37,15 @@ int validateCommand(CommandArguments given) {
   const Arguments arguments(given, kOptions);
   if (arguments.positional().empty()) throw InputError("which project? --help says more");
   const bool quiet = arguments.has("--quiet");
-  const PluginRegistry plugins;
+  PluginRegistry plugins;
   int code = kFine;
   for (const std::string& path : arguments.positional()) {
     try {
-      const LoadedProject loaded = loadProject(path, plugins);
+      LoadedProject loaded = loadProject(path, plugins);
+      if (loaded.project.state) {  // only who goes on from it knows whether it can be
+        const Engine engine(loaded.project, plugins);
+        for (const std::string& remark : engine.remarks()) loaded.warnings.push_back({false, path + ":" + remark});
+      }
       if (quiet) continue;
       for (const ProjectMessage& warning : loaded.warnings) say(stderr, "warning: " + warning.text);
       const size_t count = loaded.warnings.size();

@@ -4,6 +4,7 @@
 #include "core/base/error.h"
 #include "core/base/parallel.h"
 
+#include <algorithm>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
@@ -15,11 +16,13 @@ namespace {
 constexpr long kMostFrames = 100'000'000;
 volatile std::sig_atomic_t g_interrupted = 0;
 
+void warn(const Arguments& arguments, const std::string& text, std::vector<std::string>* warnings) {
+  if (!arguments.has("--quiet")) std::fprintf(stderr, "warning: %s\n", text.c_str());
+  if (warnings) warnings->push_back(text);
+}
+
 Project warned(const Arguments& arguments, LoadedProject&& loaded, std::vector<std::string>* warnings = nullptr) {
-  for (const ProjectMessage& warning : loaded.warnings) {
-    if (!arguments.has("--quiet")) std::fprintf(stderr, "warning: %s\n", warning.text.c_str());
-    if (warnings) warnings->push_back(warning.text);
-  }
+  for (const ProjectMessage& warning : loaded.warnings) warn(arguments, warning.text, warnings);
   return std::move(loaded.project);
 }
 
@@ -52,10 +55,15 @@ std::string counted(size_t count, const std::string& noun) {
   return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
 }
 
-long frameCount(const Arguments& arguments, const Project& project) {
+void tellRemarks(const Arguments& arguments, const std::string& path, const Engine& engine,
+                 std::vector<std::string>* warnings) {
+  for (const std::string& remark : engine.remarks()) warn(arguments, path + ":" + remark, warnings);
+}
+
+long frameCount(const Arguments& arguments, const Project& project, double begun) {
   if (arguments.has("--frames") && arguments.has("--seconds")) throw InputError("give --frames or --seconds, not both");
   if (const auto frames = arguments.integer("--frames", 0, kMostFrames)) return *frames;
-  const double seconds = arguments.number("--seconds", 0, 1e12).value_or(project.duration);
+  const double seconds = arguments.number("--seconds", 0, 1e12).value_or(std::max(0.0, project.duration - begun));
   const double frames = std::round(seconds / frameLength(project));
   if (frames > kMostFrames) throw InputError("--seconds: more than " + std::to_string(kMostFrames) + " frames");
   return static_cast<long>(frames);

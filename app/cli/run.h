@@ -14,6 +14,8 @@ namespace ps::cli {
 inline constexpr OptionSpec kThreads{"--threads", "N", "number of threads; without it one per core"};
 inline constexpr OptionSpec kIsa{"--isa", "NAME", "pins an instruction set: AVX3, AVX2, SSE4, SSSE3, NEON"};
 inline constexpr OptionSpec kSet{"--set", "JSON/POINTER=VALUE", "changes the project before it is checked; may repeat"};
+/// Of commands that run a project from the state that it holds.
+inline constexpr OptionSpec kAtStart{"--at-start", "", "begins at the project's start, whatever state it holds"};
 inline constexpr OptionSpec kQuiet{"--quiet", "", "says nothing but errors"};
 
 /// Applies --threads and --isa; throws InputError for what this machine does not have.
@@ -26,8 +28,12 @@ Project loadFor(const Arguments& arguments, const std::string& path, const Plugi
 /// The same for text that stands for a file.
 Project parseFor(const Arguments& arguments, const std::string& text, const std::string& name,
                  const PluginRegistry& plugins);
-/// Frames of a run: --frames, --seconds (mechanical time), or the project's duration.
-long frameCount(const Arguments& arguments, const Project& project);
+/// Tells what an engine has to say of the state that its project holds, as loadFor() tells its warnings.
+void tellRemarks(const Arguments& arguments, const std::string& path, const Engine& engine,
+                 std::vector<std::string>* warnings = nullptr);
+/// Frames of a run that begins `begun` s after the start: --frames, --seconds (mechanical time), or what is left of the
+/// project's duration.
+long frameCount(const Arguments& arguments, const Project& project, double begun = 0);
 /// "1 picture", "2 pictures".
 std::string counted(size_t count, const std::string& noun);
 /// s since a fixed point.

@@ -178,6 +178,7 @@ StateReader::StateReader(std::span<const std::byte> stream) {
     m_blocks.push_back(std::move(known));
   }
   if (at != stream.size()) throw InputError("the state goes on behind its end");
+  m_read.resize(m_blocks.size());
 }
 
 const StateReader::Block* StateReader::find(StateName name) const {
@@ -185,22 +186,32 @@ const StateReader::Block* StateReader::find(StateName name) const {
   return found == m_byName.end() ? nullptr : &m_blocks[found->second];
 }
 
-size_t StateReader::count(StateName name) const {
+std::vector<std::string> StateReader::unread() const {
+  std::vector<std::string> names;
+  for (size_t k = 0; k < m_blocks.size(); ++k) {
+    if (!m_read[k]) names.push_back(m_blocks[k].name);
+  }
+  return names;
+}
+
+size_t StateReader::count(StateName name) const { return static_cast<size_t>(found(name).count); }
+
+const StateReader::Block& StateReader::found(StateName name) const {
   const Block* block = find(name);
   if (!block) fail(name, "is missing");
-  return static_cast<size_t>(block->count);
+  m_read[static_cast<size_t>(block - m_blocks.data())] = 1;
+  return *block;
 }
 
 const StateReader::Block& StateReader::require(StateName name, StateType type, uint16_t newest) const {
-  const Block* block = find(name);
-  if (!block) fail(name, "is missing");
-  if (block->type != type)
-    fail(name, std::string("has elements of type ") + stateTypeName(block->type) + ", not " + stateTypeName(type));
-  if (block->version > newest || block->version == 0) {
-    fail(name, "is of version " + std::to_string(block->version) + ", and this program reads up to " +
-                   std::to_string(newest));
+  const Block& block = found(name);
+  if (block.type != type)
+    fail(name, std::string("has elements of type ") + stateTypeName(block.type) + ", not " + stateTypeName(type));
+  if (block.version > newest || block.version == 0) {
+    fail(name,
+         "is of version " + std::to_string(block.version) + ", and this program reads up to " + std::to_string(newest));
   }
-  return *block;
+  return block;
 }
 
 void StateReader::requireCount(const Block& block, size_t count) {

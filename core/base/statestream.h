@@ -92,6 +92,15 @@ constexpr StateType stateTypeOf<double>() {
   return StateType::Float64;
 }
 
+/// A block as it lies in a stream.
+struct StateBlock {
+  std::string name;
+  StateType type = StateType::End;
+  uint16_t version = 0;
+  uint64_t count = 0;  ///< elements; strings of a text
+  std::span<const std::byte> bytes;
+};
+
 /// Writes blocks; allocates nothing itself. Throws ps::Error where a block is given more or fewer bytes than it has
 /// announced: that is a mistake of the program.
 class StateWriter {
@@ -130,6 +139,12 @@ class StateWriter {
         name, values.size(), [&](size_t k) -> const std::string& { return values[k]; }, version);
   }
 
+  /// As another stream has it.
+  void block(const StateBlock& whole) {
+    openBytes(whole.name, whole.type, whole.count, whole.bytes.size(), whole.version);
+    put(whole.bytes.data(), whole.bytes.size());
+    close();
+  }
   /// A block whose elements come piece by piece.
   void open(StateName name, StateType type, uint64_t count, uint16_t version = 1);
   void put(const void* bytes, size_t count);
@@ -154,23 +169,19 @@ class StateWriter {
 
 /// Reads a stream in memory, which must outlive it. Everything is checked before it is believed: any bytes whatever
 /// give either a value or an InputError that names the block and what is wrong with it. Blocks that nobody asks for are
-/// passed over.
+/// passed over, and known by unread().
 class StateReader {
  public:
-  struct Block {
-    std::string name;
-    StateType type = StateType::End;
-    uint16_t version = 0;
-    uint64_t count = 0;
-    std::span<const std::byte> bytes;
-  };
+  using Block = StateBlock;
 
   /// Throws InputError for what is no stream, is of a newer format, or is damaged.
   explicit StateReader(std::span<const std::byte> stream);
 
   const std::vector<Block>& blocks() const { return m_blocks; }  ///< in order of the stream
   bool has(StateName name) const { return find(name) != nullptr; }
-  /// Elements of a block; throws InputError where it is missing.
+  /// Names of blocks whose elements nobody has read. Not for two threads at a time.
+  std::vector<std::string> unread() const;
+  /// Elements of a block, which counts as read; throws InputError where it is missing.
   size_t count(StateName name) const;
 
   /// All of these throw InputError when the block is missing, of another type, or of a version beyond `newest`.
@@ -202,11 +213,13 @@ class StateReader {
 
  private:
   const Block* find(StateName name) const;
+  const Block& found(StateName name) const;  ///< and marked as read
   const Block& require(StateName name, StateType type, uint16_t newest) const;
   static void requireCount(const Block& block, size_t count);
   static void copy(const Block& block, void* to);
 
   std::vector<Block> m_blocks;
+  mutable std::vector<uint8_t> m_read;  ///< 1 for blocks that were asked for, by index
   std::map<std::string, size_t, std::less<>> m_byName;
 };
 

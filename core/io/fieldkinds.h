@@ -3,6 +3,8 @@
 #include "core/base/jsontext.h"
 #include "core/io/fields.h"
 
+#include <concepts>
+#include <memory>
 #include <set>
 #include <tuple>
 #include <variant>
@@ -41,8 +43,11 @@ struct Integer : Plain {
   int64_t minimum = 0, maximum = 0;
   Integer(int64_t least, int64_t most) : minimum(least), maximum(most) {}
   Json schema() const { return {{"type", "integer"}, {"minimum", minimum}, {"maximum", maximum}}; }
-  void read(Json& value, int& out, const PluginRegistry&) const { out = static_cast<int>(value.get<double>()); }
-  Json write(int value) const { return value; }
+  template <std::integral Int>
+  void read(Json& value, Int& out, const PluginRegistry&) const {
+    out = static_cast<Int>(value.get<double>());
+  }
+  Json write(std::integral auto value) const { return value; }
 };
 
 struct Toggle : Plain {
@@ -53,9 +58,9 @@ struct Toggle : Plain {
 };
 
 struct Text : Plain {
-  int longest = 0;  ///< letters; 0: as long as any text
+  int64_t longest = 0;  ///< letters; 0: as long as any text
   Text() = default;
-  explicit Text(int most) : longest(most) {}
+  explicit Text(int64_t most) : longest(most) {}
   Json schema() const {
     Json out{{"type", "string"}};
     if (longest > 0) out["maxLength"] = longest;
@@ -269,6 +274,33 @@ struct Optional {
   }
   template <class V>
   void visit(const std::optional<V>& value, const std::string& pointer, FieldVisitor& visitor) const {
+    if (value) kind.visit(*value, pointer, visitor);
+  }
+};
+
+/// A value that need not be there, and is shared by all copies of its owner: never changed in place.
+template <class Kind>
+struct Shared {
+  static constexpr bool kVisited = Kind::kVisited;
+  Kind kind;
+  explicit Shared(Kind of) : kind(std::move(of)) {}
+  Json schema() const { return kind.schema(); }
+  template <class V>
+  void read(Json& value, std::shared_ptr<const V>& out, const PluginRegistry& plugins) const {
+    auto fresh = std::make_shared<V>();
+    kind.read(value, *fresh, plugins);
+    out = std::move(fresh);
+  }
+  template <class V>
+  Json write(const std::shared_ptr<const V>& value) const {
+    return kind.write(*value);
+  }
+  template <class V>
+  bool isDefault(const std::shared_ptr<const V>& value) const {
+    return !value;
+  }
+  template <class V>
+  void visit(const std::shared_ptr<const V>& value, const std::string& pointer, FieldVisitor& visitor) const {
     if (value) kind.visit(*value, pointer, visitor);
   }
 };

@@ -165,6 +165,17 @@ class ProjectChecker : public FieldVisitor {
     }
   }
 
+  /// Each is unpacked and forgotten: what all of them may take together is known before any memory is.
+  void object(const PackedBlock& block, const std::string& pointer) override {
+    if (block.name.empty()) fail(pointer + "/name", "must not be empty");
+    if (!m_blocks.insert(block.name).second) fail(pointer + "/name", "'" + block.name + "' is taken already");
+    try {
+      m_stateBytes += unpackBlock(block, kMostPackedBytes - m_stateBytes).size();
+    } catch (const InputError& problem) {
+      fail(pointer + "/data", "the block '" + block.name + "' " + problem.what());
+    }
+  }
+
  private:
   static std::string at(const std::string& list, size_t index) { return list + "/" + std::to_string(index); }
 
@@ -283,8 +294,9 @@ class ProjectChecker : public FieldVisitor {
   const std::string& m_name;
   const PluginRegistry& m_plugins;
   std::vector<ProjectMessage>& m_warnings;
-  std::set<std::string> m_missing;
+  std::set<std::string> m_missing, m_blocks;
   double m_particles = 0;
+  size_t m_stateBytes = 0;
 };
 
 }  // namespace

@@ -58,8 +58,8 @@ std::vector<Field<Project>> sceneRows() {
         const ViewState& view = project.view;
         return !view.camera && !view.unknown && view.pinned.empty() && view.colour == ViewState().colour;
       }),
-      reserved<Project>("state", "matter as it stands at some later time; kept, not used by this version",
-                        "is kept, but this version does not use it: the scene opens at its start"),
+      field("state", &Project::state, Shared{Object{stateFields()}},
+            "matter as it stands at a later time: the project opens there, and its start stays what it is"),
       reserved<Project>("tracks", "parameters over time; kept, not used by this version",
                         "are kept, but this version does not use them: parameters stay as they stand elsewhere in "
                         "the file"),

@@ -14,6 +14,7 @@ const FieldTable<Environment>& environmentFields();
 const FieldTable<SolverOptions>& solverFields();
 const FieldTable<Probe>& probeFields();
 const FieldTable<ViewState>& viewFields();
+const FieldTable<ProjectState>& stateFields();
 
 /// With its own help, since a box is one thing among a body's pins and another in a probe.
 FieldTable<Region> regionFields(const char* help);

@@ -150,9 +150,11 @@ std::shared_ptr<Snapshot> unpackFrame(const std::string& bytes, const std::strin
 RecordingWriter::RecordingWriter(const std::string& path, const Project& project)
     : m_path(path), m_part(path + ".part"), m_file(m_part, std::ios::binary | std::ios::trunc) {
   if (!m_file) throw Error(path + ": cannot be written; choose another folder");
+  Project scene = project;
+  scene.state = nullptr;  // the frames say where matter stands
   const json header{{"format", "phasesketch-recording"},
                     {"version", kRecordingVersion},
-                    {"project", json::parse(writeProject(project))}};
+                    {"project", json::parse(writeProject(scene))}};
   const std::string text = header.dump();
   const auto length = static_cast<uint32_t>(text.size());
   m_file.write(kFileMark, kMark);

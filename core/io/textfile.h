@@ -6,8 +6,9 @@
 
 namespace ps {
 
-/// Largest project that is read; a sketched scene of a million runs stays under half of it.
-inline constexpr size_t kMaximumProjectBytes = size_t{64} << 20;
+/// Largest project that is read; a sketched scene of a million runs stays under a twentieth of it, the rest is for the
+/// state of a million particles.
+inline constexpr size_t kMaximumProjectBytes = size_t{512} << 20;
 
 /// The bytes of a regular file. Throws InputError "path: what is wrong": missing, a folder, not a regular file, not
 /// readable, larger than `limit` bytes.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "core/base/packedstate.h"
 #include "core/math/vector.h"
 #include "core/parameters/parameterset.h"
 #include "core/scene/address.h"
@@ -194,6 +195,20 @@ struct ViewState {
   Unknown unknown;
 };
 
+/// Matter as it stands at a later time: the project opens there. A value that is shared, never changed.
+struct ProjectState {
+  struct Shape {
+    std::string id;     ///< Body::id
+    std::string stamp;  ///< of its shape: 16 hexadecimal digits
+    Unknown unknown{};
+  };
+  uint64_t frame = 0;
+  double time = 0;            ///< s
+  std::vector<Shape> bodies;  ///< those that it is of: with others, or of other shapes, it does not fit
+  std::vector<PackedBlock> blocks;
+  Unknown unknown{};
+};
+
 /// The document: what a project file holds. Plain values with stable ids.
 struct Project {
   int version = 1, minVersion = 1;
@@ -208,6 +223,7 @@ struct Project {
   std::vector<Probe> probes;
   double duration = 60;  ///< s
   ViewState view;
+  std::shared_ptr<const ProjectState> state;  ///< nullptr: it opens at its start
   Unknown unknown;
 };
 

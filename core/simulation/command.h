@@ -80,8 +80,12 @@ struct ForgetMatter {
 struct Reset {
   std::vector<NameMatter> named{};
 };
+/// To a state that a project of these bodies holds, with all other edits kept. Keys name nothing then.
+struct ReturnToState {
+  std::shared_ptr<const ProjectState> state;
+};
 
 using Command = std::variant<SetParameter, UpdateProject, AddCells, TakeCells, TakeBody, TakeMatter, PutBack,
-                             NameMatter, ReturnBody, ForgetMatter, Reset>;
+                             NameMatter, ReturnBody, ForgetMatter, Reset, ReturnToState>;
 
 }  // namespace ps

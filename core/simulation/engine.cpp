@@ -239,7 +239,8 @@ void Engine::Impl::recompileAll() {
 }
 
 Engine::Engine(const Project& project, PluginRegistry& plugins) : m(std::make_unique<Impl>(project, plugins)) {
-  m->build();
+  if (project.state) openAtState();
+  if (!m->solver) m->build();
 }
 Engine::~Engine() = default;
 
@@ -311,6 +312,8 @@ void Engine::apply(const Command& command) {
   } else if (const auto* start = std::get_if<Reset>(&command)) {
     reset();
     for (const NameMatter& named : start->named) m->named.apply(*this, named);
+  } else if (const auto* back = std::get_if<ReturnToState>(&command)) {
+    restore(*back->state);
   } else {
     std::visit(
         [this](const auto& matter) {

@@ -19,7 +19,8 @@ class StateWriter;
 /// the editor through EngineThread.
 class Engine {
  public:
-  /// Throws InputError when the project cannot be compiled (contradicting values, too many particles, ...).
+  /// At the state that the project holds; where it cannot go on from there, or holds none, at its start. Throws
+  /// InputError when the project cannot be compiled (contradicting values, too many particles, ...).
   Engine(const Project& project, PluginRegistry& plugins);
   ~Engine();
 
@@ -31,7 +32,7 @@ class Engine {
 
   // Edits. Each throws, InputError mostly, and then has changed nothing.
 
-  void reset();  ///< back to the start, with all edits kept
+  void reset();  ///< back to the start, with all edits kept; never to a state that the project holds
   /// The document changed as a whole (undo, a new body, gravity): takes over every parameter and material at once;
   /// bodies, which are particles by now, at the next reset; how fixed ones move acts at once.
   void update(const Project& project);
@@ -62,8 +63,13 @@ class Engine {
   /// state that is damaged or that the document or the installed plugins cannot go on from, and has then changed
   /// nothing.
   void restore(const StateReader& reader);
+  /// As restore(), from what a project holds. Refuses what is not of the bodies that this engine's project has.
+  void restore(const ProjectState& state);
   /// Hash of what save() writes.
   uint64_t stateHash() const;
+  /// What is to be told of the state that the project held when this engine was made, "/state: what": why it begins at
+  /// its start, or what of the state means nothing here.
+  const std::vector<std::string>& remarks() const { return m_remarks; }
 
   SnapshotPtr snapshot() const;
   FrameStats stats() const;
@@ -76,8 +82,10 @@ class Engine {
   uint64_t bakedTables() const;
 
  private:
+  void openAtState();
   struct Impl;
   std::unique_ptr<Impl> m;
+  std::vector<std::string> m_remarks;
 };
 
 }  // namespace ps

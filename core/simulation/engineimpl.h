@@ -29,6 +29,8 @@ struct Engine::Impl {
   SceneState sceneState() const;
   /// Another one, at a state.
   std::unique_ptr<Impl> restored(const StateReader& reader) const;
+  /// From what a project holds, and the names of those of its blocks that nothing here reads.
+  std::unique_ptr<Impl> restored(const ProjectState& state, std::vector<std::string>& unread) const;
   /// The project with the materials that the document has, in its order.
   Project document() const;
   /// Another one, built from a project. What throws on the way leaves this one as it was.

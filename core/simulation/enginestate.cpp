@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "core/base/error.h"
 #include "core/base/statestream.h"
 #include "core/simulation/engineimpl.h"
+#include "core/simulation/projectstate.h"
 
 namespace ps {
 
@@ -41,6 +43,21 @@ std::unique_ptr<Engine::Impl> Engine::Impl::restored(const StateReader& reader) 
   return next;
 }
 
+std::unique_ptr<Engine::Impl> Engine::Impl::restored(const ProjectState& state,
+                                                     std::vector<std::string>& unread) const {
+  if (const std::string why = whyStateDoesNotFit(state, project.bodies); !why.empty())
+    throw InputError("is of another scene: " + why);
+  const StateBuffer buffer = unpackState(state.blocks);
+  const StateReader reader(buffer.bytes());
+  auto next = restored(reader);
+  if (next->solver->frame() != state.frame) {
+    throw InputError("says frame " + std::to_string(state.frame) + ", and its blocks are of frame " +
+                     std::to_string(next->solver->frame()));
+  }
+  unread = reader.unread();
+  return next;
+}
+
 void Engine::save(StateWriter& writer) const {
   m->solver->save(writer);
   m->sceneState().save(writer);
@@ -48,6 +65,23 @@ void Engine::save(StateWriter& writer) const {
 }
 
 void Engine::restore(const StateReader& reader) { m = m->restored(reader); }
+
+void Engine::restore(const ProjectState& state) {
+  std::vector<std::string> unread;
+  m = m->restored(state, unread);
+}
+
+/// What is wrong with the state is no reason to do without the scene.
+void Engine::openAtState() {
+  std::vector<std::string> unread;
+  try {
+    m = m->restored(*m->project.state, unread);
+  } catch (const std::exception& problem) {
+    m_remarks.push_back(std::string("/state: ") + problem.what() + "; the scene opens at its start");
+  }
+  for (const std::string& name : unread)
+    m_remarks.push_back("/state/blocks: nothing here knows the block '" + name + "'; it is kept and has no effect");
+}
 
 uint64_t Engine::stateHash() const {
   StateHash hash;

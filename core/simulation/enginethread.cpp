@@ -346,11 +346,13 @@ void EngineThread::Impl::open(const Opening& opening) {
   {
     const std::lock_guard lock(mutex);
     newest = previous = nullptr;
-    playing = opening.play;
+    playing = opening.play && engine->solver().frame() == 0;
     due = measured = Clock::now();
     measuredTime = 0;
   }
   publishEdits();
+  for (const std::string& remark : engine->remarks()) tell(EngineEvent::Kind::Remark, 0, remark);
+  if (!engine->remarks().empty() && published) published();
 }
 
 EngineThread::EngineThread(PluginRegistry& plugins, std::function<void()> published)

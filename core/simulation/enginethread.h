@@ -29,8 +29,9 @@ class EngineThread {
   EngineThread(PluginRegistry& plugins, std::function<void()> published);
   ~EngineThread();
 
-  /// Replaces the scene. One that cannot be built leaves none: an event says why, the snapshot is then empty, of a new
-  /// revision and without body ids, and the thread pauses.
+  /// Replaces the scene. A project that holds a state opens there, paused: who kept a moment wants to see it; an event
+  /// says what is to be told of the state. A scene that cannot be built leaves none: an event says why, the snapshot is
+  /// then empty, of a new revision and without body ids, and the thread pauses.
   void open(const Project& project, bool play);
   void play();
   void pause();

@@ -14,6 +14,7 @@ struct EngineEvent {
     Refused,    ///< an edit was refused and has changed nothing
     NotOpened,  ///< a project could not be built; there is no scene
     Stopped,    ///< something failed between two frames or in one; the scene is paused
+    Remark,     ///< something of what was opened; all goes on
     Settled,    ///< what was told last no longer holds
   };
   uint64_t number = 0;  ///< counts the thread's events

@@ -179,13 +179,7 @@ class TestState : public QObject {
             bytes.resize(--count * ps::sizeOf(block.type));
           if (isVictim && kind >= 2 && block.type != ps::StateType::Text)
             std::fill(bytes.begin(), bytes.end(), static_cast<std::byte>(kind == 2 ? 0xff : 0x03));
-          if (block.type == ps::StateType::Text) {
-            writer.texts(block.name, whole.texts(block.name));
-            continue;
-          }
-          writer.open(block.name, block.type, count, block.version);
-          writer.put(bytes.data(), bytes.size());
-          writer.close();
+          writer.block({block.name, block.type, block.version, count, bytes});
         }
         writer.finish();
         Scene scene(false);

@@ -9,6 +9,7 @@
 #include <QTemporaryDir>
 #include <QTest>
 
+#include <cmath>
 #include <set>
 
 // Drives the built program, as a shell would.
@@ -24,6 +25,8 @@ class TestCli : public QObject {
   void aRunOfOneFrameSaysNothingOfRest();
   void probesHaveOneRowPerFrame();
   void sameProjectGivesTheSameHash();
+  void runsGoOnFromAState();
+  void statesThatDoNotFitAreTold();
   void pluginsAreListed();
   void schemaIsPrinted();
   void benchWritesItsKeys();
@@ -248,6 +251,70 @@ void TestCli::sameProjectGivesTheSameHash() {
   }
   QCOMPARE(hashes[0].size(), 16);
   QCOMPARE(hashes[0], hashes[1]);
+}
+
+/// By a file of its own and by the project, in a new process: to the hash of the run that was not interrupted.
+void TestCli::runsGoOnFromAState() {
+  QTemporaryDir folder;
+  const QString state = folder.filePath("a.state"), kept = folder.filePath("kept.json"), r = folder.filePath("r.json");
+  QVERIFY(cli(smallScene({"--frames", "12", "--report", r, "--quiet"})).code == 0);
+  const std::string whole = jsonFile(r).value("state_hash", std::string());
+  Ran ran = cli(smallScene({"--frames", "7", "--save-state", state, "--save-project", kept, "--quiet"}));
+  QVERIFY2(ran.code == 0, ran.err.constData());
+  ran = cli(smallScene({"--frames", "5", "--from", state, "--report", r, "--quiet"}));
+  QVERIFY2(ran.code == 0, ran.err.constData());
+  QCOMPARE(jsonFile(r).value("state_hash", std::string()), whole);
+
+  ran = cli({"simulate", kept, "--frames", "5", "--threads", "2", "--report", r});
+  QVERIFY2(ran.code == 0 && ran.err.isEmpty(), ran.err.constData());
+  QVERIFY2(ran.out.startsWith("begun at 0.116667 s, from the state of frame 7\n5 frames, "), ran.out.constData());
+  nlohmann::json report = jsonFile(r);
+  QCOMPARE(report.value("state_hash", std::string()), whole);
+  QCOMPARE(report["project"]["begun"]["frame"].get<int>(), 7);
+  QVERIFY(std::abs(report["simulated_s"].get<double>() - 5 / 60.0) < 1e-9);
+  // Without a number of frames it goes on to the end of the scene.
+  QVERIFY(cli({"simulate", kept, "--set", "duration=0.2", "--report", r, "--quiet"}).code == 0);
+  QCOMPARE(jsonFile(r).value("state_hash", std::string()), whole);
+  QVERIFY(cli({"simulate", kept, "--at-start", "--frames", "12", "--report", r, "--quiet"}).code == 0);
+  report = jsonFile(r);
+  QCOMPARE(report.value("state_hash", std::string()), whole);
+  QCOMPARE(report["project"]["begun"]["frame"].get<int>(), 0);
+
+  QCOMPARE(cli({"validate", kept}).out, (kept + ": fine\n").toUtf8());
+  ran = cli({"render", kept, "--frames", "2", "--every", "2", "--out", folder.filePath("p"), "--size", "64x48"});
+  QVERIFY2(ran.code == 0, ran.err.constData());
+  QCOMPARE(QDir(folder.filePath("p")).entryList(QDir::Files, QDir::Name),
+           (QStringList{"frame-000007.png", "frame-000009.png"}));
+}
+
+void TestCli::statesThatDoNotFitAreTold() {
+  QTemporaryDir folder;
+  const QString kept = folder.filePath("kept.json"), r = folder.filePath("r.json"), odd = folder.filePath("odd.json");
+  QVERIFY(cli(smallScene({"--frames", "2", "--save-project", kept, "--quiet"})).code == 0);
+  Ran ran =
+      cli({"simulate", kept, "--frames", "1", "--set", "bodies/ice/shape/box/size=[0.14, 0.1, 0.1]", "--report", r});
+  QCOMPARE(ran.code, 0);
+  const QString says =
+      "/state: is of another scene: the body 'ice' has another shape by now; the scene opens at its start";
+  QCOMPARE(QString::fromUtf8(ran.err), "warning: " + kept + ":" + says + "\n");
+  QCOMPARE(jsonFile(r)["warnings"][0].get<std::string>(), (kept + ":" + says).toStdString());
+  QCOMPARE(jsonFile(r)["frames"].get<int>(), 1);
+
+  const auto validated = [&](const auto& spoil) {
+    nlohmann::json project = jsonFile(kept);
+    spoil(project["state"]);
+    QFile file(odd);
+    if (file.open(QIODevice::WriteOnly)) file.write(QByteArray::fromStdString(project.dump()));
+    file.close();
+    return cli({"validate", odd});
+  };
+  ran = validated([](nlohmann::json& state) { state["bodies"][0]["id"] = "snow"; });
+  QCOMPARE(ran.code, 0);
+  QVERIFY2(ran.err.contains("/state: is of another scene: the body 'ice' came later"), ran.err.constData());
+  ran = validated([](nlohmann::json& state) { state["blocks"][0]["data"] = "AAAA"; });
+  QCOMPARE(ran.code, 2);
+  QVERIFY2(ran.err.startsWith((odd + ":/state/blocks/0/data: the block 'clock/frames' is no zstd frame").toUtf8()),
+           ran.err.constData());
 }
 
 void TestCli::pluginsAreListed() {

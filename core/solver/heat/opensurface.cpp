@@ -132,9 +132,10 @@ void OpenSurface::restore(const StateReader& reader, const ParticleStore& store)
   forget();
   m_open = reader.array<uint64_t>("heat/open_directions");
   m_scale = reader.array<float>("heat/area_scale", m_open.size(), 1);
+  const std::vector<double> unit = reader.array<double>("heat/area_unit", m_open.empty() ? 0 : 1, 1);
   if (m_open.empty()) return;
   if (m_open.size() != store.size()) StateReader::fail("heat/open_directions", "is not that of all particles");
-  m_unit = reader.value<double>("heat/area_unit");
+  m_unit = unit[0];
   m_id.assign(store.id(), store.id() + store.size());
 }
 

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/base/packedstate.h"
+
+#include "core/base/base64.h"
+#include "core/base/error.h"
+#include "core/base/statestream.h"
+
+#include <zstd.h>
+
+namespace ps {
+namespace {
+
+constexpr int kLevel = 3;
+
+/// Bytes of the words that elements are made of: a Float4 is four of them.
+size_t wordOf(StateType type) { return type == StateType::Float4 ? 4 : sizeOf(type); }
+
+std::vector<std::byte> inPlanes(std::span<const std::byte> bytes, size_t word) {
+  std::vector<std::byte> planes(bytes.size());
+  const size_t count = bytes.size() / word;
+  for (size_t plane = 0; plane < word; ++plane) {
+    for (size_t k = 0; k < count; ++k) planes[plane * count + k] = bytes[k * word + plane];
+  }
+  return planes;
+}
+
+std::vector<std::byte> fromPlanes(std::span<const std::byte> planes, size_t word) {
+  std::vector<std::byte> bytes(planes.size());
+  const size_t count = planes.size() / word;
+  for (size_t plane = 0; plane < word; ++plane) {
+    for (size_t k = 0; k < count; ++k) bytes[k * word + plane] = planes[plane * count + k];
+  }
+  return bytes;
+}
+
+PackedBlock packBlock(const StateReader::Block& block) {
+  PackedBlock packed{block.name, stateTypeName(block.type), block.version, block.count, {}, {}};
+  if (block.bytes.empty()) return packed;
+  const std::vector<std::byte> planes = inPlanes(block.bytes, wordOf(block.type));
+  std::vector<std::byte> small(ZSTD_compressBound(planes.size()));
+  const size_t size = ZSTD_compress(small.data(), small.size(), planes.data(), planes.size(), kLevel);
+  if (ZSTD_isError(size)) throw Error("state block '" + block.name + "': " + ZSTD_getErrorName(size));
+  packed.data = toBase64(std::span(small).first(size));
+  return packed;
+}
+
+}  // namespace
+
+std::vector<PackedBlock> packState(const StateReader& state) {
+  std::vector<PackedBlock> packed;
+  size_t total = 0;
+  for (const StateReader::Block& block : state.blocks()) {
+    total += block.bytes.size();
+    if (total > kMostPackedBytes) {
+      throw Error("the state is larger than the " + std::to_string(kMostPackedBytes >> 20) +
+                  " MiB that a project may hold; phasesketch-cli simulate --save-state writes a file of its own");
+    }
+    packed.push_back(packBlock(block));
+  }
+  return packed;
+}
+
+std::vector<std::byte> unpackBlock(const PackedBlock& block, size_t most) {
+  const StateType type = stateTypeNamed(block.type);
+  if (type == StateType::End) throw InputError("is of the type '" + block.type + "', which there is not");
+  const auto told = std::to_string(block.count) + (type == StateType::Text ? " texts" : " elements of " + block.type);
+  const auto wrongSize = [&](uint64_t size) {
+    return InputError("holds " + std::to_string(size) + " bytes, which are not " + told);
+  };
+  const auto fits = [&](uint64_t size) {
+    if (type == StateType::Text) return block.count <= size / sizeof(uint32_t);
+    return block.count == size / sizeOf(type) && size % sizeOf(type) == 0;
+  };
+  if (block.data.empty()) {
+    if (!fits(0)) throw wrongSize(0);
+    return {};
+  }
+  const auto small = fromBase64(block.data);
+  if (!small) throw InputError("is no base64, or is cut off");
+  const unsigned long long size = ZSTD_getFrameContentSize(small->data(), small->size());
+  if (size == ZSTD_CONTENTSIZE_ERROR || size == ZSTD_CONTENTSIZE_UNKNOWN)
+    throw InputError("is no zstd frame that says its size");
+  if (!fits(size)) throw wrongSize(size);
+  if (size > most) throw InputError("would take " + std::to_string(size) + " bytes, more than a state may have");
+  std::vector<std::byte> planes(static_cast<size_t>(size));
+  const size_t got = ZSTD_decompress(planes.data(), planes.size(), small->data(), small->size());
+  if (ZSTD_isError(got) || got != planes.size()) throw InputError("is damaged, or is cut off: zstd cannot unpack it");
+  return fromPlanes(planes, wordOf(type));
+}
+
+StateBuffer unpackState(std::span<const PackedBlock> blocks) {
+  StateBuffer buffer;
+  StateWriter writer(buffer);
+  size_t left = kMostPackedBytes;
+  for (const PackedBlock& packed : blocks) {
+    std::vector<std::byte> bytes;
+    try {
+      bytes = unpackBlock(packed, left);
+    } catch (const InputError& problem) {
+      StateReader::fail(packed.name, problem.what());
+    }
+    left -= bytes.size();
+    writer.block(
+        {packed.name, stateTypeNamed(packed.type), static_cast<uint16_t>(packed.version), packed.count, bytes});
+  }
+  writer.finish();
+  return buffer;
+}
+
+}  // namespace ps

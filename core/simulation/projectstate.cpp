@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/simulation/projectstate.h"
+
+#include "core/base/hash.h"
+#include "core/base/statestream.h"
+
+#include <algorithm>
+#include <variant>
+
+namespace ps {
+namespace {
+
+void add(Hash& hash, const Vector3& v) {
+  for (const double c : v) hash.add(c);
+}
+
+void add(Hash& hash, const BoxShape& box) {
+  add(hash, box.center);
+  add(hash, box.size);
+}
+
+void add(Hash& hash, const VoxelShape& voxels) {
+  add(hash, voxels.origin);
+  hash.add(voxels.spacing);
+  for (const VoxelShape::Run& run : voxels.runs) {
+    for (const int number : {run.x, run.y, run.z, run.length, run.palette}) hash.add(int64_t{number});
+  }
+}
+
+std::string stampOf(const Body& body) {
+  Hash hash;
+  hash.add(uint64_t{body.shape.index()});
+  std::visit([&](const auto& shape) { add(hash, shape); }, body.shape);
+  return hashText(hash.value());
+}
+
+}  // namespace
+
+std::shared_ptr<const ProjectState> projectState(std::span<const std::byte> stream, const std::vector<Body>& bodies) {
+  const StateReader reader(stream);
+  auto state = std::make_shared<ProjectState>();
+  state->frame = reader.array<uint64_t>("clock/frames").at(0);
+  state->time = reader.array<double>("clock/seconds").at(0);
+  for (const Body& body : bodies) state->bodies.push_back({body.id, stampOf(body)});
+  state->blocks = packState(reader);
+  return state;
+}
+
+std::string whyStateDoesNotFit(const ProjectState& state, const std::vector<Body>& bodies) {
+  for (const Body& body : bodies) {
+    const auto known = std::find_if(state.bodies.begin(), state.bodies.end(),
+                                    [&](const ProjectState::Shape& shape) { return shape.id == body.id; });
+    if (known == state.bodies.end()) return "the body '" + body.id + "' came later";
+    if (known->stamp != stampOf(body)) return "the body '" + body.id + "' has another shape by now";
+  }
+  for (const ProjectState::Shape& shape : state.bodies) {
+    if (std::none_of(bodies.begin(), bodies.end(), [&](const Body& body) { return body.id == shape.id; }))
+      return "the body '" + shape.id + "' has gone";
+  }
+  return {};
+}
+
+}  // namespace ps
