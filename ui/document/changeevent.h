@@ -48,11 +48,13 @@ struct StrokeChanged {
 struct ViewChanged {};
 /// Other rows are pinned.
 struct PinsChanged {};
+/// The project holds another state to open at, or none; the scene that runs stays what it is.
+struct StateChanged {};
 /// The file, its name or whether it holds everything changed.
 struct FileChanged {};
 
 /// What happened to a document, as one value: receivers visit it.
 using ChangeEvent = std::variant<ProjectOpened, ParameterChanged, BodyChanged, PortChanged, WallsChanged,
-                                 MaterialsChanged, StrokeChanged, ViewChanged, PinsChanged, FileChanged>;
+                                 MaterialsChanged, StrokeChanged, ViewChanged, PinsChanged, StateChanged, FileChanged>;
 
 }  // namespace ps

@@ -84,6 +84,12 @@ void StrokeCommand::redo() {
   m_live = false;
 }
 
+StateCommand::StateCommand(Document& document, State before, State after, const QString& text)
+    : QUndoCommand(text), m_document(document), m_before(std::move(before)), m_after(std::move(after)) {}
+
+void StateCommand::undo() { m_document.applyState(m_before); }
+void StateCommand::redo() { m_document.applyState(m_after); }
+
 PinsCommand::PinsCommand(Document& document, std::vector<std::string> before, std::vector<std::string> after,
                          const QString& text)
     : QUndoCommand(text), m_document(document), m_before(std::move(before)), m_after(std::move(after)) {}

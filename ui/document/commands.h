@@ -98,6 +98,19 @@ class StrokeCommand : public QUndoCommand {
   bool m_live = true;
 };
 
+/// The state that the project opens at; nullptr for its start.
+class StateCommand : public QUndoCommand {
+ public:
+  using State = std::shared_ptr<const ProjectState>;
+  StateCommand(Document& document, State before, State after, const QString& text);
+  void undo() override;
+  void redo() override;
+
+ private:
+  Document& m_document;
+  State m_before, m_after;
+};
+
 /// The rows of "Try these".
 class PinsCommand : public QUndoCommand {
  public:

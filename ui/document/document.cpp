@@ -175,6 +175,15 @@ void Document::setPinned(const std::string& address, bool pinned) {
                               pinned ? QStringLiteral("pinning a row") : QStringLiteral("unpinning a row")));
 }
 
+void Document::keepState(std::shared_ptr<const ProjectState> state) {
+  m_undo.push(new StateCommand(*this, m_project.state, std::move(state), QStringLiteral("keeping the present state")));
+}
+
+void Document::removeState() {
+  if (m_project.state)
+    m_undo.push(new StateCommand(*this, m_project.state, nullptr, QStringLiteral("removal of the saved state")));
+}
+
 void Document::setColour(const std::string& colour) {
   if (m_project.view.colour == colour) return;
   m_project.view.colour = colour;
@@ -215,6 +224,12 @@ void Document::applyStroke(const std::shared_ptr<StrokeRecord>& stroke, bool don
   applyEdits(m_project, stroke->edits, done);
   ++m_changes;
   tell(StrokeChanged{stroke, done, live});
+}
+
+void Document::applyState(const std::shared_ptr<const ProjectState>& state) {
+  m_project.state = state;
+  ++m_changes;
+  tell(StateChanged{});
 }
 
 void Document::applyPins(const std::vector<std::string>& pins) {

@@ -110,6 +110,10 @@ class Document : public QObject {
   QString whyMaterialStays(const std::string& id) const;
   QString removeMaterial(const std::string& id);  ///< returns whyMaterialStays()
 
+  // The state that the project opens at: see ProjectState. The scene that runs stays what it is.
+  void keepState(std::shared_ptr<const ProjectState> state);
+  void removeState();
+
   // View: saved with the project, no undo steps except pins
   void setPinned(const std::string& address, bool pinned);
   void setColour(const std::string& colour);
@@ -122,6 +126,7 @@ class Document : public QObject {
   void applyWalls(const std::vector<SceneWall>& walls);
   void applyMaterials(const std::vector<SceneMaterial>& materials);
   void applyStroke(const std::shared_ptr<StrokeRecord>& stroke, bool done, bool live);
+  void applyState(const std::shared_ptr<const ProjectState>& state);
   void applyPins(const std::vector<std::string>& pins);
 
  Q_SIGNALS:

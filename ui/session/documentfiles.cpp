@@ -3,6 +3,7 @@
 
 #include "core/io/projectio.h"
 #include "core/plugin_host/registry.h"
+#include "core/simulation/projectstate.h"
 #include "ui/document/document.h"
 #include "ui/document/wallside.h"
 #include "ui/session/autosave.h"
@@ -135,18 +136,22 @@ void DocumentFiles::newProject() {
 void DocumentFiles::save(const QString& path) {
   const QString absolute = QFileInfo(path).absoluteFilePath();
   m_worker.run([this, absolute, count = m_document.changeCount(), project = m_document.project()] {
-    QString problem;
+    QString problem, why;
+    Project written = project;
+    if (written.state) why = QString::fromStdString(whyStateDoesNotFit(*written.state, written.bodies));
+    if (!why.isEmpty()) written.state = nullptr;
     try {
-      saveProject(project, absolute.toStdString());
+      saveProject(written, absolute.toStdString());
     } catch (const std::exception& error) {
       problem = QString::fromUtf8(error.what());
     }
-    QMetaObject::invokeMethod(this, [this, absolute, count, problem] {
+    QMetaObject::invokeMethod(this, [this, absolute, count, problem, why] {
       if (!problem.isEmpty()) {
         Q_EMIT saveFailed(absolute, problem, m_document.had(count));
         return;
       }
       addRecent(absolute);
+      if (!why.isEmpty()) Q_EMIT stateLeftOut(absolute, why);
       Q_EMIT saved(absolute, m_document.saved(absolute, count));
     });
   });

@@ -160,6 +160,12 @@ void SceneLink::reset() {
   }
 }
 
+void SceneLink::returnToState() {
+  if (!m_document.project().state || isBroken()) return;
+  ++m_run;
+  m_engine.apply(ReturnToState{m_document.project().state});
+}
+
 bool SceneLink::isBroken() const {
   const SnapshotPtr snapshot = m_engine.snapshot();
   return snapshot && !snapshot->bodyIds;
@@ -167,7 +173,9 @@ bool SceneLink::isBroken() const {
 
 void SceneLink::rebuild(bool play) {
   ++m_run;
-  m_engine.open(m_document.project(), play);
+  Project start = m_document.project();
+  start.state = nullptr;  // it is matter at the start that cells name
+  m_engine.open(start, play);
   for (NameMatter& named : namedMatter()) m_engine.apply(std::move(named));
 }
 

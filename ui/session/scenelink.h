@@ -26,6 +26,9 @@ class SceneLink : public QObject {
 
   /// Back to the start, edits kept. Undoing an earlier stroke still removes exactly its particles.
   void reset();
+  /// To the state that the project holds, edits kept; the engine refuses one that no longer fits. What a stroke before
+  /// it has made is not known any more: undoing that takes nothing.
+  void returnToState();
   /// The engine could not build the scene: its snapshot is empty, and an event says why. Each change of the scene,
   /// reset() and rebuild() try again.
   bool isBroken() const;
@@ -58,7 +61,7 @@ class SceneLink : public QObject {
     std::weak_ptr<const MatterKey> matter;
     uint64_t run = 0;
   };
-  uint64_t m_run = 1;                                                   ///< counts resets
+  uint64_t m_run = 1;  ///< counts resets, and returns to a state: matter of another run is not known by its ids
   std::map<MatterKey, KnownMatter> m_matter;                            ///< that the engine may know, and of which run
   std::vector<std::pair<std::weak_ptr<StrokeRecord>, bool>> m_strokes;  ///< and whether it is done, not undone
 };

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/session/session.h"
 
+#include "core/base/statestream.h"
 #include "core/plugin_host/registry.h"
+#include "core/simulation/engine.h"
 #include "core/simulation/enginethread.h"
+#include "core/simulation/projectstate.h"
 #include "ui/document/document.h"
 #include "ui/session/documentfiles.h"
 #include "ui/session/scenelink.h"
@@ -149,6 +152,44 @@ void Session::step() {
 
 void Session::reset() {
   if (m_link) m_link->reset();
+}
+
+void Session::returnToState() {
+  if (m_link) m_link->returnToState();
+}
+
+/// The engine's thread writes the stream, the worker packs it: neither makes the interface wait.
+void Session::keepState() {
+  if (!m_engine || isBroken()) {
+    Q_EMIT stateNotKept(QStringLiteral("there is no scene that runs"));
+    return;
+  }
+  m_engine->ask([this, bodies = m_document->project().bodies, count = m_document->changeCount()](const Engine& engine) {
+    auto stream = std::make_shared<StateBuffer>();
+    StateWriter writer(*stream);
+    engine.save(writer);
+    writer.finish();
+    QMetaObject::invokeMethod(this, [this, stream, bodies, count] { packState(stream, bodies, count); });
+  });
+}
+
+/// `count`: Document::changeCount() when it was asked for.
+void Session::packState(std::shared_ptr<const StateBuffer> stream, std::vector<Body> bodies, uint64_t count) {
+  m_worker->run([this, stream = std::move(stream), bodies = std::move(bodies), count] {
+    std::shared_ptr<const ProjectState> state;
+    QString problem;
+    try {
+      state = projectState(stream->bytes(), bodies);
+    } catch (const std::exception& error) {
+      problem = QString::fromUtf8(error.what());
+    }
+    QMetaObject::invokeMethod(this, [this, state, problem, count] {
+      if (!m_document->had(count)) return;  // another project has taken its place
+      if (state) m_document->keepState(state);
+      if (state) Q_EMIT stateKept();
+      if (!state) Q_EMIT stateNotKept(problem);
+    });
+  });
 }
 
 QString Session::close() {

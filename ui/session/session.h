@@ -20,6 +20,7 @@ class EngineThread;
 class PluginRegistry;
 class SceneLink;
 class Transitions;
+class StateBuffer;
 class Worker;
 struct EngineEvent;
 
@@ -55,7 +56,10 @@ class Session : public QObject {
   void play();
   void pause();
   void step();
-  void reset();
+  void reset();          ///< to the start, whether or not the project holds a state
+  void returnToState();  ///< to the state that the project holds
+  /// Takes matter as it stands into the project, between two frames: stateKept() or stateNotKept() follows.
+  void keepState();
   bool playing() const;
   /// The engine has no scene: the project cannot be built as it is (see SceneLink::isBroken()).
   bool isBroken() const;
@@ -68,11 +72,14 @@ class Session : public QObject {
   void valuesDue();        ///< there are newer numbers to show: at most 15 times a second
   void playingChanged();
   void happened(const ps::EngineEvent& event);  ///< in the order of their numbers, none left out
-  void projectShown();                          ///< the first snapshot of an opened project has arrived
+  void stateKept();
+  void stateNotKept(const QString& problem);
+  void projectShown();  ///< the first snapshot of an opened project has arrived
 
  private:
   void adoptPlugins(std::shared_ptr<PluginRegistry> plugins);
   void onSnapshot();
+  void packState(std::shared_ptr<const StateBuffer> stream, std::vector<Body> bodies, uint64_t count);
   void tellValues();
 
   Options m_options;

@@ -73,6 +73,7 @@ FailureText failureText(const EngineEvent& event) {
     return {QStringLiteral("The energy balance does not close."),
             detail + QStringLiteral("The thermal model loses heat; choose another under Solver.")};
   }
+  if (event.kind == EngineEvent::Kind::Remark) return {QStringLiteral("Opened, with one remark."), sentence(message)};
   if (event.kind == EngineEvent::Kind::Stopped) {
     return {QStringLiteral("Paused: the simulation could not go on."),
             detail + QStringLiteral("Undo the last change, or reset, then play.")};

@@ -17,6 +17,7 @@
 #include <QtWidgets/QToolButton>
 
 #include <algorithm>
+#include <cmath>
 
 namespace ps {
 namespace {
@@ -131,6 +132,7 @@ void Transport::onChanged(const ChangeEvent& event) {
     setDuration(project.duration);
     setSnapshot(nullptr);
   }
+  if (opened || std::holds_alternative<StateChanged>(event)) setStateTime(project.state ? project.state->time : 0);
   if (opened || std::holds_alternative<ParameterChanged>(event))
     setTimeScale(numberOf(project.solver.parameters, solverParameters(), "thermal_time_scale"));
 }
@@ -159,6 +161,16 @@ void Transport::setReady(bool ready) {
 
 void Transport::setDuration(double seconds) {
   m_total = seconds;
+  refresh();
+}
+
+void Transport::setStateTime(double seconds) {
+  m_stateSeconds = seconds;
+  const QString tip =
+      QStringLiteral("Back to the start (Home)") +
+      (seconds > 0 ? QStringLiteral("\nThe project opens at its saved state, %1 (Shift+Home)").arg(clockText(seconds))
+                   : QString());
+  m_reset->setToolTip(tip);
   refresh();
 }
 
@@ -201,6 +213,10 @@ void Transport::paintEvent(QPaintEvent*) {
   const double share = m_total > 0 ? std::clamp(m_seconds / m_total, 0.0, 1.0) : 0;
   painter.fillRect(QRectF(0, height() - 4, width(), 4), theme[Token::Field]);
   painter.fillRect(QRectF(0, height() - 4, width() * share, 4), theme[Token::SliderFill]);
+  if (m_stateSeconds > 0 && m_stateSeconds <= m_total) {  // where the project opens
+    painter.fillRect(QRectF(std::floor(width() * m_stateSeconds / m_total) - 1, height() - 5, 2, 5),
+                     theme[Token::Text2]);
+  }
 }
 
 void Transport::changeEvent(QEvent* event) {

@@ -30,7 +30,8 @@ class Transport : public QWidget {
   void setPlaying(bool playing);
   void setReady(bool ready);
   void setDuration(double seconds);
-  void setTimeScale(double scale);  ///< thermal seconds per mechanical second
+  void setStateTime(double seconds);  ///< of the state that the project opens at; 0: it opens at its start
+  void setTimeScale(double scale);    ///< thermal seconds per mechanical second
   void setSnapshot(const SnapshotPtr& snapshot);
   QString durationText() const;  ///< "/ 01:00", and what goes on from there while it stands at the end
   QString timeText() const;
@@ -50,7 +51,7 @@ class Transport : public QWidget {
   QLabel *m_time, *m_duration;
   ThermalClock* m_thermal;
   bool m_playing = false;
-  double m_seconds = 0, m_thermalSeconds = 0, m_total = 60, m_scale = 1;
+  double m_seconds = 0, m_thermalSeconds = 0, m_total = 60, m_scale = 1, m_stateSeconds = 0;
 };
 
 }  // namespace ps

@@ -65,6 +65,15 @@ FileActions::FileActions(Session& session, const Actions& actions, Notices& noti
   connect(&files, &DocumentFiles::openFailed, this, &FileActions::onOpenFailed);
   connect(&files, &DocumentFiles::saveFailed, this, &FileActions::onSaveFailed);
   connect(&files, &DocumentFiles::saved, this, &FileActions::onSaved);
+  connect(&files, &DocumentFiles::stateLeftOut, this, &FileActions::onStateLeftOut);
+  connect(&session, &Session::stateKept, this, [this] {
+    if (!m_stateTo.isEmpty()) saveTo(std::exchange(m_stateTo, {}));
+  });
+  connect(&session, &Session::stateNotKept, this, [this](const QString& problem) {
+    m_notices.message(MessageLevel::Warning, QStringLiteral("The present state was not kept"), sentence(problem));
+    m_stateTo.clear();
+  });
+  connect(&session.document(), &Document::changed, this, &FileActions::updateStateActions);
   connect(&session, &Session::ready, this, [this] {
     setEnabled(true);
     openFirst();
@@ -91,6 +100,15 @@ void FileActions::makeMenu(QMenu* menu, Viewport* view) {
                 [this] { save(); });
   m_actions.add(menu, QStringLiteral("file.saveAs"), QStringLiteral("Save as…"),
                 {QKeySequence(QStringLiteral("Ctrl+Shift+S"))}, [this] { chooseSave(); });
+  m_actions
+      .add(menu, QStringLiteral("file.saveState"), QStringLiteral("Save with the present state"),
+           {QKeySequence(QStringLiteral("Ctrl+Alt+S"))}, [this] { saveWithState(); })
+      ->setToolTip(QStringLiteral("Keeps matter as it stands in the project, which then opens there. Home still leads "
+                                  "back to the start."));
+  m_actions
+      .add(menu, QStringLiteral("file.removeState"), QStringLiteral("Remove the saved state"), {},
+           [this] { m_session.document().removeState(); })
+      ->setToolTip(QStringLiteral("The project opens at its start again; the scene goes on as it stands."));
   menu->addSeparator();
   m_actions.add(menu, QStringLiteral("file.picture"), QStringLiteral("Save picture of the scene…"), {},
                 [this] { exportPicture(); });
@@ -102,14 +120,23 @@ void FileActions::makeMenu(QMenu* menu, Viewport* view) {
   for (const char* name : {"file.new", "file.open", "file.sample", "file.restore"}) {
     if (QAction* replacing = m_actions.find(QString::fromLatin1(name))) replacing->setProperty(kReplaces, true);
   }
+  menu->setToolTipsVisible(true);
   setEnabled(false);
+  updateStateActions();
 }
 
 void FileActions::setEnabled(bool on) {
-  for (const char* name : {"file.new", "file.open", "file.sample", "file.save", "file.saveAs"}) {
+  for (const char* name : {"file.new", "file.open", "file.sample", "file.save", "file.saveAs", "file.saveState"}) {
     if (QAction* needed = m_actions.find(QString::fromLatin1(name))) needed->setEnabled(on);
   }
   m_recent->setEnabled(on);
+}
+
+void FileActions::updateStateActions() {
+  for (const char* name : {"file.removeState", "simulation.state"}) {
+    if (QAction* action = m_actions.find(QString::fromLatin1(name)))
+      action->setEnabled(m_session.document().project().state != nullptr);
+  }
 }
 
 void FileActions::updateRestore() {
@@ -169,19 +196,30 @@ void FileActions::save() {
   }
 }
 
+void FileActions::saveWithState() {
+  const QString& path = m_session.document().path();
+  m_stateTo = path.isEmpty() || isSample(path) ? chooseFile() : path;
+  if (!m_stateTo.isEmpty()) m_session.keepState();
+}
+
 void FileActions::chooseSave() {
+  if (const QString path = chooseFile(); !path.isEmpty()) saveTo(path);
+}
+
+QString FileActions::chooseFile() {
   const Document& document = m_session.document();
   QString suggestion = document.path();
   if (suggestion.isEmpty() || isSample(suggestion)) {
     suggestion = QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation) + QLatin1Char('/') +
                  fileNameFor(document.title()) + QStringLiteral(".json");
   }
-  const QString path = fileToWrite(&m_actions.window(), QStringLiteral("Save the project"), suggestion, kFilter);
-  if (!path.isEmpty()) saveTo(path);
+  return fileToWrite(&m_actions.window(), QStringLiteral("Save the project"), suggestion, kFilter);
 }
 
 void FileActions::onOpened(const QString& path, const QStringList& warnings, double seconds) {
-  for (const char* topic : {"open", "save", "stroke", "refused"}) m_notices.bar().close(QString::fromLatin1(topic));
+  m_stateTo.clear();
+  for (const char* topic : {"open", "save", "state", "stroke", "refused"})
+    m_notices.bar().close(QString::fromLatin1(topic));
   for (const QString& warning : warnings) m_session.log().add(MessageLevel::Warning, nameOf(path), warning);
   m_session.log().add(MessageLevel::Ok, nameOf(path), QStringLiteral("Opened in %1 s.").arg(seconds, 0, 'f', 2));
   if (!warnings.isEmpty()) {
@@ -217,9 +255,24 @@ void FileActions::onOpenFailed(const QString& path, const QString& problem) {
 }
 
 void FileActions::onSaved(const QString& path, bool present) {
-  m_session.log().add(MessageLevel::Ok, nameOf(path), QStringLiteral("Saved to %1.").arg(path));
+  const auto& state = m_session.document().project().state;
+  const bool leftOut = std::exchange(m_leftOut, false);
+  const QString opens = present && state && !leftOut
+                            ? QStringLiteral(" It opens at %1, its saved state.").arg(clockText(state->time))
+                            : QString();
+  m_session.log().add(MessageLevel::Ok, nameOf(path), QStringLiteral("Saved to %1.").arg(path) + opens);
   if (!present) return;
   m_notices.bar().close(QStringLiteral("save"));
+  if (!leftOut) m_notices.bar().close(QStringLiteral("state"));
+}
+
+void FileActions::onStateLeftOut(const QString& path, const QString& why) {
+  m_leftOut = true;
+  const QString title = QStringLiteral("Saved without the state that was kept.");
+  const QString text = QStringLiteral("It is of another scene: %1. The project opens at its start.").arg(why);
+  m_session.log().add(MessageLevel::Warning, nameOf(path), title + QLatin1Char(' ') + text);
+  m_notices.bar().show(QStringLiteral("state"), MessageLevel::Warning, title, text,
+                       {{QStringLiteral("Save with the present state"), [this] { saveWithState(); }}});
 }
 
 void FileActions::onSaveFailed(const QString& path, const QString& problem, bool present) {

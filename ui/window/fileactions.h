@@ -45,11 +45,15 @@ class FileActions : public QObject {
   void chooseOpen();
   void save();
   void chooseSave();
+  QString chooseFile();       ///< to save to; "" when given up
+  void saveWithState();       ///< matter as it stands, into the project and its file
+  void updateStateActions();  ///< enabled where the project holds a state
   void exportPicture();
   void writeFile(const QString& path, std::function<QByteArray()> content, const QString& what);
   void onOpened(const QString& path, const QStringList& warnings, double seconds);
   void onOpenFailed(const QString& path, const QString& problem);
   void onSaved(const QString& path, bool present);
+  void onStateLeftOut(const QString& path, const QString& why);
   void onSaveFailed(const QString& path, const QString& problem, bool present);
   bool isSample(const QString& path) const;
 
@@ -60,6 +64,8 @@ class FileActions : public QObject {
   Options m_options;
   Viewport* m_view = nullptr;
   QMenu* m_recent = nullptr;
+  QString m_stateTo;       ///< file that waits for the state; "": none
+  bool m_leftOut = false;  ///< what is being saved had a state that did not fit
   bool m_first = true;
 };
 

@@ -173,6 +173,8 @@ void MainWindow::makeSimulationMenu(QMenu* menu) {
                 [this] { m_session->step(); });
   m_actions.add(menu, QStringLiteral("simulation.reset"), QStringLiteral("Back to the start"),
                 {QKeySequence(Qt::Key_Home)}, [this] { m_session->reset(); });
+  m_actions.add(menu, QStringLiteral("simulation.state"), QStringLiteral("Back to the saved state"),
+                {QKeySequence(Qt::SHIFT | Qt::Key_Home)}, [this] { m_session->returnToState(); });
   m_actions.add(menu, QStringLiteral("simulation.now"), QStringLiteral("Graphs up to now"), {QKeySequence(Qt::Key_End)},
                 [this] {
                   graphs()->temperatures()->fit();

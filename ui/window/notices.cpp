@@ -29,6 +29,8 @@ Notices::Notices(Session& session, NoticeBar& bar, const Actions& actions, QObje
 void Notices::onEvent(const EngineEvent& event) {
   if (event.kind == EngineEvent::Kind::Settled) {
     m_bar.close(kStep);
+  } else if (event.kind == EngineEvent::Kind::Remark) {
+    showRemark(failureText(event));
   } else if (event.kind == EngineEvent::Kind::NotOpened) {
     showBroken(QString::fromStdString(event.message));
   } else {
@@ -54,6 +56,11 @@ void Notices::showFailure(const EngineEvent& event) {
   }
   buttons.push_back({QStringLiteral("Reset"), [this] { m_session.reset(); }});
   m_bar.show(kStep, level, failure.title, failure.text, std::move(buttons));
+}
+
+void Notices::showRemark(const FailureText& remark) {
+  m_session.log().add(MessageLevel::Warning, m_session.document().title(), remark.text);
+  m_bar.show(QStringLiteral("open"), MessageLevel::Warning, remark.title, remark.text);
 }
 
 void Notices::showBroken(const QString& problem) {

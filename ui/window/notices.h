@@ -10,6 +10,7 @@ class Actions;
 class NoticeBar;
 class Session;
 struct EngineEvent;
+struct FailureText;
 
 /// What the engine and refused edits have to say, as notices over the view and in the log.
 class Notices : public QObject {
@@ -25,6 +26,7 @@ class Notices : public QObject {
  private:
   void onEvent(const EngineEvent& event);
   void showFailure(const EngineEvent& event);
+  void showRemark(const FailureText& remark);
   void showBroken(const QString& problem);  ///< the scene could not be built
   Session& m_session;
   NoticeBar& m_bar;
