@@ -91,11 +91,15 @@ void parallelFor(size_t count, size_t grain, const std::function<void(size_t, si
 }
 
 double parallelSum(size_t count, size_t grain, const std::function<double(size_t, size_t)>& body) {
+  // Memory of the last sum of this thread; a sum inside of another finds none and has its own.
+  static thread_local std::vector<double> spare;
+  std::vector<double> partial = std::move(spare);
   grain = std::max<size_t>(1, grain);
-  std::vector<double> partial((count + grain - 1) / grain);
-  parallelFor(count, grain, [&](size_t first, size_t last) { partial[first / grain] = body(first, last); });
+  partial.assign((count + grain - 1) / grain, 0.0);
+  forChunks(count, grain, [&](size_t first, size_t last) { partial[first / grain] = body(first, last); });
   double sum = 0;
   for (const double p : partial) sum += p;
+  spare = std::move(partial);
   return sum;
 }
 

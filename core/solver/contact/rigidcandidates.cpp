@@ -47,14 +47,18 @@ void RigidContact::configure(const SolverSettings& settings, const std::vector<W
 }
 
 void RigidContact::refreshBodies(const ParticleStore& store, const ConstraintSystem& constraints) {
-  m_bodies.clear();
   m_isMember.assign(store.size(), 0);
   m_bodyOf.assign(store.size(), kNone);
-  for (const std::span<const uint32_t> members : constraints.rigidGroups()) {
-    for (const uint32_t i : members) m_isMember[i] = 1, m_bodyOf[i] = static_cast<uint32_t>(m_bodies.size());
-    Body& body = m_bodies.emplace_back();
+  size_t count = 0;
+  constraints.eachRigidGroup([&](std::span<const uint32_t> members) {
+    for (const uint32_t i : members) m_isMember[i] = 1, m_bodyOf[i] = static_cast<uint32_t>(count);
+    if (count == m_bodies.size()) m_bodies.emplace_back();
+    Body body;
+    body.members = std::move(m_bodies[count].members);  // their memory is used again
     body.members.assign(members.begin(), members.end());
-  }
+    m_bodies[count++] = std::move(body);
+  });
+  m_bodies.resize(count);
 }
 
 void RigidContact::addContact(const ParticleStore& store, uint32_t i, uint32_t j) {

@@ -174,7 +174,7 @@ void Solver::Impl::refreshLiquidContact() {
 void Solver::Impl::listsChanged(bool newStructure) {
   if (newStructure) {
     rigid.refreshBodies(store, constraints);
-    grouped = constraints.groupMembers(store);
+    constraints.findGroupMembers(store, grouped);
     constraints.findHanging(store, hanging);
     findThinSolids();
     structureChanged = false;

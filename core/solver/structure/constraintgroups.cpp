@@ -16,21 +16,21 @@ constexpr size_t kMembersPerChunk = 512;
 /// Collects what a plugin adds and removes; it takes effect when the call has returned.
 class ConstraintSystem::Groups final : public api::GroupSink {
  public:
-  Groups(const GroupLists& lists, const ParticleStore& store)
-      : m_lists(lists), m_particles(store.size()), m_lastUse(store.size(), 0) {}
+  Groups(const GroupLists& lists, const ParticleStore& store) : m_lists(lists), m_particles(store.size()) {}
   void add(const uint32_t* particles, size_t count, const float* values, const float* memberValues) override {
     if (count == 0) throw Error("added a group without members");
     const bool hasValues = values || m_lists.valueCount() == 0,
                hasMembers = memberValues || m_lists.memberValueCount() == 0;
     if (!particles || !hasValues || !hasMembers) throw Error("added a group by a null pointer");
     ++m_serial;
+    m_lastUse.resize(m_particles, 0);  // most calls add nothing
     for (size_t k = 0; k < count; ++k) {
       if (particles[k] >= m_particles) throw Error("added a group with a particle that does not exist");
       if (m_lastUse[particles[k]] == m_serial) throw Error("added a group that names a particle twice");
       m_lastUse[particles[k]] = m_serial;
     }
     m_edits.particles.insert(m_edits.particles.end(), particles, particles + count);
-    m_edits.begin.push_back(m_edits.particles.size());
+    m_edits.ends.push_back(m_edits.particles.size());
     m_edits.values.insert(m_edits.values.end(), values, values + m_lists.valueCount());
     m_edits.memberValues.insert(m_edits.memberValues.end(), memberValues,
                                 memberValues + count * m_lists.memberValueCount());
@@ -166,23 +166,13 @@ void ConstraintSystem::putGroupsBack(Set& set, const ParticleStore& store, std::
   });
 }
 
-std::vector<uint8_t> ConstraintSystem::groupMembers(const ParticleStore& store) const {
-  std::vector<uint8_t> result(store.size(), 0);
+void ConstraintSystem::findGroupMembers(const ParticleStore& store, std::vector<uint8_t>& marks) const {
+  marks.assign(store.size(), 0);
   for (const Set& set : m_sets) {
     for (size_t g = 0; set.groups && g < set.groups->count(); ++g) {
-      for (const uint32_t i : set.groups->members(g)) result[i] = 1;
+      for (const uint32_t i : set.groups->members(g)) marks[i] = 1;
     }
   }
-  return result;
-}
-
-std::vector<std::span<const uint32_t>> ConstraintSystem::rigidGroups() const {
-  std::vector<std::span<const uint32_t>> result;
-  for (const Set& set : m_sets) {
-    if (!set.groups || !set.rigid) continue;
-    for (size_t g = 0; g < set.groups->count(); ++g) result.push_back(set.groups->members(g));
-  }
-  return result;
 }
 
 }  // namespace ps

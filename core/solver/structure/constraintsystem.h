@@ -86,9 +86,14 @@ class ConstraintSystem {
   void limits(const ParticleStore& store, std::vector<Limit>& out);
 
   /// 1 for each particle that is a member of a group.
-  std::vector<uint8_t> groupMembers(const ParticleStore& store) const;
-  /// Members of each group that moves as one body; valid until the structure or the order changes.
-  std::vector<std::span<const uint32_t>> rigidGroups() const;
+  void findGroupMembers(const ParticleStore& store, std::vector<uint8_t>& marks) const;
+  /// visit(members) for each group that moves as one body; valid until the structure or the order changes.
+  template <class Visit>
+  void eachRigidGroup(Visit&& visit) const {
+    for (const Set& set : m_sets) {
+      for (size_t g = 0; set.rigid && set.groups && g < set.groups->count(); ++g) visit(set.groups->members(g));
+    }
+  }
 
   /// 1 for bodies that use a plugin of sheets or lines, by their index.
   std::span<const uint8_t> thinBodies() const { return m_thin; }
@@ -107,7 +112,7 @@ class ConstraintSystem {
   /// What moves and may be pulled by something fixed, in ascending order: the particles of each plugin that ties fixed
   /// ones or shares particles with one that does; all of them where a plugin gathers over neighbours.
   /// None where nothing is fixed.
-  void findHanging(const ParticleStore& store, std::vector<uint32_t>& hanging) const;
+  void findHanging(const ParticleStore& store, std::vector<uint32_t>& hanging);
   /// Whether a plugin holds groups together.
   bool groups() const;
   /// Whether a plugin gathers over neighbours.
@@ -240,6 +245,7 @@ class ConstraintSystem {
   std::vector<Set> m_sets;
   std::vector<uint32_t> m_newIndex, m_keptParticles;
   std::vector<std::vector<float>> m_keptValues;
+  std::vector<uint8_t> m_hangs, m_setHangs;  ///< of findHanging(): by particle, by set
   std::vector<api::Float4> m_correction;
   std::vector<uint8_t> m_thin;
   StructureGraph m_graph;

@@ -44,11 +44,9 @@ void GroupLists::apply(const Edits& edits, std::span<const uint32_t> body) {
     }
     append(old.members(g), values.data(), memberValues.data(), old.m_changed[g], old.m_body[g]);
   }
-  for (size_t g = 0; g + 1 < edits.begin.size(); ++g) {
-    append({edits.particles.data() + edits.begin[g], edits.begin[g + 1] - edits.begin[g]},
-           edits.values.data() + g * m_values.size(),
-           edits.memberValues.data() + edits.begin[g] * m_memberValues.size(), 0,
-           body[edits.particles[edits.begin[g]]]);
+  for (size_t g = 0, begin = 0; g < edits.ends.size(); begin = edits.ends[g++]) {
+    append({edits.particles.data() + begin, edits.ends[g] - begin}, edits.values.data() + g * m_values.size(),
+           edits.memberValues.data() + begin * m_memberValues.size(), 0, body[edits.particles[begin]]);
   }
   colour(body.size());
 }
@@ -94,10 +92,9 @@ void GroupLists::colour(size_t particles) {
 }
 
 void GroupLists::renumber(std::span<const uint32_t> newIndex) {
-  size_t place = 0, group = 0, start = 0;
-  std::vector<size_t> colourStart(1, 0);
+  size_t place = 0, group = 0, start = 0, g = 0;
   for (size_t c = 0; c < colours(); ++c) {
-    for (size_t g = m_colourStart[c]; g < m_colourStart[c + 1]; ++g) {
+    for (; g < m_colourStart[c + 1]; ++g) {
       const size_t first = start, last = m_begin[g + 1], before = place;
       start = last;
       for (size_t k = first; k < last; ++k) {
@@ -113,7 +110,7 @@ void GroupLists::renumber(std::span<const uint32_t> newIndex) {
       for (auto& column : m_values) column[group] = column[g];
       m_begin[++group] = place;
     }
-    colourStart.push_back(group);
+    m_colourStart[c + 1] = group;  // never beyond g
   }
   m_particles.resize(place);
   m_begin.resize(group + 1);
@@ -121,7 +118,6 @@ void GroupLists::renumber(std::span<const uint32_t> newIndex) {
   m_body.resize(group);
   for (auto& column : m_values) column.resize(group);
   for (auto& column : m_memberValues) column.resize(place);
-  m_colourStart = std::move(colourStart);
 }
 
 std::vector<CopiedGroup> GroupLists::copy(const ParticleStore& store, std::span<const uint32_t> ascending) const {
@@ -187,7 +183,7 @@ std::vector<uint8_t> GroupLists::putBack(const ParticleStore& store, std::span<c
       edits.memberValues.insert(edits.memberValues.end(), row, row + m_memberValues.size());
     }
     if (edits.particles.empty()) continue;
-    edits.begin.push_back(edits.particles.size());
+    edits.ends.push_back(edits.particles.size());
     apply(edits, {store.body(), store.size()});
   }
   std::vector<uint8_t> returned(m_particles.size(), 0);

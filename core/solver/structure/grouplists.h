@@ -30,7 +30,7 @@ class GroupLists {
   /// What a plugin adds and removes; it takes effect when the call has returned.
   struct Edits {
     std::vector<uint8_t> removed;  ///< per group; empty: none
-    std::vector<size_t> begin{0};
+    std::vector<size_t> ends;      ///< of each new group's particles
     std::vector<uint32_t> particles;
     std::vector<float> values, memberValues;  ///< row by row
     bool empty() const { return removed.empty() && particles.empty(); }

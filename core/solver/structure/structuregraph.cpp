@@ -70,7 +70,7 @@ bool ConstraintSystem::gathers() const {
   });
 }
 
-void ConstraintSystem::findHanging(const ParticleStore& store, std::vector<uint32_t>& hanging) const {
+void ConstraintSystem::findHanging(const ParticleStore& store, std::vector<uint32_t>& hanging) {
   const auto isFixed = [&](uint32_t i) { return store.velocity()[i].w == 0; };
   const auto visit = [](const Set& set, auto&& each) {
     for (const uint32_t i : set.particles) each(i);
@@ -82,20 +82,21 @@ void ConstraintSystem::findHanging(const ParticleStore& store, std::vector<uint3
   for (uint32_t i = 0; i < store.size() && !anyFixed; ++i) anyFixed = isFixed(i);
   hanging.clear();
   if (!anyFixed) return;
-  std::vector<uint8_t> hangs(store.size(), gathers() ? 1 : 0), taken(m_sets.size(), 0);
+  m_hangs.assign(store.size(), gathers() ? 1 : 0);
+  m_setHangs.assign(m_sets.size(), 0);
   for (bool grown = true; grown;) {  // a plugin's ties hang where one of them does
     grown = false;
     for (size_t s = 0; s < m_sets.size(); ++s) {
       bool any = false;
-      if (taken[s] == 0) visit(m_sets[s], [&](uint32_t i) { any = any || isFixed(i) || hangs[i] != 0; });
+      if (m_setHangs[s] == 0) visit(m_sets[s], [&](uint32_t i) { any = any || isFixed(i) || m_hangs[i] != 0; });
       if (!any) continue;
-      visit(m_sets[s], [&](uint32_t i) { hangs[i] = 1; });
-      taken[s] = 1;
+      visit(m_sets[s], [&](uint32_t i) { m_hangs[i] = 1; });
+      m_setHangs[s] = 1;
       grown = true;
     }
   }
   for (uint32_t i = 0; i < store.size(); ++i) {
-    if (hangs[i] != 0 && !isFixed(i)) hanging.push_back(i);
+    if (m_hangs[i] != 0 && !isFixed(i)) hanging.push_back(i);
   }
 }
 
@@ -112,8 +113,10 @@ void ConstraintSystem::addGroupsTo(StructureGraph& graph, size_t particles) cons
   eachMember([&](uint32_t i, uint32_t) { ++graph.groupBegin[i + 1]; });
   for (size_t i = 0; i < particles; ++i) graph.groupBegin[i + 1] += graph.groupBegin[i];
   graph.group.resize(graph.groupBegin[particles]);
-  std::vector<uint32_t> next(graph.groupBegin.begin(), graph.groupBegin.end());
-  eachMember([&](uint32_t i, uint32_t serial) { graph.group[next[i]++] = serial; });
+  // Each beginning moves on to that of the next particle, and then back by one place.
+  eachMember([&](uint32_t i, uint32_t serial) { graph.group[graph.groupBegin[i]++] = serial; });
+  std::copy_backward(graph.groupBegin.begin(), graph.groupBegin.end() - 1, graph.groupBegin.end());
+  graph.groupBegin[0] = 0;
 }
 
 }  // namespace ps
