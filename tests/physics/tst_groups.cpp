@@ -119,7 +119,7 @@ class TestGroups : public QObject {
         std::set<uint32_t> members;
         while (members.size() < 100) members.insert((random = random * 1664525u + 1013904223u) >> 8 & 255);
         edits.particles.insert(edits.particles.end(), members.begin(), members.end());
-        edits.begin.push_back(edits.particles.size());
+        edits.ends.push_back(edits.particles.size());
       }
       groups.apply(edits, std::vector<uint32_t>(kParticles, 0));
       for (uint32_t i = 0; i < kParticles; ++i) newIndex[i] = kParticles - 1 - i;
