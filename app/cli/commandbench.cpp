@@ -68,8 +68,8 @@ void print(const json& scene) {
 std::string benchHelp() {
   return "phasesketch-cli bench [SCENE...] [options]\n\nMeasures the path that simulate runs. A scene is a project "
          "file, the name of a sample, 'tank', water at\nrest, or 'drag', the tank while a slider is dragged at 250 "
-         "edits a "
-         "second, beside the same left alone; without one:\nice-on-hot-plate, tank and drag. iterations are those of a "
+         "edits a second, beside the same left alone; without one:\nice-on-hot-plate, tank and drag. iterations are "
+         "those of a "
          "whole frame; ns_per_pair is the density stage over\nordered pairs within the support.\n\n" +
          optionHelp(kOptions);
 }

@@ -180,8 +180,7 @@ int renderRecording(const Arguments& arguments, const std::string& path) {
 
 std::string renderHelp() {
   return "phasesketch-cli render PROJECT|RECORDING --out FOLDER|FILE.mp4 [options]\n\nDraws without a display; a "
-         "project from the "
-         "state that it holds, else from its start.\n\n" +
+         "project from the state that it holds, else from its start.\n\n" +
          optionHelp(kOptions);
 }
 

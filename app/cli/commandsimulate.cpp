@@ -78,9 +78,9 @@ void summarise(const RunReport& report, const FrameStats& begin, Engine& engine,
     std::printf("begun at %.6g s, from the state of frame %llu\n", begin.time,
                 static_cast<unsigned long long>(begin.frame));
   }
-  const double factor = wall > 0 ? stats.time / wall : 0;
+  const double simulated = stats.time - begin.time, factor = wall > 0 ? simulated / wall : 0;
   std::printf("%zu frames, %.6g s simulated in %.3g s (%.3g times real time), %.3g ms per frame\n", report.frames(),
-              stats.time, wall, factor, report.total().median);
+              simulated, wall, factor, report.total().median);
   std::printf("%s, state hash %s\n", counted(engine.solver().particles().size(), "particle").c_str(),
               hashText(engine.stateHash()).c_str());
 }
@@ -89,8 +89,7 @@ void summarise(const RunReport& report, const FrameStats& begin, Engine& engine,
 
 std::string simulateHelp() {
   return "phasesketch-cli simulate PROJECT [options]\n\nRuns a project without a window, from the state that it holds, "
-         "else "
-         "from its start.\n\n" +
+         "else from its start.\n\n" +
          optionHelp(kOptions) +
          "\nThe report is in SI units but for milliseconds, where a key says ms. Thermal energy counts from the solid "
          "at its\nmelting point, so that matter colder than that has less than none; what a run means is the "

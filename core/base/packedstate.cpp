@@ -15,28 +15,21 @@ constexpr int kLevel = 3;
 /// Bytes of the words that elements are made of: a Float4 is four of them.
 size_t wordOf(StateType type) { return type == StateType::Float4 ? 4 : sizeOf(type); }
 
-std::vector<std::byte> inPlanes(std::span<const std::byte> bytes, size_t word) {
-  std::vector<std::byte> planes(bytes.size());
-  const size_t count = bytes.size() / word;
-  for (size_t plane = 0; plane < word; ++plane) {
-    for (size_t k = 0; k < count; ++k) planes[plane * count + k] = bytes[k * word + plane];
+/// Bytes of rows by columns, column after column: words of `columns` bytes become planes, and planes words again where
+/// rows and columns change places.
+std::vector<std::byte> transposed(std::span<const std::byte> bytes, size_t rows, size_t columns) {
+  std::vector<std::byte> out(bytes.size());
+  for (size_t column = 0; column < columns; ++column) {
+    for (size_t row = 0; row < rows; ++row) out[column * rows + row] = bytes[row * columns + column];
   }
-  return planes;
-}
-
-std::vector<std::byte> fromPlanes(std::span<const std::byte> planes, size_t word) {
-  std::vector<std::byte> bytes(planes.size());
-  const size_t count = planes.size() / word;
-  for (size_t plane = 0; plane < word; ++plane) {
-    for (size_t k = 0; k < count; ++k) bytes[k * word + plane] = planes[plane * count + k];
-  }
-  return bytes;
+  return out;
 }
 
 PackedBlock packBlock(const StateReader::Block& block) {
   PackedBlock packed{block.name, stateTypeName(block.type), block.version, block.count, {}, {}};
   if (block.bytes.empty()) return packed;
-  const std::vector<std::byte> planes = inPlanes(block.bytes, wordOf(block.type));
+  const size_t word = wordOf(block.type);
+  const std::vector<std::byte> planes = transposed(block.bytes, block.bytes.size() / word, word);
   std::vector<std::byte> small(ZSTD_compressBound(planes.size()));
   const size_t size = ZSTD_compress(small.data(), small.size(), planes.data(), planes.size(), kLevel);
   if (ZSTD_isError(size)) throw Error("state block '" + block.name + "': " + ZSTD_getErrorName(size));
@@ -85,7 +78,8 @@ std::vector<std::byte> unpackBlock(const PackedBlock& block, size_t most) {
   std::vector<std::byte> planes(static_cast<size_t>(size));
   const size_t got = ZSTD_decompress(planes.data(), planes.size(), small->data(), small->size());
   if (ZSTD_isError(got) || got != planes.size()) throw InputError("is damaged, or is cut off: zstd cannot unpack it");
-  return fromPlanes(planes, wordOf(type));
+  const size_t word = wordOf(type);
+  return transposed(planes, word, planes.size() / word);
 }
 
 StateBuffer unpackState(std::span<const PackedBlock> blocks) {

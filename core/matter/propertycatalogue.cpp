@@ -100,8 +100,7 @@ constexpr ParameterDeclaration kProperties[] = {
         {"molar_mass", "Molar mass", "M", "kg/mol", kNumber, kLogarithmic, 0, 0, 0.4, 0, 100, "g/mol", 1e3, 0, "",
          "Phase change",
          "Mass of one mole of vapour. It decides how light the vapour is and how far pressure moves the boiling point; "
-         "with 0 "
-         "the boiling point stays where it is and the vapour is as heavy as air of its temperature.",
+         "with 0 the boiling point stays where it is and the vapour is as heavy as air of its temperature.",
          "water 18.0, air 29.0, carbon dioxide 44.0, ethanol 46.1 g/mol", "IUPAC atomic weights"}),
     {"triple_temperature", "Triple point, temperature", "T_3", "K", kNumber, kLinear, 0, 0, 2000, 0, 1e4, "°C", 1,
      kCelsius, "", "Phase change",
@@ -138,10 +137,8 @@ constexpr ParameterDeclaration kProperties[] = {
             {"melt_break_fraction", "Bonds break at melt", "f_b", "", kNumber, kLinear, 0.5, 0.2, 0.9, 0.05, 1, "", 1,
              0, "", "Phase change",
              "Share of a particle that must have melted before it lets go of its neighbours. Each particle draws its "
-             "own value "
-             "around this one, so that a block crumbles instead of dropping layer by layer. Were it too low, bonds "
-             "would break and form in "
-             "every frame.",
+             "own value around this one, so that a block crumbles instead of dropping layer by layer. Were it too low, "
+             "bonds would break and form in every frame.",
              "0.5 melts softly, 0.9 stands until nearly gone", "percolation of partly molten solids, 0.5 to 0.6"}),
     {"freeze_bond_fraction", "Bonds form when frozen", "f_f", "", kNumber, kLinear, 0.9, 0.6, 1, 0.5, 1, "", 1, 0, "",
      "Phase change", "Share of a particle that must be solid before it joins its neighbours.", "0.9 for water and wax",
@@ -167,8 +164,7 @@ constexpr ParameterDeclaration kProperties[] = {
                {"expansion_volumetric", "Expansion, liquid", "β", "1/K", kNumber, kLinear, 0, 0, 2e-3, -1e-2, 5e-2,
                 "10\u207b\u2076/K", 1e6, 0, "", "Mechanics",
                 "How much more room the liquid takes per degree, counted from 20 °C; it drives convection. A density "
-                "drawn as a "
-                "curve takes its place.",
+                "drawn as a curve takes its place.",
                 "water 207, molten wax 800, ethanol 1090 × 10\u207b\u2076/K", "CRC Handbook of Chemistry and Physics"}),
     {"youngs_modulus", "Young's modulus", "E", "Pa", kResponse, kLogarithmic, 1e7, 1e4, 1e12, 0, 1e13, "MPa", 1e-6, 0,
      "", "Mechanics",

@@ -45,8 +45,7 @@ constexpr api::ParameterDeclaration kEnvironment[] = {
                toggle({"radiation", "Heat radiation", "", ""}, false,
                       {"Radiation",
                        "Whether hot surfaces radiate heat at what they see: other matter, walls that have a "
-                       "temperature, and what "
-                       "surrounds the scene. It is what cools glowing matter.",
+                       "temperature, and what surrounds the scene. It is what cools glowing matter.",
                        "on for lava, molten metal and candles; hardly matters below 100 °C",
                        "Incropera et al., Fundamentals of Heat and Mass Transfer, ch. 12 and 13"})),
     actingWhen("radiation = on",

@@ -15,8 +15,7 @@ constexpr api::ParameterDeclaration kWall[] = {
             {"heat", "Heat", "", ""}, "adiabatic|fixed_temperature|fixed_flux|convective", 0,
             {"Heat",
              "Whether the wall lets no heat through, is held at a temperature whatever touches it, gives the same heat "
-             "per "
-             "area whatever its temperature, or lets through what a fluid behind it gives and takes.",
+             "per area whatever its temperature, or lets through what a fluid behind it gives and takes.",
              "foam box: adiabatic; hot plate: fixed temperature; electric heater: fixed flux; cooling water behind a "
              "jacket: convective",
              ""})),
@@ -24,8 +23,7 @@ constexpr api::ParameterDeclaration kWall[] = {
                number({"temperature", "Temperature", "T", "K"}, {293.15, 173.15, 773.15, 1, 10000},
                       {"Heat",
                        "Temperature of the wall's surface, where heat is set to a fixed temperature; of the fluid "
-                       "behind it, where "
-                       "it is convective.",
+                       "behind it, where it is convective.",
                        "freezer −18 °C, tap water 10 °C, hot plate 150 °C", ""},
                       kCelsius)),
     actingWhen(
@@ -42,8 +40,7 @@ constexpr api::ParameterDeclaration kWall[] = {
                number({"emissivity", "Emissivity", "ε", ""}, {0.9, 0, 1, 0, 1},
                       {"Heat",
                        "How well a wall that has a temperature radiates and absorbs, where the scene's heat is "
-                       "radiated. Other walls "
-                       "send back what they receive.",
+                       "radiated. Other walls send back what they receive.",
                        "polished metal 0.05, brick, paint and enamel 0.9", "Incropera et al., app. A.11"})),
     actingWhen("heat = fixed_temperature",
                number({"film_coefficient", "Condensation", "h", "W/(m²·K)"}, {500, 0, 5000, 0, 1e6},

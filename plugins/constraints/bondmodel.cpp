@@ -44,8 +44,7 @@ constexpr api::ParameterDeclaration kParameters[] = {
                {"max_stiffness_ratio", "Stiffness the step may resolve", "s", "", api::ParameterKind::Number,
                 api::Scale::Logarithmic, 100, 1, 10000, 0.01, 1e6, "", 1, 0, "", "Structure",
                 "Largest k dt²/m of a bond. Beyond about 100 more stiffness only makes the solver work harder: the "
-                "block looks "
-                "the same, and takes more iterations to come to rest.",
+                "block looks the same, and takes more iterations to come to rest.",
                 "100 at 4 substeps of 4 iterations", "Macklin et al. 2019"}),
     atReset(
         {"neighbours", "Neighbours at the start", "", "", api::ParameterKind::Choice, api::Scale::Linear, 0, 0, 1, 0, 1,
@@ -64,14 +63,12 @@ constexpr api::ParameterDeclaration kParameters[] = {
     atReset({"rest_ratio", "Length of a bond at rest", "", "", api::ParameterKind::Number, api::Scale::Linear, 1, 0.5,
              1.5, 0.01, 10, "", 1, 0, "", "Springs",
              "Length of a bond at rest as a share of the distance at which it is made at the start: below 1 the body "
-             "is drawn "
-             "tight, above 1 it is squeezed.",
+             "is drawn tight, above 1 it is squeezed.",
              "1 at rest, 0.99 a taut string", ""}),
     atReset({"reference_temperature", "Temperature of the lengths at rest", "T_ref", "K", api::ParameterKind::Number,
              api::Scale::Linear, 0, 0, 773.15, 0, 1e4, "", 1, 0, "", "Springs",
              "At which temperature the bonds made at the start have their lengths: a body that starts warmer expands "
-             "at once. "
-             "0 takes the temperature at which each of them is made.",
+             "at once. 0 takes the temperature at which each of them is made.",
              "0 for matter at ease; 293.15 K for a strip of metal cast at 20 °C", ""}),
     {"solver", "Method", "", "", api::ParameterKind::Choice, api::Scale::Linear, 0, 0, 1, 0, 1, "", 1, 0, "xpbd|pbd",
      "Legacy",

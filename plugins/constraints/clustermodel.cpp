@@ -33,14 +33,12 @@ constexpr api::ParameterDeclaration kParameters[] = {
     atReset({"radius", "Radius of a cluster", "R", "", ParameterKind::Number, Scale::Linear, 2.5, 1.5, 5, 1.2, 20, "×",
              1, 0, "", "Structure",
              "In particle spacings. Larger clusters carry a push farther in one step and cost more; smaller ones "
-             "follow finer "
-             "bulges.",
+             "follow finer bulges.",
              "2.5 jelly, 4 a firm rubber ball", kSource}),
     atReset(related("should be < radius", {"spacing", "Distance of clusters", "D", "", ParameterKind::Number,
                                            Scale::Linear, 2, 1, 4, 0.5, 20, "×", 1, 0, "", "Structure",
                                            "In particle spacings, from one cluster's centre to the next. Less than the "
-                                           "radius, so that they overlap and hold "
-                                           "together.",
+                                           "radius, so that they overlap and hold together.",
                                            "2 for a radius of 2.5", kSource})),
     {"damping", "Inner friction", "τ", "s", ParameterKind::Number, Scale::Linear, 0.002, 0, 0.05, 0, 1, "ms", 1000, 0,
      "", "Structure", "How long the shape resists a change: quiets wobbling, not falling or turning.",
