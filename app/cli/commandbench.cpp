@@ -74,8 +74,8 @@ std::string benchHelp() {
          optionHelp(kOptions);
 }
 
-int benchCommand(CommandArguments given) {
-  const Arguments arguments(given, kOptions);
+int benchCommand(CommandArguments list) {
+  const Arguments arguments(list, kOptions);
   const auto particles = arguments.integer("--particles", 8, 10'000'000);
   const long frames = arguments.integer("--frames", 1, 1'000'000).value_or(240);
   if (arguments.has("--json")) requireWritable(arguments.text("--json"));

@@ -53,8 +53,8 @@ std::string casesHelp() {
          optionHelp(kOptions);
 }
 
-int casesCommand(CommandArguments given) {
-  const Arguments arguments(given, kOptions);
+int casesCommand(CommandArguments list) {
+  const Arguments arguments(list, kOptions);
   if (arguments.positional().empty()) throw InputError("which file of cases? --help says more");
   applyMachineOptions(arguments);
   std::vector<Case> cases;

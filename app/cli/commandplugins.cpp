@@ -89,8 +89,8 @@ std::string pluginsHelp() {
          optionHelp(kOptions);
 }
 
-int pluginsCommand(CommandArguments given) {
-  const Arguments arguments(given, kOptions);
+int pluginsCommand(CommandArguments list) {
+  const Arguments arguments(list, kOptions);
   if (!arguments.positional().empty()) throw InputError("unknown argument '" + arguments.positional()[0] + "'");
   if (arguments.has("--check")) return tryPlugin(arguments.text("--check"));
   PluginRegistry plugins;

@@ -36,8 +36,8 @@ PictureSize sizeOf(const Arguments& arguments) {
   PictureSize size;
   size.still = !isFilm(arguments.text("--out"));
   const std::string text = arguments.text("--size", "1280x720");
-  char rest = 0;
-  if (std::sscanf(text.c_str(), "%5dx%5d%c", &size.width, &size.height, &rest) != 2 || size.width < 16 ||
+  char trailing = 0;
+  if (std::sscanf(text.c_str(), "%5dx%5d%c", &size.width, &size.height, &trailing) != 2 || size.width < 16 ||
       size.height < 16 || size.width > 16384 || size.height > 16384) {
     throw InputError("--size must be WIDTHxHEIGHT, 16 to 16384 each, not '" + text + "'");
   }
@@ -75,9 +75,9 @@ Look lookFor(const Project& project, const PluginRegistry& plugins, const Argume
     const SceneMaterial& first = project.materials.front();
     const auto own = first.properties.values.find("melting_temperature");
     const Material* installed = plugins.material(first.base);
-    const auto* given = own == first.properties.values.end() ? nullptr : std::get_if<Response>(&own->second);
-    if (given) {
-      look.meltingPoint = given->constant;
+    const auto* response = own == first.properties.values.end() ? nullptr : std::get_if<Response>(&own->second);
+    if (response) {
+      look.meltingPoint = response->constant;
     } else if (own != first.properties.values.end() && std::holds_alternative<double>(own->second)) {
       look.meltingPoint = std::get<double>(own->second);
     } else if (installed && installed->properties.contains("melting_temperature")) {
@@ -184,8 +184,8 @@ std::string renderHelp() {
          optionHelp(kOptions);
 }
 
-int renderCommand(CommandArguments given) {
-  const Arguments arguments(given, kOptions);
+int renderCommand(CommandArguments list) {
+  const Arguments arguments(list, kOptions);
   const std::string path = onlyFile(arguments, "project or recording");
   if (arguments.text("--out").empty()) throw InputError("--out is missing: a folder for PNG files, or a FILE.mp4");
   sizeOf(arguments);

@@ -96,8 +96,8 @@ std::string simulateHelp() {
          "difference.\n";
 }
 
-int simulateCommand(CommandArguments given) {
-  const Arguments arguments(given, kOptions);
+int simulateCommand(CommandArguments list) {
+  const Arguments arguments(list, kOptions);
   const std::string path = onlyFile(arguments, "project");
   const bool quiet = arguments.has("--quiet");
   applyMachineOptions(arguments);

@@ -72,8 +72,8 @@ std::string soakHelp() {
          optionHelp(kOptions);
 }
 
-int soakCommand(CommandArguments given) {
-  const Arguments arguments(given, kOptions);
+int soakCommand(CommandArguments list) {
+  const Arguments arguments(list, kOptions);
   if (arguments.positional().empty()) throw InputError("which project? --help says more");
   applyMachineOptions(arguments);
   int failed = 0;

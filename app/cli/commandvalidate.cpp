@@ -33,8 +33,8 @@ std::string validateHelp() {
          optionHelp(kOptions);
 }
 
-int validateCommand(CommandArguments given) {
-  const Arguments arguments(given, kOptions);
+int validateCommand(CommandArguments list) {
+  const Arguments arguments(list, kOptions);
   if (arguments.positional().empty()) throw InputError("which project? --help says more");
   const bool quiet = arguments.has("--quiet");
   PluginRegistry plugins;
@@ -63,8 +63,8 @@ std::string schemaHelp() {
          "this program's parameters.\n";
 }
 
-int schemaCommand(CommandArguments given) {
-  const Arguments arguments(given, {});
+int schemaCommand(CommandArguments list) {
+  const Arguments arguments(list, {});
   if (!arguments.positional().empty()) throw InputError("schema takes no arguments");
   std::fputs(writeJson(projectSchema()).c_str(), stdout);
   return kFine;

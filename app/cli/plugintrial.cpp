@@ -45,24 +45,24 @@ class Scratch {
 
 /// In the child: every line through the pipe is what comes next, the last one what came out.
 int childOf(const std::string& path, const std::string& scratch, int pipe) {
-  const auto tell = [pipe](std::string line) {
+  const auto send = [pipe](std::string line) {
     std::replace(line.begin(), line.end(), '\n', ' ');  // in what the plugin said
     line += '\n';
     return ::write(pipe, line.data(), line.size()) == static_cast<ssize_t>(line.size());
   };
   try {
-    const PluginCheck check = checkPlugin(path, scratch, [&](const std::string& stage) { tell(stage); });
-    if (!check.problem.empty()) return tell(check.problem) ? kFailed : kWrongInput;
+    const PluginCheck check = checkPlugin(path, scratch, [&](const std::string& stage) { send(stage); });
+    if (!check.problem.empty()) return send(check.problem) ? kFailed : kWrongInput;
     const PluginInfo& info = check.info;
-    return tell(path + ": fine: " + pluginKindName(info.kind) + " '" + info.id + "' " + info.version + ", " +
+    return send(path + ": fine: " + pluginKindName(info.kind) + " '" + info.id + "' " + info.version + ", " +
                 info.label)
                ? kFine
                : kWrongInput;
   } catch (const InputError& error) {
-    tell(error.what());
+    send(error.what());
     return kWrongInput;
   } catch (const std::exception& error) {
-    tell(path + ": " + error.what());
+    send(path + ": " + error.what());
     return kFailed;
   }
 }
@@ -96,14 +96,14 @@ int tryPlugin(const std::string& path) {
     ::_exit(childOf(path, scratch.path(), ends[1]));
   }
   ::close(ends[1]);
-  std::string told;
-  const bool ended = readAll(ends[0], told);
+  std::string output;
+  const bool ended = readAll(ends[0], output);
   ::close(ends[0]);
   if (!ended) ::kill(child, SIGKILL);
   int status = 0;
   ::waitpid(child, &status, 0);
-  while (told.ends_with('\n')) told.pop_back();
-  const std::string last = told.substr(told.rfind('\n') + 1);
+  while (output.ends_with('\n')) output.pop_back();
+  const std::string last = output.substr(output.rfind('\n') + 1);
   if (!ended) throw Error(path + ": it did not come back within " + std::to_string(kPatience) + " s when it " + last);
   if (WIFSIGNALED(status)) throw Error(path + ": it crashed (" + strsignal(WTERMSIG(status)) + ") when it " + last);
   if (WEXITSTATUS(status) == kWrongInput) throw InputError(last);

@@ -98,9 +98,9 @@ void Progress::show(long frame, const FrameStats& stats) {
   if (!m_on || frame == 0 || time - m_last < kPause) return;
   m_last = time;
   m_shown = true;
-  const double rest = (time - m_start) / static_cast<double>(frame) * static_cast<double>(m_frames - frame);
+  const double left = (time - m_start) / static_cast<double>(frame) * static_cast<double>(m_frames - frame);
   std::fprintf(stderr, "\r\033[Kframe %ld of %ld, %.1f s simulated, %.1f ms per frame, %.0f s left", frame, m_frames,
-               stats.time, stats.totalMilliseconds, rest);
+               stats.time, stats.totalMilliseconds, left);
   std::fflush(stderr);
 }
 

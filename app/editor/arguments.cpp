@@ -26,7 +26,7 @@ QSize parseSize(const QString& text) {
 }
 
 /// Takes an option's value into `out`; "" or what is wrong.
-QString take(EditorArguments& out, const QString& option, const QString& value) {
+QString assign(EditorArguments& out, const QString& option, const QString& value) {
   if (option == QLatin1String("--screenshot")) {
     out.screenshot = value;
   } else if (option == QLatin1String("--after")) {
@@ -62,7 +62,7 @@ EditorArguments parseArguments(const QStringList& arguments) {
       if (equals < 0 && i + 1 >= arguments.size()) {
         out.problem = name + QStringLiteral(" needs a value");
       } else {
-        out.problem = take(out, name, equals < 0 ? arguments[++i] : value);
+        out.problem = assign(out, name, equals < 0 ? arguments[++i] : value);
       }
     } else if (name == QLatin1String("--list-plugins")) {
       out.listPlugins = true;

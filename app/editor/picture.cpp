@@ -15,7 +15,7 @@ PictureByCommand::PictureByCommand(MainWindow& window, const QString& file, doub
     : m_window(window), m_file(file) {
   connect(
       &window, &MainWindow::projectShown, this,
-      [this, after] { QTimer::singleShot(static_cast<int>(after * 1000), this, &PictureByCommand::take); },
+      [this, after] { QTimer::singleShot(static_cast<int>(after * 1000), this, &PictureByCommand::capture); },
       Qt::SingleShotConnection);
   connect(&window, &MainWindow::startFailed, this, [](const QString& problem) {
     std::fprintf(stderr, "phasesketch: %s\n", qPrintable(problem));
@@ -23,7 +23,7 @@ PictureByCommand::PictureByCommand(MainWindow& window, const QString& file, doub
   });
 }
 
-void PictureByCommand::take() {
+void PictureByCommand::capture() {
   const bool good = windowImage(m_window).save(m_file, "PNG");
   if (!good) std::fprintf(stderr, "phasesketch: %s: cannot be written\n", qPrintable(m_file));
   QCoreApplication::exit(good ? 0 : 1);

@@ -15,7 +15,7 @@ class PictureByCommand : public QObject {
   PictureByCommand(MainWindow& window, const QString& file, double after);
 
  private:
-  void take();
+  void capture();
   MainWindow& m_window;
   QString m_file;
 };

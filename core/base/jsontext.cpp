@@ -17,7 +17,7 @@ class Builder final : public nlohmann::json_sax<json> {
  public:
   Builder(std::string_view text, const std::string& name) : m_text(text), m_name(name) {}
 
-  json take() { return std::move(m_root); }
+  json result() { return std::move(m_root); }
 
   bool null() override { return put(nullptr); }
   bool boolean(bool value) override { return put(value); }
@@ -141,7 +141,7 @@ json parseJson(std::string_view text, const std::string& name) {
   checkEncoding(text, name);
   Builder builder(text, name);
   json::sax_parse(text.begin(), text.end(), &builder);
-  return builder.take();
+  return builder.result();
 }
 
 std::string pointerPart(std::string_view key) {

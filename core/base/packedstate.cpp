@@ -56,9 +56,10 @@ std::vector<PackedBlock> packState(const StateReader& state) {
 std::vector<std::byte> unpackBlock(const PackedBlock& block, size_t most) {
   const StateType type = stateTypeNamed(block.type);
   if (type == StateType::End) throw InputError("is of the type '" + block.type + "', which there is not");
-  const auto told = std::to_string(block.count) + (type == StateType::Text ? " texts" : " elements of " + block.type);
+  const auto expected =
+      std::to_string(block.count) + (type == StateType::Text ? " texts" : " elements of " + block.type);
   const auto wrongSize = [&](uint64_t size) {
-    return InputError("holds " + std::to_string(size) + " bytes, which are not " + told);
+    return InputError("holds " + std::to_string(size) + " bytes, which are not " + expected);
   };
   const auto fits = [&](uint64_t size) {
     if (type == StateType::Text) return block.count <= size / sizeof(uint32_t);

@@ -140,28 +140,28 @@ void StateReader::fail(StateName name, const std::string& what) {
 
 StateReader::StateReader(std::span<const std::byte> stream) {
   size_t at = 0;
-  const auto take = [&](uint64_t count) {
+  const auto next = [&](uint64_t count) {
     if (count > stream.size() - at) throw InputError("the state is cut off");
-    const std::span<const std::byte> taken = stream.subspan(at, static_cast<size_t>(count));
+    const std::span<const std::byte> bytes = stream.subspan(at, static_cast<size_t>(count));
     at += static_cast<size_t>(count);
-    return taken;
+    return bytes;
   };
   StreamHead head{};
   if (stream.size() < sizeof head || std::memcmp(stream.data(), kMagic, sizeof kMagic) != 0)
     throw InputError("this is no saved state");
-  std::memcpy(&head, take(sizeof head).data(), sizeof head);
+  std::memcpy(&head, next(sizeof head).data(), sizeof head);
   if (head.format != kFormat) {
     throw InputError("the state is of format " + std::to_string(head.format) + ", and this program reads format " +
                      std::to_string(kFormat));
   }
   for (;;) {
     BlockHead block{};
-    std::memcpy(&block, take(sizeof block).data(), sizeof block);
+    std::memcpy(&block, next(sizeof block).data(), sizeof block);
     const auto type = static_cast<StateType>(block.type);
     if (type == StateType::End) break;
     if (block.nameBytes == 0 || block.nameBytes > kLongestName)
       throw InputError("the state has a block without a name");
-    const std::span<const std::byte> name = take(padded(block.nameBytes));
+    const std::span<const std::byte> name = next(padded(block.nameBytes));
     Block known{
         std::string(reinterpret_cast<const char*>(name.data()), block.nameBytes), type, block.version, block.count, {}};
     if (!rowOf(type)) fail(known.name, "is of an unknown type");
@@ -173,7 +173,7 @@ StateReader::StateReader(std::span<const std::byte> stream) {
       fail(known.name, "says that it has " + std::to_string(block.count) + " elements in " +
                            std::to_string(block.bytes) + " bytes");
     }
-    known.bytes = take(padded(block.bytes)).first(static_cast<size_t>(block.bytes));
+    known.bytes = next(padded(block.bytes)).first(static_cast<size_t>(block.bytes));
     if (!m_byName.emplace(known.name, m_blocks.size()).second) fail(known.name, "stands twice");
     m_blocks.push_back(std::move(known));
   }

@@ -229,7 +229,7 @@ class StateRuns {
  public:
   StateRuns(const StateReader& reader, StateName name) : m_name(name.text()), m_values(reader.array<T>(name)) {}
   /// The next `count`; throws InputError where fewer are left.
-  std::span<const T> take(size_t count) {
+  std::span<const T> next(size_t count) {
     if (count > m_values.size() - m_next)
       StateReader::fail(m_name, "has " + std::to_string(m_values.size()) + " elements, too few");
     const std::span<const T> run(m_values.data() + m_next, count);

@@ -12,8 +12,8 @@ class PluginRegistry;
 /// What a slider that is dragged costs a running scene.
 struct Drag {
   uint64_t particles = 0;
-  uint64_t edits = 0;                ///< given
-  double editsPerSecond = 0;         ///< given
+  uint64_t edits = 0;                ///< sent
+  double editsPerSecond = 0;         ///< sent
   uint64_t applied = 0, baked = 0;   ///< made by the engine's thread, and tables of materials baked by them
   double framesAlone = 0;            ///< per second, of the scene left alone
   double framesDragged = 0;          ///< per second

@@ -43,11 +43,11 @@ std::vector<Value> endsOf(const api::ParameterDeclaration& declaration, const Va
       values = {!std::get<bool>(present)};
       break;
     case api::ParameterKind::Choice: {
-      std::string_view rest = declaration.choices;
-      while (!rest.empty()) {
-        const std::string_view choice = rest.substr(0, rest.find('|'));
+      std::string_view remaining = declaration.choices;
+      while (!remaining.empty()) {
+        const std::string_view choice = remaining.substr(0, remaining.find('|'));
         values.emplace_back(std::string(choice));
-        rest.remove_prefix(std::min(rest.size(), choice.size() + 1));
+        remaining.remove_prefix(std::min(remaining.size(), choice.size() + 1));
       }
       std::erase(values, present);
       break;

@@ -58,14 +58,14 @@ class Unpacker {
   template <class T>
   T value() {
     T v;
-    std::memcpy(&v, take(sizeof v), sizeof v);
+    std::memcpy(&v, next(sizeof v), sizeof v);
     return v;
   }
   template <class T>
   void array(std::vector<T>& values, size_t count) {
     if (count > m_bytes.size()) fail();
     const size_t width = Packer::planeWidth<T>(), size = count * sizeof(T), rows = size / width;
-    const char* from = take(size);
+    const char* from = next(size);
     values.resize(count);
     char* to = reinterpret_cast<char*>(values.data());
     for (size_t p = 0; p < width; ++p) {
@@ -78,7 +78,7 @@ class Unpacker {
   [[noreturn]] void fail() const { throw InputError(m_where + "the frame's data are broken; record again"); }
 
  private:
-  const char* take(size_t count) {
+  const char* next(size_t count) {
     if (count > m_bytes.size() - m_at) fail();
     const char* data = m_bytes.data() + m_at;
     m_at += count;

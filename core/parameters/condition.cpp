@@ -49,7 +49,7 @@ class Reader {
     ++m_next;
     return true;
   }
-  std::string_view take(const char* what) {
+  std::string_view next(const char* what) {
     if (done()) fail(std::string("ends where ") + what + " is due");
     return m_words[m_next++];
   }
@@ -63,11 +63,11 @@ class Reader {
 
 Clause readClause(Reader& reader, std::string_view key) {
   Clause clause{std::string(key), Comparison::Equal, 0.0};
-  const std::string_view sign = reader.take("a comparison");
+  const std::string_view sign = reader.next("a comparison");
   const auto* const found = std::find(std::begin(kComparisons), std::end(kComparisons), sign);
   if (found == std::end(kComparisons)) reader.fail("has no comparison in '" + std::string(sign) + "'");
   clause.comparison = static_cast<Comparison>(found - std::begin(kComparisons));
-  const std::string_view word = reader.take("a value");
+  const std::string_view word = reader.next("a value");
   double number = 0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
   const bool equality = clause.comparison == Comparison::Equal || clause.comparison == Comparison::NotEqual;
@@ -84,7 +84,7 @@ Clause readClause(Reader& reader, std::string_view key) {
 Condition readCondition(Reader& reader) {
   Condition condition;
   do {
-    const std::string_view key = reader.take("a key");
+    const std::string_view key = reader.next("a key");
     condition.clauses.push_back(readClause(reader, key));
   } while (reader.takes("&"));
   return condition;
@@ -93,14 +93,14 @@ Condition readCondition(Reader& reader) {
 Relation readRelation(std::string_view text, const char* key) {
   Reader reader(text);
   Relation relation;
-  if (reader.takes("plus")) relation.plus = reader.take("a key");
+  if (reader.takes("plus")) relation.plus = reader.next("a key");
   relation.must = reader.takes("must");
   if (!relation.must && !reader.takes("should")) reader.fail("needs \"must be\" or \"should be\"");
   if (!reader.takes("be")) reader.fail("needs \"must be\" or \"should be\"");
   relation.clause = readClause(reader, key);
   if (reader.takes("when")) relation.when = readCondition(reader);
   if (reader.takes("unless")) relation.unless = readCondition(reader);
-  if (!reader.done()) reader.fail("goes on with '" + std::string(reader.take("")) + "'");
+  if (!reader.done()) reader.fail("goes on with '" + std::string(reader.next("")) + "'");
   return relation;
 }
 
@@ -192,7 +192,7 @@ Condition parseCondition(const char* text) {
   if (!text || !*text) return {};
   Reader reader(text);
   Condition condition = readCondition(reader);
-  if (!reader.done()) reader.fail("goes on with '" + std::string(reader.take("")) + "'");
+  if (!reader.done()) reader.fail("goes on with '" + std::string(reader.next("")) + "'");
   return condition;
 }
 

@@ -21,11 +21,11 @@ class ChunkSum {
   std::vector<Vector3> m_partial;
 };
 
-/// What something outside gave to moving matter since it was last asked.
-class Received {
+/// Impulse that something outside moving matter (a wall, fixed particles) gave to it since the last drain(), kg m/s.
+class ExternalImpulse {
  public:
   void add(const Vector3& v) { m_sum += v; }
-  Vector3 take() {
+  Vector3 drain() {
     const Vector3 sum = m_sum;
     m_sum = {};
     return sum;

@@ -53,7 +53,7 @@ std::string readMaterial(const PluginInfo& info, LoadedPlugin& loaded) {
 
 /// The object as a plugin of one interface, noted; nullptr when it has another.
 template <class Interface>
-Interface* taken(QObject& object, const Interface*& place) {
+Interface* claimed(QObject& object, const Interface*& place) {
   auto* plugin = qobject_cast<Interface*>(&object);
   place = plugin;
   return plugin;
@@ -63,24 +63,24 @@ std::string connect(QObject& object, PluginInfo& info, LoadedPlugin& loaded) {
   api::Plugin*& plugin = loaded.plugin;
   switch (info.kind) {
     case PluginKind::Material:
-      plugin = taken<api::MaterialPlugin>(object, loaded.materialPlugin);
+      plugin = claimed<api::MaterialPlugin>(object, loaded.materialPlugin);
       break;
     case PluginKind::Constraint:
-      if (api::ConstraintPlugin* constraint = taken<api::StructuralPlugin>(object, loaded.structural))
+      if (api::ConstraintPlugin* constraint = claimed<api::StructuralPlugin>(object, loaded.structural))
         plugin = constraint, loaded.constraint = constraint;
-      else if (constraint = taken<api::GroupPlugin>(object, loaded.group); constraint)
+      else if (constraint = claimed<api::GroupPlugin>(object, loaded.group); constraint)
         plugin = constraint, loaded.constraint = constraint;
-      else if (constraint = taken<api::NeighbourPlugin>(object, loaded.neighbour); constraint)
+      else if (constraint = claimed<api::NeighbourPlugin>(object, loaded.neighbour); constraint)
         plugin = constraint, loaded.constraint = constraint;
       break;
     case PluginKind::Thermal:
-      plugin = taken<api::ThermalPlugin>(object, loaded.thermal);
+      plugin = claimed<api::ThermalPlugin>(object, loaded.thermal);
       break;
     case PluginKind::HeatSource:
-      plugin = taken<api::HeatSourcePlugin>(object, loaded.heatSource);
+      plugin = claimed<api::HeatSourcePlugin>(object, loaded.heatSource);
       break;
     case PluginKind::Brush:
-      plugin = taken<api::BrushPlugin>(object, loaded.brush);
+      plugin = claimed<api::BrushPlugin>(object, loaded.brush);
       break;
   }
   if (!plugin) return std::string("its class lacks Q_INTERFACES for a ") + pluginKindName(info.kind);

@@ -215,12 +215,12 @@ std::string problemOfId(std::string_view id) {
 
 std::string problemOfApi(std::string_view api) {
   const std::string ours = std::to_string(api::kVersionMajor) + "." + std::to_string(api::kVersionMinor);
-  std::string_view rest = api;
-  const auto major = takeNumber(rest);
-  const bool dot = rest.starts_with('.');
-  if (dot) rest.remove_prefix(1);
-  const auto minor = takeNumber(rest);
-  if (!major || !dot || !minor || !rest.empty())
+  std::string_view remaining = api;
+  const auto major = takeNumber(remaining);
+  const bool dot = remaining.starts_with('.');
+  if (dot) remaining.remove_prefix(1);
+  const auto minor = takeNumber(remaining);
+  if (!major || !dot || !minor || !remaining.empty())
     return "its API version \"" + std::string(api) + "\" must be two numbers like \"" + ours + "\"";
   if (*major == api::kVersionMajor && *minor <= api::kVersionMinor) return {};
   const bool newer = *major > api::kVersionMajor || (*major == api::kVersionMajor && *minor > api::kVersionMinor);
@@ -230,12 +230,12 @@ std::string problemOfApi(std::string_view api) {
 
 std::string problemOfVersion(std::string_view version) {
   const std::string rule = "must be numbers joined by dots, like \"1.0.0\"";
-  std::string_view rest = version;
+  std::string_view remaining = version;
   for (int part = 0; part < 4; ++part) {
-    if (!takeNumber(rest)) return rule;
-    if (rest.empty() || (rest.front() == '-' && rest.size() > 1)) return {};
-    if (rest.front() != '.') return rule;
-    rest.remove_prefix(1);
+    if (!takeNumber(remaining)) return rule;
+    if (remaining.empty() || (remaining.front() == '-' && remaining.size() > 1)) return {};
+    if (remaining.front() != '.') return rule;
+    remaining.remove_prefix(1);
   }
   return rule;
 }

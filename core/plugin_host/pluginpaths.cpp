@@ -40,7 +40,7 @@ class Directories {
     std::erase_if(m_list, [&](const PluginDirectory& known) { return known.path == text; });
     m_list.push_back({text, origin, asked, own});
   }
-  std::vector<PluginDirectory> take() { return std::move(m_list); }
+  std::vector<PluginDirectory> result() { return std::move(m_list); }
 
  private:
   std::vector<PluginDirectory> m_list;
@@ -78,7 +78,7 @@ std::vector<PluginDirectory> pluginDirectories(const PluginRegistry::Options& op
     for (const QString& path : variable.split(QLatin1Char(':'), Qt::SkipEmptyParts))
       list.add(path, "PHASESKETCH_PLUGIN_PATH", true);
   }
-  return list.take();
+  return list.result();
 }
 
 std::string stateDirectory() {

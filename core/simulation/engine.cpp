@@ -154,14 +154,14 @@ void Engine::Impl::build() {
   const bool regions = std::any_of(project.probes.begin(), project.probes.end(),
                                    [](const Probe& probe) { return probe.region.has_value(); });
   const Bounds bounds = compileBounds(project);
-  TakenPlaces taken(kOverlap * spacing, static_cast<size_t>(count),
-                    Period(bounds.minimum, bounds.maximum, bounds.periodic));
+  OccupiedPlaces occupied(kOverlap * spacing, static_cast<size_t>(count),
+                          Period(bounds.minimum, bounds.maximum, bounds.periodic));
   std::vector<std::pair<Spawn, const Body*>> spawns;
   for (const Body& body : project.bodies) {
     bodyIndex(body.id);  // of one without particles too
     size_t dropped = 0;
     for (Spawn& spawn : compileBody(project, plugins, tables.tables(), body)) {
-      dropped += dropTaken(spawn, taken);
+      dropped += dropOccupied(spawn, occupied);
       spawns.emplace_back(std::move(spawn), &body);
     }
     if (dropped > 0) {
@@ -257,7 +257,7 @@ std::vector<PluginFault> Engine::lateFaults() {
   (void)m->solver->limits();
   (void)m->solver->elasticEnergy();
   (void)m->solver->thermalEnergy();
-  std::vector<PluginFault> faults = m->solver->takeFaults();
+  std::vector<PluginFault> faults = m->solver->drainFaults();
   for (const PluginFault& fault : faults) m->plugins.fault(fault.plugin, fault.what);
   return faults;
 }
@@ -345,8 +345,8 @@ std::vector<uint32_t> Engine::addBody(const Body& body) {
   project.solver.parameters.values["particle_spacing"] = m->spacing;
   std::vector<uint32_t> ids;
   for (Spawn& spawn : compileBody(project, m->plugins, m->tables.tables(), body)) {
-    TakenPlaces taken = takenPlaces(m->solver->particles(), 0.9 * m->spacing, spawn.position.size());
-    dropTaken(spawn, taken);
+    OccupiedPlaces occupied = occupiedPlaces(m->solver->particles(), 0.9 * m->spacing, spawn.position.size());
+    dropOccupied(spawn, occupied);
     requireRoom(static_cast<double>(m->solver->particles().size() + spawn.position.size()));
     if (spawn.position.empty()) continue;
     const std::vector<uint32_t> fresh = m->born(std::move(spawn), body);
@@ -356,12 +356,12 @@ std::vector<uint32_t> Engine::addBody(const Body& body) {
   return ids;
 }
 
-TakenMatter Engine::takeParticles(const std::vector<uint32_t>& ids) {
+ExtractedMatter Engine::extractParticles(const std::vector<uint32_t>& ids) {
   std::vector<uint32_t> some;
   std::copy_if(ids.begin(), ids.end(), std::back_inserter(some), [&](uint32_t id) { return !m->flow.holds(id); });
-  return m->solver->take(some);
+  return m->solver->extract(some);
 }
-void Engine::putBack(const TakenMatter& matter) { m->solver->putBack(matter); }
+void Engine::putBack(const ExtractedMatter& matter) { m->solver->putBack(matter); }
 
 std::vector<uint32_t> Engine::particlesIn(const VoxelShape& lattice,
                                           const std::vector<std::array<int, 3>>& cells) const {

@@ -52,8 +52,8 @@ class Engine {
   std::vector<uint32_t> addBody(const Body& body);
   /// Removes particles and keeps them, with all their fields and bonds, for putBack(). Until the next reset. What an
   /// emitter holds stays.
-  TakenMatter takeParticles(const std::vector<uint32_t>& ids);
-  void putBack(const TakenMatter& matter);
+  ExtractedMatter extractParticles(const std::vector<uint32_t>& ids);
+  void putBack(const ExtractedMatter& matter);
   /// Ids of live particles whose centre lies in one of the cells of a lattice.
   std::vector<uint32_t> particlesIn(const VoxelShape& lattice, const std::vector<std::array<int, 3>>& cells) const;
 
@@ -67,8 +67,8 @@ class Engine {
   void restore(const ProjectState& state);
   /// Hash of what save() writes.
   uint64_t stateHash() const;
-  /// What is to be told of the state that the project held when this engine was made, "/state: what": why it begins at
-  /// its start, or what of the state means nothing here.
+  /// What is to be reported of the state that the project held when this engine was made, "/state: what": why it begins
+  /// at its start, or what of the state means nothing here.
   const std::vector<std::string>& remarks() const { return m_remarks; }
 
   SnapshotPtr snapshot() const;

@@ -26,7 +26,7 @@ using Clock = std::chrono::steady_clock;
 
 /// After these somebody must look before it goes on.
 constexpr StepFlags kPausing = kTakenBack | static_cast<StepFlags>(StepFlag::PluginFault);
-/// Frames without a flag after which what was told is over, and would be told again.
+/// Frames without a flag after which what was reported is over, and would be reported again.
 constexpr int kQuiet = 60;
 constexpr size_t kMostEvents = 256;
 
@@ -66,9 +66,9 @@ struct EngineThread::Impl {
   void open(const Opening& opening);
   void publish(SnapshotPtr snapshot);
   void publishEdits();
-  void tell(EngineEvent::Kind kind, StepFlags flags, std::string message);
+  void notify(EngineEvent::Kind kind, StepFlags flags, std::string message);
   void tellOf(const StepReport& report);
-  /// Kind and flags of what was told last; Settled when that was nothing.
+  /// Kind and flags of what was reported last; Settled when that was nothing.
   EngineEvent standing();
   void settle();
   /// Tells of the exception at hand. Never calls the engine, which may be what failed.
@@ -77,7 +77,7 @@ struct EngineThread::Impl {
   void halt();
   void pace();
   bool frameIsDue(double ahead = 0);
-  /// Makes an edit; what cannot be done is told, and the scene stays as it was.
+  /// Makes an edit; what cannot be done is reported, and the scene stays as it was.
   template <class Action>
   void edit(Action action);
   void editAll(const ParameterBatch& batch);
@@ -87,8 +87,8 @@ struct EngineThread::Impl {
   std::function<void()> published;
   // Engine thread only.
   std::unique_ptr<Engine> engine;
-  StepFlags told = 0;  // flags that were told and have been raised since
-  int quiet = 0;       // frames without a flag
+  StepFlags reported = 0;  // flags that were reported and have been raised since
+  int quiet = 0;           // frames without a flag
   std::stop_token stopping;
   bool edited = false;  // since the last snapshot
   double snapshotSeconds = 0;
@@ -208,7 +208,7 @@ void EngineThread::Impl::halt() {
   playing = false;
 }
 
-void EngineThread::Impl::tell(EngineEvent::Kind kind, StepFlags flags, std::string message) {
+void EngineThread::Impl::notify(EngineEvent::Kind kind, StepFlags flags, std::string message) {
   const std::lock_guard lock(mutex);
   if (events.size() == kMostEvents) events.pop_front();
   events.push_back({eventCount++, kind, flags, std::move(message)});
@@ -220,18 +220,19 @@ EngineEvent EngineThread::Impl::standing() {
 }
 
 void EngineThread::Impl::settle() {
-  told = 0;
+  reported = 0;
   quiet = 0;
-  if (standing().kind != EngineEvent::Kind::Settled) tell(EngineEvent::Kind::Settled, 0, {});
+  if (standing().kind != EngineEvent::Kind::Settled) notify(EngineEvent::Kind::Settled, 0, {});
 }
 
-/// A flag may be raised in every frame, or in every third: told once, it is told again after a quiet second only.
+/// A flag may be raised in every frame, or in every third: reported once, it is reported again after a quiet second
+/// only.
 void EngineThread::Impl::tellOf(const StepReport& report) {
   quiet = report.flags ? 0 : std::min(quiet + 1, kQuiet + 1);
-  if (report.flags & (~told | kPausing)) tell(EngineEvent::Kind::Step, report.flags, report.message);
-  told |= report.flags;
+  if (report.flags & (~reported | kPausing)) notify(EngineEvent::Kind::Step, report.flags, report.message);
+  reported |= report.flags;
   if (quiet != kQuiet) return;
-  told = 0;
+  reported = 0;
   const EngineEvent::Kind kind = standing().kind;
   if (kind == EngineEvent::Kind::Step || kind == EngineEvent::Kind::Stopped) settle();
 }
@@ -239,7 +240,7 @@ void EngineThread::Impl::tellOf(const StepReport& report) {
 void EngineThread::Impl::publish(SnapshotPtr snapshot) {
   edited = false;
   const bool fresh = !newest || newest->revision != snapshot->revision;
-  if (fresh) settle();  // told of a run that is over
+  if (fresh) settle();  // of a run that is over
   {
     const std::lock_guard lock(mutex);
     if (fresh) {
@@ -256,7 +257,7 @@ void EngineThread::Impl::publish(SnapshotPtr snapshot) {
 }
 
 void EngineThread::Impl::fail(EngineEvent::Kind kind, StepFlags flags) {
-  tell(kind, flags, currentProblem());
+  notify(kind, flags, currentProblem());
   if (published) published();
 }
 
@@ -299,7 +300,7 @@ void EngineThread::Impl::editAll(const ParameterBatch& batch) {
       engine->setParameters(batch);
     } catch (...) {
       if (batch.size() == 1) throw;
-      // Those that are refused together may be good alone; of those that are not, the last one is told.
+      // Those that are refused together may be good alone; of those that are not, the last one is reported.
       edited = true;
       std::exception_ptr refusal;
       for (const SetParameter& one : batch) {
@@ -351,7 +352,7 @@ void EngineThread::Impl::open(const Opening& opening) {
     measuredTime = 0;
   }
   publishEdits();
-  for (const std::string& remark : engine->remarks()) tell(EngineEvent::Kind::Remark, 0, remark);
+  for (const std::string& remark : engine->remarks()) notify(EngineEvent::Kind::Remark, 0, remark);
   if (!engine->remarks().empty() && published) published();
 }
 

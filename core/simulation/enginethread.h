@@ -15,7 +15,7 @@ class PluginRegistry;
 
 /// What a thread's edits have cost so far.
 struct EditCost {
-  uint64_t commands = 0;  ///< given
+  uint64_t commands = 0;  ///< received
   uint64_t applied = 0;   ///< edits made of them: what waits together for one address is one
   uint64_t baked = 0;     ///< tables of materials
   double seconds = 0;     ///< of the engine's thread, without snapshots
@@ -30,19 +30,19 @@ class EngineThread {
   ~EngineThread();
 
   /// Replaces the scene. A project that holds a state opens there, paused: who kept a moment wants to see it; an event
-  /// says what is to be told of the state. A scene that cannot be built leaves none: an event says why, the snapshot is
-  /// then empty, of a new revision and without body ids, and the thread pauses.
+  /// says what is to be reported of the state. A scene that cannot be built leaves none: an event says why, the
+  /// snapshot is then empty, of a new revision and without body ids, and the thread pauses.
   void open(const Project& project, bool play);
   void play();
   void pause();
   void stepOnce();
-  /// An edit, after those that were given before. One of a parameter replaces a waiting one of the same address, and
+  /// An edit, after those that came before. One of a parameter replaces a waiting one of the same address, and
   /// those that wait side by side are made as one; an UpdateProject replaces what it would overwrite.
   void apply(Command command);
   void reset();
   void setParameter(const Address& address, const Value& value);
   void update(const Project& project);
-  /// Looks at the engine between frames, after the edits that were given before.
+  /// Looks at the engine between frames, after the edits that came before.
   void ask(std::function<void(const Engine&)> question);
 
   bool playing() const;
@@ -52,7 +52,7 @@ class EngineThread {
   /// last entry.
   std::vector<FrameStats> history(size_t from) const;
   /// Failures in the order they came, from number `from` on; the oldest are forgotten after a few hundred. A step's
-  /// flag is told when it is raised after a second without it. The thread pauses at a NaN and when a plugin fails.
+  /// flag is reported when it is raised after a second without it. The thread pauses at a NaN and when a plugin fails.
   std::vector<EngineEvent> events(uint64_t from) const;
   double realTimeFactor() const;  ///< simulated seconds per second, over the last second
   EditCost editCost() const;

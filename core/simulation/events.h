@@ -15,7 +15,7 @@ struct EngineEvent {
     NotOpened,  ///< a project could not be built; there is no scene
     Stopped,    ///< something failed between two frames or in one; the scene is paused
     Remark,     ///< something of what was opened; all goes on
-    Settled,    ///< what was told last no longer holds
+    Settled,    ///< what was reported last no longer holds
   };
   uint64_t number = 0;  ///< counts the thread's events
   Kind kind = Kind::Step;

@@ -41,7 +41,7 @@ void MatterFlow::save(StateWriter& writer) const {
   writer.array("flow/sizes", sizes);
   writer.array("flow/ids", ids);
   std::vector<uint64_t> counts;
-  for (const FlowAmount* amount : {&m_given, &m_total.poured, &m_total.drained, &m_total.held}) {
+  for (const FlowAmount* amount : {&m_born, &m_total.poured, &m_total.drained, &m_total.held}) {
     counts.push_back(amount->count);
     joules.insert(joules.end(), {amount->mass, amount->energy});
   }
@@ -55,7 +55,7 @@ void MatterFlow::restore(const StateReader& reader, const ParticleStore& store) 
   StateRuns<double> numbers(reader, "flow/numbers");
   StateRuns<uint32_t> sizes(reader, "flow/sizes"), ids(reader, "flow/ids");
   const auto next = [&](bool held) {
-    const std::span<const uint32_t> run = ids.take(sizes.take(1)[0]);
+    const std::span<const uint32_t> run = ids.next(sizes.next(1)[0]);
     const auto gone = [&](uint32_t id) { return id != kNone && store.indexOf(id) == store.size(); };
     if (held && std::any_of(run.begin(), run.end(), gone))
       StateReader::fail("flow/ids", "holds a particle that there is not");
@@ -64,7 +64,7 @@ void MatterFlow::restore(const StateReader& reader, const ParticleStore& store) 
   m_pipes.clear();
   for (size_t k = 0; k < emitters.size(); ++k) {
     Pipe& pipe = m_pipes[emitters[k]];
-    eachNumber(pipe, [&](double& number) { number = numbers.take(1)[0]; });
+    eachNumber(pipe, [&](double& number) { number = numbers.next(1)[0]; });
     pipe.last = next(false);
     for (uint32_t layer = 0; layer < layers[k]; ++layer) pipe.layers.push_back(next(true));
   }
@@ -72,7 +72,7 @@ void MatterFlow::restore(const StateReader& reader, const ParticleStore& store) 
   const std::vector<uint64_t> counts = reader.array<uint64_t>("flow/counts", 4, 1);
   const std::vector<double> amounts = reader.array<double>("flow/amounts", 8, 1);
   size_t k = 0;
-  for (FlowAmount* amount : {&m_given, &m_total.poured, &m_total.drained, &m_total.held}) {
+  for (FlowAmount* amount : {&m_born, &m_total.poured, &m_total.drained, &m_total.held}) {
     *amount = {counts[k], amounts[2 * k], amounts[2 * k + 1]};
     ++k;
   }

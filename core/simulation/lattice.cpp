@@ -30,20 +30,20 @@ uint64_t mixed(uint64_t x) {
 
 }  // namespace
 
-TakenPlaces::TakenPlaces(double clearance, size_t expected, const Period& period)
+OccupiedPlaces::OccupiedPlaces(double clearance, size_t expected, const Period& period)
     : m_period(period), m_clearance(clearance), m_first(std::bit_ceil(std::max<size_t>(expected, 16)), kNone) {
   m_points.reserve(expected);
   m_next.reserve(expected);
 }
 
 /// Row of the table for a cell of edge 2 clearances; several cells may share one.
-size_t TakenPlaces::slotOf(const CellIndex& cell) const {
+size_t OccupiedPlaces::slotOf(const CellIndex& cell) const {
   uint64_t hash = 0;
   for (const int c : cell) hash = (hash ^ static_cast<uint32_t>(c)) * 0x9e3779b97f4a7c15u;
   return static_cast<size_t>(hash >> 32) & (m_first.size() - 1);
 }
 
-void TakenPlaces::add(const api::Double3& place) {
+void OccupiedPlaces::add(const api::Double3& place) {
   const api::Double3 p = m_period.wrapped(place);
   uint32_t& first = m_first[slotOf(cellAt(p, {0, 0, 0}, 2 * m_clearance))];
   m_next.push_back(first);
@@ -51,7 +51,7 @@ void TakenPlaces::add(const api::Double3& place) {
   m_points.push_back(p);
 }
 
-bool TakenPlaces::isFree(const api::Double3& place) const {
+bool OccupiedPlaces::isFree(const api::Double3& place) const {
   const api::Double3 p = m_period.wrapped(place);
   if (!m_period.any()) return isFreeHere(p);
   // Near a face of a periodic box the points beyond it count too.
@@ -76,7 +76,7 @@ bool TakenPlaces::isFree(const api::Double3& place) const {
   return true;
 }
 
-bool TakenPlaces::isFreeHere(const api::Double3& p) const {
+bool OccupiedPlaces::isFreeHere(const api::Double3& p) const {
   const double r = m_clearance;
   const CellIndex low = cellAt({p.x - r, p.y - r, p.z - r}, {0, 0, 0}, 2 * r),
                   high = cellAt({p.x + r, p.y + r, p.z + r}, {0, 0, 0}, 2 * r);
@@ -167,30 +167,30 @@ std::vector<api::Double3> cellCentres(const VoxelShape& voxels, double spacing, 
   return centres;
 }
 
-TakenPlaces takenPlaces(const ParticleStore& store, double clearance, size_t more) {
-  TakenPlaces taken(clearance, store.size() + more, store.period());
-  for (size_t i = 0; i < store.size(); ++i) taken.add(store.wrappedPosition(i));
-  return taken;
+OccupiedPlaces occupiedPlaces(const ParticleStore& store, double clearance, size_t more) {
+  OccupiedPlaces occupied(clearance, store.size() + more, store.period());
+  for (size_t i = 0; i < store.size(); ++i) occupied.add(store.wrappedPosition(i));
+  return occupied;
 }
 
 std::vector<api::Double3> freePositions(const ParticleStore& store, const std::vector<api::Double3>& positions,
                                         double clearance) {
-  TakenPlaces taken = takenPlaces(store, clearance, positions.size());
+  OccupiedPlaces occupied = occupiedPlaces(store, clearance, positions.size());
   std::vector<api::Double3> free;
   for (const api::Double3& p : positions) {
-    if (!taken.isFree(p)) continue;
-    taken.add(p);
+    if (!occupied.isFree(p)) continue;
+    occupied.add(p);
     free.push_back(p);
   }
   return free;
 }
 
-size_t dropTaken(Spawn& spawn, TakenPlaces& taken) {
+size_t dropOccupied(Spawn& spawn, OccupiedPlaces& occupied) {
   size_t kept = 0;
   for (size_t k = 0; k < spawn.position.size(); ++k) {
     const api::Double3 place = spawn.position[k];
-    if (!taken.isFree(place)) continue;
-    taken.add(place);
+    if (!occupied.isFree(place)) continue;
+    occupied.add(place);
     spawn.position[kept] = place;
     spawn.velocity[kept] = spawn.velocity[k];
     if (!spawn.temperatures.empty()) {

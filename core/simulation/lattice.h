@@ -29,11 +29,11 @@ std::vector<api::Double3> cellCentres(const VoxelShape& voxels, double spacing, 
 
 /// Points found by place, for scenes of millions: a table of chains, one per cell. What it answers depends neither on
 /// the order of its points nor on the table's size.
-class TakenPlaces {
+class OccupiedPlaces {
  public:
   /// `clearance` in m; `expected` points make the table long enough, more make it slower. In a periodic box distances
   /// are those of the nearest images.
-  TakenPlaces(double clearance, size_t expected, const Period& period = {});
+  OccupiedPlaces(double clearance, size_t expected, const Period& period = {});
   void add(const api::Double3& p);
   bool isFree(const api::Double3& p) const;  ///< no point nearer than `clearance`
 
@@ -48,16 +48,16 @@ class TakenPlaces {
 };
 
 /// The places of a store's particles, and room for `more`.
-TakenPlaces takenPlaces(const ParticleStore& store, double clearance, size_t more);
+OccupiedPlaces occupiedPlaces(const ParticleStore& store, double clearance, size_t more);
 /// Leaves out positions that have a live particle (or an earlier one of the list) within `clearance` m.
 std::vector<api::Double3> freePositions(const ParticleStore& store, const std::vector<api::Double3>& positions,
                                         double clearance);
 /// Leaves out particles that would stand where one stands already, which no force could part, and notes the others'
 /// places; returns how many were left out.
-size_t dropTaken(Spawn& spawn, TakenPlaces& taken);
+size_t dropOccupied(Spawn& spawn, OccupiedPlaces& occupied);
 /// Share of a cell by which a point counts as on a face, and so as of the cell of the higher index. Matter of a box may
 /// stand on the faces of a sketch's lattice, and particles know their places in single precision: whoever asks which
-/// cell holds them must not be told by rounding.
+/// cell holds them must not be decided by rounding.
 inline constexpr double kOnFace = 1e-3;
 /// Ids of particles whose centre lies in one of the cells of a sketch's lattice, ascending.
 std::vector<uint32_t> idsInCells(const ParticleStore& store, const VoxelShape& voxels, std::vector<CellIndex> cells);

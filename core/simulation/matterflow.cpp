@@ -84,10 +84,10 @@ void MatterFlow::takeBack(Solver& solver, Layer ids) {
   std::erase(ids, kNone);
   if (ids.empty()) return;
   const double before = solver.heatLedger().sources;
-  m_given.count -= ids.size();
-  m_given.mass -= massOf(solver.particles(), ids);
+  m_born.count -= ids.size();
+  m_born.mass -= massOf(solver.particles(), ids);
   solver.remove(ids);
-  m_given.energy += solver.heatLedger().sources - before;
+  m_born.energy += solver.heatLedger().sources - before;
 }
 
 void MatterFlow::steer(Solver& solver, const Project& project, double dt) {
@@ -133,9 +133,9 @@ void MatterFlow::born(const Job& job, const Spawn& layer, const std::vector<size
   const double before = job.solver.heatLedger().sources;
   const std::vector<uint32_t> fresh = job.birth(std::move(spawn), job.emitter);
   for (size_t k = 0; k < fresh.size(); ++k) ids[places[k]] = fresh[k];
-  m_given.count += fresh.size();
-  m_given.mass += massOf(job.solver.particles(), fresh);
-  m_given.energy += job.solver.heatLedger().sources - before;
+  m_born.count += fresh.size();
+  m_born.mass += massOf(job.solver.particles(), fresh);
+  m_born.energy += job.solver.heatLedger().sources - before;
 }
 
 /// The next layer as it is by now, `offset` m down the jet. It crossed the mouth within the frame, but nothing has
@@ -171,16 +171,16 @@ void MatterFlow::cross(const Job& job, Pipe& pipe, double offset, double& living
     pipe.layers.pop_front();
   }
   const ParticleStore& store = job.solver.particles();
-  TakenPlaces taken(kClearance * job.spacing, store.size(), store.period()),
+  OccupiedPlaces occupied(kClearance * job.spacing, store.size(), store.period()),
       pressed(kPressed * job.spacing, store.size(), store.period());
   for (size_t i = 0; i < store.size(); ++i) {
     if (isHeld(store, i)) continue;
-    taken.add(store.wrappedPosition(i));
+    occupied.add(store.wrappedPosition(i));
     pressed.add(store.wrappedPosition(i));
   }
   std::vector<size_t> places;
   for (size_t k = 0; k < held.size(); ++k) {
-    if ((held[k] == kNone ? taken : pressed).isFree(spawn.position[k])) places.push_back(k);
+    if ((held[k] == kNone ? occupied : pressed).isFree(spawn.position[k])) places.push_back(k);
   }
   // What was due while the scene was at its fill is not made up for.
   if (living + static_cast<double>(places.size()) > job.most) places.clear();
@@ -215,11 +215,12 @@ void MatterFlow::fill(const Job& job, Pipe& pipe) {
   while (pipe.layers.size() < depth) {
     Spawn spawn = job.layer(pipe.travelled - static_cast<double>(pipe.layers.size() + 1) * job.spacing);
     spawn.held = true;
-    TakenPlaces taken(kClearance * job.spacing, store.size(), store.period());
-    for (size_t i = 0; i < store.size(); ++i) taken.add(store.wrappedPosition(i));
+    OccupiedPlaces occupied(kClearance * job.spacing, store.size(), store.period());
+    for (size_t i = 0; i < store.size(); ++i) occupied.add(store.wrappedPosition(i));
     std::vector<size_t> places;
     for (size_t k = 0; k < spawn.position.size(); ++k) {
-      if (taken.isFree(spawn.position[k]) && clearOfWalls(walls, spawn.position[k], job.spacing)) places.push_back(k);
+      if (occupied.isFree(spawn.position[k]) && clearOfWalls(walls, spawn.position[k], job.spacing))
+        places.push_back(k);
     }
     Layer layer(spawn.position.size(), kNone);
     born(job, spawn, places, layer);
@@ -244,8 +245,8 @@ void MatterFlow::settle(const Solver& solver) {
       }
     }
   }
-  m_total.poured = {m_given.count - m_total.held.count, m_given.mass - m_total.held.mass,
-                    m_given.energy - m_total.held.energy};
+  m_total.poured = {m_born.count - m_total.held.count, m_born.mass - m_total.held.mass,
+                    m_born.energy - m_total.held.energy};
 }
 
 bool MatterFlow::holds(uint32_t id) const {

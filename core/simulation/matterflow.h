@@ -64,7 +64,7 @@ class MatterFlow {
   void settle(const Solver& solver);
 
   std::map<std::string, Pipe> m_pipes;  ///< by Emitter::id
-  FlowAmount m_given;                   ///< what was born less what went back
+  FlowAmount m_born;                    ///< what was born less what went back
   FlowTotal m_total;
 };
 

@@ -36,13 +36,13 @@ std::vector<uint32_t> sparing(const Engine& engine, std::vector<uint32_t> ids, c
 
 }  // namespace
 
-void NamedMatter::take(Engine& engine, Entry& entry, const std::vector<uint32_t>& ids) {
-  if (!ids.empty()) entry.taken.push_back(engine.takeParticles(ids));
+void NamedMatter::extract(Engine& engine, Entry& entry, const std::vector<uint32_t>& ids) {
+  if (!ids.empty()) entry.extracted.push_back(engine.extractParticles(ids));
 }
 
 void NamedMatter::putBack(Engine& engine, Entry& entry) {
-  for (auto matter = entry.taken.rbegin(); matter != entry.taken.rend(); ++matter) engine.putBack(*matter);
-  entry.taken.clear();
+  for (auto matter = entry.extracted.rbegin(); matter != entry.extracted.rend(); ++matter) engine.putBack(*matter);
+  entry.extracted.clear();
 }
 
 void NamedMatter::apply(Engine& engine, const AddCells& command) {
@@ -56,22 +56,22 @@ void NamedMatter::apply(Engine& engine, const TakeCells& command) {
   const std::vector<uint32_t> ids = sparing(engine, engine.particlesIn(command.lattice, command.cells), command.spared);
   Entry& entry = m_entries[command.key];
   entry.ids.insert(entry.ids.end(), ids.begin(), ids.end());
-  take(engine, entry, ids);
+  extract(engine, entry, ids);
 }
 
 void NamedMatter::apply(Engine& engine, const TakeBody& command) {
   const ParticleStore& store = engine.solver().particles();
   Entry& entry = m_entries[command.key];
   entry = {ofBody(engine, {store.id(), store.id() + store.size()}, command.body), {}};
-  take(engine, entry, entry.ids);
+  extract(engine, entry, entry.ids);
 }
 
 void NamedMatter::apply(Engine& engine, const TakeMatter& command) {
   const auto found = m_entries.find(command.key);
   if (found != m_entries.end() && !found->second.ids.empty()) {
-    take(engine, found->second, found->second.ids);
+    extract(engine, found->second, found->second.ids);
   } else if (!command.cells.empty()) {
-    take(engine, m_entries[command.key], engine.particlesIn(command.lattice, command.cells));
+    extract(engine, m_entries[command.key], engine.particlesIn(command.lattice, command.cells));
   }
 }
 

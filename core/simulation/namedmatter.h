@@ -25,10 +25,10 @@ class NamedMatter {
 
  private:
   struct Entry {
-    std::vector<uint32_t> ids;       ///< born by the edit, or taken by it
-    std::vector<TakenMatter> taken;  ///< what is out of the scene now
+    std::vector<uint32_t> ids;               ///< born by the edit, or taken by it
+    std::vector<ExtractedMatter> extracted;  ///< what is out of the scene now
   };
-  static void take(Engine& engine, Entry& entry, const std::vector<uint32_t>& ids);
+  static void extract(Engine& engine, Entry& entry, const std::vector<uint32_t>& ids);
   static void putBack(Engine& engine, Entry& entry);
   std::map<MatterKey, Entry> m_entries;
 };

@@ -34,15 +34,15 @@ struct Key {
 
   explicit Key(const std::string& quantity) : base(quantity) {
     for (const char* end : {"_min", "_max"}) {
-      if (base.ends_with(end)) statistic = take(4).substr(1);
+      if (base.ends_with(end)) statistic = dropEnd(4).substr(1);
     }
     if (base.size() > 2 && base[base.size() - 2] == '_' && base.back() >= 'x') {
-      axis = static_cast<size_t>(take(2).back() - 'x');
+      axis = static_cast<size_t>(dropEnd(2).back() - 'x');
     }
   }
 
  private:
-  std::string take(size_t letters) {
+  std::string dropEnd(size_t letters) {
     std::string end = base.substr(base.size() - letters);
     base.resize(base.size() - letters);
     return end;

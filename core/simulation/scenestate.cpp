@@ -49,7 +49,7 @@ SceneState SceneState::read(const StateReader& reader) {
   state.constraints = reader.texts("scene/constraints");
   state.fixedBodies = reader.array<uint8_t>("scene/fixed_bodies");
   for (const size_t count : {state.bodyNames.size(), state.fixedBodies.size()}) {
-    if (count > state.bodies.size()) StateReader::fail("scene/bodies", "has fewer bodies than are told of");
+    if (count > state.bodies.size()) StateReader::fail("scene/bodies", "has fewer bodies than it counts");
   }
   const std::vector<uint32_t> bodyOf = reader.array<uint32_t>("field/body");
   if (std::any_of(bodyOf.begin(), bodyOf.end(), [&](uint32_t body) { return body >= state.bodies.size(); }))
@@ -87,9 +87,9 @@ std::vector<SceneMaterial> materialsInOrder(const SceneState& state, const State
 
 void requireGoesOn(const SceneState& state, const Project& project, const PluginRegistry& plugins) {
   if (project.solver.thermalModel != state.thermalModel) {
-    const auto told = [](const std::string& model) { return model.empty() ? "none" : "'" + model + "'"; };
-    throw InputError("the state is of the thermal model " + told(state.thermalModel) + ", and the project's is " +
-                     told(project.solver.thermalModel));
+    const auto named = [](const std::string& model) { return model.empty() ? "none" : "'" + model + "'"; };
+    throw InputError("the state is of the thermal model " + named(state.thermalModel) + ", and the project's is " +
+                     named(project.solver.thermalModel));
   }
   for (const std::string& plugin : state.constraints) {
     if (!plugins.constraint(plugin))

@@ -35,7 +35,7 @@ class Collector final : public api::EditSink {
     constexpr size_t kPiece = size_t{1} << 18;
     if (m_pending.size() > kPiece) flush();
   }
-  StrokeEdits take() {
+  StrokeEdits result() {
     flush();
     return std::move(m_edits);
   }
@@ -84,12 +84,12 @@ std::vector<api::StrokeSample> StrokeResampler::add(const api::StrokeSample& raw
   }
   const double length = distance(m_last->position, raw.position);
   const double first = m_spacing - m_sinceLast;  // arc length from m_last to the next dense sample
-  double taken = 0;
-  for (; first + taken * m_spacing <= length; ++taken) {
-    if (taken > static_cast<double>(kMaxStrokeCells)) throw Error("The stroke is too long for its particle spacing");
-    dense.push_back(between(*m_last, raw, (first + taken * m_spacing) / length));
+  double placed = 0;
+  for (; first + placed * m_spacing <= length; ++placed) {
+    if (placed > static_cast<double>(kMaxStrokeCells)) throw Error("The stroke is too long for its particle spacing");
+    dense.push_back(between(*m_last, raw, (first + placed * m_spacing) / length));
   }
-  m_sinceLast = taken > 0 ? length - (first + (taken - 1) * m_spacing) : m_sinceLast + length;
+  m_sinceLast = placed > 0 ? length - (first + (placed - 1) * m_spacing) : m_sinceLast + length;
   m_last = raw;
   return dense;
 }
@@ -123,7 +123,7 @@ StrokeEdits applyBrush(const api::BrushPlugin& brush, const StrokeSetup& setup, 
                                    {setup.parameters.data(), setup.parameters.size()}};
   Collector collector;
   brush.stroke(context, kind, api::listOf(samples.data(), samples.size()), collector);
-  return collector.take();
+  return collector.result();
 }
 
 void applyBrush(const api::BrushPlugin& brush, const StrokeSetup& setup, api::EditKind kind,

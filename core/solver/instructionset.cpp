@@ -20,8 +20,8 @@ std::string& pinned() {
 }
 
 int64_t bitOf(const std::string& name) {
-  for (int64_t rest = usable(); rest != 0; rest &= rest - 1) {
-    const int64_t bit = rest & ~(rest - 1);
+  for (int64_t remaining = usable(); remaining != 0; remaining &= remaining - 1) {
+    const int64_t bit = remaining & ~(remaining - 1);
     if (name == hwy::TargetName(bit)) return bit;
   }
   return 0;
@@ -36,7 +36,8 @@ void apply(const std::string& name) {
 
 std::vector<std::string> availableInstructionSets() {
   std::vector<std::string> names;
-  for (int64_t rest = usable(); rest != 0; rest &= rest - 1) names.emplace_back(hwy::TargetName(rest & ~(rest - 1)));
+  for (int64_t remaining = usable(); remaining != 0; remaining &= remaining - 1)
+    names.emplace_back(hwy::TargetName(remaining & ~(remaining - 1)));
   apply(pinned());
   return names;
 }

@@ -28,7 +28,7 @@ struct Spawn {
 struct CopiedConstraints;
 
 /// Matter outside a solver, with every field and the structure that held it; opaque to its keeper.
-struct TakenMatter {
+struct ExtractedMatter {
   CopiedParticles particles;
   std::shared_ptr<const CopiedConstraints> constraints;
 };

@@ -242,9 +242,9 @@ void Solver::release(std::span<const uint32_t> ids) {
   m->lastGoodValid = false;
 }
 
-void Solver::remove(std::span<const uint32_t> ids) { take(ids); }
+void Solver::remove(std::span<const uint32_t> ids) { extract(ids); }
 
-TakenMatter Solver::take(std::span<const uint32_t> ids) {
+ExtractedMatter Solver::extract(std::span<const uint32_t> ids) {
   m->configure();
   ParticleStore& store = m->store;
   std::vector<uint32_t> indices;
@@ -255,16 +255,16 @@ TakenMatter Solver::take(std::span<const uint32_t> ids) {
   std::sort(indices.begin(), indices.end());
   indices.erase(std::unique(indices.begin(), indices.end()), indices.end());
   if (indices.empty()) return {};
-  TakenMatter taken{store.copy(indices),
-                    std::make_shared<const CopiedConstraints>(m->constraints.copy(store, indices))};
+  ExtractedMatter extracted{store.copy(indices),
+                            std::make_shared<const CopiedConstraints>(m->constraints.copy(store, indices))};
   const double before = m->heat.energy(store);
   m->constraints.removeParticles(store, indices);
   store.remove(indices);
   m->matterChanged(before);
-  return taken;
+  return extracted;
 }
 
-void Solver::putBack(const TakenMatter& matter) {
+void Solver::putBack(const ExtractedMatter& matter) {
   if (matter.particles.id.empty()) return;
   m->configure();
   const double before = m->heat.energy(m->store);
@@ -303,13 +303,13 @@ std::vector<Limit> Solver::limits() const {
     if (const double open = m->openEnergy(); open != 0) result.push_back({kBalanceLimit, 0, open, "J"});
   }
   const double dt = m->settings.dt, excess = m->report.densityErrorMean;
-  // Drops too few to speak for the solver (see StepFlag::Diverged) are told here.
+  // Drops too few to speak for the solver (see StepFlag::Diverged) are reported here.
   const bool drops = excess > kDiverged && (m->report.flags & static_cast<StepFlags>(StepFlag::Diverged)) == 0;
   const bool squeezes = drops || m->motion.movesWithin(m->time - dt, dt) || m->contact.squeezedShare() > kSqueezedShare;
   if (excess > kSqueezed && squeezes) result.push_back({kSqueezeLimit, 0, excess, ""});
   return result;
 }
 
-std::vector<PluginFault> Solver::takeFaults() { return m->takeFaults(); }
+std::vector<PluginFault> Solver::drainFaults() { return m->drainFaults(); }
 
 }  // namespace ps

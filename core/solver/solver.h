@@ -65,10 +65,10 @@ class Solver {
   /// Removes particles by id; ids already gone are skipped. Their energy is booked as a source.
   void remove(std::span<const uint32_t> ids);
   /// As remove(), and keeps what was there for putBack().
-  TakenMatter take(std::span<const uint32_t> ids);
+  ExtractedMatter extract(std::span<const uint32_t> ids);
   /// Puts matter back where it was, under its ids, with its constraints to whatever still lives. Of the same solver;
   /// throws Error when one of the ids is alive.
-  void putBack(const TakenMatter& matter);
+  void putBack(const ExtractedMatter& matter);
 
   /// One frame. On NotFinite the state goes back to where the last good frame began, clocks and all.
   StepReport step();
@@ -88,7 +88,7 @@ class Solver {
   double thermalEnergy() const;                     ///< J
   std::span<const double> thermalEnergies() const;  ///< J per particle, until the next call; empty without a model
   /// Plugins that threw when they were asked for energies and limits since the last step or call; none of them goes on.
-  std::vector<PluginFault> takeFaults();
+  std::vector<PluginFault> drainFaults();
   double elasticEnergy() const;  ///< J, stored in constraints, as their plugins say
   /// All that goes on into the next frame: matter with every field and its order, structure, prescribed motions, what
   /// contacts bore, books, clocks. Changes of settings that are to come take effect first.

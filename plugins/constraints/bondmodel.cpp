@@ -180,9 +180,9 @@ double stiffnessOfModulus(const ConstraintContext& context) {
 /// e to the power of x, the same bits everywhere: by the series, exact to 1e-15, of what is left beside a power of two.
 double exponential(double x) {
   x = std::clamp(x, -600.0, 600.0);
-  const double twos = std::floor(x * std::numbers::log2e + 0.5), rest = x - twos * std::numbers::ln2;
+  const double twos = std::floor(x * std::numbers::log2e + 0.5), remainder = x - twos * std::numbers::ln2;
   double sum = 1;
-  for (int k = 14; k > 0; --k) sum = 1 + sum * rest / k;
+  for (int k = 14; k > 0; --k) sum = 1 + sum * remainder / k;
   return std::ldexp(sum, static_cast<int>(twos));
 }
 
@@ -264,7 +264,7 @@ void BondModel::predict(const ConstraintContext& context, const ParticleView& p,
   std::fill(batch.values[kMultiplier], batch.values[kMultiplier] + batch.count, 0.0f);
   if (context.substep != 0) return;  // volumes and temperatures change once a frame
   const std::vector<ModulusTable> tables = modulusTables(context, p, batch);
-  const double given = context.parameters[kSpringStiffness], ofModulus = stiffnessOfModulus(context);
+  const double chosen = context.parameters[kSpringStiffness], ofModulus = stiffnessOfModulus(context);
   const bool thesis = isSet(context, kStiffnessLaw);
   const double softening = context.parameters[kSoftening];
   for (size_t k = 0; k < batch.count; ++k) {
@@ -279,7 +279,7 @@ void BondModel::predict(const ConstraintContext& context, const ParticleView& p,
     const double ei = modulusOf(i), ej = modulusOf(j);
     const double modulus = ei + ej > 0 ? 2 * ei * ej / (ei + ej) : 0;
     const double inverseMasses = double{p.velocity[i].w} + double{p.velocity[j].w};
-    double stiffness = given > 0 ? given : ofModulus * modulus * context.spacing;
+    double stiffness = chosen > 0 ? chosen : ofModulus * modulus * context.spacing;
     if (inverseMasses > 0) stiffness = std::min(stiffness, stiffnessLimit(context, inverseMasses));
     batch.values[kCompliance][k] = 1 / std::max(static_cast<float>(stiffness), kLeastStiffness);
   }
@@ -346,12 +346,12 @@ void BondModel::limits(const ConstraintContext& context, const ParticleView& p, 
     used[p.material[i]].inverseMass = std::max(used[p.material[i]].inverseMass, double{p.velocity[i].w});
   }
   if (isSet(context, kSolver)) return;  // the classic method promises no stiffness
-  const double given = context.parameters[kSpringStiffness];
+  const double chosen = context.parameters[kSpringStiffness];
   for (size_t m = 0; m < used.size(); ++m) {
     if (used[m].temperature.empty() || !(used[m].inverseMass > 0)) continue;
     const double most = stiffnessLimit(context, 2 * used[m].inverseMass);
-    if (given > 0) {
-      if (given > most) sink.limit("bonds.spring_stiffness", given, most, "N/m");
+    if (chosen > 0) {
+      if (chosen > most) sink.limit("bonds.spring_stiffness", chosen, most, "N/m");
       continue;
     }
     const api::MaterialView& material = *context.materials[m];

@@ -199,14 +199,14 @@ void RigidModel::deriveVelocities(const ConstraintContext& context, const api::M
   for (size_t g = 0; g < batch.count; ++g) {
     RigidBody body(p, batch, g);
     // What viscosity gave: the velocity without the way of the substep, which was computed just so.
-    const Momentum given = momentumOf(body, p.position, [&](uint32_t i) {
+    const Momentum momentum = momentumOf(body, p.position, [&](uint32_t i) {
       const Float4 &x = p.position[i], &from = p.previous[i], &v = p.velocity[i];
       return Vector{double{v.x} - double{rate * (x.x - from.x)}, double{v.y} - double{rate * (x.y - from.y)},
                     double{v.z} - double{rate * (x.z - from.z)}};
     });
     absorb(body, particles, context.dt);
-    const Vector velocity = body.velocity() + 1 / body.mass() * given.linear;
-    const Vector spin = body.spin() + RigidBody::turned(body.restInverseInertia(), body.rotation(), given.angular);
+    const Vector velocity = body.velocity() + 1 / body.mass() * momentum.linear;
+    const Vector spin = body.spin() + RigidBody::turned(body.restInverseInertia(), body.rotation(), momentum.angular);
     body.setMotion(velocity, spin);
     for (size_t k = body.first(); k < body.last(); ++k) {
       setVector(particles.velocity[body.particle(k)], velocity + cross(spin, body.arm(k)));

@@ -121,7 +121,7 @@ class Reshaping {
       else if (m_joining.keeper(i) == Keeper::Rigid)
         loose.push_back(i);
     }
-    for (const auto& [i, piece] : joins) take(i, piece);
+    for (const auto& [i, piece] : joins) assign(i, piece);
     if (loose.size() > 1) begin(loose);
   }
   uint32_t nearestMember(uint32_t i) const {
@@ -136,7 +136,7 @@ class Reshaping {
     }
     return nearest;
   }
-  void take(uint32_t i, uint32_t piece) {
+  void assign(uint32_t i, uint32_t piece) {
     m_pieces[piece].joined.push_back(i);
     m_pieces[piece].changed = true;
     if (m_pieces[piece].group < m_all.count) m_gone[m_pieces[piece].group] = 1;
@@ -159,7 +159,7 @@ class Reshaping {
     for (const std::vector<size_t>& set : sets.sets()) {
       if (set.size() < std::max<size_t>(2, least(loose[set[0]]))) continue;
       m_pieces.push_back({m_all.count, {}, {}, true});
-      for (const size_t s : set) take(loose[s], static_cast<uint32_t>(m_pieces.size() - 1));
+      for (const size_t s : set) assign(loose[s], static_cast<uint32_t>(m_pieces.size() - 1));
     }
   }
 

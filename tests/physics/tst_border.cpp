@@ -136,11 +136,11 @@ class TestBorder : public QObject {
     if (report.flags == 0) {  // it fails only when it is asked
       solver.limits();
       solver.elasticEnergy();
-      const std::vector<ps::PluginFault> faults = solver.takeFaults();
+      const std::vector<ps::PluginFault> faults = solver.drainFaults();
       QCOMPARE(faults.size(), size_t{1});
       report.message = "plugin '" + faults[0].plugin + "': " + faults[0].what;
       report.flags = flagOf(ps::StepFlag::PluginFault);
-      QVERIFY(solver.takeFaults().empty());
+      QVERIFY(solver.drainFaults().empty());
     }
     QCOMPARE(report.flags, flag);
     QVERIFY2(report.message.find("plugin 'org.example.bad'") != std::string::npos, report.message.c_str());

@@ -222,7 +222,7 @@ class TestFlow : public QObject {
     for (int frame = 0; frame < 10; ++frame) engine.step();
     const ps::ParticleStore& store = engine.solver().particles();
     const std::vector<uint32_t> all(store.id(), store.id() + store.size());
-    const ps::TakenMatter taken = engine.takeParticles(all);
+    const ps::ExtractedMatter taken = engine.extractParticles(all);
     QCOMPARE(taken.particles.id.size(), size_t{13});  // the layer that has just crossed
     QCOMPARE(store.size(), size_t{26});
     engine.putBack(taken);

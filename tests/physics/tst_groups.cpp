@@ -144,7 +144,7 @@ class TestGroups : public QObject {
     QVERIFY(solver.constraintCount() > 150);
     QCOMPARE(solver.elasticEnergy(), static_cast<double>(solver.constraintCount()));
     QVERIFY(run(solver, 70));  // sorted more than once
-    const ps::TakenMatter taken = solver.take(std::vector<uint32_t>(ids.begin() + 100, ids.begin() + 200));
+    const ps::ExtractedMatter taken = solver.extract(std::vector<uint32_t>(ids.begin() + 100, ids.begin() + 200));
     const size_t left = solver.constraintCount();
     const uint64_t hash = solver.stateHash();
     solver.putBack(taken);
@@ -174,7 +174,7 @@ class TestGroups : public QObject {
     Solver solver;
     const std::vector<uint32_t> ids = spawnWatched(solver, watch);
     solver.elasticEnergy();
-    solver.putBack(solver.take(std::vector<uint32_t>(ids.begin(), ids.begin() + 5)));
+    solver.putBack(solver.extract(std::vector<uint32_t>(ids.begin(), ids.begin() + 5)));
     const StepReport report = solver.step();
     QCOMPARE(report.flags, static_cast<ps::StepFlags>(ps::StepFlag::PluginFault));
     QCOMPARE(QString::fromStdString(report.message), QString("plugin 'org.example.watch': no shape"));

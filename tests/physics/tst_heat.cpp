@@ -500,12 +500,12 @@ class TestHeat : public QObject {
       QVERIFY(std::abs(scene.store.temperature()[0] - 301) < 1e-9);
       scene.heat.setSources({{&heater, "heater", {500}}, {&heater, "blown", {2e6}}, {&heater, "cooler", {-1e6}}});
       QVERIFY(scene.heat.advance(scene.store, scene.neighbours, 1));
-      const std::vector<ps::PluginFault> faults = scene.heat.takeSourceFaults();
+      const std::vector<ps::PluginFault> faults = scene.heat.drainSourceFaults();
       QCOMPARE(faults.size(), size_t{1});
       QCOMPARE(faults[0].plugin, std::string("blown"));
       QCOMPARE(faults[0].what, std::string("the fuse has blown"));
       QVERIFY(scene.store.temperature()[0] >= 1);
-      QVERIFY(scene.heat.takeSourceFaults().empty());
+      QVERIFY(scene.heat.drainSourceFaults().empty());
     }
   }
 

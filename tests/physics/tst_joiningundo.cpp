@@ -89,7 +89,7 @@ class TestJoiningUndo : public QObject {
     // Two layers out of the upper block, and back again.
     const std::vector<uint32_t> cut = between(engine, 5, 7);
     QCOMPARE(cut.size(), size_t{32});
-    const ps::TakenMatter taken = engine.takeParticles(cut);
+    const ps::ExtractedMatter taken = engine.extractParticles(cut);
     QVERIFY(run(engine, 1));
     QCOMPARE(piecesOf(engine), (Pieces{2, 1}));
     engine.putBack(taken);
@@ -108,7 +108,7 @@ class TestJoiningUndo : public QObject {
     QCOMPARE(added.size(), size_t{64});
     QVERIFY(run(engine, 60));
     QCOMPARE(piecesOf(engine), (Pieces{1, 1}));
-    const ps::TakenMatter taken = engine.takeParticles(added);
+    const ps::ExtractedMatter taken = engine.extractParticles(added);
     QVERIFY(run(engine, 2));
     QCOMPARE(piecesOf(engine), (Pieces{1, 1}));
     QCOMPARE(engine.solver().particles().size(), size_t{64});
@@ -132,13 +132,13 @@ class TestJoiningUndo : public QObject {
     melt(engine, middle);
     QVERIFY(run(engine, 3));
     QCOMPARE(piecesOf(engine), (Pieces{2, 2}));
-    const ps::TakenMatter taken = engine.takeParticles(upper);
+    const ps::ExtractedMatter taken = engine.extractParticles(upper);
     QVERIFY(run(engine, 1));
     QCOMPARE(piecesOf(engine), (Pieces{1, 1}));
     engine.putBack(taken);
     QVERIFY(run(engine, 1));
     QCOMPARE(piecesOf(engine), (Pieces{2, 2}));
-    engine.takeParticles(middle);
+    engine.extractParticles(middle);
     QVERIFY(run(engine, 120));
     QCOMPARE(piecesOf(engine), (Pieces{1, 1}));
     engine.reset();

@@ -292,7 +292,7 @@ class TestMechanics : public QObject {
         for (size_t i = 0; i < p.size(); ++i) p.solidFraction()[i] = 1, p.liquidFraction()[i] = 0;
       }
       solver.step();
-      if (undone) solver.putBack(solver.take(ids[1]));
+      if (undone) solver.putBack(solver.extract(ids[1]));
       for (int f = 0; f < 8; ++f) solver.step();
       std::array<std::vector<float>, 2> x;
       for (const uint32_t body : {0u, 1u}) {

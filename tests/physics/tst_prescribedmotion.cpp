@@ -315,7 +315,7 @@ class TestPrescribedMotion : public QObject {
     const std::vector<uint32_t> ids = solver.spawn(fixedPoints(lattice(6, 4, 2, 0.05, -0.1)));
     const std::vector<Vector3> start = placesOf(solver);
     QVERIFY(run(solver, 30));
-    const ps::TakenMatter taken = solver.take(std::span(ids).first(10));
+    const ps::ExtractedMatter taken = solver.extract(std::span(ids).first(10));
     QVERIFY(run(solver, 30));
     solver.putBack(taken);
     QVERIFY(greatestError(solver, start, spin, {}, 1) < 3e-7);
@@ -330,7 +330,7 @@ class TestPrescribedMotion : public QObject {
     prepare(solver, weightless(0.05));
     const std::vector<uint32_t> ids = solver.spawn(fixedPoints(lattice(6, 4, 2, 0.05, -0.1)));
     const std::vector<Vector3> start = placesOf(solver);
-    const ps::TakenMatter taken = solver.take(std::span(ids).first(10));
+    const ps::ExtractedMatter taken = solver.extract(std::span(ids).first(10));
     solver.setMotion(0, turn(spin));
     QVERIFY(run(solver, 60));
     solver.putBack(taken);

@@ -213,7 +213,7 @@ class TestRigid : public QObject {
     const std::vector<double> shape = distances(solver, 0);
     QVERIFY(run(solver, 5));
     const std::vector<uint32_t> erased(ids.begin() + 70, ids.end());  // most of the upper layers
-    const ps::TakenMatter taken = solver.take(erased);
+    const ps::ExtractedMatter taken = solver.extract(erased);
     QCOMPARE(solver.constraintCount(), size_t{1});
     QVERIFY(run(solver, framesBetween));
     solver.putBack(taken);

@@ -341,7 +341,7 @@ class TestSoft : public QObject {
     const uint32_t set = solver.addConstraintSet(&clusters, "clusters", parametersOf(clusters));
     const std::vector<uint32_t> ids = solver.spawn(solid(grid(9, 4, 4, 0.02, {0, 1, 0}), set));
     const std::vector<double> shape = distances(solver, 0);
-    const ps::TakenMatter taken = solver.take(std::vector<uint32_t>(ids.begin() + 60, ids.begin() + 80));
+    const ps::ExtractedMatter taken = solver.extract(std::vector<uint32_t>(ids.begin() + 60, ids.begin() + 80));
     QVERIFY(run(solver, 5));
     solver.putBack(taken);
     QVERIFY(run(solver, 20));

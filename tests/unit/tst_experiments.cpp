@@ -291,7 +291,7 @@ void TstExperiments::bodiesAreHeatedByTheirPower() {
   for (size_t i = 0; i < store.size(); ++i) {
     if (store.body()[i] == 0 && some.size() < 20) some.push_back(store.id()[i]);
   }
-  engine.takeParticles(some);
+  engine.extractParticles(some);
   before = engine.stats().probes;
   change = gained(1);
   QVERIFY2(near(change[0], 50), qPrintable(QString::number(change[0])));

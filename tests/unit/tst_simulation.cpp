@@ -344,7 +344,7 @@ void TstSimulation::cellsAvoidLiveParticlesAndComeBackOut() {
   QVERIFY(engine.addCells(sketchedWater(), cells, 0).empty());
   const auto voxels = std::get<VoxelShape>(sketchedWater().shape);
   QCOMPARE(engine.particlesIn(voxels, cells), ids);
-  engine.takeParticles(ids);
+  engine.extractParticles(ids);
   QCOMPARE(engine.solver().particles().size(), before);
   const StepReport report = engine.step();
   QCOMPARE(report.flags, 0u);
@@ -358,7 +358,7 @@ void TstSimulation::takenMatterComesBackAsItWas() {
   const std::vector<uint32_t> ids = {3, 60, 61, 124, 9999};  // the last never lived
   const size_t row = engine.solver().particles().indexOf(60);
   const double temperature = engine.solver().particles().temperature()[row];
-  const TakenMatter taken = engine.takeParticles(ids);
+  const ExtractedMatter taken = engine.extractParticles(ids);
   QCOMPARE(engine.solver().particles().size(), size_t{121});
   QVERIFY(engine.solver().constraintCount() < bonds);
   engine.putBack(taken);

@@ -140,8 +140,8 @@ class TestStateStream : public QObject {
       if (row == "version") reader.value<double>("room/later");
       if (row == "count") reader.array<uint8_t>("room/odd", 12, 1);
       ps::StateRuns<float> runs(reader, "room/pieces");
-      runs.take(2);
-      if (row == "runs") runs.take(2);
+      runs.next(2);
+      if (row == "runs") runs.next(2);
       runs.done();
     } catch (const InputError& problem) {
       told = QString::fromUtf8(problem.what());

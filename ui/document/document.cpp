@@ -11,7 +11,7 @@
 namespace ps {
 
 Document::Document(QObject* parent) : QObject(parent) {
-  connect(&m_undo, &QUndoStack::cleanChanged, this, [this] { tell(FileChanged{}); });
+  connect(&m_undo, &QUndoStack::cleanChanged, this, [this] { notify(FileChanged{}); });
 }
 Document::~Document() { m_undo.disconnect(this); }
 
@@ -28,8 +28,8 @@ void Document::open(Project project, const QString& path, bool dirty, bool play)
   for (const Body& body : m_project.bodies) m_usedIds.insert(body.id);
   for (const Emitter& emitter : m_project.emitters) m_usedIds.insert(emitter.id);
   m_opened = ++m_changes;
-  tell(ProjectOpened{play});
-  tell(FileChanged{});
+  notify(ProjectOpened{play});
+  notify(FileChanged{});
 }
 
 QString Document::title() const {
@@ -46,7 +46,7 @@ bool Document::saved(const QString& path, uint64_t changeCount) {
     m_neverClean = false;
     m_undo.setClean();
   }
-  tell(FileChanged{});
+  notify(FileChanged{});
   return true;
 }
 
@@ -187,7 +187,7 @@ void Document::removeState() {
 void Document::setColour(const std::string& colour) {
   if (m_project.view.colour == colour) return;
   m_project.view.colour = colour;
-  tell(ViewChanged{});
+  notify(ViewChanged{});
 }
 
 void Document::setView(const ViewState& view) { m_project.view.camera = view.camera; }
@@ -205,39 +205,39 @@ void Document::applyParameter(const Address& address, const std::optional<Value>
     set->values.erase(address.key);
   }
   ++m_changes;
-  tell(ParameterChanged{address, value, before});
+  notify(ParameterChanged{address, value, before});
 }
 
 void Document::applyBodies(const std::vector<SceneEdit>& edits, bool forward, const MatterRef& matter) {
   applyEdits(m_project, edits, forward);
   ++m_changes;
-  for (const SceneEdit& edit : edits) tell(BodyChanged{bodyOf(edit), matter});
+  for (const SceneEdit& edit : edits) notify(BodyChanged{bodyOf(edit), matter});
 }
 
 void Document::applyMaterials(const std::vector<SceneMaterial>& materials) {
   m_project.materials = materials;
   ++m_changes;
-  tell(MaterialsChanged{});
+  notify(MaterialsChanged{});
 }
 
 void Document::applyStroke(const std::shared_ptr<StrokeRecord>& stroke, bool done, bool live) {
   applyEdits(m_project, stroke->edits, done);
   ++m_changes;
-  tell(StrokeChanged{stroke, done, live});
+  notify(StrokeChanged{stroke, done, live});
 }
 
 void Document::applyState(const std::shared_ptr<const ProjectState>& state) {
   m_project.state = state;
   ++m_changes;
-  tell(StateChanged{});
+  notify(StateChanged{});
 }
 
 void Document::applyPins(const std::vector<std::string>& pins) {
   m_project.view.pinned = pins;
   ++m_changes;
-  tell(PinsChanged{});
+  notify(PinsChanged{});
 }
 
-void Document::tell(const ChangeEvent& event) { Q_EMIT changed(event); }
+void Document::notify(const ChangeEvent& event) { Q_EMIT changed(event); }
 
 }  // namespace ps

@@ -134,7 +134,7 @@ class Document : public QObject {
   void changed(const ps::ChangeEvent& event);
 
  private:
-  void tell(const ChangeEvent& event);
+  void notify(const ChangeEvent& event);
   void editBody(const std::string& id, const QString& text, const std::function<void(Body&)>& change);
   template <class Item>
   void pushPort(std::optional<Item> before, std::optional<Item> after, size_t index, const QString& title);

@@ -166,7 +166,7 @@ void Document::applyPort(const AnyPortEdit& edit, bool forward) {
       },
       edit);
   ++m_changes;
-  tell(change);
+  notify(change);
 }
 
 }  // namespace ps

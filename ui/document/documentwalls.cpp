@@ -93,7 +93,7 @@ void Document::removeWall(const std::string& id) {
 void Document::applyWalls(const std::vector<SceneWall>& walls) {
   m_project.environment.walls = walls;
   ++m_changes;
-  tell(WallsChanged{});
+  notify(WallsChanged{});
 }
 
 }  // namespace ps

@@ -229,12 +229,12 @@ std::vector<CellIndex> freeAtStart(const Project& project, const std::string& bo
     const std::vector<Vector3> centres = centresWithin(other, lattice.spacing, bounds);
     places.insert(places.end(), centres.begin(), centres.end());
   }
-  TakenPlaces taken(0.9 * lattice.spacing, places.size());
-  for (const Vector3& p : places) taken.add(double3Of(p));
+  OccupiedPlaces occupied(0.9 * lattice.spacing, places.size());
+  for (const Vector3& p : places) occupied.add(double3Of(p));
   const SketchGrid grid{lattice.origin, lattice.spacing};
   std::vector<CellIndex> free;
   std::copy_if(cells.begin(), cells.end(), std::back_inserter(free), [&](const CellIndex& c) {
-    return taken.isFree(double3Of(grid.centreOf({c[0], c[1], c[2]})));
+    return occupied.isFree(double3Of(grid.centreOf({c[0], c[1], c[2]})));
   });
   return free;
 }

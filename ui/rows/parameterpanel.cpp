@@ -221,15 +221,16 @@ Group& ParameterPanel::Private::group(const QString& title, QVBoxLayout* layout)
 }
 
 void ParameterPanel::Private::connectRow(ParameterRow* row) {
-  const auto tell = [this, row](const QString& key, const Value& value, Edit edit) {
+  const auto forward = [this, row](const QString& key, const Value& value, Edit edit) {
     mirror(row);
     Q_EMIT q->edited(key, value, edit);
   };
   connect(row, &ParameterRow::editingStarted, q,
-          [tell](const QString& key, const Value& v) { tell(key, v, Edit::Begin); });
-  connect(row, &ParameterRow::valueEdited, q, [tell](const QString& key, const Value& v) { tell(key, v, Edit::Live); });
+          [forward](const QString& key, const Value& v) { forward(key, v, Edit::Begin); });
+  connect(row, &ParameterRow::valueEdited, q,
+          [forward](const QString& key, const Value& v) { forward(key, v, Edit::Live); });
   connect(row, &ParameterRow::editingFinished, q,
-          [tell](const QString& key, const Value& v) { tell(key, v, Edit::End); });
+          [forward](const QString& key, const Value& v) { forward(key, v, Edit::End); });
   connect(row, &ParameterRow::scaled, q, &ParameterPanel::scaled);
   connect(row, &ParameterRow::linkActivated, q, &ParameterPanel::linkActivated);
   connect(row, &ParameterRow::changedChanged, q, [this] { showCount(); });

@@ -80,7 +80,7 @@ void paintClasses(QPainter& painter, const QRectF& rect, const ColourMap& map) {
 /// Labels already set, as heights; a tick whose text would touch one of them is left out.
 class Ladder {
  public:
-  bool take(double y) {
+  bool reserve(double y) {
     for (const double taken : m_taken) {
       if (std::abs(taken - y) < 14) return false;
     }
@@ -116,11 +116,11 @@ void paintTicks(QPainter& painter, const QRectF& rect, const Scale& scale, const
   for (const auto& [value, top] : ends) {
     const QString text =
         top && !unit.isEmpty() ? formatShort(value, 3) + QLatin1Char(' ') + unit : formatShort(value, 3);
-    if (ladder.take(scale.y(value))) label(value, text, 9, theme[Token::Text2]);
+    if (ladder.reserve(scale.y(value))) label(value, text, 9, theme[Token::Text2]);
   }
   const double step = tickStep(scale.range.second - scale.range.first, 6);
   for (const LegendMark& mark : marks) {
-    if (!scale.inside(mark.value) || !ladder.take(scale.y(mark.value))) continue;
+    if (!scale.inside(mark.value) || !ladder.reserve(scale.y(mark.value))) continue;
     // What the scale cannot show is no information: ice under 1 bar melts at 0.0001 °C.
     const double grain = step / 1000;
     const QString number = formatShort(std::round(mark.value / grain) * grain, 3);
@@ -130,7 +130,7 @@ void paintTicks(QPainter& painter, const QRectF& rect, const Scale& scale, const
               mark.label, font, theme[Token::Muted]);
   }
   for (double value = std::ceil(scale.range.first / step) * step; value < scale.range.second; value += step) {
-    if (ladder.take(scale.y(value)))
+    if (ladder.reserve(scale.y(value)))
       label(value, formatShort(std::abs(value) < step / 1e6 ? 0 : value, 3), 9, theme[Token::Text2]);
   }
 }

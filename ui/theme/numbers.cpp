@@ -112,7 +112,7 @@ class Expression {
   }
 
  private:
-  bool take(char c) {
+  bool accept(char c) {
     if (m_at >= m_text.size() || m_text[m_at] != c) return false;
     ++m_at;
     return true;
@@ -120,9 +120,9 @@ class Expression {
   double sum() {
     double result = product();
     for (;;) {
-      if (take('+'))
+      if (accept('+'))
         result += product();
-      else if (take('-'))
+      else if (accept('-'))
         result -= product();
       else
         return result;
@@ -131,9 +131,9 @@ class Expression {
   double product() {
     double result = power();
     for (;;) {
-      if (take('*'))
+      if (accept('*'))
         result *= power();
-      else if (take('/'))
+      else if (accept('/'))
         result /= power();
       else
         return result;
@@ -141,19 +141,19 @@ class Expression {
   }
   double power() {
     const double base = signedAtom();
-    return take('^') ? std::pow(base, signedAtom()) : base;
+    return accept('^') ? std::pow(base, signedAtom()) : base;
   }
   double signedAtom() {
     if (++m_depth > 50) m_good = false;
     double result = 0;
     if (!m_good) return result;
-    if (take('-'))
+    if (accept('-'))
       result = -signedAtom();
-    else if (take('+'))
+    else if (accept('+'))
       result = signedAtom();
-    else if (take('(')) {
+    else if (accept('(')) {
       result = sum();
-      m_good = m_good && take(')');
+      m_good = m_good && accept(')');
     } else {
       result = number();
     }

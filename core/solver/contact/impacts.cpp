@@ -51,10 +51,10 @@ void Impacts::sweep(ParticleStore& store, ConstraintSystem& constraints, std::sp
 
 /// Leaves a particle where it meets the first other one; bounce() gives back the rest of its velocity.
 void Impacts::stop(ParticleStore& store, uint32_t i) {
-  const double rest = 1 - m_first[i];
+  const double remaining = 1 - m_first[i];
   m_first[i] = 2;
   const api::Float4 v = store.velocity()[i];
-  const Vector3 left = rest * vectorOf(v);
+  const Vector3 left = remaining * vectorOf(v);
   m_stops.push_back({i, left});
   addTo(store.position()[i], -m_dt * left);
 }
@@ -203,7 +203,7 @@ void Impacts::bounce(ParticleStore& store) {
       if (change < 0 && (pass > 0 || !k.loose)) continue;
       const Vector3 impulse = change / weights * k.normal;
       addTo(va, double{va.w} * impulse);
-      if (k.b == kNone || store.velocity()[k.b].w == 0) m_given.add(impulse);
+      if (k.b == kNone || store.velocity()[k.b].w == 0) m_externalImpulse.add(impulse);
       if (k.b != kNone) addTo(store.velocity()[k.b], -double{store.velocity()[k.b].w} * impulse);
     }
   }

@@ -26,7 +26,7 @@ class Impacts {
   /// When velocities are known.
   void bounce(ParticleStore& store);
   /// What walls and fixed particles gave in bounce(), kg m/s.
-  Received& given() { return m_given; }
+  ExternalImpulse& externalImpulse() { return m_externalImpulse; }
 
  private:
   static constexpr uint32_t kNone = ~0u;
@@ -63,7 +63,7 @@ class Impacts {
   std::vector<double> m_restitution;  ///< by material
   std::vector<Impact> m_impacts;
   std::vector<Stop> m_stops;
-  Received m_given;
+  ExternalImpulse m_externalImpulse;
   std::vector<Sought> m_solids;
   CellGrid m_grid;              ///< of m_solids
   std::vector<double> m_first;  ///< by particle: time of its first impact; 2: none

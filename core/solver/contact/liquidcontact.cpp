@@ -127,7 +127,7 @@ void LiquidContact::project(ParticleStore& store) {
     api::Float4& x = store.position()[m_contacts[k].who];
     x.x += m_moves[k].x, x.y += m_moves[k].y, x.z += m_moves[k].z;
   });
-  m_given.add(m_fromFixed.total());
+  m_externalImpulse.add(m_fromFixed.total());
 }
 
 }  // namespace ps

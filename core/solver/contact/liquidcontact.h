@@ -27,7 +27,7 @@ class LiquidContact {
   bool any() const { return !m_contacts.empty(); }
   void project(ParticleStore& store);
   /// What fixed particles moved, kg m.
-  Received& given() { return m_given; }
+  ExternalImpulse& externalImpulse() { return m_externalImpulse; }
 
  private:
   struct Contact {
@@ -51,7 +51,7 @@ class LiquidContact {
   std::vector<uint8_t> m_touching;  ///< partners too near, by particle
   std::vector<api::Float4> m_moves;
   ChunkSum m_fromFixed;
-  Received m_given;
+  ExternalImpulse m_externalImpulse;
 };
 
 }  // namespace ps

@@ -74,8 +74,8 @@ void RigidContact::addContact(const ParticleStore& store, uint32_t i, uint32_t j
   Contact c;
   c.a = sideOf(i), c.b = sideOf(j);
   c.key = uint64_t{store.id()[i]} << 32 | store.id()[j];
-  c.staticFriction = 0.5 * (a.resting + b.resting);
-  c.kineticFriction = 0.5 * (a.sliding + b.sliding);
+  c.staticFriction = 0.5 * (a.staticFriction + b.staticFriction);
+  c.kineticFriction = 0.5 * (a.kineticFriction + b.kineticFriction);
   c.restitution = std::max(a.bounce, b.bounce);
   m_contacts.push_back(c);
 }
@@ -123,7 +123,7 @@ void RigidContact::restore(const StateReader& reader) {
   for (size_t k = 0; k < keys.size(); ++k) {
     Contact& c = m_contacts[k];
     c.key = keys[k];
-    eachNumber(c, [&](double& number) { number = numbers.take(1)[0]; });
+    eachNumber(c, [&](double& number) { number = numbers.next(1)[0]; });
     c.met = (marks[k] & 1) != 0, c.slides = (marks[k] & 2) != 0, c.yields = (marks[k] & 4) != 0;
   }
   numbers.done();

@@ -377,7 +377,7 @@ void RigidContact::bounce(ParticleStore& store) {
       const Vector3 impulse = change * c.mass * c.normal;
       give(c.a, impulse);
       give(c.b, -impulse);
-      if (isOutside(c)) m_given.add(impulse);
+      if (isOutside(c)) m_externalImpulse.add(impulse);
     }
   }
   for (Contact& c : m_contacts) {

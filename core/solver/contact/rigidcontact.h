@@ -52,7 +52,7 @@ class RigidContact {
   /// What walls and fixed particles gave to bodies in this substep up to now: by contact in kg m, in bounce() in kg
   /// m/s.
   Vector3 pushed() const;
-  Received& given() { return m_given; }
+  ExternalImpulse& externalImpulse() { return m_externalImpulse; }
 
  private:
   static constexpr uint32_t kNone = ~0u;
@@ -137,13 +137,13 @@ class RigidContact {
 
   static bool isOutside(const Contact& contact) { return contact.b.body == kNone && !(contact.b.inverseMass > 0); }
 
-  Received m_given;
+  ExternalImpulse m_externalImpulse;
   bool m_resume = false;  ///< the substep's first pass is to come
   double m_spacing = 0, m_slowest = 0;
   std::vector<Plane> m_planes;         ///< of the walls, half a spacing before them
   std::vector<double> m_wallFriction;  ///< theirs
   struct Rub {
-    double resting, sliding, bounce;
+    double staticFriction, kineticFriction, bounce;
   };
   std::vector<Rub> m_materials;
   std::vector<uint8_t> m_isMember;

@@ -148,8 +148,9 @@ api::Float4 SolidContact::correctionOf(const ParticleStore& store, Chunk& chunk,
     tx -= along * nx, ty -= along * ny, tz -= along * nz;
     const float way = std::sqrt(tx * tx + ty * ty + tz * tz);
     const Friction fi = frictionOf(i), fj = frictionOf(j);
-    const float resting = 0.5f * (fi.resting + fj.resting) * depth, sliding = 0.5f * (fi.sliding + fj.sliding) * depth;
-    const float hold = way > resting ? std::min(1.0f, sliding / way) : 1;
+    const float staticFriction = 0.5f * (fi.staticFriction + fj.staticFriction) * depth,
+                kineticFriction = 0.5f * (fi.kineticFriction + fj.kineticFriction) * depth;
+    const float hold = way > staticFriction ? std::min(1.0f, kineticFriction / way) : 1;
     const float share = velocity[i].w / (velocity[i].w + velocity[j].w) * kRelaxation /
                         static_cast<float>(std::max({m_contacts[i], m_contacts[j], uint8_t{kRelaxation}}));
     const float x = share * (depth * nx - hold * tx), y = share * (depth * ny - hold * ty),
@@ -178,7 +179,7 @@ void SolidContact::project(ParticleStore& store) {
     x.x += chunk.correction[k].x, x.y += chunk.correction[k].y, x.z += chunk.correction[k].z;
   });
   for (Chunk& chunk : m_chunks) {
-    m_given.add(chunk.fromFixed);
+    m_externalImpulse.add(chunk.fromFixed);
     chunk.fromFixed = {};
   }
 }

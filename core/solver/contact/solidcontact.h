@@ -29,7 +29,7 @@ class SolidContact {
   /// were made: by a third at least.
   double squeezedShare() const { return m_squeezedShare; }
   /// What fixed particles moved, kg m.
-  Received& given() { return m_given; }
+  ExternalImpulse& externalImpulse() { return m_externalImpulse; }
   /// visit(i, j) for every pair that may touch, i a solid; pairs of two solids may come from both sides.
   template <class Visit>
   void forPairs(Visit&& visit) const {
@@ -46,7 +46,7 @@ class SolidContact {
 
  private:
   struct Friction {
-    float resting, sliding;
+    float staticFriction, kineticFriction;
   };
   struct Chunk {
     std::vector<uint32_t> who, begin, other;
@@ -64,7 +64,7 @@ class SolidContact {
   double m_squeezedShare = 0;
   std::vector<Friction> m_friction;  ///< per material
   std::vector<Chunk> m_chunks;
-  Received m_given;
+  ExternalImpulse m_externalImpulse;
   std::vector<uint32_t> m_solids;
   std::vector<uint8_t> m_contacts;
   bool m_any = false;

@@ -211,7 +211,7 @@ void SweptClamp::apply(ParticleStore& store, const Neighbours& neighbours, const
       }
     }
   });
-  m_given.add(m_moved.total());
+  m_externalImpulse.add(m_moved.total());
 }
 
 }  // namespace ps

@@ -29,7 +29,7 @@ class SweptClamp {
   /// nothing static.
   std::span<const api::Float4> held() const { return m_held; }
   /// What apply() moved, kg m.
-  Received& given() { return m_given; }
+  ExternalImpulse& externalImpulse() { return m_externalImpulse; }
 
  private:
   struct Obstacle {
@@ -64,7 +64,7 @@ class SweptClamp {
   std::vector<uint8_t> m_nearStatic;
   std::vector<api::Float4> m_held;
   ChunkSum m_moved;
-  Received m_given;
+  ExternalImpulse m_externalImpulse;
 };
 
 }  // namespace ps

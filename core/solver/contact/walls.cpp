@@ -59,7 +59,7 @@ void WallStage::projectNear(ParticleStore& store) {
       }
     }
   });
-  m_given.add(m_moved.total());
+  m_externalImpulse.add(m_moved.total());
 }
 
 void WallStage::project(ParticleStore& store) {
@@ -75,7 +75,7 @@ void WallStage::project(ParticleStore& store) {
       }
     }
   });
-  m_given.add(m_moved.total());
+  m_externalImpulse.add(m_moved.total());
 }
 
 void WallStage::clamp(Vector3& position) const {

@@ -22,7 +22,7 @@ class WallStage {
   /// One particle, without friction; `position` in m.
   void clamp(Vector3& position) const;
   /// What project() and projectNear() moved, kg m.
-  Received& given() { return m_given; }
+  ExternalImpulse& externalImpulse() { return m_externalImpulse; }
 
  private:
   /// Returns how far it was moved, m.
@@ -32,7 +32,7 @@ class WallStage {
   std::vector<uint32_t> m_near;
   std::vector<uint8_t> m_rigid;
   ChunkSum m_moved;
-  Received m_given;
+  ExternalImpulse m_externalImpulse;
   float m_reach = 0;  ///< m, beyond the resting distance
 };
 

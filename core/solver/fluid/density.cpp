@@ -262,7 +262,7 @@ void DensityStage::project(ParticleStore& store, const Neighbours& neighbours, i
             [&](size_t first, size_t last) { multipliers(store, pairs, relaxation, first, last); });
   m_moved.start(chunkCount(moving, grain::kPairs));
   forChunks(moving, grain::kPairs, [&](size_t first, size_t last) { move(store, pairs, m_chebyshev, first, last); });
-  if (m_touchesFixed || !m_planes.empty()) m_given.add(m_moved.total());
+  if (m_touchesFixed || !m_planes.empty()) m_externalImpulse.add(m_moved.total());
 }
 
 DensityError DensityStage::measure(ParticleStore& store, const Neighbours& neighbours, const Bounds& bounds) {

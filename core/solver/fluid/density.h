@@ -47,7 +47,7 @@ class DensityStage {
   void project(ParticleStore& store, const Neighbours& neighbours, int iteration);
   /// What project() moved in sum where walls or fixed particles took part, kg m. Particles among themselves move by
   /// equal and opposite amounts.
-  Received& given() { return m_given; }
+  ExternalImpulse& externalImpulse() { return m_externalImpulse; }
   /// Fixed particles have fluid near.
   bool touchesFixed() const { return m_touchesFixed; }
   /// C and lambda at the present positions, written to the store. What was stopped outside of the bounds stands crowded
@@ -88,7 +88,7 @@ class DensityStage {
   std::vector<float> m_volume, m_weight, m_excess;
   std::vector<api::Float4> m_points, m_multipliers;
   ChunkSum m_moved;
-  Received m_given;
+  ExternalImpulse m_externalImpulse;
   bool m_touchesFixed = false;
   std::vector<DensitySums> m_sums;
   std::vector<Constraint> m_constraints;

@@ -28,7 +28,7 @@ class GasForces {
  public:
   void configure(const SolverSettings& solver, const ThermalSettings& thermal,
                  std::span<const BakedMaterial> materials);
-  /// K; a finite lump of air warms. Until told otherwise the ambient one.
+  /// K; a finite lump of air warms. Until it is set the ambient one.
   void setAir(double temperature) { m_thermal.ambientTemperature = temperature; }
   /// Once per frame: how much of the neighbourhood is liquid, or for airDrag any matter.
   void measure(const ParticleStore& store, const Neighbours& neighbours);

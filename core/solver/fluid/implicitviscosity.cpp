@@ -88,7 +88,7 @@ double ImplicitViscosity::greatestViscosity() const {
   return kReach * m_settings.spacing * m_settings.spacing * m_settings.substeps / m_settings.dt;
 }
 
-void ImplicitViscosity::rest() {
+void ImplicitViscosity::deactivate() {
   m_active = false;
   m_dirty = true;
   m_iterations = 0;

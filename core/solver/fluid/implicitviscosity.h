@@ -37,8 +37,8 @@ class ImplicitViscosity {
   /// Once per frame: `viscous` is 1 for the particles of this stage, else 0; size() + 16 entries.
   void refresh(ParticleStore& store, std::span<const float> viscous);
   /// Nobody is viscous this frame.
-  void rest();
-  bool resting() const { return !m_active; }
+  void deactivate();
+  bool active() const { return m_active; }
   /// A boundary took part in the last apply().
   bool held() const { return m_active && m_groups.anyHeld(); }
 

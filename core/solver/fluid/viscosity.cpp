@@ -91,7 +91,7 @@ void ViscosityStage::refresh(ParticleStore& store, const Neighbours& neighbours,
   m_filters = filters;
   m_yields = yields;
   if (!thick) {
-    m_implicit.rest();
+    m_implicit.deactivate();
     return;
   }
   gatherThick(store, density);
@@ -174,13 +174,13 @@ void ViscosityStage::apply(ParticleStore& store, const Neighbours& neighbours, c
   if (m_filters) {
     const Vector3 before = density.touchesFixed() ? momentumOf(store, density) : Vector3{};
     filter(store, neighbours, density);
-    if (density.touchesFixed()) m_given.add(momentumOf(store, density) - before);
+    if (density.touchesFixed()) m_externalImpulse.add(momentumOf(store, density) - before);
   }
-  if (m_implicit.resting()) return;
+  if (!m_implicit.active()) return;
   if (m_yields) addYieldStress(store);
   const Vector3 before = momentumOf(store, density);
   m_implicit.apply(store, neighbours, density, m_viscosity.data());
-  if (m_implicit.held()) m_given.add(momentumOf(store, density) - before);
+  if (m_implicit.held()) m_externalImpulse.add(momentumOf(store, density) - before);
   if (m_yields) m_implicit.shearRates(store, neighbours, density, m_shearRate);
 }
 

@@ -27,7 +27,7 @@ class ViscosityStage {
   void apply(ParticleStore& store, const Neighbours& neighbours, const DensityStage& density);
   void limits(const ParticleStore& store, std::vector<Limit>& out) const;
   /// What walls and fixed particles gave in apply(), kg m/s.
-  Received& given() { return m_given; }
+  ExternalImpulse& externalImpulse() { return m_externalImpulse; }
   int iterations() const { return m_implicit.iterations(); }  ///< of the implicit stage, the most of a substep
 
  private:
@@ -50,7 +50,7 @@ class ViscosityStage {
   std::vector<float> m_coefficient;                          ///< XSPH's
   std::vector<float> m_plastic, m_yieldStress, m_shearRate;  ///< Pa s, Pa, 1/s
   std::vector<float> m_viscosity, m_viscous;                 ///< what the implicit stage is asked, and for whom
-  Received m_given;
+  ExternalImpulse m_externalImpulse;
   std::vector<uint32_t> m_which;
   std::vector<api::Float4> m_change;
 };

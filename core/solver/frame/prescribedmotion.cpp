@@ -156,7 +156,7 @@ void PrescribedMotion::restore(const StateReader& reader, const ParticleStore& s
   const std::vector<uint8_t> exists = reader.array<uint8_t>("motion/exists");
   StateRuns<double> numbers(reader, "motion/frames");
   m_frames.assign(exists.size(), {});
-  eachNumber(m_frames, [&](double& number) { number = numbers.take(1)[0]; });
+  eachNumber(m_frames, [&](double& number) { number = numbers.next(1)[0]; });
   numbers.done();
   for (size_t body = 0; body < m_frames.size(); ++body) {
     m_frames[body].exists = exists[body] != 0;

@@ -69,7 +69,7 @@ struct Solver::Impl {
   std::string leapt;             ///< what went too far in this substep; "": nothing
   std::vector<uint8_t> grouped;  ///< 1 for members of groups
   StepReport report;
-  Received external;  ///< kg m/s, in this frame
+  ExternalImpulse external;  ///< kg m/s, in this frame
   ChunkSum weight;
   std::vector<uint32_t> hanging;  ///< what moves and may be pulled by what is fixed, ascending
 
@@ -83,7 +83,7 @@ struct Solver::Impl {
   /// Whether something lies so many images away from the periodic box that single precision begins to tell.
   bool strayed() const;
   /// In a periodic box: brings back what has left it. What is tied together moves as one, and when it has strayed.
-  void comeHome();
+  void wrapIntoPeriod();
   void bringPiecesHome(const StructureGraph& graph);
   void save(StateWriter& writer) const;
   void restore(const StateReader& reader);
@@ -118,7 +118,7 @@ struct Solver::Impl {
   bool rejectIfUnphysical();
   /// "; plugin 'x' moved it", or "" when none did. To be called when the frame has been taken back.
   std::string whoMovedIt();
-  std::vector<PluginFault> takeFaults();
+  std::vector<PluginFault> drainFaults();
   /// "particle 17 of 'Ice block'".
   std::string describe(size_t i) const;
   void raise(StepFlag flag, const std::string& message);

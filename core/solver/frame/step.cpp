@@ -86,7 +86,7 @@ void Solver::Impl::runFrame() {
     time += settings.dt;
     thermalTime += settings.dt * std::min(thermal.timeScale, heat.thermalTimeScaleDelivered());
   }
-  report.faults = takeFaults();
+  report.faults = drainFaults();
   for (const PluginFault& fault : report.faults) {
     raise(StepFlag::PluginFault, "plugin '" + fault.plugin + "': " + fault.what);
   }
@@ -100,7 +100,7 @@ bool Solver::Impl::advance() {
   constraints.setTime(time);
   heat.setClock(time, thermalTime);
   timed(Stage::Neighbours, [&] { freshLists(); });
-  external.take();
+  external.drain();
   report.momentum.start = double3Of(momentum());
   gas.setAir(heat.airTemperature());
   timed(Stage::Phase, [&] { gas.measure(store, neighbours); });
@@ -111,7 +111,7 @@ bool Solver::Impl::advance() {
   }
   checkBounds();
   report.momentum.end = double3Of(momentum());
-  report.momentum.external = double3Of(external.take());
+  report.momentum.external = double3Of(external.drain());
   bool exchanged = false;
   timed(Stage::Heat, [&] { exchanged = exchangeHeat(); });
   if (!exchanged || rejectIfNotFinite() || rejectIfUnphysical()) return false;
@@ -119,9 +119,9 @@ bool Solver::Impl::advance() {
   return true;
 }
 
-std::vector<PluginFault> Solver::Impl::takeFaults() {
-  std::vector<PluginFault> faults = constraints.takeFaults();
-  for (PluginFault& fault : heat.takeSourceFaults()) faults.push_back(std::move(fault));
+std::vector<PluginFault> Solver::Impl::drainFaults() {
+  std::vector<PluginFault> faults = constraints.drainFaults();
+  for (PluginFault& fault : heat.drainSourceFaults()) faults.push_back(std::move(fault));
   if (std::optional<std::string> fault = heat.takeFault()) faults.push_back({modelName, std::move(*fault)});
   if (!faults.empty()) structureChanged = true;
   return faults;
@@ -150,7 +150,7 @@ void Solver::Impl::closeFrame() {
 void Solver::Impl::freshLists() {
   if (store.period().any() && strayed()) reordered = true;
   if (reordered || neighbours.stale(store) || frame >= lastSort + kSortInterval) {
-    if (store.period().any()) comeHome();
+    if (store.period().any()) wrapIntoPeriod();
     neighbours.sortAndBuild(store);
     constraints.remap(neighbours.lastOrder());
     heat.reordered(store);
@@ -295,16 +295,17 @@ void Solver::Impl::substep(uint32_t index) {
     impacts.bounce(store);
     rigid.bounce(store);
   });
-  for (Received* given : {&viscosity.given(), &impacts.given(), &rigid.given()}) external.add(given->take());
+  for (ExternalImpulse* impulse : {&viscosity.externalImpulse(), &impacts.externalImpulse(), &rigid.externalImpulse()})
+    external.add(impulse->drain());
   timed(Stage::Density, [&] { density.decayCompression(store, dt); });
 }
 
 /// What walls and fixed particles moved in this substep, as impulse.
 void Solver::Impl::bookContact(double dt) {
   Vector3 moved = rigid.pushed();
-  for (Received* given :
-       {&wallStage.given(), &contact.given(), &wet.given(), &sheets.given(), &density.given(), &swept.given()})
-    moved += given->take();
+  for (ExternalImpulse* impulse : {&wallStage.externalImpulse(), &contact.externalImpulse(), &wet.externalImpulse(),
+                                   &sheets.externalImpulse(), &density.externalImpulse(), &swept.externalImpulse()})
+    moved += impulse->drain();
   external.add(1 / dt * moved);
 }
 

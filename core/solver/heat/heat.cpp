@@ -237,9 +237,9 @@ void HeatStage::findLimit() {
 
 /// J that air has given in this frame so far.
 double HeatStage::airHeat() const {
-  double given = 0;
-  for (const Partial& partial : m_partials) given += partial.air;
-  return given;
+  double joules = 0;
+  for (const Partial& partial : m_partials) joules += partial.air;
+  return joules;
 }
 
 /// A lump of air cools by what it gives.

@@ -90,7 +90,7 @@ class HeatStage {
   /// Plugins that warm or cool matter, whatever the model; one that throws is put aside for good.
   void setSources(std::vector<HeatSource> sources) { m_sources.set(std::move(sources)); }
   /// Those that threw since the last call.
-  std::vector<PluginFault> takeSourceFaults() { return m_sources.takeFaults(); }
+  std::vector<PluginFault> drainSourceFaults() { return m_sources.drainFaults(); }
   /// s of the scene and of its thermal clock, for plugins.
   void setClock(double time, double thermalTime) { m_time = time, m_thermalTime = thermalTime; }
   /// Power of bodies, whatever the model.

@@ -18,7 +18,7 @@ struct HeatBody {
     return inverseCapacity / (1 + inverseCapacity * latent / std::abs(difference));
   }
   /// Adds joules: latent heat first, the rest moves the temperature.
-  void take(double joules) {
+  void addHeat(double joules) {
     double& from = joules > 0 ? latentUp : latentDown;
     double& to = joules > 0 ? latentDown : latentUp;
     const double latent = std::min(std::abs(joules), from);

@@ -194,7 +194,7 @@ void HeatPairs::resist(const ParticleStore& store, size_t first, size_t last) {
   const float* solid = store.solidFraction();
   const auto film = static_cast<float>(m_options.contactConductance * m_options.spacing);
   for (size_t i = first; i < last; ++i) {
-    const auto take = [&](uint32_t from, uint32_t to) {
+    const auto sumOver = [&](uint32_t from, uint32_t to) {
       double total = 0;
       for (uint32_t k = from; k < to; ++k) {
         const uint32_t j = partner[k];
@@ -205,8 +205,8 @@ void HeatPairs::resist(const ParticleStore& store, size_t first, size_t last) {
       }
       return total;
     };
-    sameTotal[i] = take(begin[i], same[i]);
-    otherTotal[i] = take(other[i], end[i]);
+    sameTotal[i] = sumOver(begin[i], same[i]);
+    otherTotal[i] = sumOver(other[i], end[i]);
   }
 }
 

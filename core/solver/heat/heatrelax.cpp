@@ -75,8 +75,8 @@ void HeatStage::relaxBodies(size_t i, size_t j, double conductance, double time)
   const double inverse = a.inverseAgainst(difference) + b.inverseAgainst(-difference);
   if (!(inverse > 0)) return;
   const double joules = decay(conductance * time * inverse) / inverse * difference;
-  a.take(joules);
-  b.take(-joules);
+  a.addHeat(joules);
+  b.addHeat(-joules);
   m_joules[i] += joules;
   m_joules[j] -= joules;
 }
@@ -89,7 +89,7 @@ double HeatStage::relaxToward(size_t i, double conductance, double target, doubl
   const double inverse = body.inverseAgainst(difference) + inverseCapacity;
   if (!(inverse > 0)) return 0;
   const double joules = decay(conductance * time * inverse) / inverse * difference;
-  body.take(joules);
+  body.addHeat(joules);
   m_joules[i] += joules;
   return joules;
 }

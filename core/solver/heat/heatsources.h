@@ -42,7 +42,7 @@ class PluginHeating {
   const std::vector<std::string>& aside() const { return m_aside; }
   void putAside(const std::vector<std::string>& names);
   /// Those put aside since the last call.
-  std::vector<PluginFault> takeFaults() { return std::exchange(m_faults, {}); }
+  std::vector<PluginFault> drainFaults() { return std::exchange(m_faults, {}); }
 
  private:
   void ask(const HeatSource& source, ParticleStore& store, const api::ParticleView& view, api::ThermalContext where);

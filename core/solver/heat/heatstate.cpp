@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What heat carries from one frame to the next: the books, the energy that was told last, the surfaces that were
+// What heat carries from one frame to the next: the books, the energy that was reported last, the surfaces that were
 // measured some frames ago, and what the model did with its pairs. All else is made anew every frame.
 #include "core/base/error.h"
 #include "core/base/statestream.h"
@@ -32,7 +32,7 @@ void HeatStage::save(StateWriter& writer, const ParticleStore& store) const {
 
 void HeatStage::restore(const StateReader& reader, const ParticleStore& store) {
   StateRuns<double> accounts(reader, "heat/ledger");
-  eachOf(m_ledger, [&](double& account) { account = accounts.take(1)[0]; });
+  eachOf(m_ledger, [&](double& account) { account = accounts.next(1)[0]; });
   accounts.done();
   const std::vector<double> numbers = reader.array<double>("heat/numbers", 5, 1);
   m_delivered = numbers[0], m_pairRate = numbers[1], m_lastEnergy = numbers[2];

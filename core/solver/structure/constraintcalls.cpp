@@ -175,16 +175,17 @@ double ConstraintSystem::energy(const ParticleStore& store) {
 }
 
 void ConstraintSystem::limits(const ParticleStore& store, std::vector<Limit>& out) {
-  /// Bodies of one material meet the same limit: the one that is missed by most is told. A parameter of the plugin is
-  /// each body's own.
+  /// Bodies of one material meet the same limit: the one that is missed by most is reported. A parameter of the plugin
+  /// is each body's own.
   class Collect final : public api::LimitSink {
    public:
     explicit Collect(std::vector<Limit>& limits) : m_limits(limits) {}
     void limit(const char* what, double asked, double delivered, const char* unit) override {
-      if (!what || !unit) throw Error("told a limit without a name or unit");
-      if (!std::isfinite(asked) || !std::isfinite(delivered)) throw Error("told a limit that is not a finite number");
-      if (std::strlen(what) > kLongestName || std::strlen(unit) > kLongestName || ++told > kMostLimits)
-        throw Error("told more limits, or longer ones, than anybody could read");
+      if (!what || !unit) throw Error("reported a limit without a name or unit");
+      if (!std::isfinite(asked) || !std::isfinite(delivered))
+        throw Error("reported a limit that is not a finite number");
+      if (std::strlen(what) > kLongestName || std::strlen(unit) > kLongestName || ++reported > kMostLimits)
+        throw Error("reported more limits, or longer ones, than anybody could read");
       const int body = std::string_view(what).starts_with(plugin + ".") ? asking : -1;
       const auto found = std::find_if(m_limits.begin(), m_limits.end(),
                                       [&](const Limit& l) { return l.what == what && l.body == body; });
@@ -196,7 +197,7 @@ void ConstraintSystem::limits(const ParticleStore& store, std::vector<Limit>& ou
     }
     std::string plugin;
     int asking = -1;
-    size_t told = 0;
+    size_t reported = 0;
 
    private:
     std::vector<Limit>& m_limits;
@@ -206,7 +207,7 @@ void ConstraintSystem::limits(const ParticleStore& store, std::vector<Limit>& ou
     for (uint32_t body = 0; body < set.used.size(); ++body) {
       if (set.used[body] == 0) continue;
       sink.asking = static_cast<int>(body);
-      sink.told = 0;
+      sink.reported = 0;
       guarded(set, [&] { set.plugin->limits(context(set, substepTime(), 0, 0, body), store.view(), sink); });
     }
   }

@@ -33,7 +33,7 @@ void saveColumns(StateWriter& writer, StateName name, std::span<const std::vecto
 void restoreColumns(const StateReader& reader, StateName name, std::span<std::vector<float>> columns, size_t rows) {
   StateRuns<float> values(reader, name);
   for (std::vector<float>& column : columns) {
-    const std::span<const float> run = values.take(rows);
+    const std::span<const float> run = values.next(rows);
     column.assign(run.begin(), run.end());
   }
   values.done();
@@ -119,7 +119,7 @@ void ConstraintSystem::restoreParameters(const StateReader& reader, std::string_
   StateRuns<double> all(reader, {room, "parameters"});
   set.bodyParameters.resize(std::max({set.bodyParameters.size(), counts.size(), set.used.size()}));
   for (size_t body = 0; body < counts.size(); ++body) {
-    const std::span<const double> saved = all.take(counts[body]);
+    const std::span<const double> saved = all.next(counts[body]);
     if (!saved.empty() && saved.size() != set.parameters.size() && saved.size() != set.plugin->parameters().count)
       StateReader::fail({room, "parameter_counts"}, "is not that of the plugin's parameters");
     std::vector<double>& own = set.bodyParameters[body];
@@ -167,7 +167,7 @@ void ConstraintSystem::restoreLists(const StateReader& reader, std::string_view 
     while (k / set.arity >= set.colourStart[colour + 1]) ++colour;
     return colour;
   });
-  set.taken.clear();
+  set.coloursInUse.clear();
   set.keys.clear();
   set.lookedUp = false;
 }
@@ -206,8 +206,8 @@ void ConstraintSystem::lookUp(Set& set, const ParticleStore& store) const {
   if (set.lookedUp) return;
   set.lookedUp = true;
   for (size_t colour = 0; colour + 1 < set.colourStart.size(); ++colour) {
-    if (colour / 64 >= set.taken.size()) set.taken.emplace_back();
-    std::vector<uint64_t>& used = set.taken[colour / 64];
+    if (colour / 64 >= set.coloursInUse.size()) set.coloursInUse.emplace_back();
+    std::vector<uint64_t>& used = set.coloursInUse[colour / 64];
     for (size_t k = set.colourStart[colour]; k < set.colourStart[colour + 1]; ++k) {
       const uint32_t* particles = set.particles.data() + k * set.arity;
       set.keys.insert(keyOf(set, store, particles));

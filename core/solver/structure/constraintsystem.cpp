@@ -186,16 +186,16 @@ ConstraintSystem::Key ConstraintSystem::keyOf(const Set& set, const ParticleStor
 
 size_t ConstraintSystem::takeColour(Set& set, const ParticleStore& store, const uint32_t* particles) const {
   for (size_t word = 0;; ++word) {
-    if (word == set.taken.size()) set.taken.emplace_back();
-    std::vector<uint64_t>& used = set.taken[word];
-    uint64_t taken = 0;
+    if (word == set.coloursInUse.size()) set.coloursInUse.emplace_back();
+    std::vector<uint64_t>& used = set.coloursInUse[word];
+    uint64_t inUse = 0;
     for (size_t a = 0; a < set.arity; ++a) {
       const uint32_t id = store.id()[particles[a]];
       if (id >= used.size()) used.resize(id + 1 + used.size() / 2, 0);
-      taken |= used[id];
+      inUse |= used[id];
     }
-    if (taken == ~uint64_t{0}) continue;
-    const int bit = std::countr_one(taken);
+    if (inUse == ~uint64_t{0}) continue;
+    const int bit = std::countr_one(inUse);
     for (size_t a = 0; a < set.arity; ++a) used[store.id()[particles[a]]] |= uint64_t{1} << bit;
     return 64 * word + static_cast<size_t>(bit);
   }
@@ -211,7 +211,7 @@ void ConstraintSystem::apply(Set& set, const ParticleStore& store, const Edits& 
       if (edits.removed[k] == 0) continue;
       for (size_t a = 0; a < arity; ++a) {
         const uint32_t particle = set.particles[k * arity + a];
-        if (particle != kGone) set.taken[colour / 64][store.id()[particle]] &= ~(uint64_t{1} << (colour % 64));
+        if (particle != kGone) set.coloursInUse[colour / 64][store.id()[particle]] &= ~(uint64_t{1} << (colour % 64));
       }
     }
   }
@@ -394,6 +394,6 @@ bool ConstraintSystem::shareParticles() const {
   return std::any_of(m_sets.begin(), m_sets.end(), [](const Set& set) { return set.colourStart.size() > 2; });
 }
 
-std::vector<PluginFault> ConstraintSystem::takeFaults() { return std::exchange(m_faults, {}); }
+std::vector<PluginFault> ConstraintSystem::drainFaults() { return std::exchange(m_faults, {}); }
 
 }  // namespace ps

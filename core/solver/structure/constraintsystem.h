@@ -120,7 +120,7 @@ class ConstraintSystem {
   /// Whether structural constraints share particles, so that one pass over them leaves an error.
   bool shareParticles() const;
   /// Those that threw since the last call.
-  std::vector<PluginFault> takeFaults();
+  std::vector<PluginFault> drainFaults();
   /// From now on it is noted whose call first moves a particle farther than `metres`, or to no number; 0: no longer.
   /// Costs a copy of all positions at each call: for a frame that has gone wrong.
   void watch(double metres);
@@ -159,10 +159,10 @@ class ConstraintSystem {
     std::vector<std::vector<float>> values;  ///< [value][constraint]
     std::vector<size_t> colourStart;         ///< first constraint of each colour; one entry more than there are colours
     std::vector<Run> runs;                   ///< within a colour in order of bodies
-    std::vector<std::vector<uint64_t>> taken;  ///< [word of 64 colours][particle id]
-    std::unordered_set<Key, KeyHash> keys;     ///< sets of particle ids; only asked, never walked through
-    bool lookedUp = true;                      ///< taken and keys agree with the lists; not after restore()
-    std::unique_ptr<GroupLists> groups;        ///< of a plugin of groups, which uses none of the lists above
+    std::vector<std::vector<uint64_t>> coloursInUse;  ///< [word of 64 colours][particle id]
+    std::unordered_set<Key, KeyHash> keys;            ///< sets of particle ids; only asked, never walked through
+    bool lookedUp = true;                ///< coloursInUse and keys agree with the lists; not after restore()
+    std::unique_ptr<GroupLists> groups;  ///< of a plugin of groups, which uses none of the lists above
     bool rigid = false, thin = false;
     std::vector<uint32_t> members;  ///< of a plugin of neighbours: particles of the bodies that use it, ascending
     size_t membersOf = ~size_t{0};  ///< how many particles there were when they were found; ~0: find them

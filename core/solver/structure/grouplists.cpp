@@ -58,10 +58,10 @@ void GroupLists::colour(size_t particles) {
   for (size_t g = 0; g < count(); ++g) {
     for (size_t word = 0;; ++word) {
       if (word == used.size()) used.emplace_back(particles, 0);
-      uint64_t taken = 0;
-      for (const uint32_t i : members(g)) taken |= used[word][i];
-      if (taken == ~uint64_t{0}) continue;
-      const size_t bit = static_cast<size_t>(std::countr_one(taken));
+      uint64_t inUse = 0;
+      for (const uint32_t i : members(g)) inUse |= used[word][i];
+      if (inUse == ~uint64_t{0}) continue;
+      const size_t bit = static_cast<size_t>(std::countr_one(inUse));
       for (const uint32_t i : members(g)) used[word][i] |= uint64_t{1} << bit;
       colourOf[g] = 64 * word + bit;
       break;
@@ -126,10 +126,10 @@ std::vector<CopiedGroup> GroupLists::copy(const ParticleStore& store, std::span<
     CopiedGroup copied;
     bool any = false;
     for (const uint32_t i : members(g)) {
-      const bool taken = std::binary_search(ascending.begin(), ascending.end(), i);
+      const bool extracted = std::binary_search(ascending.begin(), ascending.end(), i);
       copied.id.push_back(store.id()[i]);
-      copied.taken.push_back(taken ? 1 : 0);
-      any = any || taken;
+      copied.extracted.push_back(extracted ? 1 : 0);
+      any = any || extracted;
     }
     if (!any) continue;
     for (const auto& column : m_values) copied.values.push_back(column[g]);
@@ -160,7 +160,7 @@ std::vector<uint8_t> GroupLists::putBack(const ParticleStore& store, std::span<c
     std::vector<uint32_t> index(copied.id.size());
     for (size_t k = 0; k < index.size(); ++k) {
       index[k] = static_cast<uint32_t>(store.indexOf(copied.id[k]));
-      if (index[k] < store.size()) (copied.taken[k] != 0 ? isBack : companion)[index[k]] = 1;
+      if (index[k] < store.size()) (copied.extracted[k] != 0 ? isBack : companion)[index[k]] = 1;
     }
     const size_t home = homeOf(companion);
     const bool alone = home == count();
@@ -177,7 +177,7 @@ std::vector<uint8_t> GroupLists::putBack(const ParticleStore& store, std::span<c
       edits.values = copied.values;
     }
     for (size_t k = 0; k < index.size(); ++k) {
-      if (index[k] >= store.size() || (!alone && copied.taken[k] == 0)) continue;
+      if (index[k] >= store.size() || (!alone && copied.extracted[k] == 0)) continue;
       edits.particles.push_back(index[k]);
       const float* row = copied.memberValues.data() + k * m_memberValues.size();
       edits.memberValues.insert(edits.memberValues.end(), row, row + m_memberValues.size());

@@ -16,7 +16,7 @@ class StateWriter;
 /// A group outside a solver, by the ids of its members.
 struct CopiedGroup {
   std::vector<uint32_t> id;
-  std::vector<uint8_t> taken;  ///< 1 for those that were taken out
+  std::vector<uint8_t> extracted;  ///< 1 for those that went, 0 for companions that stayed
   std::vector<float> values, memberValues;
 };
 

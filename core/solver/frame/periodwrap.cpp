@@ -47,7 +47,7 @@ bool Solver::Impl::strayed() const {
   return false;
 }
 
-void Solver::Impl::comeHome() {
+void Solver::Impl::wrapIntoPeriod() {
   const StructureGraph& graph = constraints.graph(store.size());
   bool far = false;
   for (uint32_t i = 0; i < store.size(); ++i) {
