@@ -4,7 +4,7 @@
 #include "core/base/error.h"
 #include "core/base/jsontext.h"
 #include "core/experiments/bench.h"
-#include "core/io/textfile.h"
+#include "core/io/outputfile.h"
 #include "core/plugin_host/registry.h"
 
 #include <cstdio>
@@ -78,7 +78,7 @@ int benchCommand(CommandArguments list) {
   const Arguments arguments(list, kOptions);
   const auto particles = arguments.integer("--particles", 8, 10'000'000);
   const long frames = arguments.integer("--frames", 1, 1'000'000).value_or(240);
-  if (arguments.has("--json")) requireWritable(arguments.text("--json"));
+  requireOutputs(arguments, arguments.positional(), {"--json"});
   applyMachineOptions(arguments);
   std::vector<std::string> names = arguments.positional();
   if (names.empty()) names = {"ice-on-hot-plate", "tank", "drag"};

@@ -188,6 +188,7 @@ int renderCommand(CommandArguments list) {
   const Arguments arguments(list, kOptions);
   const std::string path = onlyFile(arguments, "project or recording");
   if (arguments.text("--out").empty()) throw InputError("--out is missing: a folder for PNG files, or a FILE.mp4");
+  if (isFilm(arguments.text("--out"))) requireOutputs(arguments, {path}, {"--out"});
   sizeOf(arguments);
   applyMachineOptions(arguments);
   return isRecording(path) ? renderRecording(arguments, path) : renderProject(arguments, path);

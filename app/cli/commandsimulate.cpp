@@ -8,6 +8,7 @@
 #include "core/experiments/probetable.h"
 #include "core/experiments/runreport.h"
 #include "core/experiments/settlingmeasure.h"
+#include "core/io/outputfile.h"
 #include "core/io/recording.h"
 #include "core/io/textfile.h"
 #include "core/plugin_host/registry.h"
@@ -105,14 +106,15 @@ int simulateCommand(CommandArguments list) {
   std::vector<std::string> warnings;
   Project project = loadFor(arguments, path, plugins, &warnings);
   if (arguments.has(kAtStart.name)) project.state = nullptr;
-  for (const char* result : {"--report", "--save-state", "--save-project"}) {
-    if (arguments.has(result)) requireWritable(arguments.text(result));
-  }
+  std::vector<std::string> inputs{path};
+  if (arguments.has("--from")) inputs.push_back(arguments.text("--from"));
+  requireOutputs(arguments, inputs, {"--report", "--probes", "--record", "--save-state", "--save-project"});
   Engine engine(project, plugins);
   tellRemarks(arguments, path, engine, &warnings);
   if (arguments.has("--from")) restoreFrom(arguments.text("--from"), engine);
   const FrameStats begin = engine.stats();
   const long frames = frameCount(arguments, project, begin.time);
+  interrupted();  // from here on a signal leaves whole files
   std::optional<ProbeTable> probes;
   std::optional<RecordingWriter> recording;
   if (arguments.has("--probes")) probes.emplace(arguments.text("--probes"), engine.probeNames());

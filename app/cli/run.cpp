@@ -3,11 +3,13 @@
 
 #include "core/base/error.h"
 #include "core/base/parallel.h"
+#include "core/io/outputfile.h"
 
 #include <algorithm>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
+#include <map>
 #include <unistd.h>
 
 namespace ps::cli {
@@ -73,13 +75,31 @@ double now() { return std::chrono::duration<double>(std::chrono::steady_clock::n
 
 bool interrupted() {
   static const bool listening = [] {
-    std::signal(SIGINT, [](int) {
-      g_interrupted = 1;
-      std::signal(SIGINT, SIG_DFL);  // a second Ctrl+C ends at once
-    });
+    for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
+      const auto before = std::signal(number, [](int which) {
+        g_interrupted = 1;
+        std::signal(which, SIG_DFL);  // a second Ctrl+C ends at once
+      });
+      if (before == SIG_IGN) std::signal(number, SIG_IGN);  // nohup
+    }
     return true;
   }();
   return listening && g_interrupted != 0;
+}
+
+void requireOutputs(const Arguments& arguments, const std::vector<std::string>& inputs,
+                    std::initializer_list<const char*> options) {
+  std::map<std::string, std::string> names;  // by identity
+  for (const std::string& input : inputs) names.emplace(fileIdentity(input), "the file that is read");
+  names.erase("");
+  for (const char* option : options) {
+    if (!arguments.has(option)) continue;
+    const std::string path = arguments.text(option), identity = fileIdentity(path);
+    const auto [known, fresh] = names.emplace(identity, std::string("that of ") + option);
+    if (!fresh && !identity.empty())
+      throw InputError(std::string(option) + " " + path + ": is " + known->second + " as well; choose another name");
+    requireWritable(path);
+  }
 }
 
 Progress::Progress(long frames, bool quiet)

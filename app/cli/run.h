@@ -6,7 +6,9 @@
 #include "core/simulation/engine.h"
 
 #include <chrono>
+#include <initializer_list>
 #include <string>
+#include <vector>
 
 namespace ps::cli {
 
@@ -38,10 +40,15 @@ long frameCount(const Arguments& arguments, const Project& project, double begun
 std::string counted(size_t count, const std::string& noun);
 /// s since a fixed point.
 double now();
-/// True once the user has pressed Ctrl+C; the first call starts listening.
+/// Throws InputError where one of the files that `options` name is read as well, or named twice, and Error where one
+/// cannot be written: known before long work.
+void requireOutputs(const Arguments& arguments, const std::vector<std::string>& inputs,
+                    std::initializer_list<const char*> options);
+/// True once the user has pressed Ctrl+C, or the program was asked to end (SIGTERM, SIGHUP); the first call starts
+/// listening.
 bool interrupted();
 
-/// Runs frames and hands each one over; false when Ctrl+C or a broken state ended them early.
+/// Runs frames and hands each one over; false when a signal or a broken state ended them early.
 inline bool runFrames(Engine& engine, long frames, const FrameVisitor& each) {
   return ps::runFrames(engine, frames, each, interrupted);
 }

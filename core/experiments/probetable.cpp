@@ -42,29 +42,33 @@ std::vector<double> columnValues(const FrameStats& stats) {
   return values;
 }
 
-ProbeTable::ProbeTable(const std::string& path, const std::vector<std::string>& probeNames)
-    : m_path(path), m_file(path, std::ios::binary | std::ios::trunc) {
-  if (!m_file) throw Error(path + ": cannot be written; choose another folder");
-  const char* separator = "";
-  for (const std::string& title : columnTitles(probeNames)) {
-    m_file << separator << quoted(title);
-    separator = ",";
-  }
-  m_file << '\n';
+ProbeTable::ProbeTable(const std::string& path, const std::vector<std::string>& probeNames) : m_file(path) {
+  std::string row;
+  for (const std::string& title : columnTitles(probeNames)) row += (row.empty() ? "" : ",") + quoted(title);
+  writeRow(row);
 }
 
 void ProbeTable::add(const FrameStats& stats) {
+  std::string row;
   const char* separator = "";
   for (const double value : columnValues(stats)) {
-    m_file << separator << cell(value);
+    row += separator + cell(value);
     separator = ",";
   }
-  m_file << '\n';
+  writeRow(row);
 }
 
-void ProbeTable::finish() {
-  m_file.close();
-  if (m_file.fail()) throw Error(m_path + ": could not be written to its end; the disk is full");
+void ProbeTable::finish() { m_file.finish(); }
+
+/// At once, so that a full disk ends the run and not its last frame.
+void ProbeTable::writeRow(const std::string& row) {
+  try {
+    m_file.write(row + '\n');
+    m_file.flush();
+  } catch (const Error& problem) {
+    const std::string part = m_file.keepPart();
+    throw Error(problem.what() + (part.empty() ? "" : "; the rows until now are in " + part));
+  }
 }
 
 }  // namespace ps

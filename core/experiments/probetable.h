@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "core/io/outputfile.h"
 #include "core/simulation/snapshot.h"
 
-#include <fstream>
 #include <string>
 #include <vector>
 
@@ -17,15 +17,15 @@ std::vector<double> columnValues(const FrameStats& stats);
 /// What graphs show, as CSV (RFC 4180, decimal points): one row per frame; an empty cell where a probe saw no particle.
 class ProbeTable {
  public:
-  /// Throws Error when the file cannot be written.
+  /// Throws Error when the file cannot be written; an older one of that name stands until finish().
   ProbeTable(const std::string& path, const std::vector<std::string>& probeNames);
+  /// Throws Error when the disk is full, and says where the rows until then are kept.
   void add(const FrameStats& stats);
-  /// Throws Error when the disk is full.
   void finish();
 
  private:
-  std::string m_path;
-  std::ofstream m_file;
+  void writeRow(const std::string& row);
+  OutputFile m_file;
 };
 
 }  // namespace ps

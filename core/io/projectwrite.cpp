@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/base/jsontext.h"
+#include "core/io/outputfile.h"
 #include "core/io/projectfields.h"
 #include "core/io/projectio.h"
-#include "core/io/textfile.h"
 
 #include <cmath>
 

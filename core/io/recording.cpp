@@ -145,11 +145,14 @@ std::shared_ptr<Snapshot> unpackFrame(const std::string& bytes, const std::strin
   return s;
 }
 
+template <class T>
+std::string_view bytesOf(const T& value) {
+  return {reinterpret_cast<const char*>(&value), sizeof value};
+}
+
 }  // namespace
 
-RecordingWriter::RecordingWriter(const std::string& path, const Project& project)
-    : m_path(path), m_part(path + ".part"), m_file(m_part, std::ios::binary | std::ios::trunc) {
-  if (!m_file) throw Error(path + ": cannot be written; choose another folder");
+RecordingWriter::RecordingWriter(const std::string& path, const Project& project) : m_file(path) {
   Project scene = project;
   scene.state = nullptr;  // the frames say where matter stands
   const json header{{"format", "phasesketch-recording"},
@@ -157,36 +160,30 @@ RecordingWriter::RecordingWriter(const std::string& path, const Project& project
                     {"project", json::parse(writeProject(scene))}};
   const std::string text = header.dump();
   const auto length = static_cast<uint32_t>(text.size());
-  m_file.write(kFileMark, kMark);
-  m_file.write(reinterpret_cast<const char*>(&length), sizeof length);
-  m_file.write(text.data(), static_cast<std::streamsize>(text.size()));
-  require(m_file.good());
-}
-
-void RecordingWriter::require(bool good) const {
-  if (!good) throw Error(m_part + ": the recording stopped, the disk is full; what was written until now is kept");
+  m_file.write({kFileMark, kMark});
+  m_file.write(bytesOf(length));
+  m_file.write(text);
 }
 
 void RecordingWriter::add(const Snapshot& snapshot) {
   const std::string raw = packFrame(snapshot);
   std::string packed(ZSTD_compressBound(raw.size()), '\0');
   const size_t size = ZSTD_compress(packed.data(), packed.size(), raw.data(), raw.size(), kLevel);
-  if (ZSTD_isError(size)) throw Error(m_part + ": " + ZSTD_getErrorName(size));
+  if (ZSTD_isError(size)) throw Error(std::string("a frame could not be packed: ") + ZSTD_getErrorName(size));
   const uint64_t head[] = {size, raw.size(), checksum(packed.data(), size)};
-  m_file.write(kFrameMark, kMark);
-  m_file.write(reinterpret_cast<const char*>(head), sizeof head);
-  m_file.write(packed.data(), static_cast<std::streamsize>(size));
-  require(m_file.good());
+  try {
+    m_file.write({kFrameMark, kMark});
+    m_file.write(bytesOf(head));
+    m_file.write({packed.data(), size});
+    m_file.flush();
+  } catch (const Error& problem) {
+    const std::string part = m_file.keepPart();
+    throw Error(problem.what() + (part.empty() ? "" : "; the frames until now are in " + part));
+  }
   ++m_frames;
 }
 
-void RecordingWriter::finish() {
-  m_file.close();
-  require(!m_file.fail());
-  std::error_code problem;
-  std::filesystem::rename(m_part, m_path, problem);
-  if (problem) throw Error(m_path + ": cannot be written: " + problem.message() + "; the recording is in " + m_part);
-}
+void RecordingWriter::finish() { m_file.finish(); }
 
 RecordingReader::RecordingReader(const std::string& path) : m_path(path), m_file(path, std::ios::binary) {
   std::error_code problem;

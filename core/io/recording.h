@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "core/io/outputfile.h"
 #include "core/simulation/snapshot.h"
 
 #include <cstdint>
@@ -18,19 +19,16 @@ inline constexpr int kRecordingVersion = 2;
 
 class RecordingWriter {
  public:
-  /// Writes to "path.part" until finish(). Throws Error when the file cannot be made.
+  /// Throws Error when the file cannot be made.
   RecordingWriter(const std::string& path, const Project& project);
-  /// Throws Error when the disk is full.
+  /// Throws Error when the disk is full, and says where the frames until then are kept.
   void add(const Snapshot& snapshot);
-  /// Flushes, and gives the file its name. Throws Error when that fails.
+  /// Flushes, and gives the file its name: see OutputFile.
   void finish();
   size_t frameCount() const { return m_frames; }
 
  private:
-  void require(bool good) const;
-
-  std::string m_path, m_part;
-  std::ofstream m_file;
+  OutputFile m_file;
   size_t m_frames = 0;
 };
 

@@ -4,11 +4,8 @@
 #include "core/base/error.h"
 
 #include <cerrno>
-#include <cstdlib>
 #include <cstring>
 #include <fcntl.h>
-#include <filesystem>
-#include <optional>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -19,109 +16,16 @@ namespace {
 class Descriptor {
  public:
   explicit Descriptor(int fd) : m_fd(fd) {}
-  ~Descriptor() { close(); }
+  ~Descriptor() {
+    if (m_fd >= 0) ::close(m_fd);
+  }
   Descriptor(const Descriptor&) = delete;
   Descriptor& operator=(const Descriptor&) = delete;
   int get() const { return m_fd; }
-  bool close() {
-    const int fd = m_fd;
-    m_fd = -1;
-    return fd < 0 || ::close(fd) == 0;
-  }
 
  private:
   int m_fd;
 };
-
-/// A sentence for people: what happened and what to do.
-std::string saveProblem(int code) {
-  switch (code) {
-    case ENOSPC:
-    case EDQUOT:
-      return "not saved: the disk is full; free some space or save elsewhere";
-    case EACCES:
-    case EPERM:
-      return "not saved: no permission to write here; save elsewhere or change the permissions";
-    case EROFS:
-      return "not saved: the disk is read-only; save elsewhere";
-    case ENOENT:
-    case ENOTDIR:
-      return "not saved: the folder does not exist; make it or save elsewhere";
-    case EISDIR:
-      return "not saved: this is a folder; choose a file name";
-    case ENAMETOOLONG:
-      return "not saved: the name is too long; choose a shorter one";
-    default:
-      return std::string("not saved: ") + std::strerror(code) + "; save elsewhere";
-  }
-}
-
-[[noreturn]] void failSave(const std::string& path, int code, const std::string& leftover = {}) {
-  if (!leftover.empty()) ::unlink(leftover.c_str());
-  throw Error(path + ": " + saveProblem(code));
-}
-
-/// The file that a chain of symbolic links ends at, or the path itself.
-std::string finalTarget(const std::string& path) {
-  std::error_code problem;
-  std::filesystem::path target(path);
-  for (int hops = 0; hops < 16 && std::filesystem::is_symlink(target, problem); ++hops) {
-    const std::filesystem::path next = std::filesystem::read_symlink(target, problem);
-    if (problem) break;
-    target = next.is_absolute() ? next : target.parent_path() / next;
-  }
-  return target.string();
-}
-
-int writeAll(int fd, std::string_view bytes) {
-  while (!bytes.empty()) {
-    const ssize_t count = ::write(fd, bytes.data(), bytes.size());
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) return errno;
-    if (count == 0) return ENOSPC;
-    bytes.remove_prefix(static_cast<size_t>(count));
-  }
-  return 0;
-}
-
-/// Makes a rename last through a power failure; a file system that cannot do that is no reason to fail.
-void syncFolder(const std::string& path) {
-  const std::string folder = std::filesystem::path(path).parent_path().string();
-  const Descriptor fd(::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (fd.get() >= 0) ::fsync(fd.get());
-}
-
-/// Takes bytes one after the other and keeps none: a pipe, a terminal, /dev/null.
-bool isStream(mode_t mode) { return S_ISFIFO(mode) || S_ISCHR(mode); }
-
-/// What stands at the path now (behind links), if anything. Throws Error where no bytes may go: a folder, a disk, a
-/// socket, a file that is read-only.
-std::optional<mode_t> writableModeAt(const std::string& path) {
-  struct stat old {};
-  if (::stat(path.c_str(), &old) != 0) return std::nullopt;
-  if (S_ISDIR(old.st_mode)) failSave(path, EISDIR);
-  if (!S_ISREG(old.st_mode) && !isStream(old.st_mode)) {
-    throw Error(path + ": not saved: this is not a file; choose another name");
-  }
-  if (::access(path.c_str(), W_OK) != 0) failSave(path, errno);
-  return old.st_mode;
-}
-
-/// A name that is free beside the target, and its open file.
-int openTemporary(const std::string& path, std::string& temporary) {
-  temporary += ".XXXXXX";
-  const int fd = ::mkostemp(temporary.data(), O_CLOEXEC);
-  if (fd < 0) failSave(path, errno);
-  return fd;
-}
-
-/// A pipe or device is no file to be replaced: a rename would put one in its place.
-void writeStream(const std::string& path, std::string_view bytes) {
-  Descriptor fd(::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY));
-  if (fd.get() < 0) failSave(path, errno);
-  if (const int code = writeAll(fd.get(), bytes); code != 0) failSave(path, code);
-  if (!fd.close()) failSave(path, errno);
-}
 
 }  // namespace
 
@@ -154,31 +58,6 @@ std::string readFile(const std::string& path, size_t limit) {
   }
   bytes.resize(filled);
   return bytes;
-}
-
-void requireWritable(const std::string& path) {
-  const std::optional<mode_t> old = writableModeAt(path);
-  if (old && isStream(*old)) return;
-  std::string temporary = finalTarget(path);
-  const Descriptor fd(openTemporary(path, temporary));
-  ::unlink(temporary.c_str());
-}
-
-void writeFileAtomically(const std::string& path, std::string_view bytes) {
-  const std::optional<mode_t> old = writableModeAt(path);
-  if (old && isStream(*old)) return writeStream(path, bytes);
-  const std::string target = finalTarget(path);
-  std::string temporary = target;
-  Descriptor fd(openTemporary(path, temporary));
-  const mode_t mask = ::umask(0);
-  ::umask(mask);
-  const mode_t mode = old ? (*old & 07777) : (0666 & ~mask);
-  if (::fchmod(fd.get(), mode) != 0) failSave(path, errno, temporary);
-  if (const int code = writeAll(fd.get(), bytes); code != 0) failSave(path, code, temporary);
-  if (::fsync(fd.get()) != 0 && errno != EINVAL) failSave(path, errno, temporary);
-  if (!fd.close()) failSave(path, errno, temporary);
-  if (::rename(temporary.c_str(), target.c_str()) != 0) failSave(path, errno, temporary);
-  syncFolder(target);
 }
 
 }  // namespace ps

@@ -13,6 +13,9 @@
 #include <QtTest/QSignalSpy>
 #include <QtTest/QTest>
 
+#include <csignal>
+#include <sys/resource.h>
+
 using namespace ps;
 
 namespace {
@@ -70,6 +73,22 @@ class TestAutosave : public QObject {
     QCOMPARE(writeProject(loadProject(sessions[0].copy.toStdString(), *m_plugins).project), text);
     Autosave::discard(sessions[0]);
     QVERIFY(desk.autosave.leftBehind().empty());
+  }
+
+  /// What a note says fits the buffers of any writer, which is where a full disk went unnoticed.
+  void aFullDiskIsNoticedByTheNoteAlone() {
+    Desk desk(*m_plugins, m_copies);
+    desk.document.open(scenes::iceOnPlate(5, 370), QStringLiteral("/nowhere/scene.json"));
+    std::signal(SIGXFSZ, SIG_IGN);
+    rlimit old{};
+    QCOMPARE(::getrlimit(RLIMIT_FSIZE, &old), 0);
+    const rlimit tight{20, old.rlim_max};
+    QCOMPARE(::setrlimit(RLIMIT_FSIZE, &tight), 0);
+    const QString problem = desk.autosave.close();
+    ::setrlimit(RLIMIT_FSIZE, &old);
+    QVERIFY2(problem.contains(QStringLiteral("not saved")), qPrintable(problem));
+    QVERIFY(QDir(m_copies).entryList({QStringLiteral("*.note*")}).isEmpty());
+    QCOMPARE(desk.autosave.close(), QString());
   }
 
   /// After "Save as" a copy that stayed behind would be restored into the file before, and overwrite it.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/base/error.h"
 #include "core/base/jsontext.h"
+#include "core/io/outputfile.h"
 #include "core/io/projectio.h"
 #include "core/io/schema.h"
 #include "core/io/textfile.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/session/autosave.h"
 
+#include "core/io/outputfile.h"
 #include "core/io/projectio.h"
 #include "core/plugin_host/pluginpaths.h"
 #include "ui/document/document.h"
@@ -13,10 +14,8 @@
 #include <QtCore/QJsonDocument>
 #include <QtCore/QJsonObject>
 #include <QtCore/QLockFile>
-#include <QtCore/QSaveFile>
 
 #include <algorithm>
-#include <stdexcept>
 
 namespace ps {
 namespace {
@@ -56,10 +55,8 @@ void writeNote(const AutosavedSession& session) {
                          {QStringLiteral("ended"), QString::fromLatin1(kEnds[static_cast<size_t>(session.end)])},
                          {QStringLiteral("unsaved"), !session.copy.isEmpty()},
                          {QStringLiteral("view"), toJson(session.view)}};
-  QSaveFile out(session.stem + QStringLiteral(".note"));
-  if (!out.open(QIODevice::WriteOnly) || out.write(QJsonDocument(note).toJson()) < 0 || !out.commit()) {
-    throw std::runtime_error(out.errorString().toStdString());
-  }
+  writeFileAtomically((session.stem + QStringLiteral(".note")).toStdString(),
+                      QJsonDocument(note).toJson().toStdString());
 }
 
 void discardFiles(const QString& stem) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/window/fileactions.h"
 
+#include "core/io/outputfile.h"
 #include "core/simulation/enginethread.h"
 #include "ui/document/document.h"
 #include "ui/graphs/graphspanel.h"
@@ -17,7 +18,6 @@
 #include <QtCore/QBuffer>
 #include <QtCore/QFileInfo>
 #include <QtCore/QRegularExpression>
-#include <QtCore/QSaveFile>
 #include <QtCore/QStandardPaths>
 #include <QtGui/QAction>
 #include <QtWidgets/QFileDialog>
@@ -292,14 +292,18 @@ void FileActions::showNotSaved(const QString& problem, const QString& more) {
 
 void FileActions::writeFile(const QString& path, std::function<QByteArray()> content, const QString& what) {
   m_session.worker().run([this, path, content = std::move(content), what] {
-    QSaveFile file(path);
-    const bool good = file.open(QIODevice::WriteOnly) && file.write(content()) >= 0 && file.commit();
-    const QString problem = good ? QString() : file.errorString();
+    QString problem;
+    try {
+      const QByteArray bytes = content();
+      writeFileAtomically(path.toStdString(), {bytes.constData(), static_cast<size_t>(bytes.size())});
+    } catch (const std::exception& error) {
+      problem = QString::fromUtf8(error.what());
+    }
     QMetaObject::invokeMethod(&m_session, [this, path, what, problem] {
       if (problem.isEmpty()) {
         m_session.log().add(MessageLevel::Ok, what, QStringLiteral("Written to %1.").arg(path));
       } else {
-        m_notices.message(MessageLevel::Error, what, QStringLiteral("%1 was not written: %2").arg(path, problem));
+        m_notices.message(MessageLevel::Error, what, problem);
       }
     });
   });

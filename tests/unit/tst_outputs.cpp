@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the command line writes: whole files or none, and never in the place of what it reads.
+#include "core/base/jsontext.h"
+
+#include <QDir>
+#include <QFile>
+#include <QFileInfo>
+#include <QProcess>
+#include <QRegularExpression>
+#include <QTemporaryDir>
+#include <QTest>
+
+#include <csignal>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+class TestOutputs : public QObject {
+  Q_OBJECT
+
+ private Q_SLOTS:
+  void noOutputReplacesAnInput_data();
+  void noOutputReplacesAnInput();
+  void pipesAndLinksStay();
+  void signalsLeaveWholeFiles_data();
+  void signalsLeaveWholeFiles();
+  void aFullDiskEndsTheRunAndSaysWhereItsRowsAre_data();
+  void aFullDiskEndsTheRunAndSaysWhereItsRowsAre();
+  void twoRunsMayRecordToOneName();
+};
+
+namespace {
+
+const QString kProgram = PS_BINARY_DIR "/bin/phasesketch-cli",
+              kSample = PS_SOURCE_DIR "/projects/ice-on-hot-plate.json";
+
+/// A block of 5 x 5 x 5 on one thread.
+QStringList smallRun(const QString& project, const QStringList& more) {
+  return QStringList{
+             "simulate", project, "--quiet", "--threads", "1", "--set", "bodies/ice/shape/box/size=[0.1, 0.1, 0.1]"} +
+         more;
+}
+
+struct Ran {
+  int code = -1;
+  QByteArray err;
+};
+
+Ran ended(QProcess& process) {
+  if (!process.waitForFinished(100000) || process.exitStatus() != QProcess::NormalExit) return {};
+  return {process.exitCode(), process.readAllStandardError()};
+}
+
+Ran run(const QStringList& arguments, const std::function<void()>& before = {}) {
+  QProcess process;
+  if (before) process.setChildProcessModifier(before);
+  process.start(kProgram, arguments);
+  return ended(process);
+}
+
+QByteArray bytesOf(const QString& path) {
+  QFile file(path);
+  return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();
+}
+
+void write(const QString& path, const QByteArray& bytes) {
+  QFile file(path);
+  QVERIFY(file.open(QIODevice::WriteOnly) && file.write(bytes) == bytes.size());
+}
+
+QStringList filesIn(const QTemporaryDir& folder) { return QDir(folder.path()).entryList(QDir::Files | QDir::System); }
+
+}  // namespace
+
+void TestOutputs::noOutputReplacesAnInput_data() {
+  QTest::addColumn<QStringList>("options");
+  for (const char* option : {"--record", "--report", "--probes", "--save-state", "--save-project"})
+    QTest::newRow(option) << QStringList{option, "mine.json"};
+  QTest::newRow("by another way") << QStringList{"--report", "sub/../mine.json"};
+  QTest::newRow("by a link") << QStringList{"--report", "link.json"};
+  QTest::newRow("by a hard link") << QStringList{"--report", "twin.json"};
+  QTest::newRow("twice") << QStringList{"--report", "out", "--probes", "./out"};
+}
+
+void TestOutputs::noOutputReplacesAnInput() {
+  QFETCH(const QStringList, options);
+  QTemporaryDir folder;
+  const QString project = folder.filePath("mine.json");
+  QVERIFY(QFile::copy(kSample, project) && QDir(folder.path()).mkdir("sub"));
+  QVERIFY(QFile::link(project, folder.filePath("link.json")));
+  QCOMPARE(::link(qPrintable(project), qPrintable(folder.filePath("twin.json"))), 0);
+  QProcess process;
+  process.setWorkingDirectory(folder.path());
+  process.start(kProgram, smallRun(project, QStringList{"--frames", "1"} + options));
+  const Ran ran = ended(process);
+  QCOMPARE(ran.code, 2);
+  QVERIFY2(ran.err.contains("as well; choose another name"), ran.err.constData());
+  QCOMPARE(bytesOf(project), bytesOf(kSample));
+  QCOMPARE(filesIn(folder).size(), 3);
+}
+
+void TestOutputs::pipesAndLinksStay() {
+  QTemporaryDir folder;
+  const QString pipe = folder.filePath("pipe"), target = folder.filePath("target"), link = folder.filePath("link");
+  QCOMPARE(::mkfifo(qPrintable(pipe), 0600), 0);
+  QProcess reader;
+  reader.start("cat", {pipe});
+  QCOMPARE(run(smallRun(kSample, {"--frames", "2", "--record", pipe})).code, 0);
+  QVERIFY(reader.waitForFinished() && reader.readAllStandardOutput().startsWith("PSRECORD"));
+  struct stat info {};
+  QCOMPARE(::lstat(qPrintable(pipe), &info), 0);
+  QVERIFY(S_ISFIFO(info.st_mode));
+
+  write(target, "old");
+  QVERIFY(QFile::link(target, link));
+  for (const char* option : {"--record", "--report", "--probes"}) {
+    QCOMPARE(run(smallRun(kSample, {"--frames", "2", option, link})).code, 0);
+    QCOMPARE(QFileInfo(link).symLinkTarget(), target);
+    QVERIFY(bytesOf(target).size() > 100);
+  }
+}
+
+void TestOutputs::signalsLeaveWholeFiles_data() {
+  QTest::addColumn<int>("number");
+  QTest::newRow("Ctrl+C") << SIGINT;
+  QTest::newRow("end") << SIGTERM;
+  QTest::newRow("terminal gone") << SIGHUP;
+}
+
+void TestOutputs::signalsLeaveWholeFiles() {
+  QFETCH(const int, number);
+  QTemporaryDir folder;
+  const QString probes = folder.filePath("p.csv"), report = folder.filePath("r.json"),
+                record = folder.filePath("r.rec");
+  write(probes, "an older table");
+  QProcess process;
+  process.start(kProgram,
+                smallRun(kSample, {"--frames", "1000000", "--probes", probes, "--report", report, "--record", record}));
+  // It runs as soon as its recording grows; until it ends the old table stands.
+  const auto growing = [&] {
+    for (const QString& name : filesIn(folder))
+      if (name.startsWith("r.rec.part") && QFileInfo(folder.filePath(name)).size() > 20000) return true;
+    return false;
+  };
+  QTRY_VERIFY_WITH_TIMEOUT(growing(), 60000);
+  QCOMPARE(bytesOf(probes), QByteArray("an older table"));
+  QCOMPARE(::kill(static_cast<pid_t>(process.processId()), number), 0);
+  const Ran ran = ended(process);
+  QCOMPARE(ran.code, 1);
+  QVERIFY2(ran.err.contains("stopped after"), ran.err.constData());
+  const QList<QByteArray> rows = bytesOf(probes).trimmed().split('\n');
+  QVERIFY(rows.size() > 2);
+  for (const QByteArray& row : rows) QCOMPARE(row.count(','), rows[0].count(','));
+  const auto content = ps::parseJson(bytesOf(report).toStdString(), "report");
+  QCOMPARE(content["frames"].get<qsizetype>(), rows.size() - 1);
+  QVERIFY(bytesOf(record).startsWith("PSRECORD"));
+  QCOMPARE(filesIn(folder).size(), 3);
+}
+
+void TestOutputs::aFullDiskEndsTheRunAndSaysWhereItsRowsAre_data() {
+  QTest::addColumn<QString>("option");
+  QTest::addColumn<QString>("kept");
+  QTest::newRow("table") << "--probes"
+                         << "the rows until now are in ";
+  QTest::newRow("recording") << "--record"
+                             << "the frames until now are in ";
+}
+
+void TestOutputs::aFullDiskEndsTheRunAndSaysWhereItsRowsAre() {
+  QFETCH(const QString, option);
+  QFETCH(const QString, kept);
+  QTemporaryDir folder;
+  const QString path = folder.filePath("out");
+  write(path, "an older one");
+  // A limit on the size of files stands for the full disk; the run would take minutes.
+  const Ran ran = run(smallRun(kSample, {"--frames", "1000000", option, path}), [] {
+    std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit tight{30000, 30000};
+    ::setrlimit(RLIMIT_FSIZE, &tight);
+  });
+  QCOMPARE(ran.code, 1);
+  const qsizetype at = ran.err.indexOf(kept.toUtf8());
+  QVERIFY2(at > 0, ran.err.constData());
+  const QByteArray part = ran.err.mid(at + kept.size()).trimmed();
+  QVERIFY2(QFileInfo(QString::fromUtf8(part)).size() > 20000, part.constData());
+  QCOMPARE(bytesOf(path), QByteArray("an older one"));
+}
+
+void TestOutputs::twoRunsMayRecordToOneName() {
+  QTemporaryDir folder;
+  const QString path = folder.filePath("two.rec");
+  QProcess first, second;
+  for (QProcess* process : {&first, &second})
+    process->start(kProgram, smallRun(kSample, {"--frames", "20", "--record", path}));
+  QCOMPARE(ended(first).code, 0);
+  QCOMPARE(ended(second).code, 0);
+  QCOMPARE(filesIn(folder), QStringList{"two.rec"});
+  QCOMPARE(bytesOf(path).count("PSFRAME."), 21);
+}
+
+QTEST_GUILESS_MAIN(TestOutputs)
+#include "tst_outputs.moc"
