@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <string>
 #include <variant>
@@ -16,6 +17,8 @@ namespace ps {
 /// Names matter that came or went by one edit, so that another one can take it away or bring it back. 0: nobody asks.
 using MatterKey = uint64_t;
 using CellIndices = std::vector<std::array<int, 3>>;
+/// Particles by the key that names them.
+using MatterIds = std::map<MatterKey, std::vector<uint32_t>>;
 
 /// A parameter has this value from now on.
 struct SetParameter {
@@ -80,9 +83,11 @@ struct ForgetMatter {
 struct Reset {
   std::vector<NameMatter> named{};
 };
-/// To a state that a project of these bodies holds, with all other edits kept. Keys name nothing then.
+/// To a state that a project of these bodies holds, with all other edits kept. Keys name nothing then, except `named`:
+/// what Engine::namedMatter() said when the state was kept.
 struct ReturnToState {
   std::shared_ptr<const ProjectState> state;
+  MatterIds named{};
 };
 
 using Command = std::variant<SetParameter, UpdateProject, AddCells, TakeCells, TakeBody, TakeMatter, PutBack,

@@ -314,6 +314,7 @@ void Engine::apply(const Command& command) {
     for (const NameMatter& named : start->named) m->named.apply(*this, named);
   } else if (const auto* back = std::get_if<ReturnToState>(&command)) {
     restore(*back->state);
+    m->named = NamedMatter(back->named);
   } else {
     std::visit(
         [this](const auto& matter) {
@@ -394,6 +395,7 @@ FrameStats Engine::stats() const {
 
 const Project& Engine::project() const { return m->project; }
 const Solver& Engine::solver() const { return *m->solver; }
+MatterIds Engine::namedMatter() const { return m->named.present(); }
 uint64_t Engine::bakedTables() const { return m->tables.baked(); }
 const std::vector<std::string>& Engine::bodyIds() const { return *m->bodyIds; }
 const std::vector<std::string>& Engine::probeNames() const { return m->probeNames; }

@@ -57,6 +57,9 @@ class Engine {
   /// Ids of live particles whose centre lies in one of the cells of a lattice.
   std::vector<uint32_t> particlesIn(const VoxelShape& lattice, const std::vector<std::array<int, 3>>& cells) const;
 
+  /// What keys of commands name and is in the scene, to be named again after a ReturnToState.
+  MatterIds namedMatter() const;
+
   /// All that goes on into the next frame: the solver's state, what emitters hold, and who is who.
   void save(StateWriter& writer) const;
   /// Goes on as the engine would have that was saved, to the bit, with this one's document. Throws InputError for a

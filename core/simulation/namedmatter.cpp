@@ -36,6 +36,18 @@ std::vector<uint32_t> sparing(const Engine& engine, std::vector<uint32_t> ids, c
 
 }  // namespace
 
+NamedMatter::NamedMatter(const MatterIds& named) {
+  for (const auto& [key, ids] : named) m_entries[key] = {ids, {}};
+}
+
+MatterIds NamedMatter::present() const {
+  MatterIds named;
+  for (const auto& [key, entry] : m_entries) {
+    if (entry.extracted.empty()) named[key] = entry.ids;
+  }
+  return named;
+}
+
 void NamedMatter::extract(Engine& engine, Entry& entry, const std::vector<uint32_t>& ids) {
   if (!ids.empty()) entry.extracted.push_back(engine.extractParticles(ids));
 }

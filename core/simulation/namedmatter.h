@@ -14,6 +14,10 @@ class Engine;
 /// gives all particles new ids, and nothing is named then.
 class NamedMatter {
  public:
+  NamedMatter() = default;
+  explicit NamedMatter(const MatterIds& named);
+  /// What keys name, without those of which something is out of the scene: that is in no state.
+  MatterIds present() const;
   void apply(Engine& engine, const AddCells& command);
   void apply(Engine& engine, const TakeCells& command);
   void apply(Engine& engine, const TakeBody& command);

@@ -202,6 +202,29 @@ class TestPorts : public QObject {
     QCOMPARE(project().emitters.front().name, name);
   }
 
+  /// What a tap has poured has no other owner: it goes and comes back with the tap.
+  void matterGoesWithItsTap() {
+    const std::set<uint32_t> before = idsNow(session());
+    const Port tap{false, placedTap().id};
+    const auto poured = [this](int frames) {
+      return onEngine<uint64_t>(session(), [frames](Engine& engine) {
+        for (int frame = 0; frame < frames; ++frame) engine.step();
+        return engine.stats().flow.poured.count;
+      });
+    };
+    const uint64_t count = poured(20);
+    QVERIFY(count > 0);
+    document().removePort(tap);
+    QCOMPARE(idsNow(session()), before);
+    document().undoStack().undo();
+    QCOMPARE(idsNow(session()).size(), before.size() + count);
+    document().undoStack().redo();
+    QCOMPARE(idsNow(session()), before);
+    document().undoStack().undo();
+    document().undoStack().undo();  // placing it
+    QCOMPARE(idsNow(session()), before);
+  }
+
   void itsMenuHoldsWhatCanBeDone() {
     placedTap();
     QTreeView* tree = outliner()->view();

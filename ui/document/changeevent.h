@@ -28,8 +28,8 @@ struct BodyChanged {
   std::string id;
   MatterRef matter{};
 };
-/// An emitter or a sink came, went or was renamed; `moved`: nothing but its place has changed. An emitter whose placing
-/// is undone or redone goes or comes together with what it has poured, which `matter` names.
+/// An emitter or a sink came, went or was renamed; `moved`: nothing but its place has changed. An emitter goes and
+/// comes back together with what it has poured, which `matter` names.
 struct PortChanged {
   bool moved = false;
   std::string id{};

@@ -93,7 +93,9 @@ class Document : public QObject {
   void editEmitter(Emitter after, const QString& title);
   void editSink(Sink after, const QString& title);
   void renamePort(const Port& port, const QString& name);
-  void removePort(const Port& port);  ///< what it poured stays
+  /// Takes a tap out of the scene with what it has poured, as a body goes with its matter; what a drain took stays
+  /// away.
+  void removePort(const Port& port);
   std::optional<Port> duplicatePort(const Port& port);
 
   // Walls

@@ -70,7 +70,7 @@ QString Document::portName(const Port& port) const {
 template <class Item>
 void Document::pushPort(std::optional<Item> before, std::optional<Item> after, size_t index, const QString& title) {
   if (m_gestureDepth == 0) ++m_gesture;
-  MatterRef matter = !before && std::is_same_v<Item, Emitter> ? newMatter() : nullptr;
+  MatterRef matter = (!before || !after) && std::is_same_v<Item, Emitter> ? newMatter() : nullptr;
   m_undo.push(new PortCommand(*this, PortEdit<Item>{std::move(before), std::move(after), index, std::move(matter)},
                               m_gesture, title));
 }

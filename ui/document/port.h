@@ -17,7 +17,7 @@ struct Port {
 };
 
 /// An emitter or a sink before and after an edit; nothing: it did not exist (then `index` says where it goes). `matter`
-/// names what an emitter has poured when its placing is undone.
+/// names what an emitter has poured, which comes and goes with it.
 template <class Item>
 struct PortEdit {
   std::optional<Item> before, after;

@@ -160,10 +160,23 @@ void SceneLink::reset() {
   }
 }
 
+void SceneLink::keepNames(const std::shared_ptr<const ProjectState>& state, MatterIds named) {
+  std::erase_if(m_kept, [](const auto& kept) { return kept.first.expired(); });
+  m_kept.emplace_back(state, std::move(named));
+}
+
 void SceneLink::returnToState() {
-  if (!m_document.project().state || isBroken()) return;
+  const std::shared_ptr<const ProjectState>& state = m_document.project().state;
+  if (!state || isBroken()) return;
+  forgetMatter();
   ++m_run;
-  m_engine.apply(ReturnToState{m_document.project().state});
+  MatterIds named;
+  for (const auto& [kept, ids] : m_kept) {
+    if (kept.lock() == state) named = ids;
+  }
+  std::erase_if(named, [this](const auto& entry) { return !m_matter.contains(entry.first); });  // nobody asks
+  for (const auto& [key, ids] : named) m_matter[key].run = m_run;
+  m_engine.apply(ReturnToState{state, std::move(named)});
 }
 
 bool SceneLink::isBroken() const {

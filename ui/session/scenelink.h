@@ -26,9 +26,10 @@ class SceneLink : public QObject {
 
   /// Back to the start, edits kept. Undoing an earlier stroke still removes exactly its particles.
   void reset();
-  /// To the state that the project holds, edits kept; the engine refuses one that no longer fits. What a stroke before
-  /// it has made is not known any more: undoing that takes nothing.
+  /// To the state that the project holds, edits kept; the engine refuses one that no longer fits.
   void returnToState();
+  /// What strokes had made when a state was kept: after a return to it, undoing them takes just that.
+  void keepNames(const std::shared_ptr<const ProjectState>& state, MatterIds named);
   /// The engine could not build the scene: its snapshot is empty, and an event says why. Each change of the scene,
   /// reset() and rebuild() try again.
   bool isBroken() const;
@@ -61,6 +62,7 @@ class SceneLink : public QObject {
     std::weak_ptr<const MatterKey> matter;
     uint64_t run = 0;
   };
+  std::vector<std::pair<std::weak_ptr<const ProjectState>, MatterIds>> m_kept;
   uint64_t m_run = 1;  ///< counts resets, and returns to a state: matter of another run is not known by its ids
   std::map<MatterKey, KnownMatter> m_matter;                            ///< that the engine may know, and of which run
   std::vector<std::pair<std::weak_ptr<StrokeRecord>, bool>> m_strokes;  ///< and whether it is done, not undone

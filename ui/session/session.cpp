@@ -169,22 +169,24 @@ void Session::keepState() {
     StateWriter writer(*stream);
     engine.save(writer);
     writer.finish();
-    QMetaObject::invokeMethod(this, [this, stream, bodies, count] { packState(stream, bodies, count); });
+    QMetaObject::invokeMethod(this, [this, stream, named = engine.namedMatter(), bodies, count] {
+      packState({stream, named, bodies, count});
+    });
   });
 }
 
-/// `count`: Document::changeCount() when it was asked for.
-void Session::packState(std::shared_ptr<const StateBuffer> stream, std::vector<Body> bodies, uint64_t count) {
-  m_worker->run([this, stream = std::move(stream), bodies = std::move(bodies), count] {
+void Session::packState(KeptState kept) {
+  m_worker->run([this, kept = std::move(kept)] {
     std::shared_ptr<const ProjectState> state;
     QString problem;
     try {
-      state = projectState(stream->bytes(), bodies);
+      state = projectState(kept.stream->bytes(), kept.bodies);
     } catch (const std::exception& error) {
       problem = QString::fromUtf8(error.what());
     }
-    QMetaObject::invokeMethod(this, [this, state, problem, count] {
+    QMetaObject::invokeMethod(this, [this, state, problem, named = kept.named, count = kept.count] {
       if (!m_document->had(count)) return;  // another project has taken its place
+      if (state) m_link->keepNames(state, named);
       if (state) m_document->keepState(state);
       if (state) Q_EMIT stateKept();
       if (!state) Q_EMIT stateNotKept(problem);

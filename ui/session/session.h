@@ -79,7 +79,14 @@ class Session : public QObject {
  private:
   void adoptPlugins(std::shared_ptr<PluginRegistry> plugins);
   void onSnapshot();
-  void packState(std::shared_ptr<const StateBuffer> stream, std::vector<Body> bodies, uint64_t count);
+  /// What the engine's thread gives of a state that is to be kept.
+  struct KeptState {
+    std::shared_ptr<const StateBuffer> stream;
+    MatterIds named;
+    std::vector<Body> bodies;
+    uint64_t count = 0;  ///< Document::changeCount() when it was asked for
+  };
+  void packState(KeptState kept);
   void tellValues();
 
   Options m_options;
