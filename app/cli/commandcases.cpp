@@ -47,7 +47,8 @@ bool chosen(const Case& what, const std::vector<std::string>& only) {
 }  // namespace
 
 std::string casesHelp() {
-  return "phasesketch-cli cases FILE... [options]\n\nRuns the experiments of files: projects with the numbers of each "
+  return "phasesketch-cli cases FILE... [options]\n\nRuns the experiments of files: projects, from their start, with "
+         "the numbers of each "
          "case, and what theory expects. Prints the\ntable \"case, what, expected, got, tolerance, ok\". Exit code 1 "
          "when a case misses its tolerance.\n\n" +
          optionHelp(kOptions);

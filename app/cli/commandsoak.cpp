@@ -64,7 +64,8 @@ int soakFile(const std::string& path, const Arguments& arguments) {
 }  // namespace
 
 std::string soakHelp() {
-  return "phasesketch-cli soak PROJECT... [options]\n\nRuns each project as it is, and again with each of its sliders "
+  return "phasesketch-cli soak PROJECT... [options]\n\nRuns each project from its start as it is, and again with each "
+         "of its sliders "
          "moved to either end of its range while it runs,\none at a time. Prints one line per run: what was moved, the "
          "highest speed of a particle, the mean length of a\nframe, and whether flags were raised. A slider that has "
          "changed nothing in a quarter of the run is not used "

@@ -178,9 +178,9 @@ std::vector<SliderChange> sliderChanges(const Project& project, const PluginRegi
   return changes;
 }
 
-void soakProject(const Project& project, std::unique_ptr<PluginRegistry>& plugins,
-                 const std::vector<SliderChange>& changes, double seconds, const StopTest& stop,
-                 const SoakVisitor& each) {
+void soakProject(Project project, std::unique_ptr<PluginRegistry>& plugins, const std::vector<SliderChange>& changes,
+                 double seconds, const StopTest& stop, const SoakVisitor& each) {
+  project.state = nullptr;  // a reset, which a slider may ask for, would lead elsewhere
   uint64_t proof = 0;
   const auto attempt = [&](const SliderChange* change) {
     try {

@@ -33,12 +33,11 @@ using SoakVisitor = std::function<void(const SoakVerdict&)>;
 std::vector<SliderChange> sliderChanges(const Project& project, const PluginRegistry& plugins,
                                         const std::vector<std::string>& only);
 
-/// Runs the project, then each change, for `seconds` of mechanical time. A change that has altered no bit after a
-/// quarter of it is not used by the scene and ends there. A flag fails a run unless its slider asks for it; a NaN, a
-/// plugin's fault and an open balance are never asked for. `plugins` is made anew after a plugin was put aside. Throws
-/// Error when `stop` ended it.
-void soakProject(const Project& project, std::unique_ptr<PluginRegistry>& plugins,
-                 const std::vector<SliderChange>& changes, double seconds, const StopTest& stop,
-                 const SoakVisitor& each);
+/// Runs the project from its start, then each change, for `seconds` of mechanical time. A change that has altered no
+/// bit after a quarter of it is not used by the scene and ends there. A flag fails a run unless its slider asks for it;
+/// a NaN, a plugin's fault and an open balance are never asked for. `plugins` is made anew after a plugin was put
+/// aside. Throws Error when `stop` ended it.
+void soakProject(Project project, std::unique_ptr<PluginRegistry>& plugins, const std::vector<SliderChange>& changes,
+                 double seconds, const StopTest& stop, const SoakVisitor& each);
 
 }  // namespace ps

@@ -45,8 +45,7 @@ std::unique_ptr<Engine::Impl> Engine::Impl::restored(const StateReader& reader) 
 
 std::unique_ptr<Engine::Impl> Engine::Impl::restored(const ProjectState& state,
                                                      std::vector<std::string>& unread) const {
-  if (const std::string why = whyStateDoesNotFit(state, project.bodies); !why.empty())
-    throw InputError("is of another scene: " + why);
+  if (const std::string why = whyStateDoesNotFit(state, document(), plugins); !why.empty()) throw InputError(why);
   const StateBuffer buffer = unpackState(state.blocks);
   const StateReader reader(buffer.bytes());
   auto next = restored(reader);

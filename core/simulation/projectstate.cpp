@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/simulation/projectstate.h"
 
+#include "core/base/error.h"
 #include "core/base/hash.h"
 #include "core/base/statestream.h"
+#include "core/simulation/scenestate.h"
 
 #include <algorithm>
+#include <iterator>
 #include <variant>
 
 namespace ps {
@@ -34,6 +37,29 @@ std::string stampOf(const Body& body) {
   return hashText(hash.value());
 }
 
+std::string whyOfOtherBodies(const ProjectState& state, const std::vector<Body>& bodies) {
+  for (const Body& body : bodies) {
+    const auto known = std::find_if(state.bodies.begin(), state.bodies.end(),
+                                    [&](const ProjectState::Shape& shape) { return shape.id == body.id; });
+    if (known == state.bodies.end()) return "the body '" + body.id + "' came later";
+    if (known->stamp != stampOf(body)) return "the body '" + body.id + "' has another shape by now";
+  }
+  for (const ProjectState::Shape& shape : state.bodies) {
+    if (std::none_of(bodies.begin(), bodies.end(), [&](const Body& body) { return body.id == shape.id; }))
+      return "the body '" + shape.id + "' has gone";
+  }
+  return {};
+}
+
+/// Those that say what the state needs: few bytes beside all others.
+std::vector<PackedBlock> sceneBlocks(const ProjectState& state) {
+  std::vector<PackedBlock> blocks;
+  std::copy_if(state.blocks.begin(), state.blocks.end(), std::back_inserter(blocks), [](const PackedBlock& block) {
+    return block.name.starts_with("scene/") || block.name == "field/body" || block.name == "field/material";
+  });
+  return blocks;
+}
+
 }  // namespace
 
 std::shared_ptr<const ProjectState> projectState(std::span<const std::byte> stream, const std::vector<Body>& bodies) {
@@ -46,16 +72,18 @@ std::shared_ptr<const ProjectState> projectState(std::span<const std::byte> stre
   return state;
 }
 
-std::string whyStateDoesNotFit(const ProjectState& state, const std::vector<Body>& bodies) {
-  for (const Body& body : bodies) {
-    const auto known = std::find_if(state.bodies.begin(), state.bodies.end(),
-                                    [&](const ProjectState::Shape& shape) { return shape.id == body.id; });
-    if (known == state.bodies.end()) return "the body '" + body.id + "' came later";
-    if (known->stamp != stampOf(body)) return "the body '" + body.id + "' has another shape by now";
-  }
-  for (const ProjectState::Shape& shape : state.bodies) {
-    if (std::none_of(bodies.begin(), bodies.end(), [&](const Body& body) { return body.id == shape.id; }))
-      return "the body '" + shape.id + "' has gone";
+std::string whyStateDoesNotFit(const ProjectState& state, const Project& project, const PluginRegistry& plugins) {
+  if (const std::string why = whyOfOtherBodies(state, project.bodies); !why.empty())
+    return "the state is of another scene: " + why;
+  try {
+    const StateBuffer buffer = unpackState(sceneBlocks(state));
+    const StateReader reader(buffer.bytes());
+    const SceneState scene = SceneState::read(reader);
+    requireGoesOn(scene, project, plugins);
+    requireOwners(scene, reader, project);
+    (void)materialsInOrder(scene, reader, project);
+  } catch (const InputError& problem) {
+    return problem.what();
   }
   return {};
 }

@@ -97,6 +97,18 @@ void requireGoesOn(const SceneState& state, const Project& project, const Plugin
   }
 }
 
+void requireOwners(const SceneState& state, const StateReader& reader, const Project& project) {
+  std::vector<bool> hasMatter(state.bodies.size());
+  for (const uint32_t body : reader.array<uint32_t>("field/body")) hasMatter[body] = true;
+  const auto isOf = [](const std::string& id) { return [&id](const auto& item) { return item.id == id; }; };
+  for (size_t k = 0; k < state.bodies.size(); ++k) {
+    const std::string& id = state.bodies[k];
+    if (hasMatter[k] && std::none_of(project.bodies.begin(), project.bodies.end(), isOf(id)) &&
+        std::none_of(project.emitters.begin(), project.emitters.end(), isOf(id)))
+      throw InputError("the state has matter of '" + id + "', which has gone");
+  }
+}
+
 void requireOfProject(const StateReader& reader, const Project& project) {
   const SceneState state = SceneState::read(reader);
   if (state.title != project.title)

@@ -33,6 +33,8 @@ struct SceneState {
 std::vector<SceneMaterial> materialsInOrder(const SceneState& state, const StateReader& reader, const Project& project);
 /// Throws InputError, saying what is missing, where a project with these plugins cannot go on from a state.
 void requireGoesOn(const SceneState& state, const Project& project, const PluginRegistry& plugins);
+/// Throws InputError where matter of a state would be nobody's: what an emitter has poured that is gone.
+void requireOwners(const SceneState& state, const StateReader& reader, const Project& project);
 /// Throws InputError for the state of another project: of another title, or without one of its bodies.
 void requireOfProject(const StateReader& reader, const Project& project);
 

@@ -167,6 +167,62 @@ class TestSavedState : public QObject {
     QVERIFY(std::includes(after.begin(), after.end(), there.begin(), there.end()));
   }
 
+  /// What was painted before the state was kept is known after a return to it, however far matter has moved.
+  void undoAfterAReturnTakesWhatTheStrokeMade() {
+    const std::set<uint32_t> ice = idsNow(session());
+    paint(5);
+    const std::set<uint32_t> first = idsNow(session());
+    paint(8);
+    const std::set<uint32_t> both = idsNow(session());
+    QVERIFY(ice.size() < first.size() && first.size() < both.size());
+    hashAfter(session(), 5);
+    keep(5);
+    session().reset();
+    hashAfter(session(), 5);
+    action("simulation.state")->trigger();
+    QCOMPARE(idsNow(session()), both);
+    document().undoStack().undo();  // keeping the state
+    document().undoStack().undo();
+    QCOMPARE(idsNow(session()), first);
+    document().undoStack().undo();
+    QCOMPARE(idsNow(session()), ice);
+    document().undoStack().redo();
+    QCOMPARE(idsNow(session()), first);
+  }
+
+  /// What a tap has poured is of no scene without the tap.
+  void aStateWithoutItsTapDoesNotFit() {
+    Emitter tap;
+    tap.material = document().project().materials[0].id;
+    tap.point = {0, 0.6, 0};
+    const Port port = document().addEmitter(tap);
+    hashAfter(session(), 30);
+    keep(30);
+    QVERIFY(onEngine<uint64_t>(session(), [](Engine& engine) { return engine.stats().flow.poured.count; }) > 0);
+    document().removePort(port);
+    save();
+    QVERIFY(!read().state);
+    QVERIFY2(m_window->notice()->text().contains(QStringLiteral("The state has matter of 'tap', which has gone.")),
+             qPrintable(m_window->notice()->text()));
+    document().undoStack().undo();
+    save();
+    QVERIFY(read().state);
+  }
+
+  /// Whatever keeps a project from opening at its state is said when it is saved, not when it is opened.
+  void saveSaysThatTheModelOfHeatIsAnother() {
+    hashAfter(session(), kKept);
+    keep(kKept);
+    QCOMPARE(document().setParameter({Owner::Scene, "", "thermal_model"}, std::string("thesis_latent")), QString());
+    save();
+    QVERIFY(!read().state);
+    QVERIFY2(m_window->notice()->text().contains(QStringLiteral("The state is of the thermal model 'enthalpy'")),
+             qPrintable(m_window->notice()->text()));
+    document().undoStack().undo();
+    save();
+    QVERIFY(read().state);
+  }
+
   void aStateOfAProjectThatHasGoneIsDropped() {
     hashAfter(session(), kKept);
     QSignalSpy kept(&session(), &Session::stateKept);
@@ -208,6 +264,25 @@ class TestSavedState : public QObject {
     QVERIFY(saved.wait(kLong));
     QVERIFY(document().project().state);
     QCOMPARE(document().project().state->frame, frame);
+  }
+  /// Eight cells of a sketched body, from the column `x` on, as the brush draws them.
+  void paint(int x) {
+    const Project& project = document().project();
+    const auto stroke = std::make_shared<StrokeRecord>();
+    stroke->body = "sketch";
+    stroke->lattice.spacing = 0.03;
+    stroke->lattice.origin = {0.015, 0.015, 0.015};
+    for (int k = 0; k < 8; ++k) stroke->cells.push_back({x + k % 2, k / 2 % 2, k / 4});
+    Body body;
+    body.id = body.name = stroke->body;
+    body.material = project.materials[0].id;
+    VoxelShape voxels = stroke->lattice;
+    voxels.palette.push_back({body.material, 293.15, {}});
+    body.shape = voxels;
+    if (const Body* known = document().body(body.id)) body = *known;
+    session().link()->paint(*stroke, std::make_shared<const Body>(body), stroke->cells);
+    stroke->edits.push_back(paintEdit(project, body, stroke->cells, 0, {}));
+    document().addStroke(stroke);
   }
   void save() {
     QSignalSpy saved(&session().files(), &DocumentFiles::saved);

@@ -4,7 +4,10 @@
 #include "core/base/error.h"
 #include "core/base/parallel.h"
 #include "core/base/statestream.h"
+#include "core/experiments/caserun.h"
+#include "core/experiments/soak.h"
 #include "core/io/projectio.h"
+#include "core/io/textfile.h"
 #include "core/plugin_host/registry.h"
 #include "core/simulation/engine.h"
 #include "core/simulation/projectstate.h"
@@ -135,13 +138,16 @@ class TestProjectState : public QObject {
                                    << "";
     QTest::newRow("finer next time") << "solver/particle_spacing=0.02"
                                      << "";
-    QTest::newRow("larger ice") << "bodies/ice/shape/box/size=[0.3, 0.12, 0.12]"
-                                << "/state: is of another scene: the body 'ice' has another shape by now; the scene "
-                                   "opens at its start";
+    QTest::newRow("larger ice")
+        << "bodies/ice/shape/box/size=[0.3, 0.12, 0.12]"
+        << "/state: the state is of another scene: the body 'ice' has another shape by now; the scene "
+           "opens at its start";
     QTest::newRow("no ice") << "bodies=[]"
-                            << "/state: is of another scene: the body 'ice' has gone;";
+                            << "/state: the state is of another scene: the body 'ice' has gone;";
     QTest::newRow("more") << R"(bodies/ice/id="snow")"
-                          << "/state: is of another scene: the body 'snow' came later;";
+                          << "/state: the state is of another scene: the body 'snow' came later;";
+    QTest::newRow("no tap") << "emitters=[]"
+                            << "/state: the state has matter of 'tap', which has gone; the scene opens at its start";
     QTest::newRow("cold") << R"(solver/thermal={"model": ""})"
                           << "/state: the state is of the thermal model";
     QTest::newRow("a block is missing") << R"(state/blocks/0/name="clock/none")"
@@ -161,6 +167,35 @@ class TestProjectState : public QObject {
     QVERIFY2(says.isEmpty() ? told.isEmpty() : told.contains(says), qPrintable(told));
     QCOMPARE(engine.solver().frame(), uint64_t(says.isEmpty() ? kBefore : 0));
     QVERIFY(json::parse(writeProject(project))["state"]["blocks"].size() == m_project.state->blocks.size());
+  }
+
+  /// What is judged, or compared with other runs, is counted from the start, whatever state the project holds.
+  void experimentsBeginAtTheStart() {
+    const auto topSpeed = [&](const Project& project) {
+      double speed = -1;
+      soakProject(project, m_plugins, {}, 0.1, {}, [&](const SoakVerdict& verdict) { speed = verdict.topSpeed; });
+      return speed;
+    };
+    const double fromStart = topSpeed(scene());
+    QVERIFY(fromStart > 0);
+    QCOMPARE(topSpeed(m_project), fromStart);
+
+    const auto lastFrame = [&](const std::string& text) {
+      writeFileAtomically(m_fixtures.filePath("case.json").toStdString(), text);
+      Case what;
+      what.id = "state";
+      what.project = m_fixtures.filePath("case.json").toStdString();
+      what.runs = {{"", {}, 3}};
+      CaseCheck check;
+      check.column = "ice core.temperature[K]";
+      check.measure = "last";
+      what.checks = {check};
+      std::optional<double> measured;
+      runCase(what, {}, *m_plugins, {}, [&](const CaseVerdict& verdict) { measured = verdict.measured; });
+      return measured;
+    };
+    QVERIFY(lastFrame(m_text));
+    QCOMPARE(*lastFrame(m_text), *lastFrame(writeProject(scene())));
   }
 
   void whatIsNotKnownIsKeptAndTold() {

@@ -135,10 +135,11 @@ void DocumentFiles::newProject() {
 
 void DocumentFiles::save(const QString& path) {
   const QString absolute = QFileInfo(path).absoluteFilePath();
-  m_worker.run([this, absolute, count = m_document.changeCount(), project = m_document.project()] {
+  m_worker.run([this, absolute, count = m_document.changeCount(), project = m_document.project(),
+                plugins = m_document.plugins()] {
     QString problem, why;
     Project written = project;
-    if (written.state) why = QString::fromStdString(whyStateDoesNotFit(*written.state, written.bodies));
+    if (written.state && plugins) why = QString::fromStdString(whyStateDoesNotFit(*written.state, written, *plugins));
     if (!why.isEmpty()) written.state = nullptr;
     try {
       saveProject(written, absolute.toStdString());

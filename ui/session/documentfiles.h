@@ -43,8 +43,8 @@ class DocumentFiles : public QObject {
   void openFailed(const QString& path, const QString& problem);
   /// `present`: what was saved is still the open project.
   void saved(const QString& path, bool present);
-  /// Before saved(): the project's state is of other bodies by now, `why`, and was left out. The document keeps it, so
-  /// that the next save has it where an undo makes it fit again.
+  /// Before saved(): the project would not open at its state any more, `why`, and it was left out. The document keeps
+  /// it, so that the next save has it where an undo makes it fit again.
   void stateLeftOut(const QString& path, const QString& why);
   void saveFailed(const QString& path, const QString& problem, bool present);
 

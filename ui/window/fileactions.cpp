@@ -269,7 +269,7 @@ void FileActions::onSaved(const QString& path, bool present) {
 void FileActions::onStateLeftOut(const QString& path, const QString& why) {
   m_leftOut = true;
   const QString title = QStringLiteral("Saved without the state that was kept.");
-  const QString text = QStringLiteral("It is of another scene: %1. The project opens at its start.").arg(why);
+  const QString text = why.left(1).toUpper() + why.mid(1) + QStringLiteral(". The project opens at its start.");
   m_session.log().add(MessageLevel::Warning, nameOf(path), title + QLatin1Char(' ') + text);
   m_notices.bar().show(QStringLiteral("state"), MessageLevel::Warning, title, text,
                        {{QStringLiteral("Save with the present state"), [this] { saveWithState(); }}});
