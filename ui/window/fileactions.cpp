@@ -31,6 +31,21 @@ namespace {
 
 const QString kFilter = QStringLiteral("PhaseSketch projects (*.json);;All files (*)");
 
+constexpr std::pair<const char*, const char*> kTips[] = {
+    {"file.new", "An empty tray to draw in. Unsaved work can be brought back."},
+    {"file.open", "A project runs at once, or stands at the state that it holds. Unsaved work can be brought back."},
+    {"file.sample", "The sample stays as it is: saving it asks for another name."},
+    {"file.restore", "Work that no file holds, of this session and of those before."},
+    {"file.save", "The scene as it begins, with its view. What matter does meanwhile is not part of it."},
+    {"file.saveAs", "In another file, which is the one that is saved from then on."},
+    {"file.saveState",
+     "Keeps matter as it stands in the project, which then opens there. Home still leads back to the start."},
+    {"file.removeState", "The project opens at its start again; the scene goes on as it stands."},
+    {"file.picture", "What the view shows now, as PNG."},
+    {"file.csv", "Mean temperature, masses by phase and all probes, one row per frame since the start."},
+    {"file.quit", "Unsaved work comes back at the next start."},
+};
+
 QString nameOf(const QString& path) {
   return path.isEmpty() ? QStringLiteral("New scene") : QFileInfo(path).fileName();
 }
@@ -100,15 +115,10 @@ void FileActions::makeMenu(QMenu* menu, Viewport* view) {
                 [this] { save(); });
   m_actions.add(menu, QStringLiteral("file.saveAs"), QStringLiteral("Save as…"),
                 {QKeySequence(QStringLiteral("Ctrl+Shift+S"))}, [this] { chooseSave(); });
-  m_actions
-      .add(menu, QStringLiteral("file.saveState"), QStringLiteral("Save with the present state"),
-           {QKeySequence(QStringLiteral("Ctrl+Alt+S"))}, [this] { saveWithState(); })
-      ->setToolTip(QStringLiteral("Keeps matter as it stands in the project, which then opens there. Home still leads "
-                                  "back to the start."));
-  m_actions
-      .add(menu, QStringLiteral("file.removeState"), QStringLiteral("Remove the saved state"), {},
-           [this] { m_session.document().removeState(); })
-      ->setToolTip(QStringLiteral("The project opens at its start again; the scene goes on as it stands."));
+  m_actions.add(menu, QStringLiteral("file.saveState"), QStringLiteral("Save with the present state"),
+                {QKeySequence(QStringLiteral("Ctrl+Alt+S"))}, [this] { saveWithState(); });
+  m_actions.add(menu, QStringLiteral("file.removeState"), QStringLiteral("Remove the saved state"), {},
+                [this] { m_session.document().removeState(); });
   menu->addSeparator();
   m_actions.add(menu, QStringLiteral("file.picture"), QStringLiteral("Save picture of the scene…"), {},
                 [this] { exportPicture(); });
@@ -120,9 +130,18 @@ void FileActions::makeMenu(QMenu* menu, Viewport* view) {
   for (const char* name : {"file.new", "file.open", "file.sample", "file.restore"}) {
     if (QAction* replacing = m_actions.find(QString::fromLatin1(name))) replacing->setProperty(kReplaces, true);
   }
-  menu->setToolTipsVisible(true);
+  explain(menu);
   setEnabled(false);
   updateStateActions();
+}
+
+/// Without a tip of its own an entry would repeat its text.
+void FileActions::explain(QMenu* menu) const {
+  for (const auto& [name, tip] : kTips) {
+    if (QAction* action = m_actions.find(QString::fromLatin1(name))) action->setToolTip(QString::fromUtf8(tip));
+  }
+  m_recent->menuAction()->setToolTip(QStringLiteral("Projects that were opened or saved last."));
+  menu->setToolTipsVisible(true);
 }
 
 void FileActions::setEnabled(bool on) {

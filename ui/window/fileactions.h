@@ -41,6 +41,7 @@ class FileActions : public QObject {
  private:
   void openFirst();
   void fillRecent();
+  void explain(QMenu* menu) const;
   void setEnabled(bool on);  ///< what needs plugins
   void chooseOpen();
   void save();
