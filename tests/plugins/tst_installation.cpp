@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Installs this build to a scratch prefix outside the build tree, builds the example plugins there by
 // find_package(PhaseSketch) from copies of their sources, and loads them with the installed programs.
+#include "core/base/jsontext.h"
+
 #include <QDir>
 #include <QDirIterator>
 #include <QFile>
@@ -180,7 +182,21 @@ void InstallationTest::readmesNameWhatIsInstalled() {
   }
   QCOMPARE(folders, 7);
   QVERIFY(text.contains("share/phasesketch/plugins"));
-  QVERIFY(!text.contains("bondmodel"));
+  QFile materials(prefix() + "/share/phasesketch/plugins/README.md");
+  QVERIFY(materials.open(QIODevice::ReadOnly));
+  const QString other = QString::fromUtf8(materials.readAll());
+  // Files and folders in code quotes; those of a user's own end otherwise.
+  int files = 0;
+  QRegularExpressionMatchIterator named = QRegularExpression("`([a-z]+)(\\.json|/)`").globalMatch(text + other);
+  for (; named.hasNext(); ++files) {
+    const QString name = named.next().captured(0).remove('`');
+    if (name == "mymaterial.json") continue;
+    QVERIFY2(QFileInfo(prefix() + "/share/phasesketch/plugins/" + name).exists() ||
+                 QFileInfo(examples + "/" + name).exists(),
+             qPrintable(name));
+  }
+  QVERIFY(files >= 2);
+  QVERIFY2(other.contains(QString("more than %1 levels of brackets").arg(ps::kMaximumDepth)), "another limit");
 }
 
 void InstallationTest::checkSaysThatExamplesAreFine() {
