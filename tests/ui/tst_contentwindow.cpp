@@ -7,12 +7,16 @@
 #include "ui/panels/inspector.h"
 #include "ui/panels/materialspanel.h"
 #include "ui/panels/outliner.h"
+#include "ui/panels/outlinerdelegate.h"
 #include "ui/rows/parameterpanel.h"
 #include "ui/session/selection.h"
 #include "ui/session/wording.h"
+#include "ui/theme/paint.h"
+#include "ui/theme/theme.h"
 #include "ui/tools/toolbox.h"
 #include "ui/viewport/viewport.h"
 #include "ui/window/noticebar.h"
+#include "ui/window/statusline.h"
 
 #include <QtGui/QAction>
 #include <QtGui/QContextMenuEvent>
@@ -260,6 +264,79 @@ class TestContentWindow : public SampleWindowTest {
              qPrintable(panel.findChild<QLabel*>()->text()));
   }
 
+  /// However fast they came, the last frame's values are those that stay.
+  void aPausedSceneShowsItsLastValues() {
+    for (uint64_t frame = 1; frame <= 4; ++frame) {
+      session().step();
+      QTRY_COMPARE(session().snapshot()->stats.frame, frame);
+    }
+    const double mean = session().snapshot()->stats.temperatureMean;
+    const ParameterRow* row =
+        m_window->inspector().materialPanel()->row(QStringLiteral("material/water/density_solid"));
+    QTRY_VERIFY2(std::abs(row->model().temperature - mean) < 1e-3,  // of floats
+                 qPrintable(QString::number(row->model().temperature - mean)));
+  }
+
+  /// What was reached for another time lapse says nothing of the one that was typed.
+  void aTimeLapseTypedWhilePausedIsNoLimit() {
+    const auto limited = [this] {
+      return onEngine<bool>(session(), [](Engine& engine) {
+        const std::vector<Limit> limits = engine.snapshot()->limits;
+        return std::any_of(limits.begin(), limits.end(),
+                           [](const Limit& limit) { return limit.what == "solver.thermal_time_scale"; });
+      });
+    };
+    const Address lapse{Owner::Solver, "", "thermal_time_scale"};
+    QCOMPARE(document().setParameter(lapse, 1.0), QString());
+    onEngine<int>(session(), [](Engine& engine) { return engine.step(), 0; });
+    QVERIFY(!limited());
+    QCOMPARE(document().setParameter(lapse, 500.0), QString());
+    QVERIFY(!limited());
+  }
+
+  /// A 0 would say that there is none of it.
+  void whatIsHeldIsNotCountedAsNothing() {
+    QCOMPARE(document().setParameter({Owner::Body, "ice", "fixed"}, true), QString());
+    toTheStart();
+    QTRY_COMPARE(probeDetail(QStringLiteral("Ice")), QStringLiteral("—"));
+    QTRY_COMPARE(probeDetail(QStringLiteral("Ice core")), QStringLiteral("−10.0 °C"));
+  }
+
+  /// A digit less moves nothing that stands beside it.
+  void theStatusLineStandsStill() {
+    auto* line = m_window->findChild<StatusLine*>();
+    StatusLine::State state = line->state();
+    const auto shown = [&](double realTime) {
+      state.realTime = realTime;
+      line->setState(state);
+      return line->grab().toImage().convertToFormat(QImage::Format_RGB32);
+    };
+    const QImage wide = shown(10), narrow = shown(9.99);
+    QVERIFY(wide != narrow && shown(10) == wide);
+    int first = wide.width(), last = 0;
+    for (int x = 0; x < wide.width(); ++x) {
+      for (int y = 0; y < wide.height(); ++y) {
+        if (wide.pixel(x, y) != narrow.pixel(x, y)) first = std::min(first, x), last = std::max(last, x);
+      }
+    }
+    const double number = textWidth(QStringLiteral("10.00×"), Theme::font(TextRole::Small)) * line->devicePixelRatioF();
+    QVERIFY2(last - first <= number + 2, qPrintable(QString::number(last - first)));
+  }
+
+  void tipsOfTheFileMenuSayMoreThanTheEntry() {
+    QList<QAction*> entries;
+    for (const QObject* place : m_window->action(QStringLiteral("file.new"))->associatedObjects()) {
+      if (const auto* menu = qobject_cast<const QMenu*>(place)) entries = menu->actions();
+    }
+    int tips = 0;
+    for (const QAction* entry : entries) {
+      if (entry->isSeparator()) continue;
+      QVERIFY2(entry->toolTip().endsWith(QLatin1Char('.')), qPrintable(entry->text()));
+      ++tips;
+    }
+    QCOMPARE(tips, 12);
+  }
+
   void whatRunsKeepsItsDigits() {
     Limit limit;
     limit.what = "stiffness";
@@ -281,6 +358,15 @@ class TestContentWindow : public SampleWindowTest {
     QVERIFY(panel->row(QStringLiteral("radius"))->enterNumber(0.123));
     QCOMPARE(m_window->tools().brush().radius, 0.123);
     QCOMPARE(document().undoStack().count(), steps);
+  }
+
+ private:
+  /// What stands beside a name in the outliner.
+  QString probeDetail(const QString& name) const {
+    const QAbstractItemModel* model = m_window->outliner()->view()->model();
+    const QModelIndexList found =
+        model->match(model->index(0, 0), Qt::DisplayRole, name, 1, Qt::MatchExactly | Qt::MatchRecursive);
+    return found.isEmpty() ? QString() : found.front().data(outline::kDetail).toString();
   }
 };
 

@@ -2,9 +2,9 @@
 #include "ui/graphs/energypanel.h"
 
 #include "ui/document/document.h"
-#include "ui/graphs/graphspanel.h"
 #include "ui/graphs/graphview.h"
 #include "ui/session/session.h"
+#include "ui/session/wording.h"
 #include "ui/theme/numbers.h"
 #include "ui/theme/theme.h"
 

@@ -6,6 +6,7 @@
 #include "ui/graphs/phasestackview.h"
 #include "ui/session/session.h"
 #include "ui/session/transitions.h"
+#include "ui/session/wording.h"
 
 #include <QtWidgets/QHBoxLayout>
 
@@ -36,10 +37,6 @@ QByteArray quoted(const std::string& text) {
 }
 
 }  // namespace
-
-bool hasMatter(const FrameStats& stats) {
-  return std::any_of(stats.phases.begin(), stats.phases.end(), [](const PhaseAmount& phase) { return phase.mass > 0; });
-}
 
 GraphsPanel::GraphsPanel(Session& session, QWidget* parent)
     : QWidget(parent),

@@ -40,7 +40,6 @@ class GraphsPanel : public QWidget {
   std::vector<size_t> m_probes;  ///< indices into Project::probes of the series after the first
 };
 
-bool hasMatter(const FrameStats& stats);
 /// All frames as CSV: "time_s,thermal_time_s,mean.temperature[K],…" one row per frame, with every probe.
 QByteArray historyCsv(const std::vector<FrameStats>& history, const std::vector<Probe>& probes);
 

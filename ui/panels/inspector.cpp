@@ -17,8 +17,6 @@
 namespace ps {
 namespace {
 
-constexpr qint64 kReadInterval = 200;  // ms between two readings: means go through all particles
-
 /// The material that a row belongs to; "" for other rows.
 std::string materialOf(const QString& key) {
   const auto address = Address::parse(key.toStdString());
@@ -40,11 +38,8 @@ Inspector::Inspector(Session& session, Selection& selection, QObject* parent)
   m_body->setEmptyText(QStringLiteral("Select something, or press Ctrl+K"));
   m_material->setEmptyText(QStringLiteral("Select something, or press Ctrl+K"));
   connect(&m_document, &Document::changed, this, &Inspector::onChanged);
-  connect(&session, &Session::valuesDue, this, [this] {
-    const SnapshotPtr snapshot = m_session.snapshot();
-    if (!snapshot || (m_sinceRead.isValid() && m_sinceRead.elapsed() < kReadInterval)) return;
-    m_sinceRead.start();
-    setSnapshot(*snapshot);
+  connect(&session, &Session::totalsDue, this, [this] {
+    if (const SnapshotPtr snapshot = m_session.snapshot()) setSnapshot(*snapshot);
   });
   connect(&selection, &Selection::changed, this, [this, &selection] {
     if (!selection.empty()) setBody(selection.body());

@@ -5,7 +5,6 @@
 #include "ui/panels/rownotes.h"
 #include "ui/rows/parameterpanel.h"
 
-#include <QtCore/QElapsedTimer>
 #include <QtCore/QObject>
 
 #include <map>
@@ -70,7 +69,6 @@ class Inspector : public QObject {
 
   Session& m_session;
   Document& m_document;
-  QElapsedTimer m_sinceRead;
   ParameterPanel *m_body, *m_material, *m_scene, *m_solver;
   RowNotes m_notes;
   std::string m_bodyId, m_materialId;

@@ -7,6 +7,7 @@
 #include "ui/document/document.h"
 #include "ui/panels/outlinerdelegate.h"
 #include "ui/session/session.h"
+#include "ui/session/wording.h"
 #include "ui/theme/numbers.h"
 
 #include <QtGui/QColor>
@@ -19,8 +20,6 @@
 
 namespace ps {
 namespace {
-
-constexpr qint64 kReadInterval = 200;  // ms between two readings: counting goes through all particles
 
 /// "20.5 °C", "1.540 g", "76.40 MJ", "24 594".
 QString probeText(double value, const std::string& quantity) {
@@ -78,9 +77,7 @@ Outliner::Outliner(Session& session, Selection& selection, QWidget* parent)
   });
   connect(&selection, &Selection::changed, this, &Outliner::showSelection);
   connect(&m_document, &Document::changed, this, &Outliner::onChanged);
-  connect(&session, &Session::valuesDue, this, [this] {
-    if (!m_sinceRead.isValid() || m_sinceRead.elapsed() > kReadInterval) readValues();
-  });
+  connect(&session, &Session::totalsDue, this, &Outliner::readValues);
 }
 
 QStandardItem* Outliner::add(QStandardItem* parent, OutlineKind kind, const std::string& id, const QString& name,
@@ -169,7 +166,6 @@ void Outliner::onChanged(const ChangeEvent& event) {
 }
 
 void Outliner::readValues() {
-  m_sinceRead.start();
   m_snapshot = m_session.snapshot();
   refreshCounts();
 }
@@ -195,10 +191,13 @@ void Outliner::refreshCounts() {
       item->setData(formatFixed(static_cast<double>(counts[emitter.id])), outline::kDetail);
     }
   }
+  const bool held = !m_snapshot->id.empty() && !hasMatter(m_snapshot->stats);
   for (size_t i = 0; i < project.probes.size() && i < m_snapshot->stats.probes.size(); ++i) {
     QStandardItem* item = find(OutlineKind::Probe, project.probes[i].id);
     if (!item) continue;
-    item->setData(probeText(m_snapshot->stats.probes[i], project.probes[i].quantity), outline::kDetail);
+    // No amount counts what is held: a 0 would say that there is none.
+    const double value = m_snapshot->stats.probes[i];
+    item->setData(probeText(held && value == 0 ? std::nan("") : value, project.probes[i].quantity), outline::kDetail);
   }
 }
 

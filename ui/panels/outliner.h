@@ -5,7 +5,6 @@
 #include "ui/document/port.h"
 #include "ui/session/selection.h"
 
-#include <QtCore/QElapsedTimer>
 #include <QtWidgets/QWidget>
 
 #include <map>
@@ -60,7 +59,6 @@ class Outliner : public QWidget {
   QStandardItemModel* m_model;
   QTreeView* m_view;
   SnapshotPtr m_snapshot;
-  QElapsedTimer m_sinceRead;
   bool m_building = false;
 };
 

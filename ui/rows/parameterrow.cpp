@@ -69,8 +69,8 @@ bool ParameterRow::Private::drawsSymbol() const {
 
 FieldText ParameterRow::Private::fieldText() const {
   const double number = q->number();
-  if (needsPrefix()) return withoutBrackets(shortField(declaration(), number));
   // What follows the temperature runs: all its digits stay, so that it keeps its width.
+  if (needsPrefix()) return withoutBrackets(shortField(declaration(), number, 3, showsCurve()));
   if (showsCurve() && !model.mixed && std::isfinite(number))
     return withoutBrackets({formatNumber(toDisplay(declaration(), number)), displayUnit(declaration())});
   return withoutBrackets({model.mixed ? QStringLiteral("—") : formatField(declaration(), number),

@@ -16,8 +16,9 @@
 
 namespace ps {
 namespace {
-constexpr int kValuesInterval = 66;  // ms: values at 15 Hz
-}
+constexpr int kValuesInterval = 66;   // ms: values at 15 Hz
+constexpr int kTotalsInterval = 200;  // ms
+}  // namespace
 
 Session::Session(const Options& options, QObject* parent)
     : QObject(parent),
@@ -30,6 +31,9 @@ Session::Session(const Options& options, QObject* parent)
   m_values.setInterval(kValuesInterval);
   m_values.setSingleShot(true);
   connect(&m_values, &QTimer::timeout, this, &Session::tellValues);
+  m_totals.setInterval(kTotalsInterval);
+  m_totals.setSingleShot(true);
+  connect(&m_totals, &QTimer::timeout, this, &Session::totalsDue);
   connect(m_document.get(), &Document::changed, this, [this](const ChangeEvent& event) {
     if (!std::holds_alternative<ProjectOpened>(event)) return;
     m_opening = true;
@@ -99,6 +103,7 @@ void Session::onSnapshot() {
   if (!m_opening || !now || now->revision == m_before) return;
   m_opening = false;
   tellValues();
+  Q_EMIT totalsDue();
   Q_EMIT projectShown();
 }
 
@@ -109,6 +114,7 @@ void Session::tellValues() {
     Q_EMIT happened(event);
   }
   Q_EMIT valuesDue();
+  if (!m_totals.isActive()) m_totals.start();
 }
 
 SnapshotPtr Session::snapshot() const { return m_engine ? m_engine->snapshot() : nullptr; }

@@ -70,6 +70,7 @@ class Session : public QObject {
   void ready();
   void snapshotArrived();  ///< coalesced: at most one per turn of the event loop
   void valuesDue();        ///< there are newer numbers to show: at most 15 times a second
+  void totalsDue();        ///< the same for what goes through all particles: at most 5 times a second
   void playingChanged();
   void happened(const ps::EngineEvent& event);  ///< in the order of their numbers, none left out
   void stateKept();
@@ -101,7 +102,7 @@ class Session : public QObject {
   bool m_opening = true;  ///< the project's first snapshot has not come yet
   uint64_t m_before = 0;  ///< revision of the last snapshot of the project before
   uint64_t m_eventsRead = 0;
-  QTimer m_values;
+  QTimer m_values, m_totals;
   std::unique_ptr<EngineThread> m_engine;
   std::unique_ptr<SceneLink> m_link;
   std::unique_ptr<Worker> m_worker;  // ends first: its jobs point at the others

@@ -4,6 +4,7 @@
 #include "core/simulation/events.h"
 #include "ui/theme/numbers.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace ps {
@@ -40,6 +41,10 @@ QString clockText(double seconds) {
       .arg(hundredths / 6000, 2, 10, QLatin1Char('0'))
       .arg(hundredths / 100 % 60, 2, 10, QLatin1Char('0'))
       .arg(hundredths % 100, 2, 10, QLatin1Char('0'));
+}
+
+bool hasMatter(const FrameStats& stats) {
+  return std::any_of(stats.phases.begin(), stats.phases.end(), [](const PhaseAmount& phase) { return phase.mass > 0; });
 }
 
 FailureText failureText(const EngineEvent& event) {

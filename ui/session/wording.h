@@ -17,6 +17,8 @@ QString countText(size_t count, const QString& one, const QString& many);
 QString spanText(double seconds);
 /// "00:42.00": minutes, seconds, hundredths.
 QString clockText(double seconds);
+/// Whether there is matter that phases count: what is held in place is not among it.
+bool hasMatter(const FrameStats& stats);
 /// What went wrong and what to do about it, for a notice; of anything but Settled.
 struct FailureText {
   QString title, text;

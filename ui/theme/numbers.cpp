@@ -294,7 +294,7 @@ QString formatValue(const api::ParameterDeclaration& d, double stored) {
   return unit.isEmpty() ? formatField(d, stored) : formatField(d, stored) + QLatin1Char(' ') + unit;
 }
 
-FieldText shortField(const api::ParameterDeclaration& d, double stored, int significant) {
+FieldText shortField(const api::ParameterDeclaration& d, double stored, int significant, bool running) {
   const UnitPrefix prefix = prefixFor(stored, 3);
   const QString plain = QString::fromUtf8(d.unit ? d.unit : ""), prefixed = prefix.symbol + plain;
   const std::optional<Unit> unit = parseUnit(plain), scaled = parseUnit(prefixed);
@@ -302,7 +302,8 @@ FieldText shortField(const api::ParameterDeclaration& d, double stored, int sign
   const bool takesPrefix = unit && scaled && scaled->dimension == unit->dimension && d.displayOffset == 0 &&
                            std::abs(scaled->scale - prefix.factor * unit->scale) <= 1e-9 * scaled->scale;
   if (!takesPrefix || standsForNone(d, stored)) return {formatField(d, stored), displayUnit(d)};
-  return {formatShort(stored / prefix.factor, significant), prefixed};
+  const double shown = stored / prefix.factor;
+  return {running ? formatNumber(shown, significant) : formatShort(shown, significant), prefixed};
 }
 
 QString formatBound(const api::ParameterDeclaration& d, double stored) {

@@ -49,11 +49,12 @@ QString formatField(const api::ParameterDeclaration& declaration, double stored)
 /// The same with its displayed unit.
 QString formatValue(const api::ParameterDeclaration& declaration, double stored);
 /// The same for a narrow place: where SI knows a prefix for the unit, the one that keeps the number short: "3.97 kPa·s"
-/// for 3 970 000 mPa·s.
+/// for 3 970 000 mPa·s. `running`: it keeps its zeros, and so its width, as it changes.
 struct FieldText {
   QString value, unit;
 };
-FieldText shortField(const api::ParameterDeclaration& declaration, double stored, int significant = 3);
+FieldText shortField(const api::ParameterDeclaration& declaration, double stored, int significant = 3,
+                     bool running = false);
 /// A limit of the range with its unit: always the amount, never the word that it may stand for.
 QString formatBound(const api::ParameterDeclaration& declaration, double stored);
 /// A stored value times a factor as people see it: twice 10 °C is 20 °C.

@@ -203,12 +203,14 @@ void StatusLine::paintEvent(QPaintEvent*) {
   double x = 26;
   bool first = true;
   const std::vector<Part> parts = leftParts();
-  if (m_widths.size() != parts.size()) m_widths.assign(parts.size(), 0);
+  if (m_widths.size() != parts.size()) m_widths.assign(parts.size(), {});
   for (size_t i = 0; i < parts.size(); ++i) {
     const Part& part = parts[i];
-    const double strong = part.strong.isEmpty() ? 0 : textWidth(part.strong, font) + 4;
-    // As wide as it has been: a digit less must not move what stands beside it.
-    const double w = m_widths[i] = std::max(m_widths[i], strong + textWidth(part.weak, font) + 2);
+    // As wide as they have been: a digit less must not move what stands beside it.
+    Width& known = m_widths[i];
+    if (!part.strong.isEmpty()) known.strong = std::max(known.strong, textWidth(part.strong, font) + 4);
+    known.whole = std::max(known.whole, known.strong + textWidth(part.weak, font) + 2);
+    const double strong = known.strong, w = known.whole;
     if (x + w + 12 > right) break;  // no half words: what does not fit is left out
     if (!first) paintVerticalLine(painter, x - 8, 6, height() - 6, theme[Token::Line2]);
     first = false;

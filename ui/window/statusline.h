@@ -63,8 +63,11 @@ class StatusLine : public QWidget {
   QRectF m_noteRect;
   QTimer m_watch;
   QElapsedTimer m_sinceValues;
-  std::vector<double> m_widths;  ///< of the parts on the left, the widest in this run
-  size_t m_slowest = 0;          ///< stage that is named
+  struct Width {
+    double strong = 0, whole = 0;
+  };
+  std::vector<Width> m_widths;  ///< of the parts on the left, the widest in this run
+  size_t m_slowest = 0;         ///< stage that is named
 };
 
 }  // namespace ps
