@@ -52,6 +52,17 @@ std::vector<std::string> rulesOf(const Project& project, const PluginRegistry* p
   return ruleTexts(*declaration, declarationsAround(project, plugins, address));
 }
 
+std::string adviceOf(const Project& project, const PluginRegistry* plugins, const Address& address) {
+  const api::ParameterDeclaration* declaration = declarationOf(project, plugins, address);
+  if (!declaration || !declaration->relations) return {};
+  const std::optional<Breach> breach = firstBreach(api::listOf(declaration, 1), valuesAround(project, plugins, address),
+                                                   declarationsAround(project, plugins, address), false);
+  if (!breach) return {};
+  std::string sentence = breach->sentence + ".";
+  if (sentence.front() == 's') sentence.front() = 'S';
+  return sentence;
+}
+
 std::string problemOfRelations(const Project& project, const PluginRegistry* plugins, const Address& address,
                                const Value& value) {
   const ValueOfKey others = valuesAround(project, plugins, address);

@@ -18,6 +18,9 @@ std::string idleReason(const Project& project, const PluginRegistry* plugins, co
 bool mayEnable(const api::ParameterDeclaration& declaration, const Address& own, const Address& changed);
 /// What the value of an address is bound by and when it acts, in sentences.
 std::vector<std::string> rulesOf(const Project& project, const PluginRegistry* plugins, const Address& address);
+/// "" or what the value of an address should be, by its own declaration, and is not: "Should be above “Opens at” (5 s),
+/// not 2 s."
+std::string adviceOf(const Project& project, const PluginRegistry* plugins, const Address& address);
 /// "" or the relation of the address's list that a value would break: "Cold side: must be below “Hot side” (20 °C), not
 /// 25 °C." Those of a material's properties are found by problemOf(Material).
 std::string problemOfRelations(const Project& project, const PluginRegistry* plugins, const Address& address,

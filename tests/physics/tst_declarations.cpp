@@ -395,7 +395,8 @@ void TestDeclarations::relationsRefuse_data() {
   }
 }
 
-/// Random values of all that a relation speaks of: what breaks it is refused by the panels and in a file, with the key.
+/// Random values of all that a relation speaks of: what breaks it is refused by the panels and in a file, with the key,
+/// or is let in and advised against.
 void TestDeclarations::relationsRefuse() {
   QFETCH(QString, text);
   QFETCH(int, index);
@@ -411,6 +412,7 @@ void TestDeclarations::relationsRefuse() {
     }
     const bool broken = breaks(relation, project, address);
     ++seen[broken];
+    QCOMPARE(!adviceOf(project, &m_plugins, address).empty(), broken && !relation.must);
     if (!broken) continue;
     const Value own = valueAt(project, &m_plugins, address);
     const std::string panel = problemWith(project, &m_plugins, address, own), file = refusal(project);

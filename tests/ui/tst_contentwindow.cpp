@@ -253,6 +253,37 @@ class TestContentWindow : public SampleWindowTest {
     QVERIFY(!m_window->inspector().bodyPanel()->row(QStringLiteral("body/ice/heating_power"))->has(RowState::Limited));
   }
 
+  /// What a value should be it may also not be: its row says so, beside what else there is to say.
+  void aRowSaysWhatItsValueShouldBe() {
+    Emitter tap;
+    tap.material = "water";
+    tap.point = {0, 0.6, 0};
+    const std::string id = document().addEmitter(tap).id;
+    const auto note = [&] {
+      const auto* row = m_window->inspector().scenePanel()->row(QString::fromStdString("emitter/" + id + "/stop"));
+      const auto* label = row->findChild<QLabel*>(QStringLiteral("psLimit"));
+      return label ? label->text() : QString();
+    };
+    QCOMPARE(note(), QString());
+    QCOMPARE(document().setParameter({Owner::Emitter, id, "start"}, 5.0), QString());
+    QCOMPARE(document().setParameter({Owner::Emitter, id, "stop"}, 2.0), QString());
+    QCOMPARE(note(), QStringLiteral("Should be above “Opens at” (5 s), not 2 s."));
+    m_window->inspector().rebuild();
+    QVERIFY(!note().isEmpty());
+    QCOMPARE(document().setParameter({Owner::Emitter, id, "start"}, 1.0), QString());
+    QCOMPARE(note(), QString());
+
+    // One of a value that waits as well.
+    QCOMPARE(document().setParameter({Owner::Body, "ice", "fixed"}, true), QString());
+    QCOMPARE(document().setParameter({Owner::Body, "ice", "motion_start"}, 4.0), QString());
+    QCOMPARE(document().setParameter({Owner::Body, "ice", "motion_stop"}, 3.0), QString());
+    const auto* row = m_window->inspector().bodyPanel()->row(QStringLiteral("body/ice/motion_stop"));
+    const auto* label = row->findChild<QLabel*>(QStringLiteral("psLimit"));
+    QVERIFY(label);
+    QVERIFY2(label->text().startsWith(QStringLiteral("Should be above “Sets off at” (4 s), not 3 s.")),
+             qPrintable(label->text()));
+  }
+
   /// It is in no phase's mass, but has heat all the same.
   void heldMatterHasItsLedger() {
     QTRY_VERIFY(session().snapshot() && !session().snapshot()->id.empty());

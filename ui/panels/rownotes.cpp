@@ -1,13 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/panels/rownotes.h"
 
+#include "core/simulation/rules.h"
 #include "ui/document/document.h"
 #include "ui/rows/parameterpanel.h"
+#include "ui/rows/parameterrow.h"
 #include "ui/session/wording.h"
 
+#include <cmath>
 #include <limits>
 
 namespace ps {
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+/// Behind what the row is told already.
+template <class Note>
+void add(std::map<QString, Note>& notes, const QString& key, Note note) {
+  const auto [at, fresh] = notes.try_emplace(key, note);
+  if (fresh) return;
+  at->second.text += QLatin1Char('\n') + note.text;
+  if (!std::isnan(note.delivered)) at->second.delivered = note.delivered;
+}
+
+}  // namespace
 
 RowNotes::RowNotes(const Document& document, std::vector<ParameterPanel*> panels)
     : m_document(document), m_panels(std::move(panels)) {}
@@ -27,6 +44,11 @@ void RowNotes::setSnapshot(const Snapshot& snapshot) {
 }
 
 void RowNotes::onChanged(const ParameterChanged& change) {
+  noteWaiting(change);
+  show();
+}
+
+void RowNotes::noteWaiting(const ParameterChanged& change) {
   const Address& address = change.address;
   const api::ParameterDeclaration* declaration = m_document.declaration(address);
   if (!declaration || declaration->actsAt == api::ActsAt::NextFrame) return;
@@ -35,7 +57,17 @@ void RowNotes::onChanged(const ParameterChanged& change) {
   if (declaration->actsAt == api::ActsAt::NextFrameIfFixed && fixed) return;
   const auto [made, first] = m_made.try_emplace(address.text(), change.before);
   if (!first && made->second == m_document.value(address)) m_made.erase(made);
-  show();
+}
+
+void RowNotes::addAdvice(std::map<QString, Note>& notes) const {
+  for (const ParameterPanel* panel : m_panels) {
+    for (const ParameterRow* row : panel->rows()) {
+      const auto address = Address::parse(row->key().toStdString());
+      if (!address || !row->model().declaration.relations) continue;
+      const std::string advice = adviceOf(m_document.project(), m_document.plugins(), *address);
+      if (!advice.empty()) add(notes, row->key(), {QString::fromStdString(advice), kNone});
+    }
+  }
 }
 
 void RowNotes::addLimits(std::map<QString, Note>& notes) const {
@@ -43,23 +75,23 @@ void RowNotes::addLimits(std::map<QString, Note>& notes) const {
   for (const Limit& limit : m_limits) {
     const auto address = limitAddress(limit, m_bodies.get());
     if (!address) continue;
-    notes[QString::fromStdString(address->text())] = {
-        limitText(limit, m_document.declaration(*address)) +
-            QStringLiteral(". [Use %1 substeps](solver/substeps=%1) to come closer")
-                .arg(static_cast<int>(substeps) * 2),
-        limit.delivered};
+    add(notes, QString::fromStdString(address->text()),
+        {limitText(limit, m_document.declaration(*address)) +
+             QStringLiteral(". [Use %1 substeps](solver/substeps=%1) to come closer")
+                 .arg(static_cast<int>(substeps) * 2),
+         limit.delivered});
   }
 }
 
 void RowNotes::addWaiting(std::map<QString, Note>& notes) const {
   for (const auto& [address, value] : m_made)
-    notes[QString::fromStdString(address)] = {
-        QStringLiteral("Acts at the next reset. [Reset now](%1)").arg(QLatin1String(kReset)),
-        std::numeric_limits<double>::quiet_NaN()};
+    add(notes, QString::fromStdString(address),
+        {QStringLiteral("Acts at the next reset. [Reset now](%1)").arg(QLatin1String(kReset)), kNone});
 }
 
 void RowNotes::show() {
   std::map<QString, Note> notes;
+  addAdvice(notes);
   addLimits(notes);
   addWaiting(notes);
   for (ParameterPanel* panel : m_panels) {

@@ -14,7 +14,8 @@ namespace ps {
 class Document;
 class ParameterPanel;
 
-/// The notes under rows: what the solver cannot reach, and what waits for the next reset.
+/// The notes under rows: what a value should be and is not, what the solver cannot reach, what waits for the next
+/// reset.
 class RowNotes {
  public:
   RowNotes(const Document& document, std::vector<ParameterPanel*> panels);
@@ -33,8 +34,10 @@ class RowNotes {
     QString text;
     double delivered;
   };
+  void addAdvice(std::map<QString, Note>& notes) const;
   void addLimits(std::map<QString, Note>& notes) const;
   void addWaiting(std::map<QString, Note>& notes) const;
+  void noteWaiting(const ParameterChanged& change);
 
   const Document& m_document;
   std::vector<ParameterPanel*> m_panels;

@@ -19,7 +19,7 @@
 namespace ps {
 namespace {
 
-/// "**bold**" and "[text](link)" as rich text with links in accent and not underlined.
+/// Lines with "**bold**" and "[text](link)" as rich text with links in accent and not underlined.
 QString richText(const QString& markdown) {
   QString html = markdown.toHtmlEscaped();
   static const QRegularExpression bold(QStringLiteral("\\*\\*(.+?)\\*\\*"));
@@ -29,6 +29,7 @@ QString richText(const QString& markdown) {
                QStringLiteral("<span style=\"font-weight:600;color:%1\">\\1</span>").arg(theme[Token::Text].name()));
   html.replace(link, QStringLiteral("<a href=\"\\2\" style=\"color:%1;text-decoration:none\">\\1</a>")
                          .arg(theme[Token::Accent].name()));
+  html.replace(QLatin1Char('\n'), QLatin1String("<br>"));
   return html;
 }
 
