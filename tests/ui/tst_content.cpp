@@ -135,7 +135,7 @@ class TestContent : public QObject {
     QVERIFY(countNow(*m_engine) > 0);
   }
 
-  /// What a tap has poured goes with it when its placing is undone, and comes back with it.
+  /// What a tap has poured goes with it, undone or deleted, and comes back with it.
   void anUndoneTapLeavesNoMatter() {
     Project project = scenes::iceOnPlate(3, 293.15);
     m_document->open(project, {}, false, false);
@@ -162,7 +162,10 @@ class TestContent : public QObject {
     QCOMPARE(ofTap(), static_cast<size_t>(poured));
     step(*m_engine, 10);
     QVERIFY(ofTap() > poured);
-    m_document->removePort(port);  // a tap that is taken away leaves what it has poured
+    m_document->removePort(port);
+    QCOMPARE(ofTap(), size_t{0});
+    QCOMPARE(countNow(*m_engine), bodies);
+    m_document->undoStack().undo();
     QVERIFY(ofTap() >= poured);
   }
 
