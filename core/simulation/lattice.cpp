@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/simulation/lattice.h"
 
+#include "core/sketch/grid.h"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -9,10 +11,9 @@
 namespace ps {
 namespace {
 
-CellIndex cellAt(const api::Double3& p, const Vector3& origin, double size) {
-  return {static_cast<int>(std::floor((p.x - origin[0]) / size + 0.5)),
-          static_cast<int>(std::floor((p.y - origin[1]) / size + 0.5)),
-          static_cast<int>(std::floor((p.z - origin[2]) / size + 0.5))};
+CellIndex cellAt(const api::Double3& p, const SketchGrid& grid) {
+  const api::Cell cell = grid.cellAt({p.x, p.y, p.z});
+  return {cell.x, cell.y, cell.z};
 }
 
 double squaredDistance(const api::Double3& a, const api::Double3& b) {
@@ -45,7 +46,7 @@ size_t OccupiedPlaces::slotOf(const CellIndex& cell) const {
 
 void OccupiedPlaces::add(const api::Double3& place) {
   const api::Double3 p = m_period.wrapped(place);
-  uint32_t& first = m_first[slotOf(cellAt(p, {0, 0, 0}, 2 * m_clearance))];
+  uint32_t& first = m_first[slotOf(cellAt(p, {{0, 0, 0}, 2 * m_clearance}))];
   m_next.push_back(first);
   first = static_cast<uint32_t>(m_points.size());
   m_points.push_back(p);
@@ -78,8 +79,8 @@ bool OccupiedPlaces::isFree(const api::Double3& place) const {
 
 bool OccupiedPlaces::isFreeHere(const api::Double3& p) const {
   const double r = m_clearance;
-  const CellIndex low = cellAt({p.x - r, p.y - r, p.z - r}, {0, 0, 0}, 2 * r),
-                  high = cellAt({p.x + r, p.y + r, p.z + r}, {0, 0, 0}, 2 * r);
+  const SketchGrid grid{{0, 0, 0}, 2 * r};
+  const CellIndex low = cellAt({p.x - r, p.y - r, p.z - r}, grid), high = cellAt({p.x + r, p.y + r, p.z + r}, grid);
   for (int z = low[2]; z <= high[2]; ++z) {
     for (int y = low[1]; y <= high[1]; ++y) {
       for (int x = low[0]; x <= high[0]; ++x) {
@@ -212,10 +213,10 @@ size_t dropOccupied(Spawn& spawn, OccupiedPlaces& occupied) {
 std::vector<uint32_t> idsInCells(const ParticleStore& store, const VoxelShape& voxels, std::vector<CellIndex> cells) {
   std::sort(cells.begin(), cells.end());
   const double hair = kOnFace * voxels.spacing;
-  const Vector3 origin = voxels.origin - Vector3::Constant(hair);
+  const SketchGrid grid{voxels.origin - Vector3::Constant(hair), voxels.spacing};
   std::vector<uint32_t> ids;
   for (size_t i = 0; i < store.size(); ++i) {
-    const CellIndex cell = cellAt(store.wrappedPosition(i), origin, voxels.spacing);
+    const CellIndex cell = cellAt(store.wrappedPosition(i), grid);
     if (std::binary_search(cells.begin(), cells.end(), cell)) ids.push_back(store.id()[i]);
   }
   std::sort(ids.begin(), ids.end());
