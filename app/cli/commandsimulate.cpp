@@ -54,9 +54,7 @@ void restoreFrom(const std::string& path, Engine& engine) {
 void saveResults(const Arguments& arguments, Project project, const Engine& engine) {
   if (!arguments.has("--save-state") && !arguments.has("--save-project")) return;
   StateBuffer buffer;
-  StateWriter writer(buffer);
-  engine.save(writer);
-  writer.finish();
+  saveTo(buffer, engine);
   const std::span<const std::byte> bytes = buffer.bytes();
   if (arguments.has("--save-state"))
     writeFileAtomically(arguments.text("--save-state"), {reinterpret_cast<const char*>(bytes.data()), bytes.size()});

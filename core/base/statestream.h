@@ -167,6 +167,20 @@ class StateWriter {
   size_t m_carried = 0;
 };
 
+/// All that a part saves.
+template <class Part>
+void saveTo(StateSink& sink, const Part& part) {
+  StateWriter writer(sink);
+  part.save(writer);
+  writer.finish();
+}
+template <class Part>
+uint64_t savedHash(const Part& part) {
+  StateHash hash;
+  saveTo(hash, part);
+  return hash.value();
+}
+
 /// Reads a stream in memory, which must outlive it. Everything is checked before it is believed: any bytes whatever
 /// give either a value or an InputError that names the block and what is wrong with it. Blocks that nobody asks for are
 /// passed over, and known by unread().

@@ -68,17 +68,13 @@ json measureState(Engine& engine, double frameMilliseconds) {
   setThreadCount(1);
   const double save = bestOf(5, [&] {
     whole.clear();
-    StateWriter writer(whole);
-    engine.save(writer);
-    writer.finish();
+    saveTo(whole, engine);
   });
   const double restore = bestOf(3, [&] { engine.restore(StateReader(whole.bytes())); });
   setThreadCount(threads);
   const double ready = bestOf(5, [&] {  // what the solver does at the start of each frame
     lastGood.clear();
-    StateWriter writer(lastGood);
-    engine.solver().save(writer);
-    writer.finish();
+    saveTo(lastGood, engine.solver());
   });
   const double particles = static_cast<double>(engine.solver().particles().size());
   return {{"bytes_per_particle", static_cast<double>(whole.bytes().size()) / particles},

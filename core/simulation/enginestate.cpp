@@ -82,12 +82,6 @@ void Engine::openAtState() {
     m_remarks.push_back("/state/blocks: nothing here knows the block '" + name + "'; it is kept and has no effect");
 }
 
-uint64_t Engine::stateHash() const {
-  StateHash hash;
-  StateWriter writer(hash);
-  save(writer);
-  writer.finish();
-  return hash.value();
-}
+uint64_t Engine::stateHash() const { return savedHash(*this); }
 
 }  // namespace ps

@@ -26,9 +26,7 @@ using Bytes = std::vector<std::byte>;
 
 Bytes saved(const Engine& engine) {
   ps::StateBuffer buffer;
-  ps::StateWriter writer(buffer);
-  engine.save(writer);
-  writer.finish();
+  ps::saveTo(buffer, engine);
   return {buffer.bytes().begin(), buffer.bytes().end()};
 }
 

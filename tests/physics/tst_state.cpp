@@ -72,9 +72,7 @@ class Scene {
 
 std::vector<std::byte> saved(const Solver& solver) {
   ps::StateBuffer buffer;
-  ps::StateWriter writer(buffer);
-  solver.save(writer);
-  writer.finish();
+  ps::saveTo(buffer, solver);
   return {buffer.bytes().begin(), buffer.bytes().end()};
 }
 

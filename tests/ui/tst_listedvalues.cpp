@@ -44,11 +44,7 @@ Value another(const Value& now, const api::ParameterDeclaration& declaration) {
 
 uint64_t hashAfter(Engine& engine, int frames) {
   for (int frame = 0; frame < frames; ++frame) engine.step();
-  StateHash hash;
-  StateWriter writer(hash);
-  engine.solver().particles().save(writer);
-  writer.finish();
-  return hash.value();
+  return savedHash(engine.solver().particles());
 }
 
 }  // namespace

@@ -30,9 +30,7 @@ using Bytes = std::vector<std::byte>;
 
 Bytes saved(const Engine& engine) {
   StateBuffer buffer;
-  StateWriter writer(buffer);
-  engine.save(writer);
-  writer.finish();
+  saveTo(buffer, engine);
   return {buffer.bytes().begin(), buffer.bytes().end()};
 }
 

@@ -76,9 +76,7 @@ void fill(ps::ParticleStore& store) {
 
 Bytes saved(const ps::ParticleStore& store) {
   StateBuffer buffer;
-  StateWriter writer(buffer);
-  store.save(writer);
-  writer.finish();
+  saveTo(buffer, store);
   return bytesOf(buffer);
 }
 

@@ -172,9 +172,7 @@ void Session::keepState() {
   }
   m_engine->ask([this, bodies = m_document->project().bodies, count = m_document->changeCount()](const Engine& engine) {
     auto stream = std::make_shared<StateBuffer>();
-    StateWriter writer(*stream);
-    engine.save(writer);
-    writer.finish();
+    saveTo(*stream, engine);
     QMetaObject::invokeMethod(this, [this, stream, named = engine.namedMatter(), bodies, count] {
       packState({stream, named, bodies, count});
     });

@@ -46,9 +46,7 @@ void Solver::Impl::restore(const StateReader& reader) {
 /// Into memory that is used again frame by frame.
 void Solver::Impl::keepLastGood() {
   lastGood.clear();
-  StateWriter writer(lastGood);
-  save(writer);
-  writer.finish();
+  saveTo(lastGood, *this);
   lastGoodValid = true;
 }
 
@@ -67,12 +65,6 @@ void Solver::restore(const StateReader& reader) {
   m->lastGoodValid = false;
 }
 
-uint64_t Solver::stateHash() const {
-  StateHash hash;
-  StateWriter writer(hash);
-  save(writer);
-  writer.finish();
-  return hash.value();
-}
+uint64_t Solver::stateHash() const { return savedHash(*this); }
 
 }  // namespace ps
