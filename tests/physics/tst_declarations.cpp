@@ -58,6 +58,7 @@ class TestDeclarations : public QObject {
 namespace {
 
 constexpr int kBefore = 3, kAfter = 4;  // frames
+constexpr int kFiles = 30;              // broken projects of one relation that are written and read: that takes long
 
 /// What acts, but on no particle: on how it is drawn, or on plugins that ask for it and are not ours.
 bool movesNothing(const Address& address) {
@@ -149,13 +150,7 @@ Project prepared(const Address& address) {
 }
 
 /// Of every field of every particle. What an engine hashes has settings in it, of constraints and clocks.
-uint64_t matterHash(const Engine& engine) {
-  StateHash hash;
-  StateWriter writer(hash);
-  engine.solver().particles().save(writer);
-  writer.finish();
-  return hash.value();
-}
+uint64_t matterHash(const Engine& engine) { return savedHash(engine.solver().particles()); }
 
 /// Two hashes: after kBefore and kAfter frames, and after as many again from a reset.
 std::array<uint64_t, 2> hashes(Engine& engine) {
@@ -415,8 +410,9 @@ void TestDeclarations::relationsRefuse() {
     QCOMPARE(!adviceOf(project, &m_plugins, address).empty(), broken && !relation.must);
     if (!broken) continue;
     const Value own = valueAt(project, &m_plugins, address);
-    const std::string panel = problemWith(project, &m_plugins, address, own), file = refusal(project);
-    QCOMPARE(panel.empty(), !relation.must);
+    QCOMPARE(problemWith(project, &m_plugins, address, own).empty(), !relation.must);
+    if (seen[1] > kFiles) continue;
+    const std::string file = refusal(project);
     QVERIFY2(relation.must ? !file.empty() : file.empty(), file.c_str());
   }
   QVERIFY2(seen[0] > 10 && seen[1] > 10, qPrintable(QString("held %1, broken %2").arg(seen[0]).arg(seen[1])));

@@ -39,6 +39,17 @@ std::set<uint32_t> idsNow(EngineThread& engine) {
   });
 }
 
+/// A document with the small scene, and what opens and saves it.
+struct Desk {
+  explicit Desk(const PluginRegistry& plugins) {
+    document.setPlugins(&plugins);
+    document.open(smallScene(), {});
+  }
+  Document document;
+  Worker worker;
+  DocumentFiles files{document, worker};
+};
+
 std::vector<std::array<int, 3>> cube(int side, int x, int y, int z) {
   std::vector<std::array<int, 3>> cells;
   cells.reserve(static_cast<size_t>(side * side * side));
@@ -388,11 +399,9 @@ class TestDocument : public QObject {
 
   void savedFilesReadBack() {
     QTemporaryDir directory;
-    Worker worker;
-    Document document;
-    document.setPlugins(m_plugins.get());
-    DocumentFiles files(document, worker);
-    document.open(smallScene(), {});
+    Desk desk(*m_plugins);
+    Document& document = desk.document;
+    DocumentFiles& files = desk.files;
     document.setParameter(kFloor, 345.0);
     QVERIFY(document.isDirty());
     const QString path = directory.filePath(QStringLiteral("scene.json"));
@@ -417,11 +426,9 @@ class TestDocument : public QObject {
   void aSaveDuringWhichSomethingChangedStaysDirty() {
     QFETCH(bool, drag);
     QTemporaryDir directory;
-    Worker worker;
-    Document document;
-    document.setPlugins(m_plugins.get());
-    DocumentFiles files(document, worker);
-    document.open(smallScene(), {});
+    Desk desk(*m_plugins);
+    Document& document = desk.document;
+    DocumentFiles& files = desk.files;
     if (drag) document.beginGesture();
     document.setParameter(kFloor, 345.0);
     QSignalSpy saved(&files, &DocumentFiles::saved);
@@ -434,11 +441,9 @@ class TestDocument : public QObject {
 
   void aSaveThatEndsLateLeavesTheNextProjectAlone() {
     QTemporaryDir directory;
-    Worker worker;
-    Document document;
-    document.setPlugins(m_plugins.get());
-    DocumentFiles files(document, worker);
-    document.open(smallScene(), {});
+    Desk desk(*m_plugins);
+    Document& document = desk.document;
+    DocumentFiles& files = desk.files;
     document.setParameter(kFloor, 345.0);
     QSignalSpy saved(&files, &DocumentFiles::saved);
     files.save(directory.filePath(QStringLiteral("old.json")));
@@ -464,11 +469,9 @@ class TestDocument : public QObject {
     QVERIFY(file.open(QIODevice::WriteOnly));
     file.write(content);
     file.close();
-    Worker worker;
-    Document document;
-    document.setPlugins(m_plugins.get());
-    DocumentFiles files(document, worker);
-    document.open(smallScene(), {});
+    Desk desk(*m_plugins);
+    Document& document = desk.document;
+    DocumentFiles& files = desk.files;
     const std::string before = writeProject(document.project());
     QSignalSpy failed(&files, &DocumentFiles::openFailed);
     files.open(path);
