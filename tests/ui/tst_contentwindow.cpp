@@ -270,6 +270,8 @@ class TestContentWindow : public SampleWindowTest {
     QCOMPARE(note(), QStringLiteral("Should be above “Opens at” (5 s), not 2 s."));
     m_window->inspector().rebuild();
     QVERIFY(!note().isEmpty());
+    document().setPinned("emitter/" + id + "/stop", true);  // it stands twice now, and is told once
+    QCOMPARE(note(), QStringLiteral("Should be above “Opens at” (5 s), not 2 s."));
     QCOMPARE(document().setParameter({Owner::Emitter, id, "start"}, 1.0), QString());
     QCOMPARE(note(), QString());
 

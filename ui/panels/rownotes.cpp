@@ -63,7 +63,8 @@ void RowNotes::addAdvice(std::map<QString, Note>& notes) const {
   for (const ParameterPanel* panel : m_panels) {
     for (const ParameterRow* row : panel->rows()) {
       const auto address = Address::parse(row->key().toStdString());
-      if (!address || !row->model().declaration.relations) continue;
+      // A pinned row stands twice.
+      if (!address || !row->model().declaration.relations || notes.contains(row->key())) continue;
       const std::string advice = adviceOf(m_document.project(), m_document.plugins(), *address);
       if (!advice.empty()) add(notes, row->key(), {QString::fromStdString(advice), kNone});
     }
