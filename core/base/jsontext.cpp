@@ -107,6 +107,7 @@ class Builder final : public nlohmann::json_sax<json> {
       return "the file ends too early; it may have been cut off";
     }
     if (what.find("ill-formed UTF-8") != std::string::npos) return "not UTF-8 text";
+    if (what.find("surrogate") != std::string::npos) return "half a character: \\uD800 to \\uDFFF stand in pairs";
     const char last = position > 0 && position <= m_text.size() ? m_text[position - 1] : ' ';
     if ((last == 'N' || last == 'I') && what.find("; expected") == std::string::npos) {
       return "NaN and Infinity are not numbers in JSON";

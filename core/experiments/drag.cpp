@@ -75,7 +75,7 @@ Drag measureDrag(const Project& project, PluginRegistry& plugins, const std::str
   double dragging = 0;
   for (int k = 0; k < kTurns; ++k) {
     drag.framesAlone += framesPerSecond(thread, turn, [] {}) / kTurns;
-    const size_t before = thread.history(0).size();
+    const uint64_t before = thread.snapshot()->stats.frame + 1;
     const auto begin = Clock::now();
     drag.framesDragged += framesPerSecond(thread, turn,
                                           [&] {

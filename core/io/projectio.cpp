@@ -45,8 +45,10 @@ json* step(json& value, const std::string& part) {
   return &value[index];
 }
 
-InputError noSuchPlace(const std::string& edit, const std::string& part) {
-  return InputError("--set " + edit + ": the project has no '" + part + "' there");
+constexpr size_t kShownPointer = 200;  ///< characters of it that a message repeats
+
+InputError noSuchPlace(const std::string& name, const std::string& part) {
+  return InputError(name + ": the project has no '" + part + "' there");
 }
 
 json editedValue(const std::string& text, const std::string& edit) {
@@ -66,9 +68,9 @@ void checkFormat(const json& document, const std::string& name) {
     throw InputError(name + ":/format: must be \"phasesketch\": this is no PhaseSketch project");
   }
   const auto version = document.find("version");
-  if (version == document.end() || !version->is_number_integer() || version->get<double>() < 1) return;
+  if (version == document.end() || !version->is_number() || version->get<double>() < 1) return;  // the schema says it
   const auto oldest = document.find("minVersion");
-  const bool known = oldest != document.end() && oldest->is_number_integer();
+  const bool known = oldest != document.end() && oldest->is_number();
   const json& needed = known ? *oldest : *version;
   if (needed.get<double>() > kProjectVersion) {
     throw InputError(name + (known ? ":/minVersion" : ":/version") + ": needs project format " + needed.dump() +
@@ -106,17 +108,36 @@ void warnReserved(const json& document, const std::string& name, std::vector<Pro
 
 }  // namespace
 
+namespace {
+
+size_t depthOf(const json& value) {
+  size_t deepest = 0;
+  if (value.is_structured()) {
+    for (const json& item : value) deepest = std::max(deepest, depthOf(item));
+    ++deepest;
+  }
+  return deepest;
+}
+
+}  // namespace
+
 void applyEdit(json& document, const std::string& edit) {
   const size_t equals = edit.find('=');
   if (equals == std::string::npos || equals == 0) {
     throw InputError("--set " + edit + ": must be json/pointer=value");
   }
+  const std::vector<std::string> parts = pointerParts(std::string_view(edit).substr(0, equals));
+  const std::string name =
+      "--set " + edit.substr(0, std::min(equals, kShownPointer)) + (equals > kShownPointer ? "…" : "");
+  json value = editedValue(edit.substr(equals + 1), name);
+  if (parts.size() + depthOf(value) > kMaximumDepth)
+    throw InputError(name + ": is nested deeper than " + std::to_string(kMaximumDepth) + " levels");
   json* place = &document;
-  for (const std::string& part : pointerParts(std::string_view(edit).substr(0, equals))) {
+  for (const std::string& part : parts) {
     place = step(*place, part);
-    if (!place) throw noSuchPlace(edit, part);
+    if (!place) throw noSuchPlace(name, part);
   }
-  *place = editedValue(edit.substr(equals + 1), "--set " + edit.substr(0, equals));
+  *place = std::move(value);
 }
 
 void checkDocument(const json& document, const std::string& name, const PluginRegistry& plugins,

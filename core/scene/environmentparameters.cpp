@@ -26,7 +26,7 @@ constexpr api::ParameterDeclaration kEnvironment[] = {
     number({"air_heat_capacity", "Heat capacity of the air", "C", "J/K"}, {0, 0, 1e4, 0, 1e12},
            {"Air",
             "For a closed box: its air as one lump that grows warmer by the heat it takes. 0 for so much air that it "
-            "keeps its temperature.",
+            "keeps its temperature. Less than 1e-6, the air of a cubic millimetre, acts as that.",
             "1200 J/K for each cubic metre", ""}),
     number({"wind_speed", "Wind", "u", "m/s"}, {0, 0, 10, 0, 340},
            {"Air",

@@ -17,6 +17,8 @@
 namespace ps {
 namespace {
 
+constexpr double kLeastAirHeatCapacity = 1e-6;  ///< J/K: by a denormal one what it takes would be 0/0
+
 /// Phase at birth: as asked, or what is stable at the temperature.
 api::Phase birthPhase(const std::string& asked, const api::Caloric& caloric, double temperature) {
   if (asked == "solid") return api::Phase::Solid;
@@ -161,6 +163,7 @@ ThermalSettings compileThermal(const Project& project) {
   t.ambientTemperature = ambient("ambient_temperature");
   t.airConvection = ambient("air_convection");
   t.airHeatCapacity = ambient("air_heat_capacity");
+  if (t.airHeatCapacity > 0) t.airHeatCapacity = std::max(t.airHeatCapacity, kLeastAirHeatCapacity);
   t.contactConductance = ambient("contact_conductance");
   t.radiation = toggleOf(project.environment.parameters, environmentParameters(), "radiation");
   t.surroundingsTemperature = ambient("surroundings_temperature");

@@ -372,6 +372,8 @@ std::vector<uint32_t> Engine::particlesIn(const VoxelShape& lattice,
 SnapshotPtr Engine::snapshot() const {
   auto snapshot = std::make_shared<Snapshot>();
   snapshot->limits = m->solver->limits();  // first: edits act on what it asks
+  const std::vector<Limit>& pouring = m->flow.limits();
+  snapshot->limits.insert(snapshot->limits.end(), pouring.begin(), pouring.end());
   snapshot->stats = stats();
   snapshot->revision = m->revision;
   snapshot->spacing = m->spacing;

@@ -4,6 +4,7 @@
 #include "core/plugin_host/registry.h"
 #include "core/simulation/commandqueue.h"
 #include "core/simulation/engine.h"
+#include "core/simulation/framehistory.h"
 
 #include <algorithm>
 #include <chrono>
@@ -99,7 +100,7 @@ struct EngineThread::Impl {
   EditCost cost;
   bool playing = false;
   SnapshotPtr newest, previous;
-  std::vector<FrameStats> history;
+  FrameHistory history;
   std::deque<EngineEvent> events;
   uint64_t eventCount = 0;
   double realTime = 0;
@@ -249,8 +250,7 @@ void EngineThread::Impl::publish(SnapshotPtr snapshot) {
     } else {
       previous = newest;
     }
-    if (!history.empty() && history.back().frame == snapshot->stats.frame) history.pop_back();  // edited since
-    history.push_back(snapshot->stats);
+    history.add(snapshot->stats);
     newest = std::move(snapshot);
   }
   if (published) published();
@@ -411,10 +411,9 @@ SnapshotPtr EngineThread::previousSnapshot() const {
   return m->previous;
 }
 
-std::vector<FrameStats> EngineThread::history(size_t from) const {
+std::vector<FrameStats> EngineThread::history(uint64_t frame) const {
   const std::lock_guard lock(m->mutex);
-  if (from >= m->history.size()) return {};
-  return {m->history.begin() + static_cast<std::ptrdiff_t>(from), m->history.end()};
+  return m->history.since(frame);
 }
 
 std::vector<EngineEvent> EngineThread::events(uint64_t from) const {

@@ -48,9 +48,9 @@ class EngineThread {
   bool playing() const;
   SnapshotPtr snapshot() const;          ///< newest; nullptr before the first
   SnapshotPtr previousSnapshot() const;  ///< the one before it, of the same revision, else nullptr
-  /// All frames' statistics since the last reset, appended from index `from`. An edit between two frames replaces the
-  /// last entry.
-  std::vector<FrameStats> history(size_t from) const;
+  /// Statistics of the frames since the last reset, from number `frame` on; of a long run some are left out, see
+  /// FrameHistory. An edit between two frames replaces the last entry.
+  std::vector<FrameStats> history(uint64_t frame) const;
   /// Failures in the order they came, from number `from` on; the oldest are forgotten after a few hundred. A step's
   /// flag is reported when it is raised after a second without it. The thread pauses at a NaN and when a plugin fails.
   std::vector<EngineEvent> events(uint64_t from) const;

@@ -259,6 +259,7 @@ bool MatterFlow::holds(uint32_t id) const {
 
 void MatterFlow::pour(Solver& solver, const Project& project, std::span<const BakedMaterial> materials, double spacing,
                       double dt, const std::function<uint32_t(const Emitter&)>& bodyOf, const Birth& birth) {
+  m_limits.clear();
   for (const Emitter& emitter : project.emitters) {
     const double open = openBetween(emitter, solver.time() - dt, solver.time());
     if (!(open > 0)) continue;
@@ -272,7 +273,9 @@ void MatterFlow::pour(Solver& solver, const Project& project, std::span<const Ba
     for (size_t i = 0; i < store.size(); ++i) {
       if (store.body()[i] == body && isFree(store, i)) ++living;
     }
-    pipe.travelled += numberOf(emitter, "speed") * open;
+    const double speed = numberOf(emitter, "speed"), due = speed * open, most = kMostLayers * spacing;
+    if (due > most) m_limits.push_back({emitter.id + ".speed", speed, speed * most / due, "m/s", -1});
+    pipe.travelled = std::min(pipe.travelled + due, most);
     for (; pipe.travelled >= spacing; pipe.travelled -= spacing) cross(job, pipe, pipe.travelled - spacing, living);
     fill(job, pipe);
   }

@@ -32,11 +32,15 @@ class MatterFlow {
   void steer(Solver& solver, const Project& project, double dt);
   /// Pours what is due between the solver's time less `dt` and its time, in layers a spacing apart, each as far down
   /// the jet as it has come since it left the mouth, so that the mean flow is speed times area whatever the frame; then
-  /// fills the pipes up. `bodyOf` says which body an emitter's particles are of. A place that is taken stays empty.
+  /// fills the pipes up. `bodyOf` says which body an emitter's particles are of. A place that is taken stays empty. A
+  /// frame that is so long, or a jet so fast, that more layers are due than anybody could follow pours kMostLayers; the
+  /// rest is not made up for, and limits() says so.
   void pour(Solver& solver, const Project& project, std::span<const BakedMaterial> materials, double spacing, double dt,
             const std::function<uint32_t(const Emitter&)>& bodyOf, const Birth& birth);
   bool holds(uint32_t id) const;
   const FlowTotal& total() const { return m_total; }
+  /// Of the last pour().
+  const std::vector<Limit>& limits() const { return m_limits; }
 
   void save(StateWriter& writer) const;
   /// After the particles.
@@ -46,7 +50,8 @@ class MatterFlow {
 
  private:
   static constexpr uint32_t kNone = ~0u;
-  using Layer = std::vector<uint32_t>;  ///< ids by place in compileLayer(); kNone: nothing is held there
+  static constexpr double kMostLayers = 256;  ///< that one mouth pours in a frame
+  using Layer = std::vector<uint32_t>;        ///< ids by place in compileLayer(); kNone: nothing is held there
   struct Pipe {
     double travelled = 0;      ///< m, of the jet since its last layer crossed the mouth
     std::deque<Layer> layers;  ///< held, a spacing apart; the first is the next to cross
@@ -66,6 +71,7 @@ class MatterFlow {
   std::map<std::string, Pipe> m_pipes;  ///< by Emitter::id
   FlowAmount m_born;                    ///< what was born less what went back
   FlowTotal m_total;
+  std::vector<Limit> m_limits;
 };
 
 }  // namespace ps

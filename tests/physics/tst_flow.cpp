@@ -70,6 +70,24 @@ class TestFlow : public QObject {
     QCOMPARE(stats.flow.poured.count, stats.phases[static_cast<size_t>(ps::api::Phase::Liquid)].count);
   }
 
+  /// A tap that is open through a frame of 12 days owes 5e7 layers.
+  void aFrameThatIsEndlesslyLongEnds() {
+    json scene = tapScene();
+    scene["solver"]["dt"] = 1e6;
+    scene["emitters"][0]["diameter"] = 0.01;  // one particle wide
+    ps::Engine engine(load(scene), m_plugins);
+    engine.step();
+    const uint64_t poured = engine.stats().flow.poured.count;
+    QVERIFY2(poured > 0 && poured <= 256, qPrintable(QString::number(poured)));
+    const ps::SnapshotPtr snapshot = engine.snapshot();
+    const std::vector<ps::Limit>& limits = snapshot->limits;
+    const auto told =
+        std::find_if(limits.begin(), limits.end(), [](const ps::Limit& l) { return l.what == "tap.speed"; });
+    QVERIFY(told != limits.end());
+    QCOMPARE(told->asked, 1.0);
+    QVERIFY(std::abs(told->delivered - 256 * kSpacing / 1e6) < 1e-12);
+  }
+
   void layersFollowEachOtherASpacingApart() {
     json scene = tapScene();
     scene["emitters"][0]["diameter"] = 0.01;  // one particle wide

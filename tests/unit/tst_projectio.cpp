@@ -337,6 +337,7 @@ void TestProjectIo::wrongValuesNameThePlace_data() {
       "\"runs\": [[0, 0, 0, 4, 0], [0, 1, 0, 4, 0], [4, 0, 0, 1, 0], [-2, 0, 0, 3, 0]]}}",
       "/bodies/0/shape/voxels/runs/3: covers the cell 0, 0, 0, which run 0 holds already");
   row("too new", "version=99999", "/version: needs project format 99999, this program reads up to 1");
+  row("too new, as a fraction", "version=10.0", "/version: needs project format 10.0, this program reads up to 1");
   row("version in words", "version=\"one\"", "/version: must be a whole number, not the text 'one'");
   row("other format", "format=blender", "/format: must be \"phasesketch\"");
 }
@@ -365,6 +366,7 @@ void TestProjectIo::hostileTextIsRefused_data() {
   row("nested objects", QByteArray("{\"a\":").repeated(200000), "brackets are nested deeper than 64 levels");
   row("twice", "{\"a\": {\"b\": 1, \"b\": 2}}", ":/a/b: the key 'b' stands here twice");
   row("NaN", "{\"a\": [1, NaN]}", ":/a/1: line 1, column 11: NaN and Infinity are not numbers");
+  row("half a character", "{\"a\": \"\\ud800N\"}", "half a character: \\uD800 to \\uDFFF stand in pairs");
   row("minus infinity", "{\"a\": -Infinity}", ":/a: line 1, column");
   row("overflow", "{\"a\": 1e999}", ":/a: the number 1e999 is too large");
   row("UTF-16", QByteArray("\xff\xfe{\0", 4), ":/: is UTF-16 text; save it as UTF-8");
@@ -486,6 +488,11 @@ void TestProjectIo::editsFindTheirPlace_data() {
                                 << "the project has no 'attic' there";
   QTest::newRow("into a number") << "duration/x=1"
                                  << "the project has no 'x' there";
+  QTest::newRow("too deep") << QStringLiteral("/x").repeated(60000) + "=1"
+                            << "is nested deeper than 64 levels";
+  QTest::newRow("too deep with its value")
+      << QStringLiteral("/x").repeated(40) + "=" + QStringLiteral("[").repeated(40) + QStringLiteral("]").repeated(40)
+      << "is nested deeper than 64 levels";
   QTest::newRow("broken JSON") << "solver={\"a\""
                                << "--set solver:/";
 }

@@ -56,6 +56,8 @@ class TestTheme : public QObject {
   void narrowFieldsTakeAPrefix();
   void absoluteZeroStandsForNone();
   void theLastSecondStandsForNever();
+  void aPastedPageIsNoNumber();
+  void numbersBeyondAllRangesAreShown();
   void errorsBelowRoundingAreNotSpelledOut();
   void fieldsKeepTheirDecimals_data();
   void fieldsKeepTheirDecimals();
@@ -306,6 +308,19 @@ void TestTheme::absoluteZeroStandsForNone() {
   QVERIFY(!formatValue(d, 0).contains(QStringLiteral("none")));
   QVERIFY(!parseTyped(QStringLiteral("none"), d, 300).problem.isEmpty());
   QCOMPARE(formatValue(declaration("m"), 0), QStringLiteral("0.000 m"));
+}
+
+/// Each of its ends is tried as the end of a number: by the square of its length, ten seconds for a pasted page.
+void TestTheme::aPastedPageIsNoNumber() {
+  const Typed typed = parseTyped(QString(32000, QLatin1Char('7')), declaration("m"), 1);
+  QCOMPARE(typed.problem, QStringLiteral("“77777777777777777777…” is too long for a number"));
+  QVERIFY(parseTyped(QString(150, QLatin1Char('7')), declaration("m"), 1).problem.isEmpty());
+}
+
+void TestTheme::numbersBeyondAllRangesAreShown() {
+  api::ParameterDeclaration d = declaration("Pa", "kPa", 1e300);
+  d.scale = api::Scale::Logarithmic;
+  QCOMPARE(formatField(d, 1e300), QStringLiteral("—"));
 }
 
 void TestTheme::theLastSecondStandsForNever() {

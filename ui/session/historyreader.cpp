@@ -13,9 +13,8 @@ HistoryReader::Piece HistoryReader::read() {
   piece.begins = snapshot->revision != m_revision;
   if (piece.begins) m_read = 0;
   m_revision = snapshot->revision;
-  const size_t from = m_read > 0 ? m_read - 1 : 0;
-  piece.frames = m_session.engine()->history(from);
-  m_read = from + piece.frames.size();
+  piece.frames = m_session.engine()->history(m_read);
+  if (!piece.frames.empty()) m_read = piece.frames.back().frame;
   return piece;
 }
 

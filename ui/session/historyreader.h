@@ -24,7 +24,7 @@ class HistoryReader {
  private:
   Session& m_session;
   uint64_t m_revision = 0;
-  size_t m_read = 0;
+  uint64_t m_read = 0;  ///< number of the frame read last
 };
 
 }  // namespace ps

@@ -15,6 +15,7 @@
 namespace ps {
 namespace {
 
+constexpr qsizetype kLongestTyped = 200;  ///< characters
 constexpr QChar kMinus(0x2212), kGroup(0x202F);
 
 /// Decimal digits by std::to_chars, which no locale touches.
@@ -51,8 +52,9 @@ QString superscript(int value) {
   return text;
 }
 
-/// Exponent of ten of the value after rounding to so many digits.
+/// Exponent of ten of the value after rounding to so many digits; 0 where it has none.
 int exponentOf(double value, int significant) {
+  if (!std::isfinite(value)) return 0;
   const std::string text = digits(value, std::chars_format::scientific, significant - 1);
   int exponent = 0;
   const char* first = text.data() + text.find('e') + 1;
@@ -318,13 +320,17 @@ double scaledValue(const api::ParameterDeclaration& d, double stored, double fac
 
 std::optional<double> parseNumber(const QString& text) {
   const std::optional<std::string> plain = normalised(text.trimmed());
-  if (!plain || plain->empty() || plain->size() > 200) return std::nullopt;
+  if (!plain || plain->empty() || plain->size() > kLongestTyped) return std::nullopt;
   return Expression(*plain).value();
 }
 
 Typed parseTyped(const QString& typed, const api::ParameterDeclaration& d, double current) {
   Typed result;
   QString text = typed.trimmed();
+  if (text.size() > kLongestTyped) {
+    result.problem = QStringLiteral("“%1…” is too long for a number").arg(text.left(20));
+    return result;
+  }
   if (const auto none = noValueOf(d); none && text.compare(none->word, Qt::CaseInsensitive) == 0) {
     result.value = none->stored;
     return result;
