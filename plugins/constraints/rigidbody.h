@@ -105,17 +105,21 @@ class RigidBody {
   }
   Quaternion rotationOf(const Fit& fit) const { return constraint::rotationOf(fit.moments, m_rotation); }
 
-  /// Inverse of the inertia in the undeformed frame; applied in the world's by inverseInertia().
+  /// Inverse of the inertia in the undeformed frame; applied in the world's by inverseInertia(). Places are stored in
+  /// single precision: below 1e-5 of their distance from the origin there is no shape, as in a body of one grain, only
+  /// rounding, which must not be taken for an inertia.
   Matrix restInverseInertia() const {
     Matrix inertia;
+    double farthest2 = 0;
     const double scale2 = m_scale * m_scale;
     for (size_t k = m_first; k < m_last; ++k) {
-      const Vector r = rest(k);
+      const Vector r = rest(k), from = restPlace(k);
       const double m = scale2 * mass(k), r2 = dot(r, r);
+      farthest2 = std::max(farthest2, dot(from, from));
       addOuter(inertia, -m, r, r);
       inertia.row[0].x += m * r2, inertia.row[1].y += m * r2, inertia.row[2].z += m * r2;
     }
-    return pseudoInverse(inertia);
+    return pseudoInverse(inertia, 1e-10 * scale2 * m_mass * farthest2);
   }
   /// I^-1 L at an orientation.
   static Vector turned(const Matrix& restInverse, Quaternion rotation, Vector momentum) {

@@ -89,7 +89,7 @@ Quaternion rotationOf(const Matrix& a, Quaternion q, double exact) {
   return q;
 }
 
-Matrix pseudoInverse(const Matrix& m) {
+Matrix pseudoInverse(const Matrix& m, double least) {
   double a[3][3] = {
       {m.row[0].x, m.row[0].y, m.row[0].z}, {m.row[1].x, m.row[1].y, m.row[1].z}, {m.row[2].x, m.row[2].y, m.row[2].z}};
   double axes[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};  // columns
@@ -115,7 +115,7 @@ Matrix pseudoInverse(const Matrix& m) {
       }
     }
   }
-  const double least = 1e-6 * std::max({a[0][0], a[1][1], a[2][2]});
+  least = std::max(least, 1e-6 * std::max({a[0][0], a[1][1], a[2][2]}));
   Matrix inverse;
   for (size_t k = 0; k < 3; ++k) {
     if (!(a[k][k] > least)) continue;

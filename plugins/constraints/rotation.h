@@ -77,8 +77,9 @@ Vector logarithm(Quaternion q);
 Quaternion rotationOf(const Matrix& a, Quaternion q, double exact = 1e-13);
 
 /// Inverse of a symmetric, positive semidefinite matrix, zero along axes whose eigenvalue is below 1e-6 of the largest
-/// (a row of particles has no inertia about itself). Jacobi's eigenvalue method.
-Matrix pseudoInverse(const Matrix& m);
+/// (a row of particles has no inertia about itself), or `least` at most: where all of them are rounding. Jacobi's
+/// eigenvalue method.
+Matrix pseudoInverse(const Matrix& m, double least = 0);
 
 /// The same by cofactors where no axis is near that bound: several times as fast.
 Matrix symmetricInverse(const Matrix& m);

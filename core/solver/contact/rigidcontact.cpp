@@ -27,6 +27,9 @@ constexpr int kInwardPasses = 8;
 /// Faster than this share of the speed that gravity gives in two substeps a contact slides.
 constexpr double kSlides = 0.1;
 
+/// Places are in single precision: below 1e-5 of their distance from the origin, squared, lies no inertia.
+constexpr double kRounding = 1e-10;
+
 }  // namespace
 
 /// Centre, and the turn since the start of the substep.
@@ -49,11 +52,15 @@ void RigidContact::readMasses(const ParticleStore& store, Body& body) const {
   body.inverseMass = 1 / mass;
   readCentre(store, body);
   Matrix3 moments;  // sum of m r r^T; the inertia is its trace less itself
+  double farthest2 = 0;
   for (const uint32_t i : body.members) {
-    const Vector3 r = vectorOf(store.position()[i]) - body.centre;
+    const Vector3 at = vectorOf(store.position()[i]), r = at - body.centre;
+    farthest2 = std::max(farthest2, at.squaredNorm());
     moments += double{store.mass()[i]} * r * r.transpose();
   }
   Matrix3 inertia = moments.trace() * Matrix3::Identity() - moments;
+  body.inverseInertia = Matrix3::Zero();
+  if (!(inertia.trace() > kRounding * mass * farthest2)) return;  // a grain, which nothing turns
   // A row of particles has no inertia about itself; a little of its own keeps the matrix invertible.
   inertia += 1e-3 * inertia.trace() * Matrix3::Identity();
   body.inverseInertia = inertia.inverse();
