@@ -6,6 +6,7 @@
 #include "core/experiments/bench.h"
 #include "core/io/outputfile.h"
 #include "core/plugin_host/registry.h"
+#include "core/solver/solver.h"
 
 #include <cstdio>
 #include <filesystem>
@@ -98,7 +99,7 @@ int benchCommand(CommandArguments list) {
       const std::string file = sceneFile(name);
       project = loadProject(file, plugins).project;
       project.state = nullptr;  // figures of a scene are compared with those of another day
-      if (particles) scaleTo(project, *particles, Engine(project, plugins).solver().particles().size());
+      if (particles) scaleTo(project, *particles, Engine(project, plugins).particles().size());
     }
     out["scenes"].push_back(benchScene(name, project, plugins, frames).result);
     print(out["scenes"].back());

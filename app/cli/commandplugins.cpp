@@ -7,6 +7,7 @@
 #include "core/matter/material.h"
 #include "core/parameters/wording.h"
 #include "core/plugin_host/registry.h"
+#include "core/simulation/particlefield.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -18,6 +19,7 @@ using nlohmann::json;
 
 constexpr OptionSpec kOptions[] = {
     {"--json", "", "as JSON, with the declared parameters and the catalogue of material properties"},
+    {"--fields", "", "lists what particles show, ours and plugins': colours, probes and recordings take these names"},
     {"--allow", "ID", "takes a plugin out of quarantine"},
     {"--check", "FILE", "tries one plugin in a process of its own and says what is wrong with it, or that it is fine"},
 };
@@ -81,6 +83,18 @@ void print(const PluginInfo& info) {
   std::printf("%s\n", line.c_str());
 }
 
+json jsonOf(const ParticleField& field) {
+  json out{{"name", field.name}, {"label", field.label}, {"unit", field.unit}, {"help", field.help}};
+  if (field.hasScale()) out["scale"] = {jsonNumber(field.minimum), jsonNumber(field.maximum)};
+  return out;
+}
+
+void print(const ParticleField& field) {
+  const std::string unit = field.unit == "1" ? "" : ", " + field.unit;
+  const std::string words = field.label + unit + (field.help.empty() ? "" : ": " + field.help);
+  std::printf("%s%s\n", padded(field.name, 32).c_str(), words.c_str());
+}
+
 }  // namespace
 
 std::string pluginsHelp() {
@@ -100,11 +114,17 @@ int pluginsCommand(CommandArguments list) {
     std::printf("%s is loaded again at the next start\n", id.c_str());
     return kFine;
   }
+  const ParticleFields fields(plugins);
+  if (arguments.has("--fields") && !arguments.has("--json")) {
+    for (const FieldPtr& field : fields.all()) print(*field);
+    return kFine;
+  }
   if (!arguments.has("--json")) {
     for (const PluginInfo& info : plugins.plugins()) print(info);
     return kFine;
   }
-  json out{{"plugins", json::array()}, {"properties", jsonOf(propertyCatalogue())}};
+  json out{{"plugins", json::array()}, {"properties", jsonOf(propertyCatalogue())}, {"fields", json::array()}};
+  for (const FieldPtr& field : fields.all()) out["fields"].push_back(jsonOf(*field));
   for (const PluginInfo& info : plugins.plugins()) out["plugins"].push_back(jsonOf(plugins, info));
   std::fputs(writeJson(out).c_str(), stdout);
   return kFine;

@@ -3,6 +3,7 @@
 #include "app/cli/framesink.h"
 #include "app/cli/run.h"
 #include "core/base/error.h"
+#include "core/base/nearest.h"
 #include "core/io/recording.h"
 #include "core/matter/material.h"
 #include "core/plugin_host/registry.h"
@@ -24,7 +25,8 @@ constexpr OptionSpec kOptions[] = {
      "mechanical time to draw; without it what is left of the project's duration, or all of the recording"},
     {"--frames", "N", "frames to simulate, instead of --seconds"},
     {"--every", "N", "draws every Nth frame; without it 1 for films and recordings, 60 for pictures of a project"},
-    {"--colour", "NAME", "material, temperature, phase, speed or density_error; without it as the project says"},
+    {"--colour", "NAME",
+     "material, or a field of particles, as 'plugins --fields' lists them; without it as the project says"},
     kAtStart,
     kThreads,
     kIsa,
@@ -59,16 +61,22 @@ std::pair<double, double> temperatureRange(const Project& project) {
   return {least, most > least ? most : least + 1};
 }
 
-Look lookFor(const Project& project, const PluginRegistry& plugins, const Arguments& arguments) {
-  Look look;
+/// A field of ours, of an installed plugin, or one that the last frame of a recording brings along.
+std::string colourOf(const Project& project, const ParticleFields& fields, const Snapshot* last,
+                     const Arguments& arguments) {
   const std::string colour = arguments.text("--colour", project.view.colour);
-  look.colour = colourByName(colour);
-  if (colourName(look.colour) != colour) {
-    std::string names;
-    for (const Colouring& row : colourings()) names += std::string(names.empty() ? "" : ", ") + row.name;
-    throw InputError("--colour must be one of " + names + ", not '" + colour + "'");
-  }
-  if (look.colour == ColourBy::Temperature) {
+  const std::vector<std::string> names = colourNames(fields);
+  const bool known = std::find(names.begin(), names.end(), colour) != names.end();
+  if (known || !arguments.has("--colour") || (last && ShownField(*last, colour))) return colour;
+  std::string all;
+  for (const std::string& name : names) all += (all.empty() ? "" : ", ") + name;
+  throw InputError("--colour must be one of " + all + ", not '" + colour + "'" + didYouMean(colour, names));
+}
+
+Look lookFor(const Project& project, const PluginRegistry& plugins, const std::string& colour) {
+  Look look;
+  look.colour = colour;
+  if (look.colour == "temperature") {
     std::tie(look.rangeMinimum, look.rangeMaximum) = temperatureRange(project);
   }
   if (!project.materials.empty()) {
@@ -90,8 +98,9 @@ Look lookFor(const Project& project, const PluginRegistry& plugins, const Argume
 /// Draws frames of one project into a sink, without a display.
 class Painter {
  public:
-  Painter(const Project& project, const PluginRegistry& plugins, const Arguments& arguments, long every)
-      : m_look(lookFor(project, plugins, arguments)), m_size(sizeOf(arguments)), m_scene{project.environment} {
+  Painter(const Project& project, const PluginRegistry& plugins, const std::string& colour, const Arguments& arguments,
+          long every)
+      : m_look(lookFor(project, plugins, colour)), m_size(sizeOf(arguments)), m_scene{project.environment} {
     if (const auto& own = project.view.camera) m_camera = {own->target, own->distance, own->azimuth, own->elevation};
     const std::string out = arguments.text("--out");
     const double rate = 1 / (frameLength(project) * static_cast<double>(every));
@@ -130,9 +139,11 @@ int renderProject(const Arguments& arguments, const std::string& path) {
   const long every = arguments.integer("--every", 1, 1'000'000).value_or(film ? 1 : 60);
   Engine engine(project, plugins);
   tellRemarks(arguments, path, engine);
+  const std::string colour = colourOf(project, engine.fields(), nullptr, arguments);
+  engine.show({colour});
   const SnapshotPtr begin = engine.snapshot();
   const long frames = frameCount(arguments, project, begin->stats.time), first = static_cast<long>(begin->stats.frame);
-  Painter painter(project, plugins, arguments, every);
+  Painter painter(project, plugins, colour, arguments, every);
   painter.draw(*begin, first);
   StepFlags flags = 0;
   std::string message;
@@ -164,7 +175,9 @@ int renderRecording(const Arguments& arguments, const std::string& path) {
   const long every = arguments.integer("--every", 1, 1'000'000).value_or(1);
   project.duration = static_cast<double>(recording.frameCount()) * frameLength(project);
   const long frames = std::min(frameCount(arguments, project), static_cast<long>(recording.frameCount()) - 1);
-  Painter painter(project, plugins, arguments, every);
+  const std::string colour =
+      colourOf(project, ParticleFields(plugins), recording.frame(recording.frameCount() - 1).get(), arguments);
+  Painter painter(project, plugins, colour, arguments, every);
   for (long frame = 0; frame <= frames && !interrupted(); frame += every) {
     painter.draw(*recording.frame(static_cast<size_t>(frame)), frame);
   }

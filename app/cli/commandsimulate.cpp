@@ -12,8 +12,10 @@
 #include "core/io/recording.h"
 #include "core/io/textfile.h"
 #include "core/plugin_host/registry.h"
+#include "core/simulation/particlefield.h"
 #include "core/simulation/projectstate.h"
 #include "core/simulation/scenestate.h"
+#include "core/solver/solver.h"
 
 #include <cstdio>
 #include <optional>
@@ -80,7 +82,7 @@ void summarise(const RunReport& report, const FrameStats& begin, Engine& engine,
   const double simulated = stats.time - begin.time, factor = wall > 0 ? simulated / wall : 0;
   std::printf("%zu frames, %.6g s simulated in %.3g s (%.3g times real time), %.3g ms per frame\n", report.frames(),
               simulated, wall, factor, report.total().median);
-  std::printf("%s, state hash %s\n", counted(engine.solver().particles().size(), "particle").c_str(),
+  std::printf("%s, state hash %s\n", counted(engine.particles().size(), "particle").c_str(),
               hashText(engine.stateHash()).c_str());
 }
 
@@ -120,7 +122,10 @@ int simulateCommand(CommandArguments list) {
   RunReport report(begin);
   SettlingMeasure settling(frames);
   const double start = now();
-  if (recording) recording->add(*engine.snapshot());
+  if (recording) {
+    engine.show(engine.fields().names());
+    recording->add(*engine.snapshot());
+  }
   bool whole = false;
   {
     Progress progress(frames, quiet);

@@ -4,6 +4,7 @@
 #include "core/base/error.h"
 #include "core/base/parallel.h"
 #include "core/io/outputfile.h"
+#include "core/solver/solver.h"
 
 #include <algorithm>
 #include <cmath>

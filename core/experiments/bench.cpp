@@ -8,6 +8,7 @@
 #include "core/experiments/runreport.h"
 #include "core/particles/neighbours.h"
 #include "core/plugin_host/registry.h"
+#include "core/solver/solver.h"
 
 #include <algorithm>
 #include <chrono>
@@ -76,7 +77,7 @@ json measureState(Engine& engine, double frameMilliseconds) {
     lastGood.clear();
     saveTo(lastGood, engine.solver());
   });
-  const double particles = static_cast<double>(engine.solver().particles().size());
+  const double particles = static_cast<double>(engine.particles().size());
   return {{"bytes_per_particle", static_cast<double>(whole.bytes().size()) / particles},
           {"save_ms", save},
           {"restore_ms", restore},
@@ -148,7 +149,7 @@ BenchScene benchScene(const std::string& name, const Project& project, PluginReg
   }
   if (report.flags())
     throw Error(name + ": the run set flags: " + flagNames(report.flags()).front() + ": " + report.message());
-  const ParticleStore& store = engine.solver().particles();
+  const ParticleStore& store = engine.particles();
   if (store.size() == 0) throw InputError(name + ": has no particles to measure");
   const ParameterSet& set = project.solver.parameters;
   const double passes = numberOf(set, solverParameters(), "substeps") * numberOf(set, solverParameters(), "iterations");

@@ -3,6 +3,7 @@
 
 #include "core/base/error.h"
 #include "core/simulation/engine.h"
+#include "core/solver/solver.h"
 
 #include <algorithm>
 #include <cmath>

@@ -9,6 +9,7 @@
 #include "core/matter/material.h"
 #include "core/plugin_host/registry.h"
 #include "core/simulation/compile.h"
+#include "core/solver/solver.h"
 
 #include <algorithm>
 #include <cmath>

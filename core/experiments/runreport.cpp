@@ -3,6 +3,7 @@
 
 #include "core/base/hash.h"
 #include "core/base/parallel.h"
+#include "core/solver/solver.h"
 
 #include <algorithm>
 #include <cmath>
@@ -77,7 +78,7 @@ nlohmann::json RunReport::json(Engine& engine, double wallSeconds) const {
   for (size_t p = 0; p < 5; ++p) {
     phases[kPhases[p]] = {{"count", m_last.phases[p].count}, {"mass", m_last.phases[p].mass}};
   }
-  return {{"particles", engine.solver().particles().size()},
+  return {{"particles", engine.particles().size()},
           {"frames", frames()},
           {"substeps", static_cast<int>(number("substeps"))},
           {"iterations", static_cast<int>(number("iterations"))},

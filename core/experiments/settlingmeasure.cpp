@@ -17,7 +17,7 @@ void SettlingMeasure::add(Engine& engine, const FrameStats& stats) {
   m_end = stats.kineticEnergy;
   m_highest = std::max(m_highest, m_end);
   if (m_frames < m_half || m_half == 0) return;
-  const ParticleStore& store = engine.solver().particles();
+  const ParticleStore& store = engine.particles();
   if (m_frames == m_half) {
     m_start = stats.time;
     for (size_t i = 0; i < store.size(); ++i) {
@@ -37,7 +37,7 @@ void SettlingMeasure::add(Engine& engine, const FrameStats& stats) {
 
 nlohmann::json SettlingMeasure::json(Engine& engine) const {
   if (m_half == 0 || m_frames <= m_half) return nullptr;
-  const ParticleStore& store = engine.solver().particles();
+  const ParticleStore& store = engine.particles();
   struct Centre {
     double mass = 0;
     api::Double3 moved;

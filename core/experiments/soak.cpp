@@ -4,6 +4,7 @@
 #include "core/base/error.h"
 #include "core/plugin_host/registry.h"
 #include "core/simulation/declared.h"
+#include "core/solver/solver.h"
 
 #include <algorithm>
 #include <cmath>
@@ -86,7 +87,7 @@ SoakOutcome soak(const Project& project, PluginRegistry& plugins, const SliderCh
     outcome.flags |= step.flags;
     if (outcome.message.empty()) outcome.message = step.message;
     if (step.flags != 0 && outcome.limits.empty()) addLimits(engine, outcome);  // what went on as it happened
-    outcome.topSpeed = std::max(outcome.topSpeed, topSpeed(engine.solver().particles()));
+    outcome.topSpeed = std::max(outcome.topSpeed, topSpeed(engine.particles()));
     sum += step.totalMilliseconds;
     ++frames;
   };

@@ -123,6 +123,35 @@ struct AddressText : Text {
   }
 };
 
+/// What particles show: a name of the table of fields. The published schema names ours and leaves room for plugins'.
+struct ShownName : Text {
+  static constexpr bool kVisited = true;
+  std::vector<std::string> ours;
+  explicit ShownName(std::vector<std::string> names) : Text(200), ours(std::move(names)) {}
+  Json schema() const {
+    Json out = Text::schema();
+    out["anyOf"] = {namesSchema(ours), {{"pattern", "^[a-z0-9_.-]+$"}, {"description", "a field of a plugin"}}};
+    return out;
+  }
+};
+
+/// What colours mean: "material" or a field.
+struct ColourName : ShownName {
+  static constexpr bool kHasDefault = true;
+  using ShownName::ShownName;
+  void visit(const std::string& name, const std::string& pointer, FieldVisitor& visitor) const {
+    visitor.colour(name, pointer);
+  }
+};
+
+/// What a probe measures.
+struct QuantityName : ShownName {
+  using ShownName::ShownName;
+  void visit(const std::string& name, const std::string& pointer, FieldVisitor& visitor) const {
+    visitor.quantity(name, pointer);
+  }
+};
+
 struct Vector : Plain {
   static constexpr bool kHasDefault = true;
   const char* unit = "";

@@ -20,6 +20,8 @@ class FieldVisitor {
                       const char* /*withoutIt*/) {}
   virtual void material(const std::string& /*id*/, const std::string& /*pointer*/) {}
   virtual void address(const std::string& /*text*/, const std::string& /*pointer*/) {}
+  virtual void colour(const std::string& /*name*/, const std::string& /*pointer*/) {}
+  virtual void quantity(const std::string& /*name*/, const std::string& /*pointer*/) {}
   virtual void direction(const Vector3&, const std::string& /*pointer*/) {}
   /// Of a list whose ids must differ: one that stands in it already.
   virtual void repeatedId(const std::string& /*id*/, const std::string& /*pointer*/) {}

@@ -6,6 +6,7 @@
 #include "core/matter/material.h"
 #include "core/parameters/wording.h"
 #include "core/plugin_host/registry.h"
+#include "core/simulation/particlefield.h"
 #include "core/solver/settings.h"
 
 #include <algorithm>
@@ -26,7 +27,7 @@ class ProjectChecker : public FieldVisitor {
  public:
   ProjectChecker(const Project& project, const std::string& name, const PluginRegistry& plugins,
                  std::vector<ProjectMessage>& warnings)
-      : m_project(project), m_name(name), m_plugins(plugins), m_warnings(warnings) {}
+      : m_project(project), m_name(name), m_plugins(plugins), m_fields(plugins), m_warnings(warnings) {}
 
   void run() { fields::projectFields().visit(m_project, "", *this); }
 
@@ -52,6 +53,14 @@ class ProjectChecker : public FieldVisitor {
     const auto address = Address::parse(text);
     if (address && (findSet(m_project, *address) || outsideValue(m_project, *address))) return;
     warn(pointer, "the scene has no parameter '" + text + "'");
+  }
+
+  void colour(const std::string& name, const std::string& pointer) override {
+    requireShown(name, colourNames(m_fields), pointer, "matter is shown in its own colours");
+  }
+
+  void quantity(const std::string& name, const std::string& pointer) override {
+    requireShown(name, m_fields.quantityNames(), pointer, "the probe measures nothing");
   }
 
   void direction(const Vector3& v, const std::string& pointer) override {
@@ -159,7 +168,8 @@ class ProjectChecker : public FieldVisitor {
     if (!body.empty() && !contains(m_project.bodies, body) && !contains(m_project.emitters, body)) {
       warn(pointer + "/body", "there is no body or emitter '" + body + "'; the probe measures nothing");
     }
-    if (probe.wave && !probeIsMean(probe.quantity)) {
+    const Quantity* quantity = m_fields.quantity(probe.quantity);
+    if (probe.wave && quantity && !quantity->mean) {
       fail(pointer + "/wave", "needs a quantity that each particle has, as velocity_y; '" + probe.quantity +
                                   "' is of all of them together");
     }
@@ -199,6 +209,18 @@ class ProjectChecker : public FieldVisitor {
       if (info.id == id && !info.problem.empty()) reason = "cannot be used (" + info.problem + ")";
     }
     warn(pointer, "the plugin '" + id + "' " + reason + "; " + withoutIt);
+  }
+
+  /// A slip is refused; what may be a field of a plugin that is not there is kept.
+  void requireShown(const std::string& name, const std::vector<std::string>& known, const std::string& pointer,
+                    const char* withoutIt) {
+    if (std::find(known.begin(), known.end(), name) != known.end()) return;
+    if (name.find('.') == std::string::npos && m_missing.empty()) {
+      std::string all;
+      for (const std::string& one : known) all += (all.empty() ? "" : ", ") + one;
+      fail(pointer, "must be one of " + all + ", not '" + name + "'" + didYouMean(name, known));
+    }
+    warn(pointer, "no installed plugin has a field for '" + name + "'" + didYouMean(name, known) + "; " + withoutIt);
   }
 
   template <class List>
@@ -293,6 +315,7 @@ class ProjectChecker : public FieldVisitor {
   const Project& m_project;
   const std::string& m_name;
   const PluginRegistry& m_plugins;
+  const ParticleFields m_fields;
   std::vector<ProjectMessage>& m_warnings;
   std::set<std::string> m_missing, m_blocks;
   double m_particles = 0;

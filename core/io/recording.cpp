@@ -5,9 +5,11 @@
 #include "core/base/hash.h"
 #include "core/base/jsontext.h"
 #include "core/io/projectio.h"
+#include "core/simulation/particlefield.h"
 
 #include <zstd.h>
 
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 
@@ -37,6 +39,10 @@ class Packer {
   template <class T>
   static constexpr size_t planeWidth() {
     return sizeof(T) % 4 == 0 ? 4 : 1;
+  }
+  void text(const std::string& words) {
+    value(static_cast<uint32_t>(words.size()));
+    m_bytes += words;
   }
   const std::string& bytes() const { return m_bytes; }
 
@@ -71,6 +77,10 @@ class Unpacker {
     for (size_t p = 0; p < width; ++p) {
       for (size_t i = 0; i < rows; ++i) to[i * width + p] = from[p * rows + i];
     }
+  }
+  std::string text() {
+    const auto size = value<uint32_t>();
+    return {next(size), size};
   }
   void finish() const {
     if (m_at != m_bytes.size()) fail();
@@ -115,7 +125,28 @@ std::string packFrame(const Snapshot& s) {
   packer.array(s.id, n);
   packer.array(s.body, n);
   packer.array(s.material, n);
+  packer.value(static_cast<uint32_t>(s.fields.size()));
+  for (const FieldValues& shown : s.fields) {
+    const ParticleField& field = *shown.field;
+    for (const std::string* words : {&field.name, &field.label, &field.unit}) packer.text(*words);
+    packer.value(field.minimum);
+    packer.value(field.maximum);
+    packer.array(shown.values, n);
+  }
   return packer.bytes();
+}
+
+FieldValues unpackField(Unpacker& unpacker, size_t n) {
+  ParticleField field;
+  for (std::string* words : {&field.name, &field.label, &field.unit}) *words = unpacker.text();
+  field.minimum = unpacker.value<double>();
+  field.maximum = unpacker.value<double>();
+  if (!std::isfinite(field.minimum) || !std::isfinite(field.maximum)) unpacker.fail();
+  static const ParticleFields kOurs;
+  FieldPtr own = kOurs.find(field.name);  // knows more of itself
+  FieldValues shown{own ? std::move(own) : std::make_shared<const ParticleField>(std::move(field)), {}};
+  unpacker.array(shown.values, n);
+  return shown;
 }
 
 std::shared_ptr<Snapshot> unpackFrame(const std::string& bytes, const std::string& where) {
@@ -137,6 +168,7 @@ std::shared_ptr<Snapshot> unpackFrame(const std::string& bytes, const std::strin
   unpacker.array(s->id, n);
   unpacker.array(s->body, n);
   unpacker.array(s->material, n);
+  for (auto fields = unpacker.value<uint32_t>(); fields > 0; --fields) s->fields.push_back(unpackField(unpacker, n));
   unpacker.finish();
   for (size_t i = 0; i < n; ++i) {
     if (s->phase[i] > api::Phase::Gas || s->motion[i] > api::Motion::Static) unpacker.fail();

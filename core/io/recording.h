@@ -9,13 +9,15 @@
 #include <vector>
 
 // A recording is a run as it was seen: the project, then every frame's snapshot arrays. File, little-endian:
-//   "PSRECORD", u32 length, header JSON {"format": "phasesketch-recording", "version": 1, "project": {...}}
+//   "PSRECORD", u32 length, header JSON {"format": "phasesketch-recording", "version": 3, "project": {...}}
 //   per frame: "PSFRAME.", u64 packed bytes, u64 bytes, u64 FNV-1a of the packed bytes, zstd data
+// Behind the arrays that every snapshot has, a frame holds the fields that this one was asked for, each with its name,
+// label, unit and scale, so that it is shown where its plugin is not installed.
 // A frame's arrays are cut into byte planes first (all lowest bytes, all second ones, ...), which packs floats better.
 // Frames follow each other, so that a recording that was cut off is good up to there.
 namespace ps {
 
-inline constexpr int kRecordingVersion = 2;
+inline constexpr int kRecordingVersion = 3;
 
 class RecordingWriter {
  public:

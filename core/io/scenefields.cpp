@@ -2,6 +2,7 @@
 #include "core/io/fieldkinds.h"
 #include "core/io/projectfields.h"
 #include "core/matter/material.h"
+#include "core/simulation/particlefield.h"
 
 namespace ps::fields {
 namespace {
@@ -129,7 +130,8 @@ const FieldTable<Probe>& probeFields() {
       .rows = {field("id", &Probe::id, Id{}, "").required(),
                field("name", &Probe::name, Text{200}, "name in graphs and tables")
                    .absentMeans([](Probe& probe, const PluginRegistry&) { probe.name = probe.id; }),
-               field("quantity", &Probe::quantity, Choice{probeQuantities()}, "what is measured").required(),
+               field("quantity", &Probe::quantity, QuantityName{ParticleFields().quantityNames()}, "what is measured")
+                   .required(),
                field("body", &Probe::body, Text{}, "id of a body; empty for all particles"),
                field("phase", &Probe::phase, Choice{{"", "solid", "melting", "liquid", "boiling", "gas"}},
                      "empty for all"),
@@ -145,16 +147,14 @@ const FieldTable<ViewState>& viewFields() {
   const auto camera = [](Field<ViewCamera> row) { return within(&ViewState::camera, std::move(row)); };
   static const FieldTable<ViewState> table{
       .help = "how it is looked at; without target, distance and angles the whole scene is shown",
-      .rows = {camera(field("target", &ViewCamera::target, Vector{"m"}, "what the camera looks at")),
-               camera(
-                   field("distance", &ViewCamera::distance, Number{1e-4, 1e5, "m"}, "of the camera from its target")),
-               camera(field("azimuth", &ViewCamera::azimuth, Number{-36000, 36000, "°"}, "")),
-               camera(field("elevation", &ViewCamera::elevation, Number{-90, 90, "°"}, "")),
-               field("colour", &ViewState::colour,
-                     Choice{{"material", "temperature", "phase", "speed", "density_error"}}, "what colours mean")
-                   .always(),
-               field("pinned", &ViewState::pinned,
-                     List{AddressText{}, "address of a parameter: wall/floor/temperature"}, "rows under Try these")},
+      .rows =
+          {camera(field("target", &ViewCamera::target, Vector{"m"}, "what the camera looks at")),
+           camera(field("distance", &ViewCamera::distance, Number{1e-4, 1e5, "m"}, "of the camera from its target")),
+           camera(field("azimuth", &ViewCamera::azimuth, Number{-36000, 36000, "°"}, "")),
+           camera(field("elevation", &ViewCamera::elevation, Number{-90, 90, "°"}, "")),
+           field("colour", &ViewState::colour, ColourName{colourNames(ParticleFields())}, "what colours mean").always(),
+           field("pinned", &ViewState::pinned, List{AddressText{}, "address of a parameter: wall/floor/temperature"},
+                 "rows under Try these")},
       .unknown = &ViewState::unknown};
   return table;
 }

@@ -159,7 +159,11 @@ std::vector<ParticleStore::FieldInfo> ParticleStore::fields() const {
   return result;
 }
 
-void* ParticleStore::find(const char* name, api::FieldType type) const noexcept {
+void* ParticleStore::find(const char* name, api::FieldType type) noexcept {
+  return const_cast<void*>(read(name, type));  // the store's own
+}
+
+const void* ParticleStore::read(const char* name, api::FieldType type) const noexcept {
   const std::string_view wanted(name);
   for (const auto& f : m_fields) {
     if (f->info.type == type && f->info.name == wanted) return f->data.get();

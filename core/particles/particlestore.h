@@ -65,8 +65,8 @@ class ParticleStore final : public api::FieldAccess {
   };
   /// In order of declaration.
   std::vector<FieldInfo> fields() const;
-  void* find(const char* name, api::FieldType type) const noexcept;
-  const void* read(const char* name, api::FieldType type) const noexcept override { return find(name, type); }
+  void* find(const char* name, api::FieldType type) noexcept;
+  const void* read(const char* name, api::FieldType type) const noexcept override;
   void* write(const char* name, api::FieldType type) const noexcept override;
 
   /// How the space around the particles repeats itself; open at first.
@@ -84,22 +84,39 @@ class ParticleStore final : public api::FieldAccess {
     return m_period.wrapped({m_position[i].x, m_position[i].y, m_position[i].z});
   }
 
-  api::Float4* position() const { return m_position; }
-  api::Float4* previous() const { return m_previous; }
-  api::Float4* velocity() const { return m_velocity; }
-  float* mass() const { return m_mass; }
-  uint32_t* id() const { return m_id; }
-  uint32_t* material() const { return m_material; }
-  uint32_t* body() const { return m_body; }
-  api::Phase* phase() const { return m_phase; }
-  api::Motion* motion() const { return m_motion; }
-  double* temperature() const { return m_temperature; }
-  float* solidFraction() const { return m_solidFraction; }
-  float* liquidFraction() const { return m_liquidFraction; }
-  float* gasFraction() const { return m_gasFraction; }
-  float* compression() const { return m_compression; }
-  float* lambda() const { return m_lambda; }
-  float* densityError() const { return m_densityError; }
+  /// What a store holds may be changed by whoever may change the store.
+  api::Float4* position() { return m_position; }
+  api::Float4* previous() { return m_previous; }
+  api::Float4* velocity() { return m_velocity; }
+  float* mass() { return m_mass; }
+  uint32_t* id() { return m_id; }
+  uint32_t* material() { return m_material; }
+  uint32_t* body() { return m_body; }
+  api::Phase* phase() { return m_phase; }
+  api::Motion* motion() { return m_motion; }
+  double* temperature() { return m_temperature; }
+  float* solidFraction() { return m_solidFraction; }
+  float* liquidFraction() { return m_liquidFraction; }
+  float* gasFraction() { return m_gasFraction; }
+  float* compression() { return m_compression; }
+  float* lambda() { return m_lambda; }
+  float* densityError() { return m_densityError; }
+  const api::Float4* position() const { return m_position; }
+  const api::Float4* previous() const { return m_previous; }
+  const api::Float4* velocity() const { return m_velocity; }
+  const float* mass() const { return m_mass; }
+  const uint32_t* id() const { return m_id; }
+  const uint32_t* material() const { return m_material; }
+  const uint32_t* body() const { return m_body; }
+  const api::Phase* phase() const { return m_phase; }
+  const api::Motion* motion() const { return m_motion; }
+  const double* temperature() const { return m_temperature; }
+  const float* solidFraction() const { return m_solidFraction; }
+  const float* liquidFraction() const { return m_liquidFraction; }
+  const float* gasFraction() const { return m_gasFraction; }
+  const float* compression() const { return m_compression; }
+  const float* lambda() const { return m_lambda; }
+  const float* densityError() const { return m_densityError; }
 
   /// Appends `count` particles with all fields zero and fresh ids; returns the index of the first.
   size_t add(size_t count);

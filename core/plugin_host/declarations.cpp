@@ -5,6 +5,7 @@
 #include "core/parameters/condition.h"
 #include "core/scene/project.h"
 
+#include <QString>
 #include <QUtf8StringView>
 
 #include <algorithm>
@@ -40,6 +41,8 @@ template <class T>
 constexpr size_t kLeastSize = sizeof(T);
 template <>
 constexpr size_t kLeastSize<api::ParameterDeclaration> = offsetof(api::ParameterDeclaration, leastWord);
+template <>
+constexpr size_t kLeastSize<api::FieldDeclaration> = offsetof(api::FieldDeclaration, label);
 
 /// A list must have a place to read from, and elements at least as large as the first version's.
 template <class T>
@@ -177,13 +180,32 @@ std::string readParameters(api::ParameterList list, std::vector<api::ParameterDe
   return {};
 }
 
-std::string problemOfFields(api::List<api::FieldDeclaration> list, const FieldOwner& owner) {
+namespace {
+
+/// Of what people see of a field.
+std::string problemOfShown(const api::FieldDeclaration& f) {
+  constexpr qsizetype kLongestLabel = 40;
+  if (QString::fromUtf8(f.label).size() > kLongestLabel) return "its label is longer than 40 letters";
+  if (!std::isfinite(f.minimum) || !std::isfinite(f.maximum) || f.minimum > f.maximum)
+    return "its scale must go from a finite minimum up to a finite maximum";
+  if (!*f.label) return {};
+  if (f.type == api::FieldType::Float4) return "a Float4 is no number to be shown; leave out its label";
+  const bool plain = std::all_of(f.name, f.name + std::strlen(f.name), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '-' || c == '.';
+  });
+  return plain ? "" : "the name of one with a label has small letters, digits, '_', '-' and '.' alone";
+}
+
+}  // namespace
+
+std::string readFields(api::List<api::FieldDeclaration> list, const FieldOwner& owner,
+                       std::vector<api::FieldDeclaration>& out) {
   if (std::string problem = problemOfList(list); !problem.empty()) return "fields: " + problem;
   std::set<std::string> names;
   for (size_t i = 0; i < list.count; ++i) {
-    const api::FieldDeclaration f = list.at(i);
+    const api::FieldDeclaration f = out.emplace_back(list.at(i));
     if (!f.name || !*f.name) return place("field", i) + "needs a name";
-    for (const char* text : {f.name, f.unit, f.help})
+    for (const char* text : {f.name, f.unit, f.help, f.label})
       if (const std::string problem = problemOfText(text); !problem.empty())
         return place("field", i) + "a text of it " + problem;
     if (!names.insert(f.name).second) return "field '" + std::string(f.name) + "': is declared twice";
@@ -192,6 +214,8 @@ std::string problemOfFields(api::List<api::FieldDeclaration> list, const FieldOw
              "." + f.name + "\"";
     if (f.type > api::FieldType::Float4)
       return "field '" + std::string(f.name) + "': its type is unknown to this program";
+    if (const std::string problem = problemOfShown(f); !problem.empty())
+      return "field '" + std::string(f.name) + "': " + problem;
   }
   return {};
 }
@@ -200,10 +224,10 @@ namespace {
 
 std::string problemOfValues(api::List<api::FieldDeclaration> values, const std::string& whose) {
   constexpr size_t kMost = 16;
-  if (std::string problem = problemOfFields(values, {}); !problem.empty()) return whose + " " + problem;
+  std::vector<api::FieldDeclaration> all;
+  if (std::string problem = readFields(values, {}, all); !problem.empty()) return whose + " " + problem;
   if (values.count > kMost) return "it declares more than 16 " + whose + " values";
-  for (size_t i = 0; i < values.count; ++i) {
-    const api::FieldDeclaration value = values.at(i);
+  for (const api::FieldDeclaration& value : all) {
     if (value.type != api::FieldType::Float32)
       return "the " + whose + " value '" + std::string(value.name) + "' must be a Float32";
   }
@@ -214,26 +238,29 @@ constexpr const char* kNoTraits = "its traits() says nothing: return fill(out, {
 
 }  // namespace
 
-std::string problemOfTraits(const api::StructuralPlugin& plugin, const FieldOwner& owner) {
+std::string readTraits(const api::StructuralPlugin& plugin, const FieldOwner& owner,
+                       std::vector<api::FieldDeclaration>& out) {
   api::StructuralTraits traits;
   if (!plugin.traits(&traits)) return kNoTraits;
   if (traits.arity < 2 || traits.arity > 4)
     return "a structural constraint joins 2 to 4 particles, not " + std::to_string(traits.arity);
   if (std::string problem = problemOfValues(traits.values, "per-constraint"); !problem.empty()) return problem;
-  return problemOfFields(traits.fields, owner);
+  return readFields(traits.fields, owner, out);
 }
 
-std::string problemOfTraits(const api::GroupPlugin& plugin, const FieldOwner& owner) {
+std::string readTraits(const api::GroupPlugin& plugin, const FieldOwner& owner,
+                       std::vector<api::FieldDeclaration>& out) {
   api::GroupTraits traits;
   if (!plugin.traits(&traits)) return kNoTraits;
   if (std::string problem = problemOfValues(traits.values, "per-group"); !problem.empty()) return problem;
   if (std::string problem = problemOfValues(traits.memberValues, "per-member"); !problem.empty()) return problem;
-  return problemOfFields(traits.fields, owner);
+  return readFields(traits.fields, owner, out);
 }
 
-std::string problemOfTraits(const api::NeighbourPlugin& plugin, const FieldOwner& owner) {
+std::string readTraits(const api::NeighbourPlugin& plugin, const FieldOwner& owner,
+                       std::vector<api::FieldDeclaration>& out) {
   api::NeighbourTraits traits;
-  return plugin.traits(&traits) ? problemOfFields(traits.fields, owner) : kNoTraits;
+  return plugin.traits(&traits) ? readFields(traits.fields, owner, out) : kNoTraits;
 }
 
 std::string readProperties(api::List<api::MaterialProperty> list, Material& material) {

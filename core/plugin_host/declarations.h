@@ -27,10 +27,16 @@ struct FieldOwner {
     return id.empty() || own || (field.starts_with(id) && field.size() > id.size() + 1 && field[id.size()] == '.');
   }
 };
-std::string problemOfFields(api::List<api::FieldDeclaration> list, const FieldOwner& owner);
-std::string problemOfTraits(const api::StructuralPlugin& plugin, const FieldOwner& owner);
-std::string problemOfTraits(const api::GroupPlugin& plugin, const FieldOwner& owner);
-std::string problemOfTraits(const api::NeighbourPlugin& plugin, const FieldOwner& owner);
+/// Copies the fields that a plugin declares.
+std::string readFields(api::List<api::FieldDeclaration> list, const FieldOwner& owner,
+                       std::vector<api::FieldDeclaration>& out);
+/// Checks what a constraint says of itself, and copies its fields.
+std::string readTraits(const api::StructuralPlugin& plugin, const FieldOwner& owner,
+                       std::vector<api::FieldDeclaration>& out);
+std::string readTraits(const api::GroupPlugin& plugin, const FieldOwner& owner,
+                       std::vector<api::FieldDeclaration>& out);
+std::string readTraits(const api::NeighbourPlugin& plugin, const FieldOwner& owner,
+                       std::vector<api::FieldDeclaration>& out);
 
 /// Reads a plugin's properties into `material`, with sources and grades.
 std::string readProperties(api::List<api::MaterialProperty> list, Material& material);

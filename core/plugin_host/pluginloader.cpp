@@ -86,11 +86,11 @@ std::string connect(QObject& object, PluginInfo& info, LoadedPlugin& loaded) {
   if (!plugin) return std::string("its class lacks Q_INTERFACES for a ") + pluginKindName(info.kind);
   if (std::string problem = checkCommon(*plugin, info, loaded); !problem.empty()) return problem;
   const FieldOwner owner{info.id, info.own};
-  if (loaded.structural) return problemOfTraits(*loaded.structural, owner);
-  if (loaded.group) return problemOfTraits(*loaded.group, owner);
-  if (loaded.neighbour) return problemOfTraits(*loaded.neighbour, owner);
-  if (loaded.thermal) return problemOfFields(loaded.thermal->fields(), owner);
-  if (loaded.heatSource) return problemOfFields(loaded.heatSource->fields(), owner);
+  if (loaded.structural) return readTraits(*loaded.structural, owner, loaded.fields);
+  if (loaded.group) return readTraits(*loaded.group, owner, loaded.fields);
+  if (loaded.neighbour) return readTraits(*loaded.neighbour, owner, loaded.fields);
+  if (loaded.thermal) return readFields(loaded.thermal->fields(), owner, loaded.fields);
+  if (loaded.heatSource) return readFields(loaded.heatSource->fields(), owner, loaded.fields);
   return loaded.materialPlugin ? readMaterial(info, loaded) : std::string();
 }
 

@@ -24,8 +24,9 @@ struct LoadedPlugin {
   const api::HeatSourcePlugin* heatSource = nullptr;
   const api::BrushPlugin* brush = nullptr;
   std::vector<api::ParameterDeclaration> parameters;
-  Material declared;  ///< of material plugins: properties() alone
-  Material material;  ///< of materials; own laws evaluated at their defaults
+  std::vector<api::FieldDeclaration> fields;  ///< of particles
+  Material declared;                          ///< of material plugins: properties() alone
+  Material material;                          ///< of materials; own laws evaluated at their defaults
 };
 
 /// Loads a library whose metadata are sound, makes its object and checks all that it declares. `info` receives label

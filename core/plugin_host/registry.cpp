@@ -272,6 +272,17 @@ api::ParameterList PluginRegistry::parameters(const std::string& id) const {
   return plugin ? api::listOf(plugin->parameters.data(), plugin->parameters.size()) : api::ParameterList{};
 }
 
+std::vector<api::FieldDeclaration> PluginRegistry::fields() const {
+  std::vector<api::FieldDeclaration> all;
+  for (const auto& [id, plugin] : m->loaded) all.insert(all.end(), plugin.fields.begin(), plugin.fields.end());
+  return all;
+}
+
+std::vector<api::FieldDeclaration> PluginRegistry::fields(const std::string& id) const {
+  const auto found = m->loaded.find(id);
+  return found == m->loaded.end() ? std::vector<api::FieldDeclaration>() : found->second.fields;
+}
+
 const api::ThermalPlugin* PluginRegistry::thermal(const std::string& id) const {
   const LoadedPlugin* plugin = m->get(id);
   return plugin ? plugin->thermal : nullptr;

@@ -74,6 +74,11 @@ class PluginRegistry {
   const api::BrushPlugin* brush(const std::string& id) const;
   /// What a plugin declares, copied when it was loaded, whatever headers it was built with; empty when not installed.
   api::ParameterList parameters(const std::string& id) const;
+  /// Per-particle fields that plugins declare, ascending by plugin, of those that failed since they were loaded too:
+  /// particles go on having them.
+  std::vector<api::FieldDeclaration> fields() const;
+  /// Those of one plugin.
+  std::vector<api::FieldDeclaration> fields(const std::string& id) const;
   /// Loaded ids of a kind, ascending.
   std::vector<std::string> ids(PluginKind kind) const;
   bool has(const std::string& id) const;

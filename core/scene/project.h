@@ -172,7 +172,7 @@ struct SolverOptions {
 /// Something to measure each frame.
 struct Probe {
   std::string id, name;
-  std::string quantity;          ///< "temperature", "mass", "speed", ... see probeQuantities()
+  std::string quantity;          ///< "temperature", "mass", "speed_max", ... see ParticleFields
   std::string body;              ///< Body::id; "" for all particles
   std::string phase;             ///< "solid", "melting", "liquid", "boiling", "gas"; "" for all
   bool fixed = false;            ///< sees what is held in place as well, as one of a fixed body always does
@@ -190,7 +190,7 @@ struct ViewCamera {
 
 struct ViewState {
   std::optional<ViewCamera> camera;  ///< none: the whole scene is shown
-  std::string colour = "material";   ///< material | temperature | phase | speed | density_error
+  std::string colour = "material";   ///< that, or the name of a field of particles: see ParticleFields
   std::vector<std::string> pinned;   ///< addresses of "Try these" rows: "wall/floor/temperature"
   Unknown unknown;
 };
@@ -247,12 +247,6 @@ inline constexpr const char* kStructureKey = "structure";
 inline constexpr const char* kNoStructure = "none";
 /// Its declaration as a choice; `plugins` are the ids of what can hold a body.
 api::ParameterDeclaration structureParameter(const std::vector<std::string>& plugins);
-/// Keys of what a probe can measure: "temperature", "mass", "speed", ...
-const std::vector<std::string>& probeQuantities();
-std::string probeUnit(const std::string& quantity);   ///< SI: "K", "kg", "1" for counts; "" for an unknown quantity
-std::string probeLabel(const std::string& quantity);  ///< "Mean temperature"; "" for an unknown quantity
-/// Whether a wave can be looked for in it: a mean of something that each particle has.
-bool probeIsMean(const std::string& quantity);
 
 /// Layers of particles `spacing` m apart that fill an edge of a box: whole ones, at least one.
 double layersAlong(double edge, double spacing);

@@ -90,7 +90,12 @@ struct ReturnToState {
   MatterIds named{};
 };
 
+/// Snapshots carry these fields from now on: see Engine::show(). Matter stays as it is.
+struct ShowFields {
+  std::vector<std::string> names;
+};
+
 using Command = std::variant<SetParameter, UpdateProject, AddCells, TakeCells, TakeBody, TakeMatter, PutBack,
-                             NameMatter, ReturnBody, ForgetMatter, Reset, ReturnToState>;
+                             NameMatter, ReturnBody, ForgetMatter, Reset, ReturnToState, ShowFields>;
 
 }  // namespace ps

@@ -144,7 +144,7 @@ void Engine::Impl::prepare(double livingSpacing, const std::vector<std::string>&
   for (const std::string& plugin : constraints) constraintSet(plugin);
   bakeMaterials();
   setThermal();
-  for (const Probe& probe : project.probes) probeNames.push_back(probeTitle(probe));
+  for (const Probe& probe : project.probes) probeNames.push_back(probeTitle(probe, fields));
 }
 
 void Engine::Impl::build() {
@@ -184,6 +184,7 @@ void Engine::Impl::build() {
 std::unique_ptr<Engine::Impl> Engine::Impl::rebuilt(const Project& source) const {
   auto next = std::make_unique<Impl>(source, plugins);
   next->tables = tables;
+  next->shown = shown;
   next->build();
   return next;
 }
@@ -231,6 +232,14 @@ void Engine::Impl::lead() {
                                    [&](const Body& b) { return b.id == (*bodyIds)[index]; });
     solver->setMotion(index, body == project.bodies.end() ? BodyMotion{} : compileMotion(*body, spacing));
   }
+}
+
+std::vector<FieldPtr> Engine::Impl::shownFields() const {
+  std::vector<FieldPtr> list;
+  for (const FieldPtr& field : fields.all()) {
+    if (std::find(shown.begin(), shown.end(), field->name) != shown.end()) list.push_back(field);
+  }
+  return list;
 }
 
 void Engine::Impl::recompileAll() {
@@ -315,6 +324,8 @@ void Engine::apply(const Command& command) {
   } else if (const auto* back = std::get_if<ReturnToState>(&command)) {
     restore(*back->state);
     m->named = NamedMatter(back->named);
+  } else if (const auto* wanted = std::get_if<ShowFields>(&command)) {
+    show(wanted->names);
   } else {
     std::visit(
         [this](const auto& matter) {
@@ -381,14 +392,14 @@ SnapshotPtr Engine::snapshot() const {
   snapshot->bodyIds = m->bodyIds;
   snapshot->materialIds = idsOf(m->project.materials);
   snapshot->materialLook = m->tables.looks();
-  fillSnapshot(*snapshot, *m->solver);
+  fillSnapshot(*snapshot, *m->solver, m->shownFields());
   return snapshot;
 }
 
 FrameStats Engine::stats() const {
   FrameStats stats = measure(*m->solver, m->lastReport);
   stats.flow = m->flow.total();
-  const ProbeView view{*m->solver, *m->bodyIds, compileWalls(m->project), m->spacing, m->start};
+  const ProbeView view{*m->solver, *m->bodyIds, m->fields, compileWalls(m->project), m->spacing, m->start};
   for (const Probe& probe : m->project.probes) {
     stats.probes.push_back(measureProbe(view, probe));
   }
@@ -396,8 +407,11 @@ FrameStats Engine::stats() const {
 }
 
 const Project& Engine::project() const { return m->project; }
+void Engine::show(const std::vector<std::string>& names) { m->shown = names; }
 const Solver& Engine::solver() const { return *m->solver; }
 MatterIds Engine::namedMatter() const { return m->named.present(); }
+const ParticleStore& Engine::particles() const { return m->solver->particles(); }
+const ParticleFields& Engine::fields() const { return m->fields; }
 uint64_t Engine::bakedTables() const { return m->tables.baked(); }
 const std::vector<std::string>& Engine::bodyIds() const { return *m->bodyIds; }
 const std::vector<std::string>& Engine::probeNames() const { return m->probeNames; }

@@ -2,7 +2,7 @@
 #pragma once
 #include "core/simulation/command.h"
 #include "core/simulation/snapshot.h"
-#include "core/solver/solver.h"
+#include "core/solver/matter.h"
 
 #include <memory>
 #include <span>
@@ -11,12 +11,14 @@
 
 namespace ps {
 
+class ParticleFields;
 class PluginRegistry;
+class Solver;
 class StateReader;
 class StateWriter;
 
 /// A scene compiled into a solver, single-threaded from the caller's point of view: the command line uses it directly,
-/// the editor through EngineThread.
+/// the editor through EngineThread. What it hands out is values and const views; it changes by its own functions alone.
 class Engine {
  public:
   /// At the state that the project holds; where it cannot go on from there, or holds none, at its start. Throws
@@ -74,10 +76,15 @@ class Engine {
   /// at its start, or what of the state means nothing here.
   const std::vector<std::string>& remarks() const { return m_remarks; }
 
+  /// Snapshots carry these fields from now on, beside those that each has, instead of what the project's view shows.
+  /// Unknown names are left out.
+  void show(const std::vector<std::string>& names);
   SnapshotPtr snapshot() const;
   FrameStats stats() const;
   const Project& project() const;
   const Solver& solver() const;
+  const ParticleStore& particles() const;
+  const ParticleFields& fields() const;  ///< that particles may have, ours and those of the installed plugins
   /// Body::id by the index that particles carry; a body keeps its index until the next reset.
   const std::vector<std::string>& bodyIds() const;
   const std::vector<std::string>& probeNames() const;  ///< "name.quantity[unit]"

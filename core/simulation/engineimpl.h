@@ -5,7 +5,9 @@
 #include "core/simulation/materialtables.h"
 #include "core/simulation/matterflow.h"
 #include "core/simulation/namedmatter.h"
+#include "core/simulation/particlefield.h"
 #include "core/simulation/scenestate.h"
+#include "core/solver/solver.h"
 
 #include <map>
 
@@ -21,7 +23,11 @@ inline std::vector<std::string> idsOf(const std::vector<SceneMaterial>& material
 
 struct Engine::Impl {
   Impl(const Project& source, PluginRegistry& registry)
-      : project(source), materialOrder(idsOf(source.materials)), plugins(registry) {}
+      : project(source),
+        materialOrder(idsOf(source.materials)),
+        plugins(registry),
+        fields(registry),
+        shown{source.view.colour} {}
 
   void build();
   /// An empty scene of particles that are `livingSpacing` m apart, with sets of these constraint plugins first.
@@ -51,10 +57,13 @@ struct Engine::Impl {
   std::vector<uint32_t> born(Spawn spawn, const Body& body);
   std::vector<uint32_t> born(Spawn spawn, const std::string& id, const std::string& name);
   void exchangeMatter();
+  std::vector<FieldPtr> shownFields() const;
 
   Project project;
   std::vector<std::string> materialOrder;  ///< ids of the document's; others in `project` leave at the next reset
   PluginRegistry& plugins;
+  ParticleFields fields;
+  std::vector<std::string> shown;  ///< names of what snapshots carry
   std::unique_ptr<Solver> solver;
   MaterialTables tables;
   NamedMatter named;

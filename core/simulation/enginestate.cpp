@@ -26,6 +26,7 @@ std::unique_ptr<Engine::Impl> Engine::Impl::restored(const StateReader& reader) 
   requireGoesOn(state, source, plugins);
   auto next = std::make_unique<Impl>(source, plugins);
   next->tables = tables;
+  next->shown = shown;
   next->project.materials = materialsInOrder(state, reader, source);
   next->prepare(state.spacing, state.constraints);
   next->bodyIds = std::make_shared<const std::vector<std::string>>(std::move(state.bodies));

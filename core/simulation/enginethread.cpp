@@ -5,6 +5,7 @@
 #include "core/simulation/commandqueue.h"
 #include "core/simulation/engine.h"
 #include "core/simulation/framehistory.h"
+#include "core/solver/solver.h"
 
 #include <algorithm>
 #include <chrono>
@@ -82,6 +83,7 @@ struct EngineThread::Impl {
   template <class Action>
   void edit(Action action);
   void editAll(const ParameterBatch& batch);
+  void look(const Command& command);
   void answer(const Question& question);
 
   PluginRegistry& plugins;
@@ -159,7 +161,10 @@ void EngineThread::Impl::workOff() {
     if (!entry) return;
     if (const auto* batch = std::get_if<ParameterBatch>(&*entry)) {
       editAll(*batch);
-    } else if (const auto* command = std::get_if<Command>(&*entry)) {
+    } else if (const auto* command = std::get_if<Command>(&*entry);
+               command && std::holds_alternative<ShowFields>(*command)) {
+      look(*command);
+    } else if (command) {
       edit([&] { engine->apply(*command); });
     } else if (const auto* opening = std::get_if<Opening>(&*entry)) {
       open(*opening);
@@ -313,6 +318,13 @@ void EngineThread::Impl::editAll(const ParameterBatch& batch) {
       if (refusal) std::rethrow_exception(refusal);
     }
   });
+}
+
+/// No edit: what was refused stays refused.
+void EngineThread::Impl::look(const Command& command) {
+  if (!engine) return;
+  engine->apply(command);
+  edited = true;
 }
 
 /// Who asks sees what the snapshot shows.

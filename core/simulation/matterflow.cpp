@@ -108,7 +108,7 @@ void MatterFlow::steer(Solver& solver, const Project& project, double dt) {
       continue;
     }
     const api::Float4 velocity = float4Of(numberOf(*emitter, "speed") * emitter->direction.normalized(), 0);
-    const ParticleStore& store = solver.particles();
+    ParticleStore& store = solver.particles();
     for (const Layer& layer : pipe.layers) {
       for (const uint32_t id : layer) {
         if (id == kNone) continue;
@@ -170,7 +170,7 @@ void MatterFlow::cross(const Job& job, Pipe& pipe, double offset, double& living
     held = std::move(pipe.layers.front());
     pipe.layers.pop_front();
   }
-  const ParticleStore& store = job.solver.particles();
+  ParticleStore& store = job.solver.particles();
   OccupiedPlaces occupied(kClearance * job.spacing, store.size(), store.period()),
       pressed(kPressed * job.spacing, store.size(), store.period());
   for (size_t i = 0; i < store.size(); ++i) {

@@ -72,7 +72,7 @@ FrameStats measure(const Solver& solver, const StepReport& report) {
   return stats;
 }
 
-void fillSnapshot(Snapshot& snapshot, const Solver& solver) {
+void fillSnapshot(Snapshot& snapshot, const Solver& solver, std::span<const FieldPtr> shown) {
   const ParticleStore& store = solver.particles();
   const size_t n = store.size();
   snapshot.period = store.period();
@@ -93,6 +93,12 @@ void fillSnapshot(Snapshot& snapshot, const Solver& solver) {
                             std::cbrt(volume * 0.75f / std::numbers::pi_v<float>)};
     snapshot.temperature[i] = static_cast<float>(store.temperature()[i]);
     snapshot.speed[i] = static_cast<float>(std::sqrt(squaredSpeed(store.velocity()[i])));
+  }
+  for (const FieldPtr& field : shown) {
+    const StoredField stored(*field, store);
+    if (!stored || field->inSnapshot) continue;
+    std::vector<float>& values = snapshot.fields.emplace_back(FieldValues{field, std::vector<float>(n)}).values;
+    for (size_t i = 0; i < n; ++i) values[i] = static_cast<float>(stored[i]);
   }
 }
 

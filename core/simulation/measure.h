@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "core/simulation/particlefield.h"
 #include "core/simulation/snapshot.h"
 #include "core/solver/solver.h"
 
@@ -15,6 +16,7 @@ FrameStats measure(const Solver& solver, const StepReport& report);
 struct ProbeView {
   const Solver& solver;
   const std::vector<std::string>& bodyIds;  ///< Body::id by the particles' body index
+  const ParticleFields& fields;
   std::vector<Wall> walls{};
   double spacing = 0;                ///< m, of the particles
   std::span<const Vector3> start{};  ///< m, places at the start by the particles' ids
@@ -23,9 +25,9 @@ struct ProbeView {
 /// particles are seen by probes that say so alone, but count as other bodies.
 double measureProbe(const ProbeView& view, const Probe& probe);
 /// "name.quantity[unit]"
-std::string probeTitle(const Probe& probe);
+std::string probeTitle(const Probe& probe, const ParticleFields& fields);
 
-/// Copies what views need.
-void fillSnapshot(Snapshot& snapshot, const Solver& solver);
+/// Copies what views need, and these fields as far as it has them.
+void fillSnapshot(Snapshot& snapshot, const Solver& solver, std::span<const FieldPtr> shown);
 
 }  // namespace ps

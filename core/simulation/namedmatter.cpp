@@ -12,7 +12,7 @@ namespace {
 std::vector<uint32_t> ofBody(const Engine& engine, std::vector<uint32_t> ids, const std::string& body) {
   const std::vector<std::string>& bodies = engine.bodyIds();
   const auto index = static_cast<uint32_t>(std::find(bodies.begin(), bodies.end(), body) - bodies.begin());
-  const ParticleStore& store = engine.solver().particles();
+  const ParticleStore& store = engine.particles();
   std::erase_if(ids, [&](uint32_t id) {
     const size_t row = store.indexOf(id);
     return row >= store.size() || store.body()[row] != index;
@@ -24,7 +24,7 @@ std::vector<uint32_t> ofBody(const Engine& engine, std::vector<uint32_t> ids, co
 std::vector<uint32_t> sparing(const Engine& engine, std::vector<uint32_t> ids, const std::vector<std::string>& spared) {
   if (spared.empty()) return ids;
   const std::vector<std::string>& bodies = engine.bodyIds();
-  const ParticleStore& store = engine.solver().particles();
+  const ParticleStore& store = engine.particles();
   std::erase_if(ids, [&](uint32_t id) {
     const size_t row = store.indexOf(id);
     if (row >= store.size()) return true;
@@ -72,7 +72,7 @@ void NamedMatter::apply(Engine& engine, const TakeCells& command) {
 }
 
 void NamedMatter::apply(Engine& engine, const TakeBody& command) {
-  const ParticleStore& store = engine.solver().particles();
+  const ParticleStore& store = engine.particles();
   Entry& entry = m_entries[command.key];
   entry = {ofBody(engine, {store.id(), store.id() + store.size()}, command.body), {}};
   extract(engine, entry, entry.ids);

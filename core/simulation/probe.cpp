@@ -7,6 +7,7 @@
 #include <functional>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 namespace ps {
 namespace {
@@ -55,6 +56,13 @@ class Measurement {
  public:
   Measurement(const ProbeView& view, const Probe& probe)
       : m_view(view), m_store(view.solver.particles()), m_probe(probe), m_key(probe.quantity) {
+    const Quantity* quantity = view.fields.quantity(probe.quantity);
+    m_isKnown = quantity;
+    if (quantity && quantity->field) {
+      m_key.base.clear();
+      m_key.statistic = quantity->of == Quantity::Of::Least ? "min" : quantity->of == Quantity::Of::Most ? "max" : "";
+      m_isKnown = static_cast<bool>(m_field.emplace(*quantity->field, m_store));
+    }
     choose();
   }
 
@@ -67,7 +75,7 @@ class Measurement {
     if (base == "thermal_energy") return thermalEnergy();
     if (base == "momentum") return sum([&](size_t i) { return part(m_store.velocity()[i], m_key.axis); });
     if (base == "outside") return static_cast<double>(beyondWalls());
-    if (m_chosen.empty()) return nothing();
+    if (m_chosen.empty() || !m_isKnown) return nothing();
     if (base == "spin") return spin();
     if (base == "front") return front();
     if (base == "gap") return gap();
@@ -103,14 +111,10 @@ class Measurement {
   }
 
   double ofParticle(size_t i) const {
-    if (m_key.base == "temperature") return m_store.temperature()[i];
-    if (m_key.base == "solid_fraction") return m_store.solidFraction()[i];
-    if (m_key.base == "liquid_fraction") return m_store.liquidFraction()[i];
-    if (m_key.base == "gas_fraction") return m_store.gasFraction()[i];
+    if (m_field) return (*m_field)[i];
     if (m_key.base == "height") return m_store.position()[i].y;
     if (m_key.base == "compression") return std::max(0.0, double{m_store.densityError()[i]});
     if (m_key.base == "velocity") return part(m_store.velocity()[i], m_key.axis);
-    if (m_key.base == "speed") return std::sqrt(squaredSpeed(m_store.velocity()[i]));
     return part(m_store.position()[i], m_key.axis);
   }
 
@@ -229,7 +233,9 @@ class Measurement {
   const ProbeView& m_view;
   const ParticleStore& m_store;
   const Probe& m_probe;
-  const Key m_key;
+  Key m_key;
+  std::optional<StoredField> m_field;  ///< what is measured, where it is a field's
+  bool m_isKnown = false;              ///< a quantity that matter of this scene has
   std::vector<size_t> m_chosen;
 };
 
@@ -237,8 +243,8 @@ class Measurement {
 
 double measureProbe(const ProbeView& view, const Probe& probe) { return Measurement(view, probe).value(); }
 
-std::string probeTitle(const Probe& probe) {
-  return probe.name + "." + probe.quantity + "[" + probeUnit(probe.quantity) + "]";
+std::string probeTitle(const Probe& probe, const ParticleFields& fields) {
+  return probe.name + "." + probe.quantity + "[" + fields.unitOf(probe.quantity) + "]";
 }
 
 }  // namespace ps

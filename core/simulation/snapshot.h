@@ -44,6 +44,13 @@ struct FrameStats {
   std::vector<double> probes;  ///< in the order of Project::probes
 };
 
+struct ParticleField;
+/// What one field is of each particle, in its unit.
+struct FieldValues {
+  std::shared_ptr<const ParticleField> field;
+  std::vector<float> values;
+};
+
 /// One published frame: immutable, read by viewport, graphs and recorder without a lock. Static particles included.
 struct Snapshot {
   FrameStats stats;
@@ -60,6 +67,7 @@ struct Snapshot {
   std::vector<api::Phase> phase;
   std::vector<api::Motion> motion;
   std::vector<uint32_t> id, body, material;
+  std::vector<FieldValues> fields;  ///< those that were asked for beside what stands above, where particles have them
   std::shared_ptr<const std::vector<std::string>> bodyIds;  ///< Body::id by the index in `body`
   std::vector<std::string> materialIds;                     ///< SceneMaterial::id by the index in `material`
   std::vector<std::array<float, 4>> materialLook;           ///< sRGB and clearness, 0..1, by material index

@@ -112,8 +112,8 @@ EnthalpyModel::EnthalpyModel()
                  {}}) {}
 
 api::List<api::FieldDeclaration> EnthalpyModel::fields() const noexcept {
-  static const api::FieldDeclaration list[] = {
-      {kEnthalpy, "J/kg", "Heat content, 0 for the solid at its melting point", api::FieldType::Float64}};
+  static const api::FieldDeclaration list[] = {{kEnthalpy, "J/kg", "Heat content, 0 for the solid at its melting point",
+                                                api::FieldType::Float64, "Specific enthalpy"}};
   return api::listOf(list);
 }
 

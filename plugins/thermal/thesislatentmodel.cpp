@@ -144,8 +144,10 @@ api::List<api::FieldDeclaration> ThesisLatentModel::fields() const noexcept {
       {"thesis_latent.state", "", "0 solid, 1 melting or freezing, 2 fluid, 3 boiling or condensing, 4 gas",
        FieldType::UInt8},
       {"thesis_latent.temperature", "K", "Temperature kept by the state machine", FieldType::Float64},
-      {"thesis_latent.melting", "J/kg", "Latent heat of melting taken up so far", FieldType::Float64},
-      {"thesis_latent.boiling", "J/kg", "Latent heat of boiling taken up so far", FieldType::Float64}};
+      {"thesis_latent.melting", "J/kg", "Latent heat of melting taken up so far", FieldType::Float64,
+       "Heat of melting"},
+      {"thesis_latent.boiling", "J/kg", "Latent heat of boiling taken up so far", FieldType::Float64,
+       "Heat of boiling"}};
   return api::listOf(list);
 }
 

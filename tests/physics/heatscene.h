@@ -188,8 +188,11 @@ class Scene {
     for (size_t i = 0; i < store.size(); ++i) sum += double{store.mass()[i]} * static_cast<double>(values[i]);
     return sum / mass();
   }
-  double* enthalpyField() const {
+  double* enthalpyField() {
     return static_cast<double*>(store.find("specific_enthalpy", ps::api::FieldType::Float64));
+  }
+  const double* enthalpyField() const {
+    return static_cast<const double*>(store.read("specific_enthalpy", ps::api::FieldType::Float64));
   }
   /// True for particles within `half` spacings of the axis through (y, z), in spacings.
   bool nearAxis(size_t i, double y, double z, double half) const {

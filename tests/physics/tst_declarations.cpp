@@ -9,6 +9,7 @@
 #include "core/simulation/declared.h"
 #include "core/simulation/engine.h"
 #include "core/simulation/rules.h"
+#include "core/solver/solver.h"
 #include "tests/shared/menagerie.h"
 
 #include <QTest>

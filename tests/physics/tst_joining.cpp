@@ -3,6 +3,7 @@
 #include "core/plugin_host/registry.h"
 #include "core/simulation/compile.h"
 #include "core/simulation/engine.h"
+#include "core/solver/solver.h"
 #include "onehash.h"
 #include "softscene.h"
 #include "tests/shared/scenes.h"

@@ -4,6 +4,7 @@
 #include "core/io/projectio.h"
 #include "core/plugin_host/registry.h"
 #include "core/simulation/engine.h"
+#include "core/solver/solver.h"
 #include "heatscene.h"
 #include "rigidmodel.h"
 #include "viscosityscene.h"

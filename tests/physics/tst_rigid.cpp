@@ -116,7 +116,7 @@ class TestRigid : public QObject {
     const std::vector<uint32_t> ids = spawnRigid(solver, points, turning(points, {0.5, 1, 0}, {1, 4, 6}));
     QCOMPARE(solver.constraintCount(), size_t{1});
     QVERIFY(run(solver, 10));
-    const ps::ParticleStore& p = solver.particles();
+    ps::ParticleStore& p = solver.particles();
     std::vector<uint32_t> bridge;
     for (size_t k = 0; k < points.size(); ++k) {
       if (std::abs(points[k].x) < 0.04) bridge.push_back(ids[k]);

@@ -9,6 +9,7 @@
 #include "core/simulation/engine.h"
 #include "core/simulation/projectstate.h"
 #include "core/simulation/scenestate.h"
+#include "core/solver/solver.h"
 
 #include <QDir>
 #include <QTest>

@@ -167,16 +167,16 @@ class TestPluginHost : public QObject {
     QTest::addColumn<QByteArray>("stamp");
     QTest::addColumn<QString>("expected");
     QTest::newRow("other layout") << QByteArray("phasesketch-sdk:0.9:9")
-                                  << "built with the plugin headers 0.9:9, which do not fit this program's, 0.9:1";
+                                  << "built with the plugin headers 0.9:9, which do not fit this program's, 0.9:2";
     QTest::newRow("other major") << QByteArray("phasesketch-sdk:1.9:1") << "built with the plugin headers 1.9:1";
-    QTest::newRow("older than it says") << QByteArray("phasesketch-sdk:0.8:1") << "ask for a later version";
+    QTest::newRow("older than it says") << QByteArray("phasesketch-sdk:0.8:2") << "ask for a later version";
     QTest::newRow("none") << QByteArray("no stamp is to be had") << "carries no stamp";
   }
   void stampsAreCheckedBeforeLoading() {
     QFETCH(QByteArray, stamp);
     QFETCH(QString, expected);
     const QString path = withSoundPlugins(QString("stamp ") + QTest::currentDataTag());
-    const QByteArray sound("phasesketch-sdk:0.9:1");
+    const QByteArray sound("phasesketch-sdk:0.9:2");
     QByteArray bytes = contents(fixture("fixture_material"));
     QVERIFY(bytes.contains(sound) && stamp.size() == sound.size());  // one for each source
     bytes.replace(sound, stamp);
@@ -327,6 +327,11 @@ class TestPluginHost : public QObject {
     QTest::newRow("foreign_field")
         << "thermal"
         << "must begin with the plugin's id and a dot, \"fixture.thermal.specific_enthalpy\"";
+    const auto field = [](const char* name, const char* expected) { QTest::newRow(name) << "source" << expected; };
+    field("long_label", "field 'fixture.source.mark': its label is longer than 40 letters");
+    field("turned_scale", "its scale must go from a finite minimum up to a finite maximum");
+    field("shown_vector", "a Float4 is no number to be shown");
+    field("spaced_field", "small letters, digits, '_', '-' and '.' alone");
   }
   void faultyCodeIsRefused() {
     QFETCH(QString, kind);
@@ -335,7 +340,7 @@ class TestPluginHost : public QObject {
     const QString path = withSoundPlugins(QString("faulty ") + QTest::currentDataTag());
     QFile::remove(path + "/" + kind + ".so");
     QVERIFY(QFile::copy(fixture("fixture_" + kind), path + "/" + name));
-    expectOneRefusal(path, name, expected, kind == "material" ? 3 : 2);
+    expectOneRefusal(path, name, expected, kind == "constraint" || kind == "thermal" ? 2 : 3);  // in whose place it is
   }
 
   void numberFormatSurvivesAPlugin() {

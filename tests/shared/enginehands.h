@@ -2,6 +2,7 @@
 #pragma once
 #include "core/simulation/engine.h"
 #include "core/simulation/enginethread.h"
+#include "core/solver/solver.h"
 
 #include <functional>
 #include <future>

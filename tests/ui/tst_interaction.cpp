@@ -250,15 +250,17 @@ class TestInteraction : public SampleWindowTest {
 
   /// The ends pass one another at no drag, and stand on values that can be read.
   void legendRangesStayInOrder() {
+    const ParticleFields fields;
+    const ParticleField &temperature = *fields.find("temperature"), &speed = *fields.find("speed");
     LegendRange range;
-    QVERIFY(range.update(ColourBy::Temperature, {263.15, 373.15}) == (std::pair{263.15, 373.15}));
+    QVERIFY(range.update(temperature, {263.15, 373.15}) == (std::pair{263.15, 373.15}));
     range.moveEnd(false, 3);
-    const auto narrow = range.update(ColourBy::Temperature, {200, 500});
+    const auto narrow = range.update(temperature, {200, 500});
     QVERIFY(narrow.first < narrow.second);
     QCOMPARE(narrow.second, 373.15);
     const double celsius = narrow.first - 273.15;
     QVERIFY(std::abs(celsius - std::round(celsius)) < 1e-9);
-    QVERIFY(range.update(ColourBy::Speed, {0, 3}) == (std::pair{0.0, 5.0}));  // another map is automatic
+    QVERIFY(range.update(speed, {0, 3}) == (std::pair{0.0, 5.0}));  // another map is automatic
   }
 
   /// The label names a direction only as long as one looks from there.
@@ -308,8 +310,10 @@ class TestInteraction : public SampleWindowTest {
     history[1].time = 0.1;
     history[1].phases[2].mass = 2.5;
     history[1].probes = {0.5};
-    const QByteArray csv = historyCsv(history, {{"a", "Ice, core", "temperature", "", "", {}, {}, {}, {}},
-                                                {"b", "n", "count", "", "", {}, {}, {}, {}}});
+    const QByteArray csv = historyCsv(
+        history,
+        {{"a", "Ice, core", "temperature", "", "", {}, {}, {}, {}}, {"b", "n", "count", "", "", {}, {}, {}, {}}},
+        ParticleFields());
     QCOMPARE(csv, QByteArray("time_s,thermal_time_s,mean.temperature[K],solid.mass[kg],melting.mass[kg],"
                              "liquid.mass[kg],boiling.mass[kg],gas.mass[kg],\"Ice, core.temperature[K]\",n.count[1]\n"
                              "0,0,263.15,0,0,0,0,0,0.3333333333333333,\n"

@@ -44,7 +44,7 @@ Value another(const Value& now, const api::ParameterDeclaration& declaration) {
 
 uint64_t hashAfter(Engine& engine, int frames) {
   for (int frame = 0; frame < frames; ++frame) engine.step();
-  return savedHash(engine.solver().particles());
+  return savedHash(engine.particles());
 }
 
 }  // namespace

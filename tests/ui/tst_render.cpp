@@ -18,7 +18,7 @@ using namespace ps::testing;
 
 namespace {
 
-Shot options(ColourBy colour = ColourBy::Material, bool dark = true) {
+Shot options(const std::string& colour = kMatterColour, bool dark = true) {
   Shot o;
   o.look.colour = colour;
   o.look.dark = dark;
@@ -82,28 +82,29 @@ class TestRender : public QObject {
 };
 
 void TestRender::picturesAreNotBlank_data() {
-  QTest::addColumn<int>("colour");
+  QTest::addColumn<QString>("colour");
   QTest::addColumn<bool>("dark");
   QTest::addColumn<double>("elevation");
   QTest::addColumn<bool>("still");
-  for (const ColourBy colour :
-       {ColourBy::Material, ColourBy::Temperature, ColourBy::Phase, ColourBy::Speed, ColourBy::DensityError})
+  const QString matter = kMatterColour;
+  for (const QString& colour :
+       {matter, QString("temperature"), QString("phase"), QString("speed"), QString("density_error"),
+        QString("gas_fraction"), QString("body"), QString("no such field")})
     for (const bool dark : {true, false})
-      QTest::addRow("%s %s", colourName(colour), dark ? "dark" : "light")
-          << static_cast<int>(colour) << dark << 20.0 << false;
-  QTest::newRow("from above") << 0 << true << 90.0 << false;
-  QTest::newRow("from below") << 0 << true << -40.0 << false;
-  QTest::newRow("still") << 0 << true << 20.0 << true;
+      QTest::addRow("%s %s", qPrintable(colour), dark ? "dark" : "light") << colour << dark << 20.0 << false;
+  QTest::newRow("from above") << matter << true << 90.0 << false;
+  QTest::newRow("from below") << matter << true << -40.0 << false;
+  QTest::newRow("still") << matter << true << 20.0 << true;
 }
 
 void TestRender::picturesAreNotBlank() {
-  QFETCH(int, colour);
+  QFETCH(QString, colour);
   QFETCH(bool, dark);
   QFETCH(double, elevation);
   QFETCH(bool, still);
   Renderer renderer;
   const RenderScene scene = tray();
-  Shot o = options(static_cast<ColourBy>(colour), dark);
+  Shot o = options(colour.toStdString(), dark);
   o.camera.elevation = elevation;
   o.size.still = still;
   const auto empty = renderImage(renderer, Snapshot{}, RenderScene{}, o);
@@ -134,7 +135,7 @@ void TestRender::sphereCoversItsProjection() {
   QFETCH(double, x);
   QFETCH(double, radius);
   Renderer renderer;
-  Shot o = options(ColourBy::Phase, false);
+  Shot o = options("phase", false);
   o.camera.target = {0, 0, 0};
   o.camera.azimuth = o.camera.elevation = 0;
   RenderScene scene;
@@ -156,7 +157,7 @@ void TestRender::sphereCoversItsProjection() {
 
 void TestRender::nearerSphereWins() {
   Renderer renderer;
-  Shot o = options(ColourBy::Phase);
+  Shot o = options("phase");
   o.camera.target = {0, 0, 0};
   o.camera.azimuth = o.camera.elevation = 0;
   RenderScene scene;
@@ -175,16 +176,16 @@ void TestRender::nearerSphereWins() {
 
 void TestRender::onlyClearLiquidIsSeenThrough_data() {
   QTest::addColumn<float>("clearness");
-  QTest::addColumn<int>("colour");
-  QTest::newRow("water") << 1.f << int(ColourBy::Material);
-  QTest::newRow("lava") << 0.f << int(ColourBy::Material);
-  QTest::newRow("lava coloured by temperature") << 0.f << int(ColourBy::Temperature);
+  QTest::addColumn<QString>("colour");
+  QTest::newRow("water") << 1.f << QString("material");
+  QTest::newRow("lava") << 0.f << QString("material");
+  QTest::newRow("lava coloured by temperature") << 0.f << QString("temperature");
 }
 
 /// A sphere behind a curtain of liquid shows in the picture only where the liquid is clear.
 void TestRender::onlyClearLiquidIsSeenThrough() {
   QFETCH(float, clearness);
-  QFETCH(int, colour);
+  QFETCH(QString, colour);
   Renderer renderer;
   Snapshot curtain;
   curtain.materialLook = {{0.9f, 0.3f, 0.1f, clearness}, {0, 1, 0, 0}};
@@ -195,7 +196,7 @@ void TestRender::onlyClearLiquidIsSeenThrough() {
   Snapshot behind = curtain;
   addParticle(behind, {0, 0.3, -0.15}, 0.06, 999, api::Motion::Solid);
   behind.material.back() = 1;
-  Shot o = options(static_cast<ColourBy>(colour));
+  Shot o = options(colour.toStdString());
   o.camera = Camera{{0, 0.3, 0}, 1, 0, 0};
   const auto without = pixelAt(renderImage(renderer, curtain, RenderScene{}, o), kWidth / 2, kHeight / 2);
   const auto with = pixelAt(renderImage(renderer, behind, RenderScene{}, o), kWidth / 2, kHeight / 2);
@@ -204,7 +205,7 @@ void TestRender::onlyClearLiquidIsSeenThrough() {
       QByteArray::number(seen) + " red " + QByteArray::number(without[0]) + " blue " + QByteArray::number(without[2]);
   QVERIFY2(clearness > 0.5f ? seen > 60 : seen < 6, all.constData());
   // Opaque matter has its own colour.
-  if (clearness < 0.5f && o.look.colour == ColourBy::Material) QVERIFY2(without[0] > 2 * without[2], all.constData());
+  if (clearness < 0.5f && o.look.colour == "material") QVERIFY2(without[0] > 2 * without[2], all.constData());
 }
 
 void TestRender::sizesAtTheEdge_data() {
@@ -277,7 +278,7 @@ void TestRender::furnitureFollowsItsScene() {
   RenderScene cold = tray(), small = tray();
   cold.environment.walls[0].parameters.values["temperature"] = 280.0;
   small.environment.walls[3].point = {0.25, 0, 0};
-  const Shot dark = options(), light = options(ColourBy::Material, false);
+  const Shot dark = options(), light = options("material", false);
   const std::vector<std::pair<const RenderScene*, const Shot*>> all{
       {&cold, &dark}, {&small, &dark}, {&small, &light}, {&cold, &light}, {&cold, &dark}};
   std::vector<std::vector<uint8_t>> pictures;
@@ -291,19 +292,19 @@ void TestRender::furnitureFollowsItsScene() {
 }
 
 void TestRender::theSelectedBodyHasAnOutline_data() {
-  QTest::addColumn<int>("colour");
+  QTest::addColumn<QString>("colour");
   QTest::addColumn<bool>("still");
   QTest::addColumn<int>("motion");
-  QTest::newRow("matter") << int(ColourBy::Material) << false << int(api::Motion::Solid);
-  QTest::newRow("temperature") << int(ColourBy::Temperature) << false << int(api::Motion::Solid);
-  QTest::newRow("a still") << int(ColourBy::Material) << true << int(api::Motion::Solid);
-  QTest::newRow("liquid") << int(ColourBy::Material) << false << int(api::Motion::Liquid);
+  QTest::newRow("matter") << QString("material") << false << int(api::Motion::Solid);
+  QTest::newRow("temperature") << QString("temperature") << false << int(api::Motion::Solid);
+  QTest::newRow("a still") << QString("material") << true << int(api::Motion::Solid);
+  QTest::newRow("liquid") << QString("material") << false << int(api::Motion::Liquid);
 }
 
 /// Two spheres, one selected: a ring of the line's colour around its picture, two pixels wide, and nothing of it on the
 /// sphere itself, around the other, or far away.
 void TestRender::theSelectedBodyHasAnOutline() {
-  QFETCH(int, colour);
+  QFETCH(QString, colour);
   QFETCH(bool, still);
   QFETCH(int, motion);
   Renderer renderer;
@@ -314,7 +315,7 @@ void TestRender::theSelectedBodyHasAnOutline() {
   addParticle(s, chosen, kRadius, 0, static_cast<api::Motion>(motion));
   addParticle(s, other, kRadius, 1, static_cast<api::Motion>(motion));
   s.body = {7, 3};
-  Shot o = options(static_cast<ColourBy>(colour));
+  Shot o = options(colour.toStdString());
   o.camera = Camera{{0, 0.3, 0}, 1.5, 0, 0};
   o.size.still = still;
   const auto plain = renderImage(renderer, s, tray(), o);
@@ -447,7 +448,7 @@ void TestRender::leavesNothingBehind() {
 void TestRender::twoThreadsDrawAsOneDoes() {
   const Snapshot snapshot = everything();
   const RenderScene scene = tray();
-  std::array<Shot, 2> views{options(), options(ColourBy::Temperature, false)};
+  std::array<Shot, 2> views{options(), options("temperature", false)};
   views[1].camera.azimuth = 120;
   std::array<std::vector<uint8_t>, 2> alone, together;
   for (size_t i = 0; i < 2; ++i) {

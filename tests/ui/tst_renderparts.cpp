@@ -35,7 +35,7 @@ class TestRenderParts : public QObject {
   void colourMapEnds_data();
   void colourMapEnds();
   void automaticRanges();
-  void colourNamesRoundTrip();
+  void fieldsOfPlugins();
   void interpolatesById();
   void interpolatesThroughTheFaceOfAPeriodicBox();
   void revisionsDoNotMix();
@@ -205,42 +205,42 @@ void TestRenderParts::pickFindsTheNearestSphere() {
 }
 
 void TestRenderParts::colourMapEnds_data() {
-  QTest::addColumn<int>("colour");
+  QTest::addColumn<QString>("colour");
   QTest::addColumn<double>("t");
   QTest::addColumn<double>("pivot");
   QTest::addColumn<int>("red");
   QTest::addColumn<int>("green");
   QTest::addColumn<int>("blue");
-  const auto row = [](const char* name, ColourBy colour, double t, double pivot, int r, int g, int b) {
-    QTest::newRow(name) << static_cast<int>(colour) << t << pivot << r << g << b;
+  const auto row = [](const char* name, const char* colour, double t, double pivot, int r, int g, int b) {
+    QTest::newRow(name) << QString(colour) << t << pivot << r << g << b;
   };
-  row("coldest", ColourBy::Temperature, 0, 0.2, 39, 71, 154);
-  row("melting, pivot low", ColourBy::Temperature, 0.2, 0.2, 141, 194, 230);
-  row("melting, pivot high", ColourBy::Temperature, 0.9, 0.9, 141, 194, 230);
-  row("melting at the lower end", ColourBy::Temperature, 0, 0, 141, 194, 230);
-  row("melting at the upper end", ColourBy::Temperature, 1, 1, 141, 194, 230);
-  row("hottest", ColourBy::Temperature, 1, 0.2, 133, 28, 27);
-  row("half of the cold side", ColourBy::Temperature, 0.25, 0.5, 63, 124, 196);
-  row("solid", ColourBy::Phase, 0, 0, 58, 99, 184);
-  row("melting phase", ColourBy::Phase, 0.25, 0, 181, 82, 143);
-  row("liquid", ColourBy::Phase, 0.5, 0, 69, 196, 184);
-  row("boiling", ColourBy::Phase, 0.75, 0, 242, 169, 59);
-  row("gas", ColourBy::Phase, 1, 0, 245, 241, 230);
-  row("at rest", ColourBy::Speed, 0, 0, 43, 27, 77);
-  row("fast", ColourBy::Speed, 1, 0, 251, 229, 138);
-  row("too thin", ColourBy::DensityError, 0, 0, 123, 63, 160);
-  row("right density", ColourBy::DensityError, 0.5, 0, 201, 204, 208);
-  row("too dense", ColourBy::DensityError, 1, 0, 30, 122, 70);
+  row("coldest", "temperature", 0, 0.2, 39, 71, 154);
+  row("melting, pivot low", "temperature", 0.2, 0.2, 141, 194, 230);
+  row("melting, pivot high", "temperature", 0.9, 0.9, 141, 194, 230);
+  row("melting at the lower end", "temperature", 0, 0, 141, 194, 230);
+  row("melting at the upper end", "temperature", 1, 1, 141, 194, 230);
+  row("hottest", "temperature", 1, 0.2, 133, 28, 27);
+  row("half of the cold side", "temperature", 0.25, 0.5, 63, 124, 196);
+  row("solid", "phase", 0, 0, 58, 99, 184);
+  row("melting phase", "phase", 0.25, 0, 181, 82, 143);
+  row("liquid", "phase", 0.5, 0, 69, 196, 184);
+  row("boiling", "phase", 0.75, 0, 242, 169, 59);
+  row("gas", "phase", 1, 0, 245, 241, 230);
+  row("at rest", "speed", 0, 0, 43, 27, 77);
+  row("fast", "speed", 1, 0, 251, 229, 138);
+  row("too thin", "density_error", 0, 0, 123, 63, 160);
+  row("right density", "density_error", 0.5, 0, 201, 204, 208);
+  row("too dense", "density_error", 1, 0, 30, 122, 70);
 }
 
 void TestRenderParts::colourMapEnds() {
-  QFETCH(int, colour);
+  QFETCH(QString, colour);
   QFETCH(double, t);
   QFETCH(double, pivot);
   QFETCH(int, red);
   QFETCH(int, green);
   QFETCH(int, blue);
-  const auto c = colourAt(static_cast<ColourBy>(colour), t, pivot);
+  const auto c = colourAt(colour.toStdString(), t, pivot);
   // Stops are whole 1/255 steps; half a step covers the rounding.
   QVERIFY2(std::abs(c[0] * 255 - static_cast<float>(red)) < 0.5f &&
                std::abs(c[1] * 255 - static_cast<float>(green)) < 0.5f &&
@@ -255,18 +255,46 @@ void TestRenderParts::automaticRanges() {
   const auto close = [](std::pair<double, double> a, double low, double high) {
     return std::abs(a.first - low) < 1e-6 && std::abs(a.second - high) < 1e-6;
   };
-  QVERIFY(close(colourRange(s, ColourBy::Temperature), 273.15 - 10, 273.15 + 120));
-  QVERIFY(close(colourRange(s, ColourBy::Speed), 0, 0.5));
-  QVERIFY(close(colourRange(s, ColourBy::Phase), 0, 4));
-  QVERIFY(close(colourRange(s, ColourBy::DensityError), -0.05, 0.05));
-  const auto none = colourRange(Snapshot{}, ColourBy::Temperature);
+  QVERIFY(close(colourRange(s, "temperature"), 273.15 - 10, 273.15 + 120));
+  QVERIFY(close(colourRange(s, "speed"), 0, 0.5));
+  QVERIFY(close(colourRange(s, "phase"), 0, 4));
+  QVERIFY(close(colourRange(s, "density_error"), -0.05, 0.05));
+  const auto none = colourRange(Snapshot{}, "temperature");
   QVERIFY(none.first < none.second);
 }
 
-void TestRenderParts::colourNamesRoundTrip() {
-  for (const char* name : {"material", "temperature", "phase", "speed", "density_error"})
-    QCOMPARE(colourName(colourByName(name)), name);
-  QVERIFY(colourByName("no such map") == ColourBy::Material);
+/// A plugin's field is coloured like ours: found by its name, between round numbers or on its own scale, by the map
+/// that all share; what is no number has the lower end's colour.
+void TestRenderParts::fieldsOfPlugins() {
+  Snapshot s;
+  addParticle(s, {0, 0, 0}, 0.01, 0, api::Motion::Solid, 280);
+  addParticle(s, {1, 0, 0}, 0.01, 1, api::Motion::Solid, 280);
+  addParticle(s, {2, 0, 0}, 0.01, 2, api::Motion::Solid, 280);
+  s.materialLook = {{0.5f, 0.5f, 0.5f, 1}};
+  ParticleField field{.name = "org.example.rust.depth", .label = "Depth of rust", .unit = "m"};
+  s.fields = {{std::make_shared<const ParticleField>(field), {2e-6f, 8e-4f, std::nanf("")}}};
+  QCOMPARE(colourRange(s, field.name), (std::pair{0.0, 1e-3}));
+  s.fields[0].values = {-20, 70, std::nanf("")};
+  QCOMPARE(colourRange(s, field.name), (std::pair{-20.0, 70.0}));
+  s.fields[0].values = {1000, 1000, std::nanf("")};
+  const auto narrow = colourRange(s, field.name);
+  QVERIFY(narrow.first == 1000 && narrow.second > 1000 && narrow.second <= 1010);
+  field.minimum = -1, field.maximum = 3;
+  s.fields = {{std::make_shared<const ParticleField>(field), {-1, 3, std::nanf("")}}};
+  QCOMPARE(colourRange(s, field.name), (std::pair{-1.0, 3.0}));
+  QCOMPARE(colourRange(s, "org.example.other"), (std::pair{0.0, 0.0}));
+  QCOMPARE(colourMapOf(field.name), std::string("ember"));
+  QCOMPARE(colourMapOf("temperature"), std::string("temperature"));
+
+  render::InstanceRequest request;
+  request.now = &s;
+  request.colour = field.name;
+  request.minimum = -1, request.maximum = 3;
+  render::Instances out;
+  render::collectInstances(request, out);
+  std::sort(out.particles.begin(), out.particles.end(), [](const auto& a, const auto& b) { return a.x < b.x; });
+  QCOMPARE(out.particles.size(), size_t{3});
+  for (size_t i = 0; i < 3; ++i) QCOMPARE(out.particles[i].red, colourAt(field.name, i == 1 ? 1 : 0, 0)[0]);
 }
 
 void TestRenderParts::interpolatesById() {
@@ -281,7 +309,7 @@ void TestRenderParts::interpolatesById() {
   request.now = &now;
   request.previous = &before;
   request.blend = 0.25f;
-  request.colour = ColourBy::Temperature;
+  request.colour = "temperature";
   request.minimum = 100;
   request.maximum = 500;
   render::Instances out;
@@ -292,7 +320,7 @@ void TestRenderParts::interpolatesById() {
   QCOMPARE(out.particles[1].x, 5.f);
   QCOMPARE(out.particles[2].z, 0.5f);
   // 7 is at 100 + 0.25 * 400 = 200 K: the colour of a quarter of the range. One step of the table is 1/1023.
-  const auto expected = colourAt(ColourBy::Temperature, 0.25, (273.15 - 100) / 400);
+  const auto expected = colourAt("temperature", 0.25, (273.15 - 100) / 400);
   QVERIFY(std::abs(out.particles[2].red - expected[0]) < 0.005f);
 }
 

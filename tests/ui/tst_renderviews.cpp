@@ -114,24 +114,24 @@ class TestRenderViews : public QObject {
 };
 
 void TestRenderViews::onePrepareServesEveryView_data() {
-  QTest::addColumn<int>("colour");
+  QTest::addColumn<QString>("colour");
   QTest::addColumn<bool>("dark");
   QTest::addColumn<bool>("still");
-  QTest::newRow("matter") << int(ColourBy::Material) << true << false;
-  QTest::newRow("light") << int(ColourBy::Material) << false << false;
-  QTest::newRow("temperature") << int(ColourBy::Temperature) << true << false;
-  QTest::newRow("a still") << int(ColourBy::Material) << true << true;
+  QTest::newRow("matter") << QString("material") << true << false;
+  QTest::newRow("light") << QString("material") << false << false;
+  QTest::newRow("temperature") << QString("temperature") << true << false;
+  QTest::newRow("a still") << QString("material") << true << true;
 }
 
 /// Two eyes, a mirror at another place and a thumbnail of another size side by side in one framebuffer, and the first
 /// eye once more: each is, bit by bit, what a renderer that never drew anything else makes of it.
 void TestRenderViews::onePrepareServesEveryView() {
-  QFETCH(int, colour);
+  QFETCH(QString, colour);
   QFETCH(bool, dark);
   QFETCH(bool, still);
   const Snapshot snapshot = everything();
   Shot shot;
-  shot.look.colour = static_cast<ColourBy>(colour);
+  shot.look.colour = colour.toStdString();
   shot.look.dark = dark;
   shot.look.outline = BodyOutline{0, {1, 1, 0}, {0, 0, 0}};
   Camera above = shot.camera;
@@ -166,20 +166,20 @@ void TestRenderViews::onePrepareServesEveryView() {
 }
 
 void TestRenderViews::aWindowBesideTheAxisShowsTheSame_data() {
-  QTest::addColumn<int>("colour");
-  QTest::newRow("matter") << int(ColourBy::Material);
-  QTest::newRow("temperature") << int(ColourBy::Temperature);
+  QTest::addColumn<QString>("colour");
+  QTest::newRow("matter") << QString("material");
+  QTest::newRow("temperature") << QString("temperature");
 }
 
 /// Two windows of one size from one place, one around the line of sight and one beside it: where both look they show
 /// the same, but for the pattern of dither and what lies beyond an edge for one of them, which is less than a level on
 /// average. The wrong rays to the lit points, or a glow around the picture's middle, are several.
 void TestRenderViews::aWindowBesideTheAxisShowsTheSame() {
-  QFETCH(int, colour);
+  QFETCH(QString, colour);
   constexpr int kSide = 448, kAside = 160, kUp = 64;  // pixels; whole tiles, so that small layers have the same grid
   constexpr double kPixel = 0.7 / kSide;
   Shot shot;
-  shot.look.colour = static_cast<ColourBy>(colour);
+  shot.look.colour = colour.toStdString();
   shot.camera.distance = 1.2;
   const Matrix4 view = viewMatrix(shot.camera);
   const double near = nearPlane(shot.camera), far = farPlane(shot.camera);
@@ -273,7 +273,7 @@ void TestRenderViews::picturesKeepTheirBackground() {
 void TestRenderViews::whatIsBuriedShowsFromAmongIt() {
   Renderer renderer;
   Shot shot;
-  shot.look.colour = ColourBy::Temperature;
+  shot.look.colour = "temperature";
   shot.look.rangeMinimum = 270, shot.look.rangeMaximum = 390;
   shot.camera.target = {0, 0, 0};
   const Snapshot s = block(api::Motion::Solid);

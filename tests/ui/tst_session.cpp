@@ -102,7 +102,7 @@ class TestSession : public QObject {
     QVERIFY(!document().isDirty());
     QCOMPARE(m_window->viewport()->navigator().camera().elevation, seen.elevation);
     QCOMPARE(m_window->viewport()->navigator().camera().distance, seen.distance);
-    QCOMPARE(m_window->viewport()->colour(), ColourBy::Phase);
+    QCOMPARE(m_window->viewport()->colour(), std::string("phase"));
   }
 
   void aProjectWithoutACameraIsShownWhole() {

@@ -31,6 +31,7 @@ class TestCli : public QObject {
   void schemaIsPrinted();
   void benchWritesItsKeys();
   void recordingsAreDrawn();
+  void fieldsOfPlugins();
   void filmsEndWhereTheRunBreaks();
   void pluginsThatFailAtTheEndAreTold();
   void pluginsThatCrashInAStepAreQuarantined();
@@ -382,6 +383,51 @@ void TestCli::recordingsAreDrawn() {
   QVERIFY2(ran.out.startsWith("1 picture in "), ran.out.constData());
 }
 
+namespace {
+
+/// A folder with one fixture, which behaves as it is called.
+bool place(const QTemporaryDir& folder, const QString& fixture, const QString& name) {
+  return QFile::copy(qEnvironmentVariable("PS_FIXTURE_DIR") + "/fixture_" + fixture + ".so",
+                     folder.filePath(name + ".so"));
+}
+
+}  // namespace
+
+/// A plugin's field is listed, drawn, probed and recorded like ours; drawn from the recording without the plugin too.
+void TestCli::fieldsOfPlugins() {
+  const QTemporaryDir folder, plugins;
+  QVERIFY(place(plugins, "source", "showing_source"));
+  const QString probes = folder.filePath("probes.csv"), recording = folder.filePath("run.psrec"),
+                mark = "fixture.source.mark";
+  Ran ran = cli({"plugins", "--fields"}, plugins.path());
+  QVERIFY2(ran.out.contains("specific_enthalpy") && ran.out.contains(mark.toUtf8()), ran.out.constData());
+  QVERIFY2(!ran.out.contains("fixture.source.own"), ran.out.constData());
+  const nlohmann::json listed =
+      nlohmann::json::parse(cli({"plugins", "--json"}, plugins.path()).out.toStdString())["fields"];
+  QVERIFY(std::any_of(listed.begin(), listed.end(), [](const nlohmann::json& f) { return f["unit"] == "J/kg"; }));
+  const QStringList source{"--set", "solver/thermal/sources=[{\"plugin\": \"fixture.source\"}]", "--set",
+                           "probes=[{\"id\": \"m\", \"quantity\": \"" + mark + "_max\"}]"};
+  ran =
+      cli(smallScene({"--frames", "2", "--record", recording, "--probes", probes, "--quiet"}) + source, plugins.path());
+  QVERIFY2(ran.code == 0, ran.err.constData());
+  QFile table(probes);
+  QVERIFY(table.open(QIODevice::ReadOnly));
+  const QByteArrayList rows = table.readAll().trimmed().split('\n');
+  QVERIFY2(rows.front().split(',')[2] == "m." + mark.toUtf8() + "_max[J/kg]", rows.front().constData());
+  QVERIFY2(rows.back().split(',')[2].toDouble() >= 1e5, rows.back().constData());
+  const auto drawn = [&](const QString& colour, const QString& path) {
+    const QString out = folder.filePath(colour);
+    ran = cli({"render", recording, "--out", out, "--size", "160x120", "--colour", colour}, path);
+    return QImage(out + "/frame-000002.png");
+  };
+  const QImage marks = drawn(mark, {}), matter = drawn("material", {});
+  QVERIFY2(ran.code == 0 && !marks.isNull(), ran.err.constData());
+  QVERIFY(marks != matter);
+  drawn("fixture.source.marc", plugins.path());
+  QCOMPARE(ran.code, 2);
+  QVERIFY2(ran.err.contains("did you mean 'fixture.source.mark'?"), ran.err.constData());
+}
+
 void TestCli::filmsEndWhereTheRunBreaks() {
   // A constraint that answers NaN: the solver says so and stands still from then on.
   QTemporaryDir folder;
@@ -399,12 +445,6 @@ void TestCli::filmsEndWhereTheRunBreaks() {
 }
 
 namespace {
-
-/// A folder with one fixture, which behaves as it is called.
-bool place(const QTemporaryDir& folder, const QString& fixture, const QString& name) {
-  return QFile::copy(qEnvironmentVariable("PS_FIXTURE_DIR") + "/fixture_" + fixture + ".so",
-                     folder.filePath(name + ".so"));
-}
 
 const QStringList kFixtureScene =
     smallScene({"--frames", "2", "--set", "bodies/ice/constraints=[{\"plugin\": \"fixture.constraint\"}]"});

@@ -5,6 +5,7 @@
 #include "core/plugin_host/registry.h"
 #include "core/simulation/engine.h"
 #include "core/simulation/enginethread.h"
+#include "core/solver/solver.h"
 #include "tests/shared/scenes.h"
 
 #include <QDir>

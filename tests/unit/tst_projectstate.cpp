@@ -11,6 +11,7 @@
 #include "core/plugin_host/registry.h"
 #include "core/simulation/engine.h"
 #include "core/simulation/projectstate.h"
+#include "core/solver/solver.h"
 #include "tests/shared/scenes.h"
 
 #include <QTemporaryDir>

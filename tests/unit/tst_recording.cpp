@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/base/error.h"
 #include "core/io/recording.h"
+#include "core/simulation/particlefield.h"
 #include "tests/shared/scenes.h"
 
 #include <QFile>
@@ -46,6 +47,11 @@ Snapshot snapshotOf(size_t frame) {
     s.body.push_back(static_cast<uint32_t>(i % 2));
     s.material.push_back(static_cast<uint32_t>(i % 2));
   }
+  const ParticleField field{
+      .name = "org.example.rust.depth", .label = "Depth of rust", .unit = "m", .minimum = 0, .maximum = 1e-3};
+  FieldValues rust{std::make_shared<const ParticleField>(field), {}};
+  for (size_t i = 0; i < kParticles; ++i) rust.values.push_back(1e-5f * static_cast<float>(i + frame));
+  s.fields.push_back(std::move(rust));
   return s;
 }
 
@@ -91,6 +97,12 @@ void TestRecording::framesReadBack() {
     QVERIFY(sameBytes(got->motion, expected.motion) && sameBytes(got->id, expected.id));
     QVERIFY(sameBytes(got->body, expected.body) && sameBytes(got->material, expected.material));
     QVERIFY(sameBytes(got->materialLook, expected.materialLook));
+    QCOMPARE(got->fields.size(), size_t{1});
+    const ParticleField& rust = *got->fields[0].field;
+    QVERIFY(rust.name == "org.example.rust.depth" && rust.label == "Depth of rust" && rust.unit == "m");
+    QVERIFY(rust.minimum == 0 && rust.maximum == 1e-3);
+    QVERIFY(sameBytes(got->fields[0].values, expected.fields[0].values));
+    QCOMPARE(ShownField(*got, rust.name)[5], expected.fields[0].values[5]);
   }
 }
 

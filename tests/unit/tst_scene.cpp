@@ -24,7 +24,6 @@ class TestScene : public QObject {
   void brokenAddressesAreRefused();
   void addressesFindTheirSet();
   void absentValuesAreDefaults();
-  void everyQuantityHasUnitAndLabel();
 };
 
 namespace {
@@ -164,15 +163,6 @@ void TestScene::absentValuesAreDefaults() {
                                 : solverParameters()[i].defaultValue;
     QCOMPARE(numbers[i], expected);
   }
-}
-
-void TestScene::everyQuantityHasUnitAndLabel() {
-  QVERIFY(!probeQuantities().empty());
-  for (const std::string& quantity : probeQuantities()) {
-    QVERIFY2(!probeUnit(quantity).empty() && !probeLabel(quantity).empty(), quantity.c_str());
-  }
-  QCOMPARE(text(probeUnit("temperature_max")), "K");
-  QCOMPARE(text(probeUnit("happiness")), "");
 }
 
 QTEST_APPLESS_MAIN(TestScene)

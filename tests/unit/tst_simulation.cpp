@@ -9,6 +9,7 @@
 #include "core/simulation/enginethread.h"
 #include "core/simulation/lattice.h"
 #include "core/simulation/measure.h"
+#include "core/solver/solver.h"
 #include "tests/shared/scenes.h"
 
 #include <QScopeGuard>

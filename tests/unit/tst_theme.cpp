@@ -70,6 +70,7 @@ class TestTheme : public QObject {
   void whatIsShownCanBeTyped();
   void pivotSitsOnTheMeltingPoint();
   void legendShowsItsMarks();
+  void prefixesAreForUnitsThatTakeThem();
   void dialogsHaveMargins();
 };
 
@@ -487,10 +488,11 @@ void TestTheme::pivotSitsOnTheMeltingPoint() {
 void TestTheme::legendShowsItsMarks() {
   const ColourMap& map = colourMap(QStringLiteral("temperature"));
   const auto painted = [&map](const std::vector<LegendMark>& marks) {
-    QImage image(legendSize(map).toSize(), QImage::Format_ARGB32_Premultiplied);
+    const LegendText text{QStringLiteral("Temperature"), QStringLiteral("°C")};
+    QImage image(legendSize(map, text.title).toSize(), QImage::Format_ARGB32_Premultiplied);
     image.fill(Qt::black);
     QPainter painter(&image);
-    paintLegend(painter, QRectF(QPointF(0, 0), legendSize(map)), map, {-14, 120}, QStringLiteral("°C"), marks, 0);
+    paintLegend(painter, QRectF(QPointF(0, 0), image.size()), map, {-14, 120}, text, marks, 0);
     painter.end();
     return image;
   };
@@ -502,6 +504,20 @@ void TestTheme::legendShowsItsMarks() {
   // The bar is dark blue at the bottom and dark red at the top.
   const QColor bottom = without.pixelColor(16, without.height() - 14), top = without.pixelColor(16, 38);
   QVERIFY(bottom.blue() > bottom.red() && top.red() > top.blue());
+  QVERIFY(legendSize(map, QStringLiteral("A label of a plugin that is long")).width() > without.width());
+}
+
+void TestTheme::prefixesAreForUnitsThatTakeThem() {
+  const auto prefixed = [](double value, const char* unit) {
+    const UnitPrefix prefix = prefixFor(value, QString::fromUtf8(unit));
+    return QString::number(value / prefix.factor) + QLatin1Char(' ') + prefix.symbol + QString::fromUtf8(unit);
+  };
+  QCOMPARE(prefixed(334000, "J/kg"), QStringLiteral("334 kJ/kg"));
+  QCOMPARE(prefixed(0.002, "W"), QStringLiteral("2 mW"));
+  QCOMPARE(prefixed(12000, "kg/m³"), QStringLiteral("12000 kg/m³"));
+  QCOMPARE(prefixed(5000, "m²"), QStringLiteral("5000 m²"));
+  QCOMPARE(prefixed(5000, "smoots"), QStringLiteral("5000 smoots"));
+  QCOMPARE(prefixed(5000, ""), QStringLiteral("5000 "));
 }
 
 /// Panels lie edge to edge; what Qt builds by itself does not.

@@ -7,6 +7,7 @@
 #include "ui/session/session.h"
 #include "ui/session/transitions.h"
 #include "ui/session/wording.h"
+#include "ui/theme/numbers.h"
 
 #include <QtWidgets/QHBoxLayout>
 
@@ -18,7 +19,7 @@ namespace ps {
 namespace {
 
 constexpr double kZero = 273.15;
-constexpr size_t kMostSeries = 5;
+constexpr size_t kMostSeries = 5, kMostUnits = 2;
 const QString kNotRun = QStringLiteral("Press Space to run");
 const QString kNoMatter = QStringLiteral("No matter yet");
 const QString kAllHeld = QStringLiteral("All matter is held in place; what is held is not measured");
@@ -53,18 +54,64 @@ GraphsPanel::GraphsPanel(Session& session, QWidget* parent)
   m_phases->setEmptyText(kNotRun);
   row->addWidget(m_temperatures, 1);
   row->addWidget(m_phases, 1);
-  const auto link = [](TimePlot* from, TimePlot* to) {
-    connect(from, &TimePlot::timeRangeChanged, to, &TimePlot::setTimeRange);
-    connect(from, &TimePlot::fitted, to, &TimePlot::fit);
-  };
-  link(m_temperatures, m_phases);
-  link(m_phases, m_temperatures);
+  adopt(m_temperatures);
+  adopt(m_phases);
   connect(&session, &Session::valuesDue, this, &GraphsPanel::readHistory);
   connect(&session.transitions(), &Transitions::changed, this,
           [this, &session] { setTransitions(session.transitions().melts(), session.transitions().boils()); });
   connect(&session.document(), &Document::changed, this, [this, &session](const ChangeEvent& event) {
     if (std::holds_alternative<ProjectOpened>(event)) setProject(session.document().project());
   });
+}
+
+/// What is done to the time axis of one is done to all.
+void GraphsPanel::adopt(TimePlot* plot) {
+  m_plots.push_back(plot);
+  connect(plot, &TimePlot::timeRangeChanged, this, [this](double first, double last) {
+    for (TimePlot* other : m_plots) other->setTimeRange(first, last);
+  });
+  connect(plot, &TimePlot::fitted, this, [this] {
+    for (TimePlot* other : m_plots) other->fit();
+  });
+}
+
+/// A graph for each unit of fields that probes measure, besides temperatures; as many as there is room for.
+void GraphsPanel::plotValues(const Project& project) {
+  for (const Values& old : m_values) {
+    std::erase(m_plots, old.view);
+    delete old.view;
+  }
+  m_values.clear();
+  for (size_t i = 0; i < project.probes.size(); ++i) {
+    const Quantity* quantity = m_session.fields().quantity(project.probes[i].quantity);
+    if (!quantity || !quantity->field || quantity->unit == "K") continue;
+    auto known =
+        std::find_if(m_values.begin(), m_values.end(), [&](const Values& v) { return v.unit == quantity->unit; });
+    if (known == m_values.end()) {
+      if (m_values.size() == kMostUnits) continue;
+      known = m_values.insert(known, {quantity->unit, {}, new GraphView});
+      const QString label = QString::fromStdString(quantity->field->label);
+      const QString unit = QString::fromStdString(quantity->unit == "1" ? "" : quantity->unit);
+      const bool prefixed = prefixFor(1000, unit).factor > 1;
+      known->view->setTitle(prefixed || unit.isEmpty() ? label : label + QStringLiteral(", ") + unit);
+      if (prefixed)
+        known->view->setPrefixedUnit(unit);
+      else
+        known->view->setUnit(unit);
+      adopt(known->view);
+      static_cast<QHBoxLayout*>(layout())->insertWidget(static_cast<int>(m_values.size()), known->view, 1);
+    }
+    if (known->probes.size() == kMostSeries) continue;
+    known->probes.push_back(i);
+    known->view->addSeries(QString::fromStdString(project.probes[i].name));
+  }
+}
+
+GraphView* GraphsPanel::valuesIn(const std::string& unit) const {
+  for (const Values& values : m_values) {
+    if (values.unit == unit) return values.view;
+  }
+  return nullptr;
 }
 
 void GraphsPanel::readHistory() {
@@ -83,13 +130,14 @@ void GraphsPanel::setProject(const Project& project) {
   for (size_t i = 0; i < project.probes.size() && probes.size() + 1 < kMostSeries; ++i) {
     const Probe& probe = project.probes[i];
     const bool mean = probe.quantity == "temperature" && probe.body.empty() && probe.phase.empty();
-    if (probeUnit(probe.quantity) == "K" && !mean) probes.push_back(i);
+    if (m_session.fields().unitOf(probe.quantity) == "K" && !mean) probes.push_back(i);
   }
   m_temperatures->addSeries(QStringLiteral("Mean"), QStringLiteral("°C"));
   for (const size_t i : probes)
     m_temperatures->addSeries(QString::fromStdString(project.probes[i].name), QStringLiteral("°C"));
   m_probes = std::move(probes);
-  for (TimePlot* plot : {static_cast<TimePlot*>(m_temperatures), static_cast<TimePlot*>(m_phases)}) {
+  plotValues(project);
+  for (TimePlot* plot : m_plots) {
     plot->setDuration(project.duration);
     plot->setPresentTime(0);
     plot->fit();
@@ -109,27 +157,35 @@ void GraphsPanel::append(const FrameStats& stats) {
     if (m_probes[s] < stats.probes.size())
       m_temperatures->append(static_cast<int>(s) + 1, stats.time, stats.probes[m_probes[s]] - kZero);
   }
+  for (const Values& values : m_values) {
+    for (size_t s = 0; s < values.probes.size(); ++s) {
+      if (values.probes[s] < stats.probes.size())
+        values.view->append(static_cast<int>(s), stats.time, stats.probes[values.probes[s]]);
+    }
+  }
   std::array<double, 5> kilograms{};
   for (size_t i = 0; i < kilograms.size(); ++i) kilograms[i] = stats.phases[i].mass;
   const QString empty = hasMatter(stats) ? kNotRun : m_anyParticles ? kAllHeld : kNoMatter;
-  m_temperatures->setEmptyText(empty);
-  m_phases->setEmptyText(empty);
   m_phases->append(stats.time, kilograms);
-  m_temperatures->setPresentTime(stats.time);
-  m_phases->setPresentTime(stats.time);
+  for (TimePlot* plot : m_plots) {
+    plot->setEmptyText(empty);
+    plot->setPresentTime(stats.time);
+  }
 }
 
 void GraphsPanel::clear() {
   m_temperatures->clear();
+  for (const Values& values : m_values) values.view->clear();
   m_phases->clear();
 }
 
-QByteArray historyCsv(const std::vector<FrameStats>& history, const std::vector<Probe>& probes) {
+QByteArray historyCsv(const std::vector<FrameStats>& history, const std::vector<Probe>& probes,
+                      const ParticleFields& fields) {
   QByteArray csv =
       "time_s,thermal_time_s,mean.temperature[K],solid.mass[kg],melting.mass[kg],liquid.mass[kg],boiling.mass[kg],gas."
       "mass[kg]";
   for (const Probe& probe : probes)
-    csv += ',' + quoted(probe.name + "." + probe.quantity + "[" + probeUnit(probe.quantity) + "]");
+    csv += ',' + quoted(probe.name + "." + probe.quantity + "[" + fields.unitOf(probe.quantity) + "]");
   csv += '\n';
   for (const FrameStats& stats : history) {
     csv += numberCell(stats.time) + ',' + numberCell(stats.thermalTime) + ',' + numberCell(stats.temperatureMean);

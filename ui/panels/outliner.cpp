@@ -3,6 +3,7 @@
 
 #include "core/plugin_host/registry.h"
 #include "core/simulation/compile.h"
+#include "core/simulation/particlefield.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
 #include "ui/panels/outlinerdelegate.h"
@@ -21,16 +22,19 @@
 namespace ps {
 namespace {
 
-/// "20.5 °C", "1.540 g", "76.40 MJ", "24 594".
-QString probeText(double value, const std::string& quantity) {
-  if (!std::isfinite(value)) return QStringLiteral("—");
-  const std::string unit = probeUnit(quantity);
+/// "20.5 °C", "1.540 g", "76.40 MJ", "334.0 kJ/kg", "24 594".
+QString probeText(double value, const Quantity* quantity) {
+  if (!std::isfinite(value) || !quantity) return QStringLiteral("—");
+  const std::string& unit = quantity->unit;
   if (unit == "K") return formatFixed(value - 273.15, 1) + QStringLiteral(" °C");
   if (unit == "kg") return formatPrefixed(value * 1e3, QStringLiteral("g"));
   if (unit == "J") return formatPrefixed(value, QStringLiteral("J"));
   // Particles are counted; shares keep their digits when they happen to be whole.
-  if (unit == "1") return formatFixed(value, !probeIsMean(quantity) && value == std::round(value) ? 0 : 3);
-  return formatFixed(value, 3) + QLatin1Char(' ') + QString::fromStdString(unit);
+  if (unit == "1") return formatFixed(value, !quantity->mean && value == std::round(value) ? 0 : 3);
+  const QString shown = QString::fromStdString(unit);
+  if (std::abs(value) < 1000) return formatFixed(value, 3) + QLatin1Char(' ') + shown;
+  const UnitPrefix prefix = prefixFor(value, shown);
+  return formatNumber(value / prefix.factor) + QLatin1Char(' ') + prefix.symbol + shown;
 }
 
 }  // namespace
@@ -197,7 +201,9 @@ void Outliner::refreshCounts() {
     if (!item) continue;
     // No amount counts what is held: a 0 would say that there is none.
     const double value = m_snapshot->stats.probes[i];
-    item->setData(probeText(held && value == 0 ? std::nan("") : value, project.probes[i].quantity), outline::kDetail);
+    item->setData(
+        probeText(held && value == 0 ? std::nan("") : value, m_session.fields().quantity(project.probes[i].quantity)),
+        outline::kDetail);
   }
 }
 

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <vector>
 
@@ -16,6 +17,8 @@ namespace ps {
 namespace {
 
 using render::Colour;
+
+constexpr const char* kTemperature = "temperature";  // its map has a pivot
 
 struct Stop {
   double at;
@@ -72,66 +75,47 @@ double roundUp(double value) {
   return 10 * decade;
 }
 
-std::pair<double, double> temperatureRange(const Snapshot& snapshot) {
-  if (snapshot.temperature.empty()) return {273.15, 373.15};
-  const auto [low, high] = std::minmax_element(snapshot.temperature.begin(), snapshot.temperature.end());
-  // Whole steps of 10 degrees Celsius, so that the legend stands still while matter warms.
+/// Whole steps of 10 degrees Celsius, so that the legend stands still while matter warms.
+std::pair<double, double> celsiusRange(double low, double high) {
   constexpr double kZero = 273.15, kStep = 10;
-  const double first = std::floor((*low - kZero) / kStep + 1e-3) * kStep;
-  const double last = std::ceil((*high - kZero) / kStep - 1e-3) * kStep;
+  const double first = std::floor((low - kZero) / kStep + 1e-3) * kStep;
+  const double last = std::ceil((high - kZero) / kStep - 1e-3) * kStep;
   return {first + kZero, std::max(last, first + kStep) + kZero};
 }
 
-std::pair<double, double> speedRange(const Snapshot& snapshot) {
-  float fastest = 0.05f;  // m/s; slower than that everything counts as at rest
-  for (const float speed : snapshot.speed) fastest = std::max(fastest, speed);
-  return {0, roundUp(fastest)};
+/// From zero where values come near it, else between round numbers.
+std::pair<double, double> roundRange(double low, double high, double least) {
+  if (low == 0 && high == 0) return {0, least > 0 ? least : 1};
+  if (least > 0 || (low >= 0 && low <= 0.5 * high)) return {0, roundUp(std::max(high, least))};
+  const double step = roundUp(std::max(high - low, 1e-2 * std::max(std::abs(low), std::abs(high)))) / 10;
+  const double first = std::floor(low / step + 1e-3) * step, last = std::ceil(high / step - 1e-3) * step;
+  return {first, std::max(last, first + step)};
 }
-
-template <int kLow, int kHigh, int kParts>
-std::pair<double, double> fixedRange(const Snapshot&) {
-  return {1.0 * kLow / kParts, 1.0 * kHigh / kParts};
-}
-
-template <auto kField>
-float valueOf(const Snapshot& snapshot, size_t particle) {
-  return static_cast<float>((snapshot.*kField)[particle]);
-}
-
-constexpr Colouring kColourings[] = {
-    {ColourBy::Material, "material", nullptr, fixedRange<0, 1, 1>, false, true},
-    {ColourBy::Temperature, "temperature", valueOf<&Snapshot::temperature>, temperatureRange, true, true},
-    {ColourBy::Phase, "phase", valueOf<&Snapshot::phase>, fixedRange<0, 4, 1>, false, true},
-    {ColourBy::Speed, "speed", valueOf<&Snapshot::speed>, speedRange, true, true},
-    // A surface would hide where inside of it the density is wrong.
-    {ColourBy::DensityError, "density_error", valueOf<&Snapshot::densityError>, fixedRange<-5, 5, 100>, true, false},
-};
 
 }  // namespace
 
-std::span<const Colouring> colourings() { return kColourings; }
-
-const Colouring& colouringOf(ColourBy colour) {
-  return *std::find_if(std::begin(kColourings), std::end(kColourings) - 1,
-                       [&](const Colouring& row) { return row.colour == colour; });
+std::pair<double, double> colourRange(const Snapshot& snapshot, const std::string& colour) {
+  const ShownField shown(snapshot, colour);
+  if (!shown) return {0, 0};
+  const ParticleField& field = shown.field();
+  if (field.hasScale()) return {field.minimum, field.maximum};
+  const bool kelvin = field.unit == "K";
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (size_t i = 0; i < snapshot.position.size(); ++i) {
+    const auto value = static_cast<double>(shown[i]);
+    if (!std::isfinite(value)) continue;
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+  if (low > high) return kelvin ? std::pair{273.15, 373.15} : std::pair{0.0, 1.0};
+  return kelvin ? celsiusRange(low, high) : roundRange(low, high, field.least);
 }
 
-ColourBy colourByName(const std::string& name) {
-  for (const Colouring& row : kColourings)
-    if (name == row.name) return row.colour;
-  return ColourBy::Material;
-}
+std::string colourMapOf(const std::string& colour) { return maps().byName.contains(colour) ? colour : "ember"; }
 
-const char* colourName(ColourBy colour) { return colouringOf(colour).name; }
-
-std::pair<double, double> colourRange(const Snapshot& snapshot, ColourBy colour) {
-  return colouringOf(colour).range(snapshot);
-}
-
-std::array<float, 3> colourAt(ColourBy colour, double t, double pivot) {
-  const auto found = maps().byName.find(colourName(colour));
-  if (found == maps().byName.end()) return {0.5f, 0.5f, 0.5f};
-  if (colour == ColourBy::Temperature) {
+std::array<float, 3> colourAt(const std::string& colour, double t, double pivot) {
+  const auto found = maps().byName.find(colourMapOf(colour));
+  if (colour == kTemperature) {
     const double fixed = maps().temperaturePivot;
     // Each side of the melting point is linear up to its own end, also where that lies outside the range.
     if (t < pivot)
@@ -151,16 +135,17 @@ Colour sceneColour(bool dark, const std::string& name) {
   return found->second;
 }
 
-ColourTable::ColourTable(ColourBy colour, double minimum, double maximum, double meltingPoint)
+ColourTable::ColourTable(const std::string& colour, double minimum, double maximum, double meltingPoint)
     : m_minimum(static_cast<float>(minimum)), m_scale(static_cast<float>(1 / std::max(maximum - minimum, 1e-12))) {
   const double pivot = (meltingPoint - minimum) / std::max(maximum - minimum, 1e-12);
-  if (colour == ColourBy::Material) return;  // has no map
+  if (colour == kMatterColour) return;  // has no map
   for (size_t i = 0; i < m_samples.size(); ++i)
     m_samples[i] = colourAt(colour, static_cast<double>(i) / static_cast<double>(m_samples.size() - 1), pivot);
 }
 
 const Colour& ColourTable::at(float value) const {
-  const float t = std::clamp((value - m_minimum) * m_scale, 0.f, 1.f);
+  const float share = (value - m_minimum) * m_scale;
+  const float t = share > 0 ? std::min(share, 1.f) : 0;  // of what is no number, the lower end
   return m_samples[static_cast<size_t>(t * static_cast<float>(m_samples.size() - 1) + 0.5f)];
 }
 

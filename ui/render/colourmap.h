@@ -15,7 +15,7 @@ Colour sceneColour(bool dark, const std::string& name);
 class ColourTable {
  public:
   /// `minimum` and `maximum` in the unit of the quantity (K, phase 0..4, m/s, fraction); `meltingPoint` in K.
-  ColourTable(ColourBy colour, double minimum, double maximum, double meltingPoint);
+  ColourTable(const std::string& colour, double minimum, double maximum, double meltingPoint);
   const Colour& at(float value) const;
 
  private:

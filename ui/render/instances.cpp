@@ -62,7 +62,7 @@ Colour materialColour(const Snapshot& s, size_t i) {
 float kindOf(const InstanceRequest& request, size_t i) {
   const Snapshot& s = *request.now;
   if (s.motion[i] == api::Motion::Static) return static_cast<float>(Kind::Matte);
-  if (request.colour != ColourBy::Material) return static_cast<float>(Kind::Plain);
+  if (request.colour != kMatterColour) return static_cast<float>(Kind::Plain);
   const bool flows = s.motion[i] == api::Motion::Liquid;
   const Kind kind = s.phase[i] == api::Phase::Solid && !flows ? Kind::Solid : Kind::Wet;
   return static_cast<float>(kind) + std::round(kClearest * std::clamp(lookOf(s, i)[3], 0.f, 1.f));
@@ -73,11 +73,13 @@ class Evaluator {
  public:
   explicit Evaluator(const InstanceRequest& request)
       : m_request(request),
-        m_colouring(colouringOf(request.colour)),
+        m_field(*request.now, request.colour),
         m_table(request.colour, request.minimum, request.maximum, request.meltingPoint),
         m_previous(usable(request) ? request.previous : nullptr),
         m_blend(std::clamp(request.blend, 0.f, 1.f)) {
-    if (m_previous) m_match = matchById(*request.now, *m_previous);
+    if (!m_previous) return;
+    m_match = matchById(*request.now, *m_previous);
+    if (m_field && !m_field.field().classes) m_before.emplace(*m_previous, request.colour);
   }
 
   Instance at(size_t i) const {
@@ -105,15 +107,16 @@ class Evaluator {
 
   Colour colourOf(size_t i, size_t old) const {
     const Snapshot& s = *m_request.now;
-    if (!m_colouring.valueAt) return materialColour(s, i);
-    const float value = m_colouring.valueAt(s, i);
-    if (old == kNone || !m_colouring.blends) return m_table.at(value);
-    const float before = m_colouring.valueAt(*m_previous, old);
+    if (!m_field) return materialColour(s, i);
+    const float value = m_field[i];
+    if (old == kNone || !m_before || !*m_before) return m_table.at(value);
+    const float before = (*m_before)[old];
     return m_table.at(before + (value - before) * m_blend);
   }
 
   const InstanceRequest& m_request;
-  const Colouring& m_colouring;
+  ShownField m_field;
+  std::optional<ShownField> m_before;  ///< where values lie between those of two snapshots
   ColourTable m_table;
   const Snapshot* m_previous;
   float m_blend;
@@ -192,7 +195,7 @@ void collectInstances(const InstanceRequest& request, Instances& out) {
   liquids.clear();
   vapours.clear();
   out.outline.clear();
-  const bool data = request.colour != ColourBy::Material;
+  const bool data = request.colour != kMatterColour;
   double radii = 0;
   size_t counted = 0;
   for (size_t i = 0; i < count; ++i) {

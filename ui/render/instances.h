@@ -5,6 +5,7 @@
 #include <array>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace ps::render {
@@ -43,7 +44,7 @@ struct InstanceRequest {
   const Snapshot* now = nullptr;
   const Snapshot* previous = nullptr;  ///< nullptr: no interpolation
   float blend = 1;                     ///< 0: previous, 1: now
-  ColourBy colour = ColourBy::Material;
+  std::string colour = kMatterColour;  ///< or a field that `now` has
   double minimum = 0, maximum = 1, meltingPoint = 273.15;
   bool surfaces = true;                 ///< liquids become a surface, else spheres
   std::array<float, 3> steam{1, 1, 1};  ///< colour of vapour where colours show no data

@@ -32,7 +32,8 @@ FrameUniforms::Matrix floats(const Matrix4& a) {
 void Prepared::fill(const Snapshot& now, const Snapshot* previous, double blend, const RenderScene& scene,
                     const Look& how) {
   look = how;
-  data = look.colour != ColourBy::Material;
+  if (!ShownField(now, look.colour)) look.colour = kMatterColour;
+  data = look.colour != kMatterColour;
   time = static_cast<float>(std::fmod(now.stats.time, 3600));  // so that a float stays precise in long runs
   furnish(scene.environment);
   collect(now, previous, blend);
@@ -60,7 +61,8 @@ void Prepared::collect(const Snapshot& now, const Snapshot* previous, double ble
   request.maximum = look.rangeMaximum;
   if (look.rangeMinimum == look.rangeMaximum)
     std::tie(request.minimum, request.maximum) = colourRange(now, look.colour);
-  request.surfaces = colouringOf(look.colour).surfaces;
+  const ShownField shown(now, look.colour);
+  request.surfaces = !shown || !shown.field().inner;
   request.steam = sceneColour(look.dark, "steam");
   if (look.outline) request.outlined = look.outline->body;
   collectInstances(request, instances);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "core/simulation/particlefield.h"
 #include "core/simulation/snapshot.h"
 
 #include <array>
@@ -18,22 +19,6 @@ struct Camera {
   double distance = 1.5, azimuth = 35, elevation = 20, fieldOfView = 35;
 };
 
-enum class ColourBy { Material, Temperature, Phase, Speed, DensityError };
-/// One way to colour particles. Another one is a name above, a row of colourings() and a map in
-/// resources/theme/maps.json.
-struct Colouring {
-  ColourBy colour;
-  const char* name;                                              ///< in files, on the command line, of its map
-  float (*valueAt)(const Snapshot& snapshot, size_t particle);   ///< nullptr: the material's own colour
-  std::pair<double, double> (*range)(const Snapshot& snapshot);  ///< of the values, for automatic limits
-  bool blends;                                                   ///< values lie between those of two snapshots
-  bool surfaces;                                                 ///< liquids become a surface, else each particle shows
-};
-std::span<const Colouring> colourings();
-const Colouring& colouringOf(ColourBy colour);
-ColourBy colourByName(const std::string& name);  ///< Material for an unknown name
-const char* colourName(ColourBy colour);
-
 /// A line around the picture of one body's matter (vapour left out), through whatever stands before it.
 struct BodyOutline {
   uint32_t body = 0;                      ///< index as in Snapshot::body
@@ -44,7 +29,7 @@ struct BodyOutline {
 
 /// What a picture shows of its snapshot, from wherever it is seen.
 struct Look {
-  ColourBy colour = ColourBy::Material;
+  std::string colour = kMatterColour;         ///< or a field; one that the snapshot has not is no colour
   double rangeMinimum = 0, rangeMaximum = 0;  ///< of the colour map; equal: automatic
   bool dark = true;
   double meltingPoint = 273.15;  ///< K, pivot of the temperature map
@@ -94,12 +79,14 @@ class Renderer {
   std::unique_ptr<Impl> m;
 };
 
-/// Range that the legend of a colour map shows for a snapshot with automatic limits.
-std::pair<double, double> colourRange(const Snapshot& snapshot, ColourBy colour);
-/// Colour map as sRGB at t in 0..1 of the range, for legends (Phase: by api::Phase / 4). `pivot` is the place of the
-/// melting point in the range, (melting - minimum) / (maximum - minimum); only Temperature uses it. Each side of it is
-/// linear; it may lie outside 0..1. Material has no map and gives grey.
-std::array<float, 3> colourAt(ColourBy colour, double t, double pivot);
+/// Range that the legend shows for a snapshot with automatic limits, SI; {0, 0} where the snapshot has not that field.
+std::pair<double, double> colourRange(const Snapshot& snapshot, const std::string& colour);
+/// Name of a field's map in resources/theme/maps.json: its own, or the one that all others share.
+std::string colourMapOf(const std::string& colour);
+/// Colour map as sRGB at t in 0..1 of the range, for legends (phase: by api::Phase / 4). `pivot` is the place of the
+/// melting point in the range, (melting - minimum) / (maximum - minimum); only temperature uses it. Each side of it is
+/// linear; it may lie outside 0..1.
+std::array<float, 3> colourAt(const std::string& colour, double t, double pivot);
 
 /// An OpenGL context without a window or display (EGL surfaceless). Throws Error when there is none.
 class HeadlessContext {

@@ -63,6 +63,8 @@ void SceneLink::onChanged(const ChangeEvent& event) {
     } else {
       pushProject();
     }
+  } else if (std::holds_alternative<ViewChanged>(event)) {
+    m_engine.apply(ShowFields{{m_document.project().view.colour}});
   } else if (stroke) {
     onStroke(*stroke);
   }

@@ -5,6 +5,7 @@
 #include "core/plugin_host/registry.h"
 #include "core/simulation/engine.h"
 #include "core/simulation/enginethread.h"
+#include "core/simulation/particlefield.h"
 #include "core/simulation/projectstate.h"
 #include "ui/document/document.h"
 #include "ui/session/documentfiles.h"
@@ -26,6 +27,7 @@ Session::Session(const Options& options, QObject* parent)
       m_log(std::make_unique<MessageLog>()),
       m_document(std::make_unique<Document>()),
       m_transitions(std::make_unique<Transitions>(*m_document)),
+      m_fields(std::make_unique<const ParticleFields>()),
       m_worker(std::make_unique<Worker>()) {
   m_log->takeLog();
   m_values.setInterval(kValuesInterval);
@@ -71,6 +73,7 @@ void Session::adoptPlugins(std::shared_ptr<PluginRegistry> plugins) {
   std::setlocale(LC_NUMERIC, "C");  // a plugin may have set it
   m_plugins = std::move(plugins);
   m_document->setPlugins(m_plugins.get());
+  m_fields = std::make_unique<const ParticleFields>(*m_plugins);
   m_engine = std::make_unique<EngineThread>(*m_plugins, [this] {
     if (m_pending.exchange(true)) return;
     QMetaObject::invokeMethod(

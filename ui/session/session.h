@@ -17,6 +17,7 @@ namespace ps {
 class Document;
 class DocumentFiles;
 class EngineThread;
+class ParticleFields;
 class PluginRegistry;
 class SceneLink;
 class Transitions;
@@ -45,6 +46,7 @@ class Session : public QObject {
   MessageLog& log() { return *m_log; }
   Worker& worker() { return *m_worker; }
   PluginRegistry* plugins() { return m_plugins.get(); }
+  const ParticleFields& fields() const { return *m_fields; }  ///< of particles; until ready() ours alone
   EngineThread* engine() { return m_engine.get(); }
   SceneLink* link() { return m_link.get(); }
   Autosave* autosave() { return m_autosave.get(); }
@@ -97,6 +99,7 @@ class Session : public QObject {
   std::unique_ptr<DocumentFiles> m_files;
   std::unique_ptr<Autosave> m_autosave;
   std::shared_ptr<PluginRegistry> m_plugins;
+  std::unique_ptr<const ParticleFields> m_fields;
   std::atomic<bool> m_pending{false};
   bool m_wasPlaying = false, m_closed = false;
   bool m_opening = true;  ///< the project's first snapshot has not come yet

@@ -39,17 +39,21 @@ ColourMap parseMap(const QString& name, const QJsonArray& stops, const QJsonArra
 
 std::map<QString, ColourMap> readMaps() {
   const QJsonObject all = QJsonDocument::fromJson(themeResource(QStringLiteral("theme/maps.json"))).object();
-  const QJsonObject stops = all[QStringLiteral("maps")].toObject(), titles = all[QStringLiteral("titles")].toObject(),
-                    classes = all[QStringLiteral("classes")].toObject(),
+  const QJsonObject stops = all[QStringLiteral("maps")].toObject(), classes = all[QStringLiteral("classes")].toObject(),
                     pivots = all[QStringLiteral("pivots")].toObject();
   std::map<QString, ColourMap> maps;
   for (auto it = stops.begin(); it != stops.end(); ++it) {
     ColourMap map = parseMap(it.key(), it.value().toArray(), classes[it.key()].toArray());
-    map.title = titles[it.key()].toString(it.key());
     map.pivot = pivots[it.key()].toDouble(-1);
     maps[it.key()] = std::move(map);
   }
   return maps;
+}
+
+QFont titleFont() {
+  QFont font = Theme::font(TextRole::Small);
+  font.setWeight(QFont::DemiBold);
+  return font;
 }
 
 double tickStep(double span, int most) {
@@ -101,7 +105,7 @@ struct Scale {
   bool inside(double value) const { return value >= range.first && value <= range.second; }
 };
 
-void paintTicks(QPainter& painter, const QRectF& rect, const Scale& scale, const QString& unit,
+void paintTicks(QPainter& painter, const QRectF& rect, const Scale& scale, const LegendText& words,
                 const std::vector<LegendMark>& marks) {
   const Theme& theme = Theme::current();
   const QFont font = Theme::font(TextRole::Small);
@@ -114,8 +118,7 @@ void paintTicks(QPainter& painter, const QRectF& rect, const Scale& scale, const
   };
   const auto ends = {std::pair{scale.range.second, true}, std::pair{scale.range.first, false}};
   for (const auto& [value, top] : ends) {
-    const QString text =
-        top && !unit.isEmpty() ? formatShort(value, 3) + QLatin1Char(' ') + unit : formatShort(value, 3);
+    const QString text = top ? formatQuantity(value / words.scale, words.unit, 3) : formatShort(value / words.scale, 3);
     if (ladder.reserve(scale.y(value))) label(value, text, 9, theme[Token::Text2]);
   }
   const double step = tickStep(scale.range.second - scale.range.first, 6);
@@ -123,7 +126,7 @@ void paintTicks(QPainter& painter, const QRectF& rect, const Scale& scale, const
     if (!scale.inside(mark.value) || !ladder.reserve(scale.y(mark.value))) continue;
     // What the scale cannot show is no information: ice under 1 bar melts at 0.0001 °C.
     const double grain = step / 1000;
-    const QString number = formatShort(std::round(mark.value / grain) * grain, 3);
+    const QString number = formatShort(std::round(mark.value / grain) * grain / words.scale, 3);
     label(mark.value, number, 12, theme[Token::Text]);
     const double x = scale.bar.right() + 12 + textWidth(number, font) + 5;
     paintText(painter, QRectF(x, scale.y(mark.value) - 8, rect.right() - x - 4, 16), Qt::AlignLeft | Qt::AlignVCenter,
@@ -131,7 +134,7 @@ void paintTicks(QPainter& painter, const QRectF& rect, const Scale& scale, const
   }
   for (double value = std::ceil(scale.range.first / step) * step; value < scale.range.second; value += step) {
     if (ladder.reserve(scale.y(value)))
-      label(value, formatShort(std::abs(value) < step / 1e6 ? 0 : value, 3), 9, theme[Token::Text2]);
+      label(value, formatShort(std::abs(value) < step / 1e6 ? 0 : value / words.scale, 3), 9, theme[Token::Text2]);
   }
 }
 
@@ -162,9 +165,14 @@ QRectF legendBar(const QRectF& rect) {
   return {rect.left() + kMargin, rect.top() + kTitle + 10, kBarWidth, rect.height() - kTitle - 22};
 }
 
-QSizeF legendSize(const ColourMap& map) {
-  if (!map.classes.empty()) return {92, kTitle + 10 + kClassRow * static_cast<double>(map.classes.size())};
-  return {92, kTitle + 8 + kBarHeight + 14};
+QSizeF legendSize(const ColourMap& map, const QString& title) {
+  constexpr double kLeast = 92, kMost = 180;
+  double width = std::max(kLeast, std::ceil(textWidth(title, titleFont())) + 2 * kMargin);
+  for (const auto& [letter, name] : map.classes)
+    width = std::max(width, std::ceil(textWidth(name, Theme::font(TextRole::Normal))) + 36 + kMargin);
+  width = std::min(width, kMost);
+  if (!map.classes.empty()) return {width, kTitle + 10 + kClassRow * static_cast<double>(map.classes.size())};
+  return {width, kTitle + 8 + kBarHeight + 14};
 }
 
 double legendPosition(const ColourMap& map, std::pair<double, double> range, double pivot, double value) {
@@ -180,14 +188,12 @@ double legendPosition(const ColourMap& map, std::pair<double, double> range, dou
 }
 
 void paintLegend(QPainter& painter, const QRectF& rect, const ColourMap& map, std::pair<double, double> range,
-                 const QString& unit, const std::vector<LegendMark>& marks, double pivot) {
+                 const LegendText& text, const std::vector<LegendMark>& marks, double pivot) {
   const Theme& theme = Theme::current();
   painter.save();
   paintBox(painter, rect, theme[Token::Overlay], theme[Token::Line2], 4);
-  QFont title = Theme::font(TextRole::Small);
-  title.setWeight(QFont::DemiBold);
   paintText(painter, QRectF(rect.left() + kMargin, rect.top() + 4, rect.width() - 2 * kMargin, kTitle - 4),
-            Qt::AlignLeft | Qt::AlignVCenter, map.title, title, theme[Token::Text]);
+            Qt::AlignLeft | Qt::AlignVCenter, text.title, titleFont(), theme[Token::Text]);
   if (!map.classes.empty()) {
     paintClasses(painter, rect, map);
     painter.restore();
@@ -200,7 +206,13 @@ void paintLegend(QPainter& painter, const QRectF& rect, const ColourMap& map, st
   QPainterPath path;
   path.addRoundedRect(snapped(painter, bar), 2, 2);
   painter.fillPath(path, gradient);
-  if (range.second > range.first) paintTicks(painter, rect, {bar, map, range, pivot}, unit, marks);
+  if (range.second > range.first) {
+    paintTicks(painter, rect, {bar, map, range, pivot}, text, marks);
+  } else {
+    paintText(painter, QRectF(bar.right() + 9, bar.center().y() - 8, rect.right() - bar.right() - 9, 16),
+              Qt::AlignLeft | Qt::AlignVCenter, QStringLiteral("none here"), Theme::font(TextRole::Small),
+              theme[Token::Muted]);
+  }
   painter.restore();
 }
 

@@ -14,7 +14,7 @@ namespace ps {
 
 /// A colour map of resources/theme/maps.json: "temperature", "ember", "phase", "density_error", "speed".
 struct ColourMap {
-  QString name, title;
+  QString name;
   std::vector<std::pair<double, QColor>> stops;      ///< position 0..1, ascending
   double pivot = -1;                                 ///< position that sits on the melting point; below 0: none
   std::vector<std::pair<QString, QString>> classes;  ///< letter and name of each stop where colours are classes
@@ -23,6 +23,13 @@ struct ColourMap {
 };
 /// Throws Error when there is no such map.
 const ColourMap& colourMap(const QString& name);
+
+/// What a legend says beside its colours.
+struct LegendText {
+  QString title;
+  QString unit;      ///< behind the upper end
+  double scale = 1;  ///< numbers are divided by it: 1000 with "kJ/kg" for values in J/kg
+};
 
 /// A line across the gradient, at a value in the legend's unit: {0, "melts"}.
 struct LegendMark {
@@ -33,13 +40,14 @@ struct LegendMark {
 /// The gradient inside a legend's rectangle, from the range's upper end at its top to the lower one at its bottom.
 QRectF legendBar(const QRectF& rect);
 /// Size that paintLegend wants, in logical pixels.
-QSizeF legendSize(const ColourMap& map);
+QSizeF legendSize(const ColourMap& map, const QString& title);
 
-/// Draws a legend on its translucent ground over the viewport: title, gradient with ticks in `unit`, phase marks; a map
-/// of classes as swatches with letters. `range`: values (in `unit`) at the ends. `pivot`: value at the map's pivot,
-/// where it has one and the value lies inside the range: both sides are then linear by themselves.
+/// Draws a legend on its translucent ground over the viewport: title, gradient with ticks, phase marks; a map of
+/// classes as swatches with letters. `range`: values at the ends; without a length there is nothing to show. `pivot`:
+/// value at the map's pivot, where it has one and the value lies inside the range: both sides are then linear by
+/// themselves.
 void paintLegend(QPainter& painter, const QRectF& rect, const ColourMap& map, std::pair<double, double> range,
-                 const QString& unit, const std::vector<LegendMark>& marks, double pivot = 0);
+                 const LegendText& text, const std::vector<LegendMark>& marks, double pivot = 0);
 /// Position 0..1 on the map of a value, with the pivot rule of paintLegend.
 double legendPosition(const ColourMap& map, std::pair<double, double> range, double pivot, double value);
 

@@ -181,6 +181,12 @@ class Expression {
   bool m_good = true;
 };
 
+bool takesPrefix(const UnitPrefix& prefix, const QString& plain) {
+  const std::optional<Unit> unit = parseUnit(plain), scaled = parseUnit(prefix.symbol + plain);
+  return unit && scaled && scaled->dimension == unit->dimension &&
+         std::abs(scaled->scale - prefix.factor * unit->scale) <= 1e-9 * scaled->scale;
+}
+
 bool isGroupSpace(QChar c) { return c == kGroup || c == QChar(0x2009) || c == QChar(0x00A0) || c == QChar(' '); }
 
 /// ASCII with a point: signs, superscripts and group spaces of formatted numbers taken back. nullopt: both separators
@@ -248,6 +254,11 @@ UnitPrefix prefixFor(double value, int significant) {
   return {std::pow(1000.0, thousands), symbols[thousands + 2]};
 }
 
+UnitPrefix prefixFor(double value, const QString& unit) {
+  const UnitPrefix prefix = prefixFor(value, 3);
+  return takesPrefix(prefix, unit) ? prefix : UnitPrefix{};
+}
+
 QString formatPrefixed(double value, const QString& unit, int significant) {
   // Less than a thousandth of the least prefix is rounding.
   if (std::abs(value) < 1e-9) value = 0;
@@ -297,15 +308,13 @@ QString formatValue(const api::ParameterDeclaration& d, double stored) {
 }
 
 FieldText shortField(const api::ParameterDeclaration& d, double stored, int significant, bool running) {
-  const UnitPrefix prefix = prefixFor(stored, 3);
-  const QString plain = QString::fromUtf8(d.unit ? d.unit : ""), prefixed = prefix.symbol + plain;
-  const std::optional<Unit> unit = parseUnit(plain), scaled = parseUnit(prefixed);
-  // "km²" is no thousand square metres, "kkg" nothing at all, and a temperature has another zero.
-  const bool takesPrefix = unit && scaled && scaled->dimension == unit->dimension && d.displayOffset == 0 &&
-                           std::abs(scaled->scale - prefix.factor * unit->scale) <= 1e-9 * scaled->scale;
-  if (!takesPrefix || standsForNone(d, stored)) return {formatField(d, stored), displayUnit(d)};
+  const QString unit = QString::fromUtf8(d.unit ? d.unit : "");
+  // A temperature has another zero.
+  if (d.displayOffset != 0 || standsForNone(d, stored) || !takesPrefix(prefixFor(stored, 3), unit))
+    return {formatField(d, stored), displayUnit(d)};
+  const UnitPrefix prefix = prefixFor(stored, unit);
   const double shown = stored / prefix.factor;
-  return {running ? formatNumber(shown, significant) : formatShort(shown, significant), prefixed};
+  return {running ? formatNumber(shown, significant) : formatShort(shown, significant), prefix.symbol + unit};
 }
 
 QString formatBound(const api::ParameterDeclaration& d, double stored) {

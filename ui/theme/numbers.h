@@ -26,6 +26,8 @@ struct UnitPrefix {
   QString symbol;
 };
 UnitPrefix prefixFor(double value, int significant = 4);
+/// The same for a unit that may take none: "km²" is no thousand square metres, "kkg" nothing at all.
+UnitPrefix prefixFor(double value, const QString& unit);
 /// With the prefix that keeps it short: "76.40 MJ", "1.540 g", "0 J". For values in J, g, Pa, m.
 QString formatPrefixed(double value, const QString& unit, int significant = 4);
 

@@ -35,6 +35,7 @@ SnapshotPtr withoutBodies(const SnapshotPtr& snapshot, const std::set<std::strin
   keep(copy->id, rows);
   keep(copy->body, rows);
   keep(copy->material, rows);
+  for (FieldValues& field : copy->fields) keep(field.values, rows);
   return copy;
 }
 

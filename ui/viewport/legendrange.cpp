@@ -7,6 +7,8 @@
 namespace ps {
 namespace {
 
+constexpr double kZero = 273.15;  // K
+
 /// The next of 1, 2, 5 times a power of ten.
 double roundUp(double value) {
   const double decade = std::pow(10.0, std::floor(std::log10(std::max(value, 1e-9))));
@@ -16,16 +18,16 @@ double roundUp(double value) {
   return decade * 10;
 }
 
-std::pair<double, double> rounded(ColourBy colour, std::pair<double, double> measured) {
-  if (colour == ColourBy::Temperature) {
-    constexpr double kZero = 273.15, kStep = 10;
+std::pair<double, double> rounded(const ParticleField& field, std::pair<double, double> measured) {
+  if (field.hasScale()) return measured;
+  if (field.unit == "K") {
+    constexpr double kStep = 10;
     const double low = kZero + kStep * std::floor((measured.first - kZero) / kStep);
     double high = kZero + kStep * std::ceil((measured.second - kZero) / kStep);
     if (high - low < 2 * kStep) high = low + 2 * kStep;
     return {low, high};
   }
-  if (colour == ColourBy::Speed) return {0, roundUp(std::max(measured.second, 0.1))};
-  return measured;  // fixed by the map itself
+  return measured.first == 0 ? std::pair{0.0, roundUp(measured.second)} : measured;
 }
 
 }  // namespace
@@ -36,7 +38,7 @@ void LegendRange::moveEnd(bool upper, double share) {
   const double step = roundUp(width / 200);
   double& end = upper ? m_range.second : m_range.first;
   // Temperatures are round in degrees Celsius.
-  const double zero = m_colour == ColourBy::Temperature ? 273.15 : 0;
+  const double zero = m_kelvin ? kZero : 0;
   end = zero + step * std::round((end + share * width - zero) / step);
   if (upper)
     end = std::max(end, m_range.first + 5 * step);
@@ -45,14 +47,16 @@ void LegendRange::moveEnd(bool upper, double share) {
   m_set = true;
 }
 
-std::pair<double, double> LegendRange::update(ColourBy colour, std::pair<double, double> measured) {
-  if (m_set && colour == m_colour) return m_range;
+std::pair<double, double> LegendRange::update(const ParticleField& field, std::pair<double, double> measured) {
+  const bool same = field.name == m_name;
+  if (m_set && same) return m_range;
   m_set = false;
-  const auto wanted = rounded(colour, measured);
-  const bool fits = m_valid && colour == m_colour && wanted.first >= m_range.first && wanted.second <= m_range.second;
+  const auto wanted = rounded(field, measured);
+  const bool fits = m_valid && same && wanted.first >= m_range.first && wanted.second <= m_range.second;
   if (!fits || wanted.second - wanted.first < 0.5 * (m_range.second - m_range.first)) m_range = wanted;
   m_valid = true;
-  m_colour = colour;
+  m_name = field.name;
+  m_kelvin = field.unit == "K";
   return m_range;
 }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "ui/render/renderer.h"
+#include "core/simulation/particlefield.h"
 
+#include <string>
 #include <utility>
 
 namespace ps {
@@ -10,7 +11,7 @@ namespace ps {
 /// numbers, and it shrinks only when what is there fills less than half of it. SI units.
 class LegendRange {
  public:
-  std::pair<double, double> update(ColourBy colour, std::pair<double, double> measured);
+  std::pair<double, double> update(const ParticleField& field, std::pair<double, double> measured);
   /// Moves one end of the range in force by a share of its width, to a round value; it stays on its side of the other.
   void moveEnd(bool upper, double share);
   bool isSet() const { return m_set; }
@@ -18,7 +19,8 @@ class LegendRange {
 
  private:
   bool m_valid = false, m_set = false;
-  ColourBy m_colour = ColourBy::Material;
+  std::string m_name;  ///< of the field
+  bool m_kelvin = false;
   std::pair<double, double> m_range{0, 0};
 };
 

@@ -18,6 +18,7 @@ namespace ps {
 namespace {
 
 constexpr double kMargin = 10, kPadding = 8, kLine = 22;
+constexpr double kZero = 273.15;  // K
 
 void paintGround(QPainter& painter, const QRectF& rect, double radius = 4) {
   const Theme& theme = Theme::current();
@@ -57,35 +58,53 @@ void paintScaleBar(QPainter& painter, const OverlayState& state) {
             Qt::AlignLeft | Qt::AlignVCenter, text, font, Theme::current()[Token::Text]);
 }
 
-QString mapName(ColourBy colour) { return QString::fromLatin1(colourName(colour)); }
+/// Range and text of a legend, as people read the field: °C for kelvin, shares in %, else with the prefix of its unit
+/// that keeps numbers short.
+LegendText legendText(const ParticleField& field, std::pair<double, double>& range) {
+  LegendText text{QString::fromStdString(field.label), QString::fromStdString(field.unit)};
+  const double largest = std::max(std::abs(range.first), std::abs(range.second));
+  if (field.unit == "K") {
+    text.unit = QStringLiteral("°C");
+    if (largest > 0) range = {range.first - kZero, range.second - kZero};
+  } else if (field.unit == "1") {
+    const bool share = field.hasScale() && field.minimum >= -1 && field.maximum <= 1;
+    text.unit = share ? QStringLiteral("%") : QString();
+    if (share) text.scale = 0.01;
+  } else if (largest >= 1000 || largest < 0.01) {
+    const UnitPrefix prefix = prefixFor(largest, text.unit);
+    text.scale = prefix.factor;
+    text.unit.prepend(prefix.symbol);
+  }
+  return text;
+}
 
 void paintLegendOver(QPainter& painter, const OverlayState& state, OverlayHits& hits) {
-  if (state.colour == ColourBy::Material || state.empty) return;
-  const ColourMap& map = colourMap(mapName(state.colour));
-  const QSizeF size = legendSize(map);
+  if (!state.field || state.empty) return;
+  ColourMap map = colourMap(QString::fromStdString(colourMapOf(state.field->name)));
+  if (!state.classes.empty()) {
+    map.classes = state.classes;
+    map.classes.resize(std::min(map.classes.size(), map.stops.size()));
+    map.stops.resize(map.classes.size());
+  }
+  std::pair<double, double> range = state.range;
+  const LegendText text = legendText(*state.field, range);
+  const QSizeF size = legendSize(map, text.title);
   const QRectF rect(state.size.width() - kMargin - size.width(), state.size.height() - kMargin - size.height(),
                     size.width(), size.height());
   if (rect.top() < 100) return;  // too little room
   hits.legend = rect;
+  hits.legendTitle = text.title;
+  hits.legendClasses = static_cast<int>(map.classes.size());
+  hits.legendUnit = text.unit;
   if (map.classes.empty()) hits.legendBar = legendBar(rect);
-  std::pair<double, double> range = state.range;
   std::vector<LegendMark> marks;
-  QString unit;
   double pivot = 0;
-  if (state.colour == ColourBy::Temperature) {
-    constexpr double kZero = 273.15;
-    range = {range.first - kZero, range.second - kZero};
+  if (state.field->name == "temperature") {
     pivot = state.meltingPoint - kZero;
-    unit = QStringLiteral("°C");
     if (state.meltingPoint > 0) marks.push_back({pivot, QStringLiteral("melts")});
     if (std::isfinite(state.boilingPoint)) marks.push_back({state.boilingPoint - kZero, QStringLiteral("boils")});
-  } else if (state.colour == ColourBy::Speed) {
-    unit = QStringLiteral("m/s");
-  } else if (state.colour == ColourBy::DensityError) {
-    range = {range.first * 100, range.second * 100};
-    unit = QStringLiteral("%");
   }
-  paintLegend(painter, rect, map, range, unit, marks, pivot);
+  paintLegend(painter, rect, map, range, text, marks, pivot);
 }
 
 QRectF paintHint(QPainter& painter, const OverlayState& state) {

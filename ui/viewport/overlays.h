@@ -31,8 +31,9 @@ struct OverlayState {
   QSizeF size;
   Camera camera;
   QString viewName;
-  ColourBy colour = ColourBy::Material;
+  FieldPtr field;                                       ///< that colours show; nullptr: matter's own colours
   std::pair<double, double> range{0, 1};                ///< SI
+  std::vector<std::pair<QString, QString>> classes;     ///< letters and names of colours that the scene names: bodies
   double meltingPoint = 273.15, boilingPoint = 373.15;  ///< K; infinite or NaN: no mark
   bool empty = false;                                   ///< no snapshot yet
   std::vector<OverlayHint> hints;                       ///< empty: no strip
@@ -49,8 +50,10 @@ struct OverlayHits {
     double azimuth, elevation;
   };
   std::vector<Axis> axes;
-  QRectF legend;     ///< empty: there is none
-  QRectF legendBar;  ///< its gradient; empty where colours are classes
+  QRectF legend;                    ///< empty: there is none
+  QRectF legendBar;                 ///< its gradient; empty where colours are classes
+  QString legendTitle, legendUnit;  ///< as painted
+  int legendClasses = 0;            ///< swatches in place of a gradient
 };
 
 /// Paints legend, view label, scale bar, hint strip, axis ball, tags and the brush's true volume.

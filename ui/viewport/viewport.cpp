@@ -99,7 +99,7 @@ void Viewport::onChanged(const ChangeEvent& event) {
   } else if (std::holds_alternative<PortChanged>(event)) {
     update();
   } else if (std::holds_alternative<ViewChanged>(event)) {
-    m_colour = colourByName(m_document.project().view.colour);
+    m_colour = m_document.project().view.colour;
     m_legendRange.reset();
     update();
   }
@@ -166,7 +166,10 @@ double Viewport::blend() const {
 Look Viewport::look() {
   Look look;
   look.colour = m_colour;
-  if (m_now) m_range = m_legendRange.update(m_colour, colourRange(*m_now, m_colour));
+  if (const FieldPtr field = m_session.fields().find(m_colour); field && m_now) {
+    const auto measured = colourRange(*m_now, m_colour);
+    m_range = measured.first < measured.second ? m_legendRange.update(*field, measured) : measured;
+  }
   look.rangeMinimum = m_range.first;
   look.rangeMaximum = m_range.second;
   look.dark = Theme::current().dark();
@@ -238,8 +241,9 @@ OverlayState Viewport::overlayState() const {
   state.size = size();
   state.camera = m_navigator.camera();
   state.viewName = m_navigator.viewName();
-  state.colour = m_colour;
+  state.field = m_session.fields().find(m_colour);
   state.range = m_range;
+  if (m_colour == "body") state.classes = bodyClasses();
   state.meltingPoint = m_session.transitions().meltsOr(kIceMelts);
   state.boilingPoint = m_session.transitions().boils();
   state.empty = !m_now;
@@ -248,6 +252,19 @@ OverlayState Viewport::overlayState() const {
   state.invitation = invitation();
   if (m_drag != Drag::View) state.cursor = m_tools.tool().picture().cursor;
   return state;
+}
+
+/// Those that colours tell apart, by the index that particles carry.
+std::vector<std::pair<QString, QString>> Viewport::bodyClasses() const {
+  std::vector<std::pair<QString, QString>> classes;
+  if (!m_now || !m_now->bodyIds) return classes;
+  for (const std::string& id : *m_now->bodyIds) {
+    const Body* body = m_document.body(id);
+    const Emitter* emitter = m_document.emitter(id);
+    const std::string& name = body ? body->name : emitter ? emitter->name : id;
+    classes.emplace_back(QString::number(classes.size() + 1), QString::fromStdString(name));
+  }
+  return classes;
 }
 
 QString Viewport::invitation() const {
@@ -302,7 +319,7 @@ void Viewport::projectOpened() {
     m_navigator.setScene({camera->target, camera->distance, camera->azimuth, camera->elevation});
   else
     m_unframed = m_now ? m_now->revision : 0;  // framed when there is something of it to see
-  m_colour = colourByName(view.colour);
+  m_colour = view.colour;
   m_legendRange.reset();
   bodiesChanged();
 }

@@ -38,7 +38,7 @@ class Viewport : public QOpenGLWidget {
 
   SnapshotPtr snapshot() const { return m_now; }  ///< the one that is shown
   Toolbox& tools() const { return m_tools; }
-  ColourBy colour() const { return m_colour; }
+  const std::string& colour() const { return m_colour; }  ///< "material", or the name of a field
   const ViewNavigator& navigator() const { return m_navigator; }
   void show(StandardView view);
   void frameSelection();
@@ -90,6 +90,7 @@ class Viewport : public QOpenGLWidget {
   void requestPaint();
   double blend() const;
   OverlayState overlayState() const;
+  std::vector<std::pair<QString, QString>> bodyClasses() const;
   Look look();
   std::vector<OverlayHint> hints() const;
   void paintPortsOver(QPainter& painter) const;
@@ -129,7 +130,7 @@ class Viewport : public QOpenGLWidget {
 
   ViewNavigator m_navigator;
   Navigation m_navigation{m_navigator};
-  ColourBy m_colour = ColourBy::Material;
+  std::string m_colour = kMatterColour;
   LegendRange m_legendRange, m_legendBefore;
   std::pair<double, double> m_range{0, 1};
   OverlayHits m_hits;

@@ -335,9 +335,8 @@ void FileActions::exportCsv() {
   if (path.isEmpty()) return;
   writeFile(
       path,
-      [history = m_session.engine()->history(0), probes = m_session.document().project().probes] {
-        return historyCsv(history, probes);
-      },
+      [history = m_session.engine()->history(0), probes = m_session.document().project().probes,
+       fields = m_session.fields()] { return historyCsv(history, probes, fields); },
       QStringLiteral("Frames as CSV"));
 }
 

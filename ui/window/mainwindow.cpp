@@ -149,7 +149,7 @@ void MainWindow::makeMiddle() {
 void MainWindow::makeMenus() {
   QMenuBar* bar = m_top->menus();
   m_edit = std::make_unique<EditActions>(m_session->document(), *m_selection, *outliner(), m_actions, *m_notices);
-  m_views = std::make_unique<ViewActions>(m_session->document(), viewport(), *m_layout, m_actions);
+  m_views = std::make_unique<ViewActions>(*m_session, viewport(), *m_layout, m_actions);
   m_sketch = std::make_unique<SketchActions>(*m_session, *m_tools, m_actions);
   m_files->makeMenu(bar->addMenu(QStringLiteral("File")), viewport());
   m_edit->makeMenu(bar->addMenu(QStringLiteral("Edit")));

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/window/viewactions.h"
 
+#include "core/simulation/particlefield.h"
 #include "ui/document/document.h"
+#include "ui/session/session.h"
 #include "ui/viewport/viewport.h"
 #include "ui/window/actions.h"
 #include "ui/window/windowlayout.h"
@@ -14,7 +16,10 @@
 namespace ps {
 namespace {
 
-constexpr int kViews = 9, kColours = 5;
+constexpr int kViews = 9, kKeys = 9;
+
+/// Colours are numbered in their order; the first few have keys.
+QString colourAction(qsizetype index) { return QStringLiteral("view.colour%1").arg(index + 1); }
 
 }  // namespace
 
@@ -37,12 +42,8 @@ void ViewActions::makeMenu(QMenu* menu) {
                   viewAct([i](Viewport& v) { v.show(static_cast<StandardView>(i + 1)); }));
   }
   QMenu* colours = menu->addMenu(QStringLiteral("Colour"));
-  const char* const colourNames[kColours] = {"Matter", "Temperature", "Phase", "Speed", "Density error"};
-  for (int i = 0; i < kColours; ++i) {
-    m_actions.add(colours, QStringLiteral("view.colour%1").arg(i + 1), QString::fromLatin1(colourNames[i]),
-                  {QKeySequence(QStringLiteral("Ctrl+%1").arg(i + 1))},
-                  [this, i] { m_document.setColour(colourName(static_cast<ColourBy>(i))); });
-  }
+  addColours(colours);
+  QObject::connect(&m_session, &Session::ready, colours, [this, colours] { addColours(colours); });
   menu->addSeparator();
   makeThemes(menu);
   menu->addSeparator();
@@ -52,6 +53,21 @@ void ViewActions::makeMenu(QMenu* menu) {
                 [this] { m_layout.applyDefault(); });
   m_actions.add(menu, QStringLiteral("view.hint"), QStringLiteral("Show hints"), {},
                 viewAct([](Viewport& v) { v.setHintShown(!v.hintShown()); }));
+}
+
+void ViewActions::addColours(QMenu* menu) {
+  if (menu->isEmpty()) addColour(menu, kMatterColour, "Matter");
+  const std::vector<FieldPtr>& fields = m_session.fields().all();
+  for (auto i = static_cast<size_t>(menu->actions().size()) - 1; i < fields.size(); ++i)
+    addColour(menu, fields[i]->name, fields[i]->label);
+}
+
+void ViewActions::addColour(QMenu* menu, const std::string& name, const std::string& label) {
+  const qsizetype index = menu->actions().size();
+  QList<QKeySequence> keys;
+  if (index < kKeys) keys << QKeySequence(QStringLiteral("Ctrl+%1").arg(index + 1));
+  m_actions.add(menu, colourAction(index), QString::fromStdString(label), keys,
+                [this, name] { m_session.document().setColour(name); });
 }
 
 void ViewActions::makeThemes(QMenu* menu) {
@@ -77,7 +93,7 @@ void ViewActions::openViewMenu(const QPoint& global) const {
   QMenu* views = menu->addMenu(QStringLiteral("Look from"));
   for (int i = 1; i <= kViews; ++i) views->addAction(m_actions.find(QStringLiteral("view.look%1").arg(i)));
   QMenu* colours = menu->addMenu(QStringLiteral("Colour"));
-  for (int i = 1; i <= kColours; ++i) colours->addAction(m_actions.find(QStringLiteral("view.colour%1").arg(i)));
+  for (qsizetype i = 0; QAction* colour = m_actions.find(colourAction(i)); ++i) colours->addAction(colour);
   menu->popup(global);
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <string>
 
 class QMenu;
 class QPoint;
@@ -7,7 +8,7 @@ class QPoint;
 namespace ps {
 
 class Actions;
-class Document;
+class Session;
 class Viewport;
 class WindowLayout;
 
@@ -15,14 +16,17 @@ class WindowLayout;
 class ViewActions {
  public:
   /// `view`: nullptr where there is no picture.
-  ViewActions(Document& document, Viewport* view, WindowLayout& layout, const Actions& actions)
-      : m_document(document), m_view(view), m_layout(layout), m_actions(actions) {}
+  ViewActions(Session& session, Viewport* view, WindowLayout& layout, const Actions& actions)
+      : m_session(session), m_view(view), m_layout(layout), m_actions(actions) {}
   void makeMenu(QMenu* menu);
   void openViewMenu(const QPoint& global) const;
 
  private:
   void makeThemes(QMenu* menu);
-  Document& m_document;
+  /// Matter and the fields that have no entry yet.
+  void addColours(QMenu* menu);
+  void addColour(QMenu* menu, const std::string& name, const std::string& label);
+  Session& m_session;
   Viewport* m_view;
   WindowLayout& m_layout;
   const Actions& m_actions;

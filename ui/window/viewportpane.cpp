@@ -22,6 +22,8 @@
 #include <QtWidgets/QToolButton>
 #include <QtWidgets/QVBoxLayout>
 
+#include <algorithm>
+
 namespace ps {
 namespace {
 
@@ -82,9 +84,10 @@ ViewportPane::ViewportPane(Session& session, Selection& selection, Toolbox& tool
   connect(&tools, &Toolbox::brushChanged, this, &ViewportPane::showBrush);
   connect(&session, &Session::ready, this, &ViewportPane::addShapes);
   connect(&session.document(), &Document::changed, this, [this](const ChangeEvent& event) {
-    if (std::holds_alternative<ProjectOpened>(event) || std::holds_alternative<ViewChanged>(event))
-      m_colour->setCurrentIndex(static_cast<int>(colourByName(m_session.document().project().view.colour)));
+    if (std::holds_alternative<ProjectOpened>(event) || std::holds_alternative<ViewChanged>(event)) showColour();
   });
+  connect(&session, &Session::ready, this, &ViewportPane::addColours);
+  addColours();
   showTool();
   showBrush();
 }
@@ -110,14 +113,14 @@ QWidget* ViewportPane::makeBar() {
   auto* colourLabel = new QLabel(QStringLiteral("Colour"));
   colourLabel->setProperty("role", "muted");
   row->addWidget(colourLabel);
-  m_colour->addItems({QStringLiteral("Matter"), QStringLiteral("Temperature"), QStringLiteral("Phase"),
-                      QStringLiteral("Speed"), QStringLiteral("Density error")});
   m_colour->setMinimumWidth(128);
-  m_colour->setToolTip(QStringLiteral("What colour means (Ctrl+1 to 5)"));
+  m_colour->setMaximumWidth(220);  // of labels that plugins bring
+  m_colour->setSizeAdjustPolicy(QComboBox::AdjustToContents);
+  m_colour->setToolTip(QStringLiteral("What colour means (Ctrl+1 to 9)"));
   m_colour->setAccessibleName(QStringLiteral("Colour"));
   m_colour->setFocusPolicy(Qt::TabFocus);
   connect(m_colour, &QComboBox::activated, this,
-          [this](int index) { m_session.document().setColour(colourName(static_cast<ColourBy>(index))); });
+          [this](int index) { m_session.document().setColour(m_colour->itemData(index).toString().toStdString()); });
   row->addWidget(m_colour);
   auto* frame = new QToolButton;
   frame->setIcon(icon(QStringLiteral("frame")));
@@ -178,6 +181,23 @@ void ViewportPane::addShapes() {
     m_shapeRow->addWidget(button);
   }
   showBrush();
+}
+
+/// Matter itself, and the fields that particles have; those of plugins once they are known.
+void ViewportPane::addColours() {
+  m_colour->clear();
+  m_colour->addItem(QStringLiteral("Matter"), QString::fromLatin1(kMatterColour));
+  for (const FieldPtr& field : m_session.fields().all()) {
+    m_colour->addItem(QString::fromStdString(field->label), QString::fromStdString(field->name));
+    m_colour->setItemData(m_colour->count() - 1, QString::fromStdString(field->help), Qt::ToolTipRole);
+  }
+  showColour();
+}
+
+/// Of a field that nobody here has, matter's own.
+void ViewportPane::showColour() {
+  const int index = m_colour->findData(QString::fromStdString(m_session.document().project().view.colour));
+  m_colour->setCurrentIndex(std::max(0, index));
 }
 
 void ViewportPane::showTool() {

@@ -30,6 +30,8 @@ class ViewportPane : public QWidget {
   QWidget* makeBar();
   void makeBrushBar();
   void addShapes();  ///< one button for each brush that is installed
+  void addColours();
+  void showColour();
   void showTool();
   void showBrush();
 

@@ -36,7 +36,7 @@ void turnBy(Quaternion& q, const Vector3& v) {
   q = (turn * q).normalized();
 }
 
-api::Float4* placesIn(const ParticleStore& store) {
+api::Float4* placesIn(ParticleStore& store) {
   return static_cast<api::Float4*>(store.find(kPlace, api::FieldType::Float4));
 }
 
@@ -161,7 +161,7 @@ void PrescribedMotion::restore(const StateReader& reader, const ParticleStore& s
   for (size_t body = 0; body < m_frames.size(); ++body) {
     m_frames[body].exists = exists[body] != 0;
     m_frames[body].axes = m_frames[body].turn.toRotationMatrix();
-    if (exists[body] != 0 && !placesIn(store))
+    if (exists[body] != 0 && !store.read(kPlace, api::FieldType::Float4))
       StateReader::fail("motion/frames", "has bodies whose places are missing");
   }
 }

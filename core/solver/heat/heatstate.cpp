@@ -47,7 +47,7 @@ void HeatStage::restore(const StateReader& reader, const ParticleStore& store) {
   const auto fields = m_model->fields();
   for (size_t k = 0; k < fields.count; ++k) {
     const api::FieldDeclaration f = fields.at(k);
-    if (!store.find(f.name, f.type))
+    if (!store.read(f.name, f.type))
       throw InputError("the state has no field '" + std::string(f.name) + "', which the thermal model needs");
   }
 }

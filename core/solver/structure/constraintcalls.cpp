@@ -61,7 +61,7 @@ void ConstraintSystem::forBatches(Set& set, uint32_t substep, uint32_t iteration
   }
 }
 
-void ConstraintSystem::predict(const ParticleStore& store, uint32_t substep) {
+void ConstraintSystem::predict(ParticleStore& store, uint32_t substep) {
   const api::ParticleView view = store.view();
   for (Set& set : m_sets) {
     guarded(set, [&] {
@@ -71,7 +71,7 @@ void ConstraintSystem::predict(const ParticleStore& store, uint32_t substep) {
   predictGroups(store, substep);
 }
 
-void ConstraintSystem::projectStructure(const ParticleStore& store, uint32_t substep, uint32_t iteration) {
+void ConstraintSystem::projectStructure(ParticleStore& store, uint32_t substep, uint32_t iteration) {
   const api::ParticleView view = store.view();
   const api::MovableParticles particles = movable(store, view);
   for (Set& set : m_sets) {
@@ -145,7 +145,7 @@ void ConstraintSystem::forgetMembers() {
   for (Set& set : m_sets) set.membersOf = ~size_t{0};
 }
 
-void ConstraintSystem::deriveVelocities(const ParticleStore& store, uint32_t substep) {
+void ConstraintSystem::deriveVelocities(ParticleStore& store, uint32_t substep) {
   const api::ParticleView view = store.view();
   const api::MovableParticles particles = movable(store, view);
   for (Set& set : m_sets) {

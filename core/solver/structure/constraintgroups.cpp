@@ -79,7 +79,7 @@ void ConstraintSystem::forGroups(Set& set, const ParticleStore& store, uint32_t 
   });
 }
 
-void ConstraintSystem::predictGroups(const ParticleStore& store, uint32_t substep) {
+void ConstraintSystem::predictGroups(ParticleStore& store, uint32_t substep) {
   const api::ParticleView view = store.view();
   const api::MovableParticles particles = movable(store, view);
   for (Set& set : m_sets) {
@@ -88,7 +88,7 @@ void ConstraintSystem::predictGroups(const ParticleStore& store, uint32_t subste
   }
 }
 
-void ConstraintSystem::projectGroups(const ParticleStore& store, uint32_t substep, uint32_t iteration) {
+void ConstraintSystem::projectGroups(ParticleStore& store, uint32_t substep, uint32_t iteration) {
   const api::ParticleView view = store.view();
   const api::MovableParticles particles = movable(store, view);
   for (Set& set : m_sets) {
@@ -97,7 +97,7 @@ void ConstraintSystem::projectGroups(const ParticleStore& store, uint32_t subste
   }
 }
 
-void ConstraintSystem::deriveGroupVelocities(const ParticleStore& store, uint32_t substep) {
+void ConstraintSystem::deriveGroupVelocities(ParticleStore& store, uint32_t substep) {
   const api::ParticleView view = store.view();
   const api::MovableParticles particles = movable(store, view);
   for (Set& set : m_sets) {
@@ -154,7 +154,7 @@ double ConstraintSystem::groupEnergy(Set& set, const ParticleStore& store) {
   return sum;
 }
 
-void ConstraintSystem::putGroupsBack(Set& set, const ParticleStore& store, std::span<const CopiedGroup> copies) {
+void ConstraintSystem::putGroupsBack(Set& set, ParticleStore& store, std::span<const CopiedGroup> copies) {
   if (copies.empty()) return;
   const std::vector<uint8_t> returned = set.groups->putBack(store, copies);
   m_graphValid = false;

@@ -337,7 +337,7 @@ CopiedConstraints ConstraintSystem::copy(const ParticleStore& store, std::span<c
   return copies;
 }
 
-void ConstraintSystem::putBack(const ParticleStore& store, const CopiedConstraints& copies) {
+void ConstraintSystem::putBack(ParticleStore& store, const CopiedConstraints& copies) {
   forgetMembers();
   for (const CopiedConstraints::Set& copied : copies.sets) {
     const auto found = std::find_if(m_sets.begin(), m_sets.end(), [&](const Set& s) { return s.name == copied.name; });

@@ -72,13 +72,13 @@ class ConstraintSystem {
   /// Constraints that touch one of these ascending indices.
   CopiedConstraints copy(const ParticleStore& store, std::span<const uint32_t> ascending) const;
   /// Adds copied constraints again wherever all their particles live; puts members of groups back into them.
-  void putBack(const ParticleStore& store, const CopiedConstraints& copies);
+  void putBack(ParticleStore& store, const CopiedConstraints& copies);
 
-  void predict(const ParticleStore& store, uint32_t substep);
-  void projectStructure(const ParticleStore& store, uint32_t substep, uint32_t iteration);
+  void predict(ParticleStore& store, uint32_t substep);
+  void projectStructure(ParticleStore& store, uint32_t substep, uint32_t iteration);
   void projectNeighbours(ParticleStore& store, const Neighbours& neighbours, uint32_t substep, uint32_t iteration);
-  void projectGroups(const ParticleStore& store, uint32_t substep, uint32_t iteration);
-  void deriveVelocities(const ParticleStore& store, uint32_t substep);
+  void projectGroups(ParticleStore& store, uint32_t substep, uint32_t iteration);
+  void deriveVelocities(ParticleStore& store, uint32_t substep);
   /// Once per frame. True when the structure has changed.
   bool topology(const ParticleStore& store, const Neighbours& neighbours);
   double energy(const ParticleStore& store);  ///< J
@@ -224,18 +224,18 @@ class ConstraintSystem {
   // In constraintgroups.cpp.
   template <class Call>
   void forGroups(Set& set, const ParticleStore& store, uint32_t substep, uint32_t iteration, Call&& call);
-  void predictGroups(const ParticleStore& store, uint32_t substep);
-  void deriveGroupVelocities(const ParticleStore& store, uint32_t substep);
+  void predictGroups(ParticleStore& store, uint32_t substep);
+  void deriveGroupVelocities(ParticleStore& store, uint32_t substep);
   void buildGroups(Set& set, const ParticleStore& store, const Neighbours& neighbours,
                    std::span<const uint32_t> members);
   bool groupTopology(Set& set, const ParticleStore& store, const Neighbours& neighbours);
   double groupEnergy(Set& set, const ParticleStore& store);
-  void putGroupsBack(Set& set, const ParticleStore& store, std::span<const CopiedGroup> copies);
+  void putGroupsBack(Set& set, ParticleStore& store, std::span<const CopiedGroup> copies);
 
   void declareFields(Set& set, api::List<api::FieldDeclaration> fields, ParticleStore& store);
   void forgetMembers();
   /// A view that what is called may move.
-  static api::MovableParticles movable(const ParticleStore& store, const api::ParticleView& view) {
+  static api::MovableParticles movable(ParticleStore& store, const api::ParticleView& view) {
     return {&view, store.position(), store.velocity()};
   }
 

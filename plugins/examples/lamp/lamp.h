@@ -11,6 +11,7 @@ class Lamp final : public QObject, public ps::api::Described<ps::api::HeatSource
  public:
   Lamp();
 
+  ps::api::List<ps::api::FieldDeclaration> fields() const override;
   void addWatts(const ps::api::ThermalContext& context, const ps::api::ParticleView& particles, size_t first,
                 size_t last, double* watts) const override;
 };

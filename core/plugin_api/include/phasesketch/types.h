@@ -22,7 +22,7 @@ namespace ps::api {
 inline constexpr int kVersionMajor = 0;
 inline constexpr int kVersionMinor = 9;
 /// Of what crosses. Raised by every change that is no growth in the manner above.
-inline constexpr int kLayout = 1;
+inline constexpr int kLayout = 2;
 
 /// A view of `size` values of T owned by somebody else. T is a number, a pointer or a struct that never changes.
 template <class T>
@@ -88,13 +88,15 @@ inline bool holds(Motion motion) { return motion == Motion::Solid || motion == M
 
 enum class FieldType : uint32_t { Float32, Float64, UInt8, UInt32, Float4 };
 
-/// A per-particle field that a plugin owns. The host stores, sorts, hashes, records and saves it.
+/// A per-particle field that a plugin owns. The host stores, sorts, hashes and saves it. One with a label, of any type
+/// but Float4, is shown to people as the program's own are: as colours with a legend, as probes, in recordings.
 struct FieldDeclaration {
   const char* name;  ///< unique; begins with the plugin's id and a dot: "org.example.rust.depth"
   const char* unit;  ///< SI, "" for none
   const char* help;
   FieldType type;
-  uint32_t reserved = 0;
+  const char* label = "";           ///< "Depth of rust", at most 40 letters; "": nobody but the plugin needs to see it
+  double minimum = 0, maximum = 0;  ///< ends of its colours' scale, in its unit; equal: as far as its values go
 };
 
 }  // namespace ps::api
