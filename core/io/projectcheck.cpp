@@ -26,8 +26,13 @@ constexpr double kLeaning = 1e-6;
 class ProjectChecker : public FieldVisitor {
  public:
   ProjectChecker(const Project& project, const std::string& name, const PluginRegistry& plugins,
-                 std::vector<ProjectMessage>& warnings)
-      : m_project(project), m_name(name), m_plugins(plugins), m_fields(plugins), m_warnings(warnings) {}
+                 std::vector<ProjectMessage>& warnings, std::vector<ProjectMessage>& problems)
+      : m_project(project),
+        m_name(name),
+        m_plugins(plugins),
+        m_fields(plugins),
+        m_warnings(warnings),
+        m_problems(problems) {}
 
   void run() { fields::projectFields().visit(m_project, "", *this); }
 
@@ -92,11 +97,13 @@ class ProjectChecker : public FieldVisitor {
 
   void object(const SceneMaterial& source, const std::string& pointer) override {
     if (!m_plugins.material(source.base)) return;
-    Material material = baseOf(source, pointer);
+    std::optional<Material> base = baseOf(source, pointer);
+    if (!base) return;
+    Material& material = *base;
     for (const auto& [key, value] : source.properties.values) material.properties[key] = responseOf(value);
     if (const std::string problem = problemOf(material); !problem.empty()) {
       const std::string key = problem.substr(0, problem.find_first_of(" :"));
-      fail(pointer + "/properties" + (propertyIndex(key) >= 0 ? "/" + key : ""), problem);
+      return tell(pointer + "/properties" + (propertyIndex(key) >= 0 ? "/" + key : ""), problem);
     }
     checkRules(source.properties, propertyCatalogue(), pointer + "/properties",
                [&](std::string_view key) -> std::optional<Value> {
@@ -193,6 +200,11 @@ class ProjectChecker : public FieldVisitor {
     throw InputError(m_name + ":" + pointer + ": " + what);
   }
 
+  /// Of what keeps a scene from being made, and can be mended value by value.
+  void tell(const std::string& pointer, const std::string& what) {
+    m_problems.push_back({true, m_name + ":" + pointer + ": " + what});
+  }
+
   void warn(const std::string& pointer, const std::string& what) {
     m_warnings.push_back({false, m_name + ":" + pointer + ": " + what});
   }
@@ -229,12 +241,14 @@ class ProjectChecker : public FieldVisitor {
   }
 
   /// The installed material with its plugin's laws at the scene's own parameters, as the engine will take it.
-  Material baseOf(const SceneMaterial& source, const std::string& pointer) const {
+  /// Nothing, and that is told, where its law fails.
+  std::optional<Material> baseOf(const SceneMaterial& source, const std::string& pointer) {
     if (!m_plugins.materialPlugin(source.base)) return *m_plugins.material(source.base);
     try {
       return m_plugins.evaluated(source.base, numbersOf(source.parameters, m_plugins.parameters(source.base)));
     } catch (const Error& error) {
-      fail(pointer + "/parameters", error.what());
+      tell(pointer + "/parameters", error.what());
+      return std::nullopt;
     }
   }
 
@@ -246,7 +260,7 @@ class ProjectChecker : public FieldVisitor {
     const DeclarationOfKey find = [&](std::string_view key) {
       return key.find('/') == std::string_view::npos ? findDeclaration(list, key) : sceneWideDeclaration(key);
     };
-    if (const auto breach = firstBreach(list, values, find, true)) fail(pointer + "/" + breach->key, breach->sentence);
+    if (const auto breach = firstBreach(list, values, find, true)) tell(pointer + "/" + breach->key, breach->sentence);
     if (const auto breach = firstBreach(list, values, find, false)) warn(pointer + "/" + breach->key, breach->sentence);
     for (const auto& [key, value] : set.values) {
       const api::ParameterDeclaration* declaration = findDeclaration(list, key);
@@ -258,9 +272,10 @@ class ProjectChecker : public FieldVisitor {
   void addParticles(const Body& body, const std::string& pointer) {
     const double spacing = numberOf(m_project.solver.parameters, solverParameters(), "particle_spacing");
     const double count = particleCount(body, spacing);
+    const bool room = m_particles <= kMaximumParticles;
     m_particles += count;
-    if (m_particles <= kMaximumParticles) return;
-    fail(pointer, "takes " + numberText(std::round(count)) + " particles, which makes more than the " +
+    if (!room || m_particles <= kMaximumParticles) return;
+    tell(pointer, "takes " + numberText(std::round(count)) + " particles, which makes more than the " +
                       numberText(kMaximumParticles) +
                       " that a scene may have; make it smaller or raise /solver/particle_spacing");
   }
@@ -297,7 +312,7 @@ class ProjectChecker : public FieldVisitor {
     }
   }
 
-  void checkPeriods() const {
+  void checkPeriods() {
     const auto solver = [&](const char* key) { return numberOf(m_project.solver.parameters, solverParameters(), key); };
     SolverSettings settings;
     settings.spacing = solver("particle_spacing");
@@ -306,7 +321,7 @@ class ProjectChecker : public FieldVisitor {
     for (size_t a = 0; a < 3; ++a) {
       const double edge = m_project.environment.boundsMaximum[a] - m_project.environment.boundsMinimum[a];
       if (!m_project.environment.periodic[a] || edge >= least) continue;
-      fail(at("/environment/bounds/maximum", a),
+      tell(at("/environment/bounds/maximum", a),
            std::string("the scene is periodic along ") + "xyz"[a] + ", so this edge, " + numberText(edge) +
                " m, must be three times the reach of a particle or longer: " + numberText(least) + " m");
     }
@@ -316,7 +331,7 @@ class ProjectChecker : public FieldVisitor {
   const std::string& m_name;
   const PluginRegistry& m_plugins;
   const ParticleFields m_fields;
-  std::vector<ProjectMessage>& m_warnings;
+  std::vector<ProjectMessage>&m_warnings, &m_problems;
   std::set<std::string> m_missing, m_blocks;
   double m_particles = 0;
   size_t m_stateBytes = 0;
@@ -325,8 +340,8 @@ class ProjectChecker : public FieldVisitor {
 }  // namespace
 
 void checkProject(const Project& project, const std::string& name, const PluginRegistry& plugins,
-                  std::vector<ProjectMessage>& warnings) {
-  ProjectChecker(project, name, plugins, warnings).run();
+                  std::vector<ProjectMessage>& warnings, std::vector<ProjectMessage>& problems) {
+  ProjectChecker(project, name, plugins, warnings, problems).run();
 }
 
 }  // namespace ps

@@ -171,15 +171,31 @@ Project readDocument(json& document, const PluginRegistry& plugins) {
   return project;
 }
 
-LoadedProject parseProject(const std::string& text, const std::string& name, const PluginRegistry& plugins,
-                           const std::vector<std::string>& edits) {
+namespace {
+
+LoadedProject readText(const std::string& text, const std::string& name, const PluginRegistry& plugins,
+                       const std::vector<std::string>& edits) {
   json document = parseJson(text, name);
   for (const std::string& edit : edits) applyEdit(document, edit);
   LoadedProject loaded;
   checkDocument(document, name, plugins, loaded.warnings);
   loaded.project = readDocument(document, plugins);
-  checkProject(loaded.project, name, plugins, loaded.warnings);
+  checkProject(loaded.project, name, plugins, loaded.warnings, loaded.problems);
   return loaded;
+}
+
+}  // namespace
+
+LoadedProject parseProject(const std::string& text, const std::string& name, const PluginRegistry& plugins,
+                           const std::vector<std::string>& edits) {
+  LoadedProject loaded = readText(text, name, plugins, edits);
+  if (!loaded.problems.empty()) throw InputError(loaded.problems.front().text);
+  return loaded;
+}
+
+LoadedProject readProject(const std::string& path, const PluginRegistry& plugins,
+                          const std::vector<std::string>& edits) {
+  return readText(readFile(path, kMaximumProjectBytes), path, plugins, edits);
 }
 
 LoadedProject loadProject(const std::string& path, const PluginRegistry& plugins,

@@ -19,6 +19,7 @@ struct ProjectMessage {
 struct LoadedProject {
   Project project;
   std::vector<ProjectMessage> warnings;
+  std::vector<ProjectMessage> problems;  ///< why no scene can be made of it: see readProject()
 };
 
 /// Reads and checks a project. Throws InputError with "file:/json/pointer: what is wrong" for the first thing wrong:
@@ -26,6 +27,10 @@ struct LoadedProject {
 /// references, plugins required and missing. Missing plugins in pluginsUsed only are warnings.
 /// `edits`: "json/pointer=value" pairs applied to the JSON before it is checked (--set).
 LoadedProject loadProject(const std::string& path, const PluginRegistry& plugins,
+                          const std::vector<std::string>& edits = {});
+/// The same for who can mend it: contradicting values, laws that fail, and matter that does not fit are told under
+/// `problems`, and the project is there as the file has it.
+LoadedProject readProject(const std::string& path, const PluginRegistry& plugins,
                           const std::vector<std::string>& edits = {});
 LoadedProject parseProject(const std::string& text, const std::string& name, const PluginRegistry& plugins,
                            const std::vector<std::string>& edits = {});

@@ -266,6 +266,8 @@ const ParameterSet* findSet(const Project& project, const Address& address);
 std::optional<Value> outsideValue(const Project& project, const Address& address);
 /// Sets it; where there was no gravity it points down. False, and nothing happens, for other addresses and types.
 bool setOutsideValue(Project& project, const Address& address, const Value& value);
+/// What a project says at an address: a value outside of the sets, or an explicit one. Nothing where a default holds.
+std::optional<Value> storedValue(const Project& project, const Address& address);
 /// Declarations of those of the scene; `models` are the ids of installed thermal models, `standard` the one that is
 /// meant where nothing names another.
 std::vector<api::ParameterDeclaration> sceneParameters(const std::vector<std::string>& models,

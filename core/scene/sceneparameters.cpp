@@ -76,6 +76,14 @@ std::optional<Value> outsideValue(const Project& project, const Address& address
   return project.solver.thermalModel.empty() ? std::string(kNoModel) : project.solver.thermalModel;
 }
 
+std::optional<Value> storedValue(const Project& project, const Address& address) {
+  if (std::optional<Value> outside = outsideValue(project, address)) return outside;
+  const ParameterSet* set = findSet(project, address);
+  if (!set) return std::nullopt;
+  const auto found = set->values.find(address.key);
+  return found == set->values.end() ? std::nullopt : std::optional(found->second);
+}
+
 bool setOutsideValue(Project& project, const Address& address, const Value& value) {
   const std::optional<Value> before = outsideValue(project, address);
   if (!before || before->index() != value.index()) return false;

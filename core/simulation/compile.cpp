@@ -7,6 +7,7 @@
 #include "core/plugin_host/registry.h"
 #include "core/simulation/declared.h"
 #include "core/simulation/lattice.h"
+#include "core/simulation/sceneproblem.h"
 
 #include <Eigen/Geometry>
 
@@ -81,8 +82,9 @@ void setFields(Spawn& spawn, const Body& body, const Vector3& centre, const api:
     if (!warped) continue;
     const double t = spawn.temperature + gradient.dot(r);
     if (!(t >= 1)) {
-      throw InputError("body '" + body.name + "': its temperature gradient would cool it to " + numberText(t) +
-                       " K; raise its temperature or lower the gradient");
+      throw SceneError("body '" + body.name + "': its temperature gradient would cool it to " + numberText(t) +
+                           " K; raise its temperature or lower the gradient",
+                       {Owner::Body, body.id, "temperature"});
     }
     spawn.temperatures.push_back(t);
     spawn.phases.push_back(birthPhase(asked, caloric, t));
@@ -224,7 +226,8 @@ Material compileMaterial(const Project& project, const SceneMaterial& source, co
       source.adheresTo ? namedInScene(project, *source.adheresTo) : namedByInstalled(project, material.adheresTo);
   for (const auto& [key, value] : source.properties.values) material.properties[key] = responseOf(value);
   if (const std::string problem = problemOf(material); !problem.empty()) {
-    throw InputError("material '" + source.id + "': " + problem);
+    const std::string key = problem.substr(0, problem.find_first_of(" :"));
+    throw SceneError("material '" + source.id + "': " + problem, {Owner::Material, source.id, key});
   }
   return material;
 }

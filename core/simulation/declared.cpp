@@ -324,34 +324,45 @@ std::string problemWith(const Project& project, const PluginRegistry* plugins, c
   auto material = source ? baseMaterial(*source, plugins) : std::nullopt;
   if (!material) return {};
   for (const auto& [key, changed] : source->properties.values) material->properties[key] = responseFrom(changed);
+  const std::string wrongBefore = problemOf(*material);
   material->properties[address.key] = responseFrom(value);
   const std::string problem = problemOf(*material), key = problem.substr(0, problem.find(':'));
   const int index = propertyIndex(key);
   if (index < 0) return problem;
+  // What was wrong before, of a project that came so, is mended value by value.
+  if (key != address.key && !wrongBefore.empty()) return {};
   return propertyCatalogue()[static_cast<size_t>(index)].label + problem.substr(key.size()) + ".";
+}
+
+std::vector<Address> parameterLists(const Project& project) {
+  std::vector<Address> lists;
+  const std::string property = propertyCatalogue().count > 0 ? propertyCatalogue()[0].key : "";
+  for (const Body& body : project.bodies) {
+    lists.push_back({Owner::Body, body.id, ""});
+    for (const BodyConstraint& constraint : body.constraints)
+      lists.push_back({Owner::Constraint, body.id, "", constraint.plugin});
+  }
+  for (const SceneMaterial& material : project.materials) {
+    lists.push_back({Owner::Material, material.id, property});
+    lists.push_back({Owner::Material, material.id, ""});
+    if (project.materials.size() > 1) lists.push_back({Owner::Material, material.id, kAdheresKey + material.id});
+  }
+  for (const Emitter& emitter : project.emitters) lists.push_back({Owner::Emitter, emitter.id, ""});
+  for (const Sink& sink : project.sinks) lists.push_back({Owner::Sink, sink.id, ""});
+  for (const SceneWall& wall : project.environment.walls) lists.push_back({Owner::Wall, wall.id, ""});
+  for (const Owner owner : {Owner::Scene, Owner::Environment, Owner::Solver, Owner::Thermal})
+    lists.push_back({owner, "", ""});
+  for (const UsedHeatSource& source : project.solver.heatSources)
+    lists.push_back({Owner::HeatSource, source.plugin, ""});
+  return lists;
 }
 
 std::vector<Address> allAddresses(const Project& project, const PluginRegistry* plugins) {
   std::vector<Address> addresses;
-  const auto add = [&](const Address& any) {  // any key among them
+  for (const Address& any : parameterLists(project)) {
     const api::ParameterList list = declarationsOf(project, plugins, any);
     for (size_t i = 0; i < list.count; ++i) addresses.push_back({any.owner, any.id, list[i].key, any.plugin});
-  };
-  const std::string property = propertyCatalogue().count > 0 ? propertyCatalogue()[0].key : "";
-  for (const Body& body : project.bodies) {
-    add({Owner::Body, body.id, ""});
-    for (const BodyConstraint& constraint : body.constraints) add({Owner::Constraint, body.id, "", constraint.plugin});
   }
-  for (const SceneMaterial& material : project.materials) {
-    add({Owner::Material, material.id, property});
-    add({Owner::Material, material.id, ""});
-    if (project.materials.size() > 1) add({Owner::Material, material.id, kAdheresKey + material.id});
-  }
-  for (const Emitter& emitter : project.emitters) add({Owner::Emitter, emitter.id, ""});
-  for (const Sink& sink : project.sinks) add({Owner::Sink, sink.id, ""});
-  for (const SceneWall& wall : project.environment.walls) add({Owner::Wall, wall.id, ""});
-  for (const Owner owner : {Owner::Scene, Owner::Environment, Owner::Solver, Owner::Thermal}) add({owner, "", ""});
-  for (const UsedHeatSource& source : project.solver.heatSources) add({Owner::HeatSource, source.plugin, ""});
   return addresses;
 }
 

@@ -9,6 +9,7 @@
 #include "core/simulation/edits.h"
 #include "core/simulation/lattice.h"
 #include "core/simulation/measure.h"
+#include "core/simulation/rules.h"
 #include "core/simulation/sceneproblem.h"
 
 #include <algorithm>
@@ -149,6 +150,8 @@ void Engine::Impl::prepare(double livingSpacing, const std::vector<std::string>&
 
 void Engine::Impl::build() {
   const double count = particleCount(project);
+  requireRelations(project, plugins);
+  requirePeriods(project);
   requireRoom(count);
   prepare(compileSettings(project).spacing, {});
   const bool regions = std::any_of(project.probes.begin(), project.probes.end(),
@@ -406,6 +409,7 @@ FrameStats Engine::stats() const {
   return stats;
 }
 
+uint64_t Engine::revision() const { return m->revision; }
 const Project& Engine::project() const { return m->project; }
 void Engine::show(const std::vector<std::string>& names) { m->shown = names; }
 const Solver& Engine::solver() const { return *m->solver; }

@@ -22,7 +22,7 @@ class StateWriter;
 class Engine {
  public:
   /// At the state that the project holds; where it cannot go on from there, or holds none, at its start. Throws
-  /// InputError when the project cannot be compiled (contradicting values, too many particles, ...).
+  /// SceneError when no scene can be made of the project (contradicting values, too many particles, ...).
   Engine(const Project& project, PluginRegistry& plugins);
   ~Engine();
 
@@ -81,6 +81,7 @@ class Engine {
   void show(const std::vector<std::string>& names);
   SnapshotPtr snapshot() const;
   FrameStats stats() const;
+  uint64_t revision() const;  ///< Snapshot::revision
   const Project& project() const;
   const Solver& solver() const;
   const ParticleStore& particles() const;

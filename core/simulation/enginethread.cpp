@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/simulation/enginethread.h"
 
-#include "core/plugin_host/registry.h"
 #include "core/simulation/commandqueue.h"
 #include "core/simulation/engine.h"
+#include "core/simulation/failure.h"
 #include "core/simulation/framehistory.h"
 #include "core/solver/solver.h"
 
@@ -11,11 +11,10 @@
 #include <chrono>
 #include <condition_variable>
 #include <deque>
-#include <exception>
 #include <mutex>
-#include <new>
 #include <optional>
 #include <thread>
+#include <utility>
 
 // Why a thread with a queue: the interface must never wait for a step. Commands are values that are applied between
 // frames, in order; what the interface reads (snapshot, history, clock) is copied out under a mutex that is held for
@@ -31,19 +30,6 @@ constexpr StepFlags kPausing = kTakenBack | static_cast<StepFlags>(StepFlag::Plu
 /// Frames without a flag after which what was reported is over, and would be reported again.
 constexpr int kQuiet = 60;
 constexpr size_t kMostEvents = 256;
-
-/// What the exception at hand says.
-std::string currentProblem() {
-  try {
-    throw;
-  } catch (const std::bad_alloc&) {
-    return "there is not enough memory for it";
-  } catch (const std::exception& error) {
-    return error.what();
-  } catch (...) {
-    return "an exception that is no std::exception";
-  }
-}
 
 double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
@@ -68,20 +54,22 @@ struct EngineThread::Impl {
   void open(const Opening& opening);
   void publish(SnapshotPtr snapshot);
   void publishEdits();
-  void notify(EngineEvent::Kind kind, StepFlags flags, std::string message);
+  void notify(EngineEvent event);  // gives it its number
   void tellOf(const StepReport& report);
   /// Kind and flags of what was reported last; Settled when that was nothing.
   EngineEvent standing();
   void settle();
-  /// Tells of the exception at hand. Never calls the engine, which may be what failed.
-  void fail(EngineEvent::Kind kind, StepFlags flags = 0);
-  void refuse();  ///< tells of an edit's exception at hand
+  /// What was reported of one run is over with the next.
+  void follow(uint64_t revision);
+  /// Tells of what failed. Never calls the engine, which may be just that.
+  void fail(EngineEvent event);
+  void refuse(const EngineEvent& refusal);
   void halt();
   void pace();
   bool frameIsDue(double ahead = 0);
-  /// Makes an edit; what cannot be done is reported, and the scene stays as it was.
+  /// Makes an edit. Returns what is to be reported of one that cannot be made: the scene then stays as it was.
   template <class Action>
-  void edit(Action action);
+  std::optional<EngineEvent> edit(Action action);
   void editAll(const ParameterBatch& batch);
   void look(const Command& command);
   void answer(const Question& question);
@@ -90,8 +78,9 @@ struct EngineThread::Impl {
   std::function<void()> published;
   // Engine thread only.
   std::unique_ptr<Engine> engine;
-  StepFlags reported = 0;  // flags that were reported and have been raised since
-  int quiet = 0;           // frames without a flag
+  StepFlags reported = 0;   // flags that were reported and have been raised since
+  int quiet = 0;            // frames without a flag
+  uint64_t reportedOf = 0;  // Engine::revision() of what was reported
   std::stop_token stopping;
   bool edited = false;  // since the last snapshot
   double snapshotSeconds = 0;
@@ -127,8 +116,9 @@ void EngineThread::Impl::run(const std::stop_token& stop) {
     try {
       turn();
     } catch (...) {
+      const EngineEvent failure = failureAtHand(EngineEvent::Kind::Stopped);
       halt();
-      fail(EngineEvent::Kind::Stopped);
+      fail(failure);
     }
   }
 }
@@ -165,7 +155,7 @@ void EngineThread::Impl::workOff() {
                command && std::holds_alternative<ShowFields>(*command)) {
       look(*command);
     } else if (command) {
-      edit([&] { engine->apply(*command); });
+      if (const auto refusal = edit([&] { engine->apply(*command); })) refuse(*refusal);
     } else if (const auto* opening = std::get_if<Opening>(&*entry)) {
       open(*opening);
     } else if (const auto* question = std::get_if<Question>(&*entry)) {
@@ -214,10 +204,11 @@ void EngineThread::Impl::halt() {
   playing = false;
 }
 
-void EngineThread::Impl::notify(EngineEvent::Kind kind, StepFlags flags, std::string message) {
+void EngineThread::Impl::notify(EngineEvent event) {
   const std::lock_guard lock(mutex);
   if (events.size() == kMostEvents) events.pop_front();
-  events.push_back({eventCount++, kind, flags, std::move(message)});
+  event.number = eventCount++;
+  events.push_back(std::move(event));
 }
 
 EngineEvent EngineThread::Impl::standing() {
@@ -228,14 +219,18 @@ EngineEvent EngineThread::Impl::standing() {
 void EngineThread::Impl::settle() {
   reported = 0;
   quiet = 0;
-  if (standing().kind != EngineEvent::Kind::Settled) notify(EngineEvent::Kind::Settled, 0, {});
+  if (standing().kind != EngineEvent::Kind::Settled) notify({0, EngineEvent::Kind::Settled, 0, {}});
+}
+
+void EngineThread::Impl::follow(uint64_t revision) {
+  if (std::exchange(reportedOf, revision) != revision) settle();
 }
 
 /// A flag may be raised in every frame, or in every third: reported once, it is reported again after a quiet second
 /// only.
 void EngineThread::Impl::tellOf(const StepReport& report) {
   quiet = report.flags ? 0 : std::min(quiet + 1, kQuiet + 1);
-  if (report.flags & (~reported | kPausing)) notify(EngineEvent::Kind::Step, report.flags, report.message);
+  if (report.flags & (~reported | kPausing)) notify({0, EngineEvent::Kind::Step, report.flags, report.message});
   reported |= report.flags;
   if (quiet != kQuiet) return;
   reported = 0;
@@ -246,7 +241,7 @@ void EngineThread::Impl::tellOf(const StepReport& report) {
 void EngineThread::Impl::publish(SnapshotPtr snapshot) {
   edited = false;
   const bool fresh = !newest || newest->revision != snapshot->revision;
-  if (fresh) settle();  // of a run that is over
+  follow(snapshot->revision);
   {
     const std::lock_guard lock(mutex);
     if (fresh) {
@@ -261,31 +256,25 @@ void EngineThread::Impl::publish(SnapshotPtr snapshot) {
   if (published) published();
 }
 
-void EngineThread::Impl::fail(EngineEvent::Kind kind, StepFlags flags) {
-  notify(kind, flags, currentProblem());
+void EngineThread::Impl::fail(EngineEvent event) {
+  notify(std::move(event));
   if (published) published();
 }
 
-void EngineThread::Impl::refuse() {
-  try {
-    throw;
-  } catch (const PluginError&) {
-    halt();
-    fail(EngineEvent::Kind::Refused, static_cast<StepFlags>(StepFlag::PluginFault));
-  } catch (...) {
-    fail(EngineEvent::Kind::Refused);
-  }
+void EngineThread::Impl::refuse(const EngineEvent& refusal) {
+  if (refusal.flags) halt();
+  fail(refusal);
 }
 
 template <class Action>
-void EngineThread::Impl::edit(Action action) {
-  if (!engine) return;
+std::optional<EngineEvent> EngineThread::Impl::edit(Action action) {
+  if (!engine) return std::nullopt;
   const auto start = Clock::now();
   const uint64_t tables = engine->bakedTables();
   try {
     action();
   } catch (...) {
-    return refuse();
+    return failureAtHand(EngineEvent::Kind::Refused);
   }
   edited = true;
   {
@@ -294,30 +283,29 @@ void EngineThread::Impl::edit(Action action) {
     cost.baked += engine->bakedTables() - tables;
     cost.seconds += secondsSince(start);
   }
+  follow(engine->revision());  // before edits that wait behind a reset are refused
   // An edit that works mends a refusal and what made the scene pause; flags of running steps end by themselves.
   const EngineEvent last = standing();
   if (!(last.flags & ~kPausing)) settle();
+  return std::nullopt;
 }
 
+/// Those that are refused together may be good alone; each that is not is reported.
 void EngineThread::Impl::editAll(const ParameterBatch& batch) {
-  edit([&] {
-    try {
-      engine->setParameters(batch);
-    } catch (...) {
-      if (batch.size() == 1) throw;
-      // Those that are refused together may be good alone; of those that are not, the last one is reported.
-      edited = true;
-      std::exception_ptr refusal;
-      for (const SetParameter& one : batch) {
-        try {
-          engine->setParameters({&one, 1});
-        } catch (...) {
-          refusal = std::current_exception();
-        }
-      }
-      if (refusal) std::rethrow_exception(refusal);
-    }
-  });
+  const std::optional<EngineEvent> together = edit([&] { engine->setParameters(batch); });
+  if (!together) return;
+  std::vector<EngineEvent> refusals;
+  for (const SetParameter& one : batch) {
+    std::optional<EngineEvent> refusal = together;
+    if (batch.size() > 1) refusal = edit([&] { engine->setParameters({&one, 1}); });
+    if (!refusal) continue;
+    if (together->flags) refusal->message = together->message;  // a plugin says what is wrong but once
+    refusal->culprit = one.address;
+    refusal->asked = one.value;
+    refusal->kept = storedValue(engine->project(), one.address);
+    refusals.push_back(std::move(*refusal));
+  }
+  for (const EngineEvent& refusal : refusals) refuse(refusal);
 }
 
 /// No edit: what was refused stays refused.
@@ -334,7 +322,7 @@ void EngineThread::Impl::answer(const Question& question) {
   try {
     question(*engine);
   } catch (...) {
-    refuse();
+    refuse(failureAtHand(EngineEvent::Kind::Refused));
   }
 }
 
@@ -348,12 +336,13 @@ void EngineThread::Impl::open(const Opening& opening) {
     auto next = std::make_unique<Engine>(*opening.project, plugins);
     engine = std::move(next);
   } catch (...) {
+    const EngineEvent failure = failureAtHand(EngineEvent::Kind::NotOpened);
     engine.reset();
     halt();
     auto empty = std::make_shared<Snapshot>();
     empty->revision = nextRevision();
     publish(std::move(empty));
-    fail(EngineEvent::Kind::NotOpened);
+    fail(failure);
     return;
   }
   {
@@ -364,7 +353,7 @@ void EngineThread::Impl::open(const Opening& opening) {
     measuredTime = 0;
   }
   publishEdits();
-  for (const std::string& remark : engine->remarks()) notify(EngineEvent::Kind::Remark, 0, remark);
+  for (const std::string& remark : engine->remarks()) notify({0, EngineEvent::Kind::Remark, 0, remark});
   if (!engine->remarks().empty() && published) published();
 }
 

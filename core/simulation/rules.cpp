@@ -4,6 +4,7 @@
 #include "core/matter/material.h"
 #include "core/plugin_host/registry.h"
 #include "core/simulation/declared.h"
+#include "core/simulation/sceneproblem.h"
 
 namespace ps {
 namespace {
@@ -71,6 +72,18 @@ std::string problemOfRelations(const Project& project, const PluginRegistry* plu
   const std::optional<Breach> breach =
       firstBreach(declarationsOf(project, plugins, address), values, find, true, address.key);
   return breach ? std::string(find(breach->key)->label) + ": " + breach->sentence + "." : std::string();
+}
+
+void requireRelations(const Project& project, const PluginRegistry& plugins) {
+  for (const Address& owner : parameterLists(project)) {
+    const api::ParameterList list = declarationsOf(project, &plugins, owner);
+    if (list.first == propertyCatalogue().first) continue;
+    const DeclarationOfKey find = declarationsAround(project, &plugins, owner);
+    const std::optional<Breach> breach = firstBreach(list, valuesAround(project, &plugins, owner), find, true);
+    if (!breach) continue;
+    const std::string whose = owner.id.empty() ? std::string() : " of '" + owner.id + "'";
+    throw SceneError(find(breach->key)->label + whose + ": " + breach->sentence, sibling(owner, breach->key));
+  }
 }
 
 }  // namespace ps

@@ -25,5 +25,8 @@ std::string adviceOf(const Project& project, const PluginRegistry* plugins, cons
 /// 25 °C." Those of a material's properties are found by problemOf(Material).
 std::string problemOfRelations(const Project& project, const PluginRegistry* plugins, const Address& address,
                                const Value& value);
+/// Throws SceneError for the first relation that must hold in a project and does not. Those of a material's properties
+/// are found when its table is made.
+void requireRelations(const Project& project, const PluginRegistry& plugins);
 
 }  // namespace ps

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/simulation/sceneproblem.h"
 
-#include "core/base/error.h"
 #include "core/solver/settings.h"
 
 #include <algorithm>
@@ -34,7 +33,8 @@ std::string periodProblem(const Project& project, double spacing, double reach) 
     const double edge = environment.boundsMaximum[a] - environment.boundsMinimum[a];
     if (!environment.periodic[a] || edge >= least) continue;
     return std::string("the scene repeats itself along ") + "xyz"[a] + " every " + numberText(edge) +
-           " m; with this reach of its particles that must be " + numberText(least) + " m or more";
+           " m; with this reach of its particles that must be " + numberText(least) +
+           " m or more; lower the particle spacing";
   }
   return {};
 }
@@ -74,7 +74,13 @@ std::string problemOfSceneWith(const Project& project, const Address& address, c
 }
 
 void requireRoom(double particles) {
-  if (particles > kMaximumParticles) throw InputError(tooMany(particles));
+  if (particles > kMaximumParticles) throw SceneError(tooMany(particles), kSpacing);
+}
+
+void requirePeriods(const Project& project) {
+  const double spacing = solverNumber(project, kSpacing), reach = solverNumber(project, kReach);
+  const std::string problem = periodProblem(project, spacing, reach);
+  if (!problem.empty()) throw SceneError(problem, kSpacing);
 }
 
 }  // namespace ps

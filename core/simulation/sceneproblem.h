@@ -1,16 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "core/base/error.h"
 #include "core/scene/project.h"
 
 #include <string>
+#include <utility>
 
 namespace ps {
+
+/// No scene can be made of a project. The message says what is wrong, where, and what to do.
+class SceneError : public InputError {
+ public:
+  SceneError(const std::string& what, Address wrong) : InputError(what), culprit(std::move(wrong)) {}
+  const Address culprit;  ///< whose value has to change
+};
 
 /// "" or why no scene could be made of a project in which one parameter has another value that is in its range: too
 /// many particles, a periodic box too small for their reach, a temperature gradient that leads below 1 K. Found without
 /// building, and only what that parameter can bring about: it may be asked of every value of a drag.
 std::string problemOfSceneWith(const Project& project, const Address& address, const Value& value);
-/// Throws InputError for more particles than a scene may have.
+/// Throws SceneError for more particles than a scene may have.
 void requireRoom(double particles);
+/// Throws SceneError where the reach of the particles is too long for a scene that repeats itself.
+void requirePeriods(const Project& project);
 
 }  // namespace ps

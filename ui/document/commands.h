@@ -21,6 +21,8 @@ class ParameterCommand : public QUndoCommand {
   void redo() override;
   int id() const override { return 1; }
   bool mergeWith(const QUndoCommand* other) override;
+  const Address& address() const { return m_address; }
+  int gesture() const { return m_gesture; }
 
  private:
   Document& m_document;

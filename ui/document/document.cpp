@@ -111,6 +111,16 @@ QString Document::setParameter(const Address& address, const Value& value) {
   return {};
 }
 
+/// Merges with the command that set it, were it the one of a drag, so that no redo sets it again.
+void Document::takeBack(const Address& address, const Value& refused, const std::optional<Value>& kept) {
+  const std::optional<Value> now = storedValue(m_project, address);
+  if (now != refused || now == kept) return;
+  const auto* last = dynamic_cast<const ParameterCommand*>(m_undo.command(m_undo.index() - 1));
+  const bool own = last && last->address() == address;
+  m_undo.push(new ParameterCommand(*this, address, now, kept, own ? last->gesture() : ++m_gesture,
+                                   QStringLiteral("return of a refused value")));
+}
+
 const Body* Document::body(const std::string& id) const {
   const auto found =
       std::find_if(m_project.bodies.begin(), m_project.bodies.end(), [&](const Body& b) { return b.id == id; });

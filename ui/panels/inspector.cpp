@@ -41,6 +41,7 @@ Inspector::Inspector(Session& session, Selection& selection, QObject* parent)
   connect(&session, &Session::totalsDue, this, [this] {
     if (const SnapshotPtr snapshot = m_session.snapshot()) setSnapshot(*snapshot);
   });
+  connect(&session, &Session::happened, this, [this](const EngineEvent& event) { m_notes.hear(event); });
   connect(&selection, &Selection::changed, this, [this, &selection] {
     if (!selection.empty()) setBody(selection.body());
   });
@@ -400,9 +401,7 @@ ParameterPanel* Inspector::panelFor(const Address& address) {
     setBody(address.id);
     return m_body;
   }
-  const bool ofSolver = address.owner == Owner::Solver || address.owner == Owner::Thermal ||
-                        (address.owner == Owner::Scene && address.key == "thermal_model");
-  return ofSolver ? m_solver : m_scene;
+  return m_solver->row(QString::fromStdString(address.text())) ? m_solver : m_scene;
 }
 
 }  // namespace ps

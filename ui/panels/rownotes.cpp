@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/panels/rownotes.h"
 
+#include "core/simulation/events.h"
 #include "core/simulation/rules.h"
 #include "ui/document/document.h"
 #include "ui/rows/parameterpanel.h"
@@ -33,6 +34,7 @@ void RowNotes::clear() {
   m_limits.clear();
   m_made.clear();
   m_shown.clear();
+  m_culprit.clear();
 }
 
 void RowNotes::setSnapshot(const Snapshot& snapshot) {
@@ -71,6 +73,20 @@ void RowNotes::addAdvice(std::map<QString, Note>& notes) const {
   }
 }
 
+void RowNotes::hear(const EngineEvent& event) {
+  const QString key = event.culprit ? QString::fromStdString(event.culprit->text()) : QString();
+  const QString text = sentence(QString::fromStdString(event.message));
+  if (event.kind == EngineEvent::Kind::Refused && !key.isEmpty()) {
+    for (ParameterPanel* panel : m_panels) panel->setError(key, text);
+    return;
+  }
+  if (event.kind != EngineEvent::Kind::NotOpened && event.kind != EngineEvent::Kind::Settled) return;
+  for (ParameterPanel* panel : m_panels) panel->setError(m_culprit, {});
+  m_culprit = key;
+  m_problem = text;
+  show();
+}
+
 void RowNotes::addLimits(std::map<QString, Note>& notes) const {
   const double substeps = numberOf(m_document.project().solver.parameters, solverParameters(), "substeps");
   for (const Limit& limit : m_limits) {
@@ -101,6 +117,8 @@ void RowNotes::show() {
     for (const auto& [key, note] : notes) panel->setLimit(key, note.text, note.delivered);
   }
   m_shown = std::move(notes);
+  if (m_culprit.isEmpty()) return;
+  for (ParameterPanel* panel : m_panels) panel->setError(m_culprit, m_problem);
 }
 
 }  // namespace ps

@@ -13,6 +13,7 @@ namespace ps {
 
 class Document;
 class ParameterPanel;
+struct EngineEvent;
 
 /// The notes under rows: what a value should be and is not, what the solver cannot reach, what waits for the next
 /// reset.
@@ -23,6 +24,8 @@ class RowNotes {
   void clear();  ///< another project
   void setSnapshot(const Snapshot& snapshot);
   void onChanged(const ParameterChanged& change);
+  /// What keeps the scene from being made stands under its row until there is a scene.
+  void hear(const EngineEvent& event);
   /// Says all of them anew: substeps change what is reached, and rows may have been made anew.
   void show();
 
@@ -46,6 +49,7 @@ class RowNotes {
   uint64_t m_revision = 0;
   std::map<std::string, Value> m_made;  ///< by address: with what the present matter was made, where that has changed
   std::map<QString, Note> m_shown;
+  QString m_culprit, m_problem;  ///< key of the row, and the sentence under it
 };
 
 }  // namespace ps

@@ -50,7 +50,7 @@ Project emptyProject(const PluginRegistry* plugins) {
 
 /// With its list of required plugins set aside while it is checked, and kept for the next save.
 LoadedProject loadWithoutRequired(const QString& path, const PluginRegistry& plugins) {
-  LoadedProject loaded = loadProject(path.toStdString(), plugins, {"pluginsRequired=[]"});
+  LoadedProject loaded = readProject(path.toStdString(), plugins, {"pluginsRequired=[]"});
   QFile file(path);
   if (!file.open(QIODevice::ReadOnly)) return loaded;
   for (const QJsonValue& id :
@@ -96,14 +96,16 @@ void DocumentFiles::load(const QString& path, const std::optional<AutosavedSessi
     LoadedProject loaded;
     QString problem;
     try {
-      loaded = anyway ? loadWithoutRequired(path, *plugins) : loadProject(path.toStdString(), *plugins);
+      loaded = anyway ? loadWithoutRequired(path, *plugins) : readProject(path.toStdString(), *plugins);
     } catch (const std::exception& error) {
       problem = QString::fromUtf8(error.what());
     }
+    std::vector<ProjectMessage> messages = std::move(loaded.problems);  // it opens nevertheless, to be mended
+    messages.insert(messages.end(), loaded.warnings.begin(), loaded.warnings.end());
     const double seconds = static_cast<double>(clock.elapsed()) / 1000;
     if (session && session->copy.isEmpty()) loaded.project.view = asSeen(loaded.project.view, session->view);
     QMetaObject::invokeMethod(this, [this, request, path, session, problem, seconds,
-                                     project = std::move(loaded.project), messages = std::move(loaded.warnings)] {
+                                     project = std::move(loaded.project), messages = std::move(messages)] {
       if (request != m_request) return;
       if (!problem.isEmpty()) {
         Q_EMIT openFailed(path, problem);

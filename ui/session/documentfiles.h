@@ -14,7 +14,7 @@ struct AutosavedSession;
 struct ReplacedWork;
 
 /// Opens and saves a document's project on a worker thread: the interface goes on meanwhile, and a project that cannot
-/// be read leaves the present one as it is. Results come as signals on the thread of this object. What opens a project
+/// be read leaves the present one as it is; one of which no scene can be made opens, to be mended. Results come as signals on the thread of this object. What opens a project
 /// needs the document's plugins.
 class DocumentFiles : public QObject {
   Q_OBJECT

@@ -37,17 +37,20 @@ SceneLink::SceneLink(Document& document, EngineThread& engine, QObject* parent)
 SceneLink::~SceneLink() = default;
 
 void SceneLink::onChanged(const ChangeEvent& event) {
+  if (m_taking) return;
   forgetMatter();
   const auto* stroke = std::get_if<StrokeChanged>(&event);
   if (stroke) remember(*stroke);
   if (const auto* opened = std::get_if<ProjectOpened>(&event)) {
     m_strokes.clear();
     ++m_run;
-    m_engine.open(m_document.project(), opened->play);
+    m_play = opened->play;
+    m_builtAt = m_document.changeCount();
+    m_engine.open(m_document.project(), m_play);
   } else if (const auto* parameter = std::get_if<ParameterChanged>(&event)) {
     // What a parameter falls back to is the engine's to work out, from the plugins: it may be a curve of another value.
     if (isBroken()) {
-      rebuild(false);
+      rebuild(m_play);
     } else if (parameter->value) {
       m_engine.setParameter(parameter->address, *parameter->value);
     } else {
@@ -59,7 +62,7 @@ void SceneLink::onChanged(const ChangeEvent& event) {
     onPort(*port);
   } else if (std::holds_alternative<MaterialsChanged>(event) || std::holds_alternative<WallsChanged>(event)) {
     if (isBroken()) {
-      rebuild(false);
+      rebuild(m_play);
     } else {
       pushProject();
     }
@@ -72,7 +75,7 @@ void SceneLink::onChanged(const ChangeEvent& event) {
 
 void SceneLink::onBody(const BodyChanged& event) {
   if (isBroken()) {
-    rebuild(false);
+    rebuild(m_play);
     return;
   }
   const Body* body = m_document.body(event.id);
@@ -86,7 +89,7 @@ void SceneLink::onBody(const BodyChanged& event) {
 
 void SceneLink::onPort(const PortChanged& event) {
   if (isBroken()) {
-    rebuild(false);
+    rebuild(m_play);
     return;
   }
   const bool gone = event.matter && !m_document.emitter(event.id);
@@ -131,7 +134,7 @@ void SceneLink::remember(const StrokeChanged& event) {
 
 void SceneLink::onStroke(const StrokeChanged& event) {
   if (isBroken()) {
-    rebuild(false);
+    rebuild(m_play);
   } else if (event.live) {
     pushProject();
   } else if (event.done) {
@@ -155,7 +158,7 @@ std::vector<NameMatter> SceneLink::namedMatter() {
 
 void SceneLink::reset() {
   if (isBroken()) {
-    rebuild(false);
+    rebuild(m_play);
   } else {
     ++m_run;
     m_engine.apply(Reset{namedMatter()});
@@ -188,10 +191,21 @@ bool SceneLink::isBroken() const {
 
 void SceneLink::rebuild(bool play) {
   ++m_run;
+  m_builtAt = m_document.changeCount();
   Project start = m_document.project();
   start.state = nullptr;  // it is matter at the start that cells name
   m_engine.open(start, play);
   for (NameMatter& named : namedMatter()) m_engine.apply(std::move(named));
+}
+
+void SceneLink::hear(const EngineEvent& event) {
+  // Edits that came while the engine tried met no scene.
+  if (event.kind == EngineEvent::Kind::NotOpened && isBroken() && m_builtAt != m_document.changeCount())
+    rebuild(m_play);
+  if (event.kind != EngineEvent::Kind::Refused || !event.culprit || !event.asked) return;
+  m_taking = true;
+  m_document.takeBack(*event.culprit, *event.asked, event.kept);
+  m_taking = false;
 }
 
 void SceneLink::paint(const StrokeRecord& stroke, std::shared_ptr<const Body> body,

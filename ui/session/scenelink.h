@@ -15,6 +15,7 @@ namespace ps {
 
 class Document;
 class EngineThread;
+struct EngineEvent;
 
 /// Carries a document's changes to the engine's thread, and the live pieces of a stroke past the document. Commands act
 /// between frames, in order; what is to be remembered of particles (ids, fields) the engine keeps by name.
@@ -31,9 +32,11 @@ class SceneLink : public QObject {
   /// What strokes had made when a state was kept: after a return to it, undoing them takes just that.
   void keepNames(const std::shared_ptr<const ProjectState>& state, MatterIds named);
   /// The engine could not build the scene: its snapshot is empty, and an event says why. Each change of the scene,
-  /// reset() and rebuild() try again.
+  /// reset() and rebuild() try again; made by a change, it plays if the project was opened to play.
   bool isBroken() const;
   void rebuild(bool play);
+  /// What the engine's thread has to say, event by event: a value that was refused leaves the document.
+  void hear(const EngineEvent& event);
   /// A piece of a stroke in the making: `body` is the painted body as it was before, `cells` are new.
   void paint(const StrokeRecord& stroke, std::shared_ptr<const Body> body, std::vector<std::array<int, 3>> cells);
   /// Removes what is in the cells now, except matter of locked bodies.
@@ -58,6 +61,9 @@ class SceneLink : public QObject {
 
   Document& m_document;
   EngineThread& m_engine;
+  bool m_play = false;     ///< once there is a scene: what the opened project asks for
+  uint64_t m_builtAt = 0;  ///< Document::changeCount() of what the engine was given as a whole last
+  bool m_taking = false;   ///< a refused value out of the document: the engine has the other one
   struct KnownMatter {
     std::weak_ptr<const MatterKey> matter;
     uint64_t run = 0;

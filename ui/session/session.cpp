@@ -114,6 +114,7 @@ void Session::tellValues() {
   if (!m_engine) return;
   for (const EngineEvent& event : m_engine->events(m_eventsRead)) {
     m_eventsRead = event.number + 1;
+    m_link->hear(event);
     Q_EMIT happened(event);
   }
   Q_EMIT valuesDue();

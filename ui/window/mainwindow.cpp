@@ -203,8 +203,13 @@ void MainWindow::connectParts() {
   connect(&m_session->files(), &DocumentFiles::opened, this, &MainWindow::updateTitle);
   connect(&m_session->files(), &DocumentFiles::saved, this, &MainWindow::updateTitle);
   connect(m_session.get(), &Session::projectShown, this, [this] {
-    if (!m_session->isBroken() || !m_options.exitOnBadProject) Q_EMIT projectShown();
+    if (m_session->isBroken() && m_options.exitOnBadProject) {
+      Q_EMIT startFailed(notice()->text());
+    } else {
+      Q_EMIT projectShown();
+    }
   });
+  connect(m_notices, &Notices::rowWanted, this, [this](const Address& address) { revealParameter(address); });
   connect(m_files, &FileActions::startFailed, this, &MainWindow::startFailed);
   connect(m_layout, &WindowLayout::themeChanged, m_inspector, &Inspector::rebuild);
   connect(m_layout, &WindowLayout::themeChanged, outliner(), &Outliner::rebuild);

@@ -32,7 +32,7 @@ void Notices::onEvent(const EngineEvent& event) {
   } else if (event.kind == EngineEvent::Kind::Remark) {
     showRemark(failureText(event));
   } else if (event.kind == EngineEvent::Kind::NotOpened) {
-    showBroken(QString::fromStdString(event.message));
+    showBroken(event);
   } else {
     showFailure(event);
   }
@@ -42,7 +42,9 @@ void Notices::showFailure(const EngineEvent& event) {
   const FailureText failure = failureText(event);
   const auto level = event.kind == EngineEvent::Kind::Stopped || (event.flags & kTakenBack) ? MessageLevel::Error
                                                                                             : MessageLevel::Warning;
-  const QString text = failure.title + QLatin1Char(' ') + failure.text;
+  const bool takenBack = event.kind == EngineEvent::Kind::Refused && event.culprit;
+  const QString more = takenBack ? sentence(failure.text) + QStringLiteral(" The value before holds.") : failure.text;
+  const QString text = failure.title + QLatin1Char(' ') + more;
   m_session.log().add(level, QStringLiteral("Simulation"), text);
   if (m_bar.isVisible() && m_bar.text() == text) return;  // one of its buttons may be under the pointer
   std::vector<NoticeBar::Button> buttons;
@@ -51,11 +53,11 @@ void Notices::showFailure(const EngineEvent& event) {
     buttons.push_back({QStringLiteral("Add sides"), [this] {
                          if (QAction* walls = m_actions.find(QStringLiteral("sketch.walls"))) walls->trigger();
                        }});
-  } else if (m_session.document().undoStack().canUndo()) {
+  } else if (!takenBack && m_session.document().undoStack().canUndo()) {
     buttons.push_back({QStringLiteral("Undo"), [this] { m_session.document().undoStack().undo(); }});
   }
-  buttons.push_back({QStringLiteral("Reset"), [this] { m_session.reset(); }});
-  m_bar.show(kStep, level, failure.title, failure.text, std::move(buttons));
+  if (!takenBack) buttons.push_back({QStringLiteral("Reset"), [this] { m_session.reset(); }});
+  m_bar.show(kStep, level, failure.title, more, std::move(buttons));
 }
 
 void Notices::showRemark(const FailureText& remark) {
@@ -63,10 +65,13 @@ void Notices::showRemark(const FailureText& remark) {
   m_bar.show(QStringLiteral("open"), MessageLevel::Warning, remark.title, remark.text);
 }
 
-void Notices::showBroken(const QString& problem) {
+void Notices::showBroken(const EngineEvent& event) {
   const QString title = QStringLiteral("“%1” cannot run as it is.").arg(m_session.document().title());
-  const QString text = sentence(problem) + QStringLiteral(" It is built anew with each change.");
+  const QString text = sentence(QString::fromStdString(event.message)) +
+                       QStringLiteral(" It stands still until a change makes it possible.");
   std::vector<NoticeBar::Button> buttons;
+  if (event.culprit)
+    buttons.push_back({QStringLiteral("Show it"), [this, culprit = *event.culprit] { Q_EMIT rowWanted(culprit); }});
   if (m_session.document().undoStack().canUndo())
     buttons.push_back({QStringLiteral("Undo"), [this] { m_session.document().undoStack().undo(); }});
   buttons.push_back({QStringLiteral("Open another…"), [this] {

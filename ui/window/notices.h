@@ -9,6 +9,7 @@ namespace ps {
 class Actions;
 class NoticeBar;
 class Session;
+struct Address;
 struct EngineEvent;
 struct FailureText;
 
@@ -23,11 +24,14 @@ class Notices : public QObject {
   /// Into the log, and over the view where it is a warning or worse.
   void message(MessageLevel level, const QString& where, const QString& text);
 
+ Q_SIGNALS:
+  void rowWanted(const ps::Address& address);  ///< "Show it"
+
  private:
   void onEvent(const EngineEvent& event);
   void showFailure(const EngineEvent& event);
   void showRemark(const FailureText& remark);
-  void showBroken(const QString& problem);  ///< the scene could not be built
+  void showBroken(const EngineEvent& event);  ///< the scene could not be built
   Session& m_session;
   NoticeBar& m_bar;
   const Actions& m_actions;

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/simulation/failure.h"
+
+#include "core/plugin_host/registry.h"
+#include "core/simulation/sceneproblem.h"
+
+#include <exception>
+#include <new>
+
+namespace ps {
+
+EngineEvent failureAtHand(EngineEvent::Kind kind) {
+  EngineEvent event;
+  event.kind = kind;
+  try {
+    throw;
+  } catch (const SceneError& error) {
+    event.message = error.what();
+    event.culprit = error.culprit;
+  } catch (const PluginError& error) {
+    event.message = error.what();
+    event.flags = static_cast<StepFlags>(StepFlag::PluginFault);
+  } catch (const std::bad_alloc&) {
+    event.message = "there is not enough memory for it";
+  } catch (const std::exception& error) {
+    event.message = error.what();
+  } catch (...) {
+    event.message = "an exception that is no std::exception";
+  }
+  return event;
+}
+
+}  // namespace ps

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+// Values that cannot be, in the document and in the window: what is refused leaves the document, and a project of which
+// no scene can be made opens to be mended.
+#include "core/io/projectio.h"
+#include "core/plugin_host/registry.h"
+#include "core/simulation/engine.h"
+#include "core/simulation/enginethread.h"
+#include "tests/shared/scenes.h"
+#include "tests/ui/samplewindow.h"
+#include "ui/panels/inspector.h"
+#include "ui/rows/parameterpanel.h"
+#include "ui/session/documentfiles.h"
+#include "ui/session/scenelink.h"
+#include "ui/session/worker.h"
+#include "ui/window/dock.h"
+#include "ui/window/noticebar.h"
+
+#include <QtCore/QTemporaryDir>
+#include <QtWidgets/QPushButton>
+
+#include <chrono>
+#include <clocale>
+#include <thread>
+
+using namespace ps;
+
+namespace {
+
+Project scene() { return scenes::iceOnPlate(5, 370); }
+
+}  // namespace
+
+class TestMendingWindow : public SampleWindowTest {
+  Q_OBJECT
+ private Q_SLOTS:
+  void initTestCase() {
+    m_plugins = std::make_unique<PluginRegistry>();
+    open();
+  }
+  void cleanupTestCase() { m_window.reset(); }
+
+  /// The engine says that there is no scene when the document has one already.
+  void whatIsMendedWhileItIsTriedIsTriedAgain() {
+    Document document;
+    document.setPlugins(m_plugins.get());
+    EngineThread engine(*m_plugins, {});
+    SceneLink link(document, engine);
+    document.open(scene(), {});
+    QTRY_VERIFY(engine.snapshot() && engine.playing());
+    engine.ask([](const Engine&) { std::this_thread::sleep_for(std::chrono::milliseconds(200)); });
+    Project project = scene();
+    project.materials[0].properties.values["boiling_temperature"] = 200.0;
+    document.open(project, {});
+    QCOMPARE(document.setParameter({Owner::Material, "water", "boiling_temperature"}, 373.15), QString());
+    QTRY_VERIFY(!engine.events(0).empty() && engine.events(0).back().kind == EngineEvent::Kind::NotOpened);
+    QVERIFY(link.isBroken());
+    link.hear(engine.events(0).back());
+    QTRY_VERIFY(!link.isBroken());
+    QCOMPARE(engine.snapshot()->id.size(), size_t{125});
+  }
+
+  /// What a drag passes over on the way to a value that a plugin's law fails at.
+  void aRefusedValueLeavesTheDocument() {
+    const QTemporaryDir folder;
+    QVERIFY(QFile::copy(qEnvironmentVariable("PS_FIXTURE_DIR") + QStringLiteral("/fixture_material.so"),
+                        folder.filePath(QStringLiteral("late.so"))));
+    PluginRegistry::Options options;
+    options.extraPaths = {folder.path().toStdString()};
+    PluginRegistry plugins(options);
+    Document document;
+    document.setPlugins(&plugins);
+    EngineThread engine(plugins, {});
+    SceneLink link(document, engine);
+    const Address density{Owner::Material, "lab", "density"};
+    Project project = scene();
+    SceneMaterial lab;
+    lab.id = "lab";
+    lab.base = "fixture.material";
+    lab.parameters.values["density"] = 1400.0;
+    project.materials.push_back(lab);
+    document.open(project, {}, false, false);
+    const auto hear = [&](uint64_t from) {
+      for (const EngineEvent& event : engine.events(from)) link.hear(event);
+    };
+    document.beginGesture();
+    QCOMPARE(document.setParameter(density, 1450.0), QString());
+    tests::onEngine<int>(engine, [](Engine&) { return 0; });  // it has that one
+    QCOMPARE(document.setParameter(density, 1800.0), QString());
+    QTRY_VERIFY(!engine.events(0).empty());
+    QVERIFY(engine.events(0).back().message.find("too dense") != std::string::npos);
+    hear(0);
+    document.endGesture();
+    QCOMPARE(storedValue(document.project(), density), std::optional<Value>(1450.0));
+    QCOMPARE(document.undoStack().count(), 1);
+    const uint64_t told = engine.events(0).back().number + 1;
+    document.undoStack().undo();
+    QCOMPARE(storedValue(document.project(), density), std::optional<Value>(1400.0));
+    document.undoStack().redo();
+    QCOMPARE(storedValue(document.project(), density), std::optional<Value>(1450.0));
+    hear(told);
+  }
+
+  void aRequiredPluginIsAskedForOnceMoreWhenSaved() {
+    const QTemporaryDir directory;
+    const QString path = directory.filePath(QStringLiteral("needy.json"));
+    Project project = scene();
+    project.pluginsRequired = {"org.example.gone"};
+    project.bodies[0].constraints = {{"org.example.gone", {}, {}}};
+    saveProject(project, path.toStdString());
+    Worker worker;
+    Document document;
+    document.setPlugins(m_plugins.get());
+    DocumentFiles files(document, worker);
+    QSignalSpy failed(&files, &DocumentFiles::openFailed), opened(&files, &DocumentFiles::opened);
+    files.open(path);
+    QVERIFY(failed.wait());
+    const QString problem = failed.front()[1].toString();
+    QVERIFY2(DocumentFiles::lacksRequired(problem) && problem.contains(QStringLiteral("org.example.gone")),
+             qPrintable(problem));
+    files.openAnyway(path);
+    QVERIFY(opened.wait());
+    QVERIFY(opened.front()[1].toStringList().join(QLatin1Char(' ')).contains(QStringLiteral("org.example.gone")));
+    QCOMPARE(writeProject(document.project()), writeProject(project));  // it goes on needing the plugin
+    const Engine engine(document.project(), *m_plugins);
+    QCOMPARE(engine.solver().particles().size(), size_t{125});
+  }
+
+  void aFileOfWhichNoSceneCanBeMadeOpensToBeMended() {
+    Project project = scenes::iceOnPlate(4, 370);
+    project.title = "Too coarse";
+    std::erase_if(project.environment.walls, [](const SceneWall& wall) { return wall.normal.x() != 0; });
+    project.environment.periodic = {true, false, false};
+    project.solver.parameters.values["particle_spacing"] = 1.0;
+    const QString path = m_folder.filePath(QStringLiteral("coarse.json"));
+    saveProject(project, path.toStdString());
+    m_window->openFile(path);
+    QTRY_VERIFY_WITH_TIMEOUT(m_window->notice()->text().contains(QStringLiteral("“Too coarse” cannot run")), kLong);
+    QCOMPARE(document().path(), path);
+    QVERIFY(session().isBroken() && !session().playing());
+    const Address spacing{Owner::Solver, "", "particle_spacing"};
+    ParameterRow* row = m_window->inspector().panelFor(spacing)->row(QString::fromStdString(spacing.text()));
+    QVERIFY(row && row->has(RowState::Error));
+    m_window->inspectorDock()->showPage(QStringLiteral("Material"));
+    QPushButton* show = noticeButton(QStringLiteral("Show it"));
+    QVERIFY(show);
+    show->click();
+    QCOMPARE(m_window->inspectorDock()->currentPage(), QStringLiteral("Solver"));
+    QVERIFY(!row->visibleRegion().isEmpty());
+    m_window->inspector().rebuild();  // rows made anew say it again
+    row = m_window->inspector().solverPanel()->row(QString::fromStdString(spacing.text()));
+    QVERIFY(row->has(RowState::Error));
+    QVERIFY(row->enter(QStringLiteral("20 mm")));
+    QTRY_VERIFY_WITH_TIMEOUT(session().snapshot()->stats.frame > 1, kLong);  // it runs, as it would have at once
+    QTRY_VERIFY_WITH_TIMEOUT(m_window->notice()->topic() != QStringLiteral("step"), kLong);
+    QVERIFY(!row->has(RowState::Error));
+  }
+
+  void withoutARequiredPluginItOpensAnyway() {
+    Project project = scenes::iceOnPlate(4, 302);
+    project.pluginsRequired = {"org.example.gone"};
+    const QString path = m_folder.filePath(QStringLiteral("needy.json"));
+    saveProject(project, path.toStdString());
+    m_window->openFile(path);
+    QTRY_VERIFY_WITH_TIMEOUT(noticeButton(QStringLiteral("Open anyway")), kLong);
+    QVERIFY(floorTemperature() != 302.0);
+    noticeButton(QStringLiteral("Open anyway"))->click();
+    QTRY_COMPARE_WITH_TIMEOUT(floorTemperature(), 302.0, kLong);
+  }
+
+ private:
+  double floorTemperature() { return std::get<double>(document().value({Owner::Wall, "floor", "temperature"})); }
+  QPushButton* noticeButton(const QString& text) {
+    for (QPushButton* button : m_window->notice()->findChildren<QPushButton*>()) {
+      if (button->text() == text) return button;
+    }
+    return nullptr;
+  }
+
+  QTemporaryDir m_folder;
+  std::unique_ptr<PluginRegistry> m_plugins;
+};
+
+int main(int argc, char** argv) {
+  requestViewFormat();
+  QApplication application(argc, argv);
+  std::setlocale(LC_NUMERIC, "C");
+  TestMendingWindow test;
+  return QTest::qExec(&test, argc, argv);
+}
+#include "tst_mendingwindow.moc"
