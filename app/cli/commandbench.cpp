@@ -21,6 +21,7 @@ constexpr OptionSpec kOptions[] = {
     {"--frames", "N", "frames to measure, after 10 to warm up; without it 240"},
     kThreads,
     kIsa,
+    kPatience,
     {"--json", "FILE", "writes machine, calibration and scenes"},
 };
 

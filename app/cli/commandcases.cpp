@@ -17,6 +17,7 @@ constexpr OptionSpec kOptions[] = {
     {kSet.name, kSet.value, "changes every project before it is checked; may repeat"},
     kThreads,
     kIsa,
+    kPatience,
 };
 
 /// Columns as wide as people see them: a sign like ≥ has three bytes and one place.

@@ -2,6 +2,7 @@
 #include "app/cli/arguments.h"
 #include "app/cli/commands.h"
 #include "app/cli/plugintrial.h"
+#include "app/cli/run.h"
 #include "core/base/error.h"
 #include "core/base/jsontext.h"
 #include "core/matter/material.h"
@@ -22,6 +23,7 @@ constexpr OptionSpec kOptions[] = {
     {"--fields", "", "lists what particles show, ours and plugins': colours, probes and recordings take these names"},
     {"--allow", "ID", "takes a plugin out of quarantine"},
     {"--check", "FILE", "tries one plugin in a process of its own and says what is wrong with it, or that it is fine"},
+    kPatience,
 };
 
 const char* kindName(api::ParameterKind kind) {
@@ -106,7 +108,8 @@ std::string pluginsHelp() {
 int pluginsCommand(CommandArguments list) {
   const Arguments arguments(list, kOptions);
   if (!arguments.positional().empty()) throw InputError("unknown argument '" + arguments.positional()[0] + "'");
-  if (arguments.has("--check")) return tryPlugin(arguments.text("--check"));
+  if (arguments.has("--check")) return tryPlugin(arguments.text("--check"), patienceOf(arguments));
+  watchPlugins(arguments);
   PluginRegistry plugins;
   if (arguments.has("--allow")) {
     const std::string id = arguments.text("--allow");

@@ -30,6 +30,7 @@ constexpr OptionSpec kOptions[] = {
     kAtStart,
     kThreads,
     kIsa,
+    kPatience,
     kSet,
     kQuiet,
 };

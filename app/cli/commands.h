@@ -27,6 +27,6 @@ std::string pluginsHelp();
 std::string casesHelp();
 std::string soakHelp();
 
-inline constexpr int kFine = 0, kFailed = 1, kBadInput = 2;
+inline constexpr int kFine = 0, kFailed = 1, kBadInput = 2, kNoReturn = 3;
 
 }  // namespace ps::cli

@@ -33,6 +33,7 @@ constexpr OptionSpec kOptions[] = {
     {"--save-project", "FILE.json", "writes the project with that state in it, so that it opens there"},
     kThreads,
     kIsa,
+    kPatience,
     {"--report", "FILE.json", "writes speed, accuracy, energy, phases and the state hash"},
     {"--probes", "FILE.csv", "writes the probes, the mass in each phase and the mean temperature of every frame"},
     {"--record", "FILE", "writes every frame, for render"},

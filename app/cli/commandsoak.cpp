@@ -19,6 +19,7 @@ constexpr OptionSpec kOptions[] = {
     kSet,
     kThreads,
     kIsa,
+    kPatience,
 };
 
 std::string nameOf(const std::string& path) {

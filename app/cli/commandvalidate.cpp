@@ -15,6 +15,7 @@ namespace ps::cli {
 namespace {
 
 constexpr OptionSpec kOptions[] = {
+    kPatience,
     {"--quiet", "", "says nothing about projects that are fine, and no warnings"},
 };
 
@@ -37,6 +38,7 @@ int validateCommand(CommandArguments list) {
   const Arguments arguments(list, kOptions);
   if (arguments.positional().empty()) throw InputError("which project? --help says more");
   const bool quiet = arguments.has("--quiet");
+  watchPlugins(arguments);
   PluginRegistry plugins;
   int code = kFine;
   for (const std::string& path : arguments.positional()) {

@@ -37,7 +37,7 @@ std::string overview() {
   }
   return text +
          "\nphasesketch-cli COMMAND --help says more.\n"
-         "Exit codes: 0 fine, 1 the run failed or set flags, 2 bad input.\n";
+         "Exit codes: 0 fine, 1 the run failed or set flags, 2 bad input, 3 a plugin did not come back.\n";
 }
 
 std::string commandNames() {

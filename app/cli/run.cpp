@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/cli/run.h"
 
+#include "app/cli/commands.h"
+#include "core/base/callwatch.h"
 #include "core/base/error.h"
 #include "core/base/parallel.h"
 #include "core/io/outputfile.h"
+#include "core/plugin_host/crashwatch.h"
 #include "core/solver/solver.h"
 
 #include <algorithm>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <map>
 #include <unistd.h>
 
@@ -34,6 +38,24 @@ Project warned(const Arguments& arguments, LoadedProject&& loaded, std::vector<s
 void applyMachineOptions(const Arguments& arguments) {
   if (const auto threads = arguments.integer("--threads", 1, 1024)) setThreadCount(static_cast<int>(*threads));
   if (arguments.has("--isa")) setInstructionSet(arguments.text("--isa"));
+  watchPlugins(arguments);
+}
+
+double patienceOf(const Arguments& arguments) {
+  constexpr double kUsual = 60, kLeast = 0.1, kMost = 1e6;
+  return arguments.number(kPatience.name, kLeast, kMost).value_or(kUsual);
+}
+
+void watchPlugins(const Arguments& arguments) {
+  const double patience = patienceOf(arguments);
+  static const CallWatch watch(patience, [patience](const std::string& id) {
+    putInQuarantine(id);
+    std::fprintf(stderr,
+                 "phasesketch-cli: the plugin '%s' did not come back within %s s; it is in quarantine from now on. To "
+                 "allow it again: phasesketch-cli plugins --allow %s\n",
+                 id.c_str(), numberText(patience).c_str(), id.c_str());
+    std::_Exit(kNoReturn);
+  });
 }
 
 std::string onlyFile(const Arguments& arguments, const char* what) {

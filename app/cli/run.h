@@ -15,13 +15,20 @@ namespace ps::cli {
 /// Options of every command that runs the solver.
 inline constexpr OptionSpec kThreads{"--threads", "N", "number of threads; without it one per core"};
 inline constexpr OptionSpec kIsa{"--isa", "NAME", "pins an instruction set: AVX3, AVX2, SSE4, SSSE3, NEON"};
+inline constexpr OptionSpec kPatience{"--patience", "S",
+                                      "ends the program when a plugin takes longer for one call; 60"};
 inline constexpr OptionSpec kSet{"--set", "JSON/POINTER=VALUE", "changes the project before it is checked; may repeat"};
 /// Of commands that run a project from the state that it holds.
 inline constexpr OptionSpec kAtStart{"--at-start", "", "begins at the project's start, whatever state it holds"};
 inline constexpr OptionSpec kQuiet{"--quiet", "", "says nothing but errors"};
 
-/// Applies --threads and --isa; throws InputError for what this machine does not have.
+/// Applies --threads and --isa, throws InputError for what this machine does not have; and watchPlugins().
 void applyMachineOptions(const Arguments& arguments);
+/// --patience, s.
+double patienceOf(const Arguments& arguments);
+/// From now on the program ends, with kNoReturn and the plugin's name, when one does not come back within --patience.
+/// It is then in quarantine.
+void watchPlugins(const Arguments& arguments);
 /// The one positional argument; throws InputError when there is none or more.
 std::string onlyFile(const Arguments& arguments, const char* what);
 /// Loads with --set, warnings on standard error, and in `warnings` where it is given.

@@ -38,22 +38,28 @@ void writeAll(int file, const std::string& text) {
   }
 }
 
+const Record* recordOf(const char* id) {
+  for (const Record* record = g_newest.load(); record; record = record->older) {
+    if (std::strcmp(record->id.c_str(), id) == 0) return record;
+  }
+  return nullptr;
+}
+
+void writeRecord(const Record& record) {
+  const int file = ::open(record.path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
+  if (file < 0) return;
+  writeAll(file, record.contents);
+  ::close(file);
+}
+
 /// Calls nothing but what may be called in a handler.
 void onCrash(int signal) {
   for (size_t k = 0; k < kSignals.size(); ++k) {
     if (kSignals[k] == signal) ::sigaction(signal, &g_before[k], nullptr);
   }
-  if (const char* callee = t_callee) {
-    for (const Record* record = g_newest.load(); record; record = record->older) {
-      if (std::strcmp(record->id.c_str(), callee) != 0) continue;
-      writeAll(STDERR_FILENO, record->words);
-      const int file = ::open(record->path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
-      if (file >= 0) {
-        writeAll(file, record->contents);
-        ::close(file);
-      }
-      break;
-    }
+  if (const Record* record = t_callee ? recordOf(t_callee) : nullptr) {
+    writeAll(STDERR_FILENO, record->words);
+    writeRecord(*record);
   }
   ::raise(signal);  // held back until this returns, then as if there were no handler
 }
@@ -88,6 +94,14 @@ void noteForCrashes(const Quarantine& quarantine, const std::string& id, const s
                             g_newest.load()};
   while (!g_newest.compare_exchange_weak(record->older, record)) {
   }
+}
+
+void putInQuarantine(const std::string& id) {
+  if (const Record* record = recordOf(id.c_str())) writeRecord(*record);
+}
+
+void takeFromQuarantine(const std::string& id) {
+  if (const Record* record = recordOf(id.c_str())) ::unlink(record->path.c_str());
 }
 
 }  // namespace ps

@@ -124,6 +124,7 @@ std::vector<double> completed(const std::vector<double>& parameters,
 
 LoadedPlugin loadLibrary(PluginInfo& info, const std::shared_ptr<InstalledMaterials>& materials) {
   const NumberFormatGuard guard;
+  const CalleeScope callee(info.id.c_str());
   LoadedPlugin loaded;
   loaded.id = info.id;
   std::string problem;

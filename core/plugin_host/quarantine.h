@@ -11,8 +11,8 @@
 // in another container on the same home directory.
 namespace ps {
 
-/// Plugins that took the program down while they were loaded or ran. All state lies in files under one directory; a
-/// directory that cannot be written only means that nothing is remembered.
+/// Plugins that took the program down, or did not come back, while they were loaded or ran. All state lies in files
+/// under one directory; a directory that cannot be written only means that nothing is remembered.
 class Quarantine {
  public:
   /// Looks for the locks of dead processes and puts the plugins they name into quarantine.

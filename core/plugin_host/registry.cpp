@@ -195,11 +195,12 @@ bool PluginRegistry::Impl::load(Candidate& candidate) {
     plugin.material = std::move(candidate.material);
   } else if (quarantine.holds(info.id, info.path)) {
     info.state = PluginInfo::State::Quarantined;
-    info.problem =
-        info.path +
-        ": the program crashed while loading or running it, so it is not loaded any more; allow it again with "
-        "\"phasesketch-cli plugins --allow " +
-        info.id + "\" or install another version";
+    info.problem = info.path +
+                   ": it crashed the program, or did not come back, when it was loaded or ran, so it is not loaded any "
+                   "more; allow it "
+                   "again with "
+                   "\"phasesketch-cli plugins --allow " +
+                   info.id + "\" or install another version";
     return false;
   } else {
     const LoadingLock lock(state, info.id, info.path);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/simulation/enginethread.h"
 
+#include "core/base/callwatch.h"
+#include "core/plugin_host/crashwatch.h"
 #include "core/simulation/commandqueue.h"
 #include "core/simulation/engine.h"
 #include "core/simulation/failure.h"
@@ -30,13 +32,18 @@ constexpr StepFlags kPausing = kTakenBack | static_cast<StepFlags>(StepFlag::Plu
 /// Frames without a flag after which what was reported is over, and would be reported again.
 constexpr int kQuiet = 60;
 constexpr size_t kMostEvents = 256;
+constexpr double kPatience = 10;  // s that a plugin may take for one call
 
 double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 }  // namespace
 
 struct EngineThread::Impl {
-  Impl(PluginRegistry& registry, std::function<void()> callback) : plugins(registry), published(std::move(callback)) {}
+  Impl(PluginRegistry& registry, std::function<void()> callback)
+      : plugins(registry),
+        published(std::move(callback)),
+        watch(
+            kPatience, [this](const std::string& id) { isLate(id); }, [this](const std::string& id) { isBack(id); }) {}
 
   template <class Item>
   void push(Item item, uint64_t commands = 0) {
@@ -65,6 +72,9 @@ struct EngineThread::Impl {
   void fail(EngineEvent event);
   void refuse(const EngineEvent& refusal);
   void halt();
+  // On the watching thread.
+  void isLate(const std::string& id);
+  void isBack(const std::string& id);
   void pace();
   bool frameIsDue(double ahead = 0);
   /// Makes an edit. Returns what is to be reported of one that cannot be made: the scene then stays as it was.
@@ -98,6 +108,7 @@ struct EngineThread::Impl {
   Clock::time_point due{}, measured{};
   double measuredTime = 0;
   std::jthread thread;
+  CallWatch watch;
 };
 
 void EngineThread::Impl::run(const std::stop_token& stop) {
@@ -209,6 +220,17 @@ void EngineThread::Impl::notify(EngineEvent event) {
   if (events.size() == kMostEvents) events.pop_front();
   event.number = eventCount++;
   events.push_back(std::move(event));
+}
+
+/// Nobody can end that call. Whoever ends the program instead finds it without the plugin at the next start.
+void EngineThread::Impl::isLate(const std::string& id) {
+  putInQuarantine(id);
+  fail({0, EngineEvent::Kind::Late, 0, id});
+}
+
+void EngineThread::Impl::isBack(const std::string& id) {
+  takeFromQuarantine(id);
+  if (standing().kind == EngineEvent::Kind::Late) fail({0, EngineEvent::Kind::Settled, 0, {}});
 }
 
 EngineEvent EngineThread::Impl::standing() {

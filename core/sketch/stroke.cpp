@@ -2,6 +2,7 @@
 #include "core/sketch/stroke.h"
 
 #include "core/base/error.h"
+#include "core/base/shorttext.h"
 
 #include <algorithm>
 #include <cmath>
@@ -28,7 +29,7 @@ class Collector final : public api::EditSink {
  public:
   void submit(api::EditKind kind, api::Span<const api::Cell> cells) override {
     if (cells.size > kMaxStrokeCells) refuse();
-    if (!cells.data && cells.size > 0) throw Error("it submitted cells by a null pointer");
+    if (!cells.data && cells.size > 0) throw BrushFault("it submitted cells by a null pointer");
     if (kind != m_kind) flush();
     m_kind = kind;
     m_pending.insert(m_pending.end(), cells.begin(), cells.end());
@@ -50,8 +51,8 @@ class Collector final : public api::EditSink {
     if (m_edits.added.size() + m_edits.removed.size() > kMaxStrokeCells) refuse();
   }
   [[noreturn]] static void refuse() {
-    throw Error("The stroke covers more than " + std::to_string(kMaxStrokeCells) +
-                " cells: use a smaller brush or a larger particle spacing");
+    throw InputError("The stroke covers more than " + std::to_string(kMaxStrokeCells) +
+                     " cells: use a smaller brush or a larger particle spacing");
   }
 
   StrokeEdits m_edits;
@@ -122,7 +123,15 @@ StrokeEdits applyBrush(const api::BrushPlugin& brush, const StrokeSetup& setup, 
                                    {setup.up[0], setup.up[1], setup.up[2]},
                                    {setup.parameters.data(), setup.parameters.size()}};
   Collector collector;
-  brush.stroke(context, kind, api::listOf(samples.data(), samples.size()), collector);
+  try {
+    brush.stroke(context, kind, api::listOf(samples.data(), samples.size()), collector);
+  } catch (const Error&) {  // of the collector
+    throw;
+  } catch (const std::exception& error) {
+    throw BrushFault(shortText(error.what()));
+  } catch (...) {
+    throw BrushFault("it threw something that is no std::exception");
+  }
   return collector.result();
 }
 

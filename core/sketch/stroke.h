@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "core/base/error.h"
 #include "core/sketch/cellset.h"
 
 #include <phasesketch/brush.h>
@@ -51,11 +52,17 @@ struct StrokeSetup {
   std::vector<double> parameters;  ///< the brush's own, in the order of its declarations
 };
 
+/// A brush threw, or gave what cannot be.
+class BrushFault : public Error {
+ public:
+  using Error::Error;
+};
+
 /// Cells that one stroke may touch before it is refused: about 2 GB of particles.
 inline constexpr size_t kMaxStrokeCells = size_t{1} << 23;
 
-/// Runs the brush over dense samples. Throws Error when the brush asks for more than kMaxStrokeCells, and passes on
-/// what the brush itself throws. Nothing else is changed then.
+/// Runs the brush over dense samples. Throws InputError when they cover more than kMaxStrokeCells, and BrushFault for
+/// what the brush itself throws.
 StrokeEdits applyBrush(const api::BrushPlugin& brush, const StrokeSetup& setup, api::EditKind kind,
                        std::span<const api::StrokeSample> samples);
 /// The same into a set of cells: Add puts cells in, Remove takes them out.

@@ -15,6 +15,7 @@
 #include "ui/window/dock.h"
 #include "ui/window/noticebar.h"
 
+#include <QtCore/QProcess>
 #include <QtCore/QTemporaryDir>
 #include <QtWidgets/QPushButton>
 
@@ -165,6 +166,32 @@ class TestMendingWindow : public SampleWindowTest {
     QVERIFY(floorTemperature() != 302.0);
     noticeButton(QStringLiteral("Open anyway"))->click();
     QTRY_COMPARE_WITH_TIMEOUT(floorTemperature(), 302.0, kLong);
+  }
+
+  /// It takes the ten seconds that a plugin has to come back once the window is closed.
+  void quittingEndsWhatDoesNotComeBack() {
+    const QTemporaryDir folder;
+    QVERIFY(QFile::copy(qEnvironmentVariable("PS_FIXTURE_DIR") + QStringLiteral("/fixture_constraint.so"),
+                        folder.filePath(QStringLiteral("endless_step.so"))));
+    Project project = scene();
+    project.bodies[0].constraints = {{"fixture.constraint", {}, {}}};
+    saveProject(project, folder.filePath(QStringLiteral("scene.json")).toStdString());
+    QProcessEnvironment environment = QProcessEnvironment::systemEnvironment();
+    environment.insert(QStringLiteral("XDG_STATE_HOME"), folder.filePath(QStringLiteral("state")));
+    environment.insert(QStringLiteral("PHASESKETCH_PLUGIN_PATH"), folder.path());
+    QProcess program;
+    program.setProcessEnvironment(environment);
+    const QStringList arguments{folder.filePath(QStringLiteral("scene.json")), QStringLiteral("--screenshot"),
+                                folder.filePath(QStringLiteral("picture.png")), QStringLiteral("--after"),
+                                QStringLiteral("1")};
+    program.start(QStringLiteral(PS_BINARY_DIR "/bin/phasesketch"), arguments);
+    QVERIFY(program.waitForFinished(2 * kLong));
+    const QByteArray said = program.readAllStandardError();
+    QVERIFY2(program.exitStatus() == QProcess::NormalExit && program.exitCode() == 3, said.constData());
+    QVERIFY2(said.contains("the plugin 'fixture.constraint' did not come back"), said.constData());
+    program.start(QStringLiteral(PS_BINARY_DIR "/bin/phasesketch"), arguments);  // without it
+    QVERIFY(program.waitForFinished(2 * kLong));
+    QCOMPARE(program.exitCode(), 0);
   }
 
  private:

@@ -10,6 +10,8 @@
 #include "ui/tools/toolbox.h"
 #include "ui/tools/tooltable.h"
 
+#include <QtCore/QFile>
+#include <QtCore/QTemporaryDir>
 #include <QtTest/QSignalSpy>
 #include <QtTest/QTest>
 
@@ -72,6 +74,58 @@ class TestTools : public QObject {
     }
     m_tools->activate("hammer");
     QCOMPARE(m_tools->active(), std::string(toolTable().back().id));
+  }
+
+  void aBrushThatFailsIsPutAside_data() {
+    QTest::addColumn<QString>("behaviour");
+    QTest::addColumn<QString>("words");
+    QTest::newRow("throws") << "throwing_brush"
+                            << "no more paint";
+    QTest::newRow("throws a number") << "odd_brush"
+                                     << "no std::exception";
+    QTest::newRow("gives a null pointer") << "null_brush"
+                                          << "null pointer";
+  }
+  /// At the second sample: what was drawn by then goes with the stroke.
+  void aBrushThatFailsIsPutAside() {
+    QFETCH(QString, behaviour);
+    QFETCH(QString, words);
+    const QTemporaryDir folder;
+    QVERIFY(QFile::copy(qEnvironmentVariable("PS_FIXTURE_DIR") + QStringLiteral("/fixture_brush.so"),
+                        folder.filePath(behaviour + QStringLiteral(".so"))));
+    PluginRegistry::Options options;
+    options.extraPaths = {folder.path().toStdString()};
+    PluginRegistry plugins(options);
+    m_document->setPlugins(&plugins);
+    connect(m_tools.get(), &Toolbox::brushFailed, this, [&](const QString& brush, const QString& problem) {
+      plugins.fault(brush.toStdString(), problem.toStdString());
+    });
+    BrushSettings brush = m_tools->brush();
+    brush.shape = "fixture.brush";
+    m_tools->setBrush(brush);
+    m_tools->activate("brush");
+    QSignalSpy refused(m_tools.get(), &Toolbox::refused);
+    QTRY_VERIFY(m_engine->snapshot());
+    const size_t particles = m_engine->snapshot()->id.size();
+    const SnapshotPtr now = m_engine->snapshot();
+    Pointer pointer = at({0.15, 0, 0.15}, now.get());
+    m_tools->tool().press(pointer);
+    QCOMPARE(refused.count(), 0);
+    pointer = at({0.2, 0, 0.2}, now.get());
+    pointer.seconds = 0.1;
+    m_tools->tool().drag(pointer);
+    QCOMPARE(refused.count(), 1);
+    const QString why = refused.front()[1].toString();
+    QVERIFY2(why.contains(QStringLiteral("fixture.brush")) && why.contains(words), qPrintable(why));
+    m_tools->tool().release(pointer);
+    QCOMPARE(m_document->undoStack().count(), 0);
+    QCOMPARE(m_document->project().bodies.size(), size_t{1});
+    m_engine->reset();
+    QTRY_VERIFY(m_engine->snapshot()->revision != now->revision);
+    QCOMPARE(m_engine->snapshot()->id.size(), particles);
+    QVERIFY(!plugins.brush("fixture.brush"));
+    QCOMPARE(m_tools->brush().shape, plugins.standard(PluginKind::Brush));
+    cleanup();  // the plugins go before the document does
   }
 
   void theBrushIsTheStandardOneAndEachIsReached() {

@@ -35,6 +35,7 @@ class TestCli : public QObject {
   void filmsEndWhereTheRunBreaks();
   void pluginsThatFailAtTheEndAreTold();
   void pluginsThatCrashInAStepAreQuarantined();
+  void pluginsThatDoNotComeBackAreNamed();
   void pluginsAreTried_data();
   void pluginsAreTried();
   void reportsThatCannotBeWrittenStopTheRunBefore();
@@ -469,11 +470,29 @@ void TestCli::pluginsThatCrashInAStepAreQuarantined() {
   const Ran allowed = cli({"plugins", "--allow", "fixture.constraint"}, folder.path());
   const Ran after = cli({"plugins"}, folder.path());
   qunsetenv("XDG_STATE_HOME");
-  QVERIFY2(list.out.contains("quarantined") && list.out.contains("crashed while loading or running it"),
+  QVERIFY2(list.out.contains("quarantined") && list.out.contains("it crashed the program, or did not come back"),
            list.out.constData());
   QVERIFY2(again.code >= 0, "it crashed once more");
   QCOMPARE(allowed.code, 0);
   QVERIFY2(!after.out.contains("quarantined"), after.out.constData());
+}
+
+void TestCli::pluginsThatDoNotComeBackAreNamed() {
+  const QTemporaryDir folder;
+  QVERIFY(place(folder, "constraint", "endless_step"));
+  qputenv("XDG_STATE_HOME", folder.filePath("state").toUtf8());
+  const Ran run = cli(kFixtureScene + QStringList{"--patience", "1"}, folder.path());
+  const Ran list = cli({"plugins"}, folder.path());
+  const Ran again = cli(kFixtureScene, folder.path());
+  const Ran tried = cli({"plugins", "--check", folder.filePath("endless_step.so"), "--patience", "1.5"});
+  qunsetenv("XDG_STATE_HOME");
+  QCOMPARE(run.code, 3);
+  QVERIFY2(run.err.contains("the plugin 'fixture.constraint' did not come back within 1 s"), run.err.constData());
+  QVERIFY2(list.out.contains("quarantined"), list.out.constData());
+  QVERIFY2(again.code == 0 && again.err.contains("fixture.constraint"), again.err.constData());
+  QCOMPARE(tried.code, 3);
+  QVERIFY2(tried.err.contains("endless_step.so: it did not come back within 1.5 s when it ran in a scene"),
+           tried.err.constData());
 }
 
 void TestCli::pluginsAreTried_data() {

@@ -72,6 +72,7 @@ class TstEngineFaults : public QObject {
  private Q_SLOTS:
   void initTestCase();
   void aPluginThatThrowsPausesAndIsNamed();
+  void aPluginThatDoesNotComeBackIsNamed();
   void aLawThatThrowsLeavesTheMatterAsItIs();
   void aLawThatThrowsPausesTheScene();
   void aRefusedEditIsToldWhileTheSceneGoesOn();
@@ -126,6 +127,34 @@ void TstEngineFaults::aPluginThatThrowsPausesAndIsNamed() {
   QVERIFY(waitFor([&] { return thread.snapshot()->stats.frame < 70; }));
   QVERIFY(waitFor([&] { return thread.snapshot()->stats.frame > 5; }));
   QVERIFY(thread.events(2).empty());
+}
+
+/// Ten seconds are what a plugin may take.
+void TstEngineFaults::aPluginThatDoesNotComeBackIsNamed() {
+  qputenv("XDG_STATE_HOME", m_scratch.filePath("state").toUtf8());
+  const PluginRegistry::Options options = with("fixture_constraint", "endless_step");
+  const auto stateNow = [&] {
+    const PluginRegistry registry(options);
+    const PluginInfo* info = infoOf(registry, "fixture.constraint");
+    return info ? info->state : PluginInfo::State::Refused;
+  };
+  PluginRegistry plugins(options);
+  QVERIFY(plugins.constraint("fixture.constraint"));
+  Project project = scenes::iceOnPlate(4, 293.15);
+  project.bodies[0].constraints.push_back({"fixture.constraint", {}, {}});
+  EngineThread thread(plugins, {});
+  thread.open(project, true);
+  const bool late = QTest::qWaitFor([&] { return !thread.events(0).empty(); }, 30000);
+  const EngineEvent event = late ? thread.events(0).back() : EngineEvent{};
+  const auto meanwhile = stateNow();
+  qputenv("PS_LET_GO", "1");  // before anything can fail: the thread would never end
+  QVERIFY(late && event.kind == Kind::Late);
+  QCOMPARE(event.message, std::string("fixture.constraint"));
+  QVERIFY(meanwhile == PluginInfo::State::Quarantined);
+  QVERIFY(waitFor([&] { return !ofKind(thread, Kind::Settled).empty(); }));
+  QVERIFY(waitFor([&] { return thread.snapshot()->stats.frame > 3; }));
+  QVERIFY(stateNow() == PluginInfo::State::Loaded);
+  qunsetenv("XDG_STATE_HOME");
 }
 
 void TstEngineFaults::aLawThatThrowsLeavesTheMatterAsItIs() {

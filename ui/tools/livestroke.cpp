@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/tools/livestroke.h"
 
+#include "core/base/callee.h"
 #include "core/plugin_host/registry.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
@@ -127,15 +128,17 @@ QString LiveStroke::move(const Vector3& point, double seconds, double pressure) 
 }
 
 template <class Work>
-QString LiveStroke::guarded(Work work) const {
+QString LiveStroke::guarded(Work work) {
   try {
     work();
     return {};
+  } catch (const BrushFault& fault) {
+    cancel();
+    m_box.putAside(m_brush.shape, fault.what());
+    return QStringLiteral("The brush “%1” failed: %2. It is put aside until the program starts again; see Plugins.")
+        .arg(QString::fromStdString(m_brush.shape), QString::fromUtf8(fault.what()));
   } catch (const std::exception& error) {
     return QString::fromUtf8(error.what());
-  } catch (...) {  // a brush is somebody else's code
-    return QStringLiteral("The brush “%1” failed and did not say why. See Plugins.")
-        .arg(QString::fromStdString(m_brush.shape));
   }
 }
 
@@ -156,6 +159,7 @@ void LiveStroke::feed(const std::vector<api::StrokeSample>& samples) {
   const api::BrushPlugin* plugin = m_box.document().plugins()->brush(m_brush.shape);
   if (samples.empty() || !plugin) return;
   const bool erase = m_record->erase;
+  const CalleeScope callee(m_brush.shape.c_str());
   const StrokeEdits edits = applyBrush(*plugin, m_setup, erase ? api::EditKind::Remove : api::EditKind::Add, samples);
   std::vector<api::Cell> fresh;
   for (const api::Cell& cell : (erase ? edits.removed : edits.added).cells()) {
@@ -182,7 +186,8 @@ void LiveStroke::collectErasure(StrokeRecord& record) const {
 
 void LiveStroke::finish() {
   if (!m_record) return;
-  guarded([&] { feed(m_resampler->finish()); });  // what came so far stays
+  guarded([&] { feed(m_resampler->finish()); });  // what came so far stays, unless the brush fails
+  if (!m_record) return;
   const std::shared_ptr<StrokeRecord> record = std::move(m_record);
   m_record.reset();
   if (m_cells.empty()) return;

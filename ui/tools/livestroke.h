@@ -29,7 +29,8 @@ class LiveStroke {
 
   /// "" or why no stroke can begin ("The brush “x” is not installed…"). `now`: the scene as it is drawn on.
   QString begin(bool erase, const Snapshot& now, const Vector3& point, double pressure);
-  /// "" or what went wrong; the stroke then ends as far as it came. `seconds` since it began.
+  /// "" or what went wrong; the stroke then ends as far as it came, or is given up where the brush failed. `seconds`
+  /// since it began.
   QString move(const Vector3& point, double seconds, double pressure);
   void finish();
   void cancel();
@@ -41,7 +42,7 @@ class LiveStroke {
   Body paintedBody(int& palette) const;
   void feed(const std::vector<api::StrokeSample>& samples);
   template <class Work>
-  QString guarded(Work work) const;  ///< "" or what a brush threw
+  QString guarded(Work work);  ///< "" or what went wrong; a brush that failed is put aside
   bool isInside(const api::Cell& cell) const;
   void collectErasure(StrokeRecord& record) const;
 

@@ -33,12 +33,22 @@ void Toolbox::attach(SceneLink* link) {
   tool().leave();
   m_link = link;
   const PluginRegistry* plugins = m_document.plugins();
-  if (!link || !plugins || !m_brush.shape.empty()) return;
+  if (link && plugins && m_brush.shape.empty()) takeInstalled(plugins->standard(PluginKind::Brush));
+}
+
+/// Or the first one where that cannot be had.
+void Toolbox::takeInstalled(const std::string& wanted) {
+  const PluginRegistry& plugins = *m_document.plugins();
   BrushSettings brush = m_brush;
-  brush.shape = plugins->standard(PluginKind::Brush);
-  const std::vector<std::string> installed = plugins->ids(PluginKind::Brush);
-  if (!plugins->brush(brush.shape) && !installed.empty()) brush.shape = installed.front();
+  brush.shape = wanted;
+  const std::vector<std::string> installed = plugins.ids(PluginKind::Brush);
+  if (!plugins.brush(brush.shape) && !installed.empty()) brush.shape = installed.front();
   setBrush(brush);
+}
+
+void Toolbox::putAside(const std::string& brush, const std::string& problem) {
+  Q_EMIT brushFailed(QString::fromStdString(brush), QString::fromStdString(problem));
+  takeInstalled(m_document.plugins()->standard(PluginKind::Brush));
 }
 
 void Toolbox::activate(const std::string& id) {

@@ -44,13 +44,18 @@ class Toolbox : public QObject {
   SceneLink* link() const { return m_link; }
   double spacing() const;  ///< m, of particles, as the document has it
   void refuse(const QString& title, const QString& why) { Q_EMIT refused(title, why); }
+  /// A brush has failed: it is out of service, and another one in hand where there is one.
+  void putAside(const std::string& brush, const std::string& problem);
 
  Q_SIGNALS:
   void toolChanged();
   void brushChanged();
   void refused(const QString& title, const QString& why);  ///< "Nothing was drawn.", why not
 
+  void brushFailed(const QString& brush, const QString& problem);  ///< whoever has the plugins takes it out of them
+
  private:
+  void takeInstalled(const std::string& wanted);
   Document& m_document;
   Selection& m_selection;
   SceneLink* m_link = nullptr;

@@ -216,6 +216,10 @@ void MainWindow::connectParts() {
   connect(outliner(), &Outliner::menuRequested, this, [this](const QPoint& global) { m_edit->openItemMenu(global); });
   connect(m_plugins, &PluginPage::closeRequested, this, [this] { m_centre->setCurrentWidget(m_pane); });
   connect(m_tools.get(), &Toolbox::refused, m_notices, &Notices::refuse);
+  connect(m_tools.get(), &Toolbox::brushFailed, this, [this](const QString& brush, const QString& problem) {
+    m_session->plugins()->fault(brush.toStdString(), problem.toStdString());
+    m_plugins->refresh();
+  });
   connect(m_status, &StatusLine::noteClicked, this, [this](const QString& parameter) {
     const auto address = Address::parse(parameter.toStdString());
     if (!address || !revealParameter(*address)) m_layout->showPage(QStringLiteral("Messages"));

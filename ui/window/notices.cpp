@@ -2,6 +2,7 @@
 #include "ui/window/notices.h"
 
 #include "core/simulation/enginethread.h"
+#include "ui/document/declared.h"
 #include "ui/document/document.h"
 #include "ui/session/session.h"
 #include "ui/session/wording.h"
@@ -31,6 +32,8 @@ void Notices::onEvent(const EngineEvent& event) {
     m_bar.close(kStep);
   } else if (event.kind == EngineEvent::Kind::Remark) {
     showRemark(failureText(event));
+  } else if (event.kind == EngineEvent::Kind::Late) {
+    showLate(pluginLabel(m_session.plugins(), event.message));
   } else if (event.kind == EngineEvent::Kind::NotOpened) {
     showBroken(event);
   } else {
@@ -58,6 +61,15 @@ void Notices::showFailure(const EngineEvent& event) {
   }
   if (!takenBack) buttons.push_back({QStringLiteral("Reset"), [this] { m_session.reset(); }});
   m_bar.show(kStep, level, failure.title, more, std::move(buttons));
+}
+
+void Notices::showLate(const QString& plugin) {
+  const QString title = QStringLiteral("The plugin “%1” does not come back.").arg(plugin);
+  const QString text = QStringLiteral(
+      "Nothing moves until it does. Your work is kept: close the window and start the program again, which then leaves "
+      "the plugin out.");
+  m_session.log().add(MessageLevel::Error, QStringLiteral("Simulation"), title + QLatin1Char(' ') + text);
+  m_bar.show(kStep, MessageLevel::Error, title, text);
 }
 
 void Notices::showRemark(const FailureText& remark) {

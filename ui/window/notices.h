@@ -30,6 +30,7 @@ class Notices : public QObject {
  private:
   void onEvent(const EngineEvent& event);
   void showFailure(const EngineEvent& event);
+  void showLate(const QString& plugin);
   void showRemark(const FailureText& remark);
   void showBroken(const EngineEvent& event);  ///< the scene could not be built
   Session& m_session;

@@ -2,6 +2,7 @@
 #include "ui/window/statusline.h"
 
 #include "core/simulation/enginethread.h"
+#include "ui/document/declared.h"
 #include "ui/document/document.h"
 #include "ui/session/autosave.h"
 #include "ui/session/documentfiles.h"
@@ -48,6 +49,10 @@ void StatusLine::follow() {
   for (const auto signal : {&Session::ready, &Session::valuesDue, &Session::playingChanged})
     connect(&m_session, signal, this, &StatusLine::refresh);
   connect(&m_session, &Session::valuesDue, this, [this] { m_sinceValues.start(); });
+  connect(&m_session, &Session::happened, this, [this](const EngineEvent& event) {
+    const bool late = event.kind == EngineEvent::Kind::Late;
+    m_late = late ? pluginLabel(m_session.plugins(), event.message) : QString();
+  });
   connect(&m_session, &Session::playingChanged, this, [this] { m_sinceValues.start(); });
   connect(&m_session.document(), &Document::changed, this, &StatusLine::refresh);
   const auto say = [this](const QString& what, const QTime& time) {
@@ -81,6 +86,7 @@ void StatusLine::refresh() {
     state.graphics = m_view->graphics();
   }
   state.silent = state.playing && m_sinceValues.isValid() ? static_cast<double>(m_sinceValues.elapsed()) / 1000 : 0;
+  state.late = m_late;
   state.file = m_session.document().isDirty() && m_fileText.isEmpty() ? QStringLiteral("Not saved") : m_fileText;
   addNote(state);
   setState(state);
@@ -134,7 +140,8 @@ double StatusLine::drift() const {
 std::vector<StatusLine::Part> StatusLine::leftParts() const {
   std::vector<Part> parts;
   if (!m_state.ready) return {{QStringLiteral("Loading plugins"), {}}};
-  const QString state = m_state.failed ? QStringLiteral("Paused, see above")
+  const QString state = !m_state.late.isEmpty() ? QStringLiteral("“%1” does not come back").arg(m_state.late)
+                        : m_state.failed        ? QStringLiteral("Paused, see above")
                         : m_state.silent > kSilent
                             ? QStringLiteral("No answer from the simulation for %1 s").arg(formatFixed(m_state.silent))
                         : m_state.playing ? QStringLiteral("Running")
@@ -194,9 +201,9 @@ void StatusLine::paintEvent(QPaintEvent*) {
     m_noteRect = QRectF(right, 0, edge - right, height());
     right -= 12;
   }
-  const Token dot = m_state.failed || m_state.silent > kSilent ? Token::Error
-                    : m_state.playing                          ? Token::Ok
-                                                               : Token::Warning;
+  const Token dot = m_state.failed || !m_state.late.isEmpty() || m_state.silent > kSilent ? Token::Error
+                    : m_state.playing                                                     ? Token::Ok
+                                                                                          : Token::Warning;
   painter.setPen(Qt::NoPen);
   painter.setBrush(theme[m_state.ready ? dot : Token::Muted]);
   painter.drawEllipse(QPointF(16, height() / 2.0), 4, 4);

@@ -24,6 +24,7 @@ class StatusLine : public QWidget {
     bool ready = false, playing = false, failed = false;
     double realTime = 0, drawMilliseconds = 0;
     double silent = 0;  ///< s since the engine last said anything while it plays: a plugin may never come back
+    QString late;       ///< a plugin that does not come back
     QString graphics;   ///< "OpenGL 4.5"
     QString note;       ///< "1 note: ice stiffness is limited by the step"
     QString file;       ///< "Autosaved 14:32"
@@ -54,7 +55,7 @@ class StatusLine : public QWidget {
   std::vector<Part> leftParts() const;
   Session& m_session;
   Viewport* m_view;
-  QString m_fileText, m_noteAddress;
+  QString m_fileText, m_noteAddress, m_late;
   State m_state;
   uint64_t m_revision = 0;
   bool m_started = false;
