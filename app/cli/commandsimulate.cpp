@@ -85,6 +85,10 @@ void summarise(const RunReport& report, const FrameStats& begin, Engine& engine,
               simulated, wall, factor, report.total().median);
   std::printf("%s, state hash %s\n", counted(engine.particles().size(), "particle").c_str(),
               hashText(engine.stateHash()).c_str());
+  for (const auto& [words, flow] :
+       {std::pair{"poured by emitters", stats.flow.poured}, std::pair{"drained by sinks", stats.flow.drained}}) {
+    if (flow.count > 0) std::printf("%s: %.6g kg, %s\n", words, flow.mass, counted(flow.count, "particle").c_str());
+  }
 }
 
 }  // namespace

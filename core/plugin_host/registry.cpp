@@ -196,10 +196,8 @@ bool PluginRegistry::Impl::load(Candidate& candidate) {
   } else if (quarantine.holds(info.id, info.path)) {
     info.state = PluginInfo::State::Quarantined;
     info.problem = info.path +
-                   ": it crashed the program, or did not come back, when it was loaded or ran, so it is not loaded any "
-                   "more; allow it "
-                   "again with "
-                   "\"phasesketch-cli plugins --allow " +
+                   ": it crashed the program, or did not come back to it, so it is not loaded any more; allow it again "
+                   "with \"phasesketch-cli plugins --allow " +
                    info.id + "\" or install another version";
     return false;
   } else {

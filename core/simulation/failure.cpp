@@ -4,6 +4,7 @@
 #include "core/plugin_host/registry.h"
 #include "core/simulation/sceneproblem.h"
 
+#include <cctype>
 #include <exception>
 #include <new>
 
@@ -15,7 +16,8 @@ EngineEvent failureAtHand(EngineEvent::Kind kind) {
   try {
     throw;
   } catch (const SceneError& error) {
-    event.message = error.what();
+    event.message = error.what();  // a sentence; elsewhere a file's name comes before it
+    event.message[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(event.message[0])));
     event.culprit = error.culprit;
   } catch (const PluginError& error) {
     event.message = error.what();

@@ -17,6 +17,12 @@ std::string tooMany(double particles) {
          " that a scene may have; make its bodies smaller or raise the particle spacing";
 }
 
+/// Rounded up: what is said to be enough must be.
+double fourDigits(double value) {
+  const double scale = std::max(1.0, std::pow(10, 3 - std::floor(std::log10(value))));
+  return std::ceil(value * scale) / scale;
+}
+
 std::string roomProblem(const Project& project, double spacing) {
   double count = 0;
   for (const Body& body : project.bodies) count += particleCount(body, spacing);
@@ -33,7 +39,7 @@ std::string periodProblem(const Project& project, double spacing, double reach) 
     const double edge = environment.boundsMaximum[a] - environment.boundsMinimum[a];
     if (!environment.periodic[a] || edge >= least) continue;
     return std::string("the scene repeats itself along ") + "xyz"[a] + " every " + numberText(edge) +
-           " m; with this reach of its particles that must be " + numberText(least) +
+           " m; with this reach of its particles that must be " + numberText(fourDigits(least)) +
            " m or more; lower the particle spacing";
   }
   return {};

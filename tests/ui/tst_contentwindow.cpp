@@ -18,6 +18,7 @@
 #include "ui/window/noticebar.h"
 #include "ui/window/statusline.h"
 
+#include <QtCore/QRegularExpression>
 #include <QtGui/QAction>
 #include <QtGui/QContextMenuEvent>
 #include <QtWidgets/QLabel>
@@ -368,6 +369,22 @@ class TestContentWindow : public SampleWindowTest {
       ++tips;
     }
     QCOMPARE(tips, 12);
+  }
+
+  void matterOfTapsAndDrainsIsInTheLedger() {
+    EnergyPanel panel(session());
+    FrameStats stats;
+    stats.thermalEnergy = 5;
+    stats.phases[2] = {10, 1};
+    panel.append(stats);
+    QVERIFY(!panel.ledgerText().contains(QStringLiteral("Matter ")));  // there are none
+    stats.flow.poured = {30, 1.5, 0};
+    stats.flow.drained = {5, 0.25, 0};
+    panel.append(stats);
+    const QString text = panel.findChild<QLabel*>()->text();
+    QVERIFY2(text.contains(QRegularExpression(QStringLiteral("Matter from taps.*1\\.5\\d* kg"))), qPrintable(text));
+    QVERIFY2(text.contains(QRegularExpression(QStringLiteral("Matter into drains.*250(\\.\\d*)? g"))),
+             qPrintable(text));
   }
 
   void whatRunsKeepsItsDigits() {

@@ -7,6 +7,7 @@
 #include "core/simulation/enginethread.h"
 #include "tests/shared/scenes.h"
 #include "tests/ui/samplewindow.h"
+#include "ui/document/declared.h"
 #include "ui/panels/inspector.h"
 #include "ui/rows/parameterpanel.h"
 #include "ui/session/documentfiles.h"
@@ -14,6 +15,7 @@
 #include "ui/session/worker.h"
 #include "ui/window/dock.h"
 #include "ui/window/noticebar.h"
+#include "ui/window/statusline.h"
 
 #include <QtCore/QProcess>
 #include <QtCore/QTemporaryDir>
@@ -166,6 +168,19 @@ class TestMendingWindow : public SampleWindowTest {
     QVERIFY(floorTemperature() != 302.0);
     noticeButton(QStringLiteral("Open anyway"))->click();
     QTRY_COMPARE_WITH_TIMEOUT(floorTemperature(), 302.0, kLong);
+  }
+
+  void aPluginThatDoesNotComeBackIsNamed() {
+    const QString words = pluginLabel(session().plugins(), "bonds") + QStringLiteral("” does not come back");
+    const auto says = [&] { return m_window->statusLine()->parts().front().contains(words); };
+    session().play();
+    QVERIFY(!says());
+    Q_EMIT session().happened({0, EngineEvent::Kind::Late, 0, "bonds"});
+    QTRY_VERIFY_WITH_TIMEOUT(says(), kLong);
+    QVERIFY2(m_window->notice()->text().contains(words), qPrintable(m_window->notice()->text()));
+    Q_EMIT session().happened({0, EngineEvent::Kind::Settled, 0, {}});
+    QTRY_VERIFY_WITH_TIMEOUT(!says(), kLong);
+    QVERIFY(m_window->notice()->topic() != QStringLiteral("step"));
   }
 
   /// It takes the ten seconds that a plugin has to come back once the window is closed.

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/base/jsontext.h"
+#include "tests/unit/clirun.h"
 
 #include <QDir>
 #include <QFile>
 #include <QImage>
-#include <QProcess>
 #include <QRegularExpression>
 #include <QTemporaryDir>
 #include <QTest>
@@ -23,6 +23,7 @@ class TestCli : public QObject {
   void simulateWritesTheReportsKeys();
   void reportsHoldWarningsAndWhoseLimitsTheyAre();
   void aRunOfOneFrameSaysNothingOfRest();
+  void whatWasPouredIsSummedUp();
   void probesHaveOneRowPerFrame();
   void sameProjectGivesTheSameHash();
   void runsGoOnFromAState();
@@ -33,44 +34,10 @@ class TestCli : public QObject {
   void recordingsAreDrawn();
   void fieldsOfPlugins();
   void filmsEndWhereTheRunBreaks();
-  void pluginsThatFailAtTheEndAreTold();
-  void pluginsThatCrashInAStepAreQuarantined();
-  void pluginsThatDoNotComeBackAreNamed();
-  void pluginsAreTried_data();
-  void pluginsAreTried();
   void reportsThatCannotBeWrittenStopTheRunBefore();
 };
 
 namespace {
-
-struct Ran {
-  int code = -1;
-  QByteArray out, err;
-};
-
-const QString kSample = PS_SOURCE_DIR "/projects/ice-on-hot-plate.json";
-
-Ran cli(const QStringList& arguments, const QString& pluginPath = {}) {
-  QProcess process;
-  if (!pluginPath.isEmpty()) {
-    QProcessEnvironment environment = QProcessEnvironment::systemEnvironment();
-    environment.insert("PHASESKETCH_PLUGIN_PATH", pluginPath);
-    process.setProcessEnvironment(environment);
-  }
-  process.start(PS_BINARY_DIR "/bin/phasesketch-cli", arguments);
-  Ran ran;
-  if (!process.waitForFinished(100000) || process.exitStatus() != QProcess::NormalExit) return ran;
-  ran.code = process.exitCode();
-  ran.out = process.readAllStandardOutput();
-  ran.err = process.readAllStandardError();
-  return ran;
-}
-
-/// A block of 5 x 5 x 5: enough to run every stage, small enough to be quick.
-QStringList smallScene(const QStringList& more) {
-  return QStringList{"simulate", kSample, "--set", "bodies/ice/shape/box/size=[0.1, 0.1, 0.1]", "--threads", "1"} +
-         more;
-}
 
 nlohmann::json jsonFile(const QString& path) {
   QFile file(path);
@@ -224,6 +191,18 @@ void TestCli::aRunOfOneFrameSaysNothingOfRest() {
   QVERIFY2(ran.code == 0, ran.err.constData());
   const nlohmann::json r = jsonFile(folder.filePath("r.json"));
   QVERIFY(r.contains("rest") && r["rest"].is_null());
+}
+
+void TestCli::whatWasPouredIsSummedUp() {
+  const QString tap =
+      "emitters=[{\"id\": \"tap\", \"material\": \"water\", \"point\": [0.15, 0.3, 0.15], \"direction\": "
+      "[0, -1, 0], \"diameter\": 0.04, \"speed\": 1}]";
+  const Ran ran = cli(smallScene({"--frames", "20", "--set", tap}));
+  QVERIFY2(ran.code == 0, ran.err.constData());
+  const QRegularExpression line("^poured by emitters: [0-9.]+ kg, [0-9]+ particles$",
+                                QRegularExpression::MultilineOption);
+  QVERIFY2(line.match(ran.out).hasMatch() && !ran.out.contains("drained"), ran.out.constData());
+  QVERIFY(!cli(smallScene({"--frames", "1"})).out.contains("poured"));
 }
 
 void TestCli::probesHaveOneRowPerFrame() {
@@ -384,16 +363,6 @@ void TestCli::recordingsAreDrawn() {
   QVERIFY2(ran.out.startsWith("1 picture in "), ran.out.constData());
 }
 
-namespace {
-
-/// A folder with one fixture, which behaves as it is called.
-bool place(const QTemporaryDir& folder, const QString& fixture, const QString& name) {
-  return QFile::copy(qEnvironmentVariable("PS_FIXTURE_DIR") + "/fixture_" + fixture + ".so",
-                     folder.filePath(name + ".so"));
-}
-
-}  // namespace
-
 /// A plugin's field is listed, drawn, probed and recorded like ours; drawn from the recording without the plugin too.
 void TestCli::fieldsOfPlugins() {
   const QTemporaryDir folder, plugins;
@@ -443,90 +412,6 @@ void TestCli::filmsEndWhereTheRunBreaks() {
   QCOMPARE(ran.code, 1);
   QVERIFY2(ran.err.contains("the run set flags: not_finite"), ran.err.constData());
   QCOMPARE(QDir(out).entryList(QDir::Files), QStringList{"frame-000000.png"});
-}
-
-namespace {
-
-const QStringList kFixtureScene =
-    smallScene({"--frames", "2", "--set", "bodies/ice/constraints=[{\"plugin\": \"fixture.constraint\"}]"});
-
-}  // namespace
-
-void TestCli::pluginsThatFailAtTheEndAreTold() {
-  const QTemporaryDir folder;
-  QVERIFY(place(folder, "constraint", "throwing_energy"));
-  const Ran ran = cli(kFixtureScene, folder.path());
-  QCOMPARE(ran.code, 1);
-  QVERIFY2(ran.err.contains("plugin_fault: plugin 'fixture.constraint': no energy"), ran.err.constData());
-}
-
-void TestCli::pluginsThatCrashInAStepAreQuarantined() {
-  const QTemporaryDir folder;
-  QVERIFY(place(folder, "constraint", "aborting_step"));
-  qputenv("XDG_STATE_HOME", folder.filePath("state").toUtf8());
-  QCOMPARE(cli(kFixtureScene, folder.path()).code, -1);
-  const Ran list = cli({"plugins"}, folder.path());
-  const Ran again = cli(kFixtureScene, folder.path());
-  const Ran allowed = cli({"plugins", "--allow", "fixture.constraint"}, folder.path());
-  const Ran after = cli({"plugins"}, folder.path());
-  qunsetenv("XDG_STATE_HOME");
-  QVERIFY2(list.out.contains("quarantined") && list.out.contains("it crashed the program, or did not come back"),
-           list.out.constData());
-  QVERIFY2(again.code >= 0, "it crashed once more");
-  QCOMPARE(allowed.code, 0);
-  QVERIFY2(!after.out.contains("quarantined"), after.out.constData());
-}
-
-void TestCli::pluginsThatDoNotComeBackAreNamed() {
-  const QTemporaryDir folder;
-  QVERIFY(place(folder, "constraint", "endless_step"));
-  qputenv("XDG_STATE_HOME", folder.filePath("state").toUtf8());
-  const Ran run = cli(kFixtureScene + QStringList{"--patience", "1"}, folder.path());
-  const Ran list = cli({"plugins"}, folder.path());
-  const Ran again = cli(kFixtureScene, folder.path());
-  const Ran tried = cli({"plugins", "--check", folder.filePath("endless_step.so"), "--patience", "1.5"});
-  qunsetenv("XDG_STATE_HOME");
-  QCOMPARE(run.code, 3);
-  QVERIFY2(run.err.contains("the plugin 'fixture.constraint' did not come back within 1 s"), run.err.constData());
-  QVERIFY2(list.out.contains("quarantined"), list.out.constData());
-  QVERIFY2(again.code == 0 && again.err.contains("fixture.constraint"), again.err.constData());
-  QCOMPARE(tried.code, 3);
-  QVERIFY2(tried.err.contains("endless_step.so: it did not come back within 1.5 s when it ran in a scene"),
-           tried.err.constData());
-}
-
-void TestCli::pluginsAreTried_data() {
-  QTest::addColumn<QString>("fixture");
-  QTest::addColumn<QString>("name");
-  QTest::addColumn<int>("code");
-  QTest::addColumn<QString>("says");
-  const auto row = [](const char* fixture, const char* name, int code, const char* says) {
-    QTest::newRow(name) << fixture << name << code << says;
-  };
-  row("constraint", "sound", 0, ": fine: constraint 'fixture.constraint' 1.2.3, Fixture");
-  row("neighbour", "sound_neighbour", 0, ": fine: constraint 'fixture.neighbour'");
-  row("source", "sound_source", 0, ": fine: heat_source 'fixture.source'");
-  row("material", "sound_material", 0, ": fine: material 'fixture.material'");
-  row("constraint", "wide_constraint", 1, "2 to 4 particles, not 9");
-  row("constraint", "nan_constraint", 1, "plugin 'fixture.constraint' moved it");
-  row("constraint", "throwing_topology", 1, "no more bonds");
-  row("constraint", "throwing_energy", 1, "no energy");
-  row("constraint", "aborting_step", 1, "it crashed (Aborted) when it ran in a scene of ten frames");
-  row("material", "aborting", 1, "it crashed (Aborted) when it was loaded");
-  row("plain", "plain", 1, "it is not a plugin");
-}
-void TestCli::pluginsAreTried() {
-  QFETCH(QString, fixture);
-  QFETCH(QString, name);
-  QFETCH(int, code);
-  QFETCH(QString, says);
-  const QTemporaryDir folder;
-  QVERIFY(place(folder, fixture, name));
-  const Ran ran = cli({"plugins", "--check", folder.filePath(name + ".so")});
-  QVERIFY2(ran.code == code, (ran.out + ran.err).constData());
-  const QByteArray told = code == 0 ? ran.out : ran.err;
-  QVERIFY2(told.contains(says.toUtf8()) && told.contains((name + ".so").toUtf8()), told.constData());
-  QVERIFY(!told.contains("/phasesketch-check-"));
 }
 
 void TestCli::reportsThatCannotBeWrittenStopTheRunBefore() {

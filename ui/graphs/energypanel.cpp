@@ -68,22 +68,31 @@ void EnergyPanel::append(const FrameStats& stats) {
   m_graph->append(4, stats.time, stats.heat.heaters);
   m_graph->setPresentTime(stats.time);
   m_last = stats;
+  m_ledger->setText(ledgerText());
+}
+
+QString EnergyPanel::ledgerText() const {
+  const FrameStats& stats = m_last;
   const auto line = [](const QString& name, const QString& value) {
     return QStringLiteral("<tr><td>%1&nbsp;&nbsp;&nbsp;</td><td align='right'>%2</td></tr>")
         .arg(name, value.toHtmlEscaped());
   };
-  m_ledger->setText(
-      QStringLiteral("<table>") + line(QStringLiteral("Heat in matter"), joules(stats.thermalEnergy - m_start)) +
-      line(QStringLiteral("Through walls"), joules(stats.heat.walls)) +
-      line(QStringLiteral("Through air"), joules(stats.heat.air)) +
-      line(QStringLiteral("Through radiation"), joules(stats.heat.radiation)) +
-      (stats.heat.airWarming == 0
-           ? QString()
-           : line(QStringLiteral("Air warmed by"), formatFixed(stats.heat.airWarming, 1) + QStringLiteral(" K"))) +
-      line(QStringLiteral("By heaters"), joules(stats.heat.heaters)) +
-      line(QStringLiteral("Came with matter"), joules(stats.heat.sources)) +
-      line(QStringLiteral("Motion"), joules(stats.kineticEnergy)) +
-      line(QStringLiteral("Balance open by"), balanceText()) + QStringLiteral("</table>"));
+  const auto matter = [&](const QString& name, const FlowAmount& amount) {
+    return amount.count == 0 ? QString() : line(name, formatPrefixed(1000 * amount.mass, QStringLiteral("g")));
+  };
+  return QStringLiteral("<table>") + line(QStringLiteral("Heat in matter"), joules(stats.thermalEnergy - m_start)) +
+         line(QStringLiteral("Through walls"), joules(stats.heat.walls)) +
+         line(QStringLiteral("Through air"), joules(stats.heat.air)) +
+         line(QStringLiteral("Through radiation"), joules(stats.heat.radiation)) +
+         (stats.heat.airWarming == 0
+              ? QString()
+              : line(QStringLiteral("Air warmed by"), formatFixed(stats.heat.airWarming, 1) + QStringLiteral(" K"))) +
+         line(QStringLiteral("By heaters"), joules(stats.heat.heaters)) +
+         line(QStringLiteral("Came with matter"), joules(stats.heat.sources)) +
+         matter(QStringLiteral("Matter from taps"), stats.flow.poured) +
+         matter(QStringLiteral("Matter into drains"), stats.flow.drained) +
+         line(QStringLiteral("Motion"), joules(stats.kineticEnergy)) +
+         line(QStringLiteral("Balance open by"), balanceText()) + QStringLiteral("</table>");
 }
 
 QString EnergyPanel::balanceText() const {

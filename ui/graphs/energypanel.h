@@ -21,6 +21,7 @@ class EnergyPanel : public QWidget {
   void clear();
   void setDuration(double seconds);
   QString balanceText() const;
+  QString ledgerText() const;  ///< rich text: a row for each place that heat or matter came from or went to
 
  private:
   void readHistory();
