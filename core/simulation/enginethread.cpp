@@ -68,9 +68,8 @@ struct EngineThread::Impl {
   void settle();
   /// What was reported of one run is over with the next.
   void follow(uint64_t revision);
-  /// Tells of what failed. Never calls the engine, which may be just that.
+  /// Tells of what failed, and pauses where a plugin failed in an edit. Never calls the engine, which may be just that.
   void fail(EngineEvent event);
-  void refuse(const EngineEvent& refusal);
   void halt();
   // On the watching thread.
   void isLate(const std::string& id);
@@ -166,7 +165,7 @@ void EngineThread::Impl::workOff() {
                command && std::holds_alternative<ShowFields>(*command)) {
       look(*command);
     } else if (command) {
-      if (const auto refusal = edit([&] { engine->apply(*command); })) refuse(*refusal);
+      if (const auto refusal = edit([&] { engine->apply(*command); })) fail(*refusal);
     } else if (const auto* opening = std::get_if<Opening>(&*entry)) {
       open(*opening);
     } else if (const auto* question = std::get_if<Question>(&*entry)) {
@@ -248,8 +247,7 @@ void EngineThread::Impl::follow(uint64_t revision) {
   if (std::exchange(reportedOf, revision) != revision) settle();
 }
 
-/// A flag may be raised in every frame, or in every third: reported once, it is reported again after a quiet second
-/// only.
+/// A flag may be raised in every frame, or in every third: after the first time it is reported after a quiet second.
 void EngineThread::Impl::tellOf(const StepReport& report) {
   quiet = report.flags ? 0 : std::min(quiet + 1, kQuiet + 1);
   if (report.flags & (~reported | kPausing)) notify({0, EngineEvent::Kind::Step, report.flags, report.message});
@@ -279,13 +277,9 @@ void EngineThread::Impl::publish(SnapshotPtr snapshot) {
 }
 
 void EngineThread::Impl::fail(EngineEvent event) {
+  if (event.kind == EngineEvent::Kind::Refused && event.flags) halt();
   notify(std::move(event));
   if (published) published();
-}
-
-void EngineThread::Impl::refuse(const EngineEvent& refusal) {
-  if (refusal.flags) halt();
-  fail(refusal);
 }
 
 template <class Action>
@@ -322,12 +316,9 @@ void EngineThread::Impl::editAll(const ParameterBatch& batch) {
     if (batch.size() > 1) refusal = edit([&] { engine->setParameters({&one, 1}); });
     if (!refusal) continue;
     if (together->flags) refusal->message = together->message;  // a plugin says what is wrong but once
-    refusal->culprit = one.address;
-    refusal->asked = one.value;
-    refusal->kept = storedValue(engine->project(), one.address);
-    refusals.push_back(std::move(*refusal));
+    refusals.push_back(refusalOf(one, engine->project(), *refusal));
   }
-  for (const EngineEvent& refusal : refusals) refuse(refusal);
+  for (const EngineEvent& refusal : refusals) fail(refusal);
 }
 
 /// No edit: what was refused stays refused.
@@ -344,7 +335,7 @@ void EngineThread::Impl::answer(const Question& question) {
   try {
     question(*engine);
   } catch (...) {
-    refuse(failureAtHand(EngineEvent::Kind::Refused));
+    fail(failureAtHand(EngineEvent::Kind::Refused));
   }
 }
 

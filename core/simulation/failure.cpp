@@ -32,4 +32,11 @@ EngineEvent failureAtHand(EngineEvent::Kind kind) {
   return event;
 }
 
+EngineEvent refusalOf(const SetParameter& edit, const Project& present, EngineEvent failure) {
+  failure.culprit = edit.address;
+  failure.asked = edit.value;
+  failure.kept = storedValue(present, edit.address);
+  return failure;
+}
+
 }  // namespace ps
