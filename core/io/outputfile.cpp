@@ -4,13 +4,16 @@
 #include "core/io/outputfile.h"
 
 #include "core/base/error.h"
+#include "core/io/descriptor.h"
 
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <ctime>
 #include <fcntl.h>
 #include <filesystem>
 #include <optional>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 #include <utility>
@@ -19,6 +22,8 @@ namespace ps {
 namespace {
 
 constexpr size_t kBuffer = size_t{1} << 16;
+constexpr std::string_view kPart = ".part-";
+constexpr size_t kLetters = 6;  // of mkostemp()
 
 /// A sentence for people: what happened and what to do.
 std::string saveProblem(int code) {
@@ -71,10 +76,8 @@ int writeAll(int fd, std::string_view bytes) {
 /// Makes a rename last through a power failure; a file system that cannot do that is no reason to fail.
 void syncFolder(const std::string& path) {
   const std::string folder = std::filesystem::path(path).parent_path().string();
-  const int fd = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (fd < 0) return;
-  ::fsync(fd);
-  ::close(fd);
+  const Descriptor fd(::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (fd.get() >= 0) ::fsync(fd.get());
 }
 
 /// Takes bytes one after the other and keeps none: a pipe, a terminal, /dev/null.
@@ -93,11 +96,13 @@ std::optional<mode_t> writableModeAt(const std::string& path) {
   return old.st_mode;
 }
 
-/// A new file beside the target, with the permissions that the target has or would get; `part` becomes its name.
+/// A new file beside the target, with the permissions that the target has or would get; `part` becomes its name. It is
+/// locked while it is written: one that nobody locks was left by a program that is no more.
 int openPart(const std::string& path, const std::optional<mode_t>& old, std::string& part) {
-  part += ".part-XXXXXX";
+  part.append(kPart).append(kLetters, 'X');
   const int fd = ::mkostemp(part.data(), O_CLOEXEC);
   if (fd < 0) failSave(path, errno);
+  ::flock(fd, LOCK_EX | LOCK_NB);
   const mode_t mask = ::umask(0);
   ::umask(mask);
   if (::fchmod(fd, old ? (*old & 07777) : (0666 & ~mask)) == 0) return fd;
@@ -105,6 +110,14 @@ int openPart(const std::string& path, const std::optional<mode_t>& old, std::str
   ::close(fd);
   ::unlink(part.c_str());
   failSave(path, code);
+}
+
+/// Whether a part is of no use to anybody. An empty one may be about to be locked.
+bool isLeft(const std::string& part) {
+  const Descriptor fd(::open(part.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK));
+  struct stat info {};
+  return fd.get() >= 0 && ::fstat(fd.get(), &info) == 0 && S_ISREG(info.st_mode) &&
+         ::flock(fd.get(), LOCK_SH | LOCK_NB) == 0 && (info.st_size > 0 || ::time(nullptr) - info.st_mtim.tv_sec > 2);
 }
 
 }  // namespace
@@ -141,22 +154,45 @@ void OutputFile::flush() {
   if (code != 0) failSave(m_path, code);
 }
 
-void OutputFile::finish() {
+FileStamp OutputFile::finish() {
   flush();
   if (!m_part.empty() && ::fsync(m_fd) != 0 && errno != EINVAL) failSave(m_path, errno);
+  const Descriptor locked(m_part.empty() ? -1 : ::fcntl(m_fd, F_DUPFD_CLOEXEC, 0));  // until it has its name
+  struct stat info {};
+  ::fstat(m_fd, &info);
   if (::close(std::exchange(m_fd, -1)) != 0) failSave(m_path, errno);
-  if (m_part.empty()) return;
+  if (m_part.empty()) return {};
   if (::rename(m_part.c_str(), m_target.c_str()) != 0) failSave(m_path, errno);
   m_part.clear();
   syncFolder(m_target);
+  return stampOf(info);
 }
 
 std::string OutputFile::keepPart() { return std::exchange(m_part, {}); }
 
-void writeFileAtomically(const std::string& path, std::string_view bytes) {
+FileStamp writeFileAtomically(const std::string& path, std::string_view bytes) {
   OutputFile file(path);
   file.write(bytes);
-  file.finish();
+  FileStamp stamp = file.finish();
+  if (stamp.known) stamp.hash = hashOf(bytes);
+  return stamp;
+}
+
+void removeLeftParts(const std::string& folder, std::string_view name) {
+  std::error_code problem;
+  for (auto entry = std::filesystem::directory_iterator(folder, problem);
+       !problem && entry != std::filesystem::directory_iterator(); entry.increment(problem)) {
+    const std::string file = entry->path().filename().string();
+    const size_t end = file.size() < kPart.size() + kLetters ? 0 : file.size() - kPart.size() - kLetters;
+    if (end == 0 || file.compare(end, kPart.size(), kPart) != 0) continue;
+    if (!name.empty() && file.compare(0, end, name) != 0) continue;
+    if (isLeft(entry->path().string())) ::unlink(entry->path().c_str());
+  }
+}
+
+void removeLeftParts(const std::string& path) {
+  const std::filesystem::path target = std::filesystem::absolute(finalTarget(path));
+  removeLeftParts(target.parent_path().string(), target.filename().string());
 }
 
 void requireWritable(const std::string& path) {

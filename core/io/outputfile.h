@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "core/io/filestamp.h"
+
 #include <string>
 #include <string_view>
 
@@ -19,7 +21,7 @@ class OutputFile {
 
   void write(std::string_view bytes);  ///< buffered: a full disk may be noticed later, in flush() at the latest
   void flush();
-  void finish();
+  FileStamp finish();  ///< of the file that has its name now, without its hash; not known for a pipe
   /// Leaves what was written under a name of its own, and says which; "" for a pipe. Nothing may be written any more.
   std::string keepPart();
 
@@ -28,12 +30,18 @@ class OutputFile {
   int m_fd = -1;
 };
 
-/// An OutputFile of these bytes.
-void writeFileAtomically(const std::string& path, std::string_view bytes);
+/// An OutputFile of these bytes. Returns what stampOf() and hashOf() say of it; not known for a pipe.
+FileStamp writeFileAtomically(const std::string& path, std::string_view bytes);
 
 /// Throws what an OutputFile would throw for this path as things stand; leaves no trace. For results that come after
 /// long work.
 void requireWritable(const std::string& path);
+
+/// Removes the new files "path.part-..." of programs that were ended before these had taken their name, and leaves
+/// those that are being written. Not for a path where keepPart() has left what somebody may want.
+void removeLeftParts(const std::string& path);
+/// The same for all files of a folder; `name`: only for the one of that name.
+void removeLeftParts(const std::string& folder, std::string_view name);
 
 /// The same for two paths that lead to one file, were it one that is yet to be made; "" for a pipe or a device, into
 /// which several may write.

@@ -2,6 +2,7 @@
 #include "core/io/textfile.h"
 
 #include "core/base/error.h"
+#include "core/io/descriptor.h"
 
 #include <cerrno>
 #include <cstring>
@@ -10,24 +11,6 @@
 #include <unistd.h>
 
 namespace ps {
-namespace {
-
-/// Closes on the way out.
-class Descriptor {
- public:
-  explicit Descriptor(int fd) : m_fd(fd) {}
-  ~Descriptor() {
-    if (m_fd >= 0) ::close(m_fd);
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  int get() const { return m_fd; }
-
- private:
-  int m_fd;
-};
-
-}  // namespace
 
 std::string readFile(const std::string& path, size_t limit) {
   const Descriptor fd(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
