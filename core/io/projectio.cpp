@@ -171,10 +171,8 @@ Project readDocument(json& document, const PluginRegistry& plugins) {
   return project;
 }
 
-namespace {
-
-LoadedProject readText(const std::string& text, const std::string& name, const PluginRegistry& plugins,
-                       const std::vector<std::string>& edits) {
+LoadedProject readProject(const std::string& text, const std::string& name, const PluginRegistry& plugins,
+                          const std::vector<std::string>& edits) {
   json document = parseJson(text, name);
   for (const std::string& edit : edits) applyEdit(document, edit);
   LoadedProject loaded;
@@ -184,18 +182,11 @@ LoadedProject readText(const std::string& text, const std::string& name, const P
   return loaded;
 }
 
-}  // namespace
-
 LoadedProject parseProject(const std::string& text, const std::string& name, const PluginRegistry& plugins,
                            const std::vector<std::string>& edits) {
-  LoadedProject loaded = readText(text, name, plugins, edits);
+  LoadedProject loaded = readProject(text, name, plugins, edits);
   if (!loaded.problems.empty()) throw InputError(loaded.problems.front().text);
   return loaded;
-}
-
-LoadedProject readProject(const std::string& path, const PluginRegistry& plugins,
-                          const std::vector<std::string>& edits) {
-  return readText(readFile(path, kMaximumProjectBytes), path, plugins, edits);
 }
 
 LoadedProject loadProject(const std::string& path, const PluginRegistry& plugins,

@@ -28,12 +28,12 @@ struct LoadedProject {
 /// `edits`: "json/pointer=value" pairs applied to the JSON before it is checked (--set).
 LoadedProject loadProject(const std::string& path, const PluginRegistry& plugins,
                           const std::vector<std::string>& edits = {});
-/// The same for who can mend it: contradicting values, laws that fail, and matter that does not fit are told under
-/// `problems`, and the project is there as the file has it.
-LoadedProject readProject(const std::string& path, const PluginRegistry& plugins,
-                          const std::vector<std::string>& edits = {});
 LoadedProject parseProject(const std::string& text, const std::string& name, const PluginRegistry& plugins,
                            const std::vector<std::string>& edits = {});
+/// The same for who can mend it: contradicting values, laws that fail, and matter that does not fit are told under
+/// `problems`, and the project is there as the file has it.
+LoadedProject readProject(const std::string& text, const std::string& name, const PluginRegistry& plugins,
+                          const std::vector<std::string>& edits = {});
 /// Sorted keys, two spaces, shortest round-trip numbers, newline at the end: load, save, load gives the same bytes.
 std::string writeProject(const Project& project);
 /// Unknown keys are kept at every level. Throws Error for a value that is not finite.

@@ -2,6 +2,7 @@
 // Projects of which no scene can be made as they are: read for who can mend them, refused by who cannot, with the value
 // to blame; and scenes once that value is mended.
 #include "core/io/projectio.h"
+#include "core/io/textfile.h"
 #include "core/plugin_host/registry.h"
 #include "core/simulation/declared.h"
 #include "core/simulation/engine.h"
@@ -111,7 +112,7 @@ class TestMending : public QObject {
     const QString path = m_scratch.filePath("wrong.json");
     const Project project = withWrong(wrong);
     saveProject(project, path.toStdString());
-    const LoadedProject read = readProject(path.toStdString(), *m_plugins);
+    const LoadedProject read = readProject(readFile(path.toStdString(), kMaximumProjectBytes), path.toStdString(), *m_plugins);
     QCOMPARE(writeProject(read.project), writeProject(project));
     QCOMPARE(read.problems.size(), *wrong.pointer ? size_t{1} : size_t{0});
     if (read.problems.empty()) return;

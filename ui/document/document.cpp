@@ -17,10 +17,11 @@ Document::~Document() { m_undo.disconnect(this); }
 
 void Document::setPlugins(const PluginRegistry* plugins) { m_plugins = plugins; }
 
-void Document::open(Project project, const QString& path, bool dirty, bool play) {
+void Document::open(Project project, const QString& path, bool dirty, bool play, const FileStamp& file) {
   if (isDirty()) Q_EMIT replacing();
   m_project = std::move(project);
   m_path = path;
+  m_file = file;
   m_gestureDepth = 0;
   m_neverClean = dirty;
   m_undo.clear();
@@ -39,9 +40,10 @@ QString Document::title() const {
 
 bool Document::isDirty() const { return m_neverClean || !m_undo.isClean(); }
 
-bool Document::saved(const QString& path, uint64_t changeCount) {
+bool Document::saved(const QString& path, uint64_t changeCount, const FileStamp& file) {
   if (!had(changeCount)) return false;
   m_path = path;
+  m_file = file;
   if (changeCount == m_changes) {
     m_neverClean = false;
     m_undo.setClean();

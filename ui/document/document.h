@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "core/io/filestamp.h"
 #include "core/scene/project.h"
 #include "ui/document/changeevent.h"
 #include "ui/document/port.h"
@@ -36,14 +37,16 @@ class Document : public QObject {
   QUndoStack& undoStack() { return m_undo; }
   const QUndoStack& undoStack() const { return m_undo; }
 
-  /// Replaces the project and forgets the history. `dirty`: it differs from the file (a restored autosave).
-  void open(Project project, const QString& path, bool dirty = false, bool play = true);
+  /// Replaces the project and forgets the history. `dirty`: it differs from the file (a restored autosave). `file`: what
+  /// the file was when the project was read from it or came to differ from it.
+  void open(Project project, const QString& path, bool dirty = false, bool play = true, const FileStamp& file = {});
   const QString& path() const { return m_path; }  ///< "" when it was never saved
   QString title() const;                          ///< the project's title, else the file's name, else "Untitled"
   bool isDirty() const;
+  const FileStamp& file() const { return m_file; }  ///< as it was read or saved last, here
   /// The file at `path` now holds the project as it was at `changeCount` (see changeCount()). False, and nothing
   /// happens, when another project has taken its place since.
-  bool saved(const QString& path, uint64_t changeCount);
+  bool saved(const QString& path, uint64_t changeCount, const FileStamp& file = {});
   /// Whether the project had this count (see changeCount()) since it was opened.
   bool had(uint64_t changeCount) const { return changeCount >= m_opened; }
   /// Rises with every change of the project, and when another takes its place.
@@ -147,6 +150,7 @@ class Document : public QObject {
   const PluginRegistry* m_plugins = nullptr;
   Project m_project;
   QString m_path;
+  FileStamp m_file;
   QUndoStack m_undo;
   int m_gesture = 0, m_gestureDepth = 0;
   QString m_gestureText;

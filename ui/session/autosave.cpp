@@ -1,74 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/session/autosave.h"
 
-#include "core/io/outputfile.h"
+#include "core/io/filelock.h"
 #include "core/io/projectio.h"
 #include "core/plugin_host/pluginpaths.h"
 #include "ui/document/document.h"
+#include "ui/session/autosavenote.h"
 #include "ui/session/worker.h"
 
 #include <QtCore/QCoreApplication>
 #include <QtCore/QDir>
-#include <QtCore/QFile>
-#include <QtCore/QJsonArray>
-#include <QtCore/QJsonDocument>
-#include <QtCore/QJsonObject>
-#include <QtCore/QLockFile>
 
 #include <algorithm>
+#include <limits>
 
 namespace ps {
-namespace {
-
-constexpr const char* kEnds[] = {"", "replaced", "closed"};  // by SessionEnd
-
-QJsonObject toJson(const ViewState& view) {
-  QJsonObject json{{QStringLiteral("colour"), QString::fromStdString(view.colour)}};
-  if (!view.camera) return json;
-  const Vector3& target = view.camera->target;
-  json.insert(QStringLiteral("target"), QJsonArray{target[0], target[1], target[2]});
-  json.insert(QStringLiteral("distance"), view.camera->distance);
-  json.insert(QStringLiteral("azimuth"), view.camera->azimuth);
-  json.insert(QStringLiteral("elevation"), view.camera->elevation);
-  return json;
-}
-
-ViewState viewOf(const QJsonObject& json) {
-  ViewState view;
-  view.colour = json.value(QStringLiteral("colour")).toString(QString::fromStdString(view.colour)).toStdString();
-  if (!json.contains(QStringLiteral("target"))) return view;
-  ViewCamera& camera = view.camera.emplace();
-  const auto number = [&](const char* key, double& value) { value = json.value(QLatin1String(key)).toDouble(value); };
-  const QJsonArray target = json.value(QStringLiteral("target")).toArray();
-  for (int i = 0; i < 3; ++i)
-    camera.target[static_cast<size_t>(i)] = target.at(i).toDouble(camera.target[static_cast<size_t>(i)]);
-  number("distance", camera.distance);
-  number("azimuth", camera.azimuth);
-  number("elevation", camera.elevation);
-  return view;
-}
-
-void writeNote(const AutosavedSession& session) {
-  const QJsonObject note{{QStringLiteral("path"), session.path},
-                         {QStringLiteral("title"), session.title},
-                         {QStringLiteral("time"), session.time.toString(Qt::ISODateWithMs)},
-                         {QStringLiteral("ended"), QString::fromLatin1(kEnds[static_cast<size_t>(session.end)])},
-                         {QStringLiteral("unsaved"), !session.copy.isEmpty()},
-                         {QStringLiteral("view"), toJson(session.view)}};
-  writeFileAtomically((session.stem + QStringLiteral(".note")).toStdString(),
-                      QJsonDocument(note).toJson().toStdString());
-}
-
-void discardFiles(const QString& stem) {
-  for (const char* ending : {".note", ".json", ".lock"}) QFile::remove(stem + QLatin1String(ending));
-}
-
-}  // namespace
-
 Autosave::Autosave(Document& document, Worker& worker, const QString& directory, QObject* parent)
     : QObject(parent), m_document(document), m_worker(worker), m_directory(directory) {
   QDir().mkpath(directory);
   takeStem();
+  worker.run([directory] { notes::tidy(directory); });
   m_timer.setInterval(kInterval);
   connect(&m_timer, &QTimer::timeout, this, &Autosave::saveNow);
   m_rest.setSingleShot(true);
@@ -92,46 +43,27 @@ QString Autosave::standardDirectory() { return QString::fromStdString(stateDirec
 /// A stem that no session has, locked. Without permission to lock, the first write says so.
 void Autosave::takeStem() {
   const QString now = QDateTime::currentDateTimeUtc().toString(QStringLiteral("yyyyMMdd-HHmmss"));
-  std::unique_ptr<QLockFile> lock;
+  std::unique_ptr<FileLock> lock;
   do {
-    m_stem = QStringLiteral("%1/%2-%3-%4").arg(m_directory, now).arg(QCoreApplication::applicationPid()).arg(m_count++);
-    lock = std::make_unique<QLockFile>(m_stem + QStringLiteral(".lock"));
-    lock->setStaleLockTime(0);
-  } while ((!lock->tryLock() && lock->error() == QLockFile::LockFailedError) ||
-           QFile::exists(m_stem + QStringLiteral(".note")));
+    m_stem = QDir(m_directory)
+                 .filePath(QStringLiteral("%1-%2-%3").arg(now).arg(QCoreApplication::applicationPid()).arg(m_count++));
+    lock = std::make_unique<FileLock>((m_stem + QStringLiteral(".lock")).toStdString());
+  } while (lock->busy() || notes::stems(m_directory).contains(m_stem));
   m_lock = std::move(lock);
 }
 
 std::vector<AutosavedSession> Autosave::leftBehind() const {
   std::vector<AutosavedSession> sessions;
-  const QDir dir(m_directory);
-  for (const QString& name : dir.entryList({QStringLiteral("*.note")}, QDir::Files)) {
-    AutosavedSession session;
-    session.stem = dir.filePath(name.chopped(5));
-    if (m_takenOver.contains(session.stem)) continue;
-    QLockFile lock(session.stem + QStringLiteral(".lock"));
-    lock.setStaleLockTime(0);
-    if (!lock.tryLock()) continue;  // still running
-    QFile file(dir.filePath(name));
-    if (!file.open(QIODevice::ReadOnly)) continue;
-    const QJsonObject note = QJsonDocument::fromJson(file.readAll()).object();
-    session.path = note.value(QStringLiteral("path")).toString();
-    session.title = note.value(QStringLiteral("title")).toString();
-    session.time = QDateTime::fromString(note.value(QStringLiteral("time")).toString(), Qt::ISODateWithMs);
-    session.view = viewOf(note.value(QStringLiteral("view")).toObject());
-    const QString ended = note.value(QStringLiteral("ended")).toString();
-    for (const SessionEnd end : {SessionEnd::Replaced, SessionEnd::Closed}) {
-      if (ended == QLatin1String(kEnds[static_cast<size_t>(end)])) session.end = end;
-    }
-    const QString copy = session.stem + QStringLiteral(".json");
-    if (note.value(QStringLiteral("unsaved")).toBool() && QFile::exists(copy)) session.copy = copy;
-    sessions.push_back(session);
+  for (const QString& stem : notes::stems(m_directory)) {
+    if (stem == m_stem || m_takenOver.contains(stem)) continue;
+    if (FileLock::isHeld((stem + QStringLiteral(".lock")).toStdString())) continue;  // still running
+    sessions.push_back(notes::read(stem));
   }
   std::stable_sort(sessions.begin(), sessions.end(), [](const auto& a, const auto& b) { return a.time > b.time; });
   return sessions;
 }
 
-void Autosave::discard(const AutosavedSession& session) { discardFiles(session.stem); }
+void Autosave::discard(const AutosavedSession& session) { notes::removeAll(session.stem); }
 
 void Autosave::takeOver(const AutosavedSession& session) {
   m_takenOver.push_back(session.stem);
@@ -168,8 +100,10 @@ void Autosave::putAside() {
 AutosavedSession Autosave::present(SessionEnd end) const {
   AutosavedSession session;
   session.stem = m_stem;
-  if (m_document.isDirty()) session.copy = m_stem + QStringLiteral(".json");
+  session.change = m_document.changeCount();
+  if (m_document.isDirty()) session.copy = notes::copyPath(m_stem, session.change);
   session.path = m_document.path();
+  session.file = m_document.file();
   session.title = m_document.title();
   session.time = QDateTime::currentDateTime();
   session.end = end;
@@ -182,17 +116,30 @@ std::function<QString()> Autosave::copyJob(const AutosavedSession& session) cons
   return [session, project = m_document.project(), takenOver = m_takenOver] {
     try {
       if (session.copy.isEmpty()) {
-        QFile::remove(session.stem + QStringLiteral(".json"));
+        notes::removeCopies(session.stem, session.change);
       } else {
         saveProject(project, session.copy.toStdString());
       }
-      writeNote(session);
+      notes::write(session);
     } catch (const std::exception& error) {
       return QString::fromUtf8(error.what());
     }
-    for (const QString& stem : takenOver) discardFiles(stem);
+    if (session.change > 0) notes::removeCopies(session.stem, session.change - 1);
+    for (const QString& stem : takenOver) notes::removeAll(stem);
     return QString();
   };
+}
+
+/// What was taken over is in the document, whatever number it had there.
+Autosave::AroundSave Autosave::aroundSave() const {
+  std::vector<std::pair<QString, uint64_t>> older{{m_stem, m_document.changeCount()}};
+  for (const QString& stem : m_takenOver) older.emplace_back(stem, std::numeric_limits<uint64_t>::max());
+  return {[older](const QString& path, uint64_t hash) {
+            for (const auto& [stem, change] : older) notes::announceSave(stem, change, path, hash);
+          },
+          [older] {
+            for (const auto& [stem, change] : older) notes::removeCopies(stem, change);
+          }};
 }
 
 void Autosave::write(SessionEnd end) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "core/io/filestamp.h"
 #include "core/scene/project.h"
 
 #include <QtCore/QDateTime>
@@ -11,11 +12,10 @@
 #include <memory>
 #include <vector>
 
-class QLockFile;
-
 namespace ps {
 
 class Document;
+class FileLock;
 class Worker;
 
 enum class SessionEnd {
@@ -26,9 +26,11 @@ enum class SessionEnd {
 
 /// What an earlier session left behind.
 struct AutosavedSession {
-  QString stem;  ///< files are `stem`.json (the project, when it had unsaved changes), .note and .lock
-  QString copy;  ///< the project's copy; "" when everything was saved
-  QString path;  ///< the file it belongs to; "" when it was never saved
+  QString stem;         ///< of its files: see autosavenote.h
+  QString copy;         ///< the project's copy; "" when everything was saved
+  uint64_t change = 0;  ///< Document::changeCount() that it holds
+  QString path;         ///< the file it belongs to; "" when it was never saved
+  FileStamp file;       ///< what that file was, as the session knew it
   QString title;
   QDateTime time;
   SessionEnd end = SessionEnd::None;
@@ -60,6 +62,14 @@ class Autosave : public QObject {
   /// The document goes on with what `session` left: its files go as soon as this session has written its own.
   void takeOver(const AutosavedSession& session);
 
+  /// What the worker does around the replacement of a file by the document as it is now, so that no copy is ever
+  /// offered that is older than the file: `before` with the hash of the new bytes, `after` when they are there.
+  struct AroundSave {
+    std::function<void(const QString& path, uint64_t hash)> before;
+    std::function<void()> after;
+  };
+  AroundSave aroundSave() const;
+
   void start();    ///< the timer
   void saveNow();  ///< when something changed since the last copy, were it only the file that the work belongs to
   /// Last copy, with the note that the session ended in order; blocks until it is written. Returns "", or why it could
@@ -83,7 +93,7 @@ class Autosave : public QObject {
   Document& m_document;
   Worker& m_worker;
   QString m_directory, m_stem, m_problem;
-  std::unique_ptr<QLockFile> m_lock;
+  std::unique_ptr<FileLock> m_lock;
   QTimer m_timer, m_rest;
   QStringList m_takenOver;  ///< stems
   uint64_t m_written = 0;   ///< Document::changeCount() of the last copy that was written

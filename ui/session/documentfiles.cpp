@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/session/documentfiles.h"
 
+#include "core/io/outputfile.h"
 #include "core/io/projectio.h"
+#include "core/io/textfile.h"
 #include "core/plugin_host/registry.h"
-#include "core/simulation/projectstate.h"
 #include "ui/document/document.h"
 #include "ui/document/wallside.h"
 #include "ui/session/autosave.h"
+#include "ui/session/savejob.h"
 #include "ui/session/worker.h"
 
 #include <QtCore/QElapsedTimer>
-#include <QtCore/QFile>
 #include <QtCore/QFileInfo>
 #include <QtCore/QJsonArray>
 #include <QtCore/QJsonDocument>
@@ -18,6 +19,7 @@
 #include <QtCore/QSettings>
 
 #include <string_view>
+#include <utility>
 
 namespace ps {
 namespace {
@@ -48,13 +50,12 @@ Project emptyProject(const PluginRegistry* plugins) {
   return project;
 }
 
-/// With its list of required plugins set aside while it is checked, and kept for the next save.
-LoadedProject loadWithoutRequired(const QString& path, const PluginRegistry& plugins) {
-  LoadedProject loaded = readProject(path.toStdString(), plugins, {"pluginsRequired=[]"});
-  QFile file(path);
-  if (!file.open(QIODevice::ReadOnly)) return loaded;
-  for (const QJsonValue& id :
-       QJsonDocument::fromJson(file.readAll()).object()[QLatin1String("pluginsRequired")].toArray())
+/// `anyway`: with its list of required plugins set aside while it is checked, and kept for the next save.
+LoadedProject parse(const std::string& bytes, const QString& path, const PluginRegistry& plugins, bool anyway) {
+  if (!anyway) return readProject(bytes, path.toStdString(), plugins);
+  LoadedProject loaded = readProject(bytes, path.toStdString(), plugins, {"pluginsRequired=[]"});
+  const QJsonObject json = QJsonDocument::fromJson(QByteArray::fromStdString(bytes)).object();
+  for (const QJsonValue& id : json[QLatin1String("pluginsRequired")].toArray())
     loaded.project.pluginsRequired.push_back(id.toString().toStdString());
   return loaded;
 }
@@ -69,93 +70,149 @@ ViewState asSeen(ViewState stored, const ViewState& seen) {
 
 }  // namespace
 
+struct DocumentFiles::Read {
+  LoadedProject loaded;
+  QString problem;
+  double seconds = 0;
+  FileStamp file;
+  std::shared_ptr<FileLock> lock;
+};
+
 DocumentFiles::DocumentFiles(Document& document, Worker& worker, QObject* parent)
-    : QObject(parent), m_document(document), m_worker(worker) {}
+    : QObject(parent), m_document(document), m_worker(worker), m_own(std::make_shared<OwnFiles>()) {}
 
-void DocumentFiles::open(const QString& path) { load(QFileInfo(path).absoluteFilePath(), std::nullopt); }
+void DocumentFiles::open(const QString& path) {
+  const QString absolute = QFileInfo(path).absoluteFilePath();
+  load({absolute, absolute, false, false, {}, {}});
+}
 
-void DocumentFiles::openAnyway(const QString& path) { load(QFileInfo(path).absoluteFilePath(), std::nullopt, true); }
+void DocumentFiles::openAnyway(const QString& path) {
+  const QString absolute = QFileInfo(path).absoluteFilePath();
+  load({absolute, absolute, false, true, {}, {}});
+}
 
 bool DocumentFiles::lacksRequired(const QString& problem) { return problem.contains(QLatin1String(kRequiredPointer)); }
 
 void DocumentFiles::reopen(const AutosavedSession& session) {
-  load(session.copy.isEmpty() ? session.path : session.copy, session);
+  const bool dirty = !session.copy.isEmpty();
+  load({dirty ? session.copy : session.path, session.path, dirty, false, session.file,
+        std::make_shared<const AutosavedSession>(session)});
 }
 
-/// `session`: the one that is reopened by it.
-void DocumentFiles::load(const QString& path, const std::optional<AutosavedSession>& session, bool anyway) {
+void DocumentFiles::openVersion(const QString& version) {
+  load({version, m_document.path(), true, false, m_document.file(), {}});
+}
+
+void DocumentFiles::load(const Source& source) {
   const int request = ++m_request;
   const PluginRegistry* plugins = m_document.plugins();
   if (!plugins) {
-    Q_EMIT openFailed(path, QStringLiteral("Plugins are still being loaded. Open it again in a moment."));
+    Q_EMIT openFailed(source.path, QStringLiteral("Plugins are still being loaded. Open it again in a moment."));
     return;
   }
-  m_worker.run([this, request, plugins, path, session, anyway] {
+  m_worker.run([this, request, plugins, source, mine = m_lock, own = m_own, locks = locks(source.documentPath)] {
     QElapsedTimer clock;
     clock.start();
-    LoadedProject loaded;
-    QString problem;
+    auto read = std::make_shared<Read>();
     try {
-      loaded = anyway ? loadWithoutRequired(path, *plugins) : readProject(path.toStdString(), *plugins);
+      const std::string path = source.path.toStdString();
+      if (locks) removeLeftParts(source.documentPath.toStdString());
+      read->file = stampAt(path);  // before the bytes: what is written meanwhile is noticed
+      const std::string bytes = readFile(path, kMaximumProjectBytes);
+      read->file.hash = hashOf(bytes);
+      read->loaded = parse(bytes, source.path, *plugins, source.anyway);
+      if (locks) read->lock = own->lockOf(source.documentPath, mine);
     } catch (const std::exception& error) {
-      problem = QString::fromUtf8(error.what());
+      read->problem = QString::fromUtf8(error.what());
     }
-    std::vector<ProjectMessage> messages = std::move(loaded.problems);  // it opens nevertheless, to be mended
-    messages.insert(messages.end(), loaded.warnings.begin(), loaded.warnings.end());
-    const double seconds = static_cast<double>(clock.elapsed()) / 1000;
-    if (session && session->copy.isEmpty()) loaded.project.view = asSeen(loaded.project.view, session->view);
-    QMetaObject::invokeMethod(this, [this, request, path, session, problem, seconds,
-                                     project = std::move(loaded.project), messages = std::move(messages)] {
-      if (request != m_request) return;
-      if (!problem.isEmpty()) {
-        Q_EMIT openFailed(path, problem);
-        return;
-      }
-      QStringList warnings;
-      for (const ProjectMessage& message : messages) warnings << QString::fromStdString(message.text);
-      const QString documentPath = session ? session->path : path;
-      m_document.open(project, documentPath, session && !session->copy.isEmpty());
-      if (!documentPath.isEmpty()) addRecent(documentPath);
-      if (session) Q_EMIT reopened(*session);
-      Q_EMIT opened(documentPath, warnings, seconds);
+    read->seconds = static_cast<double>(clock.elapsed()) / 1000;
+    QMetaObject::invokeMethod(this, [this, request, source, read] {
+      if (request == m_request) adopt(source, *read);
     });
   });
 }
 
+/// The document becomes what was read.
+void DocumentFiles::adopt(const Source& source, Read& read) {
+  if (!read.problem.isEmpty()) {
+    Q_EMIT openFailed(source.path, read.problem);
+    return;
+  }
+  const bool own = source.path == source.documentPath;
+  Project& project = read.loaded.project;
+  if (source.session && !source.dirty) project.view = asSeen(project.view, source.session->view);
+  QStringList warnings;
+  // It opens though no scene can be made of it, to be mended.
+  for (const auto* messages : {&read.loaded.problems, &read.loaded.warnings}) {
+    for (const ProjectMessage& message : *messages) warnings << QString::fromStdString(message.text);
+  }
+  m_lock = read.lock;
+  m_document.open(std::move(project), source.documentPath, source.dirty, true, own ? read.file : source.file);
+  if (!source.documentPath.isEmpty()) addRecent(source.documentPath);
+  if (source.session) Q_EMIT reopened(*source.session);
+  Q_EMIT opened(source.documentPath, warnings, read.seconds);
+  if (m_lock && m_lock->busy()) Q_EMIT openElsewhere(source.documentPath, holderText(*m_lock));
+}
+
 void DocumentFiles::bringBack(const ReplacedWork& work) {
   ++m_request;
-  m_document.open(work.project, work.session.path, true);
+  m_document.open(work.project, work.session.path, true, true, work.session.file);
+  lockLater();
   Q_EMIT reopened(work.session);
   Q_EMIT opened(work.session.path, {}, 0);
 }
 
 void DocumentFiles::newProject() {
   ++m_request;
+  m_lock.reset();
   m_document.open(emptyProject(m_document.plugins()), {}, false, false);
   Q_EMIT opened({}, {}, 0);
 }
 
-void DocumentFiles::save(const QString& path) {
+/// Of the document's file, which is open already.
+void DocumentFiles::lockLater() {
+  const QString path = m_document.path();
+  if (!locks(path)) {
+    m_lock.reset();
+    return;
+  }
+  m_worker.run([this, path, request = m_request, own = m_own, mine = std::exchange(m_lock, {})] {
+    QMetaObject::invokeMethod(this, [this, path, request, lock = own->lockOf(path, mine)] {
+      if (request != m_request) return;
+      m_lock = lock;
+      if (lock->busy()) Q_EMIT openElsewhere(path, holderText(*lock));
+    });
+  });
+}
+
+void DocumentFiles::takeOver() {
+  if (!m_lock) return;
+  m_worker.run([this, path = m_document.path(), lock = m_lock] {
+    lock->takeOver();
+    QMetaObject::invokeMethod(this, [this, path, done = lock->held()] { Q_EMIT tookOver(path, done); });
+  });
+}
+
+void DocumentFiles::save(const QString& path, bool anyway) {
   const QString absolute = QFileInfo(path).absoluteFilePath();
-  m_worker.run([this, absolute, count = m_document.changeCount(), project = m_document.project(),
-                plugins = m_document.plugins()] {
-    QString problem, why;
-    Project written = project;
-    if (written.state && plugins) why = QString::fromStdString(whyStateDoesNotFit(*written.state, written, *plugins));
-    if (!why.isEmpty()) written.state = nullptr;
-    try {
-      saveProject(written, absolute.toStdString());
-    } catch (const std::exception& error) {
-      problem = QString::fromUtf8(error.what());
-    }
-    QMetaObject::invokeMethod(this, [this, absolute, count, problem, why] {
-      if (!problem.isEmpty()) {
-        Q_EMIT saveFailed(absolute, problem, m_document.had(count));
+  SaveJob job{absolute, m_document.project(), m_document.plugins(), {}, locks(absolute), m_lock, m_own, {}};
+  if (!anyway && absolute == m_document.path()) job.known = m_document.file();
+  if (m_autosave) job.around = m_autosave->aroundSave();
+  m_worker.run([this, job = std::move(job), count = m_document.changeCount()] {
+    QMetaObject::invokeMethod(this, [this, result = job(), path = job.path, count] {
+      if (result.refusal != SaveRefusal::None) {
+        Q_EMIT saveRefused(path, result.refusal, result.problem, m_document.had(count));
         return;
       }
-      addRecent(absolute);
-      if (!why.isEmpty()) Q_EMIT stateLeftOut(absolute, why);
-      Q_EMIT saved(absolute, m_document.saved(absolute, count));
+      if (!result.problem.isEmpty()) {
+        Q_EMIT saveFailed(path, result.problem, m_document.had(count));
+        return;
+      }
+      addRecent(path);
+      if (m_document.had(count)) m_lock = result.lock;
+      if (!result.noVersion.isEmpty()) Q_EMIT versionNotKept(path, result.noVersion);
+      if (!result.stateLeftOut.isEmpty()) Q_EMIT stateLeftOut(path, result.stateLeftOut);
+      Q_EMIT saved(path, m_document.saved(path, count, result.file));
     });
   });
 }

@@ -1,15 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "core/io/filestamp.h"
+
 #include <QtCore/QObject>
 #include <QtCore/QString>
 #include <QtCore/QStringList>
 
+#include <memory>
 #include <optional>
 
 namespace ps {
 
+class Autosave;
 class Document;
+class FileLock;
+struct OwnFiles;
 class Worker;
+enum class SaveRefusal;
 struct AutosavedSession;
 struct ReplacedWork;
 
@@ -22,6 +29,12 @@ class DocumentFiles : public QObject {
   /// `worker` must end before this object does.
   DocumentFiles(Document& document, Worker& worker, QObject* parent = nullptr);
 
+  /// From here on a project that is open is locked, so that another window knows, and what a file held before it was
+  /// saved is kept; and no copy of unsaved work is offered later that is older than its file.
+  void keepWith(const Autosave& autosave) { m_autosave = &autosave; }
+  /// A file that everybody opens and nobody saves: never locked.
+  void setSample(const QString& path) { m_sample = path; }
+
   void open(const QString& path);
   /// Though plugins are missing that the project cannot do without, by its own word: what they made stands still.
   void openAnyway(const QString& path);
@@ -32,7 +45,12 @@ class DocumentFiles : public QObject {
   void reopen(const AutosavedSession& session);
   void bringBack(const ReplacedWork& work);  ///< dirty, without its history
   void newProject();                         ///< paused: there is nothing to run
-  void save(const QString& path);
+  /// What the file was saved as before, as an unsaved change of the open project. `version`: of versions::of().
+  void openVersion(const QString& version);
+  /// Refused where another window has the file open, or another program has written it; `anyway`: not for the latter.
+  void save(const QString& path, bool anyway = false);
+  /// Another window has the file open that this one shows: its saves are refused from now on, ours are not.
+  void takeOver();
 
   static QStringList recent();  ///< newest first, existing files only
   static void addRecent(const QString& path);
@@ -40,6 +58,9 @@ class DocumentFiles : public QObject {
  Q_SIGNALS:
   void opened(const QString& path, const QStringList& warnings, double seconds);
   void reopened(const ps::AutosavedSession& session);  ///< before opened()
+  /// After opened(): another window has it open, of `who` where that is somebody else.
+  void openElsewhere(const QString& path, const QString& who);
+  void tookOver(const QString& path, bool done);
   void openFailed(const QString& path, const QString& problem);
   /// `present`: what was saved is still the open project.
   void saved(const QString& path, bool present);
@@ -47,12 +68,31 @@ class DocumentFiles : public QObject {
   /// it, so that the next save has it where an undo makes it fit again.
   void stateLeftOut(const QString& path, const QString& why);
   void saveFailed(const QString& path, const QString& problem, bool present);
+  /// The same, but the file could be replaced.
+  void saveRefused(const QString& path, ps::SaveRefusal refusal, const QString& problem, bool present);
+  void versionNotKept(const QString& path, const QString& problem);  ///< before saved()
 
  private:
-  void load(const QString& path, const std::optional<AutosavedSession>& session, bool anyway = false);
+  /// What is read, and what the document is to be then.
+  struct Source {
+    QString path, documentPath;
+    bool dirty = false, anyway = false;
+    FileStamp file;  ///< where the document's is not the one that is read
+    std::shared_ptr<const AutosavedSession> session;
+  };
+  struct Read;
+  void load(const Source& source);
+  void adopt(const Source& source, Read& read);
+  bool locks(const QString& path) const { return m_autosave && !path.isEmpty() && path != m_sample; }
+  void lockLater();
+
   Document& m_document;
   Worker& m_worker;
-  int m_request = 0;  ///< of the newest open(): an older one that arrives late is dropped
+  const Autosave* m_autosave = nullptr;
+  QString m_sample;
+  std::shared_ptr<FileLock> m_lock;  ///< of the document's file
+  std::shared_ptr<OwnFiles> m_own;   ///< for the worker's jobs
+  int m_request = 0;                 ///< of the newest open(): an older one that arrives late is dropped
 };
 
 }  // namespace ps

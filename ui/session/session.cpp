@@ -48,6 +48,7 @@ Session::Session(const Options& options, QObject* parent)
     m_autosave = std::make_unique<Autosave>(*m_document, *m_worker,
                                             directory.isEmpty() ? Autosave::standardDirectory() : directory);
     connect(m_files.get(), &DocumentFiles::reopened, m_autosave.get(), &Autosave::takeOver);
+    m_files->keepWith(*m_autosave);
     m_autosave->start();
   }
 }

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/session/autosavenote.h"
+
+#include "core/base/hash.h"
+#include "core/io/filelock.h"
+#include "core/io/outputfile.h"
+#include "ui/session/savejob.h"
+
+#include <QtCore/QDir>
+#include <QtCore/QFile>
+#include <QtCore/QFileInfo>
+#include <QtCore/QJsonArray>
+#include <QtCore/QJsonDocument>
+#include <QtCore/QJsonObject>
+
+#include <limits>
+#include <map>
+
+namespace ps::notes {
+namespace {
+
+constexpr const char* kEnds[] = {"", "replaced", "closed"};  // by SessionEnd
+const QString kNote = QStringLiteral(".note"), kJson = QStringLiteral(".json"), kSaving = QStringLiteral("saving");
+
+QJsonObject toJson(const ViewState& view) {
+  QJsonObject json{{QStringLiteral("colour"), QString::fromStdString(view.colour)}};
+  if (!view.camera) return json;
+  const Vector3& target = view.camera->target;
+  json.insert(QStringLiteral("target"), QJsonArray{target[0], target[1], target[2]});
+  json.insert(QStringLiteral("distance"), view.camera->distance);
+  json.insert(QStringLiteral("azimuth"), view.camera->azimuth);
+  json.insert(QStringLiteral("elevation"), view.camera->elevation);
+  return json;
+}
+
+ViewState viewOf(const QJsonObject& json) {
+  ViewState view;
+  view.colour = json.value(QStringLiteral("colour")).toString(QString::fromStdString(view.colour)).toStdString();
+  if (!json.contains(QStringLiteral("target"))) return view;
+  ViewCamera& camera = view.camera.emplace();
+  const auto number = [&](const char* key, double& value) { value = json.value(QLatin1String(key)).toDouble(value); };
+  const QJsonArray target = json.value(QStringLiteral("target")).toArray();
+  for (int i = 0; i < 3; ++i)
+    camera.target[static_cast<size_t>(i)] = target.at(i).toDouble(camera.target[static_cast<size_t>(i)]);
+  number("distance", camera.distance);
+  number("azimuth", camera.azimuth);
+  number("elevation", camera.elevation);
+  return view;
+}
+
+// Numbers of 64 bits as text: JSON's are doubles.
+QString text(uint64_t number) { return QString::number(number, 16); }
+uint64_t number(const QJsonValue& value) { return value.toString().toULongLong(nullptr, 16); }
+
+QJsonValue toJson(const FileStamp& stamp) {
+  if (!stamp.known) return {};
+  return QJsonObject{{QStringLiteral("size"), text(stamp.size)},
+                     {QStringLiteral("inode"), text(stamp.inode)},
+                     {QStringLiteral("time"), text(static_cast<uint64_t>(stamp.time))},
+                     {QStringLiteral("hash"), text(stamp.hash)}};
+}
+
+FileStamp stampOf(const QJsonValue& value) {
+  if (!value.isObject()) return {};
+  const QJsonObject json = value.toObject();
+  return {true, number(json[QStringLiteral("size")]), number(json[QStringLiteral("inode")]),
+          static_cast<int64_t>(number(json[QStringLiteral("time")])), number(json[QStringLiteral("hash")])};
+}
+
+QJsonObject noteOf(const QString& stem) {
+  QFile file(stem + kNote);
+  return file.open(QIODevice::ReadOnly) ? QJsonDocument::fromJson(file.readAll()).object() : QJsonObject();
+}
+
+void put(const QString& stem, const QJsonObject& note) {
+  writeFileAtomically((stem + kNote).toStdString(), QJsonDocument(note).toJson().toStdString());
+}
+
+/// Copies of a session by the change that they hold.
+std::map<uint64_t, QString> copies(const QString& stem) {
+  std::map<uint64_t, QString> found;
+  const QFileInfo info(stem);
+  for (const QString& name : info.dir().entryList({info.fileName() + QStringLiteral("*.json")}, QDir::Files)) {
+    const QString change = name.mid(info.fileName().size() + 1).chopped(4);  // "12." of "12.json", or ""
+    bool good = change.isEmpty();
+    const uint64_t n = good ? 0 : change.chopped(1).toULongLong(&good);
+    if (good) found[n] = info.dir().filePath(name);
+  }
+  return found;
+}
+
+/// Whether the file that belongs to the copy holds the same work or later work by now.
+bool isSaved(uint64_t change, const QJsonObject& note) {
+  const QJsonObject saving = note.value(kSaving).toObject();
+  if (saving.isEmpty() || change > number(saving[QStringLiteral("change")])) return false;
+  const std::string path = saving[QStringLiteral("path")].toString().toStdString();
+  return holdsStamped(path, {true, stampAt(path).size, 0, 0, number(saving[QStringLiteral("hash")])});
+}
+
+}  // namespace
+
+QString copyPath(const QString& stem, uint64_t change) {
+  return stem + QLatin1Char('.') + QString::number(change) + kJson;
+}
+
+QStringList stems(const QString& directory) {
+  QStringList found;
+  const QDir dir(directory);
+  for (const QString& name : dir.entryList({QLatin1Char('*') + kNote, QLatin1Char('*') + kJson}, QDir::Files))
+    found << dir.filePath(name.section(QLatin1Char('.'), 0, 0));
+  found.removeDuplicates();
+  return found;
+}
+
+AutosavedSession read(const QString& stem) {
+  AutosavedSession session;
+  session.stem = stem;
+  const QJsonObject note = noteOf(stem);
+  const auto all = copies(stem);
+  const uint64_t change = all.empty() ? 0 : all.rbegin()->first;
+  const QString copy = all.empty() ? QString() : all.rbegin()->second;
+  // A copy that is newer than the note was written when the program ended between the two.
+  const bool unsaved = note.isEmpty() || note.value(QStringLiteral("unsaved")).toBool() ||
+                       change > number(note.value(QStringLiteral("change")));
+  if (!all.empty() && unsaved && !isSaved(change, note)) session.copy = copy;
+  session.change = change;
+  session.path = note.value(QStringLiteral("path")).toString();
+  session.title = note.value(QStringLiteral("title")).toString(QFileInfo(stem).fileName());
+  session.time = QDateTime::fromString(note.value(QStringLiteral("time")).toString(), Qt::ISODateWithMs);
+  if (!session.time.isValid()) session.time = QFileInfo(copy.isEmpty() ? stem + kNote : copy).lastModified();
+  session.file = stampOf(note.value(QStringLiteral("file")));
+  session.view = viewOf(note.value(QStringLiteral("view")).toObject());
+  const QString ended = note.value(QStringLiteral("ended")).toString();
+  for (const SessionEnd end : {SessionEnd::Replaced, SessionEnd::Closed}) {
+    if (ended == QLatin1String(kEnds[static_cast<size_t>(end)])) session.end = end;
+  }
+  return session;
+}
+
+void write(const AutosavedSession& session) {
+  put(session.stem, {{QStringLiteral("path"), session.path},
+                     {QStringLiteral("title"), session.title},
+                     {QStringLiteral("time"), session.time.toString(Qt::ISODateWithMs)},
+                     {QStringLiteral("ended"), QString::fromLatin1(kEnds[static_cast<size_t>(session.end)])},
+                     {QStringLiteral("unsaved"), !session.copy.isEmpty()},
+                     {QStringLiteral("change"), text(session.change)},
+                     {QStringLiteral("file"), toJson(session.file)},
+                     {QStringLiteral("view"), toJson(session.view)},
+                     {kSaving, noteOf(session.stem).value(kSaving)}});
+}
+
+void announceSave(const QString& stem, uint64_t change, const QString& path, uint64_t hash) {
+  QJsonObject note = noteOf(stem);
+  if (note.isEmpty() && copies(stem).empty()) return;
+  note.insert(kSaving, QJsonObject{{QStringLiteral("change"), text(change)},
+                                   {QStringLiteral("path"), path},
+                                   {QStringLiteral("hash"), text(hash)}});
+  put(stem, note);
+}
+
+void removeCopies(const QString& stem, uint64_t upTo) {
+  for (const auto& [change, path] : copies(stem)) {
+    if (change <= upTo) QFile::remove(path);
+  }
+}
+
+void removeAll(const QString& stem) {
+  removeCopies(stem, std::numeric_limits<uint64_t>::max());
+  for (const char* ending : {".note", ".lock"}) QFile::remove(stem + QLatin1String(ending));
+}
+
+void tidy(const QString& directory) {
+  removeLeftParts(directory.toStdString(), {});
+  QStringList paths;
+  for (const QString& stem : stems(directory)) {
+    const QJsonObject note = noteOf(stem);
+    if (const auto all = copies(stem); !all.empty() && isSaved(all.rbegin()->first, note) &&
+                                       !FileLock::isHeld((stem + QStringLiteral(".lock")).toStdString()))
+      removeCopies(stem, all.rbegin()->first);
+    paths << note.value(QStringLiteral("path")).toString()
+          << note.value(kSaving).toObject().value(QStringLiteral("path")).toString();
+  }
+  paths.removeDuplicates();
+  for (const QString& path : paths) {
+    if (path.isEmpty()) continue;
+    removeLeftParts(path.toStdString());
+    const QString lock = lockPath(path);
+    if (QFile::exists(lock) && !FileLock::isHeld(lock.toStdString())) QFile::remove(lock);
+  }
+}
+
+}  // namespace ps::notes

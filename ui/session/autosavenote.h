@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "ui/session/autosave.h"
+
+#include <QtCore/QString>
+#include <QtCore/QStringList>
+
+/// The files of a session in the autosave folder: `stem`.note says what it works on, `stem`.N.json is a copy of the
+/// project as it was at change N, `stem`.lock is locked while the session runs. A copy is written before the note that
+/// tells of it, and goes after the one that does not. Everything here reads or writes files.
+namespace ps::notes {
+
+QString copyPath(const QString& stem, uint64_t change);
+QStringList stems(const QString& directory);  ///< of all sessions that left a note or a copy
+/// Whatever can be read of it: a copy without a readable note is a copy all the same, of a nameless project.
+AutosavedSession read(const QString& stem);
+/// Throws Error.
+void write(const AutosavedSession& session);
+/// Before the file at `path` gets bytes of this hash, which hold the project as it was at `change`: when it does,
+/// copies that are not newer are not to be offered any more.
+void announceSave(const QString& stem, uint64_t change, const QString& path, uint64_t hash);
+void removeCopies(const QString& stem, uint64_t upTo);
+void removeAll(const QString& stem);
+/// Removes what programs left that were killed while they wrote, in the folder and beside the projects that its notes
+/// name, and copies that are not newer than their file.
+void tidy(const QString& directory);
+
+}  // namespace ps::notes
