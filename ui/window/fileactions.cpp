@@ -11,6 +11,7 @@
 #include "ui/session/worker.h"
 #include "ui/viewport/viewport.h"
 #include "ui/window/actions.h"
+#include "ui/window/fileguard.h"
 #include "ui/window/noticebar.h"
 #include "ui/window/notices.h"
 #include "ui/window/restoreoffer.h"
@@ -67,6 +68,8 @@ QString fileToWrite(QWidget* parent, const QString& title, const QString& sugges
 
 }  // namespace
 
+FileActions::~FileActions() = default;
+
 FileActions::FileActions(Session& session, const Actions& actions, Notices& notices, RestoreOffer& restore,
                          const Options& options, QObject* parent)
     : QObject(parent),
@@ -74,8 +77,10 @@ FileActions::FileActions(Session& session, const Actions& actions, Notices& noti
       m_actions(actions),
       m_notices(notices),
       m_restore(restore),
-      m_options(options) {
+      m_options(options),
+      m_guard(std::make_unique<FileGuard>(session, actions, notices, restore)) {
   DocumentFiles& files = session.files();
+  files.setSample(options.sample);
   connect(&files, &DocumentFiles::opened, this, &FileActions::onOpened);
   connect(&files, &DocumentFiles::openFailed, this, &FileActions::onOpenFailed);
   connect(&files, &DocumentFiles::saveFailed, this, &FileActions::onSaveFailed);
@@ -107,6 +112,7 @@ void FileActions::makeMenu(QMenu* menu, Viewport* view) {
     m_actions.add(menu, QStringLiteral("file.sample"), QStringLiteral("Open sample “Ice on a hot plate”"), {},
                   [this] { open(m_options.sample); });
   }
+  m_guard->addVersionsMenu(menu);
   m_actions.add(menu, QStringLiteral("file.restore"), QStringLiteral("Restore unsaved work…"), {},
                 [this] { m_restore.offer(); });
   connect(menu, &QMenu::aboutToShow, this, &FileActions::updateRestore);

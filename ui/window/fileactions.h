@@ -5,12 +5,14 @@
 #include <QtCore/QString>
 
 #include <functional>
+#include <memory>
 
 class QMenu;
 
 namespace ps {
 
 class Actions;
+class FileGuard;
 class Notices;
 class RestoreOffer;
 class Session;
@@ -27,6 +29,7 @@ class FileActions : public QObject {
   };
   FileActions(Session& session, const Actions& actions, Notices& notices, RestoreOffer& restore, const Options& options,
               QObject* parent = nullptr);
+  ~FileActions() override;
   void makeMenu(QMenu* menu, Viewport* view);
   /// Before plugins are there, it becomes the project to begin with.
   void open(const QString& path);
@@ -63,6 +66,7 @@ class FileActions : public QObject {
   Notices& m_notices;
   RestoreOffer& m_restore;
   Options m_options;
+  std::unique_ptr<FileGuard> m_guard;
   Viewport* m_view = nullptr;
   QMenu* m_recent = nullptr;
   QString m_stateTo;       ///< file that waits for the state; "": none
