@@ -2,6 +2,7 @@
 // The editor: arguments, graphics format, theme, window.
 #include "app/editor/arguments.h"
 #include "app/editor/picture.h"
+#include "app/editor/quitsignals.h"
 #include "app/editor/quitwatchdog.h"
 #include "core/plugin_host/registry.h"
 #include "ui/theme/theme.h"
@@ -80,6 +81,10 @@ int main(int argc, char** argv) {
   window.show();
   std::unique_ptr<ps::PictureByCommand> byCommand;
   if (picture) byCommand = std::make_unique<ps::PictureByCommand>(window, arguments.screenshot, arguments.after);
+  // As closing by hand, which keeps unsaved work; where that cannot be done the window stays once, and says so.
+  const ps::QuitSignals signalled([&window] {
+    if (window.close()) QApplication::exit(0);  // from a dialog's loop too
+  });
   window.start();
   const int status = QApplication::exec();
   ps::quitWithin(std::chrono::seconds(10));  // the window has kept what was unsaved
