@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copies of unsaved work: when they are written, what they hold, and when they go.
+#include "core/io/outputfile.h"
 #include "core/io/projectio.h"
 #include "core/plugin_host/registry.h"
 #include "tests/shared/scenes.h"
-#include "ui/document/document.h"
-#include "ui/session/autosave.h"
-#include "ui/session/documentfiles.h"
-#include "ui/session/worker.h"
+#include "tests/ui/desk.h"
 
 #include <QtCore/QDir>
 #include <QtCore/QTemporaryDir>
@@ -17,29 +15,6 @@
 #include <sys/resource.h>
 
 using namespace ps;
-
-namespace {
-
-const Address kFloor{Owner::Wall, "floor", "temperature"};
-
-/// A document with its files and its autosave, as a session has them.
-struct Desk {
-  Desk(PluginRegistry& plugins, const QString& directory)
-      : files(document, worker), autosave(document, worker, directory) {
-    document.setPlugins(&plugins);
-    QObject::connect(&files, &DocumentFiles::reopened, &autosave, &Autosave::takeOver);
-  }
-  ~Desk() { worker.wait(); }
-  void edit(double kelvin) { QCOMPARE(document.setParameter(kFloor, kelvin), QString()); }
-  std::string text() const { return writeProject(document.project()); }
-
-  Document document;
-  Worker worker;
-  DocumentFiles files;
-  Autosave autosave;
-};
-
-}  // namespace
 
 class TestAutosave : public QObject {
   Q_OBJECT
@@ -201,7 +176,7 @@ class TestAutosave : public QObject {
     Desk desk(*m_plugins, m_copies);
     // A folder where this session's own copy would go: it cannot be written.
     QString own = QDir(m_copies).entryList({QStringLiteral("*.lock")}).constFirst();
-    own = QDir(m_copies).filePath(own.replace(QStringLiteral(".lock"), QStringLiteral(".json")));
+    own = QDir(m_copies).filePath(own.replace(QStringLiteral(".lock"), QStringLiteral(".1.json")));
     QVERIFY(QDir().mkpath(own + QStringLiteral("/full")));
     QSignalSpy failed(&desk.autosave, &Autosave::failed), written(&desk.autosave, &Autosave::autosaved);
     desk.files.reopen(left);
@@ -231,6 +206,143 @@ class TestAutosave : public QObject {
     desk.worker.wait();
     QVERIFY(QFile::exists(left.copy));
     QCOMPARE(desk.autosave.leftBehind().size(), size_t{1});
+  }
+
+  /// A full disk, or a kill at the wrong time: the copy is what counts.
+  void aCopyIsOfferedWhateverBecameOfItsNote_data() {
+    QTest::addColumn<QString>("damaged");
+    QTest::addColumn<QByteArray>("bytes");
+    QTest::newRow("empty note") << QStringLiteral(".note") << QByteArray();
+    QTest::newRow("half a note") << QStringLiteral(".note") << QByteArray("{\"path\": \"/now");
+    QTest::newRow("no note") << QStringLiteral(".note") << QByteArray("gone");
+    QTest::newRow("empty lock") << QStringLiteral(".lock") << QByteArray();
+    QTest::newRow("lock of another host") << QStringLiteral(".lock") << QByteArray("1\nphasesketch\nelsewhere\n\n");
+  }
+  void aCopyIsOfferedWhateverBecameOfItsNote() {
+    QFETCH(QString, damaged);
+    QFETCH(QByteArray, bytes);
+    const AutosavedSession left = leave(357);
+    QFile file(left.stem + damaged);
+    QVERIFY(file.open(QIODevice::WriteOnly) && file.write(bytes) == bytes.size());
+    file.close();
+    if (bytes == "gone") QVERIFY(file.remove());
+    Desk desk(*m_plugins, m_copies);
+    const auto sessions = desk.autosave.leftBehind();
+    QCOMPARE(sessions.size(), size_t{1});
+    QCOMPARE(sessions[0].copy, left.copy);
+    QVERIFY(!sessions[0].title.isEmpty() && sessions[0].time.isValid());
+    QSignalSpy opened(&desk.files, &DocumentFiles::opened);
+    desk.files.reopen(sessions[0]);
+    QVERIFY(opened.wait());
+    QCOMPARE(std::get<double>(desk.document.value(kFloor)), 357.0);
+  }
+
+  /// The copy was written, and the program killed before its note was.
+  void aCopyThatIsNewerThanItsNoteIsOffered() {
+    Desk desk(*m_plugins, m_copies);
+    desk.document.open(scenes::iceOnPlate(5, 370), {});
+    desk.autosave.saveNow();
+    desk.worker.wait();
+    const QString stem = Crashed::stemIn(m_copies);
+    desk.edit(358);
+    saveProject(desk.document.project(), (stem + QStringLiteral(".9.json")).toStdString());
+    const Crashed crashed(m_copies);
+    const auto sessions = Desk(*m_plugins, crashed.copies()).autosave.leftBehind();
+    QCOMPARE(sessions.size(), size_t{1});
+    QVERIFY(sessions[0].copy.endsWith(QStringLiteral(".9.json")));
+  }
+
+  /// What a killed program was writing goes at the next start, beside projects too; what one is writing stays.
+  void temporariesOfKilledProgramsGo() {
+    const QString path = m_directory->filePath(QStringLiteral("scene.json"));
+    saveProject(scenes::iceOnPlate(5, 370), path.toStdString());
+    {
+      Desk desk(*m_plugins, m_copies);
+      QSignalSpy opened(&desk.files, &DocumentFiles::opened);
+      desk.files.open(path);
+      QVERIFY(opened.wait());
+      desk.edit(359);
+      QCOMPARE(desk.autosave.close(), QString());
+    }
+    const auto parts = [this] {
+      return QDir(m_copies).entryList({QStringLiteral("*.part-*")}) +
+             QDir(m_directory->path()).entryList({QStringLiteral("*.part-*")});
+    };
+    OutputFile written(path.toStdString());
+    written.write("{");
+    written.flush();
+    const QStringList live = parts();
+    QCOMPARE(live.size(), 1);
+    for (const QString& left : {path, m_copies + QStringLiteral("/1.2.json"), m_copies + QStringLiteral("/1.note")}) {
+      QFile part(left + QStringLiteral(".part-aB3dEf"));
+      QVERIFY(part.open(QIODevice::WriteOnly) && part.write("{") == 1);
+    }
+    Desk desk(*m_plugins, m_copies);
+    desk.worker.wait();
+    QCOMPARE(parts(), live);
+    written.finish();
+  }
+
+  /// Edited right after Ctrl+S, then a crash: the copy is of before, the file of after.
+  void nothingOlderThanTheFileIsOffered_data() {
+    QTest::addColumn<bool>("replaced");   // by the save, before the crash
+    QTest::addColumn<bool>("otherwise");  // another program wrote the file since
+    QTest::addColumn<size_t>("offered");
+    QTest::newRow("saved") << true << false << size_t{0};
+    QTest::newRow("not yet replaced") << false << false << size_t{1};
+    QTest::newRow("changed elsewhere since") << true << true << size_t{1};
+  }
+  void nothingOlderThanTheFileIsOffered() {
+    QFETCH(bool, replaced);
+    QFETCH(bool, otherwise);
+    QFETCH(size_t, offered);
+    const QString path = m_directory->filePath(QStringLiteral("scene.json"));
+    saveProject(scenes::iceOnPlate(5, 370), path.toStdString());
+    Desk desk(*m_plugins, m_copies);
+    QSignalSpy opened(&desk.files, &DocumentFiles::opened), copied(&desk.autosave, &Autosave::autosaved);
+    desk.files.open(path);
+    QVERIFY(opened.wait());
+    desk.edit(351);
+    desk.autosave.saveNow();
+    QVERIFY(copied.wait());
+    desk.edit(352);
+    // As the worker does it, as far as the crash lets it.
+    const std::string bytes = desk.text();
+    desk.autosave.aroundSave().before(path, hashOf(bytes));
+    if (replaced) writeFileAtomically(path.toStdString(), bytes);
+    if (otherwise) writeFileAtomically(path.toStdString(), bytes + ' ');
+    desk.edit(353);
+    const Crashed crashed(m_copies);
+    Desk next(*m_plugins, crashed.copies());
+    QVERIFY(offered > 0 || next.autosave.leftBehind().empty() || next.autosave.leftBehind()[0].copy.isEmpty());
+    next.worker.wait();
+    QCOMPARE(QDir(crashed.copies()).entryList({QStringLiteral("*.json")}).size(), static_cast<qsizetype>(offered));
+    if (offered == 0) return;
+    const auto sessions = next.autosave.leftBehind();
+    QCOMPARE(sessions.size(), size_t{1});
+    QVERIFY(!sessions[0].copy.isEmpty());
+  }
+
+  /// Saved, then edited: the copy of the edit is newer than the file, and is offered.
+  void workAfterASaveIsOffered() {
+    const QString path = m_directory->filePath(QStringLiteral("scene.json"));
+    Desk desk(*m_plugins, m_copies);
+    desk.document.open(scenes::iceOnPlate(5, 370), {});
+    desk.edit(351);
+    QSignalSpy saved(&desk.files, &DocumentFiles::saved), copied(&desk.autosave, &Autosave::autosaved);
+    desk.files.save(path);
+    desk.edit(352);  // before the save was heard of
+    QVERIFY(saved.wait());
+    QVERIFY(desk.document.isDirty());
+    QVERIFY(Desk(*m_plugins, Crashed(m_copies).copies()).autosave.leftBehind().empty());  // nothing but the file yet
+    desk.autosave.saveNow();
+    QVERIFY(copied.wait());
+    const Crashed crashed(m_copies);
+    const auto sessions = Desk(*m_plugins, crashed.copies()).autosave.leftBehind();
+    QCOMPARE(sessions.size(), size_t{1});
+    QCOMPARE(sessions[0].path, path);
+    const Project copy = loadProject(sessions[0].copy.toStdString(), *m_plugins).project;
+    QCOMPARE(writeProject(copy), desk.text());
   }
 
   void aSavedProjectReopensAsItWasSeen() {

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: Apache-2.0
+// No work is lost: through kills while it is edited and saved, and through every single call that can fail.
+#include "core/io/projectio.h"
+#include "tests/shared/scenes.h"
+#include "tests/ui/desk.h"
+#include "tests/ui/keeping/edits.h"
+
+#include <QtCore/QProcess>
+#include <QtTest/QSignalSpy>
+
+#include <algorithm>
+#include <cerrno>
+#include <random>
+
+using namespace ps;
+
+namespace {
+
+const QString kKeeper = QStringLiteral(PS_BINARY_DIR "/test-bin/keeper");
+const QString kFailing = QStringLiteral(PS_BINARY_DIR "/test-bin/failing.so");
+const QString kCli = QStringLiteral(PS_BINARY_DIR "/bin/phasesketch-cli");
+
+QByteArray read(const QString& path) {
+  QFile in(path);
+  return in.open(QIODevice::ReadOnly) ? in.readAll() : QByteArray();
+}
+
+/// The highest K of lines "WORD K"; -1 where there is none.
+int lastOf(const QByteArray& said, const QByteArray& word) {
+  int last = -1;
+  for (const QByteArray& line : said.split('\n')) {
+    if (line.startsWith(word + ' ')) last = std::max(last, line.mid(word.size() + 1).toInt());
+  }
+  return last;
+}
+
+QProcessEnvironment failingAt(int call, int code, const QString& under, const QString& mark) {
+  QProcessEnvironment environment = QProcessEnvironment::systemEnvironment();
+  environment.insert(QStringLiteral("LD_PRELOAD"), kFailing);
+  environment.insert(QStringLiteral("PS_FAIL_AT"), QString::number(call));
+  environment.insert(QStringLiteral("PS_FAIL_CODE"), QString::number(code));
+  environment.insert(QStringLiteral("PS_FAIL_UNDER"), under);
+  environment.insert(QStringLiteral("PS_FAIL_MARK"), mark);
+  environment.insert(QStringLiteral("ASAN_OPTIONS"), QStringLiteral("verify_asan_link_order=0:detect_leaks=0"));
+  return environment;
+}
+
+}  // namespace
+
+class TestKeeping : public QObject {
+  Q_OBJECT
+ private Q_SLOTS:
+  void initTestCase() { m_plugins = std::make_unique<PluginRegistry>(); }
+  void init() {
+    m_directory = std::make_unique<QTemporaryDir>();
+    reset();
+  }
+
+  /// PS_KILLS: how many rounds, 30 without it.
+  void killsLoseNothingThatWasAcknowledged() {
+    const int rounds = qEnvironmentVariableIsSet("PS_KILLS") ? qEnvironmentVariableIntValue("PS_KILLS") : 30;
+    std::mt19937 random(20260815);
+    int saves = 0, offers = 0, parts = 0;
+    for (int round = 0; round < rounds; ++round) {
+      QProcess keeper;
+      keeper.start(kKeeper, {m_directory->path(), QStringLiteral("loop")});
+      QByteArray said;
+      while (!said.contains("open\n") && keeper.waitForReadyRead(20000)) said += keeper.readAllStandardOutput();
+      QVERIFY2(said.contains("open\n"), (said + keeper.readAllStandardError()).constData());
+      QTest::qSleep(static_cast<int>(random() % 200));
+      keeper.kill();
+      QVERIFY(keeper.waitForFinished());
+      said += keeper.readAllStandardOutput();
+      QVERIFY2(!said.contains("failed"), said.constData());
+      saves += static_cast<int>(said.count("saved "));
+      parts += static_cast<int>(temporaries().size());
+      Found found;
+      recover(found);
+      if (QTest::currentTestFailed()) return;
+      offers += found.offered > 0 ? 1 : 0;
+      verify(found, lastOf(said, "saved"), lastOf(said, "saved"), said);
+      if (QTest::currentTestFailed()) return;
+    }
+    QVERIFY(saves > rounds / 2);
+    QTest::qSleep(3000);  // a temporary without a byte might have been somebody's for two seconds
+    Found found;
+    recover(found);
+    QCOMPARE(temporaries(), QStringList());
+    qInfo("%d kills, %d saves acknowledged, newer work offered after %d, %d temporaries left and removed", rounds,
+          saves, offers, parts);
+  }
+
+  void everyCallMayFail_data() {
+    QTest::addColumn<int>("code");
+    QTest::newRow("full disk") << ENOSPC;
+    QTest::newRow("broken disk") << EIO;
+  }
+  void everyCallMayFail() {
+    QFETCH(int, code);
+    int calls = 0;
+    for (bool failed = true; failed; ++calls) {
+      reset();
+      QFile::remove(mark());
+      QProcess keeper;
+      keeper.setProcessEnvironment(failingAt(calls + 1, code, m_directory->path(), mark()));
+      keeper.start(kKeeper, {m_directory->path(), QStringLiteral("once")});
+      QVERIFY(keeper.waitForFinished(20000));
+      const QByteArray said = keeper.readAllStandardOutput() + "at call " + QByteArray::number(calls + 1);
+      failed = QFile::exists(mark());
+      const int saved = lastOf(said, "saved"), kept = lastOf(said, "kept");
+      QVERIFY2(said.startsWith("open\n"), said.constData());
+      QVERIFY2((keeper.exitCode() != 0) == said.contains("failed: "), said.constData());
+      QVERIFY2(failed || keeper.exitCode() == 0, said.constData());
+      Found found;
+      recover(found);
+      verify(found, saved, std::max(saved, kept), said);
+      if (QTest::currentTestFailed()) return;
+    }
+    QVERIFY2(calls > 15, qPrintable(QString::number(calls)));
+  }
+
+  /// The command line: the old project, or the new one whole; and exit code 0 only for the latter.
+  void everyCallOfTheCommandLineMayFail_data() { everyCallMayFail_data(); }
+  void everyCallOfTheCommandLineMayFail() {
+    QFETCH(int, code);
+    const QString out = m_directory->filePath(QStringLiteral("out.json"));
+    int calls = 0;
+    for (bool failed = true; failed; ++calls) {
+      QFile::remove(mark());
+      QFile::remove(out);
+      QVERIFY(QFile::copy(scene(), out));
+      const QByteArray before = read(out);
+      QProcess program;
+      program.setProcessEnvironment(failingAt(calls + 1, code, m_directory->path(), mark()));
+      program.start(kCli, {QStringLiteral("simulate"), scene(), QStringLiteral("--frames"), QStringLiteral("1"),
+                           QStringLiteral("--quiet"), QStringLiteral("--save-project"), out});
+      QVERIFY(program.waitForFinished(60000));
+      const QByteArray said = program.readAllStandardError();
+      failed = QFile::exists(mark());
+      if (program.exitCode() == 0) {
+        QVERIFY(read(out) != before);
+        QVERIFY(loadProject(out.toStdString(), *m_plugins).project.state);
+      } else {
+        QVERIFY(failed);
+        QCOMPARE(read(out), before);
+        QVERIFY2(said.contains("not saved"), said.constData());
+      }
+    }
+    QVERIFY2(calls > 4, qPrintable(QString::number(calls)));
+  }
+
+ private:
+  struct Found {
+    int file = -1, offered = -1;  ///< edits that they hold
+  };
+  QString scene() const { return m_directory->filePath(QStringLiteral("scene.json")); }
+  QString copies() const { return m_directory->filePath(QStringLiteral("copies")); }
+  QString mark() const { return m_mark.filePath(QStringLiteral("failed")); }
+  QStringList temporaries() const {
+    return QDir(m_directory->path()).entryList({QStringLiteral("*.part-*")}, QDir::Files) +
+           QDir(copies()).entryList({QStringLiteral("*.part-*")}, QDir::Files);
+  }
+  void reset() {
+    QDir(copies()).removeRecursively();
+    Project project = scenes::iceOnPlate(4, 300);
+    saveProject(project, scene().toStdString());
+    QCOMPARE(editOf(loadProject(scene().toStdString(), *m_plugins).project), 0);
+  }
+
+  /// What the next start finds, and offers.
+  void recover(Found& found) {
+    Desk desk(*m_plugins, copies());
+    QSignalSpy opened(&desk.files, &DocumentFiles::opened), elsewhere(&desk.files, &DocumentFiles::openElsewhere);
+    desk.files.open(scene());
+    QVERIFY(opened.wait());
+    QCOMPARE(elsewhere.count(), 0);
+    found.file = editOf(desk.document.project());
+    for (const AutosavedSession& session : desk.autosave.leftBehind()) {
+      if (!session.copy.isEmpty()) {
+        const int edit = editOf(loadProject(session.copy.toStdString(), *m_plugins).project);
+        QVERIFY2(edit >= found.file, qPrintable(QStringLiteral("%1 offered, %2 saved").arg(edit).arg(found.file)));
+        found.offered = std::max(found.offered, edit);
+      }
+      Autosave::discard(session);
+    }
+  }
+  void verify(const Found& found, int saved, int acknowledged, const QByteArray& said) {
+    const QByteArray all = said + QByteArray("; file ") + QByteArray::number(found.file) + ", offered " +
+                           QByteArray::number(found.offered);
+    QVERIFY2(found.file >= std::max(saved, 0), all.constData());
+    QVERIFY2(std::max(found.file, found.offered) >= acknowledged, all.constData());
+    for (const QString& part : temporaries()) {
+      const QFileInfo info(QFile::exists(m_directory->filePath(part)) ? m_directory->filePath(part)
+                                                                      : copies() + QLatin1Char('/') + part);
+      QVERIFY2(info.size() == 0, qPrintable(part));  // the last start sees those
+    }
+  }
+
+  std::unique_ptr<PluginRegistry> m_plugins;
+  std::unique_ptr<QTemporaryDir> m_directory;
+  QTemporaryDir m_mark;
+};
+
+QTEST_GUILESS_MAIN(TestKeeping)
+#include "tst_keeping.moc"
