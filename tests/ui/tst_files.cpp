@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: Apache-2.0
+// A file that is not this window's alone: another window has it open, another program has written it; and what it was
+// saved as before.
+#include "core/io/filelock.h"
+#include "core/io/outputfile.h"
+#include "tests/shared/scenes.h"
+#include "tests/ui/desk.h"
+#include "ui/session/savejob.h"
+#include "ui/session/versions.h"
+
+#include <QtTest/QSignalSpy>
+
+using namespace ps;
+
+class TestFiles : public QObject {
+  Q_OBJECT
+ private Q_SLOTS:
+  void initTestCase() {
+    qRegisterMetaType<ps::SaveRefusal>();
+    m_plugins = std::make_unique<PluginRegistry>();
+  }
+  void init() {
+    m_directory = std::make_unique<QTemporaryDir>();
+    m_path = m_directory->filePath(QStringLiteral("scene.json"));
+    saveProject(scenes::iceOnPlate(4, 300), m_path.toStdString());
+  }
+
+  /// A file that stands there says nothing; a lock that is held does, until its holder ends or it is taken over.
+  void locks() {
+    const std::string path = m_directory->filePath(QStringLiteral("lock")).toStdString();
+    writeFileAtomically(path, "1\nphasesketch\nanother-host\n\n");
+    {
+      FileLock mine(path, "me");
+      QVERIFY(mine.held() && !mine.busy() && FileLock::isHeld(path));
+      FileLock other(path, "you");
+      QVERIFY(!other.held() && other.busy());
+      QCOMPARE(other.holder(), std::string("me"));
+      other.takeOver();
+      QVERIFY(other.held() && !mine.held());
+      QVERIFY(FileLock(path).busy());
+    }
+    QVERIFY(!QFile::exists(QString::fromStdString(path)));
+    const FileLock nowhere(m_directory->filePath(QStringLiteral("missing/lock")).toStdString());
+    QVERIFY(!nowhere.held() && !nowhere.busy());
+  }
+
+  void aSecondWindowLooksOnAndTakesOver() {
+    Desk first(*m_plugins, copies(1)), second(*m_plugins, copies(2));
+    open(first);
+    QSignalSpy elsewhere(&second.files, &DocumentFiles::openElsewhere);
+    open(second);
+    QCOMPARE(elsewhere.count(), 1);
+    QCOMPARE(elsewhere[0].at(1).toString(), QString());  // the same user here
+    second.edit(310);
+    QCOMPARE(save(second), SaveRefusal::Elsewhere);
+    first.edit(305);
+    QCOMPARE(save(first), SaveRefusal::None);
+    QSignalSpy took(&second.files, &DocumentFiles::tookOver);
+    second.files.takeOver();
+    QVERIFY(took.wait() && took[0].at(1).toBool());
+    QCOMPARE(save(second), SaveRefusal::Changed);  // by the first, meanwhile
+    QCOMPARE(save(second, true), SaveRefusal::None);
+    first.edit(306);
+    QCOMPARE(save(first), SaveRefusal::Elsewhere);
+    QCOMPARE(floorOnDisk(), 310.0);
+  }
+
+  void aWindowThatWasClosedOrShowsAnotherSceneLetsGo() {
+    Desk second(*m_plugins, copies(2));
+    {
+      Desk first(*m_plugins, copies(1));
+      open(first);
+      first.files.newProject();
+      QSignalSpy elsewhere(&second.files, &DocumentFiles::openElsewhere);
+      open(second);
+      QCOMPARE(elsewhere.count(), 0);
+      open(second);  // its own once more
+      QCOMPARE(elsewhere.count(), 0);
+      second.files.newProject();
+      open(first);
+    }
+    second.worker.wait();
+    open(second);
+    second.edit(311);
+    QCOMPARE(save(second), SaveRefusal::None);
+    QCOMPARE(QDir(m_directory->path()).entryList(QDir::Files | QDir::Hidden).size(), 2);  // scene and lock
+  }
+
+  void theSampleIsEverybodys() {
+    Desk first(*m_plugins, copies(1)), second(*m_plugins, copies(2));
+    first.files.setSample(m_path);
+    open(first);
+    QSignalSpy elsewhere(&second.files, &DocumentFiles::openElsewhere);
+    open(second);
+    QCOMPARE(elsewhere.count(), 0);
+  }
+
+  /// No lock can be made for a name of this length: no reason not to open.
+  void whereNoLockCanBeMadeTheProjectOpens() {
+    m_path = m_directory->filePath(QString(240, QLatin1Char('x')) + QStringLiteral(".json"));
+    saveUnder(m_directory->filePath(QStringLiteral("scene.json")), m_path);
+    Desk desk(*m_plugins, copies(1));
+    QSignalSpy elsewhere(&desk.files, &DocumentFiles::openElsewhere);
+    open(desk);
+    QCOMPARE(elsewhere.count(), 0);
+    QCOMPARE(desk.document.path(), m_path);
+  }
+
+  void anotherProgramsChangeIsNotReplacedSilently() {
+    Desk desk(*m_plugins, copies(1));
+    open(desk);
+    desk.edit(310);
+    writeFileAtomically(m_path.toStdString(), writeProject(scenes::iceOnPlate(4, 320)));
+    QCOMPARE(save(desk), SaveRefusal::Changed);
+    QCOMPARE(floorOnDisk(), 320.0);
+    QVERIFY(desk.document.isDirty());
+    QCOMPARE(save(desk, true), SaveRefusal::None);
+    QCOMPARE(floorOnDisk(), 310.0);
+    // What the other program wrote is kept.
+    QCOMPARE(floorOf(versions::of(m_path).at(0).file), 320.0);
+    desk.edit(311);
+    QCOMPARE(save(desk), SaveRefusal::None);
+  }
+
+  /// Another time, and the same bytes: nobody has changed anything.
+  void aFileThatWasOnlyTouchedIsNoChange() {
+    Desk desk(*m_plugins, copies(1));
+    open(desk);
+    desk.edit(310);
+    const std::string bytes = readFile();
+    writeFileAtomically(m_path.toStdString(), bytes);
+    QCOMPARE(save(desk), SaveRefusal::None);
+  }
+
+  /// The second is asked for before the first has been heard of.
+  void savesInARowAreNobodyElses() {
+    Desk desk(*m_plugins, copies(1));
+    open(desk);
+    QSignalSpy saved(&desk.files, &DocumentFiles::saved), refused(&desk.files, &DocumentFiles::saveRefused);
+    for (const double kelvin : {310.0, 311.0, 312.0}) {
+      desk.edit(kelvin);
+      desk.files.save(m_path);
+    }
+    const QString other = m_directory->filePath(QStringLiteral("other.json"));
+    desk.files.save(other);
+    desk.files.save(other);
+    QTRY_COMPARE(saved.count(), 5);
+    QCOMPARE(refused.count(), 0);
+    QCOMPARE(desk.document.path(), other);
+  }
+
+  /// What is restored is of the file as the session knew it, not as it is by now.
+  void restoredWorkDoesNotReplaceWhatCameSince() {
+    {
+      Desk desk(*m_plugins, copies(1));
+      open(desk);
+      desk.edit(310);
+      QCOMPARE(desk.autosave.close(), QString());
+    }
+    writeFileAtomically(m_path.toStdString(), writeProject(scenes::iceOnPlate(4, 320)));
+    Desk desk(*m_plugins, copies(1));
+    QSignalSpy opened(&desk.files, &DocumentFiles::opened);
+    desk.files.reopen(desk.autosave.leftBehind().at(0));
+    QVERIFY(opened.wait());
+    QCOMPARE(save(desk), SaveRefusal::Changed);
+    QCOMPARE(floorOnDisk(), 320.0);
+  }
+
+  void theLastFiveVersionsAreKept() {
+    Desk desk(*m_plugins, copies(1));
+    open(desk);
+    for (int k = 1; k <= 7; ++k) {
+      QTest::qSleep(2);  // their names are times
+      desk.edit(300 + k);
+      QCOMPARE(save(desk), SaveRefusal::None);
+    }
+    const auto kept = versions::of(m_path);
+    QCOMPARE(kept.size(), size_t{versions::kKept});
+    for (size_t k = 0; k < kept.size(); ++k) {
+      QCOMPARE(floorOf(kept[k].file), 306.0 - static_cast<double>(k));
+      QVERIFY(kept[k].time.isValid() && kept[k].size > 100);
+    }
+    QSignalSpy opened(&desk.files, &DocumentFiles::opened);
+    desk.files.openVersion(kept[2].file);
+    QVERIFY(opened.wait());
+    QCOMPARE(std::get<double>(desk.document.value(kFloor)), 304.0);
+    QCOMPARE(desk.document.path(), m_path);
+    QVERIFY(desk.document.isDirty());
+    QCOMPARE(floorOnDisk(), 307.0);
+    QCOMPARE(save(desk), SaveRefusal::None);
+    QCOMPARE(floorOnDisk(), 304.0);
+    QCOMPARE(floorOf(versions::of(m_path).at(0).file), 307.0);
+  }
+
+ private:
+  QString copies(int n) const { return m_directory->filePath(QStringLiteral("copies-%1").arg(n)); }
+  std::string readFile() const {
+    QFile file(m_path);
+    return file.open(QIODevice::ReadOnly) ? file.readAll().toStdString() : std::string();
+  }
+  double floorOf(const QString& path) {
+    Document document;
+    document.setPlugins(m_plugins.get());
+    document.open(loadProject(path.toStdString(), *m_plugins).project, {});
+    return std::get<double>(document.value(kFloor));
+  }
+  double floorOnDisk() { return floorOf(m_path); }
+  static void saveUnder(const QString& from, const QString& to) { QVERIFY(QFile::copy(from, to)); }
+  void open(Desk& desk) {
+    QSignalSpy opened(&desk.files, &DocumentFiles::opened);
+    desk.files.open(m_path);
+    QVERIFY(opened.wait());
+  }
+  SaveRefusal save(Desk& desk, bool anyway = false) {
+    QSignalSpy saved(&desk.files, &DocumentFiles::saved), refused(&desk.files, &DocumentFiles::saveRefused);
+    desk.files.save(m_path, anyway);
+    desk.worker.wait();
+    QCoreApplication::processEvents();
+    if (refused.count() + saved.count() != 1) qFatal("neither saved nor refused");
+    return refused.isEmpty() ? SaveRefusal::None : refused[0].at(1).value<SaveRefusal>();
+  }
+
+  std::unique_ptr<PluginRegistry> m_plugins;
+  std::unique_ptr<QTemporaryDir> m_directory;
+  QString m_path;
+};
+
+QTEST_GUILESS_MAIN(TestFiles)
+#include "tst_files.moc"
