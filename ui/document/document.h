@@ -37,8 +37,8 @@ class Document : public QObject {
   QUndoStack& undoStack() { return m_undo; }
   const QUndoStack& undoStack() const { return m_undo; }
 
-  /// Replaces the project and forgets the history. `dirty`: it differs from the file (a restored autosave). `file`: what
-  /// the file was when the project was read from it or came to differ from it.
+  /// Replaces the project and forgets the history. `dirty`: it differs from the file (a restored autosave). `file`:
+  /// what the file was when the project was read from it or came to differ from it.
   void open(Project project, const QString& path, bool dirty = false, bool play = true, const FileStamp& file = {});
   const QString& path() const { return m_path; }  ///< "" when it was never saved
   QString title() const;                          ///< the project's title, else the file's name, else "Untitled"

@@ -56,7 +56,7 @@ void FileGuard::fillVersions() {
   m_versions->clear();
   for (const versions::Version& version : versions::of(m_session.document().path())) {
     const QString text = version.time.toString(QStringLiteral("d MMMM yyyy, HH:mm:ss")) + QStringLiteral("  ·  ") +
-                         QLocale::c().formattedDataSize(version.size);
+                         QLocale::c().formattedDataSize(version.size, 1, QLocale::DataSizeSIFormat);
     m_versions->addAction(text, this, [this, file = version.file] { m_session.files().openVersion(file); });
   }
   if (m_versions->isEmpty()) m_versions->addAction(QStringLiteral("No earlier versions"))->setEnabled(false);
