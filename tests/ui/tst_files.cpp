@@ -8,6 +8,9 @@
 #include "ui/session/savejob.h"
 #include "ui/session/versions.h"
 
+#include <QtCore/QElapsedTimer>
+#include <QtCore/QLockFile>
+#include <QtCore/QSettings>
 #include <QtTest/QSignalSpy>
 
 using namespace ps;
@@ -164,6 +167,26 @@ class TestFiles : public QObject {
     QVERIFY(opened.wait());
     QCOMPARE(save(desk), SaveRefusal::Changed);
     QCOMPARE(floorOnDisk(), 320.0);
+  }
+
+  /// Left by a program that was killed while it noted a recent file: nobody waits for it, half a minute long.
+  void aLeftLockOfTheSettingsHoldsNobodyUp() {
+    const QString lock = QSettings().fileName() + QStringLiteral(".lock");
+    QSettings().setValue(QStringLiteral("made"), true);
+    {
+      QLockFile held(lock);
+      QVERIFY(held.tryLock());
+      const Desk desk(*m_plugins, copies(1));
+      QVERIFY(QFile::exists(lock));
+    }
+    QFile left(lock);
+    QVERIFY(left.open(QIODevice::WriteOnly));
+    left.close();
+    QElapsedTimer clock;
+    clock.start();
+    Desk desk(*m_plugins, copies(1));
+    open(desk);
+    QVERIFY2(clock.elapsed() < 10000, qPrintable(QString::number(clock.elapsed())));
   }
 
   void theLastFiveVersionsAreKept() {

@@ -12,6 +12,7 @@
 #include "ui/session/worker.h"
 
 #include <QtCore/QElapsedTimer>
+#include <QtCore/QFile>
 #include <QtCore/QFileInfo>
 #include <QtCore/QJsonArray>
 #include <QtCore/QJsonDocument>
@@ -68,6 +69,12 @@ ViewState asSeen(ViewState stored, const ViewState& seen) {
   return view;
 }
 
+/// QSettings waits for half a minute for the lock of a program that was killed before it had signed it.
+void freeSettings() {
+  const QString lock = QSettings().fileName() + QStringLiteral(".lock");
+  if (QFile::exists(lock) && !FileLock::isHeld(lock.toStdString())) QFile::remove(lock);
+}
+
 }  // namespace
 
 struct DocumentFiles::Read {
@@ -79,7 +86,9 @@ struct DocumentFiles::Read {
 };
 
 DocumentFiles::DocumentFiles(Document& document, Worker& worker, QObject* parent)
-    : QObject(parent), m_document(document), m_worker(worker), m_own(std::make_shared<OwnFiles>()) {}
+    : QObject(parent), m_document(document), m_worker(worker), m_own(std::make_shared<OwnFiles>()) {
+  freeSettings();
+}
 
 void DocumentFiles::open(const QString& path) {
   const QString absolute = QFileInfo(path).absoluteFilePath();
