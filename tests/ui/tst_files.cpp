@@ -74,12 +74,14 @@ class TestFiles : public QObject {
       Desk first(*m_plugins, copies(1));
       open(first);
       first.files.newProject();
+      first.worker.wait();  // the job that made the lock may have it a moment longer
       QSignalSpy elsewhere(&second.files, &DocumentFiles::openElsewhere);
       open(second);
       QCOMPARE(elsewhere.count(), 0);
       open(second);  // its own once more
       QCOMPARE(elsewhere.count(), 0);
       second.files.newProject();
+      second.worker.wait();
       open(first);
     }
     second.worker.wait();
