@@ -368,7 +368,7 @@ class TestContentWindow : public SampleWindowTest {
       QVERIFY2(entry->toolTip().endsWith(QLatin1Char('.')), qPrintable(entry->text()));
       ++tips;
     }
-    QCOMPARE(tips, 12);
+    QCOMPARE(tips, 13);
   }
 
   void matterOfTapsAndDrainsIsInTheLedger() {

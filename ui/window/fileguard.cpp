@@ -49,6 +49,8 @@ FileGuard::FileGuard(Session& session, const Actions& actions, Notices& notices,
 
 void FileGuard::addVersionsMenu(QMenu* menu) {
   m_versions = menu->addMenu(QStringLiteral("Earlier versions"));
+  m_versions->menuAction()->setToolTip(QStringLiteral(
+      "What the file held before each of the last five saves. One that is opened is an unsaved change."));
   connect(m_versions, &QMenu::aboutToShow, this, &FileGuard::fillVersions);
 }
 
