@@ -69,9 +69,7 @@ std::string colourOf(const Project& project, const ParticleFields& fields, const
   const std::vector<std::string> names = colourNames(fields);
   const bool known = std::find(names.begin(), names.end(), colour) != names.end();
   if (known || !arguments.has("--colour") || (last && ShownField(*last, colour))) return colour;
-  std::string all;
-  for (const std::string& name : names) all += (all.empty() ? "" : ", ") + name;
-  throw InputError("--colour must be one of " + all + ", not '" + colour + "'" + didYouMean(colour, names));
+  throw InputError("--colour " + mustBeOneOf(colour, names));
 }
 
 Look lookFor(const Project& project, const PluginRegistry& plugins, const std::string& colour) {

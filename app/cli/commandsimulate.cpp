@@ -74,6 +74,18 @@ void writeReport(const Arguments& arguments, nlohmann::json content, const Proje
   writeFileAtomically(arguments.text("--report"), writeJson(content));
 }
 
+/// Does the run. Where it fails, what was written until then stays, and the message says where: hours may lie in it.
+template <class Run>
+void keepingParts(std::optional<ProbeTable>& probes, std::optional<RecordingWriter>& recording, const Run& run) {
+  try {
+    run();
+  } catch (const std::exception& problem) {
+    const std::string rows = probes ? probes->keepPart() : "", frames = recording ? recording->keepPart() : "";
+    throw Error(problem.what() + (rows.empty() ? "" : "; the rows until now are in " + rows) +
+                (frames.empty() ? "" : "; the frames until now are in " + frames));
+  }
+}
+
 void summarise(const RunReport& report, const FrameStats& begin, Engine& engine, double wall) {
   const FrameStats stats = engine.stats();
   if (begin.frame > 0) {
@@ -127,25 +139,28 @@ int simulateCommand(CommandArguments list) {
   RunReport report(begin);
   SettlingMeasure settling(frames);
   const double start = now();
-  if (recording) {
-    engine.show(engine.fields().names());
-    recording->add(*engine.snapshot());
-  }
+  double wall = 0;
   bool whole = false;
-  {
-    Progress progress(frames, quiet);
-    whole = runFrames(engine, frames, [&](const StepReport& step, const FrameStats& stats) {
-      report.add(step, stats);
-      settling.add(engine, stats);
-      if (probes) probes->add(stats);
-      if (recording) recording->add(*engine.snapshot());
-      progress.show(static_cast<long>(report.frames()), stats);
-    });
-  }
-  report.add(engine.lateFaults());
-  const double wall = now() - start;
-  if (probes) probes->finish();
-  if (recording) recording->finish();
+  keepingParts(probes, recording, [&] {
+    if (recording) {
+      engine.show(engine.fields().names());
+      recording->add(*engine.snapshot());
+    }
+    {
+      Progress progress(frames, quiet);
+      whole = runFrames(engine, frames, [&](const StepReport& step, const FrameStats& stats) {
+        report.add(step, stats);
+        settling.add(engine, stats);
+        if (probes) probes->add(stats);
+        if (recording) recording->add(*engine.snapshot());
+        progress.show(static_cast<long>(report.frames()), stats);
+      });
+    }
+    report.add(engine.lateFaults());
+    wall = now() - start;
+    if (probes) probes->finish();
+    if (recording) recording->finish();
+  });
   saveResults(arguments, project, engine);
   if (arguments.has("--report")) {
     nlohmann::json content = report.json(engine, wall);

@@ -62,13 +62,8 @@ void ProbeTable::finish() { m_file.finish(); }
 
 /// At once, so that a full disk ends the run and not its last frame.
 void ProbeTable::writeRow(const std::string& row) {
-  try {
-    m_file.write(row + '\n');
-    m_file.flush();
-  } catch (const Error& problem) {
-    const std::string part = m_file.keepPart();
-    throw Error(problem.what() + (part.empty() ? "" : "; the rows until now are in " + part));
-  }
+  m_file.write(row + '\n');
+  m_file.flush();
 }
 
 }  // namespace ps

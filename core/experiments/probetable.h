@@ -19,9 +19,11 @@ class ProbeTable {
  public:
   /// Throws Error when the file cannot be written; an older one of that name stands until finish().
   ProbeTable(const std::string& path, const std::vector<std::string>& probeNames);
-  /// Throws Error when the disk is full, and says where the rows until then are kept.
+  /// Throws Error when the disk is full.
   void add(const FrameStats& stats);
   void finish();
+  /// Of a run that failed: leaves the rows until now in a file of their own and says which, see OutputFile.
+  std::string keepPart() { return m_file.keepPart(); }
 
  private:
   void writeRow(const std::string& row);

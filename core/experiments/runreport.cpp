@@ -68,7 +68,7 @@ nlohmann::json RunReport::json(Engine& engine, double wallSeconds) const {
   nlohmann::json milliseconds{{"total", jsonOf(total())}};
   for (size_t s = 0; s < m_stages.size(); ++s) milliseconds[stageName(static_cast<Stage>(s))] = jsonOf(stage(s));
   nlohmann::json limits = nlohmann::json::array();
-  for (const Limit& limit : engine.solver().limits()) {
+  for (const Limit& limit : engine.limits()) {
     limits.push_back(
         {{"what", limit.what}, {"asked", limit.asked}, {"delivered", limit.delivered}, {"unit", limit.unit}});
     if (limit.body >= 0) limits.back()["body"] = engine.bodyIds()[static_cast<size_t>(limit.body)];

@@ -72,7 +72,7 @@ double topSpeed(const ParticleStore& store) {
 }
 
 void addLimits(Engine& engine, SoakOutcome& outcome) {
-  for (const Limit& limit : engine.solver().limits()) outcome.limits.push_back(limit.what);
+  for (const Limit& limit : engine.limits()) outcome.limits.push_back(limit.what);
 }
 
 /// One run; `change` is nullptr for the project as it is, whose `proof` others compare themselves with. Throws

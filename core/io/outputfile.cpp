@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every file that the programs write goes through here: the bytes go to a new file beside the one they are for, and
-// take its place when they are whole and on the disk. Whatever ends a program before leaves the old file as it was.
+// Projects, states, tables, recordings, reports and notes are written through here: the bytes go to a new file beside
+// the one they are for, and take its place when they are whole and on the disk. Whatever ends a program before leaves
+// the old file as it was.
 #include "core/io/outputfile.h"
 
 #include "core/base/error.h"

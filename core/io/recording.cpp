@@ -99,12 +99,6 @@ class Unpacker {
   size_t m_at = 0;
 };
 
-uint64_t checksum(const char* data, size_t size) {
-  Hash hash;
-  hash.add(data, size);
-  return hash.value();
-}
-
 std::string packFrame(const Snapshot& s) {
   Packer packer;
   const size_t n = s.position.size();
@@ -202,16 +196,11 @@ void RecordingWriter::add(const Snapshot& snapshot) {
   std::string packed(ZSTD_compressBound(raw.size()), '\0');
   const size_t size = ZSTD_compress(packed.data(), packed.size(), raw.data(), raw.size(), kLevel);
   if (ZSTD_isError(size)) throw Error(std::string("a frame could not be packed: ") + ZSTD_getErrorName(size));
-  const uint64_t head[] = {size, raw.size(), checksum(packed.data(), size)};
-  try {
-    m_file.write({kFrameMark, kMark});
-    m_file.write(bytesOf(head));
-    m_file.write({packed.data(), size});
-    m_file.flush();
-  } catch (const Error& problem) {
-    const std::string part = m_file.keepPart();
-    throw Error(problem.what() + (part.empty() ? "" : "; the frames until now are in " + part));
-  }
+  const uint64_t head[] = {size, raw.size(), hashOf({packed.data(), size})};
+  m_file.write({kFrameMark, kMark});
+  m_file.write(bytesOf(head));
+  m_file.write({packed.data(), size});
+  m_file.flush();
   ++m_frames;
 }
 
@@ -284,7 +273,7 @@ SnapshotPtr RecordingReader::frame(size_t index) {
   m_file.seekg(static_cast<std::streamoff>(block.offset));
   m_file.read(packed.data(), static_cast<std::streamsize>(packed.size()));
   if (!m_file) throw InputError(where + "cannot be read");
-  if (checksum(packed.data(), packed.size()) != block.checksum) {
+  if (hashOf(packed) != block.checksum) {
     throw InputError(where + "the bytes are not what was written; the file is damaged");
   }
   const unsigned long long announced = ZSTD_getFrameContentSize(packed.data(), packed.size());

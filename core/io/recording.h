@@ -23,10 +23,12 @@ class RecordingWriter {
  public:
   /// Throws Error when the file cannot be made.
   RecordingWriter(const std::string& path, const Project& project);
-  /// Throws Error when the disk is full, and says where the frames until then are kept.
+  /// Throws Error when the disk is full.
   void add(const Snapshot& snapshot);
   /// Flushes, and gives the file its name: see OutputFile.
   void finish();
+  /// Of a run that failed: leaves the frames until now in a file of their own and says which, see OutputFile.
+  std::string keepPart() { return m_file.keepPart(); }
   size_t frameCount() const { return m_frames; }
 
  private:

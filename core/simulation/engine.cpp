@@ -383,11 +383,16 @@ std::vector<uint32_t> Engine::particlesIn(const VoxelShape& lattice,
   return idsInCells(m->solver->particles(), lattice, cells);
 }
 
+std::vector<Limit> Engine::limits() const {
+  std::vector<Limit> all = m->solver->limits();
+  const std::vector<Limit>& pouring = m->flow.limits();
+  all.insert(all.end(), pouring.begin(), pouring.end());
+  return all;
+}
+
 SnapshotPtr Engine::snapshot() const {
   auto snapshot = std::make_shared<Snapshot>();
-  snapshot->limits = m->solver->limits();  // first: edits act on what it asks
-  const std::vector<Limit>& pouring = m->flow.limits();
-  snapshot->limits.insert(snapshot->limits.end(), pouring.begin(), pouring.end());
+  snapshot->limits = limits();  // first: edits act on what it asks
   snapshot->stats = stats();
   snapshot->revision = m->revision;
   snapshot->spacing = m->spacing;

@@ -14,6 +14,14 @@ struct Ran {
 
 inline const QString kSample = PS_SOURCE_DIR "/projects/ice-on-hot-plate.json";
 
+inline const QString kProgram = PS_BINARY_DIR "/bin/phasesketch-cli";
+
+/// Waits for it; code -1 where it crashed or did not end.
+inline Ran ended(QProcess& process) {
+  if (!process.waitForFinished(100000) || process.exitStatus() != QProcess::NormalExit) return {};
+  return {process.exitCode(), process.readAllStandardOutput(), process.readAllStandardError()};
+}
+
 inline Ran cli(const QStringList& arguments, const QString& pluginPath = {}) {
   QProcess process;
   if (!pluginPath.isEmpty()) {
@@ -21,18 +29,13 @@ inline Ran cli(const QStringList& arguments, const QString& pluginPath = {}) {
     environment.insert("PHASESKETCH_PLUGIN_PATH", pluginPath);
     process.setProcessEnvironment(environment);
   }
-  process.start(PS_BINARY_DIR "/bin/phasesketch-cli", arguments);
-  Ran ran;
-  if (!process.waitForFinished(100000) || process.exitStatus() != QProcess::NormalExit) return ran;
-  ran.code = process.exitCode();
-  ran.out = process.readAllStandardOutput();
-  ran.err = process.readAllStandardError();
-  return ran;
+  process.start(kProgram, arguments);
+  return ended(process);
 }
 
 /// A block of 5 x 5 x 5: enough to run every stage, small enough to be quick.
-inline QStringList smallScene(const QStringList& more) {
-  return QStringList{"simulate", kSample, "--set", "bodies/ice/shape/box/size=[0.1, 0.1, 0.1]", "--threads", "1"} +
+inline QStringList smallScene(const QStringList& more, const QString& project = kSample) {
+  return QStringList{"simulate", project, "--set", "bodies/ice/shape/box/size=[0.1, 0.1, 0.1]", "--threads", "1"} +
          more;
 }
 

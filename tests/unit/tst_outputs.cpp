@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the command line writes: whole files or none, and never in the place of what it reads.
+#include "clirun.h"
 #include "core/base/jsontext.h"
 
 #include <QDir>
 #include <QFile>
 #include <QFileInfo>
-#include <QProcess>
-#include <QRegularExpression>
 #include <QTemporaryDir>
 #include <QTest>
 
@@ -24,36 +23,15 @@ class TestOutputs : public QObject {
   void pipesAndLinksStay();
   void signalsLeaveWholeFiles_data();
   void signalsLeaveWholeFiles();
-  void aFullDiskEndsTheRunAndSaysWhereItsRowsAre_data();
   void aFullDiskEndsTheRunAndSaysWhereItsRowsAre();
   void twoRunsMayRecordToOneName();
 };
 
 namespace {
 
-const QString kProgram = PS_BINARY_DIR "/bin/phasesketch-cli",
-              kSample = PS_SOURCE_DIR "/projects/ice-on-hot-plate.json";
-
-/// A block of 5 x 5 x 5 on one thread.
-QStringList smallRun(const QString& project, const QStringList& more) {
-  return QStringList{
-             "simulate", project, "--quiet", "--threads", "1", "--set", "bodies/ice/shape/box/size=[0.1, 0.1, 0.1]"} +
-         more;
-}
-
-struct Ran {
-  int code = -1;
-  QByteArray err;
-};
-
-Ran ended(QProcess& process) {
-  if (!process.waitForFinished(100000) || process.exitStatus() != QProcess::NormalExit) return {};
-  return {process.exitCode(), process.readAllStandardError()};
-}
-
-Ran run(const QStringList& arguments, const std::function<void()>& before = {}) {
+Ran run(const QStringList& arguments, const std::function<void()>& before) {
   QProcess process;
-  if (before) process.setChildProcessModifier(before);
+  process.setChildProcessModifier(before);
   process.start(kProgram, arguments);
   return ended(process);
 }
@@ -91,7 +69,7 @@ void TestOutputs::noOutputReplacesAnInput() {
   QCOMPARE(::link(qPrintable(project), qPrintable(folder.filePath("twin.json"))), 0);
   QProcess process;
   process.setWorkingDirectory(folder.path());
-  process.start(kProgram, smallRun(project, QStringList{"--frames", "1"} + options));
+  process.start(kProgram, smallScene(QStringList{"--frames", "1"} + options, project));
   const Ran ran = ended(process);
   QCOMPARE(ran.code, 2);
   QVERIFY2(ran.err.contains("as well; choose another name"), ran.err.constData());
@@ -105,7 +83,7 @@ void TestOutputs::pipesAndLinksStay() {
   QCOMPARE(::mkfifo(qPrintable(pipe), 0600), 0);
   QProcess reader;
   reader.start("cat", {pipe});
-  QCOMPARE(run(smallRun(kSample, {"--frames", "2", "--record", pipe})).code, 0);
+  QCOMPARE(cli(smallScene({"--frames", "2", "--record", pipe})).code, 0);
   QVERIFY(reader.waitForFinished() && reader.readAllStandardOutput().startsWith("PSRECORD"));
   struct stat info {};
   QCOMPARE(::lstat(qPrintable(pipe), &info), 0);
@@ -114,7 +92,7 @@ void TestOutputs::pipesAndLinksStay() {
   write(target, "old");
   QVERIFY(QFile::link(target, link));
   for (const char* option : {"--record", "--report", "--probes"}) {
-    QCOMPARE(run(smallRun(kSample, {"--frames", "2", option, link})).code, 0);
+    QCOMPARE(cli(smallScene({"--frames", "2", option, link})).code, 0);
     QCOMPARE(QFileInfo(link).symLinkTarget(), target);
     QVERIFY(bytesOf(target).size() > 100);
   }
@@ -135,7 +113,7 @@ void TestOutputs::signalsLeaveWholeFiles() {
   write(probes, "an older table");
   QProcess process;
   process.start(kProgram,
-                smallRun(kSample, {"--frames", "1000000", "--probes", probes, "--report", report, "--record", record}));
+                smallScene({"--frames", "1000000", "--probes", probes, "--report", report, "--record", record}));
   // It runs as soon as its recording grows; until it ends the old table stands.
   const auto growing = [&] {
     for (const QString& name : filesIn(folder))
@@ -157,33 +135,29 @@ void TestOutputs::signalsLeaveWholeFiles() {
   QCOMPARE(filesIn(folder).size(), 3);
 }
 
-void TestOutputs::aFullDiskEndsTheRunAndSaysWhereItsRowsAre_data() {
-  QTest::addColumn<QString>("option");
-  QTest::addColumn<QString>("kept");
-  QTest::newRow("table") << "--probes"
-                         << "the rows until now are in ";
-  QTest::newRow("recording") << "--record"
-                             << "the frames until now are in ";
-}
-
+/// Whichever of the two the disk has no room for: what was written of both stays.
 void TestOutputs::aFullDiskEndsTheRunAndSaysWhereItsRowsAre() {
-  QFETCH(const QString, option);
-  QFETCH(const QString, kept);
   QTemporaryDir folder;
-  const QString path = folder.filePath("out");
-  write(path, "an older one");
+  const QString table = folder.filePath("table"), recording = folder.filePath("recording");
+  write(table, "an older one");
+  write(recording, "an older one");
   // A limit on the size of files stands for the full disk; the run would take minutes.
-  const Ran ran = run(smallRun(kSample, {"--frames", "1000000", option, path}), [] {
+  const Ran ran = run(smallScene({"--frames", "1000000", "--probes", table, "--record", recording}), [] {
     std::signal(SIGXFSZ, SIG_IGN);
-    const rlimit tight{30000, 30000};
+    const rlimit tight{400000, 400000};
     ::setrlimit(RLIMIT_FSIZE, &tight);
   });
   QCOMPARE(ran.code, 1);
-  const qsizetype at = ran.err.indexOf(kept.toUtf8());
-  QVERIFY2(at > 0, ran.err.constData());
-  const QByteArray part = ran.err.mid(at + kept.size()).trimmed();
-  QVERIFY2(QFileInfo(QString::fromUtf8(part)).size() > 20000, part.constData());
-  QCOMPARE(bytesOf(path), QByteArray("an older one"));
+  QVERIFY2(ran.err.contains("recording: not saved: "), ran.err.constData());
+  const auto kept = [&](const char* words) {
+    const QByteArray rest = ran.err.mid(ran.err.indexOf(words) + qstrlen(words));
+    return ran.err.contains(words) ? bytesOf(QString::fromUtf8(rest.split(';').first().trimmed())) : QByteArray();
+  };
+  const QByteArray rows = kept("; the rows until now are in "), frames = kept("; the frames until now are in ");
+  QVERIFY2(rows.startsWith("time_s,") && rows.count('\n') > 3, ran.err.constData());
+  QVERIFY2(frames.startsWith("PSRECORD") && frames.count("PSFRAME.") > 3, ran.err.constData());
+  QCOMPARE(bytesOf(table), QByteArray("an older one"));
+  QCOMPARE(bytesOf(recording), QByteArray("an older one"));
 }
 
 void TestOutputs::twoRunsMayRecordToOneName() {
@@ -191,7 +165,7 @@ void TestOutputs::twoRunsMayRecordToOneName() {
   const QString path = folder.filePath("two.rec");
   QProcess first, second;
   for (QProcess* process : {&first, &second})
-    process->start(kProgram, smallRun(kSample, {"--frames", "20", "--record", path}));
+    process->start(kProgram, smallScene({"--frames", "20", "--record", path}));
   QCOMPARE(ended(first).code, 0);
   QCOMPARE(ended(second).code, 0);
   QCOMPARE(filesIn(folder), QStringList{"two.rec"});
