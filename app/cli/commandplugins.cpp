@@ -20,7 +20,8 @@ using nlohmann::json;
 
 constexpr OptionSpec kOptions[] = {
     {"--json", "", "as JSON, with the declared parameters and the catalogue of material properties"},
-    {"--fields", "", "lists what particles show, ours and plugins': colours, probes and recordings take these names"},
+    {"--fields", "",
+     "lists what particles show, ours and plugins', for colours, probes (but phase and body) and recordings"},
     {"--allow", "ID", "takes a plugin out of quarantine"},
     {"--check", "FILE", "tries one plugin in a process of its own and says what is wrong with it, or that it is fine"},
     kPatience,

@@ -23,6 +23,7 @@ constexpr OptionSpec kOptions[] = {
 void say(FILE* stream, std::string text) {
   std::replace(text.begin(), text.end(), '\n', ' ');
   std::fprintf(stream, "%s\n", text.c_str());
+  std::fflush(stream);  // a plugin of the next project may never return
 }
 
 }  // namespace

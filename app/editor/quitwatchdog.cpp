@@ -4,26 +4,26 @@
 #include "core/base/callee.h"
 #include "core/plugin_host/crashwatch.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
-#include <string>
 #include <thread>
+#include <vector>
 
 namespace ps {
 
 void quitWithin(std::chrono::milliseconds patience) {
   std::thread([patience] {
-    std::this_thread::sleep_for(patience);
-    std::string names;
+    std::this_thread::sleep_for(patience / 2);
+    const std::vector<OngoingCall> before = ongoingCalls();
+    std::this_thread::sleep_for(patience / 2);
     for (const OngoingCall& call : ongoingCalls()) {
+      if (std::find(before.begin(), before.end(), call) == before.end()) continue;  // a frame that is slow, no more
       putInQuarantine(call.id);
-      names += " '" + call.id + "'";
+      std::fprintf(stderr, "phasesketch: the plugin '%s' did not come back from its work; it is in quarantine.\n",
+                   call.id.c_str());
     }
-    std::fprintf(
-        stderr,
-        "phasesketch: the plugin%s did not come back from its work; the program has been ended, and the plugin "
-        "is in quarantine.\n",
-        names.c_str());
+    std::fputs("phasesketch: its work did not end in time; the program has been ended.\n", stderr);
     std::_Exit(3);
   }).detach();
 }

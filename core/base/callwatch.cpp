@@ -37,7 +37,10 @@ void watch(const std::stop_token& stop, double patience, const CallWatch::Tell& 
       const auto still = std::find_if(now.begin(), now.end(), [&](const Watched& w) { return w.call == one.call; });
       if (still != now.end()) still->looks = one.looks + 1;
       if (still != now.end() && still->looks == most) late(one.call.id);
-      if (still == now.end() && one.looks >= most && back) back(one.call.id);
+    }
+    for (const Watched& one : seen) {  // of several threads in one plugin the last to come back counts
+      const auto lateToo = [&](const Watched& w) { return w.call.id == one.call.id && w.looks >= most; };
+      if (back && one.looks >= most && std::none_of(now.begin(), now.end(), lateToo)) back(one.call.id);
     }
     seen = std::move(now);
   }

@@ -40,4 +40,10 @@ std::string didYouMean(std::string_view word, const std::vector<std::string>& ca
   return meant.empty() ? meant : " (did you mean '" + meant + "'?)";
 }
 
+std::string mustBeOneOf(std::string_view word, const std::vector<std::string>& candidates) {
+  std::string all;
+  for (const std::string& one : candidates) all += (all.empty() ? "" : ", ") + one;
+  return "must be one of " + all + ", not '" + std::string(word) + "'" + didYouMean(word, candidates);
+}
+
 }  // namespace ps

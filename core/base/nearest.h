@@ -11,5 +11,7 @@ namespace ps {
 std::string nearest(std::string_view word, const std::vector<std::string>& candidates);
 /// " (did you mean 'environment'?)", or "".
 std::string didYouMean(std::string_view word, const std::vector<std::string>& candidates);
+/// "must be one of a, b, not 'c'", with didYouMean() behind it.
+std::string mustBeOneOf(std::string_view word, const std::vector<std::string>& candidates);
 
 }  // namespace ps

@@ -41,8 +41,6 @@ template <class T>
 constexpr size_t kLeastSize = sizeof(T);
 template <>
 constexpr size_t kLeastSize<api::ParameterDeclaration> = offsetof(api::ParameterDeclaration, leastWord);
-template <>
-constexpr size_t kLeastSize<api::FieldDeclaration> = offsetof(api::FieldDeclaration, label);
 
 /// A list must have a place to read from, and elements at least as large as the first version's.
 template <class T>

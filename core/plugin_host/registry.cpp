@@ -277,11 +277,6 @@ std::vector<api::FieldDeclaration> PluginRegistry::fields() const {
   return all;
 }
 
-std::vector<api::FieldDeclaration> PluginRegistry::fields(const std::string& id) const {
-  const auto found = m->loaded.find(id);
-  return found == m->loaded.end() ? std::vector<api::FieldDeclaration>() : found->second.fields;
-}
-
 const api::ThermalPlugin* PluginRegistry::thermal(const std::string& id) const {
   const LoadedPlugin* plugin = m->get(id);
   return plugin ? plugin->thermal : nullptr;

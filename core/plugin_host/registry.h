@@ -77,8 +77,6 @@ class PluginRegistry {
   /// Per-particle fields that plugins declare, ascending by plugin, of those that failed since they were loaded too:
   /// particles go on having them.
   std::vector<api::FieldDeclaration> fields() const;
-  /// Those of one plugin.
-  std::vector<api::FieldDeclaration> fields(const std::string& id) const;
   /// Loaded ids of a kind, ascending.
   std::vector<std::string> ids(PluginKind kind) const;
   bool has(const std::string& id) const;
