@@ -308,7 +308,7 @@ class TestAutosave : public QObject {
     desk.edit(352);
     // As the worker does it, as far as the crash lets it.
     const std::string bytes = desk.text();
-    desk.autosave.aroundSave().before(path, hashOf(bytes));
+    desk.autosave.aroundSave().before(path, {true, bytes.size(), 0, 0, hashOf(bytes)});
     if (replaced) writeFileAtomically(path.toStdString(), bytes);
     if (otherwise) writeFileAtomically(path.toStdString(), bytes + ' ');
     desk.edit(353);

@@ -65,6 +65,35 @@ class TestDocument : public QObject {
  private Q_SLOTS:
   void initTestCase() { m_plugins = std::make_unique<PluginRegistry>(); }
 
+  /// The engine refuses a moment later: other edits, a save and a drag may have come between.
+  void aRefusedValueIsNoStepOfTheWay() {
+    const Address lid{Owner::Wall, "lid", "temperature"};
+    Document document;
+    document.setPlugins(m_plugins.get());
+    document.open(smallScene(), {});
+    QCOMPARE(document.setParameter(kFloor, 350.0), QString());
+    QCOMPARE(document.setParameter(kFloor, 360.0), QString());
+    QCOMPARE(document.setParameter(lid, 280.0), QString());
+    document.undoStack().setClean();
+    document.takeBack(kFloor, 360.0, Value(350.0));
+    QCOMPARE(std::get<double>(document.value(kFloor)), 350.0);
+    QVERIFY(document.isDirty());  // what was saved holds it
+    const auto floor = [&] { return std::get<double>(document.value(kFloor)); };
+    while (document.undoStack().canUndo()) {
+      document.undoStack().undo();
+      QVERIFY(floor() != 360.0);
+    }
+    QCOMPARE(floor(), 370.0);
+    while (document.undoStack().canRedo()) {
+      document.undoStack().redo();
+      QVERIFY(floor() != 360.0);
+    }
+    QCOMPARE(floor(), 350.0);
+    QCOMPARE(std::get<double>(document.value(lid)), 280.0);
+    document.takeBack(kFloor, 360.0, Value(340.0));  // it has another value by now
+    QCOMPARE(floor(), 350.0);
+  }
+
   void aDragIsOneStep() {
     Document document;
     document.setPlugins(m_plugins.get());

@@ -120,7 +120,7 @@ class TestMendingWindow : public SampleWindowTest {
     const QString problem = failed.front()[1].toString();
     QVERIFY2(DocumentFiles::lacksRequired(problem) && problem.contains(QStringLiteral("org.example.gone")),
              qPrintable(problem));
-    files.openAnyway(path);
+    files.openAnyway();
     QVERIFY(opened.wait());
     QVERIFY(opened.front()[1].toStringList().join(QLatin1Char(' ')).contains(QStringLiteral("org.example.gone")));
     QCOMPARE(writeProject(document.project()), writeProject(project));  // it goes on needing the plugin

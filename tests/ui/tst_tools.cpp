@@ -128,6 +128,36 @@ class TestTools : public QObject {
     cleanup();  // the plugins go before the document does
   }
 
+  /// The last sample waits for the end of the stroke: what fails there is told as well.
+  void aBrushThatFailsAtTheEndIsTold() {
+    const QTemporaryDir folder;
+    QVERIFY(QFile::copy(qEnvironmentVariable("PS_FIXTURE_DIR") + QStringLiteral("/fixture_brush.so"),
+                        folder.filePath(QStringLiteral("throwing_brush.so"))));
+    PluginRegistry::Options options;
+    options.extraPaths = {folder.path().toStdString()};
+    PluginRegistry plugins(options);
+    m_document->setPlugins(&plugins);
+    BrushSettings brush = m_tools->brush();
+    brush.shape = "fixture.brush";
+    m_tools->setBrush(brush);
+    m_tools->activate("brush");
+    QSignalSpy refused(m_tools.get(), &Toolbox::refused);
+    QTRY_VERIFY(m_engine->snapshot());
+    const SnapshotPtr now = m_engine->snapshot();
+    Pointer pointer = at({0.15, 0, 0.15}, now.get());
+    m_tools->tool().press(pointer);
+    pointer =
+        at(m_tools->tool().picture().cursor->centre + Vector3(1e-4, 0, 0), now.get());  // less than a sample's way
+    pointer.seconds = 0.1;
+    m_tools->tool().drag(pointer);
+    QVERIFY2(refused.isEmpty(), qPrintable(refused.value(0).value(1).toString()));
+    m_tools->tool().release(pointer);
+    QCOMPARE(refused.count(), 1);
+    QVERIFY(refused.front()[1].toString().contains(QStringLiteral("no more paint")));
+    QCOMPARE(m_document->undoStack().count(), 0);
+    cleanup();  // the plugins go before the document does
+  }
+
   void theBrushIsTheStandardOneAndEachIsReached() {
     QCOMPARE(m_tools->brush().shape, m_plugins->standard(PluginKind::Brush));
     std::set<std::string> seen;

@@ -21,8 +21,8 @@ class ParameterCommand : public QUndoCommand {
   void redo() override;
   int id() const override { return 1; }
   bool mergeWith(const QUndoCommand* other) override;
-  const Address& address() const { return m_address; }
-  int gesture() const { return m_gesture; }
+  /// What it set was refused, and `kept` stays: neither undo nor redo sets it again. False for another command.
+  bool amend(const Address& address, const Value& refused, const std::optional<Value>& kept);
 
  private:
   Document& m_document;

@@ -113,14 +113,18 @@ QString Document::setParameter(const Address& address, const Value& value) {
   return {};
 }
 
-/// Merges with the command that set it, were it the one of a drag, so that no redo sets it again.
+/// Mends the command that set it, whatever came behind: its undo and redo would be refused again. Whoever saved since
+/// has saved the refused value.
 void Document::takeBack(const Address& address, const Value& refused, const std::optional<Value>& kept) {
   const std::optional<Value> now = storedValue(m_project, address);
   if (now != refused || now == kept) return;
-  const auto* last = dynamic_cast<const ParameterCommand*>(m_undo.command(m_undo.index() - 1));
-  const bool own = last && last->address() == address;
-  m_undo.push(new ParameterCommand(*this, address, now, kept, own ? last->gesture() : ++m_gesture,
-                                   QStringLiteral("return of a refused value")));
+  for (int i = m_undo.index(); i-- > 0;) {
+    auto* command = dynamic_cast<ParameterCommand*>(const_cast<QUndoCommand*>(m_undo.command(i)));
+    if (!command || !command->amend(address, refused, kept)) continue;
+    if (m_undo.cleanIndex() > i) m_undo.resetClean();
+    break;
+  }
+  applyParameter(address, kept);
 }
 
 const Body* Document::body(const std::string& id) const {

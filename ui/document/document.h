@@ -61,8 +61,8 @@ class Document : public QObject {
   void endGesture();
   /// Sets a value (the default removes the explicit one). Returns "" or why it is refused; the old one then stays.
   QString setParameter(const Address& address, const Value& value);
-  /// The engine has refused a value and goes on with `kept` (see storedValue()): so does the document, as if it had never
-  /// been set. Nothing happens when it has another value by now.
+  /// The engine has refused a value and goes on with `kept` (see storedValue()): so does the document, as if it had
+  /// never been set. Nothing happens when it has another value by now.
   void takeBack(const Address& address, const Value& refused, const std::optional<Value>& kept);
 
   // Bodies

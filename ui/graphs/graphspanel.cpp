@@ -37,6 +37,11 @@ QByteArray quoted(const std::string& text) {
   return '"' + cell.replace("\"", "\"\"") + '"';
 }
 
+/// A unit that takes prefixes stands at the axis.
+QString titled(const QString& name, const QString& unit) {
+  return unit.isEmpty() || prefixFor(1000, unit).factor > 1 ? name : name + QStringLiteral(", ") + unit;
+}
+
 }  // namespace
 
 GraphsPanel::GraphsPanel(Session& session, QWidget* parent)
@@ -85,15 +90,14 @@ void GraphsPanel::plotValues(const Project& project) {
   for (size_t i = 0; i < project.probes.size(); ++i) {
     const Quantity* quantity = m_session.fields().quantity(project.probes[i].quantity);
     if (!quantity || !quantity->field || quantity->unit == "K") continue;
+    const QString unit = QString::fromStdString(quantity->unit == "1" ? "" : quantity->unit);
     auto known =
         std::find_if(m_values.begin(), m_values.end(), [&](const Values& v) { return v.unit == quantity->unit; });
     if (known == m_values.end()) {
       if (m_values.size() == kMostUnits) continue;
-      known = m_values.insert(known, {quantity->unit, {}, new GraphView});
-      const QString label = QString::fromStdString(quantity->field->label);
-      const QString unit = QString::fromStdString(quantity->unit == "1" ? "" : quantity->unit);
+      known = m_values.insert(known, {quantity->unit, quantity->field, {}, new GraphView});
       const bool prefixed = prefixFor(1000, unit).factor > 1;
-      known->view->setTitle(prefixed || unit.isEmpty() ? label : label + QStringLiteral(", ") + unit);
+      known->view->setTitle(titled(QString::fromStdString(quantity->field->label), unit));
       if (prefixed)
         known->view->setPrefixedUnit(unit);
       else
@@ -102,6 +106,7 @@ void GraphsPanel::plotValues(const Project& project) {
       static_cast<QHBoxLayout*>(layout())->insertWidget(static_cast<int>(m_values.size()), known->view, 1);
     }
     if (known->probes.size() == kMostSeries) continue;
+    if (quantity->field != known->field) known->view->setTitle(titled(QStringLiteral("Probes"), unit));
     known->probes.push_back(i);
     known->view->addSeries(QString::fromStdString(project.probes[i].name));
   }

@@ -39,6 +39,7 @@ class GraphsPanel : public QWidget {
   /// Probes of fields of one unit.
   struct Values {
     std::string unit;  ///< SI
+    FieldPtr field;    ///< of the first probe; the title is the unit's where others measure another
     std::vector<size_t> probes;
     GraphView* view = nullptr;
   };

@@ -64,9 +64,10 @@ void RowNotes::noteWaiting(const ParameterChanged& change) {
 void RowNotes::addAdvice(std::map<QString, Note>& notes) const {
   for (const ParameterPanel* panel : m_panels) {
     for (const ParameterRow* row : panel->rows()) {
-      const auto address = Address::parse(row->key().toStdString());
       // A pinned row stands twice.
-      if (!address || !row->model().declaration.relations || notes.contains(row->key())) continue;
+      if (!row->model().declaration.relations || notes.contains(row->key())) continue;
+      const auto address = Address::parse(row->key().toStdString());
+      if (!address) continue;
       const std::string advice = adviceOf(m_document.project(), m_document.plugins(), *address);
       if (!advice.empty()) add(notes, row->key(), {QString::fromStdString(advice), kNone});
     }

@@ -134,8 +134,8 @@ std::function<QString()> Autosave::copyJob(const AutosavedSession& session) cons
 Autosave::AroundSave Autosave::aroundSave() const {
   std::vector<std::pair<QString, uint64_t>> older{{m_stem, m_document.changeCount()}};
   for (const QString& stem : m_takenOver) older.emplace_back(stem, std::numeric_limits<uint64_t>::max());
-  return {[older](const QString& path, uint64_t hash) {
-            for (const auto& [stem, change] : older) notes::announceSave(stem, change, path, hash);
+  return {[older](const QString& path, const FileStamp& bytes) {
+            for (const auto& [stem, change] : older) notes::announceSave(stem, change, path, bytes);
           },
           [older] {
             for (const auto& [stem, change] : older) notes::removeCopies(stem, change);

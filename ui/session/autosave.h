@@ -63,9 +63,9 @@ class Autosave : public QObject {
   void takeOver(const AutosavedSession& session);
 
   /// What the worker does around the replacement of a file by the document as it is now, so that no copy is ever
-  /// offered that is older than the file: `before` with the hash of the new bytes, `after` when they are there.
+  /// offered that is older than the file: `before` with size and hash of the new bytes, `after` when they are there.
   struct AroundSave {
-    std::function<void(const QString& path, uint64_t hash)> before;
+    std::function<void(const QString& path, const FileStamp& bytes)> before;
     std::function<void()> after;
   };
   AroundSave aroundSave() const;

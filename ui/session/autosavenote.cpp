@@ -94,7 +94,8 @@ bool isSaved(uint64_t change, const QJsonObject& note) {
   const QJsonObject saving = note.value(kSaving).toObject();
   if (saving.isEmpty() || change > number(saving[QStringLiteral("change")])) return false;
   const std::string path = saving[QStringLiteral("path")].toString().toStdString();
-  return holdsStamped(path, {true, stampAt(path).size, 0, 0, number(saving[QStringLiteral("hash")])});
+  return holdsStamped(path,
+                      {true, number(saving[QStringLiteral("size")]), 0, 0, number(saving[QStringLiteral("hash")])});
 }
 
 }  // namespace
@@ -149,12 +150,13 @@ void write(const AutosavedSession& session) {
                      {kSaving, noteOf(session.stem).value(kSaving)}});
 }
 
-void announceSave(const QString& stem, uint64_t change, const QString& path, uint64_t hash) {
+void announceSave(const QString& stem, uint64_t change, const QString& path, const FileStamp& bytes) {
   QJsonObject note = noteOf(stem);
   if (note.isEmpty() && copies(stem).empty()) return;
   note.insert(kSaving, QJsonObject{{QStringLiteral("change"), text(change)},
                                    {QStringLiteral("path"), path},
-                                   {QStringLiteral("hash"), text(hash)}});
+                                   {QStringLiteral("size"), text(bytes.size)},
+                                   {QStringLiteral("hash"), text(bytes.hash)}});
   put(stem, note);
 }
 

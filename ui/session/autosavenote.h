@@ -16,9 +16,9 @@ QStringList stems(const QString& directory);  ///< of all sessions that left a n
 AutosavedSession read(const QString& stem);
 /// Throws Error.
 void write(const AutosavedSession& session);
-/// Before the file at `path` gets bytes of this hash, which hold the project as it was at `change`: when it does,
-/// copies that are not newer are not to be offered any more.
-void announceSave(const QString& stem, uint64_t change, const QString& path, uint64_t hash);
+/// Before the file at `path` gets bytes of this size and hash, which hold the project as it was at `change`: when it
+/// does, copies that are not newer are not to be offered any more.
+void announceSave(const QString& stem, uint64_t change, const QString& path, const FileStamp& bytes);
 void removeCopies(const QString& stem, uint64_t upTo);
 void removeAll(const QString& stem);
 /// Removes what programs left that were killed while they wrote, in the folder and beside the projects that its notes

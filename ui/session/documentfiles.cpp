@@ -95,9 +95,11 @@ void DocumentFiles::open(const QString& path) {
   load({absolute, absolute, false, false, {}, {}});
 }
 
-void DocumentFiles::openAnyway(const QString& path) {
-  const QString absolute = QFileInfo(path).absoluteFilePath();
-  load({absolute, absolute, false, true, {}, {}});
+void DocumentFiles::openAnyway() {
+  if (!m_failed) return;
+  Source source = *m_failed;
+  source.anyway = true;
+  load(source);
 }
 
 bool DocumentFiles::lacksRequired(const QString& problem) { return problem.contains(QLatin1String(kRequiredPointer)); }
@@ -144,6 +146,7 @@ void DocumentFiles::load(const Source& source) {
 /// The document becomes what was read.
 void DocumentFiles::adopt(const Source& source, Read& read) {
   if (!read.problem.isEmpty()) {
+    m_failed = source;
     Q_EMIT openFailed(source.path, read.problem);
     return;
   }
@@ -185,9 +188,9 @@ void DocumentFiles::lockLater() {
     m_lock.reset();
     return;
   }
-  m_worker.run([this, path, request = m_request, own = m_own, mine = std::exchange(m_lock, {})] {
-    QMetaObject::invokeMethod(this, [this, path, request, lock = own->lockOf(path, mine)] {
-      if (request != m_request) return;
+  m_worker.run([this, path, count = m_document.changeCount(), own = m_own, mine = std::exchange(m_lock, {})] {
+    QMetaObject::invokeMethod(this, [this, path, count, lock = own->lockOf(path, mine)] {
+      if (!m_document.had(count)) return;
       m_lock = lock;
       if (lock->busy()) Q_EMIT openElsewhere(path, holderText(*lock));
     });
@@ -220,7 +223,7 @@ void DocumentFiles::save(const QString& path, bool anyway) {
       addRecent(path);
       if (m_document.had(count)) m_lock = result.lock;
       if (!result.noVersion.isEmpty()) Q_EMIT versionNotKept(path, result.noVersion);
-      if (!result.stateLeftOut.isEmpty()) Q_EMIT stateLeftOut(path, result.stateLeftOut);
+      if (!result.stateLeftOut.isEmpty()) Q_EMIT stateLeftOut(path, result.stateLeftOut, m_document.had(count));
       Q_EMIT saved(path, m_document.saved(path, count, result.file));
     });
   });

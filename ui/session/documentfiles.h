@@ -21,8 +21,8 @@ struct AutosavedSession;
 struct ReplacedWork;
 
 /// Opens and saves a document's project on a worker thread: the interface goes on meanwhile, and a project that cannot
-/// be read leaves the present one as it is; one of which no scene can be made opens, to be mended. Results come as signals on the thread of this object. What opens a project
-/// needs the document's plugins.
+/// be read leaves the present one as it is; one of which no scene can be made opens, to be mended. Results come as
+/// signals on the thread of this object. What opens a project needs the document's plugins.
 class DocumentFiles : public QObject {
   Q_OBJECT
  public:
@@ -36,8 +36,9 @@ class DocumentFiles : public QObject {
   void setSample(const QString& path) { m_sample = path; }
 
   void open(const QString& path);
-  /// Though plugins are missing that the project cannot do without, by its own word: what they made stands still.
-  void openAnyway(const QString& path);
+  /// What openFailed() came for last, a copy of unsaved work and an earlier version too, though plugins are missing
+  /// that the project cannot do without, by its own word: what they made stands still.
+  void openAnyway();
   /// Whether it was for them that openFailed() came.
   static bool lacksRequired(const QString& problem);
   /// What an earlier session had open: its copy when it has one (the document is then dirty), else its file, seen as
@@ -65,8 +66,8 @@ class DocumentFiles : public QObject {
   /// `present`: what was saved is still the open project.
   void saved(const QString& path, bool present);
   /// Before saved(): the project would not open at its state any more, `why`, and it was left out. The document keeps
-  /// it, so that the next save has it where an undo makes it fit again.
-  void stateLeftOut(const QString& path, const QString& why);
+  /// it, so that the next save has it where an undo makes it fit again. `present` as in saved().
+  void stateLeftOut(const QString& path, const QString& why, bool present);
   void saveFailed(const QString& path, const QString& problem, bool present);
   /// The same, but the file could be replaced.
   void saveRefused(const QString& path, ps::SaveRefusal refusal, const QString& problem, bool present);
@@ -90,6 +91,7 @@ class DocumentFiles : public QObject {
   Worker& m_worker;
   const Autosave* m_autosave = nullptr;
   QString m_sample;
+  std::optional<Source> m_failed;    ///< what could not be opened last
   std::shared_ptr<FileLock> m_lock;  ///< of the document's file
   std::shared_ptr<OwnFiles> m_own;   ///< for the worker's jobs
   int m_request = 0;                 ///< of the newest open(): an older one that arrives late is dropped

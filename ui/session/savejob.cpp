@@ -27,7 +27,9 @@ QString lockPath(const QString& project) {
 std::shared_ptr<FileLock> OwnFiles::lockOf(const QString& project, const std::shared_ptr<FileLock>& mine) {
   const std::string name = lockPath(project).toStdString();
   for (const std::shared_ptr<FileLock>& held : {mine, lock.lock()}) {
-    if (held && held->path() == name && held->held()) return held;
+    if (!held || held->path() != name || !held->held()) continue;
+    lock = held;
+    return held;
   }
   auto made = std::make_shared<FileLock>(name, lockNote().toStdString());
   lock = made;
@@ -68,7 +70,7 @@ SaveJob::Result SaveJob::operator()() const {
       result.noVersion = QString::fromUtf8(error.what());
     }
     try {
-      if (around.before) around.before(path, hashOf(bytes));
+      if (around.before) around.before(path, {true, bytes.size(), 0, 0, hashOf(bytes)});
     } catch (const std::exception&) {
       // The copies go below; only a crash in between would find them older than the file.
     }

@@ -71,7 +71,9 @@ void DrawTool::drag(const Pointer& pointer) {
   refuse(problem);
 }
 
-void DrawTool::release(const Pointer&) { m_stroke.finish(); }
+void DrawTool::release(const Pointer&) {
+  if (const QString problem = m_stroke.finish(); !problem.isEmpty()) refuse(problem);
+}
 
 bool DrawTool::cancel() {
   const bool busy = m_stroke.active();

@@ -184,10 +184,14 @@ void LiveStroke::collectErasure(StrokeRecord& record) const {
   }
 }
 
-void LiveStroke::finish() {
-  if (!m_record) return;
-  guarded([&] { feed(m_resampler->finish()); });  // what came so far stays, unless the brush fails
-  if (!m_record) return;
+QString LiveStroke::finish() {
+  if (!m_record) return {};
+  const QString problem = guarded([&] { feed(m_resampler->finish()); });
+  if (m_record) keep();  // what came so far stays, unless the brush failed
+  return problem;
+}
+
+void LiveStroke::keep() {
   const std::shared_ptr<StrokeRecord> record = std::move(m_record);
   m_record.reset();
   if (m_cells.empty()) return;

@@ -32,12 +32,14 @@ class LiveStroke {
   /// "" or what went wrong; the stroke then ends as far as it came, or is given up where the brush failed. `seconds`
   /// since it began.
   QString move(const Vector3& point, double seconds, double pressure);
-  void finish();
+  /// "" or what went wrong, as of move().
+  QString finish();
   void cancel();
   bool active() const { return m_record != nullptr; }
   size_t cellCount() const { return m_cells.size(); }
 
  private:
+  void keep();
   QString whyNot(bool erase, const Snapshot& now) const;
   Body paintedBody(int& palette) const;
   void feed(const std::vector<api::StrokeSample>& samples);

@@ -266,8 +266,7 @@ void FileActions::onOpenFailed(const QString& path, const QString& problem) {
   m_session.log().add(MessageLevel::Error, nameOf(path), problem);
   std::vector<NoticeBar::Button> buttons{{QStringLiteral("Open another…"), [this] { chooseOpen(); }}};
   if (DocumentFiles::lacksRequired(problem))
-    buttons.insert(buttons.begin(),
-                   {QStringLiteral("Open anyway"), [this, path] { m_session.files().openAnyway(path); }});
+    buttons.insert(buttons.begin(), {QStringLiteral("Open anyway"), [this] { m_session.files().openAnyway(); }});
   if (first) {
     m_session.files().newProject();  // the window must not stay empty
     m_restore.offerAtStart();
@@ -291,11 +290,12 @@ void FileActions::onSaved(const QString& path, bool present) {
   if (!leftOut) m_notices.bar().close(QStringLiteral("state"));
 }
 
-void FileActions::onStateLeftOut(const QString& path, const QString& why) {
+void FileActions::onStateLeftOut(const QString& path, const QString& why, bool present) {
   m_leftOut = true;
   const QString title = QStringLiteral("Saved without the state that was kept.");
   const QString text = why.left(1).toUpper() + why.mid(1) + QStringLiteral(". The project opens at its start.");
   m_session.log().add(MessageLevel::Warning, nameOf(path), title + QLatin1Char(' ') + text);
+  if (!present) return;
   m_notices.bar().show(QStringLiteral("state"), MessageLevel::Warning, title, text,
                        {{QStringLiteral("Save with the present state"), [this] { saveWithState(); }}});
 }

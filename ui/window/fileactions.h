@@ -57,7 +57,7 @@ class FileActions : public QObject {
   void onOpened(const QString& path, const QStringList& warnings, double seconds);
   void onOpenFailed(const QString& path, const QString& problem);
   void onSaved(const QString& path, bool present);
-  void onStateLeftOut(const QString& path, const QString& why);
+  void onStateLeftOut(const QString& path, const QString& why, bool present);
   void onSaveFailed(const QString& path, const QString& problem, bool present);
   bool isSample(const QString& path) const;
 
