@@ -228,9 +228,7 @@ class ProjectChecker : public FieldVisitor {
                     const char* withoutIt) {
     if (std::find(known.begin(), known.end(), name) != known.end()) return;
     if (name.find('.') == std::string::npos && m_missing.empty()) {
-      std::string all;
-      for (const std::string& one : known) all += (all.empty() ? "" : ", ") + one;
-      fail(pointer, "must be one of " + all + ", not '" + name + "'" + didYouMean(name, known));
+      fail(pointer, mustBeOneOf(name, known));
     }
     warn(pointer, "no installed plugin has a field for '" + name + "'" + didYouMean(name, known) + "; " + withoutIt);
   }

@@ -106,10 +106,6 @@ void warnReserved(const json& document, const std::string& name, std::vector<Pro
   }
 }
 
-}  // namespace
-
-namespace {
-
 size_t depthOf(const json& value) {
   size_t deepest = 0;
   if (value.is_structured()) {

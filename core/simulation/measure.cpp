@@ -11,7 +11,6 @@
 namespace ps {
 namespace {
 
-double squaredSpeed(const api::Float4& v) { return double{v.x} * v.x + double{v.y} * v.y + double{v.z} * v.z; }
 
 double kineticEnergy(const ParticleStore& store) {
   return parallelSum(store.size(), grain::kNumbers, [&](size_t first, size_t last) {

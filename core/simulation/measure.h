@@ -10,6 +10,8 @@
 
 namespace ps {
 
+/// m²/s²
+inline double squaredSpeed(const api::Float4& v) { return double{v.x} * v.x + double{v.y} * v.y + double{v.z} * v.z; }
 /// Phases, temperatures and energies of a solver's state, summed in a fixed order.
 FrameStats measure(const Solver& solver, const StepReport& report);
 /// What probes look at.

@@ -3,6 +3,7 @@
 
 #include "core/particles/particlestore.h"
 #include "core/plugin_host/registry.h"
+#include "core/simulation/measure.h"
 #include "core/simulation/snapshot.h"
 
 #include <algorithm>
@@ -12,10 +13,7 @@
 namespace ps {
 namespace {
 
-double speedOf(const ParticleStore& s, size_t i) {
-  const api::Float4& v = s.velocity()[i];
-  return std::sqrt(double{v.x} * v.x + double{v.y} * v.y + double{v.z} * v.z);
-}
+double speedOf(const ParticleStore& s, size_t i) { return std::sqrt(squaredSpeed(s.velocity()[i])); }
 
 /// Mass over the volume that it has at rest, and by how much it is denser than that.
 double densityOf(const ParticleStore& s, size_t i) {

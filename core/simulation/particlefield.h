@@ -47,7 +47,8 @@ struct Quantity {
 };
 
 /// Fields: ours, in the order in which menus show them; then those that plugins declare with a label, ascending by
-/// plugin. And what probes measure: each field's mean under its name, its ends with "_min" and "_max" behind it.
+/// plugin. And what probes measure: each field's mean under its name, its ends with "_min" and "_max" behind it; of
+/// classes nothing.
 class ParticleFields {
  public:
   ParticleFields();  ///< ours alone

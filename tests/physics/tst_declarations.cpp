@@ -59,7 +59,7 @@ class TestDeclarations : public QObject {
 namespace {
 
 constexpr int kBefore = 3, kAfter = 4;  // frames
-constexpr int kFiles = 30;              // broken projects of one relation that are written and read: that takes long
+constexpr int kFiles = 30;              // broken projects of one relation, but a material's, that are written and read
 
 /// What acts, but on no particle: on how it is drawn, or on plugins that ask for it and are not ours.
 bool movesNothing(const Address& address) {
@@ -400,6 +400,7 @@ void TestDeclarations::relationsRefuse() {
   const Relation relation = parseRelations(declared(scenes::menagerie(), address)).at(static_cast<size_t>(index));
   std::mt19937 random(1);
   std::array<int, 2> seen{};
+  int letIn = 0;
   for (int k = 0; k < 300; ++k) {
     Project project = scenes::menagerie();
     for (const Address& other : keysOf(relation, address)) {
@@ -411,15 +412,19 @@ void TestDeclarations::relationsRefuse() {
     QCOMPARE(!adviceOf(project, &m_plugins, address).empty(), broken && !relation.must);
     if (!broken) continue;
     const Value own = valueAt(project, &m_plugins, address);
-    // A material that came with other values that contradict each other is mended value by value.
+    const bool material = address.owner == Owner::Material;
+    const std::string file = material || seen[1] <= kFiles ? refusal(project) : std::string();
+    // A material that came with contradicting values is mended value by value: let in where it was wrong before and
+    // another of its values is to blame now.
     Project before = project;
     findSet(before, address)->values.erase(address.key);
-    if (!relation.must || address.owner != Owner::Material || refusal(before).empty())
-      QCOMPARE(problemWith(before, &m_plugins, address, own).empty(), !relation.must);
-    if (seen[1] > kFiles) continue;
-    const std::string file = refusal(project);
-    QVERIFY2(relation.must ? !file.empty() : file.empty(), file.c_str());
+    const bool another =
+        material && file.find("/properties/" + address.key + ": ") == std::string::npos && !refusal(before).empty();
+    QCOMPARE(problemWith(before, &m_plugins, address, own).empty(), !relation.must || another);
+    letIn += relation.must && another ? 1 : 0;
+    if (material || seen[1] <= kFiles) QVERIFY2(relation.must ? !file.empty() : file.empty(), file.c_str());
   }
+  QVERIFY2(letIn <= seen[1] / 4, qPrintable(QString::number(letIn)));
   QVERIFY2(seen[0] > 10 && seen[1] > 10, qPrintable(QString("held %1, broken %2").arg(seen[0]).arg(seen[1])));
 }
 

@@ -80,8 +80,8 @@ class TestFlow : public QObject {
     engine.step();
     const uint64_t poured = engine.stats().flow.poured.count;
     QVERIFY2(poured > 0 && poured <= 256, qPrintable(QString::number(poured)));
-    const ps::SnapshotPtr snapshot = engine.snapshot();
-    const std::vector<ps::Limit>& limits = snapshot->limits;
+    QCOMPARE(engine.snapshot()->limits.size(), engine.limits().size());
+    const std::vector<ps::Limit> limits = engine.limits();
     const auto told =
         std::find_if(limits.begin(), limits.end(), [](const ps::Limit& l) { return l.what == "tap.speed"; });
     QVERIFY(told != limits.end());

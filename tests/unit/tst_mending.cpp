@@ -112,7 +112,8 @@ class TestMending : public QObject {
     const QString path = m_scratch.filePath("wrong.json");
     const Project project = withWrong(wrong);
     saveProject(project, path.toStdString());
-    const LoadedProject read = readProject(readFile(path.toStdString(), kMaximumProjectBytes), path.toStdString(), *m_plugins);
+    const LoadedProject read =
+        readProject(readFile(path.toStdString(), kMaximumProjectBytes), path.toStdString(), *m_plugins);
     QCOMPARE(writeProject(read.project), writeProject(project));
     QCOMPARE(read.problems.size(), *wrong.pointer ? size_t{1} : size_t{0});
     if (read.problems.empty()) return;

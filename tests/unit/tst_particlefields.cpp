@@ -123,9 +123,7 @@ class TestParticleFields : public QObject {
     engine.show({kMark});
     engine.step();
     StateBuffer buffer;
-    StateWriter writer(buffer);
-    engine.save(writer);
-    writer.finish();
+    saveTo(buffer, engine);
     engine.restore(StateReader(buffer.bytes()));
     QVERIFY(ShownField(*engine.snapshot(), kMark));
   }

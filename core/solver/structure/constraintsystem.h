@@ -210,7 +210,7 @@ class ConstraintSystem {
   static void restoreParameters(const StateReader& reader, std::string_view room, Set& set);
   static void restoreLists(const StateReader& reader, std::string_view room, Set& set, const ParticleStore& store);
   void restoreThin();
-  /// Makes taken and keys again where they are needed: it takes longer than all the rest of restoring.
+  /// Makes coloursInUse and keys again where they are needed: it takes longer than all the rest of restoring.
   void lookUp(Set& set, const ParticleStore& store) const;
   size_t takeColour(Set& set, const ParticleStore& store, const uint32_t* particles) const;
   void apply(Set& set, const ParticleStore& store, const Edits& edits);
