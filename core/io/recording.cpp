@@ -189,6 +189,7 @@ RecordingWriter::RecordingWriter(const std::string& path, const Project& project
   m_file.write({kFileMark, kMark});
   m_file.write(bytesOf(length));
   m_file.write(text);
+  m_file.write(bytesOf(hashOf(text)));
 }
 
 void RecordingWriter::add(const Snapshot& snapshot) {
@@ -215,21 +216,32 @@ RecordingReader::RecordingReader(const std::string& path) : m_path(path), m_file
 }
 
 void RecordingReader::readHeader() {
+  const InputError damaged(m_path +
+                           ": its header is damaged or cut off; take another copy, or simulate the project again");
   char mark[kMark];
   uint32_t length = 0;
   m_file.read(mark, kMark);
+  if (!m_file || std::memcmp(mark, kFileMark, kMark) != 0)
+    throw InputError(m_path + ": is no recording; simulate --record makes one");
   m_file.read(reinterpret_cast<char*>(&length), sizeof length);
-  if (!m_file || std::memcmp(mark, kFileMark, kMark) != 0) throw InputError(m_path + ": is no recording");
-  if (length > kMaximumHeader || length + kMark + sizeof length > m_bytes) {
-    throw InputError(m_path + ": is cut off in its header");
-  }
+  if (!m_file || length > kMaximumHeader || length + kMark + sizeof length > m_bytes) throw damaged;
   std::string text(length, '\0');
+  uint64_t checksum = 0;
   m_file.read(text.data(), length);
-  const json header = parseJson(text, m_path);
+  m_file.read(reinterpret_cast<char*>(&checksum), sizeof checksum);
+  // Formats up to 3 have no checksum: their first frame stands here, or their end.
+  const bool sealed = m_file && std::memcmp(&checksum, kFrameMark, kMark) != 0;
+  if (sealed && checksum != hashOf(text)) throw damaged;
+  json header;
+  try {
+    header = parseJson(text, m_path);
+  } catch (const InputError&) {
+    throw damaged;
+  }
   const auto version = header.find("version");
   if (!header.is_object() || header.value("format", json()) != "phasesketch-recording" || version == header.end() ||
       !version->is_number_integer() || !header.contains("project")) {
-    throw InputError(m_path + ": its header is broken");
+    throw InputError(m_path + ": its header is no recording's; simulate --record makes one");
   }
   if (version->get<double>() > kRecordingVersion) {
     throw InputError(m_path + ": was made by a newer version (recording format " + version->dump() +
@@ -239,6 +251,7 @@ void RecordingReader::readHeader() {
     throw InputError(m_path + ": was made by an older version (recording format " + version->dump() +
                      "); simulate its project again");
   }
+  if (!sealed) throw damaged;
   m_project = header["project"].dump();
 }
 
@@ -256,7 +269,7 @@ void RecordingReader::findFrames() {
     const bool whole = m_bytes - at >= kHead && m_file && std::memcmp(mark, kFrameMark, kMark) == 0 &&
                        head[0] <= m_bytes - at - kHead && head[1] <= kMaximumFrame;
     if (!whole) {
-      m_damage = m_path + ": is cut off after frame " + std::to_string(m_frames.size());
+      m_damage = m_path + ": is cut off or damaged after frame " + std::to_string(m_frames.size());
       m_file.clear();
       return;
     }

@@ -9,15 +9,17 @@
 #include <vector>
 
 // A recording is a run as it was seen: the project, then every frame's snapshot arrays. File, little-endian:
-//   "PSRECORD", u32 length, header JSON {"format": "phasesketch-recording", "version": 3, "project": {...}}
+//   "PSRECORD", u32 length, header JSON {"format": "phasesketch-recording", "version": 4, "project": {...}},
+//   u64 FNV-1a of the header
 //   per frame: "PSFRAME.", u64 packed bytes, u64 bytes, u64 FNV-1a of the packed bytes, zstd data
 // Behind the arrays that every snapshot has, a frame holds the fields that this one was asked for, each with its name,
 // label, unit and scale, so that it is shown where its plugin is not installed.
 // A frame's arrays are cut into byte planes first (all lowest bytes, all second ones, ...), which packs floats better.
-// Frames follow each other, so that a recording that was cut off is good up to there.
+// Frames follow each other, so that a recording that was cut off is good up to there. Whatever else changes, the header
+// stays where it is, so that every version can say of a file which one made it.
 namespace ps {
 
-inline constexpr int kRecordingVersion = 3;
+inline constexpr int kRecordingVersion = 4;
 
 class RecordingWriter {
  public:
@@ -38,13 +40,13 @@ class RecordingWriter {
 
 class RecordingReader {
  public:
-  /// Reads the header and where the frames are. Throws InputError "path: what is wrong": no recording, a newer version,
-  /// a broken header.
+  /// Reads the header and where the frames are. Throws InputError "path: what is wrong; what to do": no recording, a
+  /// newer or older version, a header that is not what was written.
   explicit RecordingReader(const std::string& path);
   /// The project as JSON text, for parseProject().
   const std::string& projectText() const { return m_project; }
   size_t frameCount() const { return m_frames.size(); }
-  /// "" or how the file ends too early: "path: is cut off after frame 17".
+  /// "" or where the frames end too early: "path: is cut off or damaged after frame 17".
   const std::string& damage() const { return m_damage; }
   /// Throws InputError when the frame's bytes are not what was written.
   SnapshotPtr frame(size_t index);

@@ -19,6 +19,7 @@ class TestRecording : public QObject {
   void framesReadBack();
   void cutOffRecordingsKeepTheirFrames();
   void damagedFramesAreRefused();
+  void everyBitOfTheHeaderIsGuarded();
   void brokenHeadersAreRefused_data();
   void brokenHeadersAreRefused();
 };
@@ -114,7 +115,7 @@ void TestRecording::cutOffRecordingsKeepTheirFrames() {
     write(cut, bytes.left(bytes.size() - lost));
     RecordingReader reader(cut.toStdString());
     QCOMPARE(reader.frameCount(), kFrames - 1);
-    QVERIFY(reader.damage().find("is cut off after frame 2") != std::string::npos);
+    QVERIFY(reader.damage().find("is cut off or damaged after frame 2") != std::string::npos);
     QCOMPARE(reader.frame(1)->position.size(), kParticles);
   }
 }
@@ -136,6 +137,37 @@ void TestRecording::damagedFramesAreRefused() {
   }
 }
 
+/// In the mark, the length, the project and the checksum: what is wrong, of which file, and what to do.
+void TestRecording::everyBitOfTheHeaderIsGuarded() {
+  QTemporaryDir folder;
+  const QString path = folder.filePath("run.psrec");
+  const QByteArray bytes = recorded(path);
+  const qsizetype header = bytes.indexOf("PSFRAME.");
+  QVERIFY(header > 1000);
+  QFile file(path);
+  QVERIFY(file.open(QIODevice::ReadWrite | QIODevice::Unbuffered));
+  const auto put = [&](qsizetype at, char byte) { return file.seek(at) && file.write(&byte, 1) == 1; };
+  const auto complaint = [&]() -> QString {
+    try {
+      RecordingReader reader(path.toStdString());
+      return {};
+    } catch (const InputError& error) {
+      return error.what();
+    }
+  };
+  for (qsizetype at = 0; at < header; ++at) {
+    for (int bit = 0; bit < 8; ++bit) {
+      QVERIFY(put(at, static_cast<char>(bytes[at] ^ (1 << bit))));
+      const QString said = complaint();
+      const bool mark = at < 8;
+      const QString expected = path + (mark ? ": is no recording; " : ": its header is damaged or cut off; ");
+      QVERIFY2(said.startsWith(expected), qPrintable(QString("byte %1, bit %2: %3").arg(at).arg(bit).arg(said)));
+    }
+    QVERIFY(put(at, bytes[at]));
+  }
+  QCOMPARE(complaint(), QString());
+}
+
 void TestRecording::brokenHeadersAreRefused_data() {
   QTest::addColumn<QByteArray>("bytes");
   QTest::addColumn<QString>("problem");
@@ -145,18 +177,28 @@ void TestRecording::brokenHeadersAreRefused_data() {
     return bytes + header;
   };
   const auto whole = [&](const char* header) { return file(header, static_cast<uint32_t>(std::strlen(header))); };
-  QTest::newRow("empty") << QByteArray() << "is no recording";
+  QTest::newRow("empty") << QByteArray() << "is no recording; simulate";
   QTest::newRow("text") << QByteArray("{\"format\": \"phasesketch\"}") << "is no recording";
-  QTest::newRow("mark alone") << QByteArray("PSRECORD") << "is no recording";
-  QTest::newRow("endless header") << file("{}", 0xffffffffu) << "is cut off in its header";
-  QTest::newRow("no JSON") << whole("{\"form") << "the file ends too early";
-  QTest::newRow("list") << whole("[1]") << "its header is broken";
+  QTest::newRow("mark alone") << QByteArray("PSRECORD") << "header is damaged or cut off";
+  QTest::newRow("endless header") << file("{}", 0xffffffffu) << "header is damaged or cut off; take";
+  QTest::newRow("no JSON") << whole("{\"form") << "header is damaged or cut off";
+  QTest::newRow("list") << whole("[1]") << "its header is no recording's; simulate";
   QTest::newRow("no project") << whole("{\"format\": \"phasesketch-recording\", \"version\": 1}")
-                              << "its header is broken";
+                              << "its header is no recording's; simulate";
   QTest::newRow("newer") << whole("{\"format\": \"phasesketch-recording\", \"version\": 9, \"project\": {}}")
                          << "newer version";
   QTest::newRow("older") << whole("{\"format\": \"phasesketch-recording\", \"version\": 1, \"project\": {}}")
                          << "older version (recording format 1)";
+  const char* third = "{\"format\": \"phasesketch-recording\", \"version\": 3, \"project\": {}}";
+  QTest::newRow("older, without frames") << whole(third) << "older version (recording format 3)";
+  QTest::newRow("older, with frames") << whole(third) + "PSFRAME."
+                                      << "older version (recording format 3)";
+  const char* present = "{\"format\": \"phasesketch-recording\", \"version\": 4, \"project\": {}}";
+  QTest::newRow("no checksum") << whole(present) << "header is damaged or cut off";
+  QTest::newRow("half a checksum") << whole(present) + "1234"
+                                   << "header is damaged or cut off";
+  QTest::newRow("no checksum, but frames") << whole(present) + "PSFRAME."
+                                           << "header is damaged or cut off";
 }
 
 void TestRecording::brokenHeadersAreRefused() {
