@@ -307,7 +307,7 @@ void TestRowEntry::limitsStandUnderTheRow() {
   ParameterRow row(model("youngs_modulus"));
   show(row);
   QCOMPARE(row.height(), kRowHeight);
-  row.setLimit(QStringLiteral("At 8 substeps the solver reaches **42 MPa**; the ice moves a little softer than real. "
+  row.setLimit(QStringLiteral("At 8 substeps the solver reaches 42 MPa; the ice moves a little softer than real. "
                               "[Use 24 substeps](solver/substeps=24)"),
                4.2e7);
   auto* note = row.findChild<QLabel*>(QStringLiteral("psLimit"));

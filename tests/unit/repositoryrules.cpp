@@ -232,6 +232,17 @@ Problems colours(View path, View text) {
   return problems;
 }
 
+Problems tips(View path, View text) {
+  if (!path.starts_with("ui/") && !path.starts_with("app/")) return {};
+  if (path == "ui/theme/plaintext.cpp") return {};
+  Problems problems;
+  eachLine(text, [&](size_t number, View line) {
+    if (line.find("QToolTip::showText") != View::npos)
+      problems.push_back(at(path, number, "tooltips are shown by showTip() of ui/theme/plaintext.h"));
+  });
+  return problems;
+}
+
 Problems documents(View path, View text, const std::vector<std::string>& known) {
   Problems problems;
   eachLine(text, [&](size_t number, View line) {

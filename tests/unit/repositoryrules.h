@@ -24,6 +24,9 @@ Problems words(std::string_view path, std::string_view text);
 /// Colours of the interface come from resources/theme/tokens.json alone.
 Problems colours(std::string_view path, std::string_view text);
 
+/// Tooltips come through ui/theme/plaintext.h, which knows what is plain text.
+Problems tips(std::string_view path, std::string_view text);
+
 /// Markdown documents that are mentioned by name exist; `known` are the names of those that do.
 Problems documents(std::string_view path, std::string_view text, const std::vector<std::string>& known);
 

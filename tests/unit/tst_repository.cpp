@@ -71,6 +71,7 @@ class RepositoryTest : public QObject {
     check(rootFiles(), ps::rules::words);
   }
   void coloursComeFromTheTheme() { check(sources({"ui", "app"}, {"*.h", "*.cpp"}), ps::rules::colours); }
+  void tooltipsKnowWhatIsPlain() { check(sources({"ui", "app"}, {"*.h", "*.cpp"}), ps::rules::tips); }
   void mentionedDocumentsExist() {
     std::vector<std::string> known;
     for (const Source& document : sources({""}, {"*.md"}))
@@ -171,6 +172,8 @@ void RepositoryTest::rulesCatchWhatTheyForbid_data() {
   row("colour with alpha", "colours", "ui/panels/a.cpp", "\"#12ab9f80\"\n", 1);
   row("a directive is no colour", "colours", "ui/panels/a.cpp", "#define x\n#if add\n", 0);
   row("colour elsewhere", "colours", "core/io/a.cpp", "\"#12ab9f\"\n", 0);
+  row("a tooltip past its door", "tips", "ui/panels/a.cpp", "QToolTip::showText(at, text, this);\n", 1);
+  row("a tooltip by its door", "tips", "ui/theme/plaintext.cpp", "QToolTip::showText(at, text, of);\n", 0);
   row("missing document", "documents", "core/io/a.cpp", QStringLiteral("// see NOWHERE.") + "md\n", 1);
   row("known document", "documents", "core/io/a.cpp", QStringLiteral("// see KNOWN.") + "md\n", 0);
 }
@@ -190,6 +193,8 @@ void RepositoryTest::rulesCatchWhatTheyForbid() {
     found = ps::rules::words(p, t);
   else if (rule == "colours")
     found = ps::rules::colours(p, t);
+  else if (rule == "tips")
+    found = ps::rules::tips(p, t);
   else
     found = ps::rules::documents(p, t, {std::string("KNOWN.") + "md"});
   QVERIFY2(static_cast<int>(found.size()) == problems, joined(found).constData());

@@ -7,6 +7,7 @@
 #include "ui/document/document.h"
 #include "ui/session/selection.h"
 #include "ui/theme/paint.h"
+#include "ui/theme/plaintext.h"
 #include "ui/theme/theme.h"
 
 #include <QtGui/QMouseEvent>
@@ -273,9 +274,10 @@ void MaterialsPanel::contextMenuEvent(QContextMenuEvent* event) {
     menu->addAction(QStringLiteral("Add to the scene"), this, [this, base = tile.id] { addInstalled(base); });
   } else {
     const QString why = m_document.whyMaterialStays(tile.id);
-    QAction* remove = menu->addAction(
-        why.isEmpty() ? QStringLiteral("Remove from the scene") : QStringLiteral("Remove from the scene: %1").arg(why),
-        this, [this, id = tile.id] { m_document.removeMaterial(id); });
+    QAction* remove =
+        menu->addAction(why.isEmpty() ? QStringLiteral("Remove from the scene")
+                                      : QStringLiteral("Remove from the scene: %1").arg(asButtonText(why)),
+                        this, [this, id = tile.id] { m_document.removeMaterial(id); });
     remove->setEnabled(why.isEmpty());
   }
   menu->popup(keyboard ? mapToGlobal(place.center()) : event->globalPos());

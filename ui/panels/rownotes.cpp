@@ -69,7 +69,7 @@ void RowNotes::addAdvice(std::map<QString, Note>& notes) const {
       const auto address = Address::parse(row->key().toStdString());
       if (!address) continue;
       const std::string advice = adviceOf(m_document.project(), m_document.plugins(), *address);
-      if (!advice.empty()) add(notes, row->key(), {QString::fromStdString(advice), kNone});
+      if (!advice.empty()) add(notes, row->key(), {asNote(QString::fromStdString(advice)), kNone});
     }
   }
 }
@@ -94,7 +94,7 @@ void RowNotes::addLimits(std::map<QString, Note>& notes) const {
     const auto address = limitAddress(limit, m_bodies.get());
     if (!address) continue;
     add(notes, QString::fromStdString(address->text()),
-        {limitText(limit, m_document.declaration(*address)) +
+        {asNote(limitText(limit, m_document.declaration(*address))) +
              QStringLiteral(". [Use %1 substeps](solver/substeps=%1) to come closer")
                  .arg(static_cast<int>(substeps) * 2),
          limit.delivered});

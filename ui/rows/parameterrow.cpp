@@ -19,25 +19,23 @@
 namespace ps {
 namespace {
 
-/// Lines with "**bold**" and "[text](link)" as rich text with links in accent and not underlined.
+/// Lines with "[text](link)" as rich text with links in accent and not underlined.
 QString richText(const QString& markdown) {
   QString html = markdown.toHtmlEscaped();
-  static const QRegularExpression bold(QStringLiteral("\\*\\*(.+?)\\*\\*"));
-  static const QRegularExpression link(QStringLiteral("\\[(.+?)\\]\\((.+?)\\)"));
-  const Theme& theme = Theme::current();
-  html.replace(bold,
-               QStringLiteral("<span style=\"font-weight:600;color:%1\">\\1</span>").arg(theme[Token::Text].name()));
+  static const QRegularExpression escaped(QStringLiteral("\\\\([\\\\\\[])"));
+  static const QRegularExpression link(QStringLiteral("(?<!\\\\)\\[(.+?)\\]\\((.+?)\\)"));
   html.replace(link, QStringLiteral("<a href=\"\\2\" style=\"color:%1;text-decoration:none\">\\1</a>")
-                         .arg(theme[Token::Accent].name()));
+                         .arg(Theme::current()[Token::Accent].name()));
+  html.replace(escaped, QStringLiteral("\\1"));
   html.replace(QLatin1Char('\n'), QLatin1String("<br>"));
   return html;
 }
 
-QLabel* makeNote(ParameterRow* row, const char* name) {
+QLabel* makeNote(ParameterRow* row, const char* name, Qt::TextFormat format) {
   auto* label = new QLabel(row);
   label->setObjectName(QLatin1String(name));
   label->setWordWrap(true);
-  label->setTextFormat(Qt::RichText);
+  label->setTextFormat(format);
   label->setFont(Theme::font(TextRole::Small));
   label->setTextInteractionFlags(Qt::TextBrowserInteraction);
   QObject::connect(label, &QLabel::linkActivated, row,
@@ -54,6 +52,11 @@ FieldText withoutBrackets(FieldText text) {
 }
 
 }  // namespace
+
+QString asNote(QString text) {
+  static const QRegularExpression marks(QStringLiteral("([\\\\\\[])"));
+  return text.replace(marks, QStringLiteral("\\\\1"));
+}
 
 bool ParameterRow::Private::isNumeric() const {
   const auto kind = declaration().kind;
@@ -163,7 +166,7 @@ void ParameterRow::setError(const QString& text) {
 }
 
 void ParameterRow::Private::styleNotes() {
-  const auto show = [this](QLabel*& label, const char* name, const QString& text) {
+  const auto show = [this](QLabel*& label, const char* name, const QString& text, Qt::TextFormat format) {
     if (text.isEmpty()) {
       if (label) {
         label->setParent(nullptr);  // gone from sight at once
@@ -172,12 +175,12 @@ void ParameterRow::Private::styleNotes() {
       label = nullptr;
       return;
     }
-    if (!label) label = makeNote(q, name);
-    label->setText(richText(text));
+    if (!label) label = makeNote(q, name, format);
+    label->setText(text);
     label->show();
   };
-  show(limit, "psLimit", limitText);
-  show(error, "psError", errorText);
+  show(limit, "psLimit", richText(limitText), Qt::RichText);
+  show(error, "psError", errorText, Qt::PlainText);
   layoutNotes();
   refresh();
 }

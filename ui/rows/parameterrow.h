@@ -52,6 +52,9 @@ enum class RowState : unsigned {
   Dragging = 2048
 };
 
+/// Any text as a part of a note under a row (ParameterRow::setLimit), without a link in it.
+QString asNote(QString text);
+
 /// A parameter as one painted widget: changed mark, label, symbol, slider (or sparkline, toggle, choices), field with
 /// unit. A line edit exists only while somebody types. Accessible as a slider (check box, combo box) with name and
 /// value.
@@ -71,10 +74,10 @@ class ParameterRow : public QWidget {
   void setDisabledReason(const QString& reason);
   void setDerivedFrom(const QString& derivedFrom);
   void setTemperature(double kelvin);  ///< operating point of a response
-  /// Note under the row, "" removes it. Markdown: **bold**, [text](link). `delivered`: the value (SI) up to which the
-  /// solver can follow, hatched beyond it; NaN: no hatching.
+  /// Note under the row, "" removes it. "[text](link)" is a link; what others wrote comes through asNote().
+  /// `delivered`: the value (SI) up to which the solver can follow, hatched beyond it; NaN: no hatching.
   void setLimit(const QString& text, double delivered = std::numeric_limits<double>::quiet_NaN());
-  /// A sentence under the row; the old value stays in force. "" removes it.
+  /// A sentence under the row, plain text; the old value stays in force. "" removes it.
   void setError(const QString& text);
   void setShowSymbol(bool show);
   /// Width of the label's column in logical pixels, so that all rows of a panel align.

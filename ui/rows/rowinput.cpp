@@ -2,6 +2,7 @@
 #include "ui/rows/parameterrow_p.h"
 #include "ui/rows/rowvalue.h"
 #include "ui/theme/numbers.h"
+#include "ui/theme/plaintext.h"
 #include "ui/theme/theme.h"
 
 #include <QtCore/QMetaMethod>
@@ -10,7 +11,6 @@
 #include <QtGui/QMouseEvent>
 #include <QtGui/QWheelEvent>
 #include <QtWidgets/QLineEdit>
-#include <QtWidgets/QToolTip>
 
 #include <algorithm>
 #include <cmath>
@@ -361,7 +361,7 @@ bool ParameterRow::event(QEvent* event) {
       break;
     }
     case QEvent::ToolTip:
-      QToolTip::showText(static_cast<QHelpEvent*>(event)->globalPos(), d->toolTipText(), this);
+      showRichTip(static_cast<QHelpEvent*>(event)->globalPos(), d->toolTipText(), this);
       return true;
     default:
       break;

@@ -2,6 +2,7 @@
 #include "ui/rows/parameterrow_p.h"
 #include "ui/rows/rowvalue.h"
 #include "ui/theme/numbers.h"
+#include "ui/theme/plaintext.h"
 #include "ui/theme/theme.h"
 
 #include <QtCore/QMetaMethod>
@@ -11,7 +12,6 @@
 #include <QtGui/QContextMenuEvent>
 #include <QtGui/QGuiApplication>
 #include <QtWidgets/QMenu>
-#include <QtWidgets/QToolTip>
 
 namespace ps {
 namespace {
@@ -61,7 +61,7 @@ void ParameterRow::Private::openChoiceMenu() {
   const QPointer<QMenu> menu(new QMenu(q));
   const QStringList names = choiceTexts();
   for (qsizetype i = 0; i < names.size(); ++i) {
-    QAction* action = menu->addAction(names[i]);
+    QAction* action = menu->addAction(asButtonText(names[i]));
     action->setCheckable(true);
     action->setChecked(!model.mixed && static_cast<qsizetype>(q->number()) == i);
     action->setData(static_cast<int>(i));
@@ -114,7 +114,7 @@ void ParameterRow::Private::openContextMenu(const QPoint& global) {
 
 /// Once the menu's events are over: those that it leaves behind (the pointer's return, the focus) take a tip away.
 void ParameterRow::Private::explain(const QPoint& global) {
-  QTimer::singleShot(kMenuGone, q, [this, global] { QToolTip::showText(global, toolTipText(), q); });
+  QTimer::singleShot(kMenuGone, q, [this, global] { showRichTip(global, toolTipText(), q); });
 }
 
 void ParameterRow::contextMenuEvent(QContextMenuEvent* event) { d->openContextMenu(event->globalPos()); }

@@ -6,6 +6,7 @@
 #include "ui/theme/theme.h"
 
 #include <QtGui/QPainter>
+#include <QtWidgets/QApplication>
 #include <QtWidgets/QDialog>
 #include <QtWidgets/QStyleFactory>
 #include <QtWidgets/QStyleOption>
@@ -43,6 +44,16 @@ void drawArrow(QPainter& painter, const QStyleOption& option, const char* name) 
 }  // namespace
 
 PsStyle::PsStyle() : QProxyStyle(QStyleFactory::create(QStringLiteral("Fusion"))) {}
+
+void PsStyle::polish(QApplication* application) {
+  QProxyStyle::polish(application);
+  application->installEventFilter(&m_tips);
+}
+
+void PsStyle::polish(QWidget* widget) {
+  QProxyStyle::polish(widget);
+  showPlainly(*widget);
+}
 
 int PsStyle::pixelMetric(PixelMetric metric, const QStyleOption* option, const QWidget* widget) const {
   switch (metric) {

@@ -1,15 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "ui/theme/plaintext.h"
+
 #include <QtWidgets/QProxyStyle>
 
 namespace ps {
 
 /// Fusion with our measures and our drawing where a style sheet cannot reach: combo boxes, check marks, tree arrows,
-/// focus rings. Colours come from Theme::current(). Draws no icons in menus and no dotted frames.
+/// focus rings. Colours come from Theme::current(). Draws no icons in menus and no dotted frames. Keeps texts plain
+/// (plaintext.h).
 class PsStyle : public QProxyStyle {
   Q_OBJECT
  public:
   PsStyle();
+  using QProxyStyle::polish;
+  void polish(QApplication* application) override;
+  void polish(QWidget* widget) override;
   int pixelMetric(PixelMetric metric, const QStyleOption* option, const QWidget* widget) const override;
   int styleHint(StyleHint hint, const QStyleOption* option, const QWidget* widget,
                 QStyleHintReturn* returnData) const override;
@@ -21,6 +27,9 @@ class PsStyle : public QProxyStyle {
                           const QWidget* widget) const override;
   QSize sizeFromContents(ContentsType type, const QStyleOption* option, const QSize& size,
                          const QWidget* widget) const override;
+
+ private:
+  PlainTips m_tips;
 };
 
 }  // namespace ps

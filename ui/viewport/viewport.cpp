@@ -9,6 +9,7 @@
 #include "ui/session/session.h"
 #include "ui/session/transitions.h"
 #include "ui/theme/numbers.h"
+#include "ui/theme/plaintext.h"
 #include "ui/theme/theme.h"
 #include "ui/tools/toolbox.h"
 #include "ui/tools/tooltable.h"
@@ -22,7 +23,6 @@
 #include <QtGui/QPainter>
 #include <QtGui/QResizeEvent>
 #include <QtGui/QSurfaceFormat>
-#include <QtWidgets/QToolTip>
 
 #include <algorithm>
 #include <cmath>
@@ -425,9 +425,8 @@ bool Viewport::event(QEvent* event) {
   if (event->type() == QEvent::ToolTip) {
     const auto* help = static_cast<QHelpEvent*>(event);
     if (!m_hits.legendBar.isEmpty() && m_hits.legend.contains(help->pos())) {
-      QToolTip::showText(help->globalPos(),
-                         QStringLiteral("Drag an end to set the range; double-click for the automatic one."), this,
-                         m_hits.legend.toRect());
+      showTip(help->globalPos(), QStringLiteral("Drag an end to set the range; double-click for the automatic one."),
+              this, m_hits.legend.toRect());
       return true;
     }
   }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/window/actions.h"
 
+#include "ui/theme/plaintext.h"
+
 #include <QtGui/QAction>
 #include <QtWidgets/QMainWindow>
 #include <QtWidgets/QMenu>
@@ -9,11 +11,11 @@
 
 namespace ps {
 
-QString cleanText(const QAction& action) { return action.text().remove(QLatin1Char('&')); }
+QString cleanText(const QAction& action) { return fromButtonText(action.text()); }
 
 QAction* Actions::add(QMenu* menu, const QString& name, const QString& text, const QList<QKeySequence>& keys,
                       Act act) const {
-  auto* action = adopt(new QAction(text), name, keys);
+  auto* action = adopt(new QAction(asButtonText(text)), name, keys);
   if (act) QObject::connect(action, &QAction::triggered, action, [act = std::move(act)] { act(); });
   if (menu) menu->addAction(action);
   return action;

@@ -20,6 +20,7 @@ class Actions {
  public:
   explicit Actions(QMainWindow& window) : m_window(window) {}
   using Act = std::function<void()>;
+  /// `text` is shown as it stands: an "&" in it is one.
   QAction* add(QMenu* menu, const QString& name, const QString& text, const QList<QKeySequence>& keys, Act act) const;
   /// An action that was made elsewhere.
   QAction* adopt(QAction* action, const QString& name, const QList<QKeySequence>& keys) const;
@@ -31,7 +32,7 @@ class Actions {
   QMainWindow& m_window;
 };
 
-/// What an action is called, without marks for keys.
+/// What an action is called, as it was given to Actions::add().
 QString cleanText(const QAction& action);
 
 }  // namespace ps

@@ -9,6 +9,7 @@
 #include "ui/session/session.h"
 #include "ui/session/wording.h"
 #include "ui/session/worker.h"
+#include "ui/theme/plaintext.h"
 #include "ui/viewport/viewport.h"
 #include "ui/window/actions.h"
 #include "ui/window/fileguard.h"
@@ -172,8 +173,8 @@ void FileActions::fillRecent() {
   m_recent->clear();
   const QStringList recent = DocumentFiles::recent();
   for (const QString& path : recent) {
-    m_recent->addAction(QFileInfo(path).completeBaseName() + QStringLiteral("  ·  ") + QFileInfo(path).path(), this,
-                        [this, path] { open(path); });
+    const QString text = QFileInfo(path).completeBaseName() + QStringLiteral("  ·  ") + QFileInfo(path).path();
+    m_recent->addAction(asButtonText(text), this, [this, path] { open(path); });
   }
   if (recent.isEmpty()) m_recent->addAction(QStringLiteral("No recent files"))->setEnabled(false);
 }

@@ -12,6 +12,7 @@
 #include "ui/session/documentfiles.h"
 #include "ui/session/messagelog.h"
 #include "ui/session/selection.h"
+#include "ui/theme/plaintext.h"
 #include "ui/timeline/transport.h"
 #include "ui/tools/toolbox.h"
 #include "ui/tools/tooltable.h"
@@ -111,6 +112,13 @@ void MainWindow::makeTopBar() {
       adopt(undo.createUndoAction(this, QStringLiteral("Undo")), "edit.undo", {QKeySequence(QStringLiteral("Ctrl+Z"))});
   QAction* redoAction = adopt(undo.createRedoAction(this, QStringLiteral("Redo")), "edit.redo",
                               {QKeySequence(QStringLiteral("Ctrl+Shift+Z")), QKeySequence(QStringLiteral("Ctrl+Y"))});
+  // Behind Qt's own connections, which leave an "&" in what is undone as it is.
+  connect(&undo, &QUndoStack::undoTextChanged, undoAction, [undoAction](const QString& what) {
+    undoAction->setText(asButtonText(QStringLiteral("Undo ") + what).trimmed());
+  });
+  connect(&undo, &QUndoStack::redoTextChanged, redoAction, [redoAction](const QString& what) {
+    redoAction->setText(asButtonText(QStringLiteral("Redo ") + what).trimmed());
+  });
   QAction* search =
       m_actions.add(nullptr, QStringLiteral("edit.search"), QStringLiteral("Search or command…"),
                     {QKeySequence(QStringLiteral("Ctrl+K"))}, [this] { m_palette->open(paletteEntries()); });

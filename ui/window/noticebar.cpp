@@ -3,6 +3,7 @@
 
 #include "ui/theme/icon.h"
 #include "ui/theme/paint.h"
+#include "ui/theme/plaintext.h"
 #include "ui/theme/theme.h"
 
 #include <QtGui/QPainter>
@@ -92,7 +93,7 @@ void NoticeBar::refresh() {
   m_text->setText(notice.text);
   m_text->setVisible(!notice.text.isEmpty());
   for (const Button& button : notice.buttons) {
-    auto* push = new QPushButton(button.text);
+    auto* push = new QPushButton(asButtonText(button.text));
     push->setFocusPolicy(Qt::TabFocus);
     connect(push, &QPushButton::clicked, this, [act = button.act] { act(); });
     m_buttons->addWidget(push, 0, Qt::AlignVCenter);

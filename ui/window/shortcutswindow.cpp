@@ -4,6 +4,7 @@
 #include "ui/tools/navigation.h"
 #include "ui/tools/toolbox.h"
 #include "ui/tools/tooltable.h"
+#include "ui/window/actions.h"
 #include "ui/window/mainwindow.h"
 
 #include <QtGui/QAction>
@@ -23,7 +24,7 @@ const QString kName = QStringLiteral("psShortcuts");
 QString nameOf(const QAction& action, const QString& menu) {
   const QString plain = action.property(kPlainText).toString();
   if (!plain.isEmpty()) return plain;
-  const QString text = action.text().remove(QLatin1Char('&')).remove(QStringLiteral("…"));
+  const QString text = cleanText(action).remove(QStringLiteral("…"));
   for (const QObject* owner : action.associatedObjects()) {
     const auto* in = qobject_cast<const QMenu*>(owner);
     if (in && in->title() != menu) return in->title() + QStringLiteral(": ") + text;

@@ -7,6 +7,7 @@
 #include "ui/session/session.h"
 #include "ui/theme/icon.h"
 #include "ui/theme/paint.h"
+#include "ui/theme/plaintext.h"
 #include "ui/theme/theme.h"
 #include "ui/tools/toolbox.h"
 #include "ui/tools/tooltable.h"
@@ -74,6 +75,7 @@ ViewportPane::ViewportPane(Session& session, Selection& selection, Toolbox& tool
     auto* none = new QLabel(QStringLiteral(
         "<b>No picture of the scene</b><br>This display offers no OpenGL. The simulation, the graphs and all values "
         "work; start on a display with OpenGL 4.3 to see the scene."));
+    none->setTextFormat(Qt::RichText);
     none->setObjectName(QStringLiteral("psNoOpenGL"));
     none->setWordWrap(true);
     none->setAlignment(Qt::AlignCenter);
@@ -173,7 +175,7 @@ void ViewportPane::addShapes() {
     const bool own = iconNames().contains(name);
     QToolButton* button = checkable(own ? name : QStringLiteral("brush"), label);
     if (!own) {
-      button->setText(label);
+      button->setText(asButtonText(label));
       button->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
     }
     button->setProperty(kShape, name);
