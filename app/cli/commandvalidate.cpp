@@ -7,6 +7,7 @@
 #include "core/io/projectio.h"
 #include "core/io/schema.h"
 #include "core/plugin_host/registry.h"
+#include "core/simulation/sceneneed.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -24,6 +25,18 @@ void say(FILE* stream, std::string text) {
   std::replace(text.begin(), text.end(), '\n', ' ');
   std::fprintf(stream, "%s\n", text.c_str());
   std::fflush(stream);  // a plugin of the next project may never return
+}
+
+/// What this machine cannot do; another may.
+std::vector<std::string> memoryWarnings(const Project& project, const PluginRegistry& plugins) {
+  const Memory memory = memoryNow();
+  const std::string problem = memoryProblem(project, &plugins, scaleOf(project), memory);
+  if (!problem.empty()) return {"/solver/particle_spacing: " + problem};
+  const SceneNeed need = needOf(project, &plugins);
+  if (need.bytes + need.pouredBytes <= roomFor(memory)) return {};
+  return {"/emitters: they may pour " + particlesText(need.pouredParticles) + ", which take about " +
+          memoryText(need.pouredBytes) + " of memory, and this machine has " +
+          memoryText(roomFor(memory) - need.bytes) + " for it; they wait while it is full; lower their 'most'"};
 }
 
 }  // namespace
@@ -45,7 +58,9 @@ int validateCommand(CommandArguments list) {
   for (const std::string& path : arguments.positional()) {
     try {
       LoadedProject loaded = loadProject(path, plugins);
-      if (loaded.project.state) {  // only who goes on from it knows whether it can be
+      const std::vector<std::string> memory = memoryWarnings(loaded.project, plugins);
+      for (const std::string& text : memory) loaded.warnings.push_back({false, path + ":" + text});
+      if (loaded.project.state && memory.empty()) {  // only who goes on from it knows whether it can be
         const Engine engine(loaded.project, plugins);
         for (const std::string& remark : engine.remarks()) loaded.warnings.push_back({false, path + ":" + remark});
       }

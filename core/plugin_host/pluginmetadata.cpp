@@ -38,8 +38,10 @@ constexpr std::array<KindOfPlugin, 7> kKinds{{{PluginKind::Material, PHASESKETCH
 ///                 open balance is then a limit of the model and no fault
 ///   pair_rates    a thermal model with a pair law of its own may say, likewise, how fast that law acts
 ///   holds_frozen  structure may say, likewise, that it takes in frozen matter of any body
+///   structure_count  structure may say, likewise, how much of it there is per particle
 ///   box_stamp     a brush may say, likewise, that its stamp is a box
-constexpr std::array<std::string_view, 4> kCapabilities{"opens_energy", "pair_rates", "holds_frozen", "box_stamp"};
+constexpr std::array<std::string_view, 5> kCapabilities{"opens_energy", "pair_rates", "holds_frozen", "structure_count",
+                                                        "box_stamp"};
 
 bool isLower(char c) { return c >= 'a' && c <= 'z'; }
 bool isDigit(char c) { return c >= '0' && c <= '9'; }

@@ -317,7 +317,8 @@ std::string problemWith(const Project& project, const PluginRegistry* plugins, c
   if (const std::string problem = problemOf(value, *declaration); !problem.empty()) {
     return std::string(declaration->label) + " " + problem + ".";
   }
-  if (const std::string problem = problemOfSceneWith(project, address, value); !problem.empty()) return problem + ".";
+  if (const std::string problem = problemOfSceneWith(project, plugins, address, value); !problem.empty())
+    return problem + ".";
   if (address.owner != Owner::Material || propertyIndex(address.key) < 0)
     return problemOfRelations(project, plugins, address, value);
   const SceneMaterial* source = materialById(project, address.id);

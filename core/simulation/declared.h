@@ -38,7 +38,7 @@ Value valueAt(const Project& project, const PluginRegistry* plugins, const Addre
 /// Defaults of all properties of a scene material, for rows that show what changed.
 ParameterSet materialDefaults(const Project& project, const PluginRegistry* plugins, const std::string& material);
 /// "" or why a project with this value would not hold together: out of its hard range, a solidus above the liquidus,
-/// more particles than a scene may have.
+/// more particles than a scene may have or the memory holds.
 std::string problemWith(const Project& project, const PluginRegistry* plugins, const Address& address,
                         const Value& value);
 /// Whether a constraint plugin ties matter together; one that is not installed counts, one that acts between neighbours

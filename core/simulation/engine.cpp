@@ -10,6 +10,7 @@
 #include "core/simulation/lattice.h"
 #include "core/simulation/measure.h"
 #include "core/simulation/rules.h"
+#include "core/simulation/sceneneed.h"
 #include "core/simulation/sceneproblem.h"
 
 #include <algorithm>
@@ -29,6 +30,13 @@ namespace {
 
 /// Two boxes side by side, both rounded up to whole layers, come within half a spacing: that near is no overlap.
 constexpr double kOverlap = 0.4;  // spacings
+
+/// Whether it may change how many particles there are, or what each of them takes.
+bool resizes(const Project& project, const PluginRegistry& plugins, const Address& address) {
+  const api::ParameterDeclaration* declaration = declarationOf(project, &plugins, address);
+  const bool reach = address.owner == Owner::Solver && address.key == "support_ratio";
+  return reach || (declaration && declaration->actsAt == api::ActsAt::NextReset);
+}
 
 auto byId(const std::vector<SceneMaterial>& materials, const std::string& id) {
   return std::find_if(materials.begin(), materials.end(), [&](const SceneMaterial& m) { return m.id == id; });
@@ -119,8 +127,7 @@ void Engine::Impl::exchangeMatter() {
   const auto bodyOf = [this](const Emitter& emitter) { return bodyIndex(emitter.id); };
   const auto birth = [this](Spawn spawn, const Emitter& emitter) {
     const SceneMaterial& material = project.materials[spawn.material];
-    const auto count = static_cast<double>(solver->particles().size() + spawn.position.size());
-    if (!plugins.material(material.base) || count > kMaximumParticles) return std::vector<uint32_t>{};
+    if (!plugins.material(material.base) || !mayPour(spawn.position.size())) return std::vector<uint32_t>{};
     return born(std::move(spawn), emitter.id, emitter.name);
   };
   flow.pour(*solver, project, tables.tables(), spacing, compileSettings(project).dt, bodyOf, birth);
@@ -145,6 +152,7 @@ void Engine::Impl::prepare(double livingSpacing, const std::vector<std::string>&
   for (const std::string& plugin : constraints) constraintSet(plugin);
   bakeMaterials();
   setThermal();
+  measurePouring();
   for (const Probe& probe : project.probes) probeNames.push_back(probeTitle(probe, fields));
 }
 
@@ -152,7 +160,7 @@ void Engine::Impl::build() {
   const double count = particleCount(project);
   requireRelations(project, plugins);
   requirePeriods(project);
-  requireRoom(count);
+  requireRoom(project, plugins, memoryNow());
   prepare(compileSettings(project).spacing, {});
   const bool regions = std::any_of(project.probes.begin(), project.probes.end(),
                                    [](const Probe& probe) { return probe.region.has_value(); });
@@ -247,6 +255,7 @@ std::vector<FieldPtr> Engine::Impl::shownFields() const {
 
 void Engine::Impl::recompileAll() {
   solver->setBounds(compileBounds(project));
+  measurePouring();
   recompile({{Owner::Wall, Owner::Solver, Owner::Environment, Owner::Constraint, Owner::Body}, {}, true});
 }
 
@@ -300,13 +309,17 @@ bool Engine::setParameters(std::span<const SetParameter> edits) {
   Touched touched;
   std::vector<UndoEdit> undo;
   bool now = true;
+  const bool resized = std::any_of(edits.begin(), edits.end(), [this](const SetParameter& edit) {
+    return resizes(m->project, m->plugins, edit.address);
+  });
+  const double before = resized ? needOf(m->project, &m->plugins).bytes : 0;
   try {
     for (const SetParameter& edit : edits) {
       const std::optional<api::ActsAt> when = writeValue(m->project, m->plugins, edit, touched, undo);
-      if (when == api::ActsAt::NextReset) requireRoom(particleCount(m->project));
       now = now &&
             (when == api::ActsAt::NextFrame || (when == api::ActsAt::NextFrameIfFixed && m->isFixed(edit.address.id)));
     }
+    if (resized && needOf(m->project, &m->plugins).bytes > before) requireRoom(m->project, m->plugins, memoryNow());
     m->recompile(touched);
   } catch (...) {
     for (auto step = undo.rbegin(); step != undo.rend(); ++step) (*step)(m->project);
@@ -339,9 +352,10 @@ void Engine::apply(const Command& command) {
 }
 
 std::vector<uint32_t> Engine::addCells(const Body& body, const std::vector<std::array<int, 3>>& cells, int palette) {
+  const double edge = std::get<VoxelShape>(body.shape).spacing / m->spacing;
+  m->requireRoomFor(static_cast<double>(cells.size()) * edge * edge * edge, body);
   Spawn spawn = compileCells(m->project, m->plugins, m->tables.tables(), body, palette, cells, m->spacing);
   spawn.position = freePositions(m->solver->particles(), spawn.position, 0.9 * m->spacing);
-  requireRoom(static_cast<double>(m->solver->particles().size() + spawn.position.size()));
   std::vector<uint32_t> ids;
   if (!spawn.position.empty()) ids = m->born(std::move(spawn), body);
   std::vector<Body>& bodies = m->project.bodies;
@@ -358,11 +372,11 @@ std::vector<uint32_t> Engine::addCells(const Body& body, const std::vector<std::
 std::vector<uint32_t> Engine::addBody(const Body& body) {
   Project project = m->project;
   project.solver.parameters.values["particle_spacing"] = m->spacing;
+  m->requireRoomFor(particleCount(body, m->spacing), body);
   std::vector<uint32_t> ids;
   for (Spawn& spawn : compileBody(project, m->plugins, m->tables.tables(), body)) {
     OccupiedPlaces occupied = occupiedPlaces(m->solver->particles(), 0.9 * m->spacing, spawn.position.size());
     dropOccupied(spawn, occupied);
-    requireRoom(static_cast<double>(m->solver->particles().size() + spawn.position.size()));
     if (spawn.position.empty()) continue;
     const std::vector<uint32_t> fresh = m->born(std::move(spawn), body);
     ids.insert(ids.end(), fresh.begin(), fresh.end());

@@ -56,6 +56,11 @@ struct Engine::Impl {
   void lead();
   std::vector<uint32_t> born(Spawn spawn, const Body& body);
   std::vector<uint32_t> born(Spawn spawn, const std::string& id, const std::string& name);
+  /// Throws SceneError where the memory does not hold so many particles more of a body.
+  void requireRoomFor(double more, const Body& body) const;
+  void measurePouring();
+  /// Whether so many particles more may be poured; what they take is then spoken for.
+  bool mayPour(size_t more);
   void exchangeMatter();
   std::vector<FieldPtr> shownFields() const;
 
@@ -75,6 +80,9 @@ struct Engine::Impl {
   std::vector<Vector3> start;  ///< m, places at the start by the particles' ids, if a probe has a region
   StepReport lastReport;
   MatterFlow flow;
+  double pouredBytes = 0;  ///< that a particle of an emitter takes
+  double pouringRoom = 0;  ///< bytes that emitters may take before the memory is asked again
+  bool toldFull = false;   ///< that they wait for memory
   uint64_t revision = 0;
   double spacing = 0;  ///< of the particles that live; the project's acts at the next reset
 };

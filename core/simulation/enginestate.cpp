@@ -3,6 +3,8 @@
 #include "core/base/statestream.h"
 #include "core/simulation/engineimpl.h"
 #include "core/simulation/projectstate.h"
+#include "core/simulation/sceneneed.h"
+#include "core/simulation/sceneproblem.h"
 
 namespace ps {
 
@@ -24,6 +26,8 @@ std::unique_ptr<Engine::Impl> Engine::Impl::restored(const StateReader& reader) 
   SceneState state = SceneState::read(reader);
   const Project source = document();
   requireGoesOn(state, source, plugins);
+  const double each = meanParticleBytes(source, &plugins, {state.spacing, scaleOf(source).reach});
+  ps::requireRoomFor(0, static_cast<double>(reader.count("field/id")), each, memoryNow());
   auto next = std::make_unique<Impl>(source, plugins);
   next->tables = tables;
   next->shown = shown;

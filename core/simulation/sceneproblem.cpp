@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/simulation/sceneproblem.h"
 
+#include "core/simulation/sceneneed.h"
 #include "core/solver/settings.h"
 
 #include <algorithm>
@@ -23,10 +24,10 @@ double fourDigits(double value) {
   return std::ceil(value * scale) / scale;
 }
 
-std::string roomProblem(const Project& project, double spacing) {
-  double count = 0;
-  for (const Body& body : project.bodies) count += particleCount(body, spacing);
-  return count > kMaximumParticles ? tooMany(count) : std::string();
+std::string roomProblem(const Project& project, const PluginRegistry* plugins, const SceneScale& scale,
+                        const Memory& memory) {
+  const double count = needOf(project, plugins, scale).particles;
+  return count > kMaximumParticles ? tooMany(count) : memoryProblem(project, plugins, scale, memory);
 }
 
 std::string periodProblem(const Project& project, double spacing, double reach) {
@@ -64,14 +65,16 @@ double solverNumber(const Project& project, const Address& address) {
 
 }  // namespace
 
-std::string problemOfSceneWith(const Project& project, const Address& address, const Value& value) {
+std::string problemOfSceneWith(const Project& project, const PluginRegistry* plugins, const Address& address,
+                               const Value& value) {
   const auto* number = std::get_if<double>(&value);
   if (!number) return {};
-  if (address == kSpacing) {
-    const std::string problem = roomProblem(project, *number);
-    return problem.empty() ? periodProblem(project, *number, solverNumber(project, kReach)) : problem;
+  if (address == kSpacing || address == kReach) {
+    SceneScale scale = scaleOf(project);
+    (address == kSpacing ? scale.spacing : scale.reach) = *number;
+    const std::string problem = roomProblem(project, plugins, scale, memoryNow());
+    return problem.empty() ? periodProblem(project, scale.spacing, scale.reach) : problem;
   }
-  if (address == kReach) return periodProblem(project, solverNumber(project, kSpacing), *number);
   if (address.owner != Owner::Body || address.key != "temperature") return {};
   const auto body =
       std::find_if(project.bodies.begin(), project.bodies.end(), [&](const Body& b) { return b.id == address.id; });
@@ -79,8 +82,22 @@ std::string problemOfSceneWith(const Project& project, const Address& address, c
                                       : gradientProblem(*body, *number, solverNumber(project, kSpacing));
 }
 
-void requireRoom(double particles) {
+void requireFewer(double particles) {
   if (particles > kMaximumParticles) throw SceneError(tooMany(particles), kSpacing);
+}
+
+void requireRoom(const Project& project, const PluginRegistry& plugins, const Memory& memory) {
+  const std::string problem = roomProblem(project, &plugins, scaleOf(project), memory);
+  if (!problem.empty()) throw SceneError(problem, kSpacing);
+}
+
+void requireRoomFor(double living, double more, double bytesEach, const Memory& memory) {
+  requireFewer(living + more);
+  if (more * bytesEach <= roomToGrow(memory)) return;
+  throw SceneError("this takes about " + memoryText(more * bytesEach) + " of memory for " + particlesText(more) +
+                       ", and this machine has " + memoryText(std::max(0.0, roomToGrow(memory))) +
+                       " for it; make it smaller or raise the particle spacing",
+                   kSpacing);
 }
 
 void requirePeriods(const Project& project) {

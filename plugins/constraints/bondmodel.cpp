@@ -232,7 +232,14 @@ void BondModel::addBond(const ParticleView& p, uint32_t i, uint32_t j, const Len
 }
 
 const void* BondModel::extension(const char* name) const noexcept {
+  if (std::string_view(name) == api::kStructureCount) return static_cast<const api::StructureCount*>(this);
   return std::string_view(name) == api::kHoldsFrozen ? this : nullptr;
+}
+
+/// Each bond is that of two particles.
+double BondModel::perParticle(api::Span<const double> parameters) const noexcept {
+  constexpr double kEighteen = 9, kSix = 3;
+  return parameters[kNeighbours] > 0.5 ? kSix : kEighteen;
 }
 
 void BondModel::build(const ConstraintContext& context, const ParticleView& p, const NeighbourView& lists,

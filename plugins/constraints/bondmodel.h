@@ -14,7 +14,7 @@ namespace ps::constraint {
 /// to them. The parameters of the group Legacy choose the 2020 thesis's rules instead. It cannot do: another Poisson's
 /// ratio, plasticity, fracture by force, or a stiffness beyond what the substeps resolve (limits() says so). The
 /// outermost layer is softer, having fewer springs.
-class BondModel : public api::Described<api::StructuralPlugin> {
+class BondModel : public api::Described<api::StructuralPlugin>, public api::StructureCount {
  public:
   enum Parameter {
     kBondMax,
@@ -38,6 +38,7 @@ class BondModel : public api::Described<api::StructuralPlugin> {
 
   bool traits(api::StructuralTraits* out) const noexcept override;
   const void* extension(const char* name) const noexcept override;
+  double perParticle(api::Span<const double> parameters) const noexcept override;
 
   void build(const api::ConstraintContext& context, const api::ParticleView& particles, const api::NeighbourView& lists,
              api::Span<const uint32_t> members, api::ConstraintSink& sink) const override;

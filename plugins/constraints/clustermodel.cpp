@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace ps::constraint {
@@ -235,6 +237,16 @@ ClusterModel::ClusterModel()
                  "when squeezed. It always returns to its shape and never breaks by force; what melts leaves it for "
                  "good, and is held by bonds when it freezes again. For jelly and rubber; bonds suit stiffer matter.",
                  api::listOf(kParameters)}) {}
+
+const void* ClusterModel::extension(const char* name) const noexcept {
+  return std::string_view(name) == api::kStructureCount ? static_cast<const api::StructureCount*>(this) : nullptr;
+}
+
+/// A sphere of the radius holds a particle's clusters, one in each cube of their distance.
+double ClusterModel::perParticle(api::Span<const double> parameters) const noexcept {
+  const double radius = parameters[kRadius], step = std::min(parameters[kSpacing], radius);
+  return std::max(1.0, 4 * std::numbers::pi / 3 * radius * radius * radius / (step * step * step));
+}
 
 bool ClusterModel::traits(api::GroupTraits* out) const noexcept {
   return api::fill(out, {.values = api::listOf(kValues), .memberValues = api::listOf(kMemberValues)});

@@ -14,7 +14,7 @@ namespace ps::constraint {
 /// rate of w² dt, is given back (deriveVelocities). It cannot do: keep the
 /// volume under large strain, plasticity, fracture by force, strains that change within a cluster (it is stiffer
 /// against them), or take back matter that has melted.
-class ClusterModel : public api::Described<api::GroupPlugin> {
+class ClusterModel : public api::Described<api::GroupPlugin>, public api::StructureCount {
  public:
   enum Parameter { kRadius, kSpacing, kDamping, kStiffnessRatio, kParameterCount };
   enum Value { kRotationX, kRotationY, kRotationZ, kRotationW, kVolume, kScale, kKappa, kValueCount };
@@ -35,6 +35,8 @@ class ClusterModel : public api::Described<api::GroupPlugin> {
   ClusterModel();
 
   bool traits(api::GroupTraits* out) const noexcept override;
+  const void* extension(const char* name) const noexcept override;
+  double perParticle(api::Span<const double> parameters) const noexcept override;
 
   void build(const api::ConstraintContext& context, const api::ParticleView& particles, const api::NeighbourView& lists,
              api::Span<const uint32_t> members, const api::GroupBatch& all, api::GroupSink& sink) const override;

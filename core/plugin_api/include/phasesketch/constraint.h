@@ -15,6 +15,20 @@ namespace ps::api {
 /// extension(kHoldsFrozen) is not nullptr. Scenes whose matter melts use the first such plugin that is installed.
 inline constexpr const char* kHoldsFrozen = "holds_frozen";
 
+/// Capability of structure whose amount hangs on its parameters: extension(kStructureCount) is its StructureCount. The
+/// host asks it before a scene is made, to see whether it fits the memory; without it each particle counts as tied to
+/// the 18 nearest of a lattice, or as a member of one group.
+inline constexpr const char* kStructureCount = "structure_count";
+class StructureCount {
+ public:
+  /// Ties per particle deep inside a body, or groups that such a particle is a member of; `parameters` as a body has
+  /// them. Called from any thread.
+  virtual double perParticle(Span<const double> parameters) const noexcept = 0;
+
+ protected:
+  ~StructureCount() = default;
+};
+
 struct ConstraintContext {
   double dt;       ///< s: substep when projecting, frame in topology()
   double spacing;  ///< m, particle_spacing
