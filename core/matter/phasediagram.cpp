@@ -84,7 +84,7 @@ double PhaseDiagram::meltingPoint(double pressure) const {
 }
 
 bool PhaseDiagram::sublimes(double pressure) const {
-  if (meltingPoint0 <= 0) return false;
+  if (meltingPoint0 <= 0 || boilingPoint0 <= 0) return false;  // what never boils has no vapour to turn to
   if (tripleTemperature > 0 && triplePressure > 0) return pressure < triplePressure;
   return boilingPoint(pressure) <= meltingPoint(pressure);
 }

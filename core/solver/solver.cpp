@@ -15,27 +15,6 @@ namespace {
 constexpr double kSqueezed = 0.1;
 constexpr double kSqueezedShare = 0.05;  ///< of the solids
 
-struct Fractions {
-  float solid, liquid, gas;
-};
-
-/// What a particle is made of until a thermal model says so.
-Fractions fractionsOf(api::Phase phase) {
-  switch (phase) {
-    case api::Phase::Solid:
-      return {1, 0, 0};
-    case api::Phase::Melting:
-      return {0.5f, 0.5f, 0};
-    case api::Phase::Liquid:
-      return {0, 1, 0};
-    case api::Phase::Boiling:
-      return {0, 0.5f, 0.5f};
-    case api::Phase::Gas:
-      return {0, 0, 1};
-  }
-  return {0, 1, 0};
-}
-
 api::Motion motionOf(api::Phase phase) {
   switch (phase) {
     case api::Phase::Solid:
@@ -209,9 +188,8 @@ std::vector<uint32_t> Solver::spawn(const Spawn& spawn) {
   };
   const auto setState = [&] {
     for (size_t i = first; i < last; ++i) {
-      const Fractions f = fractionsOf(phase[i - first]);
       store.temperature()[i] = temperature[i - first];
-      store.solidFraction()[i] = f.solid, store.liquidFraction()[i] = f.liquid, store.gasFraction()[i] = f.gas;
+      setShares(store, i, phase[i - first]);
     }
   };
   setState();
@@ -298,6 +276,7 @@ std::vector<Limit> Solver::limits() const {
   m->viscosity.limits(m->store, result);
   const double asked = m->thermal.timeScale, delivered = m->heat.thermalTimeScaleDelivered();
   if (m->frame > 0 && delivered < asked) result.push_back({"solver.thermal_time_scale", asked, delivered, ""});
+  if (m->overshot) result.push_back({"solver.thermal_cfl", m->thermal.cfl, 1, ""});
   if (m->heat.opensEnergy()) {
     // Lost since the matter was last added, taken or put back by hand.
     if (const double open = m->openEnergy(); open != 0) result.push_back({kBalanceLimit, 0, open, "J"});

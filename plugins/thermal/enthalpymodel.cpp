@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "enthalpymodel.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -73,31 +74,38 @@ ThermalState stateAt(const api::Caloric& c, double h) {
 
 namespace {
 
-/// Within a melting range, or on a sharp melting point, solid and liquid stand beside each other.
-double meltingEnthalpy(const api::Caloric& c, double t, api::Phase phase) {
-  const double low = solidEnthalpy(c, c.solidus), high = liquidEnthalpy(c, c.liquidus);
-  if (c.liquidus > c.solidus) return low + (t - c.solidus) / (c.liquidus - c.solidus) * (high - low);
-  if (phase == api::Phase::Solid) return low;
-  return phase == api::Phase::Melting ? 0.5 * (low + high) : high;
+enum class Stable { Solid, Liquid, Gas };
+
+Stable stableAt(const api::Caloric& c, double t) {
+  if ((c.melts || c.sublimes) && t < c.solidus) return Stable::Solid;
+  return t < c.boilingPoint ? Stable::Liquid : Stable::Gas;
 }
 
-double balancedEnthalpy(const api::Caloric& c, double t) {
-  if (c.sublimes && t == c.meltingPoint) return 0.5 * (solidEnthalpy(c, t) + gasEnthalpy(c, t));
-  if ((c.melts || c.sublimes) && t < c.solidus) return solidEnthalpy(c, t);
-  if (t < c.boilingPoint) return liquidEnthalpy(c, t);
-  return t > c.boilingPoint ? gasEnthalpy(c, t) : 0.5 * (liquidEnthalpy(c, t) + gasEnthalpy(c, t));
+double heldBy(const api::Caloric& c, double t, Stable phase) {
+  if (phase == Stable::Solid) return solidEnthalpy(c, t);
+  return phase == Stable::Liquid ? liquidEnthalpy(c, t) : gasEnthalpy(c, t);
 }
 
 }  // namespace
 
-double enthalpyAt(const api::Caloric& c, double t, api::Phase phase) {
-  using api::Phase;
-  const bool hasSolid = c.melts || c.sublimes, hasGas = std::isfinite(c.boilingPoint0);
-  if (phase == Phase::Gas && hasGas) return gasEnthalpy(c, t);
-  if (c.melts && !c.sublimes && t >= c.solidus && t <= c.liquidus) return meltingEnthalpy(c, t, phase);
-  if (phase == Phase::Solid && hasSolid) return solidEnthalpy(c, t);
-  if (phase == Phase::Liquid) return liquidEnthalpy(c, t);
-  return balancedEnthalpy(c, t);
+double enthalpyAt(const api::Caloric& c, double t, double solid, double liquid, double gas) {
+  const bool range = c.melts && !c.sublimes && c.liquidus > c.solidus;
+  if (range && t >= c.solidus && t <= c.liquidus && !(gas > 0)) {
+    const double low = solidEnthalpy(c, c.solidus), high = liquidEnthalpy(c, c.liquidus);
+    return low + (t - c.solidus) / (c.liquidus - c.solidus) * (high - low);
+  }
+  const Stable stable = stableAt(c, t);
+  const double balanced = heldBy(c, t, stable);
+  const auto held = [&](Stable phase, bool exists) {
+    if (phase == stable || !exists) return balanced;
+    const double alone = heldBy(c, t, phase);
+    return phase < stable ? std::min(alone, balanced) : std::max(alone, balanced);
+  };
+  double h = 0;
+  if (solid > 0) h += solid * held(Stable::Solid, c.melts || c.sublimes);
+  if (liquid > 0) h += liquid * held(Stable::Liquid, true);
+  if (gas > 0) h += gas * held(Stable::Gas, std::isfinite(c.boilingPoint0));
+  return h;
 }
 
 EnthalpyModel::EnthalpyModel()
@@ -118,9 +126,12 @@ api::List<api::FieldDeclaration> EnthalpyModel::fields() const noexcept {
 }
 
 void EnthalpyModel::initialise(const api::ThermalContext& context, const api::ParticleView& particles, size_t first,
-                               size_t last, const double* temperature, const api::Phase* phase) const {
+                               size_t last, const double* temperature, const api::Phase*) const {
   double* h = enthalpyOf(particles);
-  for (size_t i = first; i < last; ++i) h[i] = enthalpyAt(caloricOf(context, particles, i), temperature[i], phase[i]);
+  for (size_t i = first; i < last; ++i) {
+    h[i] = enthalpyAt(caloricOf(context, particles, i), temperature[i], double{particles.solidFraction[i]},
+                      double{particles.liquidFraction[i]}, double{particles.gasFraction[i]});
+  }
 }
 
 void EnthalpyModel::addHeat(const api::ThermalContext&, const api::ParticleView& particles, size_t first, size_t last,

@@ -18,12 +18,13 @@ double gasEnthalpy(const api::Caloric& caloric, double temperature);
 
 /// State of balance at a specific enthalpy in J/kg (Voller & Cross 1981): piecewise linear and monotone.
 ThermalState stateAt(const api::Caloric& caloric, double enthalpy);
-/// Specific enthalpy in J/kg of a phase at a temperature, on a plateau too (melting and boiling: half way). Away from
-/// the balance it is that of the phase asked for all the same, on its straight line: liquid water of 263 K holds more
-/// than ice, and stateAt() then says how much of it turns to ice at once. Within a melting range both phases are there,
-/// in the shares of the temperature. A phase that the material does not have, melting and boiling off their plateaus:
-/// what is in balance.
-double enthalpyAt(const api::Caloric& caloric, double temperature, api::Phase phase);
+/// Specific enthalpy in J/kg of matter of these shares at a temperature. Within a melting range the temperature says
+/// how much has melted. Elsewhere each share holds the heat of its phase, away from the balance too: liquid water of
+/// 263 K holds more than ice, and stateAt() then says how much of it turns to ice at once. What is undercooled holds no
+/// less than what is in balance, and what is superheated no more, so that the state lies between this temperature and
+/// the plateau, however far the straight lines would have crossed. Shares of phases that the material does not have are
+/// in balance.
+double enthalpyAt(const api::Caloric& caloric, double temperature, double solid, double liquid, double gas);
 
 /// The enthalpy method: specific enthalpy is the one state variable, everything else follows from it.
 class EnthalpyModel : public api::Described<api::ThermalPlugin> {

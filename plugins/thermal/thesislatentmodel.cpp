@@ -114,11 +114,12 @@ struct Particle {
   }
 };
 
-/// What a phase at a temperature amounts to, with the sharp plateaus that the algorithm knows.
-ThermalState startOf(api::Caloric c, double t, api::Phase phase) {
+/// What the shares of particle i amount to at a temperature, with the sharp plateaus that the algorithm knows.
+ThermalState startOf(api::Caloric c, double t, const api::ParticleView& particles, size_t i) {
   c.sublimes = 0;
   c.solidus = c.liquidus = c.meltingPoint;
-  return ps::thermal::stateAt(c, enthalpyAt(c, t, phase));
+  return ps::thermal::stateAt(c, enthalpyAt(c, t, double{particles.solidFraction[i]},
+                                            double{particles.liquidFraction[i]}, double{particles.gasFraction[i]}));
 }
 
 State stateOf(const ThermalState& start) {
@@ -152,11 +153,11 @@ api::List<api::FieldDeclaration> ThesisLatentModel::fields() const noexcept {
 }
 
 void ThesisLatentModel::initialise(const api::ThermalContext& context, const api::ParticleView& particles, size_t first,
-                                   size_t last, const double* temperature, const api::Phase* phase) const {
+                                   size_t last, const double* temperature, const api::Phase*) const {
   const Fields f(particles);
   for (size_t i = first; i < last; ++i) {
     const api::Caloric& c = caloricOf(context, particles, i);
-    const ThermalState start = startOf(c, temperature[i], phase[i]);
+    const ThermalState start = startOf(c, temperature[i], particles, i);
     f.state[i] = stateOf(start);
     f.temperature[i] = start.temperature;
     f.melting[i] = (1 - start.solid) * meltingThreshold(c);

@@ -170,7 +170,8 @@ class TestMatter : public QObject {
     QFETCH(double, pressure);
     QFETCH(QString, phase);
     const BakedMaterial baked(waterMaterial(), pressure);
-    const double h = ps::thermal::enthalpyAt(baked.caloric(), kelvin, ps::api::Phase::Boiling);
+    const double h = ps::thermal::enthalpyAt(baked.caloric(), kelvin, phase == "solid" ? 1 : 0,
+                                             phase == "liquid" ? 1 : 0, phase == "gas" ? 1 : 0);
     const ps::thermal::ThermalState state = ps::thermal::stateAt(baked.caloric(), h);
     QCOMPARE(state.solid, phase == "solid" ? 1.0 : 0.0);
     QCOMPARE(state.liquid, phase == "liquid" ? 1.0 : 0.0);

@@ -113,18 +113,20 @@ bool Solver::Impl::rejectIfLeapt() {
   return true;
 }
 
-/// What the thermal model says of matter, against what can be. Temperatures are not judged where explicit steps beyond
-/// the stability limit were asked for (thermal_cfl above 1): those leave what can be by themselves.
+/// What the thermal model says of matter, against what can be. Temperatures are no failure where explicit steps beyond
+/// the stability limit were asked for (thermal_cfl above 1): those leave what can be by themselves, which is a limit.
 bool Solver::Impl::rejectIfUnphysical() {
   constexpr double kHottest = 1e9;    // K
   constexpr float kRounding = 1e-3f;  // of shares
   const double* t = store.temperature();
-  const bool judged = thermal.cfl <= 1;
+  overshot = false;
   const auto isShare = [](float share) { return share >= -kRounding && share <= 1 + kRounding; };
   for (size_t i = 0; i < store.size(); ++i) {
     const float s = store.solidFraction()[i], l = store.liquidFraction()[i], g = store.gasFraction()[i];
     const bool shares = isShare(s) && isShare(l) && isShare(g) && isShare(s + l + g);
-    if (((t[i] >= 0 && t[i] <= kHottest) || !judged) && shares) continue;
+    const bool warm = t[i] >= 0 && t[i] <= kHottest;
+    if (!warm && thermal.cfl > 1) overshot = true;
+    if ((warm || thermal.cfl > 1) && shares) continue;
     char what[96];
     if (shares)
       std::snprintf(what, sizeof what, "a temperature of %.4g K", t[i]);

@@ -66,6 +66,7 @@ struct Solver::Impl {
   double energyOffset = 0;  ///< J: thermal energy minus the ledger's net, when both were last known to be right
   bool configured = false, modelChanged = false, structureChanged = true, reordered = true;
   std::vector<uint32_t> melted;
+  bool overshot = false;         ///< heat steps beyond the stable one left temperatures that cannot be
   std::string leapt;             ///< what went too far in this substep; "": nothing
   std::vector<uint8_t> grouped;  ///< 1 for members of groups
   StepReport report;

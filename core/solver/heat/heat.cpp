@@ -13,6 +13,7 @@ namespace {
 
 /// K: smaller differences are the rounding of temperatures.
 constexpr double kSameTemperature = 1e-9;
+constexpr double kColdest = 1;  // K, where the tables of materials begin
 
 /// Largest k/c in kg/(m s) of the phases that a particle consists of: how fast it answers to a conductance.
 double fastestPhase(const BakedMaterial& material, double t, double solid, double liquid, double gas) {
@@ -107,7 +108,7 @@ bool HeatStage::advance(ParticleStore& store, const Neighbours& neighbours, doub
 }
 
 void HeatStage::exchange(ParticleStore& store, const Neighbours& neighbours, double dt, uint64_t frame) {
-  if (m_modelChanged) adopt(store);
+  if (!isUpToDate()) bringUpToDate(store);
   double time = dt * m_settings.timeScale;
   if (!(time > 0)) return;
   const api::ParticleView view = store.view();
@@ -198,7 +199,7 @@ void HeatStage::explicitStep(ParticleStore& store, const api::ParticleView& view
     Partial& partial = m_partials[first / grain::kNeighbours];
     gather(store, step, first, last, partial);
     if (m_pairLaw) gatherPairLaw(lists, step, first, last);
-    addFrameHeat(step, firstStep, first, last, partial);
+    addFrameHeat(store, step, firstStep, first, last, partial);
     const CalleeScope callee(m_modelName.c_str());
     m_model->addHeat(where, view, first, last, m_joules.data(), step);
     deriveRange(store, first, last);
@@ -318,13 +319,28 @@ void HeatStage::gatherPairLaw(const api::NeighbourView& lists, double step, size
   }
 }
 
+/// The share that can be had of what walls and sources want to take from particle i in this step, in J below 0: down to
+/// kColdest, after what it gives away by itself.
+double HeatStage::shareToTake(const ParticleStore& store, size_t i, double joules) const {
+  const api::Caloric& c = m_materials[store.material()[i]].caloric();
+  const double capacity =
+      double{store.mass()[i]} * std::min({c.heatCapacitySolid, c.heatCapacityLiquid, c.heatCapacityGas});
+  const double there = capacity * (store.temperature()[i] - kColdest) + std::min(0.0, m_joules[i]);
+  return std::clamp(there / -joules, 0.0, 1.0);
+}
+
 /// What comes once a frame (film, nucleation), walls of given flux and sources.
-void HeatStage::addFrameHeat(double step, bool firstStep, size_t first, size_t last, Partial& partial) {
+void HeatStage::addFrameHeat(const ParticleStore& store, double step, bool firstStep, size_t first, size_t last,
+                             Partial& partial) {
   for (size_t i = first; i < last; ++i) {
-    const double source = m_watts[i] * step;
+    double source = m_watts[i] * step, flux = m_surroundings.watts(i) * step;
+    if (const double taken = std::min(source, 0.0) + std::min(flux, 0.0); taken < 0) {
+      const double share = shareToTake(store, i, taken);
+      if (source < 0) source *= share;
+      if (flux < 0) flux *= share;
+    }
     partial.heaters += source;
     partial.exchanged += std::abs(source);
-    const double flux = m_surroundings.watts(i) * step;
     if (flux != 0) book(partial, HeatSurroundings::Kind::Wall, flux);
     m_joules[i] += source + flux + (firstStep ? m_frameJoules[i] : 0);
   }

@@ -6,6 +6,7 @@
 #include "core/base/shorttext.h"
 #include "core/matter/material.h"
 #include "core/particles/neighbours.h"
+#include "core/solver/heat/enthalpycurves.h"
 #include "core/solver/heat/heatbody.h"
 #include "core/solver/heat/heatpairs.h"
 #include "core/solver/heat/heatsources.h"
@@ -44,6 +45,8 @@ class StateWriter;
 /// A finite lump of air (airHeatCapacity) keeps one temperature, which follows what it gives and takes; its energy and
 /// the particles' are constant together.
 ///
+/// What sources and walls of given flux take leaves each particle at 1 K at least.
+///
 /// A model that throws is put aside for good: from then on no heat flows, and takeFault() tells what it said.
 class HeatStage {
  public:
@@ -64,8 +67,9 @@ class HeatStage {
   /// False when the model threw: particles are then half changed, the ledger is not.
   /// `frame`, its number, chooses the rays of radiation.
   bool advance(ParticleStore& store, const Neighbours& neighbours, double dt, uint64_t frame = 0);
-  /// Re-derives temperature and fractions after a change of pressure or material. Where that changes the energy too,
-  /// it is booked as a source.
+  /// Temperature and fractions after a change of pressure or material. Pressure moves the points of balance, and matter
+  /// keeps its energy; where a material's enthalpy curves are others, it keeps its temperature and what of it has
+  /// melted or boiled, and the energy that this takes is booked as a source.
   void derive(ParticleStore& store);
   /// J, the model's, summed in order of index chunks. Not to be called from two threads at once. Of a model put aside,
   /// what it said last.
@@ -80,8 +84,9 @@ class HeatStage {
     if (!m_surroundings.surface().fits(store)) m_surroundings.surface().forget();
   }
   void save(StateWriter& writer, const ParticleStore& store) const;
-  /// After the store, which must have the fields of the model. A model that has been put aside here stays so.
-  void restore(const StateReader& reader, const ParticleStore& store);
+  /// After the store, which must have the fields of the model. A model that has been put aside here stays so. What was
+  /// saved with other enthalpy curves is brought up to these, as derive() does.
+  void restore(const StateReader& reader, ParticleStore& store);
   /// Joules that left or came with removed or added particles are booked here.
   void book(double joules) {
     m_ledger.sources += joules;
@@ -139,7 +144,13 @@ class HeatStage {
   api::ThermalContext context() const;
   void startState(ParticleStore& store, size_t first, size_t last, std::span<const double> temperature,
                   std::span<const api::Phase> phase);
-  void adopt(ParticleStore& store);
+  void startFields(ParticleStore& store) const;
+  void bringUpToDate(ParticleStore& store);
+  bool isUpToDate() const;
+  bool countsAnew(uint32_t material) const;
+  void countAnew(ParticleStore& store);
+  void noteCurves();
+  void restoreCurves(const StateReader& reader);
   void exchange(ParticleStore& store, const Neighbours& neighbours, double dt, uint64_t frame);
   bool isBalanced(ParticleStore& store, const api::ParticleView& view, const api::NeighbourView& lists, double time);
   void passTime(ParticleStore& store, const api::ParticleView& view, double time);
@@ -170,7 +181,9 @@ class HeatStage {
   void gather(const ParticleStore& store, double step, size_t first, size_t last, Partial& partial);
   void askPairLaw(const api::ParticleView& view, const api::NeighbourView& lists);
   void gatherPairLaw(const api::NeighbourView& lists, double step, size_t first, size_t last);
-  void addFrameHeat(double step, bool firstStep, size_t first, size_t last, Partial& partial);
+  double shareToTake(const ParticleStore& store, size_t i, double joules) const;
+  void addFrameHeat(const ParticleStore& store, double step, bool firstStep, size_t first, size_t last,
+                    Partial& partial);
   void sweep(ParticleStore& store, const api::ParticleView& view, double step, bool firstStep);
   HeatBody heatBody(const ParticleStore& store, size_t i) const;
   void relaxPair(size_t i, uint32_t k, bool sameMaterial, double time);
@@ -191,6 +204,7 @@ class HeatStage {
   mutable bool m_putAside = false;  ///< the model threw
   mutable std::optional<std::string> m_fault;
   std::vector<double> m_parameters;
+  std::vector<EnthalpyCurves> m_curves;  ///< by material, what the state of its particles was written with
   HeatLedger m_ledger;
   int m_substeps = 0;  ///< explicit steps and sweeps of this frame
   double m_delivered = 1, m_limit = 0;

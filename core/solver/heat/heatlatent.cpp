@@ -39,10 +39,10 @@ void HeatStage::collectFrameHeat(ParticleStore& store, const api::ParticleView& 
   const size_t n = store.size();
   std::fill(m_watts.begin(), m_watts.begin() + static_cast<std::ptrdiff_t>(n), 0.0);
   std::fill(m_frameJoules.begin(), m_frameJoules.begin() + static_cast<std::ptrdiff_t>(n), 0.0);
-  m_sources.addTo(store, view, context(), m_materials, frame, m_watts);
+  m_sources.addTo(store, view, context(), m_watts);
   m_bodyHeating.measure(store);
   const auto sources = [&](size_t first, size_t last) {
-    m_bodyHeating.addTo(store, m_materials, frame, first, last, m_watts);
+    m_bodyHeating.addTo(store, first, last, m_watts);
     if (!m_boiling) return;
     for (size_t i = first; i < last; ++i) filmHeat(store, i, frame, m_partials[first / grain::kNeighbours]);
     countBoiling(store, first, last);

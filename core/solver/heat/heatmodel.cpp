@@ -3,6 +3,7 @@
 #include "core/base/error.h"
 #include "core/base/parallel.h"
 #include "core/solver/heat/heat.h"
+#include "core/solver/heat/phasestage.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,44 +26,78 @@ bool HeatStage::initialise(ParticleStore& store, size_t first, size_t last, std:
                            std::span<const api::Phase> phase) {
   if (!works() || last <= first) return true;
   return guarded([&] {
-    if (m_modelChanged && first > 0) adopt(store);
-    m_modelChanged = false;
+    if (first > 0 && !isUpToDate()) bringUpToDate(store);
     startState(store, first, last, temperature, phase);
+    m_modelChanged = false;
+    noteCurves();
   });
+}
+
+void HeatStage::startFields(ParticleStore& store) const {
+  const auto fields = m_model->fields();
+  for (size_t k = 0; k < fields.count; ++k) {
+    const api::FieldDeclaration f = fields.at(k);
+    store.declare(f.name, f.type, f.unit, f.help);
+  }
 }
 
 void HeatStage::startState(ParticleStore& store, size_t first, size_t last, std::span<const double> temperature,
                            std::span<const api::Phase> phase) {
-  const auto fields = m_model->fields();
-  for (size_t k = 0; k < fields.count; ++k) {
-    const api::FieldDeclaration f = fields.at(k);
-    store.declare(f.name, f.type, f.unit, f.help);
-  }
+  startFields(store);
   m_newTemperature.resize(store.size());
   m_newPhase.resize(store.size());
   std::copy(temperature.begin(), temperature.end(), m_newTemperature.begin() + static_cast<std::ptrdiff_t>(first));
   std::copy(phase.begin(), phase.end(), m_newPhase.begin() + static_cast<std::ptrdiff_t>(first));
+  for (size_t i = first; i < last; ++i) setShares(store, i, m_newPhase[i]);
   m_model->initialise(context(), store.view(), first, last, m_newTemperature.data(), m_newPhase.data());
   deriveRange(store, first, last);
 }
 
-/// Another model than the one that wrote the state: starts it from temperature and phase. What it makes of the same
-/// temperatures may differ in energy (on a plateau it cannot know how far the other one was): that is a source.
-void HeatStage::adopt(ParticleStore& store) {
-  m_modelChanged = false;
+bool HeatStage::isUpToDate() const {
+  for (uint32_t k = 0; k < m_materials.size(); ++k) {
+    if (countsAnew(k)) return false;
+  }
+  return !m_modelChanged;
+}
+
+bool HeatStage::countsAnew(uint32_t material) const {
+  if (m_modelChanged) return true;
+  return material < m_curves.size() && !(m_curves[material] == EnthalpyCurves(m_materials[material].caloric()));
+}
+
+void HeatStage::noteCurves() {
+  m_curves.clear();
+  for (const BakedMaterial& material : m_materials) m_curves.emplace_back(material.caloric());
+}
+
+/// Starts the state of matter anew that another model, or other curves of its material, have counted so far, from its
+/// temperature and shares.
+void HeatStage::countAnew(ParticleStore& store) {
+  startFields(store);
+  std::vector<uint8_t> anew;
+  for (uint32_t k = 0; k < m_materials.size(); ++k) anew.push_back(countsAnew(k) ? 1 : 0);
+  const api::ThermalContext where = context();
+  const api::ParticleView view = store.view();
+  const uint32_t* material = store.material();
+  const size_t n = store.size();
+  for (size_t first = 0, last = 0; first < n; first = last) {
+    const uint8_t wanted = anew[material[first]];
+    while (last < n && anew[material[last]] == wanted) ++last;
+    if (wanted) m_model->initialise(where, view, first, last, store.temperature(), store.phase());
+  }
+}
+
+/// What the same matter amounts to may be another energy from now on: that is a source.
+void HeatStage::bringUpToDate(ParticleStore& store) {
   const double before = m_lastEnergy;
   const bool known = m_lastCount > 0 && m_lastCount == store.size();
-  const size_t n = store.size();
-  if (n == 0) return;
-  const auto fields = m_model->fields();
-  for (size_t k = 0; k < fields.count; ++k) {
-    const api::FieldDeclaration f = fields.at(k);
-    store.declare(f.name, f.type, f.unit, f.help);
-  }
-  m_newTemperature.assign(store.temperature(), store.temperature() + n);
-  m_model->initialise(context(), store.view(), 0, n, m_newTemperature.data(), store.phase());
-  deriveRange(store, 0, n);
-  if (known) book(energy(store) - before);
+  if (store.size() > 0 && !isUpToDate()) countAnew(store);
+  m_modelChanged = false;
+  noteCurves();
+  const auto body = [&](size_t first, size_t last) { deriveRange(store, first, last); };
+  parallelFor(store.size(), grain::kNeighbours, std::cref(body));
+  if (!known) return;
+  if (const double change = energy(store) - before; change != 0) book(change);
 }
 
 void HeatStage::deriveRange(ParticleStore& store, size_t first, size_t last) {
@@ -73,15 +108,7 @@ void HeatStage::deriveRange(ParticleStore& store, size_t first, size_t last) {
 }
 
 void HeatStage::derive(ParticleStore& store) {
-  guarded([&] {
-    if (m_modelChanged) return adopt(store);
-    const bool known = m_lastCount > 0 && m_lastCount == store.size();
-    const double before = m_lastEnergy;
-    const auto body = [&](size_t first, size_t last) { deriveRange(store, first, last); };
-    parallelFor(store.size(), grain::kNeighbours, std::cref(body));
-    if (!known) return;
-    if (const double change = energy(store) - before; change != 0) book(change);
-  });
+  guarded([&] { bringUpToDate(store); });
 }
 
 double HeatStage::energy(const ParticleStore& store) const {

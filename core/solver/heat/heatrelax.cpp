@@ -130,7 +130,7 @@ void HeatStage::sweep(ParticleStore& store, const api::ParticleView& view, doubl
   }
   const api::ThermalContext where = context();
   const auto apply = [&](size_t first, size_t last) {
-    addFrameHeat(step, firstStep, first, last, m_partials[first / grain::kNeighbours]);
+    addFrameHeat(store, step, firstStep, first, last, m_partials[first / grain::kNeighbours]);
     const CalleeScope callee(m_modelName.c_str());
     m_model->addHeat(where, view, first, last, m_joules.data(), step);
     deriveRange(store, first, last);

@@ -10,17 +10,6 @@
 #include <cmath>
 
 namespace ps {
-namespace {
-
-constexpr double kColdest = 1;  // K
-
-/// J that may be taken from a particle before it is colder than kColdest, whatever it is made of.
-double heatAbove(const api::Caloric& c, double mass, double temperature) {
-  const double capacity = std::min({c.heatCapacitySolid, c.heatCapacityLiquid, c.heatCapacityGas});
-  return mass * capacity * std::max(0.0, temperature - kColdest);
-}
-
-}  // namespace
 
 void BodyHeating::measure(const ParticleStore& store) {
   m_perMass.clear();
@@ -34,24 +23,17 @@ void BodyHeating::measure(const ParticleStore& store) {
   }
 }
 
-void BodyHeating::addTo(const ParticleStore& store, std::span<const BakedMaterial> materials, double frame,
-                        size_t first, size_t last, std::span<double> watts) const {
+void BodyHeating::addTo(const ParticleStore& store, size_t first, size_t last, std::span<double> watts) const {
   if (m_perMass.empty()) return;
   for (size_t i = first; i < last; ++i) {
-    const double mass = store.mass()[i];
-    double share = store.body()[i] < m_perMass.size() ? m_perMass[store.body()[i]] * mass : 0;
-    if (share < 0) {
-      const double there = heatAbove(materials[store.material()[i]].caloric(), mass, store.temperature()[i]);
-      share = std::max(share, -there / frame);
-    }
-    watts[i] += share;
+    if (store.body()[i] < m_perMass.size()) watts[i] += m_perMass[store.body()[i]] * double{store.mass()[i]};
   }
 }
 
 void PluginHeating::set(std::vector<HeatSource> sources) { m_sources = std::move(sources); }
 
 void PluginHeating::addTo(ParticleStore& store, const api::ParticleView& view, const api::ThermalContext& where,
-                          std::span<const BakedMaterial> materials, double frame, std::span<double> watts) {
+                          std::span<double> watts) {
   for (const HeatSource& source : m_sources) {
     if (std::find(m_aside.begin(), m_aside.end(), source.name) != m_aside.end()) continue;
     std::string problem;
@@ -68,15 +50,7 @@ void PluginHeating::addTo(ParticleStore& store, const api::ParticleView& view, c
       continue;
     }
     forChunks(store.size(), grain::kNeighbours, [&](size_t first, size_t last) {
-      for (size_t i = first; i < last; ++i) {
-        double share = m_watts[i];
-        if (share < 0) {
-          const double there =
-              heatAbove(materials[store.material()[i]].caloric(), store.mass()[i], store.temperature()[i]);
-          share = std::max(share, -there / frame);
-        }
-        watts[i] += share;
-      }
+      for (size_t i = first; i < last; ++i) watts[i] += m_watts[i];
     });
   }
 }

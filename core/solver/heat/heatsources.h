@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "core/matter/material.h"
 #include "core/particles/particlestore.h"
 #include "core/solver/heatsource.h"
 #include "core/solver/report.h"
@@ -13,31 +12,30 @@
 namespace ps {
 
 /// Heat that comes up inside bodies, in W of thermal time: the power of each body, spread evenly over the mass of those
-/// of its particles that are there now, held ones and vapour among them. Cooling leaves each particle at 1 K at least,
-/// where the tables of materials begin. Matter of no body, as emitters pour it, has no power.
+/// of its particles that are there now, held ones and vapour among them. Matter of no body, as emitters pour it, has no
+/// power.
 class BodyHeating {
  public:
   /// W by the index of the body that particles carry; those beyond the list have none.
   void set(std::span<const double> watts) { m_watts.assign(watts.begin(), watts.end()); }
   /// Makes ready for a frame: adds up the mass of heated bodies in the order of the store.
   void measure(const ParticleStore& store);
-  /// Adds W to particles [first, last) for a frame of `frame` s of thermal time.
-  void addTo(const ParticleStore& store, std::span<const BakedMaterial> materials, double frame, size_t first,
-             size_t last, std::span<double> watts) const;
+  /// Adds W to particles [first, last).
+  void addTo(const ParticleStore& store, size_t first, size_t last, std::span<double> watts) const;
 
  private:
   std::vector<double> m_watts;    ///< W by body
   std::vector<double> m_perMass;  ///< W/kg by body; empty when nothing is heated
 };
 
-/// Heat that plugins put into matter or take from it, in W of thermal time. Cooling leaves each particle at 1 K at
-/// least. One that throws, or answers with what is no finite number, is put aside for good.
+/// Heat that plugins put into matter or take from it, in W of thermal time. One that throws, or answers with what is no
+/// finite number, is put aside for good.
 class PluginHeating {
  public:
   void set(std::vector<HeatSource> sources);
-  /// Adds W to all particles for a frame of `frame` s of thermal time. Declares the plugins' fields when they are new.
+  /// Adds W to all particles. Declares the plugins' fields when they are new.
   void addTo(ParticleStore& store, const api::ParticleView& view, const api::ThermalContext& where,
-             std::span<const BakedMaterial> materials, double frame, std::span<double> watts);
+             std::span<double> watts);
   /// Ids of all that have been put aside; putAside() adds to them.
   const std::vector<std::string>& aside() const { return m_aside; }
   void putAside(const std::vector<std::string>& names);

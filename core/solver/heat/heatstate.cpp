@@ -5,10 +5,18 @@
 #include "core/base/statestream.h"
 #include "core/solver/heat/heat.h"
 
+#include <algorithm>
+
 namespace ps {
 namespace {
 constexpr uint8_t kPutAside = 1, kPairLaw = 2;
 constexpr const char* kSourcesAside = "heat/sources_put_aside";
+constexpr const char* kCurves = "heat/curves";  ///< of the materials up to the last that particles are of
+
+size_t materialsIn(const ParticleStore& store) {
+  const uint32_t *first = store.material(), *last = first + store.size();
+  return first == last ? 0 : size_t{*std::max_element(first, last)} + 1;
+}
 }  // namespace
 
 template <class Ledger, class Visit>
@@ -27,10 +35,25 @@ void HeatStage::save(StateWriter& writer, const ParticleStore& store) const {
   writer.value("heat/counted", uint64_t{m_lastCount});
   writer.value("heat/marks", static_cast<uint8_t>((m_putAside ? kPutAside : 0) | (m_pairLaw ? kPairLaw : 0)));
   writer.texts(kSourcesAside, m_sources.aside());
+  const size_t curves = std::min(m_curves.size(), materialsIn(store));
+  writer.open(kCurves, StateType::Float64, curves * EnthalpyCurves::kNumbers);
+  for (size_t k = 0; k < curves; ++k) writer.put(m_curves[k].number);
+  writer.close();
   m_surroundings.surface().save(writer, store);
 }
 
-void HeatStage::restore(const StateReader& reader, const ParticleStore& store) {
+void HeatStage::restoreCurves(const StateReader& reader) {
+  noteCurves();
+  StateRuns<double> numbers(reader, kCurves);
+  const size_t count = std::min(m_curves.size(), reader.count(kCurves) / EnthalpyCurves::kNumbers);
+  for (size_t k = 0; k < count; ++k) {
+    const std::span<const double> run = numbers.next(EnthalpyCurves::kNumbers);
+    std::copy(run.begin(), run.end(), m_curves[k].number.begin());
+  }
+  numbers.done();
+}
+
+void HeatStage::restore(const StateReader& reader, ParticleStore& store) {
   StateRuns<double> accounts(reader, "heat/ledger");
   eachOf(m_ledger, [&](double& account) { account = accounts.next(1)[0]; });
   accounts.done();
@@ -43,6 +66,7 @@ void HeatStage::restore(const StateReader& reader, const ParticleStore& store) {
   m_pairLaw = (marks & kPairLaw) != 0;
   m_sources.putAside(reader.texts(kSourcesAside));
   m_surroundings.surface().restore(reader, store);
+  restoreCurves(reader);
   if (!works() || store.size() == 0) return;
   const auto fields = m_model->fields();
   for (size_t k = 0; k < fields.count; ++k) {
@@ -50,6 +74,7 @@ void HeatStage::restore(const StateReader& reader, const ParticleStore& store) {
     if (!store.read(f.name, f.type))
       throw InputError("the state has no field '" + std::string(f.name) + "', which the thermal model needs");
   }
+  if (!isUpToDate()) derive(store);
 }
 
 }  // namespace ps

@@ -42,6 +42,14 @@ Phase phaseOf(double solid, double liquid, double gas) {
 
 }  // namespace
 
+void setShares(ParticleStore& store, size_t i, Phase phase) {
+  const bool plateau = phase == Phase::Melting || phase == Phase::Boiling;
+  const float whole = plateau ? 0.5f : 1;
+  store.solidFraction()[i] = phase == Phase::Solid || phase == Phase::Melting ? whole : 0;
+  store.liquidFraction()[i] = plateau || phase == Phase::Liquid ? whole : 0;
+  store.gasFraction()[i] = phase == Phase::Boiling || phase == Phase::Gas ? whole : 0;
+}
+
 void PhaseStage::configure(const SolverSettings& solver, std::span<const BakedMaterial> materials) {
   m_solver = solver;
   m_materials = materials;

@@ -6,6 +6,9 @@
 
 namespace ps {
 
+/// The shares of particle i, of matter that is in one phase, half way on a plateau: until a thermal model knows better.
+void setShares(ParticleStore& store, size_t i, api::Phase phase);
+
 /// What heat does to mechanics, once per frame after HeatStage: rest volumes follow temperature and phase (at most 5 %
 /// a frame), and particles change between solid, liquid and gas motion with scattered thresholds and hysteresis.
 /// Structure follows afterwards: constraint plugins see the new motion in topology().

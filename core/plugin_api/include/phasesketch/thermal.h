@@ -51,8 +51,10 @@ class ThermalPlugin : public Plugin {
  public:
   /// State fields, e.g. specific_enthalpy (J/kg, Float64).
   virtual List<FieldDeclaration> fields() const = 0;
-  /// Sets the state of particles [first, last) from temperature in K; `phase` decides on a plateau, and where it is
-  /// not the one in balance the state should hold its heat (undercooled, superheated). May throw.
+  /// Sets the state of particles [first, last) from temperature in K and the shares of solid, liquid and vapour that
+  /// the view shows: of newborn matter, whose shares are those of `phase`, and of matter that is here when this model
+  /// takes over, or when its material's caloric data have changed. Shares decide on a plateau, and where they are not
+  /// in balance the state should hold their heat (undercooled, superheated). May throw.
   virtual void initialise(const ThermalContext&, const ParticleView&, size_t first, size_t last,
                           const double* temperature, const Phase* phase) const = 0;
   /// Adds joules[i] to particles [first, last); `dt` in s of thermal time: a step that is stable for what flows, or the
