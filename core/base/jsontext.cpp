@@ -2,6 +2,7 @@
 #include "core/base/jsontext.h"
 
 #include "core/base/error.h"
+#include "core/base/utf8.h"
 
 #include <cmath>
 #include <limits>
@@ -85,7 +86,7 @@ class Builder final : public nlohmann::json_sax<json> {
       if (object && level.key.empty()) continue;
       const bool open = &level != &m_levels.back();  // the element being read is already in the array
       text += "/" + (object ? pointerPart(level.key) : std::to_string(level.value->size() - (open ? 1 : 0)));
-      if (text.size() > 200) return text.substr(0, 200) + "…";
+      if (text.size() > 200) return cutText(text, 200);
     }
     return text.empty() ? "/" : text;
   }
@@ -113,9 +114,8 @@ class Builder final : public nlohmann::json_sax<json> {
       return "NaN and Infinity are not numbers in JSON";
     }
     const size_t dash = what.find(" - ");
-    std::string text = "not valid JSON: " + (dash == std::string::npos ? what : what.substr(dash + 3));
-    for (char& c : text) c = c == '\n' || c == '\r' ? ' ' : c;
-    return text.size() > 160 ? text.substr(0, 160) + "…" : text;
+    const std::string words = dash == std::string::npos ? what : what.substr(dash + 3);
+    return shownText("not valid JSON: " + words, 160);  // they may end within a character
   }
 
   [[noreturn]] void fail(const std::string& what) const { throw InputError(m_name + ":" + pointer() + ": " + what); }
@@ -156,7 +156,7 @@ std::string pointerPart(std::string_view key) {
       part += static_cast<unsigned char>(c) < 0x20 ? '?' : c;
     }
   }
-  return part.size() > 80 ? part.substr(0, 80) + "…" : part;
+  return cutText(part, 80);
 }
 
 std::string jsonInWords(const json& value) {
@@ -165,12 +165,8 @@ std::string jsonInWords(const json& value) {
       return "null";
     case json::value_t::boolean:
       return value.get<bool>() ? "true" : "false";
-    case json::value_t::string: {
-      const std::string& text = value.get_ref<const std::string&>();
-      std::string shown;
-      for (const char c : text.substr(0, 40)) shown += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-      return "the text '" + shown + (text.size() > 40 ? "…'" : "'");
-    }
+    case json::value_t::string:
+      return "the text '" + shownText(value.get_ref<const std::string&>(), 40) + "'";
     case json::value_t::array:
       return "a list";
     case json::value_t::object:

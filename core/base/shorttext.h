@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "core/base/utf8.h"
+
 #include <string>
 
 namespace ps {
@@ -8,10 +10,7 @@ namespace ps {
 /// throws may be a megabyte long.
 inline std::string shortText(std::string text, size_t most = 500) {
   if (text.size() <= most) return text;
-  const size_t whole = text.size();
-  while (most > 0 && (static_cast<unsigned char>(text[most]) & 0xC0) == 0x80) --most;  // within a UTF-8 character
-  text.resize(most);
-  return text + "… (" + std::to_string(whole) + " bytes)";
+  return cutText(text, most) + " (" + std::to_string(text.size()) + " bytes)";
 }
 
 }  // namespace ps

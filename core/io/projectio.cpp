@@ -2,6 +2,7 @@
 #include "core/io/projectio.h"
 
 #include "core/base/jsontext.h"
+#include "core/base/utf8.h"
 #include "core/io/projectcheck.h"
 #include "core/io/projectfields.h"
 #include "core/io/schema.h"
@@ -45,10 +46,10 @@ json* step(json& value, const std::string& part) {
   return &value[index];
 }
 
-constexpr size_t kShownPointer = 200;  ///< characters of it that a message repeats
+constexpr size_t kShownPointer = 200;  ///< bytes of it that a message repeats
 
 InputError noSuchPlace(const std::string& name, const std::string& part) {
-  return InputError(name + ": the project has no '" + part + "' there");
+  return InputError(name + ": the project has no '" + shownText(part, kShownPointer) + "' there");
 }
 
 json editedValue(const std::string& text, const std::string& edit) {
@@ -118,13 +119,14 @@ size_t depthOf(const json& value) {
 }  // namespace
 
 void applyEdit(json& document, const std::string& edit) {
+  if (utf8Length(edit) < edit.size())
+    throw InputError("--set " + shownText(edit, kShownPointer) + ": must be UTF-8 text");
   const size_t equals = edit.find('=');
   if (equals == std::string::npos || equals == 0) {
-    throw InputError("--set " + edit + ": must be json/pointer=value");
+    throw InputError("--set " + shownText(edit, kShownPointer) + ": must be json/pointer=value");
   }
   const std::vector<std::string> parts = pointerParts(std::string_view(edit).substr(0, equals));
-  const std::string name =
-      "--set " + edit.substr(0, std::min(equals, kShownPointer)) + (equals > kShownPointer ? "…" : "");
+  const std::string name = "--set " + shownText(std::string_view(edit).substr(0, equals), kShownPointer);
   json value = editedValue(edit.substr(equals + 1), name);
   if (parts.size() + depthOf(value) > kMaximumDepth)
     throw InputError(name + ": is nested deeper than " + std::to_string(kMaximumDepth) + " levels");

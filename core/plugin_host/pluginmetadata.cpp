@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/plugin_host/pluginmetadata.h"
 
+#include "core/plugin_host/pluginloader.h"
+
 #include <phasesketch/stamp.h>
 
 #include <QFile>
@@ -58,7 +60,7 @@ std::optional<int> takeNumber(std::string_view& text) {
 /// A metadata key that must be a text; "" and a problem otherwise.
 std::string textOf(const QJsonObject& object, const char* key, std::string& problem) {
   const QJsonValue value = object[QLatin1String(key)];
-  if (value.isString() && !value.toString().isEmpty()) return value.toString().toStdString();
+  if (value.isString() && !value.toString().isEmpty()) return oneLine(value.toString().toStdString());
   if (problem.empty()) {
     problem = std::string("its metadata ") + (value.isUndefined() ? "lack the key" : "need a text under the key") +
               " \"" + key + "\"; add it to the JSON file that Q_PLUGIN_METADATA names and build the plugin again";
@@ -115,33 +117,6 @@ std::optional<PluginKind> kindOfIid(const std::string& iid, std::string& problem
   }
   problem = "it is a Qt plugin for another program (" + iid + "); remove it from this folder";
   return std::nullopt;
-}
-
-std::string checkedMetadata(const QJsonObject& root, PluginInfo& info) {
-  std::string problem;
-  const auto kind = kindOfIid(root["IID"].toString().toStdString(), problem);
-  const QJsonObject own = root["MetaData"].toObject();
-  info.author = own["author"].toString().toStdString();
-  info.standard = own["standard"].toBool();
-  info.id = textOf(own, "id", problem);
-  const std::string kindName = textOf(own, "kind", problem);
-  info.api = textOf(own, "api", problem);
-  info.version = textOf(own, "version", problem);
-  info.licence = textOf(own, "licence", problem);
-  if (kind) info.kind = *kind;
-  if (!problem.empty()) return problem;
-  if (const std::string what = problemOfId(info.id); !what.empty()) {
-    const std::string bad = std::exchange(info.id, {});
-    return "the id \"" + bad + "\" " + what;
-  }
-  if (kindName != pluginKindName(*kind))
-    return "its metadata say kind \"" + kindName + "\", but it implements the interface of a " + pluginKindName(*kind) +
-           "; correct one of the two";
-  if (std::string what = problemOfApi(info.api); !what.empty()) return what;
-  if (const std::string what = problemOfVersion(info.version); !what.empty())
-    return "the version \"" + info.version + "\" " + what;
-  if (std::string what = readAdheresTo(own, info.adheresTo); !what.empty()) return what;
-  return readCapabilities(own, info.capabilities);
 }
 
 /// The headers that a plugin was built with: "0.9:1" of the stamp that they leave in it; "" without one.
@@ -242,6 +217,33 @@ std::string problemOfVersion(std::string_view version) {
   return rule;
 }
 
+std::string checkMetadata(const QJsonObject& root, PluginInfo& info) {
+  std::string problem;
+  const auto kind = kindOfIid(oneLine(root["IID"].toString().toStdString()), problem);
+  const QJsonObject own = root["MetaData"].toObject();
+  info.author = oneLine(own["author"].toString().toStdString());
+  info.standard = own["standard"].toBool();
+  info.id = textOf(own, "id", problem);
+  const std::string kindName = textOf(own, "kind", problem);
+  info.api = textOf(own, "api", problem);
+  info.version = textOf(own, "version", problem);
+  info.licence = textOf(own, "licence", problem);
+  if (kind) info.kind = *kind;
+  if (!problem.empty()) return problem;
+  if (const std::string what = problemOfId(info.id); !what.empty()) {
+    const std::string bad = std::exchange(info.id, {});
+    return "the id \"" + bad + "\" " + what;
+  }
+  if (kindName != pluginKindName(*kind))
+    return "its metadata say kind \"" + kindName + "\", but it implements the interface of a " + pluginKindName(*kind) +
+           "; correct one of the two";
+  if (std::string what = problemOfApi(info.api); !what.empty()) return what;
+  if (const std::string what = problemOfVersion(info.version); !what.empty())
+    return "the version \"" + info.version + "\" " + what;
+  if (std::string what = readAdheresTo(own, info.adheresTo); !what.empty()) return what;
+  return readCapabilities(own, info.capabilities);
+}
+
 PluginInfo readLibraryMetadata(const std::string& path) {
   PluginInfo info;
   info.path = path;
@@ -251,7 +253,7 @@ PluginInfo readLibraryMetadata(const std::string& path) {
   }
   QPluginLoader loader(QString::fromStdString(path));
   const QJsonObject root = loader.metaData();
-  info.problem = root.isEmpty() ? refusalOf(loader, path) : checkedMetadata(root, info);
+  info.problem = root.isEmpty() ? refusalOf(loader, path) : checkMetadata(root, info);
   if (info.problem.empty()) info.problem = problemOfStamp(stampOf(path), info.api);
   if (!info.problem.empty()) info.problem = path + ": " + info.problem;
   return info;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/base/error.h"
 #include "core/base/jsontext.h"
+#include "core/base/utf8.h"
 #include "core/io/outputfile.h"
 #include "core/io/projectio.h"
 #include "core/io/schema.h"
@@ -48,6 +49,7 @@ class TestProjectIo : public QObject {
   void newerFilesOpenOnlyWhenTheySaySo();
   void editsFindTheirPlace_data();
   void editsFindTheirPlace();
+  void editsAreUtf8();
   void publishedSchemaIsCurrent();
   void schemaNamesEveryDeclaredKey();
   void plainKeysAreNoParameters();
@@ -114,7 +116,8 @@ QString TestProjectIo::problemOf(const std::string& text, const std::vector<std:
   try {
     parse(text, edits);
   } catch (const InputError& error) {
-    return QString::fromStdString(error.what());
+    const std::string message = error.what();
+    return (utf8Length(message) < message.size() ? "not UTF-8: " : "") + QString::fromStdString(message);
   }
   return QString();
 }
@@ -376,6 +379,9 @@ void TestProjectIo::hostileTextIsRefused_data() {
                  7),
       ":/: is not text");
   row("no UTF-8", "{\"a\": \"\xff\xff\"}", "not UTF-8 text");
+  row("no UTF-8 outside of a text", "{\"a\": [1 \xff]}", "not valid JSON");
+  row("within a character", "{\"a\": \u00e9}", "not valid JSON");
+  row("a long name", "{\"a" + QByteArray("\u00e9").repeated(100) + "\": [1 2]}", "\u00e9\u2026/1: line 1, column");
   row("comma", "{\"a\": 1,\n \"b\": 2,}", ":/b: line 2, column 9: not valid JSON");
   row("two documents", "{} {}", "not valid JSON");
 }
@@ -495,6 +501,8 @@ void TestProjectIo::editsFindTheirPlace_data() {
       << "is nested deeper than 64 levels";
   QTest::newRow("broken JSON") << "solver={\"a\""
                                << "--set solver:/";
+  QTest::newRow("cut in a character") << "duration/" + QStringLiteral("\u00e9").repeated(150) + "=1"
+                                      << "\u2026: the project has no";
 }
 
 void TestProjectIo::editsFindTheirPlace() {
@@ -506,6 +514,13 @@ void TestProjectIo::editsFindTheirPlace() {
     const Project project = parse(m_sample, {textOf(edit)}).project;
     QCOMPARE(numberOf(project.solver.parameters, solverParameters(), "thermal_time_scale"), 17.0);
   }
+}
+
+/// What a terminal of another encoding hands over.
+void TestProjectIo::editsAreUtf8() {
+  for (const char* edit : {"title=\xe9t\xe9", "\xe9=1", "\xe9"})
+    QCOMPARE(problemOf(m_sample, {edit}),
+             "--set " + QString::fromLatin1(edit).replace(QChar(0xe9), QChar(0xfffd)) + ": must be UTF-8 text");
 }
 
 void TestProjectIo::publishedSchemaIsCurrent() {

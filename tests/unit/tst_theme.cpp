@@ -57,6 +57,8 @@ class TestTheme : public QObject {
   void absoluteZeroStandsForNone();
   void theLastSecondStandsForNever();
   void aPastedPageIsNoNumber();
+  void whatATypedNumberMakesIsFinite();
+  void anExponentHasNoGroups();
   void numbersBeyondAllRangesAreShown();
   void errorsBelowRoundingAreNotSpelledOut();
   void fieldsKeepTheirDecimals_data();
@@ -227,6 +229,7 @@ void TestTheme::numbersAreFormatted() {
   if (value == 24594) {
     QVERIFY(formatNumber(value).contains(QChar(0x202F)));
     QCOMPARE(spaced(formatFixed(value)), QStringLiteral("24 594"));
+    QCOMPARE(spaced(formatFixed(1e300)), QString::fromUtf8("1 × 10³⁰⁰"));
     QCOMPARE(formatFixed(-0.04, 1), QStringLiteral("0.0"));  // no minus before zero
   }
   QCOMPARE(spaced(formatQuantity(3e-6, QStringLiteral("m"))), QString::fromUtf8("3 × 10⁻⁶ m"));
@@ -316,6 +319,24 @@ void TestTheme::aPastedPageIsNoNumber() {
   const Typed typed = parseTyped(QString(32000, QLatin1Char('7')), declaration("m"), 1);
   QCOMPARE(typed.problem, QStringLiteral("“77777777777777777777…” is too long for a number"));
   QVERIFY(parseTyped(QString(150, QLatin1Char('7')), declaration("m"), 1).problem.isEmpty());
+}
+
+/// Each number in them is one, the value would be none.
+void TestTheme::whatATypedNumberMakesIsFinite() {
+  for (const char* text : {"/1e-320", "*1e308", "1e308 GPa"}) {
+    const QString problem = parseTyped(QString::fromUtf8(text), declaration("Pa"), 1e10).problem;
+    QCOMPARE(problem, QString::fromUtf8("“%1” is too large for a number").arg(QString::fromUtf8(text)));
+  }
+  QVERIFY(!parseTyped(QStringLiteral("1e308"), declaration("m", "mm", 1e-3), 1).problem.isEmpty());
+}
+
+/// A unit may begin as a power of ten goes on.
+void TestTheme::anExponentHasNoGroups() {
+  const api::ParameterDeclaration expansion = declaration("1/K", "10⁻⁶/K", 1e6);
+  const QString shown = formatValue(expansion, 47480);
+  QCOMPARE(shown, QString::fromUtf8("4.748 × 10¹⁰ 10⁻⁶/K"));
+  QCOMPARE(parseTyped(shown, expansion, 0).value, 47480.0);
+  QVERIFY(!parseNumber(QString::fromUtf8("10² 000")));
 }
 
 void TestTheme::numbersBeyondAllRangesAreShown() {

@@ -213,7 +213,9 @@ std::optional<std::string> normalised(const QString& text) {
     else if (c == QChar(0x00F7))
       plain += '/';
     else if (isGroupSpace(c)) {
-      const bool inside = i > 0 && text[i - 1].isDigit() && i + 1 < text.size() && text[i + 1].isDigit();
+      const bool before = i + 1 < text.size() && text[i + 1].isDigit();
+      if (before && i > 0 && raised.contains(text[i - 1])) return std::nullopt;  // an exponent has no groups
+      const bool inside = before && i > 0 && text[i - 1].isDigit();
       if (inside && (i + 3 >= text.size() || !text[i + 2].isDigit() || !text[i + 3].isDigit())) return std::nullopt;
     } else if (c == QLatin1Char(',') || c == QLatin1Char('.')) {
       plain += '.';
@@ -226,6 +228,12 @@ std::optional<std::string> normalised(const QString& text) {
     if (!c.isDigit() && !isGroupSpace(c) && c != QLatin1Char(',') && c != QLatin1Char('.')) points = 0;
   }
   return plain;
+}
+
+/// Of numbers that each are sound, but not what their unit or the value before makes of them.
+void requireFinite(Typed& typed, const QString& text) {
+  if (!std::isfinite(typed.value) || !std::isfinite(typed.factor))
+    typed.problem = QStringLiteral("“%1” is too large for a number").arg(text);
 }
 
 /// Where the unit begins: after the last character that belongs to a number or a sum.
@@ -243,7 +251,9 @@ QString formatNumber(double value, int significant) { return formatted(value, si
 QString formatShort(double value, int significant) { return formatted(value, significant, 0); }
 
 QString formatFixed(double value, int decimals) {
-  return std::isfinite(value) ? dressed(digits(value, std::chars_format::fixed, decimals)) : QStringLiteral("—");
+  constexpr double kLongest = 1e15;  // a double holds no more digits
+  if (!(std::abs(value) < kLongest)) return formatShort(value);
+  return dressed(digits(value, std::chars_format::fixed, decimals));
 }
 
 UnitPrefix prefixFor(double value, int significant) {
@@ -355,6 +365,7 @@ Typed parseTyped(const QString& typed, const api::ParameterDeclaration& d, doubl
     result.relative = true;
     result.factor = divides ? 1 / *factor : *factor;
     result.value = scaledValue(d, current, result.factor);
+    requireFinite(result, text);
     return result;
   }
   const qsizetype split = unitStart(text);
@@ -366,10 +377,14 @@ Typed parseTyped(const QString& typed, const api::ParameterDeclaration& d, doubl
     return result;
   }
   result.value = fromDisplay(d, *number);
-  if (unitText.isEmpty() || unitText == shownUnit) return result;
+  if (unitText.isEmpty() || unitText == shownUnit) {
+    requireFinite(result, text);
+    return result;
+  }
   const std::optional<Unit> unit = parseUnit(unitText), declared = parseUnit(QString::fromUtf8(d.unit));
   if (unit && declared && unit->dimension == declared->dimension) {
     result.value = (*number * unit->scale + unit->offset - declared->offset) / declared->scale;
+    requireFinite(result, text);
   } else if (shownUnit.isEmpty()) {
     result.problem = QStringLiteral("This value has no unit; “%1” was not understood").arg(unitText);
   } else {
