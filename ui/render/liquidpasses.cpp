@@ -62,7 +62,8 @@ void Passes::drawFluid(const Job& job) {
   program.texture("distanceTexture", 2, layers.distance.name());
   program.texture("behindTexture", 3, layers.behind.name());
   program.texture("shadowTexture", 4, m_shadow.name());
-  const auto used = [&](int pixels) { return static_cast<float>(pixels) / static_cast<float>(frame.thicknessScale); };
+  const auto thickness = static_cast<float>(frame.thicknessScale);
+  const auto used = [thickness](int pixels) { return static_cast<float>(pixels) / thickness; };
   glUniform2f(program.at("thicknessSize"), used(frame.width), used(frame.height));
   glUniform1f(program.at("oneClearness"), prepared.instances.clearness.value_or(-1));
   drawTiles(m_liquidTiles, frame.liquidTiles);

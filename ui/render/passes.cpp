@@ -242,10 +242,11 @@ void Passes::drawGlass(const Job& job) {
   const int fluidScale = prepared.instances.liquids() ? m_quality.fluidScale : 0;
   const VertexArray array;
   array.bind();
+  const GLuint fluid = layers.fluid.name();
   const auto draw = [&](const Program& program, const Buffer& buffer, size_t vertices) {
     if (!vertices) return;
     meshAttributes(buffer.name());
-    program.texture("fluidTexture", 0, layers.fluid.name());
+    program.texture("fluidTexture", 0, fluid);
     glUniform1i(program.at("fluidScale"), fluidScale);
     glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(vertices));
   };

@@ -32,7 +32,7 @@ void Solver::Impl::restore(const StateReader& reader) {
   energyOffset = reader.value<double>("clock/energy_offset");
   store.restore(reader);
   const uint32_t *material = store.material(), *end = material + store.size();
-  if (std::any_of(material, end, [&](uint32_t m) { return m >= materials.size(); }))
+  if (std::any_of(material, end, [&](uint32_t index) { return index >= materials.size(); }))
     StateReader::fail("field/material", "names a material that the scene has not");
   neighbours.restore(reader, store);
   reordered = reader.value<uint8_t>("clock/reordered") != 0 || neighbours.built().size() != store.size();
