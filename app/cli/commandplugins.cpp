@@ -22,7 +22,7 @@ constexpr OptionSpec kOptions[] = {
     {"--json", "", "as JSON, with the declared parameters and the catalogue of material properties"},
     {"--fields", "",
      "lists what particles show, ours and plugins', for colours, probes (but phase and body) and recordings"},
-    {"--allow", "ID", "takes a plugin out of quarantine"},
+    {"--allow", "ID", "tries a plugin once more, and takes it out of quarantine when it can be loaded"},
     {"--check", "FILE", "tries one plugin in a process of its own and says what is wrong with it, or that it is fine"},
     kPatience,
 };
@@ -114,7 +114,9 @@ int pluginsCommand(CommandArguments list) {
   PluginRegistry plugins;
   if (arguments.has("--allow")) {
     const std::string id = arguments.text("--allow");
-    if (!plugins.allow(id)) throw InputError("--allow: no plugin '" + id + "' is in quarantine");
+    const PluginRegistry::SecondTry again = plugins.tryAgain(id);
+    if (!again.known) throw InputError("--allow: no plugin '" + id + "' is in quarantine");
+    if (!again.problem.empty()) throw Error(again.problem);
     std::printf("%s is loaded again at the next start\n", id.c_str());
     return kFine;
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/cli/commands.h"
 #include "core/base/error.h"
+#include "core/plugin_host/pluginscan.h"
 
 #include <csignal>
 #include <cstdio>
@@ -82,6 +83,7 @@ int run(const std::vector<std::string>& arguments) {
 }  // namespace ps::cli
 
 int main(int argc, char** argv) {
+  ps::servePluginScans(argc, argv);
   using namespace ps::cli;
   std::signal(SIGPIPE, SIG_IGN);  // a film program that ends early is an error to report, not the end of this one
   try {

@@ -4,6 +4,7 @@
 #include "app/editor/picture.h"
 #include "app/editor/quitsignals.h"
 #include "app/editor/quitwatchdog.h"
+#include "core/plugin_host/pluginscan.h"
 #include "core/plugin_host/registry.h"
 #include "ui/theme/theme.h"
 #include "ui/viewport/viewport.h"
@@ -45,6 +46,7 @@ int listPlugins() {
 }  // namespace
 
 int main(int argc, char** argv) {
+  ps::servePluginScans(argc, argv);
   QStringList raw;
   for (int i = 1; i < argc; ++i) raw << QString::fromLocal8Bit(argv[i]);
   const ps::EditorArguments early = ps::parseArguments(raw);

@@ -96,7 +96,7 @@ PluginCheck checkPlugin(const std::string& path, const std::string& scratch,
   ::setenv("XDG_STATE_HOME", (fs::canonical(scratch) / "state").c_str(), 1);
   PluginRegistry::Options options;
   options.extraPaths = {folder.string()};
-  options.userDirectory = options.environment = false;
+  options.userDirectory = options.environment = options.scans = false;  // this is a process of its own
   stage("was loaded");
   PluginRegistry plugins(options);
   const auto& found = plugins.plugins();

@@ -22,7 +22,9 @@ namespace ps {
 namespace {
 
 constexpr const char* kLockSuffix = ".loading";
-constexpr const char* kRecordSuffix = ".crashed";
+constexpr const char* kDraftSuffix = ".draft";
+constexpr const char *kCrashed = ".crashed", *kSuspected = ".suspected", *kSound = ".sound";  // the kinds of records
+constexpr const char* kUnspoken = "it crashed the program, or did not come back to it";
 
 QString text(const std::string& s) { return QString::fromStdString(s); }
 
@@ -35,14 +37,15 @@ QByteArray written(const Quarantine::Entry& entry) {
   const QJsonObject object{{"id", text(entry.id)},
                            {"path", text(entry.path)},
                            {"size", static_cast<qint64>(entry.size)},
-                           {"modified", static_cast<qint64>(entry.modified)}};
+                           {"modified", static_cast<qint64>(entry.modified)},
+                           {"why", text(entry.why)}};
   return QJsonDocument(object).toJson(QJsonDocument::Compact);
 }
 
 bool read(const QByteArray& bytes, Quarantine::Entry& entry) {
   const QJsonObject object = QJsonDocument::fromJson(bytes).object();
   entry = {object["id"].toString().toStdString(), object["path"].toString().toStdString(), object["size"].toInteger(),
-           object["modified"].toInteger()};
+           object["modified"].toInteger(), object["why"].toString(QLatin1String(kUnspoken)).toStdString()};
   return !entry.id.empty() && !entry.path.empty();
 }
 
@@ -53,11 +56,27 @@ QByteArray contents(const QString& path) {
 }
 
 /// One record per file, so that two processes never write into one.
-QString recordPath(const std::string& directory, const Quarantine::Entry& entry) {
+QString recordPath(const std::string& directory, const Quarantine::Entry& entry, const char* kind) {
   Hash hash;
   hash.add(entry.path.data(), entry.path.size());
   return text(directory) + QLatin1Char('/') + text(entry.id) + QLatin1Char('-') + text(hashText(hash.value())) +
-         QLatin1String(kRecordSuffix);
+         QLatin1String(kind);
+}
+
+bool sameBuild(const Quarantine::Entry& a, const Quarantine::Entry& b) {
+  return a.id == b.id && a.path == b.path && a.size == b.size && a.modified == b.modified;
+}
+
+/// Whether there is such a record about this build.
+bool isRecorded(const std::string& directory, const Quarantine::Entry& entry, const char* kind) {
+  Quarantine::Entry found;
+  return read(contents(recordPath(directory, entry, kind)), found) && sameBuild(found, entry);
+}
+
+/// Notes nothing where the directory cannot be written.
+void record(const std::string& directory, const Quarantine::Entry& entry, const char* kind) {
+  QFile file(recordPath(directory, entry, kind));
+  if (file.open(QIODevice::WriteOnly)) file.write(written(entry));
 }
 
 /// An owned descriptor with an exclusive lock, or -1.
@@ -83,43 +102,81 @@ void Quarantine::collectStaleLocks() {
     const int file = lockedFile(path, O_RDWR);
     if (file < 0) continue;  // its process lives
     Entry entry;
-    if (read(contents(text(path)), entry)) {
-      QFile record(recordPath(m_directory, entry));
-      if (record.open(QIODevice::WriteOnly)) record.write(written(entry));
-    }
+    if (read(contents(text(path)), entry)) suspect(entry);
+    ::unlink(path.c_str());
+    ::close(file);
+  }
+  for (const QString& name : directory.entryList({QStringLiteral("*") + QLatin1String(kDraftSuffix)}, QDir::Files)) {
+    const std::string path = directory.filePath(name).toStdString();
+    const int file = lockedFile(path, O_RDWR);
+    if (file < 0) continue;
     ::unlink(path.c_str());
     ::close(file);
   }
 }
 
+void Quarantine::suspect(const Entry& entry) {
+  QFile::remove(recordPath(m_directory, entry, kSound));
+  if (!isRecorded(m_directory, entry, kSuspected)) {
+    record(m_directory, entry, kSuspected);
+    return;
+  }
+  QFile::remove(recordPath(m_directory, entry, kSuspected));
+  Entry crashed = entry;
+  crashed.why = "the program ended twice in a row while it was loaded";
+  record(m_directory, crashed, kCrashed);
+}
+
 void Quarantine::readRecords() {
   const QDir directory(text(m_directory));
-  for (const QString& name : directory.entryList({QStringLiteral("*") + QLatin1String(kRecordSuffix)}, QDir::Files)) {
+  for (const QString& name : directory.entryList({QStringLiteral("*") + QLatin1String(kCrashed)}, QDir::Files)) {
     Entry entry;
     if (read(contents(directory.filePath(name)), entry)) m_entries.push_back(std::move(entry));
   }
 }
 
-bool Quarantine::holds(const std::string& id, const std::string& path) {
+std::string Quarantine::why(const std::string& id, const std::string& path) {
   const auto found = std::find_if(m_entries.begin(), m_entries.end(),
                                   [&](const Entry& entry) { return entry.id == id && entry.path == path; });
-  if (found == m_entries.end()) return false;
-  const Entry now = describe(id, path);
-  if (now.size == found->size && now.modified == found->modified) return true;
-  QFile::remove(recordPath(m_directory, *found));
+  if (found == m_entries.end()) return {};
+  if (sameBuild(*found, describe(id, path))) return found->why;
+  QFile::remove(recordPath(m_directory, *found, kCrashed));
   m_entries.erase(found);
-  return false;
+  return {};
+}
+
+bool Quarantine::knows(const std::string& id, const std::string& path) const {
+  return isRecorded(m_directory, describe(id, path), kSound);
+}
+
+void Quarantine::cameBack(const std::string& id, const std::string& path) {
+  if (!QDir().mkpath(text(m_directory))) return;
+  const Entry entry = describe(id, path);
+  record(m_directory, entry, kSound);
+  QFile::remove(recordPath(m_directory, entry, kSuspected));
+}
+
+void Quarantine::accuse(const std::string& id, const std::string& path, const std::string& why) {
+  Entry entry = describe(id, path);
+  entry.why = why;
+  if (QDir().mkpath(text(m_directory))) record(m_directory, entry, kCrashed);
+  for (const char* kind : {kSound, kSuspected}) QFile::remove(recordPath(m_directory, entry, kind));
+  m_entries.push_back(std::move(entry));
 }
 
 std::pair<std::string, std::string> Quarantine::recordFor(const std::string& id, const std::string& path) const {
-  const Entry entry = describe(id, path);
-  return {recordPath(m_directory, entry).toStdString(), written(entry).toStdString()};
+  Entry entry = describe(id, path);
+  entry.why = kUnspoken;
+  return {recordPath(m_directory, entry, kCrashed).toStdString(), written(entry).toStdString()};
 }
 
 bool Quarantine::allow(const std::string& id) {
   bool any = false;
-  for (const Entry& entry : m_entries)
-    if (entry.id == id) any |= QFile::remove(recordPath(m_directory, entry));
+  for (const Entry& entry : m_entries) {
+    if (entry.id != id) continue;
+    any = true;
+    for (const char* kind : {kCrashed, kSound}) QFile::remove(recordPath(m_directory, entry, kind));
+  }
   std::erase_if(m_entries, [&](const Entry& entry) { return entry.id == id; });
   return any;
 }
@@ -129,7 +186,7 @@ LoadingLock::LoadingLock(const std::string& directory, const std::string& id, co
   if (!QDir().mkpath(text(directory))) return;
   const std::string stem = directory + "/" + std::to_string(::getpid()) + "-" + std::to_string(counter++);
   // Locked and filled under another name first: a reader that sees the lock's name sees it locked and whole.
-  const std::string draft = stem + ".draft";
+  const std::string draft = stem + kDraftSuffix;
   m_file = lockedFile(draft, O_RDWR | O_CREAT | O_TRUNC);
   if (m_file < 0) return;
   const QByteArray bytes = written(describe(id, path));

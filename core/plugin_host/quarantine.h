@@ -4,6 +4,9 @@
 #include <utility>
 #include <vector>
 
+// Three kinds of records, each a small file about one build of one plugin: it is known to be sound; the program ended
+// once while it was loaded, which a kill does as well as a crash; it is in quarantine.
+//
 // Why a file lock and not a process number: a plugin that aborts takes its process along without any code of ours
 // running, so what it was doing must lie in a file beforehand. That file must count only when its writer is gone, while
 // other programs are starting at the same moment. The writer holds a flock() on it; the system drops the lock when the
@@ -15,15 +18,23 @@ namespace ps {
 /// under one directory; a directory that cannot be written only means that nothing is remembered.
 class Quarantine {
  public:
-  /// Looks for the locks of dead processes and puts the plugins they name into quarantine.
+  /// Looks for the locks of dead processes: the plugins that they name are no longer known to be sound, and are in
+  /// quarantine when that happened twice in a row.
   explicit Quarantine(const std::string& directory);
 
   struct Entry {
     std::string id, path;
     long long size = 0, modified = 0;  ///< bytes; ms since the epoch: another build of the file gets another try
+    std::string why{};                 ///< of what is in quarantine: "it crashed ..."
   };
-  /// True when this very file is in quarantine. A record about an older build of the file is dropped.
-  bool holds(const std::string& id, const std::string& path);
+  /// Why this very file is in quarantine, or "". A record about an older build of the file is dropped.
+  std::string why(const std::string& id, const std::string& path);
+  /// Whether this very file was loaded before and came back.
+  bool knows(const std::string& id, const std::string& path) const;
+  /// It was loaded, and came back.
+  void cameBack(const std::string& id, const std::string& path);
+  /// Into quarantine.
+  void accuse(const std::string& id, const std::string& path, const std::string& why);
   /// The file that puts this plugin into quarantine at the next start, and what it has to hold: for what must write it
   /// when the program is dying.
   std::pair<std::string, std::string> recordFor(const std::string& id, const std::string& path) const;
@@ -33,6 +44,7 @@ class Quarantine {
 
  private:
   void collectStaleLocks();
+  void suspect(const Entry& entry);
   void readRecords();
 
   std::string m_directory;

@@ -8,6 +8,7 @@
 #include "core/plugin_host/pluginloader.h"
 #include "core/plugin_host/pluginmetadata.h"
 #include "core/plugin_host/pluginpaths.h"
+#include "core/plugin_host/pluginscan.h"
 #include "core/plugin_host/quarantine.h"
 
 #include <QDir>
@@ -15,6 +16,7 @@
 #include <QString>
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <mutex>
 #include <tuple>
@@ -63,6 +65,12 @@ bool before(const PluginInfo& a, const PluginInfo& b) {
   return std::tie(a.id, a.path) < std::tie(b.id, b.path);
 }
 
+std::string quarantined(const PluginInfo& info, const std::string& why) {
+  return info.path + ": " + why +
+         ", so it is not loaded any more; try it again with \"phasesketch-cli plugins --allow " + info.id +
+         "\" or install another version";
+}
+
 std::string nameOf(const PluginInfo& info) {
   return info.version.empty() ? info.path : "version " + info.version + " in " + info.path;
 }
@@ -72,8 +80,9 @@ std::string nameOf(const PluginInfo& info) {
 // Infos change only by fault(), which another thread may call while somebody reads plugins(): it publishes a changed
 // copy and keeps the old ones, so that references stay good.
 struct PluginRegistry::Impl {
-  explicit Impl(const Options& options) : state(stateDirectory()), quarantine(state) {
+  explicit Impl(const Options& options) : patience(options.patience), state(stateDirectory()), quarantine(state) {
     scan(pluginDirectories(options));
+    if (options.scans) tryUnknown();
     watchForCrashes(quarantine);
     for (auto& [id, list] : candidates) {
       chooseStandard(list);
@@ -92,10 +101,14 @@ struct PluginRegistry::Impl {
 
   void scan(const std::vector<PluginDirectory>& directories);
   void read(const std::string& path, size_t directory, bool own);
+  void tryUnknown();
+  void note(const PluginInfo& info, const ScanVerdict& verdict);
   void chooseStandard(const std::vector<Candidate>& list);
   void loadBest(std::vector<Candidate>& list);
   bool load(Candidate& candidate);
   void markFault(const std::string& id, const std::string& message);
+  void publish(const std::string& id, PluginInfo::State from, PluginInfo::State to,
+               const std::function<std::string(const PluginInfo&)>& problem);
   const LoadedPlugin* get(const std::string& id) const {
     const std::lock_guard lock(mutex);
     const auto it = loaded.find(id);
@@ -105,6 +118,7 @@ struct PluginRegistry::Impl {
   void offerMaterials();
 
   std::shared_ptr<InstalledMaterials> installed = std::make_shared<InstalledMaterials>();
+  const double patience;
   std::string state;
   Quarantine quarantine;
   std::map<std::string, std::vector<Candidate>> candidates;
@@ -163,6 +177,27 @@ void PluginRegistry::Impl::read(const std::string& path, size_t directory, bool 
   same.push_back(std::move(candidate));
 }
 
+/// Those that are not known to be sound.
+void PluginRegistry::Impl::tryUnknown() {
+  std::vector<const PluginInfo*> unknown;
+  std::vector<std::string> paths;
+  for (const auto& [id, list] : candidates) {
+    for (const Candidate& candidate : list) {
+      const PluginInfo& info = candidate.info;
+      if (info.json || quarantine.knows(info.id, info.path) || !quarantine.why(info.id, info.path).empty()) continue;
+      unknown.push_back(&info);
+      paths.push_back(info.path);
+    }
+  }
+  const std::vector<ScanVerdict> verdicts = scanPlugins(paths, patience);
+  for (size_t i = 0; i < unknown.size(); ++i) note(*unknown[i], verdicts[i]);
+}
+
+void PluginRegistry::Impl::note(const PluginInfo& info, const ScanVerdict& verdict) {
+  if (verdict.kind == ScanVerdict::Kind::CameBack) quarantine.cameBack(info.id, info.path);
+  if (verdict.kind == ScanVerdict::Kind::Failed) quarantine.accuse(info.id, info.path, verdict.why);
+}
+
 void PluginRegistry::Impl::chooseStandard(const std::vector<Candidate>& list) {
   for (const Candidate& candidate : list) {
     if (!candidate.info.standard) continue;
@@ -193,16 +228,16 @@ bool PluginRegistry::Impl::load(Candidate& candidate) {
   LoadedPlugin plugin;
   if (info.json) {
     plugin.material = std::move(candidate.material);
-  } else if (quarantine.holds(info.id, info.path)) {
+  } else if (const std::string why = quarantine.why(info.id, info.path); !why.empty()) {
     info.state = PluginInfo::State::Quarantined;
-    info.problem = info.path +
-                   ": it crashed the program, or did not come back to it, so it is not loaded any more; allow it again "
-                   "with \"phasesketch-cli plugins --allow " +
-                   info.id + "\" or install another version";
+    info.problem = quarantined(info, why);
     return false;
   } else {
-    const LoadingLock lock(state, info.id, info.path);
-    plugin = loadLibrary(info, installed);
+    {
+      const LoadingLock lock(state, info.id, info.path);
+      plugin = loadLibrary(info, installed);
+    }
+    if (!quarantine.knows(info.id, info.path)) quarantine.cameBack(info.id, info.path);
   }
   if (!info.problem.empty()) return false;
   loaded[info.id] = std::move(plugin);
@@ -219,12 +254,20 @@ void PluginRegistry::Impl::offerMaterials() {
 void PluginRegistry::Impl::markFault(const std::string& id, const std::string& message) {
   const std::lock_guard lock(mutex);
   if (!loaded.contains(id) || !faulted.emplace(id, message).second) return;
+  publish(id, PluginInfo::State::Loaded, PluginInfo::State::Refused, [&](const PluginInfo& info) {
+    return info.path + ": it failed while it ran: " + oneLine(message) +
+           "; it is left out until the program starts again, " + whomToTell(info);
+  });
+}
+
+/// Under the lock: the state and the problem of those of an id that have the state `from`.
+void PluginRegistry::Impl::publish(const std::string& id, PluginInfo::State from, PluginInfo::State to,
+                                   const std::function<std::string(const PluginInfo&)>& problem) {
   auto changed = std::make_unique<std::vector<PluginInfo>>(*generations.back());
   for (PluginInfo& info : *changed) {
-    if (info.id != id || info.state != PluginInfo::State::Loaded) continue;
-    info.state = PluginInfo::State::Refused;
-    info.problem = info.path + ": it failed while it ran: " + oneLine(message) +
-                   "; it is left out until the program starts again, " + whomToTell(info);
+    if (info.id != id || info.state != from) continue;
+    info.state = to;
+    info.problem = problem(info);
   }
   generations.push_back(std::move(changed));
 }
@@ -316,9 +359,29 @@ Material PluginRegistry::evaluated(const std::string& id, const std::vector<doub
 
 void PluginRegistry::fault(const std::string& id, const std::string& message) { m->markFault(id, message); }
 
-bool PluginRegistry::allow(const std::string& id) {
+PluginRegistry::SecondTry PluginRegistry::tryAgain(const std::string& id) {
+  using State = PluginInfo::State;
+  SecondTry result;
+  std::vector<PluginInfo> held;
+  {
+    const std::lock_guard lock(m->mutex);
+    for (const PluginInfo& info : *m->generations.back())
+      if (info.id == id && info.state == State::Quarantined) held.push_back(info);
+    result.known = m->quarantine.allow(id);
+  }
+  for (const PluginInfo& info : held) {
+    const ScanVerdict verdict = scanPlugins({info.path}, m->patience).front();
+    const std::lock_guard lock(m->mutex);
+    m->note(info, verdict);
+    if (verdict.kind == ScanVerdict::Kind::Failed) result.problem = quarantined(info, verdict.why);
+  }
   const std::lock_guard lock(m->mutex);
-  return m->quarantine.allow(id);
+  const State now = result.problem.empty() ? State::Refused : State::Quarantined;
+  m->publish(id, State::Quarantined, now, [&](const PluginInfo& info) {
+    return result.problem.empty() ? info.path + ": it is allowed again, and loaded when the program starts again"
+                                  : result.problem;
+  });
+  return result;
 }
 
 }  // namespace ps

@@ -44,8 +44,9 @@ class PluginError : public Error {
 /// Finds plugins in the build tree or the install prefix, the user's data directory, extraPaths and
 /// PHASESKETCH_PLUGIN_PATH (in rising order of precedence), reads their metadata before any code is loaded, and loads
 /// what is sound. Broken ones are listed with the reason; the rest works. Of several with one id the last one that
-/// works is used. A plugin that takes the program down while it is loaded is found in its lock file at the next start
-/// and put into quarantine, until its file changes or allow() is called.
+/// works is used. A plugin that was not loaded before, or at whose loading a program ended, is loaded in a process of
+/// its own first (pluginscan.h); one that crashes there, or does not come back, is in quarantine until its file changes
+/// or tryAgain() is called. So is one at whose loading the program itself ended twice in a row.
 ///
 /// The constructor is the only part that loads code; it needs no QCoreApplication. All other functions may be called
 /// from any thread. Plugin objects live as long as the process, references from plugins() and pointers to materials as
@@ -57,6 +58,8 @@ class PluginRegistry {
     bool builtIn = true;                  ///< build tree or install prefix
     bool userDirectory = true;
     bool environment = true;
+    bool scans = true;     ///< false: plugins are loaded untried
+    double patience = 10;  ///< s that a plugin may take to be tried
   };
   explicit PluginRegistry(const Options& options);
   PluginRegistry();
@@ -90,8 +93,13 @@ class PluginRegistry {
   Material evaluated(const std::string& id, const std::vector<double>& parameters) const;
   /// A plugin threw while running: refuses it from now on, and says so in plugins(). Its object stays valid.
   void fault(const std::string& id, const std::string& message);
-  /// Takes a plugin out of quarantine; it is loaded at the next start. False when none of that id was there.
-  bool allow(const std::string& id);
+  /// Takes a plugin out of quarantine, to be loaded at the next start, unless it fails again in a process of its own:
+  /// what stands in `problem` then is its sentence, and it stays. Takes as long as the plugin, and `patience` at most.
+  struct SecondTry {
+    bool known = false;   ///< one of that id was in quarantine
+    std::string problem;  ///< "" when it came back
+  };
+  SecondTry tryAgain(const std::string& id);
 
  private:
   struct Impl;

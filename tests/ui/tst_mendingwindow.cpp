@@ -2,6 +2,7 @@
 // Values that cannot be, in the document and in the window: what is refused leaves the document, and a project of which
 // no scene can be made opens to be mended.
 #include "core/io/projectio.h"
+#include "core/plugin_host/pluginscan.h"
 #include "core/plugin_host/registry.h"
 #include "core/simulation/engine.h"
 #include "core/simulation/enginethread.h"
@@ -9,8 +10,10 @@
 #include "tests/ui/samplewindow.h"
 #include "ui/document/declared.h"
 #include "ui/panels/inspector.h"
+#include "ui/panels/pluginpage.h"
 #include "ui/rows/parameterpanel.h"
 #include "ui/session/documentfiles.h"
+#include "ui/session/messagelog.h"
 #include "ui/session/scenelink.h"
 #include "ui/session/worker.h"
 #include "ui/window/dock.h"
@@ -21,6 +24,7 @@
 #include <QtCore/QTemporaryDir>
 #include <QtWidgets/QPushButton>
 
+#include <algorithm>
 #include <chrono>
 #include <clocale>
 #include <thread>
@@ -170,6 +174,53 @@ class TestMendingWindow : public SampleWindowTest {
     QTRY_COMPARE_WITH_TIMEOUT(floorTemperature(), 302.0, kLong);
   }
 
+  /// Beside the sentence about a plugin in quarantine: what still crashes stays there, what comes back is allowed.
+  void aPluginIsTriedAgain() {
+    const QTemporaryDir folder, home;
+    const QString file = folder.filePath(QStringLiteral("aborting.so"));
+    QVERIFY(QFile::copy(qEnvironmentVariable("PS_FIXTURE_DIR") + QStringLiteral("/fixture_material.so"), file));
+    const QByteArray before = qgetenv("XDG_STATE_HOME");
+    qputenv("XDG_STATE_HOME", home.path().toUtf8());
+    const std::unique_ptr<MainWindow> window = sampleWindow({1280, 800}, {folder.path().toStdString()});
+    QVERIFY(window);
+    PluginPage& page = *window->pluginPage();
+    const PluginRegistry& plugins = *window->session().plugins();
+    const auto state = [&] {
+      const auto& all = plugins.plugins();
+      return std::find_if(all.begin(), all.end(), [](const auto& info) { return info.id == "fixture.material"; })
+          ->state;
+    };
+    QCOMPARE(state(), PluginInfo::State::Quarantined);
+    page.select("bonds");
+    QPushButton* button = nullptr;
+    for (QPushButton* one : page.findChildren<QPushButton*>())
+      if (one->text() == QStringLiteral("Try again")) button = one;
+    QVERIFY(button && button->isHidden());
+    page.select("fixture.material");
+    QVERIFY(!button->isHidden());
+    const auto messages = [&] { return window->session().log().messages().size(); };
+    size_t told = messages();
+    button->click();
+    QVERIFY(!button->isEnabled());
+    QTRY_VERIFY_WITH_TIMEOUT(messages() > told && button->isEnabled(), kLong);
+    QCOMPARE(state(), PluginInfo::State::Quarantined);
+    qputenv("PS_LET_GO", "1");
+    told = messages();
+    button->click();
+    QTRY_VERIFY_WITH_TIMEOUT(messages() > told, kLong);
+    qunsetenv("PS_LET_GO");
+    QCOMPARE(state(), PluginInfo::State::Refused);
+    QVERIFY(button->isHidden());
+    QCOMPARE(window->session().log().messages().back().level, MessageLevel::Ok);
+    PluginRegistry::Options options;
+    options.extraPaths = {folder.path().toStdString()};
+    qputenv("PS_LET_GO", "1");
+    const bool loaded = PluginRegistry(options).has("fixture.material");
+    qunsetenv("PS_LET_GO");
+    qputenv("XDG_STATE_HOME", before);
+    QVERIFY(loaded);
+  }
+
   void aPluginThatDoesNotComeBackIsNamed() {
     const QString words = pluginLabel(session().plugins(), "bonds") + QStringLiteral("” does not come back");
     const auto says = [&] { return m_window->statusLine()->parts().front().contains(words); };
@@ -223,6 +274,7 @@ class TestMendingWindow : public SampleWindowTest {
 };
 
 int main(int argc, char** argv) {
+  servePluginScans(argc, argv);
   requestViewFormat();
   QApplication application(argc, argv);
   std::setlocale(LC_NUMERIC, "C");

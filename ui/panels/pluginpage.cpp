@@ -3,12 +3,15 @@
 
 #include "core/plugin_host/registry.h"
 #include "core/simulation/enginethread.h"
+#include "ui/session/messagelog.h"
 #include "ui/session/session.h"
+#include "ui/session/worker.h"
 #include "ui/theme/icon.h"
 #include "ui/theme/theme.h"
 
 #include <QtCore/QDir>
 #include <QtCore/QEvent>
+#include <QtCore/QPointer>
 #include <QtGui/QClipboard>
 #include <QtGui/QGuiApplication>
 #include <QtGui/QPainter>
@@ -53,11 +56,13 @@ QString stateText(const PluginInfo& plugin) {
 
 PluginPage::PluginPage(Session& session, QWidget* parent)
     : QWidget(parent),
+      m_session(session),
       m_model(new QStandardItemModel(this)),
       m_view(new QTreeView),
       m_summary(new QLabel),
       m_details(new QLabel),
-      m_filter(new QLineEdit) {
+      m_filter(new QLineEdit),
+      m_again(new QPushButton) {
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(16, 12, 16, 12);
   column->setSpacing(10);
@@ -94,7 +99,14 @@ PluginPage::PluginPage(Session& session, QWidget* parent)
   m_details->setTextInteractionFlags(Qt::TextSelectableByMouse);
   m_details->setMinimumHeight(110);
   m_details->setAlignment(Qt::AlignTop | Qt::AlignLeft);
-  column->addWidget(m_details);
+  auto* foot = new QHBoxLayout;
+  foot->setSpacing(16);
+  foot->addWidget(m_details, 1);
+  foot->addWidget(m_again, 0, Qt::AlignTop);
+  column->addLayout(foot);
+  m_again->setToolTip(QStringLiteral("Loads it in a process of its own, which it may take down, and allows it again"));
+  m_again->hide();
+  connect(m_again, &QPushButton::clicked, this, &PluginPage::tryAgain);
   connect(m_view->selectionModel(), &QItemSelectionModel::currentRowChanged, this, &PluginPage::showDetails);
   connect(&session, &Session::ready, this, [this, &session] {
     m_registry = session.plugins();
@@ -165,14 +177,15 @@ void PluginPage::select(const std::string& id) {
 }
 
 void PluginPage::showDetails() {
-  const QModelIndex index = m_view->currentIndex();
-  const QStandardItem* item = index.isValid() ? m_model->item(index.row()) : nullptr;
-  const auto i = item ? static_cast<size_t>(item->data(kId).toInt()) : 0;
-  if (!item || !m_registry || i >= m_registry->plugins().size()) {
+  const PluginInfo* shown = pluginAt(m_view->currentIndex());
+  m_again->setVisible(shown && shown->state == PluginInfo::State::Quarantined);
+  m_again->setEnabled(!m_trying);
+  m_again->setText(m_trying ? QStringLiteral("Trying…") : QStringLiteral("Try again"));
+  if (!shown) {
     m_details->clear();
     return;
   }
-  const PluginInfo& plugin = m_registry->plugins()[i];
+  const PluginInfo& plugin = *shown;
   const auto text = [](const std::string& s) { return QString::fromStdString(s).toHtmlEscaped(); };
   QString html = QStringLiteral("<b>%1</b>").arg(nameOf(plugin).toHtmlEscaped());
   if (!plugin.author.empty()) html += QStringLiteral(" · by ") + text(plugin.author);
@@ -187,6 +200,35 @@ void PluginPage::showDetails() {
                                        plugin.id.empty() ? QString() : text(plugin.id) + QStringLiteral(" · "),
                                        text(plugin.path));
   m_details->setText(html);
+}
+
+const PluginInfo* PluginPage::pluginAt(const QModelIndex& index) const {
+  const QStandardItem* item = index.isValid() ? m_model->item(index.row()) : nullptr;
+  const auto i = item ? static_cast<size_t>(item->data(kId).toInt()) : 0;
+  return item && m_registry && i < m_registry->plugins().size() ? &m_registry->plugins()[i] : nullptr;
+}
+
+/// It may take as long as a plugin may; the window goes on meanwhile, or may be gone.
+void PluginPage::tryAgain() {
+  const PluginInfo* shown = pluginAt(m_view->currentIndex());
+  if (!shown || m_trying) return;
+  m_trying = true;
+  showDetails();
+  m_session.worker().run([&session = m_session, page = QPointer<PluginPage>(this), id = shown->id] {
+    const QString problem = QString::fromStdString(session.plugins()->tryAgain(id).problem);
+    QMetaObject::invokeMethod(&session, [&session, page, id, problem] {
+      const QString name = QStringLiteral("Plugin ") + QString::fromStdString(id);
+      if (problem.isEmpty())
+        session.log().add(MessageLevel::Ok, name,
+                          QStringLiteral("It came back: it is loaded when the program starts again."));
+      else
+        session.log().add(MessageLevel::Warning, name, problem);
+      if (!page) return;
+      page->m_trying = false;
+      page->refresh();
+      page->select(id);
+    });
+  });
 }
 
 void PluginPage::filter(const QString& wanted) {

@@ -7,12 +7,15 @@
 
 class QLabel;
 class QLineEdit;
+class QModelIndex;
+class QPushButton;
 class QStandardItemModel;
 class QTreeView;
 
 namespace ps {
 
 class PluginRegistry;
+struct PluginInfo;
 class Session;
 
 /// All plugins found, loaded or not: name, kind, version, API, licence, place, state, and what is wrong and what to do.
@@ -35,12 +38,18 @@ class PluginPage : public QWidget {
 
  private:
   void showDetails();
+  /// What the list has in this row; nullptr: nothing there.
+  const PluginInfo* pluginAt(const QModelIndex& index) const;
+  void tryAgain();
   void filter(const QString& text);
+  Session& m_session;
   PluginRegistry* m_registry = nullptr;  ///< while plugins are being loaded
   QStandardItemModel* m_model;
   QTreeView* m_view;
   QLabel *m_summary, *m_details;
   QLineEdit* m_filter;
+  QPushButton* m_again;
+  bool m_trying = false;  ///< in a process of its own
 };
 
 }  // namespace ps
