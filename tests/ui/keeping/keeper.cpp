@@ -4,6 +4,7 @@
 // says.
 //   keeper FOLDER once       three edits: kept, saved, kept; then it is gone as by a crash
 //   keeper FOLDER loop       edits and saves until it is killed
+#include "core/plugin_host/pluginscan.h"
 #include "tests/ui/desk.h"
 #include "tests/ui/keeping/edits.h"
 
@@ -102,6 +103,7 @@ class Keeper : public QObject {
 }  // namespace
 
 int main(int argc, char** argv) {
+  servePluginScans(argc, argv);
   QCoreApplication application(argc, argv);
   const QStringList arguments = QCoreApplication::arguments();
   if (arguments.size() != 3) return 2;
