@@ -2,7 +2,9 @@
 #include "app/cli/framesink.h"
 
 #include "core/base/error.h"
+#include "core/io/outputfile.h"
 
+#include <QBuffer>
 #include <QImage>
 
 #include <cerrno>
@@ -33,9 +35,13 @@ class PngFolder final : public FrameSink {
     std::snprintf(name, sizeof name, "frame-%06ld.png", frame);
     const std::string path = (std::filesystem::path(m_folder) / name).string();
     const QImage image(pixels.data(), m_width, m_height, 4 * m_width, QImage::Format_RGBA8888);
-    if (!image.convertToFormat(QImage::Format_RGB888).save(QString::fromStdString(path), "PNG")) {
-      throw Error(path + ": cannot be written; the disk is full or the folder is read-only");
+    QByteArray bytes;
+    QBuffer buffer(&bytes);
+    buffer.open(QIODevice::WriteOnly);
+    if (!image.convertToFormat(QImage::Format_RGB888).save(&buffer, "PNG")) {
+      throw Error(path + ": the picture could not be made; choose a smaller size");
     }
+    writeFileAtomically(path, {bytes.constData(), static_cast<size_t>(bytes.size())});
   }
   void finish() override {}
 

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/editor/picture.h"
 
+#include "core/base/error.h"
+#include "core/io/outputfile.h"
 #include "ui/window/mainwindow.h"
 #include "ui/window/screenshot.h"
 
+#include <QtCore/QBuffer>
 #include <QtCore/QCoreApplication>
 #include <QtCore/QTimer>
 
@@ -24,9 +27,17 @@ PictureByCommand::PictureByCommand(MainWindow& window, const QString& file, doub
 }
 
 void PictureByCommand::capture() {
-  const bool good = windowImage(m_window).save(m_file, "PNG");
-  if (!good) std::fprintf(stderr, "phasesketch: %s: cannot be written\n", qPrintable(m_file));
-  QCoreApplication::exit(good ? 0 : 1);
+  QByteArray bytes;
+  QBuffer buffer(&bytes);
+  buffer.open(QIODevice::WriteOnly);
+  windowImage(m_window).save(&buffer, "PNG");
+  try {
+    writeFileAtomically(m_file.toStdString(), {bytes.constData(), static_cast<size_t>(bytes.size())});
+    QCoreApplication::exit(0);
+  } catch (const Error& problem) {
+    std::fprintf(stderr, "phasesketch: %s\n", problem.what());
+    QCoreApplication::exit(1);
+  }
 }
 
 }  // namespace ps

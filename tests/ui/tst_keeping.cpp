@@ -5,6 +5,7 @@
 #include "tests/ui/desk.h"
 #include "tests/ui/keeping/edits.h"
 
+#include <QtCore/QJsonDocument>
 #include <QtCore/QProcess>
 #include <QtTest/QSignalSpy>
 
@@ -24,6 +25,11 @@ const QString kCli = QStringLiteral(PS_BINARY_DIR "/bin/phasesketch-cli");
 QByteArray read(const QString& path) {
   QFile in(path);
   return in.open(QIODevice::ReadOnly) ? in.readAll() : QByteArray();
+}
+
+void write(const QString& path, const QByteArray& bytes) {
+  QFile file(path);
+  QVERIFY(file.open(QIODevice::WriteOnly) && file.write(bytes) == bytes.size());
 }
 
 /// The highest K of lines "WORD K"; -1 where there is none.
@@ -136,31 +142,54 @@ class TestKeeping : public QObject {
     QVERIFY2(calls > 15, qPrintable(QString::number(calls)));
   }
 
-  /// The command line: the old project, or the new one whole; and exit code 0 only for the latter.
-  void everyCallOfTheCommandLineMayFail_data() { everyCallMayFail_data(); }
+  /// The command line, whatever it writes: the old file, or the new one whole; and exit code 0 only for the latter.
+  /// What else is left is named in the message.
+  void everyCallOfTheCommandLineMayFail_data() {
+    QTest::addColumn<QString>("output");
+    QTest::addColumn<int>("code");
+    for (const char* output : {"--save-project", "--save-state", "--report", "--probes", "--record", "pictures"}) {
+      QTest::addRow("%s, full disk", output) << output << ENOSPC;
+      QTest::addRow("%s, broken disk", output) << output << EIO;
+      QTest::addRow("%s, folder read-only", output) << output << EACCES;
+    }
+  }
   void everyCallOfTheCommandLineMayFail() {
+    QFETCH(QString, output);
     QFETCH(int, code);
-    const QString out = m_directory->filePath(QStringLiteral("out.json"));
+    const bool pictures = output == QLatin1String("pictures");
+    const QDir folder(m_directory->filePath(QStringLiteral("out")));
+    QVERIFY(folder.mkpath(QStringLiteral(".")));
+    const QString out = folder.filePath(pictures ? QStringLiteral("frame-000000.png") : QStringLiteral("result"));
+    const QStringList arguments =
+        QStringList{pictures ? QStringLiteral("render") : QStringLiteral("simulate"), scene()} +
+        (pictures
+             ? QStringList{QStringLiteral("--out"), folder.path(), QStringLiteral("--size"), QStringLiteral("64x48")}
+             : QStringList{output, out}) +
+        QStringList{QStringLiteral("--frames"), QStringLiteral("1"), QStringLiteral("--quiet")};
+    QCOMPARE(QProcess::execute(kCli, arguments), 0);
+    const QByteArray whole = read(out), before = "what stood there";
     int calls = 0;
     for (bool failed = true; failed; ++calls) {
       QFile::remove(mark());
-      QFile::remove(out);
-      QVERIFY(QFile::copy(scene(), out));
-      const QByteArray before = read(out);
+      write(out, before);
       QProcess program;
-      program.setProcessEnvironment(failingAt(calls + 1, code, m_directory->path(), mark()));
-      program.start(kCli, {QStringLiteral("simulate"), scene(), QStringLiteral("--frames"), QStringLiteral("1"),
-                           QStringLiteral("--quiet"), QStringLiteral("--save-project"), out});
+      program.setProcessEnvironment(failingAt(calls + 1, code, folder.path(), mark()));
+      program.start(kCli, arguments);
       QVERIFY(program.waitForFinished(60000));
       const QByteArray said = program.readAllStandardError();
       failed = QFile::exists(mark());
       if (program.exitCode() == 0) {
-        QVERIFY(read(out) != before);
-        QVERIFY(loadProject(out.toStdString(), *m_plugins).project.state);
+        // A report tells how long the run took.
+        QVERIFY(output == QLatin1String("--report") ? QJsonDocument::fromJson(read(out)).isObject()
+                                                    : read(out) == whole);
       } else {
-        QVERIFY(failed);
+        QVERIFY2(failed, said.constData());
         QCOMPARE(read(out), before);
         QVERIFY2(said.contains("not saved"), said.constData());
+      }
+      for (const QString& left : folder.entryList({QStringLiteral("*.part-*")}, QDir::Files)) {
+        QVERIFY2(said.contains(left.toUtf8()), qPrintable(left + QStringLiteral(": ") + QString::fromUtf8(said)));
+        QVERIFY(QFile::remove(folder.filePath(left)));
       }
     }
     QVERIFY2(calls > 4, qPrintable(QString::number(calls)));
