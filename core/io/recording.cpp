@@ -164,7 +164,11 @@ std::shared_ptr<Snapshot> unpackFrame(const std::string& bytes, const std::strin
   unpacker.array(s->material, n);
   for (auto fields = unpacker.value<uint32_t>(); fields > 0; --fields) s->fields.push_back(unpackField(unpacker, n));
   unpacker.finish();
+  const auto drawable = [](const api::Float4& p) {
+    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z) && std::isfinite(p.w) && p.w >= 0;
+  };
   for (size_t i = 0; i < n; ++i) {
+    if (!drawable(s->position[i])) unpacker.fail();
     if (s->phase[i] > api::Phase::Gas || s->motion[i] > api::Motion::Static) unpacker.fail();
     if (s->material[i] >= colours) unpacker.fail();
   }

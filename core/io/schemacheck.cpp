@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <limits>
+#include <map>
 #include <regex>
 
 namespace ps {
@@ -33,6 +34,13 @@ std::string typeName(const std::string& type) {
   if (type == "array") return "a list";
   if (type == "object") return "an object in { }";
   return "a number";
+}
+
+/// Patterns are compiled once: that takes longer than all else of a small project.
+bool matches(const std::string& pattern, const std::string& text) {
+  static thread_local std::map<std::string, std::regex> compiled;  // as many as the schema has
+  const auto known = compiled.try_emplace(pattern, pattern).first;
+  return std::regex_match(text, known->second);
 }
 
 class Checker {
@@ -108,7 +116,7 @@ class Checker {
     if (value.size() > schema.value("maxLength", size_t{1'000'000})) fail(pointer, "is too long a text");
     const auto pattern = schema.find("pattern");
     if (pattern == schema.end()) return;
-    if (!std::regex_match(value, std::regex(pattern->get<std::string>()))) {
+    if (!matches(pattern->get_ref<const std::string&>(), value)) {
       fail(pointer, "must be a name of letters, digits, '_', '.' and '-', not " + jsonInWords(value));
     }
   }

@@ -9,6 +9,7 @@
 #include <QTest>
 
 #include <cstring>
+#include <limits>
 
 using namespace ps;
 
@@ -19,6 +20,7 @@ class TestRecording : public QObject {
   void framesReadBack();
   void cutOffRecordingsKeepTheirFrames();
   void damagedFramesAreRefused();
+  void framesThatCannotBeDrawnAreRefused();
   void everyBitOfTheHeaderIsGuarded();
   void brokenHeadersAreRefused_data();
   void brokenHeadersAreRefused();
@@ -134,6 +136,23 @@ void TestRecording::damagedFramesAreRefused() {
     QFAIL("a damaged frame was read");
   } catch (const InputError& error) {
     QVERIFY2(QString(error.what()).contains("frame 2: the bytes are not what was written"), error.what());
+  }
+}
+
+/// Packed and signed by whoever likes to.
+void TestRecording::framesThatCannotBeDrawnAreRefused() {
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kEndless = std::numeric_limits<float>::infinity();
+  QTemporaryDir folder;
+  const std::string path = folder.filePath("run.psrec").toStdString();
+  for (const api::Float4& bad :
+       {api::Float4{kNan, 0, 0, 1}, {0, kEndless, 0, 1}, {0, 0, -kEndless, 1}, {0, 0, 0, kNan}, {0, 0, 0, -1}}) {
+    Snapshot s = snapshotOf(0);
+    s.position[7] = bad;
+    RecordingWriter writer(path, scenes::iceOnPlate(2, 400));
+    writer.add(s);
+    writer.finish();
+    RecordingReader reader(path);
+    QVERIFY_EXCEPTION_THROWN(reader.frame(0), InputError);
   }
 }
 

@@ -21,14 +21,12 @@ constexpr float kCell = 2;  // pixels
 
 size_t exposedFirst(const Extent& extent, float radius, float cell, int full, std::vector<Instance>& list) {
   constexpr double kMost = 1u << 22;
+  if (list.size() < 1000) return list.size();
+  std::array<double, 3> counts{};
+  for (size_t k = 0; k < 3; ++k) counts[k] = (double{extent.maximum[k]} - double{extent.minimum[k]}) / cell + 3;
+  if (!(counts[0] * counts[1] * counts[2] <= kMost)) return list.size();
   std::array<size_t, 3> cells{};
-  double total = 1;
-  for (size_t k = 0; k < 3; ++k) {
-    const float count = (extent.maximum[k] - extent.minimum[k]) / cell + 3;
-    total *= static_cast<double>(count);
-    cells[k] = static_cast<size_t>(std::min(count, 1e6f));
-  }
-  if (list.size() < 1000 || total > kMost) return list.size();
+  std::transform(counts.begin(), counts.end(), cells.begin(), [](double count) { return static_cast<size_t>(count); });
   const auto cellOf = [&](const Instance& p) {
     const auto along = [&](float v, size_t k) { return static_cast<size_t>((v - extent.minimum[k]) / cell) + 1; };
     return (along(p.z, 2) * cells[1] + along(p.y, 1)) * cells[0] + along(p.x, 0);
