@@ -105,26 +105,30 @@ class RigidBody {
   }
   Quaternion rotationOf(const Fit& fit) const { return constraint::rotationOf(fit.moments, m_rotation); }
 
-  /// Inverse of the inertia in the undeformed frame; applied in the world's by inverseInertia(). Places are stored in
-  /// single precision: below 1e-5 of their distance from the origin there is no shape, as in a body of one grain, only
-  /// rounding, which must not be taken for an inertia.
-  Matrix restInverseInertia() const {
+  /// Inertia in the undeformed frame, kg m2; applied in the world's by turned().
+  Matrix restInertia() const {
     Matrix inertia;
-    double farthest2 = 0;
     const double scale2 = m_scale * m_scale;
     for (size_t k = m_first; k < m_last; ++k) {
-      const Vector r = rest(k), from = restPlace(k);
+      const Vector r = rest(k);
       const double m = scale2 * mass(k), r2 = dot(r, r);
-      farthest2 = std::max(farthest2, dot(from, from));
       addOuter(inertia, -m, r, r);
       inertia.row[0].x += m * r2, inertia.row[1].y += m * r2, inertia.row[2].z += m * r2;
     }
-    return pseudoInverse(inertia, 1e-10 * scale2 * m_mass * farthest2);
+    return inertia;
   }
-  /// I^-1 L at an orientation.
-  static Vector turned(const Matrix& restInverse, Quaternion rotation, Vector momentum) {
+  /// Its inverse. Places are stored in single precision: below 1e-5 of their distance from the origin there is no
+  /// shape, as in a body of one grain, only rounding, which must not be taken for an inertia.
+  Matrix inverseOf(const Matrix& restInertia) const {
+    double farthest2 = 0;
+    for (size_t k = m_first; k < m_last; ++k) farthest2 = std::max(farthest2, dot(restPlace(k), restPlace(k)));
+    return pseudoInverse(restInertia, 1e-10 * m_scale * m_scale * m_mass * farthest2);
+  }
+  Matrix restInverseInertia() const { return inverseOf(restInertia()); }
+  /// A matrix of the undeformed frame times a vector of the world's, at an orientation: I w or I^-1 L.
+  static Vector turned(const Matrix& rest, Quaternion rotation, Vector vector) {
     const Matrix r = matrixOf(rotation);
-    return r * (restInverse * transposedTimes(r, momentum));
+    return r * (rest * transposedTimes(r, vector));
   }
 
  private:
