@@ -189,6 +189,99 @@ class TestRigidContact : public QObject {
     QVERIFY(after.energy < before.energy * 1.001);
   }
 
+  /// Without friction a floor does not take a body's spin, however often it bears it.
+  void spinStaysOnASmoothFloor_data() {
+    QTest::addColumn<int>("substeps");
+    for (const int substeps : {4, 16}) QTest::addRow("%d substeps", substeps) << substeps;
+  }
+  void spinStaysOnASmoothFloor() {
+    QFETCH(int, substeps);
+    Solver solver;
+    SolverSettings settings = settingsOf(0.02);
+    settings.substeps = substeps;
+    prepare(solver, settings, matter(0, 0, 0.3));
+    solver.setWalls(plane(0));
+    spawnTurning(solver, lattice(5, 3, 4, 0.02, 0), {0, 0, 0}, {0, 4, 0}, 0);
+    const double before = sumsOf(solver).angular.y();
+    QVERIFY(run(solver, 120));
+    QVERIFY2(std::abs(sumsOf(solver).angular.y() / before - 1) < 1e-3,
+             qPrintable(QString::number(sumsOf(solver).angular.y() / before)));
+  }
+
+  /// Bodies of several shapes in a closed box: walls and each other give back what restitution says, and never more.
+  void boxOfBodiesNeverGainsEnergy_data() {
+    QTest::addColumn<double>("restitution");
+    QTest::addColumn<double>("friction");
+    QTest::addColumn<double>("speed");
+    QTest::addColumn<double>("least");
+    QTest::newRow("elastic") << 1.0 << 0.0 << 1.0 << 0.98;
+    QTest::newRow("elastic and fast") << 1.0 << 0.0 << 4.0 << 0.5;
+    QTest::newRow("elastic and rough") << 1.0 << 0.4 << 1.0 << 0.0;
+    QTest::newRow("nearly elastic") << 0.9 << 0.0 << 1.0 << 0.0;
+    QTest::newRow("wood") << 0.5 << 0.3 << 2.0 << 0.0;
+  }
+  void boxOfBodiesNeverGainsEnergy() {
+    QFETCH(double, restitution);
+    QFETCH(double, friction);
+    QFETCH(double, speed);
+    QFETCH(double, least);
+    Solver solver;
+    SolverSettings settings = settingsOf(0.02);
+    settings.gravity = {0, 0, 0};
+    prepare(solver, settings, matter(friction, friction, restitution));
+    std::vector<ps::Wall> walls(6);
+    for (size_t k = 0; k < 6; ++k) {
+      const double side = k % 2 == 0 ? 1 : -1;
+      walls[k].normal = {k / 2 == 0 ? side : 0.0, k / 2 == 1 ? side : 0.0, k / 2 == 2 ? side : 0.0};
+      walls[k].offset = -0.3;
+      walls[k].friction = friction;
+    }
+    solver.setWalls(walls);
+    const Vector3 v = speed * Vector3(1, 0.4, 0.3), w = speed * Vector3(3, -2, 5);
+    spawnTurning(solver, moved(lattice(6, 2, 4, 0.02, 0.05), {-0.1, 0, 0.05}), v, w, 0);
+    spawnTurning(solver, moved(lattice(3, 3, 3, 0.02, -0.15), {0.1, 0, -0.1}), -v, w, 1);
+    spawnTurning(solver, moved(lattice(2, 7, 2, 0.02, -0.1), {0, 0, 0.15}), {0, speed, 0}, -w, 2);
+    const double before = sumsOf(solver).energy;
+    double most = 0;
+    for (int f = 0; f < 600; ++f) {
+      QCOMPARE(solver.step().flags, 0u);
+      most = std::max(most, sumsOf(solver).energy);
+    }
+    // Free turns are stepped by 0.1 rad, which leaves some 0.3 % in 10 s.
+    QVERIFY2(most < 1.01 * before, qPrintable(QString::number(most / before)));
+    QVERIFY2(sumsOf(solver).energy > least * before, qPrintable(QString::number(sumsOf(solver).energy / before)));
+  }
+
+  /// Two bodies that meet off centre, in free space: what one loses of each momentum the other has. What does not part
+  /// again goes on sliding, and projection moves the two apart without the way that belongs to it: 1.5 %.
+  void obliqueCollisionKeepsAngularMomentum_data() {
+    QTest::addColumn<double>("friction");
+    QTest::addColumn<double>("restitution");
+    for (const double friction : {0.0, 0.5}) {
+      for (const double restitution : {0.0, 0.6, 1.0})
+        QTest::addRow("friction %g, restitution %g", friction, restitution) << friction << restitution;
+    }
+  }
+  void obliqueCollisionKeepsAngularMomentum() {
+    QFETCH(double, friction);
+    QFETCH(double, restitution);
+    Solver solver;
+    SolverSettings settings = settingsOf(0.02);
+    settings.gravity = {0, 0, 0};
+    prepare(solver, settings, matter(friction, friction, restitution));
+    spawnTurning(solver, lattice(5, 4, 5, 0.02, 0), {2, 0.5, 0}, {0, 3, 1}, 0);
+    spawnTurning(solver, moved(lattice(6, 3, 4, 0.02, 0.05), {0.14, 0, 0.03}), {-1, 0, 0.4}, {-2, 0, 0}, 1);
+    const Sums before = sumsOf(solver), first = sumsOf(solver, 0);
+    QVERIFY(run(solver, 30));
+    const Sums after = sumsOf(solver);
+    QVERIFY2((sumsOf(solver, 0).momentum - first.momentum).norm() > 0.2 * first.momentum.norm(), "they did not meet");
+    QVERIFY2((after.momentum - before.momentum).norm() < 1e-5 * first.momentum.norm(),
+             qPrintable(QString::number((after.momentum - before.momentum).norm() / first.momentum.norm())));
+    QVERIFY2((after.angular - before.angular).norm() < (restitution > 0 ? 0.01 : 0.02) * before.angular.norm(),
+             qPrintable(QString::number((after.angular - before.angular).norm() / before.angular.norm())));
+    QVERIFY2(after.energy < before.energy * 1.001, qPrintable(QString::number(after.energy / before.energy)));
+  }
+
   void bodiesDoNotPassEachOther() {
     Solver solver;
     prepare(solver, settingsOf(0.02));
@@ -231,7 +324,7 @@ class TestRigidContact : public QObject {
     QVERIFY(greatestChange(shape, distances(solver, 1)) < 2e-6);
   }
 
-  /// A press that nothing stops: the wall gives way last, so that nothing is lost.
+  /// A press that nothing stops: it passes, and the wall gives way last, so that nothing is lost.
   void pressedBodyStaysInside() {
     Solver solver;
     prepare(solver, settingsOf(0.02));
@@ -247,12 +340,13 @@ class TestRigidContact : public QObject {
       const ps::StepReport report = solver.step();
       QCOMPARE(report.flags, 0u);
       const ps::MomentumRecord& m = report.momentum;
-      QVERIFY2(std::abs(m.end.y - m.start.y - m.external.y) < 1e-5 * std::abs(m.external.y) + 1e-6,
-               qPrintable(QString::number(m.end.y - m.start.y - m.external.y)));
+      // A place is rounded by 4e-9 m: 8e-7 kg m/s for the whole body in a substep of 4 ms, some thirty times a frame.
+      const double open = m.end.y - m.start.y - m.external.y;
+      QVERIFY2(std::abs(open) < 1e-5 * std::abs(m.external.y) + 5e-6, qPrintable(QString::number(open)));
       lowest = std::min(lowest, motionOf(solver, 1).bottom);
     }
-    // Its lowest particles would lie half a spacing above the wall and may sink in by as much.
-    QVERIFY2(lowest > -1e-4 && lowest < 0.008, qPrintable(QString::number(lowest)));
+    // Its lowest particles lie half a spacing above the wall and may sink in by as much.
+    QVERIFY2(lowest > -1e-4 && lowest < 0.0101, qPrintable(QString::number(lowest)));
     QVERIFY(greatestChange(shape, distances(solver, 1)) < 2e-6);
   }
 
@@ -311,8 +405,13 @@ class TestRigidContact : public QObject {
  private:
   void spawnRigid(Solver& solver, std::vector<ps::api::Double3> points, uint32_t body = 0,
                   const Vector3& velocity = {}) {
+    spawnTurning(solver, std::move(points), velocity, {}, body);
+  }
+
+  void spawnTurning(Solver& solver, std::vector<ps::api::Double3> points, const Vector3& velocity, const Vector3& spin,
+                    uint32_t body) {
     ps::Spawn spawn = ice(std::move(points), solver.addConstraintSet(&m_rigid, "rigid", rigidParameters()));
-    spawn.velocity.assign(spawn.position.size(), ps::double3Of(velocity));
+    spawn.velocity = turning(spawn.position, velocity, spin);
     spawn.body = body;
     solver.spawn(spawn);
   }

@@ -14,6 +14,8 @@ namespace {
 
 /// Distances in spacings. Faces rest at one spacing; round contact as that of other solids.
 constexpr double kFaceDistance = 1, kRoundDistance = 0.95;
+/// How near to a wall the lists look for members: what turns, or is struck, is soon elsewhere.
+constexpr double kWallReach = 4;
 /// A face takes part as far beside a particle as half the diagonal of its lattice's squares reaches.
 constexpr double kFaceWidth = 0.75;
 constexpr double kOwnReach = 1.5;
@@ -32,7 +34,9 @@ void RigidContact::configure(const SolverSettings& settings, const std::vector<W
                              std::span<const BakedMaterial> materials) {
   m_spacing = settings.spacing;
   // Slower than what gravity gives in two substeps nothing bounces, or a body at rest would hop.
-  m_slowest = 2 * vectorOf(settings.gravity).norm() * settings.dt / settings.substeps;
+  m_dt = settings.dt / settings.substeps;
+  m_gravity = vectorOf(settings.gravity);
+  m_slowest = 2 * m_gravity.norm() * m_dt;
   m_planes.clear();
   m_wallFriction.clear();
   for (const Wall& w : walls) {
@@ -178,7 +182,7 @@ void RigidContact::refreshContacts(const ParticleStore& store, const Neighbours&
     if (m_isMember[i] == 0) continue;
     const size_t before = m_contacts.size();
     for (size_t p = 0; p < m_planes.size(); ++p) {
-      if (m_planes[p].heightOf(vectorOf(at[i])) > skin) continue;
+      if (m_planes[p].heightOf(vectorOf(at[i])) > kWallReach * m_spacing) continue;
       addPlane(store, i, p);
     }
     for (uint32_t q = view.begin[i]; q < view.last[i]; ++q) {

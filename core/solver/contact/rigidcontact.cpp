@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/solver/contact/rigidcontact.h"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
-#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
@@ -24,20 +24,36 @@ constexpr double kRecalled = 0.2, kMostDrift = 1e-3, kCreep = 1e-4;
 /// walls are too narrow for ends up in the middle.
 constexpr double kDeepest = 0.5;
 constexpr int kInwardPasses = 8;
-/// Faster than this share of the speed that gravity gives in two substeps a contact slides.
-constexpr double kSlides = 0.1;
-
 /// Places are in single precision: below 1e-5 of their distance from the origin, squared, lies no inertia.
 constexpr double kRounding = 1e-10;
+/// Least share of the largest moment of inertia: a row of particles has none about itself.
+constexpr double kLeastInertia = 1e-6;
+/// Inverse of a symmetric matrix, zero along axes whose eigenvalue is `least` at most.
+Matrix3 pseudoInverse(const Matrix3& matrix, double least) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(matrix);
+  Matrix3 inverse = Matrix3::Zero();
+  for (int k = 0; k < 3; ++k) {
+    const double moment = axes.eigenvalues()[k];
+    if (!(moment > least)) continue;
+    const Vector3 axis = axes.eigenvectors().col(k);
+    inverse += 1 / moment * axis * axis.transpose();
+  }
+  return inverse;
+}
 
 }  // namespace
 
+Vector3 RigidContact::centreOf(const ParticleStore& store, const Body& body, const api::Float4* points) {
+  Vector3 sum;
+  for (const uint32_t i : body.members) sum += double{store.mass()[i]} * vectorOf(points[i]);
+  return body.inverseMass * sum;
+}
+
 /// Centre, and the turn since the start of the substep.
-void RigidContact::readCentre(const ParticleStore& store, Body& body) const {
-  body.centre = body.shift = body.turn = Vector3::Zero();
+void RigidContact::readCentre(const ParticleStore& store, Body& body) {
+  body.centre = centreOf(store, body, store.position());
+  body.shift = body.turn = Vector3::Zero();
   body.touched = false;
-  for (const uint32_t i : body.members) body.centre += double{store.mass()[i]} * vectorOf(store.position()[i]);
-  body.centre = body.inverseMass * body.centre;
   Vector3 moment;
   for (const uint32_t i : body.members) {
     const Vector3 at = vectorOf(store.position()[i]), way = at - vectorOf(store.previous()[i]);
@@ -46,37 +62,35 @@ void RigidContact::readCentre(const ParticleStore& store, Body& body) const {
   body.turned = body.inverseInertia * moment;
 }
 
-void RigidContact::readMasses(const ParticleStore& store, Body& body) const {
+/// Mass, centre and inertia of members at `points`.
+void RigidContact::readMasses(const ParticleStore& store, Body& body, const api::Float4* points) {
   double mass = 0;
   for (const uint32_t i : body.members) mass += double{store.mass()[i]};
   body.inverseMass = 1 / mass;
-  readCentre(store, body);
+  body.centre = centreOf(store, body, points);
   Matrix3 moments;  // sum of m r r^T; the inertia is its trace less itself
   double farthest2 = 0;
   for (const uint32_t i : body.members) {
-    const Vector3 at = vectorOf(store.position()[i]), r = at - body.centre;
+    const Vector3 at = vectorOf(points[i]), r = at - body.centre;
     farthest2 = std::max(farthest2, at.squaredNorm());
     moments += double{store.mass()[i]} * r * r.transpose();
   }
-  Matrix3 inertia = moments.trace() * Matrix3::Identity() - moments;
-  body.inverseInertia = Matrix3::Zero();
-  if (!(inertia.trace() > kRounding * mass * farthest2)) return;  // a grain, which nothing turns
-  // A row of particles has no inertia about itself; a little of its own keeps the matrix invertible.
-  inertia += 1e-3 * inertia.trace() * Matrix3::Identity();
-  body.inverseInertia = inertia.inverse();
+  const Matrix3 inertia = moments.trace() * Matrix3::Identity() - moments;
+  const double least = std::max(kRounding * mass * farthest2, kLeastInertia * inertia.trace());
+  body.inverseInertia = pseudoInverse(inertia, least);
 }
 
-/// Velocity and angular velocity into shift and turn.
-void RigidContact::readMotion(const ParticleStore& store, Body& body) const {
-  readCentre(store, body);
-  Vector3 momentum, angular;
+/// Velocity and angular momentum of members at `points`, about their centre.
+RigidContact::Momentum RigidContact::motionOf(const ParticleStore& store, const Body& body, const Vector3& centre,
+                                              const api::Float4* points) {
+  Momentum motion;
   for (const uint32_t i : body.members) {
     const Vector3 p = double{store.mass()[i]} * vectorOf(store.velocity()[i]);
-    momentum += p;
-    angular += (vectorOf(store.position()[i]) - body.centre).cross(p);
+    motion.velocity += p;
+    motion.angular += (vectorOf(points[i]) - centre).cross(p);
   }
-  body.shift = body.inverseMass * momentum;
-  body.turn = body.inverseInertia * angular;
+  motion.velocity *= body.inverseMass;
+  return motion;
 }
 
 /// How far a side has gone since positions were read; the body's turn is small, so its sine is itself.
@@ -101,6 +115,8 @@ void RigidContact::push(ParticleStore& store, const Side& side, const Vector3& i
   Body& body = m_bodies[side.body];
   body.shift += body.inverseMass * impulse;
   body.turn += size * response.turn;
+  body.pushed += impulse;
+  body.twisted += side.arm.cross(impulse);
   body.touched = true;
 }
 
@@ -109,6 +125,8 @@ void RigidContact::push(ParticleStore& store, const Side& side, const Vector3& i
     Body& body = m_bodies[side.body];
     body.shift += body.inverseMass * impulse;
     body.turn += body.inverseInertia * side.arm.cross(impulse);
+    body.pushed += impulse;
+    body.twisted += side.arm.cross(impulse);
     body.touched = true;
   } else if (side.inverseMass > 0) {
     addTo(store.position()[side.particle], side.inverseMass * impulse);
@@ -136,10 +154,21 @@ void RigidContact::remember(Contact& c) const {
 
 void RigidContact::begin(const ParticleStore& store) {
   for (Body& body : m_bodies) {
-    if (body.hasContacts) readMasses(store, body);
+    if (!body.hasContacts) continue;
+    readMasses(store, body, store.position());
+    // Velocities still belong to the places where the substep began.
+    body.before = motionOf(store, body, centreOf(store, body, store.previous()), store.previous());
+    body.pushed = body.twisted = Vector3::Zero();
   }
   for (Contact& c : m_contacts) {
-    c.active = true;
+    // What is far from a wall does not come to it while positions are corrected.
+    c.active = c.plane == kNone || gapAt(c, store.position()) < kOpen * m_spacing;
+    if (!c.active) {
+      c.push = c.approach = 0, c.met = false;
+      c.rub = c.drift = c.left = {};
+      continue;
+    }
+    if (c.b.particle != kNone && c.b.body == kNone) c.b.velocity = vectorOf(store.velocity()[c.b.particle]);
     if (c.plane == kNone) orient(store, c);
     Vector3 speed = vectorOf(store.velocity()[c.a.particle]);
     if (c.b.particle != kNone) speed -= vectorOf(store.velocity()[c.b.particle]);
@@ -147,7 +176,7 @@ void RigidContact::begin(const ParticleStore& store) {
     c.approach = speed.dot(c.normal);
     // What carried a body in the last substep is the best guess for this one; an impact is over.
     if (!c.met) c.slides = slideOf(c, speed) > m_slowest;
-    if (!c.active || before < -m_slowest) c.push = 0, c.rub = {};
+    if (!c.active || c.strikes || before < -m_slowest) c.push = 0, c.rub = {};
     c.push *= kResumed;
     c.rub = kResumed * c.rub;
     remember(c);
@@ -265,17 +294,20 @@ void RigidContact::project(ParticleStore& store) {
     const Vector3 moved = c.way + movedBy(store, c.a) - movedBy(store, c.b);
     c.left = moved - moved.dot(c.normal) * c.normal;
   }
-  for (const Body& body : m_bodies) {
-    if (!body.hasContacts || !body.touched) continue;
-    // The rotation whose quaternion is (turn/2, 1), normalised: by the angle 2 atan(|turn|/2).
-    const double s = 2 / (1 + 0.25 * body.turn.squaredNorm());
-    for (const uint32_t i : body.members) {
-      const Vector3 r = vectorOf(store.position()[i]) - body.centre;
-      const Vector3 half = 0.5 * body.turn.cross(r);
-      const Vector3 x = body.centre + body.shift + r + s * (half + 0.5 * body.turn.cross(half));
-      assignTo(store.position()[i], x);
-    }
+  for (Body& body : m_bodies) {
+    if (body.hasContacts && body.touched) place(store, body);
   }
+}
+
+/// Moves a body by its shift and its turn.
+void RigidContact::place(ParticleStore& store, Body& body) {
+  const Vector3 half = 0.5 * body.turn;
+  const Matrix3 rotation = Quaternion(1, half.x(), half.y(), half.z()).normalized().toRotationMatrix();
+  for (const uint32_t i : body.members) {
+    const Vector3 arm = vectorOf(store.position()[i]) - body.centre;
+    assignTo(store.position()[i], body.centre + body.shift + rotation * arm);
+  }
+  body.inverseInertia = rotation * body.inverseInertia * rotation.transpose();
 }
 
 Vector3 RigidContact::pushed() const {
@@ -356,47 +388,6 @@ Vector3 RigidContact::takeBack(ParticleStore& store, const Body& body) const {
     x.x = from.x, x.y = from.y, x.z = from.z;
   }
   return moved;
-}
-
-void RigidContact::bounce(ParticleStore& store) {
-  if (std::none_of(m_contacts.begin(), m_contacts.end(), [](const Contact& c) { return c.met; })) return;
-  for (Body& body : m_bodies) {
-    if (body.hasContacts) readMotion(store, body);
-  }
-  readPlaces(store);
-  const auto speedOf = [&](const Side& side) -> Vector3 {
-    if (side.particle == kNone) return Vector3::Zero();
-    if (side.body == kNone) return vectorOf(store.velocity()[side.particle]);
-    return m_bodies[side.body].shift + m_bodies[side.body].turn.cross(side.arm);
-  };
-  const auto give = [&](const Side& side, const Vector3& impulse) {
-    if (side.body != kNone) return push(store, side, impulse);
-    if (!(side.inverseMass > 0)) return;
-    addTo(store.velocity()[side.particle], side.inverseMass * impulse);
-  };
-  for (int sweep = 0; sweep < kSweeps; ++sweep) {
-    for (const Contact& c : m_contacts) {
-      if (!c.met) continue;
-      const double wanted = c.approach < -m_slowest ? -c.restitution * c.approach : 0;
-      const double change = wanted - (speedOf(c.a) - speedOf(c.b)).dot(c.normal);
-      // What met without bearing anything in the end may part, but not approach.
-      if (change < 0 && c.push == 0) continue;
-      const Vector3 impulse = change * c.mass * c.normal;
-      give(c.a, impulse);
-      give(c.b, -impulse);
-      if (isOutside(c)) m_externalImpulse.add(impulse);
-    }
-  }
-  for (Contact& c : m_contacts) {
-    if (c.met) c.slides = slideOf(c, speedOf(c.a) - speedOf(c.b)) > kSlides * m_slowest;
-  }
-  for (const Body& body : m_bodies) {
-    if (!body.hasContacts || !body.touched) continue;
-    for (const uint32_t i : body.members) {
-      const Vector3 arm = vectorOf(store.position()[i]) - body.centre;
-      assignTo(store.velocity()[i], body.shift + body.turn.cross(arm));
-    }
-  }
 }
 
 }  // namespace ps

@@ -17,11 +17,20 @@ class StateWriter;
 /// kinetic one of a contact that slid at the end of the last substep. While two stick, what friction could not take
 /// back in one substep is asked for in those after it, so that a stack does not creep by what iterations leave over.
 /// Projected Gauss-Seidel, started from the impulses of the last substep, serial, in an order scattered by the
-/// particles' ids, so that threads have no part in it: contacts are few. Afterwards restitution as a pass over
-/// velocities (Mueller et al. 2020, section 3.6), which also takes out speed that only the removal of an overlap has
-/// given. Particles are spheres, but where a face of the lattice takes part its own normal is used, so that layers do
-/// not interlock. A box therefore tips as if its base were one spacing narrower, and an edge of it is round. It cannot
-/// do: stop a body that crosses another moving one within one substep.
+/// particles' ids, so that threads have no part in it: contacts are few.
+///
+/// What strikes something is solved before, over velocities: all impulses of bodies that may touch each other with the
+/// places and the inertia of one instant, the one when the first of them meet. It parts again with its restitution,
+/// rubs within the cone, and nobody pulls (Moreau 1988; Stewart and Trinkle 1996). Projection would turn a body to
+/// remove the overlap, which changes its energy or its angular momentum. What projection has given all the same is
+/// solved again in that way afterwards, so that speed which only the removal of an overlap gave is taken out. What
+/// iterations leave of energy that nobody had is taken from the impulses of those who touch.
+///
+/// Particles are spheres, but where a face of the lattice takes part its own normal is used, so that layers do not
+/// interlock. A box therefore tips as if its base were one spacing narrower, and an edge of it is round. It cannot do:
+/// stop a body that crosses another moving one within one substep; several strikes one after the other within one
+/// substep, which are taken as one; keep the angular momentum of bodies that slide on each other better than by some
+/// percent of what they exchange.
 class RigidContact {
  public:
   void configure(const SolverSettings& settings, const std::vector<Wall>& walls,
@@ -36,6 +45,10 @@ class RigidContact {
   /// What contacts bore, by the particles that meet: refreshContacts() finds the same ones again.
   void save(StateWriter& writer) const;
   void restore(const StateReader& reader);
+  /// When positions have been predicted along straight lines, and before bodies turn: what would strike a body, a wall
+  /// or fixed matter in this substep bounces before it moves, so that no removal of an overlap turns it, which would
+  /// change its energy or its angular momentum.
+  void strike(ParticleStore& store);
   /// Once per substep, when positions have been predicted.
   void begin(const ParticleStore& store);
   /// Moves bodies, and single particles that touch them, out of each other.
@@ -56,13 +69,26 @@ class RigidContact {
 
  private:
   static constexpr uint32_t kNone = ~0u;
+  /// What is farther from a wall than this, in spacings, is not yet its contact.
+  static constexpr double kOpen = 1;
+  struct Momentum {
+    Vector3 velocity;  ///< m/s
+    Vector3 angular;   ///< kg m2/s, about the centre
+  };
   struct Body {
     std::vector<uint32_t> members;
-    double inverseMass = 0;  ///< 1/kg
-    Matrix3 inverseInertia;  ///< 1/(kg m2), about the centre
-    Vector3 centre;          ///< m
-    Vector3 shift, turn;     ///< m, rad: what contacts did since positions were read; m/s, rad/s in bounce()
-    Vector3 turned;          ///< rad, since the start of the substep, when positions were read
+    double inverseMass = 0;   ///< 1/kg
+    Matrix3 inverseInertia;   ///< 1/(kg m2), about the centre
+    Vector3 centre;           ///< m
+    Vector3 shift, turn;      ///< m, rad: what contacts did since positions were read; m/s, rad/s in bounce()
+    Vector3 turned;           ///< rad, since the start of the substep, when positions were read
+    Vector3 pushed, twisted;  ///< kg m, kg m2: impulses of this substep, and their moments about the centre
+    Momentum before;          ///< as the substep began, before contacts
+    uint32_t island = 0;      ///< least of the bodies that touch each other, in bounce()
+    Vector3 late;             ///< kg m, way that impulses have not given since they came late in the substep
+    double time = 0;          ///< of an island, when it is struck, as a share of the substep
+    bool struck = false;      ///< an island, in strike()
+    double workBefore = 0, workChange = 0;  ///< J, of the impulses in an island, likewise
     bool touched = false, hasContacts = false;
   };
   /// One side of a contact: a point of a body, a free particle, or nothing that moves.
@@ -70,6 +96,7 @@ class RigidContact {
     uint32_t particle = kNone, body = kNone;
     double inverseMass = 0;  ///< 1/kg of a free particle
     Vector3 start{};         ///< m, the particle when positions were read
+    Vector3 velocity{};      ///< m/s, of a particle of no body, before contacts, as the substep began
     Vector3 arm{};           ///< m, from the body's centre to the place of contact
   };
   /// What an impulse does to a side: how far its place of contact moves along it, times its length (for a unit vector
@@ -93,9 +120,22 @@ class RigidContact {
     double push = 0;                                   ///< kg m, summed over the substep
     Vector3 rub;                                       ///< kg m
     bool yields = false;                               ///< friction is all that the cone allows
-    Vector3 left;         ///< m, tangential way in the substep that friction has not taken back
-    Vector3 drift;        ///< m, the sum of it since the two began to stick
-    double approach = 0;  ///< m/s, normal speed before the substep
+    Vector3 left;            ///< m, tangential way in the substep that friction has not taken back
+    Vector3 drift;           ///< m, the sum of it since the two began to stick
+    double approach = 0;     ///< m/s, normal speed before the substep
+    bool strikes = false;    ///< in this substep, by strike()
+    bool takesPart = false;  ///< in the speeds that are being solved
+    Vector3 before;          ///< m/s, of a against b without the impulses of contacts, in bounce()
+    double wanted = 0;       ///< m/s, the least normal speed after, likewise
+    double impulse = 0;      ///< kg m/s, along the normal, likewise
+    Vector3 friction;        ///< kg m/s, likewise
+  };
+  /// A contact as the substep began, in m.
+  struct Meeting {
+    Vector3 place;        ///< of particle a
+    Vector3 wayOfA, way;  ///< in a substep without contact: of a, and of a against b
+    Vector3 line, image;  ///< from b's nearest image to a, from b to that image
+    double gap = 0;
   };
   /// What tells whether an active contact touches: the sweeps ask far more often than there is something to do.
   struct Open {
@@ -110,6 +150,7 @@ class RigidContact {
     uint32_t neighbours = 0;
   };
 
+  static void place(ParticleStore& store, Body& body);
   static Vector3 shift(ParticleStore& store, const Body& body, const Vector3& way);
   Vector3 takeBack(ParticleStore& store, const Body& body) const;
   static double depthOf(const Plane& plane, const Body& body, const api::Float4* points);
@@ -131,15 +172,35 @@ class RigidContact {
   double solve(ParticleStore& store, Contact& contact, double gap);
   void resume(ParticleStore& store);
   void readPlaces(const ParticleStore& store);
-  void readMasses(const ParticleStore& store, Body& body) const;
-  void readMotion(const ParticleStore& store, Body& body) const;
-  void readCentre(const ParticleStore& store, Body& body) const;
+  static void readMasses(const ParticleStore& store, Body& body, const api::Float4* points);
+  Vector3 velocityOf(const ParticleStore& store, const Side& side) const;
+  Vector3 velocityOf(const ParticleStore& store, const Contact& contact) const;
+  Vector3 velocityBefore(const Side& side) const;
+  void give(ParticleStore& store, const Side& side, const Vector3& impulse);
+  void give(ParticleStore& store, const Contact& contact, const Vector3& impulse);
+  void findIslands();
+  double solveSpeed(ParticleStore& store, Contact& contact);
+  void solveSpeeds(ParticleStore& store);
+  void takeGainedEnergy(ParticleStore& store);
+  bool isStruck(const ParticleStore& store, Contact& contact) const;
+  Meeting meetingOf(const ParticleStore& store, const Contact& contact) const;
+  static double timeOf(const Meeting& meeting, const Contact& contact);
+  void readStart(const ParticleStore& store, Contact& contact);
+  void readApproaches(ParticleStore& store);
+  static Vector3 centreOf(const ParticleStore& store, const Body& body, const api::Float4* points);
+  static Momentum motionOf(const ParticleStore& store, const Body& body, const Vector3& centre,
+                           const api::Float4* points);
+  static double gapAt(const Contact& contact, const api::Float4* points) {
+    return vectorOf(points[contact.a.particle]).dot(contact.normal) - contact.distance;
+  }
+  static void readCentre(const ParticleStore& store, Body& body);
 
   static bool isOutside(const Contact& contact) { return contact.b.body == kNone && !(contact.b.inverseMass > 0); }
 
   ExternalImpulse m_externalImpulse;
   bool m_resume = false;  ///< the substep's first pass is to come
-  double m_spacing = 0, m_slowest = 0;
+  double m_spacing = 0, m_dt = 0, m_slowest = 0;
+  Vector3 m_gravity;
   std::vector<Plane> m_planes;         ///< of the walls, half a spacing before them
   std::vector<double> m_wallFriction;  ///< theirs
   struct Rub {

@@ -249,6 +249,7 @@ void Solver::Impl::substep(uint32_t index) {
       listsChanged(false);
     }
   });
+  timed(Stage::Contact, [&] { rigid.strike(store); });
   structure([&] { constraints.predict(store, index); }, dt);
   timed(Stage::Contact, [&] {
     rigid.begin(store);
