@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tools driven by rays, without a widget: what mouse, pen and hands would do with them.
+#include "core/base/callee.h"
 #include "core/plugin_host/registry.h"
 #include "core/simulation/enginethread.h"
 #include "core/sketch/stroke.h"
@@ -85,6 +86,8 @@ class TestTools : public QObject {
                                      << "no std::exception";
     QTest::newRow("gives a null pointer") << "null_brush"
                                           << "null pointer";
+    QTest::newRow("does not come back") << "endless_brush"
+                                        << "it does not come back";
   }
   /// At the second sample: what was drawn by then goes with the stroke.
   void aBrushThatFailsIsPutAside() {
@@ -125,7 +128,34 @@ class TestTools : public QObject {
     QCOMPARE(m_engine->snapshot()->id.size(), particles);
     QVERIFY(!plugins.brush("fixture.brush"));
     QCOMPARE(m_tools->brush().shape, plugins.standard(PluginKind::Brush));
+    qputenv("PS_LET_GO", "1");  // what it gives now is dropped
+    QTRY_VERIFY(ongoingCalls().empty());
+    qunsetenv("PS_LET_GO");
+    QCOMPARE(m_document->undoStack().count(), 0);
     cleanup();  // the plugins go before the document does
+  }
+
+  /// It is asked how large it is before anything is drawn.
+  void aBrushThatDoesNotSayItsSizeIsPutAside() {
+    const QTemporaryDir folder;
+    QVERIFY(QFile::copy(qEnvironmentVariable("PS_FIXTURE_DIR") + QStringLiteral("/fixture_brush.so"),
+                        folder.filePath(QStringLiteral("endless_extent.so"))));
+    PluginRegistry::Options options;
+    options.extraPaths = {folder.path().toStdString()};
+    PluginRegistry plugins(options);
+    m_document->setPlugins(&plugins);
+    QSignalSpy failed(m_tools.get(), &Toolbox::brushFailed);
+    BrushSettings brush = m_tools->brush();
+    brush.shape = "fixture.brush";
+    m_tools->setBrush(brush);
+    QCOMPARE(m_tools->stamp().first, Vector3(Vector3::Constant(brush.radius)));
+    QVERIFY(failed.wait());
+    QCOMPARE(failed.front()[0].toString(), QStringLiteral("fixture.brush"));
+    QCOMPARE(m_tools->brush().shape, plugins.standard(PluginKind::Brush));
+    qputenv("PS_LET_GO", "1");
+    QTRY_VERIFY(ongoingCalls().empty());
+    qunsetenv("PS_LET_GO");
+    cleanup();
   }
 
   /// The last sample waits for the end of the stroke: what fails there is told as well.

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/tools/livestroke.h"
 
-#include "core/base/callee.h"
 #include "core/plugin_host/registry.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
 #include "ui/session/scenelink.h"
 #include "ui/theme/numbers.h"
+#include "ui/tools/brushcall.h"
 #include "ui/tools/toolbox.h"
 
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <optional>
 
 namespace ps {
 namespace {
@@ -159,10 +160,12 @@ void LiveStroke::feed(const std::vector<api::StrokeSample>& samples) {
   const api::BrushPlugin* plugin = m_box.document().plugins()->brush(m_brush.shape);
   if (samples.empty() || !plugin) return;
   const bool erase = m_record->erase;
-  const CalleeScope callee(m_brush.shape.c_str());
-  const StrokeEdits edits = applyBrush(*plugin, m_setup, erase ? api::EditKind::Remove : api::EditKind::Add, samples);
+  const api::EditKind kind = erase ? api::EditKind::Remove : api::EditKind::Add;
+  const std::optional<StrokeEdits> edits = inTime(
+      m_brush.shape, [plugin, kind, setup = m_setup, samples] { return applyBrush(*plugin, setup, kind, samples); });
+  if (!edits) throw BrushFault(kNotBack);
   std::vector<api::Cell> fresh;
-  for (const api::Cell& cell : (erase ? edits.removed : edits.added).cells()) {
+  for (const api::Cell& cell : (erase ? edits->removed : edits->added).cells()) {
     if (!m_cells.contains(cell) && (erase || isInside(cell))) fresh.push_back(cell);
   }
   if (fresh.empty()) return;

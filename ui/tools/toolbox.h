@@ -7,6 +7,9 @@
 
 #include <map>
 #include <memory>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace ps {
 
@@ -35,8 +38,8 @@ class Toolbox : public QObject {
   void stepBrush(int direction);  ///< larger (1) or smaller (-1)
   void nextShape();               ///< of those installed, by id
   /// Half extents of one stamp in m, and whether it fills that box; the radius on all axes when the brush is not
-  /// installed.
-  std::pair<Vector3, bool> stamp() const;
+  /// installed, or does not come back: it is then put aside in the next turn of the event loop.
+  std::pair<Vector3, bool> stamp();
 
   // For tools
   Document& document() const { return m_document; }
@@ -55,11 +58,20 @@ class Toolbox : public QObject {
   void brushFailed(const QString& brush, const QString& problem);  ///< whoever has the plugins takes it out of them
 
  private:
+  /// What a brush said of its stamp, and of which settings.
+  struct Stamp {
+    std::string brush;
+    double spacing = 0, radius = 0;  ///< m
+    std::vector<double> parameters;
+    Vector3 half{0, 0, 0};  ///< m
+    bool box = false;
+  };
   void takeInstalled(const std::string& wanted);
   Document& m_document;
   Selection& m_selection;
   SceneLink* m_link = nullptr;
   BrushSettings m_brush;
+  Stamp m_stamp;  ///< the last one: pictures ask for it often
   std::map<std::string, std::unique_ptr<Tool>> m_tools;
   std::string m_active;
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/window/notices.h"
 
+#include "core/plugin_host/registry.h"
 #include "core/simulation/enginethread.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
@@ -11,6 +12,7 @@
 
 #include <QtGui/QAction>
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -33,7 +35,7 @@ void Notices::onEvent(const EngineEvent& event) {
   } else if (event.kind == EngineEvent::Kind::Remark) {
     showRemark(failureText(event));
   } else if (event.kind == EngineEvent::Kind::Late) {
-    showLate(pluginLabel(m_session.plugins(), event.message));
+    showLate(event.message);
   } else if (event.kind == EngineEvent::Kind::NotOpened) {
     showBroken(event);
   } else {
@@ -63,11 +65,18 @@ void Notices::showFailure(const EngineEvent& event) {
   m_bar.show(kStep, level, failure.title, more, std::move(buttons));
 }
 
-void Notices::showLate(const QString& plugin) {
-  const QString title = QStringLiteral("The plugin “%1” does not come back.").arg(plugin);
-  const QString text = QStringLiteral(
-      "Nothing moves until it does. Your work is kept: close the window and start the program again, which then leaves "
-      "the plugin out.");
+void Notices::showLate(const std::string& plugin) {
+  const auto& all = m_session.plugins()->plugins();
+  const bool brush = std::any_of(all.begin(), all.end(), [&](const PluginInfo& info) {
+    return info.id == plugin && info.kind == PluginKind::Brush;  // its stroke was given up
+  });
+  const QString title =
+      QStringLiteral("The plugin “%1” does not come back.").arg(pluginLabel(m_session.plugins(), plugin));
+  const QString text =
+      (brush ? QStringLiteral("Its stroke was given up, and the scene goes on.")
+             : QStringLiteral("Nothing moves until it does.")) +
+      QStringLiteral(
+          " Your work is kept: close the window and start the program again, which then leaves the plugin out.");
   m_session.log().add(MessageLevel::Error, QStringLiteral("Simulation"), title + QLatin1Char(' ') + text);
   m_bar.show(kStep, MessageLevel::Error, title, text);
 }

@@ -4,6 +4,8 @@
 
 #include <QtCore/QObject>
 
+#include <string>
+
 namespace ps {
 
 class Actions;
@@ -30,7 +32,7 @@ class Notices : public QObject {
  private:
   void onEvent(const EngineEvent& event);
   void showFailure(const EngineEvent& event);
-  void showLate(const QString& plugin);
+  void showLate(const std::string& plugin);
   void showRemark(const FailureText& remark);
   void showBroken(const EngineEvent& event);  ///< the scene could not be built
   Session& m_session;
