@@ -44,11 +44,13 @@ constexpr api::ParameterDeclaration kSolver[] = {
             "Least share of the neighbours' mean velocity that a particle takes over; it keeps water quiet "
             "where its real viscosity asks less.",
             "0.05 for water, 0.2 for oil-like calm, 0 for none", "Schechter & Bridson 2012"}),
-    choice({"viscosity_model", "Viscosity", "", ""}, "automatic|xsph|implicit", 0,
-           {"Viscosity",
-            "How liquids resist shear. A filter of velocities is cheap and reaches oil; the implicit solver reaches "
-            "honey, lava and glass. Automatic takes the filter where it suffices.",
-            "automatic: water by the filter, honey implicit", "Monaghan 1992; Weiler et al. 2018"}),
+    choice(
+        {"viscosity_model", "Viscosity", "", ""}, "automatic|xsph|implicit", 0,
+        {"Viscosity",
+         "How liquids resist shear. A filter of velocities is cheap and reaches oil; the implicit solver reaches "
+         "honey, lava and glass, and knows what walls hold. Automatic takes the filter where it suffices: where a wall "
+         "drags along less than a spacing of liquid in a second.",
+         "automatic: water by the filter, honey implicit", "Monaghan 1992; Weiler et al. 2018"}),
     number({"viscosity_max", "Thickest mush", "µ_max", "Pa·s"}, {1e4, 10, 1e6, 1e-3, 1e12},
            {"Viscosity",
             "Bound on the viscosity of matter within its melting range, which grows without end as its crystals begin "

@@ -12,6 +12,8 @@ namespace ps {
 namespace {
 
 constexpr size_t kSpare = 16;
+/// Time in s within which a wall that drags along a layer of a spacing is seen to do so: the filter knows no walls.
+constexpr double kWallTime = 1;
 constexpr float kImplicit = -2;  ///< marks a coefficient, until gatherThick() has seen it
 /// Share of solid at which crystals touch and mush stops to flow.
 constexpr double kPackedFraction = 0.6;
@@ -49,6 +51,10 @@ void ViscosityStage::configure(const SolverSettings& settings, const std::vector
 
 double ViscosityStage::filterReach() const { return m_secondMoment * m_settings.substeps / (2 * m_settings.dt); }
 
+double ViscosityStage::filterSuffices() const {
+  return std::min(filterReach(), m_settings.spacing * m_settings.spacing / kWallTime);
+}
+
 double ViscosityStage::viscosityOf(const ParticleStore& store, size_t i) const {
   const uint32_t material = store.material()[i];
   const double liquid = m_materials[material].viscosity(store.temperature()[i]), solid = store.solidFraction()[i];
@@ -61,7 +67,7 @@ double ViscosityStage::viscosityOf(const ParticleStore& store, size_t i) const {
 void ViscosityStage::refresh(ParticleStore& store, const Neighbours& neighbours, const DensityStage& density) {
   const size_t n = store.size();
   m_coefficient.assign(n + kSpare, -1.0f);  // the dummy counts as no fluid
-  const double reach = filterReach();
+  const double reach = filterReach(), suffices = filterSuffices();
   const ViscosityModel model = m_settings.viscosityModel;
   const float least = static_cast<float>(std::clamp(m_settings.xsphMinimum, 0.0, 1.0));
   const std::span<const uint32_t> fluid = density.fluid();
@@ -76,7 +82,7 @@ void ViscosityStage::refresh(ParticleStore& store, const Neighbours& neighbours,
         const BakedMaterial& material = m_materials[store.material()[i]];
         const bool yield = material.yieldStress(store.temperature()[i]) > 0;
         c = std::clamp(static_cast<float>(nu / reach), least, 1.0f);
-        if (model == ViscosityModel::Implicit || (model == ViscosityModel::Automatic && (nu > reach || yield))) {
+        if (model == ViscosityModel::Implicit || (model == ViscosityModel::Automatic && (nu > suffices || yield))) {
           // Calmed only where its own viscosity is less than calming gives.
           m_coefficient[i] = kImplicit - (nu < double{least} * reach ? least : 0);
           thick = true;

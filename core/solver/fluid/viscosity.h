@@ -9,8 +9,9 @@ namespace ps {
 
 /// Viscosity of liquids. Thin ones by the XSPH filter of Monaghan 1992, momentum-conserving, over fluid particles and
 /// the solids they touch: a coefficient c acts like the kinematic viscosity nu = c s2/(2 dt), s2 = int W x^2 dV
-/// (0.075 R^2 for the cubic spline), so c follows from the material's viscosity. At c = 1 the filter is exhausted; what
-/// is thicker, and what has a yield stress, goes to ImplicitViscosity, as SolverSettings::viscosityModel says.
+/// (0.075 R^2 for the cubic spline), so c follows from the material's viscosity. At c = 1 the filter is exhausted, and
+/// it feels no walls: what is thicker, what a wall drags along by more than a spacing in a second (sqrt(nu t)), and
+/// what has a yield stress, goes to ImplicitViscosity, as SolverSettings::viscosityModel says.
 ///
 /// Mush, matter within its melting range, is a suspension of its crystals: mu = mu_l (1 - s/0.6)^-1.5, s the solid
 /// fraction (Krieger & Dougherty 1959), at most viscosityMax. Half-molten particles of a pure substance are no mush: a
@@ -32,6 +33,7 @@ class ViscosityStage {
 
  private:
   double filterReach() const;                                      ///< m2/s, at c = 1
+  double filterSuffices() const;                                   ///< m2/s, up to which the filter alone will do
   double viscosityOf(const ParticleStore& store, size_t i) const;  ///< Pa s, without yield stress
   void filter(ParticleStore& store, const Neighbours& neighbours, const DensityStage& density);
   void gatherThick(const ParticleStore& store, const DensityStage& density);
