@@ -25,7 +25,7 @@ class Builder final : public nlohmann::json_sax<json> {
   bool number_integer(number_integer_t value) override { return put(value); }
   bool number_unsigned(number_unsigned_t value) override { return put(value); }
   bool number_float(number_float_t value, const string_t& token) override {
-    if (!std::isfinite(value)) fail("the number " + token + " is too large");
+    if (!std::isfinite(value)) failLarge(token);
     return put(value);
   }
   bool string(string_t& value) override { return put(std::move(value)); }
@@ -36,12 +36,12 @@ class Builder final : public nlohmann::json_sax<json> {
   bool end_array() override { return close(); }
   bool key(string_t& name) override {
     m_levels.back().key = name;
-    if (m_levels.back().value->contains(name)) fail("the key '" + name + "' stands here twice");
+    if (m_levels.back().value->contains(name)) fail("the key '" + shownText(name, 80) + "' stands here twice");
     return true;
   }
   bool parse_error(std::size_t position, const std::string& token,
                    const nlohmann::detail::exception& problem) override {
-    if (problem.id == 406) fail("the number " + token + " is too large");
+    if (problem.id == 406) failLarge(token);
     fail(place(position) + ": " + reason(position, problem.what()));
   }
 
@@ -118,6 +118,9 @@ class Builder final : public nlohmann::json_sax<json> {
     return shownText("not valid JSON: " + words, 160);  // they may end within a character
   }
 
+  [[noreturn]] void failLarge(const std::string& number) const {
+    fail("the number " + shownText(number, 40) + " is too large");
+  }
   [[noreturn]] void fail(const std::string& what) const { throw InputError(m_name + ":" + pointer() + ": " + what); }
 
   std::string_view m_text;

@@ -112,7 +112,9 @@ struct PluginId : Text {
 /// The same, or "" for none.
 struct OptionalPluginId : PluginId {
   using PluginId::PluginId;
-  Json schema() const { return {{"type", "string"}, {"maxLength", 100}}; }
+  Json schema() const {
+    return {{"type", "string"}, {"maxLength", 100}, {"pattern", "^([A-Za-z0-9_][A-Za-z0-9_.-]*)?$"}};
+  }
 };
 
 /// "wall/floor/temperature".

@@ -327,6 +327,8 @@ void TestProjectIo::wrongValuesNameThePlace_data() {
       "/materials/0/base: 'bonds' is a constraint, not a material");
   row("material for a constraint", "bodies/0/constraints/0/plugin=water",
       "/bodies/0/constraints/0/plugin: 'water' is a material, not a constraint");
+  row("thermal model of no plugin's name",
+      "solver/thermal/model==", "/solver/thermal/model: must be a name of letters");
   row("material for a thermal model", "solver/thermal/model=water",
       "/solver/thermal/model: 'water' is a material, not a thermal model");
   row("thermal model for a brush",
@@ -368,10 +370,13 @@ void TestProjectIo::hostileTextIsRefused_data() {
   row("nested", QByteArray(200000, '['), "brackets are nested deeper than 64 levels");
   row("nested objects", QByteArray("{\"a\":").repeated(200000), "brackets are nested deeper than 64 levels");
   row("twice", "{\"a\": {\"b\": 1, \"b\": 2}}", ":/a/b: the key 'b' stands here twice");
+  row("twice, a long one", ("{\"" + QByteArray(5000, 'x') + "\": 1").repeated(2).replace("1{", "1, ") + "}",
+      "xxx\u2026' stands here twice");
   row("NaN", "{\"a\": [1, NaN]}", ":/a/1: line 1, column 11: NaN and Infinity are not numbers");
   row("half a character", "{\"a\": \"\\ud800N\"}", "half a character: \\uD800 to \\uDFFF stand in pairs");
   row("minus infinity", "{\"a\": -Infinity}", ":/a: line 1, column");
   row("overflow", "{\"a\": 1e999}", ":/a: the number 1e999 is too large");
+  row("overflow of many digits", "{\"a\": " + QByteArray(32000, '7') + "}", "777\u2026 is too large");
   row("UTF-16", QByteArray("\xff\xfe{\0", 4), ":/: is UTF-16 text; save it as UTF-8");
   row("binary",
       QByteArray("\x7f"
