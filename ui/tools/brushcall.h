@@ -4,8 +4,10 @@
 
 #include <chrono>
 #include <future>
+#include <memory>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <thread>
 #include <type_traits>
 #include <utility>
@@ -24,12 +26,17 @@ inline constexpr const char* kNotBack = "it does not come back";
 /// what the call throws. `work` owns all that it needs.
 template <class Work>
 std::optional<std::invoke_result_t<Work&>> inTime(const std::string& brush, Work work) {
-  std::packaged_task<std::invoke_result_t<Work&>()> task([brush, work = std::move(work)]() mutable {
+  using Task = std::packaged_task<std::invoke_result_t<Work&>()>;
+  const auto task = std::make_shared<Task>([brush, work = std::move(work)]() mutable {
     const CalleeScope callee(brush.c_str());
     return work();
   });
-  auto result = task.get_future();
-  std::thread(std::move(task)).detach();
+  auto result = task->get_future();
+  try {
+    std::thread([task] { (*task)(); }).detach();
+  } catch (const std::system_error&) {  // no thread is to be had: here, then
+    (*task)();
+  }
   for (int look = 0; look < kBrushLooks; ++look)
     if (result.wait_for(kBrushLook) == std::future_status::ready) return result.get();
   return std::nullopt;
