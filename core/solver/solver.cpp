@@ -105,7 +105,7 @@ void Solver::setConstraintParameters(uint32_t set, uint32_t body, std::vector<do
 
 void Solver::setMotion(uint32_t body, const BodyMotion& motion) { m->motion.set(body, motion, m->store); }
 
-void Solver::setHeatSources(std::vector<HeatSource> sources) { m->heat.setSources(std::move(sources)); }
+void Solver::setHeatSources(std::vector<HeatSource> sources) { m->heat.setSources(std::move(sources), m->store); }
 
 void Solver::setHeating(std::span<const double> watts) { m->heat.bodyHeating().set(watts); }
 

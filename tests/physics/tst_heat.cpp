@@ -50,6 +50,10 @@ class Heater final : public ps::api::HeatSourcePlugin {
   const char* label() const override { return "Heater"; }
   const char* help() const override { return ""; }
   ps::api::ParameterList parameters() const override { return {}; }
+  ps::api::List<ps::api::FieldDeclaration> fields() const override {
+    static const ps::api::FieldDeclaration list[] = {{"heater.glow", "1", "", ps::api::FieldType::Float32, "Glow"}};
+    return ps::api::listOf(list);
+  }
   void addWatts(const ps::api::ThermalContext& context, const ps::api::ParticleView&, size_t first, size_t last,
                 double* watts) const override {
     if (context.parameters[0] > 1e6) throw std::runtime_error("the fuse has blown");
@@ -471,7 +475,7 @@ class TestHeat : public QObject {
     const OwnLaws own;
     const Heater heater;
     scene.model = &own;
-    scene.heat.setSources({{&heater, "one", {1}}, {&heater, "two", {2}}});
+    scene.heat.setSources({{&heater, "one", {1}}, {&heater, "two", {2}}}, scene.store);
     scene.addMaterial(heattest::materialOf({}));
     scene.addBox({0, 0, 0}, {2, 1, 1}, 0);
     scene.store.mass()[0] = scene.store.mass()[1] = 0.5f;
@@ -485,6 +489,16 @@ class TestHeat : public QObject {
     QCOMPARE(scene.heat.ledger().net(), scene.heat.ledger().heaters);
   }
 
+  /// What shows a source's field shows it before the first frame, and matter that is born later has it too.
+  void fieldsOfSourcesAreThereFromTheStart() {
+    const Heater heater;
+    Scene scene;
+    scene.heat.setSources({{&heater, "heater", {1}}}, scene.store);
+    QVERIFY(scene.store.read("heater.glow", ps::api::FieldType::Float32));
+    scene.addBox({0, 0, 0}, {2, 1, 1}, 0);
+    QCOMPARE(static_cast<const float*>(scene.store.read("heater.glow", ps::api::FieldType::Float32))[1], 0.0f);
+  }
+
   void sourcesAddToAnyModelAndNoneColdsBelowOneKelvin() {
     const Heater heater;
     const ps::thermal::ThesisLatentModel thesis;
@@ -495,10 +509,11 @@ class TestHeat : public QObject {
       scene.addBox({0, 0, 0}, {1, 1, 1}, 0);
       scene.store.mass()[0] = 0.5f;  // 500 J/K
       scene.start([](size_t) { return 300.0; });
-      scene.heat.setSources({{&heater, "heater", {500}}});
+      scene.heat.setSources({{&heater, "heater", {500}}}, scene.store);
       scene.heat.advance(scene.store, scene.neighbours, 1);
       QVERIFY(std::abs(scene.store.temperature()[0] - 301) < 1e-9);
-      scene.heat.setSources({{&heater, "heater", {500}}, {&heater, "blown", {2e6}}, {&heater, "cooler", {-1e6}}});
+      scene.heat.setSources({{&heater, "heater", {500}}, {&heater, "blown", {2e6}}, {&heater, "cooler", {-1e6}}},
+                            scene.store);
       QVERIFY(scene.heat.advance(scene.store, scene.neighbours, 1));
       const std::vector<ps::PluginFault> faults = scene.heat.drainSourceFaults();
       QCOMPARE(faults.size(), size_t{1});

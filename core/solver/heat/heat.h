@@ -93,7 +93,7 @@ class HeatStage {
     m_ledger.exchanged += joules < 0 ? -joules : joules;
   }
   /// Plugins that warm or cool matter, whatever the model; one that throws is put aside for good.
-  void setSources(std::vector<HeatSource> sources) { m_sources.set(std::move(sources)); }
+  void setSources(std::vector<HeatSource> sources, ParticleStore& store) { m_sources.set(std::move(sources), store); }
   /// Those that threw since the last call.
   std::vector<PluginFault> drainSourceFaults() { return m_sources.drainFaults(); }
   /// s of the scene and of its thermal clock, for plugins.

@@ -30,25 +30,47 @@ void BodyHeating::addTo(const ParticleStore& store, size_t first, size_t last, s
   }
 }
 
-void PluginHeating::set(std::vector<HeatSource> sources) { m_sources = std::move(sources); }
+void PluginHeating::set(std::vector<HeatSource> sources, ParticleStore& store) {
+  m_sources = std::move(sources);
+  for (const HeatSource& source : m_sources) {
+    if (!isAside(source)) guarded(source, [&] { declareFields(source, store); });
+  }
+}
+
+bool PluginHeating::isAside(const HeatSource& source) const {
+  return std::find(m_aside.begin(), m_aside.end(), source.name) != m_aside.end();
+}
+
+/// False when it threw, and is put aside.
+template <class Call>
+bool PluginHeating::guarded(const HeatSource& source, Call&& call) {
+  std::string problem;
+  try {
+    call();
+    return true;
+  } catch (const std::exception& e) {
+    problem = shortText(e.what());
+  } catch (...) {
+    problem = "threw something that is no std::exception";
+  }
+  m_aside.push_back(source.name);
+  m_faults.push_back({source.name, std::move(problem)});
+  return false;
+}
+
+void PluginHeating::declareFields(const HeatSource& source, ParticleStore& store) {
+  const CalleeScope callee(source.name.c_str());
+  const api::List<api::FieldDeclaration> fields = source.plugin->fields();
+  for (size_t k = 0; k < fields.count; ++k) {
+    const api::FieldDeclaration f = fields.at(k);
+    store.declare(f.name, f.type, f.unit, f.help);
+  }
+}
 
 void PluginHeating::addTo(ParticleStore& store, const api::ParticleView& view, const api::ThermalContext& where,
                           std::span<double> watts) {
   for (const HeatSource& source : m_sources) {
-    if (std::find(m_aside.begin(), m_aside.end(), source.name) != m_aside.end()) continue;
-    std::string problem;
-    try {
-      ask(source, store, view, where);
-    } catch (const std::exception& e) {
-      problem = shortText(e.what());
-    } catch (...) {
-      problem = "threw something that is no std::exception";
-    }
-    if (!problem.empty()) {
-      m_aside.push_back(source.name);
-      m_faults.push_back({source.name, std::move(problem)});
-      continue;
-    }
+    if (isAside(source) || !guarded(source, [&] { ask(source, store, view, where); })) continue;
     forChunks(store.size(), grain::kNeighbours, [&](size_t first, size_t last) {
       for (size_t i = first; i < last; ++i) watts[i] += m_watts[i];
     });
@@ -63,11 +85,7 @@ void PluginHeating::putAside(const std::vector<std::string>& names) {
 
 void PluginHeating::ask(const HeatSource& source, ParticleStore& store, const api::ParticleView& view,
                         api::ThermalContext where) {
-  const api::List<api::FieldDeclaration> fields = source.plugin->fields();
-  for (size_t k = 0; k < fields.count; ++k) {
-    const api::FieldDeclaration f = fields.at(k);
-    store.declare(f.name, f.type, f.unit, f.help);
-  }
+  declareFields(source, store);  // a state that was restored may be of a scene without it
   where.parameters = {source.parameters.data(), source.parameters.size()};
   m_watts.assign(store.size(), 0.0);
   forChunks(store.size(), grain::kNeighbours, [&](size_t first, size_t last) {

@@ -32,8 +32,9 @@ class BodyHeating {
 /// finite number, is put aside for good.
 class PluginHeating {
  public:
-  void set(std::vector<HeatSource> sources);
-  /// Adds W to all particles. Declares the plugins' fields when they are new.
+  /// Makes the plugins' fields, so that they are there before the first frame.
+  void set(std::vector<HeatSource> sources, ParticleStore& store);
+  /// Adds W to all particles.
   void addTo(ParticleStore& store, const api::ParticleView& view, const api::ThermalContext& where,
              std::span<double> watts);
   /// Ids of all that have been put aside; putAside() adds to them.
@@ -43,6 +44,10 @@ class PluginHeating {
   std::vector<PluginFault> drainFaults() { return std::exchange(m_faults, {}); }
 
  private:
+  bool isAside(const HeatSource& source) const;
+  template <class Call>
+  bool guarded(const HeatSource& source, Call&& call);
+  static void declareFields(const HeatSource& source, ParticleStore& store);
   void ask(const HeatSource& source, ParticleStore& store, const api::ParticleView& view, api::ThermalContext where);
 
   std::vector<HeatSource> m_sources;
