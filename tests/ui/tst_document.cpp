@@ -94,6 +94,28 @@ class TestDocument : public QObject {
     QCOMPARE(floor(), 350.0);
   }
 
+  /// Back to the default is a value like any other: refused, it leaves the document too. Without a command that stores
+  /// it, there is nothing of it to mend.
+  void aRefusedDefaultIsTakenBack() {
+    const Address substeps{Owner::Solver, "", "substeps"};
+    Document document;
+    document.setPlugins(m_plugins.get());
+    document.open(smallScene(), {});
+    QCOMPARE(document.setParameter(substeps, 7.0), QString());
+    const Value standard = document.defaultValue(substeps);
+    QCOMPARE(document.setParameter(substeps, standard), QString());
+    QVERIFY(!storedValue(document.project(), substeps));
+    document.takeBack(substeps, standard, Value(7.0));
+    QCOMPARE(std::get<double>(document.value(substeps)), 7.0);
+    while (document.undoStack().canUndo()) document.undoStack().undo();
+    while (document.undoStack().canRedo()) document.undoStack().redo();
+    QCOMPARE(std::get<double>(document.value(substeps)), 7.0);  // no step leads to the default any more
+    QCOMPARE(document.undoStack().count(), 1);
+    // And what goes on may be the default, which the engine stores and a document does not.
+    document.takeBack(substeps, 7.0, standard);
+    QVERIFY(!storedValue(document.project(), substeps));
+  }
+
   void aDragIsOneStep() {
     Document document;
     document.setPlugins(m_plugins.get());

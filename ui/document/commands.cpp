@@ -19,7 +19,8 @@ ParameterCommand::ParameterCommand(Document& document, Address address, std::opt
 void ParameterCommand::undo() { m_document.applyParameter(m_address, m_before); }
 void ParameterCommand::redo() { m_document.applyParameter(m_address, m_after); }
 
-bool ParameterCommand::amend(const Address& address, const Value& refused, const std::optional<Value>& kept) {
+bool ParameterCommand::amend(const Address& address, const std::optional<Value>& refused,
+                             const std::optional<Value>& kept) {
   if (!(m_address == address) || m_after != refused) return false;
   m_after = kept;
   setObsolete(m_before == m_after);

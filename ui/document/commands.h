@@ -22,7 +22,7 @@ class ParameterCommand : public QUndoCommand {
   int id() const override { return 1; }
   bool mergeWith(const QUndoCommand* other) override;
   /// What it set was refused, and `kept` stays: neither undo nor redo sets it again. False for another command.
-  bool amend(const Address& address, const Value& refused, const std::optional<Value>& kept);
+  bool amend(const Address& address, const std::optional<Value>& refused, const std::optional<Value>& kept);
 
  private:
   Document& m_document;

@@ -97,12 +97,7 @@ QString Document::setParameter(const Address& address, const Value& value) {
     return QStringLiteral("%1 is no longer part of the scene.").arg(QString::fromStdString(address.text()));
   if (const QString problem = refusal(); !problem.isEmpty()) return problem;
   const api::ParameterDeclaration* declared = declaration(address);
-  std::optional<Value> before = outside, after = conformed(value, *declared);
-  if (set && !outside) {
-    const auto found = set->values.find(address.key);
-    if (found != set->values.end()) before = found->second;
-    if (*after == conformed(defaultValue(address), *declared)) after.reset();
-  }
+  const std::optional<Value> before = storedValue(m_project, address), after = asStored(address, value);
   if (m_gestureDepth == 0) ++m_gesture;
   const QString text =
       m_gestureText.isEmpty() || m_gestureDepth == 0
@@ -113,11 +108,20 @@ QString Document::setParameter(const Address& address, const Value& value) {
   return {};
 }
 
+/// A default is not stored, unless it lies outside of the sets.
+std::optional<Value> Document::asStored(const Address& address, const std::optional<Value>& value) const {
+  const api::ParameterDeclaration* declared = declaration(address);
+  if (!value || !declared) return value;
+  const Value whole = conformed(*value, *declared);
+  if (outsideValue(m_project, address) || !(whole == conformed(defaultValue(address), *declared))) return whole;
+  return std::nullopt;
+}
+
 /// Mends the command that set it, whatever came behind: its undo and redo would be refused again. Whoever saved since
 /// has saved the refused value.
-void Document::takeBack(const Address& address, const Value& refused, const std::optional<Value>& kept) {
-  const std::optional<Value> now = storedValue(m_project, address);
-  if (now != refused || now == kept) return;
+void Document::takeBack(const Address& address, const Value& asked, const std::optional<Value>& goesOn) {
+  const std::optional<Value> refused = asStored(address, asked), kept = asStored(address, goesOn);
+  if (storedValue(m_project, address) != refused || refused == kept) return;
   for (int i = m_undo.index(); i-- > 0;) {
     auto* command = dynamic_cast<ParameterCommand*>(const_cast<QUndoCommand*>(m_undo.command(i)));
     if (!command || !command->amend(address, refused, kept)) continue;

@@ -61,9 +61,9 @@ class Document : public QObject {
   void endGesture();
   /// Sets a value (the default removes the explicit one). Returns "" or why it is refused; the old one then stays.
   QString setParameter(const Address& address, const Value& value);
-  /// The engine has refused a value and goes on with `kept` (see storedValue()): so does the document, as if it had
+  /// The engine has refused a value and goes on with another (see storedValue()): so does the document, as if it had
   /// never been set. Nothing happens when it has another value by now.
-  void takeBack(const Address& address, const Value& refused, const std::optional<Value>& kept);
+  void takeBack(const Address& address, const Value& asked, const std::optional<Value>& goesOn);
 
   // Bodies
   const Body* body(const std::string& id) const;
@@ -143,6 +143,7 @@ class Document : public QObject {
 
  private:
   void notify(const ChangeEvent& event);
+  std::optional<Value> asStored(const Address& address, const std::optional<Value>& value) const;
   void editBody(const std::string& id, const QString& text, const std::function<void(Body&)>& change);
   template <class Item>
   void pushPort(std::optional<Item> before, std::optional<Item> after, size_t index, const QString& title);
