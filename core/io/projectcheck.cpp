@@ -7,7 +7,7 @@
 #include "core/parameters/wording.h"
 #include "core/plugin_host/registry.h"
 #include "core/simulation/particlefield.h"
-#include "core/solver/settings.h"
+#include "core/simulation/sceneproblem.h"
 
 #include <algorithm>
 #include <cmath>
@@ -138,6 +138,7 @@ class ProjectChecker : public FieldVisitor {
     checkMotion(body, pointer);
     const bool sketched = std::holds_alternative<VoxelShape>(body.shape);
     addParticles(body, pointer + (sketched ? "/shape/voxels/runs" : "/shape/box/size"));
+    checkWarmth(body, pointer);
   }
 
   void object(const Emitter& emitter, const std::string& pointer) override {
@@ -312,17 +313,15 @@ class ProjectChecker : public FieldVisitor {
 
   void checkPeriods() {
     const auto solver = [&](const char* key) { return numberOf(m_project.solver.parameters, solverParameters(), key); };
-    SolverSettings settings;
-    settings.spacing = solver("particle_spacing");
-    settings.supportRatio = solver("support_ratio");
-    const double least = leastPeriod(settings);
-    for (size_t a = 0; a < 3; ++a) {
-      const double edge = m_project.environment.boundsMaximum[a] - m_project.environment.boundsMinimum[a];
-      if (!m_project.environment.periodic[a] || edge >= least) continue;
-      tell(at("/environment/bounds/maximum", a),
-           std::string("the scene is periodic along ") + "xyz"[a] + ", so this edge, " + numberText(edge) +
-               " m, must be three times the reach of a particle or longer: " + numberText(least) + " m");
-    }
+    for (const auto& [axis, what] : periodProblems(m_project, solver("particle_spacing"), solver("support_ratio")))
+      tell(at("/environment/bounds/maximum", axis), what);
+  }
+
+  void checkWarmth(const Body& body, const std::string& pointer) {
+    const double spacing = numberOf(m_project.solver.parameters, solverParameters(), "particle_spacing");
+    const double temperature = numberOf(body.parameters, bodyParameters(), "temperature");
+    const std::string problem = m_particles > kMaximumParticles ? "" : coldProblem(body, temperature, spacing);
+    if (!problem.empty()) tell(pointer + "/temperature_gradient", problem);
   }
 
   const Project& m_project;

@@ -6,6 +6,7 @@
 
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace ps {
 
@@ -24,6 +25,10 @@ class SceneError : public InputError {
 /// value of a drag.
 std::string problemOfSceneWith(const Project& project, const PluginRegistry* plugins, const Address& address,
                                const Value& value);
+/// "" or why a body, with this temperature at its start, would be below 1 K somewhere; `spacing` of its particles, m.
+std::string coldProblem(const Body& body, double temperature, double spacing);
+/// Along which axes a scene repeats itself too soon for the reach of its particles, and how that is said.
+std::vector<std::pair<size_t, std::string>> periodProblems(const Project& project, double spacing, double reach);
 /// Throws SceneError for more particles than a scene may have.
 void requireFewer(double particles);
 /// Throws SceneError for a project of more particles than a scene may have, or than `memory` holds.

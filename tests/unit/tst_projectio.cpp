@@ -44,6 +44,7 @@ class TestProjectIo : public QObject {
   void hostileFilesAreRefused();
   void missingPluginsAreWarningsUnlessRequired();
   void motionThatComesToNothingIsWarnedOf();
+  void sketchedBodiesAreNotBornBelowOneKelvin();
   void materialsAreCheckedAtTheScenesParameters();
   void reservedNamesAreKeptAndTold();
   void newerFilesOpenOnlyWhenTheySaySo();
@@ -316,9 +317,10 @@ void TestProjectIo::wrongValuesNameThePlace_data() {
   row("a periodic box too small",
       "environment={\"periodic\": [false, true, false], \"bounds\": {\"minimum\": [0, 0, 0], \"maximum\": [1, 0.1, "
       "1]}}",
-      "/environment/bounds/maximum/1: the scene is periodic along y, so this edge, 0.1 m, must be three times the "
-      "reach "
-      "of a particle or longer: 0.13");
+      "/environment/bounds/maximum/1: the scene repeats itself along y every 0.1 m; with this reach of its particles "
+      "that must be 0.13");
+  row("a gradient that leads below 1 K", "bodies/0/temperature_gradient=[0, -1e4, 0]",
+      "/bodies/0/temperature_gradient: its temperature gradient would cool it to −");
   row("solidus above liquidus", "materials/0/properties={\"solidus\": 300, \"liquidus\": 280}",
       "/materials/0/properties");
   row("missing required plugin", "pluginsRequired=[\"org.example.gone\"]",
@@ -441,6 +443,13 @@ void TestProjectIo::motionThatComesToNothingIsWarnedOf() {
               .contains("scene.json:/bodies/0/motion_stop: should be above “Sets off at” (3 s), not 2 s"));
   QVERIFY(warnings({"bodies/0/fixed=false", "bodies/0/motion_start=3"})
               .contains("/bodies/0/motion_start: does nothing as the scene is. Acts when “Held in place” is on."));
+}
+
+void TestProjectIo::sketchedBodiesAreNotBornBelowOneKelvin() {
+  const QString problem = problemOf(kFull, {"bodies/1/temperature_gradient=[1e4, 0, 0]"});
+  QVERIFY2(problem.contains("/bodies/1/temperature_gradient: its temperature gradient would cool it to −"),
+           qPrintable(problem));
+  QCOMPARE(problemOf(kFull, {"bodies/1/temperature_gradient=[100, 0, 0]"}), QString());
 }
 
 void TestProjectIo::materialsAreCheckedAtTheScenesParameters() {
