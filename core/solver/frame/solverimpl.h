@@ -15,6 +15,7 @@
 #include "core/solver/heat/phasestage.h"
 #include "core/solver/solver.h"
 #include "core/solver/structure/constraintsystem.h"
+#include "core/solver/structure/piecespin.h"
 
 #include <chrono>
 
@@ -57,6 +58,7 @@ struct Solver::Impl {
   LiquidContact sheets{{0.9, 2}};
   std::vector<uint32_t> thinSolids;  ///< particles of sheets and lines, ascending
   RigidContact rigid;
+  PieceSpin pieceSpin;
   GasForces gas;
   HeatStage heat;
   PhaseStage phase;

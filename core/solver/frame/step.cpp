@@ -176,6 +176,7 @@ void Solver::Impl::listsChanged(bool newStructure) {
     rigid.refreshBodies(store, constraints);
     constraints.findGroupMembers(store, grouped);
     constraints.findHanging(store, hanging);
+    pieceSpin.refresh(store, constraints);
     findThinSolids();
     structureChanged = false;
   } else {
@@ -283,7 +284,9 @@ void Solver::Impl::substep(uint32_t index) {
     swept.apply(store, neighbours, wallStage, constraints.graph(store.size()), rigid.members());
     external.add(1 / dt * rigid.hold(store, swept.held()));
     external.add(1 / dt * rigid.keepInside(store));
+    pieceSpin.read(store, dt);
     velocities(dt);
+    pieceSpin.apply(store);
     bookContact(dt);
   });
   timed(Stage::Viscosity, [&] { viscosity.apply(store, neighbours, density); });
