@@ -106,6 +106,7 @@ Ending runChild(const std::vector<std::string>& paths, double patience) {
   std::vector<std::string> texts{kProgram, kArgument, number};
   texts.insert(texts.end(), paths.begin(), paths.end());
   std::vector<char*> arguments;
+  arguments.reserve(texts.size() + 1);
   for (std::string& text : texts) arguments.push_back(text.data());
   arguments.push_back(nullptr);
   const pid_t parent = ::getpid(), child = ::fork();
