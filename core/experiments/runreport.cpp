@@ -71,6 +71,8 @@ nlohmann::json RunReport::json(Engine& engine, double wallSeconds) const {
   for (const Limit& limit : engine.limits()) {
     limits.push_back(
         {{"what", limit.what}, {"asked", limit.asked}, {"delivered", limit.delivered}, {"unit", limit.unit}});
+    if (limit.kelvin && limit.kelvin->front() > 0) limits.back()["above"] = limit.kelvin->front();
+    if (limit.kelvin && std::isfinite(limit.kelvin->back())) limits.back()["below"] = limit.kelvin->back();
     if (limit.body >= 0) limits.back()["body"] = engine.bodyIds()[static_cast<size_t>(limit.body)];
   }
   nlohmann::json phases;

@@ -11,6 +11,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <numeric>
 #include <optional>
 #include <set>
@@ -21,6 +23,13 @@ namespace {
 
 /// Share of a wall's normal along a periodic axis that rounding explains.
 constexpr double kLeaning = 1e-6;
+
+/// To four digits.
+std::string shortText(double value) {
+  char digits[32];
+  std::snprintf(digits, sizeof digits, "%.4g", value);
+  return numberText(std::strtod(digits, nullptr));
+}
 
 /// References, relations between keys, and sizes: what the schema of one key cannot say.
 class ProjectChecker : public FieldVisitor {
@@ -105,6 +114,7 @@ class ProjectChecker : public FieldVisitor {
       const std::string key = problem.substr(0, problem.find_first_of(" :"));
       return tell(pointer + "/properties" + (propertyIndex(key) >= 0 ? "/" + key : ""), problem);
     }
+    checkLaws(material, pointer);
     checkRules(source.properties, propertyCatalogue(), pointer + "/properties",
                [&](std::string_view key) -> std::optional<Value> {
                  const auto found = material.properties.find(std::string(key));
@@ -249,6 +259,45 @@ class ProjectChecker : public FieldVisitor {
       tell(pointer + "/parameters", error.what());
       return std::nullopt;
     }
+  }
+
+  /// Laws that leave their property's range at a temperature that the scene has, where their phase exists.
+  void checkLaws(const Material& material, const std::string& pointer) {
+    const double pressure = numberOf(m_project.environment.parameters, environmentParameters(), "ambient_pressure");
+    const BakedMaterial baked(material, pressure);
+    for (const HeldRange& held : baked.heldRanges()) {
+      const api::ParameterDeclaration& property = propertyCatalogue()[static_cast<size_t>(held.property)];
+      std::optional<double> farthest;
+      for (const double t : temperatures()) {
+        if (!held.contains(t) || !existsAt(material, property.key, t)) continue;
+        farthest = farthest ? held.farther(*farthest, t) : t;
+      }
+      if (!farthest) continue;
+      warn(pointer + "/properties/" + property.key,
+           "its law gives " + shortText(valueOf(material, property.key, *farthest)) + " " + property.unit + " at " +
+               shortText(*farthest) + " K, which this scene has; " + numberText(held.used) +
+               " is used there. Change the law, or draw a curve");
+    }
+  }
+
+  /// K, that matter has at the start or is heated or cooled to.
+  std::vector<double> temperatures() const {
+    std::vector<double> list;
+    for (const Body& body : m_project.bodies) {
+      if (const auto* voxels = std::get_if<VoxelShape>(&body.shape)) {
+        for (const auto& paint : voxels->palette) list.push_back(paint.temperature);
+      } else {
+        list.push_back(numberOf(body.parameters, bodyParameters(), "temperature"));
+      }
+    }
+    for (const Emitter& emitter : m_project.emitters)
+      list.push_back(numberOf(emitter.parameters, emitterParameters(), "temperature"));
+    for (const SceneWall& wall : m_project.environment.walls) {
+      const std::string heat = choiceOf(wall.parameters, wallParameters(), "heat");
+      if (heat == "fixed_temperature" || heat == "convective")
+        list.push_back(numberOf(wall.parameters, wallParameters(), "temperature"));
+    }
+    return list;
   }
 
   /// What declarations say of each other's values; `own` of those of the list.

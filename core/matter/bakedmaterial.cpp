@@ -19,33 +19,58 @@ Response responseOf(const Material& material, const char* key) {
   return propertyCatalogue()[static_cast<size_t>(propertyIndex(key))].defaultValue;
 }
 
-/// A table of values from 1 K to `last` K, held within the property's hard range: a law is sound where it was fitted,
-/// and far from there a conductivity would turn negative or a viscosity endless. What is no number becomes the minimum.
-template <class ValueAt>
-ResponseTable bakedValues(const char* key, size_t samples, double last, ValueAt valueAt) {
-  const api::ParameterDeclaration& range = propertyCatalogue()[static_cast<size_t>(propertyIndex(key))];
-  std::vector<double> values(samples);
-  for (size_t i = 0; i < samples; ++i) {
-    const double value = valueAt(1 + (last - 1) * static_cast<double>(i) / static_cast<double>(samples - 1));
-    values[i] = value > range.hardMinimum ? std::min(value, range.hardMaximum) : range.hardMinimum;
+/// Tables of a material's values from 1 K to `last` K, held within each property's hard range: a law is sound where it
+/// was fitted, and far from there a conductivity would turn negative or a viscosity endless. What is no number becomes
+/// the minimum. Where values were held is noted.
+class Baker {
+ public:
+  Baker(const Material& material, double last) : m_material(material), m_last(last) {}
+
+  /// Constants need no samples.
+  ResponseTable table(const char* key, size_t samples = kSamples) {
+    const Response response = responseOf(m_material, key);
+    return tableOf(key, response.kind == Response::Kind::Constant ? 2 : samples,
+                   [&](double t) { return response.at(t); });
   }
-  return ResponseTable(std::move(values), 1.0, last);
-}
 
-/// Constants need no samples.
-ResponseTable baked(const Material& material, const char* key, double last, size_t samples = kSamples) {
-  const Response response = responseOf(material, key);
-  return bakedValues(key, response.kind == Response::Kind::Constant ? 2 : samples, last,
-                     [&](double t) { return response.at(t); });
-}
+  /// A density over temperature: a curve as it is, a constant with its expansion, rho0/(1 + beta (T - reference)).
+  ResponseTable density(const char* key, double expansion, double reference) {
+    const Response response = responseOf(m_material, key);
+    if (response.kind != Response::Kind::Constant || expansion == 0) return table(key);
+    return tableOf(key, kSamples,
+                   [&](double t) { return response.constant / std::max(0.2, 1 + expansion * (t - reference)); });
+  }
 
-/// A density over temperature: a curve as it is, a constant with its expansion, rho0/(1 + beta (T - reference)).
-ResponseTable bakedDensity(const Material& material, const char* key, double expansion, double reference, double last) {
-  const Response response = responseOf(material, key);
-  if (response.kind != Response::Kind::Constant || expansion == 0) return baked(material, key, last);
-  return bakedValues(key, kSamples, last,
-                     [&](double t) { return response.constant / std::max(0.2, 1 + expansion * (t - reference)); });
-}
+  std::vector<HeldRange> takeHeld() { return std::move(m_held); }
+
+ private:
+  template <class ValueAt>
+  ResponseTable tableOf(const char* key, size_t samples, ValueAt valueAt) {
+    const int property = propertyIndex(key);
+    const api::ParameterDeclaration& range = propertyCatalogue()[static_cast<size_t>(property)];
+    const bool endless = std::string_view(key) == "viscosity";
+    std::vector<double> values(samples);
+    bool holding = false;
+    for (size_t i = 0; i < samples; ++i) {
+      const double t = 1 + (m_last - 1) * static_cast<double>(i) / static_cast<double>(samples - 1);
+      const double value = valueAt(t);
+      values[i] = value > range.hardMinimum ? std::min(value, range.hardMaximum) : range.hardMinimum;
+      const bool held = values[i] != value && !(endless && value > range.hardMaximum);
+      if (held && holding && m_held.back().used == values[i]) {
+        m_held.back().to = t;
+      } else if (held) {
+        m_held.push_back({property, i == 0 ? 0 : t, t, values[i]});
+      }
+      holding = held;
+    }
+    if (holding) m_held.back().to = std::numeric_limits<double>::infinity();
+    return ResponseTable(std::move(values), 1.0, m_last);
+  }
+
+  const Material& m_material;
+  double m_last;
+  std::vector<HeldRange> m_held;
+};
 
 api::Caloric caloricOf(const Material& material, double pressure) {
   const PhaseDiagram diagram = phaseDiagramOf(material);
@@ -86,17 +111,20 @@ struct BakedMaterial::Tables {
   double solidus = 0, liquidus = 0, boilingPoint = 0;
   double kirchhoffSolidus = 0, kirchhoffLiquidus = 0, kirchhoffMush = 0, kirchhoffBoiling = 0, kirchhoffGas = 0;
   double gasVolumeFactor = 1;
+  std::vector<HeldRange> held;
 
   Tables(const Material& material, const api::Caloric& caloric) {
     double last = 3000;
     if (std::isfinite(caloric.boilingPoint)) last = std::max(last, 1.25 * caloric.boilingPoint);
-    conductivitySolid = baked(material, "conductivity_solid", last);
-    conductivityLiquid = baked(material, "conductivity_liquid", last);
-    conductivityGas = baked(material, "conductivity_gas", last);
-    youngsModulus = baked(material, "youngs_modulus", last);
-    viscosity = baked(material, "viscosity", last, kViscositySamples);
-    yieldStress = baked(material, "yield_stress", last);
-    bakeDensities(material, caloric, last);
+    Baker baker(material, last);
+    conductivitySolid = baker.table("conductivity_solid");
+    conductivityLiquid = baker.table("conductivity_liquid");
+    conductivityGas = baker.table("conductivity_gas");
+    youngsModulus = baker.table("youngs_modulus");
+    viscosity = baker.table("viscosity", kViscositySamples);
+    yieldStress = baker.table("yield_stress");
+    bakeDensities(baker, material, caloric);
+    held = baker.takeHeld();
     bakeKirchhoff(caloric);
     gasVolumeFactor = valueOf(material, "gas_volume_factor", kReferenceTemperature);
     byProperty.assign(propertyCatalogue().count, nullptr);
@@ -114,15 +142,14 @@ struct BakedMaterial::Tables {
   }
 
  private:
-  void bakeDensities(const Material& material, const api::Caloric& c, double last) {
+  void bakeDensities(Baker& baker, const Material& material, const api::Caloric& c) {
     const double solidReference = c.melts ? std::min(kReferenceTemperature, c.solidus) : kReferenceTemperature;
     double liquidReference = c.melts ? std::max(kReferenceTemperature, c.liquidus) : kReferenceTemperature;
     liquidReference = std::min(liquidReference, c.boilingPoint);
-    densitySolid = bakedDensity(material, "density_solid",
-                                3 * valueOf(material, "expansion_linear", kReferenceTemperature), solidReference, last);
-    densityLiquid =
-        bakedDensity(material, "density_liquid", valueOf(material, "expansion_volumetric", kReferenceTemperature),
-                     liquidReference, last);
+    const double linear = valueOf(material, "expansion_linear", kReferenceTemperature);
+    densitySolid = baker.density("density_solid", 3 * linear, solidReference);
+    densityLiquid = baker.density("density_liquid", valueOf(material, "expansion_volumetric", kReferenceTemperature),
+                                  liquidReference);
   }
 
   void bakeKirchhoff(const api::Caloric& c) {
@@ -200,6 +227,8 @@ double BakedMaterial::kirchhoff(double temperature) const {
   if (temperature < t.liquidus) return t.mush.integral(temperature);
   return t.kirchhoffMush + t.conductivityLiquid.integral(temperature) - t.kirchhoffLiquidus;
 }
+
+std::span<const HeldRange> BakedMaterial::heldRanges() const { return m_tables->held; }
 
 double BakedMaterial::youngsModulus(double temperature) const { return m_tables->youngsModulus.at(temperature); }
 

@@ -34,8 +34,6 @@ std::string number(double value) {
   return {digits, std::to_chars(digits, digits + sizeof digits, value, std::chars_format::general, 6).ptr};
 }
 
-/// Whether the phase that a property speaks of exists at a temperature in K (at 1 atm; what never melts may be born
-/// either way).
 bool mattersAt(std::string_view key, double temperature, double melting, double boiling) {
   const bool solid = key.ends_with("_solid") || key == "youngs_modulus", gas = key.ends_with("_gas");
   if (solid) return melting <= 0 || temperature <= melting;
@@ -126,6 +124,11 @@ double valueOf(const Material& material, std::string_view key, double temperatur
   const auto found = material.properties.find(std::string(key));
   if (found != material.properties.end()) return found->second.at(temperature);
   return propertyCatalogue()[static_cast<size_t>(index)].defaultValue;
+}
+
+bool existsAt(const Material& material, std::string_view key, double temperature) {
+  const Values value(material);
+  return mattersAt(key, temperature, value("melting_temperature"), value("boiling_temperature"));
 }
 
 PhaseDiagram phaseDiagramOf(const Material& material) {

@@ -4,8 +4,10 @@
 #include "core/matter/phasediagram.h"
 #include <phasesketch/views.h>
 
+#include <algorithm>
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -47,6 +49,20 @@ PhaseDiagram phaseDiagramOf(const Material& material);
 /// "" or what is wrong, beginning with the key at fault.
 std::string problemOf(const Material& material);
 
+/// Whether the phase that a property speaks of exists at a temperature in K, at 1 atm; what never melts may be born
+/// either way.
+bool existsAt(const Material& material, std::string_view key, double temperature);
+
+/// Where a curve or law leaves its property's range, and the table has the end of the range instead.
+struct HeldRange {
+  int property;     ///< index into the catalogue
+  double from, to;  ///< K, to a kelvin or two; 0 and infinity where the table ends
+  double used;      ///< in the property's unit
+  bool contains(double temperature) const { return temperature >= from && temperature <= to; }
+  /// Of two temperatures in it the one that is farther from where the range is left.
+  double farther(double one, double other) const { return from > 0 ? std::max(one, other) : std::min(one, other); }
+};
+
 /// A material baked for hot loops at one ambient pressure.
 class BakedMaterial final : public api::MaterialView {
  public:
@@ -71,6 +87,8 @@ class BakedMaterial final : public api::MaterialView {
   double youngsModulus(double temperature) const;  ///< Pa
   double viscosity(double temperature) const;      ///< Pa s, liquid
   double yieldStress(double temperature) const;    ///< Pa, liquid; 0: flows under any stress
+  /// Where tables have other values than the material says; of a viscosity not above its most: a glass at rest.
+  std::span<const HeldRange> heldRanges() const;
   double scalar(int propertyIndex) const { return m_scalars[static_cast<size_t>(propertyIndex)]; }
 
  private:

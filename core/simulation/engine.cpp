@@ -399,8 +399,8 @@ std::vector<uint32_t> Engine::particlesIn(const VoxelShape& lattice,
 
 std::vector<Limit> Engine::limits() const {
   std::vector<Limit> all = m->solver->limits();
-  const std::vector<Limit>& pouring = m->flow.limits();
-  all.insert(all.end(), pouring.begin(), pouring.end());
+  for (const std::vector<Limit>& more : {m->flow.limits(), m->tables.limits(m->solver->particles())})
+    all.insert(all.end(), more.begin(), more.end());
   return all;
 }
 

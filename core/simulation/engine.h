@@ -28,7 +28,7 @@ class Engine {
 
   /// Plugins that threw in it are refused from now on, in the registry too.
   StepReport step();
-  /// What could not be delivered: the solver's limits, then those of emitters.
+  /// What could not be delivered: the solver's limits, then those of emitters, then those of materials' laws.
   std::vector<Limit> limits() const;
   /// Asks every plugin for its energies and limits, and names those that threw at it since the last step: they are
   /// refused from now on. For the end of a run, after which no step would tell.

@@ -4,6 +4,7 @@
 #include "core/solver/solver.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 namespace ps {
@@ -12,6 +13,24 @@ namespace {
 /// Whether the same table comes of both.
 bool alike(const Material& a, const Material& b) {
   return a.id == b.id && a.properties == b.properties && a.adheresTo == b.adheresTo;
+}
+
+const float* shareOf(std::string_view key, const ParticleStore& store) {
+  if (key.ends_with("_solid") || key == "youngs_modulus") return store.solidFraction();
+  return key.ends_with("_gas") ? store.gasFraction() : store.liquidFraction();
+}
+
+/// K, of the matter that is farthest in a range; nothing where no matter of that phase is in it.
+std::optional<double> farthestIn(const HeldRange& held, std::string_view key, size_t material,
+                                 const ParticleStore& store) {
+  const float* share = shareOf(key, store);
+  std::optional<double> farthest;
+  for (size_t i = 0; i < store.size(); ++i) {
+    const double t = store.temperature()[i];
+    if (store.material()[i] != material || !(share[i] > 0) || !held.contains(t)) continue;
+    farthest = farthest ? held.farther(*farthest, t) : t;
+  }
+  return farthest;
 }
 
 std::array<float, 4> lookOf(const BakedMaterial& material) {
@@ -64,6 +83,21 @@ bool MaterialTables::update(const Project& project, const PluginRegistry& plugin
     for (const auto& [k, source] : sources) solver.setMaterial(k, m_tables[k]);
   }
   return known != count || !sources.empty();
+}
+
+std::vector<Limit> MaterialTables::limits(const ParticleStore& store) const {
+  std::vector<Limit> limits;
+  for (size_t k = 0; k < m_tables.size(); ++k) {
+    for (const HeldRange& held : m_tables[k].heldRanges()) {
+      const api::ParameterDeclaration& property = propertyCatalogue()[static_cast<size_t>(held.property)];
+      const std::optional<double> t = farthestIn(held, property.key, k, store);
+      if (!t) continue;
+      const double asked = valueOf(m_sources[k], property.key, *t);
+      limits.push_back(
+          {m_sources[k].id + "." + property.key, asked, held.used, property.unit, -1, std::array{held.from, held.to}});
+    }
+  }
+  return limits;
 }
 
 bool MaterialTables::anyMelts() const {

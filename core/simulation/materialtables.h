@@ -21,6 +21,8 @@ class MaterialTables {
   /// sRGB and clearness at 20 °C, 0..1.
   const std::vector<std::array<float, 4>>& looks() const { return m_looks; }
   bool anyMelts() const;
+  /// Curves and laws that leave their property's range where there is matter of that phase, and what is used instead.
+  std::vector<Limit> limits(const ParticleStore& store) const;
   uint64_t baked() const { return m_baked; }  ///< tables made since the scene was built for the first time
 
  private:

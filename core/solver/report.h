@@ -3,6 +3,7 @@
 #include <phasesketch/types.h>
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,6 +39,8 @@ struct Limit {
   double asked = 0, delivered = 0;
   std::string unit;
   int body = -1;  ///< the one whose plugin's own parameter it is; -1: a material's, the solver's
+  /// Of a curve or law that leaves its property's range: from where to where, K; 0 and infinity where it goes on.
+  std::optional<std::array<double, 2>> kelvin{};
 };
 
 enum class Stage { Neighbours, Density, Structure, Contact, Viscosity, Heat, Phase, Count };

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <vector>
 
 using namespace ps;
@@ -261,6 +262,30 @@ class TestLiveProperties : public QObject {
     const std::vector<Limit> limits = engine.limits();
     QVERIFY(std::any_of(limits.begin(), limits.end(),
                         [](const Limit& limit) { return limit.what == "solver.thermal_cfl" && limit.asked == 5; }));
+  }
+
+  /// A law that turns negative where there is matter: told with what it gives and what is used, and only there.
+  void lawsThatAreHeldAreTold() {
+    Project project = slushAndSteam();
+    Response law;
+    law.kind = Response::Kind::Law;
+    law.law = "linear";
+    law.coefficients = {2.2, 0.02, 230};  // 0 at 120 K
+    project.materials[0].properties.values["conductivity_solid"] = law;
+    const auto told = [&](double temperature) {
+      project.bodies[0].parameters.values["temperature"] = temperature;
+      const std::vector<Limit> limits = Engine(project, *m_plugins).limits();
+      const auto found = std::find_if(limits.begin(), limits.end(),
+                                      [](const Limit& limit) { return limit.what == "water.conductivity_solid"; });
+      return found == limits.end() ? std::optional<Limit>() : *found;
+    };
+    QVERIFY(!told(200));
+    const std::optional<Limit> limit = told(100);
+    QVERIFY(limit && limit->kelvin);
+    QVERIFY(std::abs(limit->asked + 0.4) < 1e-9);
+    QCOMPARE(limit->delivered, 0.0);
+    QCOMPARE(limit->kelvin->front(), 0.0);
+    QVERIFY(limit->kelvin->back() > 116 && limit->kelvin->back() <= 120);
   }
 
   /// Matter that is born far from the balance of its phase, between heat capacities at the ends of their ranges.

@@ -401,6 +401,19 @@ class TestContentWindow : public SampleWindowTest {
     QCOMPARE(text(42).size(), text(41.9).size());
   }
 
+  /// Of a law no step comes closer: it says where, what is asked and what is used.
+  void lawsThatAreHeldSayWhere() {
+    Limit limit{"water.conductivity_solid", -0.4, 0, "W/(m·K)", -1, std::array{0.0, 120.0}};
+    const api::ParameterDeclaration* declaration =
+        document().declaration({Owner::Material, "water", "conductivity_solid"});
+    QVERIFY(declaration);
+    const QString text = limitText(limit, declaration);
+    QVERIFY2(text.startsWith(QStringLiteral("Conductivity, solid: leaves its range below −153 °C, where matter is; ")),
+             qPrintable(text));
+    QVERIFY2(text.contains(QStringLiteral("−0.4")), qPrintable(text));
+    QCOMPARE(limitNote(limit, declaration), QStringLiteral("Conductivity, solid leaves its range below −153 °C"));
+  }
+
   void theBrushIsNoPartOfTheScene() {
     auto* panel = m_window->findChild<BrushPanel*>();
     QVERIFY(panel && panel->row(QStringLiteral("radius")));

@@ -236,6 +236,24 @@ class TestMatter : public QObject {
     QVERIFY(real.restDensity(277.13, 0, 1, 0) > real.restDensity(273.15, 0, 1, 0));
   }
 
+  void bakedLawsSayWhereTheyWereHeld() {
+    Material material = waterMaterial();
+    QVERIFY(BakedMaterial(material, 101325).heldRanges().empty());
+    material.properties["conductivity_solid"] = law("linear", {2.2, 0.02, 230});
+    material.properties["conductivity_liquid"] = law("linear", {0.6, -0.001, 293});
+    material.properties["viscosity"] = law("vogel", {-1.6, 4000, 520});  // endless when cold, as a glass is
+    const BakedMaterial baked(material, 101325);
+    const auto held = baked.heldRanges();
+    QCOMPARE(held.size(), size_t{2});
+    QCOMPARE(held[0].property, ps::propertyIndex("conductivity_solid"));
+    QCOMPARE(held[0].from, 0.0);
+    QVERIFY(held[0].to > 116 && held[0].to <= 120);  // samples are 1.5 K apart
+    QCOMPARE(held[0].used, 0.0);
+    QCOMPARE(held[0].farther(50, 100), 50.0);
+    QVERIFY(held[1].from >= 893 && held[1].from < 897 && std::isinf(held[1].to));
+    QCOMPARE(held[1].farther(950, 1000), 1000.0);
+  }
+
   void bakedLawsKeepTheirRange_data() {
     QTest::addColumn<QString>("key");
     QTest::addColumn<ps::Response>("response");

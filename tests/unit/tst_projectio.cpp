@@ -45,6 +45,7 @@ class TestProjectIo : public QObject {
   void missingPluginsAreWarningsUnlessRequired();
   void motionThatComesToNothingIsWarnedOf();
   void sketchedBodiesAreNotBornBelowOneKelvin();
+  void lawsThatLeaveTheirRangeInTheSceneAreWarnedOf();
   void materialsAreCheckedAtTheScenesParameters();
   void reservedNamesAreKeptAndTold();
   void newerFilesOpenOnlyWhenTheySaySo();
@@ -450,6 +451,23 @@ void TestProjectIo::sketchedBodiesAreNotBornBelowOneKelvin() {
   QVERIFY2(problem.contains("/bodies/1/temperature_gradient: its temperature gradient would cool it to −"),
            qPrintable(problem));
   QCOMPARE(problemOf(kFull, {"bodies/1/temperature_gradient=[100, 0, 0]"}), QString());
+}
+
+void TestProjectIo::lawsThatLeaveTheirRangeInTheSceneAreWarnedOf() {
+  // 2.2 W/(m K) at 230 K, and below 0 from 120 K down: sound where matter is tried, from 137 K on.
+  const std::string law =
+      "materials/0/properties/conductivity_solid={\"law\": \"linear\", \"coefficients\": [2.2, 0.02, 230]}";
+  const auto warnings = [&](const char* temperature) {
+    QStringList texts;
+    for (const ProjectMessage& warning : parse(kFull, {law, temperature}).warnings)
+      texts << QString::fromStdString(warning.text);
+    return texts.join('\n');
+  };
+  const QString cold = warnings("bodies/0/temperature=100");
+  QVERIFY2(cold.contains("/materials/0/properties/conductivity_solid: its law gives −0.4 W/(m·K) at 100 K, which this "
+                         "scene has; 0 is used there"),
+           qPrintable(cold));
+  QVERIFY(!warnings("bodies/0/temperature=250").contains("its law gives"));
 }
 
 void TestProjectIo::materialsAreCheckedAtTheScenesParameters() {

@@ -93,11 +93,11 @@ void RowNotes::addLimits(std::map<QString, Note>& notes) const {
   for (const Limit& limit : m_limits) {
     const auto address = limitAddress(limit, m_bodies.get());
     if (!address) continue;
-    add(notes, QString::fromStdString(address->text()),
-        {asNote(limitText(limit, m_document.declaration(*address))) +
-             QStringLiteral(". [Use %1 substeps](solver/substeps=%1) to come closer")
-                 .arg(static_cast<int>(substeps) * 2),
-         limit.delivered});
+    QString text = asNote(limitText(limit, m_document.declaration(*address))) + QLatin1Char('.');
+    if (!limit.kelvin)  // else no step comes closer
+      text +=
+          QStringLiteral(" [Use %1 substeps](solver/substeps=%1) to come closer").arg(static_cast<int>(substeps) * 2);
+    add(notes, QString::fromStdString(address->text()), {text, limit.kelvin ? kNone : limit.delivered});
   }
 }
 

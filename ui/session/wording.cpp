@@ -5,6 +5,7 @@
 #include "ui/theme/numbers.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace ps {
@@ -99,6 +100,20 @@ std::optional<Address> limitAddress(const Limit& limit, const std::vector<std::s
   return Address{Owner::Constraint, (*bodies)[body], key, owner};
 }
 
+namespace {
+
+/// "above 412 °C"
+QString whereText(const std::array<double, 2>& kelvin) {
+  const auto celsius = [](double t) { return formatFixed(t - 273.15, 0) + QStringLiteral(" °C"); };
+  const auto [from, to] = kelvin;
+  if (!(from > 0))
+    return std::isfinite(to) ? QStringLiteral("below %1").arg(celsius(to)) : QStringLiteral("everywhere");
+  if (!std::isfinite(to)) return QStringLiteral("above %1").arg(celsius(from));
+  return QStringLiteral("between %1 and %2").arg(celsius(from), celsius(to));
+}
+
+}  // namespace
+
 QString limitNote(const Limit& limit, const api::ParameterDeclaration* declaration) {
   if (limit.what == kBalanceLimit)
     return QStringLiteral("heat balance open by %1")
@@ -106,10 +121,17 @@ QString limitNote(const Limit& limit, const api::ParameterDeclaration* declarati
   if (limit.what == kSqueezeLimit)
     return QStringLiteral("liquid is %1 % too dense, solid matter on its way or squeezed may leave it no room")
         .arg(formatFixed(100 * limit.delivered, 0));
-  return limitText(limit, declaration).section(QLatin1Char(':'), 0, 0) + QStringLiteral(" is limited by the step");
+  const QString what = limitText(limit, declaration).section(QLatin1Char(':'), 0, 0);
+  if (limit.kelvin) return what + QStringLiteral(" leaves its range ") + whereText(*limit.kelvin);
+  return what + QStringLiteral(" is limited by the step");
 }
 
 QString limitText(const Limit& limit, const api::ParameterDeclaration* declaration) {
+  if (declaration && limit.kelvin) {
+    return QStringLiteral("%1: leaves its range %2, where matter is; %3 is used for %4. Change the curve or law")
+        .arg(QString::fromUtf8(declaration->label), whereText(*limit.kelvin),
+             formatValue(*declaration, limit.delivered), formatValue(*declaration, limit.asked));
+  }
   if (declaration) {
     return QStringLiteral("%1: the solver reaches %2 of %3 at this step")
         .arg(QString::fromUtf8(declaration->label),
