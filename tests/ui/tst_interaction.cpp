@@ -260,7 +260,9 @@ class TestInteraction : public SampleWindowTest {
     QCOMPARE(narrow.second, 373.15);
     const double celsius = narrow.first - 273.15;
     QVERIFY(std::abs(celsius - std::round(celsius)) < 1e-9);
-    QVERIFY(range.update(speed, {0, 3}) == (std::pair{0.0, 5.0}));  // another map is automatic
+    QVERIFY(range.update(speed, {0, 5}) == (std::pair{0.0, 5.0}));  // another map is automatic
+    QVERIFY(range.update(speed, {0, 3}) == (std::pair{0.0, 5.0}));  // and stands as long as half of it is used
+    QVERIFY(range.update(speed, {0, 2}) == (std::pair{0.0, 2.0}));
   }
 
   /// The label names a direction only as long as one looks from there.

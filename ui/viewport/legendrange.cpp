@@ -18,18 +18,6 @@ double roundUp(double value) {
   return decade * 10;
 }
 
-std::pair<double, double> rounded(const ParticleField& field, std::pair<double, double> measured) {
-  if (field.hasScale()) return measured;
-  if (field.unit == "K") {
-    constexpr double kStep = 10;
-    const double low = kZero + kStep * std::floor((measured.first - kZero) / kStep);
-    double high = kZero + kStep * std::ceil((measured.second - kZero) / kStep);
-    if (high - low < 2 * kStep) high = low + 2 * kStep;
-    return {low, high};
-  }
-  return measured.first == 0 ? std::pair{0.0, roundUp(measured.second)} : measured;
-}
-
 }  // namespace
 
 void LegendRange::moveEnd(bool upper, double share) {
@@ -47,11 +35,10 @@ void LegendRange::moveEnd(bool upper, double share) {
   m_set = true;
 }
 
-std::pair<double, double> LegendRange::update(const ParticleField& field, std::pair<double, double> measured) {
+std::pair<double, double> LegendRange::update(const ParticleField& field, std::pair<double, double> wanted) {
   const bool same = field.name == m_name;
   if (m_set && same) return m_range;
   m_set = false;
-  const auto wanted = rounded(field, measured);
   const bool fits = m_valid && same && wanted.first >= m_range.first && wanted.second <= m_range.second;
   if (!fits || wanted.second - wanted.first < 0.5 * (m_range.second - m_range.first)) m_range = wanted;
   m_valid = true;

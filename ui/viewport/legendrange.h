@@ -7,11 +7,12 @@
 
 namespace ps {
 
-/// Range of the colour map, automatic until somebody sets it. An automatic one does not twitch: its ends lie on round
-/// numbers, and it shrinks only when what is there fills less than half of it. SI units.
+/// Range of the colour map, automatic until somebody sets it. An automatic one does not twitch: it shrinks only when
+/// what is there fills less than half of it. SI units.
 class LegendRange {
  public:
-  std::pair<double, double> update(const ParticleField& field, std::pair<double, double> measured);
+  /// `wanted`: of what is there, between round numbers, as colourRange() says.
+  std::pair<double, double> update(const ParticleField& field, std::pair<double, double> wanted);
   /// Moves one end of the range in force by a share of its width, to a round value; it stays on its side of the other.
   void moveEnd(bool upper, double share);
   bool isSet() const { return m_set; }
