@@ -76,6 +76,7 @@ std::vector<ParticleField> ownRows() {
        .help = "which body it was made by; colours come again after eight",
        .maximum = kBodyColours - 1,
        .classes = true,
+       .bodies = true,
        .inStore = [](const ParticleStore& s, size_t i) { return static_cast<double>(s.body()[i] % kBodyColours); },
        .inSnapshot = [](const Snapshot& s, size_t i) { return static_cast<float>(s.body[i] % kBodyColours); }},
   };

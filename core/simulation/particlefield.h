@@ -26,6 +26,7 @@ struct ParticleField {
   double minimum = 0, maximum = 0;  ///< ends of its scale; equal: as far as its values go
   double least = 0;                 ///< a scale that is found reaches at least so far
   bool classes = false;             ///< its values are names in order: they have no mean
+  bool bodies = false;              ///< and those names are the scene's: of its bodies and taps
   bool inner = false;               ///< what matters lies within a liquid, where a surface would hide it
   /// Of ours, where it is not read as it lies in the store.
   double (*inStore)(const ParticleStore& store, size_t particle) = nullptr;

@@ -243,7 +243,7 @@ OverlayState Viewport::overlayState() const {
   state.viewName = m_navigator.viewName();
   state.field = m_session.fields().find(m_colour);
   state.range = m_range;
-  if (m_colour == "body") state.classes = bodyClasses();
+  if (state.field && state.field->bodies) state.classes = bodyClasses();
   state.meltingPoint = m_session.transitions().meltsOr(kIceMelts);
   state.boilingPoint = m_session.transitions().boils();
   state.empty = !m_now;
