@@ -278,6 +278,24 @@ class TestTools : public QObject {
     QCOMPARE(m_document->undoStack().count(), 0);
   }
 
+  /// It is installed, and failed: its button says what it said, and what to do.
+  void aBrushThatWasPutAsideSaysSo() {
+    PluginRegistry plugins;
+    m_document->setPlugins(&plugins);
+    setBrush("cube");
+    plugins.fault("cube", "no more paint");
+    QSignalSpy refused(m_tools.get(), &Toolbox::refused);
+    m_tools->activate(kBrushTool);
+    m_tools->tool().press(at({0.1, 0, 0.15}));
+    QCOMPARE(refused.count(), 1);
+    const QString why = refused[0][1].toString();
+    QVERIFY2(why.contains(QStringLiteral("is put aside")) && why.contains(QStringLiteral("no more paint")) &&
+                 why.contains(QStringLiteral("until the program starts again")),
+             qPrintable(why));
+    QVERIFY(!why.contains(QStringLiteral("not installed")));
+    cleanup();  // the plugins go before the document does
+  }
+
   void aTapIsPlacedOnWhatIsUnderTheRay() {
     m_tools->activate("tap");
     m_tools->tool().hover(at({0.1, 0, 0.1}));

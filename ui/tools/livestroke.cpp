@@ -73,13 +73,25 @@ Body LiveStroke::paintedBody(int& palette) const {
   return body;
 }
 
+namespace {
+
+/// One that has failed stands under Plugins with what it said, and comes back with the program.
+QString whyNoBrush(const PluginRegistry& plugins, const std::string& id) {
+  for (const PluginInfo& info : plugins.plugins()) {
+    if (info.id != id || info.state == PluginInfo::State::Loaded) continue;
+    return QStringLiteral("The brush “%1” is put aside: %2. Choose another brush.")
+        .arg(QString::fromStdString(info.label), QString::fromStdString(info.problem));
+  }
+  return QStringLiteral("The brush “%1” is not installed. See Plugins.").arg(QString::fromStdString(id));
+}
+
+}  // namespace
+
 QString LiveStroke::whyNot(bool erase, const Snapshot& now) const {
   const PluginRegistry* plugins = m_box.document().plugins();
   if (!plugins || !m_box.link()) return QStringLiteral("Plugins are still being loaded.");
   const BrushSettings& brush = m_box.brush();
-  if (!plugins->brush(brush.shape)) {
-    return QStringLiteral("The brush “%1” is not installed. See Plugins.").arg(QString::fromStdString(brush.shape));
-  }
+  if (!plugins->brush(brush.shape)) return whyNoBrush(*plugins, brush.shape);
   if (!erase && m_box.document().project().materials.empty()) {
     return QStringLiteral("The scene has no material to draw with. Add one under Materials.");
   }
