@@ -90,6 +90,12 @@ DocumentFiles::DocumentFiles(Document& document, Worker& worker, QObject* parent
   freeSettings();
 }
 
+/// Whatever way leads to it.
+bool DocumentFiles::isSample(const QString& path) const {
+  const QString sample = QFileInfo(m_sample).canonicalFilePath();  // "" of what is not there
+  return !sample.isEmpty() && QFileInfo(path).canonicalFilePath() == sample;
+}
+
 void DocumentFiles::open(const QString& path) {
   const QString absolute = QFileInfo(path).absoluteFilePath();
   load({absolute, absolute, false, false, {}, {}});

@@ -34,6 +34,7 @@ class DocumentFiles : public QObject {
   void keepWith(const Autosave& autosave) { m_autosave = &autosave; }
   /// A file that everybody opens and nobody saves: never locked.
   void setSample(const QString& path) { m_sample = path; }
+  bool isSample(const QString& path) const;
 
   void open(const QString& path);
   /// What openFailed() came for last, a copy of unsaved work and an earlier version too, though plugins are missing
@@ -84,7 +85,7 @@ class DocumentFiles : public QObject {
   struct Read;
   void load(const Source& source);
   void adopt(const Source& source, Read& read);
-  bool locks(const QString& path) const { return m_autosave && !path.isEmpty() && path != m_sample; }
+  bool locks(const QString& path) const { return m_autosave && !path.isEmpty() && !isSample(path); }
   void lockLater();
 
   Document& m_document;

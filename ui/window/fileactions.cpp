@@ -207,15 +207,9 @@ void FileActions::chooseOpen() {
   if (!path.isEmpty()) open(path);
 }
 
-/// The sample that comes with the program stays as it is: it is saved under another name.
-bool FileActions::isSample(const QString& path) const {
-  return !m_options.sample.isEmpty() &&
-         QFileInfo(path).canonicalFilePath() == QFileInfo(m_options.sample).canonicalFilePath();
-}
-
 void FileActions::save() {
   const QString& path = m_session.document().path();
-  if (path.isEmpty() || isSample(path)) {
+  if (path.isEmpty() || m_session.files().isSample(path)) {
     chooseSave();
   } else {
     saveTo(path);
@@ -224,7 +218,7 @@ void FileActions::save() {
 
 void FileActions::saveWithState() {
   const QString& path = m_session.document().path();
-  m_stateTo = path.isEmpty() || isSample(path) ? chooseFile() : path;
+  m_stateTo = path.isEmpty() || m_session.files().isSample(path) ? chooseFile() : path;
   if (!m_stateTo.isEmpty()) m_session.keepState();
 }
 
@@ -235,7 +229,7 @@ void FileActions::chooseSave() {
 QString FileActions::chooseFile() {
   const Document& document = m_session.document();
   QString suggestion = document.path();
-  if (suggestion.isEmpty() || isSample(suggestion)) {
+  if (suggestion.isEmpty() || m_session.files().isSample(suggestion)) {
     suggestion = QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation) + QLatin1Char('/') +
                  fileNameFor(document.title()) + QStringLiteral(".json");
   }
@@ -271,7 +265,7 @@ void FileActions::onOpenFailed(const QString& path, const QString& problem) {
   if (first) {
     m_session.files().newProject();  // the window must not stay empty
     m_restore.offerAtStart();
-    if (!m_options.sample.isEmpty() && !isSample(path))
+    if (!m_options.sample.isEmpty() && !m_session.files().isSample(path))
       buttons.push_back({QStringLiteral("Open the sample"), [this] { open(m_options.sample); }});
   }
   m_notices.bar().show(

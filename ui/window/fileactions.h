@@ -59,7 +59,6 @@ class FileActions : public QObject {
   void onSaved(const QString& path, bool present);
   void onStateLeftOut(const QString& path, const QString& why, bool present);
   void onSaveFailed(const QString& path, const QString& problem, bool present);
-  bool isSample(const QString& path) const;
 
   Session& m_session;
   const Actions& m_actions;
