@@ -48,16 +48,16 @@ void Autosave::takeStem() {
     m_stem = QDir(m_directory)
                  .filePath(QStringLiteral("%1-%2-%3").arg(now).arg(QCoreApplication::applicationPid()).arg(m_count++));
     lock = std::make_unique<FileLock>((m_stem + QStringLiteral(".lock")).toStdString());
-  } while (lock->busy() || notes::stems(m_directory).contains(m_stem));
+  } while (lock->busy() || notes::sessions(m_directory).contains(m_stem));
   m_lock = std::move(lock);
 }
 
 std::vector<AutosavedSession> Autosave::leftBehind() const {
   std::vector<AutosavedSession> sessions;
-  for (const QString& stem : notes::stems(m_directory)) {
+  for (const auto& [stem, copies] : notes::sessions(m_directory)) {
     if (stem == m_stem || m_takenOver.contains(stem)) continue;
     if (FileLock::isHeld((stem + QStringLiteral(".lock")).toStdString())) continue;  // still running
-    sessions.push_back(notes::read(stem));
+    sessions.push_back(notes::read(stem, copies));
   }
   std::stable_sort(sessions.begin(), sessions.end(), [](const auto& a, const auto& b) { return a.time > b.time; });
   return sessions;

@@ -14,7 +14,6 @@
 #include <QtCore/QJsonObject>
 
 #include <limits>
-#include <map>
 
 namespace ps::notes {
 namespace {
@@ -76,17 +75,24 @@ void put(const QString& stem, const QJsonObject& note) {
   writeFileAtomically((stem + kNote).toStdString(), QJsonDocument(note).toJson().toStdString());
 }
 
-/// Copies of a session by the change that they hold.
-std::map<uint64_t, QString> copies(const QString& stem) {
-  std::map<uint64_t, QString> found;
+/// Notes a file of a session: a copy by the change that it holds, which older programs did not say.
+void addFile(std::map<QString, Copies>& sessions, const QDir& dir, const QString& name) {
+  const QString stem = name.section(QLatin1Char('.'), 0, 0);
+  Copies& copies = sessions[dir.filePath(stem)];
+  if (!name.endsWith(kJson)) return;
+  const QString change = name.mid(stem.size() + 1).chopped(4);  // "12." of "12.json", or ""
+  bool good = change.isEmpty();
+  const uint64_t n = good ? 0 : change.chopped(1).toULongLong(&good);
+  if (good) copies[n] = dir.filePath(name);
+}
+
+/// Of one session.
+Copies copiesOf(const QString& stem) {
+  std::map<QString, Copies> found;
   const QFileInfo info(stem);
-  for (const QString& name : info.dir().entryList({info.fileName() + QStringLiteral("*.json")}, QDir::Files)) {
-    const QString change = name.mid(info.fileName().size() + 1).chopped(4);  // "12." of "12.json", or ""
-    bool good = change.isEmpty();
-    const uint64_t n = good ? 0 : change.chopped(1).toULongLong(&good);
-    if (good) found[n] = info.dir().filePath(name);
-  }
-  return found;
+  for (const QString& name : info.dir().entryList({info.fileName() + QStringLiteral(".*json")}, QDir::Files))
+    addFile(found, info.dir(), name);
+  return found.empty() ? Copies() : found.begin()->second;
 }
 
 /// Whether the file that belongs to the copy holds the same work or later work by now.
@@ -104,20 +110,18 @@ QString copyPath(const QString& stem, uint64_t change) {
   return stem + QLatin1Char('.') + QString::number(change) + kJson;
 }
 
-QStringList stems(const QString& directory) {
-  QStringList found;
+std::map<QString, Copies> sessions(const QString& directory) {
+  std::map<QString, Copies> found;
   const QDir dir(directory);
   for (const QString& name : dir.entryList({QLatin1Char('*') + kNote, QLatin1Char('*') + kJson}, QDir::Files))
-    found << dir.filePath(name.section(QLatin1Char('.'), 0, 0));
-  found.removeDuplicates();
+    addFile(found, dir, name);
   return found;
 }
 
-AutosavedSession read(const QString& stem) {
+AutosavedSession read(const QString& stem, const Copies& all) {
   AutosavedSession session;
   session.stem = stem;
   const QJsonObject note = noteOf(stem);
-  const auto all = copies(stem);
   const uint64_t change = all.empty() ? 0 : all.rbegin()->first;
   const QString copy = all.empty() ? QString() : all.rbegin()->second;
   // A copy that is newer than the note was written when the program ended between the two.
@@ -152,7 +156,7 @@ void write(const AutosavedSession& session) {
 
 void announceSave(const QString& stem, uint64_t change, const QString& path, const FileStamp& bytes) {
   QJsonObject note = noteOf(stem);
-  if (note.isEmpty() && copies(stem).empty()) return;
+  if (note.isEmpty() && copiesOf(stem).empty()) return;
   note.insert(kSaving, QJsonObject{{QStringLiteral("change"), text(change)},
                                    {QStringLiteral("path"), path},
                                    {QStringLiteral("size"), text(bytes.size)},
@@ -161,7 +165,7 @@ void announceSave(const QString& stem, uint64_t change, const QString& path, con
 }
 
 void removeCopies(const QString& stem, uint64_t upTo) {
-  for (const auto& [change, path] : copies(stem)) {
+  for (const auto& [change, path] : copiesOf(stem)) {
     if (change <= upTo) QFile::remove(path);
   }
 }
@@ -174,11 +178,11 @@ void removeAll(const QString& stem) {
 void tidy(const QString& directory) {
   removeLeftParts(directory.toStdString(), {});
   QStringList paths;
-  for (const QString& stem : stems(directory)) {
+  for (const auto& [stem, copies] : sessions(directory)) {
     const QJsonObject note = noteOf(stem);
-    if (const auto all = copies(stem); !all.empty() && isSaved(all.rbegin()->first, note) &&
-                                       !FileLock::isHeld((stem + QStringLiteral(".lock")).toStdString()))
-      removeCopies(stem, all.rbegin()->first);
+    if (!copies.empty() && isSaved(copies.rbegin()->first, note) &&
+        !FileLock::isHeld((stem + QStringLiteral(".lock")).toStdString()))
+      removeCopies(stem, copies.rbegin()->first);
     paths << note.value(QStringLiteral("path")).toString()
           << note.value(kSaving).toObject().value(QStringLiteral("path")).toString();
   }

@@ -3,7 +3,8 @@
 #include "ui/session/autosave.h"
 
 #include <QtCore/QString>
-#include <QtCore/QStringList>
+
+#include <map>
 
 /// The files of a session in the autosave folder: `stem`.note says what it works on, `stem`.N.json is a copy of the
 /// project as it was at change N, `stem`.lock is locked while the session runs. A copy is written before the note that
@@ -11,9 +12,11 @@
 namespace ps::notes {
 
 QString copyPath(const QString& stem, uint64_t change);
-QStringList stems(const QString& directory);  ///< of all sessions that left a note or a copy
+using Copies = std::map<uint64_t, QString>;  ///< of a session, by the change that they hold
+/// All sessions that left a note or a copy, by stem. Reads the folder once, however many there are.
+std::map<QString, Copies> sessions(const QString& directory);
 /// Whatever can be read of it: a copy without a readable note is a copy all the same, of a nameless project.
-AutosavedSession read(const QString& stem);
+AutosavedSession read(const QString& stem, const Copies& copies);
 /// Throws Error.
 void write(const AutosavedSession& session);
 /// Before the file at `path` gets bytes of this size and hash, which hold the project as it was at `change`: when it
