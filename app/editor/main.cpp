@@ -6,6 +6,7 @@
 #include "app/editor/quitwatchdog.h"
 #include "core/plugin_host/pluginscan.h"
 #include "core/plugin_host/registry.h"
+#include "ui/session/settingsformat.h"
 #include "ui/theme/theme.h"
 #include "ui/viewport/viewport.h"
 #include "ui/window/mainwindow.h"
@@ -62,6 +63,7 @@ int main(int argc, char** argv) {
   QApplication::setApplicationName(QStringLiteral("phasesketch"));
   QApplication::setOrganizationName(QStringLiteral("phasesketch"));
   QApplication::setApplicationVersion(QStringLiteral(PS_VERSION));
+  ps::keepSettingsWhole();
 
   const ps::EditorArguments arguments = ps::parseArguments(QApplication::arguments().mid(1));
   if (!arguments.problem.isEmpty()) {

@@ -196,6 +196,38 @@ class TestKeeping : public QObject {
     QVERIFY2(calls > 4, qPrintable(QString::number(calls)));
   }
 
+  void everyCallOfTheSettingsMayFail_data() { everyCallMayFail_data(); }
+  void everyCallOfTheSettingsMayFail() {
+    QFETCH(int, code);
+    const QString config = m_directory->filePath(QStringLiteral("config")),
+                  file = config + QStringLiteral("/phasesketch/phasesketch.settings");
+    const auto run = [&](int call) {
+      QProcess keeper;
+      QProcessEnvironment environment = failingAt(call, code, config, mark());
+      environment.insert(QStringLiteral("XDG_CONFIG_HOME"), config);
+      keeper.setProcessEnvironment(environment);
+      keeper.start(kKeeper, {m_directory->path(), QStringLiteral("settings")});
+      keeper.waitForFinished(20000);
+      return keeper.exitCode();
+    };
+    constexpr int kNever = 1000000;
+    QCOMPARE(run(kNever), 0);
+    const QByteArray before = read(file);
+    QCOMPARE(run(kNever), 0);
+    const QByteArray whole = read(file);
+    QVERIFY(!before.isEmpty() && whole != before);
+    int calls = 0;
+    for (bool failed = true; failed; ++calls) {
+      QFile::remove(mark());
+      write(file, before);
+      const int status = run(calls + 1);
+      failed = QFile::exists(mark());
+      QVERIFY2(failed || status == 0, qPrintable(QString::number(status)));
+      QCOMPARE(read(file), status == 0 ? whole : before);
+    }
+    QVERIFY2(calls > 3, qPrintable(QString::number(calls)));
+  }
+
  private:
   struct Found {
     int file = -1, offered = -1;  ///< edits that they hold

@@ -4,13 +4,16 @@
 // says.
 //   keeper FOLDER once       three edits: kept, saved, kept; then it is gone as by a crash
 //   keeper FOLDER loop       edits and saves until it is killed
+//   keeper FOLDER settings   counts its runs in the settings: "saved K"
 #include "core/plugin_host/pluginscan.h"
 #include "tests/ui/desk.h"
 #include "tests/ui/keeping/edits.h"
+#include "ui/session/settingsformat.h"
 
 #include <QtCore/QCoreApplication>
 #include <QtCore/QEventLoop>
 #include <QtCore/QFileInfo>
+#include <QtCore/QSettings>
 #include <QtCore/QTimer>
 
 #include <deque>
@@ -100,6 +103,19 @@ class Keeper : public QObject {
   int m_edit = 0, m_problems = 0;
 };
 
+int countRuns() {
+  QCoreApplication::setOrganizationName(QStringLiteral("phasesketch"));
+  QCoreApplication::setApplicationName(QStringLiteral("phasesketch"));
+  keepSettingsWhole();
+  QSettings settings;
+  const int runs = settings.value(QStringLiteral("runs")).toInt() + 1;
+  settings.setValue(QStringLiteral("runs"), runs);
+  settings.sync();
+  const bool good = settings.status() == QSettings::NoError;
+  say(good ? QStringLiteral("saved %1").arg(runs) : QStringLiteral("failed: settings"));
+  return good ? 0 : 1;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -107,6 +123,7 @@ int main(int argc, char** argv) {
   QCoreApplication application(argc, argv);
   const QStringList arguments = QCoreApplication::arguments();
   if (arguments.size() != 3) return 2;
+  if (arguments[2] == QStringLiteral("settings")) return countRuns();
   Keeper keeper(arguments[1]);
   if (!keeper.open()) ::_exit(1);
   say(QStringLiteral("open"));
