@@ -136,7 +136,7 @@ int renderProject(const Arguments& arguments, const std::string& path) {
   if (arguments.has(kAtStart.name)) project.state = nullptr;
   const bool film = isFilm(arguments.text("--out"));
   const long every = arguments.integer("--every", 1, 1'000'000).value_or(film ? 1 : 60);
-  Engine engine(project, plugins);
+  Engine engine = makeEngine(arguments, project, plugins);
   tellRemarks(arguments, path, engine);
   const std::string colour = colourOf(project, engine.fields(), nullptr, arguments);
   engine.show({colour});

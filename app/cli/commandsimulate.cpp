@@ -126,7 +126,7 @@ int simulateCommand(CommandArguments list) {
   std::vector<std::string> inputs{path};
   if (arguments.has("--from")) inputs.push_back(arguments.text("--from"));
   requireOutputs(arguments, inputs, {"--report", "--probes", "--record", "--save-state", "--save-project"});
-  Engine engine(project, plugins);
+  Engine engine = makeEngine(arguments, project, plugins);
   tellRemarks(arguments, path, engine, &warnings);
   if (arguments.has("--from")) restoreFrom(arguments.text("--from"), engine);
   const FrameStats begin = engine.stats();

@@ -5,16 +5,20 @@
 #include "core/base/callwatch.h"
 #include "core/base/error.h"
 #include "core/base/parallel.h"
+#include "core/base/progress.h"
 #include "core/io/outputfile.h"
 #include "core/plugin_host/crashwatch.h"
 #include "core/solver/solver.h"
 
 #include <algorithm>
 #include <cmath>
+#include <condition_variable>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <map>
+#include <mutex>
+#include <thread>
 #include <unistd.h>
 
 namespace ps::cli {
@@ -92,6 +96,29 @@ long frameCount(const Arguments& arguments, const Project& project, double begun
   const double frames = std::round(seconds / frameLength(project));
   if (frames > kMostFrames) throw InputError("--seconds: more than " + std::to_string(kMostFrames) + " frames");
   return static_cast<long>(frames);
+}
+
+Engine makeEngine(const Arguments& arguments, const Project& project, PluginRegistry& plugins) {
+  static constexpr auto kPatient = std::chrono::milliseconds(500), kPause = std::chrono::milliseconds(100);
+  if (arguments.has("--quiet") || ::isatty(STDERR_FILENO) != 1) return Engine(project, plugins);
+  ps::Progress progress;
+  const ProgressScope scope(&progress);
+  const std::jthread teller([&progress](const std::stop_token& stop) {
+    std::mutex mutex;
+    std::condition_variable_any ended;
+    std::unique_lock lock(mutex);
+    bool shown = false;
+    ended.wait_for(lock, stop, kPatient, [] { return false; });
+    for (; !stop.stop_requested(); ended.wait_for(lock, stop, kPause, [] { return false; })) {
+      const ps::Progress::State state = progress.state();
+      if (!state.stage) continue;
+      std::fprintf(stderr, "\r\033[K%s, %.0f %%", state.stage, 100 * state.done);
+      std::fflush(stderr);
+      shown = true;
+    }
+    if (shown) std::fputs("\r\033[K", stderr);
+  });
+  return Engine(project, plugins);
 }
 
 double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }

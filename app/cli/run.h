@@ -40,6 +40,8 @@ Project parseFor(const Arguments& arguments, const std::string& text, const std:
 /// Tells what an engine has to say of the state that its project holds, as loadFor() tells its warnings.
 void tellRemarks(const Arguments& arguments, const std::string& path, const Engine& engine,
                  std::vector<std::string>* warnings = nullptr);
+/// An engine of a project. On a terminal a line says how far it is where that takes long.
+Engine makeEngine(const Arguments& arguments, const Project& project, PluginRegistry& plugins);
 /// Frames of a run that begins `begun` s after the start: --frames, --seconds (mechanical time), or what is left of the
 /// project's duration.
 long frameCount(const Arguments& arguments, const Project& project, double begun = 0);

@@ -3,6 +3,7 @@
 
 #include "core/base/base64.h"
 #include "core/base/error.h"
+#include "core/base/progress.h"
 #include "core/base/statestream.h"
 
 #include <zstd.h>
@@ -76,9 +77,11 @@ std::vector<std::byte> unpackBlock(const PackedBlock& block, size_t most) {
     throw InputError("is no zstd frame that says its size");
   if (!fits(size)) throw wrongSize(size);
   if (size > most) throw InputError("would take " + std::to_string(size) + " bytes, more than a state may have");
+  advance(0);
   std::vector<std::byte> planes(static_cast<size_t>(size));
   const size_t got = ZSTD_decompress(planes.data(), planes.size(), small->data(), small->size());
   if (ZSTD_isError(got) || got != planes.size()) throw InputError("is damaged, or is cut off: zstd cannot unpack it");
+  advance(0);
   const size_t word = wordOf(type);
   return transposed(planes, word, planes.size() / word);
 }
@@ -94,6 +97,7 @@ StateBuffer unpackState(std::span<const PackedBlock> blocks) {
     } catch (const InputError& problem) {
       StateReader::fail(packed.name, problem.what());
     }
+    advance(1);
     left -= bytes.size();
     writer.block(
         {packed.name, stateTypeNamed(packed.type), static_cast<uint16_t>(packed.version), packed.count, bytes});

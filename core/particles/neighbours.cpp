@@ -2,6 +2,7 @@
 #include "core/particles/neighbours.h"
 
 #include "core/base/parallel.h"
+#include "core/base/progress.h"
 #include "core/base/statestream.h"
 #include "core/particles/neighbourkernels.h"
 
@@ -67,14 +68,16 @@ void Neighbours::searchLists(std::span<const api::Float4> position, const Period
   const size_t n = position.size();
   m_cellOfSlot.resize(n);
   for (std::vector<float>* v : {&m_x, &m_y, &m_z}) v->resize(n + kSpareSlots);
-  for (size_t slot = 0; slot < n; ++slot) {
-    const size_t i = indexOf(slot);
-    const api::Double3 p = period.wrapped({position[i].x, position[i].y, position[i].z});
-    m_x[slot] = static_cast<float>(p.x);
-    m_y[slot] = static_cast<float>(p.y);
-    m_z[slot] = static_cast<float>(p.z);
-    m_cellOfSlot[slot] = m_grid.cellOfEach()[i];
-  }
+  inSlices(0, n, [&](size_t first, size_t last) {
+    for (size_t slot = first; slot < last; ++slot) {
+      const size_t i = indexOf(slot);
+      const api::Double3 p = period.wrapped({position[i].x, position[i].y, position[i].z});
+      m_x[slot] = static_cast<float>(p.x);
+      m_y[slot] = static_cast<float>(p.y);
+      m_z[slot] = static_cast<float>(p.z);
+      m_cellOfSlot[slot] = m_grid.cellOfEach()[i];
+    }
+  });
   const double radius = m_support + m_skin;
   const SearchGrid grid{m_x.data(),
                         m_y.data(),
@@ -87,7 +90,9 @@ void Neighbours::searchLists(std::span<const api::Float4> position, const Period
   const size_t chunks = chunkCount(n, grain::kNeighbours);
   if (m_chunks.size() < chunks) m_chunks.resize(chunks);
   m_counts.resize(n);
+  Progress* const progress = t_progress;  // of this thread; others help it
   const auto search = [&](size_t first, size_t last) {
+    if (progress) progress->advance(last - first);
     Chunk& chunk = m_chunks[first / grain::kNeighbours];
     chunk.found.clear();
     searchSlots(grid, first, last, m_counts.data() + first, chunk.found);

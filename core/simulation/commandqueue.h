@@ -2,6 +2,7 @@
 #pragma once
 #include "core/simulation/command.h"
 
+#include <algorithm>
 #include <deque>
 #include <functional>
 #include <memory>
@@ -29,6 +30,11 @@ using QueueEntry = std::variant<ParameterBatch, Command, Question, Opening, Sing
 class CommandQueue {
  public:
   bool empty() const { return m_entries.empty(); }
+  /// Whether another scene waits to be opened.
+  bool opens() const {
+    return std::any_of(m_entries.begin(), m_entries.end(),
+                       [](const QueueEntry& entry) { return std::holds_alternative<Opening>(entry); });
+  }
   void push(Command command) {
     if (auto* edit = std::get_if<SetParameter>(&command)) {
       set(std::move(*edit));

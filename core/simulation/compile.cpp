@@ -2,6 +2,7 @@
 #include "core/simulation/compile.h"
 
 #include "core/base/error.h"
+#include "core/base/progress.h"
 #include "core/math/vector.h"
 #include "core/matter/material.h"
 #include "core/plugin_host/registry.h"
@@ -74,21 +75,23 @@ void setFields(Spawn& spawn, const Body& body, const Vector3& centre, const api:
   const std::string asked = choiceOf(body.parameters, bodyParameters(), "phase");
   const Vector3 &w = body.spin, &gradient = body.temperatureGradient;
   const bool warped = gradient != Vector3::Zero();
-  for (const api::Double3& place : spawn.position) {
-    const Vector3 p = vectorOf(place), r = p - centre;
-    Vector3 v = body.velocity + w.cross(r);
-    if (body.velocityWave) v += body.velocityWave->velocity * sineAt(*body.velocityWave, p);
-    spawn.velocity.push_back(spawn.fixed ? api::Double3{0, 0, 0} : double3Of(v));
-    if (!warped) continue;
-    const double t = spawn.temperature + gradient.dot(r);
-    if (!(t >= 1)) {
-      throw SceneError("body '" + body.name + "': its temperature gradient would cool it to " + numberText(t) +
-                           " K; raise its temperature or lower the gradient",
-                       {Owner::Body, body.id, "temperature"});
+  inSlices(0, spawn.position.size(), [&](size_t first, size_t last) {
+    for (const api::Double3& place : std::span(spawn.position).subspan(first, last - first)) {
+      const Vector3 p = vectorOf(place), r = p - centre;
+      Vector3 v = body.velocity + w.cross(r);
+      if (body.velocityWave) v += body.velocityWave->velocity * sineAt(*body.velocityWave, p);
+      spawn.velocity.push_back(spawn.fixed ? api::Double3{0, 0, 0} : double3Of(v));
+      if (!warped) continue;
+      const double t = spawn.temperature + gradient.dot(r);
+      if (!(t >= 1)) {
+        throw SceneError("body '" + body.name + "': its temperature gradient would cool it to " + numberText(t) +
+                             " K; raise its temperature or lower the gradient",
+                         {Owner::Body, body.id, "temperature"});
+      }
+      spawn.temperatures.push_back(t);
+      spawn.phases.push_back(birthPhase(asked, caloric, t));
     }
-    spawn.temperatures.push_back(t);
-    spawn.phases.push_back(birthPhase(asked, caloric, t));
-  }
+  });
 }
 
 /// Takes the particles that stand in one of the body's pins out of `spawn`: a batch of fixed ones.

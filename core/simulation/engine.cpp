@@ -28,9 +28,6 @@ uint64_t nextRevision() {
 
 namespace {
 
-/// Two boxes side by side, both rounded up to whole layers, come within half a spacing: that near is no overlap.
-constexpr double kOverlap = 0.4;  // spacings
-
 /// Whether it may change how many particles there are, or what each of them takes.
 bool resizes(const Project& project, const PluginRegistry& plugins, const Address& address) {
   const api::ParameterDeclaration* declaration = declarationOf(project, &plugins, address);
@@ -154,42 +151,6 @@ void Engine::Impl::prepare(double livingSpacing, const std::vector<std::string>&
   setThermal();
   measurePouring();
   for (const Probe& probe : project.probes) probeNames.push_back(probeTitle(probe, fields));
-}
-
-void Engine::Impl::build() {
-  const double count = particleCount(project);
-  requireRelations(project, plugins);
-  requirePeriods(project);
-  requireRoom(project, plugins, memoryNow());
-  prepare(compileSettings(project).spacing, {});
-  const bool regions = std::any_of(project.probes.begin(), project.probes.end(),
-                                   [](const Probe& probe) { return probe.region.has_value(); });
-  const Bounds bounds = compileBounds(project);
-  OccupiedPlaces occupied(kOverlap * spacing, static_cast<size_t>(count),
-                          Period(bounds.minimum, bounds.maximum, bounds.periodic));
-  std::vector<std::pair<Spawn, const Body*>> spawns;
-  for (const Body& body : project.bodies) {
-    bodyIndex(body.id);  // of one without particles too
-    size_t dropped = 0;
-    for (Spawn& spawn : compileBody(project, plugins, tables.tables(), body)) {
-      dropped += dropOccupied(spawn, occupied);
-      spawns.emplace_back(std::move(spawn), &body);
-    }
-    if (dropped > 0) {
-      log(LogLevel::Warning, "body '" + body.name + "': left out " + std::to_string(dropped) +
-                                 " particles whose places are taken; move it away from what it overlaps");
-    }
-  }
-  // What is held in place first, wherever it stands in the list: a rope is tied to the posts that are there.
-  std::stable_partition(spawns.begin(), spawns.end(), [](const auto& item) { return item.first.fixed; });
-  for (auto& [spawn, body] : spawns) {
-    for (size_t k = 0; regions && k < spawn.position.size(); ++k) {
-      start.push_back({spawn.position[k].x, spawn.position[k].y, spawn.position[k].z});
-    }
-    born(std::move(spawn), *body);
-  }
-  for (const Emitter& emitter : project.emitters) bodyIndex(emitter.id);
-  recompile({{Owner::Body}});  // what is said of bodies goes by their indices
 }
 
 std::unique_ptr<Engine::Impl> Engine::Impl::rebuilt(const Project& source) const {
@@ -430,6 +391,7 @@ FrameStats Engine::stats() const {
 
 uint64_t Engine::revision() const { return m->revision; }
 const Project& Engine::project() const { return m->project; }
+Project Engine::document() const { return m->document(); }
 void Engine::show(const std::vector<std::string>& names) { m->shown = names; }
 const Solver& Engine::solver() const { return *m->solver; }
 MatterIds Engine::namedMatter() const { return m->named.present(); }

@@ -85,6 +85,8 @@ class Engine {
   FrameStats stats() const;
   uint64_t revision() const;  ///< Snapshot::revision
   const Project& project() const;
+  /// As the document has it, without materials that have left it: what a reset makes.
+  Project document() const;
   const Solver& solver() const;
   const ParticleStore& particles() const;
   const ParticleFields& fields() const;  ///< that particles may have, ours and those of the installed plugins

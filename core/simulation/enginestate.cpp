@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/base/error.h"
+#include "core/base/progress.h"
 #include "core/base/statestream.h"
 #include "core/simulation/engineimpl.h"
 #include "core/simulation/projectstate.h"
@@ -41,6 +42,7 @@ std::unique_ptr<Engine::Impl> Engine::Impl::restored(const StateReader& reader) 
   for (const Emitter& emitter : source.emitters) next->bodyIndex(emitter.id);
   next->solver->setBodyNames(next->bodyNames);
   next->recompile({{Owner::Body, Owner::Constraint}});
+  advance(0);
   next->solver->restore(reader);
   next->lead();  // as the document says by now
   next->flow.restore(reader, next->solver->particles());
@@ -51,6 +53,8 @@ std::unique_ptr<Engine::Impl> Engine::Impl::restored(const StateReader& reader) 
 std::unique_ptr<Engine::Impl> Engine::Impl::restored(const ProjectState& state,
                                                      std::vector<std::string>& unread) const {
   if (const std::string why = whyStateDoesNotFit(state, document(), plugins); !why.empty()) throw InputError(why);
+  if (t_progress) t_progress->expect(1);
+  beginStage("Reading the state", 1, static_cast<double>(state.blocks.size()));
   const StateBuffer buffer = unpackState(state.blocks);
   const StateReader reader(buffer.bytes());
   auto next = restored(reader);
@@ -80,6 +84,8 @@ void Engine::openAtState() {
   std::vector<std::string> unread;
   try {
     m = m->restored(*m->project.state, unread);
+  } catch (const Cancelled&) {
+    throw;
   } catch (const std::exception& problem) {
     m_remarks.push_back(std::string("/state: ") + problem.what() + "; the scene opens at its start");
   }

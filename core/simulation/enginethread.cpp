@@ -1,21 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/simulation/enginethread.h"
 
-#include "core/base/callwatch.h"
+#include "core/base/memory.h"
 #include "core/plugin_host/crashwatch.h"
-#include "core/simulation/commandqueue.h"
-#include "core/simulation/engine.h"
+#include "core/simulation/enginethreadimpl.h"
 #include "core/simulation/failure.h"
-#include "core/simulation/framehistory.h"
+#include "core/simulation/sceneneed.h"
 #include "core/solver/solver.h"
 
 #include <algorithm>
-#include <chrono>
-#include <condition_variable>
-#include <deque>
-#include <mutex>
-#include <optional>
-#include <thread>
 #include <utility>
 
 // Why a thread with a queue: the interface must never wait for a step. Commands are values that are applied between
@@ -32,83 +25,10 @@ constexpr StepFlags kPausing = kTakenBack | static_cast<StepFlags>(StepFlag::Plu
 /// Frames without a flag after which what was reported is over, and would be reported again.
 constexpr int kQuiet = 60;
 constexpr size_t kMostEvents = 256;
-constexpr double kPatience = 10;  // s that a plugin may take for one call
 
 double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 }  // namespace
-
-struct EngineThread::Impl {
-  Impl(PluginRegistry& registry, std::function<void()> callback)
-      : plugins(registry),
-        published(std::move(callback)),
-        watch(
-            kPatience, [this](const std::string& id) { isLate(id); }, [this](const std::string& id) { isBack(id); }) {}
-
-  template <class Item>
-  void push(Item item, uint64_t commands = 0) {
-    {
-      const std::lock_guard lock(mutex);
-      queue.push(std::move(item));
-      cost.commands += commands;
-    }
-    wake.notify_one();
-  }
-  void run(const std::stop_token& stop);
-  void turn();
-  void workOff();
-  void step();
-  void open(const Opening& opening);
-  void publish(SnapshotPtr snapshot);
-  void publishEdits();
-  void notify(EngineEvent event);  // gives it its number
-  void tellOf(const StepReport& report);
-  /// Kind and flags of what was reported last; Settled when that was nothing.
-  EngineEvent standing();
-  void settle();
-  /// What was reported of one run is over with the next.
-  void follow(uint64_t revision);
-  /// Tells of what failed, and pauses where a plugin failed in an edit. Never calls the engine, which may be just that.
-  void fail(EngineEvent event);
-  void halt();
-  // On the watching thread.
-  void isLate(const std::string& id);
-  void isBack(const std::string& id);
-  void pace();
-  bool frameIsDue(double ahead = 0);
-  /// Makes an edit. Returns what is to be reported of one that cannot be made: the scene then stays as it was.
-  template <class Action>
-  std::optional<EngineEvent> edit(Action action);
-  void editAll(const ParameterBatch& batch);
-  void look(const Command& command);
-  void answer(const Question& question);
-
-  PluginRegistry& plugins;
-  std::function<void()> published;
-  // Engine thread only.
-  std::unique_ptr<Engine> engine;
-  StepFlags reported = 0;   // flags that were reported and have been raised since
-  int quiet = 0;            // frames without a flag
-  uint64_t reportedOf = 0;  // Engine::revision() of what was reported
-  std::stop_token stopping;
-  bool edited = false;  // since the last snapshot
-  double snapshotSeconds = 0;
-
-  std::mutex mutex;
-  std::condition_variable_any wake;
-  CommandQueue queue;
-  EditCost cost;
-  bool playing = false;
-  SnapshotPtr newest, previous;
-  FrameHistory history;
-  std::deque<EngineEvent> events;
-  uint64_t eventCount = 0;
-  double realTime = 0;
-  Clock::time_point due{}, measured{};
-  double measuredTime = 0;
-  std::jthread thread;
-  CallWatch watch;
-};
 
 void EngineThread::Impl::run(const std::stop_token& stop) {
   stopping = stop;
@@ -165,7 +85,7 @@ void EngineThread::Impl::workOff() {
                command && std::holds_alternative<ShowFields>(*command)) {
       look(*command);
     } else if (command) {
-      if (const auto refusal = edit([&] { engine->apply(*command); })) fail(*refusal);
+      change(*command);
     } else if (const auto* opening = std::get_if<Opening>(&*entry)) {
       open(*opening);
     } else if (const auto* question = std::get_if<Question>(&*entry)) {
@@ -277,6 +197,10 @@ void EngineThread::Impl::publish(SnapshotPtr snapshot) {
 }
 
 void EngineThread::Impl::fail(EngineEvent event) {
+  if (event.kind == EngineEvent::Kind::Cancelled) {
+    const std::lock_guard lock(mutex);
+    if (queue.opens()) return;  // for another one, which says what became of it
+  }
   if (event.kind == EngineEvent::Kind::Refused && event.flags) halt();
   notify(std::move(event));
   if (published) published();
@@ -304,6 +228,23 @@ std::optional<EngineEvent> EngineThread::Impl::edit(Action action) {
   const EngineEvent last = standing();
   if (!(last.flags & ~kPausing)) settle();
   return std::nullopt;
+}
+
+/// A scene that is made again stands beside the one before until it is whole, where the memory holds both.
+void EngineThread::Impl::change(const Command& command) {
+  const auto* start = std::get_if<Reset>(&command);
+  if (engine && start && needOf(engine->document(), &plugins).bytes > roomToGrow(memoryNow())) {
+    remake(*start);
+    return;
+  }
+  const bool makes = start || std::holds_alternative<ReturnToState>(command);
+  const auto refusal = edit([&] {
+    if (makes)
+      make([&] { engine->apply(command); });
+    else
+      engine->apply(command);
+  });
+  if (refusal) fail(*refusal);
 }
 
 /// Those that are refused together may be good alone; each that is not is reported.
@@ -344,32 +285,6 @@ void EngineThread::Impl::publishEdits() {
   publish(engine->snapshot());
 }
 
-void EngineThread::Impl::open(const Opening& opening) {
-  try {
-    auto next = std::make_unique<Engine>(*opening.project, plugins);
-    engine = std::move(next);
-  } catch (...) {
-    const EngineEvent failure = failureAtHand(EngineEvent::Kind::NotOpened);
-    engine.reset();
-    halt();
-    auto empty = std::make_shared<Snapshot>();
-    empty->revision = nextRevision();
-    publish(std::move(empty));
-    fail(failure);
-    return;
-  }
-  {
-    const std::lock_guard lock(mutex);
-    newest = previous = nullptr;
-    playing = opening.play && engine->solver().frame() == 0;
-    due = measured = Clock::now();
-    measuredTime = 0;
-  }
-  publishEdits();
-  for (const std::string& remark : engine->remarks()) notify({0, EngineEvent::Kind::Remark, 0, remark});
-  if (!engine->remarks().empty() && published) published();
-}
-
 EngineThread::EngineThread(PluginRegistry& plugins, std::function<void()> published)
     : m(std::make_unique<Impl>(plugins, std::move(published))) {
   m->thread = std::jthread([impl = m.get()](const std::stop_token& stop) { impl->run(stop); });
@@ -377,11 +292,8 @@ EngineThread::EngineThread(PluginRegistry& plugins, std::function<void()> publis
 
 EngineThread::~EngineThread() {
   m->thread.request_stop();
+  cancelMaking();
   m->thread.join();
-}
-
-void EngineThread::open(const Project& project, bool play) {
-  m->push(Opening{std::make_shared<const Project>(project), play});
 }
 
 void EngineThread::play() {

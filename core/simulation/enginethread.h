@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "core/base/progress.h"
 #include "core/simulation/command.h"
 #include "core/simulation/events.h"
 #include "core/simulation/snapshot.h"
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace ps {
@@ -25,13 +27,14 @@ struct EditCost {
 /// frame, and when the queue is empty after edits. No call here waits for a step.
 class EngineThread {
  public:
-  /// `published` is called on the engine's thread after each new snapshot.
+  /// `published` is called on the engine's thread after each new snapshot and event, and when making a scene begins.
   EngineThread(PluginRegistry& plugins, std::function<void()> published);
   ~EngineThread();
 
-  /// Replaces the scene. A project that holds a state opens there, paused: who kept a moment wants to see it; an event
-  /// says what is to be reported of the state. A scene that cannot be built leaves none: an event says why, the
-  /// snapshot is then empty, of a new revision and without body ids, and the thread pauses.
+  /// Replaces the scene; one that is being made is given up. A project that holds a state opens there, paused: who kept
+  /// a moment wants to see it; an event says what is to be reported of the state. A scene that cannot be built leaves
+  /// none: an event says why, the snapshot is then empty, of a new revision and without body ids, and the thread
+  /// pauses.
   void open(const Project& project, bool play);
   void play();
   void pause();
@@ -44,6 +47,12 @@ class EngineThread {
   void update(const Project& project);
   /// Looks at the engine between frames, after the edits that came before.
   void ask(std::function<void(const Engine&)> question);
+
+  /// How far the scene is that is being made, by an opening, a reset or a return to a state; nothing when none is.
+  std::optional<Progress::State> making() const;
+  /// Ends that: an event says so. What cannot stand beside the scene before it has taken its place; else that one
+  /// stays.
+  void cancelMaking();
 
   bool playing() const;
   SnapshotPtr snapshot() const;          ///< newest; nullptr before the first

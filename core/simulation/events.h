@@ -15,6 +15,7 @@ struct EngineEvent {
     Step,       ///< a step raised flags
     Refused,    ///< an edit was refused and has changed nothing
     NotOpened,  ///< a project could not be built; there is no scene
+    Cancelled,  ///< making a scene was; there is none, or the one before goes on
     Stopped,    ///< something failed between two frames or in one; the scene is paused
     Late,       ///< a plugin, whose id is the message, has not come back from a call for long; Settled when it has
     Remark,     ///< something of what was opened; all goes on

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/simulation/failure.h"
 
+#include "core/base/progress.h"
 #include "core/plugin_host/registry.h"
 #include "core/simulation/sceneproblem.h"
 
@@ -15,6 +16,8 @@ EngineEvent failureAtHand(EngineEvent::Kind kind) {
   event.kind = kind;
   try {
     throw;
+  } catch (const Cancelled&) {
+    event.kind = EngineEvent::Kind::Cancelled;
   } catch (const SceneError& error) {
     event.message = error.what();  // a sentence; elsewhere a file's name comes before it
     event.message[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(event.message[0])));

@@ -5,7 +5,8 @@
 
 namespace ps {
 
-/// An event of the exception at hand: what it says, whose value is to blame, and PluginFault where a plugin failed.
+/// An event of the exception at hand: what it says, whose value is to blame, and PluginFault where a plugin failed;
+/// Cancelled where that was it.
 /// Call it in a catch block.
 EngineEvent failureAtHand(EngineEvent::Kind kind);
 

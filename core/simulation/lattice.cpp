@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/simulation/lattice.h"
 
+#include "core/base/progress.h"
 #include "core/sketch/grid.h"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <span>
 #include <tuple>
 
 namespace ps {
@@ -104,6 +106,7 @@ std::vector<api::Double3> boxLattice(const BoxShape& box, double spacing) {
   positions.reserve(static_cast<size_t>(count[0]) * static_cast<size_t>(count[1]) * static_cast<size_t>(count[2]));
   for (int z = 0; z < count[2]; ++z) {
     for (int y = 0; y < count[1]; ++y) {
+      advance(static_cast<size_t>(count[0]));
       for (int x = 0; x < count[0]; ++x) {
         positions.push_back({first[0] + x * spacing, first[1] + y * spacing, first[2] + z * spacing});
       }
@@ -114,14 +117,17 @@ std::vector<api::Double3> boxLattice(const BoxShape& box, double spacing) {
 
 void disturb(std::vector<api::Double3>& positions, double spacing, double jitter, uint32_t seed) {
   if (!(jitter > 0)) return;
-  for (api::Double3& p : positions) {
-    uint64_t state = seed;
-    for (const double c : {p.x, p.y, p.z}) state = mixed(state ^ static_cast<uint64_t>(std::llround(c / spacing * 64)));
-    for (double* c : {&p.x, &p.y, &p.z}) {
-      state = mixed(state);
-      *c += jitter * spacing * (static_cast<double>(state >> 11) * 0x1p-52 - 1);
+  inSlices(0, positions.size(), [&](size_t first, size_t last) {
+    for (api::Double3& p : std::span(positions).subspan(first, last - first)) {
+      uint64_t state = seed;
+      for (const double c : {p.x, p.y, p.z})
+        state = mixed(state ^ static_cast<uint64_t>(std::llround(c / spacing * 64)));
+      for (double* c : {&p.x, &p.y, &p.z}) {
+        state = mixed(state);
+        *c += jitter * spacing * (static_cast<double>(state >> 11) * 0x1p-52 - 1);
+      }
     }
-  }
+  });
 }
 
 std::vector<CellIndex> cellsOf(const VoxelShape& voxels, int palette) {
@@ -140,13 +146,15 @@ std::vector<CellIndex> resampled(const std::vector<CellIndex>& cells, double fro
   // rounding does not decide about a centre on a face.
   const auto firstFrom = [ratio = from / to](int p) { return static_cast<int>(std::ceil(p * ratio - 0.5 - 1e-9)); };
   std::vector<CellIndex> result;
-  for (const CellIndex& c : cells) {
-    for (int z = firstFrom(c[2]); z < firstFrom(c[2] + 1); ++z) {
-      for (int y = firstFrom(c[1]); y < firstFrom(c[1] + 1); ++y) {
-        for (int x = firstFrom(c[0]); x < firstFrom(c[0] + 1); ++x) result.push_back({x, y, z});
+  inSlices(0, cells.size(), [&](size_t first, size_t last) {
+    for (const CellIndex& c : std::span(cells).subspan(first, last - first)) {
+      for (int z = firstFrom(c[2]); z < firstFrom(c[2] + 1); ++z) {
+        for (int y = firstFrom(c[1]); y < firstFrom(c[1] + 1); ++y) {
+          for (int x = firstFrom(c[0]); x < firstFrom(c[0] + 1); ++x) result.push_back({x, y, z});
+        }
       }
     }
-  }
+  });
   std::sort(result.begin(), result.end(), [](const CellIndex& a, const CellIndex& b) {
     return std::tie(a[2], a[1], a[0]) < std::tie(b[2], b[1], b[0]);
   });
@@ -188,18 +196,20 @@ std::vector<api::Double3> freePositions(const ParticleStore& store, const std::v
 
 size_t dropOccupied(Spawn& spawn, OccupiedPlaces& occupied) {
   size_t kept = 0;
-  for (size_t k = 0; k < spawn.position.size(); ++k) {
-    const api::Double3 place = spawn.position[k];
-    if (!occupied.isFree(place)) continue;
-    occupied.add(place);
-    spawn.position[kept] = place;
-    spawn.velocity[kept] = spawn.velocity[k];
-    if (!spawn.temperatures.empty()) {
-      spawn.temperatures[kept] = spawn.temperatures[k];
-      spawn.phases[kept] = spawn.phases[k];
+  inSlices(0, spawn.position.size(), [&](size_t first, size_t last) {
+    for (size_t k = first; k < last; ++k) {
+      const api::Double3 place = spawn.position[k];
+      if (!occupied.isFree(place)) continue;
+      occupied.add(place);
+      spawn.position[kept] = place;
+      spawn.velocity[kept] = spawn.velocity[k];
+      if (!spawn.temperatures.empty()) {
+        spawn.temperatures[kept] = spawn.temperatures[k];
+        spawn.phases[kept] = spawn.phases[k];
+      }
+      ++kept;
     }
-    ++kept;
-  }
+  });
   const size_t dropped = spawn.position.size() - kept;
   spawn.position.resize(kept);
   spawn.velocity.resize(kept);

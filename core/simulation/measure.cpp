@@ -11,7 +11,6 @@
 namespace ps {
 namespace {
 
-
 double kineticEnergy(const ParticleStore& store) {
   return parallelSum(store.size(), grain::kNumbers, [&](size_t first, size_t last) {
     double sum = 0;

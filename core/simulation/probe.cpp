@@ -26,7 +26,6 @@ const char* phaseName(api::Phase phase) {
 /// x, y or z of a vector.
 double part(const api::Float4& v, size_t axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
 
-
 /// A quantity's key, taken apart: "velocity_x_max" is velocity, axis 0, max.
 struct Key {
   std::string base, statistic;

@@ -52,13 +52,13 @@ constexpr double kImplicitEntry = kFloat;
 /// Three snapshots (the newest, the one before, one in the making) with two fields, and what is drawn of them.
 constexpr double kSnapshots = 3 * (kPoint + 6 * kFloat + 3 * kIndex + 2 * kMark) + 4 * kPoint;
 
-/// Particles, values, the copy that edits are made in, the last good frame, the graph; a tie's key is a node of a hash
-/// table and its bucket.
+/// Particles, values, the copy that edits are made in, the last good frame, the graph; a tie's key lies in a table
+/// that is three eighths full or more.
 double bytesOf(const StructureFootprint& s) {
   const bool ties = s.arity > 0;
   const double own = (ties ? static_cast<double>(s.arity) : 1) * kIndex + static_cast<double>(s.values) * kFloat;
   const double group = s.groupsPerMembership * (static_cast<double>(s.groupValues) * kFloat + 2 * kPlace);
-  const double key = ties ? 5 * kPlace + kGrown * kPlace : 0;
+  const double key = ties ? 2 * 2 * kPlace : 0;
   const double graph = kGrown * 2 * kIndex;
   return s.perParticle * (kGrown * (own + group) + kLastGood * (own + group) + key + graph);
 }

@@ -7,6 +7,9 @@
 
 namespace ps {
 
+/// What making and tying a particle weigh against placing it or finding its neighbours, of a thread's progress.
+inline constexpr double kMakingWeight = 2, kTyingWeight = 4;
+
 /// Particles to be born: one entry per particle.
 struct Spawn {
   std::vector<api::Double3> position;  ///< m

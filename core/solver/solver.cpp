@@ -161,30 +161,35 @@ std::vector<uint32_t> Solver::spawn(const Spawn& spawn) {
   const size_t first = store.add(count), last = first + count;
   const double cell = m->settings.spacing * m->settings.spacing * m->settings.spacing;
   std::vector<uint32_t> ids(count), members(count);
-  for (size_t k = 0; k < count; ++k) {
-    const size_t i = first + k;
-    const api::Double3 p = spawn.position[k], v = spawn.velocity.empty() ? api::Double3{0, 0, 0} : spawn.velocity[k];
-    store.position()[i] = {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z),
-                           static_cast<float>(cell)};
-    store.previous()[i] = store.position()[i];
-    store.velocity()[i] = {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0};
-    store.material()[i] = spawn.material;
-    store.body()[i] = spawn.body;
-    const api::Phase born = spawn.phases.empty() ? spawn.phase : spawn.phases[k];
-    store.phase()[i] = born;
-    store.motion()[i] = spawn.fixed ? api::Motion::Static : motionOf(born);
-    ids[k] = store.id()[i];
-    members[k] = static_cast<uint32_t>(i);
-  }
+  beginStage("Making matter", kMakingWeight * static_cast<double>(count), 4 * static_cast<double>(count));
+  inSlices(0, count, [&](size_t begin, size_t end) {
+    for (size_t k = begin; k < end; ++k) {
+      const size_t i = first + k;
+      const api::Double3 p = spawn.position[k], v = spawn.velocity.empty() ? api::Double3{0, 0, 0} : spawn.velocity[k];
+      store.position()[i] = {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z),
+                             static_cast<float>(cell)};
+      store.previous()[i] = store.position()[i];
+      store.velocity()[i] = {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0};
+      store.material()[i] = spawn.material;
+      store.body()[i] = spawn.body;
+      const api::Phase born = spawn.phases.empty() ? spawn.phase : spawn.phases[k];
+      store.phase()[i] = born;
+      store.motion()[i] = spawn.fixed ? api::Motion::Static : motionOf(born);
+      ids[k] = store.id()[i];
+      members[k] = static_cast<uint32_t>(i);
+    }
+  });
   const std::vector<double> temperature =
       spawn.temperatures.empty() ? std::vector<double>(count, spawn.temperature) : spawn.temperatures;
   const std::vector<api::Phase> phase =
       spawn.phases.empty() ? std::vector<api::Phase>(count, spawn.phase) : spawn.phases;
   const auto setMass = [&] {
-    for (size_t i = first; i < last; ++i) {
-      store.mass()[i] = static_cast<float>(m->phase.restDensity(store, i) * cell);
-      store.velocity()[i].w = spawn.fixed ? 0 : 1 / store.mass()[i];
-    }
+    inSlices(first, last, [&](size_t begin, size_t end) {
+      for (size_t i = begin; i < end; ++i) {
+        store.mass()[i] = static_cast<float>(m->phase.restDensity(store, i) * cell);
+        store.velocity()[i].w = spawn.fixed ? 0 : 1 / store.mass()[i];
+      }
+    });
   };
   const auto setState = [&] {
     for (size_t i = first; i < last; ++i) {
@@ -196,13 +201,15 @@ std::vector<uint32_t> Solver::spawn(const Spawn& spawn) {
   setMass();
   if (!m->heat.initialise(store, first, last, temperature, phase)) setState();
   setMass();  // the model's fractions are the better ones
-  m->phase.initialise(store, first, last, !spawn.constraintSets.empty());
+  inSlices(first, last,
+           [&](size_t begin, size_t end) { m->phase.initialise(store, begin, end, !spawn.constraintSets.empty()); });
   for (size_t i = first; i < last && (spawn.fixed || spawn.held); ++i) {
     if (spawn.fixed) store.motion()[i] = api::Motion::Static;
     store.velocity()[i].w = 0;
   }
   m->motion.adopt(store, first, last, m->time);
   if (!spawn.constraintSets.empty()) {
+    beginStage("Finding neighbours", static_cast<double>(count), 2 * static_cast<double>(store.size()));
     m->neighbours.build(store);
     for (const uint32_t set : spawn.constraintSets) m->constraints.build(set, store, m->neighbours, members);
   }

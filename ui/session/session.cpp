@@ -14,11 +14,13 @@
 #include "ui/session/worker.h"
 
 #include <clocale>
+#include <utility>
 
 namespace ps {
 namespace {
 constexpr int kValuesInterval = 66;   // ms: values at 15 Hz
 constexpr int kTotalsInterval = 200;  // ms
+constexpr int kMakingInterval = 200;  // ms
 }  // namespace
 
 Session::Session(const Options& options, QObject* parent)
@@ -36,6 +38,8 @@ Session::Session(const Options& options, QObject* parent)
   m_totals.setInterval(kTotalsInterval);
   m_totals.setSingleShot(true);
   connect(&m_totals, &QTimer::timeout, this, &Session::totalsDue);
+  m_making.setInterval(kMakingInterval);
+  connect(&m_making, &QTimer::timeout, this, &Session::tellMaking);
   connect(m_document.get(), &Document::changed, this, [this](const ChangeEvent& event) {
     if (!std::holds_alternative<ProjectOpened>(event)) return;
     m_opening = true;
@@ -100,7 +104,23 @@ void Session::adoptPlugins(std::shared_ptr<PluginRegistry> plugins) {
   Q_EMIT ready();
 }
 
+void Session::tellMaking() {
+  const auto state = m_engine ? m_engine->making() : std::nullopt;
+  if (state) {
+    m_toldMaking = true;
+    Q_EMIT making(QString::fromUtf8(state->stage ? state->stage : "Beginning"), state->done);
+    return;
+  }
+  m_making.stop();
+  if (std::exchange(m_toldMaking, false)) Q_EMIT madeOrNot();
+}
+
+void Session::cancelMaking() {
+  if (m_engine) m_engine->cancelMaking();
+}
+
 void Session::onSnapshot() {
+  if (m_engine && m_engine->making() && !m_making.isActive()) m_making.start();
   if (!m_values.isActive()) m_values.start();
   Q_EMIT snapshotArrived();
   const SnapshotPtr now = snapshot();

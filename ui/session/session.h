@@ -63,6 +63,8 @@ class Session : public QObject {
   /// Takes matter as it stands into the project, between two frames: stateKept() or stateNotKept() follows.
   void keepState();
   bool playing() const;
+  /// Gives up the scene that is being made.
+  void cancelMaking();
   /// The engine has no scene: the project cannot be built as it is (see SceneLink::isBroken()).
   bool isBroken() const;
   /// Last copy of unsaved work, written once. Returns "", or why it could not be: the session then goes on.
@@ -77,7 +79,9 @@ class Session : public QObject {
   void happened(const ps::EngineEvent& event);  ///< in the order of their numbers, none left out
   void stateKept();
   void stateNotKept(const QString& problem);
-  void projectShown();  ///< the first snapshot of an opened project has arrived
+  void making(const QString& stage, double done);  ///< a scene, for a while already; `done` 0..1; often
+  void madeOrNot();                                ///< after the last of those
+  void projectShown();                             ///< the first snapshot of an opened project has arrived
 
  private:
   void adoptPlugins(std::shared_ptr<PluginRegistry> plugins);
@@ -91,6 +95,7 @@ class Session : public QObject {
   };
   void packState(KeptState kept);
   void tellValues();
+  void tellMaking();
 
   Options m_options;
   std::unique_ptr<MessageLog> m_log;
@@ -106,6 +111,8 @@ class Session : public QObject {
   uint64_t m_before = 0;  ///< revision of the last snapshot of the project before
   uint64_t m_eventsRead = 0;
   QTimer m_values, m_totals;
+  QTimer m_making;  ///< runs while a scene is being made
+  bool m_toldMaking = false;
   std::unique_ptr<EngineThread> m_engine;
   std::unique_ptr<SceneLink> m_link;
   std::unique_ptr<Worker> m_worker;  // ends first: its jobs point at the others

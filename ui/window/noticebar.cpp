@@ -63,6 +63,15 @@ void NoticeBar::show(const QString& topic, MessageLevel level, const QString& ti
   refresh();
 }
 
+void NoticeBar::setText(const QString& topic, const QString& text) {
+  for (Notice& notice : m_notices) {
+    if (notice.topic == topic) notice.text = text;
+  }
+  if (topic != this->topic()) return;
+  m_text->setText(text);
+  setAccessibleName(this->text());
+}
+
 void NoticeBar::close(const QString& topic) {
   const bool shown = topic == this->topic();
   remove(topic);

@@ -27,6 +27,8 @@ class NoticeBar : public QWidget {
   /// shows.
   void show(const QString& topic, MessageLevel level, const QString& title, const QString& text,
             std::vector<Button> buttons = {});
+  /// Another text in the notice of a topic, in place: its buttons stay under the pointer.
+  void setText(const QString& topic, const QString& text);
   void close(const QString& topic);
   QString topic() const;  ///< of the notice that shows; "" when none does
   QString text() const;

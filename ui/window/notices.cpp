@@ -7,6 +7,7 @@
 #include "ui/document/document.h"
 #include "ui/session/session.h"
 #include "ui/session/wording.h"
+#include "ui/theme/numbers.h"
 #include "ui/window/actions.h"
 #include "ui/window/noticebar.h"
 
@@ -21,12 +22,36 @@ namespace {
 
 const QString kStep = QStringLiteral("step");  // topic of what the engine says
 const QString kRefused = QStringLiteral("refused");
+const QString kMaking = QStringLiteral("making");
 
 }  // namespace
 
 Notices::Notices(Session& session, NoticeBar& bar, const Actions& actions, QObject* parent)
     : QObject(parent), m_session(session), m_bar(bar), m_actions(actions) {
   connect(&session, &Session::happened, this, &Notices::onEvent);
+  connect(&session, &Session::making, this, &Notices::showMaking);
+  connect(&session, &Session::madeOrNot, this, [this] {
+    m_tellsMaking = false;
+    m_bar.close(kMaking);
+  });
+}
+
+void Notices::showMaking(const QString& stage, double done) {
+  const QString text = QStringLiteral("%1, %2 %").arg(stage, formatFixed(100 * done, 0));
+  if (std::exchange(m_tellsMaking, true)) {
+    m_bar.setText(kMaking, text);
+  } else {
+    m_bar.show(kMaking, MessageLevel::Info, QStringLiteral("The scene is being made."), text,
+               {{QStringLiteral("Cancel"), [this] { m_session.cancelMaking(); }}});
+  }
+}
+
+void Notices::showCancelled() {
+  const QString text = m_session.isBroken()
+                           ? QStringLiteral("It stands still until you play it, reset it or change it.")
+                           : QStringLiteral("It goes on as it was.");
+  m_bar.show(kStep, MessageLevel::Info, QStringLiteral("Making the scene was cancelled."), text,
+             {{QStringLiteral("Try again"), [this] { m_session.reset(); }}});
 }
 
 void Notices::onEvent(const EngineEvent& event) {
@@ -36,6 +61,8 @@ void Notices::onEvent(const EngineEvent& event) {
     showRemark(failureText(event));
   } else if (event.kind == EngineEvent::Kind::Late) {
     showLate(event.message);
+  } else if (event.kind == EngineEvent::Kind::Cancelled) {
+    showCancelled();
   } else if (event.kind == EngineEvent::Kind::NotOpened) {
     showBroken(event);
   } else {

@@ -35,9 +35,12 @@ class Notices : public QObject {
   void showLate(const std::string& plugin);
   void showRemark(const FailureText& remark);
   void showBroken(const EngineEvent& event);  ///< the scene could not be built
+  void showMaking(const QString& stage, double done);
+  void showCancelled();
   Session& m_session;
   NoticeBar& m_bar;
   const Actions& m_actions;
+  bool m_tellsMaking = false;  ///< the scene that is being made has been told of
 };
 
 }  // namespace ps

@@ -48,7 +48,9 @@ StatusLine::StatusLine(Session& session, Viewport* view, QWidget* parent)
 void StatusLine::follow() {
   for (const auto signal : {&Session::ready, &Session::valuesDue, &Session::playingChanged})
     connect(&m_session, signal, this, &StatusLine::refresh);
-  connect(&m_session, &Session::valuesDue, this, [this] { m_sinceValues.start(); });
+  for (const auto signal : {&Session::valuesDue, &Session::madeOrNot})
+    connect(&m_session, signal, this, [this] { m_sinceValues.start(); });
+  connect(&m_session, &Session::making, this, &StatusLine::refresh);
   connect(&m_session, &Session::happened, this, [this](const EngineEvent& event) {
     const bool late = event.kind == EngineEvent::Kind::Late;
     m_late = late ? pluginLabel(m_session.plugins(), event.message) : QString();
@@ -85,7 +87,10 @@ void StatusLine::refresh() {
     state.drawMilliseconds = m_view->drawMilliseconds();
     state.graphics = m_view->graphics();
   }
-  state.silent = state.playing && m_sinceValues.isValid() ? static_cast<double>(m_sinceValues.elapsed()) / 1000 : 0;
+  const auto making = m_session.isReady() ? m_session.engine()->making() : std::nullopt;
+  state.making = making ? static_cast<int>(100 * making->done) : -1;
+  state.silent =
+      !making && state.playing && m_sinceValues.isValid() ? static_cast<double>(m_sinceValues.elapsed()) / 1000 : 0;
   state.late = m_late;
   state.file = m_session.document().isDirty() && m_fileText.isEmpty() ? QStringLiteral("Not saved") : m_fileText;
   addNote(state);
@@ -141,6 +146,7 @@ std::vector<StatusLine::Part> StatusLine::leftParts() const {
   std::vector<Part> parts;
   if (!m_state.ready) return {{QStringLiteral("Loading plugins"), {}}};
   const QString state = !m_state.late.isEmpty() ? QStringLiteral("“%1” does not come back").arg(m_state.late)
+                        : m_state.making >= 0   ? QStringLiteral("Making the scene, %1 %").arg(m_state.making)
                         : m_state.failed        ? QStringLiteral("Paused, see above")
                         : m_state.silent > kSilent
                             ? QStringLiteral("No answer from the simulation for %1 s").arg(formatFixed(m_state.silent))

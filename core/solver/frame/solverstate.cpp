@@ -34,7 +34,9 @@ void Solver::Impl::restore(const StateReader& reader) {
   const uint32_t *material = store.material(), *end = material + store.size();
   if (std::any_of(material, end, [&](uint32_t index) { return index >= materials.size(); }))
     StateReader::fail("field/material", "names a material that the scene has not");
+  ps::advance(0);
   neighbours.restore(reader, store);
+  ps::advance(0);
   reordered = reader.value<uint8_t>("clock/reordered") != 0 || neighbours.built().size() != store.size();
   motion.restore(reader, store);
   constraints.restore(reader, store);

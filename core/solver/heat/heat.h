@@ -3,6 +3,7 @@
 #include <phasesketch/thermal.h>
 
 #include "core/base/callee.h"
+#include "core/base/progress.h"
 #include "core/base/shorttext.h"
 #include "core/matter/material.h"
 #include "core/particles/neighbours.h"
@@ -133,6 +134,8 @@ class HeatStage {
     try {
       call();
       return true;
+    } catch (const Cancelled&) {
+      throw;
     } catch (const std::exception& problem) {
       m_fault = shortText(problem.what());
     } catch (...) {

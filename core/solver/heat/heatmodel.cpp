@@ -48,9 +48,11 @@ void HeatStage::startState(ParticleStore& store, size_t first, size_t last, std:
   m_newPhase.resize(store.size());
   std::copy(temperature.begin(), temperature.end(), m_newTemperature.begin() + static_cast<std::ptrdiff_t>(first));
   std::copy(phase.begin(), phase.end(), m_newPhase.begin() + static_cast<std::ptrdiff_t>(first));
-  for (size_t i = first; i < last; ++i) setShares(store, i, m_newPhase[i]);
-  m_model->initialise(context(), store.view(), first, last, m_newTemperature.data(), m_newPhase.data());
-  deriveRange(store, first, last);
+  inSlices(first, last, [&](size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) setShares(store, i, m_newPhase[i]);
+    m_model->initialise(context(), store.view(), begin, end, m_newTemperature.data(), m_newPhase.data());
+    deriveRange(store, begin, end);
+  });
 }
 
 bool HeatStage::isUpToDate() const {

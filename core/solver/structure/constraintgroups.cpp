@@ -2,6 +2,7 @@
 // The part of ConstraintSystem that hosts plugins of groups.
 #include "core/base/error.h"
 #include "core/base/parallel.h"
+#include "core/solver/matter.h"
 #include "core/solver/structure/constraintsystem.h"
 
 #include <algorithm>
@@ -24,11 +25,13 @@ class ConstraintSystem::Groups final : public api::GroupSink {
     if (!particles || !hasValues || !hasMembers) throw Error("added a group by a null pointer");
     ++m_serial;
     m_lastUse.resize(m_particles, 0);  // most calls add nothing
-    for (size_t k = 0; k < count; ++k) {
-      if (particles[k] >= m_particles) throw Error("added a group with a particle that does not exist");
-      if (m_lastUse[particles[k]] == m_serial) throw Error("added a group that names a particle twice");
-      m_lastUse[particles[k]] = m_serial;
-    }
+    inSlices(0, count, [&](size_t first, size_t last) {
+      for (size_t k = first; k < last; ++k) {
+        if (particles[k] >= m_particles) throw Error("added a group with a particle that does not exist");
+        if (m_lastUse[particles[k]] == m_serial) throw Error("added a group that names a particle twice");
+        m_lastUse[particles[k]] = m_serial;
+      }
+    });
     m_edits.particles.insert(m_edits.particles.end(), particles, particles + count);
     m_edits.ends.push_back(m_edits.particles.size());
     m_edits.values.insert(m_edits.values.end(), values, values + m_lists.valueCount());
@@ -110,6 +113,8 @@ void ConstraintSystem::buildGroups(Set& set, const ParticleStore& store, const N
                                    std::span<const uint32_t> members) {
   GroupLists::Batch all;
   set.groups->fill(all, 0, set.groups->count());
+  beginStage("Tying structure", kTyingWeight * static_cast<double>(members.size()),
+             static_cast<double>(members.size()));
   Groups sink(*set.groups, store);
   if (guarded(set, [&] {
         set.group->build(context(set, m_settings.dt, 0, 0, store.body()[members[0]]), store.view(), neighbours.view(),

@@ -162,6 +162,7 @@ void ConstraintSystem::restoreLists(const StateReader& reader, std::string_view 
       if (k == set.colourStart[colour] || body != set.runs.back().body) set.runs.push_back({k, body});
     }
   }
+  advance(0);
   size_t colour = 0;
   requireApart({room, "particles"}, set.particles, store.size(), [&](size_t k) {
     while (k / set.arity >= set.colourStart[colour + 1]) ++colour;
@@ -184,6 +185,7 @@ void ConstraintSystem::restore(const StateReader& reader, const ParticleStore& s
     const Room room(s);
     set.used = reader.array<uint8_t>({room, "used"});
     restoreParameters(reader, room, set);
+    advance(0);
     if (set.groups) set.groups->restore(reader, room, store.size());
     if (set.structural) restoreLists(reader, room, set, store);
     if (set.disabled) dropAll(set);

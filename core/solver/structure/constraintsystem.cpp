@@ -2,6 +2,7 @@
 #include "core/solver/structure/constraintsystem.h"
 
 #include "core/base/error.h"
+#include "core/solver/matter.h"
 
 #include <algorithm>
 #include <array>
@@ -13,6 +14,9 @@ namespace {
 
 constexpr size_t kMostValues = GroupLists::kMostValues;
 constexpr uint32_t kGone = ~0u;
+/// Ties of a particle where the plugin does not tell.
+constexpr double kUsualTies = 6;
+constexpr double kMostTies = 32;  ///< that room is made for before they come
 
 }  // namespace
 
@@ -30,6 +34,7 @@ class ConstraintSystem::Sink final : public api::ConstraintSink {
   Sink(ConstraintSystem& system, Set& set, const ParticleStore& store, Edits& edits)
       : m_system(system), m_set(set), m_store(store), m_edits(edits) {}
   void add(const uint32_t* particles, const float* values) override {
+    if (++m_calls % kProgressSlice == 0) tellProgress(m_set, kProgressSlice);
     if (!particles || (!values && m_set.valueCount > 0)) throw Error("added a constraint by a null pointer");
     for (size_t a = 0; a < m_set.arity; ++a) {
       if (particles[a] >= m_store.size()) throw Error("added a constraint on a particle that does not exist");
@@ -38,7 +43,7 @@ class ConstraintSystem::Sink final : public api::ConstraintSink {
       }
     }
     m_system.lookUp(m_set, m_store);
-    if (!m_set.keys.insert(m_system.keyOf(m_set, m_store, particles)).second) return;
+    if (!m_set.keys.insert(m_system.keyOf(m_set, m_store, particles))) return;
     m_edits.particles.insert(m_edits.particles.end(), particles, particles + m_set.arity);
     m_edits.values.insert(m_edits.values.end(), values, values + m_set.valueCount);
   }
@@ -57,6 +62,7 @@ class ConstraintSystem::Sink final : public api::ConstraintSink {
   Set& m_set;
   const ParticleStore& m_store;
   Edits& m_edits;
+  size_t m_calls = 0;
 };
 
 void ConstraintSystem::configure(const SolverSettings& settings, std::span<const BakedMaterial> materials) {
@@ -176,8 +182,7 @@ void ConstraintSystem::dropAll(Set& set) {
   if (set.groups) set.groups->clear();
 }
 
-ConstraintSystem::Key ConstraintSystem::keyOf(const Set& set, const ParticleStore& store,
-                                              const uint32_t* particles) const {
+TieKey ConstraintSystem::keyOf(const Set& set, const ParticleStore& store, const uint32_t* particles) const {
   std::array<uint32_t, 4> ids{kGone, kGone, kGone, kGone};
   for (size_t a = 0; a < set.arity; ++a) ids[a] = store.id()[particles[a]];
   std::sort(ids.begin(), ids.end());  // unused places sort to the end
@@ -216,14 +221,20 @@ void ConstraintSystem::apply(Set& set, const ParticleStore& store, const Edits& 
     }
   }
   std::vector<std::vector<uint32_t>> newOfColour(set.colourStart.size() - 1);
-  for (size_t k = 0; k < added; ++k) {
-    const size_t colour = takeColour(set, store, edits.particles.data() + k * arity);
-    if (colour >= newOfColour.size()) newOfColour.resize(colour + 1);
-    newOfColour[colour].push_back(static_cast<uint32_t>(k));
-  }
+  inSlices(0, added, [&](size_t first, size_t last) {
+    for (size_t k = first; k < last; ++k) {
+      const size_t colour = takeColour(set, store, edits.particles.data() + k * arity);
+      if (colour >= newOfColour.size()) newOfColour.resize(colour + 1);
+      newOfColour[colour].push_back(static_cast<uint32_t>(k));
+    }
+  });
   m_keptParticles.clear();
   m_keptValues.resize(std::max(m_keptValues.size(), set.valueCount));
   for (auto& v : m_keptValues) v.clear();
+  if (t_progress) {  // as above; in a running scene they keep their room from edit to edit
+    m_keptParticles.reserve((set.count + added) * arity);
+    for (size_t v = 0; v < set.valueCount; ++v) m_keptValues[v].reserve(set.count + added);
+  }
   std::vector<size_t> starts(1, 0);
   std::vector<Run> runs;
   struct Place {
@@ -244,15 +255,18 @@ void ConstraintSystem::apply(Set& set, const ParticleStore& store, const Edits& 
     }
     const auto byBody = [](const Place& a, const Place& b) { return a.body < b.body; };
     if (!std::is_sorted(places.begin(), places.end(), byBody)) std::stable_sort(places.begin(), places.end(), byBody);
-    for (size_t q = 0; q < places.size(); ++q) {
-      const Place& place = places[q];
-      if (q == 0 || place.body != places[q - 1].body) runs.push_back({m_keptParticles.size() / arity, place.body});
-      const uint32_t* from = (place.isNew ? edits.particles : set.particles).data() + place.k * arity;
-      m_keptParticles.insert(m_keptParticles.end(), from, from + arity);
-      for (size_t v = 0; v < set.valueCount; ++v) {
-        m_keptValues[v].push_back(place.isNew ? edits.values[place.k * set.valueCount + v] : set.values[v][place.k]);
+    const auto keep = [&](size_t first, size_t last) {
+      for (size_t q = first; q < last; ++q) {
+        const Place& place = places[q];
+        if (q == 0 || place.body != places[q - 1].body) runs.push_back({m_keptParticles.size() / arity, place.body});
+        const uint32_t* from = (place.isNew ? edits.particles : set.particles).data() + place.k * arity;
+        m_keptParticles.insert(m_keptParticles.end(), from, from + arity);
+        for (size_t v = 0; v < set.valueCount; ++v) {
+          m_keptValues[v].push_back(place.isNew ? edits.values[place.k * set.valueCount + v] : set.values[v][place.k]);
+        }
       }
-    }
+    };
+    inSlices(0, places.size(), keep);
     starts.push_back(m_keptParticles.size() / arity);
   }
   set.particles.swap(m_keptParticles);
@@ -260,6 +274,23 @@ void ConstraintSystem::apply(Set& set, const ParticleStore& store, const Edits& 
   set.colourStart = std::move(starts);
   set.runs = std::move(runs);
   set.count = set.particles.size() / arity;
+}
+
+/// Ties are found, coloured and put in order, each a step. How many are expected; 0 where nobody watches.
+size_t ConstraintSystem::beginTying(const Set& set, size_t members) {
+  if (!t_progress) return 0;
+  const auto* count = static_cast<const api::StructureCount*>(set.plugin->extension(api::kStructureCount));
+  const double each = count ? count->perParticle({set.parameters.data(), set.parameters.size()}) : kUsualTies;
+  const double expected = std::min(each, kMostTies) * static_cast<double>(members);
+  beginStage("Tying structure", kTyingWeight * static_cast<double>(members), 3 * expected);
+  return static_cast<size_t>(expected);
+}
+
+/// From within a call of a plugin, which then counts as a new one: it has come back to us.
+void ConstraintSystem::tellProgress(const Set& set, size_t steps) {
+  if (!t_progress) return;
+  const CalleeScope renewed(set.name.c_str());
+  advance(steps);
 }
 
 void ConstraintSystem::build(uint32_t index, const ParticleStore& store, const Neighbours& neighbours,
@@ -277,6 +308,9 @@ void ConstraintSystem::build(uint32_t index, const ParticleStore& store, const N
   if (set.groups) buildGroups(set, store, neighbours, members);
   if (!set.structural) return;
   Edits edits;
+  const size_t expected = beginTying(set, members.size());
+  edits.particles.reserve(expected * set.arity);  // to move millions of them takes its time
+  edits.values.reserve(expected * set.valueCount);
   Sink sink(*this, set, store, edits);
   if (guarded(set, [&] {
         set.structural->build(context(set, m_settings.dt, 0, 0, body), store.view(), neighbours.view(),

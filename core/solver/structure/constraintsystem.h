@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "core/base/callee.h"
+#include "core/base/progress.h"
 #include "core/base/shorttext.h"
 #include "core/matter/material.h"
 #include "core/particles/neighbours.h"
@@ -8,10 +9,10 @@
 #include "core/solver/report.h"
 #include "core/solver/settings.h"
 #include "core/solver/structure/grouplists.h"
+#include "core/solver/structure/keyset.h"
 
 #include <memory>
 #include <string>
-#include <unordered_set>
 #include <vector>
 
 // Why colours: constraints that share a particle must not run at the same time, and their order decides the result. A
@@ -129,15 +130,6 @@ class ConstraintSystem {
 
  private:
   void addGroupsTo(StructureGraph& graph, size_t particles) const;
-  struct Key {
-    uint64_t a, b;
-    bool operator==(const Key&) const = default;
-  };
-  struct KeyHash {
-    size_t operator()(const Key& k) const {
-      return static_cast<size_t>((k.a ^ (k.b * 0x9E3779B97F4A7C15ull)) * 0xD6E8FEB86659FD93ull >> 7);
-    }
-  };
   /// Constraints from here on, up to the next run, belong to one body and one colour.
   struct Run {
     size_t first;
@@ -160,7 +152,7 @@ class ConstraintSystem {
     std::vector<size_t> colourStart;         ///< first constraint of each colour; one entry more than there are colours
     std::vector<Run> runs;                   ///< within a colour in order of bodies
     std::vector<std::vector<uint64_t>> coloursInUse;  ///< [word of 64 colours][particle id]
-    std::unordered_set<Key, KeyHash> keys;            ///< sets of particle ids; only asked, never walked through
+    KeySet keys;                                      ///< particle ids of each constraint
     bool lookedUp = true;                ///< coloursInUse and keys agree with the lists; not after restore()
     std::unique_ptr<GroupLists> groups;  ///< of a plugin of groups, which uses none of the lists above
     bool rigid = false, thin = false;
@@ -171,6 +163,8 @@ class ConstraintSystem {
   class Sink;
   class Groups;  ///< collects the edits of groups
 
+  static size_t beginTying(const Set& set, size_t members);
+  static void tellProgress(const Set& set, size_t steps);
   api::ConstraintContext context(const Set& set, double dt, uint32_t substep, uint32_t iteration,
                                  uint32_t body = api::ConstraintContext::kNoBody) const;
   double substepTime() const { return m_settings.dt / m_settings.substeps; }
@@ -184,6 +178,8 @@ class ConstraintSystem {
     try {
       call();
       return true;
+    } catch (const Cancelled&) {  // by who watches, through the plugin
+      throw;
     } catch (const std::exception& e) {
       problem = shortText(e.what());
     } catch (...) {
@@ -204,7 +200,7 @@ class ConstraintSystem {
     return done;
   }
   bool leapt(const ParticleStore& store) const;
-  Key keyOf(const Set& set, const ParticleStore& store, const uint32_t* particles) const;
+  TieKey keyOf(const Set& set, const ParticleStore& store, const uint32_t* particles) const;
   // In constraintstate.cpp.
   static void saveParameters(StateWriter& writer, std::string_view room, const Set& set);
   static void restoreParameters(const StateReader& reader, std::string_view room, Set& set);

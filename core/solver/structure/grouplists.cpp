@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/solver/structure/grouplists.h"
 
+#include "core/base/progress.h"
+
 #include <algorithm>
 #include <bit>
 #include <utility>
@@ -42,9 +44,11 @@ void GroupLists::apply(const Edits& edits, std::span<const uint32_t> body) {
     for (size_t k = old.m_begin[g]; k < old.m_begin[g + 1]; ++k) {
       for (const auto& column : old.m_memberValues) memberValues.push_back(column[k]);
     }
+    advance(0);
     append(old.members(g), values.data(), memberValues.data(), old.m_changed[g], old.m_body[g]);
   }
   for (size_t g = 0, begin = 0; g < edits.ends.size(); begin = edits.ends[g++]) {
+    advance(0);
     append({edits.particles.data() + begin, edits.ends[g] - begin}, edits.values.data() + g * m_values.size(),
            edits.memberValues.data() + begin * m_memberValues.size(), 0, body[edits.particles[begin]]);
   }
@@ -56,6 +60,7 @@ void GroupLists::colour(size_t particles) {
   std::vector<size_t> colourOf(count());
   size_t colours = 0;
   for (size_t g = 0; g < count(); ++g) {
+    advance(0);
     for (size_t word = 0;; ++word) {
       if (word == used.size()) used.emplace_back(particles, 0);
       uint64_t inUse = 0;
@@ -77,6 +82,7 @@ void GroupLists::colour(size_t particles) {
   std::swap(old, *this);
   m_colourStart.assign(colours + 1, 0);
   for (const size_t g : order) {
+    advance(0);
     ++m_colourStart[colourOf[g] + 1];
     for (size_t v = 0; v < m_values.size(); ++v) m_values[v].push_back(old.m_values[v][g]);
     for (size_t v = 0; v < m_memberValues.size(); ++v) {
