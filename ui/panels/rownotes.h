@@ -41,12 +41,14 @@ class RowNotes {
   void addLimits(std::map<QString, Note>& notes) const;
   void addWaiting(std::map<QString, Note>& notes) const;
   void noteWaiting(const ParameterChanged& change);
+  QString costOf(const std::string& address) const;
 
   const Document& m_document;
   std::vector<ParameterPanel*> m_panels;
   std::vector<Limit> m_limits;  ///< of the last snapshot: a paused scene publishes none when rows are made anew
   std::shared_ptr<const std::vector<std::string>> m_bodies;
   uint64_t m_revision = 0;
+  size_t m_particles = 0;               ///< that there are now
   std::map<std::string, Value> m_made;  ///< by address: with what the present matter was made, where that has changed
   std::map<QString, Note> m_shown;
   QString m_culprit, m_problem;  ///< key of the row, and the sentence under it
