@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "tests/shared/enginehands.h"
+#include "tests/ui/windowtesting.h"
 #include "ui/document/document.h"
 #include "ui/theme/theme.h"
 #include "ui/tools/toolbox.h"
 #include "ui/viewport/viewport.h"
-#include "ui/window/mainwindow.h"
 
 #include <QtTest/QSignalSpy>
 #include <QtTest/QTest>
@@ -20,7 +20,6 @@
 namespace ps {
 
 inline const QString kSample = QStringLiteral(PS_SOURCE_DIR "/projects/ice-on-hot-plate.json");
-inline constexpr int kLong = 30000;  // ms; software rendering on a busy machine
 
 /// A window that has shown the sample, which plays, and has the focus; nullptr when it did not come.
 inline std::unique_ptr<MainWindow> sampleWindow(const QSize& size, const std::vector<std::string>& pluginPaths = {}) {

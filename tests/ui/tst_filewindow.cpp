@@ -4,11 +4,10 @@
 #include "core/io/outputfile.h"
 #include "tests/shared/scenes.h"
 #include "tests/ui/desk.h"
+#include "tests/ui/windowtesting.h"
 #include "ui/session/savejob.h"
 #include "ui/theme/theme.h"
 #include "ui/viewport/viewport.h"
-#include "ui/window/mainwindow.h"
-#include "ui/window/noticebar.h"
 
 #include <QtCore/QProcess>
 #include <QtGui/QAction>
@@ -37,14 +36,15 @@ class TestFileWindow : public QObject {
     edit(310);
     writeFileAtomically(m_path.toStdString(), writeProject(scenes::iceOnPlate(4, 320)));
     saveIsRefused(QStringLiteral("another program has written it"));
-    QVERIFY(button(QStringLiteral("Save anyway")) && button(QStringLiteral("Save elsewhere…")));
-    button(QStringLiteral("Open what is on disk"))->click();
+    QVERIFY(noticeButton(*m_window, QStringLiteral("Save anyway")) &&
+            noticeButton(*m_window, QStringLiteral("Save elsewhere…")));
+    noticeButton(*m_window, QStringLiteral("Open what is on disk"))->click();
     QTRY_COMPARE_WITH_TIMEOUT(floor(), 320.0, kLong);
     QTRY_COMPARE_WITH_TIMEOUT(m_window->notice()->topic(), QStringLiteral("replaced"), kLong);
-    button(QStringLiteral("Back to it"))->click();
+    noticeButton(*m_window, QStringLiteral("Back to it"))->click();
     QCOMPARE(floor(), 310.0);
     saveIsRefused(QStringLiteral("another program has written it"));
-    button(QStringLiteral("Save anyway"))->click();
+    noticeButton(*m_window, QStringLiteral("Save anyway"))->click();
     QTRY_VERIFY_WITH_TIMEOUT(!document().isDirty(), kLong);
     QVERIFY(!m_window->notice()->isVisible());
   }
@@ -58,7 +58,7 @@ class TestFileWindow : public QObject {
              qPrintable(text));
     edit(310);
     saveIsRefused(QStringLiteral("another window has it open"));
-    button(QStringLiteral("Take over and save"))->click();
+    noticeButton(*m_window, QStringLiteral("Take over and save"))->click();
     QTRY_VERIFY_WITH_TIMEOUT(!document().isDirty(), kLong);
     QVERIFY(!m_window->notice()->isVisible());
     QVERIFY(!other.held());
@@ -127,17 +127,9 @@ class TestFileWindow : public QObject {
   }
 
  private:
-  static constexpr int kLong = 30000;  // ms; software rendering on a busy machine
-
   Document& document() { return m_window->session().document(); }
   double floor() { return std::get<double>(document().value(kFloor)); }
   void edit(double kelvin) { QCOMPARE(document().setParameter(kFloor, kelvin), QString()); }
-  QPushButton* button(const QString& text) {
-    for (QPushButton* each : m_window->notice()->findChildren<QPushButton*>()) {
-      if (each->text() == text) return each;
-    }
-    qFatal("no button %s", qPrintable(text));
-  }
   void saveIsRefused(const QString& why) {
     m_window->action(QStringLiteral("file.save"))->trigger();
     QTRY_COMPARE_WITH_TIMEOUT(m_window->notice()->topic(), QStringLiteral("save"), kLong);

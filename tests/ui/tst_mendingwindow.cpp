@@ -148,7 +148,7 @@ class TestMendingWindow : public SampleWindowTest {
     ParameterRow* row = m_window->inspector().panelFor(spacing)->row(QString::fromStdString(spacing.text()));
     QVERIFY(row && row->has(RowState::Error));
     m_window->inspectorDock()->showPage(QStringLiteral("Material"));
-    QPushButton* show = noticeButton(QStringLiteral("Show it"));
+    QPushButton* show = noticeButton(*m_window, QStringLiteral("Show it"));
     QVERIFY(show);
     show->click();
     QCOMPARE(m_window->inspectorDock()->currentPage(), QStringLiteral("Solver"));
@@ -168,9 +168,9 @@ class TestMendingWindow : public SampleWindowTest {
     const QString path = m_folder.filePath(QStringLiteral("needy.json"));
     saveProject(project, path.toStdString());
     m_window->openFile(path);
-    QTRY_VERIFY_WITH_TIMEOUT(noticeButton(QStringLiteral("Open anyway")), kLong);
+    QTRY_VERIFY_WITH_TIMEOUT(noticeButton(*m_window, QStringLiteral("Open anyway")), kLong);
     QVERIFY(floorTemperature() != 302.0);
-    noticeButton(QStringLiteral("Open anyway"))->click();
+    noticeButton(*m_window, QStringLiteral("Open anyway"))->click();
     QTRY_COMPARE_WITH_TIMEOUT(floorTemperature(), 302.0, kLong);
   }
 
@@ -262,13 +262,6 @@ class TestMendingWindow : public SampleWindowTest {
 
  private:
   double floorTemperature() { return std::get<double>(document().value({Owner::Wall, "floor", "temperature"})); }
-  QPushButton* noticeButton(const QString& text) {
-    for (QPushButton* button : m_window->notice()->findChildren<QPushButton*>()) {
-      if (button->text() == text) return button;
-    }
-    return nullptr;
-  }
-
   QTemporaryDir m_folder;
   std::unique_ptr<PluginRegistry> m_plugins;
 };

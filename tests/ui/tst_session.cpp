@@ -4,6 +4,7 @@
 #include "core/io/projectio.h"
 #include "core/simulation/enginethread.h"
 #include "tests/shared/scenes.h"
+#include "tests/ui/windowtesting.h"
 #include "ui/document/document.h"
 #include "ui/graphs/graphspanel.h"
 #include "ui/graphs/graphview.h"
@@ -18,8 +19,6 @@
 #include "ui/timeline/transport.h"
 #include "ui/tools/toolbox.h"
 #include "ui/viewport/viewport.h"
-#include "ui/window/mainwindow.h"
-#include "ui/window/noticebar.h"
 
 #include <QtCore/QDir>
 #include <QtCore/QMimeData>
@@ -49,16 +48,8 @@ using namespace ps;
 namespace {
 
 const Address kFloor{Owner::Wall, "floor", "temperature"};
-constexpr int kLong = 30000;  // ms; software rendering on a busy machine
 
 double floorOf(MainWindow& window) { return std::get<double>(window.session().document().value(kFloor)); }
-
-QPushButton* noticeButton(MainWindow& window, const QString& text) {
-  for (QPushButton* button : window.notice()->findChildren<QPushButton*>()) {
-    if (button->text() == text) return button;
-  }
-  return nullptr;
-}
 
 void press(MainWindow& window, Qt::Key key, Qt::KeyboardModifiers modifiers = {}) {
   window.viewport()->setFocus();
