@@ -77,7 +77,7 @@ const std::vector<Wrong>& allWrongs() {
        [](Project& p) {
          p.bodies[0].temperatureGradient = {0, 8000, 0};
        },
-       "",
+       "/bodies/0/temperature_gradient",
        {Owner::Body, "ice", "temperature"},
        1000.0},
   };
