@@ -16,8 +16,8 @@ void checkDocument(const nlohmann::json& document, const std::string& name, cons
                    std::vector<ProjectMessage>& warnings);
 /// A document that passed checkDocument(); it is taken apart.
 Project readDocument(nlohmann::json& document, const PluginRegistry& plugins);
-/// References, relations and sizes. Missing plugins that are not required become warnings; what keeps a scene from being
-/// made of a project that is sound otherwise becomes a problem.
+/// References, relations and sizes. Missing plugins that are not required become warnings; what keeps a scene from
+/// being made of a project that is sound otherwise becomes a problem.
 void checkProject(const Project& project, const std::string& name, const PluginRegistry& plugins,
                   std::vector<ProjectMessage>& warnings, std::vector<ProjectMessage>& problems);
 

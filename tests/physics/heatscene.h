@@ -188,9 +188,7 @@ class Scene {
     for (size_t i = 0; i < store.size(); ++i) sum += double{store.mass()[i]} * static_cast<double>(values[i]);
     return sum / mass();
   }
-  double* enthalpyField() {
-    return static_cast<double*>(store.find("specific_enthalpy", ps::api::FieldType::Float64));
-  }
+  double* enthalpyField() { return static_cast<double*>(store.find("specific_enthalpy", ps::api::FieldType::Float64)); }
   const double* enthalpyField() const {
     return static_cast<const double*>(store.read("specific_enthalpy", ps::api::FieldType::Float64));
   }

@@ -15,8 +15,8 @@ namespace ps {
 QString formatNumber(double value, int significant = 4);
 /// The same without zeros at the end: "0.5", "3 × 10⁻⁶".
 QString formatShort(double value, int significant = 4);
-/// With a fixed number of decimals, grouped: "24 594", "−0.90". For counts and running values that must not jitter. From
-/// 10¹⁵ on, where a double's digits end, as formatShort.
+/// With a fixed number of decimals, grouped: "24 594", "−0.90". For counts and running values that must not jitter.
+/// From 10¹⁵ on, where a double's digits end, as formatShort.
 QString formatFixed(double value, int decimals = 0);
 /// formatShort with the unit after a space: "120 °C".
 QString formatQuantity(double value, const QString& unit, int significant = 4);

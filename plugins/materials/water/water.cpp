@@ -95,8 +95,11 @@ double waterDensity(double kelvin) {
 
 WaterMaterial::WaterMaterial()
     : Described({"Water",
-"Ice, water and steam, with measured data. The density of the liquid follows Kell (1975) with its maximum at 4 °C, held constant below \u221230 and above 150 °C; the viscosity follows a Vogel law. Heat capacities are constant in each phase: those of ice fall by a tenth to \u221230 °C in reality. Supercooling and dissolved air are not modelled.",
-ps::api::listOf(kParameters)}) {}
+                 "Ice, water and steam, with measured data. The density of the liquid follows Kell (1975) with its "
+                 "maximum at 4 °C, held constant below \u221230 and above 150 °C; the viscosity follows a Vogel law. "
+                 "Heat capacities are constant in each phase: those of ice fall by a tenth to \u221230 °C in reality. "
+                 "Supercooling and dissolved air are not modelled.",
+                 ps::api::listOf(kParameters)}) {}
 
 ps::api::List<MaterialProperty> WaterMaterial::properties() const noexcept { return ps::api::listOf(kProperties); }
 
