@@ -328,6 +328,7 @@ void TestTheme::whatATypedNumberMakesIsFinite() {
     QCOMPARE(problem, QString::fromUtf8("“%1” is too large for a number").arg(QString::fromUtf8(text)));
   }
   QVERIFY(!parseTyped(QStringLiteral("1e308"), declaration("m", "mm", 1e-3), 1).problem.isEmpty());
+  QVERIFY(!parseTyped(QStringLiteral("1e308 cm"), declaration("m", "mm", 1e3), 1).problem.isEmpty());
 }
 
 /// A unit may begin as a power of ten goes on.

@@ -230,9 +230,10 @@ std::optional<std::string> normalised(const QString& text) {
   return plain;
 }
 
-/// Of numbers that each are sound, but not what their unit or the value before makes of them.
-void requireFinite(Typed& typed, const QString& text) {
-  if (!std::isfinite(typed.value) || !std::isfinite(typed.factor))
+/// Of numbers that each are sound, but not what their unit, the value before or the unit they are shown in makes of
+/// them.
+void requireFinite(Typed& typed, const api::ParameterDeclaration& d, const QString& text) {
+  if (!std::isfinite(typed.value) || !std::isfinite(typed.factor) || !std::isfinite(toDisplay(d, typed.value)))
     typed.problem = QStringLiteral("“%1” is too large for a number").arg(text);
 }
 
@@ -365,7 +366,7 @@ Typed parseTyped(const QString& typed, const api::ParameterDeclaration& d, doubl
     result.relative = true;
     result.factor = divides ? 1 / *factor : *factor;
     result.value = scaledValue(d, current, result.factor);
-    requireFinite(result, text);
+    requireFinite(result, d, text);
     return result;
   }
   const qsizetype split = unitStart(text);
@@ -378,13 +379,13 @@ Typed parseTyped(const QString& typed, const api::ParameterDeclaration& d, doubl
   }
   result.value = fromDisplay(d, *number);
   if (unitText.isEmpty() || unitText == shownUnit) {
-    requireFinite(result, text);
+    requireFinite(result, d, text);
     return result;
   }
   const std::optional<Unit> unit = parseUnit(unitText), declared = parseUnit(QString::fromUtf8(d.unit));
   if (unit && declared && unit->dimension == declared->dimension) {
     result.value = (*number * unit->scale + unit->offset - declared->offset) / declared->scale;
-    requireFinite(result, text);
+    requireFinite(result, d, text);
   } else if (shownUnit.isEmpty()) {
     result.problem = QStringLiteral("This value has no unit; “%1” was not understood").arg(unitText);
   } else {
