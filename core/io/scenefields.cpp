@@ -129,7 +129,8 @@ const FieldTable<Probe>& probeFields() {
       .help = "something measured each frame",
       .rows = {field("id", &Probe::id, Id{}, "").required(),
                field("name", &Probe::name, Text{200}, "name in graphs and tables")
-                   .absentMeans([](Probe& probe, const PluginRegistry&) { probe.name = probe.id; }),
+                   .absentMeans([](Probe& probe, const PluginRegistry&) { probe.name = probe.id; })
+                   .omittedWhen([](const Probe& probe) { return probe.name == probe.id; }),
                field("quantity", &Probe::quantity, QuantityName{ParticleFields().quantityNames()}, "what is measured")
                    .required(),
                field("body", &Probe::body, Text{}, "id of a body; empty for all particles"),
