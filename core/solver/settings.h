@@ -12,8 +12,8 @@ namespace ps {
 
 enum class DensitySolver { Jacobi, Chebyshev };
 
-/// Which stage delivers viscosity: the implicit one for what the filter cannot reach, the filter alone, the implicit
-/// one for all liquids.
+/// Which stage delivers viscosity: the implicit one for what the filter cannot reach or a wall drags along, the filter
+/// alone, the implicit one for all liquids.
 enum class ViscosityModel { Automatic, Xsph, Implicit };
 
 /// How vapour moves: by physical densities, or by the thesis's laws of latent heat.

@@ -24,10 +24,12 @@ constexpr double kRecalled = 0.2, kMostDrift = 1e-3, kCreep = 1e-4;
 /// walls are too narrow for ends up in the middle.
 constexpr double kDeepest = 0.5;
 constexpr int kInwardPasses = 8;
+
 /// Places are in single precision: below 1e-5 of their distance from the origin, squared, lies no inertia.
 constexpr double kRounding = 1e-10;
-/// Least share of the largest moment of inertia: a row of particles has none about itself.
+/// Least share of the trace of the inertia that a moment must have: a row of particles has none about itself.
 constexpr double kLeastInertia = 1e-6;
+
 /// Inverse of a symmetric matrix, zero along axes whose eigenvalue is `least` at most.
 Matrix3 pseudoInverse(const Matrix3& matrix, double least) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(matrix);
@@ -81,9 +83,9 @@ void RigidContact::readMasses(const ParticleStore& store, Body& body, const api:
 }
 
 /// Velocity and angular momentum of members at `points`, about their centre.
-RigidContact::Momentum RigidContact::motionOf(const ParticleStore& store, const Body& body, const Vector3& centre,
-                                              const api::Float4* points) {
-  Momentum motion;
+RigidContact::BodyMotion RigidContact::motionOf(const ParticleStore& store, const Body& body, const Vector3& centre,
+                                                const api::Float4* points) {
+  BodyMotion motion;
   for (const uint32_t i : body.members) {
     const Vector3 p = double{store.mass()[i]} * vectorOf(store.velocity()[i]);
     motion.velocity += p;

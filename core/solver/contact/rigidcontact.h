@@ -71,20 +71,20 @@ class RigidContact {
   static constexpr uint32_t kNone = ~0u;
   /// What is farther from a wall than this, in spacings, is not yet its contact.
   static constexpr double kOpen = 1;
-  struct Momentum {
+  struct BodyMotion {
     Vector3 velocity;  ///< m/s
     Vector3 angular;   ///< kg m2/s, about the centre
   };
   struct Body {
     std::vector<uint32_t> members;
-    double inverseMass = 0;   ///< 1/kg
-    Matrix3 inverseInertia;   ///< 1/(kg m2), about the centre
-    Vector3 centre;           ///< m
-    Vector3 shift, turn;      ///< m, rad: what contacts did since positions were read; m/s, rad/s in bounce()
-    Vector3 turned;           ///< rad, since the start of the substep, when positions were read
+    double inverseMass = 0;  ///< 1/kg
+    Matrix3 inverseInertia;  ///< 1/(kg m2), about the centre
+    Vector3 centre;          ///< m
+    Vector3 shift, turn;  ///< m, rad: what contacts did since positions were read; m/s, rad/s in strike() and bounce()
+    Vector3 turned;       ///< rad, since the start of the substep, when positions were read
     Vector3 pushed, twisted;  ///< kg m, kg m2: impulses of this substep, and their moments about the centre
-    Momentum before;          ///< as the substep began, before contacts
-    uint32_t island = 0;      ///< least of the bodies that touch each other, in bounce()
+    BodyMotion before;        ///< as the substep began, before contacts
+    uint32_t island = 0;      ///< the least of bodies that may touch each other, in strike() and bounce()
     Vector3 late;             ///< kg m, way that impulses have not given since they came late in the substep
     double time = 0;          ///< of an island, when it is struck, as a share of the substep
     bool struck = false;      ///< an island, in strike()
@@ -125,7 +125,7 @@ class RigidContact {
     double approach = 0;     ///< m/s, normal speed before the substep
     bool strikes = false;    ///< in this substep, by strike()
     bool takesPart = false;  ///< in the speeds that are being solved
-    Vector3 before;          ///< m/s, of a against b without the impulses of contacts, in bounce()
+    Vector3 before;          ///< m/s, of a against b without impulses, in strike() and bounce()
     double wanted = 0;       ///< m/s, the least normal speed after, likewise
     double impulse = 0;      ///< kg m/s, along the normal, likewise
     Vector3 friction;        ///< kg m/s, likewise
@@ -188,8 +188,8 @@ class RigidContact {
   void readStart(const ParticleStore& store, Contact& contact);
   void readApproaches(ParticleStore& store);
   static Vector3 centreOf(const ParticleStore& store, const Body& body, const api::Float4* points);
-  static Momentum motionOf(const ParticleStore& store, const Body& body, const Vector3& centre,
-                           const api::Float4* points);
+  static BodyMotion motionOf(const ParticleStore& store, const Body& body, const Vector3& centre,
+                             const api::Float4* points);
   static double gapAt(const Contact& contact, const api::Float4* points) {
     return vectorOf(points[contact.a.particle]).dot(contact.normal) - contact.distance;
   }

@@ -221,7 +221,7 @@ void RigidContact::strike(ParticleStore& store) {
     body.touched = false;
     if (!m_bodies[body.island].struck) continue;
     readMasses(store, body, store.previous());
-    const Momentum motion = motionOf(store, body, body.centre, store.previous());
+    const BodyMotion motion = motionOf(store, body, body.centre, store.previous());
     body.shift = motion.velocity;
     body.turn = body.inverseInertia * motion.angular;
     body.late.setZero();
@@ -296,7 +296,7 @@ void RigidContact::bounce(ParticleStore& store) {
     if (!body.hasContacts) continue;
     // The inertia has turned with the body.
     body.centre = centreOf(store, body, store.position());
-    const Momentum motion = motionOf(store, body, body.centre, store.position());
+    const BodyMotion motion = motionOf(store, body, body.centre, store.position());
     body.shift = motion.velocity;
     body.turn = body.inverseInertia * motion.angular;
     body.touched = false;
