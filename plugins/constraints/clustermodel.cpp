@@ -105,6 +105,7 @@ class Builder {
         m_radius(context.parameters[ClusterModel::kRadius] * context.spacing),
         m_step(std::min(context.parameters[ClusterModel::kSpacing] * context.spacing, m_radius)),
         m_reach(kReach * context.spacing),
+        m_members(members.size),
         m_isNew(p.count, 0),
         m_membership(p.count, 0) {
     for (const uint32_t i : members) m_isNew[i] = p.motion[i] == Motion::Solid ? 1 : 0;
@@ -117,7 +118,7 @@ class Builder {
       for (size_t k = all.begin[g]; k < all.begin[g + 1]; ++k) ++m_membership[all.particles[k]];
     }
   }
-  void find() {
+  void find(api::GroupSink& sink) {
     if (m_body.empty()) return;
     sortByCell();
     Vector low{1e30, 1e30, 1e30}, high{-1e30, -1e30, -1e30};
@@ -139,6 +140,8 @@ class Builder {
         for (int x = 0; x < n[0]; ++x) {
           around({place(low.x, high.x, x, n[0]), place(low.y, high.y, y, n[1]), place(low.z, high.z, z, n[2])});
         }
+        const size_t rows = size_t{1} * n[1] * n[2], row = size_t{1} * z * n[1] + y;
+        sink.advance(m_members * (row + 1) / rows - m_members * row / rows);
       }
     }
     for (const uint32_t i : m_body) {
@@ -202,6 +205,7 @@ class Builder {
 
   const ParticleView& m_p;
   double m_radius, m_step, m_reach;
+  size_t m_members;  ///< newly created
   std::vector<uint8_t> m_isNew;
   std::vector<uint32_t> m_membership, m_body;
   std::vector<std::pair<Cell, uint32_t>> m_cells;
@@ -256,7 +260,7 @@ void ClusterModel::build(const ConstraintContext& context, const ParticleView& p
                          api::Span<const uint32_t> members, const GroupBatch& all, api::GroupSink& sink) const {
   Builder builder(context, p, members);
   builder.count(all);
-  builder.find();
+  builder.find(sink);
   builder.emit(sink);
 }
 

@@ -26,6 +26,9 @@ constexpr int kMidpointPasses = 4;
 constexpr double kLargestTurn = 0.1;
 constexpr int kMostTurns = 32;
 
+/// New particles between two words on how far the search for them has come: some milliseconds of work.
+constexpr size_t kToldMembers = size_t{1} << 12;
+
 constexpr api::ParameterDeclaration kParameters[] = {
     {"least_members", "Smallest piece", "n", "", api::ParameterKind::Integer, api::Scale::Linear, 4, 4, 64, 1, 1000, "",
      1, 0, "", "Structure",
@@ -151,7 +154,9 @@ void RigidModel::build(const ConstraintContext& context, const ParticleView& p, 
   }
   const double reach2 = kRigidReach * kRigidReach * context.spacing * context.spacing;
   std::vector<uint8_t> grows(all.count, 0);
-  for (const uint32_t i : members) {
+  for (size_t k = 0; k < members.size; ++k) {
+    if (k % kToldMembers == kToldMembers - 1) sink.advance(kToldMembers);
+    const uint32_t i = members.data[k];
     if (isNew[i] == 0) continue;
     for (uint32_t q = lists.begin[i]; q < lists.last[i]; ++q) {
       const uint32_t j = lists.index[q];

@@ -23,6 +23,7 @@ class TestOutputs : public QObject {
   void pipesAndLinksStay();
   void signalsLeaveWholeFiles_data();
   void signalsLeaveWholeFiles();
+  void aSignalWhileTheSceneIsMadeEndsAtOnce();
   void aFullDiskEndsTheRunAndSaysWhereItsRowsAre();
   void twoRunsMayRecordToOneName();
 };
@@ -133,6 +134,28 @@ void TestOutputs::signalsLeaveWholeFiles() {
   QCOMPARE(content["frames"].get<qsizetype>(), rows.size() - 1);
   QVERIFY(bytesOf(record).startsWith("PSRECORD"));
   QCOMPARE(filesIn(folder).size(), 3);
+}
+
+/// Nothing is written yet, so that nothing has to be kept: the process is ended as any other.
+void TestOutputs::aSignalWhileTheSceneIsMadeEndsAtOnce() {
+  QTemporaryDir folder;
+  const QString probes = folder.filePath("p.csv");
+  write(probes, "an older table");
+  QProcess process;
+  process.start(kProgram, {"simulate", kSample, "--set", "/solver/particle_spacing=0.004", "--frames", "0", "--probes",
+                           probes, "--record", folder.filePath("r.rec")});
+  // What it has in memory tells how far it is: this many pages come with the particles.
+  const auto pages = [&] {
+    QFile file(QString("/proc/%1/statm").arg(process.processId()));
+    return file.open(QIODevice::ReadOnly) ? file.readAll().split(' ').value(1).toLongLong() : 0;
+  };
+  QTRY_VERIFY_WITH_TIMEOUT(pages() * ::sysconf(_SC_PAGESIZE) > 150e6, 60000);
+  QCOMPARE(::kill(static_cast<pid_t>(process.processId()), SIGINT), 0);
+  QVERIFY(process.waitForFinished(60000));
+  QCOMPARE(process.exitStatus(), QProcess::CrashExit);
+  QCOMPARE(process.exitCode(), SIGINT);
+  QCOMPARE(bytesOf(probes), QByteArray("an older table"));
+  QCOMPARE(filesIn(folder).size(), 1);
 }
 
 /// Whichever of the two the disk has no room for: what was written of both stays.

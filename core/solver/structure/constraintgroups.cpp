@@ -17,7 +17,7 @@ constexpr size_t kMembersPerChunk = 512;
 /// Collects what a plugin adds and removes; it takes effect when the call has returned.
 class ConstraintSystem::Groups final : public api::GroupSink {
  public:
-  Groups(const GroupLists& lists, const ParticleStore& store) : m_lists(lists), m_particles(store.size()) {}
+  Groups(const Set& set, const ParticleStore& store) : m_set(set), m_lists(*set.groups), m_particles(store.size()) {}
   void add(const uint32_t* particles, size_t count, const float* values, const float* memberValues) override {
     if (count == 0) throw Error("added a group without members");
     const bool hasValues = values || m_lists.valueCount() == 0,
@@ -43,9 +43,17 @@ class ConstraintSystem::Groups final : public api::GroupSink {
     m_edits.removed.resize(m_lists.count(), 0);
     m_edits.removed[g] = 1;
   }
+  void advance(size_t members) override { tellProgress(m_set, members); }
+  /// Room for about so many members: to move millions of them takes its time.
+  void reserve(size_t members) {
+    members += members / 4;
+    m_edits.particles.reserve(members);
+    m_edits.memberValues.reserve(members * m_lists.memberValueCount());
+  }
   const GroupLists::Edits& edits() const { return m_edits; }
 
  private:
+  const Set& m_set;
   const GroupLists& m_lists;
   size_t m_particles;
   std::vector<uint32_t> m_lastUse;
@@ -113,9 +121,8 @@ void ConstraintSystem::buildGroups(Set& set, const ParticleStore& store, const N
                                    std::span<const uint32_t> members) {
   GroupLists::Batch all;
   set.groups->fill(all, 0, set.groups->count());
-  beginStage("Tying structure", kTyingWeight * static_cast<double>(members.size()),
-             static_cast<double>(members.size()));
-  Groups sink(*set.groups, store);
+  Groups sink(set, store);
+  sink.reserve(beginTying(set, members.size()));
   if (guarded(set, [&] {
         set.group->build(context(set, m_settings.dt, 0, 0, store.body()[members[0]]), store.view(), neighbours.view(),
                          {members.data(), members.size()}, all.view, sink);
@@ -129,7 +136,7 @@ bool ConstraintSystem::groupTopology(Set& set, const ParticleStore& store, const
   if (set.disabled) return false;
   GroupLists::Batch all;
   set.groups->fill(all, 0, set.groups->count());
-  Groups sink(*set.groups, store);
+  Groups sink(set, store);
   if (!guarded(set, [&] {
         set.group->topology(context(set, m_settings.dt, 0, 0), store.view(), neighbours.view(), all.view, sink);
       })) {

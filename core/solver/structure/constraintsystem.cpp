@@ -276,11 +276,13 @@ void ConstraintSystem::apply(Set& set, const ParticleStore& store, const Edits& 
   set.count = set.particles.size() / arity;
 }
 
-/// Ties are found, coloured and put in order, each a step. How many are expected; 0 where nobody watches.
+/// Ties of `members`, or places in groups: each is found, coloured and put in order, three steps of the stage that
+/// begins. How many are expected; 0 where nobody watches.
 size_t ConstraintSystem::beginTying(const Set& set, size_t members) {
   if (!t_progress) return 0;
   const auto* count = static_cast<const api::StructureCount*>(set.plugin->extension(api::kStructureCount));
-  const double each = count ? count->perParticle({set.parameters.data(), set.parameters.size()}) : kUsualTies;
+  const double usual = set.groups ? 1 : kUsualTies;
+  const double each = count ? count->perParticle({set.parameters.data(), set.parameters.size()}) : usual;
   const double expected = std::min(each, kMostTies) * static_cast<double>(members);
   beginStage("Tying structure", kTyingWeight * static_cast<double>(members), 3 * expected);
   return static_cast<size_t>(expected);

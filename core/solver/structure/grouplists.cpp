@@ -32,10 +32,17 @@ void GroupLists::append(std::span<const uint32_t> particles, const float* values
   }
 }
 
+/// All columns would grow at once, and to move millions of members takes its time.
+void GroupLists::reserveMembers(size_t count) {
+  m_particles.reserve(count);
+  for (auto& column : m_memberValues) column.reserve(count);
+}
+
 void GroupLists::apply(const Edits& edits, std::span<const uint32_t> body) {
   if (edits.empty()) return;
   GroupLists old(m_values.size(), m_memberValues.size());
   std::swap(old, *this);
+  reserveMembers(old.m_particles.size() + edits.particles.size());
   std::vector<float> values(m_values.size()), memberValues;
   for (size_t g = 0; g < old.count(); ++g) {
     if (!edits.removed.empty() && edits.removed[g] != 0) continue;
@@ -48,7 +55,7 @@ void GroupLists::apply(const Edits& edits, std::span<const uint32_t> body) {
     append(old.members(g), values.data(), memberValues.data(), old.m_changed[g], old.m_body[g]);
   }
   for (size_t g = 0, begin = 0; g < edits.ends.size(); begin = edits.ends[g++]) {
-    advance(0);
+    advance(edits.ends[g] - begin);
     append({edits.particles.data() + begin, edits.ends[g] - begin}, edits.values.data() + g * m_values.size(),
            edits.memberValues.data() + begin * m_memberValues.size(), 0, body[edits.particles[begin]]);
   }
@@ -80,9 +87,10 @@ void GroupLists::colour(size_t particles) {
   });
   GroupLists old(m_values.size(), m_memberValues.size());
   std::swap(old, *this);
+  reserveMembers(old.m_particles.size());
   m_colourStart.assign(colours + 1, 0);
   for (const size_t g : order) {
-    advance(0);
+    advance(old.members(g).size());
     ++m_colourStart[colourOf[g] + 1];
     for (size_t v = 0; v < m_values.size(); ++v) m_values[v].push_back(old.m_values[v][g]);
     for (size_t v = 0; v < m_memberValues.size(); ++v) {

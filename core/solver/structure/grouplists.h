@@ -77,6 +77,7 @@ class GroupLists {
  private:
   void append(std::span<const uint32_t> particles, const float* values, const float* memberValues, uint8_t changed,
               uint32_t body);
+  void reserveMembers(size_t count);
   void colour(size_t particles);
   /// The group that holds most of those marked, or count().
   size_t homeOf(std::span<const uint8_t> companion) const;

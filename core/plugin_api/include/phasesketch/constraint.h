@@ -152,6 +152,9 @@ class GroupSink {
   virtual void add(const uint32_t* particles, size_t count, const float* values, const float* memberValues) = 0;
   /// Removes group `g` of the batch given to the call; its particles live on.
   virtual void remove(size_t g) = 0;
+  /// So many more of the new particles have been looked at. A search that takes longer than some milliseconds says so
+  /// as it goes on: the host shows it, and throws where its user has cancelled, which is to pass through the plugin.
+  virtual void advance(size_t members) = 0;
 
  protected:
   ~GroupSink() = default;
