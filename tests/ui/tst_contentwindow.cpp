@@ -254,6 +254,24 @@ class TestContentWindow : public SampleWindowTest {
     QVERIFY(!m_window->inspector().bodyPanel()->row(QStringLiteral("body/ice/heating_power"))->has(RowState::Limited));
   }
 
+  /// A spacing counts particles by its third power, and what that costs is said before it is paid.
+  void aWaitingSpacingSaysWhatItCosts() {
+    const Address kSpacing{Owner::Solver, "", "particle_spacing"};
+    const double before = std::get<double>(*storedValue(document().project(), kSpacing));
+    const auto note = [&] {
+      const auto* row = m_window->inspector().panelFor(kSpacing)->row(QString::fromStdString(kSpacing.text()));
+      const auto* label = row->findChild<QLabel*>(QStringLiteral("psLimit"));
+      return label ? label->text() : QString();
+    };
+    QCOMPARE(note(), QString());
+    QCOMPARE(document().setParameter(kSpacing, before / 2), QString());
+    QVERIFY2(note().startsWith(QStringLiteral("Acts at the next reset: ")), qPrintable(note()));
+    for (const char* part : {" particles, about ", " MB, 8.0× today’s. ", "Reset now"})
+      QVERIFY2(note().contains(QString::fromUtf8(part)), qPrintable(note()));
+    document().undoStack().undo();
+    QCOMPARE(note(), QString());
+  }
+
   /// What a value should be it may also not be: its row says so, beside what else there is to say.
   void aRowSaysWhatItsValueShouldBe() {
     Emitter tap;

@@ -107,6 +107,19 @@ class TestMendingWindow : public SampleWindowTest {
     hear(told);
   }
 
+  /// A large scene says how far it is, may be given up, and is then told as such.
+  void aSceneInTheMakingIsGivenUpByHand() {
+    constexpr int kSide = 60;
+    document().open(scenes::iceOnPlate(kSide, 300), {}, false, false);
+    QTRY_VERIFY_WITH_TIMEOUT(noticeButton(*m_window, QStringLiteral("Cancel")), kLong);
+    noticeButton(*m_window, QStringLiteral("Cancel"))->click();
+    QTRY_VERIFY_WITH_TIMEOUT(noticeButton(*m_window, QStringLiteral("Try again")), kLong);
+    QVERIFY(!noticeButton(*m_window, QStringLiteral("Cancel")));
+    QVERIFY(session().snapshot() && session().snapshot()->id.empty() && !session().engine()->making());
+    document().open(scene(), {}, false, false);
+    QTRY_VERIFY(session().snapshot() && session().snapshot()->id.size() == 125);
+  }
+
   void aRequiredPluginIsAskedForOnceMoreWhenSaved() {
     const QTemporaryDir directory;
     const QString path = directory.filePath(QStringLiteral("needy.json"));
