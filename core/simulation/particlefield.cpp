@@ -127,6 +127,7 @@ std::vector<Quantity> wholeQuantities() {
     add("velocity", "_min", "Lowest velocity", "m/s");
     add("velocity", "_max", "Highest velocity", "m/s");
     add("momentum", "", "Momentum", "kg·m/s");
+    all.push_back({"angular_momentum_" + axis, "Angular momentum about " + axis, "kg·m²/s"});
     all.push_back({"spin_" + axis, "Spin about " + axis, "rad/s"});
   }
   return all;

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // What probes read off the particles: sums in the order of the store, the same for any number of threads.
+#include "core/math/vector.h"
 #include "core/simulation/measure.h"
+
+#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
@@ -72,6 +75,7 @@ class Measurement {
     if (base == "kinetic_energy") return sum([&](size_t i) { return 0.5 * squaredSpeed(m_store.velocity()[i]); });
     if (base == "thermal_energy") return thermalEnergy();
     if (base == "momentum") return sum([&](size_t i) { return part(m_store.velocity()[i], m_key.axis); });
+    if (base == "angular_momentum") return angularMomentum(Vector3::Zero());
     if (base == "outside") return static_cast<double>(beyondWalls());
     if (m_chosen.empty() || !m_isKnown) return nothing();
     if (base == "spin") return spin();
@@ -142,20 +146,26 @@ class Measurement {
     return total;
   }
 
+  /// Component along the axis of sum m (x - about) x v, kg m2/s.
+  double angularMomentum(const Vector3& about) const {
+    const auto axis = static_cast<Eigen::Index>(m_key.axis);
+    return sum([&](size_t i) {
+      return (vectorOf(m_store.position()[i]) - about).cross(vectorOf(m_store.velocity()[i]))[axis];
+    });
+  }
+
   /// L/I about an axis through the centre of mass.
   double spin() const {
-    const size_t b = (m_key.axis + 1) % 3, c = (m_key.axis + 2) % 3;
+    const auto axis = static_cast<Eigen::Index>(m_key.axis);
     const double mass = sum([](size_t) { return 1.0; });
-    const auto centre = [&](size_t a) { return sum([&](size_t i) { return part(m_store.position()[i], a); }) / mass; };
-    const double cb = centre(b), cc = centre(c);
-    double angular = 0, inertia = 0;
-    for (const size_t i : m_chosen) {
-      const double m = m_store.mass()[i], rb = part(m_store.position()[i], b) - cb,
-                   rc = part(m_store.position()[i], c) - cc;
-      angular += m * (rb * part(m_store.velocity()[i], c) - rc * part(m_store.velocity()[i], b));
-      inertia += m * (rb * rb + rc * rc);
-    }
-    return inertia > 0 ? angular / inertia : nothing();
+    Vector3 centre;
+    for (Eigen::Index a = 0; a < 3; ++a)
+      centre[a] = sum([&](size_t i) { return vectorOf(m_store.position()[i])[a]; }) / mass;
+    const double inertia = sum([&](size_t i) {
+      const Vector3 arm = vectorOf(m_store.position()[i]) - centre;
+      return arm.squaredNorm() - arm[axis] * arm[axis];
+    });
+    return inertia > 0 ? angularMomentum(centre) / inertia : nothing();
   }
 
   /// From the centre of one of the chosen to the nearest centre of another body: others are sorted along x, and looked

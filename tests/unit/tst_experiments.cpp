@@ -106,6 +106,7 @@ void TstExperiments::aProbeOfEveryQuantity() {
       {"velocity_x_min", 0},
       {"velocity_x_max", 6},
       {"momentum_x", 42},
+      {"angular_momentum_x", -15},  // sum m (y vz - z vy): all at z = 0.25, none moves along z
       {"spin_x", 0},
       {"position_y", 1.03125},
       {"position_y_min", 0.125},
@@ -116,6 +117,7 @@ void TstExperiments::aProbeOfEveryQuantity() {
       {"velocity_y_min", 0},
       {"velocity_y_max", 8},
       {"momentum_y", 60},
+      {"angular_momentum_y", 10.5},  // sum m (z vx - x vz)
       {"spin_y", 0},
       {"position_z", 0.25},
       {"position_z_min", 0.25},
@@ -126,6 +128,7 @@ void TstExperiments::aProbeOfEveryQuantity() {
       {"velocity_z_min", 0},
       {"velocity_z_max", 0},
       {"momentum_z", 0},
+      {"angular_momentum_z", 139.5},    // 17.8125 about the centre, and 16 (2.75 3.75 - 1.03125 2.625) of the centre
       {"spin_z", 17.8125 / 35.421875},  // sum m (rx vy - ry vx) over sum m (rx^2 + ry^2)
   };
   ps::Wall wall;
