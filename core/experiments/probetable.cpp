@@ -3,6 +3,7 @@
 
 #include "core/base/error.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -25,12 +26,21 @@ std::string cell(double value) {
 }  // namespace
 
 std::vector<std::string> columnTitles(const std::vector<std::string>& probeNames) {
-  std::vector<std::string> titles{"time_s", "thermal_time_s"};
-  titles.insert(titles.end(), probeNames.begin(), probeNames.end());
+  std::vector<std::string> titles{"time_s", "thermal_time_s"}, ours;
   for (const char* phase : {"solid", "melting", "liquid", "boiling", "gas"}) {
-    titles.push_back(std::string(phase) + ".mass[kg]");
+    ours.push_back(std::string(phase) + ".mass[kg]");
   }
-  titles.emplace_back("all.temperature[K]");
+  ours.emplace_back("all.temperature[K]");
+  const auto isTaken = [&](const std::string& title) {
+    return std::find(titles.begin(), titles.end(), title) != titles.end() ||
+           std::find(ours.begin(), ours.end(), title) != ours.end();
+  };
+  for (const std::string& name : probeNames) {
+    std::string title = name;
+    for (int k = 2; isTaken(title); ++k) title = name + " (" + std::to_string(k) + ")";
+    titles.push_back(title);
+  }
+  titles.insert(titles.end(), ours.begin(), ours.end());
   return titles;
 }
 

@@ -9,7 +9,7 @@
 namespace ps {
 
 /// Titles of the columns: time_s, thermal_time_s, the project's probes as name.quantity[unit], the mass in each phase
-/// and the mean temperature of all matter.
+/// and the mean temperature of all matter. No two are alike: a probe whose title is taken gets " (2)" after it.
 std::vector<std::string> columnTitles(const std::vector<std::string>& probeNames);
 /// One frame's values under them; NaN where a probe saw no particle.
 std::vector<double> columnValues(const FrameStats& stats);

@@ -4,6 +4,7 @@
 #include "core/base/error.h"
 #include "core/experiments/casemeasure.h"
 #include "core/experiments/caserun.h"
+#include "core/experiments/probetable.h"
 #include "core/experiments/settlingmeasure.h"
 #include "core/experiments/soak.h"
 #include "core/plugin_host/registry.h"
@@ -23,6 +24,7 @@ class TestMeasures : public QObject {
   void oneNumberOfASeries();
   void verdictsKeepToTheirTolerances_data();
   void verdictsKeepToTheirTolerances();
+  void noTwoColumnsAreAlike();
   void aCaseThatCannotRunSaysWhy();
   void runsEndWhereTheyAreStopped();
   void whatFallsHasNotSettled();
@@ -107,6 +109,24 @@ void TestMeasures::verdictsKeepToTheirTolerances() {
   const CaseVerdict verdict = verdictOf(caseOf(check), "period", check, 10, measured);
   QTEST(verdict.holds, "holds");
   QTEST(QString::fromStdString(verdict.tolerance), "words");
+}
+
+void TestMeasures::noTwoColumnsAreAlike() {
+  const std::string all = "all.temperature[K]", solid = "solid.mass[kg]", ice = "ice.height[m]";
+  const std::vector<std::string> expected{"time_s",
+                                          "thermal_time_s",
+                                          all + " (2)",
+                                          ice,
+                                          solid + " (2)",
+                                          ice + " (2)",
+                                          ice + " (3)",
+                                          solid,
+                                          "melting.mass[kg]",
+                                          "liquid.mass[kg]",
+                                          "boiling.mass[kg]",
+                                          "gas.mass[kg]",
+                                          all};
+  QCOMPARE(columnTitles({all, ice, solid, ice, ice}), expected);
 }
 
 void TestMeasures::aCaseThatCannotRunSaysWhy() {
