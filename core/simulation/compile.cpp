@@ -6,6 +6,7 @@
 #include "core/math/vector.h"
 #include "core/matter/material.h"
 #include "core/plugin_host/registry.h"
+#include "core/scene/shownname.h"
 #include "core/simulation/declared.h"
 #include "core/simulation/lattice.h"
 #include "core/simulation/sceneproblem.h"
@@ -47,7 +48,7 @@ void setMatter(Spawn& spawn, std::span<const BakedMaterial> materials, uint32_t 
 
 void setMatter(Spawn& spawn, const Project& project, std::span<const BakedMaterial> materials,
                const std::string& material, double temperature, const Body& body) {
-  setMatter(spawn, materials, materialIndex(project, material, body.name), temperature,
+  setMatter(spawn, materials, materialIndex(project, material, shownName(body)), temperature,
             choiceOf(body.parameters, bodyParameters(), "phase"));
 }
 
@@ -84,7 +85,7 @@ void setFields(Spawn& spawn, const Body& body, const Vector3& centre, const api:
       if (!warped) continue;
       const double t = spawn.temperature + gradient.dot(r);
       if (!(t >= 1)) {
-        throw SceneError("body '" + body.name + "': its temperature gradient would cool it to " + numberText(t) +
+        throw SceneError("body '" + shownName(body) + "': its temperature gradient would cool it to " + numberText(t) +
                              " K; raise its temperature or lower the gradient",
                          {Owner::Body, body.id, "temperature"});
       }
@@ -337,7 +338,7 @@ Spawn compileLayer(const Project& project, std::span<const BakedMaterial> materi
   const double radius = number("diameter") / 2;
   const int reach = static_cast<int>(std::floor(radius / spacing));
   Spawn spawn;
-  setMatter(spawn, materials, materialIndex(project, emitter.material, emitter.name), number("temperature"),
+  setMatter(spawn, materials, materialIndex(project, emitter.material, shownName(emitter)), number("temperature"),
             "automatic");
   for (int row = -reach; row <= reach; ++row) {
     for (int column = -reach; column <= reach; ++column) {

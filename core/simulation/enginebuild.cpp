@@ -4,6 +4,7 @@
 #include "core/base/memory.h"
 #include "core/base/progress.h"
 #include "core/plugin_host/registry.h"
+#include "core/scene/shownname.h"
 #include "core/simulation/compile.h"
 #include "core/simulation/engineimpl.h"
 #include "core/simulation/lattice.h"
@@ -60,7 +61,7 @@ void Engine::Impl::build() {
       spawns.emplace_back(std::move(spawn), &body);
     }
     if (dropped > 0) {
-      log(LogLevel::Warning, "body '" + body.name + "': left out " + std::to_string(dropped) +
+      log(LogLevel::Warning, "body '" + shownName(body) + "': left out " + std::to_string(dropped) +
                                  " particles whose places are taken; move it away from what it overlaps");
     }
   }

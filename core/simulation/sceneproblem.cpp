@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/simulation/sceneproblem.h"
 
+#include "core/scene/shownname.h"
 #include "core/simulation/lattice.h"
 #include "core/simulation/sceneneed.h"
 #include "core/solver/settings.h"
@@ -67,7 +68,7 @@ std::string coldProblemOfAny(const Project& project, double spacing) {
   for (const Body& body : project.bodies) {
     const double temperature = numberOf(body.parameters, bodyParameters(), "temperature");
     const std::string problem = coldProblem(body, temperature, spacing);
-    if (!problem.empty()) return "of '" + body.name + "' " + problem;
+    if (!problem.empty()) return "of '" + shownName(body) + "' " + problem;
   }
   return {};
 }

@@ -283,6 +283,14 @@ class TestContent : public QObject {
     QVERIFY(m_document->whyMaterialStays("water").contains(QStringLiteral("ice")));
   }
 
+  /// A file may leave a name out, but a sentence about it may not.
+  void whatHasNoNameIsCalledByItsId() {
+    Project project = scenes::iceOnPlate(2, 370);
+    project.bodies.front().name.clear();
+    m_document->open(project, {}, false, false);
+    QCOMPARE(m_document->whyMaterialStays("water"), QStringLiteral("“ice” is of it"));
+  }
+
   void wallsComeAndGoWhileItRuns() {
     const auto wallsNow = [&] {
       return onEngine<size_t>(*m_engine, [](Engine& e) { return e.project().environment.walls.size(); });

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "core/scene/shownname.h"
 #include "core/simulation/declared.h"
 
 #include <QtCore/QString>
@@ -9,6 +10,8 @@
 // How people see what an address means.
 namespace ps {
 
+/// What a body, wall, tap, drain or probe is called: its name, or else its id.
+QString nameOf(const auto& item) { return QString::fromStdString(shownName(item)); }
 /// Who an address belongs to, as people call it: "Water", "Hot plate", "Solver".
 QString ownerLabel(const Project& project, const Address& address);
 /// What a parameter is called away from its owner's other ones: "Hot plate temperature"; a label that says enough by

@@ -149,25 +149,21 @@ void Document::renameBody(const std::string& id, const QString& name) {
   const Body* old = body(id);
   const std::string wanted = name.trimmed().toStdString();
   if (!old || wanted.empty() || wanted == old->name) return;
-  editBody(id, QStringLiteral("rename of %1").arg(QString::fromStdString(old->name)),
-           [&](Body& b) { b.name = wanted; });
+  editBody(id, QStringLiteral("rename of %1").arg(nameOf(*old)), [&](Body& b) { b.name = wanted; });
 }
 
 void Document::setBodyVisible(const std::string& id, bool visible) {
   const Body* old = body(id);
   if (!old || old->visible == visible) return;
-  editBody(
-      id, (visible ? QStringLiteral("showing %1") : QStringLiteral("hiding %1")).arg(QString::fromStdString(old->name)),
-      [&](Body& b) { b.visible = visible; });
+  editBody(id, (visible ? QStringLiteral("showing %1") : QStringLiteral("hiding %1")).arg(nameOf(*old)),
+           [&](Body& b) { b.visible = visible; });
 }
 
 void Document::setBodyLocked(const std::string& id, bool locked) {
   const Body* old = body(id);
   if (!old || old->locked == locked) return;
-  editBody(
-      id,
-      (locked ? QStringLiteral("locking %1") : QStringLiteral("unlocking %1")).arg(QString::fromStdString(old->name)),
-      [&](Body& b) { b.locked = locked; });
+  editBody(id, (locked ? QStringLiteral("locking %1") : QStringLiteral("unlocking %1")).arg(nameOf(*old)),
+           [&](Body& b) { b.locked = locked; });
 }
 
 std::string Document::freeBodyId(const std::string& stem) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Emitters and sinks of a document: they come, go, move and are renamed.
 #include "ui/document/commands.h"
+#include "ui/document/declared.h"
 #include "ui/document/document.h"
 
 #include <algorithm>
@@ -31,8 +32,6 @@ std::string nameFromId(const std::string& id) {
   name[0] = name[0].toUpper();
   return name.toStdString();
 }
-
-QString nameOf(const auto& item) { return text(item.name.empty() ? item.id : item.name); }
 
 /// The nearest place within the bounds.
 Vector3 within(const Environment& environment, const Vector3& p) {

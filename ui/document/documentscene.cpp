@@ -53,9 +53,9 @@ bool isOf(const Body& body, const std::string& material) {
 QString Document::removeBody(const std::string& id) {
   const Body* old = body(id);
   if (!old) return {};
-  if (old->locked) return QStringLiteral("“%1” is locked. Unlock it first.").arg(text(old->name));
+  if (old->locked) return QStringLiteral("“%1” is locked. Unlock it first.").arg(nameOf(*old));
   const BodyEdit edit{id, *old, std::nullopt, static_cast<size_t>(old - m_project.bodies.data())};
-  m_undo.push(new BodiesCommand(*this, {edit}, QStringLiteral("deletion of %1").arg(text(old->name)), newMatter()));
+  m_undo.push(new BodiesCommand(*this, {edit}, QStringLiteral("deletion of %1").arg(nameOf(*old)), newMatter()));
   return {};
 }
 
@@ -70,10 +70,10 @@ QString Document::duplicateBody(const std::string& id) {
   const auto [low, high] = heights(*old);
   lift(copy, high - low + spacing);  // a layer of air keeps the two apart
   if (heights(copy).second > m_project.environment.boundsMaximum[1]) {
-    return QStringLiteral("Above “%1” is no room for a copy.").arg(text(old->name));
+    return QStringLiteral("Above “%1” is no room for a copy.").arg(nameOf(*old));
   }
   const auto place = static_cast<size_t>(old - m_project.bodies.data()) + 1;
-  const QString title = QStringLiteral("copy of %1").arg(text(old->name));
+  const QString title = QStringLiteral("copy of %1").arg(nameOf(*old));
   m_undo.push(new BodiesCommand(*this, {BodyEdit{copy.id, std::nullopt, copy, place}}, title, newMatter()));
   return {};
 }
@@ -81,7 +81,7 @@ QString Document::duplicateBody(const std::string& id) {
 void Document::setStructure(const std::string& id, const std::string& plugin) {
   const Body* old = body(id);
   if (!old || structureOf(*old, m_plugins) == plugin) return;
-  editBody(id, QStringLiteral("structure of %1").arg(text(old->name)), [&](Body& b) {
+  editBody(id, QStringLiteral("structure of %1").arg(nameOf(*old)), [&](Body& b) {
     const auto holds = [&](const BodyConstraint& c) { return holdsTogether(c.plugin, m_plugins); };
     const auto first = std::find_if(b.constraints.begin(), b.constraints.end(), holds);
     const auto place = first - b.constraints.begin();
@@ -93,8 +93,8 @@ void Document::setStructure(const std::string& id, const std::string& plugin) {
 void Document::setNeighbourConstraint(const std::string& id, const std::string& plugin, bool used) {
   const Body* old = body(id);
   if (!old || uses(*old, plugin) == used) return;
-  const QString title = QStringLiteral("%1 of %2")
-                            .arg(text(declaration({Owner::Body, id, kNeighbourKey + plugin})->label), text(old->name));
+  const QString title =
+      QStringLiteral("%1 of %2").arg(text(declaration({Owner::Body, id, kNeighbourKey + plugin})->label), nameOf(*old));
   editBody(id, title, [&](Body& b) {
     std::erase_if(b.constraints, [&](const BodyConstraint& c) { return c.plugin == plugin; });
     if (used) b.constraints.push_back(BodyConstraint{plugin, {}, {}});
@@ -104,7 +104,7 @@ void Document::setNeighbourConstraint(const std::string& id, const std::string& 
 void Document::setBodyMaterial(const std::string& id, const std::string& material) {
   const Body* old = body(id);
   if (!old || old->material == material) return;
-  editBody(id, QStringLiteral("material of %1").arg(text(old->name)), [&](Body& b) {
+  editBody(id, QStringLiteral("material of %1").arg(nameOf(*old)), [&](Body& b) {
     if (auto* voxels = std::get_if<VoxelShape>(&b.shape)) {
       for (VoxelShape::Paint& paint : voxels->palette) {
         if (paint.material == b.material) paint.material = material;
@@ -171,10 +171,10 @@ std::string Document::addMaterial(const std::string& base) {
 
 QString Document::whyMaterialStays(const std::string& id) const {
   for (const Body& body : m_project.bodies) {
-    if (isOf(body, id)) return QStringLiteral("“%1” is of it").arg(text(body.name));
+    if (isOf(body, id)) return QStringLiteral("“%1” is of it").arg(nameOf(body));
   }
   for (const Emitter& emitter : m_project.emitters) {
-    if (emitter.material == id) return QStringLiteral("“%1” pours it").arg(text(emitter.name));
+    if (emitter.material == id) return QStringLiteral("“%1” pours it").arg(nameOf(emitter));
   }
   return {};
 }

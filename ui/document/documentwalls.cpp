@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Walls of a document: they come where the scene ends, and go.
 #include "ui/document/commands.h"
+#include "ui/document/declared.h"
 #include "ui/document/document.h"
 #include "ui/document/wallside.h"
 
@@ -8,10 +9,6 @@
 
 namespace ps {
 namespace {
-
-QString text(const std::string& utf8) { return QString::fromStdString(utf8); }
-
-QString nameOf(const SceneWall& wall) { return text(wall.name.empty() ? wall.id : wall.name); }
 
 /// Whether a wall looks the same way: it keeps matter from leaving on that side already.
 bool stands(const SceneWall& wall, const WallSide& side) {

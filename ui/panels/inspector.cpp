@@ -140,8 +140,7 @@ void Inspector::rebuildBody() {
   for (const SceneMaterial& material : m_document.project().materials) {
     if (material.id == body->material && !material.label.empty()) matter = QString::fromStdString(material.label);
   }
-  m_body->setHeader(QString::fromStdString(body->name),
-                    matter + (sketched ? QStringLiteral(" · sketched") : QStringLiteral(" · block")));
+  m_body->setHeader(nameOf(*body), matter + (sketched ? QStringLiteral(" · sketched") : QStringLiteral(" · block")));
   if (auto material = rowModelOf(m_document, {Owner::Body, body->id, kBodyMaterialKey}))
     rows.push_back(std::move(*material));
   addRows(rows, {Owner::Body, body->id, ""}, bodyParameters());
@@ -211,7 +210,7 @@ void Inspector::showMaterialHeader() {
   const bool missing = plugins && !plugins->material(material->base);
   QStringList bodies;
   for (const Body& body : project.bodies) {
-    if (body.material == material->id) bodies << QString::fromStdString(body.name);
+    if (body.material == material->id) bodies << nameOf(body);
   }
   for (const Emitter& emitter : project.emitters) {
     if (emitter.material == material->id) bodies << ownerLabel(project, {Owner::Emitter, emitter.id, "speed"});
@@ -263,8 +262,7 @@ void Inspector::rebuildScene() {
   if (auto gravity = rowModelOf(m_document, {Owner::Scene, "", "gravity"})) rows.push_back(std::move(*gravity));
   addRows(rows, {Owner::Environment, "", ""}, environmentParameters());
   const auto named = [&](Owner owner, const auto& items, api::ParameterList list) {
-    for (const auto& item : items)
-      addRows(rows, {owner, item.id, ""}, list, QString::fromStdString(item.name.empty() ? item.id : item.name));
+    for (const auto& item : items) addRows(rows, {owner, item.id, ""}, list, nameOf(item));
   };
   named(Owner::Emitter, project.emitters, emitterParameters());
   named(Owner::Sink, project.sinks, sinkParameters());

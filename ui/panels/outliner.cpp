@@ -106,7 +106,7 @@ void Outliner::addBodies(QStandardItem* scene) {
     const bool sketched = std::holds_alternative<VoxelShape>(body.shape);
     const bool fixed = toggleOf(body.parameters, bodyParameters(), "fixed");
     const QString icon = fixed ? QStringLiteral("plate") : sketched ? QStringLiteral("brush") : QStringLiteral("body");
-    QStandardItem* item = add(scene, OutlineKind::Body, body.id, QString::fromStdString(body.name), icon);
+    QStandardItem* item = add(scene, OutlineKind::Body, body.id, nameOf(body), icon);
     item->setData(colourOf(project, plugins, body.material), outline::kSwatch);
     item->setData(body.visible, outline::kVisible);
     item->setData(body.locked, outline::kLocked);
@@ -120,7 +120,6 @@ void Outliner::rebuild() {
   const Project& project = m_document.project();
   QStandardItem* scene = add(nullptr, OutlineKind::Scene, "", m_document.title(), QStringLiteral("folder"));
   addBodies(scene);
-  const auto nameOf = [](const auto& item) { return QString::fromStdString(item.name.empty() ? item.id : item.name); };
   for (const Emitter& emitter : project.emitters) {
     QStandardItem* item = add(scene, OutlineKind::Emitter, emitter.id, nameOf(emitter), QStringLiteral("tap"));
     item->setData(colourOf(project, m_document.plugins(), emitter.material), outline::kSwatch);
@@ -130,8 +129,8 @@ void Outliner::rebuild() {
   }
   for (const SceneWall& wall : project.environment.walls) {
     const bool held = hasTemperature(wall);
-    QStandardItem* item = add(scene, OutlineKind::Wall, wall.id, QString::fromStdString(wall.name),
-                              held ? QStringLiteral("plate") : QStringLiteral("wall"));
+    QStandardItem* item =
+        add(scene, OutlineKind::Wall, wall.id, nameOf(wall), held ? QStringLiteral("plate") : QStringLiteral("wall"));
     if (held) {
       const auto* declaration = findDeclaration(wallParameters(), "temperature");
       item->setData(formatQuantity(toDisplay(*declaration, numberOf(wall.parameters, wallParameters(), "temperature")),
@@ -149,7 +148,7 @@ void Outliner::rebuild() {
   if (!project.probes.empty()) {
     QStandardItem* probes = add(scene, OutlineKind::Probes, "", QStringLiteral("Probes"), QStringLiteral("folder"));
     for (const Probe& probe : project.probes) {
-      add(probes, OutlineKind::Probe, probe.id, QString::fromStdString(probe.name), QStringLiteral("probe"));
+      add(probes, OutlineKind::Probe, probe.id, nameOf(probe), QStringLiteral("probe"));
     }
   }
   m_view->expandAll();

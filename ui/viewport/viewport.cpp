@@ -3,6 +3,7 @@
 
 #include "core/base/error.h"
 #include "core/simulation/enginethread.h"
+#include "ui/document/declared.h"
 #include "ui/document/document.h"
 #include "ui/render/framing.h"
 #include "ui/session/selection.h"
@@ -261,8 +262,8 @@ std::vector<std::pair<QString, QString>> Viewport::bodyClasses() const {
   for (const std::string& id : *m_now->bodyIds) {
     const Body* body = m_document.body(id);
     const Emitter* emitter = m_document.emitter(id);
-    const std::string& name = body ? body->name : emitter ? emitter->name : id;
-    classes.emplace_back(QString::number(classes.size() + 1), QString::fromStdString(name));
+    const QString name = body ? nameOf(*body) : emitter ? nameOf(*emitter) : QString::fromStdString(id);
+    classes.emplace_back(QString::number(classes.size() + 1), name);
   }
   return classes;
 }
@@ -304,7 +305,7 @@ std::optional<SceneTag> Viewport::tag() const {
   const uint32_t index = m_now->body[row];
   const Body* body =
       m_now->bodyIds && index < m_now->bodyIds->size() ? m_document.body((*m_now->bodyIds)[index]) : nullptr;
-  if (body) tag.name = QString::fromStdString(body->name);
+  if (body) tag.name = nameOf(*body);
   constexpr double kZero = 273.15;
   tag.value = formatFixed(static_cast<double>(m_now->temperature[row]) - kZero, 1) + QStringLiteral(" °C  ") +
               phaseName(m_now->phase[row]);
