@@ -164,8 +164,11 @@ std::shared_ptr<Snapshot> unpackFrame(const std::string& bytes, const std::strin
   unpacker.array(s->material, n);
   for (auto fields = unpacker.value<uint32_t>(); fields > 0; --fields) s->fields.push_back(unpackField(unpacker, n));
   unpacker.finish();
+  // As far (m) and as large (m³) as single precision can square: no scene comes near, and pictures are made of them.
+  constexpr float kFarthest = 1e15f, kLargest = 1e12f;
   const auto drawable = [](const api::Float4& p) {
-    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z) && std::isfinite(p.w) && p.w >= 0;
+    const bool here = std::abs(p.x) <= kFarthest && std::abs(p.y) <= kFarthest && std::abs(p.z) <= kFarthest;
+    return here && p.w >= 0 && p.w <= kLargest;
   };
   for (size_t i = 0; i < n; ++i) {
     if (!drawable(s->position[i])) unpacker.fail();

@@ -18,7 +18,7 @@ constexpr int kFrames = 2;
 bool isSmall(const Project& project) {
   const auto solver = [&](const char* key) { return numberOf(project.solver.parameters, solverParameters(), key); };
   const double particles = std::max(particleCount(project), 50.0);
-  return particles <= kMostParticles && particles * solver("substeps") * solver("iterations") < 1e5;
+  return particles <= kMostParticles && particles * solver("substeps") * solver("iterations") < 2e4;
 }
 
 void requirePhysical(const Engine& engine) {

@@ -38,11 +38,11 @@ void fillContactMap(const Instances& instances, ContactMap& map) {
   const Range liquids = instances.liquidRange(true);
   for (size_t i = instances.buriedSpheres; i < liquids.first + liquids.count; ++i) {
     const Instance& p = instances.particles[i];
-    const int x = static_cast<int>(std::floor((p.x - map.corner[0]) / map.size[0] * n));
-    const int z = static_cast<int>(std::floor((p.z - map.corner[1]) / map.size[1] * n));
+    const float x = (p.x - map.corner[0]) / map.size[0] * n, z = (p.z - map.corner[1]) / map.size[1] * n;
     const float height = p.y - p.radius - map.floor;
-    if (x < 0 || z < 0 || x >= n || z >= n || height < -2 * p.radius) continue;
-    const size_t at = static_cast<size_t>(z * n + x);
+    // Asked of the floats: what has flown away is where no int reaches.
+    if (!(x >= 0 && z >= 0 && x < n && z < n) || height < -2 * p.radius) continue;
+    const size_t at = static_cast<size_t>(z) * n + static_cast<size_t>(x);
     const float share = 3.14f * p.radius * p.radius / cell * (i >= liquids.first && !isDense(p) ? 0.3f : 1);
     const float w = share * std::exp(-std::max(0.f, height) / reach);
     close[at] += w;
