@@ -37,7 +37,9 @@ void printRow(const std::string& id, const std::string& what, const std::string&
 void print(const CaseVerdict& verdict) {
   const auto cell = [](const std::optional<double>& value) { return value ? sixDigits(*value) : std::string(); };
   printRow(verdict.id, verdict.what, cell(verdict.expected), cell(verdict.measured), verdict.tolerance,
-           verdict.holds ? "yes" : "NO");
+           verdict.holds          ? "yes"
+           : verdict.told.empty() ? "NO"
+                                  : "limit: " + verdict.told);
 }
 
 bool chosen(const Case& what, const std::vector<std::string>& only) {
@@ -49,9 +51,10 @@ bool chosen(const Case& what, const std::vector<std::string>& only) {
 
 std::string casesHelp() {
   return "phasesketch-cli cases FILE... [options]\n\nRuns the experiments of files: projects, from their start, with "
-         "the numbers of each "
-         "case, and what theory expects. Prints the\ntable \"case, what, expected, got, tolerance, ok\". Exit code 1 "
-         "when a case misses its tolerance.\n\n" +
+         "the numbers of each case, and what theory expects. Prints\nthe table \"case, what, expected, got, tolerance, "
+         "ok\"; under ok \"yes\", \"NO\", or, where a number misses in a run whose\nsolver says that it could not "
+         "deliver "
+         "something, \"limit\" and what that is. Exit code 1 when a number misses its tolerance.\n\n" +
          optionHelp(kOptions);
 }
 

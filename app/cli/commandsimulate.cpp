@@ -35,7 +35,7 @@ constexpr OptionSpec kOptions[] = {
     kIsa,
     kPatience,
     {"--report", "FILE.json", "writes speed, accuracy, energy, phases and the state hash"},
-    {"--probes", "FILE.csv", "writes the probes, the mass in each phase and the mean temperature of every frame"},
+    {"--probes", "FILE.csv", "writes probes, heat balance, mass in each phase and mean temperature of every frame"},
     {"--record", "FILE", "writes every frame, for render"},
     kSet,
     kQuiet,
@@ -134,7 +134,7 @@ int simulateCommand(CommandArguments list) {
   interrupted();  // from here on a signal leaves whole files
   std::optional<ProbeTable> probes;
   std::optional<RecordingWriter> recording;
-  if (arguments.has("--probes")) probes.emplace(arguments.text("--probes"), engine.probeNames());
+  if (arguments.has("--probes")) probes.emplace(arguments.text("--probes"), engine);
   if (arguments.has("--record")) recording.emplace(arguments.text("--record"), project);
   RunReport report(begin);
   SettlingMeasure settling(frames);
@@ -151,7 +151,7 @@ int simulateCommand(CommandArguments list) {
       whole = runFrames(engine, frames, [&](const StepReport& step, const FrameStats& stats) {
         report.add(step, stats);
         settling.add(engine, stats);
-        if (probes) probes->add(stats);
+        if (probes) probes->add(engine, stats);
         if (recording) recording->add(*engine.snapshot());
         progress.show(static_cast<long>(report.frames()), stats);
       });

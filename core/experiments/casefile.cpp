@@ -3,12 +3,16 @@
 
 #include "core/base/error.h"
 #include "core/base/jsontext.h"
+#include "core/base/utf8.h"
 #include "core/experiments/casefunctions.h"
 #include "core/experiments/casemeasure.h"
+#include "core/experiments/formula.h"
 #include "core/io/textfile.h"
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
+#include <memory>
 #include <set>
 
 namespace ps {
@@ -16,10 +20,58 @@ namespace {
 
 using nlohmann::json;
 
+constexpr size_t kMostNestedValues = 20;
+
+/// A number as it stands, or what a formula makes of it.
+double numberOf(const json& value, const std::string& place, const FormulaNames& named) {
+  if (value.is_number()) return value.get<double>();
+  if (!value.is_string()) throw InputError(place + ": must be a number or a formula");
+  try {
+    return valueOfFormula(value.get_ref<const std::string&>(), named);
+  } catch (const InputError& problem) {
+    throw InputError(place + ": " + problem.what());
+  }
+}
+
+/// The named numbers of a case: each a number, or a formula that may use the others.
+class CaseValues {
+ public:
+  /// Complains about those that have no value.
+  CaseValues(const json* values, const std::string& place) : m_values(values) {
+    if (!values) return;
+    if (!values->is_object()) throw InputError(place + ": must be an object of names and numbers");
+    for (const auto& [name, value] : values->items()) {
+      if (!mayNameAValue(name)) throw InputError(place + "/" + shownText(name, 40) + ": cannot be the name of a value");
+    }
+    for (const auto& [name, value] : values->items()) m_known[name] = numberOf(value, place + "/" + name, names());
+  }
+
+  std::optional<double> find(const std::string& name) {
+    if (const auto known = m_known.find(name); known != m_known.end()) return known->second;
+    if (!m_values || !m_values->contains(name)) return std::nullopt;
+    if (std::find(m_open.begin(), m_open.end(), name) != m_open.end() || m_open.size() == kMostNestedValues)
+      throw InputError("'" + name + "' is made of itself, or of too many others");
+    m_open.push_back(name);
+    const double value = numberOf((*m_values)[name], "the value '" + name + "'", names());
+    m_open.pop_back();
+    return m_known[name] = value;
+  }
+  FormulaNames names() {
+    return [this](const std::string& name) { return find(name); };
+  }
+
+ private:
+  const json* m_values;
+  std::map<std::string, double> m_known;
+  std::vector<std::string> m_open;  ///< values that are being made
+};
+
 /// One object of the file; complains about what is missing, of another type, or not known.
 class Entry {
  public:
-  Entry(const json& object, std::string place) : m_object(object), m_place(std::move(place)) {
+  /// `values`: of the case that it is part of.
+  Entry(const json& object, std::string place, std::shared_ptr<CaseValues> values = nullptr)
+      : m_object(object), m_place(std::move(place)), m_values(std::move(values)) {
     if (!object.is_object()) fail("must be an object in { }");
   }
 
@@ -47,17 +99,17 @@ class Entry {
   std::optional<double> number(const char* key) {
     const json* value = find(key);
     if (!value) return std::nullopt;
-    if (!value->is_number()) throw InputError(m_place + "/" + key + ": must be a number");
-    return value->get<double>();
+    return numberOf(*value, m_place + "/" + key, names());
   }
   std::vector<double> numbers(const char* key) {
     const json* value = find(key);
     if (!value) return {};
-    if (value->is_number()) return {value->get<double>()};
-    const bool fine = value->is_array() && !value->empty() &&
-                      std::all_of(value->begin(), value->end(), [](const json& v) { return v.is_number(); });
-    if (!fine) throw InputError(m_place + "/" + key + ": must be a number or a list of numbers");
-    return value->get<std::vector<double>>();
+    const std::string place = m_place + "/" + key;
+    if (!value->is_array()) return {numberOf(*value, place, names())};
+    if (value->empty()) throw InputError(place + ": must be a number or a list of numbers");
+    std::vector<double> all;
+    for (const json& one : *value) all.push_back(numberOf(one, place + "/" + std::to_string(all.size()), names()));
+    return all;
   }
   ProjectEdits edits(const char* key) {
     ProjectEdits all;
@@ -67,13 +119,19 @@ class Entry {
     for (const auto& [pointer, changed] : value->items()) all.push_back(pointer + "=" + changed.dump());
     return all;
   }
+  /// From here on formulas know them.
+  void readValues(const char* key) { m_values = std::make_shared<CaseValues>(find(key), m_place + "/" + key); }
+  std::optional<Entry> object(const char* key) {
+    const json* value = find(key);
+    return value ? std::optional<Entry>(std::in_place, *value, m_place + "/" + key, m_values) : std::nullopt;
+  }
   std::vector<Entry> list(const char* key) {
     std::vector<Entry> all;
     const json* value = find(key);
     if (!value) return all;
     if (!value->is_array()) throw InputError(m_place + "/" + key + ": must be a list");
     for (size_t i = 0; i < value->size(); ++i) {
-      all.emplace_back((*value)[i], m_place + "/" + key + "/" + std::to_string(i));
+      all.emplace_back((*value)[i], m_place + "/" + key + "/" + std::to_string(i), m_values);
     }
     return all;
   }
@@ -84,8 +142,13 @@ class Entry {
   }
 
  private:
+  FormulaNames names() const {
+    return m_values ? m_values->names() : [](const std::string&) { return std::optional<double>(); };
+  }
+
   const json& m_object;
   std::string m_place;
+  std::shared_ptr<CaseValues> m_values;
   std::set<std::string> m_known;
 };
 
@@ -93,17 +156,31 @@ void oneOf(const Entry& entry, const std::vector<std::string>& names, const std:
   if (std::find(names.begin(), names.end(), name) == names.end()) entry.fail("'" + name + "' is no " + noun);
 }
 
-void readColumn(Entry& entry, CaseCheck& check) {
-  check.column = entry.neededText("column");
-  check.minus = entry.text("minus");
-  check.measure = entry.neededText("measure");
-  oneOf(entry, measureNames(), check.measure, "measure");
+/// What is not said is as in `general`.
+ColumnNumber readNumber(Entry& entry, const ColumnNumber& general) {
+  ColumnNumber number;
+  number.column = entry.text("column");
+  if (number.column.empty()) number.column = general.column;
+  if (number.column.empty()) number.column = entry.neededText("column");
+  number.minus = entry.text("minus");
+  number.measure = entry.neededText("measure");
+  oneOf(entry, measureNames(), number.measure, "measure");
   for (const char* key : {"from", "to", "time", "value", "level", "periods", "frames"}) {
-    if (const auto value = entry.number(key)) check.options[key] = *value;
+    if (const auto value = entry.number(key)) number.options[key] = *value;
   }
+  number.thermalClock = general.thermalClock;
   if (const std::string clock = entry.text("clock"); !clock.empty()) {
     oneOf(entry, {"thermal", "mechanical"}, clock, "clock");
-    check.thermalClock = clock == "thermal";
+    number.thermalClock = clock == "thermal";
+  }
+  return number;
+}
+
+void readColumn(Entry& entry, CaseCheck& check) {
+  check.number = readNumber(entry, {});
+  if (std::optional<Entry> less = entry.object("less")) {
+    check.less = readNumber(*less, check.number);
+    less->refuseOthers();
   }
   check.times = entry.number("times").value_or(check.times);
   check.plus = entry.number("plus").value_or(check.plus);
@@ -164,19 +241,25 @@ CaseCheck readCheck(Entry& entry, const std::vector<CaseRun>& configurations) {
   return check;
 }
 
+long framesOf(Entry& entry, long otherwise) {
+  const double frames = entry.number("frames").value_or(static_cast<double>(otherwise));
+  if (!(frames >= 0 && frames <= 1e9)) entry.fail("frames must be between 0 and 1e9");
+  return static_cast<long>(frames);
+}
+
 Case readCase(Entry& entry, const std::filesystem::path& folder) {
   Case result;
   result.id = entry.neededText("id");
   result.why = entry.text("why");
   if (const std::string project = entry.text("project"); !project.empty()) result.project = (folder / project).string();
   result.edits = entry.edits("set");
-  const double frames = entry.number("frames").value_or(0);
+  entry.readValues("values");
+  const long frames = framesOf(entry, 0);
   for (Entry& run : entry.list("runs")) {
-    const double own = run.number("frames").value_or(frames);
-    result.runs.push_back({run.neededText("name"), run.edits("set"), static_cast<long>(own)});
+    result.runs.push_back({run.neededText("name"), run.edits("set"), framesOf(run, frames)});
     run.refuseOthers();
   }
-  if (result.runs.empty()) result.runs.push_back({"", {}, static_cast<long>(frames)});
+  if (result.runs.empty()) result.runs.push_back({"", {}, frames});
   for (Entry& check : entry.list("checks")) result.checks.push_back(readCheck(check, result.runs));
   if (result.checks.empty()) entry.fail("checks nothing");
   entry.refuseOthers();

@@ -10,14 +10,20 @@
 
 namespace ps {
 
+/// One number of a column of a run's table.
+struct ColumnNumber {
+  std::string column, minus;  ///< titles; `minus` is taken off it frame by frame, "" for none
+  std::string measure;        ///< see measureNames()
+  nlohmann::json options;     ///< of the measure
+  bool thermalClock = false;  ///< times are those of heat, thermal_time_scale as many
+};
+
 /// One number that a case must show.
 struct CaseCheck {
-  std::string what;                          ///< "period", for people
-  std::string run;                           ///< CaseRun::name, of the only run to judge; "" for each
-  std::string column, minus;                 ///< titles of the probes' table; `minus` is taken off it, "" for none
-  std::string measure;                       ///< see measureNames()
-  nlohmann::json options;                    ///< of the measure
-  bool thermalClock = false;                 ///< times are those of heat, thermal_time_scale as many
+  std::string what;  ///< "period", for people
+  std::string run;   ///< CaseRun::name, of the only run to judge; "" for each
+  ColumnNumber number;
+  std::optional<ColumnNumber> less;          ///< taken off the number
   double times = 1, plus = 0;                ///< what is judged: the measured number times one, plus the other
   std::string function;                      ///< instead of a run: see valueOfFunction()
   std::vector<double> arguments;             ///< of the function

@@ -21,9 +21,10 @@ namespace {
 /// What one run left behind.
 struct CaseOutcome {
   std::vector<std::string> titles;
-  std::vector<std::vector<double>> rows;  ///< the probes' table and the heat balance, by frame
+  std::vector<std::vector<double>> rows;  ///< the probes' table, by frame
   std::vector<Material> materials;        ///< of the scene
   TemperatureField field;                 ///< at the end
+  std::vector<Limit> limits;              ///< likewise
 
   Series series(const std::string& title, bool thermalClock) const {
     const auto found = std::find(titles.begin(), titles.end(), title);
@@ -38,26 +39,6 @@ struct CaseOutcome {
   }
 };
 
-/// What every run gives beside its probes: thermal energy; what came in by walls, air, radiation, heaters and with
-/// matter since the start, and the amounts of it; what of the change of energy none of these explains, and that as a
-/// share of the sum of |m h|.
-constexpr const char* kHeatTitles[] = {"heat.energy[J]",    "heat.walls[J]",   "heat.air[J]",
-                                       "heat.radiation[J]", "heat.heaters[J]", "heat.sources[J]",
-                                       "heat.exchanged[J]", "heat.open[J]",    "heat.open_share[1]"};
-
-void addHeat(Engine& engine, const FrameStats& start, const FrameStats& now, std::vector<double>& row) {
-  double sum = 0;
-  for (const double energy : engine.solver().thermalEnergies()) sum += std::abs(energy);
-  const HeatLedger &before = start.heat, &heat = now.heat;
-  const double open = now.thermalEnergy - start.thermalEnergy - (heat.net() - before.net());
-  for (const double value :
-       {now.thermalEnergy, heat.walls - before.walls, heat.air - before.air, heat.radiation - before.radiation,
-        heat.heaters - before.heaters, heat.sources - before.sources, heat.exchanged - before.exchanged, open,
-        sum > 0 ? std::abs(open) / sum : 0.0}) {
-    row.push_back(value);
-  }
-}
-
 CaseOutcome run(const Case& what, const CaseRun& configuration, const ProjectEdits& more, PluginRegistry& plugins,
                 const StopTest& stop) {
   ProjectEdits edits = what.edits;
@@ -66,21 +47,20 @@ CaseOutcome run(const Case& what, const CaseRun& configuration, const ProjectEdi
   Project project = loadProject(what.project, plugins, edits).project;
   project.state = nullptr;  // what is expected is counted from the start
   Engine engine(project, plugins);
-  CaseOutcome outcome{columnTitles(engine.probeNames()), {}, compileMaterials(project, plugins), {}};
-  outcome.titles.insert(outcome.titles.end(), std::begin(kHeatTitles), std::end(kHeatTitles));
+  const ProbeColumns columns(engine);
+  CaseOutcome outcome{columns.titles(), {}, compileMaterials(project, plugins), {}, {}};
   std::string problem;
-  const FrameStats start = engine.stats();
   const bool whole = runFrames(
       engine, configuration.frames,
       [&](const StepReport& step, const FrameStats& stats) {
         if (problem.empty()) problem = step.message;
-        outcome.rows.push_back(columnValues(stats));
-        addHeat(engine, start, stats, outcome.rows.back());
+        outcome.rows.push_back(columns.values(engine, stats));
       },
       stop);
   if (!problem.empty()) throw Error("the run set flags: " + problem);
   if (!whole) throw Error("stopped early");
   outcome.field = temperatureField(engine);
+  outcome.limits = engine.limits();
   return outcome;
 }
 
@@ -110,14 +90,29 @@ double ofMaterial(const CaseCheck& check, const CaseOutcome* outcome, const Plug
   return BakedMaterial(material, check.pressure).property(check.property.c_str(), check.temperature);
 }
 
-double measured(const CaseCheck& check, const CaseOutcome& outcome) {
-  if (!check.profile.law.empty()) return profileValue(outcome.field, check.profile);
-  Series series = outcome.series(check.column, check.thermalClock);
-  if (!check.minus.empty()) {
-    const Series other = outcome.series(check.minus, check.thermalClock);
+double numberOf(const ColumnNumber& number, const CaseOutcome& outcome) {
+  Series series = outcome.series(number.column, number.thermalClock);
+  if (!number.minus.empty()) {
+    const Series other = outcome.series(number.minus, number.thermalClock);
     for (size_t k = 0; k < series.value.size(); ++k) series.value[k] -= other.value[k];
   }
-  return check.times * measureOf(series, check.measure, check.options) + check.plus;
+  return measureOf(series, number.measure, number.options);
+}
+
+double measured(const CaseCheck& check, const CaseOutcome& outcome) {
+  if (!check.profile.law.empty()) return profileValue(outcome.field, check.profile);
+  const double less = check.less ? numberOf(*check.less, outcome) : 0;
+  return check.times * (numberOf(check.number, outcome) - less) + check.plus;
+}
+
+/// "steel.youngs_modulus 2.1e+11 Pa asked, 4e+08 delivered".
+std::string toldBy(const CaseOutcome& outcome) {
+  std::string text;
+  for (const Limit& limit : outcome.limits) {
+    text += (text.empty() ? "" : "; ") + limit.what + " " + sixDigits(limit.asked) +
+            (limit.unit.empty() ? "" : " " + limit.unit) + " asked, " + sixDigits(limit.delivered) + " delivered";
+  }
+  return text;
 }
 
 void judge(const Case& what, const CaseCheck& check, const std::vector<CaseOutcome>& outcomes,
@@ -138,14 +133,19 @@ void judge(const Case& what, const CaseCheck& check, const std::vector<CaseOutco
   }
   if (check.spread) {
     const auto [least, most] = std::minmax_element(measuredValues.begin(), measuredValues.end());
-    each(verdictOf(what, check.what, check, std::nullopt, *most / *least - 1));
+    CaseVerdict verdict = verdictOf(what, check.what, check, std::nullopt, *most / *least - 1);
+    for (const CaseOutcome& outcome : outcomes)
+      if (!verdict.holds && verdict.told.empty()) verdict.told = toldBy(outcome);
+    each(verdict);
     return;
   }
   for (size_t k = 0; k < measuredValues.size(); ++k) {
     const std::string& name = what.runs[k].name;
     if (!check.run.empty() && check.run != name) continue;
-    each(verdictOf(what, check.what + (name.empty() ? "" : ", " + name), check, expectedOf(check, k),
-                   measuredValues[k]));
+    CaseVerdict verdict =
+        verdictOf(what, check.what + (name.empty() ? "" : ", " + name), check, expectedOf(check, k), measuredValues[k]);
+    if (!verdict.holds && std::isfinite(measuredValues[k])) verdict.told = toldBy(outcomes[k]);
+    each(verdict);
   }
 }
 
@@ -159,7 +159,7 @@ std::string sixDigits(double value) {
 
 CaseVerdict verdictOf(const Case& what, const std::string& name, const CaseCheck& check, std::optional<double> expected,
                       double measured) {
-  CaseVerdict verdict{what.id, name, expected, measured, "", std::isfinite(measured)};
+  CaseVerdict verdict{what.id, name, expected, measured, "", std::isfinite(measured), ""};
   const auto limit = [&](const char* sign, double value, bool holds) {
     verdict.tolerance += (verdict.tolerance.empty() ? "" : ", ") + std::string(sign) + sixDigits(value);
     verdict.holds = verdict.holds && holds;
@@ -186,7 +186,7 @@ void runCase(const Case& what, const ProjectEdits& more, PluginRegistry& plugins
     current.clear();
     for (const CaseCheck& check : what.checks) judge(what, check, outcomes, plugins, each);
   } catch (const Error& error) {
-    each({what.id, current, std::nullopt, std::nullopt, error.what(), false});
+    each({what.id, current, std::nullopt, std::nullopt, error.what(), false, ""});
   }
 }
 

@@ -18,6 +18,8 @@ struct CaseVerdict {
   std::optional<double> expected, measured;  ///< neither where the run failed
   std::string tolerance;                     ///< "±2 %, ≤ 0.5"; why the run failed
   bool holds = false;
+  /// Where it does not hold: what the solver said by itself that this run asked of it and did not get, by its limits.
+  std::string told{};
 };
 using VerdictVisitor = std::function<void(const CaseVerdict&)>;
 

@@ -2,6 +2,7 @@
 #include "core/experiments/probetable.h"
 
 #include "core/base/error.h"
+#include "core/solver/solver.h"
 
 #include <algorithm>
 #include <charconv>
@@ -9,6 +10,10 @@
 
 namespace ps {
 namespace {
+
+constexpr const char* kHeatTitles[] = {"heat.energy[J]",    "heat.walls[J]",   "heat.air[J]",
+                                       "heat.radiation[J]", "heat.heaters[J]", "heat.sources[J]",
+                                       "heat.exchanged[J]", "heat.open[J]",    "heat.open_share[1]"};
 
 std::string quoted(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
@@ -26,7 +31,7 @@ std::string cell(double value) {
 }  // namespace
 
 std::vector<std::string> columnTitles(const std::vector<std::string>& probeNames) {
-  std::vector<std::string> titles{"time_s", "thermal_time_s"}, ours;
+  std::vector<std::string> titles{"time_s", "thermal_time_s"}, ours(std::begin(kHeatTitles), std::end(kHeatTitles));
   for (const char* phase : {"solid", "melting", "liquid", "boiling", "gas"}) {
     ours.push_back(std::string(phase) + ".mass[kg]");
   }
@@ -44,24 +49,38 @@ std::vector<std::string> columnTitles(const std::vector<std::string>& probeNames
   return titles;
 }
 
-std::vector<double> columnValues(const FrameStats& stats) {
+ProbeColumns::ProbeColumns(const Engine& engine) : m_titles(columnTitles(engine.probeNames())) {
+  const FrameStats start = engine.stats();
+  m_heat = start.heat;
+  m_thermalEnergy = start.thermalEnergy;
+}
+
+std::vector<double> ProbeColumns::values(const Engine& engine, const FrameStats& stats) const {
   std::vector<double> values{stats.time, stats.thermalTime};
   values.insert(values.end(), stats.probes.begin(), stats.probes.end());
+  double sum = 0;
+  for (const double energy : engine.solver().thermalEnergies()) sum += std::abs(energy);
+  const HeatLedger& heat = stats.heat;
+  const double open = stats.thermalEnergy - m_thermalEnergy - (heat.net() - m_heat.net());
+  values.insert(values.end(),
+                {stats.thermalEnergy, heat.walls - m_heat.walls, heat.air - m_heat.air,
+                 heat.radiation - m_heat.radiation, heat.heaters - m_heat.heaters, heat.sources - m_heat.sources,
+                 heat.exchanged - m_heat.exchanged, open, sum > 0 ? std::abs(open) / sum : 0.0});
   for (const PhaseAmount& phase : stats.phases) values.push_back(phase.mass);
   values.push_back(stats.temperatureMean);
   return values;
 }
 
-ProbeTable::ProbeTable(const std::string& path, const std::vector<std::string>& probeNames) : m_file(path) {
+ProbeTable::ProbeTable(const std::string& path, const Engine& engine) : m_file(path), m_columns(engine) {
   std::string row;
-  for (const std::string& title : columnTitles(probeNames)) row += (row.empty() ? "" : ",") + quoted(title);
+  for (const std::string& title : m_columns.titles()) row += (row.empty() ? "" : ",") + quoted(title);
   writeRow(row);
 }
 
-void ProbeTable::add(const FrameStats& stats) {
+void ProbeTable::add(const Engine& engine, const FrameStats& stats) {
   std::string row;
   const char* separator = "";
-  for (const double value : columnValues(stats)) {
+  for (const double value : m_columns.values(engine, stats)) {
     row += separator + cell(value);
     separator = ",";
   }

@@ -117,9 +117,10 @@ std::string explanation(const Project& project, const SoakOutcome& outcome, cons
   const std::string& key = change->address.key;
   const bool lost = (outcome.flags & static_cast<StepFlags>(StepFlag::LostParticle)) != 0;
   const bool diverged = (outcome.flags & static_cast<StepFlags>(StepFlag::Diverged)) != 0;
-  // Only who moves a body can ask it to leave no room, or to be squeezed by what it strikes.
+  // Only who moves a body can ask it to leave no room, or to be squeezed by what it strikes; nothing moves by
+  // radiation.
   const auto counts = [&](const std::string& limit) {
-    return limit != kSqueezeLimit || change->address.owner == Owner::Body;
+    return limit != kGapLimit && (limit != kSqueezeLimit || change->address.owner == Owner::Body);
   };
   const auto found = std::find_if(outcome.limits.begin(), outcome.limits.end(), counts);
   const std::string limit = found == outcome.limits.end() ? std::string() : *found;

@@ -133,6 +133,17 @@ class TestCases : public QObject {
     QVERIFY(answer.problem.contains("1 number misses its tolerance"));
   }
 
+  /// What the solver tells by itself that it could not deliver is not passed over, nor taken for an agreement.
+  void whatTheSolverCouldNotDeliverIsALimit() {
+    const Answer answer = answerOf({"cases", kFile, "--only", "b1_hanging_chain", "--set",
+                                    "bodies/chain/constraints/0/parameters/spring_stiffness=1e9"});
+    QCOMPARE(answer.code, 1);
+    const QStringList lines = answer.table.trimmed().split('\n');
+    QCOMPARE(lines.size(), 5);
+    for (const QString& line : lines.mid(1))
+      QVERIFY2(line.contains("  limit: bonds.spring_stiffness 1e+09 N/m asked, "), qPrintable(line));
+  }
+
   /// Profiles, plateaus and phase diagrams too: what others put into the projects reaches the numbers.
   void thermalNumbersFollowTheProject() {
     const auto verdicts = [](const QStringList& more) {

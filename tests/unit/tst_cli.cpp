@@ -218,6 +218,7 @@ void TestCli::probesHaveOneRowPerFrame() {
   QVERIFY2(lines[0].endsWith(
                ",solid.mass[kg],melting.mass[kg],liquid.mass[kg],boiling.mass[kg],gas.mass[kg],all.temperature[K]"),
            lines[0].constData());
+  QVERIFY2(lines[0].contains(",heat.energy[J],heat.walls[J],"), lines[0].constData());
   for (const QByteArray& line : lines) QCOMPARE(line.count(','), lines[0].count(','));
 }
 

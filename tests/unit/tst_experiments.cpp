@@ -89,6 +89,15 @@ void TstExperiments::aProbeOfEveryQuantity() {
       {"density", 4.515625 / volume},  // (1.5 + 4 0.75 + 9 1.25 + 16 + 36 1.125) / 16
       {"density_min", 1.5 / volume},
       {"density_max", 6.75 / volume},
+      {"pressure", 0},  // no frame has passed
+      {"pressure_min", 0},
+      {"pressure_max", 0},
+      {"force_x", NAN},
+      {"force_y", NAN},
+      {"force_z", NAN},
+      {"torque_x", NAN},
+      {"torque_y", NAN},
+      {"torque_z", NAN},
       {"height", 1.03125},  // (0.5 + 2 0.25 + 3 1 + 4 0.125 + 6 2) / 16
       {"height_max", 2},
       {"thermal_energy", energy},
@@ -174,6 +183,10 @@ void TstExperiments::aProbeSeesItsRegionAndItsWave() {
   probe.quantity = "count";
   probe.region = Region{{0.1, -1, -1}, {0.2, 1, 1}, {}};
   project.probes.push_back(probe);
+  probe.region = Region{{0, -1, -1}, {0.4, 1, 1}, {}};
+  probe.regionWhen = Probe::kNow;
+  project.probes.push_back(probe);
+  probe.regionWhen = Probe::kAtStart;
   Body other = scenes::block("other", 1, 0.05, {0.825, 0.3, 0.4}, 300);  // beside the last, at 0.775
   other.parameters.values["fixed"] = true;
   project.bodies.push_back(other);
@@ -183,13 +196,15 @@ void TstExperiments::aProbeSeesItsRegionAndItsWave() {
   project.probes.push_back(probe);
   Engine engine(project, m_plugins);
   const std::vector<double> values = engine.stats().probes;
-  QVERIFY2(std::abs(values[3] - std::sqrt(0.05 * 0.05 + 0.3 * 0.3 + 0.4 * 0.4)) < 1e-6,
-           qPrintable(QString::number(values[3])));
+  QCOMPARE(values[3], 8.0);
+  QVERIFY2(std::abs(values[4] - std::sqrt(0.05 * 0.05 + 0.3 * 0.3 + 0.4 * 0.4)) < 1e-6,
+           qPrintable(QString::number(values[4])));
   QVERIFY2(std::abs(values[0] - 0.25) < 1e-6, qPrintable(QString::number(values[0])));
   QVERIFY(std::abs(values[1]) < 1e-6);  // a quarter of a wave off
   QCOMPARE(values[2], 2.0);
   for (int i = 0; i < 60; ++i) engine.step();
   QCOMPARE(engine.stats().probes[2], 2.0);  // they have left, and are still the same
+  QCOMPARE(engine.stats().probes[3], 2.0);  // what is in it now: at 0.325 and 0.375 m
   probe.quantity = "mass";
   probe.body = "other";
   const ProbeView view{engine.solver(), engine.bodyIds(), engine.fields()};

@@ -186,8 +186,8 @@ class TestProjectState : public QObject {
       what.project = m_fixtures.filePath("case.json").toStdString();
       what.runs = {{"", {}, 3}};
       CaseCheck check;
-      check.column = "ice core.temperature[K]";
-      check.measure = "last";
+      check.number.column = "ice core.temperature[K]";
+      check.number.measure = "last";
       what.checks = {check};
       std::optional<double> measured;
       runCase(what, {}, *m_plugins, {}, [&](const CaseVerdict& verdict) { measured = verdict.measured; });
