@@ -41,13 +41,15 @@ constexpr api::ParameterDeclaration kEnvironment[] = {
             "Drag coefficient of single particles of liquids and solids in air, and with it the air's small lift. 0 is "
             "a vacuum to them. Vapour has a drag of its own.",
             "sphere 0.47, cube 1.05, 0 for none", "Hoerner 1965, Fluid-Dynamic Drag"}),
-    actingWhen("scene/thermal_model != none",
-               toggle({"radiation", "Heat radiation", "", ""}, false,
-                      {"Radiation",
-                       "Whether hot surfaces radiate heat at what they see: other matter, walls that have a "
-                       "temperature, and what surrounds the scene. It is what cools glowing matter.",
-                       "on for lava, molten metal and candles; hardly matters below 100 °C",
-                       "Incropera et al., Fundamentals of Heat and Mass Transfer, ch. 12 and 13"})),
+    actingWhen(
+        "scene/thermal_model != none",
+        toggle({"radiation", "Heat radiation", "", ""}, false,
+               {"Radiation",
+                "Whether hot surfaces radiate heat at what they see: other matter, walls that have a "
+                "temperature, and what surrounds the scene. It is what cools glowing matter. Gaps narrower than half a "
+                "particle spacing count as closed, and up to one spacing matter conducts across them as well.",
+                "on for lava, molten metal and candles; hardly matters below 100 °C",
+                "Incropera et al., Fundamentals of Heat and Mass Transfer, ch. 12 and 13"})),
     actingWhen("radiation = on",
                number({"surroundings_temperature", "Temperature around", "T_s", "K"}, {293.15, 3, 1273.15, 0, 10000},
                       {"Radiation", "Temperature of what the scene is seen to stand in, for heat radiation.",

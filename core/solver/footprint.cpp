@@ -40,8 +40,9 @@ constexpr double kHeat = 14 * kDouble + 13 * kFloat + 6 * kIndex + 4 * kMark;
 constexpr double kImplicit = 8 * kPoint + 12 * kFloat + 8 * kFloat + 4 * kIndex + 2 * kMark;
 /// A wall as a particle feels it, warm and radiating.
 constexpr double kWall = 2 * kFloat;
-/// Sixteen rays of what lies open, a fifth of all, as they meet others and back.
-constexpr double kRays = 0.2 * 16 * (kIndex + kFloat + 2 * (kIndex + kFloat)) + 2 * kPlace + kFloat;
+/// Sixteen rays of what lies open, a fifth of all, as they meet others and back; its cube, in eight cells.
+constexpr double kRays = 0.2 * 16 * (kIndex + kFloat + 2 * (kIndex + kFloat)) + 2 * kPlace + kFloat +
+                         kGrown * (0.2 * (16 * kFloat + kIndex + 8 * 2 * kIndex) + 2 * kIndex) + kIndex;
 
 /// Of every entry of a list: itself as it is found and as it is written.
 constexpr double kEntry = kGrown * kIndex + kIndex;

@@ -65,9 +65,11 @@ struct MomentumRecord {
 };
 
 /// Limits that are no parameter's: the heat balance is open by so many joules; liquid is too dense by this mean excess
-/// while a body is led, or solids are squeezed themselves, which may leave it no room.
+/// while a body is led, or solids are squeezed themselves, which may leave it no room; a gap of so many metres, across
+/// which heat is radiated, is narrower than the one that particles can show.
 inline constexpr const char* kBalanceLimit = "heat balance";
 inline constexpr const char* kSqueezeLimit = "squeezed liquid";
+inline constexpr const char* kGapLimit = "narrow gap";
 
 struct StepReport {
   StepFlags flags = 0;

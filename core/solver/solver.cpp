@@ -293,6 +293,7 @@ std::vector<Limit> Solver::limits() const {
   const bool drops = excess > kDiverged && (m->report.flags & static_cast<StepFlags>(StepFlag::Diverged)) == 0;
   const bool squeezes = drops || m->motion.movesWithin(m->time - dt, dt) || m->contact.squeezedShare() > kSqueezedShare;
   if (excess > kSqueezed && squeezes) result.push_back({kSqueezeLimit, 0, excess, ""});
+  if (const double gap = m->heat.narrowestGap(); gap > 0) result.push_back({kGapLimit, gap, m->settings.spacing, "m"});
   return result;
 }
 

@@ -387,6 +387,25 @@ class TestWindow : public QObject {
     document().setParameter(substeps, before);
   }
 
+  /// Heat takes steps of its own: finer ones of motion would cost much and mend nothing.
+  void aNoteOfHeatOffersNoSubsteps() {
+    Snapshot snapshot;
+    snapshot.limits = {{"solver.thermal_time_scale", 500, 120, ""}};
+    m_window->inspector().setSnapshot(snapshot);
+    QVERIFY(m_window->revealParameter({Owner::Solver, "", "thermal_time_scale"}));
+    const auto rows = m_window->findChildren<ParameterRow*>();
+    const auto row = std::find_if(rows.begin(), rows.end(), [](const ParameterRow* one) {
+      return one->key() == QStringLiteral("solver/thermal_time_scale");
+    });
+    QVERIFY(row != rows.end());
+    const auto* note = (*row)->findChild<QLabel*>(QStringLiteral("psLimit"));
+    QVERIFY(note);
+    QVERIFY2(note->text().contains(QStringLiteral("120")) && !note->text().contains(QStringLiteral("substeps")),
+             qPrintable(note->text()));
+    snapshot.limits.clear();
+    m_window->inspector().setSnapshot(snapshot);
+  }
+
   /// Of a plugin's own parameter, under the row of the body that it is of.
   void aLimitOfAPluginStandsAtItsBody() {
     const Body& body = document().project().bodies.front();

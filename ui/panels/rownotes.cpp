@@ -97,7 +97,8 @@ void RowNotes::addLimits(std::map<QString, Note>& notes) const {
     const auto address = limitAddress(limit, m_bodies.get());
     if (!address) continue;
     QString text = asNote(limitText(limit, m_document.declaration(*address))) + QLatin1Char('.');
-    if (!limit.kelvin)  // else no step comes closer
+    // Heat has steps of its own, and a curve that leaves its range leaves it at any step.
+    if (!limit.kelvin && address->owner != Owner::Solver)
       text +=
           QStringLiteral(" [Use %1 substeps](solver/substeps=%1) to come closer").arg(static_cast<int>(substeps) * 2);
     add(notes, QString::fromStdString(address->text()), {text, limit.kelvin ? kNone : limit.delivered});

@@ -121,6 +121,9 @@ QString limitNote(const Limit& limit, const api::ParameterDeclaration* declarati
   if (limit.what == kSqueezeLimit)
     return QStringLiteral("liquid is %1 % too dense, solid matter on its way or squeezed may leave it no room")
         .arg(formatFixed(100 * limit.delivered, 0));
+  if (limit.what == kGapLimit)
+    return QStringLiteral("heat also conducts across a gap of %1, which is narrower than a particle")
+        .arg(formatPrefixed(limit.asked, QStringLiteral("m"), kRunning));
   const QString what = limitText(limit, declaration).section(QLatin1Char(':'), 0, 0);
   if (limit.kelvin) return what + QStringLiteral(" leaves its range ") + whereText(*limit.kelvin);
   return what + QStringLiteral(" is limited by the step");

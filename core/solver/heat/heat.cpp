@@ -280,7 +280,7 @@ void HeatStage::gather(const ParticleStore& store, double step, size_t first, si
       }
       watts = (sum[0] + sum[1]) + (sum[2] + sum[3]);
     }
-    m_surroundings.forEachInSight(store, i, m_now, [&](uint32_t j, double g) { watts += g * (temperature[j] - t); });
+    m_surroundings.forEachInSight(i, m_now, [&](uint32_t j, double g) { watts += g * (temperature[j] - t); });
     double around = 0;
     m_surroundings.forEach(store, i, m_now, [&](HeatSurroundings::Kind kind, double g, double target) {
       const double joules = step * g * (target - t);

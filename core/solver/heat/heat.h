@@ -113,6 +113,8 @@ class HeatStage {
   /// Thermal seconds per mechanical second that the last frame really did; below ThermalSettings::timeScale where the
   /// heat would have been too fast for kMaxSweeps sweeps.
   double thermalTimeScaleDelivered() const { return m_delivered; }
+  /// Radiation::narrowestGap().
+  double narrowestGap() const { return m_surroundings.narrowestGap(); }
   /// Largest stable explicit step as last measured, in s of thermal time: min over particles of m c / sum of G.
   double gershgorinLimit() const { return m_limit; }
   /// True when the last frame used exponential sweeps, for all or the rest of its time.
@@ -193,7 +195,7 @@ class HeatStage {
   void relaxBodies(size_t i, size_t j, double conductance, double time);
   double relaxToward(size_t i, double conductance, double target, double inverseCapacity, double time);
   void relaxSurroundings(const ParticleStore& store, size_t i, double time);
-  void relaxSights(const ParticleStore& store, size_t i, double time);
+  void relaxSights(size_t i, double time);
   void closeBooks();
 
   ThermalSettings m_settings;

@@ -104,8 +104,8 @@ void HeatStage::relaxSurroundings(const ParticleStore& store, size_t i, double t
   });
 }
 
-void HeatStage::relaxSights(const ParticleStore& store, size_t i, double time) {
-  m_surroundings.forEachInSight(store, i, m_now, [&](uint32_t j, double conductance) {
+void HeatStage::relaxSights(size_t i, double time) {
+  m_surroundings.forEachInSight(i, m_now, [&](uint32_t j, double conductance) {
     if (j > i) relaxBodies(i, j, conductance, time);
   });
 }
@@ -120,10 +120,10 @@ void HeatStage::sweep(ParticleStore& store, const api::ParticleView& view, doubl
     relaxSurroundings(store, i, half);
     for (uint32_t k = m_pairs.begin[i]; k < m_pairs.same[i]; ++k) relaxPair(i, k, true, half);
     for (uint32_t k = m_pairs.other[i]; k < m_pairs.end[i]; ++k) relaxPair(i, k, false, half);
-    relaxSights(store, i, half);
+    relaxSights(i, half);
   }
   for (size_t i = n; i-- > 0;) {
-    relaxSights(store, i, half);
+    relaxSights(i, half);
     for (uint32_t k = m_pairs.end[i]; k-- > m_pairs.other[i];) relaxPair(i, k, false, half);
     for (uint32_t k = m_pairs.same[i]; k-- > m_pairs.begin[i];) relaxPair(i, k, true, half);
     relaxSurroundings(store, i, half);

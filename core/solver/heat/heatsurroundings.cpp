@@ -57,6 +57,7 @@ void HeatSurroundings::configure(const ThermalSettings& settings, const SolverSe
   m_surfaces = m_convection > 0 || settings.radiation;
   const double dx = solver.spacing;
   const Kernel kernel(solver.kernel, dx * solver.supportRatio);
+  m_level = SurfaceLevel::of(kernel, dx);
   m_wholeLayer = 0;
   for (int layer = 1; layer <= 4; ++layer) m_wholeLayer += kernel.value(layer * dx);
   m_wholeLayer *= 4 * dx * dx * dx * dx * 2 * std::numbers::pi;
@@ -74,7 +75,10 @@ void HeatSurroundings::measure(const ParticleStore& store, const api::NeighbourV
   m_watts.resize(n);
   if (m_surfaces && (frame % kSurfaceFrames == 0 || !m_surface.fits(store)))
     m_surface.measure(store, lists, pairs.filled, m_walls, m_solver.spacing, m_settings.surfaceArea);
-  if (m_settings.radiation) m_radiation.trace(store, m_surface, m_walls, m_bounds, m_solver.spacing, frame);
+  if (m_settings.radiation) {
+    m_radiation.trace({store, lists, pairs.filled, m_surface, m_level, m_walls, m_emissivity, m_settings.surfaceArea,
+                       m_bounds, m_solver.spacing, frame});
+  }
   forChunks(n, grain::kNeighbours, [&](size_t first, size_t last) {
     for (size_t i = first; i < last; ++i) measureOne(store, pairs, i);
   });
@@ -106,7 +110,7 @@ void HeatSurroundings::measureOne(const ParticleStore& store, const HeatPairs& p
   if (m_surfaces && m_convection > 0 && gas < 1)
     air += (1 - gas) * m_surface.area(i) * inSeries(m_convection, pairs.conductivity[i], dx);
   m_airConductance[i] = static_cast<float>(air);
-  m_touches[i] |= air > 0 || (m_settings.radiation && m_surface.open(i) != 0);
+  m_touches[i] |= air > 0 || (m_settings.radiation && m_radiation.emits(i));
 }
 
 void HeatSurroundings::touchWalls(const ParticleStore& store, const HeatPairs& pairs, size_t i) {
@@ -150,7 +154,7 @@ double HeatSurroundings::fixedConductance(const ParticleStore& store, size_t i) 
     if (m_walls[w].heat == WallHeat::Convective) sum += double{m_wallConductance[i * m_walls.size() + w]};
   }
   if (!m_settings.radiation) return sum;
-  sum += emissivity(store, i) * m_radiation.sky(i) * linear(t, m_settings.surroundingsTemperature);
+  sum += m_radiation.sky(i) * linear(t, m_settings.surroundingsTemperature);
   for (size_t w = 0; w < m_walls.size(); ++w) {
     if (const double area = m_radiation.wall(i, w); area > 0) sum += area * linear(t, m_walls[w].temperature);
   }

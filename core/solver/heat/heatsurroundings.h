@@ -36,8 +36,8 @@ struct HeatBooks {
 /// Wind of 2 to 20 m/s takes h = 10.45 - v + 10 sqrt(v) kcal/(m2 h K), v in m/s (Siple & Passel 1945), where that is
 /// more than still air's; below 2 m/s between the two. Not modelled: air that moves by itself, lee.
 ///
-/// Radiation of grey surfaces (Radiation): eps sigma A (T^4 - T'^4) to the surroundings and to walls that have a
-/// temperature, with 1/eps = 1/eps_1 + 1/eps_2 - 1 between two surfaces.
+/// Radiation of grey surfaces (Radiation): sigma eps_1 A G (T^4 - T'^4), G the share of what one sends out that the
+/// other absorbs, straight or after reflections: the surroundings, walls that have a temperature, other particles.
 class HeatSurroundings {
  public:
   enum class Kind { Wall, Air, Sky };
@@ -50,6 +50,7 @@ class HeatSurroundings {
   std::span<const Wall> walls() const { return m_walls; }
   OpenSurface& surface() { return m_surface; }
   const OpenSurface& surface() const { return m_surface; }
+  double narrowestGap() const { return m_radiation.narrowestGap(); }
   /// K, of the air around; a finite lump of air changes it.
   void setAir(double temperature) { m_air = temperature; }
 
@@ -70,18 +71,13 @@ class HeatSurroundings {
   void forEach(const ParticleStore& store, size_t i, const HeatInstant& now, const Link& link) const;
   /// Calls link(partner, W/K) for each particle that i exchanges radiation with; both sides get the same number.
   template <class Link>
-  void forEachInSight(const ParticleStore& store, size_t i, const HeatInstant& now, const Link& link) const;
+  void forEachInSight(size_t i, const HeatInstant& now, const Link& link) const;
 
  private:
   void measureOne(const ParticleStore& store, const HeatPairs& pairs, size_t i);
   void touchWalls(const ParticleStore& store, const HeatPairs& pairs, size_t i);
   double wallConductivity(const ParticleStore& store, size_t i, size_t w, const HeatInstant& now) const;
   static double linear(double t, double other) { return kStefanBoltzmann * (t * t + other * other) * (t + other); }
-  double pairEmissivity(double one, double other) const {
-    const double inverse = (1 / one + 1 / other) - 1;
-    return one > 0 && other > 0 ? 1 / inverse : 0;
-  }
-  double emissivity(const ParticleStore& store, size_t i) const { return m_emissivity[store.material()[i]]; }
 
   ThermalSettings m_settings;
   SolverSettings m_solver;
@@ -95,6 +91,7 @@ class HeatSurroundings {
   Radiation m_radiation;
   std::vector<uint8_t> m_touches;        ///< 1: something of fixed temperature is linked to the particle
   std::vector<float> m_wallConductance;  ///< particle times walls + wall: m for fixed temperature, W/K for convection
+  SurfaceLevel m_level;
   std::vector<float> m_airConductance;   ///< W/K
   std::vector<double> m_perConductivity, m_watts;
 };
@@ -112,23 +109,20 @@ void HeatSurroundings::forEach(const ParticleStore& store, size_t i, const HeatI
   if (m_airConductance[i] > 0) link(Kind::Air, double{m_airConductance[i]}, m_air);
   if (!m_settings.radiation) return;
   if (const double area = m_radiation.sky(i); area > 0) {
-    link(Kind::Sky, emissivity(store, i) * area * linear(t, m_settings.surroundingsTemperature),
-         m_settings.surroundingsTemperature);
+    link(Kind::Sky, area * linear(t, m_settings.surroundingsTemperature), m_settings.surroundingsTemperature);
   }
   for (size_t w = 0; w < m_walls.size(); ++w) {
     const double area = m_radiation.wall(i, w), there = m_walls[w].temperature;
     if (!(area > 0)) continue;
-    link(Kind::Wall, pairEmissivity(emissivity(store, i), m_walls[w].emissivity) * area * linear(t, there), there);
+    link(Kind::Wall, area * linear(t, there), there);
   }
 }
 
 template <class Link>
-void HeatSurroundings::forEachInSight(const ParticleStore& store, size_t i, const HeatInstant& now,
-                                      const Link& link) const {
+void HeatSurroundings::forEachInSight(size_t i, const HeatInstant& now, const Link& link) const {
   if (!m_settings.radiation) return;
   for (const Radiation::Sight& sight : m_radiation.sights(i)) {
-    const double eps = pairEmissivity(emissivity(store, i), emissivity(store, sight.partner));
-    link(sight.partner, eps * double{sight.area} * linear(now.temperature[i], now.temperature[sight.partner]));
+    link(sight.partner, double{sight.area} * linear(now.temperature[i], now.temperature[sight.partner]));
   }
 }
 

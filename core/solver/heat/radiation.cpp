@@ -3,6 +3,7 @@
 
 #include "core/base/parallel.h"
 #include "core/solver/contact/wallplane.h"
+#include "core/solver/heat/raysample.h"
 
 #include <algorithm>
 #include <array>
@@ -12,17 +13,15 @@
 namespace ps {
 namespace {
 
-constexpr double kLift = 1.5;           ///< spacings above a centre, along its normal, at which its rays begin
-constexpr double kNear = 2.5;           ///< spacings within which matter touches, and does not radiate at each other
-constexpr double kPlane = 0.8;          ///< length of the mean open direction from which on a surface counts as plane
-constexpr double kHalfWidth = 0.45;     ///< spacings, of a particle as rays see it: no ray slips through a layer
-constexpr double kMostCells = 1 << 22;  ///< beyond it cells grow
+constexpr double kLift = 0.001;   ///< spacings beyond a face at which its rays begin
+constexpr double kNear = 2.5;     ///< spacings within which matter of one body is its own surface's roughness
+constexpr double kSameWay = 0.5;  ///< cosine between normals of matter that faces the same way
+/// Sum of V W below which a particle may miss a neighbour: with one gone it falls by 0.07.
+constexpr float kWhole = 0.98f;
 constexpr double kFar = 1e30;
-/// Mirrors that a ray follows; what is still between them then exchanges nothing.
-constexpr int kMostMirrors = 64;
-
-/// Number that spreads neighbouring ids over the directions.
-uint32_t spread(uint32_t id) { return (id * 0x9e3779b1u) >> 16; }
+constexpr size_t kMostPerParticle = 64, kLeastPerParticle = 4;
+/// Mirrors and grey surfaces that a ray follows; what is still between them then exchanges nothing.
+constexpr int kMostMet = 64;
 
 bool exchanges(const Wall& wall) {
   return wall.heat == WallHeat::FixedTemperature || wall.heat == WallHeat::Convective;
@@ -54,33 +53,20 @@ bool within(const Bounds& bounds, const Vector3& x, double spacing) {
   return inside(0, x.x(), low.x, high.x) && inside(1, x.y(), low.y, high.y) && inside(2, x.z(), low.z, high.z);
 }
 
-/// Shares of a particle's area along each direction, and where its rays begin above its centre.
-struct Fan {
-  std::array<float, OpenSurface::kDirections> share{};  ///< sum 1
-  Vector3 lift;                                         ///< spacings
-};
+/// In [0, 1); moves on to the next number.
+double nextUnit(uint32_t& chance) {
+  chance = scattered(chance + 0x9e3779b9u);
+  return RaySamples::unit(chance);
+}
 
-Fan fanOf(uint64_t open) {
-  Vector3 mean;
-  for (size_t d = 0; d < OpenSurface::kDirections; ++d) {
-    const auto& way = OpenSurface::directions()[d];
-    if ((open >> d & 1) != 0) mean += Vector3{way[0], way[1], way[2]};
+bool happens(double share, uint32_t& chance) { return nextUnit(chance) < share; }
+
+/// The bare face on which a particle's ray k begins.
+size_t faceOf(const SurfaceBox& box, size_t k) {
+  size_t left = k % static_cast<size_t>(std::popcount(box.bare));
+  for (size_t face = 0;; ++face) {
+    if (box.isBare(face) && left-- == 0) return face;
   }
-  const double length = mean.norm(), count = std::popcount(open);
-  const double plane = std::min(1.0, length / (kPlane * count));
-  Fan fan;
-  const Vector3 normal = mean.normalized();  // zero where there is none
-  fan.lift = plane * kLift * normal;
-  double cosines = 0;
-  for (const auto& way : OpenSurface::directions())
-    cosines += std::max(0.0, normal.dot(Vector3{way[0], way[1], way[2]}));
-  for (size_t d = 0; d < OpenSurface::kDirections; ++d) {
-    const auto& way = OpenSurface::directions()[d];
-    const double cosine = std::max(0.0, normal.dot(Vector3{way[0], way[1], way[2]}));
-    const double lambert = cosines > 0 ? cosine / cosines : 0, even = (open >> d & 1) != 0 ? 1 / count : 0;
-    fan.share[d] = static_cast<float>(plane * lambert + (1 - plane) * even);
-  }
-  return fan;
 }
 
 }  // namespace
@@ -88,217 +74,192 @@ Fan fanOf(uint64_t open) {
 void Radiation::forget() {
   m_begin.clear();
   m_sights.clear();
+  m_narrowestGap = 0;
 }
 
-void Radiation::trace(const ParticleStore& store, const OpenSurface& surface, std::span<const Wall> walls,
-                      const Bounds& bounds, double spacing, uint64_t frame) {
-  const size_t n = store.size();
-  m_bounds = bounds;
-  m_spacing = spacing;
-  m_walls = walls.size();
+void Radiation::trace(const RadiationScene& scene) {
+  const size_t n = scene.store.size();
+  m_walls = scene.walls.size();
   m_sky.assign(n, 0.0f);
   m_wall.assign(n * m_walls, 0.0f);
-  m_emitters.clear();
-  for (size_t i = 0; i < n; ++i) {
-    if (surface.open(i) != 0) m_emitters.push_back(static_cast<uint32_t>(i));
-  }
-  m_perParticle = OpenSurface::kDirections;
-  while (m_perParticle > 4 && m_perParticle * m_emitters.size() > kRays) m_perParticle /= 2;
-  m_grid.build(store, spacing);
-  m_met.assign(m_emitters.size() * m_perParticle, Grid::kEmpty);
+  findBoxes(scene);
+  m_perParticle = kMostPerParticle;
+  while (m_perParticle > kLeastPerParticle && m_perParticle * m_emitters.size() > kRays) m_perParticle /= 2;
+  m_grid.build(scene.store, m_boxes, m_boxOf, scene.spacing);
+  m_met.assign(m_emitters.size() * m_perParticle, RayGrid::kNone);
   m_area.resize(m_met.size());
-  forChunks(m_emitters.size(), grain::kRays,
-            [&](size_t first, size_t last) { follow(store, surface, walls, spacing, frame, first, last); });
+  m_outer.assign(m_emitters.size(), 0.0f);
+  forChunks(m_emitters.size(), grain::kRays, [&](size_t first, size_t last) { follow(scene, first, last); });
+  scaleToBodies(scene);
   couple(n);
 }
 
-void Radiation::follow(const ParticleStore& store, const OpenSurface& surface, std::span<const Wall> walls,
-                       double spacing, uint64_t frame, size_t first, size_t last) {
-  const size_t stride = OpenSurface::kDirections / m_perParticle;
-  for (size_t e = first; e < last; ++e) {
-    const uint32_t i = m_emitters[e];
-    const Fan fan = fanOf(surface.open(i));
-    const Vector3 centre = vectorOf(store.position()[i]), start = centre + spacing * fan.lift;
-    const double area = surface.area(i) * static_cast<double>(stride);
-    const size_t turn = (static_cast<size_t>(frame) + spread(store.id()[i])) % stride;
-    for (size_t k = 0; k < m_perParticle; ++k) {
-      const size_t d = turn + k * stride;
-      if (!(fan.share[d] > 0)) continue;
-      const auto& unit = OpenSurface::directions()[d];
-      const Vector3 way{unit[0], unit[1], unit[2]};
-      const auto part = static_cast<float>(area * double{fan.share[d]});
-      const End end = endOf(store, walls, start, way, i);
-      if (end.particle != Grid::kEmpty) {
-        m_met[e * m_perParticle + k] = end.particle;
-        m_area[e * m_perParticle + k] = part;
-      } else if (end.sky) {
-        m_sky[i] += part;
-      } else if (end.wall < walls.size()) {
-        m_wall[i * m_walls + end.wall] += part;
-      }
-    }
+void Radiation::findBoxes(const RadiationScene& scene) {
+  const ParticleStore& store = scene.store;
+  m_boxOf.assign(store.size(), RayGrid::kNone);
+  m_boxes.clear();
+  for (size_t i = 0; i < store.size(); ++i) {
+    if (store.motion()[i] == api::Motion::Gas) continue;
+    if (scene.surface.open(i) == 0 && scene.filled[i] >= kWhole) continue;
+    m_boxOf[i] = static_cast<uint32_t>(m_boxes.size());
+    m_boxes.emplace_back().particle = static_cast<uint32_t>(i);
+  }
+  const SurfaceSurroundings around{store,        scene.lists, scene.walls,  scene.surface,
+                                   scene.filled, scene.level, scene.spacing};
+  forChunks(m_boxes.size(), grain::kNeighbours, [&](size_t first, size_t last) {
+    for (size_t b = first; b < last; ++b) m_boxes[b] = surfaceBoxOf(around, m_boxes[b].particle);
+  });
+  m_emitters.clear();
+  m_narrowestGap = 0;
+  for (size_t b = 0; b < m_boxes.size(); ++b) {
+    const double gap = double{m_boxes[b].gap};
+    if (gap > 0 && (m_narrowestGap == 0 || gap < m_narrowestGap)) m_narrowestGap = gap;
+    if (m_boxes[b].bare != 0 && scene.emissivity[store.material()[m_boxes[b].particle]] > 0)
+      m_emitters.push_back(static_cast<uint32_t>(b));
   }
 }
 
-Radiation::End Radiation::endOf(const ParticleStore& store, std::span<const Wall> walls, Vector3 from, Vector3 way,
-                                uint32_t self) const {
-  End end{Grid::kEmpty, walls.size(), false};
-  for (int mirrors = 0; mirrors <= kMostMirrors; ++mirrors) {
-    const Target wall = nearestWall(walls, from, way);
-    end.particle = m_grid.firstOn(store, from, way, wall.distance, self);
-    if (end.particle != Grid::kEmpty) return end;
-    if (wall.index == walls.size()) {
-      end.sky = m_grid.comesOut(way);
-      return end;
-    }
-    if (exchanges(walls[wall.index])) {
-      end.wall = wall.index;
-      return end;
-    }
-    from += wall.distance * way;
-    if (!within(m_bounds, from, m_spacing)) {
-      end.sky = true;
-      return end;
-    }
-    const Vector3 normal = vectorOf(walls[wall.index].normal);
-    way -= 2 * normal.dot(way) * normal;
+void Radiation::follow(const RadiationScene& scene, size_t first, size_t last) {
+  for (size_t e = first; e < last; ++e) {
+    const RaySamples samples(scene.store.id()[m_boxes[m_emitters[e]].particle]);
+    for (size_t k = 0; k < m_perParticle; ++k) followOne(scene, e, samples, k);
   }
-  return end;
+}
+
+void Radiation::followOne(const RadiationScene& scene, size_t emitter, const RaySamples& samples, size_t k) {
+  const SurfaceBox& box = m_boxes[m_emitters[emitter]];
+  const uint32_t i = box.particle;
+  const size_t faces = static_cast<size_t>(std::popcount(box.bare)), face = faceOf(box, k);
+  const size_t onFace = (m_perParticle - k % faces + faces - 1) / faces;
+  const double area = double{box.area} / static_cast<double>(faces * onFace), dx = scene.spacing;
+  const double emissivity = scene.emissivity[scene.store.material()[i]];
+  const Vector3 normal = box.normal(face), one = box.axis((face / 2 + 1) % 3), other = box.axis((face / 2 + 2) % 3);
+  const double lift = (face == 0 ? double{box.height} : 0.5) + kLift;
+  const auto index = static_cast<uint32_t>(scene.frame * m_perParticle + k);
+  Ray ray;
+  ray.from = vectorOf(scene.store.position()[i]) + lift * dx * normal + (samples.at(index, 2) - 0.5) * dx * one +
+             (samples.at(index, 3) - 0.5) * dx * other;
+  ray.way = diffuse(normal, one, other, samples.at(index, 0), samples.at(index, 1));
+  ray.source = i;
+  ray.first = ray.straight = true;
+  ray.chance = scattered(scene.store.id()[i]) + index;
+  const End end = endOf(scene, ray);
+  if (end.covered) return;
+  m_outer[emitter] += static_cast<float>(area);
+  const auto part = static_cast<float>(area * emissivity);
+  if (end.particle != RayGrid::kNone) {
+    m_met[emitter * m_perParticle + k] = end.particle;
+    m_area[emitter * m_perParticle + k] = part;
+  } else if (end.sky) {
+    m_sky[i] += part;
+  } else if (end.wall < scene.walls.size()) {
+    m_wall[i * m_walls + end.wall] += part;
+  }
+}
+
+bool Radiation::isNear(const RadiationScene& scene, uint32_t one, uint32_t other) const {
+  const double reach = kNear * scene.spacing;
+  return vectorOf(scene.store.separation(one, other)).squaredNorm() < reach * reach;
+}
+
+bool Radiation::passes(const RadiationScene& scene, const Ray& ray, const RayGrid::Hit& hit) const {
+  if (hit.particle == ray.source) return ray.straight;
+  if (!ray.straight || !isNear(scene, ray.source, hit.particle)) return false;
+  const SurfaceBox& own = m_boxes[m_boxOf[ray.source]];
+  const bool sameBody = scene.store.body()[ray.source] == scene.store.body()[hit.particle];
+  if (!own.turned) return !sameBody && !(hit.distance > 0);
+  if (sameBody || !(hit.distance > 0)) return true;
+  const uint32_t box = m_boxOf[hit.particle];
+  if (box == RayGrid::kNone) return false;
+  const Vector3 here = own.meanNormal(), there = m_boxes[box].meanNormal();
+  return here.dot(there) > kSameWay * std::sqrt(here.squaredNorm() * there.squaredNorm());
+}
+
+/// Whether a face is covered by the turned cubes of its own body beside it.
+bool Radiation::isCovered(const RadiationScene& scene, const Ray& ray, const RayGrid::Hit& hit) const {
+  const uint32_t* body = scene.store.body();
+  if (!ray.first || !ray.straight || body[hit.particle] != body[ray.source]) return false;
+  const uint32_t box = m_boxOf[hit.particle];
+  const bool smoothed = box == RayGrid::kNone || m_boxes[box].turned || !(hit.distance > 0);
+  return smoothed && isNear(scene, ray.source, hit.particle);
+}
+
+bool Radiation::reflect(const RadiationScene& scene, const RayGrid::Hit& hit, Ray& ray) const {
+  if (hit.face < 0) return false;
+  const SurfaceBox& box = m_boxes[m_boxOf[hit.particle]];
+  const auto face = static_cast<size_t>(hit.face);
+  const Vector3 normal = box.normal(face);
+  ray.from += hit.distance * ray.way + kLift * scene.spacing * normal;
+  const double u = nextUnit(ray.chance), v = nextUnit(ray.chance);
+  ray.way = diffuse(normal, box.axis((face / 2 + 1) % 3), box.axis((face / 2 + 2) % 3), u, v);
+  ray.source = hit.particle;
+  ray.first = false;
+  ray.straight = true;
+  return true;
+}
+
+Radiation::End Radiation::endOf(const RadiationScene& scene, Ray ray) const {
+  const End nowhere{RayGrid::kNone, scene.walls.size(), false, false};
+  for (int met = 0; met <= kMostMet; ++met) {
+    const Target wall = nearestWall(scene.walls, ray.from, ray.way);
+    const RayGrid::Hit hit = m_grid.firstOn(scene.store, ray.from, ray.way, wall.distance,
+                                            [&](const RayGrid::Hit& there) { return passes(scene, ray, there); });
+    if (hit.particle != RayGrid::kNone) {
+      if (isCovered(scene, ray, hit)) return {RayGrid::kNone, nowhere.wall, false, true};
+      const double absorbed = scene.emissivity[scene.store.material()[hit.particle]];
+      if (happens(absorbed, ray.chance) || !reflect(scene, hit, ray)) return {hit.particle, nowhere.wall, false, false};
+      continue;
+    }
+    if (wall.index == scene.walls.size()) return {RayGrid::kNone, wall.index, m_grid.comesOut(ray.way), false};
+    const Wall& plane = scene.walls[wall.index];
+    if (exchanges(plane) && happens(plane.emissivity, ray.chance)) return {RayGrid::kNone, wall.index, false, false};
+    ray.from += wall.distance * ray.way;
+    if (!exchanges(plane) && !within(scene.bounds, ray.from, scene.spacing))
+      return {RayGrid::kNone, nowhere.wall, true, false};
+    const Vector3 normal = vectorOf(plane.normal);
+    ray.way -= 2 * normal.dot(ray.way) * normal;
+    ray.straight = false;
+  }
+  return nowhere;
+}
+
+/// Brings bodies of given area to it.
+void Radiation::scaleToBodies(const RadiationScene& scene) {
+  const std::span<const double> given = scene.givenArea;
+  if (std::none_of(given.begin(), given.end(), [](double area) { return area > 0; })) return;
+  const uint32_t* body = scene.store.body();
+  m_found.assign(given.size(), 0);
+  for (size_t e = 0; e < m_emitters.size(); ++e) {
+    const uint32_t b = body[m_boxes[m_emitters[e]].particle];
+    if (b < given.size()) m_found[b] += double{m_outer[e]};
+  }
+  for (size_t e = 0; e < m_emitters.size(); ++e) {
+    const uint32_t i = m_boxes[m_emitters[e]].particle, b = body[i];
+    if (b >= given.size() || !(given[b] > 0) || !(m_found[b] > 0)) continue;
+    const auto scale = static_cast<float>(given[b] / m_found[b]);
+    m_sky[i] *= scale;
+    for (size_t w = 0; w < m_walls; ++w) m_wall[i * m_walls + w] *= scale;
+    for (size_t k = 0; k < m_perParticle; ++k) m_area[e * m_perParticle + k] *= scale;
+  }
 }
 
 /// Lists of who sees whom from the rays, in order of rays: both ends of a ray carry the same area.
 void Radiation::couple(size_t count) {
   m_begin.assign(count + 1, 0);
+  const auto source = [&](size_t ray) { return m_boxes[m_emitters[ray / m_perParticle]].particle; };
   for (size_t r = 0; r < m_met.size(); ++r) {
-    if (m_met[r] == Grid::kEmpty) continue;
-    ++m_begin[m_emitters[r / m_perParticle] + 1];
+    if (m_met[r] == RayGrid::kNone) continue;
+    ++m_begin[source(r) + 1];
     ++m_begin[m_met[r] + 1];
   }
   for (size_t i = 0; i < count; ++i) m_begin[i + 1] += m_begin[i];
   m_sights.resize(m_begin[count]);
   m_next.assign(m_begin.begin(), m_begin.end());
   for (size_t r = 0; r < m_met.size(); ++r) {
-    if (m_met[r] == Grid::kEmpty) continue;
-    const uint32_t i = m_emitters[r / m_perParticle], j = m_met[r];
+    if (m_met[r] == RayGrid::kNone) continue;
+    const uint32_t i = source(r), j = m_met[r];
     m_sights[m_next[i]++] = {j, 0.5f * m_area[r]};
     m_sights[m_next[j]++] = {i, 0.5f * m_area[r]};
-  }
-}
-
-void Radiation::Grid::build(const ParticleStore& store, double spacing) {
-  near = kNear * spacing;
-  span(store, spacing);
-  cells.assign(static_cast<size_t>(count[0]) * static_cast<size_t>(count[1]) * static_cast<size_t>(count[2]), kEmpty);
-  fill(store, spacing);
-}
-
-/// The box around all matter, or the period; and its cells.
-void Radiation::Grid::span(const ParticleStore& store, double spacing) {
-  const Period& period = store.period();
-  for (size_t a = 0; a < 3; ++a) low[a] = kFar, high[a] = -kFar;
-  for (size_t i = 0; i < store.size(); ++i) {
-    if (store.motion()[i] == api::Motion::Gas) continue;
-    const api::Float4& x = store.position()[i];
-    const double at[3] = {x.x, x.y, x.z};
-    for (size_t a = 0; a < 3; ++a) low[a] = std::min(low[a], at[a]), high[a] = std::max(high[a], at[a]);
-  }
-  double size[3], volume = 1;
-  for (size_t a = 0; a < 3; ++a) {
-    repeats[a] = period.length(a) > 0;
-    if (repeats[a]) {
-      low[a] = period.low(a);
-      high[a] = low[a] + double{period.length(a)};
-    } else {
-      low[a] -= spacing;
-      high[a] += spacing;
-    }
-    size[a] = std::max(high[a] - low[a], spacing);
-    volume *= size[a];
-  }
-  double wanted = spacing;
-  while (volume / (wanted * wanted * wanted) > kMostCells) wanted *= 1.26;
-  for (size_t a = 0; a < 3; ++a) {
-    count[a] = std::max(1, static_cast<int>(size[a] / wanted));
-    edge[a] = size[a] / count[a];
-  }
-}
-
-void Radiation::Grid::fill(const ParticleStore& store, double spacing) {
-  for (size_t i = store.size(); i-- > 0;) {  // the lowest index comes last and stays
-    if (store.motion()[i] == api::Motion::Gas) continue;
-    const api::Float4& x = store.position()[i];
-    const double at[3] = {x.x, x.y, x.z};
-    int from[3], to[3];
-    for (size_t a = 0; a < 3; ++a) {
-      const double c = repeats[a] ? store.period().wrapped(at[a], a) : at[a];
-      from[a] = static_cast<int>(std::floor((c - kHalfWidth * spacing - low[a]) / edge[a]));
-      to[a] = static_cast<int>(std::floor((c + kHalfWidth * spacing - low[a]) / edge[a]));
-      if (!repeats[a]) from[a] = std::max(from[a], 0), to[a] = std::min(to[a], count[a] - 1);
-    }
-    const auto turned = [&](int c, size_t a) {
-      return static_cast<size_t>(repeats[a] ? (c % count[a] + count[a]) % count[a] : c);
-    };
-    for (int z = from[2]; z <= to[2]; ++z) {
-      for (int y = from[1]; y <= to[1]; ++y) {
-        for (int c = from[0]; c <= to[0]; ++c) {
-          const size_t row = turned(z, 2) * static_cast<size_t>(count[1]) + turned(y, 1);
-          cells[row * static_cast<size_t>(count[0]) + turned(c, 0)] = static_cast<uint32_t>(i);
-        }
-      }
-    }
-  }
-}
-
-bool Radiation::Grid::about(const ParticleStore& store, uint32_t self, uint32_t other) const {
-  const api::Float4 &a = store.position()[self], &b = store.position()[other];
-  float x = a.x - b.x, y = a.y - b.y, z = a.z - b.z;
-  store.period().shorten(x, y, z);
-  return double{x} * double{x} + double{y} * double{y} + double{z} * double{z} < near * near;
-}
-
-/// Steps from cell to cell (Amanatides & Woo 1987).
-uint32_t Radiation::Grid::firstOn(const ParticleStore& store, const Vector3& start, const Vector3& slope,
-                                  double longest, uint32_t self) const {
-  double enter = 0, leave = longest;
-  for (size_t a = 0; a < 3; ++a) {  // where the ray is within the box
-    if (repeats[a]) continue;
-    if (slope[a] == 0) {
-      if (start[a] < low[a] || start[a] > high[a]) return kEmpty;
-      continue;
-    }
-    const double one = (low[a] - start[a]) / slope[a], other = (high[a] - start[a]) / slope[a];
-    enter = std::max(enter, std::min(one, other));
-    leave = std::min(leave, std::max(one, other));
-  }
-  // Along a period that nothing closes a ray may go on for ever.
-  leave = std::min(leave, 8 * (high[0] - low[0] + high[1] - low[1] + high[2] - low[2]));
-  if (!(enter < leave)) return kEmpty;
-  int cell[3], step[3];
-  double next[3], each[3];
-  for (size_t a = 0; a < 3; ++a) {
-    const double at = (start[a] + enter * slope[a] - low[a]) / edge[a];
-    cell[a] = static_cast<int>(std::floor(at));
-    if (!repeats[a]) cell[a] = std::clamp(cell[a], 0, count[a] - 1);
-    step[a] = slope[a] > 0 ? 1 : -1;
-    each[a] = slope[a] == 0 ? kFar : edge[a] / std::abs(slope[a]);
-    const double border = low[a] + edge[a] * (cell[a] + (step[a] > 0 ? 1 : 0));
-    next[a] = slope[a] == 0 ? kFar : (border - start[a]) / slope[a];
-    if (repeats[a]) cell[a] = (cell[a] % count[a] + count[a]) % count[a];
-  }
-  for (;;) {
-    const size_t row = static_cast<size_t>(cell[2]) * static_cast<size_t>(count[1]) + static_cast<size_t>(cell[1]);
-    const uint32_t met = cells[row * static_cast<size_t>(count[0]) + static_cast<size_t>(cell[0])];
-    if (met != kEmpty && !about(store, self, met)) return met;
-    const size_t a = next[0] <= next[1] && next[0] <= next[2] ? 0 : next[1] <= next[2] ? 1 : 2;
-    if (next[a] > leave) return kEmpty;
-    next[a] += each[a];
-    cell[a] += step[a];
-    if (repeats[a]) {
-      if (cell[a] < 0) cell[a] = count[a] - 1;
-      if (cell[a] >= count[a]) cell[a] = 0;
-    } else if (cell[a] < 0 || cell[a] >= count[a]) {
-      return kEmpty;
-    }
   }
 }
 
