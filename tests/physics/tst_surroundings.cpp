@@ -116,6 +116,27 @@ class TestSurroundings : public QObject {
     QVERIFY(std::abs(scene.heat.ledger().walls - gained) < 1e-9 * gained);
   }
 
+  void meltsThatInsulateDoNotLeapPastAColdWall() {
+    // A melt that conducts nothing, 10 K above where it freezes, on a wall of 150 K: what freezes conducts, and the
+    // stable step has to know it before. No matter gets colder than the wall.
+    Scene scene;
+    heattest::Matter tin = heattest::water();
+    tin.conductivitySolid = 67, tin.conductivityLiquid = 0;
+    tin.melting = 505, tin.latentFusion = 59e3, tin.boiling = 2875;
+    tin.capacitySolid = tin.capacityLiquid = 230;
+    scene.addMaterial(heattest::materialOf(tin));
+    scene.addBox({0, 0, 0}, {4, 4, 4}, 0);
+    scene.walls = {wall(ps::WallHeat::FixedTemperature, {0, 1, 0}, 0)};
+    scene.walls[0].temperature = 150;
+    scene.start([](size_t) { return 515.0; });
+    double coldest = 515;
+    for (int k = 0; k < 20; ++k) {
+      QVERIFY(scene.heat.advance(scene.store, scene.neighbours, 15));
+      for (size_t i = 0; i < scene.store.size(); ++i) coldest = std::min(coldest, scene.store.temperature()[i]);
+    }
+    QVERIFY2(coldest >= 150 && coldest < 505, qPrintable(QString::number(coldest)));
+  }
+
   void fluidsBehindWallsGiveTheFluxOfResistancesInSeries() {
     // 300 and 400 K behind 100 and 50 W/(m2 K), 0.1 m of k = 1 between: q = 100/(1/100 + 0.1 + 1/50) W/m2 = 769. 4 %:
     // the lattice conducts 2 % too well, uncorrected at its ends.

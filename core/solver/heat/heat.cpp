@@ -69,7 +69,7 @@ void HeatStage::snapshotRange(const ParticleStore& store, HeatInstant& instant, 
 void HeatStage::prepare(ParticleStore& store, const Neighbours& neighbours, uint64_t frame) {
   const size_t n = store.size();
   m_partials.resize(chunkCount(n, grain::kNeighbours));
-  for (auto* list : {&m_joules, &m_frameJoules, &m_watts, &m_perConductivity, &m_fixedConductance}) list->resize(n);
+  for (auto* list : {&m_joules, &m_frameJoules, &m_watts, &m_fixedConductance}) list->resize(n);
   m_now.resize(n);
   m_next.resize(n);
   m_boilingPartners.resize(n);
@@ -83,7 +83,7 @@ void HeatStage::prepare(ParticleStore& store, const Neighbours& neighbours, uint
     partial = {};
     snapshotRange(store, m_now, first, last);
     sumConductances(store, first, last, partial);
-    partial.fastest = fastestRate(store, first, last);
+    partial.fastest = fastestRate(store, m_now, first, last);
   };
   parallelFor(n, grain::kNeighbours, std::cref(body));
   m_boiling = false;
@@ -94,7 +94,6 @@ void HeatStage::prepare(ParticleStore& store, const Neighbours& neighbours, uint
 void HeatStage::sumConductances(const ParticleStore& store, size_t first, size_t last, Partial& partial) {
   for (size_t i = first; i < last; ++i) {
     if (store.gasFraction()[i] > 0) ++partial.boiling;
-    m_perConductivity[i] = m_surroundings.perConductivity(i) + m_pairs.sameTotal[i];
     m_fixedConductance[i] = m_surroundings.fixedConductance(store, i) + m_pairs.otherTotal[i];
   }
 }
@@ -204,7 +203,7 @@ void HeatStage::explicitStep(ParticleStore& store, const api::ParticleView& view
     m_model->addHeat(where, view, first, last, m_joules.data(), step);
     deriveRange(store, first, last);
     snapshotRange(store, m_next, first, last);
-    partial.fastest = fastestRate(store, first, last);
+    partial.fastest = fastestRate(store, m_next, first, last);
   };
   parallelFor(store.size(), grain::kNeighbours, std::cref(body));
   std::swap(m_now, m_next);
@@ -212,16 +211,21 @@ void HeatStage::explicitStep(ParticleStore& store, const api::ParticleView& view
   findLimit();
 }
 
-/// Largest sum of conductances over heat capacity of particles [first, last), 1/s: Gershgorin's bound.
-double HeatStage::fastestRate(const ParticleStore& store, size_t first, size_t last) const {
+/// Largest sum of conductances over heat capacity of particles [first, last), 1/s: Gershgorin's bound. A wall beyond a
+/// point of balance may take more than the particle's own phase conducts: a melt that insulates freezes at it.
+double HeatStage::fastestRate(const ParticleStore& store, const HeatInstant& now, size_t first, size_t last) const {
   double fastest = 0;
   for (size_t i = first; i < last; ++i) {
     const double mass = store.mass()[i];
     if (!(mass > 0)) continue;
     const BakedMaterial& material = m_materials[store.material()[i]];
     const double s = store.solidFraction()[i], l = store.liquidFraction()[i], g = store.gasFraction()[i];
-    double rate = m_perConductivity[i] * fastestPhase(material, store.temperature()[i], s, l, g);
-    if (m_fixedConductance[i] > 0) rate += m_fixedConductance[i] / smallestCapacity(material.caloric(), s, l, g);
+    const double ownPhase = fastestPhase(material, store.temperature()[i], s, l, g);
+    const double smallest = smallestCapacity(material.caloric(), s, l, g);
+    const double walls = std::max(m_surroundings.perConductivity(i) * ownPhase,
+                                  m_surroundings.wallConductance(store, i, now) / smallest);
+    double rate = m_pairs.sameTotal[i] * ownPhase + walls;
+    if (m_fixedConductance[i] > 0) rate += m_fixedConductance[i] / smallest;
     fastest = std::max(fastest, rate / mass);
   }
   return fastest;

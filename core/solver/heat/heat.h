@@ -169,7 +169,7 @@ class HeatStage {
   void nucleate(const ParticleStore& store, size_t first, size_t last);
   bool boils(const ParticleStore& store, size_t i) const;
   double latentContent(const ParticleStore& store, size_t i) const;
-  double fastestRate(const ParticleStore& store, size_t first, size_t last) const;
+  double fastestRate(const ParticleStore& store, const HeatInstant& now, size_t first, size_t last) const;
   void findLimit();
   double explicitTime() const;
   double sweepTime() const;
@@ -229,7 +229,6 @@ class HeatStage {
   double m_pairRate = 0;              ///< and of all
   std::vector<double> m_newTemperature;
   std::vector<api::Phase> m_newPhase;
-  std::vector<double> m_perConductivity;   ///< m: pairs of one material and walls, to be multiplied by k
   std::vector<double> m_fixedConductance;  ///< W/K: other materials, air and radiation
   std::vector<uint32_t> m_boilingPartners;
   mutable std::vector<double> m_energies;  ///< J, scratch of energy()

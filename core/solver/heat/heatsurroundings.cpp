@@ -161,6 +161,16 @@ double HeatSurroundings::fixedConductance(const ParticleStore& store, size_t i) 
   return sum;
 }
 
+double HeatSurroundings::wallConductance(const ParticleStore& store, size_t i, const HeatInstant& now) const {
+  if (!(m_perConductivity[i] > 0)) return 0;
+  double sum = 0;
+  for (size_t w = 0; w < m_walls.size(); ++w) {
+    const double g = double{m_wallConductance[i * m_walls.size() + w]};
+    if (g > 0 && m_walls[w].heat == WallHeat::FixedTemperature) sum += g * wallConductivity(store, i, w, now);
+  }
+  return sum;
+}
+
 /// Mean conductivity between particle i and wall w, W/(m K): the Kirchhoff mean, as inside matter, up to the boiling
 /// (or sublimation) point. Beyond it the matter that touches the wall conducts as itself, not as the vapour that
 /// Kirchhoff's integral would put between them: a film of vapour insulates only as far as the particle itself has

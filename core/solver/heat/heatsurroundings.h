@@ -61,6 +61,9 @@ class HeatSurroundings {
   /// Conductances of particle i for the stable step: in m, to be multiplied by k, and in W/K.
   double perConductivity(size_t i) const { return m_perConductivity[i]; }
   double fixedConductance(const ParticleStore& store, size_t i) const;
+  /// W/K between particle i and walls of fixed temperature, by what the matter between the two temperatures conducts:
+  /// where they lie in two phases, that is another number than k times perConductivity().
+  double wallConductance(const ParticleStore& store, size_t i, const HeatInstant& now) const;
   /// W/K between all matter and the air.
   double airConductance() const { return m_airTotal; }
   /// W into particle i that do not depend on its temperature: walls of given flux.
@@ -88,10 +91,10 @@ class HeatSurroundings {
   double m_air = 293.15, m_convection = 0, m_airTotal = 0, m_wholeLayer = 0;
   bool m_wallsExchange = false, m_surfaces = false;
   OpenSurface m_surface;
+  SurfaceLevel m_level;
   Radiation m_radiation;
   std::vector<uint8_t> m_touches;        ///< 1: something of fixed temperature is linked to the particle
   std::vector<float> m_wallConductance;  ///< particle times walls + wall: m for fixed temperature, W/K for convection
-  SurfaceLevel m_level;
   std::vector<float> m_airConductance;   ///< W/K
   std::vector<double> m_perConductivity, m_watts;
 };
