@@ -186,6 +186,12 @@ class ProjectChecker : public FieldVisitor {
     if (!body.empty() && !contains(m_project.bodies, body) && !contains(m_project.emitters, body)) {
       warn(pointer + "/body", "there is no body or emitter '" + body + "'; the probe measures nothing");
     }
+    if (!probe.wall.empty() && !contains(m_project.environment.walls, probe.wall))
+      warn(pointer + "/wall", "there is no wall '" + probe.wall + "'; the probe measures nothing");
+    if (isForce(probe.quantity) && probe.body.empty() && probe.wall.empty())
+      fail(pointer + "/quantity", "'" + probe.quantity + "' needs a body or a wall on which it acts");
+    if (!isForce(probe.quantity) && !probe.wall.empty())
+      fail(pointer + "/wall", "is for force and torque alone; '" + probe.quantity + "' is of matter");
     const Quantity* quantity = m_fields.quantity(probe.quantity);
     if (probe.wave && quantity && !quantity->mean) {
       fail(pointer + "/wave", "needs a quantity that each particle has, as velocity_y; '" + probe.quantity +

@@ -121,8 +121,7 @@ const FieldTable<SolverOptions>& solverFields() {
 }
 
 const FieldTable<Probe>& probeFields() {
-  static const FieldTable<Region> region =
-      regionFields("only particles that stood in it at the start; its faces belong to it");
+  static const FieldTable<Region> region = regionFields("only particles that stand in it; its faces belong to it");
   static const FieldTable<Wave> wave =
       waveFields("measures the amplitude of this sine in the quantity, not the quantity");
   static const FieldTable<Probe> table{
@@ -134,11 +133,15 @@ const FieldTable<Probe>& probeFields() {
                field("quantity", &Probe::quantity, QuantityName{ParticleFields().quantityNames()}, "what is measured")
                    .required(),
                field("body", &Probe::body, Text{}, "id of a body; empty for all particles"),
+               field("wall", &Probe::wall, Text{},
+                     "id of a wall, whose force or torque is measured instead of a body's"),
                field("phase", &Probe::phase, Choice{{"", "solid", "melting", "liquid", "boiling", "gas"}},
                      "empty for all"),
                field("fixed", &Probe::fixed, Toggle{},
                      "sees what is held in place as well, as one of a fixed body always does"),
                field("region", &Probe::region, Optional{Object{region}}, ""),
+               field("region_when", &Probe::regionWhen, Choice{{Probe::kAtStart, Probe::kNow}},
+                     "start: sees what stood in the region then, wherever it is; now: what is in it, frame by frame"),
                field("wave", &Probe::wave, Optional{Object{wave}}, "")},
       .unknown = &Probe::unknown};
   return table;

@@ -5,6 +5,13 @@
 
 namespace ps {
 
+double slopeOverQ(KernelShape shape, double q) {
+  if (q >= 1) return 0;
+  const double a = 1 - q;
+  if (shape == KernelShape::WendlandC2) return -20 * a * a * a;
+  return q <= 0.5 ? 18 * q - 12 : -6 * a * a / q;
+}
+
 Kernel::Kernel(KernelShape shape, double supportRadius) : m_shape(shape), m_radius(supportRadius) {
   const double volume = std::numbers::pi * supportRadius * supportRadius * supportRadius;
   m_scale = (shape == KernelShape::CubicSpline ? 8.0 : 10.5) / volume;
@@ -19,13 +26,6 @@ double Kernel::value(double r) const {
   return m_scale * 2 * a * a * a;
 }
 
-double Kernel::gradient(double r) const {
-  const double q = r / m_radius;
-  if (q >= 1) return 0;
-  const double a = 1 - q, scale = m_scale / (m_radius * m_radius);
-  if (m_shape == KernelShape::WendlandC2) return scale * -20 * a * a * a;
-  if (q <= 0.5) return scale * (18 * q - 12);
-  return scale * -6 * a * a / q;
-}
+double Kernel::gradient(double r) const { return m_scale / (m_radius * m_radius) * slopeOverQ(m_shape, r / m_radius); }
 
 }  // namespace ps

@@ -6,6 +6,10 @@ namespace ps {
 
 enum class KernelShape { CubicSpline, WendlandC2 };
 
+/// w'(q)/q <= 0 of the kernel without its norm, q = r/R: W = 8/(pi R^3) w for the cubic spline, 21/(2 pi R^3) w for
+/// Wendland's. Finite at q = 0; 0 from q = 1 on.
+double slopeOverQ(KernelShape shape, double q);
+
 /// W(r) in 1/m3 and F(r) = (1/r) dW/dr <= 0 in 1/m5, so that grad_i W_ij = F_ij x_ij. Finite at r = 0 except that
 /// F of the cubic spline tends to a constant times -1/R^5 as r -> 0.
 class Kernel {

@@ -195,7 +195,9 @@ constexpr ParameterDeclaration kProperties[] = {
      "wall the wall's own.",
      "ice on steel 0.03, wood on wood 0.3, rubber 0.8", "CRC Handbook of Chemistry and Physics"},
     {"restitution", "Bounce", "e", "", kNumber, kLinear, 0.1, 0, 1, 0, 1, "", 1, 0, "", "Mechanics",
-     "Share of its speed that a piece keeps when it hits something; of two materials the one that bounces more counts.",
+     "Share of its speed that a piece keeps when it hits something; of two materials the one that bounces more counts. "
+     "Soft bodies get it as a whole when the impact has gone through them. Cloth, ropes and what hangs on something "
+     "fixed hardly bounce: their particles do it one by one, and what ties them takes it up.",
      "clay 0, wood 0.5, glass 0.7, rubber ball 0.8", ""},
     {"bond_radius", "Reach of bonds", "r_b", "", kNumber, kLinear, 1.7, 1.1, 2, 1, 2, "×", 1, 0, "", "Mechanics",
      "How far a freezing particle reaches for neighbours to bond with, in particle spacings.",

@@ -43,6 +43,7 @@ constexpr OwnField kOwnFields[] = {
     {field::kCompression, api::FieldType::Float32, "", "Compression handed over when the solid melted"},
     {field::kLambda, api::FieldType::Float32, "J", "Multiplier of the density constraint"},
     {field::kDensityError, api::FieldType::Float32, "", "Relative excess density of the last iteration"},
+    {field::kPressure, api::FieldType::Float32, "Pa", "Pressure of liquid and vapour, mean of the last frame"},
 };
 
 std::byte* allocateZeroed(size_t count) {
@@ -199,6 +200,7 @@ void ParticleStore::refreshPointers() {
   set(m_gasFraction, field::kGasFraction, Float32);
   set(m_compression, field::kCompression, Float32);
   set(m_lambda, field::kLambda, Float32);
+  set(m_pressure, field::kPressure, Float32);
   set(m_densityError, field::kDensityError, Float32);
 }
 

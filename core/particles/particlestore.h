@@ -36,6 +36,7 @@ inline constexpr const char* kGasFraction = "gas_fraction";        ///< Float32
 inline constexpr const char* kCompression = "compression_offset";  ///< Float32: C0 handed over when a solid melts
 inline constexpr const char* kLambda = "lambda";                   ///< Float32: density multiplier
 inline constexpr const char* kDensityError = "density_error";      ///< Float32: C of the last iteration
+inline constexpr const char* kPressure = "pressure";               ///< Float32: Pa, mean of the last frame
 }  // namespace field
 
 /// Particles outside a store: what undo keeps of what was erased.
@@ -101,6 +102,7 @@ class ParticleStore final : public api::FieldAccess {
   float* compression() { return m_compression; }
   float* lambda() { return m_lambda; }
   float* densityError() { return m_densityError; }
+  float* pressure() { return m_pressure; }
   const api::Float4* position() const { return m_position; }
   const api::Float4* previous() const { return m_previous; }
   const api::Float4* velocity() const { return m_velocity; }
@@ -117,6 +119,7 @@ class ParticleStore final : public api::FieldAccess {
   const float* compression() const { return m_compression; }
   const float* lambda() const { return m_lambda; }
   const float* densityError() const { return m_densityError; }
+  const float* pressure() const { return m_pressure; }
 
   /// Appends `count` particles with all fields zero and fresh ids; returns the index of the first.
   size_t add(size_t count);
@@ -164,7 +167,7 @@ class ParticleStore final : public api::FieldAccess {
   api::Motion* m_motion = nullptr;
   double* m_temperature = nullptr;
   float *m_solidFraction = nullptr, *m_liquidFraction = nullptr, *m_gasFraction = nullptr, *m_compression = nullptr,
-        *m_lambda = nullptr, *m_densityError = nullptr;
+        *m_lambda = nullptr, *m_densityError = nullptr, *m_pressure = nullptr;
 };
 
 }  // namespace ps

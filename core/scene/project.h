@@ -171,13 +171,16 @@ struct SolverOptions {
 
 /// Something to measure each frame.
 struct Probe {
+  static constexpr const char *kAtStart = "start", *kNow = "now";
   std::string id, name;
-  std::string quantity;          ///< "temperature", "mass", "speed_max", ... see ParticleFields
-  std::string body;              ///< Body::id; "" for all particles
-  std::string phase;             ///< "solid", "melting", "liquid", "boiling", "gas"; "" for all
-  bool fixed = false;            ///< sees what is held in place as well, as one of a fixed body always does
-  std::optional<Region> region;  ///< only what stood in it at the start
-  std::optional<Wave> wave;      ///< measures the amplitude of this wave in the quantity, not the quantity itself
+  std::string quantity;               ///< "temperature", "mass", "speed_max", ... see ParticleFields
+  std::string body;                   ///< Body::id; "" for all particles
+  std::string wall;                   ///< SceneWall::id, of a force on a wall
+  std::string phase;                  ///< "solid", "melting", "liquid", "boiling", "gas"; "" for all
+  bool fixed = false;                 ///< sees what is held in place as well, as one of a fixed body always does
+  std::optional<Region> region;       ///< only what stands in it
+  std::string regionWhen = kAtStart;  ///< "start": what stood in it then, wherever it is; "now": what is in it
+  std::optional<Wave> wave;           ///< measures the amplitude of this wave in the quantity, not the quantity itself
   Unknown unknown;
 };
 

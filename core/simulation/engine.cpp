@@ -130,6 +130,22 @@ void Engine::Impl::exchangeMatter() {
   flow.pour(*solver, project, tables.tables(), spacing, compileSettings(project).dt, bodyOf, birth);
 }
 
+void Engine::Impl::watchForces() {
+  std::vector<uint32_t> walls, bodies;
+  const auto watch = [](std::vector<uint32_t>& list, const auto& all, const auto& is) {
+    const auto index = static_cast<uint32_t>(std::find_if(all.begin(), all.end(), is) - all.begin());
+    if (index < all.size() && std::find(list.begin(), list.end(), index) == list.end()) list.push_back(index);
+  };
+  for (const Probe& probe : project.probes) {
+    if (!isForce(probe.quantity)) continue;
+    if (!probe.wall.empty())
+      watch(walls, project.environment.walls, [&](const SceneWall& wall) { return wall.id == probe.wall; });
+    else
+      watch(bodies, *bodyIds, [&](const std::string& id) { return id == probe.body; });
+  }
+  solver->watchForces(walls, bodies);
+}
+
 Project Engine::Impl::document() const {
   Project source = project;
   source.materials.clear();
@@ -229,6 +245,7 @@ Engine::~Engine() = default;
 StepReport Engine::step() {
   m->flow.steer(*m->solver, m->project, compileSettings(m->project).dt);
   const uint64_t before = m->solver->frame();
+  m->watchForces();
   m->lastReport = m->solver->step();
   for (const PluginFault& fault : m->lastReport.faults) m->plugins.fault(fault.plugin, fault.what);
   if (m->solver->frame() > before) m->exchangeMatter();  // not of a frame that was taken back

@@ -46,7 +46,7 @@ void Engine::Impl::build() {
   requireRoom(project, plugins, memoryNow());
   prepare(compileSettings(project).spacing, {});
   const bool regions = std::any_of(project.probes.begin(), project.probes.end(),
-                                   [](const Probe& probe) { return probe.region.has_value(); });
+                                   [](const Probe& probe) { return probe.region && probe.regionWhen != Probe::kNow; });
   const Bounds bounds = compileBounds(project);
   OccupiedPlaces occupied(kOverlap * spacing, static_cast<size_t>(count),
                           Period(bounds.minimum, bounds.maximum, bounds.periodic));

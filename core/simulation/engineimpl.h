@@ -62,6 +62,8 @@ struct Engine::Impl {
   /// Whether so many particles more may be poured; what they take is then spoken for.
   bool mayPour(size_t more);
   void exchangeMatter();
+  /// Tells the solver on what the probes measure forces.
+  void watchForces();
   std::vector<FieldPtr> shownFields() const;
 
   Project project;

@@ -54,6 +54,12 @@ std::vector<ParticleField> ownRows() {
        .inStore = [](const ParticleStore& s, size_t i) { return double{s.densityError()[i]}; },
        .inSnapshot = [](const Snapshot& s, size_t i) { return s.densityError[i]; }},
       {.name = "density", .label = "Density", .unit = "kg/m³", .inner = true, .inStore = densityOf},
+      {.name = "pressure",
+       .label = "Pressure",
+       .unit = "Pa",
+       .help = "of liquid and vapour above the air's, by what keeps them from being compressed; the mean of a frame",
+       .inner = true,
+       .inStore = [](const ParticleStore& s, size_t i) { return double{s.pressure()[i]}; }},
       {.name = "solid_fraction",
        .label = "Solid share",
        .unit = "1",
@@ -128,6 +134,8 @@ std::vector<Quantity> wholeQuantities() {
     add("velocity", "_max", "Highest velocity", "m/s");
     add("momentum", "", "Momentum", "kg·m/s");
     all.push_back({"angular_momentum_" + axis, "Angular momentum about " + axis, "kg·m²/s"});
+    add("force", "", "Force", "N");
+    all.push_back({"torque_" + axis, "Torque about " + axis, "N·m"});
     all.push_back({"spin_" + axis, "Spin about " + axis, "rad/s"});
   }
   return all;
@@ -180,6 +188,8 @@ std::vector<std::string> ParticleFields::names() const {
   for (const FieldPtr& field : m_all) all.push_back(field->name);
   return all;
 }
+
+bool isForce(std::string_view quantity) { return quantity.starts_with("force_") || quantity.starts_with("torque_"); }
 
 std::vector<std::string> colourNames(const ParticleFields& fields) {
   std::vector<std::string> all = fields.names();

@@ -70,6 +70,9 @@ class ParticleFields {
   std::vector<Quantity> m_quantities;
 };
 
+/// Whether a quantity is one of force or torque: on a body or a wall as a whole.
+bool isForce(std::string_view quantity);
+
 /// What colours may mean: the matter itself ("material"), and each field.
 inline constexpr const char* kMatterColour = "material";
 std::vector<std::string> colourNames(const ParticleFields& fields);

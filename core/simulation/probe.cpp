@@ -64,11 +64,12 @@ class Measurement {
       m_key.statistic = quantity->of == Quantity::Of::Least ? "min" : quantity->of == Quantity::Of::Most ? "max" : "";
       m_isKnown = static_cast<bool>(m_field.emplace(*quantity->field, m_store));
     }
-    choose();
+    if (!isForce(probe.quantity)) choose();
   }
 
   double value() const {
     const std::string& base = m_key.base;
+    if (isForce(m_probe.quantity)) return force();
     if (base == "pieces") return static_cast<double>(pieces());
     if (base == "count") return static_cast<double>(m_chosen.size());
     if (base == "mass" || base.ends_with("_mass")) return sum([](size_t) { return 1.0; });
@@ -99,10 +100,15 @@ class Measurement {
       if (m_store.velocity()[i].w == 0 && !still) continue;
       if (!m_probe.body.empty() && m_store.body()[i] != body) continue;
       if (!phase.empty() && phase != phaseName(m_store.phase()[i])) continue;
-      const size_t id = m_store.id()[i];
-      if (m_probe.region && (id >= m_view.start.size() || !m_probe.region->contains(m_view.start[id]))) continue;
+      if (m_probe.region && !isInRegion(i)) continue;
       m_chosen.push_back(i);
     }
+  }
+
+  bool isInRegion(size_t i) const {
+    if (m_probe.regionWhen == Probe::kNow) return m_probe.region->contains(vectorOf(m_store.wrappedPosition(i)));
+    const size_t id = m_store.id()[i];
+    return id < m_view.start.size() && m_probe.region->contains(m_view.start[id]);
   }
 
   bool moves(size_t body) const {
@@ -152,6 +158,21 @@ class Measurement {
     return sum([&](size_t i) {
       return (vectorOf(m_store.position()[i]) - about).cross(vectorOf(m_store.velocity()[i]))[axis];
     });
+  }
+
+  /// Of the last frame, on a wall or a body.
+  double force() const {
+    const auto indexOf = [](const auto& all, auto&& is) {
+      return static_cast<size_t>(std::find_if(all.begin(), all.end(), is) - all.begin());
+    };
+    std::optional<Wrench> wrench;
+    if (!m_probe.wall.empty())
+      wrench = m_view.solver.forceOnWall(indexOf(m_view.walls, [&](const Wall& w) { return w.id == m_probe.wall; }));
+    else if (!m_probe.body.empty())
+      wrench = m_view.solver.forceOnBody(
+          static_cast<uint32_t>(indexOf(m_view.bodyIds, [&](const std::string& id) { return id == m_probe.body; })));
+    if (!wrench) return nothing();
+    return (m_key.base == "force" ? wrench->force : wrench->torque)[static_cast<Eigen::Index>(m_key.axis)];
   }
 
   /// L/I about an axis through the centre of mass.

@@ -105,6 +105,13 @@ void Solver::setConstraintParameters(uint32_t set, uint32_t body, std::vector<do
 
 void Solver::setMotion(uint32_t body, const BodyMotion& motion) { m->motion.set(body, motion, m->store); }
 
+void Solver::watchForces(std::span<const uint32_t> walls, std::span<const uint32_t> bodies) {
+  if (m->forces.watch(walls, bodies)) m->anchorsKnown = false;
+}
+
+std::optional<Wrench> Solver::forceOnWall(size_t wall) const { return m->forces.onWall(wall); }
+std::optional<Wrench> Solver::forceOnBody(uint32_t body) const { return m->forces.onBody(body); }
+
 void Solver::setHeatSources(std::vector<HeatSource> sources) { m->heat.setSources(std::move(sources), m->store); }
 
 void Solver::setHeating(std::span<const double> watts) { m->heat.bodyHeating().set(watts); }
@@ -125,6 +132,7 @@ void Solver::Impl::configure() {
   swept.configure(settings);
   contact.configure(settings, table);
   impacts.configure(settings, walls, table);
+  rebound.configure(settings, walls, table);
   for (LiquidContact* kept : {&wet, &sheets}) kept->configure(settings.spacing, kSkinSpacings * settings.spacing);
   rigid.configure(settings, walls, table);
   gas.configure(settings, thermal, table);
@@ -281,9 +289,11 @@ std::vector<Limit> Solver::limits() const {
   std::vector<Limit> result;
   m->constraints.limits(m->store, result);
   m->viscosity.limits(m->store, result);
+  m->rebound.limits(result);
   const double asked = m->thermal.timeScale, delivered = m->heat.thermalTimeScaleDelivered();
   if (m->frame > 0 && delivered < asked) result.push_back({"solver.thermal_time_scale", asked, delivered, ""});
   if (m->overshot) result.push_back({"solver.thermal_cfl", m->thermal.cfl, 1, ""});
+  if (const double gap = m->heat.narrowestGap(); gap > 0) result.push_back({kGapLimit, gap, m->settings.spacing, "m"});
   if (m->heat.opensEnergy()) {
     // Lost since the matter was last added, taken or put back by hand.
     if (const double open = m->openEnergy(); open != 0) result.push_back({kBalanceLimit, 0, open, "J"});
@@ -293,7 +303,6 @@ std::vector<Limit> Solver::limits() const {
   const bool drops = excess > kDiverged && (m->report.flags & static_cast<StepFlags>(StepFlag::Diverged)) == 0;
   const bool squeezes = drops || m->motion.movesWithin(m->time - dt, dt) || m->contact.squeezedShare() > kSqueezedShare;
   if (excess > kSqueezed && squeezes) result.push_back({kSqueezeLimit, 0, excess, ""});
-  if (const double gap = m->heat.narrowestGap(); gap > 0) result.push_back({kGapLimit, gap, m->settings.spacing, "m"});
   return result;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 #include "core/matter/material.h"
 #include "core/particles/particlestore.h"
+#include "core/particles/reactions.h"
 #include "core/solver/anyconstraint.h"
 #include "core/solver/heatsource.h"
 #include "core/solver/matter.h"
@@ -12,6 +13,7 @@
 #include <phasesketch/thermal.h>
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -52,6 +54,13 @@ class Solver {
 
   /// How the fixed particles of a body move, those to come too; the body goes on from where it is.
   void setMotion(uint32_t body, const BodyMotion& motion);
+
+  /// Walls, by index, and bodies whose forces are to be measured from the next frame on, instead of those before.
+  void watchForces(std::span<const uint32_t> walls, std::span<const uint32_t> bodies);
+  /// Mean over the last frame of all but gravity, in N, and its torque about the origin, in N m: on what moves of a
+  /// body and on what is fixed of it, or on a wall. Nothing before such a frame. See ForceMeter for what it cannot do.
+  std::optional<Wrench> forceOnWall(size_t wall) const;
+  std::optional<Wrench> forceOnBody(uint32_t body) const;
 
   /// Plugins that warm or cool matter, whatever the model; those that threw stay put aside.
   void setHeatSources(std::vector<HeatSource> sources);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bondmodel.h"
 
+#include "bondstiffness.h"
+#include "convergence.h"
 #include "joining.h"
 
 #include <algorithm>
@@ -24,10 +26,7 @@ using api::ParticleView;
 
 /// At creation: axial and face-diagonal neighbours of a cubic lattice, 1 and 1.414 spacings away.
 constexpr float kLatticeRadius = 1.5f;
-/// The axial ones alone.
-constexpr float kAxialRadius = 1.2f;
-constexpr double kStiffnessOfModulus = 0.4;  // k/(E dx) of 18 neighbours; of 6 it is 1
-constexpr float kLeastStiffness = 1e-20f;    // N/m, keeps the compliance finite
+constexpr float kLeastStiffness = 1e-20f;  // N/m, keeps the compliance finite
 
 constexpr api::ParameterDeclaration kParameters[] = {
     {"bond_max", "Bonds per particle", "n", "", api::ParameterKind::Integer, api::Scale::Linear, 18, 6, 32, 1, 64, "",
@@ -105,6 +104,14 @@ constexpr api::FieldDeclaration kValues[] = {
     {"length", "m", "Length at rest at the present volumes", api::FieldType::Float32},
     {"compliance", "m/N", "Inverse stiffness at the present temperature", api::FieldType::Float32},
     {"temperature", "K", "At which it has its length at rest", api::FieldType::Float32},
+    {"carried", "", "1 where passes alone would not deliver its stiffness", api::FieldType::Float32},
+};
+
+constexpr const char* kTiesField = BondModel::kTiesField;
+constexpr api::FieldDeclaration kFields[] = {
+    kJoiningFields[0],
+    kJoiningFields[1],
+    {kTiesField, "", "How many bonds the particle has", api::FieldType::UInt8},
 };
 
 /// Cube root of a ratio near 1 by two steps of Halley's method: the same bits everywhere, 1e-6 exact from 0.4 to 2.5.
@@ -145,12 +152,6 @@ class ModulusTable {
   double m_low, m_perKelvin = 0;
 };
 
-struct Range {
-  double low = 1e30, high = -1e30;
-  void include(double t) { low = std::min(low, t), high = std::max(high, t); }
-  bool empty() const { return low > high; }
-};
-
 std::vector<ModulusTable> modulusTables(const ConstraintContext& context, const ParticleView& particles,
                                         const ConstraintBatch& batch) {
   std::vector<Range> ranges(context.materials.size);
@@ -168,15 +169,6 @@ std::vector<ModulusTable> modulusTables(const ConstraintContext& context, const 
   return tables;
 }
 
-bool isSet(const ConstraintContext& context, BondModel::Parameter parameter) {
-  return context.parameters[parameter] > 0.5;
-}
-
-/// k/(E dx) of the lattice that the body is made of.
-double stiffnessOfModulus(const ConstraintContext& context) {
-  return isSet(context, BondModel::kNeighbours) ? 1 : kStiffnessOfModulus;
-}
-
 /// e to the power of x, the same bits everywhere: by the series, exact to 1e-15, of what is left beside a power of two.
 double exponential(double x) {
   x = std::clamp(x, -600.0, 600.0);
@@ -188,11 +180,6 @@ double exponential(double x) {
 
 /// The thesis's share of the modulus that is left after a warming, equation 4.5.
 double thesisShare(double warming, double softening) { return 2 / (1 + exponential(warming / softening)); }
-
-/// k in N/m that the step resolves for a pair of inverse masses.
-double stiffnessLimit(const ConstraintContext& context, double inverseMasses) {
-  return context.parameters[BondModel::kStiffnessRatio] * 2 / (inverseMasses * context.dt * context.dt);
-}
 
 /// m³ of a solid particle at the temperature of reference.
 float referenceVolume(const ConstraintContext& context, const ParticleView& p, uint32_t i) {
@@ -218,7 +205,7 @@ BondModel::BondModel()
            api::listOf(kParameters)}) {}
 
 bool BondModel::traits(api::StructuralTraits* out) const noexcept {
-  return api::fill(out, {.arity = 2, .values = api::listOf(kValues), .fields = api::listOf(kJoiningFields)});
+  return api::fill(out, {.arity = 2, .values = api::listOf(kValues), .fields = api::listOf(kFields)});
 }
 
 void BondModel::addBond(const ParticleView& p, uint32_t i, uint32_t j, const Length& length,
@@ -227,12 +214,13 @@ void BondModel::addBond(const ParticleView& p, uint32_t i, uint32_t j, const Len
   const float rest = length.ratio * std::sqrt(distanceSquared(p, i, j));
   const double now = 0.5 * (p.temperature[i] + p.temperature[j]);
   const auto temperature = static_cast<float>(length.temperature > 0 ? length.temperature : now);
-  const float values[kValueCount] = {rest, length.volume, 0, rest, 0, temperature};
+  const float values[kValueCount] = {rest, length.volume, 0, rest, 0, temperature, 0};
   sink.add(pair, values);
 }
 
 const void* BondModel::extension(const char* name) const noexcept {
   if (std::string_view(name) == api::kStructureCount) return static_cast<const api::StructureCount*>(this);
+  if (std::string_view(name) == api::kSpringTies) return static_cast<const api::SpringTies*>(this);
   return std::string_view(name) == api::kHoldsFrozen ? this : nullptr;
 }
 
@@ -252,6 +240,7 @@ void BondModel::build(const ConstraintContext& context, const ParticleView& p, c
   const float radius = reach * static_cast<float>(context.spacing);
   const float ratio = static_cast<float>(context.parameters[kRestRatio]);
   const bool across = isSet(context, kAcross);
+  auto* ties = static_cast<uint8_t*>(p.fields->write(kTiesField, api::FieldType::UInt8));
   for (const uint32_t i : members) {
     if (p.motion[i] != Motion::Solid) continue;
     for (uint32_t q = lists.begin[i]; q < lists.last[i]; ++q) {
@@ -263,16 +252,23 @@ void BondModel::build(const ConstraintContext& context, const ParticleView& p, c
       const Length length{ratio, referenceVolume(context, p, i) + referenceVolume(context, p, j),
                           context.parameters[kReferenceTemperature]};
       addBond(p, i, j, length, sink);
+      ++ties[i], ++ties[j];
     }
   }
 }
 
 void BondModel::predict(const ConstraintContext& context, const ParticleView& p, const ConstraintBatch& batch) const {
-  std::fill(batch.values[kMultiplier], batch.values[kMultiplier] + batch.count, 0.0f);
-  if (context.substep != 0) return;  // volumes and temperatures change once a frame
+  if (context.substep == 0) refresh(context, p, batch);  // volumes and temperatures change once a frame
+  for (size_t k = 0; k < batch.count; ++k) {
+    if (!(batch.values[kCarried][k] > 0)) batch.values[kMultiplier][k] = 0;
+  }
+}
+
+void BondModel::refresh(const ConstraintContext& context, const ParticleView& p, const ConstraintBatch& batch) {
+  const Surface surface(context, p);
   const std::vector<ModulusTable> tables = modulusTables(context, p, batch);
   const double chosen = context.parameters[kSpringStiffness], ofModulus = stiffnessOfModulus(context);
-  const bool thesis = isSet(context, kStiffnessLaw);
+  const bool thesis = isSet(context, kStiffnessLaw), held = context.held && !isSet(context, kSolver);
   const double softening = context.parameters[kSoftening];
   for (size_t k = 0; k < batch.count; ++k) {
     const uint32_t i = batch.particles[2 * k], j = batch.particles[2 * k + 1];
@@ -286,8 +282,13 @@ void BondModel::predict(const ConstraintContext& context, const ParticleView& p,
     const double ei = modulusOf(i), ej = modulusOf(j);
     const double modulus = ei + ej > 0 ? 2 * ei * ej / (ei + ej) : 0;
     const double inverseMasses = double{p.velocity[i].w} + double{p.velocity[j].w};
-    double stiffness = chosen > 0 ? chosen : ofModulus * modulus * context.spacing;
-    if (inverseMasses > 0) stiffness = std::min(stiffness, stiffnessLimit(context, inverseMasses));
+    const double asked = chosen > 0 ? chosen : ofModulus * modulus * context.spacing;
+    const double most = inverseMasses > 0 ? stiffnessLimit(context, inverseMasses) : asked;
+    const double surplus = chosen > 0 ? 1 : surface.factor(i, j, batch.values[kRestLength][k]);
+    const double stiffness = surplus * std::min(asked, most);
+    const double ratio = stiffness * inverseMasses / 2 * context.dt * context.dt;
+    const bool carries = held && asked < most && needsCarrying(ratio, context.passes);
+    batch.values[kCarried][k] = carries && context.held[i] != 0 ? 1 : 0;
     batch.values[kCompliance][k] = 1 / std::max(static_cast<float>(stiffness), kLeastStiffness);
   }
 }
@@ -339,35 +340,6 @@ double BondModel::energy(const ConstraintContext&, const ParticleView& p, const 
     sum += 0.5 * stretch * stretch / double{batch.values[kCompliance][k]};
   }
   return sum;
-}
-
-void BondModel::limits(const ConstraintContext& context, const ParticleView& p, api::LimitSink& sink) const {
-  struct Used {
-    Range temperature;
-    double inverseMass = 0;  ///< of the lightest solid particle, 1/kg
-  };
-  std::vector<Used> used(context.materials.size);
-  for (size_t i = 0; i < p.count; ++i) {
-    if (p.motion[i] != Motion::Solid || p.body[i] != context.body || p.material[i] >= used.size()) continue;
-    used[p.material[i]].temperature.include(p.temperature[i]);
-    used[p.material[i]].inverseMass = std::max(used[p.material[i]].inverseMass, double{p.velocity[i].w});
-  }
-  if (isSet(context, kSolver)) return;  // the classic method promises no stiffness
-  const double chosen = context.parameters[kSpringStiffness];
-  for (size_t m = 0; m < used.size(); ++m) {
-    if (used[m].temperature.empty() || !(used[m].inverseMass > 0)) continue;
-    const double most = stiffnessLimit(context, 2 * used[m].inverseMass);
-    if (chosen > 0) {
-      if (chosen > most) sink.limit("bonds.spring_stiffness", chosen, most, "N/m");
-      continue;
-    }
-    const api::MaterialView& material = *context.materials[m];
-    const double asked = std::max(material.property("youngs_modulus", used[m].temperature.low),
-                                  material.property("youngs_modulus", used[m].temperature.high));
-    const double delivered = most / (stiffnessOfModulus(context) * context.spacing);
-    const std::string what = std::string(material.id()) + ".youngs_modulus";
-    if (asked > delivered) sink.limit(what.c_str(), asked, delivered, "Pa");
-  }
 }
 
 }  // namespace ps::constraint

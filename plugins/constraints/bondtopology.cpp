@@ -149,10 +149,16 @@ void BondModel::topology(const ConstraintContext& context, const ParticleView& p
   const Joining joining(context, p);
   joining.noteFluid();
   std::vector<uint8_t> gone(all.count, 0);
+  auto* ties = static_cast<uint8_t*>(p.fields->write(kTiesField, api::FieldType::UInt8));
+  std::fill(ties, ties + p.count, uint8_t{0});
   for (size_t k = 0; k < all.count; ++k) {
-    if (!letsGo(context, p, all.particles[2 * k], all.particles[2 * k + 1])) continue;
-    gone[k] = 1;
-    sink.remove(k);
+    const uint32_t i = all.particles[2 * k], j = all.particles[2 * k + 1];
+    if (letsGo(context, p, i, j)) {
+      gone[k] = 1;
+      sink.remove(k);
+      continue;
+    }
+    ++ties[i], ++ties[j];
   }
   const auto thesisRules = [](api::Span<const double> parameters) {
     return parameters.size > BondModel::kBondRule && parameters[BondModel::kBondRule] > 0.5;
@@ -172,6 +178,7 @@ void BondModel::topology(const ConstraintContext& context, const ParticleView& p
     if (byThesis(context, p, c.i) ? degree[c.i] >= kThesisMost : full(c.i) || full(c.j)) continue;
     addBond(p, c.i, c.j, {1, p.position[c.i].w + p.position[c.j].w, 0}, sink);
     ++degree[c.i], ++degree[c.j];
+    ++ties[c.i], ++ties[c.j];
   }
   for (const Candidate& c : candidates) {
     if (degree[c.i] > 0) joining.freshness(c.i) = 0;

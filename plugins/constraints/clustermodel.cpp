@@ -120,7 +120,7 @@ class Builder {
   }
   void find(api::GroupSink& sink) {
     if (m_body.empty()) return;
-    sortByCell();
+    sortByCell(sink);
     Vector low{1e30, 1e30, 1e30}, high{-1e30, -1e30, -1e30};
     for (const uint32_t i : m_body) {
       if (m_isNew[i] == 0) continue;
@@ -168,9 +168,24 @@ class Builder {
     const auto along = [&](double c) { return static_cast<int64_t>(std::floor(c / m_radius)); };
     return {along(x.x), along(x.y), along(x.z)};
   }
-  void sortByCell() {
+  /// In runs that are then merged, so that nobody who gives it up waits for all of it.
+  void sortByCell(api::GroupSink& sink) {
+    constexpr size_t kRun = size_t{1} << 16;
+    const auto at = [&](size_t k) {
+      return m_cells.begin() + static_cast<std::ptrdiff_t>(std::min(k, m_cells.size()));
+    };
+    m_cells.reserve(m_body.size());
     for (const uint32_t i : m_body) m_cells.push_back({cellOf(vectorOf(m_p.position[i])), i});
-    std::sort(m_cells.begin(), m_cells.end());
+    for (size_t k = 0; k < m_cells.size(); k += kRun) {
+      std::sort(at(k), at(k + kRun));
+      sink.advance(0);
+    }
+    for (size_t run = kRun; run < m_cells.size(); run *= 2) {
+      for (size_t k = 0; k < m_cells.size(); k += 2 * run) {
+        std::inplace_merge(at(k), at(k + run), at(k + 2 * run));
+        sink.advance(0);
+      }
+    }
   }
   void around(Vector centre) {
     std::vector<uint32_t> near;

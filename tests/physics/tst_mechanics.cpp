@@ -164,10 +164,11 @@ class TestMechanics : public QObject {
     QVERIFY2((motion.top + 0.01) / 0.2 > 0.97, qPrintable(QString::number(motion.top)));
     QVERIFY2(motion.fastest < 0.005, qPrintable(QString::number(motion.fastest)));
     const std::vector<ps::Limit> limits = solver.limits();
-    QCOMPARE(limits.size(), size_t{1});  // nine gigapascal are beyond any substep
+    QCOMPARE(limits.size(),
+             size_t{1});  // nine gigapascal are beyond any substep, and five megapascal beyond its passes
     QCOMPARE(limits[0].what, std::string("water.youngs_modulus"));
     QCOMPARE(limits[0].asked, 9e9);
-    QVERIFY(limits[0].delivered > 1e6 && limits[0].delivered < 1e8);
+    QVERIFY(limits[0].delivered > 1e5 && limits[0].delivered < 1e6);
   }
 
   void blocksDoNotPassEachOther() {

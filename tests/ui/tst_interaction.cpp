@@ -312,10 +312,13 @@ class TestInteraction : public SampleWindowTest {
     history[1].time = 0.1;
     history[1].phases[2].mass = 2.5;
     history[1].probes = {0.5};
-    const QByteArray csv = historyCsv(
-        history,
-        {{"a", "Ice, core", "temperature", "", "", {}, {}, {}, {}}, {"b", "n", "count", "", "", {}, {}, {}, {}}},
-        ParticleFields());
+    const auto probe = [](const char* id, const char* name, const char* quantity) {
+      Probe made;
+      made.id = id, made.name = name, made.quantity = quantity;
+      return made;
+    };
+    const QByteArray csv =
+        historyCsv(history, {probe("a", "Ice, core", "temperature"), probe("b", "n", "count")}, ParticleFields());
     QCOMPARE(csv, QByteArray("time_s,thermal_time_s,mean.temperature[K],solid.mass[kg],melting.mass[kg],"
                              "liquid.mass[kg],boiling.mass[kg],gas.mass[kg],\"Ice, core.temperature[K]\",n.count[1]\n"
                              "0,0,263.15,0,0,0,0,0,0.3333333333333333,\n"

@@ -302,6 +302,10 @@ void TestProjectIo::wrongValuesNameThePlace_data() {
   row("wave in a sum",
       "probes/0={\"id\": \"p\", \"quantity\": \"mass\", \"wave\": {\"axis\": \"x\", \"wavelength\": 1}}",
       "/probes/0/wave: needs a quantity that each particle has, as velocity_y; 'mass' is of all of them together");
+  row("force on nothing", "probes/0={\"id\": \"p\", \"quantity\": \"force_x\"}",
+      "/probes/0/quantity: 'force_x' needs a body or a wall on which it acts");
+  row("mass of a wall", "probes/0={\"id\": \"p\", \"quantity\": \"mass\", \"wall\": \"floor\"}",
+      "/probes/0/wall: is for force and torque alone; 'mass' is of matter");
   row("id taken", "environment/walls/1/id=floor", "/environment/walls/1/id: 'floor' is taken already");
   row("id with a slash", "bodies/0/id=a/b", "/bodies/0/id: must be a name of letters");
   row("two coordinates", "bodies/0/shape/box/center=[0, 1]", "/bodies/0/shape/box/center: must have 3 elements, not 2");

@@ -11,6 +11,8 @@ namespace {
 /// Ways in spacings: who goes farther in a substep is looked for beyond the pairs that contact knows; a pair that comes
 /// closer by more may pass through itself.
 constexpr double kFast = 0.2, kCrossing = 0.4;
+constexpr double kNever = 2;  ///< as a time
+constexpr api::Float4 kRound{0, 0, 0, 0};
 /// Passes over all impacts of a substep, for those that share a particle.
 constexpr int kPasses = 4;
 
@@ -23,8 +25,7 @@ void Impacts::configure(const SolverSettings& settings, const std::vector<Wall>&
   m_diameter = kContactDiameter * settings.spacing;
   m_gravity = vectorOf(settings.gravity);
   m_slowest = 2 * m_gravity.norm() * m_dt;
-  m_planes.clear();
-  for (const Wall& w : walls) m_planes.push_back(planeOf(w, 0.5 * settings.spacing));
+  findContactPlanes(walls, settings.spacing, m_planes);
   m_restitution.clear();
   for (const BakedMaterial& m : materials) m_restitution.push_back(m.scalar(propertyIndex("restitution")));
 }
@@ -63,8 +64,8 @@ void Impacts::collect(const ParticleStore& store, const SolidContact& contact, C
                       std::span<const uint8_t> rigid) {
   const StructureGraph& graph = constraints.graph(store.size());
   Impact impact;
-  contact.forPairs([&](uint32_t i, uint32_t j) {
-    if (test(store, graph, i, j, impact) && !impact.crosses) m_impacts.push_back(impact);
+  contact.forPairs([&](uint32_t i, uint32_t j, const api::Float4& face) {
+    if (test(store, graph, i, j, face, impact) && !impact.crosses) m_impacts.push_back(impact);
   });
   findWalls(store, rigid);
   if (!m_impacts.empty()) sortByTime(store);
@@ -120,9 +121,24 @@ void Impacts::findWalls(const ParticleStore& store, std::span<const uint8_t> rig
   }
 }
 
-/// Sweeps the spheres of i and j along their relative way.
+/// When two meet that go `way` past each other, as a share of it: spheres, or along a face's normal. Above 1: not on
+/// it.
+double Impacts::timeOf(const Vector3& line, const Vector3& way, const api::Float4& face) const {
+  if (face.w > 0) {
+    const Vector3 normal = vectorOf(face);
+    const double gap = line.dot(normal) - double{face.w}, closing = -way.dot(normal);
+    return closing > 0 ? std::max(0.0, gap / closing) : kNever;
+  }
+  const double along = line.dot(way), way2 = way.squaredNorm(), gap = line.squaredNorm() - m_diameter * m_diameter;
+  if (!(along < 0) || !(way2 > 0)) return kNever;
+  if (!(gap > 0)) return 0;
+  const double discriminant = along * along - way2 * gap;
+  return discriminant < 0 ? kNever : (-along - std::sqrt(discriminant)) / way2;
+}
+
+/// Sweeps i and j along their relative way; `face` as in SolidContact::forPairs().
 bool Impacts::test(const ParticleStore& store, const StructureGraph& graph, uint32_t i, uint32_t j,
-                   Impact& impact) const {
+                   const api::Float4& face, Impact& impact) const {
   const api::Float4 &vi = store.velocity()[i], &vj = store.velocity()[j];
   const Vector3 speed = vectorOf(vi) - vectorOf(vj), way = m_dt * speed;
   // Where they were: the predicted line, and the way back.
@@ -130,19 +146,17 @@ bool Impacts::test(const ParticleStore& store, const StructureGraph& graph, uint
   float x = static_cast<float>(at.x()), y = static_cast<float>(at.y()), z = static_cast<float>(at.z());
   store.period().shorten(x, y, z);
   const Vector3 line{x, y, z};
-  const double along = line.dot(way), way2 = way.squaredNorm(), gap = line.squaredNorm() - m_diameter * m_diameter;
-  if (!(along < 0) || !(way2 > 0)) return false;
-  double time = 0;
-  if (gap > 0) {
-    const double discriminant = along * along - way2 * gap;
-    if (discriminant < 0) return false;
-    time = (-along - std::sqrt(discriminant)) / way2;
-    if (time > 1) return false;
-  }
+  const double time = timeOf(line, way, face);
+  if (time > 1) return false;
   const Vector3 touch = line + time * way;
   const double length = touch.norm();
   if (!(length > 0)) return false;
   impact.normal = touch / length;
+  if (face.w > 0) {
+    impact.normal = vectorOf(face);
+    const Vector3 beside = touch - touch.dot(impact.normal) * impact.normal;
+    if (!(beside.norm() < kFaceWidth * m_spacing)) return false;
+  }
   impact.approach = speed.dot(impact.normal);
   if (vj.w == 0) impact.approach -= (1 - time) * m_dt * m_gravity.dot(impact.normal);
   if (!(impact.approach < -m_slowest)) return false;
@@ -184,10 +198,17 @@ void Impacts::findFast(const ParticleStore& store, const StructureGraph& graph, 
         uint32_t i = m_solids[k].particle, j = m_solids[other].particle;
         if (store.velocity()[i].w == 0) std::swap(i, j);
         if (store.velocity()[i].w == 0) continue;
-        if (test(store, graph, i, j, impact)) m_impacts.push_back(impact);
+        if (test(store, graph, i, j, kRound, impact)) m_impacts.push_back(impact);
       }
     });
   }
+}
+
+/// Impulse in kg m/s that a wall or a fixed particle gave.
+void Impacts::bookOutside(const ParticleStore& store, const Impact& k, const Vector3& impulse) {
+  m_externalImpulse.add(impulse);
+  const int slot = k.b == kNone ? m_reactions->ofWall(k.plane) : m_reactions->ofBody(store.body()[k.b]);
+  m_reactions->add(slot, vectorOf(store.position()[k.a]), -impulse);
 }
 
 void Impacts::bounce(ParticleStore& store) {
@@ -203,7 +224,7 @@ void Impacts::bounce(ParticleStore& store) {
       if (change < 0 && (pass > 0 || !k.loose)) continue;
       const Vector3 impulse = change / weights * k.normal;
       addTo(va, double{va.w} * impulse);
-      if (k.b == kNone || store.velocity()[k.b].w == 0) m_externalImpulse.add(impulse);
+      if (k.b == kNone || store.velocity()[k.b].w == 0) bookOutside(store, k, impulse);
       if (k.b != kNone) addTo(store.velocity()[k.b], -double{store.velocity()[k.b].w} * impulse);
     }
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "core/particles/cellgrid.h"
+#include "core/particles/reactions.h"
 #include "core/solver/contact/solidcontact.h"
 #include "core/solver/contact/wallplane.h"
 
@@ -16,19 +17,6 @@ namespace ps {
 /// substep, where that is not static.
 class Impacts {
  public:
-  void configure(const SolverSettings& settings, const std::vector<Wall>& walls,
-                 std::span<const BakedMaterial> materials);
-  /// When positions have been predicted: stops those that would pass through each other.
-  void sweep(ParticleStore& store, ConstraintSystem& constraints, std::span<const uint8_t> rigid);
-  /// When lists are fresh: finds all other impacts of the substep.
-  void collect(const ParticleStore& store, const SolidContact& contact, ConstraintSystem& constraints,
-               std::span<const uint8_t> rigid);
-  /// When velocities are known.
-  void bounce(ParticleStore& store);
-  /// What walls and fixed particles gave in bounce(), kg m/s.
-  ExternalImpulse& externalImpulse() { return m_externalImpulse; }
-
- private:
   static constexpr uint32_t kNone = ~0u;
   struct Impact {
     uint32_t a, b, plane;  ///< two particles, or one and a wall
@@ -39,6 +27,23 @@ class Impacts {
     bool crosses;  ///< fast enough to pass through
     bool loose;    ///< neither is tied to anything
   };
+  void configure(const SolverSettings& settings, const std::vector<Wall>& walls,
+                 std::span<const BakedMaterial> materials);
+  /// When positions have been predicted: stops those that would pass through each other.
+  void sweep(ParticleStore& store, ConstraintSystem& constraints, std::span<const uint8_t> rigid);
+  /// When lists are fresh: finds all other impacts of the substep.
+  void collect(const ParticleStore& store, const SolidContact& contact, ConstraintSystem& constraints,
+               std::span<const uint8_t> rigid);
+  /// Those of the substep, in order of time, when they have been collected.
+  std::span<Impact> found() { return m_impacts; }
+  /// When velocities are known.
+  void bounce(ParticleStore& store);
+  /// What walls and fixed particles gave in bounce(), kg m/s.
+  ExternalImpulse& externalImpulse() { return m_externalImpulse; }
+  /// Where walls and fixed particles are told what they get.
+  void tell(Reactions& reactions) { m_reactions = &reactions; }
+
+ private:
   struct Stop {
     uint32_t particle;
     Vector3 left;  ///< m/s, share of the velocity that it has not travelled at
@@ -52,10 +57,13 @@ class Impacts {
   bool isFast(const ParticleStore& store, uint32_t i) const;
   void findWalls(const ParticleStore& store, std::span<const uint8_t> rigid);
   void findFast(const ParticleStore& store, const StructureGraph& graph, std::span<const uint8_t> rigid);
-  bool test(const ParticleStore& store, const StructureGraph& graph, uint32_t i, uint32_t j, Impact& impact) const;
+  bool test(const ParticleStore& store, const StructureGraph& graph, uint32_t i, uint32_t j, const api::Float4& face,
+            Impact& impact) const;
+  double timeOf(const Vector3& line, const Vector3& way, const api::Float4& face) const;
   void sortByTime(const ParticleStore& store);
   void keepFirst(const ParticleStore& store);
   void stop(ParticleStore& store, uint32_t i);
+  void bookOutside(const ParticleStore& store, const Impact& impact, const Vector3& impulse);
 
   double m_dt = 0, m_diameter = 0, m_spacing = 0, m_slowest = 0;
   Vector3 m_gravity;
@@ -64,6 +72,7 @@ class Impacts {
   std::vector<Impact> m_impacts;
   std::vector<Stop> m_stops;
   ExternalImpulse m_externalImpulse;
+  Reactions* m_reactions = &Reactions::none();
   std::vector<Sought> m_solids;
   CellGrid m_grid;              ///< of m_solids
   std::vector<double> m_first;  ///< by particle: time of its first impact; 2: none

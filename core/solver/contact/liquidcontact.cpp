@@ -80,8 +80,8 @@ void LiquidContact::addSolidsOfLiquids(size_t particles) {
   }
 }
 
-/// m. `fromFixed` grows by what partners that do not move have moved, in kg m.
-api::Float4 LiquidContact::moveOf(const ParticleStore& store, const Contact& contact, Vector3& fromFixed) const {
+/// m. Books what partners that do not move have moved.
+api::Float4 LiquidContact::moveOf(const ParticleStore& store, const Contact& contact, size_t chunk) {
   const uint32_t i = contact.who;
   const float wi = store.velocity()[i].w;
   api::Float4 move{0, 0, 0, 0};
@@ -96,7 +96,11 @@ api::Float4 LiquidContact::moveOf(const ParticleStore& store, const Contact& con
     const float by =
         wi / (wi + wj) * static_cast<float>(m_options.relaxation) * (m_diameter - length) / (length * most);
     move.x += by * line.x, move.y += by * line.y, move.z += by * line.z;
-    if (wj == 0) fromFixed += double{store.mass()[i]} * Vector3{by * line.x, by * line.y, by * line.z};
+    if (wj > 0) continue;
+    const Vector3 moved = double{store.mass()[i]} * Vector3{by * line.x, by * line.y, by * line.z};
+    m_fromFixed.add(chunk, 1, moved);
+    m_reactions->add(chunk, m_reactions->ofBody(store.body()[j]), vectorOf(store.position()[j]),
+                     -m_reactions->perStep() * moved);
   }
   return move;
 }
@@ -117,12 +121,11 @@ void LiquidContact::project(ParticleStore& store) {
     }
     m_touching[contact.who] = static_cast<uint8_t>(std::min(255, touching));
   });
-  m_fromFixed.start(chunkCount(m_contacts.size(), grain::kNeighbours));
-  everywhere([&](size_t k) {
-    Vector3 fromFixed;
-    m_moves[k] = moveOf(store, m_contacts[k], fromFixed);
-    m_fromFixed.add(k / grain::kNeighbours, 1, fromFixed);
-  });
+  const size_t chunks = chunkCount(m_contacts.size(), grain::kNeighbours);
+  m_fromFixed.start(chunks);
+  m_reactions->start(chunks);
+  everywhere([&](size_t k) { m_moves[k] = moveOf(store, m_contacts[k], k / grain::kNeighbours); });
+  m_reactions->finish();
   everywhere([&](size_t k) {
     api::Float4& x = store.position()[m_contacts[k].who];
     x.x += m_moves[k].x, x.y += m_moves[k].y, x.z += m_moves[k].z;

@@ -2,6 +2,7 @@
 #pragma once
 #include "core/particles/impulse.h"
 #include "core/particles/neighbours.h"
+#include "core/particles/reactions.h"
 
 #include <span>
 #include <vector>
@@ -28,6 +29,8 @@ class LiquidContact {
   void project(ParticleStore& store);
   /// What fixed particles moved, kg m.
   ExternalImpulse& externalImpulse() { return m_externalImpulse; }
+  /// Where walls and fixed particles are told what they get.
+  void tell(Reactions& reactions) { m_reactions = &reactions; }
 
  private:
   struct Contact {
@@ -40,7 +43,7 @@ class LiquidContact {
   void findLiquids(const ParticleStore& store, const Neighbours& neighbours, std::span<const uint32_t> solids,
                    Chunk& chunk) const;
   void addSolidsOfLiquids(size_t particles);
-  api::Float4 moveOf(const ParticleStore& store, const Contact& contact, Vector3& fromFixed) const;
+  api::Float4 moveOf(const ParticleStore& store, const Contact& contact, size_t chunk);
 
   Options m_options;
   float m_diameter = 0, m_reach = 0;  ///< m
@@ -52,6 +55,7 @@ class LiquidContact {
   std::vector<api::Float4> m_moves;
   ChunkSum m_fromFixed;
   ExternalImpulse m_externalImpulse;
+  Reactions* m_reactions = &Reactions::none();
 };
 
 }  // namespace ps

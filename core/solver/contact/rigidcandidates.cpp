@@ -2,9 +2,6 @@
 // Which particles of rigid bodies may touch what, and how they face each other.
 #include "core/base/statestream.h"
 #include "core/solver/contact/rigidcontact.h"
-#include "core/solver/contact/solidcontact.h"
-
-#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
@@ -12,19 +9,10 @@
 namespace ps {
 namespace {
 
-/// Distances in spacings. Faces rest at one spacing; round contact as that of other solids.
-constexpr double kFaceDistance = 1, kRoundDistance = 0.95;
+/// In spacings, of round contact.
+constexpr double kRoundDistance = 0.95;
 /// How near to a wall the lists look for members: what turns, or is struck, is soon elsewhere.
 constexpr double kWallReach = 4;
-/// A face takes part as far beside a particle as half the diagonal of its lattice's squares reaches.
-constexpr double kFaceWidth = 0.75;
-constexpr double kOwnReach = 1.5;
-/// Neighbours of the same lattice within that reach: 18 inside, 13 in a face, 9 on an edge, 6 in a corner.
-constexpr uint32_t kFaceNeighbours = 11;
-/// How far from one plane the neighbours in a layer one particle thick may lie, in spacings.
-constexpr double kSheet = 0.3;
-/// Least cosine between a face's normal and the line of centres.
-constexpr double kFacing = 0.35;
 /// Numbers of a contact that go on into the next frame.
 constexpr size_t kCarried = 11;
 
@@ -33,16 +21,14 @@ constexpr size_t kCarried = 11;
 void RigidContact::configure(const SolverSettings& settings, const std::vector<Wall>& walls,
                              std::span<const BakedMaterial> materials) {
   m_spacing = settings.spacing;
+  m_surface.configure(settings.spacing);
   // Slower than what gravity gives in two substeps nothing bounces, or a body at rest would hop.
   m_dt = settings.dt / settings.substeps;
   m_gravity = vectorOf(settings.gravity);
   m_slowest = 2 * m_gravity.norm() * m_dt;
-  m_planes.clear();
+  findContactPlanes(walls, settings.spacing, m_planes);
   m_wallFriction.clear();
-  for (const Wall& w : walls) {
-    m_planes.push_back(planeOf(w, 0.5 * settings.spacing));
-    m_wallFriction.push_back(w.friction);
-  }
+  for (const Wall& w : walls) m_wallFriction.push_back(w.friction);
   m_materials.clear();
   for (const BakedMaterial& m : materials) {
     m_materials.push_back({m.scalar(propertyIndex("friction_static")), m.scalar(propertyIndex("friction_kinetic")),
@@ -150,10 +136,9 @@ void RigidContact::refreshContacts(const ParticleStore& store, const Neighbours&
                                    ConstraintSystem& constraints) {
   m_former.swap(m_contacts);
   m_contacts.clear();
-  m_own.clear();
-  m_ownBegin.assign(1, 0);
+  m_surface.clear(0);
   if (m_bodies.empty()) return m_former.clear();
-  m_ownOf.assign(store.size(), kNone);
+  m_surface.clear(store.size());
   for (Body& body : m_bodies) body.hasContacts = false;
   const StructureGraph& graph = constraints.graph(store.size());
   const api::NeighbourView view = neighbours.view();
@@ -166,17 +151,12 @@ void RigidContact::refreshContacts(const ParticleStore& store, const Neighbours&
     store.period().shorten(x, y, z);
     return Vector3(x, y, z).squaredNorm();
   };
+  const auto same = [&](uint32_t i, uint32_t j) {
+    return m_bodyOf[i] != kNone ? m_bodyOf[j] == m_bodyOf[i]
+                                : motion[i] == api::Motion::Static && motion[j] == api::Motion::Static;
+  };
   const auto needSurface = [&](uint32_t i) {
-    if (m_ownOf[i] != kNone) return;
-    m_ownOf[i] = static_cast<uint32_t>(m_ownBegin.size() - 1);
-    const double own = kOwnReach * m_spacing;
-    for (uint32_t q = view.begin[i]; q < view.last[i]; ++q) {
-      const uint32_t j = view.index[q];
-      const bool same = m_bodyOf[i] != kNone ? m_bodyOf[j] == m_bodyOf[i]
-                                             : motion[i] == api::Motion::Static && motion[j] == api::Motion::Static;
-      if (same && distance2(i, j) < own * own) m_own.push_back(j);
-    }
-    m_ownBegin.push_back(static_cast<uint32_t>(m_own.size()));
+    if (!m_surface.has(i)) m_surface.find(store, neighbours, m_surface.add(i), same);
   };
   for (uint32_t i = 0; i < store.size(); ++i) {
     if (m_isMember[i] == 0) continue;
@@ -206,58 +186,18 @@ void RigidContact::refreshContacts(const ParticleStore& store, const Neighbours&
   keepImpulses();
 }
 
-/// `outward` tells the sides of a sheet apart.
-RigidContact::Surface RigidContact::surfaceOf(const ParticleStore& store, uint32_t i, const Vector3& outward) const {
-  const std::span<const uint32_t> own(m_own.data() + m_ownBegin[m_ownOf[i]], m_own.data() + m_ownBegin[m_ownOf[i] + 1]);
-  const auto fromNeighbour = [&](uint32_t j) { return vectorOf(store.separation(i, j)); };
-  // A layer one particle thick: all neighbours lie in one plane.
-  Vector3 across;
-  for (const uint32_t j : own) {
-    const Vector3 normal = fromNeighbour(own[0]).cross(fromNeighbour(j));
-    if (normal.squaredNorm() > across.squaredNorm()) across = normal;
-  }
-  if (const double size = across.norm(); size > 0.5 * m_spacing * m_spacing) {
-    across /= across.dot(outward) < 0 ? -size : size;
-    const bool sheet = std::all_of(own.begin(), own.end(), [&](uint32_t j) {
-      return std::abs(fromNeighbour(j).dot(across)) < kSheet * m_spacing;
-    });
-    if (sheet) return {across, kFaceNeighbours};
-  }
-  Vector3 sum;
-  for (const uint32_t j : own) sum += fromNeighbour(j);
-  const double length = sum.norm();
-  // Inside a lattice the neighbours cancel: there is no face.
-  if (!(length > 0.5 * m_spacing)) return {};
-  return {sum / length, static_cast<uint32_t>(own.size())};
-}
-
 /// Normal and distance at rest of a contact of particles.
 void RigidContact::orient(const ParticleStore& store, Contact& c) const {
-  const Vector3 line = vectorOf(store.separation(c.a.particle, c.b.particle));
-  const double length = line.norm();
-  c.active = length > 0;
+  const uint32_t a = c.a.particle, b = c.b.particle;
+  const Vector3 line = vectorOf(store.separation(a, b));
+  c.active = line.squaredNorm() > 0;
   c.normal.setZero();
   if (!c.active) return;
-  const Surface a = surfaceOf(store, c.a.particle, -line), b = surfaceOf(store, c.b.particle, line);
-  // A face decides, the flatter one of two. Edges and corners of equal lattices that meet face to face lean evenly to
-  // both sides; else they are round.
-  Vector3 normal;
-  if (a.neighbours == b.neighbours)
-    normal = b.normal - a.normal;
-  else if (std::max(a.neighbours, b.neighbours) >= kFaceNeighbours)
-    normal = b.neighbours > a.neighbours ? b.normal : Vector3(-a.normal);
-  const double size = normal.norm();
-  if (size > 0.1) normal /= size;
-  const double along = line.dot(normal);
-  if (!(size > 0.1) || !(along > kFacing * length)) {
-    c.normal = line / length;
-    c.distance = kRoundDistance * m_spacing;
-    return;
-  }
-  const Vector3 beside = line - along * normal;
-  c.active = beside.squaredNorm() < kFaceWidth * kFaceWidth * m_spacing * m_spacing;
-  c.normal = normal;
-  c.distance = kFaceDistance * m_spacing;
+  const LatticeSurface::Facing facing =
+      m_surface.facing(m_surface.normalOf(store, a), m_surface.normalOf(store, b), line);
+  c.active = !facing.beside;
+  c.normal = facing.normal;
+  c.distance = (facing.face ? kFaceDistance : kRoundDistance) * m_spacing;
 }
 
 }  // namespace ps

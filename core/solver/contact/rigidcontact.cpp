@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/solver/contact/rigidcontact.h"
 
-#include <Eigen/Eigenvalues>
+#include "core/solver/contact/inertia.h"
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -24,24 +25,6 @@ constexpr double kRecalled = 0.2, kMostDrift = 1e-3, kCreep = 1e-4;
 /// walls are too narrow for ends up in the middle.
 constexpr double kDeepest = 0.5;
 constexpr int kInwardPasses = 8;
-
-/// Places are in single precision: below 1e-5 of their distance from the origin, squared, lies no inertia.
-constexpr double kRounding = 1e-10;
-/// Least share of the trace of the inertia that a moment must have: a row of particles has none about itself.
-constexpr double kLeastInertia = 1e-6;
-
-/// Inverse of a symmetric matrix, zero along axes whose eigenvalue is `least` at most.
-Matrix3 pseudoInverse(const Matrix3& matrix, double least) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(matrix);
-  Matrix3 inverse = Matrix3::Zero();
-  for (int k = 0; k < 3; ++k) {
-    const double moment = axes.eigenvalues()[k];
-    if (!(moment > least)) continue;
-    const Vector3 axis = axes.eigenvectors().col(k);
-    inverse += 1 / moment * axis * axis.transpose();
-  }
-  return inverse;
-}
 
 }  // namespace
 
@@ -66,20 +49,10 @@ void RigidContact::readCentre(const ParticleStore& store, Body& body) {
 
 /// Mass, centre and inertia of members at `points`.
 void RigidContact::readMasses(const ParticleStore& store, Body& body, const api::Float4* points) {
-  double mass = 0;
-  for (const uint32_t i : body.members) mass += double{store.mass()[i]};
-  body.inverseMass = 1 / mass;
-  body.centre = centreOf(store, body, points);
-  Matrix3 moments;  // sum of m r r^T; the inertia is its trace less itself
-  double farthest2 = 0;
-  for (const uint32_t i : body.members) {
-    const Vector3 at = vectorOf(points[i]), r = at - body.centre;
-    farthest2 = std::max(farthest2, at.squaredNorm());
-    moments += double{store.mass()[i]} * r * r.transpose();
-  }
-  const Matrix3 inertia = moments.trace() * Matrix3::Identity() - moments;
-  const double least = std::max(kRounding * mass * farthest2, kLeastInertia * inertia.trace());
-  body.inverseInertia = pseudoInverse(inertia, least);
+  const MassSpread spread = massSpread(store, body.members, points);
+  body.inverseMass = 1 / spread.mass;
+  body.centre = spread.centre;
+  body.inverseInertia = spread.inverseInertia;
 }
 
 /// Velocity and angular momentum of members at `points`, about their centre.
@@ -320,16 +293,30 @@ Vector3 RigidContact::pushed() const {
   return sum;
 }
 
-Vector3 RigidContact::hold(ParticleStore& store, std::span<const api::Float4> held) const {
+void RigidContact::tellPushed(const ParticleStore& store) const {
+  if (!m_reactions->any()) return;
+  for (const Contact& c : m_contacts) {
+    if (!isOutside(c) || c.push == 0) continue;
+    const Vector3 place = m_bodies[c.a.body].centre + c.a.arm;
+    m_reactions->add(slotOf(store, c), place, -m_reactions->perStep() * (c.push * c.normal + c.rub));
+  }
+}
+
+Vector3 RigidContact::hold(ParticleStore& store, std::span<const api::Float4> held,
+                           std::span<const uint32_t> heldBy) const {
   Vector3 moved;
   if (held.empty()) return moved;
   for (const Body& body : m_bodies) {
-    Vector3 back;
+    Vector3 back, place;
+    uint32_t by = 0;
     for (const uint32_t i : body.members) {
       const Vector3 way = vectorOf(held[i]);
-      if (way.squaredNorm() > back.squaredNorm()) back = way;
+      if (way.squaredNorm() > back.squaredNorm()) back = way, place = vectorOf(store.position()[i]), by = heldBy[i];
     }
-    if (back.squaredNorm() > 0) moved += shift(store, body, back);
+    if (!(back.squaredNorm() > 0)) continue;
+    const Vector3 given = shift(store, body, back);
+    moved += given;
+    m_reactions->add(m_reactions->ofBody(by), place, -m_reactions->perStep() * given);
   }
   return moved;
 }
@@ -360,14 +347,18 @@ Vector3 RigidContact::keepInside(ParticleStore& store) const {
     for (int pass = 0; pass < kInwardPasses; ++pass) {
       Vector3 way;
       walls = 0;
-      for (const Plane& plane : m_planes) {
-        const double depth = depthOf(plane, body, store.position());
+      uint32_t by = 0;
+      for (uint32_t w = 0; w < m_planes.size(); ++w) {
+        const double depth = depthOf(m_planes[w], body, store.position());
         if (!(depth > most)) continue;
-        way += (depth - most) * plane.normal;
+        way += (depth - most) * m_planes[w].normal;
+        by = w;
         ++walls;
       }
       if (walls == 0) break;
-      moved += shift(store, body, 1.0 / walls * way);
+      const Vector3 given = shift(store, body, 1.0 / walls * way);
+      moved += given;
+      m_reactions->add(m_reactions->ofWall(by), body.centre, -m_reactions->perStep() * given);
     }
     if (walls > 1) moved += takeBack(store, body);
   }

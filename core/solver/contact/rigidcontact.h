@@ -2,6 +2,8 @@
 #pragma once
 #include "core/matter/material.h"
 #include "core/particles/impulse.h"
+#include "core/particles/reactions.h"
+#include "core/solver/contact/latticesurface.h"
 #include "core/solver/contact/wallplane.h"
 #include "core/solver/structure/constraintsystem.h"
 
@@ -37,6 +39,18 @@ class RigidContact {
                  std::span<const BakedMaterial> materials);
   /// Which particles belong to a rigid body (1), by index: other contact leaves them alone.
   std::span<const uint8_t> members() const { return m_isMember; }
+  bool any() const { return !m_bodies.empty(); }
+  /// Which rigid body a particle belongs to, ~0 for none.
+  std::span<const uint32_t> bodyOf() const { return m_bodyOf; }
+  /// After begin(): visit(member, particle, normal towards the member, distance at rest in m, restitution) for what
+  /// bodies and particles of none that can move come near of each other, faster than gravity pulls in two substeps.
+  template <class Visit>
+  void forFree(Visit&& visit) const {
+    for (const Contact& c : m_contacts) {
+      if (c.active && c.b.inverseMass > 0 && c.approach < -m_slowest)
+        visit(c.a.particle, c.b.particle, c.normal, c.distance, c.restitution);
+    }
+  }
   /// After a new order or a new structure: who belongs to which body.
   void refreshBodies(const ParticleStore& store, const ConstraintSystem& constraints);
   /// After new lists or a new structure: which contacts may come about as long as the lists hold, by the positions that
@@ -56,7 +70,7 @@ class RigidContact {
   /// Moves each body back by the longest of its members' ways in `held` (SweptClamp): it stops at a layer of static
   /// particles that it would have crossed, however fast it is.
   /// Returns what it moved, kg m.
-  Vector3 hold(ParticleStore& store, std::span<const api::Float4> held) const;
+  Vector3 hold(ParticleStore& store, std::span<const api::Float4> held, std::span<const uint32_t> heldBy) const;
   /// Moves bodies back that walls could not hold: led bodies may press harder than any contact, and a wall gives way
   /// last. Returns what it moved, kg m.
   Vector3 keepInside(ParticleStore& store) const;
@@ -65,7 +79,11 @@ class RigidContact {
   /// What walls and fixed particles gave to bodies in this substep up to now: by contact in kg m, in bounce() in kg
   /// m/s.
   Vector3 pushed() const;
+  /// Tells walls and fixed bodies of what pushed() returns.
+  void tellPushed(const ParticleStore& store) const;
   ExternalImpulse& externalImpulse() { return m_externalImpulse; }
+  /// Where walls and fixed particles are told what they get.
+  void tell(Reactions& reactions) { m_reactions = &reactions; }
 
  private:
   static constexpr uint32_t kNone = ~0u;
@@ -144,11 +162,6 @@ class RigidContact {
     double gap;
     uint32_t bodyA, bodyB;
   };
-  /// Outward normal of a lattice at one of its particles; `neighbours` tells a face from an edge.
-  struct Surface {
-    Vector3 normal;
-    uint32_t neighbours = 0;
-  };
 
   static void place(ParticleStore& store, Body& body);
   static Vector3 shift(ParticleStore& store, const Body& body, const Vector3& way);
@@ -164,7 +177,6 @@ class RigidContact {
   void keepImpulses();
   template <class AContact, class Visit>
   static void eachNumber(AContact& contact, Visit&& visit);
-  Surface surfaceOf(const ParticleStore& store, uint32_t i, const Vector3& outward) const;
   void orient(const ParticleStore& store, Contact& contact) const;
   void remember(Contact& contact) const;
   static double slideOf(const Contact& contact, const Vector3& speed);
@@ -197,7 +209,11 @@ class RigidContact {
 
   static bool isOutside(const Contact& contact) { return contact.b.body == kNone && !(contact.b.inverseMass > 0); }
 
+  int slotOf(const ParticleStore& store, const Contact& contact) const;
+  void bookOutside(const ParticleStore& store, const Contact& contact, const Vector3& impulse);
+
   ExternalImpulse m_externalImpulse;
+  Reactions* m_reactions = &Reactions::none();
   bool m_resume = false;  ///< the substep's first pass is to come
   double m_spacing = 0, m_dt = 0, m_slowest = 0;
   Vector3 m_gravity;
@@ -210,9 +226,9 @@ class RigidContact {
   std::vector<uint8_t> m_isMember;
   std::vector<uint32_t> m_bodyOf;
   std::vector<Body> m_bodies;
-  std::vector<Contact> m_contacts, m_former;         ///< former: by key
-  std::vector<Open> m_open;                          ///< in the same order
-  std::vector<uint32_t> m_ownBegin, m_own, m_ownOf;  ///< same-body neighbours of those that touch others
+  std::vector<Contact> m_contacts, m_former;  ///< former: by key
+  std::vector<Open> m_open;                   ///< in the same order
+  LatticeSurface m_surface;                   ///< of those that may touch others
 };
 
 }  // namespace ps

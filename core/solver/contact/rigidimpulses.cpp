@@ -41,6 +41,16 @@ Vector3 RigidContact::velocityBefore(const Side& side) const {
   return body.before.velocity + (body.inverseInertia * body.before.angular).cross(side.arm);
 }
 
+int RigidContact::slotOf(const ParticleStore& store, const Contact& c) const {
+  return c.plane != kNone ? m_reactions->ofWall(c.plane) : m_reactions->ofBody(store.body()[c.b.particle]);
+}
+
+/// Impulse in kg m/s that a wall or a fixed particle gave to a.
+void RigidContact::bookOutside(const ParticleStore& store, const Contact& c, const Vector3& impulse) {
+  m_externalImpulse.add(impulse);
+  m_reactions->add(slotOf(store, c), m_bodies[c.a.body].centre + c.a.arm, -impulse);
+}
+
 /// Impulse in kg m/s.
 void RigidContact::give(ParticleStore& store, const Side& side, const Vector3& impulse) {
   if (side.body != kNone) {
@@ -237,7 +247,7 @@ void RigidContact::strike(ParticleStore& store) {
   for (const Contact& c : m_contacts) {
     if (!c.takesPart) continue;
     const Vector3 impulse = c.impulse * c.normal + c.friction;
-    if (isOutside(c)) m_externalImpulse.add(impulse);
+    if (isOutside(c)) bookOutside(store, c, impulse);
     // Until they met they went on as before.
     const double time = m_bodies[m_bodies[c.a.body].island].time * m_dt;
     m_bodies[c.a.body].late -= time * impulse;
@@ -310,7 +320,7 @@ void RigidContact::bounce(ParticleStore& store) {
     c.slides = slideOf(c, velocityOf(store, c)) > kSlides * m_slowest;
     if (!isOutside(c)) continue;
     const Vector3 booked = 1 / m_dt * (c.push * c.normal + c.rub);
-    m_externalImpulse.add(c.impulse * c.normal + c.friction - booked);
+    bookOutside(store, c, c.impulse * c.normal + c.friction - booked);
   }
   for (const Body& body : m_bodies) {
     if (!body.hasContacts || !body.touched) continue;

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/solver/contact/solidcontact.h"
 
-#include "core/base/parallel.h"
-
 #include <algorithm>
 #include <cmath>
 
 namespace ps {
 namespace {
-/// Contacts of one particle usually lean apart, so half of them may act at full strength.
+/// Round contacts of one particle usually lean apart, so half of them may act at full strength. Those of a face lie
+/// side by side.
 constexpr int kRelaxation = 2;
 /// A lattice that is struck hard folds into itself: where it is squeezed along every axis to this share of its spacing,
 /// or to less along some, its structure may no longer keep others away.
 constexpr double kCrowded = 0.9;
+constexpr float kRound = -1;  ///< in place of a face's distance: none is looked for
 
 /// Points of a cubic lattice around one of them, up to a distance in spacings.
 uint32_t latticeNeighbours(double distance) {
@@ -26,11 +26,26 @@ uint32_t latticeNeighbours(double distance) {
   return count - 1;
 }
 
+/// Whether j belongs to the same lattice as i: tied to it, or, in a lattice of axial ties, to what that is tied to.
+bool sameLattice(const StructureGraph& graph, uint32_t i, uint32_t j) {
+  constexpr size_t kAxialTies = 6;
+  if (graph.tied(i, j)) return true;
+  const size_t ties = graph.ties(i);
+  if (ties == 0 || ties > kAxialTies || graph.groupBegin[i + 1] != graph.groupBegin[i]) return false;
+  for (uint32_t k = graph.begin[i]; k < graph.begin[i + 1]; ++k) {
+    if (graph.partner[k] != j && graph.tied(graph.partner[k], j)) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 void SolidContact::configure(const SolverSettings& settings, std::span<const BakedMaterial> materials) {
-  m_diameter = kContactDiameter * settings.spacing;
-  m_reach = m_diameter + kSkinSpacings * settings.spacing;
+  m_spacing = settings.spacing;
+  m_diameter = kContactDiameter * m_spacing;
+  m_reach = m_diameter + kSkinSpacings * m_spacing;
+  m_faceReach = std::hypot(kFaceDistance, kFaceWidth) * m_spacing + kSkinSpacings * m_spacing;
+  m_surface.configure(m_spacing);
   m_crowded = latticeNeighbours((settings.supportRatio + kSkinSpacings) / kCrowded);
   m_friction.clear();
   for (const BakedMaterial& m : materials) {
@@ -40,7 +55,7 @@ void SolidContact::configure(const SolverSettings& settings, std::span<const Bak
 }
 
 void SolidContact::refresh(const ParticleStore& store, const Neighbours& neighbours, ConstraintSystem& constraints,
-                           std::span<const uint8_t> rigid) {
+                           std::span<const uint32_t> pieceOf, std::span<const uint8_t> rigid) {
   m_any = false;
   m_squeezedShare = 0;
   m_solids.clear();
@@ -49,14 +64,41 @@ void SolidContact::refresh(const ParticleStore& store, const Neighbours& neighbo
     if (motion[i] == api::Motion::Solid) m_solids.push_back(i);
   }
   if (m_solids.empty()) return;
-  const std::span<const api::Float4> at = neighbours.built();
   const StructureGraph& graph = constraints.graph(store.size());
+  findPairs(store, neighbours, graph, pieceOf, rigid);
+  addMirrored(chunkCount(m_solids.size(), grain::kNeighbours));
+  findSurfaces(store, neighbours, graph);
+  size_t squeezed = 0;
+  for (Chunk& chunk : m_chunks) {
+    m_any = m_any || !chunk.who.empty();
+    squeezed += chunk.squeezed;
+    chunk.facing.assign(chunk.other.size(), {0, 0, 0, 0});
+    for (size_t k = 0; k < chunk.who.size(); ++k) {
+      const uint32_t piece = pieceOf[chunk.who[k]];
+      for (uint32_t q = chunk.begin[k]; q < chunk.begin[k + 1]; ++q) {
+        if (piece != ConstraintSystem::kNoPiece && piece == pieceOf[chunk.other[q]]) chunk.facing[q].w = kRound;
+      }
+    }
+  }
+  m_loose.resize(store.size());
+  for (uint32_t i = 0; i < store.size(); ++i) m_loose[i] = graph.isFree(i) ? 1 : 0;
+  m_couple.assign(store.size(), {0, 0, 0, 0});
+  m_squeezedShare = static_cast<double>(squeezed) / static_cast<double>(m_solids.size());
+  m_contacts.assign(store.size() + 1, 1);
+}
+
+/// What each open particle may touch, by chunks of m_solids.
+void SolidContact::findPairs(const ParticleStore& store, const Neighbours& neighbours, const StructureGraph& graph,
+                             std::span<const uint32_t> pieceOf, std::span<const uint8_t> rigid) {
+  const api::Motion* motion = store.motion();
+  const std::span<const api::Float4> at = neighbours.built();
   const api::NeighbourView view = neighbours.view();
-  const float reach2 = static_cast<float>(m_reach * m_reach);
-  const size_t chunks = chunkCount(m_solids.size(), grain::kNeighbours);
-  m_chunks.resize(std::max(m_chunks.size(), chunks + 1));
+  const float roundReach2 = static_cast<float>(m_reach * m_reach),
+              faceReach2 = static_cast<float>(m_faceReach * m_faceReach);
+  m_chunks.resize(std::max(m_chunks.size(), chunkCount(m_solids.size(), grain::kNeighbours) + 1));
   for (Chunk& chunk : m_chunks) {
     chunk.who.clear();
+    chunk.other.clear();
     chunk.mirrored.clear();
     chunk.squeezed = 0;
   }
@@ -75,7 +117,10 @@ void SolidContact::refresh(const ParticleStore& store, const Neighbours& neighbo
         if (!api::holds(motion[j]) || rigid[j] != 0) continue;
         float x = at[i].x - at[j].x, y = at[i].y - at[j].y, z = at[i].z - at[j].z;
         store.period().shorten(x, y, z);
-        if (!(x * x + y * y + z * z < reach2) || graph.tied(i, j)) continue;
+        const float distance2 = x * x + y * y + z * z;
+        const bool lattices = (motion[j] == api::Motion::Static || !graph.isFree(i) || !graph.isFree(j)) &&
+                              (pieceOf[i] != pieceOf[j] || pieceOf[i] == ConstraintSystem::kNoPiece);
+        if (!(distance2 < (lattices ? faceReach2 : roundReach2)) || graph.tied(i, j)) continue;
         chunk.other.push_back(j);
         if (motion[j] == api::Motion::Solid && store.velocity()[j].w > 0 && isShut(j)) chunk.mirrored.push_back({j, i});
       }
@@ -86,14 +131,6 @@ void SolidContact::refresh(const ParticleStore& store, const Neighbours& neighbo
     }
     chunk.correction.resize(chunk.who.size());
   });
-  addMirrored(chunks);
-  size_t squeezed = 0;
-  for (const Chunk& chunk : m_chunks) {
-    m_any = m_any || !chunk.who.empty();
-    squeezed += chunk.squeezed;
-  }
-  m_squeezedShare = static_cast<double>(squeezed) / static_cast<double>(m_solids.size());
-  m_contacts.assign(store.size() + 1, 1);
 }
 
 /// What an open particle meets inside of a lattice feels it too: each of a pair moves its own share.
@@ -115,32 +152,86 @@ void SolidContact::addMirrored(size_t chunks) {
   last.correction.resize(last.who.size());
 }
 
-size_t SolidContact::touching(const ParticleStore& store, const Chunk& chunk, size_t k) const {
-  const float diameter2 = static_cast<float>(m_diameter * m_diameter);
-  size_t count = 0;
-  for (uint32_t q = chunk.begin[k]; q < chunk.begin[k + 1]; ++q) {
-    const api::Float4 d = store.separation(chunk.who[k], chunk.other[q]);
-    count += d.x * d.x + d.y * d.y + d.z * d.z < diameter2 ? 1 : 0;
+/// What belongs to no lattice is round.
+void SolidContact::findSurfaces(const ParticleStore& store, const Neighbours& neighbours, const StructureGraph& graph) {
+  m_surface.clear(store.size());
+  const auto isStatic = [&](uint32_t i) { return store.motion()[i] == api::Motion::Static; };
+  for (const Chunk& chunk : m_chunks) {
+    for (const std::vector<uint32_t>* of : {&chunk.who, &chunk.other}) {
+      for (const uint32_t i : *of) {
+        if (!graph.isFree(i) || isStatic(i)) m_surface.add(i);
+      }
+    }
   }
+  forChunks(m_surface.size(), grain::kNeighbours, [&](size_t first, size_t last) {
+    for (size_t slot = first; slot < last; ++slot) {
+      m_surface.find(store, neighbours, static_cast<uint32_t>(slot),
+                     [&](uint32_t i, uint32_t j) { return (isStatic(i) && isStatic(j)) || sameLattice(graph, i, j); });
+    }
+  });
+  m_normals.resize(m_surface.size());
+}
+
+void SolidContact::begin(const ParticleStore& store) {
+  if (!m_any) return;
+  everywhere([&](Chunk& chunk, size_t k) { m_couple[chunk.who[k]] = {0, 0, 0, 0}; });
+  if (m_surface.size() == 0) return;
+  forChunks(m_surface.size(), grain::kNeighbours, [&](size_t first, size_t last) {
+    for (size_t slot = first; slot < last; ++slot) m_normals[slot] = m_surface.normalOf(store, m_surface.whoIs(slot));
+  });
+  const auto normalOf = [&](uint32_t i) {
+    return m_surface.has(i) ? m_normals[m_surface.slotOf(i)] : LatticeSurface::Normal{};
+  };
+  everywhere([&](Chunk& chunk, size_t k) {
+    const LatticeSurface::Normal own = normalOf(chunk.who[k]);
+    for (uint32_t q = chunk.begin[k]; q < chunk.begin[k + 1]; ++q) {
+      const LatticeSurface::Normal other = normalOf(chunk.other[q]);
+      if (chunk.facing[q].w == kRound) continue;
+      chunk.facing[q] = {0, 0, 0, 0};
+      const Vector3 line = vectorOf(store.separation(chunk.who[k], chunk.other[q]));
+      if (own.neighbours + other.neighbours == 0 || !(line.squaredNorm() > 0)) continue;
+      const LatticeSurface::Facing facing = m_surface.facing(own, other, line);
+      if (facing.face) chunk.facing[q] = float4Of(facing.normal, static_cast<float>(kFaceDistance * m_spacing));
+    }
+  });
+}
+
+SolidContact::Touch SolidContact::touchOf(const ParticleStore& store, const Chunk& chunk, size_t k, size_t q) const {
+  const api::Float4 line = store.separation(chunk.who[k], chunk.other[q]), face = chunk.facing[q];
+  const float square = line.x * line.x + line.y * line.y + line.z * line.z;
+  if (face.w > 0) {
+    const float along = line.x * face.x + line.y * face.y + line.z * face.z, depth = face.w - along;
+    const float width = static_cast<float>(kFaceWidth * m_spacing);
+    // What a face does not reach any more has left it, or is under it.
+    const bool beside = square - along * along > width * width;
+    return {face.x, face.y, face.z, beside ? 0 : std::max(0.0f, depth), true};
+  }
+  const float diameter = static_cast<float>(m_diameter);
+  if (!(square < diameter * diameter) || !(square > 0)) return {0, 0, 0, 0, false};
+  const float distance = std::sqrt(square);
+  return {line.x / distance, line.y / distance, line.z / distance, diameter - distance, false};
+}
+
+size_t SolidContact::touching(const ParticleStore& store, const Chunk& chunk, size_t k) const {
+  size_t count = 0;
+  for (uint32_t q = chunk.begin[k]; q < chunk.begin[k + 1]; ++q) count += touchOf(store, chunk, k, q).depth > 0 ? 1 : 0;
   return count;
 }
 
-api::Float4 SolidContact::correctionOf(const ParticleStore& store, Chunk& chunk, size_t k) const {
+api::Float4 SolidContact::correctionOf(const ParticleStore& store, Chunk& chunk, size_t k) {
   const uint32_t i = chunk.who[k];
   const api::Float4 *position = store.position(), *previous = store.previous(), *velocity = store.velocity();
   const api::Float4 a = position[i], aFrom = previous[i];
-  const float diameter = static_cast<float>(m_diameter);
   const auto frictionOf = [&](uint32_t p) {
     return store.material()[p] < m_friction.size() ? m_friction[store.material()[p]] : Friction{0, 0};
   };
   api::Float4 sum{0, 0, 0, 0};
+  api::Float4& turn = m_couple[i];
   for (uint32_t q = chunk.begin[k]; q < chunk.begin[k + 1]; ++q) {
     const uint32_t j = chunk.other[q];
     const api::Float4 b = position[j], bFrom = previous[j];
-    auto [nx, ny, nz, unused] = store.separation(i, j);
-    const float distance = std::sqrt(nx * nx + ny * ny + nz * nz), depth = diameter - distance;
-    if (!(depth > 0) || !(distance > 0)) continue;
-    nx /= distance, ny /= distance, nz /= distance;
+    const auto [nx, ny, nz, depth, face] = touchOf(store, chunk, k, q);
+    if (!(depth > 0)) continue;
     // Tangential way of the pair since the start of the substep, held back up to friction times depth.
     float tx = (a.x - aFrom.x) - (b.x - bFrom.x), ty = (a.y - aFrom.y) - (b.y - bFrom.y),
           tz = (a.z - aFrom.z) - (b.z - bFrom.z);
@@ -151,29 +242,35 @@ api::Float4 SolidContact::correctionOf(const ParticleStore& store, Chunk& chunk,
     const float staticFriction = 0.5f * (fi.staticFriction + fj.staticFriction) * depth,
                 kineticFriction = 0.5f * (fi.kineticFriction + fj.kineticFriction) * depth;
     const float hold = way > staticFriction ? std::min(1.0f, kineticFriction / way) : 1;
-    const float share = velocity[i].w / (velocity[i].w + velocity[j].w) * kRelaxation /
-                        static_cast<float>(std::max({m_contacts[i], m_contacts[j], uint8_t{kRelaxation}}));
+    const int relaxation = face ? 1 : kRelaxation, contacts = std::max({m_contacts[i], m_contacts[j], uint8_t{1}});
+    const float share = velocity[i].w / (velocity[i].w + velocity[j].w) * static_cast<float>(relaxation) /
+                        static_cast<float>(std::max(contacts, relaxation));
     const float x = share * (depth * nx - hold * tx), y = share * (depth * ny - hold * ty),
                 z = share * (depth * nz - hold * tz);
     sum.x += x, sum.y += y, sum.z += z;
-    if (velocity[j].w == 0) chunk.fromFixed += double{store.mass()[i]} * Vector3{x, y, z};
+    if (velocity[j].w > 0 && m_loose[i] == 0) {  // acts between the two, not at i
+      const api::Float4 line = store.separation(i, j);
+      const float mass = (m_loose[j] != 0 ? -1.0f : -0.5f) * store.mass()[i];
+      turn.x += mass * (line.y * z - line.z * y), turn.y += mass * (line.z * x - line.x * z),
+          turn.z += mass * (line.x * y - line.y * x);
+    }
+    if (velocity[j].w > 0) continue;
+    const Vector3 moved = double{store.mass()[i]} * Vector3{x, y, z};
+    chunk.fromFixed += moved;
+    m_reactions->add(static_cast<size_t>(&chunk - m_chunks.data()), m_reactions->ofBody(store.body()[j]), vectorOf(a),
+                     -m_reactions->perStep() * moved);
   }
   return sum;
 }
 
 void SolidContact::project(ParticleStore& store) {
   if (!m_any) return;
-  const auto everywhere = [&](auto&& body) {
-    forChunks(m_chunks.size(), 1, [&](size_t first, size_t last) {
-      for (size_t c = first; c < last; ++c) {
-        for (size_t k = 0; k < m_chunks[c].who.size(); ++k) body(m_chunks[c], k);
-      }
-    });
-  };
   everywhere([&](Chunk& chunk, size_t k) {
     m_contacts[chunk.who[k]] = static_cast<uint8_t>(std::min<size_t>(255, touching(store, chunk, k)));
   });
+  m_reactions->start(m_chunks.size());
   everywhere([&](Chunk& chunk, size_t k) { chunk.correction[k] = correctionOf(store, chunk, k); });
+  m_reactions->finish();
   everywhere([&](Chunk& chunk, size_t k) {
     api::Float4& x = store.position()[chunk.who[k]];
     x.x += chunk.correction[k].x, x.y += chunk.correction[k].y, x.z += chunk.correction[k].z;

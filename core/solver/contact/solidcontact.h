@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "core/base/parallel.h"
 #include "core/matter/material.h"
 #include "core/particles/impulse.h"
+#include "core/particles/reactions.h"
+#include "core/solver/contact/latticesurface.h"
 #include "core/solver/structure/constraintsystem.h"
 
 #include <utility>
+#include <vector>
 
 namespace ps {
 
@@ -12,31 +16,44 @@ namespace ps {
 /// at rest are left alone.
 inline constexpr double kContactDiameter = 0.955;
 
-/// Contact of solid particles that no constraint ties together, with each other and with static ones: spheres,
-/// mass-weighted, averaged over a particle's contacts. Friction acts on the way of the substep (Macklin et al. 2014,
+/// Contact of solid particles that no constraint ties together, with each other and with static ones: mass-weighted,
+/// averaged over a particle's contacts. Where a face of a lattice takes part they meet along its normal, as in
+/// RigidContact, so that lattices do not interlock; all else, grains, ropes and edges, as spheres, which is bumpy: a
+/// box tips as if its base were one spacing narrower. Friction acts on the way of the substep (Macklin et al. 2014,
 /// eq. 24): all of it is taken back within the static cone, else as much as the kinetic one allows; a pair has the mean
-/// of its materials' coefficients, as RigidContact. Sphere contact is bumpy: a box tips as if its base were one spacing
-/// narrower.
+/// of its materials' coefficients, as RigidContact. It cannot do: a smooth surface where a lattice's layers are steps,
+/// on a slope that is not one of its planes.
 class SolidContact {
  public:
   void configure(const SolverSettings& settings, std::span<const BakedMaterial> materials);
   /// Finds the pairs that may touch as long as the lists hold, after new lists or a new structure, by the positions
-  /// that the lists were made for. Members of rigid bodies (1 in `rigid`) are left to RigidContact.
+  /// that the lists were made for. `pieceOf` as ConstraintSystem::pieces() has it: within a piece all are round.
+  /// Members of rigid bodies (1 in `rigid`) are left to RigidContact.
   void refresh(const ParticleStore& store, const Neighbours& neighbours, ConstraintSystem& constraints,
-               std::span<const uint8_t> rigid);
+               std::span<const uint32_t> pieceOf, std::span<const uint8_t> rigid);
+  /// Once per substep, when positions have been predicted: finds along what the pairs meet.
+  void begin(const ParticleStore& store);
   void project(ParticleStore& store);
   /// Share of the solids inside a lattice that is squeezed so far that its own, untied particles meet, when the lists
   /// were made: by a third at least.
   double squeezedShare() const { return m_squeezedShare; }
+  /// By particle, kg m2: what pushes in this substep, acting half way between two solids (where one of them is tied to
+  /// nothing, at that one), would have turned its piece more than they did, acting at its centre. Empty where nothing
+  /// may touch.
+  std::span<const api::Float4> couple() const { return m_any ? m_couple : std::span<const api::Float4>(); }
   /// What fixed particles moved, kg m.
   ExternalImpulse& externalImpulse() { return m_externalImpulse; }
-  /// visit(i, j) for every pair that may touch, i a solid; pairs of two solids may come from both sides.
+  /// Where walls and fixed particles are told what they get.
+  void tell(Reactions& reactions) { m_reactions = &reactions; }
+  /// visit(i, j, normal) for every pair that may touch, i a solid; pairs of two solids may come from both sides. The
+  /// normal from j to i is that of a face, its w the distance in m at which the two rest; 0 for round ones.
   template <class Visit>
   void forPairs(Visit&& visit) const {
     if (!m_any) return;
     for (const Chunk& chunk : m_chunks) {
       for (size_t k = 0; k < chunk.who.size(); ++k) {
-        for (uint32_t q = chunk.begin[k]; q < chunk.begin[k + 1]; ++q) visit(chunk.who[k], chunk.other[q]);
+        for (uint32_t q = chunk.begin[k]; q < chunk.begin[k + 1]; ++q)
+          visit(chunk.who[k], chunk.other[q], chunk.facing[q]);
       }
     }
   }
@@ -51,22 +68,46 @@ class SolidContact {
   struct Chunk {
     std::vector<uint32_t> who, begin, other;
     std::vector<api::Float4> correction;
+    std::vector<api::Float4> facing;                      ///< by pair: a face's normal, w its distance in m or 0
     std::vector<std::pair<uint32_t, uint32_t>> mirrored;  ///< pairs whose first is not looked at by itself
     Vector3 fromFixed;                                    ///< kg m
     size_t squeezed = 0;                                  ///< of a lattice, and yet within reach of others
   };
-  api::Float4 correctionOf(const ParticleStore& store, Chunk& chunk, size_t k) const;
+  /// A pair that overlaps.
+  struct Touch {
+    float x, y, z;  ///< unit normal
+    float depth;    ///< m, or 0: apart
+    bool face;
+  };
+  Touch touchOf(const ParticleStore& store, const Chunk& chunk, size_t k, size_t q) const;
+  api::Float4 correctionOf(const ParticleStore& store, Chunk& chunk, size_t k);
+  void findPairs(const ParticleStore& store, const Neighbours& neighbours, const StructureGraph& graph,
+                 std::span<const uint32_t> pieceOf, std::span<const uint8_t> rigid);
   void addMirrored(size_t chunks);
+  void findSurfaces(const ParticleStore& store, const Neighbours& neighbours, const StructureGraph& graph);
+  template <class Body>
+  void everywhere(const Body& body) {
+    forChunks(m_chunks.size(), 1, [&](size_t first, size_t last) {
+      for (size_t c = first; c < last; ++c) {
+        for (size_t k = 0; k < m_chunks[c].who.size(); ++k) body(m_chunks[c], k);
+      }
+    });
+  }
   size_t touching(const ParticleStore& store, const Chunk& chunk, size_t k) const;
 
-  double m_diameter = 0, m_reach = 0;
+  double m_spacing = 0, m_diameter = 0, m_reach = 0, m_faceReach = 0;  ///< m
   uint32_t m_crowded = 0;  ///< neighbours that a particle has when its lattice is squeezed
   double m_squeezedShare = 0;
   std::vector<Friction> m_friction;  ///< per material
   std::vector<Chunk> m_chunks;
   ExternalImpulse m_externalImpulse;
+  Reactions* m_reactions = &Reactions::none();
   std::vector<uint32_t> m_solids;
   std::vector<uint8_t> m_contacts;
+  std::vector<uint8_t> m_loose;  ///< 1: tied to nothing
+  std::vector<api::Float4> m_couple;
+  LatticeSurface m_surface;                       ///< of those that may touch and belong to a lattice
+  std::vector<LatticeSurface::Normal> m_normals;  ///< by its slots
   bool m_any = false;
 };
 

@@ -35,7 +35,7 @@ void SweptClamp::refresh(const ParticleStore& store, bool led) {
     if (store.motion()[i] != api::Motion::Static) continue;
     const api::Double3 p = store.wrappedPosition(i);
     m_static.push_back(i);
-    m_unsorted.push_back({vectorOf(p), Vector3::Zero()});
+    m_unsorted.push_back({vectorOf(p), Vector3::Zero(), store.body()[i]});
     if (vectorOf(store.velocity()[i]).squaredNorm() > 0) m_longest = 1;
   }
   if (!m_unsorted.empty()) sortIntoCells();
@@ -82,7 +82,7 @@ void SweptClamp::test(const Sweep& sweep, const Obstacle& obstacle, Hit& hit) co
     if (discriminant < 0) return;
     time = (-approach - std::sqrt(discriminant)) / way2;
   }
-  if (time < hit.time) hit = {time, center + time * theirs, obstacle.way};
+  if (time < hit.time) hit = {time, center + time * theirs, obstacle.way, obstacle.body};
 }
 
 /// Replaces `hit` by an earlier one.
@@ -157,12 +157,14 @@ SweptClamp::Hit SweptClamp::firstHit(const Sweep& sweep) const {
   return {};
 }
 
-Vector3 SweptClamp::sweepOf(Sweep sweep) const {
+/// Where the way ends, and the body that was met last.
+Vector3 SweptClamp::sweepOf(Sweep sweep, uint32_t& body) const {
   Vector3 carrier;
   for (int bounce = 0; bounce <= kBounces; ++bounce) {
     const Hit hit = firstHit(sweep);
     carrier = hit.way;
     if (hit.time > 1) return sweep.from + sweep.way;
+    body = hit.body;
     sweep.from += hit.time * sweep.way;
     Vector3 normal = sweep.from - hit.center;
     const double length = normal.norm();
@@ -186,25 +188,31 @@ void SweptClamp::apply(ParticleStore& store, const Neighbours& neighbours, const
     m_longest = 1e-30;
     for (size_t k = 0; k < m_static.size(); ++k) {
       const Vector3 from = vectorOf(store.previous()[m_static[k]]);
-      m_unsorted[k] = {vectorOf(m_period.wrapped(double3Of(from))), vectorOf(store.position()[m_static[k]]) - from};
+      m_unsorted[k].center = vectorOf(m_period.wrapped(double3Of(from)));
+      m_unsorted[k].way = vectorOf(store.position()[m_static[k]]) - from;
       m_longest = std::max(m_longest, m_unsorted[k].way.norm());
     }
     sortIntoCells();
   }
   m_held.resize(store.size(), {0, 0, 0, 0});
+  m_heldBy.resize(store.size());
   api::Float4* position = store.position();
   m_moved.start(chunkCount(store.size(), grain::kParticles));
+  m_reactions->start(chunkCount(store.size(), grain::kParticles));
   forChunks(store.size(), grain::kParticles, [&](size_t first, size_t last) {
     for (size_t i = first; i < last; ++i) {
       if (store.velocity()[i].w == 0 || maySkip(store, neighbours, i)) continue;
       const Vector3 from = vectorOf(store.previous()[i]), to = vectorOf(position[i]);
       const bool single = store.motion()[i] == api::Motion::Solid && graph.isFree(static_cast<uint32_t>(i));
-      Vector3 end = sweepOf({from, to - from, 0, 1, single});
+      Vector3 end = sweepOf({from, to - from, 0, 1, single}, m_heldBy[i]);
       if (end == to) continue;
       walls.clamp(end);
       const api::Float4 at = float4Of(end, position[i].w);
       if (rigid[i] == 0) {
-        m_moved.add(first / grain::kParticles, store.mass()[i], vectorOf(at) - vectorOf(position[i]));
+        const size_t chunk = first / grain::kParticles;
+        const Vector3 moved = double{store.mass()[i]} * (vectorOf(at) - vectorOf(position[i]));
+        m_moved.add(chunk, 1, moved);
+        m_reactions->add(chunk, m_reactions->ofBody(m_heldBy[i]), end, -m_reactions->perStep() * moved);
         position[i] = at;
       } else {
         m_held[i] = {at.x - position[i].x, at.y - position[i].y, at.z - position[i].z, 0};
@@ -212,6 +220,7 @@ void SweptClamp::apply(ParticleStore& store, const Neighbours& neighbours, const
     }
   });
   m_externalImpulse.add(m_moved.total());
+  m_reactions->finish();
 }
 
 }  // namespace ps

@@ -3,6 +3,7 @@
 #include "core/particles/cellgrid.h"
 #include "core/particles/impulse.h"
 #include "core/particles/neighbours.h"
+#include "core/particles/reactions.h"
 #include "core/solver/contact/walls.h"
 #include "core/solver/structure/constraintsystem.h"
 
@@ -28,17 +29,23 @@ class SweptClamp {
   /// For each particle the way back (m) by which a member of a rigid body would have to be moved; empty when there is
   /// nothing static.
   std::span<const api::Float4> held() const { return m_held; }
+  /// Body of the static particle that it met last, by particle.
+  std::span<const uint32_t> heldBy() const { return m_heldBy; }
   /// What apply() moved, kg m.
   ExternalImpulse& externalImpulse() { return m_externalImpulse; }
+  /// Where walls and fixed particles are told what they get.
+  void tell(Reactions& reactions) { m_reactions = &reactions; }
 
  private:
   struct Obstacle {
     Vector3 center, way;  ///< m: when the substep begins, and during it
+    uint32_t body = 0;
   };
   struct Hit {
     double time = 2;  ///< of the part, 0..1
     Vector3 center;   ///< then
     Vector3 way;      ///< of the obstacle in the whole substep
+    uint32_t body = 0;
   };
   /// A part of a particle's way in a substep.
   struct Sweep {
@@ -52,7 +59,7 @@ class SweptClamp {
   void imagesHit(const Sweep& sweep, Hit& hit) const;
   void firstHit(const Sweep& sweep, Hit& hit) const;
   void test(const Sweep& sweep, const Obstacle& obstacle, Hit& hit) const;
-  Vector3 sweepOf(Sweep sweep) const;
+  Vector3 sweepOf(Sweep sweep, uint32_t& body) const;
 
   double m_radius = 0, m_contact = 0, m_cell = 1, m_safeWay = 0, m_halfSkin = 0;  ///< m
   double m_longest = 0;                                                           ///< m, of the obstacles' ways
@@ -63,8 +70,10 @@ class SweptClamp {
   std::vector<Obstacle> m_obstacles, m_unsorted;  ///< the first in order of cell
   std::vector<uint8_t> m_nearStatic;
   std::vector<api::Float4> m_held;
+  std::vector<uint32_t> m_heldBy;
   ChunkSum m_moved;
   ExternalImpulse m_externalImpulse;
+  Reactions* m_reactions = &Reactions::none();
 };
 
 }  // namespace ps

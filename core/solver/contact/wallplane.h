@@ -3,12 +3,21 @@
 #include "core/math/plane.h"
 #include "core/solver/settings.h"
 
+#include <span>
+#include <vector>
+
 namespace ps {
 
 /// The face of a wall, or the plane `inset` m before it.
 inline Plane planeOf(const Wall& wall, double inset = 0) { return {vectorOf(wall.normal), wall.offset + inset}; }
 
-/// The same for loops over particles, in single precision.
+/// The planes on which the centres of particles lie that touch walls, into memory that is used again.
+inline void findContactPlanes(std::span<const Wall> walls, double spacing, std::vector<Plane>& planes) {
+  planes.clear();
+  for (const Wall& wall : walls) planes.push_back(planeOf(wall, 0.5 * spacing));
+}
+
+/// The same as planeOf() for loops over particles, in single precision.
 struct WallPlane {
   float x = 0, y = 1, z = 0, offset = 0;  ///< unit normal into the scene; m
   float friction = 0;

@@ -47,35 +47,47 @@ Vector3 WallStage::projectOne(const WallPlane& p, ParticleStore& store, size_t i
   return vectorOf(x) - before;
 }
 
-void WallStage::projectNear(ParticleStore& store) {
-  const api::Float4* position = store.position();
-  m_moved.start(chunkCount(m_near.size(), grain::kParticles));
-  forChunks(m_near.size(), grain::kParticles, [&](size_t first, size_t last) {
-    for (size_t k = first; k < last; ++k) {
-      const uint32_t i = m_near[k];
-      for (const WallPlane& p : m_planes) {
-        const float depth = -p.heightOf(position[i]);
-        if (depth > 0) m_moved.add(first / grain::kParticles, store.mass()[i], projectOne(p, store, i, depth));
-      }
-    }
-  });
+void WallStage::startSums(size_t chunks) {
+  m_moved.start(chunks);
+  m_reactions->start(chunks);
+}
+
+void WallStage::finishSums() {
   m_externalImpulse.add(m_moved.total());
+  m_reactions->finish();
+}
+
+void WallStage::projectAll(ParticleStore& store, size_t i, size_t chunk) {
+  const api::Float4* position = store.position();
+  for (size_t w = 0; w < m_planes.size(); ++w) {
+    const float depth = -m_planes[w].heightOf(position[i]);
+    if (!(depth > 0)) continue;
+    const double mass = store.mass()[i];
+    const Vector3 moved = projectOne(m_planes[w], store, i, depth);
+    m_moved.add(chunk, mass, moved);
+    const int slot = m_reactions->ofWall(w);
+    if (slot != Reactions::kNone)
+      m_reactions->add(chunk, slot, vectorOf(position[i]), -mass * m_reactions->perStep() * moved);
+  }
+}
+
+void WallStage::projectNear(ParticleStore& store) {
+  startSums(chunkCount(m_near.size(), grain::kParticles));
+  forChunks(m_near.size(), grain::kParticles, [&](size_t first, size_t last) {
+    for (size_t k = first; k < last; ++k) projectAll(store, m_near[k], first / grain::kParticles);
+  });
+  finishSums();
 }
 
 void WallStage::project(ParticleStore& store) {
   if (m_planes.empty()) return;
-  const api::Float4 *position = store.position(), *velocity = store.velocity();
-  m_moved.start(chunkCount(store.size(), grain::kParticles));
+  startSums(chunkCount(store.size(), grain::kParticles));
   forChunks(store.size(), grain::kParticles, [&](size_t first, size_t last) {
     for (size_t i = first; i < last; ++i) {
-      if (velocity[i].w == 0 || m_rigid[i] != 0) continue;
-      for (const WallPlane& p : m_planes) {
-        const float depth = -p.heightOf(position[i]);
-        if (depth > 0) m_moved.add(first / grain::kParticles, store.mass()[i], projectOne(p, store, i, depth));
-      }
+      if (store.velocity()[i].w > 0 && m_rigid[i] == 0) projectAll(store, i, first / grain::kParticles);
     }
   });
-  m_externalImpulse.add(m_moved.total());
+  finishSums();
 }
 
 void WallStage::clamp(Vector3& position) const {

@@ -2,6 +2,7 @@
 #pragma once
 #include "core/particles/impulse.h"
 #include "core/particles/neighbours.h"
+#include "core/particles/reactions.h"
 #include "core/solver/contact/wallplane.h"
 
 namespace ps {
@@ -23,16 +24,23 @@ class WallStage {
   void clamp(Vector3& position) const;
   /// What project() and projectNear() moved, kg m.
   ExternalImpulse& externalImpulse() { return m_externalImpulse; }
+  /// Where walls and fixed particles are told what they get.
+  void tell(Reactions& reactions) { m_reactions = &reactions; }
 
  private:
   /// Returns how far it was moved, m.
   Vector3 projectOne(const WallPlane& plane, ParticleStore& store, size_t i, float depth) const;
+  /// Moves particle i out of all walls.
+  void projectAll(ParticleStore& store, size_t i, size_t chunk);
+  void startSums(size_t chunks);
+  void finishSums();
 
   std::vector<WallPlane> m_planes;
   std::vector<uint32_t> m_near;
   std::vector<uint8_t> m_rigid;
   ChunkSum m_moved;
   ExternalImpulse m_externalImpulse;
+  Reactions* m_reactions = &Reactions::none();
   float m_reach = 0;  ///< m, beyond the resting distance
 };
 

@@ -66,6 +66,7 @@ void DensityStage::configure(const SolverSettings& settings, const std::vector<W
   m_settings = settings;
   m_planes.clear();
   for (const Wall& w : walls) m_planes.emplace_back(w);
+  m_film.configure(settings, m_planes);
   if (!newKernel && m_scale > 0) return;
   m_halfSpaceKernel = settings.kernel;
   m_support = settings.spacing * settings.supportRatio;
@@ -84,6 +85,7 @@ void DensityStage::refresh(const ParticleStore& store, const Neighbours& neighbo
   const size_t n = store.size();
   for (std::vector<api::Float4>* v : {&m_points, &m_multipliers}) v->resize(n + kSpare);
   m_carried.resize(n);
+  m_carriedMultiplier.resize(n);
   m_volume.resize(n + kSpare);
   m_weight.resize(n + kSpare);
   m_fluid.clear();
@@ -113,6 +115,7 @@ void DensityStage::refreshLists(const ParticleStore& store, const Neighbours& ne
   const api::NeighbourView view = neighbours.view();
   m_touched.assign(n + kSpare, 0);
   m_wet.clear();
+  m_watched.clear();
   m_touchesFixed = false;
   if (m_fluid.empty()) return;
   m_isFluid.assign(n, 0);
@@ -136,8 +139,11 @@ void DensityStage::refreshLists(const ParticleStore& store, const Neighbours& ne
   for (size_t i = 0; i < n; ++i) {
     const bool moves = store.velocity()[i].w > 0;
     m_touchesFixed = m_touchesFixed || (m_touched[i] != 0 && !moves);
+    if (m_touched[i] != 0 && !moves && m_reactions->ofBody(store.body()[i]) != Reactions::kNone)
+      m_watched.push_back(static_cast<uint32_t>(i));
     if (m_touched[i] != 0 && moves && motion[i] == api::Motion::Solid) m_wet.push_back(static_cast<uint32_t>(i));
   }
+  m_film.refresh(store, neighbours, m_wet);
 }
 
 void DensityStage::solidVolumes(const ParticleStore& store, const PairLists& pairs, api::Motion motion, float least,
@@ -210,6 +216,14 @@ void DensityStage::multipliers(const ParticleStore& store, const PairLists& pair
   }
 }
 
+/// What a gap takes off the corrections of a particle, m kg (TrappedFilm).
+Vector3 DensityStage::inFilm(const ParticleStore& store, const PairLists& pairs, uint32_t i, float lambda) const {
+  Constraint walls{};
+  addWalls(m_points[i], walls);
+  const double ofWalls = double{m_film.yieldOf(i) * lambda} * Vector3{walls.x, walls.y, walls.z}.dot(m_film.up());
+  return m_film.correctionOf(store, {pairs, m_volume.data(), m_multipliers.data()}, i) - ofWalls * m_film.up();
+}
+
 void DensityStage::move(ParticleStore& store, const PairLists& pairs, float chebyshev, size_t first, size_t last) {
   const size_t fluids = m_fluid.size();
   sumMultipliers(pairs, m_multipliers.data(), m_some.data(), first, last, m_moves.data());
@@ -223,6 +237,10 @@ void DensityStage::move(ParticleStore& store, const PairLists& pairs, float cheb
       const Constraint& c = m_constraints[k];
       const float own = inverseMass * c.lambda;
       dx += own * c.x, dy += own * c.y, dz += own * c.z;
+    }
+    if (m_film.concerns(i)) {
+      const Vector3 off = double{inverseMass} * inFilm(store, pairs, i, m_multipliers[i].w);
+      dx += static_cast<float>(off.x()), dy += static_cast<float>(off.y()), dz += static_cast<float>(off.z());
     }
     // Only what density did is carried on, not what walls and structure did between two iterations, and by the same
     // factors for fluids and solids: so the semi-iteration keeps momentum, and ice feels the lift that water gives.
@@ -263,12 +281,96 @@ void DensityStage::project(ParticleStore& store, const Neighbours& neighbours, i
   m_moved.start(chunkCount(moving, grain::kPairs));
   forChunks(moving, grain::kPairs, [&](size_t first, size_t last) { move(store, pairs, m_chebyshev, first, last); });
   if (m_touchesFixed || !m_planes.empty()) m_externalImpulse.add(m_moved.total());
+  carryMultipliers();
+  tellWalls(store);
+  tellFixed(store, pairs);
+}
+
+/// As places are carried on from one iteration to the next, so are the multipliers that moved them.
+void DensityStage::carryMultipliers() {
+  const float w = m_chebyshev;
+  forChunks(m_fluid.size(), grain::kNumbers, [&](size_t first, size_t last) {
+    for (size_t k = first; k < last; ++k) {
+      const uint32_t i = m_fluid[k];
+      float& carried = m_carriedMultiplier[i];
+      carried = w == 1 ? m_constraints[k].lambda : w * m_constraints[k].lambda + (w - 1) * carried;
+      if (i < m_multiplierSum.size()) m_multiplierSum[i] += carried;
+    }
+  });
+}
+
+/// What walls get by the opposite of what their half spaces gave to the density of particles.
+void DensityStage::tellWalls(const ParticleStore& store) {
+  if (!m_reactions->watchesWalls()) return;
+  const float nearest = static_cast<float>(0.5 * m_settings.spacing), support = static_cast<float>(m_support);
+  m_reactions->start(chunkCount(m_fluid.size(), grain::kParticles));
+  forChunks(m_fluid.size(), grain::kParticles, [&](size_t first, size_t last) {
+    for (size_t k = first; k < last; ++k) {
+      const uint32_t i = m_fluid[k];
+      for (size_t w = 0; w < m_planes.size(); ++w) {
+        const WallPlane& p = m_planes[w];
+        const float distance = p.heightOf(m_points[i]);
+        if (distance >= support || m_carriedMultiplier[i] == 0) continue;
+        const double moved = double{m_carriedMultiplier[i]} * m_halfSpace.at(std::max(nearest, distance)).slope;
+        Vector3 given = -m_reactions->perStep() * moved * Vector3(p.x, p.y, p.z);
+        if (m_film.concerns(i)) given -= double{m_film.yieldOf(i)} * given.dot(m_film.up()) * m_film.up();
+        m_reactions->add(first / grain::kParticles, m_reactions->ofWall(w), vectorOf(store.position()[i]), given);
+      }
+    }
+  });
+  m_reactions->finish();
+}
+
+/// What fixed particles would be moved by, times their mass, if they could: pairs move by equal and opposite amounts.
+void DensityStage::tellFixed(const ParticleStore& store, const PairLists& pairs) {
+  if (m_watched.empty()) return;
+  for (const uint32_t i : m_fluid) m_multipliers[i].w = m_carriedMultiplier[i];
+  m_watchedMoves.resize(m_watched.size());
+  m_reactions->start(chunkCount(m_watched.size(), grain::kPairs));
+  forChunks(m_watched.size(), grain::kPairs, [&](size_t first, size_t last) {
+    sumMultipliers(pairs, m_multipliers.data(), m_watched.data(), first, last, m_watchedMoves.data());
+    for (size_t k = first; k < last; ++k) {
+      const uint32_t j = m_watched[k];
+      Vector3 moved = double{m_volume[j]} * double{pairs.inverseSupportSquared} * vectorOf(m_watchedMoves[k]);
+      if (m_film.concerns(j)) moved += m_film.correctionOf(store, {pairs, m_volume.data(), m_multipliers.data()}, j);
+      m_reactions->add(first / grain::kPairs, m_reactions->ofBody(store.body()[j]), vectorOf(store.position()[j]),
+                       m_reactions->perStep() * moved);
+    }
+  });
+  m_reactions->finish();
+}
+
+void DensityStage::writePressure(ParticleStore& store, const PairLists& pairs) {
+  const size_t fluids = m_fluid.size();
+  m_compression.resize(2 * fluids);
+  for (const uint32_t i : m_fluid) m_multipliers[i].w = i < m_multiplierSum.size() ? m_multiplierSum[i] : 0;
+  const double dt = m_settings.dt / m_settings.substeps, perSubstep = 1 / (dt * dt * m_settings.substeps);
+  const float nearest = static_cast<float>(0.5 * m_settings.spacing), support = static_cast<float>(m_support);
+  forChunks(fluids, grain::kPairs, [&](size_t first, size_t last) {
+    float* byOthers = m_compression.data() + fluids;
+    sumCompression(pairs, m_points.data(), m_fluid.data(), first, last, m_compression.data());
+    sumCompression(pairs, m_multipliers.data(), m_fluid.data(), first, last, byOthers);
+    for (size_t k = first; k < last; ++k) {
+      const uint32_t i = m_fluid[k];
+      double own = m_compression[k];
+      for (const WallPlane& p : m_planes) {
+        const float distance = std::max(nearest, p.heightOf(m_points[i]));
+        if (distance >= support) continue;
+        const HalfSpaceTable::Value value = m_halfSpace.at(distance);
+        own += double{value.share} - double{distance} * value.slope / 3;
+      }
+      const double volume = store.position()[i].w;
+      const double work = 0.5 * (own * double{m_multipliers[i].w} + double{m_volume[i]} * byOthers[k]);
+      if (volume > 0) store.pressure()[i] = static_cast<float>(-perSubstep * work / volume);
+    }
+  });
 }
 
 DensityError DensityStage::measure(ParticleStore& store, const Neighbours& neighbours, const Bounds& bounds) {
   float *error = store.densityError(), *lambda = store.lambda();
   std::fill(error, error + store.size(), 0.0f);
   std::fill(lambda, lambda + store.size(), 0.0f);
+  std::fill(store.pressure(), store.pressure() + store.size(), 0.0f);
   const size_t fluids = m_fluid.size();
   if (fluids == 0) return {};
   loadPoints(store);
@@ -279,6 +381,7 @@ DensityError DensityStage::measure(ParticleStore& store, const Neighbours& neigh
   forChunks(fluids, grain::kPairs, [&](size_t first, size_t last) {
     multipliers(store, pairs, static_cast<float>(m_settings.relaxation), first, last);
   });
+  writePressure(store, pairs);
   DensityError result;
   for (size_t k = 0; k < fluids; ++k) {
     const uint32_t i = m_fluid[k];

@@ -2,8 +2,10 @@
 #pragma once
 #include "core/particles/impulse.h"
 #include "core/particles/neighbours.h"
+#include "core/particles/reactions.h"
 #include "core/solver/contact/wallplane.h"
 #include "core/solver/fluid/pairkernels.h"
+#include "core/solver/fluid/trappedfilm.h"
 
 namespace ps {
 
@@ -35,7 +37,8 @@ struct DensityError {
 /// Jacobi steps or their Chebyshev semi-iteration (Golub & Varga 1961).
 /// Solid and static particles have no constraint of their own. They count with the volume that their own kind leaves
 /// them, 1/sum W (Akinci et al. 2012, eq. 4, within bounds), or else ice would sink.
-/// It cannot pull: there is no surface tension and no negative pressure.
+/// It cannot pull: there is no surface tension and no negative pressure. Pressure is that of a substep's push: sound
+/// and water hammer, which live shorter, are not in it.
 class DensityStage {
  public:
   void configure(const SolverSettings& settings, const std::vector<Wall>& walls);
@@ -48,10 +51,19 @@ class DensityStage {
   /// What project() moved in sum where walls or fixed particles took part, kg m. Particles among themselves move by
   /// equal and opposite amounts.
   ExternalImpulse& externalImpulse() { return m_externalImpulse; }
+  /// Where walls and fixed particles are told what they get.
+  void tell(Reactions& reactions) { m_reactions = &reactions; }
+  /// When a frame begins, whose pressure measure() is to write.
+  void startPressure() { m_multiplierSum.assign(m_volume.size(), 0); }
+  /// Fixed particles of watched bodies that have fluid near, ascending.
+  std::span<const uint32_t> watchedFixed() const { return m_watched; }
   /// Fixed particles have fluid near.
   bool touchesFixed() const { return m_touchesFixed; }
-  /// C and lambda at the present positions, written to the store. What was stopped outside of the bounds stands crowded
-  /// there, and is left out of the error.
+  /// C and lambda at the present positions, written to the store, and the mean pressure of the frame: the virial of
+  /// what the iterations of a substep added up to, -1/(3 V) sum_j r f / 2 over all pairs of a particle, half of each
+  /// pair its own (Irving & Kirkwood 1950). Solids and walls push by the multiplier of the liquid alone, which is
+  /// larger beside them. 0 for all but liquid and vapour. What was stopped outside of the bounds stands crowded there,
+  /// and is left out of the error.
   DensityError measure(ParticleStore& store, const Neighbours& neighbours, const Bounds& bounds);
   /// Hands the present compression over to particles that have just become fluid: they start without a push, and the
   /// offset decays (see decayCompression). Call after refresh().
@@ -75,10 +87,16 @@ class DensityStage {
   void loadPoints(const ParticleStore& store);
   float addWalls(const api::Float4& at, Constraint& gradient) const;
   void multipliers(const ParticleStore& store, const PairLists& lists, float relaxation, size_t first, size_t last);
+  Vector3 inFilm(const ParticleStore& store, const PairLists& lists, uint32_t i, float lambda) const;
   void move(ParticleStore& store, const PairLists& lists, float chebyshev, size_t first, size_t last);
+  void carryMultipliers();
+  void writePressure(ParticleStore& store, const PairLists& pairs);
+  void tellWalls(const ParticleStore& store);
+  void tellFixed(const ParticleStore& store, const PairLists& lists);
 
   SolverSettings m_settings;
   std::vector<WallPlane> m_planes;
+  TrappedFilm m_film;
   HalfSpaceTable m_halfSpace;
   KernelShape m_halfSpaceKernel = KernelShape::CubicSpline;
   double m_scale = 0, m_support = 0;
@@ -93,6 +111,11 @@ class DensityStage {
   std::vector<DensitySums> m_sums;
   std::vector<Constraint> m_constraints;
   std::vector<api::Float4> m_moves, m_carried;
+  std::vector<float> m_carriedMultiplier, m_multiplierSum;  ///< J s2, by particle: of an iteration, of the frame
+  std::vector<float> m_compression;                         ///< of fluids
+  std::vector<uint32_t> m_watched;                          ///< fixed particles with fluid near, of watched bodies
+  std::vector<api::Float4> m_watchedMoves;
+  Reactions* m_reactions = &Reactions::none();
 };
 
 }  // namespace ps

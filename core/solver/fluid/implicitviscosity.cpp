@@ -59,8 +59,11 @@ void ImplicitViscosity::configure(const SolverSettings& settings, const std::vec
   m_settings = settings;
   m_dirty = true;
   m_planes.clear();
-  for (const Wall& w : walls) {
-    if (w.noSlip) m_planes.emplace_back(w);
+  m_wallOf.clear();
+  for (size_t w = 0; w < walls.size(); ++w) {
+    if (!walls[w].noSlip) continue;
+    m_planes.emplace_back(walls[w]);
+    m_wallOf.push_back(w);
   }
   const double support = settings.spacing * settings.supportRatio;
   if (m_support == support) return;
@@ -148,24 +151,57 @@ void ImplicitViscosity::loadPoints(const ParticleStore& store, const DensityStag
   m_direction[n] = {0, 0, 0, 0};
 }
 
-bool ImplicitViscosity::addWalls(const api::Float4& at, float weight, SymmetricBlock& block) const {
+bool ImplicitViscosity::addWall(const WallPlane& p, const api::Float4& at, float weight, SymmetricBlock& block) const {
   const float nearest = static_cast<float>(0.5 * m_settings.spacing), support = static_cast<float>(m_support);
+  const float distance = std::max(nearest, p.heightOf(at));
+  if (distance >= support) return false;
+  const float s = distance / support * static_cast<float>(kIntervals);
+  const size_t k = std::min(static_cast<size_t>(s), kIntervals - 1);
+  const float f = s - static_cast<float>(k);
+  const auto &a = m_wallTable[k], &b = m_wallTable[k + 1];
+  const float along = weight / distance * (a[0] + f * (b[0] - a[0]));
+  const float across = weight / distance * (a[1] + f * (b[1] - a[1])) - along;
+  block.xx += along + across * p.x * p.x, block.yy += along + across * p.y * p.y;
+  block.zz += along + across * p.z * p.z, block.xy += across * p.x * p.y;
+  block.xz += across * p.x * p.z, block.yz += across * p.y * p.z;
+  return true;
+}
+
+bool ImplicitViscosity::addWalls(const api::Float4& at, float weight, SymmetricBlock& block) const {
   bool touched = false;
-  for (const WallPlane& p : m_planes) {
-    const float distance = std::max(nearest, p.heightOf(at));
-    if (distance >= support) continue;
-    touched = true;
-    const float s = distance / support * static_cast<float>(kIntervals);
-    const size_t k = std::min(static_cast<size_t>(s), kIntervals - 1);
-    const float f = s - static_cast<float>(k);
-    const auto &a = m_wallTable[k], &b = m_wallTable[k + 1];
-    const float along = weight / distance * (a[0] + f * (b[0] - a[0]));
-    const float across = weight / distance * (a[1] + f * (b[1] - a[1])) - along;
-    block.xx += along + across * p.x * p.x, block.yy += along + across * p.y * p.y;
-    block.zz += along + across * p.z * p.z, block.xy += across * p.x * p.y;
-    block.xz += across * p.x * p.z, block.yz += across * p.y * p.z;
-  }
+  for (const WallPlane& p : m_planes) touched = addWall(p, at, weight, block) || touched;
   return touched;
+}
+
+/// What walls and fixed particles get of the velocities that the last apply() left.
+void ImplicitViscosity::tellHeld(const ParticleStore& store, const PairLists& lists, const float* viscosity,
+                                 double scale) {
+  if (!m_reactions->any() || !held()) return;
+  const double dt = m_settings.dt / m_settings.substeps;
+  m_reactions->start(m_groups.segments().size());
+  forSegments([&](size_t s, const Segment& segment) {
+    for (size_t k = segment.first; k < segment.last; ++k) {
+      const uint32_t i = row(k);
+      if (m_roles[i] != Role::Viscous) continue;
+      const Vector3 place = vectorOf(store.position()[i]), velocity = vectorOf(store.velocity()[i]);
+      const auto weight = static_cast<float>(dt * double{m_points[i].w} / scale * viscosity[i]);
+      for (size_t w = 0; w < m_planes.size(); ++w) {
+        SymmetricBlock block{0, 0, 0, 0, 0, 0};
+        const int slot = m_reactions->ofWall(m_wallOf[w]);
+        if (slot != Reactions::kNone && addWall(m_planes[w], m_points[i], weight, block))
+          m_reactions->add(s, slot, place, vectorOf(times(block, store.velocity()[i])));
+      }
+      for (uint32_t q = lists.begin[i]; q < lists.last[i]; ++q) {
+        const uint32_t j = lists.index[q];
+        if (m_roles[j] != Role::Fixed) continue;
+        const Vector3 line = vectorOf(store.separation(i, j));
+        const double along = line.dot(velocity - vectorOf(store.velocity()[j]));
+        m_reactions->add(s, m_reactions->ofBody(store.body()[j]), vectorOf(store.position()[j]),
+                         double{m_coefficient[q]} * along * line);
+      }
+    }
+  });
+  m_reactions->finish();
 }
 
 void ImplicitViscosity::assemble(const ParticleStore& store, const PairLists& lists, double scale,
@@ -331,6 +367,7 @@ void ImplicitViscosity::apply(ParticleStore& store, const Neighbours& neighbours
       field[i] = x;
     }
   });
+  tellHeld(store, lists, viscosity, density.kernelScale());
 }
 
 void ImplicitViscosity::shearRates(const ParticleStore& store, const Neighbours& neighbours,

@@ -48,6 +48,9 @@ class ImplicitViscosity {
   void shearRates(const ParticleStore& store, const Neighbours& neighbours, const DensityStage& density,
                   std::vector<float>& rates);
 
+  /// Where walls and fixed particles are told what they get.
+  void tell(Reactions& reactions) { m_reactions = &reactions; }
+
   int iterations() const { return m_iterations; }  ///< the most of a substep since refresh()
   double residual() const { return m_residual; }   ///< the largest of a substep since refresh(), relative
 
@@ -58,7 +61,9 @@ class ImplicitViscosity {
   void findGroups(const Neighbours& neighbours);
   void loadPoints(const ParticleStore& store, const DensityStage& density);
   void assemble(const ParticleStore& store, const PairLists& lists, double scale, const float* viscosity);
+  bool addWall(const WallPlane& plane, const api::Float4& at, float weight, SymmetricBlock& block) const;
   bool addWalls(const api::Float4& at, float weight, SymmetricBlock& block) const;
+  void tellHeld(const ParticleStore& store, const PairLists& lists, const float* viscosity, double scale);
   /// Product of A, with `massShare` (0 or 1) of M, and m_direction.
   void multiply(const ParticleStore& store, const PairLists& lists, size_t first, size_t last, float massShare);
   double sum(size_t which) const;
@@ -73,6 +78,7 @@ class ImplicitViscosity {
 
   SolverSettings m_settings;
   std::vector<WallPlane> m_planes;
+  std::vector<size_t> m_wallOf;                   ///< index of the wall, by plane
   double m_support = 0;                           ///< m
   std::vector<std::array<float, 2>> m_wallTable;  ///< tangential and normal, over distance 0 .. R, 1/m2 times d
   bool m_active = false, m_dirty = true;
@@ -89,6 +95,7 @@ class ImplicitViscosity {
   std::vector<float> m_shear;
   std::vector<uint8_t> m_touched;                ///< by segment: a wall holds some of it
   std::vector<std::array<double, 2>> m_partial;  ///< by segment
+  Reactions* m_reactions = &Reactions::none();
   double m_target = 0, m_reference = 0, m_residualSquare = 0;
 };
 

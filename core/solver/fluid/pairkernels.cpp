@@ -248,6 +248,25 @@ HWY_INLINE void multiplierLoop(const PairLists& lists, const api::Float4* points
 }
 
 template <class Space, class Shape>
+HWY_INLINE void compressionLoop(const PairLists& lists, const api::Float4* points, const uint32_t* which, size_t first,
+                                size_t last, float* out) {
+  const D d;
+  const Space space(lists);
+  const V inverseR2 = hn::Set(d, lists.inverseSupportSquared);
+  for (size_t k = first; k < last; ++k) {
+    const size_t i = which[k];
+    const V px = hn::Set(d, points[i].x), py = hn::Set(d, points[i].y), pz = hn::Set(d, points[i].z);
+    Lanes sum;
+    forNeighbours(lists, i, [&](size_t p, const uint32_t* id) HWY_ATTR {
+      const Vectors4 other = loadTransposed(points, id);
+      const Offsets r = offsetsTo(space, px, py, pz, other, inverseR2);
+      sum.add(p, hn::Mul(other.w, hn::Mul(r.q2, Shape(r.q2).slopeOverQ())));
+    });
+    out[k] = -sumOne(sum) / 3;
+  }
+}
+
+template <class Space, class Shape>
 HWY_INLINE void viscosityLoop(const PairLists& lists, const api::Float4* position, const api::Float4* velocity,
                               const float* coefficient, const uint32_t* which, size_t first, size_t last,
                               api::Float4* out) {
@@ -408,6 +427,14 @@ void SumMultipliers(const PairLists& lists, const api::Float4* points, const uin
   });
 }
 
+void SumCompression(const PairLists& lists, const api::Float4* points, const uint32_t* which, size_t first, size_t last,
+                    float* out) {
+  bySpaceAndKernel(lists, [&](auto space, auto shape) HWY_ATTR {
+    compressionLoop<typename decltype(space)::Type, typename decltype(shape)::Type>(lists, points, which, first, last,
+                                                                                    out);
+  });
+}
+
 void SumViscosity(const PairLists& lists, const api::Float4* position, const api::Float4* velocity,
                   const float* coefficient, const uint32_t* which, size_t first, size_t last, api::Float4* out) {
   bySpaceAndKernel(lists, [&](auto space, auto shape) HWY_ATTR {
@@ -447,6 +474,7 @@ HWY_AFTER_NAMESPACE();
 namespace ps {
 HWY_EXPORT(SumDensity);
 HWY_EXPORT(SumMultipliers);
+HWY_EXPORT(SumCompression);
 HWY_EXPORT(SumViscosity);
 HWY_EXPORT(StressCoefficients);
 HWY_EXPORT(SumStress);
@@ -459,6 +487,10 @@ void sumDensity(const PairLists& lists, const api::Float4* points, const float* 
 void sumMultipliers(const PairLists& lists, const api::Float4* points, const uint32_t* which, size_t first, size_t last,
                     api::Float4* out) {
   HWY_DYNAMIC_DISPATCH(SumMultipliers)(lists, points, which, first, last, out);
+}
+void sumCompression(const PairLists& lists, const api::Float4* points, const uint32_t* which, size_t first, size_t last,
+                    float* out) {
+  HWY_DYNAMIC_DISPATCH(SumCompression)(lists, points, which, first, last, out);
 }
 void sumViscosity(const PairLists& lists, const api::Float4* position, const api::Float4* velocity,
                   const float* coefficient, const uint32_t* which, size_t first, size_t last, api::Float4* out) {

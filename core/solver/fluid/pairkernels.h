@@ -38,6 +38,11 @@ void sumDensity(const PairLists& lists, const api::Float4* points, const float* 
 void sumMultipliers(const PairLists& lists, const api::Float4* points, const uint32_t* which, size_t first, size_t last,
                     api::Float4* out);
 
+/// For the particles which[first .. last): out[k] = -sum_j V_j w'(q) q / 3, by how much the density sum grows where
+/// everything around comes nearer by the same share: by three times this. 1 in the continuum.
+void sumCompression(const PairLists& lists, const api::Float4* points, const uint32_t* which, size_t first, size_t last,
+                    float* out);
+
 /// XSPH (Monaghan 1992) with harmonic masses and mean volumes: for the particles which[first .. last),
 /// out[k] = sum_j c_ij (V_i + V_j)/2 2 m_j/(m_i + m_j) w(q) (v_j - v_i), to be multiplied by the kernel's factor.
 /// `coefficient` is negative for particles that are no fluid: c_ij is the mean of two fluid particles, the fluid's one

@@ -157,6 +157,7 @@ void ViscosityStage::filter(ParticleStore& store, const Neighbours& neighbours, 
     sumViscosity(pairs, store.position(), store.velocity(), m_coefficient.data(), m_which.data(), first, last,
                  m_change.data());
   });
+  tellFixed(store, pairs, density.watchedFixed());
   api::Float4* velocity = store.velocity();
   for (size_t k = 0; k < m_which.size(); ++k) {
     api::Float4& v = velocity[m_which[k]];
@@ -164,6 +165,31 @@ void ViscosityStage::filter(ParticleStore& store, const Neighbours& neighbours, 
     v.y += scale * m_change[k].y;
     v.z += scale * m_change[k].z;
   }
+}
+
+/// What fixed particles get of the filter, pair by pair as sumViscosity() has it, before it changes velocities.
+void ViscosityStage::tellFixed(const ParticleStore& store, const PairLists& pairs,
+                               std::span<const uint32_t> fixed) const {
+  if (fixed.empty()) return;
+  const Kernel kernel(m_settings.kernel, m_settings.spacing * m_settings.supportRatio);
+  m_reactions->start(chunkCount(fixed.size(), grain::kNeighbours));
+  forChunks(fixed.size(), grain::kNeighbours, [&](size_t first, size_t last) {
+    for (size_t k = first; k < last; ++k) {
+      const uint32_t j = fixed[k];
+      Vector3 impulse;
+      for (uint32_t q = pairs.begin[j]; q < pairs.last[j]; ++q) {
+        const uint32_t i = pairs.index[q];
+        if (!(m_coefficient[i] > 0) || store.velocity()[i].w == 0) continue;
+        const double distance = vectorOf(store.separation(i, j)).norm();
+        const double volumes = double{store.position()[i].w} + double{store.position()[j].w};
+        impulse += double{store.mass()[i]} * double{m_coefficient[i]} * volumes * kernel.value(distance) *
+                   (vectorOf(store.velocity()[i]) - vectorOf(store.velocity()[j]));
+      }
+      m_reactions->add(first / grain::kNeighbours, m_reactions->ofBody(store.body()[j]), vectorOf(store.position()[j]),
+                       impulse);
+    }
+  });
+  m_reactions->finish();
 }
 
 /// Of all that viscosity moves, kg m/s.

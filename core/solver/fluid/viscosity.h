@@ -29,6 +29,11 @@ class ViscosityStage {
   void limits(const ParticleStore& store, std::vector<Limit>& out) const;
   /// What walls and fixed particles gave in apply(), kg m/s.
   ExternalImpulse& externalImpulse() { return m_externalImpulse; }
+  /// Where walls and fixed particles are told what they get.
+  void tell(Reactions& reactions) {
+    m_reactions = &reactions;
+    m_implicit.tell(reactions);
+  }
   int iterations() const { return m_implicit.iterations(); }  ///< of the implicit stage, the most of a substep
 
  private:
@@ -36,6 +41,7 @@ class ViscosityStage {
   double filterSuffices() const;                                   ///< m2/s, up to which the filter alone will do
   double viscosityOf(const ParticleStore& store, size_t i) const;  ///< Pa s, without yield stress
   void filter(ParticleStore& store, const Neighbours& neighbours, const DensityStage& density);
+  void tellFixed(const ParticleStore& store, const PairLists& pairs, std::span<const uint32_t> fixed) const;
   void gatherThick(const ParticleStore& store, const DensityStage& density);
   bool isLiquid(const ParticleStore& store, size_t i) const {
     return store.motion()[i] == api::Motion::Liquid && store.material()[i] < m_materials.size() && store.mass()[i] > 0;
@@ -53,6 +59,7 @@ class ViscosityStage {
   std::vector<float> m_plastic, m_yieldStress, m_shearRate;  ///< Pa s, Pa, 1/s
   std::vector<float> m_viscosity, m_viscous;                 ///< what the implicit stage is asked, and for whom
   ExternalImpulse m_externalImpulse;
+  Reactions* m_reactions = &Reactions::none();
   std::vector<uint32_t> m_which;
   std::vector<api::Float4> m_change;
 };

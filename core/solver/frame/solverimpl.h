@@ -3,6 +3,7 @@
 #include "core/base/statestream.h"
 #include "core/solver/contact/impacts.h"
 #include "core/solver/contact/liquidcontact.h"
+#include "core/solver/contact/rebound.h"
 #include "core/solver/contact/rigidcontact.h"
 #include "core/solver/contact/solidcontact.h"
 #include "core/solver/contact/sweptclamp.h"
@@ -10,6 +11,7 @@
 #include "core/solver/fluid/density.h"
 #include "core/solver/fluid/gasforces.h"
 #include "core/solver/fluid/viscosity.h"
+#include "core/solver/frame/forcemeter.h"
 #include "core/solver/frame/prescribedmotion.h"
 #include "core/solver/heat/heat.h"
 #include "core/solver/heat/phasestage.h"
@@ -51,6 +53,7 @@ struct Solver::Impl {
   SweptClamp swept;
   SolidContact contact;
   Impacts impacts;
+  Rebound rebound;
   /// What is squeezed, or thick, sinks into a lattice. A wider distance, and ice sinks: at 0.8 wholly.
   LiquidContact wet{{0.76, 1}};
   /// A layer one particle thick fills less than half of a liquid particle's kernel. At rest the gaps of a square
@@ -59,6 +62,7 @@ struct Solver::Impl {
   std::vector<uint32_t> thinSolids;  ///< particles of sheets and lines, ascending
   RigidContact rigid;
   PieceSpin pieceSpin;
+  std::vector<uint32_t> pieceOf;  ///< of the structure: ConstraintSystem::pieces()
   GasForces gas;
   HeatStage heat;
   PhaseStage phase;
@@ -74,8 +78,11 @@ struct Solver::Impl {
   StepReport report;
   ExternalImpulse external;  ///< kg m/s, in this frame
   ChunkSum weight;
+  ForceMeter forces;
+  bool anchorsKnown = false;      ///< of `forces`, for the structure as it is
   std::vector<uint32_t> hanging;  ///< what moves and may be pulled by what is fixed, ascending
 
+  Impl();
   void configure();
   void settleEnergy() { energyOffset = heat.energy(store) - heat.ledger().net(); }
   void matterChanged(double energyBefore);
@@ -95,6 +102,7 @@ struct Solver::Impl {
   void listsChanged(bool newStructure);
   void refreshLiquidContact();
   void substep(uint32_t index);
+  void iterate(uint32_t index, double dt);
   void predict(uint32_t index, double dt);
   Vector3 momentum() const;               ///< kg m/s, of what moves
   Vector3 momentumOfHanging() const;      ///< kg m/s

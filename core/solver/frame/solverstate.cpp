@@ -21,6 +21,7 @@ void Solver::Impl::save(StateWriter& writer) const {
   motion.save(writer);
   constraints.save(writer);
   rigid.save(writer);
+  rebound.save(writer);
   heat.save(writer, store);
 }
 
@@ -41,6 +42,7 @@ void Solver::Impl::restore(const StateReader& reader) {
   motion.restore(reader, store);
   constraints.restore(reader, store);
   rigid.restore(reader);
+  rebound.restore(reader);
   heat.restore(reader, store);
   structureChanged = true;
 }

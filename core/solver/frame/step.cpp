@@ -12,9 +12,6 @@ namespace {
 
 /// Frames after which particles are sorted by cell again although the lists still hold.
 constexpr uint64_t kSortInterval = 60;
-/// One Gauss-Seidel pass a substep leaves stiff springs an error that the next one answers with a push: cloth whips and
-/// blocks explode.
-constexpr int kLeastStructurePasses = 2;
 /// Liquid on a sheet outweighs it many times, and must not press it apart before its springs have answered.
 constexpr int kSheetPasses = 4;
 constexpr double kLeastLiquid = 0.01;  ///< share of what moves, below which the mean says nothing of the solver
@@ -22,6 +19,12 @@ constexpr double kLeastLiquid = 0.01;  ///< share of what moves, below which the
 constexpr double kOpenExchange = 1e-6, kOpenRounding = 1e-11;
 
 }  // namespace
+
+Solver::Impl::Impl() {
+  Reactions& told = forces.reactions();
+  const auto tell = [&](auto&... stages) { (stages.tell(told), ...); };
+  tell(density, viscosity, wallStage, swept, contact, impacts, wet, sheets, rigid, rebound);
+}
 
 Vector3 Solver::Impl::momentum() const {
   Vector3 sum;
@@ -49,7 +52,9 @@ template <class Call>
 void Solver::Impl::structure(Call&& call, double dt) {
   timed(Stage::Structure, [&] {
     const Vector3 before = displacementOfHanging();
+    forces.beforeTies(store, hanging, 1 / dt);
     call();
+    forces.afterTies(store, hanging, 1 / dt);
     external.add(1 / dt * (displacementOfHanging() - before));
   });
 }
@@ -101,6 +106,11 @@ bool Solver::Impl::advance() {
   heat.setClock(time, thermalTime);
   timed(Stage::Neighbours, [&] { freshLists(); });
   external.drain();
+  if (!anchorsKnown) forces.findAnchors(store, constraints, hanging);
+  anchorsKnown = true;
+  forces.reactions().setStep(settings.dt / settings.substeps);
+  forces.begin(store);
+  density.startPressure();
   report.momentum.start = double3Of(momentum());
   gas.setAir(heat.airTemperature());
   timed(Stage::Phase, [&] { gas.measure(store, neighbours); });
@@ -112,6 +122,7 @@ bool Solver::Impl::advance() {
   checkBounds();
   report.momentum.end = double3Of(momentum());
   report.momentum.external = double3Of(external.drain());
+  forces.end(store, vectorOf(settings.gravity), settings.dt);
   bool exchanged = false;
   timed(Stage::Heat, [&] { exchanged = exchangeHeat(); });
   if (!exchanged || rejectIfNotFinite() || rejectIfUnphysical()) return false;
@@ -176,7 +187,11 @@ void Solver::Impl::listsChanged(bool newStructure) {
     rigid.refreshBodies(store, constraints);
     constraints.findGroupMembers(store, grouped);
     constraints.findHanging(store, hanging);
-    pieceSpin.refresh(store, constraints);
+    constraints.findPieces(store.size(), pieceOf);
+    rebound.refresh();
+    pieceSpin.refresh(store, constraints.graph(store.size()), pieceOf);
+    constraints.findHeld(store);
+    anchorsKnown = false;
     findThinSolids();
     structureChanged = false;
   } else {
@@ -187,7 +202,7 @@ void Solver::Impl::listsChanged(bool newStructure) {
   swept.refreshLists(store, neighbours);
   rigid.refreshContacts(store, neighbours, constraints);
   viscosity.listsChanged();
-  contact.refresh(store, neighbours, constraints, rigid.members());
+  contact.refresh(store, neighbours, constraints, pieceOf, rigid.members());
 }
 
 void Solver::Impl::predict(uint32_t index, double dt) {
@@ -237,27 +252,10 @@ void Solver::Impl::velocities(double dt) {
   });
 }
 
-void Solver::Impl::substep(uint32_t index) {
-  const double dt = settings.dt / settings.substeps;
-  timed(Stage::Contact, [&] {
-    predict(index, dt);
-    impacts.sweep(store, constraints, rigid.members());
-    wallStage.project(store);
-  });
-  timed(Stage::Neighbours, [&] {
-    if (neighbours.stale(store)) {
-      neighbours.build(store);
-      listsChanged(false);
-    }
-  });
-  timed(Stage::Contact, [&] { rigid.strike(store); });
-  structure([&] { constraints.predict(store, index); }, dt);
-  timed(Stage::Contact, [&] {
-    rigid.begin(store);
-    impacts.collect(store, contact, constraints, rigid.members());
-  });
-  const bool oneIsTooFew = settings.iterations == 1 && constraints.shareParticles();
-  const int structurePasses = std::max(sheets.any() ? kSheetPasses : 1, oneIsTooFew ? kLeastStructurePasses : 1);
+/// What holds matter together and apart, in turns, until positions are those of the substep's end.
+void Solver::Impl::iterate(uint32_t index, double dt) {
+  const int least = settings.iterations == 1 ? constraints.leastPasses() : 1;
+  const int structurePasses = std::max(sheets.any() ? kSheetPasses : 1, least);
   for (int iteration = 0; iteration < settings.iterations; ++iteration) {
     const uint32_t it = static_cast<uint32_t>(iteration);
     for (int pass = 0; pass < structurePasses; ++pass) {
@@ -279,12 +277,37 @@ void Solver::Impl::substep(uint32_t index) {
     if (it == 0 && constraints.groups()) noteLeaps(dt);
     timed(Stage::Contact, [&] { rigid.project(store); });
   }
+}
+
+void Solver::Impl::substep(uint32_t index) {
+  const double dt = settings.dt / settings.substeps;
+  timed(Stage::Contact, [&] {
+    predict(index, dt);
+    impacts.sweep(store, constraints, rigid.members());
+    wallStage.project(store);
+  });
+  timed(Stage::Neighbours, [&] {
+    if (neighbours.stale(store)) {
+      neighbours.build(store);
+      listsChanged(false);
+    }
+  });
+  timed(Stage::Contact, [&] { rigid.strike(store); });
+  structure([&] { constraints.predict(store, index); }, dt);
+  timed(Stage::Contact, [&] {
+    rigid.begin(store);
+    contact.begin(store);
+    impacts.collect(store, contact, constraints, rigid.members());
+    rebound.meet(store, {constraints, pieceOf, rigid}, impacts);
+  });
+  structure([&] { constraints.carry(store, index); }, dt);
+  iterate(index, dt);
   timed(Stage::Contact, [&] {
     wallStage.project(store);
     swept.apply(store, neighbours, wallStage, constraints.graph(store.size()), rigid.members());
-    external.add(1 / dt * rigid.hold(store, swept.held()));
+    external.add(1 / dt * rigid.hold(store, swept.held(), swept.heldBy()));
     external.add(1 / dt * rigid.keepInside(store));
-    pieceSpin.read(store, dt);
+    pieceSpin.read(store, contact.couple(), dt);
     velocities(dt);
     pieceSpin.apply(store);
     bookContact(dt);
@@ -292,14 +315,18 @@ void Solver::Impl::substep(uint32_t index) {
   timed(Stage::Viscosity, [&] { viscosity.apply(store, neighbours, density); });
   timed(Stage::Structure, [&] {
     const Vector3 before = momentumOfHanging();
+    forces.beforeTies(store, hanging, 0);
     constraints.deriveVelocities(store, index);
+    forces.afterTies(store, hanging, 0);
     external.add(momentumOfHanging() - before);
   });
   timed(Stage::Contact, [&] {
     impacts.bounce(store);
     rigid.bounce(store);
+    rebound.part(store, {constraints, pieceOf, rigid});
   });
-  for (ExternalImpulse* impulse : {&viscosity.externalImpulse(), &impacts.externalImpulse(), &rigid.externalImpulse()})
+  for (ExternalImpulse* impulse :
+       {&viscosity.externalImpulse(), &impacts.externalImpulse(), &rebound.externalImpulse(), &rigid.externalImpulse()})
     external.add(impulse->drain());
   timed(Stage::Density, [&] { density.decayCompression(store, dt); });
 }
@@ -307,6 +334,7 @@ void Solver::Impl::substep(uint32_t index) {
 /// What walls and fixed particles moved in this substep, as impulse.
 void Solver::Impl::bookContact(double dt) {
   Vector3 moved = rigid.pushed();
+  rigid.tellPushed(store);
   for (ExternalImpulse* impulse : {&wallStage.externalImpulse(), &contact.externalImpulse(), &wet.externalImpulse(),
                                    &sheets.externalImpulse(), &density.externalImpulse(), &swept.externalImpulse()})
     moved += impulse->drain();

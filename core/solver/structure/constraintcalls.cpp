@@ -71,6 +71,53 @@ void ConstraintSystem::predict(ParticleStore& store, uint32_t substep) {
   predictGroups(store, substep);
 }
 
+void ConstraintSystem::linearise(Set& set, const api::ParticleView& view, uint32_t substep) {
+  set.pull.resize(set.count);
+  set.stiffness.resize(set.count);
+  const bool done = guarded(set, [&] {
+    forBatches(set, substep, 0, [&](const auto& c, const api::ConstraintBatch& b) {
+      const size_t first = static_cast<size_t>(b.particles - set.particles.data()) / 2;
+      set.springs->linearise(c, view, b, set.pull.data() + first, set.stiffness.data() + first);
+    });
+  });
+  if (!done || substep != 0) return;
+  m_carried.add({set.colourStart, set.particles.data(), set.pull.data(), set.stiffness.data(),
+                 set.values[set.springs->multiplier()].data()});
+}
+
+void ConstraintSystem::findHeld(const ParticleStore& store) {
+  m_held.clear();
+  if (std::none_of(m_sets.begin(), m_sets.end(), [](const Set& set) { return set.springs && set.count > 0; })) return;
+  const StructureGraph& ties = graph(store.size());
+  for (uint32_t i = 0; i < store.size(); ++i) {
+    if (store.velocity()[i].w == 0 && ties.begin[i + 1] > ties.begin[i]) m_openHeld.push_back(i);
+  }
+  if (m_openHeld.empty()) return;
+  m_held.assign(store.size(), 0);
+  for (const uint32_t i : m_openHeld) m_held[i] = 1;
+  while (!m_openHeld.empty()) {
+    const uint32_t i = m_openHeld.back();
+    m_openHeld.pop_back();
+    for (uint32_t k = ties.begin[i]; k < ties.begin[i + 1]; ++k) {
+      const uint32_t j = ties.partner[k];
+      if (m_held[j] != 0) continue;
+      m_held[j] = 1;
+      m_openHeld.push_back(j);
+    }
+  }
+}
+
+void ConstraintSystem::carry(ParticleStore& store, uint32_t substep) {
+  if (substep == 0) m_carried.clear();
+  if (substep == 0 ? m_held.empty() : !m_carried.any()) return;
+  const api::ParticleView view = store.view();
+  for (Set& set : m_sets) {
+    if (set.springs && !set.disabled && set.count > 0) linearise(set, view, substep);
+  }
+  if (substep == 0) m_carried.number(store);
+  if (m_carried.any()) m_carried.solve(store, substepTime(), m_settings.spacing);
+}
+
 void ConstraintSystem::projectStructure(ParticleStore& store, uint32_t substep, uint32_t iteration) {
   const api::ParticleView view = store.view();
   const api::MovableParticles particles = movable(store, view);
@@ -202,13 +249,16 @@ void ConstraintSystem::limits(const ParticleStore& store, std::vector<Limit>& ou
    private:
     std::vector<Limit>& m_limits;
   } sink(out);
+  if (m_held.size() != store.size()) findHeld(store);  // as of particles that have come since the last frame
   for (Set& set : m_sets) {
     sink.plugin = set.name;
     for (uint32_t body = 0; body < set.used.size(); ++body) {
       if (set.used[body] == 0) continue;
       sink.asking = static_cast<int>(body);
       sink.reported = 0;
-      guarded(set, [&] { set.plugin->limits(context(set, substepTime(), 0, 0, body), store.view(), sink); });
+      api::ConstraintContext c = context(set, substepTime(), 0, 0, body);
+      if (!m_carried.done() || m_held.size() != store.size()) c.held = nullptr;
+      guarded(set, [&] { set.plugin->limits(c, store.view(), sink); });
     }
   }
 }

@@ -106,6 +106,9 @@ uint32_t ConstraintSystem::addSet(const AnyConstraint& plugin, std::string name,
     set.valueCount = traits.values.count;
     set.values.resize(set.valueCount);
     set.thin = traits.thin != 0;
+    if (set.arity == 2) set.springs = static_cast<const api::SpringTies*>(set.structural->extension(api::kSpringTies));
+    if (set.springs && set.springs->multiplier() >= set.valueCount)
+      throw Error("constraint plugin '" + set.name + "' does not declare the multiplier of its springs");
     declareFields(set, traits.fields, store);
   } else if (const auto* group = std::get_if<const api::GroupPlugin*>(&plugin)) {
     set.group = *group;
@@ -159,9 +162,10 @@ api::ConstraintContext ConstraintSystem::context(const Set& set, double dt, uint
                            {set.parameters.data(), set.parameters.size()},
                            {m_materials.data(), m_materials.size()},
                            body,
-                           0,
+                           static_cast<uint32_t>(std::max(m_settings.iterations, leastPasses())),
                            {set.parametersOf.data(), set.parametersOf.size()},
-                           m_time};
+                           m_time,
+                           m_held.empty() ? nullptr : m_held.data()};
   c.parameters = c.parametersOf(body);
   return c;
 }
@@ -169,6 +173,7 @@ api::ConstraintContext ConstraintSystem::context(const Set& set, double dt, uint
 void ConstraintSystem::putAside(Set& set, std::string problem) {
   set.disabled = true;
   dropAll(set);
+  m_carried.clear();  // its lists are gone
   m_graphValid = false;
   m_faults.push_back({set.name, std::move(problem)});
 }

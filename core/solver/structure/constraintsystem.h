@@ -9,6 +9,7 @@
 #include "core/solver/report.h"
 #include "core/solver/settings.h"
 #include "core/solver/structure/grouplists.h"
+#include "core/solver/structure/implicitties.h"
 #include "core/solver/structure/keyset.h"
 
 #include <memory>
@@ -76,6 +77,10 @@ class ConstraintSystem {
   void putBack(ParticleStore& store, const CopiedConstraints& copies);
 
   void predict(ParticleStore& store, uint32_t substep);
+  /// After a new order or a new structure: finds what is tied to something fixed.
+  void findHeld(const ParticleStore& store);
+  /// Carries pulls through what is held where passes alone would not, before the first of them.
+  void carry(ParticleStore& store, uint32_t substep);
   void projectStructure(ParticleStore& store, uint32_t substep, uint32_t iteration);
   void projectNeighbours(ParticleStore& store, const Neighbours& neighbours, uint32_t substep, uint32_t iteration);
   void projectGroups(ParticleStore& store, uint32_t substep, uint32_t iteration);
@@ -109,6 +114,8 @@ class ConstraintSystem {
   const StructureGraph& graph(size_t particles);
   /// For each particle a number that all share whom ties hold together; kNoPiece for what is tied to nothing.
   std::vector<uint32_t> pieces(size_t particles);
+  /// The same into memory that is used again.
+  void findPieces(size_t particles, std::vector<uint32_t>& piece);
   static constexpr uint32_t kNoPiece = ~0u;
   /// What moves and may be pulled by something fixed, in ascending order: the particles of each plugin that ties fixed
   /// ones or shares particles with one that does; all of them where a plugin gathers over neighbours.
@@ -118,8 +125,9 @@ class ConstraintSystem {
   bool groups() const;
   /// Whether a plugin gathers over neighbours.
   bool gathers() const;
-  /// Whether structural constraints share particles, so that one pass over them leaves an error.
-  bool shareParticles() const;
+  /// Over structural constraints in a substep. One pass over those that share particles leaves stiff springs an error
+  /// that the next substep answers with a push: cloth whips and blocks explode.
+  int leastPasses() const { return shareParticles() ? 2 : 1; }
   /// Those that threw since the last call.
   std::vector<PluginFault> drainFaults();
   /// From now on it is noted whose call first moves a particle farther than `metres`, or to no number; 0: no longer.
@@ -140,6 +148,8 @@ class ConstraintSystem {
     const api::StructuralPlugin* structural = nullptr;  ///< one of the three is the plugin
     const api::GroupPlugin* group = nullptr;
     const api::NeighbourPlugin* neighbour = nullptr;
+    const api::SpringTies* springs = nullptr;  ///< of a structural one that has them
+    std::vector<float> pull, stiffness;        ///< of springs, by constraint, in this substep
     std::string name;
     std::vector<double> parameters;                     ///< of bodies without their own
     std::vector<std::vector<double>> bodyParameters;    ///< by body; empty: the set's
@@ -169,6 +179,7 @@ class ConstraintSystem {
                                  uint32_t body = api::ConstraintContext::kNoBody) const;
   double substepTime() const { return m_settings.dt / m_settings.substeps; }
   static void refreshParameters(Set& set);
+  bool shareParticles() const;
   /// Runs a call into a plugin; what throws is put aside, its constraints dropped.
   template <class Call>
   bool guarded(Set& set, Call&& call) {
@@ -217,6 +228,7 @@ class ConstraintSystem {
   static void forRuns(const Set& set, size_t first, size_t last, Call&& call);
   void findMembers(Set& set, const ParticleStore& store) const;
   void applyCorrections(const Set& set, ParticleStore& store) const;
+  void linearise(Set& set, const api::ParticleView& view, uint32_t substep);
   // In constraintgroups.cpp.
   template <class Call>
   void forGroups(Set& set, const ParticleStore& store, uint32_t substep, uint32_t iteration, Call&& call);
@@ -241,9 +253,14 @@ class ConstraintSystem {
   std::vector<Set> m_sets;
   std::vector<uint32_t> m_newIndex, m_keptParticles;
   std::vector<std::vector<float>> m_keptValues;
-  std::vector<uint8_t> m_hangs, m_setHangs;  ///< of findHanging(): by particle, by set
+  std::vector<uint32_t> m_groupBegin, m_groupMembers, m_open;  ///< of findPieces()
+  std::vector<uint8_t> m_groupSeen;                            ///< likewise
+  std::vector<uint8_t> m_hangs, m_setHangs;                    ///< of findHanging(): by particle, by set
   std::vector<api::Float4> m_correction;
   std::vector<uint8_t> m_thin;
+  ImplicitTies m_carried;
+  std::vector<uint8_t> m_held;       ///< by particle; empty: nothing is
+  std::vector<uint32_t> m_openHeld;  ///< of findHeld(), still to be followed
   StructureGraph m_graph;
   bool m_graphValid = false;
   std::vector<PluginFault> m_faults;

@@ -18,71 +18,61 @@ constexpr double kLeastDeterminant = 1e-6;
 
 }  // namespace
 
-void PieceSpin::findPieces(const ParticleStore& store, const StructureGraph& graph) {
-  m_piece.assign(store.size(), kNone);
-  m_count.clear();
-  for (uint32_t first = 0; first < store.size(); ++first) {
-    if (m_piece[first] != kNone || graph.begin[first + 1] == graph.begin[first]) continue;
-    const uint32_t piece = static_cast<uint32_t>(m_count.size());
-    m_count.push_back(0);
-    bool keepsItself = false;
-    m_piece[first] = piece;
-    m_open.push_back(first);
-    while (!m_open.empty()) {
-      const uint32_t i = m_open.back();
-      m_open.pop_back();
-      ++m_count[piece];
-      keepsItself = keepsItself || store.velocity()[i].w == 0 || graph.groupBegin[i + 1] != graph.groupBegin[i];
-      for (uint32_t k = graph.begin[i]; k < graph.begin[i + 1]; ++k) {
-        if (m_piece[graph.partner[k]] != kNone) continue;
-        m_piece[graph.partner[k]] = piece;
-        m_open.push_back(graph.partner[k]);
-      }
-    }
-    if (keepsItself) m_count[piece] = 0;
-  }
-}
-
-void PieceSpin::refresh(const ParticleStore& store, ConstraintSystem& constraints) {
+void PieceSpin::refresh(const ParticleStore& store, const StructureGraph& graph, std::span<const uint32_t> pieceOf) {
   m_runs.clear();
   m_pieces.clear();
   m_members.clear();
-  if (constraints.count() == 0) return;
-  findPieces(store, constraints.graph(store.size()));
+  m_count.assign(store.size(), 0);
+  m_grouped.assign(store.size(), 0);
+  for (uint32_t i = 0; i < store.size(); ++i) {
+    if (pieceOf[i] != kNone) ++m_count[pieceOf[i]];
+  }
+  for (uint32_t i = 0; i < store.size(); ++i) {
+    const uint32_t piece = pieceOf[i];
+    if (piece == kNone) continue;
+    if (store.velocity()[i].w == 0) m_count[piece] = 0;
+    if (graph.groupBegin[i + 1] != graph.groupBegin[i]) m_grouped[piece] = 1;
+  }
   size_t members = 0;
-  for (uint32_t& count : m_count) {
+  for (uint32_t i = 0; i < store.size(); ++i) {
+    uint32_t& count = m_count[i];
     const size_t first = members, last = members + count;
     for (size_t k = first; k < last; k += grain::kParticles)
       m_runs.push_back({k, std::min(last, k + grain::kParticles), m_pieces.size()});
-    if (count > 0) m_pieces.emplace_back();
+    if (count > 0) m_pieces.emplace_back().grouped = m_grouped[i] != 0;
     count = count > 0 ? static_cast<uint32_t>(first) : kNone;  // from now on where the next member goes
     members = last;
   }
   m_members.resize(members);
   for (uint32_t i = 0; i < store.size(); ++i) {
-    if (m_piece[i] != kNone && m_count[m_piece[i]] != kNone) m_members[m_count[m_piece[i]]++] = i;
+    if (pieceOf[i] != kNone && m_count[pieceOf[i]] != kNone) m_members[m_count[pieceOf[i]]++] = i;
   }
   m_sums.resize(m_runs.size());
 }
 
-void PieceSpin::read(const ParticleStore& store, double dt) {
+PieceSpin::Sums PieceSpin::sumOf(const ParticleStore& store, const Run& run, std::span<const api::Float4> couple,
+                                 double dt) const {
+  Sums sums;
+  if (m_pieces[run.piece].grouped && couple.empty()) return sums;
+  for (size_t k = run.first; k < run.last; ++k) {
+    const uint32_t i = m_members[k];
+    const double mass = store.mass()[i];
+    const Vector3 at = vectorOf(store.position()[i]), predicted = vectorOf(store.velocity()[i]);
+    const Vector3 velocity = (at - vectorOf(store.previous()[i])) / dt;
+    sums.mass += mass;
+    sums.place += mass * at;
+    sums.predicted += mass * predicted;
+    sums.momentum += mass * velocity;
+    sums.torque += mass * predicted.cross(velocity);
+    sums.moments += mass * at * at.transpose();
+    if (!couple.empty()) sums.couple += vectorOf(couple[i]);
+  }
+  return sums;
+}
+
+void PieceSpin::read(const ParticleStore& store, std::span<const api::Float4> couple, double dt) {
   forChunks(m_runs.size(), 1, [&](size_t first, size_t last) {
-    for (size_t r = first; r < last; ++r) {
-      Sums sums;
-      for (size_t k = m_runs[r].first; k < m_runs[r].last; ++k) {
-        const uint32_t i = m_members[k];
-        const double mass = store.mass()[i];
-        const Vector3 at = vectorOf(store.position()[i]), predicted = vectorOf(store.velocity()[i]);
-        const Vector3 velocity = (at - vectorOf(store.previous()[i])) / dt;
-        sums.mass += mass;
-        sums.place += mass * at;
-        sums.predicted += mass * predicted;
-        sums.momentum += mass * velocity;
-        sums.torque += mass * predicted.cross(velocity);
-        sums.moments += mass * at * at.transpose();
-      }
-      m_sums[r] = sums;
-    }
+    for (size_t r = first; r < last; ++r) m_sums[r] = sumOf(store, m_runs[r], couple, dt);
   });
   for (size_t r = 0; r < m_runs.size();) {
     const size_t piece = m_runs[r].piece;
@@ -93,12 +83,16 @@ void PieceSpin::read(const ParticleStore& store, double dt) {
       all.predicted += m_sums[r].predicted;
       all.momentum += m_sums[r].momentum;
       all.torque += m_sums[r].torque;
+      all.couple += m_sums[r].couple;
       all.moments += m_sums[r].moments;
     }
     Piece& result = m_pieces[piece];
-    result.centre = all.place / all.mass;
     result.spin.setZero();
-    const Vector3 lost = dt * (all.torque - all.predicted.cross(all.momentum) / all.mass);
+    if (!(all.mass > 0)) continue;
+    result.centre = all.place / all.mass;
+    Vector3 lost = all.couple / dt;
+    if (!result.grouped) lost += dt * (all.torque - all.predicted.cross(all.momentum) / all.mass);
+    if (lost.isZero(0)) continue;
     const Matrix3 moments = all.moments - all.mass * result.centre * result.centre.transpose();
     const Matrix3 inertia = moments.trace() * Matrix3::Identity() - moments;
     const double trace = inertia.trace();
@@ -110,6 +104,7 @@ void PieceSpin::apply(ParticleStore& store) const {
   forChunks(m_runs.size(), 1, [&](size_t first, size_t last) {
     for (size_t r = first; r < last; ++r) {
       const Piece& piece = m_pieces[m_runs[r].piece];
+      if (piece.spin.isZero(0)) continue;
       for (size_t k = m_runs[r].first; k < m_runs[r].last; ++k) {
         const Vector3 arm = vectorOf(store.position()[m_members[k]]) - piece.centre;
         addTo(store.velocity()[m_members[k]], piece.spin.cross(arm));

@@ -2,6 +2,7 @@
 #include "core/solver/structure/constraintsystem.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace ps {
 
@@ -31,32 +32,47 @@ const StructureGraph& ConstraintSystem::graph(size_t particles) {
 }
 
 std::vector<uint32_t> ConstraintSystem::pieces(size_t particles) {
+  std::vector<uint32_t> piece;
+  findPieces(particles, piece);
+  return piece;
+}
+
+void ConstraintSystem::findPieces(size_t particles, std::vector<uint32_t>& piece) {
   const StructureGraph& ties = graph(particles);
-  std::vector<uint32_t> piece(particles, kNoPiece), open;
-  std::vector<std::vector<uint32_t>> members;  // of groups, by their serial
-  for (uint32_t i = 0; i < particles; ++i) {
-    for (uint32_t k = ties.groupBegin[i]; k < ties.groupBegin[i + 1]; ++k) {
-      if (ties.group[k] >= members.size()) members.resize(ties.group[k] + size_t{1});
-      members[ties.group[k]].push_back(i);
-    }
+  piece.assign(particles, kNoPiece);
+  // Members of groups, by their serial: first how many, then where the next one goes.
+  m_groupBegin.clear();
+  for (const uint32_t group : ties.group) {
+    if (group >= m_groupBegin.size()) m_groupBegin.resize(group + size_t{1}, 0);
+    ++m_groupBegin[group];
   }
+  uint32_t members = 0;
+  for (uint32_t& begin : m_groupBegin) begin = std::exchange(members, members + begin);
+  m_groupMembers.resize(members);
+  for (uint32_t i = 0; i < particles; ++i) {
+    for (uint32_t k = ties.groupBegin[i]; k < ties.groupBegin[i + 1]; ++k)
+      m_groupMembers[m_groupBegin[ties.group[k]]++] = i;
+  }
+  m_groupSeen.assign(m_groupBegin.size(), 0);
+  m_open.clear();
   for (uint32_t first = 0; first < particles; ++first) {
     if (piece[first] != kNoPiece || ties.isFree(first)) continue;
     const auto reach = [&](uint32_t i) {
-      if (piece[i] == kNoPiece) piece[i] = first, open.push_back(i);
+      if (piece[i] == kNoPiece) piece[i] = first, m_open.push_back(i);
     };
     reach(first);
-    while (!open.empty()) {
-      const uint32_t i = open.back();
-      open.pop_back();
+    while (!m_open.empty()) {
+      const uint32_t i = m_open.back();
+      m_open.pop_back();
       for (uint32_t k = ties.begin[i]; k < ties.begin[i + 1]; ++k) reach(ties.partner[k]);
       for (uint32_t k = ties.groupBegin[i]; k < ties.groupBegin[i + 1]; ++k) {
-        for (const uint32_t j : members[ties.group[k]]) reach(j);
-        members[ties.group[k]].clear();
+        const uint32_t group = ties.group[k];
+        if (std::exchange(m_groupSeen[group], uint8_t{1}) != 0) continue;
+        const uint32_t begin = group > 0 ? m_groupBegin[group - 1] : 0;  // each has moved on to its end
+        for (uint32_t m = begin; m < m_groupBegin[group]; ++m) reach(m_groupMembers[m]);
       }
     }
   }
-  return piece;
 }
 
 bool ConstraintSystem::groups() const {

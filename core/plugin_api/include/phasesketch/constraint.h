@@ -40,9 +40,12 @@ struct ConstraintContext {
   Span<const double> parameters;
   Span<const MaterialView* const> materials;
   uint32_t body = kNoBody;  ///< index of that body, as in ParticleView::body
-  uint32_t reserved = 0;
+  uint32_t passes = 1;      ///< of project() over ties in a substep
   Span<const Span<const double>> bodyParameters{};
   double time = 0;  ///< s of the scene, at the start of the frame
+  /// Of each particle: 1 where ties connect it with something fixed, so that the host carries the pulls of SpringTies;
+  /// nullptr where it carries none.
+  const uint8_t* held = nullptr;
   static constexpr uint32_t kNoBody = ~0u;
   /// Parameters of any body, by its index; the defaults of one that does not use this plugin.
   Span<const double> parametersOf(uint32_t index) const {
@@ -68,6 +71,12 @@ class ConstraintPlugin : public Plugin {
 };
 
 // Structural: `arity` particles each, and `values` floats of their own (rest length, multiplier, ...).
+
+class SpringTies;
+
+/// Capability of structure of two particles each whose ties are springs: extension(kSpringTies) is its SpringTies. The
+/// host then carries their pulls through what is held by something fixed before it calls project().
+inline constexpr const char* kSpringTies = "spring_ties";
 
 struct StructuralTraits {
   size_t structSize = sizeof(StructuralTraits);
@@ -116,6 +125,23 @@ class StructuralPlugin : public ConstraintPlugin {
                         const ConstraintBatch& /*all*/, ConstraintSink&) const {}
   /// Elastic energy of the batch in J.
   virtual double energy(const ConstraintContext&, const ParticleView&, const ConstraintBatch&) const { return 0; }
+};
+
+/// See kSpringTies.
+class SpringTies {
+ public:
+  /// Which of the declared values is the XPBD multiplier: the impulse of a substep times dt, N s², positive where a tie
+  /// pushes its particles apart.
+  virtual size_t multiplier() const noexcept = 0;
+  /// Once per substep, after predict(): pull[k], in N, of constraint k on its first particle, away from the second, at
+  /// the places that they have, and by how much it falls per metre that they move apart. A stiffness of 0 leaves it to
+  /// project() alone, as where context.held is not 1. predict() sets the multipliers of these to 0 and keeps the
+  /// others, from which the host begins; project() then finds those that the host has found.
+  virtual void linearise(const ConstraintContext&, const ParticleView&, const ConstraintBatch&, float* pull,
+                         float* stiffness) const = 0;
+
+ protected:
+  ~SpringTies() = default;
 };
 
 // Groups: any number of particles together; `values` belong to the group, `memberValues` to each of its members (a

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "core/math/vector.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace ps {
+
+/// Impulse and its moment about the origin, kg m/s and kg m2/s; or their rates, N and N m.
+struct Wrench {
+  Vector3 force, torque;
+};
+
+/// What walls and the fixed particles of bodies get from all that moves, as far as somebody watches them: stages tell
+/// each impulse as they give its opposite to matter. In a loop over chunks one sum for each chunk, added in order, so
+/// that threads have no part in it.
+class Reactions {
+ public:
+  /// For stages that nobody listens to.
+  static Reactions& none();
+
+  /// By index, of those that are to be measured alone.
+  void watch(std::span<const uint32_t> walls, std::span<const uint32_t> bodies);
+  bool any() const { return m_slots > 0; }
+  bool watchesWalls() const { return !m_ofWall.empty(); }
+  bool watchesBodies() const { return !m_ofBody.empty(); }
+  /// kNone for those that nobody watches: what is said of them is not heard.
+  static constexpr int kNone = -1;
+  int ofWall(size_t wall) const { return wall < m_ofWall.size() ? m_ofWall[wall] : kNone; }
+  int ofBody(uint32_t body) const { return body < m_ofBody.size() ? m_ofBody[body] : kNone; }
+
+  /// Everything is 0 again.
+  void clear();
+  void setStep(double dt) { m_perStep = 1 / dt; }  ///< s, of a substep
+  double perStep() const { return m_perStep; }     ///< 1/s: times a displacement in kg m it is an impulse
+
+  /// Begins and ends a loop over so many chunks.
+  void start(size_t chunks);
+  void finish();
+  /// Impulse in kg m/s on a wall or body, at a place in m; within a loop.
+  void add(size_t chunk, int slot, const Vector3& place, const Vector3& impulse) {
+    if (slot != kNone) put(m_partial[chunk * m_slots + static_cast<size_t>(slot)], place, impulse);
+  }
+  /// The same outside of loops.
+  void add(int slot, const Vector3& place, const Vector3& impulse) {
+    if (slot != kNone) put(m_sum[static_cast<size_t>(slot)], place, impulse);
+  }
+  void add(int slot, const Wrench& wrench);
+  /// Since clear().
+  const Wrench& sum(int slot) const { return m_sum[static_cast<size_t>(slot)]; }
+
+ private:
+  static void put(Wrench& wrench, const Vector3& place, const Vector3& impulse);
+
+  size_t m_slots = 0;
+  std::vector<int> m_ofWall, m_ofBody;
+  std::vector<Wrench> m_sum, m_partial;
+  double m_perStep = 0;
+};
+
+}  // namespace ps

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "core/math/vector.h"
+#include "core/particles/neighbours.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace ps {
+
+/// Two solids touch face to face at this distance along the normal, in spacings.
+inline constexpr double kFaceDistance = 1;
+/// A face takes part as far beside a particle as half the diagonal of its lattice's squares reaches, in spacings.
+inline constexpr double kFaceWidth = 0.75;
+
+/// The smoothed surface of lattices: a particle's outward normal points away from the neighbours of its own lattice,
+/// and their number tells a face from an edge. Contact along it slides over a flat lattice as over a plane, where
+/// single spheres would interlock. Neighbours are found when lists are made, normals from where they are now.
+class LatticeSurface {
+ public:
+  static constexpr uint32_t kNone = ~0u;
+  /// Neighbours of the same lattice that count, at most: a cubic one has 18 within reach.
+  static constexpr size_t kMostOwn = 32;
+  /// A face has as many, of 18 inside, 13 in a face, 9 on an edge, 6 in a corner.
+  static constexpr uint32_t kFaceNeighbours = 11;
+
+  struct Normal {
+    Vector3 normal;           ///< unit, outward; zero inside and where there is no lattice
+    uint32_t neighbours = 0;  ///< as flat as that
+    bool twoSided = false;    ///< a layer one particle thick: the other side is as good
+  };
+  /// How two particles face each other.
+  struct Facing {
+    Vector3 normal;       ///< unit, from the second to the first
+    bool face = false;    ///< along a face's normal; otherwise along the line of centres, between round ones
+    bool beside = false;  ///< along a face's normal, but the face does not reach so far
+  };
+
+  void configure(double spacing) { m_spacing = spacing; }
+  /// Forgets all particles.
+  void clear(size_t particles);
+  /// Makes room for particle i, once, and returns its slot.
+  uint32_t add(uint32_t i) {
+    if (m_slot[i] == kNone) {
+      m_slot[i] = static_cast<uint32_t>(m_who.size());
+      m_who.push_back(i);
+      m_own.emplace_back();
+    }
+    return m_slot[i];
+  }
+  uint32_t slotOf(uint32_t i) const { return m_slot[i]; }
+  uint32_t whoIs(size_t slot) const { return m_who[slot]; }
+  bool has(uint32_t i) const { return i < m_slot.size() && m_slot[i] != kNone; }
+  size_t size() const { return m_who.size(); }
+  /// Finds the lattice around the particle of a slot; same(i, j) says whether a neighbour j belongs to it. By positions
+  /// that the lists were made for: what is found depends on nothing else. Slots may be found at the same time.
+  template <class Same>
+  void find(const ParticleStore& store, const Neighbours& neighbours, uint32_t slot, Same&& same) {
+    const uint32_t i = m_who[slot];
+    Own& own = m_own[slot];
+    own.count = 0;
+    const api::NeighbourView view = neighbours.view();
+    const std::span<const api::Float4> at = neighbours.built();
+    const double reach2 = kOwnReach * kOwnReach * m_spacing * m_spacing;
+    for (uint32_t q = view.begin[i]; q < view.last[i] && own.count < kMostOwn; ++q) {
+      const uint32_t j = view.index[q];
+      float x = at[i].x - at[j].x, y = at[i].y - at[j].y, z = at[i].z - at[j].z;
+      store.period().shorten(x, y, z);
+      if (Vector3(x, y, z).squaredNorm() < reach2 && same(i, j)) own.particles[own.count++] = j;
+    }
+  }
+  /// Where its neighbours are now.
+  Normal normalOf(const ParticleStore& store, uint32_t i) const;
+  /// `line` leads from j to i, m. Round ones face each other along it.
+  Facing facing(const Normal& i, const Normal& j, const Vector3& line) const;
+
+ private:
+  static constexpr double kOwnReach = 1.5;  ///< spacings
+  struct Own {
+    std::array<uint32_t, kMostOwn> particles;
+    uint32_t count = 0;
+  };
+
+  double m_spacing = 0;  ///< m
+  std::vector<uint32_t> m_slot, m_who;
+  std::vector<Own> m_own;
+};
+
+}  // namespace ps
