@@ -111,7 +111,11 @@ std::string simulateHelp() {
          optionHelp(kOptions) +
          "\nThe report is in SI units but for milliseconds, where a key says ms. Thermal energy counts from the solid "
          "at its\nmelting point, so that matter colder than that has less than none; what a run means is the "
-         "difference.\n";
+         "difference.\nenergy.mechanical is kinetic energy and that of weight (-m g x) of what moves; `given` names "
+         "who "
+         "gave or took it,\nstructure with what it stores, and adds up to end less start. momentum.angular is about "
+         "the "
+         "origin.\n";
 }
 
 int simulateCommand(CommandArguments list) {
@@ -137,6 +141,7 @@ int simulateCommand(CommandArguments list) {
   if (arguments.has("--probes")) probes.emplace(arguments.text("--probes"), engine);
   if (arguments.has("--record")) recording.emplace(arguments.text("--record"), project);
   RunReport report(begin);
+  engine.measureBalance(arguments.has("--report"));
   SettlingMeasure settling(frames);
   const double start = now();
   double wall = 0;

@@ -21,6 +21,8 @@ nlohmann::json jsonOf(const FlowAmount& amount) {
 }
 nlohmann::json jsonOf(const api::Double3& v) { return {v.x, v.y, v.z}; }
 
+api::Double3 sumOf(const api::Double3& a, const api::Double3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+
 double liquidCount(const FrameStats& stats) {
   return static_cast<double>(stats.phases[static_cast<size_t>(api::Phase::Liquid)].count +
                              stats.phases[static_cast<size_t>(api::Phase::Boiling)].count);
@@ -49,10 +51,23 @@ void RunReport::add(const StepReport& step, const FrameStats& stats) {
   m_errorMax = std::max(m_errorMax, step.densityErrorMax);
   if (frames() == 1) m_momentum.start = step.momentum.start;
   m_momentum.end = step.momentum.end;
-  api::Double3& external = m_momentum.external;
-  external = {external.x + step.momentum.external.x, external.y + step.momentum.external.y,
-              external.z + step.momentum.external.z};
+  m_momentum.external = sumOf(m_momentum.external, step.momentum.external);
+  if (step.mechanical.measured) add(step.mechanical);
   m_last = stats;
+}
+
+void RunReport::add(const MechanicalRecord& frame) {
+  MechanicalRecord& all = m_mechanical;
+  if (!all.measured) {
+    all = frame;
+    return;
+  }
+  m_between += (frame.kineticStart + frame.potentialStart) - (all.kineticEnd + all.potentialEnd);
+  all.kineticEnd = frame.kineticEnd;
+  all.potentialEnd = frame.potentialEnd;
+  for (size_t part = 0; part < all.given.size(); ++part) all.given[part] += frame.given[part];
+  all.angularEnd = frame.angularEnd;
+  all.angularExternal = sumOf(all.angularExternal, frame.angularExternal);
 }
 
 void RunReport::add(const std::vector<PluginFault>& late) {
@@ -60,6 +75,19 @@ void RunReport::add(const std::vector<PluginFault>& late) {
     if (!m_flags) m_message = "plugin '" + fault.plugin + "': " + fault.what;
     m_flags |= static_cast<StepFlags>(StepFlag::PluginFault);
   }
+}
+
+/// J of what moves; who gave it since the start adds up to end less start.
+nlohmann::json RunReport::mechanicalJson() const {
+  const MechanicalRecord& m = m_mechanical;
+  nlohmann::json given{{"between_frames", m_between}};
+  for (size_t part = 0; part < m.given.size(); ++part)
+    given[partName(static_cast<MechanicalRecord::Part>(part))] = m.given[part];
+  return {{"start", m.kineticStart + m.potentialStart},
+          {"end", m.kineticEnd + m.potentialEnd},
+          {"kinetic", {{"start", m.kineticStart}, {"end", m.kineticEnd}}},
+          {"weight", {{"start", m.potentialStart}, {"end", m.potentialEnd}}},
+          {"given", given}};
 }
 
 nlohmann::json RunReport::json(Engine& engine, double wallSeconds) const {
@@ -80,6 +108,25 @@ nlohmann::json RunReport::json(Engine& engine, double wallSeconds) const {
   for (size_t p = 0; p < 5; ++p) {
     phases[kPhases[p]] = {{"count", m_last.phases[p].count}, {"mass", m_last.phases[p].mass}};
   }
+  nlohmann::json momentum{
+      {"start", jsonOf(m_momentum.start)}, {"end", jsonOf(m_momentum.end)}, {"external", jsonOf(m_momentum.external)}};
+  nlohmann::json energy{{"start", m_start.thermalEnergy},
+                        {"end", m_last.thermalEnergy},
+                        {"walls", m_last.heat.walls},
+                        {"air", m_last.heat.air},
+                        {"radiation", m_last.heat.radiation},
+                        {"heaters", m_last.heat.heaters},
+                        {"sources", m_last.heat.sources},
+                        {"air_warming", m_last.heat.airWarming},
+                        {"exchanged", m_last.heat.exchanged},
+                        {"elastic", engine.solver().elasticEnergy()},
+                        {"drift", m_last.thermalEnergy - m_start.thermalEnergy - m_last.heat.net()}};
+  if (m_mechanical.measured) {
+    energy["mechanical"] = mechanicalJson();
+    momentum["angular"] = {{"start", jsonOf(m_mechanical.angularStart)},
+                           {"end", jsonOf(m_mechanical.angularEnd)},
+                           {"external", jsonOf(m_mechanical.angularExternal)}};
+  }
   return {{"particles", engine.particles().size()},
           {"frames", frames()},
           {"substeps", static_cast<int>(number("substeps"))},
@@ -95,26 +142,12 @@ nlohmann::json RunReport::json(Engine& engine, double wallSeconds) const {
           {"limits", limits},
           {"ms_per_frame", milliseconds},
           {"density_error", {{"mean", meanDensityError()}, {"max", maxDensityError()}}},
-          {"energy",
-           {{"start", m_start.thermalEnergy},
-            {"end", m_last.thermalEnergy},
-            {"walls", m_last.heat.walls},
-            {"air", m_last.heat.air},
-            {"radiation", m_last.heat.radiation},
-            {"heaters", m_last.heat.heaters},
-            {"sources", m_last.heat.sources},
-            {"air_warming", m_last.heat.airWarming},
-            {"exchanged", m_last.heat.exchanged},
-            {"elastic", engine.solver().elasticEnergy()},
-            {"drift", m_last.thermalEnergy - m_start.thermalEnergy - m_last.heat.net()}}},
+          {"energy", energy},
           {"flow",
            {{"poured", jsonOf(m_last.flow.poured)},
             {"drained", jsonOf(m_last.flow.drained)},
             {"held", jsonOf(m_last.flow.held)}}},
-          {"momentum",
-           {{"start", jsonOf(m_momentum.start)},
-            {"end", jsonOf(m_momentum.end)},
-            {"external", jsonOf(m_momentum.external)}}},
+          {"momentum", momentum},
           {"phases", phases},
           {"temperature",
            {{"min", m_last.temperatureMin}, {"mean", m_last.temperatureMean}, {"max", m_last.temperatureMax}}}};

@@ -41,7 +41,12 @@ class RunReport {
   std::string m_message;
   std::vector<double> m_total;
   std::array<std::vector<double>, static_cast<size_t>(Stage::Count)> m_stages;
-  MomentumRecord m_momentum;  ///< start of the first frame, end of the last, impulse of all
+  void add(const MechanicalRecord& frame);
+  nlohmann::json mechanicalJson() const;
+
+  MomentumRecord m_momentum;      ///< start of the first frame, end of the last, impulse of all
+  MechanicalRecord m_mechanical;  ///< likewise
+  double m_between = 0;           ///< J, which came and went with matter, or with another gravity, between frames
   double m_errorSum = 0, m_errorMax = 0, m_liquid = 0;
 };
 

@@ -12,7 +12,7 @@ Reactions& Reactions::none() {
   return nobody;
 }
 
-void Reactions::watch(std::span<const uint32_t> walls, std::span<const uint32_t> bodies) {
+void Reactions::watch(std::span<const uint32_t> walls, std::span<const uint32_t> bodies, bool all) {
   m_slots = 0;
   const auto number = [&](std::span<const uint32_t> watched, std::vector<int>& slots) {
     slots.clear();
@@ -23,10 +23,20 @@ void Reactions::watch(std::span<const uint32_t> walls, std::span<const uint32_t>
   };
   number(walls, m_ofWall);
   number(bodies, m_ofBody);
+  m_rest = all ? static_cast<int>(m_slots++) : kNone;
   m_sum.assign(m_slots, {});
 }
 
 void Reactions::clear() { std::fill(m_sum.begin(), m_sum.end(), Wrench{}); }
+
+Wrench Reactions::total() const {
+  Wrench total;
+  for (const Wrench& sum : m_sum) {
+    total.force += sum.force;
+    total.torque += sum.torque;
+  }
+  return total;
+}
 
 void Reactions::start(size_t chunks) {
   if (any()) m_partial.assign(chunks * m_slots, {});

@@ -21,15 +21,18 @@ class Reactions {
   /// For stages that nobody listens to.
   static Reactions& none();
 
-  /// By index, of those that are to be measured alone.
-  void watch(std::span<const uint32_t> walls, std::span<const uint32_t> bodies);
+  /// By index, of those that are to be measured alone; with `all` the rest of them together as well.
+  void watch(std::span<const uint32_t> walls, std::span<const uint32_t> bodies, bool all);
+  size_t slots() const { return m_slots; }
   bool any() const { return m_slots > 0; }
-  bool watchesWalls() const { return !m_ofWall.empty(); }
-  bool watchesBodies() const { return !m_ofBody.empty(); }
+  bool watchesWalls() const { return !m_ofWall.empty() || m_rest != kNone; }
+  bool watchesBodies() const { return !m_ofBody.empty() || m_rest != kNone; }
   /// kNone for those that nobody watches: what is said of them is not heard.
   static constexpr int kNone = -1;
-  int ofWall(size_t wall) const { return wall < m_ofWall.size() ? m_ofWall[wall] : kNone; }
-  int ofBody(uint32_t body) const { return body < m_ofBody.size() ? m_ofBody[body] : kNone; }
+  int ofWall(size_t wall) const { return slotOf(m_ofWall, wall); }
+  int ofBody(uint32_t body) const { return slotOf(m_ofBody, body); }
+  /// Of those that are not measured alone; kNone: not watched.
+  int rest() const { return m_rest; }
 
   /// Everything is 0 again.
   void clear();
@@ -50,11 +53,17 @@ class Reactions {
   void add(int slot, const Wrench& wrench);
   /// Since clear().
   const Wrench& sum(int slot) const { return m_sum[static_cast<size_t>(slot)]; }
+  /// Of all that is watched.
+  Wrench total() const;
 
  private:
+  int slotOf(const std::vector<int>& slots, size_t index) const {
+    return index < slots.size() && slots[index] != kNone ? slots[index] : m_rest;
+  }
   static void put(Wrench& wrench, const Vector3& place, const Vector3& impulse);
 
   size_t m_slots = 0;
+  int m_rest = kNone;
   std::vector<int> m_ofWall, m_ofBody;
   std::vector<Wrench> m_sum, m_partial;
   double m_perStep = 0;

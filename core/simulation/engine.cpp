@@ -144,6 +144,7 @@ void Engine::Impl::watchForces() {
       watch(bodies, *bodyIds, [&](const std::string& id) { return id == probe.body; });
   }
   solver->watchForces(walls, bodies);
+  solver->measureBalance(measuresBalance);
 }
 
 Project Engine::Impl::document() const {
@@ -241,6 +242,8 @@ Engine::Engine(const Project& project, PluginRegistry& plugins) : m(std::make_un
   if (!m->solver) m->build();
 }
 Engine::~Engine() = default;
+
+void Engine::measureBalance(bool on) { m->measuresBalance = on; }
 
 StepReport Engine::step() {
   m->flow.steer(*m->solver, m->project, compileSettings(m->project).dt);

@@ -28,6 +28,8 @@ class Engine {
 
   /// Plugins that threw in it are refused from now on, in the registry too.
   StepReport step();
+  /// Whether reports of frames tell who gave and took mechanical energy: Solver::measureBalance(), after resets too.
+  void measureBalance(bool on);
   /// What could not be delivered: the solver's limits, then those of emitters, then those of materials' laws.
   std::vector<Limit> limits() const;
   /// Asks every plugin for its energies and limits, and names those that threw at it since the last step: they are

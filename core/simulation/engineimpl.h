@@ -62,8 +62,9 @@ struct Engine::Impl {
   /// Whether so many particles more may be poured; what they take is then spoken for.
   bool mayPour(size_t more);
   void exchangeMatter();
-  /// Tells the solver on what the probes measure forces.
+  /// Tells the solver on what the probes measure forces, and whether its balance is measured.
   void watchForces();
+  bool measuresBalance = false;
   std::vector<FieldPtr> shownFields() const;
 
   Project project;

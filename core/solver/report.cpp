@@ -17,6 +17,29 @@ std::vector<std::string> flagNames(StepFlags flags) {
   return names;
 }
 
+const char* partName(MechanicalRecord::Part part) {
+  using Part = MechanicalRecord::Part;
+  switch (part) {
+    case Part::Surroundings:
+      return "surroundings";
+    case Part::Structure:
+      return "structure";
+    case Part::Pressure:
+      return "pressure";
+    case Part::Contact:
+      return "contact";
+    case Part::Viscosity:
+      return "viscosity";
+    case Part::Impact:
+      return "impact";
+    case Part::Scheme:
+      return "scheme";
+    case Part::Count:
+      break;
+  }
+  return "";
+}
+
 const char* stageName(Stage stage) {
   switch (stage) {
     case Stage::Neighbours:

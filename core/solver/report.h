@@ -64,6 +64,23 @@ struct MomentumRecord {
   api::Double3 external{0, 0, 0};
 };
 
+/// Mechanical energy of what moves over one frame, in J, and its angular momentum about the origin, in kg m2/s. The
+/// parts of `given` add up to what the frame gained, to rounding. What structure stores is not counted, but where it
+/// gives and takes; friction and inelastic contact are one: Contact.
+struct MechanicalRecord {
+  /// Surroundings: gravity's steps, air, damping, what leads. Structure: constraints and groups, stored and lost.
+  /// Pressure: of liquids. Contact: solids, walls, fixed matter, liquid on solids, with friction. Impact: restitution.
+  /// Scheme: velocities of first order, and what gives the spin back that they lose.
+  enum class Part { Surroundings, Structure, Pressure, Contact, Viscosity, Impact, Scheme, Count };
+  bool measured = false;
+  double kineticStart = 0, kineticEnd = 0, potentialStart = 0, potentialEnd = 0;
+  std::array<double, static_cast<size_t>(Part::Count)> given{};
+  api::Double3 angularStart{0, 0, 0}, angularEnd{0, 0, 0};
+  /// Of gravity, air, damping, walls, and fixed particles with what hangs on them.
+  api::Double3 angularExternal{0, 0, 0};
+};
+const char* partName(MechanicalRecord::Part part);
+
 /// Limits that are no parameter's: the heat balance is open by so many joules; liquid is too dense by this mean excess
 /// while a body is led, or solids are squeezed themselves, which may leave it no room; a gap of so many metres, across
 /// which heat is radiated, is narrower than the one that particles can show.
@@ -80,6 +97,7 @@ struct StepReport {
   double densityErrorMean = 0, densityErrorMax = 0;  ///< fraction, liquid particles, after the last iteration
   int viscosityIterations = 0;                       ///< of the implicit viscosity, the most of a substep
   MomentumRecord momentum;
+  MechanicalRecord mechanical;  ///< where Solver::measureBalance() asks for it
 };
 
 }  // namespace ps

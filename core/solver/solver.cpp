@@ -109,6 +109,11 @@ void Solver::watchForces(std::span<const uint32_t> walls, std::span<const uint32
   if (m->forces.watch(walls, bodies)) m->anchorsKnown = false;
 }
 
+void Solver::measureBalance(bool on) {
+  m->balance.watch(on);
+  if (m->forces.watchAll(on)) m->anchorsKnown = false;
+}
+
 std::optional<Wrench> Solver::forceOnWall(size_t wall) const { return m->forces.onWall(wall); }
 std::optional<Wrench> Solver::forceOnBody(uint32_t body) const { return m->forces.onBody(body); }
 

@@ -62,6 +62,10 @@ class Solver {
   std::optional<Wrench> forceOnWall(size_t wall) const;
   std::optional<Wrench> forceOnBody(uint32_t body) const;
 
+  /// Whether reports tell who gave and took mechanical energy, from the next frame on. Takes a pass over all particles
+  /// for each stage; moves nothing by a bit.
+  void measureBalance(bool on);
+
   /// Plugins that warm or cool matter, whatever the model; those that threw stay put aside.
   void setHeatSources(std::vector<HeatSource> sources);
   /// W of thermal time that come up inside each body, by index; bodies beyond the list have none. See BodyHeating.

@@ -141,8 +141,18 @@ void TestCli::simulateWritesTheReportsKeys() {
   for (const auto& stage : r["ms_per_frame"]) QCOMPARE(keysOf(stage), (Keys{"mean", "median", "p95"}));
   QCOMPARE(keysOf(r["density_error"]), (Keys{"mean", "max"}));
   QCOMPARE(keysOf(r["energy"]), (Keys{"start", "end", "walls", "air", "radiation", "heaters", "sources", "air_warming",
-                                      "exchanged", "drift", "elastic"}));
-  QCOMPARE(keysOf(r["momentum"]), (Keys{"start", "end", "external"}));
+                                      "exchanged", "drift", "elastic", "mechanical"}));
+  const nlohmann::json& mechanical = r["energy"]["mechanical"];
+  QCOMPARE(keysOf(mechanical), (Keys{"start", "end", "kinetic", "weight", "given"}));
+  QCOMPARE(keysOf(mechanical["given"]), (Keys{"between_frames", "surroundings", "structure", "pressure", "contact",
+                                              "viscosity", "impact", "scheme"}));
+  double given = 0;
+  for (const auto& part : mechanical["given"]) given += part.get<double>();
+  const double start = mechanical["start"], end = mechanical["end"];
+  QVERIFY(end != start);
+  QVERIFY(std::abs(given - (end - start)) < 1e-9 * std::abs(start));
+  QCOMPARE(keysOf(r["momentum"]), (Keys{"start", "end", "external", "angular"}));
+  QCOMPARE(keysOf(r["momentum"]["angular"]), (Keys{"start", "end", "external"}));
   QCOMPARE(keysOf(r["rest"]), (Keys{"from_s", "kinetic_energy", "speed_rms", "moved"}));
   QVERIFY(std::abs(r["rest"]["from_s"].get<double>() - 0.25) < 1e-9);
   QVERIFY(r["rest"]["moved"]["solid_particle"].get<double>() > 0);  // it still falls, or slides where it landed

@@ -13,26 +13,44 @@ bool ForceMeter::watch(std::span<const uint32_t> walls, std::span<const uint32_t
     return false;
   m_walls.assign(walls.begin(), walls.end());
   m_bodies.assign(bodies.begin(), bodies.end());
-  m_reactions.watch(walls, bodies);
-  const size_t slots = walls.size() + bodies.size();
+  start();
+  return true;
+}
+
+bool ForceMeter::watchAll(bool all) {
+  if (all == m_all) return false;
+  m_all = all;
+  start();
+  return true;
+}
+
+void ForceMeter::start() {
+  m_reactions.watch(m_walls, m_bodies, m_all);
+  const size_t slots = m_reactions.slots();
   m_before.assign(slots, {});
   m_after.assign(slots, {});
   m_forces.assign(slots, {});
   for (std::vector<Wrench>& ties : m_ties) ties.assign(slots, {});
   m_anchor.clear();
   m_measured = false;
-  return true;
+}
+
+Wrench ForceMeter::given() const {
+  const Wrench total = m_reactions.total();
+  return {-total.force, -total.torque};
 }
 
 std::optional<Wrench> ForceMeter::of(int slot) const {
-  return slot == Reactions::kNone || !m_measured ? std::nullopt : std::optional(m_forces[static_cast<size_t>(slot)]);
+  return slot == m_reactions.rest() || slot == Reactions::kNone || !m_measured
+             ? std::nullopt
+             : std::optional(m_forces[static_cast<size_t>(slot)]);
 }
 
 void ForceMeter::read(const ParticleStore& store, std::vector<Motion>& motions) const {
   std::fill(motions.begin(), motions.end(), Motion{});
   for (size_t i = 0; m_reactions.watchesBodies() && i < store.size(); ++i) {
     const int slot = m_reactions.ofBody(store.body()[i]);
-    if (slot == Reactions::kNone || store.velocity()[i].w == 0) continue;
+    if (slot == Reactions::kNone || slot == m_reactions.rest() || store.velocity()[i].w == 0) continue;
     Motion& motion = motions[static_cast<size_t>(slot)];
     const double mass = store.mass()[i];
     const Vector3 place = vectorOf(store.position()[i]), momentum = mass * vectorOf(store.velocity()[i]);

@@ -21,11 +21,16 @@ class ForceMeter {
  public:
   /// Each once. Returns whether these are others than before.
   bool watch(std::span<const uint32_t> walls, std::span<const uint32_t> bodies);
+  /// Whether the impulse of all walls and fixed bodies is to be known: given(). Returns whether that is new.
+  bool watchAll(bool all);
   Reactions& reactions() { return m_reactions; }
 
   /// When a frame begins and its lists are fresh, before it moves anything.
   void begin(const ParticleStore& store);
   void end(const ParticleStore& store, const Vector3& gravity, double dt);  ///< s, of the frame
+  /// What moves got from walls and what is fixed since begin(): kg m/s, kg m2/s about the origin. Of all with
+  /// watchAll().
+  Wrench given() const;
 
   /// After a new structure or order: which fixed body each of the `hanging` particles hangs on.
   void findAnchors(const ParticleStore& store, ConstraintSystem& constraints, std::span<const uint32_t> hanging);
@@ -46,6 +51,7 @@ class ForceMeter {
     Vector3 moment;  ///< kg m, mass times place
   };
   std::optional<Wrench> of(int slot) const;
+  void start();
   void read(const ParticleStore& store, std::vector<Motion>& motions) const;
   void readTies(const ParticleStore& store, std::span<const uint32_t> hanging, double perStep);
 
@@ -53,7 +59,7 @@ class ForceMeter {
   std::vector<uint32_t> m_walls, m_bodies;
   std::vector<Motion> m_before, m_after;  ///< by slot
   std::vector<Wrench> m_forces;           ///< by slot, of the last frame
-  bool m_measured = false;
+  bool m_all = false, m_measured = false;
   std::vector<int> m_anchor;      ///< slot, by place in the list of what hangs
   std::vector<Wrench> m_ties[2];  ///< by slot, before and after a call
 };

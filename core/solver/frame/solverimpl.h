@@ -11,6 +11,7 @@
 #include "core/solver/fluid/density.h"
 #include "core/solver/fluid/gasforces.h"
 #include "core/solver/fluid/viscosity.h"
+#include "core/solver/frame/balance.h"
 #include "core/solver/frame/forcemeter.h"
 #include "core/solver/frame/prescribedmotion.h"
 #include "core/solver/heat/heat.h"
@@ -79,6 +80,7 @@ struct Solver::Impl {
   ExternalImpulse external;  ///< kg m/s, in this frame
   ChunkSum weight;
   ForceMeter forces;
+  Balance balance;
   bool anchorsKnown = false;      ///< of `forces`, for the structure as it is
   std::vector<uint32_t> hanging;  ///< what moves and may be pulled by what is fixed, ascending
 

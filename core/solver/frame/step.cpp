@@ -18,6 +18,8 @@ constexpr double kLeastLiquid = 0.01;  ///< share of what moves, below which the
 /// How far the heat balance may be open: a share of what was exchanged, and of the whole for rounding.
 constexpr double kOpenExchange = 1e-6, kOpenRounding = 1e-11;
 
+using Part = MechanicalRecord::Part;
+
 }  // namespace
 
 Solver::Impl::Impl() {
@@ -110,6 +112,7 @@ bool Solver::Impl::advance() {
   anchorsKnown = true;
   forces.reactions().setStep(settings.dt / settings.substeps);
   forces.begin(store);
+  balance.begin(store, vectorOf(settings.gravity));
   density.startPressure();
   report.momentum.start = double3Of(momentum());
   gas.setAir(heat.airTemperature());
@@ -122,6 +125,7 @@ bool Solver::Impl::advance() {
   checkBounds();
   report.momentum.end = double3Of(momentum());
   report.momentum.external = double3Of(external.drain());
+  report.mechanical = balance.end(forces.given().torque);
   forces.end(store, vectorOf(settings.gravity), settings.dt);
   bool exchanged = false;
   timed(Stage::Heat, [&] { exchanged = exchangeHeat(); });
@@ -260,12 +264,16 @@ void Solver::Impl::iterate(uint32_t index, double dt) {
     const uint32_t it = static_cast<uint32_t>(iteration);
     for (int pass = 0; pass < structurePasses; ++pass) {
       structure([&] { constraints.projectStructure(store, index, it); }, dt);
+      balance.mark(store, Part::Structure, 1 / dt);
       if (it == 0 && pass == 0 && constraints.count() > 0) noteLeaps(dt);
       timed(Stage::Contact, [&] { sheets.project(store); });
+      balance.mark(store, Part::Contact, 1 / dt);
     }
     timed(Stage::Density, [&] { density.project(store, neighbours, iteration); });
+    balance.mark(store, Part::Pressure, 1 / dt);
     if (constraints.gathers()) {
       structure([&] { constraints.projectNeighbours(store, neighbours, index, it); }, dt);
+      balance.mark(store, Part::Structure, 1 / dt);
       if (it == 0) noteLeaps(dt);
     }
     timed(Stage::Contact, [&] {
@@ -273,9 +281,12 @@ void Solver::Impl::iterate(uint32_t index, double dt) {
       wet.project(store);
       wallStage.projectNear(store);
     });
+    balance.mark(store, Part::Contact, 1 / dt);
     structure([&] { constraints.projectGroups(store, index, it); }, dt);
+    balance.mark(store, Part::Structure, 1 / dt);
     if (it == 0 && constraints.groups()) noteLeaps(dt);
     timed(Stage::Contact, [&] { rigid.project(store); });
+    balance.mark(store, Part::Contact, 1 / dt);
   }
 }
 
@@ -283,9 +294,12 @@ void Solver::Impl::substep(uint32_t index) {
   const double dt = settings.dt / settings.substeps;
   timed(Stage::Contact, [&] {
     predict(index, dt);
+    balance.mark(store, Part::Surroundings, 0);
+    balance.mark(store, Part::Scheme, 1 / dt);  // places are rounded
     impacts.sweep(store, constraints, rigid.members());
     wallStage.project(store);
   });
+  balance.mark(store, Part::Contact, 1 / dt);
   timed(Stage::Neighbours, [&] {
     if (neighbours.stale(store)) {
       neighbours.build(store);
@@ -293,26 +307,33 @@ void Solver::Impl::substep(uint32_t index) {
     }
   });
   timed(Stage::Contact, [&] { rigid.strike(store); });
+  balance.mark(store, Part::Impact, 1 / dt);
   structure([&] { constraints.predict(store, index); }, dt);
+  balance.mark(store, Part::Structure, 1 / dt);
   timed(Stage::Contact, [&] {
     rigid.begin(store);
     contact.begin(store);
     impacts.collect(store, contact, constraints, rigid.members());
     rebound.meet(store, {constraints, pieceOf, rigid}, impacts);
   });
+  balance.mark(store, Part::Impact, 1 / dt);
   structure([&] { constraints.carry(store, index); }, dt);
+  balance.mark(store, Part::Structure, 1 / dt);
   iterate(index, dt);
   timed(Stage::Contact, [&] {
     wallStage.project(store);
     swept.apply(store, neighbours, wallStage, constraints.graph(store.size()), rigid.members());
     external.add(1 / dt * rigid.hold(store, swept.held(), swept.heldBy()));
     external.add(1 / dt * rigid.keepInside(store));
+    balance.mark(store, Part::Contact, 1 / dt);
     pieceSpin.read(store, contact.couple(), dt);
     velocities(dt);
     pieceSpin.apply(store);
+    balance.mark(store, Part::Scheme, 0);
     bookContact(dt);
   });
   timed(Stage::Viscosity, [&] { viscosity.apply(store, neighbours, density); });
+  balance.mark(store, Part::Viscosity, 0);
   timed(Stage::Structure, [&] {
     const Vector3 before = momentumOfHanging();
     forces.beforeTies(store, hanging, 0);
@@ -320,11 +341,13 @@ void Solver::Impl::substep(uint32_t index) {
     forces.afterTies(store, hanging, 0);
     external.add(momentumOfHanging() - before);
   });
+  balance.mark(store, Part::Structure, 0);
   timed(Stage::Contact, [&] {
     impacts.bounce(store);
     rigid.bounce(store);
     rebound.part(store, {constraints, pieceOf, rigid});
   });
+  balance.mark(store, Part::Impact, 0);
   for (ExternalImpulse* impulse :
        {&viscosity.externalImpulse(), &impacts.externalImpulse(), &rebound.externalImpulse(), &rigid.externalImpulse()})
     external.add(impulse->drain());
