@@ -21,7 +21,7 @@ namespace {
 /// What one run left behind.
 struct CaseOutcome {
   std::vector<std::string> titles;
-  std::vector<std::vector<double>> rows;  ///< the probes' table, by frame
+  std::vector<std::vector<double>> rows;  ///< the probes' table: how it begins, then by frame
   std::vector<Material> materials;        ///< of the scene
   TemperatureField field;                 ///< at the end
   std::vector<Limit> limits;              ///< likewise
@@ -32,6 +32,8 @@ struct CaseOutcome {
     const auto column = static_cast<size_t>(found - titles.begin());
     Series result;
     for (const std::vector<double>& row : rows) {
+      const bool unknown = &row == rows.data() && !std::isfinite(row[column]);
+      if (unknown) continue;  // what only a frame has, or matter that is yet to come
       result.time.push_back(row[thermalClock ? 1 : 0]);
       result.value.push_back(row[column]);
     }
@@ -48,7 +50,8 @@ CaseOutcome run(const Case& what, const CaseRun& configuration, const ProjectEdi
   project.state = nullptr;  // what is expected is counted from the start
   Engine engine(project, plugins);
   const ProbeColumns columns(engine);
-  CaseOutcome outcome{columns.titles(), {}, compileMaterials(project, plugins), {}, {}};
+  CaseOutcome outcome{
+      columns.titles(), {columns.values(engine, engine.stats())}, compileMaterials(project, plugins), {}, {}};
   std::string problem;
   const bool whole = runFrames(
       engine, configuration.frames,
@@ -94,7 +97,13 @@ double numberOf(const ColumnNumber& number, const CaseOutcome& outcome) {
   Series series = outcome.series(number.column, number.thermalClock);
   if (!number.minus.empty()) {
     const Series other = outcome.series(number.minus, number.thermalClock);
-    for (size_t k = 0; k < series.value.size(); ++k) series.value[k] -= other.value[k];
+    const size_t rows = std::min(series.value.size(), other.value.size());  // only their first may be missing
+    const auto drop = [&](std::vector<double>& list) {
+      list.erase(list.begin(), list.end() - static_cast<std::ptrdiff_t>(rows));
+    };
+    drop(series.time);
+    drop(series.value);
+    for (size_t k = 0; k < rows; ++k) series.value[k] -= other.value[other.value.size() - rows + k];
   }
   return measureOf(series, number.measure, number.options);
 }

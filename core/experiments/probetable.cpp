@@ -75,6 +75,7 @@ ProbeTable::ProbeTable(const std::string& path, const Engine& engine) : m_file(p
   std::string row;
   for (const std::string& title : m_columns.titles()) row += (row.empty() ? "" : ",") + quoted(title);
   writeRow(row);
+  add(engine, engine.stats());
 }
 
 void ProbeTable::add(const Engine& engine, const FrameStats& stats) {

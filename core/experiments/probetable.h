@@ -32,7 +32,8 @@ class ProbeColumns {
   double m_thermalEnergy;  ///< J, both as the run began
 };
 
-/// What graphs show, as CSV (RFC 4180, decimal points): one row per frame; an empty cell where a probe saw no particle.
+/// What graphs show, as CSV (RFC 4180, decimal points): a row for how the run begins and one per frame; an empty cell
+/// where a probe saw no particle, or measures what only a frame has, as forces.
 class ProbeTable {
  public:
   /// Throws Error when the file cannot be written; an older one of that name stands until finish().

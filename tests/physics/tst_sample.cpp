@@ -32,7 +32,7 @@ class TestSample : public QObject {
   QTemporaryDir m_folder;
   nlohmann::json m_start, m_end;  // reports before the first frame and after the last
   QStringList m_titles;
-  QList<QList<double>> m_rows;  // of the probes' file, one per frame
+  QList<QList<double>> m_rows;  // of the probes' file: the start's, and one per frame
 };
 
 nlohmann::json TestSample::run(const QStringList& more) {
@@ -74,7 +74,7 @@ void TestSample::initTestCase() {
     for (const QByteArray& cell : file.readLine().trimmed().split(',')) m_rows.back() << cell.toDouble();
     QCOMPARE(m_rows.back().size(), m_titles.size());
   }
-  QCOMPARE(m_rows.size(), m_end["frames"].get<int>());
+  QCOMPARE(m_rows.size(), m_end["frames"].get<int>() + 1);
   QCOMPARE(m_end["frames"].get<int>(), 3600);  // the project's own 60 s
 }
 

@@ -223,7 +223,8 @@ void TestCli::probesHaveOneRowPerFrame() {
   QFile file(folder.filePath("p.csv"));
   QVERIFY(file.open(QIODevice::ReadOnly));
   const QList<QByteArray> lines = file.readAll().trimmed().split('\n');
-  QCOMPARE(lines.size(), 13);  // a header and 12 frames
+  QCOMPARE(lines.size(), 14);  // a header, the start and 12 frames
+  QVERIFY2(lines[1].startsWith("0,0,"), lines[1].constData());
   QVERIFY2(lines[0].startsWith("time_s,thermal_time_s,"), lines[0].constData());
   QVERIFY2(lines[0].endsWith(
                ",solid.mass[kg],melting.mass[kg],liquid.mass[kg],boiling.mass[kg],gas.mass[kg],all.temperature[K]"),
