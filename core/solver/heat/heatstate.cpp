@@ -35,7 +35,8 @@ void HeatStage::save(StateWriter& writer, const ParticleStore& store) const {
   writer.value("heat/counted", uint64_t{m_lastCount});
   writer.value("heat/marks", static_cast<uint8_t>((m_putAside ? kPutAside : 0) | (m_pairLaw ? kPairLaw : 0)));
   writer.texts(kSourcesAside, m_sources.aside());
-  const size_t curves = std::min(m_curves.size(), materialsIn(store));
+  // Without a model nothing has been counted by any.
+  const size_t curves = works() ? std::min(m_curves.size(), materialsIn(store)) : 0;
   writer.open(kCurves, StateType::Float64, curves * EnthalpyCurves::kNumbers);
   for (size_t k = 0; k < curves; ++k) writer.put(m_curves[k].number);
   writer.close();
