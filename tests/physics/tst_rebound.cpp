@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Soft bodies that strike something.
+#include "onehash.h"
 #include "softscene.h"
+
+#include "core/base/statestream.h"
 
 #include <QTest>
 
 #include <array>
+#include <memory>
 
 using namespace soft;
 using ps::Solver;
@@ -68,6 +72,30 @@ double reboundOf(const Drop& d) {
   return top;
 }
 
+/// A cube of bonds that strikes another one, aslant and off its middle, above a floor.
+void prepareStrike(Solver& solver, bool matter = true) {
+  prepare(solver, settingsOf(0.02), bouncing(0.7, 3e5));
+  solver.setBounds({{-10, -10, -10}, {10, 10, 10}, {}});
+  solver.setWalls({tray(1)[0]});
+  for (const bool upper : {false, true}) {
+    ps::Spawn spawn = solid(lattice(4, 4, 4, 0.02, upper ? 0.11 : 0.005), addSet(solver, false));
+    if (!matter) continue;
+    for (ps::api::Double3& p : spawn.position) p.x += upper ? 0.025 : 0;
+    if (upper) spawn.velocity.assign(spawn.position.size(), {0.5, -2, 0});
+    spawn.body = upper ? 1 : 0;
+    solver.spawn(spawn);
+  }
+}
+
+uint64_t hashOfStrike() {
+  Solver solver;
+  prepareStrike(solver);
+  for (int f = 0; f < 12; ++f) {
+    if (solver.step().flags != 0) return 0;
+  }
+  return solver.stateHash();
+}
+
 }  // namespace
 
 Q_DECLARE_METATYPE(Drop)
@@ -76,6 +104,33 @@ class TestRebound : public QObject {
   Q_OBJECT
  private Q_SLOTS:
   void init() { ps::setThreadCount(2); }
+  void cleanup() { ps::setInstructionSet(""); }
+
+  void everyMachineGivesOneHash_data() { onehash::addRows(); }
+  void everyMachineGivesOneHash() { onehash::verify(hashOfStrike); }
+
+  /// Stopped in each frame of the impact and gone on with by another solver: the same bits.
+  void impactsGoOnFromTheirState() {
+    Solver whole;
+    prepareStrike(whole);
+    auto part = std::make_unique<Solver>();
+    prepareStrike(*part);
+    int during = 0;
+    for (int f = 0; f < 12; ++f) {
+      part->step();
+      whole.step();
+      QCOMPARE(part->stateHash(), whole.stateHash());
+      ps::StateBuffer buffer;
+      ps::StateWriter writer(buffer);
+      part->save(writer);
+      writer.finish();
+      during += ps::StateReader(buffer.bytes()).has("rebound/encounters") ? 1 : 0;
+      part = std::make_unique<Solver>();
+      prepareStrike(*part, false);
+      part->restore(ps::StateReader(buffer.bytes()));
+    }
+    QVERIFY2(during > 2, qPrintable(QString::number(during)));
+  }
 
   void dropsComeBackAsHighAsAsked_data() {
     QTest::addColumn<Drop>("drop");

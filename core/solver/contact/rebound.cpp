@@ -34,7 +34,11 @@ void Rebound::configure(const SolverSettings& settings, const std::vector<Wall>&
   m_spacing = settings.spacing;
   m_gravity = vectorOf(settings.gravity);
   m_slowest = 2 * m_gravity.norm() * m_dt;
+  std::swap(m_planes, m_planesBefore);
   findContactPlanes(walls, settings.spacing, m_planes);
+  const auto same = [](const Plane& x, const Plane& y) { return x.normal == y.normal && x.offset == y.offset; };
+  if (!std::equal(m_planes.begin(), m_planes.end(), m_planesBefore.begin(), m_planesBefore.end(), same))
+    std::erase_if(m_touches, [](const Touch& t) { return t.plane != kNone; });  // that may be others by now
   m_wallFriction.clear();
   for (const Wall& w : walls) m_wallFriction.push_back(w.friction);
   m_materials.resize(materials.size());
@@ -236,7 +240,14 @@ void Rebound::addRigid(const ParticleStore& store, const RigidContact& rigid, si
 }
 
 void Rebound::sortTouches() {
-  std::sort(m_touches.begin(), m_touches.end(), [](const Touch& x, const Touch& y) { return x.key() < y.key(); });
+  // A rigid body may touch a particle along several faces: the fastest counts.
+  const auto order = [](const Touch& t) {
+    return std::tuple(t.key(), t.approach, t.normal.x(), t.normal.y(), t.normal.z());
+  };
+  std::sort(m_touches.begin(), m_touches.end(), [&](const Touch& x, const Touch& y) { return order(x) < order(y); });
+  m_touches.erase(std::unique(m_touches.begin(), m_touches.end(),
+                              [](const Touch& x, const Touch& y) { return x.key() == y.key(); }),
+                  m_touches.end());
 }
 
 bool Rebound::keptShape(const Encounter& e) const {
@@ -372,6 +383,7 @@ void Rebound::restore(const StateReader& reader) {
   m_encounters.clear();
   m_touches.clear();
   m_stale = true;
+  for (Bounce& bounce : m_materials) bounce.asked = bounce.delivered = 0;
   if (!reader.has("rebound/encounters")) return;  // nothing was meeting
   const std::vector<uint32_t> marks = reader.array<uint32_t>("rebound/encounters");
   const std::vector<uint32_t> touches = reader.array<uint32_t>("rebound/touches");
@@ -394,7 +406,6 @@ void Rebound::restore(const StateReader& reader) {
   }
   numbers.done();
   speeds.done();
-  sortTouches();
 }
 
 }  // namespace ps

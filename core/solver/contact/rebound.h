@@ -127,7 +127,7 @@ class Rebound {
 
   double m_dt = 0, m_spacing = 0, m_slowest = 0;
   Vector3 m_gravity;
-  std::vector<Plane> m_planes;
+  std::vector<Plane> m_planes, m_planesBefore;
   /// Of a material; delivered as the last impact had it.
   struct Bounce {
     std::string id;
