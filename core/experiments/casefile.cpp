@@ -156,13 +156,15 @@ void oneOf(const Entry& entry, const std::vector<std::string>& names, const std:
   if (std::find(names.begin(), names.end(), name) == names.end()) entry.fail("'" + name + "' is no " + noun);
 }
 
-/// What is not said is as in `general`.
+/// What is not said is as in `general`; another column has nothing taken off it.
 ColumnNumber readNumber(Entry& entry, const ColumnNumber& general) {
   ColumnNumber number;
   number.column = entry.text("column");
-  if (number.column.empty()) number.column = general.column;
+  const bool same = number.column.empty();
+  if (same) number.column = general.column;
   if (number.column.empty()) number.column = entry.neededText("column");
   number.minus = entry.text("minus");
+  if (number.minus.empty() && same) number.minus = general.minus;
   number.measure = entry.neededText("measure");
   oneOf(entry, measureNames(), number.measure, "measure");
   for (const char* key : {"from", "to", "time", "value", "level", "periods", "frames"}) {

@@ -190,6 +190,12 @@ class ProjectChecker : public FieldVisitor {
       warn(pointer + "/wall", "there is no wall '" + probe.wall + "'; the probe measures nothing");
     if (isForce(probe.quantity) && probe.body.empty() && probe.wall.empty())
       fail(pointer + "/quantity", "'" + probe.quantity + "' needs a body or a wall on which it acts");
+    if (isForce(probe.quantity) && !probe.body.empty() && !probe.wall.empty())
+      fail(pointer + "/wall", "the force on '" + body + "' is measured; leave one of the two out");
+    if (isForce(probe.quantity) && !probe.phase.empty())
+      fail(pointer + "/phase", "'" + probe.quantity + "' is of a body or wall as a whole");
+    if (isForce(probe.quantity) && probe.region)
+      fail(pointer + "/region", "'" + probe.quantity + "' is of a body or wall as a whole");
     if (!isForce(probe.quantity) && !probe.wall.empty())
       fail(pointer + "/wall", "is for force and torque alone; '" + probe.quantity + "' is of matter");
     const Quantity* quantity = m_fields.quantity(probe.quantity);

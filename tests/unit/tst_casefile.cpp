@@ -152,11 +152,12 @@ void TestCaseFile::numbersOfACaseMayBeFormulas() {
 
 void TestCaseFile::aNumberIsTakenOffAnother() {
   const std::vector<Case> cases = read(R"({"cases": [{"id": "a", "checks": [
-    {"what": "way", "column": "a.x[m]", "measure": "at", "time": 2, "less": {"measure": "at", "time": 1}, "at_least": 0},
+    {"what": "way", "column": "a.x[m]", "minus": "d.x[m]", "measure": "at", "time": 2, "less": {"measure": "at", "time": 1}, "at_least": 0},
     {"what": "late", "column": "a.x[m]", "clock": "thermal", "measure": "when", "value": 1,
      "less": {"column": "b.x[m]", "minus": "c.x[m]", "clock": "mechanical", "measure": "last"}, "at_least": 0}]}]})");
   const CaseCheck &way = cases[0].checks[0], &late = cases[0].checks[1];
   QVERIFY(way.less && way.less->column == "a.x[m]" && way.less->options.at("time") == 1);
+  QCOMPARE(way.less->minus, std::string("d.x[m]"));
   QVERIFY(late.number.thermalClock && late.less && !late.less->thermalClock);
   QCOMPARE(late.less->column + late.less->minus + late.less->measure, std::string("b.x[m]c.x[m]last"));
   try {

@@ -304,6 +304,11 @@ void TestProjectIo::wrongValuesNameThePlace_data() {
       "/probes/0/wave: needs a quantity that each particle has, as velocity_y; 'mass' is of all of them together");
   row("force on nothing", "probes/0={\"id\": \"p\", \"quantity\": \"force_x\"}",
       "/probes/0/quantity: 'force_x' needs a body or a wall on which it acts");
+  row("force on two", "probes/0={\"id\": \"p\", \"quantity\": \"force_x\", \"body\": \"ice\", \"wall\": \"floor\"}",
+      "/probes/0/wall: the force on 'ice' is measured; leave one of the two out");
+  row("force on a phase",
+      "probes/0={\"id\": \"p\", \"quantity\": \"force_x\", \"wall\": \"floor\", \"phase\": \"solid\"}",
+      "/probes/0/phase: 'force_x' is of a body or wall as a whole");
   row("mass of a wall", "probes/0={\"id\": \"p\", \"quantity\": \"mass\", \"wall\": \"floor\"}",
       "/probes/0/wall: is for force and torque alone; 'mass' is of matter");
   row("id taken", "environment/walls/1/id=floor", "/environment/walls/1/id: 'floor' is taken already");
