@@ -73,6 +73,7 @@ void TrappedFilm::refresh(const ParticleStore& store, const Neighbours& neighbou
   if (solids.empty() || m_up.isZero()) return;
   m_yield.assign(store.size(), 0);
   m_depth.assign(store.size(), kUnknown);
+  m_below.resize(store.size());
   m_gap.assign(store.size(), HUGE_VAL);
   for (const uint32_t b : solids) findBelow(store, neighbours, b);
   std::erase_if(m_liquids, [&](uint32_t i) { return !(m_yield[i] > 0); });
@@ -104,7 +105,10 @@ void TrappedFilm::findBelow(const ParticleStore& store, const Neighbours& neighb
     if (!(excess > 0)) continue;
     const double rise = riseOf(store, at, i, solid);
     if (!(rise > 0)) continue;
-    if (m_depth[i] == kUnknown) m_depth[i] = boundaryBelow(store, neighbours, i, store.body()[solid]);
+    if (m_depth[i] == kUnknown || m_below[i] != store.body()[solid]) {
+      m_below[i] = store.body()[solid];
+      m_depth[i] = boundaryBelow(store, neighbours, i, m_below[i]);
+    }
     const double gap = (rise + m_depth[i]) / m_spacing - 0.5;
     if (!(gap < std::min(kThickest, m_gap[i]))) continue;  // what is nearest above it counts
     if (m_gap[i] == HUGE_VAL) m_liquids.push_back(i);

@@ -56,6 +56,7 @@ class TrappedFilm {
   std::vector<uint32_t> m_liquids;
   std::vector<float> m_yield;        ///< by particle
   std::vector<double> m_depth;       ///< m, to what lies below a liquid particle, while gaps are looked for
+  std::vector<uint32_t> m_below;     ///< of which body's matter that was not
   std::vector<double> m_gap;         ///< spacings, the thinnest that a liquid particle is in, likewise
   std::vector<uint8_t> m_concerned;  ///< by particle
 };
