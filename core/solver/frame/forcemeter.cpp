@@ -81,20 +81,19 @@ void ForceMeter::end(const ParticleStore& store, const Vector3& gravity, double 
   m_measured = true;
 }
 
-void ForceMeter::findAnchors(const ParticleStore& store, ConstraintSystem& constraints,
+void ForceMeter::findAnchors(const ParticleStore& store, std::span<const uint32_t> pieceOf,
                              std::span<const uint32_t> hanging) {
   m_anchor.clear();
   if (!m_reactions.watchesBodies() || hanging.empty()) return;
   constexpr uint32_t kOpen = ~0u, kSeveral = ~0u - 1;
-  const std::vector<uint32_t> piece = constraints.pieces(store.size());
   std::vector<uint32_t> bodyOf(store.size(), kOpen);  // by piece
   for (size_t i = 0; i < store.size(); ++i) {
-    if (store.velocity()[i].w > 0 || piece[i] >= bodyOf.size()) continue;
-    uint32_t& body = bodyOf[piece[i]];
+    if (store.velocity()[i].w > 0 || pieceOf[i] >= bodyOf.size()) continue;
+    uint32_t& body = bodyOf[pieceOf[i]];
     body = body == kOpen || body == store.body()[i] ? store.body()[i] : kSeveral;
   }
   for (const uint32_t i : hanging)
-    m_anchor.push_back(piece[i] < bodyOf.size() ? m_reactions.ofBody(bodyOf[piece[i]]) : Reactions::kNone);
+    m_anchor.push_back(pieceOf[i] < bodyOf.size() ? m_reactions.ofBody(bodyOf[pieceOf[i]]) : Reactions::kNone);
 }
 
 void ForceMeter::readTies(const ParticleStore& store, std::span<const uint32_t> hanging, double perStep) {

@@ -32,8 +32,9 @@ class ForceMeter {
   /// watchAll().
   Wrench given() const;
 
-  /// After a new structure or order: which fixed body each of the `hanging` particles hangs on.
-  void findAnchors(const ParticleStore& store, ConstraintSystem& constraints, std::span<const uint32_t> hanging);
+  /// After a new structure or order, `pieceOf` as ConstraintSystem::pieces() has it: which fixed body each of the
+  /// `hanging` particles hangs on.
+  void findAnchors(const ParticleStore& store, std::span<const uint32_t> pieceOf, std::span<const uint32_t> hanging);
   /// Before and after a call of plugins: `perStep` 1/s times the displacements in the substep, or, where it is 0, the
   /// momentum of what hangs.
   void beforeTies(const ParticleStore& store, std::span<const uint32_t> hanging, double perStep);

@@ -104,6 +104,7 @@ struct Solver::Impl {
   void listsChanged(bool newStructure);
   void refreshLiquidContact();
   void substep(uint32_t index);
+  int structurePasses() const;
   void iterate(uint32_t index, double dt);
   void predict(uint32_t index, double dt);
   Vector3 momentum() const;               ///< kg m/s, of what moves

@@ -107,8 +107,9 @@ bool Solver::Impl::advance() {
   constraints.setTime(time);
   heat.setClock(time, thermalTime);
   timed(Stage::Neighbours, [&] { freshLists(); });
+  constraints.setPasses(static_cast<uint32_t>(settings.iterations * structurePasses()));
   external.drain();
-  if (!anchorsKnown) forces.findAnchors(store, constraints, hanging);
+  if (!anchorsKnown) forces.findAnchors(store, pieceOf, hanging);
   anchorsKnown = true;
   forces.reactions().setStep(settings.dt / settings.substeps);
   forces.begin(store);
@@ -256,13 +257,18 @@ void Solver::Impl::velocities(double dt) {
   });
 }
 
+/// Passes over structure in an iteration.
+int Solver::Impl::structurePasses() const {
+  const int least = settings.iterations == 1 ? constraints.leastPasses() : 1;
+  return std::max(sheets.any() ? kSheetPasses : 1, least);
+}
+
 /// What holds matter together and apart, in turns, until positions are those of the substep's end.
 void Solver::Impl::iterate(uint32_t index, double dt) {
-  const int least = settings.iterations == 1 ? constraints.leastPasses() : 1;
-  const int structurePasses = std::max(sheets.any() ? kSheetPasses : 1, least);
+  const int passes = structurePasses();
   for (int iteration = 0; iteration < settings.iterations; ++iteration) {
     const uint32_t it = static_cast<uint32_t>(iteration);
-    for (int pass = 0; pass < structurePasses; ++pass) {
+    for (int pass = 0; pass < passes; ++pass) {
       structure([&] { constraints.projectStructure(store, index, it); }, dt);
       balance.mark(store, Part::Structure, 1 / dt);
       if (it == 0 && pass == 0 && constraints.count() > 0) noteLeaps(dt);

@@ -153,19 +153,20 @@ void ConstraintSystem::refreshParameters(Set& set) {
 
 api::ConstraintContext ConstraintSystem::context(const Set& set, double dt, uint32_t substep, uint32_t iteration,
                                                  uint32_t body) const {
-  api::ConstraintContext c{dt,
-                           m_settings.spacing,
-                           m_settings.spacing * m_settings.supportRatio,
-                           m_settings.gravity,
-                           substep,
-                           iteration,
-                           {set.parameters.data(), set.parameters.size()},
-                           {m_materials.data(), m_materials.size()},
-                           body,
-                           static_cast<uint32_t>(std::max(m_settings.iterations, leastPasses())),
-                           {set.parametersOf.data(), set.parametersOf.size()},
-                           m_time,
-                           m_held.empty() ? nullptr : m_held.data()};
+  api::ConstraintContext c{
+      dt,
+      m_settings.spacing,
+      m_settings.spacing * m_settings.supportRatio,
+      m_settings.gravity,
+      substep,
+      iteration,
+      {set.parameters.data(), set.parameters.size()},
+      {m_materials.data(), m_materials.size()},
+      body,
+      m_passes > 0 ? m_passes : static_cast<uint32_t>(std::max(m_settings.iterations, leastPasses())),
+      {set.parametersOf.data(), set.parametersOf.size()},
+      m_time,
+      m_held.empty() ? nullptr : m_held.data()};
   c.parameters = c.parametersOf(body);
   return c;
 }
@@ -304,6 +305,7 @@ void ConstraintSystem::build(uint32_t index, const ParticleStore& store, const N
                              std::span<const uint32_t> members) {
   Set& set = m_sets.at(index);
   if (members.empty()) return;
+  m_held.clear();  // of fewer particles
   const uint32_t body = store.body()[members[0]];
   if (body >= set.used.size()) set.used.resize(body + size_t{1}, 0);
   set.used[body] = 1;
@@ -328,6 +330,7 @@ void ConstraintSystem::build(uint32_t index, const ParticleStore& store, const N
 }
 
 void ConstraintSystem::remap(std::span<const uint32_t> order) {
+  m_held.clear();
   m_newIndex.resize(order.size());
   for (size_t k = 0; k < order.size(); ++k) m_newIndex[order[k]] = static_cast<uint32_t>(k);
   for (Set& set : m_sets) {
@@ -339,6 +342,7 @@ void ConstraintSystem::remap(std::span<const uint32_t> order) {
 }
 
 void ConstraintSystem::removeParticles(const ParticleStore& store, std::span<const uint32_t> ascending) {
+  m_held.clear();
   m_newIndex.assign(store.size(), 0);
   for (const uint32_t i : ascending) m_newIndex[i] = kGone;
   uint32_t next = 0;

@@ -128,6 +128,8 @@ class ConstraintSystem {
   /// Over structural constraints in a substep. One pass over those that share particles leaves stiff springs an error
   /// that the next substep answers with a push: cloth whips and blocks explode.
   int leastPasses() const { return shareParticles() ? 2 : 1; }
+  /// How many passes over structure a substep has, for plugins; before it is known, the iterations.
+  void setPasses(uint32_t passes) { m_passes = passes; }
   /// Those that threw since the last call.
   std::vector<PluginFault> drainFaults();
   /// From now on it is noted whose call first moves a particle farther than `metres`, or to no number; 0: no longer.
@@ -259,6 +261,7 @@ class ConstraintSystem {
   std::vector<api::Float4> m_correction;
   std::vector<uint8_t> m_thin;
   ImplicitTies m_carried;
+  uint32_t m_passes = 0;
   std::vector<uint8_t> m_held;       ///< by particle; empty: nothing is
   std::vector<uint32_t> m_openHeld;  ///< of findHeld(), still to be followed
   StructureGraph m_graph;

@@ -16,7 +16,8 @@ namespace ps {
 /// masses as preconditioner: what moves is then a sum of pulls along the ties, which keeps momentum and angular
 /// momentum however early it ends. It begins with the multipliers of the substep before, which a load at rest leaves as
 /// they are, and hands its own on to Gauss-Seidel, which does what is not linear and what touches. It cannot do: ties
-/// of more than two particles; bodies for which it would take more than kMostIterations, which get none of it.
+/// of more than two particles; what would take more than kMostIterations. All held bodies are one system: where one of
+/// them takes too long, none gets any of it in that substep, and limits() of their plugin count on passes alone.
 class ImplicitTies {
  public:
   /// Ties of one plugin, as many as the last entry of `colourStart` says.
