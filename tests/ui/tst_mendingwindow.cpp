@@ -170,7 +170,8 @@ class TestMendingWindow : public SampleWindowTest {
     row = m_window->inspector().solverPanel()->row(QString::fromStdString(spacing.text()));
     QVERIFY(row->has(RowState::Error));
     QVERIFY(row->enter(QStringLiteral("20 mm")));
-    QTRY_VERIFY_WITH_TIMEOUT(session().snapshot()->stats.frame > 1, kLong);  // it runs, as it would have at once
+    QTRY_VERIFY_WITH_TIMEOUT(session().snapshot() && session().snapshot()->stats.frame > 1,
+                             kLong);  // it runs, as it would have at once
     QTRY_VERIFY_WITH_TIMEOUT(m_window->notice()->topic() != QStringLiteral("step"), kLong);
     QVERIFY(!row->has(RowState::Error));
   }
