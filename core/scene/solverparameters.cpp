@@ -12,7 +12,7 @@ constexpr api::ParameterDeclaration kSolver[] = {
         {"particle_spacing", "Particle spacing", "d", "m"}, {0.02, 0.005, 0.05, 0.0005, 10},
         {"Resolution",
          "Distance between neighbouring particles. Half of it makes eight times as many. At rest those of a liquid "
-         "lie in order, so that what is up to a tenth denser may hang in it.",
+         "lie in order, so that what is up to a fifth denser and a few spacings large may hang in it.",
          "20 mm for a hand-sized block of 6,000 particles, 5 mm for fine drops", ""},
         {"mm", 1000, 0}, api::Scale::Logarithmic)),
     number({"support_ratio", "Reach of a particle", "κ", ""}, {2, 2, 3, 1.8, 4},

@@ -2,7 +2,6 @@
 #pragma once
 #include "core/particles/particlestore.h"
 #include "core/particles/reactions.h"
-#include "core/solver/structure/constraintsystem.h"
 
 #include <optional>
 #include <span>
