@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: Apache-2.0
+// The kernels over pairs, against plain loops in double precision over all pairs, and against themselves for every
+// instruction set.
+#include "core/solver/solver.h"
+#include "tests/shared/pairscene.h"
+
+#include <QTest>
+
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <functional>
+
+using namespace ps;
+using scenes::PairScene;
+
+namespace {
+
+constexpr int kSide = 9;  // the box of the periodic rows is as long as four search radii
+/// Of the sum of the terms' sizes, each times its condition: reciprocal roots, and so q, are good to 7e-7, powers up to
+/// the fourth are taken of 1 - q, and some thirty terms are rounded to 6e-8 each.
+constexpr double kTolerance = 3e-6;
+
+/// A pair as a plain loop sees it.
+struct Pair {
+  size_t i, j;
+  double x, y, z, q;  ///< m, from j to i; q = r/R
+  double weight;      ///< w(q)
+  double slope;       ///< w'(q)
+  double slopeOverQ;
+  double condition() const { return 1 / (1 - q); }  ///< of 1 - q
+};
+
+/// A sum over pairs, and by what its error is measured: what its terms are in size, each times its condition.
+struct Sum {
+  double value = 0, size = 0;
+  void add(const Pair& pair, double term) { add(pair, term, std::abs(term)); }
+  /// A term that is itself a sum, of parts of the size `parts` in all.
+  void add(const Pair& pair, double term, double parts) { value += term, size += pair.condition() * parts; }
+};
+
+void forPairs(const PairScene& scene, size_t i, const std::function<void(const Pair&)>& body) {
+  const ParticleStore& store = scene.store();
+  const Kernel kernel(scene.shape(), PairScene::kSupport);
+  for (size_t j = 0; j < store.size(); ++j) {
+    if (j == i) continue;
+    const api::Float4 d = store.separation(i, j);
+    const double x = double{d.x}, y = double{d.y}, z = double{d.z}, r = std::sqrt(x * x + y * y + z * z);
+    const double q = r / PairScene::kSupport;
+    if (q >= 1) continue;
+    const double overQ = slopeOverQ(scene.shape(), q);
+    body({i, j, x, y, z, q, kernel.value(r) / scene.scale(), overQ * q, overQ});
+  }
+}
+
+/// (1 - q)2 (1 + 1/q).
+double stressWeight(double q) { return (1 - q) * (1 - q) * (1 + 1 / q); }
+
+double meanOfFluids(double a, double b) { return a >= 0 && b >= 0 ? (a + b) / 2 : std::max({0.0, a, b}); }
+
+void compare(float value, const Sum& expected, const char* what) {
+  const double error = std::abs(double{value} - expected.value);
+  QVERIFY2(error <= kTolerance * expected.size, qPrintable(QStringLiteral("%1: %2 instead of %3 within %4")
+                                                               .arg(QLatin1String(what))
+                                                               .arg(value, 0, 'g', 9)
+                                                               .arg(expected.value, 0, 'g', 9)
+                                                               .arg(kTolerance * expected.size, 0, 'g', 4)));
+}
+
+void compare(const api::Float4& value, const std::array<Sum, 3>& expected, const char* what) {
+  compare(value.x, expected[0], what);
+  compare(value.y, expected[1], what);
+  compare(value.z, expected[2], what);
+}
+
+/// What all kernels give for one scene.
+struct Results {
+  std::vector<DensitySums> density;
+  std::vector<api::Float4> multipliers, viscosity, diagonal, offDiagonal, stress;
+  std::vector<float> compression, coefficients, shear;
+};
+
+constexpr float kFactor = 3.0f;
+
+std::vector<float> densityWeights(const PairScene& scene) {
+  std::vector<float> weight(scene.points.size(), 0);
+  for (size_t i = 0; i < scene.store().size(); ++i)
+    weight[i] = scene.store().velocity()[i].w * scene.points[i].w * scene.points[i].w;
+  return weight;
+}
+
+Results runAll(const PairScene& scene) {
+  const PairLists lists = scene.lists();
+  const size_t count = scene.which.size();
+  const uint32_t* which = scene.which.data();
+  const std::vector<float> weight = densityWeights(scene);
+  Results r;
+  r.density.resize(count);
+  for (auto* sums : {&r.multipliers, &r.viscosity, &r.diagonal, &r.offDiagonal, &r.stress}) sums->resize(count);
+  for (auto* sums : {&r.compression, &r.shear}) sums->resize(count);
+  r.coefficients.resize(scene.slots(), 0);
+  // In two parts, as chunks of a loop would.
+  const std::array<std::array<size_t, 2>, 2> parts{{{0, count / 3}, {count / 3, count}}};
+  for (const auto& [first, last] : parts) {
+    sumDensity(lists, scene.points.data(), weight.data(), which, first, last, r.density.data());
+    sumMultipliers(lists, scene.points.data(), which, first, last, r.multipliers.data());
+    sumCompression(lists, scene.points.data(), which, first, last, r.compression.data());
+    sumViscosity(lists, scene.store().position(), scene.store().velocity(), scene.coefficient.data(), which, first,
+                 last, r.viscosity.data());
+    stressCoefficients(lists, scene.stressField(), kFactor, which, first, last, r.coefficients.data(),
+                       r.diagonal.data(), r.offDiagonal.data());
+    sumStress(lists, scene.points.data(), r.coefficients.data(), scene.vectors.data(), which, first, last,
+              r.stress.data());
+    sumShear(lists, scene.points.data(), scene.vectors.data(), which, first, last, r.shear.data());
+  }
+  return r;
+}
+
+template <class T>
+bool sameBits(const std::vector<T>& a, const std::vector<T>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
+}
+
+}  // namespace
+
+class TestPairKernels : public QObject {
+  Q_OBJECT
+ private Q_SLOTS:
+  void density_data() { scenesToTest(); }
+  void density();
+  void viscosity_data() { scenesToTest(); }
+  void viscosity();
+  void stress_data() { scenesToTest(); }
+  void stress();
+  void everyInstructionSetGivesTheSameBits_data() { scenesToTest(); }
+  void everyInstructionSetGivesTheSameBits();
+
+ private:
+  static void scenesToTest() {
+    QTest::addColumn<int>("shape");
+    QTest::addColumn<bool>("periodic");
+    QTest::newRow("cubic spline") << static_cast<int>(KernelShape::CubicSpline) << false;
+    QTest::newRow("Wendland") << static_cast<int>(KernelShape::WendlandC2) << false;
+    QTest::newRow("cubic spline, periodic") << static_cast<int>(KernelShape::CubicSpline) << true;
+    QTest::newRow("Wendland, periodic") << static_cast<int>(KernelShape::WendlandC2) << true;
+  }
+};
+
+void TestPairKernels::density() {
+  QFETCH(const int, shape);
+  QFETCH(const bool, periodic);
+  const PairScene scene(kSide, static_cast<KernelShape>(shape), periodic);
+  const Results r = runAll(scene);
+  for (size_t k = 0; k < scene.which.size(); ++k) {
+    Sum excess, squares, compression;
+    std::array<Sum, 3> gradient;
+    forPairs(scene, scene.which[k], [&](const Pair& p) {
+      const double volume = double{scene.points[p.j].w};
+      const double weight = double{scene.store().velocity()[p.j].w} * volume * volume;
+      excess.add(p, volume * p.weight);
+      squares.add(p, weight * p.slope * p.slope);
+      compression.add(p, -volume * p.slope * p.q / 3);
+      const double f = volume * p.slopeOverQ;
+      gradient[0].add(p, f * p.x), gradient[1].add(p, f * p.y), gradient[2].add(p, f * p.z);
+    });
+    compare(r.density[k].excess, excess, "excess");
+    compare(r.density[k].squares, squares, "squares");
+    compare({r.density[k].x, r.density[k].y, r.density[k].z, 0}, gradient, "gradient");
+    compare(r.multipliers[k], gradient, "multipliers");
+    compare(r.compression[k], compression, "compression");
+  }
+}
+
+void TestPairKernels::viscosity() {
+  QFETCH(const int, shape);
+  QFETCH(const bool, periodic);
+  const PairScene scene(kSide, static_cast<KernelShape>(shape), periodic);
+  const Results r = runAll(scene);
+  const api::Float4 *x = scene.store().position(), *v = scene.store().velocity();
+  for (size_t k = 0; k < scene.which.size(); ++k) {
+    std::array<Sum, 3> sums;
+    forPairs(scene, scene.which[k], [&](const Pair& p) {
+      const double wi = double{v[p.i].w}, wj = double{v[p.j].w};
+      const double c = meanOfFluids(double{scene.coefficient[p.i]}, double{scene.coefficient[p.j]});
+      const double mass = wi / ((wi + wj) / 2);
+      const double f = c * (double{x[p.i].w} + double{x[p.j].w}) / 2 * mass * p.weight;
+      sums[0].add(p, f * (double{v[p.j].x} - double{v[p.i].x}));
+      sums[1].add(p, f * (double{v[p.j].y} - double{v[p.i].y}));
+      sums[2].add(p, f * (double{v[p.j].z} - double{v[p.i].z}));
+    });
+    compare(r.viscosity[k], sums, "viscosity");
+  }
+}
+
+void TestPairKernels::stress() {
+  QFETCH(const int, shape);
+  QFETCH(const bool, periodic);
+  const PairScene scene(kSide, static_cast<KernelShape>(shape), periodic);
+  const Results r = runAll(scene);
+  for (size_t k = 0; k < scene.which.size(); ++k) {
+    std::array<Sum, 3> diagonal, offDiagonal, stress;
+    Sum shear;
+    forPairs(scene, scene.which[k], [&](const Pair& p) {
+      const double mean = meanOfFluids(double{scene.coefficient[p.i]}, double{scene.coefficient[p.j]});
+      const double counts = std::max(double{scene.viscous[p.i]}, double{scene.viscous[p.j]});
+      const double weight = stressWeight(p.q);
+      const double c =
+          double{kFactor} * double{scene.points[p.i].w} * double{scene.points[p.j].w} * mean * counts * weight;
+      diagonal[0].add(p, c * p.x * p.x), diagonal[1].add(p, c * p.y * p.y), diagonal[2].add(p, c * p.z * p.z);
+      offDiagonal[0].add(p, c * p.x * p.y), offDiagonal[1].add(p, c * p.x * p.z), offDiagonal[2].add(p, c * p.y * p.z);
+      const api::Float4 &a = scene.vectors[p.i], &b = scene.vectors[p.j];
+      const double dx = p.x * (double{a.x} - double{b.x}), dy = p.y * (double{a.y} - double{b.y}),
+                   dz = p.z * (double{a.z} - double{b.z});
+      const double along = dx + dy + dz, size = std::abs(dx) + std::abs(dy) + std::abs(dz);
+      stress[0].add(p, c * p.x * along, std::abs(c * p.x) * size);
+      stress[1].add(p, c * p.y * along, std::abs(c * p.y) * size);
+      stress[2].add(p, c * p.z * along, std::abs(c * p.z) * size);
+      const double volume = double{scene.points[p.j].w};
+      shear.add(p, volume * weight * along * along, volume * weight * size * size);
+    });
+    compare(r.diagonal[k], diagonal, "diagonal");
+    compare(r.offDiagonal[k], offDiagonal, "off the diagonal");
+    compare(r.stress[k], stress, "stress");
+    compare(r.shear[k], shear, "shear");
+  }
+}
+
+void TestPairKernels::everyInstructionSetGivesTheSameBits() {
+  QFETCH(const int, shape);
+  QFETCH(const bool, periodic);
+  const PairScene scene(kSide, static_cast<KernelShape>(shape), periodic);
+  const std::vector<std::string> sets = availableInstructionSets();
+  if (sets.size() < 2) QSKIP("this machine knows one instruction set only");
+  const Results best = runAll(scene);
+  for (const std::string& name : sets) {
+    setInstructionSet(name);
+    const Results r = runAll(scene);
+    setInstructionSet("");
+    QVERIFY2(sameBits(r.density, best.density) && sameBits(r.multipliers, best.multipliers) &&
+                 sameBits(r.compression, best.compression),
+             name.c_str());
+    QVERIFY2(sameBits(r.viscosity, best.viscosity), name.c_str());
+    QVERIFY2(sameBits(r.coefficients, best.coefficients) && sameBits(r.diagonal, best.diagonal) &&
+                 sameBits(r.offDiagonal, best.offDiagonal) && sameBits(r.stress, best.stress) &&
+                 sameBits(r.shear, best.shear),
+             name.c_str());
+  }
+}
+
+QTEST_APPLESS_MAIN(TestPairKernels)
+#include "tst_pairkernels.moc"
