@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What stands in for libFuzzer where the compiler has none: [--seconds S] FILE|FOLDER... runs all these inputs, and
-// then for S seconds what a fixed generator makes of them. An input that ends the program, or takes a minute, is left
-// in the working directory as finding-TARGET.
+// What stands in for libFuzzer where the compiler has none: [--seconds S] [--seed N] FILE|FOLDER... runs all these
+// inputs, and then for S seconds what a generator makes of them, the same for the same seed. An input that ends the
+// program, or takes a minute, is left in the working directory as finding-TARGET.
 #include "tests/fuzz/fuzz.h"
 
 #include <algorithm>
@@ -72,10 +72,10 @@ std::vector<std::string> seedsOf(const std::vector<std::string>& paths) {
   return seeds;
 }
 
-/// Makes inputs of seeds: the same ones in the same order everywhere.
+/// Makes inputs of seeds: for one start of its numbers the same ones in the same order everywhere.
 class Mutator {
  public:
-  explicit Mutator(const std::vector<std::string>& seeds) : m_seeds(seeds) {}
+  Mutator(const std::vector<std::string>& seeds, uint64_t start) : m_seeds(seeds), m_random(start) {}
 
   std::string next() {
     std::string input = seed();
@@ -128,17 +128,20 @@ class Mutator {
   }
 
   const std::vector<std::string>& m_seeds;
-  std::mt19937_64 m_random{20261123};
+  std::mt19937_64 m_random;
 };
 
 }  // namespace
 
 int main(int argc, char** argv) {
   double seconds = 0;
+  uint64_t start = 20261123;
   std::vector<std::string> paths;
   for (int i = 1; i < argc; ++i) {
     if (argv[i] == std::string("--seconds") && i + 1 < argc)
       seconds = std::strtod(argv[++i], nullptr);
+    else if (argv[i] == std::string("--seed") && i + 1 < argc)
+      start = std::strtoull(argv[++i], nullptr, 10);
     else
       paths.emplace_back(argv[i]);
   }
@@ -150,10 +153,10 @@ int main(int argc, char** argv) {
   const std::vector<std::string> seeds = seedsOf(paths);
   ps::fuzz::require(!seeds.empty(), "there are inputs to run");
   for (const std::string& seed : seeds) run(seed);
-  Mutator mutator(seeds);
+  Mutator mutator(seeds, start);
   size_t count = 0;
-  const auto start = std::chrono::steady_clock::now();
-  while (std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() < seconds) {
+  const auto begun = std::chrono::steady_clock::now();
+  while (std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count() < seconds) {
     run(mutator.next());
     ++count;
   }
