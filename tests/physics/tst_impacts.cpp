@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Swept collision, restitution and friction of particles that belong to no rigid body.
 #include "core/solver/contact/solidcontact.h"
-#include "mechanicsscene.h"
+#include "softscene.h"
 
 #include <QTest>
 
@@ -333,6 +333,45 @@ class TestImpacts : public QObject {
     } else {
       QVERIFY2(way < 0.02 * free, qPrintable(QString::number(way / free)));
     }
+  }
+
+  /// A belt of particles at 1 m/s takes nothing along without friction: not where it goes most of a spacing in a
+  /// substep (spheres that sweep past each other did), nor where what fell on it has sunk in a little (the swept clamp
+  /// did).
+  void smoothBeltCarriesNothing_data() {
+    QTest::addColumn<int>("substeps");
+    QTest::addColumn<double>("drop");  // m
+    QTest::addColumn<int>("layers");
+    QTest::newRow("at rest, 0.83 spacings in a substep") << 1 << 0.0 << 2;
+    QTest::newRow("falls 0.2 m") << 4 << 0.2 << 2;
+    QTest::newRow("falls 0.1 m, 0.42 spacings in a substep") << 4 << 0.1 << 4;
+    QTest::newRow("falls 0.2 m on a single layer") << 4 << 0.2 << 1;
+  }
+  void smoothBeltCarriesNothing() {
+    QFETCH(int, substeps);
+    QFETCH(double, drop);
+    QFETCH(int, layers);
+    const double spacing = layers == 4 ? 0.01 : 0.02;
+    const int edge = static_cast<int>(std::lround(0.1 / spacing)), wide = edge + 2;
+    Solver solver;
+    ps::Material material = soft::matter(1000, 1e6);
+    for (const char* smooth : {"friction_static", "friction_kinetic", "restitution"}) material.properties[smooth] = 0.0;
+    SolverSettings settings = settingsOf(spacing);
+    settings.substeps = substeps;
+    prepareWide(solver, settings, material);
+    std::vector<Double3> points = lattice(static_cast<int>(std::lround(1 / spacing)), layers, wide, spacing, 0);
+    for (Double3& p : points) p.x -= 0.25;
+    ps::Spawn belt = fixedPoints(std::move(points));
+    belt.velocity.assign(belt.position.size(), {1, 0, 0});
+    solver.spawn(belt);
+    const ps::constraint::ClusterModel clusters;
+    const uint32_t set = solver.addConstraintSet(&clusters, "clusters", soft::parametersOf(clusters));
+    solver.spawn(soft::solid(lattice(edge, edge, edge, spacing, layers * spacing + drop), set, 1));
+    QVERIFY(run(solver, 30));
+    const rigid::Sums block = rigid::sumsOf(solver, 1);
+    QVERIFY(block.centre.y() < layers * spacing + 0.06 && block.centre.y() > layers * spacing + 0.04);  // lies on it
+    const double carried = block.momentum.x() / block.mass;
+    QVERIFY2(std::abs(carried) < 0.05, qPrintable(QString("%1 m/s").arg(carried)));
   }
 
   void everyThreadCountGivesOneHash() {

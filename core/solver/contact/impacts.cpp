@@ -24,6 +24,7 @@ void Impacts::configure(const SolverSettings& settings, const std::vector<Wall>&
   m_spacing = settings.spacing;
   m_diameter = kContactDiameter * settings.spacing;
   m_gravity = vectorOf(settings.gravity);
+  m_surface.configure(m_spacing);
   m_slowest = 2 * m_gravity.norm() * m_dt;
   findContactPlanes(walls, settings.spacing, m_planes);
   m_restitution.clear();
@@ -35,10 +36,11 @@ double Impacts::restitutionOf(const ParticleStore& store, uint32_t i) const {
   return material < m_restitution.size() ? m_restitution[material] : 0;
 }
 
-void Impacts::sweep(ParticleStore& store, ConstraintSystem& constraints, std::span<const uint8_t> rigid) {
+void Impacts::sweep(ParticleStore& store, const Neighbours& neighbours, const Structure& structure) {
   m_impacts.clear();
   m_stops.clear();
-  findFast(store, constraints.graph(store.size()), rigid);
+  m_surface.clear(0);
+  findFast(store, neighbours, structure);
   if (m_impacts.empty()) return;
   sortByTime(store);
   keepFirst(store);
@@ -168,13 +170,46 @@ bool Impacts::test(const ParticleStore& store, const StructureGraph& graph, uint
   return true;
 }
 
+/// Where two that meet as spheres face each other, as SolidContact has it.
+api::Float4 Impacts::faceOf(const ParticleStore& store, const Neighbours& neighbours, const Structure& structure,
+                            const Impact& impact) {
+  const std::span<const uint32_t> pieceOf = structure.pieceOf;
+  if (pieceOf[impact.a] != ConstraintSystem::kNoPiece && pieceOf[impact.a] == pieceOf[impact.b]) return kRound;
+  const StructureGraph& graph = structure.constraints.graph(store.size());
+  const auto isStatic = [&](uint32_t i) { return store.motion()[i] == api::Motion::Static; };
+  const auto normalOf = [&](uint32_t i) {
+    if (graph.isFree(i) && !isStatic(i)) return LatticeSurface::Normal{};
+    if (m_surface.size() == 0) m_surface.clear(store.size());
+    if (!m_surface.has(i)) {
+      m_surface.find(store, neighbours, m_surface.add(i),
+                     [&](uint32_t p, uint32_t q) { return (isStatic(p) && isStatic(q)) || sameLattice(graph, p, q); });
+    }
+    return m_surface.normalOf(store, i);
+  };
+  const LatticeSurface::Normal a = normalOf(impact.a), b = normalOf(impact.b);
+  if (a.neighbours + b.neighbours == 0) return kRound;
+  const LatticeSurface::Facing facing = m_surface.facing(a, b, m_diameter * impact.normal);
+  return facing.face ? float4Of(facing.normal, static_cast<float>(kFaceDistance * m_spacing)) : kRound;
+}
+
+void Impacts::addFast(const ParticleStore& store, const Neighbours& neighbours, const Structure& structure, uint32_t i,
+                      uint32_t j) {
+  const StructureGraph& graph = structure.constraints.graph(store.size());
+  Impact impact;
+  if (!test(store, graph, i, j, kRound, impact)) return;
+  const api::Float4 face = faceOf(store, neighbours, structure, impact);
+  if (face.w > 0 && !test(store, graph, i, j, face, impact)) return;
+  m_impacts.push_back(impact);
+}
+
 /// Pairs of fast particles, from a grid of the places where the substep began.
-void Impacts::findFast(const ParticleStore& store, const StructureGraph& graph, std::span<const uint8_t> rigid) {
+void Impacts::findFast(const ParticleStore& store, const Neighbours& neighbours, const Structure& structure) {
+  const StructureGraph& graph = structure.constraints.graph(store.size());
   m_solids.clear();
   double fastest = 0;
   for (uint32_t i = 0; i < store.size(); ++i) {
     const api::Motion motion = store.motion()[i];
-    if (!api::holds(motion) || rigid[i] != 0) continue;
+    if (!api::holds(motion) || structure.rigid[i] != 0) continue;
     const double way = wayOf(store, i);
     m_solids.push_back({i, way});
     if (std::isfinite(way)) fastest = std::max(fastest, way);
@@ -188,7 +223,6 @@ void Impacts::findFast(const ParticleStore& store, const StructureGraph& graph, 
     return store.period().wrapped({p.x, p.y, p.z});
   };
   m_grid.sort(m_solids.size(), 2 * fastest + m_diameter, store.period(), placeOf);
-  Impact impact;
   for (uint32_t k = 0; k < m_solids.size(); ++k) {
     if (!(m_solids[k].way > kFast * m_spacing) || !std::isfinite(m_solids[k].way)) continue;
     m_grid.around(placeOf(k), [&](uint32_t first, uint32_t last) {
@@ -198,7 +232,7 @@ void Impacts::findFast(const ParticleStore& store, const StructureGraph& graph, 
         uint32_t i = m_solids[k].particle, j = m_solids[other].particle;
         if (store.velocity()[i].w == 0) std::swap(i, j);
         if (store.velocity()[i].w == 0) continue;
-        if (test(store, graph, i, j, kRound, impact)) m_impacts.push_back(impact);
+        addFast(store, neighbours, structure, i, j);
       }
     });
   }

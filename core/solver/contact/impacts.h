@@ -10,11 +10,12 @@ namespace ps {
 /// Impacts of single solid particles (members of rigid bodies are left to RigidContact) with each other, with static
 /// ones and with walls. At the start of a substep each pair's spheres are swept along their relative way, exactly:
 /// whatever would pass through another one between two positions waits where they meet, and when velocities are known
-/// the pair parts at `restitution` times the speed at which it met (Mueller et al. 2020, section 3.6). Pairs take the
-/// larger restitution of their materials, walls that of what meets them. What meets more slowly than gravity pulls in
-/// two substeps does not bounce. What waits loses up to a substep of its way, never of its velocity.
-/// Serial, in order of time: impacts are few. It cannot do: find what a particle would hit after its first impact of a
-/// substep, where that is not static.
+/// the pair parts at `restitution` times the speed at which it met (Mueller et al. 2020, section 3.6), along the normal
+/// of the face where a lattice has one, as in SolidContact: along the line of centres a smooth belt that goes a good
+/// part of a spacing in a substep would carry what lies on it. Pairs take the larger restitution of their materials,
+/// walls that of what meets them. What meets more slowly than gravity pulls in two substeps does not bounce. What waits
+/// loses up to a substep of its way, never of its velocity. Serial, in order of time: impacts are few. It cannot do:
+/// find what a particle would hit after its first impact of a substep, where that is not static.
 class Impacts {
  public:
   static constexpr uint32_t kNone = ~0u;
@@ -27,10 +28,17 @@ class Impacts {
     bool crosses;  ///< fast enough to pass through
     bool loose;    ///< neither is tied to anything
   };
+  /// Who hangs together: `pieceOf` as ConstraintSystem::pieces() has it, 1 in `rigid` for members of rigid bodies.
+  struct Structure {
+    ConstraintSystem& constraints;
+    std::span<const uint32_t> pieceOf;
+    std::span<const uint8_t> rigid;
+  };
   void configure(const SolverSettings& settings, const std::vector<Wall>& walls,
                  std::span<const BakedMaterial> materials);
-  /// When positions have been predicted: stops those that would pass through each other.
-  void sweep(ParticleStore& store, ConstraintSystem& constraints, std::span<const uint8_t> rigid);
+  /// When positions have been predicted: stops those that would pass through each other. Lists may be those of the last
+  /// substep: they tell lattices, whose particles stay neighbours.
+  void sweep(ParticleStore& store, const Neighbours& neighbours, const Structure& structure);
   /// When lists are fresh: finds all other impacts of the substep.
   void collect(const ParticleStore& store, const SolidContact& contact, ConstraintSystem& constraints,
                std::span<const uint8_t> rigid);
@@ -56,7 +64,11 @@ class Impacts {
   double wayOf(const ParticleStore& store, uint32_t i) const;  ///< m, in this substep
   bool isFast(const ParticleStore& store, uint32_t i) const;
   void findWalls(const ParticleStore& store, std::span<const uint8_t> rigid);
-  void findFast(const ParticleStore& store, const StructureGraph& graph, std::span<const uint8_t> rigid);
+  void findFast(const ParticleStore& store, const Neighbours& neighbours, const Structure& structure);
+  void addFast(const ParticleStore& store, const Neighbours& neighbours, const Structure& structure, uint32_t i,
+               uint32_t j);
+  api::Float4 faceOf(const ParticleStore& store, const Neighbours& neighbours, const Structure& structure,
+                     const Impact& impact);
   bool test(const ParticleStore& store, const StructureGraph& graph, uint32_t i, uint32_t j, const api::Float4& face,
             Impact& impact) const;
   double timeOf(const Vector3& line, const Vector3& way, const api::Float4& face) const;
@@ -75,6 +87,7 @@ class Impacts {
   Reactions* m_reactions = &Reactions::none();
   std::vector<Sought> m_solids;
   CellGrid m_grid;              ///< of m_solids
+  LatticeSurface m_surface;     ///< of fast pairs that meet
   std::vector<double> m_first;  ///< by particle: time of its first impact; 2: none
 };
 

@@ -13,8 +13,6 @@ namespace {
 constexpr double kSheet = 0.3;
 /// Fewer neighbours make no surface: that is a line.
 constexpr size_t kLeast = 3;
-/// Least cosine between a face's normal and the line of centres.
-constexpr double kFacing = 0.35;
 
 }  // namespace
 

@@ -13,6 +13,8 @@ namespace ps {
 inline constexpr double kFaceDistance = 1;
 /// A face takes part as far beside a particle as half the diagonal of its lattice's squares reaches, in spacings.
 inline constexpr double kFaceWidth = 0.75;
+/// Least cosine between a face's normal and the line of centres.
+inline constexpr double kFacing = 0.35;
 
 /// The smoothed surface of lattices: a particle's outward normal points away from the neighbours of its own lattice,
 /// and their number tells a face from an edge. Contact along it slides over a flat lattice as over a plane, where

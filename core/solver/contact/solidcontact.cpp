@@ -26,7 +26,8 @@ uint32_t latticeNeighbours(double distance) {
   return count - 1;
 }
 
-/// Whether j belongs to the same lattice as i: tied to it, or, in a lattice of axial ties, to what that is tied to.
+}  // namespace
+
 bool sameLattice(const StructureGraph& graph, uint32_t i, uint32_t j) {
   constexpr size_t kAxialTies = 6;
   if (graph.tied(i, j)) return true;
@@ -37,8 +38,6 @@ bool sameLattice(const StructureGraph& graph, uint32_t i, uint32_t j) {
   }
   return false;
 }
-
-}  // namespace
 
 void SolidContact::configure(const SolverSettings& settings, std::span<const BakedMaterial> materials) {
   m_spacing = settings.spacing;

@@ -16,6 +16,9 @@ namespace ps {
 /// at rest are left alone.
 inline constexpr double kContactDiameter = 0.955;
 
+/// Whether j belongs to the same lattice as i: tied to it, or, in a lattice of axial ties, to what that is tied to.
+bool sameLattice(const StructureGraph& graph, uint32_t i, uint32_t j);
+
 /// Contact of solid particles that no constraint ties together, with each other and with static ones: mass-weighted,
 /// averaged over a particle's contacts. Where a face of a lattice takes part they meet along its normal, as in
 /// RigidContact, so that lattices do not interlock; all else, grains, ropes and edges, as spheres, which is bumpy: a
@@ -41,6 +44,10 @@ class SolidContact {
   /// nothing, at that one), would have turned its piece more than they did, acting at its centre. Empty where nothing
   /// may touch.
   std::span<const api::Float4> couple() const { return m_any ? m_couple : std::span<const api::Float4>(); }
+  /// After begin(): the face of a particle that may touch others; none: no neighbours.
+  LatticeSurface::Normal faceOf(uint32_t i) const {
+    return m_any && m_surface.has(i) ? m_normals[m_surface.slotOf(i)] : LatticeSurface::Normal{};
+  }
   /// What fixed particles moved, kg m.
   ExternalImpulse& externalImpulse() { return m_externalImpulse; }
   /// Where walls and fixed particles are told what they get.

@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kContact = 0.75;  // spacings
 constexpr int kBounces = 4;
+constexpr double kAlong = 1e-3;      ///< share of a way that does not lead below a plane
 constexpr double kMostBoxes = 1000;  ///< periods that a particle may cross in a substep and still be swept
 
 }  // namespace
@@ -19,6 +20,7 @@ constexpr double kMostBoxes = 1000;  ///< periods that a particle may cross in a
 void SweptClamp::configure(const SolverSettings& settings) {
   m_radius = kContact * settings.spacing;
   m_contact = kContactDiameter * settings.spacing;
+  m_width = kFaceWidth * settings.spacing;
   m_cell = 1.5 * settings.spacing;
   m_halfSkin = 0.5 * kSkinSpacings * settings.spacing;
   // A list reaches a support radius; whoever has moved less than this since, without a static entry, has met none.
@@ -72,7 +74,14 @@ bool SweptClamp::maySkip(const ParticleStore& store, const Neighbours& neighbour
 void SweptClamp::test(const Sweep& sweep, const Obstacle& obstacle, Hit& hit) const {
   const Vector3 center = obstacle.center + sweep.begin * obstacle.way, theirs = sweep.span * obstacle.way;
   const Vector3 way = sweep.way - theirs, offset = sweep.from - center;
-  const double approach = offset.dot(way), square = offset.squaredNorm();
+  const double square = offset.squaredNorm();
+  if (sweep.soft && !obstacle.face.isZero()) {
+    const double height = offset.dot(obstacle.face);
+    const bool behind = obstacle.twoSided && height < 0;
+    if ((behind ? -height : height) > kFacing * std::sqrt(square))
+      return testFace(sweep, obstacle, behind ? Vector3(-obstacle.face) : obstacle.face, hit);
+  }
+  const double approach = offset.dot(way);
   if (approach >= 0) return;
   const double radius = sweep.single && square >= m_contact * m_contact ? m_contact : m_radius;
   const double gap = square - radius * radius;
@@ -83,6 +92,19 @@ void SweptClamp::test(const Sweep& sweep, const Obstacle& obstacle, Hit& hit) co
     time = (-approach - std::sqrt(discriminant)) / way2;
   }
   if (time < hit.time) hit = {time, center + time * theirs, obstacle.way, obstacle.body};
+}
+
+void SweptClamp::testFace(const Sweep& sweep, const Obstacle& obstacle, const Vector3& normal, Hit& hit) const {
+  const Vector3 center = obstacle.center + sweep.begin * obstacle.way, theirs = sweep.span * obstacle.way;
+  const Vector3 way = sweep.way - theirs, offset = sweep.from - center;
+  const double closing = -way.dot(normal), gap = offset.dot(normal) - m_radius;
+  // Below the plane already, it goes on along it: normals of a lattice lean apart by their rounding.
+  if (!(closing > (gap > 0 ? 0 : kAlong * way.norm()))) return;
+  const double time = std::max(0.0, gap / closing);
+  if (!(time < hit.time)) return;
+  const Vector3 met = offset + time * way, beside = met - met.dot(normal) * normal;
+  if (!(beside.squaredNorm() < m_width * m_width)) return;  // it meets the next one
+  hit = {time, center + time * theirs, obstacle.way, obstacle.body, normal};
 }
 
 /// Replaces `hit` by an earlier one.
@@ -166,7 +188,7 @@ Vector3 SweptClamp::sweepOf(Sweep sweep, uint32_t& body) const {
     if (hit.time > 1) return sweep.from + sweep.way;
     body = hit.body;
     sweep.from += hit.time * sweep.way;
-    Vector3 normal = sweep.from - hit.center;
+    Vector3 normal = hit.face.isZero() ? Vector3(sweep.from - hit.center) : hit.face;
     const double length = normal.norm();
     if (!(length > 0)) return sweep.from;
     normal /= length;
@@ -180,20 +202,28 @@ Vector3 SweptClamp::sweepOf(Sweep sweep, uint32_t& body) const {
   return sweep.from + sweep.span * carrier;  // wedged in: stays with what it met last
 }
 
+/// Some are in motion: where they are in this substep.
+void SweptClamp::placeMoving(const ParticleStore& store, const SolidContact& contact) {
+  m_longest = 1e-30;
+  for (size_t k = 0; k < m_static.size(); ++k) {
+    Obstacle& obstacle = m_unsorted[k];
+    const Vector3 from = vectorOf(store.previous()[m_static[k]]);
+    obstacle.center = vectorOf(m_period.wrapped(double3Of(from)));
+    obstacle.way = vectorOf(store.position()[m_static[k]]) - from;
+    m_longest = std::max(m_longest, obstacle.way.norm());
+    const LatticeSurface::Normal face = contact.faceOf(m_static[k]);
+    const bool flat = face.neighbours >= LatticeSurface::kFaceNeighbours && !obstacle.way.isZero();
+    obstacle.face = flat ? face.normal : Vector3::Zero();
+    obstacle.twoSided = face.twoSided;
+  }
+  sortIntoCells();
+}
+
 void SweptClamp::apply(ParticleStore& store, const Neighbours& neighbours, const WallStage& walls,
-                       const StructureGraph& graph, std::span<const uint8_t> rigid) {
+                       const SolidContact& contact, const StructureGraph& graph, std::span<const uint8_t> rigid) {
   m_held.clear();
   if (m_static.empty()) return;
-  if (m_longest > 0) {  // some move: where they are in this substep
-    m_longest = 1e-30;
-    for (size_t k = 0; k < m_static.size(); ++k) {
-      const Vector3 from = vectorOf(store.previous()[m_static[k]]);
-      m_unsorted[k].center = vectorOf(m_period.wrapped(double3Of(from)));
-      m_unsorted[k].way = vectorOf(store.position()[m_static[k]]) - from;
-      m_longest = std::max(m_longest, m_unsorted[k].way.norm());
-    }
-    sortIntoCells();
-  }
+  if (m_longest > 0) placeMoving(store, contact);
   m_held.resize(store.size(), {0, 0, 0, 0});
   m_heldBy.resize(store.size());
   api::Float4* position = store.position();
@@ -203,8 +233,8 @@ void SweptClamp::apply(ParticleStore& store, const Neighbours& neighbours, const
     for (size_t i = first; i < last; ++i) {
       if (store.velocity()[i].w == 0 || maySkip(store, neighbours, i)) continue;
       const Vector3 from = vectorOf(store.previous()[i]), to = vectorOf(position[i]);
-      const bool single = store.motion()[i] == api::Motion::Solid && graph.isFree(static_cast<uint32_t>(i));
-      Vector3 end = sweepOf({from, to - from, 0, 1, single}, m_heldBy[i]);
+      const bool solid = store.motion()[i] == api::Motion::Solid, tied = !graph.isFree(static_cast<uint32_t>(i));
+      Vector3 end = sweepOf({from, to - from, 0, 1, solid && !tied, solid && tied && rigid[i] == 0}, m_heldBy[i]);
       if (end == to) continue;
       walls.clamp(end);
       const api::Float4 at = float4Of(end, position[i].w);

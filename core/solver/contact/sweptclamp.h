@@ -4,6 +4,7 @@
 #include "core/particles/impulse.h"
 #include "core/particles/neighbours.h"
 #include "core/particles/reactions.h"
+#include "core/solver/contact/solidcontact.h"
 #include "core/solver/contact/walls.h"
 #include "core/solver/structure/constraintsystem.h"
 
@@ -13,8 +14,9 @@ namespace ps {
 /// particle is swept from its old to its final position against spheres of 0.75 spacings around static ones, exactly (a
 /// quadratic, in the frame of the static one, which may have a velocity), and slides on along what it meets. The
 /// largest opening of a lattice layer leaves 0.71 spacings, so 0.75 closes it, and resting contact (about one spacing)
-/// is left alone. Single solids that come from outside stop where contact holds them, at kContactDiameter. Moving
-/// solids are not obstacles here: see Impacts, SolidContact and RigidContact.
+/// is left alone. What is soft meets the faces of lattices that move as planes at that height: their spheres, passing
+/// below it, would carry it along without friction. Single solids that come from outside stop where contact holds them,
+/// at kContactDiameter. Moving solids are not obstacles here: see Impacts, SolidContact and RigidContact.
 class SweptClamp {
  public:
   void configure(const SolverSettings& settings);
@@ -24,8 +26,8 @@ class SweptClamp {
   void refreshLists(const ParticleStore& store, const Neighbours& neighbours);
   /// Members of rigid bodies (1 in `rigid`) are not moved: see held(). What a constraint ties may come nearer to what
   /// it is tied to than contact allows.
-  void apply(ParticleStore& store, const Neighbours& neighbours, const WallStage& walls, const StructureGraph& graph,
-             std::span<const uint8_t> rigid);
+  void apply(ParticleStore& store, const Neighbours& neighbours, const WallStage& walls, const SolidContact& contact,
+             const StructureGraph& graph, std::span<const uint8_t> rigid);
   /// For each particle the way back (m) by which a member of a rigid body would have to be moved; empty when there is
   /// nothing static.
   std::span<const api::Float4> held() const { return m_held; }
@@ -40,18 +42,22 @@ class SweptClamp {
   struct Obstacle {
     Vector3 center, way;  ///< m: when the substep begins, and during it
     uint32_t body = 0;
+    Vector3 face{};         ///< its lattice's normal there, or zero
+    bool twoSided = false;  ///< the other side is as good
   };
   struct Hit {
     double time = 2;  ///< of the part, 0..1
     Vector3 center;   ///< then
     Vector3 way;      ///< of the obstacle in the whole substep
     uint32_t body = 0;
+    Vector3 face{};  ///< along which it is met, or zero: along the line of centres
   };
   /// A part of a particle's way in a substep.
   struct Sweep {
     Vector3 from, way;
     double begin = 0, span = 1;  ///< shares of the substep: passed before, and taken by this part
-    bool single = false;         ///< a solid that is no member of a rigid body
+    bool single = false;         ///< a solid that nothing ties
+    bool soft = false;           ///< a solid that is tied, but not as a rigid body
   };
   void sortIntoCells();
   bool maySkip(const ParticleStore& store, const Neighbours& neighbours, size_t i) const;
@@ -59,10 +65,12 @@ class SweptClamp {
   void imagesHit(const Sweep& sweep, Hit& hit) const;
   void firstHit(const Sweep& sweep, Hit& hit) const;
   void test(const Sweep& sweep, const Obstacle& obstacle, Hit& hit) const;
+  void testFace(const Sweep& sweep, const Obstacle& obstacle, const Vector3& normal, Hit& hit) const;
+  void placeMoving(const ParticleStore& store, const SolidContact& contact);
   Vector3 sweepOf(Sweep sweep, uint32_t& body) const;
 
-  double m_radius = 0, m_contact = 0, m_cell = 1, m_safeWay = 0, m_halfSkin = 0;  ///< m
-  double m_longest = 0;                                                           ///< m, of the obstacles' ways
+  double m_radius = 0, m_contact = 0, m_width = 0, m_cell = 1, m_safeWay = 0, m_halfSkin = 0;  ///< m
+  double m_longest = 0;  ///< m, of the obstacles' ways
   Period m_period;
   Vector3 m_low, m_high;  ///< m, around the obstacles
   CellGrid m_grid;        ///< of them

@@ -302,7 +302,7 @@ void Solver::Impl::substep(uint32_t index) {
     predict(index, dt);
     balance.mark(store, Part::Surroundings, 0);
     balance.mark(store, Part::Scheme, 1 / dt);  // places are rounded
-    impacts.sweep(store, constraints, rigid.members());
+    impacts.sweep(store, neighbours, {constraints, pieceOf, rigid.members()});
     wallStage.project(store);
   });
   balance.mark(store, Part::Contact, 1 / dt);
@@ -328,7 +328,7 @@ void Solver::Impl::substep(uint32_t index) {
   iterate(index, dt);
   timed(Stage::Contact, [&] {
     wallStage.project(store);
-    swept.apply(store, neighbours, wallStage, constraints.graph(store.size()), rigid.members());
+    swept.apply(store, neighbours, wallStage, contact, constraints.graph(store.size()), rigid.members());
     external.add(1 / dt * rigid.hold(store, swept.held(), swept.heldBy()));
     external.add(1 / dt * rigid.keepInside(store));
     balance.mark(store, Part::Contact, 1 / dt);
