@@ -120,6 +120,7 @@ std::string toldBy(const CaseOutcome& outcome) {
   for (const Limit& limit : outcome.limits) {
     text += (text.empty() ? "" : "; ") + limit.what + " " + sixDigits(limit.asked) +
             (limit.unit.empty() ? "" : " " + limit.unit) + " asked, " + sixDigits(limit.delivered) + " delivered";
+    if (!limit.why.empty()) text += " (" + limit.why + ")";
   }
   return text;
 }

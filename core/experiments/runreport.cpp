@@ -101,6 +101,8 @@ nlohmann::json RunReport::json(Engine& engine, double wallSeconds) const {
         {{"what", limit.what}, {"asked", limit.asked}, {"delivered", limit.delivered}, {"unit", limit.unit}});
     if (limit.kelvin && limit.kelvin->front() > 0) limits.back()["above"] = limit.kelvin->front();
     if (limit.kelvin && std::isfinite(limit.kelvin->back())) limits.back()["below"] = limit.kelvin->back();
+    if (!limit.why.empty()) limits.back()["why"] = limit.why;
+    if (!limit.use.empty()) limits.back()["use"] = limit.use;
     if (limit.body >= 0) limits.back()["body"] = engine.bodyIds()[static_cast<size_t>(limit.body)];
   }
   nlohmann::json phases;

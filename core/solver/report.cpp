@@ -1,7 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/solver/report.h"
 
+#include <cstdio>
+
 namespace ps {
+
+std::string useOf(const char* address, double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "=%.6g", value);
+  return std::string(address) + text;
+}
 
 std::vector<std::string> flagNames(StepFlags flags) {
   static constexpr struct {

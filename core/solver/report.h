@@ -41,7 +41,16 @@ struct Limit {
   int body = -1;  ///< the one whose plugin's own parameter it is; -1: a material's, the solver's
   /// Of a curve or law that leaves its property's range: from where to where, K; 0 and infinity where it goes on.
   std::optional<std::array<double, 2>> kelvin{};
+  /// What the numbers say, as the end of a sentence that begins with `what`, where they are more than what a step does
+  /// not reach: "a liquid of this spacing holds it". "": nothing to add.
+  std::string why{};
+  /// What would help, as `--set` and the editor's links take it: "solver/particle_spacing=0.01"; "": nothing that is
+  /// known, or more substeps.
+  std::string use{};
 };
+
+/// "solver/particle_spacing=0.01", as Limit::use has it.
+std::string useOf(const char* address, double value);
 
 enum class Stage { Neighbours, Density, Structure, Contact, Viscosity, Heat, Phase, Count };
 const char* stageName(Stage stage);

@@ -141,6 +141,7 @@ void Solver::Impl::configure() {
   for (LiquidContact* kept : {&wet, &sheets}) kept->configure(settings.spacing, kSkinSpacings * settings.spacing);
   rigid.configure(settings, walls, table);
   gas.configure(settings, thermal, table);
+  hovering.configure(settings, walls, table);
   heat.setModelName(modelName);
   heat.configure(thermal, settings, walls, bounds, table, model, modelParameters);
   phase.configure(settings, table);
@@ -295,6 +296,7 @@ std::vector<Limit> Solver::limits() const {
   m->constraints.limits(m->store, result);
   m->viscosity.limits(m->store, result);
   m->rebound.limits(result);
+  m->hovering.limits(result);
   const double asked = m->thermal.timeScale, delivered = m->heat.thermalTimeScaleDelivered();
   if (m->frame > 0 && delivered < asked) result.push_back({"solver.thermal_time_scale", asked, delivered, ""});
   if (m->overshot) result.push_back({"solver.thermal_cfl", m->thermal.cfl, 1, ""});

@@ -91,8 +91,11 @@ void Inspector::onLink(const QString&, const QString& link) {
   }
   const qsizetype equals = link.indexOf(QLatin1Char('='));
   const auto address = Address::parse(link.left(equals).toStdString());
-  const auto number = parseNumber(link.mid(equals + 1));
-  if (equals > 0 && address && number) m_document.setParameter(*address, *number);
+  if (equals <= 0 || !address) return;
+  if (const auto number = parseNumber(link.mid(equals + 1)))
+    m_document.setParameter(*address, *number);
+  else
+    m_document.setParameter(*address, link.mid(equals + 1).toStdString());  // one of several choices
 }
 
 void Inspector::addRows(std::vector<RowModel>& rows, Address any, api::ParameterList list, const QString& group,

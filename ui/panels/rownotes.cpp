@@ -91,6 +91,19 @@ void RowNotes::hear(const EngineEvent& event) {
   show();
 }
 
+/// "solver/particle_spacing=0.01" as a link that does it.
+QString RowNotes::linkOf(const std::string& use) const {
+  const size_t equals = use.find('=');
+  const auto address = Address::parse(use.substr(0, equals));
+  const api::ParameterDeclaration* declaration = address ? m_document.declaration(*address) : nullptr;
+  if (equals == std::string::npos || !declaration) return {};
+  const QString value = QString::fromStdString(use.substr(equals + 1));
+  const auto number = parseNumber(value);
+  return QStringLiteral(" [Use %1 for %2](%3)")
+      .arg(number ? formatValue(*declaration, *number) : value, QString::fromUtf8(declaration->label),
+           QString::fromStdString(use));
+}
+
 void RowNotes::addLimits(std::map<QString, Note>& notes) const {
   const double substeps = numberOf(m_document.project().solver.parameters, solverParameters(), "substeps");
   for (const Limit& limit : m_limits) {
@@ -98,7 +111,9 @@ void RowNotes::addLimits(std::map<QString, Note>& notes) const {
     if (!address) continue;
     QString text = asNote(limitText(limit, m_document.declaration(*address))) + QLatin1Char('.');
     // Heat has steps of its own, and a curve that leaves its range leaves it at any step.
-    if (!limit.kelvin && address->owner != Owner::Solver)
+    if (!limit.use.empty())
+      text += linkOf(limit.use);
+    else if (!limit.kelvin && limit.why.empty() && address->owner != Owner::Solver)
       text +=
           QStringLiteral(" [Use %1 substeps](solver/substeps=%1) to come closer").arg(static_cast<int>(substeps) * 2);
     add(notes, QString::fromStdString(address->text()), {text, limit.kelvin ? kNone : limit.delivered});

@@ -41,6 +41,7 @@ class RowNotes {
   void addLimits(std::map<QString, Note>& notes) const;
   void addWaiting(std::map<QString, Note>& notes) const;
   void noteWaiting(const ParameterChanged& change);
+  QString linkOf(const std::string& use) const;
   QString costOf(const std::string& address) const;
 
   const Document& m_document;

@@ -126,6 +126,7 @@ QString limitNote(const Limit& limit, const api::ParameterDeclaration* declarati
         .arg(formatPrefixed(limit.asked, QStringLiteral("m"), kRunning));
   const QString what = limitText(limit, declaration).section(QLatin1Char(':'), 0, 0);
   if (limit.kelvin) return what + QStringLiteral(" leaves its range ") + whereText(*limit.kelvin);
+  if (!limit.why.empty()) return what + QStringLiteral(": ") + QString::fromStdString(limit.why);
   return what + QStringLiteral(" is limited by the step");
 }
 
@@ -135,15 +136,18 @@ QString limitText(const Limit& limit, const api::ParameterDeclaration* declarati
         .arg(QString::fromUtf8(declaration->label), whereText(*limit.kelvin),
              formatValue(*declaration, limit.delivered), formatValue(*declaration, limit.asked));
   }
+  const QString where =
+      limit.why.empty() ? QStringLiteral("at this step") : QStringLiteral("here: ") + QString::fromStdString(limit.why);
   if (declaration) {
-    return QStringLiteral("%1: the solver reaches %2 of %3 at this step")
+    return QStringLiteral("%1: the solver reaches %2 of %3 %4")
         .arg(QString::fromUtf8(declaration->label),
              runningText(toDisplay(*declaration, limit.delivered), displayUnit(*declaration)),
-             formatValue(*declaration, limit.asked));
+             formatValue(*declaration, limit.asked), where);
   }
   const QString unit = QString::fromStdString(limit.unit);
-  return QStringLiteral("%1: the solver reaches %2 of %3 at this step")
-      .arg(QString::fromStdString(limit.what), runningText(limit.delivered, unit), formatQuantity(limit.asked, unit));
+  return QStringLiteral("%1: the solver reaches %2 of %3 %4")
+      .arg(QString::fromStdString(limit.what), runningText(limit.delivered, unit), formatQuantity(limit.asked, unit),
+           where);
 }
 
 }  // namespace ps

@@ -13,6 +13,7 @@
 #include "core/solver/fluid/viscosity.h"
 #include "core/solver/frame/balance.h"
 #include "core/solver/frame/forcemeter.h"
+#include "core/solver/frame/hovering.h"
 #include "core/solver/frame/prescribedmotion.h"
 #include "core/solver/heat/heat.h"
 #include "core/solver/heat/phasestage.h"
@@ -81,6 +82,7 @@ struct Solver::Impl {
   ChunkSum weight;
   ForceMeter forces;
   Balance balance;
+  Hovering hovering;
   bool anchorsKnown = false;      ///< of `forces`, for the structure as it is
   std::vector<uint32_t> hanging;  ///< what moves and may be pulled by what is fixed, ascending
 

@@ -158,6 +158,9 @@ void Solver::Impl::closeFrame() {
     raise(StepFlag::Diverged, describe(worst) + ": density error " + std::to_string(static_cast<int>(100 * c[worst])) +
                                   " %, mean " + std::to_string(static_cast<int>(100 * report.densityErrorMean)) + " %");
   }
+  timed(Stage::Contact, [&] {
+    hovering.observe({store, neighbours, pieceOf, density.wetSolids(), hanging, constraints.thinBodies()});
+  });
   timed(Stage::Phase, [&] { changePhases(); });
   timed(Stage::Structure, [&] { structureChanged = constraints.topology(store, neighbours) || structureChanged; });
   checkEnergy();
