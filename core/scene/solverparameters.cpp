@@ -52,7 +52,7 @@ constexpr api::ParameterDeclaration kSolver[] = {
         {"Viscosity",
          "How liquids resist shear. A filter of velocities is cheap and reaches oil; the implicit solver reaches "
          "honey, lava and glass, and knows what walls hold. Automatic takes the filter where it suffices: where a wall "
-         "drags along less than a spacing of liquid in a second.",
+         "drags along less than a spacing of liquid in eight seconds.",
          "automatic: water by the filter, honey implicit", "Monaghan 1992; Weiler et al. 2018"}),
     number({"viscosity_max", "Thickest mush", "µ_max", "Pa·s"}, {1e4, 10, 1e6, 1e-3, 1e12},
            {"Viscosity",

@@ -15,6 +15,20 @@ namespace {
 constexpr double kSqueezed = 0.1;
 constexpr double kSqueezedShare = 0.05;  ///< of the solids
 
+/// s, for which liquid must be so dense before it is told: what splashes soon is not.
+constexpr double kDenseTime = 0.5;
+
+/// Liquid whose weight is more than the iterations carry. What is left of it goes down with the square of the substep.
+Limit denseLimit(int substeps, double excess) {
+  const int asked = std::max(substeps + 1, static_cast<int>(std::ceil(substeps * std::sqrt(2 * excess / kDense))));
+  Limit limit{"solver.substeps", static_cast<double>(asked), static_cast<double>(substeps), ""};
+  char why[64];
+  std::snprintf(why, sizeof why, "its weight leaves liquid %.0f %% too dense", 100 * excess);
+  limit.why = why;
+  limit.use = useOf("solver/substeps", asked);
+  return limit;
+}
+
 api::Motion motionOf(api::Phase phase) {
   switch (phase) {
     case api::Phase::Solid:
@@ -294,7 +308,7 @@ std::vector<Limit> Solver::limits() const {
   m->configure();
   std::vector<Limit> result;
   m->constraints.limits(m->store, result);
-  m->viscosity.limits(m->store, result);
+  m->viscosity.limits(m->store, m->time, result);
   m->rebound.limits(result);
   m->hovering.limits(result);
   const double asked = m->thermal.timeScale, delivered = m->heat.thermalTimeScaleDelivered();
@@ -309,7 +323,10 @@ std::vector<Limit> Solver::limits() const {
   // Drops too few to speak for the solver (see StepFlag::Diverged) are reported here.
   const bool drops = excess > kDiverged && (m->report.flags & static_cast<StepFlags>(StepFlag::Diverged)) == 0;
   const bool squeezes = drops || m->motion.movesWithin(m->time - dt, dt) || m->contact.squeezedShare() > kSqueezedShare;
-  if (excess > kSqueezed && squeezes) result.push_back({kSqueezeLimit, 0, excess, ""});
+  if (excess > kSqueezed && squeezes)
+    result.push_back({kSqueezeLimit, 0, excess, ""});
+  else if (m->denseSeconds >= kDenseTime)
+    result.push_back(denseLimit(m->settings.substeps, excess));
   return result;
 }
 

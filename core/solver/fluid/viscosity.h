@@ -10,13 +10,18 @@ namespace ps {
 /// Viscosity of liquids. Thin ones by the XSPH filter of Monaghan 1992, momentum-conserving, over fluid particles and
 /// the solids they touch: a coefficient c acts like the kinematic viscosity nu = c s2/(2 dt), s2 = int W x^2 dV
 /// (0.075 R^2 for the cubic spline), so c follows from the material's viscosity. At c = 1 the filter is exhausted, and
-/// it feels no walls: what is thicker, what a wall drags along by more than a spacing in a second (sqrt(nu t)), and
-/// what has a yield stress, goes to ImplicitViscosity, as SolverSettings::viscosityModel says.
+/// it feels no walls: what is thicker, what a wall drags along by more than a spacing in some seconds (sqrt(nu t); in
+/// one where no wall is that liquid sticks to), and what has a yield stress, goes to ImplicitViscosity, as
+/// SolverSettings::viscosityModel says.
 ///
 /// Mush, matter within its melting range, is a suspension of its crystals: mu = mu_l (1 - s/0.6)^-1.5, s the solid
 /// fraction (Krieger & Dougherty 1959), at most viscosityMax. Half-molten particles of a pure substance are no mush: a
 /// front crosses them. Yield stress (Bingham): mu_eff = mu + tau_y/(gamma_dot + 0.001/s), gamma_dot of the last
 /// substep; below it matter creeps instead of resting.
+///
+/// It cannot do, and limits() says: films of two or three layers, which slide on their wall by a sixth of a spacing;
+/// slopes below a degree, where layers of particles in order hold on to each other; walls, with the filter; liquids
+/// thinner than their calming.
 class ViscosityStage {
  public:
   void configure(const SolverSettings& settings, const std::vector<Wall>& walls,
@@ -26,7 +31,8 @@ class ViscosityStage {
   void refresh(ParticleStore& store, const Neighbours& neighbours, const DensityStage& density);
   /// After velocities follow from positions.
   void apply(ParticleStore& store, const Neighbours& neighbours, const DensityStage& density);
-  void limits(const ParticleStore& store, std::vector<Limit>& out) const;
+  /// `time`: s, since the start.
+  void limits(const ParticleStore& store, double time, std::vector<Limit>& out) const;
   /// What walls and fixed particles gave in apply(), kg m/s.
   ExternalImpulse& externalImpulse() { return m_externalImpulse; }
   /// Where walls and fixed particles are told what they get.
@@ -43,6 +49,13 @@ class ViscosityStage {
   void filter(ParticleStore& store, const Neighbours& neighbours, const DensityStage& density);
   void tellFixed(const ParticleStore& store, const PairLists& pairs, std::span<const uint32_t> fixed) const;
   void gatherThick(const ParticleStore& store, const DensityStage& density);
+  /// A material's liquid at one wall, of one of the two stages.
+  struct AtWall {
+    size_t all = 0, touching = 0, near = 0;   ///< particles: of the stage, in the first layer, within four
+    double speed = 0, viscosity = 0, nu = 0;  ///< sums over the first layer: m/s along the wall, Pa s, m2/s
+  };
+  std::vector<AtWall> atWalls(const ParticleStore& store) const;
+  void wallLimits(size_t material, double time, std::span<const AtWall> atWalls, std::vector<Limit>& out) const;
   bool isLiquid(const ParticleStore& store, size_t i) const {
     return store.motion()[i] == api::Motion::Liquid && store.material()[i] < m_materials.size() && store.mass()[i] > 0;
   }
@@ -50,6 +63,7 @@ class ViscosityStage {
   void addYieldStress(const ParticleStore& store);
 
   SolverSettings m_settings;
+  std::vector<WallPlane> m_planes;  ///< that liquid sticks to
   std::span<const BakedMaterial> m_materials;
   ImplicitViscosity m_implicit;
   double m_secondMoment = 0;     ///< s2, m2

@@ -27,6 +27,8 @@ namespace ps {
 
 /// Mean density error that no longer deserves the name of a solution.
 inline constexpr double kDiverged = 0.5;
+/// Mean density error from which on liquid in a heap is a tenth lower than it should be, and flows as such.
+inline constexpr double kDense = 0.07;
 /// Spacings by which a plugin may move a particle in one substep, beyond the way of its velocity.
 inline constexpr double kFarthestLeap = 1000;
 
@@ -78,6 +80,7 @@ struct Solver::Impl {
   std::string leapt;             ///< what went too far in this substep; "": nothing
   std::vector<uint8_t> grouped;  ///< 1 for members of groups
   StepReport report;
+  double denseSeconds = 0;   ///< since when liquid has been denser than kDense; no state
   ExternalImpulse external;  ///< kg m/s, in this frame
   ChunkSum weight;
   ForceMeter forces;

@@ -148,6 +148,7 @@ void Solver::Impl::closeFrame() {
   timed(Stage::Density, [&] { error = density.measure(store, neighbours, bounds); });
   report.densityErrorMean = error.mean;
   report.densityErrorMax = error.max;
+  denseSeconds = error.mean > kDense ? denseSeconds + settings.dt : 0;
   report.viscosityIterations = viscosity.iterations();
   // A few drops in soft matter that is being squeezed are as dense as it is, which no solver could mend.
   const api::Motion* motions = store.motion();

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+// What particles cannot show of liquid that flows along a wall is told, and nothing else is.
+#include "viscosityscene.h"
+
+#include <QTest>
+
+using namespace viscous;
+using ps::Solver;
+using ps::SolverSettings;
+using ps::ViscosityModel;
+
+class TestFilmLimits : public QObject {
+  Q_OBJECT
+ private Q_SLOTS:
+  void filmsTellWhatTheyCannot_data() {
+    QTest::addColumn<double>("nu");  // m2/s
+    QTest::addColumn<double>("degrees");
+    QTest::addColumn<int>("layers");
+    QTest::addColumn<bool>("filter");
+    QTest::addColumn<bool>("noSlip");
+    QTest::addColumn<int>("substeps");
+    QTest::addColumn<double>("seconds");
+    QTest::addColumn<QString>("told");  // "": nothing
+    QTest::addColumn<QString>("use");
+    const auto row = [](const char* name, double nu, double degrees, int layers, double seconds, const char* told,
+                        const char* use, bool filter = false, bool noSlip = true, int substeps = 4) {
+      QTest::newRow(name) << nu << degrees << layers << filter << noSlip << substeps << seconds << QString(told)
+                          << QString(use);
+    };
+    row("two layers", 0.01, 10, 2, 0.5, "syrup.viscosity", "solver/particle_spacing=0.01");
+    row("six layers", 0.01, 10, 6, 0.5, "", "");
+    row("two layers that rest", 0.01, 0, 2, 1, "", "");
+    row("two layers on a slippery wall", 0.01, 10, 2, 0.5, "", "", false, false);
+    row("0.3 degrees", 0.01, 0.3, 6, 1, "syrup.viscosity", "");
+    row("2 degrees", 0.01, 2, 6, 0.5, "", "");
+    row("filter, though the wall holds it", 3e-4, 5, 3, 1, "syrup.viscosity", "solver/viscosity_model=implicit", true);
+    row("filter, before the wall could", 1e-6, 5, 3, 1, "", "", true);
+    row("filter on a slippery wall", 3e-4, 5, 3, 1, "", "", true, false);
+    row("thinner than calming", 3e-4, 5, 6, 0.5, "syrup.viscosity", "solver/xsph_minimum=0");
+    row("one substep, twelve layers", 0.01, 10, 12, 1.5, "solver.substeps", "solver/substeps=", false, true, 1);
+    row("one substep, four layers", 0.01, 10, 4, 1.5, "", "", false, true, 1);
+  }
+  void filmsTellWhatTheyCannot() {
+    QFETCH(double, nu);
+    QFETCH(double, degrees);
+    QFETCH(int, layers);
+    QFETCH(bool, filter);
+    QFETCH(bool, noSlip);
+    QFETCH(int, substeps);
+    QFETCH(double, seconds);
+    QFETCH(QString, told);
+    QFETCH(QString, use);
+    constexpr double kSpacing = 0.02, kHalf = 4 * kSpacing;
+    Solver solver;
+    SolverSettings settings = settingsOf(kSpacing);
+    const double lean = degrees * kPi / 180;
+    settings.gravity = {9.81 * std::sin(lean), -9.81 * std::cos(lean), 0};
+    settings.substeps = substeps;
+    if (filter) settings.viscosityModel = ViscosityModel::Xsph;
+    prepare(solver, settings, syrup(1000 * nu));
+    ps::Bounds bounds;
+    bounds.minimum = {-kHalf, -0.1, -kHalf};
+    bounds.maximum = {kHalf, 1, kHalf};
+    bounds.periodic = {true, false, true};
+    solver.setBounds(bounds);
+    ps::Wall floor;
+    floor.noSlip = noSlip;
+    solver.setWalls({floor});
+    solver.spawn(liquid(lattice(8, layers, 8, kSpacing, 0)));
+    QVERIFY(run(solver, static_cast<int>(std::lround(60 * seconds))));
+    const std::vector<ps::Limit> limits = solver.limits();
+    if (told.isEmpty()) {
+      QVERIFY2(limits.empty(), limits.empty() ? "" : (limits[0].what + ": " + limits[0].why).c_str());
+      return;
+    }
+    QCOMPARE(limits.size(), size_t{1});
+    QCOMPARE(QString::fromStdString(limits[0].what), told);
+    QVERIFY(!limits[0].why.empty() && std::abs(limits[0].delivered / limits[0].asked - 1) > 0.1);
+    QVERIFY2(QString::fromStdString(limits[0].use).startsWith(use), limits[0].use.c_str());
+  }
+
+  /// Where a wall is that liquid sticks to, Automatic takes the solver that knows walls: what a wall drags along by a
+  /// spacing in some seconds, but no water.
+  void automaticKnowsWalls_data() {
+    QTest::addColumn<double>("nu");
+    QTest::addColumn<bool>("noSlip");
+    QTest::addColumn<bool>("implicit");
+    QTest::newRow("oil on a wall") << 1e-4 << true << true;
+    QTest::newRow("oil on a slippery wall") << 1e-4 << false << false;
+    QTest::newRow("water on a wall") << 1e-6 << true << false;
+  }
+  void automaticKnowsWalls() {
+    QFETCH(double, nu);
+    QFETCH(bool, noSlip);
+    QFETCH(bool, implicit);
+    Solver solver;
+    prepare(solver, settingsOf(0.02), syrup(1000 * nu));
+    ps::Wall floor;
+    floor.noSlip = noSlip;
+    solver.setWalls({floor});
+    solver.spawn(liquid(lattice(4, 4, 4, 0.02, 0)));
+    QVERIFY(run(solver, 2));
+    QCOMPARE(solver.particles().find("viscous_change", ps::api::FieldType::Float4) != nullptr, implicit);
+  }
+};
+
+QTEST_APPLESS_MAIN(TestFilmLimits)
+#include "tst_filmlimits.moc"
