@@ -111,6 +111,17 @@ class Entry {
     for (const json& one : *value) all.push_back(numberOf(one, place + "/" + std::to_string(all.size()), names()));
     return all;
   }
+  std::vector<std::string> texts(const char* key) {
+    const json* value = find(key);
+    if (!value) return {};
+    if (!value->is_array()) return {neededText(key)};
+    std::vector<std::string> all;
+    for (const json& one : *value) {
+      if (!one.is_string()) throw InputError(m_place + "/" + key + ": must be a text or a list of texts");
+      all.push_back(one.get<std::string>());
+    }
+    return all;
+  }
   ProjectEdits edits(const char* key) {
     ProjectEdits all;
     const json* value = find(key);
@@ -232,6 +243,7 @@ CaseCheck readCheck(Entry& entry, const std::vector<CaseRun>& configurations) {
   check.absolute = entry.number("absolute");
   check.atLeast = entry.number("at_least");
   check.atMost = entry.number("at_most");
+  check.limits = entry.texts("limit");
   if (check.expected.size() > 1 && check.expected.size() != runs) {
     entry.fail("expects " + std::to_string(check.expected.size()) + " values for " + std::to_string(runs) +
                (runs == 1 ? " run" : " runs"));

@@ -37,6 +37,9 @@ struct CaseCheck {
   std::vector<double> expected;              ///< one for all runs, or one for each; none for a bound alone
   std::optional<double> relative, absolute;  ///< tolerances
   std::optional<double> atLeast, atMost;     ///< bounds
+  /// Limits of the run that have to do with a miss, by name, owner or key: "steel.youngs_modulus", "steel",
+  /// "youngs_modulus". None: all of them.
+  std::vector<std::string> limits;
 };
 
 /// Changes of a project, as --set takes them.

@@ -115,9 +115,10 @@ double measured(const CaseCheck& check, const CaseOutcome& outcome) {
 }
 
 /// "steel.youngs_modulus 2.1e+11 Pa asked, 4e+08 delivered".
-std::string toldBy(const CaseOutcome& outcome) {
+std::string toldBy(const CaseOutcome& outcome, const CaseCheck& check) {
   std::string text;
   for (const Limit& limit : outcome.limits) {
+    if (!concerns(check, limit.what)) continue;
     text += (text.empty() ? "" : "; ") + limit.what + " " + sixDigits(limit.asked) +
             (limit.unit.empty() ? "" : " " + limit.unit) + " asked, " + sixDigits(limit.delivered) + " delivered";
     if (!limit.why.empty()) text += " (" + limit.why + ")";
@@ -145,7 +146,7 @@ void judge(const Case& what, const CaseCheck& check, const std::vector<CaseOutco
     const auto [least, most] = std::minmax_element(measuredValues.begin(), measuredValues.end());
     CaseVerdict verdict = verdictOf(what, check.what, check, std::nullopt, *most / *least - 1);
     for (const CaseOutcome& outcome : outcomes)
-      if (!verdict.holds && verdict.told.empty()) verdict.told = toldBy(outcome);
+      if (!verdict.holds && verdict.told.empty()) verdict.told = toldBy(outcome, check);
     each(verdict);
     return;
   }
@@ -154,12 +155,19 @@ void judge(const Case& what, const CaseCheck& check, const std::vector<CaseOutco
     if (!check.run.empty() && check.run != name) continue;
     CaseVerdict verdict =
         verdictOf(what, check.what + (name.empty() ? "" : ", " + name), check, expectedOf(check, k), measuredValues[k]);
-    if (!verdict.holds && std::isfinite(measuredValues[k])) verdict.told = toldBy(outcomes[k]);
+    if (!verdict.holds && std::isfinite(measuredValues[k])) verdict.told = toldBy(outcomes[k], check);
     each(verdict);
   }
 }
 
 }  // namespace
+
+bool concerns(const CaseCheck& check, const std::string& limit) {
+  const auto names = [&](const std::string& name) {
+    return limit == name || limit.starts_with(name + ".") || limit.ends_with("." + name);
+  };
+  return check.limits.empty() || std::any_of(check.limits.begin(), check.limits.end(), names);
+}
 
 std::string sixDigits(double value) {
   char text[32];

@@ -18,7 +18,8 @@ struct CaseVerdict {
   std::optional<double> expected, measured;  ///< neither where the run failed
   std::string tolerance;                     ///< "±2 %, ≤ 0.5"; why the run failed
   bool holds = false;
-  /// Where it does not hold: what the solver said by itself that this run asked of it and did not get, by its limits.
+  /// Where it does not hold: what the solver said by itself that this run asked of it and did not get, by those of its
+  /// limits that concern the check.
   std::string told{};
 };
 using VerdictVisitor = std::function<void(const CaseVerdict&)>;
@@ -26,6 +27,8 @@ using VerdictVisitor = std::function<void(const CaseVerdict&)>;
 /// How a measured number stands to what its check asks. What is not finite never holds.
 CaseVerdict verdictOf(const Case& what, const std::string& name, const CaseCheck& check, std::optional<double> expected,
                       double measured);
+/// Whether a limit of that name may be why a check was missed: what it names, or any where it names none.
+bool concerns(const CaseCheck& check, const std::string& limit);
 /// Runs a case with all its runs and hands over a verdict for each of its numbers, or a single one that says why it
 /// could not be run. `more`: changes of the project after the case's own.
 void runCase(const Case& what, const ProjectEdits& more, PluginRegistry& plugins, const StopTest& stop,

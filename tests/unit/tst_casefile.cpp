@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Files of cases as they are read: formulas instead of numbers, and what is said of those that are broken.
 #include "core/base/error.h"
-#include "core/experiments/casefile.h"
+#include "core/experiments/caserun.h"
 #include "core/experiments/formula.h"
 
 #include <QTemporaryDir>
@@ -23,6 +23,8 @@ class TestCaseFile : public QObject {
   void whatIsDeepIsRefused();
   void numbersOfACaseMayBeFormulas();
   void aNumberIsTakenOffAnother();
+  void limitsConcernTheChecksThatNameThem_data();
+  void limitsConcernTheChecksThatNameThem();
   void brokenFilesSayWhere_data();
   void brokenFilesSayWhere();
 
@@ -167,6 +169,30 @@ void TestCaseFile::aNumberIsTakenOffAnother() {
   } catch (const InputError& error) {
     QVERIFY2(QByteArray(error.what()).endsWith("/cases/0/checks/0/less/what: is no key of a case"), error.what());
   }
+}
+
+void TestCaseFile::limitsConcernTheChecksThatNameThem_data() {
+  QTest::addColumn<QString>("named");
+  QTest::addColumn<bool>("concerns");
+  QTest::newRow("any") << "" << true;
+  QTest::newRow("name") << R"(, "limit": "steel.youngs_modulus")" << true;
+  QTest::newRow("owner") << R"(, "limit": "steel")" << true;
+  QTest::newRow("key") << R"(, "limit": "youngs_modulus")" << true;
+  QTest::newRow("one of a list") << R"(, "limit": ["solver.substeps", "steel"])" << true;
+  QTest::newRow("another owner") << R"(, "limit": "steel.youngs")" << false;
+  QTest::newRow("another key") << R"(, "limit": ["steel.density_solid", "honey"])" << false;
+}
+
+void TestCaseFile::limitsConcernTheChecksThatNameThem() {
+  QFETCH(QString, named);
+  QFETCH(bool, concerns);
+  const std::vector<Case> cases =
+      read(R"({"cases": [{"id": "a", "checks": [{"what": "x", "function": "rayleigh_number", "at_most": 1)" +
+           named.toStdString() + "}]}]}");
+  QCOMPARE(ps::concerns(cases.at(0).checks.at(0), "steel.youngs_modulus"), concerns);
+  QVERIFY_EXCEPTION_THROWN(
+      read(R"({"cases": [{"id": "a", "checks": [{"what": "x", "function": "y", "at_most": 1, "limit": [1]}]}]})"),
+      InputError);
 }
 
 void TestCaseFile::brokenFilesSayWhere_data() {
