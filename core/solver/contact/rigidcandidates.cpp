@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which particles of rigid bodies may touch what, and how they face each other.
+#include "core/base/parallel.h"
 #include "core/base/statestream.h"
 #include "core/solver/contact/rigidcontact.h"
 
@@ -51,7 +52,14 @@ void RigidContact::refreshBodies(const ParticleStore& store, const ConstraintSys
   m_bodies.resize(count);
 }
 
-void RigidContact::addContact(const ParticleStore& store, uint32_t i, uint32_t j) {
+/// One end of a face after the other would rock the body: neighbours in the list are strangers.
+RigidContact::Candidate RigidContact::candidateOf(uint32_t a, uint32_t b, uint32_t plane, uint64_t key) {
+  return {(key ^ (key >> 29)) * 0xBF58476D1CE4E5B9ull, key, a, b, plane};
+}
+
+RigidContact::Contact RigidContact::contactOf(const ParticleStore& store, const Candidate& candidate) const {
+  if (candidate.plane != kNone) return planeContactOf(store, candidate);
+  const uint32_t i = candidate.a, j = candidate.b;
   const auto sideOf = [&](uint32_t p) {
     Side side{p, m_bodyOf[p]};
     if (side.body == kNone) side.inverseMass = store.velocity()[p].w;
@@ -63,23 +71,24 @@ void RigidContact::addContact(const ParticleStore& store, uint32_t i, uint32_t j
   const Rub a = rubOf(i), b = rubOf(j);
   Contact c;
   c.a = sideOf(i), c.b = sideOf(j);
-  c.key = uint64_t{store.id()[i]} << 32 | store.id()[j];
+  c.key = candidate.key;
   c.staticFriction = 0.5 * (a.staticFriction + b.staticFriction);
   c.kineticFriction = 0.5 * (a.kineticFriction + b.kineticFriction);
   c.restitution = std::max(a.bounce, b.bounce);
-  m_contacts.push_back(c);
+  return c;
 }
 
-void RigidContact::addPlane(const ParticleStore& store, uint32_t i, size_t plane) {
+RigidContact::Contact RigidContact::planeContactOf(const ParticleStore& store, const Candidate& candidate) const {
+  const uint32_t i = candidate.a, plane = candidate.plane;
   Contact c;
   c.a = {i, m_bodyOf[i]};
-  c.plane = static_cast<uint32_t>(plane);
-  c.key = uint64_t{store.id()[i]} << 32 | (kNone - plane);
+  c.plane = plane;
+  c.key = candidate.key;
   c.normal = m_planes[plane].normal;
   c.distance = m_planes[plane].offset;
   c.staticFriction = c.kineticFriction = m_wallFriction[plane];
   if (store.material()[i] < m_materials.size()) c.restitution = m_materials[store.material()[i]].bounce;
-  m_contacts.push_back(c);
+  return c;
 }
 
 /// What a contact carries on, but for its marks.
@@ -119,17 +128,78 @@ void RigidContact::restore(const StateReader& reader) {
   numbers.done();
 }
 
-/// New lists find most contacts again: what they bore goes on.
+/// New lists find most contacts again: what they bore goes on. Both lists are in the same order.
 void RigidContact::keepImpulses() {
-  const auto before = [](const Contact& a, const Contact& b) { return a.key < b.key; };
-  std::sort(m_former.begin(), m_former.end(), before);
+  const auto place = [](const Contact& c) {
+    const Candidate of = candidateOf(kNone, kNone, kNone, c.key);
+    return std::pair(of.scattered, of.key);
+  };
+  auto former = m_former.begin();
   for (Contact& c : m_contacts) {
-    const auto found = std::lower_bound(m_former.begin(), m_former.end(), c, before);
-    if (found == m_former.end() || found->key != c.key) continue;
-    c.push = found->push, c.rub = found->rub, c.approach = found->approach;
-    c.drift = found->drift, c.left = found->left;
-    c.met = found->met, c.slides = found->slides, c.yields = found->yields;
+    const auto here = place(c);
+    while (former != m_former.end() && place(*former) < here) ++former;
+    if (former == m_former.end()) break;
+    if (former->key != c.key) continue;
+    c.push = former->push, c.rub = former->rub, c.approach = former->approach;
+    c.drift = former->drift, c.left = former->left;
+    c.met = former->met, c.slides = former->slides, c.yields = former->yields;
   }
+}
+
+/// By where particles were when the lists were made, not where they are: what is found then depends on nothing else.
+void RigidContact::findCandidates(const ParticleStore& store, const Neighbours& neighbours,
+                                  const StructureGraph& graph) {
+  const api::NeighbourView view = neighbours.view();
+  const api::Motion* motion = store.motion();
+  const uint32_t* id = store.id();
+  const double skin = kSkinSpacings * m_spacing, reach = std::hypot(kFaceDistance, kFaceWidth) * m_spacing + skin;
+  const std::span<const api::Float4> at = neighbours.built();
+  const auto distance2 = [&](uint32_t i, uint32_t j) {
+    float x = at[i].x - at[j].x, y = at[i].y - at[j].y, z = at[i].z - at[j].z;
+    store.period().shorten(x, y, z);
+    return Vector3(x, y, z).squaredNorm();
+  };
+  m_candidatesOf.resize(chunkCount(store.size(), grain::kNeighbours));
+  forChunks(store.size(), grain::kNeighbours, [&](size_t first, size_t last) {
+    std::vector<Candidate>& found = m_candidatesOf[first / grain::kNeighbours];
+    found.clear();
+    for (auto i = static_cast<uint32_t>(first); i < last; ++i) {
+      if (m_isMember[i] == 0) continue;
+      for (uint32_t p = 0; p < m_planes.size(); ++p) {
+        if (m_planes[p].heightOf(vectorOf(at[i])) > kWallReach * m_spacing) continue;
+        found.push_back(candidateOf(i, kNone, p, uint64_t{id[i]} << 32 | (kNone - p)));
+      }
+      const uint32_t own = m_bodyOf[i];
+      for (uint32_t q = view.begin[i]; q < view.last[i]; ++q) {
+        const uint32_t j = view.index[q];
+        // Each pair of bodies once, from the body that comes first.
+        if (m_bodyOf[j] <= own || !api::holds(motion[j])) continue;
+        if (!(distance2(i, j) < reach * reach) || graph.tied(i, j)) continue;
+        found.push_back(candidateOf(i, j, kNone, uint64_t{id[i]} << 32 | id[j]));
+      }
+    }
+  });
+  m_candidates.clear();
+  for (const std::vector<Candidate>& found : m_candidatesOf)
+    m_candidates.insert(m_candidates.end(), found.begin(), found.end());
+  std::sort(m_candidates.begin(), m_candidates.end(), [](const Candidate& a, const Candidate& b) {
+    return a.scattered != b.scattered ? a.scattered < b.scattered : a.key < b.key;
+  });
+}
+
+/// Of all that may touch another particle.
+void RigidContact::findSurfaces(const ParticleStore& store, const Neighbours& neighbours) {
+  const api::Motion* motion = store.motion();
+  for (const Candidate& c : m_candidates) {
+    if (c.b != kNone) m_surface.add(c.a), m_surface.add(c.b);
+  }
+  const auto same = [&](uint32_t i, uint32_t j) {
+    return m_bodyOf[i] != kNone ? m_bodyOf[j] == m_bodyOf[i]
+                                : motion[i] == api::Motion::Static && motion[j] == api::Motion::Static;
+  };
+  forChunks(m_surface.size(), grain::kNeighbours, [&](size_t first, size_t last) {
+    for (size_t slot = first; slot < last; ++slot) m_surface.find(store, neighbours, static_cast<uint32_t>(slot), same);
+  });
 }
 
 void RigidContact::refreshContacts(const ParticleStore& store, const Neighbours& neighbours,
@@ -140,48 +210,15 @@ void RigidContact::refreshContacts(const ParticleStore& store, const Neighbours&
   if (m_bodies.empty()) return m_former.clear();
   m_surface.clear(store.size());
   for (Body& body : m_bodies) body.hasContacts = false;
-  const StructureGraph& graph = constraints.graph(store.size());
-  const api::NeighbourView view = neighbours.view();
-  const api::Motion* motion = store.motion();
-  const double skin = kSkinSpacings * m_spacing, reach = std::hypot(kFaceDistance, kFaceWidth) * m_spacing + skin;
-  // Where they were when the lists were made, not where they are: what is found then depends on nothing else.
-  const std::span<const api::Float4> at = neighbours.built();
-  const auto distance2 = [&](uint32_t i, uint32_t j) {
-    float x = at[i].x - at[j].x, y = at[i].y - at[j].y, z = at[i].z - at[j].z;
-    store.period().shorten(x, y, z);
-    return Vector3(x, y, z).squaredNorm();
-  };
-  const auto same = [&](uint32_t i, uint32_t j) {
-    return m_bodyOf[i] != kNone ? m_bodyOf[j] == m_bodyOf[i]
-                                : motion[i] == api::Motion::Static && motion[j] == api::Motion::Static;
-  };
-  const auto needSurface = [&](uint32_t i) {
-    if (!m_surface.has(i)) m_surface.find(store, neighbours, m_surface.add(i), same);
-  };
-  for (uint32_t i = 0; i < store.size(); ++i) {
-    if (m_isMember[i] == 0) continue;
-    const size_t before = m_contacts.size();
-    for (size_t p = 0; p < m_planes.size(); ++p) {
-      if (m_planes[p].heightOf(vectorOf(at[i])) > kWallReach * m_spacing) continue;
-      addPlane(store, i, p);
-    }
-    for (uint32_t q = view.begin[i]; q < view.last[i]; ++q) {
-      const uint32_t j = view.index[q];
-      if (!api::holds(motion[j])) continue;
-      // Each pair of bodies once, from the body that comes first.
-      if (m_bodyOf[j] != kNone && m_bodyOf[j] <= m_bodyOf[i]) continue;
-      if (!(distance2(i, j) < reach * reach) || graph.tied(i, j)) continue;
-      addContact(store, i, j);
-      needSurface(i);
-      needSurface(j);
-      if (m_bodyOf[j] != kNone) m_bodies[m_bodyOf[j]].hasContacts = true;
-    }
-    if (m_contacts.size() > before) m_bodies[m_bodyOf[i]].hasContacts = true;
+  findCandidates(store, neighbours, constraints.graph(store.size()));
+  for (const Candidate& c : m_candidates) {
+    m_bodies[m_bodyOf[c.a]].hasContacts = true;
+    if (c.b != kNone && m_bodyOf[c.b] != kNone) m_bodies[m_bodyOf[c.b]].hasContacts = true;
   }
-  // One end of a face after the other would rock the body: neighbours in the list are strangers.
-  std::sort(m_contacts.begin(), m_contacts.end(), [](const Contact& a, const Contact& b) {
-    const auto scattered = [](uint64_t key) { return (key ^ (key >> 29)) * 0xBF58476D1CE4E5B9ull; };
-    return std::pair(scattered(a.key), a.key) < std::pair(scattered(b.key), b.key);
+  findSurfaces(store, neighbours);
+  m_contacts.resize(m_candidates.size());
+  forChunks(m_contacts.size(), grain::kConstraints, [&](size_t first, size_t last) {
+    for (size_t k = first; k < last; ++k) m_contacts[k] = contactOf(store, m_candidates[k]);
   });
   keepImpulses();
 }

@@ -172,8 +172,17 @@ class RigidContact {
   Response responseOf(const Side& side, const Vector3& impulse) const;
   void push(ParticleStore& store, const Side& side, const Vector3& impulse, double size, const Response& response);
   void push(ParticleStore& store, const Side& side, const Vector3& impulse);
-  void addContact(const ParticleStore& store, uint32_t i, uint32_t j);
-  void addPlane(const ParticleStore& store, uint32_t i, size_t plane);
+  /// Two that may touch, without what contact is told by: small enough to be sorted.
+  struct Candidate {
+    uint64_t scattered, key;
+    uint32_t a, b;   ///< particles; b kNone: a plane
+    uint32_t plane;  ///< kNone: b
+  };
+  static Candidate candidateOf(uint32_t a, uint32_t b, uint32_t plane, uint64_t key);
+  void findCandidates(const ParticleStore& store, const Neighbours& neighbours, const StructureGraph& graph);
+  Contact contactOf(const ParticleStore& store, const Candidate& candidate) const;
+  Contact planeContactOf(const ParticleStore& store, const Candidate& candidate) const;
+  void findSurfaces(const ParticleStore& store, const Neighbours& neighbours);
   void keepImpulses();
   template <class AContact, class Visit>
   static void eachNumber(AContact& contact, Visit&& visit);
@@ -226,9 +235,11 @@ class RigidContact {
   std::vector<uint8_t> m_isMember;
   std::vector<uint32_t> m_bodyOf;
   std::vector<Body> m_bodies;
-  std::vector<Contact> m_contacts, m_former;  ///< former: by key
-  std::vector<Open> m_open;                   ///< in the same order
-  LatticeSurface m_surface;                   ///< of those that may touch others
+  std::vector<Contact> m_contacts, m_former;           ///< by scattered key
+  std::vector<std::vector<Candidate>> m_candidatesOf;  ///< by chunk of particles
+  std::vector<Candidate> m_candidates;
+  std::vector<Open> m_open;  ///< in the same order
+  LatticeSurface m_surface;  ///< of those that may touch others
 };
 
 }  // namespace ps
