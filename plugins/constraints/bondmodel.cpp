@@ -4,6 +4,7 @@
 #include "bondstiffness.h"
 #include "convergence.h"
 #include "joining.h"
+#include "pairprojection.h"
 
 #include <algorithm>
 #include <array>
@@ -190,6 +191,25 @@ float referenceVolume(const ConstraintContext& context, const ParticleView& p, u
                             material.property("density_solid", reference));
 }
 
+/// Takes a share of each bond's error (Mueller et al. 2007).
+void projectClassic(const ConstraintContext& context, const api::MovableParticles& particles,
+                    const ConstraintBatch& batch) {
+  const ParticleView& p = particles;
+  const float share = static_cast<float>(context.parameters[BondModel::kPbdStiffness]);
+  const float* length = batch.values[BondModel::kLength];
+  for (size_t k = 0; k < batch.count; ++k) {
+    const uint32_t i = batch.particles[2 * k], j = batch.particles[2 * k + 1];
+    api::Float4 &a = particles.position[i], &b = particles.position[j];
+    const float wa = p.velocity[i].w, wb = p.velocity[j].w;
+    const auto [x, y, z, unused] = api::separation(p, i, j);
+    const float distance = std::sqrt(x * x + y * y + z * z);
+    if (!(distance > 0) || !(wa + wb > 0)) continue;
+    const float s = -share * (distance - length[k]) / ((wa + wb) * distance), sa = s * wa, sb = s * wb;
+    a.x += sa * x, a.y += sa * y, a.z += sa * z;
+    b.x -= sb * x, b.y -= sb * y, b.z -= sb * z;
+  }
+}
+
 }  // namespace
 
 BondModel::BondModel()
@@ -295,40 +315,11 @@ void BondModel::refresh(const ConstraintContext& context, const ParticleView& p,
 
 void BondModel::project(const ConstraintContext& context, const api::MovableParticles& particles,
                         const ConstraintBatch& batch) const {
-  const ParticleView& p = particles;
-  const bool classic = isSet(context, kSolver);
-  const float share = static_cast<float>(context.parameters[kPbdStiffness]);
-  const float perDt2 = static_cast<float>(1 / (context.dt * context.dt));
-  const float damping = static_cast<float>(context.parameters[kDamping] / context.dt);
-  float* multiplier = batch.values[kMultiplier];
-  const float *length = batch.values[kLength], *compliance = batch.values[kCompliance];
-  for (size_t k = 0; k < batch.count; ++k) {
-    const uint32_t i = batch.particles[2 * k], j = batch.particles[2 * k + 1];
-    api::Float4 &a = particles.position[i], &b = particles.position[j];
-    const float wa = p.velocity[i].w, wb = p.velocity[j].w;
-    const auto [x, y, z, unused] = api::separation(p, i, j);
-    const float distance = std::sqrt(x * x + y * y + z * z);
-    if (!(distance > 0) || !(wa + wb > 0)) continue;
-    if (classic) {
-      const float s = -share * (distance - length[k]) / ((wa + wb) * distance), sa = s * wa, sb = s * wb;
-      a.x += sa * x, a.y += sa * y, a.z += sa * z;
-      b.x -= sb * x, b.y -= sb * y, b.z -= sb * z;
-      continue;
-    }
-    const float softness = compliance[k] * perDt2;
-    float error = distance - length[k] + softness * multiplier[k];
-    if (damping > 0) {
-      const api::Float4 &aFrom = p.previous[i], &bFrom = p.previous[j];
-      error += damping / distance *
-               (x * ((a.x - aFrom.x) - (b.x - bFrom.x)) + y * ((a.y - aFrom.y) - (b.y - bFrom.y)) +
-                z * ((a.z - aFrom.z) - (b.z - bFrom.z)));
-    }
-    const float change = -error / ((1 + damping) * (wa + wb) + softness);
-    multiplier[k] += change;
-    const float s = change / distance, sa = s * wa, sb = s * wb;
-    a.x += sa * x, a.y += sa * y, a.z += sa * z;
-    b.x -= sb * x, b.y -= sb * y, b.z -= sb * z;
-  }
+  if (isSet(context, kSolver)) return projectClassic(context, particles, batch);
+  const Pairs pairs{batch.count, batch.particles, batch.values[kLength], batch.values[kMultiplier],
+                    static_cast<float>(context.parameters[kDamping] / context.dt)};
+  projectPairs(particles, pairs,
+               BondSoftness{batch.values[kCompliance], static_cast<float>(1 / (context.dt * context.dt))});
 }
 
 double BondModel::energy(const ConstraintContext&, const ParticleView& p, const ConstraintBatch& batch) const {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "springmodel.h"
 
+#include "pairprojection.h"
+
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -166,32 +168,16 @@ void SpringModel::predict(const ConstraintContext&, const ParticleView&, const C
 
 void SpringModel::project(const ConstraintContext& context, const api::MovableParticles& particles,
                           const ConstraintBatch& batch) const {
-  const ParticleView& p = particles;
   const Springs springs = springsOf(context.parameters, context.spacing);
   const double dt2 = context.dt * context.dt;
-  const float damping = static_cast<float>(springs.damping / context.dt);
-  float* multiplier = batch.values[kMultiplier];
-  for (size_t k = 0; k < batch.count; ++k) {
-    const uint32_t i = batch.particles[2 * k], j = batch.particles[2 * k + 1];
-    Float4 &a = particles.position[i], &b = particles.position[j];
-    const float wa = p.velocity[i].w, wb = p.velocity[j].w;
-    const Difference d = between(a, b);
-    const float length = d.length();
-    const double asked = springs.stiffness[kindOf(batch, k)];
-    if (!(length > 0) || !(wa + wb > 0) || !(asked > 0)) continue;
-    const float softness =
-        static_cast<float>(1 / (dt2 * std::min(asked, stiffnessLimit(double{wa} + double{wb}, context.dt))));
-    float error = length - batch.values[kRestLength][k] + softness * multiplier[k];
-    if (damping > 0) {
-      const Difference from = between(p.previous[i], p.previous[j]);
-      error += damping / length * (d.x * (d.x - from.x) + d.y * (d.y - from.y) + d.z * (d.z - from.z));
-    }
-    const float change = -error / ((1 + damping) * (wa + wb) + softness);
-    multiplier[k] += change;
-    const float s = change / length, sa = s * wa, sb = s * wb;
-    a.x += sa * d.x, a.y += sa * d.y, a.z += sa * d.z;
-    b.x -= sb * d.x, b.y -= sb * d.y, b.z -= sb * d.z;
+  SpringSoftness softness{batch.values[kKind], {}, static_cast<float>(1 / (dt2 * stiffnessLimit(1, context.dt)))};
+  for (const Kind kind : {kStretch, kShear, kBend}) {
+    const double asked = springs.stiffness[kind];
+    softness.ofKind[kind] = asked > 0 ? static_cast<float>(1 / (dt2 * asked)) : -1;
   }
+  const Pairs pairs{batch.count, batch.particles, batch.values[kRestLength], batch.values[kMultiplier],
+                    static_cast<float>(springs.damping / context.dt)};
+  projectPairs(particles, pairs, softness);
 }
 
 void SpringModel::topology(const ConstraintContext& context, const ParticleView& p, const NeighbourView&,
