@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "clustermodel.h"
 
+#include "clusterkernels.h"
 #include "clustershape.h"
 #include "rigidpieces.h"
 
@@ -246,6 +247,16 @@ double modulusOf(const ConstraintContext& context, const ParticleView& p, const 
   return volume > 0 ? modulus / volume : 0;
 }
 
+ClusterMembers membersOf(const GroupBatch& batch, size_t g) {
+  const size_t first = batch.begin[g];
+  const auto of = [&](ClusterModel::MemberValue v) { return batch.memberValues[v] + first; };
+  return {batch.particles + first,
+          batch.begin[g + 1] - first,
+          {of(ClusterModel::kRestX), of(ClusterModel::kRestY), of(ClusterModel::kRestZ)},
+          {of(ClusterModel::kMultiplierX), of(ClusterModel::kMultiplierY), of(ClusterModel::kMultiplierZ)},
+          {of(ClusterModel::kWayX), of(ClusterModel::kWayY), of(ClusterModel::kWayZ)}};
+}
+
 }  // namespace
 
 ClusterModel::ClusterModel()
@@ -306,47 +317,44 @@ void ClusterModel::project(const ConstraintContext& context, const api::MovableP
                            const GroupBatch& batch) const {
   const ParticleView& p = particles;
   const double friction = context.parameters[kDamping] / context.dt;
-  std::vector<Vector> change;
-  for (size_t g = 0; g < batch.count; ++g) {
-    const double kappa = batch.values[kKappa][g];
-    if (!(kappa > 0)) continue;
-    const double softness = 1 / (kappa * context.dt * context.dt);
-    ClusterShape shape(p, batch, g);
-    shape.fit();
-    if (friction > 0) shape.findDeformation(change);
-    for (size_t k = batch.begin[g]; k < batch.begin[g + 1]; ++k) {
-      const uint32_t i = batch.particles[k];
-      api::Float4& x = particles.position[i];
-      const double mass = p.mass[i];
-      Vector error = vectorOf(x) - shape.goal(k);
-      if (friction > 0) error += friction * change[k - batch.begin[g]];
-      // The multiplier of a vector constraint of inverse mass 1/m and compliance 1/(kappa m).
-      const Vector step = -1 / (1 + friction + softness) * (mass * error + softness * shape.multiplier(k));
-      shape.setMultiplier(k, shape.multiplier(k) + step);
-      setVector(x, vectorOf(x) + double{p.velocity[i].w} * step);
+  std::array<ClusterScratch, ClusterFits::kMost> scratch;
+  std::array<ClusterMembers, ClusterFits::kMost> members;
+  std::array<ClusterSums, ClusterFits::kMost> sums;
+  std::array<size_t, ClusterFits::kMost> group{};
+  for (size_t g = 0; g < batch.count;) {
+    size_t count = 0;
+    for (; g < batch.count && count < ClusterFits::kMost; ++g) {
+      if (!(batch.values[kKappa][g] > 0)) continue;
+      members[count] = membersOf(batch, g);
+      sums[count] = sumsOf(p, members[count], friction > 0, scratch[count]);
+      group[count++] = g;
+    }
+    ClusterFits fits;
+    fits.find(batch, group.data(), sums.data(), count);
+    for (size_t k = 0; k < count; ++k) {
+      ClusterPull pull{sums[k].centre(), fits.restCentre(k), fits.turned(k), {}, {}, friction, 0};
+      pull.softness = 1 / (batch.values[kKappa][group[k]] * context.dt * context.dt);
+      if (friction > 0) {  // the way of each member without the rigid motion of the whole
+        pull.shift = 1 / sums[k].mass * sums[k].shift;
+        pull.turning = symmetricInverse(sums[k].inertia()) * (sums[k].turning - cross(pull.centre, sums[k].shift));
+      }
+      pullMembers(particles, members[k], pull, scratch[k]);
     }
   }
 }
 
 void ClusterModel::deriveVelocities(const ConstraintContext& context, const api::MovableParticles& particles,
                                     const GroupBatch& batch) const {
-  const ParticleView& p = particles;
   // The substep ends with v = (x - previous)/dt. The cluster moved each member by multiplier/m, across the way that its
   // velocity had taken it: that cost the angular momentum sum way x multiplier/dt. Its pulls, taken where the members
-  // are now, should not turn it either.
+  // are now, should not turn it either. It gets the rigid turn that has what was lost.
+  ClusterScratch scratch;
   for (size_t g = 0; g < batch.count; ++g) {
-    const ClusterShape shape(p, batch, g);
-    Vector lost;
-    bool moved = false, held = false;
-    for (size_t k = batch.begin[g]; k < batch.begin[g + 1]; ++k) {
-      const uint32_t i = batch.particles[k];
-      held = held || p.velocity[i].w == 0;
-      const Vector pull = shape.multiplier(k);
-      moved = moved || dot(pull, pull) > 0;
-      const Vector way{batch.memberValues[kWayX][k], batch.memberValues[kWayY][k], batch.memberValues[kWayZ][k]};
-      lost += 1 / context.dt * cross(way - vectorOf(p.position[i]), pull);
-    }
-    if (moved && !held) shape.turn(lost, particles.velocity);
+    const ClusterMembers members = membersOf(batch, g);
+    const ClusterTurn turn = turnOf(particles, members, scratch);
+    if (!turn.moved || turn.held) continue;
+    const Vector spin = symmetricInverse(turn.sums.inertia()) * (1 / context.dt * turn.lost);
+    turnMembers(particles, members, turn.sums.centre(), spin, scratch);
   }
 }
 

@@ -1,11 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "clusterkernels.h"
 #include "clustermodel.h"
 #include "rotation.h"
 
-#include <vector>
+#include <array>
 
 namespace ps::constraint {
+
+/// Shapes of some clusters of a batch at once, by sums over all of their members.
+class ClusterFits {
+ public:
+  static constexpr size_t kMost = 8;
+  /// Finds the rotations, and keeps them in the batch's values.
+  void find(const api::GroupBatch& batch, const size_t* group, const ClusterSums* sums, size_t count);
+  Vector restCentre(size_t k) const { return m_restCentre[k]; }
+  /// Rotation times scale.
+  const Matrix& turned(size_t k) const { return m_turned[k]; }
+
+ private:
+  std::array<Vector, kMost> m_restCentre;
+  std::array<Matrix, kMost> m_turned;
+};
 
 /// One cluster of a batch: its undeformed shape, and where its members are pulled to. Places `k` count through the
 /// batch's arrays.
@@ -23,19 +39,6 @@ class ClusterShape {
     return {value(ClusterModel::kRestX), value(ClusterModel::kRestY), value(ClusterModel::kRestZ)};
   }
   Quaternion rotation() const { return m_rotation; }
-  Vector multiplier(size_t k) const {
-    const auto value = [&](ClusterModel::MemberValue v) { return m_batch.memberValues[v][k]; };
-    return {value(ClusterModel::kMultiplierX), value(ClusterModel::kMultiplierY), value(ClusterModel::kMultiplierZ)};
-  }
-  void setMultiplier(size_t k, Vector value) const {
-    m_batch.memberValues[ClusterModel::kMultiplierX][k] = static_cast<float>(value.x);
-    m_batch.memberValues[ClusterModel::kMultiplierY][k] = static_cast<float>(value.y);
-    m_batch.memberValues[ClusterModel::kMultiplierZ][k] = static_cast<float>(value.z);
-  }
-  /// Way of each member since the start of the substep, without the rigid motion of the whole; call after fit().
-  void findDeformation(std::vector<Vector>& change) const;
-  /// Adds the rigid turn of the members where they are that has an angular momentum of `angular` kg m²/s.
-  void turn(Vector angular, api::Float4* velocity) const;
   Vector meanVelocity(const uint8_t* without) const;
 
   /// Cube root of the members' rest volumes against those when they joined.
