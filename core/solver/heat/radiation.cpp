@@ -27,23 +27,6 @@ bool exchanges(const Wall& wall) {
   return wall.heat == WallHeat::FixedTemperature || wall.heat == WallHeat::Convective;
 }
 
-struct Target {
-  size_t index;  ///< of the wall; their number: none
-  double distance;
-};
-
-Target nearestWall(std::span<const Wall> walls, const Vector3& from, const Vector3& way) {
-  Target nearest{walls.size(), kFar};
-  for (size_t w = 0; w < walls.size(); ++w) {
-    const Plane plane = planeOf(walls[w]);
-    const double towards = -plane.normal.dot(way);
-    if (!(towards > 0)) continue;
-    const double distance = std::max(0.0, plane.heightOf(from) / towards);
-    if (distance < nearest.distance) nearest = {w, distance};
-  }
-  return nearest;
-}
-
 /// Bounds may lie in the walls themselves: a spacing more counts as within.
 bool within(const Bounds& bounds, const Vector3& x, double spacing) {
   const api::Double3 &low = bounds.minimum, &high = bounds.maximum;
@@ -71,6 +54,20 @@ size_t faceOf(const SurfaceBox& box, size_t k) {
 
 }  // namespace
 
+std::pair<size_t, double> Radiation::nearestWall(const Ray& ray) const {
+  constexpr double kRounding = 1 + 1e-12;
+  std::pair<size_t, double> nearest{m_mirrors.size(), kFar};
+  for (size_t w = 0; w < m_mirrors.size(); ++w) {
+    const Plane& plane = m_mirrors[w].plane;
+    const double towards = -plane.normal.dot(ray.way), height = plane.heightOf(ray.from);
+    // Most are farther than one that is known, which is told without a division.
+    if (!(towards > 0) || height > kRounding * nearest.second * towards) continue;
+    const double distance = std::max(0.0, height / towards);
+    if (distance < nearest.second) nearest = {w, distance};
+  }
+  return nearest;
+}
+
 void Radiation::forget() {
   m_begin.clear();
   m_sights.clear();
@@ -80,6 +77,8 @@ void Radiation::forget() {
 void Radiation::trace(const RadiationScene& scene) {
   const size_t n = scene.store.size();
   m_walls = scene.walls.size();
+  m_mirrors.clear();
+  for (const Wall& wall : scene.walls) m_mirrors.push_back({planeOf(wall), exchanges(wall)});
   m_sky.assign(n, 0.0f);
   m_wall.assign(n * m_walls, 0.0f);
   findBoxes(scene);
@@ -201,8 +200,8 @@ bool Radiation::reflect(const RadiationScene& scene, const RayGrid::Hit& hit, Ra
 Radiation::End Radiation::endOf(const RadiationScene& scene, Ray ray) const {
   const End nowhere{RayGrid::kNone, scene.walls.size(), false, false};
   for (int met = 0; met <= kMostMet; ++met) {
-    const Target wall = nearestWall(scene.walls, ray.from, ray.way);
-    const RayGrid::Hit hit = m_grid.firstOn(scene.store, ray.from, ray.way, wall.distance,
+    const auto [nearest, distance] = nearestWall(ray);
+    const RayGrid::Hit hit = m_grid.firstOn(scene.store, ray.from, ray.way, distance,
                                             [&](const RayGrid::Hit& there) { return passes(scene, ray, there); });
     if (hit.particle != RayGrid::kNone) {
       if (isCovered(scene, ray, hit)) return {RayGrid::kNone, nowhere.wall, false, true};
@@ -210,13 +209,14 @@ Radiation::End Radiation::endOf(const RadiationScene& scene, Ray ray) const {
       if (happens(absorbed, ray.chance) || !reflect(scene, hit, ray)) return {hit.particle, nowhere.wall, false, false};
       continue;
     }
-    if (wall.index == scene.walls.size()) return {RayGrid::kNone, wall.index, m_grid.comesOut(ray.way), false};
-    const Wall& plane = scene.walls[wall.index];
-    if (exchanges(plane) && happens(plane.emissivity, ray.chance)) return {RayGrid::kNone, wall.index, false, false};
-    ray.from += wall.distance * ray.way;
-    if (!exchanges(plane) && !within(scene.bounds, ray.from, scene.spacing))
+    if (nearest == m_mirrors.size()) return {RayGrid::kNone, nearest, m_grid.comesOut(ray.way), false};
+    const Mirror& mirror = m_mirrors[nearest];
+    if (mirror.exchanges && happens(scene.walls[nearest].emissivity, ray.chance))
+      return {RayGrid::kNone, nearest, false, false};
+    ray.from += distance * ray.way;
+    if (!mirror.exchanges && !within(scene.bounds, ray.from, scene.spacing))
       return {RayGrid::kNone, nowhere.wall, true, false};
-    const Vector3 normal = vectorOf(plane.normal);
+    const Vector3& normal = mirror.plane.normal;
     ray.way -= 2 * normal.dot(ray.way) * normal;
     ray.straight = false;
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "core/math/plane.h"
 #include "core/math/vector.h"
 #include "core/particles/particlestore.h"
 #include "core/solver/heat/opensurface.h"
@@ -99,7 +100,16 @@ class Radiation {
   void scaleToBodies(const RadiationScene& scene);
   void couple(size_t count);
 
+  /// A wall as rays meet it.
+  struct Mirror {
+    Plane plane;
+    bool exchanges;  ///< has a temperature
+  };
+  /// The wall that a ray would meet first, its number where there is none, and how far it is.
+  std::pair<size_t, double> nearestWall(const Ray& ray) const;
+
   RayGrid m_grid;
+  std::vector<Mirror> m_mirrors;  ///< by wall
   std::vector<SurfaceBox> m_boxes;
   std::vector<uint32_t> m_boxOf;  ///< by particle, or RayGrid::kNone
   size_t m_walls = 0, m_perParticle = 64;

@@ -60,7 +60,9 @@ void RayGrid::span(const ParticleStore& store) {
   for (size_t a = 0; a < 3; ++a) {
     m_count[a] = std::max(1, static_cast<int>(size[a] / wanted + 0.01));
     m_edge[a] = size[a] / m_count[a];
+    m_perEdge[a] = m_count[a] / size[a];
   }
+  m_repeating = m_repeats[0] || m_repeats[1] || m_repeats[2];
   m_stride[1] = static_cast<size_t>(m_count[0]);
   m_stride[2] = m_stride[1] * static_cast<size_t>(m_count[1]);
 }
@@ -95,14 +97,15 @@ void RayGrid::insert(const ParticleStore& store, uint32_t particle) {
 }
 
 bool RayGrid::begin(const Vector3& from, const Vector3& way, double longest, Walk& walk) const {
-  double enter = 0, leave = longest;
+  double enter = 0, leave = longest, inverse[3];
   for (size_t a = 0; a < 3; ++a) {  // where the ray is within the box
+    inverse[a] = way[a] == 0 ? kFar : 1 / way[a];
     if (m_repeats[a]) continue;
     if (way[a] == 0) {
       if (from[a] < m_low[a] || from[a] > m_high[a]) return false;
       continue;
     }
-    const double one = (m_low[a] - from[a]) / way[a], other = (m_high[a] - from[a]) / way[a];
+    const double one = (m_low[a] - from[a]) * inverse[a], other = (m_high[a] - from[a]) * inverse[a];
     enter = std::max(enter, std::min(one, other));
     leave = std::min(leave, std::max(one, other));
   }
@@ -112,13 +115,13 @@ bool RayGrid::begin(const Vector3& from, const Vector3& way, double longest, Wal
   walk.at = enter;
   walk.leave = leave;
   for (size_t a = 0; a < 3; ++a) {
-    const double at = (from[a] + enter * way[a] - m_low[a]) / m_edge[a];
-    walk.cell[a] = static_cast<int>(std::floor(at));
-    if (!m_repeats[a]) walk.cell[a] = std::clamp(walk.cell[a], 0, m_count[a] - 1);
+    const double at = (from[a] + enter * way[a] - m_low[a]) * m_perEdge[a];
+    const int towardsZero = static_cast<int>(at), floor = towardsZero - (towardsZero > at ? 1 : 0);
+    walk.cell[a] = m_repeats[a] ? floor : std::clamp(floor, 0, m_count[a] - 1);
     walk.step[a] = way[a] > 0 ? 1 : -1;
-    walk.each[a] = way[a] == 0 ? kFar : m_edge[a] / std::abs(way[a]);
+    walk.each[a] = way[a] == 0 ? kFar : m_edge[a] * std::abs(inverse[a]);
     const double border = m_low[a] + m_edge[a] * (walk.cell[a] + (walk.step[a] > 0 ? 1 : 0));
-    walk.next[a] = way[a] == 0 ? kFar : (border - from[a]) / way[a];
+    walk.next[a] = way[a] == 0 ? kFar : (border - from[a]) * inverse[a];
     if (m_repeats[a]) walk.cell[a] = (walk.cell[a] % m_count[a] + m_count[a]) % m_count[a];
   }
   walk.index = indexOf(walk.cell);
@@ -127,8 +130,10 @@ bool RayGrid::begin(const Vector3& from, const Vector3& way, double longest, Wal
 
 bool RayGrid::meets(const ParticleStore& store, uint32_t particle, const Vector3& from, const Vector3& way, double at,
                     Hit& hit) const {
-  Vector3 off = from + at * way - vectorOf(store.position()[particle]);
-  for (size_t a = 0; a < 3; ++a) {
+  const api::Float4& x = store.position()[particle];
+  Vector3 off = {from.x() + at * way.x() - double{x.x}, from.y() + at * way.y() - double{x.y},
+                 from.z() + at * way.z() - double{x.z}};
+  for (size_t a = 0; m_repeating && a < 3; ++a) {
     if (!m_repeats[a]) continue;
     const double length = m_high[a] - m_low[a];
     off[a] -= length * std::floor(off[a] / length + 0.5);
@@ -136,24 +141,31 @@ bool RayGrid::meets(const ParticleStore& store, uint32_t particle, const Vector3
   const double along = off.dot(way), square = off.squaredNorm(), reach = kRound * m_spacing * m_spacing;
   if (square - along * along > reach || (along > 0 && square > reach)) return false;
   const uint32_t own = m_boxOf[particle];
+  double o[3] = {off.x(), off.y(), off.z()}, v[3] = {way.x(), way.y(), way.z()};
+  double low[3], high[3];
+  for (size_t a = 0; a < 3; ++a) low[a] = -kHalf * m_spacing, high[a] = kHalf * m_spacing;
+  if (own != kNone) {
+    const SurfaceBox& box = m_boxes[own];
+    for (size_t a = 0; a < 3; ++a) {
+      const Vector3 axis = box.axis(a);
+      o[a] = off.dot(axis), v[a] = way.dot(axis);
+      high[a] = (box.isBare(2 * a) ? kHalf : kOverlap) * m_spacing;
+      low[a] = -(box.isBare(2 * a + 1) ? kHalf : kOverlap) * m_spacing;
+    }
+    if (box.isBare(0)) high[0] = double{box.height} * m_spacing;
+  }
   double enter = -kFar, leave = kFar;
   int face = -1;
   for (size_t a = 0; a < 3; ++a) {
-    double o = off[a], v = way[a], low = -kHalf * m_spacing, high = kHalf * m_spacing;
-    if (own != kNone) {
-      const SurfaceBox& box = m_boxes[own];
-      o = off.dot(box.axis(a)), v = way.dot(box.axis(a));
-      high = (a == 0 && box.isBare(0) ? double{box.height} : box.isBare(2 * a) ? kHalf : kOverlap) * m_spacing;
-      low = -(box.isBare(2 * a + 1) ? kHalf : kOverlap) * m_spacing;
-    }
-    if (std::abs(v) < 1e-12) {
-      if (o < low || o > high) return false;
+    if (std::abs(v[a]) < 1e-12) {
+      if (o[a] < low[a] || o[a] > high[a]) return false;
       continue;
     }
-    const double inverse = 1 / v, one = ((v > 0 ? low : high) - o) * inverse,
-                 other = ((v > 0 ? high : low) - o) * inverse;
-    if (one > enter) enter = one, face = static_cast<int>(2 * a + (v > 0 ? 1 : 0));
-    leave = std::min(leave, other);
+    const double inverse = 1 / v[a], toLow = (low[a] - o[a]) * inverse, toHigh = (high[a] - o[a]) * inverse;
+    const double one = std::min(toLow, toHigh);
+    face = one > enter ? static_cast<int>(2 * a + (v[a] > 0 ? 1 : 0)) : face;
+    enter = std::max(enter, one);
+    leave = std::min(leave, std::max(toLow, toHigh));
   }
   if (!(enter < leave) || !(at + leave > 0)) return false;
   const bool within = at + enter <= 0;
