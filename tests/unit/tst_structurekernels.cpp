@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What structure is computed by, beside the plainest way to compute the same.
+#include "core/solver/contact/nearneighbours.h"
 #include "core/solver/solver.h"
 #include "plugins/constraints/pairprojection.h"
 #include "plugins/constraints/rigidpieces.h"
@@ -139,6 +140,34 @@ class TstStructureKernels : public QObject {
       onEachInstructionSet(
           [&](const std::string& name) { QVERIFY2(passes(springs, false) == expected, name.c_str()); });
     }
+  }
+  void nearNeighboursAreThoseOfOneAfterTheOther() {
+    std::mt19937 engine(13);
+    ps::ParticleStore store;
+    store.add(700);
+    for (size_t i = 0; i < store.size(); ++i) {
+      const auto at = [&] { return static_cast<float>(number(engine, -0.1, 0.2)); };
+      const float x = at(), y = at(), z = at();
+      store.position()[i] = {x, y, z, 8e-6f};
+    }
+    ps::Neighbours neighbours;
+    neighbours.configure(0.04, 0.004);
+    neighbours.build(store);
+    const ps::NearNeighbours near(store, neighbours);
+    const float square = 0.03f * 0.03f;
+    size_t all = 0, found = 0;
+    std::vector<uint32_t> room, plain(1000);
+    for (uint32_t i = 0; i < store.size(); ++i) {
+      plain.resize(plain.capacity());
+      plain.resize(near.findPlainly(i, square, plain.data()));
+      onEachInstructionSet([&](const std::string&) {
+        const std::span<const uint32_t> list = near.of(i, square, room);
+        QVERIFY(std::equal(list.begin(), list.end(), plain.begin(), plain.end()));
+      });
+      found += plain.size();
+      all += neighbours.view().last[i] - neighbours.view().begin[i];
+    }
+    QVERIFY(found > store.size() && all > 2 * found);
   }
   void aLatticeWithAGapFallsApart() {
     // Steps of 1 and 1.414 hang together below 1.5, those of 1.732 and more do not.

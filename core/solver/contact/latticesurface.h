@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "core/base/parallel.h"
 #include "core/math/vector.h"
-#include "core/particles/neighbours.h"
+#include "core/solver/contact/nearneighbours.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -55,22 +57,16 @@ class LatticeSurface {
   uint32_t whoIs(size_t slot) const { return m_who[slot]; }
   bool has(uint32_t i) const { return i < m_slot.size() && m_slot[i] != kNone; }
   size_t size() const { return m_who.size(); }
-  /// Finds the lattice around the particle of a slot; same(i, j) says whether a neighbour j belongs to it. By positions
-  /// that the lists were made for: what is found depends on nothing else. Slots may be found at the same time.
+  /// Finds the lattice around the particle of each slot; same(i, j) says whether a neighbour j belongs to it, and is
+  /// asked from several threads. By positions that the lists were made for: what is found depends on nothing else.
   template <class Same>
-  void find(const ParticleStore& store, const Neighbours& neighbours, uint32_t slot, Same&& same) {
-    const uint32_t i = m_who[slot];
-    Own& own = m_own[slot];
-    own.count = 0;
-    const api::NeighbourView view = neighbours.view();
-    const std::span<const api::Float4> at = neighbours.built();
-    const double reach2 = kOwnReach * kOwnReach * m_spacing * m_spacing;
-    for (uint32_t q = view.begin[i]; q < view.last[i] && own.count < kMostOwn; ++q) {
-      const uint32_t j = view.index[q];
-      float x = at[i].x - at[j].x, y = at[i].y - at[j].y, z = at[i].z - at[j].z;
-      store.period().shorten(x, y, z);
-      if (Vector3(x, y, z).squaredNorm() < reach2 && same(i, j)) own.particles[own.count++] = j;
-    }
+  void find(const ParticleStore& store, const Neighbours& neighbours, const Same& same) {
+    m_room.resize(std::max(m_room.size(), chunkCount(m_who.size(), grain::kNeighbours)));
+    const NearNeighbours near(store, neighbours);
+    forChunks(m_who.size(), grain::kNeighbours, [&](size_t first, size_t last) {
+      std::vector<uint32_t>& room = m_room[first / grain::kNeighbours];
+      for (size_t slot = first; slot < last; ++slot) findOne(store, neighbours.built(), near, slot, same, room);
+    });
   }
   /// Where its neighbours are now.
   Normal normalOf(const ParticleStore& store, uint32_t i) const;
@@ -83,10 +79,26 @@ class LatticeSurface {
     std::array<uint32_t, kMostOwn> particles;
     uint32_t count = 0;
   };
+  template <class Same>
+  void findOne(const ParticleStore& store, std::span<const api::Float4> at, const NearNeighbours& near, size_t slot,
+               const Same& same, std::vector<uint32_t>& room) {
+    constexpr double kRounding = 1.0001;  // of single precision
+    const uint32_t i = m_who[slot];
+    Own& own = m_own[slot];
+    own.count = 0;
+    const double reach2 = kOwnReach * kOwnReach * m_spacing * m_spacing;
+    for (const uint32_t j : near.of(i, static_cast<float>(kRounding * reach2), room)) {
+      if (own.count == kMostOwn) break;
+      float x = at[i].x - at[j].x, y = at[i].y - at[j].y, z = at[i].z - at[j].z;
+      store.period().shorten(x, y, z);
+      if (Vector3(x, y, z).squaredNorm() < reach2 && same(i, j)) own.particles[own.count++] = j;
+    }
+  }
 
   double m_spacing = 0;  ///< m
   std::vector<uint32_t> m_slot, m_who;
   std::vector<Own> m_own;
+  std::vector<std::vector<uint32_t>> m_room;  ///< by chunk of slots
 };
 
 }  // namespace ps

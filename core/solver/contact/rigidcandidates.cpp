@@ -193,12 +193,9 @@ void RigidContact::findSurfaces(const ParticleStore& store, const Neighbours& ne
   for (const Candidate& c : m_candidates) {
     if (c.b != kNone) m_surface.add(c.a), m_surface.add(c.b);
   }
-  const auto same = [&](uint32_t i, uint32_t j) {
+  m_surface.find(store, neighbours, [&](uint32_t i, uint32_t j) {
     return m_bodyOf[i] != kNone ? m_bodyOf[j] == m_bodyOf[i]
                                 : motion[i] == api::Motion::Static && motion[j] == api::Motion::Static;
-  };
-  forChunks(m_surface.size(), grain::kNeighbours, [&](size_t first, size_t last) {
-    for (size_t slot = first; slot < last; ++slot) m_surface.find(store, neighbours, static_cast<uint32_t>(slot), same);
   });
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/solver/contact/solidcontact.h"
 
+#include "core/solver/contact/nearneighbours.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -92,6 +94,7 @@ void SolidContact::findPairs(const ParticleStore& store, const Neighbours& neigh
   const api::Motion* motion = store.motion();
   const std::span<const api::Float4> at = neighbours.built();
   const api::NeighbourView view = neighbours.view();
+  const NearNeighbours near(store, neighbours);
   const float roundReach2 = static_cast<float>(m_reach * m_reach),
               faceReach2 = static_cast<float>(m_faceReach * m_faceReach);
   m_chunks.resize(std::max(m_chunks.size(), chunkCount(m_solids.size(), grain::kNeighbours) + 1));
@@ -111,15 +114,14 @@ void SolidContact::findPairs(const ParticleStore& store, const Neighbours& neigh
       const uint32_t i = m_solids[k];
       if (isShut(i) || rigid[i] != 0 || store.velocity()[i].w == 0) continue;
       const size_t before = chunk.other.size();
-      for (uint32_t q = view.begin[i]; q < view.last[i]; ++q) {
-        const uint32_t j = view.index[q];
+      for (const uint32_t j : near.of(i, std::max(roundReach2, faceReach2), chunk.near)) {
         if (!api::holds(motion[j]) || rigid[j] != 0) continue;
         float x = at[i].x - at[j].x, y = at[i].y - at[j].y, z = at[i].z - at[j].z;
         store.period().shorten(x, y, z);
         const float distance2 = x * x + y * y + z * z;
-        const bool lattices = (motion[j] == api::Motion::Static || !graph.isFree(i) || !graph.isFree(j)) &&
-                              (pieceOf[i] != pieceOf[j] || pieceOf[i] == ConstraintSystem::kNoPiece);
-        if (!(distance2 < (lattices ? faceReach2 : roundReach2)) || graph.tied(i, j)) continue;
+        const bool together = pieceOf[i] == pieceOf[j] && pieceOf[i] != ConstraintSystem::kNoPiece;
+        const bool lattices = !together && (motion[j] == api::Motion::Static || !graph.isFree(i) || !graph.isFree(j));
+        if (!(distance2 < (lattices ? faceReach2 : roundReach2)) || (together && graph.tied(i, j))) continue;
         chunk.other.push_back(j);
         if (motion[j] == api::Motion::Solid && store.velocity()[j].w > 0 && isShut(j)) chunk.mirrored.push_back({j, i});
       }
@@ -162,12 +164,8 @@ void SolidContact::findSurfaces(const ParticleStore& store, const Neighbours& ne
       }
     }
   }
-  forChunks(m_surface.size(), grain::kNeighbours, [&](size_t first, size_t last) {
-    for (size_t slot = first; slot < last; ++slot) {
-      m_surface.find(store, neighbours, static_cast<uint32_t>(slot),
-                     [&](uint32_t i, uint32_t j) { return (isStatic(i) && isStatic(j)) || sameLattice(graph, i, j); });
-    }
-  });
+  m_surface.find(store, neighbours,
+                 [&](uint32_t i, uint32_t j) { return (isStatic(i) && isStatic(j)) || sameLattice(graph, i, j); });
   m_normals.resize(m_surface.size());
 }
 

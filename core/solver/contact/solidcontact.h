@@ -73,7 +73,7 @@ class SolidContact {
     float staticFriction, kineticFriction;
   };
   struct Chunk {
-    std::vector<uint32_t> who, begin, other;
+    std::vector<uint32_t> who, begin, other, near;
     std::vector<api::Float4> correction;
     std::vector<api::Float4> facing;                      ///< by pair: a face's normal, w its distance in m or 0
     std::vector<std::pair<uint32_t, uint32_t>> mirrored;  ///< pairs whose first is not looked at by itself
