@@ -1,68 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// Doubles, eight virtual lanes: one vector of AVX-512, two of AVX2, four of 16 bytes. Lanes beyond the last member have
-// no mass. Particles are copied to a tile of 16-byte float4 and interleaved from there.
+// A cluster has some dozen members: what a pass has read of them is kept for the next one.
 #include "clusterkernels.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "clusterkernels.cpp"
 #include "hwy/foreach_target.h"  // before highway.h
 #include "hwy/highway.h"
+#include "memberlanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace ps::constraint {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-constexpr size_t kVirtualLanes = 8;
-using D = hn::CappedTag<double, kVirtualLanes>;
-using V = hn::Vec<D>;
-using DF = hn::Rebind<float, D>;
-constexpr size_t kLanes = HWY_MIN(HWY_LANES(double), kVirtualLanes);
-constexpr size_t kParts = kVirtualLanes / kLanes;
 using Scratch = ClusterScratch;
-
-/// One sum in eight virtual lanes.
-struct Lanes {
-  V part[kParts];
-  HWY_INLINE Lanes() {
-    for (V& v : part) v = hn::Zero(D());
-  }
-  HWY_INLINE void add(size_t p, V v) { part[p] = hn::Add(part[p], v); }
-  /// Lanes k and k + 4, then k and k + 2, then the last two: the same tree for any width.
-  HWY_INLINE double sum() const {
-    alignas(64) double lane[kVirtualLanes];
-    for (size_t p = 0; p < kParts; ++p) hn::Store(part[p], D(), lane + p * kLanes);
-    return ((lane[0] + lane[4]) + (lane[2] + lane[6])) + ((lane[1] + lane[5]) + (lane[3] + lane[7]));
-  }
-};
-
-struct V3 {
-  V x, y, z;
-};
-struct Lanes3 {
-  Lanes x, y, z;
-  HWY_INLINE Lanes3() {}  // one that is made up by the compiler would not be of this target
-  HWY_INLINE void add(size_t p, V3 v) { x.add(p, v.x), y.add(p, v.y), z.add(p, v.z); }
-  HWY_INLINE Vector sum() const { return {x.sum(), y.sum(), z.sum()}; }
-};
-HWY_INLINE V3 operator*(V s, V3 a) { return {hn::Mul(s, a.x), hn::Mul(s, a.y), hn::Mul(s, a.z)}; }
-HWY_INLINE V3 operator+(V3 a, V3 b) { return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)}; }
-HWY_INLINE V3 operator-(V3 a, V3 b) { return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)}; }
-HWY_INLINE V3 cross(V3 a, V3 b) {
-  return {hn::Sub(hn::Mul(a.y, b.z), hn::Mul(a.z, b.y)), hn::Sub(hn::Mul(a.z, b.x), hn::Mul(a.x, b.z)),
-          hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x))};
-}
-HWY_INLINE V3 all(Vector v) {
-  const D d;
-  return {hn::Set(d, v.x), hn::Set(d, v.y), hn::Set(d, v.z)};
-}
-HWY_INLINE V dot(V3 a, V3 b) { return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z)); }
-
-/// Members of a cluster that one vector holds.
-struct Few {
-  size_t first, count;
-  Few(size_t at, size_t all) : first(at), count(at < all ? HWY_MIN(all - at, kLanes) : 0) {}
-};
 
 /// Columns of a scratch, as pointers that stay in registers.
 struct Columns {
@@ -76,85 +27,6 @@ struct Columns {
   HWY_INLINE void store(V v, size_t c, size_t at) const { hn::StoreU(v, D(), first + c * stride + at); }
   HWY_INLINE void store3(V3 v, size_t c, size_t at) const {
     store(v.x, c, at), store(v.y, c + 1, at), store(v.z, c + 2, at);
-  }
-};
-
-HWY_INLINE V loadFloats(const float* from, Few few) {
-  const DF df;
-  if (few.count == kLanes) return hn::PromoteTo(D(), hn::LoadU(df, from + few.first));
-  alignas(32) float tile[kLanes] = {};
-  for (size_t k = 0; k < few.count; ++k) tile[k] = from[few.first + k];
-  return hn::PromoteTo(D(), hn::Load(df, tile));
-}
-template <class Floats>
-HWY_INLINE V3 loadFloats3(const Floats& from, Few few) {
-  return {loadFloats(from[0], few), loadFloats(from[1], few), loadFloats(from[2], few)};
-}
-HWY_INLINE void storeFloats(V v, float* to, Few few) {
-  const DF df;
-  if (few.count == kLanes) return hn::StoreU(hn::DemoteTo(df, v), df, to + few.first);
-  alignas(32) float tile[kLanes];
-  hn::Store(hn::DemoteTo(df, v), df, tile);
-  for (size_t k = 0; k < few.count; ++k) to[few.first + k] = tile[k];
-}
-
-struct V4 {
-  V3 xyz;
-  V w;
-};
-/// Two levels of interleaving make x, y, z, w of blocks of four particles.
-HWY_INLINE V4 gather(const api::Float4* particles, const uint32_t* id) {
-  const D d;
-  const float* base = &particles->x;
-  const hn::Full128<float> d1;
-  const auto block = [&](size_t k) HWY_ATTR { return hn::Load(d1, base + 4 * size_t{id[k]}); };
-#if HWY_MAX_BYTES >= 32
-#if HWY_MAX_BYTES >= 64
-  const DF df;
-  const auto blocks = [&](size_t k) HWY_ATTR { return hn::Combine(df, block(k + 4), block(k)); };
-#else
-  const hn::Full128<float> df;
-  const auto blocks = block;
-#endif
-  const hn::Repartition<double, decltype(df)> dd;
-  const auto a0 = blocks(0), a1 = blocks(1), a2 = blocks(2), a3 = blocks(3);
-  const auto xy01 = hn::BitCast(dd, hn::InterleaveLower(df, a0, a1));  // x0 x1 y0 y1 in each block
-  const auto zw01 = hn::BitCast(dd, hn::InterleaveUpper(df, a0, a1));
-  const auto xy23 = hn::BitCast(dd, hn::InterleaveLower(df, a2, a3));
-  const auto zw23 = hn::BitCast(dd, hn::InterleaveUpper(df, a2, a3));
-  return {{hn::PromoteTo(d, hn::BitCast(df, hn::InterleaveLower(dd, xy01, xy23))),
-           hn::PromoteTo(d, hn::BitCast(df, hn::InterleaveUpper(dd, xy01, xy23))),
-           hn::PromoteTo(d, hn::BitCast(df, hn::InterleaveLower(dd, zw01, zw23)))},
-          hn::PromoteTo(d, hn::BitCast(df, hn::InterleaveUpper(dd, zw01, zw23)))};
-#else
-  const DF df;
-  const auto xy = hn::InterleaveLower(d1, block(0), block(1)), zw = hn::InterleaveUpper(d1, block(0), block(1));
-  return {{hn::PromoteTo(d, hn::LowerHalf(df, xy)), hn::PromoteTo(d, hn::UpperHalf(df, xy)),
-           hn::PromoteTo(d, hn::LowerHalf(df, zw))},
-          hn::PromoteTo(d, hn::UpperHalf(df, zw))};
-#endif
-}
-/// Leaves their w as it is.
-HWY_INLINE void scatter(V3 v, api::Float4* particles, const ClusterMembers& members, Few few) {
-  const DF df;
-  alignas(64) api::Float4 tile[kLanes];
-  hn::StoreInterleaved4(hn::DemoteTo(df, v.x), hn::DemoteTo(df, v.y), hn::DemoteTo(df, v.z), hn::Zero(df), df,
-                        &tile[0].x);
-  for (size_t k = 0; k < few.count; ++k) {
-    api::Float4& to = particles[members.particles[few.first + k]];
-    to = {tile[k].x, tile[k].y, tile[k].z, to.w};
-  }
-}
-struct SecondLanes {
-  Lanes xx, yy, zz, xy, xz, yz;
-  HWY_INLINE SecondLanes() {}
-  HWY_INLINE void add(size_t p, V3 weighted, V3 x) {
-    xx.add(p, hn::Mul(weighted.x, x.x)), yy.add(p, hn::Mul(weighted.y, x.y)), zz.add(p, hn::Mul(weighted.z, x.z));
-    xy.add(p, hn::Mul(weighted.x, x.y)), xz.add(p, hn::Mul(weighted.x, x.z)), yz.add(p, hn::Mul(weighted.y, x.z));
-  }
-  HWY_INLINE Matrix sum() const {
-    const double a = xy.sum(), b = xz.sum(), c = yz.sum();
-    return {{Vector{xx.sum(), a, b}, Vector{a, yy.sum(), c}, Vector{b, c, zz.sum()}}};
   }
 };
 
@@ -227,7 +99,7 @@ void pullAll(const api::MovableParticles& particles, const ClusterMembers& membe
     storeFloats(after.x, members.multiplier[0], few);
     storeFloats(after.y, members.multiplier[1], few);
     storeFloats(after.z, members.multiplier[2], few);
-    scatter(x + origin + inverseMass * step, particles.position, members, few);
+    scatter(x + origin + inverseMass * step, particles.position, columns.id + at, few);
   }
 }
 
@@ -272,7 +144,8 @@ void TurnMembers(const api::MovableParticles& particles, const ClusterMembers& m
   for (size_t at = 0; at < members.count; at += kLanes) {
     const Few few(at, members.count);
     const V3 arm = columns.load3(Scratch::kX, at) - middle;
-    scatter(gather(particles.velocity, columns.id + at).xyz + cross(turning, arm), particles.velocity, members, few);
+    scatter(gather(particles.velocity, columns.id + at).xyz + cross(turning, arm), particles.velocity, columns.id + at,
+            few);
   }
 }
 

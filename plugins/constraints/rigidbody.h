@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "rigidkernels.h"
 #include "rigidmodel.h"
 #include "rotation.h"
 
@@ -24,12 +25,9 @@ class RigidBody {
  public:
   RigidBody(const api::ParticleView& p, const api::GroupBatch& batch, size_t g)
       : m_p(p), m_batch(batch), m_group(g), m_first(batch.begin[g]), m_last(batch.begin[g + 1]) {
-    for (size_t k = m_first; k < m_last; ++k) {
-      const double m = mass(k);
-      m_mass += m;
-      m_restCentre += m * restPlace(k);
-    }
-    m_restCentre = 1 / m_mass * m_restCentre;
+    const RigidMass sums = massOf(p, members());
+    m_mass = sums.mass;
+    m_pose.restCentre = 1 / m_mass * sums.moment;
     load();
   }
 
@@ -37,13 +35,20 @@ class RigidBody {
   size_t last() const { return m_last; }
   uint32_t particle(size_t k) const { return m_batch.particles[k]; }
   double mass(size_t k) const { return m_p.mass[particle(k)]; }
-  Vector rest(size_t k) const { return restPlace(k) - m_restCentre; }
+  Vector rest(size_t k) const { return restPlace(k) - m_pose.restCentre; }
   double mass() const { return m_mass; }
-  Vector centre() const { return m_centre; }
+  RigidMembers members() const {
+    const auto of = [&](RigidModel::MemberValue v) { return m_batch.memberValues[v] + m_first; };
+    return {m_batch.particles + m_first,
+            m_last - m_first,
+            {of(RigidModel::kRestX), of(RigidModel::kRestY), of(RigidModel::kRestZ)}};
+  }
+  const RigidPose& pose() const { return m_pose; }
+  Vector centre() const { return m_pose.centre; }
   Vector velocity() const { return valueVector(RigidModel::kVelocityX); }
   Vector spin() const { return valueVector(RigidModel::kSpinX); }
   Quaternion rotation() const { return m_rotation; }
-  bool hasPose() const { return std::isfinite(m_centre.x + m_centre.y + m_centre.z); }
+  bool hasPose() const { return std::isfinite(m_pose.centre.x + m_pose.centre.y + m_pose.centre.z); }
   void setMotion(Vector velocity, Vector spin) {
     setValues(RigidModel::kVelocityX, velocity);
     setValues(RigidModel::kSpinX, spin);
@@ -65,25 +70,16 @@ class RigidBody {
     load();
   }
 
-  /// From the centre to a member's place in the pose.
-  Vector arm(size_t k) const { return m_scaledRotation * rest(k); }
-  /// The same of any place in the undeformed frame.
-  Vector armOf(Vector restPlace) const { return m_scaledRotation * (restPlace - m_restCentre); }
-  Vector restCentre() const { return m_restCentre; }
+  /// From the centre to where a place in the undeformed frame is in the pose.
+  Vector armOf(Vector restPlace) const { return m_pose.turned * (restPlace - m_pose.restCentre); }
+  Vector restCentre() const { return m_pose.restCentre; }
   double scale() const { return m_scale; }
   /// Where in the undeformed frame a place in the world is.
   Vector restOf(Vector place) const {
-    return m_restCentre + 1 / (m_scale * m_scale) * transposedTimes(m_scaledRotation, place - m_centre);
+    return m_pose.restCentre + 1 / (m_scale * m_scale) * transposedTimes(m_pose.turned, place - m_pose.centre);
   }
-  /// A member's place, rounded as it is stored.
-  api::Float4 place(size_t k) const {
-    api::Float4 at{0, 0, 0, m_p.position[particle(k)].w};
-    setVector(at, m_centre + arm(k));
-    return at;
-  }
-  void placeMembers(api::Float4* position) const {
-    for (size_t k = m_first; k < m_last; ++k) position[particle(k)] = place(k);
-  }
+  /// Rounded as they are stored.
+  void placeMembers(api::Float4* position) const { constraint::placeMembers(members(), m_pose, position); }
 
   /// How far points have left the pose.
   struct Fit {
@@ -92,39 +88,28 @@ class RigidBody {
     Matrix moments;  ///< sum of m x rest^T about the new centre
   };
   Fit fit(const api::Float4* points) const {
-    Fit result;
-    for (size_t k = m_first; k < m_last; ++k) {
-      const api::Float4 at = place(k), is = points[particle(k)];
-      const Vector off{double{is.x} - double{at.x}, double{is.y} - double{at.y}, double{is.z} - double{at.z}};
-      result.moved = result.moved || off.x != 0 || off.y != 0 || off.z != 0;
-      result.shift += mass(k) * off;
-      addOuter(result.moments, mass(k), arm(k) + off, rest(k));
-    }
-    result.shift = 1 / m_mass * result.shift;
-    return result;
+    const RigidOffset offset = offsetOf(m_p, members(), m_pose, points);
+    return {offset.moved, 1 / m_mass * offset.shift, offset.moments};
   }
   Quaternion rotationOf(const Fit& fit) const { return constraint::rotationOf(fit.moments, m_rotation); }
 
   /// Inertia in the undeformed frame, kg m2; applied in the world's by turned().
-  Matrix restInertia() const {
-    Matrix inertia;
+  struct Inertia {
+    Matrix matrix, inverse;
+  };
+  /// Places are stored in single precision: below 1e-5 of their distance from the origin there is no shape, as in a
+  /// body of one grain, only rounding, which must not be taken for an inertia.
+  Inertia restInertia() const {
+    const RigidSpread spread = spreadOf(m_p, members(), m_pose.restCentre);
     const double scale2 = m_scale * m_scale;
-    for (size_t k = m_first; k < m_last; ++k) {
-      const Vector r = rest(k);
-      const double m = scale2 * mass(k), r2 = dot(r, r);
-      addOuter(inertia, -m, r, r);
-      inertia.row[0].x += m * r2, inertia.row[1].y += m * r2, inertia.row[2].z += m * r2;
-    }
+    const double trace = spread.second.row[0].x + spread.second.row[1].y + spread.second.row[2].z;
+    Inertia inertia;
+    for (size_t row = 0; row < 3; ++row) inertia.matrix.row[row] = -scale2 * spread.second.row[row];
+    inertia.matrix.row[0].x += scale2 * trace, inertia.matrix.row[1].y += scale2 * trace;
+    inertia.matrix.row[2].z += scale2 * trace;
+    inertia.inverse = pseudoInverse(inertia.matrix, 1e-10 * scale2 * m_mass * spread.farthest2);
     return inertia;
   }
-  /// Its inverse. Places are stored in single precision: below 1e-5 of their distance from the origin there is no
-  /// shape, as in a body of one grain, only rounding, which must not be taken for an inertia.
-  Matrix inverseOf(const Matrix& restInertia) const {
-    double farthest2 = 0;
-    for (size_t k = m_first; k < m_last; ++k) farthest2 = std::max(farthest2, dot(restPlace(k), restPlace(k)));
-    return pseudoInverse(restInertia, 1e-10 * m_scale * m_scale * m_mass * farthest2);
-  }
-  Matrix restInverseInertia() const { return inverseOf(restInertia()); }
   /// A matrix of the undeformed frame times a vector of the world's, at an orientation: I w or I^-1 L.
   static Vector turned(const Matrix& rest, Quaternion rotation, Vector vector) {
     const Matrix r = matrixOf(rotation);
@@ -146,21 +131,20 @@ class RigidBody {
             m_batch.memberValues[RigidModel::kRestZ][k]};
   }
   void load() {
-    m_centre = valueVector(RigidModel::kCentreX);
+    m_pose.centre = valueVector(RigidModel::kCentreX);
     const Vector q = valueVector(RigidModel::kRotationX);
     m_rotation = normalised({q.x, q.y, q.z, value(RigidModel::kRotationW)});
     m_scale = value(RigidModel::kScale);
-    m_scaledRotation = matrixOf(m_rotation);
-    for (Vector& row : m_scaledRotation.row) row = m_scale * row;
+    m_pose.turned = matrixOf(m_rotation);
+    for (Vector& row : m_pose.turned.row) row = m_scale * row;
   }
 
   const api::ParticleView& m_p;
   const api::GroupBatch& m_batch;
   size_t m_group, m_first, m_last;
   double m_mass = 0, m_scale = 1;
-  Vector m_restCentre, m_centre;
+  RigidPose m_pose;
   Quaternion m_rotation;
-  Matrix m_scaledRotation;
 };
 
 /// A new group of `members`, given by their places in the undeformed frame.

@@ -66,22 +66,6 @@ constexpr api::FieldDeclaration kFields[] = {
     {kTouchField, "s", "How long the particle has touched another rigid body that it may join", kFloat},
 };
 
-/// Linear momentum, and angular momentum about the centre of mass, of members at `points`.
-struct Momentum {
-  Vector linear, angular;
-};
-template <class Velocity>
-Momentum momentumOf(const RigidBody& body, const Float4* points, Velocity&& velocityOf) {
-  Momentum sum;
-  for (size_t k = body.first(); k < body.last(); ++k) {
-    const uint32_t i = body.particle(k);
-    const Vector impulse = body.mass(k) * velocityOf(i);
-    sum.linear += impulse;
-    sum.angular += cross(vectorOf(points[i]) - body.centre(), impulse);
-  }
-  return sum;
-}
-
 Vector centreOf(const Float4* points, const RigidBody& body) {
   Vector sum;
   for (size_t k = body.first(); k < body.last(); ++k) sum += body.mass(k) * vectorOf(points[body.particle(k)]);
@@ -94,10 +78,10 @@ void absorb(RigidBody& body, const api::MovableParticles& particles, double dt) 
   const RigidBody::Fit fit = body.fit(particles.position);
   if (!fit.moved) return;
   const Quaternion before = body.rotation(), after = body.rotationOf(fit);
-  const Matrix inertia = body.restInertia();
+  const RigidBody::Inertia inertia = body.restInertia();
   const Vector angular =
-      RigidBody::turned(inertia, before, body.spin() + 1 / dt * logarithm(after * conjugate(before)));
-  body.setMotion(body.velocity() + 1 / dt * fit.shift, RigidBody::turned(body.inverseOf(inertia), after, angular));
+      RigidBody::turned(inertia.matrix, before, body.spin() + 1 / dt * logarithm(after * conjugate(before)));
+  body.setMotion(body.velocity() + 1 / dt * fit.shift, RigidBody::turned(inertia.inverse, after, angular));
   body.setPose(body.centre() + fit.shift, after);
   body.placeMembers(particles.position);
 }
@@ -196,9 +180,9 @@ void RigidModel::predict(const ConstraintContext& context, const api::MovablePar
       body.setPose(body.centre() + fit.shift, body.rotationOf(fit));
     }
     if (context.substep == 0) body.refreshScale();
-    const Momentum momentum = momentumOf(body, p.previous, [&](uint32_t i) { return vectorOf(p.velocity[i]); });
+    const RigidMomentum momentum = momentumOf(p, body.members(), body.centre(), p.previous);
     const Vector velocity = 1 / body.mass() * momentum.linear;
-    const Matrix inverse = body.restInverseInertia();
+    const Matrix inverse = body.restInertia().inverse;
     const Quaternion to = turnedFreely(inverse, body.rotation(), momentum.angular, context.dt);
     body.setMotion(velocity, RigidBody::turned(inverse, to, momentum.angular));
     body.setPose(body.centre() + context.dt * velocity, to);
@@ -222,18 +206,12 @@ void RigidModel::deriveVelocities(const ConstraintContext& context, const api::M
   for (size_t g = 0; g < batch.count; ++g) {
     RigidBody body(p, batch, g);
     // What viscosity gave: the velocity without the way of the substep, which was computed just so.
-    const Momentum momentum = momentumOf(body, p.position, [&](uint32_t i) {
-      const Float4 &x = p.position[i], &from = p.previous[i], &v = p.velocity[i];
-      return Vector{double{v.x} - double{rate * (x.x - from.x)}, double{v.y} - double{rate * (x.y - from.y)},
-                    double{v.z} - double{rate * (x.z - from.z)}};
-    });
+    const RigidMomentum momentum = extraMomentumOf(p, body.members(), body.centre(), rate);
     absorb(body, particles, context.dt);
     const Vector velocity = body.velocity() + 1 / body.mass() * momentum.linear;
-    const Vector spin = body.spin() + RigidBody::turned(body.restInverseInertia(), body.rotation(), momentum.angular);
+    const Vector spin = body.spin() + RigidBody::turned(body.restInertia().inverse, body.rotation(), momentum.angular);
     body.setMotion(velocity, spin);
-    for (size_t k = body.first(); k < body.last(); ++k) {
-      setVector(particles.velocity[body.particle(k)], velocity + cross(spin, body.arm(k)));
-    }
+    setVelocities(body.members(), body.pose(), velocity, spin, particles.velocity);
   }
 }
 
@@ -264,9 +242,9 @@ void RigidModel::restoreMembers(const ConstraintContext&, const api::MovablePart
     RigidBody stayed(p, rest, 0);
     const RigidBody::Fit fit = stayed.fit(p.position);
     stayed.setPose(stayed.centre() + fit.shift, stayed.rotationOf(fit));
-    const Momentum momentum = momentumOf(stayed, p.position, [&](uint32_t i) { return vectorOf(p.velocity[i]); });
+    const RigidMomentum momentum = momentumOf(p, stayed.members(), stayed.centre(), p.position);
     const Vector velocity = 1 / stayed.mass() * momentum.linear;
-    const Vector spin = RigidBody::turned(stayed.restInverseInertia(), stayed.rotation(), momentum.angular);
+    const Vector spin = RigidBody::turned(stayed.restInertia().inverse, stayed.rotation(), momentum.angular);
     for (size_t k = first; k < last; ++k) {
       if (returned[k] == 0) continue;
       touch[all.particles[k]] = kReturned;

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <phasesketch/constraint.h>
+
+#include "rotation.h"
+
+#include <array>
+
+// Sums over the members of a rigid body and their places, a vector of members at a time (Highway). Sums run in eight
+// lanes that are added in one order, so that every instruction set gives the same bits.
+namespace ps::constraint {
+
+struct RigidMembers {
+  const uint32_t* particles;
+  size_t count;
+  std::array<const float*, 3> rest;  ///< m, place in the undeformed frame
+};
+
+/// Where the members of a body are: at centre + turned (rest - restCentre).
+struct RigidPose {
+  Vector centre, restCentre;  ///< m
+  Matrix turned;              ///< rotation times scale
+};
+
+/// Mass in kg, and the sum of mass times place in the undeformed frame.
+struct RigidMass {
+  double mass = 0;
+  Vector moment;
+};
+RigidMass massOf(const api::ParticleView& particles, const RigidMembers& members);
+
+/// How far points have left the places of a pose, which are rounded as they are stored.
+struct RigidOffset {
+  bool moved = false;
+  Vector shift;    ///< kg m, sum of mass times way
+  Matrix moments;  ///< kg m2, sum of m (x - centre) (rest - restCentre)^T
+};
+RigidOffset offsetOf(const api::ParticleView& particles, const RigidMembers& members, const RigidPose& pose,
+                     const api::Float4* points);
+
+void placeMembers(const RigidMembers& members, const RigidPose& pose, api::Float4* position);
+
+/// In the undeformed frame, about the centre.
+struct RigidSpread {
+  Matrix second;         ///< kg m2, sum of m r r^T
+  double farthest2 = 0;  ///< m2, of members from the frame's origin
+};
+RigidSpread spreadOf(const api::ParticleView& particles, const RigidMembers& members, Vector restCentre);
+
+/// Of members at `points`, angular about `centre`.
+struct RigidMomentum {
+  Vector linear, angular;  ///< kg m/s, kg m2/s
+};
+RigidMomentum momentumOf(const api::ParticleView& particles, const RigidMembers& members, Vector centre,
+                         const api::Float4* points);
+/// The same of what velocities have beyond the way of the substep, rate (position - previous).
+RigidMomentum extraMomentumOf(const api::ParticleView& particles, const RigidMembers& members, Vector centre,
+                              float rate);
+
+/// Velocities of a body that turns by `spin` rad/s.
+void setVelocities(const RigidMembers& members, const RigidPose& pose, Vector velocity, Vector spin, api::Float4* to);
+
+}  // namespace ps::constraint
