@@ -45,12 +45,26 @@ uint32_t mostBonds(const ConstraintContext& context, const ParticleView& p, uint
   return static_cast<uint32_t>(context.parametersOf(p.body[i])[BondModel::kBondMax]);
 }
 
-/// Whether a bond lets go. The thesis asks that both ends are in the change of phase; here one that is past it counts
-/// too, or a bond whose ends melt within one frame would stay for good.
-bool letsGo(const ConstraintContext& context, const ParticleView& p, uint32_t i, uint32_t j) {
-  if (!byThesis(context, p, i)) return !holds(p.motion[i]) || !holds(p.motion[j]);
-  return p.solidFraction[i] < 1 && p.solidFraction[j] < 1;
-}
+/// Whether bonds let go: asked of each particle once, since each has some eighteen of them. The thesis asks that both
+/// ends are in the change of phase; here one that is past it counts too, or a bond whose ends melt within one frame
+/// would stay for good. Its rule is that of a bond's first particle.
+class LettingGo {
+ public:
+  LettingGo(const ConstraintContext& context, const ParticleView& p) : m_state(p.count) {
+    for (uint32_t i = 0; i < p.count; ++i) {
+      const unsigned loose = holds(p.motion[i]) ? 0 : kLoose, melting = p.solidFraction[i] < 1 ? kMelting : 0;
+      m_state[i] = static_cast<uint8_t>(loose | melting | (byThesis(context, p, i) ? kThesis : 0));
+    }
+  }
+  bool operator()(uint32_t i, uint32_t j) const {
+    const unsigned a = m_state[i], b = m_state[j];
+    return ((a & kThesis) != 0 ? a & b & kMelting : (a | b) & kLoose) != 0;
+  }
+
+ private:
+  static constexpr unsigned kLoose = 1, kMelting = 2, kThesis = 4;
+  std::vector<uint8_t> m_state;
+};
 
 /// How many bonds a particle has, and to whom, where it may take more.
 class BondGraph {
@@ -151,9 +165,10 @@ void BondModel::topology(const ConstraintContext& context, const ParticleView& p
   std::vector<uint8_t> gone(all.count, 0);
   auto* ties = static_cast<uint8_t*>(p.fields->write(kTiesField, api::FieldType::UInt8));
   std::fill(ties, ties + p.count, uint8_t{0});
+  const LettingGo letsGo(context, p);
   for (size_t k = 0; k < all.count; ++k) {
     const uint32_t i = all.particles[2 * k], j = all.particles[2 * k + 1];
-    if (letsGo(context, p, i, j)) {
+    if (letsGo(i, j)) {
       gone[k] = 1;
       sink.remove(k);
       continue;

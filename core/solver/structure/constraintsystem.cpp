@@ -226,6 +226,7 @@ void ConstraintSystem::apply(Set& set, const ParticleStore& store, const Edits& 
       }
     }
   }
+  if (added == 0) return closeGaps(set, edits.removed);
   std::vector<std::vector<uint32_t>> newOfColour(set.colourStart.size() - 1);
   inSlices(0, added, [&](size_t first, size_t last) {
     for (size_t k = first; k < last; ++k) {

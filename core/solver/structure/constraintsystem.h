@@ -223,6 +223,8 @@ class ConstraintSystem {
   void lookUp(Set& set, const ParticleStore& store) const;
   size_t takeColour(Set& set, const ParticleStore& store, const uint32_t* particles) const;
   void apply(Set& set, const ParticleStore& store, const Edits& edits);
+  // In constraintgaps.cpp.
+  static void closeGaps(Set& set, std::span<const uint8_t> removed);
   // In constraintcalls.cpp.
   template <class Call>
   void forBatches(Set& set, uint32_t substep, uint32_t iteration, Call&& call);
