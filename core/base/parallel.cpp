@@ -2,6 +2,7 @@
 #include "core/base/parallel.h"
 
 #include <algorithm>
+#include <chrono>
 #include <memory>
 #include <thread>
 
@@ -41,7 +42,29 @@ std::unique_ptr<tbb::task_arena>& arena() {
   return a;
 }
 #endif
+
+thread_local double t_shared = 0;  // s
+thread_local int t_loops = 0;      // that this thread is in
+
+/// Counts the time of a loop, unless it runs within another.
+class SharedTime {
+ public:
+  SharedTime() {
+    if (t_loops++ == 0) m_start = Clock::now();
+  }
+  ~SharedTime() {
+    if (--t_loops == 0) t_shared += std::chrono::duration<double>(Clock::now() - m_start).count();
+  }
+  SharedTime(const SharedTime&) = delete;
+  SharedTime& operator=(const SharedTime&) = delete;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point m_start;
+};
 }  // namespace
+
+double secondsShared() { return t_shared; }
 
 void setThreadCount(int count) {
   g_threads = std::max(0, count);
@@ -61,7 +84,9 @@ void parallelFor(size_t count, size_t grain, const std::function<void(size_t, si
   grain = std::max<size_t>(1, grain);
   const size_t chunks = (count + grain - 1) / grain;
   const auto runChunk = [&](size_t chunk) { body(chunk * grain, std::min(count, (chunk + 1) * grain)); };
-  if (chunks == 1 || threadCount() == 1) {
+  if (chunks == 1) return runChunk(0);
+  const SharedTime counted;
+  if (threadCount() == 1) {
     for (size_t chunk = 0; chunk < chunks; ++chunk) runChunk(chunk);
     return;
   }

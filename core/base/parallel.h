@@ -17,6 +17,10 @@ int threadCount();
 /// What a body throws reaches the caller, once all running chunks have ended.
 void parallelFor(size_t count, size_t grain, const std::function<void(size_t first, size_t last)>& body);
 
+/// s that this thread has spent so far in loops of more than one chunk: what several threads may share, however many
+/// there are. The rest of a stretch of time is work of one thread.
+double secondsShared();
+
 /// Sum over chunks of body(first, last), added in chunk order: the same bits for any number of threads.
 double parallelSum(size_t count, size_t grain, const std::function<double(size_t first, size_t last)>& body);
 

@@ -4,6 +4,7 @@
 #include "core/base/error.h"
 #include "core/base/parallel.h"
 #include "core/base/statestream.h"
+#include "core/experiments/benchscenes.h"
 #include "core/experiments/drag.h"
 #include "core/experiments/runreport.h"
 #include "core/particles/neighbours.h"
@@ -15,6 +16,7 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <malloc.h>
 #include <thread>
 
 namespace ps {
@@ -39,6 +41,21 @@ double countPairs(const Engine& engine, const ParticleStore& store) {
   double pairs = 0;
   for (size_t i = 0; i < store.size(); ++i) pairs += view.last[i] - view.begin[i];
   return pairs;
+}
+
+/// Bytes that the program has asked the heap for and not given back.
+double heapBytes() {
+  const struct mallinfo2 info = mallinfo2();
+  return static_cast<double>(info.uordblks) + static_cast<double>(info.hblkhd);
+}
+
+/// Of a stage or a whole frame: its time, what one thread did of it alone, and what it costs by `work`, particles times
+/// iterations.
+json costOf(const Spread& spread, const Spread& serial, double work) {
+  return {{"median", spread.median},
+          {"p95", spread.p95},
+          {"ns_per_particle_iteration", spread.median * 1e6 / work},
+          {"serial_share", spread.median > 0 ? serial.median / spread.median : 0}};
 }
 
 double bytesPerParticle(const ParticleStore& store, double pairs) {
@@ -102,44 +119,8 @@ double triad() {
 
 }  // namespace
 
-Project tank(int particles) {
-  constexpr double kSpacing = 0.02;
-  const double edge = std::cbrt(particles / 4.0);  // n = 2e x e x 2e
-  const double height = std::max(2.0, std::round(edge)) * kSpacing,
-               width = std::max(2.0, std::round(2 * edge)) * kSpacing;
-  Project project;
-  project.title = "tank";
-  SceneMaterial water;
-  water.id = water.base = "water";
-  project.materials.push_back(water);
-  Body body;
-  body.id = body.name = body.material = "water";
-  body.shape = BoxShape{{0, height / 2, 0}, {width, height, width}, {}};
-  project.bodies.push_back(body);
-  const double half = width / 2;
-  project.environment.boundsMinimum = {-half - 1, -1, -half - 1};
-  project.environment.boundsMaximum = {half + 1, height + 1, half + 1};
-  const Vector3 points[] = {{0, 0, 0}, {-half, 0, 0}, {half, 0, 0}, {0, 0, -half}, {0, 0, half}};
-  const Vector3 normals[] = {{0, 1, 0}, {1, 0, 0}, {-1, 0, 0}, {0, 0, 1}, {0, 0, -1}};
-  for (size_t i = 0; i < 5; ++i) {
-    SceneWall wall;
-    wall.id = "wall" + std::to_string(i);
-    wall.point = points[i];
-    wall.normal = normals[i];
-    project.environment.walls.push_back(wall);
-  }
-  project.solver.parameters.values["particle_spacing"] = kSpacing;
-  return project;
-}
-
-void scaleTo(Project& project, long particles, size_t present) {
-  if (present == 0) return;
-  Value& spacing = project.solver.parameters.values["particle_spacing"];
-  spacing = numberOf(project.solver.parameters, solverParameters(), "particle_spacing") *
-            std::cbrt(static_cast<double>(present) / static_cast<double>(particles));
-}
-
 BenchScene benchScene(const std::string& name, const Project& project, PluginRegistry& plugins, long frames) {
+  const double heapBefore = heapBytes();
   Engine engine(project, plugins);
   for (long frame = 0; frame < kWarmUp; ++frame) engine.step();
   RunReport report(engine.stats());
@@ -149,6 +130,7 @@ BenchScene benchScene(const std::string& name, const Project& project, PluginReg
   }
   if (report.flags())
     throw Error(name + ": the run set flags: " + flagNames(report.flags()).front() + ": " + report.message());
+  const double heap = heapBytes() - heapBefore;
   const ParticleStore& store = engine.particles();
   if (store.size() == 0) throw InputError(name + ": has no particles to measure");
   const ParameterSet& set = project.solver.parameters;
@@ -159,8 +141,7 @@ BenchScene benchScene(const std::string& name, const Project& project, PluginReg
   measured.densityNanosecondsPerPair = density.median * 1e6 / (std::max(pairs, 1.0) * passes);
   json stages;
   for (size_t s = 0; s < static_cast<size_t>(Stage::Count); ++s) {
-    const Spread spread = report.stage(s);
-    stages[stageName(static_cast<Stage>(s))] = {{"median", spread.median}, {"p95", spread.p95}};
+    stages[stageName(static_cast<Stage>(s))] = costOf(report.stage(s), report.stageSerial(s), particles * passes);
   }
   measured.result = {{"name", name},
                      {"particles", store.size()},
@@ -169,8 +150,10 @@ BenchScene benchScene(const std::string& name, const Project& project, PluginReg
                      {"ms", {{"median", total.median}, {"p95", total.p95}}},
                      {"stages", stages},
                      {"ns_per_particle_iteration", total.median * 1e6 / (particles * passes)},
+                     {"serial_share", total.median > 0 ? report.totalSerial().median / total.median : 0},
                      {"ns_per_pair", measured.densityNanosecondsPerPair},
                      {"bytes_per_particle", bytesPerParticle(store, pairs)},
+                     {"memory_per_particle", heap / particles},
                      {"density_error", report.meanDensityError()},
                      {"state", measureState(engine, total.median)}};
   return measured;

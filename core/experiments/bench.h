@@ -9,11 +9,6 @@ namespace ps {
 
 class PluginRegistry;
 
-/// Water at rest in a tank, twice as wide as high: the density solver's daily work.
-Project tank(int particles);
-/// Changes the spacing so that box bodies, which hold `present` particles, hold about `particles`.
-void scaleTo(Project& project, long particles, size_t present);
-
 struct BenchScene {
   nlohmann::json result;  ///< a row of bench's report
   double densityNanosecondsPerPair = 0;

@@ -44,7 +44,11 @@ void RunReport::add(const StepReport& step, const FrameStats& stats) {
   if (step.flags && !m_flags) m_message = step.message;
   m_flags |= step.flags;
   m_total.push_back(step.totalMilliseconds);
-  for (size_t s = 0; s < m_stages.size(); ++s) m_stages[s].push_back(step.milliseconds[s]);
+  m_totalSerial.push_back(step.totalSerialMilliseconds);
+  for (size_t s = 0; s < m_stages.size(); ++s) {
+    m_stages[s].push_back(step.milliseconds[s]);
+    m_stagesSerial[s].push_back(step.serialMilliseconds[s]);
+  }
   const double liquid = liquidCount(stats);
   m_errorSum += liquid * step.densityErrorMean;
   m_liquid += liquid;

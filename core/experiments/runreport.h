@@ -30,6 +30,9 @@ class RunReport {
   size_t frames() const { return m_total.size(); }
   Spread total() const { return spreadOf(m_total); }
   Spread stage(size_t index) const { return spreadOf(m_stages[index]); }
+  /// What one thread did alone (StepReport::serialMilliseconds).
+  Spread totalSerial() const { return spreadOf(m_totalSerial); }
+  Spread stageSerial(size_t index) const { return spreadOf(m_stagesSerial[index]); }
   /// Over liquid particles and frames.
   double meanDensityError() const { return m_liquid > 0 ? m_errorSum / m_liquid : 0; }
   double maxDensityError() const { return m_errorMax; }
@@ -39,8 +42,8 @@ class RunReport {
   FrameStats m_start, m_last;
   StepFlags m_flags = 0;
   std::string m_message;
-  std::vector<double> m_total;
-  std::array<std::vector<double>, static_cast<size_t>(Stage::Count)> m_stages;
+  std::vector<double> m_total, m_totalSerial;
+  std::array<std::vector<double>, static_cast<size_t>(Stage::Count)> m_stages, m_stagesSerial;
   void add(const MechanicalRecord& frame);
   nlohmann::json mechanicalJson() const;
 

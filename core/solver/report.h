@@ -103,6 +103,9 @@ struct StepReport {
   std::vector<PluginFault> faults;
   std::array<double, static_cast<size_t>(Stage::Count)> milliseconds{};
   double totalMilliseconds = 0;
+  /// Of these, what one thread did alone, however many there were: what was outside of loops that they can share.
+  std::array<double, static_cast<size_t>(Stage::Count)> serialMilliseconds{};
+  double totalSerialMilliseconds = 0;
   double densityErrorMean = 0, densityErrorMax = 0;  ///< fraction, liquid particles, after the last iteration
   int viscosityIterations = 0;                       ///< of the implicit viscosity, the most of a substep
   MomentumRecord momentum;

@@ -82,6 +82,8 @@ void TestCli::exitCodesAndOneLine_data() {
   row("render where", {"render", kSample}, 2, "--out is missing");
   row("render size", {"render", kSample, "--out", "x", "--size", "big"}, 2, "--size must be");
   row("unknown scene", {"bench", "no-such-scene"}, 2, "no-such-scene: neither a file");
+  row("bad threads", {"bench", "tank", "--threads", "1,two"}, 2, "--threads must be whole numbers");
+  row("nothing to compare", {"bench", "tank", "--compare", kSample}, 2, "is no file that bench wrote");
   row("no table of cases", {"cases", kSample}, 2, "ice-on-hot-plate.json: has no cases");
   row("nothing to allow", {"plugins", "--allow", "no-such-plugin"}, 2, "no plugin 'no-such-plugin'");
 }
@@ -339,20 +341,33 @@ void TestCli::schemaIsPrinted() {
 
 void TestCli::benchWritesItsKeys() {
   QTemporaryDir folder;
-  const Ran ran = cli(
-      {"bench", "tank", "--particles", "500", "--frames", "5", "--threads", "1", "--json", folder.filePath("b.json")});
+  const QStringList measured{"bench", "tank",      "--particles", "500",    "--frames",
+                             "5",     "--threads", "1,2",         "--json", folder.filePath("b.json")};
+  Ran ran = cli(measured);
   QVERIFY2(ran.code == 0, ran.err.constData());
   const nlohmann::json b = jsonFile(folder.filePath("b.json"));
   QCOMPARE(keysOf(b), (Keys{"machine", "calibration", "scenes"}));
   QCOMPARE(keysOf(b["calibration"]), (Keys{"triad_GB_per_s", "density_ns_per_pair"}));
   QVERIFY(b["calibration"]["triad_GB_per_s"].get<double>() > 0);
-  QCOMPARE(b["scenes"].size(), size_t{1});
-  QCOMPARE(keysOf(b["scenes"][0]),
-           (Keys{"name", "particles", "threads", "iterations", "ms", "stages", "ns_per_particle_iteration",
-                 "ns_per_pair", "bytes_per_particle", "density_error", "state"}));
-  QCOMPARE(keysOf(b["scenes"][0]["state"]),
+  QCOMPARE(b["scenes"].size(), size_t{2});
+  QCOMPARE(b["scenes"][1]["threads"].get<int>(), 2);
+  const nlohmann::json& scene = b["scenes"][0];
+  QCOMPARE(keysOf(scene), (Keys{"name", "particles", "threads", "iterations", "ms", "stages",
+                                "ns_per_particle_iteration", "serial_share", "ns_per_pair", "bytes_per_particle",
+                                "memory_per_particle", "density_error", "state"}));
+  QCOMPARE(keysOf(scene["state"]),
            (Keys{"bytes_per_particle", "save_ms", "restore_ms", "rollback_ms", "rollback_share"}));
-  QCOMPARE(keysOf(b["scenes"][0]["ms"]), (Keys{"median", "p95"}));
+  QCOMPARE(keysOf(scene["ms"]), (Keys{"median", "p95"}));
+  QCOMPARE(keysOf(scene["stages"]["density"]), (Keys{"median", "p95", "ns_per_particle_iteration", "serial_share"}));
+  for (const nlohmann::json& share : {scene["serial_share"], scene["stages"]["density"]["serial_share"]})
+    QVERIFY2(share.get<double>() > 0 && share.get<double>() < 1, share.dump().c_str());
+  ran =
+      cli(measured.mid(0, 8) + QStringList{"--compare", folder.filePath("b.json"), "--json", folder.filePath("c.json"),
+                                           "--table", folder.filePath("t.csv"), "--plot", folder.filePath("p.svg")});
+  QVERIFY2(ran.code == 0, ran.err.constData());
+  QCOMPARE(ran.out.count(" of before:"), 2);
+  QCOMPARE(jsonFile(folder.filePath("c.json"))["compared"].size(), size_t{2});
+  QVERIFY(QFileInfo(folder.filePath("t.csv")).size() > 0 && QFileInfo(folder.filePath("p.svg")).size() > 0);
 }
 
 void TestCli::recordingsAreDrawn() {

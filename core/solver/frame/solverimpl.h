@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "core/base/parallel.h"
 #include "core/base/statestream.h"
 #include "core/solver/contact/impacts.h"
 #include "core/solver/contact/liquidcontact.h"
@@ -31,6 +32,19 @@ inline constexpr double kDiverged = 0.5;
 inline constexpr double kDense = 0.07;
 /// Spacings by which a plugin may move a particle in one substep, beyond the way of its velocity.
 inline constexpr double kFarthestLeap = 1000;
+
+/// ms since it was made, and those of them that this thread worked alone.
+class StageClock {
+ public:
+  double passed() const {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - m_start).count();
+  }
+  double alone() const { return passed() - 1000 * (secondsShared() - m_shared); }
+
+ private:
+  std::chrono::steady_clock::time_point m_start = std::chrono::steady_clock::now();
+  double m_shared = secondsShared();
+};
 
 /// What a solver holds, and one frame cut into its parts. Indices of particles change only in freshLists(), at the
 /// start of a frame: whatever is kept by index within a frame stays true.
@@ -144,10 +158,10 @@ struct Solver::Impl {
 
   template <class Call>
   void timed(Stage stage, Call&& call) {
-    const auto start = std::chrono::steady_clock::now();
+    const StageClock clock;
     call();
-    const std::chrono::duration<double, std::milli> passed = std::chrono::steady_clock::now() - start;
-    report.milliseconds[static_cast<size_t>(stage)] += passed.count();
+    report.milliseconds[static_cast<size_t>(stage)] += clock.passed();
+    report.serialMilliseconds[static_cast<size_t>(stage)] += clock.alone();
   }
 };
 

@@ -85,7 +85,7 @@ void Solver::Impl::raise(StepFlag flag, const std::string& message) {
 
 void Solver::Impl::runFrame() {
   report = {};
-  const auto start = std::chrono::steady_clock::now();
+  const StageClock clock;
   configure();
   const bool good = store.size() == 0 || (!rejectIfNotFinite() && advance());
   if (good) {
@@ -97,8 +97,8 @@ void Solver::Impl::runFrame() {
   for (const PluginFault& fault : report.faults) {
     raise(StepFlag::PluginFault, "plugin '" + fault.plugin + "': " + fault.what);
   }
-  report.totalMilliseconds =
-      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  report.totalMilliseconds = clock.passed();
+  report.totalSerialMilliseconds = clock.alone();
 }
 
 /// False when the frame has been taken back.
