@@ -68,6 +68,12 @@ class LatticeSurface {
       for (size_t slot = first; slot < last; ++slot) findOne(store, neighbours.built(), near, slot, same, room);
     });
   }
+  /// The same for one slot alone, from one thread.
+  template <class Same>
+  void find(const ParticleStore& store, const Neighbours& neighbours, uint32_t slot, const Same& same) {
+    if (m_room.empty()) m_room.emplace_back();
+    findOne(store, neighbours.built(), NearNeighbours(store, neighbours), slot, same, m_room[0]);
+  }
   /// Where its neighbours are now.
   Normal normalOf(const ParticleStore& store, uint32_t i) const;
   /// `line` leads from j to i, m. Round ones face each other along it.
