@@ -406,6 +406,37 @@ class TestWindow : public QObject {
     m_window->inspector().setSnapshot(snapshot);
   }
 
+  /// Where no substeps help, the note says why, and its link does what does: a number, or one of several choices.
+  void aNoteOfALimitSaysWhatToUse() {
+    m_window->inspector().setMaterial("water");
+    ParameterPanel* panel = m_window->inspector().materialPanel();
+    Snapshot snapshot;
+    const auto noteWith = [&](const char* use) {
+      Limit limit{"water.density_solid", 917, 789, "kg/m³"};
+      limit.why = "it should sink";
+      limit.use = use;
+      snapshot.limits = {limit};
+      m_window->inspector().setSnapshot(snapshot);
+      ParameterRow* row = panel->row(QStringLiteral("material/water/density_solid"));
+      const auto* note = row ? row->findChild<QLabel*>(QStringLiteral("psLimit")) : nullptr;
+      return note ? note->text() : QString();
+    };
+    const QString spacing = noteWith("solver/particle_spacing=0.01");
+    QVERIFY2(spacing.contains(QStringLiteral("it should sink")) && spacing.contains(QStringLiteral("Use 10.0 mm")) &&
+                 spacing.contains(QStringLiteral("solver/particle_spacing=0.01")),
+             qPrintable(spacing));
+    QVERIFY2(!noteWith("").contains(QStringLiteral("substeps")), qPrintable(noteWith("")));
+    const QString model = noteWith("solver/viscosity_model=implicit");
+    QVERIFY2(model.contains(QStringLiteral("Use implicit")), qPrintable(model));
+    const Address viscosity{Owner::Solver, "", "viscosity_model"};
+    const Value before = document().value(viscosity);
+    Q_EMIT panel->linkActivated(QString(), QStringLiteral("solver/viscosity_model=implicit"));
+    QCOMPARE(std::get<std::string>(document().value(viscosity)), std::string("implicit"));
+    document().setParameter(viscosity, before);
+    snapshot.limits.clear();
+    m_window->inspector().setSnapshot(snapshot);
+  }
+
   /// Of a plugin's own parameter, under the row of the body that it is of.
   void aLimitOfAPluginStandsAtItsBody() {
     const Body& body = document().project().bodies.front();
