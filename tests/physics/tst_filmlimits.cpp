@@ -28,6 +28,7 @@ class TestFilmLimits : public QObject {
                           << QString(use);
     };
     row("two layers", 0.01, 10, 2, 0.5, "syrup.viscosity", "solver/particle_spacing=0.01");
+    row("three layers", 0.01, 10, 3, 0.5, "", "");
     row("six layers", 0.01, 10, 6, 0.5, "", "");
     row("two layers that rest", 0.01, 0, 2, 1, "", "");
     row("two layers on a slippery wall", 0.01, 10, 2, 0.5, "", "", false, false);

@@ -21,6 +21,10 @@ constexpr double kRounding = 1e-13;
 /// Iterations that are always done: a guess that just meets the tolerance would be taken substep after substep, and its
 /// error would add up to a slope that creeps where it should stand.
 constexpr int kLeast = 2;
+/// Drag along a wall, in that of a velocity that goes on linearly to zero there. Films bend: their layers, taken as
+/// straight, feel less than the slope at the wall. With this films of 2, 3, 4, 6 and 10 layers flow 1.11, 1.09, 1.06,
+/// 1.01 and 0.99 times as fast as they should, without it 1.25, 1.17, 1.12, 1.06 and 1.01.
+constexpr double kBent = 1.2;
 constexpr const char* kField = "viscous_change";
 
 /// Not std::pow, whose last bit differs between C libraries.
@@ -83,7 +87,7 @@ void ImplicitViscosity::configure(const SolverSettings& settings, const std::vec
       along += weight * (1 - u2) * (1 - u2) / 8;
       across += weight * (1 - u2 * u2) / 4;
     }
-    m_wallTable[k] = {static_cast<float>(along), static_cast<float>(across)};
+    m_wallTable[k] = {static_cast<float>(kBent * along), static_cast<float>(across)};
   }
 }
 

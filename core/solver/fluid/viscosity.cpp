@@ -15,10 +15,10 @@ constexpr size_t kSpare = 16;
 /// Time in s within which a wall that drags along a layer of a spacing is seen to do so: the filter knows no walls. The
 /// shorter one where there is none that liquid sticks to.
 constexpr double kWallTime = 8, kNoWallTime = 1;
-/// Layers of a film that are looked at, and fewer than which tell: liquid slips along a wall by a sixth of a spacing,
-/// which makes a film of n layers 0.5/n faster (measured: 0.25, 0.17 and 0.12 of two, three and four).
+/// Layers of a film that are looked at, and fewer than which tell: a film of n layers is faster by 0.27/n (measured:
+/// 0.27 of one, 0.10 to 0.16 of two, 0.05 to 0.09 of three).
 constexpr float kNearLayers = 4;
-constexpr double kFewLayers = 3.5, kSlip = 0.5;
+constexpr double kFewLayers = 2.5, kThin = 0.27;
 /// Slopes, as tangents: what is no slope, below which layers of particles in order hold a film to a tenth, up to which
 /// they hold it altogether but for a creeping share of its speed (measured: 0.35, 0.38, 0.93 at 0.1, 0.3 and 1 degree).
 constexpr double kLevel = 1e-4, kGentle = 0.0145, kOrder = 0.0063, kCreeping = 0.36;
@@ -291,7 +291,7 @@ void ViscosityStage::wallLimits(size_t material, double time, std::span<const At
     const auto touching = static_cast<double>(solved.touching);
     const double viscosity = solved.viscosity / touching, layers = static_cast<double>(solved.near) / touching;
     if (layers < kFewLayers && static_cast<double>(solved.all) < double{kNearLayers} * touching)
-      tell(viscosity, 1 / (1 + kSlip / layers), "the film is few particles thick",
+      tell(viscosity, 1 / (1 + kThin / layers), "the film is few particles thick",
            useOf("solver/particle_spacing", 0.5 * spacing));
     const Vector3 normal{m_planes[w].x, m_planes[w].y, m_planes[w].z};
     const double press = -gravity.dot(normal), slope = press > 0 ? (gravity + press * normal).norm() / press : 0;

@@ -19,7 +19,7 @@ namespace ps {
 /// front crosses them. Yield stress (Bingham): mu_eff = mu + tau_y/(gamma_dot + 0.001/s), gamma_dot of the last
 /// substep; below it matter creeps instead of resting.
 ///
-/// It cannot do, and limits() says: films of two or three layers, which slide on their wall by a sixth of a spacing;
+/// It cannot do, and limits() says: films of one or two layers, which flow a fourth or an eighth too fast;
 /// slopes below a degree, where layers of particles in order hold on to each other; walls, with the filter; liquids
 /// thinner than their calming.
 class ViscosityStage {
