@@ -170,16 +170,17 @@ bool Impacts::test(const ParticleStore& store, const StructureGraph& graph, uint
   return true;
 }
 
-/// Where two that meet as spheres face each other, as SolidContact has it.
+/// Where two that belong to lattices and meet as spheres face each other, as SolidContact has it.
 api::Float4 Impacts::faceOf(const ParticleStore& store, const Neighbours& neighbours, const Structure& structure,
                             const Impact& impact) {
-  const std::span<const uint32_t> pieceOf = structure.pieceOf;
-  if (pieceOf[impact.a] != ConstraintSystem::kNoPiece && pieceOf[impact.a] == pieceOf[impact.b]) return kRound;
   const StructureGraph& graph = structure.constraints.graph(store.size());
+  const std::span<const uint32_t> pieceOf = structure.pieceOf;
   const auto isStatic = [&](uint32_t i) { return store.motion()[i] == api::Motion::Static; };
+  const auto isGrain = [&](uint32_t i) { return graph.isFree(i) && !isStatic(i); };
+  if (isGrain(impact.a) || isGrain(impact.b)) return kRound;
+  if (pieceOf[impact.a] != ConstraintSystem::kNoPiece && pieceOf[impact.a] == pieceOf[impact.b]) return kRound;
+  if (m_surface.size() == 0) m_surface.clear(store.size());
   const auto normalOf = [&](uint32_t i) {
-    if (graph.isFree(i) && !isStatic(i)) return LatticeSurface::Normal{};
-    if (m_surface.size() == 0) m_surface.clear(store.size());
     if (!m_surface.has(i)) {
       m_surface.find(store, neighbours, m_surface.add(i),
                      [&](uint32_t p, uint32_t q) { return (isStatic(p) && isStatic(q)) || sameLattice(graph, p, q); });

@@ -11,7 +11,7 @@ namespace ps {
 /// ones and with walls. At the start of a substep each pair's spheres are swept along their relative way, exactly:
 /// whatever would pass through another one between two positions waits where they meet, and when velocities are known
 /// the pair parts at `restitution` times the speed at which it met (Mueller et al. 2020, section 3.6), along the normal
-/// of the face where a lattice has one, as in SolidContact: along the line of centres a smooth belt that goes a good
+/// of the face where two lattices meet, as in SolidContact: along the line of centres a smooth belt that goes a good
 /// part of a spacing in a substep would carry what lies on it. Pairs take the larger restitution of their materials,
 /// walls that of what meets them. What meets more slowly than gravity pulls in two substeps does not bounce. What waits
 /// loses up to a substep of its way, never of its velocity. Serial, in order of time: impacts are few. It cannot do:
