@@ -2,6 +2,7 @@
 #include "core/solver/contact/inertia.h"
 
 #include "core/particles/particlestore.h"
+#include "core/solver/contact/membersums.h"
 
 #include <Eigen/Eigenvalues>
 
@@ -31,22 +32,32 @@ Matrix3 pseudoInverse(const Matrix3& matrix, double least) {
 }  // namespace
 
 MassSpread massSpread(const ParticleStore& store, std::span<const uint32_t> members, const api::Float4* points) {
-  MassSpread spread{0, Vector3::Zero(), Matrix3::Zero(), 0};
-  Vector3 sum = Vector3::Zero();
-  for (const uint32_t i : members) {
-    spread.mass += double{store.mass()[i]};
-    sum += double{store.mass()[i]} * vectorOf(points[i]);
-  }
-  spread.centre = 1 / spread.mass * sum;
-  Matrix3 moments = Matrix3::Zero();  // sum of m r r^T; the inertia is its trace less itself
-  double farthest2 = 0;
-  for (const uint32_t i : members) {
+  struct Weight {
+    double mass = 0;
+    Vector3 place;
+    void operator+=(const Weight& other) { mass += other.mass, place += other.place; }
+  };
+  const Weight all = sumOver<Weight>(members, [&](Weight& sum, uint32_t i) {
+    sum.mass += double{store.mass()[i]};
+    sum.place += double{store.mass()[i]} * vectorOf(points[i]);
+  });
+  MassSpread spread{all.mass, 1 / all.mass * all.place, Matrix3::Zero(), 0};
+  struct Moments {
+    Matrix3 matrix;  // sum of m r r^T; the inertia is its trace less itself
+    double farthest2 = 0;
+    void operator+=(const Moments& other) {
+      matrix += other.matrix;
+      farthest2 = std::max(farthest2, other.farthest2);
+    }
+  };
+  const Moments about = sumOver<Moments>(members, [&](Moments& sum, uint32_t i) {
     const Vector3 at = vectorOf(points[i]), r = at - spread.centre;
-    farthest2 = std::max(farthest2, at.squaredNorm());
-    moments += double{store.mass()[i]} * r * r.transpose();
-  }
+    sum.farthest2 = std::max(sum.farthest2, at.squaredNorm());
+    sum.matrix += double{store.mass()[i]} * r * r.transpose();
+  });
+  const Matrix3& moments = about.matrix;
   const Matrix3 inertia = moments.trace() * Matrix3::Identity() - moments;
-  const double least = std::max(kRounding * spread.mass * farthest2, kLeastInertia * inertia.trace());
+  const double least = std::max(kRounding * spread.mass * about.farthest2, kLeastInertia * inertia.trace());
   spread.inverseInertia = pseudoInverse(inertia, least);
   spread.gyration2 = moments.trace() / spread.mass;
   return spread;

@@ -16,7 +16,7 @@ class NearNeighbours {
   /// Those of i nearer than the root of `square` m2, in the order of the list. Valid until `room` is used again.
   std::span<const uint32_t> of(uint32_t i, float square, std::vector<uint32_t>& room) const {
     const uint32_t first = m_view.begin[i], last = m_view.last[i];
-    if (room.size() < last - first + kPadding) room.resize(last - first + kPadding);
+    if (room.size() < last - first + kPadding) room.resize(2 * (last - first + kPadding));
     const size_t count = m_period.any() ? findPlainly(i, square, room.data()) : find(i, square, room.data());
     return {room.data(), count};
   }

@@ -2,6 +2,7 @@
 #include "core/solver/contact/rigidcontact.h"
 
 #include "core/solver/contact/inertia.h"
+#include "core/solver/contact/membersums.h"
 
 #include <Eigen/Geometry>
 
@@ -29,22 +30,33 @@ constexpr int kInwardPasses = 8;
 }  // namespace
 
 Vector3 RigidContact::centreOf(const ParticleStore& store, const Body& body, const api::Float4* points) {
-  Vector3 sum;
-  for (const uint32_t i : body.members) sum += double{store.mass()[i]} * vectorOf(points[i]);
-  return body.inverseMass * sum;
+  struct Sum {
+    Vector3 place;
+    void operator+=(const Sum& other) { place += other.place; }
+  };
+  const Sum sum =
+      sumOver<Sum>(body.members, [&](Sum& s, uint32_t i) { s.place += double{store.mass()[i]} * vectorOf(points[i]); });
+  return body.inverseMass * sum.place;
 }
 
 /// Centre, and the turn since the start of the substep.
 void RigidContact::readCentre(const ParticleStore& store, Body& body) {
-  body.centre = centreOf(store, body, store.position());
+  struct Sum {
+    Vector3 place, way, moment;
+    void operator+=(const Sum& other) { place += other.place, way += other.way, moment += other.moment; }
+  };
+  // Seen from a member, so that nothing large cancels; the moment about the centre follows.
+  const Vector3 origin = vectorOf(store.position()[body.members[0]]);
+  const Sum sum = sumOver<Sum>(body.members, [&](Sum& s, uint32_t i) {
+    const Vector3 at = vectorOf(store.position()[i]), arm = at - origin;
+    const Vector3 way = double{store.mass()[i]} * (at - vectorOf(store.previous()[i]));
+    s.place += double{store.mass()[i]} * arm, s.way += way, s.moment += arm.cross(way);
+  });
+  const Vector3 centre = body.inverseMass * sum.place;
+  body.centre = origin + centre;
   body.shift = body.turn = Vector3::Zero();
   body.touched = false;
-  Vector3 moment;
-  for (const uint32_t i : body.members) {
-    const Vector3 at = vectorOf(store.position()[i]), way = at - vectorOf(store.previous()[i]);
-    moment += double{store.mass()[i]} * (at - body.centre).cross(way);
-  }
-  body.turned = body.inverseInertia * moment;
+  body.turned = body.inverseInertia * (sum.moment - centre.cross(sum.way));
 }
 
 /// Mass, centre and inertia of members at `points`.
@@ -58,14 +70,16 @@ void RigidContact::readMasses(const ParticleStore& store, Body& body, const api:
 /// Velocity and angular momentum of members at `points`, about their centre.
 RigidContact::BodyMotion RigidContact::motionOf(const ParticleStore& store, const Body& body, const Vector3& centre,
                                                 const api::Float4* points) {
-  BodyMotion motion;
-  for (const uint32_t i : body.members) {
+  struct Sum {
+    Vector3 linear, angular;
+    void operator+=(const Sum& other) { linear += other.linear, angular += other.angular; }
+  };
+  const Sum sum = sumOver<Sum>(body.members, [&](Sum& s, uint32_t i) {
     const Vector3 p = double{store.mass()[i]} * vectorOf(store.velocity()[i]);
-    motion.velocity += p;
-    motion.angular += (vectorOf(points[i]) - centre).cross(p);
-  }
-  motion.velocity *= body.inverseMass;
-  return motion;
+    s.linear += p;
+    s.angular += (vectorOf(points[i]) - centre).cross(p);
+  });
+  return {body.inverseMass * sum.linear, sum.angular};
 }
 
 /// How far a side has gone since positions were read; the body's turn is small, so its sine is itself.
@@ -278,10 +292,10 @@ void RigidContact::project(ParticleStore& store) {
 void RigidContact::place(ParticleStore& store, Body& body) {
   const Vector3 half = 0.5 * body.turn;
   const Matrix3 rotation = Quaternion(1, half.x(), half.y(), half.z()).normalized().toRotationMatrix();
-  for (const uint32_t i : body.members) {
+  forMembers(body.members, [&](uint32_t i) {
     const Vector3 arm = vectorOf(store.position()[i]) - body.centre;
     assignTo(store.position()[i], body.centre + body.shift + rotation * arm);
-  }
+  });
   body.inverseInertia = rotation * body.inverseInertia * rotation.transpose();
 }
 
@@ -333,9 +347,15 @@ Vector3 RigidContact::shift(ParticleStore& store, const Body& body, const Vector
 
 /// m, how far a body would be behind a wall if its members were at `points`.
 double RigidContact::depthOf(const Plane& plane, const Body& body, const api::Float4* points) {
-  double depth = 0;
-  for (const uint32_t i : body.members) depth = std::max(depth, -plane.heightOf(vectorOf(points[i])));
-  return depth;
+  struct Deepest {
+    double depth = 0;
+    void operator+=(const Deepest& other) { depth = std::max(depth, other.depth); }
+  };
+  return sumOver<Deepest>(body.members,
+                          [&](Deepest& deepest, uint32_t i) {
+                            deepest.depth = std::max(deepest.depth, -plane.heightOf(vectorOf(points[i])));
+                          })
+      .depth;
 }
 
 Vector3 RigidContact::keepInside(ParticleStore& store) const {
