@@ -105,17 +105,27 @@ class Search {
       : m_context(context), m_p(p), m_lists(lists), m_joining(joining), m_bonds(bonds) {}
 
   std::vector<Candidate> candidates() && {
+    const bool looseDry = anybodyLooseAndDry();
     for (uint32_t i = 0; i < m_p.count; ++i) {
-      if (byThesis(m_context, m_p, i))
+      if (byThesis(m_context, m_p, i)) {
         freezeByThesis(i);
-      else if (m_p.motion[i] == Motion::Solid && (m_joining.fresh(i) || m_joining.dryJoiner(i)))
-        join(i);
+      } else if (m_p.motion[i] == Motion::Solid) {
+        // A dry member of a rigid body joins what is none: most bodies need not look for it.
+        const bool dry = m_joining.dryJoiner(i) && (looseDry || !m_joining.isRigid(i));
+        if (m_joining.fresh(i) || dry) join(i);
+      }
     }
     std::sort(m_found.begin(), m_found.end(), nearer);
     return std::move(m_found);
   }
 
  private:
+  bool anybodyLooseAndDry() const {
+    for (uint32_t i = 0; i < m_p.count; ++i) {
+      if (holds(m_p.motion[i]) && m_joining.dryJoiner(i) && !m_joining.isRigid(i)) return true;
+    }
+    return false;
+  }
   template <class Takes>
   void collect(uint32_t i, float reach, Takes&& takes) {
     for (uint32_t q = m_lists.begin[i]; q < m_lists.last[i]; ++q) {

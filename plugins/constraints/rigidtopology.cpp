@@ -19,12 +19,15 @@ using api::NeighbourView;
 using api::ParticleView;
 
 constexpr uint32_t kNone = ~0u;
+constexpr size_t kNowhere = ~size_t{0};
 /// Faces of two bodies touch a spacing apart, where their lattices do not match with particles up to 1.22 spacings
 /// away from each other.
 constexpr double kTouchReach = 1.25;
 /// Pairs that must touch, and for how long in s, until two bodies are one: a brush in passing does not join them.
 constexpr size_t kLeastPairs = 3;
 constexpr double kHoldTime = 0.5;
+/// Members around a lump that has melted out of a body, beyond which all of the body is looked at as soon.
+constexpr size_t kMostRim = 256;
 /// What Joining::freshness() says of a particle that a body has taken, while others may still freeze to it.
 constexpr uint8_t kTaken = 2;
 
@@ -82,12 +85,16 @@ class Reshaping {
       m_pieces.push_back({g, std::move(kept), {}, false});
       return;
     }
-    const RigidBody body(m_p, m_all, g);
+    const size_t fewest = least(m_all.particles[m_all.begin[g]]);
+    if (m_all.changed[g] == 0 && kept.size() >= fewest && staysWhole(g)) {
+      m_gone[g] = 1;
+      m_pieces.push_back({g, std::move(kept), {}, true});
+      return;
+    }
     std::vector<Vector> rest;
     rest.reserve(kept.size());
-    for (const size_t k : kept) rest.push_back(body.rest(k));
+    for (const size_t k : kept) rest.push_back(restPlace(k));
     const std::vector<std::vector<size_t>> pieces = piecesOf(rest, kRigidReach * m_context.spacing);
-    const size_t fewest = least(m_all.particles[m_all.begin[g]]);
     const bool whole = pieces.size() == 1 && kept.size() == before && before >= fewest;
     m_gone[g] = whole ? 0 : 1;
     for (const std::vector<size_t>& members : pieces) {
@@ -96,6 +103,61 @@ class Reshaping {
       for (const size_t member : members) piece.kept.push_back(kept[member]);
       m_pieces.push_back(std::move(piece));
     }
+  }
+
+  Vector restPlace(size_t k) const {
+    return {m_all.memberValues[RigidModel::kRestX][k], m_all.memberValues[RigidModel::kRestY][k],
+            m_all.memberValues[RigidModel::kRestZ][k]};
+  }
+  bool hangTogether(size_t k, size_t other) const {
+    const Vector d = restPlace(k) - restPlace(other);
+    const double reach = kRigidReach * m_context.spacing;
+    return dot(d, d) < reach * reach;
+  }
+  /// Whether a body that has hung together still does without those that have melted, told by what is near them alone:
+  /// it does when all that each lump of them touched hangs together directly. False where that does not tell.
+  bool staysWhole(size_t g) {
+    const double scale = std::max(1.0, double{m_all.values[RigidModel::kScale][g]});
+    if (!(double{m_lists.searchRadius} > scale * kRigidReach * m_context.spacing)) return false;
+    const size_t first = m_all.begin[g], last = m_all.begin[g + 1];
+    m_placeOf.assign(m_p.count, kNowhere);
+    for (size_t k = first; k < last; ++k) m_placeOf[m_all.particles[k]] = k;
+    m_followed.assign(last - first, 0);
+    for (size_t k = first; k < last; ++k) {
+      if (melted(k) && m_followed[k - first] == 0 && !rimHangsTogether(k, first)) return false;
+    }
+    return true;
+  }
+  bool melted(size_t k) const { return m_p.motion[m_all.particles[k]] != Motion::Solid; }
+  /// visit(place) for members of the group that hung together with the one at place k.
+  template <class Visit>
+  void forHanging(size_t k, Visit&& visit) const {
+    const uint32_t i = m_all.particles[k];
+    for (uint32_t q = m_lists.begin[i]; q < m_lists.last[i]; ++q) {
+      const size_t other = m_placeOf[m_lists.index[q]];
+      if (other != kNowhere && hangTogether(k, other)) visit(other);
+    }
+  }
+  /// The lump of melted members that the one at place k belongs to; marks all of it.
+  bool rimHangsTogether(size_t k, size_t first) {
+    std::vector<size_t> open{k}, rim;
+    m_followed[k - first] = 1;
+    while (!open.empty()) {
+      const size_t at = open.back();
+      open.pop_back();
+      forHanging(at, [&](size_t other) {
+        if (std::exchange(m_followed[other - first], uint8_t{1}) == 0) (melted(other) ? open : rim).push_back(other);
+      });
+    }
+    for (const size_t r : rim) m_followed[r - first] = 0;  // another lump may touch it too
+    if (rim.size() > kMostRim) return false;
+    DisjointSets sets(rim.size());
+    for (size_t a = 0; a < rim.size(); ++a) {
+      for (size_t b = a + 1; b < rim.size(); ++b) {
+        if (hangTogether(rim[a], rim[b])) sets.unite(a, b);
+      }
+    }
+    return sets.sets().size() == 1;
   }
 
   double squaredDistance(uint32_t i, uint32_t j) const {
@@ -240,9 +302,7 @@ class Reshaping {
     }
     const RigidBody body(m_p, m_all, piece.group);
     for (const size_t k : piece.kept) {
-      const Vector place{m_all.memberValues[RigidModel::kRestX][k], m_all.memberValues[RigidModel::kRestY][k],
-                         m_all.memberValues[RigidModel::kRestZ][k]};
-      group.add(m_all.particles[k], place, m_all.memberValues[RigidModel::kRestVolume][k]);
+      group.add(m_all.particles[k], restPlace(k), m_all.memberValues[RigidModel::kRestVolume][k]);
     }
     const double scale = body.scale(), shrunk = 1 / (scale * scale * scale);
     for (const uint32_t i : piece.joined) {
@@ -259,6 +319,8 @@ class Reshaping {
   float* m_touch;
   std::vector<uint8_t> m_gone;  ///< groups that do not stay as they are
   std::vector<Piece> m_pieces;
+  std::vector<size_t> m_placeOf;    ///< of particles in the group that is split
+  std::vector<uint8_t> m_followed;  ///< of its members
   std::vector<uint32_t> m_pieceOf;  ///< by particle
   std::vector<uint8_t> m_drying;    ///< of members, in order: nobody is left who may freeze to it
   std::vector<float> m_touched;     ///< s, likewise: what m_touch is after this frame
