@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <vector>
 
@@ -41,6 +43,39 @@ inline size_t chunkCount(size_t count, size_t grain) { return (count + grain - 1
 template <class Body>
 void forChunks(size_t count, size_t grain, const Body& body) {
   parallelFor(count, grain, std::cref(body));
+}
+
+/// Whether body(first, last) is true for any chunk; once one is, others may be left out.
+template <class Body>
+bool anyChunk(size_t count, size_t grain, const Body& body) {
+  std::atomic<bool> any{false};
+  forChunks(count, grain, [&](size_t first, size_t last) {
+    if (!any.load(std::memory_order_relaxed) && body(first, last)) any.store(true, std::memory_order_relaxed);
+  });
+  return any;
+}
+
+/// The indices below `count` for which wanted(i) is true, ascending, into memory that is used again. It is asked twice.
+template <class Wanted>
+void findIndices(size_t count, std::vector<uint32_t>& found, const Wanted& wanted) {
+  static thread_local std::vector<uint32_t> counts;
+  std::vector<uint32_t>& ends = counts;  // this thread's, whoever helps it
+  ends.assign(chunkCount(count, grain::kNumbers), 0);
+  forChunks(count, grain::kNumbers, [&](size_t first, size_t last) {
+    uint32_t n = 0;
+    for (size_t i = first; i < last; ++i) n += wanted(i) ? 1u : 0u;
+    ends[first / grain::kNumbers] = n;
+  });
+  uint32_t total = 0;
+  for (uint32_t& n : ends) total = n += total;
+  found.resize(total);
+  forChunks(count, grain::kNumbers, [&](size_t first, size_t last) {
+    const size_t chunk = first / grain::kNumbers;
+    uint32_t next = chunk > 0 ? ends[chunk - 1] : 0;
+    for (size_t i = first; i < last; ++i) {
+      if (wanted(i)) found[next++] = static_cast<uint32_t>(i);
+    }
+  });
 }
 
 }  // namespace ps

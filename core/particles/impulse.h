@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "core/base/parallel.h"
 #include "core/math/vector.h"
 
 #include <vector>
@@ -20,6 +21,14 @@ class ChunkSum {
  private:
   std::vector<Vector3> m_partial;
 };
+
+/// Sum over chunks of body(first, last), a Vector3, by partial sums in `partial`.
+template <class Body>
+Vector3 sumOfChunks(ChunkSum& partial, size_t count, size_t grain, const Body& body) {
+  partial.start(chunkCount(count, grain));
+  forChunks(count, grain, [&](size_t first, size_t last) { partial.add(first / grain, 1, body(first, last)); });
+  return partial.total();
+}
 
 /// Impulse that something outside moving matter (a wall, fixed particles) gave to it since the last drain(), kg m/s.
 class ExternalImpulse {

@@ -4,6 +4,7 @@
 #include "core/particles/neighbourkernels.h"
 
 #include <algorithm>
+#include <type_traits>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/particles/neighbourkernels.cpp"
@@ -40,32 +41,45 @@ void searchSlotsOf(const SearchGrid& grid, size_t first, size_t last, uint32_t* 
   const auto iota = hn::Iota(di, 0);
   const auto radius2 = hn::Set(d, grid.radiusSquared);
   const int nx = grid.cells[0], ny = grid.cells[1], nz = grid.cells[2];
-  size_t used = found.size();
+  // Known to be no part of what is written.
+  const float *const gridX = grid.x, *const gridY = grid.y, *const gridZ = grid.z;
+  const uint32_t* const cellStart = grid.cellStart;
+  size_t used = 0, room = found.size();
+  auto* out = reinterpret_cast<int32_t*>(found.data());
   for (size_t slot = first; slot < last; ++slot) {
     const int cell = static_cast<int>(grid.cell[slot]), cx = cell % nx, cy = cell / nx % ny, cz = cell / (nx * ny);
     const auto px = hn::Set(d, grid.x[slot]), py = hn::Set(d, grid.y[slot]), pz = hn::Set(d, grid.z[slot]);
     const auto self = hn::Set(di, static_cast<int32_t>(slot));
     const size_t before = used;
-    const auto scan = [&](uint32_t begin, uint32_t end, float byX, float byY, float byZ) HWY_ATTR {
-      if (found.size() < used + (end - begin) + 2 * kLanes) found.resize(used + (end - begin) + 256);
-      const auto stop = hn::Set(di, static_cast<int32_t>(end));
+    const auto scan = [&](uint32_t begin, uint32_t end, float byX, float byY, float byZ, auto holdsSelf) HWY_ATTR {
+      if (room < used + (end - begin) + 2 * kLanes) {
+        found.resize(used + (end - begin) + 256);
+        out = reinterpret_cast<int32_t*>(found.data());
+        room = found.size();
+      }
       for (uint32_t k = begin; k < end; k += kLanes) {
-        auto dx = hn::Sub(px, hn::LoadU(d, grid.x + k));
-        auto dy = hn::Sub(py, hn::LoadU(d, grid.y + k));
-        auto dz = hn::Sub(pz, hn::LoadU(d, grid.z + k));
+        auto dx = hn::Sub(px, hn::LoadU(d, gridX + k));
+        auto dy = hn::Sub(py, hn::LoadU(d, gridY + k));
+        auto dz = hn::Sub(pz, hn::LoadU(d, gridZ + k));
         if constexpr (kPeriodic) {
           dx = hn::Add(dx, hn::Set(d, byX)), dy = hn::Add(dy, hn::Set(d, byY)), dz = hn::Add(dz, hn::Set(d, byZ));
         }
         const auto d2 = hn::Add(hn::Mul(dx, dx), hn::Add(hn::Mul(dy, dy), hn::Mul(dz, dz)));
         const auto slots = hn::Add(iota, hn::Set(di, static_cast<int32_t>(k)));
-        const auto near = hn::RebindMask(di, hn::Lt(d2, radius2));
-        const auto wanted = hn::And(near, hn::AndNot(hn::Eq(slots, self), hn::Lt(slots, stop)));
-        used += hn::CompressStore(slots, wanted, di, reinterpret_cast<int32_t*>(found.data() + used));
+        auto wanted = hn::And(hn::RebindMask(di, hn::Lt(d2, radius2)), hn::FirstN(di, end - k));
+        if constexpr (decltype(holdsSelf)::value) wanted = hn::AndNot(hn::Eq(slots, self), wanted);
+        // Whole vectors are stored: a store under a mask takes a hundred cycles on some machines.
+        hn::StoreU(hn::Compress(slots, wanted), di, out + used);
+        used += hn::CountTrue(di, wanted);
       }
     };
     const auto scanRow = [&](int y, int z, int from, int to, float byX, float byY, float byZ) HWY_ATTR {
       const int row = (z * ny + y) * nx;
-      scan(grid.cellStart[row + from], grid.cellStart[row + to + 1], byX, byY, byZ);
+      const uint32_t begin = cellStart[row + from], end = cellStart[row + to + 1];
+      if (y == cy && z == cz)
+        scan(begin, end, byX, byY, byZ, std::true_type());
+      else
+        scan(begin, end, byX, byY, byZ, std::false_type());
     };
     if constexpr (kPeriodic) {
       const Runs xs(cx, nx, grid.period[0]), ys(cy, ny, grid.period[1]), zs(cz, nz, grid.period[2]);
@@ -87,7 +101,6 @@ void searchSlotsOf(const SearchGrid& grid, size_t first, size_t last, uint32_t* 
     }
     counts[slot - first] = static_cast<uint32_t>(used - before);
   }
-  found.resize(used);
 }
 
 void SearchSlots(const SearchGrid& grid, size_t first, size_t last, uint32_t* counts, std::vector<uint32_t>& found) {

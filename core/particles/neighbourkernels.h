@@ -17,8 +17,8 @@ struct SearchGrid {
   float period[3];      ///< m, 0 along an open axis; else coordinates lie within one box, at least 3 cells long
 };
 
-/// Appends to `found` the slots closer than the radius to each slot of [first, last), ascending, without the slot
-/// itself, and writes their number to counts[slot - first]. `found` keeps its memory between calls.
+/// Writes to the front of `found` the slots closer than the radius to each slot of [first, last), ascending, without
+/// the slot itself, and their number to counts[slot - first]. `found` grows where it must, and is never shorter after.
 void searchSlots(const SearchGrid& grid, size_t first, size_t last, uint32_t* counts, std::vector<uint32_t>& found);
 
 }  // namespace ps

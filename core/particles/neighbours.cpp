@@ -68,7 +68,7 @@ void Neighbours::searchLists(std::span<const api::Float4> position, const Period
   const size_t n = position.size();
   m_cellOfSlot.resize(n);
   for (std::vector<float>* v : {&m_x, &m_y, &m_z}) v->resize(n + kSpareSlots);
-  inSlices(0, n, [&](size_t first, size_t last) {
+  forChunks(n, grain::kNumbers, [&](size_t first, size_t last) {
     for (size_t slot = first; slot < last; ++slot) {
       const size_t i = indexOf(slot);
       const api::Double3 p = period.wrapped({position[i].x, position[i].y, position[i].z});
@@ -78,6 +78,7 @@ void Neighbours::searchLists(std::span<const api::Float4> position, const Period
       m_cellOfSlot[slot] = m_grid.cellOfEach()[i];
     }
   });
+  advance(n);
   const double radius = m_support + m_skin;
   const SearchGrid grid{m_x.data(),
                         m_y.data(),
@@ -94,7 +95,6 @@ void Neighbours::searchLists(std::span<const api::Float4> position, const Period
   const auto search = [&](size_t first, size_t last) {
     if (progress) progress->advance(last - first);
     Chunk& chunk = m_chunks[first / grain::kNeighbours];
-    chunk.found.clear();
     searchSlots(grid, first, last, m_counts.data() + first, chunk.found);
   };
   parallelFor(n, grain::kNeighbours, std::cref(search));
@@ -103,7 +103,13 @@ void Neighbours::searchLists(std::span<const api::Float4> position, const Period
     writeLists(m_chunks[first / grain::kNeighbours].found.data(), first, last);
   };
   parallelFor(n, grain::kNeighbours, std::cref(write));
-  m_built.assign(position.begin(), position.end());
+  m_built.resize(n);
+  if (position.data() != m_built.data()) {
+    forChunks(n, grain::kNumbers, [&](size_t first, size_t last) {
+      std::copy(position.begin() + static_cast<ptrdiff_t>(first), position.begin() + static_cast<ptrdiff_t>(last),
+                m_built.begin() + static_cast<ptrdiff_t>(first));
+    });
+  }
 }
 
 void Neighbours::layOutLists(size_t count) {
@@ -140,13 +146,15 @@ bool Neighbours::stale(const ParticleStore& store) const {
   const size_t n = store.size();
   if (m_built.size() != n) return true;
   const api::Float4* position = store.position();
-  float most = 0;
-  for (size_t i = 0; i < n; ++i) {
-    const float x = position[i].x - m_built[i].x, y = position[i].y - m_built[i].y, z = position[i].z - m_built[i].z;
-    const float d2 = x * x + y * y + z * z;
-    most = d2 > most ? d2 : most;
-  }
-  return double{most} > 0.25 * m_skin * m_skin;
+  return anyChunk(n, grain::kNumbers, [&](size_t first, size_t last) {
+    float most = 0;
+    for (size_t i = first; i < last; ++i) {
+      const float x = position[i].x - m_built[i].x, y = position[i].y - m_built[i].y, z = position[i].z - m_built[i].z;
+      const float d2 = x * x + y * y + z * z;
+      most = d2 > most ? d2 : most;
+    }
+    return double{most} > 0.25 * m_skin * m_skin;
+  });
 }
 
 api::NeighbourView Neighbours::view() const {

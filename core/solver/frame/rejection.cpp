@@ -6,10 +6,23 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstring>
 #include <utility>
 
 namespace ps {
 namespace {
+
+/// Whether none of `count` numbers is not finite: those have all bits of their exponent.
+template <class Bits, class Number>
+bool allFiniteOf(const Number* numbers, size_t count, Bits exponent) {
+  Bits found = 0;
+  for (size_t k = 0; k < count; ++k) {
+    Bits bits;
+    std::memcpy(&bits, numbers + k, sizeof bits);
+    found |= (bits & exponent) == exponent ? 1 : 0;
+  }
+  return found == 0;
+}
 
 bool finite(const api::Float4& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w);
@@ -21,6 +34,20 @@ void Solver::Impl::checkBounds() {
   const double size = settings.spacing;
   const double low[3] = {bounds.minimum.x - size, bounds.minimum.y - size, bounds.minimum.z - size};
   const double high[3] = {bounds.maximum.x + size, bounds.maximum.y + size, bounds.maximum.z + size};
+  const auto isOutside = [&](float c, size_t a) {
+    return static_cast<float>(std::clamp(double{c}, low[a], high[a])) != c || c < low[a] || c > high[a];
+  };
+  const bool any = anyChunk(store.size(), grain::kNumbers, [&](size_t first, size_t last) {
+    bool outside = false;
+    for (size_t i = first; i < last; ++i) {
+      const api::Float4& p = store.position()[i];
+      const bool beyond = (isOutside(p.x, 0) && !bounds.periodic[0]) || (isOutside(p.y, 1) && !bounds.periodic[1]) ||
+                          (isOutside(p.z, 2) && !bounds.periodic[2]);
+      outside = outside || (beyond && store.velocity()[i].w != 0);
+    }
+    return outside;
+  });
+  if (!any) return;
   size_t lost = 0, culprit = store.size();
   for (size_t i = 0; i < store.size(); ++i) {
     api::Float4& p = store.position()[i];
@@ -44,6 +71,16 @@ void Solver::Impl::checkBounds() {
   raise(StepFlag::LostParticle, describe(culprit) + others + " left the bounds and stopped there");
 }
 
+bool Solver::Impl::allFinite() const {
+  return !anyChunk(store.size(), grain::kNumbers, [&](size_t first, size_t last) {
+    constexpr uint32_t kSingle = 0x7f800000u;
+    constexpr uint64_t kDouble = 0x7ff0000000000000u;
+    return !allFiniteOf(&store.position()[first].x, 4 * (last - first), kSingle) ||
+           !allFiniteOf(&store.velocity()[first].x, 4 * (last - first), kSingle) ||
+           !allFiniteOf(store.temperature() + first, last - first, kDouble);
+  });
+}
+
 int64_t Solver::Impl::firstNotFinite(std::string& what) const {
   int64_t culprit = -1;
   for (size_t i = 0; i < store.size(); ++i) {
@@ -58,6 +95,7 @@ int64_t Solver::Impl::firstNotFinite(std::string& what) const {
 }
 
 bool Solver::Impl::rejectIfNotFinite() {
+  if (allFinite()) return false;
   std::string what;
   const int64_t culprit = firstNotFinite(what);
   if (culprit < 0) return false;
@@ -121,6 +159,16 @@ bool Solver::Impl::rejectIfUnphysical() {
   const double* t = store.temperature();
   overshot = false;
   const auto isShare = [](float share) { return share >= -kRounding && share <= 1 + kRounding; };
+  const bool any = anyChunk(store.size(), grain::kNumbers, [&](size_t first, size_t last) {
+    bool wrong = false;
+    for (size_t i = first; i < last; ++i) {
+      const float s = store.solidFraction()[i], l = store.liquidFraction()[i], g = store.gasFraction()[i];
+      const bool shares = isShare(s) && isShare(l) && isShare(g) && isShare(s + l + g);
+      wrong = wrong || !shares || !(t[i] >= 0 && t[i] <= kHottest);
+    }
+    return wrong;
+  });
+  if (!any) return false;
   for (size_t i = 0; i < store.size(); ++i) {
     const float s = store.solidFraction()[i], l = store.liquidFraction()[i], g = store.gasFraction()[i];
     const bool shares = isShare(s) && isShare(l) && isShare(g) && isShare(s + l + g);

@@ -126,7 +126,7 @@ struct Solver::Impl {
   int structurePasses() const;
   void iterate(uint32_t index, double dt);
   void predict(uint32_t index, double dt);
-  Vector3 momentum() const;               ///< kg m/s, of what moves
+  Vector3 momentum();                     ///< kg m/s, of what moves
   Vector3 momentumOfHanging() const;      ///< kg m/s
   Vector3 displacementOfHanging() const;  ///< kg m, since the start of the substep
   /// Calls into plugins, and books what comes from outside: nothing, unless something hangs on what is fixed.
@@ -145,6 +145,8 @@ struct Solver::Impl {
   void closeFrame();
   /// Id of the first particle whose position, velocity or temperature is no finite number, or -1.
   int64_t firstNotFinite(std::string& what) const;
+  /// Whether all of these are finite numbers.
+  bool allFinite() const;
   bool rejectIfNotFinite();
   void noteLeaps(double dt);
   bool rejectIfLeapt();

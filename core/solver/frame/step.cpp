@@ -28,12 +28,14 @@ Solver::Impl::Impl() {
   tell(density, viscosity, wallStage, swept, contact, impacts, wet, sheets, rigid, rebound);
 }
 
-Vector3 Solver::Impl::momentum() const {
-  Vector3 sum;
-  for (size_t i = 0; i < store.size(); ++i) {
-    if (store.velocity()[i].w > 0) sum += double{store.mass()[i]} * vectorOf(store.velocity()[i]);
-  }
-  return sum;
+Vector3 Solver::Impl::momentum() {
+  return sumOfChunks(weight, store.size(), grain::kParticles, [&](size_t first, size_t last) {
+    Vector3 sum;
+    for (size_t i = first; i < last; ++i) {
+      if (store.velocity()[i].w > 0) sum += double{store.mass()[i]} * vectorOf(store.velocity()[i]);
+    }
+    return sum;
+  });
 }
 
 Vector3 Solver::Impl::momentumOfHanging() const {
