@@ -19,16 +19,15 @@ void WallStage::configure(const SolverSettings& settings, const std::vector<Wall
 }
 
 void WallStage::refreshLists(const ParticleStore& store, const Neighbours& neighbours, std::span<const uint8_t> rigid) {
-  m_near.clear();
   m_rigid.assign(rigid.begin(), rigid.end());
-  for (size_t i = 0; i < store.size(); ++i) {
-    if (store.velocity()[i].w == 0 || rigid[i] != 0) continue;
-    for (const WallPlane& p : m_planes) {
-      if (p.heightOf(neighbours.built()[i]) > m_reach) continue;
-      m_near.push_back(static_cast<uint32_t>(i));
-      break;
-    }
-  }
+  m_nearWalls.resize(store.size());
+  const std::span<const api::Float4> built = neighbours.built();
+  forChunks(store.size(), grain::kParticles, [&](size_t first, size_t last) {
+    findNearWalls(m_planes, m_reach, built.subspan(first, last - first),
+                  std::span(m_nearWalls).subspan(first, last - first));
+  });
+  findIndices(store.size(), m_near,
+              [&](size_t i) { return m_nearWalls[i].any() && store.velocity()[i].w != 0 && rigid[i] == 0; });
 }
 
 Vector3 WallStage::projectOne(const WallPlane& p, ParticleStore& store, size_t i, float depth) const {
@@ -57,24 +56,25 @@ void WallStage::finishSums() {
   m_reactions->finish();
 }
 
-void WallStage::projectAll(ParticleStore& store, size_t i, size_t chunk) {
+void WallStage::projectOut(ParticleStore& store, size_t i, const WallSet& walls, size_t chunk) {
   const api::Float4* position = store.position();
-  for (size_t w = 0; w < m_planes.size(); ++w) {
+  walls.forEach(m_planes.size(), [&](size_t w) {
     const float depth = -m_planes[w].heightOf(position[i]);
-    if (!(depth > 0)) continue;
+    if (!(depth > 0)) return;
     const double mass = store.mass()[i];
     const Vector3 moved = projectOne(m_planes[w], store, i, depth);
     m_moved.add(chunk, mass, moved);
     const int slot = m_reactions->ofWall(w);
     if (slot != Reactions::kNone)
       m_reactions->add(chunk, slot, vectorOf(position[i]), -mass * m_reactions->perStep() * moved);
-  }
+  });
 }
 
 void WallStage::projectNear(ParticleStore& store) {
   startSums(chunkCount(m_near.size(), grain::kParticles));
   forChunks(m_near.size(), grain::kParticles, [&](size_t first, size_t last) {
-    for (size_t k = first; k < last; ++k) projectAll(store, m_near[k], first / grain::kParticles);
+    for (size_t k = first; k < last; ++k)
+      projectOut(store, m_near[k], m_nearWalls[m_near[k]], first / grain::kParticles);
   });
   finishSums();
 }
@@ -83,8 +83,10 @@ void WallStage::project(ParticleStore& store) {
   if (m_planes.empty()) return;
   startSums(chunkCount(store.size(), grain::kParticles));
   forChunks(store.size(), grain::kParticles, [&](size_t first, size_t last) {
-    for (size_t i = first; i < last; ++i) {
-      if (store.velocity()[i].w > 0 && m_rigid[i] == 0) projectAll(store, i, first / grain::kParticles);
+    const std::span<const api::Float4> places(store.position() + first, last - first);
+    const WallSet met = wallsBelow(m_planes, m_reach, places);  // what is moved out of one may come to another
+    for (size_t i = first; met.any() && i < last; ++i) {
+      if (store.velocity()[i].w > 0 && m_rigid[i] == 0) projectOut(store, i, met, first / grain::kParticles);
     }
   });
   finishSums();

@@ -3,7 +3,7 @@
 #include "core/particles/impulse.h"
 #include "core/particles/neighbours.h"
 #include "core/particles/reactions.h"
-#include "core/solver/contact/wallplane.h"
+#include "core/solver/contact/nearwalls.h"
 
 namespace ps {
 
@@ -30,13 +30,14 @@ class WallStage {
  private:
   /// Returns how far it was moved, m.
   Vector3 projectOne(const WallPlane& plane, ParticleStore& store, size_t i, float depth) const;
-  /// Moves particle i out of all walls.
-  void projectAll(ParticleStore& store, size_t i, size_t chunk);
+  /// Moves particle i out of these walls.
+  void projectOut(ParticleStore& store, size_t i, const WallSet& walls, size_t chunk);
   void startSums(size_t chunks);
   void finishSums();
 
   std::vector<WallPlane> m_planes;
   std::vector<uint32_t> m_near;
+  std::vector<WallSet> m_nearWalls;  ///< by particle
   std::vector<uint8_t> m_rigid;
   ChunkSum m_moved;
   ExternalImpulse m_externalImpulse;

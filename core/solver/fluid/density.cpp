@@ -4,8 +4,7 @@
 #include "core/base/parallel.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
+#include <array>
 
 namespace ps {
 namespace {
@@ -31,48 +30,48 @@ bool isInside(const api::Float4& p, const Bounds& bounds) {
   return x >= low.x && x <= high.x && y >= low.y && y <= high.y && z >= low.z && z <= high.z;
 }
 
+/// Inverse masses that are about, ascending from the 0 of what does not move; none of them means anything where there
+/// are more than volumes can tell.
+struct Kinds {
+  std::array<float, DensityWeights::kKinds> inverseMass{};
+  uint32_t count = 1;
+  bool tooMany = false;
+
+  uint32_t indexOf(float value) const {
+    uint32_t kind = 0;
+    while (kind < count && inverseMass[kind] != value) ++kind;
+    return kind;
+  }
+  void add(float value) {
+    if (tooMany || indexOf(value) < count) return;
+    tooMany = count == DensityWeights::kKinds;
+    if (tooMany) return;
+    uint32_t k = count++;
+    for (; inverseMass[k - 1] > value; --k) inverseMass[k] = inverseMass[k - 1];  // the first one is 0
+    inverseMass[k] = value;
+  }
+};
+
+Kinds kindsOf(const ParticleStore& store) {
+  Kinds kinds;
+  const api::Float4* velocity = store.velocity();
+  float former = 0;
+  for (size_t i = 0; i < store.size(); ++i) {
+    if (velocity[i].w == former) continue;
+    former = velocity[i].w;
+    kinds.add(former);
+  }
+  return kinds;
+}
+
 }  // namespace
 
-HalfSpaceTable::HalfSpaceTable(const Kernel& kernel) : m_values(kIntervals + 1) {
-  // Over a plane at distance z the kernel integrates to A(z) = 2 pi int_z^R r W dr; beyond d there is int_d^R A dz.
-  constexpr int kSteps = 16;  // of Simpson's rule per interval
-  const double support = kernel.supportRadius(), step = support / (kIntervals * kSteps);
-  const auto integrand = [&](double r) { return 2 * std::numbers::pi * r * kernel.value(r); };
-  double area = 0, share = 0;
-  m_values[kIntervals] = {0, 0};
-  for (int k = kIntervals * kSteps; k > 0; --k) {
-    const double high = k * step, low = (k - 1) * step, middle = 0.5 * (high + low), quarter = 0.5 * (middle + high);
-    const double upperHalf = step / 12 * (integrand(middle) + 4 * integrand(quarter) + integrand(high));
-    const double whole = step / 6 * (integrand(low) + 4 * integrand(middle) + integrand(high));
-    share += step / 6 * (area + 4 * (area + upperHalf) + area + whole);
-    area += whole;
-    if ((k - 1) % kSteps == 0)
-      m_values[static_cast<size_t>((k - 1) / kSteps)] = {static_cast<float>(share), static_cast<float>(-area)};
-  }
-  m_perMetre = static_cast<float>(kIntervals / support);
-}
-
-HalfSpaceTable::Value HalfSpaceTable::at(float distance) const {
-  const float s = std::max(0.0f, distance) * m_perMetre;
-  if (!(s < kIntervals)) return {0, 0};
-  const size_t k = static_cast<size_t>(s);
-  const float f = s - static_cast<float>(k);
-  const Value &a = m_values[k], &b = m_values[k + 1];
-  return {a.share + f * (b.share - a.share), a.slope + f * (b.slope - a.slope)};
-}
-
 void DensityStage::configure(const SolverSettings& settings, const std::vector<Wall>& walls) {
-  const bool newKernel = m_halfSpaceKernel != settings.kernel || m_support != settings.spacing * settings.supportRatio;
   m_settings = settings;
-  m_planes.clear();
-  for (const Wall& w : walls) m_planes.emplace_back(w);
-  m_film.configure(settings, m_planes);
-  if (!newKernel && m_scale > 0) return;
-  m_halfSpaceKernel = settings.kernel;
   m_support = settings.spacing * settings.supportRatio;
-  const Kernel kernel(settings.kernel, m_support);
-  m_scale = kernel.value(0);  // w(0) = 1 for both shapes
-  m_halfSpace = HalfSpaceTable(kernel);
+  m_scale = Kernel(settings.kernel, m_support).value(0);  // w(0) = 1 for both shapes
+  m_walls.configure(settings, walls);
+  m_film.configure(settings, m_walls.planes());
 }
 
 PairLists DensityStage::lists(const ParticleStore& store, const Neighbours& neighbours) const {
@@ -87,27 +86,47 @@ void DensityStage::refresh(const ParticleStore& store, const Neighbours& neighbo
   m_carried.resize(n);
   m_carriedMultiplier.resize(n);
   m_volume.resize(n + kSpare);
-  m_weight.resize(n + kSpare);
-  m_fluid.clear();
+  m_weights = {};
   const api::Motion* motion = store.motion();
   const api::Float4 *position = store.position(), *velocity = store.velocity();
-  for (size_t i = 0; i < n; ++i) {
-    m_volume[i] = position[i].w;
-    if (isFluid(motion[i]) && velocity[i].w > 0) m_fluid.push_back(static_cast<uint32_t>(i));
-  }
+  forChunks(n, grain::kNumbers, [&](size_t first, size_t last) {
+    for (size_t i = first; i < last; ++i) m_volume[i] = position[i].w;
+  });
+  findIndices(n, m_fluid, [&](size_t i) { return isFluid(motion[i]) && velocity[i].w > 0; });
   const api::Float4 dummy{kFarAway, kFarAway, kFarAway, 0};
   m_points[n] = m_multipliers[n] = dummy;
-  m_volume[n] = m_weight[n] = 0;
+  m_volume[n] = 0;
   refreshLists(store, neighbours);
   if (m_fluid.empty()) return;
   const PairLists pairs = lists(store, neighbours);
   solidVolumes(store, pairs, api::Motion::Solid, kSolidLeast, kSolidMost);
   solidVolumes(store, pairs, api::Motion::Static, kStaticLeast, kStaticMost);
+  weigh(store);
+}
+
+/// Volumes times the kernel's factor, and the weights of the denominator.
+void DensityStage::weigh(const ParticleStore& store) {
+  const api::Float4* velocity = store.velocity();
+  const Kinds kinds = kindsOf(store);
   const float scale = static_cast<float>(m_scale);
-  for (size_t i = 0; i < n; ++i) {
-    m_volume[i] *= scale;
-    m_weight[i] = velocity[i].w * m_volume[i] * m_volume[i];
+  m_weights = {};
+  m_weight.resize(kinds.tooMany ? store.size() + kSpare : 0);
+  if (kinds.tooMany) {
+    m_weights.each = m_weight.data();
+    m_weight[store.size()] = 0;
+  } else {
+    std::copy(kinds.inverseMass.begin(), kinds.inverseMass.end(), m_weights.inverseMass);
   }
+  forChunks(store.size(), grain::kNumbers, [&](size_t first, size_t last) {
+    for (size_t i = first; i < last; ++i) {
+      const float volume = m_volume[i] * scale, inverseMass = velocity[i].w;
+      m_volume[i] = volume;
+      if (kinds.tooMany)
+        m_weight[i] = inverseMass * volume * volume;
+      else
+        m_volume[i] = DensityWeights::marked(volume, kinds.indexOf(inverseMass));
+    }
+  });
 }
 
 void DensityStage::refreshLists(const ParticleStore& store, const Neighbours& neighbours) {
@@ -117,9 +136,13 @@ void DensityStage::refreshLists(const ParticleStore& store, const Neighbours& ne
   m_wet.clear();
   m_watched.clear();
   m_touchesFixed = false;
-  if (m_fluid.empty()) return;
+  m_nearKnown = false;
+  m_walls.refresh(neighbours.built());
   m_isFluid.assign(n, 0);
-  for (const uint32_t i : m_fluid) m_isFluid[i] = 1;
+  forChunks(m_fluid.size(), grain::kNumbers, [&](size_t first, size_t last) {
+    for (size_t k = first; k < last; ++k) m_isFluid[m_fluid[k]] = 1;
+  });
+  if (m_fluid.empty()) return;
   // Few fluid particles tell their neighbours; of many, each of the others looks for one, all at once.
   if (8 * m_fluid.size() < n) {
     for (const uint32_t i : m_fluid) {
@@ -136,12 +159,18 @@ void DensityStage::refreshLists(const ParticleStore& store, const Neighbours& ne
     });
   }
   const api::Motion* motion = store.motion();
-  for (size_t i = 0; i < n; ++i) {
-    const bool moves = store.velocity()[i].w > 0;
-    m_touchesFixed = m_touchesFixed || (m_touched[i] != 0 && !moves);
-    if (m_touched[i] != 0 && !moves && m_reactions->ofBody(store.body()[i]) != Reactions::kNone)
-      m_watched.push_back(static_cast<uint32_t>(i));
-    if (m_touched[i] != 0 && moves && motion[i] == api::Motion::Solid) m_wet.push_back(static_cast<uint32_t>(i));
+  const api::Float4* velocity = store.velocity();
+  findIndices(n, m_wet,
+              [&](size_t i) { return m_touched[i] != 0 && velocity[i].w > 0 && motion[i] == api::Motion::Solid; });
+  m_touchesFixed = anyChunk(n, grain::kNumbers, [&](size_t first, size_t last) {
+    bool fixed = false;
+    for (size_t i = first; i < last; ++i) fixed = fixed || (m_touched[i] != 0 && !(velocity[i].w > 0));
+    return fixed;
+  });
+  if (m_touchesFixed && m_reactions->any()) {
+    findIndices(n, m_watched, [&](size_t i) {
+      return m_touched[i] != 0 && !(velocity[i].w > 0) && m_reactions->ofBody(store.body()[i]) != Reactions::kNone;
+    });
   }
   m_film.refresh(store, neighbours, m_wet);
 }
@@ -149,20 +178,18 @@ void DensityStage::refreshLists(const ParticleStore& store, const Neighbours& ne
 void DensityStage::solidVolumes(const ParticleStore& store, const PairLists& pairs, api::Motion motion, float least,
                                 float most) {
   // Only those near fluid matter.
-  m_some.clear();
   const api::Motion* motions = store.motion();
-  for (size_t i = 0; i < store.size(); ++i) {
-    if (motions[i] == motion && m_touched[i] != 0) m_some.push_back(static_cast<uint32_t>(i));
-  }
+  findIndices(store.size(), m_some, [&](size_t i) { return motions[i] == motion && m_touched[i] != 0; });
   if (m_some.empty()) return;
   const api::Float4* position = store.position();
-  for (size_t i = 0; i < store.size(); ++i) {
-    m_points[i] = {position[i].x, position[i].y, position[i].z, motions[i] == motion ? 1.0f : 0.0f};
-  }
+  forChunks(store.size(), grain::kNumbers, [&](size_t first, size_t last) {
+    for (size_t i = first; i < last; ++i)
+      m_points[i] = {position[i].x, position[i].y, position[i].z, motions[i] == motion ? 1.0f : 0.0f};
+  });
   m_sums.resize(std::max(m_sums.size(), m_some.size()));
   const float scale = static_cast<float>(m_scale);
   forChunks(m_some.size(), grain::kPairs, [&](size_t first, size_t last) {
-    sumDensity(pairs, m_points.data(), m_weight.data(), m_some.data(), first, last, m_sums.data());
+    sumDensity(pairs, m_points.data(), m_weights, m_some.data(), first, last, m_sums.data());
     for (size_t k = first; k < last; ++k) {
       const float own = position[m_some[k]].w;
       m_volume[m_some[k]] = std::clamp(1 / (scale * (1 + m_sums[k].excess)), least * own, most * own);
@@ -172,88 +199,112 @@ void DensityStage::solidVolumes(const ParticleStore& store, const PairLists& pai
 
 void DensityStage::loadPoints(const ParticleStore& store) {
   const api::Float4* position = store.position();
-  forChunks(store.size(), grain::kPairs, [&](size_t first, size_t last) {
+  forChunks(store.size(), grain::kNumbers, [&](size_t first, size_t last) {
     for (size_t i = first; i < last; ++i) {
       m_points[i] = {position[i].x, position[i].y, position[i].z, m_volume[i]};
-      m_multipliers[i] = {position[i].x, position[i].y, position[i].z, 0};
+      if (m_isFluid[i] == 0) m_multipliers[i] = {position[i].x, position[i].y, position[i].z, 0};
     }
   });
 }
 
-float DensityStage::addWalls(const api::Float4& at, Constraint& gradient) const {
-  const float nearest = static_cast<float>(0.5 * m_settings.spacing), support = static_cast<float>(m_support);
-  float excess = 0;
-  for (const WallPlane& p : m_planes) {
-    const float distance = p.heightOf(at);
-    if (distance >= support) continue;
-    const HalfSpaceTable::Value value = m_halfSpace.at(std::max(nearest, distance));
-    excess += value.share;
-    gradient.x += p.x * value.slope;
-    gradient.y += p.y * value.slope;
-    gradient.z += p.z * value.slope;
-  }
-  return excess;
-}
-
-void DensityStage::multipliers(const ParticleStore& store, const PairLists& pairs, float relaxation, size_t first,
+void DensityStage::multipliers(const ParticleStore& store, const PairLists& near, float relaxation, size_t first,
                                size_t last) {
-  sumDensity(pairs, m_points.data(), m_weight.data(), m_fluid.data(), first, last, m_sums.data());
-  const float perR2 = pairs.inverseSupportSquared;
+  sumDensity(near, m_points.data(), m_weights, m_fluid.data(), first, last, m_sums.data(), m_slopes.data());
+  const float perR2 = near.inverseSupportSquared;
   const float epsilon = kEpsilon / static_cast<float>(m_settings.spacing * m_settings.spacing);
+  const uint32_t* const fluid = m_fluid.data();
+  const api::Float4 *const points = m_points.data(), *const velocity = store.velocity();
+  const float *const volume = m_volume.data(), *const compression = store.compression();
+  const DensitySums* const sums = m_sums.data();
+  HalfSpaces::Sum allWalls[grain::kPairs];
+  m_walls.sumsOf(std::span(m_fluid).subspan(first, last - first), points, allWalls);
+  float* const excess = m_excess.data();
+  Constraint* const constraints = m_constraints.data();
+  api::Float4* const multiplier = m_multipliers.data();
   for (size_t k = first; k < last; ++k) {
-    const uint32_t i = m_fluid[k];
-    const DensitySums& s = m_sums[k];
-    const float inverseMass = store.velocity()[i].w;
-    Constraint c{s.x * perR2, s.y * perR2, s.z * perR2, 0};
-    m_excess[k] = m_volume[i] + s.excess - 1 + addWalls(m_points[i], c);
-    const float active = m_excess[k] - store.compression()[i];
-    if (active > 0) {
-      const float own = c.x * c.x + c.y * c.y + c.z * c.z;
-      c.lambda = -relaxation * active / (inverseMass * (own + epsilon) + s.squares * perR2);
-    }
-    m_constraints[k] = c;
-    m_multipliers[i].w = c.lambda;
+    const uint32_t i = fluid[k];
+    const DensitySums& s = sums[k];
+    const api::Float4 at = points[i];
+    const HalfSpaces::Sum& walls = allWalls[k - first];
+    const float inverseMass = velocity[i].w;
+    const float x = s.x * perR2 + walls.x, y = s.y * perR2 + walls.y, z = s.z * perR2 + walls.z;
+    const float dense = volume[i] + s.excess - 1 + walls.excess, active = dense - compression[i];
+    const float own = x * x + y * y + z * z;
+    const float wanted = -relaxation * active / (inverseMass * (own + epsilon) + s.squares * perR2);
+    const float lambda = active > 0 ? wanted : 0;  // half of them are not: a branch would be guessed wrong
+    excess[k] = dense;
+    constraints[k] = {x, y, z, lambda};
+    multiplier[i] = {at.x, at.y, at.z, lambda};
   }
 }
 
 /// What a gap takes off the corrections of a particle, m kg (TrappedFilm).
 Vector3 DensityStage::inFilm(const ParticleStore& store, const PairLists& pairs, uint32_t i, float lambda) const {
-  Constraint walls{};
-  addWalls(m_points[i], walls);
+  const HalfSpaces::Sum walls = m_walls.of(i, m_points[i]);
   const double ofWalls = double{m_film.yieldOf(i) * lambda} * Vector3{walls.x, walls.y, walls.z}.dot(m_film.up());
   return m_film.correctionOf(store, {pairs, m_volume.data(), m_multipliers.data()}, i) - ofWalls * m_film.up();
 }
 
-void DensityStage::move(ParticleStore& store, const PairLists& pairs, float chebyshev, size_t first, size_t last) {
+/// Fluids come first: their slopes are known.
+void DensityStage::sumMoves(const PairLists& near, size_t first, size_t last) {
+  const size_t fluids = std::clamp(m_fluid.size(), first, last);
+  sumMultipliers(near, m_multipliers.data(), m_some.data(), first, fluids, m_moves.data(), m_slopes.data());
+  sumMultipliers(near, m_multipliers.data(), m_some.data(), fluids, last, m_moves.data(), nullptr);
+}
+
+void DensityStage::move(ParticleStore& store, const PairLists& pairs, size_t first, size_t last) {
   const size_t fluids = m_fluid.size();
-  sumMultipliers(pairs, m_multipliers.data(), m_some.data(), first, last, m_moves.data());
-  api::Float4* position = store.position();
+  const float chebyshev = m_chebyshev, perR2 = pairs.inverseSupportSquared;
+  const bool film = m_film.any(), sums = m_multiplierSum.size() >= store.size();
+  Vector3 moved;
+  const uint32_t* const which = m_some.data();
+  api::Float4 *const position = store.position(), *const carriedMove = m_carried.data();
+  const api::Float4 *const velocity = store.velocity(), *const moves = m_moves.data();
+  const float *const volume = m_volume.data(), *const mass = store.mass();
+  const Constraint* const constraints = m_constraints.data();
+  float *const carriedMultiplier = m_carriedMultiplier.data(), *const multiplierSum = m_multiplierSum.data();
   for (size_t k = first; k < last; ++k) {
-    const uint32_t i = m_some[k];
-    const float inverseMass = store.velocity()[i].w, others = inverseMass * m_volume[i] * pairs.inverseSupportSquared;
-    float dx = others * m_moves[k].x, dy = others * m_moves[k].y, dz = others * m_moves[k].z;
-    api::Float4& x = position[i];
+    const uint32_t i = which[k];
+    const float inverseMass = velocity[i].w, others = inverseMass * volume[i] * perR2;
+    const api::Float4 byOthers = moves[k];
+    float dx = others * byOthers.x, dy = others * byOthers.y, dz = others * byOthers.z;
     if (k < fluids) {
-      const Constraint& c = m_constraints[k];
+      const Constraint c = constraints[k];
       const float own = inverseMass * c.lambda;
       dx += own * c.x, dy += own * c.y, dz += own * c.z;
+      // As places are carried on from one iteration to the next, so are the multipliers that moved them.
+      const float former = carriedMultiplier[i];
+      const float multiplier = chebyshev == 1 ? c.lambda : chebyshev * c.lambda + (chebyshev - 1) * former;
+      carriedMultiplier[i] = multiplier;
+      if (sums) multiplierSum[i] += multiplier;
     }
-    if (m_film.concerns(i)) {
+    if (film && m_film.concerns(i)) {
       const Vector3 off = double{inverseMass} * inFilm(store, pairs, i, m_multipliers[i].w);
       dx += static_cast<float>(off.x()), dy += static_cast<float>(off.y()), dz += static_cast<float>(off.z());
     }
     // Only what density did is carried on, not what walls and structure did between two iterations, and by the same
     // factors for fluids and solids: so the semi-iteration keeps momentum, and ice feels the lift that water gives.
-    api::Float4& carried = m_carried[i];
     if (chebyshev != 1) {
+      const api::Float4 carried = carriedMove[i];
       dx = chebyshev * dx + (chebyshev - 1) * carried.x;
       dy = chebyshev * dy + (chebyshev - 1) * carried.y;
       dz = chebyshev * dz + (chebyshev - 1) * carried.z;
     }
-    carried = {dx, dy, dz, 0};
-    x.x += dx, x.y += dy, x.z += dz;
-    m_moved.add(first / grain::kPairs, store.mass()[i], {dx, dy, dz});
+    carriedMove[i] = {dx, dy, dz, 0};
+    const api::Float4 x = position[i];
+    position[i] = {x.x + dx, x.y + dy, x.z + dz, x.w};
+    moved += double{mass[i]} * Vector3(dx, dy, dz);
   }
+  m_moved.add(first / grain::kPairs, 1, moved);
+}
+
+/// For fluids and wet solids, which are `m_some` from now on.
+void DensityStage::findNear(const ParticleStore& store, const PairLists& pairs) {
+  m_some.assign(m_fluid.begin(), m_fluid.end());
+  m_some.insert(m_some.end(), m_wet.begin(), m_wet.end());
+  m_near.find(pairs, m_points.data(), store.size(), m_some);
+  m_slopes.resize(m_near.slots());
+  m_nearKnown = true;
 }
 
 void DensityStage::project(ParticleStore& store, const Neighbours& neighbours, int iteration) {
@@ -263,6 +314,8 @@ void DensityStage::project(ParticleStore& store, const Neighbours& neighbours, i
   const float relaxation =
       static_cast<float>(m_settings.iterations == 1 ? std::min(wanted, kSingleStepRelaxation) : wanted);
   loadPoints(store);
+  if (iteration == 0) findNear(store, pairs);
+  const PairLists near = m_near.lists(pairs);
   // x_k+1 = x_k-1 + w (x_k + jacobi - x_k-1), with w = 1 for two steps, then 2/(2 - rho^2), then 4/(4 - rho^2 w).
   const float rho2 = static_cast<float>(m_settings.chebyshevRadius * m_settings.chebyshevRadius);
   if (iteration < 2 || m_settings.densitySolver == DensitySolver::Jacobi)
@@ -274,48 +327,33 @@ void DensityStage::project(ParticleStore& store, const Neighbours& neighbours, i
   m_constraints.resize(fluids);
   m_excess.resize(fluids);
   m_moves.resize(moving);
-  m_some.assign(m_fluid.begin(), m_fluid.end());
-  m_some.insert(m_some.end(), m_wet.begin(), m_wet.end());
   forChunks(fluids, grain::kPairs,
-            [&](size_t first, size_t last) { multipliers(store, pairs, relaxation, first, last); });
+            [&](size_t first, size_t last) { multipliers(store, near, relaxation, first, last); });
   m_moved.start(chunkCount(moving, grain::kPairs));
-  forChunks(moving, grain::kPairs, [&](size_t first, size_t last) { move(store, pairs, m_chebyshev, first, last); });
-  if (m_touchesFixed || !m_planes.empty()) m_externalImpulse.add(m_moved.total());
-  carryMultipliers();
+  forChunks(moving, grain::kPairs, [&](size_t first, size_t last) {
+    sumMoves(near, first, last);
+    move(store, pairs, first, last);
+  });
+  if (m_touchesFixed || !m_walls.planes().empty()) m_externalImpulse.add(m_moved.total());
   tellWalls(store);
   tellFixed(store, pairs);
-}
-
-/// As places are carried on from one iteration to the next, so are the multipliers that moved them.
-void DensityStage::carryMultipliers() {
-  const float w = m_chebyshev;
-  forChunks(m_fluid.size(), grain::kNumbers, [&](size_t first, size_t last) {
-    for (size_t k = first; k < last; ++k) {
-      const uint32_t i = m_fluid[k];
-      float& carried = m_carriedMultiplier[i];
-      carried = w == 1 ? m_constraints[k].lambda : w * m_constraints[k].lambda + (w - 1) * carried;
-      if (i < m_multiplierSum.size()) m_multiplierSum[i] += carried;
-    }
-  });
 }
 
 /// What walls get by the opposite of what their half spaces gave to the density of particles.
 void DensityStage::tellWalls(const ParticleStore& store) {
   if (!m_reactions->watchesWalls()) return;
-  const float nearest = static_cast<float>(0.5 * m_settings.spacing), support = static_cast<float>(m_support);
   m_reactions->start(chunkCount(m_fluid.size(), grain::kParticles));
   forChunks(m_fluid.size(), grain::kParticles, [&](size_t first, size_t last) {
     for (size_t k = first; k < last; ++k) {
       const uint32_t i = m_fluid[k];
-      for (size_t w = 0; w < m_planes.size(); ++w) {
-        const WallPlane& p = m_planes[w];
-        const float distance = p.heightOf(m_points[i]);
-        if (distance >= support || m_carriedMultiplier[i] == 0) continue;
-        const double moved = double{m_carriedMultiplier[i]} * m_halfSpace.at(std::max(nearest, distance)).slope;
+      if (m_carriedMultiplier[i] == 0) continue;
+      m_walls.forSlopes(i, m_points[i], [&](size_t w, float slope) {
+        const WallPlane& p = m_walls.planes()[w];
+        const double moved = double{m_carriedMultiplier[i]} * slope;
         Vector3 given = -m_reactions->perStep() * moved * Vector3(p.x, p.y, p.z);
         if (m_film.concerns(i)) given -= double{m_film.yieldOf(i)} * given.dot(m_film.up()) * m_film.up();
         m_reactions->add(first / grain::kParticles, m_reactions->ofWall(w), vectorOf(store.position()[i]), given);
-      }
+      });
     }
   });
   m_reactions->finish();
@@ -340,27 +378,22 @@ void DensityStage::tellFixed(const ParticleStore& store, const PairLists& pairs)
   m_reactions->finish();
 }
 
-void DensityStage::writePressure(ParticleStore& store, const PairLists& pairs) {
+void DensityStage::writePressure(ParticleStore& store, const PairLists& near) {
   const size_t fluids = m_fluid.size();
   m_compression.resize(2 * fluids);
-  for (const uint32_t i : m_fluid) m_multipliers[i].w = i < m_multiplierSum.size() ? m_multiplierSum[i] : 0;
   const double dt = m_settings.dt / m_settings.substeps, perSubstep = 1 / (dt * dt * m_settings.substeps);
-  const float nearest = static_cast<float>(0.5 * m_settings.spacing), support = static_cast<float>(m_support);
+  m_multiplierSum.resize(store.size() + kSpare);
+  forChunks(fluids, grain::kNumbers, [&](size_t first, size_t last) {
+    for (size_t k = first; k < last; ++k) m_multipliers[m_fluid[k]].w = m_multiplierSum[m_fluid[k]];
+  });
   forChunks(fluids, grain::kPairs, [&](size_t first, size_t last) {
-    float* byOthers = m_compression.data() + fluids;
-    sumCompression(pairs, m_points.data(), m_fluid.data(), first, last, m_compression.data());
-    sumCompression(pairs, m_multipliers.data(), m_fluid.data(), first, last, byOthers);
+    float *const byVolumes = m_compression.data(), *const byMultipliers = byVolumes + fluids;
+    sumCompression(near, m_points.data(), m_multipliers.data(), m_slopes.data(), m_fluid.data(), first, last, byVolumes,
+                   byMultipliers);
     for (size_t k = first; k < last; ++k) {
       const uint32_t i = m_fluid[k];
-      double own = m_compression[k];
-      for (const WallPlane& p : m_planes) {
-        const float distance = std::max(nearest, p.heightOf(m_points[i]));
-        if (distance >= support) continue;
-        const HalfSpaceTable::Value value = m_halfSpace.at(distance);
-        own += double{value.share} - double{distance} * value.slope / 3;
-      }
-      const double volume = store.position()[i].w;
-      const double work = 0.5 * (own * double{m_multipliers[i].w} + double{m_volume[i]} * byOthers[k]);
+      const double own = byVolumes[k] + m_walls.compressionOf(i, m_points[i]), volume = store.position()[i].w;
+      const double work = 0.5 * (own * double{m_multiplierSum[i]} + double{m_volume[i]} * byMultipliers[k]);
       if (volume > 0) store.pressure()[i] = static_cast<float>(-perSubstep * work / volume);
     }
   });
@@ -368,9 +401,10 @@ void DensityStage::writePressure(ParticleStore& store, const PairLists& pairs) {
 
 DensityError DensityStage::measure(ParticleStore& store, const Neighbours& neighbours, const Bounds& bounds) {
   float *error = store.densityError(), *lambda = store.lambda();
-  std::fill(error, error + store.size(), 0.0f);
-  std::fill(lambda, lambda + store.size(), 0.0f);
-  std::fill(store.pressure(), store.pressure() + store.size(), 0.0f);
+  float* pressure = store.pressure();
+  forChunks(store.size(), grain::kNumbers, [&](size_t first, size_t last) {
+    for (size_t i = first; i < last; ++i) error[i] = lambda[i] = pressure[i] = 0;
+  });
   const size_t fluids = m_fluid.size();
   if (fluids == 0) return {};
   loadPoints(store);
@@ -378,20 +412,31 @@ DensityError DensityStage::measure(ParticleStore& store, const Neighbours& neigh
   m_constraints.resize(fluids);
   m_excess.resize(fluids);
   const PairLists pairs = lists(store, neighbours);
+  if (!m_nearKnown) findNear(store, pairs);  // else those of the last substep
+  const PairLists near = m_near.lists(pairs);
   forChunks(fluids, grain::kPairs, [&](size_t first, size_t last) {
-    multipliers(store, pairs, static_cast<float>(m_settings.relaxation), first, last);
+    multipliers(store, near, static_cast<float>(m_settings.relaxation), first, last);
   });
-  writePressure(store, pairs);
+  writePressure(store, near);
+  m_errors.assign(chunkCount(fluids, grain::kNumbers), {});
+  forChunks(fluids, grain::kNumbers, [&](size_t first, size_t last) {
+    DensityError& part = m_errors[first / grain::kNumbers];
+    for (size_t k = first; k < last; ++k) {
+      const uint32_t i = m_fluid[k];
+      error[i] = m_excess[k];
+      lambda[i] = m_constraints[k].lambda;
+      if (store.motion()[i] != api::Motion::Liquid || !isInside(store.position()[i], bounds)) continue;
+      const double c = std::max(0.0f, m_excess[k]);
+      part.mean += c;
+      part.max = std::max(part.max, c);
+      ++part.liquids;
+    }
+  });
   DensityError result;
-  for (size_t k = 0; k < fluids; ++k) {
-    const uint32_t i = m_fluid[k];
-    error[i] = m_excess[k];
-    lambda[i] = m_constraints[k].lambda;
-    if (store.motion()[i] != api::Motion::Liquid || !isInside(store.position()[i], bounds)) continue;
-    const double c = std::max(0.0f, m_excess[k]);
-    result.mean += c;
-    result.max = std::max(result.max, c);
-    ++result.liquids;
+  for (const DensityError& part : m_errors) {
+    result.mean += part.mean;
+    result.max = std::max(result.max, part.max);
+    result.liquids += part.liquids;
   }
   if (result.liquids > 0) result.mean /= static_cast<double>(result.liquids);
   return result;
@@ -403,11 +448,11 @@ void DensityStage::handOver(ParticleStore& store, const Neighbours& neighbours, 
   const PairLists pairs = lists(store, neighbours);
   m_sums.resize(std::max(m_sums.size(), melted.size()));
   forChunks(melted.size(), grain::kPairs, [&](size_t first, size_t last) {
-    sumDensity(pairs, m_points.data(), m_weight.data(), melted.data(), first, last, m_sums.data());
+    sumDensity(pairs, m_points.data(), m_weights, melted.data(), first, last, m_sums.data());
     for (size_t k = first; k < last; ++k) {
       const uint32_t i = melted[k];
-      Constraint unused{};
-      store.compression()[i] = std::max(0.0f, m_volume[i] + m_sums[k].excess - 1 + addWalls(m_points[i], unused));
+      const float walls = m_walls.of(i, m_points[i]).excess;
+      store.compression()[i] = std::max(0.0f, m_volume[i] + m_sums[k].excess - 1 + walls);
     }
   });
 }
@@ -415,7 +460,12 @@ void DensityStage::handOver(ParticleStore& store, const Neighbours& neighbours, 
 void DensityStage::decayCompression(ParticleStore& store, double dt) const {
   const float factor = static_cast<float>(1 / (1 + dt / kHandOverTime));
   float* offset = store.compression();
-  for (const uint32_t i : m_fluid) offset[i] = offset[i] < 1e-5f ? 0 : offset[i] * factor;
+  forChunks(m_fluid.size(), grain::kNumbers, [&](size_t first, size_t last) {
+    for (size_t k = first; k < last; ++k) {
+      const uint32_t i = m_fluid[k];
+      offset[i] = offset[i] < 1e-5f ? 0 : offset[i] * factor;
+    }
+  });
 }
 
 }  // namespace ps

@@ -3,29 +3,12 @@
 #include "core/particles/impulse.h"
 #include "core/particles/neighbours.h"
 #include "core/particles/reactions.h"
-#include "core/solver/contact/wallplane.h"
+#include "core/solver/fluid/halfspaces.h"
+#include "core/solver/fluid/nearlists.h"
 #include "core/solver/fluid/pairkernels.h"
 #include "core/solver/fluid/trappedfilm.h"
 
 namespace ps {
-
-/// Share of the kernel that lies beyond a plane at a distance d, and its slope: how a wall counts in a density sum
-/// without particles of its own.
-class HalfSpaceTable {
- public:
-  HalfSpaceTable() = default;
-  explicit HalfSpaceTable(const Kernel& kernel);
-  struct Value {
-    float share, slope;  ///< 1, 1/m
-  };
-  /// `distance` in m, negative ones count as 0.
-  Value at(float distance) const;
-
- private:
-  static constexpr int kIntervals = 256;
-  std::vector<Value> m_values;
-  float m_perMetre = 0;
-};
 
 struct DensityError {
   double mean = 0, max = 0;  ///< of max(C, 0) over liquid particles, as a fraction
@@ -75,6 +58,12 @@ class DensityStage {
   /// Solid particles that have a fluid neighbour, ascending.
   std::span<const uint32_t> wetSolids() const { return m_wet; }
   PairLists lists(const ParticleStore& store, const Neighbours& neighbours) const;
+  /// Of fluids and wet solids, without what is out of reach where that is known: from project() on until there are new
+  /// lists.
+  PairLists nearLists(const ParticleStore& store, const Neighbours& neighbours) const {
+    const PairLists all = lists(store, neighbours);
+    return m_nearKnown ? m_near.lists(all) : all;
+  }
   /// Volumes as the density sum counts them, times kernelScale(); by particle, with the dummy's 0 at the end.
   std::span<const float> volumes() const { return m_volume; }
   double kernelScale() const { return m_scale; }  ///< 1/m3: W = scale * w(q)
@@ -84,26 +73,26 @@ class DensityStage {
     float x, y, z, lambda;  ///< gradient in 1/m, multiplier
   };
   void solidVolumes(const ParticleStore& store, const PairLists& lists, api::Motion motion, float least, float most);
+  void weigh(const ParticleStore& store);
   void loadPoints(const ParticleStore& store);
-  float addWalls(const api::Float4& at, Constraint& gradient) const;
-  void multipliers(const ParticleStore& store, const PairLists& lists, float relaxation, size_t first, size_t last);
+  void multipliers(const ParticleStore& store, const PairLists& near, float relaxation, size_t first, size_t last);
+  void findNear(const ParticleStore& store, const PairLists& lists);
+  void sumMoves(const PairLists& near, size_t first, size_t last);
   Vector3 inFilm(const ParticleStore& store, const PairLists& lists, uint32_t i, float lambda) const;
-  void move(ParticleStore& store, const PairLists& lists, float chebyshev, size_t first, size_t last);
-  void carryMultipliers();
-  void writePressure(ParticleStore& store, const PairLists& pairs);
+  void move(ParticleStore& store, const PairLists& lists, size_t first, size_t last);
+  void writePressure(ParticleStore& store, const PairLists& near);
   void tellWalls(const ParticleStore& store);
   void tellFixed(const ParticleStore& store, const PairLists& lists);
 
   SolverSettings m_settings;
-  std::vector<WallPlane> m_planes;
+  HalfSpaces m_walls;
   TrappedFilm m_film;
-  HalfSpaceTable m_halfSpace;
-  KernelShape m_halfSpaceKernel = KernelShape::CubicSpline;
   double m_scale = 0, m_support = 0;
   float m_chebyshev = 1;
   std::vector<uint32_t> m_fluid, m_wet, m_some;
   std::vector<uint8_t> m_touched, m_isFluid;
   std::vector<float> m_volume, m_weight, m_excess;
+  DensityWeights m_weights;
   std::vector<api::Float4> m_points, m_multipliers;
   ChunkSum m_moved;
   ExternalImpulse m_externalImpulse;
@@ -115,6 +104,10 @@ class DensityStage {
   std::vector<float> m_compression;                         ///< of fluids
   std::vector<uint32_t> m_watched;                          ///< fixed particles with fluid near, of watched bodies
   std::vector<api::Float4> m_watchedMoves;
+  std::vector<DensityError> m_errors;  ///< by chunk
+  NearLists m_near;                    ///< of fluids and wet solids, from the first iteration of a substep on
+  bool m_nearKnown = false;            ///< since the last lists
+  std::vector<float> m_slopes;         ///< w'(q)/q of an iteration, by slot of the near lists
   Reactions* m_reactions = &Reactions::none();
 };
 

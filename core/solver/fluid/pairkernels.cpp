@@ -4,6 +4,8 @@
 // Padding entries point at a dummy far away and add exactly zero.
 #include "core/solver/fluid/pairkernels.h"
 
+#include <type_traits>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/solver/fluid/pairkernels.cpp"
 #include "hwy/foreach_target.h"  // before highway.h
@@ -105,50 +107,48 @@ HWY_INLINE float sumOne(const Lanes& lanes) {
   return hn::GetLane(hn::Add(v, hn::Shuffle2301(v)));
 }
 
-/// 1/sqrt(x) for normal x > 0 within 7e-7, from integer and plain float operations (Moroz et al. 2018, "Fast
-/// calculation of inverse square root with the use of magic constant", two steps). A machine's own approximation would
-/// differ from the next machine's, and exact roots and divisions cost most of the loop.
-HWY_INLINE V reciprocalRoot(V x) {
-  const D d;
-  const hn::RebindToSigned<D> di;
-  const auto guess = hn::Sub(hn::Set(di, 0x5F1FFFF9), hn::ShiftRight<1>(hn::BitCast(di, x)));
-  V y = hn::BitCast(d, guess);
-  y = hn::Mul(hn::Mul(hn::Set(d, 0.703952253f), y), hn::Sub(hn::Set(d, 2.38924456f), hn::Mul(x, hn::Mul(y, y))));
-  return hn::Mul(y, hn::Sub(hn::Set(d, 1.5f), hn::Mul(hn::Mul(hn::Set(d, 0.5f), x), hn::Mul(y, y))));
-}
+// Kernels: roots and quotients are those of IEEE 754, the same everywhere; the unit that makes them works beside the
+// others. Slopes come without a factor, which sums get once.
 
-/// Monaghan's cubic spline without branches: w = 2 a^3 - 8 b^3, a = (1 - q)+, b = (1/2 - q)+.
+/// Monaghan's cubic spline without branches: w = 2 a^3 - c^3, w' = 6 (c^2 - a^2), a = (1 - q)+, c = (1 - 2 q)+.
 struct Spline {
-  V a2, a3, b2, b3, inverseQ;
+  static constexpr float kSlope = 6;
+  V q, a, c, a2, c2;
   HWY_INLINE explicit Spline(V q2) {
     const D d;
-    inverseQ = reciprocalRoot(q2);
-    const V q = hn::Mul(q2, inverseQ);
-    const V a = hn::Max(hn::Zero(d), hn::Sub(hn::Set(d, 1.0f), q)),
-            b = hn::Max(hn::Zero(d), hn::Sub(hn::Set(d, 0.5f), q));
-    a2 = hn::Mul(a, a), b2 = hn::Mul(b, b);
-    a3 = hn::Mul(a2, a), b3 = hn::Mul(b2, b);
+    const V one = hn::Set(d, 1.0f);
+    q = hn::Sqrt(q2);
+    a = hn::Max(hn::Zero(d), hn::Sub(one, q)), c = hn::Max(hn::Zero(d), hn::Sub(one, hn::Add(q, q)));
+    a2 = hn::Mul(a, a), c2 = hn::Mul(c, c);
   }
-  HWY_INLINE V value() const { return hn::Sub(hn::Add(a3, a3), hn::Mul(hn::Set(D(), 8.0f), b3)); }
-  HWY_INLINE V slope() const { return hn::Sub(hn::Mul(hn::Set(D(), 24.0f), b2), hn::Mul(hn::Set(D(), 6.0f), a2)); }
-  HWY_INLINE V slopeOverQ() const { return hn::Mul(slope(), inverseQ); }
+  HWY_INLINE V value() const {
+    const V a3 = hn::Mul(a2, a);
+    return hn::Sub(hn::Add(a3, a3), hn::Mul(c2, c));
+  }
+  HWY_INLINE V slope() const { return hn::Sub(c2, a2); }
+  HWY_INLINE V slopeOverQ() const { return hn::Div(slope(), q); }
 };
 
-/// Wendland C2: w = a^4 (1 + 4 q).
+/// Wendland C2: w = a^4 (1 + 4 q), w' = -20 a^3 q.
 struct Wendland {
+  static constexpr float kSlope = -20;
   V a3, a, q;
   HWY_INLINE explicit Wendland(V q2) {
     const D d;
-    q = hn::Mul(q2, reciprocalRoot(q2));
+    q = hn::Sqrt(q2);
     a = hn::Max(hn::Zero(d), hn::Sub(hn::Set(d, 1.0f), q));
     a3 = hn::Mul(hn::Mul(a, a), a);
   }
   HWY_INLINE V value() const {
     return hn::Mul(hn::Mul(a3, a), hn::Add(hn::Set(D(), 1.0f), hn::Mul(hn::Set(D(), 4.0f), q)));
   }
-  HWY_INLINE V slopeOverQ() const { return hn::Mul(hn::Set(D(), -20.0f), a3); }
-  HWY_INLINE V slope() const { return hn::Mul(slopeOverQ(), q); }
+  HWY_INLINE V slopeOverQ() const { return a3; }
+  HWY_INLINE V slope() const { return hn::Mul(a3, q); }
 };
+
+HWY_INLINE float slopeFactor(KernelShape shape) {
+  return shape == KernelShape::CubicSpline ? Spline::kSlope : Wendland::kSlope;
+}
 
 /// How offsets are measured: as they are, or to the nearest image. Chosen once per call, so that open space does not
 /// pay.
@@ -201,9 +201,47 @@ HWY_INLINE void forNeighbours(const PairLists& lists, size_t i, Body&& body) {
   }
 }
 
-template <class Space, class Shape>
-HWY_INLINE void densityLoop(const PairLists& lists, const api::Float4* points, const float* weight,
-                            const uint32_t* which, size_t first, size_t last, DensitySums* out) {
+/// Squared slopes of neighbours, weighted: each by its own u_j.
+struct WeightOfEach {
+  const float* each;
+  HWY_INLINE explicit WeightOfEach(const DensityWeights& weights) : each(weights.each) {}
+  HWY_INLINE V share(V, V slope, const uint32_t* id) const {
+    return hn::Mul(loadByIndex(each, id), hn::Mul(slope, slope));
+  }
+  HWY_INLINE float whole(float sum) const { return sum; }
+};
+
+/// By the kind that a volume says.
+struct WeightByKind {
+  V inverseMass;  // the table in each block
+  HWY_INLINE explicit WeightByKind(const DensityWeights& weights)
+      : inverseMass(hn::LoadDup128(D(), weights.inverseMass)) {}
+  HWY_INLINE V share(V volume, V slope, const uint32_t*) const {
+    const hn::RebindToSigned<D> di;
+    const auto kind = hn::And(hn::BitCast(di, volume), hn::Set(di, int32_t{DensityWeights::kKinds - 1}));
+    const V mass = hn::TableLookupLanes(inverseMass, hn::IndicesFromVec(D(), kind)), part = hn::Mul(volume, slope);
+    return hn::Mul(mass, hn::Mul(part, part));
+  }
+  HWY_INLINE float whole(float sum) const { return sum; }
+};
+
+/// Where all that moves has one mass: the kind says whether a neighbour moves.
+struct WeightOfOne {
+  float inverseMass;
+  HWY_INLINE explicit WeightOfOne(const DensityWeights& weights) : inverseMass(weights.inverseMass[1]) {}
+  HWY_INLINE V share(V volume, V slope, const uint32_t*) const {
+    const hn::RebindToSigned<D> di;
+    const auto moves = hn::RebindMask(D(), hn::TestBit(hn::BitCast(di, volume), hn::Set(di, 1)));
+    const V part = hn::Mul(volume, slope);
+    return hn::IfThenElseZero(moves, hn::Mul(part, part));
+  }
+  HWY_INLINE float whole(float sum) const { return inverseMass * sum; }
+};
+
+template <class Space, class Shape, class Weight, bool kKeepSlopes>
+HWY_INLINE void densityLoop(const PairLists& lists, const api::Float4* points, const DensityWeights& weights,
+                            const uint32_t* which, size_t first, size_t last, DensitySums* out, float* slopes) {
+  const Weight weight(weights);
   const D d;
   const Space space(lists);
   const V inverseR2 = hn::Set(d, lists.inverseSupportSquared);
@@ -216,20 +254,24 @@ HWY_INLINE void densityLoop(const PairLists& lists, const api::Float4* points, c
       const Offsets r = offsetsTo(space, px, py, pz, other, inverseR2);
       const Shape w(r.q2);
       s.add(p, hn::Mul(other.w, w.value()));
-      const V f = hn::Mul(other.w, w.slopeOverQ());
+      const V slopeOverQ = w.slopeOverQ(), f = hn::Mul(other.w, slopeOverQ);
+      if constexpr (kKeepSlopes) hn::StoreU(slopeOverQ, d, slopes + (id - lists.index));
       gx.add(p, hn::Mul(f, r.x)), gy.add(p, hn::Mul(f, r.y)), gz.add(p, hn::Mul(f, r.z));
       const V slope = w.slope();
-      g2.add(p, hn::Mul(loadByIndex(weight, id), hn::Mul(slope, slope)));
+      g2.add(p, weight.share(other.w, slope, id));
     });
+    constexpr float kSlope = Shape::kSlope;
     alignas(16) float sums[4];
     hn::Store(sumFour(s, gx, gy, gz), DBlock(), sums);
-    out[k] = {sums[0], sums[1], sums[2], sums[3], sumOne(g2)};
+    out[k] = {sums[0], kSlope * sums[1], kSlope * sums[2], kSlope * sums[3],
+              kSlope * kSlope * weight.whole(sumOne(g2))};
   }
 }
 
-template <class Space, class Shape>
+/// `slopes`: of each slot; nullptr: to be found out.
+template <class Space, class Shape, bool kKnowsSlopes>
 HWY_INLINE void multiplierLoop(const PairLists& lists, const api::Float4* points, const uint32_t* which, size_t first,
-                               size_t last, api::Float4* out) {
+                               size_t last, api::Float4* out, const float* slopes) {
   const D d;
   const Space space(lists);
   const V inverseR2 = hn::Set(d, lists.inverseSupportSquared);
@@ -240,69 +282,98 @@ HWY_INLINE void multiplierLoop(const PairLists& lists, const api::Float4* points
     forNeighbours(lists, i, [&](size_t p, const uint32_t* id) HWY_ATTR {
       const Vectors4 other = loadTransposed(points, id);
       const Offsets r = offsetsTo(space, px, py, pz, other, inverseR2);
-      const V f = hn::Mul(other.w, Shape(r.q2).slopeOverQ());
+      V slope;
+      if constexpr (kKnowsSlopes)
+        slope = hn::LoadU(d, slopes + (id - lists.index));
+      else
+        slope = Shape(r.q2).slopeOverQ();
+      const V f = hn::Mul(other.w, slope);
       gx.add(p, hn::Mul(f, r.x)), gy.add(p, hn::Mul(f, r.y)), gz.add(p, hn::Mul(f, r.z));
     });
-    hn::Store(sumFour(gx, gy, gz, Lanes()), DBlock(), &out[k].x);
+    hn::Store(hn::Mul(hn::Set(DBlock(), Shape::kSlope), sumFour(gx, gy, gz, Lanes())), DBlock(), &out[k].x);
   }
 }
 
-template <class Space, class Shape>
-HWY_INLINE void compressionLoop(const PairLists& lists, const api::Float4* points, const uint32_t* which, size_t first,
-                                size_t last, float* out) {
+template <class Space>
+HWY_INLINE void compressionLoop(const PairLists& lists, const api::Float4* points, const api::Float4* multipliers,
+                                const float* slopes, const uint32_t* which, size_t first, size_t last, float* byVolumes,
+                                float* byMultipliers) {
   const D d;
   const Space space(lists);
   const V inverseR2 = hn::Set(d, lists.inverseSupportSquared);
+  const float factor = -slopeFactor(lists.kernel) / 3;
   for (size_t k = first; k < last; ++k) {
     const size_t i = which[k];
     const V px = hn::Set(d, points[i].x), py = hn::Set(d, points[i].y), pz = hn::Set(d, points[i].z);
-    Lanes sum;
+    Lanes volumes, others;
     forNeighbours(lists, i, [&](size_t p, const uint32_t* id) HWY_ATTR {
       const Vectors4 other = loadTransposed(points, id);
-      const Offsets r = offsetsTo(space, px, py, pz, other, inverseR2);
-      sum.add(p, hn::Mul(other.w, hn::Mul(r.q2, Shape(r.q2).slopeOverQ())));
+      const V q2 = offsetsTo(space, px, py, pz, other, inverseR2).q2;
+      const V approach = hn::Mul(q2, hn::LoadU(d, slopes + (id - lists.index)));
+      volumes.add(p, hn::Mul(other.w, approach));
+      others.add(p, hn::Mul(loadTransposed(multipliers, id).w, approach));
     });
-    out[k] = -sumOne(sum) / 3;
+    byVolumes[k] = factor * sumOne(volumes);
+    byMultipliers[k] = factor * sumOne(others);
   }
 }
 
-template <class Space, class Shape>
+/// c_ij by the coefficients of both.
+struct CoefficientOfEach {
+  const float* each;
+  V own;
+  HWY_INLINE void start(size_t i) { own = hn::Set(D(), each[i]); }
+  HWY_INLINE V of(V part, const uint32_t* id) const {
+    const V zero = hn::Zero(D()), theirs = loadByIndex(each, id);
+    const auto bothFluid = hn::And(hn::Ge(own, zero), hn::Ge(theirs, zero));
+    const V mean = hn::Mul(hn::Set(D(), 0.5f), hn::Add(own, theirs));
+    return hn::Mul(part, hn::IfThenElse(bothFluid, mean, hn::Max(zero, hn::Max(own, theirs))));
+  }
+  HWY_INLINE float factor() const { return 1; }
+};
+
+struct CommonCoefficient {
+  float c;
+  HWY_INLINE void start(size_t) {}
+  HWY_INLINE V of(V part, const uint32_t*) const { return part; }
+  HWY_INLINE float factor() const { return c; }
+};
+
+template <class Space, class Shape, class Coefficient>
 HWY_INLINE void viscosityLoop(const PairLists& lists, const api::Float4* position, const api::Float4* velocity,
-                              const float* coefficient, const uint32_t* which, size_t first, size_t last,
+                              Coefficient coefficient, const uint32_t* which, size_t first, size_t last,
                               api::Float4* out) {
   const D d;
   const Space space(lists);
-  const V inverseR2 = hn::Set(d, lists.inverseSupportSquared), zero = hn::Zero(d), half = hn::Set(d, 0.5f);
+  const V inverseR2 = hn::Set(d, lists.inverseSupportSquared);
+  const VBlock factor = hn::Set(DBlock(), 0.5f * coefficient.factor());  // of the mean volume, too
   for (size_t k = first; k < last; ++k) {
     const size_t i = which[k];
     const api::Float4 p0 = position[i], v0 = velocity[i];
     const V px = hn::Set(d, p0.x), py = hn::Set(d, p0.y), pz = hn::Set(d, p0.z), volume = hn::Set(d, p0.w);
-    const V vx = hn::Set(d, v0.x), vy = hn::Set(d, v0.y), vz = hn::Set(d, v0.z), inverseMass = hn::Set(d, v0.w);
-    const V own = hn::Set(d, coefficient[i]);
-    const auto ownFluid = hn::Ge(own, zero);
+    const V vx = hn::Set(d, v0.x), vy = hn::Set(d, v0.y), vz = hn::Set(d, v0.z);
+    const V inverseMass = hn::Set(d, v0.w), twice = hn::Set(d, 2 * v0.w);
+    coefficient.start(i);
     Lanes sx, sy, sz;
     forNeighbours(lists, i, [&](size_t p, const uint32_t* id) HWY_ATTR {
       const Vectors4 at = loadTransposed(position, id), moving = loadTransposed(velocity, id);
-      const V theirs = loadByIndex(coefficient, id);
-      const auto bothFluid = hn::And(ownFluid, hn::Ge(theirs, zero));
-      const V c = hn::IfThenElse(bothFluid, hn::Mul(half, hn::Add(own, theirs)), hn::Max(zero, hn::Max(own, theirs)));
       const Shape w(offsetsTo(space, px, py, pz, at, inverseR2).q2);
-      const V mass = hn::Div(inverseMass, hn::Mul(half, hn::Add(inverseMass, moving.w)));
-      const V f = hn::Mul(hn::Mul(c, hn::Mul(half, hn::Add(volume, at.w))), hn::Mul(mass, w.value()));
+      const V mass = hn::Div(twice, hn::Add(inverseMass, moving.w));
+      const V f = coefficient.of(hn::Mul(hn::Add(volume, at.w), hn::Mul(mass, w.value())), id);
       sx.add(p, hn::Mul(f, hn::Sub(moving.x, vx)));
       sy.add(p, hn::Mul(f, hn::Sub(moving.y, vy)));
       sz.add(p, hn::Mul(f, hn::Sub(moving.z, vz)));
     });
-    hn::Store(sumFour(sx, sy, sz, Lanes()), DBlock(), &out[k].x);
+    hn::Store(hn::Mul(factor, sumFour(sx, sy, sz, Lanes())), DBlock(), &out[k].x);
   }
 }
 
 /// (1 - q)2 (1 + 1/q).
 HWY_INLINE V stressWeight(V q2) {
   const D d;
-  const V one = hn::Set(d, 1.0f), inverseQ = reciprocalRoot(q2);
-  const V a = hn::Max(hn::Zero(d), hn::Sub(one, hn::Mul(q2, inverseQ)));
-  return hn::Mul(hn::Mul(a, a), hn::Add(one, inverseQ));
+  const V one = hn::Set(d, 1.0f), q = hn::Sqrt(q2);
+  const V a = hn::Max(hn::Zero(d), hn::Sub(one, q));
+  return hn::Mul(hn::Mul(a, a), hn::Add(one, hn::Div(one, q)));
 }
 
 template <class Space>
@@ -411,35 +482,109 @@ HWY_INLINE void bySpaceAndKernel(const PairLists& lists, Body&& body) {
   });
 }
 
-void SumDensity(const PairLists& lists, const api::Float4* points, const float* weight, const uint32_t* which,
-                size_t first, size_t last, DensitySums* out) {
+/// body(Choice<std::bool_constant>): as bySpace().
+template <class Body>
+HWY_INLINE void byFlag(bool flag, Body&& body) {
+  if (flag)
+    body(Choice<std::true_type>());
+  else
+    body(Choice<std::false_type>());
+}
+
+void SumDensity(const PairLists& lists, const api::Float4* points, const DensityWeights& weights, const uint32_t* which,
+                size_t first, size_t last, DensitySums* out, float* slopes) {
   bySpaceAndKernel(lists, [&](auto space, auto shape) HWY_ATTR {
-    densityLoop<typename decltype(space)::Type, typename decltype(shape)::Type>(lists, points, weight, which, first,
-                                                                                last, out);
+    using Space = typename decltype(space)::Type;
+    using Shape = typename decltype(shape)::Type;
+    byFlag(slopes != nullptr, [&](auto keep) HWY_ATTR {
+      constexpr bool kKeep = decltype(keep)::Type::value;
+      if (weights.each != nullptr)
+        densityLoop<Space, Shape, WeightOfEach, kKeep>(lists, points, weights, which, first, last, out, slopes);
+      else if (weights.onlyKind())
+        densityLoop<Space, Shape, WeightOfOne, kKeep>(lists, points, weights, which, first, last, out, slopes);
+      else
+        densityLoop<Space, Shape, WeightByKind, kKeep>(lists, points, weights, which, first, last, out, slopes);
+    });
   });
 }
 
 void SumMultipliers(const PairLists& lists, const api::Float4* points, const uint32_t* which, size_t first, size_t last,
-                    api::Float4* out) {
+                    api::Float4* out, const float* slopes) {
   bySpaceAndKernel(lists, [&](auto space, auto shape) HWY_ATTR {
-    multiplierLoop<typename decltype(space)::Type, typename decltype(shape)::Type>(lists, points, which, first, last,
-                                                                                   out);
+    byFlag(slopes != nullptr, [&](auto known) HWY_ATTR {
+      multiplierLoop<typename decltype(space)::Type, typename decltype(shape)::Type, decltype(known)::Type::value>(
+          lists, points, which, first, last, out, slopes);
+    });
   });
 }
 
-void SumCompression(const PairLists& lists, const api::Float4* points, const uint32_t* which, size_t first, size_t last,
-                    float* out) {
-  bySpaceAndKernel(lists, [&](auto space, auto shape) HWY_ATTR {
-    compressionLoop<typename decltype(space)::Type, typename decltype(shape)::Type>(lists, points, which, first, last,
-                                                                                    out);
+/// Fills a list up to its next multiple of the virtual lanes.
+HWY_INLINE void fillUp(uint32_t* index, uint32_t last, uint32_t dummy) {
+  const hn::RebindToSigned<D> di;
+  const uint32_t used = last % kVirtualLanes;
+  if (used == 0) return;
+  auto* const at = reinterpret_cast<int32_t*>(index + (last - used));
+  const auto count = hn::Set(di, static_cast<int32_t>(used)), filling = hn::Set(di, static_cast<int32_t>(dummy));
+  for (size_t p = 0; p < kParts; ++p) {
+    const auto taken = hn::Lt(hn::Iota(di, static_cast<int32_t>(p * kLanes)), count);
+    hn::StoreU(hn::IfThenElse(taken, hn::LoadU(di, at + p * kLanes), filling), di, at + p * kLanes);
+  }
+}
+
+template <class Space>
+HWY_INLINE void nearLoop(const PairLists& lists, const api::Float4* points, const NearRule& rule, const uint32_t* which,
+                         size_t first, size_t last, uint32_t* lastOf, uint32_t* index) {
+  const D d;
+  const hn::RebindToSigned<D> di;
+  const Space space(lists);
+  const V inverseR2 = hn::Set(d, lists.inverseSupportSquared), most = hn::Set(d, rule.q2);
+  for (size_t k = first; k < last; ++k) {
+    const size_t i = which[k];
+    const V px = hn::Set(d, points[i].x), py = hn::Set(d, points[i].y), pz = hn::Set(d, points[i].z);
+    uint32_t out = lists.begin[i];
+    // What is stored never lies ahead of what has been read: whole vectors fit.
+    for (uint32_t q = lists.begin[i]; q < lists.last[i]; q += kLanes) {
+      const uint32_t* id = lists.index + q;
+      const Offsets r = offsetsTo(space, px, py, pz, loadTransposed(points, id), inverseR2);
+      const auto near = hn::RebindMask(di, hn::Lt(r.q2, most));
+      const auto ids = hn::LoadU(di, reinterpret_cast<const int32_t*>(id));
+      hn::StoreU(hn::Compress(ids, near), di, reinterpret_cast<int32_t*>(index + out));
+      out += static_cast<uint32_t>(hn::CountTrue(di, near));
+    }
+    lastOf[i] = out;
+    fillUp(index, out, rule.dummy);
+  }
+}
+
+void FindNear(const PairLists& lists, const api::Float4* points, const NearRule& rule, const uint32_t* which,
+              size_t first, size_t last, uint32_t* lastOf, uint32_t* index) {
+  bySpace(lists, [&](auto space) HWY_ATTR {
+    nearLoop<typename decltype(space)::Type>(lists, points, rule, which, first, last, lastOf, index);
+  });
+}
+
+void SumCompression(const PairLists& lists, const api::Float4* points, const api::Float4* multipliers,
+                    const float* slopes, const uint32_t* which, size_t first, size_t last, float* byVolumes,
+                    float* byMultipliers) {
+  bySpace(lists, [&](auto space) HWY_ATTR {
+    compressionLoop<typename decltype(space)::Type>(lists, points, multipliers, slopes, which, first, last, byVolumes,
+                                                    byMultipliers);
   });
 }
 
 void SumViscosity(const PairLists& lists, const api::Float4* position, const api::Float4* velocity,
                   const float* coefficient, const uint32_t* which, size_t first, size_t last, api::Float4* out) {
   bySpaceAndKernel(lists, [&](auto space, auto shape) HWY_ATTR {
-    viscosityLoop<typename decltype(space)::Type, typename decltype(shape)::Type>(lists, position, velocity,
-                                                                                  coefficient, which, first, last, out);
+    viscosityLoop<typename decltype(space)::Type, typename decltype(shape)::Type>(
+        lists, position, velocity, CoefficientOfEach{coefficient, hn::Zero(D())}, which, first, last, out);
+  });
+}
+
+void SumCommonViscosity(const PairLists& lists, const api::Float4* position, const api::Float4* velocity,
+                        float coefficient, const uint32_t* which, size_t first, size_t last, api::Float4* out) {
+  bySpaceAndKernel(lists, [&](auto space, auto shape) HWY_ATTR {
+    viscosityLoop<typename decltype(space)::Type, typename decltype(shape)::Type>(
+        lists, position, velocity, CommonCoefficient{coefficient}, which, first, last, out);
   });
 }
 
@@ -474,27 +619,39 @@ HWY_AFTER_NAMESPACE();
 namespace ps {
 HWY_EXPORT(SumDensity);
 HWY_EXPORT(SumMultipliers);
+HWY_EXPORT(FindNear);
 HWY_EXPORT(SumCompression);
 HWY_EXPORT(SumViscosity);
+HWY_EXPORT(SumCommonViscosity);
 HWY_EXPORT(StressCoefficients);
 HWY_EXPORT(SumStress);
 HWY_EXPORT(SumShear);
 
-void sumDensity(const PairLists& lists, const api::Float4* points, const float* weight, const uint32_t* which,
-                size_t first, size_t last, DensitySums* out) {
-  HWY_DYNAMIC_DISPATCH(SumDensity)(lists, points, weight, which, first, last, out);
+void sumDensity(const PairLists& lists, const api::Float4* points, const DensityWeights& weights, const uint32_t* which,
+                size_t first, size_t last, DensitySums* out, float* slopes) {
+  HWY_DYNAMIC_DISPATCH(SumDensity)(lists, points, weights, which, first, last, out, slopes);
 }
 void sumMultipliers(const PairLists& lists, const api::Float4* points, const uint32_t* which, size_t first, size_t last,
-                    api::Float4* out) {
-  HWY_DYNAMIC_DISPATCH(SumMultipliers)(lists, points, which, first, last, out);
+                    api::Float4* out, const float* slopes) {
+  HWY_DYNAMIC_DISPATCH(SumMultipliers)(lists, points, which, first, last, out, slopes);
 }
-void sumCompression(const PairLists& lists, const api::Float4* points, const uint32_t* which, size_t first, size_t last,
-                    float* out) {
-  HWY_DYNAMIC_DISPATCH(SumCompression)(lists, points, which, first, last, out);
+void findNear(const PairLists& lists, const api::Float4* points, const NearRule& rule, const uint32_t* which,
+              size_t first, size_t last, uint32_t* lastOf, uint32_t* index) {
+  HWY_DYNAMIC_DISPATCH(FindNear)(lists, points, rule, which, first, last, lastOf, index);
+}
+void sumCompression(const PairLists& lists, const api::Float4* points, const api::Float4* multipliers,
+                    const float* slopes, const uint32_t* which, size_t first, size_t last, float* byVolumes,
+                    float* byMultipliers) {
+  HWY_DYNAMIC_DISPATCH(SumCompression)
+  (lists, points, multipliers, slopes, which, first, last, byVolumes, byMultipliers);
 }
 void sumViscosity(const PairLists& lists, const api::Float4* position, const api::Float4* velocity,
                   const float* coefficient, const uint32_t* which, size_t first, size_t last, api::Float4* out) {
   HWY_DYNAMIC_DISPATCH(SumViscosity)(lists, position, velocity, coefficient, which, first, last, out);
+}
+void sumViscosity(const PairLists& lists, const api::Float4* position, const api::Float4* velocity, float coefficient,
+                  const uint32_t* which, size_t first, size_t last, api::Float4* out) {
+  HWY_DYNAMIC_DISPATCH(SumCommonViscosity)(lists, position, velocity, coefficient, which, first, last, out);
 }
 void stressCoefficients(const PairLists& lists, const StressField& field, float factor, const uint32_t* which,
                         size_t first, size_t last, float* coefficient, api::Float4* diagonal,

@@ -5,6 +5,7 @@
 #include "core/math/kernels.h"
 #include "core/particles/period.h"
 
+#include <bit>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -30,18 +31,48 @@ struct DensitySums {
   float squares;  ///< sum_j u_j w'(q)2 with the weights u_j; times 1/R2 it is the neighbours' share of the denominator
 };
 
-/// For the particles which[first .. last): sums over `points` (position and scaled volume) and `weight` (u_j).
-void sumDensity(const PairLists& lists, const api::Float4* points, const float* weight, const uint32_t* which,
-                size_t first, size_t last, DensitySums* out);
+/// The weights u_j = V_j2/m_j of a density sum, 0 for what does not move. Where few inverse masses are about, the
+/// lowest bits of a volume say which one is its particle's, so that they come with what is loaded anyway: one more load
+/// for each pair is a quarter of the loop.
+struct DensityWeights {
+  static constexpr uint32_t kKinds = 4;  ///< that volumes tell apart
+  const float* each = nullptr;           ///< u_j by particle; nullptr: by kind
+  float inverseMass[kKinds] = {};        ///< 1/kg, by kind; what does not move is of the first one
+
+  /// Whether all that moves has one mass.
+  bool onlyKind() const { return each == nullptr && inverseMass[2] == 0; }
+  /// A volume that says its kind, changed by less than 4e-7 of it.
+  static float marked(float volume, uint32_t kind) {
+    return std::bit_cast<float>((std::bit_cast<uint32_t>(volume) & ~(kKinds - 1)) | kind);
+  }
+};
+
+/// For the particles which[first .. last): sums over `points` (position and scaled volume) with weights u_j. Where
+/// `slopes` is given, w'(q)/q of each slot of their lists, but for a factor of the kernel's, is left there.
+void sumDensity(const PairLists& lists, const api::Float4* points, const DensityWeights& weights, const uint32_t* which,
+                size_t first, size_t last, DensitySums* out, float* slopes = nullptr);
 
 /// For the particles which[first .. last): out[k] = sum_j lambda_j w'(q)/q (x_i - x_j), lambda_j in points[j].w.
+/// `slopes` are those of sumDensity() at the same places, or nullptr.
 void sumMultipliers(const PairLists& lists, const api::Float4* points, const uint32_t* which, size_t first, size_t last,
-                    api::Float4* out);
+                    api::Float4* out, const float* slopes = nullptr);
 
-/// For the particles which[first .. last): out[k] = -sum_j V_j w'(q) q / 3, by how much the density sum grows where
-/// everything around comes nearer by the same share: by three times this. 1 in the continuum.
-void sumCompression(const PairLists& lists, const api::Float4* points, const uint32_t* which, size_t first, size_t last,
-                    float* out);
+/// What findNear() keeps, and the index of the dummy that fills lists up.
+struct NearRule {
+  float q2;  ///< of the farthest
+  uint32_t dummy;
+};
+/// For the particles which[first .. last): copies the near entries of their lists to index[begin ..), in their order
+/// and padded, and writes where they end to lastOf[i].
+void findNear(const PairLists& lists, const api::Float4* points, const NearRule& rule, const uint32_t* which,
+              size_t first, size_t last, uint32_t* lastOf, uint32_t* index);
+
+/// For the particles which[first .. last): byVolumes[k] = -sum_j V_j w'(q) q / 3, by how much the density sum grows
+/// where everything around comes nearer by the same share: by three times this. 1 in the continuum. The same with the
+/// multipliers in their w in place of volumes. `slopes` are those of sumDensity() at the same places.
+void sumCompression(const PairLists& lists, const api::Float4* points, const api::Float4* multipliers,
+                    const float* slopes, const uint32_t* which, size_t first, size_t last, float* byVolumes,
+                    float* byMultipliers);
 
 /// XSPH (Monaghan 1992) with harmonic masses and mean volumes: for the particles which[first .. last),
 /// out[k] = sum_j c_ij (V_i + V_j)/2 2 m_j/(m_i + m_j) w(q) (v_j - v_i), to be multiplied by the kernel's factor.
@@ -49,6 +80,9 @@ void sumCompression(const PairLists& lists, const api::Float4* points, const uin
 /// for a mixed pair, 0 between others.
 void sumViscosity(const PairLists& lists, const api::Float4* position, const api::Float4* velocity,
                   const float* coefficient, const uint32_t* which, size_t first, size_t last, api::Float4* out);
+/// The same for fluid particles where all that are fluid have one coefficient.
+void sumViscosity(const PairLists& lists, const api::Float4* position, const api::Float4* velocity, float coefficient,
+                  const uint32_t* which, size_t first, size_t last, api::Float4* out);
 
 /// What viscous stress reads of all particles, by index with the dummy at the end.
 struct StressField {

@@ -114,7 +114,15 @@ void ViscosityStage::refresh(ParticleStore& store, const Neighbours& neighbours,
   });
   m_filters = filters;
   m_yields = yields;
+  m_common = -1;
   if (!thick) {
+    const float one = fluid.empty() ? -1 : m_coefficient[fluid.front()];
+    const bool others = anyChunk(fluid.size(), grain::kNumbers, [&](size_t first, size_t last) {
+      bool other = false;
+      for (const uint32_t i : fluid.subspan(first, last - first)) other = other || m_coefficient[i] != one;
+      return other;
+    });
+    if (!others) m_common = one;
     m_implicit.deactivate();
     return;
   }
@@ -169,20 +177,24 @@ void ViscosityStage::filter(ParticleStore& store, const Neighbours& neighbours, 
   m_which.assign(fluid.begin(), fluid.end());
   m_which.insert(m_which.end(), wet.begin(), wet.end());
   m_change.resize(m_which.size());
-  const PairLists pairs = density.lists(store, neighbours);
+  const PairLists near = density.nearLists(store, neighbours);
   const float scale = static_cast<float>(density.kernelScale());
   forChunks(m_which.size(), grain::kPairs, [&](size_t first, size_t last) {
-    sumViscosity(pairs, store.position(), store.velocity(), m_coefficient.data(), m_which.data(), first, last,
+    const size_t fluids = m_common >= 0 ? std::clamp(fluid.size(), first, last) : first;
+    sumViscosity(near, store.position(), store.velocity(), m_common, m_which.data(), first, fluids, m_change.data());
+    sumViscosity(near, store.position(), store.velocity(), m_coefficient.data(), m_which.data(), fluids, last,
                  m_change.data());
   });
-  tellFixed(store, pairs, density.watchedFixed());
+  tellFixed(store, density.lists(store, neighbours), density.watchedFixed());
   api::Float4* velocity = store.velocity();
-  for (size_t k = 0; k < m_which.size(); ++k) {
-    api::Float4& v = velocity[m_which[k]];
-    v.x += scale * m_change[k].x;
-    v.y += scale * m_change[k].y;
-    v.z += scale * m_change[k].z;
-  }
+  forChunks(m_which.size(), grain::kNumbers, [&](size_t first, size_t last) {
+    for (size_t k = first; k < last; ++k) {
+      api::Float4& v = velocity[m_which[k]];
+      v.x += scale * m_change[k].x;
+      v.y += scale * m_change[k].y;
+      v.z += scale * m_change[k].z;
+    }
+  });
 }
 
 /// What fixed particles get of the filter, pair by pair as sumViscosity() has it, before it changes velocities.
@@ -211,10 +223,15 @@ void ViscosityStage::tellFixed(const ParticleStore& store, const PairLists& pair
 }
 
 /// Of all that viscosity moves, kg m/s.
-Vector3 ViscosityStage::momentumOf(const ParticleStore& store, const DensityStage& density) const {
+Vector3 ViscosityStage::momentumOf(const ParticleStore& store, const DensityStage& density) {
   Vector3 sum;
   for (const std::span<const uint32_t> list : {density.fluid(), density.wetSolids()}) {
-    for (const uint32_t i : list) sum += double{store.mass()[i]} * vectorOf(store.velocity()[i]);
+    sum += sumOfChunks(m_partial, list.size(), grain::kNumbers, [&](size_t first, size_t last) {
+      Vector3 part;
+      for (const uint32_t i : list.subspan(first, last - first))
+        part += double{store.mass()[i]} * vectorOf(store.velocity()[i]);
+      return part;
+    });
   }
   return sum;
 }

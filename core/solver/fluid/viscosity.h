@@ -59,7 +59,7 @@ class ViscosityStage {
   bool isLiquid(const ParticleStore& store, size_t i) const {
     return store.motion()[i] == api::Motion::Liquid && store.material()[i] < m_materials.size() && store.mass()[i] > 0;
   }
-  Vector3 momentumOf(const ParticleStore& store, const DensityStage& density) const;
+  Vector3 momentumOf(const ParticleStore& store, const DensityStage& density);
   void addYieldStress(const ParticleStore& store);
 
   SolverSettings m_settings;
@@ -70,12 +70,14 @@ class ViscosityStage {
   std::vector<uint8_t> m_mushy;  ///< by material: melts over a range
   bool m_yields = false, m_filters = false;
   std::vector<float> m_coefficient;                          ///< XSPH's
+  float m_common = -1;                                       ///< that of all fluid particles; -1: there is none
   std::vector<float> m_plastic, m_yieldStress, m_shearRate;  ///< Pa s, Pa, 1/s
   std::vector<float> m_viscosity, m_viscous;                 ///< what the implicit stage is asked, and for whom
   ExternalImpulse m_externalImpulse;
   Reactions* m_reactions = &Reactions::none();
   std::vector<uint32_t> m_which;
   std::vector<api::Float4> m_change;
+  ChunkSum m_partial;
 };
 
 }  // namespace ps

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "core/solver/contact/wallplane.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+
+// Most particles are far from every wall: which ones a particle may meet is found with the neighbour lists, for whole
+// runs of particles by the box around them.
+namespace ps {
+
+/// Some of a scene's walls.
+class WallSet {
+ public:
+  void clear() { m_bits = 0; }
+  void add(size_t wall) { m_bits |= 1u << std::min(wall, kLast); }
+  void add(const WallSet& others) { m_bits |= others.m_bits; }
+  bool any() const { return m_bits != 0; }
+  /// visit(wall), ascending, for those of `walls` walls; beyond the 31st one stands for all.
+  template <class Visit>
+  void forEach(size_t walls, Visit&& visit) const {
+    for (uint32_t left = m_bits; left != 0; left &= left - 1) {
+      const auto first = static_cast<size_t>(std::countr_zero(left));
+      for (size_t wall = first, end = first < kLast ? first + 1 : walls; wall < end; ++wall) visit(wall);
+    }
+  }
+
+ private:
+  static constexpr size_t kLast = 31;
+  uint32_t m_bits = 0;
+};
+
+/// A box along the axes.
+struct PlaceBox {
+  float low[3], high[3];  ///< m
+
+  /// Around places; one that is no number has no part in it.
+  static PlaceBox around(std::span<const api::Float4> places) {
+    constexpr float kFar = 3e38f;
+    PlaceBox box{{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
+    for (const api::Float4& p : places) {
+      box.low[0] = std::min(box.low[0], p.x), box.high[0] = std::max(box.high[0], p.x);
+      box.low[1] = std::min(box.low[1], p.y), box.high[1] = std::max(box.high[1], p.y);
+      box.low[2] = std::min(box.low[2], p.z), box.high[2] = std::max(box.high[2], p.z);
+    }
+    return box;
+  }
+  /// m, of the corner that is lowest over a wall.
+  float leastHeight(const WallPlane& p) const {
+    return p.heightOf({p.x > 0 ? low[0] : high[0], p.y > 0 ? low[1] : high[1], p.z > 0 ? low[2] : high[2], 0});
+  }
+};
+
+/// The walls over which some of these places may be no higher than `height`, m; to rounding.
+inline WallSet wallsBelow(std::span<const WallPlane> walls, float height, std::span<const api::Float4> places) {
+  const PlaceBox box = PlaceBox::around(places);
+  WallSet below;
+  for (size_t w = 0; w < walls.size(); ++w) {
+    if (!(box.leastHeight(walls[w]) > height)) below.add(w);
+  }
+  return below;
+}
+
+/// For each of these places the walls over which it is no higher than `reach`, m.
+inline void findNearWalls(std::span<const WallPlane> walls, float reach, std::span<const api::Float4> places,
+                          std::span<WallSet> near) {
+  std::fill(near.begin(), near.end(), WallSet());
+  wallsBelow(walls, reach, places).forEach(walls.size(), [&](size_t w) {
+    for (size_t k = 0; k < places.size(); ++k) {
+      if (!(walls[w].heightOf(places[k]) > reach)) near[k].add(w);
+    }
+  });
+}
+
+}  // namespace ps

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "core/math/kernels.h"
+#include "core/solver/contact/nearwalls.h"
+
+#include <vector>
+
+namespace ps {
+
+/// Share of the kernel that lies beyond a plane at a distance d, and its slope: how a wall counts in a density sum
+/// without particles of its own.
+class HalfSpaceTable {
+ public:
+  HalfSpaceTable() = default;
+  explicit HalfSpaceTable(const Kernel& kernel);
+  struct Value {
+    float share, slope;  ///< 1, 1/m
+  };
+  /// `distance` in m, negative ones count as 0.
+  Value at(float distance) const {
+    const float s = std::max(0.0f, distance) * m_perMetre;
+    if (!(s < kIntervals)) return {0, 0};
+    const size_t k = static_cast<size_t>(s);
+    const float f = s - static_cast<float>(k);
+    const Value &a = m_values[k], &b = m_values[k + 1];
+    return {a.share + f * (b.share - a.share), a.slope + f * (b.slope - a.slope)};
+  }
+
+ private:
+  static constexpr int kIntervals = 256;
+  std::vector<Value> m_values;
+  float m_perMetre = 0;
+};
+
+/// What walls add to density sums. Few particles are near one: which walls each may feel is found with the lists.
+class HalfSpaces {
+ public:
+  void configure(const SolverSettings& settings, const std::vector<Wall>& walls);
+  /// After new lists, with the places that they were made for. Iterations move a particle by less than a spacing.
+  void refresh(std::span<const api::Float4> built);
+  const std::vector<WallPlane>& planes() const { return m_planes; }
+
+  struct Sum {
+    float excess = 0, x = 0, y = 0, z = 0;  ///< share of the kernel, and its gradient in 1/m
+  };
+  /// Of particle i at a place.
+  Sum of(uint32_t i, const api::Float4& at) const {
+    Sum sum;
+    forNear(i, at, [&](size_t wall, float distance) {
+      const WallPlane& p = m_planes[wall];
+      const HalfSpaceTable::Value value = m_table.at(distance);
+      sum.excess += value.share;
+      sum.x += p.x * value.slope;
+      sum.y += p.y * value.slope;
+      sum.z += p.z * value.slope;
+    });
+    return sum;
+  }
+  /// Of these particles, at their places among `points`: wall by wall, since what lies side by side feels the same one.
+  void sumsOf(std::span<const uint32_t> which, const api::Float4* points, Sum* sums) const;
+  /// By how much its density sum grows where everything around comes nearer by a third of the same share (see
+  /// sumCompression()).
+  double compressionOf(uint32_t i, const api::Float4& at) const {
+    double sum = 0;
+    forNear(i, at, [&](size_t, float distance) {
+      const HalfSpaceTable::Value value = m_table.at(distance);
+      sum += double{value.share} - double{distance} * value.slope / 3;
+    });
+    return sum;
+  }
+  /// visit(wall, slope in 1/m) for each wall that it feels.
+  template <class Visit>
+  void forSlopes(uint32_t i, const api::Float4& at, Visit&& visit) const {
+    forNear(i, at, [&](size_t wall, float distance) { visit(wall, m_table.at(distance).slope); });
+  }
+
+ private:
+  /// visit(wall, m to its face, at least half a spacing) for those within the support.
+  template <class Visit>
+  void forNear(uint32_t i, const api::Float4& at, Visit&& visit) const {
+    m_near[i].forEach(m_planes.size(), [&](size_t wall) {
+      const float distance = m_planes[wall].heightOf(at);
+      if (distance < m_support) visit(wall, std::max(m_nearest, distance));
+    });
+  }
+
+  std::vector<WallPlane> m_planes;
+  HalfSpaceTable m_table;
+  KernelShape m_kernel = KernelShape::CubicSpline;
+  float m_support = 0, m_nearest = 0, m_reach = 0;  ///< m
+  std::vector<WallSet> m_near;                      ///< by particle
+};
+
+}  // namespace ps
