@@ -24,7 +24,7 @@ struct Work {
   PairScene scene;
   PairLists lists;
   std::vector<uint32_t> which;
-  std::vector<float> weight, coefficients, scalars;
+  std::vector<float> weight, coefficients, scalars, slopes;
   std::vector<DensitySums> density;
   std::vector<api::Float4> first, second;
   size_t pairs = 0;
@@ -37,13 +37,22 @@ struct Work {
       weight[i] = scene.store().velocity()[i].w * scene.points[i].w * scene.points[i].w;
       pairs += lists.last[i] - lists.begin[i];
     }
-    coefficients.resize(scene.slots());
+    coefficients.resize(scene.slots()), slopes.resize(scene.slots());
     scalars.resize(count), density.resize(count), first.resize(count), second.resize(count);
   }
-  void densitySums() {
-    sumDensity(lists, scene.points.data(), weight.data(), which.data(), 0, which.size(), density.data());
+  void densityOfEach() {
+    DensityWeights weights;
+    weights.each = weight.data();
+    sumDensity(lists, scene.points.data(), weights, which.data(), 0, which.size(), density.data(), slopes.data());
   }
-  void multipliers() { sumMultipliers(lists, scene.points.data(), which.data(), 0, which.size(), first.data()); }
+  void densityOfOne() {
+    DensityWeights weights;
+    weights.inverseMass[1] = 1;
+    sumDensity(lists, scene.points.data(), weights, which.data(), 0, which.size(), density.data(), slopes.data());
+  }
+  void multipliers() {
+    sumMultipliers(lists, scene.points.data(), which.data(), 0, which.size(), first.data(), slopes.data());
+  }
   void viscosity() {
     sumViscosity(lists, scene.store().position(), scene.store().velocity(), scene.coefficient.data(), which.data(), 0,
                  which.size(), first.data());
@@ -92,9 +101,10 @@ int main(int argc, char** argv) {
   for (const std::string& set : availableInstructionSets()) {
     constexpr KernelShape kSpline = KernelShape::CubicSpline, kWendland = KernelShape::WendlandC2;
     add("neighbours", set, kSpline, false, &Work::search, false);
-    add("density", set, kSpline, false, &Work::densitySums);
-    add("density_periodic", set, kSpline, true, &Work::densitySums);
-    add("density_wendland", set, kWendland, false, &Work::densitySums);
+    add("density", set, kSpline, false, &Work::densityOfOne);
+    add("density_mixed", set, kSpline, false, &Work::densityOfEach);
+    add("density_periodic", set, kSpline, true, &Work::densityOfOne);
+    add("density_wendland", set, kWendland, false, &Work::densityOfOne);
     add("multipliers", set, kSpline, false, &Work::multipliers);
     add("viscosity", set, kSpline, false, &Work::viscosity);
     add("stress_coefficients", set, kSpline, false, &Work::stressWeights);

@@ -75,12 +75,31 @@ void compare(const api::Float4& value, const std::array<Sum, 3>& expected, const
 
 /// What all kernels give for one scene.
 struct Results {
-  std::vector<DensitySums> density;
-  std::vector<api::Float4> multipliers, viscosity, diagonal, offDiagonal, stress;
-  std::vector<float> compression, coefficients, shear;
+  std::vector<DensitySums> density, densityByKind, densityOfOneKind;
+  std::vector<api::Float4> multipliers, multipliersBySlopes, viscosity, viscosityOfOne, diagonal, offDiagonal, stress;
+  std::vector<float> compression, compressionByMultipliers, coefficients, shear;
+  std::vector<uint32_t> near;  ///< each particle's list, then how long it is
 };
 
 constexpr float kFactor = 3.0f;
+constexpr float kOneCoefficient = 0.07f;
+constexpr float kNearShare = 0.5f;  ///< of the squared support
+constexpr std::array<float, DensityWeights::kKinds> kInverseMasses{0, 100, 127, 1000};
+
+uint32_t kindOf(size_t i, uint32_t kinds) { return static_cast<uint32_t>(i % kinds); }
+
+/// Points whose volumes say a kind.
+std::vector<api::Float4> marked(const PairScene& scene, uint32_t kinds) {
+  std::vector<api::Float4> points = scene.points;
+  for (size_t i = 0; i < scene.store().size(); ++i) points[i].w = DensityWeights::marked(points[i].w, kindOf(i, kinds));
+  return points;
+}
+
+DensityWeights weightsOf(uint32_t kinds) {
+  DensityWeights weights;
+  std::copy_n(kInverseMasses.begin(), kinds, weights.inverseMass);
+  return weights;
+}
 
 std::vector<float> densityWeights(const PairScene& scene) {
   std::vector<float> weight(scene.points.size(), 0);
@@ -94,17 +113,32 @@ Results runAll(const PairScene& scene) {
   const size_t count = scene.which.size();
   const uint32_t* which = scene.which.data();
   const std::vector<float> weight = densityWeights(scene);
+  const std::vector<api::Float4> byKind = marked(scene, DensityWeights::kKinds), ofOneKind = marked(scene, 2);
+  DensityWeights each;
+  each.each = weight.data();
+  std::vector<float> slopes(scene.slots());
+  std::vector<uint32_t> lastOf(scene.store().size()), index(scene.slots());
+  const NearRule rule{kNearShare, static_cast<uint32_t>(scene.store().size())};
   Results r;
-  r.density.resize(count);
-  for (auto* sums : {&r.multipliers, &r.viscosity, &r.diagonal, &r.offDiagonal, &r.stress}) sums->resize(count);
-  for (auto* sums : {&r.compression, &r.shear}) sums->resize(count);
+  for (auto* sums : {&r.density, &r.densityByKind, &r.densityOfOneKind}) sums->resize(count);
+  for (auto* sums : {&r.multipliers, &r.multipliersBySlopes, &r.viscosity, &r.viscosityOfOne, &r.diagonal,
+                     &r.offDiagonal, &r.stress})
+    sums->resize(count);
+  for (auto* sums : {&r.compression, &r.compressionByMultipliers, &r.shear}) sums->resize(count);
   r.coefficients.resize(scene.slots(), 0);
   // In two parts, as chunks of a loop would.
   const std::array<std::array<size_t, 2>, 2> parts{{{0, count / 3}, {count / 3, count}}};
   for (const auto& [first, last] : parts) {
-    sumDensity(lists, scene.points.data(), weight.data(), which, first, last, r.density.data());
+    sumDensity(lists, scene.points.data(), each, which, first, last, r.density.data(), slopes.data());
+    sumDensity(lists, byKind.data(), weightsOf(DensityWeights::kKinds), which, first, last, r.densityByKind.data());
+    sumDensity(lists, ofOneKind.data(), weightsOf(2), which, first, last, r.densityOfOneKind.data());
     sumMultipliers(lists, scene.points.data(), which, first, last, r.multipliers.data());
-    sumCompression(lists, scene.points.data(), which, first, last, r.compression.data());
+    sumMultipliers(lists, scene.points.data(), which, first, last, r.multipliersBySlopes.data(), slopes.data());
+    sumCompression(lists, scene.points.data(), scene.multipliers.data(), slopes.data(), which, first, last,
+                   r.compression.data(), r.compressionByMultipliers.data());
+    findNear(lists, scene.points.data(), rule, which, first, last, lastOf.data(), index.data());
+    sumViscosity(lists, scene.store().position(), scene.store().velocity(), kOneCoefficient, which, first, last,
+                 r.viscosityOfOne.data());
     sumViscosity(lists, scene.store().position(), scene.store().velocity(), scene.coefficient.data(), which, first,
                  last, r.viscosity.data());
     stressCoefficients(lists, scene.stressField(), kFactor, which, first, last, r.coefficients.data(),
@@ -112,6 +146,11 @@ Results runAll(const PairScene& scene) {
     sumStress(lists, scene.points.data(), r.coefficients.data(), scene.vectors.data(), which, first, last,
               r.stress.data());
     sumShear(lists, scene.points.data(), scene.vectors.data(), which, first, last, r.shear.data());
+  }
+  for (size_t k = 0; k < count; ++k) {
+    const uint32_t begin = lists.begin[which[k]], last = lastOf[which[k]];
+    r.near.insert(r.near.end(), index.begin() + begin, index.begin() + last);
+    r.near.push_back(last - begin);
   }
   return r;
 }
@@ -128,6 +167,8 @@ class TestPairKernels : public QObject {
  private Q_SLOTS:
   void density_data() { scenesToTest(); }
   void density();
+  void near_data() { scenesToTest(); }
+  void near();
   void viscosity_data() { scenesToTest(); }
   void viscosity();
   void stress_data() { scenesToTest(); }
@@ -152,23 +193,57 @@ void TestPairKernels::density() {
   const PairScene scene(kSide, static_cast<KernelShape>(shape), periodic);
   const Results r = runAll(scene);
   for (size_t k = 0; k < scene.which.size(); ++k) {
-    Sum excess, squares, compression;
+    Sum excess, squares, byKind, ofOneKind, compression, byMultipliers;
     std::array<Sum, 3> gradient;
     forPairs(scene, scene.which[k], [&](const Pair& p) {
-      const double volume = double{scene.points[p.j].w};
-      const double weight = double{scene.store().velocity()[p.j].w} * volume * volume;
+      const double volume = double{scene.points[p.j].w}, square = volume * volume * p.slope * p.slope;
       excess.add(p, volume * p.weight);
-      squares.add(p, weight * p.slope * p.slope);
+      squares.add(p, double{scene.store().velocity()[p.j].w} * square);
+      byKind.add(p, double{kInverseMasses[kindOf(p.j, DensityWeights::kKinds)]} * square);
+      ofOneKind.add(p, double{kInverseMasses[kindOf(p.j, 2)]} * square);
       compression.add(p, -volume * p.slope * p.q / 3);
+      byMultipliers.add(p, -double{scene.multipliers[p.j].w} * p.slope * p.q / 3);
       const double f = volume * p.slopeOverQ;
       gradient[0].add(p, f * p.x), gradient[1].add(p, f * p.y), gradient[2].add(p, f * p.z);
     });
-    compare(r.density[k].excess, excess, "excess");
+    const auto gradientOf = [](const DensitySums& sums) { return api::Float4{sums.x, sums.y, sums.z, 0}; };
+    for (const auto* sums : {&r.density, &r.densityByKind, &r.densityOfOneKind}) {
+      compare((*sums)[k].excess, excess, "excess");
+      compare(gradientOf((*sums)[k]), gradient, "gradient");
+    }
     compare(r.density[k].squares, squares, "squares");
-    compare({r.density[k].x, r.density[k].y, r.density[k].z, 0}, gradient, "gradient");
+    compare(r.densityByKind[k].squares, byKind, "squares by kind");
+    compare(r.densityOfOneKind[k].squares, ofOneKind, "squares of one kind");
     compare(r.multipliers[k], gradient, "multipliers");
+    compare(r.multipliersBySlopes[k], gradient, "multipliers by known slopes");
     compare(r.compression[k], compression, "compression");
+    compare(r.compressionByMultipliers[k], byMultipliers, "compression of multipliers");
   }
+}
+
+/// All that are near, in the order of the list, and none that is clearly farther.
+void TestPairKernels::near() {
+  QFETCH(const int, shape);
+  QFETCH(const bool, periodic);
+  const PairScene scene(kSide, static_cast<KernelShape>(shape), periodic);
+  const Results r = runAll(scene);
+  const PairLists lists = scene.lists();
+  size_t at = 0;
+  for (const uint32_t i : scene.which) {
+    std::vector<uint32_t> expected;
+    for (uint32_t q = lists.begin[i]; q < lists.last[i]; ++q) {
+      const api::Float4 d = scene.store().separation(i, lists.index[q]);
+      const double q2 = (double{d.x} * double{d.x} + double{d.y} * double{d.y} + double{d.z} * double{d.z}) *
+                        double{lists.inverseSupportSquared};
+      if (q2 < double{kNearShare}) expected.push_back(lists.index[q]);
+    }
+    QVERIFY(at + expected.size() < r.near.size());
+    QVERIFY2(std::equal(expected.begin(), expected.end(), r.near.begin() + static_cast<std::ptrdiff_t>(at)),
+             qPrintable(QString::number(i)));
+    QCOMPARE(size_t{r.near[at + expected.size()]}, expected.size());
+    at += expected.size() + 1;
+  }
+  QCOMPARE(at, r.near.size());
 }
 
 void TestPairKernels::viscosity() {
@@ -178,16 +253,20 @@ void TestPairKernels::viscosity() {
   const Results r = runAll(scene);
   const api::Float4 *x = scene.store().position(), *v = scene.store().velocity();
   for (size_t k = 0; k < scene.which.size(); ++k) {
-    std::array<Sum, 3> sums;
+    std::array<Sum, 3> sums, ofOne;
     forPairs(scene, scene.which[k], [&](const Pair& p) {
       const double wi = double{v[p.i].w}, wj = double{v[p.j].w};
       const double c = meanOfFluids(double{scene.coefficient[p.i]}, double{scene.coefficient[p.j]});
       const double mass = wi / ((wi + wj) / 2);
-      const double f = c * (double{x[p.i].w} + double{x[p.j].w}) / 2 * mass * p.weight;
-      sums[0].add(p, f * (double{v[p.j].x} - double{v[p.i].x}));
-      sums[1].add(p, f * (double{v[p.j].y} - double{v[p.i].y}));
-      sums[2].add(p, f * (double{v[p.j].z} - double{v[p.i].z}));
+      const double f = (double{x[p.i].w} + double{x[p.j].w}) / 2 * mass * p.weight;
+      const std::array<double, 3> change{double{v[p.j].x} - double{v[p.i].x}, double{v[p.j].y} - double{v[p.i].y},
+                                         double{v[p.j].z} - double{v[p.i].z}};
+      for (size_t a = 0; a < 3; ++a) {
+        sums[a].add(p, c * f * change[a]);
+        ofOne[a].add(p, double{kOneCoefficient} * f * change[a]);
+      }
     });
+    compare(r.viscosityOfOne[k], ofOne, "viscosity of one coefficient");
     compare(r.viscosity[k], sums, "viscosity");
   }
 }
@@ -236,10 +315,14 @@ void TestPairKernels::everyInstructionSetGivesTheSameBits() {
     setInstructionSet(name);
     const Results r = runAll(scene);
     setInstructionSet("");
-    QVERIFY2(sameBits(r.density, best.density) && sameBits(r.multipliers, best.multipliers) &&
-                 sameBits(r.compression, best.compression),
+    QVERIFY2(sameBits(r.density, best.density) && sameBits(r.densityByKind, best.densityByKind) &&
+                 sameBits(r.densityOfOneKind, best.densityOfOneKind) && r.near == best.near,
              name.c_str());
-    QVERIFY2(sameBits(r.viscosity, best.viscosity), name.c_str());
+    QVERIFY2(sameBits(r.multipliers, best.multipliers) && sameBits(r.multipliersBySlopes, best.multipliersBySlopes) &&
+                 sameBits(r.compression, best.compression) &&
+                 sameBits(r.compressionByMultipliers, best.compressionByMultipliers),
+             name.c_str());
+    QVERIFY2(sameBits(r.viscosity, best.viscosity) && sameBits(r.viscosityOfOne, best.viscosityOfOne), name.c_str());
     QVERIFY2(sameBits(r.coefficients, best.coefficients) && sameBits(r.diagonal, best.diagonal) &&
                  sameBits(r.offDiagonal, best.offDiagonal) && sameBits(r.stress, best.stress) &&
                  sameBits(r.shear, best.shear),

@@ -62,6 +62,7 @@ class PairScene {
       api::Float4 point = m_store.position()[k];
       point.w = dummy ? 0 : static_cast<float>(factor * double{point.w});
       points.push_back(point);
+      multipliers.push_back({point.x, point.y, point.z, dummy ? 0 : within(1)});
       vectors.push_back(dummy ? api::Float4{} : api::Float4{within(1), within(1), within(1), 0});
       coefficient.push_back(dummy ? 0 : fluid ? 0.05f + static_cast<float>(0.1 * random.next()) : -1.0f);
       viscous.push_back(!dummy && k % 2 == 0 ? 1.0f : 0.0f);
@@ -85,11 +86,12 @@ class PairScene {
   StressField stressField() const { return {points.data(), coefficient.data(), viscous.data()}; }
   size_t slots() const { return lists().end[m_store.size() - 1]; }
 
-  std::vector<api::Float4> points;   ///< position in m; w: volume times scale()
-  std::vector<api::Float4> vectors;  ///< any
-  std::vector<float> coefficient;    ///< of viscosity; negative for what is no fluid
-  std::vector<float> viscous;        ///< 1 for particles of the implicit stage
-  std::vector<uint32_t> which;       ///< two of three of those that move
+  std::vector<api::Float4> points;       ///< position in m; w: volume times scale()
+  std::vector<api::Float4> multipliers;  ///< position in m; w: any
+  std::vector<api::Float4> vectors;      ///< any
+  std::vector<float> coefficient;        ///< of viscosity; negative for what is no fluid
+  std::vector<float> viscous;            ///< 1 for particles of the implicit stage
+  std::vector<uint32_t> which;           ///< two of three of those that move
 
  private:
   KernelShape m_shape;
