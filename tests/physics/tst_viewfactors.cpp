@@ -116,6 +116,19 @@ class TestViewFactors : public QObject {
   Q_OBJECT
 
  private Q_SLOTS:
+  /// So many that each gets fewer rays in a frame than it has faces: those take turns, and none is left out. Twelve
+  /// spacings apart the others stand before 2 % of each.
+  void grainsRadiateFromAllFaces() {
+    constexpr int kSide = 48, kApart = 12;
+    Bodies bodies;
+    const uint32_t black = bodies.material(1);
+    for (int k = 0; k < kSide * kSide; ++k)
+      bodies.scene.addBox({kApart * (k % kSide), 0, kApart * (k / kSide)}, {1, 1, 1}, black);
+    bodies.join(0, kHot, 0);
+    const double dx = bodies.scene.spacing;
+    check(bodies.power(0), -kSide * kSide * 6 * dx * dx * between(kHot, 0), 0.05);
+  }
+
   void squaresFaceToFace_data() {
     QTest::addColumn<int>("side");
     QTest::addColumn<int>("gap");

@@ -44,9 +44,9 @@ double nextUnit(uint32_t& chance) {
 
 bool happens(double share, uint32_t& chance) { return nextUnit(chance) < share; }
 
-/// The bare face on which a particle's ray k begins.
-size_t faceOf(const SurfaceBox& box, size_t k) {
-  size_t left = k % static_cast<size_t>(std::popcount(box.bare));
+/// The bare face of some number among them.
+size_t faceOf(const SurfaceBox& box, size_t number) {
+  size_t left = number;
   for (size_t face = 0;; ++face) {
     if (box.isBare(face) && left-- == 0) return face;
   }
@@ -128,13 +128,16 @@ void Radiation::follow(const RadiationScene& scene, size_t first, size_t last) {
 void Radiation::followOne(const RadiationScene& scene, size_t emitter, const RaySamples& samples, size_t k) {
   const SurfaceBox& box = m_boxes[m_emitters[emitter]];
   const uint32_t i = box.particle;
-  const size_t faces = static_cast<size_t>(std::popcount(box.bare)), face = faceOf(box, k);
-  const size_t onFace = (m_perParticle - k % faces + faces - 1) / faces;
-  const double area = double{box.area} / static_cast<double>(faces * onFace), dx = scene.spacing;
+  const auto index = static_cast<uint32_t>(scene.frame * m_perParticle + k);
+  const size_t faces = static_cast<size_t>(std::popcount(box.bare));
+  // Faces that are more than the rays of a frame take turns, so that none is left out.
+  const bool turns = faces > m_perParticle;
+  const size_t which = (turns ? index : k) % faces, face = faceOf(box, which);
+  const size_t parts = turns ? m_perParticle : faces * ((m_perParticle - which + faces - 1) / faces);
+  const double area = double{box.area} / static_cast<double>(parts), dx = scene.spacing;
   const double emissivity = scene.emissivity[scene.store.material()[i]];
   const Vector3 normal = box.normal(face), one = box.axis((face / 2 + 1) % 3), other = box.axis((face / 2 + 2) % 3);
   const double lift = (face == 0 ? double{box.height} : 0.5) + kLift;
-  const auto index = static_cast<uint32_t>(scene.frame * m_perParticle + k);
   Ray ray;
   ray.from = vectorOf(scene.store.position()[i]) + lift * dx * normal + (samples.at(index, 2) - 0.5) * dx * one +
              (samples.at(index, 3) - 0.5) * dx * other;
