@@ -19,7 +19,7 @@ constexpr double kSameWay = 0.5;  ///< cosine between normals of matter that fac
 /// Sum of V W below which a particle may miss a neighbour: with one gone it falls by 0.07.
 constexpr float kWhole = 0.98f;
 constexpr double kFar = 1e30;
-constexpr size_t kMostPerParticle = 64, kLeastPerParticle = 4;
+constexpr size_t kMostPerParticle = 64, kLeastPerParticle = 2;
 /// Mirrors and grey surfaces that a ray follows; what is still between them then exchanges nothing.
 constexpr int kMostMet = 64;
 

@@ -51,7 +51,7 @@ struct RadiationScene {
 /// large by a third of a spacing.
 class Radiation {
  public:
-  static constexpr size_t kRays = 16384;
+  static constexpr size_t kRays = 8192;
 
   void trace(const RadiationScene& scene);
   void forget();
