@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: Apache-2.0
+// Particles are 16-byte float4. Four vectors are filled by block loads, block b of vector k from the neighbour
+// id[4 b + k], and two levels of interleaving transpose them into x, y, z, w: several times faster than gathers.
+// Padding entries point at a dummy far away and add exactly zero.
+// Included once for each instruction set: no guard of its own but Highway's.
+#if defined(PS_PAIRKERNELS_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef PS_PAIRKERNELS_INL_H
+#undef PS_PAIRKERNELS_INL_H
+#else
+#define PS_PAIRKERNELS_INL_H
+#endif
+
+#include "core/solver/fluid/pairkernels.h"
+#include "hwy/highway.h"
+
+#include <type_traits>
+
+HWY_BEFORE_NAMESPACE();
+namespace ps {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+#if HWY_TARGET == HWY_SCALAR
+#error "HWY_SCALAR has no 16-byte blocks: build with -mssse3 or newer"
+#endif
+
+constexpr size_t kVirtualLanes = 16;
+using D = hn::CappedTag<float, kVirtualLanes>;
+using V = hn::Vec<D>;
+using DBlock = hn::Full128<float>;
+using VBlock = hn::Vec<DBlock>;
+constexpr size_t kLanes = HWY_MIN(HWY_LANES(float), kVirtualLanes);
+/// Images that two particles may be apart at most; the dummy lies farther away than that.
+constexpr int kMostImages = 1000;
+constexpr size_t kParts = kVirtualLanes / kLanes;  // accumulators: 1 on AVX-512, 2 on AVX2, 4 with 16-byte vectors
+
+struct Vectors4 {
+  V x, y, z, w;
+};
+
+HWY_INLINE V loadBlocks(const float* base, const uint32_t* id) {
+  const DBlock d1;
+#if HWY_MAX_BYTES >= 64
+  const hn::Half<D> d2;
+  return hn::Combine(D(),
+                     hn::Combine(d2, hn::Load(d1, base + 4 * size_t{id[12]}), hn::Load(d1, base + 4 * size_t{id[8]})),
+                     hn::Combine(d2, hn::Load(d1, base + 4 * size_t{id[4]}), hn::Load(d1, base + 4 * size_t{id[0]})));
+#elif HWY_MAX_BYTES == 32
+  return hn::Combine(D(), hn::Load(d1, base + 4 * size_t{id[4]}), hn::Load(d1, base + 4 * size_t{id[0]}));
+#else
+  return hn::Load(d1, base + 4 * size_t{id[0]});
+#endif
+}
+
+HWY_INLINE Vectors4 loadTransposed(const api::Float4* particles, const uint32_t* id) {
+  const D d;
+  const hn::Repartition<double, D> dd;
+  const float* base = &particles->x;
+  const V a0 = loadBlocks(base, id), a1 = loadBlocks(base, id + 1);
+  const V a2 = loadBlocks(base, id + 2), a3 = loadBlocks(base, id + 3);
+  const auto xy01 = hn::BitCast(dd, hn::InterleaveLower(d, a0, a1));  // x0 x1 y0 y1 in each block
+  const auto zw01 = hn::BitCast(dd, hn::InterleaveUpper(d, a0, a1));
+  const auto xy23 = hn::BitCast(dd, hn::InterleaveLower(d, a2, a3));
+  const auto zw23 = hn::BitCast(dd, hn::InterleaveUpper(d, a2, a3));
+  return {hn::BitCast(d, hn::InterleaveLower(dd, xy01, xy23)), hn::BitCast(d, hn::InterleaveUpper(dd, xy01, xy23)),
+          hn::BitCast(d, hn::InterleaveLower(dd, zw01, zw23)), hn::BitCast(d, hn::InterleaveUpper(dd, zw01, zw23))};
+}
+
+HWY_INLINE V loadByIndex(const float* values, const uint32_t* id) {
+  const hn::RebindToSigned<D> di;
+  return hn::GatherIndex(D(), values, hn::LoadU(di, reinterpret_cast<const int32_t*>(id)));
+}
+
+/// One sum in 16 virtual lanes.
+struct Lanes {
+  V part[kParts];
+  HWY_INLINE Lanes() {
+    for (V& v : part) v = hn::Zero(D());
+  }
+  HWY_INLINE void add(size_t p, V v) { part[p] = hn::Add(part[p], v); }
+};
+
+/// Adds blocks b and b + n/2 until one is left: the same tree for any width.
+HWY_INLINE VBlock sumBlocks(const Lanes& lanes) {
+#if HWY_MAX_BYTES >= 64
+  const hn::Half<D> d2;
+  const auto half = hn::Add(hn::LowerHalf(d2, lanes.part[0]), hn::UpperHalf(d2, lanes.part[0]));
+  return hn::Add(hn::LowerHalf(DBlock(), half), hn::UpperHalf(DBlock(), half));
+#elif HWY_MAX_BYTES == 32
+  const V half = hn::Add(lanes.part[0], lanes.part[1]);
+  return hn::Add(hn::LowerHalf(DBlock(), half), hn::UpperHalf(DBlock(), half));
+#else
+  return hn::Add(hn::Add(lanes.part[0], lanes.part[2]), hn::Add(lanes.part[1], lanes.part[3]));
+#endif
+}
+
+/// Four sums at once: (a, b, c, e).
+HWY_INLINE VBlock sumFour(const Lanes& a, const Lanes& b, const Lanes& c, const Lanes& e) {
+  const DBlock d;
+  const hn::Repartition<double, DBlock> dd;
+  const VBlock sa = sumBlocks(a), sb = sumBlocks(b), sc = sumBlocks(c), se = sumBlocks(e);
+  const auto ab = hn::BitCast(dd, hn::Add(hn::InterleaveLower(d, sa, sb), hn::InterleaveUpper(d, sa, sb)));
+  const auto ce = hn::BitCast(dd, hn::Add(hn::InterleaveLower(d, sc, se), hn::InterleaveUpper(d, sc, se)));
+  return hn::Add(hn::BitCast(d, hn::InterleaveLower(dd, ab, ce)), hn::BitCast(d, hn::InterleaveUpper(dd, ab, ce)));
+}
+
+/// hn::SumOfLanes adds in another order on other machines; this does not.
+HWY_INLINE float sumOne(const Lanes& lanes) {
+  VBlock v = sumBlocks(lanes);
+  v = hn::Add(v, hn::Shuffle1032(v));
+  return hn::GetLane(hn::Add(v, hn::Shuffle2301(v)));
+}
+
+// Kernels: roots and quotients are those of IEEE 754, the same everywhere; the unit that makes them works beside the
+// others. Slopes come without a factor, which sums get once.
+
+/// Monaghan's cubic spline without branches: w = 2 a^3 - c^3, w' = 6 (c^2 - a^2), a = (1 - q)+, c = (1 - 2 q)+.
+struct Spline {
+  static constexpr float kSlope = 6;
+  V q, a, c, a2, c2;
+  HWY_INLINE explicit Spline(V q2) {
+    const D d;
+    const V one = hn::Set(d, 1.0f);
+    q = hn::Sqrt(q2);
+    a = hn::Max(hn::Zero(d), hn::Sub(one, q)), c = hn::Max(hn::Zero(d), hn::Sub(one, hn::Add(q, q)));
+    a2 = hn::Mul(a, a), c2 = hn::Mul(c, c);
+  }
+  HWY_INLINE V value() const {
+    const V a3 = hn::Mul(a2, a);
+    return hn::Sub(hn::Add(a3, a3), hn::Mul(c2, c));
+  }
+  HWY_INLINE V slope() const { return hn::Sub(c2, a2); }
+  HWY_INLINE V slopeOverQ() const { return hn::Div(slope(), q); }
+};
+
+/// Wendland C2: w = a^4 (1 + 4 q), w' = -20 a^3 q.
+struct Wendland {
+  static constexpr float kSlope = -20;
+  V a3, a, q;
+  HWY_INLINE explicit Wendland(V q2) {
+    const D d;
+    q = hn::Sqrt(q2);
+    a = hn::Max(hn::Zero(d), hn::Sub(hn::Set(d, 1.0f), q));
+    a3 = hn::Mul(hn::Mul(a, a), a);
+  }
+  HWY_INLINE V value() const {
+    return hn::Mul(hn::Mul(a3, a), hn::Add(hn::Set(D(), 1.0f), hn::Mul(hn::Set(D(), 4.0f), q)));
+  }
+  HWY_INLINE V slopeOverQ() const { return a3; }
+  HWY_INLINE V slope() const { return hn::Mul(a3, q); }
+};
+
+HWY_INLINE float slopeFactor(KernelShape shape) {
+  return shape == KernelShape::CubicSpline ? Spline::kSlope : Wendland::kSlope;
+}
+
+/// How offsets are measured: as they are, or to the nearest image. Chosen once per call, so that open space does not
+/// pay.
+struct OpenSpace {
+  HWY_INLINE explicit OpenSpace(const PairLists&) {}
+  HWY_INLINE V shortest(V d, size_t) const { return d; }
+};
+
+struct PeriodicSpace {
+  V length[3], inverse[3];
+  HWY_INLINE explicit PeriodicSpace(const PairLists& lists) {
+    for (size_t a = 0; a < 3; ++a)
+      length[a] = hn::Set(D(), lists.period.length(a)), inverse[a] = hn::Set(D(), lists.period.inverse(a));
+  }
+  /// Rounding halves to even is odd in d: a pair looks the same from both sides. The dummy stays far away.
+  HWY_INLINE V shortest(V d, size_t axis) const {
+    const V most = hn::Set(D(), static_cast<float>(kMostImages));
+    const V images = hn::Round(hn::Mul(d, inverse[axis]));
+    return hn::Sub(d, hn::Mul(length[axis], hn::Max(hn::Neg(most), hn::Min(images, most))));
+  }
+};
+
+struct Offsets {
+  V x, y, z, q2;
+};
+
+template <class Space>
+HWY_INLINE Offsets offsetsTo(const Space& space, V px, V py, V pz, const Vectors4& other, V inverseSupportSquared) {
+  const V x = space.shortest(hn::Sub(px, other.x), 0), y = space.shortest(hn::Sub(py, other.y), 1),
+          z = space.shortest(hn::Sub(pz, other.z), 2);
+  const V d2 = hn::Add(hn::Mul(x, x), hn::Add(hn::Mul(y, y), hn::Mul(z, z)));
+  // Coincident particles: q is kept from zero, the direction is zero all the same.
+  return {x, y, z, hn::Max(hn::Mul(d2, inverseSupportSquared), hn::Set(D(), 1e-12f))};
+}
+
+/// body(part, id) for each run of kLanes neighbours; accumulator `part` takes virtual lanes part * kLanes and up.
+/// Runs of padding alone are left out: they would add zero.
+template <class Body>
+HWY_INLINE void forNeighbours(const PairLists& lists, size_t i, Body&& body) {
+  const uint32_t last = lists.last[i];
+  for (uint32_t q = lists.begin[i]; q < last; q += kVirtualLanes) {
+    body(0, lists.index + q);
+    if constexpr (kParts > 1) {
+      if (q + kLanes < last) body(1, lists.index + q + kLanes);
+    }
+    if constexpr (kParts > 2) {
+      if (q + 2 * kLanes < last) body(2, lists.index + q + 2 * kLanes);
+      if (q + 3 * kLanes < last) body(3, lists.index + q + 3 * kLanes);
+    }
+  }
+}
+
+template <class T>
+struct Choice {
+  using Type = T;
+};
+
+/// body(Choice<Space>): one branch per call decides for all pairs.
+template <class Body>
+HWY_INLINE void bySpace(const PairLists& lists, Body&& body) {
+  if (lists.period.any())
+    body(Choice<PeriodicSpace>());
+  else
+    body(Choice<OpenSpace>());
+}
+
+template <class Body>
+HWY_INLINE void bySpaceAndKernel(const PairLists& lists, Body&& body) {
+  bySpace(lists, [&](auto space) HWY_ATTR {
+    if (lists.kernel == KernelShape::CubicSpline)
+      body(space, Choice<Spline>());
+    else
+      body(space, Choice<Wendland>());
+  });
+}
+
+/// body(Choice<std::bool_constant>): as bySpace().
+template <class Body>
+HWY_INLINE void byFlag(bool flag, Body&& body) {
+  if (flag)
+    body(Choice<std::true_type>());
+  else
+    body(Choice<std::false_type>());
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace ps
+HWY_AFTER_NAMESPACE();
+#endif
