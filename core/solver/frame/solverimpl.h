@@ -29,7 +29,7 @@ namespace ps {
 /// Mean density error that no longer deserves the name of a solution.
 inline constexpr double kDiverged = 0.5;
 /// Mean density error from which on liquid in a heap is a tenth lower than it should be, and flows as such.
-inline constexpr double kDense = 0.07;
+inline constexpr double kDense = 0.05;
 /// Spacings by which a plugin may move a particle in one substep, beyond the way of its velocity.
 inline constexpr double kFarthestLeap = 1000;
 
