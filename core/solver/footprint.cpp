@@ -32,7 +32,7 @@ constexpr double kLastGood = 2;
 /// Of every particle, by room.
 constexpr double kStore = kGrown * (kFields + kIndex) + kPoint;
 constexpr double kLists = 5 * kIndex + 3 * kFloat + kPoint + (3 + kCells) * kIndex;
-constexpr double kDensity = 4 * kPoint + 6 * kFloat + 4 * kIndex + 2 * kMark;
+constexpr double kDensity = 4 * kPoint + 6 * kFloat + 7 * kIndex + 2 * kMark;
 constexpr double kViscosity = 3 * kFloat + kIndex + kPoint;
 constexpr double kContacts = 2 * kPoint + 2 * kDouble + 12 * kIndex + 8 * kMark;
 constexpr double kHeat = 14 * kDouble + 13 * kFloat + 6 * kIndex + 4 * kMark;
@@ -46,6 +46,8 @@ constexpr double kRays = 0.2 * 16 * (kIndex + kFloat + 2 * (kIndex + kFloat)) + 
 
 /// Of every entry of a list: itself as it is found and as it is written.
 constexpr double kEntry = kGrown * kIndex + kIndex;
+/// Of what nothing holds, which may be a fluid: again where it is near, with its slope.
+constexpr double kNearEntry = kIndex + kFloat;
 /// Partner, conductance, distance and kernel, and the watts of a model's own law.
 constexpr double kHeatEntry = kBreathing * (kIndex + 3 * kFloat + kDouble);
 constexpr double kImplicitEntry = kFloat;
@@ -91,6 +93,7 @@ double bytesPerParticle(const MatterFootprint& matter) {
   const double entries = matter.neighbours + Neighbours::kListPad / 2.0;
   double bytes = kStore + (kGrown + kLastGood) * matter.fieldBytes + kLastGood * (kFields + kPoint) + kLists +
                  kDensity + kViscosity + kContacts + kSnapshots + entries * kEntry;
+  if (matter.structures.empty()) bytes += entries * kNearEntry;
   if (matter.heat) bytes += kHeat + kWall * matter.walls + entries * kHeatEntry;
   if (matter.heat && matter.radiation) bytes += kRays;
   if (matter.thick) bytes += kImplicit + entries * kImplicitEntry;

@@ -326,7 +326,7 @@ class TestJoining : public QObject {
     thermal.timeScale = 6000;
     solver.setThermal(thermal, &m_enthalpy, "enthalpy", {});
     const uint32_t set = addSet(solver, structure == 1);
-    ps::Spawn pond = liquid(lattice(8, 4, 8, kSpacing, 0), 275);
+    ps::Spawn pond = liquid(lattice(8, 4, 8, kSpacing, 0), 276);
     if (structure != 2) pond.constraintSets = {set};
     const std::vector<uint32_t> ids = solver.spawn(pond);
     QCOMPARE(piecesOf(solver).count, size_t{0});
