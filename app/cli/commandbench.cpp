@@ -68,14 +68,15 @@ std::vector<int> threadsOf(const Arguments& arguments) {
   return threads;
 }
 
-/// A file, or the name of a sample project or of one of the thesis's.
+/// A file, or the name of a sample project, of one of the thesis's or of one that is there to be measured.
 std::string sceneFile(const std::string& name) {
   if (std::filesystem::exists(name)) return name;
   std::error_code problem;
   const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", problem).parent_path();
   for (const std::filesystem::path& folder :
        {std::filesystem::path(PS_SOURCE_PROJECTS), program / "../share/phasesketch/projects"}) {
-    for (const std::filesystem::path& file : {folder / (name + ".json"), folder / "thesis" / (name + ".json")}) {
+    for (const char* kind : {"", "thesis", "bench"}) {
+      const std::filesystem::path file = folder / kind / (name + ".json");
       if (std::filesystem::exists(file, problem)) return file.string();
     }
   }
@@ -163,7 +164,8 @@ void writeTables(const Arguments& arguments, const json& rows) {
 
 std::string benchHelp() {
   return "phasesketch-cli bench [SCENE...] [options]\n\nMeasures the path that simulate runs. A scene is a project "
-         "file, which begins at its start, the name of a sample or\nof one of the thesis's scenes, 'drag', the tank "
+         "file, which begins at its start, the name of a sample or\nof one of those in projects/thesis and "
+         "projects/bench, 'drag', the tank "
          "while a slider is dragged at 250 edits a second, beside the same left\nalone, or one of\n" +
          namedScenes() +
          ";\nwithout one: ice-on-hot-plate, tank and drag. iterations are those of a whole frame; ns_per_pair is the "

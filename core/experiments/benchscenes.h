@@ -16,7 +16,7 @@ Project tank(int particles);
 /// that figures may be compared.
 Project damBreak(int particles);
 
-/// The scenes that bench knows beside files and samples, by name: what it is made of stands in its name.
+/// The scenes of liquid alone that bench makes, by name; those that plugins hold together are files in projects/bench.
 std::vector<std::string> benchSceneNames();
 /// One of them, with about so many particles where that is asked for; nothing for another name.
 std::optional<Project> benchProject(const std::string& name, std::optional<long> particles);

@@ -4,6 +4,7 @@
 #include "core/base/parallel.h"
 #include "core/experiments/benchscenes.h"
 #include "core/experiments/benchtables.h"
+#include "core/io/projectio.h"
 #include "core/plugin_host/registry.h"
 #include "core/simulation/engine.h"
 
@@ -20,6 +21,8 @@ class TstBench : public QObject {
  private Q_SLOTS:
   void scenesHoldWhatTheirNamesSay_data();
   void scenesHoldWhatTheirNamesSay();
+  void filesHoldWhatTheirNamesSay_data();
+  void filesHoldWhatTheirNamesSay();
   void theDamBreakStandsWhereOthersHaveIt();
   void scenesAreScaled();
   void loopsOfOneChunkAreNotShared();
@@ -54,10 +57,6 @@ void TstBench::scenesHoldWhatTheirNamesSay_data() {
   QTest::newRow("dambreak-20k") << size_t{25 * 32 * 25};
   QTest::newRow("dambreak-100k") << size_t{43 * 54 * 43};
   QTest::newRow("dambreak-1m") << size_t{93 * 116 * 93};
-  QTest::newRow("jelly-20k") << size_t{27 * 27 * 27};
-  QTest::newRow("cloth-20k") << size_t{141 * 141};
-  QTest::newRow("bar-49795") << size_t{61 * 26 * 11};
-  QTest::newRow("melt-freeze-100k") << size_t{47 * 47 * 2 * 23};
 }
 
 void TstBench::scenesHoldWhatTheirNamesSay() {
@@ -73,6 +72,22 @@ void TstBench::scenesHoldWhatTheirNamesSay() {
   QVERIFY2(engine.particles().size() > 150 && engine.particles().size() < 600,
            qPrintable(QString::number(engine.particles().size())));
   for (int frame = 0; frame < 3; ++frame) QCOMPARE(engine.step().flags, StepFlags{0});
+}
+
+void TstBench::filesHoldWhatTheirNamesSay_data() {
+  QTest::addColumn<size_t>("particles");
+  QTest::newRow("jelly-20k") << size_t{27 * 27 * 27};
+  QTest::newRow("cloth-20k") << size_t{141 * 141};
+  QTest::newRow("bar-49795") << size_t{61 * 26 * 11};
+  QTest::newRow("melt-freeze-100k") << size_t{47 * 47 * 2 * 23};
+}
+
+void TstBench::filesHoldWhatTheirNamesSay() {
+  QFETCH(size_t, particles);
+  const std::string path = std::string(PS_SOURCE_DIR "/projects/bench/") + QTest::currentDataTag() + ".json";
+  const Project project = loadProject(path, m_plugins).project;
+  QCOMPARE(static_cast<size_t>(particleCount(project)), particles);
+  QVERIFY(!project.bodies.front().constraints.empty());
 }
 
 /// Where figures are compared, blocks and boxes must be those of the others: particles from a spacing off the side on,
