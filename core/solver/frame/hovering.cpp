@@ -47,11 +47,31 @@ void Hovering::observe(const Matter& matter) {
   if (matter.wetSolids.empty() || m_up.isZero()) return;
   findPieces(matter);
   remember();
-  for (Piece& piece : m_pieces) {
-    if (piece.seconds < kWatch) continue;
-    piece.solid = piece.liquid = 0;
-    judge(matter, piece);
-    piece.seconds = 0;
+  const auto isDue = [](const Piece& piece) { return piece.seconds >= kWatch; };
+  if (std::none_of(m_pieces.begin(), m_pieces.end(), isDue)) return;
+  listMembers(matter);
+  for (uint32_t slot = 0; slot < m_pieces.size(); ++slot) {
+    if (!isDue(m_pieces[slot])) continue;
+    m_pieces[slot].solid = m_pieces[slot].liquid = 0;
+    judge(matter, slot);
+    m_pieces[slot].seconds = 0;
+  }
+}
+
+/// Counted into place: pieces may be thousands, all due in one frame.
+void Hovering::listMembers(const Matter& matter) {
+  m_end.assign(m_pieces.size() + 1, 0);
+  const auto slotOf = [&](uint32_t i) {
+    return matter.pieceOf[i] == ConstraintSystem::kNoPiece ? kNone : m_slot[matter.pieceOf[i]];
+  };
+  const auto count = static_cast<uint32_t>(matter.store.size());
+  for (uint32_t i = 0; i < count; ++i) {
+    if (slotOf(i) != kNone) ++m_end[slotOf(i) + 1];
+  }
+  for (size_t slot = 1; slot < m_end.size(); ++slot) m_end[slot] += m_end[slot - 1];
+  m_members.resize(m_end.back());
+  for (uint32_t i = 0; i < count; ++i) {
+    if (slotOf(i) != kNone) m_members[m_end[slotOf(i)]++] = i;
   }
 }
 
@@ -62,7 +82,7 @@ void Hovering::findPieces(const Matter& matter) {
     const uint32_t piece = matter.pieceOf[i];
     if (piece == ConstraintSystem::kNoPiece || m_slot[piece] != kNone) continue;
     m_slot[piece] = static_cast<uint32_t>(m_pieces.size());
-    m_pieces.emplace_back().number = piece;
+    m_pieces.emplace_back();
   }
   if (m_pieces.empty()) return;
   m_hangs.assign(store.size(), 0);
@@ -141,15 +161,15 @@ void Hovering::lookAround(const Matter& matter, uint32_t i, Around& around) cons
   around.dry += filled < kFilled ? 1 : 0;
 }
 
-void Hovering::judge(const Matter& matter, Piece& piece) const {
+void Hovering::judge(const Matter& matter, uint32_t slot) {
+  Piece& piece = m_pieces[slot];
   if (!piece.free) return;
   const double density = piece.mass / piece.volume, size = std::cbrt(piece.volume);
   const double fastest = std::sqrt(std::max(0.0, m_gravity * size));
   if (piece.farthest > kStill * fastest * piece.seconds) return;  // too fast in any liquid that is not much lighter
   Around around;
-  for (uint32_t i = 0; i < matter.store.size() && !around.stands; ++i) {
-    if (matter.pieceOf[i] == piece.number) lookAround(matter, i, around);
-  }
+  for (uint32_t k = slot > 0 ? m_end[slot - 1] : 0; k < m_end[slot] && !around.stands; ++k)
+    lookAround(matter, m_members[k], around);
   if (around.stands || around.liquid == 0) return;
   if (static_cast<double>(around.dry) > kDryShare * static_cast<double>(around.members)) return;
   const double liquid = around.density / around.liquid, excess = density / liquid - 1;

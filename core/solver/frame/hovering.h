@@ -42,11 +42,11 @@ class Hovering {
   static constexpr uint32_t kNone = ~0u;
   /// A piece with liquid around it, as the frame ended.
   struct Piece {
-    uint32_t id = kNone, number = 0, material = 0;  ///< the least id of its particles; as pieceOf has it
-    bool free = true;                               ///< moves by itself
-    double mass = 0, volume = 0, moment = 0;        ///< kg, m3, kg m
-    double seconds = 0, start = 0, farthest = 0;    ///< of the present watch: s, height at its beginning and way, m
-    double solid = 0, liquid = 0;                   ///< kg/m3, of one that hangs
+    uint32_t id = kNone, material = 0;            ///< the least of its particles; of the first one
+    bool free = true;                             ///< moves by itself
+    double mass = 0, volume = 0, moment = 0;      ///< kg, m3, kg m
+    double seconds = 0, start = 0, farthest = 0;  ///< of the present watch: s, height at its beginning and way, m
+    double solid = 0, liquid = 0;                 ///< kg/m3, of one that hangs
     double height() const { return moment / mass; }
   };
   /// What lies around a piece.
@@ -58,7 +58,8 @@ class Hovering {
   };
   void findPieces(const Matter& matter);
   void remember();
-  void judge(const Matter& matter, Piece& piece) const;
+  void listMembers(const Matter& matter);
+  void judge(const Matter& matter, uint32_t slot);
   void lookAround(const Matter& matter, uint32_t i, Around& around) const;
   double wallShare(const api::Float4& at) const;
 
@@ -69,9 +70,10 @@ class Hovering {
   HalfSpaceTable m_halfSpace;
   Vector3 m_up;  ///< zero without gravity
   double m_gravity = 0;
-  std::vector<uint32_t> m_slot;           ///< by particle's piece: where it stands in m_pieces
-  std::vector<uint8_t> m_hangs;           ///< by particle
-  std::vector<Piece> m_pieces, m_former;  ///< by id
+  std::vector<uint32_t> m_slot;            ///< by particle's piece: where it stands in m_pieces
+  std::vector<uint8_t> m_hangs;            ///< by particle
+  std::vector<Piece> m_pieces, m_former;   ///< of this frame, and of the one before
+  std::vector<uint32_t> m_members, m_end;  ///< particles of one piece after the other, and where each ends
 };
 
 }  // namespace ps
