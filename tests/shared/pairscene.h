@@ -2,6 +2,7 @@
 #pragma once
 #include "core/particles/neighbours.h"
 #include "core/solver/fluid/pairkernels.h"
+#include "tests/shared/random.h"
 
 #include <cmath>
 #include <cstdint>
@@ -10,21 +11,6 @@
 
 // What kernels over pairs are tested and measured on: a disordered block of two liquids, some of it at rest or solid.
 namespace ps::scenes {
-
-/// SplitMix64 (Steele et al. 2014) in [0, 1): the same numbers on every machine.
-class Random {
- public:
-  explicit Random(uint64_t seed) : m_state(seed) {}
-  double next() {
-    uint64_t z = (m_state += 0x9E3779B97F4A7C15ull);
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ull;
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBull;
-    return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1.0p-53;
-  }
-
- private:
-  uint64_t m_state;
-};
 
 /// `side`^3 particles on a lattice of 20 mm, each moved by up to a fifth of that, and what the kernels read of them.
 /// Every array has the dummy that pads the lists at its end.
@@ -35,7 +21,7 @@ class PairScene {
   PairScene(int side, KernelShape shape, bool periodic) : m_shape(shape) {
     const double edge = side * kSpacing;
     if (periodic) m_store.setPeriod(Period({0, 0, 0}, {edge, edge, edge}, {true, false, true}));
-    Random random(11);
+    testing::Random random(11);
     const auto within = [&](double most) { return static_cast<float>(most * (2 * random.next() - 1)); };
     const auto cell = [&](int k) { return (k + 0.5) * kSpacing; };
     size_t i = m_store.add(static_cast<size_t>(side) * side * side);

@@ -3,18 +3,15 @@
 #include "core/solver/solver.h"
 #include "plugins/constraints/clusterkernels.h"
 #include "plugins/constraints/rotationkernels.h"
+#include "tests/shared/random.h"
 
 #include <QTest>
 
 #include <cmath>
-#include <random>
 
 using namespace ps::constraint;
 
 namespace {
-
-/// In [low, low + size).
-double number(std::mt19937& engine, double low, double size) { return low + size * (engine() / 4294967296.0); }
 
 template <class List>
 std::string bytesOf(const List& list) {
@@ -24,8 +21,8 @@ std::string bytesOf(const List& list) {
 /// One cluster among other particles.
 struct ClusterScene {
   explicit ClusterScene(size_t members) {
-    std::mt19937 engine(5);
-    const auto some = [&](double low, double size) { return static_cast<float>(number(engine, low, size)); };
+    ps::testing::Random engine(5);
+    const auto some = [&](double low, double size) { return static_cast<float>(engine.next(low, size)); };
     for (size_t i = 0; i < 2 * members; ++i) {
       const float x = some(0.9, 0.1), y = some(-0.1, 0.1), z = some(2, 0.1);
       position.push_back({x, y, z, some(1e-6, 1e-6)});
@@ -184,18 +181,18 @@ class TstClusterKernels : public QObject {
   }
   /// Well-shaped ones, flat and straight ones, mirrored ones, nothing, and what is no number.
   void rotationsAreThoseOfOneAfterTheOther() {
-    std::mt19937 engine(3);
+    ps::testing::Random engine(3);
     std::vector<Matrix> matrices;
     std::vector<Quaternion> from, expected;
     for (int k = 0; k < 101; ++k) {
       Matrix& m = matrices.emplace_back();
-      for (Vector& row : m.row) row = {number(engine, -1, 2), number(engine, -1, 2), number(engine, -1, 2)};
-      if (k % 4 == 0) m = matrixOf(normalised({number(engine, -1, 2), number(engine, -1, 2), 0.1, 1}));
+      for (Vector& row : m.row) row = {engine.next(-1, 2), engine.next(-1, 2), engine.next(-1, 2)};
+      if (k % 4 == 0) m = matrixOf(normalised({engine.next(-1, 2), engine.next(-1, 2), 0.1, 1}));
       if (k % 7 == 0) m.row[1] = {};
       if (k % 21 == 0) m.row[2] = {};
       if (k == 50) m = {};
       if (k == 51) m.row[0].x = std::nan("");
-      from.push_back(k % 3 == 0 ? Quaternion{} : normalised({number(engine, -1, 2), number(engine, -1, 2), 0.3, 0.4}));
+      from.push_back(k % 3 == 0 ? Quaternion{} : normalised({engine.next(-1, 2), engine.next(-1, 2), 0.3, 0.4}));
       expected.push_back(rotationOf(m, from.back(), 1e-9));
     }
     onEachInstructionSet([&](const std::string& name) {

@@ -4,6 +4,7 @@
 #include "core/base/parallel.h"
 #include "core/particles/cellgrid.h"
 #include "core/particles/neighbours.h"
+#include "tests/shared/random.h"
 
 #include <QTest>
 
@@ -14,23 +15,9 @@
 
 using ps::Neighbours;
 using ps::ParticleStore;
+using ps::testing::Random;
 
 namespace {
-
-/// SplitMix64 (Steele et al. 2014): the same numbers on every machine.
-class Random {
- public:
-  explicit Random(uint64_t seed) : m_state(seed) {}
-  double next() {
-    uint64_t z = (m_state += 0x9E3779B97F4A7C15ull);
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ull;
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBull;
-    return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1.0p-53;
-  }
-
- private:
-  uint64_t m_state;
-};
 
 constexpr double kSupport = 0.04, kSkin = 0.004;
 

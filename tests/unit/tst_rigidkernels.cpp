@@ -2,18 +2,15 @@
 // Sums over rigid bodies and the places of their members, beside the plainest way to compute the same.
 #include "core/solver/solver.h"
 #include "plugins/constraints/rigidkernels.h"
+#include "tests/shared/random.h"
 
 #include <QTest>
 
 #include <cmath>
-#include <random>
 
 using namespace ps::constraint;
 
 namespace {
-
-/// In [low, low + size).
-double number(std::mt19937& engine, double low, double size) { return low + size * (engine() / 4294967296.0); }
 
 template <class List>
 std::string bytesOf(const List& list) {
@@ -23,8 +20,8 @@ std::string bytesOf(const List& list) {
 /// Members of one body among other particles, somewhere else than where its pose has them.
 struct BodyScene {
   explicit BodyScene(size_t members) {
-    std::mt19937 engine(17);
-    const auto some = [&](double low, double size) { return static_cast<float>(number(engine, low, size)); };
+    ps::testing::Random engine(17);
+    const auto some = [&](double low, double size) { return static_cast<float>(engine.next(low, size)); };
     for (size_t i = 0; i < 2 * members; ++i) {
       const float x = some(0.9, 0.2), y = some(-0.1, 0.2), z = some(2, 0.2);
       position.push_back({x, y, z, some(1e-6, 1e-6)});

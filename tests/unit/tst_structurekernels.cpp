@@ -4,10 +4,9 @@
 #include "core/solver/solver.h"
 #include "plugins/constraints/pairprojection.h"
 #include "plugins/constraints/rigidpieces.h"
+#include "tests/shared/random.h"
 
 #include <QTest>
-
-#include <random>
 
 using ps::constraint::piecesOf;
 using ps::constraint::Vector;
@@ -26,9 +25,6 @@ std::vector<std::vector<size_t>> plainPieces(const std::vector<Vector>& points, 
   return sets.sets();
 }
 
-/// In [low, low + size).
-double number(std::mt19937& engine, double low, double size) { return low + size * (engine() / 4294967296.0); }
-
 /// Every instruction set that this machine has, by name; the best one again at the end.
 template <class Call>
 void onEachInstructionSet(Call&& call) {
@@ -42,10 +38,10 @@ void onEachInstructionSet(Call&& call) {
 /// Particles in disorder, some of them fixed, and pairs of which none share one: as a colour of a lattice.
 struct PairScene {
   PairScene(size_t pairs, double every) : period(every) {
-    std::mt19937 engine(11);
+    ps::testing::Random engine(11);
     const size_t count = 2 * pairs;
     for (size_t i = 0; i < count; ++i) {
-      const auto at = [&] { return static_cast<float>(number(engine, -0.5, 1)); };
+      const auto at = [&] { return static_cast<float>(engine.next(-0.5, 1)); };
       const float x = at(), y = at(), z = at();
       position.push_back({x, y, z, 8e-6f});
       previous.push_back({x + 0.01f * at(), y + 0.01f * at(), z + 0.01f * at(), 0});
@@ -55,9 +51,9 @@ struct PairScene {
     position[particles[7]] = position[particles[6]];                                               // no direction
     velocity[particles[10]].w = velocity[particles[11]].w = 0;
     for (size_t k = 0; k < pairs; ++k) {
-      length.push_back(static_cast<float>(number(engine, 0.1, 0.5)));
-      multiplier.push_back(static_cast<float>(number(engine, -1e-5, 2e-5)));
-      compliance.push_back(static_cast<float>(number(engine, 0, 1e-5)));
+      length.push_back(static_cast<float>(engine.next(0.1, 0.5)));
+      multiplier.push_back(static_cast<float>(engine.next(-1e-5, 2e-5)));
+      compliance.push_back(static_cast<float>(engine.next(0, 1e-5)));
       kind.push_back(static_cast<float>(k % 3));
     }
   }
@@ -101,10 +97,10 @@ class TstStructureKernels : public QObject {
     QFETCH(int, count);
     QFETCH(double, size);
     QFETCH(double, radius);
-    std::mt19937 engine(7);
+    ps::testing::Random engine(7);
     std::vector<Vector> points;
     for (int k = 0; k < count; ++k) {
-      const double x = number(engine, -0.3, size), y = number(engine, 2, size), z = number(engine, 0, size);
+      const double x = engine.next(-0.3, size), y = engine.next(2, size), z = engine.next(0, size);
       points.push_back({x, y, z});
     }
     QCOMPARE(piecesOf(points, radius), plainPieces(points, radius));
@@ -142,11 +138,11 @@ class TstStructureKernels : public QObject {
     }
   }
   void nearNeighboursAreThoseOfOneAfterTheOther() {
-    std::mt19937 engine(13);
+    ps::testing::Random engine(13);
     ps::ParticleStore store;
     store.add(700);
     for (size_t i = 0; i < store.size(); ++i) {
-      const auto at = [&] { return static_cast<float>(number(engine, -0.1, 0.2)); };
+      const auto at = [&] { return static_cast<float>(engine.next(-0.1, 0.2)); };
       const float x = at(), y = at(), z = at();
       store.position()[i] = {x, y, z, 8e-6f};
     }
