@@ -2,6 +2,7 @@
 #include "core/experiments/benchscenes.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace ps {
@@ -107,8 +108,32 @@ std::optional<Project> benchProject(const std::string& name, std::optional<long>
 void scaleTo(Project& project, long particles, size_t present) {
   if (present == 0) return;
   Value& spacing = project.solver.parameters.values["particle_spacing"];
-  spacing = numberOf(project.solver.parameters, solverParameters(), "particle_spacing") *
-            std::cbrt(static_cast<double>(present) / static_cast<double>(particles));
+  const double before = numberOf(project.solver.parameters, solverParameters(), "particle_spacing");
+  // Sheets and rows stay one particle thick, so that their number goes by fewer powers of the spacing.
+  std::array<double, 4> byPower{0, 0, 0, static_cast<double>(present)};
+  std::vector<double*> thin;  // edges, m
+  for (Body& body : project.bodies) {
+    auto* box = std::get_if<BoxShape>(&body.shape);
+    if (!box) continue;
+    size_t power = 3;
+    for (double& edge : box->size) {
+      if (layersAlong(edge, before) > 1) continue;
+      thin.push_back(&edge);
+      --power;
+    }
+    byPower[power] += particleCount(body, before);
+    byPower[3] -= particleCount(body, before);
+  }
+  const auto countAt = [&](double ratio) {
+    return byPower[0] + (byPower[1] + (byPower[2] + byPower[3] / ratio) / ratio) / ratio;
+  };
+  double low = 1e-3, high = 1e3;  // new spacing by old
+  for (int step = 0; step < 60; ++step) {
+    const double middle = std::sqrt(low * high);
+    (countAt(middle) > static_cast<double>(particles) ? low : high) = middle;
+  }
+  spacing = low * before;
+  for (double* edge : thin) *edge = low * before;
 }
 
 }  // namespace ps

@@ -21,7 +21,8 @@ std::vector<std::string> benchSceneNames();
 /// One of them, with about so many particles where that is asked for; nothing for another name.
 std::optional<Project> benchProject(const std::string& name, std::optional<long> particles);
 
-/// Changes the spacing so that box bodies, which hold `present` particles, hold about `particles`.
+/// Changes the spacing so that bodies, which hold `present` particles, hold about `particles`; boxes that are one
+/// particle thick stay so.
 void scaleTo(Project& project, long particles, size_t present);
 
 }  // namespace ps

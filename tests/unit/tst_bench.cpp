@@ -88,6 +88,18 @@ void TstBench::filesHoldWhatTheirNamesSay() {
   const Project project = loadProject(path, m_plugins).project;
   QCOMPARE(static_cast<size_t>(particleCount(project)), particles);
   QVERIFY(!project.bodies.front().constraints.empty());
+  for (const long wanted : {5000L, 500'000L}) {
+    Project scaled = project;
+    scaleTo(scaled, wanted, particles);
+    const double count = particleCount(scaled);
+    QVERIFY2(std::abs(count / static_cast<double>(wanted) - 1) < 0.1,
+             qPrintable(QString::number(count)));  // whole layers
+    const auto layersOf = [](const Project& p) {
+      return layersAlong(std::get<BoxShape>(p.bodies.front().shape).size.y(),
+                         numberOf(p.solver.parameters, solverParameters(), "particle_spacing"));
+    };
+    if (layersOf(project) == 1) QCOMPARE(layersOf(scaled), 1.0);
+  }
 }
 
 /// Where figures are compared, blocks and boxes must be those of the others: particles from a spacing off the side on,
