@@ -42,7 +42,7 @@ struct Limit {
   /// Of a curve or law that leaves its property's range: from where to where, K; 0 and infinity where it goes on.
   std::optional<std::array<double, 2>> kelvin{};
   /// What the numbers say, as the end of a sentence that begins with `what`, where they are more than what a step does
-  /// not reach: "a liquid of this spacing holds it". "": nothing to add.
+  /// not reach: "it should sink, but particles of this spacing hold it". "": nothing to add.
   std::string why{};
   /// What would help, as `--set` and the editor's links take it: "solver/particle_spacing=0.01"; "": nothing that is
   /// known, or more substeps.
