@@ -41,11 +41,27 @@ constexpr OptionSpec kOptions[] = {
 constexpr long kGrowth[] = {5000, 10'000, 20'000, 50'000, 100'000, 200'000, 500'000};
 constexpr size_t kMostBytes = size_t{64} << 20;  // of an earlier file
 
-/// "'tank', 'dambreak-20k', ...".
+/// Where projects are: beside the sources, or installed.
+std::vector<std::filesystem::path> projectFolders() {
+  std::error_code problem;
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", problem).parent_path();
+  return {PS_SOURCE_PROJECTS, program / "../share/phasesketch/projects"};
+}
+
+/// "'tank', 'dambreak-20k', ...": those that are made, and those that are files.
 std::string namedScenes() {
-  std::string names;
-  for (const std::string& name : benchSceneNames()) names += (names.empty() ? "'" : ", '") + name + "'";
-  return names;
+  std::vector<std::string> names = benchSceneNames(), files;
+  for (const std::filesystem::path& folder : projectFolders()) {
+    std::error_code problem;
+    for (const auto& entry : std::filesystem::directory_iterator(folder / "bench", problem))
+      files.push_back(entry.path().stem().string());
+    if (!files.empty()) break;
+  }
+  std::sort(files.begin(), files.end());
+  names.insert(names.end(), files.begin(), files.end());
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "'" : ", '") + name + "'";
+  return text;
 }
 
 /// Numbers of threads to measure with; 0: one per core.
@@ -72,9 +88,7 @@ std::vector<int> threadsOf(const Arguments& arguments) {
 std::string sceneFile(const std::string& name) {
   if (std::filesystem::exists(name)) return name;
   std::error_code problem;
-  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", problem).parent_path();
-  for (const std::filesystem::path& folder :
-       {std::filesystem::path(PS_SOURCE_PROJECTS), program / "../share/phasesketch/projects"}) {
+  for (const std::filesystem::path& folder : projectFolders()) {
     for (const char* kind : {"", "thesis", "bench"}) {
       const std::filesystem::path file = folder / kind / (name + ".json");
       if (std::filesystem::exists(file, problem)) return file.string();
@@ -164,9 +178,8 @@ void writeTables(const Arguments& arguments, const json& rows) {
 
 std::string benchHelp() {
   return "phasesketch-cli bench [SCENE...] [options]\n\nMeasures the path that simulate runs. A scene is a project "
-         "file, which begins at its start, the name of a sample or\nof one of those in projects/thesis and "
-         "projects/bench, 'drag', the tank "
-         "while a slider is dragged at 250 edits a second, beside the same left\nalone, or one of\n" +
+         "file, which begins at its start, the name of a sample or\nof one of the thesis's scenes, 'drag', the "
+         "tank while a slider is dragged at 250 edits a second, beside the same\nleft alone, or one of\n" +
          namedScenes() +
          ";\nwithout one: ice-on-hot-plate, tank and drag. iterations are those of a whole frame; ns_per_pair is the "
          "density stage\nover ordered pairs within the support; serial_share is what one thread does alone of a frame "
