@@ -43,12 +43,14 @@ struct Work {
   void densityOfEach() {
     DensityWeights weights;
     weights.each = weight.data();
-    sumDensity(lists, scene.points.data(), weights, which.data(), 0, which.size(), density.data(), slopes.data());
+    sumDensity(lists, scene.points.data(), weights, which.data(), 0, which.size(), density.data(), scalars.data(),
+               slopes.data());
   }
   void densityOfOne() {
     DensityWeights weights;
     weights.inverseMass[1] = 1;
-    sumDensity(lists, scene.points.data(), weights, which.data(), 0, which.size(), density.data(), slopes.data());
+    sumDensity(lists, scene.points.data(), weights, which.data(), 0, which.size(), density.data(), scalars.data(),
+               slopes.data());
   }
   void multipliers() {
     sumMultipliers(lists, scene.points.data(), which.data(), 0, which.size(), first.data(), slopes.data());

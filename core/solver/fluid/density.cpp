@@ -84,7 +84,6 @@ void DensityStage::refresh(const ParticleStore& store, const Neighbours& neighbo
   const size_t n = store.size();
   for (std::vector<api::Float4>* v : {&m_points, &m_multipliers}) v->resize(n + kSpare);
   m_carried.resize(n);
-  m_carriedMultiplier.resize(n);
   m_volume.resize(n + kSpare);
   m_weights = {};
   const api::Motion* motion = store.motion();
@@ -207,35 +206,22 @@ void DensityStage::loadPoints(const ParticleStore& store) {
   });
 }
 
+void DensityStage::makeRoom() {
+  const size_t fluids = m_fluid.size() + kSpare;
+  m_sums.resize(std::max(m_sums.size(), fluids));
+  m_squares.resize(fluids);
+  m_constraints.resize(fluids);
+  m_excess.resize(fluids);
+}
+
 void DensityStage::multipliers(const ParticleStore& store, const PairLists& near, float relaxation, size_t first,
                                size_t last) {
-  sumDensity(near, m_points.data(), m_weights, m_fluid.data(), first, last, m_sums.data(), m_slopes.data());
-  const float perR2 = near.inverseSupportSquared;
-  const float epsilon = kEpsilon / static_cast<float>(m_settings.spacing * m_settings.spacing);
   const uint32_t* const fluid = m_fluid.data();
-  const api::Float4 *const points = m_points.data(), *const velocity = store.velocity();
-  const float *const volume = m_volume.data(), *const compression = store.compression();
-  const DensitySums* const sums = m_sums.data();
-  HalfSpaces::Sum allWalls[grain::kPairs];
-  m_walls.sumsOf(std::span(m_fluid).subspan(first, last - first), points, allWalls);
-  float* const excess = m_excess.data();
-  Constraint* const constraints = m_constraints.data();
-  api::Float4* const multiplier = m_multipliers.data();
-  for (size_t k = first; k < last; ++k) {
-    const uint32_t i = fluid[k];
-    const DensitySums& s = sums[k];
-    const api::Float4 at = points[i];
-    const HalfSpaces::Sum& walls = allWalls[k - first];
-    const float inverseMass = velocity[i].w;
-    const float x = s.x * perR2 + walls.x, y = s.y * perR2 + walls.y, z = s.z * perR2 + walls.z;
-    const float dense = volume[i] + s.excess - 1 + walls.excess, active = dense - compression[i];
-    const float own = x * x + y * y + z * z;
-    const float wanted = -relaxation * active / (inverseMass * (own + epsilon) + s.squares * perR2);
-    const float lambda = active > 0 ? wanted : 0;  // half of them are not: a branch would be guessed wrong
-    excess[k] = dense;
-    constraints[k] = {x, y, z, lambda};
-    multiplier[i] = {at.x, at.y, at.z, lambda};
-  }
+  sumDensity(near, m_points.data(), m_weights, fluid, first, last, m_sums.data(), m_squares.data(), m_slopes.data());
+  const float epsilon = kEpsilon / static_cast<float>(m_settings.spacing * m_settings.spacing);
+  solveConstraints({relaxation, epsilon, near.inverseSupportSquared},
+                   {m_points.data(), store.velocity(), store.compression()}, m_walls, fluid, first, last, m_sums.data(),
+                   m_squares.data(), m_excess.data(), m_constraints.data(), m_multipliers.data());
 }
 
 /// What a gap takes off the corrections of a particle, m kg (TrappedFilm).
@@ -252,50 +238,29 @@ void DensityStage::sumMoves(const PairLists& near, size_t first, size_t last) {
   sumMultipliers(near, m_multipliers.data(), m_some.data(), fluids, last, m_moves.data(), nullptr);
 }
 
-void DensityStage::move(ParticleStore& store, const PairLists& pairs, size_t first, size_t last) {
-  const size_t fluids = m_fluid.size();
-  const float chebyshev = m_chebyshev, perR2 = pairs.inverseSupportSquared;
-  const bool film = m_film.any(), sums = m_multiplierSum.size() >= store.size();
-  Vector3 moved;
-  const uint32_t* const which = m_some.data();
-  api::Float4 *const position = store.position(), *const carriedMove = m_carried.data();
-  const api::Float4 *const velocity = store.velocity(), *const moves = m_moves.data();
-  const float *const volume = m_volume.data(), *const mass = store.mass();
-  const Constraint* const constraints = m_constraints.data();
-  float *const carriedMultiplier = m_carriedMultiplier.data(), *const multiplierSum = m_multiplierSum.data();
+/// The same of all that move, in m kg; nullptr where there is no film.
+const api::Float4* DensityStage::movesInFilm(const ParticleStore& store, const PairLists& pairs, size_t first,
+                                             size_t last) {
+  if (!m_film.any()) return nullptr;
   for (size_t k = first; k < last; ++k) {
-    const uint32_t i = which[k];
-    const float inverseMass = velocity[i].w, others = inverseMass * volume[i] * perR2;
-    const api::Float4 byOthers = moves[k];
-    float dx = others * byOthers.x, dy = others * byOthers.y, dz = others * byOthers.z;
-    if (k < fluids) {
-      const Constraint c = constraints[k];
-      const float own = inverseMass * c.lambda;
-      dx += own * c.x, dy += own * c.y, dz += own * c.z;
-      // As places are carried on from one iteration to the next, so are the multipliers that moved them.
-      const float former = carriedMultiplier[i];
-      const float multiplier = chebyshev == 1 ? c.lambda : chebyshev * c.lambda + (chebyshev - 1) * former;
-      carriedMultiplier[i] = multiplier;
-      if (sums) multiplierSum[i] += multiplier;
-    }
-    if (film && m_film.concerns(i)) {
-      const Vector3 off = double{inverseMass} * inFilm(store, pairs, i, m_multipliers[i].w);
-      dx += static_cast<float>(off.x()), dy += static_cast<float>(off.y()), dz += static_cast<float>(off.z());
-    }
-    // Only what density did is carried on, not what walls and structure did between two iterations, and by the same
-    // factors for fluids and solids: so the semi-iteration keeps momentum, and ice feels the lift that water gives.
-    if (chebyshev != 1) {
-      const api::Float4 carried = carriedMove[i];
-      dx = chebyshev * dx + (chebyshev - 1) * carried.x;
-      dy = chebyshev * dy + (chebyshev - 1) * carried.y;
-      dz = chebyshev * dz + (chebyshev - 1) * carried.z;
-    }
-    carriedMove[i] = {dx, dy, dz, 0};
-    const api::Float4 x = position[i];
-    position[i] = {x.x + dx, x.y + dy, x.z + dz, x.w};
-    moved += double{mass[i]} * Vector3(dx, dy, dz);
+    const uint32_t i = m_some[k];
+    m_movesInFilm[k] = {};
+    if (m_film.concerns(i)) m_movesInFilm[k] = float4Of(inFilm(store, pairs, i, m_multipliers[i].w), 0);
   }
-  m_moved.add(first / grain::kPairs, 1, moved);
+  return m_movesInFilm.data();
+}
+
+void DensityStage::move(ParticleStore& store, const PairLists& pairs, size_t first, size_t last) {
+  const MoveRule rule{m_chebyshev, pairs.inverseSupportSquared};
+  MoveFields fields{store.position(), m_carried.data(), store.velocity(), m_volume.data(), store.mass(), nullptr};
+  if (m_multiplierSum.size() >= store.size()) fields.multiplierSum = m_multiplierSum.data();
+  const api::Float4* const inFilm = movesInFilm(store, pairs, first, last);
+  const uint32_t* const which = m_some.data();
+  const size_t fluids = std::clamp(m_fluid.size(), first, last), chunk = first / grain::kPairs;
+  const api::Double3 ofFluids =
+      applyMoves(rule, fields, which, first, fluids, m_moves.data(), m_constraints.data(), inFilm);
+  const api::Double3 ofSolids = applyMoves(rule, fields, which, fluids, last, m_moves.data(), nullptr, inFilm);
+  m_moved.add(chunk, 1, vectorOf(ofFluids) + vectorOf(ofSolids));
 }
 
 /// For fluids and wet solids, which are `m_some` from now on.
@@ -323,10 +288,9 @@ void DensityStage::project(ParticleStore& store, const Neighbours& neighbours, i
   else
     m_chebyshev = iteration == 2 ? 2 / (2 - rho2) : 4 / (4 - rho2 * m_chebyshev);
   const size_t fluids = m_fluid.size(), moving = fluids + m_wet.size();
-  m_sums.resize(std::max(m_sums.size(), fluids));
-  m_constraints.resize(fluids);
-  m_excess.resize(fluids);
+  makeRoom();
   m_moves.resize(moving);
+  m_movesInFilm.resize(m_film.any() ? moving : 0);
   forChunks(fluids, grain::kPairs,
             [&](size_t first, size_t last) { multipliers(store, near, relaxation, first, last); });
   m_moved.start(chunkCount(moving, grain::kPairs));
@@ -346,10 +310,11 @@ void DensityStage::tellWalls(const ParticleStore& store) {
   forChunks(m_fluid.size(), grain::kParticles, [&](size_t first, size_t last) {
     for (size_t k = first; k < last; ++k) {
       const uint32_t i = m_fluid[k];
-      if (m_carriedMultiplier[i] == 0) continue;
+      const float multiplier = m_carried[i].w;
+      if (multiplier == 0) continue;
       m_walls.forSlopes(i, m_points[i], [&](size_t w, float slope) {
         const WallPlane& p = m_walls.planes()[w];
-        const double moved = double{m_carriedMultiplier[i]} * slope;
+        const double moved = double{multiplier} * slope;
         Vector3 given = -m_reactions->perStep() * moved * Vector3(p.x, p.y, p.z);
         if (m_film.concerns(i)) given -= double{m_film.yieldOf(i)} * given.dot(m_film.up()) * m_film.up();
         m_reactions->add(first / grain::kParticles, m_reactions->ofWall(w), vectorOf(store.position()[i]), given);
@@ -362,7 +327,7 @@ void DensityStage::tellWalls(const ParticleStore& store) {
 /// What fixed particles would be moved by, times their mass, if they could: pairs move by equal and opposite amounts.
 void DensityStage::tellFixed(const ParticleStore& store, const PairLists& pairs) {
   if (m_watched.empty()) return;
-  for (const uint32_t i : m_fluid) m_multipliers[i].w = m_carriedMultiplier[i];
+  for (const uint32_t i : m_fluid) m_multipliers[i].w = m_carried[i].w;
   m_watchedMoves.resize(m_watched.size());
   m_reactions->start(chunkCount(m_watched.size(), grain::kPairs));
   forChunks(m_watched.size(), grain::kPairs, [&](size_t first, size_t last) {
@@ -408,9 +373,7 @@ DensityError DensityStage::measure(ParticleStore& store, const Neighbours& neigh
   const size_t fluids = m_fluid.size();
   if (fluids == 0) return {};
   loadPoints(store);
-  m_sums.resize(std::max(m_sums.size(), fluids));
-  m_constraints.resize(fluids);
-  m_excess.resize(fluids);
+  makeRoom();
   const PairLists pairs = lists(store, neighbours);
   if (!m_nearKnown) findNear(store, pairs);  // else those of the last substep
   const PairLists near = m_near.lists(pairs);

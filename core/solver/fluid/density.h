@@ -3,7 +3,7 @@
 #include "core/particles/impulse.h"
 #include "core/particles/neighbours.h"
 #include "core/particles/reactions.h"
-#include "core/solver/fluid/halfspaces.h"
+#include "core/solver/fluid/constraintkernels.h"
 #include "core/solver/fluid/nearlists.h"
 #include "core/solver/fluid/pairkernels.h"
 #include "core/solver/fluid/trappedfilm.h"
@@ -69,16 +69,15 @@ class DensityStage {
   double kernelScale() const { return m_scale; }  ///< 1/m3: W = scale * w(q)
 
  private:
-  struct Constraint {
-    float x, y, z, lambda;  ///< gradient in 1/m, multiplier
-  };
   void solidVolumes(const ParticleStore& store, const PairLists& lists, api::Motion motion, float least, float most);
   void weigh(const ParticleStore& store);
   void loadPoints(const ParticleStore& store);
   void multipliers(const ParticleStore& store, const PairLists& near, float relaxation, size_t first, size_t last);
+  void makeRoom();
   void findNear(const ParticleStore& store, const PairLists& lists);
   void sumMoves(const PairLists& near, size_t first, size_t last);
   Vector3 inFilm(const ParticleStore& store, const PairLists& lists, uint32_t i, float lambda) const;
+  const api::Float4* movesInFilm(const ParticleStore& store, const PairLists& lists, size_t first, size_t last);
   void move(ParticleStore& store, const PairLists& lists, size_t first, size_t last);
   void writePressure(ParticleStore& store, const PairLists& near);
   void tellWalls(const ParticleStore& store);
@@ -97,12 +96,15 @@ class DensityStage {
   ChunkSum m_moved;
   ExternalImpulse m_externalImpulse;
   bool m_touchesFixed = false;
+  // Of fluids, with spare elements at the end (see solveConstraints()).
   std::vector<DensitySums> m_sums;
-  std::vector<Constraint> m_constraints;
-  std::vector<api::Float4> m_moves, m_carried;
-  std::vector<float> m_carriedMultiplier, m_multiplierSum;  ///< J s2, by particle: of an iteration, of the frame
-  std::vector<float> m_compression;                         ///< of fluids
-  std::vector<uint32_t> m_watched;                          ///< fixed particles with fluid near, of watched bodies
+  std::vector<float> m_squares;
+  std::vector<DensityConstraint> m_constraints;
+  std::vector<api::Float4> m_moves, m_movesInFilm;
+  std::vector<api::Float4> m_carried;  ///< by particle: m and, in w, J s2 of an iteration
+  std::vector<float> m_multiplierSum;  ///< J s2, by particle: of the frame
+  std::vector<float> m_compression;    ///< of fluids
+  std::vector<uint32_t> m_watched;     ///< fixed particles with fluid near, of watched bodies
   std::vector<api::Float4> m_watchedMoves;
   std::vector<DensityError> m_errors;  ///< by chunk
   NearLists m_near;                    ///< of fluids and wet solids, from the first iteration of a substep on

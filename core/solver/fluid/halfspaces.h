@@ -13,6 +13,7 @@ class HalfSpaceTable {
  public:
   HalfSpaceTable() = default;
   explicit HalfSpaceTable(const Kernel& kernel);
+  static constexpr size_t kIntervals = 256;
   struct Value {
     float share, slope;  ///< 1, 1/m
   };
@@ -22,13 +23,15 @@ class HalfSpaceTable {
     if (!(s < kIntervals)) return {0, 0};
     const size_t k = static_cast<size_t>(s);
     const float f = s - static_cast<float>(k);
-    const Value &a = m_values[k], &b = m_values[k + 1];
-    return {a.share + f * (b.share - a.share), a.slope + f * (b.slope - a.slope)};
+    const api::Float4& a = m_entries[k];
+    return {a.x + f * a.z, a.y + f * a.w};
   }
+  float perMetre() const { return m_perMetre; }  ///< intervals of a metre
+  /// Of each interval: share and slope at its begin, and by how much both grow to its end.
+  const api::Float4* entries() const { return m_entries.data(); }
 
  private:
-  static constexpr int kIntervals = 256;
-  std::vector<Value> m_values;
+  std::vector<api::Float4> m_entries;
   float m_perMetre = 0;
 };
 
@@ -56,8 +59,15 @@ class HalfSpaces {
     });
     return sum;
   }
-  /// Of these particles, at their places among `points`: wall by wall, since what lies side by side feels the same one.
-  void sumsOf(std::span<const uint32_t> which, const api::Float4* points, Sum* sums) const;
+  /// The walls that any of these particles may feel.
+  WallSet nearAny(const uint32_t* which, size_t count) const {
+    WallSet met;
+    for (size_t k = 0; k < count; ++k) met.add(m_near[which[k]]);
+    return met;
+  }
+  const HalfSpaceTable& table() const { return m_table; }
+  float support() const { return m_support; }  ///< m
+  float nearest() const { return m_nearest; }  ///< m: a wall counts as no nearer than this
   /// By how much its density sum grows where everything around comes nearer by a third of the same share (see
   /// sumCompression()).
   double compressionOf(uint32_t i, const api::Float4& at) const {

@@ -24,6 +24,13 @@ struct WeightOfEach {
   HWY_INLINE float whole(float sum) const { return sum; }
 };
 
+/// Where nobody asks for them.
+struct NoWeight {
+  HWY_INLINE explicit NoWeight(const DensityWeights&) {}
+  HWY_INLINE V share(V, V, const uint32_t*) const { return hn::Zero(D()); }
+  HWY_INLINE float whole(float) const { return 0; }
+};
+
 /// By the kind that a volume says.
 struct WeightByKind {
   V inverseMass;  // the table in each block
@@ -53,9 +60,12 @@ struct WeightOfOne {
 
 template <class Space, class Shape, class Weight, bool kKeepSlopes>
 HWY_INLINE void densityLoop(const PairLists& lists, const api::Float4* points, const DensityWeights& weights,
-                            const uint32_t* which, size_t first, size_t last, DensitySums* out, float* slopes) {
+                            const uint32_t* which, size_t first, size_t last, DensitySums* out, float* squares,
+                            float* slopes) {
   const Weight weight(weights);
   const D d;
+  alignas(16) constexpr float kFactors[4] = {1, Shape::kSlope, Shape::kSlope, Shape::kSlope};
+  const VBlock factors = hn::Load(DBlock(), kFactors);
   const Space space(lists);
   const V inverseR2 = hn::Set(d, lists.inverseSupportSquared);
   for (size_t k = first; k < last; ++k) {
@@ -74,10 +84,8 @@ HWY_INLINE void densityLoop(const PairLists& lists, const api::Float4* points, c
       g2.add(p, weight.share(other.w, slope, id));
     });
     constexpr float kSlope = Shape::kSlope;
-    alignas(16) float sums[4];
-    hn::Store(sumFour(s, gx, gy, gz), DBlock(), sums);
-    out[k] = {sums[0], kSlope * sums[1], kSlope * sums[2], kSlope * sums[3],
-              kSlope * kSlope * weight.whole(sumOne(g2))};
+    hn::StoreU(hn::Mul(factors, sumFour(s, gx, gy, gz)), DBlock(), &out[k].excess);
+    if constexpr (!std::is_same_v<Weight, NoWeight>) squares[k] = kSlope * kSlope * weight.whole(sumOne(g2));
   }
 }
 
@@ -182,18 +190,24 @@ HWY_INLINE void viscosityLoop(const PairLists& lists, const api::Float4* positio
 }
 
 void SumDensity(const PairLists& lists, const api::Float4* points, const DensityWeights& weights, const uint32_t* which,
-                size_t first, size_t last, DensitySums* out, float* slopes) {
+                size_t first, size_t last, DensitySums* out, float* squares, float* slopes) {
   bySpaceAndKernel(lists, [&](auto space, auto shape) HWY_ATTR {
     using Space = typename decltype(space)::Type;
     using Shape = typename decltype(shape)::Type;
     byFlag(slopes != nullptr, [&](auto keep) HWY_ATTR {
       constexpr bool kKeep = decltype(keep)::Type::value;
-      if (weights.each != nullptr)
-        densityLoop<Space, Shape, WeightOfEach, kKeep>(lists, points, weights, which, first, last, out, slopes);
+      const auto loop = [&](auto weight) HWY_ATTR {
+        using Weight = typename decltype(weight)::Type;
+        densityLoop<Space, Shape, Weight, kKeep>(lists, points, weights, which, first, last, out, squares, slopes);
+      };
+      if (squares == nullptr)
+        loop(Choice<NoWeight>());
+      else if (weights.each != nullptr)
+        loop(Choice<WeightOfEach>());
       else if (weights.onlyKind())
-        densityLoop<Space, Shape, WeightOfOne, kKeep>(lists, points, weights, which, first, last, out, slopes);
+        loop(Choice<WeightOfOne>());
       else
-        densityLoop<Space, Shape, WeightByKind, kKeep>(lists, points, weights, which, first, last, out, slopes);
+        loop(Choice<WeightByKind>());
     });
   });
 }
@@ -292,8 +306,8 @@ HWY_EXPORT(SumViscosity);
 HWY_EXPORT(SumCommonViscosity);
 
 void sumDensity(const PairLists& lists, const api::Float4* points, const DensityWeights& weights, const uint32_t* which,
-                size_t first, size_t last, DensitySums* out, float* slopes) {
-  HWY_DYNAMIC_DISPATCH(SumDensity)(lists, points, weights, which, first, last, out, slopes);
+                size_t first, size_t last, DensitySums* out, float* squares, float* slopes) {
+  HWY_DYNAMIC_DISPATCH(SumDensity)(lists, points, weights, which, first, last, out, squares, slopes);
 }
 void sumMultipliers(const PairLists& lists, const api::Float4* points, const uint32_t* which, size_t first, size_t last,
                     api::Float4* out, const float* slopes) {

@@ -28,7 +28,6 @@ struct PairLists {
 struct DensitySums {
   float excess;   ///< sum_j V_j w(q_ij), without the particle itself
   float x, y, z;  ///< sum_j V_j w'(q)/q (x_i - x_j), m; times 1/R2 it is the gradient
-  float squares;  ///< sum_j u_j w'(q)2 with the weights u_j; times 1/R2 it is the neighbours' share of the denominator
 };
 
 /// The weights u_j = V_j2/m_j of a density sum, 0 for what does not move. Where few inverse masses are about, the
@@ -47,10 +46,11 @@ struct DensityWeights {
   }
 };
 
-/// For the particles which[first .. last): sums over `points` (position and scaled volume) with weights u_j. Where
+/// For the particles which[first .. last): sums over `points` (position and scaled volume), and where `squares` is
+/// given sum_j u_j w'(q)2 with the weights u_j: times 1/R2 it is the neighbours' share of the denominator. Where
 /// `slopes` is given, w'(q)/q of each slot of their lists, but for a factor of the kernel's, is left there.
 void sumDensity(const PairLists& lists, const api::Float4* points, const DensityWeights& weights, const uint32_t* which,
-                size_t first, size_t last, DensitySums* out, float* slopes = nullptr);
+                size_t first, size_t last, DensitySums* out, float* squares = nullptr, float* slopes = nullptr);
 
 /// For the particles which[first .. last): out[k] = sum_j lambda_j w'(q)/q (x_i - x_j), lambda_j in points[j].w.
 /// `slopes` are those of sumDensity() at the same places, or nullptr.
