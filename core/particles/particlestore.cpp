@@ -41,7 +41,6 @@ constexpr OwnField kOwnFields[] = {
     {field::kLiquidFraction, api::FieldType::Float32, "", "Share of the mass that is liquid"},
     {field::kGasFraction, api::FieldType::Float32, "", "Share of the mass that is vapour"},
     {field::kCompression, api::FieldType::Float32, "", "Compression handed over when the solid melted"},
-    {field::kLambda, api::FieldType::Float32, "J", "Multiplier of the density constraint"},
     {field::kDensityError, api::FieldType::Float32, "", "Relative excess density of the last iteration"},
     {field::kPressure, api::FieldType::Float32, "Pa", "Pressure of liquid and vapour, mean of the last frame"},
 };
@@ -199,7 +198,6 @@ void ParticleStore::refreshPointers() {
   set(m_liquidFraction, field::kLiquidFraction, Float32);
   set(m_gasFraction, field::kGasFraction, Float32);
   set(m_compression, field::kCompression, Float32);
-  set(m_lambda, field::kLambda, Float32);
   set(m_pressure, field::kPressure, Float32);
   set(m_densityError, field::kDensityError, Float32);
 }

@@ -34,7 +34,6 @@ inline constexpr const char* kSolidFraction = "solid_fraction";    ///< Float32
 inline constexpr const char* kLiquidFraction = "liquid_fraction";  ///< Float32
 inline constexpr const char* kGasFraction = "gas_fraction";        ///< Float32
 inline constexpr const char* kCompression = "compression_offset";  ///< Float32: C0 handed over when a solid melts
-inline constexpr const char* kLambda = "lambda";                   ///< Float32: density multiplier
 inline constexpr const char* kDensityError = "density_error";      ///< Float32: C of the last iteration
 inline constexpr const char* kPressure = "pressure";               ///< Float32: Pa, mean of the last frame
 }  // namespace field
@@ -100,7 +99,6 @@ class ParticleStore final : public api::FieldAccess {
   float* liquidFraction() { return m_liquidFraction; }
   float* gasFraction() { return m_gasFraction; }
   float* compression() { return m_compression; }
-  float* lambda() { return m_lambda; }
   float* densityError() { return m_densityError; }
   float* pressure() { return m_pressure; }
   const api::Float4* position() const { return m_position; }
@@ -117,7 +115,6 @@ class ParticleStore final : public api::FieldAccess {
   const float* liquidFraction() const { return m_liquidFraction; }
   const float* gasFraction() const { return m_gasFraction; }
   const float* compression() const { return m_compression; }
-  const float* lambda() const { return m_lambda; }
   const float* densityError() const { return m_densityError; }
   const float* pressure() const { return m_pressure; }
 
@@ -167,7 +164,7 @@ class ParticleStore final : public api::FieldAccess {
   api::Motion* m_motion = nullptr;
   double* m_temperature = nullptr;
   float *m_solidFraction = nullptr, *m_liquidFraction = nullptr, *m_gasFraction = nullptr, *m_compression = nullptr,
-        *m_lambda = nullptr, *m_densityError = nullptr, *m_pressure = nullptr;
+        *m_densityError = nullptr, *m_pressure = nullptr;
 };
 
 }  // namespace ps

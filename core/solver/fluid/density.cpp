@@ -343,53 +343,37 @@ void DensityStage::tellFixed(const ParticleStore& store, const PairLists& pairs)
   m_reactions->finish();
 }
 
-void DensityStage::writePressure(ParticleStore& store, const PairLists& near) {
-  const size_t fluids = m_fluid.size();
-  m_compression.resize(2 * fluids);
-  const double dt = m_settings.dt / m_settings.substeps, perSubstep = 1 / (dt * dt * m_settings.substeps);
-  m_multiplierSum.resize(store.size() + kSpare);
-  forChunks(fluids, grain::kNumbers, [&](size_t first, size_t last) {
-    for (size_t k = first; k < last; ++k) m_multipliers[m_fluid[k]].w = m_multiplierSum[m_fluid[k]];
-  });
-  forChunks(fluids, grain::kPairs, [&](size_t first, size_t last) {
-    float *const byVolumes = m_compression.data(), *const byMultipliers = byVolumes + fluids;
-    sumCompression(near, m_points.data(), m_multipliers.data(), m_slopes.data(), m_fluid.data(), first, last, byVolumes,
-                   byMultipliers);
-    for (size_t k = first; k < last; ++k) {
-      const uint32_t i = m_fluid[k];
-      const double own = byVolumes[k] + m_walls.compressionOf(i, m_points[i]), volume = store.position()[i].w;
-      const double work = 0.5 * (own * double{m_multiplierSum[i]} + double{m_volume[i]} * byMultipliers[k]);
-      if (volume > 0) store.pressure()[i] = static_cast<float>(-perSubstep * work / volume);
-    }
-  });
-}
-
 DensityError DensityStage::measure(ParticleStore& store, const Neighbours& neighbours, const Bounds& bounds) {
-  float *error = store.densityError(), *lambda = store.lambda();
-  float* pressure = store.pressure();
+  float *error = store.densityError(), *pressure = store.pressure();
   forChunks(store.size(), grain::kNumbers, [&](size_t first, size_t last) {
-    for (size_t i = first; i < last; ++i) error[i] = lambda[i] = pressure[i] = 0;
+    for (size_t i = first; i < last; ++i) error[i] = pressure[i] = 0;
   });
   const size_t fluids = m_fluid.size();
   if (fluids == 0) return {};
   loadPoints(store);
-  makeRoom();
   const PairLists pairs = lists(store, neighbours);
   if (!m_nearKnown) findNear(store, pairs);  // else those of the last substep
   const PairLists near = m_near.lists(pairs);
-  forChunks(fluids, grain::kPairs, [&](size_t first, size_t last) {
-    multipliers(store, near, static_cast<float>(m_settings.relaxation), first, last);
-  });
-  writePressure(store, near);
-  m_errors.assign(chunkCount(fluids, grain::kNumbers), {});
+  m_multiplierSum.resize(store.size() + kSpare);
   forChunks(fluids, grain::kNumbers, [&](size_t first, size_t last) {
-    DensityError& part = m_errors[first / grain::kNumbers];
+    for (size_t k = first; k < last; ++k) m_multipliers[m_fluid[k]].w = m_multiplierSum[m_fluid[k]];
+  });
+  const double dt = m_settings.dt / m_settings.substeps, perSubstep = 1 / (dt * dt * m_settings.substeps);
+  m_compression.resize(fluids);
+  m_errors.assign(chunkCount(fluids, grain::kPairs), {});
+  forChunks(fluids, grain::kPairs, [&](size_t first, size_t last) {
+    sumCompression(near, m_points.data(), m_multipliers.data(), m_fluid.data(), first, last, m_compression.data());
+    DensityError& part = m_errors[first / grain::kPairs];
     for (size_t k = first; k < last; ++k) {
       const uint32_t i = m_fluid[k];
-      error[i] = m_excess[k];
-      lambda[i] = m_constraints[k].lambda;
+      const CompressionSums& sums = m_compression[k];
+      const HalfSpaces::Compression walls = m_walls.compressionOf(i, m_points[i]);
+      const double own = sums.byVolumes + walls.byVolumes, volume = store.position()[i].w;
+      const double work = 0.5 * (own * double{m_multiplierSum[i]} + double{m_volume[i]} * sums.byMultipliers);
+      if (volume > 0) pressure[i] = static_cast<float>(-perSubstep * work / volume);
+      error[i] = m_volume[i] + sums.excess - 1 + walls.excess;
       if (store.motion()[i] != api::Motion::Liquid || !isInside(store.position()[i], bounds)) continue;
-      const double c = std::max(0.0f, m_excess[k]);
+      const double c = std::max(0.0f, error[i]);
       part.mean += c;
       part.max = std::max(part.max, c);
       ++part.liquids;

@@ -42,8 +42,8 @@ class DensityStage {
   std::span<const uint32_t> watchedFixed() const { return m_watched; }
   /// Fixed particles have fluid near.
   bool touchesFixed() const { return m_touchesFixed; }
-  /// C and lambda at the present positions, written to the store, and the mean pressure of the frame: the virial of
-  /// what the iterations of a substep added up to, -1/(3 V) sum_j r f / 2 over all pairs of a particle, half of each
+  /// C at the present positions, written to the store, and the mean pressure of the frame: the virial of what the
+  /// iterations of a substep added up to, -1/(3 V) sum_j r f / 2 over all pairs of a particle, half of each
   /// pair its own (Irving & Kirkwood 1950). Solids and walls push by the multiplier of the liquid alone, which is
   /// larger beside them. 0 for all but liquid and vapour. What was stopped outside of the bounds stands crowded there,
   /// and is left out of the error.
@@ -79,7 +79,6 @@ class DensityStage {
   Vector3 inFilm(const ParticleStore& store, const PairLists& lists, uint32_t i, float lambda) const;
   const api::Float4* movesInFilm(const ParticleStore& store, const PairLists& lists, size_t first, size_t last);
   void move(ParticleStore& store, const PairLists& lists, size_t first, size_t last);
-  void writePressure(ParticleStore& store, const PairLists& near);
   void tellWalls(const ParticleStore& store);
   void tellFixed(const ParticleStore& store, const PairLists& lists);
 
@@ -103,8 +102,8 @@ class DensityStage {
   std::vector<api::Float4> m_moves, m_movesInFilm;
   std::vector<api::Float4> m_carried;  ///< by particle: m and, in w, J s2 of an iteration
   std::vector<float> m_multiplierSum;  ///< J s2, by particle: of the frame
-  std::vector<float> m_compression;    ///< of fluids
-  std::vector<uint32_t> m_watched;     ///< fixed particles with fluid near, of watched bodies
+  std::vector<CompressionSums> m_compression;
+  std::vector<uint32_t> m_watched;  ///< fixed particles with fluid near, of watched bodies
   std::vector<api::Float4> m_watchedMoves;
   std::vector<DensityError> m_errors;  ///< by chunk
   NearLists m_near;                    ///< of fluids and wet solids, from the first iteration of a substep on

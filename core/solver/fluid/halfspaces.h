@@ -68,13 +68,17 @@ class HalfSpaces {
   const HalfSpaceTable& table() const { return m_table; }
   float support() const { return m_support; }  ///< m
   float nearest() const { return m_nearest; }  ///< m: a wall counts as no nearer than this
-  /// By how much its density sum grows where everything around comes nearer by a third of the same share (see
-  /// sumCompression()).
-  double compressionOf(uint32_t i, const api::Float4& at) const {
-    double sum = 0;
+  /// What walls add to CompressionSums.
+  struct Compression {
+    float excess = 0;
+    double byVolumes = 0;
+  };
+  Compression compressionOf(uint32_t i, const api::Float4& at) const {
+    Compression sum;
     forNear(i, at, [&](size_t, float distance) {
       const HalfSpaceTable::Value value = m_table.at(distance);
-      sum += double{value.share} - double{distance} * value.slope / 3;
+      sum.excess += value.share;
+      sum.byVolumes += double{value.share} - double{distance} * value.slope / 3;
     });
     return sum;
   }

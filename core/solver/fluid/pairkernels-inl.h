@@ -108,9 +108,6 @@ struct Wendland {
   HWY_INLINE V slope() const { return hn::Mul(a3, q); }
 };
 
-HWY_INLINE float slopeFactor(KernelShape shape) {
-  return shape == KernelShape::CubicSpline ? Spline::kSlope : Wendland::kSlope;
-}
 
 /// How offsets are measured: as they are, or to the nearest image. Chosen once per call, so that open space does not
 /// pay.

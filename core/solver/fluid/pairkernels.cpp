@@ -115,27 +115,26 @@ HWY_INLINE void multiplierLoop(const PairLists& lists, const api::Float4* points
   }
 }
 
-template <class Space>
+template <class Space, class Shape>
 HWY_INLINE void compressionLoop(const PairLists& lists, const api::Float4* points, const api::Float4* multipliers,
-                                const float* slopes, const uint32_t* which, size_t first, size_t last, float* byVolumes,
-                                float* byMultipliers) {
+                                const uint32_t* which, size_t first, size_t last, CompressionSums* out) {
   const D d;
   const Space space(lists);
   const V inverseR2 = hn::Set(d, lists.inverseSupportSquared);
-  const float factor = -slopeFactor(lists.kernel) / 3;
+  constexpr float kFactor = -Shape::kSlope / 3;
   for (size_t k = first; k < last; ++k) {
     const size_t i = which[k];
     const V px = hn::Set(d, points[i].x), py = hn::Set(d, points[i].y), pz = hn::Set(d, points[i].z);
-    Lanes volumes, others;
+    Lanes excess, volumes, others;
     forNeighbours(lists, i, [&](size_t p, const uint32_t* id) HWY_ATTR {
       const Vectors4 other = loadTransposed(points, id);
-      const V q2 = offsetsTo(space, px, py, pz, other, inverseR2).q2;
-      const V approach = hn::Mul(q2, hn::LoadU(d, slopes + (id - lists.index)));
+      const Shape w(offsetsTo(space, px, py, pz, other, inverseR2).q2);
+      const V approach = hn::Mul(w.q, w.slope());
+      excess.add(p, hn::Mul(other.w, w.value()));
       volumes.add(p, hn::Mul(other.w, approach));
       others.add(p, hn::Mul(loadTransposed(multipliers, id).w, approach));
     });
-    byVolumes[k] = factor * sumOne(volumes);
-    byMultipliers[k] = factor * sumOne(others);
+    out[k] = {sumOne(excess), kFactor * sumOne(volumes), kFactor * sumOne(others)};
   }
 }
 
@@ -268,11 +267,10 @@ void FindNear(const PairLists& lists, const api::Float4* points, const NearRule&
 }
 
 void SumCompression(const PairLists& lists, const api::Float4* points, const api::Float4* multipliers,
-                    const float* slopes, const uint32_t* which, size_t first, size_t last, float* byVolumes,
-                    float* byMultipliers) {
-  bySpace(lists, [&](auto space) HWY_ATTR {
-    compressionLoop<typename decltype(space)::Type>(lists, points, multipliers, slopes, which, first, last, byVolumes,
-                                                    byMultipliers);
+                    const uint32_t* which, size_t first, size_t last, CompressionSums* out) {
+  bySpaceAndKernel(lists, [&](auto space, auto shape) HWY_ATTR {
+    compressionLoop<typename decltype(space)::Type, typename decltype(shape)::Type>(lists, points, multipliers, which,
+                                                                                    first, last, out);
   });
 }
 
@@ -318,10 +316,8 @@ void findNear(const PairLists& lists, const api::Float4* points, const NearRule&
   HWY_DYNAMIC_DISPATCH(FindNear)(lists, points, rule, which, first, last, lastOf, index);
 }
 void sumCompression(const PairLists& lists, const api::Float4* points, const api::Float4* multipliers,
-                    const float* slopes, const uint32_t* which, size_t first, size_t last, float* byVolumes,
-                    float* byMultipliers) {
-  HWY_DYNAMIC_DISPATCH(SumCompression)
-  (lists, points, multipliers, slopes, which, first, last, byVolumes, byMultipliers);
+                    const uint32_t* which, size_t first, size_t last, CompressionSums* out) {
+  HWY_DYNAMIC_DISPATCH(SumCompression)(lists, points, multipliers, which, first, last, out);
 }
 void sumViscosity(const PairLists& lists, const api::Float4* position, const api::Float4* velocity,
                   const float* coefficient, const uint32_t* which, size_t first, size_t last, api::Float4* out) {

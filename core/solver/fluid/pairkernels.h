@@ -67,12 +67,16 @@ struct NearRule {
 void findNear(const PairLists& lists, const api::Float4* points, const NearRule& rule, const uint32_t* which,
               size_t first, size_t last, uint32_t* lastOf, uint32_t* index);
 
-/// For the particles which[first .. last): byVolumes[k] = -sum_j V_j w'(q) q / 3, by how much the density sum grows
-/// where everything around comes nearer by the same share: by three times this. 1 in the continuum. The same with the
-/// multipliers in their w in place of volumes. `slopes` are those of sumDensity() at the same places.
+/// What is to be told of a particle's density, not solved for.
+struct CompressionSums {
+  float excess;         ///< sum_j V_j w(q_ij), without the particle itself
+  float byVolumes;      ///< -sum_j V_j w'(q) q / 3: a third of what the density sum grows by where all around comes
+                        ///< nearer by the same share; 1 in the continuum
+  float byMultipliers;  ///< the same with the multipliers in their w in place of volumes
+};
+/// For the particles which[first .. last).
 void sumCompression(const PairLists& lists, const api::Float4* points, const api::Float4* multipliers,
-                    const float* slopes, const uint32_t* which, size_t first, size_t last, float* byVolumes,
-                    float* byMultipliers);
+                    const uint32_t* which, size_t first, size_t last, CompressionSums* out);
 
 /// XSPH (Monaghan 1992) with harmonic masses and mean volumes: for the particles which[first .. last),
 /// out[k] = sum_j c_ij (V_i + V_j)/2 2 m_j/(m_i + m_j) w(q) (v_j - v_i), to be multiplied by the kernel's factor.
