@@ -32,7 +32,7 @@ void CellGrid::sortByCell() {
   m_starts.assign(cell(0, 0, m_cells[2]) + 1, 0);
   for (const uint32_t c : m_cellOf) ++m_starts[c + 1];
   for (size_t c = 1; c < m_starts.size(); ++c) m_starts[c] += m_starts[c - 1];
-  m_order.resize(count);
+  m_order.resize(count + kSpareSlots);
   m_sorted = true;
   for (size_t i = 0; i < count; ++i) {
     const uint32_t slot = m_starts[m_cellOf[i]]++;
@@ -45,8 +45,9 @@ void CellGrid::sortByCell() {
 
 void CellGrid::reorder() {
   m_next.resize(m_cellOf.size());
-  for (size_t slot = 0; slot < m_order.size(); ++slot) m_next[slot] = m_cellOf[m_order[slot]];
+  for (size_t slot = 0; slot < m_next.size(); ++slot) m_next[slot] = m_cellOf[m_order[slot]];
   m_cellOf.swap(m_next);
+  for (size_t slot = 0; slot < m_cellOf.size(); ++slot) m_order[slot] = static_cast<uint32_t>(slot);
   m_sorted = true;
 }
 

@@ -54,8 +54,8 @@ class CellGrid {
   size_t cell(int x, int y, int z) const { return static_cast<size_t>((z * m_cells[1] + y) * m_cells[0] + x); }
   /// First slot of a cell; that of the next one is its end.
   std::span<const uint32_t> starts() const { return m_starts; }
-  /// Index of the place in a slot.
-  std::span<const uint32_t> order() const { return m_order; }
+  /// Index of the place in a slot; 16 more may be read.
+  std::span<const uint32_t> order() const { return {m_order.data(), m_cellOf.size()}; }
   /// Whether slots are indices.
   bool sorted() const { return m_sorted; }
   /// Cell of a place, by its index.
@@ -85,6 +85,7 @@ class CellGrid {
     return m_repeats[axis] ? (c + m_cells[axis]) % m_cells[axis] : -1;
   }
 
+  static constexpr size_t kSpareSlots = 16;
   double m_low[3] = {0, 0, 0}, m_perMetre[3] = {1, 1, 1};  ///< m, 1/m
   int m_cells[3] = {1, 1, 1};
   bool m_repeats[3] = {false, false, false};

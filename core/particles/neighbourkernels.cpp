@@ -34,28 +34,28 @@ struct Runs {
 };
 
 template <bool kPeriodic>
-void searchSlotsOf(const SearchGrid& grid, size_t first, size_t last, uint32_t* counts, std::vector<uint32_t>& found) {
+size_t searchListsOf(const SearchGrid& grid, size_t first, size_t last, const ListRoom& room) {
   const hn::CappedTag<float, 16> d;
   const hn::RebindToSigned<decltype(d)> di;
-  constexpr size_t kLanes = HWY_MIN(HWY_LANES(float), 16);
-  const auto iota = hn::Iota(di, 0);
+  constexpr size_t kLanes = HWY_MIN(HWY_LANES(float), 16), kPad = 16;
+  const auto iota = hn::Iota(di, 0), dummies = hn::Set(di, static_cast<int32_t>(room.dummy));
   const auto radius2 = hn::Set(d, grid.radiusSquared);
   const int nx = grid.cells[0], ny = grid.cells[1], nz = grid.cells[2];
   // Known to be no part of what is written.
   const float *const gridX = grid.x, *const gridY = grid.y, *const gridZ = grid.z;
-  const uint32_t* const cellStart = grid.cellStart;
-  size_t used = 0, room = found.size();
-  auto* out = reinterpret_cast<int32_t*>(found.data());
-  for (size_t slot = first; slot < last; ++slot) {
-    const int cell = static_cast<int>(grid.cell[slot]), cx = cell % nx, cy = cell / nx % ny, cz = cell / (nx * ny);
-    const auto px = hn::Set(d, grid.x[slot]), py = hn::Set(d, grid.y[slot]), pz = hn::Set(d, grid.z[slot]);
+  const uint32_t *const cellStart = grid.cellStart, *const order = grid.order;
+  auto* const out = reinterpret_cast<int32_t*>(room.index + room.first);
+  size_t used = 0;
+  for (size_t i = first; i < last; ++i) {
+    const size_t slot = grid.slotOf[i];
+    const int cell = static_cast<int>(grid.cell[i]), cx = cell % nx, cy = cell / nx % ny, cz = cell / (nx * ny);
+    const auto px = hn::Set(d, gridX[slot]), py = hn::Set(d, gridY[slot]), pz = hn::Set(d, gridZ[slot]);
     const auto self = hn::Set(di, static_cast<int32_t>(slot));
-    const size_t before = used;
+    room.begin[i] = room.first + static_cast<uint32_t>(used);
     const auto scan = [&](uint32_t begin, uint32_t end, float byX, float byY, float byZ, auto holdsSelf) HWY_ATTR {
-      if (room < used + (end - begin) + 2 * kLanes) {
-        found.resize(used + (end - begin) + 256);
-        out = reinterpret_cast<int32_t*>(found.data());
-        room = found.size();
+      if (room.count < used + (end - begin) + kLanes + kPad) {
+        used += end - begin;  // in vain: how much there could be
+        return;
       }
       for (uint32_t k = begin; k < end; k += kLanes) {
         auto dx = hn::Sub(px, hn::LoadU(d, gridX + k));
@@ -65,11 +65,14 @@ void searchSlotsOf(const SearchGrid& grid, size_t first, size_t last, uint32_t* 
           dx = hn::Add(dx, hn::Set(d, byX)), dy = hn::Add(dy, hn::Set(d, byY)), dz = hn::Add(dz, hn::Set(d, byZ));
         }
         const auto d2 = hn::Add(hn::Mul(dx, dx), hn::Add(hn::Mul(dy, dy), hn::Mul(dz, dz)));
-        const auto slots = hn::Add(iota, hn::Set(di, static_cast<int32_t>(k)));
         auto wanted = hn::And(hn::RebindMask(di, hn::Lt(d2, radius2)), hn::FirstN(di, end - k));
-        if constexpr (decltype(holdsSelf)::value) wanted = hn::AndNot(hn::Eq(slots, self), wanted);
+        if constexpr (decltype(holdsSelf)::value) {
+          const auto slots = hn::Add(iota, hn::Set(di, static_cast<int32_t>(k)));
+          wanted = hn::AndNot(hn::Eq(slots, self), wanted);
+        }
+        const auto ids = hn::LoadU(di, reinterpret_cast<const int32_t*>(order + k));
         // Whole vectors are stored: a store under a mask takes a hundred cycles on some machines.
-        hn::StoreU(hn::Compress(slots, wanted), di, out + used);
+        hn::StoreU(hn::Compress(ids, wanted), di, out + used);
         used += hn::CountTrue(di, wanted);
       }
     };
@@ -99,15 +102,20 @@ void searchSlotsOf(const SearchGrid& grid, size_t first, size_t last, uint32_t* 
           scanRow(y, z, HWY_MAX(cx - 1, 0), HWY_MIN(cx + 1, nx - 1), 0, 0, 0);
       }
     }
-    counts[slot - first] = static_cast<uint32_t>(used - before);
+    room.last[i] = room.first + static_cast<uint32_t>(used);
+    if (used + 2 * kPad <= room.count) {
+      for (size_t p = 0; p < kPad; p += kLanes) hn::StoreU(dummies, di, out + used + p);
+    }
+    used = (used + kPad - 1) / kPad * kPad;
+    room.end[i] = room.first + static_cast<uint32_t>(used);
   }
+  return used + 2 * kPad;
 }
 
-void SearchSlots(const SearchGrid& grid, size_t first, size_t last, uint32_t* counts, std::vector<uint32_t>& found) {
+size_t SearchLists(const SearchGrid& grid, size_t first, size_t last, const ListRoom& room) {
   if (grid.period[0] > 0 || grid.period[1] > 0 || grid.period[2] > 0)
-    searchSlotsOf<true>(grid, first, last, counts, found);
-  else
-    searchSlotsOf<false>(grid, first, last, counts, found);
+    return searchListsOf<true>(grid, first, last, room);
+  return searchListsOf<false>(grid, first, last, room);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -116,9 +124,9 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace ps {
-HWY_EXPORT(SearchSlots);
-void searchSlots(const SearchGrid& grid, size_t first, size_t last, uint32_t* counts, std::vector<uint32_t>& found) {
-  HWY_DYNAMIC_DISPATCH(SearchSlots)(grid, first, last, counts, found);
+HWY_EXPORT(SearchLists);
+size_t searchLists(const SearchGrid& grid, size_t first, size_t last, const ListRoom& room) {
+  return HWY_DYNAMIC_DISPATCH(SearchLists)(grid, first, last, room);
 }
 }  // namespace ps
 #endif

@@ -14,6 +14,8 @@ namespace ps {
 namespace {
 
 constexpr size_t kSpareSlots = 16;
+/// Of what is needed, one part in so many is kept spare.
+constexpr size_t kSpareShare = 16;
 
 constexpr const char* kBuiltBlock = "neighbours/built";
 
@@ -35,16 +37,17 @@ void Neighbours::assignCells(std::span<const api::Float4> position, const Period
 
 void Neighbours::sortAndBuild(ParticleStore& store) {
   assignCells(placesOf(store), store.period());
+  m_lastOrder.assign(m_grid.order().begin(), m_grid.order().end());
   if (!m_grid.sorted()) {
     store.permute(m_grid.order());
     m_grid.reorder();
   }
-  searchLists(placesOf(store), store.period());
+  makeLists(placesOf(store), store.period());
 }
 
 void Neighbours::build(const ParticleStore& store) {
   assignCells(placesOf(store), store.period());
-  searchLists(placesOf(store), store.period());
+  makeLists(placesOf(store), store.period());
 }
 
 void Neighbours::save(StateWriter& writer, bool valid) const {
@@ -61,84 +64,70 @@ void Neighbours::restore(const StateReader& reader, const ParticleStore& store) 
   std::vector<api::Float4> built(store.size());
   reader.read(kBuiltBlock, StateType::Float4, built.data(), built.size());
   assignCells(built, store.period());
-  searchLists(built, store.period());
+  makeLists(built, store.period());
 }
 
-void Neighbours::searchLists(std::span<const api::Float4> position, const Period& period) {
+void Neighbours::loadSlots(std::span<const api::Float4> position, const Period& period) {
   const size_t n = position.size();
-  m_cellOfSlot.resize(n);
+  m_slotOf.resize(n);
   for (std::vector<float>* v : {&m_x, &m_y, &m_z}) v->resize(n + kSpareSlots);
   forChunks(n, grain::kNumbers, [&](size_t first, size_t last) {
     for (size_t slot = first; slot < last; ++slot) {
-      const size_t i = indexOf(slot);
+      const size_t i = m_grid.order()[slot];
       const api::Double3 p = period.wrapped({position[i].x, position[i].y, position[i].z});
       m_x[slot] = static_cast<float>(p.x);
       m_y[slot] = static_cast<float>(p.y);
       m_z[slot] = static_cast<float>(p.z);
-      m_cellOfSlot[slot] = m_grid.cellOfEach()[i];
+      m_slotOf[i] = static_cast<uint32_t>(slot);
     }
   });
+}
+
+void Neighbours::makeLists(std::span<const api::Float4> position, const Period& period) {
+  const size_t n = position.size();
+  loadSlots(position, period);
   advance(n);
   const double radius = m_support + m_skin;
   const SearchGrid grid{m_x.data(),
                         m_y.data(),
                         m_z.data(),
-                        m_cellOfSlot.data(),
+                        m_grid.order().data(),
+                        m_slotOf.data(),
+                        m_grid.cellOfEach().data(),
                         m_grid.starts().data(),
                         {m_grid.cells(0), m_grid.cells(1), m_grid.cells(2)},
                         static_cast<float>(radius * radius),
                         {period.length(0), period.length(1), period.length(2)}};
   const size_t chunks = chunkCount(n, grain::kNeighbours);
-  if (m_chunks.size() < chunks) m_chunks.resize(chunks);
-  m_counts.resize(n);
+  for (std::vector<uint32_t>* v : {&m_begin, &m_last, &m_end}) v->resize(n);
+  m_needs.resize(chunks);
   Progress* const progress = t_progress;  // of this thread; others help it
-  const auto search = [&](size_t first, size_t last) {
-    if (progress) progress->advance(last - first);
-    Chunk& chunk = m_chunks[first / grain::kNeighbours];
-    searchSlots(grid, first, last, m_counts.data() + first, chunk.found);
-  };
-  parallelFor(n, grain::kNeighbours, std::cref(search));
-  layOutLists(n);
-  const auto write = [&](size_t first, size_t last) {
-    writeLists(m_chunks[first / grain::kNeighbours].found.data(), first, last);
-  };
-  parallelFor(n, grain::kNeighbours, std::cref(write));
+  // Each chunk has as much room as the fullest one needed so far; where that is too little, all is done once more.
+  for (bool whole = false; !whole;) {
+    m_index.resize(chunks * m_room);
+    const auto search = [&](size_t first, size_t last) {
+      if (progress) progress->advance(last - first);
+      const size_t chunk = first / grain::kNeighbours;
+      const ListRoom room{static_cast<uint32_t>(chunk * m_room),
+                          static_cast<uint32_t>(m_room),
+                          m_index.data(),
+                          m_begin.data(),
+                          m_last.data(),
+                          m_end.data(),
+                          static_cast<uint32_t>(n)};
+      m_needs[chunk] = static_cast<uint32_t>(searchLists(grid, first, last, room));
+    };
+    parallelFor(n, grain::kNeighbours, std::cref(search));
+    const size_t most = chunks > 0 ? *std::max_element(m_needs.begin(), m_needs.end()) : 0;
+    whole = most <= m_room;
+    if (!whole) m_room = (most + most / kSpareShare + kListPad) / kListPad * kListPad;
+  }
   m_built.resize(n);
   if (position.data() != m_built.data()) {
     forChunks(n, grain::kNumbers, [&](size_t first, size_t last) {
       std::copy(position.begin() + static_cast<ptrdiff_t>(first), position.begin() + static_cast<ptrdiff_t>(last),
                 m_built.begin() + static_cast<ptrdiff_t>(first));
     });
-  }
-}
-
-void Neighbours::layOutLists(size_t count) {
-  m_begin.resize(count);
-  m_last.resize(count);
-  m_end.resize(count);
-  for (size_t slot = 0; slot < count; ++slot) m_last[indexOf(slot)] = m_counts[slot];
-  uint32_t next = 0;
-  for (size_t i = 0; i < count; ++i) {
-    const uint32_t found = m_last[i];
-    m_begin[i] = next;
-    m_last[i] = next + found;
-    next += static_cast<uint32_t>((found + kListPad - 1) / kListPad * kListPad);
-    m_end[i] = next;
-  }
-  m_index.resize(next);
-}
-
-void Neighbours::writeLists(const uint32_t* found, size_t firstSlot, size_t lastSlot) {
-  const uint32_t dummy = static_cast<uint32_t>(m_begin.size());
-  for (size_t slot = firstSlot; slot < lastSlot; found += m_counts[slot++]) {
-    const size_t i = indexOf(slot), count = m_counts[slot];
-    uint32_t *out = m_index.data() + m_begin[i], *last = m_index.data() + m_last[i];
-    if (m_grid.sorted()) {
-      std::copy(found, found + count, out);
-    } else {
-      for (size_t k = 0; k < count; ++k) out[k] = m_grid.order()[found[k]];
-    }
-    std::fill(last, m_index.data() + m_end[i], dummy);
   }
 }
 

@@ -7,7 +7,8 @@ namespace ps {
 
 /// Cell-sorted neighbour search (counting sort into cells of the search radius, rows of 27 cells).
 /// Lists hold all other particles within search radius = support + skin, in order of cell, padded to kListPad with
-/// the dummy index size(), one after another in order of index. They stay valid until a particle has moved half the
+/// the dummy index size(), in order of index, with gaps between chunks of particles: whoever needs an array by entry
+/// makes it as long as the last list's end. They stay valid until a particle has moved half the
 /// skin. Along a periodic axis of the store pairs are found across the faces of the box; it must be three times as long
 /// as the search radius (see leastPeriod()).
 class Neighbours {
@@ -22,7 +23,7 @@ class Neighbours {
   void build(const ParticleStore& store);
   /// True when a particle has moved more than half the skin since the last build, or their number has changed.
   bool stale(const ParticleStore& store) const;
-  std::span<const uint32_t> lastOrder() const { return m_grid.order(); }
+  std::span<const uint32_t> lastOrder() const { return m_lastOrder; }
 
   api::NeighbourView view() const;
   double support() const { return m_support; }
@@ -38,21 +39,16 @@ class Neighbours {
   void restore(const StateReader& reader, const ParticleStore& store);
 
  private:
-  struct Chunk {
-    std::vector<uint32_t> found;
-  };
   void assignCells(std::span<const api::Float4> position, const Period& period);
-  void searchLists(std::span<const api::Float4> position, const Period& period);
-  void layOutLists(size_t count);
-  void writeLists(const uint32_t* found, size_t firstSlot, size_t lastSlot);
-  /// Right after sorting, slots are indices.
-  size_t indexOf(size_t slot) const { return m_grid.sorted() ? slot : m_grid.order()[slot]; }
+  void makeLists(std::span<const api::Float4> position, const Period& period);
+  /// Puts places where the search reads them.
+  void loadSlots(std::span<const api::Float4> position, const Period& period);
 
   double m_support = 0, m_skin = 0;
-  std::vector<uint32_t> m_begin, m_last, m_end, m_index, m_cellOfSlot, m_counts;
+  std::vector<uint32_t> m_begin, m_last, m_end, m_index, m_slotOf, m_needs, m_lastOrder;
+  size_t m_room = 0;  ///< entries of the index for each chunk of particles
   std::vector<float> m_x, m_y, m_z;
   std::vector<api::Float4> m_built;
-  std::vector<Chunk> m_chunks;
   /// A hair more than the radius, so that rounding never puts two neighbours two cells apart.
   static constexpr double kCellMargin = 1.0001;
   CellGrid m_grid;

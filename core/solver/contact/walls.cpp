@@ -10,6 +10,7 @@ namespace ps {
 namespace {
 /// Spacings: iterations move a particle by less than this, and whoever goes further is caught at the substep's end.
 constexpr double kReach = 1;
+constexpr size_t kSpare = 16;
 }  // namespace
 
 void WallStage::configure(const SolverSettings& settings, const std::vector<Wall>& walls) {
@@ -73,8 +74,11 @@ void WallStage::projectOut(ParticleStore& store, size_t i, const WallSet& walls,
 void WallStage::projectNear(ParticleStore& store) {
   startSums(chunkCount(m_near.size(), grain::kParticles));
   forChunks(m_near.size(), grain::kParticles, [&](size_t first, size_t last) {
-    for (size_t k = first; k < last; ++k)
-      projectOut(store, m_near[k], m_nearWalls[m_near[k]], first / grain::kParticles);
+    WallSet met;
+    for (size_t k = first; k < last; ++k) met.add(m_nearWalls[m_near[k]]);
+    uint32_t below[grain::kParticles + kSpare];
+    const size_t count = findBelow(m_planes, met, store.position(), m_near.data(), first, last, below);
+    for (size_t k = 0; k < count; ++k) projectOut(store, below[k], m_nearWalls[below[k]], first / grain::kParticles);
   });
   finishSums();
 }
@@ -85,7 +89,11 @@ void WallStage::project(ParticleStore& store) {
   forChunks(store.size(), grain::kParticles, [&](size_t first, size_t last) {
     const std::span<const api::Float4> places(store.position() + first, last - first);
     const WallSet met = wallsBelow(m_planes, m_reach, places);  // what is moved out of one may come to another
-    for (size_t i = first; met.any() && i < last; ++i) {
+    if (!met.any()) return;
+    uint32_t below[grain::kParticles + kSpare];
+    const size_t count = findBelow(m_planes, met, store.position(), nullptr, first, last, below);
+    for (size_t k = 0; k < count; ++k) {
+      const uint32_t i = below[k];
       if (store.velocity()[i].w > 0 && m_rigid[i] == 0) projectOut(store, i, met, first / grain::kParticles);
     }
   });

@@ -47,6 +47,14 @@ double secondMoment(const Kernel& kernel) {
   return 4 * std::numbers::pi / 3 * sum;
 }
 
+/// What the viscosity of a liquid depends on.
+struct LiquidState {
+  uint32_t material = 0;
+  double temperature = -1;  // K: no particle has it
+  float solid = 0;
+  bool operator==(const LiquidState&) const = default;
+};
+
 }  // namespace
 
 void ViscosityStage::configure(const SolverSettings& settings, const std::vector<Wall>& walls,
@@ -91,14 +99,21 @@ void ViscosityStage::refresh(ParticleStore& store, const Neighbours& neighbours,
   const std::span<const uint32_t> fluid = density.fluid();
   std::atomic<bool> thick = false, filters = false, yields = false;
   forChunks(fluid.size(), grain::kParticles, [&](size_t first, size_t last) {
+    LiquidState former;
+    double viscosity = 0;
+    bool yield = false;
     for (size_t k = first; k < last; ++k) {
       const uint32_t i = fluid[k];
       float c = least;
       if (isLiquid(store, i)) {
         const double density0 = double{store.mass()[i]} / double{store.position()[i].w};
-        const double nu = viscosityOf(store, i) / density0;
-        const BakedMaterial& material = m_materials[store.material()[i]];
-        const bool yield = material.yieldStress(store.temperature()[i]) > 0;
+        const LiquidState state{store.material()[i], store.temperature()[i], store.solidFraction()[i]};
+        if (state != former) {  // those side by side are often of one matter and equally warm
+          viscosity = viscosityOf(store, i);
+          yield = m_materials[state.material].yieldStress(state.temperature) > 0;
+          former = state;
+        }
+        const double nu = viscosity / density0;
         c = std::clamp(static_cast<float>(nu / reach), least, 1.0f);
         if (model == ViscosityModel::Implicit || (model == ViscosityModel::Automatic && (nu > suffices || yield))) {
           // Calmed only where its own viscosity is less than calming gives.

@@ -42,6 +42,28 @@ Phase phaseOf(double solid, double liquid, double gas) {
 
 }  // namespace
 
+/// Of one particle after another: those side by side are often of one matter and equally warm.
+class PhaseStage::Density {
+ public:
+  double of(const PhaseStage& stage, const ParticleStore& store, size_t i) {
+    const State state{store.material()[i], store.temperature()[i], store.solidFraction()[i], store.liquidFraction()[i],
+                      store.gasFraction()[i]};
+    if (state == m_state) return m_density;
+    m_state = state;
+    return m_density = stage.restDensity(store, i);
+  }
+
+ private:
+  struct State {
+    uint32_t material = 0;
+    double temperature = -1;  // K: no particle has it
+    float solid = 0, liquid = 0, gas = 0;
+    bool operator==(const State&) const = default;
+  };
+  State m_state;
+  double m_density = 0;
+};
+
 void setShares(ParticleStore& store, size_t i, Phase phase) {
   const bool plateau = phase == Phase::Melting || phase == Phase::Boiling;
   const float whole = plateau ? 0.5f : 1;
@@ -113,12 +135,13 @@ bool PhaseStage::update(ParticleStore& store, std::vector<uint32_t>& melted) {
   melted.clear();
   m_turns.resize(store.size());
   const auto body = [&](size_t first, size_t last) {
+    Density density;
     for (size_t i = first; i < last; ++i) {
       m_turns[i] = Turn::None;
       store.phase()[i] = phaseOf(store.solidFraction()[i], store.liquidFraction()[i], store.gasFraction()[i]);
       Motion& motion = store.motion()[i];
       if (motion == Motion::Static) continue;
-      const double volume = store.position()[i].w, target = targetVolume(store, i);
+      const double volume = store.position()[i].w, target = double{store.mass()[i]} / density.of(*this, store, i);
       const double step = kVolumeStep * volume;
       store.position()[i].w = static_cast<float>(volume + std::clamp(target - volume, -step, step));
       const Motion next = nextMotion(store, i);

@@ -33,6 +33,7 @@ class PhaseStage {
   double meltThreshold(uint32_t material, uint32_t id) const;
 
  private:
+  class Density;
   enum class Turn : uint8_t { None, Melted, Froze };
   struct Rule {
     double meltBreak, freeze;

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/solver/contact/nearwalls.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "core/solver/contact/nearwalls.cpp"
+// In this order:
+// clang-format off
+#include "hwy/foreach_target.h"
+#include "core/particles/float4lanes-inl.h"
+// clang-format on
+
+HWY_BEFORE_NAMESPACE();
+namespace ps {
+namespace HWY_NAMESPACE {
+
+size_t FindBelow(std::span<const WallPlane> walls, const WallSet& met, const api::Float4* places, const uint32_t* which,
+                 size_t first, size_t last, uint32_t* out) {
+  const D d;
+  const hn::RebindToUnsigned<D> du;
+  size_t used = 0;
+  for (size_t k = first; k < last; k += kLanes) {
+    const size_t count = HWY_MIN(kLanes, last - k);
+    alignas(64) uint32_t id[kLanes];
+    for (size_t lane = 0; lane < kLanes; ++lane) {
+      const size_t at = k + HWY_MIN(lane, count - 1);
+      id[lane] = which != nullptr ? which[at] : static_cast<uint32_t>(at);
+    }
+    const Vectors4 place = loadTransposed(places, id);
+    auto below = hn::FirstN(d, 0);
+    met.forEach(walls.size(), [&](size_t wall) HWY_ATTR {
+      const WallPlane& p = walls[wall];
+      const V along = hn::Add(hn::Add(hn::Mul(hn::Set(d, p.x), place.x), hn::Mul(hn::Set(d, p.y), place.y)),
+                              hn::Mul(hn::Set(d, p.z), place.z));
+      below = hn::Or(below, hn::Lt(hn::Sub(along, hn::Set(d, p.offset)), hn::Zero(d)));
+    });
+    const auto found = hn::RebindMask(du, hn::And(below, hn::FirstN(d, count)));
+    if (hn::AllFalse(du, found)) continue;
+    hn::StoreU(hn::Compress(hn::Load(du, id), found), du, out + used);
+    used += hn::CountTrue(du, found);
+  }
+  return used;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace ps
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace ps {
+HWY_EXPORT(FindBelow);
+size_t findBelow(std::span<const WallPlane> walls, const WallSet& met, const api::Float4* places, const uint32_t* which,
+                 size_t first, size_t last, uint32_t* out) {
+  return HWY_DYNAMIC_DISPATCH(FindBelow)(walls, met, places, which, first, last, out);
+}
+}  // namespace ps
+#endif
