@@ -29,38 +29,43 @@ constexpr size_t kVirtualLanes = 16;
 using D = hn::CappedTag<float, kVirtualLanes>;
 using V = hn::Vec<D>;
 using DBlock = hn::Full128<float>;
+using VBlock = hn::Vec<DBlock>;
 constexpr size_t kLanes = HWY_MIN(HWY_LANES(float), kVirtualLanes);
 
-struct Vectors4 {
-  V x, y, z, w;
+template <class VT>
+struct VectorsOf {
+  VT x, y, z, w;
 };
+using Vectors4 = VectorsOf<V>;
 
-HWY_INLINE V loadBlocks(const float* base, const uint32_t* id) {
-  const DBlock d1;
-#if HWY_MAX_BYTES >= 64
-  const hn::Half<D> d2;
-  return hn::Combine(D(),
-                     hn::Combine(d2, hn::Load(d1, base + 4 * size_t{id[12]}), hn::Load(d1, base + 4 * size_t{id[8]})),
-                     hn::Combine(d2, hn::Load(d1, base + 4 * size_t{id[4]}), hn::Load(d1, base + 4 * size_t{id[0]})));
-#elif HWY_MAX_BYTES == 32
-  return hn::Combine(D(), hn::Load(d1, base + 4 * size_t{id[4]}), hn::Load(d1, base + 4 * size_t{id[0]}));
-#else
-  return hn::Load(d1, base + 4 * size_t{id[0]});
-#endif
+HWY_INLINE VBlock loadBlocks(DBlock d, const float* base, const uint32_t* id) {
+  return hn::Load(d, base + 4 * size_t{id[0]});
 }
 
-HWY_INLINE Vectors4 loadTransposed(const api::Float4* particles, const uint32_t* id) {
-  const D d;
-  const hn::Repartition<double, D> dd;
+/// Of a half from blocks 0 to n/2 - 1, of the other from the rest.
+template <class DT>
+HWY_INLINE hn::Vec<DT> loadBlocks(DT d, const float* base, const uint32_t* id) {
+  const hn::Half<DT> half;
+  return hn::Combine(d, loadBlocks(half, base, id + hn::MaxLanes(half)), loadBlocks(half, base, id));
+}
+
+/// Of as many particles as DT has lanes.
+template <class DT>
+HWY_INLINE VectorsOf<hn::Vec<DT>> loadTransposed(DT d, const api::Float4* particles, const uint32_t* id) {
+  const hn::Repartition<double, DT> dd;
   const float* base = &particles->x;
-  const V a0 = loadBlocks(base, id), a1 = loadBlocks(base, id + 1);
-  const V a2 = loadBlocks(base, id + 2), a3 = loadBlocks(base, id + 3);
+  const auto a0 = loadBlocks(d, base, id), a1 = loadBlocks(d, base, id + 1);
+  const auto a2 = loadBlocks(d, base, id + 2), a3 = loadBlocks(d, base, id + 3);
   const auto xy01 = hn::BitCast(dd, hn::InterleaveLower(d, a0, a1));  // x0 x1 y0 y1 in each block
   const auto zw01 = hn::BitCast(dd, hn::InterleaveUpper(d, a0, a1));
   const auto xy23 = hn::BitCast(dd, hn::InterleaveLower(d, a2, a3));
   const auto zw23 = hn::BitCast(dd, hn::InterleaveUpper(d, a2, a3));
   return {hn::BitCast(d, hn::InterleaveLower(dd, xy01, xy23)), hn::BitCast(d, hn::InterleaveUpper(dd, xy01, xy23)),
           hn::BitCast(d, hn::InterleaveLower(dd, zw01, zw23)), hn::BitCast(d, hn::InterleaveUpper(dd, zw01, zw23))};
+}
+
+HWY_INLINE Vectors4 loadTransposed(const api::Float4* particles, const uint32_t* id) {
+  return loadTransposed(D(), particles, id);
 }
 
 }  // namespace HWY_NAMESPACE

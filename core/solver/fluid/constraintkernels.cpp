@@ -13,8 +13,6 @@ HWY_BEFORE_NAMESPACE();
 namespace ps {
 namespace HWY_NAMESPACE {
 
-using VBlock = hn::Vec<DBlock>;
-
 /// Excess and gradient, of kLanes particles.
 struct LaneSums {
   V excess, x, y, z;

@@ -214,12 +214,18 @@ void DensityStage::makeRoom() {
   m_excess.resize(fluids);
 }
 
-void DensityStage::multipliers(const ParticleStore& store, const PairLists& near, float relaxation, size_t first,
-                               size_t last) {
+/// By the near lists, which `findNear` finds on the way, in the lists that hold all.
+void DensityStage::multipliers(const ParticleStore& store, const PairLists& pairs, float relaxation, bool findNear,
+                               size_t first, size_t last) {
   const uint32_t* const fluid = m_fluid.data();
-  sumDensity(near, m_points.data(), m_weights, fluid, first, last, m_sums.data(), m_squares.data(), m_slopes.data());
+  if (findNear) {
+    sumDensityFindingNear(pairs, m_points.data(), m_weights, m_near.room(), fluid, first, last, m_sums.data(),
+                          m_squares.data(), m_slopes.data());
+  } else {
+    sumDensity(pairs, m_points.data(), m_weights, fluid, first, last, m_sums.data(), m_squares.data(), m_slopes.data());
+  }
   const float epsilon = kEpsilon / static_cast<float>(m_settings.spacing * m_settings.spacing);
-  solveConstraints({relaxation, epsilon, near.inverseSupportSquared},
+  solveConstraints({relaxation, epsilon, pairs.inverseSupportSquared},
                    {m_points.data(), store.velocity(), store.compression()}, m_walls, fluid, first, last, m_sums.data(),
                    m_squares.data(), m_excess.data(), m_constraints.data(), m_multipliers.data());
 }
@@ -263,11 +269,12 @@ void DensityStage::move(ParticleStore& store, const PairLists& pairs, size_t fir
   m_moved.add(chunk, 1, vectorOf(ofFluids) + vectorOf(ofSolids));
 }
 
-/// For fluids and wet solids, which are `m_some` from now on.
-void DensityStage::findNear(const ParticleStore& store, const PairLists& pairs) {
+/// For fluids, whose near lists are yet to be found, and wet solids; both are `m_some` from now on.
+void DensityStage::startNear(const ParticleStore& store, const PairLists& pairs) {
   m_some.assign(m_fluid.begin(), m_fluid.end());
   m_some.insert(m_some.end(), m_wet.begin(), m_wet.end());
-  m_near.find(pairs, m_points.data(), store.size(), m_some);
+  m_near.start(pairs, store.size());
+  m_near.find(pairs, m_points.data(), m_wet);
   m_slopes.resize(m_near.slots());
   m_nearKnown = true;
 }
@@ -279,7 +286,7 @@ void DensityStage::project(ParticleStore& store, const Neighbours& neighbours, i
   const float relaxation =
       static_cast<float>(m_settings.iterations == 1 ? std::min(wanted, kSingleStepRelaxation) : wanted);
   loadPoints(store);
-  if (iteration == 0) findNear(store, pairs);
+  if (iteration == 0) startNear(store, pairs);
   const PairLists near = m_near.lists(pairs);
   // x_k+1 = x_k-1 + w (x_k + jacobi - x_k-1), with w = 1 for two steps, then 2/(2 - rho^2), then 4/(4 - rho^2 w).
   const float rho2 = static_cast<float>(m_settings.chebyshevRadius * m_settings.chebyshevRadius);
@@ -291,8 +298,9 @@ void DensityStage::project(ParticleStore& store, const Neighbours& neighbours, i
   makeRoom();
   m_moves.resize(moving);
   m_movesInFilm.resize(m_film.any() ? moving : 0);
-  forChunks(fluids, grain::kPairs,
-            [&](size_t first, size_t last) { multipliers(store, near, relaxation, first, last); });
+  forChunks(fluids, grain::kPairs, [&](size_t first, size_t last) {
+    multipliers(store, iteration == 0 ? pairs : near, relaxation, iteration == 0, first, last);
+  });
   m_moved.start(chunkCount(moving, grain::kPairs));
   forChunks(moving, grain::kPairs, [&](size_t first, size_t last) {
     sumMoves(near, first, last);
@@ -352,7 +360,10 @@ DensityError DensityStage::measure(ParticleStore& store, const Neighbours& neigh
   if (fluids == 0) return {};
   loadPoints(store);
   const PairLists pairs = lists(store, neighbours);
-  if (!m_nearKnown) findNear(store, pairs);  // else those of the last substep
+  if (!m_nearKnown) {  // else those of the last substep
+    startNear(store, pairs);
+    m_near.find(pairs, m_points.data(), m_fluid);
+  }
   const PairLists near = m_near.lists(pairs);
   m_multiplierSum.resize(store.size() + kSpare);
   forChunks(fluids, grain::kNumbers, [&](size_t first, size_t last) {

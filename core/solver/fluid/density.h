@@ -72,9 +72,10 @@ class DensityStage {
   void solidVolumes(const ParticleStore& store, const PairLists& lists, api::Motion motion, float least, float most);
   void weigh(const ParticleStore& store);
   void loadPoints(const ParticleStore& store);
-  void multipliers(const ParticleStore& store, const PairLists& near, float relaxation, size_t first, size_t last);
+  void multipliers(const ParticleStore& store, const PairLists& lists, float relaxation, bool findNear, size_t first,
+                   size_t last);
   void makeRoom();
-  void findNear(const ParticleStore& store, const PairLists& lists);
+  void startNear(const ParticleStore& store, const PairLists& lists);
   void sumMoves(const PairLists& near, size_t first, size_t last);
   Vector3 inFilm(const ParticleStore& store, const PairLists& lists, uint32_t i, float lambda) const;
   const api::Float4* movesInFilm(const ParticleStore& store, const PairLists& lists, size_t first, size_t last);

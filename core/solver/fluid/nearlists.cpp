@@ -5,15 +5,19 @@
 
 namespace ps {
 
-void NearLists::find(const PairLists& all, const api::Float4* points, size_t particles,
-                     std::span<const uint32_t> which) {
-  constexpr float kReach = 1.02f;
+void NearLists::start(const PairLists& all, size_t particles) {
   m_last.resize(particles);
   m_index.resize(particles > 0 ? all.end[particles - 1] : 0);
-  forChunks(which.size(), grain::kPairs, [&](size_t first, size_t last) {
-    findNear(all, points, {kReach * kReach, static_cast<uint32_t>(particles)}, which.data(), first, last, m_last.data(),
-             m_index.data());
-  });
+}
+
+void NearLists::find(const PairLists& all, const api::Float4* points, std::span<const uint32_t> which) {
+  forChunks(which.size(), grain::kPairs,
+            [&](size_t first, size_t last) { findNear(all, points, room(), which.data(), first, last); });
+}
+
+NearRoom NearLists::room() {
+  constexpr float kReach = 1.02f;
+  return {kReach * kReach, static_cast<uint32_t>(m_last.size()), m_last.data(), m_index.data()};
 }
 
 PairLists NearLists::lists(const PairLists& all) const {

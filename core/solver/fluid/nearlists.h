@@ -12,10 +12,14 @@ namespace ps {
 /// within the passes is missed: by then it weighs less than a ten-thousandth of the particle itself.
 class NearLists {
  public:
+  /// Makes room for the lists of so many particles; none has one yet.
+  void start(const PairLists& all, size_t particles);
   /// Lists of `which`, with the pairs that are no farther apart than the support and a fiftieth of it. `points` are
-  /// those of all `particles`, with the dummy behind them.
-  void find(const PairLists& all, const api::Float4* points, size_t particles, std::span<const uint32_t> which);
-  /// As long as `all` holds; other particles have none. Slots lie where they did.
+  /// those of all particles, with the dummy behind them.
+  void find(const PairLists& all, const api::Float4* points, std::span<const uint32_t> which);
+  /// For who finds them on the way.
+  NearRoom room();
+  /// As long as `all` holds. Slots lie where they did.
   PairLists lists(const PairLists& all) const;
   /// Elements of an array by slot.
   size_t slots() const { return m_index.size(); }

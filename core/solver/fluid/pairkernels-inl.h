@@ -19,14 +19,23 @@ namespace ps {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-using VBlock = hn::Vec<DBlock>;
 /// Images that two particles may be apart at most; the dummy lies farther away than that.
 constexpr int kMostImages = 1000;
 constexpr size_t kParts = kVirtualLanes / kLanes;  // accumulators: 1 on AVX-512, 2 on AVX2, 4 with 16-byte vectors
 
-HWY_INLINE V loadByIndex(const float* values, const uint32_t* id) {
-  const hn::RebindToSigned<D> di;
-  return hn::GatherIndex(D(), values, hn::LoadU(di, reinterpret_cast<const int32_t*>(id)));
+template <class DT>
+HWY_INLINE hn::Vec<DT> loadByIndex(DT d, const float* values, const uint32_t* id) {
+  const hn::RebindToSigned<DT> di;
+  return hn::GatherIndex(d, values, hn::LoadU(di, reinterpret_cast<const int32_t*>(id)));
+}
+
+/// The first lanes of what is the same in all.
+template <class DT>
+HWY_INLINE hn::Vec<DT> lanesOf(DT, V v) {
+  if constexpr (hn::MaxLanes(DT()) == kLanes)
+    return v;
+  else
+    return hn::LowerHalf(DT(), v);
 }
 
 /// One sum in 16 virtual lanes.
@@ -35,7 +44,13 @@ struct Lanes {
   HWY_INLINE Lanes() {
     for (V& v : part) v = hn::Zero(D());
   }
-  HWY_INLINE void add(size_t p, V v) { part[p] = hn::Add(part[p], v); }
+  template <class VT>
+  HWY_INLINE void add(size_t p, VT v) {
+    if constexpr (hn::MaxLanes(hn::DFromV<VT>()) == kLanes)
+      part[p] = hn::Add(part[p], v);
+    else
+      part[p] = hn::Add(part[p], hn::ZeroExtendVector(D(), v));
+  }
 };
 
 /// Adds blocks b and b + n/2 until one is left: the same tree for any width.
@@ -75,45 +90,61 @@ HWY_INLINE float sumOne(const Lanes& lanes) {
 /// Monaghan's cubic spline without branches: w = 2 a^3 - c^3, w' = 6 (c^2 - a^2), a = (1 - q)+, c = (1 - 2 q)+.
 struct Spline {
   static constexpr float kSlope = 6;
-  V q, a, c, a2, c2;
-  HWY_INLINE explicit Spline(V q2) {
-    const D d;
-    const V one = hn::Set(d, 1.0f);
-    q = hn::Sqrt(q2);
-    a = hn::Max(hn::Zero(d), hn::Sub(one, q)), c = hn::Max(hn::Zero(d), hn::Sub(one, hn::Add(q, q)));
-    a2 = hn::Mul(a, a), c2 = hn::Mul(c, c);
-  }
-  HWY_INLINE V value() const {
-    const V a3 = hn::Mul(a2, a);
-    return hn::Sub(hn::Add(a3, a3), hn::Mul(c2, c));
-  }
-  HWY_INLINE V slope() const { return hn::Sub(c2, a2); }
-  HWY_INLINE V slopeOverQ() const { return hn::Div(slope(), q); }
+
+  template <class VT>
+  struct At {
+    VT q, a, c, a2, c2;
+    HWY_INLINE explicit At(VT q2) {
+      const hn::DFromV<VT> d;
+      const VT one = hn::Set(d, 1.0f);
+      q = hn::Sqrt(q2);
+      a = hn::Max(hn::Zero(d), hn::Sub(one, q)), c = hn::Max(hn::Zero(d), hn::Sub(one, hn::Add(q, q)));
+      a2 = hn::Mul(a, a), c2 = hn::Mul(c, c);
+    }
+    HWY_INLINE VT value() const {
+      const VT a3 = hn::Mul(a2, a);
+      return hn::Sub(hn::Add(a3, a3), hn::Mul(c2, c));
+    }
+    HWY_INLINE VT slope() const { return hn::Sub(c2, a2); }
+    HWY_INLINE VT slopeOverQ() const { return hn::Div(slope(), q); }
+  };
 };
 
 /// Wendland C2: w = a^4 (1 + 4 q), w' = -20 a^3 q.
 struct Wendland {
   static constexpr float kSlope = -20;
-  V a3, a, q;
-  HWY_INLINE explicit Wendland(V q2) {
-    const D d;
-    q = hn::Sqrt(q2);
-    a = hn::Max(hn::Zero(d), hn::Sub(hn::Set(d, 1.0f), q));
-    a3 = hn::Mul(hn::Mul(a, a), a);
-  }
-  HWY_INLINE V value() const {
-    return hn::Mul(hn::Mul(a3, a), hn::Add(hn::Set(D(), 1.0f), hn::Mul(hn::Set(D(), 4.0f), q)));
-  }
-  HWY_INLINE V slopeOverQ() const { return a3; }
-  HWY_INLINE V slope() const { return hn::Mul(a3, q); }
+
+  template <class VT>
+  struct At {
+    VT a3, a, q;
+    HWY_INLINE explicit At(VT q2) {
+      const hn::DFromV<VT> d;
+      q = hn::Sqrt(q2);
+      a = hn::Max(hn::Zero(d), hn::Sub(hn::Set(d, 1.0f), q));
+      a3 = hn::Mul(hn::Mul(a, a), a);
+    }
+    HWY_INLINE VT value() const {
+      const hn::DFromV<VT> d;
+      return hn::Mul(hn::Mul(a3, a), hn::Add(hn::Set(d, 1.0f), hn::Mul(hn::Set(d, 4.0f), q)));
+    }
+    HWY_INLINE VT slopeOverQ() const { return a3; }
+    HWY_INLINE VT slope() const { return hn::Mul(a3, q); }
+  };
 };
 
+template <class Shape, class VT>
+HWY_INLINE typename Shape::template At<VT> kernelAt(VT q2) {
+  return typename Shape::template At<VT>(q2);
+}
 
 /// How offsets are measured: as they are, or to the nearest image. Chosen once per call, so that open space does not
 /// pay.
 struct OpenSpace {
   HWY_INLINE explicit OpenSpace(const PairLists&) {}
-  HWY_INLINE V shortest(V d, size_t) const { return d; }
+  template <class VT>
+  HWY_INLINE VT shortest(VT d, size_t) const {
+    return d;
+  }
 };
 
 struct PeriodicSpace {
@@ -123,24 +154,32 @@ struct PeriodicSpace {
       length[a] = hn::Set(D(), lists.period.length(a)), inverse[a] = hn::Set(D(), lists.period.inverse(a));
   }
   /// Rounding halves to even is odd in d: a pair looks the same from both sides. The dummy stays far away.
-  HWY_INLINE V shortest(V d, size_t axis) const {
-    const V most = hn::Set(D(), static_cast<float>(kMostImages));
-    const V images = hn::Round(hn::Mul(d, inverse[axis]));
-    return hn::Sub(d, hn::Mul(length[axis], hn::Max(hn::Neg(most), hn::Min(images, most))));
+  template <class VT>
+  HWY_INLINE VT shortest(VT offset, size_t axis) const {
+    const hn::DFromV<VT> d;
+    const VT most = hn::Set(d, static_cast<float>(kMostImages));
+    const VT images = hn::Round(hn::Mul(offset, lanesOf(d, inverse[axis])));
+    return hn::Sub(offset, hn::Mul(lanesOf(d, length[axis]), hn::Max(hn::Neg(most), hn::Min(images, most))));
   }
 };
 
-struct Offsets {
-  V x, y, z, q2;
+template <class VT>
+struct OffsetsOf {
+  VT x, y, z, q2;
 };
+using Offsets = OffsetsOf<V>;
 
-template <class Space>
-HWY_INLINE Offsets offsetsTo(const Space& space, V px, V py, V pz, const Vectors4& other, V inverseSupportSquared) {
-  const V x = space.shortest(hn::Sub(px, other.x), 0), y = space.shortest(hn::Sub(py, other.y), 1),
-          z = space.shortest(hn::Sub(pz, other.z), 2);
-  const V d2 = hn::Add(hn::Mul(x, x), hn::Add(hn::Mul(y, y), hn::Mul(z, z)));
+/// From `other` to a place that is the same in all lanes.
+template <class Space, class VT>
+HWY_INLINE OffsetsOf<VT> offsetsTo(const Space& space, V px, V py, V pz, const VectorsOf<VT>& other,
+                                   V inverseSupportSquared) {
+  const hn::DFromV<VT> d;
+  const VT x = space.shortest(hn::Sub(lanesOf(d, px), other.x), 0);
+  const VT y = space.shortest(hn::Sub(lanesOf(d, py), other.y), 1);
+  const VT z = space.shortest(hn::Sub(lanesOf(d, pz), other.z), 2);
+  const VT d2 = hn::Add(hn::Mul(x, x), hn::Add(hn::Mul(y, y), hn::Mul(z, z)));
   // Coincident particles: q is kept from zero, the direction is zero all the same.
-  return {x, y, z, hn::Max(hn::Mul(d2, inverseSupportSquared), hn::Set(D(), 1e-12f))};
+  return {x, y, z, hn::Max(hn::Mul(d2, lanesOf(d, inverseSupportSquared)), hn::Set(d, 1e-12f))};
 }
 
 /// body(part, id) for each run of kLanes neighbours; accumulator `part` takes virtual lanes part * kLanes and up.
@@ -158,6 +197,20 @@ HWY_INLINE void forNeighbours(const PairLists& lists, size_t i, Body&& body) {
       if (q + 3 * kLanes < last) body(3, lists.index + q + 3 * kLanes);
     }
   }
+}
+
+/// body(tag, part, id): as forNeighbours(), with half a vector at the end of a list where that holds the rest of it.
+/// Most lists of a liquid end a few entries beyond two vectors of 16.
+template <class Body>
+HWY_INLINE void forNeighboursClosely(const PairLists& lists, size_t i, Body&& body) {
+#if HWY_MAX_BYTES >= 64
+  const uint32_t last = lists.last[i];
+  uint32_t q = lists.begin[i];
+  for (; q + kLanes / 2 < last; q += kLanes) body(D(), 0, lists.index + q);
+  if (q < last) body(hn::Half<D>(), 0, lists.index + q);
+#else
+  forNeighbours(lists, i, [&](size_t p, const uint32_t* id) HWY_ATTR { body(D(), p, id); });
+#endif
 }
 
 template <class T>

@@ -18,8 +18,9 @@ namespace HWY_NAMESPACE {
 struct WeightOfEach {
   const float* each;
   HWY_INLINE explicit WeightOfEach(const DensityWeights& weights) : each(weights.each) {}
-  HWY_INLINE V share(V, V slope, const uint32_t* id) const {
-    return hn::Mul(loadByIndex(each, id), hn::Mul(slope, slope));
+  template <class VT>
+  HWY_INLINE VT share(VT, VT slope, const uint32_t* id) const {
+    return hn::Mul(loadByIndex(hn::DFromV<VT>(), each, id), hn::Mul(slope, slope));
   }
   HWY_INLINE float whole(float sum) const { return sum; }
 };
@@ -27,7 +28,10 @@ struct WeightOfEach {
 /// Where nobody asks for them.
 struct NoWeight {
   HWY_INLINE explicit NoWeight(const DensityWeights&) {}
-  HWY_INLINE V share(V, V, const uint32_t*) const { return hn::Zero(D()); }
+  template <class VT>
+  HWY_INLINE VT share(VT, VT, const uint32_t*) const {
+    return hn::Zero(hn::DFromV<VT>());
+  }
   HWY_INLINE float whole(float) const { return 0; }
 };
 
@@ -36,10 +40,13 @@ struct WeightByKind {
   V inverseMass;  // the table in each block
   HWY_INLINE explicit WeightByKind(const DensityWeights& weights)
       : inverseMass(hn::LoadDup128(D(), weights.inverseMass)) {}
-  HWY_INLINE V share(V volume, V slope, const uint32_t*) const {
-    const hn::RebindToSigned<D> di;
+  template <class VT>
+  HWY_INLINE VT share(VT volume, VT slope, const uint32_t*) const {
+    const hn::DFromV<VT> d;
+    const hn::RebindToSigned<decltype(d)> di;
     const auto kind = hn::And(hn::BitCast(di, volume), hn::Set(di, int32_t{DensityWeights::kKinds - 1}));
-    const V mass = hn::TableLookupLanes(inverseMass, hn::IndicesFromVec(D(), kind)), part = hn::Mul(volume, slope);
+    const VT mass = hn::TableLookupLanes(lanesOf(d, inverseMass), hn::IndicesFromVec(d, kind));
+    const VT part = hn::Mul(volume, slope);
     return hn::Mul(mass, hn::Mul(part, part));
   }
   HWY_INLINE float whole(float sum) const { return sum; }
@@ -49,40 +56,93 @@ struct WeightByKind {
 struct WeightOfOne {
   float inverseMass;
   HWY_INLINE explicit WeightOfOne(const DensityWeights& weights) : inverseMass(weights.inverseMass[1]) {}
-  HWY_INLINE V share(V volume, V slope, const uint32_t*) const {
-    const hn::RebindToSigned<D> di;
-    const auto moves = hn::RebindMask(D(), hn::TestBit(hn::BitCast(di, volume), hn::Set(di, 1)));
-    const V part = hn::Mul(volume, slope);
+  template <class VT>
+  HWY_INLINE VT share(VT volume, VT slope, const uint32_t*) const {
+    const hn::DFromV<VT> d;
+    const hn::RebindToSigned<decltype(d)> di;
+    const auto moves = hn::RebindMask(d, hn::TestBit(hn::BitCast(di, volume), hn::Set(di, 1)));
+    const VT part = hn::Mul(volume, slope);
     return hn::IfThenElseZero(moves, hn::Mul(part, part));
   }
   HWY_INLINE float whole(float sum) const { return inverseMass * sum; }
 };
 
-template <class Space, class Shape, class Weight, bool kKeepSlopes>
+/// Fills an array by entry up to the end of its list.
+template <class T>
+HWY_INLINE void fillUp(T* values, uint32_t last, T filling) {
+  const hn::Rebind<T, D> d;
+  const hn::RebindToSigned<D> di;
+  const uint32_t used = last % kVirtualLanes;
+  if (used == 0) return;
+  T* const at = values + (last - used);
+  const auto count = hn::Set(di, static_cast<int32_t>(used));
+  for (size_t p = 0; p < kParts; ++p) {
+    const auto taken = hn::RebindMask(d, hn::Lt(hn::Iota(di, static_cast<int32_t>(p * kLanes)), count));
+    hn::StoreU(hn::IfThenElse(taken, hn::LoadU(d, at + p * kLanes), hn::Set(d, filling)), d, at + p * kLanes);
+  }
+}
+
+/// One list as it becomes shorter. What is stored never lies ahead of what has been read: whole vectors fit.
+class NearEntries {
+ public:
+  HWY_INLINE NearEntries(const NearRoom& room, uint32_t begin) : m_room(room), m_used(begin) {}
+  /// Entries id[0 ..) at these squared distances, and what belongs to them.
+  template <class DT, class VT, class... Kept>
+  HWY_INLINE void add(DT d, const uint32_t* id, VT q2, Kept... kept) {
+    const hn::RebindToUnsigned<DT> du;
+    const auto near = hn::Lt(q2, hn::Set(d, m_room.q2));
+    const auto wanted = hn::RebindMask(du, near);
+    hn::StoreU(hn::Compress(hn::LoadU(du, id), wanted), du, m_room.index + m_used);
+    (hn::StoreU(hn::Compress(kept.values, near), d, kept.array + m_used), ...);
+    m_used += static_cast<uint32_t>(hn::CountTrue(du, wanted));
+  }
+  template <class... Arrays>
+  HWY_INLINE void end(size_t i, Arrays... arrays) {
+    m_room.last[i] = m_used;
+    fillUp(m_room.index, m_used, m_room.dummy);
+    (fillUp(arrays, m_used, 0.0f), ...);
+  }
+
+ private:
+  const NearRoom& m_room;
+  uint32_t m_used;
+};
+
+template <class VT>
+struct KeptValues {
+  VT values;
+  float* array;
+};
+
+enum class Slopes { Drop, Keep, KeepNear };
+
+template <class Space, class Shape, class Weight, Slopes kSlopes>
 HWY_INLINE void densityLoop(const PairLists& lists, const api::Float4* points, const DensityWeights& weights,
-                            const uint32_t* which, size_t first, size_t last, DensitySums* out, float* squares,
-                            float* slopes) {
+                            const NearRoom& room, const uint32_t* which, size_t first, size_t last, DensitySums* out,
+                            float* squares, float* slopes) {
   const Weight weight(weights);
-  const D d;
   alignas(16) constexpr float kFactors[4] = {1, Shape::kSlope, Shape::kSlope, Shape::kSlope};
   const VBlock factors = hn::Load(DBlock(), kFactors);
+  const D d;
   const Space space(lists);
   const V inverseR2 = hn::Set(d, lists.inverseSupportSquared);
   for (size_t k = first; k < last; ++k) {
     const size_t i = which[k];
     const V px = hn::Set(d, points[i].x), py = hn::Set(d, points[i].y), pz = hn::Set(d, points[i].z);
     Lanes s, gx, gy, gz, g2;
-    forNeighbours(lists, i, [&](size_t p, const uint32_t* id) HWY_ATTR {
-      const Vectors4 other = loadTransposed(points, id);
-      const Offsets r = offsetsTo(space, px, py, pz, other, inverseR2);
-      const Shape w(r.q2);
+    NearEntries near(room, lists.begin[i]);
+    forNeighboursClosely(lists, i, [&](auto tag, size_t p, const uint32_t* id) HWY_ATTR {
+      const auto other = loadTransposed(tag, points, id);
+      const auto r = offsetsTo(space, px, py, pz, other, inverseR2);
+      const auto w = kernelAt<Shape>(r.q2);
       s.add(p, hn::Mul(other.w, w.value()));
-      const V slopeOverQ = w.slopeOverQ(), f = hn::Mul(other.w, slopeOverQ);
-      if constexpr (kKeepSlopes) hn::StoreU(slopeOverQ, d, slopes + (id - lists.index));
+      const auto slopeOverQ = w.slopeOverQ(), f = hn::Mul(other.w, slopeOverQ);
+      if constexpr (kSlopes == Slopes::Keep) hn::StoreU(slopeOverQ, tag, slopes + (id - lists.index));
+      if constexpr (kSlopes == Slopes::KeepNear) near.add(tag, id, r.q2, KeptValues{slopeOverQ, slopes});
       gx.add(p, hn::Mul(f, r.x)), gy.add(p, hn::Mul(f, r.y)), gz.add(p, hn::Mul(f, r.z));
-      const V slope = w.slope();
-      g2.add(p, weight.share(other.w, slope, id));
+      g2.add(p, weight.share(other.w, w.slope(), id));
     });
+    if constexpr (kSlopes == Slopes::KeepNear) near.end(i, slopes);
     constexpr float kSlope = Shape::kSlope;
     hn::StoreU(hn::Mul(factors, sumFour(s, gx, gy, gz)), DBlock(), &out[k].excess);
     if constexpr (!std::is_same_v<Weight, NoWeight>) squares[k] = kSlope * kSlope * weight.whole(sumOne(g2));
@@ -100,15 +160,15 @@ HWY_INLINE void multiplierLoop(const PairLists& lists, const api::Float4* points
     const size_t i = which[k];
     const V px = hn::Set(d, points[i].x), py = hn::Set(d, points[i].y), pz = hn::Set(d, points[i].z);
     Lanes gx, gy, gz;
-    forNeighbours(lists, i, [&](size_t p, const uint32_t* id) HWY_ATTR {
-      const Vectors4 other = loadTransposed(points, id);
-      const Offsets r = offsetsTo(space, px, py, pz, other, inverseR2);
-      V slope;
+    forNeighboursClosely(lists, i, [&](auto tag, size_t p, const uint32_t* id) HWY_ATTR {
+      const auto other = loadTransposed(tag, points, id);
+      const auto r = offsetsTo(space, px, py, pz, other, inverseR2);
+      hn::Vec<decltype(tag)> slope;
       if constexpr (kKnowsSlopes)
-        slope = hn::LoadU(d, slopes + (id - lists.index));
+        slope = hn::LoadU(tag, slopes + (id - lists.index));
       else
-        slope = Shape(r.q2).slopeOverQ();
-      const V f = hn::Mul(other.w, slope);
+        slope = kernelAt<Shape>(r.q2).slopeOverQ();
+      const auto f = hn::Mul(other.w, slope);
       gx.add(p, hn::Mul(f, r.x)), gy.add(p, hn::Mul(f, r.y)), gz.add(p, hn::Mul(f, r.z));
     });
     hn::Store(hn::Mul(hn::Set(DBlock(), Shape::kSlope), sumFour(gx, gy, gz, Lanes())), DBlock(), &out[k].x);
@@ -126,13 +186,13 @@ HWY_INLINE void compressionLoop(const PairLists& lists, const api::Float4* point
     const size_t i = which[k];
     const V px = hn::Set(d, points[i].x), py = hn::Set(d, points[i].y), pz = hn::Set(d, points[i].z);
     Lanes excess, volumes, others;
-    forNeighbours(lists, i, [&](size_t p, const uint32_t* id) HWY_ATTR {
-      const Vectors4 other = loadTransposed(points, id);
-      const Shape w(offsetsTo(space, px, py, pz, other, inverseR2).q2);
-      const V approach = hn::Mul(w.q, w.slope());
+    forNeighboursClosely(lists, i, [&](auto tag, size_t p, const uint32_t* id) HWY_ATTR {
+      const auto other = loadTransposed(tag, points, id);
+      const auto w = kernelAt<Shape>(offsetsTo(space, px, py, pz, other, inverseR2).q2);
+      const auto approach = hn::Mul(w.q, w.slope());
       excess.add(p, hn::Mul(other.w, w.value()));
       volumes.add(p, hn::Mul(other.w, approach));
-      others.add(p, hn::Mul(loadTransposed(multipliers, id).w, approach));
+      others.add(p, hn::Mul(loadTransposed(tag, multipliers, id).w, approach));
     });
     out[k] = {sumOne(excess), kFactor * sumOne(volumes), kFactor * sumOne(others)};
   }
@@ -143,11 +203,13 @@ struct CoefficientOfEach {
   const float* each;
   V own;
   HWY_INLINE void start(size_t i) { own = hn::Set(D(), each[i]); }
-  HWY_INLINE V of(V part, const uint32_t* id) const {
-    const V zero = hn::Zero(D()), theirs = loadByIndex(each, id);
-    const auto bothFluid = hn::And(hn::Ge(own, zero), hn::Ge(theirs, zero));
-    const V mean = hn::Mul(hn::Set(D(), 0.5f), hn::Add(own, theirs));
-    return hn::Mul(part, hn::IfThenElse(bothFluid, mean, hn::Max(zero, hn::Max(own, theirs))));
+  template <class VT>
+  HWY_INLINE VT of(VT part, const uint32_t* id) const {
+    const hn::DFromV<VT> d;
+    const VT zero = hn::Zero(d), theirs = loadByIndex(d, each, id), mine = lanesOf(d, own);
+    const auto bothFluid = hn::And(hn::Ge(mine, zero), hn::Ge(theirs, zero));
+    const VT mean = hn::Mul(hn::Set(d, 0.5f), hn::Add(mine, theirs));
+    return hn::Mul(part, hn::IfThenElse(bothFluid, mean, hn::Max(zero, hn::Max(mine, theirs))));
   }
   HWY_INLINE float factor() const { return 1; }
 };
@@ -155,7 +217,10 @@ struct CoefficientOfEach {
 struct CommonCoefficient {
   float c;
   HWY_INLINE void start(size_t) {}
-  HWY_INLINE V of(V part, const uint32_t*) const { return part; }
+  template <class VT>
+  HWY_INLINE VT of(VT part, const uint32_t*) const {
+    return part;
+  }
   HWY_INLINE float factor() const { return c; }
 };
 
@@ -175,40 +240,51 @@ HWY_INLINE void viscosityLoop(const PairLists& lists, const api::Float4* positio
     const V inverseMass = hn::Set(d, v0.w), twice = hn::Set(d, 2 * v0.w);
     coefficient.start(i);
     Lanes sx, sy, sz;
-    forNeighbours(lists, i, [&](size_t p, const uint32_t* id) HWY_ATTR {
-      const Vectors4 at = loadTransposed(position, id), moving = loadTransposed(velocity, id);
-      const Shape w(offsetsTo(space, px, py, pz, at, inverseR2).q2);
-      const V mass = hn::Div(twice, hn::Add(inverseMass, moving.w));
-      const V f = coefficient.of(hn::Mul(hn::Add(volume, at.w), hn::Mul(mass, w.value())), id);
-      sx.add(p, hn::Mul(f, hn::Sub(moving.x, vx)));
-      sy.add(p, hn::Mul(f, hn::Sub(moving.y, vy)));
-      sz.add(p, hn::Mul(f, hn::Sub(moving.z, vz)));
+    forNeighboursClosely(lists, i, [&](auto tag, size_t p, const uint32_t* id) HWY_ATTR {
+      const auto at = loadTransposed(tag, position, id), moving = loadTransposed(tag, velocity, id);
+      const auto w = kernelAt<Shape>(offsetsTo(space, px, py, pz, at, inverseR2).q2);
+      const auto mass = hn::Div(lanesOf(tag, twice), hn::Add(lanesOf(tag, inverseMass), moving.w));
+      const auto f = coefficient.of(hn::Mul(hn::Add(lanesOf(tag, volume), at.w), hn::Mul(mass, w.value())), id);
+      sx.add(p, hn::Mul(f, hn::Sub(moving.x, lanesOf(tag, vx))));
+      sy.add(p, hn::Mul(f, hn::Sub(moving.y, lanesOf(tag, vy))));
+      sz.add(p, hn::Mul(f, hn::Sub(moving.z, lanesOf(tag, vz))));
     });
     hn::Store(hn::Mul(factor, sumFour(sx, sy, sz, Lanes())), DBlock(), &out[k].x);
   }
 }
 
+template <Slopes kSlopes>
+HWY_INLINE void densityByWeight(const PairLists& lists, const api::Float4* points, const DensityWeights& weights,
+                                const NearRoom& room, const uint32_t* which, size_t first, size_t last,
+                                DensitySums* out, float* squares, float* slopes) {
+  bySpaceAndKernel(lists, [&](auto space, auto shape) HWY_ATTR {
+    const auto loop = [&](auto weight) HWY_ATTR {
+      densityLoop<typename decltype(space)::Type, typename decltype(shape)::Type, typename decltype(weight)::Type,
+                  kSlopes>(lists, points, weights, room, which, first, last, out, squares, slopes);
+    };
+    if (squares == nullptr)
+      loop(Choice<NoWeight>());
+    else if (weights.each != nullptr)
+      loop(Choice<WeightOfEach>());
+    else if (weights.onlyKind())
+      loop(Choice<WeightOfOne>());
+    else
+      loop(Choice<WeightByKind>());
+  });
+}
+
 void SumDensity(const PairLists& lists, const api::Float4* points, const DensityWeights& weights, const uint32_t* which,
                 size_t first, size_t last, DensitySums* out, float* squares, float* slopes) {
-  bySpaceAndKernel(lists, [&](auto space, auto shape) HWY_ATTR {
-    using Space = typename decltype(space)::Type;
-    using Shape = typename decltype(shape)::Type;
-    byFlag(slopes != nullptr, [&](auto keep) HWY_ATTR {
-      constexpr bool kKeep = decltype(keep)::Type::value;
-      const auto loop = [&](auto weight) HWY_ATTR {
-        using Weight = typename decltype(weight)::Type;
-        densityLoop<Space, Shape, Weight, kKeep>(lists, points, weights, which, first, last, out, squares, slopes);
-      };
-      if (squares == nullptr)
-        loop(Choice<NoWeight>());
-      else if (weights.each != nullptr)
-        loop(Choice<WeightOfEach>());
-      else if (weights.onlyKind())
-        loop(Choice<WeightOfOne>());
-      else
-        loop(Choice<WeightByKind>());
-    });
-  });
+  if (slopes != nullptr)
+    densityByWeight<Slopes::Keep>(lists, points, weights, {}, which, first, last, out, squares, slopes);
+  else
+    densityByWeight<Slopes::Drop>(lists, points, weights, {}, which, first, last, out, squares, slopes);
+}
+
+void SumDensityFindingNear(const PairLists& lists, const api::Float4* points, const DensityWeights& weights,
+                           const NearRoom& room, const uint32_t* which, size_t first, size_t last, DensitySums* out,
+                           float* squares, float* slopes) {
+  densityByWeight<Slopes::KeepNear>(lists, points, weights, room, which, first, last, out, squares, slopes);
 }
 
 void SumMultipliers(const PairLists& lists, const api::Float4* points, const uint32_t* which, size_t first, size_t last,
@@ -221,49 +297,27 @@ void SumMultipliers(const PairLists& lists, const api::Float4* points, const uin
   });
 }
 
-/// Fills a list up to its next multiple of the virtual lanes.
-HWY_INLINE void fillUp(uint32_t* index, uint32_t last, uint32_t dummy) {
-  const hn::RebindToSigned<D> di;
-  const uint32_t used = last % kVirtualLanes;
-  if (used == 0) return;
-  auto* const at = reinterpret_cast<int32_t*>(index + (last - used));
-  const auto count = hn::Set(di, static_cast<int32_t>(used)), filling = hn::Set(di, static_cast<int32_t>(dummy));
-  for (size_t p = 0; p < kParts; ++p) {
-    const auto taken = hn::Lt(hn::Iota(di, static_cast<int32_t>(p * kLanes)), count);
-    hn::StoreU(hn::IfThenElse(taken, hn::LoadU(di, at + p * kLanes), filling), di, at + p * kLanes);
-  }
-}
-
 template <class Space>
-HWY_INLINE void nearLoop(const PairLists& lists, const api::Float4* points, const NearRule& rule, const uint32_t* which,
-                         size_t first, size_t last, uint32_t* lastOf, uint32_t* index) {
+HWY_INLINE void nearLoop(const PairLists& lists, const api::Float4* points, const NearRoom& room, const uint32_t* which,
+                         size_t first, size_t last) {
   const D d;
-  const hn::RebindToSigned<D> di;
   const Space space(lists);
-  const V inverseR2 = hn::Set(d, lists.inverseSupportSquared), most = hn::Set(d, rule.q2);
+  const V inverseR2 = hn::Set(d, lists.inverseSupportSquared);
   for (size_t k = first; k < last; ++k) {
     const size_t i = which[k];
     const V px = hn::Set(d, points[i].x), py = hn::Set(d, points[i].y), pz = hn::Set(d, points[i].z);
-    uint32_t out = lists.begin[i];
-    // What is stored never lies ahead of what has been read: whole vectors fit.
-    for (uint32_t q = lists.begin[i]; q < lists.last[i]; q += kLanes) {
-      const uint32_t* id = lists.index + q;
-      const Offsets r = offsetsTo(space, px, py, pz, loadTransposed(points, id), inverseR2);
-      const auto near = hn::RebindMask(di, hn::Lt(r.q2, most));
-      const auto ids = hn::LoadU(di, reinterpret_cast<const int32_t*>(id));
-      hn::StoreU(hn::Compress(ids, near), di, reinterpret_cast<int32_t*>(index + out));
-      out += static_cast<uint32_t>(hn::CountTrue(di, near));
-    }
-    lastOf[i] = out;
-    fillUp(index, out, rule.dummy);
+    NearEntries near(room, lists.begin[i]);
+    forNeighbours(lists, i, [&](size_t, const uint32_t* id) HWY_ATTR {
+      near.add(d, id, offsetsTo(space, px, py, pz, loadTransposed(points, id), inverseR2).q2);
+    });
+    near.end(i);
   }
 }
 
-void FindNear(const PairLists& lists, const api::Float4* points, const NearRule& rule, const uint32_t* which,
-              size_t first, size_t last, uint32_t* lastOf, uint32_t* index) {
-  bySpace(lists, [&](auto space) HWY_ATTR {
-    nearLoop<typename decltype(space)::Type>(lists, points, rule, which, first, last, lastOf, index);
-  });
+void FindNear(const PairLists& lists, const api::Float4* points, const NearRoom& room, const uint32_t* which,
+              size_t first, size_t last) {
+  bySpace(lists, [&](auto space)
+                     HWY_ATTR { nearLoop<typename decltype(space)::Type>(lists, points, room, which, first, last); });
 }
 
 void SumCompression(const PairLists& lists, const api::Float4* points, const api::Float4* multipliers,
@@ -298,6 +352,7 @@ HWY_AFTER_NAMESPACE();
 namespace ps {
 HWY_EXPORT(SumDensity);
 HWY_EXPORT(SumMultipliers);
+HWY_EXPORT(SumDensityFindingNear);
 HWY_EXPORT(FindNear);
 HWY_EXPORT(SumCompression);
 HWY_EXPORT(SumViscosity);
@@ -311,9 +366,15 @@ void sumMultipliers(const PairLists& lists, const api::Float4* points, const uin
                     api::Float4* out, const float* slopes) {
   HWY_DYNAMIC_DISPATCH(SumMultipliers)(lists, points, which, first, last, out, slopes);
 }
-void findNear(const PairLists& lists, const api::Float4* points, const NearRule& rule, const uint32_t* which,
-              size_t first, size_t last, uint32_t* lastOf, uint32_t* index) {
-  HWY_DYNAMIC_DISPATCH(FindNear)(lists, points, rule, which, first, last, lastOf, index);
+void sumDensityFindingNear(const PairLists& lists, const api::Float4* points, const DensityWeights& weights,
+                           const NearRoom& room, const uint32_t* which, size_t first, size_t last, DensitySums* out,
+                           float* squares, float* slopes) {
+  HWY_DYNAMIC_DISPATCH(SumDensityFindingNear)
+  (lists, points, weights, room, which, first, last, out, squares, slopes);
+}
+void findNear(const PairLists& lists, const api::Float4* points, const NearRoom& room, const uint32_t* which,
+              size_t first, size_t last) {
+  HWY_DYNAMIC_DISPATCH(FindNear)(lists, points, room, which, first, last);
 }
 void sumCompression(const PairLists& lists, const api::Float4* points, const api::Float4* multipliers,
                     const uint32_t* which, size_t first, size_t last, CompressionSums* out) {

@@ -57,15 +57,19 @@ void sumDensity(const PairLists& lists, const api::Float4* points, const Density
 void sumMultipliers(const PairLists& lists, const api::Float4* points, const uint32_t* which, size_t first, size_t last,
                     api::Float4* out, const float* slopes = nullptr);
 
-/// What findNear() keeps, and the index of the dummy that fills lists up.
-struct NearRule {
-  float q2;  ///< of the farthest
-  uint32_t dummy;
+/// Which entries of lists are near, and where they go.
+struct NearRoom {
+  float q2;                ///< of the farthest
+  uint32_t dummy;          ///< fills lists up
+  uint32_t *last, *index;  ///< ends of lists, by particle; entries from where a list began
 };
-/// For the particles which[first .. last): copies the near entries of their lists to index[begin ..), in their order
-/// and padded, and writes where they end to lastOf[i].
-void findNear(const PairLists& lists, const api::Float4* points, const NearRule& rule, const uint32_t* which,
-              size_t first, size_t last, uint32_t* lastOf, uint32_t* index);
+/// For the particles which[first .. last): keeps the near entries of their lists, in their order and padded.
+void findNear(const PairLists& lists, const api::Float4* points, const NearRoom& room, const uint32_t* which,
+              size_t first, size_t last);
+/// sumDensity() with findNear(): slopes lie at the entries that were kept.
+void sumDensityFindingNear(const PairLists& lists, const api::Float4* points, const DensityWeights& weights,
+                           const NearRoom& room, const uint32_t* which, size_t first, size_t last, DensitySums* out,
+                           float* squares, float* slopes);
 
 /// What is to be told of a particle's density, not solved for.
 struct CompressionSums {

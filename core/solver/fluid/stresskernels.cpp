@@ -38,11 +38,11 @@ HWY_INLINE void coefficientLoop(const PairLists& lists, const StressField& field
     Lanes xx, yy, zz, xy, xz, yz;
     forNeighbours(lists, i, [&](size_t p, const uint32_t* id) HWY_ATTR {
       const Vectors4 other = loadTransposed(field.points, id);
-      const V theirs = loadByIndex(field.viscosity, id);
+      const V theirs = loadByIndex(d, field.viscosity, id);
       const auto bothFluid = hn::And(ownFluid, hn::Ge(theirs, zero));
       const V mean =
           hn::IfThenElse(bothFluid, hn::Mul(half, hn::Add(own, theirs)), hn::Max(zero, hn::Max(own, theirs)));
-      const V counts = hn::Max(ownViscous, loadByIndex(field.viscous, id));
+      const V counts = hn::Max(ownViscous, loadByIndex(d, field.viscous, id));
       const Offsets r = offsetsTo(space, px, py, pz, other, inverseR2);
       const V volumes = hn::Mul(volume, other.w);
       const V c = hn::Mul(hn::Mul(hn::Mul(scale, volumes), hn::Mul(mean, counts)), stressWeight(r.q2));
