@@ -45,6 +45,8 @@ size_t searchListsOf(const SearchGrid& grid, size_t first, size_t last, const Li
   const float *const gridX = grid.x, *const gridY = grid.y, *const gridZ = grid.z;
   const uint32_t *const cellStart = grid.cellStart, *const order = grid.order;
   auto* const out = reinterpret_cast<int32_t*>(room.index + room.first);
+  // Where there is no more room, entries are only counted.
+  int32_t beyond[kPad];
   size_t used = 0;
   for (size_t i = first; i < last; ++i) {
     const size_t slot = grid.slotOf[i];
@@ -53,10 +55,6 @@ size_t searchListsOf(const SearchGrid& grid, size_t first, size_t last, const Li
     const auto self = hn::Set(di, static_cast<int32_t>(slot));
     room.begin[i] = room.first + static_cast<uint32_t>(used);
     const auto scan = [&](uint32_t begin, uint32_t end, float byX, float byY, float byZ, auto holdsSelf) HWY_ATTR {
-      if (room.count < used + (end - begin) + kLanes + kPad) {
-        used += end - begin;  // in vain: how much there could be
-        return;
-      }
       for (uint32_t k = begin; k < end; k += kLanes) {
         auto dx = hn::Sub(px, hn::LoadU(d, gridX + k));
         auto dy = hn::Sub(py, hn::LoadU(d, gridY + k));
@@ -72,7 +70,7 @@ size_t searchListsOf(const SearchGrid& grid, size_t first, size_t last, const Li
         }
         const auto ids = hn::LoadU(di, reinterpret_cast<const int32_t*>(order + k));
         // Whole vectors are stored: a store under a mask takes a hundred cycles on some machines.
-        hn::StoreU(hn::Compress(ids, wanted), di, out + used);
+        hn::StoreU(hn::Compress(ids, wanted), di, used + kPad <= room.count ? out + used : beyond);
         used += hn::CountTrue(di, wanted);
       }
     };
@@ -103,13 +101,12 @@ size_t searchListsOf(const SearchGrid& grid, size_t first, size_t last, const Li
       }
     }
     room.last[i] = room.first + static_cast<uint32_t>(used);
-    if (used + 2 * kPad <= room.count) {
-      for (size_t p = 0; p < kPad; p += kLanes) hn::StoreU(dummies, di, out + used + p);
-    }
+    for (size_t p = 0; p < kPad; p += kLanes)
+      hn::StoreU(dummies, di, used + kPad <= room.count ? out + used + p : beyond);
     used = (used + kPad - 1) / kPad * kPad;
     room.end[i] = room.first + static_cast<uint32_t>(used);
   }
-  return used + 2 * kPad;
+  return used + kPad;
 }
 
 size_t SearchLists(const SearchGrid& grid, size_t first, size_t last, const ListRoom& room) {

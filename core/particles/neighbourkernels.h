@@ -20,15 +20,15 @@ struct SearchGrid {
 
 /// Where the lists of some particles go.
 struct ListRoom {
-  uint32_t first, count;  ///< entries of `index` that there are for them; `first` is a multiple of 16
+  uint32_t first, count;  ///< entries of `index` that there are for them; multiples of 16, or none at all
   uint32_t* index;
   uint32_t *begin, *last, *end;  ///< by particle
   uint32_t dummy;                ///< fills lists up
 };
 
 /// Writes the lists of the particles [first, last), one after another: the indices of those closer than the radius, in
-/// order of slot and without the particle itself, filled up to a multiple of 16. Returns how many entries they need, or
-/// a little more: where that is more than there are, the lists are not whole.
+/// order of slot and without the particle itself, filled up to a multiple of 16. Returns how many entries they need:
+/// where that is more than there are, the lists are not whole.
 size_t searchLists(const SearchGrid& grid, size_t first, size_t last, const ListRoom& room);
 
 }  // namespace ps

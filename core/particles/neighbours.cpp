@@ -104,7 +104,7 @@ void Neighbours::makeLists(std::span<const api::Float4> position, const Period& 
   Progress* const progress = t_progress;  // of this thread; others help it
   // Each chunk has as much room as the fullest one needed so far; where that is too little, all is done once more.
   for (bool whole = false; !whole;) {
-    m_index.resize(chunks * m_room);
+    m_index.resize(chunks * m_room + kListPad);
     const auto search = [&](size_t first, size_t last) {
       if (progress) progress->advance(last - first);
       const size_t chunk = first / grain::kNeighbours;
@@ -120,7 +120,7 @@ void Neighbours::makeLists(std::span<const api::Float4> position, const Period& 
     parallelFor(n, grain::kNeighbours, std::cref(search));
     const size_t most = chunks > 0 ? *std::max_element(m_needs.begin(), m_needs.end()) : 0;
     whole = most <= m_room;
-    if (!whole) m_room = (most + most / kSpareShare + kListPad) / kListPad * kListPad;
+    if (!whole || most < m_room / 2) m_room = (most + most / kSpareShare + kListPad) / kListPad * kListPad;
   }
   m_built.resize(n);
   if (position.data() != m_built.data()) {

@@ -101,7 +101,7 @@ void ViscosityStage::refresh(ParticleStore& store, const Neighbours& neighbours,
   forChunks(fluid.size(), grain::kParticles, [&](size_t first, size_t last) {
     LiquidState former;
     double viscosity = 0;
-    bool yield = false;
+    bool yield = false, anyThick = false, anyFilters = false, anyYields = false;
     for (size_t k = first; k < last; ++k) {
       const uint32_t i = fluid[k];
       float c = least;
@@ -118,14 +118,17 @@ void ViscosityStage::refresh(ParticleStore& store, const Neighbours& neighbours,
         if (model == ViscosityModel::Implicit || (model == ViscosityModel::Automatic && (nu > suffices || yield))) {
           // Calmed only where its own viscosity is less than calming gives.
           m_coefficient[i] = kImplicit - (nu < double{least} * reach ? least : 0);
-          thick = true;
-          if (yield) yields = true;
+          anyThick = true;
+          anyYields = anyYields || yield;
           continue;
         }
       }
-      if (c > 0) filters = true;
+      anyFilters = anyFilters || c > 0;
       m_coefficient[i] = c;
     }
+    if (anyThick) thick = true;
+    if (anyFilters) filters = true;
+    if (anyYields) yields = true;
   });
   m_filters = filters;
   m_yields = yields;
