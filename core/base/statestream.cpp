@@ -2,6 +2,7 @@
 #include "core/base/statestream.h"
 
 #include "core/base/error.h"
+#include "core/base/parallel.h"
 
 #include <algorithm>
 #include <bit>
@@ -15,6 +16,7 @@ static_assert(std::endian::native == std::endian::little, "streams are written a
 constexpr char kMagic[8] = {'P', 'S', 's', 't', 'a', 't', 'e', '\n'};
 constexpr uint32_t kFormat = 1;
 constexpr size_t kLongestName = 4096;
+constexpr size_t kCopiedAtOnce = 1 << 18;
 
 struct StreamHead {
   char magic[8];
@@ -77,6 +79,24 @@ StateWriter::StateWriter(StateSink& sink) : m_sink(sink) {
   std::memcpy(head.magic, kMagic, sizeof kMagic);
   head.format = kFormat;
   m_sink.add(&head, sizeof head);
+}
+
+void StateBuffer::copy(std::byte* to, const std::byte* from, size_t count) {
+  forChunks(count, kCopiedAtOnce,
+            [&](size_t first, size_t last) { std::memcpy(to + first, from + first, last - first); });
+}
+
+void StateBuffer::add(const void* bytes, size_t count) {
+  if (count == 0) return;
+  if (m_size + count > m_capacity) {
+    const size_t capacity = std::max(m_size + count, 2 * m_capacity);
+    auto larger = std::make_unique_for_overwrite<std::byte[]>(capacity);
+    copy(larger.get(), m_bytes.get(), m_size);
+    m_bytes = std::move(larger);
+    m_capacity = capacity;
+  }
+  copy(m_bytes.get() + m_size, static_cast<const std::byte*>(bytes), count);
+  m_size += count;
 }
 
 void StateWriter::openBytes(StateName name, StateType type, uint64_t count, uint64_t bytes, uint16_t version) {

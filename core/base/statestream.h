@@ -6,9 +6,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 // Why one stream for all: whatever carries something from one frame to the next writes it here, under a name, and reads
@@ -48,15 +50,27 @@ class StateSink {
 /// Keeps them; cleared, it keeps its memory.
 class StateBuffer final : public StateSink {
  public:
-  void add(const void* bytes, size_t count) override {
-    const std::byte* from = static_cast<const std::byte*>(bytes);
-    m_bytes.insert(m_bytes.end(), from, from + count);
+  StateBuffer() = default;
+  StateBuffer(StateBuffer&& other) noexcept { swap(other); }
+  StateBuffer& operator=(StateBuffer&& other) noexcept {
+    swap(other);
+    return *this;
   }
-  void clear() { m_bytes.clear(); }
-  std::span<const std::byte> bytes() const { return m_bytes; }
+  void add(const void* bytes, size_t count) override;
+  void clear() { m_size = 0; }
+  std::span<const std::byte> bytes() const { return {m_bytes.get(), m_size}; }
 
  private:
-  std::vector<std::byte> m_bytes;
+  void swap(StateBuffer& other) noexcept {
+    m_bytes.swap(other.m_bytes);
+    std::swap(m_size, other.m_size);
+    std::swap(m_capacity, other.m_capacity);
+  }
+  /// Several threads share what is long.
+  static void copy(std::byte* to, const std::byte* from, size_t count);
+
+  std::unique_ptr<std::byte[]> m_bytes;
+  size_t m_size = 0, m_capacity = 0;
 };
 
 /// Keeps their hash alone; equal to Hash over the whole of a StateBuffer.

@@ -1,7 +1,36 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/particles/cellgrid.h"
 
+#include <atomic>
+
 namespace ps {
+namespace {
+
+/// Places from which on several threads sort them: what they must agree on costs more than one of them alone.
+constexpr size_t kMany = 1 << 16;
+
+/// Each number becomes the sum of all up to it; `sums` is room for one of each chunk.
+void sumUp(std::vector<uint32_t>& numbers, std::vector<uint32_t>& sums) {
+  const size_t count = numbers.size();
+  sums.assign(chunkCount(count, grain::kNumbers), 0);
+  forChunks(count, grain::kNumbers, [&](size_t first, size_t last) {
+    for (size_t k = first + 1; k < last; ++k) numbers[k] += numbers[k - 1];
+    sums[first / grain::kNumbers] = numbers[last - 1];
+  });
+  uint32_t before = 0;
+  for (uint32_t& sum : sums) {
+    const uint32_t own = sum;
+    sum = before;
+    before += own;
+  }
+  forChunks(count, grain::kNumbers, [&](size_t first, size_t last) {
+    for (size_t k = first; k < last; ++k) numbers[k] += sums[first / grain::kNumbers];
+  });
+}
+
+uint32_t next(uint32_t& number) { return std::atomic_ref(number).fetch_add(1, std::memory_order_relaxed); }
+
+}  // namespace
 
 void CellGrid::fit(const Bounds& bounds, size_t count, double edge, const Period& period) {
   double extent[3];
@@ -28,11 +57,19 @@ void CellGrid::fit(const Bounds& bounds, size_t count, double edge, const Period
 }
 
 void CellGrid::sortByCell() {
+  m_starts.resize(cell(0, 0, m_cells[2]) + 1);
+  m_order.resize(m_cellOf.size() + kSpareSlots);
+  if (m_cellOf.size() < kMany || threadCount() == 1)
+    sortAlone();
+  else
+    sortTogether();
+}
+
+void CellGrid::sortAlone() {
   const size_t count = m_cellOf.size();
-  m_starts.assign(cell(0, 0, m_cells[2]) + 1, 0);
+  std::fill(m_starts.begin(), m_starts.end(), 0);
   for (const uint32_t c : m_cellOf) ++m_starts[c + 1];
   for (size_t c = 1; c < m_starts.size(); ++c) m_starts[c] += m_starts[c - 1];
-  m_order.resize(count + kSpareSlots);
   m_sorted = true;
   for (size_t i = 0; i < count; ++i) {
     const uint32_t slot = m_starts[m_cellOf[i]]++;
@@ -43,11 +80,44 @@ void CellGrid::sortByCell() {
   m_starts[0] = 0;
 }
 
+/// Places come to their cells in the order that threads have them; each cell then sorts its own.
+void CellGrid::sortTogether() {
+  const size_t count = m_cellOf.size(), cells = m_starts.size() - 1;
+  forChunks(m_starts.size(), grain::kNumbers, [&](size_t first, size_t last) {
+    std::fill(m_starts.begin() + static_cast<ptrdiff_t>(first), m_starts.begin() + static_cast<ptrdiff_t>(last), 0);
+  });
+  forChunks(count, grain::kNumbers, [&](size_t first, size_t last) {
+    for (size_t i = first; i < last; ++i) next(m_starts[m_cellOf[i] + 1]);
+  });
+  sumUp(m_starts, m_sums);
+  m_next.resize(cells);
+  forChunks(cells, grain::kNumbers, [&](size_t first, size_t last) {
+    std::copy(m_starts.begin() + static_cast<ptrdiff_t>(first), m_starts.begin() + static_cast<ptrdiff_t>(last),
+              m_next.begin() + static_cast<ptrdiff_t>(first));
+  });
+  forChunks(count, grain::kNumbers, [&](size_t first, size_t last) {
+    for (size_t i = first; i < last; ++i) m_order[next(m_next[m_cellOf[i]])] = static_cast<uint32_t>(i);
+  });
+  forChunks(cells, grain::kNumbers, [&](size_t first, size_t last) {
+    for (size_t c = first; c < last; ++c) std::sort(m_order.data() + m_starts[c], m_order.data() + m_starts[c + 1]);
+  });
+  m_sorted = !anyChunk(count, grain::kNumbers, [&](size_t first, size_t last) {
+    bool moved = false;
+    for (size_t slot = first; slot < last; ++slot) moved = moved || m_order[slot] != slot;
+    return moved;
+  });
+}
+
 void CellGrid::reorder() {
-  m_next.resize(m_cellOf.size());
-  for (size_t slot = 0; slot < m_next.size(); ++slot) m_next[slot] = m_cellOf[m_order[slot]];
+  const size_t count = m_cellOf.size();
+  m_next.resize(count);
+  forChunks(count, grain::kNumbers, [&](size_t first, size_t last) {
+    for (size_t slot = first; slot < last; ++slot) {
+      m_next[slot] = m_cellOf[m_order[slot]];
+      m_order[slot] = static_cast<uint32_t>(slot);
+    }
+  });
   m_cellOf.swap(m_next);
-  for (size_t slot = 0; slot < m_cellOf.size(); ++slot) m_order[slot] = static_cast<uint32_t>(slot);
   m_sorted = true;
 }
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "core/base/parallel.h"
 #include "core/particles/period.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -11,7 +13,7 @@ namespace ps {
 
 /// Cells of one size over the box around some places, and which places lie in each: whoever looks for what is near asks
 /// the cells around it. A counting sort: rows of cells along x are one range of slots, and places of a cell keep their
-/// order. Serial, so that nothing of it depends on threads.
+/// order, whoever put them there.
 class CellGrid {
  public:
   /// `placeOf(i)`, an api::Double3 in m within the period, for i < count. Cells are `edge` m wide or more, since there
@@ -20,10 +22,16 @@ class CellGrid {
   /// last cell.
   template <class PlaceOf>
   void sort(size_t count, double edge, const Period& period, PlaceOf&& placeOf) {
-    Bounds bounds;
-    for (size_t i = 0; i < count; ++i) bounds.add(placeOf(i));
-    fit(bounds, count, edge, period);
-    for (size_t i = 0; i < count; ++i) m_cellOf[i] = cellOf(placeOf(i));
+    m_bounds.assign(chunkCount(count, grain::kNumbers), {});
+    forChunks(count, grain::kNumbers, [&](size_t first, size_t last) {
+      for (size_t i = first; i < last; ++i) m_bounds[first / grain::kNumbers].add(placeOf(i));
+    });
+    Bounds whole;
+    for (const Bounds& part : m_bounds) whole.add(part);
+    fit(whole, count, edge, period);
+    forChunks(count, grain::kNumbers, [&](size_t first, size_t last) {
+      for (size_t i = first; i < last; ++i) m_cellOf[i] = cellOf(placeOf(i));
+    });
     sortByCell();
   }
   /// The places have been brought into order: slots are their indices from now on.
@@ -73,12 +81,20 @@ class CellGrid {
         if (p[a] > high[a] && p[a] < kNone) high[a] = p[a];
       }
     }
+    void add(const Bounds& other) {
+      for (size_t a = 0; a < 3; ++a) {
+        low[a] = std::min(low[a], other.low[a]);
+        high[a] = std::max(high[a], other.high[a]);
+      }
+    }
   };
   void fit(const Bounds& bounds, size_t count, double edge, const Period& period);
   uint32_t cellOf(const api::Double3& p) const {
     return static_cast<uint32_t>(cell(along(p.x, 0), along(p.y, 1), along(p.z, 2)));
   }
   void sortByCell();
+  void sortAlone();
+  void sortTogether();
   /// A cell next to one of the grid's; -1: there is none.
   int turned(int c, size_t axis) const {
     if (c >= 0 && c < m_cells[axis]) return c;
@@ -89,7 +105,8 @@ class CellGrid {
   double m_low[3] = {0, 0, 0}, m_perMetre[3] = {1, 1, 1};  ///< m, 1/m
   int m_cells[3] = {1, 1, 1};
   bool m_repeats[3] = {false, false, false};
-  std::vector<uint32_t> m_starts, m_order, m_cellOf, m_next;
+  std::vector<Bounds> m_bounds;  ///< by chunk
+  std::vector<uint32_t> m_starts, m_order, m_cellOf, m_next, m_sums;
   bool m_sorted = false;
 };
 

@@ -2,6 +2,7 @@
 #include "core/particles/particlestore.h"
 
 #include "core/base/error.h"
+#include "core/base/parallel.h"
 #include "core/base/statestream.h"
 
 #include <algorithm>
@@ -113,7 +114,11 @@ void gather(const std::byte* in, std::byte* out, std::span<const uint32_t> order
   for (size_t k = 0; k < order.size(); ++k) to[k] = from[order[k]];
 }
 
-void gatherBySize(size_t elementSize, const std::byte* in, std::byte* out, std::span<const uint32_t> order) {
+/// Elements [first, last) of `out`.
+void gatherBySize(size_t elementSize, const std::byte* in, std::byte* out, std::span<const uint32_t> whole,
+                  size_t first, size_t last) {
+  const std::span<const uint32_t> order = whole.subspan(first, last - first);
+  out += first * elementSize;
   switch (elementSize) {
     case 1:
       return gather<uint8_t>(in, out, order);
@@ -292,10 +297,17 @@ void ParticleStore::permute(std::span<const uint32_t> order) {
     m_scratch.reset(allocateZeroed(m_scratchBytes));
   }
   for (const auto& f : m_fields) {
-    gatherBySize(f->elementSize, f->data.get(), m_scratch.get(), order);
-    std::memcpy(f->data.get(), m_scratch.get(), m_size * f->elementSize);
+    const size_t bytes = f->elementSize;
+    std::byte *const data = f->data.get(), *const scratch = m_scratch.get();
+    forChunks(m_size, grain::kNumbers,
+              [&](size_t first, size_t last) { gatherBySize(bytes, data, scratch, order, first, last); });
+    forChunks(m_size, grain::kNumbers, [&](size_t first, size_t last) {
+      std::memcpy(data + first * bytes, scratch + first * bytes, (last - first) * bytes);
+    });
   }
-  for (size_t i = 0; i < m_size; ++i) m_indexOfId[m_id[i]] = static_cast<uint32_t>(i);
+  forChunks(m_size, grain::kNumbers, [&](size_t first, size_t last) {
+    for (size_t i = first; i < last; ++i) m_indexOfId[m_id[i]] = static_cast<uint32_t>(i);
+  });
 }
 
 size_t ParticleStore::indexOf(uint32_t id) const {

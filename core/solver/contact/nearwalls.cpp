@@ -13,6 +13,34 @@ HWY_BEFORE_NAMESPACE();
 namespace ps {
 namespace HWY_NAMESPACE {
 
+/// m over a wall.
+HWY_INLINE V heightOver(const WallPlane& p, const Vectors4& place) {
+  const D d;
+  const V along = hn::Add(hn::Add(hn::Mul(hn::Set(d, p.x), place.x), hn::Mul(hn::Set(d, p.y), place.y)),
+                          hn::Mul(hn::Set(d, p.z), place.z));
+  return hn::Sub(along, hn::Set(d, p.offset));
+}
+
+void FindNearWalls(std::span<const WallPlane> walls, const WallSet& met, float reach,
+                   std::span<const api::Float4> places, std::span<WallSet> near) {
+  const D d;
+  const hn::RebindToUnsigned<D> du;
+  for (size_t k = 0; k < places.size(); k += kLanes) {
+    const size_t count = HWY_MIN(kLanes, places.size() - k);
+    alignas(64) uint32_t id[kLanes];
+    for (size_t lane = 0; lane < kLanes; ++lane) id[lane] = static_cast<uint32_t>(k + HWY_MIN(lane, count - 1));
+    const Vectors4 place = loadTransposed(places.data(), id);
+    auto bits = hn::Zero(du);
+    met.forEach(walls.size(), [&](size_t wall) HWY_ATTR {
+      // What is no number counts as near.
+      const auto far = hn::RebindMask(du, hn::Gt(heightOver(walls[wall], place), hn::Set(d, reach)));
+      bits = hn::Or(bits, hn::IfThenZeroElse(far, hn::Set(du, WallSet::bitOf(wall))));
+    });
+    hn::Store(bits, du, id);
+    for (size_t lane = 0; lane < count; ++lane) near[k + lane] = WallSet::ofBits(id[lane]);
+  }
+}
+
 size_t FindBelow(std::span<const WallPlane> walls, const WallSet& met, const api::Float4* places, const uint32_t* which,
                  size_t first, size_t last, uint32_t* out) {
   const D d;
@@ -28,10 +56,7 @@ size_t FindBelow(std::span<const WallPlane> walls, const WallSet& met, const api
     const Vectors4 place = loadTransposed(places, id);
     auto below = hn::FirstN(d, 0);
     met.forEach(walls.size(), [&](size_t wall) HWY_ATTR {
-      const WallPlane& p = walls[wall];
-      const V along = hn::Add(hn::Add(hn::Mul(hn::Set(d, p.x), place.x), hn::Mul(hn::Set(d, p.y), place.y)),
-                              hn::Mul(hn::Set(d, p.z), place.z));
-      below = hn::Or(below, hn::Lt(hn::Sub(along, hn::Set(d, p.offset)), hn::Zero(d)));
+      below = hn::Or(below, hn::Lt(heightOver(walls[wall], place), hn::Zero(d)));
     });
     const auto found = hn::RebindMask(du, hn::And(below, hn::FirstN(d, count)));
     if (hn::AllFalse(du, found)) continue;
@@ -47,7 +72,16 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace ps {
+HWY_EXPORT(FindNearWalls);
 HWY_EXPORT(FindBelow);
+void findNearWalls(std::span<const WallPlane> walls, float reach, std::span<const api::Float4> places,
+                   std::span<WallSet> near) {
+  const WallSet met = wallsBelow(walls, reach, places);
+  if (met.any())
+    HWY_DYNAMIC_DISPATCH(FindNearWalls)(walls, met, reach, places, near);
+  else
+    std::fill(near.begin(), near.end(), WallSet());
+}
 size_t findBelow(std::span<const WallPlane> walls, const WallSet& met, const api::Float4* places, const uint32_t* which,
                  size_t first, size_t last, uint32_t* out) {
   return HWY_DYNAMIC_DISPATCH(FindBelow)(walls, met, places, which, first, last, out);

@@ -14,7 +14,7 @@ namespace ps {
 class WallSet {
  public:
   void clear() { m_bits = 0; }
-  void add(size_t wall) { m_bits |= 1u << std::min(wall, kLast); }
+  void add(size_t wall) { m_bits |= bitOf(wall); }
   void add(const WallSet& others) { m_bits |= others.m_bits; }
   bool any() const { return m_bits != 0; }
   /// visit(wall), ascending, for those of `walls` walls; beyond the 31st one stands for all.
@@ -24,6 +24,14 @@ class WallSet {
       const auto first = static_cast<size_t>(std::countr_zero(left));
       for (size_t wall = first, end = first < kLast ? first + 1 : walls; wall < end; ++wall) visit(wall);
     }
+  }
+
+  /// The bit of a wall, in a number that holds one of each.
+  static uint32_t bitOf(size_t wall) { return 1u << std::min(wall, kLast); }
+  static WallSet ofBits(uint32_t bits) {
+    WallSet set;
+    set.m_bits = bits;
+    return set;
   }
 
  private:
@@ -62,16 +70,10 @@ inline WallSet wallsBelow(std::span<const WallPlane> walls, float height, std::s
   return below;
 }
 
-/// For each of these places the walls over which it is no higher than `reach`, m.
-inline void findNearWalls(std::span<const WallPlane> walls, float reach, std::span<const api::Float4> places,
-                          std::span<WallSet> near) {
-  std::fill(near.begin(), near.end(), WallSet());
-  wallsBelow(walls, reach, places).forEach(walls.size(), [&](size_t w) {
-    for (size_t k = 0; k < places.size(); ++k) {
-      if (!(walls[w].heightOf(places[k]) > reach)) near[k].add(w);
-    }
-  });
-}
+/// For each of these places the walls over which it is no higher than `reach`, m. Compared a vector at a time
+/// (Highway).
+void findNearWalls(std::span<const WallPlane> walls, float reach, std::span<const api::Float4> places,
+                   std::span<WallSet> near);
 
 /// Writes to `out` which of the particles which[first .. last) (nullptr: first .. last) are below any of these walls,
 /// and returns how many. Both arrays have room for 16 more than are read or found. Compared a vector at a time
