@@ -75,10 +75,12 @@ void compare(const api::Float4& value, const std::array<Sum, 3>& expected, const
 
 /// What all kernels give for one scene.
 struct Results {
-  std::vector<DensitySums> density, densityByKind, densityOfOneKind;
+  std::vector<DensitySums> density, densityByKind, densityOfOneKind, densityAlone, densityFindingNear;
+  std::vector<float> squares, squaresByKind, squaresOfOneKind, squaresFindingNear;
   std::vector<api::Float4> multipliers, multipliersBySlopes, viscosity, viscosityOfOne, diagonal, offDiagonal, stress;
-  std::vector<float> compression, compressionByMultipliers, coefficients, shear;
-  std::vector<uint32_t> near;  ///< each particle's list, then how long it is
+  std::vector<CompressionSums> compression;
+  std::vector<float> coefficients, shear, nearSlopes, expectedNearSlopes;
+  std::vector<uint32_t> near, nearByDensity;  ///< each particle's list, then how long it is
 };
 
 constexpr float kFactor = 3.0f;
@@ -117,26 +119,36 @@ Results runAll(const PairScene& scene) {
   DensityWeights each;
   each.each = weight.data();
   std::vector<float> slopes(scene.slots());
-  std::vector<uint32_t> lastOf(scene.store().size()), index(scene.slots());
-  const NearRule rule{kNearShare, static_cast<uint32_t>(scene.store().size())};
+  const auto dummy = static_cast<uint32_t>(scene.store().size());
+  std::vector<uint32_t> lastOf(dummy), index(scene.slots()), lastByDensity(dummy), indexByDensity(scene.slots());
+  std::vector<float> nearSlopes(scene.slots());
+  const NearRoom room{kNearShare, dummy, lastOf.data(), index.data()};
+  const NearRoom roomOfDensity{kNearShare, dummy, lastByDensity.data(), indexByDensity.data()};
   Results r;
-  for (auto* sums : {&r.density, &r.densityByKind, &r.densityOfOneKind}) sums->resize(count);
+  for (auto* sums : {&r.density, &r.densityByKind, &r.densityOfOneKind, &r.densityAlone, &r.densityFindingNear})
+    sums->resize(count);
+  for (auto* sums : {&r.squares, &r.squaresByKind, &r.squaresOfOneKind, &r.squaresFindingNear}) sums->resize(count);
+  r.compression.resize(count);
   for (auto* sums : {&r.multipliers, &r.multipliersBySlopes, &r.viscosity, &r.viscosityOfOne, &r.diagonal,
                      &r.offDiagonal, &r.stress})
     sums->resize(count);
-  for (auto* sums : {&r.compression, &r.compressionByMultipliers, &r.shear}) sums->resize(count);
+  r.shear.resize(count);
   r.coefficients.resize(scene.slots(), 0);
   // In two parts, as chunks of a loop would.
   const std::array<std::array<size_t, 2>, 2> parts{{{0, count / 3}, {count / 3, count}}};
   for (const auto& [first, last] : parts) {
-    sumDensity(lists, scene.points.data(), each, which, first, last, r.density.data(), slopes.data());
-    sumDensity(lists, byKind.data(), weightsOf(DensityWeights::kKinds), which, first, last, r.densityByKind.data());
-    sumDensity(lists, ofOneKind.data(), weightsOf(2), which, first, last, r.densityOfOneKind.data());
+    sumDensity(lists, scene.points.data(), each, which, first, last, r.density.data(), r.squares.data(), slopes.data());
+    sumDensity(lists, byKind.data(), weightsOf(DensityWeights::kKinds), which, first, last, r.densityByKind.data(),
+               r.squaresByKind.data());
+    sumDensity(lists, ofOneKind.data(), weightsOf(2), which, first, last, r.densityOfOneKind.data(),
+               r.squaresOfOneKind.data());
+    sumDensity(lists, scene.points.data(), each, which, first, last, r.densityAlone.data());
+    sumDensityFindingNear(lists, scene.points.data(), each, roomOfDensity, which, first, last,
+                          r.densityFindingNear.data(), r.squaresFindingNear.data(), nearSlopes.data());
     sumMultipliers(lists, scene.points.data(), which, first, last, r.multipliers.data());
     sumMultipliers(lists, scene.points.data(), which, first, last, r.multipliersBySlopes.data(), slopes.data());
-    sumCompression(lists, scene.points.data(), scene.multipliers.data(), slopes.data(), which, first, last,
-                   r.compression.data(), r.compressionByMultipliers.data());
-    findNear(lists, scene.points.data(), rule, which, first, last, lastOf.data(), index.data());
+    sumCompression(lists, scene.points.data(), scene.multipliers.data(), which, first, last, r.compression.data());
+    findNear(lists, scene.points.data(), room, which, first, last);
     sumViscosity(lists, scene.store().position(), scene.store().velocity(), kOneCoefficient, which, first, last,
                  r.viscosityOfOne.data());
     sumViscosity(lists, scene.store().position(), scene.store().velocity(), scene.coefficient.data(), which, first,
@@ -148,9 +160,22 @@ Results runAll(const PairScene& scene) {
     sumShear(lists, scene.points.data(), scene.vectors.data(), which, first, last, r.shear.data());
   }
   for (size_t k = 0; k < count; ++k) {
-    const uint32_t begin = lists.begin[which[k]], last = lastOf[which[k]];
-    r.near.insert(r.near.end(), index.begin() + begin, index.begin() + last);
-    r.near.push_back(last - begin);
+    const uint32_t i = which[k], begin = lists.begin[i], end = lists.end[i];
+    r.near.insert(r.near.end(), index.begin() + begin, index.begin() + lastOf[i]);
+    r.near.push_back(lastOf[i] - begin);
+    r.nearByDensity.insert(r.nearByDensity.end(), indexByDensity.begin() + begin,
+                           indexByDensity.begin() + lastByDensity[i]);
+    r.nearByDensity.push_back(lastByDensity[i] - begin);
+    for (uint32_t near = begin, q = begin; near < lastByDensity[i]; ++near, ++q) {
+      while (lists.index[q] != indexByDensity[near]) ++q;
+      r.expectedNearSlopes.push_back(slopes[q]);
+      r.nearSlopes.push_back(nearSlopes[near]);
+    }
+    // What fills the list up is far and has no slope.
+    for (uint32_t q = lastByDensity[i]; q < end && q % 16 != 0; ++q) {
+      r.expectedNearSlopes.push_back(indexByDensity[q] == dummy ? 0.0f : 1.0f);
+      r.nearSlopes.push_back(nearSlopes[q]);
+    }
   }
   return r;
 }
@@ -207,17 +232,20 @@ void TestPairKernels::density() {
       gradient[0].add(p, f * p.x), gradient[1].add(p, f * p.y), gradient[2].add(p, f * p.z);
     });
     const auto gradientOf = [](const DensitySums& sums) { return api::Float4{sums.x, sums.y, sums.z, 0}; };
-    for (const auto* sums : {&r.density, &r.densityByKind, &r.densityOfOneKind}) {
+    for (const auto* sums :
+         {&r.density, &r.densityByKind, &r.densityOfOneKind, &r.densityAlone, &r.densityFindingNear}) {
       compare((*sums)[k].excess, excess, "excess");
       compare(gradientOf((*sums)[k]), gradient, "gradient");
     }
-    compare(r.density[k].squares, squares, "squares");
-    compare(r.densityByKind[k].squares, byKind, "squares by kind");
-    compare(r.densityOfOneKind[k].squares, ofOneKind, "squares of one kind");
+    compare(r.squares[k], squares, "squares");
+    compare(r.squaresFindingNear[k], squares, "squares beside near lists");
+    compare(r.squaresByKind[k], byKind, "squares by kind");
+    compare(r.squaresOfOneKind[k], ofOneKind, "squares of one kind");
     compare(r.multipliers[k], gradient, "multipliers");
     compare(r.multipliersBySlopes[k], gradient, "multipliers by known slopes");
-    compare(r.compression[k], compression, "compression");
-    compare(r.compressionByMultipliers[k], byMultipliers, "compression of multipliers");
+    compare(r.compression[k].excess, excess, "excess of compression");
+    compare(r.compression[k].byVolumes, compression, "compression");
+    compare(r.compression[k].byMultipliers, byMultipliers, "compression of multipliers");
   }
 }
 
@@ -244,6 +272,8 @@ void TestPairKernels::near() {
     at += expected.size() + 1;
   }
   QCOMPARE(at, r.near.size());
+  QVERIFY(r.nearByDensity == r.near);
+  QVERIFY(sameBits(r.nearSlopes, r.expectedNearSlopes));
 }
 
 void TestPairKernels::viscosity() {
@@ -316,11 +346,16 @@ void TestPairKernels::everyInstructionSetGivesTheSameBits() {
     const Results r = runAll(scene);
     setInstructionSet("");
     QVERIFY2(sameBits(r.density, best.density) && sameBits(r.densityByKind, best.densityByKind) &&
-                 sameBits(r.densityOfOneKind, best.densityOfOneKind) && r.near == best.near,
+                 sameBits(r.densityOfOneKind, best.densityOfOneKind) && sameBits(r.densityAlone, best.densityAlone) &&
+                 sameBits(r.densityFindingNear, best.densityFindingNear),
+             name.c_str());
+    QVERIFY2(sameBits(r.squares, best.squares) && sameBits(r.squaresByKind, best.squaresByKind) &&
+                 sameBits(r.squaresOfOneKind, best.squaresOfOneKind) &&
+                 sameBits(r.squaresFindingNear, best.squaresFindingNear) && r.near == best.near &&
+                 r.nearByDensity == best.nearByDensity && sameBits(r.nearSlopes, best.nearSlopes),
              name.c_str());
     QVERIFY2(sameBits(r.multipliers, best.multipliers) && sameBits(r.multipliersBySlopes, best.multipliersBySlopes) &&
-                 sameBits(r.compression, best.compression) &&
-                 sameBits(r.compressionByMultipliers, best.compressionByMultipliers),
+                 sameBits(r.compression, best.compression),
              name.c_str());
     QVERIFY2(sameBits(r.viscosity, best.viscosity) && sameBits(r.viscosityOfOne, best.viscosityOfOne), name.c_str());
     QVERIFY2(sameBits(r.coefficients, best.coefficients) && sameBits(r.diagonal, best.diagonal) &&

@@ -243,6 +243,39 @@ class TestParticles : public QObject {
     }
   }
 
+  /// So many that several threads sort them: as one alone does, and each cell's in their order.
+  void threadsSortCellsAlike() {
+    Random random(5);
+    std::vector<ps::api::Double3> places(100000);
+    for (ps::api::Double3& p : places) p = {random.next(), random.next(), random.next()};
+    const int threads = ps::threadCount();
+    std::array<ps::CellGrid, 2> grids;
+    for (size_t k = 0; k < grids.size(); ++k) {
+      ps::setThreadCount(k == 0 ? 1 : 4);
+      grids[k].sort(places.size(), 0.05, {}, [&](size_t i) { return places[i]; });
+    }
+    const auto same = [](std::span<const uint32_t> a, std::span<const uint32_t> b) {
+      return std::equal(a.begin(), a.end(), b.begin(), b.end());
+    };
+    QVERIFY(same(grids[0].order(), grids[1].order()) && same(grids[0].starts(), grids[1].starts()));
+    QVERIFY(!grids[0].sorted() && !grids[1].sorted());
+    const std::span<const uint32_t> starts = grids[1].starts(), order = grids[1].order();
+    for (size_t c = 0; c + 1 < starts.size(); ++c) {
+      QVERIFY(std::is_sorted(order.begin() + starts[c], order.begin() + starts[c + 1]));
+      for (uint32_t slot = starts[c]; slot < starts[c + 1]; ++slot) QCOMPARE(grids[1].cellOfEach()[order[slot]], c);
+    }
+    for (ps::CellGrid& grid : grids) {
+      std::vector<ps::api::Double3> sorted;
+      for (const uint32_t i : grid.order()) sorted.push_back(places[i]);
+      grid.reorder();
+      QVERIFY(grid.sorted() && grid.order().size() == places.size() && grid.order()[77777] == 77777);
+      ps::CellGrid again;
+      again.sort(sorted.size(), 0.05, {}, [&](size_t i) { return sorted[i]; });
+      QVERIFY(again.sorted() && same(again.cellOfEach(), grid.cellOfEach()));
+    }
+    ps::setThreadCount(threads);
+  }
+
   void idsFindTheirParticle() {
     ParticleStore store;
     store.declare("depth", ps::api::FieldType::Float64, "m", "a plugin's own field");
