@@ -117,8 +117,23 @@ struct Common {
     matter.radiation = toggleOf(project.environment.parameters, environmentParameters(), "radiation");
     implicit = choiceOf(project.solver.parameters, solverParameters(), "viscosity_model") != "xsph";
   }
-  double bytesOf(const std::string& material, const Layers& layers, std::span<const BodyConstraint> constraints) const {
+  double bytesOf(const Body& body) const {
     MatterFootprint own = matter;
+    own.fixed = toggleOf(body.parameters, bodyParameters(), "fixed");
+    return bytesOf(own, body.material, layersOf(body, scale.spacing), body.constraints);
+  }
+  /// Of what is poured.
+  double bytesOf(const std::string& material) const { return bytesOf(matter, material, kDeep, {}); }
+
+  const Project& project;
+  const PluginRegistry* plugins;
+  SceneScale scale;
+  MatterFootprint matter;
+  bool implicit = true;
+
+ private:
+  double bytesOf(MatterFootprint own, const std::string& material, const Layers& layers,
+                 std::span<const BodyConstraint> constraints) const {
     std::vector<StructureFootprint> structures;
     bool thin = false;
     for (const BodyConstraint& c : constraints) {
@@ -134,12 +149,6 @@ struct Common {
     own.thick = implicit && plugins && isThick(project, *plugins, material);
     return bytesPerParticle(own);
   }
-
-  const Project& project;
-  const PluginRegistry* plugins;
-  SceneScale scale;
-  MatterFootprint matter;
-  bool implicit = true;
 };
 
 double pouredBy(const Emitter& emitter, double spacing) {
@@ -172,19 +181,19 @@ SceneScale scaleOf(const Project& project) {
 }
 
 double particleBytes(const Project& project, const PluginRegistry* plugins, const Body& body, const SceneScale& scale) {
-  return Common(project, plugins, scale).bytesOf(body.material, layersOf(body, scale.spacing), body.constraints);
+  return Common(project, plugins, scale).bytesOf(body);
 }
 
 double pouredParticleBytes(const Project& project, const PluginRegistry* plugins, const SceneScale& scale) {
   const Common common(project, plugins, scale);
   double most = 0;
-  for (const Emitter& emitter : project.emitters) most = std::max(most, common.bytesOf(emitter.material, kDeep, {}));
+  for (const Emitter& emitter : project.emitters) most = std::max(most, common.bytesOf(emitter.material));
   return most;
 }
 
 double meanParticleBytes(const Project& project, const PluginRegistry* plugins, const SceneScale& scale) {
   const SceneNeed need = needOf(project, plugins, scale);
-  return need.particles > 0 ? need.bytes / need.particles : Common(project, plugins, scale).bytesOf({}, kDeep, {});
+  return need.particles > 0 ? need.bytes / need.particles : Common(project, plugins, scale).bytesOf(std::string());
 }
 
 SceneNeed needOf(const Project& project, const PluginRegistry* plugins) {
@@ -198,12 +207,12 @@ SceneNeed needOf(const Project& project, const PluginRegistry* plugins, const Sc
   for (const Body& body : project.bodies) {
     const double count = particleCount(body, scale.spacing);
     need.particles += count;
-    need.bytes += count * common.bytesOf(body.material, layersOf(body, scale.spacing), body.constraints);
+    need.bytes += count * common.bytesOf(body);
   }
   for (const Emitter& emitter : project.emitters) {
     const double count = pouredBy(emitter, scale.spacing);
     need.pouredParticles += count;
-    need.pouredBytes += count * common.bytesOf(emitter.material, kDeep, {});
+    need.pouredBytes += count * common.bytesOf(emitter.material);
   }
   return need;
 }
