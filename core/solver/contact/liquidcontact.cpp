@@ -2,6 +2,7 @@
 #include "core/solver/contact/liquidcontact.h"
 
 #include "core/base/parallel.h"
+#include "core/solver/contact/nearneighbours.h"
 
 #include <algorithm>
 #include <cmath>
@@ -44,16 +45,11 @@ void LiquidContact::findLiquids(const ParticleStore& store, const Neighbours& ne
                                 std::span<const uint32_t> solids, Chunk& chunk) const {
   chunk.contacts.clear();
   chunk.liquids.clear();
-  const api::NeighbourView view = neighbours.view();
-  const std::span<const api::Float4> at = neighbours.built();
+  const NearNeighbours near(store, neighbours);
   for (const uint32_t i : solids) {
     const auto before = static_cast<uint32_t>(chunk.liquids.size());
-    for (uint32_t q = view.begin[i]; q < view.last[i]; ++q) {
-      const uint32_t j = view.index[q];
-      if (store.motion()[j] != api::Motion::Liquid) continue;
-      float x = at[i].x - at[j].x, y = at[i].y - at[j].y, z = at[i].z - at[j].z;
-      store.period().shorten(x, y, z);
-      if (x * x + y * y + z * z < m_reach * m_reach) chunk.liquids.push_back(j);
+    for (const uint32_t j : near.of(i, m_reach * m_reach, chunk.near)) {
+      if (store.motion()[j] == api::Motion::Liquid) chunk.liquids.push_back(j);
     }
     const auto after = static_cast<uint32_t>(chunk.liquids.size());
     if (after > before) chunk.contacts.push_back({i, before, after});

@@ -39,6 +39,7 @@ class LiquidContact {
   struct Chunk {
     std::vector<Contact> contacts;
     std::vector<uint32_t> liquids;
+    std::vector<uint32_t> near;  ///< of one solid
   };
   void findLiquids(const ParticleStore& store, const Neighbours& neighbours, std::span<const uint32_t> solids,
                    Chunk& chunk) const;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 
 namespace ps {
 namespace {
@@ -142,12 +143,18 @@ void DensityStage::refreshLists(const ParticleStore& store, const Neighbours& ne
     for (size_t k = first; k < last; ++k) m_isFluid[m_fluid[k]] = 1;
   });
   if (m_fluid.empty()) return;
-  // Few fluid particles tell their neighbours; of many, each of the others looks for one, all at once.
-  if (8 * m_fluid.size() < n) {
-    for (const uint32_t i : m_fluid) {
-      for (uint32_t q = view.begin[i]; q < view.last[i]; ++q) m_touched[view.index[q]] = 1;
-    }
-    for (const uint32_t i : m_fluid) m_touched[i] = 0;
+  // Fluid particles tell their neighbours, or where they are many, each of the others looks for one.
+  if (2 * m_fluid.size() < n) {
+    forChunks(m_fluid.size(), grain::kNeighbours, [&](size_t first, size_t last) {
+      for (size_t k = first; k < last; ++k) {
+        const uint32_t i = m_fluid[k];
+        for (uint32_t q = view.begin[i]; q < view.last[i]; ++q)
+          std::atomic_ref(m_touched[view.index[q]]).store(1, std::memory_order_relaxed);
+      }
+    });
+    forChunks(m_fluid.size(), grain::kNumbers, [&](size_t first, size_t last) {
+      for (size_t k = first; k < last; ++k) m_touched[m_fluid[k]] = 0;
+    });
   } else {
     forChunks(n, grain::kPairs, [&](size_t first, size_t last) {
       for (size_t i = first; i < last; ++i) {

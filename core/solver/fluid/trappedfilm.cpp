@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/solver/fluid/trappedfilm.h"
 
+#include "core/base/parallel.h"
 #include "core/math/kernels.h"
 
 #include <algorithm>
@@ -47,8 +48,10 @@ double TrappedFilm::riseOf(const ParticleStore& store, std::span<const api::Floa
   float x = at[j].x - at[i].x, y = at[j].y - at[i].y, z = at[j].z - at[i].z;
   store.period().shorten(x, y, z);
   const Vector3 line{x, y, z};
-  const double rise = line.dot(m_up), length = line.norm();
-  return length < m_support && rise > kSteep * length ? rise : 0;
+  const double rise = line.dot(m_up);
+  if (!(rise > 0)) return 0;
+  const double square = line.squaredNorm();
+  return square < m_support * m_support && rise * rise > kSteep * kSteep * square ? rise : 0;
 }
 
 /// m, how far the surface of a floor or of another body is below a liquid particle; none: infinitely far.
@@ -75,7 +78,13 @@ void TrappedFilm::refresh(const ParticleStore& store, const Neighbours& neighbou
   m_depth.assign(store.size(), kUnknown);
   m_below.resize(store.size());
   m_gap.assign(store.size(), HUGE_VAL);
-  for (const uint32_t b : solids) findBelow(store, neighbours, b);
+  m_inside.resize(solids.size());
+  forChunks(solids.size(), grain::kNeighbours, [&](size_t first, size_t last) {
+    for (size_t k = first; k < last; ++k) m_inside[k] = restsOnOwn(store, neighbours, solids[k]) ? 1 : 0;
+  });
+  for (size_t k = 0; k < solids.size(); ++k) {
+    if (m_inside[k] == 0) findBelow(store, neighbours, solids[k]);
+  }
   std::erase_if(m_liquids, [&](uint32_t i) { return !(m_yield[i] > 0); });
   if (m_liquids.empty()) return;
   std::sort(m_liquids.begin(), m_liquids.end());
@@ -90,14 +99,19 @@ void TrappedFilm::refresh(const ParticleStore& store, const Neighbours& neighbou
   }
 }
 
+bool TrappedFilm::restsOnOwn(const ParticleStore& store, const Neighbours& neighbours, uint32_t solid) const {
+  const std::span<const api::Float4> at = neighbours.built();
+  const api::NeighbourView view = neighbours.view();
+  const uint32_t body = store.body()[solid];
+  return std::any_of(view.index + view.begin[solid], view.index + view.last[solid], [&](uint32_t j) {
+    return store.body()[j] == body && api::holds(store.motion()[j]) && riseOf(store, at, j, solid) > 0;
+  });
+}
+
 void TrappedFilm::findBelow(const ParticleStore& store, const Neighbours& neighbours, uint32_t solid) {
   const std::span<const api::Float4> at = neighbours.built();
   const api::NeighbourView view = neighbours.view();
   const double density = densityOf(store, solid);
-  const auto isBelow = [&](uint32_t j) {
-    return api::holds(store.motion()[j]) && store.body()[j] == store.body()[solid] && riseOf(store, at, j, solid) > 0;
-  };
-  if (std::any_of(view.index + view.begin[solid], view.index + view.last[solid], isBelow)) return;  // inside the body
   for (uint32_t q = view.begin[solid]; q < view.last[solid]; ++q) {
     const uint32_t i = view.index[q];
     if (store.motion()[i] != api::Motion::Liquid || !(store.velocity()[i].w > 0)) continue;

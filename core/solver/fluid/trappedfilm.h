@@ -47,6 +47,8 @@ class TrappedFilm {
   const Vector3& up() const { return m_up; }
 
  private:
+  /// Whether its own body has matter below a solid particle.
+  bool restsOnOwn(const ParticleStore& store, const Neighbours& neighbours, uint32_t solid) const;
   void findBelow(const ParticleStore& store, const Neighbours& neighbours, uint32_t solid);
   double boundaryBelow(const ParticleStore& store, const Neighbours& neighbours, uint32_t liquid, uint32_t body) const;
   double riseOf(const ParticleStore& store, std::span<const api::Float4> at, uint32_t i, uint32_t j) const;
@@ -55,6 +57,7 @@ class TrappedFilm {
   Vector3 m_up;  ///< zero without gravity
   std::vector<WallPlane> m_floors;
   std::vector<uint32_t> m_liquids;
+  std::vector<uint8_t> m_inside;     ///< of the solids asked for: whether one rests on its own body
   std::vector<float> m_yield;        ///< by particle
   std::vector<double> m_depth;       ///< m, to what lies below a liquid particle, while gaps are looked for
   std::vector<uint32_t> m_below;     ///< of which body's matter that was not
