@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -51,12 +52,18 @@ struct Key {
   }
 };
 
+constexpr size_t kPhases = static_cast<size_t>(api::Phase::Gas) + 1;
+
 double nothing() { return std::numeric_limits<double>::quiet_NaN(); }
 
 class Measurement {
  public:
   Measurement(const ProbeView& view, const Probe& probe)
-      : m_view(view), m_store(view.solver.particles()), m_probe(probe), m_key(probe.quantity) {
+      : m_view(view),
+        m_store(view.solver.particles()),
+        m_probe(probe),
+        m_key(probe.quantity),
+        m_ofEach(ofEach(m_key.base)) {
     const Quantity* quantity = view.fields.quantity(probe.quantity);
     m_isKnown = quantity;
     if (quantity && quantity->field) {
@@ -90,16 +97,27 @@ class Measurement {
   }
 
  private:
+  /// What a particle has of a quantity that is no field's.
+  enum class OfEach : uint8_t { Place, Height, Compression, Velocity };
+  static OfEach ofEach(const std::string& base) {
+    if (base == "height") return OfEach::Height;
+    if (base == "compression") return OfEach::Compression;
+    return base == "velocity" ? OfEach::Velocity : OfEach::Place;
+  }
+
   void choose() {
     const auto& ids = m_view.bodyIds;
     const auto body = static_cast<size_t>(std::find(ids.begin(), ids.end(), m_probe.body) - ids.begin());
     const bool byMass = m_key.base.ends_with("_mass");
     const bool still = m_probe.fixed || (!m_probe.body.empty() && !moves(body));
     const std::string phase = byMass ? m_key.base.substr(0, m_key.base.size() - 5) : m_probe.phase;
+    const bool ofBody = !m_probe.body.empty(), everyPhase = phase.empty();
+    std::array<bool, kPhases> wanted{};  // names are compared once, not for each particle
+    for (size_t k = 0; k < kPhases; ++k) wanted[k] = phase == phaseName(static_cast<api::Phase>(k));
     for (size_t i = 0; i < m_store.size(); ++i) {
       if (m_store.velocity()[i].w == 0 && !still) continue;
-      if (!m_probe.body.empty() && m_store.body()[i] != body) continue;
-      if (!phase.empty() && phase != phaseName(m_store.phase()[i])) continue;
+      if (ofBody && m_store.body()[i] != body) continue;
+      if (!everyPhase && !wanted[static_cast<size_t>(m_store.phase()[i])]) continue;
       if (m_probe.region && !isInRegion(i)) continue;
       m_chosen.push_back(i);
     }
@@ -120,9 +138,16 @@ class Measurement {
 
   double ofParticle(size_t i) const {
     if (m_field) return (*m_field)[i];
-    if (m_key.base == "height") return m_store.position()[i].y;
-    if (m_key.base == "compression") return std::max(0.0, double{m_store.densityError()[i]});
-    if (m_key.base == "velocity") return part(m_store.velocity()[i], m_key.axis);
+    switch (m_ofEach) {
+      case OfEach::Height:
+        return m_store.position()[i].y;
+      case OfEach::Compression:
+        return std::max(0.0, double{m_store.densityError()[i]});
+      case OfEach::Velocity:
+        return part(m_store.velocity()[i], m_key.axis);
+      case OfEach::Place:
+        break;
+    }
     return part(m_store.position()[i], m_key.axis);
   }
 
@@ -263,6 +288,7 @@ class Measurement {
   const ParticleStore& m_store;
   const Probe& m_probe;
   Key m_key;
+  OfEach m_ofEach;
   std::optional<StoredField> m_field;  ///< what is measured, where it is a field's
   bool m_isKnown = false;              ///< a quantity that matter of this scene has
   std::vector<size_t> m_chosen;
