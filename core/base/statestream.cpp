@@ -184,11 +184,11 @@ StateReader::StateReader(std::span<const std::byte> stream) {
     const std::span<const std::byte> name = next(padded(block.nameBytes));
     Block known{
         std::string(reinterpret_cast<const char*>(name.data()), block.nameBytes), type, block.version, block.count, {}};
-    if (!rowOf(type)) fail(known.name, "is of an unknown type");
+    const TypeRow* const row = rowOf(type);
+    if (!row) fail(known.name, "is of an unknown type");
     if (block.bytes > stream.size() - at) fail(known.name, "is cut off");
-    const bool sized = type == StateType::Text
-                           ? block.count <= block.bytes / sizeof(uint32_t)
-                           : block.count == block.bytes / sizeOf(type) && block.bytes % sizeOf(type) == 0;
+    const bool sized = type == StateType::Text ? block.count <= block.bytes / sizeof(uint32_t)
+                                               : block.count == block.bytes / row->size && block.bytes % row->size == 0;
     if (!sized) {
       fail(known.name, "says that it has " + std::to_string(block.count) + " elements in " +
                            std::to_string(block.bytes) + " bytes");

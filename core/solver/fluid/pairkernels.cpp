@@ -113,6 +113,10 @@ struct KeptValues {
   VT values;
   float* array;
 };
+template <class VT>
+HWY_INLINE KeptValues<VT> kept(VT values, float* array) {
+  return {values, array};
+}
 
 enum class Slopes { Drop, Keep, KeepNear };
 
@@ -138,7 +142,7 @@ HWY_INLINE void densityLoop(const PairLists& lists, const api::Float4* points, c
       s.add(p, hn::Mul(other.w, w.value()));
       const auto slopeOverQ = w.slopeOverQ(), f = hn::Mul(other.w, slopeOverQ);
       if constexpr (kSlopes == Slopes::Keep) hn::StoreU(slopeOverQ, tag, slopes + (id - lists.index));
-      if constexpr (kSlopes == Slopes::KeepNear) near.add(tag, id, r.q2, KeptValues{slopeOverQ, slopes});
+      if constexpr (kSlopes == Slopes::KeepNear) near.add(tag, id, r.q2, kept(slopeOverQ, slopes));
       gx.add(p, hn::Mul(f, r.x)), gy.add(p, hn::Mul(f, r.y)), gz.add(p, hn::Mul(f, r.z));
       g2.add(p, weight.share(other.w, w.slope(), id));
     });
