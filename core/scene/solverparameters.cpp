@@ -44,8 +44,8 @@ constexpr api::ParameterDeclaration kSolver[] = {
                        "0.8 with 4 iterations, 0.9 with 8", "Wang 2015, Chebyshev semi-iterative approach"})),
     number({"xsph_minimum", "Calming", "c", ""}, {0.05, 0, 0.3, 0, 1},
            {"Motion",
-            "Least share of the neighbours' mean velocity that a particle takes over; it keeps water quiet "
-            "where its real viscosity asks less.",
+            "Least share of the neighbours' mean velocity that a particle takes over in 1/240 s, a substep of the "
+            "defaults, and less in shorter ones; it keeps water quiet where its real viscosity asks less.",
             "0.05 for water, 0.2 for oil-like calm, 0 for none", "Schechter & Bridson 2012"}),
     choice(
         {"viscosity_model", "Viscosity", "", ""}, "automatic|xsph|implicit", 0,

@@ -29,7 +29,7 @@ struct SolverSettings {
   double relaxation =
       0.5;  ///< omega of the Jacobi density step; 0.5 with Chebyshev, 0.6 without: with 1 resting liquid boils
   double chebyshevRadius = 0.8;  ///< assumed spectral radius
-  double xsphMinimum = 0.05;     ///< XSPH coefficient that keeps the particles quiet where the real viscosity asks less
+  double xsphMinimum = 0.05;     ///< least XSPH coefficient of a substep of 1/240 s or more; of shorter ones its share
   ViscosityModel viscosityModel = ViscosityModel::Automatic;
   double viscosityMax = 1e4;         ///< Pa s, of mush whose crystals touch
   double viscosityTolerance = 0.01;  ///< of the implicit solve, relative residual

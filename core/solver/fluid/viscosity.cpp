@@ -24,6 +24,8 @@ constexpr double kFewLayers = 2.5, kThin = 0.27;
 constexpr double kLevel = 1e-4, kGentle = 0.0145, kOrder = 0.0063, kCreeping = 0.36;
 /// Speeds along a wall in spacings per second: of a filtered liquid that slides, of a thick one that flows at all.
 constexpr double kSlides = 1, kCreeps = 0.02;
+/// Substep in s to which calming refers, that of the defaults.
+constexpr double kCalmingTime = 1.0 / 240;
 /// nu t/H2 from which on a wall would have slowed a layer of thickness H by some 15 %.
 constexpr double kDragged = 0.04;
 constexpr double kCalmed = 0.2;  ///< share of what calming would do to shear in the midst of a liquid
@@ -76,6 +78,11 @@ void ViscosityStage::configure(const SolverSettings& settings, const std::vector
 
 double ViscosityStage::filterReach() const { return m_secondMoment * m_settings.substeps / (2 * m_settings.dt); }
 
+double ViscosityStage::calming() const {
+  const double substep = m_settings.dt / m_settings.substeps;
+  return std::clamp(m_settings.xsphMinimum, 0.0, 1.0) * std::min(1.0, substep / kCalmingTime);
+}
+
 double ViscosityStage::filterSuffices() const {
   return std::min(filterReach(),
                   m_settings.spacing * m_settings.spacing / (m_planes.empty() ? kNoWallTime : kWallTime));
@@ -95,7 +102,7 @@ void ViscosityStage::refresh(ParticleStore& store, const Neighbours& neighbours,
   m_coefficient.assign(n + kSpare, -1.0f);  // the dummy counts as no fluid
   const double reach = filterReach(), suffices = filterSuffices();
   const ViscosityModel model = m_settings.viscosityModel;
-  const float least = static_cast<float>(std::clamp(m_settings.xsphMinimum, 0.0, 1.0));
+  const float least = static_cast<float>(calming());
   const std::span<const uint32_t> fluid = density.fluid();
   std::atomic<bool> thick = false, filters = false, yields = false;
   forChunks(fluid.size(), grain::kParticles, [&](size_t first, size_t last) {
@@ -300,7 +307,7 @@ std::vector<ViscosityStage::AtWall> ViscosityStage::atWalls(const ParticleStore&
 void ViscosityStage::wallLimits(size_t material, double time, std::span<const AtWall> atWalls,
                                 std::vector<Limit>& out) const {
   const double spacing = m_settings.spacing;
-  const double calming = std::clamp(m_settings.xsphMinimum, 0.0, 1.0) * filterReach();
+  const double calmed = calming() * filterReach();
   const Vector3 gravity = vectorOf(m_settings.gravity);
   Limit limit{std::string(m_materials[material].id()) + ".viscosity", 1, 1, "Pa·s"};
   const auto tell = [&](double asked, double share, const char* why, const std::string& use) {
@@ -333,8 +340,8 @@ void ViscosityStage::wallLimits(size_t material, double time, std::span<const At
     if (slope > kLevel && slope < kGentle)
       tell(viscosity, 1 / std::max(kCreeping, std::sqrt(std::max(0.0, 1 - kOrder * kOrder / (slope * slope)))),
            "on so gentle a slope the order of particles holds it", "");
-    if (const double nu = solved.nu / touching; nu < calming)
-      tell(viscosity, 1 + kCalmed * calming / nu, "calming resists more", "solver/xsph_minimum=0");
+    if (const double nu = solved.nu / touching; nu < calmed)
+      tell(viscosity, 1 + kCalmed * calmed / nu, "calming resists more", "solver/xsph_minimum=0");
   }
   if (!limit.why.empty()) out.push_back(std::move(limit));
 }

@@ -19,6 +19,9 @@ namespace ps {
 /// front crosses them. Yield stress (Bingham): mu_eff = mu + tau_y/(gamma_dot + 0.001/s), gamma_dot of the last
 /// substep; below it matter creeps instead of resting.
 ///
+/// Calming, the least c, is a rate: substeps shorter than 1/240 s take less of it, so that the viscosity that it adds
+/// does not grow with their number. Longer ones take it once.
+///
 /// It cannot do, and limits() says: films of one or two layers, which flow a fourth or an eighth too fast;
 /// slopes below a degree, where layers of particles in order hold on to each other; walls, with the filter; liquids
 /// thinner than their calming.
@@ -44,6 +47,7 @@ class ViscosityStage {
 
  private:
   double filterReach() const;                                      ///< m2/s, at c = 1
+  double calming() const;                                          ///< the least c, of a substep
   double filterSuffices() const;                                   ///< m2/s, up to which the filter alone will do
   double viscosityOf(const ParticleStore& store, size_t i) const;  ///< Pa s, without yield stress
   void filter(ParticleStore& store, const Neighbours& neighbours, const DensityStage& density);
