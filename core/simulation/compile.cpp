@@ -9,6 +9,7 @@
 #include "core/scene/shownname.h"
 #include "core/simulation/declared.h"
 #include "core/simulation/lattice.h"
+#include "core/simulation/mouth.h"
 #include "core/simulation/sceneproblem.h"
 
 #include <Eigen/Geometry>
@@ -335,17 +336,12 @@ Spawn compileLayer(const Project& project, std::span<const BakedMaterial> materi
   const Vector3 side = direction.cross(across).normalized(), up = direction.cross(side);
   const Vector3 centre = emitter.point + offset * direction;
   const api::Double3 velocity = double3Of(number("speed") * direction);
-  const double radius = number("diameter") / 2;
-  const int reach = static_cast<int>(std::floor(radius / spacing));
   Spawn spawn;
   setMatter(spawn, materials, materialIndex(project, emitter.material, shownName(emitter)), number("temperature"),
             "automatic");
-  for (int row = -reach; row <= reach; ++row) {
-    for (int column = -reach; column <= reach; ++column) {
-      if (std::hypot(row, column) * spacing > radius && (row != 0 || column != 0)) continue;
-      spawn.position.push_back(double3Of(centre + spacing * row * side + spacing * column * up));
-      spawn.velocity.push_back(velocity);
-    }
+  for (const auto& [row, column] : mouthOf(number("diameter"), spacing).places) {
+    spawn.position.push_back(double3Of(centre + row * side + column * up));
+    spawn.velocity.push_back(velocity);
   }
   return spawn;
 }

@@ -52,7 +52,7 @@ std::vector<double> compileHeating(const Project& project, const std::vector<std
 Spawn compileCells(const Project& project, const PluginRegistry& plugins, std::span<const BakedMaterial> materials,
                    const Body& body, int palette, const std::vector<std::array<int, 3>>& cells, double spacing);
 
-/// One layer of an emitter's jet, a lattice of `spacing` m across its mouth, `offset` m down the jet.
+/// One layer of an emitter's jet, the places of its Mouth for particles `spacing` m apart, `offset` m down the jet.
 Spawn compileLayer(const Project& project, std::span<const BakedMaterial> materials, const Emitter& emitter,
                    double spacing, double offset);
 

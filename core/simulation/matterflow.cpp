@@ -3,6 +3,7 @@
 
 #include "core/simulation/compile.h"
 #include "core/simulation/lattice.h"
+#include "core/simulation/mouth.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,6 +17,9 @@ constexpr double kClearance = 0.8;  // spacings
 /// Nearer to another particle nothing is let go. What is held presses what stands in its way aside, as a pump does;
 /// where it cannot, in a vessel that is full, it is taken back, and new matter stands ready.
 constexpr double kPressed = 0.5;  // spacings
+
+/// Of the distance between two layers: one that is so little within reach need not be there.
+constexpr double kHardlyReached = 0.25;
 
 double numberOf(const Emitter& emitter, const char* key) {
   return ps::numberOf(emitter.parameters, emitterParameters(), key);
@@ -53,7 +57,7 @@ struct MatterFlow::Job {
   const Project& project;
   std::span<const BakedMaterial> materials;
   const Emitter& emitter;
-  double spacing, most;
+  double spacing, pitch, most;  ///< m, from a layer to the next, particles
   const Birth& birth;
 
   Spawn layer(double offset) const { return compileLayer(project, materials, emitter, spacing, offset); }
@@ -143,9 +147,9 @@ void MatterFlow::born(const Job& job, const Spawn& layer, const std::vector<size
 /// mouth. Otherwise a jet that runs away from its mouth would open wherever a layer comes a frame later than others.
 Spawn MatterFlow::crossed(const Job& job, const Pipe& pipe, double offset) const {
   Spawn spawn = job.layer(offset);
-  const Spawn before = job.layer(offset + job.spacing);
+  const Spawn before = job.layer(offset + job.pitch);
   const ParticleStore& store = job.solver.particles();
-  const double share = offset / (offset + job.spacing);
+  const double share = offset / (offset + job.pitch);
   for (size_t k = 0; k < pipe.last.size(); ++k) {
     const size_t i = store.indexOf(pipe.last[k]);
     if (i >= store.size()) continue;
@@ -209,11 +213,12 @@ void MatterFlow::cross(const Job& job, Pipe& pipe, double offset, double& living
 /// Adds what the pipe lacks behind the mouth. In a wall or in what stands fixed nothing is held: those support the jet.
 void MatterFlow::fill(const Job& job, Pipe& pipe) {
   const ParticleStore& store = job.solver.particles();
-  const auto depth =
-      static_cast<size_t>(std::ceil(ps::numberOf(job.project.solver.parameters, solverParameters(), "support_ratio")));
+  const double reach = job.spacing * ps::numberOf(job.project.solver.parameters, solverParameters(), "support_ratio");
+  if (job.pitch > reach) return;  // drops feel nothing of each other
+  const auto depth = static_cast<size_t>(std::ceil(reach / job.pitch - kHardlyReached));
   const std::vector<Wall> walls = compileWalls(job.project);
   while (pipe.layers.size() < depth) {
-    Spawn spawn = job.layer(pipe.travelled - static_cast<double>(pipe.layers.size() + 1) * job.spacing);
+    Spawn spawn = job.layer(pipe.travelled - static_cast<double>(pipe.layers.size() + 1) * job.pitch);
     spawn.held = true;
     OccupiedPlaces occupied(kClearance * job.spacing, store.size(), store.period());
     for (size_t i = 0; i < store.size(); ++i) occupied.add(store.wrappedPosition(i));
@@ -263,8 +268,9 @@ void MatterFlow::pour(Solver& solver, const Project& project, std::span<const Ba
   for (const Emitter& emitter : project.emitters) {
     const double open = openBetween(emitter, solver.time() - dt, solver.time());
     if (!(open > 0)) continue;
-    const Job job{solver, project, materials, emitter, spacing, numberOf(emitter, "most"), birth};
-    Pipe& pipe = m_pipes.try_emplace(emitter.id, Pipe{spacing, {}, {}, {}, {}, 0}).first->second;  // the first at once
+    const double pitch = mouthOf(numberOf(emitter, "diameter"), spacing).pitch;
+    const Job job{solver, project, materials, emitter, spacing, pitch, numberOf(emitter, "most"), birth};
+    Pipe& pipe = m_pipes.try_emplace(emitter.id, Pipe{pitch, {}, {}, {}, {}, 0}).first->second;  // the first at once
     pipe.point = emitter.point, pipe.direction = emitter.direction;
     pipe.diameter = numberOf(emitter, "diameter");
     const ParticleStore& store = solver.particles();
@@ -273,10 +279,10 @@ void MatterFlow::pour(Solver& solver, const Project& project, std::span<const Ba
     for (size_t i = 0; i < store.size(); ++i) {
       if (store.body()[i] == body && isFree(store, i)) ++living;
     }
-    const double speed = numberOf(emitter, "speed"), due = speed * open, most = kMostLayers * spacing;
+    const double speed = numberOf(emitter, "speed"), due = speed * open, most = kMostLayers * pitch;
     if (due > most) m_limits.push_back({emitter.id + ".speed", speed, speed * most / due, "m/s", -1});
     pipe.travelled = std::min(pipe.travelled + due, most);
-    for (; pipe.travelled >= spacing; pipe.travelled -= spacing) cross(job, pipe, pipe.travelled - spacing, living);
+    for (; pipe.travelled >= pitch; pipe.travelled -= pitch) cross(job, pipe, pipe.travelled - pitch, living);
     fill(job, pipe);
   }
   settle(solver);

@@ -30,11 +30,11 @@ class MatterFlow {
   /// Before a frame of `dt` s, or after an edit: what is held takes the speed of its emitter, and goes back where the
   /// emitter has been shut, moved or taken away.
   void steer(Solver& solver, const Project& project, double dt);
-  /// Pours what is due between the solver's time less `dt` and its time, in layers a spacing apart, each as far down
-  /// the jet as it has come since it left the mouth, so that the mean flow is speed times area whatever the frame; then
-  /// fills the pipes up. `bodyOf` says which body an emitter's particles are of. A place that is taken stays empty. A
-  /// frame that is so long, or a jet so fast, that more layers are due than anybody could follow pours kMostLayers; the
-  /// rest is not made up for, and limits() says so.
+  /// Pours what is due between the solver's time less `dt` and its time, in layers as far apart as the mouth says, each
+  /// as far down the jet as it has come since it left the mouth, so that the mean flow is speed times area whatever the
+  /// frame; then fills the pipes up. `bodyOf` says which body an emitter's particles are of. A place that is taken
+  /// stays empty. A frame that is so long, or a jet so fast, that more layers are due than anybody could follow pours
+  /// kMostLayers; the rest is not made up for, and limits() says so.
   void pour(Solver& solver, const Project& project, std::span<const BakedMaterial> materials, double spacing, double dt,
             const std::function<uint32_t(const Emitter&)>& bodyOf, const Birth& birth);
   bool holds(uint32_t id) const;
@@ -54,7 +54,7 @@ class MatterFlow {
   using Layer = std::vector<uint32_t>;        ///< ids by place in compileLayer(); kNone: nothing is held there
   struct Pipe {
     double travelled = 0;      ///< m, of the jet since its last layer crossed the mouth
-    std::deque<Layer> layers;  ///< held, a spacing apart; the first is the next to cross
+    std::deque<Layer> layers;  ///< held, one behind the other; the first is the next to cross
     Layer last;                ///< that has crossed
     Vector3 point{}, direction{};
     double diameter = 0;  ///< m
