@@ -4,6 +4,7 @@
 #include "core/base/error.h"
 #include "core/plugin_host/registry.h"
 #include "core/simulation/declared.h"
+#include "core/simulation/filling.h"
 #include "core/solver/solver.h"
 
 #include <algorithm>
@@ -118,9 +119,10 @@ std::string explanation(const Project& project, const SoakOutcome& outcome, cons
   const bool lost = (outcome.flags & static_cast<StepFlags>(StepFlag::LostParticle)) != 0;
   const bool diverged = (outcome.flags & static_cast<StepFlags>(StepFlag::Diverged)) != 0;
   // Only who moves a body can ask it to leave no room, or to be squeezed by what it strikes; nothing moves by
-  // radiation.
+  // radiation, nor by matter that is there from the start.
   const auto counts = [&](const std::string& limit) {
-    return limit != kGapLimit && (limit != kSqueezeLimit || change->address.owner == Owner::Body);
+    return limit != kGapLimit && limit != kFillLimit &&
+           (limit != kSqueezeLimit || change->address.owner == Owner::Body);
   };
   const auto found = std::find_if(outcome.limits.begin(), outcome.limits.end(), counts);
   const std::string limit = found == outcome.limits.end() ? std::string() : *found;

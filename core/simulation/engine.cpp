@@ -193,6 +193,7 @@ void Engine::Impl::recompile(const Touched& touched) {
   if (any({Owner::Environment, Owner::Solver, Owner::Thermal, Owner::HeatSource, Owner::Body})) setThermal();
   if (any({Owner::Body})) {
     lead();
+    fill = fillLimit(project, spacing);
     solver->setHeating(compileHeating(project, *bodyIds));
   }
   if (any({Owner::Constraint})) setConstraints();
@@ -382,6 +383,7 @@ std::vector<Limit> Engine::limits() const {
   std::vector<Limit> all = m->solver->limits();
   for (const std::vector<Limit>& more : {m->flow.limits(), m->tables.limits(m->solver->particles())})
     all.insert(all.end(), more.begin(), more.end());
+  if (m->fill) all.push_back(*m->fill);
   return all;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 #include "core/simulation/edits.h"
 #include "core/simulation/engine.h"
+#include "core/simulation/filling.h"
 #include "core/simulation/materialtables.h"
 #include "core/simulation/matterflow.h"
 #include "core/simulation/namedmatter.h"
@@ -83,9 +84,10 @@ struct Engine::Impl {
   std::vector<Vector3> start;  ///< m, places at the start by the particles' ids, if a probe has a region
   StepReport lastReport;
   MatterFlow flow;
-  double pouredBytes = 0;  ///< that a particle of an emitter takes
-  double pouringRoom = 0;  ///< bytes that emitters may take before the memory is asked again
-  bool toldFull = false;   ///< that they wait for memory
+  std::optional<Limit> fill;  ///< what whole layers make of the bodies' volumes
+  double pouredBytes = 0;     ///< that a particle of an emitter takes
+  double pouringRoom = 0;     ///< bytes that emitters may take before the memory is asked again
+  bool toldFull = false;      ///< that they wait for memory
   uint64_t revision = 0;
   double spacing = 0;  ///< of the particles that live; the project's acts at the next reset
 };

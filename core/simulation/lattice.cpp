@@ -139,12 +139,18 @@ std::vector<CellIndex> cellsOf(const VoxelShape& voxels, int palette) {
   return cells;
 }
 
+namespace {
+
+/// From the shared corner, centre k of the new lattice lies at (k + 1/2) to, and cell p spans [p, p + 1) from. The
+/// bounds of neighbours are one expression: no centre belongs to two cells, or to none. A hair is taken off so that
+/// rounding does not decide about a centre on a face.
+int firstCentre(int p, double ratio) { return static_cast<int>(std::ceil(p * ratio - 0.5 - 1e-9)); }
+
+}  // namespace
+
 std::vector<CellIndex> resampled(const std::vector<CellIndex>& cells, double from, double to) {
   if (from == to) return cells;
-  // From the shared corner, centre k of the new lattice lies at (k + 1/2) to, and cell p spans [p, p + 1) from. The
-  // bounds of neighbours are one expression: no centre belongs to two cells, or to none. A hair is taken off so that
-  // rounding does not decide about a centre on a face.
-  const auto firstFrom = [ratio = from / to](int p) { return static_cast<int>(std::ceil(p * ratio - 0.5 - 1e-9)); };
+  const auto firstFrom = [ratio = from / to](int p) { return firstCentre(p, ratio); };
   std::vector<CellIndex> result;
   inSlices(0, cells.size(), [&](size_t first, size_t last) {
     for (const CellIndex& c : std::span(cells).subspan(first, last - first)) {
@@ -159,6 +165,17 @@ std::vector<CellIndex> resampled(const std::vector<CellIndex>& cells, double fro
     return std::tie(a[2], a[1], a[0]) < std::tie(b[2], b[1], b[0]);
   });
   return result;
+}
+
+double resampledCount(const VoxelShape& voxels, double to) {
+  const double ratio = voxels.spacing / to;
+  const auto between = [&](int first, int last) {
+    return static_cast<double>(firstCentre(last, ratio) - firstCentre(first, ratio));
+  };
+  double count = 0;
+  for (const VoxelShape::Run& run : voxels.runs)
+    count += between(run.x, run.x + run.length) * between(run.y, run.y + 1) * between(run.z, run.z + 1);
+  return count;
 }
 
 Vector3 resampledOrigin(const VoxelShape& voxels, double to) {

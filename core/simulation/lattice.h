@@ -22,6 +22,8 @@ std::vector<CellIndex> cellsOf(const VoxelShape& voxels, int palette);
 /// (0, 0, 0), so that what stands on a floor still does. Volume is kept to about a cell's width; a layer thinner than
 /// `to` may vanish. In order of z, y, x where the edges differ, else as they come.
 std::vector<CellIndex> resampled(const std::vector<CellIndex>& cells, double from, double to);
+/// How many there are of all of a sketch's cells.
+double resampledCount(const VoxelShape& voxels, double to);
 /// Centre in m of cell (0, 0, 0) of the lattice that resampled() gives.
 Vector3 resampledOrigin(const VoxelShape& voxels, double to);
 /// Centres in m of the particles of a lattice of `spacing` m that fill cells of a sketch.

@@ -419,6 +419,15 @@ class TestContentWindow : public SampleWindowTest {
     QCOMPARE(text(42).size(), text(41.9).size());
   }
 
+  /// A row may be told of another quantity than its own, whose unit is then said.
+  void limitsHaveTheirOwnUnits() {
+    const Address address{Owner::Solver, "", "particle_spacing"};
+    const Limit limit{"solver.particle_spacing", 0.25, 0.3, "m³"};
+    const QString text = limitText(limit, document().declaration(address));
+    QVERIFY2(text.startsWith(QStringLiteral("Particle spacing: the solver reaches 0.300 m³ of 0.25 m³ ")),
+             qPrintable(text));
+  }
+
   /// Of a law no step comes closer: it says where, what is asked and what is used.
   void lawsThatAreHeldSayWhere() {
     Limit limit{"water.conductivity_solid", -0.4, 0, "W/(m·K)", -1, std::array{0.0, 120.0}};

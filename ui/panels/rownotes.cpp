@@ -109,14 +109,16 @@ void RowNotes::addLimits(std::map<QString, Note>& notes) const {
   for (const Limit& limit : m_limits) {
     const auto address = limitAddress(limit, m_bodies.get());
     if (!address) continue;
-    QString text = asNote(limitText(limit, m_document.declaration(*address))) + QLatin1Char('.');
+    const api::ParameterDeclaration* declaration = m_document.declaration(*address);
+    QString text = asNote(limitText(limit, declaration)) + QLatin1Char('.');
     // Heat has steps of its own, and a curve that leaves its range leaves it at any step.
     if (!limit.use.empty())
       text += linkOf(limit.use);
     else if (!limit.kelvin && limit.why.empty() && address->owner != Owner::Solver)
       text +=
           QStringLiteral(" [Use %1 substeps](solver/substeps=%1) to come closer").arg(static_cast<int>(substeps) * 2);
-    add(notes, QString::fromStdString(address->text()), {text, limit.kelvin ? kNone : limit.delivered});
+    const bool another = declaration && limit.unit != declaration->unit;  // than what the slider shows
+    add(notes, QString::fromStdString(address->text()), {text, limit.kelvin || another ? kNone : limit.delivered});
   }
 }
 

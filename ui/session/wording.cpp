@@ -138,16 +138,16 @@ QString limitText(const Limit& limit, const api::ParameterDeclaration* declarati
   }
   const QString where =
       limit.why.empty() ? QStringLiteral("at this step") : QStringLiteral("here: ") + QString::fromStdString(limit.why);
-  if (declaration) {
+  const QString unit = QString::fromStdString(limit.unit);
+  if (declaration && limit.unit == declaration->unit) {
     return QStringLiteral("%1: the solver reaches %2 of %3 %4")
         .arg(QString::fromUtf8(declaration->label),
              runningText(toDisplay(*declaration, limit.delivered), displayUnit(*declaration)),
              formatValue(*declaration, limit.asked), where);
   }
-  const QString unit = QString::fromStdString(limit.unit);
   return QStringLiteral("%1: the solver reaches %2 of %3 %4")
-      .arg(QString::fromStdString(limit.what), runningText(limit.delivered, unit), formatQuantity(limit.asked, unit),
-           where);
+      .arg(QString::fromUtf8(declaration ? declaration->label : limit.what.c_str()), runningText(limit.delivered, unit),
+           formatQuantity(limit.asked, unit), where);
 }
 
 }  // namespace ps
