@@ -19,8 +19,8 @@ struct SymmetricBlock {
 /// Solved matrix-free by conjugate gradients with the 3 x 3 diagonal blocks as preconditioner, from the last dv.
 ///
 /// Walls hold the liquid still at their plane: half a space of liquid whose velocity goes on linearly through zero
-/// there (Morris, Fox & Zhu 1997), with a fifth more drag along them, since films bend. Static particles hold it still
-/// at their centres.
+/// there (Morris, Fox & Zhu 1997), with a fifth more drag along them, since films bend. Solids, fixed or
+/// not, hold it at their surface, halfway between the two particles of a pair.
 ///
 /// An unfinished iteration would leak momentum through its residual. Groups of particles that touch no boundary are
 /// therefore solved in the space of motions without linear and angular momentum of their own (preconditioner P D^-1,
