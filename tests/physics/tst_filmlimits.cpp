@@ -34,6 +34,10 @@ class TestFilmLimits : public QObject {
     row("two layers on a slippery wall", 0.01, 10, 2, 0.5, "", "", false, false);
     row("0.3 degrees", 0.01, 0.3, 6, 1, "syrup.viscosity", "");
     row("2 degrees", 0.01, 2, 6, 0.5, "", "");
+    row("1.2 degrees, six layers", 0.01, 1.2, 6, 1, "", "");
+    row("1.2 degrees, ten layers", 0.01, 1.2, 10, 1, "syrup.viscosity", "");
+    row("3 degrees, ten layers", 0.01, 3, 10, 0.5, "", "");
+    row("3 degrees, sixteen layers", 0.01, 3, 16, 0.5, "syrup.viscosity", "", false, true, 8);
     row("filter, though the wall holds it", 3e-4, 5, 3, 1, "syrup.viscosity", "solver/viscosity_model=implicit", true);
     row("filter, before the wall could", 1e-6, 5, 3, 1, "", "", true);
     row("filter on a slippery wall", 3e-4, 5, 3, 1, "", "", true, false);

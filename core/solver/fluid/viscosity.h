@@ -23,8 +23,8 @@ namespace ps {
 /// does not grow with their number. Longer ones take it once.
 ///
 /// It cannot do, and limits() says: films of one or two layers, which flow a fourth or an eighth too fast;
-/// slopes below a degree, where layers of particles in order hold on to each other; walls, with the filter; liquids
-/// thinner than their calming.
+/// slopes below a degree, and of films of ten layers and more below two to four, where layers of particles in order
+/// hold on to each other; walls, with the filter; liquids thinner than their calming.
 class ViscosityStage {
  public:
   void configure(const SolverSettings& settings, const std::vector<Wall>& walls,
