@@ -84,6 +84,47 @@ class TestFilmLimits : public QObject {
     QVERIFY2(QString::fromStdString(limits[0].use).startsWith(use), limits[0].use.c_str());
   }
 
+  /// On a bed of fixed particles as on a plane; in a channel of them neither slopes nor thin films are.
+  void filmsOnFixedParticlesTellLikewise_data() {
+    QTest::addColumn<double>("degrees");
+    QTest::addColumn<int>("layers");
+    QTest::addColumn<bool>("channel");
+    QTest::addColumn<QString>("why");  // "": nothing is told
+    QTest::newRow("three layers") << 10.0 << 3 << false << "few particles thick";
+    QTest::newRow("six layers") << 10.0 << 6 << false << "";
+    QTest::newRow("0.5 degrees") << 0.5 << 6 << false << "gentle a slope";
+    QTest::newRow("1.2 degrees, ten layers") << 1.2 << 10 << false << "gentle a slope";
+    QTest::newRow("at rest") << 0.0 << 3 << false << "";
+    QTest::newRow("a channel of three layers") << 10.0 << 3 << true << "";
+  }
+  void filmsOnFixedParticlesTellLikewise() {
+    QFETCH(double, degrees);
+    QFETCH(int, layers);
+    QFETCH(bool, channel);
+    QFETCH(QString, why);
+    constexpr double kSpacing = 0.02, kHalf = 4 * kSpacing;
+    Solver solver;
+    SolverSettings settings = settingsOf(kSpacing);
+    const double lean = degrees * kPi / 180;
+    settings.gravity = {9.81 * std::sin(lean), -9.81 * std::cos(lean), 0};
+    prepare(solver, settings, syrup(10));
+    ps::Bounds bounds;
+    bounds.minimum = {-kHalf, -0.1, -kHalf};
+    bounds.maximum = {kHalf, 1, kHalf};
+    bounds.periodic = {true, false, true};
+    solver.setBounds(bounds);
+    solver.spawn(fixedPoints(lattice(8, 3, 8, kSpacing, -3 * kSpacing)));
+    if (channel) solver.spawn(fixedPoints(lattice(8, 3, 8, kSpacing, layers * kSpacing)));
+    solver.spawn(liquid(lattice(8, layers, 8, kSpacing, 0)));
+    QVERIFY(run(solver, 60));
+    const std::vector<ps::Limit> limits = solver.limits();
+    QCOMPARE(limits.size(), why.isEmpty() ? size_t{0} : size_t{1});
+    if (why.isEmpty()) return;
+    QCOMPARE(limits[0].what, std::string("syrup.viscosity"));
+    QVERIFY2(limits[0].why.find(why.toStdString()) != std::string::npos, limits[0].why.c_str());
+    QVERIFY(std::abs(limits[0].delivered / limits[0].asked - 1) > 0.1);
+  }
+
   /// Where a wall is that liquid sticks to, Automatic takes the solver that knows walls: what a wall drags along by a
   /// spacing in some seconds, but no water.
   void automaticKnowsWalls_data() {

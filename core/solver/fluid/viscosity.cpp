@@ -15,39 +15,14 @@ constexpr size_t kSpare = 16;
 /// Time in s within which a wall that drags along a layer of a spacing is seen to do so: the filter knows no walls. The
 /// shorter one where there is none that liquid sticks to.
 constexpr double kWallTime = 8, kNoWallTime = 1;
-/// Layers of a film that are looked at, and fewer than which tell: a film of n layers is faster by 0.27/n (measured:
-/// 0.27 of one, 0.10 to 0.16 of two, 0.05 to 0.09 of three).
-constexpr float kNearLayers = 4;
-constexpr double kFewLayers = 2.5, kThin = 0.27;
-/// Slopes, as tangents: what is no slope, below which layers of particles in order hold a film to a tenth, up to which
-/// they hold it altogether but for a creeping share of its speed (measured: 0.35, 0.38, 0.93 at 0.1, 0.3 and 1 degree).
-constexpr double kLevel = 1e-4, kGentle = 0.0145, kOrder = 0.0063, kCreeping = 0.36;
-/// Of a slope, as a tangent, that each layer beyond two holds, up to so many layers (measured: 0.85 of the speed of 8
-/// layers at 1 degree, 0.85 of 10 at 1.2, 0.86 of 14 at 1.5, 0.84 of 16 and 0.78 of 20 at 2, 0.86 of 28 at 4), and the
-/// share of a film's speed from which on it is not told.
-constexpr double kLayerHolds = 0.0004, kMostLayers = 22, kHeldLittle = 0.9;
-/// Speeds along a wall in spacings per second: of a filtered liquid that slides, of a thick one that flows at all.
-constexpr double kSlides = 1, kCreeps = 0.02;
 /// Substep in s to which calming refers, that of the defaults.
 constexpr double kCalmingTime = 1.0 / 240;
-/// nu t/H2 from which on a wall would have slowed a layer of thickness H by some 15 %.
-constexpr double kDragged = 0.04;
-constexpr double kCalmed = 0.2;  ///< share of what calming would do to shear in the midst of a liquid
 constexpr float kImplicit = -2;  ///< marks a coefficient, until gatherThick() has seen it
 /// Share of solid at which crystals touch and mush stops to flow.
 constexpr double kPackedFraction = 0.6;
 /// Shear rate at which matter below its yield stress may creep, 1/s: thin enough for the iteration, and a slope that
 /// should rest takes a quarter of an hour to lean over.
 constexpr float kCreep = 1e-3f;
-
-/// Of the speed that a film of so many layers should have on a slope, a tangent: what the order of its particles
-/// leaves.
-double heldShare(double slope, double layers) {
-  if (slope <= kLevel) return 1;
-  const double order = slope < kGentle ? std::sqrt(std::max(0.0, 1 - kOrder * kOrder / (slope * slope))) : 1;
-  const double depth = 1 - kLayerHolds * std::max(0.0, std::min(layers, kMostLayers) - 2) / slope;
-  return std::max(kCreeping, std::min(order, depth));
-}
 
 /// int W x^2 dV = 4 pi/3 int W r^4 dr, by Simpson's rule.
 double secondMoment(const Kernel& kernel) {
@@ -152,6 +127,7 @@ void ViscosityStage::refresh(ParticleStore& store, const Neighbours& neighbours,
   });
   m_filters = filters;
   m_yields = yields;
+  m_beds.clear();
   m_common = -1;
   if (!thick) {
     const float one = fluid.empty() ? -1 : m_coefficient[fluid.front()];
@@ -166,6 +142,7 @@ void ViscosityStage::refresh(ParticleStore& store, const Neighbours& neighbours,
   }
   gatherThick(store, density);
   m_implicit.refresh(store, m_viscous);
+  if (density.touchesFixed()) measureBeds(store, density.lists(store, neighbours), density.fluid());
   if (m_yields) m_implicit.shearRates(store, neighbours, density, m_shearRate);
 }
 
@@ -287,105 +264,6 @@ void ViscosityStage::apply(ParticleStore& store, const Neighbours& neighbours, c
   m_implicit.apply(store, neighbours, density, m_viscosity.data());
   if (m_implicit.held()) m_externalImpulse.add(momentumOf(store, density) - before);
   if (m_yields) m_implicit.shearRates(store, neighbours, density, m_shearRate);
-}
-
-/// By material, then by wall: of the filter, and of the implicit stage.
-std::vector<ViscosityStage::AtWall> ViscosityStage::atWalls(const ParticleStore& store) const {
-  std::vector<AtWall> found(2 * m_planes.size() * m_materials.size());
-  if (found.empty()) return found;
-  const float spacing = static_cast<float>(m_settings.spacing);
-  for (size_t i = 0; i < store.size(); ++i) {
-    if (!isLiquid(store, i)) continue;
-    const size_t stage = m_implicit.active() && i < m_viscous.size() && m_viscous[i] > 0 ? 1 : 0;
-    AtWall* wall = &found[2 * m_planes.size() * store.material()[i]] + stage;
-    for (const WallPlane& plane : m_planes) {
-      const float height = plane.heightOf(store.position()[i]);
-      ++wall->all;
-      wall->near += height < kNearLayers * spacing ? 1 : 0;
-      if (height < spacing) {
-        const Vector3 velocity = vectorOf(store.velocity()[i]), normal{plane.x, plane.y, plane.z};
-        ++wall->touching;
-        wall->speed += (velocity - velocity.dot(normal) * normal).norm();
-        const double viscosity = viscosityOf(store, i);
-        wall->viscosity += viscosity;
-        wall->nu += viscosity * double{store.position()[i].w} / double{store.mass()[i]};
-      }
-      wall += 2;
-    }
-  }
-  return found;
-}
-
-/// What walls do to a material's liquid and particles cannot show: the greatest of it.
-void ViscosityStage::wallLimits(size_t material, double time, std::span<const AtWall> atWalls,
-                                std::vector<Limit>& out) const {
-  const double spacing = m_settings.spacing;
-  const double calmed = calming() * filterReach();
-  const Vector3 gravity = vectorOf(m_settings.gravity);
-  Limit limit{std::string(m_materials[material].id()) + ".viscosity", 1, 1, "Pa·s"};
-  const auto tell = [&](double asked, double share, const char* why, const std::string& use) {
-    if (std::abs(std::log(share)) <= std::abs(std::log(limit.delivered / limit.asked))) return;
-    limit.asked = asked;
-    limit.delivered = share * asked;
-    limit.why = why;
-    limit.use = use;
-  };
-  const auto flows = [&](const AtWall& at, double spacings) {
-    return at.touching > 0 && at.speed > spacings * spacing * static_cast<double>(at.touching);
-  };
-  for (size_t w = 0; w < m_planes.size(); ++w) {
-    const AtWall &filtered = atWalls[2 * w], &solved = atWalls[2 * w + 1];
-    if (flows(filtered, kSlides)) {
-      const auto touching = static_cast<double>(filtered.touching);
-      const double thick = spacing * static_cast<double>(filtered.all) / touching;
-      if (filtered.nu / touching * time > kDragged * thick * thick)
-        tell(filtered.viscosity / touching, 0, "walls hold it, which the velocity filter does not know",
-             "solver/viscosity_model=implicit");
-    }
-    if (!flows(solved, kCreeps)) continue;
-    const auto touching = static_cast<double>(solved.touching);
-    const double viscosity = solved.viscosity / touching, layers = static_cast<double>(solved.near) / touching;
-    if (layers < kFewLayers && static_cast<double>(solved.all) < double{kNearLayers} * touching)
-      tell(viscosity, 1 / (1 + kThin / layers), "the film is few particles thick",
-           useOf("solver/particle_spacing", 0.5 * spacing));
-    const Vector3 normal{m_planes[w].x, m_planes[w].y, m_planes[w].z};
-    const double press = -gravity.dot(normal), slope = press > 0 ? (gravity + press * normal).norm() / press : 0;
-    const double share = heldShare(slope, static_cast<double>(solved.all) / touching);
-    if (share < kHeldLittle) tell(viscosity, 1 / share, "on so gentle a slope the order of particles holds it", "");
-    if (const double nu = solved.nu / touching; nu < calmed)
-      tell(viscosity, 1 + kCalmed * calmed / nu, "calming resists more", "solver/xsph_minimum=0");
-  }
-  if (!limit.why.empty()) out.push_back(std::move(limit));
-}
-
-void ViscosityStage::limits(const ParticleStore& store, double time, std::vector<Limit>& out) const {
-  struct Asked {
-    double viscosity = 0, density = 1, yieldStress = 0;  // Pa s, kg/m3, Pa
-  };
-  std::vector<Asked> asked(m_materials.size());
-  for (size_t i = 0; i < store.size(); ++i) {
-    if (!isLiquid(store, i)) continue;
-    Asked& most = asked[store.material()[i]];
-    const double viscosity = viscosityOf(store, i);
-    most.yieldStress = std::max(most.yieldStress, m_materials[store.material()[i]].yieldStress(store.temperature()[i]));
-    if (viscosity <= most.viscosity) continue;
-    most.viscosity = viscosity;
-    most.density = double{store.mass()[i]} / double{store.position()[i].w};
-  }
-  const std::vector<AtWall> walls = atWalls(store);
-  const bool filterAlone = m_settings.viscosityModel == ViscosityModel::Xsph;
-  const double reach = filterAlone ? filterReach() : m_implicit.greatestViscosity();
-  for (size_t m = 0; m < asked.size(); ++m) {
-    const double delivered = reach * asked[m].density;
-    const std::string id = m_materials[m].id();
-    if (asked[m].viscosity > delivered)
-      out.push_back({id + ".viscosity", asked[m].viscosity, delivered, "Pa·s"});
-    else if (asked[m].viscosity > 0)
-      wallLimits(m, time, std::span(walls).subspan(2 * m_planes.size() * m, 2 * m_planes.size()), out);
-    if (filterAlone && asked[m].yieldStress > 0) out.push_back({id + ".yield_stress", asked[m].yieldStress, 0, "Pa"});
-  }
-  if (m_implicit.residual() > m_settings.viscosityTolerance)
-    out.push_back({"solver.viscosity_tolerance", m_settings.viscosityTolerance, m_implicit.residual(), ""});
 }
 
 }  // namespace ps

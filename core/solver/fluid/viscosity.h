@@ -22,9 +22,10 @@ namespace ps {
 /// Calming, the least c, is a rate: substeps shorter than 1/240 s take less of it, so that the viscosity that it adds
 /// does not grow with their number. Longer ones take it once.
 ///
-/// It cannot do, and limits() says: films of one or two layers, which flow a fourth or an eighth too fast;
-/// slopes below a degree, and of films of ten layers and more below two to four, where layers of particles in order
-/// hold on to each other; walls, with the filter; liquids thinner than their calming.
+/// It cannot do, and limits() says: films of one or two layers, which flow a fourth or an eighth too fast (of two or
+/// three a fifth, on fixed particles); slopes below a degree, and of films of ten layers and more below two to four,
+/// where layers of particles in order hold on to each other; walls, with the filter; liquids thinner than their
+/// calming.
 class ViscosityStage {
  public:
   void configure(const SolverSettings& settings, const std::vector<Wall>& walls,
@@ -53,11 +54,20 @@ class ViscosityStage {
   void filter(ParticleStore& store, const Neighbours& neighbours, const DensityStage& density);
   void tellFixed(const ParticleStore& store, const PairLists& pairs, std::span<const uint32_t> fixed) const;
   void gatherThick(const ParticleStore& store, const DensityStage& density);
-  /// A material's liquid at one wall, of one of the two stages.
+  /// A material's liquid at one wall, or on fixed particles, of one of the two stages.
   struct AtWall {
     size_t all = 0, touching = 0, near = 0;   ///< particles: of the stage, in the first layer, within four
     double speed = 0, viscosity = 0, nu = 0;  ///< sums over the first layer: m/s along the wall, Pa s, m2/s
+    Vector3 normal;                           ///< likewise, of unit vectors away from the wall
+    Vector3 places;                           ///< likewise, m, and of their squares: on fixed particles
+    Matrix3 squares = Matrix3::Zero();
   };
+  void measureBeds(const ParticleStore& store, const PairLists& lists, std::span<const uint32_t> fluid);
+  void addTouching(const ParticleStore& store, size_t i, const Vector3& velocity, const Vector3& normal,
+                   AtWall& at) const;
+  bool flatten(AtWall& bed) const;
+  template <class Tell>
+  void filmLimits(const AtWall& film, double few, double faster, const Tell& tell) const;
   std::vector<AtWall> atWalls(const ParticleStore& store) const;
   void wallLimits(size_t material, double time, std::span<const AtWall> atWalls, std::vector<Limit>& out) const;
   bool isLiquid(const ParticleStore& store, size_t i) const {
@@ -82,6 +92,7 @@ class ViscosityStage {
   std::vector<uint32_t> m_which;
   std::vector<api::Float4> m_change;
   ChunkSum m_partial;
+  std::vector<AtWall> m_beds, m_bedParts;  ///< by material; by chunk and material
 };
 
 }  // namespace ps
