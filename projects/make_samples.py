@@ -125,7 +125,7 @@ def bronze_casting():
         60, view((0, 0.28, -0.05), 1.1, 12, 14, "material",
                  ["emitter/ladle/temperature", "emitter/ladle/speed", "solver/thermal_time_scale"]),
         environment={"radiation": True},
-        emitters=[tap("ladle", "Ladle", "bronze", (-8 * d, 0.66, -0.02), 1423.15, 0.8, 0.036, most=4450)])
+        emitters=[tap("ladle", "Ladle", "bronze", (-8 * d, 0.66, -0.02), 1423.15, 0.8, 0.0423, most=4450)])
 
 
 def lava_over_ice():
