@@ -125,6 +125,54 @@ class TestFilmLimits : public QObject {
     QVERIFY(std::abs(limits[0].delivered / limits[0].asked - 1) > 0.1);
   }
 
+  /// Between two planes that it fills, a liquid driven weakly moves as one (0.65 of Poiseuille's flow at 0.3 m/s2, with
+  /// 16 substeps 0.36 at 1 m/s2); driven harder, its layers pass each other. The limit says how much is left, roughly.
+  void gapsThatAreFullTell_data() {
+    QTest::addColumn<double>("drive");  // m/s2
+    QTest::addColumn<int>("substeps");
+    QTest::addColumn<double>("gap");  // m; the liquid has eight layers of 20 mm
+    QTest::addColumn<bool>("told");
+    QTest::newRow("weakly") << 0.3 << 4 << 0.16 << true;
+    QTest::newRow("harder") << 3.0 << 4 << 0.16 << false;
+    QTest::newRow("16 substeps") << 1.0 << 16 << 0.16 << true;
+    QTest::newRow("1 substep") << 1.0 << 1 << 0.16 << false;
+    QTest::newRow("not full") << 0.3 << 4 << 0.32 << false;
+    QTest::newRow("at rest") << 0.0 << 4 << 0.16 << false;
+  }
+  void gapsThatAreFullTell() {
+    QFETCH(double, drive);
+    QFETCH(int, substeps);
+    QFETCH(double, gap);
+    QFETCH(bool, told);
+    constexpr double kSpacing = 0.02, kHalf = 4 * kSpacing, kNu = 0.02;
+    Solver solver;
+    SolverSettings settings = settingsOf(kSpacing);
+    settings.gravity = {drive, 0, 0};
+    settings.substeps = substeps;
+    prepare(solver, settings, syrup(1000 * kNu));
+    ps::Bounds bounds;
+    bounds.minimum = {-kHalf, -0.1, -kHalf};
+    bounds.maximum = {kHalf, 1, kHalf};
+    bounds.periodic = {true, false, true};
+    solver.setBounds(bounds);
+    ps::Wall floor, lid;
+    lid.normal = {0, -1, 0};
+    lid.offset = -gap;
+    solver.setWalls({floor, lid});
+    solver.spawn(liquid(lattice(8, 8, 8, kSpacing, 0)));
+    QVERIFY(run(solver, 60));
+    const std::vector<ps::Limit> limits = solver.limits();
+    QCOMPARE(limits.size(), told ? size_t{1} : size_t{0});
+    if (!told) return;
+    QVERIFY2(limits[0].why.find("no room to pass") != std::string::npos, limits[0].why.c_str());
+    double sum = 0;
+    const ps::ParticleStore& p = solver.particles();
+    for (size_t i = 0; i < p.size(); ++i) sum += double{p.velocity()[i].x};
+    const double delivered = sum / static_cast<double>(p.size()) / (drive * gap * gap / (12 * kNu));
+    const double said = limits[0].asked / limits[0].delivered;
+    QVERIFY2(std::abs(said - delivered) < 0.2, qPrintable(QString("%1 said, %2").arg(said).arg(delivered)));
+  }
+
   /// Where a wall is that liquid sticks to, Automatic takes the solver that knows walls: what a wall drags along by a
   /// spacing in some seconds, but no water.
   void automaticKnowsWalls_data() {

@@ -24,8 +24,9 @@ namespace ps {
 ///
 /// It cannot do, and limits() says: films of one or two layers, which flow a fourth or an eighth too fast (of two or
 /// three a fifth, on fixed particles); slopes below a degree, and of films of ten layers and more below two to four,
-/// where layers of particles in order hold on to each other; walls, with the filter; liquids thinner than their
-/// calming.
+/// where layers of particles in order hold on to each other; gaps between walls that a liquid fills, whose layers
+/// find no room to pass each other, the less the more substeps and iterations; walls, with the filter; liquids thinner
+/// than their calming.
 class ViscosityStage {
  public:
   void configure(const SolverSettings& settings, const std::vector<Wall>& walls,
@@ -59,13 +60,16 @@ class ViscosityStage {
     size_t all = 0, touching = 0, near = 0;   ///< particles: of the stage, in the first layer, within four
     double speed = 0, viscosity = 0, nu = 0;  ///< sums over the first layer: m/s along the wall, Pa s, m2/s
     Vector3 normal;                           ///< likewise, of unit vectors away from the wall
-    Vector3 places;                           ///< likewise, m, and of their squares: on fixed particles
+    size_t above = 0;                         ///< particles of the second layer
+    double speedAbove = 0;                    ///< sum over it, m/s along the wall
+    Vector3 places;                           ///< sums over the first layer on fixed particles, m, and of squares
     Matrix3 squares = Matrix3::Zero();
   };
   void measureBeds(const ParticleStore& store, const PairLists& lists, std::span<const uint32_t> fluid);
   void addTouching(const ParticleStore& store, size_t i, const Vector3& velocity, const Vector3& normal,
                    AtWall& at) const;
   bool flatten(AtWall& bed) const;
+  double gapShare(size_t one, size_t other, std::span<const AtWall> atWalls) const;
   template <class Tell>
   void filmLimits(const AtWall& film, double few, double faster, const Tell& tell) const;
   std::vector<AtWall> atWalls(const ParticleStore& store) const;
