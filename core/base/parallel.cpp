@@ -19,6 +19,8 @@
 namespace ps {
 namespace {
 int g_threads = 0;
+/// For which another thread is woken: several times what that takes.
+constexpr double kMicrosecondsPerThread = 15;
 
 #if defined(__SANITIZE_THREAD__)
 /// The first exception of a loop's threads.
@@ -37,9 +39,30 @@ class Caught {
   std::exception_ptr m_error;
 };
 #else
-std::unique_ptr<tbb::task_arena>& arena() {
-  static auto a = std::make_unique<tbb::task_arena>(threadCount());
-  return a;
+/// An arena wakes all of its threads for any loop, so that there is one for 2, 4, 8 ... and one for all of them.
+class Arenas {
+ public:
+  explicit Arenas(int threads) {
+    for (int size = 2; size < threads; size *= 2) add(size);
+    if (threads > 1) add(threads);
+  }
+  /// The largest of no more than so many threads, of 2 at least.
+  tbb::task_arena& of(int threads) {
+    size_t k = 0;
+    while (k + 1 < m_arenas.size() && m_arenas[k + 1]->max_concurrency() <= threads) ++k;
+    return *m_arenas[k];
+  }
+
+ private:
+  void add(int size) {
+    m_arenas.push_back(std::make_unique<tbb::task_arena>(size));
+    m_arenas.back()->initialize();
+  }
+  std::vector<std::unique_ptr<tbb::task_arena>> m_arenas;
+};
+std::unique_ptr<Arenas>& arenas() {
+  static auto all = std::make_unique<Arenas>(threadCount());
+  return all;
 }
 #endif
 
@@ -69,7 +92,7 @@ double secondsShared() { return t_shared; }
 void setThreadCount(int count) {
   g_threads = std::max(0, count);
 #if !defined(__SANITIZE_THREAD__)
-  arena() = std::make_unique<tbb::task_arena>(threadCount());
+  arenas() = std::make_unique<Arenas>(threadCount());
 #endif
 }
 
@@ -79,14 +102,25 @@ int threadCount() {
   return g_threads > 0 ? g_threads : cores;
 }
 
-void parallelFor(size_t count, size_t grain, const std::function<void(size_t, size_t)>& body) {
+int threadsWorth(double microseconds) {
+  const double worth = std::clamp(microseconds / kMicrosecondsPerThread, 1.0, static_cast<double>(threadCount()));
+  return static_cast<int>(worth);
+}
+
+void parallelFor(size_t count, size_t grain, const std::function<void(size_t, size_t)>& body, double microseconds) {
   if (count == 0) return;
   grain = std::max<size_t>(1, grain);
   const size_t chunks = (count + grain - 1) / grain;
   const auto runChunk = [&](size_t chunk) { body(chunk * grain, std::min(count, (chunk + 1) * grain)); };
   if (chunks == 1) return runChunk(0);
   const SharedTime counted;
-  if (threadCount() == 1) {
+  if (microseconds < 0) microseconds = static_cast<double>(count) * grain::microseconds(grain);
+#if defined(__SANITIZE_THREAD__)
+  const int threads = threadCount();  // races of small loops count too
+#else
+  const int threads = threadsWorth(microseconds);
+#endif
+  if (threads == 1) {
     for (size_t chunk = 0; chunk < chunks; ++chunk) runChunk(chunk);
     return;
   }
@@ -102,12 +136,12 @@ void parallelFor(size_t count, size_t grain, const std::function<void(size_t, si
   };
   {
     std::vector<std::jthread> others;
-    for (int t = 1; t < threadCount(); ++t) others.emplace_back(work);
+    for (int t = 1; t < threads; ++t) others.emplace_back(work);
     work();
   }
   caught.rethrow();
 #else
-  arena()->execute([&] {
+  arenas()->of(threads).execute([&] {
     tbb::parallel_for(tbb::blocked_range<size_t>(0, chunks, 1), [&](const tbb::blocked_range<size_t>& range) {
       for (size_t chunk = range.begin(); chunk != range.end(); ++chunk) runChunk(chunk);
     });

@@ -26,6 +26,7 @@ class TstBench : public QObject {
   void theDamBreakStandsWhereOthersHaveIt();
   void scenesAreScaled();
   void loopsOfOneChunkAreNotShared();
+  void threadsFollowTheWork();
   void runsAreCompared();
   void growthIsTabledAndDrawn();
 
@@ -147,6 +148,24 @@ void TstBench::loopsOfOneChunkAreNotShared() {
   const double passed = std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count(),
                shared = secondsShared() - start;
   QVERIFY2(shared >= 0.006 && shared <= passed, qPrintable(QString("%1 of %2").arg(shared).arg(passed)));
+}
+
+void TstBench::threadsFollowTheWork() {
+  setThreadCount(8);
+  for (const auto& [microseconds, threads] : {std::pair{0.0, 1}, {10.0, 1}, {40.0, 2}, {90.0, 6}, {1e6, 8}})
+    QCOMPARE(threadsWorth(microseconds), threads);
+  // As many chunks of something quick stay with the one who calls as others take eight threads for.
+  constexpr size_t kChunks = 3;
+  const auto work = [](size_t grain) { return grain::microseconds(grain) * static_cast<double>(kChunks * grain); };
+  QVERIFY(threadsWorth(work(grain::kParticles)) == 1 && threadsWorth(work(grain::kRays)) == 8);
+#if !defined(__SANITIZE_THREAD__)
+  const auto caller = std::this_thread::get_id();
+  bool others = false;
+  parallelFor(kChunks * grain::kParticles, grain::kParticles,
+              [&](size_t, size_t) { others = others || std::this_thread::get_id() != caller; });
+  QVERIFY(!others);
+#endif
+  setThreadCount(0);
 }
 
 void TstBench::runsAreCompared() {

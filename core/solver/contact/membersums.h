@@ -25,7 +25,9 @@ Sum sumOver(std::span<const uint32_t> members, const Add& add) {
     return all;
   }
   std::array<Sum, kMostParts> part{};
-  forChunks(members.size(), each, [&](size_t first, size_t last) { sum(part[first / each], first, last); });
+  forChunks(
+      members.size(), each, [&](size_t first, size_t last) { sum(part[first / each], first, last); },
+      static_cast<double>(members.size()) * grain::microseconds(grain::kParticles));
   Sum all = part[0];
   for (size_t p = 1; p < chunkCount(members.size(), each); ++p) all += part[p];
   return all;

@@ -70,7 +70,9 @@ void SolidContact::refresh(const ParticleStore& store, const Neighbours& neighbo
   addMirrored(chunkCount(m_solids.size(), grain::kNeighbours));
   findSurfaces(store, neighbours, graph);
   size_t squeezed = 0;
+  m_pairs = 0;
   for (Chunk& chunk : m_chunks) {
+    m_pairs += chunk.other.size();
     m_any = m_any || !chunk.who.empty();
     squeezed += chunk.squeezed;
     chunk.facing.assign(chunk.other.size(), {0, 0, 0, 0});

@@ -94,11 +94,14 @@ class SolidContact {
   void findSurfaces(const ParticleStore& store, const Neighbours& neighbours, const StructureGraph& graph);
   template <class Body>
   void everywhere(const Body& body) {
-    forChunks(m_chunks.size(), 1, [&](size_t first, size_t last) {
-      for (size_t c = first; c < last; ++c) {
-        for (size_t k = 0; k < m_chunks[c].who.size(); ++k) body(m_chunks[c], k);
-      }
-    });
+    forChunks(
+        m_chunks.size(), 1,
+        [&](size_t first, size_t last) {
+          for (size_t c = first; c < last; ++c) {
+            for (size_t k = 0; k < m_chunks[c].who.size(); ++k) body(m_chunks[c], k);
+          }
+        },
+        kMicrosecondsPerPair * static_cast<double>(m_pairs));
   }
   size_t touching(const ParticleStore& store, const Chunk& chunk, size_t k) const;
 
@@ -113,8 +116,10 @@ class SolidContact {
   std::vector<uint8_t> m_contacts;
   std::vector<uint8_t> m_loose;  ///< 1: tied to nothing
   std::vector<api::Float4> m_couple;
-  LatticeSurface m_surface;                       ///< of those that may touch and belong to a lattice
-  std::vector<LatticeSurface::Normal> m_normals;  ///< by its slots
+  LatticeSurface m_surface;                             ///< of those that may touch and belong to a lattice
+  std::vector<LatticeSurface::Normal> m_normals;        ///< by its slots
+  static constexpr double kMicrosecondsPerPair = 0.02;  ///< of one thread
+  size_t m_pairs = 0;                                   ///< that may touch
   bool m_any = false;
 };
 

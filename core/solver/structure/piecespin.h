@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "core/base/parallel.h"
 #include "core/math/vector.h"
 #include "core/particles/particlestore.h"
 
@@ -45,6 +46,8 @@ class PieceSpin {
     Vector3 centre, spin;  ///< m, rad/s
     bool grouped = false;
   };
+  /// Microseconds of one thread.
+  double work() const { return static_cast<double>(m_members.size()) * grain::microseconds(grain::kParticles); }
   Sums sumOf(const ParticleStore& store, const Run& run, std::span<const api::Float4> couple, double dt) const;
 
   static constexpr uint32_t kNone = ~0u;
