@@ -18,17 +18,33 @@ using Scratch = ClusterScratch;
 /// Columns of a scratch, as pointers that stay in registers.
 struct Columns {
   double* first;
+  float* weights;
   size_t stride;
-  const uint32_t* id;
   HWY_INLINE explicit Columns(const ClusterScratch& scratch)
-      : first(scratch.column(0)), stride(static_cast<size_t>(scratch.column(1) - first)), id(scratch.particles()) {}
+      : first(scratch.column(0)), weights(scratch.weight(0)), stride(static_cast<size_t>(scratch.column(1) - first)) {}
   HWY_INLINE V load(size_t c, size_t at) const { return hn::LoadU(D(), first + c * stride + at); }
   HWY_INLINE V3 load3(size_t c, size_t at) const { return {load(c, at), load(c + 1, at), load(c + 2, at)}; }
-  HWY_INLINE void store(V v, size_t c, size_t at) const { hn::StoreU(v, D(), first + c * stride + at); }
   HWY_INLINE void store3(V3 v, size_t c, size_t at) const {
-    store(v.x, c, at), store(v.y, c + 1, at), store(v.z, c + 2, at);
+    const D d;
+    double* to = first + c * stride + at;
+    hn::StoreU(v.x, d, to), hn::StoreU(v.y, d, to + stride), hn::StoreU(v.z, d, to + 2 * stride);
+  }
+  HWY_INLINE V weight(size_t c, size_t at) const {
+    return hn::PromoteTo(D(), hn::LoadU(DF(), weights + c * stride + at));
   }
 };
+
+/// visit(part, few, particles) for all members, `part` by part of eight virtual lanes.
+template <class Visit>
+HWY_INLINE void forMembers(const ClusterMembers& members, const Scratch& scratch, const Visit& visit) {
+  for (size_t at = 0; at < members.count; at += kVirtualLanes) {
+    const uint32_t* of = scratch.particles(members, at);
+    for (size_t part = 0; part < kParts; ++part) {
+      const Few few(at + part * kLanes, members.count);
+      visit(part, few, of + part * kLanes);
+    }
+  }
+}
 
 template <bool kRubs>
 void sum(const api::ParticleView& p, const ClusterMembers& members, Scratch& scratch, ClusterSums& out) {
@@ -37,29 +53,23 @@ void sum(const api::ParticleView& p, const ClusterMembers& members, Scratch& scr
   Lanes mass;
   Lanes3 place, rest, shift, turning, moments[3];
   SecondLanes second;
-  for (size_t at = 0; at < members.count; at += kVirtualLanes) {
-    for (size_t part = 0; part < kParts; ++part) {
-      const Few few(at + part * kLanes, members.count);
-      const uint32_t* of = columns.id + few.first;
-      const V m = columns.load(Scratch::kMass, few.first);
-      const V3 absolute = gather(p.position, of).xyz, x = absolute - origin;
-      const V3 r = loadFloats3(members.rest, few), weighted = m * x;
-      columns.store(gather(p.velocity, of).w, Scratch::kInverseMass, few.first);
-      columns.store3(x, Scratch::kX, few.first);
-      columns.store3(r, Scratch::kRestX, few.first);
-      mass.add(part, m);
-      place.add(part, weighted);
-      rest.add(part, m * r);
-      moments[0].add(part, weighted.x * r), moments[1].add(part, weighted.y * r), moments[2].add(part, weighted.z * r);
-      if constexpr (kRubs) {
-        const V3 way = absolute - gather(p.previous, of).xyz, carried = m * way;
-        columns.store3(way, Scratch::kWayX, few.first);
-        shift.add(part, carried);
-        turning.add(part, cross(x, carried));
-        second.add(part, weighted, x);
-      }
+  forMembers(members, scratch, [&](size_t part, Few few, const uint32_t* of) HWY_ATTR {
+    const V m = columns.weight(Scratch::kMass, few.first);
+    const V3 absolute = gather(p.position, of).xyz, x = absolute - origin;
+    const V3 r = loadFloats3(members.rest, few), weighted = m * x;
+    columns.store3(x, Scratch::kX, few.first);
+    mass.add(part, m);
+    place.add(part, weighted);
+    rest.add(part, m * r);
+    moments[0].add(part, weighted.x * r), moments[1].add(part, weighted.y * r), moments[2].add(part, weighted.z * r);
+    if constexpr (kRubs) {
+      const V3 way = absolute - gather(p.previous, of).xyz, carried = m * way;
+      columns.store3(way, Scratch::kWayX, few.first);
+      shift.add(part, carried);
+      turning.add(part, cross(x, carried));
+      second.add(part, weighted, x);
     }
-  }
+  });
   out.mass = mass.sum();
   out.place = place.sum();
   out.rest = rest.sum();
@@ -82,12 +92,11 @@ void pullAll(const api::MovableParticles& particles, const ClusterMembers& membe
   const V3 shift = all(pull.shift), turning = all(pull.turning);
   const V friction = hn::Set(d, pull.friction), softness = hn::Set(d, pull.softness);
   const V share = hn::Set(d, -1 / (1 + pull.friction + pull.softness));
-  for (size_t at = 0; at < members.count; at += kLanes) {
-    const Few few(at, members.count);
-    const V mass = columns.load(Scratch::kMass, at);
-    const V inverseMass = columns.load(Scratch::kInverseMass, at);
+  forMembers(members, scratch, [&](size_t, Few few, const uint32_t* of) HWY_ATTR {
+    const size_t at = few.first;
+    const V mass = columns.weight(Scratch::kMass, at), inverseMass = columns.weight(Scratch::kInverseMass, at);
     const V3 x = columns.load3(Scratch::kX, at), arm = x - centre;
-    const V3 r = columns.load3(Scratch::kRestX, at) - restCentre;
+    const V3 r = loadFloats3(members.rest, few) - restCentre;
     V3 error = arm - V3{dot(row0, r), dot(row1, r), dot(row2, r)};
     if constexpr (kRubs) {
       const V3 change = columns.load3(Scratch::kWayX, at) - shift - cross(turning, arm);
@@ -99,8 +108,8 @@ void pullAll(const api::MovableParticles& particles, const ClusterMembers& membe
     storeFloats(after.x, members.multiplier[0], few);
     storeFloats(after.y, members.multiplier[1], few);
     storeFloats(after.z, members.multiplier[2], few);
-    scatter(x + origin + inverseMass * step, particles.position, columns.id + at, few);
-  }
+    scatter(x + origin + inverseMass * step, particles.position, of, few);
+  });
 }
 
 void PullMembers(const api::MovableParticles& particles, const ClusterMembers& members, const ClusterPull& pull,
@@ -115,21 +124,17 @@ void SumTurn(const api::ParticleView& p, const ClusterMembers& members, Scratch&
   Lanes mass, moved;
   Lanes3 place, lost;
   SecondLanes second;
-  for (size_t at = 0; at < members.count; at += kVirtualLanes) {
-    for (size_t part = 0; part < kParts; ++part) {
-      const Few few(at + part * kLanes, members.count);
-      const uint32_t* of = columns.id + few.first;
-      const V m = columns.load(Scratch::kMass, few.first);
-      const V3 absolute = gather(p.position, of).xyz, x = absolute - origin, weighted = m * x;
-      const V3 pull = loadFloats3(members.multiplier, few), way = loadFloats3(members.way, few);
-      columns.store3(x, Scratch::kX, few.first);
-      mass.add(part, m);
-      place.add(part, weighted);
-      second.add(part, weighted, x);
-      moved.add(part, dot(pull, pull));
-      lost.add(part, cross(way - absolute, pull));
-    }
-  }
+  forMembers(members, scratch, [&](size_t part, Few few, const uint32_t* of) HWY_ATTR {
+    const V m = columns.weight(Scratch::kMass, few.first);
+    const V3 absolute = gather(p.position, of).xyz, x = absolute - origin, weighted = m * x;
+    const V3 pull = loadFloats3(members.multiplier, few), way = loadFloats3(members.way, few);
+    columns.store3(x, Scratch::kX, few.first);
+    mass.add(part, m);
+    place.add(part, weighted);
+    second.add(part, weighted, x);
+    moved.add(part, dot(pull, pull));
+    lost.add(part, cross(way - absolute, pull));
+  });
   out.sums.mass = mass.sum();
   out.sums.place = place.sum();
   out.sums.second = second.sum();
@@ -141,12 +146,10 @@ void TurnMembers(const api::MovableParticles& particles, const ClusterMembers& m
                  Scratch& scratch) {
   const Columns columns(scratch);
   const V3 middle = all(centre), turning = all(spin);
-  for (size_t at = 0; at < members.count; at += kLanes) {
-    const Few few(at, members.count);
-    const V3 arm = columns.load3(Scratch::kX, at) - middle;
-    scatter(gather(particles.velocity, columns.id + at).xyz + cross(turning, arm), particles.velocity, columns.id + at,
-            few);
-  }
+  forMembers(members, scratch, [&](size_t, Few few, const uint32_t* of) HWY_ATTR {
+    const V3 arm = columns.load3(Scratch::kX, few.first) - middle;
+    scatter(gather(particles.velocity, of).xyz + cross(turning, arm), particles.velocity, of, few);
+  });
 }
 
 }  // namespace HWY_NAMESPACE
@@ -169,16 +172,19 @@ Vector firstOf(const api::ParticleView& p, const ClusterMembers& members) {
 }  // namespace
 
 void ClusterScratch::begin(const api::ParticleView& particles, const ClusterMembers& members) {
-  m_stride = (members.count + kPadding - 1) / kPadding * kPadding;
-  if (m_stride > kFew) m_many.resize(kColumns * m_stride), m_manyParticles.resize(m_stride);
+  const size_t count = members.count, whole = count / kPadding * kPadding;
+  m_stride = (count + kPadding - 1) / kPadding * kPadding;
+  if (m_stride > kFew) m_many.resize(kColumns * m_stride), m_manyWeights.resize(kWeights * m_stride);
   m_columns = m_stride > kFew ? m_many.data() : m_few.data();
-  m_particles = m_stride > kFew ? m_manyParticles.data() : m_fewParticles.data();
-  double* mass = column(kMass);
-  for (size_t k = 0; k < members.count; ++k) {
-    m_particles[k] = members.particles[k];
-    mass[k] = double{particles.mass[members.particles[k]]};
+  m_weights = m_stride > kFew ? m_manyWeights.data() : m_fewWeights.data();
+  float *mass = weight(kMass), *inverseMass = weight(kInverseMass);
+  for (size_t k = 0; k < count; ++k) {
+    const uint32_t i = members.particles[k];
+    mass[k] = particles.mass[i];
+    inverseMass[k] = particles.velocity[i].w;
   }
-  for (size_t k = members.count; k < m_stride; ++k) m_particles[k] = members.particles[0], mass[k] = 0;
+  for (size_t k = count; k < m_stride; ++k) mass[k] = inverseMass[k] = 0;
+  for (size_t k = whole; k < m_stride; ++k) m_last[k - whole] = members.particles[k < count ? k : 0];
 }
 
 Matrix ClusterSums::inertia() const {
@@ -210,7 +216,8 @@ ClusterTurn turnOf(const api::ParticleView& particles, const ClusterMembers& mem
   scratch.begin(particles, members);
   ClusterTurn turn;
   turn.sums.origin = firstOf(particles, members);
-  for (size_t k = 0; k < members.count && !turn.held; ++k) turn.held = particles.velocity[members.particles[k]].w == 0;
+  for (size_t k = 0; k < members.count; ++k)
+    turn.held = turn.held || scratch.weight(ClusterScratch::kInverseMass)[k] == 0;
   HWY_DYNAMIC_DISPATCH(SumTurn)(particles, members, scratch, turn);
   return turn;
 }

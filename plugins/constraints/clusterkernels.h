@@ -23,22 +23,29 @@ struct ClusterMembers {
 /// Members as the passes read them; places in m from the first member.
 class ClusterScratch {
  public:
-  enum Column { kMass, kInverseMass, kX, kY, kZ, kRestX, kRestY, kRestZ, kWayX, kWayY, kWayZ, kColumns };
-  /// Reads who the members are, and their masses; beyond the last one, up to a whole number of vectors, stands the
+  enum Column { kX, kY, kZ, kWayX, kWayY, kWayZ, kColumns };
+  enum Weight { kMass, kInverseMass, kWeights };
+  /// Reads who the last members are, and all masses; beyond the last one, up to a whole number of vectors, stands the
   /// first without mass.
   void begin(const api::ParticleView& particles, const ClusterMembers& members);
   double* column(size_t c) const { return m_columns + c * m_stride; }
-  const uint32_t* particles() const { return m_particles; }
+  float* weight(size_t c) const { return m_weights + c * m_stride; }
+  /// Particles of the members from `first`, a multiple of kPadding, as many as that.
+  const uint32_t* particles(const ClusterMembers& members, size_t first) const {
+    return first + kPadding <= members.count ? members.particles + first : m_last.data();
+  }
+  static constexpr size_t kPadding = 8;
 
  private:
-  static constexpr size_t kPadding = 8, kFew = 128;
+  static constexpr size_t kFew = 128;
   size_t m_stride = 0;
   double* m_columns = nullptr;
-  uint32_t* m_particles = nullptr;
+  float* m_weights = nullptr;
   alignas(64) std::array<double, kColumns * kFew> m_few;
-  alignas(64) std::array<uint32_t, kFew> m_fewParticles;
+  alignas(64) std::array<float, kWeights * kFew> m_fewWeights;
+  alignas(64) std::array<uint32_t, kPadding> m_last;
   std::vector<double> m_many;
-  std::vector<uint32_t> m_manyParticles;
+  std::vector<float> m_manyWeights;
 };
 
 /// Sums over members, of mass m, at x from the first of them, at rest at r, since the start of the substep gone by w.

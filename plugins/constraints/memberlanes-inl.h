@@ -33,9 +33,23 @@ struct Lanes {
   HWY_INLINE void add(size_t p, V v) { part[p] = hn::Add(part[p], v); }
   /// Lanes k and k + 4, then k and k + 2, then the last two: the same tree for any width.
   HWY_INLINE double sum() const {
-    alignas(64) double lane[kVirtualLanes];
-    for (size_t p = 0; p < kParts; ++p) hn::Store(part[p], D(), lane + p * kLanes);
-    return ((lane[0] + lane[4]) + (lane[2] + lane[6])) + ((lane[1] + lane[5]) + (lane[3] + lane[7]));
+    const auto two = lastTwo();
+    return hn::GetLane(two) + hn::GetLane(hn::Reverse(DTwo(), two));
+  }
+
+ private:
+  using DTwo = hn::CappedTag<double, 2>;
+  HWY_INLINE hn::Vec<DTwo> lastTwo() const {
+#if HWY_MAX_BYTES >= 64
+    const hn::Half<D> d4;
+    const auto four = hn::Add(hn::LowerHalf(d4, part[0]), hn::UpperHalf(d4, part[0]));
+    return hn::Add(hn::LowerHalf(DTwo(), four), hn::UpperHalf(DTwo(), four));
+#elif HWY_MAX_BYTES >= 32
+    const auto four = hn::Add(part[0], part[1]);
+    return hn::Add(hn::LowerHalf(DTwo(), four), hn::UpperHalf(DTwo(), four));
+#else
+    return hn::Add(hn::Add(part[0], part[2]), hn::Add(part[1], part[3]));
+#endif
   }
 };
 
@@ -67,9 +81,13 @@ struct Few {
   Few(size_t at, size_t all) : first(at), count(at < all ? HWY_MIN(all - at, kLanes) : 0) {}
 };
 
+/// 0 beyond the last member.
 HWY_INLINE V loadFloats(const float* from, Few few) {
   const DF df;
   if (few.count == kLanes) return hn::PromoteTo(D(), hn::LoadU(df, from + few.first));
+#if HWY_MAX_BYTES >= 32  // others read and write what is masked
+  return hn::PromoteTo(D(), hn::MaskedLoad(hn::FirstN(df, few.count), df, from + few.first));
+#endif
   alignas(32) float tile[kLanes] = {};
   for (size_t k = 0; k < few.count; ++k) tile[k] = from[few.first + k];
   return hn::PromoteTo(D(), hn::Load(df, tile));
@@ -81,6 +99,9 @@ HWY_INLINE V3 loadFloats3(const Floats& from, Few few) {
 HWY_INLINE void storeFloats(V v, float* to, Few few) {
   const DF df;
   if (few.count == kLanes) return hn::StoreU(hn::DemoteTo(df, v), df, to + few.first);
+#if HWY_MAX_BYTES >= 32
+  return hn::BlendedStore(hn::DemoteTo(df, v), hn::FirstN(df, few.count), df, to + few.first);
+#endif
   alignas(32) float tile[kLanes];
   hn::Store(hn::DemoteTo(df, v), df, tile);
   for (size_t k = 0; k < few.count; ++k) to[few.first + k] = tile[k];
@@ -90,9 +111,11 @@ struct V4 {
   V3 xyz;
   V w;
 };
+struct Floats4 {
+  hn::Vec<DF> x, y, z, w;
+};
 /// Two levels of interleaving make x, y, z, w of blocks of four particles.
-HWY_INLINE V4 gather(const api::Float4* particles, const uint32_t* id) {
-  const D d;
+HWY_INLINE Floats4 gatherFloats(const api::Float4* particles, const uint32_t* id) {
   const float* base = &particles->x;
   const hn::Full128<float> d1;
   const auto block = [&](size_t k) HWY_ATTR { return hn::Load(d1, base + 4 * size_t{id[k]}); };
@@ -110,27 +133,30 @@ HWY_INLINE V4 gather(const api::Float4* particles, const uint32_t* id) {
   const auto zw01 = hn::BitCast(dd, hn::InterleaveUpper(df, a0, a1));
   const auto xy23 = hn::BitCast(dd, hn::InterleaveLower(df, a2, a3));
   const auto zw23 = hn::BitCast(dd, hn::InterleaveUpper(df, a2, a3));
-  return {{hn::PromoteTo(d, hn::BitCast(df, hn::InterleaveLower(dd, xy01, xy23))),
-           hn::PromoteTo(d, hn::BitCast(df, hn::InterleaveUpper(dd, xy01, xy23))),
-           hn::PromoteTo(d, hn::BitCast(df, hn::InterleaveLower(dd, zw01, zw23)))},
-          hn::PromoteTo(d, hn::BitCast(df, hn::InterleaveUpper(dd, zw01, zw23)))};
+  return {hn::BitCast(df, hn::InterleaveLower(dd, xy01, xy23)), hn::BitCast(df, hn::InterleaveUpper(dd, xy01, xy23)),
+          hn::BitCast(df, hn::InterleaveLower(dd, zw01, zw23)), hn::BitCast(df, hn::InterleaveUpper(dd, zw01, zw23))};
 #else
   const DF df;
   const auto xy = hn::InterleaveLower(d1, block(0), block(1)), zw = hn::InterleaveUpper(d1, block(0), block(1));
-  return {{hn::PromoteTo(d, hn::LowerHalf(df, xy)), hn::PromoteTo(d, hn::UpperHalf(df, xy)),
-           hn::PromoteTo(d, hn::LowerHalf(df, zw))},
-          hn::PromoteTo(d, hn::UpperHalf(df, zw))};
+  return {hn::LowerHalf(df, xy), hn::UpperHalf(df, xy), hn::LowerHalf(df, zw), hn::UpperHalf(df, zw)};
 #endif
 }
-/// Leaves their w as it is.
+HWY_INLINE V4 gather(const api::Float4* particles, const uint32_t* id) {
+  const D d;
+  const Floats4 of = gatherFloats(particles, id);
+  return {{hn::PromoteTo(d, of.x), hn::PromoteTo(d, of.y), hn::PromoteTo(d, of.z)}, hn::PromoteTo(d, of.w)};
+}
+/// Leaves their w as it is: it is read and written again, since stores with a mask take several times as long.
 HWY_INLINE void scatter(V3 v, api::Float4* particles, const uint32_t* id, Few few) {
   const DF df;
   alignas(64) api::Float4 tile[kLanes];
-  hn::StoreInterleaved4(hn::DemoteTo(df, v.x), hn::DemoteTo(df, v.y), hn::DemoteTo(df, v.z), hn::Zero(df), df,
-                        &tile[0].x);
-  for (size_t k = 0; k < few.count; ++k) {
-    api::Float4& to = particles[id[k]];
-    to = {tile[k].x, tile[k].y, tile[k].z, to.w};
+  hn::StoreInterleaved4(hn::DemoteTo(df, v.x), hn::DemoteTo(df, v.y), hn::DemoteTo(df, v.z),
+                        gatherFloats(particles, id).w, df, &tile[0].x);
+  const hn::Full128<float> d1;
+  if (few.count == kLanes) {
+    for (size_t k = 0; k < kLanes; ++k) hn::Store(hn::Load(d1, &tile[k].x), d1, &particles[id[k]].x);
+  } else {
+    for (size_t k = 0; k < few.count; ++k) hn::Store(hn::Load(d1, &tile[k].x), d1, &particles[id[k]].x);
   }
 }
 struct SecondLanes {

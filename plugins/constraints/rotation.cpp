@@ -80,11 +80,13 @@ Quaternion rotationOf(const Matrix& a, Quaternion q, double exact) {
                               -0.5 * (m.row[0].z + m.row[2].x),
                               -0.5 * (m.row[1].z + m.row[2].y)};
     Vector turn;
-    if (!solve(curvature, slope, turn) && !solveDamped(curvature, slope, turn)) break;
+    const bool whole = solve(curvature, slope, turn);
+    if (!whole && !solveDamped(curvature, slope, turn)) break;
     const double angle2 = dot(turn, turn);
     if (!(angle2 > exact * exact) || !std::isfinite(angle2)) break;
     if (angle2 > 1) turn = 1 / std::sqrt(angle2) * turn;
     q = normalised(exponential(turn) * q);
+    if (whole && angle2 < kLastTurn * exact) break;
   }
   return q;
 }

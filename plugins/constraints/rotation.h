@@ -84,6 +84,10 @@ Matrix pseudoInverse(const Matrix& m, double least = 0);
 /// The same by cofactors where no axis is near that bound: several times as fast.
 Matrix symmetricInverse(const Matrix& m);
 
+/// Newton's method squares what is left at each step, where nothing is shifted: after a turn by an angle whose square
+/// is this share of what rotationOf() is to leave, no other one is needed.
+inline constexpr double kLastTurn = 0.01;
+
 /// For ratios near 1, by Halley's method: exact to 1e-12 from 0.5 to 2.
 double cubeRoot(double s);
 

@@ -134,13 +134,14 @@ HWY_INLINE Turn rotationOf(const V3* a, Turn q, double exact) {
                               times(half, plus(m[0].z, m[2].x)),
                               times(half, plus(m[1].z, m[2].y))};
     V3 turn, damped;
-    M solved = solve(curvature, slope, turn);
-    if (!hn::AllTrue(D(), solved)) {
+    const M whole = solve(curvature, slope, turn);
+    M solved = whole;
+    if (!hn::AllTrue(D(), whole)) {
       const M others = solveDamped(curvature, slope, damped);
-      turn = chosen(solved, turn, damped);
+      turn = chosen(whole, turn, damped);
       solved = hn::Or(solved, others);
     }
-    V angle2 = dot(turn, turn);
+    const V angle2 = dot(turn, turn);
     open = hn::And(hn::And(open, solved), hn::And(hn::Gt(angle2, set(exact * exact)), finite(angle2)));
     if (hn::AllFalse(D(), open)) break;
     const M wide = hn::Gt(angle2, set(1));
@@ -149,6 +150,8 @@ HWY_INLINE Turn rotationOf(const V3* a, Turn q, double exact) {
     const V none = hn::Zero(D());
     turn = chosen(open, turn, {none, none, none});
     q = chosen(open, normalised(product(exponential(turn), q)), q);
+    open = hn::AndNot(hn::And(whole, hn::Lt(angle2, set(kLastTurn * exact))), open);
+    if (hn::AllFalse(D(), open)) break;
   }
   return q;
 }
