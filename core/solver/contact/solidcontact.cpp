@@ -66,9 +66,9 @@ void SolidContact::refresh(const ParticleStore& store, const Neighbours& neighbo
   }
   if (m_solids.empty()) return;
   const StructureGraph& graph = constraints.graph(store.size());
-  findPairs(store, neighbours, graph, pieceOf, rigid);
+  findKinds(store, neighbours, graph, rigid);
+  findPairs(store, neighbours, graph, pieceOf);
   addMirrored(chunkCount(m_solids.size(), grain::kNeighbours));
-  findSurfaces(store, neighbours, graph);
   size_t squeezed = 0;
   m_pairs = 0;
   for (Chunk& chunk : m_chunks) {
@@ -83,6 +83,7 @@ void SolidContact::refresh(const ParticleStore& store, const Neighbours& neighbo
       }
     }
   }
+  findSurfaces(store, neighbours, graph);
   m_loose.resize(store.size());
   for (uint32_t i = 0; i < store.size(); ++i) m_loose[i] = graph.isFree(i) ? 1 : 0;
   m_couple.assign(store.size(), {0, 0, 0, 0});
@@ -90,15 +91,31 @@ void SolidContact::refresh(const ParticleStore& store, const Neighbours& neighbo
   m_contacts.assign(store.size() + 1, 1);
 }
 
+void SolidContact::findKinds(const ParticleStore& store, const Neighbours& neighbours, const StructureGraph& graph,
+                             std::span<const uint8_t> rigid) {
+  const api::NeighbourView view = neighbours.view();
+  m_kinds.resize(store.size());
+  forChunks(store.size(), grain::kParticles, [&](size_t first, size_t last) {
+    for (size_t k = first; k < last; ++k) {
+      const auto i = static_cast<uint32_t>(k);
+      const api::Motion motion = store.motion()[i];
+      const bool enclosed = graph.ties(i) >= kEnclosed, free = graph.isFree(i);
+      const bool moves = motion == api::Motion::Solid && store.velocity()[i].w > 0 && rigid[i] == 0;
+      uint8_t kind = 0;
+      if (api::holds(motion) && rigid[i] == 0) kind |= kTouches;
+      if (motion == api::Motion::Static || !free) kind |= kOfLattice;
+      if (moves) kind |= kMoves;
+      if (enclosed) kind |= kInside;
+      if (enclosed && view.last[i] - view.begin[i] <= m_crowded) kind |= kShut;
+      m_kinds[i] = kind;
+    }
+  });
+}
+
 /// What each open particle may touch, by chunks of m_solids.
 void SolidContact::findPairs(const ParticleStore& store, const Neighbours& neighbours, const StructureGraph& graph,
-                             std::span<const uint32_t> pieceOf, std::span<const uint8_t> rigid) {
-  const api::Motion* motion = store.motion();
-  const std::span<const api::Float4> at = neighbours.built();
-  const api::NeighbourView view = neighbours.view();
+                             std::span<const uint32_t> pieceOf) {
   const NearNeighbours near(store, neighbours);
-  const float roundReach2 = static_cast<float>(m_reach * m_reach),
-              faceReach2 = static_cast<float>(m_faceReach * m_faceReach);
   m_chunks.resize(std::max(m_chunks.size(), chunkCount(m_solids.size(), grain::kNeighbours) + 1));
   for (Chunk& chunk : m_chunks) {
     chunk.who.clear();
@@ -106,34 +123,46 @@ void SolidContact::findPairs(const ParticleStore& store, const Neighbours& neigh
     chunk.mirrored.clear();
     chunk.squeezed = 0;
   }
-  const auto isEnclosed = [&](uint32_t i) { return graph.ties(i) >= kEnclosed; };
-  const auto isShut = [&](uint32_t i) { return isEnclosed(i) && view.last[i] - view.begin[i] <= m_crowded; };
   forChunks(m_solids.size(), grain::kNeighbours, [&](size_t first, size_t last) {
     Chunk& chunk = m_chunks[first / grain::kNeighbours];
     chunk.begin.assign(1, 0);
     chunk.other.clear();
     for (size_t k = first; k < last; ++k) {
       const uint32_t i = m_solids[k];
-      if (isShut(i) || rigid[i] != 0 || store.velocity()[i].w == 0) continue;
+      if ((m_kinds[i] & kShut) != 0 || (m_kinds[i] & kMoves) == 0) continue;
       const size_t before = chunk.other.size();
-      for (const uint32_t j : near.of(i, std::max(roundReach2, faceReach2), chunk.near)) {
-        if (!api::holds(motion[j]) || rigid[j] != 0) continue;
-        float x = at[i].x - at[j].x, y = at[i].y - at[j].y, z = at[i].z - at[j].z;
-        store.period().shorten(x, y, z);
-        const float distance2 = x * x + y * y + z * z;
-        const bool together = pieceOf[i] == pieceOf[j] && pieceOf[i] != ConstraintSystem::kNoPiece;
-        const bool lattices = !together && (motion[j] == api::Motion::Static || !graph.isFree(i) || !graph.isFree(j));
-        if (!(distance2 < (lattices ? faceReach2 : roundReach2)) || (together && graph.tied(i, j))) continue;
-        chunk.other.push_back(j);
-        if (motion[j] == api::Motion::Solid && store.velocity()[j].w > 0 && isShut(j)) chunk.mirrored.push_back({j, i});
-      }
+      findPairsOf(i, store, neighbours.built(), graph, pieceOf, near, chunk);
       if (chunk.other.size() == before) continue;
-      if (isEnclosed(i)) ++chunk.squeezed;
+      if ((m_kinds[i] & kInside) != 0) ++chunk.squeezed;
       chunk.who.push_back(i);
       chunk.begin.push_back(static_cast<uint32_t>(chunk.other.size()));
     }
     chunk.correction.resize(chunk.who.size());
   });
+}
+
+void SolidContact::findPairsOf(uint32_t i, const ParticleStore& store, std::span<const api::Float4> at,
+                               const StructureGraph& graph, std::span<const uint32_t> pieceOf,
+                               const NearNeighbours& near, Chunk& chunk) const {
+  const float roundReach2 = static_cast<float>(m_reach * m_reach),
+              faceReach2 = static_cast<float>(m_faceReach * m_faceReach);
+  const uint8_t* kinds = m_kinds.data();
+  const uint32_t *pieces = pieceOf.data(), piece = pieces[i];
+  const api::Float4* points = at.data();
+  const Period& period = store.period();
+  const bool tied = piece != ConstraintSystem::kNoPiece, periodic = period.any(),
+             ofLattice = (kinds[i] & kOfLattice) != 0;
+  for (const uint32_t j : near.of(i, std::max(roundReach2, faceReach2), chunk.near)) {
+    if ((kinds[j] & kTouches) == 0) continue;
+    float x = points[i].x - points[j].x, y = points[i].y - points[j].y, z = points[i].z - points[j].z;
+    if (periodic) period.shorten(x, y, z);
+    const float distance2 = x * x + y * y + z * z;
+    const bool together = tied && pieces[j] == piece;
+    const bool lattices = !together && (ofLattice || (kinds[j] & kOfLattice) != 0);
+    if (!(distance2 < (lattices ? faceReach2 : roundReach2)) || (together && graph.tied(i, j))) continue;
+    chunk.other.push_back(j);
+    if ((kinds[j] & (kMoves | kShut)) == (kMoves | kShut)) chunk.mirrored.push_back({j, i});
+  }
 }
 
 /// What an open particle meets inside of a lattice feels it too: each of a pair moves its own share.
@@ -155,14 +184,19 @@ void SolidContact::addMirrored(size_t chunks) {
   last.correction.resize(last.who.size());
 }
 
-/// What belongs to no lattice is round.
+/// What belongs to no lattice is round, and so are all of one piece to each other.
 void SolidContact::findSurfaces(const ParticleStore& store, const Neighbours& neighbours, const StructureGraph& graph) {
   m_surface.clear(store.size());
   const auto isStatic = [&](uint32_t i) { return store.motion()[i] == api::Motion::Static; };
+  const auto add = [&](uint32_t i, bool round) {
+    if (isStatic(i) || (!round && (m_kinds[i] & kOfLattice) != 0)) m_surface.add(i);
+  };
   for (const Chunk& chunk : m_chunks) {
-    for (const std::vector<uint32_t>* of : {&chunk.who, &chunk.other}) {
-      for (const uint32_t i : *of) {
-        if (!graph.isFree(i) || isStatic(i)) m_surface.add(i);
+    for (size_t k = 0; k < chunk.who.size(); ++k) {
+      for (uint32_t q = chunk.begin[k]; q < chunk.begin[k + 1]; ++q) {
+        const bool round = chunk.facing[q].w == kRound;
+        add(chunk.who[k], round);
+        add(chunk.other[q], round);
       }
     }
   }
@@ -182,10 +216,9 @@ void SolidContact::begin(const ParticleStore& store) {
     return m_surface.has(i) ? m_normals[m_surface.slotOf(i)] : LatticeSurface::Normal{};
   };
   everywhere([&](Chunk& chunk, size_t k) {
-    const LatticeSurface::Normal own = normalOf(chunk.who[k]);
     for (uint32_t q = chunk.begin[k]; q < chunk.begin[k + 1]; ++q) {
-      const LatticeSurface::Normal other = normalOf(chunk.other[q]);
       if (chunk.facing[q].w == kRound) continue;
+      const LatticeSurface::Normal own = normalOf(chunk.who[k]), other = normalOf(chunk.other[q]);
       chunk.facing[q] = {0, 0, 0, 0};
       const Vector3 line = vectorOf(store.separation(chunk.who[k], chunk.other[q]));
       if (own.neighbours + other.neighbours == 0 || !(line.squaredNorm() > 0)) continue;

@@ -69,6 +69,14 @@ class SolidContact {
   static constexpr size_t kEnclosed = 18;
 
  private:
+  /// What is asked of a particle as one of a pair.
+  enum Kind : uint8_t {
+    kTouches = 1,    ///< solid or static, and not of a rigid body
+    kOfLattice = 2,  ///< tied, or static
+    kMoves = 4,      ///< solid, free to move, and not of a rigid body
+    kInside = 8,     ///< as many ties as inside a lattice
+    kShut = 16,      ///< and not squeezed: nothing can touch it
+  };
   struct Friction {
     float staticFriction, kineticFriction;
   };
@@ -88,8 +96,13 @@ class SolidContact {
   };
   Touch touchOf(const ParticleStore& store, const Chunk& chunk, size_t k, size_t q) const;
   api::Float4 correctionOf(const ParticleStore& store, Chunk& chunk, size_t k);
+  void findKinds(const ParticleStore& store, const Neighbours& neighbours, const StructureGraph& graph,
+                 std::span<const uint8_t> rigid);
   void findPairs(const ParticleStore& store, const Neighbours& neighbours, const StructureGraph& graph,
-                 std::span<const uint32_t> pieceOf, std::span<const uint8_t> rigid);
+                 std::span<const uint32_t> pieceOf);
+  /// Adds to the chunk what particle i may touch.
+  void findPairsOf(uint32_t i, const ParticleStore& store, std::span<const api::Float4> at, const StructureGraph& graph,
+                   std::span<const uint32_t> pieceOf, const NearNeighbours& near, Chunk& chunk) const;
   void addMirrored(size_t chunks);
   void findSurfaces(const ParticleStore& store, const Neighbours& neighbours, const StructureGraph& graph);
   template <class Body>
@@ -113,6 +126,7 @@ class SolidContact {
   ExternalImpulse m_externalImpulse;
   Reactions* m_reactions = &Reactions::none();
   std::vector<uint32_t> m_solids;
+  std::vector<uint8_t> m_kinds;  ///< of Kind, when the lists were made
   std::vector<uint8_t> m_contacts;
   std::vector<uint8_t> m_loose;  ///< 1: tied to nothing
   std::vector<api::Float4> m_couple;
