@@ -267,6 +267,55 @@ class TestViewFactors : public QObject {
     QVERIFY(std::abs(told(0.6, kCold) - 0.6) < 1e-3);
   }
 
+  /// What is kept while nothing has changed is what would be found anew, to the bit, whatever happens in between.
+  void boxesAreKeptAsTheyWouldBeFound() {
+    Bodies bodies;
+    const uint32_t black = bodies.material(1);
+    bodies.box({0, 0, 0}, {5, 5, 5}, kHot, black);
+    bodies.box({0, 8, 0}, {5, 2, 5}, kCold, black);
+    const uint32_t stray = static_cast<uint32_t>(bodies.scene.store.size());
+    bodies.box({2, 6, 2}, {1, 1, 1}, kCold, black);
+    Scene& scene = bodies.scene;
+    scene.start([](size_t) { return kHot; });
+    const double dx = scene.spacing;
+    std::vector<float> filled(scene.store.size(), 0.7f);
+    ps::SurfaceBoxes kept;
+    const auto differ = [&](const char* what) {
+      scene.neighbours.build(scene.store);
+      ps::OpenSurface surface;
+      surface.measure(scene.store, scene.neighbours.view(), filled, {}, dx, {});
+      const ps::SurfaceSurroundings around{scene.store, {}, surface, filled, {}, dx};
+      std::vector<ps::SurfaceBox> old(scene.store.size()), anew;
+      for (size_t i = 0; i < old.size(); ++i) old[i].particle = static_cast<uint32_t>(i);
+      anew = old;
+      kept.find(around, scene.neighbours.view(), old);
+      ps::SurfaceBoxes().find(around, scene.neighbours.view(), anew);
+      for (size_t i = 0; i < old.size(); ++i) {
+        const ps::SurfaceBox &a = old[i], &b = anew[i];
+        QVERIFY2(a.axes == b.axes && a.bare == b.bare && a.turned == b.turned && a.particle == b.particle &&
+                     a.height == b.height && a.area == b.area && a.gap == b.gap,
+                 what);
+      }
+    };
+    const auto moveTo = [&](double x, double y, double z) {
+      ps::assignTo(scene.store.position()[stray], ps::Vector3(x * dx, y * dx, z * dx));
+    };
+    differ("at first");
+    differ("at rest");
+    moveTo(2.5, 5.6, 2.5), differ("one lies on a face");
+    differ("and stays there");
+    moveTo(7, 5.6, 2.5), differ("it has left in one leap");
+    moveTo(5.5, 4.5, 2.5), differ("it lies at an edge");
+    filled[2] = filled[stray] = 0.8f, differ("less of the space is filled");
+    moveTo(2.5, 6.2, 2.5), differ("it is a gap away from both");
+    scene.store.temperature()[stray] = kCold, differ("and cold");
+    scene.store.body()[stray] = 0, differ("and of a body with one of them");
+    scene.store.motion()[stray] = ps::api::Motion::Gas, differ("and vapour");
+    moveTo(9, 9, 9), differ("alone");
+    scene.store.motion()[stray] = ps::api::Motion::Solid;
+    moveTo(2.5, 5.6, 2.5), differ("and back, where it has been before");
+  }
+
   void heatGoesFromHotToColdAlone() {
     // Two bodies as warm as the sky beside a colder third: both only lose, the third only gains, in every frame.
     Bodies bodies;

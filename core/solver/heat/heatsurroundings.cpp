@@ -62,6 +62,7 @@ void HeatSurroundings::configure(const ThermalSettings& settings, const SolverSe
   for (int layer = 1; layer <= 4; ++layer) m_wholeLayer += kernel.value(layer * dx);
   m_wholeLayer *= 4 * dx * dx * dx * dx * 2 * std::numbers::pi;
   m_surface.forget();
+  m_radiation.forgetBoxes();
   if (!settings.radiation) m_radiation.forget();
 }
 

@@ -69,6 +69,7 @@ std::pair<size_t, double> Radiation::nearestWall(const Ray& ray) const {
 }
 
 void Radiation::forget() {
+  m_found.forget();
   m_begin.clear();
   m_sights.clear();
   m_narrowestGap = 0;
@@ -103,11 +104,7 @@ void Radiation::findBoxes(const RadiationScene& scene) {
     m_boxOf[i] = static_cast<uint32_t>(m_boxes.size());
     m_boxes.emplace_back().particle = static_cast<uint32_t>(i);
   }
-  const SurfaceSurroundings around{store,        scene.lists, scene.walls,  scene.surface,
-                                   scene.filled, scene.level, scene.spacing};
-  forChunks(m_boxes.size(), grain::kNeighbours, [&](size_t first, size_t last) {
-    for (size_t b = first; b < last; ++b) m_boxes[b] = surfaceBoxOf(around, m_boxes[b].particle);
-  });
+  m_found.find({store, scene.walls, scene.surface, scene.filled, scene.level, scene.spacing}, scene.lists, m_boxes);
   m_emitters.clear();
   m_narrowestGap = 0;
   for (size_t b = 0; b < m_boxes.size(); ++b) {
@@ -231,15 +228,15 @@ void Radiation::scaleToBodies(const RadiationScene& scene) {
   const std::span<const double> given = scene.givenArea;
   if (std::none_of(given.begin(), given.end(), [](double area) { return area > 0; })) return;
   const uint32_t* body = scene.store.body();
-  m_found.assign(given.size(), 0);
+  m_areaOf.assign(given.size(), 0);
   for (size_t e = 0; e < m_emitters.size(); ++e) {
     const uint32_t b = body[m_boxes[m_emitters[e]].particle];
-    if (b < given.size()) m_found[b] += double{m_outer[e]};
+    if (b < given.size()) m_areaOf[b] += double{m_outer[e]};
   }
   for (size_t e = 0; e < m_emitters.size(); ++e) {
     const uint32_t i = m_boxes[m_emitters[e]].particle, b = body[i];
-    if (b >= given.size() || !(given[b] > 0) || !(m_found[b] > 0)) continue;
-    const auto scale = static_cast<float>(given[b] / m_found[b]);
+    if (b >= given.size() || !(given[b] > 0) || !(m_areaOf[b] > 0)) continue;
+    const auto scale = static_cast<float>(given[b] / m_areaOf[b]);
     m_sky[i] *= scale;
     for (size_t w = 0; w < m_walls; ++w) m_wall[i * m_walls + w] *= scale;
     for (size_t k = 0; k < m_perParticle; ++k) m_area[e * m_perParticle + k] *= scale;

@@ -5,7 +5,7 @@
 #include "core/particles/particlestore.h"
 #include "core/solver/heat/opensurface.h"
 #include "core/solver/heat/raygrid.h"
-#include "core/solver/heat/surfacebox.h"
+#include "core/solver/heat/surfaceboxes.h"
 #include "core/solver/settings.h"
 
 #include <span>
@@ -54,6 +54,8 @@ class Radiation {
   static constexpr size_t kRays = 8192;
 
   void trace(const RadiationScene& scene);
+  /// Walls or numbers have changed.
+  void forgetBoxes() { m_found.forget(); }
   void forget();
 
   /// Area in m2, times emissivities, with which particle i sees partner.
@@ -110,6 +112,7 @@ class Radiation {
 
   RayGrid m_grid;
   std::vector<Mirror> m_mirrors;  ///< by wall
+  SurfaceBoxes m_found;
   std::vector<SurfaceBox> m_boxes;
   std::vector<uint32_t> m_boxOf;  ///< by particle, or RayGrid::kNone
   size_t m_walls = 0, m_perParticle = 64;
@@ -118,7 +121,7 @@ class Radiation {
   std::vector<uint32_t> m_met;       ///< per ray: the particle it met, or RayGrid::kNone
   std::vector<float> m_area;         ///< per ray, m2
   std::vector<float> m_outer;        ///< per emitter: m2 of rays that do not begin covered
-  std::vector<double> m_found;       ///< m2 by body
+  std::vector<double> m_areaOf;      ///< m2 by body
   std::vector<size_t> m_begin, m_next;
   std::vector<Sight> m_sights;
   std::vector<float> m_sky, m_wall;

@@ -23,17 +23,25 @@ constexpr double kSlope = 0.66;  ///< mean open direction's length from which on
 constexpr double kLowest = 0.1, kHighest = 0.55;  ///< spacings to a turned cube's front
 constexpr double kCap = 0.82;  ///< cosine of the directions about a face that tell whether it is bare
 
+/// In order of index.
 struct Shell {
   std::array<Vector3, kMostInShell> way;
+  std::array<uint32_t, kMostInShell> who;
   size_t count = 0;
+  void add(uint32_t particle, const Vector3& unit) {
+    size_t k = count++;
+    for (; k > 0 && who[k - 1] > particle; --k) who[k] = who[k - 1], way[k] = way[k - 1];
+    who[k] = particle, way[k] = unit;
+  }
 };
 
+using Near = std::span<const uint32_t>;
+
 template <class Visit>
-void forNeighbours(const SurfaceSurroundings& around, uint32_t i, double reach, const Visit& visit) {
+void forNeighbours(const SurfaceSurroundings& around, Near near, uint32_t i, double reach, const Visit& visit) {
   const ParticleStore& store = around.store;
   const double square = reach * reach * around.spacing * around.spacing;
-  for (uint32_t k = around.lists.begin[i]; k < around.lists.last[i]; ++k) {
-    const uint32_t j = around.lists.index[k];
+  for (const uint32_t j : near) {
     if (store.motion()[j] == api::Motion::Gas) continue;
     const Vector3 r = vectorOf(store.separation(j, i));
     const double distance = r.squaredNorm();
@@ -70,17 +78,17 @@ void setAxes(SurfaceBox& box, const Vector3& first, const Vector3& second) {
 }
 
 /// Turns the box with the body's neighbours, if all of them lie along three axes.
-bool findLattice(const SurfaceSurroundings& around, SurfaceBox& box) {
+bool findLattice(const SurfaceSurroundings& around, Near near, SurfaceBox& box) {
   const uint32_t i = box.particle;
   const uint32_t* body = around.store.body();
   Shell shell;
   bool crowded = false;
-  forNeighbours(around, i, kShell, [&](uint32_t j, const Vector3& r, double square) {
+  forNeighbours(around, near, i, kShell, [&](uint32_t j, const Vector3& r, double square) {
     if (body[j] != body[i]) return;
     if (shell.count == kMostInShell)
       crowded = true;
     else
-      shell.way[shell.count++] = r / std::sqrt(square);
+      shell.add(j, r / std::sqrt(square));
   });
   if (crowded) return false;
   if (shell.count == 0) {
@@ -116,19 +124,20 @@ void noteGap(const SurfaceSurroundings& around, const Opposite& opposite, Surfac
   const double gap = opposite.height - around.spacing;
   const uint32_t i = box.particle, j = opposite.particle;
   if (gap < kGap * around.spacing || gap > kConducts * around.spacing || store.body()[j] == store.body()[i]) return;
+  box.asksTemperature = true;
   if (std::abs(store.temperature()[j] - store.temperature()[i]) < kAlike) return;
   if (box.gap == 0 || gap < double{box.gap}) box.gap = static_cast<float>(gap);
 }
 
-void findBareFaces(const SurfaceSurroundings& around, SurfaceBox& box) {
+void findBareFaces(const SurfaceSurroundings& around, Near near, SurfaceBox& box) {
   const double dx = around.spacing;
   std::array<Opposite, 6> opposite;
-  forNeighbours(around, box.particle, kReach, [&](uint32_t j, const Vector3& r, double square) {
+  forNeighbours(around, near, box.particle, kReach, [&](uint32_t j, const Vector3& r, double square) {
     for (size_t a = 0; a < 3; ++a) {
       const double height = box.axis(a).dot(r), h = std::abs(height);
       if (!(h > kNearest * dx && square - h * h < kAside * kAside * dx * dx)) continue;
       Opposite& here = opposite[2 * a + (height > 0 ? 0 : 1)];
-      if (h < here.height) here = {h, j};
+      if (h < here.height || (h == here.height && j < here.particle)) here = {h, j};
     }
   });
   unsigned closed = 0;
@@ -242,16 +251,18 @@ double SurfaceLevel::heightOf(double filled) const {
   return std::clamp(0.5 + slope * (filled - flat), kLowest, kHighest);
 }
 
-SurfaceBox surfaceBoxOf(const SurfaceSurroundings& around, uint32_t particle) {
+SurfaceBox surfaceBoxOf(const SurfaceSurroundings& around, Near near, uint32_t particle) {
   SurfaceBox box;
   box.particle = particle;
-  if (findLattice(around, box)) {
-    findBareFaces(around, box);
+  if (findLattice(around, near, box)) {
+    findBareFaces(around, near, box);
     smooth(around, box);
   } else {
     faceOpenDirections(around, box);
   }
   return box;
 }
+
+double boxReach() { return kReach; }
 
 }  // namespace ps

@@ -33,6 +33,7 @@ struct SurfaceLevel {
 struct SurfaceBox {
   std::array<std::array<float, 3>, 3> axes{};  ///< unit vectors, at right angles to each other
   uint8_t bare = 0;                            ///< bit 2 a: the face along axis a; 2 a + 1: the one against it
+  bool asksTemperature = false;                ///< of a body at a gap's distance before a face: `gap` follows from it
   bool turned = false;  ///< to the open directions, which face 0 is across; else with the lattice
   uint32_t particle = 0;
   float height = 0.5f;  ///< spacings to face 0; 0.5 to others
@@ -50,7 +51,6 @@ struct SurfaceBox {
 /// What a box is found from.
 struct SurfaceSurroundings {
   const ParticleStore& store;
-  const api::NeighbourView& lists;
   std::span<const Wall> walls;
   const OpenSurface& surface;
   std::span<const float> filled;  ///< sum of V W of each particle
@@ -58,6 +58,9 @@ struct SurfaceSurroundings {
   double spacing;  ///< m
 };
 
-SurfaceBox surfaceBoxOf(const SurfaceSurroundings& around, uint32_t particle);
+/// `near`: the particle's neighbours within boxReach(), in any order, which changes no bit, and perhaps more.
+SurfaceBox surfaceBoxOf(const SurfaceSurroundings& around, std::span<const uint32_t> near, uint32_t particle);
+/// Spacings; nothing farther away changes a box.
+double boxReach();
 
 }  // namespace ps
