@@ -10,7 +10,6 @@
 namespace ps {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 /// Sum of V W below which a particle's surroundings count as cut off by a surface.
 constexpr float kFullSupport = 0.95f;
 
@@ -46,43 +45,14 @@ void HeatPairs::build(const ParticleStore& store, const api::NeighbourView& list
     }
   };
   parallelFor(n, grain::kNeighbours, std::cref(matter));
-  const auto first = [&](size_t a, size_t b) {
-    store.period().any() ? measure<true>(store, lists, a, b) : measure<false>(store, lists, a, b);
-  };
+  m_rooms.resize(std::max(m_rooms.size(), chunkCount(n, grain::kNeighbours)));
+  const auto first = [&](size_t a, size_t b) { measure(store, lists, a, b); };
   parallelFor(n, grain::kNeighbours, std::cref(first));
   const auto second = [&](size_t a, size_t b) {
     conduct(a, b);
     if (m_options.contactConductance > 0) resist(store, a, b);
   };
   parallelFor(n, grain::kNeighbours, std::cref(second));
-}
-
-/// Writes -F into `conductance` and W, from squared distances; plain arithmetic without branches, which compilers
-/// turn into vectors with the same bits on every instruction set.
-void HeatPairs::differentiate(uint32_t first, uint32_t last) {
-  const float radius = static_cast<float>(m_options.support), inverse = 1.0f / radius;
-  const double r3 = m_options.support * m_options.support * m_options.support;
-  const float* __restrict r2 = m_square.data();
-  float* __restrict g = conductance.data();
-  float* __restrict w = m_kernel.data();
-  if (m_options.kernel == KernelShape::CubicSpline) {
-    const float scale = static_cast<float>(8 / (kPi * r3)),
-                slope = static_cast<float>(8 / (kPi * r3 * m_options.support));
-    for (uint32_t k = first; k < last; ++k) {
-      const float r = std::sqrt(r2[k]), q = r * inverse;
-      const float a = 1.0f - q, b = std::max(0.5f - q, 0.0f);
-      w[k] = scale * (2.0f * a * a * a - 8.0f * b * b * b);
-      g[k] = slope / r * (6.0f * a * a - 24.0f * b * b);
-    }
-  } else {
-    const float scale = static_cast<float>(21 / (2 * kPi * r3));
-    const float slope = static_cast<float>(21 / (2 * kPi * r3 * m_options.support));
-    for (uint32_t k = first; k < last; ++k) {
-      const float r = std::sqrt(r2[k]), q = r * inverse, a = 1.0f - q;
-      w[k] = scale * (a * a * a * a * (1.0f + 4.0f * q));
-      g[k] = slope / r * (20.0f * q * a * a * a);
-    }
-  }
 }
 
 float HeatPairs::condensedAround(const ParticleStore& store, size_t i) const {
@@ -99,58 +69,52 @@ float HeatPairs::condensedAround(const ParticleStore& store, size_t i) const {
   return static_cast<float>(std::min(1.0, around / std::max(0.2, 1 - double{store.position()[i].w} * self)));
 }
 
-template <bool kPeriodic>
-void HeatPairs::measure(const ParticleStore& store, const api::NeighbourView& lists, size_t first, size_t last) {
+/// Writes partners within the support and their squared distances: those of the particle's own material from the front
+/// of its slots, others from the back.
+HeatSlots HeatPairs::findPartners(const ParticleStore& store, const api::NeighbourView& lists, uint32_t i, Room& room) {
   const float limit = static_cast<float>(m_options.support * m_options.support), tiny = 1e-12f * limit;
-  const api::Float4* x = store.position();
-  const uint32_t* material = store.material();
-  const Period& period = store.period();
-  const float selfKernel = static_cast<float>(Kernel(m_options.kernel, m_options.support).value(0));
-  for (size_t i = first; i < last; ++i) {
-    uint32_t front = lists.begin[i], back = lists.end[i];
-    begin[i] = front;
-    end[i] = back;
-    const api::Float4 xi = x[i];
-    const auto square = [&](uint32_t j) {
-      float dx = xi.x - x[j].x, dy = xi.y - x[j].y, dz = xi.z - x[j].z;
-      if constexpr (kPeriodic) {
-        dx = period.shortest(dx, 0), dy = period.shortest(dy, 1), dz = period.shortest(dz, 2);
-      }
-      return std::max(dx * dx + dy * dy + dz * dz, tiny);
-    };
-    if (m_oneMaterial) {  // without a branch: entries of the skin are written and overwritten
-      for (uint32_t k = lists.begin[i]; k < lists.last[i]; ++k) {
-        const uint32_t j = lists.index[k];
-        const float r2 = square(j);
-        partner[front] = j;
-        m_square[front] = r2;
-        front += r2 < limit;
-      }
-    } else {
-      for (uint32_t k = lists.begin[i]; k < lists.last[i]; ++k) {
-        const uint32_t j = lists.index[k];
-        const float r2 = square(j);
-        if (!(r2 < limit)) continue;
-        const uint32_t slot = material[j] == material[i] ? front++ : --back;
-        partner[slot] = j;
-        m_square[slot] = r2;
-      }
+  const uint32_t first = lists.begin[i], *list = lists.index + first;
+  const size_t count = lists.last[i] - first;
+  HeatSlots slots{first, first, lists.end[i], lists.end[i]};
+  if (room.partner.size() < slots.end - first) {
+    room.partner.resize(2 * (slots.end - first));
+    room.square.resize(room.partner.size());
+  }
+  uint32_t* found = m_oneMaterial ? &partner[first] : room.partner.data();
+  float* square = m_oneMaterial ? &m_square[first] : room.square.data();
+  size_t used = 0;
+  if (store.period().any()) {
+    for (size_t k = 0; k < count; ++k) {
+      const auto [x, y, z, unused] = store.separation(i, list[k]);
+      const float r2 = std::max(x * x + y * y + z * z, tiny);
+      if (r2 < limit) found[used] = list[k], square[used++] = r2;
     }
-    same[i] = front;
-    other[i] = back;
-    differentiate(begin[i], front);
-    differentiate(back, end[i]);
-    float moment = 0, full = volume[i] * selfKernel;
-    const auto add = [&](uint32_t from, uint32_t to) {
-      for (uint32_t k = from; k < to; ++k) {
-        const float v = volume[partner[k]];
-        moment += v * (conductance[k] * m_square[k]);
-        full += v * m_kernel[k];
-      }
-    };
-    add(begin[i], front);
-    add(back, end[i]);
-    const float m = std::clamp(moment / 3, 0.8f, 1.25f);
+  } else {
+    used = findHeatPartners(store.position(), i, list, count, limit, tiny, found, square);
+  }
+  if (m_oneMaterial) {
+    slots.same = first + static_cast<uint32_t>(used);
+    return slots;
+  }
+  const uint32_t *material = store.material(), own = material[i];
+  for (size_t k = 0; k < used; ++k) {
+    const uint32_t slot = material[found[k]] == own ? slots.same++ : --slots.other;
+    partner[slot] = found[k];
+    m_square[slot] = square[k];
+  }
+  return slots;
+}
+
+void HeatPairs::measure(const ParticleStore& store, const api::NeighbourView& lists, size_t first, size_t last) {
+  const HeatKernel kernel(m_options.kernel, m_options.support);
+  const float selfKernel = static_cast<float>(Kernel(m_options.kernel, m_options.support).value(0));
+  Room& room = m_rooms[first / grain::kNeighbours];
+  for (size_t i = first; i < last; ++i) {
+    const HeatSlots slots = findPartners(store, lists, static_cast<uint32_t>(i), room);
+    begin[i] = slots.begin, same[i] = slots.same, other[i] = slots.other, end[i] = slots.end;
+    const HeatSums sums = sumHeatSlots(kernel, slots, partner.data(), volume.data(), m_square.data(), m_kernel.data(),
+                                       conductance.data());
+    const float full = volume[i] * selfKernel + sums.filled, m = std::clamp(sums.moment / 3, 0.8f, 1.25f);
     m_inverseMoment[i] = m_options.momentCorrection && full > kFullSupport ? 1 / m : 1.0f;
     filled[i] = full;
     immersion[i] = store.gasFraction()[i] > 0 ? condensedAround(store, i) : 0.0f;

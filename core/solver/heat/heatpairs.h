@@ -7,6 +7,7 @@
 #include "core/math/kernels.h"
 #include "core/matter/material.h"
 #include "core/particles/particlestore.h"
+#include "core/solver/heat/heatpairkernels.h"
 
 #include <span>
 #include <vector>
@@ -43,11 +44,15 @@ class HeatPairs {
 
  private:
   void prepare(size_t count, size_t slots);
-  template <bool kPeriodic>
+  /// What of a chunk is found before it is put in order.
+  struct Room {
+    std::vector<uint32_t> partner;
+    std::vector<float> square;
+  };
+  HeatSlots findPartners(const ParticleStore& store, const api::NeighbourView& lists, uint32_t i, Room& room);
   void measure(const ParticleStore& store, const api::NeighbourView& lists, size_t first, size_t last);
   void conduct(size_t first, size_t last);
   void resist(const ParticleStore& store, size_t first, size_t last);
-  void differentiate(uint32_t first, uint32_t last);
   float condensedAround(const ParticleStore& store, size_t i) const;
 
   Options m_options;
@@ -55,6 +60,7 @@ class HeatPairs {
   std::vector<float> m_square;         ///< squared distance, per slot
   std::vector<float> m_kernel;         ///< W, per slot
   std::vector<float> m_inverseMoment;  ///< 1/M of the moment correction
+  std::vector<Room> m_rooms;           ///< by chunk
 };
 
 }  // namespace ps
