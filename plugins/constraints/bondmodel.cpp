@@ -28,6 +28,7 @@ using api::ParticleView;
 /// At creation: axial and face-diagonal neighbours of a cubic lattice, 1 and 1.414 spacings away.
 constexpr float kLatticeRadius = 1.5f;
 constexpr float kLeastStiffness = 1e-20f;  // N/m, keeps the compliance finite
+constexpr double kRounding = 0.999;        // below any mean of moduli, however it is rounded
 
 constexpr api::ParameterDeclaration kParameters[] = {
     {"bond_max", "Bonds per particle", "n", "", api::ParameterKind::Integer, api::Scale::Linear, 18, 6, 32, 1, 64, "",
@@ -146,6 +147,7 @@ class ModulusTable {
     const size_t k = static_cast<size_t>(s);
     return m_values[k] + (s - static_cast<double>(k)) * (m_values[k + 1] - m_values[k]);
   }
+  double least() const { return *std::min_element(m_values.begin(), m_values.end()); }
 
  private:
   static constexpr int kSamples = 16;
@@ -156,10 +158,15 @@ class ModulusTable {
 std::vector<ModulusTable> modulusTables(const ConstraintContext& context, const ParticleView& particles,
                                         const ConstraintBatch& batch) {
   std::vector<Range> ranges(context.materials.size);
-  for (size_t k = 0; k < 2 * batch.count; ++k) {
-    const uint32_t i = batch.particles[k];
-    ranges[particles.material[i]].include(particles.temperature[i]);
-    ranges[particles.material[i]].include(double{batch.values[BondModel::kTemperature][k / 2]});
+  const float* made = batch.values[BondModel::kTemperature];
+  for (size_t k = 0; k < 2 * batch.count;) {  // from one change of material to the next, in registers
+    const uint32_t material = particles.material[batch.particles[k]];
+    Range own = ranges[material];
+    for (; k < 2 * batch.count && particles.material[batch.particles[k]] == material; ++k) {
+      own.include(particles.temperature[batch.particles[k]]);
+      own.include(double{made[k / 2]});
+    }
+    ranges[material] = own;
   }
   std::vector<ModulusTable> tables;
   tables.reserve(ranges.size());
@@ -168,6 +175,22 @@ std::vector<ModulusTable> modulusTables(const ConstraintContext& context, const 
     tables.emplace_back(*context.materials[m], r.low, r.high);
   }
   return tables;
+}
+
+/// Lengths at rest, by the volumes of the ends: cube roots of what lies side by side, which compilers make vectors of.
+void findLengths(const ParticleView& p, const ConstraintBatch& batch) {
+  const uint32_t* ends = batch.particles;
+  const float *rest = batch.values[BondModel::kRestLength], *reference = batch.values[BondModel::kReferenceVolume];
+  float* length = batch.values[BondModel::kLength];
+  for (size_t k = 0; k < batch.count; ++k) length[k] = p.position[ends[2 * k]].w + p.position[ends[2 * k + 1]].w;
+  constexpr size_t kTogether = 8;
+  size_t k = 0;
+  for (; k + kTogether <= batch.count; k += kTogether) {
+    float root[kTogether];
+    for (size_t q = 0; q < kTogether; ++q) root[q] = cubeRoot(length[k + q] / reference[k + q]);
+    for (size_t q = 0; q < kTogether; ++q) length[k + q] = rest[k + q] * root[q];
+  }
+  for (; k < batch.count; ++k) length[k] = rest[k] * cubeRoot(length[k] / reference[k]);
 }
 
 /// e to the power of x, the same bits everywhere: by the series, exact to 1e-15, of what is left beside a power of two.
@@ -285,30 +308,38 @@ void BondModel::predict(const ConstraintContext& context, const ParticleView& p,
 }
 
 void BondModel::refresh(const ConstraintContext& context, const ParticleView& p, const ConstraintBatch& batch) {
+  findLengths(p, batch);
   const Surface surface(context, p);
   const std::vector<ModulusTable> tables = modulusTables(context, p, batch);
   const double chosen = context.parameters[kSpringStiffness], ofModulus = stiffnessOfModulus(context);
   const bool thesis = isSet(context, kStiffnessLaw), held = context.held && !isSet(context, kSolver);
   const double softening = context.parameters[kSoftening];
-  for (size_t k = 0; k < batch.count; ++k) {
-    const uint32_t i = batch.particles[2 * k], j = batch.particles[2 * k + 1];
-    const float volumes = (p.position[i].w + p.position[j].w) / batch.values[kReferenceVolume][k];
-    batch.values[kLength][k] = batch.values[kRestLength][k] * cubeRoot(volumes);
+  // Of most solids any bond is stiffer than a step resolves: no modulus is looked up for those.
+  double leastModulus = tables.empty() ? 0 : tables[0].least();
+  for (const ModulusTable& table : tables) leastModulus = std::min(leastModulus, table.least());
+  const double leastAsked = thesis || chosen > 0 ? 0 : kRounding * ofModulus * leastModulus * context.spacing;
+  const auto askedOf = [&](size_t k, uint32_t i, uint32_t j) {
     const double made = double{batch.values[kTemperature][k]};
     const auto modulusOf = [&](uint32_t of) {
       const ModulusTable& table = tables[p.material[of]];
       return thesis ? table.at(made) * thesisShare(p.temperature[of] - made, softening) : table.at(p.temperature[of]);
     };
     const double ei = modulusOf(i), ej = modulusOf(j);
-    const double modulus = ei + ej > 0 ? 2 * ei * ej / (ei + ej) : 0;
+    return ofModulus * (ei + ej > 0 ? 2 * ei * ej / (ei + ej) : 0) * context.spacing;
+  };
+  const float* length = batch.values[kRestLength];
+  for (size_t k = 0; k < batch.count; ++k) {
+    const uint32_t i = batch.particles[2 * k], j = batch.particles[2 * k + 1];
     const double inverseMasses = double{p.velocity[i].w} + double{p.velocity[j].w};
-    const double asked = chosen > 0 ? chosen : ofModulus * modulus * context.spacing;
-    const double most = inverseMasses > 0 ? stiffnessLimit(context, inverseMasses) : asked;
-    const double surplus = chosen > 0 ? 1 : surface.factor(i, j, batch.values[kRestLength][k]);
+    const bool limited = inverseMasses > 0;
+    const double limit = limited ? stiffnessLimit(context, inverseMasses) : 0;
+    const bool beyond = limited && leastAsked > limit;
+    const double asked = beyond ? leastAsked : chosen > 0 ? chosen : askedOf(k, i, j), most = limited ? limit : asked;
+    const double surplus = chosen > 0 ? 1 : surface.factor(i, j, length[k]);
     const double stiffness = surplus * std::min(asked, most);
     const double ratio = stiffness * inverseMasses / 2 * context.dt * context.dt;
-    const bool carries = held && asked < most && needsCarrying(ratio, context.passes);
-    batch.values[kCarried][k] = carries && context.held[i] != 0 ? 1 : 0;
+    const bool carried = held && context.held[i] != 0 && asked < most && needsCarrying(ratio, context.passes);
+    batch.values[kCarried][k] = carried ? 1 : 0;
     batch.values[kCompliance][k] = 1 / std::max(static_cast<float>(stiffness), kLeastStiffness);
   }
 }
