@@ -74,6 +74,15 @@ class LatticeSurface {
     if (m_room.empty()) m_room.emplace_back();
     findOne(store, neighbours.built(), NearNeighbours(store, neighbours), slot, same, m_room[0]);
   }
+  /// Whether neither it nor its neighbours move in this substep: all of them are fixed, and none is led.
+  bool isStill(const ParticleStore& store, uint32_t i) const {
+    const Own& own = m_own[m_slot[i]];
+    const auto stands = [&](uint32_t p) {
+      const api::Float4& v = store.velocity()[p];
+      return v.w == 0 && v.x == 0 && v.y == 0 && v.z == 0;
+    };
+    return stands(i) && std::all_of(own.particles.begin(), own.particles.begin() + own.count, stands);
+  }
   /// Where its neighbours are now.
   Normal normalOf(const ParticleStore& store, uint32_t i) const;
   /// `line` leads from j to i, m. Round ones face each other along it.

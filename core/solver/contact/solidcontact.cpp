@@ -203,6 +203,7 @@ void SolidContact::findSurfaces(const ParticleStore& store, const Neighbours& ne
   m_surface.find(store, neighbours,
                  [&](uint32_t i, uint32_t j) { return (isStatic(i) && isStatic(j)) || sameLattice(graph, i, j); });
   m_normals.resize(m_surface.size());
+  m_stood.assign(m_surface.size(), 0);
 }
 
 void SolidContact::begin(const ParticleStore& store) {
@@ -210,7 +211,12 @@ void SolidContact::begin(const ParticleStore& store) {
   everywhere([&](Chunk& chunk, size_t k) { m_couple[chunk.who[k]] = {0, 0, 0, 0}; });
   if (m_surface.size() == 0) return;
   forChunks(m_surface.size(), grain::kNeighbours, [&](size_t first, size_t last) {
-    for (size_t slot = first; slot < last; ++slot) m_normals[slot] = m_surface.normalOf(store, m_surface.whoIs(slot));
+    for (size_t slot = first; slot < last; ++slot) {
+      const uint32_t i = m_surface.whoIs(slot);
+      const bool still = m_surface.isStill(store, i);
+      if (!still || m_stood[slot] == 0) m_normals[slot] = m_surface.normalOf(store, i);
+      m_stood[slot] = still ? 1 : 0;
+    }
   });
   const auto normalOf = [&](uint32_t i) {
     return m_surface.has(i) ? m_normals[m_surface.slotOf(i)] : LatticeSurface::Normal{};

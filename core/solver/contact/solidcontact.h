@@ -7,6 +7,7 @@
 #include "core/solver/contact/latticesurface.h"
 #include "core/solver/structure/constraintsystem.h"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -34,6 +35,8 @@ class SolidContact {
   /// Members of rigid bodies (1 in `rigid`) are left to RigidContact.
   void refresh(const ParticleStore& store, const Neighbours& neighbours, ConstraintSystem& constraints,
                std::span<const uint32_t> pieceOf, std::span<const uint8_t> rigid);
+  /// Before the substeps of a frame: what is fixed may have been put elsewhere.
+  void startFrame() { std::fill(m_stood.begin(), m_stood.end(), uint8_t{0}); }
   /// Once per substep, when positions have been predicted: finds along what the pairs meet.
   void begin(const ParticleStore& store);
   void project(ParticleStore& store);
@@ -130,8 +133,9 @@ class SolidContact {
   std::vector<uint8_t> m_contacts;
   std::vector<uint8_t> m_loose;  ///< 1: tied to nothing
   std::vector<api::Float4> m_couple;
-  LatticeSurface m_surface;                             ///< of those that may touch and belong to a lattice
-  std::vector<LatticeSurface::Normal> m_normals;        ///< by its slots
+  LatticeSurface m_surface;                       ///< of those that may touch and belong to a lattice
+  std::vector<LatticeSurface::Normal> m_normals;  ///< by its slots
+  std::vector<uint8_t> m_stood;                   ///< by its slots; 1: has its normal, and nothing has moved since
   static constexpr double kMicrosecondsPerPair = 0.02;  ///< of one thread
   size_t m_pairs = 0;                                   ///< that may touch
   bool m_any = false;

@@ -117,6 +117,7 @@ bool Solver::Impl::advance() {
   forces.begin(store);
   balance.begin(store, vectorOf(settings.gravity));
   density.startPressure();
+  contact.startFrame();
   report.momentum.start = double3Of(momentum());
   gas.setAir(heat.airTemperature());
   timed(Stage::Phase, [&] { gas.measure(store, neighbours); });

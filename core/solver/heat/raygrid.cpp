@@ -26,6 +26,7 @@ void RayGrid::build(const ParticleStore& store, std::span<const SurfaceBox> boxe
   span(store);
   m_first.assign(static_cast<size_t>(m_count[0]) * static_cast<size_t>(m_count[1]) * static_cast<size_t>(m_count[2]),
                  kNone);
+  m_filled.assign(m_first.size() / 64 + 1, 0);
   m_entries.clear();
   for (size_t i = 0; i < store.size(); ++i) {
     if (store.motion()[i] != api::Motion::Gas) insert(store, static_cast<uint32_t>(i));
@@ -88,7 +89,9 @@ void RayGrid::insert(const ParticleStore& store, uint32_t particle) {
     for (int y = from[1]; y <= to[1]; ++y) {
       for (int c = from[0]; c <= to[0]; ++c) {
         const int cell[3] = {turned(c, 0), turned(y, 1), turned(z, 2)};
-        uint32_t& first = m_first[indexOf(cell)];
+        const size_t index = indexOf(cell);
+        m_filled[index / 64] |= uint64_t{1} << (index % 64);
+        uint32_t& first = m_first[index];
         m_entries.push_back({particle, first});
         first = static_cast<uint32_t>(m_entries.size() - 1);
       }

@@ -58,6 +58,8 @@ class RayGrid {
   void span(const ParticleStore& store);
   void insert(const ParticleStore& store, uint32_t particle);
   bool begin(const Vector3& from, const Vector3& way, double longest, Walk& walk) const;
+  /// Asked at each step of a ray: the bits of a scene's cells fit where processors reach them at once.
+  bool isFilled(size_t cell) const { return (m_filled[cell / 64] >> (cell % 64) & 1) != 0; }
   /// Goes on into the next cell; false where the ray ends before or leaves the grid.
   bool advance(Walk& walk) const {
     const size_t a =
@@ -92,7 +94,8 @@ class RayGrid {
   bool m_repeats[3] = {}, m_repeating = false;
   std::span<const SurfaceBox> m_boxes;
   std::span<const uint32_t> m_boxOf;
-  std::vector<uint32_t> m_first;  ///< by cell, into m_entries
+  std::vector<uint32_t> m_first;   ///< by cell, into m_entries
+  std::vector<uint64_t> m_filled;  ///< bit by cell: something lies in it
   std::vector<Entry> m_entries;
 };
 
@@ -116,7 +119,7 @@ template <class Passes>
 RayGrid::Hit RayGrid::firstOnRepeating(const ParticleStore& store, const Vector3& from, const Vector3& way, Walk walk,
                                        const Passes& passes) const {
   do {
-    if (m_first[walk.index] == kNone) continue;
+    if (!isFilled(walk.index)) continue;
     const double end = std::min({walk.next[0], walk.next[1], walk.next[2], walk.leave});
     const Hit hit = firstIn(store, walk.index, from, way, walk.at, end, passes);
     if (hit.particle != kNone) return hit;
@@ -143,7 +146,7 @@ RayGrid::Hit RayGrid::firstOn(const ParticleStore& store, const Vector3& from, c
   const size_t strideX = stride(0), strideY = stride(1), strideZ = stride(2);
   for (size_t cell = walk.index;;) {
     const double next = std::min(std::min(x, y), z);
-    if (m_first[cell] != kNone) {
+    if (isFilled(cell)) {
       const Hit hit = firstIn(store, cell, from, way, at, std::min(next, leave), passes);
       if (hit.particle != kNone) return hit;
     }
