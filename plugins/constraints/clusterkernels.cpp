@@ -46,6 +46,20 @@ HWY_INLINE void forMembers(const ClusterMembers& members, const Scratch& scratch
   }
 }
 
+void FindWays(const api::ParticleView& p, const uint32_t* members, size_t count, const std::array<float*, 3>& way) {
+  const DF df;
+  for (size_t at = 0; at + kLanes <= count; at += kLanes) {
+    const Floats4 x = gatherFloats(p.position, members + at), from = gatherFloats(p.previous, members + at);
+    hn::StoreU(hn::Sub(x.x, from.x), df, way[0] + at);
+    hn::StoreU(hn::Sub(x.y, from.y), df, way[1] + at);
+    hn::StoreU(hn::Sub(x.z, from.z), df, way[2] + at);
+  }
+  for (size_t k = count / kLanes * kLanes; k < count; ++k) {
+    const api::Float4 &x = p.position[members[k]], &from = p.previous[members[k]];
+    way[0][k] = x.x - from.x, way[1][k] = x.y - from.y, way[2][k] = x.z - from.z;
+  }
+}
+
 template <bool kRubs>
 void sum(const api::ParticleView& p, const ClusterMembers& members, Scratch& scratch, ClusterSums& out) {
   const Columns columns(scratch);
@@ -160,6 +174,7 @@ HWY_AFTER_NAMESPACE();
 namespace ps::constraint {
 namespace {
 
+HWY_EXPORT(FindWays);
 HWY_EXPORT(SumMembers);
 HWY_EXPORT(PullMembers);
 HWY_EXPORT(SumTurn);
@@ -185,6 +200,11 @@ void ClusterScratch::begin(const api::ParticleView& particles, const ClusterMemb
   }
   for (size_t k = count; k < m_stride; ++k) mass[k] = inverseMass[k] = 0;
   for (size_t k = whole; k < m_stride; ++k) m_last[k - whole] = members.particles[k < count ? k : 0];
+}
+
+void findWays(const api::ParticleView& particles, const uint32_t* members, size_t count,
+              const std::array<float*, 3>& way) {
+  HWY_DYNAMIC_DISPATCH(FindWays)(particles, members, count, way);
 }
 
 Matrix ClusterSums::inertia() const {

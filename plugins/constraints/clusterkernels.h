@@ -71,6 +71,10 @@ struct ClusterPull {
   double softness = 0;        ///< 1/(kappa dt2)
 };
 
+/// Writes x - previous of `count` members, of whatever clusters, as single numbers.
+void findWays(const api::ParticleView& particles, const uint32_t* members, size_t count,
+              const std::array<float*, 3>& way);
+
 /// With `rubs` what friction needs as well; without it those sums stay 0.
 ClusterSums sumsOf(const api::ParticleView& particles, const ClusterMembers& members, bool rubs,
                    ClusterScratch& scratch);

@@ -294,17 +294,13 @@ void ClusterModel::predict(const ConstraintContext& context, const api::MovableP
                            const GroupBatch& batch) const {
   const ParticleView& p = particles;
   const double most = context.parameters[kStiffnessRatio] / (context.dt * context.dt);
+  if (batch.count == 0) return;
+  const size_t first = batch.begin[0], last = batch.begin[batch.count];  // of all clusters, one after the other
+  const auto from = [&](MemberValue v) { return batch.memberValues[v] + first; };
+  for (const MemberValue v : {kMultiplierX, kMultiplierY, kMultiplierZ}) std::fill_n(from(v), last - first, 0.0f);
+  findWays(p, batch.particles + first, last - first, {from(kWayX), from(kWayY), from(kWayZ)});
+  if (context.substep != 0) return;  // volumes and temperatures change once a frame
   for (size_t g = 0; g < batch.count; ++g) {
-    for (const MemberValue v : {kMultiplierX, kMultiplierY, kMultiplierZ}) {
-      std::fill(batch.memberValues[v] + batch.begin[g], batch.memberValues[v] + batch.begin[g + 1], 0.0f);
-    }
-    for (size_t k = batch.begin[g]; k < batch.begin[g + 1]; ++k) {
-      const api::Float4 &x = p.position[batch.particles[k]], &from = p.previous[batch.particles[k]];
-      batch.memberValues[kWayX][k] = x.x - from.x;
-      batch.memberValues[kWayY][k] = x.y - from.y;
-      batch.memberValues[kWayZ][k] = x.z - from.z;
-    }
-    if (context.substep != 0) continue;  // volumes and temperatures change once a frame
     const ClusterShape shape(p, batch, g);
     batch.values[kScale][g] = static_cast<float>(shape.scaleOfVolumes());
     const double moment = shape.restMoment();
