@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/solver/contact/impacts.h"
 
+#include "core/base/parallel.h"
+#include "core/solver/contact/nearwalls.h"
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <tuple>
 
 namespace ps {
@@ -12,6 +16,8 @@ namespace {
 /// closer by more may pass through itself.
 constexpr double kFast = 0.2, kCrossing = 0.4;
 constexpr double kNever = 2;  ///< as a time
+/// By which a bound in single precision may fall short, as a share of it.
+constexpr double kRounding = 1e-4;
 constexpr api::Float4 kRound{0, 0, 0, 0};
 /// Passes over all impacts of a substep, for those that share a particle.
 constexpr int kPasses = 4;
@@ -104,23 +110,56 @@ double Impacts::wayOf(const ParticleStore& store, uint32_t i) const {
 
 bool Impacts::isFast(const ParticleStore& store, uint32_t i) const { return wayOf(store, i) > kFast * m_spacing; }
 
+/// By chunks: most of them are far from all walls, or at rest.
 void Impacts::findWalls(const ParticleStore& store, std::span<const uint8_t> rigid) {
   if (m_planes.empty()) return;
-  for (uint32_t i = 0; i < store.size(); ++i) {
-    if (store.motion()[i] != api::Motion::Solid || rigid[i] != 0 || !(store.velocity()[i].w > 0)) continue;
-    const Vector3 speed = vectorOf(store.velocity()[i]);
+  const size_t chunks = chunkCount(store.size(), grain::kParticles);
+  m_wallImpacts.resize(std::max(m_wallImpacts.size(), chunks));
+  forChunks(store.size(), grain::kParticles, [&](size_t first, size_t last) {
+    std::vector<Impact>& found = m_wallImpacts[first / grain::kParticles];
+    found.clear();
+    const double fastest = fastestSolid(store, first, last);
+    if (fastest <= m_slowest) return;
+    const PlaceBox box = PlaceBox::around({store.previous() + first, last - first});
     for (uint32_t plane = 0; plane < m_planes.size(); ++plane) {
-      const Plane& p = m_planes[plane];
-      const double approach = speed.dot(p.normal);
-      if (!(approach < -m_slowest)) continue;
-      const double gap = std::max(0.0, p.heightOf(vectorOf(store.previous()[i])));
-      const double time = gap / (-approach * m_dt);
-      if (time > 1) continue;
-      // Gravity has acted for `time` of the substep when it touches, not for all of it.
-      const double met = approach - (1 - time) * m_dt * m_gravity.dot(p.normal);
-      m_impacts.push_back({i, kNone, plane, time, p.normal, met, restitutionOf(store, i), false, false});
+      const double reach = fastest * m_dt + kRounding * m_spacing;
+      if (!(box.leastHeight(m_planes[plane]) > reach)) findImpacts(store, rigid, plane, first, last, found);
     }
+  });
+  for (size_t c = 0; c < chunks; ++c)
+    m_impacts.insert(m_impacts.end(), m_wallImpacts[c].begin(), m_wallImpacts[c].end());
+}
+
+void Impacts::findImpacts(const ParticleStore& store, std::span<const uint8_t> rigid, uint32_t plane, size_t first,
+                          size_t last, std::vector<Impact>& found) const {
+  const Plane& p = m_planes[plane];
+  for (size_t k = first; k < last; ++k) {
+    const auto i = static_cast<uint32_t>(k);
+    if (store.motion()[i] != api::Motion::Solid || rigid[i] != 0 || !(store.velocity()[i].w > 0)) continue;
+    const double approach = vectorOf(store.velocity()[i]).dot(p.normal);
+    if (!(approach < -m_slowest)) continue;
+    const double gap = std::max(0.0, p.heightOf(vectorOf(store.previous()[i])));
+    const double time = gap / (-approach * m_dt);
+    if (time > 1) continue;
+    // Gravity has acted for `time` of the substep when it touches, not for all of it.
+    const double met = approach - (1 - time) * m_dt * m_gravity.dot(p.normal);
+    found.push_back({i, kNone, plane, time, p.normal, met, restitutionOf(store, i), false, false});
   }
+}
+
+/// m/s, of what holds together or is fixed, or a hair more; beyond all bounds where one is no number.
+double Impacts::fastestSolid(const ParticleStore& store, size_t first, size_t last) const {
+  const api::Motion* motion = store.motion();
+  const api::Float4* velocity = store.velocity();
+  float fastest = 0;
+  bool numbers = true;
+  for (size_t i = first; i < last; ++i) {
+    const api::Float4& v = velocity[i];
+    const float square = api::holds(motion[i]) ? v.x * v.x + v.y * v.y + v.z * v.z : 0.0f;
+    fastest = std::max(fastest, square);
+    numbers = numbers && square < std::numeric_limits<float>::infinity();
+  }
+  return numbers ? (1 + kRounding) * std::sqrt(double{fastest}) : std::numeric_limits<double>::infinity();
 }
 
 /// When two meet that go `way` past each other, as a share of it: spheres, or along a face's normal. Above 1: not on
@@ -205,6 +244,10 @@ void Impacts::addFast(const ParticleStore& store, const Neighbours& neighbours, 
 
 /// Pairs of fast particles, from a grid of the places where the substep began.
 void Impacts::findFast(const ParticleStore& store, const Neighbours& neighbours, const Structure& structure) {
+  const bool any = anyChunk(store.size(), grain::kParticles, [&](size_t first, size_t last) {
+    return fastestSolid(store, first, last) * m_dt > kFast * m_spacing;
+  });
+  if (!any) return;
   const StructureGraph& graph = structure.constraints.graph(store.size());
   m_solids.clear();
   double fastest = 0;

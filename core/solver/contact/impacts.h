@@ -64,6 +64,9 @@ class Impacts {
   double wayOf(const ParticleStore& store, uint32_t i) const;  ///< m, in this substep
   bool isFast(const ParticleStore& store, uint32_t i) const;
   void findWalls(const ParticleStore& store, std::span<const uint8_t> rigid);
+  void findImpacts(const ParticleStore& store, std::span<const uint8_t> rigid, uint32_t plane, size_t first,
+                   size_t last, std::vector<Impact>& found) const;
+  double fastestSolid(const ParticleStore& store, size_t first, size_t last) const;
   void findFast(const ParticleStore& store, const Neighbours& neighbours, const Structure& structure);
   void addFast(const ParticleStore& store, const Neighbours& neighbours, const Structure& structure, uint32_t i,
                uint32_t j);
@@ -82,6 +85,7 @@ class Impacts {
   std::vector<Plane> m_planes;
   std::vector<double> m_restitution;  ///< by material
   std::vector<Impact> m_impacts;
+  std::vector<std::vector<Impact>> m_wallImpacts;  ///< by chunk of particles
   std::vector<Stop> m_stops;
   ExternalImpulse m_externalImpulse;
   Reactions* m_reactions = &Reactions::none();

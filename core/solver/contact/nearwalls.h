@@ -55,6 +55,11 @@ struct PlaceBox {
     return box;
   }
   /// m, of the corner that is lowest over a wall.
+  double leastHeight(const Plane& p) const {
+    const Vector3& n = p.normal;
+    return p.heightOf(
+        Vector3(n.x() > 0 ? low[0] : high[0], n.y() > 0 ? low[1] : high[1], n.z() > 0 ? low[2] : high[2]));
+  }
   float leastHeight(const WallPlane& p) const {
     return p.heightOf({p.x > 0 ? low[0] : high[0], p.y > 0 ? low[1] : high[1], p.z > 0 ? low[2] : high[2], 0});
   }
