@@ -53,7 +53,8 @@ class StateBuffer final : public StateSink {
   StateBuffer() = default;
   StateBuffer(StateBuffer&& other) noexcept { swap(other); }
   StateBuffer& operator=(StateBuffer&& other) noexcept {
-    swap(other);
+    StateBuffer taken(std::move(other));
+    swap(taken);
     return *this;
   }
   void add(const void* bytes, size_t count) override;

@@ -6,7 +6,7 @@
 namespace ps {
 namespace {
 
-/// Places from which on several threads sort them: what they must agree on costs more than one of them alone.
+/// Places from which on several threads sort them: below that, sharing the work costs more than it saves.
 constexpr size_t kMany = 1 << 16;
 
 /// Each number becomes the sum of all up to it; `sums` is room for one of each chunk.

@@ -37,7 +37,7 @@ template <bool kPeriodic>
 size_t searchListsOf(const SearchGrid& grid, size_t first, size_t last, const ListRoom& room) {
   const hn::CappedTag<float, 16> d;
   const hn::RebindToSigned<decltype(d)> di;
-  constexpr size_t kLanes = HWY_MIN(HWY_LANES(float), 16), kPad = 16;
+  constexpr size_t kLanes = HWY_MIN(HWY_LANES(float), 16), kPad = 16;  // Neighbours::kListPad
   const auto iota = hn::Iota(di, 0), dummies = hn::Set(di, static_cast<int32_t>(room.dummy));
   const auto radius2 = hn::Set(d, grid.radiusSquared);
   const int nx = grid.cells[0], ny = grid.cells[1], nz = grid.cells[2];

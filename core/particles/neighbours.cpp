@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/particles/neighbours.h"
 
+#include "core/base/error.h"
 #include "core/base/parallel.h"
 #include "core/base/progress.h"
 #include "core/base/statestream.h"
@@ -9,6 +10,8 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
+#include <string>
 
 namespace ps {
 namespace {
@@ -16,6 +19,8 @@ namespace {
 constexpr size_t kSpareSlots = 16;
 /// Of what is needed, one part in so many is kept spare.
 constexpr size_t kSpareShare = 16;
+/// Entries of a chunk before any has been searched: as dense liquid needs them.
+constexpr uint64_t kFirstRoom = 64 * grain::kNeighbours;
 
 constexpr const char* kBuiltBlock = "neighbours/built";
 
@@ -83,8 +88,34 @@ void Neighbours::loadSlots(std::span<const api::Float4> position, const Period& 
   });
 }
 
+/// Chunks get room for what they needed the last time and a little more, and at least as much as the fullest of those
+/// that need no more than twice the mean: what comes from one chunk to the next then finds room, and a crowd takes room
+/// for itself alone.
+void Neighbours::layOut(size_t chunks) {
+  m_needs.resize(chunks, 0);
+  uint64_t sum = 0;
+  for (const uint32_t need : m_needs) sum += need;
+  uint64_t common = sum > 0 ? 0 : kFirstRoom;
+  for (const uint32_t need : m_needs) {
+    if (need * chunks <= 2 * sum) common = std::max<uint64_t>(common, need);
+  }
+  m_first.resize(chunks + 1);
+  uint64_t first = 0;
+  for (size_t c = 0; c < chunks; ++c) {
+    m_first[c] = static_cast<uint32_t>(first);
+    const uint64_t need = std::max<uint64_t>(common, m_needs[c]);
+    first += (need + need / kSpareShare + kListPad) / kListPad * kListPad;
+    if (first > std::numeric_limits<uint32_t>::max() - kListPad)
+      throw Error("particles have more neighbours than lists can hold (" + std::to_string(sum / 1000000) +
+                  " million): make the particle spacing larger, or look for matter that has been pressed together");
+  }
+  m_first[chunks] = static_cast<uint32_t>(first);
+  m_index.resize(first + kListPad);
+}
+
 void Neighbours::makeLists(std::span<const api::Float4> position, const Period& period) {
   const size_t n = position.size();
+  m_built.clear();  // there are no lists until all are whole
   loadSlots(position, period);
   advance(n);
   const double radius = m_support + m_skin;
@@ -100,35 +131,26 @@ void Neighbours::makeLists(std::span<const api::Float4> position, const Period& 
                         {period.length(0), period.length(1), period.length(2)}};
   const size_t chunks = chunkCount(n, grain::kNeighbours);
   for (std::vector<uint32_t>* v : {&m_begin, &m_last, &m_end}) v->resize(n);
-  m_needs.resize(chunks);
-  Progress* const progress = t_progress;  // of this thread; others help it
-  // Each chunk has as much room as the fullest one needed so far; where that is too little, all is done once more.
-  for (bool whole = false; !whole;) {
-    m_index.resize(chunks * m_room + kListPad);
-    const auto search = [&](size_t first, size_t last) {
-      if (progress) progress->advance(last - first);
-      const size_t chunk = first / grain::kNeighbours;
-      const ListRoom room{static_cast<uint32_t>(chunk * m_room),
-                          static_cast<uint32_t>(m_room),
-                          m_index.data(),
-                          m_begin.data(),
-                          m_last.data(),
-                          m_end.data(),
-                          static_cast<uint32_t>(n)};
-      m_needs[chunk] = static_cast<uint32_t>(searchLists(grid, first, last, room));
-    };
+  Progress* progress = t_progress;  // of this thread; others help it
+  const auto search = [&](size_t first, size_t last) {
+    if (progress) progress->advance(last - first);
+    const size_t c = first / grain::kNeighbours;
+    const ListRoom room{m_first[c],   m_first[c + 1] - m_first[c], m_index.data(), m_begin.data(), m_last.data(),
+                        m_end.data(), static_cast<uint32_t>(n)};
+    m_needs[c] = static_cast<uint32_t>(searchLists(grid, first, last, room));
+  };
+  for (bool whole = false; !whole;) {  // where room is too little, once more
+    layOut(chunks);
     parallelFor(n, grain::kNeighbours, std::cref(search));
-    const size_t most = chunks > 0 ? *std::max_element(m_needs.begin(), m_needs.end()) : 0;
-    whole = most <= m_room;
-    if (!whole || most < m_room / 2) m_room = (most + most / kSpareShare + kListPad) / kListPad * kListPad;
+    whole = true;
+    for (size_t c = 0; c < chunks; ++c) whole = whole && m_needs[c] <= m_first[c + 1] - m_first[c];
+    progress = nullptr;
   }
   m_built.resize(n);
-  if (position.data() != m_built.data()) {
-    forChunks(n, grain::kNumbers, [&](size_t first, size_t last) {
-      std::copy(position.begin() + static_cast<ptrdiff_t>(first), position.begin() + static_cast<ptrdiff_t>(last),
-                m_built.begin() + static_cast<ptrdiff_t>(first));
-    });
-  }
+  forChunks(n, grain::kNumbers, [&](size_t first, size_t last) {
+    std::copy(position.begin() + static_cast<ptrdiff_t>(first), position.begin() + static_cast<ptrdiff_t>(last),
+              m_built.begin() + static_cast<ptrdiff_t>(first));
+  });
 }
 
 bool Neighbours::stale(const ParticleStore& store) const {

@@ -7,10 +7,10 @@ namespace ps {
 
 /// Cell-sorted neighbour search (counting sort into cells of the search radius, rows of 27 cells).
 /// Lists hold all other particles within search radius = support + skin, in order of cell, padded to kListPad with
-/// the dummy index size(), in order of index, with gaps between chunks of particles: whoever needs an array by entry
-/// makes it as long as the last list's end. They stay valid until a particle has moved half the
-/// skin. Along a periodic axis of the store pairs are found across the faces of the box; it must be three times as long
-/// as the search radius (see leastPeriod()).
+/// the dummy index size(). They lie in order of index: the end of the last one is the size that an array by entry
+/// needs. Between chunks of particles there are entries that belong to no list. Lists stay valid until a particle has
+/// moved half the skin. Along a periodic axis of the store pairs are found across the faces of the box; it must be
+/// three times as long as the search radius (see leastPeriod()).
 class Neighbours {
  public:
   static constexpr size_t kListPad = 16;
@@ -40,13 +40,14 @@ class Neighbours {
 
  private:
   void assignCells(std::span<const api::Float4> position, const Period& period);
+  void layOut(size_t chunks);
   void makeLists(std::span<const api::Float4> position, const Period& period);
   /// Puts places where the search reads them.
   void loadSlots(std::span<const api::Float4> position, const Period& period);
 
   double m_support = 0, m_skin = 0;
-  std::vector<uint32_t> m_begin, m_last, m_end, m_index, m_slotOf, m_needs, m_lastOrder;
-  size_t m_room = 0;  ///< entries of the index for each chunk of particles
+  std::vector<uint32_t> m_begin, m_last, m_end, m_index, m_slotOf, m_lastOrder;
+  std::vector<uint32_t> m_needs, m_first;  ///< entries of the index that each chunk needed, and where its own begin
   std::vector<float> m_x, m_y, m_z;
   std::vector<api::Float4> m_built;
   /// A hair more than the radius, so that rounding never puts two neighbours two cells apart.

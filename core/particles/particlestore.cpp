@@ -42,9 +42,12 @@ constexpr OwnField kOwnFields[] = {
     {field::kLiquidFraction, api::FieldType::Float32, "", "Share of the mass that is liquid"},
     {field::kGasFraction, api::FieldType::Float32, "", "Share of the mass that is vapour"},
     {field::kCompression, api::FieldType::Float32, "", "Compression handed over when the solid melted"},
-    {field::kDensityError, api::FieldType::Float32, "", "Relative excess density of the last iteration"},
+    {field::kDensityError, api::FieldType::Float32, "", "Relative excess density at the end of the frame"},
     {field::kPressure, api::FieldType::Float32, "Pa", "Pressure of liquid and vapour, mean of the last frame"},
 };
+
+/// What earlier versions kept, and states of theirs hold.
+constexpr std::string_view kFormerFields[] = {"lambda"};
 
 std::byte* allocateZeroed(size_t count) {
   void* bytes = ::operator new[](count, std::align_val_t(kAlignment));
@@ -360,6 +363,7 @@ void ParticleStore::readFields(const StateReader& reader) {
   for (const StateReader::Block& block : reader.blocks()) {
     if (!block.name.starts_with(room)) continue;
     const std::string name = block.name.substr(room.size());
+    if (std::find(std::begin(kFormerFields), std::end(kFormerFields), name) != std::end(kFormerFields)) continue;
     const api::FieldType type = fieldTypeOf(block);
     auto known = std::find_if(former.begin(), former.end(), [&](const auto& f) { return f && f->info.name == name; });
     if (known != former.end()) {

@@ -115,11 +115,14 @@ struct Common {
     matter.walls = static_cast<double>(project.environment.walls.size());
     matter.heat = !project.solver.thermalModel.empty();
     matter.radiation = toggleOf(project.environment.parameters, environmentParameters(), "radiation");
+    nothingFlows = project.emitters.empty() &&
+                   std::all_of(project.bodies.begin(), project.bodies.end(),
+                               [](const Body& b) { return toggleOf(b.parameters, bodyParameters(), "fixed"); });
     implicit = choiceOf(project.solver.parameters, solverParameters(), "viscosity_model") != "xsph";
   }
   double bytesOf(const Body& body) const {
     MatterFootprint own = matter;
-    own.fixed = toggleOf(body.parameters, bodyParameters(), "fixed");
+    own.dry = nothingFlows;
     return bytesOf(own, body.material, layersOf(body, scale.spacing), body.constraints);
   }
   /// Of what is poured.
@@ -129,7 +132,7 @@ struct Common {
   const PluginRegistry* plugins;
   SceneScale scale;
   MatterFootprint matter;
-  bool implicit = true;
+  bool implicit = true, nothingFlows = false;
 
  private:
   double bytesOf(MatterFootprint own, const std::string& material, const Layers& layers,

@@ -44,7 +44,7 @@ constexpr double kWall = 2 * kFloat;
 constexpr double kRays = 0.2 * 16 * (kIndex + kFloat + 2 * (kIndex + kFloat)) + 2 * kPlace + kFloat +
                          kGrown * (0.2 * (16 * kFloat + kIndex + 8 * 2 * kIndex) + 2 * kIndex) + kIndex;
 
-/// Of every entry of a list: each chunk of particles has as much room as the fullest one.
+/// Of every entry of a list: chunks of particles have as much room as the fullest ones, and lists breathe.
 constexpr double kEntry = kGrown * kIndex + kIndex;
 /// Of what nothing holds, which may be a fluid: again where it is near, with its slope.
 constexpr double kNearEntry = kIndex + kFloat;
@@ -93,7 +93,7 @@ double bytesPerParticle(const MatterFootprint& matter) {
   const double entries = matter.neighbours + Neighbours::kListPad / 2.0;
   double bytes = kStore + (kGrown + kLastGood) * matter.fieldBytes + kLastGood * (kFields + kPoint) + kLists +
                  kDensity + kViscosity + kContacts + kSnapshots + entries * kEntry;
-  if (matter.structures.empty() && !matter.fixed) bytes += entries * kNearEntry;
+  if (matter.structures.empty() && !matter.dry) bytes += entries * kNearEntry;
   if (matter.heat) bytes += kHeat + kWall * matter.walls + entries * kHeatEntry;
   if (matter.heat && matter.radiation) bytes += kRays;
   if (matter.thick) bytes += kImplicit + entries * kImplicitEntry;

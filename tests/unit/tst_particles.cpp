@@ -243,6 +243,46 @@ class TestParticles : public QObject {
     }
   }
 
+  /// A crowd takes much room for itself, not for all others; and what comes together, or apart, finds its lists.
+  void crowdsHaveTheirLists() {
+    constexpr size_t kAll = 20000, kCrowd = 1500;
+    ParticleStore store;
+    store.add(kAll);
+    Random random(9);
+    for (size_t i = 0; i < kAll; ++i)
+      store.position()[i] = {static_cast<float>(4 * random.next()), static_cast<float>(4 * random.next()),
+                             static_cast<float>(4 * random.next()), 0};
+    std::vector<ps::api::Float4> apart(store.position(), store.position() + kAll);
+    ps::Neighbours neighbours;
+    neighbours.configure(0.1, 0.01);
+    for (const size_t crowd : {size_t{0}, kCrowd, size_t{0}}) {
+      for (size_t i = 0; i < kAll; ++i) {
+        store.position()[i] = apart[i];
+        if (i < crowd) store.position()[i].x = 2 + 0.01f * store.position()[i].x / 4;
+        if (i < crowd) store.position()[i].y = 2 + 0.01f * store.position()[i].y / 4;
+        if (i < crowd) store.position()[i].z = 2 + 0.01f * store.position()[i].z / 4;
+      }
+      neighbours.build(store);
+      const ps::api::NeighbourView view = neighbours.view();
+      size_t sum = 0;
+      for (size_t i = 0; i < kAll; ++i) {
+        QVERIFY(view.begin[i] <= view.last[i] && view.last[i] <= view.end[i]);
+        if (i > 0) QVERIFY(view.begin[i] >= view.end[i - 1]);
+        if (i < crowd) QVERIFY(view.last[i] - view.begin[i] >= crowd - 1);
+        sum += view.end[i] - view.begin[i];
+      }
+      QVERIFY2(view.end[kAll - 1] < 4 * sum + 100000, qPrintable(QString::number(view.end[kAll - 1])));
+      for (size_t i = 0; i < kAll; i += 997) {
+        size_t near = 0;
+        for (size_t j = 0; j < kAll; ++j) {
+          const ps::api::Float4 d = store.separation(i, j);
+          near += j != i && d.x * d.x + d.y * d.y + d.z * d.z < 0.11f * 0.11f ? 1 : 0;
+        }
+        QCOMPARE(size_t{view.last[i] - view.begin[i]}, near);
+      }
+    }
+  }
+
   /// So many that several threads sort them: as one alone does, and each cell's in their order.
   void threadsSortCellsAlike() {
     Random random(5);

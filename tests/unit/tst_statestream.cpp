@@ -214,6 +214,43 @@ class TestStateStream : public QObject {
     QVERIFY(told > 100);
   }
 
+  void fieldsOfEarlierVersionsAreLeftOut() {
+    ps::ParticleStore former, store;
+    former.declare("lambda", ps::api::FieldType::Float32, "J", "of an earlier version");
+    former.declare("charge", ps::api::FieldType::Float32, "C", "of a plugin");
+    former.add(5);
+    StateBuffer buffer;
+    StateWriter writer(buffer);
+    former.save(writer);
+    writer.finish();
+    store.restore(StateReader(buffer.bytes()));
+    QCOMPARE(store.size(), size_t{5});
+    QVERIFY(store.find("lambda", ps::api::FieldType::Float32) == nullptr);
+    QVERIFY(store.find("charge", ps::api::FieldType::Float32) != nullptr);
+  }
+
+  /// More than is copied at once.
+  void buffersGrowAndAreMoved() {
+    std::vector<uint64_t> numbers(200000);
+    for (size_t k = 0; k < numbers.size(); ++k) numbers[k] = 0x9e3779b97f4a7c15u * (k + 1);
+    const auto holds = [&](const StateBuffer& buffer, size_t times) {
+      const size_t bytes = numbers.size() * sizeof(uint64_t);
+      bool same = buffer.bytes().size() == times * bytes;
+      for (size_t k = 0; same && k < times; ++k)
+        same = std::memcmp(buffer.bytes().data() + k * bytes, numbers.data(), bytes) == 0;
+      return same;
+    };
+    StateBuffer first, second;
+    for (int k = 0; k < 3; ++k) first.add(numbers.data(), numbers.size() * sizeof(uint64_t));
+    second.add(numbers.data(), numbers.size() * sizeof(uint64_t));
+    QVERIFY(holds(first, 3) && holds(second, 1));
+    second = std::move(first);
+    QVERIFY(holds(second, 3));
+    first = StateBuffer();
+    first.add(numbers.data(), numbers.size() * sizeof(uint64_t));
+    QVERIFY(holds(first, 1));
+  }
+
   /// Lists made from some moved places follow from those, not from where particles are by now.
   void listsAreMadeAgain() {
     ps::ParticleStore store;

@@ -32,7 +32,6 @@ void FindNearWalls(std::span<const WallPlane> walls, const WallSet& met, float r
     const Vectors4 place = loadTransposed(places.data(), id);
     auto bits = hn::Zero(du);
     met.forEach(walls.size(), [&](size_t wall) HWY_ATTR {
-      // What is no number counts as near.
       const auto far = hn::RebindMask(du, hn::Gt(heightOver(walls[wall], place), hn::Set(d, reach)));
       bits = hn::Or(bits, hn::IfThenZeroElse(far, hn::Set(du, WallSet::bitOf(wall))));
     });

@@ -81,7 +81,7 @@ void findNearWalls(std::span<const WallPlane> walls, float reach, std::span<cons
                    std::span<WallSet> near);
 
 /// Writes to `out` which of the particles which[first .. last) (nullptr: first .. last) are below any of these walls,
-/// and returns how many. Both arrays have room for 16 more than are read or found. Compared a vector at a time
+/// and returns how many. `out` has room for 16 more than are found. Compared a vector at a time
 /// (Highway).
 size_t findBelow(std::span<const WallPlane> walls, const WallSet& met, const api::Float4* places, const uint32_t* which,
                  size_t first, size_t last, uint32_t* out);

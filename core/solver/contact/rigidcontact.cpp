@@ -22,9 +22,10 @@ constexpr double kResumed = 0.8;
 /// Share of what creep has left over that each substep asks back. In spacings, the most that it remembers, and what is
 /// creep in one substep: more is motion, and to ask that back would push.
 constexpr double kRecalled = 0.2, kMostDrift = 1e-3, kCreep = 1e-4;
-/// Compliance of a contact, as a share of its generalised inverse mass: what a body's own weight presses in is about
-/// a micrometre. A body that is wider than the room between two walls would be pressed harder by each pass, and
-/// friction of forces that large held nothing: frozen ponds climbed out of their trays at 4 mm/s.
+/// Compliance of a contact, as a share of its generalised inverse mass: a body's own weight presses in by about a
+/// micrometre, what is ten thousand times heavier than the body below it by a centimetre. Without it a body that is
+/// wider than the room between two walls is pressed harder by each pass, and friction, which is a share of that force,
+/// no longer converges: frozen ponds climbed out of their trays at 4 mm/s.
 constexpr double kCompliance = 0.005;
 /// How far a body may sink into a wall, in spacings. In a corner each pass goes half of what is left; a body that two
 /// walls are too narrow for ends up in the middle.

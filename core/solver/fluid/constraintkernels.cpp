@@ -56,7 +56,7 @@ HWY_INLINE V valuesOf(const float* values, const uint32_t* id) {
 
 void SolveConstraints(const ConstraintRule& rule, const ConstraintFields& fields, const HalfSpaces& walls,
                       const uint32_t* which, size_t first, size_t last, const DensitySums* sums, const float* squares,
-                      float* excess, DensityConstraint* constraints, api::Float4* multipliers) {
+                      DensityConstraint* constraints, api::Float4* multipliers) {
   const D d;
   const DBlock block;
   const V perR2 = hn::Set(d, rule.inverseSupportSquared), epsilon = hn::Set(d, rule.epsilon);
@@ -85,7 +85,6 @@ void SolveConstraints(const ConstraintRule& rule, const ConstraintFields& fields
     const V wanted =
         hn::Div(hn::Mul(minusRelaxation, active), hn::Add(hn::Mul(inverseMass, hn::Add(own, epsilon)), others));
     const V lambda = hn::IfThenElseZero(hn::Gt(active, hn::Zero(d)), wanted);
-    hn::StoreU(dense, d, excess + k);
     hn::StoreInterleaved4(x, y, z, lambda, d, &constraints[k].x);
     alignas(64) float each[kLanes];
     hn::Store(lambda, d, each);
@@ -159,9 +158,9 @@ HWY_EXPORT(ApplyMoves);
 
 void solveConstraints(const ConstraintRule& rule, const ConstraintFields& fields, const HalfSpaces& walls,
                       const uint32_t* which, size_t first, size_t last, const DensitySums* sums, const float* squares,
-                      float* excess, DensityConstraint* constraints, api::Float4* multipliers) {
+                      DensityConstraint* constraints, api::Float4* multipliers) {
   HWY_DYNAMIC_DISPATCH(SolveConstraints)
-  (rule, fields, walls, which, first, last, sums, squares, excess, constraints, multipliers);
+  (rule, fields, walls, which, first, last, sums, squares, constraints, multipliers);
 }
 api::Double3 applyMoves(const MoveRule& rule, const MoveFields& fields, const uint32_t* which, size_t first,
                         size_t last, const api::Float4* byOthers, const DensityConstraint* constraints,

@@ -23,13 +23,13 @@ struct DensityConstraint {
   float x, y, z, lambda;
 };
 
-/// For the particles which[first .. last), from their sums over pairs and what walls add: how much too dense each is,
-/// its constraint, and its place with the multiplier in `multipliers`, by particle. The multiplier is
-/// -relaxation C/(sum of w_j |grad_j C|2), 0 where C <= 0 (Macklin & Mueller 2013, eq. 11).
-/// `first` is a multiple of 16, `last` too or the end: the arrays by place in `which` hold 16 elements more than that.
+/// For the particles which[first .. last), from their sums over pairs and what walls add: the constraint of each, and
+/// its place with the multiplier in `multipliers`, by particle. The multiplier is -relaxation C/(sum of w_j |grad_j
+/// C|2), 0 where C <= 0 (Macklin & Mueller 2013, eq. 11). `first` is a multiple of 16, `last` too or the end: the
+/// arrays by place in `which` hold 16 elements more than that.
 void solveConstraints(const ConstraintRule& rule, const ConstraintFields& fields, const HalfSpaces& walls,
                       const uint32_t* which, size_t first, size_t last, const DensitySums* sums, const float* squares,
-                      float* excess, DensityConstraint* constraints, api::Float4* multipliers);
+                      DensityConstraint* constraints, api::Float4* multipliers);
 
 /// What density moves, by particle.
 struct MoveFields {

@@ -218,7 +218,6 @@ void DensityStage::makeRoom() {
   m_sums.resize(std::max(m_sums.size(), fluids));
   m_squares.resize(fluids);
   m_constraints.resize(fluids);
-  m_excess.resize(fluids);
 }
 
 /// By the near lists, which `findNear` finds on the way, in the lists that hold all.
@@ -234,7 +233,7 @@ void DensityStage::multipliers(const ParticleStore& store, const PairLists& pair
   const float epsilon = kEpsilon / static_cast<float>(m_settings.spacing * m_settings.spacing);
   solveConstraints({relaxation, epsilon, pairs.inverseSupportSquared},
                    {m_points.data(), store.velocity(), store.compression()}, m_walls, fluid, first, last, m_sums.data(),
-                   m_squares.data(), m_excess.data(), m_constraints.data(), m_multipliers.data());
+                   m_squares.data(), m_constraints.data(), m_multipliers.data());
 }
 
 /// What a gap takes off the corrections of a particle, m kg (TrappedFilm).

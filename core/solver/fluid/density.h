@@ -90,13 +90,13 @@ class DensityStage {
   float m_chebyshev = 1;
   std::vector<uint32_t> m_fluid, m_wet, m_some;
   std::vector<uint8_t> m_touched, m_isFluid;
-  std::vector<float> m_volume, m_weight, m_excess;
+  std::vector<float> m_volume, m_weight;
   DensityWeights m_weights;
   std::vector<api::Float4> m_points, m_multipliers;
   ChunkSum m_moved;
   ExternalImpulse m_externalImpulse;
   bool m_touchesFixed = false;
-  // Of fluids, with spare elements at the end (see solveConstraints()).
+  // Of fluids. The first three have spare elements at the end (see solveConstraints()).
   std::vector<DensitySums> m_sums;
   std::vector<float> m_squares;
   std::vector<DensityConstraint> m_constraints;

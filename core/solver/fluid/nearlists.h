@@ -12,12 +12,12 @@ namespace ps {
 /// within the passes is missed: by then it weighs less than a ten-thousandth of the particle itself.
 class NearLists {
  public:
-  /// Makes room for the lists of so many particles; none has one yet.
+  /// Makes room for the lists of so many particles, which are yet to be found.
   void start(const PairLists& all, size_t particles);
   /// Lists of `which`, with the pairs that are no farther apart than the support and a fiftieth of it. `points` are
   /// those of all particles, with the dummy behind them.
   void find(const PairLists& all, const api::Float4* points, std::span<const uint32_t> which);
-  /// For who finds them on the way.
+  /// For sumDensityFindingNear().
   NearRoom room();
   /// As long as `all` holds. Slots lie where they did.
   PairLists lists(const PairLists& all) const;

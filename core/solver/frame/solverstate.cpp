@@ -49,6 +49,7 @@ void Solver::Impl::restore(const StateReader& reader) {
 
 /// Into memory that is used again frame by frame.
 void Solver::Impl::keepLastGood() {
+  lastGoodValid = false;
   lastGood.clear();
   saveTo(lastGood, *this);
   lastGoodValid = true;
