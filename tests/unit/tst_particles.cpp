@@ -263,6 +263,7 @@ class TestParticles : public QObject {
         if (i < crowd) store.position()[i].z = 2 + 0.01f * store.position()[i].z / 4;
       }
       neighbours.build(store);
+      neighbours.build(store);  // the room of the first one is what was needed before
       const ps::api::NeighbourView view = neighbours.view();
       size_t sum = 0;
       for (size_t i = 0; i < kAll; ++i) {
@@ -271,7 +272,7 @@ class TestParticles : public QObject {
         if (i < crowd) QVERIFY(view.last[i] - view.begin[i] >= crowd - 1);
         sum += view.end[i] - view.begin[i];
       }
-      QVERIFY2(view.end[kAll - 1] < 4 * sum + 100000, qPrintable(QString::number(view.end[kAll - 1])));
+      QVERIFY2(view.end[kAll - 1] < 4 * sum + 70 * kAll, qPrintable(QString::number(view.end[kAll - 1])));
       for (size_t i = 0; i < kAll; i += 997) {
         size_t near = 0;
         for (size_t j = 0; j < kAll; ++j) {
