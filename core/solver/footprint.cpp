@@ -34,7 +34,7 @@ constexpr double kStore = kGrown * (kFields + kIndex) + kPoint;
 constexpr double kLists = 5 * kIndex + 3 * kFloat + kPoint + (3 + kCells) * kIndex;
 constexpr double kDensity = 4 * kPoint + 6 * kFloat + 7 * kIndex + 2 * kMark;
 constexpr double kViscosity = 3 * kFloat + kIndex + kPoint;
-constexpr double kContacts = 2 * kPoint + 2 * kDouble + 12 * kIndex + 8 * kMark;
+constexpr double kContacts = 2 * kPoint + 2 * kDouble + 12 * kIndex + 10 * kMark;
 constexpr double kHeat = 14 * kDouble + 13 * kFloat + 6 * kIndex + 4 * kMark;
 /// Rows of the implicit solver: two symmetric blocks, eight vectors, what it is asked.
 constexpr double kImplicit = 8 * kPoint + 12 * kFloat + 8 * kFloat + 4 * kIndex + 2 * kMark;
@@ -43,6 +43,8 @@ constexpr double kWall = 2 * kFloat;
 /// Sixteen rays of what lies open, a fifth of all, as they meet others and back; its cube, in eight cells.
 constexpr double kRays = 0.2 * 16 * (kIndex + kFloat + 2 * (kIndex + kFloat)) + 2 * kPlace + kFloat +
                          kGrown * (0.2 * (16 * kFloat + kIndex + 8 * 2 * kIndex) + 2 * kIndex) + kIndex;
+/// Its cube as it is kept from frame to frame, and what others saw of it in the last one.
+constexpr double kKeptBoxes = 14 * kFloat + 2 * kPlace + kDouble + 2 * kFloat + kPoint + 4 * kIndex + kMark;
 
 /// Of every entry of a list: chunks of particles have as much room as the fullest ones, and lists breathe.
 constexpr double kEntry = kGrown * kIndex + kIndex;
@@ -95,7 +97,7 @@ double bytesPerParticle(const MatterFootprint& matter) {
                  kDensity + kViscosity + kContacts + kSnapshots + entries * kEntry;
   if (matter.structures.empty() && !matter.dry) bytes += entries * kNearEntry;
   if (matter.heat) bytes += kHeat + kWall * matter.walls + entries * kHeatEntry;
-  if (matter.heat && matter.radiation) bytes += kRays;
+  if (matter.heat && matter.radiation) bytes += kRays + kKeptBoxes;
   if (matter.thick) bytes += kImplicit + entries * kImplicitEntry;
   for (const StructureFootprint& structure : matter.structures) bytes += bytesOf(structure);
   return bytes;
