@@ -15,6 +15,8 @@ namespace {
 /// Least determinant of an inertia, as a share of the cube of its trace: ropes that are straight have no spin about
 /// themselves.
 constexpr double kLeastDeterminant = 1e-6;
+/// Places are in single precision: what a piece has less of, as a share of the moments about the origin, is rounding.
+constexpr double kRounding = 1e-10;
 
 }  // namespace
 
@@ -99,6 +101,7 @@ void PieceSpin::read(const ParticleStore& store, std::span<const api::Float4> co
     const Matrix3 moments = all.moments - all.mass * result.centre * result.centre.transpose();
     const Matrix3 inertia = moments.trace() * Matrix3::Identity() - moments;
     const double trace = inertia.trace();
+    if (!(trace > kRounding * all.moments.trace())) continue;  // all in one place, as in a corner of the scene
     if (inertia.determinant() > kLeastDeterminant * trace * trace * trace) result.spin = inertia.inverse() * lost;
   }
 }
