@@ -38,6 +38,14 @@ struct VectorsOf {
 };
 using Vectors4 = VectorsOf<V>;
 
+/// The first `few` of a list of indices as a whole vector of them: where they are fewer, in `room`, filled up with
+/// `filling`.
+HWY_INLINE const uint32_t* wholeOf(const uint32_t* list, size_t few, uint32_t filling, uint32_t* room) {
+  if (few >= kLanes) return list;
+  for (size_t lane = 0; lane < kLanes; ++lane) room[lane] = lane < few ? list[lane] : filling;
+  return room;
+}
+
 HWY_INLINE VBlock loadBlocks(DBlock d, const float* base, const uint32_t* id) {
   return hn::Load(d, base + 4 * size_t{id[0]});
 }

@@ -13,8 +13,7 @@ constexpr api::ParameterDeclaration kEmitter[] = {
     number({"diameter", "Width of the mouth", "d", "m"}, {0.06, 0.02, 0.3, 1e-4, 10},
            {"Jet",
             "Diameter of the round mouth. What it pours is its area times the speed, however many particles fit into "
-            "it; one "
-            "narrower than a particle drips.",
+            "it; one narrower than a particle drips.",
             "tap 20 mm, pipe 60 mm", ""},
            {"mm", 1000, 0}),
     number({"temperature", "Temperature", "T", "K"}, {293.15, 173.15, 1773.15, 1, 10000},

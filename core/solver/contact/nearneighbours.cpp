@@ -21,12 +21,8 @@ size_t FindNear(const api::Float4* at, uint32_t i, const uint32_t* list, size_t 
   uint32_t tile[kLanes];
   size_t used = 0;
   for (size_t k = 0; k < count; k += kLanes) {
-    const uint32_t* id = list + k;
     const size_t few = HWY_MIN(count - k, kLanes);
-    if (few < kLanes) {
-      for (size_t lane = 0; lane < kLanes; ++lane) tile[lane] = lane < few ? id[lane] : i;
-      id = tile;
-    }
+    const uint32_t* id = wholeOf(list + k, few, i, tile);
     const Vectors4 other = loadTransposed(at, id);
     const V x = hn::Sub(px, other.x), y = hn::Sub(py, other.y), z = hn::Sub(pz, other.z);
     const V distance2 = hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(z, z));

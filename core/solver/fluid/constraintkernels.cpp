@@ -65,11 +65,7 @@ void SolveConstraints(const ConstraintRule& rule, const ConstraintFields& fields
   for (size_t k = first; k < last; k += kLanes) {
     const size_t count = HWY_MIN(kLanes, last - k);
     uint32_t filled[kLanes];
-    const uint32_t* id = which + k;
-    if (count < kLanes) {
-      for (size_t lane = 0; lane < kLanes; ++lane) filled[lane] = which[k + HWY_MIN(lane, count - 1)];
-      id = filled;
-    }
+    const uint32_t* const id = wholeOf(which + k, count, which[k], filled);
     const Vectors4 at = loadTransposed(fields.points, id);
     LaneSums ofWalls{hn::Zero(d), hn::Zero(d), hn::Zero(d), hn::Zero(d)};
     if (met.any()) addWalls(walls, met, at, ofWalls);
