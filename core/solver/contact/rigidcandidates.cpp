@@ -5,6 +5,7 @@
 #include "core/solver/contact/rigidcontact.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace ps {
@@ -16,6 +17,16 @@ constexpr double kRoundDistance = 0.95;
 constexpr double kWallReach = 4;
 /// Numbers of a contact that go on into the next frame.
 constexpr size_t kCarried = 11;
+
+/// Whether one of a padded list is of a higher rank; asked 16 at a time without a branch, as mostly none is.
+bool anyAbove(const uint32_t* list, size_t count, const std::vector<uint32_t>& rank, uint32_t own) {
+  for (size_t k = 0; k < count; k += Neighbours::kListPad) {
+    uint32_t above = 0;
+    for (size_t lane = 0; lane < Neighbours::kListPad; ++lane) above |= rank[list[k + lane]] > own ? 1u : 0u;
+    if (above != 0) return true;
+  }
+  return false;
+}
 
 }  // namespace
 
@@ -40,9 +51,18 @@ void RigidContact::configure(const SolverSettings& settings, const std::vector<W
 void RigidContact::refreshBodies(const ParticleStore& store, const ConstraintSystem& constraints) {
   m_isMember.assign(store.size(), 0);
   m_bodyOf.assign(store.size(), kNone);
+  m_rank.resize(store.size() + 1);
+  m_rank.back() = 0;
+  forChunks(store.size(), grain::kNumbers, [&](size_t first, size_t last) {
+    for (size_t i = first; i < last; ++i) m_rank[i] = api::holds(store.motion()[i]) ? kNone : 0;
+  });
   size_t count = 0;
   constraints.eachRigidGroup([&](std::span<const uint32_t> members) {
-    for (const uint32_t i : members) m_isMember[i] = 1, m_bodyOf[i] = static_cast<uint32_t>(count);
+    for (const uint32_t i : members) {
+      m_isMember[i] = 1;
+      m_bodyOf[i] = static_cast<uint32_t>(count);
+      if (m_rank[i] == kNone) m_rank[i] = m_bodyOf[i] + 1;
+    }
     if (count == m_bodies.size()) m_bodies.emplace_back();
     Body body;
     body.members = std::move(m_bodies[count].members);  // their memory is used again
@@ -150,7 +170,6 @@ void RigidContact::keepImpulses() {
 void RigidContact::findCandidates(const ParticleStore& store, const Neighbours& neighbours,
                                   const StructureGraph& graph) {
   const api::NeighbourView view = neighbours.view();
-  const api::Motion* motion = store.motion();
   const uint32_t* id = store.id();
   const double skin = kSkinSpacings * m_spacing, reach = std::hypot(kFaceDistance, kFaceWidth) * m_spacing + skin;
   const std::span<const api::Float4> at = neighbours.built();
@@ -169,22 +188,43 @@ void RigidContact::findCandidates(const ParticleStore& store, const Neighbours& 
         if (m_planes[p].heightOf(vectorOf(at[i])) > kWallReach * m_spacing) continue;
         found.push_back(candidateOf(i, kNone, p, uint64_t{id[i]} << 32 | (kNone - p)));
       }
-      const uint32_t own = m_bodyOf[i];
+      // Each pair of bodies once, from the body that comes first.
+      const uint32_t own = m_bodyOf[i] + 1;
+      if (!anyAbove(view.index + view.begin[i], view.last[i] - view.begin[i], m_rank, own)) continue;
       for (uint32_t q = view.begin[i]; q < view.last[i]; ++q) {
         const uint32_t j = view.index[q];
-        // Each pair of bodies once, from the body that comes first.
-        if (m_bodyOf[j] <= own || !api::holds(motion[j])) continue;
+        if (m_rank[j] <= own) continue;
         if (!(distance2(i, j) < reach * reach) || graph.tied(i, j)) continue;
         found.push_back(candidateOf(i, j, kNone, uint64_t{id[i]} << 32 | id[j]));
       }
     }
   });
-  m_candidates.clear();
-  for (const std::vector<Candidate>& found : m_candidatesOf)
-    m_candidates.insert(m_candidates.end(), found.begin(), found.end());
-  std::sort(m_candidates.begin(), m_candidates.end(), [](const Candidate& a, const Candidate& b) {
-    return a.scattered != b.scattered ? a.scattered < b.scattered : a.key < b.key;
-  });
+  sortCandidates();
+}
+
+/// What is scattered falls into buckets of about one size, each of which a thread can sort.
+void RigidContact::sortCandidates() {
+  constexpr size_t kBuckets = 64, kShift = 58;
+  constexpr double kMicrosecondsPerCandidate = 0.05;
+  std::array<size_t, kBuckets + 1> begin{}, next{};
+  for (const std::vector<Candidate>& found : m_candidatesOf) {
+    for (const Candidate& c : found) ++begin[(c.scattered >> kShift) + 1];
+  }
+  for (size_t b = 0; b < kBuckets; ++b) begin[b + 1] += begin[b];
+  next = begin;
+  m_candidates.resize(begin[kBuckets]);
+  for (const std::vector<Candidate>& found : m_candidatesOf) {
+    for (const Candidate& c : found) m_candidates[next[c.scattered >> kShift]++] = c;
+  }
+  forChunks(
+      kBuckets, 1,
+      [&](size_t bucket, size_t) {
+        std::sort(m_candidates.data() + begin[bucket], m_candidates.data() + begin[bucket + 1],
+                  [](const Candidate& a, const Candidate& b) {
+                    return a.scattered != b.scattered ? a.scattered < b.scattered : a.key < b.key;
+                  });
+      },
+      kMicrosecondsPerCandidate * static_cast<double>(m_candidates.size()));
 }
 
 /// Of all that may touch another particle.

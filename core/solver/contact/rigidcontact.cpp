@@ -363,11 +363,34 @@ double RigidContact::depthOf(const Plane& plane, const Body& body, const api::Fl
       .depth;
 }
 
+RigidContact::Box RigidContact::boxOf(const Body& body, const api::Float4* points) {
+  struct Extent {
+    api::Float4 low{HUGE_VALF, HUGE_VALF, HUGE_VALF, 0}, high{-HUGE_VALF, -HUGE_VALF, -HUGE_VALF, 0};
+    void operator+=(const Extent& other) {
+      low = {std::min(low.x, other.low.x), std::min(low.y, other.low.y), std::min(low.z, other.low.z), 0};
+      high = {std::max(high.x, other.high.x), std::max(high.y, other.high.y), std::max(high.z, other.high.z), 0};
+    }
+  };
+  const Extent extent = sumOver<Extent>(body.members, [&](Extent& some, uint32_t i) {
+    some += Extent{points[i], points[i]};
+  });
+  return {vectorOf(extent.low), vectorOf(extent.high)};
+}
+
+/// Whether nothing in a box is behind a wall by more than `depth` m.
+bool RigidContact::isClear(const Plane& plane, const Box& box, double depth) {
+  const Vector3 nearest = (plane.normal.array() > 0).select(box.low, box.high);
+  return plane.heightOf(nearest) >= -depth;
+}
+
 Vector3 RigidContact::keepInside(ParticleStore& store) const {
   const double most = kDeepest * m_spacing;
   Vector3 moved;
   for (const Body& body : m_bodies) {
     if (!body.hasContacts) continue;
+    const Box box = boxOf(body, store.position());
+    if (std::all_of(m_planes.begin(), m_planes.end(), [&](const Plane& plane) { return isClear(plane, box, most); }))
+      continue;
     int walls = 0;
     for (int pass = 0; pass < kInwardPasses; ++pass) {
       Vector3 way;

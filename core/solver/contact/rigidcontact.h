@@ -166,6 +166,11 @@ class RigidContact {
   static void place(ParticleStore& store, Body& body);
   static Vector3 shift(ParticleStore& store, const Body& body, const Vector3& way);
   Vector3 takeBack(ParticleStore& store, const Body& body) const;
+  struct Box {
+    Vector3 low, high;  ///< m
+  };
+  static Box boxOf(const Body& body, const api::Float4* points);
+  static bool isClear(const Plane& plane, const Box& box, double depth);
   static double depthOf(const Plane& plane, const Body& body, const api::Float4* points);
   Vector3 movedBy(const ParticleStore& store, const Side& side) const;
   Vector3 readSide(const ParticleStore& store, Side& side, const Vector3& place) const;
@@ -182,6 +187,7 @@ class RigidContact {
   void findCandidates(const ParticleStore& store, const Neighbours& neighbours, const StructureGraph& graph);
   Contact contactOf(const ParticleStore& store, const Candidate& candidate) const;
   Contact planeContactOf(const ParticleStore& store, const Candidate& candidate) const;
+  void sortCandidates();
   void findSurfaces(const ParticleStore& store, const Neighbours& neighbours);
   void keepImpulses();
   template <class AContact, class Visit>
@@ -234,6 +240,7 @@ class RigidContact {
   std::vector<Rub> m_materials;
   std::vector<uint8_t> m_isMember;
   std::vector<uint32_t> m_bodyOf;
+  std::vector<uint32_t> m_rank;  ///< 1 + body of what holds its shape, kNone where it has none, 0 of others
   std::vector<Body> m_bodies;
   std::vector<Contact> m_contacts, m_former;           ///< by scattered key
   std::vector<std::vector<Candidate>> m_candidatesOf;  ///< by chunk of particles
