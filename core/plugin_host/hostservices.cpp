@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/plugin_host/hostservices.h"
 
+#include "core/base/callee.h"
 #include "core/base/log.h"
+#include "core/base/parallel.h"
 #include "core/plugin_host/pluginloader.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string_view>
 #include <vector>
 
 namespace ps {
@@ -13,6 +17,23 @@ namespace {
 
 constexpr int kMostLines = 100;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+/// Those of the program. Whoever runs a part of a plugin's loop runs that plugin's code.
+class SharedThreads final : public api::Threads {
+ public:
+  void share(size_t count, size_t grain, double microseconds, void (*body)(void* data, size_t first, size_t last),
+             void* data) const override {
+    const char* const callee = t_callee;
+    forChunks(
+        count, grain,
+        [&](size_t first, size_t last) {
+          const CalleeScope scope(callee);
+          body(data, first, last);
+        },
+        std::max(0.0, microseconds));
+  }
+};
+const SharedThreads g_threads;
 
 }  // namespace
 
@@ -37,6 +58,11 @@ double HostServices::property(const char* material, const char* key, double temp
   } catch (...) {
     return kNone;
   }
+}
+
+const void* HostServices::extension(const char* name) const noexcept {
+  const bool threads = name && std::string_view(name) == api::kThreads;
+  return threads ? static_cast<const api::Threads*>(&g_threads) : nullptr;
 }
 
 HostServices& hostServicesFor(const std::string& plugin, const std::shared_ptr<InstalledMaterials>& materials) {

@@ -25,7 +25,7 @@ class HostServices final : public api::Host {
       : m_plugin(std::move(plugin)), m_materials(std::move(materials)) {}
   void log(Severity severity, const char* text) noexcept override;
   double property(const char* material, const char* key, double temperature) const noexcept override;
-  const void* extension(const char*) const noexcept override { return nullptr; }
+  const void* extension(const char* name) const noexcept override;
 
  private:
   std::string m_plugin;

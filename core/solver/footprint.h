@@ -22,7 +22,7 @@ struct MatterFootprint {
   double walls = 0;       ///< of the scene
   bool heat = false;      ///< flows, by a thermal model
   bool radiation = false;
-  bool dry = false;  ///< nothing in its scene can flow
+  bool dry = false;    ///< nothing in its scene can flow
   bool thick = false;  ///< may be a liquid that the implicit viscosity moves
   std::span<const StructureFootprint> structures{};
 };

@@ -23,8 +23,8 @@ inline constexpr float kReturned = 1e9f;
 /// whenever it is computed, so that a body that nothing has touched is found to be exactly where it was put.
 class RigidBody {
  public:
-  RigidBody(const api::ParticleView& p, const api::GroupBatch& batch, size_t g)
-      : m_p(p), m_batch(batch), m_group(g), m_first(batch.begin[g]), m_last(batch.begin[g + 1]) {
+  RigidBody(const api::ParticleView& p, const api::GroupBatch& batch, size_t g, const api::Threads* threads)
+      : m_p(p), m_batch(batch), m_threads(threads), m_group(g), m_first(batch.begin[g]), m_last(batch.begin[g + 1]) {
     const RigidMass sums = massOf(p, members());
     m_mass = sums.mass;
     m_pose.restCentre = 1 / m_mass * sums.moment;
@@ -41,7 +41,8 @@ class RigidBody {
     const auto of = [&](RigidModel::MemberValue v) { return m_batch.memberValues[v] + m_first; };
     return {m_batch.particles + m_first,
             m_last - m_first,
-            {of(RigidModel::kRestX), of(RigidModel::kRestY), of(RigidModel::kRestZ)}};
+            {of(RigidModel::kRestX), of(RigidModel::kRestY), of(RigidModel::kRestZ)},
+            m_threads};
   }
   const RigidPose& pose() const { return m_pose; }
   Vector centre() const { return m_pose.centre; }
@@ -141,6 +142,7 @@ class RigidBody {
 
   const api::ParticleView& m_p;
   const api::GroupBatch& m_batch;
+  const api::Threads* m_threads;
   size_t m_group, m_first, m_last;
   double m_mass = 0, m_scale = 1;
   RigidPose m_pose;

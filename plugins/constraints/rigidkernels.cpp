@@ -172,6 +172,43 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace ps::constraint {
 namespace {
+
+/// Members of a chunk, at least, and chunks at most: some microseconds, and sums that fit the stack.
+constexpr size_t kMembers = 1024, kChunks = 64;
+constexpr double kMicrosecondsPerMember = 0.002;
+
+size_t chunkOf(const RigidMembers& members) {
+  return std::max(kMembers, (members.count / kChunks + kMembers) / kMembers * kMembers);
+}
+/// The members [first, last) of a body.
+RigidMembers part(const RigidMembers& members, size_t first, size_t last) {
+  return {members.particles + first,
+          last - first,
+          {members.rest[0] + first, members.rest[1] + first, members.rest[2] + first}};
+}
+template <class Call>
+void forParts(const RigidMembers& members, const Call& call) {
+  api::shareAmong(members.threads, members.count, chunkOf(members),
+                  kMicrosecondsPerMember * static_cast<double>(members.count),
+                  [&](size_t first, size_t last) { call(part(members, first, last)); });
+}
+/// The sum of what call(members, part of it) finds by chunks, in their order.
+template <class Sum, class Call>
+Sum sumOfParts(const RigidMembers& members, const Call& call) {
+  Sum sum;
+  if (members.count <= kMembers) {
+    call(members, sum);
+    return sum;
+  }
+  std::array<Sum, kChunks> sums;
+  const size_t chunk = chunkOf(members);
+  api::shareAmong(members.threads, members.count, chunk, kMicrosecondsPerMember * static_cast<double>(members.count),
+                  [&](size_t first, size_t last) { call(part(members, first, last), sums[first / chunk]); });
+  sum = sums[0];
+  for (size_t k = 1; k * chunk < members.count; ++k) sum += sums[k];
+  return sum;
+}
+
 HWY_EXPORT(Mass);
 HWY_EXPORT(Offset);
 HWY_EXPORT(Place);
@@ -182,44 +219,46 @@ HWY_EXPORT(Velocities);
 }  // namespace
 
 RigidMass massOf(const api::ParticleView& particles, const RigidMembers& members) {
-  RigidMass mass;
-  HWY_DYNAMIC_DISPATCH(Mass)(particles, members, mass);
-  return mass;
+  return sumOfParts<RigidMass>(members, [&](const RigidMembers& some, RigidMass& mass) {
+    HWY_DYNAMIC_DISPATCH(Mass)(particles, some, mass);
+  });
 }
 
 RigidOffset offsetOf(const api::ParticleView& particles, const RigidMembers& members, const RigidPose& pose,
                      const api::Float4* points) {
-  RigidOffset offset;
-  HWY_DYNAMIC_DISPATCH(Offset)(particles, members, pose, points, offset);
-  return offset;
+  return sumOfParts<RigidOffset>(members, [&](const RigidMembers& some, RigidOffset& offset) {
+    HWY_DYNAMIC_DISPATCH(Offset)(particles, some, pose, points, offset);
+  });
 }
 
 void placeMembers(const RigidMembers& members, const RigidPose& pose, api::Float4* position) {
-  HWY_DYNAMIC_DISPATCH(Place)(members, pose, position);
+  forParts(members, [&](const RigidMembers& some) { HWY_DYNAMIC_DISPATCH(Place)(some, pose, position); });
 }
 
 RigidSpread spreadOf(const api::ParticleView& particles, const RigidMembers& members, Vector restCentre) {
-  RigidSpread spread;
-  HWY_DYNAMIC_DISPATCH(Spread)(particles, members, restCentre, spread);
-  return spread;
+  return sumOfParts<RigidSpread>(members, [&](const RigidMembers& some, RigidSpread& spread) {
+    HWY_DYNAMIC_DISPATCH(Spread)(particles, some, restCentre, spread);
+  });
 }
 
 RigidMomentum momentumOf(const api::ParticleView& particles, const RigidMembers& members, Vector centre,
                          const api::Float4* points) {
-  RigidMomentum momentum;
-  HWY_DYNAMIC_DISPATCH(Momentum)(particles, members, centre, points, momentum);
-  return momentum;
+  return sumOfParts<RigidMomentum>(members, [&](const RigidMembers& some, RigidMomentum& momentum) {
+    HWY_DYNAMIC_DISPATCH(Momentum)(particles, some, centre, points, momentum);
+  });
 }
 
 RigidMomentum extraMomentumOf(const api::ParticleView& particles, const RigidMembers& members, Vector centre,
                               float rate) {
-  RigidMomentum momentum;
-  HWY_DYNAMIC_DISPATCH(ExtraMomentum)(particles, members, centre, rate, momentum);
-  return momentum;
+  return sumOfParts<RigidMomentum>(members, [&](const RigidMembers& some, RigidMomentum& momentum) {
+    HWY_DYNAMIC_DISPATCH(ExtraMomentum)(particles, some, centre, rate, momentum);
+  });
 }
 
 void setVelocities(const RigidMembers& members, const RigidPose& pose, Vector velocity, Vector spin, api::Float4* to) {
-  HWY_DYNAMIC_DISPATCH(Velocities)(members, pose, velocity, spin, to);
+  forParts(members, [&](const RigidMembers& some) {
+    HWY_DYNAMIC_DISPATCH(Velocities)(some, pose, velocity, spin, to);
+  });
 }
 
 }  // namespace ps::constraint

@@ -172,7 +172,7 @@ void RigidModel::predict(const ConstraintContext& context, const api::MovablePar
                          const GroupBatch& batch) const {
   const ParticleView& p = particles;
   for (size_t g = 0; g < batch.count; ++g) {
-    RigidBody body(p, batch, g);
+    RigidBody body(p, batch, g, m_threads);
     // A frame that went wrong leaves no pose; edits, a bound or a frame taken back may have moved members since it was
     // written.
     if (!body.hasPose()) body.setPose(centreOf(p.previous, body), {});
@@ -194,7 +194,7 @@ void RigidModel::project(const ConstraintContext& context, const api::MovablePar
                          const GroupBatch& batch) const {
   const ParticleView& p = particles;
   for (size_t g = 0; g < batch.count; ++g) {
-    RigidBody body(p, batch, g);
+    RigidBody body(p, batch, g, m_threads);
     absorb(body, particles, context.dt);
   }
 }
@@ -204,7 +204,7 @@ void RigidModel::deriveVelocities(const ConstraintContext& context, const api::M
   const ParticleView& p = particles;
   const float rate = static_cast<float>(1 / context.dt);
   for (size_t g = 0; g < batch.count; ++g) {
-    RigidBody body(p, batch, g);
+    RigidBody body(p, batch, g, m_threads);
     // What viscosity gave: the velocity without the way of the substep, which was computed just so.
     const RigidMomentum momentum = extraMomentumOf(p, body.members(), body.centre(), rate);
     absorb(body, particles, context.dt);
@@ -239,7 +239,7 @@ void RigidModel::restoreMembers(const ConstraintContext&, const api::MovablePart
     const std::array<size_t, 2> begin{0, stayers.size()};
     const uint8_t changed = 0;
     const GroupBatch rest{1, begin.data(), stayers.data(), valuePointers.data(), memberPointers.data(), &changed};
-    RigidBody stayed(p, rest, 0);
+    RigidBody stayed(p, rest, 0, m_threads);
     const RigidBody::Fit fit = stayed.fit(p.position);
     stayed.setPose(stayed.centre() + fit.shift, stayed.rotationOf(fit));
     const RigidMomentum momentum = momentumOf(p, stayed.members(), stayed.centre(), p.position);
@@ -253,7 +253,7 @@ void RigidModel::restoreMembers(const ConstraintContext&, const api::MovablePart
       setVector(particles.position[all.particles[k]], stayed.centre() + arm);
       setVector(particles.velocity[all.particles[k]], velocity + cross(spin, arm));
     }
-    RigidBody whole(p, all, g);
+    RigidBody whole(p, all, g, m_threads);
     whole.setPose(stayed.centre() + stayed.armOf(whole.restCentre()), stayed.rotation());
   }
 }

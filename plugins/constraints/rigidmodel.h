@@ -40,6 +40,7 @@ class RigidModel : public api::Described<api::GroupPlugin> {
 
   RigidModel();
 
+  void attach(api::Host& host) override { m_threads = static_cast<const api::Threads*>(host.extension(api::kThreads)); }
   bool traits(api::GroupTraits* out) const noexcept override;
 
   void build(const api::ConstraintContext& context, const api::ParticleView& particles, const api::NeighbourView& lists,
@@ -54,6 +55,9 @@ class RigidModel : public api::Described<api::GroupPlugin> {
                 const api::NeighbourView& lists, const api::GroupBatch& all, api::GroupSink& sink) const override;
   void restoreMembers(const api::ConstraintContext& context, const api::MovableParticles& particles,
                       const api::GroupBatch& all, const uint8_t* returned) const override;
+
+ private:
+  const api::Threads* m_threads = nullptr;
 };
 
 }  // namespace ps::constraint

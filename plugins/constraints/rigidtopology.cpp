@@ -28,6 +28,9 @@ constexpr size_t kLeastPairs = 3;
 constexpr double kHoldTime = 0.5;
 /// Members around a lump that has melted out of a body, beyond which all of the body is looked at as soon.
 constexpr size_t kMostRim = 256;
+/// Particles of a chunk that looks at their lists, and what one takes.
+constexpr size_t kSharedParticles = 1024;
+constexpr double kMicrosecondsPerList = 0.03;
 /// What Joining::freshness() says of a particle that a body has taken, while others may still freeze to it.
 constexpr uint8_t kTaken = 2;
 
@@ -41,8 +44,10 @@ struct Piece {
 
 class Reshaping {
  public:
-  Reshaping(const ConstraintContext& context, const ParticleView& p, const NeighbourView& lists, const GroupBatch& all)
+  Reshaping(const ConstraintContext& context, const ParticleView& p, const NeighbourView& lists, const GroupBatch& all,
+            const api::Threads* threads)
       : m_context(context),
+        m_threads(threads),
         m_p(p),
         m_lists(lists),
         m_all(all),
@@ -237,13 +242,32 @@ class Reshaping {
     if (d2 < std::max(squaredReach(i), squaredReach(j)) && m_joining.mayFreeze(i, j)) return Grip::Wet;
     return d2 < touch * touch && m_joining.maySinter(i, j) ? Grip::Dry : Grip::None;
   }
+  /// Members that have one of another piece in their list.
+  std::vector<uint8_t> findBorders() const {
+    std::vector<uint8_t> border(m_p.count, 0);
+    api::shareAmong(m_threads, m_p.count, kSharedParticles, kMicrosecondsPerList * static_cast<double>(m_p.count),
+                    [&](size_t first, size_t last) {
+                      for (size_t i = first; i < last; ++i) {
+                        const uint32_t own = m_pieceOf[i];
+                        if (own == kNone) continue;
+                        bool other = false;
+                        for (uint32_t q = m_lists.begin[i]; q < m_lists.last[i]; ++q) {
+                          const uint32_t piece = m_pieceOf[m_lists.index[q]];
+                          other = other || (piece != kNone && piece != own);
+                        }
+                        border[i] = other ? 1 : 0;
+                      }
+                    });
+    return border;
+  }
   /// Pieces whose members have touched for long enough become one.
   void growTogether() {
     std::vector<std::pair<uint32_t, uint32_t>> touching;  // particles
+    const std::vector<uint8_t> border = findBorders();
     for (uint32_t i = 0; i < m_p.count; ++i) {
       if (m_pieceOf[i] == kNone) continue;
       bool touches = false, wet = false;
-      for (uint32_t q = m_lists.begin[i]; q < m_lists.last[i]; ++q) {
+      for (uint32_t q = m_lists.begin[i]; border[i] != 0 && q < m_lists.last[i]; ++q) {
         const uint32_t j = m_lists.index[q];
         if (m_pieceOf[j] == kNone || m_pieceOf[j] == m_pieceOf[i]) continue;
         const Grip g = grip(i, j);
@@ -300,7 +324,7 @@ class Reshaping {
       group.emit(centreOf(m_p, group.particles), {}, 1, sink);
       return;
     }
-    const RigidBody body(m_p, m_all, piece.group);
+    const RigidBody body(m_p, m_all, piece.group, m_threads);
     for (const size_t k : piece.kept) {
       group.add(m_all.particles[k], restPlace(k), m_all.memberValues[RigidModel::kRestVolume][k]);
     }
@@ -312,6 +336,7 @@ class Reshaping {
   }
 
   const ConstraintContext& m_context;
+  const api::Threads* m_threads;
   const ParticleView& m_p;
   const NeighbourView& m_lists;
   const GroupBatch& m_all;
@@ -330,7 +355,7 @@ class Reshaping {
 
 void RigidModel::topology(const ConstraintContext& context, const ParticleView& p, const NeighbourView& lists,
                           const GroupBatch& all, api::GroupSink& sink) const {
-  Reshaping(context, p, lists, all).run(sink);
+  Reshaping(context, p, lists, all, m_threads).run(sink);
 }
 
 }  // namespace ps::constraint

@@ -34,6 +34,10 @@ struct Matrix {
     return {at(row[0]), at(row[1]), at(row[2])};
   }
 };
+inline Matrix& operator+=(Matrix& a, const Matrix& b) {
+  for (size_t row = 0; row < 3; ++row) a.row[row] += b.row[row];
+  return a;
+}
 inline Vector operator*(const Matrix& m, Vector v) { return {dot(m.row[0], v), dot(m.row[1], v), dot(m.row[2], v)}; }
 inline Vector transposedTimes(const Matrix& m, Vector v) { return v.x * m.row[0] + v.y * m.row[1] + v.z * m.row[2]; }
 /// m += s a b^T

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Broken plugins are fixtures: each must give exactly one line that names the file and the fault, and leave the rest
 // alone.
+#include "core/base/callee.h"
 #include "core/base/error.h"
+#include "core/base/parallel.h"
 #include "core/matter/material.h"
+#include "core/plugin_host/hostservices.h"
 #include "core/plugin_host/materialjson.h"
 #include "core/plugin_host/pluginmetadata.h"
 #include "core/plugin_host/pluginscan.h"
@@ -21,6 +24,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <clocale>
 #include <cmath>
 #include <cstdio>
@@ -106,6 +110,34 @@ class TestPluginHost : public QObject {
     QVERIFY2(QFile::exists(fixture("fixture_material")), "PS_FIXTURE_DIR must name the fixtures");
     qputenv("XDG_STATE_HOME", m_scratch.filePath("state").toUtf8());
     qunsetenv("PHASESKETCH_PLUGIN_PATH");
+  }
+
+  /// Whoever runs a part of a plugin's loop is known to run that plugin's code.
+  void threadsAreSharedUnderThePluginsName() {
+    HostServices& host = hostServicesFor("fixture.threads", std::make_shared<InstalledMaterials>());
+    QVERIFY(host.extension("no such service") == nullptr && host.extension(nullptr) == nullptr);
+    const auto* threads = static_cast<const api::Threads*>(host.extension(api::kThreads));
+    QVERIFY(threads);
+    setThreadCount(4);
+    const CalleeScope callee("fixture.threads");
+    std::vector<int> visits(10001, 0);
+    std::atomic<int> strangers{0}, chunks{0};
+    const auto visit = [&](size_t first, size_t last) {
+      if (!t_callee || std::string(t_callee) != "fixture.threads") ++strangers;
+      for (size_t i = first; i < last; ++i) ++visits[i];
+      ++chunks;
+    };
+    api::shareAmong(threads, visits.size(), 100, 1e6, visit);
+    QVERIFY(std::all_of(visits.begin(), visits.end(), [](int n) { return n == 1; }));
+    QCOMPARE(chunks.load(), 101);
+    api::shareAmong(nullptr, visits.size(), 100, 1e6, visit);
+    QCOMPARE(chunks.load(), 202);
+    QCOMPARE(strangers.load(), 0);
+    const auto failing = [](size_t first, size_t) {
+      if (first == 500) throw std::runtime_error("chunk five");
+    };
+    QVERIFY_THROWS_EXCEPTION(std::runtime_error, api::shareAmong(threads, visits.size(), 100, 1e6, failing));
+    setThreadCount(0);
   }
 
   void soundPluginsOfEachKindAreLoaded() {

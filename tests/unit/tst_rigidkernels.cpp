@@ -17,6 +17,18 @@ std::string bytesOf(const List& list) {
   return std::string(reinterpret_cast<const char*>(list.data()), sizeof(list[0]) * list.size());
 }
 
+/// Runs the last chunk first: what is summed must not depend on the order in which threads come to their chunks.
+class BackwardThreads final : public ps::api::Threads {
+ public:
+  void share(size_t count, size_t grain, double, void (*body)(void* data, size_t first, size_t last),
+             void* data) const override {
+    ++loops;
+    for (size_t chunk = (count + grain - 1) / grain; chunk-- > 0;)
+      body(data, chunk * grain, std::min(count, (chunk + 1) * grain));
+  }
+  mutable int loops = 0;
+};
+
 /// Members of one body among other particles, somewhere else than where its pose has them.
 struct BodyScene {
   explicit BodyScene(size_t members) {
@@ -41,7 +53,7 @@ struct BodyScene {
     for (Vector& row : pose.turned.row) row = 1.01 * row;
   }
   RigidMembers members() const {
-    return {particles.data(), particles.size(), {rest[0].data(), rest[1].data(), rest[2].data()}};
+    return {particles.data(), particles.size(), {rest[0].data(), rest[1].data(), rest[2].data()}, threads};
   }
   Vector restOf(size_t k) const { return {rest[0][k], rest[1][k], rest[2][k]}; }
   Vector armOf(size_t k) const { return pose.turned * (restOf(k) - pose.restCentre); }
@@ -57,6 +69,7 @@ struct BodyScene {
   std::array<std::vector<float>, 3> rest;
   RigidPose pose;
   ps::api::ParticleView view{};
+  const ps::api::Threads* threads = nullptr;
 };
 
 void add(std::vector<double>& list, Vector v) { list.insert(list.end(), {v.x, v.y, v.z}); }
@@ -125,22 +138,33 @@ class TstRigidKernels : public QObject {
  private Q_SLOTS:
   void bodiesAreSummed_data() {
     QTest::addColumn<int>("members");
-    for (const int members : {1, 4, 8, 45, 1000}) QTest::addRow("%d members", members) << members;
+    for (const int members : {1, 4, 8, 45, 1000, 1025, 70000}) QTest::addRow("%d members", members) << members;
   }
   /// In another order than one after the other: some roundings of terms that cancel, each below 1 in SI units.
   void bodiesAreSummed() {
     QFETCH(int, members);
     const BodyScene scene(static_cast<size_t>(members));
     const std::vector<double> plain = plainSumsOf(scene);
+    const double rounding = 1e-14 * std::max(1.0, members / 1000.0);
     std::string first;
     onEachInstructionSet([&](const std::string& name) {
       const std::vector<double> sums = sumsOf(scene);
       QCOMPARE(sums.size(), plain.size());
       for (size_t k = 0; k < sums.size(); ++k)
-        QVERIFY2(std::abs(sums[k] - plain[k]) <= 1e-14 + 1e-13 * std::abs(plain[k]), name.c_str());
+        QVERIFY2(std::abs(sums[k] - plain[k]) <= rounding + 1e-13 * std::abs(plain[k]), name.c_str());
       if (first.empty()) first = bytesOf(sums);
       QVERIFY2(bytesOf(sums) == first, name.c_str());
     });
+  }
+  void threadsShareWhatIsLarge_data() { bodiesAreSummed_data(); }
+  void threadsShareWhatIsLarge() {
+    QFETCH(int, members);
+    BodyScene scene(static_cast<size_t>(members));
+    const std::string alone = bytesOf(sumsOf(scene));
+    const BackwardThreads threads;
+    scene.threads = &threads;
+    QVERIFY(bytesOf(sumsOf(scene)) == alone);
+    QCOMPARE(threads.loops > 0, members > 1024);
   }
   void membersStandWhereThePoseHasThem_data() { bodiesAreSummed_data(); }
   void membersStandWhereThePoseHasThem() {

@@ -22,6 +22,30 @@ class Host {
   ~Host() = default;
 };
 
+/// Service of the host: extension(kThreads) is its Threads, which a plugin keeps from attach() on.
+inline constexpr const char* kThreads = "threads";
+class Threads {
+ public:
+  /// Calls body(data, first, last) for consecutive chunks of `grain` of `count` elements, from any thread, and returns
+  /// when all are done: on as many threads as work of about `microseconds` for one of them is worth. Chunks are the
+  /// same for any number of threads, and so is what is summed chunk by chunk and then in their order. Throws what a
+  /// body has thrown.
+  virtual void share(size_t count, size_t grain, double microseconds,
+                     void (*body)(void* data, size_t first, size_t last), void* data) const = 0;
+
+ protected:
+  ~Threads() = default;
+};
+/// body(first, last) by chunks; one after the other where there are no threads.
+template <class Body>
+void shareAmong(const Threads* threads, size_t count, size_t grain, double microseconds, const Body& body) {
+  if (threads && count > grain) {
+    const auto call = [](void* data, size_t first, size_t last) { (*static_cast<const Body*>(data))(first, last); };
+    return threads->share(count, grain, microseconds, call, const_cast<Body*>(&body));
+  }
+  for (size_t first = 0; first < count; first += grain) body(first, first + grain < count ? first + grain : count);
+}
+
 /// What all kinds share. Objects are stateless after attach() and may be called from several threads at once: whatever
 /// a scene needs lives in fields, constraint values and parameters that the host owns.
 ///
