@@ -80,7 +80,10 @@ void TrappedFilm::refresh(const ParticleStore& store, const Neighbours& neighbou
   m_gap.assign(store.size(), HUGE_VAL);
   m_inside.resize(solids.size());
   forChunks(solids.size(), grain::kNeighbours, [&](size_t first, size_t last) {
-    for (size_t k = first; k < last; ++k) m_inside[k] = restsOnOwn(store, neighbours, solids[k]) ? 1 : 0;
+    for (size_t k = first; k < last; ++k) {
+      const uint32_t solid = solids[k];
+      m_inside[k] = outweighsLiquid(store, neighbours, solid) && !restsOnOwn(store, neighbours, solid) ? 0 : 1;
+    }
   });
   for (size_t k = 0; k < solids.size(); ++k) {
     if (m_inside[k] == 0) findBelow(store, neighbours, solids[k]);
@@ -97,6 +100,14 @@ void TrappedFilm::refresh(const ParticleStore& store, const Neighbours& neighbou
       if (api::holds(store.motion()[j])) m_concerned[j] = 1;
     }
   }
+}
+
+bool TrappedFilm::outweighsLiquid(const ParticleStore& store, const Neighbours& neighbours, uint32_t solid) const {
+  const api::NeighbourView view = neighbours.view();
+  const double density = densityOf(store, solid);
+  return std::any_of(view.index + view.begin[solid], view.index + view.last[solid], [&](uint32_t j) {
+    return store.motion()[j] == api::Motion::Liquid && densityOf(store, j) < density;
+  });
 }
 
 bool TrappedFilm::restsOnOwn(const ParticleStore& store, const Neighbours& neighbours, uint32_t solid) const {

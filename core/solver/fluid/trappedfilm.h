@@ -47,6 +47,8 @@ class TrappedFilm {
   const Vector3& up() const { return m_up; }
 
  private:
+  /// Whether a liquid around a solid particle is lighter than it: others have no gap to fall through.
+  bool outweighsLiquid(const ParticleStore& store, const Neighbours& neighbours, uint32_t solid) const;
   /// Whether its own body has matter below a solid particle.
   bool restsOnOwn(const ParticleStore& store, const Neighbours& neighbours, uint32_t solid) const;
   void findBelow(const ParticleStore& store, const Neighbours& neighbours, uint32_t solid);
@@ -57,7 +59,7 @@ class TrappedFilm {
   Vector3 m_up;  ///< zero without gravity
   std::vector<WallPlane> m_floors;
   std::vector<uint32_t> m_liquids;
-  std::vector<uint8_t> m_inside;     ///< of the solids asked for: whether one rests on its own body
+  std::vector<uint8_t> m_inside;     ///< of the solids asked for: whether one rests on its own body, or swims
   std::vector<float> m_yield;        ///< by particle
   std::vector<double> m_depth;       ///< m, to what lies below a liquid particle, while gaps are looked for
   std::vector<uint32_t> m_below;     ///< of which body's matter that was not
