@@ -89,7 +89,7 @@ void StateBuffer::copy(std::byte* to, const std::byte* from, size_t count) {
 void StateBuffer::add(const void* bytes, size_t count) {
   if (count == 0) return;
   if (m_size + count > m_capacity) {
-    const size_t capacity = std::max(m_size + count, 2 * m_capacity);
+    const size_t capacity = std::max(m_size + count, m_capacity + m_capacity / 4);
     auto larger = std::make_unique_for_overwrite<std::byte[]>(capacity);
     copy(larger.get(), m_bytes.get(), m_size);
     m_bytes = std::move(larger);

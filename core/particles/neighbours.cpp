@@ -17,10 +17,8 @@ namespace ps {
 namespace {
 
 constexpr size_t kSpareSlots = 16;
-/// Of what is needed, one part in so many is kept spare.
-constexpr size_t kSpareShare = 16;
-/// Entries of a chunk before any has been searched: as dense liquid needs them.
-constexpr uint64_t kFirstRoom = 64 * grain::kNeighbours;
+/// Of what was needed, one part in so many is kept spare.
+constexpr size_t kSpareShare = 32;
 
 constexpr const char* kBuiltBlock = "neighbours/built";
 
@@ -88,29 +86,44 @@ void Neighbours::loadSlots(std::span<const api::Float4> position, const Period& 
   });
 }
 
-/// Chunks get room for what they needed the last time and a little more, and at least as much as the fullest of those
-/// that need no more than twice the mean: what comes from one chunk to the next then finds room, and a crowd takes room
-/// for itself alone.
+/// Chunks get room for what they needed the last time and a little more; of one that is new nothing is known yet.
 void Neighbours::layOut(size_t chunks) {
   m_needs.resize(chunks, 0);
-  uint64_t sum = 0;
-  for (const uint32_t need : m_needs) sum += need;
-  uint64_t common = sum > 0 ? 0 : kFirstRoom;
-  for (const uint32_t need : m_needs) {
-    if (need * chunks <= 2 * sum) common = std::max<uint64_t>(common, need);
+  m_rooms.resize(chunks);
+  m_slots = 0;
+  for (size_t c = 0; c < chunks; ++c) giveRoom(c, m_needs[c] + m_needs[c] / kSpareShare);
+  makeRoom();
+}
+
+/// At the end, for so many entries.
+void Neighbours::giveRoom(size_t chunk, size_t entries) {
+  const size_t count = (entries + kListPad - 1) / kListPad * kListPad;
+  m_rooms[chunk] = {static_cast<uint32_t>(m_slots), static_cast<uint32_t>(count)};
+  m_slots += count;
+  if (m_slots > std::numeric_limits<uint32_t>::max() - kListPad)
+    throw Error("particles have more neighbours than lists can hold (" + std::to_string(m_slots / 1000000) +
+                " million): make the particle spacing larger, or look for matter that has been pressed together");
+}
+
+/// Lists that are there already stay where they are.
+void Neighbours::makeRoom() {
+  const size_t size = m_slots + kListPad;
+  if (size > m_index.capacity()) m_index.reserve(size + size / kSpareShare);
+  m_index.resize(size);
+}
+
+/// What has found too little room gets as much as it has turned out to need. False where all have found enough.
+bool Neighbours::giveMoreRoom() {
+  m_short.assign(m_rooms.size(), 0);
+  bool any = false;
+  for (size_t c = 0; c < m_rooms.size(); ++c) {
+    if (m_needs[c] <= m_rooms[c].count) continue;
+    giveRoom(c, m_needs[c]);
+    m_short[c] = 1;
+    any = true;
   }
-  m_first.resize(chunks + 1);
-  uint64_t first = 0;
-  for (size_t c = 0; c < chunks; ++c) {
-    m_first[c] = static_cast<uint32_t>(first);
-    const uint64_t need = std::max<uint64_t>(common, m_needs[c]);
-    first += (need + need / kSpareShare + kListPad) / kListPad * kListPad;
-    if (first > std::numeric_limits<uint32_t>::max() - kListPad)
-      throw Error("particles have more neighbours than lists can hold (" + std::to_string(sum / 1000000) +
-                  " million): make the particle spacing larger, or look for matter that has been pressed together");
-  }
-  m_first[chunks] = static_cast<uint32_t>(first);
-  m_index.resize(first + kListPad);
+  if (any) makeRoom();
+  return any;
 }
 
 void Neighbours::makeLists(std::span<const api::Float4> position, const Period& period) {
@@ -129,23 +142,22 @@ void Neighbours::makeLists(std::span<const api::Float4> position, const Period& 
                         {m_grid.cells(0), m_grid.cells(1), m_grid.cells(2)},
                         static_cast<float>(radius * radius),
                         {period.length(0), period.length(1), period.length(2)}};
-  const size_t chunks = chunkCount(n, grain::kNeighbours);
   for (std::vector<uint32_t>* v : {&m_begin, &m_last, &m_end}) v->resize(n);
   Progress* progress = t_progress;  // of this thread; others help it
+  bool all = true;
   const auto search = [&](size_t first, size_t last) {
     if (progress) progress->advance(last - first);
     const size_t c = first / grain::kNeighbours;
-    const ListRoom room{m_first[c],   m_first[c + 1] - m_first[c], m_index.data(), m_begin.data(), m_last.data(),
-                        m_end.data(), static_cast<uint32_t>(n)};
+    if (!all && m_short[c] == 0) return;
+    const ListRoom room{m_rooms[c].first, m_rooms[c].count, m_index.data(),          m_begin.data(),
+                        m_last.data(),    m_end.data(),     static_cast<uint32_t>(n)};
     m_needs[c] = static_cast<uint32_t>(searchLists(grid, first, last, room));
   };
-  for (bool whole = false; !whole;) {  // where room is too little, once more
-    layOut(chunks);
-    parallelFor(n, grain::kNeighbours, std::cref(search));
-    whole = true;
-    for (size_t c = 0; c < chunks; ++c) whole = whole && m_needs[c] <= m_first[c + 1] - m_first[c];
-    progress = nullptr;
-  }
+  layOut(chunkCount(n, grain::kNeighbours));
+  parallelFor(n, grain::kNeighbours, std::cref(search));
+  progress = nullptr;
+  all = false;
+  if (giveMoreRoom()) parallelFor(n, grain::kNeighbours, std::cref(search));
   m_built.resize(n);
   forChunks(n, grain::kNumbers, [&](size_t first, size_t last) {
     std::copy(position.begin() + static_cast<ptrdiff_t>(first), position.begin() + static_cast<ptrdiff_t>(last),
@@ -169,7 +181,7 @@ bool Neighbours::stale(const ParticleStore& store) const {
 }
 
 api::NeighbourView Neighbours::view() const {
-  return {m_begin.data(), m_last.data(), m_end.data(), m_index.data(), static_cast<float>(m_support + m_skin)};
+  return {m_begin.data(), m_last.data(), m_end.data(), m_index.data(), static_cast<float>(m_support + m_skin), m_slots};
 }
 
 }  // namespace ps

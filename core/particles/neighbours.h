@@ -7,8 +7,8 @@ namespace ps {
 
 /// Cell-sorted neighbour search (counting sort into cells of the search radius, rows of 27 cells).
 /// Lists hold all other particles within search radius = support + skin, in order of cell, padded to kListPad with
-/// the dummy index size(). They lie in order of index: the end of the last one is the size that an array by entry
-/// needs. Between chunks of particles there are entries that belong to no list. Lists stay valid until a particle has
+/// the dummy index size(). Lists of particles that follow each other lie together, but between them there are entries
+/// that belong to no list: view() says how many there are in all. Lists stay valid until a particle has
 /// moved half the skin. Along a periodic axis of the store pairs are found across the faces of the box; it must be
 /// three times as long as the search radius (see leastPeriod()).
 class Neighbours {
@@ -41,13 +41,23 @@ class Neighbours {
  private:
   void assignCells(std::span<const api::Float4> position, const Period& period);
   void layOut(size_t chunks);
+  void giveRoom(size_t chunk, size_t entries);
+  bool giveMoreRoom();
+  void makeRoom();
   void makeLists(std::span<const api::Float4> position, const Period& period);
   /// Puts places where the search reads them.
   void loadSlots(std::span<const api::Float4> position, const Period& period);
 
   double m_support = 0, m_skin = 0;
   std::vector<uint32_t> m_begin, m_last, m_end, m_index, m_slotOf, m_lastOrder;
-  std::vector<uint32_t> m_needs, m_first;  ///< entries of the index that each chunk needed, and where its own begin
+  /// Entries of the index.
+  struct Room {
+    uint32_t first, count;
+  };
+  std::vector<uint32_t> m_needs;  ///< entries that each chunk of particles needed
+  std::vector<Room> m_rooms;      ///< of each
+  std::vector<uint8_t> m_short;   ///< 1 where that was too little
+  size_t m_slots = 0;             ///< of all
   std::vector<float> m_x, m_y, m_z;
   std::vector<api::Float4> m_built;
   /// A hair more than the radius, so that rounding never puts two neighbours two cells apart.

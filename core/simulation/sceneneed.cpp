@@ -114,6 +114,8 @@ struct Common {
     matter.fieldBytes = plugins ? fieldBytesOf(*plugins) : 0;
     matter.walls = static_cast<double>(project.environment.walls.size());
     matter.heat = !project.solver.thermalModel.empty();
+    const api::ThermalPlugin* model = plugins ? plugins->thermal(project.solver.thermalModel) : nullptr;
+    matter.pairLaw = !model || model->extension(api::kPairRates);
     matter.radiation = toggleOf(project.environment.parameters, environmentParameters(), "radiation");
     nothingFlows = project.emitters.empty() &&
                    std::all_of(project.bodies.begin(), project.bodies.end(),

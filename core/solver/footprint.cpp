@@ -19,15 +19,15 @@ constexpr double kFloat = sizeof(float), kDouble = sizeof(double), kIndex = size
                  kPoint = sizeof(api::Float4), kMark = sizeof(uint8_t);
 /// A vector that grows entry by entry has room for half as much again, in the mean.
 constexpr double kGrown = 1.5;
-/// Lists that breathe are given a quarter more.
-constexpr double kBreathing = 1.25;
+/// Lists that breathe are given a thirty-second part more, by chunk and as a whole.
+constexpr double kBreathing = 1.07;
 /// A grid has 8 cells per place at most, and mostly far fewer.
 constexpr double kCells = 2;
 
 /// Of the fields that the program itself keeps.
 constexpr double kFields = 3 * kPoint + 9 * kFloat + kDouble + 2 * kMark;
-/// Of the last good frame: fields and lists once more, in a buffer that doubles.
-constexpr double kLastGood = 2;
+/// Of the last good frame: fields and lists once more, in a buffer that grows by a quarter.
+constexpr double kLastGood = 1.25;
 
 /// Of every particle, by room.
 constexpr double kStore = kGrown * (kFields + kIndex) + kPoint;
@@ -46,13 +46,13 @@ constexpr double kRays = 0.2 * 16 * (kIndex + kFloat + 2 * (kIndex + kFloat)) + 
 /// Its cube as it is kept from frame to frame, and what others saw of it in the last one.
 constexpr double kKeptBoxes = 14 * kFloat + 2 * kPlace + kDouble + 2 * kFloat + kPoint + 4 * kIndex + kMark;
 
-/// Of every entry of a list: chunks of particles have as much room as the fullest ones, and lists breathe.
-constexpr double kEntry = kGrown * kIndex + kIndex;
+/// Of every entry of a list.
+constexpr double kEntry = kBreathing * kIndex;
 /// Of what nothing holds, which may be a fluid: again where it is near, with its slope.
-constexpr double kNearEntry = kIndex + kFloat;
+constexpr double kNearEntry = kBreathing * (kIndex + kFloat);
 /// Partner, conductance, distance and kernel, and the watts of a model's own law.
-constexpr double kHeatEntry = kBreathing * (kIndex + 3 * kFloat + kDouble);
-constexpr double kImplicitEntry = kFloat;
+constexpr double kHeatEntry = kBreathing * (kIndex + 3 * kFloat), kPairLawEntry = kBreathing * kDouble;
+constexpr double kImplicitEntry = kBreathing * kFloat;
 
 /// Three snapshots (the newest, the one before, one in the making) with two fields, and what is drawn of them.
 constexpr double kSnapshots = 3 * (kPoint + 6 * kFloat + 3 * kIndex + 2 * kMark) + 4 * kPoint;
@@ -97,6 +97,7 @@ double bytesPerParticle(const MatterFootprint& matter) {
                  kDensity + kViscosity + kContacts + kSnapshots + entries * kEntry;
   if (matter.structures.empty() && !matter.dry) bytes += entries * kNearEntry;
   if (matter.heat) bytes += kHeat + kWall * matter.walls + entries * kHeatEntry;
+  if (matter.heat && matter.pairLaw) bytes += entries * kPairLawEntry;
   if (matter.heat && matter.radiation) bytes += kRays + kKeptBoxes;
   if (matter.thick) bytes += kImplicit + entries * kImplicitEntry;
   for (const StructureFootprint& structure : matter.structures) bytes += bytesOf(structure);

@@ -22,8 +22,9 @@ struct MatterFootprint {
   double walls = 0;       ///< of the scene
   bool heat = false;      ///< flows, by a thermal model
   bool radiation = false;
-  bool dry = false;    ///< nothing in its scene can flow
-  bool thick = false;  ///< may be a liquid that the implicit viscosity moves
+  bool pairLaw = false;  ///< heat flows by the model's own law of pairs
+  bool dry = false;      ///< nothing in its scene can flow
+  bool thick = false;    ///< may be a liquid that the implicit viscosity moves
   std::span<const StructureFootprint> structures{};
 };
 

@@ -66,11 +66,11 @@ class PairScene {
   }
   PairLists lists() const {
     const api::NeighbourView view = m_neighbours.view();
-    return {view.begin,      view.last, view.end, view.index, m_shape, static_cast<float>(1 / (kSupport * kSupport)),
-            m_store.period()};
+    return {view.begin,       view.last, view.end, view.index, m_shape, static_cast<float>(1 / (kSupport * kSupport)),
+            m_store.period(), view.slots};
   }
   StressField stressField() const { return {points.data(), coefficient.data(), viscous.data()}; }
-  size_t slots() const { return lists().end[m_store.size() - 1]; }
+  size_t slots() const { return lists().slots; }
 
   std::vector<api::Float4> points;       ///< position in m; w: volume times scale()
   std::vector<api::Float4> multipliers;  ///< position in m; w: any

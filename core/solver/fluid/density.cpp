@@ -2,6 +2,7 @@
 #include "core/solver/fluid/density.h"
 
 #include "core/base/parallel.h"
+#include "core/base/room.h"
 
 #include <algorithm>
 #include <array>
@@ -78,7 +79,7 @@ void DensityStage::configure(const SolverSettings& settings, const std::vector<W
 PairLists DensityStage::lists(const ParticleStore& store, const Neighbours& neighbours) const {
   const api::NeighbourView view = neighbours.view();
   const float inverseSquare = static_cast<float>(1 / (m_support * m_support));
-  return {view.begin, view.last, view.end, view.index, m_settings.kernel, inverseSquare, store.period()};
+  return {view.begin, view.last, view.end, view.index, m_settings.kernel, inverseSquare, store.period(), view.slots};
 }
 
 void DensityStage::refresh(const ParticleStore& store, const Neighbours& neighbours) {
@@ -281,7 +282,7 @@ void DensityStage::startNear(const ParticleStore& store, const PairLists& pairs)
   m_some.insert(m_some.end(), m_wet.begin(), m_wet.end());
   m_near.start(pairs, store.size());
   m_near.find(pairs, m_points.data(), m_wet);
-  m_slopes.resize(m_near.slots());
+  makeRoomFor(m_slopes, m_near.slots());
   m_nearKnown = true;
 }
 

@@ -2,6 +2,7 @@
 #include "core/solver/fluid/implicitviscosity.h"
 
 #include "core/base/parallel.h"
+#include "core/base/room.h"
 
 #include <algorithm>
 #include <cmath>
@@ -216,8 +217,7 @@ void ImplicitViscosity::tellHeld(const ParticleStore& store, const PairLists& li
 
 void ImplicitViscosity::assemble(const ParticleStore& store, const PairLists& lists, double scale,
                                  const float* viscosity) {
-  const size_t n = store.size();
-  m_coefficient.resize(n > 0 ? lists.end[n - 1] : 0);
+  makeRoomFor(m_coefficient, lists.slots);
   const double dt = m_settings.dt / m_settings.substeps;
   const float factor = static_cast<float>(10 * dt * kStressNormalisation / (seventhPower(m_support) * scale * scale));
   const StressField field{m_points.data(), viscosity, m_viscous.data()};

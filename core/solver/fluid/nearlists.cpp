@@ -2,12 +2,13 @@
 #include "core/solver/fluid/nearlists.h"
 
 #include "core/base/parallel.h"
+#include "core/base/room.h"
 
 namespace ps {
 
 void NearLists::start(const PairLists& all, size_t particles) {
   m_last.resize(particles);
-  m_index.resize(particles > 0 ? all.end[particles - 1] : 0);
+  makeRoomFor(m_index, all.slots);
 }
 
 void NearLists::find(const PairLists& all, const api::Float4* points, std::span<const uint32_t> which) {

@@ -21,6 +21,7 @@ struct PairLists {
   KernelShape kernel;
   float inverseSupportSquared;  ///< 1/R2
   Period period;                ///< pairs are measured between their nearest images
+  size_t slots;                 ///< entries of `index`
 };
 
 /// Sums of one particle's density constraint. Volumes are multiplied by the kernel's factor (8/(pi R3) for the spline),

@@ -3,6 +3,7 @@
 
 #include "core/base/callee.h"
 #include "core/base/parallel.h"
+#include "core/base/room.h"
 
 #include <algorithm>
 #include <cmath>
@@ -296,13 +297,17 @@ void HeatStage::gather(const ParticleStore& store, double step, size_t first, si
 }
 
 void HeatStage::askPairLaw(const api::ParticleView& view, const api::NeighbourView& lists) {
-  const size_t n = view.count, slots = lists.end[n - 1];
-  if (m_pairWatts.size() < slots) m_pairWatts.resize(slots + slots / 4);
+  const size_t n = view.count, probe = std::min(n, grain::kNeighbours);
+  // Most models have none, and need no room for all.
+  makeRoomFor(m_pairWatts, m_pairLaw ? lists.slots : *std::max_element(lists.end, lists.end + probe));
   const api::ThermalContext where = context();
-  const size_t probe = std::min(n, grain::kNeighbours);
   m_pairLaw = m_model->pairFlux(where, view, lists, 0, probe, m_pairWatts.data());
   m_pairRate = 0;
   if (!m_pairLaw) return;
+  if (m_pairWatts.size() < lists.slots) {  // the first time that one is met
+    makeRoomFor(m_pairWatts, lists.slots);
+    m_model->pairFlux(where, view, lists, 0, probe, m_pairWatts.data());
+  }
   const auto* rates = static_cast<const api::PairRates*>(m_model->extension(api::kPairRates));
   m_lawRates.assign(chunkCount(n, grain::kNeighbours), 0.0);
   const auto body = [&](size_t first, size_t last) {

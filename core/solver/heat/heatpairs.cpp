@@ -2,6 +2,7 @@
 #include "core/solver/heat/heatpairs.h"
 
 #include "core/base/parallel.h"
+#include "core/base/room.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,12 +21,8 @@ void HeatPairs::prepare(size_t count, size_t slots) {
   for (auto* values : {&conductivity, &volume, &filled, &immersion, &m_inverseMoment}) values->resize(count + 1);
   sameTotal.resize(count);
   otherTotal.resize(count);
-  if (partner.size() >= slots) return;
-  const size_t room = slots + slots / 4;  // lists breathe; do not allocate each time they grow by one
-  partner.resize(room);
-  conductance.resize(room);
-  m_square.resize(room);
-  m_kernel.resize(room);
+  makeRoomFor(partner, slots);
+  for (auto* values : {&conductance, &m_square, &m_kernel}) makeRoomFor(*values, slots);
 }
 
 void HeatPairs::build(const ParticleStore& store, const api::NeighbourView& lists,
@@ -33,7 +30,7 @@ void HeatPairs::build(const ParticleStore& store, const api::NeighbourView& list
   m_options = options;
   const size_t n = store.size();
   if (n == 0) return;
-  prepare(n, lists.end[n - 1]);
+  prepare(n, lists.slots);
   m_oneMaterial = materials.size() == 1;
   const auto matter = [&](size_t first, size_t last) {
     for (size_t i = first; i < last; ++i) {

@@ -75,6 +75,7 @@ struct NeighbourView {
   const uint32_t* end;
   const uint32_t* index;
   float searchRadius;  ///< m
+  size_t slots;        ///< entries of `index`, and of an array that has something to each
 };
 
 /// Caloric data of one material at the scene's pressure. Enthalpy is 0 for the solid at `meltingPoint0`
