@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/math/response.h"
 
+#include "core/math/monotone.h"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -57,17 +59,6 @@ double lawAt(const std::string& law, const std::vector<double>& c, double kelvin
 
 double secant(const api::ResponsePoint& a, const api::ResponsePoint& b) { return (b.y - a.y) / (b.x - a.x); }
 
-/// One-sided slope at the end of a curve from its two outer secants, kept monotone (three-point formula of
-/// Fritsch & Butland 1984).
-double endSlope(double h0, double h1, double d0, double d1) {
-  const double slope = ((2 * h0 + h1) * d0 - h0 * d1) / (h0 + h1);
-  if (slope * d0 <= 0) return 0;
-  if (d0 * d1 <= 0 && std::abs(slope) > 3 * std::abs(d0)) return 3 * d0;
-  return slope;
-}
-
-/// Slope at point k: zero at a local extremum, else the weighted harmonic mean of the neighbouring secants, which lies
-/// in the region of monotonicity of Fritsch & Carlson 1980.
 double slopeAt(const std::vector<api::ResponsePoint>& p, size_t k) {
   const size_t n = p.size();
   if (n == 2) return secant(p[0], p[1]);
@@ -76,11 +67,7 @@ double slopeAt(const std::vector<api::ResponsePoint>& p, size_t k) {
     return endSlope(p[n - 1].x - p[n - 2].x, p[n - 2].x - p[n - 3].x, secant(p[n - 2], p[n - 1]),
                     secant(p[n - 3], p[n - 2]));
   }
-  const double before = secant(p[k - 1], p[k]), after = secant(p[k], p[k + 1]);
-  if (before * after <= 0) return 0;
-  const double h0 = p[k].x - p[k - 1].x, h1 = p[k + 1].x - p[k].x;
-  const double w0 = 2 * h1 + h0, w1 = h1 + 2 * h0;
-  return (w0 + w1) / (w0 / before + w1 / after);
+  return innerSlope(p[k].x - p[k - 1].x, p[k + 1].x - p[k].x, secant(p[k - 1], p[k]), secant(p[k], p[k + 1]));
 }
 
 double curveAt(const std::vector<api::ResponsePoint>& p, double kelvin) {
@@ -91,8 +78,7 @@ double curveAt(const std::vector<api::ResponsePoint>& p, double kelvin) {
   const size_t k = static_cast<size_t>(above - p.begin()) - 1;
   const double h = p[k + 1].x - p[k].x, t = (kelvin - p[k].x) / h;
   const double m0 = slopeAt(p, k) * h, m1 = slopeAt(p, k + 1) * h;
-  const double t2 = t * t, t3 = t2 * t;
-  return (2 * t3 - 3 * t2 + 1) * p[k].y + (t3 - 2 * t2 + t) * m0 + (3 * t2 - 2 * t3) * p[k + 1].y + (t3 - t2) * m1;
+  return hermite(t, p[k].y, m0, p[k + 1].y, m1);
 }
 
 std::string curveProblem(const std::vector<api::ResponsePoint>& points) {

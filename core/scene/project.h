@@ -8,6 +8,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -184,6 +185,30 @@ struct Probe {
   Unknown unknown;
 };
 
+/// What lies between a key and the next one.
+enum class ToNext : uint8_t {
+  Step,    ///< the key's value
+  Linear,  ///< a straight line
+  Smooth,  ///< a cubic: see trackValue()
+};
+
+struct TrackKey {
+  double time = 0;   ///< s, of the scene's time
+  double value = 0;  ///< as the parameter's declaration stores it; 0 or 1 of a toggle
+  ToNext toNext = ToNext::Linear;
+  std::optional<double> slopeBefore{}, slopeAfter{};  ///< units of the value per s, of smooth pieces on either side
+  Unknown unknown{};
+  bool operator==(const TrackKey&) const = default;
+};
+
+/// A parameter's values over time. Its address is its identity: a project has one track of each at most.
+struct Track {
+  std::string parameter;       ///< Address::text()
+  std::vector<TrackKey> keys;  ///< one at least; times ascend
+  Unknown unknown{};
+  bool operator==(const Track&) const = default;
+};
+
 /// Orbits its target; y is up.
 struct ViewCamera {
   Vector3 target{0, 0.2, 0};                            ///< m
@@ -224,6 +249,7 @@ struct Project {
   Environment environment;
   SolverOptions solver;
   std::vector<Probe> probes;
+  std::vector<Track> tracks;
   double duration = 60;  ///< s
   ViewState view;
   std::shared_ptr<const ProjectState> state;  ///< nullptr: it opens at its start
