@@ -29,6 +29,10 @@ struct SetParameter {
 struct UpdateProject {
   std::shared_ptr<const Project> project;
 };
+/// Parameters go by these tracks from now on: see Engine::setTracks().
+struct SetTracks {
+  std::vector<Track> tracks;
+};
 /// Cells of a sketched body become matter: see Engine::addCells().
 struct AddCells {
   std::shared_ptr<const Body> body;
@@ -95,7 +99,7 @@ struct ShowFields {
   std::vector<std::string> names;
 };
 
-using Command = std::variant<SetParameter, UpdateProject, AddCells, TakeCells, TakeBody, TakeMatter, PutBack,
+using Command = std::variant<SetParameter, UpdateProject, SetTracks, AddCells, TakeCells, TakeBody, TakeMatter, PutBack,
                              NameMatter, ReturnBody, ForgetMatter, Reset, ReturnToState, ShowFields>;
 
 }  // namespace ps

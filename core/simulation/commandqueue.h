@@ -25,8 +25,8 @@ using ParameterBatch = std::vector<SetParameter>;
 using QueueEntry = std::variant<ParameterBatch, Command, Question, Opening, SingleStep>;
 
 /// What waits for the engine's thread. Values for parameters that wait side by side become one entry, in which a newer
-/// value replaces a waiting one of its address, and a whole project replaces what it would overwrite. Everything else
-/// keeps its place. Not for two threads at a time.
+/// value replaces a waiting one of its address; a whole project, and a list of tracks, replaces what it would
+/// overwrite. Everything else keeps its place. Not for two threads at a time.
 class CommandQueue {
  public:
   bool empty() const { return m_entries.empty(); }
@@ -41,9 +41,11 @@ class CommandQueue {
       return;
     }
     if (std::holds_alternative<UpdateProject>(command)) {  // it says what those before it would have said
-      while (!empty() && (std::holds_alternative<ParameterBatch>(m_entries.back()) || isUpdate(m_entries.back())))
+      while (!empty() && (std::holds_alternative<ParameterBatch>(m_entries.back()) || waitsLast<UpdateProject>() ||
+                          waitsLast<SetTracks>()))
         m_entries.pop_back();
     }
+    if (std::holds_alternative<SetTracks>(command) && waitsLast<SetTracks>()) m_entries.pop_back();
     m_entries.emplace_back(std::move(command));
   }
   void push(Question question) { m_entries.emplace_back(std::move(question)); }
@@ -57,9 +59,10 @@ class CommandQueue {
   }
 
  private:
-  static bool isUpdate(const QueueEntry& entry) {
-    const auto* command = std::get_if<Command>(&entry);
-    return command && std::holds_alternative<UpdateProject>(*command);
+  template <class Kind>
+  bool waitsLast() const {
+    const auto* command = empty() ? nullptr : std::get_if<Command>(&m_entries.back());
+    return command && std::holds_alternative<Kind>(*command);
   }
   void set(SetParameter edit) {
     if (empty() || !std::holds_alternative<ParameterBatch>(m_entries.back())) m_entries.emplace_back(ParameterBatch{});

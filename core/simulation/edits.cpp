@@ -30,19 +30,18 @@ bool write(Project& project, const SetParameter& edit, std::vector<UndoEdit>& un
   return true;
 }
 
-/// The part that a value is compiled into.
+auto byId(const std::vector<SceneMaterial>& materials, const std::string& id) {
+  return std::find_if(materials.begin(), materials.end(), [&](const SceneMaterial& m) { return m.id == id; });
+}
+
+}  // namespace
+
 void touch(const Address& address, Touched& touched) {
   const bool gravity = address.owner == Owner::Scene && address.key == "gravity";
   touched.owners.insert(gravity ? Owner::Solver : address.owner == Owner::Scene ? Owner::Thermal : address.owner);
   if (address.owner == Owner::Material) touched.materials.insert(address.id);
   if (address.key == "ambient_pressure") touched.allMaterials = true;  // it moves melting and boiling points
 }
-
-auto byId(const std::vector<SceneMaterial>& materials, const std::string& id) {
-  return std::find_if(materials.begin(), materials.end(), [&](const SceneMaterial& m) { return m.id == id; });
-}
-
-}  // namespace
 
 std::optional<api::ActsAt> writeValue(Project& project, const PluginRegistry& plugins, const SetParameter& edit,
                                       Touched& touched, std::vector<UndoEdit>& undo) {

@@ -21,6 +21,9 @@ struct Touched {
 /// Takes one edit of a project back.
 using UndoEdit = std::function<void(Project&)>;
 
+/// Notes the part that the value of an address is compiled into.
+void touch(const Address& address, Touched& touched);
+
 /// Writes a value into a project and notes what it touches and how to take it back. Returns when it acts, as its
 /// declaration says; nothing where the address or the value has no place in this project.
 std::optional<api::ActsAt> writeValue(Project& project, const PluginRegistry& plugins, const SetParameter& edit,

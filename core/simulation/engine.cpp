@@ -149,8 +149,10 @@ void Engine::Impl::watchForces() {
 
 Project Engine::Impl::document() const {
   Project source = project;
-  source.materials.clear();
-  for (const std::string& id : materialOrder) source.materials.push_back(*byId(project.materials, id));
+  overlay.liftFrom(source);
+  std::vector<SceneMaterial> ordered;
+  for (const std::string& id : materialOrder) ordered.push_back(*byId(source.materials, id));
+  source.materials = std::move(ordered);
   return source;
 }
 
@@ -210,8 +212,8 @@ void Engine::Impl::setConstraints() {
   }
 }
 
-bool Engine::Impl::isFixed(const std::string& body) {
-  const uint32_t index = bodyIndex(body);
+bool Engine::Impl::isFixed(const std::string& body) const {
+  const auto index = static_cast<size_t>(std::find(bodyIds->begin(), bodyIds->end(), body) - bodyIds->begin());
   return index < fixedBodies.size() && fixedBodies[index];
 }
 
@@ -252,7 +254,10 @@ StepReport Engine::step() {
   m->watchForces();
   m->lastReport = m->solver->step();
   for (const PluginFault& fault : m->lastReport.faults) m->plugins.fault(fault.plugin, fault.what);
-  if (m->solver->frame() > before) m->exchangeMatter();  // not of a frame that was taken back
+  if (m->solver->frame() > before) {  // not of a frame that was taken back
+    m->exchangeMatter();
+    m->followTracks();
+  }
   return m->lastReport;
 }
 
@@ -271,10 +276,16 @@ void Engine::update(const Project& project) {
   Project next = project;
   next.materials = inTheirPlaces(m->project.materials, project.materials);
   const Project before = std::exchange(m->project, std::move(next));
+  const TrackOverlay overlay = std::exchange(m->overlay, {});
   try {
+    Touched all;  // is compiled
+    m->bindOverlay(all);
+    m->overlay.advance(m->project, m->solver->time(), m->slack(), all);
+    m->overlay.lay(m->project);
     m->recompileAll();
   } catch (...) {
     m->project = before;
+    m->overlay = overlay;
     m->recompileAll();
     throw;
   }
@@ -288,26 +299,23 @@ bool Engine::setParameter(const Address& address, const Value& value) {
 }
 
 bool Engine::setParameters(std::span<const SetParameter> edits) {
-  Touched touched;
   std::vector<UndoEdit> undo;
   bool now = true;
   const bool resized = std::any_of(edits.begin(), edits.end(), [this](const SetParameter& edit) {
     return resizes(m->project, m->plugins, edit.address);
   });
   const double before = resized ? needOf(m->project, &m->plugins).bytes : 0;
-  try {
+  const auto write = [&](Touched& touched) {
     for (const SetParameter& edit : edits) {
       const std::optional<api::ActsAt> when = writeValue(m->project, m->plugins, edit, touched, undo);
       now = now &&
             (when == api::ActsAt::NextFrame || (when == api::ActsAt::NextFrameIfFixed && m->isFixed(edit.address.id)));
     }
     if (resized && needOf(m->project, &m->plugins).bytes > before) requireRoom(m->project, m->plugins, memoryNow());
-    m->recompile(touched);
-  } catch (...) {
+  };
+  m->changeBeneath(write, [&] {
     for (auto step = undo.rbegin(); step != undo.rend(); ++step) (*step)(m->project);
-    m->recompile(touched);
-    throw;
-  }
+  });
   return now;
 }
 
@@ -316,6 +324,8 @@ void Engine::apply(const Command& command) {
     setParameters({edit, 1});
   } else if (const auto* whole = std::get_if<UpdateProject>(&command)) {
     update(*whole->project);
+  } else if (const auto* animated = std::get_if<SetTracks>(&command)) {
+    setTracks(animated->tracks);
   } else if (const auto* start = std::get_if<Reset>(&command)) {
     reset();
     for (const NameMatter& named : start->named) m->named.apply(*this, named);
@@ -340,6 +350,7 @@ std::vector<uint32_t> Engine::addCells(const Body& body, const std::vector<std::
   spawn.position = freePositions(m->solver->particles(), spawn.position, 0.9 * m->spacing);
   std::vector<uint32_t> ids;
   if (!spawn.position.empty()) ids = m->born(std::move(spawn), body);
+  m->overlay.lift(m->project);
   std::vector<Body>& bodies = m->project.bodies;
   const auto known = std::find_if(bodies.begin(), bodies.end(), [&](const Body& b) { return b.id == body.id; });
   if (known == bodies.end()) {
@@ -347,7 +358,9 @@ std::vector<uint32_t> Engine::addCells(const Body& body, const std::vector<std::
   } else {
     *known = body;
   }
+  m->overlay.lay(m->project);
   m->recompile({{Owner::Body}});
+  m->bindTracks();
   return ids;
 }
 
@@ -364,6 +377,7 @@ std::vector<uint32_t> Engine::addBody(const Body& body) {
     ids.insert(ids.end(), fresh.begin(), fresh.end());
   }
   m->recompile({{Owner::Body}});
+  m->bindTracks();
   return ids;
 }
 
@@ -381,7 +395,8 @@ std::vector<uint32_t> Engine::particlesIn(const VoxelShape& lattice,
 
 std::vector<Limit> Engine::limits() const {
   std::vector<Limit> all = m->solver->limits();
-  for (const std::vector<Limit>& more : {m->flow.limits(), m->tables.limits(m->solver->particles())})
+  for (const std::vector<Limit>& more :
+       {m->flow.limits(), m->tables.limits(m->solver->particles()), m->overlay.limits()})
     all.insert(all.end(), more.begin(), more.end());
   if (m->fill) all.push_back(*m->fill);
   return all;

@@ -30,7 +30,7 @@ class Engine {
   StepReport step();
   /// Whether reports of frames tell who gave and took mechanical energy: Solver::measureBalance(), after resets too.
   void measureBalance(bool on);
-  /// What could not be delivered: the solver's limits, then those of emitters, then those of materials' laws.
+  /// What could not be delivered: the solver's limits, then those of emitters, of materials' laws, of tracks.
   std::vector<Limit> limits() const;
   /// Asks every plugin for its energies and limits, and names those that threw at it since the last step: they are
   /// refused from now on. For the end of a run, after which no step would tell.
@@ -43,11 +43,13 @@ class Engine {
   /// bodies, which are particles by now, at the next reset; how fixed ones move acts at once.
   void update(const Project& project);
   /// A parameter changed: recompiles what it touches. Returns false when it acts at the next reset only, as its
-  /// declaration says.
+  /// declaration says. Where a track holds it, this is what holds without the track.
   bool setParameter(const Address& address, const Value& value);
   /// Several as one edit: what they touch together is compiled once, and all are refused where one is. Returns whether
   /// all act now.
   bool setParameters(std::span<const SetParameter> edits);
+  /// Parameters go by these tracks: from the next frame on, and where one has gone, by the document again.
+  void setTracks(const std::vector<Track>& tracks);
   /// One of the closed set of edits; those above, and those that name matter.
   void apply(const Command& command);
   /// Adds a sketched body, or more cells of one that exists, at rest; cells where a live particle is within 0.9
@@ -86,8 +88,9 @@ class Engine {
   SnapshotPtr snapshot() const;
   FrameStats stats() const;
   uint64_t revision() const;  ///< Snapshot::revision
+  /// As it runs: with what its tracks say now, and materials that have left the document.
   const Project& project() const;
-  /// As the document has it, without materials that have left it: what a reset makes.
+  /// As the document has it, without what is only of the run: what a reset makes.
   Project document() const;
   const Solver& solver() const;
   const ParticleStore& particles() const;

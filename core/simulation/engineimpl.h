@@ -8,6 +8,7 @@
 #include "core/simulation/namedmatter.h"
 #include "core/simulation/particlefield.h"
 #include "core/simulation/scenestate.h"
+#include "core/simulation/tracks.h"
 #include "core/solver/solver.h"
 
 #include <map>
@@ -44,7 +45,7 @@ struct Engine::Impl {
   std::unique_ptr<Impl> rebuilt(const Project& source) const;
   /// Index of a body for its particles: a body keeps it as long as particles live, whatever comes and goes before it.
   uint32_t bodyIndex(const std::string& id);
-  bool isFixed(const std::string& body);  ///< whether it was born fixed
+  bool isFixed(const std::string& body) const;  ///< whether it was born fixed
   void recompile(const Touched& touched);
   void recompileAll();
   void bakeMaterials(const std::string& only = {});
@@ -63,6 +64,18 @@ struct Engine::Impl {
   /// Whether so many particles more may be poured; what they take is then spoken for.
   bool mayPour(size_t more);
   void exchangeMatter();
+  /// Looks up what the tracks mean, and goes by them. The project is then the document with what they say at the
+  /// solver's time laid over it: so it is between any two frames, whatever came before.
+  void bindTracks();
+  /// Goes by them at the solver's time. A value that cannot be leaves the one before in force, as limits() say.
+  void followTracks();
+  /// As followTracks(), where they cannot all act together.
+  void followEach();
+  /// Makes a change of the document beneath its tracks, which throws or may be taken back, and compiles what it
+  /// touches.
+  void changeBeneath(const std::function<void(Touched&)>& change, const std::function<void()>& takeBack);
+  void bindOverlay(Touched& dropped);
+  double slack() const;  ///< s, of keys
   /// Tells the solver on what the probes measure forces, and whether its balance is measured.
   void watchForces();
   bool measuresBalance = false;
@@ -76,6 +89,7 @@ struct Engine::Impl {
   std::unique_ptr<Solver> solver;
   MaterialTables tables;
   NamedMatter named;
+  TrackOverlay overlay;
   std::map<std::string, uint32_t> constraintSets;  // one per plugin: structure may join matter of any two bodies
   std::shared_ptr<const std::vector<std::string>> bodyIds = std::make_shared<const std::vector<std::string>>();
   std::vector<uint8_t> fixedBodies;    // 1 for bodies that were born fixed, by the same index

@@ -45,6 +45,7 @@ std::unique_ptr<Engine::Impl> Engine::Impl::restored(const StateReader& reader) 
   advance(0);
   next->solver->restore(reader);
   next->lead();  // as the document says by now
+  next->bindTracks();
   next->flow.restore(reader, next->solver->particles());
   next->flow.requireLayers(next->project, next->tables.tables(), next->spacing);
   return next;

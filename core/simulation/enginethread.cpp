@@ -257,7 +257,7 @@ void EngineThread::Impl::editAll(const ParameterBatch& batch) {
     if (batch.size() > 1) refusal = edit([&] { engine->setParameters({&one, 1}); });
     if (!refusal) continue;
     if (together->flags) refusal->message = together->message;  // a plugin says what is wrong but once
-    refusals.push_back(refusalOf(one, engine->project(), *refusal));
+    refusals.push_back(refusalOf(one, engine->document(), *refusal));
   }
   for (const EngineEvent& refusal : refusals) fail(refusal);
 }

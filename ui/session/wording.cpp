@@ -88,6 +88,7 @@ FailureText failureText(const EngineEvent& event) {
 }
 
 std::optional<Address> limitAddress(const Limit& limit, const std::vector<std::string>* bodies) {
+  if (const auto whole = Address::parse(limit.what)) return whole;
   const size_t dot = limit.what.rfind('.');  // ids may have some themselves: "org.example.cable"
   if (dot == 0 || dot == std::string::npos) return std::nullopt;
   const std::string owner = limit.what.substr(0, dot), key = limit.what.substr(dot + 1);

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/simulation/tracks.h"
+
+#include "core/plugin_host/registry.h"
+#include "core/scene/track.h"
+#include "core/simulation/declared.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace ps {
+namespace {
+
+bool isGravity(const Address& address) { return address.owner == Owner::Scene && address.key == "gravity"; }
+
+/// What a declaration says of keys, wherever its value stands.
+std::string whyNoKeysOf(const api::ParameterDeclaration& declaration) {
+  const std::string label = declaration.label;
+  if (declaration.actsAt == api::ActsAt::NextReset)
+    return label + " acts at the start; only what acts while the scene runs can have keys";
+  if (declaration.kind == api::ParameterKind::Choice)
+    return label + " is a choice; only numbers and switches can have keys";
+  return {};
+}
+
+}  // namespace
+
+std::string whyNoKeys(const Project& project, const PluginRegistry* plugins, const Address& address, bool whenFixed) {
+  const api::ParameterDeclaration* declaration = declarationOf(project, plugins, address);
+  if (!declaration || !hasOwner(project, address)) return "The scene has no parameter '" + address.text() + "'";
+  if (!adhesionPartner(address).empty() ||
+      (address.owner == Owner::Scene && !pluginBehind(address.key, kHeatSourceKey).empty()))
+    return std::string(declaration->label) + " is part of what the scene is made of, which has no keys";
+  if (const std::string why = whyNoKeysOf(*declaration); !why.empty()) return why;
+  if (declaration->kind == api::ParameterKind::Response) {
+    const Value value = valueAt(project, plugins, address);
+    const auto* response = std::get_if<Response>(&value);
+    if (response && response->kind != Response::Kind::Constant)
+      return std::string(declaration->label) + " is a curve; only a constant can have keys";
+  }
+  if (declaration->actsAt != api::ActsAt::NextFrameIfFixed || whenFixed) return {};
+  const auto body =
+      std::find_if(project.bodies.begin(), project.bodies.end(), [&](const Body& b) { return b.id == address.id; });
+  if (body != project.bodies.end() && toggleOf(body->parameters, bodyParameters(), "fixed")) return {};
+  return std::string(declaration->label) + " acts at the start of a body that is not held in place; keys lead bodies " +
+         "that are";
+}
+
+std::string problemOfKey(const TrackKey& key, const api::ParameterDeclaration& declaration) {
+  if (declaration.kind != api::ParameterKind::Toggle) return problemOf(Value(key.value), declaration);
+  return key.value == 0 || key.value == 1 ? std::string()
+                                          : "must be 0 for off or 1 for on, not " + numberText(key.value);
+}
+
+Value valueOfKey(double number, const api::ParameterDeclaration& declaration) {
+  if (declaration.kind == api::ParameterKind::Toggle) return number > 0.5;
+  double value = std::clamp(number, declaration.hardMinimum, declaration.hardMaximum);
+  if (declaration.kind == api::ParameterKind::Integer) value = std::floor(value + 0.5);
+  return declaration.kind == api::ParameterKind::Response ? Value(Response(value)) : Value(value);
+}
+
+void TrackOverlay::bind(const Project& project, const PluginRegistry& plugins, const IsFixed& isFixed,
+                        Touched& dropped) {
+  std::vector<Laid> before = std::exchange(m_tracks, {});
+  for (size_t t = 0; t < project.tracks.size(); ++t) {
+    const std::optional<Address> address = Address::parse(project.tracks[t].parameter);
+    if (!address || !whyNoKeys(project, &plugins, *address, true).empty()) continue;
+    const api::ParameterDeclaration* declaration = declarationOf(project, &plugins, *address);
+    if (declaration->actsAt == api::ActsAt::NextFrameIfFixed && !isFixed(address->id)) continue;
+    const auto old = std::find_if(before.begin(), before.end(), [&](const Laid& l) { return l.address == *address; });
+    Laid laid{*address, declaration, t, std::nullopt};
+    if (old != before.end()) {
+      laid.given = old->given;
+      before.erase(old);
+    }
+    m_tracks.push_back(std::move(laid));
+  }
+  for (const Laid& gone : before) {
+    if (gone.given) touch(gone.address, dropped);
+  }
+}
+
+std::optional<double> TrackOverlay::wanted(const Project& project, const Laid& laid, double time, double slack) const {
+  const std::optional<double> value = trackValue(project.tracks[laid.track].keys, time, slack);
+  return value && value == laid.refused ? laid.given : value;
+}
+
+bool TrackOverlay::moves(const Project& project, double time, double slack) const {
+  return std::any_of(m_tracks.begin(), m_tracks.end(),
+                     [&](const Laid& laid) { return wanted(project, laid, time, slack) != laid.given; });
+}
+
+void TrackOverlay::advance(const Project& project, size_t track, double time, double slack, Touched& touched) {
+  Laid& laid = m_tracks[track];
+  const std::optional<double> value = wanted(project, laid, time, slack);
+  if (value == laid.given) return;
+  laid.given = value;
+  laid.refused.reset();
+  touch(laid.address, touched);
+}
+
+void TrackOverlay::advance(const Project& project, double time, double slack, Touched& touched) {
+  for (size_t t = 0; t < m_tracks.size(); ++t) advance(project, t, time, slack, touched);
+}
+
+void TrackOverlay::refuse(const Project& project, size_t track, double time, double slack, const std::string& why) {
+  m_tracks[track].refused = trackValue(project.tracks[m_tracks[track].track].keys, time, slack);
+  m_tracks[track].why = why;
+}
+
+void TrackOverlay::lay(Project& project) {
+  for (Laid& laid : m_tracks) {
+    if (!laid.given) continue;
+    laid.own = storedValue(project, laid.address);
+    laid.gravity = project.environment.gravity;
+    laid.isLaid = true;
+    const Value value = valueOfKey(*laid.given, *laid.declaration);
+    if (!setOutsideValue(project, laid.address, value))
+      findSet(project, laid.address)->values[laid.address.key] = value;
+  }
+}
+
+void TrackOverlay::restore(Project& project, const Laid& laid) {
+  if (!laid.isLaid) return;
+  ParameterSet* set = findSet(project, laid.address);
+  if (isGravity(laid.address)) {
+    project.environment.gravity = laid.gravity;
+  } else if (laid.own && outsideValue(project, laid.address)) {
+    setOutsideValue(project, laid.address, *laid.own);
+  } else if (set && laid.own) {
+    set->values[laid.address.key] = *laid.own;
+  } else if (set) {
+    set->values.erase(laid.address.key);
+  }
+}
+
+void TrackOverlay::lift(Project& project) {
+  liftFrom(project);
+  for (Laid& laid : m_tracks) laid.isLaid = false;
+}
+
+void TrackOverlay::liftFrom(Project& copy) const {
+  for (const Laid& laid : m_tracks) restore(copy, laid);
+}
+
+std::vector<Limit> TrackOverlay::limits() const {
+  std::vector<Limit> list;
+  for (const Laid& laid : m_tracks) {
+    if (!laid.refused) continue;
+    const double held = laid.given.value_or(laid.own ? responseOf(*laid.own).at(293.15) : 0);
+    Limit limit{laid.address.text(), *laid.refused, held, laid.declaration->unit};
+    limit.why = laid.why;
+    list.push_back(std::move(limit));
+  }
+  return list;
+}
+
+}  // namespace ps
