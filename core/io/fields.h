@@ -29,13 +29,12 @@ struct Field {
   Json fallback{};          ///< what absence means, for the schema; null: nothing that it could say
   bool isRequired = false;  ///< a file without it is refused
   bool isAlways = false;    ///< written even where it is the default
-  /// Takes what it knows out of `value`; what stays is kept as unknown. None for a key that is only set aside.
+  /// Takes what it knows out of `value`; what stays is kept as unknown.
   std::function<void(T&, Json& value, const PluginRegistry&)> read{};
   std::function<Json(const T&)> write{};
   std::function<bool(const T&)> isDefault{};
   std::function<void(T&, const PluginRegistry&)> whenAbsent{};
   std::function<void(const T&, const std::string& pointer, FieldVisitor&)> visit{};
-  const char* warning = nullptr;  ///< what its presence means for the scene; of reserved ones
 
   Field required() && {
     isRequired = isAlways = true;
@@ -94,7 +93,6 @@ struct FieldTable {
         if (row.whenAbsent) row.whenAbsent(out, plugins);
         continue;
       }
-      if (!row.read) continue;
       Json value = std::move(*found);
       object.erase(found);
       row.read(out, value, plugins);
@@ -147,15 +145,6 @@ Field<T> field(const char* key, V T::*member, Kind kind, const char* help) {
       kind.visit(owner.*member, pointer, visitor);
     };
   }
-  return row;
-}
-
-/// A key that belongs to the format though nothing reads it: any value is kept with the unknown ones, and `warning`
-/// says what that means for the scene.
-template <class T>
-Field<T> reserved(const char* key, const char* help, const char* warning) {
-  Field<T> row{key, {{"description", help}}};
-  row.warning = warning;
   return row;
 }
 

@@ -3,6 +3,7 @@
 
 #include "core/base/nearest.h"
 #include "core/io/projectfields.h"
+#include "core/io/trackcheck.h"
 #include "core/matter/material.h"
 #include "core/parameters/wording.h"
 #include "core/plugin_host/registry.h"
@@ -205,6 +206,17 @@ class ProjectChecker : public FieldVisitor {
     }
   }
 
+  void object(const Track& track, const std::string& pointer) override {
+    if (!m_tracked.insert(track.parameter).second)
+      fail(pointer + "/parameter", "'" + track.parameter + "' has a track already; put all its keys into one");
+    for (const TrackFinding& finding : findingsOf(m_project, track, m_plugins)) {
+      const std::string place = pointer + finding.pointer;
+      if (finding.weight == TrackFinding::Weight::Refused) fail(place, finding.what);
+      if (finding.weight == TrackFinding::Weight::Mended) tell(place, finding.what);
+      if (finding.weight == TrackFinding::Weight::Told) warn(place, finding.what);
+    }
+  }
+
   /// Each is unpacked and forgotten: what all of them may take together is known before any memory is.
   void object(const PackedBlock& block, const std::string& pointer) override {
     if (block.name.empty()) fail(pointer + "/name", "must not be empty");
@@ -390,7 +402,7 @@ class ProjectChecker : public FieldVisitor {
   const PluginRegistry& m_plugins;
   const ParticleFields m_fields;
   std::vector<ProjectMessage>&m_warnings, &m_problems;
-  std::set<std::string> m_missing, m_blocks;
+  std::set<std::string> m_missing, m_blocks, m_tracked;
   double m_particles = 0;
   size_t m_stateBytes = 0;
 };

@@ -2,6 +2,7 @@
 #include "core/io/projectfields.h"
 
 #include "core/io/fieldkinds.h"
+#include "core/scene/track.h"
 
 namespace ps::fields {
 namespace {
@@ -60,9 +61,9 @@ std::vector<Field<Project>> sceneRows() {
       }),
       field("state", &Project::state, Shared{Object{stateFields()}},
             "matter as it stands at a later time: the project opens there, and its start stays what it is"),
-      reserved<Project>("tracks", "parameters over time; kept, not used by this version",
-                        "are kept, but this version does not use them: parameters stay as they stand elsewhere in "
-                        "the file"),
+      field("tracks", &Project::tracks, List{Object{trackFields()}}, "parameters over time")
+          .omittedWhen([](const Project& project) { return ownedTracks(project).empty(); })
+          .writtenAs([](const Project& project) { return List{Object{trackFields()}}.write(ownedTracks(project)); }),
       field("pluginsUsed", &Project::pluginsUsed, List{PluginId{std::nullopt, "what it does is left out"}},
             "missing ones are a warning")
           .always()

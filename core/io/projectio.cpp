@@ -97,16 +97,6 @@ void checkRequired(const json& document, const std::string& name, const PluginRe
   }
 }
 
-/// Keys that the format has set aside: kept for the program that knows them, and told here, since the scene that opens
-/// is not all that the file holds.
-void warnReserved(const json& document, const std::string& name, std::vector<ProjectMessage>& warnings) {
-  for (const auto& row : fields::projectFields().rows) {
-    if (row.warning && document.contains(row.key)) {
-      warnings.push_back({false, name + ":/" + row.key + ": " + row.warning});
-    }
-  }
-}
-
 size_t depthOf(const json& value) {
   size_t deepest = 0;
   if (value.is_structured()) {
@@ -147,7 +137,6 @@ void checkDocument(const json& document, const std::string& name, const PluginRe
   };
   checkAgainstSchema(document, name, parameters, unknown);
   checkRequired(document, name, plugins);
-  warnReserved(document, name, warnings);
   for (size_t i = 0; i < std::min(unknown.size(), kMostUnknown); ++i) {
     warnings.push_back({false, name + ":" + unknown[i].pointer + ": is not known here" + unknown[i].meant +
                                    "; it is kept and has no effect"});

@@ -76,6 +76,13 @@ void TestCli::exitCodesAndOneLine_data() {
   row("missing file", {"simulate", "nowhere.json"}, 2, "nowhere.json: no such file");
   row("folder", {"validate", "/"}, 2, "/: is a folder");
   row("bad edit", {"simulate", kSample, "--set", "solver/substeps=none"}, 2, "/solver/substeps: must be");
+  row("bad track",
+      {"simulate", kSample, "--frames", "1", "--set",
+       R"(tracks=[{"parameter": "wall/flor/temperature", "keys": [{"time": 0, "value": 300}]}])"},
+      2, "/tracks/0/parameter: the scene has no parameter 'wall/flor/temperature' (did you mean");
+  row("bad key",
+      {"validate", kSample, "--set", R"(tracks=[{"parameter": "scene/gravity", "keys": [{"time": 0, "value": -1}]}])"},
+      2, "/tracks/0/keys/0/value: must be at least 0 m/s²");
   row("sample is fine", {"validate", kSample}, 0, "");
   row("one of two", {"validate", kSample, "nowhere.json"}, 2, "nowhere.json: no such file");
   row("no way to write", {"simulate", kSample, "--frames", "0", "--report", "/nowhere/r.json"}, 1, "not saved");

@@ -47,7 +47,8 @@ class TestProjectIo : public QObject {
   void sketchedBodiesAreNotBornBelowOneKelvin();
   void lawsThatLeaveTheirRangeInTheSceneAreWarnedOf();
   void materialsAreCheckedAtTheScenesParameters();
-  void reservedNamesAreKeptAndTold();
+  void tracksAreReadAndCheckedAgainstTheScene();
+  void tracksOfWhatHasGoneAreNotSaved();
   void newerFilesOpenOnlyWhenTheySaySo();
   void editsFindTheirPlace_data();
   void editsFindTheirPlace();
@@ -99,6 +100,10 @@ constexpr const char* kFull = R"({
              "thermal": {"model": "org.example.gone", "parameters": {"x": 1.5}}},
   "probes": [{"id": "p", "name": "Kern, innen", "quantity": "temperature", "body": "a", "phase": "solid",
               "region": {"minimum": [0, 0, 0], "maximum": [0.1, 0.1, 0.1]}, "wave": {"axis": "y", "wavelength": 2}}],
+  "tracks": [{"parameter": "wall/floor/temperature", "keys": [
+       {"time": 0.1, "value": 400.00000000000006, "to_next": "smooth", "slope_after": 12.5},
+       {"time": 3, "value": 300, "to_next": "step", "slope_before": -1}, {"time": 4, "value": 310, "to_next": "linear"}]},
+     {"parameter": "body/a/spin_y", "keys": [{"time": 0, "value": -1e-7, "to_next": "linear"}]}],
   "duration": 12.5, "view": {"colour": "phase", "pinned": ["wall/floor/temperature"]}
 })";
 
@@ -217,6 +222,8 @@ void TestProjectIo::unknownKeysSurvive_data() {
                               "/solver/thermal",
                               "/solver/thermal/parameters",
                               "/probes/0",
+                              "/tracks/0",
+                              "/tracks/0/keys/1",
                               "/view"}) {
     QTest::newRow(*pointer ? pointer : "/") << pointer;
   }
@@ -353,6 +360,44 @@ void TestProjectIo::wrongValuesNameThePlace_data() {
       "300}], "
       "\"runs\": [[0, 0, 0, 4, 0], [0, 1, 0, 4, 0], [4, 0, 0, 1, 0], [-2, 0, 0, 3, 0]]}}",
       "/bodies/0/shape/voxels/runs/3: covers the cell 0, 0, 0, which run 0 holds already");
+  const auto tracks = [&](const char* name, const char* parameter, const char* keys, const char* problem) {
+    const QString edit = QStringLiteral("tracks=[{\"parameter\": \"%1\", \"keys\": %2}]").arg(parameter, keys);
+    QTest::newRow(name) << edit << problem;
+  };
+  tracks("track without a key", "scene/gravity", "[]", "/tracks/0/keys: must have a key at least");
+  tracks("track of nothing", "wall/flor/temperature", R"([{"time": 0, "value": 300}])",
+         "/tracks/0/parameter: the scene has no parameter 'wall/flor/temperature' (did you mean "
+         "'wall/floor/temperature'?)");
+  tracks("track of no key of a wall", "wall/floor/temprature", R"([{"time": 0, "value": 300}])",
+         "/tracks/0/parameter: the scene has no parameter 'wall/floor/temprature' (did you mean "
+         "'wall/floor/temperature'?)");
+  tracks("track of what acts at the start", "solver/particle_spacing", R"([{"time": 0, "value": 0.02}])",
+         "/tracks/0/parameter: Particle spacing acts at the start; only what acts while the scene runs can have keys");
+  tracks("track of a choice", "wall/floor/heat", R"([{"time": 0, "value": 1}])",
+         "/tracks/0/parameter: Heat is a choice; only numbers and switches can have keys");
+  tracks("track of a curve", "material/water/viscosity", R"([{"time": 0, "value": 1}])",
+         "/tracks/0/parameter: Viscosity, liquid is a curve; only a constant can have keys");
+  tracks("keys out of order", "scene/gravity", R"([{"time": 2, "value": 3}, {"time": 1, "value": 4}])",
+         "/tracks/0/keys/1/time: must come after the key before it, at 2 s: keys stand in order of time");
+  tracks("two keys at a time", "scene/gravity", R"([{"time": 2, "value": 3}, {"time": 2, "value": 4}])",
+         "/tracks/0/keys/1/time: is of the same time as the key before it, 2 s");
+  tracks("key before the start", "scene/gravity", R"([{"time": -1, "value": 3}])",
+         "/tracks/0/keys/0/time: must be at least 0 s, not −1");
+  tracks("key without a value", "scene/gravity", R"([{"time": 1}])", "/tracks/0/keys/0/value: is missing");
+  tracks("value out of range", "wall/floor/temperature", R"([{"time": 0, "value": 300}, {"time": 1, "value": 1e5}])",
+         "/tracks/0/keys/1/value: must be at most 10000 K, not 100000");
+  tracks("half a switch", "wall/floor/no_slip", R"([{"time": 0, "value": 0.5}])",
+         "/tracks/0/keys/0/value: must be 0 for off or 1 for on, not 0.5");
+  tracks("switch between on and off", "wall/floor/no_slip", R"([{"time": 0, "value": 0}, {"time": 1, "value": 1}])",
+         "/tracks/0/keys/0/to_next: must be step: a switch has no values between on and off");
+  tracks("half a step", "solver/substeps", R"([{"time": 0, "value": 2.5}])",
+         "/tracks/0/keys/0/value: must be a whole number");
+  tracks("no such way", "scene/gravity", R"([{"time": 0, "value": 1, "to_next": "bezier"}])",
+         "/tracks/0/keys/0/to_next: must be one of step, linear, smooth, not the text 'bezier'");
+  row("two tracks of one parameter",
+      R"(tracks=[{"parameter": "scene/gravity", "keys": [{"time": 0, "value": 1}]},
+                 {"parameter": "scene/gravity", "keys": [{"time": 1, "value": 2}]}])",
+      "/tracks/1/parameter: 'scene/gravity' has a track already; put all its keys into one");
   row("too new", "version=99999", "/version: needs project format 99999, this program reads up to 1");
   row("too new, as a fraction", "version=10.0", "/version: needs project format 10.0, this program reads up to 1");
   row("version in words", "version=\"one\"", "/version: must be a whole number, not the text 'one'");
@@ -501,13 +546,33 @@ void TestProjectIo::materialsAreCheckedAtTheScenesParameters() {
            "scene.json:/materials/0/parameters: The material 'fixture.material' failed: too dense");
 }
 
-void TestProjectIo::reservedNamesAreKeptAndTold() {
-  const std::string tracks = R"([{"address":"wall/floor"}])";
-  const LoadedProject loaded = parse(m_sample, {"tracks=" + tracks});
-  QCOMPARE(loaded.warnings.size(), size_t{1});
-  QVERIFY(loaded.warnings[0].text.starts_with("scene.json:/tracks: are kept, but this version does not use them"));
-  QVERIFY(json::parse(writeProject(loaded.project))["tracks"] == json::parse(tracks));
-  QVERIFY(!projectSchema().at("properties").at("tracks").at("description").get<std::string>().empty());
+void TestProjectIo::tracksAreReadAndCheckedAgainstTheScene() {
+  const Project project = parse(kFull).project;
+  QCOMPARE(project.tracks.size(), size_t{2});
+  const std::vector<TrackKey>& keys = project.tracks[0].keys;
+  QCOMPARE(keys.size(), size_t{3});
+  QVERIFY(keys[0].toNext == ToNext::Smooth && keys[1].toNext == ToNext::Step && keys[2].toNext == ToNext::Linear);
+  QCOMPARE(keys[0].slopeAfter, std::optional<double>(12.5));
+  QVERIFY(!keys[0].slopeBefore);
+  const auto warning = [&](const std::string& tracks) {
+    const LoadedProject loaded = parse(m_sample, {"tracks=" + tracks});
+    return loaded.warnings.empty() ? QString() : QString::fromStdString(loaded.warnings[0].text);
+  };
+  QVERIFY(warning(R"([{"parameter": "scene/gravity", "keys": [{"time": 0, "value": 1}]}])").isEmpty());
+  const QString loose = warning(R"([{"parameter": "body/ice/velocity_x", "keys": [{"time": 0, "value": 1}]}])");
+  QVERIFY2(loose.contains("/tracks/0/parameter: ") && loose.contains("not held in place"), qPrintable(loose));
+  // Of a plugin that is not there, as its values are.
+  QVERIFY(
+      !parse(kFull, {R"(tracks=[{"parameter": "thermal/x", "keys": [{"time": 0, "value": 1}]}])"}).warnings.empty());
+}
+
+void TestProjectIo::tracksOfWhatHasGoneAreNotSaved() {
+  Project project = parse(kFull).project;
+  project.environment.walls.clear();
+  const json saved = json::parse(writeProject(project));
+  QCOMPARE(saved["tracks"].size(), size_t{1});
+  project.tracks.pop_back();
+  QVERIFY(!json::parse(writeProject(project)).contains("tracks"));
 }
 
 void TestProjectIo::newerFilesOpenOnlyWhenTheySaySo() {
