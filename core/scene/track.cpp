@@ -105,6 +105,12 @@ std::optional<size_t> keyAt(const std::vector<TrackKey>& keys, double time, doub
   return nearest;
 }
 
+size_t keyBehind(const std::vector<TrackKey>& keys, double time, double slack) {
+  size_t behind = 0;
+  while (behind + 1 < keys.size() && keys[behind + 1].time <= time + slack) ++behind;
+  return behind;
+}
+
 size_t putKey(std::vector<TrackKey>& keys, const TrackKey& key, double slack) {
   if (const std::optional<size_t> old = keyAt(keys, key.time, slack))
     keys.erase(keys.begin() + static_cast<std::ptrdiff_t>(*old));

@@ -36,6 +36,8 @@ std::vector<Track> ownedTracks(const Project& project);
 const Track* findTrack(const std::vector<Track>& tracks, std::string_view parameter);
 /// The key within `slack` s of a time; nothing where there is none.
 std::optional<size_t> keyAt(const std::vector<TrackKey>& keys, double time, double slack);
+/// The last key that a time has come to, within `slack` s; the first where it has come to none. There must be one.
+size_t keyBehind(const std::vector<TrackKey>& keys, double time, double slack);
 /// Puts a key in its place in time, instead of one within `slack` s of it. Returns where it is.
 size_t putKey(std::vector<TrackKey>& keys, const TrackKey& key, double slack);
 

@@ -48,13 +48,18 @@ struct StrokeChanged {
 struct ViewChanged {};
 /// Other rows are pinned.
 struct PinsChanged {};
+/// A parameter has other keys, or none any more; what it says by itself stays what it is.
+struct TracksChanged {
+  std::string parameter;  ///< Track::parameter
+};
 /// The project holds another state to open at, or none; the scene that runs stays what it is.
 struct StateChanged {};
 /// The file, its name or whether it holds everything changed.
 struct FileChanged {};
 
 /// What happened to a document, as one value: receivers visit it.
-using ChangeEvent = std::variant<ProjectOpened, ParameterChanged, BodyChanged, PortChanged, WallsChanged,
-                                 MaterialsChanged, StrokeChanged, ViewChanged, PinsChanged, StateChanged, FileChanged>;
+using ChangeEvent =
+    std::variant<ProjectOpened, ParameterChanged, BodyChanged, PortChanged, WallsChanged, MaterialsChanged,
+                 StrokeChanged, ViewChanged, PinsChanged, TracksChanged, StateChanged, FileChanged>;
 
 }  // namespace ps

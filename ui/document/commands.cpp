@@ -98,6 +98,24 @@ StateCommand::StateCommand(Document& document, State before, State after, const 
 void StateCommand::undo() { m_document.applyState(m_before); }
 void StateCommand::redo() { m_document.applyState(m_after); }
 
+TrackCommand::TrackCommand(Document& document, TrackEdit edit, int gesture, const QString& text)
+    : QUndoCommand(text), m_document(document), m_edit(std::move(edit)), m_gesture(gesture) {
+  setObsolete(m_edit.before == m_edit.after);
+}
+
+void TrackCommand::undo() { m_document.applyTrack(m_edit, false); }
+void TrackCommand::redo() { m_document.applyTrack(m_edit, true); }
+
+bool TrackCommand::mergeWith(const QUndoCommand* other) {
+  const auto* next = static_cast<const TrackCommand*>(other);
+  if (next->m_gesture != m_gesture || !m_edit.after || !next->m_edit.before ||
+      m_edit.after->parameter != next->m_edit.before->parameter)
+    return false;
+  m_edit.after = next->m_edit.after;
+  setObsolete(m_edit.before == m_edit.after);
+  return true;
+}
+
 PinsCommand::PinsCommand(Document& document, std::vector<std::string> before, std::vector<std::string> after,
                          const QString& text)
     : QUndoCommand(text), m_document(document), m_before(std::move(before)), m_after(std::move(after)) {}

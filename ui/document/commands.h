@@ -113,6 +113,27 @@ class StateCommand : public QUndoCommand {
   State m_before, m_after;
 };
 
+/// The track of one parameter before and after, and where it stands among all.
+struct TrackEdit {
+  size_t index = 0;
+  std::optional<Track> before, after;  ///< nothing: there is none
+};
+
+/// Keys of one parameter. Commands of one gesture merge; one that ends where it began vanishes.
+class TrackCommand : public QUndoCommand {
+ public:
+  TrackCommand(Document& document, TrackEdit edit, int gesture, const QString& text);
+  void undo() override;
+  void redo() override;
+  int id() const override { return 3; }
+  bool mergeWith(const QUndoCommand* other) override;
+
+ private:
+  Document& m_document;
+  TrackEdit m_edit;
+  int m_gesture;
+};
+
 /// The rows of "Try these".
 class PinsCommand : public QUndoCommand {
  public:

@@ -20,6 +20,7 @@
 namespace ps {
 
 class PluginRegistry;
+struct TrackEdit;
 
 /// The document of the editor: a project and its history. Every edit is an undo command and ends in one changed()
 /// signal with a typed event; nothing here knows the engine or a widget. UI thread only.
@@ -122,6 +123,19 @@ class Document : public QObject {
   void keepState(std::shared_ptr<const ProjectState> state);
   void removeState();
 
+  // Keys over time: see Track. Within a gesture all edits of one parameter's are one undo step.
+  const Track* track(const Address& address) const;  ///< nullptr: it has no keys
+  double keySlack() const;                           ///< s around a key in which a time is on it: half a frame
+  QString whyNoKeys(const Address& address) const;   ///< "" or why it can have none, as a sentence
+  /// A key at a time in s, or another value of the one that is there. Returns "" or why there is none.
+  QString putKey(const Address& address, double time, double value);
+  /// It stays between its neighbours. Returns "" or why it stays where it is.
+  QString moveKey(const Address& address, size_t index, double time, double value);
+  void removeKey(const Address& address, size_t index);  ///< the last takes the track with it
+  QString setWay(const Address& address, size_t index, ToNext way);
+  void removeTrack(const Address& address);
+  QString trackTitle(const Address& address) const;  ///< "Temperature of Hot plate"
+
   // View: saved with the project, no undo steps except pins
   void setPinned(const std::string& address, bool pinned);
   void setColour(const std::string& colour);
@@ -136,6 +150,7 @@ class Document : public QObject {
   void applyStroke(const std::shared_ptr<StrokeRecord>& stroke, bool done, bool live);
   void applyState(const std::shared_ptr<const ProjectState>& state);
   void applyPins(const std::vector<std::string>& pins);
+  void applyTrack(const TrackEdit& edit, bool forward);
 
  Q_SIGNALS:
   void replacing();  ///< unsaved work is about to give its place to another project
@@ -143,6 +158,7 @@ class Document : public QObject {
 
  private:
   void notify(const ChangeEvent& event);
+  QString setKeys(const Address& address, std::vector<TrackKey> keys, const QString& text);
   std::optional<Value> asStored(const Address& address, const std::optional<Value>& value) const;
   void editBody(const std::string& id, const QString& text, const std::function<void(Body&)>& change);
   template <class Item>

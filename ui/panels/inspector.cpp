@@ -41,6 +41,9 @@ Inspector::Inspector(Session& session, Selection& selection, QObject* parent)
   connect(&session, &Session::totalsDue, this, [this] {
     if (const SnapshotPtr snapshot = m_session.snapshot()) setSnapshot(*snapshot);
   });
+  connect(&session, &Session::valuesDue, this, [this] {
+    if (now() != m_shownAt) showTracks();
+  });
   connect(&session, &Session::happened, this, [this](const EngineEvent& event) { m_notes.hear(event); });
   connect(&selection, &Selection::changed, this, [this, &selection] {
     if (!selection.empty()) setBody(selection.body());
@@ -54,6 +57,11 @@ void Inspector::connectPanel(ParameterPanel* panel) {
   connect(panel, &ParameterPanel::linkActivated, this, &Inspector::onLink);
   connect(panel, &ParameterPanel::pinToggled, this,
           [this](const QString& key, bool pinned) { m_document.setPinned(key.toStdString(), pinned); });
+  connect(panel, &ParameterPanel::keyToggled, this, &Inspector::onKey);
+  connect(panel, &ParameterPanel::wayChosen, this, &Inspector::onWay);
+  connect(panel, &ParameterPanel::keysRemoved, this, [this](const QString& key) {
+    if (const auto address = Address::parse(key.toStdString())) m_document.removeTrack(*address);
+  });
 }
 
 const char* Inspector::keep(const QString& text) { return m_texts.insert(text.toStdString()).first->c_str(); }
@@ -168,6 +176,7 @@ void Inspector::rebuildBody() {
   }
   m_body->setModel(std::move(rows));
   m_notes.show();
+  showTracks();
 }
 
 void Inspector::rebuildMaterial() {
@@ -202,6 +211,7 @@ void Inspector::rebuildMaterial() {
   }
   m_material->setModel(std::move(rows));
   m_notes.show();
+  showTracks();
 }
 
 void Inspector::showMaterialHeader() {
@@ -273,6 +283,7 @@ void Inspector::rebuildScene() {
   showSceneHeader();
   m_scene->setModel(std::move(rows));
   m_notes.show();
+  showTracks();
 }
 
 void Inspector::showSceneHeader() {
@@ -303,6 +314,7 @@ void Inspector::rebuildSolver() {
                                                       : QStringLiteral("No heat"));
   m_solver->setModel(std::move(rows));
   m_notes.show();
+  showTracks();
 }
 
 void Inspector::rebuild() {
@@ -369,6 +381,8 @@ void Inspector::onChanged(const ChangeEvent& event) {
     rebuildMaterial();  // one of its rows may be pinned
   } else if (std::holds_alternative<MaterialsChanged>(event)) {
     rebuildMaterial();
+  } else if (std::holds_alternative<TracksChanged>(event)) {
+    showTracks();
   } else if (std::holds_alternative<PinsChanged>(event)) {
     markPinned();
     rebuildMaterial();

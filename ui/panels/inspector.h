@@ -37,8 +37,14 @@ class Inspector : public QObject {
   /// The panel that shows an address, after choosing its owner; nullptr when there is none.
   ParameterPanel* panelFor(const Address& address);
 
+  /// A key of the row under the pointer, or of the one that has the focus; false: there is none.
+  bool toggleKey();
+
   /// Operating points and notes of limits; comes by itself a few times a second.
   void setSnapshot(const Snapshot& snapshot);
+
+ Q_SIGNALS:
+  void keyRefused(const QString& problem);
 
  private:
   void onChanged(const ChangeEvent& event);
@@ -46,6 +52,12 @@ class Inspector : public QObject {
   std::vector<ParameterPanel*> panels() const { return {m_body, m_material, m_scene, m_solver}; }
   void connectPanel(ParameterPanel* panel);
   void onEdited(const QString& key, const Value& value, Edit edit);
+  void onKey(const QString& key, const Value& shown);
+  void onWay(const QString& key, ToNext way);
+  /// Marks of rows whose parameters have keys, and what these give now.
+  void showTracks();
+  void showTrack(const Track& track);
+  double now() const;  ///< s, of the scene's time
   void onScaled(const QString& key, double factor);
   void onLink(const QString& key, const QString& link);
   void rebuildBody();
@@ -74,6 +86,8 @@ class Inspector : public QObject {
   std::string m_bodyId, m_materialId;
   std::set<std::string> m_texts;         ///< headings and labels that rows borrow; grows with names only
   QString m_grade;                       ///< of the material's sources, as the header says it
+  std::set<std::string> m_tracked;       ///< addresses of what has keys, as rows show it
+  double m_shownAt = -1;                 ///< s, for which rows show what keys give
   double m_sceneMean = 293.15;           ///< K
   std::map<std::string, double> m_mean;  ///< K, by material; of those that have particles
 };

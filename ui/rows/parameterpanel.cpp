@@ -242,6 +242,9 @@ void ParameterPanel::Private::connectRow(ParameterRow* row) {
   pass(&ParameterRow::sourceRequested, &ParameterPanel::sourceRequested);
   pass(&ParameterRow::pinToggled, &ParameterPanel::pinToggled);
   pass(&ParameterRow::plotRequested, &ParameterPanel::plotRequested);
+  pass(&ParameterRow::keyToggled, &ParameterPanel::keyToggled);
+  pass(&ParameterRow::wayChosen, &ParameterPanel::wayChosen);
+  pass(&ParameterRow::keysRemoved, &ParameterPanel::keysRemoved);
 }
 
 void ParameterPanel::Private::mirror(const ParameterRow* from) {
@@ -331,6 +334,9 @@ void ParameterPanel::setDisabledReason(const QString& key, const QString& reason
 }
 void ParameterPanel::setMixed(const QString& key, bool mixed) {
   d->each(key, [&](ParameterRow* row) { row->setMixed(mixed); });
+}
+void ParameterPanel::setKeyMark(const QString& key, KeyMark mark, ToNext way) {
+  d->each(key, [&](ParameterRow* row) { row->setKeyMark(mark, way); });
 }
 void ParameterPanel::setPinned(const QStringList& keys) {
   d->pinned = QSet<QString>(keys.begin(), keys.end());

@@ -38,6 +38,7 @@ class ParameterPanel : public QWidget {
   void setValue(const QString& key, const Value& value);
   void setDefaultValue(const QString& key, const Value& value);
   void setMixed(const QString& key, bool mixed);
+  void setKeyMark(const QString& key, KeyMark mark, ToNext way);
   /// Keys of what is pinned, in this panel or another: what the rows' menus offer follows. Holds for later models too.
   void setPinned(const QStringList& keys);
   /// Note under the row; see ParameterRow::setLimit. "" removes it.
@@ -64,6 +65,9 @@ class ParameterPanel : public QWidget {
   void sourceRequested(const QString& key);
   void pinToggled(const QString& key, bool pinned);
   void plotRequested(const QString& key);
+  void keyToggled(const QString& key, const ps::Value& shown);
+  void wayChosen(const QString& key, ps::ToNext way);
+  void keysRemoved(const QString& key);
 
  protected:
   void paintEvent(QPaintEvent* event) override;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "core/parameters/parameterset.h"
+#include "core/scene/project.h"
 
 #include <QtCore/QString>
 #include <QtCore/QStringList>
@@ -18,6 +19,13 @@ namespace ps {
 /// before, Live and End the new one; a gesture taken back with Esc ends with the value it began with.
 enum class Edit { Begin, Live, End };
 
+/// Where a row stands among the keys of its parameter over time.
+enum class KeyMark {
+  None,     ///< it has none
+  Between,  ///< of two keys, or before the first, or behind the last
+  OnKey
+};
+
 /// One row of a panel: a declared parameter, its value and what it is compared with.
 /// The declaration's texts are borrowed and must outlive the row (declarations are static in the program or a plugin).
 struct RowModel {
@@ -34,6 +42,8 @@ struct RowModel {
   QString derivedFrom;          ///< not empty: computed, no field: "from pressure"
   QString source;               ///< of the default value; "": the declaration's
   double temperature = 293.15;  ///< K, operating point of a response
+  KeyMark keyMark = KeyMark::None;
+  ToNext way = ToNext::Linear;  ///< from the key that it is on, or behind, to the next
 };
 
 /// What a row shows at the moment; flags.
@@ -74,6 +84,7 @@ class ParameterRow : public QWidget {
   void setDisabledReason(const QString& reason);
   void setDerivedFrom(const QString& derivedFrom);
   void setTemperature(double kelvin);  ///< operating point of a response
+  void setKeyMark(KeyMark mark, ToNext way);
   /// Note under the row, "" removes it. "[text](link)" is a link; what others wrote comes through asNote().
   /// `delivered`: the value (SI) up to which the solver can follow, hatched beyond it; NaN: no hatching.
   void setLimit(const QString& text, double delivered = std::numeric_limits<double>::quiet_NaN());
@@ -95,6 +106,9 @@ class ParameterRow : public QWidget {
   double number() const;
 
   void reset();  ///< to the default, one gesture
+  /// Asks for a key of the value that is shown, or for none where there is one. Nothing where nobody listens.
+  void toggleKey();
+  bool isHovered() const;
   /// Ends a gesture that is still open, and drops what was typed and not entered.
   void finishEditing();
   void startTyping();  ///< opens the line edit
@@ -105,6 +119,7 @@ class ParameterRow : public QWidget {
   QRect labelRect() const;
   QRect sliderRect() const;  ///< of the track; also sparkline, toggle or choices
   QRect fieldRect() const;
+  QRect keyRect() const;  ///< of the diamond
   QSize sizeHint() const override;
   QSize minimumSizeHint() const override;
   int heightForWidth(int width) const override;
@@ -119,6 +134,9 @@ class ParameterRow : public QWidget {
   void linkActivated(const QString& key, const QString& link);
   void pinToggled(const QString& key, bool pinned);
   void plotRequested(const QString& key);
+  void keyToggled(const QString& key, const ps::Value& shown);
+  void wayChosen(const QString& key, ps::ToNext way);
+  void keysRemoved(const QString& key);
   void changedChanged();  ///< isChanged() may differ
 
  protected:

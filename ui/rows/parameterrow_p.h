@@ -10,6 +10,7 @@
 #include <limits>
 #include <vector>
 
+class QMenu;
 class QPainter;
 
 namespace ps {
@@ -102,7 +103,15 @@ struct ParameterRow::Private {
   void paintField(QPainter& painter) const;
   void paintChoice(QPainter& painter) const;
   void paintLeft(QPainter& painter) const;
+  bool offersKeys() const;  ///< somebody listens
+  bool takesKeys() const;
+  QString keyText() const;  ///< of the tooltip
+  void addKeyEntries(QMenu* menu);
+  void paintKey(QPainter& painter) const;
 };
+
+/// A key over time.
+void paintDiamond(QPainter& painter, const QPointF& centre, double half, const QColor& colour, bool filled);
 
 /// Makes rows known to assistive technology; may be called often.
 void installRowAccessibility();

@@ -20,7 +20,10 @@ class RowAccessible final : public QAccessibleWidget, public QAccessibleValueInt
       case QAccessible::Value:
         return row()->valueText();
       case QAccessible::Description:
-        return QString::fromUtf8(declaration().help);
+        return QString::fromUtf8(declaration().help) +
+               (row()->model().keyMark == KeyMark::OnKey     ? QStringLiteral(" It has a key at this time.")
+                : row()->model().keyMark == KeyMark::Between ? QStringLiteral(" It goes by keys.")
+                                                             : QString());
       default:
         return QAccessibleWidget::text(kind);
     }

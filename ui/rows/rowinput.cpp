@@ -120,6 +120,8 @@ void ParameterRow::mousePressEvent(QMouseEvent* event) {
   event->accept();
   if (!d->model.derivedFrom.isEmpty() && event->position().x() > labelRect().right()) {
     Q_EMIT sourceRequested(key());
+  } else if (d->takesKeys() && keyRect().contains(event->position().toPoint())) {
+    toggleKey();
   } else if (d->isEditable()) {
     d->finish();
     d->pressed(event->position().toPoint(), event->modifiers());
@@ -145,7 +147,9 @@ void ParameterRow::mouseMoveEvent(QMouseEvent* event) {
   const QPoint at = event->position().toPoint();
   const bool types = d->isEditable() && d->isNumeric() && fieldRect().contains(at),
              scales = d->isEditable() && d->showsCurve() && grown(sliderRect()).contains(at);
-  setCursor(types            ? Qt::IBeamCursor
+  const bool keys = d->takesKeys() && keyRect().contains(at);
+  setCursor(keys             ? Qt::PointingHandCursor
+            : types          ? Qt::IBeamCursor
             : d->leadsTo(at) ? Qt::PointingHandCursor
             : scales         ? Qt::SizeHorCursor
                              : Qt::ArrowCursor);

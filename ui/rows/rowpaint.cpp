@@ -95,6 +95,7 @@ QRect ParameterRow::Private::choiceRect() const {
 
 void ParameterRow::Private::paint(QPainter& painter) const {
   paintLeft(painter);
+  paintKey(painter);
   const auto kind = declaration().kind;
   if (kind == api::ParameterKind::Toggle) {
     const QRectF rect = switchRect();

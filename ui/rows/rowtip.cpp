@@ -50,6 +50,7 @@ QString ParameterRow::Private::toolTipText() const {
     text += line("", QStringLiteral("Drag sideways to scale the curve. A number that is typed takes its place, *2 "
                                     "doubles it."));
   }
+  text += line("Key", keyText());
   text += line("Example", QString::fromUtf8(p.example ? p.example : ""));
   const bool ofDefault = !model.source.isEmpty() && q->isChanged();
   text += line(ofDefault ? "Default from" : "Source",
@@ -91,6 +92,8 @@ void ParameterRow::Private::openContextMenu(const QPoint& global) {
                                          : QStringLiteral("Pin to “Try these”"));
   }
   if (offered(QMetaMethod::fromSignal(&ParameterRow::plotRequested))) plot = menu->addAction(QStringLiteral("Plot"));
+  addKeyEntries(menu);
+  menu->addSeparator();
   QAction* explain = menu->addAction(QStringLiteral("Explain"));
   const QAction* chosen = menu->exec(global);
   if (!menu) return;  // the row went while its menu was open

@@ -66,6 +66,8 @@ void SceneLink::onChanged(const ChangeEvent& event) {
     } else {
       pushProject();
     }
+  } else if (std::holds_alternative<TracksChanged>(event)) {
+    if (!isBroken()) m_engine.apply(SetTracks{m_document.project().tracks});
   } else if (std::holds_alternative<ViewChanged>(event)) {
     m_engine.apply(ShowFields{{m_document.project().view.colour}});
   } else if (stroke) {

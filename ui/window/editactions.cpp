@@ -3,6 +3,7 @@
 
 #include "ui/document/document.h"
 #include "ui/document/wallside.h"
+#include "ui/panels/inspector.h"
 #include "ui/panels/outliner.h"
 #include "ui/session/selection.h"
 #include "ui/window/actions.h"
@@ -28,6 +29,11 @@ void EditActions::makeMenu(QMenu* menu) {
                 {QKeySequence(QStringLiteral("Ctrl+D"))}, [this] { duplicateSelected(); });
   m_actions.add(menu, QStringLiteral("edit.delete"), QStringLiteral("Delete"), {QKeySequence(Qt::Key_Delete)},
                 [this] { deleteSelected(); });
+  m_actions.add(
+      menu, QStringLiteral("edit.key"), QStringLiteral("Set or remove a key"), {QKeySequence(Qt::Key_K)}, [this] {
+        if (!m_inspector.toggleKey())
+          m_notices.refuse(QStringLiteral("No key was set."), QStringLiteral("Point at the row of a parameter."));
+      });
   menu->addSeparator();
   menu->addAction(m_actions.find(QStringLiteral("edit.search")));
 }

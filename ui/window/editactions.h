@@ -10,6 +10,7 @@ namespace ps {
 
 class Actions;
 class Document;
+class Inspector;
 class Notices;
 class Outliner;
 class Selection;
@@ -17,8 +18,14 @@ class Selection;
 /// What is done with the scene's things: the menu Edit but for undo, and the walls.
 class EditActions {
  public:
-  EditActions(Document& document, Selection& selection, Outliner& outliner, const Actions& actions, Notices& notices)
-      : m_document(document), m_selection(selection), m_outliner(outliner), m_actions(actions), m_notices(notices) {}
+  EditActions(Document& document, Selection& selection, Outliner& outliner, Inspector& inspector,
+              const Actions& actions, Notices& notices)
+      : m_document(document),
+        m_selection(selection),
+        m_outliner(outliner),
+        m_inspector(inspector),
+        m_actions(actions),
+        m_notices(notices) {}
   void makeMenu(QMenu* menu);
   void makeWallMenu(QMenu* menu);
   void openItemMenu(const QPoint& global) const;  ///< of what is selected
@@ -30,6 +37,7 @@ class EditActions {
   Document& m_document;
   Selection& m_selection;
   Outliner& m_outliner;
+  Inspector& m_inspector;
   const Actions& m_actions;
   Notices& m_notices;
 };

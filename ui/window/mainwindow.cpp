@@ -156,7 +156,7 @@ void MainWindow::makeMiddle() {
 
 void MainWindow::makeMenus() {
   QMenuBar* bar = m_top->menus();
-  m_edit = std::make_unique<EditActions>(m_session->document(), *m_selection, *outliner(), m_actions, *m_notices);
+  m_edit = std::make_unique<EditActions>(m_session->document(), *m_selection, *outliner(), *m_inspector, m_actions, *m_notices);
   m_views = std::make_unique<ViewActions>(*m_session, viewport(), *m_layout, m_actions);
   m_sketch = std::make_unique<SketchActions>(*m_session, *m_tools, m_actions);
   m_files->makeMenu(bar->addMenu(QStringLiteral("File")), viewport());
@@ -218,6 +218,8 @@ void MainWindow::connectParts() {
     }
   });
   connect(m_notices, &Notices::rowWanted, this, [this](const Address& address) { revealParameter(address); });
+  connect(m_inspector, &Inspector::keyRefused, m_notices,
+          [this](const QString& problem) { m_notices->refuse(QStringLiteral("No key was set."), problem); });
   connect(m_files, &FileActions::startFailed, this, &MainWindow::startFailed);
   connect(m_layout, &WindowLayout::themeChanged, m_inspector, &Inspector::rebuild);
   connect(m_layout, &WindowLayout::themeChanged, outliner(), &Outliner::rebuild);

@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: Apache-2.0
+// Keys over time as hands set them: in the document, in a row, and in the real window.
+#include "core/io/projectio.h"
+#include "core/scene/track.h"
+#include "core/simulation/engine.h"
+#include "tests/ui/samplewindow.h"
+#include "ui/panels/inspector.h"
+
+#include <QtCore/QTimer>
+#include <QtGui/QContextMenuEvent>
+#include <QtGui/QUndoStack>
+#include <QtTest/QSignalSpy>
+#include <QtWidgets/QMenu>
+
+#include <cmath>
+
+using namespace ps;
+
+namespace {
+
+const Address kFloor{Owner::Wall, "floor", "temperature"};
+const QString kFloorKey = QStringLiteral("wall/floor/temperature");
+
+std::vector<double> timesOf(const Document& document, const Address& address) {
+  std::vector<double> times;
+  if (const Track* track = document.track(address)) {
+    for (const TrackKey& key : track->keys) times.push_back(key.time);
+  }
+  return times;
+}
+
+}  // namespace
+
+class TestKeys : public SampleWindowTest {
+  Q_OBJECT
+ private Q_SLOTS:
+  void initTestCase() {
+    open();
+    QVERIFY(m_window);
+    session().pause();
+  }
+  void init() { backToTheStart(); }
+
+  /// Each edit is a step; undone and done again, the project is the same to the byte.
+  void everyEditIsAStepThereAndBack() {
+    const auto text = [this] { return writeProject(document().project()); };
+    QUndoStack& stack = document().undoStack();
+    std::vector<std::string> states{text()};
+    const auto step = [&](const char* what, int index) {
+      QVERIFY2(text() != states.back() && stack.index() == index, what);
+      states.push_back(text());
+    };
+    QCOMPARE(document().putKey(kFloor, 2, 350), QString());
+    step("first key", 1);
+    QCOMPARE(document().putKey(kFloor, 0, 400), QString());
+    step("a key before it", 2);
+    QCOMPARE(document().putKey({Owner::Scene, "", "gravity"}, 1, 3), QString());
+    step("another parameter", 3);
+    document().beginGesture();
+    for (int k = 1; k <= 5; ++k) QCOMPARE(document().moveKey(kFloor, 1, 2 + 0.1 * k, 350 + k), QString());
+    document().endGesture();
+    step("a drag", 4);
+    QCOMPARE(document().setWay(kFloor, 0, ToNext::Smooth), QString());
+    step("another way", 5);
+    document().removeKey(kFloor, 0);
+    step("a key less", 6);
+    document().removeTrack(kFloor);
+    step("no keys", 7);
+    QVERIFY(!document().track(kFloor));
+    for (size_t k = states.size(); k-- > 1;) {
+      QCOMPARE(text(), states[k]);
+      stack.undo();
+    }
+    QCOMPARE(text(), states[0]);
+    for (size_t k = 1; k < states.size(); ++k) {
+      stack.redo();
+      QCOMPARE(text(), states[k]);
+    }
+  }
+
+  void aDragThatEndsWhereItBeganIsNoStep() {
+    QCOMPARE(document().putKey(kFloor, 1, 350), QString());
+    document().beginGesture();
+    QCOMPARE(document().moveKey(kFloor, 0, 2, 360), QString());
+    QCOMPARE(document().moveKey(kFloor, 0, 1, 350), QString());
+    document().endGesture();
+    QCOMPARE(document().undoStack().count(), 1);
+  }
+
+  void keysStayBetweenTheirNeighboursAndInRange() {
+    for (const double time : {0.0, 1.0, 2.0}) QCOMPARE(document().putKey(kFloor, time, 350), QString());
+    QCOMPARE(document().moveKey(kFloor, 1, 7, 350), QString());
+    QVERIFY(timesOf(document(), kFloor)[1] < 2);
+    QCOMPARE(document().moveKey(kFloor, 1, -3, 350), QString());
+    QVERIFY(timesOf(document(), kFloor)[1] > 0);
+    QVERIFY(document().moveKey(kFloor, 1, 1, 1e9).contains(QStringLiteral("must be at most 10000 K")));
+    QVERIFY(document().putKey(kFloor, 1.5, -5).contains(QStringLiteral("must be at least 1 K")));
+    QVERIFY(document().putKey({Owner::Wall, "floor", "heat"}, 0, 1).contains(QStringLiteral("is a choice")));
+    QVERIFY(document().putKey({Owner::Body, "ice", "velocity_x"}, 0, 1).contains(QStringLiteral("not held in place")));
+    QVERIFY(document().putKey({Owner::Solver, "", "particle_spacing"}, 0, 0.02).contains(QStringLiteral("the start")));
+    QCOMPARE(document().undoStack().count(), 5);
+  }
+
+  /// A body that goes takes its tracks out of the file, and brings them back.
+  void tracksComeBackWithTheirOwner() {
+    const Address power{Owner::Body, "ice", "heating_power"};
+    QCOMPARE(document().putKey(power, 0, 100), QString());
+    const std::string before = writeProject(document().project());
+    QCOMPARE(document().removeBody("ice"), QString());
+    QVERIFY(writeProject(document().project()).find("tracks") == std::string::npos);
+    document().undoStack().undo();
+    QCOMPARE(writeProject(document().project()), before);
+  }
+
+  void theEngineGoesByWhatIsEdited() {
+    const auto floor = [this] {
+      return onEngine<double>(session(), [](Engine& engine) {
+        return std::get<double>(engine.project().environment.walls[0].parameters.values.at("temperature"));
+      });
+    };
+    const double own = std::get<double>(document().value(kFloor));
+    QCOMPARE(document().putKey(kFloor, 0, 300), QString());
+    QCOMPARE(floor(), 300.0);
+    document().undoStack().undo();
+    QCOMPARE(floor(), own);
+    document().undoStack().redo();
+    QCOMPARE(document().setParameter(kFloor, 555.0), QString());
+    QCOMPARE(floor(), 300.0);
+    document().removeTrack(kFloor);
+    QCOMPARE(floor(), 555.0);
+  }
+
+  /// As somebody would: K over a row, some frames on another value and K, and the row goes between the two.
+  void kOverARowSetsAndRemovesKeys() {
+    ParameterRow& row = *shownRow();
+    hover(row);
+    QCOMPARE(row.model().keyMark, KeyMark::None);
+    const double own = row.number();
+    QTest::keyClick(m_window.get(), Qt::Key_K);
+    QCOMPARE(timesOf(document(), kFloor), std::vector<double>{0});
+    QCOMPARE(row.model().keyMark, KeyMark::OnKey);
+    stepTo(30);
+    QTRY_COMPARE_WITH_TIMEOUT(row.model().keyMark, KeyMark::Between, kLong);
+    QCOMPARE(row.number(), own);
+    QVERIFY(row.enterNumber(own - 60));  // the row shows it until the next frame, and a key takes it
+    QTest::keyClick(m_window.get(), Qt::Key_K);
+    QCOMPARE(timesOf(document(), kFloor), (std::vector<double>{0, 0.5}));
+    QCOMPARE(document().track(kFloor)->keys[1].value, own - 60);
+    QCOMPARE(row.model().keyMark, KeyMark::OnKey);
+    session().reset();
+    QTRY_COMPARE_WITH_TIMEOUT(row.model().keyMark, KeyMark::OnKey, kLong);
+    QTRY_COMPARE_WITH_TIMEOUT(row.number(), own, kLong);
+    stepTo(15);
+    QTRY_VERIFY_WITH_TIMEOUT(std::abs(row.number() - (own - 30)) < 1e-9, kLong);
+    QCOMPARE(row.model().keyMark, KeyMark::Between);
+    picture("tst_keys_between.png");
+    stepTo(30);
+    QTRY_COMPARE_WITH_TIMEOUT(row.model().keyMark, KeyMark::OnKey, kLong);
+    picture("tst_keys_on.png");
+    hover(row);
+    QTest::keyClick(m_window.get(), Qt::Key_K);  // it is gone, and the one at the start holds
+    QCOMPARE(timesOf(document(), kFloor), std::vector<double>{0});
+    QCOMPARE(row.number(), own);
+  }
+
+  void aClickOnTheDiamondIsTheSame() {
+    ParameterRow& row = *shownRow();
+    hover(row);
+    QTest::mouseClick(&row, Qt::LeftButton, {}, row.keyRect().center());
+    QCOMPARE(timesOf(document(), kFloor), std::vector<double>{0});
+    QTest::mouseClick(&row, Qt::LeftButton, {}, row.keyRect().center());
+    QVERIFY(!document().track(kFloor));
+    QCOMPARE(document().undoStack().count(), 2);
+  }
+
+  void theMenuKnowsKeys() {
+    ParameterRow& row = *shownRow();
+    choose(row, {QStringLiteral("Set key")});
+    QCOMPARE(timesOf(document(), kFloor), std::vector<double>{0});
+    choose(row, {QStringLiteral("To the next key"), QStringLiteral("Smooth curve")});
+    QVERIFY(document().track(kFloor)->keys[0].toNext == ToNext::Smooth);
+    QVERIFY(row.model().way == ToNext::Smooth);
+    choose(row, {QStringLiteral("Remove all keys")});
+    QVERIFY(!document().track(kFloor));
+    QCOMPARE(row.model().keyMark, KeyMark::None);
+  }
+
+  void whatCannotHaveKeysSaysSo() {
+    ParameterRow& row = *m_window->findChild<Inspector*>()->scenePanel()->row(QStringLiteral("wall/floor/heat"));
+    QVERIFY(m_window->revealParameter({Owner::Wall, "floor", "heat"}));
+    hover(row);
+    QTest::keyClick(m_window.get(), Qt::Key_K);
+    QVERIFY(document().project().tracks.empty());
+    QTRY_VERIFY(m_window->notice()->isVisible());
+    QVERIFY2(m_window->notice()->text().contains(QStringLiteral("is a choice")),
+             qPrintable(m_window->notice()->text()));
+  }
+
+ private:
+  ParameterRow* shownRow() {
+    if (!m_window->revealParameter(kFloor, false)) return nullptr;
+    return m_window->findChild<Inspector*>()->scenePanel()->row(kFloorKey);
+  }
+  void hover(ParameterRow& row) {
+    for (const int x : {20, 24}) QTest::mouseMove(&row, QPoint(x, 12));
+    QTRY_VERIFY(row.isHovered());
+  }
+  void stepTo(uint64_t frame) {
+    while (session().snapshot()->stats.frame < frame) {
+      const uint64_t before = session().snapshot()->stats.frame;
+      session().step();
+      QTRY_VERIFY_WITH_TIMEOUT(session().snapshot()->stats.frame > before, kLong);
+    }
+  }
+  void choose(ParameterRow& row, const QStringList& way) {
+    QTimer::singleShot(0, &row, [&] {
+      auto* menu = qobject_cast<QMenu*>(QApplication::activePopupWidget());
+      QVERIFY(menu);
+      QAction* found = nullptr;
+      const QMenu* in = menu;
+      for (const QString& text : way) {
+        found = nullptr;
+        for (QAction* action : in->actions()) found = action->text() == text ? action : found;
+        QVERIFY2(found, qPrintable(text));
+        if (found->menu()) in = found->menu();
+      }
+      found->trigger();
+      menu->close();
+    });
+    QContextMenuEvent ask(QContextMenuEvent::Keyboard, QPoint(20, 10), row.mapToGlobal(QPoint(20, 10)));
+    QApplication::sendEvent(&row, &ask);
+  }
+  void picture(const char* name) {
+    const QString folder = qEnvironmentVariable("PS_TEST_PICTURES");
+    if (!folder.isEmpty()) m_window->grab().save(folder + QLatin1Char('/') + QLatin1String(name));
+  }
+};
+
+QTEST_MAIN(TestKeys)
+#include "tst_keys.moc"

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+// Keys over time in the inspector: rows set and remove them, and show what they give.
+#include "core/scene/track.h"
+#include "core/simulation/tracks.h"
+#include "ui/document/document.h"
+#include "ui/panels/inspector.h"
+#include "ui/rows/rowvalue.h"
+#include "ui/session/session.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace ps {
+
+double Inspector::now() const {
+  const SnapshotPtr snapshot = m_session.snapshot();
+  return snapshot ? snapshot->stats.time : 0;
+}
+
+bool Inspector::toggleKey() {
+  ParameterRow* wanted = nullptr;
+  for (const ParameterPanel* panel : panels()) {
+    if (!panel->isVisible()) continue;
+    for (ParameterRow* row : panel->rows()) {
+      if (row->isHovered() || (!wanted && row->hasFocus())) wanted = row;
+      if (row->isHovered()) break;
+    }
+  }
+  if (wanted) wanted->toggleKey();
+  return wanted != nullptr;
+}
+
+void Inspector::onKey(const QString& key, const Value& shown) {
+  const auto address = Address::parse(key.toStdString());
+  const api::ParameterDeclaration* declaration = address ? m_document.declaration(*address) : nullptr;
+  if (!declaration) return;
+  const Track* track = m_document.track(*address);
+  const auto here = track ? keyAt(track->keys, now(), m_document.keySlack()) : std::nullopt;
+  if (here) {
+    m_document.removeKey(*address, *here);
+    return;
+  }
+  const QString problem = m_document.putKey(*address, now(), numberOfValue(*declaration, shown, 293.15));
+  if (!problem.isEmpty()) Q_EMIT keyRefused(problem);
+}
+
+void Inspector::onWay(const QString& key, ToNext way) {
+  const auto address = Address::parse(key.toStdString());
+  const Track* track = address ? m_document.track(*address) : nullptr;
+  if (track) m_document.setWay(*address, keyBehind(track->keys, now(), m_document.keySlack()), way);
+}
+
+void Inspector::showTracks() {
+  m_shownAt = now();
+  std::set<std::string> tracked;
+  for (const Track& track : m_document.project().tracks) {
+    tracked.insert(track.parameter);
+    showTrack(track);
+  }
+  for (const std::string& gone : std::exchange(m_tracked, tracked)) {
+    const auto address = Address::parse(gone);
+    if (tracked.contains(gone) || !address) continue;
+    const QString key = QString::fromStdString(gone);
+    for (ParameterPanel* panel : panels()) {
+      panel->setKeyMark(key, KeyMark::None, ToNext::Linear);
+      panel->setValue(key, m_document.value(*address));
+    }
+  }
+}
+
+void Inspector::showTrack(const Track& track) {
+  const auto address = Address::parse(track.parameter);
+  const api::ParameterDeclaration* declaration = address ? m_document.declaration(*address) : nullptr;
+  if (!declaration || track.keys.empty()) return;
+  const double slack = m_document.keySlack();
+  const bool onKey = keyAt(track.keys, m_shownAt, slack).has_value();
+  const ToNext way = track.keys[keyBehind(track.keys, m_shownAt, slack)].toNext;
+  const double dt = 2 * slack;
+  const auto given = trackValue(track.keys, m_shownAt, ps::keySlack(dt));
+  const bool acts = m_document.whyNoKeys(*address).isEmpty();
+  const Value value = given && acts ? valueOfKey(*given, *declaration) : m_document.value(*address);
+  const QString key = QString::fromStdString(track.parameter);
+  for (ParameterPanel* panel : panels()) {
+    panel->setKeyMark(key, onKey ? KeyMark::OnKey : KeyMark::Between, way);
+    panel->setValue(key, value);
+  }
+}
+
+}  // namespace ps

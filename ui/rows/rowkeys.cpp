@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+// The last column of a row: where its parameter stands among its keys over time.
+#include "core/scene/track.h"
+#include "ui/rows/parameterrow_p.h"
+#include "ui/theme/paint.h"
+#include "ui/theme/theme.h"
+
+#include <QtCore/QMetaMethod>
+#include <QtGui/QAction>
+#include <QtGui/QActionGroup>
+#include <QtGui/QPainter>
+#include <QtWidgets/QMenu>
+
+namespace ps {
+namespace {
+
+constexpr int kKeyColumn = 14, kKeyRight = 2;
+constexpr double kDiamond = 4.5;  ///< half its width
+
+QString wayText(ToNext way) {
+  switch (way) {
+    case ToNext::Step:
+      return QStringLiteral("Hold its value");
+    case ToNext::Linear:
+      return QStringLiteral("Straight line");
+    case ToNext::Smooth:
+      return QStringLiteral("Smooth curve");
+  }
+  return {};
+}
+
+}  // namespace
+
+void paintDiamond(QPainter& painter, const QPointF& centre, double half, const QColor& colour, bool filled) {
+  painter.save();
+  painter.setRenderHint(QPainter::Antialiasing);
+  painter.setPen(QPen(colour, 1.35, Qt::SolidLine, Qt::RoundCap, Qt::MiterJoin));
+  painter.setBrush(filled ? QBrush(colour) : QBrush(Qt::NoBrush));
+  const QPointF corners[] = {centre + QPointF(0, -half), centre + QPointF(half, 0), centre + QPointF(0, half),
+                             centre + QPointF(-half, 0)};
+  painter.drawPolygon(corners, 4);
+  painter.restore();
+}
+
+void ParameterRow::setKeyMark(KeyMark mark, ToNext way) {
+  if (mark == d->model.keyMark && way == d->model.way) return;
+  d->model.keyMark = mark;
+  d->model.way = way;
+  update();
+}
+
+bool ParameterRow::isHovered() const { return d->hover; }
+
+void ParameterRow::toggleKey() {
+  if (!d->offersKeys()) return;
+  finishEditing();
+  Q_EMIT keyToggled(key(), d->model.value);
+}
+
+bool ParameterRow::Private::offersKeys() const {
+  return q->isSignalConnected(QMetaMethod::fromSignal(&ParameterRow::keyToggled));
+}
+
+/// By its declaration and value alone; whoever listens may know more.
+bool ParameterRow::Private::takesKeys() const {
+  return offersKeys() && isEditable() && !model.mixed && !showsCurve() &&
+         declaration().kind != api::ParameterKind::Choice && declaration().actsAt != api::ActsAt::NextReset;
+}
+
+QRect ParameterRow::keyRect() const {
+  return {width() - kKeyRight - kKeyColumn, (kRowHeight - kKeyColumn) / 2, kKeyColumn, kKeyColumn};
+}
+
+void ParameterRow::Private::paintKey(QPainter& painter) const {
+  const bool keyed = model.keyMark != KeyMark::None;
+  if (!keyed && !(hover && takesKeys())) return;  // where a click would set the first
+  const QPointF centre = QRectF(q->keyRect()).center();
+  const Token token = !model.disabledReason.isEmpty() ? Token::Disabled : keyed ? Token::Keyframe : Token::Muted;
+  paintDiamond(painter, centre, kDiamond, Theme::current()[token], model.keyMark == KeyMark::OnKey);
+}
+
+QString ParameterRow::Private::keyText() const {
+  if (!takesKeys()) return {};
+  switch (model.keyMark) {
+    case KeyMark::OnKey:
+      return QStringLiteral("This time has a key; K removes it.");
+    case KeyMark::Between:
+      return QStringLiteral("The value goes by its keys; K sets one at this time.");
+    case KeyMark::None:
+      break;
+  }
+  return QStringLiteral("K sets a key at this time.");
+}
+
+void ParameterRow::Private::addKeyEntries(QMenu* menu) {
+  if (!takesKeys() && model.keyMark == KeyMark::None) return;
+  menu->addSeparator();
+  if (takesKeys()) {
+    QAction* key =
+        menu->addAction(model.keyMark == KeyMark::OnKey ? QStringLiteral("Remove key") : QStringLiteral("Set key"));
+    QObject::connect(key, &QAction::triggered, q, &ParameterRow::toggleKey);
+  }
+  if (model.keyMark == KeyMark::None) return;
+  if (declaration().kind != api::ParameterKind::Toggle) {
+    QMenu* ways = menu->addMenu(QStringLiteral("To the next key"));
+    auto* group = new QActionGroup(ways);
+    for (const ToNext way : {ToNext::Step, ToNext::Linear, ToNext::Smooth}) {
+      QAction* action = ways->addAction(wayText(way));
+      action->setCheckable(true);
+      action->setChecked(way == model.way);
+      group->addAction(action);
+      QObject::connect(action, &QAction::triggered, q, [this, way] { Q_EMIT q->wayChosen(model.key, way); });
+    }
+  }
+  QAction* all = menu->addAction(QStringLiteral("Remove all keys"));
+  QObject::connect(all, &QAction::triggered, q, [this] { Q_EMIT q->keysRemoved(model.key); });
+}
+
+}  // namespace ps
