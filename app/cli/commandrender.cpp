@@ -7,6 +7,7 @@
 #include "core/io/recording.h"
 #include "core/matter/material.h"
 #include "core/plugin_host/registry.h"
+#include "core/simulation/tracks.h"
 #include "ui/render/framing.h"
 
 #include <algorithm>
@@ -99,7 +100,11 @@ class Painter {
  public:
   Painter(const Project& project, const PluginRegistry& plugins, const std::string& colour, const Arguments& arguments,
           long every)
-      : m_look(lookFor(project, plugins, colour)), m_size(sizeOf(arguments)), m_scene{project.environment} {
+      : m_project(project),
+        m_plugins(plugins),
+        m_look(lookFor(project, plugins, colour)),
+        m_size(sizeOf(arguments)),
+        m_scene{project.environment} {
     if (const auto& own = project.view.camera) m_camera = {own->target, own->distance, own->azimuth, own->elevation};
     const std::string out = arguments.text("--out");
     const double rate = 1 / (frameLength(project) * static_cast<double>(every));
@@ -110,6 +115,7 @@ class Painter {
   void draw(const Snapshot& snapshot, long frame) {
     // One view for the whole film: what it begins with.
     if (!m_camera) m_camera = cameraShowing(snapshot, m_scene.environment, m_size.width, m_size.height);
+    m_scene.environment = environmentAt(m_project, &m_plugins, snapshot.stats.time);
     m_renderer->prepare(snapshot, nullptr, 1, m_scene, m_look);
     m_sink->add(renderImage(*m_renderer, eyeOf(*m_camera, m_size.width, m_size.height), m_size), frame);
     ++m_pictures;
@@ -120,6 +126,8 @@ class Painter {
   }
 
  private:
+  const Project& m_project;
+  const PluginRegistry& m_plugins;
   Look m_look;
   PictureSize m_size;
   std::optional<Camera> m_camera;  // the project's own

@@ -60,6 +60,26 @@ Value valueOfKey(double number, const api::ParameterDeclaration& declaration) {
   return declaration.kind == api::ParameterKind::Response ? Value(Response(value)) : Value(value);
 }
 
+Environment environmentAt(const Project& project, const PluginRegistry* plugins, double time) {
+  Project around;  // without the bodies, which may be long lists
+  around.environment = project.environment;
+  around.solver.thermalModel = project.solver.thermalModel;
+  for (const Track& track : project.tracks) {
+    const std::optional<Address> address = Address::parse(track.parameter);
+    if (address && (address->owner == Owner::Wall || address->owner == Owner::Environment))
+      around.tracks.push_back(track);
+  }
+  if (around.tracks.empty() || !plugins) return around.environment;
+  TrackOverlay overlay;
+  Touched nothing;
+  overlay.bind(
+      around, *plugins, [](const std::string&) { return false; }, nothing);
+  const double dt = numberOf(project.solver.parameters, solverParameters(), "dt");
+  overlay.advance(around, time, keySlack(dt), nothing);
+  overlay.lay(around);
+  return around.environment;
+}
+
 void TrackOverlay::bind(const Project& project, const PluginRegistry& plugins, const IsFixed& isFixed,
                         Touched& dropped) {
   std::vector<Laid> before = std::exchange(m_tracks, {});

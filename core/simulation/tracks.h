@@ -26,6 +26,9 @@ Value valueOfKey(double number, const api::ParameterDeclaration& declaration);
 /// s by which a key may lie behind the clock of frames that are `dt` s long and count as reached.
 inline double keySlack(double dt) { return 1e-4 * dt; }
 
+/// A project's environment as its tracks have it at a time in s: what is drawn and shown of walls and air then.
+Environment environmentAt(const Project& project, const PluginRegistry* plugins, double time);
+
 /// The values of tracks laid over those of a living project, which it can lift off again: what the document says of an
 /// animated parameter is not lost, and holds where no track does. A track that has no place in the project (its owner
 /// has gone, or it cannot act while the scene runs) waits and does nothing.

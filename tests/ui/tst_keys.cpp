@@ -5,12 +5,16 @@
 #include "core/simulation/engine.h"
 #include "tests/ui/samplewindow.h"
 #include "ui/panels/inspector.h"
+#include "ui/panels/outliner.h"
+#include "ui/timeline/keyrows.h"
 
 #include <QtCore/QTimer>
 #include <QtGui/QContextMenuEvent>
 #include <QtGui/QUndoStack>
 #include <QtTest/QSignalSpy>
+#include <QtWidgets/QDockWidget>
 #include <QtWidgets/QMenu>
+#include <QtWidgets/QTreeView>
 
 #include <cmath>
 
@@ -153,6 +157,7 @@ class TestKeys : public SampleWindowTest {
     stepTo(15);
     QTRY_VERIFY_WITH_TIMEOUT(std::abs(row.number() - (own - 30)) < 1e-9, kLong);
     QCOMPARE(row.model().keyMark, KeyMark::Between);
+    QTRY_VERIFY_WITH_TIMEOUT(outlined(QStringLiteral("Hot plate")) == QStringLiteral("117 °C"), kLong);
     picture("tst_keys_between.png");
     stepTo(30);
     QTRY_COMPARE_WITH_TIMEOUT(row.model().keyMark, KeyMark::OnKey, kLong);
@@ -185,6 +190,63 @@ class TestKeys : public SampleWindowTest {
     QCOMPARE(row.model().keyMark, KeyMark::None);
   }
 
+  /// A row for each animated parameter; where there is none, no room is taken.
+  void theTimelineHasARowOfKeysForEach() {
+    QVERIFY(!rows().isVisible());
+    const auto* dock = m_window->findChild<QDockWidget*>(QStringLiteral("dock.transport"));
+    const int without = dock->height();
+    QCOMPARE(document().putKey(kFloor, 0, 400), QString());
+    QCOMPARE(document().putKey(kFloor, 20, 300), QString());
+    QTRY_COMPARE(rows().height(), KeyRows::kRuler + KeyRows::kRow);
+    QCOMPARE(document().putKey({Owner::Scene, "", "gravity"}, 10, 3), QString());
+    QTRY_COMPARE(rows().height(), KeyRows::kRuler + 2 * KeyRows::kRow);
+    QTRY_VERIFY(rows().isVisible() && rows().visibleRegion().boundingRect() == rows().rect());
+    picture("tst_keys_timeline.png");
+    document().removeTrack(kFloor);
+    document().removeTrack({Owner::Scene, "", "gravity"});
+    QTRY_VERIFY(!rows().isVisible());
+    QTRY_COMPARE(dock->height(), without);
+  }
+
+  void aKeyIsDraggedSetAndDeletedInItsRow() {
+    QCOMPARE(document().putKey(kFloor, 0, 400), QString());
+    QCOMPARE(document().putKey(kFloor, 20, 300), QString());
+    QTRY_VERIFY(rows().isVisible());
+    const int steps = document().undoStack().count();
+    const QPoint from = rows().placeOf(kFloor, 1), to(static_cast<int>(rows().xOf(40)), from.y());
+    QTest::mousePress(&rows(), Qt::LeftButton, {}, from);
+    for (int k = 1; k <= 4; ++k) QTest::mouseMove(&rows(), from + (to - from) * k / 4);
+    QTest::mouseRelease(&rows(), Qt::LeftButton, {}, to);
+    QCOMPARE(document().undoStack().count(), steps + 1);
+    const double moved = timesOf(document(), kFloor)[1];
+    QVERIFY(std::abs(moved - 40) < 60.0 / (rows().width() - KeyRows::kLabel) + 1.0 / 60);  // a pixel, and the frame
+    QVERIFY(std::abs(moved * 60 - std::round(moved * 60)) < 1e-3);
+    QCOMPARE(document().track(kFloor)->keys[1].value, 300.0);
+    QVERIFY(rows().chosen() && rows().chosen()->key == 1);
+    // Escape takes a drag back.
+    const std::string before = writeProject(document().project());
+    QTest::mousePress(&rows(), Qt::LeftButton, {}, rows().placeOf(kFloor, 1));
+    QTest::mouseMove(&rows(), from + QPoint(-30, 0));
+    QVERIFY(writeProject(document().project()) != before);
+    QTest::keyClick(&rows(), Qt::Key_Escape);
+    QTest::mouseRelease(&rows(), Qt::LeftButton, {}, from);
+    QCOMPARE(writeProject(document().project()), before);
+    QCOMPARE(document().undoStack().count(), steps + 1);
+    // A double-click between the two sets one on their line.
+    const QPoint middle(static_cast<int>(rows().xOf(moved / 2)), from.y());
+    QTest::mouseDClick(&rows(), Qt::LeftButton, {}, middle);
+    QCOMPARE(timesOf(document(), kFloor).size(), size_t{3});
+    const TrackKey key = document().track(kFloor)->keys[1];
+    QVERIFY(std::abs(key.value - (400 - 100 * key.time / moved)) < 1e-6);
+    QVERIFY(rows().chosen() && rows().chosen()->key == 1);
+    rows().setFocus();
+    QTest::keyClick(&rows(), Qt::Key_Delete);
+    QCOMPARE(timesOf(document(), kFloor), (std::vector<double>{0, moved}));
+    QVERIFY(document().body("ice"));  // what is selected in the scene stays
+    while (document().undoStack().count() > 0 && document().undoStack().canUndo()) document().undoStack().undo();
+    QVERIFY(document().project().tracks.empty());
+  }
+
   void whatCannotHaveKeysSaysSo() {
     ParameterRow& row = *m_window->findChild<Inspector*>()->scenePanel()->row(QStringLiteral("wall/floor/heat"));
     QVERIFY(m_window->revealParameter({Owner::Wall, "floor", "heat"}));
@@ -197,6 +259,13 @@ class TestKeys : public SampleWindowTest {
   }
 
  private:
+  KeyRows& rows() { return *m_window->findChild<KeyRows*>(); }
+  /// What stands beside a name in the outliner.
+  QString outlined(const QString& name) {
+    const QAbstractItemModel* model = m_window->outliner()->findChild<QTreeView*>()->model();
+    const QModelIndexList found = model->match(model->index(0, 0), Qt::DisplayRole, name, 1, Qt::MatchRecursive);
+    return found.isEmpty() ? QString() : found[0].data(outline::kDetail).toString();
+  }
   ParameterRow* shownRow() {
     if (!m_window->revealParameter(kFloor, false)) return nullptr;
     return m_window->findChild<Inspector*>()->scenePanel()->row(kFloorKey);

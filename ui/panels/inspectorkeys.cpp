@@ -12,10 +12,7 @@
 
 namespace ps {
 
-double Inspector::now() const {
-  const SnapshotPtr snapshot = m_session.snapshot();
-  return snapshot ? snapshot->stats.time : 0;
-}
+double Inspector::now() const { return m_session.now(); }
 
 bool Inspector::toggleKey() {
   ParameterRow* wanted = nullptr;

@@ -128,23 +128,10 @@ void Outliner::rebuild() {
     add(scene, OutlineKind::Sink, sink.id, nameOf(sink), QStringLiteral("drain"));
   }
   for (const SceneWall& wall : project.environment.walls) {
-    const bool held = hasTemperature(wall);
-    QStandardItem* item =
-        add(scene, OutlineKind::Wall, wall.id, nameOf(wall), held ? QStringLiteral("plate") : QStringLiteral("wall"));
-    if (held) {
-      const auto* declaration = findDeclaration(wallParameters(), "temperature");
-      item->setData(formatQuantity(toDisplay(*declaration, numberOf(wall.parameters, wallParameters(), "temperature")),
-                                   QStringLiteral("°C"), 3),
-                    outline::kDetail);
-    }
+    add(scene, OutlineKind::Wall, wall.id, nameOf(wall),
+        hasTemperature(wall) ? QStringLiteral("plate") : QStringLiteral("wall"));
   }
-  QStandardItem* air =
-      add(scene, OutlineKind::Environment, "", QStringLiteral("Air and gravity"), QStringLiteral("air"));
-  const auto* ambient = findDeclaration(environmentParameters(), "ambient_temperature");
-  air->setData(formatQuantity(toDisplay(*ambient, numberOf(project.environment.parameters, environmentParameters(),
-                                                           "ambient_temperature")),
-                              QStringLiteral("°C"), 3),
-               outline::kDetail);
+  add(scene, OutlineKind::Environment, "", QStringLiteral("Air and gravity"), QStringLiteral("air"));
   if (!project.probes.empty()) {
     QStandardItem* probes = add(scene, OutlineKind::Probes, "", QStringLiteral("Probes"), QStringLiteral("folder"));
     for (const Probe& probe : project.probes) {
@@ -152,6 +139,7 @@ void Outliner::rebuild() {
     }
   }
   m_view->expandAll();
+  refreshSurroundings();
   refreshCounts();
   m_building = false;
   showSelection();
@@ -163,14 +151,28 @@ void Outliner::onChanged(const ChangeEvent& event) {
   const bool shows =
       std::holds_alternative<ProjectOpened>(event) || std::holds_alternative<BodyChanged>(event) ||
       std::holds_alternative<StrokeChanged>(event) || std::holds_alternative<WallsChanged>(event) ||
-      (port && !port->moved) ||
+      (port && !port->moved) || std::holds_alternative<TracksChanged>(event) ||
       (parameter && (parameter->address.owner == Owner::Wall || parameter->address.owner == Owner::Environment));
   if (shows) rebuild();
 }
 
 void Outliner::readValues() {
   m_snapshot = m_session.snapshot();
+  if (!m_document.project().tracks.empty()) refreshSurroundings();
   refreshCounts();
+}
+
+/// Temperatures of walls and air, as their tracks have them now.
+void Outliner::refreshSurroundings() {
+  const Environment now = m_session.surroundings();
+  const auto show = [](QStandardItem* item, const ParameterSet& set, api::ParameterList list, const char* key) {
+    const double shown = toDisplay(*findDeclaration(list, key), numberOf(set, list, key));
+    if (item) item->setData(formatQuantity(shown, QStringLiteral("°C"), 3), outline::kDetail);
+  };
+  for (const SceneWall& wall : now.walls) {
+    if (hasTemperature(wall)) show(find(OutlineKind::Wall, wall.id), wall.parameters, wallParameters(), "temperature");
+  }
+  show(find(OutlineKind::Environment, ""), now.parameters, environmentParameters(), "ambient_temperature");
 }
 
 void Outliner::refreshCounts() {

@@ -50,6 +50,7 @@ class Outliner : public QWidget {
   void onChanged(const ChangeEvent& event);
   void showSelection();
   void readValues();  ///< counts, probe values
+  void refreshSurroundings();
   void refreshCounts();
   QStandardItem* find(OutlineKind kind, const std::string& id) const;
 

@@ -110,9 +110,6 @@ struct ParameterRow::Private {
   void paintKey(QPainter& painter) const;
 };
 
-/// A key over time.
-void paintDiamond(QPainter& painter, const QPointF& centre, double half, const QColor& colour, bool filled);
-
 /// Makes rows known to assistive technology; may be called often.
 void installRowAccessibility();
 

@@ -31,17 +31,6 @@ QString wayText(ToNext way) {
 
 }  // namespace
 
-void paintDiamond(QPainter& painter, const QPointF& centre, double half, const QColor& colour, bool filled) {
-  painter.save();
-  painter.setRenderHint(QPainter::Antialiasing);
-  painter.setPen(QPen(colour, 1.35, Qt::SolidLine, Qt::RoundCap, Qt::MiterJoin));
-  painter.setBrush(filled ? QBrush(colour) : QBrush(Qt::NoBrush));
-  const QPointF corners[] = {centre + QPointF(0, -half), centre + QPointF(half, 0), centre + QPointF(0, half),
-                             centre + QPointF(-half, 0)};
-  painter.drawPolygon(corners, 4);
-  painter.restore();
-}
-
 void ParameterRow::setKeyMark(KeyMark mark, ToNext way) {
   if (mark == d->model.keyMark && way == d->model.way) return;
   d->model.keyMark = mark;

@@ -7,6 +7,7 @@
 #include "core/simulation/enginethread.h"
 #include "core/simulation/particlefield.h"
 #include "core/simulation/projectstate.h"
+#include "core/simulation/tracks.h"
 #include "ui/document/document.h"
 #include "ui/session/documentfiles.h"
 #include "ui/session/scenelink.h"
@@ -141,6 +142,13 @@ void Session::tellValues() {
   Q_EMIT valuesDue();
   if (!m_totals.isActive()) m_totals.start();
 }
+
+double Session::now() const {
+  const SnapshotPtr newest = snapshot();
+  return newest ? newest->stats.time : 0;
+}
+
+Environment Session::surroundings() const { return environmentAt(m_document->project(), m_document->plugins(), now()); }
 
 SnapshotPtr Session::snapshot() const { return m_engine ? m_engine->snapshot() : nullptr; }
 bool Session::playing() const { return m_engine && m_engine->playing(); }

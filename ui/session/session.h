@@ -54,6 +54,8 @@ class Session : public QObject {
   Transitions& transitions() { return *m_transitions; }
 
   SnapshotPtr snapshot() const;
+  double now() const;                ///< s, of the newest snapshot
+  Environment surroundings() const;  ///< walls and air, as tracks have them now
   void playPause();
   void play();
   void pause();

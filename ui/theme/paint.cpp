@@ -117,4 +117,15 @@ void paintSwitch(QPainter& painter, const QRectF& rect, bool on, bool enabled) {
   painter.restore();
 }
 
+void paintDiamond(QPainter& painter, const QPointF& centre, double half, const QColor& colour, bool filled) {
+  painter.save();
+  painter.setRenderHint(QPainter::Antialiasing);
+  painter.setPen(QPen(colour, 1.35, Qt::SolidLine, Qt::RoundCap, Qt::MiterJoin));
+  painter.setBrush(filled ? QBrush(colour) : QBrush(Qt::NoBrush));
+  const QPointF corners[] = {centre + QPointF(0, -half), centre + QPointF(half, 0), centre + QPointF(0, half),
+                             centre + QPointF(-half, 0)};
+  painter.drawPolygon(corners, 4);
+  painter.restore();
+}
+
 }  // namespace ps

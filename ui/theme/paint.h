@@ -31,5 +31,7 @@ double textWidth(const QString& text, const QFont& font);
 void paintSymbol(QPainter& painter, const QRectF& rect, const QString& symbol, const QColor& colour);
 /// The switch of a toggle.
 void paintSwitch(QPainter& painter, const QRectF& rect, bool on, bool enabled);
+/// A key over time; `half` its width, logical pixels.
+void paintDiamond(QPainter& painter, const QPointF& centre, double half, const QColor& colour, bool filled);
 
 }  // namespace ps

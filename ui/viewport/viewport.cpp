@@ -93,7 +93,7 @@ void Viewport::onChanged(const ChangeEvent& event) {
   if (std::holds_alternative<ProjectOpened>(event)) {
     projectOpened();
   } else if (std::holds_alternative<BodyChanged>(event) || std::holds_alternative<StrokeChanged>(event) ||
-             std::holds_alternative<WallsChanged>(event)) {
+             std::holds_alternative<WallsChanged>(event) || std::holds_alternative<TracksChanged>(event)) {
     bodiesChanged();
   } else if (const auto* parameter = std::get_if<ParameterChanged>(&event)) {
     if (parameter->address.owner == Owner::Wall) bodiesChanged();
@@ -147,6 +147,7 @@ void Viewport::snapshotArrived() {
   m_previous = withoutBodies(m_session.engine()->previousSnapshot(), m_hidden);
   m_interval = m_sinceSnapshot.isValid() ? std::min<double>(200, static_cast<double>(m_sinceSnapshot.elapsed())) : 0;
   m_sinceSnapshot.start();
+  if (!m_document.project().tracks.empty()) m_scene.environment = m_session.surroundings();
   requestPaint();
 }
 
@@ -326,7 +327,7 @@ void Viewport::projectOpened() {
 }
 
 void Viewport::bodiesChanged() {
-  m_scene.environment = m_document.project().environment;
+  m_scene.environment = m_session.surroundings();
   m_shown.reset();
   m_hidden.clear();
   for (const Body& body : m_document.project().bodies) {

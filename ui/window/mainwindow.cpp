@@ -13,6 +13,7 @@
 #include "ui/session/messagelog.h"
 #include "ui/session/selection.h"
 #include "ui/theme/plaintext.h"
+#include "ui/timeline/keyrows.h"
 #include "ui/timeline/transport.h"
 #include "ui/tools/toolbox.h"
 #include "ui/tools/tooltable.h"
@@ -156,7 +157,8 @@ void MainWindow::makeMiddle() {
 
 void MainWindow::makeMenus() {
   QMenuBar* bar = m_top->menus();
-  m_edit = std::make_unique<EditActions>(m_session->document(), *m_selection, *outliner(), *m_inspector, m_actions, *m_notices);
+  m_edit = std::make_unique<EditActions>(m_session->document(), *m_selection, *outliner(), *m_inspector, m_actions,
+                                         *m_notices);
   m_views = std::make_unique<ViewActions>(*m_session, viewport(), *m_layout, m_actions);
   m_sketch = std::make_unique<SketchActions>(*m_session, *m_tools, m_actions);
   m_files->makeMenu(bar->addMenu(QStringLiteral("File")), viewport());
@@ -219,6 +221,8 @@ void MainWindow::connectParts() {
   });
   connect(m_notices, &Notices::rowWanted, this, [this](const Address& address) { revealParameter(address); });
   connect(m_inspector, &Inspector::keyRefused, m_notices,
+          [this](const QString& problem) { m_notices->refuse(QStringLiteral("No key was set."), problem); });
+  connect(findChild<KeyRows*>(), &KeyRows::refused, m_notices,
           [this](const QString& problem) { m_notices->refuse(QStringLiteral("No key was set."), problem); });
   connect(m_files, &FileActions::startFailed, this, &MainWindow::startFailed);
   connect(m_layout, &WindowLayout::themeChanged, m_inspector, &Inspector::rebuild);

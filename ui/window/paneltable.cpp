@@ -9,7 +9,7 @@
 #include "ui/panels/messagespage.h"
 #include "ui/panels/outliner.h"
 #include "ui/session/session.h"
-#include "ui/timeline/transport.h"
+#include "ui/timeline/timeline.h"
 
 #include <QtWidgets/QScrollArea>
 
@@ -45,7 +45,7 @@ const std::vector<PanelRow>& panelTable() {
       {"dock.graphs", "Graphs", [](Context c) -> QWidget* { return new GraphsPanel(c.session); }},
       {"dock.graphs", "Energy", [](Context c) -> QWidget* { return new EnergyPanel(c.session); }},
       {"dock.graphs", "Messages", [](Context c) -> QWidget* { return new MessagesPage(c.session.log()); }},
-      {"dock.transport", "Transport", [](Context c) -> QWidget* { return new Transport(c.session); }},
+      {"dock.transport", "Transport", [](Context c) -> QWidget* { return new Timeline(c.session); }},
   };
   return kTable;
 }

@@ -2,6 +2,7 @@
 #include "ui/window/windowlayout.h"
 
 #include "ui/theme/theme.h"
+#include "ui/timeline/timeline.h"
 #include "ui/viewport/viewport.h"
 #include "ui/window/dock.h"
 #include "ui/window/paneltable.h"
@@ -50,6 +51,11 @@ void WindowLayout::makeDocks(const PanelContext& context, Viewport* view) {
   Dock* transport = m_docks.back();
   transport->setTitleBarWidget(new QWidget);
   transport->setFeatures(QDockWidget::NoDockWidgetFeatures);
+  if (auto* timeline = transport->findChild<Timeline*>()) {
+    transport->setFixedHeight(timeline->height());
+    connect(timeline, &Timeline::heightChanged, transport,
+            [transport](int height) { transport->setFixedHeight(height); });
+  }
 }
 
 Dock* WindowLayout::dock(const QString& name) const {
