@@ -24,8 +24,9 @@ TrackFinding unknownParameter(const Project& project, const std::string& text, c
 }
 
 /// Of keys as values of what they are keys of.
-std::vector<TrackFinding> valueFindings(const Project& project, const Track& track, const Address& address,
+std::vector<TrackFinding> valueFindings(const Project& project, const Track& track, const TrackTarget& target,
                                         const PluginRegistry& plugins) {
+  const Address& address = target.address;
   const api::ParameterDeclaration& declaration = *declarationOf(project, &plugins, address);
   for (size_t k = 0; k < track.keys.size(); ++k) {
     const std::string problem = problemOfKey(track.keys[k], declaration);
@@ -34,7 +35,7 @@ std::vector<TrackFinding> valueFindings(const Project& project, const Track& tra
     if (between && declaration.kind == api::ParameterKind::Toggle)
       return {{Weight::Mended, keyPointer(k) + "/to_next", "must be step: a switch has no values between on and off"}};
   }
-  for (size_t k = 0; k < track.keys.size(); ++k) {
+  for (size_t k = 0; k < track.keys.size() && !target.point; ++k) {
     const std::string broken =
         problemOfRelations(project, &plugins, address, valueOfKey(track.keys[k].value, declaration));
     if (!broken.empty()) return {{Weight::Told, keyPointer(k) + "/value", broken}};
@@ -48,16 +49,16 @@ std::vector<TrackFinding> findingsOf(const Project& project, const Track& track,
   if (track.keys.empty()) return {{Weight::Refused, "/keys", "must have a key at least, or leave the track out"}};
   if (const std::optional<KeyProblem> problem = problemOfKeys(track.keys))
     return {{Weight::Refused, keyPointer(problem->key) + "/time", problem->what}};
-  const std::optional<Address> address = Address::parse(track.parameter);
-  if (!address || !hasOwner(project, *address)) return {unknownParameter(project, track.parameter, plugins)};
-  if (declarationsOf(project, &plugins, *address).count == 0)
+  const std::optional<TrackTarget> target = TrackTarget::parse(track.parameter);
+  if (!target || !hasOwner(project, target->address)) return {unknownParameter(project, track.parameter, plugins)};
+  if (declarationsOf(project, &plugins, target->address).count == 0)
     return {{Weight::Told, "/parameter", "its plugin is not there; the track is kept and does nothing"}};
-  if (!declarationOf(project, &plugins, *address)) return {unknownParameter(project, track.parameter, plugins)};
-  if (const std::string why = whyNoKeys(project, &plugins, *address, true); !why.empty())
+  if (!declarationOf(project, &plugins, target->address)) return {unknownParameter(project, track.parameter, plugins)};
+  if (const std::string why = whyNoKeys(project, &plugins, *target, true); !why.empty())
     return {{Weight::Mended, "/parameter", why}};
-  if (const std::string why = whyNoKeys(project, &plugins, *address); !why.empty())
+  if (const std::string why = whyNoKeys(project, &plugins, *target); !why.empty())
     return {{Weight::Told, "/parameter", why + "; the track does nothing"}};
-  return valueFindings(project, track, *address, plugins);
+  return valueFindings(project, track, *target, plugins);
 }
 
 }  // namespace ps

@@ -45,7 +45,8 @@ const FieldTable<Track>& trackFields() {
       .help = "a parameter's values over time, from its first key on; before it, its value elsewhere in the file holds",
       .rows = {field("parameter", &Track::parameter, Text{500},
                      "address of what acts while the scene runs: "
-                     "wall/floor/temperature")
+                     "wall/floor/temperature; of a curve's point with its number behind it, counted from 0: "
+                     "material/wax/viscosity[2]")
                    .required(),
                field("keys", &Track::keys, List{Object{keyFields()}}, "in order of time, one at least").required()},
       .unknown = &Track::unknown};

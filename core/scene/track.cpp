@@ -5,8 +5,10 @@
 #include "core/parameters/parameterset.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <iterator>
+#include <system_error>
 
 namespace ps {
 namespace {
@@ -77,6 +79,23 @@ std::optional<KeyProblem> problemOfKeys(const std::vector<TrackKey>& keys) {
   return std::nullopt;
 }
 
+std::optional<TrackTarget> TrackTarget::parse(std::string_view parameter) {
+  TrackTarget target;
+  if (parameter.ends_with(']')) {
+    const size_t open = parameter.rfind('[');
+    const std::string_view digits = open == std::string_view::npos ? "" : parameter.substr(open + 1);
+    size_t point = 0;
+    const auto [end, problem] = std::from_chars(digits.data(), digits.data() + digits.size(), point);
+    if (problem != std::errc() || end + 1 != digits.data() + digits.size()) return std::nullopt;
+    target.point = point;
+    parameter = parameter.substr(0, open);
+  }
+  const std::optional<Address> address = Address::parse(parameter);
+  if (!address) return std::nullopt;
+  target.address = *address;
+  return target;
+}
+
 bool hasOwner(const Project& project, const Address& address) {
   return findSet(project, address) || outsideValue(project, address);
 }
@@ -84,8 +103,8 @@ bool hasOwner(const Project& project, const Address& address) {
 std::vector<Track> ownedTracks(const Project& project) {
   std::vector<Track> owned;
   std::copy_if(project.tracks.begin(), project.tracks.end(), std::back_inserter(owned), [&](const Track& track) {
-    const std::optional<Address> address = Address::parse(track.parameter);
-    return address && hasOwner(project, *address);
+    const std::optional<TrackTarget> target = TrackTarget::parse(track.parameter);
+    return target && hasOwner(project, target->address);
   });
   return owned;
 }

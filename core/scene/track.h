@@ -28,6 +28,14 @@ struct KeyProblem {
 };
 std::optional<KeyProblem> problemOfKeys(const std::vector<TrackKey>& keys);
 
+/// What a track animates: a parameter, or one point of a curve over temperature, whose address has the point's number
+/// in brackets behind it, counted from 0: "material/wax/viscosity[2]".
+struct TrackTarget {
+  Address address;  ///< without the point
+  std::optional<size_t> point{};
+  static std::optional<TrackTarget> parse(std::string_view parameter);
+};
+
 /// Whether the project has what an address is a parameter of, whatever declares it.
 bool hasOwner(const Project& project, const Address& address);
 /// Tracks of what the project has: those of a body that has gone wait for its return, and are not saved.

@@ -24,27 +24,35 @@ std::string whyNoKeysOf(const api::ParameterDeclaration& declaration) {
   return {};
 }
 
+std::string whyNoPoint(const std::string& label, const Response* response, size_t point) {
+  if (!response || response->kind != Response::Kind::Curve) return label + " is no curve; it has no points";
+  const size_t count = response->points.size();
+  if (point < count) return {};
+  return label + " has no point " + std::to_string(point) + "; it has " + std::to_string(count) + ", counted from 0";
+}
+
 }  // namespace
 
-std::string whyNoKeys(const Project& project, const PluginRegistry* plugins, const Address& address, bool whenFixed) {
+std::string whyNoKeys(const Project& project, const PluginRegistry* plugins, const TrackTarget& target,
+                      bool whenFixed) {
+  const Address& address = target.address;
   const api::ParameterDeclaration* declaration = declarationOf(project, plugins, address);
   if (!declaration || !hasOwner(project, address)) return "The scene has no parameter '" + address.text() + "'";
+  const std::string label = declaration->label;
   if (!adhesionPartner(address).empty() ||
       (address.owner == Owner::Scene && !pluginBehind(address.key, kHeatSourceKey).empty()))
-    return std::string(declaration->label) + " is part of what the scene is made of, which has no keys";
+    return label + " is part of what the scene is made of, which has no keys";
   if (const std::string why = whyNoKeysOf(*declaration); !why.empty()) return why;
-  if (declaration->kind == api::ParameterKind::Response) {
-    const Value value = valueAt(project, plugins, address);
-    const auto* response = std::get_if<Response>(&value);
-    if (response && response->kind != Response::Kind::Constant)
-      return std::string(declaration->label) + " is a curve; only a constant can have keys";
-  }
+  const Value value = valueAt(project, plugins, address);
+  const auto* response = std::get_if<Response>(&value);
+  if (target.point) return whyNoPoint(label, response, *target.point);
+  if (response && response->kind != Response::Kind::Constant)
+    return label + " is a curve; only a constant, or one of a curve's points, can have keys";
   if (declaration->actsAt != api::ActsAt::NextFrameIfFixed || whenFixed) return {};
   const auto body =
       std::find_if(project.bodies.begin(), project.bodies.end(), [&](const Body& b) { return b.id == address.id; });
   if (body != project.bodies.end() && toggleOf(body->parameters, bodyParameters(), "fixed")) return {};
-  return std::string(declaration->label) + " acts at the start of a body that is not held in place; keys lead bodies " +
-         "that are";
+  return label + " acts at the start of a body that is not held in place; keys lead bodies that are";
 }
 
 std::string problemOfKey(const TrackKey& key, const api::ParameterDeclaration& declaration) {
@@ -65,8 +73,8 @@ Environment environmentAt(const Project& project, const PluginRegistry* plugins,
   around.environment = project.environment;
   around.solver.thermalModel = project.solver.thermalModel;
   for (const Track& track : project.tracks) {
-    const std::optional<Address> address = Address::parse(track.parameter);
-    if (address && (address->owner == Owner::Wall || address->owner == Owner::Environment))
+    const std::optional<TrackTarget> target = TrackTarget::parse(track.parameter);
+    if (target && (target->address.owner == Owner::Wall || target->address.owner == Owner::Environment))
       around.tracks.push_back(track);
   }
   if (around.tracks.empty() || !plugins) return around.environment;
@@ -84,12 +92,15 @@ void TrackOverlay::bind(const Project& project, const PluginRegistry& plugins, c
                         Touched& dropped) {
   std::vector<Laid> before = std::exchange(m_tracks, {});
   for (size_t t = 0; t < project.tracks.size(); ++t) {
-    const std::optional<Address> address = Address::parse(project.tracks[t].parameter);
-    if (!address || !whyNoKeys(project, &plugins, *address, true).empty()) continue;
-    const api::ParameterDeclaration* declaration = declarationOf(project, &plugins, *address);
-    if (declaration->actsAt == api::ActsAt::NextFrameIfFixed && !isFixed(address->id)) continue;
-    const auto old = std::find_if(before.begin(), before.end(), [&](const Laid& l) { return l.address == *address; });
-    Laid laid{*address, declaration, t, std::nullopt};
+    const std::optional<TrackTarget> target = TrackTarget::parse(project.tracks[t].parameter);
+    if (!target || !whyNoKeys(project, &plugins, *target, true).empty()) continue;
+    const api::ParameterDeclaration* declaration = declarationOf(project, &plugins, target->address);
+    if (declaration->actsAt == api::ActsAt::NextFrameIfFixed && !isFixed(target->address.id)) continue;
+    const auto old = std::find_if(before.begin(), before.end(), [&](const Laid& l) {
+      return l.target.address == target->address && l.target.point == target->point;
+    });
+    Laid laid{*target, declaration, t, std::nullopt};
+    if (target->point) laid.curve = std::get<Response>(valueAt(project, &plugins, target->address));
     if (old != before.end()) {
       laid.given = old->given;
       before.erase(old);
@@ -97,7 +108,7 @@ void TrackOverlay::bind(const Project& project, const PluginRegistry& plugins, c
     m_tracks.push_back(std::move(laid));
   }
   for (const Laid& gone : before) {
-    if (gone.given) touch(gone.address, dropped);
+    if (gone.given) touch(gone.target.address, dropped);
   }
 }
 
@@ -117,7 +128,7 @@ void TrackOverlay::advance(const Project& project, size_t track, double time, do
   if (value == laid.given) return;
   laid.given = value;
   laid.refused.reset();
-  touch(laid.address, touched);
+  touch(laid.target.address, touched);
 }
 
 void TrackOverlay::advance(const Project& project, double time, double slack, Touched& touched) {
@@ -129,29 +140,41 @@ void TrackOverlay::refuse(const Project& project, size_t track, double time, dou
   m_tracks[track].why = why;
 }
 
+/// Of a point, the curve that holds otherwise, with this point elsewhere.
+Value TrackOverlay::valueOf(const Project& project, const Laid& laid) {
+  const Value value = valueOfKey(*laid.given, *laid.declaration);
+  if (!laid.target.point) return value;
+  const std::optional<Value> own = storedValue(project, laid.target.address);
+  const auto* stored = own ? std::get_if<Response>(&*own) : nullptr;
+  Response curve = stored ? *stored : laid.curve;
+  if (*laid.target.point < curve.points.size()) curve.points[*laid.target.point].y = responseOf(value).constant;
+  return curve;
+}
+
 void TrackOverlay::lay(Project& project) {
   for (Laid& laid : m_tracks) {
     if (!laid.given) continue;
-    laid.own = storedValue(project, laid.address);
+    const Address& address = laid.target.address;
+    const Value value = valueOf(project, laid);
+    laid.own = storedValue(project, address);
     laid.gravity = project.environment.gravity;
     laid.isLaid = true;
-    const Value value = valueOfKey(*laid.given, *laid.declaration);
-    if (!setOutsideValue(project, laid.address, value))
-      findSet(project, laid.address)->values[laid.address.key] = value;
+    if (!setOutsideValue(project, address, value)) findSet(project, address)->values[address.key] = value;
   }
 }
 
 void TrackOverlay::restore(Project& project, const Laid& laid) {
   if (!laid.isLaid) return;
-  ParameterSet* set = findSet(project, laid.address);
-  if (isGravity(laid.address)) {
+  const Address& address = laid.target.address;
+  ParameterSet* set = findSet(project, address);
+  if (isGravity(address)) {
     project.environment.gravity = laid.gravity;
-  } else if (laid.own && outsideValue(project, laid.address)) {
-    setOutsideValue(project, laid.address, *laid.own);
+  } else if (laid.own && outsideValue(project, address)) {
+    setOutsideValue(project, address, *laid.own);
   } else if (set && laid.own) {
-    set->values[laid.address.key] = *laid.own;
+    set->values[address.key] = *laid.own;
   } else if (set) {
-    set->values.erase(laid.address.key);
+    set->values.erase(address.key);
   }
 }
 
@@ -161,7 +184,8 @@ void TrackOverlay::lift(Project& project) {
 }
 
 void TrackOverlay::liftFrom(Project& copy) const {
-  for (const Laid& laid : m_tracks) restore(copy, laid);
+  // The last laid comes off first: several may be of one curve.
+  for (auto laid = m_tracks.rbegin(); laid != m_tracks.rend(); ++laid) restore(copy, *laid);
 }
 
 std::vector<Limit> TrackOverlay::limits() const {
@@ -169,7 +193,7 @@ std::vector<Limit> TrackOverlay::limits() const {
   for (const Laid& laid : m_tracks) {
     if (!laid.refused) continue;
     const double held = laid.given.value_or(laid.own ? responseOf(*laid.own).at(293.15) : 0);
-    Limit limit{laid.address.text(), *laid.refused, held, laid.declaration->unit};
+    Limit limit{laid.target.address.text(), *laid.refused, held, laid.declaration->unit};
     limit.why = laid.why;
     list.push_back(std::move(limit));
   }

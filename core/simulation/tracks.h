@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "core/scene/project.h"
+#include "core/scene/track.h"
 #include "core/simulation/edits.h"
 #include "core/solver/report.h"
 
@@ -14,9 +14,9 @@ namespace ps {
 
 class PluginRegistry;
 
-/// "" or why the value of an address can have no keys, as a sentence: "Shape acts at the start; ...". Of a body that is
-/// not held in place its motion has none either, which `whenFixed` leaves out.
-std::string whyNoKeys(const Project& project, const PluginRegistry* plugins, const Address& address,
+/// "" or why the value of an address, or a point of its curve, can have no keys, as a sentence: "Shape acts at the
+/// start; ...". Of a body that is not held in place its motion has none either, which `whenFixed` leaves out.
+std::string whyNoKeys(const Project& project, const PluginRegistry* plugins, const TrackTarget& target,
                       bool whenFixed = false);
 /// "" or why a key of a declared parameter may not have this value: "must be at most 10000 K, not 20000".
 std::string problemOfKey(const TrackKey& key, const api::ParameterDeclaration& declaration);
@@ -59,7 +59,7 @@ class TrackOverlay {
 
  private:
   struct Laid {
-    Address address;
+    TrackTarget target;
     const api::ParameterDeclaration* declaration = nullptr;
     size_t track = 0;                 ///< in Project::tracks
     std::optional<double> given;      ///< nothing: the document's value holds
@@ -67,10 +67,12 @@ class TrackOverlay {
     std::string why{};
     std::optional<Value> own{};  ///< the document's, while something is laid over it
     Vector3 gravity{0, 0, 0};    ///< m/s², likewise: strength alone does not say where it points
+    Response curve{};            ///< of a point, where the project says none: the installed material's
     bool isLaid = false;
   };
   std::optional<double> wanted(const Project& project, const Laid& laid, double time, double slack) const;
   static void restore(Project& project, const Laid& laid);
+  static Value valueOf(const Project& project, const Laid& laid);
 
   std::vector<Laid> m_tracks;
 };

@@ -26,6 +26,7 @@ class TestCli : public QObject {
   void whatWasPouredIsSummedUp();
   void probesHaveOneRowPerFrame();
   void sameProjectGivesTheSameHash();
+  void simulateGoesByTracks();
   void runsGoOnFromAState();
   void statesThatDoNotFitAreTold();
   void pluginsAreListed();
@@ -81,7 +82,7 @@ void TestCli::exitCodesAndOneLine_data() {
        R"(tracks=[{"parameter": "wall/flor/temperature", "keys": [{"time": 0, "value": 300}]}])"},
       2, "/tracks/0/parameter: the scene has no parameter 'wall/flor/temperature' (did you mean");
   row("bad key",
-      {"validate", kSample, "--set", R"(tracks=[{"parameter": "scene/gravity", "keys": [{"time": 0, "value": -1}]}])"},
+      {"simulate", kSample, "--set", R"(tracks=[{"parameter": "scene/gravity", "keys": [{"time": 0, "value": -1}]}])"},
       2, "/tracks/0/keys/0/value: must be at least 0 m/s²");
   row("sample is fine", {"validate", kSample}, 0, "");
   row("one of two", {"validate", kSample, "nowhere.json"}, 2, "nowhere.json: no such file");
@@ -253,6 +254,20 @@ void TestCli::sameProjectGivesTheSameHash() {
   }
   QCOMPARE(hashes[0].size(), 16);
   QCOMPARE(hashes[0], hashes[1]);
+}
+
+void TestCli::simulateGoesByTracks() {
+  QTemporaryDir folder;
+  const QString report = folder.filePath("r.json");
+  const auto hash = [&](const QStringList& edits) {
+    if (cli(smallScene(QStringList{"--frames", "12", "--report", report, "--quiet"} + edits)).code != 0)
+      return QString();
+    return QString::fromStdString(jsonFile(report).value("state_hash", std::string()));
+  };
+  const QString tracks = R"(tracks=[{"parameter": "scene/gravity", "keys": [{"time": 0.1, "value": %1}]}])";
+  const QString plain = hash({});
+  QCOMPARE(hash({"--set", tracks.arg(9.81)}), plain);
+  QVERIFY(hash({"--set", tracks.arg(3)}) != plain);
 }
 
 /// By a file of its own and by the project, in a new process: to the hash of the run that was not interrupted.

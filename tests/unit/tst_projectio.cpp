@@ -375,8 +375,13 @@ void TestProjectIo::wrongValuesNameThePlace_data() {
          "/tracks/0/parameter: Particle spacing acts at the start; only what acts while the scene runs can have keys");
   tracks("track of a choice", "wall/floor/heat", R"([{"time": 0, "value": 1}])",
          "/tracks/0/parameter: Heat is a choice; only numbers and switches can have keys");
-  tracks("track of a curve", "material/water/viscosity", R"([{"time": 0, "value": 1}])",
-         "/tracks/0/parameter: Viscosity, liquid is a curve; only a constant can have keys");
+  tracks(
+      "track of a curve", "material/water/viscosity", R"([{"time": 0, "value": 1}])",
+      "/tracks/0/parameter: Viscosity, liquid is a curve; only a constant, or one of a curve's points, can have keys");
+  tracks("track of a point of no curve", "material/water/viscosity[0]", R"([{"time": 0, "value": 1}])",
+         "/tracks/0/parameter: Viscosity, liquid is no curve; it has no points");
+  tracks("track of half a point", "material/water/viscosity[0.5]", R"([{"time": 0, "value": 1}])",
+         "/tracks/0/parameter: the scene has no parameter 'material/water/viscosity[0.5]'");
   tracks("keys out of order", "scene/gravity", R"([{"time": 2, "value": 3}, {"time": 1, "value": 4}])",
          "/tracks/0/keys/1/time: must come after the key before it, at 2 s: keys stand in order of time");
   tracks("two keys at a time", "scene/gravity", R"([{"time": 2, "value": 3}, {"time": 2, "value": 4}])",

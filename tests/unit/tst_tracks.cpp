@@ -52,6 +52,10 @@ Project scene() {
   Project project = scenes::iceOnPlate(4, 370);
   project.environment.gravity = {1, -9.5, 0.5};
   project.materials[0].properties.values["viscosity"] = Response(0.5);
+  Response curve;
+  curve.kind = Response::Kind::Curve;
+  curve.points = {{273.15, 0.56}, {323.15, 0.64}, {373.15, 0.68}};
+  project.materials[0].properties.values["conductivity_liquid"] = curve;
   Emitter tap;
   tap.id = tap.name = "tap";
   tap.material = "water";
@@ -72,6 +76,8 @@ std::vector<Track> everything() {
           track("emitter/tap/speed", {{0, 1, ToNext::Linear}, {2, 3}}),
           track("emitter/tap/diameter", {{0, 0.09, ToNext::Step}, {0.5, 0.12, ToNext::Step}, {0.8, 0.06}}),
           track("material/water/viscosity", {{0, 0.5, ToNext::Smooth}, {2, 50}}),
+          track("material/water/conductivity_liquid[0]", {{0, 0.56, ToNext::Linear}, {2, 2}}),
+          track("material/water/conductivity_liquid[2]", {{0.1, 0.68, ToNext::Smooth}, {2, 3}}),
           track("body/paddle/velocity_x", {{0, 0, ToNext::Smooth}, {1, 0.2, ToNext::Smooth}, {2, -0.2}}),
           track("body/ice/heating_power", {{0.1, 0, ToNext::Linear}, {2, 2000}}),
           track("wall/floor/no_slip", {{0.25, 0, ToNext::Step}, {0.6, 1}}),
@@ -139,6 +145,7 @@ class TestTracks : public QObject {
     QVERIFY(engine.limits().empty() || !engine.limits().back().what.starts_with("wall/"));
     const double time = engine.solver().time();
     for (const Track& each : project.tracks) {
+      if (TrackTarget::parse(each.parameter)->point) continue;
       const Address address = *Address::parse(each.parameter);
       const std::optional<double> said = trackValueAt(each, time);
       QVERIFY(said);
@@ -158,6 +165,37 @@ class TestTracks : public QObject {
     const Vector3 before = project.environment.gravity.normalized(),
                   now = engine.project().environment.gravity.normalized();
     QVERIFY((before - now).norm() < 1e-12);
+  }
+
+  void pointsOfACurveGoEachTheirWay() {
+    Project project = scene();
+    project.tracks = {track("material/water/conductivity_liquid[2]", {{0.1, 0.7, ToNext::Linear}, {1.1, 1.7}}),
+                      track("material/water/conductivity_liquid[0]", {{0.2, 0.5, ToNext::Step}})};
+    Engine engine(project, m_plugins);
+    const auto curve = [](const Project& p) {
+      return std::get<Response>(p.materials[0].properties.values.at("conductivity_liquid"));
+    };
+    run(engine, 9);  // the second has not begun
+    QCOMPARE(curve(engine.project()).points[0].y, 0.56);
+    QVERIFY(std::abs(curve(engine.project()).points[2].y - 0.75) < 1e-9);
+    run(engine, 21);
+    QCOMPARE(curve(engine.project()).points[0].y, 0.5);
+    QCOMPARE(curve(engine.project()).points[1].y, 0.64);
+    QVERIFY(std::abs(curve(engine.project()).points[2].y - 1.1) < 1e-9);
+    QVERIFY(curve(engine.document()) == curve(project));
+    engine.setTracks({project.tracks[1]});
+    QCOMPARE(curve(engine.project()).points[2].y, 0.68);
+    QCOMPARE(curve(engine.project()).points[0].y, 0.5);
+    engine.setTracks({});
+    QVERIFY(curve(engine.project()) == curve(project));
+    // Of an installed curve too, of which the project says nothing.
+    project = scenes::iceOnPlate(4, 370);
+    project.materials.push_back({"co2", "", "co2", {}, {}, {}, {}});
+    project.tracks = {track("material/co2/density_liquid[1]", {{0, 1000}})};
+    Engine installed(project, m_plugins);
+    const auto& now = installed.project().materials[1].properties.values;
+    QCOMPARE(std::get<Response>(now.at("density_liquid")).points[1].y, 1000.0);
+    QVERIFY(!installed.document().materials[1].properties.values.contains("density_liquid"));
   }
 
   /// Also in the middle of a piece, and on any number of threads.
@@ -342,7 +380,7 @@ class TestTracks : public QObject {
   void itIsSaidWhatCanHaveNoKeys() {
     const Project project = scene();
     const auto why = [&](const char* address) {
-      return QString::fromStdString(whyNoKeys(project, &m_plugins, *Address::parse(address)));
+      return QString::fromStdString(whyNoKeys(project, &m_plugins, *TrackTarget::parse(address)));
     };
     for (const Track& each : everything()) QCOMPARE(why(each.parameter.c_str()), QString());
     QVERIFY(why("wall/nowhere/temperature").contains("has no parameter"));
@@ -350,8 +388,14 @@ class TestTracks : public QObject {
     QVERIFY(why("wall/floor/heat").contains("is a choice"));
     QVERIFY(why("solver/particle_spacing").contains("acts at the start"));
     QVERIFY(why("body/ice/velocity_x").contains("not held in place"));
-    QVERIFY(why("material/water/youngs_modulus").isEmpty() || why("material/water/youngs_modulus").contains("curve"));
     QVERIFY(why("scene/thermal_model").contains("choice"));
+    QVERIFY(why("material/water/conductivity_liquid").contains("is a curve"));
+    QVERIFY(why("material/water/conductivity_liquid[2]").isEmpty());
+    QVERIFY(why("material/water/conductivity_liquid[3]").contains("has no point 3; it has 3"));
+    QVERIFY(why("material/water/viscosity[0]").contains("is no curve"));
+    for (const char* text : {"material/water/viscosity[]", "material/water/viscosity[1x]",
+                             "material/water/viscosity[-1]", "]", "scene/gravity[99999999999999999999]"})
+      QVERIFY2(!TrackTarget::parse(text), text);
   }
 
  private:

@@ -126,7 +126,9 @@ class Document : public QObject {
   // Keys over time: see Track. Within a gesture all edits of one parameter's are one undo step.
   const Track* track(const Address& address) const;  ///< nullptr: it has no keys
   double keySlack() const;                           ///< s around a key in which a time is on it: half a frame
-  QString whyNoKeys(const Address& address) const;   ///< "" or why it can have none, as a sentence
+  /// Of what has the keys: a point of a curve has a number in brackets behind its address, see TrackTarget.
+  const api::ParameterDeclaration* keyDeclaration(const Address& address) const;
+  QString whyNoKeys(const Address& address) const;  ///< "" or why it can have none, as a sentence
   /// A key at a time in s, or another value of the one that is there. Returns "" or why there is none.
   QString putKey(const Address& address, double time, double value);
   /// It stays between its neighbours. Returns "" or why it stays where it is.

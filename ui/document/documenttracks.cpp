@@ -31,8 +31,14 @@ const Track* Document::track(const Address& address) const { return findTrack(m_
 
 double Document::keySlack() const { return 0.5 * numberOf(m_project.solver.parameters, solverParameters(), "dt"); }
 
+const api::ParameterDeclaration* Document::keyDeclaration(const Address& address) const {
+  const auto target = TrackTarget::parse(address.text());
+  return target ? declaration(target->address) : nullptr;
+}
+
 QString Document::whyNoKeys(const Address& address) const {
-  const std::string why = ps::whyNoKeys(m_project, m_plugins, address);
+  const auto target = TrackTarget::parse(address.text());
+  const std::string why = ps::whyNoKeys(m_project, m_plugins, target.value_or(TrackTarget{address}));
   return why.empty() ? QString() : QString::fromStdString(why) + QLatin1Char('.');
 }
 
@@ -42,7 +48,7 @@ QString Document::putKey(const Address& address, double time, double value) {
   std::vector<TrackKey> keys = old ? old->keys : std::vector<TrackKey>{};
   TrackKey key{std::round(time * 1e6) / 1e6, value};  // a clock that adds up frames is never quite on a round number
   const auto before = std::find_if(keys.rbegin(), keys.rend(), [&](const TrackKey& k) { return k.time <= key.time; });
-  if (declaration(address)->kind == api::ParameterKind::Toggle)
+  if (keyDeclaration(address)->kind == api::ParameterKind::Toggle)
     key.toNext = ToNext::Step;
   else if (before != keys.rend())
     key.toNext = before->toNext;
@@ -79,7 +85,7 @@ void Document::removeKey(const Address& address, size_t index) {
 QString Document::setWay(const Address& address, size_t index, ToNext way) {
   const Track* old = track(address);
   if (!old || index >= old->keys.size()) return {};
-  const api::ParameterDeclaration* declared = declaration(address);
+  const api::ParameterDeclaration* declared = keyDeclaration(address);
   if (declared && declared->kind == api::ParameterKind::Toggle && way != ToNext::Step)
     return QStringLiteral("A switch has no values between on and off.");
   std::vector<TrackKey> keys = old->keys;
@@ -92,9 +98,11 @@ void Document::removeTrack(const Address& address) {
 }
 
 QString Document::trackTitle(const Address& address) const {
-  const api::ParameterDeclaration* declared = declaration(address);
+  const api::ParameterDeclaration* declared = keyDeclaration(address);
   const QString label = declared ? QString::fromUtf8(declared->label) : QString::fromStdString(address.key);
-  return QStringLiteral("%1 of %2").arg(label, ownerLabel(m_project, address));
+  const auto target = TrackTarget::parse(address.text());
+  const QString point = target && target->point ? QStringLiteral(", point %1").arg(*target->point) : QString();
+  return QStringLiteral("%1 of %2%3").arg(label, ownerLabel(m_project, address), point);
 }
 
 /// Without keys there is no track.
@@ -105,7 +113,7 @@ QString Document::setKeys(const Address& address, std::vector<TrackKey> keys, co
   edit.index = old ? static_cast<size_t>(old - tracks.data()) : tracks.size();
   if (old) edit.before = *old;
   if (!keys.empty()) {
-    if (const api::ParameterDeclaration* declared = declaration(address)) {
+    if (const api::ParameterDeclaration* declared = keyDeclaration(address)) {
       if (const QString problem = problemWithKeys(keys, *declared); !problem.isEmpty()) return problem;
     }
     edit.after = old ? *old : Track{address.text(), {}, {}};

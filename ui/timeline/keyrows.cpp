@@ -38,6 +38,13 @@ double roundStep(double least) {
   return 10 * unit;
 }
 
+/// "Hot plate temperature", "Viscosity, liquid · 2" of a curve's point.
+QString titleOf(const Document& document, const Address& address, const QString& label) {
+  const auto target = TrackTarget::parse(address.text());
+  const QString away = awayLabel(document.project(), target ? target->address : address, label);
+  return target && target->point ? QStringLiteral("%1 · %2").arg(away).arg(*target->point) : away;
+}
+
 QString secondsText(double seconds) { return formatShort(seconds, 6) + QStringLiteral(" s"); }
 
 }  // namespace
@@ -61,9 +68,9 @@ void KeyRows::rebuild() {
   m_rows.clear();
   for (const Track& track : document.project().tracks) {
     const auto address = Address::parse(track.parameter);
-    if (address && !track.keys.empty() && document.declaration(*address))
-      m_rows.push_back({*address, awayLabel(document.project(), *address,
-                                            QString::fromUtf8(document.declaration(*address)->label))});
+    const api::ParameterDeclaration* declaration = address ? document.keyDeclaration(*address) : nullptr;
+    if (declaration && !track.keys.empty())
+      m_rows.push_back({*address, titleOf(document, *address, QString::fromUtf8(declaration->label))});
   }
   if (m_chosen) {
     const Track* track = document.track(m_chosen->address);
@@ -169,9 +176,10 @@ void KeyRows::mouseDoubleClickEvent(QMouseEvent* event) {
   Document& document = m_session.document();
   const Address address = row->address;
   const double time = snapped(secondsAt(at.x()), event->modifiers() & Qt::ShiftModifier);
-  const api::ParameterDeclaration* declaration = document.declaration(address);
+  const api::ParameterDeclaration* declaration = document.keyDeclaration(address);
   if (!declaration) return;
-  const double own = responseOf(document.value(address)).at(293.15);
+  const bool isPoint = TrackTarget::parse(address.text()).value_or(TrackTarget{address}).point.has_value();
+  const double own = isPoint ? keysOf(*row).front().value : responseOf(document.value(address)).at(293.15);
   const double held = trackValue(keysOf(*row), time).value_or(own);
   const QString problem = document.putKey(address, time, responseOf(valueOfKey(held, *declaration)).at(293.15));
   if (!problem.isEmpty()) {
@@ -201,7 +209,8 @@ void KeyRows::contextMenuEvent(QContextMenuEvent* event) {
   if (event->reason() == QContextMenuEvent::Mouse) m_chosen = keyUnder(event->pos());
   update();
   const Track* track = m_chosen ? m_session.document().track(m_chosen->address) : nullptr;
-  const api::ParameterDeclaration* declaration = track ? m_session.document().declaration(m_chosen->address) : nullptr;
+  const api::ParameterDeclaration* declaration =
+      track ? m_session.document().keyDeclaration(m_chosen->address) : nullptr;
   if (!declaration) return;
   auto* menu = new QMenu(this);
   menu->setAttribute(Qt::WA_DeleteOnClose);
@@ -225,7 +234,7 @@ QString KeyRows::tipAt(const QPoint& at) const {
   const auto key = keyUnder(at);
   const Row* row = rowAt(at);
   if (!row) return {};
-  const api::ParameterDeclaration* declaration = m_session.document().declaration(row->address);
+  const api::ParameterDeclaration* declaration = m_session.document().keyDeclaration(row->address);
   if (!key || !declaration)
     return row->title + QStringLiteral("\nDouble-click sets a key, Delete removes the chosen one");
   const TrackKey& shown = keysOf(*row)[key->key];
