@@ -10,6 +10,7 @@
 
 #include <QtCore/QTimer>
 #include <QtGui/QContextMenuEvent>
+#include <QtGui/QMouseEvent>
 #include <QtGui/QUndoStack>
 #include <QtTest/QSignalSpy>
 #include <QtWidgets/QDockWidget>
@@ -232,6 +233,24 @@ class TestKeys : public SampleWindowTest {
     QTest::mouseRelease(&rows(), Qt::LeftButton, {}, from);
     QCOMPARE(writeProject(document().project()), before);
     QCOMPARE(document().undoStack().count(), steps + 1);
+    // With Ctrl it leaves a copy, as one step.
+    const QPoint copyTo(static_cast<int>(rows().xOf(50)), from.y()), at = rows().placeOf(kFloor, 1);
+    for (const bool keep : {false, true}) {
+      QTest::mousePress(&rows(), Qt::LeftButton, Qt::ControlModifier, at);
+      for (int k = 1; k <= 4; ++k) {
+        QMouseEvent move(QEvent::MouseMove, at + (copyTo - at) * k / 4, rows().mapToGlobal(copyTo), Qt::NoButton,
+                         Qt::LeftButton, Qt::ControlModifier);
+        QApplication::sendEvent(&rows(), &move);
+      }
+      QCOMPARE(timesOf(document(), kFloor).size(), size_t{3});
+      if (!keep) QTest::keyClick(&rows(), Qt::Key_Escape);
+      QTest::mouseRelease(&rows(), Qt::LeftButton, Qt::ControlModifier, copyTo);
+      QCOMPARE(writeProject(document().project()) == before, !keep);
+    }
+    QCOMPARE(document().undoStack().count(), steps + 2);
+    QCOMPARE(document().track(kFloor)->keys[2].value, 300.0);
+    document().undoStack().undo();
+    QCOMPARE(writeProject(document().project()), before);
     // A double-click between the two sets one on their line.
     const QPoint middle(static_cast<int>(rows().xOf(moved / 2)), from.y());
     QTest::mouseDClick(&rows(), Qt::LeftButton, {}, middle);

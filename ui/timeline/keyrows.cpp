@@ -139,22 +139,32 @@ void KeyRows::mousePressEvent(QMouseEvent* event) {
   update();
   if (!m_chosen) return;
   const TrackKey key = m_session.document().track(m_chosen->address)->keys[m_chosen->key];
-  m_drag = Drag{secondsAt(event->position().x()) - key.time, key};
+  m_drag =
+      Drag{secondsAt(event->position().x()) - key.time, key, false, event->modifiers().testFlag(Qt::ControlModifier)};
 }
 
 void KeyRows::mouseMoveEvent(QMouseEvent* event) {
   const QPoint at = event->position().toPoint();
   setCursor(m_drag || keyUnder(at) ? Qt::SizeHorCursor : Qt::ArrowCursor);
   if (!m_drag || !m_chosen) return;
-  Document& document = m_session.document();
-  if (!m_drag->moved) {
-    if (std::abs(xOf(m_drag->from.time) + (m_drag->grip / span()) * (width() - kLabel - kEnd) - at.x()) < 3) return;
-    m_drag->moved = true;
-    document.beginGesture();
-  }
   const double time = snapped(secondsAt(event->position().x()) - m_drag->grip, event->modifiers() & Qt::ShiftModifier);
-  document.moveKey(m_chosen->address, m_chosen->key, time, m_drag->from.value);
+  if (!m_drag->moved && !beginDrag(time, at)) return;
+  m_session.document().moveKey(m_chosen->address, m_chosen->key, time, m_drag->from.value);
   showTip(event->globalPosition().toPoint(), tipAt(placeOf(m_chosen->address, m_chosen->key)), this);
+}
+
+/// Not before the hand has moved a little; a copy comes where its time is another one.
+bool KeyRows::beginDrag(double time, const QPoint& at) {
+  Document& document = m_session.document();
+  if (std::abs(secondsAt(at.x()) - m_drag->grip - m_drag->from.time) < 3 * span() / std::max(1, width())) return false;
+  if (m_drag->copies && std::abs(time - m_drag->from.time) <= 2 * document.keySlack()) return false;
+  m_drag->moved = true;
+  document.beginGesture();
+  if (!m_drag->copies) return true;
+  document.putKey(m_chosen->address, time, m_drag->from.value);
+  const auto copy = keyAt(document.track(m_chosen->address)->keys, time, document.keySlack());
+  if (copy) m_chosen->key = *copy;
+  return true;
 }
 
 void KeyRows::mouseReleaseEvent(QMouseEvent*) { endDrag(true); }
@@ -164,9 +174,12 @@ void KeyRows::endDrag(bool keep) {
   const Drag drag = *m_drag;
   m_drag.reset();
   if (!drag.moved) return;
-  if (!keep && m_chosen)
-    m_session.document().moveKey(m_chosen->address, m_chosen->key, drag.from.time, drag.from.value);
-  m_session.document().endGesture();
+  Document& document = m_session.document();
+  if (!keep && m_chosen && drag.copies)
+    document.removeKey(m_chosen->address, m_chosen->key);
+  else if (!keep && m_chosen)
+    document.moveKey(m_chosen->address, m_chosen->key, drag.from.time, drag.from.value);
+  document.endGesture();
 }
 
 void KeyRows::mouseDoubleClickEvent(QMouseEvent* event) {

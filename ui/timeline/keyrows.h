@@ -13,8 +13,8 @@ namespace ps {
 class Session;
 
 /// The keys of the document over the scene's time: a ruler, and a row for each animated parameter. A key is chosen by a
-/// click and dragged to another frame (Shift: to any time); a double-click sets one of the value that holds there;
-/// Delete takes it away. Each gesture is one undo step.
+/// click and dragged to another frame (Shift: to any time; Ctrl: a copy of it); a double-click sets one of the value
+/// that holds there; Delete takes it away. Each gesture is one undo step.
 class KeyRows : public QWidget {
   Q_OBJECT
  public:
@@ -57,6 +57,7 @@ class KeyRows : public QWidget {
   std::optional<Chosen> keyUnder(const QPoint& at) const;
   const Row* rowAt(const QPoint& at) const;
   const std::vector<TrackKey>& keysOf(const Row& row) const;
+  bool beginDrag(double time, const QPoint& at);
   double snapped(double seconds, bool free) const;
   void endDrag(bool keep);
   void removeChosen();
@@ -71,7 +72,7 @@ class KeyRows : public QWidget {
   struct Drag {
     double grip = 0;  ///< s from the key to where it was taken
     TrackKey from;
-    bool moved = false;
+    bool moved = false, copies = false;
   };
   std::optional<Drag> m_drag;
 };
