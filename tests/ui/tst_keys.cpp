@@ -7,6 +7,7 @@
 #include "ui/panels/inspector.h"
 #include "ui/panels/outliner.h"
 #include "ui/timeline/keyrows.h"
+#include "ui/timeline/transport.h"
 
 #include <QtCore/QTimer>
 #include <QtGui/QContextMenuEvent>
@@ -17,6 +18,7 @@
 #include <QtWidgets/QMenu>
 #include <QtWidgets/QTreeView>
 
+#include <algorithm>
 #include <cmath>
 
 using namespace ps;
@@ -169,6 +171,17 @@ class TestKeys : public SampleWindowTest {
     QCOMPARE(row.number(), own);
   }
 
+  /// The clock of accelerated heat says by how much it is now.
+  void theClocksFollow() {
+    const Address scale{Owner::Solver, "", "thermal_time_scale"};
+    QCOMPARE(document().putKey(scale, 0, 100), QString());
+    QCOMPARE(m_window->transport()->thermalTexts().before, QStringLiteral("Heat ×100 = "));
+    QCOMPARE(document().putKey(scale, 0.1, 700), QString());
+    QCOMPARE(document().setWay(scale, 0, ToNext::Step), QString());
+    stepTo(6);
+    QTRY_COMPARE_WITH_TIMEOUT(m_window->transport()->thermalTexts().before, QStringLiteral("Heat ×700 = "), kLong);
+  }
+
   void aClickOnTheDiamondIsTheSame() {
     ParameterRow& row = *shownRow();
     hover(row);
@@ -304,15 +317,16 @@ class TestKeys : public SampleWindowTest {
     QTimer::singleShot(0, &row, [&] {
       auto* menu = qobject_cast<QMenu*>(QApplication::activePopupWidget());
       QVERIFY(menu);
-      QAction* found = nullptr;
       const QMenu* in = menu;
       for (const QString& text : way) {
-        found = nullptr;
-        for (QAction* action : in->actions()) found = action->text() == text ? action : found;
-        QVERIFY2(found, qPrintable(text));
-        if (found->menu()) in = found->menu();
+        const QList<QAction*> actions = in->actions();
+        const auto found = std::find_if(actions.begin(), actions.end(), [&](QAction* a) { return a->text() == text; });
+        QVERIFY2(found != actions.end(), qPrintable(text));
+        if ((*found)->menu())
+          in = (*found)->menu();
+        else
+          (*found)->trigger();
       }
-      found->trigger();
       menu->close();
     });
     QContextMenuEvent ask(QContextMenuEvent::Keyboard, QPoint(20, 10), row.mapToGlobal(QPoint(20, 10)));

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Keys over time in the inspector: rows set and remove them, and show what they give.
 #include "core/scene/track.h"
-#include "core/simulation/tracks.h"
 #include "ui/document/document.h"
 #include "ui/panels/inspector.h"
 #include "ui/rows/rowvalue.h"
@@ -67,15 +66,11 @@ void Inspector::showTracks() {
 
 void Inspector::showTrack(const Track& track) {
   const auto address = Address::parse(track.parameter);
-  const api::ParameterDeclaration* declaration = address ? m_document.declaration(*address) : nullptr;
-  if (!declaration || track.keys.empty()) return;
+  if (!address || !m_document.declaration(*address) || track.keys.empty()) return;
   const double slack = m_document.keySlack();
   const bool onKey = keyAt(track.keys, m_shownAt, slack).has_value();
   const ToNext way = track.keys[keyBehind(track.keys, m_shownAt, slack)].toNext;
-  const double dt = 2 * slack;
-  const auto given = trackValue(track.keys, m_shownAt, ps::keySlack(dt));
-  const bool acts = m_document.whyNoKeys(*address).isEmpty();
-  const Value value = given && acts ? valueOfKey(*given, *declaration) : m_document.value(*address);
+  const Value value = m_session.valueNow(*address);
   const QString key = QString::fromStdString(track.parameter);
   for (ParameterPanel* panel : panels()) {
     panel->setKeyMark(key, onKey ? KeyMark::OnKey : KeyMark::Between, way);

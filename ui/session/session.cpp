@@ -3,6 +3,7 @@
 
 #include "core/base/statestream.h"
 #include "core/plugin_host/registry.h"
+#include "core/scene/track.h"
 #include "core/simulation/engine.h"
 #include "core/simulation/enginethread.h"
 #include "core/simulation/particlefield.h"
@@ -146,6 +147,14 @@ void Session::tellValues() {
 double Session::now() const {
   const SnapshotPtr newest = snapshot();
   return newest ? newest->stats.time : 0;
+}
+
+Value Session::valueNow(const Address& address) const {
+  const Track* track = m_document->track(address);
+  const api::ParameterDeclaration* declaration = track ? m_document->declaration(address) : nullptr;
+  const auto given = track ? trackValue(track->keys, now(), keySlack(2 * m_document->keySlack())) : std::nullopt;
+  const bool acts = given && declaration && m_document->whyNoKeys(address).isEmpty();
+  return acts ? valueOfKey(*given, *declaration) : m_document->value(address);
 }
 
 Environment Session::surroundings() const { return environmentAt(m_document->project(), m_document->plugins(), now()); }

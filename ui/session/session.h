@@ -54,8 +54,9 @@ class Session : public QObject {
   Transitions& transitions() { return *m_transitions; }
 
   SnapshotPtr snapshot() const;
-  double now() const;                ///< s, of the newest snapshot
-  Environment surroundings() const;  ///< walls and air, as tracks have them now
+  double now() const;                            ///< s, of the newest snapshot
+  Value valueNow(const Address& address) const;  ///< by its track, where that acts, or else by the document
+  Environment surroundings() const;              ///< walls and air, as tracks have them now
   void playPause();
   void play();
   void pause();

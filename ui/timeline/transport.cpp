@@ -116,6 +116,7 @@ Transport::Transport(Session& session, QWidget* parent)
   connect(&session, &Session::playingChanged, this, [this] { setPlaying(m_session.playing()); });
   connect(&session, &Session::valuesDue, this, [this] {
     setSnapshot(m_session.snapshot());
+    if (!m_session.document().project().tracks.empty()) showTimeScale();
     if (m_session.playing() != m_playing) setPlaying(m_session.playing());
   });
   connect(&session.document(), &Document::changed, this, &Transport::onChanged);
@@ -133,8 +134,12 @@ void Transport::onChanged(const ChangeEvent& event) {
     setSnapshot(nullptr);
   }
   if (opened || std::holds_alternative<StateChanged>(event)) setStateTime(project.state ? project.state->time : 0);
-  if (opened || std::holds_alternative<ParameterChanged>(event))
-    setTimeScale(numberOf(project.solver.parameters, solverParameters(), "thermal_time_scale"));
+  if (opened || std::holds_alternative<ParameterChanged>(event) || std::holds_alternative<TracksChanged>(event))
+    showTimeScale();
+}
+
+void Transport::showTimeScale() {
+  setTimeScale(std::get<double>(m_session.valueNow({Owner::Solver, "", "thermal_time_scale"})));
 }
 
 void Transport::styleButtons() {

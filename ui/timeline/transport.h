@@ -43,6 +43,7 @@ class Transport : public QWidget {
 
  private:
   void onChanged(const ChangeEvent& event);
+  void showTimeScale();
   void refresh();
   void styleButtons();
   Session& m_session;
