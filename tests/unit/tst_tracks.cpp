@@ -332,6 +332,31 @@ class TestTracks : public QObject {
     run(engine, 5);
   }
 
+  /// A stroke brings the whole body along, with the document's values.
+  void whatIsSketchedLeavesTheTracksInForce() {
+    Project project = scene();
+    Body sketch = scenes::block("sketch", 1, 0.03, {}, 293.15);
+    VoxelShape voxels;
+    voxels.origin = {0, 0.7, 0};
+    voxels.spacing = 0.03;
+    voxels.palette.push_back({"water", 293.15});
+    voxels.runs.push_back({0, 0, 0, 1, 0});
+    sketch.shape = voxels;
+    sketch.parameters.values["heating_power"] = 1.0;
+    project.bodies.push_back(sketch);
+    project.tracks = {track("body/sketch/heating_power", {{0, 50}})};
+    Engine engine(project, m_plugins);
+    run(engine, 2);
+    std::get<VoxelShape>(sketch.shape).runs[0].length = 2;
+    sketch.parameters.values["heating_power"] = 2.0;
+    QCOMPARE(engine.addCells(sketch, {{1, 0, 0}}, 0).size(), size_t{1});
+    const Address power{Owner::Body, "sketch", "heating_power"};
+    QCOMPARE(numberAt(engine.project(), power), 50.0);
+    QCOMPARE(numberAt(engine.document(), power), 2.0);
+    engine.setTracks({});
+    QCOMPARE(numberAt(engine.project(), power), 2.0);
+  }
+
   void refusedEditsLeaveTheTracksInForce() {
     Project project = scene();
     project.tracks = everything();
