@@ -182,6 +182,34 @@ class TestKeys : public SampleWindowTest {
     QTRY_COMPARE_WITH_TIMEOUT(m_window->transport()->thermalTexts().before, QStringLiteral("Heat ×700 = "), kLong);
   }
 
+  /// A curve's row has no keys of its own, and shows what those of its points give.
+  void aCurvesRowShowsTheKeysOfItsPoints() {
+    const Address conductivity{Owner::Material, "water", "conductivity_solid"};
+    Response curve;
+    curve.kind = Response::Kind::Curve;
+    curve.points = {{200, 3}, {263.15, 2.5}, {273.15, 2.2}};
+    QCOMPARE(document().setParameter(conductivity, curve), QString());
+    const std::string before = writeProject(document().project());
+    QCOMPARE(document().putKey({Owner::Material, "water", "conductivity_solid[0]"}, 0.1, 4), QString());
+    QCOMPARE(document().putKey({Owner::Material, "water", "conductivity_solid[2]"}, 0, 1), QString());
+    QVERIFY(document().putKey(conductivity, 0, 1).contains(QStringLiteral("is a curve")));
+    QVERIFY(m_window->revealParameter(conductivity, false));
+    ParameterRow& row =
+        *m_window->findChild<Inspector*>()->materialPanel()->row(QStringLiteral("material/water/conductivity_solid"));
+    const auto point = [&](size_t k) { return std::get<Response>(row.model().value).points[k].y; };
+    QCOMPARE(row.model().keyMark, KeyMark::OnKey);
+    QCOMPARE(point(0), 3.0);
+    QCOMPARE(point(2), 1.0);
+    picture("tst_keys_curve.png");
+    stepTo(8);
+    QTRY_COMPARE_WITH_TIMEOUT(point(0), 4.0, kLong);
+    QCOMPARE(row.model().keyMark, KeyMark::Between);
+    choose(row, {QStringLiteral("Remove all keys")});
+    QCOMPARE(writeProject(document().project()), before);
+    QCOMPARE(row.model().keyMark, KeyMark::None);
+    QCOMPARE(point(0), 3.0);
+  }
+
   void aClickOnTheDiamondIsTheSame() {
     ParameterRow& row = *shownRow();
     hover(row);

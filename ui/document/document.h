@@ -135,7 +135,7 @@ class Document : public QObject {
   QString moveKey(const Address& address, size_t index, double time, double value);
   void removeKey(const Address& address, size_t index);  ///< the last takes the track with it
   QString setWay(const Address& address, size_t index, ToNext way);
-  void removeTrack(const Address& address);
+  void removeTrack(const Address& address);          ///< of a curve those of all its points
   QString trackTitle(const Address& address) const;  ///< "Temperature of Hot plate"
 
   // View: saved with the project, no undo steps except pins

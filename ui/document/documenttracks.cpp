@@ -94,7 +94,20 @@ QString Document::setWay(const Address& address, size_t index, ToNext way) {
 }
 
 void Document::removeTrack(const Address& address) {
-  setKeys(address, {}, QStringLiteral("removal of the keys of %1").arg(trackTitle(address)));
+  const QString text = QStringLiteral("removal of the keys of %1").arg(trackTitle(address));
+  if (track(address)) {
+    setKeys(address, {}, text);
+    return;
+  }
+  std::vector<Address> points;
+  for (const Track& each : m_project.tracks) {
+    const auto target = TrackTarget::parse(each.parameter);
+    if (target && target->point && target->address == address) points.push_back(*Address::parse(each.parameter));
+  }
+  if (points.empty()) return;
+  m_undo.beginMacro(text);
+  for (const Address& point : points) setKeys(point, {}, text);
+  m_undo.endMacro();
 }
 
 QString Document::trackTitle(const Address& address) const {

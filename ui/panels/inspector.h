@@ -56,7 +56,7 @@ class Inspector : public QObject {
   void onWay(const QString& key, ToNext way);
   /// Marks of rows whose parameters have keys, and what these give now.
   void showTracks();
-  void showTrack(const Track& track);
+  void showTrack(const Address& address, KeyMark mark, ToNext way);
   double now() const;  ///< s, of the scene's time
   void onScaled(const QString& key, double factor);
   void onLink(const QString& key, const QString& link);

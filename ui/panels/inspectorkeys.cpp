@@ -50,30 +50,27 @@ void Inspector::showTracks() {
   m_shownAt = now();
   std::set<std::string> tracked;
   for (const Track& track : m_document.project().tracks) {
-    tracked.insert(track.parameter);
-    showTrack(track);
+    const auto target = TrackTarget::parse(track.parameter);
+    if (!target || track.keys.empty() || !m_document.declaration(target->address)) continue;
+    // A curve's row stands on a key where one of its points does.
+    const bool first = tracked.insert(target->address.text()).second;
+    const double slack = m_document.keySlack();
+    const bool onKey = keyAt(track.keys, m_shownAt, slack).has_value();
+    if (first || onKey)
+      showTrack(target->address, onKey ? KeyMark::OnKey : KeyMark::Between,
+                track.keys[keyBehind(track.keys, m_shownAt, slack)].toNext);
   }
   for (const std::string& gone : std::exchange(m_tracked, tracked)) {
     const auto address = Address::parse(gone);
-    if (tracked.contains(gone) || !address) continue;
-    const QString key = QString::fromStdString(gone);
-    for (ParameterPanel* panel : panels()) {
-      panel->setKeyMark(key, KeyMark::None, ToNext::Linear);
-      panel->setValue(key, m_document.value(*address));
-    }
+    if (!tracked.contains(gone) && address) showTrack(*address, KeyMark::None, ToNext::Linear);
   }
 }
 
-void Inspector::showTrack(const Track& track) {
-  const auto address = Address::parse(track.parameter);
-  if (!address || !m_document.declaration(*address) || track.keys.empty()) return;
-  const double slack = m_document.keySlack();
-  const bool onKey = keyAt(track.keys, m_shownAt, slack).has_value();
-  const ToNext way = track.keys[keyBehind(track.keys, m_shownAt, slack)].toNext;
-  const Value value = m_session.valueNow(*address);
-  const QString key = QString::fromStdString(track.parameter);
+void Inspector::showTrack(const Address& address, KeyMark mark, ToNext way) {
+  const QString key = QString::fromStdString(address.text());
+  const Value value = m_session.valueNow(address);
   for (ParameterPanel* panel : panels()) {
-    panel->setKeyMark(key, onKey ? KeyMark::OnKey : KeyMark::Between, way);
+    panel->setKeyMark(key, mark, way);
     panel->setValue(key, value);
   }
 }

@@ -69,7 +69,9 @@ void ParameterRow::Private::paintKey(QPainter& painter) const {
 }
 
 QString ParameterRow::Private::keyText() const {
-  if (!takesKeys()) return {};
+  if (!takesKeys())
+    return showsCurve() && model.keyMark != KeyMark::None ? QStringLiteral("Points of the curve go by keys.")
+                                                          : QString();
   switch (model.keyMark) {
     case KeyMark::OnKey:
       return QStringLiteral("This time has a key; K removes it.");
@@ -90,7 +92,7 @@ void ParameterRow::Private::addKeyEntries(QMenu* menu) {
     QObject::connect(key, &QAction::triggered, q, &ParameterRow::toggleKey);
   }
   if (model.keyMark == KeyMark::None) return;
-  if (declaration().kind != api::ParameterKind::Toggle) {
+  if (takesKeys() && declaration().kind != api::ParameterKind::Toggle) {
     QMenu* ways = menu->addMenu(QStringLiteral("To the next key"));
     auto* group = new QActionGroup(ways);
     for (const ToNext way : {ToNext::Step, ToNext::Linear, ToNext::Smooth}) {

@@ -204,8 +204,10 @@ void ParameterRow::Private::paintSparkline(QPainter& painter) const {
     painter.drawEllipse(dot, 2.5, 2.5);
   }
   painter.restore();
-  paintIcon(painter, QRectF(curveRect()).adjusted(2, 2, -2, -2), QStringLiteral("curve"),
-            theme[enabled ? Token::Curve : Token::Disabled]);
+  // In a narrow panel there is room for one of the two.
+  if (model.keyMark == KeyMark::None || !curveRect().intersects(q->keyRect()))
+    paintIcon(painter, QRectF(curveRect()).adjusted(2, 2, -2, -2), QStringLiteral("curve"),
+              theme[enabled ? Token::Curve : Token::Disabled]);
 }
 
 void ParameterRow::Private::paintField(QPainter& painter) const {

@@ -150,11 +150,22 @@ double Session::now() const {
 }
 
 Value Session::valueNow(const Address& address) const {
-  const Track* track = m_document->track(address);
-  const api::ParameterDeclaration* declaration = track ? m_document->declaration(address) : nullptr;
-  const auto given = track ? trackValue(track->keys, now(), keySlack(2 * m_document->keySlack())) : std::nullopt;
-  const bool acts = given && declaration && m_document->whyNoKeys(address).isEmpty();
-  return acts ? valueOfKey(*given, *declaration) : m_document->value(address);
+  Value value = m_document->value(address);
+  const api::ParameterDeclaration* declaration = m_document->declaration(address);
+  for (const Track& track : m_document->project().tracks) {
+    const auto target = TrackTarget::parse(track.parameter);
+    if (!declaration || !target || !(target->address == address)) continue;
+    if (!whyNoKeys(m_document->project(), m_document->plugins(), *target).empty()) continue;
+    const auto given = trackValue(track.keys, now(), keySlack(2 * m_document->keySlack()));
+    if (!given) continue;
+    const Value said = valueOfKey(*given, *declaration);
+    auto* curve = std::get_if<Response>(&value);
+    if (!target->point)
+      value = said;
+    else if (curve && *target->point < curve->points.size())
+      curve->points[*target->point].y = responseOf(said).constant;
+  }
+  return value;
 }
 
 Environment Session::surroundings() const { return environmentAt(m_document->project(), m_document->plugins(), now()); }
