@@ -132,7 +132,6 @@ Motion PhaseStage::nextMotion(const ParticleStore& store, size_t i) const {
 }
 
 bool PhaseStage::update(ParticleStore& store, std::vector<uint32_t>& melted) {
-  melted.clear();
   m_turns.resize(store.size());
   const auto body = [&](size_t first, size_t last) {
     Density density;
@@ -152,12 +151,12 @@ bool PhaseStage::update(ParticleStore& store, std::vector<uint32_t>& melted) {
     }
   };
   parallelFor(store.size(), grain::kParticles, std::cref(body));
-  bool froze = false;
-  for (size_t i = 0; i < m_turns.size(); ++i) {
-    if (m_turns[i] == Turn::Melted) melted.push_back(static_cast<uint32_t>(i));
-    froze = froze || m_turns[i] == Turn::Froze;
-  }
-  return froze;
+  findIndices(m_turns.size(), melted, [&](size_t i) { return m_turns[i] == Turn::Melted; });
+  return anyChunk(m_turns.size(), grain::kNumbers, [&](size_t first, size_t last) {
+    bool froze = false;
+    for (size_t i = first; i < last; ++i) froze = froze || m_turns[i] == Turn::Froze;
+    return froze;
+  });
 }
 
 }  // namespace ps
