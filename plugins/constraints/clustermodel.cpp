@@ -61,18 +61,28 @@ constexpr api::FieldDeclaration kValues[] = {
     {"volume", "m³", "Volume that the cluster answers for", kFloat},
     {"scale", "", "Size against the undeformed shape", kFloat},
     {"kappa", "1/s²", "Stiffness per mass of its members' springs", kFloat},
+    {"held", "", "1 where a member cannot move", kFloat},
+    {"mass", "kg", "Mass", kFloat},
+    {"mass_rest", "kg", "Mass, what single precision leaves of it", kFloat},
+    {"rest_centre_x", "m", "Centre of mass of the undeformed shape, x", kFloat},
+    {"rest_centre_x_rest", "m", "Centre, x, what single precision leaves of it", kFloat},
+    {"rest_centre_y", "m", "Centre, y", kFloat},
+    {"rest_centre_y_rest", "m", "Centre, y, what is left", kFloat},
+    {"rest_centre_z", "m", "Centre, z", kFloat},
+    {"rest_centre_z_rest", "m", "Centre, z, what is left", kFloat},
 };
 constexpr api::FieldDeclaration kMemberValues[] = {
     {"rest_x", "m", "Place in the undeformed shape, x", kFloat},
     {"rest_y", "m", "Place in the undeformed shape, y", kFloat},
     {"rest_z", "m", "Place in the undeformed shape, z", kFloat},
     {"rest_volume", "m³", "Rest volume when it joined", kFloat},
-    {"multiplier_x", "kg·m", "XPBD multiplier of the substep, x", kFloat},
-    {"multiplier_y", "kg·m", "XPBD multiplier, y", kFloat},
-    {"multiplier_z", "kg·m", "XPBD multiplier, z", kFloat},
+    {"displacement_x", "m", "XPBD multiplier of the substep over the mass, x", kFloat},
+    {"displacement_y", "m", "XPBD multiplier over the mass, y", kFloat},
+    {"displacement_z", "m", "XPBD multiplier over the mass, z", kFloat},
     {"way_x", "m", "Way that its velocity took it in the substep, x", kFloat},
     {"way_y", "m", "Way, y", kFloat},
     {"way_z", "m", "Way, z", kFloat},
+    {"mass", "kg", "Mass", kFloat},
 };
 
 /// A new cluster of particles, given by their places in the undeformed frame.
@@ -83,16 +93,13 @@ struct NewCluster {
     particles.push_back(particle);
     for (const double c : {rest.x, rest.y, rest.z}) memberValues.push_back(static_cast<float>(c));
     memberValues.push_back(volume);
-    memberValues.insert(memberValues.end(), ClusterModel::kMemberValueCount - ClusterModel::kMultiplierX, 0.0f);
+    memberValues.insert(memberValues.end(), ClusterModel::kMemberValueCount - ClusterModel::kDisplacementX, 0.0f);
   }
   void emit(Quaternion q, double volume, float scale, api::GroupSink& sink) const {
-    const float values[ClusterModel::kValueCount] = {static_cast<float>(q.x),
-                                                     static_cast<float>(q.y),
-                                                     static_cast<float>(q.z),
-                                                     static_cast<float>(q.w),
-                                                     static_cast<float>(volume),
-                                                     scale,
-                                                     0};
+    float values[ClusterModel::kValueCount] = {};
+    const double parts[] = {q.x, q.y, q.z, q.w, volume};
+    for (size_t v = 0; v < std::size(parts); ++v) values[ClusterModel::kRotationX + v] = static_cast<float>(parts[v]);
+    values[ClusterModel::kScale] = scale;
     sink.add(particles.data(), particles.size(), values, memberValues.data());
   }
 };
@@ -253,8 +260,21 @@ ClusterMembers membersOf(const GroupBatch& batch, size_t g) {
   return {batch.particles + first,
           batch.begin[g + 1] - first,
           {of(ClusterModel::kRestX), of(ClusterModel::kRestY), of(ClusterModel::kRestZ)},
-          {of(ClusterModel::kMultiplierX), of(ClusterModel::kMultiplierY), of(ClusterModel::kMultiplierZ)},
-          {of(ClusterModel::kWayX), of(ClusterModel::kWayY), of(ClusterModel::kWayZ)}};
+          {of(ClusterModel::kDisplacementX), of(ClusterModel::kDisplacementY), of(ClusterModel::kDisplacementZ)},
+          {of(ClusterModel::kWayX), of(ClusterModel::kWayY), of(ClusterModel::kWayZ)},
+          of(ClusterModel::kMemberMass),
+          batch.values[ClusterModel::kHeld][g] != 0};
+}
+
+/// visit(first, members, count) for some clusters of a batch at a time.
+template <class Visit>
+void forSome(const GroupBatch& batch, Visit&& visit) {
+  std::array<ClusterMembers, kClusterLanes> members;
+  for (size_t first = 0; first < batch.count; first += kClusterLanes) {
+    const size_t count = std::min(kClusterLanes, batch.count - first);
+    for (size_t k = 0; k < count; ++k) members[k] = membersOf(batch, first + k);
+    visit(first, members.data(), count);
+  }
 }
 
 }  // namespace
@@ -297,10 +317,11 @@ void ClusterModel::predict(const ConstraintContext& context, const api::MovableP
   if (batch.count == 0) return;
   const size_t first = batch.begin[0], last = batch.begin[batch.count];  // of all clusters, one after the other
   const auto from = [&](MemberValue v) { return batch.memberValues[v] + first; };
-  for (const MemberValue v : {kMultiplierX, kMultiplierY, kMultiplierZ}) std::fill_n(from(v), last - first, 0.0f);
+  for (const MemberValue v : {kDisplacementX, kDisplacementY, kDisplacementZ}) std::fill_n(from(v), last - first, 0.0f);
   findWays(p, batch.particles + first, last - first, {from(kWayX), from(kWayY), from(kWayZ)});
   if (context.substep != 0) return;  // volumes and temperatures change once a frame
   for (size_t g = 0; g < batch.count; ++g) {
+    ClusterConstants::find(p, batch, g).keep(batch, g);
     const ClusterShape shape(p, batch, g);
     batch.values[kScale][g] = static_cast<float>(shape.scaleOfVolumes());
     const double moment = shape.restMoment();
@@ -311,47 +332,51 @@ void ClusterModel::predict(const ConstraintContext& context, const api::MovableP
 
 void ClusterModel::project(const ConstraintContext& context, const api::MovableParticles& particles,
                            const GroupBatch& batch) const {
-  const ParticleView& p = particles;
   const double friction = context.parameters[kDamping] / context.dt;
-  std::array<ClusterScratch, ClusterFits::kMost> scratch;
-  std::array<ClusterMembers, ClusterFits::kMost> members;
-  std::array<ClusterSums, ClusterFits::kMost> sums;
-  std::array<size_t, ClusterFits::kMost> group{};
-  for (size_t g = 0; g < batch.count;) {
-    size_t count = 0;
-    for (; g < batch.count && count < ClusterFits::kMost; ++g) {
-      if (!(batch.values[kKappa][g] > 0)) continue;
-      members[count] = membersOf(batch, g);
-      sums[count] = sumsOf(p, members[count], friction > 0, scratch[count]);
-      group[count++] = g;
-    }
-    ClusterFits fits;
-    fits.find(batch, group.data(), sums.data(), count);
+  ClusterScratches scratch;
+  ClusterSums sums;
+  ClusterFits fits;
+  std::array<ClusterPull, kClusterLanes> pulls;
+  forSome(batch, [&](size_t first, const ClusterMembers* members, size_t count) {
+    sumMembers(particles, members, count, friction > 0, scratch, sums);
+    fits.find(batch, first, count, sums);
     for (size_t k = 0; k < count; ++k) {
-      ClusterPull pull{sums[k].centre(), fits.restCentre(k), fits.turned(k), {}, {}, friction, 0};
-      pull.softness = 1 / (batch.values[kKappa][group[k]] * context.dt * context.dt);
-      if (friction > 0) {  // the way of each member without the rigid motion of the whole
-        pull.shift = 1 / sums[k].mass * sums[k].shift;
-        pull.turning = symmetricInverse(sums[k].inertia()) * (sums[k].turning - cross(pull.centre, sums[k].shift));
-      }
-      pullMembers(particles, members[k], pull, scratch[k]);
+      ClusterPull& pull = pulls[k];
+      const double kappa = double{batch.values[kKappa][first + k]};
+      pull.softness = kappa > 0 ? 1 / (kappa * context.dt * context.dt) : -1;
+      pull.friction = friction;
+      pull.turned = fits.turned(k);
+      const Vector origin = laneOf(sums.origin, k), centre = fits.centre(k);
+      pull.offset = origin + fits.offset(k);
+      if (!(friction > 0)) continue;
+      // The way of each member without the rigid motion of the whole.
+      const Vector shift = laneOf(sums.shift, k);
+      pull.centre = origin + centre;
+      pull.shift = 1 / fits.mass(k) * shift;
+      pull.turning =
+          symmetricInverse(inertiaOf(sums, k, fits.mass(k))) * (laneOf(sums.turning, k) - cross(centre, shift));
     }
-  }
+    pullMembers(particles, members, count, pulls.data(), scratch);
+  });
 }
 
 void ClusterModel::deriveVelocities(const ConstraintContext& context, const api::MovableParticles& particles,
                                     const GroupBatch& batch) const {
-  // The substep ends with v = (x - previous)/dt. The cluster moved each member by multiplier/m, across the way that its
-  // velocity had taken it: that cost the angular momentum sum way x multiplier/dt. Its pulls, taken where the members
-  // are now, should not turn it either. It gets the rigid turn that has what was lost.
-  ClusterScratch scratch;
-  for (size_t g = 0; g < batch.count; ++g) {
-    const ClusterMembers members = membersOf(batch, g);
-    const ClusterTurn turn = turnOf(particles, members, scratch);
-    if (!turn.moved || turn.held) continue;
-    const Vector spin = symmetricInverse(turn.sums.inertia()) * (1 / context.dt * turn.lost);
-    turnMembers(particles, members, turn.sums.centre(), spin, scratch);
-  }
+  // The substep ends with v = (x - previous)/dt. The cluster moved each member by its displacement, across the way that
+  // its velocity had taken it: that cost the angular momentum sum m way x displacement/dt. Its pulls, taken where the
+  // members are now, should not turn it either. It gets the rigid turn that has what was lost.
+  ClusterScratches scratch;
+  ClusterTurns turns;
+  forSome(batch, [&](size_t first, const ClusterMembers* members, size_t count) {
+    sumTurns(particles, members, count, scratch, turns);
+    for (size_t k = 0; k < count; ++k) {
+      if (!(turns.moved[k] > 0) || members[k].held) continue;
+      const double mass = massOf(batch, first + k);
+      const Vector spin = symmetricInverse(inertiaOf(turns.sums, k, mass)) * (1 / context.dt * laneOf(turns.lost, k));
+      turnMembers(particles, members[k], 1 / mass * laneOf(turns.sums.place, k) + laneOf(turns.sums.origin, k), spin,
+                  scratch[k]);
+    }
+  });
 }
 
 void ClusterModel::topology(const ConstraintContext& context, const ParticleView& p, const NeighbourView&,

@@ -17,18 +17,33 @@ namespace ps::constraint {
 class ClusterModel : public api::Described<api::GroupPlugin>, public api::StructureCount {
  public:
   enum Parameter { kRadius, kSpacing, kDamping, kStiffnessRatio, kParameterCount };
-  enum Value { kRotationX, kRotationY, kRotationZ, kRotationW, kVolume, kScale, kKappa, kValueCount };
+  enum Value {
+    kRotationX,
+    kRotationY,
+    kRotationZ,
+    kRotationW,
+    kVolume,
+    kScale,
+    kKappa,
+    kHeld,
+    kMass,  ///< as the next ones in two parts, of which the second follows
+    kRestCentreX = kMass + 2,
+    kRestCentreY = kRestCentreX + 2,
+    kRestCentreZ = kRestCentreY + 2,
+    kValueCount = kRestCentreZ + 2
+  };
   enum MemberValue {
     kRestX,
     kRestY,
     kRestZ,
     kRestVolume,
-    kMultiplierX,
-    kMultiplierY,
-    kMultiplierZ,
+    kDisplacementX,
+    kDisplacementY,
+    kDisplacementZ,
     kWayX,
     kWayY,
     kWayZ,
+    kMemberMass,
     kMemberValueCount
   };
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "clustershape.h"
 
-#include "rotationkernels.h"
-
 namespace ps::constraint {
 
 using Model = ClusterModel;
@@ -29,27 +27,64 @@ Matrix turnedBy(const api::GroupBatch& batch, size_t group, Quaternion q) {
   return turned;
 }
 
-/// About the centres.
-Matrix momentsOf(const ClusterSums& sums, Vector restCentre) {
-  Matrix moments = sums.moments;
-  addOuter(moments, -1, sums.place, restCentre);
-  return moments;
+/// The two parts of a number that one float does not hold.
+double wholeOf(const api::GroupBatch& batch, Model::Value v, size_t group) {
+  return double{batch.values[v][group]} + double{batch.values[v + 1][group]};
 }
+void keepWhole(const api::GroupBatch& batch, Model::Value v, size_t group, double number) {
+  const auto most = static_cast<float>(number);
+  batch.values[v][group] = most;
+  batch.values[v + 1][group] = static_cast<float>(number - double{most});
+}
+
+constexpr Model::Value kRestCentre[3] = {Model::kRestCentreX, Model::kRestCentreY, Model::kRestCentreZ};
 
 }  // namespace
 
-void ClusterFits::find(const api::GroupBatch& batch, const size_t* group, const ClusterSums* sums, size_t count) {
-  std::array<Quaternion, kMost> rotation;
-  std::array<Matrix, kMost> moments;
-  for (size_t k = 0; k < count; ++k) {
-    m_restCentre[k] = 1 / sums[k].mass * sums[k].rest;
-    moments[k] = momentsOf(sums[k], m_restCentre[k]);
-    rotation[k] = rotationOf(batch, group[k]);
+double massOf(const api::GroupBatch& batch, size_t group) { return wholeOf(batch, Model::kMass, group); }
+
+ClusterConstants ClusterConstants::find(const api::ParticleView& particles, const api::GroupBatch& batch,
+                                        size_t group) {
+  ClusterConstants found;
+  Vector moment;
+  for (size_t k = batch.begin[group]; k < batch.begin[group + 1]; ++k) {
+    const uint32_t i = batch.particles[k];
+    const auto rest = [&](Model::MemberValue v) { return double{batch.memberValues[v][k]}; };
+    batch.memberValues[Model::kMemberMass][k] = particles.mass[i];
+    const auto m = double{particles.mass[i]};
+    found.mass += m;
+    moment += m * Vector{rest(Model::kRestX), rest(Model::kRestY), rest(Model::kRestZ)};
+    found.held = found.held || particles.velocity[i].w == 0;
   }
-  findRotations(moments.data(), rotation.data(), count, kExact);
+  found.restCentre = 1 / found.mass * moment;
+  return found;
+}
+
+void ClusterConstants::keep(const api::GroupBatch& batch, size_t group) const {
+  keepWhole(batch, Model::kMass, group, mass);
+  const double centre[] = {restCentre.x, restCentre.y, restCentre.z};
+  for (size_t a = 0; a < 3; ++a) keepWhole(batch, kRestCentre[a], group, centre[a]);
+  batch.values[Model::kHeld][group] = held ? 1 : 0;
+}
+
+void ClusterFits::find(const api::GroupBatch& batch, size_t first, size_t count, const ClusterSums& sums) {
+  ShapeFits& fits = m_fits;
   for (size_t k = 0; k < count; ++k) {
-    keepRotation(batch, group[k], rotation[k]);
-    m_turned[k] = turnedBy(batch, group[k], rotation[k]);
+    const size_t group = first + k;
+    m_mass[k] = massOf(batch, group);
+    const double share = 1 / m_mass[k];
+    for (size_t a = 0; a < 3; ++a) {
+      fits.centre[a][k] = share * sums.place[a][k];
+      fits.restCentre[a][k] = wholeOf(batch, kRestCentre[a], group);
+      for (size_t b = 0; b < 3; ++b) fits.moments[a][b][k] = share * sums.moments[a][b][k];
+    }
+    for (size_t v = 0; v < 4; ++v) fits.rotation[v][k] = double{batch.values[Model::kRotationX + v][group]};
+    fits.scale[k] = double{batch.values[Model::kScale][group]};
+  }
+  fitShapes(fits, count, kExact);
+  for (size_t v = 0; v < 4; ++v) {
+    for (size_t k = 0; k < count; ++k)
+      batch.values[Model::kRotationX + v][first + k] = static_cast<float>(fits.rotation[v][k]);
   }
 }
 
@@ -63,19 +98,22 @@ ClusterShape::ClusterShape(const api::ParticleView& particles, const api::GroupB
 
 void ClusterShape::fit(const uint8_t* without) {
   // Sums over places seen from a member, so that nothing large cancels; moments about the centres follow from them.
-  ClusterSums sums;
-  sums.origin = vectorOf(m_p.position[m_batch.particles[m_first]]);
+  const Vector origin = vectorOf(m_p.position[m_batch.particles[m_first]]);
+  double total = 0;
+  Vector place, rests;
+  Matrix moments;
   each(without, [&](size_t k) {
     const double m = mass(k);
-    const Vector r = rest(k), weighted = m * (vectorOf(m_p.position[m_batch.particles[k]]) - sums.origin);
-    sums.mass += m;
-    sums.rest += m * r;
-    sums.place += weighted;
-    addOuter(sums.moments, 1, weighted, r);
+    const Vector r = rest(k), weighted = m * (vectorOf(m_p.position[m_batch.particles[k]]) - origin);
+    total += m;
+    rests += m * r;
+    place += weighted;
+    addOuter(moments, 1, weighted, r);
   });
-  m_restCentre = 1 / sums.mass * sums.rest;
-  m_centre = sums.origin + sums.centre();
-  m_rotation = constraint::rotationOf(momentsOf(sums, m_restCentre), m_rotation, kExact);
+  m_restCentre = 1 / total * rests;
+  m_centre = origin + 1 / total * place;
+  addOuter(moments, -1, place, m_restCentre);
+  m_rotation = constraint::rotationOf(moments, m_rotation, kExact);
   keepRotation(m_batch, m_group, m_rotation);
   m_turned = turnedBy(m_batch, m_group, m_rotation);
 }

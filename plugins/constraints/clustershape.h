@@ -3,25 +3,42 @@
 #include "clusterkernels.h"
 #include "clustermodel.h"
 #include "rotation.h"
-
-#include <array>
+#include "rotationkernels.h"
 
 namespace ps::constraint {
+
+/// What of a cluster stays the same while a frame lasts. In double precision: what is rounded would push a cluster
+/// the same way at each pass.
+struct ClusterConstants {
+  double mass = 0;    ///< kg
+  Vector restCentre;  ///< m
+  bool held = false;  ///< a member cannot move
+  /// By the batch's masses of members, which it finds as well.
+  static ClusterConstants find(const api::ParticleView& particles, const api::GroupBatch& batch, size_t group);
+  void keep(const api::GroupBatch& batch, size_t group) const;
+};
 
 /// Shapes of some clusters of a batch at once, by sums over all of their members.
 class ClusterFits {
  public:
-  static constexpr size_t kMost = 8;
-  /// Finds the rotations, and keeps them in the batch's values.
-  void find(const api::GroupBatch& batch, const size_t* group, const ClusterSums* sums, size_t count);
-  Vector restCentre(size_t k) const { return m_restCentre[k]; }
+  /// Of the `count` clusters from `first` on. Finds the rotations, and keeps them in the batch's values.
+  void find(const api::GroupBatch& batch, size_t first, size_t count, const ClusterSums& sums);
+  double mass(size_t k) const { return m_mass[k]; }
+  Vector centre(size_t k) const { return laneOf(m_fits.centre, k); }
+  /// Where the undeformed frame's origin goes.
+  Vector offset(size_t k) const { return laneOf(m_fits.offset, k); }
   /// Rotation times scale.
-  const Matrix& turned(size_t k) const { return m_turned[k]; }
+  Matrix turned(size_t k) const {
+    const auto row = [&](size_t i) { return laneOf(m_fits.moments[i], k); };
+    return {{row(0), row(1), row(2)}};
+  }
 
  private:
-  std::array<Vector, kMost> m_restCentre;
-  std::array<Matrix, kMost> m_turned;
+  ShapeFits m_fits;
+  ClusterLanes m_mass;
 };
+/// kg, as kept.
+double massOf(const api::GroupBatch& batch, size_t group);
 
 /// One cluster of a batch: its undeformed shape, and where its members are pulled to. Places `k` count through the
 /// batch's arrays.

@@ -36,6 +36,11 @@ struct Lanes {
     const auto two = lastTwo();
     return hn::GetLane(two) + hn::GetLane(hn::Reverse(DTwo(), two));
   }
+  /// This one and another's, of the same tree.
+  HWY_INLINE void sumsWith(const Lanes& other, double* both) const {
+    const auto a = lastTwo(), b = other.lastTwo();
+    hn::Store(hn::Add(hn::InterleaveLower(DTwo(), a, b), hn::InterleaveUpper(DTwo(), a, b)), DTwo(), both);
+  }
 
  private:
   using DTwo = hn::CappedTag<double, 2>;
@@ -81,8 +86,15 @@ struct Few {
   Few(size_t at, size_t all) : first(at), count(at < all ? HWY_MIN(all - at, kLanes) : 0) {}
 };
 
+/// As many as there are lanes.
+struct Whole {
+  size_t first;
+  static constexpr size_t count = kLanes;
+};
+
 /// 0 beyond the last member.
-HWY_INLINE V loadFloats(const float* from, Few few) {
+template <class Members>
+HWY_INLINE V loadFloats(const float* from, Members few) {
   const DF df;
   if (few.count == kLanes) return hn::PromoteTo(D(), hn::LoadU(df, from + few.first));
 #if HWY_MAX_BYTES >= 32  // others read and write what is masked
@@ -92,11 +104,12 @@ HWY_INLINE V loadFloats(const float* from, Few few) {
   for (size_t k = 0; k < few.count; ++k) tile[k] = from[few.first + k];
   return hn::PromoteTo(D(), hn::Load(df, tile));
 }
-template <class Floats>
-HWY_INLINE V3 loadFloats3(const Floats& from, Few few) {
+template <class Floats, class Members>
+HWY_INLINE V3 loadFloats3(const Floats& from, Members few) {
   return {loadFloats(from[0], few), loadFloats(from[1], few), loadFloats(from[2], few)};
 }
-HWY_INLINE void storeFloats(V v, float* to, Few few) {
+template <class Members>
+HWY_INLINE void storeFloats(V v, float* to, Members few) {
   const DF df;
   if (few.count == kLanes) return hn::StoreU(hn::DemoteTo(df, v), df, to + few.first);
 #if HWY_MAX_BYTES >= 32
@@ -146,18 +159,39 @@ HWY_INLINE V4 gather(const api::Float4* particles, const uint32_t* id) {
   const Floats4 of = gatherFloats(particles, id);
   return {{hn::PromoteTo(d, of.x), hn::PromoteTo(d, of.y), hn::PromoteTo(d, of.z)}, hn::PromoteTo(d, of.w)};
 }
-/// Leaves their w as it is: it is read and written again, since stores with a mask take several times as long.
-HWY_INLINE void scatter(V3 v, api::Float4* particles, const uint32_t* id, Few few) {
+/// With the w that they have: it is written again, since stores with a mask take several times as long.
+template <class Members>
+HWY_INLINE void scatter(V3 v, hn::Vec<DF> w, api::Float4* particles, const uint32_t* id, Members few) {
   const DF df;
-  alignas(64) api::Float4 tile[kLanes];
-  hn::StoreInterleaved4(hn::DemoteTo(df, v.x), hn::DemoteTo(df, v.y), hn::DemoteTo(df, v.z),
-                        gatherFloats(particles, id).w, df, &tile[0].x);
   const hn::Full128<float> d1;
+  const auto x = hn::DemoteTo(df, v.x), y = hn::DemoteTo(df, v.y), z = hn::DemoteTo(df, v.z);
+  alignas(64) api::Float4 tile[kLanes];
+#if HWY_MAX_BYTES >= 64
+  if (few.count == kLanes) {
+    const hn::Repartition<double, DF> dd;
+    const auto xy0 = hn::BitCast(dd, hn::InterleaveLower(df, x, y)),
+               xy2 = hn::BitCast(dd, hn::InterleaveUpper(df, x, y));
+    const auto zw0 = hn::BitCast(dd, hn::InterleaveLower(df, z, w)),
+               zw2 = hn::BitCast(dd, hn::InterleaveUpper(df, z, w));
+    const auto two = [&](auto both, size_t k) HWY_ATTR {  // particles k and k + 4
+      const auto blocks = hn::BitCast(df, both);
+      hn::Store(hn::LowerHalf(d1, blocks), d1, &particles[id[k]].x);
+      hn::Store(hn::UpperHalf(d1, blocks), d1, &particles[id[k + 4]].x);
+    };
+    two(hn::InterleaveLower(dd, xy0, zw0), 0), two(hn::InterleaveUpper(dd, xy0, zw0), 1);
+    two(hn::InterleaveLower(dd, xy2, zw2), 2), two(hn::InterleaveUpper(dd, xy2, zw2), 3);
+    return;
+  }
+#endif
+  hn::StoreInterleaved4(x, y, z, w, df, &tile[0].x);
   if (few.count == kLanes) {
     for (size_t k = 0; k < kLanes; ++k) hn::Store(hn::Load(d1, &tile[k].x), d1, &particles[id[k]].x);
   } else {
     for (size_t k = 0; k < few.count; ++k) hn::Store(hn::Load(d1, &tile[k].x), d1, &particles[id[k]].x);
   }
+}
+HWY_INLINE void scatter(V3 v, api::Float4* particles, const uint32_t* id, Few few) {
+  scatter(v, gatherFloats(particles, id).w, particles, id, few);
 }
 struct SecondLanes {
   Lanes xx, yy, zz, xy, xz, yz;

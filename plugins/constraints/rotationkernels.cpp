@@ -156,6 +156,45 @@ HWY_INLINE Turn rotationOf(const V3* a, Turn q, double exact) {
   return q;
 }
 
+HWY_INLINE V3 loadVector(const ShapeVectors& v, size_t lane) {
+  const D d;
+  return {hn::Load(d, v[0].data() + lane), hn::Load(d, v[1].data() + lane), hn::Load(d, v[2].data() + lane)};
+}
+HWY_INLINE void storeVector(V3 v, ShapeVectors& to, size_t lane) {
+  const D d;
+  hn::Store(v.x, d, to[0].data() + lane), hn::Store(v.y, d, to[1].data() + lane);
+  hn::Store(v.z, d, to[2].data() + lane);
+}
+
+void FitShapes(ShapeFits& fits, size_t count, double exact) {
+  const D d;
+  for (size_t lane = 0; lane < count; lane += kLanes) {
+    const V3 centre = loadVector(fits.centre, lane), restCentre = loadVector(fits.restCentre, lane);
+    // Beyond the last shape stands a unit matrix, of which nothing remains to be found.
+    const M one = hn::FirstN(d, count - lane);
+    const V along[3] = {centre.x, centre.y, centre.z};
+    V3 rows[3];
+    for (size_t i = 0; i < 3; ++i) {
+      const V3 about = loadVector(fits.moments[i], lane), gone = scaled(along[i], restCentre);
+      rows[i] = chosen(one, {minus(about.x, gone.x), minus(about.y, gone.y), minus(about.z, gone.z)},
+                       {set(i == 0), set(i == 1), set(i == 2)});
+    }
+    const auto part = [&](size_t k) HWY_ATTR { return hn::Load(d, fits.rotation[k].data() + lane); };
+    const V none = hn::Zero(d);
+    const Turn from = chosen(one, {part(0), part(1), part(2), part(3)}, {none, none, none, set(1)});
+    const Turn found = rotationOf(rows, normalised(from), exact);
+    const V parts[4] = {found.x, found.y, found.z, found.w};
+    for (size_t k = 0; k < 4; ++k) hn::Store(parts[k], d, fits.rotation[k].data() + lane);
+    const Rows r = rowsOf(found);
+    const V scale = hn::Load(d, fits.scale.data() + lane);
+    const V3 turned[3] = {scaled(scale, r.row[0]), scaled(scale, r.row[1]), scaled(scale, r.row[2])};
+    for (size_t i = 0; i < 3; ++i) storeVector(turned[i], fits.moments[i], lane);
+    storeVector({minus(centre.x, dot(turned[0], restCentre)), minus(centre.y, dot(turned[1], restCentre)),
+                 minus(centre.z, dot(turned[2], restCentre))},
+                fits.offset, lane);
+  }
+}
+
 void FindRotations(const Matrix* a, Quaternion* q, size_t count, double exact) {
   const D d;
   for (size_t first = 0; first < count; first += kLanes) {
@@ -186,11 +225,14 @@ HWY_AFTER_NAMESPACE();
 namespace ps::constraint {
 namespace {
 HWY_EXPORT(FindRotations);
+HWY_EXPORT(FitShapes);
 }  // namespace
 
 void findRotations(const Matrix* a, Quaternion* q, size_t count, double exact) {
   if (count > 0) HWY_DYNAMIC_DISPATCH(FindRotations)(a, q, count, exact);
 }
+
+void fitShapes(ShapeFits& fits, size_t count, double exact) { HWY_DYNAMIC_DISPATCH(FitShapes)(fits, count, exact); }
 
 }  // namespace ps::constraint
 #endif
