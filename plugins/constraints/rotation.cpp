@@ -11,8 +11,8 @@ Quaternion exponential(Vector v) {
   double scale = 0.5;
   for (double angle2 = 0.25 * dot(v, v); angle2 > 0.01 && halvings < 40; angle2 *= 0.25, scale *= 0.5) ++halvings;
   const double s = scale * scale * dot(v, v);
-  const double sine = scale * (1 - s / 6 * (1 - s / 20 * (1 - s / 42 * (1 - s / 72))));
-  const double cosine = 1 - s / 2 * (1 - s / 12 * (1 - s / 30 * (1 - s / 56)));
+  const double sine = scale * (1 - s * (1.0 / 6) * (1 - s * (1.0 / 20) * (1 - s * (1.0 / 42) * (1 - s * (1.0 / 72)))));
+  const double cosine = 1 - s * 0.5 * (1 - s * (1.0 / 12) * (1 - s * (1.0 / 30) * (1 - s * (1.0 / 56))));
   Quaternion q{sine * v.x, sine * v.y, sine * v.z, cosine};
   for (int k = 0; k < halvings; ++k) q = q * q;
   return normalised(q);

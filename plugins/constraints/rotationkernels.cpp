@@ -55,7 +55,7 @@ HWY_INLINE Turn normalised(Turn q) {
 }
 
 /// 1 - s/n * rest
-HWY_INLINE V series(V s, double n, V rest) { return minus(set(1), times(hn::Div(s, set(n)), rest)); }
+HWY_INLINE V series(V s, double n, V rest) { return minus(set(1), times(times(s, set(1 / n)), rest)); }
 
 HWY_INLINE Turn exponential(V3 v) {
   constexpr int kMost = 40;
@@ -70,8 +70,8 @@ HWY_INLINE Turn exponential(V3 v) {
     halvings = hn::IfThenElse(large, plus(halvings, one), halvings);
   }
   const V s = times(times(scale, scale), square);
-  const V sine = times(scale, series(s, 6, series(s, 20, series(s, 42, minus(one, hn::Div(s, set(72)))))));
-  const V cosine = series(s, 2, series(s, 12, series(s, 30, minus(one, hn::Div(s, set(56))))));
+  const V sine = times(scale, series(s, 6, series(s, 20, series(s, 42, minus(one, times(s, set(1.0 / 72)))))));
+  const V cosine = series(s, 2, series(s, 12, series(s, 30, minus(one, times(s, set(1.0 / 56))))));
   Turn q{times(sine, v.x), times(sine, v.y), times(sine, v.z), cosine};
   for (int k = 0; k < most; ++k) q = chosen(hn::Gt(halvings, set(k)), product(q, q), q);
   return normalised(q);
