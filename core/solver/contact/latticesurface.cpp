@@ -23,29 +23,33 @@ void LatticeSurface::clear(size_t particles) {
 }
 
 LatticeSurface::Normal LatticeSurface::normalOf(const ParticleStore& store, uint32_t i) const {
-  const Own& found = m_own[m_slot[i]];
-  const std::span<const uint32_t> own(found.particles.data(), found.count);
-  const auto fromNeighbour = [&](uint32_t j) { return vectorOf(store.separation(i, j)); };
-  if (own.size() < kLeast) return {};
+  const Own& own = m_own[m_slot[i]];
+  if (own.count < kLeast) return {};
+  std::array<Vector3, kMostOwn> lines;  // from each neighbour
+  Vector3 sum;
+  for (size_t k = 0; k < own.count; ++k) {
+    lines[k] = vectorOf(store.separation(i, own.particles[k]));
+    sum += lines[k];
+  }
+  const auto all = std::span(lines).first(own.count);
   // A layer one particle thick: all neighbours lie in one plane.
   Vector3 across;
-  for (const uint32_t j : own) {
-    const Vector3 normal = fromNeighbour(own[0]).cross(fromNeighbour(j));
-    if (normal.squaredNorm() > across.squaredNorm()) across = normal;
+  double largest = 0;
+  for (const Vector3& line : all) {
+    const Vector3 normal = lines[0].cross(line);
+    const double square = normal.squaredNorm();
+    if (square > largest) across = normal, largest = square;
   }
-  if (const double size = across.norm(); size > 0.5 * m_spacing * m_spacing) {
+  if (const double size = std::sqrt(largest); size > 0.5 * m_spacing * m_spacing) {
     across /= size;
-    const bool sheet = std::all_of(own.begin(), own.end(), [&](uint32_t j) {
-      return std::abs(fromNeighbour(j).dot(across)) < kSheet * m_spacing;
-    });
+    const bool sheet = std::all_of(
+        all.begin(), all.end(), [&](const Vector3& line) { return std::abs(line.dot(across)) < kSheet * m_spacing; });
     if (sheet) return {across, kFaceNeighbours, true};
   }
-  Vector3 sum;
-  for (const uint32_t j : own) sum += fromNeighbour(j);
   const double length = sum.norm();
   // Inside a lattice the neighbours cancel: there is no face.
   if (!(length > 0.5 * m_spacing)) return {};
-  return {sum / length, static_cast<uint32_t>(own.size()), false};
+  return {sum / length, own.count, false};
 }
 
 LatticeSurface::Facing LatticeSurface::facing(const Normal& i, const Normal& j, const Vector3& line) const {

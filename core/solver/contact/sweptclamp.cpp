@@ -12,7 +12,9 @@ namespace {
 
 constexpr double kContact = 0.75;  // spacings
 constexpr int kBounces = 4;
-constexpr double kAlong = 1e-3;      ///< share of a way that does not lead below a plane
+constexpr double kAlong = 1e-3;  ///< share of a way that does not lead below a plane
+constexpr float kFarAway = 1e30f;
+constexpr double kSafe = 0.999;      ///< of a distance in single precision
 constexpr double kMostBoxes = 1000;  ///< periods that a particle may cross in a substep and still be swept
 
 }  // namespace
@@ -21,6 +23,7 @@ void SweptClamp::configure(const SolverSettings& settings) {
   m_radius = kContact * settings.spacing;
   m_contact = kContactDiameter * settings.spacing;
   m_width = kFaceWidth * settings.spacing;
+  m_faceTouch = std::hypot(m_radius, m_width);
   m_cell = 1.5 * settings.spacing;
   m_halfSkin = 0.5 * kSkinSpacings * settings.spacing;
   // A list reaches a support radius; whoever has moved less than this since, without a static entry, has met none.
@@ -52,21 +55,57 @@ void SweptClamp::sortIntoCells() {
 }
 
 void SweptClamp::refreshLists(const ParticleStore& store, const Neighbours& neighbours) {
-  m_nearStatic.assign(store.size(), 0);
   if (m_static.empty()) return;
-  const api::NeighbourView view = neighbours.view();
+  for (auto& list : m_listed) list.clear();
   for (const uint32_t i : m_static) {
-    for (uint32_t q = view.begin[i]; q < view.last[i]; ++q) m_nearStatic[view.index[q]] = 1;
+    const api::Float4& v = store.velocity()[i];
+    m_listed[v.x != 0 || v.y != 0 || v.z != 0 ? 1 : 0].push_back(i);
+  }
+  const api::NeighbourView view = neighbours.view();
+  const api::Float4* at = neighbours.built().data();
+  for (size_t kind = 0; kind < 2; ++kind) {
+    m_clearance2[kind].assign(store.size(), kFarAway);
+    float* nearest = m_clearance2[kind].data();
+    for (const uint32_t i : m_listed[kind]) {
+      const api::Float4 own = at[i];
+      for (uint32_t q = view.begin[i], end = view.last[i]; q < end; ++q) {
+        const uint32_t j = view.index[q];
+        float x = own.x - at[j].x, y = own.y - at[j].y, z = own.z - at[j].z;
+        if (m_period.any()) m_period.shorten(x, y, z);
+        nearest[j] = std::min(nearest[j], x * x + y * y + z * z);
+      }
+    }
   }
 }
 
-bool SweptClamp::maySkip(const ParticleStore& store, const Neighbours& neighbours, size_t i) const {
-  if (m_nearStatic[i] != 0) return false;
+/// How far static ones are from where they were when the lists were made, before this substep and after it.
+void SweptClamp::measureReach(const ParticleStore& store, const Neighbours& neighbours) {
+  const std::span<const api::Float4> built = neighbours.built();
+  for (size_t kind = 0; kind < 2; ++kind) {
+    float most = 0;
+    for (const uint32_t i : m_listed[kind]) {
+      for (const api::Float4& end : {store.previous()[i], store.position()[i]}) {
+        const float x = end.x - built[i].x, y = end.y - built[i].y, z = end.z - built[i].z;
+        most = std::max(most, x * x + y * y + z * z);
+      }
+    }
+    m_reach[kind] = std::sqrt(double{most});
+  }
+}
+
+bool SweptClamp::maySkip(const ParticleStore& store, const Neighbours& neighbours, size_t i, bool single) const {
   // Static ones that move have gone no farther since than lists allow, and in this substep.
-  const double safeWay = m_longest > 0 ? m_safeWay - m_halfSkin - m_longest : m_safeWay;
+  double safeWay = m_longest > 0 ? m_safeWay - m_halfSkin - m_longest : m_safeWay;
+  double touch = single ? m_contact : m_radius;
+  if (m_longest > 0 && store.motion()[i] == api::Motion::Solid) touch = std::max(touch, m_faceTouch);
+  for (size_t kind = 0; kind < 2; ++kind) {
+    const auto clearance2 = double{m_clearance2[kind][i]};
+    if (clearance2 < kFarAway) safeWay = std::min(safeWay, kSafe * std::sqrt(clearance2) - touch - m_reach[kind]);
+  }
+  if (!(safeWay > 0)) return false;
   const Vector3 built = vectorOf(neighbours.built()[i]);
   for (const api::Float4& end : {store.previous()[i], store.position()[i]}) {
-    if (!(safeWay > 0 && (vectorOf(end) - built).squaredNorm() < safeWay * safeWay)) return false;
+    if (!((vectorOf(end) - built).squaredNorm() < safeWay * safeWay)) return false;
   }
   return true;
 }
@@ -224,6 +263,7 @@ void SweptClamp::apply(ParticleStore& store, const Neighbours& neighbours, const
   m_held.clear();
   if (m_static.empty()) return;
   if (m_longest > 0) placeMoving(store, contact);
+  measureReach(store, neighbours);
   m_held.resize(store.size(), {0, 0, 0, 0});
   m_heldBy.resize(store.size());
   api::Float4* position = store.position();
@@ -231,9 +271,9 @@ void SweptClamp::apply(ParticleStore& store, const Neighbours& neighbours, const
   m_reactions->start(chunkCount(store.size(), grain::kParticles));
   forChunks(store.size(), grain::kParticles, [&](size_t first, size_t last) {
     for (size_t i = first; i < last; ++i) {
-      if (store.velocity()[i].w == 0 || maySkip(store, neighbours, i)) continue;
-      const Vector3 from = vectorOf(store.previous()[i]), to = vectorOf(position[i]);
       const bool solid = store.motion()[i] == api::Motion::Solid, tied = !graph.isFree(static_cast<uint32_t>(i));
+      if (store.velocity()[i].w == 0 || maySkip(store, neighbours, i, solid && !tied)) continue;
+      const Vector3 from = vectorOf(store.previous()[i]), to = vectorOf(position[i]);
       Vector3 end = sweepOf({from, to - from, 0, 1, solid && !tied, solid && tied && rigid[i] == 0}, m_heldBy[i]);
       if (end == to) continue;
       walls.clamp(end);

@@ -22,7 +22,7 @@ class SweptClamp {
   void configure(const SolverSettings& settings);
   /// Once per frame: finds the static particles; `led`: some of them will be set in motion in it.
   void refresh(const ParticleStore& store, bool led);
-  /// After new lists: which particles have a static one in their list.
+  /// After new lists: how far the static ones in each particle's list are.
   void refreshLists(const ParticleStore& store, const Neighbours& neighbours);
   /// Members of rigid bodies (1 in `rigid`) are not moved: see held(). What a constraint ties may come nearer to what
   /// it is tied to than contact allows.
@@ -60,7 +60,8 @@ class SweptClamp {
     bool soft = false;           ///< a solid that is tied, but not as a rigid body
   };
   void sortIntoCells();
-  bool maySkip(const ParticleStore& store, const Neighbours& neighbours, size_t i) const;
+  void measureReach(const ParticleStore& store, const Neighbours& neighbours);
+  bool maySkip(const ParticleStore& store, const Neighbours& neighbours, size_t i, bool single) const;
   Hit firstHit(const Sweep& sweep) const;
   void imagesHit(const Sweep& sweep, Hit& hit) const;
   void firstHit(const Sweep& sweep, Hit& hit) const;
@@ -69,14 +70,17 @@ class SweptClamp {
   void placeMoving(const ParticleStore& store, const SolidContact& contact);
   Vector3 sweepOf(Sweep sweep, uint32_t& body) const;
 
-  double m_radius = 0, m_contact = 0, m_width = 0, m_cell = 1, m_safeWay = 0, m_halfSkin = 0;  ///< m
+  double m_radius = 0, m_contact = 0, m_width = 0, m_faceTouch = 0, m_cell = 1, m_safeWay = 0, m_halfSkin = 0;  ///< m
   double m_longest = 0;  ///< m, of the obstacles' ways
   Period m_period;
   Vector3 m_low, m_high;  ///< m, around the obstacles
   CellGrid m_grid;        ///< of them
   std::vector<uint32_t> m_static;
   std::vector<Obstacle> m_obstacles, m_unsorted;  ///< the first in order of cell
-  std::vector<uint8_t> m_nearStatic;
+  /// Static ones, those that stood first and then those that moved when the lists were made.
+  std::array<std::vector<uint32_t>, 2> m_listed;
+  std::array<std::vector<float>, 2> m_clearance2;  ///< m2, by particle: from the nearest of these in its list
+  std::array<double, 2> m_reach{};                 ///< m, how far these have gone since, or go in this substep
   std::vector<api::Float4> m_held;
   std::vector<uint32_t> m_heldBy;
   ChunkSum m_moved;
