@@ -29,6 +29,11 @@ class LatticeSurface {
   /// A face has as many, of 18 inside, 13 in a face, 9 on an edge, 6 in a corner.
   static constexpr uint32_t kFaceNeighbours = 11;
 
+  /// Neighbours of a particle in its own lattice.
+  struct Own {
+    std::array<uint32_t, kMostOwn> particles;
+    uint32_t count = 0;
+  };
   struct Normal {
     Vector3 normal;           ///< unit, outward; zero inside and where there is no lattice
     uint32_t neighbours = 0;  ///< as flat as that
@@ -57,15 +62,23 @@ class LatticeSurface {
   uint32_t whoIs(size_t slot) const { return m_who[slot]; }
   bool has(uint32_t i) const { return i < m_slot.size() && m_slot[i] != kNone; }
   size_t size() const { return m_who.size(); }
+  Own& own(size_t slot) { return m_own[slot]; }
   /// Finds the lattice around the particle of each slot; same(i, j) says whether a neighbour j belongs to it, and is
   /// asked from several threads. By positions that the lists were made for: what is found depends on nothing else.
   template <class Same>
   void find(const ParticleStore& store, const Neighbours& neighbours, const Same& same) {
+    find(store, neighbours, same, [](uint32_t, Own&) { return false; });
+  }
+  /// The same, but for those whose neighbours recall(i, own) knows.
+  template <class Same, class Recall>
+  void find(const ParticleStore& store, const Neighbours& neighbours, const Same& same, const Recall& recall) {
     m_room.resize(std::max(m_room.size(), chunkCount(m_who.size(), grain::kNeighbours)));
     const NearNeighbours near(store, neighbours);
     forChunks(m_who.size(), grain::kNeighbours, [&](size_t first, size_t last) {
       std::vector<uint32_t>& room = m_room[first / grain::kNeighbours];
-      for (size_t slot = first; slot < last; ++slot) findOne(store, neighbours.built(), near, slot, same, room);
+      for (size_t slot = first; slot < last; ++slot) {
+        if (!recall(m_who[slot], m_own[slot])) findOne(store, neighbours.built(), near, slot, same, room);
+      }
     });
   }
   /// The same for one slot alone, from one thread.
@@ -90,10 +103,6 @@ class LatticeSurface {
 
  private:
   static constexpr double kOwnReach = 1.5;  ///< spacings
-  struct Own {
-    std::array<uint32_t, kMostOwn> particles;
-    uint32_t count = 0;
-  };
   template <class Same>
   void findOne(const ParticleStore& store, std::span<const api::Float4> at, const NearNeighbours& near, size_t slot,
                const Same& same, std::vector<uint32_t>& room) {

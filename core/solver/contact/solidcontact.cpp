@@ -200,10 +200,25 @@ void SolidContact::findSurfaces(const ParticleStore& store, const Neighbours& ne
       }
     }
   }
-  m_surface.find(store, neighbours,
-                 [&](uint32_t i, uint32_t j) { return (isStatic(i) && isStatic(j)) || sameLattice(graph, i, j); });
+  m_fixed.refresh(store);
+  const auto mayKeep = [&](uint32_t i) { return isStatic(i) && graph.isFree(i); };
+  m_surface.find(
+      store, neighbours,
+      [&](uint32_t i, uint32_t j) { return (isStatic(i) && isStatic(j)) || sameLattice(graph, i, j); },
+      [&](uint32_t i, LatticeSurface::Own& own) { return mayKeep(i) && m_fixed.recall(i, own); });
   m_normals.resize(m_surface.size());
   m_stood.assign(m_surface.size(), 0);
+  m_isKept.assign(m_surface.size(), 0);
+  for (size_t slot = 0; slot < m_surface.size(); ++slot) {
+    const uint32_t i = m_surface.whoIs(slot);
+    if (!mayKeep(i)) continue;
+    m_isKept[slot] = 1;
+    if (!m_fixed.knows(i)) m_fixed.keep(i, m_surface.own(slot));
+    const LatticeSurface::Normal* normal = m_fixed.normalOf(i);
+    if (normal == nullptr) continue;
+    m_normals[slot] = *normal;
+    m_stood[slot] = 1;
+  }
 }
 
 void SolidContact::begin(const ParticleStore& store) {
@@ -215,6 +230,7 @@ void SolidContact::begin(const ParticleStore& store) {
       const uint32_t i = m_surface.whoIs(slot);
       const bool still = m_surface.isStill(store, i);
       if (!still || m_stood[slot] == 0) m_normals[slot] = m_surface.normalOf(store, i);
+      if (still && m_stood[slot] == 0 && m_isKept[slot] != 0) m_fixed.keepNormal(i, m_normals[slot]);
       m_stood[slot] = still ? 1 : 0;
     }
   });

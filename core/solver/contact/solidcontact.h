@@ -4,6 +4,7 @@
 #include "core/matter/material.h"
 #include "core/particles/impulse.h"
 #include "core/particles/reactions.h"
+#include "core/solver/contact/fixedsurface.h"
 #include "core/solver/contact/latticesurface.h"
 #include "core/solver/structure/constraintsystem.h"
 
@@ -133,8 +134,10 @@ class SolidContact {
   std::vector<uint8_t> m_contacts;
   std::vector<uint8_t> m_loose;  ///< 1: tied to nothing
   std::vector<api::Float4> m_couple;
-  LatticeSurface m_surface;                       ///< of those that may touch and belong to a lattice
+  LatticeSurface m_surface;  ///< of those that may touch and belong to a lattice
+  FixedSurface m_fixed;
   std::vector<LatticeSurface::Normal> m_normals;  ///< by its slots
+  std::vector<uint8_t> m_isKept;                  ///< by its slots; 1: of m_fixed
   std::vector<uint8_t> m_stood;                   ///< by its slots; 1: has its normal, and nothing has moved since
   static constexpr double kMicrosecondsPerPair = 0.02;  ///< of one thread
   size_t m_pairs = 0;                                   ///< that may touch
