@@ -33,9 +33,10 @@ struct StructureGraph {
   size_t ties(uint32_t i) const { return i + size_t{1} < begin.size() ? begin[i + 1] - begin[i] : 0; }
   bool tied(uint32_t i, uint32_t j) const {
     if (i + size_t{1} >= begin.size()) return false;
-    for (uint32_t k = begin[i]; k < begin[i + 1]; ++k) {
-      if (partner[k] == j) return true;
-    }
+    const uint32_t *first = partner.data() + begin[i], *last = partner.data() + begin[i + 1];
+    unsigned among = 0;  // without a branch in the loop compilers make vectors of it
+    for (; first != last; ++first) among |= *first == j ? 1u : 0u;
+    if (among != 0) return true;
     for (uint32_t a = groupBegin[i], b = groupBegin[j]; a < groupBegin[i + 1] && b < groupBegin[j + 1];) {
       if (group[a] == group[b]) return true;
       ++(group[a] < group[b] ? a : b);
