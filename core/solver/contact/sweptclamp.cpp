@@ -63,16 +63,36 @@ void SweptClamp::refreshLists(const ParticleStore& store, const Neighbours& neig
   }
   const api::NeighbourView view = neighbours.view();
   const api::Float4* at = neighbours.built().data();
-  for (size_t kind = 0; kind < 2; ++kind) {
-    m_clearance2[kind].assign(store.size(), kFarAway);
-    float* nearest = m_clearance2[kind].data();
-    for (const uint32_t i : m_listed[kind]) {
-      const api::Float4 own = at[i];
+  const auto between = [&](uint32_t i, uint32_t j) {
+    float x = at[i].x - at[j].x, y = at[i].y - at[j].y, z = at[i].z - at[j].z;
+    if (m_period.any()) m_period.shorten(x, y, z);
+    return x * x + y * y + z * z;
+  };
+  for (size_t kind = 0; kind < 2; ++kind) m_clearance2[kind].assign(store.size(), kFarAway);
+  if (2 * m_static.size() > store.size()) {  // fewer lists to go through: those of what moves
+    m_kind.assign(store.size(), 0);
+    for (size_t kind = 0; kind < 2; ++kind) {
+      for (const uint32_t i : m_listed[kind]) m_kind[i] = static_cast<uint8_t>(kind + 1);
+    }
+    for (uint32_t i = 0; i < store.size(); ++i) {
+      if (m_kind[i] != 0) continue;
+      std::array<float, 2> nearest{kFarAway, kFarAway};
       for (uint32_t q = view.begin[i], end = view.last[i]; q < end; ++q) {
         const uint32_t j = view.index[q];
-        float x = own.x - at[j].x, y = own.y - at[j].y, z = own.z - at[j].z;
-        if (m_period.any()) m_period.shorten(x, y, z);
-        nearest[j] = std::min(nearest[j], x * x + y * y + z * z);
+        if (m_kind[j] == 0) continue;
+        float& square = nearest[m_kind[j] - size_t{1}];
+        square = std::min(square, between(i, j));
+      }
+      for (size_t kind = 0; kind < 2; ++kind) m_clearance2[kind][i] = nearest[kind];
+    }
+    return;
+  }
+  for (size_t kind = 0; kind < 2; ++kind) {
+    float* nearest = m_clearance2[kind].data();
+    for (const uint32_t i : m_listed[kind]) {
+      for (uint32_t q = view.begin[i], end = view.last[i]; q < end; ++q) {
+        const uint32_t j = view.index[q];
+        nearest[j] = std::min(nearest[j], between(i, j));
       }
     }
   }

@@ -80,6 +80,7 @@ class SweptClamp {
   /// Static ones, those that stood first and then those that moved when the lists were made.
   std::array<std::vector<uint32_t>, 2> m_listed;
   std::array<std::vector<float>, 2> m_clearance2;  ///< m2, by particle: from the nearest of these in its list
+  std::vector<uint8_t> m_kind;                     ///< by particle: 0 not static, else 1 + which of these
   std::array<double, 2> m_reach{};                 ///< m, how far these have gone since, or go in this substep
   std::vector<api::Float4> m_held;
   std::vector<uint32_t> m_heldBy;
