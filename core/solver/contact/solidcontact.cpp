@@ -59,11 +59,8 @@ void SolidContact::refresh(const ParticleStore& store, const Neighbours& neighbo
                            std::span<const uint32_t> pieceOf, std::span<const uint8_t> rigid) {
   m_any = false;
   m_squeezedShare = 0;
-  m_solids.clear();
   const api::Motion* motion = store.motion();
-  for (uint32_t i = 0; i < store.size(); ++i) {
-    if (motion[i] == api::Motion::Solid) m_solids.push_back(i);
-  }
+  findIndices(store.size(), m_solids, [&](size_t i) { return motion[i] == api::Motion::Solid; });
   if (m_solids.empty()) return;
   const StructureGraph& graph = constraints.graph(store.size());
   findKinds(store, neighbours, graph, rigid);
@@ -75,20 +72,30 @@ void SolidContact::refresh(const ParticleStore& store, const Neighbours& neighbo
     m_pairs += chunk.other.size();
     m_any = m_any || !chunk.who.empty();
     squeezed += chunk.squeezed;
-    chunk.facing.assign(chunk.other.size(), {0, 0, 0, 0});
-    for (size_t k = 0; k < chunk.who.size(); ++k) {
-      const uint32_t piece = pieceOf[chunk.who[k]];
-      for (uint32_t q = chunk.begin[k]; q < chunk.begin[k + 1]; ++q) {
-        if (piece != ConstraintSystem::kNoPiece && piece == pieceOf[chunk.other[q]]) chunk.facing[q].w = kRound;
-      }
-    }
   }
+  forChunks(m_chunks.size(), 1, [&](size_t first, size_t last) {
+    for (size_t c = first; c < last; ++c) markRound(m_chunks[c], pieceOf);
+  });
   findSurfaces(store, neighbours, graph);
   m_loose.resize(store.size());
-  for (uint32_t i = 0; i < store.size(); ++i) m_loose[i] = graph.isFree(i) ? 1 : 0;
+  forChunks(store.size(), grain::kNumbers, [&](size_t first, size_t last) {
+    for (size_t i = first; i < last; ++i) m_loose[i] = graph.isFree(static_cast<uint32_t>(i)) ? 1 : 0;
+  });
   m_couple.assign(store.size(), {0, 0, 0, 0});
   m_squeezedShare = static_cast<double>(squeezed) / static_cast<double>(m_solids.size());
   m_contacts.assign(store.size() + 1, 1);
+}
+
+/// Particles of one piece are round to each other.
+void SolidContact::markRound(Chunk& chunk, std::span<const uint32_t> pieceOf) {
+  chunk.facing.assign(chunk.other.size(), {0, 0, 0, 0});
+  for (size_t k = 0; k < chunk.who.size(); ++k) {
+    const uint32_t piece = pieceOf[chunk.who[k]];
+    if (piece == ConstraintSystem::kNoPiece) continue;
+    for (uint32_t q = chunk.begin[k]; q < chunk.begin[k + 1]; ++q) {
+      if (piece == pieceOf[chunk.other[q]]) chunk.facing[q].w = kRound;
+    }
+  }
 }
 
 void SolidContact::findKinds(const ParticleStore& store, const Neighbours& neighbours, const StructureGraph& graph,

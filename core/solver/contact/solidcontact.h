@@ -100,6 +100,7 @@ class SolidContact {
   };
   Touch touchOf(const ParticleStore& store, const Chunk& chunk, size_t k, size_t q) const;
   api::Float4 correctionOf(const ParticleStore& store, Chunk& chunk, size_t k);
+  static void markRound(Chunk& chunk, std::span<const uint32_t> pieceOf);
   void findKinds(const ParticleStore& store, const Neighbours& neighbours, const StructureGraph& graph,
                  std::span<const uint8_t> rigid);
   void findPairs(const ParticleStore& store, const Neighbours& neighbours, const StructureGraph& graph,
