@@ -19,8 +19,8 @@ constexpr double kFloat = sizeof(float), kDouble = sizeof(double), kIndex = size
                  kPoint = sizeof(api::Float4), kMark = sizeof(uint8_t);
 /// A vector that grows entry by entry has room for half as much again, in the mean.
 constexpr double kGrown = 1.5;
-/// Lists are given a thirty-second part more, by chunk and as a whole, and keep the room of the longest that there were:
-/// of vapour in a closed vessel a third more than a lattice has.
+/// Lists are given a thirty-second part more, by chunk and as a whole, and keep the room of the longest that there
+/// were: of vapour in a closed vessel a third more than a lattice has.
 constexpr double kBreathing = 1.4;
 /// A grid has 8 cells per place at most, and mostly far fewer.
 constexpr double kCells = 2;

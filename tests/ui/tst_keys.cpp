@@ -203,7 +203,7 @@ class TestKeys : public SampleWindowTest {
     picture("tst_keys_curve.png");
     stepTo(8);
     QTRY_COMPARE_WITH_TIMEOUT(point(0), 4.0, kLong);
-    QCOMPARE(row.model().keyMark, KeyMark::Between);
+    QTRY_COMPARE_WITH_TIMEOUT(row.model().keyMark, KeyMark::Between, kLong);
     choose(row, {QStringLiteral("Remove all keys")});
     QCOMPARE(writeProject(document().project()), before);
     QCOMPARE(row.model().keyMark, KeyMark::None);

@@ -46,7 +46,8 @@ QString Document::putKey(const Address& address, double time, double value) {
   if (const QString why = whyNoKeys(address); !why.isEmpty()) return why;
   const Track* old = track(address);
   std::vector<TrackKey> keys = old ? old->keys : std::vector<TrackKey>{};
-  TrackKey key{std::round(time * 1e6) / 1e6, value};  // a clock that adds up frames is never quite on a round number
+  TrackKey key{std::max(0.0, std::round(time * 1e6) / 1e6),
+               value};  // a clock that adds up frames is never quite on a round number
   const auto before = std::find_if(keys.rbegin(), keys.rend(), [&](const TrackKey& k) { return k.time <= key.time; });
   if (keyDeclaration(address)->kind == api::ParameterKind::Toggle)
     key.toNext = ToNext::Step;
