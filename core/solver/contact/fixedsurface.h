@@ -2,6 +2,7 @@
 #pragma once
 #include "core/solver/contact/latticesurface.h"
 
+#include <span>
 #include <vector>
 
 namespace ps {
@@ -11,8 +12,8 @@ namespace ps {
 /// be found anew, to the bit, so that it is no state.
 class FixedSurface {
  public:
-  /// Forgets all where something fixed has come, gone or moved.
-  void refresh(const ParticleStore& store);
+  /// Forgets all where something fixed has come, gone or moved, by the places that lists were made for.
+  void refresh(const ParticleStore& store, std::span<const api::Float4> noted);
   /// Whether it knows the neighbours of a particle, which it then hands over; from several threads.
   bool recall(uint32_t i, LatticeSurface::Own& own) const {
     if (m_slot[i] == LatticeSurface::kNone) return false;
@@ -40,7 +41,7 @@ class FixedSurface {
     bool hasNormal = false;
   };
   std::vector<uint32_t> m_fixed, m_now;  ///< indices, ascending
-  std::vector<api::Float4> m_at;         ///< where these are
+  std::vector<api::Float4> m_at;         ///< where these were noted
   std::vector<uint32_t> m_slot;          ///< by particle
   std::vector<Kept> m_kept;
 };

@@ -207,7 +207,7 @@ void SolidContact::findSurfaces(const ParticleStore& store, const Neighbours& ne
       }
     }
   }
-  m_fixed.refresh(store);
+  m_fixed.refresh(store, neighbours.built());
   const auto mayKeep = [&](uint32_t i) { return isStatic(i) && graph.isFree(i); };
   m_surface.find(
       store, neighbours,
