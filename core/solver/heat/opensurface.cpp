@@ -3,7 +3,6 @@
 
 #include "core/base/parallel.h"
 #include "core/base/statestream.h"
-#include "core/solver/heat/covercells.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,17 +19,38 @@ constexpr double kBesideWall = 1;    ///< spacings to a wall that covers
 /// A wall covers what lies below its level as a layer of neighbours would, with a hair's breadth for rounding.
 constexpr double kBelowLevel = -0.05;
 
-/// By cell of a direction to a neighbour: the directions that such a neighbour covers.
+/// For directions to neighbours, in cells of the six faces of a cube: the directions that such a neighbour covers. Odd,
+/// so that neighbours along an axis meet the middle of a cell.
+constexpr int kCells = 33;
 using CoverTable = std::vector<uint64_t>;
 
+size_t cellOf(float x, float y, float z) {
+  const float ax = std::abs(x), ay = std::abs(y), az = std::abs(z);
+  float major = x, u = y, v = z;
+  size_t face = 0;
+  if (ay > ax && ay >= az) {
+    major = y, u = x, v = z;
+    face = 2;
+  } else if (az > ax) {
+    major = z, u = x, v = y;
+    face = 4;
+  }
+  if (major < 0) ++face;
+  const float scale = 0.5f * kCells / std::abs(major);
+  const auto cell = [&](float w) {
+    return static_cast<size_t>(std::clamp(static_cast<int>(w * scale + 0.5f * kCells), 0, kCells - 1));
+  };
+  return (face * kCells + cell(u)) * kCells + cell(v);
+}
+
 CoverTable makeTable() {
-  CoverTable table(6 * kCoverCells * kCoverCells);
+  CoverTable table(6 * kCells * kCells);
   for (size_t face = 0; face < 6; ++face) {
-    for (size_t iu = 0; iu < kCoverCells; ++iu) {
-      for (size_t iv = 0; iv < kCoverCells; ++iv) {
+    for (size_t iu = 0; iu < kCells; ++iu) {
+      for (size_t iv = 0; iv < kCells; ++iv) {
         const double major = face % 2 == 0 ? 1 : -1;
-        const double u = (2 * static_cast<double>(iu) + 1) / kCoverCells - 1,
-                     v = (2 * static_cast<double>(iv) + 1) / kCoverCells - 1;
+        const double u = (2 * static_cast<double>(iu) + 1) / kCells - 1,
+                     v = (2 * static_cast<double>(iv) + 1) / kCells - 1;
         const double length = std::sqrt(1 + u * u + v * v);
         double n[3] = {major, u, v};
         if (face / 2 == 1) n[0] = u, n[1] = major, n[2] = v;
@@ -41,7 +61,7 @@ CoverTable makeTable() {
           const double along = (n[0] * double{way[0]} + n[1] * double{way[1]} + n[2] * double{way[2]}) / length;
           if (along > kCone) covered |= uint64_t{1} << d;
         }
-        table[(face * kCoverCells + iu) * kCoverCells + iv] = covered;
+        table[(face * kCells + iu) * kCells + iv] = covered;
       }
     }
   }
@@ -137,22 +157,13 @@ void OpenSurface::cover(const ParticleStore& store, const api::NeighbourView& li
       const double depth = n.x * double{x[i].x} + n.y * double{x[i].y} + n.z * double{x[i].z} - walls[w].offset;
       if (depth < kBesideWall * m_spacing) covered |= m_behindWall[w];
     }
-    const uint32_t begin = lists.begin[i], end = lists.last[i];
-    if constexpr (!kPeriodic) {
-      uint32_t neighbour[kCoverRoom], cell[kCoverRoom];
-      for (uint32_t k = begin; k < end && ~covered != 0; k += kCoverTile) {
-        const size_t count = findCoverCells(x, static_cast<uint32_t>(i), lists.index + k,
-                                            std::min<size_t>(kCoverTile, end - k), tiny, reach, neighbour, cell);
-        for (size_t q = 0; q < count; ++q) covered |= motion[neighbour[q]] == api::Motion::Gas ? 0 : table[cell[q]];
-      }
-    }
-    for (uint32_t k = begin; kPeriodic && k < end && ~covered != 0; ++k) {
+    for (uint32_t k = lists.begin[i]; k < lists.last[i] && ~covered != 0; ++k) {
       const uint32_t j = lists.index[k];
-      const float a = period.shortest(x[j].x - x[i].x, 0), b = period.shortest(x[j].y - x[i].y, 1),
-                  c = period.shortest(x[j].z - x[i].z, 2);
+      float a = x[j].x - x[i].x, b = x[j].y - x[i].y, c = x[j].z - x[i].z;
+      if constexpr (kPeriodic) a = period.shortest(a, 0), b = period.shortest(b, 1), c = period.shortest(c, 2);
       const float square = a * a + b * b + c * c;
       if (square > reach || square < tiny || motion[j] == api::Motion::Gas) continue;
-      covered |= table[coverCellOf(a, b, c)];
+      covered |= table[cellOf(a, b, c)];
     }
     m_open[i] = ~covered;
   }
