@@ -100,9 +100,10 @@ void Neighbours::giveRoom(size_t chunk, size_t entries) {
   const size_t count = (entries + kListPad - 1) / kListPad * kListPad;
   m_rooms[chunk] = {static_cast<uint32_t>(m_slots), static_cast<uint32_t>(count)};
   m_slots += count;
-  if (m_slots > std::numeric_limits<uint32_t>::max() - kListPad)
-    throw Error("particles have more neighbours than lists can hold (" + std::to_string(m_slots / 1000000) +
-                " million): make the particle spacing larger, or look for matter that has been pressed together");
+  if (m_slots <= std::numeric_limits<uint32_t>::max() - kListPad) return;
+  m_needs.clear();  // they say nothing of matter that has been mended
+  throw Error("particles have more neighbours than lists can hold (" + std::to_string(m_slots / 1000000) +
+              " million): make the particle spacing larger, or look for matter that has been pressed together");
 }
 
 /// Lists that are there already stay where they are.

@@ -256,7 +256,7 @@ StepReport Engine::step() {
   for (const PluginFault& fault : m->lastReport.faults) m->plugins.fault(fault.plugin, fault.what);
   if (m->solver->frame() > before) {  // not of a frame that was taken back
     m->exchangeMatter();
-    m->followTracks();
+    m->followTracks(m->solver->time());
   }
   return m->lastReport;
 }
@@ -360,7 +360,7 @@ std::vector<uint32_t> Engine::addCells(const Body& body, const std::vector<std::
   }
   m->overlay.lay(m->project);
   m->recompile({{Owner::Body}});
-  m->bindTracks();
+  m->bindTracks(m->solver->time());
   return ids;
 }
 
@@ -377,7 +377,7 @@ std::vector<uint32_t> Engine::addBody(const Body& body) {
     ids.insert(ids.end(), fresh.begin(), fresh.end());
   }
   m->recompile({{Owner::Body}});
-  m->bindTracks();
+  m->bindTracks(m->solver->time());
   return ids;
 }
 

@@ -76,7 +76,7 @@ void Engine::Impl::build() {
   }
   for (const Emitter& emitter : project.emitters) bodyIndex(emitter.id);
   recompile({{Owner::Body}});  // what is said of bodies goes by their indices
-  bindTracks();
+  bindTracks(solver->time());
 }
 
 }  // namespace ps

@@ -64,13 +64,13 @@ struct Engine::Impl {
   /// Whether so many particles more may be poured; what they take is then spoken for.
   bool mayPour(size_t more);
   void exchangeMatter();
-  /// Looks up what the tracks mean, and goes by them. The project is then the document with what they say at the
-  /// solver's time laid over it: so it is between any two frames, whatever came before.
-  void bindTracks();
-  /// Goes by them at the solver's time. A value that cannot be leaves the one before in force, as limits() say.
-  void followTracks();
+  /// Looks up what the tracks mean, and goes by them. The project is then the document with what they say at a time
+  /// in s laid over it: that of the solver between any two frames, whatever came before.
+  void bindTracks(double time);
+  /// Goes by them. A value that cannot be leaves the one before in force, as limits() say.
+  void followTracks(double time);
   /// As followTracks(), where they cannot all act together.
-  void followEach();
+  void followEach(double time);
   /// Makes a change of the document beneath its tracks, which throws or may be taken back, and compiles what it
   /// touches.
   void changeBeneath(const std::function<void(Touched&)>& change, const std::function<void()>& takeBack);

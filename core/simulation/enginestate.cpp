@@ -43,9 +43,11 @@ std::unique_ptr<Engine::Impl> Engine::Impl::restored(const StateReader& reader) 
   next->solver->setBodyNames(next->bodyNames);
   next->recompile({{Owner::Body, Owner::Constraint}});
   advance(0);
+  // Before the lists are made again that follow from the state: how far they reach may have keys.
+  next->bindTracks(reader.array<double>("clock/seconds", 2, 1)[0]);
   next->solver->restore(reader);
   next->lead();  // as the document says by now
-  next->bindTracks();
+  next->bindTracks(next->solver->time());
   next->flow.restore(reader, next->solver->particles());
   next->flow.requireLayers(next->project, next->tables.tables(), next->spacing);
   return next;

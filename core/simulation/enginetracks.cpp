@@ -10,14 +10,14 @@ namespace ps {
 
 double Engine::Impl::slack() const { return keySlack(numberOf(project.solver.parameters, solverParameters(), "dt")); }
 
-void Engine::Impl::bindTracks() {
+void Engine::Impl::bindTracks(double time) {
   if (overlay.empty() && project.tracks.empty()) return;
   Touched dropped;
   overlay.lift(project);
   bindOverlay(dropped);
   overlay.lay(project);
   recompile(dropped);
-  followTracks();
+  followTracks(time);
 }
 
 void Engine::Impl::bindOverlay(Touched& dropped) {
@@ -25,8 +25,8 @@ void Engine::Impl::bindOverlay(Touched& dropped) {
       project, plugins, [this](const std::string& body) { return isFixed(body); }, dropped);
 }
 
-void Engine::Impl::followTracks() {
-  const double time = solver->time(), within = slack();
+void Engine::Impl::followTracks(double time) {
+  const double within = slack();
   if (!overlay.moves(project, time, within)) return;
   Touched touched;
   overlay.lift(project);
@@ -40,13 +40,13 @@ void Engine::Impl::followTracks() {
     overlay = before;
     overlay.lay(project);
     recompile(touched);
-    followEach();
+    followEach(time);
   }
   if (touched.owners.contains(Owner::Emitter)) flow.steer(*solver, project, compileSettings(project).dt);
 }
 
-void Engine::Impl::followEach() {
-  const double time = solver->time(), within = slack();
+void Engine::Impl::followEach(double time) {
+  const double within = slack();
   for (size_t track = 0; track < overlay.size(); ++track) {
     Touched touched;
     overlay.lift(project);
@@ -82,7 +82,7 @@ void Engine::Impl::changeBeneath(const std::function<void(Touched&)>& change, co
     recompile(touched);
     throw;
   }
-  followTracks();
+  followTracks(solver->time());
 }
 
 void Engine::setTracks(const std::vector<Track>& tracks) {

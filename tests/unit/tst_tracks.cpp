@@ -231,6 +231,25 @@ class TestTracks : public QObject {
     }
   }
 
+  /// Lists of neighbours are made again when a state is read: they must reach as far as the track says.
+  void aStateGoesOnWithTheReachOfItsTrack() {
+    Project project = scene();
+    project.emitters.clear();  // while matter comes, lists are made anew in each frame
+    project.tracks = {track("solver/support_ratio", {{0, 2.2}})};
+    Engine engine(project, m_plugins);
+    run(engine, 17);
+    StateBuffer buffer;
+    saveTo(buffer, engine);
+    Project there = project;
+    there.state = projectState(buffer.bytes(), project.bodies);
+    Engine again(there, m_plugins);
+    QVERIFY(again.remarks().empty());
+    QCOMPARE(again.stateHash(), engine.stateHash());
+    run(again, 5);
+    run(engine, 5);
+    QCOMPARE(again.stateHash(), engine.stateHash());
+  }
+
   void theDocumentsValueStaysAndHoldsWithoutTheTrack() {
     Project project = scene();
     project.tracks = everything();
