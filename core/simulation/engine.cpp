@@ -280,9 +280,8 @@ void Engine::update(const Project& project) {
   try {
     Touched all;  // is compiled
     m->bindOverlay(all);
-    m->overlay.advance(m->project, m->solver->time(), m->slack(), all);
-    m->overlay.lay(m->project);
     m->recompileAll();
+    m->followTracks(m->solver->time());
   } catch (...) {
     m->project = before;
     m->overlay = overlay;

@@ -67,7 +67,7 @@ struct Engine::Impl {
   /// Looks up what the tracks mean, and goes by them. The project is then the document with what they say at a time
   /// in s laid over it: that of the solver between any two frames, whatever came before.
   void bindTracks(double time);
-  /// Goes by them. A value that cannot be leaves the one before in force, as limits() say.
+  /// Goes by them. Where a value cannot be the document's holds, as limits() say.
   void followTracks(double time);
   /// As followTracks(), where they cannot all act together.
   void followEach(double time);

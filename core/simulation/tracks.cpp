@@ -100,7 +100,9 @@ void TrackOverlay::bind(const Project& project, const PluginRegistry& plugins, c
       return l.target.address == target->address && l.target.point == target->point;
     });
     Laid laid{*target, declaration, t, std::nullopt};
-    if (target->point) laid.curve = std::get<Response>(valueAt(project, &plugins, target->address));
+    const Value value = valueAt(project, &plugins, target->address);
+    if (target->point) laid.curve = std::get<Response>(value);
+    laid.otherwise = target->point ? laid.curve.points[*target->point].y : responseOf(value).constant;
     if (old != before.end()) {
       laid.given = old->given;
       before.erase(old);
@@ -136,8 +138,10 @@ void TrackOverlay::advance(const Project& project, double time, double slack, To
 }
 
 void TrackOverlay::refuse(const Project& project, size_t track, double time, double slack, const std::string& why) {
-  m_tracks[track].refused = trackValue(project.tracks[m_tracks[track].track].keys, time, slack);
-  m_tracks[track].why = why;
+  Laid& laid = m_tracks[track];
+  laid.refused = trackValue(project.tracks[laid.track].keys, time, slack);
+  laid.given.reset();
+  laid.why = why;
 }
 
 /// Of a point, the curve that holds otherwise, with this point elsewhere.
@@ -192,8 +196,7 @@ std::vector<Limit> TrackOverlay::limits() const {
   std::vector<Limit> list;
   for (const Laid& laid : m_tracks) {
     if (!laid.refused) continue;
-    const double held = laid.given.value_or(laid.own ? responseOf(*laid.own).at(293.15) : 0);
-    Limit limit{laid.target.address.text(), *laid.refused, held, laid.declaration->unit};
+    Limit limit{laid.target.address.text(), *laid.refused, laid.otherwise, laid.declaration->unit};
     limit.why = laid.why;
     list.push_back(std::move(limit));
   }

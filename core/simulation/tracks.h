@@ -48,7 +48,8 @@ class TrackOverlay {
   /// Takes what a track says at a time, or all of them, for the next lay(). Nothing may be laid.
   void advance(const Project& project, size_t track, double time, double slack, Touched& touched);
   void advance(const Project& project, double time, double slack, Touched& touched);
-  /// A track's value at a time cannot be: until it says another one, it gives what it gave before.
+  /// A track's value at a time cannot be: until it says another one the document's holds, which hangs on nothing that
+  /// came before.
   void refuse(const Project& project, size_t track, double time, double slack, const std::string& why);
   void lay(Project& project);
   void lift(Project& project);
@@ -63,6 +64,7 @@ class TrackOverlay {
     const api::ParameterDeclaration* declaration = nullptr;
     size_t track = 0;                 ///< in Project::tracks
     std::optional<double> given;      ///< nothing: the document's value holds
+    double otherwise = 0;             ///< that one
     std::optional<double> refused{};  ///< what cannot be
     std::string why{};
     std::optional<Value> own{};  ///< the document's, while something is laid over it

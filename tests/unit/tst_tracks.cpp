@@ -7,6 +7,7 @@
 #include "core/plugin_host/registry.h"
 #include "core/scene/track.h"
 #include "core/simulation/commandqueue.h"
+#include "core/simulation/declared.h"
 #include "core/simulation/engine.h"
 #include "core/simulation/enginethread.h"
 #include "core/simulation/projectstate.h"
@@ -311,24 +312,40 @@ class TestTracks : public QObject {
   }
 
   /// A solidus above the liquidus cannot be; what else is animated goes on.
-  void aValueThatCannotBeLeavesTheOneBefore() {
+  void whereAValueCannotBeTheDocumentsHolds() {
     Project project = scene();
-    project.tracks = {track("material/water/solidus", {{0, 270, ToNext::Step}, {0.2, 400, ToNext::Step}, {0.4, 271}}),
+    project.tracks = {track("material/water/solidus", {{0, 270, ToNext::Step}, {0.2, 400, ToNext::Step}, {0.4, 270}}),
                       track(kFloor, {{0, 370, ToNext::Linear}, {1, 400}})};
     Engine engine(project, m_plugins);
     run(engine, 15);
     const Address solidus{Owner::Material, "water", "solidus"};
-    QCOMPARE(numberAt(engine.project(), solidus), 270.0);
+    const double own = responseOf(valueAt(project, &m_plugins, solidus)).constant;
+    QVERIFY(own > 272);
+    QCOMPARE(responseOf(valueAt(engine.project(), &m_plugins, solidus)).constant, own);
     QVERIFY(numberAt(engine.project(), kFloor) > 375);
+    // It hangs on nothing that came before.
+    StateBuffer buffer;
+    saveTo(buffer, engine);
+    Project there = project;
+    there.state = projectState(buffer.bytes(), project.bodies);
+    Engine again(there, m_plugins);
+    QCOMPARE(again.stateHash(), engine.stateHash());
+    // Nor does it keep other edits away.
+    Project edited = project;
+    edited.bodies[1].name = "Blade";
+    engine.update(edited);
+    again.update(edited);
+    run(again, 15);
     const std::vector<Limit> limits = engine.limits();
     const auto limit =
         std::find_if(limits.begin(), limits.end(), [](const Limit& l) { return l.what == "material/water/solidus"; });
     QVERIFY(limit != limits.end());
     QCOMPARE(limit->asked, 400.0);
-    QCOMPARE(limit->delivered, 270.0);
+    QCOMPARE(limit->delivered, own);
     QVERIFY2(!limit->why.empty(), limit->why.c_str());
     run(engine, 15);
-    QCOMPARE(numberAt(engine.project(), solidus), 271.0);
+    QCOMPARE(numberAt(engine.project(), solidus), 270.0);
+    QCOMPARE(again.stateHash(), engine.stateHash());
     for (const Limit& left : engine.limits()) QVERIFY(left.what != "material/water/solidus");
   }
 
