@@ -1,70 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/base/parallel.h"
 
+#include "core/base/workers.h"
+
 #include <algorithm>
 #include <chrono>
 #include <memory>
 #include <thread>
 
-#if defined(__SANITIZE_THREAD__)
-#include <atomic>
-#include <exception>
-#include <mutex>
-#else
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-#endif
-
 namespace ps {
 namespace {
 int g_threads = 0;
-/// For which another thread is woken: several times what that takes.
-constexpr double kMicrosecondsPerThread = 15;
-
+/// For which another thread is asked to help: about what that takes. ThreadSanitizer is to see small loops shared too.
 #if defined(__SANITIZE_THREAD__)
-/// The first exception of a loop's threads.
-class Caught {
- public:
-  void keep() {
-    const std::lock_guard lock(m_mutex);
-    if (!m_error) m_error = std::current_exception();
-  }
-  void rethrow() const {
-    if (m_error) std::rethrow_exception(m_error);
-  }
-
- private:
-  std::mutex m_mutex;
-  std::exception_ptr m_error;
-};
+constexpr double kMicrosecondsPerThread = 0.01;
 #else
-/// An arena wakes all of its threads for any loop, so that there is one for 2, 4, 8 ... and one for all of them.
-class Arenas {
- public:
-  explicit Arenas(int threads) {
-    for (int size = 2; size < threads; size *= 2) add(size);
-    if (threads > 1) add(threads);
-  }
-  /// The largest of no more than so many threads, of 2 at least.
-  tbb::task_arena& of(int threads) {
-    size_t k = 0;
-    while (k + 1 < m_arenas.size() && m_arenas[k + 1]->max_concurrency() <= threads) ++k;
-    return *m_arenas[k];
-  }
+constexpr double kMicrosecondsPerThread = 5;
+#endif
 
- private:
-  void add(int size) {
-    m_arenas.push_back(std::make_unique<tbb::task_arena>(size));
-    m_arenas.back()->initialize();
-  }
-  std::vector<std::unique_ptr<tbb::task_arena>> m_arenas;
-};
-std::unique_ptr<Arenas>& arenas() {
-  static auto all = std::make_unique<Arenas>(threadCount());
+std::unique_ptr<Workers>& workers() {
+  static auto all = std::make_unique<Workers>(threadCount() - 1);
   return all;
 }
-#endif
 
 thread_local double t_shared = 0;  // s
 thread_local int t_loops = 0;      // that this thread is in
@@ -91,9 +48,7 @@ double secondsShared() { return t_shared; }
 
 void setThreadCount(int count) {
   g_threads = std::max(0, count);
-#if !defined(__SANITIZE_THREAD__)
-  arenas() = std::make_unique<Arenas>(threadCount());
-#endif
+  workers() = std::make_unique<Workers>(threadCount() - 1);
 }
 
 int threadCount() {
@@ -115,38 +70,8 @@ void parallelFor(size_t count, size_t grain, const std::function<void(size_t, si
   if (chunks == 1) return runChunk(0);
   const SharedTime counted;
   if (microseconds < 0) microseconds = static_cast<double>(count) * grain::microseconds(grain);
-#if defined(__SANITIZE_THREAD__)
-  const int threads = threadCount();  // races of small loops count too
-#else
-  const int threads = threadsWorth(microseconds);
-#endif
-  if (threads == 1) {
-    for (size_t chunk = 0; chunk < chunks; ++chunk) runChunk(chunk);
-    return;
-  }
-#if defined(__SANITIZE_THREAD__)
-  std::atomic<size_t> next{0};
-  Caught caught;
-  const auto work = [&] {
-    try {
-      for (size_t chunk = next++; chunk < chunks; chunk = next++) runChunk(chunk);
-    } catch (...) {
-      caught.keep();
-    }
-  };
-  {
-    std::vector<std::jthread> others;
-    for (int t = 1; t < threads; ++t) others.emplace_back(work);
-    work();
-  }
-  caught.rethrow();
-#else
-  arenas()->of(threads).execute([&] {
-    tbb::parallel_for(tbb::blocked_range<size_t>(0, chunks, 1), [&](const tbb::blocked_range<size_t>& range) {
-      for (size_t chunk = range.begin(); chunk != range.end(); ++chunk) runChunk(chunk);
-    });
-  });
-#endif
+  const size_t threads = std::min(chunks, static_cast<size_t>(threadsWorth(microseconds)));
+  workers()->share(static_cast<int>(threads) - 1, chunks, std::cref(runChunk));
 }
 
 double parallelSum(size_t count, size_t grain, const std::function<double(size_t, size_t)>& body) {

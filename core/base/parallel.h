@@ -8,11 +8,10 @@
 
 // Why one wrapper: results must not depend on the number of threads. Work is cut into chunks of a fixed size, whatever
 // the number of threads; a chunk writes only its own elements, and sums are kept per chunk and added in chunk order.
-// oneTBB runs the chunks; under ThreadSanitizer, where TBB drowns real races in false ones, plain threads do.
 //
-// To wake a thread takes microseconds, which a small loop does not have: a frame of a thousand particles has some
-// hundred of them. How many threads a loop gets follows from what it has to do, by an estimate for each size of chunk;
-// the chunks, and with them the bits, stay what they are.
+// To get another thread's help takes microseconds, which a small loop does not have: a frame of a thousand particles
+// has some hundred of them. How many threads a loop gets follows from what it has to do, by an estimate for each size
+// of chunk; the chunks, and with them the bits, stay what they are.
 namespace ps {
 
 /// Threads used by parallelFor from now on, in the whole process; 0: one per core. Not while a loop runs.

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+// Loops that threads share: each chunk once and no other, whoever shares at the same time, also after a throw and after
+// the threads have gone to sleep. What they gain is measured by tests/bench and `phasesketch-cli bench`.
+#include "core/base/parallel.h"
+#include "core/base/workers.h"
+
+#include <QTest>
+
+#include <chrono>
+#include <stdexcept>
+#include <thread>
+
+using namespace ps;
+
+namespace {
+
+/// How often each element of a loop was covered; neighbours are there to show what reaches too far.
+class Cover {
+ public:
+  explicit Cover(size_t count) : m_times(count + 1) {}
+  void add(size_t first, size_t last) {
+    for (size_t i = first; i < last; ++i) ++m_times[i];
+  }
+  bool once() const {
+    for (size_t i = 0; i + 1 < m_times.size(); ++i) {
+      if (m_times[i] != 1) return false;
+    }
+    return m_times.back() == 0;
+  }
+
+ private:
+  std::vector<std::atomic<int>> m_times;
+};
+
+constexpr double kLong = 1e6;  // microseconds: worth every thread
+}  // namespace
+
+class TestParallel : public QObject {
+  Q_OBJECT
+ private Q_SLOTS:
+  void init() { setThreadCount(4); }
+  void cleanup() { setThreadCount(0); }
+
+  void everyChunkRunsOnce_data() {
+    QTest::addColumn<int>("threads");
+    QTest::addColumn<int>("count");
+    for (const int threads : {1, 2, 7}) {
+      for (const int count : {0, 1, 9, 10, 11, 1003}) {
+        QTest::addRow("%d threads, %d elements", threads, count) << threads << count;
+      }
+    }
+  }
+  void everyChunkRunsOnce() {
+    QFETCH(int, threads);
+    QFETCH(int, count);
+    setThreadCount(threads);
+    const auto n = static_cast<size_t>(count);
+    for (int round = 0; round < 200; ++round) {
+      Cover cover(n);
+      parallelFor(
+          n, 10, [&](size_t first, size_t last) { cover.add(first, last); }, kLong);
+      QVERIFY(cover.once());
+    }
+  }
+
+  void severalThreadsMayShareAtOnce() {
+    std::atomic<int> wrong = 0;
+    {
+      std::vector<std::jthread> callers;
+      for (int k = 0; k < 6; ++k) {  // more than loops that can be shared at once
+        callers.emplace_back([&wrong, k] {
+          for (int round = 0; round < 300; ++round) {
+            const size_t count = 100 + static_cast<size_t>(k);
+            Cover cover(count);
+            parallelFor(
+                count, 7, [&](size_t first, size_t last) { cover.add(first, last); }, kLong);
+            if (!cover.once()) ++wrong;
+          }
+        });
+      }
+    }
+    QCOMPARE(wrong.load(), 0);
+  }
+
+  void aChunkMayShareALoop() {
+    for (int round = 0; round < 100; ++round) {
+      Cover cover(20 * 50);
+      const auto outer = [&](size_t begin, size_t) {
+        parallelFor(
+            50, 5, [&](size_t first, size_t last) { cover.add(begin * 50 + first, begin * 50 + last); }, kLong);
+      };
+      parallelFor(20, 1, outer, kLong);
+      QVERIFY(cover.once());
+    }
+  }
+
+  void whatABodyThrowsReachesTheCaller() {
+    for (int round = 0; round < 200; ++round) {
+      const auto body = [&](size_t first, size_t) {
+        if (first == 50) throw std::runtime_error("chunk 50");
+      };
+      QVERIFY_THROWS_EXCEPTION(std::runtime_error, parallelFor(100, 1, body, kLong));
+      Cover cover(100);  // and the next loop is whole
+      parallelFor(
+          100, 1, [&](size_t first, size_t last) { cover.add(first, last); }, kLong);
+      QVERIFY(cover.once());
+    }
+  }
+
+  /// A chunk that waits for the others ends only when helpers come: of those that slept, all that were asked.
+  void sleepersAreWoken() {
+    Workers workers(3);
+    for (int round = 0; round < 20; ++round) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+      std::atomic<int> here = 0;
+      const auto body = [&](size_t) {
+        ++here;
+        while (here < 4) std::this_thread::yield();
+      };
+      workers.share(3, 4, body);
+      QCOMPARE(here.load(), 4);
+    }
+  }
+
+  void aSumIsTheSameForAnyNumberOfThreads() {
+    const auto part = [](size_t first, size_t last) {
+      double sum = 0;
+      for (size_t i = first; i < last; ++i) sum += 1.0 / static_cast<double>(i + 1);
+      return sum;
+    };
+    setThreadCount(1);
+    const double alone = parallelSum(100003, 512, part);
+    for (const int threads : {2, 5}) {
+      setThreadCount(threads);
+      for (int round = 0; round < 20; ++round) QCOMPARE(parallelSum(100003, 512, part), alone);
+    }
+  }
+};
+
+QTEST_APPLESS_MAIN(TestParallel)
+#include "tst_parallel.moc"
