@@ -18,7 +18,7 @@ struct OptionSpec {
 class Arguments {
  public:
   /// Throws InputError for unknown options, missing values, and switches or single options given twice
-  /// ("--set" and "--only" may repeat).
+  /// ("--set", "--only" and "--vary" may repeat).
   Arguments(std::span<const std::string> arguments, std::span<const OptionSpec> options);
 
   const std::vector<std::string>& positional() const { return m_positional; }

@@ -16,6 +16,7 @@ int validateCommand(CommandArguments arguments);
 int schemaCommand(CommandArguments arguments);
 int pluginsCommand(CommandArguments arguments);
 int casesCommand(CommandArguments arguments);
+int fitCommand(CommandArguments arguments);
 int soakCommand(CommandArguments arguments);
 
 std::string simulateHelp();
@@ -25,6 +26,7 @@ std::string validateHelp();
 std::string schemaHelp();
 std::string pluginsHelp();
 std::string casesHelp();
+std::string fitHelp();
 std::string soakHelp();
 
 inline constexpr int kFine = 0, kFailed = 1, kBadInput = 2, kNoReturn = 3;

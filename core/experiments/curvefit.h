@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "core/experiments/casemeasure.h"
+#include "core/experiments/run.h"
+#include "core/scene/track.h"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+// Draw the result: how a quantity shall go is given, and what parameters make it go so is found by runs.
+namespace ps {
+
+class PluginRegistry;
+
+/// A number that may be changed: a parameter, or a point of its curve.
+struct FitParameter {
+  TrackTarget target;
+  double minimum = 0, maximum = 0;  ///< its unit; between these it is looked for
+
+  std::string text() const;  ///< "wall/floor/temperature", "material/wax/viscosity[2]"
+  /// "wall/floor/temperature=300..900", or without a range: that of its slider. Throws InputError.
+  static FitParameter parse(const std::string& text, const Project& project, const PluginRegistry* plugins);
+};
+
+struct FitTask {
+  std::string column;  ///< one of columnTitles()
+  Series wanted;       ///< at s since the scene's start, ascending; each point counts as much as another
+  std::vector<FitParameter> parameters;
+  int mostRuns = 60;
+};
+
+/// One run that was tried.
+struct FitTrial {
+  int run = 0;                 ///< from 1 on; the first is the project as it is
+  std::vector<double> values;  ///< in the order of the parameters
+  /// In the column's unit, root mean square over the wanted points. One at which a run has no value (it broke off, was
+  /// refused, the probe saw nothing) counts as missed by all that the wanted curve spans.
+  double error = 0;
+  bool isBest = false;  ///< so far
+  Series course;        ///< the column, frame by frame
+};
+using FitVisitor = std::function<void(const FitTrial&)>;
+
+struct FitResult {
+  FitTrial before, after;  ///< the first run and the best one
+  int runs = 0;
+  bool stopped = false;  ///< before it was done: by the caller, or at the most runs
+};
+
+/// "" or why a parameter's number cannot be looked for, as a sentence.
+std::string whyNotFitted(const Project& project, const PluginRegistry* plugins, const TrackTarget& target);
+/// What the parameter's whole value is with this number: of a point its curve with the point there.
+Value valueWithNumber(const Project& project, const PluginRegistry* plugins, const TrackTarget& target, double number);
+/// The number that a project has now.
+double numberAt(const Project& project, const PluginRegistry* plugins, const TrackTarget& target);
+
+/// The project with the values of one trial.
+Project withValues(Project project, const PluginRegistry& plugins, const FitTask& task,
+                   const std::vector<double>& values);
+
+/// Looks for the values with which a project's run comes closest to the wanted points, from its start or from the state
+/// that it holds, each run as long as they reach. First the range is looked over, coarsely and evenly; from the best of
+/// what was found a quadratic model is followed down (BOBYQA, Powell, Cambridge NA2009/06, as NLopt has it), until
+/// values move by less than 1/3000 of their range. The same task takes the same way. It finds a minimum, not surely the
+/// least of all. Throws InputError for a task that means nothing here.
+FitResult fitToCurve(const Project& project, PluginRegistry& plugins, const FitTask& task, const StopTest& stop,
+                     const FitVisitor& each);
+
+}  // namespace ps
