@@ -154,16 +154,20 @@ void RigidContact::keepImpulses() {
     const Candidate of = candidateOf(kNone, kNone, kNone, c.key);
     return std::pair(of.scattered, of.key);
   };
-  auto former = m_former.begin();
-  for (Contact& c : m_contacts) {
-    const auto here = place(c);
-    while (former != m_former.end() && place(*former) < here) ++former;
-    if (former == m_former.end()) break;
-    if (former->key != c.key) continue;
-    c.push = former->push, c.rub = former->rub, c.approach = former->approach;
-    c.drift = former->drift, c.left = former->left;
-    c.met = former->met, c.slides = former->slides, c.yields = former->yields;
-  }
+  forChunks(m_contacts.size(), grain::kConstraints, [&](size_t first, size_t last) {
+    auto former = std::lower_bound(m_former.begin(), m_former.end(), place(m_contacts[first]),
+                                   [&](const Contact& c, const auto& here) { return place(c) < here; });
+    for (size_t k = first; k < last; ++k) {
+      Contact& c = m_contacts[k];
+      const auto here = place(c);
+      while (former != m_former.end() && place(*former) < here) ++former;
+      if (former == m_former.end()) break;
+      if (former->key != c.key) continue;
+      c.push = former->push, c.rub = former->rub, c.approach = former->approach;
+      c.drift = former->drift, c.left = former->left;
+      c.met = former->met, c.slides = former->slides, c.yields = former->yields;
+    }
+  });
 }
 
 /// By where particles were when the lists were made, not where they are: what is found then depends on nothing else.

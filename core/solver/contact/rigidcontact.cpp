@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/solver/contact/rigidcontact.h"
 
+#include "core/base/parallel.h"
 #include "core/solver/contact/inertia.h"
 #include "core/solver/contact/membersums.h"
 
@@ -19,18 +20,13 @@ constexpr double kStill = 1e-5;
 /// Share of the last substep's impulses that the next one starts from: with all of them the split among contacts that
 /// bear the same load wanders, and bodies creep.
 constexpr double kResumed = 0.8;
-/// Share of what creep has left over that each substep asks back. In spacings, the most that it remembers, and what is
-/// creep in one substep: more is motion, and to ask that back would push.
-constexpr double kRecalled = 0.2, kMostDrift = 1e-3, kCreep = 1e-4;
+/// Share of what creep has left over that each substep asks back, and the most that it remembers, in spacings.
+constexpr double kRecalled = 0.2, kMostDrift = 1e-3;
 /// Compliance of a contact, as a share of its generalised inverse mass: a body's own weight presses in by about a
 /// micrometre, what is ten thousand times heavier than the body below it by a centimetre. Without it a body that is
 /// wider than the room between two walls is pressed harder by each pass, and friction, which is a share of that force,
 /// no longer converges: frozen ponds climbed out of their trays at 4 mm/s.
 constexpr double kCompliance = 0.005;
-/// How far a body may sink into a wall, in spacings. In a corner each pass goes half of what is left; a body that two
-/// walls are too narrow for ends up in the middle.
-constexpr double kDeepest = 0.5;
-constexpr int kInwardPasses = 8;
 
 }  // namespace
 
@@ -154,29 +150,37 @@ void RigidContact::begin(const ParticleStore& store) {
     body.before = motionOf(store, body, centreOf(store, body, store.previous()), store.previous());
     body.pushed = body.twisted = Vector3::Zero();
   }
+  forChunks(m_contacts.size(), grain::kNeighbours, [&](size_t first, size_t last) {
+    for (size_t k = first; k < last; ++k) beginContact(store, m_contacts[k]);
+  });
+  m_open.clear();
   for (Contact& c : m_contacts) {
-    // What is far from a wall does not come to it while positions are corrected.
-    c.active = c.plane == kNone || gapAt(c, store.position()) < kOpen * m_spacing;
-    if (!c.active) {
-      c.push = c.approach = 0, c.met = false;
-      c.rub = c.drift = c.left = {};
-      continue;
-    }
-    if (c.b.particle != kNone && c.b.body == kNone) c.b.velocity = vectorOf(store.velocity()[c.b.particle]);
-    if (c.plane == kNone) orient(store, c);
-    Vector3 speed = vectorOf(store.velocity()[c.a.particle]);
-    if (c.b.particle != kNone) speed -= vectorOf(store.velocity()[c.b.particle]);
-    const double before = c.approach;
-    c.approach = speed.dot(c.normal);
-    // What carried a body in the last substep is the best guess for this one; an impact is over.
-    if (!c.met) c.slides = slideOf(c, speed) > m_slowest;
-    if (!c.active || c.strikes || before < -m_slowest) c.push = 0, c.rub = {};
-    c.push *= kResumed;
-    c.rub = kResumed * c.rub;
-    remember(c);
-    c.met = false;
+    if (c.active) m_open.push_back({&c, {}, {}, {}, 0, c.a.body, c.b.body});
   }
   m_resume = true;
+}
+
+void RigidContact::beginContact(const ParticleStore& store, Contact& c) const {
+  // What is far from a wall does not come to it while positions are corrected.
+  c.active = c.plane == kNone || gapAt(c, store.position()) < kOpen * m_spacing;
+  if (!c.active) {
+    c.push = c.approach = 0, c.met = false;
+    c.rub = c.drift = c.left = {};
+    return;
+  }
+  if (c.b.particle != kNone && c.b.body == kNone) c.b.velocity = vectorOf(store.velocity()[c.b.particle]);
+  if (c.plane == kNone) orient(store, c);
+  Vector3 speed = vectorOf(store.velocity()[c.a.particle]);
+  if (c.b.particle != kNone) speed -= vectorOf(store.velocity()[c.b.particle]);
+  const double before = c.approach;
+  c.approach = speed.dot(c.normal);
+  // What carried a body in the last substep is the best guess for this one; an impact is over.
+  if (!c.met) c.slides = slideOf(c, speed) > m_slowest;
+  if (!c.active || c.strikes || before < -m_slowest) c.push = 0, c.rub = {};
+  c.push *= kResumed;
+  c.rub = kResumed * c.rub;
+  remember(c);
+  c.met = false;
 }
 
 /// A side's place of contact; returns its way since the start of the substep.
@@ -191,25 +195,30 @@ Vector3 RigidContact::readSide(const ParticleStore& store, Side& side, const Vec
 }
 
 void RigidContact::readPlaces(const ParticleStore& store) {
-  m_open.clear();
-  for (Contact& c : m_contacts) {
-    if (!c.active) continue;
-    const Vector3 a = vectorOf(store.position()[c.a.particle]);
-    Vector3 place = a - 0.5 * m_spacing * c.normal, image;
-    c.gap = a.dot(c.normal) - c.distance;
-    if (c.b.particle != kNone) {
-      // Both sides at one place, or a couple would be left over. A free particle can take its push at its centre only.
-      const Vector3 line = vectorOf(store.separation(c.a.particle, c.b.particle)), b = a - line;
-      place = c.b.inverseMass > 0 ? b : 0.5 * (a + b);
-      c.gap = line.dot(c.normal) - c.distance;
-      image = b - vectorOf(store.position()[c.b.particle]);
-    }
-    c.way = readSide(store, c.a, place) - readSide(store, c.b, place - image);
-    c.ofA = responseOf(c.a, c.normal);
-    c.ofB = responseOf(c.b, c.normal);
-    c.mass = 1 / (c.ofA.inverseMass + c.ofB.inverseMass);
-    m_open.push_back({&c, c.normal, c.a.arm.cross(c.normal), c.b.arm.cross(c.normal), c.gap, c.a.body, c.b.body});
+  forChunks(m_open.size(), grain::kNeighbours, [&](size_t first, size_t last) {
+    for (size_t k = first; k < last; ++k) readPlace(store, m_open[k]);
+  });
+}
+
+void RigidContact::readPlace(const ParticleStore& store, Open& open) const {
+  Contact& c = *open.contact;
+  const Vector3 a = vectorOf(store.position()[c.a.particle]);
+  Vector3 place = a - 0.5 * m_spacing * c.normal, image;
+  c.gap = a.dot(c.normal) - c.distance;
+  if (c.b.particle != kNone) {
+    // Both sides at one place, or a couple would be left over. A free particle can take its push at its centre only.
+    const Vector3 line = vectorOf(store.separation(c.a.particle, c.b.particle)), b = a - line;
+    place = c.b.inverseMass > 0 ? b : 0.5 * (a + b);
+    c.gap = line.dot(c.normal) - c.distance;
+    image = b - vectorOf(store.position()[c.b.particle]);
   }
+  c.way = readSide(store, c.a, place) - readSide(store, c.b, place - image);
+  c.ofA = responseOf(c.a, c.normal);
+  c.ofB = responseOf(c.b, c.normal);
+  c.mass = 1 / (c.ofA.inverseMass + c.ofB.inverseMass);
+  open.normal = c.normal;
+  open.leverA = c.a.arm.cross(c.normal), open.leverB = c.b.arm.cross(c.normal);
+  open.gap = c.gap;
 }
 
 /// m, by how far the two are apart now.
@@ -283,11 +292,14 @@ void RigidContact::project(ParticleStore& store) {
     }
     if (most < kStill * kStill * m_spacing * m_spacing) break;
   }
-  for (Contact& c : m_contacts) {
-    if (!c.met) continue;
-    const Vector3 moved = c.way + movedBy(store, c.a) - movedBy(store, c.b);
-    c.left = moved - moved.dot(c.normal) * c.normal;
-  }
+  forChunks(m_open.size(), grain::kParticles, [&](size_t first, size_t last) {
+    for (size_t k = first; k < last; ++k) {
+      Contact& c = *m_open[k].contact;
+      if (!c.met) continue;
+      const Vector3 moved = c.way + movedBy(store, c.a) - movedBy(store, c.b);
+      c.left = moved - moved.dot(c.normal) * c.normal;
+    }
+  });
   for (Body& body : m_bodies) {
     if (body.hasContacts && body.touched) place(store, body);
   }
@@ -346,87 +358,6 @@ Vector3 RigidContact::shift(ParticleStore& store, const Body& body, const Vector
   for (const uint32_t i : body.members) {
     addTo(store.position()[i], way);
     moved += double{store.mass()[i]} * way;
-  }
-  return moved;
-}
-
-/// m, how far a body would be behind a wall if its members were at `points`.
-double RigidContact::depthOf(const Plane& plane, const Body& body, const api::Float4* points) {
-  struct Deepest {
-    double depth = 0;
-    void operator+=(const Deepest& other) { depth = std::max(depth, other.depth); }
-  };
-  return sumOver<Deepest>(body.members,
-                          [&](Deepest& deepest, uint32_t i) {
-                            deepest.depth = std::max(deepest.depth, -plane.heightOf(vectorOf(points[i])));
-                          })
-      .depth;
-}
-
-RigidContact::Box RigidContact::boxOf(const Body& body, const api::Float4* points) {
-  struct Extent {
-    api::Float4 low{HUGE_VALF, HUGE_VALF, HUGE_VALF, 0}, high{-HUGE_VALF, -HUGE_VALF, -HUGE_VALF, 0};
-    void operator+=(const Extent& other) {
-      low = {std::min(low.x, other.low.x), std::min(low.y, other.low.y), std::min(low.z, other.low.z), 0};
-      high = {std::max(high.x, other.high.x), std::max(high.y, other.high.y), std::max(high.z, other.high.z), 0};
-    }
-  };
-  const Extent extent = sumOver<Extent>(body.members, [&](Extent& some, uint32_t i) {
-    some += Extent{points[i], points[i]};
-  });
-  return {vectorOf(extent.low), vectorOf(extent.high)};
-}
-
-/// Whether nothing in a box is behind a wall by more than `depth` m.
-bool RigidContact::isClear(const Plane& plane, const Box& box, double depth) {
-  const Vector3 nearest = (plane.normal.array() > 0).select(box.low, box.high);
-  return plane.heightOf(nearest) >= -depth;
-}
-
-Vector3 RigidContact::keepInside(ParticleStore& store) const {
-  const double most = kDeepest * m_spacing;
-  Vector3 moved;
-  for (const Body& body : m_bodies) {
-    if (!body.hasContacts) continue;
-    const Box box = boxOf(body, store.position());
-    if (std::all_of(m_planes.begin(), m_planes.end(), [&](const Plane& plane) { return isClear(plane, box, most); }))
-      continue;
-    int walls = 0;
-    for (int pass = 0; pass < kInwardPasses; ++pass) {
-      Vector3 way;
-      walls = 0;
-      uint32_t by = 0;
-      for (uint32_t w = 0; w < m_planes.size(); ++w) {
-        const double depth = depthOf(m_planes[w], body, store.position());
-        if (!(depth > most)) continue;
-        way += (depth - most) * m_planes[w].normal;
-        by = w;
-        ++walls;
-      }
-      if (walls == 0) break;
-      const Vector3 given = shift(store, body, 1.0 / walls * way);
-      moved += given;
-      m_reactions->add(m_reactions->ofWall(by), body.centre, -m_reactions->perStep() * given);
-    }
-    if (walls > 1) moved += takeBack(store, body);
-  }
-  return moved;
-}
-
-/// A turn that walls leave no room for does not take place: the body stays where it was, unless that was worse.
-Vector3 RigidContact::takeBack(ParticleStore& store, const Body& body) const {
-  double now = 0, before = 0;
-  for (const Plane& plane : m_planes) {
-    now = std::max(now, depthOf(plane, body, store.position()));
-    before = std::max(before, depthOf(plane, body, store.previous()));
-  }
-  Vector3 moved;
-  if (now <= before || now < kDeepest * m_spacing + kCreep * m_spacing) return moved;
-  for (const uint32_t i : body.members) {
-    api::Float4& x = store.position()[i];
-    const api::Float4& from = store.previous()[i];
-    moved += double{store.mass()[i]} * (vectorOf(from) - vectorOf(x));
-    x.x = from.x, x.y = from.y, x.z = from.z;
   }
   return moved;
 }

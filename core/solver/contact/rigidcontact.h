@@ -89,6 +89,8 @@ class RigidContact {
   static constexpr uint32_t kNone = ~0u;
   /// What is farther from a wall than this, in spacings, is not yet its contact.
   static constexpr double kOpen = 1;
+  /// What a body creeps in one substep, in spacings: more is motion, and to ask that back would push.
+  static constexpr double kCreep = 1e-4;
   struct BodyMotion {
     Vector3 velocity;  ///< m/s
     Vector3 angular;   ///< kg m2/s, about the centre
@@ -198,7 +200,9 @@ class RigidContact {
   double gapOf(const ParticleStore& store, const Open& open) const;
   double solve(ParticleStore& store, Contact& contact, double gap);
   void resume(ParticleStore& store);
+  void beginContact(const ParticleStore& store, Contact& contact) const;
   void readPlaces(const ParticleStore& store);
+  void readPlace(const ParticleStore& store, Open& open) const;
   static void readMasses(const ParticleStore& store, Body& body, const api::Float4* points);
   Vector3 velocityOf(const ParticleStore& store, const Side& side) const;
   Vector3 velocityOf(const ParticleStore& store, const Contact& contact) const;
