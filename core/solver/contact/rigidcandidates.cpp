@@ -120,17 +120,28 @@ void RigidContact::eachNumber(AContact& contact, Visit&& visit) {
   }
 }
 
+/// Writes `Each` values of each contact, as `put(contact, next)` gives them, some contacts at a time.
+template <class T, size_t Each, class Put>
+void RigidContact::saveEach(StateWriter& writer, const char* name, const Put& put) const {
+  constexpr size_t kAtOnce = 64;
+  std::array<T, Each * kAtOnce> some;
+  writer.open(name, stateTypeOf<T>(), Each * m_contacts.size());
+  for (size_t k = 0; k < m_contacts.size(); k += kAtOnce) {
+    T* next = some.data();
+    for (size_t c = k; c < std::min(m_contacts.size(), k + kAtOnce); ++c) put(m_contacts[c], next);
+    writer.put(some.data(), static_cast<size_t>(next - some.data()) * sizeof(T));
+  }
+  writer.close();
+}
+
 void RigidContact::save(StateWriter& writer) const {
-  writer.open("rigid/keys", StateType::UInt64, m_contacts.size());
-  for (const Contact& c : m_contacts) writer.put(c.key);
-  writer.close();
-  writer.open("rigid/numbers", StateType::Float64, kCarried * m_contacts.size());
-  for (const Contact& c : m_contacts) eachNumber(c, [&](const double& number) { writer.put(number); });
-  writer.close();
-  writer.open("rigid/marks", StateType::UInt8, m_contacts.size());
-  for (const Contact& c : m_contacts)
-    writer.put(static_cast<uint8_t>((c.met ? 1 : 0) | (c.slides ? 2 : 0) | (c.yields ? 4 : 0)));
-  writer.close();
+  saveEach<uint64_t, 1>(writer, "rigid/keys", [](const Contact& c, uint64_t*& next) { *next++ = c.key; });
+  saveEach<double, kCarried>(writer, "rigid/numbers", [](const Contact& c, double*& next) {
+    eachNumber(c, [&](const double& number) { *next++ = number; });
+  });
+  saveEach<uint8_t, 1>(writer, "rigid/marks", [](const Contact& c, uint8_t*& next) {
+    *next++ = static_cast<uint8_t>((c.met ? 1 : 0) | (c.slides ? 2 : 0) | (c.yields ? 4 : 0));
+  });
 }
 
 void RigidContact::restore(const StateReader& reader) {
@@ -234,8 +245,10 @@ void RigidContact::sortCandidates() {
 /// Of all that may touch another particle.
 void RigidContact::findSurfaces(const ParticleStore& store, const Neighbours& neighbours) {
   const api::Motion* motion = store.motion();
-  for (const Candidate& c : m_candidates) {
-    if (c.b != kNone) m_surface.add(c.a), m_surface.add(c.b);
+  for (const std::vector<Candidate>& found : m_candidatesOf) {
+    for (const Candidate& c : found) {
+      if (c.b != kNone) m_surface.add(c.a), m_surface.add(c.b);
+    }
   }
   m_surface.find(store, neighbours, [&](uint32_t i, uint32_t j) {
     return m_bodyOf[i] != kNone ? m_bodyOf[j] == m_bodyOf[i]
@@ -252,9 +265,11 @@ void RigidContact::refreshContacts(const ParticleStore& store, const Neighbours&
   m_surface.clear(store.size());
   for (Body& body : m_bodies) body.hasContacts = false;
   findCandidates(store, neighbours, constraints.graph(store.size()));
-  for (const Candidate& c : m_candidates) {
-    m_bodies[m_bodyOf[c.a]].hasContacts = true;
-    if (c.b != kNone && m_bodyOf[c.b] != kNone) m_bodies[m_bodyOf[c.b]].hasContacts = true;
+  for (const std::vector<Candidate>& found : m_candidatesOf) {  // in the order of particles, as they lie in memory
+    for (const Candidate& c : found) {
+      m_bodies[m_bodyOf[c.a]].hasContacts = true;
+      if (c.b != kNone && m_bodyOf[c.b] != kNone) m_bodies[m_bodyOf[c.b]].hasContacts = true;
+    }
   }
   findSurfaces(store, neighbours);
   // With room to spare: their number changes a little with each new list, and a steady frame allocates nothing.

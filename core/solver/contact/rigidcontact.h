@@ -194,6 +194,8 @@ class RigidContact {
   void keepImpulses();
   template <class AContact, class Visit>
   static void eachNumber(AContact& contact, Visit&& visit);
+  template <class T, size_t Each, class Put>
+  void saveEach(StateWriter& writer, const char* name, const Put& put) const;
   void orient(const ParticleStore& store, Contact& contact) const;
   void remember(Contact& contact) const;
   static double slideOf(const Contact& contact, const Vector3& speed);
