@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <span>
 #include <tuple>
 
 namespace ps {
@@ -93,6 +92,25 @@ bool OccupiedPlaces::isFreeHere(const api::Double3& p) const {
     }
   }
   return true;
+}
+
+NearBox::NearBox(std::span<const api::Double3> places, double margin, const Period& period) {
+  m_low.fill(HUGE_VAL), m_high.fill(-HUGE_VAL);
+  for (const api::Double3& p : places) {
+    const double at[3] = {p.x, p.y, p.z};
+    for (size_t a = 0; a < 3; ++a) {
+      m_low[a] = std::min(m_low[a], at[a] - margin), m_high[a] = std::max(m_high[a], at[a] + margin);
+    }
+  }
+  for (size_t a = 0; a < 3; ++a) {
+    if (period.length(a) > 0) m_low[a] = -HUGE_VAL, m_high[a] = HUGE_VAL;
+  }
+}
+
+bool NearBox::holds(const api::Float4& p) const {
+  const double at[3] = {p.x, p.y, p.z};
+  return at[0] >= m_low[0] && at[0] <= m_high[0] && at[1] >= m_low[1] && at[1] <= m_high[1] && at[2] >= m_low[2] &&
+         at[2] <= m_high[2];
 }
 
 std::vector<api::Double3> boxLattice(const BoxShape& box, double spacing) {

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace ps {
@@ -47,6 +48,17 @@ class OccupiedPlaces {
   double m_clearance;
   std::vector<uint32_t> m_first, m_next;  ///< indices of points
   std::vector<api::Double3> m_points;
+};
+
+/// A box around all places with `margin` m to spare; along an axis that repeats it has no end. What lies outside of it
+/// is farther than that from each of them.
+class NearBox {
+ public:
+  NearBox(std::span<const api::Double3> places, double margin, const Period& period);
+  bool holds(const api::Float4& place) const;
+
+ private:
+  std::array<double, 3> m_low, m_high;  ///< m
 };
 
 /// The places of a store's particles, and room for `more`.

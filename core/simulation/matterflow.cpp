@@ -17,6 +17,8 @@ constexpr double kClearance = 0.8;  // spacings
 /// Nearer to another particle nothing is let go. What is held presses what stands in its way aside, as a pump does;
 /// where it cannot, in a vessel that is full, it is taken back, and new matter stands ready.
 constexpr double kPressed = 0.5;  // spacings
+/// Particles that are near to a place of a mouth, as a guess for the length of tables.
+constexpr size_t kNearEach = 4;
 
 /// Of the distance between two layers: one that is so little within reach need not be there.
 constexpr double kHardlyReached = 0.25;
@@ -175,10 +177,11 @@ void MatterFlow::cross(const Job& job, Pipe& pipe, double offset, double& living
     pipe.layers.pop_front();
   }
   ParticleStore& store = job.solver.particles();
-  OccupiedPlaces occupied(kClearance * job.spacing, store.size(), store.period()),
-      pressed(kPressed * job.spacing, store.size(), store.period());
+  const NearBox near(spawn.position, kClearance * job.spacing, store.period());
+  OccupiedPlaces occupied(kClearance * job.spacing, kNearEach * spawn.position.size(), store.period()),
+      pressed(kPressed * job.spacing, kNearEach * spawn.position.size(), store.period());
   for (size_t i = 0; i < store.size(); ++i) {
-    if (isHeld(store, i)) continue;
+    if (isHeld(store, i) || !near.holds(store.position()[i])) continue;
     occupied.add(store.wrappedPosition(i));
     pressed.add(store.wrappedPosition(i));
   }
@@ -220,8 +223,11 @@ void MatterFlow::fill(const Job& job, Pipe& pipe) {
   while (pipe.layers.size() < depth) {
     Spawn spawn = job.layer(pipe.travelled - static_cast<double>(pipe.layers.size() + 1) * job.pitch);
     spawn.held = true;
-    OccupiedPlaces occupied(kClearance * job.spacing, store.size(), store.period());
-    for (size_t i = 0; i < store.size(); ++i) occupied.add(store.wrappedPosition(i));
+    const NearBox near(spawn.position, kClearance * job.spacing, store.period());
+    OccupiedPlaces occupied(kClearance * job.spacing, kNearEach * spawn.position.size(), store.period());
+    for (size_t i = 0; i < store.size(); ++i) {
+      if (near.holds(store.position()[i])) occupied.add(store.wrappedPosition(i));
+    }
     std::vector<size_t> places;
     for (size_t k = 0; k < spawn.position.size(); ++k) {
       if (occupied.isFree(spawn.position[k]) && clearOfWalls(walls, spawn.position[k], job.spacing))

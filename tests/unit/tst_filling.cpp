@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 using namespace ps;
 
@@ -110,6 +111,40 @@ class TstFilling : public QObject {
     const size_t centres = cellCentres(voxels, spacing, cellsOf(voxels, 0)).size();
     QVERIFY(std::abs(filling.asked - 25 * std::pow(0.02, 3)) < 1e-12);
     QVERIFY(std::abs(filling.filled - static_cast<double>(centres) * std::pow(spacing, 3)) < 1e-12);
+  }
+
+  /// What a box leaves out has no say in whether places are free, also across the faces of a box that repeats.
+  void whatIsFarHasNoSay_data() {
+    QTest::addColumn<bool>("repeats");
+    QTest::newRow("open") << false;
+    QTest::newRow("periodic") << true;
+  }
+  void whatIsFarHasNoSay() {
+    QFETCH(bool, repeats);
+    const Period period({0, 0, 0}, {1, 1, 1}, {repeats, false, false});
+    constexpr double kClearance = 0.03;
+    std::mt19937 random(7);
+    const auto place = [&] { return static_cast<double>(random()) / 4294967296.0; };
+    std::vector<api::Double3> asked;
+    for (int k = 0; k < 400; ++k) asked.push_back({0.15 * place(), 0.4 + 0.1 * place(), 0.2 * place()});
+    const NearBox near(asked, kClearance, period);
+    OccupiedPlaces all(kClearance, 16, period), some(kClearance, 16, period);
+    int left = 0;
+    for (int k = 0; k < 20000; ++k) {
+      const api::Double3 p{place(), place(), place()};
+      all.add(p);
+      if (near.holds({static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z), 0}))
+        some.add(p);
+      else
+        ++left;
+    }
+    QVERIFY(left > 10000);
+    int free = 0;
+    for (const api::Double3& p : asked) {
+      QCOMPARE(some.isFree(p), all.isFree(p));
+      free += all.isFree(p);
+    }
+    QVERIFY(free > 20 && free < 380);
   }
 
   /// With the worst body's name, until the scene has another spacing or shape.
