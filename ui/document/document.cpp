@@ -108,6 +108,17 @@ QString Document::setParameter(const Address& address, const Value& value) {
   return {};
 }
 
+QString Document::setParameters(const std::vector<std::pair<Address, Value>>& values, const QString& text) {
+  for (const auto& [address, value] : values) {
+    const std::string problem = problemWith(m_project, m_plugins, address, value);
+    if (!problem.empty()) return QString::fromStdString(problem);
+  }
+  m_undo.beginMacro(text);
+  for (const auto& [address, value] : values) setParameter(address, value);
+  m_undo.endMacro();
+  return {};
+}
+
 /// A default is not stored, unless it lies outside of the sets.
 std::optional<Value> Document::asStored(const Address& address, const std::optional<Value>& value) const {
   const api::ParameterDeclaration* declared = declaration(address);

@@ -15,6 +15,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace ps {
@@ -62,6 +63,8 @@ class Document : public QObject {
   void endGesture();
   /// Sets a value (the default removes the explicit one). Returns "" or why it is refused; the old one then stays.
   QString setParameter(const Address& address, const Value& value);
+  /// Several as one undo step. Returns "" or why one is refused; nothing is then set.
+  QString setParameters(const std::vector<std::pair<Address, Value>>& values, const QString& text);
   /// The engine has refused a value and goes on with another (see storedValue()): so does the document, as if it had
   /// never been set. Nothing happens when it has another value by now.
   void takeBack(const Address& address, const Value& asked, const std::optional<Value>& goesOn);

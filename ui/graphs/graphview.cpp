@@ -58,6 +58,11 @@ void GraphView::clear() {
   dataChanged();
 }
 
+void GraphView::clearSeries(int series) {
+  d->series.at(static_cast<size_t>(series)).samples.clear();
+  dataChanged();
+}
+
 void GraphView::setReferenceLines(std::vector<ReferenceLine> lines) {
   d->references = std::move(lines);
   dataChanged();

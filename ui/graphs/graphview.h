@@ -32,6 +32,7 @@ class GraphView : public TimePlot {
   void append(int series, double time, double value);
   /// Removes all samples, keeps the lines: after a reset.
   void clear();
+  void clearSeries(int series);  ///< the same of one
   void setReferenceLines(std::vector<ReferenceLine> lines);
   void setUnit(const QString& unit);  ///< shown in the read-out
   /// Samples of a series as drawn in a column [first, last): lowest and highest; nothing: {NaN, NaN}.

@@ -20,6 +20,7 @@ class HistoryReader {
     std::vector<FrameStats> frames;
   };
   Piece read();
+  void rewind() { m_revision = m_read = 0; }  ///< the next piece is all of the run
 
  private:
   Session& m_session;

@@ -46,6 +46,8 @@ class Session : public QObject {
   MessageLog& log() { return *m_log; }
   Worker& worker() { return *m_worker; }
   PluginRegistry* plugins() { return m_plugins.get(); }
+  /// The same, for work in the background that may outlive the session.
+  const std::shared_ptr<PluginRegistry>& registry() const { return m_plugins; }
   const ParticleFields& fields() const { return *m_fields; }  ///< of particles; until ready() ours alone
   EngineThread* engine() { return m_engine.get(); }
   SceneLink* link() { return m_link.get(); }

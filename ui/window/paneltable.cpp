@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/window/paneltable.h"
 
+#include "ui/fitting/fitpanel.h"
 #include "ui/graphs/energypanel.h"
 #include "ui/graphs/graphspanel.h"
 #include "ui/panels/brushpanel.h"
@@ -44,6 +45,7 @@ const std::vector<PanelRow>& panelTable() {
       {"dock.inspector", "Brush", [](Context c) -> QWidget* { return new BrushPanel(c.tools); }},
       {"dock.graphs", "Graphs", [](Context c) -> QWidget* { return new GraphsPanel(c.session); }},
       {"dock.graphs", "Energy", [](Context c) -> QWidget* { return new EnergyPanel(c.session); }},
+      {"dock.graphs", "Draw the result", [](Context c) -> QWidget* { return new FitPanel(c.session); }},
       {"dock.graphs", "Messages", [](Context c) -> QWidget* { return new MessagesPage(c.session.log()); }},
       {"dock.transport", "Transport", [](Context c) -> QWidget* { return new Timeline(c.session); }},
   };

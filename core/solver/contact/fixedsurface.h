@@ -12,6 +12,8 @@ namespace ps {
 /// be found anew, to the bit, so that it is no state.
 class FixedSurface {
  public:
+  /// Forgets all: what counts as near has changed.
+  void clear() { m_slot.clear(), m_fixed.clear(), m_at.clear(), m_kept.clear(); }
   /// Forgets all where something fixed has come, gone or moved, by the places that lists were made for.
   void refresh(const ParticleStore& store, std::span<const api::Float4> noted);
   /// Whether it knows the neighbours of a particle, which it then hands over; from several threads.

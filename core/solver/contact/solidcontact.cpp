@@ -47,6 +47,7 @@ void SolidContact::configure(const SolverSettings& settings, std::span<const Bak
   m_reach = m_diameter + kSkinSpacings * m_spacing;
   m_faceReach = std::hypot(kFaceDistance, kFaceWidth) * m_spacing + kSkinSpacings * m_spacing;
   m_surface.configure(m_spacing);
+  m_fixed.clear();
   m_crowded = latticeNeighbours((settings.supportRatio + kSkinSpacings) / kCrowded);
   m_friction.clear();
   for (const BakedMaterial& m : materials) {

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+// Draw the result, by hand in the real window: a curve is drawn over the sample's, a parameter may change, values are
+// found, taken over as one step, undone and done again.
+#include "core/io/projectio.h"
+#include "tests/ui/samplewindow.h"
+#include "ui/fitting/fitpanel.h"
+#include "ui/fitting/fitparameterrows.h"
+#include "ui/fitting/wantedview.h"
+#include "ui/window/windowlayout.h"
+
+#include <QtCore/QDir>
+#include <QtGui/QUndoStack>
+#include <QtTest/QSignalSpy>
+#include <QtWidgets/QComboBox>
+#include <QtWidgets/QDockWidget>
+#include <QtWidgets/QPushButton>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace ps;
+
+namespace {
+
+const TrackTarget kFloor{{Owner::Wall, "floor", "temperature"}, {}};
+
+void picture(QWidget* widget, const QString& name) {
+  const QString folder = qEnvironmentVariable("PS_TEST_PICTURES");
+  if (!folder.isEmpty()) widget->grab().save(QDir(folder).filePath(name + QStringLiteral(".png")));
+}
+
+}  // namespace
+
+class TestDrawResult : public SampleWindowTest {
+  Q_OBJECT
+ private Q_SLOTS:
+  void initTestCase() {
+    open();
+    QVERIFY(m_window);
+    session().pause();
+    m_window->layoutOfDocks().showPage(QStringLiteral("Draw the result"));
+    QVERIFY(panel()->isVisible());
+  }
+  void init() {
+    backToTheStart();
+    wantedView()->setWanted({});
+  }
+
+  /// A stroke has points from left to right whichever way the hand goes, and takes the place of what it passes.
+  void aStrokeIsDrawnOverWhatWasThere() {
+    const auto values = [this] { return wantedView()->wanted().value; };
+    draw({0.1, 0.2}, {0.6, 0.8});
+    const Series down = wantedView()->wanted();
+    QVERIFY(down.time.size() > 5);
+    QVERIFY(std::is_sorted(down.time.begin(), down.time.end()));
+    QVERIFY(std::is_sorted(down.value.rbegin(), down.value.rend()));
+    draw({0.4, 0.2}, {0.2, 0.2});  // back over its middle
+    const Series level = wantedView()->wanted();
+    QVERIFY(std::is_sorted(level.time.begin(), level.time.end()));
+    QCOMPARE(level.time.front(), down.time.front());
+    QCOMPARE(level.time.back(), down.time.back());
+    QVERIFY(!std::is_sorted(level.value.rbegin(), level.value.rend()));
+    QSignalSpy changed(wantedView(), &WantedView::wantedChanged);
+    QTest::keyClick(wantedView(), Qt::Key_Delete);
+    QVERIFY(values().empty());
+    QCOMPARE(changed.count(), 1);
+  }
+
+  void nothingIsSearchedWithoutACurveAndAParameter() {
+    QVERIFY(!button("Find values")->isEnabled());
+    QCOMPARE(panel()->parameters()->add(kFloor), QString());
+    QVERIFY(!panel()->parameters()->add(kFloor).isEmpty());  // it is there already
+    QVERIFY(!button("Find values")->isEnabled());
+    draw({0.1, 0.2}, {0.3, 0.5});
+    QVERIFY(button("Find values")->isEnabled());
+    QVERIFY(!button("Apply")->isEnabled());
+  }
+
+  /// The start of the ice's melting, by the plate.
+  void valuesAreFoundAndTakenOverAsOneStep() {
+    chooseQuantity("Ice: Solid mass");
+    panel()->parameters()->add(kFloor);
+    Series wanted;
+    for (int k = 1; k <= 4; ++k) wanted.time.push_back(0.1 * k), wanted.value.push_back(44 - 4.0 * k);
+    wantedView()->setWanted(wanted);
+    picture(m_window.get(), "draw-wanted");
+    const std::string before = writeProject(document().project());
+    const int index = document().undoStack().index();
+    QSignalSpy ended(panel(), &FitPanel::ended);
+    QTest::mouseClick(button("Find values"), Qt::LeftButton);
+    QVERIFY(button("Cancel")->isVisible());
+    QVERIFY(ended.wait(4 * kLong));
+    QCOMPARE(writeProject(document().project()), before);  // nothing changes before it is asked for
+    picture(m_window.get(), "draw-found");
+    QVERIFY(button("Apply")->isEnabled());
+    QTest::mouseClick(button("Apply"), Qt::LeftButton);
+    QCOMPARE(document().undoStack().index(), index + 1);
+    const std::string after = writeProject(document().project());
+    QVERIFY(after != before);
+    QVERIFY(std::get<double>(document().value(kFloor.address)) > 425);  // hotter than it is
+    document().undoStack().undo();
+    QCOMPARE(writeProject(document().project()), before);
+    document().undoStack().redo();
+    QCOMPARE(writeProject(document().project()), after);
+  }
+
+  void aSearchIsGivenUp() {
+    chooseQuantity("Ice: Solid mass");
+    panel()->parameters()->add(kFloor);
+    wantedView()->setWanted({{20.0}, {10.0}});  // runs of twenty seconds
+    QSignalSpy ended(panel(), &FitPanel::ended);
+    QTest::mouseClick(button("Find values"), Qt::LeftButton);
+    QTest::qWait(200);
+    QTest::mouseClick(button("Cancel"), Qt::LeftButton);
+    QVERIFY(ended.wait(kLong));
+    QVERIFY(button("Find values")->isVisible());
+    QVERIFY(!button("Apply")->isEnabled());
+  }
+
+ private:
+  FitPanel* panel() const { return m_window->findChild<FitPanel*>(); }
+  WantedView* wantedView() const { return panel()->view(); }
+  QPushButton* button(const char* text) const {
+    for (QPushButton* each : panel()->findChildren<QPushButton*>()) {
+      if (each->text() == QString::fromLatin1(text)) return each;
+    }
+    return nullptr;
+  }
+  void chooseQuantity(const char* name) {
+    const auto& all = panel()->drawables();
+    const auto found = std::find_if(
+        all.begin(), all.end(), [&](const FitPanel::Drawable& each) { return each.name == QString::fromLatin1(name); });
+    QVERIFY2(found != all.end(), name);
+    panel()->choose(static_cast<int>(found - all.begin()));
+  }
+  /// Between two places, as shares of the plot's width and height.
+  void draw(const QPointF& from, const QPointF& to) {
+    const QRectF plot = wantedView()->plotRect();
+    const auto at = [&](double share) {
+      const QPointF p = from + share * (to - from);
+      return QPoint(qRound(plot.left() + p.x() * plot.width()), qRound(plot.top() + p.y() * plot.height()));
+    };
+    QTest::mousePress(wantedView(), Qt::LeftButton, {}, at(0));
+    for (int k = 1; k <= 20; ++k) QTest::mouseMove(wantedView(), at(k / 20.0));
+    QTest::mouseRelease(wantedView(), Qt::LeftButton, {}, at(1));
+  }
+};
+
+QTEST_MAIN(TestDrawResult)
+#include "tst_drawresult.moc"

@@ -1,0 +1,336 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/fitting/fitpanel.h"
+
+#include "core/experiments/probetable.h"
+#include "core/plugin_host/registry.h"
+#include "core/simulation/declared.h"
+#include "core/simulation/measure.h"
+#include "ui/document/declared.h"
+#include "ui/document/document.h"
+#include "ui/fitting/fitparameterrows.h"
+#include "ui/fitting/wantedview.h"
+#include "ui/session/session.h"
+#include "ui/theme/numbers.h"
+#include "ui/theme/theme.h"
+
+#include <QtWidgets/QComboBox>
+#include <QtWidgets/QCompleter>
+#include <QtWidgets/QGridLayout>
+#include <QtWidgets/QHBoxLayout>
+#include <QtWidgets/QLabel>
+#include <QtWidgets/QLineEdit>
+#include <QtWidgets/QPushButton>
+#include <QtWidgets/QScrollArea>
+#include <QtWidgets/QStyle>
+#include <QtWidgets/QVBoxLayout>
+
+#include <algorithm>
+#include <memory>
+
+namespace ps {
+namespace {
+
+constexpr int kControls = 372;  // logical pixels
+constexpr double kZero = 273.15;
+constexpr double kAtEnd = 1e-3;   // of a range
+constexpr double kBeyond = 1.25;  // shown of the time until the wanted curve ends
+enum Line { AsItIs, Found };
+const QString kHint = QStringLiteral("Draw on the graph how it shall go (Del clears), and choose what may change");
+
+}  // namespace
+
+FitPanel::FitPanel(Session& session, QWidget* parent)
+    : QWidget(parent),
+      m_session(session),
+      m_history(session),
+      m_view(new WantedView),
+      m_quantity(new QComboBox),
+      m_candidate(new QComboBox),
+      m_rows(new FitParameterRows(session.document())),
+      m_search(new QPushButton(QStringLiteral("Find values"))),
+      m_cancel(new QPushButton(QStringLiteral("Cancel"))),
+      m_apply(new QPushButton(QStringLiteral("Apply"))),
+      m_status(new QLabel) {
+  m_quantity->setAccessibleName(QStringLiteral("Quantity that is drawn"));
+  m_candidate->setAccessibleName(QStringLiteral("Add what may change"));
+  m_candidate->setEditable(true);
+  m_candidate->setInsertPolicy(QComboBox::NoInsert);
+  m_candidate->lineEdit()->setPlaceholderText(QStringLiteral("May change: type to find a parameter"));
+  m_candidate->completer()->setCompletionMode(QCompleter::PopupCompletion);
+  m_candidate->completer()->setFilterMode(Qt::MatchContains);
+  m_search->setProperty("primary", true);
+  m_search->setToolTip(QStringLiteral("Runs the scene from its start again and again, as long as the curve reaches"));
+  m_apply->setToolTip(QStringLiteral("Takes the values over, as one step that undo takes back"));
+  m_status->setWordWrap(true);
+  m_status->setTextFormat(Qt::PlainText);
+  m_view->setEmptyText(QStringLiteral("Press Space to run"));
+  m_view->addSeries(QStringLiteral("as it is"));
+  m_view->addSeries(QStringLiteral("found"));
+
+  auto* scroll = new QScrollArea;
+  scroll->setFrameShape(QFrame::NoFrame);
+  scroll->setWidgetResizable(true);
+  scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  scroll->setFocusPolicy(Qt::NoFocus);
+  auto* held = new QWidget;
+  auto* upper = new QVBoxLayout(held);
+  upper->setContentsMargins(0, 0, 0, 0);
+  upper->addWidget(m_rows);
+  upper->addStretch(1);
+  scroll->setWidget(held);
+
+  auto* controls = new QGridLayout;
+  controls->setHorizontalSpacing(6);
+  controls->setVerticalSpacing(4);
+  controls->setColumnStretch(0, 1);
+  controls->setRowStretch(2, 1);
+  controls->addWidget(m_quantity, 0, 0);
+  controls->addWidget(m_search, 0, 1);
+  controls->addWidget(m_cancel, 0, 1);
+  controls->addWidget(m_candidate, 1, 0);
+  controls->addWidget(m_apply, 1, 1);
+  controls->addWidget(scroll, 2, 0, 1, 2);
+  controls->addWidget(m_status, 3, 0, 1, 2);
+  auto* left = new QWidget;
+  left->setLayout(controls);
+  left->setFixedWidth(kControls);
+  controls->setContentsMargins(0, 0, 0, 0);
+  auto* row = new QHBoxLayout(this);
+  row->setContentsMargins(6, 4, 6, 4);
+  row->setSpacing(8);
+  row->addWidget(left);
+  row->addWidget(m_view, 1);
+
+  connect(m_quantity, qOverload<int>(&QComboBox::activated), this, &FitPanel::choose);
+  connect(m_candidate, qOverload<int>(&QComboBox::activated), this, &FitPanel::addCandidate);
+  connect(m_rows, &FitParameterRows::changed, this, &FitPanel::refreshButtons);
+  connect(m_view, &WantedView::wantedChanged, this, &FitPanel::refreshButtons);
+  connect(m_search, &QPushButton::clicked, this, &FitPanel::search);
+  connect(m_cancel, &QPushButton::clicked, this, [this] { m_job.cancel(); });
+  connect(m_apply, &QPushButton::clicked, this, &FitPanel::apply);
+  connect(&m_job, &FitJob::tried, this, &FitPanel::onTried);
+  connect(&m_job, &FitJob::finished, this, &FitPanel::onFinished);
+  connect(&m_job, &FitJob::failed, this, [this](const QString& problem) {
+    say(problem, true);
+    refreshButtons();
+    Q_EMIT ended();
+  });
+  connect(&session, &Session::valuesDue, this, &FitPanel::readHistory);
+  connect(&session, &Session::ready, this, &FitPanel::readScene);
+  connect(&session.document(), &Document::changed, this, [this](const ChangeEvent& event) {
+    if (std::holds_alternative<ProjectOpened>(event)) {
+      m_job.cancel();
+      m_found.reset();
+      m_view->setWanted({});
+      readScene();
+      say(kHint);
+    } else if (std::holds_alternative<MaterialsChanged>(event)) {
+      readCandidates();
+    }
+  });
+  readScene();
+  say(kHint);
+}
+
+void FitPanel::readScene() {
+  const Project& project = m_session.document().project();
+  std::vector<std::string> names;
+  for (const Probe& probe : project.probes) names.push_back(probeTitle(probe, m_session.fields()));
+  const std::vector<std::string> titles = columnTitles(names);
+  m_drawables.clear();
+  for (size_t k = 0; k < project.probes.size(); ++k) {
+    const Probe& probe = project.probes[k];
+    const Quantity* quantity = m_session.fields().quantity(probe.quantity);
+    if (!quantity) continue;
+    const bool kelvin = quantity->unit == "K";
+    const QString unit =
+        kelvin ? QStringLiteral("°C") : QString::fromStdString(quantity->unit == "1" ? "" : quantity->unit);
+    m_drawables.push_back({titles[2 + k],  // behind the two clocks
+                           QStringLiteral("%1: %2").arg(nameOf(probe), QString::fromStdString(quantity->label)), unit,
+                           kelvin ? -kZero : 0.0, [k](const FrameStats& stats) {
+                             return k < stats.probes.size() ? stats.probes[k] : std::nan("");
+                           }});
+  }
+  constexpr const char* kPhases[] = {"solid", "melting", "liquid", "boiling", "gas"};
+  constexpr const char* kNames[] = {"All matter: solid", "All matter: melting", "All matter: liquid",
+                                    "All matter: boiling", "All matter: gas"};
+  for (size_t k = 0; k < std::size(kPhases); ++k) {
+    m_drawables.push_back({std::string(kPhases[k]) + ".mass[kg]", QString::fromLatin1(kNames[k]), QStringLiteral("kg"),
+                           0, [k](const FrameStats& stats) { return stats.phases[k].mass; }});
+  }
+  m_drawables.push_back({"all.temperature[K]", QStringLiteral("All matter: mean temperature"), QStringLiteral("°C"),
+                         -kZero, [](const FrameStats& stats) { return stats.temperatureMean; }});
+  m_quantity->clear();
+  for (const Drawable& drawable : m_drawables)
+    m_quantity->addItem(drawable.unit.isEmpty() ? drawable.name : drawable.name + QStringLiteral(", ") + drawable.unit);
+  m_view->setDuration(project.duration);
+  readCandidates();
+  choose(0);
+}
+
+/// Every number of the scene that can be looked for, points of curves too; what is pinned first.
+void FitPanel::readCandidates() {
+  const Project& project = m_session.document().project();
+  const PluginRegistry* plugins = m_session.plugins();
+  m_candidates.clear();
+  const auto offer = [&](const TrackTarget& target) {
+    if (whyNotFitted(project, plugins, target).empty()) m_candidates.push_back(target);
+  };
+  std::vector<Address> addresses;
+  for (const std::string& pinned : project.view.pinned) {
+    if (const auto address = Address::parse(pinned)) addresses.push_back(*address);
+  }
+  for (const Address& address : allAddresses(project, plugins)) {
+    const bool seen = std::string_view(address.key).starts_with("color_");
+    if (!seen && std::find(addresses.begin(), addresses.end(), address) == addresses.end())
+      addresses.push_back(address);
+  }
+  for (const Address& address : addresses) {
+    if (!declarationOf(project, plugins, address)) continue;
+    offer({address, std::nullopt});
+    const Value value = valueAt(project, plugins, address);
+    const auto* response = std::get_if<Response>(&value);
+    const size_t points = response && response->kind == Response::Kind::Curve ? response->points.size() : 0;
+    for (size_t point = 0; point < points; ++point) offer({address, point});
+  }
+  m_candidate->clear();
+  for (const TrackTarget& target : m_candidates) m_candidate->addItem(m_rows->nameOf(target));
+  m_candidate->setCurrentIndex(-1);
+}
+
+void FitPanel::addCandidate(int index) {
+  if (index < 0 || index >= static_cast<int>(m_candidates.size())) return;
+  const QString problem = m_rows->add(m_candidates[static_cast<size_t>(index)]);
+  m_candidate->setCurrentIndex(-1);
+  if (!problem.isEmpty()) say(problem, true);
+}
+
+void FitPanel::choose(int drawable) {
+  if (drawable < 0 || drawable >= static_cast<int>(m_drawables.size())) return;
+  const bool another = drawable != m_chosen;
+  m_chosen = drawable;
+  m_quantity->setCurrentIndex(drawable);
+  const Drawable& chosen = m_drawables[static_cast<size_t>(drawable)];
+  m_view->setTitle(m_quantity->currentText());
+  m_view->setUnit(chosen.unit);
+  m_view->clear();
+  if (another) m_view->setWanted({});
+  m_history.rewind();
+  readHistory();
+  refreshButtons();
+}
+
+void FitPanel::readHistory() {
+  if (m_drawables.empty() || m_job.isRunning() || m_found) return;  // the run that was searched from stays
+  const HistoryReader::Piece piece = m_history.read();
+  if (piece.begins) m_view->clear();
+  const Drawable& chosen = m_drawables[static_cast<size_t>(m_chosen)];
+  for (const FrameStats& stats : piece.frames) m_view->append(AsItIs, stats.time, chosen.value(stats) + chosen.offset);
+}
+
+void FitPanel::search() {
+  if (m_job.isRunning() || m_drawables.empty() || !m_session.isReady()) return;
+  const Drawable& chosen = m_drawables[static_cast<size_t>(m_chosen)];
+  m_task = FitTask{chosen.column, m_view->wanted(), m_rows->parameters()};
+  for (double& value : m_task.wanted.value) value -= chosen.offset;
+  m_found.reset();
+  m_view->setTimeRange(0, kBeyond * m_task.wanted.time.back());
+  m_session.pause();  // the scene would take half of the threads
+  m_job.start(std::make_shared<const Project>(m_session.document().project()), m_session.registry(), m_task);
+  say(QStringLiteral("Run 1 of at most %1 …").arg(m_task.mostRuns));
+  refreshButtons();
+}
+
+void FitPanel::showCourse(const FitTrial& trial) {
+  const double offset = m_drawables[static_cast<size_t>(m_chosen)].offset;
+  if (trial.run == 1) m_view->clear();
+  const int line = trial.run == 1 ? AsItIs : Found;
+  if (line == Found) m_view->clearSeries(Found);
+  for (size_t k = 0; k < trial.course.time.size(); ++k)
+    m_view->append(line, trial.course.time[k], trial.course.value[k] + offset);
+}
+
+QString FitPanel::missed(double error) const {
+  return formatQuantity(error,
+                        m_drawables[static_cast<size_t>(m_chosen)].unit == QStringLiteral("°C")
+                            ? QStringLiteral("K")
+                            : m_drawables[static_cast<size_t>(m_chosen)].unit,
+                        3);
+}
+
+void FitPanel::onTried(const FitTrial& trial) {
+  if (trial.run == 1) m_missedBefore = trial.error;
+  if (trial.isBest) {
+    showCourse(trial);
+    m_found = trial;
+  }
+  say(QStringLiteral("Run %1 of at most %2: missed by %3 so far, %4 as it is")
+          .arg(trial.run)
+          .arg(m_task.mostRuns)
+          .arg(missed(m_found->error), missed(m_missedBefore)));
+}
+
+void FitPanel::onFinished(const FitResult& result) {
+  if (result.runs == 0) m_found.reset();
+  if (m_found && m_found->run == 1) {
+    say(QStringLiteral("No run came closer than the scene as it is, which misses by %1").arg(missed(m_missedBefore)));
+    m_found.reset();
+  } else if (m_found) {
+    QStringList values;
+    for (size_t k = 0; k < m_task.parameters.size(); ++k) {
+      const TrackTarget& target = m_task.parameters[k].target;
+      const FitParameter& p = m_task.parameters[k];
+      const double value = m_found->values[k], edge = kAtEnd * (p.maximum - p.minimum);
+      const bool atEnd = value < p.minimum + edge || value > p.maximum - edge;
+      values << QStringLiteral("%1 %2%3").arg(m_rows->nameOf(target), m_rows->shown(target, value),
+                                              atEnd ? QStringLiteral(", where its range ends") : QString());
+    }
+    say(QStringLiteral("%1. Missed by %2, %3 as it is%4")
+            .arg(values.join(QStringLiteral(", ")), missed(m_found->error), missed(m_missedBefore),
+                 result.stopped ? QStringLiteral("; ended early") : QString()));
+  }
+  refreshButtons();
+  Q_EMIT ended();
+}
+
+void FitPanel::apply() {
+  if (!m_found || m_job.isRunning()) return;
+  Document& document = m_session.document();
+  std::vector<std::pair<Address, Value>> values;
+  for (size_t k = 0; k < m_task.parameters.size(); ++k) {
+    const TrackTarget& target = m_task.parameters[k].target;
+    if (!whyNotFitted(document.project(), document.plugins(), target).empty()) {
+      say(QStringLiteral("%1 has gone from the scene; nothing was changed").arg(m_rows->nameOf(target)), true);
+      return;
+    }
+  }
+  const Project changed = withValues(document.project(), *document.plugins(), m_task, m_found->values);
+  for (const FitParameter& p : m_task.parameters)
+    values.emplace_back(p.target.address, valueAt(changed, document.plugins(), p.target.address));
+  const QString problem = document.setParameters(values, QStringLiteral("values found for a drawn curve"));
+  if (!problem.isEmpty()) return say(problem, true);
+  m_found.reset();
+  say(QStringLiteral("Taken over; press Home to run it from the start"));
+  refreshButtons();
+}
+
+void FitPanel::say(const QString& text, bool problem) {
+  m_status->setText(text);
+  m_status->setToolTip(text);
+  m_status->setProperty("role", problem ? "error" : "text2");
+  m_status->style()->unpolish(m_status);
+  m_status->style()->polish(m_status);
+}
+
+void FitPanel::refreshButtons() {
+  const bool running = m_job.isRunning();
+  m_search->setVisible(!running);
+  m_cancel->setVisible(running);
+  m_search->setEnabled(m_session.isReady() && !m_view->wanted().time.empty() && !m_rows->parameters().empty());
+  m_apply->setEnabled(!running && m_found.has_value());
+  for (QWidget* input : {static_cast<QWidget*>(m_quantity), static_cast<QWidget*>(m_candidate),
+                         static_cast<QWidget*>(m_rows), static_cast<QWidget*>(m_view)})
+    input->setEnabled(!running);
+}
+
+}  // namespace ps

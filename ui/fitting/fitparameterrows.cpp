@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/fitting/fitparameterrows.h"
+
+#include "ui/document/declared.h"
+#include "ui/document/document.h"
+#include "ui/theme/icon.h"
+#include "ui/theme/numbers.h"
+
+#include <QtWidgets/QHBoxLayout>
+#include <QtWidgets/QLabel>
+#include <QtWidgets/QLineEdit>
+#include <QtWidgets/QToolButton>
+#include <QtWidgets/QVBoxLayout>
+
+#include <algorithm>
+
+namespace ps {
+namespace {
+
+constexpr int kField = 76;  // logical pixels
+
+bool same(const TrackTarget& a, const TrackTarget& b) { return a.address == b.address && a.point == b.point; }
+
+}  // namespace
+
+FitParameterRows::FitParameterRows(Document& document, QWidget* parent)
+    : QWidget(parent), m_document(document), m_column(new QVBoxLayout(this)) {
+  m_column->setContentsMargins(0, 0, 0, 0);
+  m_column->setSpacing(2);
+  connect(&document, &Document::changed, this, [this](const ChangeEvent&) {
+    const size_t gone = std::erase_if(m_parameters, [this](const FitParameter& p) {
+      return !whyNotFitted(m_document.project(), m_document.plugins(), p.target).empty();
+    });
+    if (gone > 0) rebuild();
+  });
+}
+
+QString FitParameterRows::add(const TrackTarget& target) {
+  const std::string why = whyNotFitted(m_document.project(), m_document.plugins(), target);
+  if (!why.empty()) return QString::fromStdString(why);
+  const bool known = std::any_of(m_parameters.begin(), m_parameters.end(),
+                                 [&](const FitParameter& p) { return same(p.target, target); });
+  if (known) return QStringLiteral("%1 is there already").arg(nameOf(target));
+  const api::ParameterDeclaration& declared = *m_document.declaration(target.address);
+  m_parameters.push_back({target, declared.minimum, declared.maximum});
+  rebuild();
+  return {};
+}
+
+QString FitParameterRows::nameOf(const TrackTarget& target) const {
+  const api::ParameterDeclaration* declared = m_document.declaration(target.address);
+  if (!declared) return QString::fromStdString(target.address.text());
+  const QString name = awayLabel(m_document.project(), target.address, QString::fromUtf8(declared->label));
+  return target.point ? QStringLiteral("%1, point %2").arg(name).arg(*target.point) : name;
+}
+
+QString FitParameterRows::shown(const TrackTarget& target, double number) const {
+  const api::ParameterDeclaration* declared = m_document.declaration(target.address);
+  return declared ? formatValue(*declared, number) : formatNumber(number);
+}
+
+void FitParameterRows::rebuild() {
+  while (QLayoutItem* item = m_column->takeAt(0)) {
+    if (item->widget()) item->widget()->deleteLater();
+    delete item;
+  }
+  for (size_t k = 0; k < m_parameters.size(); ++k) {
+    const FitParameter& p = m_parameters[k];
+    const api::ParameterDeclaration& declared = *m_document.declaration(p.target.address);
+    auto* row = new QWidget;
+    auto* line = new QHBoxLayout(row);
+    line->setContentsMargins(0, 0, 0, 0);
+    line->setSpacing(4);
+    auto* name = new QLabel(nameOf(p.target));
+    name->setTextFormat(Qt::PlainText);
+    name->setToolTip(
+        QStringLiteral("Now %1").arg(shown(p.target, numberAt(m_document.project(), m_document.plugins(), p.target))));
+    name->setMinimumWidth(20);
+    line->addWidget(name, 1);
+    for (const bool most : {false, true}) {
+      auto* field = new QLineEdit(formatField(declared, most ? p.maximum : p.minimum));
+      field->setFixedWidth(kField);
+      field->setAlignment(Qt::AlignRight);
+      field->setAccessibleName(nameOf(p.target) + (most ? QStringLiteral(", at most") : QStringLiteral(", at least")));
+      field->setToolTip((most ? QStringLiteral("Looked for up to, in %1") : QStringLiteral("Looked for from, in %1"))
+                            .arg(displayUnit(declared)));
+      connect(field, &QLineEdit::editingFinished, this, [this, k, most, field] { readEnd(k, most, field->text()); });
+      line->addWidget(field);
+      if (!most) line->addWidget(new QLabel(QStringLiteral("–")));
+    }
+    auto* unit = new QLabel(displayUnit(declared));
+    unit->setProperty("role", "muted");
+    line->addWidget(unit);
+    auto* remove = new QToolButton;
+    remove->setIcon(icon(QStringLiteral("close")));
+    remove->setAutoRaise(true);
+    remove->setToolTip(QStringLiteral("Leave it as it is"));
+    connect(remove, &QToolButton::clicked, this, [this, k] {
+      m_parameters.erase(m_parameters.begin() + static_cast<ptrdiff_t>(k));
+      rebuild();
+    });
+    line->addWidget(remove);
+    m_column->addWidget(row);
+  }
+  Q_EMIT changed();
+}
+
+/// What is no number, or out of the hard range, leaves the old one.
+void FitParameterRows::readEnd(size_t row, bool most, const QString& text) {
+  if (row >= m_parameters.size()) return;
+  FitParameter& p = m_parameters[row];
+  const api::ParameterDeclaration& declared = *m_document.declaration(p.target.address);
+  double& end = most ? p.maximum : p.minimum;
+  const Typed typed = parseTyped(text, declared, end);
+  if (typed.problem.isEmpty() && typed.value >= declared.hardMinimum && typed.value <= declared.hardMaximum)
+    end = typed.value;
+  rebuild();
+}
+
+}  // namespace ps

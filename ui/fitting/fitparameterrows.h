@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "core/experiments/curvefit.h"
+
+#include <QtWidgets/QWidget>
+
+#include <vector>
+
+class QVBoxLayout;
+
+namespace ps {
+
+class Document;
+
+/// What may change, each with the range in which it is looked for. A parameter that has gone from the scene goes.
+class FitParameterRows : public QWidget {
+  Q_OBJECT
+ public:
+  explicit FitParameterRows(Document& document, QWidget* parent = nullptr);
+  /// With the range of its slider; "" or why it cannot be looked for.
+  QString add(const TrackTarget& target);
+  const std::vector<FitParameter>& parameters() const { return m_parameters; }
+  /// "Hot plate temperature", "Viscosity of Honey, point 2".
+  QString nameOf(const TrackTarget& target) const;
+  /// A number of it as people see it, with its unit.
+  QString shown(const TrackTarget& target, double number) const;
+
+ Q_SIGNALS:
+  void changed();
+
+ private:
+  void rebuild();
+  void readEnd(size_t row, bool most, const QString& text);
+  Document& m_document;
+  QVBoxLayout* m_column;
+  std::vector<FitParameter> m_parameters;
+};
+
+}  // namespace ps
