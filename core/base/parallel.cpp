@@ -11,11 +11,11 @@
 namespace ps {
 namespace {
 int g_threads = 0;
-/// For which another thread is asked to help: about what that takes. ThreadSanitizer is to see small loops shared too.
+/// For which another thread is asked to help: somewhat more than that takes. ThreadSanitizer is to see small loops shared too.
 #if defined(__SANITIZE_THREAD__)
 constexpr double kMicrosecondsPerThread = 0.01;
 #else
-constexpr double kMicrosecondsPerThread = 5;
+constexpr double kMicrosecondsPerThread = 7;
 #endif
 
 std::unique_ptr<Workers>& workers() {

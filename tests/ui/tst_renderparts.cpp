@@ -219,6 +219,8 @@ void TestRenderParts::colourMapEnds_data() {
   row("melting, pivot high", "temperature", 0.9, 0.9, 141, 194, 230);
   row("melting at the lower end", "temperature", 0, 0, 141, 194, 230);
   row("melting at the upper end", "temperature", 1, 1, 141, 194, 230);
+  row("all far above melting", "temperature", 0, -9, 244, 186, 106);
+  row("all far below melting", "temperature", 1, 9, 63, 124, 196);
   row("hottest", "temperature", 1, 0.2, 133, 28, 27);
   row("half of the cold side", "temperature", 0.25, 0.5, 63, 124, 196);
   row("solid", "phase", 0, 0, 58, 99, 184);

@@ -152,7 +152,7 @@ void TstBench::loopsOfOneChunkAreNotShared() {
 
 void TstBench::threadsFollowTheWork() {
   setThreadCount(8);
-  for (const auto& [microseconds, threads] : {std::pair{0.0, 1}, {10.0, 1}, {40.0, 2}, {90.0, 6}, {1e6, 8}})
+  for (const auto& [microseconds, threads] : {std::pair{0.0, 1}, {10.0, 1}, {15.0, 2}, {40.0, 5}, {1e6, 8}})
     QCOMPARE(threadsWorth(microseconds), threads);
   // As many chunks of something quick stay with the one who calls as others take eight threads for.
   constexpr size_t kChunks = 3;

@@ -500,7 +500,12 @@ void TestTheme::pivotSitsOnTheMeltingPoint() {
   QCOMPARE(legendPosition(map, {-14, 120}, 0, 0), 0.36);
   QCOMPARE(legendPosition(map, {-14, 120}, 0, -7), 0.18);  // both sides linear
   QCOMPARE(legendPosition(map, {-14, 120}, 0, 60), 0.68);
-  QCOMPARE(legendPosition(map, {10, 20}, 0, 15), 0.5);  // the pivot is outside
+  // Outside of the range it keeps its colour: what has melted is never shown as what has not.
+  QCOMPARE(legendPosition(map, {10, 20}, 0, 10), 0.68);
+  QCOMPARE(legendPosition(map, {1500, 1600}, 0, 1500), 0.68);  // and half of its side's colours are left
+  QCOMPARE(legendPosition(map, {10, 20}, 0, 20), 1.0);
+  QCOMPARE(legendPosition(map, {-20, -10}, 0, -10), 0.18);
+  QCOMPARE(legendPosition(map, {-20, -10}, 0, -20), 0.0);
   QCOMPARE(legendPosition(map, {-14, 120}, 0, 500), 1.0);
   QCOMPARE(map.at(0.36), QColor(0x8D, 0xC2, 0xE6));
   QCOMPARE(colourMap(QStringLiteral("phase")).classes.size(), size_t{5});

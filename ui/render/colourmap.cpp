@@ -117,7 +117,9 @@ std::array<float, 3> colourAt(const std::string& colour, double t, double pivot)
   const auto found = maps().byName.find(colourMapOf(colour));
   if (colour == kTemperature) {
     const double fixed = maps().temperaturePivot;
-    // Each side of the melting point is linear up to its own end, also where that lies outside the range.
+    // Each side of the melting point is linear up to its own end, also where that lies outside the range; farther off
+    // than the range is long counts as that far, so that half of a side's colours are left at least.
+    pivot = std::clamp(pivot, -1.0, 2.0);
     if (t < pivot)
       t = fixed * t / pivot;
     else

@@ -22,6 +22,8 @@ namespace ps {
 namespace {
 
 constexpr double kMargin = 10, kTitle = 24, kBarWidth = 12, kBarHeight = 192, kClassRow = 20;
+constexpr double kFoot = 16;                // room for a pivot that lies outside of the range
+constexpr double kMark = 12, kMarkGap = 5;  // right of the bar: the number, and what is said of it
 
 ColourMap parseMap(const QString& name, const QJsonArray& stops, const QJsonArray& classes) {
   ColourMap map;
@@ -101,9 +103,29 @@ struct Scale {
   const ColourMap& map;
   std::pair<double, double> range;
   double pivot;
-  double y(double value) const { return bar.bottom() - bar.height() * legendPosition(map, range, pivot, value); }
+  /// The bar shows the part of the map that the range has: warm colours alone where all is above melting.
+  double first() const { return legendPosition(map, range, pivot, range.first); }
+  double last() const { return legendPosition(map, range, pivot, range.second); }
+  double y(double value) const {
+    return bar.bottom() - bar.height() * (legendPosition(map, range, pivot, value) - first()) / (last() - first());
+  }
+  QLinearGradient gradient() const {
+    QLinearGradient shown(bar.bottomLeft(), bar.topLeft());
+    shown.setColorAt(0, map.at(first()));
+    for (const auto& [position, colour] : map.stops) {
+      if (position > first() && position < last()) shown.setColorAt((position - first()) / (last() - first()), colour);
+    }
+    shown.setColorAt(1, map.at(last()));
+    return shown;
+  }
   bool inside(double value) const { return value >= range.first && value <= range.second; }
 };
+
+/// What the scale cannot show is no information: ice under 1 bar melts at 0.0001 °C.
+QString markNumber(double value, double step, double unit) {
+  const double grain = step / 1000;
+  return formatShort(std::round(value / grain) * grain / unit, 3);
+}
 
 void paintTicks(QPainter& painter, const QRectF& rect, const Scale& scale, const LegendText& words,
                 const std::vector<LegendMark>& marks) {
@@ -124,13 +146,19 @@ void paintTicks(QPainter& painter, const QRectF& rect, const Scale& scale, const
   const double step = tickStep(scale.range.second - scale.range.first, 6);
   for (const LegendMark& mark : marks) {
     if (!scale.inside(mark.value) || !ladder.reserve(scale.y(mark.value))) continue;
-    // What the scale cannot show is no information: ice under 1 bar melts at 0.0001 °C.
-    const double grain = step / 1000;
-    const QString number = formatShort(std::round(mark.value / grain) * grain / words.scale, 3);
-    label(mark.value, number, 12, theme[Token::Text]);
-    const double x = scale.bar.right() + 12 + textWidth(number, font) + 5;
+    const QString number = markNumber(mark.value, step, words.scale);
+    label(mark.value, number, kMark, theme[Token::Text]);
+    const double x = scale.bar.right() + kMark + textWidth(number, font) + kMarkGap;
     paintText(painter, QRectF(x, scale.y(mark.value) - 8, rect.right() - x - 4, 16), Qt::AlignLeft | Qt::AlignVCenter,
               mark.label, font, theme[Token::Muted]);
+  }
+  for (const LegendMark& mark : marks) {
+    if (scale.map.pivot <= 0 || mark.value != scale.pivot || scale.inside(mark.value)) continue;
+    const QString arrow = mark.value < scale.range.first ? QStringLiteral("↓ ") : QStringLiteral("↑ ");
+    paintText(painter, QRectF(scale.bar.left(), rect.bottom() - kFoot - 2, rect.width() - 2 * kMargin, kFoot),
+              Qt::AlignLeft | Qt::AlignVCenter,
+              arrow + markNumber(mark.value, step, words.scale) + QLatin1Char(' ') + mark.label, font,
+              theme[Token::Muted]);
   }
   for (double value = std::ceil(scale.range.first / step) * step; value < scale.range.second; value += step) {
     if (ladder.reserve(scale.y(value)))
@@ -161,28 +189,36 @@ const ColourMap& colourMap(const QString& name) {
   return found->second;
 }
 
-QRectF legendBar(const QRectF& rect) {
-  return {rect.left() + kMargin, rect.top() + kTitle + 10, kBarWidth, rect.height() - kTitle - 22};
+QRectF legendBar(const QRectF& rect, const ColourMap& map) {
+  const double foot = map.pivot > 0 ? kFoot : 0;
+  return {rect.left() + kMargin, rect.top() + kTitle + 10, kBarWidth, rect.height() - kTitle - 22 - foot};
 }
 
-QSizeF legendSize(const ColourMap& map, const QString& title) {
+QSizeF legendSize(const ColourMap& map, const QString& title, const std::vector<LegendMark>& marks) {
   constexpr double kLeast = 92, kMost = 180;
+  const QFont font = Theme::font(TextRole::Small);
   double width = std::max(kLeast, std::ceil(textWidth(title, titleFont())) + 2 * kMargin);
   for (const auto& [letter, name] : map.classes)
     width = std::max(width, std::ceil(textWidth(name, Theme::font(TextRole::Normal))) + 36 + kMargin);
+  // For the widest number that marks have, so that the legend stays as wide as it is while they move.
+  const double number = textWidth(QStringLiteral("−000.0"), font);
+  for (const LegendMark& mark : marks) {
+    width =
+        std::max(width, std::ceil(kMargin + kBarWidth + kMark + number + kMarkGap + textWidth(mark.label, font) + 6));
+  }
   width = std::min(width, kMost);
   if (!map.classes.empty()) return {width, kTitle + 10 + kClassRow * static_cast<double>(map.classes.size())};
-  return {width, kTitle + 8 + kBarHeight + 14};
+  return {width, kTitle + 8 + kBarHeight + 14 + (map.pivot > 0 ? kFoot : 0)};
 }
 
 double legendPosition(const ColourMap& map, std::pair<double, double> range, double pivot, double value) {
   const auto [low, high] = range;
   if (!(high > low)) return 0.5;
-  const double t = (value - low) / (high - low);
+  // A pivot that is farther off than the range is long counts as that far: half of a side's colours are left at least.
+  const double t = (value - low) / (high - low), p = std::clamp((pivot - low) / (high - low), -1.0, 2.0);
   double position = t;
-  if (map.pivot > 0 && pivot > low && pivot < high) {
-    position = value < pivot ? map.pivot * (value - low) / (pivot - low)
-                             : map.pivot + (1 - map.pivot) * (value - pivot) / (high - pivot);
+  if (map.pivot > 0) {
+    position = t < p ? map.pivot * t / p : p < 1 ? map.pivot + (1 - map.pivot) * (t - p) / (1 - p) : map.pivot;
   }
   return std::clamp(position, 0.0, 1.0);
 }
@@ -199,15 +235,14 @@ void paintLegend(QPainter& painter, const QRectF& rect, const ColourMap& map, st
     painter.restore();
     return;
   }
-  const QRectF bar = legendBar(rect);
-  QLinearGradient gradient(bar.bottomLeft(), bar.topLeft());
-  for (const auto& [position, colour] : map.stops) gradient.setColorAt(position, colour);
+  const QRectF bar = legendBar(rect, map);
+  const Scale scale{bar, map, range, pivot};
   painter.setRenderHint(QPainter::Antialiasing);
   QPainterPath path;
   path.addRoundedRect(snapped(painter, bar), 2, 2);
-  painter.fillPath(path, gradient);
+  painter.fillPath(path, scale.gradient());
   if (range.second > range.first) {
-    paintTicks(painter, rect, {bar, map, range, pivot}, text, marks);
+    paintTicks(painter, rect, scale, text, marks);
   } else {
     paintText(painter, QRectF(bar.right() + 9, bar.center().y() - 8, rect.right() - bar.right() - 9, 16),
               Qt::AlignLeft | Qt::AlignVCenter, QStringLiteral("none here"), Theme::font(TextRole::Small),

@@ -88,15 +88,6 @@ void paintLegendOver(QPainter& painter, const OverlayState& state, OverlayHits& 
   }
   std::pair<double, double> range = state.range;
   const LegendText text = legendText(*state.field, range);
-  const QSizeF size = legendSize(map, text.title);
-  const QRectF rect(state.size.width() - kMargin - size.width(), state.size.height() - kMargin - size.height(),
-                    size.width(), size.height());
-  if (rect.top() < 100) return;  // too little room
-  hits.legend = rect;
-  hits.legendTitle = text.title;
-  hits.legendClasses = static_cast<int>(map.classes.size());
-  hits.legendUnit = text.unit;
-  if (map.classes.empty()) hits.legendBar = legendBar(rect);
   std::vector<LegendMark> marks;
   double pivot = 0;
   if (state.field->name == "temperature") {
@@ -104,6 +95,15 @@ void paintLegendOver(QPainter& painter, const OverlayState& state, OverlayHits& 
     if (state.meltingPoint > 0) marks.push_back({pivot, QStringLiteral("melts")});
     if (std::isfinite(state.boilingPoint)) marks.push_back({state.boilingPoint - kZero, QStringLiteral("boils")});
   }
+  const QSizeF size = legendSize(map, text.title, marks);
+  const QRectF rect(state.size.width() - kMargin - size.width(), state.size.height() - kMargin - size.height(),
+                    size.width(), size.height());
+  if (rect.top() < 100) return;  // too little room
+  hits.legend = rect;
+  hits.legendTitle = text.title;
+  hits.legendClasses = static_cast<int>(map.classes.size());
+  hits.legendUnit = text.unit;
+  if (map.classes.empty()) hits.legendBar = legendBar(rect, map);
   paintLegend(painter, rect, map, range, text, marks, pivot);
 }
 
