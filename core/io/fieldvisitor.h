@@ -38,6 +38,7 @@ class FieldVisitor {
   virtual void object(const Sink&, const std::string& /*pointer*/) {}
   virtual void object(const Environment&, const std::string& /*pointer*/) {}
   virtual void object(const Probe&, const std::string& /*pointer*/) {}
+  virtual void object(const Graph&, const std::string& /*pointer*/) {}
   virtual void object(const Track&, const std::string& /*pointer*/) {}
   virtual void object(const PackedBlock&, const std::string& /*pointer*/) {}
 };

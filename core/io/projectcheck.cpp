@@ -7,7 +7,9 @@
 #include "core/matter/material.h"
 #include "core/parameters/wording.h"
 #include "core/plugin_host/registry.h"
+#include "core/simulation/graphsource.h"
 #include "core/simulation/particlefield.h"
+#include "core/simulation/probeparameters.h"
 #include "core/simulation/sceneproblem.h"
 
 #include <algorithm>
@@ -67,6 +69,7 @@ class ProjectChecker : public FieldVisitor {
   void address(const std::string& text, const std::string& pointer) override {
     const auto address = Address::parse(text);
     if (address && (findSet(m_project, *address) || outsideValue(m_project, *address))) return;
+    if (address && address->owner == Owner::Probe && contains(m_project.probes, address->id)) return;
     warn(pointer, "the scene has no parameter '" + text + "'");
   }
 
@@ -189,21 +192,20 @@ class ProjectChecker : public FieldVisitor {
     }
     if (!probe.wall.empty() && !contains(m_project.environment.walls, probe.wall))
       warn(pointer + "/wall", "there is no wall '" + probe.wall + "'; the probe measures nothing");
-    if (isForce(probe.quantity) && probe.body.empty() && probe.wall.empty())
-      fail(pointer + "/quantity", "'" + probe.quantity + "' needs a body or a wall on which it acts");
-    if (isForce(probe.quantity) && !probe.body.empty() && !probe.wall.empty())
-      fail(pointer + "/wall", "the force on '" + body + "' is measured; leave one of the two out");
-    if (isForce(probe.quantity) && !probe.phase.empty())
-      fail(pointer + "/phase", "'" + probe.quantity + "' is of a body or wall as a whole");
-    if (isForce(probe.quantity) && probe.region)
-      fail(pointer + "/region", "'" + probe.quantity + "' is of a body or wall as a whole");
-    if (!isForce(probe.quantity) && !probe.wall.empty())
-      fail(pointer + "/wall", "is for force and torque alone; '" + probe.quantity + "' is of matter");
-    const Quantity* quantity = m_fields.quantity(probe.quantity);
-    if (probe.wave && quantity && !quantity->mean) {
-      fail(pointer + "/wave", "needs a quantity that each particle has, as velocity_y; '" + probe.quantity +
-                                  "' is of all of them together");
+    if (!probe.material.empty() && !contains(m_project.materials, probe.material))
+      warn(pointer + "/material", "the scene has no material '" + probe.material + "'; the probe measures nothing");
+    for (const auto& [key, what] : probeProblems(probe, m_fields)) fail(pointer + "/" + key, what);
+  }
+
+  void object(const Graph& graph, const std::string& pointer) override {
+    for (size_t i = 0; i < graph.series.size(); ++i) {
+      if (!GraphSource(graph.series[i], m_project, m_fields))
+        warn(at(pointer + "/series", i), "there is no '" + graph.series[i] + "' to plot; it is left out");
     }
+    const bool ofField = graph.kind == Graph::Kind::Histogram || graph.kind == Graph::Kind::Profile;
+    if (ofField) requireShown(graph.field, m_fields.names(), pointer + "/field", "the graph is empty");
+    if (!graph.body.empty() && !contains(m_project.bodies, graph.body) && !contains(m_project.emitters, graph.body))
+      warn(pointer + "/body", "there is no body or emitter '" + graph.body + "'; the graph is empty");
   }
 
   void object(const Track& track, const std::string& pointer) override {

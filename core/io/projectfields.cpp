@@ -54,6 +54,8 @@ std::vector<Field<Project>> sceneRows() {
             project.solver.thermalModel = plugins.standard(PluginKind::Thermal);
           }),
       field("probes", &Project::probes, List{Object{probeFields()}}, "what is measured"),
+      field("graphs", &Project::graphs, Optional{List{Object{graphFields()}}},
+            "what is looked at beside the scene; absent: what suits the probes"),
       field("duration", &Project::duration, Number{0, 1e9, "s"}, "length of the scene").always(),
       field("view", &Project::view, Object{viewFields()}, "").omittedWhen([](const Project& project) {
         const ViewState& view = project.view;

@@ -13,6 +13,7 @@ const FieldTable<Sink>& sinkFields();
 const FieldTable<Environment>& environmentFields();
 const FieldTable<SolverOptions>& solverFields();
 const FieldTable<Probe>& probeFields();
+const FieldTable<Graph>& graphFields();
 const FieldTable<Track>& trackFields();
 const FieldTable<ViewState>& viewFields();
 const FieldTable<ProjectState>& stateFields();

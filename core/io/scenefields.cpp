@@ -135,6 +135,7 @@ const FieldTable<Probe>& probeFields() {
                field("body", &Probe::body, Text{}, "id of a body; empty for all particles"),
                field("wall", &Probe::wall, Text{},
                      "id of a wall, whose force or torque is measured instead of a body's"),
+               field("material", &Probe::material, Text{}, "id of one of the scene's materials; empty for all"),
                field("phase", &Probe::phase, Choice{{"", "solid", "melting", "liquid", "boiling", "gas"}},
                      "empty for all"),
                field("fixed", &Probe::fixed, Toggle{},

@@ -21,7 +21,7 @@ constexpr OwnerRow kRows[] = {
     {Owner::Thermal, "thermal", 0},         {Owner::Body, "body", 1},
     {Owner::Emitter, "emitter", 1},         {Owner::Sink, "sink", 1},
     {Owner::Constraint, "constraint", 2},   {Owner::Scene, "scene", 0},
-    {Owner::HeatSource, "heat_source", 1},
+    {Owner::HeatSource, "heat_source", 1},  {Owner::Probe, "probe", 1},
 };
 static_assert(std::size(kRows) == std::size(kOwners));
 
@@ -68,6 +68,7 @@ Set* setOf(P& project, const Address& address) {
       }
       return nullptr;
     }
+    case Owner::Probe:  // what it measures is no parameter set
     case Owner::Scene:
       return nullptr;
   }

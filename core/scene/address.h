@@ -19,17 +19,19 @@ enum class Owner : uint8_t {
   Sink,
   Constraint,
   Scene,
-  HeatSource
+  HeatSource,
+  Probe
 };
 inline constexpr Owner kOwners[] = {Owner::Material,   Owner::Wall,  Owner::Environment, Owner::Solver,
                                     Owner::Thermal,    Owner::Body,  Owner::Emitter,     Owner::Sink,
-                                    Owner::Constraint, Owner::Scene, Owner::HeatSource};
+                                    Owner::Constraint, Owner::Scene, Owner::HeatSource,  Owner::Probe};
 /// As addresses begin: "material", "wall", ...
 std::string_view ownerName(Owner owner);
 
 /// Names one parameter of a project: "material/water/conductivity_solid", "wall/floor/temperature",
 /// "environment/ambient_pressure", "solver/substeps", "thermal/KEY", "body/ice/temperature", "emitter/tap/speed",
-/// "sink/drain/open", "constraint/ice/bonds/KEY", "heat_source/lamp/KEY", "scene/gravity".
+/// "sink/drain/open", "constraint/ice/bonds/KEY", "heat_source/lamp/KEY", "scene/gravity",
+/// "probe/core/quantity".
 struct Address {
   Owner owner = Owner::Scene;
   std::string id;  ///< of the owner, of a constraint's body; "" where there is one owner

@@ -177,13 +177,31 @@ struct Probe {
   std::string quantity;               ///< "temperature", "mass", "speed_max", ... see ParticleFields
   std::string body;                   ///< Body::id; "" for all particles
   std::string wall;                   ///< SceneWall::id, of a force on a wall
+  std::string material;               ///< SceneMaterial::id; "" for all
   std::string phase;                  ///< "solid", "melting", "liquid", "boiling", "gas"; "" for all
   bool fixed = false;                 ///< sees what is held in place as well, as one of a fixed body always does
   std::optional<Region> region;       ///< only what stands in it
   std::string regionWhen = kAtStart;  ///< "start": what stood in it then, wherever it is; "now": what is in it
   std::optional<Wave> wave;           ///< measures the amplitude of this wave in the quantity, not the quantity itself
-  Unknown unknown;
+  Unknown unknown{};
+  bool operator==(const Probe&) const = default;
 };
+
+/// What people look at beside the scene: curves over time, or how a field is spread now.
+struct Graph {
+  enum class Kind : uint8_t { Time, Phases, Energy, Histogram, Profile };
+  std::string id, title;  ///< title "": made of what it shows
+  Kind kind = Kind::Time;
+  std::vector<std::string> series;          ///< over time: "probe/ID", or "frame/KEY" of a FrameQuantity
+  bool logarithmic = false;                 ///< the axis of its values
+  bool below = false;                       ///< it stands below the graph before it, not beside it
+  std::string field = "temperature", body;  ///< of a histogram or profile: a field of ParticleFields; "" for all matter
+  int axis = 1;                             ///< of a profile: 0 x, 1 y, 2 z
+  Unknown unknown{};
+  bool operator==(const Graph&) const = default;
+};
+/// Kinds as files name them, in their order: "time", "phases", "energy", "histogram", "profile".
+const std::vector<std::string>& graphKindNames();
 
 /// What lies between a key and the next one.
 enum class ToNext : uint8_t {
@@ -249,6 +267,7 @@ struct Project {
   Environment environment;
   SolverOptions solver;
   std::vector<Probe> probes;
+  std::optional<std::vector<Graph>> graphs;  ///< nothing: those that suit the probes, see graphsFor()
   std::vector<Track> tracks;
   double duration = 60;  ///< s
   ViewState view;

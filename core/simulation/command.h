@@ -33,6 +33,10 @@ struct UpdateProject {
 struct SetTracks {
   std::vector<Track> tracks;
 };
+/// These are measured from now on. Matter stays as it is.
+struct SetProbes {
+  std::vector<Probe> probes;
+};
 /// Cells of a sketched body become matter: see Engine::addCells().
 struct AddCells {
   std::shared_ptr<const Body> body;
@@ -100,6 +104,6 @@ struct ShowFields {
 };
 
 using Command = std::variant<SetParameter, UpdateProject, SetTracks, AddCells, TakeCells, TakeBody, TakeMatter, PutBack,
-                             NameMatter, ReturnBody, ForgetMatter, Reset, ReturnToState, ShowFields>;
+                             NameMatter, ReturnBody, ForgetMatter, Reset, ReturnToState, ShowFields, SetProbes>;
 
 }  // namespace ps

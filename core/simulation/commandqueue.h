@@ -25,8 +25,8 @@ using ParameterBatch = std::vector<SetParameter>;
 using QueueEntry = std::variant<ParameterBatch, Command, Question, Opening, SingleStep>;
 
 /// What waits for the engine's thread. Values for parameters that wait side by side become one entry, in which a newer
-/// value replaces a waiting one of its address; a whole project, and a list of tracks, replaces what it would
-/// overwrite. Everything else keeps its place. Not for two threads at a time.
+/// value replaces a waiting one of its address; a whole project, and a list of tracks or probes, replaces what it
+/// would overwrite. Everything else keeps its place. Not for two threads at a time.
 class CommandQueue {
  public:
   bool empty() const { return m_entries.empty(); }
@@ -46,6 +46,7 @@ class CommandQueue {
         m_entries.pop_back();
     }
     if (std::holds_alternative<SetTracks>(command) && waitsLast<SetTracks>()) m_entries.pop_back();
+    if (std::holds_alternative<SetProbes>(command) && waitsLast<SetProbes>()) m_entries.pop_back();
     m_entries.emplace_back(std::move(command));
   }
   void push(Question question) { m_entries.emplace_back(std::move(question)); }

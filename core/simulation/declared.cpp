@@ -5,6 +5,7 @@
 #include "core/matter/material.h"
 #include "core/plugin_host/registry.h"
 #include "core/scene/declare.h"
+#include "core/simulation/probeparameters.h"
 #include "core/simulation/rules.h"
 #include "core/simulation/sceneproblem.h"
 
@@ -153,6 +154,24 @@ api::ParameterList adhesionDeclarations(const Project& project, const std::strin
   return {list.data(), list.size()};
 }
 
+/// As sceneDeclarations(), for probes: what they may see, and where.
+api::ParameterList probeDeclarations(const Project& project, const PluginRegistry* plugins) {
+  static std::map<std::vector<std::string>, std::vector<api::ParameterDeclaration>> lists;
+  const ParticleFields fields = plugins ? ParticleFields(*plugins) : ParticleFields();
+  const std::lock_guard lock(g_lists);
+  std::vector<api::ParameterDeclaration> made = probeParameters(project, fields);
+  std::vector<std::string> key;
+  for (const api::ParameterDeclaration& d : made)
+    key.push_back(d.choices + std::to_string(d.minimum) + '|' + std::to_string(d.maximum));
+  const auto& list = lists.emplace(std::move(key), std::move(made)).first->second;
+  return {list.data(), list.size()};
+}
+
+const Probe* probeById(const Project& project, const Address& address) {
+  const auto probe = itemById(project.probes, address.id);
+  return address.owner == Owner::Probe && probe != project.probes.end() ? &*probe : nullptr;
+}
+
 }  // namespace
 
 std::string adhesionPartner(const Address& address) {
@@ -226,6 +245,8 @@ api::ParameterList declarationsOf(const Project& project, const PluginRegistry* 
       return of(address.plugin);
     case Owner::HeatSource:
       return of(address.id);
+    case Owner::Probe:
+      return probeDeclarations(project, plugins);
     case Owner::Material:
       break;
   }
@@ -271,6 +292,8 @@ Value defaultOf(const Project& project, const PluginRegistry* plugins, const Add
 
 Value valueAt(const Project& project, const PluginRegistry* plugins, const Address& address) {
   if (const std::optional<Value> outside = outsideValue(project, address)) return *outside;
+  if (const Probe* probe = probeById(project, address))
+    return probeValue(*probe, address.key, project.environment).value_or(0.0);
   if (address.owner == Owner::Body && address.key == kStructureKey) {
     const auto body = itemById(project.bodies, address.id);
     return body == project.bodies.end() ? std::string(kNoStructure) : structureOf(*body, plugins);

@@ -52,7 +52,7 @@ bool uses(const Body& body, const std::string& plugin);
 /// The constraint plugin that holds a body together, or kNoStructure.
 std::string structureOf(const Body& body, const PluginRegistry* plugins);
 /// One address of each list of parameters that the project has, without a key (of materials' properties: with the first
-/// of them), in the order of the outliner.
+/// of them), in the order of the outliner. None of probes, which change nothing of the scene.
 std::vector<Address> parameterLists(const Project& project);
 /// Addresses of every declared parameter of the project, in the order of the outliner.
 std::vector<Address> allAddresses(const Project& project, const PluginRegistry* plugins);

@@ -169,7 +169,7 @@ void Engine::Impl::prepare(double livingSpacing, const std::vector<std::string>&
   bakeMaterials();
   setThermal();
   measurePouring();
-  for (const Probe& probe : project.probes) probeNames.push_back(probeTitle(probe, fields));
+  nameProbes();
 }
 
 std::unique_ptr<Engine::Impl> Engine::Impl::rebuilt(const Project& source) const {
@@ -289,6 +289,7 @@ void Engine::update(const Project& project) {
     throw;
   }
   m->materialOrder = idsOf(project.materials);
+  m->nameProbes();
   m->flow.steer(*m->solver, m->project, compileSettings(m->project).dt);
 }
 
@@ -325,6 +326,9 @@ void Engine::apply(const Command& command) {
     update(*whole->project);
   } else if (const auto* animated = std::get_if<SetTracks>(&command)) {
     setTracks(animated->tracks);
+  } else if (const auto* measured = std::get_if<SetProbes>(&command)) {
+    m->project.probes = measured->probes;
+    m->nameProbes();
   } else if (const auto* start = std::get_if<Reset>(&command)) {
     reset();
     for (const NameMatter& named : start->named) m->named.apply(*this, named);
@@ -418,10 +422,12 @@ SnapshotPtr Engine::snapshot() const {
 FrameStats Engine::stats() const {
   FrameStats stats = measure(*m->solver, m->lastReport);
   stats.flow = m->flow.total();
-  const ProbeView view{*m->solver, *m->bodyIds, m->fields, compileWalls(m->project), m->spacing, m->start};
+  const ProbeView view{*m->solver, *m->bodyIds, m->fields, compileWalls(m->project), m->spacing, m->start,
+                       idsOf(m->project.materials)};
   for (const Probe& probe : m->project.probes) {
     stats.probes.push_back(measureProbe(view, probe));
   }
+  stats.probeIds = m->probeIds;
   return stats;
 }
 

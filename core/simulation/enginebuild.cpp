@@ -8,6 +8,7 @@
 #include "core/simulation/compile.h"
 #include "core/simulation/engineimpl.h"
 #include "core/simulation/lattice.h"
+#include "core/simulation/measure.h"
 #include "core/simulation/rules.h"
 #include "core/simulation/sceneneed.h"
 #include "core/simulation/sceneproblem.h"
@@ -77,6 +78,16 @@ void Engine::Impl::build() {
   for (const Emitter& emitter : project.emitters) bodyIndex(emitter.id);
   recompile({{Owner::Body}});  // what is said of bodies goes by their indices
   bindTracks(solver->time());
+}
+
+void Engine::Impl::nameProbes() {
+  probeNames.clear();
+  std::vector<std::string> ids;
+  for (const Probe& probe : project.probes) {
+    probeNames.push_back(probeTitle(probe, fields));
+    ids.push_back(probe.id);
+  }
+  probeIds = std::make_shared<const std::vector<std::string>>(std::move(ids));
 }
 
 }  // namespace ps

@@ -94,7 +94,10 @@ struct Engine::Impl {
   std::shared_ptr<const std::vector<std::string>> bodyIds = std::make_shared<const std::vector<std::string>>();
   std::vector<uint8_t> fixedBodies;    // 1 for bodies that were born fixed, by the same index
   std::vector<std::string> bodyNames;  // for messages, by the index that particles carry
+  /// Notes what the project's probes are called.
+  void nameProbes();
   std::vector<std::string> probeNames;
+  std::shared_ptr<const std::vector<std::string>> probeIds;
   std::vector<Vector3> start;  ///< m, places at the start by the particles' ids, if a probe has a region
   StepReport lastReport;
   MatterFlow flow;

@@ -82,7 +82,8 @@ void EngineThread::Impl::workOff() {
     if (const auto* batch = std::get_if<ParameterBatch>(&*entry)) {
       editAll(*batch);
     } else if (const auto* command = std::get_if<Command>(&*entry);
-               command && std::holds_alternative<ShowFields>(*command)) {
+               command &&
+               (std::holds_alternative<ShowFields>(*command) || std::holds_alternative<SetProbes>(*command))) {
       look(*command);
     } else if (command) {
       change(*command);

@@ -111,12 +111,16 @@ class Measurement {
     const bool byMass = m_key.base.ends_with("_mass");
     const bool still = m_probe.fixed || (!m_probe.body.empty() && !moves(body));
     const std::string phase = byMass ? m_key.base.substr(0, m_key.base.size() - 5) : m_probe.phase;
-    const bool ofBody = !m_probe.body.empty(), everyPhase = phase.empty();
+    const bool ofBody = !m_probe.body.empty(), everyPhase = phase.empty(), everyMaterial = m_probe.material.empty();
+    const auto& materials = m_view.materialIds;
+    const auto material =
+        static_cast<size_t>(std::find(materials.begin(), materials.end(), m_probe.material) - materials.begin());
     std::array<bool, kPhases> wanted{};  // names are compared once, not for each particle
     for (size_t k = 0; k < kPhases; ++k) wanted[k] = phase == phaseName(static_cast<api::Phase>(k));
     for (size_t i = 0; i < m_store.size(); ++i) {
       if (m_store.velocity()[i].w == 0 && !still) continue;
       if (ofBody && m_store.body()[i] != body) continue;
+      if (!everyMaterial && m_store.material()[i] != material) continue;
       if (!everyPhase && !wanted[static_cast<size_t>(m_store.phase()[i])]) continue;
       if (m_probe.region && !isInRegion(i)) continue;
       m_chosen.push_back(i);

@@ -41,7 +41,8 @@ struct FrameStats {
   MomentumRecord momentum;  ///< of the last frame
   std::array<double, static_cast<size_t>(Stage::Count)> milliseconds{};
   double totalMilliseconds = 0;
-  std::vector<double> probes;  ///< in the order of Project::probes
+  std::vector<double> probes;                                ///< in the order of Project::probes at that frame
+  std::shared_ptr<const std::vector<std::string>> probeIds;  ///< theirs
 };
 
 struct ParticleField;

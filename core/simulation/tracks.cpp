@@ -37,8 +37,10 @@ std::string whyNoKeys(const Project& project, const PluginRegistry* plugins, con
                       bool whenFixed) {
   const Address& address = target.address;
   const api::ParameterDeclaration* declaration = declarationOf(project, plugins, address);
-  if (!declaration || !hasOwner(project, address)) return "The scene has no parameter '" + address.text() + "'";
+  if (!declaration || (address.owner != Owner::Probe && !hasOwner(project, address)))
+    return "The scene has no parameter '" + address.text() + "'";
   const std::string label = declaration->label;
+  if (address.owner == Owner::Probe) return label + " is of a probe, which changes nothing and has no keys";
   if (!adhesionPartner(address).empty() ||
       (address.owner == Owner::Scene && !pluginBehind(address.key, kHeatSourceKey).empty()))
     return label + " is part of what the scene is made of, which has no keys";

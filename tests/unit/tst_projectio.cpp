@@ -99,7 +99,9 @@ constexpr const char* kFull = R"({
   "solver": {"substeps": 8, "kernel": "wendland_c2", "moment_correction": false,
              "thermal": {"model": "org.example.gone", "parameters": {"x": 1.5}}},
   "probes": [{"id": "p", "name": "Kern, innen", "quantity": "temperature", "body": "a", "phase": "solid",
-              "region": {"minimum": [0, 0, 0], "maximum": [0.1, 0.1, 0.1]}, "wave": {"axis": "y", "wavelength": 2}}],
+              "region": {"minimum": [0, 0, 0], "maximum": [0.1, 0.1, 0.1]}, "wave": {"axis": "y", "wavelength": 2}, "material": "water"}],
+  "graphs": [{"id": "g", "kind": "time", "series": ["probe/p", "frame/temperature"], "logarithmic": true},
+             {"id": "h", "kind": "profile", "title": "Höhe", "field": "speed", "body": "a", "axis": "z", "below": true}],
   "tracks": [{"parameter": "wall/floor/temperature", "keys": [
        {"time": 0.1, "value": 400.00000000000006, "to_next": "smooth", "slope_after": 12.5},
        {"time": 3, "value": 300, "to_next": "step", "slope_before": -1}, {"time": 4, "value": 310, "to_next": "linear"}]},
@@ -222,6 +224,7 @@ void TestProjectIo::unknownKeysSurvive_data() {
                               "/solver/thermal",
                               "/solver/thermal/parameters",
                               "/probes/0",
+                              "/graphs/0",
                               "/tracks/0",
                               "/tracks/0/keys/1",
                               "/view"}) {

@@ -52,14 +52,20 @@ struct PinsChanged {};
 struct TracksChanged {
   std::string parameter;  ///< Track::parameter
 };
+/// Probes came, went, or measure something else.
+struct ProbesChanged {
+  std::string id;  ///< Probe::id
+};
+/// Other graphs are shown, or they show something else.
+struct GraphsChanged {};
 /// The project holds another state to open at, or none; the scene that runs stays what it is.
 struct StateChanged {};
 /// The file, its name or whether it holds everything changed.
 struct FileChanged {};
 
 /// What happened to a document, as one value: receivers visit it.
-using ChangeEvent =
-    std::variant<ProjectOpened, ParameterChanged, BodyChanged, PortChanged, WallsChanged, MaterialsChanged,
-                 StrokeChanged, ViewChanged, PinsChanged, TracksChanged, StateChanged, FileChanged>;
+using ChangeEvent = std::variant<ProjectOpened, ParameterChanged, BodyChanged, PortChanged, WallsChanged,
+                                 MaterialsChanged, StrokeChanged, ViewChanged, PinsChanged, TracksChanged,
+                                 ProbesChanged, GraphsChanged, StateChanged, FileChanged>;
 
 }  // namespace ps

@@ -116,6 +116,30 @@ bool TrackCommand::mergeWith(const QUndoCommand* other) {
   return true;
 }
 
+GraphsCommand::GraphsCommand(Document& document, Graphs before, Graphs after, const QString& text)
+    : QUndoCommand(text), m_document(document), m_before(std::move(before)), m_after(std::move(after)) {}
+
+void GraphsCommand::undo() { m_document.applyGraphs(m_before); }
+void GraphsCommand::redo() { m_document.applyGraphs(m_after); }
+
+ProbeCommand::ProbeCommand(Document& document, ProbeEdit edit, int gesture, const QString& text)
+    : QUndoCommand(text), m_document(document), m_edit(std::move(edit)), m_gesture(gesture) {
+  setObsolete(m_edit.before == m_edit.after);
+}
+
+void ProbeCommand::undo() { m_document.applyProbe(m_edit, false); }
+void ProbeCommand::redo() { m_document.applyProbe(m_edit, true); }
+
+bool ProbeCommand::mergeWith(const QUndoCommand* other) {
+  const auto* next = static_cast<const ProbeCommand*>(other);
+  if (next->m_gesture != m_gesture || !m_edit.before || !m_edit.after || !next->m_edit.after ||
+      next->m_edit.after->id != m_edit.after->id)
+    return false;
+  m_edit.after = next->m_edit.after;
+  setObsolete(m_edit.before == m_edit.after);
+  return true;
+}
+
 PinsCommand::PinsCommand(Document& document, std::vector<std::string> before, std::vector<std::string> after,
                          const QString& text)
     : QUndoCommand(text), m_document(document), m_before(std::move(before)), m_after(std::move(after)) {}

@@ -134,6 +134,40 @@ class TrackCommand : public QUndoCommand {
   int m_gesture;
 };
 
+/// Graphs that come, go or change: all of them before and after; nothing: those that suit the probes.
+class GraphsCommand : public QUndoCommand {
+ public:
+  using Graphs = std::optional<std::vector<Graph>>;
+  GraphsCommand(Document& document, Graphs before, Graphs after, const QString& text);
+  void undo() override;
+  void redo() override;
+
+ private:
+  Document& m_document;
+  Graphs m_before, m_after;
+};
+
+/// A probe that comes, goes or changes, and where it stands among all.
+struct ProbeEdit {
+  size_t index = 0;
+  std::optional<Probe> before, after;  ///< nothing: there is none
+};
+
+/// Edits of one probe in one gesture merge; one that ends where it began vanishes.
+class ProbeCommand : public QUndoCommand {
+ public:
+  ProbeCommand(Document& document, ProbeEdit edit, int gesture, const QString& text);
+  void undo() override;
+  void redo() override;
+  int id() const override { return 4; }
+  bool mergeWith(const QUndoCommand* other) override;
+
+ private:
+  Document& m_document;
+  ProbeEdit m_edit;
+  int m_gesture;
+};
+
 /// The rows of "Try these".
 class PinsCommand : public QUndoCommand {
  public:

@@ -2,6 +2,7 @@
 #include "ui/document/declared.h"
 
 #include "core/plugin_host/registry.h"
+#include "core/simulation/probeparameters.h"
 
 #include <algorithm>
 
@@ -33,6 +34,8 @@ QString ownerLabel(const Project& project, const Address& address) {
     case Owner::Body:
     case Owner::Constraint:
       return named(project.bodies, &Body::name);
+    case Owner::Probe:
+      return named(project.probes, &Probe::name);
     case Owner::Environment:
       return QStringLiteral("Air");
     case Owner::Solver:
@@ -60,8 +63,37 @@ QString pluginLabel(const PluginRegistry* plugins, const std::string& id) {
   return QString::fromStdString(id);
 }
 
+namespace {
+
+QStringList probeChoiceLabels(const Project& project, const PluginRegistry* plugins, const std::string& key,
+                              const api::ParameterDeclaration& declaration) {
+  const ParticleFields fields = plugins ? ParticleFields(*plugins) : ParticleFields();
+  QStringList labels;
+  for (const QString& name : QString::fromUtf8(declaration.choices).split(QLatin1Char('|'))) {
+    const std::string id = name.toStdString();
+    if (id == kProbeAll) {
+      labels << (key == "wall" ? QStringLiteral("None") : QStringLiteral("All"));
+    } else if (key == "phase") {
+      labels << name.left(1).toUpper() + name.mid(1);
+    } else if (key == "quantity") {
+      labels << QString::fromStdString(fields.quantity(id)->label);
+    } else if (key == "body") {
+      const bool ofTap = itemById(project.emitters, id) != project.emitters.end();
+      labels << ownerLabel(project, {ofTap ? Owner::Emitter : Owner::Body, id, ""});
+    } else if (key == "wall" || key == "material") {
+      labels << ownerLabel(project, {key == "wall" ? Owner::Wall : Owner::Material, id, ""});
+    } else {
+      return {};  // the names say it
+    }
+  }
+  return labels;
+}
+
+}  // namespace
+
 QStringList choiceLabels(const Project& project, const PluginRegistry* plugins, const Address& address,
                          const api::ParameterDeclaration& declaration) {
+  if (address.owner == Owner::Probe) return probeChoiceLabels(project, plugins, address.key, declaration);
   const bool ofPlugins = (address.owner == Owner::Scene && address.key == "thermal_model") ||
                          (address.owner == Owner::Body && address.key == kStructureKey);
   const bool ofMaterials = address.owner == Owner::Body && address.key == kBodyMaterialKey;

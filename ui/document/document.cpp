@@ -91,6 +91,7 @@ QString Document::setParameter(const Address& address, const Value& value) {
     setAdhesion(address.id, other, std::get<bool>(conformed(value, *declaration(address))));
     return {};
   }
+  if (address.owner == Owner::Probe) return setProbeParameter(address, value);
   const std::optional<Value> outside = outsideValue(m_project, address);
   const ParameterSet* set = findSet(m_project, address);
   if (!set && !outside)

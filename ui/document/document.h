@@ -21,6 +21,7 @@
 namespace ps {
 
 class PluginRegistry;
+struct ProbeEdit;
 struct TrackEdit;
 
 /// The document of the editor: a project and its history. Every edit is an undo command and ends in one changed()
@@ -141,6 +142,28 @@ class Document : public QObject {
   void removeTrack(const Address& address);          ///< of a curve those of all its points
   QString trackTitle(const Address& address) const;  ///< "Temperature of Hot plate"
 
+  // Probes. What they measure are parameters of theirs: see probeParameters().
+  const Probe* probe(const std::string& id) const;
+  /// Its id, "probe" where it has none, gets a number when it is taken; a name comes from the id. Returns the id.
+  std::string addProbe(Probe probe);
+  void editProbe(Probe after, const QString& title);  ///< replaces the one of its id
+  void renameProbe(const std::string& id, const QString& name);
+  void removeProbe(const std::string& id);  ///< with its curves
+
+  // Graphs. Where the project says nothing of them they are those that suit its probes, until the first edit.
+  std::vector<Graph> graphs() const;
+  /// At a place among the others; its id gets a number when it is taken. Returns the id.
+  std::string addGraph(Graph graph, size_t place, const QString& title);
+  void removeGraph(const std::string& id);
+  void moveGraph(const std::string& id, int places);
+  void editGraph(const std::string& id, const QString& title, const std::function<void(Graph&)>& change);
+  /// A curve more, see GraphSource: in this graph, where it is one over time, or else in one of its own beside it. One
+  /// that is there already stays the only one.
+  void plot(const std::string& id, const std::string& source);
+  /// The same with a probe that is made for it, as one step. Returns the probe's id.
+  std::string plotProbe(const std::string& id, Probe probe);
+  void removeSeries(const std::string& id, const std::string& source);
+
   // View: saved with the project, no undo steps except pins
   void setPinned(const std::string& address, bool pinned);
   void setColour(const std::string& colour);
@@ -156,6 +179,8 @@ class Document : public QObject {
   void applyState(const std::shared_ptr<const ProjectState>& state);
   void applyPins(const std::vector<std::string>& pins);
   void applyTrack(const TrackEdit& edit, bool forward);
+  void applyGraphs(const std::optional<std::vector<Graph>>& graphs);
+  void applyProbe(const ProbeEdit& edit, bool forward);
 
  Q_SIGNALS:
   void replacing();  ///< unsaved work is about to give its place to another project
@@ -163,6 +188,9 @@ class Document : public QObject {
 
  private:
   void notify(const ChangeEvent& event);
+  QString setProbeParameter(const Address& address, const Value& value);
+  void pushProbe(ProbeEdit edit, const QString& title);
+  void setGraphs(std::vector<Graph> graphs, const QString& title);
   QString setKeys(const Address& address, std::vector<TrackKey> keys, const QString& text);
   std::optional<Value> asStored(const Address& address, const std::optional<Value>& value) const;
   void editBody(const std::string& id, const QString& text, const std::function<void(Body&)>& change);

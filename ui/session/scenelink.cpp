@@ -47,6 +47,7 @@ void SceneLink::onChanged(const ChangeEvent& event) {
     m_play = opened->play;
     m_builtAt = m_document.changeCount();
     m_engine.open(m_document.project(), m_play);
+    if (m_document.project().graphs) showFields();
   } else if (const auto* parameter = std::get_if<ParameterChanged>(&event)) {
     // What a parameter falls back to is the engine's to work out, from the plugins: it may be a curve of another value.
     if (isBroken()) {
@@ -68,11 +69,24 @@ void SceneLink::onChanged(const ChangeEvent& event) {
     }
   } else if (std::holds_alternative<TracksChanged>(event)) {
     if (!isBroken()) m_engine.apply(SetTracks{m_document.project().tracks});
+  } else if (std::holds_alternative<ProbesChanged>(event)) {
+    if (!isBroken()) m_engine.apply(SetProbes{m_document.project().probes});
   } else if (std::holds_alternative<ViewChanged>(event)) {
-    m_engine.apply(ShowFields{{m_document.project().view.colour}});
+    showFields();
+  } else if (std::holds_alternative<GraphsChanged>(event)) {
+    showFields();
   } else if (stroke) {
     onStroke(*stroke);
   }
+}
+
+/// What colours mean, and graphs spread out.
+void SceneLink::showFields() {
+  ShowFields shown{{m_document.project().view.colour}};
+  for (const Graph& graph : m_document.graphs()) {
+    if (graph.kind == Graph::Kind::Histogram || graph.kind == Graph::Kind::Profile) shown.names.push_back(graph.field);
+  }
+  m_engine.apply(std::move(shown));
 }
 
 void SceneLink::onBody(const BodyChanged& event) {

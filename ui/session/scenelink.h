@@ -50,6 +50,7 @@ class SceneLink : public QObject {
   void onStroke(const StrokeChanged& event);
   void undoStroke(const std::shared_ptr<StrokeRecord>& stroke);
   void redoStroke(const std::shared_ptr<StrokeRecord>& stroke);
+  void showFields();
   void onBody(const BodyChanged& event);
   void pushProject();
   void onPort(const PortChanged& event);

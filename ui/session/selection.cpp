@@ -70,6 +70,8 @@ bool Selection::isThere() const {
       return m_document.sink(m_id) != nullptr;
     case OutlineKind::Wall:
       return m_document.wall(m_id) != nullptr;
+    case OutlineKind::Probe:
+      return m_document.probe(m_id) != nullptr;
     default:
       return true;
   }

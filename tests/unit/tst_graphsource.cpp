@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+// Graphs of a project: which suit its probes, what their curves are of, and probes that come while a scene runs.
+#include "core/io/projectio.h"
+#include "core/plugin_host/registry.h"
+#include "core/simulation/declared.h"
+#include "core/simulation/engine.h"
+#include "core/simulation/graphsource.h"
+#include "core/simulation/probeparameters.h"
+#include "core/simulation/rules.h"
+#include "tests/shared/scenes.h"
+
+#include <QTest>
+
+#include <cmath>
+
+using namespace ps;
+
+namespace {
+
+Probe probeOf(const std::string& id, const std::string& quantity, const std::string& body = {}) {
+  Probe probe;
+  probe.id = probe.name = id;
+  probe.quantity = quantity;
+  probe.body = body;
+  return probe;
+}
+
+std::string chosen(const Project& project) {
+  std::string all;
+  for (const Graph& graph : graphsFor(project, ParticleFields())) {
+    all += graphKindNames()[static_cast<size_t>(graph.kind)];
+    for (const std::string& series : graph.series) all += " " + series;
+    all += "\n";
+  }
+  return all;
+}
+
+}  // namespace
+
+class TestGraphSource : public QObject {
+  Q_OBJECT
+ private Q_SLOTS:
+  void initTestCase() {
+    PluginRegistry::Options options;
+    options.userDirectory = options.environment = false;
+    m_plugins = std::make_unique<PluginRegistry>(options);
+  }
+
+  void graphsSuitTheProbes() {
+    Project project = scenes::iceOnPlate(3, 370);
+    project.probes.clear();
+    QCOMPARE(chosen(project), std::string("time frame/temperature\nphases\n"));
+    project.probes = {probeOf("splash", "height_max"), probeOf("fast", "speed_max"), probeOf("level", "height")};
+    QCOMPARE(chosen(project), std::string("time probe/splash probe/level\ntime probe/fast\n"));
+    project.probes.push_back(probeOf("core", "temperature_min"));
+    project.probes.push_back(probeOf("mean", "temperature"));  // the first curve is of it already
+    project.probes.push_back(probeOf("ice", "solid_mass"));    // the stack shows it
+    QCOMPARE(chosen(project),
+             std::string("time frame/temperature probe/core\nphases\ntime probe/splash probe/level\n"));
+    project.graphs.emplace();
+    QCOMPARE(chosen(project), std::string());
+  }
+
+  void sourcesReadFrames() {
+    Project project;
+    project.probes = {probeOf("a", "speed"), probeOf("b", "mass")};
+    const ParticleFields fields;
+    const GraphSource second(probeSource("b"), project, fields), whole(frameSource("kinetic_energy"), project, fields);
+    QVERIFY(second && whole && !GraphSource("probe/c", project, fields) && !GraphSource("frame/c", project, fields) &&
+            !GraphSource("b", project, fields));
+    QCOMPARE(second.label(), std::string("b"));
+    QCOMPARE(second.unit(), std::string("kg"));
+    FrameStats stats;
+    stats.kineticEnergy = 3;
+    stats.probes = {1, 2};
+    stats.probeIds = std::make_shared<const std::vector<std::string>>(std::vector<std::string>{"a", "b"});
+    QCOMPARE(second(stats), 2.0);
+    QCOMPARE(whole(stats), 3.0);
+    stats.probeIds = std::make_shared<const std::vector<std::string>>(std::vector<std::string>{"b", "a"});
+    QCOMPARE(second(stats), 1.0);
+    stats.probes = {1};
+    stats.probeIds = std::make_shared<const std::vector<std::string>>(std::vector<std::string>{"a"});
+    QVERIFY(std::isnan(second(stats)));
+  }
+
+  /// Between two frames, without a step and without another bit of the scene.
+  void probesComeWhileTheSceneRuns() {
+    Project project = scenes::iceOnPlate(3, 370);
+    project.probes = {probeOf("count", "count")};
+    Engine engine(project, *m_plugins);
+    engine.step();
+    const double count = engine.stats().probes.at(0);
+    Probe water = probeOf("water", "count"), none = water;
+    water.material = project.bodies.front().material;
+    none.id = "none";
+    none.material = "gone";
+    engine.apply(SetProbes{{water, none, project.probes.front()}});
+    const FrameStats stats = engine.stats();
+    QCOMPARE(*stats.probeIds, (std::vector<std::string>{"water", "none", "count"}));
+    QCOMPARE(stats.probes, (std::vector<double>{count, 0, count}));
+    QCOMPARE(engine.probeNames().front(), std::string("water.count[1]"));
+  }
+
+  void rowsSetWhatAProbeIs() {
+    Project project = scenes::iceOnPlate(3, 370);
+    project.probes = {probeOf("p", "speed")};
+    Probe& probe = project.probes.front();
+    const Environment& around = project.environment;
+    const auto set = [&](const char* key, const Value& value) { return setProbeValue(probe, key, value, around); };
+    for (const api::ParameterDeclaration& d : probeParameters(project, ParticleFields()))
+      QVERIFY2(probeValue(probe, d.key, around), d.key);
+    QVERIFY(set("quantity", std::string("temperature")) && set("phase", std::string("liquid")));
+    QCOMPARE(probe.quantity, std::string("temperature"));
+    QCOMPARE(probe.phase, std::string("liquid"));
+    QVERIFY(set("phase", std::string(kProbeAll)) && probe.phase.empty());
+    QVERIFY(!set("box_max_y", 0.1));  // it has no box
+    QVERIFY(set("in_box", true) && set("box_max_y", 0.1));
+    QCOMPARE(probe.region->maximum[1], 0.1);
+    QCOMPARE(probe.region->minimum[0], around.boundsMinimum[0]);
+    QCOMPARE(probe.regionWhen, std::string(Probe::kNow));
+    QVERIFY(!set("fixed", 1.0) && !set("no_such_key", true));
+    QVERIFY(!problemWith(project, m_plugins.get(), {Owner::Probe, "p", "box_max_y"}, -1e9).empty());
+    QCOMPARE(idleOf(project, "box_max_y"), std::string());
+    QVERIFY(set("in_box", false) && !probe.region);
+    QVERIFY(!idleOf(project, "box_max_y").empty());
+    QVERIFY(probeProblems(probe, ParticleFields()).empty());
+    probe.quantity = "force_x";
+    QCOMPARE(probeProblems(probe, ParticleFields()).front().first, std::string("quantity"));
+  }
+
+  void whatIsNotThereIsSaid_data() {
+    QTest::addColumn<QString>("graph");
+    QTest::addColumn<QString>("says");
+    QTest::newRow("probe") << R"({"id": "g", "series": ["probe/gone"]})"
+                           << "/graphs/0/series/0: there is no 'probe/gone'";
+    QTest::newRow("body") << R"({"id": "g", "kind": "profile", "body": "gone"})"
+                          << "/graphs/0/body: there is no body";
+    QTest::newRow("field") << R"({"id": "g", "kind": "histogram", "field": "no.such"})"
+                           << "/graphs/0/field: no installed plugin has a field for 'no.such'";
+  }
+
+  void whatIsNotThereIsSaid() {
+    QFETCH(QString, graph);
+    QFETCH(QString, says);
+    const std::string file = PS_SOURCE_DIR "/projects/dam-break.json";
+    const LoadedProject loaded = loadProject(file, *m_plugins, {"graphs=[" + graph.toStdString() + "]"});
+    std::string all;
+    for (const ProjectMessage& message : loaded.warnings) all += message.text + "\n";
+    QVERIFY2(QString::fromStdString(all).contains(says), all.c_str());
+    QVERIFY(loaded.project.graphs && loaded.project.graphs->size() == 1);
+  }
+
+ private:
+  std::string idleOf(const Project& project, const char* key) const {
+    return idleReason(project, m_plugins.get(), {Owner::Probe, "p", key});
+  }
+  std::unique_ptr<PluginRegistry> m_plugins;
+};
+
+QTEST_APPLESS_MAIN(TestGraphSource)
+#include "tst_graphsource.moc"
