@@ -2,7 +2,7 @@
 // Hands in the real window: menus of rows and of the view, strokes, legend.
 #include "tests/ui/samplewindow.h"
 #include "ui/document/document.h"
-#include "ui/graphs/graphspanel.h"
+#include "ui/graphs/graphexport.h"
 #include "ui/panels/inspector.h"
 #include "ui/panels/materialspanel.h"
 #include "ui/panels/outliner.h"
@@ -309,9 +309,11 @@ class TestInteraction : public SampleWindowTest {
     std::vector<FrameStats> history(2);
     history[0].temperatureMean = 263.15;
     history[0].probes = {1.0 / 3, std::nan("")};
+    history[0].probeIds = std::make_shared<const std::vector<std::string>>(std::vector<std::string>{"a", "b"});
     history[1].time = 0.1;
     history[1].phases[2].mass = 2.5;
-    history[1].probes = {0.5};
+    history[1].probes = {0.5};  // the other one has gone since
+    history[1].probeIds = std::make_shared<const std::vector<std::string>>(std::vector<std::string>{"b"});
     const auto probe = [](const char* id, const char* name, const char* quantity) {
       Probe made;
       made.id = id, made.name = name, made.quantity = quantity;
@@ -322,7 +324,7 @@ class TestInteraction : public SampleWindowTest {
     QCOMPARE(csv, QByteArray("time_s,thermal_time_s,mean.temperature[K],solid.mass[kg],melting.mass[kg],"
                              "liquid.mass[kg],boiling.mass[kg],gas.mass[kg],\"Ice, core.temperature[K]\",n.count[1]\n"
                              "0,0,263.15,0,0,0,0,0,0.3333333333333333,\n"
-                             "0.1,0,0,0,0,2.5,0,0,0.5,\n"));
+                             "0.1,0,0,0,0,2.5,0,0,,0.5\n"));
   }
 
   /// Undo while the button is down: the stroke in the making goes, the one before goes, and both stay gone.

@@ -304,7 +304,7 @@ class TestSession : public QObject {
     QTRY_VERIFY(m_window->viewport()->invitation().startsWith(QStringLiteral("Press B and draw")));
     QVERIFY(!session().playing());
     QCOMPARE(session().snapshot()->stats.frame, uint64_t{0});
-    QTRY_COMPARE(m_window->graphs()->temperatures()->summary(), QStringLiteral("No matter yet"));
+    QTRY_COMPARE(m_window->graphs()->valuesIn("K")->summary(), QStringLiteral("No matter yet"));
     QCOMPARE(m_window->inspector().scenePanel()->findChild<PanelHeader*>()->accessibleDescription(),
              QStringLiteral("0 bodies, 5 walls"));
     press(*m_window, Qt::Key_B);
@@ -434,9 +434,9 @@ class TestSession : public QObject {
     edit(361);
     press(*m_window, Qt::Key_S, Qt::ControlModifier);
     QTRY_VERIFY(!document().isDirty());
-    m_window->graphs()->temperatures()->setTimeRange(0, 0.1);
+    m_window->graphs()->valuesIn("K")->setRange(0, 0.1);
     press(*m_window, Qt::Key_End);
-    QVERIFY(m_window->graphs()->temperatures()->isFitted());
+    QVERIFY(m_window->graphs()->valuesIn("K")->isFitted());
     press(*m_window, Qt::Key_Tab);
     QCOMPARE(m_window->tools().active(), std::string("brush"));
     press(*m_window, Qt::Key_Tab);

@@ -6,7 +6,7 @@
 #include "ui/document/document.h"
 #include "ui/graphs/graphspanel.h"
 #include "ui/graphs/graphview.h"
-#include "ui/graphs/phasestackview.h"
+#include "ui/graphs/stackview.h"
 #include "ui/panels/inspector.h"
 #include "ui/panels/outliner.h"
 #include "ui/panels/pluginpage.h"
@@ -83,7 +83,7 @@ class TestWindow : public QObject {
     QVERIFY(session().snapshot()->id.size() > 5000);
     session().play();
     QTRY_VERIFY_WITH_TIMEOUT(session().snapshot()->stats.frame > 5, kLong);
-    QTRY_VERIFY_WITH_TIMEOUT(m_window->graphs()->temperatures()->sampleCount(0) > 3, kLong);
+    QTRY_VERIFY_WITH_TIMEOUT(m_window->graphs()->valuesIn("K")->sampleCount(0) > 3, kLong);
     QTRY_VERIFY(m_window->statusLine()->parts().join(QLatin1Char(' ')).contains(QStringLiteral("particles")));
   }
 

@@ -211,7 +211,7 @@ void FitPanel::choose(int drawable) {
   m_chosen = drawable;
   m_quantity->setCurrentIndex(drawable);
   const Drawable& chosen = m_drawables[static_cast<size_t>(drawable)];
-  m_view->setTitle(m_quantity->currentText());
+  m_view->setTitle(chosen.name);
   m_view->setUnit(chosen.unit);
   m_view->clear();
   if (another) m_view->setWanted({});
@@ -234,7 +234,7 @@ void FitPanel::search() {
   m_task = FitTask{chosen.column, m_view->wanted(), m_rows->parameters()};
   for (double& value : m_task.wanted.value) value -= chosen.offset;
   m_found.reset();
-  m_view->setTimeRange(0, kBeyond * m_task.wanted.time.back());
+  m_view->setRange(0, kBeyond * m_task.wanted.time.back());
   m_session.pause();  // the scene would take half of the threads
   m_job.start(std::make_shared<const Project>(m_session.document().project()), m_session.registry(), m_task);
   say(QStringLiteral("Run 1 of at most %1 …").arg(m_task.mostRuns));

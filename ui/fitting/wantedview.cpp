@@ -43,9 +43,9 @@ double WantedView::lastTime() const {
   return std::max(GraphView::lastTime(), m_wanted.time.empty() ? 0.0 : m_wanted.time.back());
 }
 
-std::pair<double, double> WantedView::valueExtent(double first, double last) const {
+std::pair<double, double> WantedView::valueExtent(size_t axis, double first, double last) const {
   if (m_drawing) return m_held;
-  auto [low, high] = GraphView::valueExtent(first, last);
+  auto [low, high] = GraphView::valueExtent(axis, first, last);
   for (const double value : m_wanted.value) low = std::min(low, value), high = std::max(high, value);
   const double room = kRoom * (high - low);
   return {low - room, high + room};
@@ -65,18 +65,16 @@ void WantedView::paintData(QPainter& painter) {
   for (const QPointF& point : line) painter.drawEllipse(point, 2.25, 2.25);
 }
 
-QStringList WantedView::readOut(double time) const {
-  QStringList lines = GraphView::readOut(time);
+std::vector<PlotLine> WantedView::readOut(double time) const {
+  std::vector<PlotLine> lines = GraphView::readOut(time);
   const double value = valueAt(m_wanted, time);
-  if (!std::isfinite(value)) return lines;
-  if (lines.isEmpty()) lines << formatFixed(time, 2) + QStringLiteral(" s");
-  return lines << QStringLiteral("wanted  ") + formatNumber(value);
+  if (std::isfinite(value)) lines.push_back({QStringLiteral("wanted"), amountText(value, axes()[0].unit)});
+  return lines;
 }
 
 void WantedView::mousePressEvent(QMouseEvent* event) {
   if (event->button() != Qt::LeftButton || !hasData() || !plotRect().contains(event->position())) return;
-  const auto [first, last] = timeRange();
-  m_held = valueExtent(first, last);
+  m_held = {axes()[0].low(), axes()[0].high()};
   m_drawing = true;
   m_last = QPointF(-1e9, 0);
   drawTo(event->position());
@@ -86,11 +84,11 @@ void WantedView::mousePressEvent(QMouseEvent* event) {
 void WantedView::drawTo(const QPointF& at) {
   const QRectF plot = plotRect();
   const QPointF here(std::clamp(at.x(), plot.left(), plot.right()), std::clamp(at.y(), plot.top(), plot.bottom()));
-  const double value = m_held.first + (plot.bottom() - here.y()) / plot.height() * (m_held.second - m_held.first);
-  const double time = std::max(0.0, timeAt(here.x()));
+  const double value = axes()[0].valueAt((plot.bottom() - here.y()) / plot.height());
+  const double time = std::max(0.0, placeAt(here.x()));
   const double from = m_last.x() < plot.left() ? here.x() - kEach / 2 : m_last.x();
-  const double low = timeAt(std::min(from, here.x())), high = timeAt(std::max(from, here.x()));
-  const double start = m_last.x() < plot.left() ? -1 : timeAt(m_last.x());
+  const double low = placeAt(std::min(from, here.x())), high = placeAt(std::max(from, here.x()));
+  const double start = m_last.x() < plot.left() ? -1 : placeAt(m_last.x());
   Series kept;
   bool placed = false;
   const auto place = [&] {

@@ -20,9 +20,9 @@ class WantedView : public GraphView {
  protected:
   bool hasData() const override;
   double lastTime() const override;
-  std::pair<double, double> valueExtent(double first, double last) const override;
+  std::pair<double, double> valueExtent(size_t axis, double first, double last) const override;
   void paintData(QPainter& painter) override;
-  QStringList readOut(double time) const override;
+  std::vector<PlotLine> readOut(double time) const override;
   void mousePressEvent(QMouseEvent* event) override;
   void mouseMoveEvent(QMouseEvent* event) override;
   void mouseReleaseEvent(QMouseEvent* event) override;

@@ -2,7 +2,7 @@
 #include "ui/graphs/energypanel.h"
 
 #include "ui/document/document.h"
-#include "ui/graphs/graphview.h"
+#include "ui/graphs/stackview.h"
 #include "ui/session/session.h"
 #include "ui/session/wording.h"
 #include "ui/theme/numbers.h"
@@ -22,15 +22,10 @@ QString joules(double value) { return formatPrefixed(value, QStringLiteral("J"))
 }  // namespace
 
 EnergyPanel::EnergyPanel(Session& session, QWidget* parent)
-    : QWidget(parent), m_session(session), m_history(session), m_graph(new GraphView), m_ledger(new QLabel) {
+    : QWidget(parent), m_session(session), m_history(session), m_graph(new EnergyStackView), m_ledger(new QLabel) {
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(6, 4, 12, 4);
   row->setSpacing(12);
-  m_graph->setTitle(QStringLiteral("Energy since the start"));
-  m_graph->setPrefixedUnit(QStringLiteral("J"));
-  m_graph->setEmptyText(QStringLiteral("Press Space to run"));
-  for (const char* name : {"In matter", "Through walls", "Through air", "Through radiation", "By heaters"})
-    m_graph->addSeries(QString::fromLatin1(name));
   m_graph->setEmptyText(QStringLiteral("No matter yet"));
   m_ledger->setTextFormat(Qt::RichText);
   m_ledger->setMinimumWidth(230);
@@ -61,11 +56,9 @@ void EnergyPanel::append(const FrameStats& stats) {
   // Matter drawn before the first step belongs to the start.
   if (!m_started) m_start = stats.thermalEnergy - stats.heat.net();
   m_started = stats.frame > 0;
-  m_graph->append(0, stats.time, stats.thermalEnergy - m_start);
-  m_graph->append(1, stats.time, stats.heat.walls);
-  m_graph->append(2, stats.time, stats.heat.air);
-  m_graph->append(3, stats.time, stats.heat.radiation);
-  m_graph->append(4, stats.time, stats.heat.heaters);
+  const HeatLedger& heat = stats.heat;
+  m_graph->append(stats.time, {heat.walls, heat.air, heat.radiation, heat.heaters, heat.sources},
+                  stats.thermalEnergy - m_start);
   m_graph->setPresentTime(stats.time);
   m_last = stats;
   m_ledger->setText(ledgerText());

@@ -9,7 +9,7 @@ class QLabel;
 
 namespace ps {
 
-class GraphView;
+class EnergyStackView;
 class Session;
 
 /// Where the energy is and where it came from, in kJ since the start, and by how much the balance is open.
@@ -27,7 +27,7 @@ class EnergyPanel : public QWidget {
   void readHistory();
   Session& m_session;
   HistoryReader m_history;
-  GraphView* m_graph;
+  EnergyStackView* m_graph;
   QLabel* m_ledger;
   bool m_started = false, m_shown = false;  ///< m_shown: there has been matter
   double m_start = 0;

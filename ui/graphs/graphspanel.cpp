@@ -1,205 +1,358 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/graphs/graphspanel.h"
 
+#include "core/simulation/enginethread.h"
 #include "ui/document/document.h"
+#include "ui/graphs/distributionview.h"
+#include "ui/graphs/graphexport.h"
+#include "ui/graphs/graphmenu.h"
 #include "ui/graphs/graphview.h"
-#include "ui/graphs/phasestackview.h"
+#include "ui/graphs/seriesunit.h"
+#include "ui/graphs/stackview.h"
 #include "ui/session/session.h"
 #include "ui/session/transitions.h"
 #include "ui/session/wording.h"
-#include "ui/theme/numbers.h"
+#include "ui/theme/paint.h"
+#include "ui/theme/theme.h"
 
+#include <QtCore/QMimeData>
+#include <QtGui/QContextMenuEvent>
+#include <QtGui/QDropEvent>
+#include <QtGui/QPainter>
 #include <QtWidgets/QHBoxLayout>
+#include <QtWidgets/QMenu>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 namespace ps {
 namespace {
 
-constexpr double kZero = 273.15;
-constexpr size_t kMostSeries = 5, kMostUnits = 2;
+const QString kDrag = QStringLiteral("Drag a probe here to plot it");
 const QString kNotRun = QStringLiteral("Press Space to run");
 const QString kNoMatter = QStringLiteral("No matter yet");
 const QString kAllHeld = QStringLiteral("All matter is held in place; what is held is not measured");
 
-QByteArray numberCell(double value) {
-  if (!std::isfinite(value)) return {};
-  char buffer[32];
-  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value);
-  return {buffer, static_cast<qsizetype>(end.ptr - buffer)};
-}
+bool isOfFrames(Graph::Kind kind) { return kind != Graph::Kind::Histogram && kind != Graph::Kind::Profile; }
 
-QByteArray quoted(const std::string& text) {
-  QByteArray cell = QByteArray::fromStdString(text);
-  if (!cell.contains(',') && !cell.contains('"')) return cell;
-  return '"' + cell.replace("\"", "\"\"") + '"';
-}
-
-/// A unit that takes prefixes stands at the axis.
-QString titled(const QString& name, const QString& unit) {
-  return unit.isEmpty() || prefixFor(1000, unit).factor > 1 ? name : name + QStringLiteral(", ") + unit;
+/// What decides on the curves: another one of these, and they are made anew.
+bool sameCurves(const std::vector<GraphSource>& a, const std::vector<GraphSource>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const GraphSource& one, const GraphSource& other) {
+    return one.label() == other.label() && one.unit() == other.unit();
+  });
 }
 
 }  // namespace
 
+QString titleOf(const Graph& graph, const Project& project, const ParticleFields& fields) {
+  if (!graph.title.empty()) return QString::fromStdString(graph.title);
+  if (!isOfFrames(graph.kind)) {
+    const FieldPtr field = fields.find(graph.field);
+    const QString name = field ? QString::fromStdString(field->label) : QString::fromStdString(graph.field);
+    return graph.kind == Graph::Kind::Histogram
+               ? QStringLiteral("Particles by ") + name.left(1).toLower() + name.mid(1)
+               : name + QStringLiteral(" along ") + QLatin1Char(static_cast<char>('x' + graph.axis));
+  }
+  if (graph.kind == Graph::Kind::Phases) return QStringLiteral("Mass by phase");
+  if (graph.kind == Graph::Kind::Energy) return QStringLiteral("Heat since the start");
+  // Of one field, its name; else the one curve's, or the kind of its unit.
+  QString name;
+  for (const std::string& series : graph.series) {
+    const GraphSource source(series, project, fields);
+    if (!source) continue;
+    const auto probe = std::find_if(project.probes.begin(), project.probes.end(),
+                                    [&](const Probe& p) { return p.id == probeOfSource(series); });
+    const Quantity* quantity = probe == project.probes.end() ? nullptr : fields.quantity(probe->quantity);
+    const QString own = QString::fromStdString(source.unit() == "K"          ? "Temperature"
+                                               : quantity && quantity->field ? quantity->field->label
+                                               : quantity                    ? quantity->label
+                                                                             : source.label());
+    if (!name.isEmpty() && name != own) return QStringLiteral("Probes");
+    name = own;
+  }
+  return name;
+}
+
 GraphsPanel::GraphsPanel(Session& session, QWidget* parent)
-    : QWidget(parent),
-      m_session(session),
-      m_history(session),
-      m_temperatures(new GraphView),
-      m_phases(new PhaseStackView) {
-  auto* row = new QHBoxLayout(this);
-  row->setContentsMargins(6, 4, 6, 4);
-  row->setSpacing(8);
-  m_temperatures->setTitle(QStringLiteral("Temperature, °C"));
-  m_temperatures->setUnit(QStringLiteral("°C"));
-  m_temperatures->setEmptyText(kNotRun);
-  m_phases->setEmptyText(kNotRun);
-  row->addWidget(m_temperatures, 1);
-  row->addWidget(m_phases, 1);
-  adopt(m_temperatures);
-  adopt(m_phases);
+    : QWidget(parent), m_session(session), m_history(session), m_row(new QHBoxLayout(this)) {
+  m_row->setContentsMargins(6, 4, 6, 4);
+  m_row->setSpacing(8);
+  setAcceptDrops(true);
   connect(&session, &Session::valuesDue, this, &GraphsPanel::readHistory);
-  connect(&session.transitions(), &Transitions::changed, this,
-          [this, &session] { setTransitions(session.transitions().melts(), session.transitions().boils()); });
-  connect(&session.document(), &Document::changed, this, [this, &session](const ChangeEvent& event) {
-    if (std::holds_alternative<ProjectOpened>(event)) setProject(session.document().project());
+  connect(&session, &Session::totalsDue, this, &GraphsPanel::showDistributions);
+  connect(&session.transitions(), &Transitions::changed, this, &GraphsPanel::setTransitions);
+  connect(&session.document(), &Document::changed, this, [this](const ChangeEvent& event) {
+    const bool opened = std::holds_alternative<ProjectOpened>(event);
+    if (opened) {
+      clear();
+      for (Shown& shown : m_shown) delete shown.plot;
+      m_shown.clear();
+    }
+    if (opened || std::holds_alternative<GraphsChanged>(event) || std::holds_alternative<ProbesChanged>(event))
+      rebuild();
   });
+}
+
+std::vector<Plot*> GraphsPanel::plots() const {
+  std::vector<Plot*> all;
+  for (const Shown& shown : m_shown) all.push_back(shown.plot);
+  return all;
+}
+
+const GraphsPanel::Shown* GraphsPanel::find(const std::string& id) const {
+  const auto found = std::find_if(m_shown.begin(), m_shown.end(), [&](const Shown& s) { return s.graph.id == id; });
+  return found == m_shown.end() ? nullptr : &*found;
+}
+
+Plot* GraphsPanel::plot(const std::string& id) const { return find(id) ? find(id)->plot : nullptr; }
+
+GraphView* GraphsPanel::valuesIn(const std::string& unit) const {
+  for (const Shown& shown : m_shown) {
+    if (!shown.sources.empty() && shown.sources.front().unit() == unit) return qobject_cast<GraphView*>(shown.plot);
+  }
+  return nullptr;
+}
+
+PhaseStackView* GraphsPanel::phases() const { return findChild<PhaseStackView*>(); }
+
+void GraphsPanel::fit() {
+  for (const Shown& shown : m_shown) shown.plot->fit();
+}
+
+/// Views stay where the graph is of the same kind: what is zoomed stays so.
+void GraphsPanel::rebuild() {
+  std::vector<Shown> before = std::exchange(m_shown, {});
+  std::vector<Shown*> fresh;
+  const Project& project = m_session.document().project();
+  for (const Graph& graph : m_session.document().graphs()) {
+    const auto old = std::find_if(before.begin(), before.end(), [&](const Shown& s) {
+      return s.plot && s.graph.id == graph.id && s.graph.kind == graph.kind;
+    });
+    Shown shown = old == before.end() ? make(graph) : *old;
+    const std::vector<std::string> seriesBefore = shown.graph.series;
+    if (old != before.end()) old->plot = nullptr;
+    shown.graph = graph;
+    std::vector<GraphSource> sources;
+    for (const std::string& series : graph.series) {
+      if (GraphSource source(series, project, m_session.fields()); source) sources.push_back(std::move(source));
+    }
+    const bool same = old != before.end() && seriesBefore == graph.series && sameCurves(shown.sources, sources);
+    shown.sources = std::move(sources);
+    shown.plot->setTitle(titleOf(graph, project, m_session.fields()));
+    m_shown.push_back(std::move(shown));
+    if (!same) fill(m_shown.back());
+    m_shown.back().plot->setLogarithmic(graph.logarithmic);
+  }
+  for (const Shown& gone : before) {
+    if (gone.plot) gone.plot->deleteLater(), gone.plot->hide();
+  }
+  arrange();
+  setTransitions();
+  setEmptyTexts();
+  showDistributions();
+  update();
+}
+
+GraphsPanel::Shown GraphsPanel::make(const Graph& graph) {
+  Shown shown{graph, {}, nullptr, nullptr};
+  if (graph.kind == Graph::Kind::Time)
+    shown.overTime = new GraphView(this);
+  else if (graph.kind == Graph::Kind::Phases)
+    shown.overTime = new PhaseStackView(this);
+  else if (graph.kind == Graph::Kind::Energy)
+    shown.overTime = new EnergyStackView(this);
+  shown.plot = shown.overTime ? static_cast<Plot*>(shown.overTime) : new DistributionView(this);
+  if (shown.overTime) adopt(shown.overTime);
+  const std::string id = graph.id;
+  connect(shown.plot, &Plot::menuRequested, this, [this, id](const QPoint& at) {
+    QMenu* menu = makeMenu(id);
+    menu->setAttribute(Qt::WA_DeleteOnClose);
+    menu->popup(at);
+  });
+  connect(shown.plot, &Plot::sourceDropped, this,
+          [this, id](const QString& source) { m_session.document().plot(id, source.toStdString()); });
+  return shown;
 }
 
 /// What is done to the time axis of one is done to all.
 void GraphsPanel::adopt(TimePlot* plot) {
-  m_plots.push_back(plot);
-  connect(plot, &TimePlot::timeRangeChanged, this, [this](double first, double last) {
-    for (TimePlot* other : m_plots) other->setTimeRange(first, last);
-  });
-  connect(plot, &TimePlot::fitted, this, [this] {
-    for (TimePlot* other : m_plots) other->fit();
-  });
-}
-
-/// A graph for each unit of fields that probes measure, besides temperatures; as many as there is room for.
-void GraphsPanel::plotValues(const Project& project) {
-  for (const Values& old : m_values) {
-    std::erase(m_plots, old.view);
-    delete old.view;
-  }
-  m_values.clear();
-  for (size_t i = 0; i < project.probes.size(); ++i) {
-    const Quantity* quantity = m_session.fields().quantity(project.probes[i].quantity);
-    if (!quantity || !quantity->field || quantity->unit == "K") continue;
-    const QString unit = QString::fromStdString(quantity->unit == "1" ? "" : quantity->unit);
-    auto known =
-        std::find_if(m_values.begin(), m_values.end(), [&](const Values& v) { return v.unit == quantity->unit; });
-    if (known == m_values.end()) {
-      if (m_values.size() == kMostUnits) continue;
-      known = m_values.insert(known, {quantity->unit, quantity->field, {}, new GraphView});
-      const bool prefixed = prefixFor(1000, unit).factor > 1;
-      known->view->setTitle(titled(QString::fromStdString(quantity->field->label), unit));
-      if (prefixed)
-        known->view->setPrefixedUnit(unit);
-      else
-        known->view->setUnit(unit);
-      adopt(known->view);
-      static_cast<QHBoxLayout*>(layout())->insertWidget(static_cast<int>(m_values.size()), known->view, 1);
+  connect(plot, &Plot::rangeChanged, this, [this](double first, double last) {
+    for (const Shown& other : m_shown) {
+      if (other.overTime) other.overTime->setRange(first, last);
     }
-    if (known->probes.size() == kMostSeries) continue;
-    if (quantity->field != known->field) known->view->setTitle(titled(QStringLiteral("Probes"), unit));
-    known->probes.push_back(i);
-    known->view->addSeries(QString::fromStdString(project.probes[i].name));
+  });
+  connect(plot, &Plot::fitted, this, [this] {
+    for (const Shown& other : m_shown) {
+      if (other.overTime) other.overTime->fit();
+    }
+  });
+  for (const Shown& other : m_shown) {
+    if (other.overTime && !other.overTime->isFitted())
+      plot->setRange(other.overTime->range().first, other.overTime->range().second);
   }
 }
 
-GraphView* GraphsPanel::valuesIn(const std::string& unit) const {
-  for (const Values& values : m_values) {
-    if (values.unit == unit) return values.view;
+/// Its curves, from the start of the run on.
+void GraphsPanel::fill(Shown& shown) {
+  if (!shown.overTime) return;
+  shown.overTime->clear();
+  if (auto* view = qobject_cast<GraphView*>(shown.plot)) {
+    view->removeAllSeries();
+    for (const GraphSource& source : shown.sources)
+      view->addSeries(QString::fromStdString(source.label()), SeriesUnit(source.unit()).shown);
   }
-  return nullptr;
+  shown.overTime->setDuration(m_session.document().project().duration);
+  shown.overTime->setPresentTime(m_session.now());
+  if (!m_session.engine() || !m_started) return;
+  std::vector<Shown> others = std::exchange(m_shown, {shown});
+  feed(m_session.engine()->history(0));
+  shown = m_shown.front();
+  m_shown = std::move(others);
+}
+
+void GraphsPanel::arrange() {
+  while (QLayoutItem* column = m_row->takeAt(0)) {
+    while (QLayoutItem* item = column->layout()->takeAt(0)) delete item;
+    delete column;
+  }
+  QVBoxLayout* column = nullptr;
+  for (const Shown& shown : m_shown) {
+    if (!column || !shown.graph.below) {
+      column = new QVBoxLayout;
+      column->setSpacing(4);
+      m_row->addLayout(column, 1);
+    }
+    column->addWidget(shown.plot, 1);
+    shown.plot->show();
+  }
+  m_row->activate();
 }
 
 void GraphsPanel::readHistory() {
   const HistoryReader::Piece piece = m_history.read();
   if (piece.begins) clear();
-  const SnapshotPtr snapshot = m_session.snapshot();
-  m_anyParticles = snapshot && !snapshot->id.empty();
-  for (const FrameStats& stats : piece.frames) append(stats);
+  feed(piece.frames);
+  for (const Shown& shown : m_shown) {
+    if (shown.overTime) shown.overTime->setPresentTime(m_session.now());
+  }
+  setEmptyTexts();
 }
 
-void GraphsPanel::setProject(const Project& project) {
-  m_temperatures->removeAllSeries();
-  m_phases->clear();
-  m_probes.clear();
-  std::vector<size_t> probes;
-  for (size_t i = 0; i < project.probes.size() && probes.size() + 1 < kMostSeries; ++i) {
-    const Probe& probe = project.probes[i];
-    const bool mean = probe.quantity == "temperature" && probe.body.empty() && probe.phase.empty();
-    if (m_session.fields().unitOf(probe.quantity) == "K" && !mean) probes.push_back(i);
-  }
-  m_temperatures->addSeries(QStringLiteral("Mean"), QStringLiteral("°C"));
-  for (const size_t i : probes)
-    m_temperatures->addSeries(QString::fromStdString(project.probes[i].name), QStringLiteral("°C"));
-  m_probes = std::move(probes);
-  plotValues(project);
-  for (TimePlot* plot : m_plots) {
-    plot->setDuration(project.duration);
-    plot->setPresentTime(0);
-    plot->fit();
-  }
-}
-
-void GraphsPanel::setTransitions(double meltingPoint, double boilingPoint) {
-  std::vector<ReferenceLine> lines;
-  if (std::isfinite(meltingPoint) && meltingPoint > 0) lines.push_back({meltingPoint - kZero, QStringLiteral("melts")});
-  if (std::isfinite(boilingPoint)) lines.push_back({boilingPoint - kZero, QStringLiteral("boils")});
-  m_temperatures->setReferenceLines(std::move(lines));
-}
-
-void GraphsPanel::append(const FrameStats& stats) {
-  m_temperatures->append(0, stats.time, stats.temperatureMean > 0 ? stats.temperatureMean - kZero : std::nan(""));
-  for (size_t s = 0; s < m_probes.size(); ++s) {
-    if (m_probes[s] < stats.probes.size())
-      m_temperatures->append(static_cast<int>(s) + 1, stats.time, stats.probes[m_probes[s]] - kZero);
-  }
-  for (const Values& values : m_values) {
-    for (size_t s = 0; s < values.probes.size(); ++s) {
-      if (values.probes[s] < stats.probes.size())
-        values.view->append(static_cast<int>(s), stats.time, stats.probes[values.probes[s]]);
+void GraphsPanel::feed(const std::vector<FrameStats>& frames) {
+  for (const FrameStats& stats : frames) {
+    m_started = true;
+    m_matter = hasMatter(stats);
+    for (Shown& shown : m_shown) {
+      if (auto* view = qobject_cast<GraphView*>(shown.plot)) {
+        for (size_t s = 0; s < shown.sources.size(); ++s)
+          view->append(static_cast<int>(s), stats.time,
+                       SeriesUnit(shown.sources[s].unit()).of(shown.sources[s](stats)));
+      } else if (auto* phases = qobject_cast<PhaseStackView*>(shown.plot)) {
+        std::array<double, 5> kilograms{};
+        for (size_t i = 0; i < kilograms.size(); ++i) kilograms[i] = stats.phases[i].mass;
+        phases->append(stats.time, kilograms);
+      } else if (auto* energy = qobject_cast<EnergyStackView*>(shown.plot)) {
+        if (stats.frame == 0 || energy->sampleCount() == 0) m_startEnergy = stats.thermalEnergy - stats.heat.net();
+        const HeatLedger& heat = stats.heat;
+        energy->append(stats.time, {heat.walls, heat.air, heat.radiation, heat.heaters, heat.sources},
+                       stats.thermalEnergy - m_startEnergy);
+      }
     }
   }
-  std::array<double, 5> kilograms{};
-  for (size_t i = 0; i < kilograms.size(); ++i) kilograms[i] = stats.phases[i].mass;
-  const QString empty = hasMatter(stats) ? kNotRun : m_anyParticles ? kAllHeld : kNoMatter;
-  m_phases->append(stats.time, kilograms);
-  for (TimePlot* plot : m_plots) {
-    plot->setEmptyText(empty);
-    plot->setPresentTime(stats.time);
+}
+
+void GraphsPanel::showDistributions() {
+  const SnapshotPtr snapshot = m_session.snapshot();
+  if (!snapshot) return;
+  for (const Shown& shown : m_shown) {
+    auto* view = qobject_cast<DistributionView*>(shown.plot);
+    if (view && !view->visibleRegion().isEmpty())
+      view->show(*snapshot, shown.graph, m_session.fields().find(shown.graph.field).get());
+  }
+}
+
+void GraphsPanel::setTransitions() {
+  const double melts = m_session.transitions().melts(), boils = m_session.transitions().boils();
+  const SeriesUnit kelvin("K");
+  std::vector<ReferenceLine> lines;
+  if (std::isfinite(melts) && melts > 0) lines.push_back({kelvin.of(melts), QStringLiteral("melts")});
+  if (std::isfinite(boils)) lines.push_back({kelvin.of(boils), QStringLiteral("boils")});
+  for (const Shown& shown : m_shown) {
+    auto* view = qobject_cast<GraphView*>(shown.plot);
+    if (view) view->setReferenceLines(view->axes().front().unit == kelvin.shown ? lines : std::vector<ReferenceLine>());
+  }
+}
+
+void GraphsPanel::setEmptyTexts() {
+  const SnapshotPtr snapshot = m_session.snapshot();
+  const bool particles = snapshot && !snapshot->id.empty();
+  for (const Shown& shown : m_shown) {
+    const bool nothing = shown.graph.kind == Graph::Kind::Time && shown.sources.empty();
+    shown.plot->setEmptyText(nothing ? kDrag : !m_started || m_matter ? kNotRun : particles ? kAllHeld : kNoMatter);
   }
 }
 
 void GraphsPanel::clear() {
-  m_temperatures->clear();
-  for (const Values& values : m_values) values.view->clear();
-  m_phases->clear();
+  m_started = false;
+  for (const Shown& shown : m_shown) {
+    if (shown.overTime) shown.overTime->clear();
+  }
 }
 
-QByteArray historyCsv(const std::vector<FrameStats>& history, const std::vector<Probe>& probes,
-                      const ParticleFields& fields) {
-  QByteArray csv =
-      "time_s,thermal_time_s,mean.temperature[K],solid.mass[kg],melting.mass[kg],liquid.mass[kg],boiling.mass[kg],gas."
-      "mass[kg]";
-  for (const Probe& probe : probes)
-    csv += ',' + quoted(probe.name + "." + probe.quantity + "[" + fields.unitOf(probe.quantity) + "]");
-  csv += '\n';
-  for (const FrameStats& stats : history) {
-    csv += numberCell(stats.time) + ',' + numberCell(stats.thermalTime) + ',' + numberCell(stats.temperatureMean);
-    for (const PhaseAmount& phase : stats.phases) csv += ',' + numberCell(phase.mass);
-    for (size_t i = 0; i < probes.size(); ++i)
-      csv += ',' + (i < stats.probes.size() ? numberCell(stats.probes[i]) : QByteArray());
-    csv += '\n';
+QMenu* GraphsPanel::makeMenu(const std::string& id) {
+  auto* menu = new QMenu(this);
+  const Shown* shown = find(id);
+  GraphMenu(m_session.document(), m_session.fields()).fill(*menu, shown ? &shown->graph : nullptr);
+  if (!shown) return menu;
+  menu->addSeparator();
+  menu->addAction(QStringLiteral("Fit"), this, [this, id] {
+    if (const Shown* now = find(id)) Q_EMIT now->plot->fitted(), now->plot->fit();
+  });
+  for (const char* ending : {"png", "svg", "csv"}) {
+    const QString name = QString::fromLatin1(ending);
+    menu->addAction(QStringLiteral("Export as %1…").arg(name.toUpper()), this,
+                    [this, id, name] { Q_EMIT exportRequested(QString::fromStdString(id), name); });
   }
-  return csv;
+  return menu;
+}
+
+QByteArray GraphsPanel::exported(const std::string& id, const QString& ending) const {
+  const Shown* shown = find(id);
+  if (!shown) return {};
+  if (ending == QStringLiteral("png")) return pngOf(*shown->plot);
+  if (ending == QStringLiteral("svg")) return svgOf(*shown->plot);
+  if (auto* view = qobject_cast<DistributionView*>(shown->plot)) return view->csv();
+  return graphCsv(m_session.engine() ? m_session.engine()->history(0) : std::vector<FrameStats>(), shown->graph,
+                  m_session.document().project(), m_session.fields());
+}
+
+QString GraphsPanel::fileName(const std::string& id, const QString& ending) const {
+  const Shown* shown = find(id);
+  const QString title = shown ? shown->plot->title() : QString();
+  return (title.isEmpty() ? QStringLiteral("graph") : title.toLower().replace(QLatin1Char(' '), QLatin1Char('-'))) +
+         QLatin1Char('.') + ending;
+}
+
+void GraphsPanel::paintEvent(QPaintEvent*) {
+  if (!m_shown.empty()) return;
+  QPainter painter(this);
+  paintText(painter, rect(), Qt::AlignCenter, kDrag, Theme::font(TextRole::Normal), Theme::current()[Token::Muted]);
+}
+
+void GraphsPanel::contextMenuEvent(QContextMenuEvent* event) {
+  QMenu* menu = makeMenu({});
+  menu->setAttribute(Qt::WA_DeleteOnClose);
+  menu->popup(event->globalPos());
+}
+
+void GraphsPanel::dragEnterEvent(QDragEnterEvent* event) {
+  if (event->mimeData()->hasFormat(QLatin1String(kSourceMime))) event->acceptProposedAction();
+}
+
+/// Beside the others, a graph of its own.
+void GraphsPanel::dropEvent(QDropEvent* event) {
+  event->acceptProposedAction();
+  m_session.document().plot({}, event->mimeData()->data(QLatin1String(kSourceMime)).toStdString());
 }
 
 }  // namespace ps

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "core/scene/project.h"
-#include "core/simulation/particlefield.h"
-#include "core/simulation/snapshot.h"
+#include "core/simulation/graphsource.h"
 #include "ui/graphs/timeplot.h"
 #include "ui/session/historyreader.h"
 
@@ -12,52 +10,74 @@
 #include <string>
 #include <vector>
 
+class QHBoxLayout;
+class QMenu;
+
 namespace ps {
 
 class GraphView;
 class PhaseStackView;
 class Session;
 
-/// Live graphs: mean temperature and temperature probes, probes of other fields by their units, and the mass in each
-/// phase.
+/// The graphs of the document, live: in columns from the left to the right, those that stand below others in the same
+/// column. Those over time share their time axis.
 class GraphsPanel : public QWidget {
   Q_OBJECT
  public:
   explicit GraphsPanel(Session& session, QWidget* parent = nullptr);
-  void setProject(const Project& project);  ///< series of its probes
-  /// Melting and boiling points as reference lines, K (not finite: none).
-  void setTransitions(double meltingPoint, double boilingPoint);
-  void append(const FrameStats& stats);
-  void clear();
-  GraphView* temperatures() const { return m_temperatures; }
-  /// Of probes of fields in this unit; nullptr where there are none.
+  /// In the order of the document's graphs.
+  std::vector<Plot*> plots() const;
+  Plot* plot(const std::string& id) const;  ///< Graph::id; nullptr: there is none
+  /// The first graph over time whose first curve is in this SI unit; nullptr where there is none.
   GraphView* valuesIn(const std::string& unit) const;
-  PhaseStackView* phases() const { return m_phases; }
+  PhaseStackView* phases() const;  ///< the first of its kind; nullptr: none
+  void fit();                      ///< all, up to now
+  /// The menu of a graph; "": of the place where none is. The caller owns it.
+  QMenu* makeMenu(const std::string& id);
+  /// A graph as a file: "png", "svg" or "csv".
+  QByteArray exported(const std::string& id, const QString& ending) const;
+  QString fileName(const std::string& id, const QString& ending) const;  ///< suggested for it
   QSize sizeHint() const override { return {700, 150}; }
 
+ Q_SIGNALS:
+  void exportRequested(const QString& id, const QString& ending);
+
+ protected:
+  void paintEvent(QPaintEvent* event) override;
+  void contextMenuEvent(QContextMenuEvent* event) override;
+  void dragEnterEvent(QDragEnterEvent* event) override;
+  void dropEvent(QDropEvent* event) override;
+
  private:
-  /// Probes of fields of one unit.
-  struct Values {
-    std::string unit;  ///< SI
-    FieldPtr field;    ///< of the first probe; the title is the unit's where others measure another
-    std::vector<size_t> probes;
-    GraphView* view = nullptr;
+  /// What is shown of a graph: its view is made again where that is another.
+  struct Shown {
+    Graph graph;
+    std::vector<GraphSource> sources;  ///< of the curves that there are
+    Plot* plot = nullptr;
+    TimePlot* overTime = nullptr;  ///< the same, where it is one
   };
   void readHistory();
+  void showDistributions();
+  void rebuild();
+  Shown make(const Graph& graph);
   void adopt(TimePlot* plot);
-  void plotValues(const Project& project);
+  void fill(Shown& shown);
+  void arrange();
+  void feed(const std::vector<FrameStats>& frames);
+  void setTransitions();
+  void setEmptyTexts();
+  void clear();
+  const Shown* find(const std::string& id) const;
+
   Session& m_session;
   HistoryReader m_history;
-  bool m_anyParticles = false;  ///< held ones too, which no amount counts
-  GraphView* m_temperatures;
-  PhaseStackView* m_phases;
-  std::vector<size_t> m_probes;  ///< indices into Project::probes of the series after the first
-  std::vector<Values> m_values;
-  std::vector<TimePlot*> m_plots;  ///< all: they share their time axis
+  QHBoxLayout* m_row;
+  std::vector<Shown> m_shown;
+  double m_startEnergy = 0;  ///< J, thermal energy at the start
+  bool m_started = false, m_matter = false;
 };
 
-/// All frames as CSV: "time_s,thermal_time_s,mean.temperature[K],…" one row per frame, with every probe.
-QByteArray historyCsv(const std::vector<FrameStats>& history, const std::vector<Probe>& probes,
-                      const ParticleFields& fields);
+/// "Temperature", "Speed": what a graph is called where it has no title.
+QString titleOf(const Graph& graph, const Project& project, const ParticleFields& fields);
 
 }  // namespace ps

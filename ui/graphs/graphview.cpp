@@ -19,23 +19,44 @@ namespace {
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 struct Series {
-  QString name, unit;
+  QString name;
+  size_t axis = 0;
   SampleSeries samples;
 };
+
+/// Of what a unit gains in a second, and of what it adds up to: "m/s" gives "m/s²" and "m".
+QString perSecond(const QString& unit) {
+  if (unit == QStringLiteral("J")) return QStringLiteral("W");
+  if (unit.endsWith(QStringLiteral("/s"))) return unit + QStringLiteral("²");
+  return unit.isEmpty() ? QStringLiteral("1/s") : unit + QStringLiteral("/s");
+}
+QString timesSeconds(const QString& unit) {
+  if (unit == QStringLiteral("W")) return QStringLiteral("J");
+  if (unit.endsWith(QStringLiteral("/s"))) return unit.chopped(2);
+  return unit.isEmpty() ? QStringLiteral("s") : unit + QStringLiteral("·s");
+}
 
 }  // namespace
 
 struct GraphView::Private {
   std::vector<Series> series;
   std::vector<ReferenceLine> references;
-  QString unit;
 };
 
 GraphView::GraphView(QWidget* parent) : TimePlot(parent), d(std::make_unique<Private>()) {}
 GraphView::~GraphView() = default;
 
 int GraphView::addSeries(const QString& name, const QString& unit) {
-  d->series.push_back({name, unit, {}});
+  std::vector<ValueAxis>& axes = valueAxes();
+  if (d->series.empty() && !unit.isEmpty()) axes.front().unit = unit;
+  const auto same = std::find_if(axes.begin(), axes.end(), [&](const ValueAxis& axis) { return axis.unit == unit; });
+  const auto axis = unit.isEmpty() && d->series.empty() ? size_t{0} : static_cast<size_t>(same - axes.begin());
+  if (axis == axes.size()) {
+    axes.push_back({});
+    axes.back().unit = unit;
+    axes.back().logarithmic = axes.front().logarithmic;
+  }
+  d->series.push_back({name, axis, {}});
   dataChanged();
   return static_cast<int>(d->series.size()) - 1;
 }
@@ -44,6 +65,8 @@ int GraphView::seriesCount() const { return static_cast<int>(d->series.size()); 
 
 void GraphView::removeAllSeries() {
   d->series.clear();
+  valueAxes().resize(1);
+  valueAxes().front().unit.clear();
   dataChanged();
 }
 
@@ -68,11 +91,6 @@ void GraphView::setReferenceLines(std::vector<ReferenceLine> lines) {
   dataChanged();
 }
 
-void GraphView::setUnit(const QString& unit) {
-  d->unit = unit;
-  dataChanged();
-}
-
 std::pair<double, double> GraphView::extent(int series, double first, double last) const {
   const SampleSeries& samples = d->series.at(static_cast<size_t>(series)).samples;
   const SampleSeries::Extent extent = samples.extent(samples.indexAt(first), samples.indexAt(last));
@@ -94,45 +112,54 @@ double GraphView::lastTime() const {
   return last;
 }
 
-std::pair<double, double> GraphView::valueExtent(double first, double last) const {
+std::pair<double, double> GraphView::valueExtent(size_t axis, double first, double last) const {
+  const ValueAxis& shown = axes()[axis];
   SampleSeries::Extent extent;
   for (const Series& series : d->series) {
+    if (series.axis != axis) continue;
     const size_t from = series.samples.indexAt(first);
     extent.add(series.samples.extent(from > 0 ? from - 1 : 0, series.samples.indexAt(last) + 1));
+  }
+  if (shown.logarithmic) {
+    if (!(extent.high > 0)) return {1e-3, 1};
+    return roomFor(axis, std::min(extent.positive, extent.high / 2), extent.high, 0.06);
   }
   if (extent.empty()) return {0, 1};
   // A reference line just beyond the data is worth showing; one far away would press the data flat.
   // Less than half a percent is drawn flat: ticks that close would have no end of digits.
   // So is what a prefix of its unit would blow up: a millijoule.
-  const double least =
-      std::max(prefixedUnit().isEmpty() ? 1e-6 : 1e-3, 5e-3 * std::max(std::abs(extent.low), std::abs(extent.high)));
+  const bool prefixed = prefixFor(1e6, shown.unit).factor > 1;
+  const double least = std::max(prefixed ? 1e-3 : 1e-6, 5e-3 * std::max(std::abs(extent.low), std::abs(extent.high)));
   const double span = std::max(extent.high - extent.low, least);
   const SampleSeries::Extent drawn = extent;
-  for (const ReferenceLine& line : d->references) {
-    if (line.value > drawn.low - 0.75 * span && line.value < drawn.high + 0.75 * span) extent.add(line.value);
+  for (size_t i = 0; axis == 0 && i < d->references.size(); ++i) {
+    const double value = d->references[i].value;
+    if (value > drawn.low - 0.75 * span && value < drawn.high + 0.75 * span) extent.add(value);
   }
   const double middle = 0.5 * (extent.low + extent.high);
-  extent.low = std::min(extent.low, middle - 0.5 * span);
-  extent.high = std::max(extent.high, middle + 0.5 * span);
-  const double margin = 0.12 * (extent.high - extent.low);
-  return {extent.low - margin, clearOfTitle(extent.low - margin, extent.high)};
+  return roomFor(axis, std::min(extent.low, middle - 0.5 * span), std::max(extent.high, middle + 0.5 * span), 0.12);
 }
 
-void GraphView::paintData(QPainter& painter) {
+void GraphView::paintReferences(QPainter& painter) const {
   const Theme& theme = Theme::current();
   const QRectF plot = plotRect();
   for (const ReferenceLine& line : d->references) {
     const double position = snapped(painter, y(line.value)) + hairline(painter) / 2;
-    painter.setPen(QPen(theme[Token::ControlEdge], hairline(painter), Qt::CustomDashLine));
-    QPen pen = painter.pen();
+    QPen pen(theme[Token::ControlEdge], hairline(painter), Qt::CustomDashLine);
     pen.setDashPattern({2, 2});
     painter.setPen(pen);
     painter.drawLine(QPointF(plot.left(), position), QPointF(plot.right(), position));
     paintText(painter, QRectF(plot.right() - 100, position - 16, 95, 15), Qt::AlignRight | Qt::AlignVCenter, line.label,
               Theme::font(TextRole::Small), theme[Token::Muted]);
   }
+}
+
+void GraphView::paintData(QPainter& painter) {
+  const Theme& theme = Theme::current();
+  const QRectF plot = plotRect();
+  paintReferences(painter);
   const double scale = painter.device()->devicePixelRatioF();
-  const auto [first, last] = timeRange();
+  const auto [first, last] = range();
   const double perColumn = (last - first) / (plot.width() * scale);
   painter.setRenderHint(QPainter::Antialiasing);
   for (size_t index = 0; index < d->series.size(); ++index) {
@@ -148,12 +175,17 @@ void GraphView::paintData(QPainter& painter) {
 /// however many samples a column holds (and because stroking thousands of near-vertical segments takes a hundred times
 /// longer). A gap breaks the line.
 void GraphView::paintSeries(QPainter& painter, int index, double first, double last, double perColumn) const {
-  const SampleSeries& samples = d->series[static_cast<size_t>(index)].samples;
+  const auto& [name, axis, samples] = d->series[static_cast<size_t>(index)];
   if (samples.empty()) return;
   constexpr double kSmooth = 1.5, kHalf = 0.75;  // logical pixels: spread drawn as a line; half the line's width
   constexpr qsizetype kChunk = 48;               // points stroked at a time: the cost of a stroke grows faster
   const double width = hairline(painter) / std::max(1.0, std::floor(painter.device()->devicePixelRatioF()));
   const QColor colour = painter.pen().color();
+  const QRectF plot = plotRect();
+  const ValueAxis& shown = axes()[axis];
+  // As x() and y(), which look at all data for what is shown.
+  const auto across = [&](double time) { return plot.left() + plot.width() * (time - first) / (last - first); };
+  const auto up = [&](double value) { return plot.bottom() - plot.height() * shown.position(value); };
   QPolygonF line;
   const auto flush = [&] {
     if (line.size() == 1)
@@ -171,16 +203,19 @@ void GraphView::paintSeries(QPainter& painter, int index, double first, double l
   size_t at = samples.indexAt(first);
   if (at > 0) --at;
   const size_t end = std::min(samples.size(), samples.indexAt(last) + 1);
+  size_t samplesWide = 1;  // the column before
   while (at < end) {
     const double column = std::floor((samples[at].time - first) / perColumn);
-    const size_t next = std::clamp(samples.indexAt(first + (column + 1) * perColumn), at + 1, end);
+    const size_t next = std::clamp(samples.columnEnd(first + (column + 1) * perColumn, at, samplesWide), at + 1, end);
+    samplesWide = next - at;
     const SampleSeries::Extent extent = samples.extent(at, next);
     if (extent.empty()) {
       flush();
-    } else if (const double top = y(extent.high), bottom = y(extent.low); bottom - top <= kSmooth) {
-      lineTo({next == at + 1 ? x(samples[at].time) : x(first + (column + 0.5) * perColumn), (top + bottom) / 2});
+    } else if (const double top = up(extent.high), bottom = up(extent.low); bottom - top <= kSmooth) {
+      lineTo(
+          {next == at + 1 ? across(samples[at].time) : across(first + (column + 0.5) * perColumn), (top + bottom) / 2});
     } else {
-      const double left = snapped(painter, x(first + column * perColumn));
+      const double left = snapped(painter, across(first + column * perColumn));
       double from = top, to = bottom;
       if (!line.isEmpty()) {  // meets the column before
         from = std::min(from, line.back().y());
@@ -189,7 +224,7 @@ void GraphView::paintSeries(QPainter& painter, int index, double first, double l
       }
       painter.fillRect(QRectF(left, from - kHalf, width, to - from + 2 * kHalf), colour);
       lineTo({left + width / 2,
-              std::clamp(y(std::isnan(samples[next - 1].high) ? extent.high : samples[next - 1].high), top, bottom)});
+              std::clamp(up(std::isnan(samples[next - 1].high) ? extent.high : samples[next - 1].high), top, bottom)});
     }
     at = next;
   }
@@ -202,27 +237,27 @@ void GraphView::paintLabels(QPainter& painter) {
   const QFont font = Theme::font(TextRole::Small);
   QColor ground = theme[Token::Field];
   ground.setAlphaF(0.75f);
-  const QRectF heading(plot.left() + 7, plot.top() + 3, std::min(textWidth(axisTitle(), font) + 1, plot.width() - 14),
-                       16);
-  if (!title().isEmpty())
-    painter.fillRect(heading.adjusted(-2, 1, 2, -1), ground);  // the line of the present time passes here
-  paintText(painter, heading, Qt::AlignLeft | Qt::AlignVCenter, axisTitle(), font, theme[Token::Text2]);
+  paintHeading(painter);
   struct Label {
     double top;
     QPointF end;
     size_t series;
-    QString text;
+    QString value;
+    double valueWidth;
   };
   std::vector<Label> labels;
-  const auto [first, last] = timeRange();
+  const auto [first, last] = range();
   for (size_t i = 0; i < d->series.size(); ++i) {
-    const SampleSeries& samples = d->series[i].samples;
+    const auto& [name, axis, samples] = d->series[i];
     if (samples.empty() || !std::isfinite(samples.lastValue()) || samples.lastTime() < first ||
         samples.lastTime() > last)
       continue;
-    const QPointF end(x(samples.lastTime()), y(samples.lastValue()));
-    labels.push_back({end.y() - 8, end, i,
-                      d->series[i].name + QLatin1Char(' ') + curveText(valueTicks(), onAxis(samples.lastValue()))});
+    const QPointF end(x(samples.lastTime()), y(samples.lastValue(), axis));
+    if (!plot.adjusted(-1, -1, 1, 1).contains(end)) continue;
+    const ValueAxis& of = axes()[axis];
+    const QString unit = axis > 0 ? QLatin1Char(' ') + of.shownUnit() : QString();
+    labels.push_back({end.y() - 8, end, i, curveText(of.ticks(), of.onAxis(samples.lastValue())) + unit,
+                      curveTextWidth(of.ticks(), of.onAxis(of.low()), of.onAxis(of.high())) + textWidth(unit, font)});
   }
   // From the top down, each label at its line's end or as little below it as keeps the texts apart.
   std::sort(labels.begin(), labels.end(), [](const Label& a, const Label& b) { return a.top < b.top; });
@@ -238,26 +273,52 @@ void GraphView::paintLabels(QPainter& painter) {
     painter.setBrush(theme.series(static_cast<int>(label.series)));
     painter.drawEllipse(label.end, 3, 3);
     if (label.top < plot.top() + titleStrip() - 4) continue;  // too low a plot for all of them
-    // Right of the end where the plot has room, else left of it.
-    const double width = textWidth(label.text, font);
+    // Right of the end where the plot has room, else left of it. The value ends where the longest one would.
+    const QString& name = d->series[label.series].name;
+    const double width = textWidth(name, font) + 5 + label.valueWidth;
     const bool right = label.end.x() + 8 + width < plot.right() - 2;
     QRectF rect(right ? label.end.x() + 8 : label.end.x() - 8 - width, label.top, width + 1, 16);
     painter.fillRect(rect.adjusted(-2, 1, 2, -1), ground);
-    paintText(painter, rect, Qt::AlignLeft | Qt::AlignVCenter, label.text, font, theme[Token::Text]);
+    paintText(painter, rect, Qt::AlignLeft | Qt::AlignVCenter, name, font, theme[Token::Text]);
+    paintText(painter, rect, Qt::AlignRight | Qt::AlignVCenter, label.value, font, theme[Token::Text]);
   }
 }
 
-QStringList GraphView::readOut(double time) const {
-  QStringList lines{formatFixed(time, 2) + QStringLiteral(" s")};
-  for (const Series& series : d->series) {
-    const double value = series.samples.valueAt(time);
-    const QString unit = series.unit.isEmpty() ? d->unit : series.unit;
-    const QString text = !prefixedUnit().isEmpty() ? formatPrefixed(value, prefixedUnit())
-                         : unit.isEmpty()          ? formatNumber(value)
-                                                   : formatNumber(value) + QLatin1Char(' ') + unit;
-    if (std::isfinite(value)) lines << series.name + QStringLiteral("  ") + text;
+std::vector<PlotLine> GraphView::readOut(double time) const {
+  std::vector<PlotLine> lines;
+  for (size_t i = 0; i < d->series.size(); ++i) {
+    const auto& [name, axis, samples] = d->series[i];
+    const double value = samples.valueAt(time);
+    if (std::isfinite(value)) lines.push_back({name, amountText(value, axes()[axis].unit), static_cast<int>(i)});
   }
-  return lines.size() > 1 ? lines : QStringList();
+  return lines;
+}
+
+/// Of a curve that stays beside a line that is known, its mean is compared with that.
+std::vector<PlotLine> GraphView::measure(double from, double to) const {
+  std::vector<PlotLine> lines{
+      {QStringLiteral("A to B: ") + placeText(to - from), QStringLiteral("change · slope · area")}};
+  const double span = axes().front().high() - axes().front().low();
+  for (size_t i = 0; i < d->series.size(); ++i) {
+    const auto& [name, axis, samples] = d->series[i];
+    const double change = samples.valueAt(to) - samples.valueAt(from), area = samples.integral(from, to);
+    if (!std::isfinite(change) || !(to > from)) continue;
+    const QString& unit = axes()[axis].unit;
+    lines.push_back({name,
+                     amountText(change, unit) + QStringLiteral(" · ") +
+                         amountText(change / (to - from), perSecond(unit)) + QStringLiteral(" · ") +
+                         amountText(area, timesSeconds(unit)),
+                     static_cast<int>(i)});
+    const SampleSeries::Extent extent = samples.extent(samples.indexAt(from), samples.indexAt(to) + 1);
+    for (const ReferenceLine& line : d->references) {
+      const double mean = area / (to - from);
+      if (axis > 0 || std::max(std::abs(extent.high - line.value), std::abs(extent.low - line.value)) > 0.05 * span)
+        continue;
+      lines.push_back({QStringLiteral("mean, %1 at %2").arg(line.label, amountText(line.value, unit)),
+                       amountText(mean, unit) + QStringLiteral(", off by ") + amountText(mean - line.value, unit, 2)});
+    }
+  }
+  return lines;
 }
 
 }  // namespace ps

@@ -9,32 +9,31 @@
 
 namespace ps {
 
-/// A dashed line across a graph: {0, "melts"}. In the graph's unit.
+/// A dashed line across a graph: {0, "melts"}. In the unit of its first axis.
 struct ReferenceLine {
   double value = 0;
   QString label;
 };
 
 /// Lines over time, fed live: the minimum and maximum of each pixel column are drawn, so no spike is lost at any zoom.
+/// Lines of one unit share an axis.
 class GraphView : public TimePlot {
   Q_OBJECT
  public:
   explicit GraphView(QWidget* parent = nullptr);
   ~GraphView() override;
 
-  /// Adds a line; returns its index. Values are in the graph's unit (convert before: kelvin to °C). Colours follow the
-  /// theme's series in order.
+  /// Adds a line; returns its index. Values are in the unit, as people see it (convert before: kelvin to °C); without
+  /// one they are of the first axis. Colours follow the theme's series in order.
   int addSeries(const QString& name, const QString& unit = {});
   int seriesCount() const;
   void removeAllSeries();
   /// Adds a sample. Times ascend per series: the last one's time again replaces its value, an earlier one is ignored.
   /// A value that is not finite leaves a gap.
   void append(int series, double time, double value);
-  /// Removes all samples, keeps the lines: after a reset.
-  void clear();
-  void clearSeries(int series);  ///< the same of one
+  void clear() override;         ///< keeps the lines: after a reset
+  void clearSeries(int series);  ///< all samples of one
   void setReferenceLines(std::vector<ReferenceLine> lines);
-  void setUnit(const QString& unit);  ///< shown in the read-out
   /// Samples of a series as drawn in a column [first, last): lowest and highest; nothing: {NaN, NaN}.
   std::pair<double, double> extent(int series, double first, double last) const;
   size_t sampleCount(int series) const;
@@ -42,13 +41,15 @@ class GraphView : public TimePlot {
  protected:
   bool hasData() const override;
   double lastTime() const override;
-  std::pair<double, double> valueExtent(double first, double last) const override;
+  std::pair<double, double> valueExtent(size_t axis, double first, double last) const override;
   void paintData(QPainter& painter) override;
   void paintLabels(QPainter& painter) override;
-  QStringList readOut(double time) const override;
+  std::vector<PlotLine> readOut(double time) const override;
+  std::vector<PlotLine> measure(double from, double to) const override;
 
  private:
   struct Private;
+  void paintReferences(QPainter& painter) const;
   void paintSeries(QPainter& painter, int index, double first, double last, double perColumn) const;
   std::unique_ptr<Private> d;
 };

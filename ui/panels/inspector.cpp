@@ -46,7 +46,10 @@ Inspector::Inspector(Session& session, Selection& selection, QObject* parent)
   });
   connect(&session, &Session::happened, this, [this](const EngineEvent& event) { m_notes.hear(event); });
   connect(&selection, &Selection::changed, this, [this, &selection] {
-    if (!selection.empty()) setBody(selection.body());
+    if (selection.kind() == OutlineKind::Probe)
+      setProbe(selection.id());
+    else if (!selection.empty())
+      setBody(selection.body());
   });
   connect(&selection, &Selection::materialChanged, this, [this, &selection] { setMaterial(selection.material()); });
 }
@@ -139,6 +142,7 @@ void Inspector::addPinned(std::vector<RowModel>& rows) {
 }
 
 void Inspector::rebuildBody() {
+  if (rebuildProbe()) return;
   const Body* body = m_document.body(m_bodyId);
   std::vector<RowModel> rows;
   if (!body) {
@@ -325,6 +329,7 @@ void Inspector::rebuild() {
 }
 
 void Inspector::setBody(const std::string& id) {
+  m_probeId.clear();
   m_bodyId = id;
   rebuildBody();
 }
@@ -362,6 +367,7 @@ void Inspector::onChanged(const ChangeEvent& event) {
     m_notes.onChanged(*parameter);
     if (address.owner == Owner::Material && propertyIndex(address.key) < 0) refreshProperties(address.id);
   } else if (std::holds_alternative<ProjectOpened>(event)) {
+    m_probeId.clear();
     m_bodyId = m_document.project().bodies.empty() ? std::string() : m_document.project().bodies.front().id;
     m_materialId.clear();
     m_notes.clear();
@@ -373,6 +379,8 @@ void Inspector::onChanged(const ChangeEvent& event) {
     rebuildBody();
     showSceneHeader();
     showMaterialHeader();
+  } else if (const auto* probe = std::get_if<ProbesChanged>(&event)) {
+    onProbe(probe->id);
   } else if (const auto* port = std::get_if<PortChanged>(&event)) {
     if (!port->moved) rebuildScene();
     showMaterialHeader();
@@ -411,6 +419,10 @@ ParameterPanel* Inspector::panelFor(const Address& address) {
   if (address.owner == Owner::Material) {
     setMaterial(address.id);
     return m_material;
+  }
+  if (address.owner == Owner::Probe) {
+    setProbe(address.id);
+    return m_body;
   }
   if (address.owner == Owner::Body || address.owner == Owner::Constraint) {
     setBody(address.id);

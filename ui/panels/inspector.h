@@ -32,6 +32,7 @@ class Inspector : public QObject {
 
   void rebuild();
   void setBody(const std::string& id);
+  void setProbe(const std::string& id);  ///< in the place of a body
   void setMaterial(const std::string& id);
   const std::string& material() const { return m_materialId; }
   /// The panel that shows an address, after choosing its owner; nullptr when there is none.
@@ -61,6 +62,9 @@ class Inspector : public QObject {
   void onScaled(const QString& key, double factor);
   void onLink(const QString& key, const QString& link);
   void rebuildBody();
+  bool rebuildProbe();  ///< false: none is shown
+  void showProbeHeader(const Probe& probe);
+  void onProbe(const std::string& id);
   void rebuildMaterial();
   void showMaterialHeader();
   QString materialDetail() const;
@@ -84,6 +88,7 @@ class Inspector : public QObject {
   ParameterPanel *m_body, *m_material, *m_scene, *m_solver;
   RowNotes m_notes;
   std::string m_bodyId, m_materialId;
+  std::string m_probeId;                 ///< shown in the place of the body; "": none
   std::set<std::string> m_texts;         ///< headings and labels that rows borrow; grows with names only
   QString m_grade;                       ///< of the material's sources, as the header says it
   std::set<std::string> m_tracked;       ///< addresses of what has keys, as rows show it

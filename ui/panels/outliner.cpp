@@ -3,14 +3,17 @@
 
 #include "core/plugin_host/registry.h"
 #include "core/simulation/compile.h"
+#include "core/simulation/graphsource.h"
 #include "core/simulation/particlefield.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
 #include "ui/panels/outlinerdelegate.h"
 #include "ui/session/session.h"
+#include "ui/session/sourcemime.h"
 #include "ui/session/wording.h"
 #include "ui/theme/numbers.h"
 
+#include <QtCore/QMimeData>
 #include <QtGui/QColor>
 #include <QtGui/QStandardItemModel>
 #include <QtWidgets/QTreeView>
@@ -37,6 +40,20 @@ QString probeText(double value, const Quantity* quantity) {
   return formatNumber(value / prefix.factor) + QLatin1Char(' ') + prefix.symbol + shown;
 }
 
+/// A probe is dragged as the curve that it gives.
+class OutlinerModel : public QStandardItemModel {
+ public:
+  using QStandardItemModel::QStandardItemModel;
+  QStringList mimeTypes() const override { return {QLatin1String(kSourceMime)}; }
+  QMimeData* mimeData(const QModelIndexList& indexes) const override {
+    if (indexes.isEmpty()) return nullptr;
+    auto* data = new QMimeData;
+    data->setData(QLatin1String(kSourceMime),
+                  QByteArray::fromStdString(probeSource(indexes.front().data(outline::kId).toString().toStdString())));
+    return data;
+  }
+};
+
 }  // namespace
 
 Outliner::Outliner(Session& session, Selection& selection, QWidget* parent)
@@ -44,7 +61,7 @@ Outliner::Outliner(Session& session, Selection& selection, QWidget* parent)
       m_session(session),
       m_document(session.document()),
       m_selection(selection),
-      m_model(new QStandardItemModel(this)),
+      m_model(new OutlinerModel(this)),
       m_view(new QTreeView) {
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 4, 0, 0);
@@ -56,6 +73,7 @@ Outliner::Outliner(Session& session, Selection& selection, QWidget* parent)
   m_view->setExpandsOnDoubleClick(false);
   m_view->setEditTriggers(QAbstractItemView::EditKeyPressed | QAbstractItemView::DoubleClicked);
   m_view->setMouseTracking(true);
+  m_view->setDragDropMode(QAbstractItemView::DragOnly);
   m_view->setAccessibleName(QStringLiteral("Outliner"));
   auto* delegate = new OutlinerDelegate(m_view);
   m_view->setItemDelegate(delegate);
@@ -66,13 +84,17 @@ Outliner::Outliner(Session& session, Selection& selection, QWidget* parent)
   connect(delegate, &OutlinerDelegate::renamed, this, [this](int kind, const std::string& id, const QString& name) {
     if (kind == static_cast<int>(OutlineKind::Body)) {
       m_document.renameBody(id, name);
+    } else if (kind == static_cast<int>(OutlineKind::Probe)) {
+      m_document.renameProbe(id, name);
     } else {
       m_document.renamePort({kind == static_cast<int>(OutlineKind::Sink), id}, name);
     }
   });
   m_view->setContextMenuPolicy(Qt::CustomContextMenu);
   connect(m_view, &QTreeView::customContextMenuRequested, this, [this](const QPoint& at) {
-    if (!m_selection.body().empty() || m_selection.port()) Q_EMIT menuRequested(m_view->viewport()->mapToGlobal(at));
+    const OutlineKind kind = selected().first;
+    if (kind != OutlineKind::Wall && kind != OutlineKind::Environment && m_view->currentIndex().isValid())
+      Q_EMIT menuRequested(m_view->viewport()->mapToGlobal(at));
   });
   connect(m_view->selectionModel(), &QItemSelectionModel::currentChanged, this, [this] {
     if (m_building) return;
@@ -90,7 +112,9 @@ QStandardItem* Outliner::add(QStandardItem* parent, OutlineKind kind, const std:
   item->setData(static_cast<int>(kind), outline::kKind);
   item->setData(QString::fromStdString(id), outline::kId);
   item->setData(icon, outline::kIcon);
-  item->setEditable(kind == OutlineKind::Body || kind == OutlineKind::Emitter || kind == OutlineKind::Sink);
+  item->setEditable(kind == OutlineKind::Body || kind == OutlineKind::Emitter || kind == OutlineKind::Sink ||
+                    kind == OutlineKind::Probe);
+  item->setDragEnabled(kind == OutlineKind::Probe);
   if (parent) {
     parent->appendRow(item);
   } else {
@@ -151,7 +175,8 @@ void Outliner::onChanged(const ChangeEvent& event) {
   const bool shows =
       std::holds_alternative<ProjectOpened>(event) || std::holds_alternative<BodyChanged>(event) ||
       std::holds_alternative<StrokeChanged>(event) || std::holds_alternative<WallsChanged>(event) ||
-      (port && !port->moved) || std::holds_alternative<TracksChanged>(event) ||
+      (port && !port->moved) || std::holds_alternative<ProbesChanged>(event) ||
+      std::holds_alternative<TracksChanged>(event) ||
       (parameter && (parameter->address.owner == Owner::Wall || parameter->address.owner == Owner::Environment));
   if (shows) rebuild();
 }
@@ -197,14 +222,13 @@ void Outliner::refreshCounts() {
     }
   }
   const bool held = !m_snapshot->id.empty() && !hasMatter(m_snapshot->stats);
-  for (size_t i = 0; i < project.probes.size() && i < m_snapshot->stats.probes.size(); ++i) {
-    QStandardItem* item = find(OutlineKind::Probe, project.probes[i].id);
+  for (const Probe& probe : project.probes) {
+    QStandardItem* item = find(OutlineKind::Probe, probe.id);
     if (!item) continue;
     // No amount counts what is held: a 0 would say that there is none.
-    const double value = m_snapshot->stats.probes[i];
-    item->setData(
-        probeText(held && value == 0 ? std::nan("") : value, m_session.fields().quantity(project.probes[i].quantity)),
-        outline::kDetail);
+    const double value = GraphSource(probeSource(probe.id), project, m_session.fields())(m_snapshot->stats);
+    item->setData(probeText(held && value == 0 ? std::nan("") : value, m_session.fields().quantity(probe.quantity)),
+                  outline::kDetail);
   }
 }
 
@@ -250,7 +274,8 @@ void Outliner::toggleLocked() {
 }
 
 void Outliner::renameSelected() {
-  if (!m_selection.body().empty() || m_selection.port()) m_view->edit(m_view->currentIndex());
+  if (!m_selection.body().empty() || m_selection.port() || selected().first == OutlineKind::Probe)
+    m_view->edit(m_view->currentIndex());
 }
 
 }  // namespace ps

@@ -46,7 +46,10 @@ void addRules(RowModel& row, const Document& document, const Address& address) {
 
 std::optional<RowModel> rowModelOf(const Document& document, const Address& address) {
   const api::ParameterDeclaration* declaration = document.declaration(address);
-  if (!declaration || (address.owner != Owner::Scene && !findSet(document.project(), address))) return std::nullopt;
+  const bool there = address.owner == Owner::Probe
+                         ? document.probe(address.id) != nullptr
+                         : address.owner == Owner::Scene || findSet(document.project(), address);
+  if (!declaration || !there) return std::nullopt;
   RowModel row;
   row.key = QString::fromStdString(address.text());
   row.declaration = *declaration;

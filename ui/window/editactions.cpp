@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/window/editactions.h"
 
+#include "ui/document/declared.h"
 #include "ui/document/document.h"
 #include "ui/document/wallside.h"
 #include "ui/panels/inspector.h"
@@ -29,6 +30,7 @@ void EditActions::makeMenu(QMenu* menu) {
                 {QKeySequence(QStringLiteral("Ctrl+D"))}, [this] { duplicateSelected(); });
   m_actions.add(menu, QStringLiteral("edit.delete"), QStringLiteral("Delete"), {QKeySequence(Qt::Key_Delete)},
                 [this] { deleteSelected(); });
+  m_actions.add(menu, QStringLiteral("edit.probe"), QStringLiteral("Add probe"), {}, [this] { addProbe(); });
   m_actions.add(
       menu, QStringLiteral("edit.key"), QStringLiteral("Set or remove a key"), {QKeySequence(Qt::Key_K)}, [this] {
         if (!m_inspector.toggleKey())
@@ -53,6 +55,16 @@ void EditActions::openItemMenu(const QPoint& global) const {
   auto* menu = new QMenu(&m_actions.window());
   menu->setAttribute(Qt::WA_DeleteOnClose);
   const auto add = [&](const char* name) { menu->addAction(m_actions.find(QString::fromLatin1(name))); };
+  if (m_selection.body().empty() && !m_selection.port()) {
+    if (m_selection.kind() == OutlineKind::Probe) {
+      add("edit.rename");
+      add("edit.delete");
+      menu->addSeparator();
+    }
+    add("edit.probe");
+    menu->popup(global);
+    return;
+  }
   add("edit.rename");
   if (!m_selection.port()) {
     add("edit.visible");
@@ -62,7 +74,22 @@ void EditActions::openItemMenu(const QPoint& global) const {
   menu->addSeparator();
   add("edit.duplicate");
   add("edit.delete");
+  menu->addSeparator();
+  add("edit.probe");
   menu->popup(global);
+}
+
+/// Of the body or tap that is selected, or of all matter; what it measures is chosen in its rows.
+void EditActions::addProbe() {
+  Probe probe;
+  probe.quantity = "temperature";
+  const auto port = m_selection.port();
+  probe.body = port && !port->sink ? port->id : m_selection.body();
+  if (!probe.body.empty()) {
+    const Owner owner = port ? Owner::Emitter : Owner::Body;
+    probe.name = ownerLabel(m_document.project(), {owner, probe.body, ""}).toStdString();
+  }
+  m_selection.select(OutlineKind::Probe, m_document.addProbe(std::move(probe)));
 }
 
 void EditActions::duplicateSelected() {
@@ -76,6 +103,8 @@ void EditActions::duplicateSelected() {
 void EditActions::deleteSelected() {
   if (const auto port = m_selection.port()) {
     m_document.removePort(*port);
+  } else if (m_selection.kind() == OutlineKind::Probe && !m_selection.empty()) {
+    m_document.removeProbe(std::string(m_selection.id()));
   } else if (m_selection.kind() == OutlineKind::Wall) {
     m_document.removeWall(std::string(m_selection.id()));  // it leaves the selection meanwhile
   } else {

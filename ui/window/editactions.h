@@ -33,6 +33,7 @@ class EditActions {
  private:
   void duplicateSelected();
   void deleteSelected();
+  void addProbe();
   void addWalls(const std::vector<std::string>& sides);  ///< of kWallSides
   Document& m_document;
   Selection& m_selection;

@@ -4,6 +4,7 @@
 #include "core/io/outputfile.h"
 #include "core/simulation/enginethread.h"
 #include "ui/document/document.h"
+#include "ui/graphs/graphexport.h"
 #include "ui/graphs/graphspanel.h"
 #include "ui/session/documentfiles.h"
 #include "ui/session/session.h"
@@ -339,6 +340,14 @@ void FileActions::exportCsv() {
       [history = m_session.engine()->history(0), probes = m_session.document().project().probes,
        fields = m_session.fields()] { return historyCsv(history, probes, fields); },
       QStringLiteral("Frames as CSV"));
+}
+
+void FileActions::exportGraph(const GraphsPanel& graphs, const std::string& id, const QString& ending) {
+  const QString path = fileToWrite(&m_actions.window(), QStringLiteral("Export the graph"), graphs.fileName(id, ending),
+                                   QStringLiteral("%1 (*.%2)").arg(ending.toUpper(), ending));
+  if (path.isEmpty()) return;
+  writeFile(
+      path, [bytes = graphs.exported(id, ending)] { return bytes; }, QStringLiteral("Graph"));
 }
 
 void FileActions::exportPicture() {

@@ -13,6 +13,7 @@ namespace ps {
 
 class Actions;
 class FileGuard;
+class GraphsPanel;
 class Notices;
 class RestoreOffer;
 class Session;
@@ -35,6 +36,7 @@ class FileActions : public QObject {
   void open(const QString& path);
   void saveTo(const QString& path);
   void exportCsv();
+  void exportGraph(const GraphsPanel& graphs, const std::string& id, const QString& ending);  ///< "png", "svg", "csv"
   void updateRestore();  ///< enabled while unsaved work waits
   void showNotSaved(const QString& problem, const QString& more);
 

@@ -4,8 +4,6 @@
 #include "core/plugin_host/registry.h"
 #include "ui/document/document.h"
 #include "ui/graphs/graphspanel.h"
-#include "ui/graphs/graphview.h"
-#include "ui/graphs/phasestackview.h"
 #include "ui/panels/inspector.h"
 #include "ui/panels/outliner.h"
 #include "ui/panels/pluginpage.h"
@@ -186,10 +184,20 @@ void MainWindow::makeSimulationMenu(QMenu* menu) {
   m_actions.add(menu, QStringLiteral("simulation.state"), QStringLiteral("Back to the saved state"),
                 {QKeySequence(Qt::SHIFT | Qt::Key_Home)}, [this] { m_session->returnToState(); });
   m_actions.add(menu, QStringLiteral("simulation.now"), QStringLiteral("Graphs up to now"), {QKeySequence(Qt::Key_End)},
-                [this] {
-                  graphs()->temperatures()->fit();
-                  graphs()->phases()->fit();
-                });
+                [this] { graphs()->fit(); });
+}
+
+/// In the header of the dock, beside the graphs alone.
+void MainWindow::addGraphButton() {
+  Dock* dock = m_layout->dock(QStringLiteral("dock.graphs"));
+  QToolButton* button = dock->addAction(QStringLiteral("plus"), QStringLiteral("Add a graph"));
+  connect(button, &QToolButton::clicked, this, [this, button] {
+    QMenu* menu = graphs()->makeMenu({});
+    menu->setAttribute(Qt::WA_DeleteOnClose);
+    menu->popup(button->mapToGlobal(QPoint(0, button->height())));
+  });
+  connect(dock, &Dock::pageChanged, button,
+          [button](const QString& page) { button->setVisible(page == QStringLiteral("Graphs")); });
 }
 
 void MainWindow::makeHelpMenu(QMenu* menu) {
@@ -227,6 +235,10 @@ void MainWindow::connectParts() {
   connect(m_files, &FileActions::startFailed, this, &MainWindow::startFailed);
   connect(m_layout, &WindowLayout::themeChanged, m_inspector, &Inspector::rebuild);
   connect(m_layout, &WindowLayout::themeChanged, outliner(), &Outliner::rebuild);
+  connect(graphs(), &GraphsPanel::exportRequested, this, [this](const QString& id, const QString& ending) {
+    m_files->exportGraph(*graphs(), id.toStdString(), ending);
+  });
+  addGraphButton();
   connect(outliner(), &Outliner::menuRequested, this, [this](const QPoint& global) { m_edit->openItemMenu(global); });
   connect(m_plugins, &PluginPage::closeRequested, this, [this] { m_centre->setCurrentWidget(m_pane); });
   connect(m_tools.get(), &Toolbox::refused, m_notices, &Notices::refuse);

@@ -93,6 +93,7 @@ class MainWindow : public QMainWindow {
   void makeTopBar();
   void makeMiddle();
   void makeMenus();
+  void addGraphButton();
   void makeHelpMenu(QMenu* menu);
   void makeSimulationMenu(QMenu* menu);
   void connectParts();

@@ -33,6 +33,8 @@ void PageChooser::onTool() {
 }
 
 void PageChooser::onSelection() {
+  const bool probe = !m_selection.empty() && m_selection.kind() == OutlineKind::Probe;
+  m_layout.setPageTitle(kBody, probe ? QStringLiteral("Probe") : kBody);
   if (m_selection.empty()) return;
   const std::string id = m_selection.id();
   switch (m_selection.kind()) {
@@ -52,8 +54,10 @@ void PageChooser::onSelection() {
     case OutlineKind::Scene:
       m_layout.showPage(kScene);
       break;
-    case OutlineKind::Probes:
     case OutlineKind::Probe:
+      m_layout.showPage(kBody);
+      [[fallthrough]];
+    case OutlineKind::Probes:
       m_layout.showPage(QStringLiteral("Graphs"));
       break;
   }

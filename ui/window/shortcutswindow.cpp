@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/window/shortcutswindow.h"
 
+#include "ui/graphs/plot.h"
 #include "ui/tools/navigation.h"
 #include "ui/tools/toolbox.h"
 #include "ui/tools/tooltable.h"
@@ -61,6 +62,8 @@ std::vector<ShortcutGroup> shortcutGroups(MainWindow& window) {
     ShortcutGroup group = menuGroup(window, menu->text().remove(QLatin1Char('&')));
     if (!group.lines.empty()) groups.push_back(std::move(group));
   }
+  groups.push_back({QStringLiteral("In a graph"), {}});
+  for (const auto& [keys, does] : Plot::gestures()) groups.back().lines.emplace_back(keys, does);
   for (const ToolRow& row : toolTable()) groups.push_back(toolGroup(row, window.tools().tool(row.id)));
   return groups;
 }

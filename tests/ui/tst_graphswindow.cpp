@@ -1,0 +1,350 @@
+// SPDX-License-Identifier: Apache-2.0
+// Graphs and probes by hands in the real window: made, dropped, split, read with cursors, zoomed, written to files;
+// each undone and redone to the same project.
+#include "core/io/projectio.h"
+#include "tests/ui/samplewindow.h"
+#include "ui/graphs/distributionview.h"
+#include "ui/graphs/graphspanel.h"
+#include "ui/graphs/graphview.h"
+#include "ui/graphs/stackview.h"
+#include "ui/panels/inspector.h"
+#include "ui/panels/outliner.h"
+#include "ui/rows/parameterpanel.h"
+#include "ui/session/selection.h"
+
+#include <QtCore/QMimeData>
+#include <QtCore/QTemporaryDir>
+#include <QtCore/QTimer>
+#include <QtGui/QAction>
+#include <QtGui/QDropEvent>
+#include <QtGui/QWheelEvent>
+#include <QtWidgets/QFileDialog>
+#include <QtWidgets/QMenu>
+#include <QtWidgets/QTreeView>
+
+#include <cmath>
+
+using namespace ps;
+
+class TestGraphsWindow : public SampleWindowTest {
+  Q_OBJECT
+ private Q_SLOTS:
+  void initTestCase() {
+    open();
+    session().pause();
+  }
+  void init() {
+    while (document().undoStack().canUndo()) document().undoStack().undo();
+    document().undoStack().clear();
+    for (Plot* plot : graphs()->plots()) {
+      plot->fit();
+      plot->setReading(0, {});
+      plot->setReading(1, {});
+    }
+  }
+  void cleanupTestCase() { m_window.reset(); }
+
+  void aProbeIsDroppedOnAGraph() {
+    const std::string before = json();
+    GraphView* view = graphs()->valuesIn("K");
+    const int lines = view->seriesCount();
+    // What the outliner hands out for its row.
+    auto* tree = outliner()->findChild<QTreeView*>();
+    const QModelIndex row = find(*tree->model(), OutlineKind::Probe, "ice_mass");
+    QVERIFY(row.isValid() && (row.flags() & Qt::ItemIsDragEnabled));
+    const std::unique_ptr<QMimeData> data(tree->model()->mimeData({row}));
+    drop(*view, *data);
+    QCOMPARE(view->seriesCount(), lines + 1);
+    QCOMPARE(view->axes().size(), size_t{2});  // grams beside degrees
+    QCOMPARE(view->axes()[1].unit, QStringLiteral("g"));
+    QCOMPARE(document().project().graphs->front().series.back(), std::string("probe/ice_mass"));
+    drop(*view, *data);  // it is there already
+    QCOMPARE(document().undoStack().count(), 1);
+    QTRY_VERIFY_WITH_TIMEOUT(view->sampleCount(lines) == view->sampleCount(0), kLong);
+    picture("two-axes");
+    undoneAndRedone(before);
+    // On a stack it gets a graph of its own.
+    drop(*graphs()->phases(), *data);
+    QCOMPARE(graphs()->plots().size(), size_t{3});
+  }
+
+  void graphsAreAddedSplitMovedAndRemoved() {
+    const std::string before = json();
+    choose(first(), {"Split: below it", "Histogram of a field"});
+    QCOMPARE(graphs()->plots().size(), size_t{3});
+    auto* view = qobject_cast<DistributionView*>(graphs()->plots()[1]);
+    QVERIFY(view && view->isVisibleTo(graphs()));
+    QTRY_VERIFY(view->geometry().top() > graphs()->plots()[0]->geometry().bottom());
+    QCOMPARE(view->geometry().left(), graphs()->plots()[0]->geometry().left());
+    QCOMPARE(view->title(), QStringLiteral("Particles by temperature"));
+    undoneAndRedone(before);
+    const std::string id = document().graphs()[1].id;
+    choose(id, {"Field", "Speed"});
+    QCOMPARE(document().graphs()[1].field, std::string("speed"));
+    choose(id, {"Move on"});
+    QCOMPARE(document().graphs()[2].id, id);
+    choose(id, {"Remove graph"});
+    QCOMPARE(graphs()->plots().size(), size_t{2});
+    choose({}, {"Add graph", "Profile along an axis"});
+    QCOMPARE(document().graphs().back().kind, Graph::Kind::Profile);
+    QTRY_VERIFY_WITH_TIMEOUT(!graphs()->plots().back()->summary().contains(QStringLiteral("Press")), kLong);
+    undoneAndRedone(before);
+    while (!document().graphs().empty()) choose(first(), {"Remove graph"});
+    QVERIFY(graphs()->plots().empty() && document().project().graphs->empty());
+    undoneAndRedone(before);
+    QTRY_VERIFY(document().graphs().empty());
+  }
+
+  /// A pluginless field of a distribution comes with the snapshots as soon as a graph is of it.
+  void aProfileShowsAFieldThatNothingElseAskedFor() {
+    choose(first(), {"Split: beside it", "Profile along an axis"});
+    choose(document().graphs()[1].id, {"Field", "Density"});
+    Plot* view = graphs()->plots()[1];
+    QTRY_VERIFY_WITH_TIMEOUT(view->summary().contains(QStringLiteral("kg/m³")), kLong);
+    picture("profile");
+    const QByteArray csv = graphs()->exported(document().graphs()[1].id, QStringLiteral("csv"));
+    QVERIFY2(csv.startsWith("from y_m,to y_m,particles,mean Density [kg/m³]"), csv.constData());
+    QCOMPARE(csv.count('\n'), static_cast<qsizetype>(DistributionView::kBins) + 1);
+  }
+
+  void aQuantityIsPlottedByTheMenu() {
+    const std::string before = json();
+    const size_t probes = document().project().probes.size();
+    choose(first(), {"Plot", "Body", "Ice block", "Speed", "Highest speed"});
+    QCOMPARE(document().project().probes.size(), probes + 1);
+    const Probe made = document().project().probes.back();
+    QCOMPARE(made.quantity, std::string("speed_max"));
+    QCOMPARE(made.body, std::string("ice"));
+    QCOMPARE(QString::fromStdString(made.name), QStringLiteral("Ice block highest speed"));
+    QCOMPARE(document().graphs().front().series.back(), "probe/" + made.id);
+    QCOMPARE(document().undoStack().count(), 1);
+    session().step();
+    GraphView* view = graphs()->valuesIn("K");
+    QTRY_VERIFY_WITH_TIMEOUT(view->summary().contains(QStringLiteral("m/s")), kLong);
+    undoneAndRedone(before);
+    // Deleted, it takes its curve along.
+    const std::string with = json();
+    m_window->selection().select(OutlineKind::Probe, made.id);
+    m_window->action(QStringLiteral("edit.delete"))->trigger();
+    QVERIFY(!document().probe(made.id) && m_window->selection().empty());
+    QVERIFY(document().graphs().front().series.back() != "probe/" + made.id);
+    document().undoStack().undo();
+    QCOMPARE(json(), with);
+  }
+
+  void aProbeIsMadeAndEditedInItsRows() {
+    const std::string before = json();
+    m_window->selection().select(OutlineKind::Body, "ice");
+    m_window->action(QStringLiteral("edit.probe"))->trigger();
+    const std::string id = m_window->selection().id();
+    QCOMPARE(m_window->selection().kind(), OutlineKind::Probe);
+    QCOMPARE(document().probe(id)->body, std::string("ice"));
+    ParameterPanel* panel = m_window->inspector().bodyPanel();
+    QVERIFY(panel->isVisible());
+    const QString key = QStringLiteral("probe/%1/").arg(QString::fromStdString(id));
+    QVERIFY(panel->row(key + QStringLiteral("quantity")) && panel->row(key + QStringLiteral("box_min_y")));
+    QVERIFY(!panel->row(key + QStringLiteral("box_min_y"))->model().disabledReason.isEmpty());
+    const auto set = [&](const char* what, const Value& value) {
+      return document().setParameter({Owner::Probe, id, what}, value);
+    };
+    QCOMPARE(set("quantity", std::string("speed_max")), QString());
+    QCOMPARE(set("in_box", true), QString());
+    QVERIFY(panel->row(key + QStringLiteral("box_min_y"))->model().disabledReason.isEmpty());
+    // A drag is one step.
+    const int steps = document().undoStack().count();
+    document().beginGesture();
+    for (const double y : {0.01, 0.02, 0.03}) QCOMPARE(set("box_min_y", y), QString());
+    document().endGesture();
+    QCOMPARE(document().undoStack().count(), steps + 1);
+    QVERIFY(set("box_max_y", 0.0).contains(QStringLiteral("must be")));
+    QVERIFY(set("wall", std::string("floor")).contains(QStringLiteral("force")));
+    picture("probe");
+    session().step();
+    QTRY_VERIFY_WITH_TIMEOUT(session().snapshot()->stats.probeIds->back() == id, kLong);
+    undoneAndRedone(before);
+    document().renameProbe(id, QStringLiteral("Rim"));
+    QTRY_VERIFY(find(*outliner()->findChild<QTreeView*>()->model(), OutlineKind::Probe, id)
+                    .data()
+                    .toString()
+                    .startsWith(QStringLiteral("Rim")));
+  }
+
+  void cursorsMeasureWhatLiesBetween() {
+    run(40);
+    GraphView* view = graphs()->valuesIn("K");
+    view->setRange(0, session().now());
+    view->setFocus();
+    QTRY_VERIFY(view->hasFocus());
+    const QRectF plot = view->plotRect();
+    QTest::mouseMove(view, (plot.topLeft() + QPointF(0.2 * plot.width(), 30)).toPoint());
+    QTest::keyClick(view, Qt::Key_1);
+    QVERIFY(view->measured().empty());
+    QTest::mouseMove(view, (plot.topLeft() + QPointF(0.8 * plot.width(), 30)).toPoint());
+    QTest::keyClick(view, Qt::Key_2);
+    QVERIFY(std::abs(*view->reading(1) - *view->reading(0) - 0.6 * session().now()) < 0.02 * session().now());
+    QVERIFY(!view->measured().empty());
+    QVERIFY2(view->measured()[1].value.contains(QStringLiteral("°C/s")) &&
+                 view->measured()[1].value.contains(QStringLiteral("°C·s")),
+             qPrintable(view->measured()[1].value));
+    // Held at its line, B is dragged; an arrow moves it by a pixel.
+    const QPointF at(plot.left() + 0.8 * plot.width(), plot.center().y());
+    QTest::mousePress(view, Qt::LeftButton, {}, at.toPoint());
+    move(*view, at - QPointF(50, 0));
+    QTest::mouseRelease(view, Qt::LeftButton, {}, (at - QPointF(50, 0)).toPoint());
+    const double perPixel = session().now() / plot.width(), dragged = *view->reading(1);
+    QVERIFY(std::abs(dragged - (0.8 * session().now() - 50 * perPixel)) < 2 * perPixel);
+    QTest::keyClick(view, Qt::Key_Left);
+    QVERIFY(std::abs(dragged - perPixel - *view->reading(1)) < 0.01 * perPixel);
+    picture("cursors");
+    QTest::keyClick(view, Qt::Key_Escape);
+    QVERIFY(!view->reading(0) && view->measured().empty());
+    // The stack of heat knows what is expected: what came in.
+    choose(first(), {"Split: beside it", "Heat and its balance"});
+    Plot* energy = graphs()->plots()[1];
+    energy->setReading(0, 0.0);
+    energy->setReading(1, session().now());
+    QTRY_VERIFY(energy->measured().size() > 3);
+    QCOMPARE(energy->measured().back().name, QStringLiteral("balance open by"));
+    picture("energy");
+  }
+
+  void valuesAndTimesAreZoomed() {
+    run(10);
+    GraphView* view = graphs()->valuesIn("K");
+    view->grab();
+    const double low = view->axes()[0].low(), high = view->axes()[0].high();
+    wheel(*view, Qt::ControlModifier);
+    view->grab();
+    QVERIFY(std::abs((view->axes()[0].high() - view->axes()[0].low()) / (high - low) - 0.8) < 1e-6);
+    QVERIFY(view->isFitted());
+    const double before = view->axes()[0].low();
+    const QPointF middle = view->plotRect().center();
+    QTest::mousePress(view, Qt::LeftButton, {}, middle.toPoint());
+    move(*view, middle + QPointF(0, 20));
+    QTest::mouseRelease(view, Qt::LeftButton, {}, (middle + QPointF(0, 20)).toPoint());
+    view->grab();
+    QVERIFY(view->axes()[0].low() > before);  // values go along with the hand
+    wheel(*view, Qt::NoModifier);
+    QVERIFY(!view->isFitted() && !graphs()->phases()->isFitted());  // all go by one time axis
+    QTest::mouseDClick(view, Qt::LeftButton, {}, middle.toPoint());
+    QVERIFY(view->isFitted() && graphs()->phases()->isFitted() && !view->axes()[0].zoom);
+    choose(first(), {"Logarithmic"});
+    QVERIFY(view->axes()[0].logarithmic && document().graphs().front().logarithmic);
+  }
+
+  void graphsAreExported_data() {
+    QTest::addColumn<QString>("ending");
+    QTest::addColumn<QByteArray>("begins");
+    QTest::newRow("png") << "png" << QByteArray("\x89PNG");
+    QTest::newRow("svg") << "svg" << QByteArray("<?xml");
+    QTest::newRow("csv") << "csv" << QByteArray("time_s,Mean temperature [K],Ice core [K]\n0,");
+  }
+
+  void graphsAreExported() {
+    QFETCH(QString, ending);
+    QFETCH(QByteArray, begins);
+    run(2);
+    const QString path = m_folder.filePath(QStringLiteral("graph.") + ending);
+    answerDialog(path);
+    choose(first(), {QStringLiteral("Export as %1…").arg(ending.toUpper()).toUtf8()});
+    QFile file(path);
+    QTRY_VERIFY_WITH_TIMEOUT(file.exists() && file.size() > 0, kLong);
+    QVERIFY(file.open(QIODevice::ReadOnly));
+    const QByteArray bytes = file.readAll();
+    QVERIFY2(bytes.startsWith(begins), bytes.left(80).constData());
+    if (ending == QStringLiteral("svg")) QVERIFY(bytes.contains("<polyline") || bytes.contains("<path"));
+  }
+
+  void aPathThatCannotBeWrittenIsTold() {
+    answerDialog(m_folder.filePath(QStringLiteral("no/such/folder/graph.csv")));
+    choose(first(), {"Export as CSV…"});
+    QTRY_VERIFY_WITH_TIMEOUT(m_window->notice()->isVisible(), kLong);
+    QVERIFY2(m_window->notice()->text().contains(QStringLiteral("no/such/folder")),
+             qPrintable(m_window->notice()->text()));
+  }
+
+ private:
+  GraphsPanel* graphs() { return m_window->graphs(); }
+  Outliner* outliner() { return m_window->findChild<Outliner*>(); }
+  std::string first() { return document().graphs().front().id; }
+  std::string json() { return writeProject(document().project()); }
+  void run(int frames) {
+    const uint64_t wanted = session().snapshot()->stats.frame + static_cast<uint64_t>(frames);
+    for (int k = 0; k < frames; ++k) session().step();
+    QTRY_VERIFY_WITH_TIMEOUT(session().snapshot()->stats.frame >= wanted, kLong);
+    QTRY_VERIFY_WITH_TIMEOUT(graphs()->valuesIn("K")->sampleCount(0) > wanted, kLong);
+  }
+  /// Back to the project as it was, and forward again to the one that it is.
+  void undoneAndRedone(const std::string& before) {
+    const std::string now = json();
+    QVERIFY(now != before);
+    const int steps = document().undoStack().index();
+    while (document().undoStack().canUndo()) document().undoStack().undo();
+    QCOMPARE(json(), before);
+    while (document().undoStack().index() < steps) document().undoStack().redo();
+    QCOMPARE(json(), now);
+  }
+  static QModelIndex find(const QAbstractItemModel& model, OutlineKind kind, const std::string& id) {
+    const QModelIndexList all = model.match(model.index(0, 0), outline::kId, QString::fromStdString(id), -1,
+                                            Qt::MatchExactly | Qt::MatchRecursive);
+    for (const QModelIndex& index : all) {
+      if (index.data(outline::kKind).toInt() == static_cast<int>(kind)) return index;
+    }
+    return {};
+  }
+  /// The entry of a graph's menu at the end of a path of titles.
+  void choose(const std::string& id, const std::vector<QByteArray>& path) {
+    const std::unique_ptr<QMenu> menu(graphs()->makeMenu(id));
+    QMenu* in = menu.get();
+    for (const QByteArray& text : path) {
+      Q_EMIT in->aboutToShow();
+      const QList<QAction*> actions = in->actions();
+      const auto found = std::find_if(actions.begin(), actions.end(),
+                                      [&](QAction* a) { return a->text() == QString::fromUtf8(text); });
+      QVERIFY2(found != actions.end(), text.constData());
+      if ((*found)->menu())
+        in = (*found)->menu();
+      else
+        (*found)->trigger();
+    }
+  }
+  static void drop(QWidget& on, const QMimeData& data) {
+    const QPointF at = QRectF(on.rect()).center();
+    QDragEnterEvent enter(at.toPoint(), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+    QApplication::sendEvent(&on, &enter);
+    QVERIFY(enter.isAccepted());
+    QDropEvent event(at, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+    QApplication::sendEvent(&on, &event);
+  }
+  static void move(QWidget& on, const QPointF& to) {
+    QMouseEvent event(QEvent::MouseMove, to, on.mapToGlobal(to), Qt::NoButton, Qt::LeftButton, Qt::NoModifier);
+    QApplication::sendEvent(&on, &event);
+  }
+  static void wheel(Plot& on, Qt::KeyboardModifiers modifiers) {
+    const QPointF at = on.plotRect().center();
+    QWheelEvent event(at, on.mapToGlobal(at), {}, {0, 120}, Qt::NoButton, modifiers, Qt::NoScrollPhase, false);
+    QApplication::sendEvent(&on, &event);
+  }
+  static void answerDialog(const QString& path) {
+    QTimer::singleShot(0, qApp, [path] {
+      auto* dialog = qobject_cast<QFileDialog*>(QApplication::activeModalWidget());
+      QVERIFY(dialog);
+      dialog->selectFile(path);
+      static_cast<QDialog*>(dialog)->accept();
+    });
+  }
+  void picture(const char* name) {
+    const QString folder = qEnvironmentVariable("PS_TEST_PICTURES");
+    if (!folder.isEmpty()) m_window->grab().save(folder + QStringLiteral("/graphs-%1.png").arg(QLatin1String(name)));
+  }
+  QTemporaryDir m_folder;
+};
+
+int main(int argc, char** argv) {
+  QApplication::setAttribute(Qt::AA_DontUseNativeDialogs);
+  requestViewFormat();
+  QApplication application(argc, argv);
+  TestGraphsWindow test;
+  return QTest::qExec(&test, argc, argv);
+}
+#include "tst_graphswindow.moc"
