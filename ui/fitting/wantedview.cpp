@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/fitting/wantedview.h"
 
-#include "ui/theme/numbers.h"
 #include "ui/theme/theme.h"
 
 #include <QtGui/QKeyEvent>
