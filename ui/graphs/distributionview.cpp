@@ -85,19 +85,24 @@ void DistributionView::paintData(QPainter& painter) {
   painter.setRenderHint(QPainter::Antialiasing, m_profile);
   QColor between = colour;
   between.setAlphaF(m_profile ? 0.28f : 0.85f);
-  QPolygonF means;
+  QPolygonF means;  // in steps, as far as bins with particles lie side by side
+  const auto flush = [&] {
+    painter.setPen(QPen(colour, 1.5));
+    if (m_profile) painter.drawPolyline(means);
+    means.clear();
+  };
   for (size_t i = 0; i < m_bins.size(); ++i) {
     const Bin& bin = m_bins[i];
-    if (bin.count == 0) continue;
+    if (bin.count == 0) {
+      flush();
+      continue;
+    }
     const double top = y(m_profile ? bin.high : bin.count), bottom = m_profile ? y(bin.low) : plotRect().bottom();
     const double left = x(edge(i)), right = x(edge(i + 1)), gap = m_profile || right - left < 3 ? 0 : 1;
     painter.fillRect(QRectF(QPointF(left, top), QPointF(right - gap, std::max(bottom, top + 1))), between);
-    means << QPointF((left + right) / 2, y(bin.mean()));
+    means << QPointF(left, y(bin.mean())) << QPointF(right, y(bin.mean()));
   }
-  if (!m_profile) return;
-  painter.setPen(QPen(colour, 1.5));
-  if (means.size() == 1) painter.drawEllipse(means.front(), 2, 2);
-  painter.drawPolyline(means);
+  flush();
 }
 
 QString DistributionView::placeText(double at) const { return amountText(at, m_ofAlong.shown, 3); }

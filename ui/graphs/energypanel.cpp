@@ -62,6 +62,7 @@ void EnergyPanel::append(const FrameStats& stats) {
   m_graph->setPresentTime(stats.time);
   m_last = stats;
   m_ledger->setText(ledgerText());
+  m_ledger->setMinimumWidth(std::max(m_ledger->minimumWidth(), m_ledger->sizeHint().width()));  // it does not breathe
 }
 
 QString EnergyPanel::ledgerText() const {

@@ -273,11 +273,10 @@ void GraphView::paintLabels(QPainter& painter) {
     painter.setBrush(theme.series(static_cast<int>(label.series)));
     painter.drawEllipse(label.end, 3, 3);
     if (label.top < plot.top() + titleStrip() - 4) continue;  // too low a plot for all of them
-    // Right of the end where the plot has room, else left of it. The value ends where the longest one would.
+    // The value ends where the longest one would.
     const QString& name = d->series[label.series].name;
     const double width = textWidth(name, font) + 5 + label.valueWidth;
-    const bool right = label.end.x() + 8 + width < plot.right() - 2;
-    QRectF rect(right ? label.end.x() + 8 : label.end.x() - 8 - width, label.top, width + 1, 16);
+    const QRectF rect(labelLeft(label.end.x(), width), label.top, width + 1, 16);
     painter.fillRect(rect.adjusted(-2, 1, 2, -1), ground);
     paintText(painter, rect, Qt::AlignLeft | Qt::AlignVCenter, name, font, theme[Token::Text]);
     paintText(painter, rect, Qt::AlignRight | Qt::AlignVCenter, label.value, font, theme[Token::Text]);

@@ -41,8 +41,8 @@ void installAccessibility() {
 
 QString amountText(double value, const QString& unit, int significant) {
   if (unit.isEmpty()) return formatNumber(value, significant);
-  // Less than a thousandth of the least prefix is rounding.
-  const UnitPrefix prefix = prefixFor(std::abs(value) < 1e-9 ? 0 : value, unit);
+  if (std::abs(value) < 1e-9) value = 0;  // less than a thousandth of the least prefix is rounding
+  const UnitPrefix prefix = prefixFor(value, unit);
   return formatNumber(value / prefix.factor, significant) + QLatin1Char(' ') + prefix.symbol + unit;
 }
 
@@ -165,6 +165,13 @@ std::pair<double, double> Plot::roomFor(size_t axis, double low, double high, do
   }
   low -= margin * (high - low) / (1 + margin);
   return {low, low + (high - low) / (1 - below)};
+}
+
+double Plot::labelLeft(double place, double width) const {
+  const QRectF plot = plotRect();
+  if (place + 8 + width < plot.right() - 2) return place + 8;
+  if (place - 8 - width > plot.left() + 2) return place - 8 - width;
+  return std::max(plot.left() + 2, plot.right() - 2 - width);
 }
 
 void Plot::dataChanged() { update(); }

@@ -83,6 +83,9 @@ class Plot : public QWidget {
   double titleStrip() const;
   /// The range of an axis that shows `low` to `high` with some room, and below the title.
   std::pair<double, double> roomFor(size_t axis, double low, double high, double margin) const;
+  /// Left edge of a label of this width: right of a place where the plot has room, else left of it, else as far to the
+  /// right as it fits.
+  double labelLeft(double place, double width) const;
   void paintHeading(QPainter& painter) const;
   void dataChanged();                     ///< schedules a repaint
   virtual void paintBehind(QPainter&) {}  ///< over the data, below the labels

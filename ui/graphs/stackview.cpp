@@ -181,10 +181,10 @@ void StackView::paintLabels(QPainter& painter) {
   for (const Label& label : labels) {
     if (label.top < plot.top() + titleStrip() - 4) continue;  // too low a plot for all of them
     const double width = textWidth(label.text, font) + 22;
-    const bool right = edge + 6 + width < plot.right() - 2;
-    const QRectF swatch(right ? edge + 6 : edge - 6 - width, label.top + 1, 14, 14);
+    const double left = labelLeft(edge - 2, width);
+    const QRectF swatch(left, label.top + 1, 14, 14);
     const QRectF text(swatch.right() + 5, label.top, width - 19, 16);
-    if (!right) {
+    if (left < edge) {
       QColor ground = theme[Token::Field];
       ground.setAlphaF(0.8f);
       paintBox(painter, swatch.united(text).adjusted(-2, 0, 3, 0), ground, QColor(), 3);
