@@ -19,6 +19,7 @@
 #include <QtGui/QDropEvent>
 #include <QtGui/QWheelEvent>
 #include <QtWidgets/QFileDialog>
+#include <QtWidgets/QLineEdit>
 #include <QtWidgets/QMenu>
 #include <QtWidgets/QTreeView>
 
@@ -167,6 +168,35 @@ class TestGraphsWindow : public SampleWindowTest {
                     .data()
                     .toString()
                     .startsWith(QStringLiteral("Rim")));
+  }
+
+  void aGraphIsRenamedInItsPlace() {
+    const std::string before = json(), id = first();
+    const auto edit = [&](const QString& text, Qt::Key last) {
+      choose(id, {"Rename"});
+      auto* line = graphs()->plot(id)->findChild<QLineEdit*>();
+      QVERIFY(line && line->hasFocus());
+      line->setText(text);
+      QTest::keyClick(line, last);
+      QTRY_VERIFY(!graphs()->plot(id)->findChild<QLineEdit*>());
+    };
+    edit(QStringLiteral("Ice & water"), Qt::Key_Escape);
+    QCOMPARE(json(), before);
+    edit(QStringLiteral("Ice & water"), Qt::Key_Return);
+    QCOMPARE(graphs()->plot(id)->title(), QStringLiteral("Ice & water"));
+    QCOMPARE(document().undoStack().count(), 1);
+    undoneAndRedone(before);
+  }
+
+  void aProbeIsCopied() {
+    const size_t probes = document().project().probes.size();
+    m_window->selection().select(OutlineKind::Probe, "ice_mass");
+    m_window->action(QStringLiteral("edit.duplicate"))->trigger();
+    QCOMPARE(document().project().probes.size(), probes + 1);
+    QCOMPARE(m_window->selection().id(), std::string("ice_mass-2"));
+    QCOMPARE(document().project().probes.back().quantity, std::string("solid_mass"));
+    document().undoStack().undo();
+    QVERIFY(m_window->selection().empty());
   }
 
   void cursorsMeasureWhatLiesBetween() {

@@ -24,6 +24,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace ps {
 namespace {
@@ -122,7 +123,7 @@ void GraphsPanel::fit() {
 /// Views stay where the graph is of the same kind: what is zoomed stays so.
 void GraphsPanel::rebuild() {
   std::vector<Shown> before = std::exchange(m_shown, {});
-  std::vector<Shown*> fresh;
+  std::vector<size_t> fresh;  // whose curves begin at the start of the run
   const Project& project = m_session.document().project();
   for (const Graph& graph : m_session.document().graphs()) {
     const auto old = std::find_if(before.begin(), before.end(), [&](const Shown& s) {
@@ -139,10 +140,12 @@ void GraphsPanel::rebuild() {
     const bool same = old != before.end() && seriesBefore == graph.series && sameCurves(shown.sources, sources);
     shown.sources = std::move(sources);
     shown.plot->setTitle(titleOf(graph, project, m_session.fields()));
+    if (!same) prepare(shown);
+    shown.plot->setLogarithmic(graph.logarithmic);
     m_shown.push_back(std::move(shown));
-    if (!same) fill(m_shown.back());
-    m_shown.back().plot->setLogarithmic(graph.logarithmic);
+    if (!same && m_shown.back().overTime) fresh.push_back(m_shown.size() - 1);
   }
+  if (!fresh.empty() && m_started && m_session.engine()) feed(m_session.engine()->history(0), fresh);
   for (const Shown& gone : before) {
     if (gone.plot) gone.plot->deleteLater(), gone.plot->hide();
   }
@@ -169,6 +172,10 @@ GraphsPanel::Shown GraphsPanel::make(const Graph& graph) {
     menu->setAttribute(Qt::WA_DeleteOnClose);
     menu->popup(at);
   });
+  connect(shown.plot, &Plot::titleEdited, this, [this, id](const QString& title) {
+    m_session.document().editGraph(id, QStringLiteral("title of a graph"),
+                                   [&](Graph& edited) { edited.title = title.trimmed().toStdString(); });
+  });
   connect(shown.plot, &Plot::sourceDropped, this,
           [this, id](const QString& source) { m_session.document().plot(id, source.toStdString()); });
   return shown;
@@ -192,8 +199,8 @@ void GraphsPanel::adopt(TimePlot* plot) {
   }
 }
 
-/// Its curves, from the start of the run on.
-void GraphsPanel::fill(Shown& shown) {
+/// Without samples.
+void GraphsPanel::prepare(const Shown& shown) {
   if (!shown.overTime) return;
   shown.overTime->clear();
   if (auto* view = qobject_cast<GraphView*>(shown.plot)) {
@@ -203,11 +210,6 @@ void GraphsPanel::fill(Shown& shown) {
   }
   shown.overTime->setDuration(m_session.document().project().duration);
   shown.overTime->setPresentTime(m_session.now());
-  if (!m_session.engine() || !m_started) return;
-  std::vector<Shown> others = std::exchange(m_shown, {shown});
-  feed(m_session.engine()->history(0));
-  shown = m_shown.front();
-  m_shown = std::move(others);
 }
 
 void GraphsPanel::arrange() {
@@ -231,18 +233,21 @@ void GraphsPanel::arrange() {
 void GraphsPanel::readHistory() {
   const HistoryReader::Piece piece = m_history.read();
   if (piece.begins) clear();
-  feed(piece.frames);
+  std::vector<size_t> all(m_shown.size());
+  std::iota(all.begin(), all.end(), size_t{0});
+  feed(piece.frames, all);
   for (const Shown& shown : m_shown) {
     if (shown.overTime) shown.overTime->setPresentTime(m_session.now());
   }
   setEmptyTexts();
 }
 
-void GraphsPanel::feed(const std::vector<FrameStats>& frames) {
+void GraphsPanel::feed(const std::vector<FrameStats>& frames, const std::vector<size_t>& graphs) {
   for (const FrameStats& stats : frames) {
     m_started = true;
     m_matter = hasMatter(stats);
-    for (Shown& shown : m_shown) {
+    for (const size_t index : graphs) {
+      const Shown& shown = m_shown[index];
       if (auto* view = qobject_cast<GraphView*>(shown.plot)) {
         for (size_t s = 0; s < shown.sources.size(); ++s)
           view->append(static_cast<int>(s), stats.time,
@@ -304,6 +309,9 @@ QMenu* GraphsPanel::makeMenu(const std::string& id) {
   const Shown* shown = find(id);
   GraphMenu(m_session.document(), m_session.fields()).fill(*menu, shown ? &shown->graph : nullptr);
   if (!shown) return menu;
+  menu->addAction(QStringLiteral("Rename"), this, [this, id] {
+    if (const Shown* now = find(id)) now->plot->editTitle();
+  });
   menu->addSeparator();
   menu->addAction(QStringLiteral("Fit"), this, [this, id] {
     if (const Shown* now = find(id)) Q_EMIT now->plot->fitted(), now->plot->fit();

@@ -61,9 +61,9 @@ class GraphsPanel : public QWidget {
   void rebuild();
   Shown make(const Graph& graph);
   void adopt(TimePlot* plot);
-  void fill(Shown& shown);
+  void prepare(const Shown& shown);
   void arrange();
-  void feed(const std::vector<FrameStats>& frames);
+  void feed(const std::vector<FrameStats>& frames, const std::vector<size_t>& graphs);
   void setTransitions();
   void setEmptyTexts();
   void clear();

@@ -33,6 +33,7 @@ class Plot : public QWidget {
 
   void setTitle(const QString& title);  ///< "Temperature"
   QString title() const;
+  void editTitle();                          ///< in its place: Enter ends it with titleEdited(), Escape without
   QString axisTitle() const;                 ///< with the unit of its axis, as of the last paint
   void setEmptyText(const QString& text);    ///< shown while there is no data
   void setUnit(const QString& unit);         ///< of the first axis of values, without a prefix
@@ -60,6 +61,7 @@ class Plot : public QWidget {
   void rangeChanged(double first, double last);  ///< by the user
   void fitted();                                 ///< by the user
   void menuRequested(const QPoint& global);
+  void titleEdited(const QString& title);
   void sourceDropped(const QString& source);  ///< see kSourceMime
 
  protected:

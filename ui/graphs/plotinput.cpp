@@ -7,7 +7,9 @@
 #include <QtGui/QDropEvent>
 #include <QtGui/QKeyEvent>
 #include <QtGui/QMouseEvent>
+#include <QtGui/QShortcut>
 #include <QtGui/QWheelEvent>
+#include <QtWidgets/QLineEdit>
 
 #include <algorithm>
 #include <cmath>
@@ -34,6 +36,21 @@ std::vector<std::pair<QString, QString>> Plot::gestures() {
           {QStringLiteral("←, →"), QStringLiteral("Move the last cursor, with Shift a tenth")},
           {QStringLiteral("Esc"), QStringLiteral("Take the cursors away")},
           {QStringLiteral("Right-click"), QStringLiteral("Plot, split, export")}};
+}
+
+void Plot::editTitle() {
+  auto* line = new QLineEdit(d->title, this);
+  line->setAccessibleName(QStringLiteral("Title"));
+  line->setMaxLength(200);
+  const QRectF plot = plotRect();
+  line->setGeometry(QRectF(plot.left() + 2, plot.top() + 1, std::min(220.0, plot.width() - 4), 22).toRect());
+  line->selectAll();
+  line->show();
+  line->setFocus();
+  connect(line, &QLineEdit::returnPressed, this, [this, line] { Q_EMIT titleEdited(line->text()); });
+  connect(line, &QLineEdit::editingFinished, line, &QObject::deleteLater);  // also where the focus leaves
+  auto* escape = new QShortcut(QKeySequence(Qt::Key_Escape), line, nullptr, nullptr, Qt::WidgetShortcut);
+  connect(escape, &QShortcut::activated, this, [this] { setFocus(); });
 }
 
 /// The window has shortcuts of the same keys.

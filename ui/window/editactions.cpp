@@ -58,6 +58,7 @@ void EditActions::openItemMenu(const QPoint& global) const {
   if (m_selection.body().empty() && !m_selection.port()) {
     if (m_selection.kind() == OutlineKind::Probe) {
       add("edit.rename");
+      add("edit.duplicate");
       add("edit.delete");
       menu->addSeparator();
     }
@@ -93,7 +94,12 @@ void EditActions::addProbe() {
 }
 
 void EditActions::duplicateSelected() {
-  if (const auto port = m_selection.port()) {
+  if (const Probe* probe = m_selection.empty() ? nullptr : m_document.probe(m_selection.id());
+      probe && m_selection.kind() == OutlineKind::Probe) {
+    Probe copy = *probe;
+    copy.name = shownName(*probe) + " copy";
+    m_selection.select(OutlineKind::Probe, m_document.addProbe(std::move(copy)));
+  } else if (const auto port = m_selection.port()) {
     if (const auto copy = m_document.duplicatePort(*port)) m_selection.select(*copy);
   } else {
     m_notices.refuse(QStringLiteral("Nothing was copied."), m_document.duplicateBody(m_selection.body()));
