@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "core/math/response.h"
+
+#include <span>
+#include <string>
+#include <vector>
+
+// What somebody does to a response by hand: points that come, move and go, and the ways between points and laws.
+namespace ps {
+
+/// The least distance in K between two points of a curve that is edited.
+inline constexpr double kPointGap = 0.01;
+
+/// `count` points (2 at least) of a response at even distances from one temperature in K to another.
+std::vector<api::ResponsePoint> sampled(const Response& response, double firstKelvin, double lastKelvin, size_t count);
+
+/// A curve through points that ascend in x.
+Response curveThrough(std::vector<api::ResponsePoint> points);
+
+/// A curve with one more point. False, and nothing happens: one stands there already, within kPointGap. Another kind of
+/// response must be sampled first.
+bool addPoint(Response& curve, api::ResponsePoint point);
+
+/// Moves a point of a curve to another place, in temperature no farther than its neighbours let it.
+void movePoint(Response& curve, size_t index, api::ResponsePoint to);
+
+/// Takes a point away; the last one stays.
+void removePoint(Response& curve, size_t index);
+
+/// Moves all points of a curve by so many K; and up by an amount, or by a factor where the property is logarithmic.
+Response shifted(const Response& curve, double kelvin, double amount, double factor);
+
+/// A law laid through points.
+struct LawFit {
+  Response law;
+  double error = 0;     ///< root of the mean square: of "linear" in the property's unit, else relative (of ln y)
+  std::string problem;  ///< "" or why there is none, as a sentence
+};
+
+/// The law of a name that is nearest to points: least squares of y for "linear", of ln y for the others, so that each
+/// decade of a viscosity weighs the same. Where T_ref says only what `a` belongs to (linear, exponential, arrhenius),
+/// it is `referenceKelvin`. Straight lines are solved at once; "vogel" and "thesis_sigmoid" from the best of a coarse
+/// grid by Levenberg and Marquardt (Moré 1978), to about 1e-6 of each coefficient where the points lie on a law. Needs
+/// two points for a line, three for those, and values above 0 for all but "linear".
+LawFit fitLaw(const std::string& law, std::span<const api::ResponsePoint> points, double referenceKelvin);
+
+}  // namespace ps
