@@ -11,6 +11,8 @@ namespace ps {
 
 /// The least distance in K between two points of a curve that is edited.
 inline constexpr double kPointGap = 0.01;
+/// Points that a law becomes where nobody says how many.
+inline constexpr size_t kLawPoints = 9;
 
 /// `count` points (2 at least) of a response at even distances from one temperature in K to another.
 std::vector<api::ResponsePoint> sampled(const Response& response, double firstKelvin, double lastKelvin, size_t count);

@@ -452,6 +452,7 @@ class TestSession : public QObject {
     auto* tabs = m_window->findChild<QTabBar*>(QStringLiteral("psWorkspaces"));
     QTest::keyClick(tabs, Qt::Key_Right);
     QCOMPARE(tabs->currentIndex(), 1);
+    m_window->showWorkspace(MainWindow::kSceneTab);
     QTreeView* outliner = m_window->outliner()->view();
     outliner->setFocus();
     outliner->setCurrentIndex(outliner->model()->index(0, 0));

@@ -15,8 +15,8 @@ using View = std::string_view;
 constexpr std::array<View, 13> kCoreRooms = {"base",       "math",  "parameters", "particles",   "matter",
                                              "solver",     "scene", "sketch",     "plugin_host", "geometry",
                                              "simulation", "io",    "experiments"};
-constexpr std::array<View, 14> kUiRooms = {"theme",  "render", "document", "session",  "tools",    "rows", "panels",
-                                           "curves", "graphs", "fitting",  "timeline", "viewport", "vr",   "window"};
+constexpr std::array<View, 14> kUiRooms = {"theme",  "render",  "document", "session",  "tools",    "rows", "panels",
+                                           "graphs", "fitting", "curves",   "timeline", "viewport", "vr",   "window"};
 // Behind the face of the solver: private headers, likewise in order.
 constexpr std::array<View, 6> kSolverRooms = {"structure", "contact", "fluid", "heat", "frame", "gpu"};
 

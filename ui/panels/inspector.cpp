@@ -60,6 +60,9 @@ void Inspector::connectPanel(ParameterPanel* panel) {
   connect(panel, &ParameterPanel::linkActivated, this, &Inspector::onLink);
   connect(panel, &ParameterPanel::pinToggled, this,
           [this](const QString& key, bool pinned) { m_document.setPinned(key.toStdString(), pinned); });
+  connect(panel, &ParameterPanel::curveRequested, this, [this](const QString& key) {
+    if (const auto address = Address::parse(key.toStdString())) Q_EMIT curveWanted(*address);
+  });
   connect(panel, &ParameterPanel::keyToggled, this, &Inspector::onKey);
   connect(panel, &ParameterPanel::wayChosen, this, &Inspector::onWay);
   connect(panel, &ParameterPanel::keysRemoved, this, [this](const QString& key) {

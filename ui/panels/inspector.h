@@ -45,6 +45,7 @@ class Inspector : public QObject {
   void setSnapshot(const Snapshot& snapshot);
 
  Q_SIGNALS:
+  void curveWanted(const ps::Address& address);  ///< of a response: the small curve in its row was clicked
   void keyRefused(const QString& problem);
 
  private:

@@ -2,6 +2,7 @@
 #include "ui/window/mainwindow.h"
 
 #include "core/plugin_host/registry.h"
+#include "ui/curves/curvetarget.h"
 #include "ui/document/document.h"
 #include "ui/graphs/graphspanel.h"
 #include "ui/panels/inspector.h"
@@ -65,7 +66,8 @@ MainWindow::MainWindow(const Options& options)
   makeTopBar();
   makeMiddle();
   m_layout = new WindowLayout(*this, {options.restore, options.dark, options.themeAsked});
-  m_layout->makeDocks({*m_session, *m_selection, *m_tools, *m_inspector}, viewport());
+  m_curves = new CurveTarget(*m_session, *m_selection, this);
+  m_layout->makeDocks({*m_session, *m_selection, *m_tools, *m_inspector, *m_curves}, viewport());
   m_notices = new Notices(*m_session, *notice(), m_actions, this);
   m_restore = new RestoreOffer(*m_session, *m_notices, options.restore, this);
   m_files = new FileActions(*m_session, m_actions, *m_notices, *m_restore,
@@ -99,7 +101,10 @@ bool MainWindow::showsPlugins() const { return m_centre->currentWidget() == m_pl
 void MainWindow::start() { m_session->start(); }
 void MainWindow::openFile(const QString& path) { m_files->open(path); }
 void MainWindow::saveTo(const QString& path) { m_files->saveTo(path); }
-bool MainWindow::revealParameter(const Address& address, bool focus) { return m_pages->reveal(address, focus); }
+bool MainWindow::revealParameter(const Address& address, bool focus) {
+  if (workspaceTab() == kTuneTab) showWorkspace(kSceneTab);  // Tune has no rows
+  return m_pages->reveal(address, focus);
+}
 
 void MainWindow::makeTopBar() {
   QUndoStack& undo = m_session->document().undoStack();
@@ -124,15 +129,28 @@ void MainWindow::makeTopBar() {
   m_top = new TopBar(undoAction, redoAction, search);
   setMenuWidget(m_top);
   QTabBar* workspaces = m_top->workspaces();
-  for (const char* name : {"Scene", "Sketch"}) workspaces->addTab(QString::fromLatin1(name));
+  for (const char* name : {"Scene", "Tune", "Sketch"}) workspaces->addTab(QString::fromLatin1(name));
   connect(workspaces, &QTabBar::currentChanged, this, [this](int index) {
     m_centre->setCurrentWidget(m_pane);
-    m_tools->activate(index == 1 ? kBrushTool : kSelectTool);
+    m_layout->setWorkspace(index == kTuneTab ? Workspace::Tune : Workspace::Scene);
+    m_tools->activate(index == kSketchTab ? kBrushTool : kSelectTool);
   });
-  connect(m_tools.get(), &Toolbox::toolChanged, this, [this, workspaces] {
-    const QSignalBlocker quiet(workspaces);
-    workspaces->setCurrentIndex(m_tools->tool().usesBrush() ? 1 : 0);
-  });
+  connect(m_tools.get(), &Toolbox::toolChanged, this, &MainWindow::onTool);
+}
+
+MainWindow::WorkspaceTab MainWindow::workspaceTab() const {
+  return static_cast<WorkspaceTab>(m_top->workspaces()->currentIndex());
+}
+
+void MainWindow::showWorkspace(WorkspaceTab tab) { m_top->workspaces()->setCurrentIndex(tab); }
+
+/// A brush is held in Sketch alone; what else is taken in hand leaves Tune as it is.
+void MainWindow::onTool() {
+  const bool draws = m_tools->tool().usesBrush();
+  if (draws == (workspaceTab() == kSketchTab)) return;
+  const QSignalBlocker quiet(m_top->workspaces());
+  showWorkspace(draws ? kSketchTab : kSceneTab);
+  m_layout->setWorkspace(Workspace::Scene);
 }
 
 void MainWindow::makeMiddle() {
@@ -232,6 +250,10 @@ void MainWindow::connectParts() {
           [this](const QString& problem) { m_notices->refuse(QStringLiteral("No key was set."), problem); });
   connect(findChild<KeyRows*>(), &KeyRows::refused, m_notices,
           [this](const QString& problem) { m_notices->refuse(QStringLiteral("No key was set."), problem); });
+  connect(m_inspector, &Inspector::curveWanted, this, [this](const Address& address) {
+    m_curves->choose(address);
+    showWorkspace(kTuneTab);
+  });
   connect(m_files, &FileActions::startFailed, this, &MainWindow::startFailed);
   connect(m_layout, &WindowLayout::themeChanged, m_inspector, &Inspector::rebuild);
   connect(m_layout, &WindowLayout::themeChanged, outliner(), &Outliner::rebuild);
@@ -354,7 +376,7 @@ void MainWindow::keyPressEvent(QKeyEvent* event) {
 }
 
 /// Single keys belong to the widget that can use them (letters to text fields: Qt does that). Tab in the viewport goes
-/// to the other workspace; Shift+Tab leaves it.
+/// between Scene and Sketch; Shift+Tab leaves it.
 bool MainWindow::eventFilter(QObject* watched, QEvent* event) {
   if (event->type() == QEvent::ShortcutOverride || event->type() == QEvent::KeyPress) {
     const auto* key = static_cast<QKeyEvent*>(event);
@@ -364,7 +386,7 @@ bool MainWindow::eventFilter(QObject* watched, QEvent* event) {
       return true;
     }
     if (plain && event->type() == QEvent::KeyPress && key->key() == Qt::Key_Tab && watched == viewport()) {
-      action(QStringLiteral("view.workspace"))->trigger();
+      showWorkspace(workspaceTab() == kSketchTab ? kSceneTab : kSketchTab);
       return true;
     }
   }

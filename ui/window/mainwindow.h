@@ -14,6 +14,7 @@ class QStackedWidget;
 
 namespace ps {
 
+class CurveTarget;
 class EditActions;
 class FileActions;
 class GraphsPanel;
@@ -64,6 +65,11 @@ class MainWindow : public QMainWindow {
   PluginPage* pluginPage() const { return m_plugins; }
   StatusLine* statusLine() const { return m_status; }
   Transport* transport() const;
+  CurveTarget& curves() { return *m_curves; }
+  /// Tabs of the top bar, in their order.
+  enum WorkspaceTab { kSceneTab, kTuneTab, kSketchTab };
+  void showWorkspace(WorkspaceTab tab);
+  WorkspaceTab workspaceTab() const;
   CommandPalette* palette() const { return m_palette; }
   NoticeBar* notice() const;
   bool showsPlugins() const;
@@ -91,6 +97,7 @@ class MainWindow : public QMainWindow {
 
  private:
   void makeTopBar();
+  void onTool();
   void makeMiddle();
   void makeMenus();
   void addGraphButton();
@@ -112,6 +119,7 @@ class MainWindow : public QMainWindow {
   PluginPage* m_plugins = nullptr;
   StatusLine* m_status = nullptr;
   Inspector* m_inspector = nullptr;
+  CurveTarget* m_curves = nullptr;
   WindowLayout* m_layout = nullptr;
   CommandPalette* m_palette = nullptr;
   Notices* m_notices = nullptr;

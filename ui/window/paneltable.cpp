@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/window/paneltable.h"
 
+#include "ui/curves/curvepanel.h"
+#include "ui/curves/pointspanel.h"
+#include "ui/curves/responselist.h"
 #include "ui/fitting/fitpanel.h"
 #include "ui/graphs/energypanel.h"
 #include "ui/graphs/graphspanel.h"
@@ -47,17 +50,23 @@ const std::vector<PanelRow>& panelTable() {
       {"dock.graphs", "Energy", [](Context c) -> QWidget* { return new EnergyPanel(c.session); }},
       {"dock.graphs", "Draw the result", [](Context c) -> QWidget* { return new FitPanel(c.session); }},
       {"dock.graphs", "Messages", [](Context c) -> QWidget* { return new MessagesPage(c.session.log()); }},
+      {"dock.responses", "Responses", [](Context c) -> QWidget* { return new ResponseList(c.session, c.curves); }},
+      {"dock.curve", "Curve", [](Context c) -> QWidget* { return new CurvePanel(c.session, c.curves); }},
+      {"dock.points", "Points", [](Context c) -> QWidget* { return new PointsPanel(c.curves); }},
       {"dock.transport", "Transport", [](Context c) -> QWidget* { return new Timeline(c.session); }},
   };
   return kTable;
 }
 
 const std::vector<DockRow>& dockTable() {
-  static const std::vector<DockRow> kTable{{"dock.outliner", "Outliner", ""},
-                                           {"dock.materials", "Materials", ""},
-                                           {"dock.inspector", "Inspector", "Material"},
-                                           {"dock.graphs", "Graphs", ""},
-                                           {"dock.transport", "Transport", ""}};
+  static const std::vector<DockRow> kTable{{"dock.outliner", "Outliner", "", true, false},
+                                           {"dock.materials", "Materials", "", true, false},
+                                           {"dock.inspector", "Inspector", "Material", true, false},
+                                           {"dock.graphs", "Graphs", "", true, true},
+                                           {"dock.transport", "Transport", "", true, true},
+                                           {"dock.responses", "Responses", "", false, true},
+                                           {"dock.curve", "Curve", "", false, true},
+                                           {"dock.points", "Points", "", false, true}};
   return kTable;
 }
 

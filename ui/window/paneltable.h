@@ -6,6 +6,7 @@ class QWidget;
 
 namespace ps {
 
+class CurveTarget;
 class Inspector;
 class Selection;
 class Session;
@@ -17,6 +18,7 @@ struct PanelContext {
   Selection& selection;
   Toolbox& tools;
   Inspector& inspector;
+  CurveTarget& curves;
 };
 
 /// One page of a dock. A new panel is a class in a file of its own and a row in the table.
@@ -27,11 +29,15 @@ struct PanelRow {
 };
 const std::vector<PanelRow>& panelTable();
 
+/// Which docks a workspace of the window shows. Sketch shows those of the scene.
+enum class Workspace { Scene, Tune };
+
 /// The docks, in the order in which they are laid out.
 struct DockRow {
   const char* name;  ///< in saved layouts
   const char* title;
   const char* first;  ///< page that shows at first; "": the first one
+  bool scene, tune;   ///< workspaces that show it
 };
 const std::vector<DockRow>& dockTable();
 

@@ -23,7 +23,8 @@ constexpr const char* kTheme = "look/dark";
 constexpr const char* kGeometry = "window/geometry";
 constexpr const char* kState = "window/state";
 constexpr const char* kHint = "view/hint";
-constexpr int kStateVersion = 2;
+constexpr const char* kTuneState = "window/tune";
+constexpr int kStateVersion = 3;
 constexpr int kWide = 1500;  // from here on the wide column of the layout table
 
 }  // namespace
@@ -48,7 +49,7 @@ void WindowLayout::makeDocks(const PanelContext& context, Viewport* view) {
     m_docks.push_back(dock);
   }
   // The bar of buttons has neither title nor choice.
-  Dock* transport = m_docks.back();
+  Dock* transport = dock(QStringLiteral("dock.transport"));
   transport->setTitleBarWidget(new QWidget);
   transport->setFeatures(QDockWidget::NoDockWidgetFeatures);
   if (auto* timeline = transport->findChild<Timeline*>()) {
@@ -65,7 +66,11 @@ Dock* WindowLayout::dock(const QString& name) const {
 
 void WindowLayout::showPage(const QString& title) {
   for (const PanelRow& row : panelTable()) {
-    if (title == QLatin1String(row.title)) dock(QString::fromLatin1(row.dock))->showPage(title);
+    if (title != QLatin1String(row.title)) continue;
+    Dock* holder = dock(QString::fromLatin1(row.dock));
+    const auto index = static_cast<size_t>(std::find(m_docks.begin(), m_docks.end(), holder) - m_docks.begin());
+    holder->showPage(title);
+    if (!shows(index)) holder->hide();
   }
 }
 
@@ -83,10 +88,42 @@ void WindowLayout::applyDefault() {
   const QSize screen = m_window.screen() ? m_window.screen()->availableSize() : QSize(1600, 1000);
   if (!m_window.testAttribute(Qt::WA_Resized))
     m_window.resize(screen.width() >= 1700 && screen.height() >= 1050 ? QSize(1600, 1000) : QSize(1280, 800));
-  for (Dock* dock : m_docks) {
-    dock->setFloating(false);
-    dock->setVisible(true);
+  m_left.clear();
+  if (m_workspace == Workspace::Tune)
+    layTune();
+  else
+    layScene();
+}
+
+bool WindowLayout::shows(size_t dock) const {
+  const DockRow& row = dockTable()[dock];
+  return m_workspace == Workspace::Tune ? row.tune : row.scene;
+}
+
+void WindowLayout::setWorkspace(Workspace workspace) {
+  if (workspace == m_workspace) return;
+  setFullViewport(false);
+  m_left[m_workspace] = m_window.saveState(kStateVersion);
+  m_workspace = workspace;
+  const auto left = m_left.find(workspace);
+  if (left != m_left.end() && m_window.restoreState(left->second, kStateVersion)) {
+    for (size_t i = 0; i < m_docks.size(); ++i) {
+      if (!shows(i)) m_docks[i]->hide();  // a state from before they were laid out says nothing of them
+    }
+    return;
   }
+  if (workspace == Workspace::Tune)
+    layTune();
+  else
+    layScene();
+}
+
+void WindowLayout::layScene() {
+  for (size_t i = 0; i < m_docks.size(); ++i) {
+    m_docks[i]->setFloating(false);
+    m_docks[i]->setVisible(shows(i));
+  }
+  m_window.setCorner(Qt::BottomLeftCorner, Qt::BottomDockWidgetArea);
   m_window.addDockWidget(Qt::LeftDockWidgetArea, m_docks[0]);
   m_window.addDockWidget(Qt::RightDockWidgetArea, m_docks[2]);
   m_window.addDockWidget(Qt::BottomDockWidgetArea, m_docks[3]);
@@ -95,8 +132,31 @@ void WindowLayout::applyDefault() {
   sizeDocks();
 }
 
+/// The curve takes the middle, over graphs and transport; the view stands on the right, over the points.
+void WindowLayout::layTune() {
+  Dock *responses = m_docks[5], *curve = m_docks[6], *points = m_docks[7];
+  for (size_t i = 0; i < m_docks.size(); ++i) {
+    m_docks[i]->setFloating(false);
+    m_docks[i]->setVisible(shows(i));
+  }
+  m_window.setCorner(Qt::BottomLeftCorner, Qt::LeftDockWidgetArea);
+  m_window.addDockWidget(Qt::LeftDockWidgetArea, responses);
+  m_window.splitDockWidget(responses, curve, Qt::Horizontal);
+  m_window.splitDockWidget(curve, m_docks[3], Qt::Vertical);
+  m_window.splitDockWidget(m_docks[3], m_docks[4], Qt::Vertical);
+  m_window.addDockWidget(Qt::BottomDockWidgetArea, points);
+  sizeDocks();
+}
+
 void WindowLayout::sizeDocks() {
   const bool wide = m_window.width() >= kWide;
+  if (m_workspace == Workspace::Tune) {
+    const int list = wide ? 236 : 204, preview = 480;
+    m_window.resizeDocks({m_docks[5], m_docks[6]}, {list, m_window.width() - list - preview}, Qt::Horizontal);
+    m_window.resizeDocks({m_docks[6], m_docks[3], m_docks[4]}, {wide ? 520 : 400, wide ? 206 : 150, 40}, Qt::Vertical);
+    m_window.resizeDocks({m_docks[7]}, {wide ? 500 : 400}, Qt::Vertical);
+    return;
+  }
   m_window.resizeDocks({m_docks[0], m_docks[2]}, {wide ? 236 : 204, wide ? 392 : 332}, Qt::Horizontal);
   m_window.resizeDocks({m_docks[0], m_docks[1]}, {wide ? 380 : 270, wide ? 252 : 140}, Qt::Vertical);
   m_window.resizeDocks({m_docks[3], m_docks[4]}, {wide ? 206 : 182, 40}, Qt::Vertical);
@@ -111,6 +171,7 @@ void WindowLayout::restore() {
     m_window.restoreGeometry(settings.value(QLatin1String(kGeometry)).toByteArray());
     m_sizeAtShow = !m_window.restoreState(settings.value(QLatin1String(kState)).toByteArray(), kStateVersion);
   }
+  m_left[Workspace::Tune] = settings.value(QLatin1String(kTuneState)).toByteArray();
   if (m_view) m_view->setHintShown(settings.value(QLatin1String(kHint), true).toBool());
 }
 
@@ -119,7 +180,10 @@ void WindowLayout::save() const {
   QSettings settings;
   if (!m_options.themeAsked) settings.setValue(QLatin1String(kTheme), m_options.dark);
   settings.setValue(QLatin1String(kGeometry), m_window.saveGeometry());
-  settings.setValue(QLatin1String(kState), m_full ? m_beforeFull : m_window.saveState(kStateVersion));
+  std::map<Workspace, QByteArray> states = m_left;
+  states[m_workspace] = m_full ? m_beforeFull : m_window.saveState(kStateVersion);
+  settings.setValue(QLatin1String(kState), states[Workspace::Scene]);
+  settings.setValue(QLatin1String(kTuneState), states[Workspace::Tune]);
   if (m_view) settings.setValue(QLatin1String(kHint), m_view->hintShown());
 }
 
@@ -137,7 +201,7 @@ void WindowLayout::setFullViewport(bool on) {
   if (on == m_full) return;
   if (on) m_beforeFull = m_window.saveState(kStateVersion);
   m_full = on;
-  for (Dock* dock : m_docks) dock->setVisible(!on);
+  for (size_t i = 0; i < m_docks.size(); ++i) m_docks[i]->setVisible(!on && shows(i));
   if (!on) m_window.restoreState(m_beforeFull, kStateVersion);
 }
 

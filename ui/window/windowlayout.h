@@ -4,6 +4,7 @@
 #include <QtCore/QObject>
 #include <QtCore/QString>
 
+#include <map>
 #include <vector>
 
 class QMainWindow;
@@ -13,6 +14,7 @@ namespace ps {
 class Dock;
 class Viewport;
 struct PanelContext;
+enum class Workspace;
 
 /// Docks of the window with their pages, their sizes, the theme, and what of them is remembered between sessions.
 class WindowLayout : public QObject {
@@ -27,7 +29,10 @@ class WindowLayout : public QObject {
   /// Makes the docks and panels of the tables. `view`: nullptr where there is no picture.
   void makeDocks(const PanelContext& context, Viewport* view);
   Dock* dock(const QString& name) const;  ///< DockRow::name; nullptr for another
-  void showPage(const QString& title);    ///< of whichever dock has it
+  void showPage(const QString& title);    ///< of whichever dock has it, in sight where the workspace shows that dock
+  Workspace workspace() const { return m_workspace; }
+  /// Shows its docks as they were left, or as they are by default.
+  void setWorkspace(Workspace workspace);
   void setPageTitle(const QString& title, const QString& shown);
   void applyDefault();
   void restore();
@@ -43,6 +48,9 @@ class WindowLayout : public QObject {
   void themeChanged();
 
  private:
+  bool shows(size_t dock) const;  ///< in this workspace
+  void layScene();
+  void layTune();
   void sizeDocks();  ///< as the layout table has it for this width
   QMainWindow& m_window;
   Options m_options;
@@ -50,6 +58,8 @@ class WindowLayout : public QObject {
   std::vector<Dock*> m_docks;
   bool m_full = false, m_sizeAtShow = true;
   QByteArray m_beforeFull;
+  Workspace m_workspace{};
+  std::map<Workspace, QByteArray> m_left;  ///< states of those that were shown before
 };
 
 }  // namespace ps

@@ -1,0 +1,311 @@
+// SPDX-License-Identifier: Apache-2.0
+// The workspace Tune as hands use it: curve, points, laws, in the real window.
+#include "core/io/projectio.h"
+#include "core/math/responseedit.h"
+#include "core/simulation/engine.h"
+#include "tests/ui/samplewindow.h"
+#include "ui/curves/curvepanel.h"
+#include "ui/curves/curvetarget.h"
+#include "ui/curves/curveview.h"
+#include "ui/curves/pointspanel.h"
+#include "ui/curves/responselist.h"
+#include "ui/panels/inspector.h"
+#include "ui/session/selection.h"
+#include "ui/window/dock.h"
+
+#include <QtGui/QAccessible>
+#include <QtGui/QWheelEvent>
+#include <QtWidgets/QLineEdit>
+#include <QtWidgets/QListWidget>
+#include <QtWidgets/QTableWidget>
+
+#include <cmath>
+#include <numeric>
+
+using namespace ps;
+
+namespace {
+
+const Address kViscosity{Owner::Material, "water", "viscosity"};
+const Address kConductivity{Owner::Material, "water", "conductivity_liquid"};
+
+}  // namespace
+
+class TestCurves : public SampleWindowTest {
+  Q_OBJECT
+ private Q_SLOTS:
+  void initTestCase() {
+    open();
+    QVERIFY(m_window);
+    session().pause();
+  }
+  void init() {
+    backToTheStart();
+    m_window->showWorkspace(MainWindow::kTuneTab);
+    curves().choose(kViscosity);
+    QTRY_VERIFY(curve().width() > 300);
+    curve().fit();
+  }
+
+  /// Each edit is a step; undone and done again, the project is the same to the byte.
+  void everyEditIsAStepThereAndBack() {
+    const auto text = [this] { return writeProject(document().project()); };
+    std::vector<std::string> states{text()};
+    const auto step = [&](const char* what) {
+      QVERIFY2(text() != states.back(), what);
+      states.push_back(text());
+      QVERIFY2(document().undoStack().index() == static_cast<int>(states.size()) - 1, what);
+    };
+    pages().sample();
+    step("sampled");
+    QCOMPARE(response().points.size(), kLawPoints);
+    drag(2, {0, -30});
+    step("dragged");
+    const double kelvin = 0.5 * (response().points[3].x + response().points[4].x);
+    const size_t before = response().points.size();
+    const QPoint on = curve().at(kelvin, response().at(kelvin)).toPoint();
+    QTest::mouseDClick(&curve(), Qt::LeftButton, {}, on);
+    step("added");
+    QCOMPARE(response().points.size(), before + 1);
+    QCOMPARE(curves().point(), 4);
+    QTest::keyClick(&curve(), Qt::Key_Delete);
+    step("deleted");
+    QCOMPARE(response().points.size(), before);
+    pages().fitNearest();
+    step("fitted");
+    QVERIFY(response().kind == Response::Kind::Law);
+    pages().chooseKind("arrhenius");
+    step("another law");
+    QCOMPARE(response().law, std::string("arrhenius"));
+    pages().chooseKind("constant");
+    step("constant");
+    QVERIFY(response().kind == Response::Kind::Constant);
+    pages().chooseKind("points");
+    step("points of the constant");
+    QCOMPARE(response().points.size(), size_t{2});
+    QUndoStack& stack = document().undoStack();
+    for (size_t k = states.size(); k-- > 1;) {
+      QCOMPARE(text(), states[k]);
+      stack.undo();
+    }
+    QCOMPARE(text(), states[0]);
+    for (size_t k = 1; k < states.size(); ++k) {
+      stack.redo();
+      QCOMPARE(text(), states[k]);
+    }
+  }
+
+  void modifiersOfADrag() {
+    threePoints();
+    const Response start = response();
+    drag(1, {40, -40}, Qt::ControlModifier);
+    QCOMPARE(response().points[1].x, start.points[1].x);  // up alone
+    QVERIFY(response().points[1].y > start.points[1].y);
+    document().undoStack().undo();
+    drag(1, {40, 0}, Qt::ShiftModifier);
+    const QPointF fine = curve().at(response().points[1].x, response().points[1].y);
+    const QPointF from = curve().at(start.points[1].x, start.points[1].y);
+    QVERIFY(std::abs(fine.x() - from.x() - 4) < 0.01);  // a tenth of the way
+    document().undoStack().undo();
+    drag(1, {0, -30}, Qt::AltModifier);
+    const double factor = response().points[1].y / start.points[1].y;
+    QVERIFY(factor > 1.01);
+    for (size_t i = 0; i < 3; ++i)  // all by one factor: the axis is logarithmic
+      QVERIFY(std::abs(response().points[i].y / start.points[i].y / factor - 1) < 1e-9);
+    document().undoStack().undo();
+    drag(0, {2000, 0});
+    QVERIFY(response().points[0].x < start.points[1].x);  // not past its neighbour
+    QCOMPARE(QString::fromStdString(response().problem()), QString());
+  }
+
+  void escapeTakesADragBack() {
+    threePoints();
+    const std::string before = writeProject(document().project());
+    const int index = document().undoStack().index();
+    const QPoint from = place(1);
+    QTest::mousePress(&curve(), Qt::LeftButton, {}, from);
+    QTest::mouseMove(&curve(), from + QPoint(20, 20));
+    QVERIFY(writeProject(document().project()) != before);
+    QTest::keyClick(&curve(), Qt::Key_Escape);
+    QCOMPARE(writeProject(document().project()), before);
+    QTest::mouseRelease(&curve(), Qt::LeftButton, {}, from);
+    QCOMPARE(document().undoStack().index(), index);
+  }
+
+  void whatIsDraggedActsOnRunningMatter() {
+    threePoints();
+    const auto baked = [this] {
+      return onEngine<double>(session(), [](Engine& engine) { return engine.solver().materials()[0].viscosity(300); });
+    };
+    const double before = baked();
+    QTest::mousePress(&curve(), Qt::LeftButton, {}, place(1));
+    QTest::mouseMove(&curve(), place(1) + QPoint(0, -30));
+    QVERIFY(baked() > 1.01 * before);  // while the button is down
+    QTest::mouseRelease(&curve(), Qt::LeftButton, {}, place(1));
+  }
+
+  void keysWalkAndNudge() {
+    threePoints();
+    QTest::keyClick(&curve(), Qt::Key_PageDown);
+    QCOMPARE(curves().point(), 0);
+    QTest::keyClick(&curve(), Qt::Key_PageDown);
+    QCOMPARE(curves().point(), 1);
+    const api::ResponsePoint start = response().points[1];
+    QTest::keyClick(&curve(), Qt::Key_Right);
+    QVERIFY(response().points[1].x > start.x);
+    QCOMPARE(response().points[1].y, start.y);
+    QTest::keyClick(&curve(), Qt::Key_Up);
+    QVERIFY(response().points[1].y > start.y);
+    QAccessibleInterface* access = QAccessible::queryAccessibleInterface(&curve());
+    QVERIFY(access->text(QAccessible::Name).contains(QStringLiteral("Viscosity")));
+    QVERIFY(access->text(QAccessible::Value).startsWith(QStringLiteral("Point 2 of 3")));
+    const uint64_t frame = session().snapshot()->stats.frame;
+    QTest::keyClick(&curve(), Qt::Key_Escape);
+    QCOMPARE(curves().point(), -1);
+    QCOMPARE(session().snapshot()->stats.frame, frame);  // the arrow was the curve's, not the simulation's
+  }
+
+  void numbersAreTyped() {
+    threePoints();
+    curves().choosePoint(1);
+    auto* panel = m_window->findChild<CurvePanel*>();
+    type(panel->temperatureField(), QStringLiteral("300 K"));
+    QVERIFY(std::abs(response().points[1].x - 300) < 1e-9);
+    type(panel->valueField(), QStringLiteral("*2"));
+    QVERIFY(std::abs(response().points[1].y - 0.002) < 1e-12);
+    const std::string before = writeProject(document().project());
+    type(panel->valueField(), QStringLiteral("much"));
+    QCOMPARE(writeProject(document().project()), before);
+    pages().table()->item(0, 1)->setText(QStringLiteral("0.003 Pa·s"));
+    QVERIFY(std::abs(response().points[0].y - 0.003) < 1e-12);
+  }
+
+  void theSmallCurveOfARowOpensTune() {
+    threePoints(kConductivity);
+    m_window->showWorkspace(MainWindow::kSceneTab);
+    QVERIFY(!curve().isVisible());
+    QVERIFY(m_window->revealParameter(kConductivity, false));
+    ParameterRow* row = m_window->inspector().materialPanel()->row(QString::fromStdString(kConductivity.text()));
+    QVERIFY(row);
+    QTest::mouseClick(row, Qt::LeftButton, {}, row->sliderRect().center());
+    QCOMPARE(m_window->workspaceTab(), MainWindow::kTuneTab);
+    QVERIFY(curve().isVisible());
+    QCOMPARE(curves().address(), kConductivity);
+    QCOMPARE(document().undoStack().index(), 1);  // the click scaled nothing
+  }
+
+  void workspacesKeepTheirDocks() {
+    const auto shown = [this](const char* name) {
+      return m_window->layoutOfDocks().dock(QString::fromLatin1(name))->isVisible();
+    };
+    QVERIFY(shown("dock.curve") && shown("dock.points") && shown("dock.responses") && !shown("dock.inspector"));
+    m_window->selection().selectBody("ice");  // its page does not come between
+    QVERIFY(!shown("dock.inspector"));
+    QTest::keyClick(m_window.get(), Qt::Key_Tab, Qt::ControlModifier);
+    QCOMPARE(m_window->workspaceTab(), MainWindow::kSketchTab);
+    QVERIFY(!shown("dock.curve") && shown("dock.inspector") && m_window->tools().tool().usesBrush());
+    QTest::keyClick(m_window.get(), Qt::Key_Tab, Qt::ControlModifier);
+    QCOMPARE(m_window->workspaceTab(), MainWindow::kSceneTab);
+    m_window->layoutOfDocks().dock(QStringLiteral("dock.graphs"))->hide();
+    m_window->showWorkspace(MainWindow::kTuneTab);
+    QVERIFY(shown("dock.graphs"));
+    m_window->showWorkspace(MainWindow::kSceneTab);
+    QVERIFY(!shown("dock.graphs"));
+    m_window->layoutOfDocks().applyDefault();
+    QVERIFY(shown("dock.graphs"));
+    m_window->showWorkspace(MainWindow::kTuneTab);
+    QVERIFY(m_window->revealParameter(kViscosity));
+    QCOMPARE(m_window->workspaceTab(), MainWindow::kSceneTab);
+  }
+
+  void theHistogramCountsEveryParticleOnce() {
+    const SnapshotPtr snapshot = session().snapshot();
+    const auto all = static_cast<size_t>(std::count(snapshot->material.begin(), snapshot->material.end(), 0u));
+    const MaterialNow now = curves().now(200, 600);
+    QVERIFY(all > 100);
+    QCOMPARE(now.count, all);
+    QCOMPARE(now.within, all);
+    QCOMPARE(std::accumulate(now.bins.begin(), now.bins.end(), size_t{0}), all);
+    QVERIFY(std::abs(now.mean - 263.15) < 0.01);  // the block as it starts
+    const auto bin = static_cast<size_t>((263.15 - 200) / 400 * MaterialNow::kBins);
+    QCOMPARE(now.bins[bin], all);
+    QVERIFY(!now.marked);
+    m_window->selection().mark(snapshot->revision, snapshot->id[5]);
+    QVERIFY(curves().now(200, 600).marked.has_value());
+  }
+
+  void theWheelZoomsAroundThePointer() {
+    const QPointF at = curve().plot().center();
+    const double kelvin = curve().kelvinAt(at.x()), span = curve().kelvinAt(at.x() + 100) - kelvin;
+    QWheelEvent wheel(at, curve().mapToGlobal(at), {}, {0, 120}, Qt::NoButton, {}, Qt::NoScrollPhase, false);
+    QApplication::sendEvent(&curve(), &wheel);
+    QVERIFY(std::abs(curve().kelvinAt(at.x()) - kelvin) < 1e-9);
+    QVERIFY(curve().kelvinAt(at.x() + 100) - kelvin < 0.9 * span);
+    QTest::keyClick(&curve(), Qt::Key_F);
+    QVERIFY(std::abs(curve().kelvinAt(at.x() + 100) - curve().kelvinAt(at.x()) - span) < 1e-9);
+  }
+
+  void theCurveIsDrawnWhereItsValuesAre() {
+    threePoints();
+    const QImage picture = curve().grab().toImage();
+    const QColor line = Theme::current()[Token::Curve];
+    for (const double kelvin : {290.0, 300.0, 325.0, 340.0}) {
+      const QPointF at = curve().at(kelvin, response().at(kelvin)) * picture.devicePixelRatio();
+      const QColor drawn = picture.pixelColor(at.toPoint());
+      QVERIFY2(std::abs(drawn.red() - line.red()) + std::abs(drawn.blue() - line.blue()) < 60,
+               qPrintable(drawn.name()));
+    }
+  }
+
+  void pictures() {
+    const QString folder = qEnvironmentVariable("PS_TEST_PICTURES");
+    const std::string iron = document().addMaterial("ethanol");
+    m_window->selection().setMaterial("water");
+    QCOMPARE(curves().material(), std::string("water"));
+    auto* list = m_window->findChild<ResponseList*>();
+    QCOMPARE(list->others()->count(), 1);
+    list->others()->item(0)->setCheckState(Qt::Checked);
+    QVERIFY(curves().compared().contains(iron));
+    pages().sample();
+    curves().choosePoint(4);
+    QVERIFY(curves().ghost().has_value() || response().kind == Response::Kind::Curve);
+    if (folder.isEmpty()) return;
+    for (const bool dark : {true, false}) {
+      m_window->setDark(dark);
+      m_window->resize(1600, 1000);
+      QTest::qWait(400);
+      m_window->grab().save(folder + (dark ? QStringLiteral("/tune-dark.png") : QStringLiteral("/tune-light.png")));
+    }
+    m_window->setDark(true);
+  }
+
+ private:
+  CurveTarget& curves() { return m_window->curves(); }
+  CurveView& curve() { return *m_window->findChild<CurvePanel*>()->view(); }
+  PointsPanel& pages() { return *m_window->findChild<PointsPanel*>(); }
+  Response response() { return curves().response(); }
+  void threePoints(const Address& address = kViscosity) {
+    curves().choose(address);
+    QVERIFY(curves().set(curveThrough({{280, 0.0015}, {310, 0.001}, {350, 0.0005}}), QStringLiteral("Points")));
+    curve().fit();
+  }
+  QPoint place(size_t index) { return curve().at(response().points[index].x, response().points[index].y).toPoint(); }
+  void drag(size_t index, const QPoint& way, Qt::KeyboardModifiers modifiers = {}) {
+    const QPoint from = place(index);
+    QTest::mousePress(&curve(), Qt::LeftButton, {}, from);
+    for (int k = 1; k <= 4; ++k) {
+      const QPointF to = from + QPointF(way) * k / 4;
+      QMouseEvent move(QEvent::MouseMove, to, curve().mapToGlobal(to), Qt::NoButton, Qt::LeftButton, modifiers);
+      QApplication::sendEvent(&curve(), &move);
+    }
+    QTest::mouseRelease(&curve(), Qt::LeftButton, modifiers, from + way);
+  }
+  static void type(QLineEdit* field, const QString& text) {
+    field->selectAll();
+    QTest::keyClicks(field, text);
+    QTest::keyClick(field, Qt::Key_Return);
+  }
+};
+
+QTEST_MAIN(TestCurves)
+#include "tst_curves.moc"

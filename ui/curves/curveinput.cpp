@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/math/responseedit.h"
+#include "ui/curves/curveview.h"
+
+#include <QtGui/QKeyEvent>
+#include <QtGui/QMouseEvent>
+#include <QtGui/QWheelEvent>
+
+#include <algorithm>
+#include <cmath>
+
+namespace ps {
+namespace {
+
+constexpr double kGrip = 9;                          // px around a point
+constexpr double kFine = 0.1;                        // of the pointer's way
+constexpr double kNudge = 4;                         // px of an arrow
+constexpr double kLeastSpan = 0.1, kMostSpan = 2e4;  // K
+
+}  // namespace
+
+/// Held within what the property's declaration takes.
+double CurveView::bounded(double value) const {
+  const api::ParameterDeclaration& d = m_target.declaration();
+  return std::clamp(value, d.hardMinimum, d.hardMaximum);
+}
+
+int CurveView::pointAt(const QPointF& position) const {
+  if (m_shown.kind != Response::Kind::Curve) return -1;
+  int best = -1;
+  double nearest = kGrip * kGrip;
+  for (size_t i = 0; i < m_shown.points.size(); ++i) {
+    const QPointF way = at(m_shown.points[i].x, m_shown.points[i].y) - position;
+    if (const double square = QPointF::dotProduct(way, way); square <= nearest) {
+      nearest = square;
+      best = static_cast<int>(i);
+    }
+  }
+  return best;
+}
+
+void CurveView::mousePressEvent(QMouseEvent* event) {
+  if (event->button() != Qt::LeftButton) return QWidget::mousePressEvent(event);
+  const int index = pointAt(event->position());
+  m_target.choosePoint(index);
+  if (index < 0) return;
+  m_target.begin(QStringLiteral("Move point of %1").arg(QString::fromUtf8(m_target.declaration().label)));
+  m_dragging = true;
+  m_before = m_shown;
+  m_from = event->position();
+  m_way = {};
+}
+
+void CurveView::mouseMoveEvent(QMouseEvent* event) {
+  if (m_dragging) return dragTo(event->position(), event->modifiers());
+  setCursor(pointAt(event->position()) >= 0 ? Qt::OpenHandCursor : Qt::CrossCursor);
+}
+
+/// The point goes as far as the pointer has since the last event, so that Shift may come and go on the way.
+void CurveView::dragTo(const QPointF& position, Qt::KeyboardModifiers modifiers) {
+  const double share = modifiers & Qt::ShiftModifier ? kFine : 1;
+  m_way += (position - m_from) * share;
+  m_from = position;
+  const auto index = static_cast<size_t>(std::max(0, m_target.point()));
+  if (index >= m_before.points.size()) return;
+  const api::ResponsePoint start = m_before.points[index];
+  const QPointF to = at(start.x, start.y) + m_way;
+  const double kelvin = modifiers & Qt::ControlModifier ? start.x : std::max(1.0, kelvinAt(to.x()));
+  const double value = bounded(valueAt(to.y()));
+  Response next = m_before;
+  if (modifiers & Qt::AltModifier) {
+    const bool scales = logarithmic() && start.y > 0;
+    const double coldest = 1 - m_before.points.front().x;
+    next = shifted(m_before, std::max(kelvin - start.x, coldest), scales ? 0 : value - start.y,
+                   scales ? value / start.y : 1);
+    for (api::ResponsePoint& p : next.points) p.y = bounded(p.y);
+  } else {
+    movePoint(next, index, {kelvin, value});
+  }
+  m_target.set(next);
+}
+
+void CurveView::mouseReleaseEvent(QMouseEvent* event) {
+  if (event->button() == Qt::LeftButton) dropDrag(true);
+}
+
+void CurveView::dropDrag(bool keep) {
+  if (!m_dragging) return;
+  m_dragging = false;
+  if (!keep) m_target.set(m_before);
+  m_target.end();
+}
+
+void CurveView::mouseDoubleClickEvent(QMouseEvent* event) {
+  if (event->button() != Qt::LeftButton || !plot().contains(event->position())) return;
+  if (pointAt(event->position()) >= 0) return;
+  const double kelvin = kelvinAt(event->position().x());
+  const double value = m_shown.at(kelvin);
+  // On the curve means on it: where the pointer is far from it a point would bend the curve unasked.
+  if (std::abs(at(kelvin, value).y() - event->position().y()) <= 2 * kGrip) addAt(kelvin, value);
+}
+
+/// What is no curve yet becomes one, through its values at both ends of the axis.
+void CurveView::addAt(double kelvin, double value) {
+  Response next = m_shown;
+  if (next.kind == Response::Kind::Constant) next = curveThrough(sampled(m_shown, m_first, m_last, 2));
+  if (next.kind == Response::Kind::Law) next = curveThrough(sampled(m_shown, m_first, m_last, kLawPoints));
+  if (!addPoint(next, {kelvin, bounded(value)})) return;
+  if (!m_target.set(next, QStringLiteral("Add point to %1").arg(QString::fromUtf8(m_target.declaration().label))))
+    return;
+  const auto place = std::find_if(next.points.begin(), next.points.end(), [&](const auto& p) { return p.x == kelvin; });
+  m_target.choosePoint(static_cast<int>(place - next.points.begin()));
+}
+
+void CurveView::removeChosen() {
+  const int index = m_target.point();
+  if (index < 0 || m_dragging || m_shown.points.size() < 2) return;
+  Response next = m_shown;
+  removePoint(next, static_cast<size_t>(index));
+  m_target.set(next, QStringLiteral("Remove point of %1").arg(QString::fromUtf8(m_target.declaration().label)));
+}
+
+void CurveView::nudge(double x, double y, bool fine) {
+  const int index = m_target.point();
+  if (index < 0 || m_dragging) return;
+  const api::ResponsePoint p = m_shown.points[static_cast<size_t>(index)];
+  const QPointF to = at(p.x, p.y) + QPointF(x, y) * kNudge * (fine ? kFine : 1);
+  Response next = m_shown;
+  movePoint(next, static_cast<size_t>(index),
+            {x == 0 ? p.x : std::max(1.0, kelvinAt(to.x())), y == 0 ? p.y : bounded(valueAt(to.y()))});
+  m_target.set(next, QStringLiteral("Move point of %1").arg(QString::fromUtf8(m_target.declaration().label)));
+}
+
+void CurveView::wheelEvent(QWheelEvent* event) {
+  const double factor = std::pow(0.85, event->angleDelta().y() / 120.0);
+  const QPointF from = event->position();
+  if (event->modifiers() & Qt::ShiftModifier || from.x() < plot().left()) {
+    const double fixed = level(valueAt(from.y()));
+    m_low = fixed + (m_low - fixed) * factor;
+    m_high = fixed + (m_high - fixed) * factor;
+  } else {
+    const double fixed = kelvinAt(from.x()), span = (m_last - m_first) * factor;
+    if (span < kLeastSpan || span > kMostSpan) return;
+    m_first = std::max(1.0, fixed + (m_first - fixed) * factor);
+    m_last = fixed + (m_last - fixed) * factor;
+  }
+  event->accept();
+  showParticles();
+}
+
+void CurveView::keyPressEvent(QKeyEvent* event) {
+  const bool fine = event->modifiers() & Qt::ShiftModifier;
+  const int last = m_shown.kind == Response::Kind::Curve ? static_cast<int>(m_shown.points.size()) - 1 : -1;
+  switch (event->key()) {
+    case Qt::Key_F:
+      return fit();
+    case Qt::Key_Delete:
+    case Qt::Key_Backspace:
+      return removeChosen();
+    case Qt::Key_Escape:
+      return m_dragging ? dropDrag(false) : m_target.choosePoint(-1);
+    case Qt::Key_Left:
+      return nudge(-1, 0, fine);
+    case Qt::Key_Right:
+      return nudge(1, 0, fine);
+    case Qt::Key_Up:
+      return nudge(0, -1, fine);
+    case Qt::Key_Down:
+      return nudge(0, 1, fine);
+    case Qt::Key_PageDown:
+      return m_target.choosePoint(std::min(m_target.point() + 1, last));
+    case Qt::Key_PageUp:
+      return m_target.choosePoint(std::max(m_target.point() - 1, std::min(0, last)));
+    default:
+      QWidget::keyPressEvent(event);
+  }
+}
+
+/// The window's shortcuts leave these keys to a view that has the focus.
+bool CurveView::event(QEvent* event) {
+  if (event->type() == QEvent::ShortcutOverride) {
+    const auto* key = static_cast<QKeyEvent*>(event);
+    static constexpr int kOwn[] = {Qt::Key_F,  Qt::Key_Delete, Qt::Key_Backspace, Qt::Key_Escape, Qt::Key_Left,
+                                   Qt::Key_Up, Qt::Key_Down,   Qt::Key_Right,     Qt::Key_PageUp, Qt::Key_PageDown};
+    const bool plain = !(key->modifiers() & (Qt::ControlModifier | Qt::AltModifier));
+    if (plain && std::find(std::begin(kOwn), std::end(kOwn), key->key()) != std::end(kOwn)) {
+      event->accept();
+      return true;
+    }
+  }
+  return QWidget::event(event);
+}
+
+}  // namespace ps

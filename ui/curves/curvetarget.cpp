@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/curves/curvetarget.h"
+
+#include "core/matter/material.h"
+#include "core/simulation/snapshot.h"
+#include "ui/document/declared.h"
+#include "ui/document/document.h"
+#include "ui/panels/rowmodels.h"
+#include "ui/session/selection.h"
+#include "ui/session/session.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ps {
+namespace {
+
+constexpr double kAround = 100;  // K, on both sides of where matter is
+
+}  // namespace
+
+const api::ParameterDeclaration& temperatureDeclaration() {
+  return propertyCatalogue()[static_cast<size_t>(propertyIndex("melting_temperature"))];
+}
+
+CurveTarget::CurveTarget(Session& session, Selection& selection, QObject* parent)
+    : QObject(parent), m_session(session), m_selection(selection) {
+  connect(&selection, &Selection::materialChanged, this, &CurveTarget::onTarget);
+  connect(&session.document(), &Document::changed, this, [this](const ChangeEvent& event) {
+    if (std::holds_alternative<ProjectOpened>(event)) {
+      m_laws.clear();
+      m_compared.clear();
+    }
+    if (std::holds_alternative<ProjectOpened>(event) || std::holds_alternative<MaterialsChanged>(event))
+      return onTarget();
+    const auto* parameter = std::get_if<ParameterChanged>(&event);
+    if (!parameter || parameter->address.owner != Owner::Material) return;
+    remember();
+    Q_EMIT responseChanged();
+  });
+}
+
+Document& CurveTarget::document() const { return m_session.document(); }
+std::string CurveTarget::material() const { return m_selection.material(); }
+
+QString CurveTarget::materialLabel() const {
+  return material().empty() ? QString() : ownerLabel(document().project(), address());
+}
+
+const api::ParameterDeclaration& CurveTarget::declaration() const {
+  return propertyCatalogue()[static_cast<size_t>(propertyIndex(m_key))];
+}
+
+Response CurveTarget::response() const {
+  return material().empty() ? Response(declaration().defaultValue) : responseOf(document().value(address()));
+}
+
+std::optional<Response> CurveTarget::ghost() const {
+  if (material().empty()) return std::nullopt;
+  const auto last = m_laws.find(address().text());
+  const Response standard = responseOf(document().defaultValue(address()));
+  const Response law = last != m_laws.end() ? last->second : standard;
+  return law.kind == Response::Kind::Law && !(law == response()) ? std::optional(law) : std::nullopt;
+}
+
+QString CurveTarget::source() const { return sourceOf(document(), material(), m_key.c_str()); }
+
+double CurveTarget::temperature() const {
+  if (const MaterialNow present = now(0, 1); present.count > 0) return present.mean;
+  return std::get<double>(document().value({Owner::Environment, "", "ambient_temperature"}));
+}
+
+std::optional<std::array<double, 2>> CurveTarget::melting() const {
+  if (material().empty()) return std::nullopt;
+  const auto at = [this](const char* key) {
+    return responseOf(document().value({Owner::Material, material(), key})).at(temperatureDeclaration().defaultValue);
+  };
+  const double middle = at("melting_temperature"), solidus = at("solidus"), liquidus = at("liquidus");
+  if (middle <= 0) return std::nullopt;
+  if (solidus < liquidus && solidus <= middle && middle <= liquidus) return std::array{solidus, liquidus};
+  return std::array{middle, middle};
+}
+
+std::array<double, 2> CurveTarget::range() const {
+  const Response present = response();
+  const bool curve = present.kind == Response::Kind::Curve;
+  const double kelvin = temperature(), around = curve ? 0 : kAround;
+  double cold = kelvin - around, hot = kelvin + around;
+  const auto take = [&](double one, double other) {
+    cold = std::min(cold, one);
+    hot = std::max(hot, other);
+  };
+  if (curve) take(present.points.front().x, present.points.back().x);
+  if (const auto melts = melting()) take((*melts)[0] - 0.2 * around, (*melts)[1] + 0.2 * around);
+  return {std::max(1.0, cold), hot};
+}
+
+std::optional<double> CurveTarget::delivered() const {
+  const SnapshotPtr snapshot = m_session.snapshot();
+  if (!snapshot) return std::nullopt;
+  const std::string what = material() + "." + m_key;
+  const auto& limits = snapshot->limits;
+  const auto found = std::find_if(limits.begin(), limits.end(), [&](const Limit& limit) {
+    return limit.what == what && limit.body < 0 && limit.delivered < limit.asked;
+  });
+  return found == limits.end() ? std::nullopt : std::optional(found->delivered);
+}
+
+MaterialNow CurveTarget::now(double firstKelvin, double lastKelvin) const {
+  MaterialNow result;
+  const SnapshotPtr snapshot = m_session.snapshot();
+  if (!snapshot) return result;
+  const auto& ids = snapshot->materialIds;
+  const auto found = std::find(ids.begin(), ids.end(), material());
+  if (found == ids.end()) return result;
+  const auto index = static_cast<uint32_t>(found - ids.begin());
+  const auto& mark = m_selection.marked();
+  const bool marks = mark && mark->first == snapshot->revision;
+  const double perBin = static_cast<double>(MaterialNow::kBins) / (lastKelvin - firstKelvin);
+  double sum = 0;
+  for (size_t i = 0; i < snapshot->material.size(); ++i) {
+    if (snapshot->material[i] != index) continue;
+    const double kelvin = static_cast<double>(snapshot->temperature[i]);
+    sum += kelvin;
+    ++result.count;
+    if (marks && snapshot->id[i] == mark->second) result.marked = kelvin;
+    const double bin = (kelvin - firstKelvin) * perBin;
+    if (!(bin >= 0) || bin >= static_cast<double>(MaterialNow::kBins)) continue;
+    ++result.bins[static_cast<size_t>(bin)];
+    ++result.within;
+  }
+  if (result.count > 0) result.mean = sum / static_cast<double>(result.count);
+  return result;
+}
+
+void CurveTarget::choose(const Address& address) {
+  const int index = propertyIndex(address.key);
+  if (address.owner != Owner::Material || index < 0) return;
+  if (propertyCatalogue()[static_cast<size_t>(index)].kind != api::ParameterKind::Response) return;
+  m_key = address.key;
+  if (address.id != material()) {
+    m_selection.setMaterial(address.id);  // comes back as onTarget()
+  } else {
+    onTarget();
+  }
+}
+
+void CurveTarget::onTarget() {
+  m_point = -1;
+  remember();
+  Q_EMIT targetChanged();
+  Q_EMIT responseChanged();
+  Q_EMIT pointChanged();
+}
+
+void CurveTarget::remember() {
+  if (material().empty()) return;
+  const Response present = response();
+  if (present.kind == Response::Kind::Law) m_laws[address().text()] = present;
+  const int last = present.kind == Response::Kind::Curve ? static_cast<int>(present.points.size()) - 1 : -1;
+  if (m_point > last) choosePoint(last);
+}
+
+void CurveTarget::choosePoint(int index) {
+  if (index == m_point) return;
+  m_point = index;
+  Q_EMIT pointChanged();
+}
+
+void CurveTarget::compare(const std::string& material, bool on) {
+  if (on ? !m_compared.insert(material).second : m_compared.erase(material) == 0) return;
+  Q_EMIT comparedChanged();
+}
+
+void CurveTarget::begin(const QString& what) { document().beginGesture(what); }
+void CurveTarget::end() { document().endGesture(); }
+
+bool CurveTarget::set(const Response& response, const QString& what) {
+  if (material().empty()) return false;
+  if (!what.isEmpty()) begin(what);
+  const QString problem = document().setParameter(address(), response);
+  if (!what.isEmpty()) end();
+  Q_EMIT refused(problem);
+  return problem.isEmpty();
+}
+
+}  // namespace ps

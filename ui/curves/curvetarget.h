@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "core/math/response.h"
+#include "core/scene/address.h"
+
+#include <QtCore/QObject>
+#include <QtCore/QString>
+
+#include <array>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace ps {
+
+class Document;
+class Selection;
+class Session;
+
+/// Where a material's particles are on the axis of temperature at the moment.
+struct MaterialNow {
+  static constexpr size_t kBins = 96;
+  std::vector<size_t> bins = std::vector<size_t>(kBins);  ///< over the temperatures that were asked for
+  size_t count = 0, within = 0;                           ///< of particles: all, and those in a bin
+  double mean = 0;                                        ///< K, of all
+  std::optional<double> marked;                           ///< K, of the particle that was clicked, if of this material
+};
+
+/// Which response of the current material is tuned, of one editor: what list, curve and table of the workspace Tune
+/// share. Every edit goes through the document: a gesture is one undo step, a single edit another.
+class CurveTarget : public QObject {
+  Q_OBJECT
+ public:
+  CurveTarget(Session& session, Selection& selection, QObject* parent = nullptr);
+
+  Document& document() const;
+  std::string material() const;   ///< SceneMaterial::id; "" in a scene without any
+  QString materialLabel() const;  ///< as people call it
+  Address address() const { return {Owner::Material, material(), m_key}; }
+  const api::ParameterDeclaration& declaration() const;
+  Response response() const;
+  /// The law that this property had last, or has by itself, where it is another one than now.
+  std::optional<Response> ghost() const;
+  QString source() const;  ///< of the installed figure; "" where nothing says so
+  /// K, at which the property is read: the mean of the material's particles, or the air's where there are none.
+  double temperature() const;
+  /// K, where melting begins and ends; nullopt for what never melts.
+  std::optional<std::array<double, 2>> melting() const;
+  /// K, from where to where it is worth looking at: its points, or else what lies around its matter and its melting.
+  std::array<double, 2> range() const;
+  /// The property's unit: above it the solver does not follow, as it last said; nullopt: it follows.
+  std::optional<double> delivered() const;
+  /// Goes through all particles of the newest snapshot.
+  MaterialNow now(double firstKelvin, double lastKelvin) const;
+
+  void choose(const Address& address);   ///< a property of a material that is a response; others are ignored
+  int point() const { return m_point; }  ///< that is selected, -1: none
+  void choosePoint(int index);
+
+  /// Other materials of the scene whose curves are drawn beside this one.
+  const std::set<std::string>& compared() const { return m_compared; }
+  void compare(const std::string& material, bool on);
+
+  void begin(const QString& what);
+  /// Within a gesture or as a step of its own. What is refused is said by refused(), and the old one stays.
+  bool set(const Response& response, const QString& what = {});
+  void end();
+
+ Q_SIGNALS:
+  void targetChanged();    ///< another material or property
+  void responseChanged();  ///< another value, by whom ever; also after targetChanged
+  void pointChanged();
+  void comparedChanged();
+  void refused(const QString& problem);  ///< "" when the next one was taken
+
+ private:
+  void onTarget();
+  void remember();
+  Session& m_session;
+  Selection& m_selection;
+  std::string m_key = "viscosity";
+  int m_point = -1;
+  std::set<std::string> m_compared;
+  std::map<std::string, Response> m_laws;  ///< by address: the last one that it was
+};
+
+/// Declaration of temperatures as the curve's axis and tables show them.
+const api::ParameterDeclaration& temperatureDeclaration();
+
+}  // namespace ps

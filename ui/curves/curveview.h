@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "ui/curves/curvetarget.h"
+
+#include <QtWidgets/QWidget>
+
+namespace ps {
+
+/// A curve of the scene's other materials, for comparison.
+struct OverlayCurve {
+  std::string material;
+  QString label;
+  Response response;
+};
+
+/// The response that is tuned, over temperature: axes in the units that people see, logarithmic where declared. Points
+/// are dragged (Shift fine, Ctrl up and down only, Alt all of them), added by a double click on the curve, removed by
+/// Del, nudged by arrows (Shift fine); Page up and down choose; the wheel zooms, F fits. Esc takes a drag back.
+/// Below it a histogram of where the material's particles are. Accessible as a chart that says its value.
+class CurveView : public QWidget {
+  Q_OBJECT
+ public:
+  explicit CurveView(CurveTarget& target, QWidget* parent = nullptr);
+
+  void fit();            ///< both axes around points, melting range and particles
+  void showParticles();  ///< where they are now; as often as the caller thinks fit
+  void setOverlays(std::vector<OverlayCurve> overlays);
+  const MaterialNow& particles() const { return m_now; }
+  QString summary() const;  ///< what it shows, as a sentence
+
+  QRectF plot() const;
+  /// Logical pixels of a temperature in K and a value, and back.
+  QPointF at(double kelvin, double value) const;
+  double kelvinAt(double x) const;
+  double valueAt(double y) const;
+  QSize sizeHint() const override { return {640, 420}; }
+  QSize minimumSizeHint() const override { return {300, 220}; }
+
+ protected:
+  bool event(QEvent* event) override;
+  void paintEvent(QPaintEvent* event) override;
+  void mousePressEvent(QMouseEvent* event) override;
+  void mouseMoveEvent(QMouseEvent* event) override;
+  void mouseReleaseEvent(QMouseEvent* event) override;
+  void mouseDoubleClickEvent(QMouseEvent* event) override;
+  void wheelEvent(QWheelEvent* event) override;
+  void keyPressEvent(QKeyEvent* event) override;
+
+ private:
+  bool logarithmic() const;
+  double level(double value) const;
+  double ofLevel(double level) const;
+  double bounded(double value) const;
+  int pointAt(const QPointF& position) const;
+  void dragTo(const QPointF& position, Qt::KeyboardModifiers modifiers);
+  void dropDrag(bool keep);
+  void nudge(double x, double y, bool fine);
+  void removeChosen();
+  void addAt(double kelvin, double value);
+  QRectF histogram() const;
+  void paintGrid(QPainter& painter) const;
+  void paintBands(QPainter& painter) const;
+  void paintCurves(QPainter& painter) const;
+  void paintLine(QPainter& painter, const Response& response, const QColor& colour, double width, bool dashed) const;
+  void paintMarker(QPainter& painter) const;
+  void paintHistogram(QPainter& painter) const;
+
+  CurveTarget& m_target;
+  Response m_shown;
+  std::vector<OverlayCurve> m_overlays;
+  MaterialNow m_now;
+  double m_first = 250, m_last = 350;  ///< K
+  double m_low = 0, m_high = 1;        ///< levels: log10 of the value on a logarithmic axis
+  bool m_dragging = false;
+  Response m_before;      ///< a drag's start
+  QPointF m_from, m_way;  ///< px: where the pointer was last, and how far it has moved the point
+};
+
+}  // namespace ps

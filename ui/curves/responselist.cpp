@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/curves/responselist.h"
+
+#include "core/matter/material.h"
+#include "ui/curves/curvetarget.h"
+#include "ui/document/declared.h"
+#include "ui/document/document.h"
+#include "ui/rows/panelheader.h"
+#include "ui/session/session.h"
+#include "ui/theme/numbers.h"
+#include "ui/theme/paint.h"
+#include "ui/theme/theme.h"
+
+#include <QtCore/QSignalBlocker>
+#include <QtGui/QPainter>
+#include <QtWidgets/QLabel>
+#include <QtWidgets/QListWidget>
+#include <QtWidgets/QStyledItemDelegate>
+#include <QtWidgets/QVBoxLayout>
+
+#include <algorithm>
+#include <cmath>
+
+namespace ps {
+namespace {
+
+constexpr int kRow = 40, kOther = 24;
+constexpr double kSparkWidth = 70, kSparkHeight = 24;
+constexpr int kKey = Qt::UserRole, kValue = Qt::UserRole + 1;
+
+const api::ParameterDeclaration& declarationOf(const QString& key) {
+  return propertyCatalogue()[static_cast<size_t>(propertyIndex(key.toStdString()))];
+}
+
+Response responseFor(const CurveTarget& target, const std::string& key) {
+  return responseOf(target.document().value({Owner::Material, target.material(), key}));
+}
+
+/// Name and value of a response, and its curve around the temperature that its matter has.
+class ResponseDelegate final : public QStyledItemDelegate {
+ public:
+  ResponseDelegate(CurveTarget& target, QObject* parent) : QStyledItemDelegate(parent), m_target(target) {}
+  double temperature = 293.15;  // K
+
+  QSize sizeHint(const QStyleOptionViewItem&, const QModelIndex&) const override { return {160, kRow}; }
+  void paint(QPainter* painter, const QStyleOptionViewItem& option, const QModelIndex& index) const override {
+    const Theme& theme = Theme::current();
+    const QRectF row = option.rect;
+    if (option.state & QStyle::State_Selected)
+      painter->fillRect(row, theme[Token::Selection]);
+    else if (option.state & QStyle::State_MouseOver)
+      painter->fillRect(row, theme[Token::Hover]);
+    const double text = row.width() - kSparkWidth - 24;
+    paintText(*painter, QRectF(row.left() + 10, row.top() + 4, text, 17), Qt::AlignLeft | Qt::AlignVCenter,
+              index.data().toString(), Theme::font(TextRole::Normal), theme[Token::Text]);
+    paintText(*painter, QRectF(row.left() + 10, row.top() + 20, text, 16), Qt::AlignLeft | Qt::AlignVCenter,
+              index.data(kValue).toString(), Theme::font(TextRole::Small), theme[Token::Muted]);
+    const QRectF box(row.right() - kSparkWidth - 8, row.top() + (kRow - kSparkHeight) / 2, kSparkWidth, kSparkHeight);
+    const QString key = index.data(kKey).toString();
+    const Response response = responseFor(m_target, key.toStdString());
+    if (response.kind == Response::Kind::Constant)
+      paintText(*painter, box, Qt::AlignCenter, QStringLiteral("constant"), Theme::font(TextRole::Small),
+                theme[Token::Muted]);
+    else
+      paintSpark(*painter, box, response, declarationOf(key).scale == api::Scale::Logarithmic);
+  }
+
+ private:
+  void paintSpark(QPainter& painter, const QRectF& box, const Response& response, bool logarithmic) const {
+    const Theme& theme = Theme::current();
+    paintBox(painter, box, theme[Token::Field], theme[Token::FieldEdge], 3);
+    double cold = temperature - 100, hot = temperature + 100;
+    if (response.kind == Response::Kind::Curve) {
+      cold = std::min(cold, response.points.front().x);
+      hot = std::max(hot, response.points.back().x);
+    }
+    cold = std::max(cold, 1.0);
+    const auto level = [&](double kelvin) {
+      const double value = response.at(kelvin);
+      return logarithmic ? std::log(std::max(value, 1e-300)) : value;
+    };
+    const int samples = static_cast<int>(box.width()) - 4;
+    std::vector<double> levels;
+    for (int i = 0; i < samples; ++i) levels.push_back(level(cold + (hot - cold) * i / (samples - 1)));
+    const auto [least, most] = std::minmax_element(levels.begin(), levels.end());
+    const double low = *least, span = *most - low;
+    const auto height = [&](double l) {
+      return box.bottom() - 4 - (box.height() - 8) * (span > 0 ? std::clamp((l - low) / span, 0.0, 1.0) : 0.5);
+    };
+    QPolygonF line;
+    for (int i = 0; i < samples; ++i) line << QPointF(box.left() + 2 + i, height(levels[static_cast<size_t>(i)]));
+    painter.save();
+    painter.setRenderHint(QPainter::Antialiasing);
+    painter.setPen(QPen(theme[Token::Curve], 1.35));
+    painter.drawPolyline(line);
+    const double x = box.left() + 2 + (samples - 1) * (temperature - cold) / (hot - cold);
+    paintVerticalLine(painter, x, box.top() + 2, box.bottom() - 2, theme[Token::ControlEdge]);
+    painter.setPen(Qt::NoPen);
+    painter.setBrush(theme[Token::Text]);
+    painter.drawEllipse(QPointF(x, height(level(temperature))), 2.5, 2.5);
+    painter.restore();
+  }
+  CurveTarget& m_target;
+};
+
+QListWidget* flatList(const QString& name) {
+  auto* list = new QListWidget;
+  list->setFrameShape(QFrame::NoFrame);
+  list->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  list->setMouseTracking(true);
+  list->setAccessibleName(name);
+  return list;
+}
+
+}  // namespace
+
+ResponseList::ResponseList(Session& session, CurveTarget& target, QWidget* parent)
+    : QWidget(parent),
+      m_session(session),
+      m_target(target),
+      m_header(new PanelHeader),
+      m_list(flatList(QStringLiteral("Responses"))),
+      m_others(flatList(QStringLiteral("Compare with"))) {
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 4);
+  column->setSpacing(0);
+  column->addWidget(m_header);
+  column->addWidget(m_list, 1);
+  auto* heading = new QLabel(QStringLiteral("Compare with"));
+  heading->setFont(Theme::font(TextRole::Medium));
+  heading->setContentsMargins(10, 8, 8, 4);
+  column->addWidget(heading);
+  column->addWidget(m_others);
+  m_list->setItemDelegate(new ResponseDelegate(target, this));
+  connect(m_list, &QListWidget::currentItemChanged, this, [this](QListWidgetItem* item) {
+    if (item) m_target.choose({Owner::Material, m_target.material(), item->data(kKey).toString().toStdString()});
+  });
+  connect(m_others, &QListWidget::itemChanged, this, &ResponseList::onCompared);
+  connect(&target, &CurveTarget::targetChanged, this, &ResponseList::rebuild);
+  connect(&target, &CurveTarget::responseChanged, this, &ResponseList::refresh);
+  connect(&session, &Session::totalsDue, this, [this] {
+    if (isVisible()) refresh();
+  });
+}
+
+void ResponseList::onCompared(QListWidgetItem* item) {
+  m_target.compare(item->data(kKey).toString().toStdString(), item->checkState() == Qt::Checked);
+}
+
+void ResponseList::rebuild() {
+  const QSignalBlocker quiet(m_list), quietToo(m_others);
+  m_list->clear();
+  m_others->clear();
+  const api::ParameterList catalogue = propertyCatalogue();
+  for (size_t i = 0; i < catalogue.count && !m_target.material().empty(); ++i) {
+    if (catalogue[i].kind != api::ParameterKind::Response) continue;
+    auto* item = new QListWidgetItem(QString::fromUtf8(catalogue[i].label), m_list);
+    item->setData(kKey, QString::fromUtf8(catalogue[i].key));
+    item->setToolTip(QString::fromUtf8(catalogue[i].help));
+    if (m_target.address().key == catalogue[i].key) m_list->setCurrentItem(item);
+  }
+  const Project& project = m_target.document().project();
+  for (const SceneMaterial& other : project.materials) {
+    if (other.id == m_target.material()) continue;
+    auto* item = new QListWidgetItem(ownerLabel(project, {Owner::Material, other.id, "viscosity"}), m_others);
+    item->setData(kKey, QString::fromStdString(other.id));
+    item->setCheckState(m_target.compared().contains(other.id) ? Qt::Checked : Qt::Unchecked);
+  }
+  m_others->setFixedHeight(std::clamp(m_others->count(), 1, 5) * kOther + 4);
+  refresh();
+}
+
+void ResponseList::refresh() {
+  const Project& project = m_target.document().project();
+  if (m_target.material().empty()) {
+    m_header->setTexts({}, {}, {});
+    return;
+  }
+  const MaterialNow now = m_target.now(0, 1);
+  const double kelvin = m_target.temperature();
+  static_cast<ResponseDelegate*>(m_list->itemDelegate())->temperature = kelvin;
+  m_header->setTexts(m_target.materialLabel(),
+                     QStringLiteral("%1 particles").arg(formatFixed(static_cast<double>(now.count))),
+                     QStringLiteral("At %1").arg(formatValue(temperatureDeclaration(), kelvin)));
+  m_header->setSwatch(colourOf(project, m_target.document().plugins(), m_target.material()));
+  for (int i = 0; i < m_list->count(); ++i) {
+    QListWidgetItem* item = m_list->item(i);
+    const QString key = item->data(kKey).toString();
+    item->setData(kValue, formatValue(declarationOf(key), responseFor(m_target, key.toStdString()).at(kelvin)));
+  }
+  m_list->viewport()->update();
+}
+
+}  // namespace ps

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <QtWidgets/QWidget>
+
+class QListWidget;
+class QListWidgetItem;
+
+namespace ps {
+
+class CurveTarget;
+class PanelHeader;
+class Session;
+
+/// The responses of the current material, each with a small curve and its value where the material is; below, the
+/// scene's other materials, whose curves may be drawn for comparison.
+class ResponseList : public QWidget {
+  Q_OBJECT
+ public:
+  ResponseList(Session& session, CurveTarget& target, QWidget* parent = nullptr);
+  QListWidget* list() const { return m_list; }
+  QListWidget* others() const { return m_others; }
+
+ private:
+  void rebuild();
+  void refresh();  ///< values, at the temperature that the material has now
+  void onCompared(QListWidgetItem* item);
+  Session& m_session;
+  CurveTarget& m_target;
+  PanelHeader* m_header;
+  QListWidget *m_list, *m_others;
+};
+
+}  // namespace ps
