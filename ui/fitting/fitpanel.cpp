@@ -26,6 +26,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <utility>
 
 namespace ps {
 namespace {
@@ -111,7 +112,7 @@ FitPanel::FitPanel(Session& session, QWidget* parent)
   connect(&m_job, &FitJob::tried, this, &FitPanel::onTried);
   connect(&m_job, &FitJob::finished, this, &FitPanel::onFinished);
   connect(&m_job, &FitJob::failed, this, [this](const QString& problem) {
-    say(problem, true);
+    if (!std::exchange(m_abandoned, false)) say(problem, true);
     refreshButtons();
     Q_EMIT ended();
   });
@@ -120,11 +121,16 @@ FitPanel::FitPanel(Session& session, QWidget* parent)
   connect(&session.document(), &Document::changed, this, [this](const ChangeEvent& event) {
     if (std::holds_alternative<ProjectOpened>(event)) {
       m_job.cancel();
+      m_abandoned = m_job.isRunning();
       m_found.reset();
       m_view->setWanted({});
+      m_drawn = {};
       readScene();
       say(kHint);
-    } else if (std::holds_alternative<MaterialsChanged>(event)) {
+    } else if (std::holds_alternative<ProbesChanged>(event)) {
+      readScene();
+    } else if (std::holds_alternative<MaterialsChanged>(event) || std::holds_alternative<WallsChanged>(event) ||
+               std::holds_alternative<BodyChanged>(event) || std::holds_alternative<PortChanged>(event)) {
       readCandidates();
     }
   });
@@ -165,7 +171,9 @@ void FitPanel::readScene() {
     m_quantity->addItem(drawable.unit.isEmpty() ? drawable.name : drawable.name + QStringLiteral(", ") + drawable.unit);
   m_view->setDuration(project.duration);
   readCandidates();
-  choose(0);
+  const auto same = std::find_if(m_drawables.begin(), m_drawables.end(),
+                                 [this](const Drawable& drawable) { return drawable.column == m_drawn.column; });
+  choose(same == m_drawables.end() ? 0 : static_cast<int>(same - m_drawables.begin()));
 }
 
 /// Every number of the scene that can be looked for, points of curves too; what is pinned first.
@@ -207,32 +215,35 @@ void FitPanel::addCandidate(int index) {
 
 void FitPanel::choose(int drawable) {
   if (drawable < 0 || drawable >= static_cast<int>(m_drawables.size())) return;
-  const bool another = drawable != m_chosen;
-  m_chosen = drawable;
-  m_quantity->setCurrentIndex(drawable);
   const Drawable& chosen = m_drawables[static_cast<size_t>(drawable)];
-  m_view->setTitle(chosen.name);
-  m_view->setUnit(chosen.unit);
+  const bool another = chosen.column != m_drawn.column;
+  m_quantity->setCurrentIndex(drawable);
+  if (m_job.isRunning()) return;  // what it shows is of what was searched for
+  m_drawn = chosen;
+  m_view->setTitle(m_drawn.name);
+  m_view->setUnit(m_drawn.unit);
+  if (another) {
+    m_found.reset();
+    m_view->setWanted({});
+  }
   m_view->clear();
-  if (another) m_view->setWanted({});
   m_history.rewind();
   readHistory();
   refreshButtons();
 }
 
 void FitPanel::readHistory() {
-  if (m_drawables.empty() || m_job.isRunning() || m_found) return;  // the run that was searched from stays
+  if (!m_drawn.value || m_job.isRunning() || m_found) return;  // the run that was searched from stays
   const HistoryReader::Piece piece = m_history.read();
   if (piece.begins) m_view->clear();
-  const Drawable& chosen = m_drawables[static_cast<size_t>(m_chosen)];
-  for (const FrameStats& stats : piece.frames) m_view->append(AsItIs, stats.time, chosen.value(stats) + chosen.offset);
+  for (const FrameStats& stats : piece.frames)
+    m_view->append(AsItIs, stats.time, m_drawn.value(stats) + m_drawn.offset);
 }
 
 void FitPanel::search() {
-  if (m_job.isRunning() || m_drawables.empty() || !m_session.isReady()) return;
-  const Drawable& chosen = m_drawables[static_cast<size_t>(m_chosen)];
-  m_task = FitTask{chosen.column, m_view->wanted(), m_rows->parameters()};
-  for (double& value : m_task.wanted.value) value -= chosen.offset;
+  if (m_job.isRunning() || !m_drawn.value || !m_session.isReady()) return;
+  m_task = FitTask{m_drawn.column, m_view->wanted(), m_rows->parameters()};
+  for (double& value : m_task.wanted.value) value -= m_drawn.offset;
   m_found.reset();
   m_view->setRange(0, kBeyond * m_task.wanted.time.back());
   m_session.pause();  // the scene would take half of the threads
@@ -242,23 +253,19 @@ void FitPanel::search() {
 }
 
 void FitPanel::showCourse(const FitTrial& trial) {
-  const double offset = m_drawables[static_cast<size_t>(m_chosen)].offset;
   if (trial.run == 1) m_view->clear();
   const int line = trial.run == 1 ? AsItIs : Found;
   if (line == Found) m_view->clearSeries(Found);
   for (size_t k = 0; k < trial.course.time.size(); ++k)
-    m_view->append(line, trial.course.time[k], trial.course.value[k] + offset);
+    m_view->append(line, trial.course.time[k], trial.course.value[k] + m_drawn.offset);
 }
 
 QString FitPanel::missed(double error) const {
-  return formatQuantity(error,
-                        m_drawables[static_cast<size_t>(m_chosen)].unit == QStringLiteral("°C")
-                            ? QStringLiteral("K")
-                            : m_drawables[static_cast<size_t>(m_chosen)].unit,
-                        3);
+  return amountText(error, m_drawn.offset != 0 ? QStringLiteral("K") : m_drawn.unit, 3);
 }
 
 void FitPanel::onTried(const FitTrial& trial) {
+  if (m_abandoned) return;
   if (trial.run == 1) m_missedBefore = trial.error;
   if (trial.isBest) {
     showCourse(trial);
@@ -271,6 +278,10 @@ void FitPanel::onTried(const FitTrial& trial) {
 }
 
 void FitPanel::onFinished(const FitResult& result) {
+  if (std::exchange(m_abandoned, false)) {
+    readScene();
+    return;
+  }
   if (result.runs == 0) m_found.reset();
   if (m_found && m_found->run == 1) {
     say(QStringLiteral("No run came closer than the scene as it is, which misses by %1").arg(missed(m_missedBefore)));

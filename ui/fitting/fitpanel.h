@@ -62,11 +62,12 @@ class FitPanel : public QWidget {
   Session& m_session;
   HistoryReader m_history;
   std::vector<Drawable> m_drawables;
-  int m_chosen = 0;
+  Drawable m_drawn;  ///< what is drawn; of the search while one runs
   std::vector<TrackTarget> m_candidates;
   FitJob m_job;
   FitTask m_task;  ///< of the search that runs, or has ended
   double m_missedBefore = 0;
+  bool m_abandoned = false;  ///< it is of a project that has gone
   std::optional<FitTrial> m_found;
   WantedView* m_view;
   QComboBox *m_quantity, *m_candidate;
