@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/io/recording.h"
 
+#include "core/base/bytepacker.h"
 #include "core/base/error.h"
 #include "core/base/hash.h"
 #include "core/base/jsontext.h"
 #include "core/io/projectio.h"
 #include "core/simulation/particlefield.h"
-
-#include <zstd.h>
 
 #include <cmath>
 #include <cstring>
@@ -23,84 +22,8 @@ constexpr size_t kMark = 8;
 constexpr uint64_t kMaximumHeader = uint64_t{64} << 20, kMaximumFrame = uint64_t{2} << 30;
 constexpr int kLevel = 3;  // zstd: half the time of 6, 3 % larger on frames of water
 
-/// Appends plain values.
-class Packer {
- public:
-  template <class T>
-  void value(const T& v) {
-    m_bytes.append(reinterpret_cast<const char*>(&v), sizeof v);
-  }
-  /// `width` bytes per element, as byte planes.
-  template <class T>
-  void array(const std::vector<T>& values, size_t count) {
-    if (values.size() != count) throw Error("recording: arrays of a snapshot differ in length");
-    planes(reinterpret_cast<const char*>(values.data()), count * sizeof(T), planeWidth<T>());
-  }
-  template <class T>
-  static constexpr size_t planeWidth() {
-    return sizeof(T) % 4 == 0 ? 4 : 1;
-  }
-  void text(const std::string& words) {
-    value(static_cast<uint32_t>(words.size()));
-    m_bytes += words;
-  }
-  const std::string& bytes() const { return m_bytes; }
-
- private:
-  void planes(const char* data, size_t size, size_t width) {
-    const size_t start = m_bytes.size(), count = size / width;
-    m_bytes.resize(start + size);
-    for (size_t p = 0; p < width; ++p) {
-      for (size_t i = 0; i < count; ++i) m_bytes[start + p * count + i] = data[i * width + p];
-    }
-  }
-  std::string m_bytes;
-};
-
-/// Reads them back; every read is checked against what is left.
-class Unpacker {
- public:
-  Unpacker(const std::string& bytes, const std::string& where) : m_bytes(bytes), m_where(where) {}
-  template <class T>
-  T value() {
-    T v;
-    std::memcpy(&v, next(sizeof v), sizeof v);
-    return v;
-  }
-  template <class T>
-  void array(std::vector<T>& values, size_t count) {
-    if (count > m_bytes.size()) fail();
-    const size_t width = Packer::planeWidth<T>(), size = count * sizeof(T), rows = size / width;
-    const char* from = next(size);
-    values.resize(count);
-    char* to = reinterpret_cast<char*>(values.data());
-    for (size_t p = 0; p < width; ++p) {
-      for (size_t i = 0; i < rows; ++i) to[i * width + p] = from[p * rows + i];
-    }
-  }
-  std::string text() {
-    const auto size = value<uint32_t>();
-    return {next(size), size};
-  }
-  void finish() const {
-    if (m_at != m_bytes.size()) fail();
-  }
-  [[noreturn]] void fail() const { throw InputError(m_where + "the frame's data are broken; record again"); }
-
- private:
-  const char* next(size_t count) {
-    if (count > m_bytes.size() - m_at) fail();
-    const char* data = m_bytes.data() + m_at;
-    m_at += count;
-    return data;
-  }
-  const std::string& m_bytes;
-  const std::string& m_where;
-  size_t m_at = 0;
-};
-
 std::string packFrame(const Snapshot& s) {
-  Packer packer;
+  BytePacker packer;
   const size_t n = s.position.size();
   packer.value(uint64_t{n});
   packer.value(uint64_t{s.materialLook.size()});
@@ -130,7 +53,7 @@ std::string packFrame(const Snapshot& s) {
   return packer.bytes();
 }
 
-FieldValues unpackField(Unpacker& unpacker, size_t n) {
+FieldValues unpackField(ByteUnpacker& unpacker, size_t n) {
   ParticleField field;
   for (std::string* words : {&field.name, &field.label, &field.unit}) *words = unpacker.text();
   field.minimum = unpacker.value<double>();
@@ -144,7 +67,7 @@ FieldValues unpackField(Unpacker& unpacker, size_t n) {
 }
 
 std::shared_ptr<Snapshot> unpackFrame(const std::string& bytes, const std::string& where) {
-  Unpacker unpacker(bytes, where);
+  ByteUnpacker unpacker(bytes, where);
   auto s = std::make_shared<Snapshot>();
   const auto n = unpacker.value<uint64_t>(), colours = unpacker.value<uint64_t>();
   s->stats.frame = unpacker.value<uint64_t>();
@@ -201,13 +124,11 @@ RecordingWriter::RecordingWriter(const std::string& path, const Project& project
 
 void RecordingWriter::add(const Snapshot& snapshot) {
   const std::string raw = packFrame(snapshot);
-  std::string packed(ZSTD_compressBound(raw.size()), '\0');
-  const size_t size = ZSTD_compress(packed.data(), packed.size(), raw.data(), raw.size(), kLevel);
-  if (ZSTD_isError(size)) throw Error(std::string("a frame could not be packed: ") + ZSTD_getErrorName(size));
-  const uint64_t head[] = {size, raw.size(), hashOf({packed.data(), size})};
+  const std::string packed = squeezed(raw, kLevel);
+  const uint64_t head[] = {packed.size(), raw.size(), hashOf(packed)};
   m_file.write({kFrameMark, kMark});
   m_file.write(bytesOf(head));
-  m_file.write({packed.data(), size});
+  m_file.write(packed);
   m_file.flush();
   ++m_frames;
 }
@@ -296,12 +217,9 @@ SnapshotPtr RecordingReader::frame(size_t index) {
   if (hashOf(packed) != block.checksum) {
     throw InputError(where + "the bytes are not what was written; the file is damaged");
   }
-  const unsigned long long announced = ZSTD_getFrameContentSize(packed.data(), packed.size());
-  if (announced != block.size) throw InputError(where + "the frame's data are broken; record again");
-  std::string raw(block.size, '\0');
-  const size_t size = ZSTD_decompress(raw.data(), raw.size(), packed.data(), packed.size());
-  if (ZSTD_isError(size) || size != raw.size()) throw InputError(where + "the frame's data are broken; record again");
-  return unpackFrame(raw, where);
+  const std::optional<std::string> raw = unsqueezed(packed, block.size);
+  if (!raw) throw InputError(where + "the frame's data are broken; record again");
+  return unpackFrame(*raw, where);
 }
 
 bool isRecording(const std::string& path) {

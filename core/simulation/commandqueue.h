@@ -19,10 +19,15 @@ struct Opening {
   bool play = false;
 };
 struct SingleStep {};
+/// To a recorded frame, to go on from there.
+struct GoBack {
+  uint64_t frame = 0;
+  bool play = false;
+};
 using Question = std::function<void(const Engine&)>;
 /// Values of parameters that wait side by side, one of each address.
 using ParameterBatch = std::vector<SetParameter>;
-using QueueEntry = std::variant<ParameterBatch, Command, Question, Opening, SingleStep>;
+using QueueEntry = std::variant<ParameterBatch, Command, Question, Opening, SingleStep, GoBack>;
 
 /// What waits for the engine's thread. Values for parameters that wait side by side become one entry, in which a newer
 /// value replaces a waiting one of its address; a whole project, and a list of tracks or probes, replaces what it
@@ -52,6 +57,7 @@ class CommandQueue {
   void push(Question question) { m_entries.emplace_back(std::move(question)); }
   void push(Opening opening) { m_entries.emplace_back(std::move(opening)); }
   void push(SingleStep step) { m_entries.emplace_back(step); }
+  void push(GoBack to) { m_entries.emplace_back(to); }
   std::optional<QueueEntry> pop() {
     if (empty()) return std::nullopt;
     QueueEntry first = std::move(m_entries.front());

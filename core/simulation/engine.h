@@ -11,6 +11,7 @@
 
 namespace ps {
 
+class NamedMatter;
 class ParticleFields;
 class PluginRegistry;
 class Solver;
@@ -24,6 +25,8 @@ class Engine {
   /// At the state that the project holds; where it cannot go on from there, or holds none, at its start. Throws
   /// SceneError when no scene can be made of the project (contradicting values, too many particles, ...).
   Engine(const Project& project, PluginRegistry& plugins);
+  /// At a state that an engine of this document saved, whatever the project holds. Throws as restore().
+  Engine(const Project& document, PluginRegistry& plugins, const StateReader& state);
   ~Engine();
 
   /// Plugins that threw in it are refused from now on, in the registry too.
@@ -67,6 +70,10 @@ class Engine {
 
   /// What keys of commands name and is in the scene, to be named again after a ReturnToState.
   MatterIds namedMatter() const;
+  /// All that keys name, with what is out of the scene: what a state does not say, and goes with it to where edits are
+  /// repeated.
+  std::shared_ptr<const NamedMatter> names() const;
+  void setNames(const NamedMatter& names);
 
   /// All that goes on into the next frame: the solver's state, what emitters hold, and who is who.
   void save(StateWriter& writer) const;

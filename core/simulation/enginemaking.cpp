@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // How an engine's thread makes scenes: watched from outside, and given up when somebody asks for it.
+#include "core/base/error.h"
 #include "core/base/memory.h"
 #include "core/plugin_host/registry.h"
 #include "core/simulation/enginethreadimpl.h"
@@ -56,7 +57,59 @@ void EngineThread::Impl::remake(const Reset& start) {
     return;
   }
   for (const NameMatter& named : start.named) engine->apply(named);
+  recordRun();
   publishEdits();
+}
+
+void EngineThread::Impl::recordRun() {
+  record.begin(engine->revision());
+  record.keepState(*engine);
+}
+
+void EngineThread::Impl::recordEdit(RecordedEdit edit) {
+  if (!engine) return;
+  if (engine->revision() != record.revision())
+    recordRun();
+  else
+    record.add({engine->solver().frame(), std::move(edit)});
+}
+
+/// What goes wrong leaves the run as it is, unless the memory does not hold both.
+void EngineThread::Impl::goBack(const GoBack& to) {
+  if (!engine) return;
+  record.settle();
+  const bool edits = record.documentEditedAfter(to.frame);
+  const Project project = engine->document();
+  std::unique_ptr<Engine> past;
+  try {
+    if (needOf(project, &plugins).bytes > roomToGrow(memoryNow())) engine.reset();
+    make([&] {
+      const std::optional<RestorePoint> point = record.restorePoint(to.frame);
+      if (!point) throw InputError("the record has no state from which frame " + std::to_string(to.frame) + " follows");
+      past = replayed(*point, plugins);
+    });
+  } catch (...) {
+    if (engine)
+      fail(failureAtHand(EngineEvent::Kind::Refused));
+    else
+      noScene(failureAtHand(EngineEvent::Kind::NotOpened));
+    return;
+  }
+  engine = std::move(past);
+  if (shown) engine->apply(*shown);
+  record.cutAfter(to.frame, engine->revision());
+  if (edits) change(UpdateProject{std::make_shared<const Project>(project)});
+  record.keepState(*engine);
+  const SnapshotPtr snapshot = engine->snapshot();
+  {
+    const std::lock_guard lock(mutex);
+    history.cutAfter(to.frame);
+    newest = snapshot;
+    playing = to.play;
+    due = measured = std::chrono::steady_clock::now();
+    measuredTime = snapshot->stats.time;
+  }
+  publish(snapshot);
 }
 
 void EngineThread::Impl::open(const Opening& opening) {
@@ -67,6 +120,8 @@ void EngineThread::Impl::open(const Opening& opening) {
     noScene(failureAtHand(EngineEvent::Kind::NotOpened));
     return;
   }
+  shown = std::nullopt;
+  recordRun();
   {
     const std::lock_guard lock(mutex);
     newest = previous = nullptr;
@@ -87,6 +142,13 @@ void EngineThread::open(const Project& project, bool play) {
   }
   m->wake.notify_one();
 }
+
+void EngineThread::continueFrom(uint64_t frame, bool play) {
+  pause();
+  m->push(GoBack{frame, play});
+}
+
+const RunRecord& EngineThread::recording() const { return m->record; }
 
 std::optional<Progress::State> EngineThread::making() const {
   const std::lock_guard lock(m->mutex);

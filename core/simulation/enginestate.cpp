@@ -75,6 +75,14 @@ void Engine::save(StateWriter& writer) const {
   m->flow.save(writer);
 }
 
+Engine::Engine(const Project& document, PluginRegistry& plugins, const StateReader& state)
+    : m(std::make_unique<Impl>(document, plugins)) {
+  m = m->restored(state);
+}
+
+std::shared_ptr<const NamedMatter> Engine::names() const { return std::make_shared<const NamedMatter>(m->named); }
+void Engine::setNames(const NamedMatter& names) { m->named = names; }
+
 void Engine::restore(const StateReader& reader) { m = m->restored(reader); }
 
 void Engine::restore(const ProjectState& state) {

@@ -91,6 +91,8 @@ void EngineThread::Impl::workOff() {
       open(*opening);
     } else if (const auto* question = std::get_if<Question>(&*entry)) {
       answer(*question);
+    } else if (const auto* back = std::get_if<GoBack>(&*entry)) {
+      goBack(*back);
     } else {
       step();
     }
@@ -112,14 +114,15 @@ void EngineThread::Impl::step() {
   const double last = project.duration - numberOf(project.solver.parameters, solverParameters(), "dt") / 2;
   if (newest && newest->stats.time < last && snapshot->stats.time >= last) halt();
   publish(std::move(snapshot));
+  if (record.wantsState(engine->solver().time())) record.keepState(*engine);
 }
 
-/// Real time when the solver can keep up, as fast as it goes when it cannot.
+/// At its speed when the solver can keep up, as fast as it goes when it cannot.
 void EngineThread::Impl::pace() {
   const auto now = Clock::now();
   const double dt = engine ? numberOf(engine->project().solver.parameters, solverParameters(), "dt") : 1.0 / 60;
   const std::lock_guard lock(mutex);
-  due += std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(dt));
+  due += std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(dt / speed));
   if (due < now) due = now;
   const double elapsed = std::chrono::duration<double>(now - measured).count();
   const double time = newest ? newest->stats.time : 0;
@@ -181,6 +184,7 @@ void EngineThread::Impl::tellOf(const StepReport& report) {
 
 void EngineThread::Impl::publish(SnapshotPtr snapshot) {
   edited = false;
+  record.add(snapshot);
   const bool fresh = !newest || newest->revision != snapshot->revision;
   follow(snapshot->revision);
   {
@@ -245,18 +249,27 @@ void EngineThread::Impl::change(const Command& command) {
     else
       engine->apply(command);
   });
-  if (refusal) fail(*refusal);
+  if (refusal)
+    fail(*refusal);
+  else
+    recordEdit(command);
 }
 
 /// Those that are refused together may be good alone; each that is not is reported.
 void EngineThread::Impl::editAll(const ParameterBatch& batch) {
   const std::optional<EngineEvent> together = edit([&] { engine->setParameters(batch); });
-  if (!together) return;
+  if (!together) {
+    recordEdit(batch);
+    return;
+  }
   std::vector<EngineEvent> refusals;
   for (const SetParameter& one : batch) {
     std::optional<EngineEvent> refusal = together;
     if (batch.size() > 1) refusal = edit([&] { engine->setParameters({&one, 1}); });
-    if (!refusal) continue;
+    if (!refusal) {
+      recordEdit(ParameterBatch{one});
+      continue;
+    }
     if (together->flags) refusal->message = together->message;  // a plugin says what is wrong but once
     refusals.push_back(refusalOf(one, engine->document(), *refusal));
   }
@@ -267,6 +280,7 @@ void EngineThread::Impl::editAll(const ParameterBatch& batch) {
 void EngineThread::Impl::look(const Command& command) {
   if (!engine) return;
   engine->apply(command);
+  shown = std::get<ShowFields>(command);
   edited = true;
 }
 
@@ -287,7 +301,10 @@ void EngineThread::Impl::publishEdits() {
 }
 
 EngineThread::EngineThread(PluginRegistry& plugins, std::function<void()> published)
-    : m(std::make_unique<Impl>(plugins, std::move(published))) {
+    : EngineThread(plugins, std::move(published), RunRecord::usualBudget()) {}
+
+EngineThread::EngineThread(PluginRegistry& plugins, std::function<void()> published, size_t recordBytes)
+    : m(std::make_unique<Impl>(plugins, std::move(published), recordBytes)) {
   m->thread = std::jthread([impl = m.get()](const std::stop_token& stop) { impl->run(stop); });
 }
 
@@ -310,6 +327,11 @@ void EngineThread::play() {
 void EngineThread::pause() {
   const std::lock_guard lock(m->mutex);
   m->playing = false;
+}
+
+void EngineThread::setSpeed(double speed) {
+  const std::lock_guard lock(m->mutex);
+  m->speed = speed;
 }
 
 void EngineThread::stepOnce() {

@@ -14,6 +14,7 @@ namespace ps {
 
 class Engine;
 class PluginRegistry;
+class RunRecord;
 
 /// What a thread's edits have cost so far.
 struct EditCost {
@@ -29,6 +30,8 @@ class EngineThread {
  public:
   /// `published` is called on the engine's thread after each new snapshot and event, and when making a scene begins.
   EngineThread(PluginRegistry& plugins, std::function<void()> published);
+  /// The record of its runs may take `recordBytes`.
+  EngineThread(PluginRegistry& plugins, std::function<void()> published, size_t recordBytes);
   ~EngineThread();
 
   /// Replaces the scene; one that is being made is given up. A project that holds a state opens there, paused: who kept
@@ -39,6 +42,8 @@ class EngineThread {
   void play();
   void pause();
   void stepOnce();
+  /// Simulated seconds per second that it plays at where it can keep up; 1 at first, positive.
+  void setSpeed(double speed);
   /// An edit, after those that came before. One of a parameter replaces a waiting one of the same address, and
   /// those that wait side by side are made as one; an UpdateProject replaces what it would overwrite.
   void apply(Command command);
@@ -48,7 +53,14 @@ class EngineThread {
   /// Looks at the engine between frames, after the edits that came before.
   void ask(std::function<void(const Engine&)> question);
 
-  /// How far the scene is that is being made, by an opening, a reset or a return to a state; nothing when none is.
+  /// What the run was at each frame, as far as it is kept; a reset, an opening and a return to a state begin anew.
+  const RunRecord& recording() const;
+  /// Goes on from a recorded frame: the state before it, and all edits since, again up to that frame. Then the project
+  /// acts as it is by now: going back in time takes back no edit. What was recorded after the frame is forgotten.
+  void continueFrom(uint64_t frame, bool play);
+
+  /// How far the scene is that is being made, by an opening, a reset or a return to a state or frame; nothing when none
+  /// is.
   std::optional<Progress::State> making() const;
   /// Ends that: an event says so. What cannot stand beside the scene before it has taken its place; else that one
   /// stays.

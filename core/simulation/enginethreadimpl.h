@@ -5,6 +5,7 @@
 #include "core/simulation/engine.h"
 #include "core/simulation/enginethread.h"
 #include "core/simulation/framehistory.h"
+#include "core/simulation/runrecord.h"
 
 #include <chrono>
 #include <condition_variable>
@@ -21,9 +22,10 @@ namespace ps {
 struct EngineThread::Impl {
   static constexpr double kPatience = 10;  // s that a plugin may take for one call
 
-  Impl(PluginRegistry& registry, std::function<void()> callback)
+  Impl(PluginRegistry& registry, std::function<void()> callback, size_t recordBytes)
       : plugins(registry),
         published(std::move(callback)),
+        record(recordBytes),
         watch(
             kPatience, [this](const std::string& id) { isLate(id); }, [this](const std::string& id) { isBack(id); }) {}
 
@@ -44,6 +46,10 @@ struct EngineThread::Impl {
   /// Makes a scene, watched: whoever makes one calls engines only within it.
   void make(const std::function<void()>& makeScene);
   void remake(const Reset& start);
+  void goBack(const GoBack& to);
+  /// An edit was made: into the record, or with it another run has begun.
+  void recordEdit(RecordedEdit edit);
+  void recordRun();
   void noScene(const EngineEvent& failure);
   void publish(SnapshotPtr snapshot);
   void publishEdits();
@@ -74,9 +80,11 @@ struct EngineThread::Impl {
   std::function<void()> published;
   // Engine thread only.
   std::unique_ptr<Engine> engine;
-  StepFlags reported = 0;   // flags that were reported and have been raised since
-  int quiet = 0;            // frames without a flag
-  uint64_t reportedOf = 0;  // Engine::revision() of what was reported
+  StepFlags reported = 0;           // flags that were reported and have been raised since
+  int quiet = 0;                    // frames without a flag
+  uint64_t reportedOf = 0;          // Engine::revision() of what was reported
+  std::optional<ShowFields> shown;  // asked for since the scene was opened
+  RunRecord record;
   std::stop_token stopping;
   bool edited = false;  // since the last snapshot
   double snapshotSeconds = 0;
@@ -86,6 +94,7 @@ struct EngineThread::Impl {
   CommandQueue queue;
   EditCost cost;
   bool playing = false;
+  double speed = 1;                  // s per s
   std::shared_ptr<Progress> making;  // nullptr: none is
   SnapshotPtr newest, previous;
   FrameHistory history;

@@ -16,6 +16,10 @@ void FrameHistory::add(const FrameStats& stats) {
   m_frames.push_back(stats);
 }
 
+void FrameHistory::cutAfter(uint64_t frame) {
+  while (!m_frames.empty() && m_frames.back().frame > frame) m_frames.pop_back();
+}
+
 void FrameHistory::thin() {
   // What was among the newest the last time may be as coarse as the rest already is.
   while (m_frames.size() > (kMost + kNewest) / 2) {

@@ -16,6 +16,7 @@ class FrameHistory {
   void clear();
   /// Frames ascend; the number of the last one again replaces it.
   void add(const FrameStats& stats);
+  void cutAfter(uint64_t frame);
   /// From frame number `frame` on.
   std::vector<FrameStats> since(uint64_t frame) const;
   size_t size() const { return m_frames.size(); }

@@ -11,6 +11,7 @@ class TestFrameHistory : public QObject {
  private Q_SLOTS:
   void aRunOfAnyLengthFits();
   void editsReplaceTheLastFrame();
+  void goingBackCutsIt();
 };
 
 namespace {
@@ -60,6 +61,16 @@ void TestFrameHistory::editsReplaceTheLastFrame() {
   history.add(frame(1));
   QCOMPARE(history.size(), size_t{2});
   QCOMPARE(history.since(0).front().temperatureMean, 300.0);
+}
+
+void TestFrameHistory::goingBackCutsIt() {
+  FrameHistory history;
+  for (uint64_t n = 0; n < 9; ++n) history.add(frame(n));
+  history.cutAfter(4);
+  QCOMPARE(history.size(), size_t{5});
+  QCOMPARE(history.since(0).back().frame, uint64_t{4});
+  history.add(frame(5));
+  QCOMPARE(history.size(), size_t{6});
 }
 
 QTEST_APPLESS_MAIN(TestFrameHistory)

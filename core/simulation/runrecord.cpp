@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/simulation/runrecord.h"
+
+#include "core/base/bytepacker.h"
+#include "core/base/error.h"
+#include "core/base/log.h"
+#include "core/base/memory.h"
+#include "core/simulation/engine.h"
+#include "core/simulation/namedmatter.h"
+#include "core/simulation/runrecordimpl.h"
+#include "core/solver/solver.h"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace ps {
+namespace {
+
+constexpr double kStateInterval = 2;      // s of the run
+constexpr double kStateShare = 1.0 / 50;  // of the time, at most
+constexpr size_t kMostWaiting = 4;        // frames
+constexpr int kNiceness = 10;             // the solver's threads come first
+
+double secondsSince(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// About what an edit holds; whole projects are by far the largest.
+size_t bytesOf(const FrameEdit& edit) {
+  constexpr size_t kSmall = 256, kProject = 1 << 15, kCell = 12;
+  size_t bytes = sizeof edit + kSmall;
+  const auto* command = std::get_if<Command>(&edit.edit);
+  if (command && std::holds_alternative<UpdateProject>(*command)) bytes += kProject;
+  if (const auto* cells = command ? std::get_if<AddCells>(command) : nullptr) bytes += kCell * cells->cells.size();
+  if (const auto* cells = command ? std::get_if<TakeCells>(command) : nullptr) bytes += kCell * cells->cells.size();
+  return bytes;
+}
+
+bool changesDocument(const RecordedEdit& edit) {
+  const auto* command = std::get_if<Command>(&edit);
+  return !command || std::holds_alternative<SetParameter>(*command) || std::holds_alternative<SetTracks>(*command) ||
+         std::holds_alternative<UpdateProject>(*command);
+}
+
+}  // namespace
+
+RunRecord::RunRecord(size_t budget) : m(std::make_unique<Impl>(budget)) {
+  m->thread = std::jthread([impl = m.get()](const std::stop_token& stop) { impl->loop(stop); });
+}
+
+RunRecord::~RunRecord() {
+  m->thread.request_stop();
+  m->thread.join();
+}
+
+size_t RunRecord::usualBudget() {
+  constexpr double kLeast = 64.0 * (1 << 20), kMost = 16.0 * (1 << 30);
+  const double quarter = memoryNow().free / 4;
+  return static_cast<size_t>(std::clamp(quarter, kLeast, kMost));
+}
+
+void RunRecord::begin(uint64_t revision) {
+  const std::lock_guard lock(m->mutex);
+  m->clear();
+  m->revision = revision;
+}
+
+uint64_t RunRecord::revision() const {
+  const std::lock_guard lock(m->mutex);
+  return m->revision;
+}
+
+/// Where too many wait, the last of them is left out: what comes last is always kept.
+void RunRecord::add(SnapshotPtr snapshot) {
+  {
+    const std::lock_guard lock(m->mutex);
+    if (snapshot->revision != m->revision || !snapshot->bodyIds) return;
+    std::deque<SnapshotPtr>& waiting = m->waiting;
+    const bool again = !waiting.empty() && waiting.back()->stats.frame == snapshot->stats.frame;
+    if (!again && waiting.size() == kMostWaiting) ++m->leftOut;
+    if (again || waiting.size() == kMostWaiting) waiting.pop_back();
+    waiting.push_back(std::move(snapshot));
+  }
+  m->wake.notify_one();
+}
+
+void RunRecord::add(FrameEdit edit) {
+  const std::lock_guard lock(m->mutex);
+  m->editBytes += bytesOf(edit);
+  m->edits.push_back(std::move(edit));
+}
+
+bool RunRecord::wantsState(double time) const {
+  const std::lock_guard lock(m->mutex);
+  if (m->waitingState) return false;
+  if (m->states.empty() && m->stateAt == Impl::Clock::time_point{}) return true;
+  return time >= m->stateTime + kStateInterval && secondsSince(m->stateAt) * kStateShare >= m->stateSeconds;
+}
+
+void RunRecord::keepState(const Engine& engine) {
+  const auto start = Impl::Clock::now();
+  Impl::RawState raw;
+  saveTo(raw.stream, engine);
+  raw.state.frame = engine.solver().frame();
+  raw.state.names = engine.names();
+  const bool known = m->document && m->documentEdits == m->edits.size();  // who runs alone adds edits
+  if (!known) m->document = std::make_shared<const Project>(engine.document());
+  raw.state.document = m->document;
+  {
+    const std::lock_guard lock(m->mutex);
+    m->documentEdits = raw.state.edits = m->edits.size();
+    m->waitingState = std::move(raw);
+    m->stateTime = engine.solver().time();
+    m->stateAt = Impl::Clock::now();
+    m->stateSeconds = secondsSince(start);
+  }
+  m->wake.notify_one();
+}
+
+void RunRecord::cutAfter(uint64_t frame, uint64_t revision) {
+  const std::lock_guard lock(m->mutex);
+  m->forgetAfter(frame);
+  m->revision = revision;
+}
+
+bool RunRecord::documentEditedAfter(uint64_t frame) const {
+  const std::lock_guard lock(m->mutex);
+  return std::any_of(m->edits.rbegin(), m->edits.rend(),
+                     [frame](const FrameEdit& edit) { return edit.frame > frame && changesDocument(edit.edit); });
+}
+
+void RunRecord::Impl::clear() {
+  ++generation;
+  waiting.clear();
+  waitingState.reset();
+  frames.clear();
+  states.clear();
+  edits.clear();
+  document = nullptr;
+  frameBytes = editBytes = documentEdits = 0;
+  stride = 1;
+  sweep = sweepEnd = leftOut = 0;
+  stateAt = {};
+  packSeconds = stateSeconds = 0;
+}
+
+void RunRecord::Impl::forgetAfter(uint64_t frame) {
+  ++generation;
+  waiting.clear();
+  waitingState.reset();
+  while (!frames.empty() && frames.rbegin()->first > frame) eraseFrame(std::prev(frames.end()));
+  std::erase_if(states, [&](const State& state) { return state.frame > frame; });
+  while (!edits.empty() && edits.back().frame > frame) {
+    editBytes -= bytesOf(edits.back());
+    edits.pop_back();
+  }
+  document = nullptr;
+  sweep = sweepEnd = 0;
+}
+
+void RunRecord::Impl::loop(const std::stop_token& stop) {
+  setpriority(PRIO_PROCESS, 0, kNiceness);  // of this thread alone, as Linux has it
+  FramePacker packer(counted);
+  std::unique_lock lock(mutex);
+  while (wake.wait(lock, stop, [this] { return waitingState || !waiting.empty(); })) {
+    busy = true;
+    const uint64_t of = generation;
+    std::optional<RawState> state = std::exchange(waitingState, std::nullopt);
+    SnapshotPtr snapshot;
+    if (!state) {
+      snapshot = std::move(waiting.front());
+      waiting.pop_front();
+    }
+    lock.unlock();
+    try {
+      if (state) packState(std::move(*state), of);
+      if (snapshot) packFrame(snapshot, of, packer);
+    } catch (const std::exception& problem) {
+      log(LogLevel::Warning, std::string("A frame is not recorded: ") + problem.what());
+    }
+    snapshot = nullptr;
+    lock.lock();
+    busy = false;
+    if (idle()) done.notify_all();
+  }
+}
+
+void RunRecord::Impl::packState(RawState raw, uint64_t of) {
+  BytePacker packer;
+  const auto bytes = raw.stream.bytes();
+  packer.planes(reinterpret_cast<const char*>(bytes.data()), bytes.size(), 4);
+  raw.state.stream = std::make_shared<const PackedBytes>(packer.bytes(), counted);
+  const std::lock_guard lock(mutex);
+  if (of != generation) return;
+  std::erase_if(states, [&](const State& state) { return state.frame == raw.state.frame; });
+  states.push_back(std::move(raw.state));
+  fit();
+}
+
+void RunRecord::Impl::packFrame(const SnapshotPtr& snapshot, uint64_t of, FramePacker& packer) {
+  const auto start = Clock::now();
+  PackedFrame packed = packer.pack(*snapshot);
+  const std::lock_guard lock(mutex);
+  packSeconds += secondsSince(start);
+  if (of != generation) return;
+  const auto known = frames.find(snapshot->stats.frame);
+  if (known != frames.end()) eraseFrame(known);
+  frameBytes += packed.bytes();
+  frames.emplace(snapshot->stats.frame, std::move(packed));
+  fit();
+}
+
+void RunRecord::settle() const {
+  std::unique_lock lock(m->mutex);
+  m->done.wait(lock, [this] { return m->idle(); });
+}
+
+}  // namespace ps

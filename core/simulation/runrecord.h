@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "core/base/statestream.h"
+#include "core/simulation/command.h"
+#include "core/simulation/snapshot.h"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+// A run as it goes, in memory: small frames to look at, whole states now and then to go on from, and between them the
+// edits with their frames, which bring a state to any frame after it, to the bit. Why a thread of its own: packing a
+// frame takes as long as a part of its step. Who runs hands over what is there anyway, and never waits; what the thread
+// does not get to is left out and counted. Why nothing is left out of the edits: without one of them no later frame
+// could be made again.
+namespace ps {
+
+class Engine;
+class NamedMatter;
+class PluginRegistry;
+
+/// What an engine took: values that were set together, or a command.
+using RecordedEdit = std::variant<std::vector<SetParameter>, Command>;
+struct FrameEdit {
+  uint64_t frame = 0;  ///< after which it acted
+  RecordedEdit edit;
+};
+
+/// All that is needed to make a frame again.
+struct RestorePoint {
+  uint64_t from = 0, frame = 0;             ///< number of the state's frame, and of the one that is asked for
+  std::shared_ptr<const Project> document;  ///< at the state
+  std::shared_ptr<const NamedMatter> names;
+  std::vector<std::byte> state;  ///< what Engine::save() wrote
+  std::vector<FrameEdit> edits;  ///< since, up to and with those that acted after the frame that is asked for
+};
+
+/// An engine at the frame of a point. Progress advances with its frames; throws Cancelled, and Error where a frame
+/// fails.
+std::unique_ptr<Engine> replayed(const RestorePoint& point, PluginRegistry& plugins);
+
+class RunRecord {
+ public:
+  /// What is kept stays below `budget` bytes, but for the newest frame. When it is full, every second one of the older
+  /// half of the frames goes, one by one, then every second one of the rest; of the states those that stand closest.
+  explicit RunRecord(size_t budget);
+  ~RunRecord();
+
+  /// A quarter of the memory that the machine has for this program now; at least 64 MiB, at most 16 GiB.
+  static size_t usualBudget();
+
+  // By who runs. None of these waits for packing.
+
+  /// Another run: what was kept is forgotten. Snapshots of other revisions are not taken.
+  void begin(uint64_t revision);
+  uint64_t revision() const;
+  /// Frames ascend; the number of the last one again replaces it.
+  void add(SnapshotPtr snapshot);
+  void add(FrameEdit edit);
+  /// Whether a state is due: two simulated seconds after the last one, as long as keeping them takes no more than a
+  /// fiftieth of the time.
+  bool wantsState(double time) const;
+  /// Of an engine as it stands, after the edits that were added.
+  void keepState(const Engine& engine);
+  /// The run went back to a frame and goes on from there under another revision: what came after is forgotten.
+  void cutAfter(uint64_t frame, uint64_t revision);
+  /// Parameters, tracks or the project as a whole; what became of matter alone does not count.
+  bool documentEditedAfter(uint64_t frame) const;
+
+  // By anybody.
+
+  struct Extent {
+    uint64_t first = 0, last = 0;  ///< numbers of frames
+    double from = 0, to = 0;       ///< s
+    size_t frames = 0;             ///< that are kept; 0: there are none
+  };
+  Extent extent() const;
+  /// The kept frame next to a time, or so many kept frames before or after another; nothing where there is none.
+  std::optional<uint64_t> frameAt(double time) const;
+  std::optional<uint64_t> neighbour(uint64_t frame, int steps) const;
+  /// Unpacks one that is kept; nullptr where it is not.
+  SnapshotPtr frame(uint64_t number) const;
+  /// How a frame can be made again, from the nearest state; nothing where no state before it is kept.
+  std::optional<RestorePoint> restorePoint(uint64_t frame) const;
+  /// Waits until all that was handed over is packed.
+  void settle() const;
+
+  struct Cost {
+    size_t bytes = 0, states = 0;
+    uint64_t leftOut = 0;  ///< frames that came faster than they were packed, in this run
+    double stateSeconds = 0, packSeconds = 0;
+  };
+  Cost cost() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> m;
+};
+
+}  // namespace ps

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "core/simulation/packedframe.h"
+#include "core/simulation/runrecord.h"
+
+#include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <map>
+#include <mutex>
+#include <thread>
+
+// What the record of a run holds; private to this room.
+namespace ps {
+
+struct RunRecord::Impl {
+  using Clock = std::chrono::steady_clock;
+
+  struct State {
+    uint64_t frame = 0;
+    size_t edits = 0;  ///< that were in it
+    std::shared_ptr<const Project> document;
+    std::shared_ptr<const NamedMatter> names;
+    std::shared_ptr<const PackedBytes> stream;
+  };
+  struct RawState {
+    State state;
+    StateBuffer stream;
+  };
+
+  explicit Impl(size_t bytes) : budget(bytes), counted(std::make_shared<std::atomic<size_t>>(0)) {}
+  void loop(const std::stop_token& stop);
+  void packState(RawState raw, uint64_t of);
+  void packFrame(const SnapshotPtr& snapshot, uint64_t of, FramePacker& packer);
+  void clear();
+  void forgetAfter(uint64_t frame);
+  bool idle() const { return !busy && waiting.empty() && !waitingState; }
+
+  size_t bytes() const;
+  void fit();
+  bool thinFrames();
+  bool thinStates();
+  void eraseFrame(std::map<uint64_t, PackedFrame>::iterator frame);
+
+  const size_t budget;
+  const ByteCount counted;  ///< of packed bytes
+
+  mutable std::mutex mutex;
+  std::condition_variable_any wake;
+  mutable std::condition_variable done;
+  uint64_t revision = 0;
+  uint64_t generation = 0;  ///< of what is handed over: what was packed for another one is thrown away
+  std::deque<SnapshotPtr> waiting;
+  std::optional<RawState> waitingState;
+  bool busy = false;
+
+  std::map<uint64_t, PackedFrame> frames;
+  size_t frameBytes = 0;  ///< beside the packed ones
+  uint64_t stride = 1, sweep = 0, sweepEnd = 0;
+  bool erased = false;  ///< in this sweep
+  std::vector<State> states;
+  std::vector<FrameEdit> edits;
+  size_t editBytes = 0;
+
+  std::shared_ptr<const Project> document;  ///< of the last state, while nothing was edited since
+  size_t documentEdits = 0;
+  double stateTime = 0, stateSeconds = 0, packSeconds = 0;
+  Clock::time_point stateAt{};
+  uint64_t leftOut = 0;
+  std::jthread thread;  // ends first
+};
+
+}  // namespace ps

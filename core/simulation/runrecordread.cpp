@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the record of a run gives, and what it keeps when it is full.
+#include "core/base/bytepacker.h"
+#include "core/base/error.h"
+#include "core/base/progress.h"
+#include "core/simulation/engine.h"
+#include "core/simulation/namedmatter.h"
+#include "core/simulation/runrecordimpl.h"
+#include "core/solver/solver.h"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+namespace ps {
+
+size_t RunRecord::Impl::bytes() const { return *counted + frameBytes + editBytes; }
+
+void RunRecord::Impl::eraseFrame(std::map<uint64_t, PackedFrame>::iterator frame) {
+  frameBytes -= frame->second.bytes();
+  frames.erase(frame);
+}
+
+/// States may take half of it: frames are what people look at.
+void RunRecord::Impl::fit() {
+  const auto stateBytes = [this] {
+    size_t sum = 0;
+    for (const State& state : states) sum += state.stream->size();
+    return sum;
+  };
+  while (stateBytes() > budget / 2 && thinStates()) {
+  }
+  while (bytes() > budget && (thinFrames() || thinStates())) {
+  }
+}
+
+/// One of the older half; the oldest and the newest stay. What was among the newest the last time may be as coarse as
+/// the rest already is before the rest gets coarser.
+bool RunRecord::Impl::thinFrames() {
+  if (frames.size() < 3) return false;
+  for (;;) {
+    for (auto frame = frames.upper_bound(std::max(sweep, frames.begin()->first));
+         frame != frames.end() && frame->first < sweepEnd; ++frame) {
+      if (frame->first % stride == 0) continue;
+      sweep = frame->first;
+      erased = true;
+      eraseFrame(frame);
+      return true;
+    }
+    if (!erased) stride *= 2;
+    erased = false;
+    sweep = 0;
+    sweepEnd = std::next(frames.begin(), static_cast<std::ptrdiff_t>((frames.size() + 1) / 2))->first;
+    if (stride > 2 * frames.rbegin()->first + 2) break;  // all that are left there are multiples of it
+  }
+  stride = 1;
+  eraseFrame(std::next(frames.begin()));
+  return true;
+}
+
+/// The one whose neighbours stand closest, the oldest of those; the first stays, from which all can be made again.
+bool RunRecord::Impl::thinStates() {
+  if (states.empty()) return false;
+  size_t least = states.size() - 1;
+  for (size_t k = states.size() - 1; k-- > 1;) {
+    const auto gap = [this](size_t at) { return states[at + 1].frame - states[at - 1].frame; };
+    if (least + 1 == states.size() || gap(k) <= gap(least)) least = k;
+  }
+  states.erase(states.begin() + static_cast<std::ptrdiff_t>(least));
+  return true;
+}
+
+RunRecord::Extent RunRecord::extent() const {
+  const std::lock_guard lock(m->mutex);
+  if (m->frames.empty()) return {};
+  const auto& [first, oldest] = *m->frames.begin();
+  const auto& [last, newest] = *m->frames.rbegin();
+  return {first, last, oldest.stats().time, newest.stats().time, m->frames.size()};
+}
+
+std::optional<uint64_t> RunRecord::frameAt(double time) const {
+  const std::lock_guard lock(m->mutex);
+  if (m->frames.empty()) return std::nullopt;
+  // Times ascend with numbers, and mostly evenly: a search among them by halves of the numbers.
+  uint64_t low = m->frames.begin()->first, high = m->frames.rbegin()->first;
+  while (low < high) {
+    const uint64_t middle = low + (high - low) / 2;
+    const auto at = m->frames.lower_bound(middle);
+    if (at->second.stats().time < time && at->first < high) {
+      low = at->first + 1;
+    } else if (at->second.stats().time < time) {
+      low = high;
+    } else {
+      high = middle;
+    }
+  }
+  auto next = m->frames.lower_bound(low);
+  if (next == m->frames.end()) return m->frames.rbegin()->first;
+  if (next == m->frames.begin()) return next->first;
+  const auto before = std::prev(next);
+  return time - before->second.stats().time <= next->second.stats().time - time ? before->first : next->first;
+}
+
+std::optional<uint64_t> RunRecord::neighbour(uint64_t frame, int steps) const {
+  const std::lock_guard lock(m->mutex);
+  auto at = m->frames.lower_bound(frame);
+  if (at == m->frames.end() || at->first != frame) return std::nullopt;
+  for (; steps > 0; --steps) {
+    if (++at == m->frames.end()) return std::nullopt;
+  }
+  for (; steps < 0; ++steps) {
+    if (at == m->frames.begin()) return std::nullopt;
+    --at;
+  }
+  return at->first;
+}
+
+SnapshotPtr RunRecord::frame(uint64_t number) const {
+  std::optional<PackedFrame> packed;
+  uint64_t revision = 0;
+  {
+    const std::lock_guard lock(m->mutex);
+    const auto found = m->frames.find(number);
+    if (found == m->frames.end()) return nullptr;
+    packed = found->second;
+    revision = m->revision;
+  }
+  return packed->snapshot(revision);
+}
+
+std::optional<RestorePoint> RunRecord::restorePoint(uint64_t frame) const {
+  RestorePoint point;
+  std::shared_ptr<const PackedBytes> stream;
+  {
+    const std::lock_guard lock(m->mutex);
+    const auto after =
+        std::find_if(m->states.begin(), m->states.end(), [&](const Impl::State& state) { return state.frame > frame; });
+    if (after == m->states.begin()) return std::nullopt;
+    const Impl::State& state = *std::prev(after);
+    point.from = state.frame;
+    point.frame = frame;
+    point.document = state.document;
+    point.names = state.names;
+    stream = state.stream;
+    for (size_t k = state.edits; k < m->edits.size() && m->edits[k].frame <= frame; ++k)
+      point.edits.push_back(m->edits[k]);
+  }
+  const std::string planes = stream->unpacked();
+  point.state.resize(planes.size());
+  ByteUnpacker::words(reinterpret_cast<char*>(point.state.data()), planes.data(), planes.size(), 4);
+  return point;
+}
+
+RunRecord::Cost RunRecord::cost() const {
+  const std::lock_guard lock(m->mutex);
+  return {m->bytes(), m->states.size(), m->leftOut, m->stateSeconds, m->packSeconds};
+}
+
+std::unique_ptr<Engine> replayed(const RestorePoint& point, PluginRegistry& plugins) {
+  if (t_progress) t_progress->expect(1);
+  beginStage("Going back", 1, static_cast<double>(point.frame - point.from));
+  auto engine = std::make_unique<Engine>(*point.document, plugins, StateReader(point.state));
+  engine->setNames(*point.names);
+  auto edit = point.edits.begin();
+  const auto applyEdits = [&] {
+    for (; edit != point.edits.end() && edit->frame <= engine->solver().frame(); ++edit) {
+      if (const auto* together = std::get_if<std::vector<SetParameter>>(&edit->edit))
+        engine->setParameters(*together);
+      else
+        engine->apply(std::get<Command>(edit->edit));
+    }
+  };
+  applyEdits();
+  while (engine->solver().frame() < point.frame) {
+    const uint64_t before = engine->solver().frame();
+    const StepReport report = engine->step();
+    if (engine->solver().frame() == before) throw Error("frame " + std::to_string(before) + ": " + report.message);
+    advance(1);
+    applyEdits();
+  }
+  return engine;
+}
+
+}  // namespace ps

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// What recording costs a run: frames of the tank as the editor makes them, turn by turn with and without.
+//   recording [PARTICLES] [FRAMES a turn] [TURNS]
+#include "core/experiments/benchscenes.h"
+#include "core/plugin_host/registry.h"
+#include "core/simulation/engine.h"
+#include "core/simulation/runrecord.h"
+#include "core/solver/solver.h"
+
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+
+int main(int argc, char** argv) {
+  using Clock = std::chrono::steady_clock;
+  const auto milliseconds = [](Clock::time_point from) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - from).count();
+  };
+  const auto number = [&](int at, int usual) { return argc > at ? std::atoi(argv[at]) : usual; };
+  const int particles = number(1, 100000), frames = number(2, 30), turns = number(3, 6);
+  ps::PluginRegistry plugins;
+  ps::Engine engine(ps::tank(particles), plugins);
+  ps::RunRecord record(ps::RunRecord::usualBudget());
+  record.begin(engine.revision());
+  double sum[2]{}, states = 0;
+  int count[2]{}, kept = 0;
+  for (int warmUp = 0; warmUp < 5; ++warmUp) engine.step();
+  for (int turn = 0; turn < turns; ++turn) {
+    const int with = turn % 2;
+    for (int frame = 0; frame < frames; ++frame) {
+      const auto start = Clock::now();
+      engine.step();
+      ps::SnapshotPtr snapshot = engine.snapshot();
+      if (with) {
+        record.add(std::move(snapshot));
+        if (record.wantsState(engine.solver().time())) {
+          record.keepState(engine);
+          states += record.cost().stateSeconds * 1000;
+          ++kept;
+        }
+      }
+      sum[with] += milliseconds(start);
+      ++count[with];
+    }
+    if (with) record.settle();  // outside of what is measured: the next turn is without
+  }
+  const auto [first, last, from, to, size] = record.extent();
+  const auto cost = record.cost();
+  const auto start = Clock::now();
+  const size_t shown = record.frame(last)->position.size();
+  const double unpack = milliseconds(start);
+  std::printf("%zu particles: %.2f ms a frame without, %.2f ms with (%+.1f %%)\n", shown, sum[0] / count[0],
+              sum[1] / count[1], 100 * ((sum[1] / count[1]) / (sum[0] / count[0]) - 1));
+  std::printf("packed in %.1f ms a frame by a thread of its own; %zu of %d frames kept, %llu left out\n",
+              1000 * cost.packSeconds / static_cast<double>(size), size, count[1],
+              static_cast<unsigned long long>(cost.leftOut));
+  std::printf("%d states in %.1f ms each; %.1f MB in all; a frame unpacked in %.1f ms\n", kept,
+              kept ? states / kept : 0, static_cast<double>(cost.bytes) / 1e6, unpack);
+}

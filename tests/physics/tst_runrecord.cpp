@@ -1,0 +1,345 @@
+// SPDX-License-Identifier: Apache-2.0
+// A run is recorded while it runs: any frame can be looked at, and be made again to the bit.
+#include "core/base/parallel.h"
+#include "core/io/projectio.h"
+#include "core/plugin_host/registry.h"
+#include "core/simulation/engine.h"
+#include "core/simulation/packedframe.h"
+#include "core/simulation/particlefield.h"
+#include "core/simulation/runrecord.h"
+#include "core/solver/solver.h"
+#include "tests/shared/enginehands.h"
+
+#include <QTest>
+
+#include <cmath>
+#include <map>
+#include <random>
+
+using namespace ps;
+
+namespace {
+
+const QString kProjects = PS_SOURCE_DIR "/projects";
+constexpr size_t kPlenty = size_t{1} << 30;
+constexpr uint64_t kFrames = 24;
+
+/// As fine as the sample is, in less of it: a few thousand particles are enough to show whether bits agree.
+Project open(const QString& name, PluginRegistry& plugins) {
+  Project project = loadProject((kProjects + "/" + name + ".json").toStdString(), plugins).project;
+  project.solver.parameters.values["particle_spacing"] =
+      1.4 * numberOf(project.solver.parameters, solverParameters(), "particle_spacing");
+  return project;
+}
+
+/// A slider in frame 3 and 11, the first body taken at frame 5 and put back at 14, the document as a whole at 17.
+std::vector<RecordedEdit> editsAfter(uint64_t frame, const Project& project) {
+  constexpr MatterKey kKey = 77;
+  const Address gravity{Owner::Scene, "", "gravity"};
+  const std::string& body = project.bodies.front().id;
+  if (frame == 3) return {std::vector{SetParameter{gravity, 7.5}}};
+  if (frame == 5) return {Command{TakeBody{body, kKey}}};
+  if (frame == 11) return {std::vector{SetParameter{gravity, 12.0}}, std::vector{SetParameter{gravity, 9.0}}};
+  if (frame == 14) return {Command{PutBack{kKey}}};
+  if (frame == 17) return {Command{UpdateProject{std::make_shared<const Project>(project)}}};
+  return {};
+}
+
+void make(Engine& engine, const RecordedEdit& edit) {
+  if (const auto* together = std::get_if<std::vector<SetParameter>>(&edit))
+    engine.setParameters(*together);
+  else
+    engine.apply(std::get<Command>(edit));
+}
+
+/// Frames of one particle at x = its number.
+SnapshotPtr plainFrame(uint64_t number, size_t particles = 1) {
+  static const auto kBodies = std::make_shared<const std::vector<std::string>>(1, "b");
+  auto s = std::make_shared<Snapshot>();
+  s->stats.frame = number;
+  s->stats.time = static_cast<double>(number) / 60;
+  s->revision = 1;
+  s->spacing = 0.01;
+  s->bodyIds = kBodies;
+  s->materialIds = {"m"};
+  s->materialLook = {{1, 1, 1, 1}};
+  std::mt19937 random(static_cast<unsigned>(number));
+  const auto any = [&random] { return static_cast<float>(random() & 0xFFFFU) / 65536.0F; };
+  s->position.resize(particles);
+  for (api::Float4& p : s->position) p = {any(), any(), any(), 0.005F};
+  s->temperature.assign(particles, 300);
+  s->speed.assign(particles, 1);
+  s->densityError.assign(particles, 0);
+  s->gasFraction.assign(particles, 0);
+  s->phase.assign(particles, api::Phase::Liquid);
+  s->motion.assign(particles, api::Motion::Liquid);
+  s->id.resize(particles);
+  for (size_t i = 0; i < particles; ++i) s->id[i] = static_cast<uint32_t>(particles - i);
+  s->body.assign(particles, 0);
+  s->material.assign(particles, 0);
+  return s;
+}
+
+float widest(const std::vector<float>& values) {
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  return values.empty() ? 0 : *high - *low;
+}
+
+}  // namespace
+
+class TestRunRecord : public QObject {
+  Q_OBJECT
+ private Q_SLOTS:
+  void cleanup() { setThreadCount(0); }
+
+  void smallFramesShowWhatWas_data() { samples(); }
+  void smallFramesShowWhatWas();
+  void anyFrameIsMadeAgain_data() { samples(); }
+  void anyFrameIsMadeAgain();
+  void whatComesTooFastIsLeftOutAndCounted();
+  void staysWithinItsBudget();
+  void aFrameIsFoundByItsTime();
+  void goingBackForgetsWhatCameAfter();
+  void theThreadRecordsAndGoesOn_data() { samples(); }
+  void theThreadRecordsAndGoesOn();
+
+ private:
+  static void samples() {
+    QTest::addColumn<QString>("name");
+    for (const char* name : {"dam-break", "river", "wet-cloth", "kettle-with-lid", "ice-on-hot-plate"})
+      QTest::newRow(name) << name;
+  }
+  PluginRegistry m_plugins;
+};
+
+/// Half a step of a range with its margins: an eighth at both ends, or what is said in makeKey().
+void TestRunRecord::smallFramesShowWhatWas() {
+  QFETCH(QString, name);
+  Engine engine(open(name, m_plugins), m_plugins);
+  engine.show({"density", "body"});
+  const ByteCount count = std::make_shared<std::atomic<size_t>>(0);
+  FramePacker packer(count);
+  for (int frame = 0; frame < 20; ++frame) {
+    const SnapshotPtr was = engine.snapshot();
+    const SnapshotPtr is = packer.pack(*was).snapshot(9);
+    QCOMPARE(is->revision, uint64_t{9});
+    QCOMPARE(is->stats.time, was->stats.time);
+    QCOMPARE(is->stats.thermalEnergy, was->stats.thermalEnergy);
+    QCOMPARE(is->stats.probes.size(), was->stats.probes.size());  // some measure nothing yet, which equals nothing
+    QVERIFY(is->bodyIds == was->bodyIds && is->flags == was->flags);
+    QVERIFY(is->materialLook == was->materialLook && is->limits.size() == was->limits.size());
+    QCOMPARE(is->id.size(), was->id.size());
+    QCOMPARE(is->fields.size(), was->fields.size());
+    std::map<uint32_t, size_t> rows;
+    for (size_t i = 0; i < was->id.size(); ++i) rows[was->id[i]] = i;
+    std::array<std::vector<float>, 3> axes;
+    for (const api::Float4& p : was->position) axes[0].push_back(p.x), axes[1].push_back(p.y), axes[2].push_back(p.z);
+    float extent = 0;
+    for (const auto& axis : axes) extent = std::max(extent, widest(axis));
+    // Two frames of a key may have grown by its margin; a float's own steps come on top.
+    const float place = (1.25F * extent + 2 * static_cast<float>(was->spacing)) / 65535 + 1e-6F;
+    const float warmth = (1.25F * widest(was->temperature) + 2) / 65535 + 1e-4F;
+    const float speed = widest(was->speed) / 65535 + 1e-6F;
+    std::vector<float> steps;
+    for (size_t f = 0; f < is->fields.size(); ++f) {
+      QCOMPARE(is->fields[f].field, was->fields[f].field);
+      steps.push_back(was->fields[f].field->classes ? 0 : 1.01F * widest(was->fields[f].values) / 65535);
+    }
+    for (size_t k = 0; k < is->id.size(); ++k) {
+      const size_t i = rows.at(is->id[k]);
+      QVERIFY(std::abs(is->position[k].x - was->position[i].x) <= place);
+      QVERIFY(std::abs(is->position[k].y - was->position[i].y) <= place);
+      QVERIFY(std::abs(is->position[k].z - was->position[i].z) <= place);
+      QVERIFY(std::abs(is->position[k].w - was->position[i].w) <= 1e-4F * was->position[i].w + 1e-6F);
+      QVERIFY(std::abs(is->temperature[k] - was->temperature[i]) <= warmth);
+      QVERIFY(std::abs(is->speed[k] - was->speed[i]) <= speed);
+      QVERIFY(is->phase[k] == was->phase[i] && is->motion[k] == was->motion[i]);
+      for (size_t f = 0; f < steps.size(); ++f)
+        QVERIFY(std::abs(is->fields[f].values[k] - was->fields[f].values[i]) <= steps[f]);
+      QVERIFY(is->body[k] == was->body[i] && is->material[k] == was->material[i]);
+    }
+    engine.step();
+  }
+  QVERIFY(*count > 0);
+  packer = FramePacker(count);
+  QCOMPARE(count->load(), size_t{0});
+}
+
+void TestRunRecord::anyFrameIsMadeAgain() {
+  QFETCH(QString, name);
+  const Project project = open(name, m_plugins);
+  RunRecord record(kPlenty);
+  std::map<uint64_t, uint64_t> hashes;
+  setThreadCount(2);
+  Engine engine(project, m_plugins);
+  record.begin(engine.revision());
+  record.keepState(engine);
+  for (;;) {
+    const uint64_t frame = engine.solver().frame();
+    for (RecordedEdit& edit : editsAfter(frame, project)) {
+      make(engine, edit);
+      record.add({frame, std::move(edit)});
+    }
+    record.add(engine.snapshot());
+    hashes[frame] = engine.stateHash();
+    if (frame == kFrames) break;
+    engine.step();
+    if (engine.solver().frame() % 8 == 0) record.keepState(engine);
+    record.settle();
+  }
+  record.settle();
+  QCOMPARE(record.extent().frames, size_t{kFrames + 1});
+  std::mt19937 random(5);
+  for (const int threads : {1, 2}) {
+    setThreadCount(threads);
+    std::vector<uint64_t> frames{0, 14, kFrames};  // between the state of 8 and the edit that puts back
+    for (int more = 0; more < 3; ++more) frames.push_back(random() % kFrames);
+    for (const uint64_t frame : frames) {
+      const std::optional<RestorePoint> point = record.restorePoint(frame);
+      QVERIFY(point);
+      QCOMPARE(point->from, frame - frame % 8);
+      const std::unique_ptr<Engine> again = replayed(*point, m_plugins);
+      QCOMPARE(again->solver().frame(), frame);
+      QCOMPARE(again->stateHash(), hashes[frame]);
+    }
+  }
+}
+
+void TestRunRecord::whatComesTooFastIsLeftOutAndCounted() {
+  RunRecord record(kPlenty);
+  record.begin(1);
+  std::vector<SnapshotPtr> frames;
+  for (uint64_t n = 0; n < 60; ++n) frames.push_back(plainFrame(n, 20000));
+  for (const SnapshotPtr& frame : frames) record.add(frame);
+  record.settle();
+  QVERIFY(record.cost().leftOut > 0);
+  QCOMPARE(record.extent().frames + record.cost().leftOut, size_t{60});
+  QCOMPARE(record.extent().last, uint64_t{59});
+  QCOMPARE(record.extent().first, uint64_t{0});
+}
+
+/// What is old is evenly spread, and the newest frames are all there.
+void TestRunRecord::staysWithinItsBudget() {
+  constexpr size_t kBudget = 300000;
+  constexpr uint64_t kLast = 3000;
+  RunRecord record(kBudget);
+  record.begin(1);
+  for (uint64_t n = 0; n <= kLast; ++n) {
+    record.add(plainFrame(n, 50));
+    record.settle();
+    QVERIFY2(record.cost().bytes <= kBudget, qPrintable(QString::number(record.cost().bytes)));
+  }
+  QCOMPARE(record.cost().leftOut, uint64_t{0});
+  const RunRecord::Extent extent = record.extent();
+  QVERIFY(extent.frames > 60);
+  QCOMPARE(extent.last, kLast);
+  QVERIFY(extent.first == 0);
+  uint64_t gap = 0, newest = 0;
+  size_t row = 0;
+  for (uint64_t at = 0; at != kLast; ++row) {
+    const auto next = record.neighbour(at, 1);
+    QVERIFY(next);
+    if (row < extent.frames / 2) gap = std::max(gap, *next - at);
+    if (row > extent.frames - extent.frames / 4) newest = std::max(newest, *next - at);
+    at = *next;
+  }
+  QCOMPARE(newest, uint64_t{1});
+  // Half of the frames, evenly over nearly the whole run, are so far apart; powers of two may be twice, and what was
+  // taken last is coarser by one more.
+  QVERIFY2(gap <= 4 * kLast / (extent.frames / 2), qPrintable(QString::number(gap)));
+}
+
+void TestRunRecord::aFrameIsFoundByItsTime() {
+  RunRecord record(kPlenty);
+  QVERIFY(!record.frameAt(1));
+  record.begin(1);
+  for (const uint64_t n : {3, 4, 5, 9, 20}) {
+    record.add(plainFrame(n));
+    record.settle();
+  }
+  const auto at = [&](double frame) { return record.frameAt(frame / 60).value(); };
+  QCOMPARE(at(0), uint64_t{3});
+  QCOMPARE(at(4.4), uint64_t{4});
+  QCOMPARE(at(4.6), uint64_t{5});
+  QCOMPARE(at(6.9), uint64_t{5});
+  QCOMPARE(at(7.1), uint64_t{9});
+  QCOMPARE(at(14.4), uint64_t{9});
+  QCOMPARE(at(15), uint64_t{20});
+  QCOMPARE(at(99), uint64_t{20});
+  QCOMPARE(record.neighbour(5, 1).value(), uint64_t{9});
+  QCOMPARE(record.neighbour(5, -2).value(), uint64_t{3});
+  QVERIFY(!record.neighbour(20, 1) && !record.neighbour(3, -1));
+  QVERIFY(record.frame(9) && !record.frame(10));
+}
+
+void TestRunRecord::goingBackForgetsWhatCameAfter() {
+  RunRecord record(kPlenty);
+  record.begin(1);
+  for (uint64_t n = 0; n < 10; ++n) {
+    record.add(plainFrame(n));
+    record.settle();
+    record.add(FrameEdit{n, std::vector{SetParameter{{Owner::Scene, "", "gravity"}, 1.0}}});
+  }
+  QVERIFY(record.documentEditedAfter(8) && !record.documentEditedAfter(9));
+  record.cutAfter(6, 2);
+  QCOMPARE(record.extent().last, uint64_t{6});
+  QVERIFY(!record.documentEditedAfter(6));
+  QCOMPARE(record.frame(2)->revision, uint64_t{2});  // one run, whatever came between
+  record.add(plainFrame(7));                         // of the run before
+  record.settle();
+  QCOMPARE(record.extent().last, uint64_t{6});
+  record.begin(3);
+  QCOMPARE(record.extent().frames, size_t{0});
+}
+
+void TestRunRecord::theThreadRecordsAndGoesOn() {
+  EngineThread engine(m_plugins, nullptr);
+  const Address gravity{Owner::Scene, "", "gravity"};
+  std::map<uint64_t, uint64_t> hashes;
+  const auto hash = [&] { return tests::onEngine<uint64_t>(engine, [](Engine& e) { return e.stateHash(); }); };
+  const auto step = [&] {
+    engine.stepOnce();
+    const uint64_t value = hash();
+    hashes[engine.snapshot()->stats.frame] = value;
+  };
+  QFETCH(QString, name);
+  engine.open(open(name, m_plugins), false);
+  for (int frame = 0; frame < 10; ++frame) step();
+  setThreadCount(1);  // whatever it was recorded with
+  engine.continueFrom(4, false);
+  QCOMPARE(hash(), hashes[4]);
+  QCOMPARE(engine.snapshot()->stats.frame, uint64_t{4});
+  QCOMPARE(engine.history(0).back().frame, uint64_t{4});
+  QCOMPARE(engine.history(0).size(), size_t{5});
+  engine.recording().settle();
+  QCOMPARE(engine.recording().extent().last, uint64_t{4});
+  QCOMPARE(engine.recording().cost().states, size_t{2});
+  const std::map<uint64_t, uint64_t> first = hashes;
+  for (int frame = 0; frame < 6; ++frame) step();
+  QVERIFY(hashes == first);  // nothing else happened: the same run
+
+  // What was edited after the frame stays in force.
+  engine.setParameter(gravity, 3.0);
+  const auto strength = [](Engine& e) { return e.project().environment.gravity.norm(); };
+  step();
+  QCOMPARE(tests::onEngine<double>(engine, strength), 3.0);
+  QVERIFY(engine.recording().documentEditedAfter(7));
+  const std::unique_ptr<Engine> again = replayed(engine.recording().restorePoint(7).value(), m_plugins);
+  QCOMPARE(again->stateHash(), hashes[7]);
+  again->update(tests::onEngine<Project>(engine, [](Engine& e) { return e.document(); }));
+  engine.continueFrom(7, false);
+  QCOMPARE(tests::onEngine<double>(engine, strength), 3.0);
+  QCOMPARE(hash(), again->stateHash());
+  step();
+  QVERIFY(hashes[8] != first.at(8));
+
+  // A reset begins another record.
+  const uint64_t now = hash();
+  engine.reset();
+  QVERIFY(hash() != now);
+  engine.recording().settle();
+  QCOMPARE(engine.recording().extent().frames, size_t{1});
+}
+
+QTEST_GUILESS_MAIN(TestRunRecord)
+#include "tst_runrecord.moc"
