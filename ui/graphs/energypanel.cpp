@@ -2,6 +2,7 @@
 #include "ui/graphs/energypanel.h"
 
 #include "ui/document/document.h"
+#include "ui/graphs/seeking.h"
 #include "ui/graphs/stackview.h"
 #include "ui/session/session.h"
 #include "ui/session/wording.h"
@@ -31,6 +32,7 @@ EnergyPanel::EnergyPanel(Session& session, QWidget* parent)
   m_ledger->setMinimumWidth(230);
   m_ledger->setAlignment(Qt::AlignVCenter | Qt::AlignLeft);
   row->addWidget(m_graph, 1);
+  seekByClicks(*m_graph, m_session.recorded());
   row->addWidget(m_ledger);
   connect(&session, &Session::valuesDue, this, &EnergyPanel::readHistory);
   connect(&session.document(), &Document::changed, this, [this, &session](const ChangeEvent& event) {
@@ -44,6 +46,7 @@ void EnergyPanel::readHistory() {
   const HistoryReader::Piece piece = m_history.read();
   if (piece.begins) clear();
   for (const FrameStats& stats : piece.frames) append(stats);
+  m_graph->setPresentTime(m_session.now());
 }
 
 void EnergyPanel::setDuration(double seconds) { m_graph->setDuration(seconds); }

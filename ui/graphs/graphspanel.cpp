@@ -7,6 +7,7 @@
 #include "ui/graphs/graphexport.h"
 #include "ui/graphs/graphmenu.h"
 #include "ui/graphs/graphview.h"
+#include "ui/graphs/seeking.h"
 #include "ui/graphs/seriesunit.h"
 #include "ui/graphs/stackview.h"
 #include "ui/session/session.h"
@@ -183,6 +184,7 @@ GraphsPanel::Shown GraphsPanel::make(const Graph& graph) {
 
 /// What is done to the time axis of one is done to all.
 void GraphsPanel::adopt(TimePlot* plot) {
+  seekByClicks(*plot, m_session.recorded());
   connect(plot, &Plot::rangeChanged, this, [this](double first, double last) {
     for (const Shown& other : m_shown) {
       if (other.overTime) other.overTime->setRange(first, last);

@@ -8,7 +8,7 @@ namespace ps {
 
 HistoryReader::Piece HistoryReader::read() {
   Piece piece;
-  const SnapshotPtr snapshot = m_session.snapshot();
+  const SnapshotPtr snapshot = m_session.newest();
   if (!snapshot) return piece;
   piece.begins = snapshot->revision != m_revision;
   if (piece.begins) m_read = 0;

@@ -41,6 +41,8 @@ void SceneLink::onChanged(const ChangeEvent& event) {
   forgetMatter();
   const auto* stroke = std::get_if<StrokeChanged>(&event);
   if (stroke) remember(*stroke);
+  if (stroke || std::holds_alternative<BodyChanged>(event) || std::holds_alternative<PortChanged>(event))
+    Q_EMIT matterEdited();
   if (const auto* opened = std::get_if<ProjectOpened>(&event)) {
     m_strokes.clear();
     ++m_run;
@@ -227,6 +229,7 @@ void SceneLink::hear(const EngineEvent& event) {
 void SceneLink::paint(const StrokeRecord& stroke, std::shared_ptr<const Body> body,
                       std::vector<std::array<int, 3>> cells) {
   m_engine.apply(AddCells{std::move(body), std::move(cells), stroke.palette, keyOf(stroke.matter)});
+  Q_EMIT matterEdited();
 }
 
 void SceneLink::erase(const StrokeRecord& stroke, std::vector<std::array<int, 3>> cells) {
@@ -235,6 +238,7 @@ void SceneLink::erase(const StrokeRecord& stroke, std::vector<std::array<int, 3>
     if (body.locked) locked.push_back(body.id);
   }
   m_engine.apply(TakeCells{stroke.lattice, std::move(cells), std::move(locked), keyOf(stroke.matter)});
+  Q_EMIT matterEdited();
 }
 
 void SceneLink::cancel(const std::shared_ptr<StrokeRecord>& stroke) { undoStroke(stroke); }

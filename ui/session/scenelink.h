@@ -44,6 +44,9 @@ class SceneLink : public QObject {
   /// Takes back a stroke that the document does not know yet (Esc).
   void cancel(const std::shared_ptr<StrokeRecord>& stroke);
 
+ Q_SIGNALS:
+  void matterEdited();  ///< as it stands now: a hand wants to see it
+
  private:
   void onChanged(const ChangeEvent& event);
   void remember(const StrokeChanged& event);

@@ -11,6 +11,7 @@
 #include "core/simulation/tracks.h"
 #include "ui/document/document.h"
 #include "ui/session/documentfiles.h"
+#include "ui/session/recordedview.h"
 #include "ui/session/scenelink.h"
 #include "ui/session/transitions.h"
 #include "ui/session/worker.h"
@@ -31,6 +32,7 @@ Session::Session(const Options& options, QObject* parent)
       m_log(std::make_unique<MessageLog>()),
       m_document(std::make_unique<Document>()),
       m_transitions(std::make_unique<Transitions>(*m_document)),
+      m_recorded(std::make_unique<RecordedView>(*this)),
       m_fields(std::make_unique<const ParticleFields>()),
       m_worker(std::make_unique<Worker>()) {
   m_log->takeLog();
@@ -45,9 +47,11 @@ Session::Session(const Options& options, QObject* parent)
   connect(m_document.get(), &Document::changed, this, [this](const ChangeEvent& event) {
     if (!std::holds_alternative<ProjectOpened>(event)) return;
     m_opening = true;
-    const SnapshotPtr last = snapshot();
+    const SnapshotPtr last = newest();
     m_before = last ? last->revision : 0;
   });
+  connect(m_recorded.get(), &RecordedView::changed, this, &Session::onShown);
+  connect(m_recorded.get(), &RecordedView::playingChanged, this, &Session::tellPlaying);
   m_files = std::make_unique<DocumentFiles>(*m_document, *m_worker);
   if (options.autosave) {
     const QString& directory = options.autosaveDirectory;
@@ -97,6 +101,7 @@ void Session::adoptPlugins(std::shared_ptr<PluginRegistry> plugins) {
         Qt::QueuedConnection);
   });
   m_link = std::make_unique<SceneLink>(*m_document, *m_engine);
+  connect(m_link.get(), &SceneLink::matterEdited, m_recorded.get(), &RecordedView::showNewest);
   for (const PluginInfo& plugin : m_plugins->plugins()) {
     if (plugin.problem.empty()) continue;
     const std::string name = !plugin.id.empty() ? plugin.id : plugin.path;
@@ -124,8 +129,9 @@ void Session::cancelMaking() {
 void Session::onSnapshot() {
   if (m_engine && m_engine->making() && !m_making.isActive()) m_making.start();
   if (!m_values.isActive()) m_values.start();
+  const SnapshotPtr now = newest();
+  m_recorded->follow(now);
   Q_EMIT snapshotArrived();
-  const SnapshotPtr now = snapshot();
   if (!m_opening || !now || now->revision == m_before) return;
   m_opening = false;
   tellValues();
@@ -144,9 +150,15 @@ void Session::tellValues() {
   if (!m_totals.isActive()) m_totals.start();
 }
 
+/// Values that follow tracks are those of the time that is shown.
+void Session::onShown() {
+  Q_EMIT snapshotArrived();
+  if (!m_values.isActive()) m_values.start();
+}
+
 double Session::now() const {
-  const SnapshotPtr newest = snapshot();
-  return newest ? newest->stats.time : 0;
+  const SnapshotPtr shown = snapshot();
+  return shown ? shown->stats.time : 0;
 }
 
 Value Session::valueNow(const Address& address) const {
@@ -170,8 +182,22 @@ Value Session::valueNow(const Address& address) const {
 
 Environment Session::surroundings() const { return environmentAt(m_document->project(), m_document->plugins(), now()); }
 
-SnapshotPtr Session::snapshot() const { return m_engine ? m_engine->snapshot() : nullptr; }
-bool Session::playing() const { return m_engine && m_engine->playing(); }
+SnapshotPtr Session::snapshot() const { return m_recorded->shown() ? m_recorded->shown() : newest(); }
+SnapshotPtr Session::newest() const { return m_engine ? m_engine->snapshot() : nullptr; }
+SnapshotPtr Session::previousSnapshot() const {
+  return m_engine && !m_recorded->shown() ? m_engine->previousSnapshot() : nullptr;
+}
+bool Session::playing() const { return m_recorded->playing() || (m_engine && m_engine->playing()); }
+
+void Session::tellPlaying() {
+  m_wasPlaying = playing();
+  Q_EMIT playingChanged();
+}
+
+void Session::setSpeed(double speed) {
+  m_recorded->setSpeed(speed);
+  if (m_engine) m_engine->setSpeed(speed);
+}
 
 bool Session::isBroken() const { return m_link && m_link->isBroken(); }
 
@@ -181,16 +207,20 @@ void Session::play() {
     m_link->rebuild(true);
     return;
   }
+  if (m_recorded->isMeant()) {
+    m_recorded->play();
+    return;
+  }
+  m_recorded->showNewest();
   m_engine->play();
-  m_wasPlaying = true;
-  Q_EMIT playingChanged();
+  tellPlaying();
 }
 
 void Session::pause() {
   if (!m_engine) return;
+  m_recorded->pause();
   m_engine->pause();
-  m_wasPlaying = false;
-  Q_EMIT playingChanged();
+  tellPlaying();
 }
 
 void Session::playPause() {
@@ -203,6 +233,10 @@ void Session::playPause() {
 
 void Session::step() {
   if (!m_engine) return;
+  if (m_recorded->isActive()) {
+    m_recorded->step(1);
+    return;
+  }
   if (isBroken()) m_link->rebuild(false);
   m_engine->stepOnce();
   m_wasPlaying = false;

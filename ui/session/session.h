@@ -19,6 +19,7 @@ class DocumentFiles;
 class EngineThread;
 class ParticleFields;
 class PluginRegistry;
+class RecordedView;
 class SceneLink;
 class Transitions;
 class StateBuffer;
@@ -55,14 +56,21 @@ class Session : public QObject {
 
   Transitions& transitions() { return *m_transitions; }
 
-  SnapshotPtr snapshot() const;
-  double now() const;                            ///< s, of the newest snapshot
+  RecordedView& recorded() { return *m_recorded; }  ///< what is shown of the run
+
+  SnapshotPtr snapshot() const;          ///< that is shown: a recorded one, or the newest
+  SnapshotPtr previousSnapshot() const;  ///< the one before the newest, where that is shown
+  SnapshotPtr newest() const;
+  double now() const;                            ///< s, of the snapshot that is shown
   Value valueNow(const Address& address) const;  ///< by its track, where that acts, or else by the document
   Environment surroundings() const;              ///< walls and air, as tracks have them now
   void playPause();
+  /// The record, where a frame of it is shown or it loops; else the run goes on.
   void play();
   void pause();
-  void step();
+  /// Simulated seconds per second, of the run where the solver keeps up, and of its record; positive.
+  void setSpeed(double speed);
+  void step();           ///< of the record, while a recorded frame is shown
   void reset();          ///< to the start, whether or not the project holds a state
   void returnToState();  ///< to the state that the project holds
   /// Takes matter as it stands into the project, between two frames: stateKept() or stateNotKept() follows.
@@ -101,11 +109,14 @@ class Session : public QObject {
   void packState(KeptState kept);
   void tellValues();
   void tellMaking();
+  void onShown();
+  void tellPlaying();
 
   Options m_options;
   std::unique_ptr<MessageLog> m_log;
   std::unique_ptr<Document> m_document;
   std::unique_ptr<Transitions> m_transitions;
+  std::unique_ptr<RecordedView> m_recorded;
   std::unique_ptr<DocumentFiles> m_files;
   std::unique_ptr<Autosave> m_autosave;
   std::shared_ptr<PluginRegistry> m_plugins;

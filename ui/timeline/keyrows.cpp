@@ -5,6 +5,7 @@
 #include "core/simulation/tracks.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
+#include "ui/session/recordedview.h"
 #include "ui/session/session.h"
 #include "ui/theme/numbers.h"
 #include "ui/theme/paint.h"
@@ -135,6 +136,11 @@ double KeyRows::snapped(double seconds, bool free) const {
 
 void KeyRows::mousePressEvent(QMouseEvent* event) {
   if (event->button() != Qt::LeftButton) return;
+  m_scrubs = event->position().y() < kRuler && event->position().x() >= kLabel;
+  if (m_scrubs) {
+    m_session.recorded().showAt(secondsAt(event->position().x()));
+    return;
+  }
   m_chosen = keyUnder(event->position().toPoint());
   update();
   if (!m_chosen) return;
@@ -145,6 +151,10 @@ void KeyRows::mousePressEvent(QMouseEvent* event) {
 
 void KeyRows::mouseMoveEvent(QMouseEvent* event) {
   const QPoint at = event->position().toPoint();
+  if (m_scrubs) {
+    m_session.recorded().showAt(secondsAt(event->position().x()));
+    return;
+  }
   setCursor(m_drag || keyUnder(at) ? Qt::SizeHorCursor : Qt::ArrowCursor);
   if (!m_drag || !m_chosen) return;
   const double time = snapped(secondsAt(event->position().x()) - m_drag->grip, event->modifiers() & Qt::ShiftModifier);
@@ -167,7 +177,10 @@ bool KeyRows::beginDrag(double time, const QPoint& at) {
   return true;
 }
 
-void KeyRows::mouseReleaseEvent(QMouseEvent*) { endDrag(true); }
+void KeyRows::mouseReleaseEvent(QMouseEvent*) {
+  m_scrubs = false;
+  endDrag(true);
+}
 
 void KeyRows::endDrag(bool keep) {
   if (!m_drag) return;

@@ -12,9 +12,9 @@ namespace ps {
 
 class Session;
 
-/// The keys of the document over the scene's time: a ruler, and a row for each animated parameter. A key is chosen by a
-/// click and dragged to another frame (Shift: to any time; Ctrl: a copy of it); a double-click sets one of the value
-/// that holds there; Delete takes it away. Each gesture is one undo step.
+/// The keys of the document over the scene's time: a ruler, on which a drag shows recorded frames, and a row for each
+/// animated parameter. A key is chosen by a click and dragged to another frame (Shift: to any time; Ctrl: a copy of
+/// it); a double-click sets one of the value that holds there; Delete takes it away. Each gesture is one undo step.
 class KeyRows : public QWidget {
   Q_OBJECT
  public:
@@ -75,6 +75,7 @@ class KeyRows : public QWidget {
     bool moved = false, copies = false;
   };
   std::optional<Drag> m_drag;
+  bool m_scrubs = false;
 };
 
 }  // namespace ps

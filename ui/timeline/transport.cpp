@@ -2,6 +2,7 @@
 #include "ui/timeline/transport.h"
 
 #include "ui/document/document.h"
+#include "ui/session/recordedview.h"
 #include "ui/session/session.h"
 #include "ui/session/wording.h"
 #include "ui/theme/icon.h"
@@ -10,9 +11,12 @@
 #include "ui/theme/theme.h"
 
 #include <QtCore/QEvent>
+#include <QtGui/QActionGroup>
+#include <QtGui/QContextMenuEvent>
 #include <QtGui/QPainter>
 #include <QtWidgets/QHBoxLayout>
 #include <QtWidgets/QLabel>
+#include <QtWidgets/QMenu>
 #include <QtWidgets/QPushButton>
 #include <QtWidgets/QToolButton>
 
@@ -23,6 +27,7 @@ namespace ps {
 namespace {
 
 constexpr int kHeight = 40;
+constexpr int kBar = 4, kReach = 10;  ///< logical pixels: of the bar, and of what a hand takes as it
 
 QToolButton* toolButton(const QString& iconName, const QString& tip) {
   auto* button = new QToolButton;
@@ -87,7 +92,11 @@ Transport::Transport(Session& session, QWidget* parent)
       m_session(session),
       m_reset(toolButton(QStringLiteral("reset-to-start"), QStringLiteral("Back to the start (Home)"))),
       m_step(toolButton(QStringLiteral("step"), QStringLiteral("One frame (→)"))),
+      m_back(toolButton(QStringLiteral("step-back"), QStringLiteral("One recorded frame back (←)"))),
+      m_loop(toolButton(QStringLiteral("loop"), QStringLiteral("Loop: play what is recorded, again and again"))),
+      m_speed(new QToolButton),
       m_play(new QPushButton),
+      m_continue(new QPushButton(QStringLiteral("Continue from here"))),
       m_time(new QLabel),
       m_duration(new QLabel),
       m_thermal(new ThermalClock) {
@@ -101,14 +110,27 @@ Transport::Transport(Session& session, QWidget* parent)
   m_play->setFocusPolicy(Qt::TabFocus);
   m_time->setFont(Theme::font(TextRole::Time));
   m_duration->setProperty("role", "muted");
-  row->addWidget(m_reset);
-  row->addWidget(m_play);
-  row->addWidget(m_step);
-  row->addSpacing(14);
+  for (QWidget* widget : std::initializer_list<QWidget*>{m_reset, m_back, m_play, m_step, m_loop, m_speed})
+    row->addWidget(widget);
+  row->addSpacing(10);
   row->addWidget(m_time);
   row->addWidget(m_duration);
-  row->addSpacing(18);
+  row->addSpacing(12);
+  row->addWidget(m_continue);
+  row->addSpacing(6);
   row->addWidget(m_thermal, 1);
+  m_continue->setFocusPolicy(Qt::TabFocus);
+  m_continue->setToolTip(
+      QStringLiteral("The run goes on from the frame that is shown.\nWhat is recorded after it is forgotten."));
+  m_continue->hide();
+  setMouseTracking(true);
+  setAccessibleName(QStringLiteral("Transport"));
+  connect(m_continue, &QPushButton::clicked, &session.recorded(), &RecordedView::continueFromHere);
+  connect(&session.recorded(), &RecordedView::changed, this, &Transport::showRecorded);
+  m_loop->setCheckable(true);
+  connect(m_loop, &QToolButton::toggled, &session.recorded(), &RecordedView::setLoop);
+  connect(m_back, &QToolButton::clicked, &session.recorded(), [&session] { session.recorded().step(-1); });
+  makeSpeeds();
   connect(m_reset, &QToolButton::clicked, &session, &Session::reset);
   connect(m_step, &QToolButton::clicked, &session, &Session::step);
   connect(m_play, &QPushButton::clicked, &session, &Session::playPause);
@@ -124,6 +146,27 @@ Transport::Transport(Session& session, QWidget* parent)
   setPlaying(false);
   setReady(false);
   refresh();
+}
+
+void Transport::makeSpeeds() {
+  m_speed->setFocusPolicy(Qt::TabFocus);
+  m_speed->setPopupMode(QToolButton::InstantPopup);
+  m_speed->setToolTip(QStringLiteral("Simulated seconds per second"));
+  auto* menu = new QMenu(m_speed);
+  auto* choice = new QActionGroup(menu);
+  for (const double speed : {0.1, 0.25, 0.5, 1.0, 2.0, 4.0}) {
+    QAction* action = menu->addAction(formatShort(speed) + QStringLiteral("×"));
+    action->setCheckable(true);
+    choice->addAction(action);
+    connect(action, &QAction::triggered, this, [this, speed, text = action->text()] {
+      m_session.setSpeed(speed);
+      m_speed->setText(text);
+      m_speed->setAccessibleName(QStringLiteral("Speed ") + text);
+    });
+    if (speed == 1) action->trigger();
+  }
+  m_speed->setMenu(menu);
+  m_speed->setMinimumWidth(48);
 }
 
 void Transport::onChanged(const ChangeEvent& event) {
@@ -158,10 +201,8 @@ void Transport::setPlaying(bool playing) {
 }
 
 void Transport::setReady(bool ready) {
-  for (QWidget* button :
-       {static_cast<QWidget*>(m_reset), static_cast<QWidget*>(m_step), static_cast<QWidget*>(m_play)}) {
+  for (QWidget* button : std::initializer_list<QWidget*>{m_reset, m_back, m_play, m_step, m_loop, m_speed})
     button->setEnabled(ready);
-  }
 }
 
 void Transport::setDuration(double seconds) {
@@ -193,6 +234,10 @@ void Transport::setSnapshot(const SnapshotPtr& snapshot) {
 QString Transport::timeText() const { return clockText(m_seconds); }
 
 QString Transport::durationText() const {
+  if (m_session.recorded().isActive()) {
+    const SnapshotPtr newest = m_session.newest();
+    return QStringLiteral("Recorded, up to %1").arg(clockText(newest ? newest->stats.time : 0));
+  }
   const bool end = !m_playing && m_seconds > m_total - 0.02;
   return QStringLiteral("/ ") + clockText(m_total).left(5) +
          (end ? QStringLiteral("  The end: Space goes on, Home begins anew") : QString());
@@ -204,24 +249,70 @@ ThermalTexts Transport::thermalTexts() const {
           QStringLiteral(" of real heating")};
 }
 
+void Transport::showRecorded() {
+  m_continue->setVisible(m_session.recorded().isActive());
+  setSnapshot(m_session.snapshot());
+}
+
+double Transport::span() const { return std::max({m_total, m_session.recorded().extent().to, 1e-9}); }
+
+QPoint Transport::placeOf(double seconds) const {
+  return {static_cast<int>(std::lround(width() * seconds / span())), height() - kBar / 2};
+}
+
+void Transport::scrub(double x) {
+  m_session.recorded().showAt(std::clamp(x / std::max(1, width()), 0.0, 1.0) * span());
+}
+
+void Transport::mousePressEvent(QMouseEvent* event) {
+  m_scrubs = event->button() == Qt::LeftButton && event->position().y() >= height() - kReach &&
+             m_session.recorded().extent().frames > 0;
+  if (m_scrubs)
+    scrub(event->position().x());
+  else
+    event->ignore();
+}
+
+void Transport::mouseMoveEvent(QMouseEvent* event) {
+  const bool bar = m_scrubs || event->position().y() >= height() - kReach;
+  setCursor(bar && m_session.recorded().extent().frames > 0 ? Qt::PointingHandCursor : Qt::ArrowCursor);
+  if (m_scrubs) scrub(event->position().x());
+}
+
+void Transport::mouseReleaseEvent(QMouseEvent*) { m_scrubs = false; }
+
+void Transport::contextMenuEvent(QContextMenuEvent* event) {
+  if (!m_session.recorded().isActive()) return;
+  QMenu menu(this);
+  connect(menu.addAction(QStringLiteral("Continue from here")), &QAction::triggered, &m_session.recorded(),
+          &RecordedView::continueFromHere);
+  connect(menu.addAction(QStringLiteral("Newest state")), &QAction::triggered, &m_session.recorded(),
+          &RecordedView::showNewest);
+  menu.exec(event->globalPos());
+}
+
 void Transport::refresh() {
   m_time->setText(timeText());
   m_duration->setText(durationText());
   m_thermal->setTexts(thermalTexts());
-  update(0, height() - 5, width(), 5);
+  update(0, height() - kReach, width(), kReach);
 }
 
 void Transport::paintEvent(QPaintEvent*) {
   QPainter painter(this);
   const Theme& theme = Theme::current();
   painter.fillRect(rect(), theme[Token::Panel]);
-  const double share = m_total > 0 ? std::clamp(m_seconds / m_total, 0.0, 1.0) : 0;
-  painter.fillRect(QRectF(0, height() - 4, width(), 4), theme[Token::Field]);
-  painter.fillRect(QRectF(0, height() - 4, width() * share, 4), theme[Token::SliderFill]);
-  if (m_stateSeconds > 0 && m_stateSeconds <= m_total) {  // where the project opens
-    painter.fillRect(QRectF(std::floor(width() * m_stateSeconds / m_total) - 1, height() - 5, 2, 5),
-                     theme[Token::Text2]);
-  }
+  const RunRecord::Extent kept = m_session.recorded().extent();
+  const double perSecond = width() / span(), top = height() - kBar;
+  painter.fillRect(QRectF(0, top, width(), kBar), theme[Token::Field]);
+  if (kept.frames > 0)
+    painter.fillRect(QRectF(kept.from * perSecond, top, (kept.to - kept.from) * perSecond, kBar),
+                     theme[Token::SliderFill]);
+  const auto mark = [&](double seconds, double rise, Token token) {
+    painter.fillRect(QRectF(std::floor(seconds * perSecond) - 1, top - rise, 2, kBar + rise), theme[token]);
+  };
+  if (m_stateSeconds > 0 && m_stateSeconds <= m_total) mark(m_stateSeconds, 1, Token::Text2);  // where it opens
+  if (m_session.recorded().isActive()) mark(m_seconds, 4, Token::Accent);
 }
 
 void Transport::changeEvent(QEvent* event) {

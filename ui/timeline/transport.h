@@ -6,6 +6,7 @@
 #include <QtWidgets/QWidget>
 
 class QLabel;
+class QMenu;
 class QPushButton;
 class QToolButton;
 
@@ -22,7 +23,8 @@ struct ThermalTexts {
   ThermalTexts fitting(double room) const;  ///< without what has no room, the span last
 };
 
-/// Reset, step, play; the two clocks; how much of the planned duration has passed.
+/// Reset, steps, play, loop, speed; the two clocks; below them the part of the planned duration that is recorded, in
+/// which a drag shows any frame. While one is shown it says so, and from where the run goes on.
 class Transport : public QWidget {
   Q_OBJECT
  public:
@@ -33,25 +35,38 @@ class Transport : public QWidget {
   void setStateTime(double seconds);  ///< of the state that the project opens at; 0: it opens at its start
   void setTimeScale(double scale);    ///< thermal seconds per mechanical second
   void setSnapshot(const SnapshotPtr& snapshot);
-  QString durationText() const;  ///< "/ 01:00", and what goes on from there while it stands at the end
+  /// "/ 01:00", and what goes on from there while it stands at the end, or from where while a recorded frame is shown.
+  QString durationText() const;
   QString timeText() const;
   ThermalTexts thermalTexts() const;
+  QPushButton* continueButton() const { return m_continue; }
+  QToolButton* loopButton() const { return m_loop; }
+  QToolButton* speedButton() const { return m_speed; }  ///< its menu has the speeds
+  QPoint placeOf(double seconds) const;                 ///< on the bar
 
  protected:
   void paintEvent(QPaintEvent* event) override;
+  void mousePressEvent(QMouseEvent* event) override;
+  void mouseMoveEvent(QMouseEvent* event) override;
+  void mouseReleaseEvent(QMouseEvent* event) override;
+  void contextMenuEvent(QContextMenuEvent* event) override;
   void changeEvent(QEvent* event) override;
 
  private:
   void onChanged(const ChangeEvent& event);
   void showTimeScale();
+  void makeSpeeds();
+  void showRecorded();
   void refresh();
   void styleButtons();
+  double span() const;  ///< s, from the left end of the bar to the right one
+  void scrub(double x);
   Session& m_session;
-  QToolButton *m_reset, *m_step;
-  QPushButton* m_play;
+  QToolButton *m_reset, *m_step, *m_back, *m_loop, *m_speed;
+  QPushButton *m_play, *m_continue;
   QLabel *m_time, *m_duration;
   ThermalClock* m_thermal;
-  bool m_playing = false;
+  bool m_playing = false, m_scrubs = false;
   double m_seconds = 0, m_thermalSeconds = 0, m_total = 60, m_scale = 1, m_stateSeconds = 0;
 };
 

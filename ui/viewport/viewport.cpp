@@ -143,8 +143,8 @@ void Viewport::initializeGL() {
 }
 
 void Viewport::snapshotArrived() {
-  m_now = withoutBodies(m_session.engine()->snapshot(), m_hidden);
-  m_previous = withoutBodies(m_session.engine()->previousSnapshot(), m_hidden);
+  m_now = withoutBodies(m_session.snapshot(), m_hidden);
+  m_previous = withoutBodies(m_session.previousSnapshot(), m_hidden);
   m_interval = m_sinceSnapshot.isValid() ? std::min<double>(200, static_cast<double>(m_sinceSnapshot.elapsed())) : 0;
   m_sinceSnapshot.start();
   if (!m_document.project().tracks.empty()) m_scene.environment = m_session.surroundings();
@@ -334,7 +334,7 @@ void Viewport::bodiesChanged() {
     if (!body.visible) m_hidden.insert(body.id);
   }
   if (m_session.engine()) {
-    m_now = withoutBodies(m_session.engine()->snapshot(), m_hidden);
+    m_now = withoutBodies(m_session.snapshot(), m_hidden);
     m_previous = nullptr;
   }
   requestPaint();

@@ -10,6 +10,7 @@
 #include "ui/panels/pluginpage.h"
 #include "ui/session/documentfiles.h"
 #include "ui/session/messagelog.h"
+#include "ui/session/recordedview.h"
 #include "ui/session/selection.h"
 #include "ui/theme/plaintext.h"
 #include "ui/timeline/keyrows.h"
@@ -197,12 +198,23 @@ void MainWindow::makeSimulationMenu(QMenu* menu) {
                 [this] { m_session->playPause(); });
   m_actions.add(menu, QStringLiteral("simulation.step"), QStringLiteral("One frame"), {QKeySequence(Qt::Key_Right)},
                 [this] { m_session->step(); });
+  m_actions.add(menu, QStringLiteral("simulation.back"), QStringLiteral("One recorded frame back"),
+                {QKeySequence(Qt::Key_Left)}, [this] { m_session->recorded().step(-1); });
+  m_actions.add(menu, QStringLiteral("simulation.nextMark"), QStringLiteral("Next key of the recorded part"),
+                {QKeySequence(Qt::SHIFT | Qt::Key_Right)}, [this] { m_session->recorded().stepToMark(true); });
+  m_actions.add(menu, QStringLiteral("simulation.previousMark"), QStringLiteral("Previous key of the recorded part"),
+                {QKeySequence(Qt::SHIFT | Qt::Key_Left)}, [this] { m_session->recorded().stepToMark(false); });
+  m_actions.add(menu, QStringLiteral("simulation.continue"), QStringLiteral("Continue from the recorded frame shown"),
+                {}, [this] { m_session->recorded().continueFromHere(); });
   m_actions.add(menu, QStringLiteral("simulation.reset"), QStringLiteral("Back to the start"),
                 {QKeySequence(Qt::Key_Home)}, [this] { m_session->reset(); });
   m_actions.add(menu, QStringLiteral("simulation.state"), QStringLiteral("Back to the saved state"),
                 {QKeySequence(Qt::SHIFT | Qt::Key_Home)}, [this] { m_session->returnToState(); });
-  m_actions.add(menu, QStringLiteral("simulation.now"), QStringLiteral("Graphs up to now"), {QKeySequence(Qt::Key_End)},
-                [this] { graphs()->fit(); });
+  m_actions.add(menu, QStringLiteral("simulation.now"), QStringLiteral("Newest state, graphs up to now"),
+                {QKeySequence(Qt::Key_End)}, [this] {
+                  m_session->recorded().showNewest();
+                  graphs()->fit();
+                });
 }
 
 /// In the header of the dock, beside the graphs alone.

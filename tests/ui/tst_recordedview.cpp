@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: Apache-2.0
+// The record of a run under a hand, in the real window: dragged over, stepped through, gone on from.
+#include "core/io/projectio.h"
+#include "core/simulation/engine.h"
+#include "core/simulation/runrecord.h"
+#include "tests/ui/samplewindow.h"
+#include "ui/graphs/graphspanel.h"
+#include "ui/graphs/graphview.h"
+#include "ui/session/messagelog.h"
+#include "ui/session/recordedview.h"
+#include "ui/session/session.h"
+#include "ui/session/wording.h"
+#include "ui/timeline/keyrows.h"
+#include "ui/timeline/transport.h"
+
+#include <QtCore/QElapsedTimer>
+#include <QtGui/QUndoStack>
+#include <QtTest/QSignalSpy>
+#include <QtWidgets/QMenu>
+#include <QtWidgets/QPushButton>
+#include <QtWidgets/QToolButton>
+
+#include <map>
+
+using namespace ps;
+
+namespace {
+
+constexpr uint64_t kFrames = 12;
+const Address kFloor{Owner::Wall, "floor", "temperature"};
+
+}  // namespace
+
+class TestRecordedView : public SampleWindowTest {
+  Q_OBJECT
+ private Q_SLOTS:
+  void initTestCase() {
+    open();
+    QVERIFY(m_window);
+    session().pause();
+  }
+  /// A dozen frames, and what each was to the bit.
+  void init() {
+    backToTheStart();
+    setSpeed("1×");
+    m_hashes.clear();
+    m_hashes[0] = hash();
+    for (uint64_t frame = 1; frame <= kFrames; ++frame) {
+      session().engine()->stepOnce();
+      m_hashes[frame] = hash();
+    }
+    session().engine()->recording().settle();
+    QTRY_COMPARE_WITH_TIMEOUT(shownFrame(), kFrames, kLong);
+    QVERIFY(!session().recorded().isActive());
+    transport().setDuration(0.4);  // a frame is then some fifty pixels wide
+  }
+
+  void aDragShowsWhatWasRecorded() {
+    session().play();
+    drag(4);
+    QVERIFY(!session().playing());
+    QTRY_COMPARE_WITH_TIMEOUT(shownFrame(), uint64_t{4}, kLong);
+    QTRY_VERIFY_WITH_TIMEOUT(view()->snapshot() == session().snapshot(), kLong);
+    QVERIFY(session().recorded().isActive());
+    QTRY_COMPARE_WITH_TIMEOUT(transport().timeText(), clockText(4.0 / 60), kLong);
+    const SnapshotPtr newest = session().newest();
+    QCOMPARE(transport().durationText(), QStringLiteral("Recorded, up to %1").arg(clockText(newest->stats.time)));
+    QVERIFY(transport().continueButton()->isVisible());
+    QCOMPARE(session().snapshot()->id.size(), newest->id.size());
+    QCOMPARE(session().snapshot()->revision, newest->revision);
+    picture("tst_recordedview_frame.png");
+    // Past the recorded part is the newest state.
+    QTest::mouseClick(&transport(), Qt::LeftButton, {}, {transport().width() - 2, transport().height() - 2});
+    QTRY_VERIFY(!session().recorded().isActive());
+    QCOMPARE(session().snapshot(), session().newest());
+    QVERIFY(!transport().continueButton()->isVisible());
+    QVERIFY(transport().durationText().startsWith(QStringLiteral("/ 00:00")));
+  }
+
+  void whatIsRecordedPlaysAndThenTheRunGoesOn() {
+    setSpeed("0.1×");
+    drag(3);
+    QTRY_COMPARE_WITH_TIMEOUT(shownFrame(), uint64_t{3}, kLong);
+    QElapsedTimer since;
+    since.start();
+    trigger("simulation.play");
+    QVERIFY(session().playing());
+    QTRY_VERIFY_WITH_TIMEOUT(shownFrame() > 4, kLong);
+    QVERIFY(static_cast<double>(shownFrame() - 3) <= static_cast<double>(since.elapsed()) / 1000 * 0.1 * 60 + 1);
+    QVERIFY(session().recorded().isActive());
+    trigger("simulation.play");
+    QVERIFY(!session().playing() && session().recorded().isActive());
+    QCOMPARE(session().newest()->stats.frame, kFrames);  // nothing was simulated
+    setSpeed("4×");
+    trigger("simulation.play");
+    QTRY_VERIFY_WITH_TIMEOUT(session().newest()->stats.frame > kFrames, kLong);
+    QVERIFY(session().playing() && !session().recorded().isActive());
+    session().pause();
+  }
+
+  void aLoopBeginsAgain() {
+    transport().loopButton()->click();
+    setSpeed("4×");
+    trigger("simulation.play");
+    int begun = 0;
+    uint64_t last = kFrames;
+    connect(&session().recorded(), &RecordedView::changed, &transport(), [&] {
+      if (shownFrame() < last) ++begun;
+      last = shownFrame();
+    });
+    QTRY_VERIFY_WITH_TIMEOUT(begun > 2, kLong);
+    QVERIFY(disconnect(&session().recorded(), &RecordedView::changed, &transport(), nullptr));
+    QVERIFY(session().playing());
+    QCOMPARE(session().newest()->stats.frame, kFrames);
+    transport().loopButton()->click();  // the run then goes on
+    QTRY_VERIFY_WITH_TIMEOUT(session().newest()->stats.frame > kFrames, kLong);
+    session().pause();
+  }
+
+  void theRunKeepsToItsSpeed() {
+    setSpeed("0.1×");
+    QElapsedTimer since;
+    since.start();
+    trigger("simulation.play");
+    QTRY_VERIFY_WITH_TIMEOUT(session().newest()->stats.frame > kFrames + 2, kLong);
+    QVERIFY(static_cast<double>(session().newest()->stats.frame - kFrames) <=
+            static_cast<double>(since.elapsed()) / 1000 * 0.1 * 60 + 1);
+    session().pause();
+  }
+
+  void keysStepThroughIt() {
+    trigger("simulation.back");
+    QTRY_COMPARE_WITH_TIMEOUT(shownFrame(), kFrames - 1, kLong);
+    trigger("simulation.back");
+    trigger("simulation.back");
+    QTRY_COMPARE_WITH_TIMEOUT(shownFrame(), kFrames - 3, kLong);
+    trigger("simulation.step");  // of the record: the engine stands
+    QTRY_COMPARE_WITH_TIMEOUT(shownFrame(), kFrames - 2, kLong);
+    QCOMPARE(session().newest()->stats.frame, kFrames);
+    trigger("simulation.previousMark");
+    QTRY_COMPARE_WITH_TIMEOUT(shownFrame(), uint64_t{0}, kLong);
+    trigger("simulation.back");  // there is none
+    QCOMPARE(shownFrame(), uint64_t{0});
+    QCOMPARE(document().putKey(kFloor, 5.0 / 60, 400), QString());
+    trigger("simulation.nextMark");
+    QTRY_COMPARE_WITH_TIMEOUT(shownFrame(), uint64_t{5}, kLong);
+    trigger("simulation.now");
+    QVERIFY(!session().recorded().isActive());
+    trigger("simulation.back");
+    QTRY_COMPARE_WITH_TIMEOUT(shownFrame(), kFrames - 1, kLong);
+    trigger("simulation.step");
+    QTRY_VERIFY_WITH_TIMEOUT(!session().recorded().isActive(), kLong);
+    trigger("simulation.step");
+    QTRY_COMPARE_WITH_TIMEOUT(session().newest()->stats.frame, kFrames + 1, kLong);
+  }
+
+  /// What tracks say, what graphs mark, and the ruler of the keys.
+  void valuesAndGraphsFollow() {
+    QCOMPARE(document().putKey(kFloor, 0, 400), QString());
+    QCOMPARE(document().putKey(kFloor, 0.2, 500), QString());
+    auto* rows = m_window->findChild<KeyRows*>();
+    QTRY_VERIFY_WITH_TIMEOUT(rows->isVisible(), kLong);
+    // A pixel of the ruler is some frames here.
+    const QPoint at(static_cast<int>(std::lround(rows->xOf(6.0 / 60))), KeyRows::kRuler / 2);
+    const uint64_t frame = session().engine()->recording().frameAt(rows->secondsAt(at.x())).value();
+    QVERIFY(frame > 0 && frame < kFrames);
+    QTest::mouseClick(rows, Qt::LeftButton, {}, at);
+    QTRY_COMPARE_WITH_TIMEOUT(shownFrame(), frame, kLong);
+    const double floor = 400 + 100 * session().snapshot()->stats.time / 0.2;
+    QVERIFY(std::abs(std::get<double>(session().valueNow(kFloor)) - floor) < 1e-9);
+    QTRY_COMPARE_WITH_TIMEOUT(m_window->graphs()->temperatures()->presentTime(), session().snapshot()->stats.time,
+                              kLong);
+    picture("tst_recordedview_keys.png");
+    auto* plot = m_window->graphs()->temperatures();
+    plot->setTimeRange(0, 0.2);
+    QTest::mouseClick(plot, Qt::LeftButton, {}, {plot->width() * 7 / 8, plot->height() / 2});
+    QTRY_VERIFY_WITH_TIMEOUT(shownFrame() != frame, kLong);
+    QVERIFY(session().recorded().isActive());
+    session().recorded().showNewest();
+    QTRY_COMPARE_WITH_TIMEOUT(m_window->graphs()->temperatures()->presentTime(), session().newest()->stats.time, kLong);
+  }
+
+  void theRunGoesOnFromAFrame() {
+    drag(5);
+    QTRY_COMPARE_WITH_TIMEOUT(shownFrame(), uint64_t{5}, kLong);
+    const uint64_t revision = session().newest()->revision;
+    QTest::mouseClick(transport().continueButton(), Qt::LeftButton);
+    QTRY_VERIFY_WITH_TIMEOUT(session().newest()->revision != revision, kLong);
+    session().pause();
+    const uint64_t now = hash();
+    const uint64_t frame = session().newest()->stats.frame;
+    QVERIFY(frame >= 5);
+    while (session().newest()->stats.frame < kFrames) {
+      session().engine()->stepOnce();
+      hash();
+    }
+    if (frame <= kFrames) QCOMPARE(now, m_hashes[frame]);
+    if (session().newest()->stats.frame == kFrames) QCOMPARE(hash(), m_hashes[kFrames]);
+    QTRY_VERIFY_WITH_TIMEOUT(!session().recorded().isActive(), kLong);
+    QTRY_COMPARE_WITH_TIMEOUT(
+        session().log().messages().back().text,
+        QStringLiteral("The run goes on from %1. What was recorded after that, up to %2, is gone.")
+            .arg(clockText(5.0 / 60), clockText(kFrames / 60.0)),
+        kLong);
+  }
+
+  /// Who works on matter sees it as it stands.
+  void aStrokeShowsTheNewestState() {
+    drag(2);
+    QTRY_COMPARE_WITH_TIMEOUT(shownFrame(), uint64_t{2}, kLong);
+    document().undoStack().beginMacro(QStringLiteral("nothing"));
+    document().undoStack().endMacro();
+    QVERIFY(session().recorded().isActive());
+    document().removeBody(document().project().bodies.front().id);
+    QVERIFY(!session().recorded().isActive());
+    document().undoStack().undo();
+  }
+
+  void aResetBeginsAnew() {
+    drag(2);
+    QTRY_COMPARE_WITH_TIMEOUT(shownFrame(), uint64_t{2}, kLong);
+    toTheStart();
+    QVERIFY(!session().recorded().isActive());
+    session().engine()->recording().settle();
+    QCOMPARE(session().recorded().extent().frames, size_t{1});
+  }
+
+ private:
+  uint64_t hash() {
+    return onEngine<uint64_t>(session(), [](Engine& engine) { return engine.stateHash(); });
+  }
+  uint64_t shownFrame() { return session().snapshot()->stats.frame; }
+  Transport& transport() { return *m_window->transport(); }
+  void trigger(const char* id) { m_window->action(QLatin1String(id))->trigger(); }
+  void setSpeed(const char* text) {
+    for (QAction* action : transport().speedButton()->menu()->actions()) {
+      if (action->text() == QString::fromUtf8(text)) action->trigger();
+    }
+    QCOMPARE(transport().speedButton()->text(), QString::fromUtf8(text));
+  }
+  /// From the left over the bar to a frame.
+  void drag(uint64_t frame) {
+    const QPoint to = transport().placeOf(static_cast<double>(frame) / 60), from = transport().placeOf(0);
+    QTest::mousePress(&transport(), Qt::LeftButton, {}, from);
+    for (int k = 1; k <= 5; ++k) QTest::mouseMove(&transport(), from + (to - from) * k / 5);
+    QTest::mouseRelease(&transport(), Qt::LeftButton, {}, to);
+  }
+  void picture(const char* name) {
+    const QString folder = qEnvironmentVariable("PS_TEST_PICTURES");
+    if (!folder.isEmpty()) m_window->grab().save(folder + QLatin1Char('/') + QLatin1String(name));
+  }
+  std::map<uint64_t, uint64_t> m_hashes;
+};
+
+QTEST_MAIN(TestRecordedView)
+#include "tst_recordedview.moc"

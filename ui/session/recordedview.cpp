@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/session/recordedview.h"
+
+#include "core/simulation/enginethread.h"
+#include "ui/document/document.h"
+#include "ui/session/messagelog.h"
+#include "ui/session/session.h"
+#include "ui/session/wording.h"
+#include "ui/session/worker.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace ps {
+namespace {
+constexpr int kClockInterval = 16;  // ms
+}  // namespace
+
+RecordedView::RecordedView(Session& session) : m_session(session) {
+  m_clock.setTimerType(Qt::PreciseTimer);
+  m_clock.setInterval(kClockInterval);
+  connect(&m_clock, &QTimer::timeout, this, &RecordedView::advance);
+}
+
+const RunRecord* RecordedView::record() const {
+  return m_session.engine() ? &m_session.engine()->recording() : nullptr;
+}
+
+RunRecord::Extent RecordedView::extent() const { return record() ? record()->extent() : RunRecord::Extent{}; }
+
+void RecordedView::showAt(double seconds) {
+  if (!record()) return;
+  if (const auto frame = record()->frameAt(seconds)) want(*frame);
+}
+
+void RecordedView::step(int frames) {
+  const SnapshotPtr newest = m_session.newest();
+  if (!record() || !newest) return;
+  const uint64_t at = m_wanted ? *m_wanted : newest->stats.frame;
+  if (const auto frame = record()->neighbour(at, frames)) {
+    want(*frame);
+  } else if (frames > 0) {
+    showNewest();
+  } else if (const RunRecord::Extent kept = extent(); kept.frames > 0 && kept.last < at) {
+    want(kept.last);  // the newest is not packed yet
+  }
+}
+
+void RecordedView::stepToMark(bool forward) {
+  const RunRecord::Extent kept = extent();
+  if (kept.frames == 0) return;
+  std::vector<double> marks{kept.from, kept.to};
+  for (const Track& track : m_session.document().project().tracks) {
+    for (const TrackKey& key : track.keys) {
+      if (key.time > kept.from && key.time < kept.to) marks.push_back(key.time);
+    }
+  }
+  std::sort(marks.begin(), marks.end());
+  const double now = m_session.now(), frame = 2 * m_session.document().keySlack();
+  if (forward) {
+    const auto next = std::upper_bound(marks.begin(), marks.end(), now + frame);
+    if (next != marks.end()) showAt(*next);
+  } else {
+    const auto next = std::lower_bound(marks.begin(), marks.end(), now - frame);
+    if (next != marks.begin()) showAt(*std::prev(next));
+  }
+}
+
+void RecordedView::want(uint64_t frame) {
+  if (m_session.playing()) m_session.pause();
+  const SnapshotPtr newest = m_session.newest();
+  if (newest && frame >= newest->stats.frame) {
+    showNewest();
+    return;
+  }
+  m_wanted = frame;
+  unpack();
+}
+
+void RecordedView::unpack() {
+  if (m_busy || !m_wanted) return;
+  m_busy = true;
+  m_session.worker().run([this, frame = *m_wanted, from = record()] {
+    SnapshotPtr snapshot;
+    try {
+      snapshot = from->frame(frame);
+    } catch (const std::exception&) {
+      snapshot = nullptr;  // as one that is not kept any more
+    }
+    QMetaObject::invokeMethod(this, [this, frame, snapshot] {
+      m_busy = false;
+      if (!m_wanted) return;
+      if (snapshot && snapshot->revision == m_revision) setShown(snapshot);
+      if (*m_wanted != frame)
+        unpack();
+      else if (!snapshot)
+        m_wanted = m_shown ? std::optional(m_shown->stats.frame) : std::nullopt;
+    });
+  });
+}
+
+bool RecordedView::isMeant() const { return (isActive() || m_loop) && extent().frames > 1; }
+
+void RecordedView::play() {
+  m_at = isActive() ? m_session.now() : extent().from;
+  m_since.start();
+  m_clock.start();
+  Q_EMIT playingChanged();
+}
+
+void RecordedView::pause() {
+  if (!m_clock.isActive()) return;
+  m_clock.stop();
+  Q_EMIT playingChanged();
+}
+
+void RecordedView::advance() {
+  m_at += static_cast<double>(m_since.restart()) / 1000 * m_speed;
+  const RunRecord::Extent kept = extent();
+  if (m_at > kept.to && m_loop) m_at = kept.from;
+  if (kept.frames > 0 && m_at <= kept.to) {
+    m_wanted = record()->frameAt(m_at);
+    unpack();
+    return;
+  }
+  showNewest();
+  const SnapshotPtr newest = m_session.newest();
+  const Document& document = m_session.document();
+  if (newest && newest->stats.time < document.project().duration - document.keySlack()) m_session.play();
+}
+
+void RecordedView::showNewest() {
+  pause();
+  m_wanted = std::nullopt;
+  setShown(nullptr);
+}
+
+void RecordedView::setShown(SnapshotPtr snapshot) {
+  if (snapshot == m_shown) return;
+  m_shown = std::move(snapshot);
+  Q_EMIT changed();
+}
+
+void RecordedView::continueFromHere() {
+  const SnapshotPtr newest = m_session.newest();
+  if (!m_shown || !newest || m_session.engine()->making()) return;
+  m_continuing = Continuing{m_shown->stats.frame, m_shown->stats.time, newest->stats.time};
+  m_session.engine()->continueFrom(m_shown->stats.frame, true);
+}
+
+void RecordedView::follow(const SnapshotPtr& newest) {
+  if (!newest || newest->revision == m_revision) return;
+  m_revision = newest->revision;
+  const auto continuing = std::exchange(m_continuing, std::nullopt);
+  showNewest();
+  if (!continuing || newest->stats.frame < continuing->frame) return;
+  m_session.log().add(MessageLevel::Info, QStringLiteral("Timeline"),
+                      QStringLiteral("The run goes on from %1. What was recorded after that, up to %2, is gone.")
+                          .arg(clockText(continuing->from), clockText(continuing->dropped)));
+}
+
+}  // namespace ps

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "core/simulation/runrecord.h"
+
+#include <QtCore/QElapsedTimer>
+#include <QtCore/QObject>
+#include <QtCore/QTimer>
+
+#include <optional>
+
+namespace ps {
+
+class Session;
+
+/// Which moment of a run is shown: the newest, or a frame of its record. What a hand asks for while another frame is
+/// unpacked waits, and of what waits the last is meant: a worker unpacks. Playing the record simulates nothing.
+class RecordedView : public QObject {
+  Q_OBJECT
+ public:
+  explicit RecordedView(Session& session);
+
+  /// nullptr: the newest.
+  const SnapshotPtr& shown() const { return m_shown; }
+  bool isActive() const { return m_shown != nullptr; }
+  RunRecord::Extent extent() const;
+  /// The frame next to a time; the run pauses.
+  void showAt(double seconds);
+  /// So many frames on or back from the one that is shown; beyond the last of them is the newest state.
+  void step(int frames);
+  /// The next key or end of the record after the time that is shown, or the one before.
+  void stepToMark(bool forward);
+  void showNewest();
+  /// From the frame that is shown, or from the first one where that is the newest. At the end of the record it begins
+  /// again where it loops; else the run goes on, up to the end of the scene.
+  void play();
+  void pause();
+  bool playing() const { return m_clock.isActive(); }
+  /// Whether to play is to play the record: a frame of it is shown, or it loops.
+  bool isMeant() const;
+  void setLoop(bool on) { m_loop = on; }
+  bool loops() const { return m_loop; }
+  void setSpeed(double speed) { m_speed = speed; }  ///< s of the run per s
+  /// The run goes on from the frame that is shown.
+  void continueFromHere();
+  /// Snapshots of another run, or of this one from an earlier frame on.
+  void follow(const SnapshotPtr& newest);
+
+ Q_SIGNALS:
+  void changed();
+  void playingChanged();
+
+ private:
+  void want(uint64_t frame);
+  void advance();
+  void unpack();
+  void setShown(SnapshotPtr snapshot);
+  const RunRecord* record() const;
+
+  Session& m_session;
+  SnapshotPtr m_shown;
+  std::optional<uint64_t> m_wanted;  ///< number of a frame
+  bool m_busy = false;
+  QTimer m_clock;  ///< runs while the record plays
+  QElapsedTimer m_since;
+  double m_at = 0, m_speed = 1;  ///< s of the run, s of it per s
+  bool m_loop = false;
+  uint64_t m_revision = 0;
+  struct Continuing {
+    uint64_t frame = 0;
+    double from = 0, dropped = 0;  ///< s
+  };
+  std::optional<Continuing> m_continuing;
+};
+
+}  // namespace ps
