@@ -7,6 +7,7 @@
 #include "ui/curves/curvepanel.h"
 #include "ui/curves/curvetarget.h"
 #include "ui/curves/curveview.h"
+#include "ui/curves/matterdiagram.h"
 #include "ui/curves/pointspanel.h"
 #include "ui/curves/responselist.h"
 #include "ui/panels/inspector.h"
@@ -44,6 +45,7 @@ class TestCurves : public SampleWindowTest {
     m_window->showWorkspace(MainWindow::kTuneTab);
     curves().choose(kViscosity);
     QTRY_VERIFY(curve().width() > 300);
+    QCOMPARE(m_window->size(), QSize(1280, 800));  // the docks find room
     curve().fit();
   }
 
@@ -234,6 +236,31 @@ class TestCurves : public SampleWindowTest {
     QVERIFY(curves().now(200, 600).marked.has_value());
   }
 
+  void diagramsFollowTheMaterial() {
+    const auto diagram = [this](const char* title) {
+      m_window->layoutOfDocks().showPage(QString::fromLatin1(title));
+      for (auto* found : m_window->findChildren<MatterDiagram*>()) {
+        if (found->isVisible()) return found;
+      }
+      return static_cast<MatterDiagram*>(nullptr);
+    };
+    MatterDiagram* heating = diagram("Heating curve");
+    QVERIFY(heating);
+    QCOMPARE(heating->summary(), QStringLiteral("solid 100 %"));
+    const auto plateau = [heating] { return heating->corners()[2].enthalpy - heating->corners()[1].enthalpy; };
+    const double before = plateau();
+    const Address latent{Owner::Material, "water", "latent_heat_fusion"};
+    const double heat = responseOf(document().value(latent)).at(300);
+    QVERIFY(std::abs(before - heat) < 1e-6 * heat);
+    QCOMPARE(document().setParameter(latent, 2 * heat), QString());
+    QVERIFY(std::abs(plateau() - 2 * heat) < 1e-6 * heat);
+    shoot("heating");
+    MatterDiagram* phases = diagram("Phase diagram");
+    QVERIFY(phases && phases != heating);
+    shoot("phases");
+    m_window->layoutOfDocks().showPage(QStringLiteral("Graphs"));
+  }
+
   void theWheelZoomsAroundThePointer() {
     const QPointF at = curve().plot().center();
     const double kelvin = curve().kelvinAt(at.x()), span = curve().kelvinAt(at.x() + 100) - kelvin;
@@ -277,6 +304,7 @@ class TestCurves : public SampleWindowTest {
       m_window->grab().save(folder + (dark ? QStringLiteral("/tune-dark.png") : QStringLiteral("/tune-light.png")));
     }
     m_window->setDark(true);
+    m_window->resize(1280, 800);
   }
 
  private:
@@ -299,6 +327,10 @@ class TestCurves : public SampleWindowTest {
       QApplication::sendEvent(&curve(), &move);
     }
     QTest::mouseRelease(&curve(), Qt::LeftButton, modifiers, from + way);
+  }
+  void shoot(const char* name) {
+    const QString folder = qEnvironmentVariable("PS_TEST_PICTURES");
+    if (!folder.isEmpty()) m_window->grab().save(QStringLiteral("%1/%2.png").arg(folder, QLatin1String(name)));
   }
   static void type(QLineEdit* field, const QString& text) {
     field->selectAll();

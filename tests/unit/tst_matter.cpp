@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "core/matter/heatingcurve.h"
 #include "core/matter/material.h"
 #include "core/matter/phasediagram.h"
 #include "enthalpymodel.h"
@@ -75,6 +76,32 @@ ps::Response law(const char* name, const std::vector<double>& coefficients) {
 class TestMatter : public QObject {
   Q_OBJECT
  private Q_SLOTS:
+  /// Every corner, and every middle between two, is a state of the enthalpy method.
+  void theHeatingCurveIsThatOfTheEnthalpyMethod() {
+    Material range = waterMaterial(), never = waterMaterial();
+    range.properties["solidus"] = 270;
+    range.properties["liquidus"] = 280;
+    never.properties["boiling_temperature"] = 0;
+    for (const Material& material : {waterMaterial(), range, never}) {
+      for (const double pressure : {101325.0, 20000.0, 200.0}) {  // at 200 Pa ice sublimes
+        const BakedMaterial baked(material, pressure);
+        const std::vector<ps::HeatingCorner> corners = ps::heatingCurve(baked.caloric(), 200, 500);
+        QVERIFY(corners.size() >= 4 && corners.front().temperature == 200 && corners.back().temperature == 500);
+        for (size_t k = 0; k + 1 < corners.size(); ++k) {
+          QVERIFY(corners[k].enthalpy < corners[k + 1].enthalpy);
+          for (const double share : {0.01, 0.5, 0.99}) {
+            const double h = std::lerp(corners[k].enthalpy, corners[k + 1].enthalpy, share);
+            const double kelvin = std::lerp(corners[k].temperature, corners[k + 1].temperature, share);
+            const ps::thermal::ThermalState state = ps::thermal::stateAt(baked.caloric(), h);
+            QVERIFY(std::abs(state.temperature - kelvin) < 1e-6);
+            QCOMPARE(corners[k].phase == ps::api::Phase::Gas, state.gas == 1);
+            QCOMPARE(corners[k].phase == ps::api::Phase::Liquid, state.liquid == 1);
+          }
+        }
+      }
+    }
+  }
+
   void catalogueIsFitToBeRead() {
     const auto list = ps::propertyCatalogue();
     QSet<QString> keys;

@@ -15,7 +15,8 @@
 namespace ps {
 namespace {
 
-constexpr double kAround = 100;  // K, on both sides of where matter is
+constexpr double kAround = 100;     // K, on both sides of where matter is
+constexpr double kLeastRange = 20;  // K, of those that are left of a law
 
 }  // namespace
 
@@ -92,7 +93,17 @@ std::array<double, 2> CurveTarget::range() const {
   };
   if (curve) take(present.points.front().x, present.points.back().x);
   if (const auto melts = melting()) take((*melts)[0] - 0.2 * around, (*melts)[1] + 0.2 * around);
-  return {std::max(1.0, cold), hot};
+  cold = std::max(1.0, cold);
+  // A law goes on where it means nothing: a liquid's viscosity 100 K below freezing.
+  const auto usual = [&](double t) {
+    const double value = present.at(t);
+    return value >= declaration().minimum && value <= declaration().maximum;
+  };
+  if (present.kind == Response::Kind::Law) {
+    while (cold + kLeastRange < kelvin && !usual(cold)) cold += 1;
+    while (hot - kLeastRange > kelvin && !usual(hot)) hot -= 1;
+  }
+  return {cold, hot};
 }
 
 std::optional<double> CurveTarget::delivered() const {
@@ -123,11 +134,20 @@ MaterialNow CurveTarget::now(double firstKelvin, double lastKelvin) const {
     const double kelvin = static_cast<double>(snapshot->temperature[i]);
     sum += kelvin;
     ++result.count;
+    const auto phase = static_cast<size_t>(snapshot->phase[i]);
+    ++result.phases[phase];
+    result.phaseMean[phase] += kelvin;
+    if (snapshot->phase[i] == api::Phase::Boiling) result.boiled += static_cast<double>(snapshot->gasFraction[i]);
     if (marks && snapshot->id[i] == mark->second) result.marked = kelvin;
     const double bin = (kelvin - firstKelvin) * perBin;
     if (!(bin >= 0) || bin >= static_cast<double>(MaterialNow::kBins)) continue;
     ++result.bins[static_cast<size_t>(bin)];
     ++result.within;
+  }
+  const auto boiling = static_cast<size_t>(api::Phase::Boiling);
+  if (result.phases[boiling] > 0) result.boiled /= static_cast<double>(result.phases[boiling]);
+  for (size_t k = 0; k < result.phases.size(); ++k) {
+    if (result.phases[k] > 0) result.phaseMean[k] /= static_cast<double>(result.phases[k]);
   }
   if (result.count > 0) result.mean = sum / static_cast<double>(result.count);
   return result;

@@ -25,6 +25,9 @@ struct MaterialNow {
   std::vector<size_t> bins = std::vector<size_t>(kBins);  ///< over the temperatures that were asked for
   size_t count = 0, within = 0;                           ///< of particles: all, and those in a bin
   double mean = 0;                                        ///< K, of all
+  std::array<size_t, 5> phases{};                         ///< how many, by api::Phase
+  std::array<double, 5> phaseMean{};                      ///< K, of those
+  double boiled = 0;                                      ///< share of vapour in those that boil, mean
   std::optional<double> marked;                           ///< K, of the particle that was clicked, if of this material
 };
 

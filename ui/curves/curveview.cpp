@@ -19,7 +19,8 @@ namespace {
 
 constexpr double kLeft = 58, kTop = 12, kRight = 16, kHistogram = 44, kAxis = 22, kGap = 6;
 constexpr double kPoint = 4.5, kMarker = 6;
-constexpr double kLeastSpan = 0.5;  // decades of a logarithmic axis
+constexpr double kLeastSpan = 0.5;     // decades of a logarithmic axis
+constexpr double kWholeDecades = 2.5;  // on an axis of more than these nothing between them has a line
 
 class CurveAccessible final : public QAccessibleWidget {
  public:
@@ -209,7 +210,7 @@ void CurveView::paintGrid(QPainter& painter) const {
       across(up.at(i), tickText(up, i));
     else if (up.at(i) == std::round(up.at(i)))
       across(up.at(i), power(static_cast<int>(up.at(i))));
-    else
+    else if (m_high - m_low < kWholeDecades)
       across(up.at(i), formatShort(std::pow(10.0, up.at(i)), 2));
   }
   paintText(painter, QRectF(area.left() + 6, area.top() + 3, 120, 16), Qt::AlignLeft | Qt::AlignVCenter,

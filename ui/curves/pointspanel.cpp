@@ -119,6 +119,7 @@ PointsPanel::PointsPanel(CurveTarget& target, QWidget* parent)
     column->addWidget(text);
   }
   pair(m_fit, m_sample);
+  column->addStretch();
   connect(m_add, &QPushButton::clicked, this, &PointsPanel::addPoint);
   connect(m_remove, &QPushButton::clicked, this, &PointsPanel::removePoint);
   connect(m_fit, &QPushButton::clicked, this, &PointsPanel::fitNearest);
@@ -166,7 +167,8 @@ void PointsPanel::showKind() {
   for (QAbstractButton* radio : m_kinds->buttons()) radio->setChecked(radio->property(kKind).toString() == kind);
   m_fit->setEnabled(response.kind == Response::Kind::Curve && response.points.size() > 1);
   m_sample->setEnabled(response.kind != Response::Kind::Curve);
-  m_add->setEnabled(response.kind == Response::Kind::Curve);
+  for (QWidget* widget : std::initializer_list<QWidget*>{m_table, m_add, m_remove})
+    widget->setVisible(response.kind == Response::Kind::Curve);
 }
 
 void PointsPanel::showCoefficients() {

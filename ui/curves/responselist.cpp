@@ -119,6 +119,7 @@ ResponseList::ResponseList(Session& session, CurveTarget& target, QWidget* paren
       m_session(session),
       m_target(target),
       m_header(new PanelHeader),
+      m_heading(new QLabel(QStringLiteral("Compare with"))),
       m_list(flatList(QStringLiteral("Responses"))),
       m_others(flatList(QStringLiteral("Compare with"))) {
   auto* column = new QVBoxLayout(this);
@@ -126,10 +127,9 @@ ResponseList::ResponseList(Session& session, CurveTarget& target, QWidget* paren
   column->setSpacing(0);
   column->addWidget(m_header);
   column->addWidget(m_list, 1);
-  auto* heading = new QLabel(QStringLiteral("Compare with"));
-  heading->setFont(Theme::font(TextRole::Medium));
-  heading->setContentsMargins(10, 8, 8, 4);
-  column->addWidget(heading);
+  m_heading->setFont(Theme::font(TextRole::Medium));
+  m_heading->setContentsMargins(10, 8, 8, 4);
+  column->addWidget(m_heading);
   column->addWidget(m_others);
   m_list->setItemDelegate(new ResponseDelegate(target, this));
   connect(m_list, &QListWidget::currentItemChanged, this, [this](QListWidgetItem* item) {
@@ -167,6 +167,8 @@ void ResponseList::rebuild() {
     item->setCheckState(m_target.compared().contains(other.id) ? Qt::Checked : Qt::Unchecked);
   }
   m_others->setFixedHeight(std::clamp(m_others->count(), 1, 5) * kOther + 4);
+  for (QWidget* widget : std::initializer_list<QWidget*>{m_heading, m_others})
+    widget->setVisible(m_others->count() > 0);
   refresh();
 }
 

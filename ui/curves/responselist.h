@@ -2,6 +2,7 @@
 #pragma once
 #include <QtWidgets/QWidget>
 
+class QLabel;
 class QListWidget;
 class QListWidgetItem;
 
@@ -27,6 +28,7 @@ class ResponseList : public QWidget {
   Session& m_session;
   CurveTarget& m_target;
   PanelHeader* m_header;
+  QLabel* m_heading;
   QListWidget *m_list, *m_others;
 };
 

@@ -2,6 +2,7 @@
 #include "ui/window/paneltable.h"
 
 #include "ui/curves/curvepanel.h"
+#include "ui/curves/matterdiagram.h"
 #include "ui/curves/pointspanel.h"
 #include "ui/curves/responselist.h"
 #include "ui/fitting/fitpanel.h"
@@ -20,14 +21,20 @@
 namespace ps {
 namespace {
 
-QWidget* makeMaterials(const PanelContext& context) {
-  auto* materials = new MaterialsPanel(context.session.document(), context.selection);
+/// For panels that may be higher than there is room.
+QScrollArea* scrolling(QWidget* panel) {
   auto* scroll = new QScrollArea;
   scroll->setFrameShape(QFrame::NoFrame);
   scroll->setWidgetResizable(true);
   scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   scroll->setFocusPolicy(Qt::NoFocus);
-  scroll->setWidget(materials);
+  scroll->setWidget(panel);
+  return scroll;
+}
+
+QWidget* makeMaterials(const PanelContext& context) {
+  auto* materials = new MaterialsPanel(context.session.document(), context.selection);
+  QScrollArea* scroll = scrolling(materials);
   QObject::connect(materials, &MaterialsPanel::revealed, scroll, [scroll](const QRect& tile) {
     scroll->ensureVisible(tile.center().x(), tile.center().y(), 0, tile.height() / 2);
   });
@@ -50,9 +57,13 @@ const std::vector<PanelRow>& panelTable() {
       {"dock.graphs", "Energy", [](Context c) -> QWidget* { return new EnergyPanel(c.session); }},
       {"dock.graphs", "Draw the result", [](Context c) -> QWidget* { return new FitPanel(c.session); }},
       {"dock.graphs", "Messages", [](Context c) -> QWidget* { return new MessagesPage(c.session.log()); }},
+      {"dock.graphs", "Heating curve",
+       [](Context c) -> QWidget* { return new MatterDiagram(MatterDiagram::Kind::Heating, c.session, c.curves); }},
+      {"dock.graphs", "Phase diagram",
+       [](Context c) -> QWidget* { return new MatterDiagram(MatterDiagram::Kind::Phases, c.session, c.curves); }},
       {"dock.responses", "Responses", [](Context c) -> QWidget* { return new ResponseList(c.session, c.curves); }},
       {"dock.curve", "Curve", [](Context c) -> QWidget* { return new CurvePanel(c.session, c.curves); }},
-      {"dock.points", "Points", [](Context c) -> QWidget* { return new PointsPanel(c.curves); }},
+      {"dock.points", "Points", [](Context c) -> QWidget* { return scrolling(new PointsPanel(c.curves)); }},
       {"dock.transport", "Transport", [](Context c) -> QWidget* { return new Timeline(c.session); }},
   };
   return kTable;

@@ -105,47 +105,58 @@ void WindowLayout::setWorkspace(Workspace workspace) {
   setFullViewport(false);
   m_left[m_workspace] = m_window.saveState(kStateVersion);
   m_workspace = workspace;
-  const auto left = m_left.find(workspace);
-  if (left != m_left.end() && m_window.restoreState(left->second, kStateVersion)) {
-    for (size_t i = 0; i < m_docks.size(); ++i) {
-      if (!shows(i)) m_docks[i]->hide();  // a state from before they were laid out says nothing of them
-    }
-    return;
+  // What goes is hidden first: for a moment there would be room for neither.
+  for (size_t i = 0; i < m_docks.size(); ++i) {
+    if (!shows(i)) m_docks[i]->hide();
   }
+  const auto left = m_left.find(workspace);
+  if (left != m_left.end() && m_window.restoreState(left->second, kStateVersion)) return;
   if (workspace == Workspace::Tune)
     layTune();
   else
     layScene();
 }
 
-void WindowLayout::layScene() {
-  for (size_t i = 0; i < m_docks.size(); ++i) {
-    m_docks[i]->setFloating(false);
-    m_docks[i]->setVisible(shows(i));
+/// Docks move while they are hidden: those in sight would ask for room that they need nowhere.
+void WindowLayout::putAway() {
+  for (Dock* dock : m_docks) {
+    dock->setFloating(false);
+    dock->hide();
   }
+}
+
+void WindowLayout::showDocks() {
+  for (size_t i = 0; i < m_docks.size(); ++i) m_docks[i]->setVisible(shows(i));
+  sizeDocks();
+}
+
+void WindowLayout::layScene() {
+  putAway();
   m_window.setCorner(Qt::BottomLeftCorner, Qt::BottomDockWidgetArea);
+  // All have a place, so that a saved state says of each that it is hidden.
+  for (size_t i = 0; i < m_docks.size(); ++i) {
+    if (!shows(i)) m_window.addDockWidget(Qt::LeftDockWidgetArea, m_docks[i]);
+  }
+  putAway();
   m_window.addDockWidget(Qt::LeftDockWidgetArea, m_docks[0]);
   m_window.addDockWidget(Qt::RightDockWidgetArea, m_docks[2]);
   m_window.addDockWidget(Qt::BottomDockWidgetArea, m_docks[3]);
   m_window.splitDockWidget(m_docks[0], m_docks[1], Qt::Vertical);
   m_window.splitDockWidget(m_docks[3], m_docks[4], Qt::Vertical);
-  sizeDocks();
+  showDocks();
 }
 
 /// The curve takes the middle, over graphs and transport; the view stands on the right, over the points.
 void WindowLayout::layTune() {
   Dock *responses = m_docks[5], *curve = m_docks[6], *points = m_docks[7];
-  for (size_t i = 0; i < m_docks.size(); ++i) {
-    m_docks[i]->setFloating(false);
-    m_docks[i]->setVisible(shows(i));
-  }
+  putAway();
   m_window.setCorner(Qt::BottomLeftCorner, Qt::LeftDockWidgetArea);
   m_window.addDockWidget(Qt::LeftDockWidgetArea, responses);
   m_window.splitDockWidget(responses, curve, Qt::Horizontal);
   m_window.splitDockWidget(curve, m_docks[3], Qt::Vertical);
   m_window.splitDockWidget(m_docks[3], m_docks[4], Qt::Vertical);
   m_window.addDockWidget(Qt::BottomDockWidgetArea, points);
-  sizeDocks();
+  showDocks();
 }
 
 void WindowLayout::sizeDocks() {

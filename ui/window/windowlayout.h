@@ -49,6 +49,8 @@ class WindowLayout : public QObject {
 
  private:
   bool shows(size_t dock) const;  ///< in this workspace
+  void putAway();
+  void showDocks();  ///< of this workspace
   void layScene();
   void layTune();
   void sizeDocks();  ///< as the layout table has it for this width
