@@ -261,6 +261,18 @@ class TestCurves : public SampleWindowTest {
     m_window->layoutOfDocks().showPage(QStringLiteral("Graphs"));
   }
 
+  /// Ice is stiffer than a step can follow: so says its row, and so does the curve.
+  void whatTheSolverDoesNotFollowIsMarked() {
+    curves().choose({Owner::Material, "water", "youngs_modulus"});
+    session().step();
+    QTRY_VERIFY_WITH_TIMEOUT(!session().snapshot()->limits.empty(), kLong);
+    const auto most = curves().delivered();
+    QVERIFY(most && *most > 0 && *most < response().at(263));
+    curve().fit();
+    QVERIFY(curve().at(263, *most).y() < curve().plot().bottom());  // in sight
+    shoot("limit");
+  }
+
   void theWheelZoomsAroundThePointer() {
     const QPointF at = curve().plot().center();
     const double kelvin = curve().kelvinAt(at.x()), span = curve().kelvinAt(at.x() + 100) - kelvin;
@@ -277,10 +289,13 @@ class TestCurves : public SampleWindowTest {
     const QImage picture = curve().grab().toImage();
     const QColor line = Theme::current()[Token::Curve];
     for (const double kelvin : {290.0, 300.0, 325.0, 340.0}) {
-      const QPointF at = curve().at(kelvin, response().at(kelvin)) * picture.devicePixelRatio();
-      const QColor drawn = picture.pixelColor(at.toPoint());
-      QVERIFY2(std::abs(drawn.red() - line.red()) + std::abs(drawn.blue() - line.blue()) < 60,
-               qPrintable(drawn.name()));
+      const QPoint at = (curve().at(kelvin, response().at(kelvin)) * picture.devicePixelRatio()).toPoint();
+      int nearest = 1000;  // of a pixel and those around it: the line is a little wider than two
+      for (int k = 0; k < 9; ++k) {
+        const QColor drawn = picture.pixelColor(at + QPoint(k % 3 - 1, k / 3 - 1));
+        nearest = std::min(nearest, std::abs(drawn.red() - line.red()) + std::abs(drawn.blue() - line.blue()));
+      }
+      QVERIFY2(nearest < 60, qPrintable(QString::number(nearest)));
     }
   }
 

@@ -7,12 +7,15 @@
 #include "ui/document/document.h"
 #include "ui/session/session.h"
 #include "ui/theme/numbers.h"
+#include "ui/theme/paint.h"
 #include "ui/theme/theme.h"
 
 #include <QtWidgets/QHBoxLayout>
 #include <QtWidgets/QLabel>
 #include <QtWidgets/QLineEdit>
 #include <QtWidgets/QVBoxLayout>
+
+#include <cmath>
 
 namespace ps {
 namespace {
@@ -90,6 +93,7 @@ CurvePanel::CurvePanel(Session& session, CurveTarget& target, QWidget* parent)
 void CurvePanel::showTitle() {
   const QString source = m_target.source();
   m_title->setText(QString::fromUtf8(m_target.declaration().label));
+  m_title->setMinimumWidth(static_cast<int>(std::ceil(textWidth(m_title->text(), m_title->font()))) + 2);
   m_source->setText(QStringLiteral("of %1, over temperature").arg(m_target.materialLabel()) +
                     (source.isEmpty() ? source : QStringLiteral(" · ") + source));
   m_source->setToolTip(source);

@@ -133,6 +133,10 @@ void CurveView::fit() {
     low = std::min(low, now);
     high = std::max(high, now);
   }
+  if (const auto most = m_target.delivered()) {
+    low = std::min(low, level(*most));
+    high = std::max(high, level(*most));
+  }
   const double least = logarithmic() ? kLeastSpan : std::max(1e-12, 0.1 * std::abs(high));
   const double room = std::max(0.12 * (high - low), 0.5 * least);
   m_low = low - room;
@@ -208,10 +212,10 @@ void CurveView::paintGrid(QPainter& painter) const {
   for (int i = 0; i < up.count; ++i) {
     if (!logarithmic())
       across(up.at(i), tickText(up, i));
-    else if (up.at(i) == std::round(up.at(i)))
-      across(up.at(i), power(static_cast<int>(up.at(i))));
     else if (m_high - m_low < kWholeDecades)
       across(up.at(i), formatShort(std::pow(10.0, up.at(i)), 2));
+    else if (up.at(i) == std::round(up.at(i)))
+      across(up.at(i), power(static_cast<int>(up.at(i))));
   }
   paintText(painter, QRectF(area.left() + 6, area.top() + 3, 120, 16), Qt::AlignLeft | Qt::AlignVCenter,
             displayUnit(m_target.declaration()), font, theme[Token::Text2]);
