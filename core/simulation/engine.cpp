@@ -427,7 +427,7 @@ FrameStats Engine::stats() const {
   for (const Probe& probe : m->project.probes) {
     stats.probes.push_back(measureProbe(view, probe));
   }
-  stats.probeIds = m->probeIds;
+  stats.measured = m->measured;
   return stats;
 }
 

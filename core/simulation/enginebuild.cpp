@@ -82,12 +82,8 @@ void Engine::Impl::build() {
 
 void Engine::Impl::nameProbes() {
   probeNames.clear();
-  std::vector<std::string> ids;
-  for (const Probe& probe : project.probes) {
-    probeNames.push_back(probeTitle(probe, fields));
-    ids.push_back(probe.id);
-  }
-  probeIds = std::make_shared<const std::vector<std::string>>(std::move(ids));
+  for (const Probe& probe : project.probes) probeNames.push_back(probeTitle(probe, fields));
+  measured = std::make_shared<const std::vector<Probe>>(project.probes);
 }
 
 }  // namespace ps

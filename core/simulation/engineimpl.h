@@ -97,7 +97,7 @@ struct Engine::Impl {
   /// Notes what the project's probes are called.
   void nameProbes();
   std::vector<std::string> probeNames;
-  std::shared_ptr<const std::vector<std::string>> probeIds;
+  std::shared_ptr<const std::vector<Probe>> measured;  ///< the project's probes, for frames to share
   std::vector<Vector3> start;  ///< m, places at the start by the particles' ids, if a probe has a region
   StepReport lastReport;
   MatterFlow flow;

@@ -26,6 +26,11 @@ bool isMeanOfAll(const Probe& probe) {
          !probe.region && !probe.wave && !probe.fixed;
 }
 
+bool measuresSame(Probe a, const Probe& b) {
+  a.name = b.name;
+  return a == b;
+}
+
 class Chooser {
  public:
   std::vector<Graph> graphs;
@@ -102,12 +107,13 @@ std::string probeOfSource(std::string_view source) {
   return source.starts_with(kProbe) ? std::string(source.substr(kProbe.size())) : std::string();
 }
 
-GraphSource::GraphSource(const std::string& source, const Project& project, const ParticleFields& fields)
-    : m_probe(probeOfSource(source)) {
+GraphSource::GraphSource(const std::string& source, const Project& project, const ParticleFields& fields) {
+  const std::string id = probeOfSource(source);
   const auto probe = std::find_if(project.probes.begin(), project.probes.end(),
-                                  [&](const Probe& p) { return !m_probe.empty() && p.id == m_probe; });
+                                  [&](const Probe& p) { return !id.empty() && p.id == id; });
   if (probe != project.probes.end()) {
     m_known = true;
+    m_probe = *probe;
     m_label = shownName(*probe);
     m_unit = fields.unitOf(probe->quantity);
     return;
@@ -121,12 +127,18 @@ GraphSource::GraphSource(const std::string& source, const Project& project, cons
   m_unit = frame->unit;
 }
 
+bool GraphSource::operator==(const GraphSource& other) const {
+  return m_label == other.m_label && m_frame == other.m_frame && m_probe == other.m_probe;
+}
+
 double GraphSource::operator()(const FrameStats& stats) const {
   if (m_frame) return m_frame->of(stats);
-  if (!stats.probeIds) return std::numeric_limits<double>::quiet_NaN();
-  if (stats.probeIds != m_ids) {
-    m_ids = stats.probeIds;
-    m_place = static_cast<size_t>(std::find(m_ids->begin(), m_ids->end(), m_probe) - m_ids->begin());
+  if (!m_probe || !stats.measured) return std::numeric_limits<double>::quiet_NaN();
+  if (stats.measured != m_measured) {
+    m_measured = stats.measured;
+    const auto found = std::find_if(m_measured->begin(), m_measured->end(),
+                                    [&](const Probe& probe) { return measuresSame(probe, *m_probe); });
+    m_place = static_cast<size_t>(found - m_measured->begin());
   }
   return m_place < stats.probes.size() ? stats.probes[m_place] : std::numeric_limits<double>::quiet_NaN();
 }

@@ -4,6 +4,7 @@
 #include "core/simulation/snapshot.h"
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,14 +32,17 @@ class GraphSource {
   explicit operator bool() const { return m_known; }  ///< false: the project has none such
   const std::string& label() const { return m_label; }
   const std::string& unit() const { return m_unit; }  ///< SI; "1" for a pure number
-  /// Of a frame; NaN where it measured none such.
+  /// Whether the two are called alike and read the same off every frame.
+  bool operator==(const GraphSource& other) const;
+  /// Of a frame; NaN where it measured none such. A probe that has been changed since measured something else then.
   double operator()(const FrameStats& stats) const;
 
  private:
   bool m_known = false;
-  std::string m_label, m_unit, m_probe;
+  std::string m_label, m_unit;
+  std::optional<Probe> m_probe;
   const FrameQuantity* m_frame = nullptr;
-  mutable std::shared_ptr<const std::vector<std::string>> m_ids;  ///< in which m_place holds
+  mutable std::shared_ptr<const std::vector<Probe>> m_measured;  ///< in which m_place holds
   mutable size_t m_place = 0;
 };
 

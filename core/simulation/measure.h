@@ -20,8 +20,8 @@ struct ProbeView {
   const std::vector<std::string>& bodyIds;  ///< Body::id by the particles' body index
   const ParticleFields& fields;
   std::vector<Wall> walls{};
-  double spacing = 0;                ///< m, of the particles
-  std::span<const Vector3> start{};  ///< m, places at the start by the particles' ids
+  double spacing = 0;                      ///< m, of the particles
+  std::span<const Vector3> start{};        ///< m, places at the start by the particles' ids
   std::vector<std::string> materialIds{};  ///< SceneMaterial::id by the particles' material index
 };
 /// Value of a probe now, in the unit of its quantity; means are weighted with mass, NaN where nothing matches. Fixed

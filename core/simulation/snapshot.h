@@ -41,8 +41,8 @@ struct FrameStats {
   MomentumRecord momentum;  ///< of the last frame
   std::array<double, static_cast<size_t>(Stage::Count)> milliseconds{};
   double totalMilliseconds = 0;
-  std::vector<double> probes;                                ///< in the order of Project::probes at that frame
-  std::shared_ptr<const std::vector<std::string>> probeIds;  ///< theirs
+  std::vector<double> probes;                          ///< in the order of `measured`
+  std::shared_ptr<const std::vector<Probe>> measured;  ///< as they were then
 };
 
 struct ParticleField;

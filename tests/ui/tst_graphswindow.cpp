@@ -161,7 +161,7 @@ class TestGraphsWindow : public SampleWindowTest {
     QVERIFY(set("wall", std::string("floor")).contains(QStringLiteral("force")));
     picture("probe");
     session().step();
-    QTRY_VERIFY_WITH_TIMEOUT(session().snapshot()->stats.probeIds->back() == id, kLong);
+    QTRY_VERIFY_WITH_TIMEOUT(session().snapshot()->stats.measured->back().id == id, kLong);
     undoneAndRedone(before);
     document().renameProbe(id, QStringLiteral("Rim"));
     QTRY_VERIFY(find(*outliner()->findChild<QTreeView*>()->model(), OutlineKind::Probe, id)

@@ -308,19 +308,20 @@ class TestInteraction : public SampleWindowTest {
   void csvHasEveryFrame() {
     std::vector<FrameStats> history(2);
     history[0].temperatureMean = 263.15;
-    history[0].probes = {1.0 / 3, std::nan("")};
-    history[0].probeIds = std::make_shared<const std::vector<std::string>>(std::vector<std::string>{"a", "b"});
-    history[1].time = 0.1;
-    history[1].phases[2].mass = 2.5;
-    history[1].probes = {0.5};  // the other one has gone since
-    history[1].probeIds = std::make_shared<const std::vector<std::string>>(std::vector<std::string>{"b"});
     const auto probe = [](const char* id, const char* name, const char* quantity) {
       Probe made;
       made.id = id, made.name = name, made.quantity = quantity;
       return made;
     };
-    const QByteArray csv =
-        historyCsv(history, {probe("a", "Ice, core", "temperature"), probe("b", "n", "count")}, ParticleFields());
+    const std::vector<Probe> probes{probe("a", "Ice, core", "temperature"), probe("b", "n", "count")};
+    history[0].probes = {1.0 / 3, std::nan("")};
+    history[0].measured = std::make_shared<const std::vector<Probe>>(probes);
+    history[1].time = 0.1;
+    history[1].phases[2].mass = 2.5;
+    history[1].probes = {280, 0.5};  // the first measured something else then
+    history[1].measured = std::make_shared<const std::vector<Probe>>(
+        std::vector<Probe>{probe("a", "Ice, core", "temperature_max"), probes[1]});
+    const QByteArray csv = historyCsv(history, probes, ParticleFields());
     QCOMPARE(csv, QByteArray("time_s,thermal_time_s,mean.temperature[K],solid.mass[kg],melting.mass[kg],"
                              "liquid.mass[kg],boiling.mass[kg],gas.mass[kg],\"Ice, core.temperature[K]\",n.count[1]\n"
                              "0,0,263.15,0,0,0,0,0,0.3333333333333333,\n"

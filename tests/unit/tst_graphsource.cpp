@@ -73,13 +73,23 @@ class TestGraphSource : public QObject {
     FrameStats stats;
     stats.kineticEnergy = 3;
     stats.probes = {1, 2};
-    stats.probeIds = std::make_shared<const std::vector<std::string>>(std::vector<std::string>{"a", "b"});
+    const auto measured = [&](std::vector<Probe> list) {
+      stats.measured = std::make_shared<const std::vector<Probe>>(std::move(list));
+    };
+    measured(project.probes);
     QCOMPARE(second(stats), 2.0);
     QCOMPARE(whole(stats), 3.0);
-    stats.probeIds = std::make_shared<const std::vector<std::string>>(std::vector<std::string>{"b", "a"});
+    measured({project.probes[1], project.probes[0]});
     QCOMPARE(second(stats), 1.0);
+    Probe other = project.probes[1];
+    other.name = "renamed";
+    measured({project.probes[0], other});
+    QCOMPARE(second(stats), 2.0);
+    other.body = "ice";  // it measured something else then
+    measured({project.probes[0], other});
+    QVERIFY(std::isnan(second(stats)));
     stats.probes = {1};
-    stats.probeIds = std::make_shared<const std::vector<std::string>>(std::vector<std::string>{"a"});
+    measured({project.probes[0]});
     QVERIFY(std::isnan(second(stats)));
   }
 
@@ -96,7 +106,7 @@ class TestGraphSource : public QObject {
     none.material = "gone";
     engine.apply(SetProbes{{water, none, project.probes.front()}});
     const FrameStats stats = engine.stats();
-    QCOMPARE(*stats.probeIds, (std::vector<std::string>{"water", "none", "count"}));
+    QCOMPARE(*stats.measured, (std::vector<Probe>{water, none, project.probes.front()}));
     QCOMPARE(stats.probes, (std::vector<double>{count, 0, count}));
     QCOMPARE(engine.probeNames().front(), std::string("water.count[1]"));
   }

@@ -37,13 +37,6 @@ const QString kAllHeld = QStringLiteral("All matter is held in place; what is he
 
 bool isOfFrames(Graph::Kind kind) { return kind != Graph::Kind::Histogram && kind != Graph::Kind::Profile; }
 
-/// What decides on the curves: another one of these, and they are made anew.
-bool sameCurves(const std::vector<GraphSource>& a, const std::vector<GraphSource>& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const GraphSource& one, const GraphSource& other) {
-    return one.label() == other.label() && one.unit() == other.unit();
-  });
-}
-
 }  // namespace
 
 QString titleOf(const Graph& graph, const Project& project, const ParticleFields& fields) {
@@ -138,7 +131,7 @@ void GraphsPanel::rebuild() {
     for (const std::string& series : graph.series) {
       if (GraphSource source(series, project, m_session.fields()); source) sources.push_back(std::move(source));
     }
-    const bool same = old != before.end() && seriesBefore == graph.series && sameCurves(shown.sources, sources);
+    const bool same = old != before.end() && seriesBefore == graph.series && shown.sources == sources;
     shown.sources = std::move(sources);
     shown.plot->setTitle(titleOf(graph, project, m_session.fields()));
     if (!same) prepare(shown);
