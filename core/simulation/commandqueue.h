@@ -19,9 +19,9 @@ struct Opening {
   bool play = false;
 };
 struct SingleStep {};
-/// To a recorded frame, to go on from there.
+/// To a recorded frame, or to the end of an earlier run, to go on from there.
 struct GoBack {
-  uint64_t frame = 0;
+  uint64_t frame = 0, run = 0;  ///< one of them; runs count from 1
   bool play = false;
 };
 using Question = std::function<void(const Engine&)>;

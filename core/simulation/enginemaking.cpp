@@ -78,17 +78,21 @@ void EngineThread::Impl::recordEdit(RecordedEdit edit) {
 void EngineThread::Impl::goBack(const GoBack& to) {
   if (!engine) return;
   record.settle();
-  const bool edits = record.documentEditedAfter(to.frame);
+  const uint64_t before = record.present();
+  if (to.run && !record.exchange(to.run)) return;
+  const uint64_t frame = to.run ? record.extent().last : to.frame;
+  const bool edits = to.run || record.documentEditedAfter(frame);
   const Project project = engine->document();
   std::unique_ptr<Engine> past;
   try {
     if (needOf(project, &plugins).bytes > roomToGrow(memoryNow())) engine.reset();
     make([&] {
-      const std::optional<RestorePoint> point = record.restorePoint(to.frame);
-      if (!point) throw InputError("the record has no state from which frame " + std::to_string(to.frame) + " follows");
+      const std::optional<RestorePoint> point = record.restorePoint(frame);
+      if (!point) throw InputError("the record has no state from which frame " + std::to_string(frame) + " follows");
       past = replayed(*point, plugins);
     });
   } catch (...) {
+    if (to.run) record.exchange(before);
     if (engine)
       fail(failureAtHand(EngineEvent::Kind::Refused));
     else
@@ -97,13 +101,16 @@ void EngineThread::Impl::goBack(const GoBack& to) {
   }
   engine = std::move(past);
   if (shown) engine->apply(*shown);
-  record.cutAfter(to.frame, engine->revision());
+  record.cutAfter(frame, engine->revision());
   if (edits) change(UpdateProject{std::make_shared<const Project>(project)});
   record.keepState(*engine);
   const SnapshotPtr snapshot = engine->snapshot();
+  const std::vector<FrameStats> kept = to.run ? record.stats() : std::vector<FrameStats>{};
   {
     const std::lock_guard lock(mutex);
-    history.cutAfter(to.frame);
+    if (to.run) history.clear();
+    for (const FrameStats& stats : kept) history.add(stats);
+    history.cutAfter(frame);
     newest = snapshot;
     playing = to.play;
     due = measured = std::chrono::steady_clock::now();
@@ -145,8 +152,15 @@ void EngineThread::open(const Project& project, bool play) {
 
 void EngineThread::continueFrom(uint64_t frame, bool play) {
   pause();
-  m->push(GoBack{frame, play});
+  m->push(GoBack{frame, 0, play});
 }
+
+void EngineThread::goOnWith(uint64_t run) {
+  pause();
+  m->push(GoBack{0, run, false});
+}
+
+void EngineThread::forgetRun(uint64_t run) { m->record.forgetRun(run); }
 
 const RunRecord& EngineThread::recording() const { return m->record; }
 

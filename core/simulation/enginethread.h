@@ -56,8 +56,11 @@ class EngineThread {
   /// What the run was at each frame, as far as it is kept; a reset, an opening and a return to a state begin anew.
   const RunRecord& recording() const;
   /// Goes on from a recorded frame: the state before it, and all edits since, again up to that frame. Then the project
-  /// acts as it is by now: going back in time takes back no edit. What was recorded after the frame is forgotten.
+  /// acts as it is by now: going back in time takes back no edit. The run as it was is kept beside it.
   void continueFrom(uint64_t frame, bool play);
+  /// The same with an earlier run, at its end; the present one is then the earlier one.
+  void goOnWith(uint64_t run);
+  void forgetRun(uint64_t run);
 
   /// How far the scene is that is being made, by an opening, a reset or a return to a state or frame; nothing when none
   /// is.

@@ -63,9 +63,12 @@ size_t RunRecord::usualBudget() {
 }
 
 void RunRecord::begin(uint64_t revision) {
-  const std::lock_guard lock(m->mutex);
-  m->clear();
-  m->revision = revision;
+  {
+    const std::lock_guard lock(m->mutex);
+    m->clear();
+    m->revision = revision;
+  }
+  m->wake.notify_one();
 }
 
 uint64_t RunRecord::revision() const {
@@ -122,8 +125,22 @@ void RunRecord::keepState(const Engine& engine) {
 
 void RunRecord::cutAfter(uint64_t frame, uint64_t revision) {
   const std::lock_guard lock(m->mutex);
+  m->keepAsEarlier(frame);
   m->forgetAfter(frame);
   m->revision = revision;
+}
+
+bool RunRecord::exchange(uint64_t number) {
+  const std::lock_guard lock(m->mutex);
+  const auto chosen =
+      std::find_if(m->earlier.begin(), m->earlier.end(), [&](const KeptRun& run) { return run.number == number; });
+  if (chosen == m->earlier.end()) return false;
+  const double apart = chosen->apart;
+  std::swap(static_cast<KeptRun&>(*m), *chosen);
+  for (KeptRun& run : m->earlier) run.apart = std::min(run.apart, apart);
+  chosen->apart = apart;
+  m->startAfresh();
+  return true;
 }
 
 bool RunRecord::documentEditedAfter(uint64_t frame) const {
@@ -132,49 +149,61 @@ bool RunRecord::documentEditedAfter(uint64_t frame) const {
                      [frame](const FrameEdit& edit) { return edit.frame > frame && changesDocument(edit.edit); });
 }
 
-void RunRecord::Impl::clear() {
+/// What is packed now is of another run.
+void RunRecord::Impl::startAfresh() {
   ++generation;
   waiting.clear();
   waitingState.reset();
-  frames.clear();
-  states.clear();
-  edits.clear();
   document = nullptr;
-  frameBytes = editBytes = documentEdits = 0;
-  stride = 1;
-  sweep = sweepEnd = leftOut = 0;
+  sweep = sweepEnd = 0;
+}
+
+void RunRecord::Impl::clear() {
+  startAfresh();
+  while (!earlier.empty()) drop(earlier.begin());
+  dropped.push_back(std::exchange(static_cast<KeptRun&>(*this), {}));
+  runs = stride = 1;
+  documentEdits = leftOut = 0;
   stateAt = {};
   packSeconds = stateSeconds = 0;
 }
 
+void RunRecord::Impl::keepAsEarlier(uint64_t frame) {
+  const auto after = frames.upper_bound(frame);
+  if (after == frames.end()) return;
+  const double time = (after == frames.begin() ? after : std::prev(after))->second.stats().time;
+  for (KeptRun& run : earlier) run.apart = std::min(run.apart, time);
+  earlier.push_back(*this);
+  earlier.back().apart = time;
+  number = ++runs;
+}
+
 void RunRecord::Impl::forgetAfter(uint64_t frame) {
-  ++generation;
-  waiting.clear();
-  waitingState.reset();
+  startAfresh();
   while (!frames.empty() && frames.rbegin()->first > frame) eraseFrame(std::prev(frames.end()));
   std::erase_if(states, [&](const State& state) { return state.frame > frame; });
   while (!edits.empty() && edits.back().frame > frame) {
     editBytes -= bytesOf(edits.back());
     edits.pop_back();
   }
-  document = nullptr;
-  sweep = sweepEnd = 0;
 }
 
 void RunRecord::Impl::loop(const std::stop_token& stop) {
   setpriority(PRIO_PROCESS, 0, kNiceness);  // of this thread alone, as Linux has it
   FramePacker packer(counted);
   std::unique_lock lock(mutex);
-  while (wake.wait(lock, stop, [this] { return waitingState || !waiting.empty(); })) {
+  while (wake.wait(lock, stop, [this] { return !idle(); })) {
     busy = true;
     const uint64_t of = generation;
     std::optional<RawState> state = std::exchange(waitingState, std::nullopt);
     SnapshotPtr snapshot;
-    if (!state) {
+    if (!state && !waiting.empty()) {
       snapshot = std::move(waiting.front());
       waiting.pop_front();
     }
+    std::vector<KeptRun> gone = std::exchange(dropped, {});
     lock.unlock();
+    gone.clear();
     try {
       if (state) packState(std::move(*state), of);
       if (snapshot) packFrame(snapshot, of, packer);

@@ -47,6 +47,7 @@ class RunRecord {
  public:
   /// What is kept stays below `budget` bytes, but for the newest frame. When it is full, every second one of the older
   /// half of the frames goes, one by one, then every second one of the rest; of the states those that stand closest.
+  /// Earlier runs go before that, the oldest first.
   explicit RunRecord(size_t budget);
   ~RunRecord();
 
@@ -66,8 +67,11 @@ class RunRecord {
   bool wantsState(double time) const;
   /// Of an engine as it stands, after the edits that were added.
   void keepState(const Engine& engine);
-  /// The run went back to a frame and goes on from there under another revision: what came after is forgotten.
+  /// The run went back to a frame and goes on from there under another revision. As it was, it is kept as an earlier
+  /// run, if anything came after.
   void cutAfter(uint64_t frame, uint64_t revision);
+  /// An earlier run is the present one, and that an earlier one. False: it is not kept.
+  bool exchange(uint64_t number);
   /// Parameters, tracks or the project as a whole; what became of matter alone does not count.
   bool documentEditedAfter(uint64_t frame) const;
 
@@ -86,6 +90,15 @@ class RunRecord {
   SnapshotPtr frame(uint64_t number) const;
   /// How a frame can be made again, from the nearest state; nothing where no state before it is kept.
   std::optional<RestorePoint> restorePoint(uint64_t frame) const;
+  struct EarlierRun {
+    uint64_t number = 0;       ///< runs count from 1
+    double apart = 0, to = 0;  ///< s: where it left the present run, and its end
+  };
+  std::vector<EarlierRun> earlier() const;  ///< the oldest first
+  uint64_t present() const;                 ///< number of the present run
+  void forgetRun(uint64_t number);          ///< an earlier one
+  /// Of the frames that are kept.
+  std::vector<FrameStats> stats() const;
   /// Waits until all that was handed over is packed.
   void settle() const;
 

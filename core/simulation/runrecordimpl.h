@@ -13,9 +13,8 @@
 // What the record of a run holds; private to this room.
 namespace ps {
 
-struct RunRecord::Impl {
-  using Clock = std::chrono::steady_clock;
-
+/// What is kept of one run. A copy shares the packed bytes.
+struct KeptRun {
   struct State {
     uint64_t frame = 0;
     size_t edits = 0;  ///< that were in it
@@ -23,6 +22,24 @@ struct RunRecord::Impl {
     std::shared_ptr<const NamedMatter> names;
     std::shared_ptr<const PackedBytes> stream;
   };
+  void eraseFrame(std::map<uint64_t, PackedFrame>::iterator frame) {
+    frameBytes -= frame->second.bytes();
+    frames.erase(frame);
+  }
+  size_t bytes() const { return frameBytes + editBytes; }  ///< beside the packed ones
+
+  uint64_t number = 1;
+  double apart = 0;  ///< s, where it left the present run
+  std::map<uint64_t, PackedFrame> frames;
+  size_t frameBytes = 0;
+  std::vector<State> states;
+  std::vector<FrameEdit> edits;
+  size_t editBytes = 0;
+};
+
+struct RunRecord::Impl : KeptRun {
+  using Clock = std::chrono::steady_clock;
+
   struct RawState {
     State state;
     StateBuffer stream;
@@ -34,13 +51,15 @@ struct RunRecord::Impl {
   void packFrame(const SnapshotPtr& snapshot, uint64_t of, FramePacker& packer);
   void clear();
   void forgetAfter(uint64_t frame);
-  bool idle() const { return !busy && waiting.empty() && !waitingState; }
+  void keepAsEarlier(uint64_t frame);
+  void startAfresh();
+  void drop(std::vector<KeptRun>::iterator run);
+  bool idle() const { return !busy && waiting.empty() && !waitingState && dropped.empty(); }
 
   size_t bytes() const;
   void fit();
   bool thinFrames();
   bool thinStates();
-  void eraseFrame(std::map<uint64_t, PackedFrame>::iterator frame);
 
   const size_t budget;
   const ByteCount counted;  ///< of packed bytes
@@ -54,13 +73,11 @@ struct RunRecord::Impl {
   std::optional<RawState> waitingState;
   bool busy = false;
 
-  std::map<uint64_t, PackedFrame> frames;
-  size_t frameBytes = 0;  ///< beside the packed ones
+  std::vector<KeptRun> earlier;  ///< the oldest first
+  std::vector<KeptRun> dropped;  ///< given back by the thread, without the mutex
+  uint64_t runs = 1;             ///< so far
   uint64_t stride = 1, sweep = 0, sweepEnd = 0;
   bool erased = false;  ///< in this sweep
-  std::vector<State> states;
-  std::vector<FrameEdit> edits;
-  size_t editBytes = 0;
 
   std::shared_ptr<const Project> document;  ///< of the last state, while nothing was edited since
   size_t documentEdits = 0;

@@ -14,20 +14,23 @@
 
 namespace ps {
 
-size_t RunRecord::Impl::bytes() const { return *counted + frameBytes + editBytes; }
-
-void RunRecord::Impl::eraseFrame(std::map<uint64_t, PackedFrame>::iterator frame) {
-  frameBytes -= frame->second.bytes();
-  frames.erase(frame);
+size_t RunRecord::Impl::bytes() const {
+  size_t sum = *counted + KeptRun::bytes();
+  for (const KeptRun& run : earlier) sum += run.bytes();
+  return sum;
 }
 
-/// States may take half of it: frames are what people look at.
+/// Earlier runs go first, as wholes. States may take half of it: frames are what people look at.
 void RunRecord::Impl::fit() {
   const auto stateBytes = [this] {
     size_t sum = 0;
     for (const State& state : states) sum += state.stream->size();
     return sum;
   };
+  if (bytes() > budget && !earlier.empty()) {
+    drop(earlier.begin());
+    return;  // it is given back before anything more is packed
+  }
   while (stateBytes() > budget / 2 && thinStates()) {
   }
   while (bytes() > budget && (thinFrames() || thinStates())) {
@@ -149,6 +152,42 @@ std::optional<RestorePoint> RunRecord::restorePoint(uint64_t frame) const {
   point.state.resize(planes.size());
   ByteUnpacker::words(reinterpret_cast<char*>(point.state.data()), planes.data(), planes.size(), 4);
   return point;
+}
+
+std::vector<RunRecord::EarlierRun> RunRecord::earlier() const {
+  const std::lock_guard lock(m->mutex);
+  std::vector<EarlierRun> runs;
+  for (const KeptRun& run : m->earlier)
+    runs.push_back({run.number, run.apart, run.frames.rbegin()->second.stats().time});
+  return runs;
+}
+
+std::vector<FrameStats> RunRecord::stats() const {
+  const std::lock_guard lock(m->mutex);
+  std::vector<FrameStats> stats;
+  for (const auto& [number, frame] : m->frames) stats.push_back(frame.stats());
+  return stats;
+}
+
+uint64_t RunRecord::present() const {
+  const std::lock_guard lock(m->mutex);
+  return m->number;
+}
+
+void RunRecord::Impl::drop(std::vector<KeptRun>::iterator run) {
+  dropped.push_back(std::move(*run));
+  earlier.erase(run);
+}
+
+void RunRecord::forgetRun(uint64_t number) {
+  {
+    const std::lock_guard lock(m->mutex);
+    const auto run =
+        std::find_if(m->earlier.begin(), m->earlier.end(), [&](const KeptRun& kept) { return kept.number == number; });
+    if (run == m->earlier.end()) return;
+    m->drop(run);
+  }
+  m->wake.notify_one();
 }
 
 RunRecord::Cost RunRecord::cost() const {

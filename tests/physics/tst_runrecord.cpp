@@ -99,7 +99,8 @@ class TestRunRecord : public QObject {
   void whatComesTooFastIsLeftOutAndCounted();
   void staysWithinItsBudget();
   void aFrameIsFoundByItsTime();
-  void goingBackForgetsWhatCameAfter();
+  void goingBackKeepsTheRunAsItWas();
+  void anEarlierRunMakesRoom();
   void theThreadRecordsAndGoesOn_data() { samples(); }
   void theThreadRecordsAndGoesOn();
 
@@ -272,7 +273,7 @@ void TestRunRecord::aFrameIsFoundByItsTime() {
   QVERIFY(record.frame(9) && !record.frame(10));
 }
 
-void TestRunRecord::goingBackForgetsWhatCameAfter() {
+void TestRunRecord::goingBackKeepsTheRunAsItWas() {
   RunRecord record(kPlenty);
   record.begin(1);
   for (uint64_t n = 0; n < 10; ++n) {
@@ -288,8 +289,42 @@ void TestRunRecord::goingBackForgetsWhatCameAfter() {
   record.add(plainFrame(7));                         // of the run before
   record.settle();
   QCOMPARE(record.extent().last, uint64_t{6});
+  QCOMPARE(record.earlier().size(), size_t{1});
+  QCOMPARE(record.earlier().front().number, uint64_t{1});
+  QCOMPARE(record.earlier().front().apart, 6.0 / 60);
+  QCOMPARE(record.earlier().front().to, 9.0 / 60);
+  QCOMPARE(record.present(), uint64_t{2});
+  QVERIFY(!record.exchange(7));
+  QVERIFY(record.exchange(1));
+  QCOMPARE(record.extent().last, uint64_t{9});
+  QVERIFY(record.documentEditedAfter(8));
+  QCOMPARE(record.earlier().front().number, uint64_t{2});
+  record.forgetRun(2);
+  QVERIFY(record.earlier().empty());
+  record.cutAfter(9, 2);  // nothing came after
+  QVERIFY(record.earlier().empty());
   record.begin(3);
   QCOMPARE(record.extent().frames, size_t{0});
+}
+
+/// What both share is held once, and an earlier run goes before frames of the present one.
+void TestRunRecord::anEarlierRunMakesRoom() {
+  RunRecord record(200000);
+  record.begin(1);
+  uint64_t frame = 0;
+  const auto run = [&](uint64_t to) {
+    for (; frame <= to; ++frame) {
+      record.add(plainFrame(frame, 50));
+      record.settle();
+    }
+  };
+  run(100);
+  const size_t bytes = record.cost().bytes;
+  record.cutAfter(frame = 50, 1);
+  QVERIFY(record.cost().bytes < 2 * bytes);
+  QCOMPARE(record.earlier().size(), size_t{1});
+  for (++frame; !record.earlier().empty();) run(frame);
+  QCOMPARE(record.extent().frames, size_t{frame});
 }
 
 void TestRunRecord::theThreadRecordsAndGoesOn() {

@@ -197,11 +197,48 @@ class TestRecordedView : public SampleWindowTest {
     if (frame <= kFrames) QCOMPARE(now, m_hashes[frame]);
     if (session().newest()->stats.frame == kFrames) QCOMPARE(hash(), m_hashes[kFrames]);
     QTRY_VERIFY_WITH_TIMEOUT(!session().recorded().isActive(), kLong);
-    QTRY_COMPARE_WITH_TIMEOUT(
-        session().log().messages().back().text,
-        QStringLiteral("The run goes on from %1. What was recorded after that, up to %2, is gone.")
-            .arg(clockText(5.0 / 60), clockText(kFrames / 60.0)),
-        kLong);
+    QTRY_COMPARE_WITH_TIMEOUT(session().log().messages().back().text,
+                              QStringLiteral("The run goes on from %1. As it was, up to %2, it is kept as run 1.")
+                                  .arg(clockText(5.0 / 60), clockText(kFrames / 60.0)),
+                              kLong);
+  }
+
+  /// Gone back, another floor, and the first run again; then the second is deleted.
+  void anEarlierRunIsTakenUpAndDeleted() {
+    const int height = transport().height();
+    const int steps = document().undoStack().count();
+    drag(5);
+    QTRY_COMPARE_WITH_TIMEOUT(shownFrame(), uint64_t{5}, kLong);
+    QTest::mouseClick(transport().continueButton(), Qt::LeftButton);
+    QTRY_COMPARE_WITH_TIMEOUT(session().recorded().earlier().size(), size_t{1}, kLong);
+    QTRY_VERIFY_WITH_TIMEOUT(!session().recorded().isActive(), kLong);  // the window has heard of it
+    session().pause();
+    const RunRecord::EarlierRun first = session().recorded().earlier().front();
+    QCOMPARE(first.number, uint64_t{1});
+    QCOMPARE(first.apart, 5.0 / 60);
+    QCOMPARE(first.to, static_cast<double>(kFrames) / 60);
+    QTRY_VERIFY_WITH_TIMEOUT(transport().height() > height, kLong);
+    picture("tst_recordedview_runs.png");
+    choose(1, "Go on with it");
+    QTRY_COMPARE_WITH_TIMEOUT(session().log().messages().back().text,
+                              QStringLiteral("Run 1 goes on from its end; the one before is kept as run 2."), kLong);
+    QTRY_COMPARE_WITH_TIMEOUT(session().newest()->stats.frame, kFrames, kLong);
+    session().engine()->recording().settle();
+    QCOMPARE(session().recorded().extent().last, kFrames);
+    QCOMPARE(session().engine()->history(0).size(), size_t{kFrames + 1});
+    drag(8);
+    QTRY_COMPARE_WITH_TIMEOUT(shownFrame(), uint64_t{8}, kLong);
+    QCOMPARE(onEngine<uint64_t>(session(),
+                                [this](Engine&) {
+                                  const auto point = session().engine()->recording().restorePoint(8);
+                                  return point ? replayed(*point, *session().plugins())->stateHash() : 0;
+                                }),
+             m_hashes[8]);
+    QCOMPARE(session().recorded().earlier().front().number, uint64_t{2});
+    choose(2, "Delete");
+    QVERIFY(session().recorded().earlier().empty());
+    QTRY_COMPARE_WITH_TIMEOUT(transport().height(), height, kLong);
+    QCOMPARE(document().undoStack().count(), steps);  // time is no edit
   }
 
   /// Who works on matter sees it as it stands.
@@ -232,6 +269,16 @@ class TestRecordedView : public SampleWindowTest {
   uint64_t shownFrame() { return session().snapshot()->stats.frame; }
   Transport& transport() { return *m_window->transport(); }
   void trigger(const char* id) { m_window->action(QLatin1String(id))->trigger(); }
+  void choose(int run, const char* what) {
+    QMenu menu;
+    transport().fillMenu(menu);
+    for (QAction* entry : menu.actions()) {
+      if (!entry->menu() || !entry->text().startsWith(QStringLiteral("Run %1,").arg(run))) continue;
+      for (QAction* action : entry->menu()->actions()) {
+        if (action->text() == QLatin1String(what)) action->trigger();
+      }
+    }
+  }
   void setSpeed(const char* text) {
     for (QAction* action : transport().speedButton()->menu()->actions()) {
       if (action->text() == QString::fromUtf8(text)) action->trigger();

@@ -144,19 +144,37 @@ void RecordedView::setShown(SnapshotPtr snapshot) {
 void RecordedView::continueFromHere() {
   const SnapshotPtr newest = m_session.newest();
   if (!m_shown || !newest || m_session.engine()->making()) return;
-  m_continuing = Continuing{m_shown->stats.frame, m_shown->stats.time, newest->stats.time};
+  m_continuing = QStringLiteral("The run goes on from %1. As it was, up to %2, it is kept as run %3.")
+                     .arg(clockText(m_shown->stats.time), clockText(newest->stats.time))
+                     .arg(record()->present());
   m_session.engine()->continueFrom(m_shown->stats.frame, true);
+}
+
+std::vector<RunRecord::EarlierRun> RecordedView::earlier() const {
+  return record() ? record()->earlier() : std::vector<RunRecord::EarlierRun>{};
+}
+
+void RecordedView::goOnWith(uint64_t run) {
+  if (!record() || m_session.engine()->making()) return;
+  m_session.pause();
+  m_continuing = QStringLiteral("Run %1 goes on from its end; the one before is kept as run %2.")
+                     .arg(run)
+                     .arg(record()->present());
+  m_session.engine()->goOnWith(run);
+}
+
+void RecordedView::forgetRun(uint64_t run) {
+  if (!record()) return;
+  m_session.engine()->forgetRun(run);
+  Q_EMIT changed();
 }
 
 void RecordedView::follow(const SnapshotPtr& newest) {
   if (!newest || newest->revision == m_revision) return;
   m_revision = newest->revision;
-  const auto continuing = std::exchange(m_continuing, std::nullopt);
+  const QString continuing = std::exchange(m_continuing, QString());
   showNewest();
-  if (!continuing || newest->stats.frame < continuing->frame) return;
-  m_session.log().add(MessageLevel::Info, QStringLiteral("Timeline"),
-                      QStringLiteral("The run goes on from %1. What was recorded after that, up to %2, is gone.")
-                          .arg(clockText(continuing->from), clockText(continuing->dropped)));
+  if (!continuing.isEmpty()) m_session.log().add(MessageLevel::Info, QStringLiteral("Timeline"), continuing);
 }
 
 }  // namespace ps

@@ -4,6 +4,7 @@
 
 #include <QtCore/QElapsedTimer>
 #include <QtCore/QObject>
+#include <QtCore/QString>
 #include <QtCore/QTimer>
 
 #include <optional>
@@ -42,6 +43,11 @@ class RecordedView : public QObject {
   void setSpeed(double speed) { m_speed = speed; }  ///< s of the run per s
   /// The run goes on from the frame that is shown.
   void continueFromHere();
+  /// Runs that were left by that, the oldest first.
+  std::vector<RunRecord::EarlierRun> earlier() const;
+  /// At its end; the present run is then an earlier one.
+  void goOnWith(uint64_t run);
+  void forgetRun(uint64_t run);
   /// Snapshots of another run, or of this one from an earlier frame on.
   void follow(const SnapshotPtr& newest);
 
@@ -65,11 +71,7 @@ class RecordedView : public QObject {
   double m_at = 0, m_speed = 1;  ///< s of the run, s of it per s
   bool m_loop = false;
   uint64_t m_revision = 0;
-  struct Continuing {
-    uint64_t frame = 0;
-    double from = 0, dropped = 0;  ///< s
-  };
-  std::optional<Continuing> m_continuing;
+  QString m_continuing;  ///< what to tell when the engine has gone there
 };
 
 }  // namespace ps

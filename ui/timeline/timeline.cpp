@@ -29,6 +29,7 @@ Timeline::Timeline(Session& session, QWidget* parent)
   layout->addWidget(m_transport);
   layout->addWidget(m_scroll);
   connect(m_keys, &KeyRows::rowsChanged, this, &Timeline::fit);
+  connect(m_transport, &Transport::heightChanged, this, &Timeline::fit);
   fit();
 }
 

@@ -8,6 +8,7 @@ namespace ps {
 
 class KeyRows;
 class Session;
+class Transport;
 
 /// The transport, and below it the keys of what is animated, where there are any.
 class Timeline : public QWidget {
@@ -22,7 +23,7 @@ class Timeline : public QWidget {
   void fit();
   KeyRows* m_keys;
   QScrollArea* m_scroll;
-  QWidget* m_transport;
+  Transport* m_transport;
 };
 
 }  // namespace ps

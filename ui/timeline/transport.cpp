@@ -27,7 +27,8 @@ namespace ps {
 namespace {
 
 constexpr int kHeight = 40;
-constexpr int kBar = 4, kReach = 10;  ///< logical pixels: of the bar, and of what a hand takes as it
+constexpr int kBar = 4, kReach = 10;                  ///< logical pixels: of the bar, and of what a hand takes as it
+constexpr int kLine = 2, kPitch = 3, kMostLines = 4;  ///< of earlier runs above it
 
 QToolButton* toolButton(const QString& iconName, const QString& tip) {
   auto* button = new QToolButton;
@@ -121,7 +122,7 @@ Transport::Transport(Session& session, QWidget* parent)
   row->addWidget(m_thermal, 1);
   m_continue->setFocusPolicy(Qt::TabFocus);
   m_continue->setToolTip(
-      QStringLiteral("The run goes on from the frame that is shown.\nWhat is recorded after it is forgotten."));
+      QStringLiteral("The run goes on from the frame that is shown.\nAs it was, it is kept: a line above the bar."));
   m_continue->hide();
   setMouseTracking(true);
   setAccessibleName(QStringLiteral("Transport"));
@@ -281,21 +282,44 @@ void Transport::mouseMoveEvent(QMouseEvent* event) {
 
 void Transport::mouseReleaseEvent(QMouseEvent*) { m_scrubs = false; }
 
+void Transport::fillMenu(QMenu& menu) {
+  RecordedView& recorded = m_session.recorded();
+  if (recorded.isActive()) {
+    connect(menu.addAction(QStringLiteral("Continue from here")), &QAction::triggered, &recorded,
+            &RecordedView::continueFromHere);
+    connect(menu.addAction(QStringLiteral("Newest state")), &QAction::triggered, &recorded, &RecordedView::showNewest);
+  }
+  for (const RunRecord::EarlierRun& run : recorded.earlier()) {
+    QMenu* one =
+        menu.addMenu(QStringLiteral("Run %1, %2 to %3").arg(run.number).arg(clockText(run.apart), clockText(run.to)));
+    connect(one->addAction(QStringLiteral("Go on with it")), &QAction::triggered, &recorded,
+            [&recorded, run] { recorded.goOnWith(run.number); });
+    connect(one->addAction(QStringLiteral("Delete")), &QAction::triggered, &recorded,
+            [&recorded, run] { recorded.forgetRun(run.number); });
+  }
+}
+
 void Transport::contextMenuEvent(QContextMenuEvent* event) {
-  if (!m_session.recorded().isActive()) return;
   QMenu menu(this);
-  connect(menu.addAction(QStringLiteral("Continue from here")), &QAction::triggered, &m_session.recorded(),
-          &RecordedView::continueFromHere);
-  connect(menu.addAction(QStringLiteral("Newest state")), &QAction::triggered, &m_session.recorded(),
-          &RecordedView::showNewest);
-  menu.exec(event->globalPos());
+  fillMenu(menu);
+  if (!menu.isEmpty()) menu.exec(event->globalPos());
+}
+
+void Transport::makeRoom() {
+  const int lines = std::min(static_cast<int>(m_session.recorded().earlier().size()), kMostLines);
+  if (kHeight + kPitch * lines == minimumHeight()) return;
+  setFixedHeight(kHeight + kPitch * lines);
+  layout()->setContentsMargins(8, 0, 12, kBar + kPitch * lines);
+  Q_EMIT heightChanged();
 }
 
 void Transport::refresh() {
+  makeRoom();
   m_time->setText(timeText());
   m_duration->setText(durationText());
   m_thermal->setTexts(thermalTexts());
-  update(0, height() - kReach, width(), kReach);
+  const int reach = kReach + kPitch * kMostLines;
+  update(0, height() - reach, width(), reach);
 }
 
 void Transport::paintEvent(QPaintEvent*) {
@@ -308,6 +332,13 @@ void Transport::paintEvent(QPaintEvent*) {
   if (kept.frames > 0)
     painter.fillRect(QRectF(kept.from * perSecond, top, (kept.to - kept.from) * perSecond, kBar),
                      theme[Token::SliderFill]);
+  const std::vector<RunRecord::EarlierRun> runs = m_session.recorded().earlier();
+  double y = top;
+  for (auto run = runs.rbegin(); run != runs.rend() && run - runs.rbegin() < kMostLines; ++run) {
+    y -= kPitch;
+    painter.fillRect(QRectF(run->apart * perSecond, y, std::max(2.0, (run->to - run->apart) * perSecond), kLine),
+                     theme[Token::Muted]);
+  }
   const auto mark = [&](double seconds, double rise, Token token) {
     painter.fillRect(QRectF(std::floor(seconds * perSecond) - 1, top - rise, 2, kBar + rise), theme[token]);
   };

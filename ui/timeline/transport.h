@@ -24,7 +24,8 @@ struct ThermalTexts {
 };
 
 /// Reset, steps, play, loop, speed; the two clocks; below them the part of the planned duration that is recorded, in
-/// which a drag shows any frame. While one is shown it says so, and from where the run goes on.
+/// which a drag shows any frame, and a line for each earlier run. While one is shown it says so, and from where the run
+/// goes on.
 class Transport : public QWidget {
   Q_OBJECT
  public:
@@ -42,7 +43,12 @@ class Transport : public QWidget {
   QPushButton* continueButton() const { return m_continue; }
   QToolButton* loopButton() const { return m_loop; }
   QToolButton* speedButton() const { return m_speed; }  ///< its menu has the speeds
-  QPoint placeOf(double seconds) const;                 ///< on the bar
+  /// What can be done with the frame that is shown, and with earlier runs.
+  void fillMenu(QMenu& menu);
+  QPoint placeOf(double seconds) const;  ///< on the bar
+
+ Q_SIGNALS:
+  void heightChanged();
 
  protected:
   void paintEvent(QPaintEvent* event) override;
@@ -57,6 +63,7 @@ class Transport : public QWidget {
   void showTimeScale();
   void makeSpeeds();
   void showRecorded();
+  void makeRoom();  ///< for the lines of earlier runs
   void refresh();
   void styleButtons();
   double span() const;  ///< s, from the left end of the bar to the right one
