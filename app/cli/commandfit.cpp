@@ -66,6 +66,7 @@ int fitCommand(CommandArguments list) {
   task.mostRuns = static_cast<int>(arguments.integer("--runs", 1, 100000).value_or(task.mostRuns));
   const FitResult result =
       fitToCurve(project, plugins, task, interrupted, [&](const FitTrial& trial) { print(trial, task); });
+  if (result.runs == 0) throw Error("stopped in the first run");
   std::printf("%s in %d runs%s: missed by %.4g as it is, by %.4g with%s\n", task.column.c_str(), result.runs,
               result.stopped ? ", not done" : "", result.before.error, result.after.error,
               valuesOf(result.after, task).c_str());

@@ -2,6 +2,7 @@
 #include "core/base/workers.h"
 
 #include <chrono>
+#include <system_error>
 #include <utility>
 
 namespace ps {
@@ -29,7 +30,10 @@ class Patience {
 }  // namespace
 
 Workers::Workers(int count) {
-  for (int k = 0; k < count; ++k) m_threads.emplace_back([this] { work(); });
+  try {
+    for (int k = 0; k < count; ++k) m_threads.emplace_back([this] { work(); });
+  } catch (const std::system_error&) {  // no more threads are to be had: those that are there do
+  }
 }
 
 Workers::~Workers() {
@@ -93,8 +97,9 @@ bool Workers::help() {
 void Workers::work() {
   Patience patience;
   auto last = Clock::now();
-  while (!m_stop) {
+  for (;;) {
     const int posted = m_posted;
+    if (m_stop) return;  // asked after: who stops raises m_posted behind it, and nobody sleeps through that
     if (help()) {
       patience = {};
       last = Clock::now();

@@ -64,7 +64,8 @@ class Fit {
     for (const FitParameter& p : m_task.parameters) {
       start.push_back(partOf(p, numberAt(m_project, &m_plugins, p.target)));
     }
-    tryOut(start);
+    if (goesOn()) tryOut(start);
+    if (m_result.runs == 0) return m_result;
     const size_t count = start.size();
     const int looks = kLooks + kMoreLooks * (static_cast<int>(count) - 1);
     for (int k = 0; k < looks && goesOn(); ++k) tryOut(evenPoint(k, count));
@@ -102,30 +103,41 @@ class Fit {
       throw InputError("the wanted curve ends before the run begins");
   }
 
-  /// Runs the project with values at these parts of their ranges. Returns the mean square of what is missed.
+  /// Runs the project with values at these parts of their ranges. Returns the mean square of what is missed; of a run
+  /// without values more than of any that has them.
   double tryOut(const std::vector<double>& parts) {
     const auto known = m_known.find(parts);
     if (known != m_known.end()) return known->second;
-    FitTrial trial{++m_result.runs, {}, 0, false, {}};
+    FitTrial trial{m_result.runs + 1, {}, 0, 0, false, {}};
+    bool asPartsSay = true;
     for (size_t k = 0; k < parts.size(); ++k) {
       const FitParameter& p = m_task.parameters[k];
-      trial.values.push_back(p.minimum + parts[k] * (p.maximum - p.minimum));
+      const double number = p.minimum + parts[k] * (p.maximum - p.minimum);
+      const double present = numberAt(m_project, &m_plugins, p.target);  // may lie outside of the range
+      asPartsSay = asPartsSay && (trial.run > 1 || (present >= p.minimum && present <= p.maximum));
+      trial.values.push_back(trial.run == 1 ? present : number);
     }
     trial.course = courseWith(trial.run == 1 ? std::vector<double>() : trial.values);
-    const double square = missedBy(trial.course);
-    trial.error = std::sqrt(square);
-    trial.isBest = trial.run == 1 || trial.error < m_result.after.error;
-    if (trial.run == 1) {
-      for (size_t k = 0; k < parts.size(); ++k) {  // as it is, also where the range leaves it out
-        trial.values[k] = numberAt(m_project, &m_plugins, m_task.parameters[k].target);
-      }
-      m_result.before = trial;
+    if (m_stop && m_stop()) {
+      m_result.stopped = true;
+      return std::numeric_limits<double>::max();
     }
+    double square = missedBy(trial);
+    trial.error = std::sqrt(square);
+    const FitTrial& best = m_result.after;
+    trial.isBest =
+        trial.run == 1 || trial.missing < best.missing || (trial.missing == best.missing && trial.error < best.error);
+    if (trial.missing > 0)
+      square = 2 * std::max(square, m_worst);
+    else
+      m_worst = std::max(m_worst, square);
+    m_result.runs = trial.run;
+    if (trial.run == 1) m_result.before = trial;
     if (trial.isBest) {
       m_result.after = trial;
       m_best = parts;
     }
-    m_known[parts] = square;
+    if (asPartsSay) m_known[parts] = square;
     if (m_each) m_each(trial);
     return square;
   }
@@ -150,7 +162,9 @@ class Fit {
     return course;
   }
 
-  double missedBy(const Series& course) const {
+  /// Counts what is missing, too.
+  double missedBy(FitTrial& trial) const {
+    const Series& course = trial.course;
     const double span = spanOf(m_task.wanted.value);
     double sum = 0;
     size_t count = 0;
@@ -160,6 +174,7 @@ class Fit {
       const double value =
           course.time.empty() || time > course.time.back() ? std::nan("") : measureOf(course, "at", {{"time", time}});
       const double missed = std::isfinite(value) ? value - m_task.wanted.value[k] : span;
+      trial.missing += std::isfinite(value) ? 0 : 1;
       sum += missed * missed;
       ++count;
     }
@@ -205,6 +220,7 @@ class Fit {
   size_t m_column = 0;
   std::vector<double> m_best;  // parts of the ranges
   std::map<std::vector<double>, double> m_known;
+  double m_worst = 0;  // mean square, of runs that have all values
   nlopt_opt m_search = nullptr;
   std::exception_ptr m_thrown;
   FitResult m_result;
@@ -244,6 +260,8 @@ std::string whyNotFitted(const Project& project, const PluginRegistry* plugins, 
   if (!declaration || !hasOwner(project, target.address))
     return "The scene has no parameter '" + target.address.text() + "'";
   const std::string label = declaration->label;
+  if (findTrack(project.tracks, target.address.text()) || findTrack(project.tracks, FitParameter{target}.text()))
+    return label + " follows its keys; remove them first";
   if (declaration->kind == api::ParameterKind::Choice || declaration->kind == api::ParameterKind::Toggle)
     return label + " is no number";
   if (project.state && declaration->actsAt != api::ActsAt::NextFrame)

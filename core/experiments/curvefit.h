@@ -37,15 +37,17 @@ struct FitTrial {
   /// In the column's unit, root mean square over the wanted points. One at which a run has no value (it broke off, was
   /// refused, the probe saw nothing) counts as missed by all that the wanted curve spans.
   double error = 0;
-  bool isBest = false;  ///< so far
+  size_t missing = 0;   ///< of those points
+  bool isBest = false;  ///< so far: none has fewer points missing, and of those none a smaller error
   Series course;        ///< the column, frame by frame
 };
 using FitVisitor = std::function<void(const FitTrial&)>;
 
 struct FitResult {
   FitTrial before, after;  ///< the first run and the best one
-  int runs = 0;
-  bool stopped = false;  ///< before it was done: by the caller, or at the most runs
+  int runs = 0;            ///< 0: stopped in the first one
+  bool stopped =
+      false;  ///< before it was done: by the caller, or at the most runs; a run that it cut short is no trial
 };
 
 /// "" or why a parameter's number cannot be looked for, as a sentence.

@@ -101,6 +101,7 @@ void EngineThread::Impl::goBack(const GoBack& to) {
   }
   engine = std::move(past);
   if (shown) engine->apply(*shown);
+  engine->apply(SetProbes{project.probes});  // what is measured goes by the document, in which nothing goes back
   record.cutAfter(frame, engine->revision());
   if (edits) change(UpdateProject{std::make_shared<const Project>(project)});
   record.keepState(*engine);

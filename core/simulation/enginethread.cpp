@@ -280,7 +280,7 @@ void EngineThread::Impl::editAll(const ParameterBatch& batch) {
 void EngineThread::Impl::look(const Command& command) {
   if (!engine) return;
   engine->apply(command);
-  shown = std::get<ShowFields>(command);
+  if (const auto* fields = std::get_if<ShowFields>(&command)) shown = *fields;
   edited = true;
 }
 

@@ -63,7 +63,7 @@ bool RunRecord::Impl::thinFrames() {
 
 /// The one whose neighbours stand closest, the oldest of those; the first stays, from which all can be made again.
 bool RunRecord::Impl::thinStates() {
-  if (states.empty()) return false;
+  if (states.size() < 2) return false;
   size_t least = states.size() - 1;
   for (size_t k = states.size() - 1; k-- > 1;) {
     const auto gap = [this](size_t at) { return states[at + 1].frame - states[at - 1].frame; };

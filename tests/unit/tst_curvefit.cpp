@@ -99,7 +99,30 @@ class TestCurveFit : public QObject {
     task.column = "block.temperature[K]";
     const FitResult result = fitToCurve(project, m_plugins, task, nullptr, nullptr);
     QCOMPARE(result.before.error, 20.0);
+    QCOMPARE(result.before.missing, size_t{2});
     QVERIFY(result.stopped);
+  }
+
+  /// Where all is frozen nothing is liquid: such a run misses a curve that is nearly level by nearly nothing, and is
+  /// never the best all the same.
+  void aRunWithoutValuesIsNeverTheBest() {
+    Project project = heatedBlock();
+    project.probes[0].quantity = "temperature";
+    project.probes[0].phase = "liquid";
+    FitTask task{"block.temperature[K]", {{0.5, 1.0}, {300, 300.1}}, {}, 60};
+    task.parameters = {FitParameter::parse(std::string(kTemperature) + "=200..320", project, &m_plugins)};
+    int missing = 0;
+    const FitResult result = fitToCurve(project, m_plugins, task, nullptr,
+                                        [&](const FitTrial& trial) { missing += trial.missing > 0 ? 1 : 0; });
+    QVERIFY(missing > 0);
+    QCOMPARE(result.after.missing, size_t{0});
+    QVERIFY2(std::abs(result.after.values[0] - 300) < 0.2, qPrintable(QString::number(result.after.values[0])));
+  }
+
+  void whatFollowsKeysIsRefused() {
+    Project project = heatedBlock();
+    project.tracks.push_back({kPower, {{0, 100, ToNext::Linear, {}, {}}, {1, 200, ToNext::Linear, {}, {}}}});
+    QVERIFY_THROWS_EXCEPTION(InputError, FitParameter::parse(kPower, project, &m_plugins));
   }
 
   void itEndsWhenToldTo() {

@@ -109,13 +109,21 @@ QString Document::setParameter(const Address& address, const Value& value) {
   return {};
 }
 
+/// Judged together: of two that must keep an order, the first may pass where the other was.
 QString Document::setParameters(const std::vector<std::pair<Address, Value>>& values, const QString& text) {
+  Project together = m_project;
   for (const auto& [address, value] : values) {
-    const std::string problem = problemWith(m_project, m_plugins, address, value);
+    ParameterSet* set = findSet(together, address);
+    if (!setOutsideValue(together, address, value) && set) set->values[address.key] = value;
+  }
+  for (const auto& [address, value] : values) {
+    const std::string problem = problemWith(together, m_plugins, address, value);
     if (!problem.empty()) return QString::fromStdString(problem);
   }
   m_undo.beginMacro(text);
-  for (const auto& [address, value] : values) setParameter(address, value);
+  for (const auto& [address, value] : values)
+    m_undo.push(new ParameterCommand(*this, address, storedValue(m_project, address), asStored(address, value),
+                                     ++m_gesture, text));
   m_undo.endMacro();
   return {};
 }

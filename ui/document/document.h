@@ -64,7 +64,8 @@ class Document : public QObject {
   void endGesture();
   /// Sets a value (the default removes the explicit one). Returns "" or why it is refused; the old one then stays.
   QString setParameter(const Address& address, const Value& value);
-  /// Several as one undo step. Returns "" or why one is refused; nothing is then set.
+  /// Several numbers or responses as one undo step, judged together. Returns "" or why one is refused; nothing is then
+  /// set.
   QString setParameters(const std::vector<std::pair<Address, Value>>& values, const QString& text);
   /// The engine has refused a value and goes on with another (see storedValue()): so does the document, as if it had
   /// never been set. Nothing happens when it has another value by now.

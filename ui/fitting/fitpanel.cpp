@@ -4,6 +4,7 @@
 #include "core/experiments/probetable.h"
 #include "core/plugin_host/registry.h"
 #include "core/simulation/declared.h"
+#include "core/simulation/graphsource.h"
 #include "core/simulation/measure.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
@@ -111,11 +112,7 @@ FitPanel::FitPanel(Session& session, QWidget* parent)
   connect(m_apply, &QPushButton::clicked, this, &FitPanel::apply);
   connect(&m_job, &FitJob::tried, this, &FitPanel::onTried);
   connect(&m_job, &FitJob::finished, this, &FitPanel::onFinished);
-  connect(&m_job, &FitJob::failed, this, [this](const QString& problem) {
-    if (!std::exchange(m_abandoned, false)) say(problem, true);
-    refreshButtons();
-    Q_EMIT ended();
-  });
+  connect(&m_job, &FitJob::failed, this, [this](const QString& problem) { end(problem, true); });
   connect(&session, &Session::valuesDue, this, &FitPanel::readHistory);
   connect(&session, &Session::ready, this, &FitPanel::readScene);
   connect(&session.document(), &Document::changed, this, [this](const ChangeEvent& event) {
@@ -151,28 +148,29 @@ void FitPanel::readScene() {
     const bool kelvin = quantity->unit == "K";
     const QString unit =
         kelvin ? QStringLiteral("°C") : QString::fromStdString(quantity->unit == "1" ? "" : quantity->unit);
-    m_drawables.push_back({titles[2 + k],  // behind the two clocks
+    const GraphSource source(probeSource(probe.id), project, m_session.fields());
+    m_drawables.push_back({probeSource(probe.id) + ' ' + probe.quantity,
+                           titles[2 + k],  // behind the two clocks
                            QStringLiteral("%1: %2").arg(nameOf(probe), QString::fromStdString(quantity->label)), unit,
-                           kelvin ? -kZero : 0.0, [k](const FrameStats& stats) {
-                             return k < stats.probes.size() ? stats.probes[k] : std::nan("");
-                           }});
+                           kelvin ? -kZero : 0.0, [source](const FrameStats& stats) { return source(stats); }});
   }
   constexpr const char* kPhases[] = {"solid", "melting", "liquid", "boiling", "gas"};
   constexpr const char* kNames[] = {"All matter: solid", "All matter: melting", "All matter: liquid",
                                     "All matter: boiling", "All matter: gas"};
   for (size_t k = 0; k < std::size(kPhases); ++k) {
-    m_drawables.push_back({std::string(kPhases[k]) + ".mass[kg]", QString::fromLatin1(kNames[k]), QStringLiteral("kg"),
-                           0, [k](const FrameStats& stats) { return stats.phases[k].mass; }});
+    const std::string column = std::string(kPhases[k]) + ".mass[kg]";
+    m_drawables.push_back({column, column, QString::fromLatin1(kNames[k]), QStringLiteral("kg"), 0,
+                           [k](const FrameStats& stats) { return stats.phases[k].mass; }});
   }
-  m_drawables.push_back({"all.temperature[K]", QStringLiteral("All matter: mean temperature"), QStringLiteral("°C"),
-                         -kZero, [](const FrameStats& stats) { return stats.temperatureMean; }});
+  m_drawables.push_back({"all.temperature[K]", "all.temperature[K]", QStringLiteral("All matter: mean temperature"),
+                         QStringLiteral("°C"), -kZero, [](const FrameStats& stats) { return stats.temperatureMean; }});
   m_quantity->clear();
   for (const Drawable& drawable : m_drawables)
     m_quantity->addItem(drawable.unit.isEmpty() ? drawable.name : drawable.name + QStringLiteral(", ") + drawable.unit);
   m_view->setDuration(project.duration);
   readCandidates();
   const auto same = std::find_if(m_drawables.begin(), m_drawables.end(),
-                                 [this](const Drawable& drawable) { return drawable.column == m_drawn.column; });
+                                 [this](const Drawable& drawable) { return drawable.source == m_drawn.source; });
   choose(same == m_drawables.end() ? 0 : static_cast<int>(same - m_drawables.begin()));
 }
 
@@ -216,26 +214,33 @@ void FitPanel::addCandidate(int index) {
 void FitPanel::choose(int drawable) {
   if (drawable < 0 || drawable >= static_cast<int>(m_drawables.size())) return;
   const Drawable& chosen = m_drawables[static_cast<size_t>(drawable)];
-  const bool another = chosen.column != m_drawn.column;
   m_quantity->setCurrentIndex(drawable);
-  if (m_job.isRunning()) return;  // what it shows is of what was searched for
+  if (m_job.isRunning()) return;  // what it shows is of what is searched for
+  const bool another = chosen.source != m_drawn.source;
   m_drawn = chosen;
   m_view->setTitle(m_drawn.name);
   m_view->setUnit(m_drawn.unit);
   if (another) {
     m_found.reset();
     m_view->setWanted({});
+    m_view->clear();
+    m_history.rewind();
   }
-  m_view->clear();
-  m_history.rewind();
   readHistory();
   refreshButtons();
 }
 
+/// The run that was searched from stays until another begins.
 void FitPanel::readHistory() {
-  if (!m_drawn.value || m_job.isRunning() || m_found) return;  // the run that was searched from stays
+  if (!m_drawn.value || m_job.isRunning()) return;
   const HistoryReader::Piece piece = m_history.read();
-  if (piece.begins) m_view->clear();
+  if (piece.begins) {
+    m_view->clear();
+    if (m_found) say(kHint);
+    m_found.reset();
+    refreshButtons();
+  }
+  if (m_found) return;
   for (const FrameStats& stats : piece.frames)
     m_view->append(AsItIs, stats.time, m_drawn.value(stats) + m_drawn.offset);
 }
@@ -278,28 +283,32 @@ void FitPanel::onTried(const FitTrial& trial) {
 }
 
 void FitPanel::onFinished(const FitResult& result) {
-  if (std::exchange(m_abandoned, false)) {
-    readScene();
-    return;
-  }
-  if (result.runs == 0) m_found.reset();
-  if (m_found && m_found->run == 1) {
-    say(QStringLiteral("No run came closer than the scene as it is, which misses by %1").arg(missed(m_missedBefore)));
+  if (result.runs == 0) return end(QStringLiteral("Given up in the first run"));
+  if (!m_found || m_found->run == 1) {
     m_found.reset();
-  } else if (m_found) {
-    QStringList values;
-    for (size_t k = 0; k < m_task.parameters.size(); ++k) {
-      const TrackTarget& target = m_task.parameters[k].target;
-      const FitParameter& p = m_task.parameters[k];
-      const double value = m_found->values[k], edge = kAtEnd * (p.maximum - p.minimum);
-      const bool atEnd = value < p.minimum + edge || value > p.maximum - edge;
-      values << QStringLiteral("%1 %2%3").arg(m_rows->nameOf(target), m_rows->shown(target, value),
-                                              atEnd ? QStringLiteral(", where its range ends") : QString());
-    }
-    say(QStringLiteral("%1. Missed by %2, %3 as it is%4")
-            .arg(values.join(QStringLiteral(", ")), missed(m_found->error), missed(m_missedBefore),
-                 result.stopped ? QStringLiteral("; ended early") : QString()));
+    return end(
+        QStringLiteral("No run came closer than the scene as it is, which misses by %1").arg(missed(m_missedBefore)));
   }
+  QStringList values;
+  for (size_t k = 0; k < m_task.parameters.size(); ++k) {
+    const FitParameter& p = m_task.parameters[k];
+    const double value = m_found->values[k], edge = kAtEnd * (p.maximum - p.minimum);
+    const bool atEnd = value < p.minimum + edge || value > p.maximum - edge;
+    values << QStringLiteral("%1 %2%3").arg(m_rows->nameOf(p.target), m_rows->shown(p.target, value),
+                                            atEnd ? QStringLiteral(", where its range ends") : QString());
+  }
+  end(QStringLiteral("%1. Missed by %2, %3 as it is%4")
+          .arg(values.join(QStringLiteral(", ")), missed(m_found->error), missed(m_missedBefore),
+               result.stopped ? QStringLiteral("; ended early") : QString()));
+}
+
+/// A search has ended: what came and went in the scene meanwhile is looked up again.
+void FitPanel::end(const QString& text, bool problem) {
+  if (std::exchange(m_abandoned, false))
+    m_found.reset();
+  else
+    say(text, problem);
+  readScene();
   refreshButtons();
   Q_EMIT ended();
 }
@@ -309,11 +318,8 @@ void FitPanel::apply() {
   Document& document = m_session.document();
   std::vector<std::pair<Address, Value>> values;
   for (size_t k = 0; k < m_task.parameters.size(); ++k) {
-    const TrackTarget& target = m_task.parameters[k].target;
-    if (!whyNotFitted(document.project(), document.plugins(), target).empty()) {
-      say(QStringLiteral("%1 has gone from the scene; nothing was changed").arg(m_rows->nameOf(target)), true);
-      return;
-    }
+    const std::string why = whyNotFitted(document.project(), document.plugins(), m_task.parameters[k].target);
+    if (!why.empty()) return say(QString::fromStdString(why) + QStringLiteral("; nothing was changed"), true);
   }
   const Project changed = withValues(document.project(), *document.plugins(), m_task, m_found->values);
   for (const FitParameter& p : m_task.parameters)
@@ -321,6 +327,9 @@ void FitPanel::apply() {
   const QString problem = document.setParameters(values, QStringLiteral("values found for a drawn curve"));
   if (!problem.isEmpty()) return say(problem, true);
   m_found.reset();
+  m_view->clearSeries(AsItIs);  // the run that is shown goes on there
+  m_history.rewind();
+  readHistory();
   say(QStringLiteral("Taken over; press Home to run it from the start"));
   refreshButtons();
 }

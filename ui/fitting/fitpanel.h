@@ -29,6 +29,7 @@ class FitPanel : public QWidget {
   explicit FitPanel(Session& session, QWidget* parent = nullptr);
   /// What can be drawn: a column of the table of probes.
   struct Drawable {
+    std::string source;  ///< what it is, whatever it is called
     std::string column;  ///< see columnTitles()
     QString name, unit;  ///< as people see them
     double offset = 0;   ///< seen value less SI value
@@ -55,6 +56,7 @@ class FitPanel : public QWidget {
   void showCourse(const FitTrial& trial);
   void onTried(const FitTrial& trial);
   void onFinished(const FitResult& result);
+  void end(const QString& text, bool problem = false);
   void say(const QString& text, bool problem = false);
   void refreshButtons();
   QString missed(double error) const;

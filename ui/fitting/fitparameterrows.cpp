@@ -31,7 +31,10 @@ FitParameterRows::FitParameterRows(Document& document, QWidget* parent)
     const size_t gone = std::erase_if(m_parameters, [this](const FitParameter& p) {
       return !whyNotFitted(m_document.project(), m_document.plugins(), p.target).empty();
     });
-    if (gone > 0) rebuild();
+    if (gone > 0)
+      rebuild();
+    else
+      showValues();
   });
 }
 
@@ -60,6 +63,7 @@ QString FitParameterRows::shown(const TrackTarget& target, double number) const 
 }
 
 void FitParameterRows::rebuild() {
+  m_names.clear();
   while (QLayoutItem* item = m_column->takeAt(0)) {
     if (item->widget()) item->widget()->deleteLater();
     delete item;
@@ -73,10 +77,9 @@ void FitParameterRows::rebuild() {
     line->setSpacing(4);
     auto* name = new QLabel(nameOf(p.target));
     name->setTextFormat(Qt::PlainText);
-    name->setToolTip(
-        QStringLiteral("Now %1").arg(shown(p.target, numberAt(m_document.project(), m_document.plugins(), p.target))));
     name->setMinimumWidth(20);
     line->addWidget(name, 1);
+    m_names.push_back(name);
     for (const bool most : {false, true}) {
       auto* field = new QLineEdit(formatField(declared, most ? p.maximum : p.minimum));
       field->setFixedWidth(kField);
@@ -84,7 +87,7 @@ void FitParameterRows::rebuild() {
       field->setAccessibleName(nameOf(p.target) + (most ? QStringLiteral(", at most") : QStringLiteral(", at least")));
       field->setToolTip((most ? QStringLiteral("Looked for up to, in %1") : QStringLiteral("Looked for from, in %1"))
                             .arg(displayUnit(declared)));
-      connect(field, &QLineEdit::editingFinished, this, [this, k, most, field] { readEnd(k, most, field->text()); });
+      connect(field, &QLineEdit::editingFinished, this, [this, k, most, field] { readEnd(k, most, field); });
       line->addWidget(field);
       if (!most) line->addWidget(new QLabel(QStringLiteral("–")));
     }
@@ -102,19 +105,28 @@ void FitParameterRows::rebuild() {
     line->addWidget(remove);
     m_column->addWidget(row);
   }
+  showValues();
   Q_EMIT changed();
 }
 
 /// What is no number, or out of the hard range, leaves the old one.
-void FitParameterRows::readEnd(size_t row, bool most, const QString& text) {
+void FitParameterRows::readEnd(size_t row, bool most, QLineEdit* field) {
   if (row >= m_parameters.size()) return;
   FitParameter& p = m_parameters[row];
   const api::ParameterDeclaration& declared = *m_document.declaration(p.target.address);
   double& end = most ? p.maximum : p.minimum;
-  const Typed typed = parseTyped(text, declared, end);
+  const Typed typed = parseTyped(field->text(), declared, end);
   if (typed.problem.isEmpty() && typed.value >= declared.hardMinimum && typed.value <= declared.hardMaximum)
     end = typed.value;
-  rebuild();
+  field->setText(formatField(declared, end));
+}
+
+void FitParameterRows::showValues() {
+  for (size_t k = 0; k < m_parameters.size(); ++k) {
+    const TrackTarget& target = m_parameters[k].target;
+    m_names[k]->setToolTip(
+        QStringLiteral("Now %1").arg(shown(target, numberAt(m_document.project(), m_document.plugins(), target))));
+  }
 }
 
 }  // namespace ps

@@ -6,6 +6,8 @@
 
 #include <vector>
 
+class QLabel;
+class QLineEdit;
 class QVBoxLayout;
 
 namespace ps {
@@ -30,10 +32,12 @@ class FitParameterRows : public QWidget {
 
  private:
   void rebuild();
-  void readEnd(size_t row, bool most, const QString& text);
+  void readEnd(size_t row, bool most, QLineEdit* field);
+  void showValues();
   Document& m_document;
   QVBoxLayout* m_column;
   std::vector<FitParameter> m_parameters;
+  std::vector<QLabel*> m_names;  ///< of these, in their rows
 };
 
 }  // namespace ps
