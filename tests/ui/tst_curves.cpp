@@ -234,6 +234,17 @@ class TestCurves : public SampleWindowTest {
     QVERIFY(!now.marked);
     m_window->selection().mark(snapshot->revision, snapshot->id[5]);
     QVERIFY(curves().now(200, 600).marked.has_value());
+    QVERIFY(curve().particles().marked.has_value());  // although nothing runs
+  }
+
+  void whatWasHiddenShowsWhatIs() {
+    m_window->showWorkspace(MainWindow::kSceneTab);
+    const uint64_t wanted = session().snapshot()->stats.frame + 5;
+    for (int k = 0; k < 5; ++k) session().step();
+    QTRY_VERIFY_WITH_TIMEOUT(session().snapshot()->stats.frame >= wanted, kLong);
+    QVERIFY(curve().particles().mean != curves().now(0, 1).mean);
+    m_window->showWorkspace(MainWindow::kTuneTab);
+    QCOMPARE(curve().particles().mean, curves().now(0, 1).mean);
   }
 
   void diagramsFollowTheMaterial() {

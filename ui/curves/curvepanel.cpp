@@ -85,9 +85,12 @@ CurvePanel::CurvePanel(Session& session, CurveTarget& target, QWidget* parent)
   connect(&target, &CurveTarget::comparedChanged, this, &CurvePanel::showOverlays);
   connect(&target, &CurveTarget::refused, this,
           [this](const QString& problem) { m_note->setText(problem.isEmpty() ? kHint : problem); });
-  connect(&session, &Session::totalsDue, m_view, [this] {
+  const auto follow = [this] {
     if (m_view->isVisible()) m_view->showParticles();
-  });
+  };
+  connect(&session, &Session::totalsDue, m_view, follow);
+  connect(&target, &CurveTarget::markChanged, m_view, follow);
+  connect(&session, &Session::projectShown, m_view, &CurveView::fit);  // its matter is known only now
 }
 
 void CurvePanel::showTitle() {

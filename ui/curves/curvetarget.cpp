@@ -27,6 +27,7 @@ const api::ParameterDeclaration& temperatureDeclaration() {
 CurveTarget::CurveTarget(Session& session, Selection& selection, QObject* parent)
     : QObject(parent), m_session(session), m_selection(selection) {
   connect(&selection, &Selection::materialChanged, this, &CurveTarget::onTarget);
+  connect(&selection, &Selection::changed, this, &CurveTarget::markChanged);
   connect(&session.document(), &Document::changed, this, [this](const ChangeEvent& event) {
     if (std::holds_alternative<ProjectOpened>(event)) {
       m_laws.clear();

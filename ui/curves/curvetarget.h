@@ -76,6 +76,7 @@ class CurveTarget : public QObject {
   void responseChanged();  ///< another value, by whom ever; also after targetChanged
   void pointChanged();
   void comparedChanged();
+  void markChanged();                    ///< another particle was clicked, perhaps
   void refused(const QString& problem);  ///< "" when the next one was taken
 
  private:

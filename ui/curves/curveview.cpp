@@ -145,6 +145,9 @@ void CurveView::fit() {
   showParticles();
 }
 
+/// While nothing runs nobody else tells of what it did not follow while it was hidden.
+void CurveView::showEvent(QShowEvent*) { showParticles(); }
+
 void CurveView::showParticles() {
   m_now = m_target.now(m_first, m_last);
   update();

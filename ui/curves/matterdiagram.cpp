@@ -40,6 +40,7 @@ MatterDiagram::MatterDiagram(Kind kind, Session& session, CurveTarget& target, Q
     const auto* parameter = std::get_if<ParameterChanged>(&event);
     if (parameter && parameter->address.owner == Owner::Environment) follow();
   });
+  connect(&session, &Session::projectShown, this, follow);
   connect(&session, &Session::totalsDue, this, [this] {
     if (isVisible()) showParticles();
   });

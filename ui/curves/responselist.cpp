@@ -143,6 +143,9 @@ ResponseList::ResponseList(Session& session, CurveTarget& target, QWidget* paren
   });
 }
 
+/// What it did not follow while it was hidden.
+void ResponseList::showEvent(QShowEvent*) { refresh(); }
+
 void ResponseList::onCompared(QListWidgetItem* item) {
   m_target.compare(item->data(kKey).toString().toStdString(), item->checkState() == Qt::Checked);
 }

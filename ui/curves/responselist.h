@@ -21,6 +21,9 @@ class ResponseList : public QWidget {
   QListWidget* list() const { return m_list; }
   QListWidget* others() const { return m_others; }
 
+ protected:
+  void showEvent(QShowEvent* event) override;
+
  private:
   void rebuild();
   void refresh();  ///< values, at the temperature that the material has now

@@ -336,6 +336,9 @@ QString GraphsPanel::fileName(const std::string& id, const QString& ending) cons
          QLatin1Char('.') + ending;
 }
 
+/// What histograms and profiles did not follow while they were hidden.
+void GraphsPanel::showEvent(QShowEvent*) { showDistributions(); }
+
 void GraphsPanel::paintEvent(QPaintEvent*) {
   if (!m_shown.empty()) return;
   QPainter painter(this);

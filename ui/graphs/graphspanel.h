@@ -43,6 +43,7 @@ class GraphsPanel : public QWidget {
   void exportRequested(const QString& id, const QString& ending);
 
  protected:
+  void showEvent(QShowEvent* event) override;
   void paintEvent(QPaintEvent* event) override;
   void contextMenuEvent(QContextMenuEvent* event) override;
   void dragEnterEvent(QDragEnterEvent* event) override;
