@@ -134,6 +134,23 @@ class TestCurves : public SampleWindowTest {
     QCOMPARE(document().undoStack().index(), index);
   }
 
+  void aDragEndsWhereTheCurveIsHidden() {
+    threePoints();
+    const int index = document().undoStack().index();
+    const QPoint from = place(1);
+    QTest::mousePress(&curve(), Qt::LeftButton, {}, from);
+    QTest::mouseMove(&curve(), from + QPoint(20, 20));
+    QTest::keyClick(&curve(), Qt::Key_PageDown);
+    QCOMPARE(curves().point(), 1);  // it is held
+    m_window->showWorkspace(MainWindow::kSceneTab);
+    const Address gravity{Owner::Scene, "", "gravity"};
+    for (const double g : {5.0, 6.0}) QCOMPARE(document().setParameter(gravity, g), QString());
+    QCOMPARE(document().undoStack().index(), index + 3);  // the drag, and two steps of their own
+    m_window->showWorkspace(MainWindow::kTuneTab);
+    QTest::mouseRelease(&curve(), Qt::LeftButton, {}, from + QPoint(20, 20));
+    QCOMPARE(document().undoStack().index(), index + 3);
+  }
+
   void whatIsDraggedActsOnRunningMatter() {
     threePoints();
     const auto baked = [this] {

@@ -91,6 +91,9 @@ void CurveView::dropDrag(bool keep) {
   m_target.end();
 }
 
+/// No release comes to what is hidden: the document's gesture would stay open.
+void CurveView::hideEvent(QHideEvent*) { dropDrag(true); }
+
 void CurveView::mouseDoubleClickEvent(QMouseEvent* event) {
   if (event->button() != Qt::LeftButton || !plot().contains(event->position())) return;
   if (pointAt(event->position()) >= 0) return;
@@ -131,6 +134,11 @@ void CurveView::nudge(double x, double y, bool fine) {
   m_target.set(next, QStringLiteral("Move point of %1").arg(QString::fromUtf8(m_target.declaration().label)));
 }
 
+/// Not while another point is held.
+void CurveView::walk(int index) {
+  if (!m_dragging) m_target.choosePoint(index);
+}
+
 void CurveView::wheelEvent(QWheelEvent* event) {
   const double factor = std::pow(0.85, event->angleDelta().y() / 120.0);
   const QPointF from = event->position();
@@ -168,9 +176,9 @@ void CurveView::keyPressEvent(QKeyEvent* event) {
     case Qt::Key_Down:
       return nudge(0, 1, fine);
     case Qt::Key_PageDown:
-      return m_target.choosePoint(std::min(m_target.point() + 1, last));
+      return walk(std::min(m_target.point() + 1, last));
     case Qt::Key_PageUp:
-      return m_target.choosePoint(std::max(m_target.point() - 1, std::min(0, last)));
+      return walk(std::max(m_target.point() - 1, std::min(0, last)));
     default:
       QWidget::keyPressEvent(event);
   }

@@ -39,6 +39,7 @@ class CurveView : public QWidget {
  protected:
   bool event(QEvent* event) override;
   void showEvent(QShowEvent* event) override;
+  void hideEvent(QHideEvent* event) override;
   void paintEvent(QPaintEvent* event) override;
   void mousePressEvent(QMouseEvent* event) override;
   void mouseMoveEvent(QMouseEvent* event) override;
@@ -56,6 +57,7 @@ class CurveView : public QWidget {
   void dragTo(const QPointF& position, Qt::KeyboardModifiers modifiers);
   void dropDrag(bool keep);
   void nudge(double x, double y, bool fine);
+  void walk(int index);
   void removeChosen();
   void addAt(double kelvin, double value);
   QRectF histogram() const;
