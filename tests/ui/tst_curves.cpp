@@ -97,6 +97,14 @@ class TestCurves : public SampleWindowTest {
     }
   }
 
+  void aLawGoesThroughAPointOfZero() {
+    curves().choose({Owner::Material, "water", "yield_stress"});
+    QVERIFY(curves().set(curveThrough({{260, 0}, {310, 3}, {350, 5}}), QStringLiteral("Points")));
+    pages().fitNearest();
+    QVERIFY(response().kind == Response::Kind::Law);
+    QCOMPARE(response().law, std::string("linear"));  // no other law can be 0
+  }
+
   void modifiersOfADrag() {
     threePoints();
     const Response start = response();

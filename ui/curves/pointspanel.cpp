@@ -27,6 +27,7 @@ namespace {
 constexpr const char* kKind = "kind";  // property of a radio button: "points", "constant" or a law
 constexpr int kTableRow = 22;
 constexpr size_t kMostCoefficients = 3;
+constexpr double kLeastShare = 1e-9;  // of the largest value, that counts as a value when laws are compared
 
 QString kindLabel(const std::string& kind) {
   QString label = QString::fromStdString(kind).replace(QLatin1Char('_'), QLatin1Char(' '));
@@ -256,10 +257,13 @@ void PointsPanel::chooseKind(const std::string& kind) {
   showKind();
 }
 
-/// The one whose deviations, as shares of the values, have the least sum of squares.
+/// The one whose deviations, as shares of the values, have the least sum of squares. A value of 0 weighs as a very
+/// small one: of itself every deviation is infinite.
 void PointsPanel::fitNearest() {
   const Response response = m_target.response();
   if (response.kind != Response::Kind::Curve) return;
+  double largest = 0;
+  for (const api::ResponsePoint& p : response.points) largest = std::max(largest, std::abs(p.y));
   LawFit best;
   double least = std::numeric_limits<double>::infinity();
   for (const std::string& law : lawNames()) {
@@ -267,7 +271,7 @@ void PointsPanel::fitNearest() {
     if (!fit.problem.empty()) continue;
     double sum = 0;
     for (const api::ResponsePoint& p : response.points) {
-      const double scale = std::max(std::abs(p.y), 1e-300);
+      const double scale = std::max({std::abs(p.y), kLeastShare * largest, 1e-300});
       sum += std::pow((fit.law.at(p.x) - p.y) / scale, 2);
     }
     if (sum >= least) continue;
