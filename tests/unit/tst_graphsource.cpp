@@ -4,6 +4,7 @@
 #include "core/plugin_host/registry.h"
 #include "core/simulation/declared.h"
 #include "core/simulation/engine.h"
+#include "core/simulation/enginethread.h"
 #include "core/simulation/graphsource.h"
 #include "core/simulation/probeparameters.h"
 #include "core/simulation/rules.h"
@@ -109,6 +110,26 @@ class TestGraphSource : public QObject {
     QCOMPARE(*stats.measured, (std::vector<Probe>{water, none, project.probes.front()}));
     QCOMPARE(stats.probes, (std::vector<double>{count, 0, count}));
     QCOMPARE(engine.probeNames().front(), std::string("water.count[1]"));
+  }
+
+  /// By the engine's thread too, paused, also after going back to a frame at which there was none.
+  void theThreadTakesProbes() {
+    Project project = scenes::iceOnPlate(3, 370);
+    EngineThread thread(*m_plugins, {});
+    thread.open(project, false);
+    for (int k = 0; k < 4; ++k) thread.stepOnce();
+    thread.apply(SetProbes{{probeOf("count", "count")}});
+    const auto counted = [&] {
+      const SnapshotPtr shown = thread.snapshot();
+      return shown && shown->stats.probes.size() == 1 ? shown->stats.probes[0] : 0;
+    };
+    QTRY_COMPARE_WITH_TIMEOUT(counted(), 27.0, 20000);
+    thread.continueFrom(2, false);
+    QTRY_VERIFY_WITH_TIMEOUT(thread.snapshot()->stats.frame == 2, 20000);
+    thread.stepOnce();
+    QTRY_VERIFY_WITH_TIMEOUT(thread.snapshot()->stats.frame == 3, 20000);
+    QCOMPARE(counted(), 27.0);
+    QVERIFY(thread.events(0).empty());
   }
 
   void rowsSetWhatAProbeIs() {
