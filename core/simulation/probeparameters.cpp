@@ -3,6 +3,7 @@
 
 #include "core/scene/declare.h"
 
+#include <algorithm>
 #include <array>
 
 namespace ps {
@@ -49,6 +50,13 @@ std::optional<Face> faceOf(const std::string& key) {
   if (key.substr(4, 3) == "min") return Face{&Region::minimum, &Environment::boundsMinimum, axis};
   if (key.substr(4, 3) == "max") return Face{&Region::maximum, &Environment::boundsMaximum, axis};
   return std::nullopt;
+}
+
+/// The force along the axis that a wall faces most.
+std::string forceOn(const SceneWall& wall) {
+  Eigen::Index axis = 0;
+  wall.normal.cwiseAbs().maxCoeff(&axis);
+  return std::string("force_") + "xyz"[axis];
 }
 
 api::ParameterDeclaration face(const char* key, const char* label, const char* relation, double value, double low,
@@ -136,6 +144,29 @@ bool setProbeValue(Probe& probe, const std::string& key, const Value& value, con
     ((*probe.region).*(face.corner))[face.axis] = std::get<double>(value);
   }
   return true;
+}
+
+void followChoice(Probe& probe, const std::string& key, const Project& project) {
+  const std::vector<SceneWall>& walls = project.environment.walls;
+  const bool force = isForce(probe.quantity);
+  if (key == "body" && !probe.body.empty()) probe.wall.clear();
+  if (key == "wall" && !probe.wall.empty()) {
+    probe.body.clear();
+    const auto wall = std::find_if(walls.begin(), walls.end(), [&](const SceneWall& w) { return w.id == probe.wall; });
+    if (!force && wall != walls.end()) probe.quantity = forceOn(*wall);
+  }
+  if (key == "quantity" && !force) probe.wall.clear();
+  if (key == "quantity" && force && probe.body.empty() && probe.wall.empty()) {
+    if (!walls.empty())
+      probe.wall = walls.front().id;
+    else if (!project.bodies.empty())
+      probe.body = project.bodies.front().id;
+  }
+  if ((key == "quantity" || key == "wall") && isForce(probe.quantity)) {  // is of a whole
+    probe.material.clear();
+    probe.phase.clear();
+    probe.region.reset();
+  }
 }
 
 std::vector<std::pair<std::string, std::string>> probeProblems(const Probe& probe, const ParticleFields& fields) {

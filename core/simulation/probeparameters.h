@@ -21,6 +21,9 @@ std::vector<api::ParameterDeclaration> probeParameters(const Project& project, c
 std::optional<Value> probeValue(const Probe& probe, const std::string& key, const Environment& environment);
 /// Sets it, whether or not the others go with it. False, and nothing happens, for other keys and types.
 bool setProbeValue(Probe& probe, const std::string& key, const Value& value, const Environment& environment);
+/// Makes the others go with the key that somebody has just set: a wall takes a force in place of what is of matter, a
+/// force the first wall or body where there is none, and another quantity no wall.
+void followChoice(Probe& probe, const std::string& key, const Project& project);
 /// Keys of a probe that cannot stand together, as files name them, each with what is wrong: {"wall", "is for force
 /// ..."}.
 std::vector<std::pair<std::string, std::string>> probeProblems(const Probe& probe, const ParticleFields& fields);

@@ -158,7 +158,15 @@ class TestGraphsWindow : public SampleWindowTest {
     document().endGesture();
     QCOMPARE(document().undoStack().count(), steps + 1);
     QVERIFY(set("box_max_y", 0.0).contains(QStringLiteral("must be")));
-    QVERIFY(set("wall", std::string("floor")).contains(QStringLiteral("force")));
+    QVERIFY(set("wall", std::string("no such")).contains(QStringLiteral("must be")));
+    // A wall and the force on it are one choice, and one step.
+    QCOMPARE(set("wall", std::string("floor")), QString());
+    QCOMPARE(document().undoStack().count(), steps + 2);
+    QCOMPARE(document().probe(id)->quantity, std::string("force_y"));
+    QVERIFY(document().probe(id)->body.empty() && !document().probe(id)->region);
+    QCOMPARE(std::get<std::string>(panel->row(key + QStringLiteral("quantity"))->model().value),
+             std::string("force_y"));
+    QVERIFY(set("phase", std::string("liquid")).contains(QStringLiteral("as a whole")));
     picture("probe");
     session().step();
     QTRY_VERIFY_WITH_TIMEOUT(session().snapshot()->stats.measured->back().id == id, kLong);

@@ -159,6 +159,33 @@ class TestGraphSource : public QObject {
     QCOMPARE(probeProblems(probe, ParticleFields()).front().first, std::string("quantity"));
   }
 
+  void whatIsChosenTakesItsPartnerAlong() {
+    Project project = scenes::iceOnPlate(3, 370);
+    const std::string wall = project.environment.walls.front().id, body = project.bodies.front().id;
+    const auto after = [&](Probe probe, const char* key, const std::string& value) {
+      setProbeValue(probe, key, value, project.environment);
+      followChoice(probe, key, project);
+      return probe;
+    };
+    Probe matter = probeOf("p", "speed");
+    matter.phase = "liquid";
+    matter.region = Region{};
+    const Probe force = after(matter, "quantity", "force_x");
+    QCOMPARE(force.wall, wall);
+    QVERIFY(force.phase.empty() && !force.region);
+    QVERIFY(probeProblems(force, ParticleFields()).empty());
+    QVERIFY(after(force, "quantity", "mass").wall.empty());
+    const Probe onBody = after(force, "body", body);
+    QVERIFY(onBody.wall.empty() && onBody.quantity == "force_x");
+    QVERIFY(after(onBody, "wall", wall).body.empty());
+    QVERIFY(after(matter, "phase", kProbeAll).region);
+    // Of a wall the force along its normal; where there is no wall, of a body.
+    project.environment.walls.front().normal = Vector3(0, 0, -2);
+    QCOMPARE(after(matter, "wall", wall).quantity, std::string("force_z"));
+    project.environment.walls.clear();
+    QCOMPARE(after(matter, "quantity", "torque_y").body, body);
+  }
+
   void whatIsNotThereIsSaid_data() {
     QTest::addColumn<QString>("graph");
     QTest::addColumn<QString>("says");

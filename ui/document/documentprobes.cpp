@@ -71,6 +71,7 @@ QString Document::setProbeParameter(const Address& address, const Value& value) 
     return QString::fromStdString(problem);
   Probe after = *old;
   if (!setProbeValue(after, address.key, conformed(value, *declared), m_project.environment)) return {};
+  followChoice(after, address.key, m_project);
   const auto problems = probeProblems(after, m_plugins ? ParticleFields(*m_plugins) : ParticleFields());
   if (!problems.empty()) {
     const QString what = QString::fromStdString(problems.front().second);
