@@ -178,6 +178,20 @@ class TestGraphsWindow : public SampleWindowTest {
                     .startsWith(QStringLiteral("Rim")));
   }
 
+  void aPinnedRowFollowsItsProbe() {
+    const std::string address = "probe/ice_mass/quantity";
+    ParameterPanel* panel = m_window->inspector().materialPanel();
+    const auto row = [&] { return panel->row(QString::fromStdString(address)); };
+    document().setPinned(address, true);
+    QVERIFY(row());
+    QCOMPARE(document().setParameter(*Address::parse(address), std::string("speed_max")), QString());
+    QCOMPARE(std::get<std::string>(row()->model().value), std::string("speed_max"));
+    document().removeProbe("ice_mass");
+    QVERIFY(!row());
+    document().undoStack().undo();
+    QVERIFY(row());
+  }
+
   void aGraphIsRenamedInItsPlace() {
     const std::string before = json(), id = first();
     const auto edit = [&](const QString& text, Qt::Key last) {

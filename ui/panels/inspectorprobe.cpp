@@ -7,6 +7,8 @@
 #include "ui/panels/rowmodels.h"
 #include "ui/session/session.h"
 
+#include <algorithm>
+
 namespace ps {
 
 void Inspector::setProbe(const std::string& id) {
@@ -35,18 +37,29 @@ bool Inspector::rebuildProbe() {
 }
 
 void Inspector::onProbe(const std::string& id) {
-  if (id != m_probeId) return;
   const Probe* probe = m_document.probe(id);
-  if (!probe || m_body->rows().empty()) {
-    rebuildBody();
-    return;
+  if (id == m_probeId) {
+    if (!probe || m_body->rows().empty())
+      rebuildBody();
+    else
+      showProbeHeader(*probe);
   }
-  showProbeHeader(*probe);
-  for (ParameterRow* row : m_body->rows()) {
-    const auto address = Address::parse(row->key().toStdString());
-    if (!address) continue;
-    m_body->setValue(row->key(), m_document.value(*address));
-    row->setDisabledReason(idleText(m_document, *address));
+  const std::string prefix = Address{Owner::Probe, id, ""}.prefix();
+  const QString start = QString::fromStdString(prefix);
+  const std::vector<std::string>& pins = m_document.project().view.pinned;
+  const std::vector<ParameterRow*> rows = m_material->rows();
+  const bool pinned =
+      std::any_of(pins.begin(), pins.end(), [&](const std::string& pin) { return pin.starts_with(prefix); });
+  const bool shown =
+      std::any_of(rows.begin(), rows.end(), [&](const ParameterRow* row) { return row->key().startsWith(start); });
+  if (shown != (probe && pinned)) rebuildMaterial();  // it came or went
+  for (ParameterPanel* panel : panels()) {
+    for (ParameterRow* row : panel->rows()) {
+      const auto address = Address::parse(row->key().toStdString());
+      if (!address || address->owner != Owner::Probe || address->id != id) continue;
+      row->setValue(m_document.value(*address));
+      row->setDisabledReason(idleText(m_document, *address));
+    }
   }
 }
 
