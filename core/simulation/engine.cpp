@@ -422,8 +422,8 @@ SnapshotPtr Engine::snapshot() const {
 FrameStats Engine::stats() const {
   FrameStats stats = measure(*m->solver, m->lastReport);
   stats.flow = m->flow.total();
-  const ProbeView view{*m->solver, *m->bodyIds, m->fields, compileWalls(m->project), m->spacing, m->start,
-                       idsOf(m->project.materials)};
+  const ProbeView view{
+      *m->solver, *m->bodyIds, m->fields, compileWalls(m->project), m->spacing, m->start, idsOf(m->project.materials)};
   for (const Probe& probe : m->project.probes) {
     stats.probes.push_back(measureProbe(view, probe));
   }
