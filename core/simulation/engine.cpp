@@ -412,6 +412,7 @@ SnapshotPtr Engine::snapshot() const {
   snapshot->revision = m->revision;
   snapshot->spacing = m->spacing;
   snapshot->flags = m->lastReport.flags;
+  snapshot->knowsStart = !m->start.empty();
   snapshot->bodyIds = m->bodyIds;
   snapshot->materialIds = idsOf(m->project.materials);
   snapshot->materialLook = m->tables.looks();

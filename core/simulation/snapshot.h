@@ -58,6 +58,7 @@ struct Snapshot {
   uint64_t revision = 0;  ///< rises with every reset: indices and ids of another revision do not compare
   double spacing = 0;     ///< m, of the particles; the project's may be another until the next reset
   StepFlags flags = 0;
+  bool knowsStart = true;  ///< where particles stood at the start; noted only if a probe asks for it when they are made
   std::vector<Limit> limits;
   Period period;                      ///< positions lie within its box: one that jumps by it has crossed a face
   std::vector<api::Float4> position;  ///< m; w: radius of a sphere of the rest volume, m

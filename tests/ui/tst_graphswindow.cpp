@@ -19,6 +19,7 @@
 #include <QtGui/QDropEvent>
 #include <QtGui/QWheelEvent>
 #include <QtWidgets/QFileDialog>
+#include <QtWidgets/QLabel>
 #include <QtWidgets/QLineEdit>
 #include <QtWidgets/QMenu>
 #include <QtWidgets/QTreeView>
@@ -190,6 +191,25 @@ class TestGraphsWindow : public SampleWindowTest {
     QVERIFY(!row());
     document().undoStack().undo();
     QVERIFY(row());
+  }
+
+  /// Nobody has noted where matter stood at the start, unless a probe asked for it then.
+  void aBoxOfTheStartWaitsForTheReset() {
+    m_window->selection().select(OutlineKind::Probe, "ice_mass");
+    const auto set = [&](const char* key, const Value& value) {
+      return document().setParameter({Owner::Probe, "ice_mass", key}, value);
+    };
+    const auto note = [&] {
+      const auto* row = m_window->inspector().bodyPanel()->row(QStringLiteral("probe/ice_mass/box_when"));
+      const auto* label = row->findChild<QLabel*>(QStringLiteral("psLimit"));
+      return label ? label->text() : QString();
+    };
+    QCOMPARE(set("in_box", true), QString());
+    QCOMPARE(note(), QString());
+    QCOMPARE(set("box_when", std::string(Probe::kAtStart)), QString());
+    QVERIFY2(note().startsWith(QStringLiteral("Acts at the next reset. ")), qPrintable(note()));
+    toTheStart();
+    QTRY_COMPARE_WITH_TIMEOUT(note(), QString(), kLong);
   }
 
   void aGraphIsRenamedInItsPlace() {

@@ -33,6 +33,7 @@ bool Inspector::rebuildProbe() {
     if (auto row = rowModelOf(m_document, {Owner::Probe, probe->id, list[i].key})) rows.push_back(std::move(*row));
   }
   m_body->setModel(std::move(rows));
+  m_notes.show();
   return true;
 }
 
@@ -61,6 +62,7 @@ void Inspector::onProbe(const std::string& id) {
       row->setDisabledReason(idleText(m_document, *address));
     }
   }
+  m_notes.show();
 }
 
 }  // namespace ps

@@ -18,6 +18,11 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
+/// `cost`: of the reset.
+QString waitingText(const QString& cost = {}) {
+  return QStringLiteral("Acts at the next reset%1. [Reset now](%2)").arg(cost, QLatin1String(RowNotes::kReset));
+}
+
 /// Behind what the row is told already.
 template <class Note>
 void add(std::map<QString, Note>& notes, const QString& key, Note note) {
@@ -34,6 +39,7 @@ RowNotes::RowNotes(const Document& document, std::vector<ParameterPanel*> panels
 
 void RowNotes::clear() {
   m_limits.clear();
+  m_knowsStart = true;
   m_made.clear();
   m_shown.clear();
   m_culprit.clear();
@@ -43,6 +49,7 @@ void RowNotes::setSnapshot(const Snapshot& snapshot) {
   m_limits = snapshot.limits;
   m_bodies = snapshot.bodyIds;
   m_particles = snapshot.id.size();
+  m_knowsStart = snapshot.knowsStart;
   if (snapshot.revision != m_revision) m_made.clear();
   m_revision = snapshot.revision;
   show();
@@ -134,9 +141,17 @@ QString RowNotes::costOf(const std::string& address) const {
 
 void RowNotes::addWaiting(std::map<QString, Note>& notes) const {
   for (const auto& [address, value] : m_made)
-    add(notes, QString::fromStdString(address),
-        {QStringLiteral("Acts at the next reset%1. [Reset now](%2)").arg(costOf(address), QLatin1String(kReset)),
-         kNone});
+    add(notes, QString::fromStdString(address), {waitingText(costOf(address)), kNone});
+}
+
+/// Probes of what stood in a box at the start, chosen when nobody had noted where that was.
+void RowNotes::addStarts(std::map<QString, Note>& notes) const {
+  const Project& project = m_document.project();
+  for (const Probe& probe : project.probes) {
+    if (m_knowsStart || project.bodies.empty() || !probe.region || probe.regionWhen == Probe::kNow) continue;
+    const Address row{Owner::Probe, probe.id, "box_when"};
+    add(notes, QString::fromStdString(row.text()), {waitingText(), kNone});
+  }
 }
 
 void RowNotes::show() {
@@ -144,6 +159,7 @@ void RowNotes::show() {
   addAdvice(notes);
   addLimits(notes);
   addWaiting(notes);
+  addStarts(notes);
   for (ParameterPanel* panel : m_panels) {
     for (const auto& [key, note] : m_shown)
       if (!notes.count(key)) panel->setLimit(key, {});

@@ -40,6 +40,7 @@ class RowNotes {
   void addAdvice(std::map<QString, Note>& notes) const;
   void addLimits(std::map<QString, Note>& notes) const;
   void addWaiting(std::map<QString, Note>& notes) const;
+  void addStarts(std::map<QString, Note>& notes) const;
   void noteWaiting(const ParameterChanged& change);
   QString linkOf(const std::string& use) const;
   QString costOf(const std::string& address) const;
@@ -50,6 +51,7 @@ class RowNotes {
   std::shared_ptr<const std::vector<std::string>> m_bodies;
   uint64_t m_revision = 0;
   size_t m_particles = 0;               ///< that there are now
+  bool m_knowsStart = true;             ///< see Snapshot::knowsStart
   std::map<std::string, Value> m_made;  ///< by address: with what the present matter was made, where that has changed
   std::map<QString, Note> m_shown;
   QString m_culprit, m_problem;  ///< key of the row, and the sentence under it
