@@ -99,6 +99,8 @@ class RunRecord {
   void forgetRun(uint64_t number);          ///< an earlier one
   /// Of the frames that are kept.
   std::vector<FrameStats> stats() const;
+  /// The same of an earlier run; none where it is not kept.
+  std::vector<FrameStats> stats(uint64_t run) const;
   /// Waits until all that was handed over is packed.
   void settle() const;
 

@@ -169,6 +169,16 @@ std::vector<FrameStats> RunRecord::stats() const {
   return stats;
 }
 
+std::vector<FrameStats> RunRecord::stats(uint64_t run) const {
+  const std::lock_guard lock(m->mutex);
+  std::vector<FrameStats> stats;
+  for (const KeptRun& kept : m->earlier) {
+    if (kept.number != run) continue;
+    for (const auto& [number, frame] : kept.frames) stats.push_back(frame.stats());
+  }
+  return stats;
+}
+
 uint64_t RunRecord::present() const {
   const std::lock_guard lock(m->mutex);
   return m->number;

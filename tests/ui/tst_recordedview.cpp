@@ -168,16 +168,16 @@ class TestRecordedView : public SampleWindowTest {
     QTRY_COMPARE_WITH_TIMEOUT(shownFrame(), frame, kLong);
     const double floor = 400 + 100 * session().snapshot()->stats.time / 0.2;
     QVERIFY(std::abs(std::get<double>(session().valueNow(kFloor)) - floor) < 1e-9);
-    QTRY_COMPARE_WITH_TIMEOUT(m_window->graphs()->temperatures()->presentTime(), session().snapshot()->stats.time,
+    QTRY_COMPARE_WITH_TIMEOUT(m_window->graphs()->valuesIn("K")->presentTime(), session().snapshot()->stats.time,
                               kLong);
     picture("tst_recordedview_keys.png");
-    auto* plot = m_window->graphs()->temperatures();
-    plot->setTimeRange(0, 0.2);
+    auto* plot = m_window->graphs()->valuesIn("K");
+    plot->setRange(0, 0.2);
     QTest::mouseClick(plot, Qt::LeftButton, {}, {plot->width() * 7 / 8, plot->height() / 2});
     QTRY_VERIFY_WITH_TIMEOUT(shownFrame() != frame, kLong);
     QVERIFY(session().recorded().isActive());
     session().recorded().showNewest();
-    QTRY_COMPARE_WITH_TIMEOUT(m_window->graphs()->temperatures()->presentTime(), session().newest()->stats.time, kLong);
+    QTRY_COMPARE_WITH_TIMEOUT(m_window->graphs()->valuesIn("K")->presentTime(), session().newest()->stats.time, kLong);
   }
 
   void theRunGoesOnFromAFrame() {
@@ -218,14 +218,27 @@ class TestRecordedView : public SampleWindowTest {
     QCOMPARE(first.apart, 5.0 / 60);
     QCOMPARE(first.to, static_cast<double>(kFrames) / 60);
     QTRY_VERIFY_WITH_TIMEOUT(transport().height() > height, kLong);
+    // Its curves stand beside those of the run that goes on, until they are not wanted.
+    const auto compared = [this] {
+      size_t samples = 0;
+      for (const GraphView* view : m_window->findChildren<GraphView*>()) {
+        if (view->seriesCount() > 0) samples = std::max(samples, view->otherCount(0));
+      }
+      return samples;
+    };
+    QTRY_COMPARE_WITH_TIMEOUT(compared(), static_cast<size_t>(kFrames + 1), kLong);
     picture("tst_recordedview_runs.png");
+    choose(1, "Compare in graphs");
+    QCOMPARE(compared(), size_t{0});
+    choose(1, "Compare in graphs");
+    QTRY_COMPARE_WITH_TIMEOUT(compared(), static_cast<size_t>(kFrames + 1), kLong);
     choose(1, "Go on with it");
     QTRY_COMPARE_WITH_TIMEOUT(session().log().messages().back().text,
                               QStringLiteral("Run 1 goes on from its end; the one before is kept as run 2."), kLong);
     QTRY_COMPARE_WITH_TIMEOUT(session().newest()->stats.frame, kFrames, kLong);
     session().engine()->recording().settle();
     QCOMPARE(session().recorded().extent().last, kFrames);
-    QCOMPARE(session().engine()->history(0).size(), size_t{kFrames + 1});
+    QCOMPARE(session().engine()->history(0).size(), static_cast<size_t>(kFrames + 1));
     drag(8);
     QTRY_COMPARE_WITH_TIMEOUT(shownFrame(), uint64_t{8}, kLong);
     QCOMPARE(onEngine<uint64_t>(session(),
@@ -237,6 +250,7 @@ class TestRecordedView : public SampleWindowTest {
     QCOMPARE(session().recorded().earlier().front().number, uint64_t{2});
     choose(2, "Delete");
     QVERIFY(session().recorded().earlier().empty());
+    QCOMPARE(compared(), size_t{0});
     QTRY_COMPARE_WITH_TIMEOUT(transport().height(), height, kLong);
     QCOMPARE(document().undoStack().count(), steps);  // time is no edit
   }

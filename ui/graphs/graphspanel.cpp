@@ -10,6 +10,7 @@
 #include "ui/graphs/seeking.h"
 #include "ui/graphs/seriesunit.h"
 #include "ui/graphs/stackview.h"
+#include "ui/session/recordedview.h"
 #include "ui/session/session.h"
 #include "ui/session/transitions.h"
 #include "ui/session/wording.h"
@@ -76,6 +77,9 @@ GraphsPanel::GraphsPanel(Session& session, QWidget* parent)
   connect(&session, &Session::valuesDue, this, &GraphsPanel::readHistory);
   connect(&session, &Session::totalsDue, this, &GraphsPanel::showDistributions);
   connect(&session.transitions(), &Transitions::changed, this, &GraphsPanel::setTransitions);
+  connect(&session.recorded(), &RecordedView::comparedChanged, this, [this] {
+    for (const Shown& shown : m_shown) showCompared(shown);
+  });
   connect(&session.document(), &Document::changed, this, [this](const ChangeEvent& event) {
     const bool opened = std::holds_alternative<ProjectOpened>(event);
     if (opened) {
@@ -202,9 +206,23 @@ void GraphsPanel::prepare(const Shown& shown) {
     view->removeAllSeries();
     for (const GraphSource& source : shown.sources)
       view->addSeries(QString::fromStdString(source.label()), SeriesUnit(source.unit()).shown);
+    showCompared(shown);
   }
   shown.overTime->setDuration(m_session.document().project().duration);
   shown.overTime->setPresentTime(m_session.now());
+}
+
+/// Curves of the run that this one is compared with.
+void GraphsPanel::showCompared(const Shown& shown) {
+  auto* view = qobject_cast<GraphView*>(shown.plot);
+  if (!view) return;
+  const RecordedView& recorded = m_session.recorded();
+  view->beginOther(recorded.compared() ? QStringLiteral("in run %1").arg(*recorded.compared()) : QString());
+  for (const FrameStats& stats : recorded.comparedStats()) {
+    for (size_t s = 0; s < shown.sources.size(); ++s)
+      view->appendOther(static_cast<int>(s), stats.time,
+                        SeriesUnit(shown.sources[s].unit()).of(shown.sources[s](stats)));
+  }
 }
 
 void GraphsPanel::arrange() {

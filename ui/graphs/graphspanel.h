@@ -63,6 +63,7 @@ class GraphsPanel : public QWidget {
   Shown make(const Graph& graph);
   void adopt(TimePlot* plot);
   void prepare(const Shown& shown);
+  void showCompared(const Shown& shown);
   void arrange();
   void feed(const std::vector<FrameStats>& frames, const std::vector<size_t>& graphs);
   void setTransitions();

@@ -21,7 +21,7 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 struct Series {
   QString name;
   size_t axis = 0;
-  SampleSeries samples;
+  SampleSeries samples, other;  ///< of this run, and of one that it is compared with
 };
 
 /// Of what a unit gains in a second, and of what it adds up to: "m/s" gives "m/s²" and "m".
@@ -41,6 +41,7 @@ QString timesSeconds(const QString& unit) {
 struct GraphView::Private {
   std::vector<Series> series;
   std::vector<ReferenceLine> references;
+  QString otherRun;
 };
 
 GraphView::GraphView(QWidget* parent) : TimePlot(parent), d(std::make_unique<Private>()) {}
@@ -56,7 +57,7 @@ int GraphView::addSeries(const QString& name, const QString& unit) {
     axes.back().unit = unit;
     axes.back().logarithmic = axes.front().logarithmic;
   }
-  d->series.push_back({name, axis, {}});
+  d->series.push_back({name, axis, {}, {}});
   dataChanged();
   return static_cast<int>(d->series.size()) - 1;
 }
@@ -86,6 +87,20 @@ void GraphView::clearSeries(int series) {
   dataChanged();
 }
 
+void GraphView::beginOther(const QString& run) {
+  d->otherRun = run;
+  for (Series& series : d->series) series.other.clear();
+  dataChanged();
+}
+
+void GraphView::appendOther(int series, double time, double value) {
+  if (series < 0 || series >= seriesCount() || !std::isfinite(time)) return;
+  d->series[static_cast<size_t>(series)].other.append(time, value);
+  dataChanged();
+}
+
+size_t GraphView::otherCount(int series) const { return d->series.at(static_cast<size_t>(series)).other.size(); }
+
 void GraphView::setReferenceLines(std::vector<ReferenceLine> lines) {
   d->references = std::move(lines);
   dataChanged();
@@ -107,7 +122,9 @@ bool GraphView::hasData() const {
 double GraphView::lastTime() const {
   double last = 0;
   for (const Series& series : d->series) {
-    if (!series.samples.empty()) last = std::max(last, series.samples.lastTime());
+    for (const SampleSeries* samples : {&series.samples, &series.other}) {
+      if (!samples->empty()) last = std::max(last, samples->lastTime());
+    }
   }
   return last;
 }
@@ -117,8 +134,10 @@ std::pair<double, double> GraphView::valueExtent(size_t axis, double first, doub
   SampleSeries::Extent extent;
   for (const Series& series : d->series) {
     if (series.axis != axis) continue;
-    const size_t from = series.samples.indexAt(first);
-    extent.add(series.samples.extent(from > 0 ? from - 1 : 0, series.samples.indexAt(last) + 1));
+    for (const SampleSeries* samples : {&series.samples, &series.other}) {
+      const size_t from = samples->indexAt(first);
+      extent.add(samples->extent(from > 0 ? from - 1 : 0, samples->indexAt(last) + 1));
+    }
   }
   if (shown.logarithmic) {
     if (!(extent.high > 0)) return {1e-3, 1};
@@ -163,10 +182,18 @@ void GraphView::paintData(QPainter& painter) {
   const double perColumn = (last - first) / (plot.width() * scale);
   painter.setRenderHint(QPainter::Antialiasing);
   for (size_t index = 0; index < d->series.size(); ++index) {
+    const Series& other = d->series[index];
+    if (other.other.empty()) continue;
+    QPen pen(theme.series(static_cast<int>(index)), 1, Qt::SolidLine, Qt::FlatCap, Qt::BevelJoin);
+    pen.setDashPattern({3, 3});
+    painter.setPen(pen);
+    paintSeries(painter, other.other, other.axis, perColumn);
+  }
+  for (size_t index = 0; index < d->series.size(); ++index) {
     QPen pen(theme.series(static_cast<int>(index)), 1.5, Qt::SolidLine, Qt::FlatCap, Qt::BevelJoin);
     if (theme.seriesDashed(static_cast<int>(index))) pen.setDashPattern({4, 2.5});
     painter.setPen(pen);
-    paintSeries(painter, static_cast<int>(index), first, last, perColumn);
+    paintSeries(painter, d->series[index].samples, d->series[index].axis, perColumn);
   }
 }
 
@@ -174,9 +201,9 @@ void GraphView::paintData(QPainter& painter) {
 /// their middle; where they spread, the column is filled from its lowest to its highest, so that no spike is lost
 /// however many samples a column holds (and because stroking thousands of near-vertical segments takes a hundred times
 /// longer). A gap breaks the line.
-void GraphView::paintSeries(QPainter& painter, int index, double first, double last, double perColumn) const {
-  const auto& [name, axis, samples] = d->series[static_cast<size_t>(index)];
+void GraphView::paintSeries(QPainter& painter, const SampleSeries& samples, size_t axis, double perColumn) const {
   if (samples.empty()) return;
+  const auto [first, last] = range();
   constexpr double kSmooth = 1.5, kHalf = 0.75;  // logical pixels: spread drawn as a line; half the line's width
   constexpr qsizetype kChunk = 48;               // points stroked at a time: the cost of a stroke grows faster
   const double width = hairline(painter) / std::max(1.0, std::floor(painter.device()->devicePixelRatioF()));
@@ -248,7 +275,7 @@ void GraphView::paintLabels(QPainter& painter) {
   std::vector<Label> labels;
   const auto [first, last] = range();
   for (size_t i = 0; i < d->series.size(); ++i) {
-    const auto& [name, axis, samples] = d->series[i];
+    const auto& [name, axis, samples, other] = d->series[i];
     if (samples.empty() || !std::isfinite(samples.lastValue()) || samples.lastTime() < first ||
         samples.lastTime() > last)
       continue;
@@ -286,9 +313,14 @@ void GraphView::paintLabels(QPainter& painter) {
 std::vector<PlotLine> GraphView::readOut(double time) const {
   std::vector<PlotLine> lines;
   for (size_t i = 0; i < d->series.size(); ++i) {
-    const auto& [name, axis, samples] = d->series[i];
+    const auto& [name, axis, samples, other] = d->series[i];
     const double value = samples.valueAt(time);
-    if (std::isfinite(value)) lines.push_back({name, amountText(value, axes()[axis].unit), static_cast<int>(i)});
+    const double before = other.empty() ? kNaN : other.valueAt(time);
+    const QString& unit = axes()[axis].unit;
+    if (std::isfinite(value)) lines.push_back({name, amountText(value, unit), static_cast<int>(i)});
+    if (std::isfinite(before)) lines.push_back({d->otherRun, amountText(before, unit), static_cast<int>(i)});
+    if (std::isfinite(value - before))
+      lines.push_back({QStringLiteral("difference"), amountText(value - before, unit)});
   }
   return lines;
 }
@@ -299,7 +331,7 @@ std::vector<PlotLine> GraphView::measure(double from, double to) const {
       {QStringLiteral("A to B: ") + placeText(to - from), QStringLiteral("change · slope · area")}};
   const double span = axes().front().high() - axes().front().low();
   for (size_t i = 0; i < d->series.size(); ++i) {
-    const auto& [name, axis, samples] = d->series[i];
+    const auto& [name, axis, samples, other] = d->series[i];
     const double change = samples.valueAt(to) - samples.valueAt(from), area = samples.integral(from, to);
     if (!std::isfinite(change) || !(to > from)) continue;
     const QString& unit = axes()[axis].unit;

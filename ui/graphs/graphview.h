@@ -9,6 +9,8 @@
 
 namespace ps {
 
+class SampleSeries;
+
 /// A dashed line across a graph: {0, "melts"}. In the unit of its first axis.
 struct ReferenceLine {
   double value = 0;
@@ -33,6 +35,11 @@ class GraphView : public TimePlot {
   void append(int series, double time, double value);
   void clear() override;         ///< keeps the lines: after a reset
   void clearSeries(int series);  ///< all samples of one
+  /// The same quantities in another run are dashed lines behind these, and the read-out tells the difference. Takes
+  /// those away that were there.
+  void beginOther(const QString& run);
+  void appendOther(int series, double time, double value);
+  size_t otherCount(int series) const;
   void setReferenceLines(std::vector<ReferenceLine> lines);
   /// Samples of a series as drawn in a column [first, last): lowest and highest; nothing: {NaN, NaN}.
   std::pair<double, double> extent(int series, double first, double last) const;
@@ -50,7 +57,7 @@ class GraphView : public TimePlot {
  private:
   struct Private;
   void paintReferences(QPainter& painter) const;
-  void paintSeries(QPainter& painter, int index, double first, double last, double perColumn) const;
+  void paintSeries(QPainter& painter, const SampleSeries& samples, size_t axis, double perColumn) const;
   std::unique_ptr<Private> d;
 };
 

@@ -9,6 +9,7 @@
 #include "ui/session/worker.h"
 
 #include <algorithm>
+#include <memory>
 #include <utility>
 
 namespace ps {
@@ -166,7 +167,24 @@ void RecordedView::goOnWith(uint64_t run) {
 void RecordedView::forgetRun(uint64_t run) {
   if (!record()) return;
   m_session.engine()->forgetRun(run);
+  if (m_compared == run) compare(std::nullopt);
   Q_EMIT changed();
+}
+
+void RecordedView::compare(std::optional<uint64_t> run) {
+  if (!record() || run == m_compared) return;
+  m_compared = run;
+  m_comparedStats.clear();
+  Q_EMIT comparedChanged();
+  if (!run) return;
+  m_session.worker().run([this, number = *run, from = record()] {
+    auto stats = std::make_shared<std::vector<FrameStats>>(from->stats(number));
+    QMetaObject::invokeMethod(this, [this, number, stats] {
+      if (m_compared != number) return;
+      m_comparedStats = std::move(*stats);
+      Q_EMIT comparedChanged();
+    });
+  });
 }
 
 void RecordedView::follow(const SnapshotPtr& newest) {
@@ -174,6 +192,15 @@ void RecordedView::follow(const SnapshotPtr& newest) {
   m_revision = newest->revision;
   const QString continuing = std::exchange(m_continuing, QString());
   showNewest();
+  const std::vector<RunRecord::EarlierRun> runs = earlier();
+  const auto isKept = [&](uint64_t number) {
+    return std::any_of(runs.begin(), runs.end(),
+                       [&](const RunRecord::EarlierRun& run) { return run.number == number; });
+  };
+  if (!continuing.isEmpty() && !runs.empty())
+    compare(runs.back().number);
+  else if (m_compared && !isKept(*m_compared))
+    compare(std::nullopt);
   if (!continuing.isEmpty()) m_session.log().add(MessageLevel::Info, QStringLiteral("Timeline"), continuing);
 }
 

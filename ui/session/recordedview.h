@@ -8,6 +8,7 @@
 #include <QtCore/QTimer>
 
 #include <optional>
+#include <vector>
 
 namespace ps {
 
@@ -48,12 +49,17 @@ class RecordedView : public QObject {
   /// At its end; the present run is then an earlier one.
   void goOnWith(uint64_t run);
   void forgetRun(uint64_t run);
+  /// What an earlier run measured stands beside this one's curves; nothing: none does. A run that was just left does.
+  void compare(std::optional<uint64_t> run);
+  std::optional<uint64_t> compared() const { return m_compared; }
+  const std::vector<FrameStats>& comparedStats() const { return m_comparedStats; }
   /// Snapshots of another run, or of this one from an earlier frame on.
   void follow(const SnapshotPtr& newest);
 
  Q_SIGNALS:
   void changed();
   void playingChanged();
+  void comparedChanged();
 
  private:
   void want(uint64_t frame);
@@ -71,6 +77,8 @@ class RecordedView : public QObject {
   double m_at = 0, m_speed = 1;  ///< s of the run, s of it per s
   bool m_loop = false;
   uint64_t m_revision = 0;
+  std::optional<uint64_t> m_compared;  ///< number of a run
+  std::vector<FrameStats> m_comparedStats;
   QString m_continuing;  ///< what to tell when the engine has gone there
 };
 

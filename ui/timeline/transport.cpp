@@ -294,6 +294,11 @@ void Transport::fillMenu(QMenu& menu) {
         menu.addMenu(QStringLiteral("Run %1, %2 to %3").arg(run.number).arg(clockText(run.apart), clockText(run.to)));
     connect(one->addAction(QStringLiteral("Go on with it")), &QAction::triggered, &recorded,
             [&recorded, run] { recorded.goOnWith(run.number); });
+    QAction* compare = one->addAction(QStringLiteral("Compare in graphs"));
+    compare->setCheckable(true);
+    compare->setChecked(recorded.compared() == run.number);
+    connect(compare, &QAction::triggered, &recorded,
+            [&recorded, run](bool on) { recorded.compare(on ? std::optional(run.number) : std::nullopt); });
     connect(one->addAction(QStringLiteral("Delete")), &QAction::triggered, &recorded,
             [&recorded, run] { recorded.forgetRun(run.number); });
   }
