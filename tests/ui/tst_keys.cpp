@@ -276,13 +276,16 @@ class TestKeys : public SampleWindowTest {
     QCOMPARE(document().undoStack().count(), steps + 1);
     // With Ctrl it leaves a copy, as one step.
     const QPoint copyTo(static_cast<int>(rows().xOf(50)), from.y()), at = rows().placeOf(kFloor, 1);
-    for (const bool keep : {false, true}) {
+    const auto dragCopy = [&] {
       QTest::mousePress(&rows(), Qt::LeftButton, Qt::ControlModifier, at);
       for (int k = 1; k <= 4; ++k) {
         QMouseEvent move(QEvent::MouseMove, at + (copyTo - at) * k / 4, rows().mapToGlobal(copyTo), Qt::NoButton,
                          Qt::LeftButton, Qt::ControlModifier);
         QApplication::sendEvent(&rows(), &move);
       }
+    };
+    for (const bool keep : {false, true}) {
+      dragCopy();
       QCOMPARE(timesOf(document(), kFloor).size(), size_t{3});
       if (!keep) QTest::keyClick(&rows(), Qt::Key_Escape);
       QTest::mouseRelease(&rows(), Qt::LeftButton, Qt::ControlModifier, copyTo);
@@ -291,6 +294,14 @@ class TestKeys : public SampleWindowTest {
     QCOMPARE(document().undoStack().count(), steps + 2);
     QCOMPARE(document().track(kFloor)->keys[2].value, 300.0);
     document().undoStack().undo();
+    QCOMPARE(writeProject(document().project()), before);
+    // The way to the next key goes along.
+    QCOMPARE(document().setWay(kFloor, 1, ToNext::Step), QString());
+    QCOMPARE(document().setWay(kFloor, 0, ToNext::Smooth), QString());
+    dragCopy();
+    QTest::mouseRelease(&rows(), Qt::LeftButton, Qt::ControlModifier, copyTo);
+    QVERIFY(document().track(kFloor)->keys[2].toNext == ToNext::Step);
+    for (int k = 0; k < 3; ++k) document().undoStack().undo();
     QCOMPARE(writeProject(document().project()), before);
     // A double-click between the two sets one on their line.
     const QPoint middle(static_cast<int>(rows().xOf(moved / 2)), from.y());

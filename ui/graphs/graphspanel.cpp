@@ -349,9 +349,9 @@ QByteArray GraphsPanel::exported(const std::string& id, const QString& ending) c
 
 QString GraphsPanel::fileName(const std::string& id, const QString& ending) const {
   const Shown* shown = find(id);
-  const QString title = shown ? shown->plot->title() : QString();
-  return (title.isEmpty() ? QStringLiteral("graph") : title.toLower().replace(QLatin1Char(' '), QLatin1Char('-'))) +
-         QLatin1Char('.') + ending;
+  QString title = shown ? shown->plot->title().toLower() : QString();
+  for (QChar& c : title) c = c.isLetterOrNumber() ? c : QLatin1Char('-');  // of a path nothing
+  return (title.isEmpty() ? QStringLiteral("graph") : title) + QLatin1Char('.') + ending;
 }
 
 /// What histograms and profiles did not follow while they were hidden.

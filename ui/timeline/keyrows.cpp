@@ -173,7 +173,9 @@ bool KeyRows::beginDrag(double time, const QPoint& at) {
   if (!m_drag->copies) return true;
   document.putKey(m_chosen->address, time, m_drag->from.value);
   const auto copy = keyAt(document.track(m_chosen->address)->keys, time, document.keySlack());
-  if (copy) m_chosen->key = *copy;
+  if (!copy) return true;
+  m_chosen->key = *copy;
+  document.setWay(m_chosen->address, *copy, m_drag->from.toNext);
   return true;
 }
 
