@@ -12,18 +12,20 @@ using Clock = std::chrono::steady_clock;
 constexpr auto kAwake = std::chrono::microseconds(500);  // after the last loop
 constexpr uint32_t kPlace = 1u << 16, kTaken = kPlace - 1;
 
-/// Looks again soon: at once for a few microseconds, and then with a look at who else wants the core.
+/// Looks again soon: at once for a few microseconds, and then with a look at who else wants the core. Who waits leaves
+/// most of a core that two threads share to the other, which may be the one that works.
 class Patience {
  public:
   void wait() {
-    if (++m_looks > kAtOnce) return std::this_thread::yield();
+    const bool atOnce = ++m_looks <= kAtOnce;
 #if defined(__x86_64__) || defined(__i386__)
-    for (int k = 0; k < 8; ++k) __builtin_ia32_pause();
+    for (int k = 0; k < (atOnce ? kShort : kLong); ++k) __builtin_ia32_pause();
 #endif
+    if (!atOnce) std::this_thread::yield();
   }
 
  private:
-  static constexpr int kAtOnce = 100;
+  static constexpr int kAtOnce = 100, kShort = 8, kLong = 48;
   int m_looks = 0;
 };
 
