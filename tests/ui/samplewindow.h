@@ -80,6 +80,11 @@ class SampleWindowTest : public QObject {
     for (int k = 1; k <= 6; ++k) QTest::mouseMove(view(), from + way * k / 6);
     if (release) QTest::mouseRelease(view(), Qt::LeftButton, {}, from + way);
   }
+  /// Of the window, where PS_TEST_PICTURES names a folder.
+  void picture(const QString& name) {
+    const QString folder = qEnvironmentVariable("PS_TEST_PICTURES");
+    if (!folder.isEmpty()) m_window->grab().save(folder + QLatin1Char('/') + name);
+  }
   Session& session() { return m_window->session(); }
   Document& document() { return session().document(); }
   Viewport* view() { return m_window->viewport(); }

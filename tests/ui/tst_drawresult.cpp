@@ -8,7 +8,6 @@
 #include "ui/fitting/wantedview.h"
 #include "ui/window/windowlayout.h"
 
-#include <QtCore/QDir>
 #include <QtGui/QUndoStack>
 #include <QtTest/QSignalSpy>
 #include <QtWidgets/QComboBox>
@@ -23,11 +22,6 @@ using namespace ps;
 namespace {
 
 const TrackTarget kFloor{{Owner::Wall, "floor", "temperature"}, {}};
-
-void picture(QWidget* widget, const QString& name) {
-  const QString folder = qEnvironmentVariable("PS_TEST_PICTURES");
-  if (!folder.isEmpty()) widget->grab().save(QDir(folder).filePath(name + QStringLiteral(".png")));
-}
 
 }  // namespace
 
@@ -81,9 +75,9 @@ class TestDrawResult : public SampleWindowTest {
     chooseQuantity("Ice: Solid mass");
     panel()->parameters()->add(kFloor);
     Series wanted;
-    for (int k = 1; k <= 4; ++k) wanted.time.push_back(0.1 * k), wanted.value.push_back(44 - 4.0 * k);
+    for (int k = 1; k <= 4; ++k) wanted.time.push_back(0.1 * k), wanted.value.push_back(44000 - 4000.0 * k);  // g
     wantedView()->setWanted(wanted);
-    picture(m_window.get(), "draw-wanted");
+    picture("draw-wanted.png");
     const std::string before = writeProject(document().project());
     const int index = document().undoStack().index();
     QSignalSpy ended(panel(), &FitPanel::ended);
@@ -91,7 +85,7 @@ class TestDrawResult : public SampleWindowTest {
     QVERIFY(button("Cancel")->isVisible());
     QVERIFY(ended.wait(4 * kLong));
     QCOMPARE(writeProject(document().project()), before);  // nothing changes before it is asked for
-    picture(m_window.get(), "draw-found");
+    picture("draw-found.png");
     QVERIFY(button("Apply")->isEnabled());
     QTest::mouseClick(button("Apply"), Qt::LeftButton);
     QCOMPARE(document().undoStack().index(), index + 1);
@@ -107,7 +101,7 @@ class TestDrawResult : public SampleWindowTest {
   void aSearchIsGivenUp() {
     chooseQuantity("Ice: Solid mass");
     panel()->parameters()->add(kFloor);
-    wantedView()->setWanted({{20.0}, {10.0}});  // runs of twenty seconds
+    wantedView()->setWanted({{20.0}, {10000.0}});  // runs of twenty seconds
     QSignalSpy ended(panel(), &FitPanel::ended);
     QTest::mouseClick(button("Find values"), Qt::LeftButton);
     QTest::qWait(200);

@@ -63,7 +63,7 @@ class TestGraphsWindow : public SampleWindowTest {
     drop(*view, *data);  // it is there already
     QCOMPARE(document().undoStack().count(), 1);
     QTRY_VERIFY_WITH_TIMEOUT(view->sampleCount(lines) == view->sampleCount(0), kLong);
-    picture("two-axes");
+    picture("graphs-two-axes.png");
     undoneAndRedone(before);
     // On a stack it gets a graph of its own.
     drop(*graphs()->phases(), *data);
@@ -103,7 +103,7 @@ class TestGraphsWindow : public SampleWindowTest {
     choose(document().graphs()[1].id, {"Field", "Density"});
     Plot* view = graphs()->plots()[1];
     QTRY_VERIFY_WITH_TIMEOUT(view->summary().contains(QStringLiteral("kg/m³")), kLong);
-    picture("profile");
+    picture("graphs-profile.png");
     const QByteArray csv = graphs()->exported(document().graphs()[1].id, QStringLiteral("csv"));
     QVERIFY2(csv.startsWith("from y_m,to y_m,particles,mean Density [kg/m³]"), csv.constData());
     QCOMPARE(csv.count('\n'), static_cast<qsizetype>(DistributionView::kBins) + 1);
@@ -168,7 +168,7 @@ class TestGraphsWindow : public SampleWindowTest {
     QCOMPARE(std::get<std::string>(panel->row(key + QStringLiteral("quantity"))->model().value),
              std::string("force_y"));
     QVERIFY(set("phase", std::string("liquid")).contains(QStringLiteral("as a whole")));
-    picture("probe");
+    picture("graphs-probe.png");
     session().step();
     QTRY_VERIFY_WITH_TIMEOUT(session().snapshot()->stats.measured->back().id == id, kLong);
     undoneAndRedone(before);
@@ -267,7 +267,7 @@ class TestGraphsWindow : public SampleWindowTest {
     QVERIFY(std::abs(dragged - (0.8 * session().now() - 50 * perPixel)) < 2 * perPixel);
     QTest::keyClick(view, Qt::Key_Left);
     QVERIFY(std::abs(dragged - perPixel - *view->reading(1)) < 0.01 * perPixel);
-    picture("cursors");
+    picture("graphs-cursors.png");
     QTest::keyClick(view, Qt::Key_Escape);
     QVERIFY(!view->reading(0) && view->measured().empty());
     // The stack of heat knows what is expected: what came in.
@@ -277,7 +277,7 @@ class TestGraphsWindow : public SampleWindowTest {
     energy->setReading(1, session().now());
     QTRY_VERIFY(energy->measured().size() > 3);
     QCOMPARE(energy->measured().back().name, QStringLiteral("balance open by"));
-    picture("energy");
+    picture("graphs-energy.png");
   }
 
   void valuesAndTimesAreZoomed() {
@@ -404,10 +404,6 @@ class TestGraphsWindow : public SampleWindowTest {
       dialog->selectFile(path);
       static_cast<QDialog*>(dialog)->accept();
     });
-  }
-  void picture(const char* name) {
-    const QString folder = qEnvironmentVariable("PS_TEST_PICTURES");
-    if (!folder.isEmpty()) m_window->grab().save(folder + QStringLiteral("/graphs-%1.png").arg(QLatin1String(name)));
   }
   QTemporaryDir m_folder;
 };

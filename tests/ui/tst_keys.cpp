@@ -275,17 +275,9 @@ class TestKeys : public SampleWindowTest {
     QCOMPARE(writeProject(document().project()), before);
     QCOMPARE(document().undoStack().count(), steps + 1);
     // With Ctrl it leaves a copy, as one step.
-    const QPoint copyTo(static_cast<int>(rows().xOf(50)), from.y()), at = rows().placeOf(kFloor, 1);
-    const auto dragCopy = [&] {
-      QTest::mousePress(&rows(), Qt::LeftButton, Qt::ControlModifier, at);
-      for (int k = 1; k <= 4; ++k) {
-        QMouseEvent move(QEvent::MouseMove, at + (copyTo - at) * k / 4, rows().mapToGlobal(copyTo), Qt::NoButton,
-                         Qt::LeftButton, Qt::ControlModifier);
-        QApplication::sendEvent(&rows(), &move);
-      }
-    };
+    const QPoint copyTo(static_cast<int>(rows().xOf(50)), from.y());
     for (const bool keep : {false, true}) {
-      dragCopy();
+      dragCopy(1, copyTo);
       QCOMPARE(timesOf(document(), kFloor).size(), size_t{3});
       if (!keep) QTest::keyClick(&rows(), Qt::Key_Escape);
       QTest::mouseRelease(&rows(), Qt::LeftButton, Qt::ControlModifier, copyTo);
@@ -294,14 +286,6 @@ class TestKeys : public SampleWindowTest {
     QCOMPARE(document().undoStack().count(), steps + 2);
     QCOMPARE(document().track(kFloor)->keys[2].value, 300.0);
     document().undoStack().undo();
-    QCOMPARE(writeProject(document().project()), before);
-    // The way to the next key goes along.
-    QCOMPARE(document().setWay(kFloor, 1, ToNext::Step), QString());
-    QCOMPARE(document().setWay(kFloor, 0, ToNext::Smooth), QString());
-    dragCopy();
-    QTest::mouseRelease(&rows(), Qt::LeftButton, Qt::ControlModifier, copyTo);
-    QVERIFY(document().track(kFloor)->keys[2].toNext == ToNext::Step);
-    for (int k = 0; k < 3; ++k) document().undoStack().undo();
     QCOMPARE(writeProject(document().project()), before);
     // A double-click between the two sets one on their line.
     const QPoint middle(static_cast<int>(rows().xOf(moved / 2)), from.y());
@@ -316,6 +300,24 @@ class TestKeys : public SampleWindowTest {
     QVERIFY(document().body("ice"));  // what is selected in the scene stays
     while (document().undoStack().count() > 0 && document().undoStack().canUndo()) document().undoStack().undo();
     QVERIFY(document().project().tracks.empty());
+  }
+
+  /// The way to the next key goes along.
+  void aCopyIsTheKeyItself() {
+    QCOMPARE(document().putKey(kFloor, 0, 400), QString());
+    QCOMPARE(document().putKey(kFloor, 20, 300), QString());
+    QCOMPARE(document().setWay(kFloor, 1, ToNext::Step), QString());
+    QCOMPARE(document().setWay(kFloor, 0, ToNext::Smooth), QString());
+    QTRY_VERIFY(rows().isVisible());
+    const std::string before = writeProject(document().project());
+    const QPoint to(static_cast<int>(rows().xOf(50)), rows().placeOf(kFloor, 1).y());
+    dragCopy(1, to);
+    QTest::mouseRelease(&rows(), Qt::LeftButton, Qt::ControlModifier, to);
+    QCOMPARE(timesOf(document(), kFloor).size(), size_t{3});
+    QCOMPARE(document().track(kFloor)->keys[2].value, 300.0);
+    QVERIFY(document().track(kFloor)->keys[2].toNext == ToNext::Step);
+    document().undoStack().undo();
+    QCOMPARE(writeProject(document().project()), before);
   }
 
   void whatCannotHaveKeysSaysSo() {
@@ -371,9 +373,15 @@ class TestKeys : public SampleWindowTest {
     QContextMenuEvent ask(QContextMenuEvent::Keyboard, QPoint(20, 10), row.mapToGlobal(QPoint(20, 10)));
     QApplication::sendEvent(&row, &ask);
   }
-  void picture(const char* name) {
-    const QString folder = qEnvironmentVariable("PS_TEST_PICTURES");
-    if (!folder.isEmpty()) m_window->grab().save(folder + QLatin1Char('/') + QLatin1String(name));
+  /// With Ctrl; the button stays down.
+  void dragCopy(size_t key, const QPoint& to) {
+    const QPoint at = rows().placeOf(kFloor, key);
+    QTest::mousePress(&rows(), Qt::LeftButton, Qt::ControlModifier, at);
+    for (int k = 1; k <= 4; ++k) {
+      QMouseEvent move(QEvent::MouseMove, at + (to - at) * k / 4, rows().mapToGlobal(to), Qt::NoButton, Qt::LeftButton,
+                       Qt::ControlModifier);
+      QApplication::sendEvent(&rows(), &move);
+    }
   }
 };
 

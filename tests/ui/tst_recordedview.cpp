@@ -306,10 +306,6 @@ class TestRecordedView : public SampleWindowTest {
     for (int k = 1; k <= 5; ++k) QTest::mouseMove(&transport(), from + (to - from) * k / 5);
     QTest::mouseRelease(&transport(), Qt::LeftButton, {}, to);
   }
-  void picture(const char* name) {
-    const QString folder = qEnvironmentVariable("PS_TEST_PICTURES");
-    if (!folder.isEmpty()) m_window->grab().save(folder + QLatin1Char('/') + QLatin1String(name));
-  }
   std::map<uint64_t, uint64_t> m_hashes;
 };
 

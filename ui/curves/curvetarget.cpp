@@ -67,8 +67,8 @@ std::optional<Response> CurveTarget::ghost() const {
 
 QString CurveTarget::source() const { return sourceOf(document(), material(), m_key.c_str()); }
 
-double CurveTarget::temperature() const {
-  if (const MaterialNow present = now(0, 1); present.count > 0) return present.mean;
+double CurveTarget::temperature(const MaterialNow& now) const {
+  if (now.count > 0) return now.mean;
   return std::get<double>(document().value({Owner::Environment, "", "ambient_temperature"}));
 }
 

@@ -48,7 +48,8 @@ class CurveTarget : public QObject {
   std::optional<Response> ghost() const;
   QString source() const;  ///< of the installed figure; "" where nothing says so
   /// K, at which the property is read: the mean of the material's particles, or the air's where there are none.
-  double temperature() const;
+  double temperature() const { return temperature(now(0, 1)); }
+  double temperature(const MaterialNow& now) const;  ///< the same of what is known
   /// K, where melting begins and ends; nullopt for what never melts.
   std::optional<std::array<double, 2>> melting() const;
   /// K, from where to where it is worth looking at: its points, or else what lies around its matter and its melting.

@@ -167,7 +167,7 @@ QString CurveView::summary() const {
     const api::ResponsePoint& p = m_shown.points[static_cast<size_t>(chosen)];
     return QStringLiteral("Point %1 of %2, ").arg(chosen + 1).arg(m_shown.points.size()) + pair(p.x, p.y);
   }
-  const double kelvin = m_target.temperature();
+  const double kelvin = m_target.temperature(m_now);
   return pair(kelvin, m_shown.at(kelvin));
 }
 

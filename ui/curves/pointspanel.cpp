@@ -88,24 +88,7 @@ PointsPanel::PointsPanel(CurveTarget& target, QWidget* parent)
     column->addLayout(row);
   };
   pair(m_add, m_remove);
-  std::vector<std::string> kinds{"points", "constant"};
-  kinds.insert(kinds.end(), lawNames().begin(), lawNames().end());
-  auto* grid = new QGridLayout;
-  grid->setVerticalSpacing(2);
-  grid->setColumnStretch(1, 1);
-  for (const std::string& kind : kinds) {
-    auto* radio = new QRadioButton(kindLabel(kind));
-    radio->setProperty(kKind, QString::fromStdString(kind));
-    m_kinds->addButton(radio);
-    auto* formula = new QLabel(formulaOf(kind).first);
-    formula->setFont(Theme::font(TextRole::Small));
-    formula->setForegroundRole(QPalette::PlaceholderText);
-    formula->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
-    formula->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
-    grid->addWidget(radio, grid->rowCount(), 0);
-    grid->addWidget(formula, grid->rowCount() - 1, 1);
-  }
-  column->addLayout(grid);
+  column->addLayout(kindRows());
   auto* numbers = new QGridLayout;
   for (size_t i = 0; i < kMostCoefficients; ++i) {
     m_coefficients.push_back(new QLineEdit);
@@ -133,6 +116,28 @@ PointsPanel::PointsPanel(CurveTarget& target, QWidget* parent)
   connect(&target, &CurveTarget::responseChanged, this, &PointsPanel::refresh);
   connect(&target, &CurveTarget::pointChanged, this, &PointsPanel::showSelected);
   connect(&target, &CurveTarget::refused, this, &PointsPanel::note);
+}
+
+/// A button for each kind of response, and the formula of a law.
+QGridLayout* PointsPanel::kindRows() {
+  std::vector<std::string> kinds{"points", "constant"};
+  kinds.insert(kinds.end(), lawNames().begin(), lawNames().end());
+  auto* grid = new QGridLayout;
+  grid->setVerticalSpacing(2);
+  grid->setColumnStretch(1, 1);
+  for (const std::string& kind : kinds) {
+    auto* radio = new QRadioButton(kindLabel(kind));
+    radio->setProperty(kKind, QString::fromStdString(kind));
+    m_kinds->addButton(radio);
+    auto* formula = new QLabel(formulaOf(kind).first);
+    formula->setFont(Theme::font(TextRole::Small));
+    formula->setForegroundRole(QPalette::PlaceholderText);
+    formula->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
+    formula->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
+    grid->addWidget(radio, grid->rowCount(), 0);
+    grid->addWidget(formula, grid->rowCount() - 1, 1);
+  }
+  return grid;
 }
 
 void PointsPanel::note(const QString& text) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 class QButtonGroup;
+class QGridLayout;
 class QLabel;
 class QLineEdit;
 class QPushButton;
@@ -29,6 +30,7 @@ class PointsPanel : public QWidget {
   void addPoint();    ///< in the middle of the gap behind the selected point
 
  private:
+  QGridLayout* kindRows();
   void refresh();
   void showKind();
   void showCoefficients();

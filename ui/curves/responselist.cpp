@@ -182,7 +182,7 @@ void ResponseList::refresh() {
     return;
   }
   const MaterialNow now = m_target.now(0, 1);
-  const double kelvin = m_target.temperature();
+  const double kelvin = m_target.temperature(now);
   static_cast<ResponseDelegate*>(m_list->itemDelegate())->temperature = kelvin;
   m_header->setTexts(m_target.materialLabel(),
                      QStringLiteral("%1 particles").arg(formatFixed(static_cast<double>(now.count))),

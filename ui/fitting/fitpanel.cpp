@@ -32,8 +32,7 @@
 namespace ps {
 namespace {
 
-constexpr int kControls = 372;  // logical pixels
-constexpr double kZero = 273.15;
+constexpr int kControls = 372;    // logical pixels
 constexpr double kAtEnd = 1e-3;   // of a range
 constexpr double kBeyond = 1.25;  // shown of the time until the wanted curve ends
 enum Line { AsItIs, Found };
@@ -61,7 +60,7 @@ FitPanel::FitPanel(Session& session, QWidget* parent)
   m_candidate->completer()->setCompletionMode(QCompleter::PopupCompletion);
   m_candidate->completer()->setFilterMode(Qt::MatchContains);
   m_search->setProperty("primary", true);
-  m_search->setToolTip(QStringLiteral("Runs the scene from its start again and again, as long as the curve reaches"));
+  m_search->setToolTip(QStringLiteral("Runs the scene again and again, as long as the curve reaches"));
   m_apply->setToolTip(QStringLiteral("Takes the values over, as one step that undo takes back"));
   m_status->setWordWrap(true);
   m_status->setTextFormat(Qt::PlainText);
@@ -69,6 +68,25 @@ FitPanel::FitPanel(Session& session, QWidget* parent)
   m_view->addSeries(QStringLiteral("as it is"));
   m_view->addSeries(QStringLiteral("found"));
 
+  layOut();
+  connect(m_quantity, qOverload<int>(&QComboBox::activated), this, &FitPanel::choose);
+  connect(m_candidate, qOverload<int>(&QComboBox::activated), this, &FitPanel::addCandidate);
+  connect(m_rows, &FitParameterRows::changed, this, &FitPanel::refreshButtons);
+  connect(m_view, &WantedView::wantedChanged, this, &FitPanel::refreshButtons);
+  connect(m_search, &QPushButton::clicked, this, &FitPanel::search);
+  connect(m_cancel, &QPushButton::clicked, this, [this] { m_job.cancel(); });
+  connect(m_apply, &QPushButton::clicked, this, &FitPanel::apply);
+  connect(&m_job, &FitJob::tried, this, &FitPanel::onTried);
+  connect(&m_job, &FitJob::finished, this, &FitPanel::onFinished);
+  connect(&m_job, &FitJob::failed, this, [this](const QString& problem) { end(problem, true); });
+  connect(&session, &Session::valuesDue, this, &FitPanel::readHistory);
+  connect(&session, &Session::ready, this, &FitPanel::readScene);
+  connect(&session.document(), &Document::changed, this, &FitPanel::follow);
+  readScene();
+  say(kHint);
+}
+
+void FitPanel::layOut() {
   auto* scroll = new QScrollArea;
   scroll->setFrameShape(QFrame::NoFrame);
   scroll->setWidgetResizable(true);
@@ -102,37 +120,23 @@ FitPanel::FitPanel(Session& session, QWidget* parent)
   row->setSpacing(8);
   row->addWidget(left);
   row->addWidget(m_view, 1);
+}
 
-  connect(m_quantity, qOverload<int>(&QComboBox::activated), this, &FitPanel::choose);
-  connect(m_candidate, qOverload<int>(&QComboBox::activated), this, &FitPanel::addCandidate);
-  connect(m_rows, &FitParameterRows::changed, this, &FitPanel::refreshButtons);
-  connect(m_view, &WantedView::wantedChanged, this, &FitPanel::refreshButtons);
-  connect(m_search, &QPushButton::clicked, this, &FitPanel::search);
-  connect(m_cancel, &QPushButton::clicked, this, [this] { m_job.cancel(); });
-  connect(m_apply, &QPushButton::clicked, this, &FitPanel::apply);
-  connect(&m_job, &FitJob::tried, this, &FitPanel::onTried);
-  connect(&m_job, &FitJob::finished, this, &FitPanel::onFinished);
-  connect(&m_job, &FitJob::failed, this, [this](const QString& problem) { end(problem, true); });
-  connect(&session, &Session::valuesDue, this, &FitPanel::readHistory);
-  connect(&session, &Session::ready, this, &FitPanel::readScene);
-  connect(&session.document(), &Document::changed, this, [this](const ChangeEvent& event) {
-    if (std::holds_alternative<ProjectOpened>(event)) {
-      m_job.cancel();
-      m_abandoned = m_job.isRunning();
-      m_found.reset();
-      m_view->setWanted({});
-      m_drawn = {};
-      readScene();
-      say(kHint);
-    } else if (std::holds_alternative<ProbesChanged>(event)) {
-      readScene();
-    } else if (std::holds_alternative<MaterialsChanged>(event) || std::holds_alternative<WallsChanged>(event) ||
-               std::holds_alternative<BodyChanged>(event) || std::holds_alternative<PortChanged>(event)) {
-      readCandidates();
-    }
-  });
-  readScene();
-  say(kHint);
+void FitPanel::follow(const ChangeEvent& event) {
+  if (std::holds_alternative<ProjectOpened>(event)) {
+    m_job.cancel();
+    m_abandoned = m_job.isRunning();
+    m_found.reset();
+    m_view->setWanted({});
+    m_drawn = {};
+    readScene();
+    say(kHint);
+  } else if (std::holds_alternative<ProbesChanged>(event)) {
+    readScene();
+  } else if (std::holds_alternative<MaterialsChanged>(event) || std::holds_alternative<WallsChanged>(event) ||
+             std::holds_alternative<BodyChanged>(event) || std::holds_alternative<PortChanged>(event)) {
+    readCandidates();
+  }
 }
 
 void FitPanel::readScene() {
@@ -145,28 +149,24 @@ void FitPanel::readScene() {
     const Probe& probe = project.probes[k];
     const Quantity* quantity = m_session.fields().quantity(probe.quantity);
     if (!quantity) continue;
-    const bool kelvin = quantity->unit == "K";
-    const QString unit =
-        kelvin ? QStringLiteral("°C") : QString::fromStdString(quantity->unit == "1" ? "" : quantity->unit);
     const GraphSource source(probeSource(probe.id), project, m_session.fields());
     m_drawables.push_back({probeSource(probe.id) + ' ' + probe.quantity,
                            titles[2 + k],  // behind the two clocks
-                           QStringLiteral("%1: %2").arg(nameOf(probe), QString::fromStdString(quantity->label)), unit,
-                           kelvin ? -kZero : 0.0, [source](const FrameStats& stats) { return source(stats); }});
+                           QStringLiteral("%1: %2").arg(nameOf(probe), QString::fromStdString(quantity->label)),
+                           SeriesUnit(quantity->unit), [source](const FrameStats& stats) { return source(stats); }});
   }
   constexpr const char* kPhases[] = {"solid", "melting", "liquid", "boiling", "gas"};
   constexpr const char* kNames[] = {"All matter: solid", "All matter: melting", "All matter: liquid",
                                     "All matter: boiling", "All matter: gas"};
   for (size_t k = 0; k < std::size(kPhases); ++k) {
     const std::string column = std::string(kPhases[k]) + ".mass[kg]";
-    m_drawables.push_back({column, column, QString::fromLatin1(kNames[k]), QStringLiteral("kg"), 0,
+    m_drawables.push_back({column, column, QString::fromLatin1(kNames[k]), SeriesUnit("kg"),
                            [k](const FrameStats& stats) { return stats.phases[k].mass; }});
   }
   m_drawables.push_back({"all.temperature[K]", "all.temperature[K]", QStringLiteral("All matter: mean temperature"),
-                         QStringLiteral("°C"), -kZero, [](const FrameStats& stats) { return stats.temperatureMean; }});
+                         SeriesUnit("K"), [](const FrameStats& stats) { return stats.temperatureMean; }});
   m_quantity->clear();
-  for (const Drawable& drawable : m_drawables)
-    m_quantity->addItem(drawable.unit.isEmpty() ? drawable.name : drawable.name + QStringLiteral(", ") + drawable.unit);
+  for (const Drawable& drawable : m_drawables) m_quantity->addItem(drawable.name);
   m_view->setDuration(project.duration);
   readCandidates();
   const auto same = std::find_if(m_drawables.begin(), m_drawables.end(),
@@ -219,7 +219,7 @@ void FitPanel::choose(int drawable) {
   const bool another = chosen.source != m_drawn.source;
   m_drawn = chosen;
   m_view->setTitle(m_drawn.name);
-  m_view->setUnit(m_drawn.unit);
+  m_view->setUnit(m_drawn.unit.shown);
   if (another) {
     m_found.reset();
     m_view->setWanted({});
@@ -242,13 +242,13 @@ void FitPanel::readHistory() {
   }
   if (m_found) return;
   for (const FrameStats& stats : piece.frames)
-    m_view->append(AsItIs, stats.time, m_drawn.value(stats) + m_drawn.offset);
+    m_view->append(AsItIs, stats.time, m_drawn.unit.of(m_drawn.value(stats)));
 }
 
 void FitPanel::search() {
   if (m_job.isRunning() || !m_drawn.value || !m_session.isReady()) return;
   m_task = FitTask{m_drawn.column, m_view->wanted(), m_rows->parameters()};
-  for (double& value : m_task.wanted.value) value -= m_drawn.offset;
+  for (double& value : m_task.wanted.value) value = m_drawn.unit.stored(value);
   m_found.reset();
   m_view->setRange(0, kBeyond * m_task.wanted.time.back());
   m_session.pause();  // the scene would take half of the threads
@@ -262,11 +262,13 @@ void FitPanel::showCourse(const FitTrial& trial) {
   const int line = trial.run == 1 ? AsItIs : Found;
   if (line == Found) m_view->clearSeries(Found);
   for (size_t k = 0; k < trial.course.time.size(); ++k)
-    m_view->append(line, trial.course.time[k], trial.course.value[k] + m_drawn.offset);
+    m_view->append(line, trial.course.time[k], m_drawn.unit.of(trial.course.value[k]));
 }
 
 QString FitPanel::missed(double error) const {
-  return amountText(error, m_drawn.offset != 0 ? QStringLiteral("K") : m_drawn.unit, 3);
+  // A difference of temperatures is one in kelvin.
+  const bool kelvin = m_drawn.unit.zero != 0;
+  return amountText(m_drawn.unit.scale * error, kelvin ? QStringLiteral("K") : m_drawn.unit.shown, 3);
 }
 
 void FitPanel::onTried(const FitTrial& trial) {

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "core/experiments/curvefit.h"
+#include "ui/document/changeevent.h"
 #include "ui/fitting/fitjob.h"
+#include "ui/graphs/seriesunit.h"
 #include "ui/session/historyreader.h"
 
 #include <QtWidgets/QWidget>
@@ -31,8 +33,8 @@ class FitPanel : public QWidget {
   struct Drawable {
     std::string source;  ///< what it is, whatever it is called
     std::string column;  ///< see columnTitles()
-    QString name, unit;  ///< as people see them
-    double offset = 0;   ///< seen value less SI value
+    QString name;
+    SeriesUnit unit{"1"};
     std::function<double(const FrameStats&)> value;
   };
   WantedView* view() const { return m_view; }
@@ -49,6 +51,8 @@ class FitPanel : public QWidget {
   void ended();  ///< a search, however
 
  private:
+  void layOut();
+  void follow(const ChangeEvent& event);
   void readScene();
   void readHistory();
   void readCandidates();
