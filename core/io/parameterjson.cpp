@@ -3,6 +3,9 @@
 
 #include "core/base/jsontext.h"
 
+#include <algorithm>
+#include <optional>
+
 namespace ps {
 namespace {
 
@@ -19,12 +22,37 @@ void merge(json& target, const json& unknown) {
   }
 }
 
+CurvePoint pointFromJson(const json& list) {
+  CurvePoint point{list[0].get<double>(), list[1].get<double>()};
+  if (list.size() < 3) return point;
+  const auto slope = [&](const char* key) {
+    const auto found = list[2].find(key);
+    return found == list[2].end() ? std::nullopt : std::optional(found->get<double>());
+  };
+  const std::vector<std::string>& names = toNextNames();
+  const auto way = std::find(names.begin(), names.end(), list[2].value("to_next", "smooth"));
+  point.toNext = static_cast<ToNext>(way - names.begin());
+  point.slopeBefore = slope("slope_before");
+  point.slopeAfter = slope("slope_after");
+  return point;
+}
+
+/// Two numbers, and how it goes on where that is not a monotone cubic.
+json jsonFromPoint(const CurvePoint& point) {
+  json list{jsonNumber(point.x), jsonNumber(point.y)}, way = json::object();
+  if (point.toNext != ToNext::Smooth) way["to_next"] = toNextNames()[static_cast<size_t>(point.toNext)];
+  if (point.slopeBefore) way["slope_before"] = jsonNumber(*point.slopeBefore);
+  if (point.slopeAfter) way["slope_after"] = jsonNumber(*point.slopeAfter);
+  if (!way.empty()) list.push_back(std::move(way));
+  return list;
+}
+
 Response responseFromJson(json& value) {
   if (value.is_number()) return Response(value.get<double>());
   Response response;
   if (const auto curve = value.find("curve"); curve != value.end()) {
     response.kind = Response::Kind::Curve;
-    for (const json& point : *curve) response.points.push_back({point[0].get<double>(), point[1].get<double>()});
+    for (const json& point : *curve) response.points.push_back(pointFromJson(point));
     value.erase(curve);
     return response;
   }
@@ -40,7 +68,7 @@ json jsonFromResponse(const Response& response) {
   switch (response.kind) {
     case Response::Kind::Curve: {
       json points = json::array();
-      for (const api::ResponsePoint& p : response.points) points.push_back({jsonNumber(p.x), jsonNumber(p.y)});
+      for (const CurvePoint& p : response.points) points.push_back(jsonFromPoint(p));
       return {{"curve", points}};
     }
     case Response::Kind::Law: {

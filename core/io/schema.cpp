@@ -25,16 +25,23 @@ json nameSchema(const char* more, const char* help) {
 /// A value, a curve of points in temperature, or a named law.
 json responseSchema(const api::ParameterDeclaration& d) {
   const json value = numberSchema(d.hardMinimum, d.hardMaximum, d.unit);
+  const json slope = numberSchema(-1e300, 1e300, "");
+  json toNext = fields::namesSchema(toNextNames());
+  toNext["description"] = "what lies between it and the next point: its value, a straight line, or a cubic";
+  const json way{{"type", "object"},
+                 {"properties", {{"to_next", toNext}, {"slope_before", slope}, {"slope_after", slope}}},
+                 {"description", "how the curve goes on; slopes, in units of the value per K, are of smooth pieces"}};
   const json point{{"type", "array"},
-                   {"prefixItems", json::array({numberSchema(0, 1e5, "K"), value})},
+                   {"prefixItems", json::array({numberSchema(0, 1e5, "K"), value, way})},
                    {"minItems", 2},
-                   {"maxItems", 2},
-                   {"description", "temperature in K, value"}};
-  const json points{{"type", "array"},
-                    {"items", point},
-                    {"minItems", 1},
-                    {"maxItems", 1000},
-                    {"description", "points, ascending in temperature, joined by a monotone cubic"}};
+                   {"maxItems", 3},
+                   {"description", "temperature in K, value, and what differs from a monotone cubic"}};
+  const json points{
+      {"type", "array"},
+      {"items", point},
+      {"minItems", 1},
+      {"maxItems", 1000},
+      {"description", "points, ascending in temperature, joined by a monotone cubic where none says otherwise"}};
   json law = fields::namesSchema(lawNames());
   law["description"] = "a named law of temperature";
   const json coefficients{{"type", "array"},

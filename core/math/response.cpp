@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/math/response.h"
 
-#include "core/math/monotone.h"
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -57,35 +55,20 @@ double lawAt(const std::string& law, const std::vector<double>& c, double kelvin
   return withoutLastBits(value);
 }
 
-double secant(const api::ResponsePoint& a, const api::ResponsePoint& b) { return (b.y - a.y) / (b.x - a.x); }
-
-double slopeAt(const std::vector<api::ResponsePoint>& p, size_t k) {
-  const size_t n = p.size();
-  if (n == 2) return secant(p[0], p[1]);
-  if (k == 0) return endSlope(p[1].x - p[0].x, p[2].x - p[1].x, secant(p[0], p[1]), secant(p[1], p[2]));
-  if (k == n - 1) {
-    return endSlope(p[n - 1].x - p[n - 2].x, p[n - 2].x - p[n - 3].x, secant(p[n - 2], p[n - 1]),
-                    secant(p[n - 3], p[n - 2]));
-  }
-  return innerSlope(p[k].x - p[k - 1].x, p[k + 1].x - p[k].x, secant(p[k - 1], p[k]), secant(p[k], p[k + 1]));
-}
-
-double curveAt(const std::vector<api::ResponsePoint>& p, double kelvin) {
+double curveAt(const std::vector<CurvePoint>& p, double kelvin) {
   if (p.empty()) return 0;
   if (kelvin <= p.front().x) return p.front().y;
   if (kelvin >= p.back().x) return p.back().y;
   const auto above = std::upper_bound(p.begin(), p.end(), kelvin, [](double x, const auto& q) { return x < q.x; });
-  const size_t k = static_cast<size_t>(above - p.begin()) - 1;
-  const double h = p[k + 1].x - p[k].x, t = (kelvin - p[k].x) / h;
-  const double m0 = slopeAt(p, k) * h, m1 = slopeAt(p, k + 1) * h;
-  return hermite(t, p[k].y, m0, p[k + 1].y, m1);
+  return valueOn(p, static_cast<size_t>(above - p.begin()) - 1, kelvin);
 }
 
-std::string curveProblem(const std::vector<api::ResponsePoint>& points) {
+std::string curveProblem(const std::vector<CurvePoint>& points) {
   if (points.empty()) return "a curve needs at least one point";
   for (size_t i = 0; i < points.size(); ++i) {
-    if (!std::isfinite(points[i].x) || !std::isfinite(points[i].y)) {
-      return "point " + std::to_string(i) + " is not a finite number";
+    const CurvePoint& p = points[i];
+    for (const double number : {p.x, p.y, p.slopeBefore.value_or(0), p.slopeAfter.value_or(0)}) {
+      if (!std::isfinite(number)) return "point " + std::to_string(i) + " is not a finite number";
     }
     if (i > 0 && points[i].x <= points[i - 1].x) return "points must ascend in temperature";
   }
@@ -121,7 +104,7 @@ Response::Response(const api::ResponseSpec& spec) : constant(spec.constant) {
       break;
     case api::ResponseSpec::Kind::Curve:
       kind = Kind::Curve;
-      points.assign(spec.points.begin(), spec.points.end());
+      for (const api::ResponsePoint& point : spec.points) points.push_back({point.x, point.y});
       break;
     case api::ResponseSpec::Kind::Law:
       kind = Kind::Law;
@@ -143,10 +126,23 @@ double Response::at(double kelvin) const {
   return 0;
 }
 
+std::vector<CurvePoint> Response::turns() const {
+  std::vector<CurvePoint> turns;
+  for (size_t piece = 0; kind == Kind::Curve && piece + 1 < points.size(); ++piece) {
+    for (const double x : turnsOn(points, piece)) turns.push_back({x, valueOn(points, piece, x)});
+  }
+  return turns;
+}
+
 Response Response::scaled(double factor) const {
   Response result = *this;
   result.constant *= factor;
-  for (api::ResponsePoint& point : result.points) point.y *= factor;
+  for (CurvePoint& point : result.points) {
+    point.y *= factor;
+    for (std::optional<double>* slope : {&point.slopeBefore, &point.slopeAfter}) {
+      if (*slope) **slope *= factor;
+    }
+  }
   if (kind != Kind::Law || !lawProblem(law, coefficients).empty()) return result;
   std::vector<double>& c = result.coefficients;
   if (law == "vogel") {
@@ -176,8 +172,7 @@ bool Response::operator==(const Response& other) const {
     case Kind::Constant:
       return constant == other.constant;
     case Kind::Curve:
-      return std::equal(points.begin(), points.end(), other.points.begin(), other.points.end(),
-                        [](const auto& a, const auto& b) { return a.x == b.x && a.y == b.y; });
+      return points == other.points;
     case Kind::Law:
       return law == other.law && coefficients == other.coefficients;
   }

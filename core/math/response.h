@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "core/math/pieces.h"
+
 #include <phasesketch/parameter.h>
 
 #include <string>
@@ -7,15 +9,15 @@
 
 namespace ps {
 
-/// A property over temperature: a constant, a curve (monotone cubic through points, Fritsch & Carlson 1980, constant
+/// A property over temperature: a constant, a curve (through points as each says, see core/math/pieces.h; constant
 /// beyond the ends), or a named law. Plain value; equal responses compare equal.
 struct Response {
   enum class Kind { Constant, Curve, Law };
   Kind kind = Kind::Constant;
   double constant = 0;
-  std::vector<api::ResponsePoint> points;  ///< K, unit; ascending in x
-  std::string law;                         ///< see lawNames()
-  std::vector<double> coefficients;        ///< as lawHelp(law) says
+  std::vector<CurvePoint> points;    ///< K, unit; ascending in x
+  std::string law;                   ///< see lawNames()
+  std::vector<double> coefficients;  ///< as lawHelp(law) says
 
   Response() = default;
   Response(double value) : constant(value) {}  // NOLINT: a number is a response
@@ -23,6 +25,8 @@ struct Response {
 
   /// Value at a temperature in K; 0 for a response with a problem().
   double at(double kelvin) const;
+  /// Where stated slopes lead a curve between its points to a least or greatest value, and to which.
+  std::vector<CurvePoint> turns() const;
   /// Everywhere `factor` times as much, a factor above 0: of a law too.
   Response scaled(double factor) const;
   /// "" when well formed, else what is wrong ("points must ascend in x", "unknown law 'vogle'").
@@ -38,7 +42,8 @@ size_t lawCoefficientCount(const std::string& law);  ///< 0 for an unknown law
 /// The formula with the meaning and unit of each coefficient; "" for an unknown law.
 std::string lawHelp(const std::string& law);
 
-/// A response baked on a uniform grid, read by linear interpolation, clamped at the ends.
+/// A response baked on a uniform grid, read by linear interpolation, clamped at the ends. A step becomes as wide as the
+/// grid is.
 class ResponseTable {
  public:
   ResponseTable() = default;

@@ -16,7 +16,7 @@ namespace {
 constexpr double kGasConstant = 8.314462618;  // J/(mol K)
 constexpr int kGrid = 24;                     // starts along one coefficient
 
-using Points = std::span<const api::ResponsePoint>;
+using Points = std::span<const CurvePoint>;
 using Coefficients = std::vector<double>;
 
 Response lawOf(const std::string& name, Coefficients coefficients) {
@@ -41,7 +41,7 @@ std::pair<double, double> line(Points points, U u, V v) {
   return {meanV - slope * meanU, slope};
 }
 
-double logOf(const api::ResponsePoint& p) { return std::log(p.y); }
+double logOf(const CurvePoint& p) { return std::log(p.y); }
 
 /// ln of the two laws that are not straight, without the bounds of Response::at, so that they stay smooth.
 double logVogel(const Coefficients& c, double kelvin) { return std::log(10.0) * (c[0] + c[1] / (kelvin - c[2])); }
@@ -162,9 +162,9 @@ std::string whyNoFit(const std::string& law, Points points) {
 
 }  // namespace
 
-std::vector<api::ResponsePoint> sampled(const Response& response, double firstKelvin, double lastKelvin, size_t count) {
+std::vector<CurvePoint> sampled(const Response& response, double firstKelvin, double lastKelvin, size_t count) {
   count = std::max<size_t>(count, 2);
-  std::vector<api::ResponsePoint> points(count);
+  std::vector<CurvePoint> points(count);
   for (size_t i = 0; i < count; ++i) {
     const double share = static_cast<double>(i) / static_cast<double>(count - 1);
     points[i].x = firstKelvin + share * (lastKelvin - firstKelvin);
@@ -173,7 +173,7 @@ std::vector<api::ResponsePoint> sampled(const Response& response, double firstKe
   return points;
 }
 
-Response curveThrough(std::vector<api::ResponsePoint> points) {
+Response curveThrough(std::vector<CurvePoint> points) {
   Response curve;
   curve.kind = Response::Kind::Curve;
   curve.points = std::move(points);
@@ -185,15 +185,48 @@ bool addPoint(Response& curve, api::ResponsePoint point) {
                                       [](double x, const auto& p) { return x < p.x; });
   if (above != curve.points.end() && above->x - point.x < kPointGap) return false;
   if (above != curve.points.begin() && point.x - std::prev(above)->x < kPointGap) return false;
-  curve.points.insert(above, point);
+  const ToNext way = above == curve.points.begin() ? ToNext::Smooth : std::prev(above)->toNext;
+  curve.points.insert(above, {point.x, point.y, way});
   return true;
 }
 
 void movePoint(Response& curve, size_t index, api::ResponsePoint to) {
-  std::vector<api::ResponsePoint>& p = curve.points;
+  std::vector<CurvePoint>& p = curve.points;
   if (index > 0) to.x = std::max(to.x, p[index - 1].x + kPointGap);
   if (index + 1 < p.size()) to.x = std::min(to.x, p[index + 1].x - kPointGap);
-  p[index] = to;
+  p[index].x = to.x;
+  p[index].y = to.y;
+}
+
+Between betweenOf(const Response& curve, size_t piece) {
+  const CurvePoint& from = curve.points[piece];
+  if (from.toNext == ToNext::Step) return Between::Step;
+  if (from.toNext == ToNext::Linear) return Between::Linear;
+  return from.slopeAfter || curve.points[piece + 1].slopeBefore ? Between::Stated : Between::Monotone;
+}
+
+void setBetween(Response& curve, size_t piece, Between way) {
+  CurvePoint &from = curve.points[piece], &to = curve.points[piece + 1];
+  from.toNext = way == Between::Step ? ToNext::Step : way == Between::Linear ? ToNext::Linear : ToNext::Smooth;
+  if (way == Between::Stated) {
+    const double after = slopeAfter(curve.points, piece), before = slopeBefore(curve.points, piece + 1);
+    from.slopeAfter = after;
+    to.slopeBefore = before;
+  } else {
+    from.slopeAfter.reset();
+    to.slopeBefore.reset();
+  }
+}
+
+bool hasSlope(const Response& curve, size_t index, bool after) {
+  if (curve.kind != Response::Kind::Curve || index >= curve.points.size()) return false;
+  if (after) return index + 1 < curve.points.size() && curve.points[index].toNext == ToNext::Smooth;
+  return index > 0 && curve.points[index - 1].toNext == ToNext::Smooth;
+}
+
+void stateSlope(Response& curve, size_t index, double slope, Sides sides) {
+  if (sides != Sides::After && hasSlope(curve, index, false)) curve.points[index].slopeBefore = slope;
+  if (sides != Sides::Before && hasSlope(curve, index, true)) curve.points[index].slopeAfter = slope;
 }
 
 void removePoint(Response& curve, size_t index) {
@@ -201,12 +234,15 @@ void removePoint(Response& curve, size_t index) {
 }
 
 Response shifted(const Response& curve, double kelvin, double amount, double factor) {
-  Response result = curve;
-  for (api::ResponsePoint& p : result.points) p = {p.x + kelvin, p.y * factor + amount};
+  Response result = curve.scaled(factor);
+  for (CurvePoint& p : result.points) {
+    p.x += kelvin;
+    p.y += amount;
+  }
   return result;
 }
 
-LawFit fitLaw(const std::string& law, std::span<const api::ResponsePoint> points, double referenceKelvin) {
+LawFit fitLaw(const std::string& law, std::span<const CurvePoint> points, double referenceKelvin) {
   LawFit fit;
   fit.problem = whyNoFit(law, points);
   if (!fit.problem.empty()) return fit;

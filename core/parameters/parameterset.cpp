@@ -43,9 +43,13 @@ std::string problemOfResponse(const Value& value, const api::ParameterDeclaratio
   if (response->kind == Response::Kind::Constant) {
     return rangeProblem(response->constant, d.hardMinimum, d.hardMaximum, d.unit);
   }
-  for (const api::ResponsePoint& point : response->points) {
+  for (const CurvePoint& point : response->points) {
     const std::string problem = rangeProblem(point.y, d.hardMinimum, d.hardMaximum, d.unit);
     if (!problem.empty()) return "at " + withUnit(point.x, "K") + ": " + problem;
+  }
+  for (const CurvePoint& turn : response->turns()) {
+    const std::string problem = rangeProblem(turn.y, d.hardMinimum, d.hardMaximum, d.unit);
+    if (!problem.empty()) return "at " + withUnit(turn.x, "K") + ", where the slopes of its points lead: " + problem;
   }
   return "";
 }

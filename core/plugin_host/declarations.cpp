@@ -287,10 +287,14 @@ std::string problemOfProperty(const std::string& key, const Response& value) {
     return "must be a single number: it does not depend on temperature here";
   if (std::string problem = value.problem(); !problem.empty()) return problem;
   if (value.kind == Response::Kind::Constant) return problemOfRange(declaration, value.constant);
-  for (const api::ResponsePoint& point : value.points) {
+  for (const CurvePoint& point : value.points) {
     if (!(point.x > 0)) return "a point lies at " + number(point.x) + " K; temperatures are in kelvin, above 0";
     if (std::string problem = problemOfRange(declaration, point.y); !problem.empty())
       return "at " + number(point.x) + " K " + problem;
+  }
+  for (const CurvePoint& turn : value.turns()) {
+    if (std::string problem = problemOfRange(declaration, turn.y); !problem.empty())
+      return "at " + number(turn.x) + " K, where the slopes of its points lead, " + problem;
   }
   return {};
 }

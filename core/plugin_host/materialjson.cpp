@@ -66,12 +66,28 @@ struct Place {
   }
 };
 
-std::vector<api::ResponsePoint> readPoints(const Place& place) {
-  std::vector<api::ResponsePoint> points;
+/// How a point goes on, and with which slopes.
+void readWay(const Place& place, CurvePoint& point) {
+  place.object().only({"to_next", "slope_before", "slope_after"});
+  if (place.has("to_next")) {
+    const std::vector<std::string>& names = toNextNames();
+    const auto found = std::find(names.begin(), names.end(), place.at("to_next").text());
+    if (found == names.end()) place.at("to_next").fail("must be \"step\", \"linear\" or \"smooth\"");
+    point.toNext = static_cast<ToNext>(found - names.begin());
+  }
+  if (place.has("slope_before")) point.slopeBefore = place.at("slope_before").number();
+  if (place.has("slope_after")) point.slopeAfter = place.at("slope_after").number();
+}
+
+std::vector<CurvePoint> readPoints(const Place& place) {
+  std::vector<CurvePoint> points;
   for (size_t i = 0; i < place.list().value.size(); ++i) {
     const Place point = place.at(i);
-    if (point.list().value.size() != 2) point.fail("must be [temperature in K, value]");
+    const size_t size = point.list().value.size();
+    if (size != 2 && size != 3)
+      point.fail("must be [temperature in K, value], and {\"to_next\": ...} behind them where it goes on otherwise");
     points.push_back({point.at(0).number(), point.at(1).number()});
+    if (size == 3) readWay(point.at(2), points.back());
   }
   return points;
 }

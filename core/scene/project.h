@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "core/base/packedstate.h"
+#include "core/math/pieces.h"
 #include "core/math/vector.h"
 #include "core/parameters/parameterset.h"
 #include "core/scene/address.h"
@@ -203,13 +204,6 @@ struct Graph {
 /// Kinds as files name them, in their order: "time", "phases", "energy", "histogram", "profile".
 const std::vector<std::string>& graphKindNames();
 
-/// What lies between a key and the next one.
-enum class ToNext : uint8_t {
-  Step,    ///< the key's value
-  Linear,  ///< a straight line
-  Smooth,  ///< a cubic: see trackValue()
-};
-
 struct TrackKey {
   double time = 0;   ///< s, of the scene's time
   double value = 0;  ///< as the parameter's declaration stores it; 0 or 1 of a toggle
@@ -218,6 +212,8 @@ struct TrackKey {
   Unknown unknown{};
   bool operator==(const TrackKey&) const = default;
 };
+inline double xOf(const TrackKey& key) { return key.time; }
+inline double yOf(const TrackKey& key) { return key.value; }
 
 /// A parameter's values over time. Its address is its identity: a project has one track of each at most.
 struct Track {

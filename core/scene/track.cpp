@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/scene/track.h"
 
-#include "core/math/monotone.h"
 #include "core/parameters/parameterset.h"
 
 #include <algorithm>
@@ -11,44 +10,6 @@
 #include <system_error>
 
 namespace ps {
-namespace {
-
-double length(const std::vector<TrackKey>& keys, size_t piece) { return keys[piece + 1].time - keys[piece].time; }
-
-double secant(const std::vector<TrackKey>& keys, size_t piece) {
-  return (keys[piece + 1].value - keys[piece].value) / length(keys, piece);
-}
-
-bool steps(const std::vector<TrackKey>& keys, size_t piece) { return keys[piece].toNext == ToNext::Step; }
-
-/// Of a monotone cubic, at one end of a piece. `beyond`: whether the end is the piece's later one.
-double monotoneSlope(const std::vector<TrackKey>& keys, size_t piece, bool beyond) {
-  const size_t pieces = keys.size() - 1;
-  const bool hasBefore = piece > 0 && !steps(keys, piece - 1);
-  const bool hasAfter = piece + 1 < pieces && !steps(keys, piece + 1);
-  const double h = length(keys, piece), d = secant(keys, piece);
-  if (beyond ? hasAfter : hasBefore) {
-    const size_t other = beyond ? piece + 1 : piece - 1, first = std::min(piece, other);
-    return innerSlope(length(keys, first), length(keys, first + 1), secant(keys, first), secant(keys, first + 1));
-  }
-  if (beyond ? hasBefore : hasAfter) {
-    const size_t inner = beyond ? piece - 1 : piece + 1;
-    return endSlope(h, length(keys, inner), d, secant(keys, inner));
-  }
-  return d;
-}
-
-}  // namespace
-
-double slopeAfter(const std::vector<TrackKey>& keys, size_t key) {
-  if (keys[key].slopeAfter) return *keys[key].slopeAfter;
-  return key + 1 < keys.size() ? monotoneSlope(keys, key, false) : 0;
-}
-
-double slopeBefore(const std::vector<TrackKey>& keys, size_t key) {
-  if (keys[key].slopeBefore) return *keys[key].slopeBefore;
-  return key > 0 ? monotoneSlope(keys, key - 1, true) : 0;
-}
 
 std::optional<double> trackValue(const std::vector<TrackKey>& keys, double time, double slack) {
   const auto after = std::upper_bound(keys.begin(), keys.end(), time + slack,
@@ -57,12 +18,7 @@ std::optional<double> trackValue(const std::vector<TrackKey>& keys, double time,
   const auto k = static_cast<size_t>(after - keys.begin()) - 1;
   const TrackKey& from = keys[k];
   if (after == keys.end() || from.toNext == ToNext::Step || time - from.time <= slack) return from.value;
-  const TrackKey& to = *after;
-  const double h = to.time - from.time, t = (time - from.time) / h;
-  if (from.toNext == ToNext::Linear) return from.value + t * (to.value - from.value);
-  // From the key on, so that a piece between equal values has just these. Slopes of any file may be too steep to count.
-  const double way = hermite(t, 0, slopeAfter(keys, k) * h, to.value - from.value, slopeBefore(keys, k + 1) * h);
-  return std::isfinite(way) ? from.value + way : from.value;
+  return valueOn(keys, k, time);
 }
 
 std::optional<KeyProblem> problemOfKeys(const std::vector<TrackKey>& keys) {
@@ -137,11 +93,6 @@ size_t putKey(std::vector<TrackKey>& keys, const TrackKey& key, double slack) {
                                       [](double t, const TrackKey& other) { return t < other.time; });
   const auto put = keys.insert(place, key);
   return static_cast<size_t>(put - keys.begin());
-}
-
-const std::vector<std::string>& toNextNames() {
-  static const std::vector<std::string> names{"step", "linear", "smooth"};
-  return names;
 }
 
 }  // namespace ps

@@ -10,16 +10,9 @@
 namespace ps {
 
 /// The value that keys give at a time in s; nothing before the first key, from the last one on that one's value.
-/// `slack` s before a key its time has come: a clock that adds up frames is never quite on it.
-///
-/// A smooth piece is the cubic Hermite polynomial with the slopes of its two keys. Where a key states none it is the
-/// one of a monotone cubic (Fritsch & Carlson 1980), from the secants of the pieces beside it, so that values between
-/// two keys never leave those of the keys; a piece that steps has no secant, and the slope is then that of the other
-/// side alone. Stated slopes may lead beyond the keys' values. Keys must ascend in time.
+/// `slack` s before a key its time has come: a clock that adds up frames is never quite on it. Keys must ascend in
+/// time; what lies between them is in core/math/pieces.h.
 std::optional<double> trackValue(const std::vector<TrackKey>& keys, double time, double slack = 0);
-/// The slope in units per s with which a smooth piece leaves a key, or reaches it, stated or not.
-double slopeAfter(const std::vector<TrackKey>& keys, size_t key);
-double slopeBefore(const std::vector<TrackKey>& keys, size_t key);
 
 /// "" or what is wrong with the keys by themselves, and with which: "must come after the key before it, at 2 s".
 struct KeyProblem {
@@ -48,8 +41,5 @@ std::optional<size_t> keyAt(const std::vector<TrackKey>& keys, double time, doub
 size_t keyBehind(const std::vector<TrackKey>& keys, double time, double slack);
 /// Puts a key in its place in time, instead of one within `slack` s of it. Returns where it is.
 size_t putKey(std::vector<TrackKey>& keys, const TrackKey& key, double slack);
-
-/// "step", "linear", "smooth", as files have it.
-const std::vector<std::string>& toNextNames();
 
 }  // namespace ps

@@ -671,6 +671,13 @@ class TestPluginHost : public QObject {
                                        << "/density_solid/points: points must ascend";
     QTest::newRow("half a point") << replaced("1050", "{\"points\": [[300, 1000], [400]]}")
                                   << "/density_solid/points/1: must be [temperature";
+    QTest::newRow("unknown way") << replaced("1050", "{\"points\": [[300, 9, {\"to_next\": \"jump\"}], [400, 9]]}")
+                                 << "/density_solid/points/0/2/to_next: must be \"step\"";
+    QTest::newRow("slip in a way") << replaced("1050", "{\"points\": [[300, 9, {\"next\": \"step\"}], [400, 9]]}")
+                                   << "/density_solid/points/0/2/next: is not a key";
+    QTest::newRow("slopes that lead below 0")
+        << replaced("1050", "{\"points\": [[300, 9, {\"slope_after\": -9}], [310, 9]]}")
+        << "K, where the slopes of its points lead, must be at least 0.1 kg/m³";
     QTest::newRow("Celsius") << replaced("1050", "{\"points\": [[-10, 917], [0, 917]]}")
                              << "temperatures are in kelvin";
     QTest::newRow("unknown law") << replaced("1050", "{\"law\": \"magic\", \"coefficients\": [1]}")
@@ -700,6 +707,8 @@ class TestPluginHost : public QObject {
     const Material m = parseMaterialJson(R"({"format": "phasesketch-material", "version": 1, "id": "a.b", "label": "AB",
       "licence": "MIT", "data_version": "2.1", "help": "h", "adheres_to": ["water", "wax"], "properties": {
       "density_solid": {"points": [[200, 900], [300, 890]], "source": "Kell", "grade": "A"}, "sinters": true,
+      "density_liquid": {"points": [[200, 900, {"to_next": "step"}], [300, 890, {"to_next": "linear", "slope_before": 0.1}],
+        [400, 800]]},
       "viscosity": {"law": "vogel", "coefficients": [-4.6, 247.8, 140]}}})",
                                          "ab.json", info);
     QCOMPARE(info.version, std::string("2.1"));
@@ -707,6 +716,9 @@ class TestPluginHost : public QObject {
     QCOMPARE(m.provenance.at("density_solid").grade, 'A');
     QCOMPARE(m.provenance.at("viscosity").grade, 'C');
     QCOMPARE(m.properties.at("density_solid").at(250), 895.0);
+    QCOMPARE(m.properties.at("density_liquid").at(299), 900.0);
+    QCOMPARE(m.properties.at("density_liquid").at(350), 845.0);
+    QCOMPARE(m.properties.at("density_liquid").points[1].slopeBefore, std::optional(0.1));
     QCOMPARE(m.properties.at("sinters").constant, 1.0);
     QCOMPARE(m.adheresTo, (std::vector<std::string>{"water", "wax"}));
     QVERIFY(m.properties.at("viscosity").kind == Response::Kind::Law);

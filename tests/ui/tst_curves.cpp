@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The workspace Tune as hands use it: curve, points, laws, in the real window.
 #include "core/io/projectio.h"
-#include "core/math/responseedit.h"
 #include "core/simulation/engine.h"
-#include "tests/ui/samplewindow.h"
-#include "ui/curves/curvepanel.h"
-#include "ui/curves/curvetarget.h"
-#include "ui/curves/curveview.h"
+#include "tests/ui/curvewindow.h"
 #include "ui/curves/matterdiagram.h"
-#include "ui/curves/pointspanel.h"
 #include "ui/curves/responselist.h"
 #include "ui/panels/inspector.h"
 #include "ui/session/selection.h"
@@ -16,7 +11,6 @@
 
 #include <QtGui/QAccessible>
 #include <QtGui/QWheelEvent>
-#include <QtWidgets/QLineEdit>
 #include <QtWidgets/QListWidget>
 #include <QtWidgets/QTableWidget>
 
@@ -25,29 +19,11 @@
 
 using namespace ps;
 
-namespace {
-
-const Address kViscosity{Owner::Material, "water", "viscosity"};
-const Address kConductivity{Owner::Material, "water", "conductivity_liquid"};
-
-}  // namespace
-
-class TestCurves : public SampleWindowTest {
+class TestCurves : public CurveWindowTest {
   Q_OBJECT
  private Q_SLOTS:
-  void initTestCase() {
-    open();
-    QVERIFY(m_window);
-    session().pause();
-  }
-  void init() {
-    backToTheStart();
-    m_window->showWorkspace(MainWindow::kTuneTab);
-    curves().choose(kViscosity);
-    QTRY_VERIFY(curve().width() > 300);
-    QCOMPARE(m_window->size(), QSize(1280, 800));  // the docks find room
-    curve().fit();
-  }
+  void initTestCase() { openTune(); }
+  void init() { tuneFromTheStart(); }
 
   /// Each edit is a step; undone and done again, the project is the same to the byte.
   void everyEditIsAStepThereAndBack() {
@@ -177,7 +153,7 @@ class TestCurves : public SampleWindowTest {
     QCOMPARE(curves().point(), 0);
     QTest::keyClick(&curve(), Qt::Key_PageDown);
     QCOMPARE(curves().point(), 1);
-    const api::ResponsePoint start = response().points[1];
+    const CurvePoint start = response().points[1];
     QTest::keyClick(&curve(), Qt::Key_Right);
     QVERIFY(response().points[1].x > start.x);
     QCOMPARE(response().points[1].y, start.y);
@@ -356,37 +332,6 @@ class TestCurves : public SampleWindowTest {
     }
     m_window->setDark(true);
     m_window->resize(1280, 800);
-  }
-
- private:
-  CurveTarget& curves() { return m_window->curves(); }
-  CurveView& curve() { return *m_window->findChild<CurvePanel*>()->view(); }
-  PointsPanel& pages() { return *m_window->findChild<PointsPanel*>(); }
-  Response response() { return curves().response(); }
-  void threePoints(const Address& address = kViscosity) {
-    curves().choose(address);
-    QVERIFY(curves().set(curveThrough({{280, 0.0015}, {310, 0.001}, {350, 0.0005}}), QStringLiteral("Points")));
-    curve().fit();
-  }
-  QPoint place(size_t index) { return curve().at(response().points[index].x, response().points[index].y).toPoint(); }
-  void drag(size_t index, const QPoint& way, Qt::KeyboardModifiers modifiers = {}) {
-    const QPoint from = place(index);
-    QTest::mousePress(&curve(), Qt::LeftButton, {}, from);
-    for (int k = 1; k <= 4; ++k) {
-      const QPointF to = from + QPointF(way) * k / 4;
-      QMouseEvent move(QEvent::MouseMove, to, curve().mapToGlobal(to), Qt::NoButton, Qt::LeftButton, modifiers);
-      QApplication::sendEvent(&curve(), &move);
-    }
-    QTest::mouseRelease(&curve(), Qt::LeftButton, modifiers, from + way);
-  }
-  void shoot(const char* name) {
-    const QString folder = qEnvironmentVariable("PS_TEST_PICTURES");
-    if (!folder.isEmpty()) m_window->grab().save(QStringLiteral("%1/%2.png").arg(folder, QLatin1String(name)));
-  }
-  static void type(QLineEdit* field, const QString& text) {
-    field->selectAll();
-    QTest::keyClicks(field, text);
-    QTest::keyClick(field, Qt::Key_Return);
   }
 };
 

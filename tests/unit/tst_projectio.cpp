@@ -79,7 +79,8 @@ namespace {
 constexpr const char* kFull = R"({
   "format": "phasesketch", "version": 1, "title": "Tüte \"ü\"", "pluginsUsed": ["org.example.gone"],
   "materials": [
-    {"id": "water", "base": "water", "properties": {"conductivity_solid": {"curve": [[200, 3.1], [273.15, 2.2]]},
+    {"id": "water", "base": "water", "properties": {"conductivity_solid": {"curve": [[200, 3.1], [220, 2.9, {"to_next": "step"}], [240, 2.8, {"to_next": "linear"}],
+      [250, 2.6, {"slope_before": -0.02, "slope_after": -0.01}], [273.15, 2.2]]},
       "viscosity": {"law": "arrhenius", "coefficients": [0.001, 16000.5, 293.15]}, "density_solid": 916.7},
       "adheres_to": ["slime"]},
     {"id": "slime", "base": "org.example.gone", "parameters": {"stickiness": [1, 2, {"deep": null}]}}],
@@ -291,6 +292,12 @@ void TestProjectIo::wrongValuesNameThePlace_data() {
       "/materials/0/properties/density_liquid/curve: must have at least 1 elements, not 0");
   row("curve that turns back", "materials/0/properties/density_liquid={\"curve\": [[300, 999], [280, 1000]]}",
       "/materials/0/properties/density_liquid: ");
+  row("unknown way", "materials/0/properties/density_liquid={\"curve\": [[300, 999, {\"to_next\": \"jump\"}]]}",
+      "/materials/0/properties/density_liquid/curve/0/2/to_next: must be one of step, linear, smooth, not the text");
+  // A cubic that leaves 10 with -100 for its whole length is, at a third of it, 4/27 of that lower.
+  row("slopes that lead below 0",
+      "materials/0/properties/density_liquid={\"curve\": [[300, 10, {\"slope_after\": -10}], [310, 10]]}",
+      "/materials/0/properties/density_liquid: at 30");
   row("curve and law",
       "materials/0/properties/density_liquid={\"curve\": [[300, 1]], \"law\": \"linear\", \"coefficients\": []}",
       "/materials/0/properties/density_liquid: must be either");

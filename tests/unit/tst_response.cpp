@@ -7,9 +7,10 @@
 
 using ps::Response;
 using ps::ResponseTable;
+using ps::ToNext;
 
 namespace {
-Response curve(std::vector<ps::api::ResponsePoint> points) {
+Response curve(std::vector<ps::CurvePoint> points) {
   Response response;
   response.kind = Response::Kind::Curve;
   response.points = std::move(points);
@@ -92,7 +93,7 @@ class TestResponse : public QObject {
   }
   void curvesPassThroughTheirPointsAndNeverOvershoot() {
     QFETCH(QList<double>, values);
-    std::vector<ps::api::ResponsePoint> points;
+    std::vector<ps::CurvePoint> points;
     for (qsizetype i = 0; i < values.size(); ++i) points.push_back({273.0 + 7.0 * double(i * i + 1), values[i]});
     const Response response = curve(points);
     for (size_t k = 0; k + 1 < points.size(); ++k) {
@@ -111,11 +112,46 @@ class TestResponse : public QObject {
   }
 
   void smoothCurvesAreFollowed() {
-    std::vector<ps::api::ResponsePoint> points;
+    std::vector<ps::CurvePoint> points;
     for (int i = 0; i <= 10; ++i) points.push_back({300.0 + 10 * i, std::pow(1.02, 10 * i)});
     const Response response = curve(points);
     // Third-order interpolation at h = 10 K of exp(0.0198 t): well under 0.1 %.
     for (double t = 300; t <= 400; t += 1) QVERIFY(std::abs(response.at(t) / std::pow(1.02, t - 300) - 1) < 1e-3);
+  }
+
+  void piecesGoAsTheirPointsSay() {
+    const Response mixed = curve({{200, 10, ToNext::Step}, {220, 20, ToNext::Linear}, {240, 40}, {260, 10}});
+    QCOMPARE(mixed.at(219.999), 10.0);
+    QCOMPARE(mixed.at(220), 20.0);
+    QCOMPARE(mixed.at(230), 30.0);
+    QCOMPARE(mixed.at(240), 40.0);
+    QVERIFY(mixed.at(250) > 10 && mixed.at(250) < 40);
+    QVERIFY(mixed.turns().empty());
+    QVERIFY(!(mixed == curve({{200, 10}, {220, 20}, {240, 40}, {260, 10}})));
+    const Response scaled = mixed.scaled(3);
+    for (double t = 190; t < 270; t += 1) QVERIFY(std::abs(scaled.at(t) - 3 * mixed.at(t)) < 1e-12 * scaled.at(t));
+  }
+
+  /// Of y = 4 t (1 - t), which no monotone curve through its ends shows: it turns half way, at 1.
+  void statedSlopesAreTakenAndTurnWhereTheyLead() {
+    const auto bow = [](double k) {
+      Response bowed = curve({{300, 0}, {310, 0}});
+      bowed.points[0].slopeAfter = 0.4 * k;
+      bowed.points[1].slopeBefore = -0.4 * k;
+      return bowed;
+    };
+    for (double t = 0; t <= 1; t += 0.125) QVERIFY(std::abs(bow(1).at(300 + 10 * t) - 4 * t * (1 - t)) < 1e-12);
+    const auto turns = bow(1).turns();
+    QCOMPARE(turns.size(), size_t{1});
+    QVERIFY(std::abs(turns[0].x - 305) < 1e-9 && std::abs(turns[0].y - 1) < 1e-12);
+    QVERIFY(bow(1).scaled(2) == bow(2));
+    Response wave = curve({{300, 0}, {301, 0}});  // t (2t - 1) (t - 1): twice, at 1/2 -+ sqrt(1/12)
+    wave.points[0].slopeAfter = wave.points[1].slopeBefore = 1;
+    QCOMPARE(wave.turns().size(), size_t{2});
+    for (const auto& turn : wave.turns()) QVERIFY(std::abs(std::abs(turn.x - 300.5) - std::sqrt(1.0 / 12)) < 1e-12);
+    wave.points[0].slopeAfter = 1e300;  // no number, but no infinity either
+    wave.points[1].x = 1e300;
+    QVERIFY(std::isfinite(wave.at(1e200)));
   }
 
   void problemsAreNamed_data() {
@@ -126,6 +162,7 @@ class TestResponse : public QObject {
     QTest::newRow("descending") << curve({{300, 1}, {290, 2}}) << "ascend";
     QTest::newRow("twice the same") << curve({{300, 1}, {300, 2}}) << "ascend";
     QTest::newRow("infinite point") << curve({{300, INFINITY}}) << "point 0";
+    QTest::newRow("infinite slope") << curve({{300, 1}, {310, 1, ToNext::Smooth, {}, INFINITY}}) << "point 1";
     QTest::newRow("unknown law") << law("vogle", {1, 2, 3}) << "unknown law 'vogle'";
     QTest::newRow("count") << law("vogel", {1, 2}) << "takes 3 coefficients, not 2";
     QTest::newRow("nan coefficient") << law("linear", {1, std::nan(""), 3}) << "coefficient";

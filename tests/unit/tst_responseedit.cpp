@@ -54,7 +54,7 @@ class TestResponseEdit : public QObject {
 
   void aFitLeavesTheErrorOfWhatNoLawGives() {
     // Of y = x^2 at -1, 0, 1 around 300 K the nearest line is y = 2/3; what is left are 1/3, -2/3, 1/3.
-    const std::vector<api::ResponsePoint> points{{299, 1}, {300, 0}, {301, 1}};
+    const std::vector<CurvePoint> points{{299, 1}, {300, 0}, {301, 1}};
     const LawFit fit = fitLaw("linear", points, 300);
     QVERIFY(std::abs(fit.law.coefficients[0] - 2.0 / 3) < 1e-12);
     QVERIFY(std::abs(fit.law.coefficients[1]) < 1e-12);
@@ -62,11 +62,11 @@ class TestResponseEdit : public QObject {
   }
 
   void whatCannotBeFittedIsSaid() {
-    const std::vector<api::ResponsePoint> two{{300, 1}, {310, 2}}, zero{{300, 1}, {310, 0}, {320, 0}};
+    const std::vector<CurvePoint> two{{300, 1}, {310, 2}}, zero{{300, 1}, {310, 0}, {320, 0}};
     QVERIFY(QString::fromStdString(fitLaw("vogel", two, 300).problem).contains(QLatin1String("3 points")));
     QVERIFY(QString::fromStdString(fitLaw("arrhenius", zero, 300).problem).contains(QLatin1String("above 0")));
     QVERIFY(!fitLaw("vogle", two, 300).problem.empty());
-    const std::vector<api::ResponsePoint> rising{{300, 1}, {310, 2}, {320, 4}};  // B would be below 0
+    const std::vector<CurvePoint> rising{{300, 1}, {310, 2}, {320, 4}};  // B would be below 0
     QVERIFY(!fitLaw("vogel", rising, 300).problem.empty());
   }
 
@@ -91,6 +91,56 @@ class TestResponseEdit : public QObject {
     const Response curve = curveThrough({{300, 1}, {400, 3}});
     QVERIFY(shifted(curve, 10, 0.5, 1) == curveThrough({{310, 1.5}, {410, 3.5}}));
     QVERIFY(shifted(curve, -10, 0, 2) == curveThrough({{290, 2}, {390, 6}}));
+  }
+
+  void waysBetweenPointsAreChosen() {
+    Response curve = curveThrough({{300, 1}, {310, 3}, {330, 4}});
+    const Response monotone = curve;
+    QVERIFY(betweenOf(curve, 0) == Between::Monotone && hasSlope(curve, 1, false) && hasSlope(curve, 1, true));
+    QVERIFY(!hasSlope(curve, 0, false) && !hasSlope(curve, 2, true));
+    setBetween(curve, 0, Between::Stated);  // as it was, but for rounding, and no other piece knows of it
+    QVERIFY(betweenOf(curve, 0) == Between::Stated && betweenOf(curve, 1) == Between::Monotone);
+    for (double t = 300; t < 330; t += 1) QVERIFY(std::abs(curve.at(t) - monotone.at(t)) < 1e-12);
+    setBetween(curve, 0, Between::Monotone);
+    QVERIFY(curve == monotone);
+    setBetween(curve, 1, Between::Step);
+    QVERIFY(betweenOf(curve, 1) == Between::Step && !hasSlope(curve, 1, true) && hasSlope(curve, 1, false));
+    stateSlope(curve, 1, 0.5);  // of the smooth piece alone
+    QCOMPARE(curve.points[1].slopeBefore, std::optional(0.5));
+    QVERIFY(!curve.points[1].slopeAfter);
+    QVERIFY(addPoint(curve, {320, 3}));  // divides a step into two
+    QVERIFY(curve.points[1].toNext == ToNext::Step && curve.points[2].toNext == ToNext::Step);
+    movePoint(curve, 1, {311, 2});
+    QCOMPARE(curve.points[1].slopeBefore, std::optional(0.5));
+    const Response doubled = shifted(curve, 5, 0, 2);
+    QCOMPARE(doubled.points[1].slopeBefore, std::optional(1.0));
+    QVERIFY(doubled.points[1].toNext == ToNext::Step);
+  }
+
+  /// Of a straight line only the ends are needed, of two with a kink that point too, of a step its sides.
+  void asFewPointsAsNeededAreLeft() {
+    std::vector<CurvePoint> line, kinked, steps;
+    for (int k = 0; k <= 20; ++k) {
+      line.push_back({300.0 + k, 2.0 + k, ToNext::Linear});
+      kinked.push_back({300.0 + k, 10.0 + (k < 8 ? k : 8 + 3 * (k - 8)), ToNext::Linear});
+      steps.push_back({300.0 + k, k < 8 ? 1.0 : 2.0, ToNext::Step});
+    }
+    QCOMPARE(thinned(curveThrough(line), 1e-6, false).curve.points.size(), size_t{2});
+    const Thinned bent = thinned(curveThrough(kinked), 1e-6, true);
+    QCOMPARE(bent.curve.points.size(), size_t{3});
+    QCOMPARE(bent.curve.points[1].x, 308.0);
+    QVERIFY(bent.error < 1e-12);
+    const Thinned stepped = thinned(curveThrough(steps), 1e-6, false);
+    QCOMPARE(stepped.curve.points.size(), size_t{3});
+    QCOMPARE(stepped.curve.points[1].x, 308.0);
+    // A curve that nothing less shows stays; what is left is never farther off than was asked for.
+    std::vector<CurvePoint> noisy;
+    for (int k = 0; k <= 60; ++k) noisy.push_back({300.0 + k, 5 + std::sin(0.9 * k) + 0.3 * std::sin(7.0 * k)});
+    for (const double tolerance : {1e-9, 0.01, 0.1}) {
+      const Thinned thin = thinned(curveThrough(noisy), tolerance, false);
+      QVERIFY(thin.error <= tolerance);
+      if (tolerance < 1e-6) QCOMPARE(thin.curve.points.size(), noisy.size());
+    }
   }
 
   void aLawIsSampledAtEvenDistances() {

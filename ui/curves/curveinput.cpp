@@ -22,7 +22,9 @@ constexpr double kLeastSpan = 0.1, kMostSpan = 2e4;  // K
 /// Held within what the property's declaration takes.
 double CurveView::bounded(double value) const {
   const api::ParameterDeclaration& d = m_target.declaration();
-  return std::clamp(value, d.hardMinimum, d.hardMaximum);
+  const double held = std::clamp(value, d.hardMinimum, d.hardMaximum);
+  const bool whole = d.kind == api::ParameterKind::Toggle || d.kind == api::ParameterKind::Integer;
+  return whole ? std::round(held) : held;
 }
 
 int CurveView::pointAt(const QPointF& position) const {
@@ -41,19 +43,21 @@ int CurveView::pointAt(const QPointF& position) const {
 
 void CurveView::mousePressEvent(QMouseEvent* event) {
   if (event->button() != Qt::LeftButton) return QWidget::mousePressEvent(event);
-  const int index = pointAt(event->position());
-  m_target.choosePoint(index);
-  if (index < 0) return;
-  m_target.begin(QStringLiteral("Move point of %1").arg(QString::fromUtf8(m_target.declaration().label)));
-  m_dragging = true;
+  const Grip grip = gripAt(event->position());
+  if (grip == Grip::None || grip == Grip::Point) m_target.choosePoint(pointAt(event->position()));
+  if (grip == Grip::None) return;
+  const QString what = grip == Grip::Point ? QStringLiteral("Move point of %1") : QStringLiteral("Slope of %1");
+  m_target.begin(what.arg(m_target.title()));
+  m_grip = grip;
   m_before = m_shown;
   m_from = event->position();
+  m_start = handleAt(grip == Grip::After).value_or(m_from);
   m_way = {};
 }
 
 void CurveView::mouseMoveEvent(QMouseEvent* event) {
-  if (m_dragging) return dragTo(event->position(), event->modifiers());
-  setCursor(pointAt(event->position()) >= 0 ? Qt::OpenHandCursor : Qt::CrossCursor);
+  if (m_grip != Grip::None) return dragTo(event->position(), event->modifiers());
+  setCursor(gripAt(event->position()) != Grip::None ? Qt::OpenHandCursor : Qt::CrossCursor);
 }
 
 /// The point goes as far as the pointer has since the last event, so that Shift may come and go on the way.
@@ -63,17 +67,21 @@ void CurveView::dragTo(const QPointF& position, Qt::KeyboardModifiers modifiers)
   m_from = position;
   const auto index = static_cast<size_t>(std::max(0, m_target.point()));
   if (index >= m_before.points.size()) return;
-  const api::ResponsePoint start = m_before.points[index];
+  if (m_grip != Grip::Point) return turnTo(m_start + m_way, modifiers & Qt::ControlModifier);
+  const CurvePoint start = m_before.points[index];
   const QPointF to = at(start.x, start.y) + m_way;
-  const double kelvin = modifiers & Qt::ControlModifier ? start.x : std::max(1.0, kelvinAt(to.x()));
+  const double x = std::max(m_target.leastX(), kelvinAt(to.x()));
+  const double kelvin = modifiers & Qt::ControlModifier ? start.x
+                        : modifiers & Qt::ShiftModifier ? x
+                                                        : m_target.snapped(x);
   const double value = bounded(valueAt(to.y()));
   Response next = m_before;
   if (modifiers & Qt::AltModifier) {
     const bool scales = logarithmic() && start.y > 0;
-    const double coldest = 1 - m_before.points.front().x;
+    const double coldest = m_target.leastX() - m_before.points.front().x;
     next = shifted(m_before, std::max(kelvin - start.x, coldest), scales ? 0 : value - start.y,
                    scales ? value / start.y : 1);
-    for (api::ResponsePoint& p : next.points) p.y = bounded(p.y);
+    for (CurvePoint& p : next.points) p.y = bounded(p.y);
   } else {
     movePoint(next, index, {kelvin, value});
   }
@@ -85,8 +93,8 @@ void CurveView::mouseReleaseEvent(QMouseEvent* event) {
 }
 
 void CurveView::dropDrag(bool keep) {
-  if (!m_dragging) return;
-  m_dragging = false;
+  if (m_grip == Grip::None) return;
+  m_grip = Grip::None;
   if (!keep) m_target.set(m_before);
   m_target.end();
 }
@@ -97,7 +105,7 @@ void CurveView::hideEvent(QHideEvent*) { dropDrag(true); }
 void CurveView::mouseDoubleClickEvent(QMouseEvent* event) {
   if (event->button() != Qt::LeftButton || !plot().contains(event->position())) return;
   if (pointAt(event->position()) >= 0) return;
-  const double kelvin = kelvinAt(event->position().x());
+  const double kelvin = m_target.snapped(kelvinAt(event->position().x()));
   const double value = m_shown.at(kelvin);
   // On the curve means on it: where the pointer is far from it a point would bend the curve unasked.
   if (std::abs(at(kelvin, value).y() - event->position().y()) <= 2 * kGrip) addAt(kelvin, value);
@@ -109,34 +117,33 @@ void CurveView::addAt(double kelvin, double value) {
   if (next.kind == Response::Kind::Constant) next = curveThrough(sampled(m_shown, m_first, m_last, 2));
   if (next.kind == Response::Kind::Law) next = curveThrough(sampled(m_shown, m_first, m_last, kLawPoints));
   if (!addPoint(next, {kelvin, bounded(value)})) return;
-  if (!m_target.set(next, QStringLiteral("Add point to %1").arg(QString::fromUtf8(m_target.declaration().label))))
-    return;
+  if (!m_target.set(next, QStringLiteral("Add point to %1").arg(m_target.title()))) return;
   const auto place = std::find_if(next.points.begin(), next.points.end(), [&](const auto& p) { return p.x == kelvin; });
   m_target.choosePoint(static_cast<int>(place - next.points.begin()));
 }
 
 void CurveView::removeChosen() {
   const int index = m_target.point();
-  if (index < 0 || m_dragging || m_shown.points.size() < 2) return;
+  if (index < 0 || m_grip != Grip::None || m_shown.points.size() < 2) return;
   Response next = m_shown;
   removePoint(next, static_cast<size_t>(index));
-  m_target.set(next, QStringLiteral("Remove point of %1").arg(QString::fromUtf8(m_target.declaration().label)));
+  m_target.set(next, QStringLiteral("Remove point of %1").arg(m_target.title()));
 }
 
 void CurveView::nudge(double x, double y, bool fine) {
   const int index = m_target.point();
-  if (index < 0 || m_dragging) return;
-  const api::ResponsePoint p = m_shown.points[static_cast<size_t>(index)];
+  if (index < 0 || m_grip != Grip::None) return;
+  const CurvePoint p = m_shown.points[static_cast<size_t>(index)];
   const QPointF to = at(p.x, p.y) + QPointF(x, y) * kNudge * (fine ? kFine : 1);
   Response next = m_shown;
   movePoint(next, static_cast<size_t>(index),
-            {x == 0 ? p.x : std::max(1.0, kelvinAt(to.x())), y == 0 ? p.y : bounded(valueAt(to.y()))});
-  m_target.set(next, QStringLiteral("Move point of %1").arg(QString::fromUtf8(m_target.declaration().label)));
+            {x == 0 ? p.x : std::max(m_target.leastX(), kelvinAt(to.x())), y == 0 ? p.y : bounded(valueAt(to.y()))});
+  m_target.set(next, QStringLiteral("Move point of %1").arg(m_target.title()));
 }
 
 /// Not while another point is held.
 void CurveView::walk(int index) {
-  if (!m_dragging) m_target.choosePoint(index);
+  if (m_grip == Grip::None) m_target.choosePoint(index);
 }
 
 void CurveView::wheelEvent(QWheelEvent* event) {
@@ -149,7 +156,7 @@ void CurveView::wheelEvent(QWheelEvent* event) {
   } else {
     const double fixed = kelvinAt(from.x()), span = (m_last - m_first) * factor;
     if (span < kLeastSpan || span > kMostSpan) return;
-    m_first = std::max(1.0, fixed + (m_first - fixed) * factor);
+    m_first = std::max(m_target.leastX(), fixed + (m_first - fixed) * factor);
     m_last = fixed + (m_last - fixed) * factor;
   }
   event->accept();
@@ -166,7 +173,7 @@ void CurveView::keyPressEvent(QKeyEvent* event) {
     case Qt::Key_Backspace:
       return removeChosen();
     case Qt::Key_Escape:
-      return m_dragging ? dropDrag(false) : m_target.choosePoint(-1);
+      return m_grip != Grip::None ? dropDrag(false) : m_target.choosePoint(-1);
     case Qt::Key_Left:
       return nudge(-1, 0, fine);
     case Qt::Key_Right:

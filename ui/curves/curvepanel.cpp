@@ -2,6 +2,7 @@
 #include "ui/curves/curvepanel.h"
 
 #include "core/math/responseedit.h"
+#include "core/simulation/snapshot.h"
 #include "ui/curves/curveview.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
@@ -10,16 +11,20 @@
 #include "ui/theme/paint.h"
 #include "ui/theme/theme.h"
 
+#include <QtCore/QTimer>
+#include <QtWidgets/QComboBox>
 #include <QtWidgets/QHBoxLayout>
 #include <QtWidgets/QLabel>
 #include <QtWidgets/QLineEdit>
 #include <QtWidgets/QVBoxLayout>
 
 #include <cmath>
+#include <utility>
 
 namespace ps {
 namespace {
 
+constexpr int kParticles = 100;  // ms: the histogram at 10 Hz
 const QString kHint =
     QStringLiteral("Double-click adds a point · Del removes · Shift fine · Alt-drag moves all · F fits");
 
@@ -48,24 +53,39 @@ CurvePanel::CurvePanel(Session& session, CurveTarget& target, QWidget* parent)
       m_title(label(TextRole::Heading)),
       m_source(label(TextRole::Small, true)),
       m_which(label(TextRole::Normal)),
+      m_slopeLabel(label(TextRole::Normal)),
       m_note(label(TextRole::Small, true)),
+      m_between(new QComboBox),
       m_view(new CurveView(target)),
       m_kelvin(field(QStringLiteral("Temperature of the point"))),
-      m_value(field(QStringLiteral("Value of the point"))) {
+      m_value(field(QStringLiteral("Value of the point"))),
+      m_slope(field(QStringLiteral("Slope at the point"))) {
   m_title->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
   m_which->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
+  m_slopeLabel->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
+  m_slopeLabel->setText(QStringLiteral("Slope"));
+  m_slope->setToolTip(QStringLiteral("Stated on both sides of the point; empty: that of a monotone curve"));
+  m_between->setAccessibleName(QStringLiteral("Between points"));
+  m_between->setToolTip(QStringLiteral("How the curve goes between its points; the table has each by itself"));
+  m_between->setPlaceholderText(QStringLiteral("Mixed"));
+  for (const Between way : {Between::Step, Between::Linear, Between::Monotone, Between::Stated})
+    m_between->addItem(labelOf(way));
   m_note->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
   auto* top = new QHBoxLayout;
   top->setContentsMargins(10, 4, 10, 0);
   top->setSpacing(12);
   top->addWidget(m_title);
   top->addWidget(m_source, 1);
+  top->addWidget(new QLabel(QStringLiteral("Between points")));
+  top->addWidget(m_between);
   auto* bottom = new QHBoxLayout;
   bottom->setContentsMargins(12, 0, 12, 6);
   bottom->setSpacing(6);
   bottom->addWidget(m_which);
   bottom->addWidget(m_kelvin);
   bottom->addWidget(m_value);
+  bottom->addWidget(m_slopeLabel);
+  bottom->addWidget(m_slope);
   bottom->addWidget(m_note, 1);
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
@@ -76,9 +96,12 @@ CurvePanel::CurvePanel(Session& session, CurveTarget& target, QWidget* parent)
   for (QLineEdit* line : {m_kelvin, m_value}) {
     connect(line, &QLineEdit::editingFinished, this, [this, line] { enter(line); });
   }
+  connect(m_slope, &QLineEdit::editingFinished, this, &CurvePanel::enterSlope);
+  connect(m_between, qOverload<int>(&QComboBox::activated), this, &CurvePanel::chooseBetween);
   connect(&target, &CurveTarget::targetChanged, this, &CurvePanel::showTitle);
   connect(&target, &CurveTarget::responseChanged, this, [this] {
     showPoint();
+    showBetween();
     showOverlays();
   });
   connect(&target, &CurveTarget::pointChanged, this, &CurvePanel::showPoint);
@@ -88,18 +111,22 @@ CurvePanel::CurvePanel(Session& session, CurveTarget& target, QWidget* parent)
   const auto follow = [this] {
     if (m_view->isVisible()) m_view->showParticles();
   };
-  connect(&session, &Session::totalsDue, m_view, follow);
+  auto* clock = new QTimer(this);
+  connect(clock, &QTimer::timeout, this, [this, &session, shown = std::pair<uint64_t, uint64_t>()]() mutable {
+    const SnapshotPtr snapshot = session.snapshot();
+    if (!snapshot || !m_view->isVisible()) return;
+    if (std::exchange(shown, {snapshot->revision, snapshot->stats.frame}) != shown) m_view->showParticles();
+  });
+  clock->start(kParticles);
   connect(&target, &CurveTarget::markChanged, m_view, follow);
   connect(&session, &Session::projectShown, m_view, &CurveView::fit);  // its matter is known only now
 }
 
 void CurvePanel::showTitle() {
-  const QString source = m_target.source();
-  m_title->setText(QString::fromUtf8(m_target.declaration().label));
+  m_title->setText(m_target.title());
   m_title->setMinimumWidth(static_cast<int>(std::ceil(textWidth(m_title->text(), m_title->font()))) + 2);
-  m_source->setText(QStringLiteral("of %1, over temperature").arg(m_target.materialLabel()) +
-                    (source.isEmpty() ? source : QStringLiteral(" · ") + source));
-  m_source->setToolTip(source);
+  m_source->setText(m_target.subtitle());
+  m_source->setToolTip(m_target.source());
   m_note->setText(kHint);
 }
 
@@ -109,9 +136,18 @@ void CurvePanel::showPoint() {
   const bool any = response.kind == Response::Kind::Curve && index >= 0;
   m_which->setText(any ? QStringLiteral("Point %1").arg(index + 1) : QStringLiteral("No point selected"));
   for (QLineEdit* line : {m_kelvin, m_value}) line->setVisible(any);
+  const auto k = static_cast<size_t>(std::max(0, index));
+  const bool after = hasSlope(response, k, true), sloped = any && (after || hasSlope(response, k, false));
+  m_slopeLabel->setVisible(sloped);
+  m_slope->setVisible(sloped);
   if (!any) return;
-  const api::ResponsePoint& p = response.points[static_cast<size_t>(index)];
-  m_kelvin->setText(formatValue(temperatureDeclaration(), p.x));
+  const CurvePoint& p = response.points[k];
+  if (sloped) {
+    const double slope = after ? slopeAfter(response.points, k) : slopeBefore(response.points, k);
+    m_slope->setText(formatShort(m_target.shownSlope(p.y, slope)) + QLatin1Char(' ') + m_target.slopeUnit());
+    m_slope->setModified(false);
+  }
+  m_kelvin->setText(formatValue(m_target.axis(), p.x));
   m_value->setText(formatValue(m_target.declaration(), p.y));
   m_kelvin->setModified(false);
   m_value->setModified(false);
@@ -123,26 +159,62 @@ void CurvePanel::enter(QLineEdit* line) {
   const int index = m_target.point();
   if (!line->isModified() || index < 0 || next.kind != Response::Kind::Curve) return;
   line->setModified(false);
-  api::ResponsePoint p = next.points[static_cast<size_t>(index)];
+  CurvePoint p = next.points[static_cast<size_t>(index)];
   const bool kelvin = line == m_kelvin;
-  const Typed typed =
-      parseTyped(line->text(), kelvin ? temperatureDeclaration() : m_target.declaration(), kelvin ? p.x : p.y);
+  const Typed typed = parseTyped(line->text(), kelvin ? m_target.axis() : m_target.declaration(), kelvin ? p.x : p.y);
   if (!typed.problem.isEmpty()) {
     showPoint();
     m_note->setText(typed.problem);
     return;
   }
   (kelvin ? p.x : p.y) = typed.value;
-  movePoint(next, static_cast<size_t>(index), p);
-  if (!m_target.set(next, QStringLiteral("Move point of %1").arg(QString::fromUtf8(m_target.declaration().label))))
+  movePoint(next, static_cast<size_t>(index), {p.x, p.y});
+  if (!m_target.set(next, QStringLiteral("Move point of %1").arg(m_target.title()))) showPoint();
+}
+
+/// Without its unit; empty is no slope of its own.
+void CurvePanel::enterSlope() {
+  Response next = m_target.response();
+  const auto index = static_cast<size_t>(std::max(0, m_target.point()));
+  if (!m_slope->isModified() || m_target.point() < 0 || index >= next.points.size()) return;
+  m_slope->setModified(false);
+  const QString text = m_slope->text().remove(m_target.slopeUnit()).trimmed();
+  const auto shown = parseNumber(text);
+  if (!text.isEmpty() && !shown) {
     showPoint();
+    m_note->setText(QStringLiteral("This is not a number."));
+    return;
+  }
+  CurvePoint& p = next.points[index];
+  if (text.isEmpty())
+    p.slopeBefore = p.slopeAfter = std::nullopt;
+  else
+    stateSlope(next, index, m_target.storedSlope(p.y, *shown));
+  if (!m_target.set(next, QStringLiteral("Slope of %1").arg(m_target.title()))) showPoint();
+}
+
+void CurvePanel::showBetween() {
+  const Response response = m_target.response();
+  const size_t pieces = response.kind == Response::Kind::Curve ? response.points.size() - 1 : 0;
+  m_between->setEnabled(pieces > 0 && m_target.declaration().kind != api::ParameterKind::Toggle);
+  int common = static_cast<int>(pieces > 0 ? betweenOf(response, 0) : Between::Monotone);
+  for (size_t piece = 1; piece < pieces; ++piece) {
+    if (static_cast<int>(betweenOf(response, piece)) != common) common = -1;
+  }
+  m_between->setCurrentIndex(common);
+}
+
+void CurvePanel::chooseBetween(int index) {
+  Response next = m_target.response();
+  for (size_t piece = 0; piece + 1 < next.points.size(); ++piece) setBetween(next, piece, static_cast<Between>(index));
+  if (!m_target.set(next, QStringLiteral("Way between points of %1").arg(m_target.title()))) showBetween();
 }
 
 void CurvePanel::showOverlays() {
   std::vector<OverlayCurve> overlays;
   const Project& project = m_target.document().project();
   for (const SceneMaterial& other : project.materials) {
-    if (other.id == m_target.material() || !m_target.compared().contains(other.id)) continue;
+    if (m_target.track() || other.id == m_target.material() || !m_target.compared().contains(other.id)) continue;
     const Address address{Owner::Material, other.id, m_target.address().key};
     overlays.push_back({other.id, ownerLabel(project, address), responseOf(m_target.document().value(address))});
   }

@@ -2,6 +2,7 @@
 #pragma once
 #include <QtWidgets/QWidget>
 
+class QComboBox;
 class QLabel;
 class QLineEdit;
 
@@ -19,16 +20,22 @@ class CurvePanel : public QWidget {
   CurveView* view() const { return m_view; }
   QLineEdit* temperatureField() const { return m_kelvin; }
   QLineEdit* valueField() const { return m_value; }
+  QLineEdit* slopeField() const { return m_slope; }
+  QComboBox* between() const { return m_between; }  ///< how all pieces go; the table has each by itself
 
  private:
   void showTitle();
   void showPoint();
   void showOverlays();
+  void showBetween();
+  void chooseBetween(int index);
   void enter(QLineEdit* field);
+  void enterSlope();
   CurveTarget& m_target;
-  QLabel *m_title, *m_source, *m_which, *m_note;
+  QLabel *m_title, *m_source, *m_which, *m_slopeLabel, *m_note;
+  QComboBox* m_between;
   CurveView* m_view;
-  QLineEdit *m_kelvin, *m_value;
+  QLineEdit *m_kelvin, *m_value, *m_slope;
 };
 
 }  // namespace ps

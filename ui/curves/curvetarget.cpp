@@ -8,6 +8,7 @@
 #include "ui/panels/rowmodels.h"
 #include "ui/session/selection.h"
 #include "ui/session/session.h"
+#include "ui/theme/numbers.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,8 +18,15 @@ namespace {
 
 constexpr double kAround = 100;     // K, on both sides of where matter is
 constexpr double kLeastRange = 20;  // K, of those that are left of a law
+constexpr double kHottest = 5000;   // K, of a table of what particles have
+constexpr size_t kTableSamples = 4096;
 
 }  // namespace
+
+QString labelOf(Between way) {
+  static const std::array kLabels{"Step", "Linear", "Monotone", "Stated slopes"};
+  return QString::fromLatin1(kLabels[static_cast<size_t>(way)]);
+}
 
 const api::ParameterDeclaration& temperatureDeclaration() {
   return propertyCatalogue()[static_cast<size_t>(propertyIndex("melting_temperature"))];
@@ -26,20 +34,30 @@ const api::ParameterDeclaration& temperatureDeclaration() {
 
 CurveTarget::CurveTarget(Session& session, Selection& selection, QObject* parent)
     : QObject(parent), m_session(session), m_selection(selection) {
-  connect(&selection, &Selection::materialChanged, this, &CurveTarget::onTarget);
-  connect(&selection, &Selection::changed, this, &CurveTarget::markChanged);
-  connect(&session.document(), &Document::changed, this, [this](const ChangeEvent& event) {
-    if (std::holds_alternative<ProjectOpened>(event)) {
-      m_laws.clear();
-      m_compared.clear();
-    }
-    if (std::holds_alternative<ProjectOpened>(event) || std::holds_alternative<MaterialsChanged>(event))
-      return onTarget();
-    const auto* parameter = std::get_if<ParameterChanged>(&event);
-    if (!parameter || parameter->address.owner != Owner::Material) return;
-    remember();
-    Q_EMIT responseChanged();
+  connect(&selection, &Selection::materialChanged, this, [this] {
+    m_track.reset();
+    onTarget();
   });
+  connect(&selection, &Selection::changed, this, &CurveTarget::markChanged);
+  connect(&session.document(), &Document::changed, this, &CurveTarget::onChanged);
+}
+
+void CurveTarget::onChanged(const ChangeEvent& event) {
+  if (std::holds_alternative<ProjectOpened>(event)) {
+    m_laws.clear();
+    m_compared.clear();
+    m_track.reset();
+  }
+  if (std::holds_alternative<ProjectOpened>(event) || std::holds_alternative<MaterialsChanged>(event))
+    return onTarget();
+  if (m_track && !document().track(*m_track)) return onTarget();
+  const auto* parameter = std::get_if<ParameterChanged>(&event);
+  const auto* track = std::get_if<TracksChanged>(&event);
+  const bool mine =
+      m_track ? track && track->parameter == m_track->text() : parameter && parameter->address.owner == Owner::Material;
+  if (!mine) return;
+  remember();
+  Q_EMIT responseChanged();
 }
 
 Document& CurveTarget::document() const { return m_session.document(); }
@@ -50,22 +68,53 @@ QString CurveTarget::materialLabel() const {
 }
 
 const api::ParameterDeclaration& CurveTarget::declaration() const {
+  if (const auto* declared = m_track ? document().keyDeclaration(*m_track) : nullptr) return *declared;
   return propertyCatalogue()[static_cast<size_t>(propertyIndex(m_key))];
 }
 
 Response CurveTarget::response() const {
+  if (const Track* keys = m_track ? document().track(*m_track) : nullptr) return curveOf(keys->keys);
   return material().empty() ? Response(declaration().defaultValue) : responseOf(document().value(address()));
 }
 
 std::optional<Response> CurveTarget::ghost() const {
-  if (material().empty()) return std::nullopt;
+  if (m_track || material().empty()) return std::nullopt;
   const auto last = m_laws.find(address().text());
   const Response standard = responseOf(document().defaultValue(address()));
   const Response law = last != m_laws.end() ? last->second : standard;
   return law.kind == Response::Kind::Law && !(law == response()) ? std::optional(law) : std::nullopt;
 }
 
-QString CurveTarget::source() const { return sourceOf(document(), material(), m_key.c_str()); }
+double CurveTarget::shownSlope(double value, double slope) const {
+  const double shown = slope * declaration().displayScale;
+  if (declaration().scale != api::Scale::Logarithmic) return shown;
+  const double here = toDisplay(declaration(), value);
+  return here > 0 ? shown / (here * std::log(10.0)) : 0;
+}
+
+double CurveTarget::storedSlope(double value, double shown) const {
+  const double one = shownSlope(value, 1);
+  return one != 0 ? shown / one : 0;
+}
+
+QString CurveTarget::slopeUnit() const {
+  const bool decades = declaration().scale == api::Scale::Logarithmic;
+  return (decades ? QStringLiteral("dec") : displayUnit(declaration())) + QLatin1Char('/') +
+         QString::fromUtf8(axis().unit);
+}
+
+QString CurveTarget::title() const {
+  return m_track ? document().trackTitle(*m_track) : QString::fromUtf8(declaration().label);
+}
+
+QString CurveTarget::subtitle() const {
+  if (m_track) return QStringLiteral("over time");
+  const QString from = source();
+  return QStringLiteral("of %1, over temperature").arg(materialLabel()) +
+         (from.isEmpty() ? from : QStringLiteral(" · ") + from);
+}
+
+QString CurveTarget::source() const { return m_track ? QString() : sourceOf(document(), material(), m_key.c_str()); }
 
 double CurveTarget::temperature(const MaterialNow& now) const {
   if (now.count > 0) return now.mean;
@@ -73,7 +122,7 @@ double CurveTarget::temperature(const MaterialNow& now) const {
 }
 
 std::optional<std::array<double, 2>> CurveTarget::melting() const {
-  if (material().empty()) return std::nullopt;
+  if (m_track || material().empty()) return std::nullopt;
   const auto at = [this](const char* key) {
     return responseOf(document().value({Owner::Material, material(), key})).at(temperatureDeclaration().defaultValue);
   };
@@ -85,6 +134,7 @@ std::optional<std::array<double, 2>> CurveTarget::melting() const {
 
 std::array<double, 2> CurveTarget::range() const {
   const Response present = response();
+  if (m_track) return {0, std::max(document().project().duration, present.points.back().x)};
   const bool curve = present.kind == Response::Kind::Curve;
   const double kelvin = temperature(), around = curve ? 0 : kAround;
   double cold = kelvin - around, hot = kelvin + around;
@@ -109,7 +159,7 @@ std::array<double, 2> CurveTarget::range() const {
 
 std::optional<double> CurveTarget::delivered() const {
   const SnapshotPtr snapshot = m_session.snapshot();
-  if (!snapshot) return std::nullopt;
+  if (m_track || !snapshot) return std::nullopt;
   const std::string what = material() + "." + m_key;
   const auto& limits = snapshot->limits;
   const auto found = std::find_if(limits.begin(), limits.end(), [&](const Limit& limit) {
@@ -154,11 +204,25 @@ MaterialNow CurveTarget::now(double firstKelvin, double lastKelvin) const {
   return result;
 }
 
+size_t CurveTarget::countAbove(double value) const {
+  const SnapshotPtr snapshot = m_session.snapshot();
+  if (!snapshot) return 0;
+  const auto& ids = snapshot->materialIds;
+  const auto index = static_cast<uint32_t>(std::find(ids.begin(), ids.end(), material()) - ids.begin());
+  const ResponseTable table(response(), leastX(), kHottest, kTableSamples);
+  size_t count = 0;
+  for (size_t i = 0; i < snapshot->material.size(); ++i) {
+    if (snapshot->material[i] == index && table.at(static_cast<double>(snapshot->temperature[i])) > value) ++count;
+  }
+  return count;
+}
+
 void CurveTarget::choose(const Address& address) {
   const int index = propertyIndex(address.key);
   if (address.owner != Owner::Material || index < 0) return;
   if (propertyCatalogue()[static_cast<size_t>(index)].kind != api::ParameterKind::Response) return;
   m_key = address.key;
+  m_track.reset();
   if (address.id != material()) {
     m_selection.setMaterial(address.id);  // comes back as onTarget()
   } else {
@@ -168,6 +232,7 @@ void CurveTarget::choose(const Address& address) {
 
 void CurveTarget::onTarget() {
   m_point = -1;
+  if (m_track && !document().track(*m_track)) m_track.reset();
   remember();
   Q_EMIT targetChanged();
   Q_EMIT responseChanged();
@@ -175,7 +240,7 @@ void CurveTarget::onTarget() {
 }
 
 void CurveTarget::remember() {
-  if (material().empty()) return;
+  if (!m_track && material().empty()) return;
   const Response present = response();
   if (present.kind == Response::Kind::Law) m_laws[address().text()] = present;
   const int last = present.kind == Response::Kind::Curve ? static_cast<int>(present.points.size()) - 1 : -1;
@@ -197,9 +262,9 @@ void CurveTarget::begin(const QString& what) { document().beginGesture(what); }
 void CurveTarget::end() { document().endGesture(); }
 
 bool CurveTarget::set(const Response& response, const QString& what) {
-  if (material().empty()) return false;
+  if (!m_track && material().empty()) return false;
   if (!what.isEmpty()) begin(what);
-  const QString problem = document().setParameter(address(), response);
+  const QString problem = m_track ? setTrack(response) : document().setParameter(address(), response);
   if (!what.isEmpty()) end();
   Q_EMIT refused(problem);
   return problem.isEmpty();

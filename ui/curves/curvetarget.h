@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "core/math/response.h"
+#include "core/math/responseedit.h"
 #include "core/scene/address.h"
+#include "ui/document/changeevent.h"
 
 #include <QtCore/QObject>
 #include <QtCore/QString>
@@ -31,8 +32,15 @@ struct MaterialNow {
   std::optional<double> marked;                           ///< K, of the particle that was clicked, if of this material
 };
 
+/// What is marked on the curve: a temperature in K, or a time in s.
+struct CurveMark {
+  QString who;  ///< "Selected particle, now"
+  double x = 0;
+};
+
 /// Which response of the current material is tuned, of one editor: what list, curve and table of the workspace Tune
-/// share. Every edit goes through the document: a gesture is one undo step, a single edit another.
+/// share. Instead of one it may be the keys of a parameter, which are a curve over time. Every edit goes through the
+/// document: a gesture is one undo step, a single edit another.
 class CurveTarget : public QObject {
   Q_OBJECT
  public:
@@ -42,25 +50,44 @@ class CurveTarget : public QObject {
   std::string material() const;   ///< SceneMaterial::id; "" in a scene without any
   QString materialLabel() const;  ///< as people call it
   Address address() const { return {Owner::Material, material(), m_key}; }
+  /// Of what has keys, where they are edited.
+  const std::optional<Address>& track() const { return m_track; }
   const api::ParameterDeclaration& declaration() const;
+  const api::ParameterDeclaration& axis() const;  ///< of the temperature, or the time, that the curve is over
+  double leastX() const { return m_track ? 0 : 1; }
+  /// A time on a frame, as keys are; a temperature as it is.
+  double snapped(double x) const;
+  QString title() const;     ///< "Viscosity, liquid", "Temperature of Hot plate"
+  QString subtitle() const;  ///< "of Water, over temperature · Kell 1975"
   Response response() const;
   /// The law that this property had last, or has by itself, where it is another one than now.
   std::optional<Response> ghost() const;
   QString source() const;  ///< of the installed figure; "" where nothing says so
+  /// A slope at a value as people see it, and back: on a logarithmic axis in decades per K.
+  double shownSlope(double value, double slope) const;
+  double storedSlope(double value, double shown) const;
+  QString slopeUnit() const;
   /// K, at which the property is read: the mean of the material's particles, or the air's where there are none.
   double temperature() const { return temperature(now(0, 1)); }
   double temperature(const MaterialNow& now) const;  ///< the same of what is known
   /// K, where melting begins and ends; nullopt for what never melts.
   std::optional<std::array<double, 2>> melting() const;
-  /// K, from where to where it is worth looking at: its points, or else what lies around its matter and its melting.
+  /// What is marked on the curve, where `now` is known.
+  std::optional<CurveMark> mark(const MaterialNow& now) const;
+  /// K, or s of keys: from where to where it is worth looking at: its points, or else what lies around its matter and
+  /// its melting.
   std::array<double, 2> range() const;
   /// The property's unit: above it the solver does not follow, as it last said; nullopt: it follows.
   std::optional<double> delivered() const;
   /// Goes through all particles of the newest snapshot.
   MaterialNow now(double firstKelvin, double lastKelvin) const;
 
-  void choose(const Address& address);   ///< a property of a material that is a response; others are ignored
-  int point() const { return m_point; }  ///< that is selected, -1: none
+  /// How many of the material's particles have a value above another one, now; likewise.
+  size_t countAbove(double value) const;
+
+  void choose(const Address& address);       ///< a property of a material that is a response; others are ignored
+  void chooseTrack(const Address& address);  ///< what has keys; others are ignored
+  int point() const { return m_point; }      ///< that is selected, -1: none
   void choosePoint(int index);
 
   /// Other materials of the scene whose curves are drawn beside this one.
@@ -82,15 +109,22 @@ class CurveTarget : public QObject {
 
  private:
   void onTarget();
+  void onChanged(const ChangeEvent& event);
   void remember();
+  QString setTrack(const Response& curve);
   Session& m_session;
   Selection& m_selection;
   std::string m_key = "viscosity";
+  std::optional<Address> m_track;
   int m_point = -1;
   std::set<std::string> m_compared;
   std::map<std::string, Response> m_laws;  ///< by address: the last one that it was
 };
 
+/// "Monotone", as people choose it.
+QString labelOf(Between way);
+/// Keys as a curve over time, in s and the parameter's unit.
+Response curveOf(const std::vector<TrackKey>& keys);
 /// Declaration of temperatures as the curve's axis and tables show them.
 const api::ParameterDeclaration& temperatureDeclaration();
 

@@ -73,15 +73,14 @@ CurveView::CurveView(CurveTarget& target, QWidget* parent) : QWidget(parent), m_
   connect(&target, &CurveTarget::targetChanged, this, [this] {
     dropDrag(true);
     m_shown = m_target.response();
-    setAccessibleName(m_target.materialLabel() + QStringLiteral(", ") +
-                      QString::fromUtf8(m_target.declaration().label) + QStringLiteral(" over temperature"));
+    setAccessibleName(m_target.title() + QLatin1Char(' ') + m_target.subtitle());
     showParticles();
     fit();
   });
   connect(&target, &CurveTarget::responseChanged, this, [this] {
     const Response::Kind before = m_shown.kind;
     m_shown = m_target.response();
-    if (m_shown.kind != before && !m_dragging) fit();
+    if (m_shown.kind != before && m_grip == Grip::None) fit();
     update();
   });
   connect(&target, &CurveTarget::pointChanged, this, [this] { update(); });
@@ -100,7 +99,7 @@ double CurveView::ofLevel(double level) const {
 
 QRectF CurveView::plot() const {
   return QRectF(kLeft, kTop, std::max(40.0, width() - kLeft - kRight),
-                std::max(40.0, height() - kTop - kAxis - kHistogram - kGap));
+                std::max(40.0, height() - kTop - kAxis - (m_target.track() ? 0 : kHistogram) - kGap));
 }
 
 QRectF CurveView::histogram() const {
@@ -124,8 +123,8 @@ double CurveView::valueAt(double y) const {
 
 void CurveView::fit() {
   const auto [cold, hot] = m_target.range();
-  const double margin = std::max(10.0, 0.08 * (hot - cold));
-  m_first = std::max(1.0, cold - margin);
+  const double margin = std::max(m_target.track() ? 0.0 : 10.0, 0.08 * (hot - cold));
+  m_first = std::max(m_target.leastX(), cold - margin);
   m_last = hot + margin;
   double low = level(m_shown.at(m_first)), high = low;
   for (int i = 0; i <= 100; ++i) {
@@ -161,14 +160,15 @@ void CurveView::setOverlays(std::vector<OverlayCurve> overlays) {
 QString CurveView::summary() const {
   const api::ParameterDeclaration& declaration = m_target.declaration();
   const auto pair = [&](double kelvin, double value) {
-    return formatValue(declaration, value) + QStringLiteral(" at ") + formatValue(temperatureDeclaration(), kelvin);
+    return formatValue(declaration, value) + QStringLiteral(" at ") + formatValue(m_target.axis(), kelvin);
   };
   if (const int chosen = m_target.point(); chosen >= 0 && static_cast<size_t>(chosen) < m_shown.points.size()) {
-    const api::ResponsePoint& p = m_shown.points[static_cast<size_t>(chosen)];
+    const CurvePoint& p = m_shown.points[static_cast<size_t>(chosen)];
     return QStringLiteral("Point %1 of %2, ").arg(chosen + 1).arg(m_shown.points.size()) + pair(p.x, p.y);
   }
-  const double kelvin = m_target.temperature(m_now);
-  return pair(kelvin, m_shown.at(kelvin));
+  const auto mark = m_target.mark(m_now);
+  const double x = mark ? mark->x : m_target.track() ? m_shown.points.front().x : m_target.temperature(m_now);
+  return pair(x, m_shown.at(x));
 }
 
 void CurveView::paintEvent(QPaintEvent*) {
@@ -184,9 +184,10 @@ void CurveView::paintEvent(QPaintEvent*) {
   painter.save();
   painter.setClipRect(plot());
   paintCurves(painter);
+  paintHandles(painter);
   paintMarker(painter);
   painter.restore();
-  paintHistogram(painter);
+  if (!m_target.track()) paintHistogram(painter);
   if (hasFocus()) paintFocusRing(painter, plot().adjusted(-2, -2, 2, 2), 3);
 }
 
@@ -194,7 +195,7 @@ void CurveView::paintGrid(QPainter& painter) const {
   const Theme& theme = Theme::current();
   const QFont font = Theme::font(TextRole::Small);
   const QRectF area = plot();
-  const api::ParameterDeclaration& kelvin = temperatureDeclaration();
+  const api::ParameterDeclaration& kelvin = m_target.axis();
   const Ticks along =
       niceTicks(toDisplay(kelvin, m_first), toDisplay(kelvin, m_last), std::max(2, int(area.width() / 90)));
   for (int i = 0; i < along.count; ++i) {
@@ -306,9 +307,10 @@ void CurveView::paintCurves(QPainter& painter) const {
 
 void CurveView::paintMarker(QPainter& painter) const {
   const Theme& theme = Theme::current();
-  if (m_now.count == 0) return;
+  const auto mark = m_target.mark(m_now);
+  if (!mark) return;
   const QColor colour = theme.series(1);  // heat's orange
-  const double kelvin = m_now.marked.value_or(m_now.mean), value = m_shown.at(kelvin);
+  const double kelvin = mark->x, value = m_shown.at(kelvin);
   const QPointF centre = at(kelvin, value);
   const QRectF area = plot();
   painter.setPen(QPen(faint(colour, 0.8), 1, Qt::DotLine));
@@ -317,10 +319,9 @@ void CurveView::paintMarker(QPainter& painter) const {
   painter.setPen(Qt::NoPen);
   paintDiamond(painter, centre, kMarker, colour, true);
   const QFont font = Theme::font(TextRole::Small);
-  const QString who =
-      m_now.marked ? QStringLiteral("Selected particle, now") : QStringLiteral("Mean of its particles, now");
-  const QString what = formatValue(temperatureDeclaration(), kelvin) + QStringLiteral(" · ") +
-                       formatValue(m_target.declaration(), value);
+  const QString who = mark->who;
+  const QString what =
+      formatValue(m_target.axis(), kelvin) + QStringLiteral(" · ") + formatValue(m_target.declaration(), value);
   const double width = std::max(textWidth(who, font), textWidth(what, Theme::font(TextRole::Medium))) + 16;
   QRectF box(centre.x() + 12, centre.y() - 44, width, 38);
   if (box.right() > area.right() - 2) box.moveRight(centre.x() - 12);

@@ -15,7 +15,8 @@ struct OverlayCurve {
 
 /// The response that is tuned, over temperature: axes in the units that people see, logarithmic where declared. Points
 /// are dragged (Shift fine, Ctrl up and down only, Alt all of them), added by a double click on the curve, removed by
-/// Del, nudged by arrows (Shift fine); Page up and down choose; the wheel zooms, F fits. Esc takes a drag back.
+/// Del, nudged by arrows (Shift fine); Page up and down choose; the wheel zooms, F fits. Smooth pieces have handles at
+/// the selected point: dragged, they state the slope on both of its sides (Ctrl on one). Esc takes a drag back.
 /// Below it a histogram of where the material's particles are. Accessible as a chart that says its value.
 class CurveView : public QWidget {
   Q_OBJECT
@@ -31,6 +32,8 @@ class CurveView : public QWidget {
   QRectF plot() const;
   /// Logical pixels of a temperature in K and a value, and back.
   QPointF at(double kelvin, double value) const;
+  /// Of the selected point, before it and after it; nothing where no smooth piece meets it there.
+  std::optional<QPointF> handleAt(bool after) const;
   double kelvinAt(double x) const;
   double valueAt(double y) const;
   QSize sizeHint() const override { return {640, 420}; }
@@ -52,9 +55,14 @@ class CurveView : public QWidget {
   bool logarithmic() const;
   double level(double value) const;
   double ofLevel(double level) const;
+  double levelSlope(double value) const;
   double bounded(double value) const;
   int pointAt(const QPointF& position) const;
+  /// What the pointer holds: a point, or a handle of the selected one.
+  enum class Grip { None, Point, Before, After };
+  Grip gripAt(const QPointF& position) const;
   void dragTo(const QPointF& position, Qt::KeyboardModifiers modifiers);
+  void turnTo(const QPointF& position, bool oneSide);
   void dropDrag(bool keep);
   void nudge(double x, double y, bool fine);
   void walk(int index);
@@ -65,6 +73,7 @@ class CurveView : public QWidget {
   void paintBands(QPainter& painter) const;
   void paintCurves(QPainter& painter) const;
   void paintLine(QPainter& painter, const Response& response, const QColor& colour, double width, bool dashed) const;
+  void paintHandles(QPainter& painter) const;
   void paintMarker(QPainter& painter) const;
   void paintHistogram(QPainter& painter) const;
 
@@ -74,9 +83,9 @@ class CurveView : public QWidget {
   MaterialNow m_now;
   double m_first = 250, m_last = 350;  ///< K
   double m_low = 0, m_high = 1;        ///< levels: log10 of the value on a logarithmic axis
-  bool m_dragging = false;
-  Response m_before;      ///< a drag's start
-  QPointF m_from, m_way;  ///< px: where the pointer was last, and how far it has moved the point
+  Grip m_grip = Grip::None;
+  Response m_before;               ///< a drag's start
+  QPointF m_from, m_way, m_start;  ///< px: where the pointer was last, how far it has moved the grip, where that began
 };
 
 }  // namespace ps

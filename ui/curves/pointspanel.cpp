@@ -12,6 +12,7 @@
 #include <QtWidgets/QHeaderView>
 #include <QtWidgets/QLabel>
 #include <QtWidgets/QLineEdit>
+#include <QtWidgets/QMenu>
 #include <QtWidgets/QPushButton>
 #include <QtWidgets/QRadioButton>
 #include <QtWidgets/QTableWidget>
@@ -26,6 +27,7 @@ namespace {
 
 constexpr const char* kKind = "kind";  // property of a radio button: "points", "constant" or a law
 constexpr int kTableRow = 22;
+constexpr int kNext = 2;  // column
 constexpr size_t kMostCoefficients = 3;
 constexpr double kLeastShare = 1e-9;  // of the largest value, that counts as a value when laws are compared
 
@@ -60,13 +62,18 @@ QPushButton* button(const QString& text, const QString& tip) {
 PointsPanel::PointsPanel(CurveTarget& target, QWidget* parent)
     : QWidget(parent),
       m_target(target),
-      m_table(new QTableWidget(0, 2)),
+      m_table(new QTableWidget(0, 3)),
       m_kinds(new QButtonGroup(this)),
       m_add(button(QStringLiteral("Add point"), QStringLiteral("In the middle of the gap behind the selected point"))),
       m_remove(button(QStringLiteral("Remove"), QStringLiteral("The selected point"))),
+      m_paste(button(QStringLiteral("Paste table"),
+                     QStringLiteral("Two columns that were copied from a table or a text, instead of all points"))),
+      m_thin(button(QStringLiteral("Thin out"), QStringLiteral("As few points as keep the curve where it is, within"))),
       m_fit(button(QStringLiteral("Fit law to points"), QStringLiteral("The law that is nearest to the points"))),
       m_sample(
           button(QStringLiteral("Sample law as points"), QStringLiteral("Points of the law, to be moved by hand"))),
+      m_tolerance(new QLineEdit(QStringLiteral("1 %"))),
+      m_laws(new QWidget),
       m_help(new QLabel),
       m_note(new QLabel) {
   auto* column = new QVBoxLayout(this);
@@ -86,8 +93,39 @@ PointsPanel::PointsPanel(CurveTarget& target, QWidget* parent)
     row->addWidget(right);
     row->addStretch(1);
     column->addLayout(row);
+    return row;
   };
   pair(m_add, m_remove);
+  pair(m_paste, m_thin)->insertWidget(2, m_tolerance);
+  m_tolerance->setFixedWidth(64);
+  m_tolerance->setAlignment(Qt::AlignRight);
+  m_tolerance->setAccessibleName(QStringLiteral("Tolerance of thinning out"));
+  m_tolerance->setToolTip(QStringLiteral("Of each value on a logarithmic axis, else of the largest one"));
+  makeLaws();
+  column->addWidget(m_laws);
+  column->addWidget(m_note);
+  column->addStretch();
+  connect(m_paste, &QPushButton::clicked, this, &PointsPanel::paste);
+  connect(m_thin, &QPushButton::clicked, this, &PointsPanel::thinOut);
+  connect(m_add, &QPushButton::clicked, this, &PointsPanel::addPoint);
+  connect(m_remove, &QPushButton::clicked, this, &PointsPanel::removePoint);
+  connect(m_fit, &QPushButton::clicked, this, &PointsPanel::fitNearest);
+  connect(m_sample, &QPushButton::clicked, this, &PointsPanel::sample);
+  connect(m_kinds, &QButtonGroup::buttonClicked, this,
+          [this](QAbstractButton* radio) { chooseKind(radio->property(kKind).toString().toStdString()); });
+  connect(m_table, &QTableWidget::cellClicked, this, &PointsPanel::showWays);
+  connect(m_table, &QTableWidget::cellChanged, this, &PointsPanel::enterCell);
+  connect(m_table, &QTableWidget::currentCellChanged, this, [this](int row) { m_target.choosePoint(row); });
+  connect(&target, &CurveTarget::targetChanged, this, [this] { note({}); });
+  connect(&target, &CurveTarget::responseChanged, this, &PointsPanel::refresh);
+  connect(&target, &CurveTarget::pointChanged, this, &PointsPanel::showSelected);
+  connect(&target, &CurveTarget::refused, this, &PointsPanel::note);
+}
+
+void PointsPanel::makeLaws() {
+  auto* column = new QVBoxLayout(m_laws);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(6);
   column->addLayout(kindRows());
   auto* numbers = new QGridLayout;
   for (size_t i = 0; i < kMostCoefficients; ++i) {
@@ -97,25 +135,16 @@ PointsPanel::PointsPanel(CurveTarget& target, QWidget* parent)
     connect(m_coefficients[i], &QLineEdit::editingFinished, this, [this, i] { enterCoefficient(i); });
   }
   column->addLayout(numbers);
+  column->addWidget(m_help);
   for (QLabel* text : {m_help, m_note}) {
     text->setFont(Theme::font(TextRole::Small));
     text->setWordWrap(true);
-    column->addWidget(text);
   }
-  pair(m_fit, m_sample);
-  column->addStretch();
-  connect(m_add, &QPushButton::clicked, this, &PointsPanel::addPoint);
-  connect(m_remove, &QPushButton::clicked, this, &PointsPanel::removePoint);
-  connect(m_fit, &QPushButton::clicked, this, &PointsPanel::fitNearest);
-  connect(m_sample, &QPushButton::clicked, this, &PointsPanel::sample);
-  connect(m_kinds, &QButtonGroup::buttonClicked, this,
-          [this](QAbstractButton* radio) { chooseKind(radio->property(kKind).toString().toStdString()); });
-  connect(m_table, &QTableWidget::cellChanged, this, &PointsPanel::enterCell);
-  connect(m_table, &QTableWidget::currentCellChanged, this, [this](int row) { m_target.choosePoint(row); });
-  connect(&target, &CurveTarget::targetChanged, this, [this] { note({}); });
-  connect(&target, &CurveTarget::responseChanged, this, &PointsPanel::refresh);
-  connect(&target, &CurveTarget::pointChanged, this, &PointsPanel::showSelected);
-  connect(&target, &CurveTarget::refused, this, &PointsPanel::note);
+  auto* row = new QHBoxLayout;
+  row->addWidget(m_fit);
+  row->addWidget(m_sample);
+  row->addStretch(1);
+  column->addLayout(row);
 }
 
 /// A button for each kind of response, and the formula of a law.
@@ -140,6 +169,8 @@ QGridLayout* PointsPanel::kindRows() {
   return grid;
 }
 
+QString PointsPanel::noteText() const { return m_note->text(); }
+
 void PointsPanel::note(const QString& text) {
   m_note->setText(text);
   m_note->setVisible(!text.isEmpty());
@@ -150,17 +181,22 @@ void PointsPanel::refresh() {
   const Response response = m_target.response();
   const bool curve = response.kind == Response::Kind::Curve;
   const size_t count = curve ? response.points.size() : 0;
-  m_table->setHorizontalHeaderLabels({QStringLiteral("Temperature, ") + displayUnit(temperatureDeclaration()),
-                                      QStringLiteral("Value, ") + displayUnit(m_target.declaration())});
+  m_table->setHorizontalHeaderLabels(
+      {(m_target.track() ? QStringLiteral("Time, ") : QStringLiteral("Temperature, ")) + displayUnit(m_target.axis()),
+       QStringLiteral("Value, ") + displayUnit(m_target.declaration()), QStringLiteral("Next")});
   m_table->setRowCount(static_cast<int>(count));
   for (size_t i = 0; i < count; ++i) {
-    const QString texts[] = {formatField(temperatureDeclaration(), response.points[i].x),
+    const QString texts[] = {formatField(m_target.axis(), response.points[i].x),
                              formatField(m_target.declaration(), response.points[i].y)};
     for (int k = 0; k < 2; ++k) {
       auto* item = new QTableWidgetItem(texts[k]);
       item->setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
       m_table->setItem(static_cast<int>(i), k, item);
     }
+    auto* way = new QTableWidgetItem(i + 1 < count ? labelOf(betweenOf(response, i)) : QStringLiteral("–"));
+    way->setFlags(way->flags() & ~Qt::ItemIsEditable);
+    way->setToolTip(QStringLiteral("How the curve goes to the next point: click to choose"));
+    m_table->setItem(static_cast<int>(i), kNext, way);
   }
   showKind();
   showCoefficients();
@@ -173,7 +209,8 @@ void PointsPanel::showKind() {
   for (QAbstractButton* radio : m_kinds->buttons()) radio->setChecked(radio->property(kKind).toString() == kind);
   m_fit->setEnabled(response.kind == Response::Kind::Curve && response.points.size() > 1);
   m_sample->setEnabled(response.kind != Response::Kind::Curve);
-  for (QWidget* widget : std::initializer_list<QWidget*>{m_table, m_add, m_remove})
+  m_laws->setVisible(!m_target.track());
+  for (QWidget* widget : std::initializer_list<QWidget*>{m_table, m_add, m_remove, m_thin, m_tolerance})
     widget->setVisible(response.kind == Response::Kind::Curve);
 }
 
@@ -205,19 +242,40 @@ void PointsPanel::showSelected() {
 
 void PointsPanel::enterCell(int row, int column) {
   Response next = m_target.response();
-  if (next.kind != Response::Kind::Curve || static_cast<size_t>(row) >= next.points.size()) return;
-  api::ResponsePoint p = next.points[static_cast<size_t>(row)];
-  const Typed typed =
-      parseTyped(m_table->item(row, column)->text(), column == 0 ? temperatureDeclaration() : m_target.declaration(),
-                 column == 0 ? p.x : p.y);
+  if (next.kind != Response::Kind::Curve || static_cast<size_t>(row) >= next.points.size() || column == kNext) return;
+  CurvePoint p = next.points[static_cast<size_t>(row)];
+  const Typed typed = parseTyped(m_table->item(row, column)->text(),
+                                 column == 0 ? m_target.axis() : m_target.declaration(), column == 0 ? p.x : p.y);
   if (typed.problem.isEmpty()) {
     (column == 0 ? p.x : p.y) = typed.value;
-    movePoint(next, static_cast<size_t>(row), p);
-    if (m_target.set(next, QStringLiteral("Move point of ") + QString::fromUtf8(m_target.declaration().label))) return;
+    movePoint(next, static_cast<size_t>(row), {p.x, p.y});
+    if (m_target.set(next, QStringLiteral("Move point of ") + m_target.title())) return;
   } else {
     note(typed.problem);
   }
   refresh();
+}
+
+/// A menu of how the curve may go from a point to the next.
+void PointsPanel::showWays(int row, int column) {
+  const Response response = m_target.response();
+  const auto piece = static_cast<size_t>(row);
+  const bool toggle = m_target.declaration().kind == api::ParameterKind::Toggle;  // has no values between on and off
+  if (column != kNext || piece + 1 >= response.points.size() || toggle) return;
+  auto* menu = new QMenu(this);
+  menu->setAttribute(Qt::WA_DeleteOnClose);
+  for (const Between way : {Between::Step, Between::Linear, Between::Monotone, Between::Stated}) {
+    QAction* action = menu->addAction(labelOf(way));
+    action->setCheckable(true);
+    action->setChecked(betweenOf(response, piece) == way);
+    connect(action, &QAction::triggered, this, [this, piece, way] {
+      Response next = m_target.response();
+      if (piece + 1 >= next.points.size()) return;
+      setBetween(next, piece, way);
+      m_target.set(next, QStringLiteral("Way between points of ") + m_target.title());
+    });
+  }
+  menu->popup(m_table->viewport()->mapToGlobal(m_table->visualItemRect(m_table->item(row, column)).bottomLeft()));
 }
 
 void PointsPanel::enterCoefficient(size_t index) {
@@ -227,7 +285,7 @@ void PointsPanel::enterCoefficient(size_t index) {
   const auto typed = parseNumber(m_coefficients[index]->text());
   if (!typed) note(QStringLiteral("This is not a number."));
   if (typed) next.coefficients[index] = *typed;
-  const QString title = QStringLiteral("Law of ") + QString::fromUtf8(m_target.declaration().label);
+  const QString title = QStringLiteral("Law of ") + m_target.title();
   if (!typed || !m_target.set(next, title)) showCoefficients();
 }
 
@@ -238,13 +296,13 @@ void PointsPanel::sample() {
   const size_t count = response.kind == Response::Kind::Law ? kLawPoints : 2;
   Response curve = curveThrough(sampled(response, cold, hot, count));
   const api::ParameterDeclaration& d = m_target.declaration();
-  for (api::ResponsePoint& p : curve.points) p.y = std::clamp(p.y, d.hardMinimum, d.hardMaximum);
-  m_target.set(curve, QStringLiteral("Sample %1 as points").arg(QString::fromUtf8(d.label)));
+  for (CurvePoint& p : curve.points) p.y = std::clamp(p.y, d.hardMinimum, d.hardMaximum);
+  m_target.set(curve, QStringLiteral("Sample %1 as points").arg(m_target.title()));
 }
 
 void PointsPanel::chooseKind(const std::string& kind) {
   const Response response = m_target.response();
-  const QString name = QString::fromUtf8(m_target.declaration().label);
+  const QString name = m_target.title();
   if (kind == kindOf(response)) return;
   if (kind == "points") return sample();
   if (kind == "constant") {
@@ -268,14 +326,14 @@ void PointsPanel::fitNearest() {
   const Response response = m_target.response();
   if (response.kind != Response::Kind::Curve) return;
   double largest = 0;
-  for (const api::ResponsePoint& p : response.points) largest = std::max(largest, std::abs(p.y));
+  for (const CurvePoint& p : response.points) largest = std::max(largest, std::abs(p.y));
   LawFit best;
   double least = std::numeric_limits<double>::infinity();
   for (const std::string& law : lawNames()) {
     LawFit fit = fitLaw(law, response.points, m_target.temperature());
     if (!fit.problem.empty()) continue;
     double sum = 0;
-    for (const api::ResponsePoint& p : response.points) {
+    for (const CurvePoint& p : response.points) {
       const double scale = std::max({std::abs(p.y), kLeastShare * largest, 1e-300});
       sum += std::pow((fit.law.at(p.x) - p.y) / scale, 2);
     }
@@ -284,7 +342,7 @@ void PointsPanel::fitNearest() {
     best = std::move(fit);
   }
   if (std::isfinite(least))
-    m_target.set(best.law, QStringLiteral("Fit law to ") + QString::fromUtf8(m_target.declaration().label));
+    m_target.set(best.law, QStringLiteral("Fit law to ") + m_target.title());
   else
     note(QStringLiteral("No law goes through these points."));
 }
@@ -292,12 +350,13 @@ void PointsPanel::fitNearest() {
 void PointsPanel::addPoint() {
   Response next = m_target.response();
   if (next.kind != Response::Kind::Curve) return;
-  const std::vector<api::ResponsePoint>& p = next.points;
+  const std::vector<CurvePoint>& p = next.points;
   size_t behind = m_target.point() >= 0 ? static_cast<size_t>(m_target.point()) : p.size() - 1;
-  double kelvin = p.back().x + 10;
+  double kelvin = p.back().x + (m_target.track() ? 1 : 10);
   if (behind + 1 < p.size()) kelvin = 0.5 * (p[behind].x + p[behind + 1].x);
+  kelvin = m_target.snapped(kelvin);
   if (!ps::addPoint(next, {kelvin, next.at(kelvin)})) return;
-  if (m_target.set(next, QStringLiteral("Add point to ") + QString::fromUtf8(m_target.declaration().label)))
+  if (m_target.set(next, QStringLiteral("Add point to ") + m_target.title()))
     m_target.choosePoint(static_cast<int>(behind + 1));
 }
 
@@ -305,7 +364,7 @@ void PointsPanel::removePoint() {
   Response next = m_target.response();
   if (m_target.point() < 0 || next.kind != Response::Kind::Curve) return;
   ps::removePoint(next, static_cast<size_t>(m_target.point()));
-  m_target.set(next, QStringLiteral("Remove point of ") + QString::fromUtf8(m_target.declaration().label));
+  m_target.set(next, QStringLiteral("Remove point of ") + m_target.title());
 }
 
 }  // namespace ps

@@ -27,22 +27,30 @@ class PointsPanel : public QWidget {
   void chooseKind(const std::string& kind);
   void fitNearest();  ///< the law that is nearest to the points
   void sample();      ///< points of the law, or of the constant
-  void addPoint();    ///< in the middle of the gap behind the selected point
+  void paste();       ///< a table of two columns from the clipboard instead of all points
+  void thinOut();     ///< fewest points within toleranceField()
+  QLineEdit* toleranceField() const { return m_tolerance; }
+  QString noteText() const;
+  void addPoint();  ///< in the middle of the gap behind the selected point
 
  private:
+  void makeLaws();
   QGridLayout* kindRows();
   void refresh();
   void showKind();
   void showCoefficients();
   void showSelected();
   void enterCell(int row, int column);
+  void showWays(int row, int column);
   void enterCoefficient(size_t index);
   void removePoint();
   void note(const QString& text);
   CurveTarget& m_target;
   QTableWidget* m_table;
   QButtonGroup* m_kinds;
-  QPushButton *m_add, *m_remove, *m_fit, *m_sample;
+  QPushButton *m_add, *m_remove, *m_paste, *m_thin, *m_fit, *m_sample;
+  QLineEdit* m_tolerance;
+  QWidget* m_laws;  ///< all that keys over time do not have
   QLabel *m_help, *m_note;
   std::vector<QLineEdit*> m_coefficients;
 };

@@ -20,6 +20,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <vector>
 
 namespace ps {
 namespace {
@@ -30,6 +32,24 @@ constexpr int kKey = Qt::UserRole, kValue = Qt::UserRole + 1;
 
 const api::ParameterDeclaration& declarationOf(const QString& key) {
   return propertyCatalogue()[static_cast<size_t>(propertyIndex(key.toStdString()))];
+}
+
+/// The phase that a property is of, where none of the matter is in it now: what the curve says there is of nothing.
+QString absentPhase(const QString& key, const MaterialNow& now) {
+  using api::Phase;
+  static const std::map<QString, std::vector<Phase>> kOf{
+      {QStringLiteral("solid"), {Phase::Solid, Phase::Melting}},
+      {QStringLiteral("liquid"), {Phase::Liquid, Phase::Melting, Phase::Boiling}},
+      {QStringLiteral("gas"), {Phase::Gas, Phase::Boiling}}};
+  static const std::map<QString, QString> kNamed{{QStringLiteral("viscosity"), QStringLiteral("liquid")},
+                                                 {QStringLiteral("yield_stress"), QStringLiteral("liquid")},
+                                                 {QStringLiteral("youngs_modulus"), QStringLiteral("solid")}};
+  const auto named = kNamed.find(key);
+  const auto of = kOf.find(named == kNamed.end() ? key.section(QLatin1Char('_'), -1) : named->second);
+  if (now.count == 0 || of == kOf.end()) return {};
+  const bool any = std::any_of(of->second.begin(), of->second.end(),
+                               [&](Phase phase) { return now.phases[static_cast<size_t>(phase)] > 0; });
+  return any ? QString() : of->first;
 }
 
 Response responseFor(const CurveTarget& target, const std::string& key) {
@@ -120,22 +140,33 @@ ResponseList::ResponseList(Session& session, CurveTarget& target, QWidget* paren
       m_target(target),
       m_header(new PanelHeader),
       m_heading(new QLabel(QStringLiteral("Compare with"))),
+      m_keyed(new QLabel(QStringLiteral("Keys over time"))),
       m_list(flatList(QStringLiteral("Responses"))),
-      m_others(flatList(QStringLiteral("Compare with"))) {
+      m_others(flatList(QStringLiteral("Compare with"))),
+      m_tracks(flatList(QStringLiteral("Keys over time"))) {
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 4);
   column->setSpacing(0);
   column->addWidget(m_header);
   column->addWidget(m_list, 1);
-  m_heading->setFont(Theme::font(TextRole::Medium));
-  m_heading->setContentsMargins(10, 8, 8, 4);
-  column->addWidget(m_heading);
-  column->addWidget(m_others);
+  for (const auto& [heading, list] : {std::pair(m_heading, m_others), std::pair(m_keyed, m_tracks)}) {
+    heading->setFont(Theme::font(TextRole::Medium));
+    heading->setContentsMargins(10, 8, 8, 4);
+    column->addWidget(heading);
+    column->addWidget(list);
+  }
   m_list->setItemDelegate(new ResponseDelegate(target, this));
   connect(m_list, &QListWidget::currentItemChanged, this, [this](QListWidgetItem* item) {
     if (item) m_target.choose({Owner::Material, m_target.material(), item->data(kKey).toString().toStdString()});
   });
   connect(m_others, &QListWidget::itemChanged, this, &ResponseList::onCompared);
+  connect(m_tracks, &QListWidget::currentItemChanged, this, [this](QListWidgetItem* item) {
+    const auto address = item ? Address::parse(item->data(kKey).toString().toStdString()) : std::nullopt;
+    if (address) m_target.chooseTrack(*address);
+  });
+  connect(&session.document(), &Document::changed, this, [this](const ChangeEvent& event) {
+    if (std::holds_alternative<TracksChanged>(event)) rebuildTracks();
+  });
   connect(&target, &CurveTarget::targetChanged, this, &ResponseList::rebuild);
   connect(&target, &CurveTarget::responseChanged, this, &ResponseList::refresh);
   connect(&session, &Session::totalsDue, this, [this] {
@@ -160,7 +191,7 @@ void ResponseList::rebuild() {
     auto* item = new QListWidgetItem(QString::fromUtf8(catalogue[i].label), m_list);
     item->setData(kKey, QString::fromUtf8(catalogue[i].key));
     item->setToolTip(QString::fromUtf8(catalogue[i].help));
-    if (m_target.address().key == catalogue[i].key) m_list->setCurrentItem(item);
+    if (!m_target.track() && m_target.address().key == catalogue[i].key) m_list->setCurrentItem(item);
   }
   const Project& project = m_target.document().project();
   for (const SceneMaterial& other : project.materials) {
@@ -172,7 +203,24 @@ void ResponseList::rebuild() {
   m_others->setFixedHeight(std::clamp(m_others->count(), 1, 5) * kOther + 4);
   for (QWidget* widget : std::initializer_list<QWidget*>{m_heading, m_others})
     widget->setVisible(m_others->count() > 0);
+  rebuildTracks();
   refresh();
+}
+
+void ResponseList::rebuildTracks() {
+  const QSignalBlocker quiet(m_tracks);
+  m_tracks->clear();
+  const Document& document = m_target.document();
+  for (const Track& track : document.project().tracks) {
+    const auto address = Address::parse(track.parameter);
+    if (!address || !document.keyDeclaration(*address)) continue;
+    auto* item = new QListWidgetItem(document.trackTitle(*address), m_tracks);
+    item->setData(kKey, QString::fromStdString(track.parameter));
+    item->setToolTip(QStringLiteral("Edits its keys as a curve over time"));
+    if (m_target.track() == *address) m_tracks->setCurrentItem(item);
+  }
+  m_tracks->setFixedHeight(std::clamp(m_tracks->count(), 1, 5) * kOther + 4);
+  for (QWidget* widget : std::initializer_list<QWidget*>{m_keyed, m_tracks}) widget->setVisible(m_tracks->count() > 0);
 }
 
 void ResponseList::refresh() {
@@ -191,7 +239,9 @@ void ResponseList::refresh() {
   for (int i = 0; i < m_list->count(); ++i) {
     QListWidgetItem* item = m_list->item(i);
     const QString key = item->data(kKey).toString();
-    item->setData(kValue, formatValue(declarationOf(key), responseFor(m_target, key.toStdString()).at(kelvin)));
+    const QString value = formatValue(declarationOf(key), responseFor(m_target, key.toStdString()).at(kelvin));
+    const QString absent = absentPhase(key, now);
+    item->setData(kValue, absent.isEmpty() ? value : value + QStringLiteral(" · no %1 now").arg(absent));
   }
   m_list->viewport()->update();
 }

@@ -13,26 +13,28 @@ class PanelHeader;
 class Session;
 
 /// The responses of the current material, each with a small curve and its value where the material is; below, the
-/// scene's other materials, whose curves may be drawn for comparison.
+/// scene's other materials, whose curves may be drawn for comparison, and what has keys over time, to edit those.
 class ResponseList : public QWidget {
   Q_OBJECT
  public:
   ResponseList(Session& session, CurveTarget& target, QWidget* parent = nullptr);
   QListWidget* list() const { return m_list; }
   QListWidget* others() const { return m_others; }
+  QListWidget* tracks() const { return m_tracks; }
 
  protected:
   void showEvent(QShowEvent* event) override;
 
  private:
   void rebuild();
+  void rebuildTracks();
   void refresh();  ///< values, at the temperature that the material has now
   void onCompared(QListWidgetItem* item);
   Session& m_session;
   CurveTarget& m_target;
   PanelHeader* m_header;
-  QLabel* m_heading;
-  QListWidget *m_list, *m_others;
+  QLabel *m_heading, *m_keyed;
+  QListWidget *m_list, *m_others, *m_tracks;
 };
 
 }  // namespace ps

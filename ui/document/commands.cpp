@@ -3,6 +3,8 @@
 
 #include "ui/document/document.h"
 
+#include <algorithm>
+
 namespace ps {
 
 ParameterCommand::ParameterCommand(Document& document, Address address, std::optional<Value> before,
@@ -98,21 +100,31 @@ StateCommand::StateCommand(Document& document, State before, State after, const 
 void StateCommand::undo() { m_document.applyState(m_before); }
 void StateCommand::redo() { m_document.applyState(m_after); }
 
-TrackCommand::TrackCommand(Document& document, TrackEdit edit, int gesture, const QString& text)
-    : QUndoCommand(text), m_document(document), m_edit(std::move(edit)), m_gesture(gesture) {
-  setObsolete(m_edit.before == m_edit.after);
+TrackCommand::TrackCommand(Document& document, std::vector<TrackEdit> edits, int gesture, const QString& text)
+    : QUndoCommand(text), m_document(document), m_edits(std::move(edits)), m_gesture(gesture) {
+  setObsolete(isNothing());
 }
 
-void TrackCommand::undo() { m_document.applyTrack(m_edit, false); }
-void TrackCommand::redo() { m_document.applyTrack(m_edit, true); }
+void TrackCommand::undo() {
+  for (auto edit = m_edits.rbegin(); edit != m_edits.rend(); ++edit) m_document.applyTrack(*edit, false);
+}
+void TrackCommand::redo() {
+  for (const TrackEdit& edit : m_edits) m_document.applyTrack(edit, true);
+}
+
+bool TrackCommand::isNothing() const {
+  return std::all_of(m_edits.begin(), m_edits.end(), [](const TrackEdit& edit) { return edit.before == edit.after; });
+}
 
 bool TrackCommand::mergeWith(const QUndoCommand* other) {
   const auto* next = static_cast<const TrackCommand*>(other);
-  if (next->m_gesture != m_gesture || !m_edit.after || !next->m_edit.before ||
-      m_edit.after->parameter != next->m_edit.before->parameter)
-    return false;
-  m_edit.after = next->m_edit.after;
-  setObsolete(m_edit.before == m_edit.after);
+  const bool same = std::equal(m_edits.begin(), m_edits.end(), next->m_edits.begin(), next->m_edits.end(),
+                               [](const TrackEdit& first, const TrackEdit& second) {
+                                 return first.after && second.before && first.after == second.before;
+                               });
+  if (next->m_gesture != m_gesture || !same) return false;
+  for (size_t k = 0; k < m_edits.size(); ++k) m_edits[k].after = next->m_edits[k].after;
+  setObsolete(isNothing());
   return true;
 }
 

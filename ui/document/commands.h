@@ -119,18 +119,19 @@ struct TrackEdit {
   std::optional<Track> before, after;  ///< nothing: there is none
 };
 
-/// Keys of one parameter. Commands of one gesture merge; one that ends where it began vanishes.
+/// Keys of parameters. Commands of one gesture merge; one that ends where it began vanishes.
 class TrackCommand : public QUndoCommand {
  public:
-  TrackCommand(Document& document, TrackEdit edit, int gesture, const QString& text);
+  TrackCommand(Document& document, std::vector<TrackEdit> edits, int gesture, const QString& text);
   void undo() override;
   void redo() override;
   int id() const override { return 3; }
   bool mergeWith(const QUndoCommand* other) override;
 
  private:
+  bool isNothing() const;
   Document& m_document;
-  TrackEdit m_edit;
+  std::vector<TrackEdit> m_edits;  ///< one after the other
   int m_gesture;
 };
 

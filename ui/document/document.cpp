@@ -105,7 +105,15 @@ QString Document::setParameter(const Address& address, const Value& value) {
           ? QStringLiteral("%1 of %2").arg(QString::fromUtf8(declared->label), ownerLabel(m_project, address))
           : m_gestureText;
   if (m_gestureDepth == 0 && before == after) return {};
+  std::vector<TrackEdit> follow = tracksAfter(address, value);
+  if (follow.empty()) {
+    m_undo.push(new ParameterCommand(*this, address, before, after, m_gesture, text));
+    return {};
+  }
+  m_undo.beginMacro(text);
   m_undo.push(new ParameterCommand(*this, address, before, after, m_gesture, text));
+  m_undo.push(new TrackCommand(*this, std::move(follow), m_gesture, text));
+  m_undo.endMacro();
   return {};
 }
 

@@ -128,7 +128,7 @@ class Document : public QObject {
   void keepState(std::shared_ptr<const ProjectState> state);
   void removeState();
 
-  // Keys over time: see Track. Within a gesture all edits of one parameter's are one undo step.
+  // Keys over time: see Track. Within a gesture all edits of the same parameters' are one undo step.
   const Track* track(const Address& address) const;  ///< nullptr: it has no keys
   double keySlack() const;                           ///< s around a key in which a time is on it: half a frame
   /// Of what has the keys: a point of a curve has a number in brackets behind its address, see TrackTarget.
@@ -136,11 +136,13 @@ class Document : public QObject {
   QString whyNoKeys(const Address& address) const;  ///< "" or why it can have none, as a sentence
   /// A key at a time in s, or another value of the one that is there. Returns "" or why there is none.
   QString putKey(const Address& address, double time, double value);
-  /// It stays between its neighbours. Returns "" or why it stays where it is.
-  QString moveKey(const Address& address, size_t index, double time, double value);
   void removeKey(const Address& address, size_t index);  ///< the last takes the track with it
   QString setWay(const Address& address, size_t index, ToNext way);
-  void removeTrack(const Address& address);          ///< of a curve those of all its points
+  void removeTrack(const Address& address);  ///< of a curve those of all its points
+  /// All keys of some parameters at once, as one step; none: without. Returns "" or what is wrong with a key that was
+  /// not there before, and then nothing happens.
+  using Keys = std::pair<Address, std::vector<TrackKey>>;
+  QString setKeys(const std::vector<Keys>& tracks, const QString& text);
   QString trackTitle(const Address& address) const;  ///< "Temperature of Hot plate"
 
   // Probes. What they measure are parameters of theirs: see probeParameters().
@@ -192,7 +194,7 @@ class Document : public QObject {
   QString setProbeParameter(const Address& address, const Value& value);
   void pushProbe(ProbeEdit edit, const QString& title);
   void setGraphs(std::vector<Graph> graphs, const QString& title);
-  QString setKeys(const Address& address, std::vector<TrackKey> keys, const QString& text);
+  std::vector<TrackEdit> tracksAfter(const Address& curve, const Value& after) const;
   std::optional<Value> asStored(const Address& address, const std::optional<Value>& value) const;
   void editBody(const std::string& id, const QString& text, const std::function<void(Body&)>& change);
   template <class Item>

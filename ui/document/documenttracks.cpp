@@ -12,15 +12,34 @@
 namespace ps {
 namespace {
 
-/// "" or what people read of a key that cannot be.
-QString problemWithKeys(const std::vector<TrackKey>& keys, const api::ParameterDeclaration& declaration) {
+/// "" or what people read of a key that cannot be. What was there before is nobody's fault who edits another key.
+QString problemWithKeys(const std::vector<TrackKey>& keys, const Track* old,
+                        const api::ParameterDeclaration& declaration) {
   if (const auto problem = problemOfKeys(keys))
     return QStringLiteral("A key %1.").arg(QString::fromStdString(problem->what));
   for (const TrackKey& key : keys) {
+    if (old && std::find(old->keys.begin(), old->keys.end(), key) != old->keys.end()) continue;
     const std::string problem = problemOfKey(key, declaration);
     if (!problem.empty())
-      return QString::fromUtf8(declaration.label) + QLatin1Char(' ') + QString::fromStdString(problem) +
-             QLatin1Char('.');
+      return QStringLiteral("%1 at %2 s %3.")
+          .arg(QString::fromUtf8(declaration.label), QString::fromStdString(numberText(key.time)),
+               QString::fromStdString(problem));
+  }
+  const auto turns = [](const std::vector<TrackKey>& of) {
+    std::vector<CurvePoint> found;
+    for (size_t piece = 0; piece + 1 < of.size(); ++piece) {
+      for (const double time : turnsOn(of, piece)) found.push_back({time, valueOn(of, piece, time)});
+    }
+    return found;
+  };
+  const std::vector<CurvePoint> before = old ? turns(old->keys) : std::vector<CurvePoint>{};
+  for (const CurvePoint& turn : turns(keys)) {
+    if (std::find(before.begin(), before.end(), turn) != before.end()) continue;
+    const std::string problem = problemOf(Value(turn.y), declaration);
+    if (!problem.empty())
+      return QStringLiteral("%1 at %2 s, where the slopes of its keys lead, %3.")
+          .arg(QString::fromUtf8(declaration.label), QString::fromStdString(numberText(turn.x)),
+               QString::fromStdString(problem));
   }
   return {};
 }
@@ -59,20 +78,7 @@ QString Document::putKey(const Address& address, double time, double value) {
     key.value = value;
   }
   ps::putKey(keys, key, keySlack());
-  return setKeys(address, std::move(keys), QStringLiteral("key of %1").arg(trackTitle(address)));
-}
-
-QString Document::moveKey(const Address& address, size_t index, double time, double value) {
-  const Track* old = track(address);
-  if (!old || index >= old->keys.size()) return {};
-  std::vector<TrackKey> keys = old->keys;
-  // It stays between its neighbours.
-  const double least = index > 0 ? keys[index - 1].time + 2 * keySlack() : 0;
-  const double most = index + 1 < keys.size() ? keys[index + 1].time - 2 * keySlack() : 1e9;
-  keys[index].time =
-      std::round(std::clamp(time, std::min(least, keys[index].time), std::max(most, keys[index].time)) * 1e6) / 1e6;
-  keys[index].value = value;
-  return setKeys(address, std::move(keys), QStringLiteral("moving a key of %1").arg(trackTitle(address)));
+  return setKeys({{address, std::move(keys)}}, QStringLiteral("key of %1").arg(trackTitle(address)));
 }
 
 void Document::removeKey(const Address& address, size_t index) {
@@ -80,7 +86,7 @@ void Document::removeKey(const Address& address, size_t index) {
   if (!old || index >= old->keys.size()) return;
   std::vector<TrackKey> keys = old->keys;
   keys.erase(keys.begin() + static_cast<std::ptrdiff_t>(index));
-  setKeys(address, std::move(keys), QStringLiteral("removal of a key of %1").arg(trackTitle(address)));
+  setKeys({{address, std::move(keys)}}, QStringLiteral("removal of a key of %1").arg(trackTitle(address)));
 }
 
 QString Document::setWay(const Address& address, size_t index, ToNext way) {
@@ -91,13 +97,13 @@ QString Document::setWay(const Address& address, size_t index, ToNext way) {
     return QStringLiteral("A switch has no values between on and off.");
   std::vector<TrackKey> keys = old->keys;
   keys[index].toNext = way;
-  return setKeys(address, std::move(keys), QStringLiteral("way between keys of %1").arg(trackTitle(address)));
+  return setKeys({{address, std::move(keys)}}, QStringLiteral("way between keys of %1").arg(trackTitle(address)));
 }
 
 void Document::removeTrack(const Address& address) {
   const QString text = QStringLiteral("removal of the keys of %1").arg(trackTitle(address));
   if (track(address)) {
-    setKeys(address, {}, text);
+    setKeys({{address, {}}}, text);
     return;
   }
   std::vector<Address> points;
@@ -105,10 +111,9 @@ void Document::removeTrack(const Address& address) {
     const auto target = TrackTarget::parse(each.parameter);
     if (target && target->point && target->address == address) points.push_back(*Address::parse(each.parameter));
   }
-  if (points.empty()) return;
-  m_undo.beginMacro(text);
-  for (const Address& point : points) setKeys(point, {}, text);
-  m_undo.endMacro();
+  std::vector<Keys> none;
+  for (const Address& point : points) none.push_back({point, {}});
+  setKeys(none, text);
 }
 
 QString Document::trackTitle(const Address& address) const {
@@ -120,23 +125,61 @@ QString Document::trackTitle(const Address& address) const {
 }
 
 /// Without keys there is no track.
-QString Document::setKeys(const Address& address, std::vector<TrackKey> keys, const QString& text) {
-  const std::vector<Track>& tracks = m_project.tracks;
-  const Track* old = track(address);
-  TrackEdit edit;
-  edit.index = old ? static_cast<size_t>(old - tracks.data()) : tracks.size();
-  if (old) edit.before = *old;
-  if (!keys.empty()) {
-    if (const api::ParameterDeclaration* declared = keyDeclaration(address)) {
-      if (const QString problem = problemWithKeys(keys, *declared); !problem.isEmpty()) return problem;
+QString Document::setKeys(const std::vector<Keys>& wanted, const QString& text) {
+  std::vector<Track> tracks = m_project.tracks;
+  std::vector<TrackEdit> edits;
+  for (const auto& [address, keys] : wanted) {
+    const Track* old = findTrack(tracks, address.text());
+    TrackEdit edit;
+    edit.index = old ? static_cast<size_t>(old - tracks.data()) : tracks.size();
+    if (old) edit.before = *old;
+    if (!keys.empty()) {
+      if (const api::ParameterDeclaration* declared = keyDeclaration(address)) {
+        if (const QString problem = problemWithKeys(keys, old, *declared); !problem.isEmpty()) return problem;
+      }
+      edit.after = old ? *old : Track{address.text(), {}, {}};
+      edit.after->keys = keys;
     }
-    edit.after = old ? *old : Track{address.text(), {}, {}};
-    edit.after->keys = std::move(keys);
+    if (edit.before == edit.after && (m_gestureDepth == 0 || !edit.before)) continue;
+    const auto place = tracks.begin() + static_cast<std::ptrdiff_t>(edit.index);
+    if (edit.before && edit.after)
+      *place = *edit.after;
+    else if (edit.after)
+      tracks.push_back(*edit.after);
+    else if (edit.before)
+      tracks.erase(place);
+    edits.push_back(std::move(edit));
   }
-  if (edit.before == edit.after && m_gestureDepth == 0) return {};
+  if (edits.empty()) return {};
   if (m_gestureDepth == 0) ++m_gesture;
-  m_undo.push(new TrackCommand(*this, std::move(edit), m_gesture, text));
+  m_undo.push(new TrackCommand(*this, std::move(edits), m_gesture, text));
   return {};
+}
+
+/// The tracks of a curve's points follow them to their new numbers, where points come or go; those of points that have
+/// gone go with them.
+std::vector<TrackEdit> Document::tracksAfter(const Address& curve, const Value& after) const {
+  const Response from = responseOf(value(curve)), to = responseOf(after);
+  const bool curves = from.kind == Response::Kind::Curve && to.kind == Response::Kind::Curve;
+  std::vector<TrackEdit> edits;
+  if (!curves || from.points.size() == to.points.size()) return edits;
+  size_t gone = 0;
+  for (size_t t = 0; t < m_project.tracks.size(); ++t) {
+    const Track& track = m_project.tracks[t];
+    const auto target = TrackTarget::parse(track.parameter);
+    if (!target || !target->point || !(target->address == curve) || *target->point >= from.points.size()) continue;
+    const auto there = std::find_if(to.points.begin(), to.points.end(),
+                                    [&](const CurvePoint& p) { return p.x == from.points[*target->point].x; });
+    TrackEdit edit{t - gone, track, std::nullopt};
+    if (there != to.points.end()) {
+      edit.after = track;
+      edit.after->parameter = curve.text() + '[' + std::to_string(there - to.points.begin()) + ']';
+    } else {
+      ++gone;
+    }
+    if (!(edit.before == edit.after)) edits.push_back(std::move(edit));
+  }
+  return edits;
 }
 
 void Document::applyTrack(const TrackEdit& edit, bool forward) {
@@ -150,6 +193,7 @@ void Document::applyTrack(const TrackEdit& edit, bool forward) {
   else if (from)
     tracks.erase(place);
   ++m_changes;
+  if (from && to && from->parameter != to->parameter) notify(TracksChanged{from->parameter});
   notify(TracksChanged{(to ? to : from).value_or(Track{}).parameter});
 }
 

@@ -13,8 +13,10 @@ namespace ps {
 class Session;
 
 /// The keys of the document over the scene's time: a ruler, on which a drag shows recorded frames, and a row for each
-/// animated parameter. A key is chosen by a click and dragged to another frame (Shift: to any time; Ctrl: a copy of
-/// it); a double-click sets one of the value that holds there; Delete takes it away. Each gesture is one undo step.
+/// animated parameter. Keys are chosen by a click, Shift adds one, or by a box that is drawn around them, and dragged
+/// to other frames together (Shift: to any time; Ctrl: copies of them); Escape takes a drag back. A double-click sets a
+/// key of the value that holds there, on a name it opens the keys as a curve; Delete takes chosen ones away. Each
+/// gesture is one undo step.
 class KeyRows : public QWidget {
   Q_OBJECT
  public:
@@ -26,7 +28,7 @@ class KeyRows : public QWidget {
     size_t key = 0;
     bool operator==(const Chosen&) const = default;
   };
-  const std::optional<Chosen>& chosen() const { return m_chosen; }
+  std::vector<Chosen> chosen() const;
   int rowCount() const { return static_cast<int>(m_rows.size()); }
   int wantedHeight() const { return m_rows.empty() ? 0 : kRuler + kRow * rowCount(); }
   double xOf(double seconds) const;
@@ -36,6 +38,7 @@ class KeyRows : public QWidget {
  Q_SIGNALS:
   void rowsChanged();
   void refused(const QString& problem);
+  void curveWanted(const ps::Address& address);
 
  protected:
   bool event(QEvent* event) override;
@@ -56,11 +59,19 @@ class KeyRows : public QWidget {
   void rebuild();
   std::optional<Chosen> keyUnder(const QPoint& at) const;
   const Row* rowAt(const QPoint& at) const;
-  const std::vector<TrackKey>& keysOf(const Row& row) const;
-  bool beginDrag(double time, const QPoint& at);
+  const std::vector<TrackKey>& keysOf(const Address& address) const;
   double snapped(double seconds, bool free) const;
+  bool isChosen(const Chosen& key) const;
+  void choose(std::vector<Chosen> keys);
+  void followChosen();
+  void chooseIn(const QRect& box);
+  void beginDrag(const Chosen& key, double grip, bool copies);
+  void dragTo(double time);
+  double heldShift(double shift) const;
   void endDrag(bool keep);
+  void setKeyAt(const Row& row, double time);
   void removeChosen();
+  void setWay(ToNext way);
   QString tipAt(const QPoint& at) const;
   void paintRuler(QPainter& painter) const;
   void paintRow(QPainter& painter, const Row& row, int top) const;
@@ -68,13 +79,22 @@ class KeyRows : public QWidget {
 
   Session& m_session;
   std::vector<Row> m_rows;
-  std::optional<Chosen> m_chosen;
+  /// What it was when it was chosen, to find it again among keys that others change.
+  struct Picked {
+    Chosen key;
+    double time = 0;
+    size_t count = 0;  ///< of its track's keys
+  };
+  std::vector<Picked> m_picked;  ///< the last one is under the hand
   struct Drag {
-    double grip = 0;  ///< s from the key to where it was taken
-    TrackKey from;
+    double grip = 0, from = 0;  ///< s: from the key to where it was taken, and where it was
+    std::vector<std::pair<Address, std::vector<TrackKey>>> before;
+    std::vector<Chosen> keys;
     bool moved = false, copies = false;
+    QString problem{};
   };
   std::optional<Drag> m_drag;
+  std::optional<QRect> m_box;
   bool m_scrubs = false;
 };
 

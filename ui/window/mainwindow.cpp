@@ -261,7 +261,11 @@ void MainWindow::connectParts() {
   connect(m_inspector, &Inspector::keyRefused, m_notices,
           [this](const QString& problem) { m_notices->refuse(QStringLiteral("No key was set."), problem); });
   connect(findChild<KeyRows*>(), &KeyRows::refused, m_notices,
-          [this](const QString& problem) { m_notices->refuse(QStringLiteral("No key was set."), problem); });
+          [this](const QString& problem) { m_notices->refuse(QStringLiteral("The keys stay as they are."), problem); });
+  connect(findChild<KeyRows*>(), &KeyRows::curveWanted, this, [this](const Address& address) {
+    m_curves->chooseTrack(address);
+    showWorkspace(kTuneTab);
+  });
   connect(m_inspector, &Inspector::curveWanted, this, [this](const Address& address) {
     m_curves->choose(address);
     showWorkspace(kTuneTab);

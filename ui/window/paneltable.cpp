@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/window/paneltable.h"
 
+#include "ui/curves/curvechecks.h"
 #include "ui/curves/curvepanel.h"
 #include "ui/curves/matterdiagram.h"
 #include "ui/curves/pointspanel.h"
@@ -17,6 +18,7 @@
 #include "ui/timeline/timeline.h"
 
 #include <QtWidgets/QScrollArea>
+#include <QtWidgets/QVBoxLayout>
 
 namespace ps {
 namespace {
@@ -30,6 +32,16 @@ QScrollArea* scrolling(QWidget* panel) {
   scroll->setFocusPolicy(Qt::NoFocus);
   scroll->setWidget(panel);
   return scroll;
+}
+
+QWidget* makePoints(const PanelContext& context) {
+  auto* page = new QWidget;
+  auto* column = new QVBoxLayout(page);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(0);
+  column->addWidget(new PointsPanel(context.curves), 1);
+  column->addWidget(new CurveChecks(context.session, context.curves));
+  return scrolling(page);
 }
 
 QWidget* makeMaterials(const PanelContext& context) {
@@ -63,7 +75,7 @@ const std::vector<PanelRow>& panelTable() {
        [](Context c) -> QWidget* { return new MatterDiagram(MatterDiagram::Kind::Phases, c.session, c.curves); }},
       {"dock.responses", "Responses", [](Context c) -> QWidget* { return new ResponseList(c.session, c.curves); }},
       {"dock.curve", "Curve", [](Context c) -> QWidget* { return new CurvePanel(c.session, c.curves); }},
-      {"dock.points", "Points", [](Context c) -> QWidget* { return scrolling(new PointsPanel(c.curves)); }},
+      {"dock.points", "Points", makePoints},
       {"dock.transport", "Transport", [](Context c) -> QWidget* { return new Timeline(c.session); }},
   };
   return kTable;

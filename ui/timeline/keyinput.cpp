@@ -1,0 +1,330 @@
+// SPDX-License-Identifier: Apache-2.0
+// Keys under hands: chosen, dragged, copied, set and taken away.
+#include "core/scene/track.h"
+#include "core/simulation/tracks.h"
+#include "ui/document/declared.h"
+#include "ui/document/document.h"
+#include "ui/session/recordedview.h"
+#include "ui/session/session.h"
+#include "ui/theme/plaintext.h"
+#include "ui/timeline/keyrows.h"
+
+#include <QtGui/QContextMenuEvent>
+#include <QtGui/QKeyEvent>
+#include <QtGui/QMouseEvent>
+#include <QtWidgets/QMenu>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace ps {
+namespace {
+
+constexpr int kGrip = 8;   ///< px around a key's centre
+constexpr int kMeet = 4;   ///< px to a key that stays
+constexpr int kStill = 3;  ///< px that a hand moves which only clicks
+
+}  // namespace
+
+std::optional<KeyRows::Chosen> KeyRows::keyUnder(const QPoint& at) const {
+  const Row* row = rowAt(at);
+  if (!row) return std::nullopt;
+  std::optional<Chosen> nearest;
+  double away = kGrip;
+  for (size_t k = 0; k < keysOf(row->address).size(); ++k) {
+    const double distance = std::abs(xOf(keysOf(row->address)[k].time) - at.x());
+    if (distance > away) continue;
+    away = distance;
+    nearest = Chosen{row->address, k};
+  }
+  return nearest;
+}
+
+/// To whole frames: a key acts at one. What is dragged meets keys that stay, of any row.
+double KeyRows::snapped(double seconds, bool free) const {
+  const double frame = 2 * m_session.document().keySlack();
+  for (const Row& row : m_rows) {
+    if (free || !m_drag) break;
+    const auto dragged = std::find_if(m_drag->before.begin(), m_drag->before.end(),
+                                      [&](const auto& keys) { return keys.first == row.address; });
+    const std::vector<TrackKey>& keys = dragged != m_drag->before.end() ? dragged->second : keysOf(row.address);
+    for (size_t k = 0; k < keys.size(); ++k) {
+      const bool stays =
+          std::find(m_drag->keys.begin(), m_drag->keys.end(), Chosen{row.address, k}) == m_drag->keys.end();
+      if (stays && std::abs(xOf(keys[k].time) - xOf(seconds)) <= kMeet) return keys[k].time;
+    }
+  }
+  return free || !(frame > 0) ? seconds : std::round(seconds / frame) * frame;
+}
+
+std::vector<KeyRows::Chosen> KeyRows::chosen() const {
+  std::vector<Chosen> keys;
+  for (const Picked& picked : m_picked) keys.push_back(picked.key);
+  return keys;
+}
+
+bool KeyRows::isChosen(const Chosen& key) const {
+  return std::any_of(m_picked.begin(), m_picked.end(), [&](const Picked& picked) { return picked.key == key; });
+}
+
+void KeyRows::choose(std::vector<Chosen> keys) {
+  m_picked.clear();
+  for (Chosen& key : keys) {
+    const std::vector<TrackKey>& of = keysOf(key.address);
+    if (key.key < of.size()) m_picked.push_back({key, of[key.key].time, of.size()});
+  }
+  update();
+}
+
+/// Undo and other hands give keys other numbers: a chosen one is the one of its time, or, where none came or went, the
+/// one of its number.
+void KeyRows::followChosen() {
+  std::vector<Chosen> still;
+  for (const Picked& picked : m_picked) {
+    const std::vector<TrackKey>& keys = keysOf(picked.key.address);
+    const auto same =
+        std::find_if(keys.begin(), keys.end(), [&](const TrackKey& key) { return key.time == picked.time; });
+    if (same != keys.end())
+      still.push_back({picked.key.address, static_cast<size_t>(same - keys.begin())});
+    else if (keys.size() == picked.count)
+      still.push_back(picked.key);
+  }
+  choose(std::move(still));
+}
+
+void KeyRows::chooseIn(const QRect& box) {
+  std::vector<Chosen> inside;
+  for (const Row& row : m_rows) {
+    for (size_t k = 0; k < keysOf(row.address).size(); ++k) {
+      if (box.contains(placeOf(row.address, k))) inside.push_back({row.address, k});
+    }
+  }
+  choose(std::move(inside));
+}
+
+void KeyRows::mousePressEvent(QMouseEvent* event) {
+  if (event->button() != Qt::LeftButton) return;
+  const QPoint at = event->position().toPoint();
+  m_scrubs = at.y() < kRuler && at.x() >= kLabel;
+  if (m_scrubs) return m_session.recorded().showAt(secondsAt(event->position().x()));
+  const auto under = keyUnder(at);
+  if (!under) {
+    choose({});
+    if (at.x() >= kLabel) m_box = QRect(at, at);
+    return;
+  }
+  std::vector<Chosen> keys = chosen();
+  const bool had = isChosen(*under), adds = event->modifiers() & Qt::ShiftModifier;
+  if (had || adds)
+    std::erase(keys, *under);
+  else
+    keys.clear();
+  if (!(had && adds)) keys.push_back(*under);
+  choose(std::move(keys));
+  if (!(had && adds)) beginDrag(*under, secondsAt(event->position().x()), event->modifiers() & Qt::ControlModifier);
+}
+
+void KeyRows::mouseMoveEvent(QMouseEvent* event) {
+  const QPoint at = event->position().toPoint();
+  if (m_scrubs) return m_session.recorded().showAt(secondsAt(event->position().x()));
+  if (m_box) {
+    m_box->setBottomRight(at);
+    return chooseIn(m_box->normalized());
+  }
+  setCursor(m_drag || keyUnder(at) ? Qt::SizeHorCursor : Qt::ArrowCursor);
+  if (!m_drag) return;
+  if (!m_drag->moved && std::abs(xOf(m_drag->from + m_drag->grip) - at.x()) < kStill) return;
+  dragTo(snapped(secondsAt(event->position().x()) - m_drag->grip, event->modifiers() & Qt::ShiftModifier));
+  if (!m_picked.empty()) {
+    const Chosen& key = m_picked.back().key;
+    showTip(event->globalPosition().toPoint(), tipAt(placeOf(key.address, key.key)), this);
+  }
+}
+
+void KeyRows::beginDrag(const Chosen& key, double pointer, bool copies) {
+  const double time = keysOf(key.address)[key.key].time;
+  m_drag = Drag{pointer - time, time, {}, chosen(), false, copies, {}};
+  for (const Chosen& each : m_drag->keys) {
+    const bool there = std::any_of(m_drag->before.begin(), m_drag->before.end(),
+                                   [&](const auto& keys) { return keys.first == each.address; });
+    if (!there) m_drag->before.push_back({each.address, keysOf(each.address)});
+  }
+}
+
+/// As far as a key that is not dragged lets those beside it; none goes before the start.
+double KeyRows::heldShift(double shift) const {
+  double least = -std::numeric_limits<double>::infinity(), most = -least;
+  const double gap = 2 * m_session.document().keySlack();
+  for (const auto& [address, keys] : m_drag->before) {
+    const auto held = [&, &of = address](size_t k) {
+      return std::find(m_drag->keys.begin(), m_drag->keys.end(), Chosen{of, k}) == m_drag->keys.end();
+    };
+    for (size_t k = 0; k < keys.size(); ++k) {
+      if (held(k)) continue;
+      least = std::max(least, -keys[k].time);
+      if (m_drag->copies) continue;  // a copy may pass, and takes the place of a key where it stays
+      if (k > 0 && held(k - 1)) least = std::max(least, std::min(0.0, keys[k - 1].time + gap - keys[k].time));
+      if (k + 1 < keys.size() && held(k + 1))
+        most = std::min(most, std::max(0.0, keys[k + 1].time - gap - keys[k].time));
+    }
+  }
+  return std::clamp(shift, least, most);
+}
+
+/// All from where they began, so that a way over other keys, or back, leaves nothing behind.
+void KeyRows::dragTo(double time) {
+  Document& document = m_session.document();
+  const double shift = heldShift(time - m_drag->from);
+  if (!m_drag->moved) document.beginGesture();
+  m_drag->moved = true;
+  auto after = m_drag->before;
+  for (auto& [address, keys] : after) {
+    const std::vector<TrackKey> old = keys;
+    for (const Chosen& each : m_drag->keys) {
+      if (!(each.address == address)) continue;
+      TrackKey key = old[each.key];
+      key.time = std::round((key.time + shift) * 1e6) / 1e6;
+      if (m_drag->copies && std::abs(shift) > document.keySlack())
+        putKey(keys, key, document.keySlack());
+      else if (!m_drag->copies)
+        keys[each.key] = key;
+    }
+  }
+  const QString text = QStringLiteral("moving keys of %1").arg(document.trackTitle(m_drag->keys.back().address));
+  const QString problem = document.setKeys(after, text);
+  if (!problem.isEmpty()) m_drag->problem = problem;
+  std::vector<Chosen> moved;
+  for (const Chosen& each : m_drag->keys) {
+    const auto old = std::find_if(m_drag->before.begin(), m_drag->before.end(),
+                                  [&](const auto& keys) { return keys.first == each.address; });
+    const auto now = keyAt(keysOf(each.address), old->second[each.key].time + shift, 1e-5);
+    if (now) moved.push_back({each.address, *now});
+  }
+  choose(std::move(moved));
+}
+
+void KeyRows::mouseReleaseEvent(QMouseEvent*) {
+  m_scrubs = false;
+  m_box.reset();
+  update();
+  endDrag(true);
+}
+
+void KeyRows::endDrag(bool keep) {
+  if (!m_drag) return;
+  const Drag drag = *m_drag;
+  m_drag.reset();
+  if (!drag.moved) return;
+  Document& document = m_session.document();
+  if (!keep) {
+    document.setKeys(drag.before, {});
+    choose(drag.keys);
+  }
+  document.endGesture();
+  if (keep && !drag.problem.isEmpty()) Q_EMIT refused(drag.problem);
+}
+
+void KeyRows::mouseDoubleClickEvent(QMouseEvent* event) {
+  const QPoint at = event->position().toPoint();
+  const Row* row = rowAt(at);
+  if (event->button() != Qt::LeftButton || !row || keyUnder(at)) return;
+  if (at.x() < kLabel) {
+    Q_EMIT curveWanted(Address(row->address));
+  } else {
+    setKeyAt(Row(*row), snapped(secondsAt(at.x()), event->modifiers() & Qt::ShiftModifier));
+  }
+}
+
+/// Of the value that holds then.
+void KeyRows::setKeyAt(const Row& row, double time) {
+  Document& document = m_session.document();
+  const api::ParameterDeclaration* declaration = document.keyDeclaration(row.address);
+  if (!declaration) return;
+  const bool isPoint = TrackTarget::parse(row.address.text()).value_or(TrackTarget{row.address}).point.has_value();
+  const double own = isPoint ? keysOf(row.address).front().value : responseOf(document.value(row.address)).at(293.15);
+  const double held = trackValue(keysOf(row.address), time).value_or(own);
+  const QString problem = document.putKey(row.address, time, responseOf(valueOfKey(held, *declaration)).at(293.15));
+  if (!problem.isEmpty()) {
+    Q_EMIT refused(problem);
+  } else if (const auto key = keyAt(keysOf(row.address), time, document.keySlack())) {
+    choose({{row.address, *key}});
+  }
+}
+
+void KeyRows::removeChosen() {
+  std::vector<std::pair<Address, std::vector<TrackKey>>> left;
+  for (const Row& row : m_rows) {
+    std::vector<TrackKey> keys;
+    for (size_t k = 0; k < keysOf(row.address).size(); ++k) {
+      if (!isChosen({row.address, k})) keys.push_back(keysOf(row.address)[k]);
+    }
+    if (keys.size() < keysOf(row.address).size()) left.push_back({row.address, std::move(keys)});
+  }
+  if (left.empty()) return;
+  choose({});
+  Document& document = m_session.document();
+  const QString problem =
+      document.setKeys(left, QStringLiteral("removal of keys of %1").arg(document.trackTitle(left.front().first)));
+  if (!problem.isEmpty()) Q_EMIT refused(problem);
+}
+
+void KeyRows::setWay(ToNext way) {
+  std::vector<std::pair<Address, std::vector<TrackKey>>> after;
+  for (const Chosen& each : chosen()) {
+    if (after.empty() || !(after.back().first == each.address)) after.push_back({each.address, keysOf(each.address)});
+    after.back().second[each.key].toNext = way;
+  }
+  if (after.empty()) return;
+  Document& document = m_session.document();
+  const QString problem =
+      document.setKeys(after, QStringLiteral("way between keys of %1").arg(document.trackTitle(after.front().first)));
+  if (!problem.isEmpty()) Q_EMIT refused(problem);
+}
+
+void KeyRows::keyPressEvent(QKeyEvent* event) {
+  if (event->key() == Qt::Key_Delete && !m_picked.empty() && !m_drag)
+    removeChosen();
+  else if (event->key() == Qt::Key_Escape && m_drag)
+    endDrag(false);
+  else
+    QWidget::keyPressEvent(event);
+}
+
+void KeyRows::contextMenuEvent(QContextMenuEvent* event) {
+  const auto under = keyUnder(event->pos());
+  if (event->reason() == QContextMenuEvent::Mouse && (!under || !isChosen(*under)))
+    choose(under ? std::vector{*under} : std::vector<Chosen>{});
+  auto* menu = new QMenu(this);
+  menu->setAttribute(Qt::WA_DeleteOnClose);
+  if (!m_picked.empty()) {
+    const Chosen& key = m_picked.back().key;
+    const bool toggles = std::any_of(m_picked.begin(), m_picked.end(), [this](const Picked& picked) {
+      const auto* declared = m_session.document().keyDeclaration(picked.key.address);
+      return !declared || declared->kind == api::ParameterKind::Toggle;
+    });
+    for (const auto& [way, text] :
+         {std::pair(ToNext::Step, "Hold its value"), std::pair(ToNext::Linear, "Straight line"),
+          std::pair(ToNext::Smooth, "Smooth curve")}) {
+      if (toggles) break;
+      QAction* action = menu->addAction(QString::fromLatin1(text));
+      action->setCheckable(true);
+      action->setChecked(keysOf(key.address)[key.key].toNext == way);
+      connect(action, &QAction::triggered, this, [this, way = way] { setWay(way); });
+    }
+    if (!toggles) menu->addSeparator();
+    connect(menu->addAction(m_picked.size() > 1 ? QStringLiteral("Delete keys") : QStringLiteral("Delete key")),
+            &QAction::triggered, this, [this] { removeChosen(); });
+  }
+  if (const Row* row = rowAt(event->pos())) {
+    connect(menu->addAction(QStringLiteral("Edit as a curve")), &QAction::triggered, this,
+            [this, address = row->address] { Q_EMIT curveWanted(address); });
+  }
+  if (menu->isEmpty()) {
+    delete menu;
+    return;
+  }
+  menu->popup(event->globalPos());
+}
+
+}  // namespace ps
