@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the sample project must show, from its own file and through the program that people run; only the particles are
-// coarser (4 cm for 2 cm, 800 for 6000), so that the whole minute passes in seconds.
+// What sample projects must show, from their own files and through the program that people run; only the particles are
+// coarser (of ice on a hot plate 4 cm for 2 cm, 800 for 6000), so that the whole minute passes in seconds.
 #include <QFile>
 #include <QProcess>
 #include <QTemporaryDir>
@@ -24,9 +24,11 @@ class TestSample : public QObject {
   void keepsItsEnergy();
   void keepsItsDensity();
   void setsNoFlags();
+  void thawAndFrostGoesByItsKeys();
 
  private:
-  nlohmann::json run(const QStringList& more);
+  nlohmann::json run(const QString& sample, const char* spacing, const QStringList& more);
+  void readProbes(const QString& path);
   QList<double> column(const QString& title) const;
 
   QTemporaryDir m_folder;
@@ -35,15 +37,16 @@ class TestSample : public QObject {
   QList<QList<double>> m_rows;  // of the probes' file: the start's, and one per frame
 };
 
-nlohmann::json TestSample::run(const QStringList& more) {
+nlohmann::json TestSample::run(const QString& name, const char* spacing, const QStringList& more) {
   const QString report = m_folder.filePath("report.json");
   QFile::remove(report);
-  const QString sample = QStringLiteral(PS_SOURCE_DIR "/projects/ice-on-hot-plate.json");
+  const QString sample = QStringLiteral(PS_SOURCE_DIR "/projects/%1.json").arg(name);
   QProcess process;
-  process.start(PS_BINARY_DIR "/bin/phasesketch-cli",
-                QStringList{"simulate", sample, "--set", "solver/particle_spacing=0.04", "--threads", "1", "--quiet",
-                            "--report", report} +
-                    more);
+  process.start(
+      PS_BINARY_DIR "/bin/phasesketch-cli",
+      QStringList{"simulate", sample, "--set", QStringLiteral("solver/particle_spacing=%1").arg(QLatin1String(spacing)),
+                  "--threads", "1", "--quiet", "--report", report} +
+          more);
   if (!process.waitForFinished(-1) || process.exitCode() != 0) {
     qWarning("%s", process.readAllStandardError().constData());
     return nullptr;
@@ -63,19 +66,25 @@ QList<double> TestSample::column(const QString& title) const {
 
 void TestSample::initTestCase() {
   const QString probes = m_folder.filePath("probes.csv");
-  m_start = run({"--frames", "0"});
-  m_end = run({"--probes", probes});
+  const QString sample = QStringLiteral("ice-on-hot-plate");
+  m_start = run(sample, "0.04", {"--frames", "0"});
+  m_end = run(sample, "0.04", {"--probes", probes});
   QVERIFY(m_start.is_object() && m_end.is_object());
-  QFile file(probes);
+  readProbes(probes);
+  QCOMPARE(m_rows.size(), m_end["frames"].get<int>() + 1);
+  QCOMPARE(m_end["frames"].get<int>(), 3600);  // the project's own 60 s
+}
+
+void TestSample::readProbes(const QString& path) {
+  QFile file(path);
   QVERIFY(file.open(QIODevice::ReadOnly | QIODevice::Text));
+  m_rows.clear();
   m_titles = QString::fromUtf8(file.readLine()).trimmed().split(',');
   while (!file.atEnd()) {
     m_rows.emplaceBack();
     for (const QByteArray& cell : file.readLine().trimmed().split(',')) m_rows.back() << cell.toDouble();
     QCOMPARE(m_rows.back().size(), m_titles.size());
   }
-  QCOMPARE(m_rows.size(), m_end["frames"].get<int>() + 1);
-  QCOMPARE(m_end["frames"].get<int>(), 3600);  // the project's own 60 s
 }
 
 void TestSample::startsAllSolid() {
@@ -132,6 +141,24 @@ void TestSample::keepsItsDensity() {
 }
 
 void TestSample::setsNoFlags() { QVERIFY2(m_end["flags"] == nlohmann::json::array(), m_end["flags"].dump().c_str()); }
+
+/// All has melted before its floor cools, at 20 s, all is frozen before it warms again, at 42 s, and little of it at
+/// the end. Of the last sample's rows.
+void TestSample::thawAndFrostGoesByItsKeys() {
+  const QString probes = m_folder.filePath("thaw.csv");
+  const nlohmann::json report = run(QStringLiteral("thaw-and-frost"), "0.025", {"--probes", probes});
+  QVERIFY(report.is_object() && report["flags"].empty());
+  readProbes(probes);
+  const QList<double> solid = column("Ice.solid_mass[kg]"), liquid = column("Water.liquid_mass[kg]");
+  QCOMPARE(solid.size(), 3601);
+  const double all = solid[0];
+  QVERIFY(all > 1);
+  QCOMPARE(liquid[0], 0.0);
+  QCOMPARE(solid[20 * 60], 0.0);
+  QVERIFY(std::abs(liquid[20 * 60] - all) < 1e-9 * all);
+  QVERIFY(std::abs(solid[42 * 60] - all) < 1e-9 * all);
+  QVERIFY(liquid[60 * 60] > 0.9 * all);
+}
 
 QTEST_APPLESS_MAIN(TestSample)
 #include "tst_sample.moc"

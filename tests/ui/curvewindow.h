@@ -55,6 +55,7 @@ class CurveWindowTest : public SampleWindowTest {
   }
   void shoot(const char* name) {
     const QString folder = qEnvironmentVariable("PS_TEST_PICTURES");
+    if (!folder.isEmpty()) QTest::qWait(200);  // docks and labels find their places
     if (!folder.isEmpty()) m_window->grab().save(QStringLiteral("%1/%2.png").arg(folder, QLatin1String(name)));
   }
   static void type(QLineEdit* field, const QString& text) {

@@ -5,8 +5,12 @@
 #include "ui/curves/curvechecks.h"
 #include "ui/curves/pointtable.h"
 #include "ui/curves/responselist.h"
+#include "ui/panels/materialspanel.h"
+#include "ui/session/selection.h"
 
+#include <QtCore/QMimeData>
 #include <QtGui/QClipboard>
+#include <QtGui/QDropEvent>
 #include <QtWidgets/QComboBox>
 #include <QtWidgets/QListWidget>
 #include <QtWidgets/QMenu>
@@ -180,6 +184,47 @@ class TestCurveWays : public CurveWindowTest {
     QVERIFY(said(QStringLiteral("The solver follows 0 % of the particles")));
     QVERIFY(said(QStringLiteral("as far as the solver follows")));
     QVERIFY(m_window->findChild<CurveChecks*>()->isVisible());
+  }
+
+  void aDroppedMaterialIsDrawnBesideIt() {
+    const std::string other = document().addMaterial("ethanol");
+    m_window->selection().setMaterial("water");
+    auto* list = m_window->findChild<ResponseList*>()->others();
+    QCOMPARE(list->item(0)->checkState(), Qt::Unchecked);
+    QMimeData data;
+    data.setData(QLatin1String(kMaterialMime), QByteArray::fromStdString(other));
+    const QPoint at = curve().plot().center().toPoint();
+    QDragEnterEvent enter(at, Qt::CopyAction, &data, Qt::LeftButton, {});
+    QApplication::sendEvent(&curve(), &enter);
+    QVERIFY(enter.isAccepted());
+    QDropEvent drop(at, Qt::CopyAction, &data, Qt::LeftButton, {});
+    QApplication::sendEvent(&curve(), &drop);
+    QVERIFY(curves().compared().contains(other));
+    QCOMPARE(list->item(0)->checkState(), Qt::Checked);
+    list->item(0)->setCheckState(Qt::Unchecked);
+    QVERIFY(curves().compared().empty());
+    QMimeData text;
+    text.setText(QStringLiteral("water"));
+    QDragEnterEvent nothing(at, Qt::CopyAction, &text, Qt::LeftButton, {});
+    QApplication::sendEvent(&curve(), &nothing);
+    QVERIFY(!nothing.isAccepted());
+  }
+
+  /// The mean of the particles, or what is selected: a probe of temperature, a particle.
+  void theMarkIsOfWhatIsSelected() {
+    const auto who = [this] { return curves().mark(curves().now(200, 600)).value_or(CurveMark{}).who; };
+    QVERIFY(who().startsWith(QStringLiteral("Mean of its particles")));
+    const std::vector<Probe>& probes = document().project().probes;
+    const auto found =
+        std::find_if(probes.begin(), probes.end(), [](const Probe& p) { return p.quantity == "temperature"; });
+    QVERIFY(found != probes.end());
+    const Probe probe = *found;
+    m_window->selection().select(OutlineKind::Probe, probe.id);
+    QCOMPARE(who(), QString::fromStdString(probe.name) + QStringLiteral(", now"));
+    QVERIFY(std::abs(curves().mark(curves().now(200, 600))->x - 263.15) < 0.01);
+    m_window->selection().clear();
+    m_window->selection().mark(session().snapshot()->revision, session().snapshot()->id[5]);
+    QVERIFY(who().startsWith(QStringLiteral("Selected particle")));
   }
 
   /// At the start all is ice: what is of the liquid says so.

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/math/responseedit.h"
 #include "ui/curves/curveview.h"
+#include "ui/panels/materialspanel.h"
 
+#include <QtCore/QMimeData>
+#include <QtGui/QDropEvent>
 #include <QtGui/QKeyEvent>
 #include <QtGui/QMouseEvent>
 #include <QtGui/QWheelEvent>
@@ -97,6 +100,17 @@ void CurveView::dropDrag(bool keep) {
   m_grip = Grip::None;
   if (!keep) m_target.set(m_before);
   m_target.end();
+}
+
+void CurveView::dragEnterEvent(QDragEnterEvent* event) {
+  const bool material = event->mimeData()->hasFormat(QLatin1String(kMaterialMime));
+  if (material && !m_target.track()) event->acceptProposedAction();
+}
+
+void CurveView::dropEvent(QDropEvent* event) {
+  const std::string id = event->mimeData()->data(QLatin1String(kMaterialMime)).toStdString();
+  event->acceptProposedAction();
+  if (id != m_target.material()) m_target.compare(id, true);
 }
 
 /// No release comes to what is hidden: the document's gesture would stay open.

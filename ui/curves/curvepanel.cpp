@@ -12,6 +12,7 @@
 #include "ui/theme/theme.h"
 
 #include <QtCore/QTimer>
+#include <QtGui/QPainter>
 #include <QtWidgets/QComboBox>
 #include <QtWidgets/QHBoxLayout>
 #include <QtWidgets/QLabel>
@@ -37,9 +38,18 @@ QLabel* label(TextRole role, bool muted = false) {
   return text;
 }
 
+/// What does not fit ends in dots.
+class NoteLabel final : public QLabel {
+ protected:
+  void paintEvent(QPaintEvent*) override {
+    QPainter painter(this);
+    paintText(painter, rect(), Qt::AlignRight | Qt::AlignVCenter, text(), font(), Theme::current()[Token::Muted]);
+  }
+};
+
 QLineEdit* field(const QString& name) {
   auto* line = new QLineEdit;
-  line->setFixedWidth(124);
+  line->setFixedWidth(108);
   line->setAlignment(Qt::AlignRight);
   line->setAccessibleName(name);
   return line;
@@ -54,7 +64,7 @@ CurvePanel::CurvePanel(Session& session, CurveTarget& target, QWidget* parent)
       m_source(label(TextRole::Small, true)),
       m_which(label(TextRole::Normal)),
       m_slopeLabel(label(TextRole::Normal)),
-      m_note(label(TextRole::Small, true)),
+      m_note(new NoteLabel),
       m_between(new QComboBox),
       m_view(new CurveView(target)),
       m_kelvin(field(QStringLiteral("Temperature of the point"))),
@@ -64,13 +74,17 @@ CurvePanel::CurvePanel(Session& session, CurveTarget& target, QWidget* parent)
   m_which->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
   m_slopeLabel->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
   m_slopeLabel->setText(QStringLiteral("Slope"));
+  m_slope->setFixedWidth(132);
   m_slope->setToolTip(QStringLiteral("Stated on both sides of the point; empty: that of a monotone curve"));
   m_between->setAccessibleName(QStringLiteral("Between points"));
   m_between->setToolTip(QStringLiteral("How the curve goes between its points; the table has each by itself"));
   m_between->setPlaceholderText(QStringLiteral("Mixed"));
   for (const Between way : {Between::Step, Between::Linear, Between::Monotone, Between::Stated})
     m_between->addItem(labelOf(way));
-  m_note->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
+  m_between->setSizeAdjustPolicy(QComboBox::AdjustToContents);
+  m_between->setMinimumContentsLength(14);
+  m_note->setFont(Theme::font(TextRole::Small));
+  m_note->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Expanding);
   auto* top = new QHBoxLayout;
   top->setContentsMargins(10, 4, 10, 0);
   top->setSpacing(12);

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Keys of a parameter as the curve that is edited: over time.
+// Keys of a parameter as the curve that is edited, over time; and what is marked on any curve.
 #include "core/scene/track.h"
+#include "core/simulation/graphsource.h"
 #include "ui/curves/curvetarget.h"
 #include "ui/document/document.h"
+#include "ui/session/selection.h"
 #include "ui/session/session.h"
 
 #include <algorithm>
@@ -67,6 +69,12 @@ std::optional<CurveMark> CurveTarget::mark(const MaterialNow& now) const {
     return CurveMark{QStringLiteral("Now"), time};
   }
   if (now.marked) return CurveMark{QStringLiteral("Selected particle, now"), *now.marked};
+  const SnapshotPtr snapshot = m_session.snapshot();
+  if (!m_selection.empty() && m_selection.kind() == OutlineKind::Probe && snapshot) {
+    const GraphSource probe(probeSource(m_selection.id()), document().project(), m_session.fields());
+    const double kelvin = probe && probe.unit() == temperatureDeclaration().unit ? probe(snapshot->stats) : 0;
+    if (kelvin > 0) return CurveMark{QString::fromStdString(probe.label()) + QStringLiteral(", now"), kelvin};
+  }
   if (now.count == 0) return std::nullopt;
   return CurveMark{QStringLiteral("Mean of its particles, now"), now.mean};
 }

@@ -69,6 +69,7 @@ CurveView::CurveView(CurveTarget& target, QWidget* parent) : QWidget(parent), m_
   installAccessibility();
   setFocusPolicy(Qt::StrongFocus);
   setMouseTracking(true);
+  setAcceptDrops(true);
   setAccessibleName(QStringLiteral("Curve"));
   connect(&target, &CurveTarget::targetChanged, this, [this] {
     dropDrag(true);

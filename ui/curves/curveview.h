@@ -17,7 +17,8 @@ struct OverlayCurve {
 /// are dragged (Shift fine, Ctrl up and down only, Alt all of them), added by a double click on the curve, removed by
 /// Del, nudged by arrows (Shift fine); Page up and down choose; the wheel zooms, F fits. Smooth pieces have handles at
 /// the selected point: dragged, they state the slope on both of its sides (Ctrl on one). Esc takes a drag back.
-/// Below it a histogram of where the material's particles are. Accessible as a chart that says its value.
+/// A material that is dropped on it is drawn beside it. Below it a histogram of where the material's particles are.
+/// Accessible as a chart that says its value.
 class CurveView : public QWidget {
   Q_OBJECT
  public:
@@ -43,6 +44,8 @@ class CurveView : public QWidget {
   bool event(QEvent* event) override;
   void showEvent(QShowEvent* event) override;
   void hideEvent(QHideEvent* event) override;
+  void dragEnterEvent(QDragEnterEvent* event) override;
+  void dropEvent(QDropEvent* event) override;
   void paintEvent(QPaintEvent* event) override;
   void mousePressEvent(QMouseEvent* event) override;
   void mouseMoveEvent(QMouseEvent* event) override;

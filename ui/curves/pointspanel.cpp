@@ -85,7 +85,8 @@ PointsPanel::PointsPanel(CurveTarget& target, QWidget* parent)
   m_table->horizontalHeader()->setSectionResizeMode(QHeaderView::Stretch);
   m_table->verticalHeader()->hide();
   m_table->verticalHeader()->setDefaultSectionSize(kTableRow);
-  m_table->setMinimumHeight(4 * kTableRow);
+  m_table->setMinimumHeight(5 * kTableRow);
+  m_table->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Ignored);
   column->addWidget(m_table, 1);
   const auto pair = [column](QPushButton* left, QPushButton* right) {
     auto* row = new QHBoxLayout;
@@ -194,6 +195,7 @@ void PointsPanel::refresh() {
       m_table->setItem(static_cast<int>(i), k, item);
     }
     auto* way = new QTableWidgetItem(i + 1 < count ? labelOf(betweenOf(response, i)) : QStringLiteral("–"));
+    way->setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
     way->setFlags(way->flags() & ~Qt::ItemIsEditable);
     way->setToolTip(QStringLiteral("How the curve goes to the next point: click to choose"));
     m_table->setItem(static_cast<int>(i), kNext, way);

@@ -168,6 +168,7 @@ ResponseList::ResponseList(Session& session, CurveTarget& target, QWidget* paren
     if (std::holds_alternative<TracksChanged>(event)) rebuildTracks();
   });
   connect(&target, &CurveTarget::targetChanged, this, &ResponseList::rebuild);
+  connect(&target, &CurveTarget::comparedChanged, this, &ResponseList::showCompared);
   connect(&target, &CurveTarget::responseChanged, this, &ResponseList::refresh);
   connect(&session, &Session::totalsDue, this, [this] {
     if (isVisible()) refresh();
@@ -179,6 +180,15 @@ void ResponseList::showEvent(QShowEvent*) { refresh(); }
 
 void ResponseList::onCompared(QListWidgetItem* item) {
   m_target.compare(item->data(kKey).toString().toStdString(), item->checkState() == Qt::Checked);
+}
+
+void ResponseList::showCompared() {
+  const QSignalBlocker quiet(m_others);
+  for (int i = 0; i < m_others->count(); ++i) {
+    QListWidgetItem* item = m_others->item(i);
+    const bool on = m_target.compared().contains(item->data(kKey).toString().toStdString());
+    item->setCheckState(on ? Qt::Checked : Qt::Unchecked);
+  }
 }
 
 void ResponseList::rebuild() {
@@ -198,8 +208,8 @@ void ResponseList::rebuild() {
     if (other.id == m_target.material()) continue;
     auto* item = new QListWidgetItem(ownerLabel(project, {Owner::Material, other.id, "viscosity"}), m_others);
     item->setData(kKey, QString::fromStdString(other.id));
-    item->setCheckState(m_target.compared().contains(other.id) ? Qt::Checked : Qt::Unchecked);
   }
+  showCompared();
   m_others->setFixedHeight(std::clamp(m_others->count(), 1, 5) * kOther + 4);
   for (QWidget* widget : std::initializer_list<QWidget*>{m_heading, m_others})
     widget->setVisible(m_others->count() > 0);
@@ -241,7 +251,10 @@ void ResponseList::refresh() {
     const QString key = item->data(kKey).toString();
     const QString value = formatValue(declarationOf(key), responseFor(m_target, key.toStdString()).at(kelvin));
     const QString absent = absentPhase(key, now);
-    item->setData(kValue, absent.isEmpty() ? value : value + QStringLiteral(" · no %1 now").arg(absent));
+    item->setData(kValue, absent.isEmpty() ? value : QStringLiteral("no %1 now").arg(absent));
+    const QString nothing = QStringLiteral("\n%1 at %2, where none of the matter is %3 now")
+                                .arg(value, formatValue(temperatureDeclaration(), kelvin), absent);
+    item->setToolTip(QString::fromUtf8(declarationOf(key).help) + (absent.isEmpty() ? QString() : nothing));
   }
   m_list->viewport()->update();
 }

@@ -28,6 +28,7 @@ class ResponseList : public QWidget {
  private:
   void rebuild();
   void rebuildTracks();
+  void showCompared();
   void refresh();  ///< values, at the temperature that the material has now
   void onCompared(QListWidgetItem* item);
   Session& m_session;

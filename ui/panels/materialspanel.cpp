@@ -10,16 +10,20 @@
 #include "ui/theme/plaintext.h"
 #include "ui/theme/theme.h"
 
+#include <QtCore/QMimeData>
+#include <QtGui/QDrag>
 #include <QtGui/QMouseEvent>
 #include <QtGui/QPainter>
 #include <QtGui/QRadialGradient>
 #include <QtWidgets/QAccessibleWidget>
+#include <QtWidgets/QApplication>
 #include <QtWidgets/QMenu>
 
 #include <algorithm>
 #include <cstdlib>
 #include <set>
 #include <string>
+#include <utility>
 
 namespace ps {
 namespace {
@@ -201,12 +205,30 @@ void MaterialsPanel::pick(size_t index) {
 }
 
 void MaterialsPanel::mousePressEvent(QMouseEvent* event) {
-  const int tile = tileAt(event->position().toPoint());
-  if (tile >= 0 && event->button() == Qt::LeftButton) pick(static_cast<size_t>(tile));
+  m_pressed = event->position().toPoint();
+  m_held = event->button() == Qt::LeftButton ? tileAt(m_pressed) : -1;
+}
+
+void MaterialsPanel::mouseReleaseEvent(QMouseEvent* event) {
+  const int held = std::exchange(m_held, -1);
+  if (held >= 0 && held == tileAt(event->position().toPoint())) pick(static_cast<size_t>(held));
+}
+
+void MaterialsPanel::drag(const Tile& tile) {
+  auto* carried = new QMimeData;
+  carried->setData(QLatin1String(kMaterialMime), QByteArray::fromStdString(tile.id));
+  auto* way = new QDrag(this);  // goes by itself
+  way->setMimeData(carried);
+  way->exec(Qt::CopyAction);
 }
 
 void MaterialsPanel::mouseMoveEvent(QMouseEvent* event) {
   const int at = tileAt(event->position().toPoint());
+  const bool far = (event->position().toPoint() - m_pressed).manhattanLength() >= QApplication::startDragDistance();
+  if (m_held >= 0 && far) {
+    const Tile held = m_tiles[static_cast<size_t>(std::exchange(m_held, -1))];
+    if (!held.installed) return drag(held);
+  }
   if (at == m_hover) return;
   m_hover = at;
   QString tip;

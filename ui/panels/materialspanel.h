@@ -13,8 +13,12 @@ namespace ps {
 class Document;
 class Selection;
 
+/// What a material of the scene is dragged as: its id.
+inline constexpr const char* kMaterialMime = "application/x-phasesketch-material";
+
 /// Materials of the scene as a grid of painted balls; a click makes one the brush's matter and shows its values. Below
-/// them those that are installed besides; a click brings one into the scene.
+/// them those that are installed besides; a click brings one into the scene. The scene's are dragged to where a
+/// material is wanted.
 class MaterialsPanel : public QWidget {
   Q_OBJECT
  public:
@@ -37,6 +41,7 @@ class MaterialsPanel : public QWidget {
   void paintEvent(QPaintEvent* event) override;
   void mousePressEvent(QMouseEvent* event) override;
   void mouseMoveEvent(QMouseEvent* event) override;
+  void mouseReleaseEvent(QMouseEvent* event) override;
   void leaveEvent(QEvent* event) override;
   void keyPressEvent(QKeyEvent* event) override;
   void contextMenuEvent(QContextMenuEvent* event) override;
@@ -58,6 +63,7 @@ class MaterialsPanel : public QWidget {
   int tileAt(const QPoint& at) const;
   void paintTile(QPainter& painter, size_t index) const;
   void pick(size_t index);
+  void drag(const Tile& tile);
   void moveTo(int index);
 
   Document& m_document;
@@ -65,6 +71,8 @@ class MaterialsPanel : public QWidget {
   std::vector<Tile> m_tiles;
   size_t m_own = 0;                 ///< tiles of the scene; the rest can be added
   int m_hover = -1, m_cursor = -1;  ///< m_cursor: where the keyboard is among what can be added
+  int m_held = -1;                  ///< tile under the pressed button, to be picked where it goes up
+  QPoint m_pressed;
 };
 
 }  // namespace ps

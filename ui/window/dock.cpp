@@ -68,10 +68,14 @@ int Dock::addPage(const QString& title, QWidget* page) {
   return index;
 }
 
-void Dock::showPage(const QString& title) {
+void Dock::choosePage(const QString& title) {
   for (int i = 0; i < m_tabs->count(); ++i) {
     if (m_tabs->tabData(i).toString() == title) m_tabs->setCurrentIndex(i);
   }
+}
+
+void Dock::showPage(const QString& title) {
+  choosePage(title);
   setVisible(true);
   raise();
 }

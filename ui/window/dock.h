@@ -17,6 +17,7 @@ class Dock : public QDockWidget {
   Dock(const QString& name, const QString& title, QWidget* parent);
   /// The first page gives a plain title until there is a second.
   int addPage(const QString& title, QWidget* page);
+  void choosePage(const QString& title);  ///< shown or not
   void showPage(const QString& title);
   QString currentPage() const;
   void setPageTitle(int index, const QString& title);

@@ -69,8 +69,10 @@ void WindowLayout::showPage(const QString& title) {
     if (title != QLatin1String(row.title)) continue;
     Dock* holder = dock(QString::fromLatin1(row.dock));
     const auto index = static_cast<size_t>(std::find(m_docks.begin(), m_docks.end(), holder) - m_docks.begin());
-    holder->showPage(title);
-    if (!shows(index)) holder->hide();
+    if (shows(index))
+      holder->showPage(title);
+    else
+      holder->choosePage(title);  // to show and hide it would leave the window as wide as both together
   }
 }
 
