@@ -99,8 +99,11 @@ template <class Point>
 std::vector<double> turnsOn(const std::vector<Point>& points, size_t piece) {
   const Point &from = points[piece], &to = points[piece + 1];
   if (from.toNext != ToNext::Smooth || (!from.slopeAfter && !to.slopeBefore)) return {};
-  const double h = lengthOf(points, piece), rise = yOf(to) - yOf(from);
-  const double m0 = slopeAfter(points, piece) * h, m1 = slopeBefore(points, piece + 1) * h;
+  const double h = lengthOf(points, piece);
+  double rise = yOf(to) - yOf(from), m0 = slopeAfter(points, piece) * h, m1 = slopeBefore(points, piece + 1) * h;
+  const double largest = std::max({std::abs(rise), std::abs(m0), std::abs(m1)});
+  if (!(largest > 0) || !std::isfinite(largest)) return {};
+  for (double* each : {&rise, &m0, &m1}) *each /= largest;  // no square of theirs is infinite
   // The cubic's derivative in t is c + b t + a t^2.
   const double a = 3 * (m0 + m1 - 2 * rise), b = 2 * (3 * rise - 2 * m0 - m1), c = m0, square = b * b - 4 * a * c;
   if (!(square >= 0)) return {};

@@ -11,8 +11,10 @@ namespace ps {
 
 /// The least distance in K between two points of a curve that is edited.
 inline constexpr double kPointGap = 0.01;
-/// Points that a law becomes where nobody says how many.
+/// Points of a law to which another one is fitted.
 inline constexpr size_t kLawPoints = 9;
+/// How far the points that a law becomes may be off, as thinned() measures it.
+inline constexpr double kLawTolerance = 0.02;
 
 /// `count` points (2 at least) of a response at even distances from one temperature in K to another.
 std::vector<CurvePoint> sampled(const Response& response, double firstKelvin, double lastKelvin, size_t count);
@@ -52,6 +54,8 @@ struct Thinned {
   double error = 0;
 };
 Thinned thinned(const Response& curve, double tolerance, bool logarithmic);
+/// A curve in the place of a law or a constant, from one temperature in K to another, within kLawTolerance.
+Response asPoints(const Response& response, double firstKelvin, double lastKelvin, bool logarithmic);
 
 /// A law laid through points.
 struct LawFit {

@@ -8,6 +8,7 @@ namespace ps {
 namespace {
 
 constexpr size_t kBetween = 4;  // places per piece at which two curves are compared
+constexpr size_t kDense = 200;  // points of a law before they are thinned out
 constexpr size_t kReach = 3;    // pieces on either side of a point that may change with it
 
 /// A curve that loses points, and how far it is then from what it was.
@@ -101,6 +102,11 @@ Thinned thinned(const Response& curve, double tolerance, bool logarithmic) {
       ++k;
   }
   return {work.through(kept), work.error(kept, 0, last)};
+}
+
+Response asPoints(const Response& response, double firstKelvin, double lastKelvin, bool logarithmic) {
+  const Response dense = curveThrough(sampled(response, firstKelvin, lastKelvin, kDense));
+  return thinned(dense, kLawTolerance, logarithmic).curve;
 }
 
 }  // namespace ps

@@ -95,6 +95,20 @@ class TestContentWindow : public SampleWindowTest {
     QCOMPARE(document().project().materials.size(), size_t{2});
   }
 
+  /// So that one that is dragged elsewhere is not picked on the way.
+  void aMaterialIsPickedWhereTheButtonGoesUp() {
+    auto* panel = m_window->findChild<MaterialsPanel*>();
+    panel->addInstalled("wax");
+    m_window->selection().setMaterial("water");
+    const QPoint wax = panel->tileOf("wax").center(), water = panel->tileOf("water").center();
+    QTest::mousePress(panel, Qt::LeftButton, {}, wax);
+    QCOMPARE(m_window->selection().material(), std::string("water"));
+    QTest::mouseRelease(panel, Qt::LeftButton, {}, water);
+    QCOMPARE(m_window->selection().material(), std::string("water"));
+    QTest::mouseClick(panel, Qt::LeftButton, {}, wax);
+    QCOMPARE(m_window->selection().material(), std::string("wax"));
+  }
+
   /// Enter adds what the arrows have walked to; walking alone adds nothing.
   void materialsAreAddedWithoutAMouse() {
     auto* panel = m_window->findChild<MaterialsPanel*>();

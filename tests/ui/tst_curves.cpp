@@ -34,18 +34,20 @@ class TestCurves : public CurveWindowTest {
       states.push_back(text());
       QVERIFY2(document().undoStack().index() == static_cast<int>(states.size()) - 1, what);
     };
+    const Response law = response();
     pages().sample();
     step("sampled");
-    QCOMPARE(response().points.size(), kLawPoints);
+    for (double t = response().points.front().x; t <= response().points.back().x; t += 1)
+      QVERIFY(std::abs(std::log(response().at(t) / law.at(t))) < 1.01 * kLawTolerance);
     drag(2, {0, -30});
     step("dragged");
-    const double kelvin = 0.5 * (response().points[3].x + response().points[4].x);
-    const size_t before = response().points.size();
+    const size_t before = response().points.size();  // the last are the farthest apart
+    const double kelvin = 0.5 * (response().points[before - 2].x + response().points[before - 1].x);
     const QPoint on = curve().at(kelvin, response().at(kelvin)).toPoint();
     QTest::mouseDClick(&curve(), Qt::LeftButton, {}, on);
     step("added");
     QCOMPARE(response().points.size(), before + 1);
-    QCOMPARE(curves().point(), 4);
+    QCOMPARE(curves().point(), static_cast<int>(before) - 1);
     QTest::keyClick(&curve(), Qt::Key_Delete);
     step("deleted");
     QCOMPARE(response().points.size(), before);

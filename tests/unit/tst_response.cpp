@@ -149,8 +149,11 @@ class TestResponse : public QObject {
     wave.points[0].slopeAfter = wave.points[1].slopeBefore = 1;
     QCOMPARE(wave.turns().size(), size_t{2});
     for (const auto& turn : wave.turns()) QVERIFY(std::abs(std::abs(turn.x - 300.5) - std::sqrt(1.0 / 12)) < 1e-12);
-    wave.points[0].slopeAfter = 1e300;  // no number, but no infinity either
-    wave.points[1].x = 1e300;
+    wave.points[0].slopeAfter = 1e300;  // beside it the other is nothing: t (t - 1)^2, which turns at a third
+    QCOMPARE(wave.turns().size(), size_t{1});
+    QVERIFY(std::abs(wave.turns()[0].x - 300 - 1.0 / 3) < 1e-9);
+    QVERIFY(wave.turns()[0].y > 1e299);
+    wave.points[1].x = 1e300;  // no number, but no infinity either
     QVERIFY(std::isfinite(wave.at(1e200)));
   }
 

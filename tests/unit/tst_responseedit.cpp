@@ -133,6 +133,13 @@ class TestResponseEdit : public QObject {
     const Thinned stepped = thinned(curveThrough(steps), 1e-6, false);
     QCOMPARE(stepped.curve.points.size(), size_t{3});
     QCOMPARE(stepped.curve.points[1].x, 308.0);
+    // What law and constant become stays on them: over seven decades of a liquid's viscosity, and by two points.
+    const Response vogel = law(QStringLiteral("vogel"), {-4.61726, 247.8, 140});
+    const Response points = asPoints(vogel, 173.15, 363.15, true);
+    QVERIFY(points.points.size() < 30);
+    for (double t = 173.15; t < 363.15; t += 0.1)
+      QVERIFY(std::abs(std::log(points.at(t) / vogel.at(t))) < 1.01 * kLawTolerance);
+    QVERIFY(asPoints(Response(4), 200, 300, true) == curveThrough({{200, 4}, {300, 4}}));
     // A curve that nothing less shows stays; what is left is never farther off than was asked for.
     std::vector<CurvePoint> noisy;
     for (int k = 0; k <= 60; ++k) noisy.push_back({300.0 + k, 5 + std::sin(0.9 * k) + 0.3 * std::sin(7.0 * k)});

@@ -128,8 +128,7 @@ void CurveView::mouseDoubleClickEvent(QMouseEvent* event) {
 /// What is no curve yet becomes one, through its values at both ends of the axis.
 void CurveView::addAt(double kelvin, double value) {
   Response next = m_shown;
-  if (next.kind == Response::Kind::Constant) next = curveThrough(sampled(m_shown, m_first, m_last, 2));
-  if (next.kind == Response::Kind::Law) next = curveThrough(sampled(m_shown, m_first, m_last, kLawPoints));
+  if (next.kind != Response::Kind::Curve) next = asPoints(m_shown, m_first, m_last, logarithmic());
   if (!addPoint(next, {kelvin, bounded(value)})) return;
   if (!m_target.set(next, QStringLiteral("Add point to %1").arg(m_target.title()))) return;
   const auto place = std::find_if(next.points.begin(), next.points.end(), [&](const auto& p) { return p.x == kelvin; });

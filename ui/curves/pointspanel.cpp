@@ -295,9 +295,8 @@ void PointsPanel::sample() {
   const Response response = m_target.response();
   if (response.kind == Response::Kind::Curve) return;
   const auto [cold, hot] = m_target.range();
-  const size_t count = response.kind == Response::Kind::Law ? kLawPoints : 2;
-  Response curve = curveThrough(sampled(response, cold, hot, count));
   const api::ParameterDeclaration& d = m_target.declaration();
+  Response curve = asPoints(response, cold, hot, d.scale == api::Scale::Logarithmic);
   for (CurvePoint& p : curve.points) p.y = std::clamp(p.y, d.hardMinimum, d.hardMaximum);
   m_target.set(curve, QStringLiteral("Sample %1 as points").arg(m_target.title()));
 }
