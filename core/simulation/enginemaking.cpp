@@ -162,6 +162,7 @@ void EngineThread::goOnWith(uint64_t run) {
 }
 
 void EngineThread::forgetRun(uint64_t run) { m->record.forgetRun(run); }
+void EngineThread::renameRun(uint64_t run, const std::string& name) { m->record.rename(run, name); }
 
 const RunRecord& EngineThread::recording() const { return m->record; }
 

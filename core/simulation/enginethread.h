@@ -61,6 +61,7 @@ class EngineThread {
   /// The same with an earlier run, at its end; the present one is then the earlier one.
   void goOnWith(uint64_t run);
   void forgetRun(uint64_t run);
+  void renameRun(uint64_t run, const std::string& name);
 
   /// How far the scene is that is being made, by an opening, a reset or a return to a state or frame; nothing when none
   /// is.

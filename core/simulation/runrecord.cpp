@@ -176,6 +176,7 @@ void RunRecord::Impl::keepAsEarlier(uint64_t frame) {
   earlier.push_back(*this);
   earlier.back().apart = time;
   number = ++runs;
+  name.clear();
 }
 
 void RunRecord::Impl::forgetAfter(uint64_t frame) {

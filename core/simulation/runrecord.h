@@ -92,11 +92,16 @@ class RunRecord {
   std::optional<RestorePoint> restorePoint(uint64_t frame) const;
   struct EarlierRun {
     uint64_t number = 0;       ///< runs count from 1
+    std::string name;          ///< "": nobody gave it one
     double apart = 0, to = 0;  ///< s: where it left the present run, and its end
   };
   std::vector<EarlierRun> earlier() const;  ///< the oldest first
   uint64_t present() const;                 ///< number of the present run
   void forgetRun(uint64_t number);          ///< an earlier one
+  void rename(uint64_t number, const std::string& name);
+  /// Of an earlier run the kept frame next to a time, unpacked; nullptr where it has none then that the present run has
+  /// not too: before they part, after its end, or when it is not kept.
+  SnapshotPtr earlierFrame(uint64_t run, double time) const;
   /// Of the frames that are kept.
   std::vector<FrameStats> stats() const;
   /// The same of an earlier run; none where it is not kept.

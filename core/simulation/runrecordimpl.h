@@ -27,8 +27,11 @@ struct KeptRun {
     frames.erase(frame);
   }
   size_t bytes() const { return frameBytes + editBytes; }  ///< beside the packed ones
+  /// The frame next to a time; end() where there are none.
+  std::map<uint64_t, PackedFrame>::const_iterator frameAt(double time) const;
 
   uint64_t number = 1;
+  std::string name;
   double apart = 0;  ///< s, where it left the present run
   std::map<uint64_t, PackedFrame> frames;
   size_t frameBytes = 0;

@@ -81,14 +81,13 @@ RunRecord::Extent RunRecord::extent() const {
   return {first, last, oldest.stats().time, newest.stats().time, m->frames.size()};
 }
 
-std::optional<uint64_t> RunRecord::frameAt(double time) const {
-  const std::lock_guard lock(m->mutex);
-  if (m->frames.empty()) return std::nullopt;
-  // Times ascend with numbers, and mostly evenly: a search among them by halves of the numbers.
-  uint64_t low = m->frames.begin()->first, high = m->frames.rbegin()->first;
+/// Times ascend with numbers, and mostly evenly: a search among them by halves of the numbers.
+std::map<uint64_t, PackedFrame>::const_iterator KeptRun::frameAt(double time) const {
+  if (frames.empty()) return frames.end();
+  uint64_t low = frames.begin()->first, high = frames.rbegin()->first;
   while (low < high) {
     const uint64_t middle = low + (high - low) / 2;
-    const auto at = m->frames.lower_bound(middle);
+    const auto at = frames.lower_bound(middle);
     if (at->second.stats().time < time && at->first < high) {
       low = at->first + 1;
     } else if (at->second.stats().time < time) {
@@ -97,11 +96,31 @@ std::optional<uint64_t> RunRecord::frameAt(double time) const {
       high = middle;
     }
   }
-  auto next = m->frames.lower_bound(low);
-  if (next == m->frames.end()) return m->frames.rbegin()->first;
-  if (next == m->frames.begin()) return next->first;
+  const auto next = frames.lower_bound(low);
+  if (next == frames.end()) return std::prev(next);
+  if (next == frames.begin()) return next;
   const auto before = std::prev(next);
-  return time - before->second.stats().time <= next->second.stats().time - time ? before->first : next->first;
+  return time - before->second.stats().time <= next->second.stats().time - time ? before : next;
+}
+
+std::optional<uint64_t> RunRecord::frameAt(double time) const {
+  const std::lock_guard lock(m->mutex);
+  const auto frame = m->KeptRun::frameAt(time);
+  return frame == m->frames.end() ? std::nullopt : std::optional(frame->first);
+}
+
+SnapshotPtr RunRecord::earlierFrame(uint64_t run, double time) const {
+  std::optional<PackedFrame> packed;
+  uint64_t revision = 0;
+  {
+    const std::lock_guard lock(m->mutex);
+    for (const KeptRun& kept : m->earlier) {
+      if (kept.number != run || time <= kept.apart || time > kept.frames.rbegin()->second.stats().time) continue;
+      packed = kept.frameAt(time)->second;
+    }
+    revision = m->revision;
+  }
+  return packed ? packed->snapshot(revision) : nullptr;
 }
 
 std::optional<uint64_t> RunRecord::neighbour(uint64_t frame, int steps) const {
@@ -158,7 +177,7 @@ std::vector<RunRecord::EarlierRun> RunRecord::earlier() const {
   const std::lock_guard lock(m->mutex);
   std::vector<EarlierRun> runs;
   for (const KeptRun& run : m->earlier)
-    runs.push_back({run.number, run.apart, run.frames.rbegin()->second.stats().time});
+    runs.push_back({run.number, run.name, run.apart, run.frames.rbegin()->second.stats().time});
   return runs;
 }
 
@@ -182,6 +201,14 @@ std::vector<FrameStats> RunRecord::stats(uint64_t run) const {
 uint64_t RunRecord::present() const {
   const std::lock_guard lock(m->mutex);
   return m->number;
+}
+
+void RunRecord::rename(uint64_t number, const std::string& name) {
+  const std::lock_guard lock(m->mutex);
+  if (m->number == number) m->name = name;
+  for (KeptRun& run : m->earlier) {
+    if (run.number == number) run.name = name;
+  }
 }
 
 void RunRecord::Impl::drop(std::vector<KeptRun>::iterator run) {

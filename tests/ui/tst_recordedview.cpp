@@ -10,12 +10,16 @@
 #include "ui/session/recordedview.h"
 #include "ui/session/session.h"
 #include "ui/session/wording.h"
+#include "ui/theme/plaintext.h"
 #include "ui/timeline/keyrows.h"
+#include "ui/timeline/runlines.h"
 #include "ui/timeline/transport.h"
+#include "ui/window/noticebar.h"
 
 #include <QtCore/QElapsedTimer>
 #include <QtGui/QUndoStack>
 #include <QtTest/QSignalSpy>
+#include <QtWidgets/QLineEdit>
 #include <QtWidgets/QMenu>
 #include <QtWidgets/QPushButton>
 #include <QtWidgets/QToolButton>
@@ -255,6 +259,88 @@ class TestRecordedView : public SampleWindowTest {
     QCOMPARE(document().undoStack().count(), steps);  // time is no edit
   }
 
+  /// Gone back under another floor: what was stands in the scene as a ghost, at each time that is shown.
+  void anEarlierRunIsAGhost() {
+    trigger("simulation.ghost");  // there is none
+    QVERIFY(!session().recorded().hasGhost());
+    QVERIFY(m_window->notice()->text().contains(QStringLiteral("There is no earlier run")));
+    branchAt(5);
+    const auto shows = [this](uint64_t frame) {
+      const SnapshotPtr ghost = session().recorded().ghost();
+      return frame == 0 ? !ghost : ghost && ghost->stats.frame == frame;
+    };
+    trigger("simulation.ghost");
+    QVERIFY(session().recorded().hasGhost());
+    while (session().newest()->stats.frame < kFrames) {
+      session().engine()->stepOnce();
+      hash();
+    }
+    session().engine()->recording().settle();
+    QTRY_VERIFY_WITH_TIMEOUT(shows(kFrames), kLong);
+    QCOMPARE(session().recorded().ghost()->id.size(), session().newest()->id.size());
+    picture("tst_recordedview_ghost.png");
+    drag(8);
+    QTRY_VERIFY_WITH_TIMEOUT(shows(8), kLong);
+    drag(3);  // where both were one
+    QTRY_VERIFY_WITH_TIMEOUT(shows(0), kLong);
+    drag(8);
+    QTRY_VERIFY_WITH_TIMEOUT(shows(8), kLong);
+    session().recorded().showNewest();
+    session().engine()->stepOnce();  // beyond its end
+    hash();
+    QTRY_VERIFY_WITH_TIMEOUT(shows(0), kLong);
+    drag(8);
+    QTRY_VERIFY_WITH_TIMEOUT(shows(8), kLong);
+    choose(1, "Show as a ghost");
+    QVERIFY(shows(0) && !session().recorded().hasGhost());
+    choose(1, "Show as a ghost");
+    QTRY_VERIFY_WITH_TIMEOUT(shows(8), kLong);
+    choose(1, "Delete");
+    QVERIFY(shows(0));
+    QVERIFY(!session().recorded().compared());
+  }
+
+  /// Two runs side by side, each called what a hand calls it.
+  void earlierRunsHaveNames() {
+    branchAt(5);
+    branchAt(3);
+    RunLines* lines = transport().runs();
+    QTRY_COMPARE_WITH_TIMEOUT(lines->height(), 2 * RunLines::kPitch, kLong);
+    QVERIFY(!lines->rowOf(1).intersects(lines->rowOf(2)));
+    m_window->activateWindow();
+    const auto name = [&](uint64_t run, const QString& text, Qt::Key end) {
+      auto* line = lines->findChild<QLineEdit*>();
+      QVERIFY(line);
+      QVERIFY(lines->rowOf(run).intersects(line->geometry()));
+      QTest::keyClicks(line, text);
+      QTest::keyClick(line, end);
+      QTRY_VERIFY_WITH_TIMEOUT(!lines->findChild<QLineEdit*>(), kLong);
+    };
+    QTest::mouseClick(lines, Qt::LeftButton, {}, lines->rowOf(1).center());
+    QCOMPARE(lines->chosen(), std::optional<uint64_t>(1));
+    QTest::keyClick(lines, Qt::Key_F2);
+    name(1, QStringLiteral("as it was"), Qt::Key_Return);
+    QTest::mouseDClick(lines, Qt::LeftButton, {}, lines->rowOf(2).center());
+    name(2, QStringLiteral("other"), Qt::Key_Escape);
+    QCOMPARE(session().recorded().runName(1), QStringLiteral("as it was"));
+    QCOMPARE(session().recorded().runName(2), QStringLiteral("Run 2"));
+    choose(2, "Rename");
+    name(2, QStringLiteral("R&D, <b>hot</b>"), Qt::Key_Return);
+    QCOMPARE(session().recorded().runName(2), QStringLiteral("R&D, <b>hot</b>"));
+    QMenu menu;
+    transport().fillMenu(menu);
+    QVERIFY(fromButtonText(menu.actions().front()->text()).startsWith(QStringLiteral("as it was, 00:00")));
+    // What is compared is called so too, and a name goes with its run.
+    session().recorded().compare(2);
+    QTRY_VERIFY_WITH_TIMEOUT(!session().recorded().comparedStats().empty(), kLong);
+    QCOMPARE(m_window->graphs()->valuesIn("K")->otherRun(), QStringLiteral("R&D, <b>hot</b>"));
+    picture("tst_recordedview_names.png");
+    session().recorded().goOnWith(1);
+    QTRY_COMPARE_WITH_TIMEOUT(session().recorded().earlier().front().number, uint64_t{3}, kLong);
+    session().recorded().goOnWith(3);
+    QTRY_COMPARE_WITH_TIMEOUT(session().recorded().runName(1), QStringLiteral("as it was"), kLong);
+  }
+
   /// Who works on matter sees it as it stands.
   void aStrokeShowsTheNewestState() {
     drag(2);
@@ -282,6 +368,21 @@ class TestRecordedView : public SampleWindowTest {
   }
   uint64_t shownFrame() { return session().snapshot()->stats.frame; }
   Transport& transport() { return *m_window->transport(); }
+  /// The run goes on from a frame, and stands.
+  void branchAt(uint64_t frame) {
+    const size_t runs = session().recorded().earlier().size();
+    drag(frame);
+    QTRY_COMPARE_WITH_TIMEOUT(shownFrame(), frame, kLong);
+    QTest::mouseClick(transport().continueButton(), Qt::LeftButton);
+    QTRY_COMPARE_WITH_TIMEOUT(session().recorded().earlier().size(), runs + 1, kLong);
+    QTRY_VERIFY_WITH_TIMEOUT(!session().recorded().isActive(), kLong);
+    session().pause();
+    while (session().newest()->stats.frame < 6) {
+      session().engine()->stepOnce();
+      hash();
+    }
+    session().engine()->recording().settle();
+  }
   void trigger(const char* id) { m_window->action(QLatin1String(id))->trigger(); }
   void choose(int run, const char* what) {
     QMenu menu;

@@ -73,6 +73,8 @@ class TestRender : public QObject {
   void furnitureFollowsItsScene();
   void theSelectedBodyHasAnOutline_data();
   void theSelectedBodyHasAnOutline();
+  void aGhostIsToldApart_data();
+  void aGhostIsToldApart();
   void restoresState();
   void leavesNothingBehind();
   void twoThreadsDrawAsOneDoes();
@@ -342,6 +344,69 @@ void TestRender::theSelectedBodyHasAnOutline() {
   QVERIFY2(line > 0.7 * ring && line < 2.5 * ring, qPrintable(QStringLiteral("%1 of %2").arg(line).arg(ring)));
   o.look.outline->body = 99;
   QVERIFY(renderImage(renderer, s, tray(), o) == plain);
+}
+
+void TestRender::aGhostIsToldApart_data() {
+  QTest::addColumn<bool>("still");
+  QTest::addColumn<int>("motion");
+  QTest::newRow("solid") << false << int(api::Motion::Solid);
+  QTest::newRow("a still") << true << int(api::Motion::Solid);
+  QTest::newRow("liquid") << false << int(api::Motion::Liquid);
+  QTest::newRow("vapour") << false << int(api::Motion::Gas);
+}
+
+/// Of one sphere beside the one that is there: hatched, in its colour or not, and nothing anywhere else. Where both
+/// runs have their matter at one place there is none; behind matter it is fainter than before it.
+void TestRender::aGhostIsToldApart() {
+  QFETCH(bool, still);
+  QFETCH(int, motion);
+  Renderer renderer;
+  const auto sphereAt = [&](const Vector3& place) {
+    auto s = std::make_shared<Snapshot>();
+    s->materialLook = {{0.75f, 0.87f, 0.98f, 0}};
+    addParticle(*s, place, 0.08, 0, static_cast<api::Motion>(motion));
+    return s;
+  };
+  const Snapshot now = *sphereAt({-0.15, 0.3, 0});
+  Shot o = options(kMatterColour);
+  o.camera = Camera{{0, 0.3, 0}, 1.5, 0, 0};
+  o.size.still = still;
+  const auto plain = renderImage(renderer, now, tray(), o);
+  const Vector3 place{0.15, 0.3, 0};
+  o.look.ghost = Ghost{sphereAt(place), {1, 0, 1}, 1.5f};
+  const auto shown = renderImage(renderer, now, tray(), o);
+  const Vector3 centre = *project(o.camera, kWidth, kHeight, place);
+  const double radius = 0.08 / pixelSize(o.camera, kHeight, 1.5);
+  int faint = 0, strong = 0;
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      const double away = std::hypot(x + 0.5 - centre.x(), y + 0.5 - centre.y()) - radius;
+      const int change = difference(shown, plain, static_cast<size_t>(y * kWidth + x));
+      if (away > 2) QCOMPARE(pixelAt(shown, x, y), pixelAt(plain, x, y));
+      if (away < -5) ++(change > 150 ? strong : faint);  // a stripe, or between two
+      if (away < -5) QVERIFY2(change > 20, qPrintable(QString::number(change)));
+    }
+  }
+  QVERIFY2(strong > faint / 10 && faint > strong / 2, qPrintable(QStringLiteral("%1, %2").arg(strong).arg(faint)));
+
+  const auto changed = [&](const Vector3& where) {
+    o.look.ghost->matter = sphereAt(where);
+    const auto image = renderImage(renderer, now, tray(), o);
+    int sum = 0;
+    for (size_t i = 0; i < image.size() / 4; ++i) sum += difference(image, plain, i);
+    return sum;
+  };
+  if (motion == int(api::Motion::Gas)) return;  // a cloud hides nothing
+  QCOMPARE(changed({-0.15, 0.3, 0}), 0);
+  // As large in the picture, nearer and farther along the line of sight of the sphere's middle.
+  const int before = changed({-0.15 * 0.8, 0.3, 0.3}), behind = changed({-0.15 * 1.2, 0.3, -0.3});
+  QVERIFY2(behind > 0 && before > 1.5 * behind, qPrintable(QStringLiteral("%1, %2").arg(before).arg(behind)));
+  o.look.ghost->matter = std::make_shared<Snapshot>();
+  QVERIFY(renderImage(renderer, now, tray(), o) == plain);
+  auto fixed = sphereAt(place);
+  fixed->motion = {api::Motion::Static};
+  o.look.ghost->matter = fixed;
+  QVERIFY(renderImage(renderer, now, tray(), o) == plain);
 }
 
 void TestRender::restoresState() {

@@ -77,9 +77,11 @@ GraphsPanel::GraphsPanel(Session& session, QWidget* parent)
   connect(&session, &Session::valuesDue, this, &GraphsPanel::readHistory);
   connect(&session, &Session::totalsDue, this, &GraphsPanel::showDistributions);
   connect(&session.transitions(), &Transitions::changed, this, &GraphsPanel::setTransitions);
-  connect(&session.recorded(), &RecordedView::comparedChanged, this, [this] {
-    for (const Shown& shown : m_shown) showCompared(shown);
-  });
+  for (const auto signal : {&RecordedView::comparedChanged, &RecordedView::runsChanged}) {
+    connect(&session.recorded(), signal, this, [this] {
+      for (const Shown& shown : m_shown) showCompared(shown);
+    });
+  }
   connect(&session.document(), &Document::changed, this, [this](const ChangeEvent& event) {
     const bool opened = std::holds_alternative<ProjectOpened>(event);
     if (opened) {
@@ -217,7 +219,7 @@ void GraphsPanel::showCompared(const Shown& shown) {
   auto* view = qobject_cast<GraphView*>(shown.plot);
   if (!view) return;
   const RecordedView& recorded = m_session.recorded();
-  view->beginOther(recorded.compared() ? QStringLiteral("in run %1").arg(*recorded.compared()) : QString());
+  view->beginOther(recorded.compared() ? recorded.runName(*recorded.compared()) : QString());
   for (const FrameStats& stats : recorded.comparedStats()) {
     for (size_t s = 0; s < shown.sources.size(); ++s)
       view->appendOther(static_cast<int>(s), stats.time,

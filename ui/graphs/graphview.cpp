@@ -99,6 +99,8 @@ void GraphView::appendOther(int series, double time, double value) {
   dataChanged();
 }
 
+const QString& GraphView::otherRun() const { return d->otherRun; }
+
 size_t GraphView::otherCount(int series) const { return d->series.at(static_cast<size_t>(series)).other.size(); }
 
 void GraphView::setReferenceLines(std::vector<ReferenceLine> lines) {

@@ -40,6 +40,7 @@ class GraphView : public TimePlot {
   void beginOther(const QString& run);
   void appendOther(int series, double time, double value);
   size_t otherCount(int series) const;
+  const QString& otherRun() const;  ///< its name; "": there is none
   void setReferenceLines(std::vector<ReferenceLine> lines);
   /// Samples of a series as drawn in a column [first, last): lowest and highest; nothing: {NaN, NaN}.
   std::pair<double, double> extent(int series, double first, double last) const;

@@ -148,8 +148,22 @@ void arrange(Instances& out) {
   for (const Instance& p : out.outline) extent.add(p.x, p.y, p.z, p.radius);
   out.outlined = exposedFirst(extent, out.radius, lattice, 1, out.outline);
   out.outline.resize(out.outlined);
-  for (const std::vector<Instance>* list : {&out.liquid, &out.vapour, &out.outline})
+  for (const std::vector<Instance>* list : {&out.liquid, &out.vapour, &out.ghost, &out.outline})
     all.insert(all.end(), list->begin(), list->end());
+}
+
+/// What moves of another run's matter, and can be seen from outside of it.
+void collectGhost(const Snapshot* ghost, Instances& out) {
+  out.ghost.clear();
+  Extent extent;
+  for (size_t i = 0; ghost && i < ghost->position.size(); ++i) {
+    const auto& [x, y, z, radius] = ghost->position[i];
+    if (ghost->motion[i] == api::Motion::Static || !std::isfinite(x + y + z + radius) || radius <= 0) continue;
+    out.ghost.push_back({x, y, z, radius, 0, 0, 0, 0});
+    extent.add(x, y, z, radius);
+  }
+  out.ghosts = exposedFirst(extent, out.radius, 4 * out.radius, 6, out.ghost);
+  out.ghost.resize(out.ghosts);
 }
 
 }  // namespace
@@ -229,6 +243,7 @@ void collectInstances(const InstanceRequest& request, Instances& out) {
   for (const Instance& p : spheres) out.sphereExtent.add(p.x, p.y, p.z, p.radius);
   for (const Instance& p : liquids) out.liquidExtent.add(p.x, p.y, p.z, p.radius * 1.6f);
   for (const Instance& p : vapours) out.vapourExtent.add(p.x, p.y, p.z, p.radius * 8);
+  collectGhost(request.ghost, out);
   arrange(out);
 }
 

@@ -49,6 +49,7 @@ struct InstanceRequest {
   bool surfaces = true;                 ///< liquids become a surface, else spheres
   std::array<float, 3> steam{1, 1, 1};  ///< colour of vapour where colours show no data
   std::optional<uint32_t> outlined;     ///< index of the body that gets an outline
+  const Snapshot* ghost = nullptr;      ///< of another run; nullptr: none
 };
 
 /// A part of a list.
@@ -62,11 +63,12 @@ struct Instances {
   size_t buriedSpheres = 0, spheres = 0;           ///< in this order
   size_t dense = 0, clear = 0, buriedLiquids = 0;  ///< of surfaces; the dense ones hide what lies behind them
   size_t vapours = 0;
+  size_t ghosts = 0;               ///< what shows of another run's matter
   size_t outlined = 0;             ///< once more what makes the outlined body's picture
   std::optional<float> clearness;  ///< of all liquids, 0..1, where it is one
   Extent sphereExtent, liquidExtent, vapourExtent;
-  float radius = 0.01f;                                ///< mean of what is neither vapour nor static, m
-  std::vector<Instance> all, liquid, vapour, outline;  ///< while it is filled; kept for their memory
+  float radius = 0.01f;                                       ///< mean of what is neither vapour nor static, m
+  std::vector<Instance> all, liquid, vapour, ghost, outline;  ///< while it is filled; kept for their memory
 
   size_t liquids() const { return dense + clear + buriedLiquids; }
   Range sphereRange(bool amongThem) const {
@@ -75,6 +77,7 @@ struct Instances {
   Range casterRange() const { return {buriedSpheres, spheres + dense}; }
   Range liquidRange(bool amongThem) const { return {buriedSpheres + spheres, amongThem ? liquids() : dense + clear}; }
   Range vapourRange() const { return {buriedSpheres + spheres + liquids(), vapours}; }
+  Range ghostRange() const { return {buriedSpheres + spheres + liquids() + vapours, ghosts}; }
   Range outlineRange() const { return {particles.size() - outlined, outlined}; }
 };
 

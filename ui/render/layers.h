@@ -31,7 +31,7 @@ struct Layers {
   Background& backgroundOf(const PicturePlace& place);
 
   int width = 0, height = 0;
-  std::array<bool, 3> drawn{};  ///< the driver has shown that it can: liquid, vapour, an outline
+  std::array<bool, 4> drawn{};  ///< the driver has shown that it can: liquid, vapour, an outline, a ghost
   uint64_t used = 0;            ///< when, in draws
   Texture surface{GL_RGBA8, GL_NEAREST}, normal{GL_RGB10_A2, GL_NEAREST}, distance{GL_R32F, GL_NEAREST};
   Texture depth{GL_DEPTH24_STENCIL8, GL_NEAREST}, open{GL_R8, GL_LINEAR};
@@ -40,6 +40,7 @@ struct Layers {
   Texture fluidClear{GL_R16F, GL_LINEAR}, fluidNormal{GL_RGB10_A2, GL_LINEAR};
   Texture fluidDepth{GL_DEPTH_COMPONENT24, GL_NEAREST};
   Texture steam{GL_RGBA16F, GL_LINEAR}, mask{GL_R8, GL_LINEAR};
+  Texture ghost{GL_R32F, GL_NEAREST}, ghostDepth{GL_DEPTH_COMPONENT24, GL_NEAREST};
   std::list<Background> backgrounds;  ///< the one used last comes first
 };
 

@@ -76,7 +76,8 @@ void Passes::uploadFrame(const ViewFrame& frame) {
   if (frame.culled) m_visible.upload(GL_TEXTURE_BUFFER, frame.visible.data(), frame.visible.size() * sizeof(Instance));
   for (const auto& [buffer, tiles] : {std::pair{&m_liquidTiles, &frame.liquidTiles},
                                       {&m_detailTiles, &frame.detailTiles},
-                                      {&m_outlineTiles, &frame.outlineTiles}})
+                                      {&m_outlineTiles, &frame.outlineTiles},
+                                      {&m_ghostTiles, &frame.ghostTiles}})
     buffer->upload(GL_ARRAY_BUFFER, tiles->data(), tiles->size() * sizeof(TileSet::Corner));
 }
 
@@ -262,6 +263,37 @@ void Passes::drawGlass(const Job& job) {
   glDisable(GL_DEPTH_TEST);
 }
 
+/// Its nearest surface first, and then what that covers.
+void Passes::drawGhost(const Job& job) {
+  const auto& [prepared, frame, layers, plain] = job;
+  layers.ghost.resize(frame.width, frame.height);
+  layers.ghostDepth.resize(frame.width, frame.height);
+  {
+    const Target target({&layers.ghost}, &layers.ghostDepth);
+    clearDepth();
+    clearColour(0, kFar, 0, 0, 0);
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_LESS);
+    m_programs.fluidDepth.use();
+    glUniform1f(m_programs.fluidDepth.at("growth"), 1);
+    drawParticles(m_programs.fluidDepth, plain, m_particles, prepared.instances.ghostRange());
+    glDisable(GL_DEPTH_TEST);
+  }
+  const Target target({&layers.picture}, nullptr);
+  glEnable(GL_BLEND);
+  glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
+  const Program& program = m_programs.ghost;
+  program.use();
+  program.texture("ghostTexture", 0, layers.ghost.name());
+  program.texture("distanceTexture", 1, layers.distance.name());
+  program.texture("fluidTexture", 2, layers.fluid.name());
+  glUniform1i(program.at("fluidScale"), prepared.instances.liquids() ? m_quality.fluidScale : 0);
+  glUniform1f(program.at("width"), frame.ghostWidth);
+  glUniform3fv(program.at("tint"), 1, prepared.look.ghost->colour.data());
+  drawTiles(m_ghostTiles, frame.ghostTiles);
+  glDisable(GL_BLEND);
+}
+
 /// Into the picture itself, which begins at `place` of its framebuffer.
 void Passes::drawOutline(const Job& job, const PicturePlace& place) {
   const auto& [prepared, frame, layers, plain] = job;
@@ -337,6 +369,7 @@ void Passes::draw(const Prepared& prepared, const ViewFrame& frame, Layers& laye
   if (!frame.lidInFront) drawGlass(job);
   if (prepared.instances.vapours) drawSteam(job);
   if (frame.lidInFront) drawGlass(job);
+  if (prepared.instances.ghosts) drawGhost(job);
   // Smoothing stair steps would wash out so thin a line, which has smooth sides of its own.
   if (prepared.instances.outlined && frame.still) drawOutline(job, {Target({&layers.picture}, nullptr).name(), 0, 0});
   drawFinal(job);

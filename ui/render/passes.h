@@ -25,7 +25,7 @@ Quality qualityOf(const char* rendererName);
 inline constexpr float kThicknessGrowth = 1.7f;  ///< liquid adds up smoothly from spheres so many times as large
 
 /// Shaders, textures and buffers, and the passes in their order: the shadow picture once for everything that is
-/// prepared; surfaces, occlusion, light, liquid, vapour, glass, final, outline for each picture.
+/// prepared; surfaces, occlusion, light, liquid, vapour, glass, ghost, final, outline for each picture.
 class Passes {
  public:
   Passes();
@@ -54,6 +54,7 @@ class Passes {
     Program glass{"glass.vert", "glass.frag"};
     Program edge{"edge.vert", "edge.frag"};
     Program outlineMask{"outlinemask.vert", "outlinemask.frag", "particle.glsl"};
+    Program ghost{"tiles.vert", "ghost.frag"};
     Program outline{"tiles.vert", "outline.frag"};
     Program final{"tiles.vert", "final.frag"}, still{"fullscreen.vert", "final.frag"};
   };
@@ -79,6 +80,7 @@ class Passes {
   void smoothFluid(const Job& job);
   void drawSteam(const Job& job);
   void drawGlass(const Job& job);
+  void drawGhost(const Job& job);
   void drawOutline(const Job& job, const PicturePlace& place);
   void drawFinal(const Job& job);
   void drawParticles(const Program& program, const VertexArray& plain, const Buffer& particles, Range range,
@@ -92,9 +94,10 @@ class Passes {
   Texture m_noise{GL_RGBA8, GL_LINEAR_MIPMAP_NEAREST, GL_REPEAT}, m_cloud{GL_R8, GL_LINEAR, GL_REPEAT};
   uint64_t m_furniture = 0;  // revision that is in the buffers
   BufferTexture m_particleTexture;
-  Buffer m_particles, m_opaque, m_clear, m_edges;                              // of what is prepared
-  Buffer m_uniforms, m_visible, m_liquidTiles, m_detailTiles, m_outlineTiles;  // of the picture being drawn
-  Fence m_fence;  // behind the last call, whose context may have been another
+  Buffer m_particles, m_opaque, m_clear, m_edges;  // of what is prepared
+  Buffer m_uniforms, m_visible, m_liquidTiles, m_detailTiles, m_outlineTiles,
+      m_ghostTiles;  // of the picture being drawn
+  Fence m_fence;     // behind the last call, whose context may have been another
 };
 
 }  // namespace ps::render

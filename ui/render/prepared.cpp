@@ -65,6 +65,7 @@ void Prepared::collect(const Snapshot& now, const Snapshot* previous, double ble
   request.surfaces = !shown || !shown.field().inner;
   request.steam = sceneColour(look.dark, "steam");
   if (look.outline) request.outlined = look.outline->body;
+  if (look.ghost) request.ghost = look.ghost->matter.get();
   collectInstances(request, instances);
 }
 

@@ -68,7 +68,7 @@ void Renderer::draw(const Eye& eye, const RenderTarget& target) {
 
   const render::GlState state;
   const render::Instances& drawn = m->prepared.instances;
-  const std::array wanted{drawn.liquids() > 0, drawn.vapours > 0, drawn.outlined > 0};
+  const std::array wanted{drawn.liquids() > 0, drawn.vapours > 0, drawn.outlined > 0, drawn.ghosts > 0};
   const render::Layers* known = m->pool.find(frame.width, frame.height);
   bool first = !known;
   for (size_t i = 0; i < wanted.size(); ++i) first = first || wanted[i] > known->drawn[i];

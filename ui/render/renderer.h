@@ -27,6 +27,16 @@ struct BodyOutline {
   bool operator==(const BodyOutline&) const = default;
 };
 
+/// Matter of another run over the picture: one colour, hatched and with a line around it, so that it is told apart
+/// without the colour too; fainter where something stands before it, nothing where both have their matter at one place.
+/// What is fixed is left out.
+struct Ghost {
+  SnapshotPtr matter;
+  std::array<float, 3> colour{};  ///< sRGB
+  float lineWidth = 1.5f;         ///< device pixels
+  bool operator==(const Ghost&) const = default;
+};
+
 /// What a picture shows of its snapshot, from wherever it is seen.
 struct Look {
   std::string colour = kMatterColour;         ///< or a field; one that the snapshot has not is no colour
@@ -34,6 +44,7 @@ struct Look {
   bool dark = true;
   double meltingPoint = 273.15;  ///< K, pivot of the temperature map
   std::optional<BodyOutline> outline;
+  std::optional<Ghost> ghost;
   bool operator==(const Look&) const = default;
 };
 

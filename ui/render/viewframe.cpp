@@ -73,6 +73,7 @@ void ViewFrame::fill(const Prepared& prepared, const Eye& eye, const RenderTarge
   const BodyOutline line = prepared.look.outline.value_or(BodyOutline());
   lineWidth = line.lineWidth * static_cast<float>(scale);
   haloWidth = line.haloWidth * static_cast<float>(scale);
+  ghostWidth = (prepared.look.ghost ? prepared.look.ghost->lineWidth : 0) * static_cast<float>(scale);
   lidInFront = placeOf(eye).y() > static_cast<double>(prepared.furniture.lidHeight);
   vapourBox = pixelsOf(prepared.instances.vapourExtent, eye, width, height);
   amongSpheres = prepared.instances.sphereExtent.holds(placeOf(eye));
@@ -123,7 +124,7 @@ void ViewFrame::chooseThickness(const Prepared& prepared, const Eye& eye, int fi
 
 /// What shows, which parts of the picture have liquid, and which have edges to smooth or crevices to darken.
 void ViewFrame::findTiles(const Prepared& prepared, const Eye& eye) {
-  for (TileSet* tiles : {&liquid, &detail, &outline}) tiles->reset(width, height);
+  for (TileSet* tiles : {&liquid, &detail, &outline, &ghost}) tiles->reset(width, height);
   if (culled) {
     const Instances& instances = prepared.instances;
     const Projector projector(eye, width, height);
@@ -132,12 +133,14 @@ void ViewFrame::findTiles(const Prepared& prepared, const Eye& eye) {
     markSpheres(liquid, projector, part(instances.liquidRange(amongLiquids)), 1.4f);
     markSpheres(detail, projector, visible, 2.5f);
     markSpheres(outline, projector, part(instances.outlineRange()), 1.2f, 3 + lineWidth + haloWidth);
+    markSpheres(ghost, projector, part(instances.ghostRange()), 1, 3);
     markEdges(detail, projector, prepared.furniture.opaque);
     markEdges(detail, projector, prepared.furniture.clear);
   } else {
-    for (TileSet* tiles : {&liquid, &detail, &outline}) tiles->markAll();
+    for (TileSet* tiles : {&liquid, &detail, &outline, &ghost}) tiles->markAll();
   }
   outline.triangles(outlineTiles);
+  ghost.triangles(ghostTiles);
   liquid.triangles(liquidTiles);
   detail.triangles(detailTiles);
 }

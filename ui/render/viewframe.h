@@ -26,10 +26,12 @@ struct ViewFrame {
   int thicknessScale = 2;                     ///< inner pixels along a side for one of the liquid's thickness
   float lineWidth = 0, haloWidth = 0;         ///< of the outline, inner pixels
   std::vector<Instance> visible;              ///< nearest first
-  TileSet liquid, detail, outline;            ///< what the next three are made of
+  float ghostWidth = 0;                       ///< of the line around a ghost, inner pixels
+  TileSet liquid, detail, outline, ghost;     ///< what the next four are made of
   std::vector<TileSet::Corner> liquidTiles;   ///< where liquid may be
   std::vector<TileSet::Corner> detailTiles;   ///< where edges and crevices may be
   std::vector<TileSet::Corner> outlineTiles;  ///< where the outline may be
+  std::vector<TileSet::Corner> ghostTiles;    ///< where the ghost may be
   std::array<int, 4> vapourBox{};             ///< x, y, width, height of the pixels that vapour may touch
 
   /// With Quality::cull finds out what is hidden, and which parts of the picture need which passes. A graphics card

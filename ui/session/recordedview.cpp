@@ -21,6 +21,8 @@ RecordedView::RecordedView(Session& session) : m_session(session) {
   m_clock.setTimerType(Qt::PreciseTimer);
   m_clock.setInterval(kClockInterval);
   connect(&m_clock, &QTimer::timeout, this, &RecordedView::advance);
+  connect(&session, &Session::snapshotArrived, this, &RecordedView::followGhost);
+  connect(this, &RecordedView::comparedChanged, this, &RecordedView::followGhost);
 }
 
 const RunRecord* RecordedView::record() const {
@@ -168,7 +170,20 @@ void RecordedView::forgetRun(uint64_t run) {
   if (!record()) return;
   m_session.engine()->forgetRun(run);
   if (m_compared == run) compare(std::nullopt);
-  Q_EMIT changed();
+  Q_EMIT runsChanged();
+}
+
+void RecordedView::renameRun(uint64_t run, const QString& name) {
+  if (!record()) return;
+  m_session.engine()->renameRun(run, name.trimmed().toStdString());
+  Q_EMIT runsChanged();
+}
+
+QString RecordedView::runName(uint64_t run) const {
+  for (const RunRecord::EarlierRun& one : earlier()) {
+    if (one.number == run && !one.name.empty()) return QString::fromStdString(one.name);
+  }
+  return QStringLiteral("Run %1").arg(run);
 }
 
 void RecordedView::compare(std::optional<uint64_t> run) {
@@ -185,6 +200,52 @@ void RecordedView::compare(std::optional<uint64_t> run) {
       Q_EMIT comparedChanged();
     });
   });
+}
+
+QString RecordedView::setGhost(bool on) {
+  const std::vector<RunRecord::EarlierRun> runs = earlier();
+  if (on && runs.empty())
+    return QStringLiteral("There is no earlier run. Show a recorded frame and continue from there to have one.");
+  m_hasGhost = on;
+  if (on && !m_compared) compare(runs.back().number);
+  followGhost();
+  Q_EMIT runsChanged();
+  return {};
+}
+
+/// A worker unpacks; what is asked for meanwhile is asked for again when that has come.
+void RecordedView::followGhost() {
+  if (!m_hasGhost || !m_compared || !record()) {
+    setGhostShown(nullptr);
+    return;
+  }
+  const std::pair wanted(*m_compared, m_session.now());
+  if (m_ghostBusy || (m_ghost && m_ghostAt == wanted)) return;
+  m_ghostBusy = true;
+  m_session.worker().run([this, wanted, from = record()] {
+    SnapshotPtr ghost;
+    try {
+      ghost = from->earlierFrame(wanted.first, wanted.second);
+    } catch (const std::exception&) {
+      ghost = nullptr;  // as one that is not kept any more
+    }
+    QMetaObject::invokeMethod(this, [this, wanted, ghost] {
+      m_ghostBusy = false;
+      m_ghostAt = wanted;
+      if (!m_hasGhost || m_compared != wanted.first) {
+        followGhost();
+        return;
+      }
+      setGhostShown(ghost);
+      if (m_session.now() != wanted.second) followGhost();
+    });
+  });
+}
+
+void RecordedView::setGhostShown(SnapshotPtr ghost) {
+  if (ghost == m_ghost) return;
+  m_ghost = std::move(ghost);
+  Q_EMIT ghostChanged();
 }
 
 void RecordedView::follow(const SnapshotPtr& newest) {

@@ -8,6 +8,7 @@
 #include <QtCore/QTimer>
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace ps {
@@ -49,10 +50,18 @@ class RecordedView : public QObject {
   /// At its end; the present run is then an earlier one.
   void goOnWith(uint64_t run);
   void forgetRun(uint64_t run);
+  void renameRun(uint64_t run, const QString& name);
+  QString runName(uint64_t run) const;  ///< "Run 1" where nobody gave it one
   /// What an earlier run measured stands beside this one's curves; nothing: none does. A run that was just left does.
   void compare(std::optional<uint64_t> run);
   std::optional<uint64_t> compared() const { return m_compared; }
   const std::vector<FrameStats>& comparedStats() const { return m_comparedStats; }
+  /// Whether the compared run's matter, as it was at the time that is shown, is to be seen in the scene. On where none
+  /// is compared compares the last one; "" or why there is none.
+  QString setGhost(bool on);
+  bool hasGhost() const { return m_hasGhost; }
+  /// It; nullptr: there is none, or the compared run has none at that time.
+  const SnapshotPtr& ghost() const { return m_ghost; }
   /// Snapshots of another run, or of this one from an earlier frame on.
   void follow(const SnapshotPtr& newest);
 
@@ -60,12 +69,16 @@ class RecordedView : public QObject {
   void changed();
   void playingChanged();
   void comparedChanged();
+  void runsChanged();  ///< deleted, named, or told apart otherwise
+  void ghostChanged();
 
  private:
   void want(uint64_t frame);
   void advance();
   void unpack();
   void setShown(SnapshotPtr snapshot);
+  void followGhost();
+  void setGhostShown(SnapshotPtr ghost);
   const RunRecord* record() const;
 
   Session& m_session;
@@ -79,6 +92,9 @@ class RecordedView : public QObject {
   uint64_t m_revision = 0;
   std::optional<uint64_t> m_compared;  ///< number of a run
   std::vector<FrameStats> m_comparedStats;
+  bool m_hasGhost = false, m_ghostBusy = false;
+  std::pair<uint64_t, double> m_ghostAt;  ///< run and time in s of what was unpacked last
+  SnapshotPtr m_ghost;
   QString m_continuing;  ///< what to tell when the engine has gone there
 };
 

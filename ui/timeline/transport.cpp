@@ -8,7 +8,9 @@
 #include "ui/theme/icon.h"
 #include "ui/theme/numbers.h"
 #include "ui/theme/paint.h"
+#include "ui/theme/plaintext.h"
 #include "ui/theme/theme.h"
+#include "ui/timeline/runlines.h"
 
 #include <QtCore/QEvent>
 #include <QtGui/QActionGroup>
@@ -27,8 +29,8 @@ namespace ps {
 namespace {
 
 constexpr int kHeight = 40;
-constexpr int kBar = 4, kReach = 10;                  ///< logical pixels: of the bar, and of what a hand takes as it
-constexpr int kLine = 2, kPitch = 3, kMostLines = 4;  ///< of earlier runs above it
+constexpr int kBar = 4, kReach = 10;  ///< logical pixels: of the bar, and of what a hand takes as it
+constexpr int kGap = 3;               ///< between it and the lines of earlier runs
 
 QToolButton* toolButton(const QString& iconName, const QString& tip) {
   auto* button = new QToolButton;
@@ -100,7 +102,8 @@ Transport::Transport(Session& session, QWidget* parent)
       m_continue(new QPushButton(QStringLiteral("Continue from here"))),
       m_time(new QLabel),
       m_duration(new QLabel),
-      m_thermal(new ThermalClock) {
+      m_thermal(new ThermalClock),
+      m_runs(new RunLines(session, this)) {
   setFixedHeight(kHeight);
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(8, 0, 12, 4);
@@ -128,6 +131,7 @@ Transport::Transport(Session& session, QWidget* parent)
   setAccessibleName(QStringLiteral("Transport"));
   connect(m_continue, &QPushButton::clicked, &session.recorded(), &RecordedView::continueFromHere);
   connect(&session.recorded(), &RecordedView::changed, this, &Transport::showRecorded);
+  connect(&session.recorded(), &RecordedView::runsChanged, this, &Transport::refresh);
   m_loop->setCheckable(true);
   connect(m_loop, &QToolButton::toggled, &session.recorded(), &RecordedView::setLoop);
   connect(m_back, &QToolButton::clicked, &session.recorded(), [&session] { session.recorded().step(-1); });
@@ -290,17 +294,9 @@ void Transport::fillMenu(QMenu& menu) {
     connect(menu.addAction(QStringLiteral("Newest state")), &QAction::triggered, &recorded, &RecordedView::showNewest);
   }
   for (const RunRecord::EarlierRun& run : recorded.earlier()) {
-    QMenu* one =
-        menu.addMenu(QStringLiteral("Run %1, %2 to %3").arg(run.number).arg(clockText(run.apart), clockText(run.to)));
-    connect(one->addAction(QStringLiteral("Go on with it")), &QAction::triggered, &recorded,
-            [&recorded, run] { recorded.goOnWith(run.number); });
-    QAction* compare = one->addAction(QStringLiteral("Compare in graphs"));
-    compare->setCheckable(true);
-    compare->setChecked(recorded.compared() == run.number);
-    connect(compare, &QAction::triggered, &recorded,
-            [&recorded, run](bool on) { recorded.compare(on ? std::optional(run.number) : std::nullopt); });
-    connect(one->addAction(QStringLiteral("Delete")), &QAction::triggered, &recorded,
-            [&recorded, run] { recorded.forgetRun(run.number); });
+    const QString title =
+        QStringLiteral("%1, %2 to %3").arg(recorded.runName(run.number), clockText(run.apart), clockText(run.to));
+    m_runs->fillMenu(*menu.addMenu(asButtonText(title)), run.number);
   }
 }
 
@@ -311,11 +307,18 @@ void Transport::contextMenuEvent(QContextMenuEvent* event) {
 }
 
 void Transport::makeRoom() {
-  const int lines = std::min(static_cast<int>(m_session.recorded().earlier().size()), kMostLines);
-  if (kHeight + kPitch * lines == minimumHeight()) return;
-  setFixedHeight(kHeight + kPitch * lines);
-  layout()->setContentsMargins(8, 0, 12, kBar + kPitch * lines);
+  m_runs->setSpan(span());
+  const int lines = m_runs->wantedHeight();
+  if (kHeight + lines == minimumHeight()) return;
+  setFixedHeight(kHeight + lines);
+  layout()->setContentsMargins(8, 0, 12, kBar + lines);
+  m_runs->setVisible(lines > 0);
   Q_EMIT heightChanged();
+}
+
+void Transport::resizeEvent(QResizeEvent*) {
+  const int lines = m_runs->wantedHeight();
+  m_runs->setGeometry(0, height() - kBar - kGap - lines, width(), lines);
 }
 
 void Transport::refresh() {
@@ -323,8 +326,7 @@ void Transport::refresh() {
   m_time->setText(timeText());
   m_duration->setText(durationText());
   m_thermal->setTexts(thermalTexts());
-  const int reach = kReach + kPitch * kMostLines;
-  update(0, height() - reach, width(), reach);
+  update(0, height() - kReach, width(), kReach);
 }
 
 void Transport::paintEvent(QPaintEvent*) {
@@ -337,13 +339,6 @@ void Transport::paintEvent(QPaintEvent*) {
   if (kept.frames > 0)
     painter.fillRect(QRectF(kept.from * perSecond, top, (kept.to - kept.from) * perSecond, kBar),
                      theme[Token::SliderFill]);
-  const std::vector<RunRecord::EarlierRun> runs = m_session.recorded().earlier();
-  double y = top;
-  for (auto run = runs.rbegin(); run != runs.rend() && run - runs.rbegin() < kMostLines; ++run) {
-    y -= kPitch;
-    painter.fillRect(QRectF(run->apart * perSecond, y, std::max(2.0, (run->to - run->apart) * perSecond), kLine),
-                     theme[Token::Muted]);
-  }
   const auto mark = [&](double seconds, double rise, Token token) {
     painter.fillRect(QRectF(std::floor(seconds * perSecond) - 1, top - rise, 2, kBar + rise), theme[token]);
   };

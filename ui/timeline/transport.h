@@ -12,6 +12,7 @@ class QToolButton;
 
 namespace ps {
 
+class RunLines;
 class Session;
 class ThermalClock;
 
@@ -24,7 +25,7 @@ struct ThermalTexts {
 };
 
 /// Reset, steps, play, loop, speed; the two clocks; below them the part of the planned duration that is recorded, in
-/// which a drag shows any frame, and a line for each earlier run. While one is shown it says so, and from where the run
+/// which a drag shows any frame, and above that the earlier runs. While one is shown it says so, and from where the run
 /// goes on.
 class Transport : public QWidget {
   Q_OBJECT
@@ -46,6 +47,7 @@ class Transport : public QWidget {
   /// What can be done with the frame that is shown, and with earlier runs.
   void fillMenu(QMenu& menu);
   QPoint placeOf(double seconds) const;  ///< on the bar
+  RunLines* runs() const { return m_runs; }
 
  Q_SIGNALS:
   void heightChanged();
@@ -57,6 +59,7 @@ class Transport : public QWidget {
   void mouseReleaseEvent(QMouseEvent* event) override;
   void contextMenuEvent(QContextMenuEvent* event) override;
   void changeEvent(QEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
 
  private:
   void onChanged(const ChangeEvent& event);
@@ -73,6 +76,7 @@ class Transport : public QWidget {
   QPushButton *m_play, *m_continue;
   QLabel *m_time, *m_duration;
   ThermalClock* m_thermal;
+  RunLines* m_runs;
   bool m_playing = false, m_scrubs = false;
   double m_seconds = 0, m_thermalSeconds = 0, m_total = 60, m_scale = 1, m_stateSeconds = 0;
 };

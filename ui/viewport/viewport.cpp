@@ -6,6 +6,7 @@
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
 #include "ui/render/framing.h"
+#include "ui/session/recordedview.h"
 #include "ui/session/selection.h"
 #include "ui/session/session.h"
 #include "ui/session/transitions.h"
@@ -33,7 +34,6 @@ namespace {
 
 constexpr double kSlowSnapshots = 40;  // ms; only slower ones are interpolated, faster ones are shown as they come
 constexpr int kMajor = 4, kMinor = 3;
-constexpr double kIceMelts = 273.15;  // K: the pivot of the map where nothing in the scene melts
 
 }  // namespace
 
@@ -64,6 +64,7 @@ Viewport::Viewport(Session& session, Selection& selection, Toolbox& tools, QWidg
   connect(&m_paintTimer, &QTimer::timeout, this, qOverload<>(&QWidget::update));
   connect(&m_document, &Document::changed, this, &Viewport::onChanged);
   connect(&session, &Session::snapshotArrived, this, &Viewport::snapshotArrived);
+  connect(&session.recorded(), &RecordedView::ghostChanged, this, &Viewport::ghostChanged);
   connect(&session.transitions(), &Transitions::changed, this, qOverload<>(&QWidget::update));
   connect(&selection, &Selection::changed, this, [this] {
     update();
@@ -165,37 +166,6 @@ double Viewport::blend() const {
   return std::clamp(static_cast<double>(m_sinceSnapshot.elapsed()) / m_interval, 0.0, 1.0);
 }
 
-Look Viewport::look() {
-  Look look;
-  look.colour = m_colour;
-  if (const FieldPtr field = m_session.fields().find(m_colour); field && m_now) {
-    const auto measured = colourRange(*m_now, m_colour);
-    m_range = measured.first < measured.second ? m_legendRange.update(*field, measured) : measured;
-  }
-  look.rangeMinimum = m_range.first;
-  look.rangeMaximum = m_range.second;
-  look.dark = Theme::current().dark();
-  look.meltingPoint = m_session.transitions().meltsOr(kIceMelts);
-  look.outline = outline();
-  return look;
-}
-
-/// Around the selected body, two logical pixels wide.
-std::optional<BodyOutline> Viewport::outline() const {
-  const std::string selected = m_selection.body();
-  if (selected.empty() || !m_now || !m_now->bodyIds) return std::nullopt;
-  const auto found = std::find(m_now->bodyIds->begin(), m_now->bodyIds->end(), selected);
-  if (found == m_now->bodyIds->end()) return std::nullopt;
-  const auto channels = [](const QColor& c) { return std::array{c.redF(), c.greenF(), c.blueF()}; };
-  BodyOutline outline;
-  outline.body = static_cast<uint32_t>(found - m_now->bodyIds->begin());
-  outline.colour = channels(Theme::current()[Token::Accent]);
-  outline.halo = channels(Theme::current()[Token::Shadow]);
-  outline.lineWidth *= static_cast<float>(devicePixelRatioF());
-  outline.haloWidth *= static_cast<float>(devicePixelRatioF());
-  return outline;
-}
-
 void Viewport::paintGL() {
   QElapsedTimer clock;
   clock.start();
@@ -246,7 +216,7 @@ OverlayState Viewport::overlayState() const {
   state.field = m_session.fields().find(m_colour);
   state.range = m_range;
   if (state.field && state.field->bodies) state.classes = bodyClasses();
-  state.meltingPoint = m_session.transitions().meltsOr(kIceMelts);
+  state.meltingPoint = meltingPoint();
   state.boilingPoint = m_session.transitions().boils();
   state.empty = !m_now;
   if (m_hint) state.hints = hints();
@@ -337,7 +307,7 @@ void Viewport::bodiesChanged() {
     m_now = withoutBodies(m_session.snapshot(), m_hidden);
     m_previous = nullptr;
   }
-  requestPaint();
+  ghostChanged();
 }
 
 void Viewport::show(StandardView view) {

@@ -92,6 +92,8 @@ class Viewport : public QOpenGLWidget {
   OverlayState overlayState() const;
   std::vector<std::pair<QString, QString>> bodyClasses() const;
   Look look();
+  double meltingPoint() const;  ///< K, the pivot of the temperature's colours
+  void ghostChanged();
   std::vector<OverlayHint> hints() const;
   void paintPortsOver(QPainter& painter) const;
   std::optional<BodyOutline> outline() const;
@@ -115,6 +117,7 @@ class Viewport : public QOpenGLWidget {
   std::unique_ptr<Renderer> m_renderer;
   QString m_problem, m_graphics;
   SnapshotPtr m_now, m_previous;
+  SnapshotPtr m_ghost;  ///< of another run, without hidden bodies
   RenderScene m_scene;
   /// What the renderer has prepared: while only the camera moves, it stays.
   struct Shown {

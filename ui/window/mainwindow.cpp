@@ -206,6 +206,11 @@ void MainWindow::makeSimulationMenu(QMenu* menu) {
                 {QKeySequence(Qt::SHIFT | Qt::Key_Left)}, [this] { m_session->recorded().stepToMark(false); });
   m_actions.add(menu, QStringLiteral("simulation.continue"), QStringLiteral("Continue from the recorded frame shown"),
                 {}, [this] { m_session->recorded().continueFromHere(); });
+  m_actions.add(menu, QStringLiteral("simulation.ghost"), QStringLiteral("Ghost of an earlier run on or off"), {},
+                [this] {
+                  RecordedView& recorded = m_session->recorded();
+                  m_notices->refuse(QStringLiteral("No ghost is shown."), recorded.setGhost(!recorded.hasGhost()));
+                });
   m_actions.add(menu, QStringLiteral("simulation.reset"), QStringLiteral("Back to the start"),
                 {QKeySequence(Qt::Key_Home)}, [this] { m_session->reset(); });
   m_actions.add(menu, QStringLiteral("simulation.state"), QStringLiteral("Back to the saved state"),

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// Matter of another run over the picture: hatched, with a line where it ends.
+uniform sampler2D ghostTexture;
+uniform sampler2D distanceTexture;
+uniform sampler2D fluidTexture;
+uniform int fluidScale;  // 0: no liquid
+uniform float width;     // of the line, pixels
+uniform vec3 tint;       // sRGB
+out vec4 colour;
+
+float ghostAt(vec2 at) { return texelFetch(ghostTexture, clamp(ivec2(at), ivec2(0), ivec2(size.xy) - 1), 0).r; }
+
+void main() {
+  float ghost = ghostAt(gl_FragCoord.xy), scene = texelFetch(distanceTexture, ivec2(gl_FragCoord.xy), 0).r;
+  if (ghost >= kFar) discard;
+  if (fluidScale > 0) scene = min(scene, texelFetch(fluidTexture, ivec2(gl_FragCoord.xy) / fluidScale, 0).r);
+  float radius = matter.x;
+  bool before = ghost < scene - 0.75 * radius;
+  // A surface dips between its spheres by up to a radius, and that of a liquid stands off its own by a quarter.
+  if (!before && ghost < scene + 1.5 * radius) discard;
+  float away = 0.0;  // the farthest around, beyond what one body's surface turns within so few pixels
+  for (int i = 0; i < 8; ++i) {
+    float angle = 0.7853982 * float(i);
+    away = max(away, ghostAt(gl_FragCoord.xy + width * vec2(cos(angle), sin(angle))));
+  }
+  bool line = away > ghost + 8.0 * radius;
+  bool stripe = mod(gl_FragCoord.x + gl_FragCoord.y, 6.0 * width) < 1.5 * width;
+  colour = vec4(tint, line ? 0.95 : stripe ? 0.7 : 0.25);
+  if (!before) colour.a *= 0.5;
+}

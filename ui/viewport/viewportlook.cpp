@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the renderer is told of the picture: colours, the line around the selected body, the ghost of another run.
+#include "ui/document/document.h"
+#include "ui/session/recordedview.h"
+#include "ui/session/selection.h"
+#include "ui/session/session.h"
+#include "ui/session/transitions.h"
+#include "ui/theme/theme.h"
+#include "ui/viewport/hiddenbodies.h"
+#include "ui/viewport/viewport.h"
+
+#include <algorithm>
+
+namespace ps {
+namespace {
+
+constexpr double kIceMelts = 273.15;  // K: the pivot of the map where nothing in the scene melts
+
+std::array<float, 3> channels(const QColor& colour) { return {colour.redF(), colour.greenF(), colour.blueF()}; }
+
+}  // namespace
+
+double Viewport::meltingPoint() const { return m_session.transitions().meltsOr(kIceMelts); }
+
+void Viewport::ghostChanged() {
+  m_ghost = withoutBodies(m_session.recorded().ghost(), m_hidden);
+  requestPaint();
+}
+
+Look Viewport::look() {
+  Look look;
+  look.colour = m_colour;
+  if (const FieldPtr field = m_session.fields().find(m_colour); field && m_now) {
+    const auto measured = colourRange(*m_now, m_colour);
+    m_range = measured.first < measured.second ? m_legendRange.update(*field, measured) : measured;
+  }
+  look.rangeMinimum = m_range.first;
+  look.rangeMaximum = m_range.second;
+  look.dark = Theme::current().dark();
+  look.meltingPoint = meltingPoint();
+  look.outline = outline();
+  if (m_ghost)
+    look.ghost =
+        Ghost{m_ghost, channels(Theme::current()[Token::Curve]), 1.5f * static_cast<float>(devicePixelRatioF())};
+  return look;
+}
+
+/// Around the selected body, two logical pixels wide.
+std::optional<BodyOutline> Viewport::outline() const {
+  const std::string selected = m_selection.body();
+  if (selected.empty() || !m_now || !m_now->bodyIds) return std::nullopt;
+  const auto found = std::find(m_now->bodyIds->begin(), m_now->bodyIds->end(), selected);
+  if (found == m_now->bodyIds->end()) return std::nullopt;
+  BodyOutline outline;
+  outline.body = static_cast<uint32_t>(found - m_now->bodyIds->begin());
+  outline.colour = channels(Theme::current()[Token::Accent]);
+  outline.halo = channels(Theme::current()[Token::Shadow]);
+  outline.lineWidth *= static_cast<float>(devicePixelRatioF());
+  outline.haloWidth *= static_cast<float>(devicePixelRatioF());
+  return outline;
+}
+
+}  // namespace ps
