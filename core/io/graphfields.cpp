@@ -39,6 +39,8 @@ const FieldTable<Graph>& graphFields() {
                      List{Text{300}, "probe/ID, or frame/ and what each frame tells: frame/temperature"},
                      "curves over time"),
                field("logarithmic", &Graph::logarithmic, Toggle{}, "the axis of its values"),
+               field("difference", &Graph::difference, Toggle{},
+                     "of curves over time: beside them their difference from the run that this one is compared with"),
                field("below", &Graph::below, Toggle{}, "it stands below the graph before it, not beside it"),
                field("field", &Graph::field, FieldName{}, "of a histogram or a profile"),
                field("body", &Graph::body, Text{}, "of a histogram or a profile: id of a body; empty for all matter"),

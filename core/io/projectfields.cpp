@@ -66,6 +66,7 @@ std::vector<Field<Project>> sceneRows() {
       field("tracks", &Project::tracks, List{Object{trackFields()}}, "parameters over time")
           .omittedWhen([](const Project& project) { return ownedTracks(project).empty(); })
           .writtenAs([](const Project& project) { return List{Object{trackFields()}}.write(ownedTracks(project)); }),
+      field("markers", &Project::markers, List{Object{markerFields()}}, "moments that have names"),
       field("pluginsUsed", &Project::pluginsUsed, List{PluginId{std::nullopt, "what it does is left out"}},
             "missing ones are a warning")
           .always()

@@ -15,6 +15,7 @@ const FieldTable<SolverOptions>& solverFields();
 const FieldTable<Probe>& probeFields();
 const FieldTable<Graph>& graphFields();
 const FieldTable<Track>& trackFields();
+const FieldTable<Marker>& markerFields();
 const FieldTable<ViewState>& viewFields();
 const FieldTable<ProjectState>& stateFields();
 

@@ -53,4 +53,13 @@ const FieldTable<Track>& trackFields() {
   return table;
 }
 
+const FieldTable<Marker>& markerFields() {
+  static const FieldTable<Marker> table{
+      .help = "a moment of the scene that has a name",
+      .rows = {field("time", &Marker::time, Number{0, 1e9, "s"}, "of the scene").required(),
+               field("name", &Marker::name, Text{200}, "shown to people").required()},
+      .unknown = &Marker::unknown};
+  return table;
+}
+
 }  // namespace ps::fields

@@ -198,6 +198,7 @@ struct Graph {
   bool below = false;                       ///< it stands below the graph before it, not beside it
   std::string field = "temperature", body;  ///< of a histogram or profile: a field of ParticleFields; "" for all matter
   int axis = 1;                             ///< of a profile: 0 x, 1 y, 2 z
+  bool difference = false;                  ///< of curves over time: from the run that this one is compared with
   Unknown unknown{};
   bool operator==(const Graph&) const = default;
 };
@@ -221,6 +222,14 @@ struct Track {
   std::vector<TrackKey> keys;  ///< one at least; times ascend
   Unknown unknown{};
   bool operator==(const Track&) const = default;
+};
+
+/// A moment of the scene that has a name.
+struct Marker {
+  double time = 0;  ///< s
+  std::string name;
+  Unknown unknown{};
+  bool operator==(const Marker&) const = default;
 };
 
 /// Orbits its target; y is up.
@@ -265,7 +274,8 @@ struct Project {
   std::vector<Probe> probes;
   std::optional<std::vector<Graph>> graphs;  ///< nothing: those that suit the probes, see graphsFor()
   std::vector<Track> tracks;
-  double duration = 60;  ///< s
+  std::vector<Marker> markers;  ///< in the order in which they came
+  double duration = 60;         ///< s
   ViewState view;
   std::shared_ptr<const ProjectState> state;  ///< nullptr: it opens at its start
   Unknown unknown;

@@ -300,6 +300,54 @@ class TestRecordedView : public SampleWindowTest {
     QVERIFY(!session().recorded().compared());
   }
 
+  /// Under a hotter floor: what that makes of each curve is a curve too, saved with its graph and exported.
+  void whatARunDiffersInIsACurve() {
+    QCOMPARE(document().setParameter(kFloor, 900.0), QString());
+    branchAt(5);
+    while (session().newest()->stats.frame < kFrames) {
+      session().engine()->stepOnce();
+      hash();
+    }
+    GraphView* view = m_window->graphs()->valuesIn("K");
+    QTRY_VERIFY_WITH_TIMEOUT(!session().recorded().comparedStats().empty() && view->sampleCount(0) > kFrames, kLong);
+    const std::string id = document().graphs().front().id, before = writeProject(document().project());
+    const auto toggle = [&] {
+      const std::unique_ptr<QMenu> menu(m_window->graphs()->makeMenu(id));
+      for (QAction* action : menu->actions()) {
+        if (action->text() == QStringLiteral("Difference from the compared run")) action->trigger();
+      }
+    };
+    const auto timeOf = [this](uint64_t frame) { return session().engine()->history(frame).front().time; };
+    const double end = timeOf(kFrames);
+    QVERIFY(std::isnan(view->differenceAt(0, end)));
+    const size_t axes = view->axes().size();
+    toggle();
+    QVERIFY(document().graphs().front().difference);
+    QVERIFY(writeProject(document().project()).find("\"difference\": true") != std::string::npos);
+    const FrameStats own = session().engine()->history(kFrames).front(),
+                     other = session().recorded().comparedStats().back();
+    QCOMPARE(own.frame, other.frame);
+    const double difference = own.temperatureMean - other.temperatureMean;
+    QVERIFY2(difference > 1e-3, qPrintable(QString::number(difference)));
+    QVERIFY(std::abs(view->differenceAt(0, end) - difference) < 1e-6);
+    QCOMPARE(view->differenceAt(0, timeOf(3)), 0.0);  // both were one
+    QCOMPARE(view->axes().size(), 2 * axes);
+    session().engine()->stepOnce();  // beyond the end of the other
+    hash();
+    QTRY_VERIFY_WITH_TIMEOUT(view->sampleCount(0) > kFrames + 1, kLong);
+    QVERIFY(std::isnan(view->differenceAt(0, timeOf(kFrames + 1))));
+    picture("tst_recordedview_difference.png");
+    const QList<QByteArray> rows = m_window->graphs()->exported(id, QStringLiteral("csv")).trimmed().split('\n');
+    QVERIFY(rows.front().startsWith(
+        "time_s,Mean temperature [K],Mean temperature [K] in Run 1,Mean temperature [K] less Run 1"));
+    QCOMPARE(rows.size(), qsizetype{kFrames + 3});
+    QVERIFY(std::abs(rows[kFrames + 1].split(',')[3].toDouble() - difference) < 1e-9);
+    QVERIFY(rows.back().split(',')[2].isEmpty() && rows.back().split(',')[3].isEmpty());
+    document().undoStack().undo();
+    QCOMPARE(writeProject(document().project()), before);
+    QCOMPARE(view->axes().size(), axes);
+  }
+
   /// Two runs side by side, each called what a hand calls it.
   void earlierRunsHaveNames() {
     branchAt(5);
@@ -337,8 +385,10 @@ class TestRecordedView : public SampleWindowTest {
     picture("tst_recordedview_names.png");
     session().recorded().goOnWith(1);
     QTRY_COMPARE_WITH_TIMEOUT(session().recorded().earlier().front().number, uint64_t{3}, kLong);
+    QTRY_VERIFY_WITH_TIMEOUT(!session().engine()->making(), kLong);
     session().recorded().goOnWith(3);
     QTRY_COMPARE_WITH_TIMEOUT(session().recorded().runName(1), QStringLiteral("as it was"), kLong);
+    QTRY_VERIFY_WITH_TIMEOUT(!session().engine()->making(), kLong);
   }
 
   /// Who works on matter sees it as it stands.

@@ -101,12 +101,13 @@ constexpr const char* kFull = R"({
              "thermal": {"model": "org.example.gone", "parameters": {"x": 1.5}}},
   "probes": [{"id": "p", "name": "Kern, innen", "quantity": "temperature", "body": "a", "phase": "solid",
               "region": {"minimum": [0, 0, 0], "maximum": [0.1, 0.1, 0.1]}, "wave": {"axis": "y", "wavelength": 2}, "material": "water"}],
-  "graphs": [{"id": "g", "kind": "time", "series": ["probe/p", "frame/temperature"], "logarithmic": true},
+  "graphs": [{"id": "g", "kind": "time", "series": ["probe/p", "frame/temperature"], "logarithmic": true, "difference": true},
              {"id": "h", "kind": "profile", "title": "Höhe", "field": "speed", "body": "a", "axis": "z", "below": true}],
   "tracks": [{"parameter": "wall/floor/temperature", "keys": [
        {"time": 0.1, "value": 400.00000000000006, "to_next": "smooth", "slope_after": 12.5},
        {"time": 3, "value": 300, "to_next": "step", "slope_before": -1}, {"time": 4, "value": 310, "to_next": "linear"}]},
      {"parameter": "body/a/spin_y", "keys": [{"time": 0, "value": -1e-7, "to_next": "linear"}]}],
+  "markers": [{"time": 2.5, "name": "Hälfte"}, {"time": 0, "name": "Anfang"}],
   "duration": 12.5, "view": {"colour": "phase", "pinned": ["wall/floor/temperature"]}
 })";
 

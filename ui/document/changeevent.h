@@ -58,6 +58,8 @@ struct ProbesChanged {
 };
 /// Other graphs are shown, or they show something else.
 struct GraphsChanged {};
+/// Markers came, went, moved or are called something else.
+struct MarkersChanged {};
 /// The project holds another state to open at, or none; the scene that runs stays what it is.
 struct StateChanged {};
 /// The file, its name or whether it holds everything changed.
@@ -66,6 +68,6 @@ struct FileChanged {};
 /// What happened to a document, as one value: receivers visit it.
 using ChangeEvent = std::variant<ProjectOpened, ParameterChanged, BodyChanged, PortChanged, WallsChanged,
                                  MaterialsChanged, StrokeChanged, ViewChanged, PinsChanged, TracksChanged,
-                                 ProbesChanged, GraphsChanged, StateChanged, FileChanged>;
+                                 ProbesChanged, GraphsChanged, MarkersChanged, StateChanged, FileChanged>;
 
 }  // namespace ps

@@ -134,6 +134,25 @@ GraphsCommand::GraphsCommand(Document& document, Graphs before, Graphs after, co
 void GraphsCommand::undo() { m_document.applyGraphs(m_before); }
 void GraphsCommand::redo() { m_document.applyGraphs(m_after); }
 
+MarkersCommand::MarkersCommand(Document& document, std::vector<Marker> before, std::vector<Marker> after, int gesture,
+                               const QString& text)
+    : QUndoCommand(text),
+      m_document(document),
+      m_before(std::move(before)),
+      m_after(std::move(after)),
+      m_gesture(gesture) {}
+
+void MarkersCommand::undo() { m_document.applyMarkers(m_before); }
+void MarkersCommand::redo() { m_document.applyMarkers(m_after); }
+
+bool MarkersCommand::mergeWith(const QUndoCommand* other) {
+  const auto* next = static_cast<const MarkersCommand*>(other);
+  if (next->m_gesture != m_gesture) return false;
+  m_after = next->m_after;
+  setObsolete(m_before == m_after);
+  return true;
+}
+
 ProbeCommand::ProbeCommand(Document& document, ProbeEdit edit, int gesture, const QString& text)
     : QUndoCommand(text), m_document(document), m_edit(std::move(edit)), m_gesture(gesture) {
   setObsolete(m_edit.before == m_edit.after);

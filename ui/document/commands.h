@@ -148,6 +148,23 @@ class GraphsCommand : public QUndoCommand {
   Graphs m_before, m_after;
 };
 
+/// Markers that come, go or change: all of them before and after. Commands of one gesture merge; one that ends where it
+/// began vanishes.
+class MarkersCommand : public QUndoCommand {
+ public:
+  MarkersCommand(Document& document, std::vector<Marker> before, std::vector<Marker> after, int gesture,
+                 const QString& text);
+  void undo() override;
+  void redo() override;
+  int id() const override { return 5; }
+  bool mergeWith(const QUndoCommand* other) override;
+
+ private:
+  Document& m_document;
+  std::vector<Marker> m_before, m_after;
+  int m_gesture;
+};
+
 /// A probe that comes, goes or changes, and where it stands among all.
 struct ProbeEdit {
   size_t index = 0;

@@ -145,6 +145,12 @@ class Document : public QObject {
   QString setKeys(const std::vector<Keys>& tracks, const QString& text);
   QString trackTitle(const Address& address) const;  ///< "Temperature of Hot plate"
 
+  // Markers, by their place in the project's list. Within a gesture all edits are one undo step.
+  /// Named by its number. Returns its place.
+  size_t addMarker(double time);
+  void editMarker(size_t place, double time, const QString& name);
+  void removeMarker(size_t place);
+
   // Probes. What they measure are parameters of theirs: see probeParameters().
   const Probe* probe(const std::string& id) const;
   /// Its id, "probe" where it has none, gets a number when it is taken; a name comes from the id. Returns the id.
@@ -183,6 +189,7 @@ class Document : public QObject {
   void applyPins(const std::vector<std::string>& pins);
   void applyTrack(const TrackEdit& edit, bool forward);
   void applyGraphs(const std::optional<std::vector<Graph>>& graphs);
+  void applyMarkers(const std::vector<Marker>& markers);
   void applyProbe(const ProbeEdit& edit, bool forward);
 
  Q_SIGNALS:
@@ -194,6 +201,7 @@ class Document : public QObject {
   QString setProbeParameter(const Address& address, const Value& value);
   void pushProbe(ProbeEdit edit, const QString& title);
   void setGraphs(std::vector<Graph> graphs, const QString& title);
+  void setMarkers(std::vector<Marker> markers, const QString& title);
   std::vector<TrackEdit> tracksAfter(const Address& curve, const Value& after) const;
   std::optional<Value> asStored(const Address& address, const std::optional<Value>& value) const;
   void editBody(const std::string& id, const QString& text, const std::function<void(Body&)>& change);

@@ -11,6 +11,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <utility>
 
 namespace ps {
 
@@ -76,8 +77,7 @@ QByteArray historyCsv(const std::vector<FrameStats>& history, const std::vector<
   return csv;
 }
 
-QByteArray graphCsv(const std::vector<FrameStats>& history, const Graph& graph, const Project& project,
-                    const ParticleFields& fields) {
+QByteArray graphCsv(const GraphRuns& runs, const Graph& graph, const Project& project, const ParticleFields& fields) {
   std::vector<std::string> names = graph.series;
   if (graph.kind == Graph::Kind::Phases) {
     names.clear();
@@ -91,18 +91,30 @@ QByteArray graphCsv(const std::vector<FrameStats>& history, const Graph& graph, 
       names.push_back(frameSource(key));
   }
   QByteArray csv = "time_s";
-  std::vector<GraphSource> sources;
+  std::vector<std::pair<GraphSource, GraphSource>> sources;  // one for each run: they remember where they looked
   for (const std::string& name : names) {
     const GraphSource source(name, project, fields);
     if (!source) continue;
-    csv += ',' + quotedCell(source.label() + " [" + source.unit() + "]");
-    sources.push_back(source);
+    const std::string title = source.label() + " [" + source.unit() + "]";
+    csv += ',' + quotedCell(title);
+    if (!runs.other.empty())
+      csv += ',' + quotedCell(title + " in " + runs.otherName) + ',' + quotedCell(title + " less " + runs.otherName);
+    sources.emplace_back(source, source);
   }
   csv += '\n';
-  for (const FrameStats& stats : history) {
-    csv += numberCell(stats.time);
-    for (const GraphSource& source : sources) csv += ',' + numberCell(source(stats));
+  for (auto own = runs.frames.begin(), other = runs.other.begin();
+       own != runs.frames.end() || other != runs.other.end();) {
+    const bool hasOwn = own != runs.frames.end() && (other == runs.other.end() || own->frame <= other->frame);
+    const bool hasOther = other != runs.other.end() && (own == runs.frames.end() || other->frame <= own->frame);
+    csv += numberCell(hasOwn ? own->time : other->time);
+    for (const auto& [ofOwn, ofOther] : sources) {
+      const double value = hasOwn ? ofOwn(*own) : std::nan(""), there = hasOther ? ofOther(*other) : std::nan("");
+      csv += ',' + numberCell(value);
+      if (!runs.other.empty()) csv += ',' + numberCell(there) + ',' + numberCell(value - there);
+    }
     csv += '\n';
+    if (hasOwn) ++own;
+    if (hasOther) ++other;
   }
   return csv;
 }

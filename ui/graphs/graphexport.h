@@ -25,9 +25,14 @@ QByteArray quotedCell(const std::string& text);
 /// All frames as CSV: "time_s,thermal_time_s,mean.temperature[K],…" one row per frame, with every probe.
 QByteArray historyCsv(const std::vector<FrameStats>& history, const std::vector<Probe>& probes,
                       const ParticleFields& fields);
+/// What a graph is of: the frames of the run, and of one that it is compared with.
+struct GraphRuns {
+  std::vector<FrameStats> frames, other;
+  std::string otherName;
+};
 /// The curves of a graph over time, in SI units: "time_s,Ice core [K]", one row per frame. Of masses by phase and of
-/// energy what they show.
-QByteArray graphCsv(const std::vector<FrameStats>& history, const Graph& graph, const Project& project,
-                    const ParticleFields& fields);
+/// energy what they show. With another run, beside each column "Ice core [K] in Run 1" and "Ice core [K] less Run 1";
+/// frames that one of them lacks have empty cells.
+QByteArray graphCsv(const GraphRuns& runs, const Graph& graph, const Project& project, const ParticleFields& fields);
 
 }  // namespace ps

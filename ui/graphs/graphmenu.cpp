@@ -64,6 +64,11 @@ void GraphMenu::fill(QMenu& menu, const Graph* graph) const {
       document->editGraph(id, QStringLiteral("scale of a graph"), [](Graph& g) { g.logarithmic = !g.logarithmic; });
     });
   }
+  if (graph->kind == Graph::Kind::Time) {
+    addCheck(menu, QStringLiteral("Difference from the compared run"), graph->difference, [document = &m_document, id] {
+      document->editGraph(id, QStringLiteral("difference in a graph"), [](Graph& g) { g.difference = !g.difference; });
+    });
+  }
   menu.addSeparator();
   addGraphs(menu, QStringLiteral("Split: beside it"), graph, false);
   addGraphs(menu, QStringLiteral("Split: below it"), graph, true);

@@ -91,6 +91,7 @@ GraphsPanel::GraphsPanel(Session& session, QWidget* parent)
     }
     if (opened || std::holds_alternative<GraphsChanged>(event) || std::holds_alternative<ProbesChanged>(event))
       rebuild();
+    if (std::holds_alternative<MarkersChanged>(event)) setMarkers();
   });
 }
 
@@ -141,6 +142,7 @@ void GraphsPanel::rebuild() {
     shown.sources = std::move(sources);
     shown.plot->setTitle(titleOf(graph, project, m_session.fields()));
     if (!same) prepare(shown);
+    if (auto* view = qobject_cast<GraphView*>(shown.plot)) view->setDifference(graph.difference);
     shown.plot->setLogarithmic(graph.logarithmic);
     m_shown.push_back(std::move(shown));
     if (!same && m_shown.back().overTime) fresh.push_back(m_shown.size() - 1);
@@ -150,6 +152,7 @@ void GraphsPanel::rebuild() {
     if (gone.plot) gone.plot->deleteLater(), gone.plot->hide();
   }
   arrange();
+  setMarkers();
   setTransitions();
   setEmptyTexts();
   showDistributions();
@@ -303,6 +306,15 @@ void GraphsPanel::setTransitions() {
   }
 }
 
+void GraphsPanel::setMarkers() {
+  std::vector<std::pair<double, QString>> markers;
+  for (const Marker& marker : m_session.document().project().markers)
+    markers.emplace_back(marker.time, QString::fromStdString(marker.name));
+  for (const Shown& shown : m_shown) {
+    if (shown.overTime) shown.overTime->setMarkers(markers);
+  }
+}
+
 void GraphsPanel::setEmptyTexts() {
   const SnapshotPtr snapshot = m_session.snapshot();
   const bool particles = snapshot && !snapshot->id.empty();
@@ -345,8 +357,11 @@ QByteArray GraphsPanel::exported(const std::string& id, const QString& ending) c
   if (ending == QStringLiteral("png")) return pngOf(*shown->plot);
   if (ending == QStringLiteral("svg")) return svgOf(*shown->plot);
   if (auto* view = qobject_cast<DistributionView*>(shown->plot)) return view->csv();
-  return graphCsv(m_session.engine() ? m_session.engine()->history(0) : std::vector<FrameStats>(), shown->graph,
-                  m_session.document().project(), m_session.fields());
+  const RecordedView& recorded = m_session.recorded();
+  const std::string run = recorded.compared() ? recorded.runName(*recorded.compared()).toStdString() : std::string();
+  return graphCsv(
+      {m_session.engine() ? m_session.engine()->history(0) : std::vector<FrameStats>(), recorded.comparedStats(), run},
+      shown->graph, m_session.document().project(), m_session.fields());
 }
 
 QString GraphsPanel::fileName(const std::string& id, const QString& ending) const {

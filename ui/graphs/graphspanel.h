@@ -68,6 +68,7 @@ class GraphsPanel : public QWidget {
   void feed(const std::vector<FrameStats>& frames, const std::vector<size_t>& graphs);
   void setTransitions();
   void setEmptyTexts();
+  void setMarkers();
   void clear();
   const Shown* find(const std::string& id) const;
 

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace ps {
 namespace {
@@ -22,6 +23,7 @@ struct Series {
   QString name;
   size_t axis = 0;
   SampleSeries samples, other;  ///< of this run, and of one that it is compared with
+  SampleSeries difference{};
 };
 
 /// Of what a unit gains in a second, and of what it adds up to: "m/s" gives "m/s²" and "m".
@@ -42,6 +44,10 @@ struct GraphView::Private {
   std::vector<Series> series;
   std::vector<ReferenceLine> references;
   QString otherRun;
+  size_t units = 1;  ///< axes of values; behind them those of differences, in the same order
+  bool difference = false;
+  bool stale = true;  ///< differences are to be made again
+  bool showsDifference() const { return difference && !otherRun.isEmpty(); }
 };
 
 GraphView::GraphView(QWidget* parent) : TimePlot(parent), d(std::make_unique<Private>()) {}
@@ -50,14 +56,17 @@ GraphView::~GraphView() = default;
 int GraphView::addSeries(const QString& name, const QString& unit) {
   std::vector<ValueAxis>& axes = valueAxes();
   if (d->series.empty() && !unit.isEmpty()) axes.front().unit = unit;
+  axes.resize(d->units);
   const auto same = std::find_if(axes.begin(), axes.end(), [&](const ValueAxis& axis) { return axis.unit == unit; });
   const auto axis = unit.isEmpty() && d->series.empty() ? size_t{0} : static_cast<size_t>(same - axes.begin());
   if (axis == axes.size()) {
     axes.push_back({});
     axes.back().unit = unit;
     axes.back().logarithmic = axes.front().logarithmic;
+    d->units = axes.size();
   }
   d->series.push_back({name, axis, {}, {}});
+  layOutAxes();
   dataChanged();
   return static_cast<int>(d->series.size()) - 1;
 }
@@ -66,42 +75,86 @@ int GraphView::seriesCount() const { return static_cast<int>(d->series.size()); 
 
 void GraphView::removeAllSeries() {
   d->series.clear();
+  d->units = 1;
   valueAxes().resize(1);
   valueAxes().front().unit.clear();
+  layOutAxes();
   dataChanged();
 }
 
 void GraphView::append(int series, double time, double value) {
   if (series < 0 || series >= seriesCount() || !std::isfinite(time)) return;
-  d->series[static_cast<size_t>(series)].samples.append(time, value);
+  Series& to = d->series[static_cast<size_t>(series)];
+  to.samples.append(time, value);
+  if (!d->stale) to.difference.append(time, value - to.other.lineAt(time));
   dataChanged();
 }
 
 void GraphView::clear() {
   for (Series& series : d->series) series.samples.clear();
+  d->stale = true;
   dataChanged();
 }
 
 void GraphView::clearSeries(int series) {
   d->series.at(static_cast<size_t>(series)).samples.clear();
+  d->stale = true;
   dataChanged();
 }
 
 void GraphView::beginOther(const QString& run) {
   d->otherRun = run;
   for (Series& series : d->series) series.other.clear();
+  d->stale = true;
+  layOutAxes();
   dataChanged();
 }
 
 void GraphView::appendOther(int series, double time, double value) {
   if (series < 0 || series >= seriesCount() || !std::isfinite(time)) return;
   d->series[static_cast<size_t>(series)].other.append(time, value);
+  d->stale = true;
   dataChanged();
 }
 
 const QString& GraphView::otherRun() const { return d->otherRun; }
 
 size_t GraphView::otherCount(int series) const { return d->series.at(static_cast<size_t>(series)).other.size(); }
+
+void GraphView::setDifference(bool on) {
+  if (d->difference == on) return;
+  d->difference = on;
+  layOutAxes();
+  dataChanged();
+}
+
+double GraphView::differenceAt(int series, double time) const {
+  if (!d->showsDifference()) return kNaN;
+  makeDifferences();
+  return d->series.at(static_cast<size_t>(series)).difference.lineAt(time);
+}
+
+/// Zooms of the axes that stay are kept.
+void GraphView::layOutAxes() {
+  std::vector<ValueAxis>& axes = valueAxes();
+  axes.resize(d->showsDifference() ? 2 * d->units : d->units);
+  for (size_t k = d->units; k < axes.size(); ++k) {
+    axes[k].unit = axes[k - d->units].unit;
+    axes[k].mark = QStringLiteral("Δ ");
+  }
+}
+
+/// Samples of both runs come apart in time where frames were thinned.
+void GraphView::makeDifferences() const {
+  if (!std::exchange(d->stale, false)) return;
+  for (Series& series : d->series) {
+    series.difference.clear();
+    for (size_t i = 0; i < series.samples.size(); ++i) {
+      const SampleSeries::Sample& sample = series.samples[i];
+      series.difference.append(sample.time, (sample.low + sample.high) / 2 - series.other.lineAt(sample.time));
+    }
+  }
+}
 
 void GraphView::setReferenceLines(std::vector<ReferenceLine> lines) {
   d->references = std::move(lines);
@@ -134,9 +187,12 @@ double GraphView::lastTime() const {
 std::pair<double, double> GraphView::valueExtent(size_t axis, double first, double last) const {
   const ValueAxis& shown = axes()[axis];
   SampleSeries::Extent extent;
+  const bool differences = axis >= d->units;
+  if (differences) makeDifferences(), extent.add(0);
   for (const Series& series : d->series) {
-    if (series.axis != axis) continue;
-    for (const SampleSeries* samples : {&series.samples, &series.other}) {
+    if (series.axis != axis % d->units) continue;
+    const auto shownOnes = differences ? std::vector{&series.difference} : std::vector{&series.samples, &series.other};
+    for (const SampleSeries* samples : shownOnes) {
       const size_t from = samples->indexAt(first);
       extent.add(samples->extent(from > 0 ? from - 1 : 0, samples->indexAt(last) + 1));
     }
@@ -175,6 +231,24 @@ void GraphView::paintReferences(QPainter& painter) const {
   }
 }
 
+/// Dotted in the colour of their curve, about a line at none.
+void GraphView::paintDifferences(QPainter& painter, double perColumn) const {
+  if (!d->showsDifference()) return;
+  makeDifferences();
+  const Theme& theme = Theme::current();
+  for (size_t index = 0; index < d->series.size(); ++index) {
+    const Series& series = d->series[index];
+    const size_t axis = d->units + series.axis;
+    const double none = snapped(painter, y(0, axis)) + hairline(painter) / 2;
+    painter.setPen(QPen(theme[Token::Line2], hairline(painter)));
+    painter.drawLine(QPointF(plotRect().left(), none), QPointF(plotRect().right(), none));
+    QPen pen(theme.series(static_cast<int>(index)), 1.5, Qt::SolidLine, Qt::FlatCap, Qt::BevelJoin);
+    pen.setDashPattern({1, 2});
+    painter.setPen(pen);
+    paintSeries(painter, series.difference, axis, perColumn);
+  }
+}
+
 void GraphView::paintData(QPainter& painter) {
   const Theme& theme = Theme::current();
   const QRectF plot = plotRect();
@@ -197,6 +271,7 @@ void GraphView::paintData(QPainter& painter) {
     painter.setPen(pen);
     paintSeries(painter, d->series[index].samples, d->series[index].axis, perColumn);
   }
+  paintDifferences(painter, perColumn);
 }
 
 /// One device pixel column after the other. Where a column's samples lie close together, a smooth line passes through
@@ -271,22 +346,27 @@ void GraphView::paintLabels(QPainter& painter) {
     double top;
     QPointF end;
     size_t series;
-    QString value;
+    QString name, value;
     double valueWidth;
   };
   std::vector<Label> labels;
   const auto [first, last] = range();
-  for (size_t i = 0; i < d->series.size(); ++i) {
-    const auto& [name, axis, samples, other] = d->series[i];
-    if (samples.empty() || !std::isfinite(samples.lastValue()) || samples.lastTime() < first ||
-        samples.lastTime() > last)
-      continue;
-    const QPointF end(x(samples.lastTime()), y(samples.lastValue(), axis));
-    if (!plot.adjusted(-1, -1, 1, 1).contains(end)) continue;
+  const auto add = [&](size_t i, const QString& name, const SampleSeries& samples, size_t axis, double value,
+                       double time) {
+    if (samples.empty() || !std::isfinite(value) || time < first || time > last) return;
+    const QPointF end(x(time), y(value, axis));
+    if (!plot.adjusted(-1, -1, 1, 1).contains(end)) return;
     const ValueAxis& of = axes()[axis];
     const QString unit = axis > 0 ? QLatin1Char(' ') + of.shownUnit() : QString();
-    labels.push_back({end.y() - 8, end, i, curveText(of.ticks(), of.onAxis(samples.lastValue())) + unit,
+    labels.push_back({end.y() - 8, end, i, name, curveText(of.ticks(), of.onAxis(value)) + unit,
                       curveTextWidth(of.ticks(), of.onAxis(of.low()), of.onAxis(of.high())) + textWidth(unit, font)});
+  };
+  for (size_t i = 0; i < d->series.size(); ++i) {
+    const Series& s = d->series[i];
+    if (!s.samples.empty()) add(i, s.name, s.samples, s.axis, s.samples.lastValue(), s.samples.lastTime());
+    if (!d->showsDifference() || s.difference.empty() || s.other.empty()) continue;
+    const double end = std::min(s.samples.lastTime(), s.other.lastTime());
+    add(i, QStringLiteral("Δ ") + s.name, s.difference, d->units + s.axis, s.difference.valueAt(end), end);
   }
   // From the top down, each label at its line's end or as little below it as keeps the texts apart.
   std::sort(labels.begin(), labels.end(), [](const Label& a, const Label& b) { return a.top < b.top; });
@@ -303,7 +383,7 @@ void GraphView::paintLabels(QPainter& painter) {
     painter.drawEllipse(label.end, 3, 3);
     if (label.top < plot.top() + titleStrip() - 4) continue;  // too low a plot for all of them
     // The value ends where the longest one would.
-    const QString& name = d->series[label.series].name;
+    const QString& name = label.name;
     const double width = textWidth(name, font) + 5 + label.valueWidth;
     const QRectF rect(labelLeft(label.end.x(), width), label.top, width + 1, 16);
     painter.fillRect(rect.adjusted(-2, 1, 2, -1), ground);
@@ -315,9 +395,9 @@ void GraphView::paintLabels(QPainter& painter) {
 std::vector<PlotLine> GraphView::readOut(double time) const {
   std::vector<PlotLine> lines;
   for (size_t i = 0; i < d->series.size(); ++i) {
-    const auto& [name, axis, samples, other] = d->series[i];
+    const auto& [name, axis, samples, other, difference] = d->series[i];
     const double value = samples.valueAt(time);
-    const double before = other.empty() ? kNaN : other.valueAt(time);
+    const double before = other.empty() ? kNaN : other.lineAt(time);
     const QString& unit = axes()[axis].unit;
     if (std::isfinite(value)) lines.push_back({name, amountText(value, unit), static_cast<int>(i)});
     if (std::isfinite(before)) lines.push_back({d->otherRun, amountText(before, unit), static_cast<int>(i)});
@@ -333,7 +413,7 @@ std::vector<PlotLine> GraphView::measure(double from, double to) const {
       {QStringLiteral("A to B: ") + placeText(to - from), QStringLiteral("change · slope · area")}};
   const double span = axes().front().high() - axes().front().low();
   for (size_t i = 0; i < d->series.size(); ++i) {
-    const auto& [name, axis, samples, other] = d->series[i];
+    const auto& [name, axis, samples, other, difference] = d->series[i];
     const double change = samples.valueAt(to) - samples.valueAt(from), area = samples.integral(from, to);
     if (!std::isfinite(change) || !(to > from)) continue;
     const QString& unit = axes()[axis].unit;

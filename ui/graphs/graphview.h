@@ -40,6 +40,10 @@ class GraphView : public TimePlot {
   void beginOther(const QString& run);
   void appendOther(int series, double time, double value);
   size_t otherCount(int series) const;
+  /// Whether, where there is another run, this one's difference from it is a dotted line on an axis of its own.
+  void setDifference(bool on);
+  /// Its value at a time in s; NaN where there is none.
+  double differenceAt(int series, double time) const;
   const QString& otherRun() const;  ///< its name; "": there is none
   void setReferenceLines(std::vector<ReferenceLine> lines);
   /// Samples of a series as drawn in a column [first, last): lowest and highest; nothing: {NaN, NaN}.
@@ -57,7 +61,10 @@ class GraphView : public TimePlot {
 
  private:
   struct Private;
+  void layOutAxes();
+  void makeDifferences() const;
   void paintReferences(QPainter& painter) const;
+  void paintDifferences(QPainter& painter, double perColumn) const;
   void paintSeries(QPainter& painter, const SampleSeries& samples, size_t axis, double perColumn) const;
   std::unique_ptr<Private> d;
 };

@@ -82,6 +82,7 @@ void Plot::setUnit(const QString& unit) {
 
 void Plot::setLogarithmic(bool on) {
   for (ValueAxis& axis : d->axes) {
+    if (!axis.mark.isEmpty()) continue;
     if (axis.logarithmic != on) axis.zoom.reset();
     axis.logarithmic = on;
   }

@@ -148,6 +148,18 @@ double SampleSeries::integral(double from, double to) const {
   return area;
 }
 
+double SampleSeries::lineAt(double time) const {
+  const size_t next = indexAt(time);
+  if (next == m_samples.size()) return kNaN;
+  const Sample& b = m_samples[next];
+  const double end = (b.low + b.high) / 2;
+  if (b.time == time) return end;
+  if (next == 0) return kNaN;
+  const Sample& a = m_samples[next - 1];
+  const double begin = (a.low + a.high) / 2;
+  return begin + (end - begin) * (time - a.time) / (b.time - a.time);
+}
+
 double SampleSeries::valueAt(double time) const {
   if (m_samples.empty() || time < m_samples.front().time || time > m_samples.back().time) {
     return std::numeric_limits<double>::quiet_NaN();

@@ -55,6 +55,8 @@ class SampleSeries {
   Extent extent(size_t first, size_t last) const;
   /// Value at a time by the sample before it; NaN outside.
   double valueAt(double time) const;
+  /// On the line through the samples at a time; NaN outside and beside a gap.
+  double lineAt(double time) const;
   /// Area below the line between two times, in units of the value times s; gaps count for nothing.
   double integral(double from, double to) const;
 

@@ -4,6 +4,8 @@
 #include "ui/theme/paint.h"
 #include "ui/theme/theme.h"
 
+#include <QtGui/QPainter>
+
 #include <algorithm>
 
 namespace ps {
@@ -27,9 +29,27 @@ std::pair<double, double> TimePlot::fittedRange() const {
 
 QString TimePlot::placeText(double at) const { return formatFixed(at, 2) + QStringLiteral(" s"); }
 
+void TimePlot::setMarkers(std::vector<std::pair<double, QString>> markers) {
+  if (m_markers == markers) return;
+  m_markers = std::move(markers);
+  update();
+}
+
 void TimePlot::paintBehind(QPainter& painter) {
   const auto [first, last] = range();
   const QRectF plot = plotRect();
+  const Theme& theme = Theme::current();
+  const QFont font = Theme::font(TextRole::Small);
+  for (const auto& [time, name] : m_markers) {
+    if (time < first || time > last) continue;
+    paintVerticalLine(painter, x(time) - 0.5, plot.top(), plot.bottom(), theme[Token::ControlEdge]);
+    const double wide = textWidth(name, font) + 1;
+    const QRectF place(labelLeft(x(time) - 4, wide), plot.bottom() - 17, wide, 15);
+    QColor ground = theme[Token::Field];
+    ground.setAlphaF(0.75f);
+    painter.fillRect(place.adjusted(-2, 1, 2, -1), ground);
+    paintText(painter, place, Qt::AlignLeft | Qt::AlignVCenter, name, font, theme[Token::Muted]);
+  }
   if (m_present >= first && m_present <= last)
     paintVerticalLine(painter, x(m_present) - 0.5, plot.top(), plot.bottom(), Theme::current()[Token::Accent]);
 }

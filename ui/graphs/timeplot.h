@@ -16,6 +16,9 @@ class TimePlot : public Plot {
   /// Line of the present time; NaN hides it.
   void setPresentTime(double seconds);
   double presentTime() const { return m_present; }
+  /// Thin lines with names: times in s.
+  void setMarkers(std::vector<std::pair<double, QString>> markers);
+  const std::vector<std::pair<double, QString>>& markers() const { return m_markers; }
   virtual void clear() = 0;  ///< removes all samples
 
  Q_SIGNALS:
@@ -31,6 +34,7 @@ class TimePlot : public Plot {
   void paintBehind(QPainter& painter) override;
 
  private:
+  std::vector<std::pair<double, QString>> m_markers;
   double m_duration = 0, m_present = std::numeric_limits<double>::quiet_NaN();
 };
 

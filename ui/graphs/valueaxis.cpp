@@ -104,7 +104,7 @@ void ValueAxis::pan(double share) { zoom = {valueAt(share), valueAt(1 + share)};
 
 QString ValueAxis::label(int tick, bool right) const {
   const QString number = tickText(m_ticks, tick);
-  return right && tick + 1 == m_ticks.count ? number + QLatin1Char(' ') + shownUnit() : number;
+  return right && tick + 1 == m_ticks.count ? number + QLatin1Char(' ') + mark + shownUnit() : number;
 }
 
 double ValueAxis::labelWidth(bool right) const {

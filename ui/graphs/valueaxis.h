@@ -35,6 +35,7 @@ double curveTextWidth(const Ticks& axis, double low, double high);
 class ValueAxis {
  public:
   QString unit;  ///< as people see it; takes a prefix where it can: "J", not "°C"
+  QString mark;  ///< before the unit: "Δ " on an axis of differences, which is never logarithmic
   bool logarithmic = false;
   std::optional<std::pair<double, double>> zoom;  ///< values shown; nothing: as far as the data go
   /// Takes over what is shown; `most` ticks.

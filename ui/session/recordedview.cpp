@@ -58,6 +58,9 @@ void RecordedView::stepToMark(bool forward) {
       if (key.time > kept.from && key.time < kept.to) marks.push_back(key.time);
     }
   }
+  for (const Marker& marker : m_session.document().project().markers) {
+    if (marker.time > kept.from && marker.time < kept.to) marks.push_back(marker.time);
+  }
   std::sort(marks.begin(), marks.end());
   const double now = m_session.now(), frame = 2 * m_session.document().keySlack();
   if (forward) {

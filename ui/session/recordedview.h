@@ -30,7 +30,7 @@ class RecordedView : public QObject {
   void showAt(double seconds);
   /// So many frames on or back from the one that is shown; beyond the last of them is the newest state.
   void step(int frames);
-  /// The next key or end of the record after the time that is shown, or the one before.
+  /// The next key, marker or end of the record after the time that is shown, or the one before.
   void stepToMark(bool forward);
   void showNewest();
   /// From the frame that is shown, or from the first one where that is the newest. At the end of the record it begins

@@ -83,6 +83,7 @@ double KeyRows::span() const {
   double last = m_session.document().project().duration;
   for (const Row& row : m_rows)
     last = std::max(last, keysOf(row.address).empty() ? 0 : keysOf(row.address).back().time);
+  for (const Marker& marker : m_session.document().project().markers) last = std::max(last, marker.time);
   return last > 0 ? last : 1;
 }
 

@@ -2,6 +2,7 @@
 #include "ui/timeline/timeline.h"
 
 #include "ui/timeline/keyrows.h"
+#include "ui/timeline/markerrow.h"
 #include "ui/timeline/transport.h"
 
 #include <QtWidgets/QScrollArea>
@@ -17,7 +18,11 @@ constexpr int kMostRows = 4;  ///< that are shown without scrolling
 }  // namespace
 
 Timeline::Timeline(Session& session, QWidget* parent)
-    : QWidget(parent), m_keys(new KeyRows(session)), m_scroll(new QScrollArea), m_transport(new Transport(session)) {
+    : QWidget(parent),
+      m_keys(new KeyRows(session)),
+      m_markers(new MarkerRow(session, *m_keys)),
+      m_scroll(new QScrollArea),
+      m_transport(new Transport(session)) {
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(0);
@@ -27,19 +32,35 @@ Timeline::Timeline(Session& session, QWidget* parent)
   m_scroll->setFocusPolicy(Qt::NoFocus);
   m_scroll->setWidget(m_keys);
   layout->addWidget(m_transport);
+  layout->addWidget(m_markers);
   layout->addWidget(m_scroll);
   connect(m_keys, &KeyRows::rowsChanged, this, &Timeline::fit);
   connect(m_transport, &Transport::heightChanged, this, &Timeline::fit);
+  m_markers->hide();
+  connect(m_markers, &MarkerRow::wanted, this, [this](bool any) {
+    m_markers->setVisible(any);
+    fit();
+  });
   fit();
 }
 
+std::vector<std::pair<QString, QString>> Timeline::gestures() {
+  return {{QStringLiteral("Drag"), QStringLiteral("Show a recorded time; move a key or a marker")},
+          {QStringLiteral("Double-click"), QStringLiteral("Set a key or a marker; name a run or a marker")},
+          {QStringLiteral("F2"), QStringLiteral("Name the chosen run or marker")},
+          {QStringLiteral("Del"), QStringLiteral("Delete the chosen key or marker")},
+          {QStringLiteral("Right-click"), QStringLiteral("Go on with an earlier run, compare, ghost, delete")}};
+}
+
+/// The keys keep their width where there are none: markers are on their scale.
 void Timeline::fit() {
   const int most = KeyRows::kRuler + kMostRows * KeyRows::kRow;
   const int height = std::min(m_keys->wantedHeight(), most);
   m_scroll->setFixedHeight(height);
-  m_scroll->setVisible(height > 0);
-  setFixedHeight(m_transport->minimumHeight() + height);
-  Q_EMIT heightChanged(m_transport->minimumHeight() + height);
+  m_keys->setVisible(height > 0);
+  const int all = m_transport->minimumHeight() + (m_markers->isHidden() ? 0 : MarkerRow::kHeight) + height;
+  setFixedHeight(all);
+  Q_EMIT heightChanged(all);
 }
 
 }  // namespace ps

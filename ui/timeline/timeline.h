@@ -2,19 +2,25 @@
 #pragma once
 #include <QtWidgets/QWidget>
 
+#include <utility>
+#include <vector>
+
 class QScrollArea;
 
 namespace ps {
 
 class KeyRows;
+class MarkerRow;
 class Session;
 class Transport;
 
-/// The transport, and below it the keys of what is animated, where there are any.
+/// The transport, and below it markers and the keys of what is animated, where there are any.
 class Timeline : public QWidget {
   Q_OBJECT
  public:
   explicit Timeline(Session& session, QWidget* parent = nullptr);
+  /// What keys and buttons do here: {"Drag", "Show any recorded time"}.
+  static std::vector<std::pair<QString, QString>> gestures();
 
  Q_SIGNALS:
   void heightChanged(int pixels);
@@ -22,6 +28,7 @@ class Timeline : public QWidget {
  private:
   void fit();
   KeyRows* m_keys;
+  MarkerRow* m_markers;
   QScrollArea* m_scroll;
   Transport* m_transport;
 };

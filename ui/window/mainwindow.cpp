@@ -200,12 +200,16 @@ void MainWindow::makeSimulationMenu(QMenu* menu) {
                 [this] { m_session->step(); });
   m_actions.add(menu, QStringLiteral("simulation.back"), QStringLiteral("One recorded frame back"),
                 {QKeySequence(Qt::Key_Left)}, [this] { m_session->recorded().step(-1); });
-  m_actions.add(menu, QStringLiteral("simulation.nextMark"), QStringLiteral("Next key of the recorded part"),
+  m_actions.add(menu, QStringLiteral("simulation.nextMark"), QStringLiteral("Next key or marker of the recorded part"),
                 {QKeySequence(Qt::SHIFT | Qt::Key_Right)}, [this] { m_session->recorded().stepToMark(true); });
-  m_actions.add(menu, QStringLiteral("simulation.previousMark"), QStringLiteral("Previous key of the recorded part"),
-                {QKeySequence(Qt::SHIFT | Qt::Key_Left)}, [this] { m_session->recorded().stepToMark(false); });
+  m_actions.add(menu, QStringLiteral("simulation.previousMark"),
+                QStringLiteral("Previous key or marker of the recorded part"), {QKeySequence(Qt::SHIFT | Qt::Key_Left)},
+                [this] { m_session->recorded().stepToMark(false); });
   m_actions.add(menu, QStringLiteral("simulation.continue"), QStringLiteral("Continue from the recorded frame shown"),
                 {}, [this] { m_session->recorded().continueFromHere(); });
+  m_actions.add(menu, QStringLiteral("simulation.marker"), QStringLiteral("Add marker"),
+                {QKeySequence(QStringLiteral("Shift+M"))},
+                [this] { m_session->document().addMarker(m_session->now()); });
   m_actions.add(menu, QStringLiteral("simulation.ghost"), QStringLiteral("Ghost of an earlier run on or off"), {},
                 [this] {
                   RecordedView& recorded = m_session->recorded();

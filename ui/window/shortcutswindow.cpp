@@ -2,6 +2,7 @@
 #include "ui/window/shortcutswindow.h"
 
 #include "ui/graphs/plot.h"
+#include "ui/timeline/timeline.h"
 #include "ui/tools/navigation.h"
 #include "ui/tools/toolbox.h"
 #include "ui/tools/tooltable.h"
@@ -64,6 +65,8 @@ std::vector<ShortcutGroup> shortcutGroups(MainWindow& window) {
   }
   groups.push_back({QStringLiteral("In a graph"), {}});
   for (const auto& [keys, does] : Plot::gestures()) groups.back().lines.emplace_back(keys, does);
+  groups.push_back({QStringLiteral("In the timeline"), {}});
+  for (const auto& [keys, does] : Timeline::gestures()) groups.back().lines.emplace_back(keys, does);
   for (const ToolRow& row : toolTable()) groups.push_back(toolGroup(row, window.tools().tool(row.id)));
   return groups;
 }
