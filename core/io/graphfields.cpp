@@ -36,7 +36,10 @@ const FieldTable<Graph>& graphFields() {
                      "value of a field now; a field's mean and ends along an axis now")
                    .always(),
                field("series", &Graph::series,
-                     List{Text{300}, "probe/ID, or frame/ and what each frame tells: frame/temperature"},
+                     List{Text{300},
+                          "probe/ID, frame/ and what each frame tells, as frame/temperature, or parameter/ and the "
+                          "address of a "
+                          "number or a switch, as parameter/wall/floor/temperature"},
                      "curves over time"),
                field("logarithmic", &Graph::logarithmic, Toggle{}, "the axis of its values"),
                field("difference", &Graph::difference, Toggle{},

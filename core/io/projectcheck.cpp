@@ -199,7 +199,7 @@ class ProjectChecker : public FieldVisitor {
 
   void object(const Graph& graph, const std::string& pointer) override {
     for (size_t i = 0; i < graph.series.size(); ++i) {
-      if (!GraphSource(graph.series[i], m_project, m_fields))
+      if (!GraphSource(graph.series[i], m_project, m_fields, &m_plugins))
         warn(at(pointer + "/series", i), "there is no '" + graph.series[i] + "' to plot; it is left out");
     }
     const bool ofField = graph.kind == Graph::Kind::Histogram || graph.kind == Graph::Kind::Profile;

@@ -193,7 +193,7 @@ struct Graph {
   enum class Kind : uint8_t { Time, Phases, Energy, Histogram, Profile };
   std::string id, title;  ///< title "": made of what it shows
   Kind kind = Kind::Time;
-  std::vector<std::string> series;          ///< over time: "probe/ID", or "frame/KEY" of a FrameQuantity
+  std::vector<std::string> series;          ///< over time: sources as GraphSource knows them
   bool logarithmic = false;                 ///< the axis of its values
   bool below = false;                       ///< it stands below the graph before it, not beside it
   std::string field = "temperature", body;  ///< of a histogram or profile: a field of ParticleFields; "" for all matter

@@ -2,6 +2,10 @@
 #include "core/simulation/graphsource.h"
 
 #include "core/scene/shownname.h"
+#include "core/scene/track.h"
+#include "core/simulation/declared.h"
+#include "core/simulation/parametercourse.h"
+#include "core/simulation/tracks.h"
 
 #include <algorithm>
 #include <cmath>
@@ -29,6 +33,34 @@ bool isMeanOfAll(const Probe& probe) {
 bool measuresSame(Probe a, const Probe& b) {
   a.name = b.name;
   return a == b;
+}
+
+/// What people call whose parameter it is; "" where there is one owner.
+std::string ownerNameIn(const Project& project, const Address& address) {
+  const auto named = [&](const auto& items) {
+    for (const auto& item : items) {
+      if (item.id == address.id) return shownName(item);
+    }
+    return address.id;
+  };
+  switch (address.owner) {
+    case Owner::Wall:
+      return named(project.environment.walls);
+    case Owner::Body:
+    case Owner::Constraint:
+      return named(project.bodies);
+    case Owner::Emitter:
+      return named(project.emitters);
+    case Owner::Sink:
+      return named(project.sinks);
+    case Owner::Material:
+      for (const SceneMaterial& material : project.materials) {
+        if (material.id == address.id && !material.label.empty()) return material.label;
+      }
+      return address.id;
+    default:
+      return {};
+  }
 }
 
 class Chooser {
@@ -103,11 +135,18 @@ const std::vector<FrameQuantity>& frameQuantities() {
 std::string probeSource(std::string_view probe) { return std::string(kProbe).append(probe); }
 std::string frameSource(std::string_view quantity) { return std::string(kFrame).append(quantity); }
 
+std::string parameterSource(const Address& parameter) { return std::string(kParameterSource) + parameter.text(); }
+
 std::string probeOfSource(std::string_view source) {
   return source.starts_with(kProbe) ? std::string(source.substr(kProbe.size())) : std::string();
 }
 
-GraphSource::GraphSource(const std::string& source, const Project& project, const ParticleFields& fields) {
+GraphSource::GraphSource(const std::string& source, const Project& project, const ParticleFields& fields,
+                         const PluginRegistry* plugins) {
+  if (source.starts_with(kParameterSource)) {
+    if (const auto address = Address::parse(source.substr(kParameterSource.size()))) adopt(*address, project, plugins);
+    return;
+  }
   const std::string id = probeOfSource(source);
   const auto probe = std::find_if(project.probes.begin(), project.probes.end(),
                                   [&](const Probe& p) { return !id.empty() && p.id == id; });
@@ -127,12 +166,29 @@ GraphSource::GraphSource(const std::string& source, const Project& project, cons
   m_unit = frame->unit;
 }
 
+void GraphSource::adopt(const Address& parameter, const Project& project, const PluginRegistry* plugins) {
+  using api::ParameterKind;
+  const api::ParameterDeclaration* declared = declarationOf(project, plugins, parameter);
+  if (!declared || parameter.owner == Owner::Probe || !hasOwner(project, parameter)) return;
+  if (declared->kind != ParameterKind::Number && declared->kind != ParameterKind::Integer &&
+      declared->kind != ParameterKind::Toggle)
+    return;
+  m_known = true;
+  m_parameter = parameter;
+  m_unit = declared->unit && *declared->unit ? declared->unit : "1";
+  m_label = declared->label;
+  const std::string owner = ownerNameIn(project, parameter);
+  if (!owner.empty()) m_label = owner + ": " + m_label;
+}
+
 bool GraphSource::operator==(const GraphSource& other) const {
-  return m_label == other.m_label && m_frame == other.m_frame && m_probe == other.m_probe;
+  return m_label == other.m_label && m_frame == other.m_frame && m_probe == other.m_probe &&
+         m_parameter == other.m_parameter;
 }
 
 double GraphSource::operator()(const FrameStats& stats) const {
   if (m_frame) return m_frame->of(stats);
+  if (m_parameter) return m_course ? m_course->at(stats) : std::numeric_limits<double>::quiet_NaN();
   if (!m_probe || !stats.measured) return std::numeric_limits<double>::quiet_NaN();
   if (stats.measured != m_measured) {
     m_measured = stats.measured;

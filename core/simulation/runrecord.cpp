@@ -39,13 +39,13 @@ size_t bytesOf(const FrameEdit& edit) {
   return bytes;
 }
 
+}  // namespace
+
 bool changesDocument(const RecordedEdit& edit) {
   const auto* command = std::get_if<Command>(&edit);
   return !command || std::holds_alternative<SetParameter>(*command) || std::holds_alternative<SetTracks>(*command) ||
          std::holds_alternative<UpdateProject>(*command);
 }
-
-}  // namespace
 
 RunRecord::RunRecord(size_t budget) : m(std::make_unique<Impl>(budget)) {
   m->thread = std::jthread([impl = m.get()](const std::stop_token& stop) { impl->loop(stop); });

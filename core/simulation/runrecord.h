@@ -30,6 +30,12 @@ struct FrameEdit {
   RecordedEdit edit;
 };
 
+/// What the document of a run was: at its first state, and the edits of it since.
+struct RunEdits {
+  std::shared_ptr<const Project> document;  ///< nullptr: nothing is kept yet
+  std::vector<FrameEdit> edits;
+};
+
 /// All that is needed to make a frame again.
 struct RestorePoint {
   uint64_t from = 0, frame = 0;             ///< number of the state's frame, and of the one that is asked for
@@ -106,6 +112,8 @@ class RunRecord {
   std::vector<FrameStats> stats() const;
   /// The same of an earlier run; none where it is not kept.
   std::vector<FrameStats> stats(uint64_t run) const;
+  /// Of the present run, or of an earlier one.
+  RunEdits documentEdits(std::optional<uint64_t> run = std::nullopt) const;
   /// Waits until all that was handed over is packed.
   void settle() const;
 

@@ -13,6 +13,9 @@
 // What the record of a run holds; private to this room.
 namespace ps {
 
+/// Parameters, tracks or the project as a whole; what becomes of matter alone does not.
+bool changesDocument(const RecordedEdit& edit);
+
 /// What is kept of one run. A copy shares the packed bytes.
 struct KeptRun {
   struct State {

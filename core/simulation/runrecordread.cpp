@@ -198,6 +198,28 @@ std::vector<FrameStats> RunRecord::stats(uint64_t run) const {
   return stats;
 }
 
+/// Of a run whose first state is still being packed: as it was handed over.
+RunEdits RunRecord::documentEdits(std::optional<uint64_t> run) const {
+  const std::lock_guard lock(m->mutex);
+  const KeptRun* of = m.get();
+  for (const KeptRun& kept : m->earlier) {
+    if (kept.number == run) of = &kept;
+  }
+  RunEdits out;
+  size_t from = 0;
+  if (!of->states.empty()) {
+    out.document = of->states.front().document;
+    from = of->states.front().edits;
+  } else if (of == m.get()) {
+    out.document = m->document;
+    from = m->documentEdits;
+  }
+  for (size_t k = from; k < of->edits.size(); ++k) {
+    if (changesDocument(of->edits[k].edit)) out.edits.push_back(of->edits[k]);
+  }
+  return out;
+}
+
 uint64_t RunRecord::present() const {
   const std::lock_guard lock(m->mutex);
   return m->number;

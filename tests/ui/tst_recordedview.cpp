@@ -6,6 +6,7 @@
 #include "tests/ui/samplewindow.h"
 #include "ui/graphs/graphspanel.h"
 #include "ui/graphs/graphview.h"
+#include "ui/rows/parameterrow.h"
 #include "ui/session/messagelog.h"
 #include "ui/session/recordedview.h"
 #include "ui/session/session.h"
@@ -329,7 +330,7 @@ class TestRecordedView : public SampleWindowTest {
     QCOMPARE(own.frame, other.frame);
     const double difference = own.temperatureMean - other.temperatureMean;
     QVERIFY2(difference > 1e-3, qPrintable(QString::number(difference)));
-    QVERIFY(std::abs(view->differenceAt(0, end) - difference) < 1e-6);
+    QTRY_VERIFY_WITH_TIMEOUT(std::abs(view->differenceAt(0, end) - difference) < 1e-6, kLong);
     QCOMPARE(view->differenceAt(0, timeOf(3)), 0.0);  // both were one
     QCOMPARE(view->axes().size(), 2 * axes);
     session().engine()->stepOnce();  // beyond the end of the other
@@ -346,6 +347,46 @@ class TestRecordedView : public SampleWindowTest {
     document().undoStack().undo();
     QCOMPARE(writeProject(document().project()), before);
     QCOMPARE(view->axes().size(), axes);
+  }
+
+  /// By its row's menu: what it was, whenever it was changed, also in the run before a branch and after scrubbing.
+  void aPlottedParameterIsWhatActed() {
+    const std::string before = writeProject(document().project());
+    const double own = std::get<double>(document().value(kFloor)), hot = 600;
+    QCOMPARE(document().setParameter(kFloor, hot), QString());
+    for (uint64_t frame = kFrames; frame < kFrames + 3; ++frame) session().engine()->stepOnce();
+    hash();
+    session().engine()->recording().settle();
+    ParameterRow* row = nullptr;
+    for (ParameterRow* one : m_window->findChildren<ParameterRow*>()) {
+      if (one->key().toStdString() == kFloor.text()) row = one;
+    }
+    QVERIFY(row);
+    Q_EMIT row->plotRequested(row->key());
+    QCOMPARE(document().graphs().back().series, (std::vector<std::string>{"parameter/" + kFloor.text()}));
+    auto* view = qobject_cast<GraphView*>(m_window->graphs()->plot(document().graphs().back().id));
+    QVERIFY(view);
+    const auto shows = [&](uint64_t frame, double kelvin) {
+      const double time = session().engine()->history(frame).front().time;
+      return std::abs(view->extent(0, time - 1e-4, time + 1e-4).first - (kelvin - 273.15)) < 1e-9;
+    };
+    QTRY_VERIFY_WITH_TIMEOUT(view->sampleCount(0) == kFrames + 4, kLong);
+    QVERIFY(shows(0, own) && shows(kFrames - 1, own) && shows(kFrames, hot) && shows(kFrames + 3, hot));
+    QCOMPARE(document().setParameter(kFloor, 500.0), QString());
+    session().engine()->stepOnce();
+    hash();
+    QTRY_VERIFY_WITH_TIMEOUT(view->sampleCount(0) == kFrames + 5, kLong);
+    QVERIFY(shows(kFrames + 4, 500) && shows(kFrames + 2, hot));
+    picture("tst_recordedview_parameter.png");
+    branchAt(5);  // edits stay: what is set holds from there on
+    QTRY_VERIFY_WITH_TIMEOUT(view->sampleCount(0) > 5 && view->otherCount(0) > kFrames, kLong);
+    QVERIFY(shows(4, own) && shows(6, 500));
+    const QList<QByteArray> rows =
+        m_window->graphs()->exported(document().graphs().back().id, QStringLiteral("csv")).split('\n');
+    QCOMPARE(rows[7].split(',')[1].toDouble(), 500.0);
+    QCOMPARE(rows[7].split(',')[2].toDouble(), own);
+    while (document().undoStack().canUndo()) document().undoStack().undo();
+    QCOMPARE(writeProject(document().project()), before);
   }
 
   /// Two runs side by side, each called what a hand calls it.

@@ -6,6 +6,7 @@
 #include "core/simulation/engine.h"
 #include "core/simulation/enginethread.h"
 #include "core/simulation/graphsource.h"
+#include "core/simulation/parametercourse.h"
 #include "core/simulation/probeparameters.h"
 #include "core/simulation/rules.h"
 #include "tests/shared/scenes.h"
@@ -92,6 +93,62 @@ class TestGraphSource : public QObject {
     stats.probes = {1};
     measured({project.probes[0]});
     QVERIFY(std::isnan(second(stats)));
+  }
+
+  void parametersAreSources() {
+    Project project = scenes::iceOnPlate(3, 370);
+    SceneWall& floor = project.environment.walls.front();
+    floor.name = "Plate";
+    const ParticleFields fields(*m_plugins);
+    const auto source = [&](const std::string& text) {
+      return GraphSource("parameter/" + text, project, fields, m_plugins.get());
+    };
+    const GraphSource plate = source("wall/" + floor.id + "/temperature");
+    QVERIFY(plate && plate == source("wall/" + floor.id + "/temperature"));
+    QCOMPARE(plate.label(), std::string("Plate: Temperature"));
+    QCOMPARE(plate.unit(), std::string("K"));
+    QVERIFY(source("scene/gravity") && !(plate == source("scene/gravity")));
+    // A choice, a curve, a wall that is not there, and no address.
+    for (const std::string& none :
+         {"wall/" + floor.id + "/heat", "material/" + project.materials.front().id + "/viscosity",
+          std::string("wall/gone/temperature"), std::string("temperature")})
+      QVERIFY2(!source(none), none.c_str());
+    QVERIFY(std::isnan(plate(FrameStats())));  // of no run
+  }
+
+  /// What acted at each frame: the document as it was edited, and keys from their first on.
+  void parametersAreWhatActed() {
+    auto project = std::make_shared<Project>(scenes::iceOnPlate(3, 370));
+    const Address plate{Owner::Wall, project->environment.walls.front().id, "temperature"};
+    const Address other{Owner::Wall, plate.id, "roughness"};
+    auto later = std::make_shared<Project>(*project);
+    later->environment.walls.front().parameters.values["temperature"] = 333.0;
+    auto bare = std::make_shared<Project>(*project);
+    bare->environment.walls.clear();
+    const RunEdits run{project,
+                       {{10, std::vector<SetParameter>{{other, 0.5}, {plate, 400.0}}},
+                        {20, Command(SetTracks{{{plate.text(), {{0.5, 300}, {1, 500}}}}})},
+                        {30, Command(SetParameter{plate, 410.0})},
+                        {40, Command(SetTracks{})},
+                        {50, Command(UpdateProject{later})},
+                        {60, Command(UpdateProject{bare})}}};
+    const ParameterCourse course(run, m_plugins.get(), plate);
+    const auto at = [&](uint64_t frame, double time) {
+      FrameStats stats;
+      stats.frame = frame;
+      stats.time = time;
+      return course.at(stats);
+    };
+    QCOMPARE(at(0, 0), 370.0);
+    QCOMPARE(at(9, 0.15), 370.0);
+    QCOMPARE(at(10, 0.17), 400.0);
+    QCOMPARE(at(20, 0.34), 400.0);  // before the first key
+    QCOMPARE(at(25, 0.75), 400.0);  // half way between two
+    QCOMPARE(at(35, 0.5), 300.0);
+    QCOMPARE(at(40, 0.75), 410.0);
+    QCOMPARE(at(55, 0.9), 333.0);
+    QVERIFY(std::isnan(at(60, 1)));
+    QVERIFY(std::isnan(ParameterCourse({}, m_plugins.get(), plate).at(FrameStats())));
   }
 
   /// Between two frames, without a step and without another bit of the scene.

@@ -11,7 +11,7 @@
 
 #include <charconv>
 #include <cmath>
-#include <utility>
+#include <limits>
 
 namespace ps {
 
@@ -77,44 +77,43 @@ QByteArray historyCsv(const std::vector<FrameStats>& history, const std::vector<
   return csv;
 }
 
-QByteArray graphCsv(const GraphRuns& runs, const Graph& graph, const Project& project, const ParticleFields& fields) {
-  std::vector<std::string> names = graph.series;
+std::vector<std::string> exportedSources(const Graph& graph) {
+  std::vector<std::string> sources;
   if (graph.kind == Graph::Kind::Phases) {
-    names.clear();
     for (const char* key : {"solid_mass", "melting_mass", "liquid_mass", "boiling_mass", "gas_mass"})
-      names.push_back(frameSource(key));
+      sources.push_back(frameSource(key));
+    return sources;
   }
-  if (graph.kind == Graph::Kind::Energy) {
-    names.clear();
-    for (const char* key :
-         {"thermal_energy", "heat_walls", "heat_air", "heat_radiation", "heat_heaters", "heat_matter"})
-      names.push_back(frameSource(key));
-  }
+  if (graph.kind != Graph::Kind::Energy) return graph.series;
+  for (const char* key : {"thermal_energy", "heat_walls", "heat_air", "heat_radiation", "heat_heaters", "heat_matter"})
+    sources.push_back(frameSource(key));
+  return sources;
+}
+
+QByteArray graphCsv(const GraphRun& run, const GraphRun& other, const std::string& otherName) {
   QByteArray csv = "time_s";
-  std::vector<std::pair<GraphSource, GraphSource>> sources;  // one for each run: they remember where they looked
-  for (const std::string& name : names) {
-    const GraphSource source(name, project, fields);
-    if (!source) continue;
+  const bool both = !other.frames.empty();
+  for (const GraphSource& source : run.sources) {
     const std::string title = source.label() + " [" + source.unit() + "]";
     csv += ',' + quotedCell(title);
-    if (!runs.other.empty())
-      csv += ',' + quotedCell(title + " in " + runs.otherName) + ',' + quotedCell(title + " less " + runs.otherName);
-    sources.emplace_back(source, source);
+    if (both) csv += ',' + quotedCell(title + " in " + otherName) + ',' + quotedCell(title + " less " + otherName);
   }
   csv += '\n';
-  for (auto own = runs.frames.begin(), other = runs.other.begin();
-       own != runs.frames.end() || other != runs.other.end();) {
-    const bool hasOwn = own != runs.frames.end() && (other == runs.other.end() || own->frame <= other->frame);
-    const bool hasOther = other != runs.other.end() && (own == runs.frames.end() || other->frame <= own->frame);
-    csv += numberCell(hasOwn ? own->time : other->time);
-    for (const auto& [ofOwn, ofOther] : sources) {
-      const double value = hasOwn ? ofOwn(*own) : std::nan(""), there = hasOther ? ofOther(*other) : std::nan("");
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  auto own = run.frames.begin(), there = other.frames.begin();
+  while (own != run.frames.end() || there != other.frames.end()) {
+    const bool hasOwn = own != run.frames.end() && (there == other.frames.end() || own->frame <= there->frame);
+    const bool hasOther = there != other.frames.end() && (own == run.frames.end() || there->frame <= own->frame);
+    csv += numberCell(hasOwn ? own->time : there->time);
+    for (size_t k = 0; k < run.sources.size(); ++k) {
+      const double value = hasOwn ? run.sources[k](*own) : kNone;
+      const double otherValue = hasOther ? other.sources[k](*there) : kNone;
       csv += ',' + numberCell(value);
-      if (!runs.other.empty()) csv += ',' + numberCell(there) + ',' + numberCell(value - there);
+      if (both) csv += ',' + numberCell(otherValue) + ',' + numberCell(value - otherValue);
     }
     csv += '\n';
     if (hasOwn) ++own;
-    if (hasOther) ++other;
+    if (hasOther) ++there;
   }
   return csv;
 }

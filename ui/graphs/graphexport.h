@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "core/simulation/particlefield.h"
+#include "core/simulation/graphsource.h"
 #include "core/simulation/snapshot.h"
 
 #include <QtCore/QByteArray>
@@ -25,14 +25,15 @@ QByteArray quotedCell(const std::string& text);
 /// All frames as CSV: "time_s,thermal_time_s,mean.temperature[K],…" one row per frame, with every probe.
 QByteArray historyCsv(const std::vector<FrameStats>& history, const std::vector<Probe>& probes,
                       const ParticleFields& fields);
-/// What a graph is of: the frames of the run, and of one that it is compared with.
-struct GraphRuns {
-  std::vector<FrameStats> frames, other;
-  std::string otherName;
+/// What a graph is of in one run: its frames, and where the columns are read.
+struct GraphRun {
+  std::vector<FrameStats> frames;
+  std::vector<GraphSource> sources;
 };
-/// The curves of a graph over time, in SI units: "time_s,Ice core [K]", one row per frame. Of masses by phase and of
-/// energy what they show. With another run, beside each column "Ice core [K] in Run 1" and "Ice core [K] less Run 1";
-/// frames that one of them lacks have empty cells.
-QByteArray graphCsv(const GraphRuns& runs, const Graph& graph, const Project& project, const ParticleFields& fields);
+/// The sources of what a graph of curves, of masses by phase or of energy shows.
+std::vector<std::string> exportedSources(const Graph& graph);
+/// Curves over time, in SI units: "time_s,Ice core [K]", one row per frame. With frames of another run, beside each
+/// column "Ice core [K] in Run 1" and "Ice core [K] less Run 1"; frames that one of them lacks have empty cells.
+QByteArray graphCsv(const GraphRun& run, const GraphRun& other, const std::string& otherName);
 
 }  // namespace ps

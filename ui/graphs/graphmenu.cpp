@@ -143,7 +143,7 @@ void GraphMenu::addQuantities(QMenu& menu, const std::string& graph, const Probe
 
 void GraphMenu::addRemoval(QMenu& menu, const Graph& graph) const {
   for (const std::string& source : graph.series) {
-    const GraphSource known(source, m_document.project(), m_fields);
+    const GraphSource known(source, m_document.project(), m_fields, m_document.plugins());
     add(menu, QString::fromStdString(known ? known.label() : source),
         [document = &m_document, id = graph.id, source] { document->removeSeries(id, source); });
   }

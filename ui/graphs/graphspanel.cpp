@@ -2,6 +2,7 @@
 #include "ui/graphs/graphspanel.h"
 
 #include "core/simulation/enginethread.h"
+#include "core/simulation/parametercourse.h"
 #include "ui/document/document.h"
 #include "ui/graphs/distributionview.h"
 #include "ui/graphs/graphexport.h"
@@ -40,7 +41,8 @@ bool isOfFrames(Graph::Kind kind) { return kind != Graph::Kind::Histogram && kin
 
 }  // namespace
 
-QString titleOf(const Graph& graph, const Project& project, const ParticleFields& fields) {
+QString titleOf(const Graph& graph, const Project& project, const ParticleFields& fields,
+                const PluginRegistry* plugins) {
   if (!graph.title.empty()) return QString::fromStdString(graph.title);
   if (!isOfFrames(graph.kind)) {
     const FieldPtr field = fields.find(graph.field);
@@ -54,15 +56,15 @@ QString titleOf(const Graph& graph, const Project& project, const ParticleFields
   // Of one field, its name; else the one curve's, or the kind of its unit.
   QString name;
   for (const std::string& series : graph.series) {
-    const GraphSource source(series, project, fields);
+    const GraphSource source(series, project, fields, plugins);
     if (!source) continue;
     const auto probe = std::find_if(project.probes.begin(), project.probes.end(),
                                     [&](const Probe& p) { return p.id == probeOfSource(series); });
     const Quantity* quantity = probe == project.probes.end() ? nullptr : fields.quantity(probe->quantity);
-    const QString own = QString::fromStdString(source.unit() == "K"          ? "Temperature"
-                                               : quantity && quantity->field ? quantity->field->label
-                                               : quantity                    ? quantity->label
-                                                                             : source.label());
+    const QString own = QString::fromStdString(source.unit() == "K" && !source.parameter() ? "Temperature"
+                                               : quantity && quantity->field               ? quantity->field->label
+                                               : quantity                                  ? quantity->label
+                                                                                           : source.label());
     if (!name.isEmpty() && name != own) return QStringLiteral("Probes");
     name = own;
   }
@@ -91,8 +93,21 @@ GraphsPanel::GraphsPanel(Session& session, QWidget* parent)
     }
     if (opened || std::holds_alternative<GraphsChanged>(event) || std::holds_alternative<ProbesChanged>(event))
       rebuild();
+    const bool owners = std::holds_alternative<BodyChanged>(event) || std::holds_alternative<PortChanged>(event) ||
+                        std::holds_alternative<WallsChanged>(event) || std::holds_alternative<MaterialsChanged>(event);
+    if (owners && plotsParameters()) rebuild();
     if (std::holds_alternative<MarkersChanged>(event)) setMarkers();
   });
+}
+
+/// Whose owners may come, go and be called something else.
+bool GraphsPanel::plotsParameters() const {
+  for (const Shown& shown : m_shown) {
+    for (const std::string& series : shown.graph.series) {
+      if (series.starts_with(kParameterSource)) return true;
+    }
+  }
+  return false;
 }
 
 std::vector<Plot*> GraphsPanel::plots() const {
@@ -134,13 +149,10 @@ void GraphsPanel::rebuild() {
     const std::vector<std::string> seriesBefore = shown.graph.series;
     if (old != before.end()) old->plot = nullptr;
     shown.graph = graph;
-    std::vector<GraphSource> sources;
-    for (const std::string& series : graph.series) {
-      if (GraphSource source(series, project, m_session.fields()); source) sources.push_back(std::move(source));
-    }
+    std::vector<GraphSource> sources = sourcesOf(graph.series);
     const bool same = old != before.end() && seriesBefore == graph.series && shown.sources == sources;
-    shown.sources = std::move(sources);
-    shown.plot->setTitle(titleOf(graph, project, m_session.fields()));
+    if (!same) shown.sources = std::move(sources);
+    shown.plot->setTitle(titleOf(graph, project, m_session.fields(), m_session.document().plugins()));
     if (!same) prepare(shown);
     if (auto* view = qobject_cast<GraphView*>(shown.plot)) view->setDifference(graph.difference);
     shown.plot->setLogarithmic(graph.logarithmic);
@@ -157,6 +169,27 @@ void GraphsPanel::rebuild() {
   setEmptyTexts();
   showDistributions();
   update();
+}
+
+/// Those that there are.
+std::vector<GraphSource> GraphsPanel::sourcesOf(const std::vector<std::string>& series) const {
+  std::vector<GraphSource> sources;
+  for (const std::string& one : series) {
+    GraphSource source(one, m_session.document().project(), m_session.fields(), m_session.document().plugins());
+    if (source) sources.push_back(std::move(source));
+  }
+  return sources;
+}
+
+/// What parameters were in this run, or in an earlier one.
+void GraphsPanel::follow(std::vector<GraphSource>& sources, std::optional<uint64_t> run) const {
+  std::optional<RunEdits> edits;
+  for (GraphSource& source : sources) {
+    if (!source.parameter() || !m_session.engine()) continue;
+    if (!edits) edits = m_session.engine()->recording().documentEdits(run);
+    source.setCourse(
+        std::make_shared<const ParameterCourse>(*edits, m_session.document().plugins(), *source.parameter()));
+  }
 }
 
 GraphsPanel::Shown GraphsPanel::make(const Graph& graph) {
@@ -223,10 +256,11 @@ void GraphsPanel::showCompared(const Shown& shown) {
   if (!view) return;
   const RecordedView& recorded = m_session.recorded();
   view->beginOther(recorded.compared() ? recorded.runName(*recorded.compared()) : QString());
+  std::vector<GraphSource> sources = shown.sources;
+  follow(sources, recorded.compared());
   for (const FrameStats& stats : recorded.comparedStats()) {
-    for (size_t s = 0; s < shown.sources.size(); ++s)
-      view->appendOther(static_cast<int>(s), stats.time,
-                        SeriesUnit(shown.sources[s].unit()).of(shown.sources[s](stats)));
+    for (size_t s = 0; s < sources.size(); ++s)
+      view->appendOther(static_cast<int>(s), stats.time, SeriesUnit(sources[s].unit()).of(sources[s](stats)));
   }
 }
 
@@ -260,7 +294,9 @@ void GraphsPanel::readHistory() {
   setEmptyTexts();
 }
 
+/// Edits are read after the frames: none that acted is missing.
 void GraphsPanel::feed(const std::vector<FrameStats>& frames, const std::vector<size_t>& graphs) {
+  for (const size_t index : graphs) follow(m_shown[index].sources, std::nullopt);
   for (const FrameStats& stats : frames) {
     m_started = true;
     m_matter = hasMatter(stats);
@@ -358,10 +394,13 @@ QByteArray GraphsPanel::exported(const std::string& id, const QString& ending) c
   if (ending == QStringLiteral("svg")) return svgOf(*shown->plot);
   if (auto* view = qobject_cast<DistributionView*>(shown->plot)) return view->csv();
   const RecordedView& recorded = m_session.recorded();
-  const std::string run = recorded.compared() ? recorded.runName(*recorded.compared()).toStdString() : std::string();
-  return graphCsv(
-      {m_session.engine() ? m_session.engine()->history(0) : std::vector<FrameStats>(), recorded.comparedStats(), run},
-      shown->graph, m_session.document().project(), m_session.fields());
+  GraphRun run{m_session.engine() ? m_session.engine()->history(0) : std::vector<FrameStats>(),
+               sourcesOf(exportedSources(shown->graph))};
+  GraphRun other{recorded.comparedStats(), run.sources};
+  follow(run.sources, std::nullopt);
+  if (!recorded.compared()) return graphCsv(run, {}, {});
+  follow(other.sources, recorded.compared());
+  return graphCsv(run, other, recorded.runName(*recorded.compared()).toStdString());
 }
 
 QString GraphsPanel::fileName(const std::string& id, const QString& ending) const {

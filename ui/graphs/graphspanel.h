@@ -7,6 +7,7 @@
 #include <QtCore/QByteArray>
 #include <QtWidgets/QWidget>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -58,6 +59,8 @@ class GraphsPanel : public QWidget {
     TimePlot* overTime = nullptr;  ///< the same, where it is one
   };
   void readHistory();
+  std::vector<GraphSource> sourcesOf(const std::vector<std::string>& series) const;
+  void follow(std::vector<GraphSource>& sources, std::optional<uint64_t> run) const;
   void showDistributions();
   void rebuild();
   Shown make(const Graph& graph);
@@ -69,6 +72,7 @@ class GraphsPanel : public QWidget {
   void setTransitions();
   void setEmptyTexts();
   void setMarkers();
+  bool plotsParameters() const;
   void clear();
   const Shown* find(const std::string& id) const;
 
@@ -81,6 +85,7 @@ class GraphsPanel : public QWidget {
 };
 
 /// "Temperature", "Speed": what a graph is called where it has no title.
-QString titleOf(const Graph& graph, const Project& project, const ParticleFields& fields);
+QString titleOf(const Graph& graph, const Project& project, const ParticleFields& fields,
+                const PluginRegistry* plugins);
 
 }  // namespace ps

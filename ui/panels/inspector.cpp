@@ -3,6 +3,7 @@
 
 #include "core/matter/material.h"
 #include "core/plugin_host/registry.h"
+#include "core/simulation/graphsource.h"
 #include "core/simulation/rules.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
@@ -60,6 +61,10 @@ void Inspector::connectPanel(ParameterPanel* panel) {
   connect(panel, &ParameterPanel::linkActivated, this, &Inspector::onLink);
   connect(panel, &ParameterPanel::pinToggled, this,
           [this](const QString& key, bool pinned) { m_document.setPinned(key.toStdString(), pinned); });
+  connect(panel, &ParameterPanel::plotRequested, this, [this](const QString& key) {
+    const auto address = Address::parse(key.toStdString());
+    if (address && address->owner != Owner::Probe) m_document.plot({}, parameterSource(*address));
+  });
   connect(panel, &ParameterPanel::curveRequested, this, [this](const QString& key) {
     if (const auto address = Address::parse(key.toStdString())) Q_EMIT curveWanted(*address);
   });

@@ -91,7 +91,9 @@ void ParameterRow::Private::openContextMenu(const QPoint& global) {
     pin = menu->addAction(model.isPinned ? QStringLiteral("Remove from “Try these”")
                                          : QStringLiteral("Pin to “Try these”"));
   }
-  if (offered(QMetaMethod::fromSignal(&ParameterRow::plotRequested))) plot = menu->addAction(QStringLiteral("Plot"));
+  const bool plots = (isNumeric() && !showsCurve()) || declaration().kind == api::ParameterKind::Toggle;
+  if (plots && offered(QMetaMethod::fromSignal(&ParameterRow::plotRequested)))
+    plot = menu->addAction(QStringLiteral("Plot"));
   addKeyEntries(menu);
   menu->addSeparator();
   QAction* explain = menu->addAction(QStringLiteral("Explain"));
