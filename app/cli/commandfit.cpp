@@ -16,7 +16,8 @@ namespace {
 constexpr OptionSpec kOptions[] = {
     {"--want", "FILE",
      "CSV with the titles time_s and that of one column of simulate's --probes, and the wanted points"},
-    {"--vary", "ADDRESS=LEAST..MOST", "may change, in SI units; may repeat; without a range: that of its slider"},
+    {"--vary", "ADDRESS=LEAST..MOST",
+     "may change, in SI units; may repeat; without a range: that of its slider; ADDRESS@0: its first key"},
     {"--runs", "N", "ends after so many runs; 60"},
     {"--save", "FILE", "writes the project with what was found"},
     kSet,

@@ -228,19 +228,32 @@ class Fit {
 
 }  // namespace
 
-std::string FitParameter::text() const {
-  return target.address.text() + (target.point ? "[" + std::to_string(*target.point) + "]" : std::string());
+std::string FitTarget::trackText() const {
+  return address.text() + (point ? "[" + std::to_string(*point) + "]" : std::string());
 }
+
+std::string FitTarget::text() const { return trackText() + (key ? "@" + std::to_string(*key) : std::string()); }
 
 FitParameter FitParameter::parse(const std::string& text, const Project& project, const PluginRegistry* plugins) {
   const size_t equals = text.find('=');
   const std::string name = text.substr(0, equals);
-  const std::optional<TrackTarget> target = TrackTarget::parse(name);
-  const std::string why =
-      target ? whyNotFitted(project, plugins, *target) : "The scene has no parameter '" + name + "'";
+  const size_t at = name.rfind('@');
+  const std::optional<TrackTarget> parsed = TrackTarget::parse(name.substr(0, at));
+  std::optional<size_t> key;
+  if (at != std::string::npos) {
+    size_t number = 0;
+    const char* const end = name.data() + name.size();
+    const auto [stop, problem] = std::from_chars(name.data() + at + 1, end, number);
+    if (problem != std::errc() || stop != end)
+      throw InputError("'" + name + "': behind @ stands the number of a key, counted from 0");
+    key = number;
+  }
+  if (!parsed) throw InputError("The scene has no parameter '" + name + "'");
+  const FitTarget target(parsed->address, parsed->point, key);
+  const std::string why = whyNotFitted(project, plugins, target);
   if (!why.empty()) throw InputError(why);
-  const api::ParameterDeclaration& declaration = *declarationOf(project, plugins, target->address);
-  FitParameter parameter{*target, declaration.minimum, declaration.maximum};
+  const api::ParameterDeclaration& declaration = *declarationOf(project, plugins, target.address);
+  FitParameter parameter{target, declaration.minimum, declaration.maximum};
   if (equals == std::string::npos) return parameter;
   const std::string range = text.substr(equals + 1);
   const size_t dots = range.find("..");
@@ -255,17 +268,21 @@ FitParameter FitParameter::parse(const std::string& text, const Project& project
   return parameter;
 }
 
-std::string whyNotFitted(const Project& project, const PluginRegistry* plugins, const TrackTarget& target) {
+std::string whyNotFitted(const Project& project, const PluginRegistry* plugins, const FitTarget& target) {
   const api::ParameterDeclaration* declaration = declarationOf(project, plugins, target.address);
   if (!declaration || !hasOwner(project, target.address))
     return "The scene has no parameter '" + target.address.text() + "'";
   const std::string label = declaration->label;
-  if (findTrack(project.tracks, target.address.text()) || findTrack(project.tracks, FitParameter{target}.text()))
-    return label + " follows its keys; remove them first";
+  const Track* track = findTrack(project.tracks, target.trackText());
+  if (target.key && !(track && *target.key < track->keys.size()))
+    return label + " has no key " + std::to_string(*target.key);
+  if (!target.key && (track || findTrack(project.tracks, target.address.text())))
+    return label + " follows its keys; choose one of them, as in '" + target.trackText() + "@0'";
   if (declaration->kind == api::ParameterKind::Choice || declaration->kind == api::ParameterKind::Toggle)
     return label + " is no number";
   if (project.state && declaration->actsAt != api::ActsAt::NextFrame)
     return label + " acts at the start, and the runs would begin at the scene's state";
+  if (target.key) return {};
   const Value value = valueAt(project, plugins, target.address);
   const auto* response = std::get_if<Response>(&value);
   const bool isCurve = response && response->kind == Response::Kind::Curve;
@@ -276,7 +293,7 @@ std::string whyNotFitted(const Project& project, const PluginRegistry* plugins, 
   return {};
 }
 
-Value valueWithNumber(const Project& project, const PluginRegistry* plugins, const TrackTarget& target, double number) {
+Value valueWithNumber(const Project& project, const PluginRegistry* plugins, const FitTarget& target, double number) {
   const Value value = valueOfKey(number, *declarationOf(project, plugins, target.address));
   if (!target.point) return value;
   auto curve = std::get<Response>(valueAt(project, plugins, target.address));
@@ -284,7 +301,8 @@ Value valueWithNumber(const Project& project, const PluginRegistry* plugins, con
   return curve;
 }
 
-double numberAt(const Project& project, const PluginRegistry* plugins, const TrackTarget& target) {
+double numberAt(const Project& project, const PluginRegistry* plugins, const FitTarget& target) {
+  if (target.key) return findTrack(project.tracks, target.trackText())->keys[*target.key].value;
   const Value value = valueAt(project, plugins, target.address);
   return target.point ? std::get<Response>(value).points[*target.point].y : responseOf(value).constant;
 }
@@ -294,7 +312,12 @@ Project withValues(Project project, const PluginRegistry& plugins, const FitTask
   Touched touched;
   std::vector<UndoEdit> undo;
   for (size_t k = 0; k < values.size(); ++k) {
-    const TrackTarget& target = task.parameters[k].target;
+    const FitTarget& target = task.parameters[k].target;
+    if (target.key) {
+      const auto of = [&](const Track& track) { return track.parameter == target.trackText(); };
+      std::find_if(project.tracks.begin(), project.tracks.end(), of)->keys[*target.key].value = values[k];
+      continue;
+    }
     writeValue(project, plugins, {target.address, valueWithNumber(project, &plugins, target, values[k])}, touched,
                undo);
   }

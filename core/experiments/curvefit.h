@@ -5,7 +5,9 @@
 #include "core/scene/track.h"
 
 #include <functional>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 // Draw the result: how a quantity shall go is given, and what parameters make it go so is found by runs.
@@ -13,12 +15,23 @@ namespace ps {
 
 class PluginRegistry;
 
-/// A number that may be changed: a parameter, or a point of its curve.
+/// A number that may be changed: a parameter, a point of its curve, or the value of one of the keys of either.
+struct FitTarget : TrackTarget {
+  FitTarget(Address of, std::optional<size_t> itsPoint = {}, std::optional<size_t> itsKey = {})
+      : TrackTarget{std::move(of), itsPoint}, key(itsKey) {}
+  std::optional<size_t> key;  ///< its place in the track, counted from 0
+  bool operator==(const FitTarget& other) const {
+    return address == other.address && point == other.point && key == other.key;
+  }
+  std::string trackText() const;  ///< without the key: Track::parameter
+  std::string text() const;       ///< "wall/floor/temperature", "material/wax/viscosity[2]", "wall/floor/temperature@1"
+};
+
 struct FitParameter {
-  TrackTarget target;
+  FitTarget target;
   double minimum = 0, maximum = 0;  ///< its unit; between these it is looked for
 
-  std::string text() const;  ///< "wall/floor/temperature", "material/wax/viscosity[2]"
+  std::string text() const { return target.text(); }
   /// "wall/floor/temperature=300..900", or without a range: that of its slider. Throws InputError.
   static FitParameter parse(const std::string& text, const Project& project, const PluginRegistry* plugins);
 };
@@ -51,11 +64,11 @@ struct FitResult {
 };
 
 /// "" or why a parameter's number cannot be looked for, as a sentence.
-std::string whyNotFitted(const Project& project, const PluginRegistry* plugins, const TrackTarget& target);
-/// What the parameter's whole value is with this number: of a point its curve with the point there.
-Value valueWithNumber(const Project& project, const PluginRegistry* plugins, const TrackTarget& target, double number);
+std::string whyNotFitted(const Project& project, const PluginRegistry* plugins, const FitTarget& target);
+/// What the parameter's whole value is with this number: of a point its curve with the point there. Not of a key.
+Value valueWithNumber(const Project& project, const PluginRegistry* plugins, const FitTarget& target, double number);
 /// The number that a project has now.
-double numberAt(const Project& project, const PluginRegistry* plugins, const TrackTarget& target);
+double numberAt(const Project& project, const PluginRegistry* plugins, const FitTarget& target);
 
 /// The project with the values of one trial.
 Project withValues(Project project, const PluginRegistry& plugins, const FitTask& task,

@@ -360,9 +360,9 @@ SnapshotPtr EngineThread::previousSnapshot() const {
   return m->previous;
 }
 
-std::vector<FrameStats> EngineThread::history(uint64_t frame) const {
+std::vector<FrameStats> EngineThread::history(uint64_t frame, size_t most) const {
   const std::lock_guard lock(m->mutex);
-  return m->history.since(frame);
+  return m->history.since(frame, most);
 }
 
 std::vector<EngineEvent> EngineThread::events(uint64_t from) const {

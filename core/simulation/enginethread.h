@@ -3,6 +3,7 @@
 #include "core/base/progress.h"
 #include "core/simulation/command.h"
 #include "core/simulation/events.h"
+#include "core/simulation/framehistory.h"
 #include "core/simulation/snapshot.h"
 
 #include <functional>
@@ -74,8 +75,9 @@ class EngineThread {
   SnapshotPtr snapshot() const;          ///< newest; nullptr before the first
   SnapshotPtr previousSnapshot() const;  ///< the one before it, of the same revision, else nullptr
   /// Statistics of the frames since the last reset, from number `frame` on; of a long run some are left out, see
-  /// FrameHistory. An edit between two frames replaces the last entry.
-  std::vector<FrameStats> history(uint64_t frame) const;
+  /// FrameHistory. An edit between two frames replaces the last entry. The first `most` of them: all of a long run are
+  /// too many for one turn of a thread that draws.
+  std::vector<FrameStats> history(uint64_t frame, size_t most = FrameHistory::kMost) const;
   /// Failures in the order they came, from number `from` on; the oldest are forgotten after a few hundred. A step's
   /// flag is reported when it is raised after a second without it. The thread pauses at a NaN and when a plugin fails.
   std::vector<EngineEvent> events(uint64_t from) const;

@@ -30,10 +30,11 @@ void FrameHistory::thin() {
   }
 }
 
-std::vector<FrameStats> FrameHistory::since(uint64_t frame) const {
+std::vector<FrameStats> FrameHistory::since(uint64_t frame, size_t most) const {
   const auto first = std::lower_bound(m_frames.begin(), m_frames.end(), frame,
                                       [](const FrameStats& stats, uint64_t number) { return stats.frame < number; });
-  return {first, m_frames.end()};
+  const auto count = std::min(most, static_cast<size_t>(m_frames.end() - first));
+  return {first, first + static_cast<std::ptrdiff_t>(count)};
 }
 
 }  // namespace ps

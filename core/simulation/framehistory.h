@@ -17,8 +17,8 @@ class FrameHistory {
   /// Frames ascend; the number of the last one again replaces it.
   void add(const FrameStats& stats);
   void cutAfter(uint64_t frame);
-  /// From frame number `frame` on.
-  std::vector<FrameStats> since(uint64_t frame) const;
+  /// From frame number `frame` on, the first `most` of them.
+  std::vector<FrameStats> since(uint64_t frame, size_t most = kMost) const;
   size_t size() const { return m_frames.size(); }
 
  private:

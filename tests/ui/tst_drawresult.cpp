@@ -21,7 +21,7 @@ using namespace ps;
 
 namespace {
 
-const TrackTarget kFloor{{Owner::Wall, "floor", "temperature"}, {}};
+const FitTarget kFloor{{Owner::Wall, "floor", "temperature"}};
 
 }  // namespace
 
@@ -96,6 +96,38 @@ class TestDrawResult : public SampleWindowTest {
     QCOMPARE(writeProject(document().project()), before);
     document().undoStack().redo();
     QCOMPARE(writeProject(document().project()), after);
+  }
+
+  /// A key of it may change where the parameter itself cannot; that is one step too.
+  void theValueOfAKeyIsFound() {
+    QCOMPARE(document().putKey(kFloor.address, 0, 420), QString());
+    QCOMPARE(document().putKey(kFloor.address, 0.3, 300), QString());
+    QVERIFY(panel()->parameters()->add(kFloor).contains(QStringLiteral("follows its keys; choose one of them")));
+    const FitTarget first(kFloor.address, {}, 0);
+    const QString name = panel()->parameters()->nameOf(first);
+    QCOMPARE(name, QStringLiteral("Hot plate temperature, key at 0 s"));
+    const auto* candidates = panel()->findChild<QComboBox*>(QStringLiteral("psCandidates"));
+    QVERIFY(candidates && candidates->findText(name) >= 0);
+    QCOMPARE(candidates->findText(QStringLiteral("Hot plate temperature")), -1);
+    QCOMPARE(panel()->parameters()->add(first), QString());
+    chooseQuantity("All matter: Mean temperature");
+    Series wanted;  // °C
+    for (int k = 1; k <= 3; ++k) wanted.time.push_back(0.1 * k), wanted.value.push_back(-10 + 1.5 * k);
+    wantedView()->setWanted(wanted);
+    const std::string before = writeProject(document().project());
+    const int index = document().undoStack().index();
+    QSignalSpy ended(panel(), &FitPanel::ended);
+    QTest::mouseClick(button("Find values"), Qt::LeftButton);
+    QVERIFY(ended.wait(4 * kLong));
+    QTest::mouseClick(button("Apply"), Qt::LeftButton);
+    QCOMPARE(document().undoStack().index(), index + 1);
+    const std::vector<TrackKey>& keys = document().track(kFloor.address)->keys;
+    QVERIFY2(std::abs(keys[0].value - 420) > 1, qPrintable(QString::number(keys[0].value)));
+    QCOMPARE(keys[1].value, 300.0);
+    document().undoStack().undo();
+    QCOMPARE(writeProject(document().project()), before);
+    document().removeTrack(kFloor.address);  // takes what may change with it
+    QVERIFY(panel()->parameters()->parameters().empty());
   }
 
   void aSearchIsGivenUp() {

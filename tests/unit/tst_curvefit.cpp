@@ -125,6 +125,25 @@ class TestCurveFit : public QObject {
     QVERIFY_THROWS_EXCEPTION(InputError, FitParameter::parse(kPower, project, &m_plugins));
   }
 
+  /// The power until a key at two seconds; what the keys say behind that stays.
+  void aKeysValueIsFound() {
+    Project project = heatedBlock();
+    project.tracks.push_back({kPower, {{0, 100, ToNext::Step, {}, {}}, {2, 50, ToNext::Step, {}, {}}}});
+    FitTask task = wantedWith(heatedBlock(), 217, 293.15, {1.0});
+    task.parameters = {FitParameter::parse(std::string(kPower) + "@0=0..600", project, &m_plugins)};
+    QCOMPARE(task.parameters[0].text(), std::string(kPower) + "@0");
+    const FitResult result = fitToCurve(project, m_plugins, task, nullptr, nullptr);
+    QCOMPARE(result.before.values[0], 100.0);
+    QVERIFY2(std::abs(result.after.values[0] - 217) < 600.0 / 3000,
+             qPrintable(QString::number(result.after.values[0])));
+    const Project changed = withValues(project, m_plugins, task, result.after.values);
+    QCOMPARE(changed.tracks[0].keys[0].value, result.after.values[0]);
+    QCOMPARE(changed.tracks[0].keys[1].value, 50.0);
+    for (const char* none : {"@2", "@x", "@"})
+      QVERIFY_THROWS_EXCEPTION(InputError, FitParameter::parse(std::string(kPower) + none, project, &m_plugins));
+    QVERIFY_THROWS_EXCEPTION(InputError, FitParameter::parse(std::string(kPower) + "@0", heatedBlock(), &m_plugins));
+  }
+
   void itEndsWhenToldTo() {
     const Project project = heatedBlock();
     FitTask task = wantedWith(project, 300, 293.15, {1.0});

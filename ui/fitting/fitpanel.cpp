@@ -14,6 +14,8 @@
 #include "ui/theme/numbers.h"
 #include "ui/theme/theme.h"
 
+#include <QtCore/QTimer>
+#include <QtGui/QUndoStack>
 #include <QtWidgets/QComboBox>
 #include <QtWidgets/QCompleter>
 #include <QtWidgets/QGridLayout>
@@ -53,6 +55,7 @@ FitPanel::FitPanel(Session& session, QWidget* parent)
       m_apply(new QPushButton(QStringLiteral("Apply"))),
       m_status(new QLabel) {
   m_quantity->setAccessibleName(QStringLiteral("Quantity that is drawn"));
+  m_candidate->setObjectName(QStringLiteral("psCandidates"));
   m_candidate->setAccessibleName(QStringLiteral("Add what may change"));
   m_candidate->setEditable(true);
   m_candidate->setInsertPolicy(QComboBox::NoInsert);
@@ -134,7 +137,8 @@ void FitPanel::follow(const ChangeEvent& event) {
   } else if (std::holds_alternative<ProbesChanged>(event)) {
     readScene();
   } else if (std::holds_alternative<MaterialsChanged>(event) || std::holds_alternative<WallsChanged>(event) ||
-             std::holds_alternative<BodyChanged>(event) || std::holds_alternative<PortChanged>(event)) {
+             std::holds_alternative<BodyChanged>(event) || std::holds_alternative<PortChanged>(event) ||
+             std::holds_alternative<TracksChanged>(event)) {
     readCandidates();
   }
 }
@@ -155,16 +159,15 @@ void FitPanel::readScene() {
                            QStringLiteral("%1: %2").arg(nameOf(probe), QString::fromStdString(quantity->label)),
                            SeriesUnit(quantity->unit), [source](const FrameStats& stats) { return source(stats); }});
   }
-  constexpr const char* kPhases[] = {"solid", "melting", "liquid", "boiling", "gas"};
-  constexpr const char* kNames[] = {"All matter: solid", "All matter: melting", "All matter: liquid",
-                                    "All matter: boiling", "All matter: gas"};
-  for (size_t k = 0; k < std::size(kPhases); ++k) {
-    const std::string column = std::string(kPhases[k]) + ".mass[kg]";
-    m_drawables.push_back({column, column, QString::fromLatin1(kNames[k]), SeriesUnit("kg"),
-                           [k](const FrameStats& stats) { return stats.phases[k].mass; }});
-  }
-  m_drawables.push_back({"all.temperature[K]", "all.temperature[K]", QStringLiteral("All matter: mean temperature"),
-                         SeriesUnit("K"), [](const FrameStats& stats) { return stats.temperatureMean; }});
+  // What every frame tells and tables have a column of.
+  const auto whole = [this](const std::string& key, const std::string& column) {
+    const GraphSource source(frameSource(key), {}, m_session.fields());
+    m_drawables.push_back({column, column, QStringLiteral("All matter: ") + QString::fromStdString(source.label()),
+                           SeriesUnit(source.unit()), [source](const FrameStats& stats) { return source(stats); }});
+  };
+  for (const char* phase : {"solid", "melting", "liquid", "boiling", "gas"})
+    whole(std::string(phase) + "_mass", std::string(phase) + ".mass[kg]");
+  whole("temperature", "all.temperature[K]");
   m_quantity->clear();
   for (const Drawable& drawable : m_drawables) m_quantity->addItem(drawable.name);
   m_view->setDuration(project.duration);
@@ -179,7 +182,7 @@ void FitPanel::readCandidates() {
   const Project& project = m_session.document().project();
   const PluginRegistry* plugins = m_session.plugins();
   m_candidates.clear();
-  const auto offer = [&](const TrackTarget& target) {
+  const auto offer = [&](const FitTarget& target) {
     if (whyNotFitted(project, plugins, target).empty()) m_candidates.push_back(target);
   };
   std::vector<Address> addresses;
@@ -193,14 +196,19 @@ void FitPanel::readCandidates() {
   }
   for (const Address& address : addresses) {
     if (!declarationOf(project, plugins, address)) continue;
-    offer({address, std::nullopt});
+    const auto offerBoth = [&](std::optional<size_t> point) {
+      offer({address, point});
+      const Track* track = findTrack(project.tracks, FitTarget(address, point).trackText());
+      for (size_t key = 0; track && key < track->keys.size(); ++key) offer({address, point, key});
+    };
+    offerBoth(std::nullopt);
     const Value value = valueAt(project, plugins, address);
     const auto* response = std::get_if<Response>(&value);
     const size_t points = response && response->kind == Response::Kind::Curve ? response->points.size() : 0;
-    for (size_t point = 0; point < points; ++point) offer({address, point});
+    for (size_t point = 0; point < points; ++point) offerBoth(point);
   }
   m_candidate->clear();
-  for (const TrackTarget& target : m_candidates) m_candidate->addItem(m_rows->nameOf(target));
+  for (const FitTarget& target : m_candidates) m_candidate->addItem(m_rows->nameOf(target));
   m_candidate->setCurrentIndex(-1);
 }
 
@@ -234,6 +242,7 @@ void FitPanel::choose(int drawable) {
 void FitPanel::readHistory() {
   if (!m_drawn.value || m_job.isRunning()) return;
   const HistoryReader::Piece piece = m_history.read();
+  if (piece.more) QTimer::singleShot(0, this, &FitPanel::readHistory);
   if (piece.begins) {
     m_view->clear();
     if (m_found) say(kHint);
@@ -315,6 +324,16 @@ void FitPanel::end(const QString& text, bool problem) {
   Q_EMIT ended();
 }
 
+/// Where the parameter is one: the value that was found for it. Returns "" or why it has it not.
+QString FitPanel::applyKey(size_t parameter) {
+  Document& document = m_session.document();
+  const FitTarget& target = m_task.parameters[parameter].target;
+  const auto track = Address::parse(target.trackText());
+  if (!target.key || !track) return {};
+  const double time = document.track(*track)->keys[*target.key].time;
+  return document.moveKey(*track, *target.key, time, m_found->values[parameter]);
+}
+
 void FitPanel::apply() {
   if (!m_found || m_job.isRunning()) return;
   Document& document = m_session.document();
@@ -324,10 +343,18 @@ void FitPanel::apply() {
     if (!why.empty()) return say(QString::fromStdString(why) + QStringLiteral("; nothing was changed"), true);
   }
   const Project changed = withValues(document.project(), *document.plugins(), m_task, m_found->values);
-  for (const FitParameter& p : m_task.parameters)
-    values.emplace_back(p.target.address, valueAt(changed, document.plugins(), p.target.address));
-  const QString problem = document.setParameters(values, QStringLiteral("values found for a drawn curve"));
-  if (!problem.isEmpty()) return say(problem, true);
+  for (const FitParameter& p : m_task.parameters) {
+    if (!p.target.key) values.emplace_back(p.target.address, valueAt(changed, document.plugins(), p.target.address));
+  }
+  const QString title = QStringLiteral("values found for a drawn curve");
+  document.undoStack().beginMacro(title);
+  QString problem = values.empty() ? QString() : document.setParameters(values, title);
+  for (size_t k = 0; k < m_task.parameters.size() && problem.isEmpty(); ++k) problem = applyKey(k);
+  document.undoStack().endMacro();
+  if (!problem.isEmpty()) {
+    document.undoStack().undo();
+    return say(problem, true);
+  }
   m_found.reset();
   m_view->clearSeries(AsItIs);  // the run that is shown goes on there
   m_history.rewind();

@@ -46,6 +46,7 @@ class FitPanel : public QWidget {
  public Q_SLOTS:
   void search();
   void apply();
+  QString applyKey(size_t parameter);
 
  Q_SIGNALS:
   void ended();  ///< a search, however
@@ -69,7 +70,7 @@ class FitPanel : public QWidget {
   HistoryReader m_history;
   std::vector<Drawable> m_drawables;
   Drawable m_drawn;  ///< what is drawn; of the search while one runs
-  std::vector<TrackTarget> m_candidates;
+  std::vector<FitTarget> m_candidates;
   FitJob m_job;
   FitTask m_task;  ///< of the search that runs, or has ended
   double m_missedBefore = 0;

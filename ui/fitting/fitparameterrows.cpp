@@ -19,8 +19,6 @@ namespace {
 
 constexpr int kField = 76;  // logical pixels
 
-bool same(const TrackTarget& a, const TrackTarget& b) { return a.address == b.address && a.point == b.point; }
-
 }  // namespace
 
 FitParameterRows::FitParameterRows(Document& document, QWidget* parent)
@@ -38,11 +36,11 @@ FitParameterRows::FitParameterRows(Document& document, QWidget* parent)
   });
 }
 
-QString FitParameterRows::add(const TrackTarget& target) {
+QString FitParameterRows::add(const FitTarget& target) {
   const std::string why = whyNotFitted(m_document.project(), m_document.plugins(), target);
   if (!why.empty()) return QString::fromStdString(why);
-  const bool known = std::any_of(m_parameters.begin(), m_parameters.end(),
-                                 [&](const FitParameter& p) { return same(p.target, target); });
+  const bool known =
+      std::any_of(m_parameters.begin(), m_parameters.end(), [&](const FitParameter& p) { return p.target == target; });
   if (known) return QStringLiteral("%1 is there already").arg(nameOf(target));
   const api::ParameterDeclaration& declared = *m_document.declaration(target.address);
   m_parameters.push_back({target, declared.minimum, declared.maximum});
@@ -50,14 +48,17 @@ QString FitParameterRows::add(const TrackTarget& target) {
   return {};
 }
 
-QString FitParameterRows::nameOf(const TrackTarget& target) const {
+QString FitParameterRows::nameOf(const FitTarget& target) const {
   const api::ParameterDeclaration* declared = m_document.declaration(target.address);
   if (!declared) return QString::fromStdString(target.address.text());
   const QString name = awayLabel(m_document.project(), target.address, QString::fromUtf8(declared->label));
-  return target.point ? QStringLiteral("%1, point %2").arg(name).arg(*target.point) : name;
+  const QString point = target.point ? QStringLiteral(", point %1").arg(*target.point) : QString();
+  const Track* track = findTrack(m_document.project().tracks, target.trackText());
+  if (!target.key || !track || *target.key >= track->keys.size()) return name + point;
+  return name + point + QStringLiteral(", key at %1 s").arg(formatShort(track->keys[*target.key].time, 6));
 }
 
-QString FitParameterRows::shown(const TrackTarget& target, double number) const {
+QString FitParameterRows::shown(const FitTarget& target, double number) const {
   const api::ParameterDeclaration* declared = m_document.declaration(target.address);
   return declared ? formatValue(*declared, number) : formatNumber(number);
 }
@@ -123,7 +124,7 @@ void FitParameterRows::readEnd(size_t row, bool most, QLineEdit* field) {
 
 void FitParameterRows::showValues() {
   for (size_t k = 0; k < m_parameters.size(); ++k) {
-    const TrackTarget& target = m_parameters[k].target;
+    const FitTarget& target = m_parameters[k].target;
     m_names[k]->setToolTip(
         QStringLiteral("Now %1").arg(shown(target, numberAt(m_document.project(), m_document.plugins(), target))));
   }

@@ -20,12 +20,12 @@ class FitParameterRows : public QWidget {
  public:
   explicit FitParameterRows(Document& document, QWidget* parent = nullptr);
   /// With the range of its slider; "" or why it cannot be looked for.
-  QString add(const TrackTarget& target);
+  QString add(const FitTarget& target);
   const std::vector<FitParameter>& parameters() const { return m_parameters; }
   /// "Hot plate temperature", "Viscosity of Honey, point 2".
-  QString nameOf(const TrackTarget& target) const;
+  QString nameOf(const FitTarget& target) const;
   /// A number of it as people see it, with its unit.
-  QString shown(const TrackTarget& target, double number) const;
+  QString shown(const FitTarget& target, double number) const;
 
  Q_SIGNALS:
   void changed();

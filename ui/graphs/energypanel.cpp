@@ -9,6 +9,7 @@
 #include "ui/theme/numbers.h"
 #include "ui/theme/theme.h"
 
+#include <QtCore/QTimer>
 #include <QtWidgets/QHBoxLayout>
 #include <QtWidgets/QLabel>
 
@@ -45,13 +46,26 @@ EnergyPanel::EnergyPanel(Session& session, QWidget* parent)
 void EnergyPanel::readHistory() {
   const HistoryReader::Piece piece = m_history.read();
   if (piece.begins) clear();
-  for (const FrameStats& stats : piece.frames) append(stats);
+  for (const FrameStats& stats : piece.frames) take(stats);
+  if (piece.more) QTimer::singleShot(0, this, &EnergyPanel::readHistory);
+  showLedger();
   m_graph->setPresentTime(m_session.now());
 }
 
 void EnergyPanel::setDuration(double seconds) { m_graph->setDuration(seconds); }
 
 void EnergyPanel::append(const FrameStats& stats) {
+  take(stats);
+  showLedger();
+}
+
+void EnergyPanel::showLedger() {
+  if (!m_shown) return;
+  m_ledger->setText(ledgerText());
+  m_ledger->setMinimumWidth(std::max(m_ledger->minimumWidth(), m_ledger->sizeHint().width()));  // it does not breathe
+}
+
+void EnergyPanel::take(const FrameStats& stats) {
   const SnapshotPtr snapshot = m_session.snapshot();
   const bool held = snapshot && !snapshot->id.empty();  // it has heat too, though no phase counts it
   if (!m_shown && !held && !hasMatter(stats)) return;   // a flat line of nothing
@@ -64,8 +78,6 @@ void EnergyPanel::append(const FrameStats& stats) {
                   stats.thermalEnergy - m_start);
   m_graph->setPresentTime(stats.time);
   m_last = stats;
-  m_ledger->setText(ledgerText());
-  m_ledger->setMinimumWidth(std::max(m_ledger->minimumWidth(), m_ledger->sizeHint().width()));  // it does not breathe
 }
 
 QString EnergyPanel::ledgerText() const {

@@ -25,6 +25,8 @@ class EnergyPanel : public QWidget {
 
  private:
   void readHistory();
+  void take(const FrameStats& stats);
+  void showLedger();
   Session& m_session;
   HistoryReader m_history;
   EnergyStackView* m_graph;

@@ -27,7 +27,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace ps {
 namespace {
@@ -76,12 +75,14 @@ GraphsPanel::GraphsPanel(Session& session, QWidget* parent)
   m_row->setContentsMargins(6, 4, 6, 4);
   m_row->setSpacing(8);
   setAcceptDrops(true);
+  m_catchUp.setSingleShot(true);
+  connect(&m_catchUp, &QTimer::timeout, this, &GraphsPanel::catchUp);
   connect(&session, &Session::valuesDue, this, &GraphsPanel::readHistory);
   connect(&session, &Session::totalsDue, this, &GraphsPanel::showDistributions);
   connect(&session.transitions(), &Transitions::changed, this, &GraphsPanel::setTransitions);
   for (const auto signal : {&RecordedView::comparedChanged, &RecordedView::runsChanged}) {
     connect(&session.recorded(), signal, this, [this] {
-      for (const Shown& shown : m_shown) showCompared(shown);
+      for (Shown& shown : m_shown) showCompared(shown);
     });
   }
   connect(&session.document(), &Document::changed, this, [this](const ChangeEvent& event) {
@@ -139,7 +140,6 @@ void GraphsPanel::fit() {
 /// Views stay where the graph is of the same kind: what is zoomed stays so.
 void GraphsPanel::rebuild() {
   std::vector<Shown> before = std::exchange(m_shown, {});
-  std::vector<size_t> fresh;  // whose curves begin at the start of the run
   const Project& project = m_session.document().project();
   for (const Graph& graph : m_session.document().graphs()) {
     const auto old = std::find_if(before.begin(), before.end(), [&](const Shown& s) {
@@ -156,10 +156,10 @@ void GraphsPanel::rebuild() {
     if (!same) prepare(shown);
     if (auto* view = qobject_cast<GraphView*>(shown.plot)) view->setDifference(graph.difference);
     shown.plot->setLogarithmic(graph.logarithmic);
+    if (!same && shown.overTime && m_started) shown.unread = 0;
     m_shown.push_back(std::move(shown));
-    if (!same && m_shown.back().overTime) fresh.push_back(m_shown.size() - 1);
   }
-  if (!fresh.empty() && m_started && m_session.engine()) feed(m_session.engine()->history(0), fresh);
+  catchUp();
   for (const Shown& gone : before) {
     if (gone.plot) gone.plot->deleteLater(), gone.plot->hide();
   }
@@ -171,29 +171,8 @@ void GraphsPanel::rebuild() {
   update();
 }
 
-/// Those that there are.
-std::vector<GraphSource> GraphsPanel::sourcesOf(const std::vector<std::string>& series) const {
-  std::vector<GraphSource> sources;
-  for (const std::string& one : series) {
-    GraphSource source(one, m_session.document().project(), m_session.fields(), m_session.document().plugins());
-    if (source) sources.push_back(std::move(source));
-  }
-  return sources;
-}
-
-/// What parameters were in this run, or in an earlier one.
-void GraphsPanel::follow(std::vector<GraphSource>& sources, std::optional<uint64_t> run) const {
-  std::optional<RunEdits> edits;
-  for (GraphSource& source : sources) {
-    if (!source.parameter() || !m_session.engine()) continue;
-    if (!edits) edits = m_session.engine()->recording().documentEdits(run);
-    source.setCourse(
-        std::make_shared<const ParameterCourse>(*edits, m_session.document().plugins(), *source.parameter()));
-  }
-}
-
 GraphsPanel::Shown GraphsPanel::make(const Graph& graph) {
-  Shown shown{graph, {}, nullptr, nullptr};
+  Shown shown{graph, {}, nullptr, nullptr, {}, 0};
   if (graph.kind == Graph::Kind::Time)
     shown.overTime = new GraphView(this);
   else if (graph.kind == Graph::Kind::Phases)
@@ -237,7 +216,7 @@ void GraphsPanel::adopt(TimePlot* plot) {
 }
 
 /// Without samples.
-void GraphsPanel::prepare(const Shown& shown) {
+void GraphsPanel::prepare(Shown& shown) {
   if (!shown.overTime) return;
   shown.overTime->clear();
   if (auto* view = qobject_cast<GraphView*>(shown.plot)) {
@@ -248,20 +227,6 @@ void GraphsPanel::prepare(const Shown& shown) {
   }
   shown.overTime->setDuration(m_session.document().project().duration);
   shown.overTime->setPresentTime(m_session.now());
-}
-
-/// Curves of the run that this one is compared with.
-void GraphsPanel::showCompared(const Shown& shown) {
-  auto* view = qobject_cast<GraphView*>(shown.plot);
-  if (!view) return;
-  const RecordedView& recorded = m_session.recorded();
-  view->beginOther(recorded.compared() ? recorded.runName(*recorded.compared()) : QString());
-  std::vector<GraphSource> sources = shown.sources;
-  follow(sources, recorded.compared());
-  for (const FrameStats& stats : recorded.comparedStats()) {
-    for (size_t s = 0; s < sources.size(); ++s)
-      view->appendOther(static_cast<int>(s), stats.time, SeriesUnit(sources[s].unit()).of(sources[s](stats)));
-  }
 }
 
 void GraphsPanel::arrange() {
@@ -280,54 +245,6 @@ void GraphsPanel::arrange() {
     shown.plot->show();
   }
   m_row->activate();
-}
-
-void GraphsPanel::readHistory() {
-  const HistoryReader::Piece piece = m_history.read();
-  if (piece.begins) clear();
-  std::vector<size_t> all(m_shown.size());
-  std::iota(all.begin(), all.end(), size_t{0});
-  feed(piece.frames, all);
-  for (const Shown& shown : m_shown) {
-    if (shown.overTime) shown.overTime->setPresentTime(m_session.now());
-  }
-  setEmptyTexts();
-}
-
-/// Edits are read after the frames: none that acted is missing.
-void GraphsPanel::feed(const std::vector<FrameStats>& frames, const std::vector<size_t>& graphs) {
-  for (const size_t index : graphs) follow(m_shown[index].sources, std::nullopt);
-  for (const FrameStats& stats : frames) {
-    m_started = true;
-    m_matter = hasMatter(stats);
-    for (const size_t index : graphs) {
-      const Shown& shown = m_shown[index];
-      if (auto* view = qobject_cast<GraphView*>(shown.plot)) {
-        for (size_t s = 0; s < shown.sources.size(); ++s)
-          view->append(static_cast<int>(s), stats.time,
-                       SeriesUnit(shown.sources[s].unit()).of(shown.sources[s](stats)));
-      } else if (auto* phases = qobject_cast<PhaseStackView*>(shown.plot)) {
-        std::array<double, 5> kilograms{};
-        for (size_t i = 0; i < kilograms.size(); ++i) kilograms[i] = stats.phases[i].mass;
-        phases->append(stats.time, kilograms);
-      } else if (auto* energy = qobject_cast<EnergyStackView*>(shown.plot)) {
-        if (stats.frame == 0 || energy->sampleCount() == 0) m_startEnergy = stats.thermalEnergy - stats.heat.net();
-        const HeatLedger& heat = stats.heat;
-        energy->append(stats.time, {heat.walls, heat.air, heat.radiation, heat.heaters, heat.sources},
-                       stats.thermalEnergy - m_startEnergy);
-      }
-    }
-  }
-}
-
-void GraphsPanel::showDistributions() {
-  const SnapshotPtr snapshot = m_session.snapshot();
-  if (!snapshot) return;
-  for (const Shown& shown : m_shown) {
-    auto* view = qobject_cast<DistributionView*>(shown.plot);
-    if (view && !view->visibleRegion().isEmpty())
-      view->show(*snapshot, shown.graph, m_session.fields().find(shown.graph.field).get());
-  }
 }
 
 void GraphsPanel::setTransitions() {
@@ -360,13 +277,6 @@ void GraphsPanel::setEmptyTexts() {
   }
 }
 
-void GraphsPanel::clear() {
-  m_started = false;
-  for (const Shown& shown : m_shown) {
-    if (shown.overTime) shown.overTime->clear();
-  }
-}
-
 QMenu* GraphsPanel::makeMenu(const std::string& id) {
   auto* menu = new QMenu(this);
   const Shown* shown = find(id);
@@ -385,22 +295,6 @@ QMenu* GraphsPanel::makeMenu(const std::string& id) {
                     [this, id, name] { Q_EMIT exportRequested(QString::fromStdString(id), name); });
   }
   return menu;
-}
-
-QByteArray GraphsPanel::exported(const std::string& id, const QString& ending) const {
-  const Shown* shown = find(id);
-  if (!shown) return {};
-  if (ending == QStringLiteral("png")) return pngOf(*shown->plot);
-  if (ending == QStringLiteral("svg")) return svgOf(*shown->plot);
-  if (auto* view = qobject_cast<DistributionView*>(shown->plot)) return view->csv();
-  const RecordedView& recorded = m_session.recorded();
-  GraphRun run{m_session.engine() ? m_session.engine()->history(0) : std::vector<FrameStats>(),
-               sourcesOf(exportedSources(shown->graph))};
-  GraphRun other{recorded.comparedStats(), run.sources};
-  follow(run.sources, std::nullopt);
-  if (!recorded.compared()) return graphCsv(run, {}, {});
-  follow(other.sources, recorded.compared());
-  return graphCsv(run, other, recorded.runName(*recorded.compared()).toStdString());
 }
 
 QString GraphsPanel::fileName(const std::string& id, const QString& ending) const {

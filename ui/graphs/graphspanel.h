@@ -5,6 +5,7 @@
 #include "ui/session/historyreader.h"
 
 #include <QtCore/QByteArray>
+#include <QtCore/QTimer>
 #include <QtWidgets/QWidget>
 
 #include <optional>
@@ -56,7 +57,9 @@ class GraphsPanel : public QWidget {
     Graph graph;
     std::vector<GraphSource> sources;  ///< of the curves that there are
     Plot* plot = nullptr;
-    TimePlot* overTime = nullptr;  ///< the same, where it is one
+    TimePlot* overTime = nullptr;      ///< the same, where it is one
+    std::optional<uint64_t> unread{};  ///< number of the frame from which on its curves are still to be read
+    size_t otherRead = 0;              ///< frames of the compared run that its curves have
   };
   void readHistory();
   std::vector<GraphSource> sourcesOf(const std::vector<std::string>& series) const;
@@ -65,8 +68,10 @@ class GraphsPanel : public QWidget {
   void rebuild();
   Shown make(const Graph& graph);
   void adopt(TimePlot* plot);
-  void prepare(const Shown& shown);
-  void showCompared(const Shown& shown);
+  void prepare(Shown& shown);
+  void showCompared(Shown& shown);
+  bool readOther(Shown& shown);
+  void catchUp();
   void arrange();
   void feed(const std::vector<FrameStats>& frames, const std::vector<size_t>& graphs);
   void setTransitions();
@@ -78,6 +83,7 @@ class GraphsPanel : public QWidget {
 
   Session& m_session;
   HistoryReader m_history;
+  QTimer m_catchUp;  ///< runs while curves are still to be read, piece by piece
   QHBoxLayout* m_row;
   std::vector<Shown> m_shown;
   double m_startEnergy = 0;  ///< J, thermal energy at the start

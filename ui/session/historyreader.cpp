@@ -13,7 +13,8 @@ HistoryReader::Piece HistoryReader::read() {
   piece.begins = snapshot->revision != m_revision;
   if (piece.begins) m_read = 0;
   m_revision = snapshot->revision;
-  piece.frames = m_session.engine()->history(m_read);
+  piece.frames = m_session.engine()->history(m_read, kMost);
+  piece.more = piece.frames.size() == kMost;
   if (!piece.frames.empty()) m_read = piece.frames.back().frame;
   return piece;
 }

@@ -18,7 +18,9 @@ class HistoryReader {
     /// The frame read last comes again: the scene may have been edited since, and its newer values replace the older
     /// ones.
     std::vector<FrameStats> frames;
+    bool more = false;  ///< there are more than fit one turn of the event loop: to be read in the next one
   };
+  static constexpr size_t kMost = 1024;  ///< frames of a piece
   Piece read();
   void rewind() { m_revision = m_read = 0; }  ///< the next piece is all of the run
 
