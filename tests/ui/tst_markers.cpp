@@ -135,9 +135,11 @@ class TestMarkers : public SampleWindowTest {
 
   /// Shift and arrows go to markers and keys alike; a click shows its time.
   void whatIsRecordedIsShownFromMarkToMark() {
-    for (int frame = 1; frame <= 12; ++frame) session().engine()->stepOnce();
-    onEngine<bool>(session(), [](Engine&) { return true; });
-    session().engine()->recording().settle();
+    for (int frame = 1; frame <= 12; ++frame) {
+      session().engine()->stepOnce();
+      onEngine<bool>(session(), [](Engine&) { return true; });
+      session().engine()->recording().settle();  // none is left out
+    }
     QTRY_COMPARE_WITH_TIMEOUT(shownFrame(), uint64_t{12}, kLong);
     document().addMarker(4.0 / 60);
     document().addMarker(100);  // beyond what is recorded

@@ -48,6 +48,8 @@ void TestFrameHistory::aRunOfAnyLengthFits() {
   QVERIFY2(widest <= 64 && all.front().frame < kFirst + 64, qPrintable(QString::number(widest)));
   QCOMPARE(history.since(kLast - 10).size(), size_t{11});
   QVERIFY(history.since(kLast + 1).empty());
+  const std::vector<FrameStats> piece = history.since(kLast - 10, 4);
+  QVERIFY(piece.size() == 4 && piece.front().frame == kLast - 10);
   history.clear();
   QVERIFY(history.since(0).empty());
 }
