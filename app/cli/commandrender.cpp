@@ -7,12 +7,14 @@
 #include "core/io/recording.h"
 #include "core/matter/material.h"
 #include "core/plugin_host/registry.h"
+#include "core/simulation/packedframe.h"
 #include "core/simulation/tracks.h"
 #include "ui/render/framing.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 #include <optional>
 #include <tuple>
 
@@ -173,20 +175,28 @@ int renderProject(const Arguments& arguments, const std::string& path) {
   throw Error(path + ": the run set flags: " + flagNames(flags).front() + (message.empty() ? "" : ": " + message));
 }
 
+/// By the frames of the run: of one that is not kept, the kept one before it is drawn again.
 int renderRecording(const Arguments& arguments, const std::string& path) {
-  RecordingReader recording(path);
+  PluginRegistry plugins;
+  const RecordingReader recording(path, plugins);
   if (recording.frameCount() == 0)
     throw InputError(recording.damage().empty() ? path + ": holds no frames" : recording.damage());
-  PluginRegistry plugins;
   Project project = parseFor(arguments, recording.projectText(), path, plugins);
   const long every = arguments.integer("--every", 1, 1'000'000).value_or(1);
-  project.duration = static_cast<double>(recording.frameCount()) * frameLength(project);
-  const long frames = std::min(frameCount(arguments, project), static_cast<long>(recording.frameCount()) - 1);
+  const KeptRun::Frames& kept = recording.content().present.frames;
+  const auto length = static_cast<long>(kept.rbegin()->first - kept.begin()->first);
+  project.duration = static_cast<double>(length + 1) * frameLength(project);
+  const long frames = std::min(frameCount(arguments, project), length);
   const std::string colour =
       colourOf(project, ParticleFields(plugins), recording.frame(recording.frameCount() - 1).get(), arguments);
   Painter painter(project, plugins, colour, arguments, every);
+  auto at = kept.begin();
+  size_t index = 0;
   for (long frame = 0; frame <= frames && !interrupted(); frame += every) {
-    painter.draw(*recording.frame(static_cast<size_t>(frame)), frame);
+    for (auto next = std::next(at);
+         next != kept.end() && next->first <= kept.begin()->first + static_cast<uint64_t>(frame); ++next, ++index)
+      at = next;
+    painter.draw(*recording.frame(index), frame);
   }
   const long pictures = painter.finish();
   if (!arguments.has("--quiet"))

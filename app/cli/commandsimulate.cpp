@@ -36,11 +36,12 @@ constexpr OptionSpec kOptions[] = {
     kPatience,
     {"--report", "FILE.json", "writes speed, accuracy, energy, phases and the state hash"},
     {"--probes", "FILE.csv", "writes probes, heat balance, mass in each phase and mean temperature of every frame"},
-    {"--record", "FILE", "writes every frame, for render"},
+    {"--record", "FILE", "writes every frame small, and states to go on from, for render and the editor"},
     kSet,
     kQuiet,
 };
 
+constexpr double kStateInterval = 2;                  ///< s of the run between states of a recording
 constexpr size_t kMostStateBytes = size_t{16} << 30;  ///< 800 for each particle that a scene may have
 
 void restoreFrom(const std::string& path, Engine& engine) {
@@ -144,11 +145,12 @@ int simulateCommand(CommandArguments list) {
   engine.measureBalance(arguments.has("--report"));
   SettlingMeasure settling(frames);
   const double start = now();
-  double wall = 0;
+  double wall = 0, stateDue = begin.time + kStateInterval;
   bool whole = false;
   keepingParts(probes, recording, [&] {
     if (recording) {
       engine.show(engine.fields().names());
+      recording->add(engine);
       recording->add(*engine.snapshot());
     }
     {
@@ -157,6 +159,10 @@ int simulateCommand(CommandArguments list) {
         report.add(step, stats);
         settling.add(engine, stats);
         if (probes) probes->add(engine, stats);
+        if (recording && stats.time >= stateDue) {
+          recording->add(engine);
+          stateDue = stats.time + kStateInterval;
+        }
         if (recording) recording->add(*engine.snapshot());
         progress.show(static_cast<long>(report.frames()), stats);
       });
@@ -164,6 +170,7 @@ int simulateCommand(CommandArguments list) {
     report.add(engine.lateFaults());
     wall = now() - start;
     if (probes) probes->finish();
+    if (recording && report.frames() > 0) recording->add(engine);
     if (recording) recording->finish();
   });
   saveResults(arguments, project, engine);

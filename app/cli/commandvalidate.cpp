@@ -5,8 +5,10 @@
 #include "core/base/error.h"
 #include "core/base/jsontext.h"
 #include "core/io/projectio.h"
+#include "core/io/recording.h"
 #include "core/io/schema.h"
 #include "core/plugin_host/registry.h"
+#include "core/simulation/packedframe.h"
 #include "core/simulation/sceneneed.h"
 
 #include <algorithm>
@@ -39,12 +41,36 @@ std::vector<std::string> memoryWarnings(const Project& project, const PluginRegi
           memoryText(roomFor(memory) - need.bytes) + " for it; they wait while it is full; lower their 'most'"};
 }
 
+/// Every frame and state of a recording is unpacked: what is damaged is found.
+void validateRecording(const std::string& path, const PluginRegistry& plugins, bool quiet) {
+  const RecordingReader recording(path, plugins);
+  parseProject(recording.projectText(), path, plugins);
+  if (!recording.damage().empty()) throw InputError(recording.damage());
+  for (size_t frame = 0; frame < recording.frameCount(); ++frame) recording.frame(frame);
+  const KeptRun& run = recording.content().present;
+  for (const KeptRun::State& state : run.states) {
+    try {
+      state.stream->unpacked();
+    } catch (const InputError& problem) {
+      throw InputError(path + ": the state of frame " + std::to_string(state.frame) + ": " + problem.what());
+    }
+  }
+  if (quiet) return;
+  if (!recording.whyNoStates().empty()) say(stderr, "warning: " + recording.whyNoStates());
+  char span[80] = "";
+  if (!run.frames.empty())
+    std::snprintf(span, sizeof span, ", %.6g to %.6g s", run.frames.begin()->second->stats.time,
+                  run.frames.rbegin()->second->stats.time);
+  say(stdout, path + ": a recording of " + counted(run.frames.size(), "frame") + span + ", " +
+                  counted(run.states.size(), "state") + ", " +
+                  counted(recording.content().earlier.size(), "earlier run"));
+}
+
 }  // namespace
 
 std::string validateHelp() {
-  return "phasesketch-cli validate PROJECT... [options]\n\nChecks projects and says file:json/pointer: what is wrong. "
-         "Exit "
-         "code 2 when one cannot be opened.\n\n" +
+  return "phasesketch-cli validate PROJECT|RECORDING... [options]\n\nChecks projects and says file:json/pointer: what "
+         "is wrong, and recordings frame by frame. Exit code 2 when one cannot be opened.\n\n" +
          optionHelp(kOptions);
 }
 
@@ -57,6 +83,10 @@ int validateCommand(CommandArguments list) {
   int code = kFine;
   for (const std::string& path : arguments.positional()) {
     try {
+      if (isRecording(path)) {
+        validateRecording(path, plugins, quiet);
+        continue;
+      }
       LoadedProject loaded = loadProject(path, plugins);
       const std::vector<std::string> memory = memoryWarnings(loaded.project, plugins);
       for (const std::string& text : memory) loaded.warnings.push_back({false, path + ":" + text});

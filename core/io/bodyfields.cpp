@@ -47,6 +47,8 @@ const FieldTable<VoxelShape::Stroke>& strokeFields() {
   return table;
 }
 
+}  // namespace
+
 const FieldTable<VoxelShape>& voxelFields() {
   using Run = VoxelShape::Run;
   const Integer coordinate{-1'000'000, 1'000'000};
@@ -70,6 +72,8 @@ const FieldTable<VoxelShape>& voxelFields() {
       .unknown = &VoxelShape::unknown};
   return table;
 }
+
+namespace {
 
 const FieldTable<Wave>& velocityWaveFields() {
   static const FieldTable<Wave> table = [] {

@@ -25,6 +25,8 @@ struct Referring {
 
 Json numberSchema(double minimum, double maximum, const char* unit);
 Json namesSchema(const std::vector<std::string>& names);
+/// A value of any parameter: a switch, a number, a choice, a curve or a law.
+Json valueSchema();
 /// "#/$defs/NAME".
 Json definitionSchema(const char* name);
 

@@ -8,6 +8,7 @@ namespace ps::fields {
 const FieldTable<Project>& projectFields();
 const FieldTable<SceneMaterial>& materialFields();
 const FieldTable<Body>& bodyFields();
+const FieldTable<VoxelShape>& voxelFields();
 const FieldTable<Emitter>& emitterFields();
 const FieldTable<Sink>& sinkFields();
 const FieldTable<Environment>& environmentFields();

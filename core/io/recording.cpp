@@ -1,225 +1,291 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/io/recording.h"
 
-#include "core/base/bytepacker.h"
 #include "core/base/error.h"
-#include "core/base/hash.h"
 #include "core/base/jsontext.h"
+#include "core/base/progress.h"
+#include "core/base/storedfile.h"
+#include "core/io/filestamp.h"
+#include "core/io/projectfields.h"
 #include "core/io/projectio.h"
-#include "core/simulation/particlefield.h"
+#include "core/io/recordingblocks.h"
+#include "core/io/runlog.h"
+#include "core/io/schema.h"
+#include "core/simulation/namedmatter.h"
 
-#include <cmath>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
+#include <map>
+#include <utility>
 
 namespace ps {
 namespace {
 
 using nlohmann::json;
+using namespace recording;
 
-constexpr char kFileMark[] = "PSRECORD", kFrameMark[] = "PSFRAME.";
-constexpr size_t kMark = 8;
-constexpr uint64_t kMaximumHeader = uint64_t{64} << 20, kMaximumFrame = uint64_t{2} << 30;
-constexpr int kLevel = 3;  // zstd: half the time of 6, 3 % larger on frames of water
+constexpr uint64_t kMaximumHeader = uint64_t{64} << 20;
+constexpr uint64_t kMaximumHead = uint64_t{16} << 20, kMaximumFrame = uint64_t{1} << 30;
+constexpr uint64_t kMaximumState = uint64_t{16} << 30, kMaximumText = uint64_t{256} << 20;
+constexpr size_t kMaximumRuns = 1000;
 
-std::string packFrame(const Snapshot& s) {
-  BytePacker packer;
-  const size_t n = s.position.size();
-  packer.value(uint64_t{n});
-  packer.value(uint64_t{s.materialLook.size()});
-  packer.value(s.stats.frame);
-  packer.value(s.stats.time);
-  packer.value(s.stats.thermalTime);
-  packer.value(s.revision);
-  packer.array(s.materialLook, s.materialLook.size());
-  packer.array(s.position, n);
-  packer.array(s.temperature, n);
-  packer.array(s.speed, n);
-  packer.array(s.densityError, n);
-  packer.array(s.gasFraction, n);
-  packer.array(s.phase, n);
-  packer.array(s.motion, n);
-  packer.array(s.id, n);
-  packer.array(s.body, n);
-  packer.array(s.material, n);
-  packer.value(static_cast<uint32_t>(s.fields.size()));
-  for (const FieldValues& shown : s.fields) {
-    const ParticleField& field = *shown.field;
-    for (const std::string* words : {&field.name, &field.label, &field.unit}) packer.text(*words);
-    packer.value(field.minimum);
-    packer.value(field.maximum);
-    packer.array(shown.values, n);
-  }
-  return packer.bytes();
-}
-
-FieldValues unpackField(ByteUnpacker& unpacker, size_t n) {
-  ParticleField field;
-  for (std::string* words : {&field.name, &field.label, &field.unit}) *words = unpacker.text();
-  field.minimum = unpacker.value<double>();
-  field.maximum = unpacker.value<double>();
-  if (!std::isfinite(field.minimum) || !std::isfinite(field.maximum)) unpacker.fail();
-  static const ParticleFields kOurs;
-  FieldPtr own = kOurs.find(field.name);  // knows more of itself
-  FieldValues shown{own ? std::move(own) : std::make_shared<const ParticleField>(std::move(field)), {}};
-  unpacker.array(shown.values, n);
-  return shown;
-}
-
-std::shared_ptr<Snapshot> unpackFrame(const std::string& bytes, const std::string& where) {
-  ByteUnpacker unpacker(bytes, where);
-  auto s = std::make_shared<Snapshot>();
-  const auto n = unpacker.value<uint64_t>(), colours = unpacker.value<uint64_t>();
-  s->stats.frame = unpacker.value<uint64_t>();
-  s->stats.time = unpacker.value<double>();
-  s->stats.thermalTime = unpacker.value<double>();
-  s->revision = unpacker.value<uint64_t>();
-  unpacker.array(s->materialLook, colours);
-  unpacker.array(s->position, n);
-  unpacker.array(s->temperature, n);
-  unpacker.array(s->speed, n);
-  unpacker.array(s->densityError, n);
-  unpacker.array(s->gasFraction, n);
-  unpacker.array(s->phase, n);
-  unpacker.array(s->motion, n);
-  unpacker.array(s->id, n);
-  unpacker.array(s->body, n);
-  unpacker.array(s->material, n);
-  for (auto fields = unpacker.value<uint32_t>(); fields > 0; --fields) s->fields.push_back(unpackField(unpacker, n));
-  unpacker.finish();
-  // As far (m) and as large (m³) as single precision can square: no scene comes near, and pictures are made of them.
-  constexpr float kFarthest = 1e15f, kLargest = 1e12f;
-  const auto drawable = [](const api::Float4& p) {
-    const bool here = std::abs(p.x) <= kFarthest && std::abs(p.y) <= kFarthest && std::abs(p.z) <= kFarthest;
-    return here && p.w >= 0 && p.w <= kLargest;
-  };
-  for (size_t i = 0; i < n; ++i) {
-    if (!drawable(s->position[i])) unpacker.fail();
-    if (s->phase[i] > api::Phase::Gas || s->motion[i] > api::Motion::Static) unpacker.fail();
-    if (s->material[i] >= colours) unpacker.fail();
-  }
-  return s;
-}
-
-template <class T>
-std::string_view bytesOf(const T& value) {
-  return {reinterpret_cast<const char*>(&value), sizeof value};
-}
-
-}  // namespace
-
-RecordingWriter::RecordingWriter(const std::string& path, const Project& project) : m_file(path) {
-  Project scene = project;
-  scene.state = nullptr;  // the frames say where matter stands
-  const json header{{"format", "phasesketch-recording"},
-                    {"version", kRecordingVersion},
-                    {"project", json::parse(writeProject(scene))}};
-  const std::string text = header.dump();
-  const auto length = static_cast<uint32_t>(text.size());
-  m_file.write({kFileMark, kMark});
-  m_file.write(bytesOf(length));
-  m_file.write(text);
-  m_file.write(bytesOf(hashOf(text)));
-}
-
-void RecordingWriter::add(const Snapshot& snapshot) {
-  const std::string raw = packFrame(snapshot);
-  const std::string packed = squeezed(raw, kLevel);
-  const uint64_t head[] = {packed.size(), raw.size(), hashOf(packed)};
-  m_file.write({kFrameMark, kMark});
-  m_file.write(bytesOf(head));
-  m_file.write(packed);
-  m_file.flush();
-  ++m_frames;
-}
-
-void RecordingWriter::finish() { m_file.finish(); }
-
-RecordingReader::RecordingReader(const std::string& path) : m_path(path), m_file(path, std::ios::binary) {
-  std::error_code problem;
-  m_bytes = std::filesystem::file_size(path, problem);
-  if (problem || !m_file) throw InputError(path + ": cannot be read" + (problem ? ": " + problem.message() : ""));
-  readHeader();
-  findFrames();
-}
-
-void RecordingReader::readHeader() {
-  const InputError damaged(m_path +
+/// The project's text; `at` is then behind the header.
+std::string readHeader(const StoredFile& file, const std::string& path, uint64_t& at) {
+  const InputError damaged(path +
                            ": its header is damaged or cut off; take another copy, or simulate the project again");
-  char mark[kMark];
+  if (file.size() < kMark || file.read(0, kMark) != std::string(kFileMark, kMark))
+    throw InputError(path + ": is no recording; simulate --record makes one");
   uint32_t length = 0;
-  m_file.read(mark, kMark);
-  if (!m_file || std::memcmp(mark, kFileMark, kMark) != 0)
-    throw InputError(m_path + ": is no recording; simulate --record makes one");
-  m_file.read(reinterpret_cast<char*>(&length), sizeof length);
-  if (!m_file || length > kMaximumHeader || length + kMark + sizeof length > m_bytes) throw damaged;
-  std::string text(length, '\0');
+  at = kMark + sizeof length;
+  if (file.size() < at) throw damaged;
+  std::memcpy(&length, file.read(kMark, sizeof length).data(), sizeof length);
+  if (length > kMaximumHeader || length > file.size() - at) throw damaged;
+  const std::string text = file.read(at, length);
+  at += length;
   uint64_t checksum = 0;
-  m_file.read(text.data(), length);
-  m_file.read(reinterpret_cast<char*>(&checksum), sizeof checksum);
   // Formats up to 3 have no checksum: their first frame stands here, or their end.
-  const bool sealed = m_file && std::memcmp(&checksum, kFrameMark, kMark) != 0;
+  const bool sealed = file.size() - at >= sizeof checksum && file.read(at, sizeof checksum) != "PSFRAME.";
+  if (sealed) std::memcpy(&checksum, file.read(at, sizeof checksum).data(), sizeof checksum);
+  at += sizeof checksum;
   if (sealed && checksum != hashOf(text)) throw damaged;
   json header;
   try {
-    header = parseJson(text, m_path);
+    header = parseJson(text, path);
   } catch (const InputError&) {
     throw damaged;
   }
   const auto version = header.find("version");
   if (!header.is_object() || header.value("format", json()) != "phasesketch-recording" || version == header.end() ||
       !version->is_number_integer() || !header.contains("project")) {
-    throw InputError(m_path + ": its header is no recording's; simulate --record makes one");
+    throw InputError(path + ": its header is no recording's; simulate --record makes one");
   }
   if (version->get<double>() > kRecordingVersion) {
-    throw InputError(m_path + ": was made by a newer version (recording format " + version->dump() +
+    throw InputError(path + ": was made by a newer version (recording format " + version->dump() +
                      "); update PhaseSketch");
   }
   if (version->get<double>() < kRecordingVersion) {
-    throw InputError(m_path + ": was made by an older version (recording format " + version->dump() +
+    throw InputError(path + ": was made by an older version (recording format " + version->dump() +
                      "); simulate its project again");
   }
   if (!sealed) throw damaged;
-  m_project = header["project"].dump();
+  return header["project"].dump();
 }
 
-void RecordingReader::findFrames() {
-  constexpr uint64_t kHead = kMark + 3 * sizeof(uint64_t);
-  uint64_t at = static_cast<uint64_t>(m_file.tellg());
-  while (at < m_bytes) {
-    char mark[kMark];
-    uint64_t head[3]{};
-    m_file.seekg(static_cast<std::streamoff>(at));
-    if (m_bytes - at >= kHead) {
-      m_file.read(mark, kMark);
-      m_file.read(reinterpret_cast<char*>(head), sizeof head);
+MatterIds namesIn(const std::string& bytes, const std::string& where) {
+  ByteUnpacker unpacker(bytes, where);
+  MatterIds named;
+  for (auto count = unpacker.value<uint64_t>(); count > 0; --count) {
+    const auto key = unpacker.value<uint64_t>();
+    unpacker.array(named[keyHere(key)], unpacker.value<uint64_t>());
+  }
+  unpacker.finish();
+  return named;
+}
+
+uint64_t mostOf(Kind kind) {
+  if (kind == Kind::Run) return 0;
+  if (kind == Kind::State) return kMaximumState;
+  return kind == Kind::Key || kind == Kind::Frame ? kMaximumFrame : kMaximumText;
+}
+
+/// Reads block by block, and puts together what they are.
+class Blocks {
+ public:
+  Blocks(const std::string& path, const PluginRegistry& plugins)
+      : m_path(path), m_plugins(plugins), m_file(std::make_shared<const StoredFile>(path)) {}
+
+  std::string header() { return readHeader(*m_file, m_path, m_at); }
+  /// Returns "" or where it ends too early.
+  std::string readAll() {
+    const uint64_t size = m_file->size();
+    if (t_progress) t_progress->expect(1);
+    beginStage("Opening the recording", 1, static_cast<double>(size));
+    while (m_at < size) {
+      const uint64_t before = m_at;
+      try {
+        if (!readBlock()) throw InputError("");
+      } catch (const InputError&) {
+        return m_path + ": is cut off or damaged after frame " + std::to_string(frames.size());
+      }
+      ++m_number;
+      advance(m_at - before);
     }
-    const bool whole = m_bytes - at >= kHead && m_file && std::memcmp(mark, kFrameMark, kMark) == 0 &&
-                       head[0] <= m_bytes - at - kHead && head[1] <= kMaximumFrame;
-    if (!whole) {
-      m_damage = m_path + ": is cut off or damaged after frame " + std::to_string(m_frames.size());
-      m_file.clear();
-      return;
+    return {};
+  }
+  const std::string& whyNoStates() const { return m_noStates; }
+
+  RunContent content;
+  std::vector<std::shared_ptr<const PackedFrame>> frames;  ///< of the present run
+
+ private:
+  bool readBlock();
+  void take(Kind kind, const std::string& head, const PackedBytes::Place& place);
+  void beginRun(const std::string& head);
+  void takeFrame(const std::string& head, std::shared_ptr<const PackedBytes> data);
+  void takeState(const std::string& head, std::shared_ptr<const PackedBytes> data);
+  void add(const std::shared_ptr<const PackedFrame>& frame);
+  void add(const KeptRun::State& state);
+  void takeText(Kind kind, const PackedBytes& text);
+  KeptRun& run() {
+    if (m_runs == 0) throw InputError(m_where + "it is of no run");
+    return m_runs == 1 ? content.present : content.earlier.back();
+  }
+  template <class T>
+  std::shared_ptr<const T> known(const std::map<uint32_t, std::shared_ptr<const T>>& all, uint32_t number) const {
+    const auto found = all.find(number);
+    if (found == all.end()) throw InputError(m_where + "it needs block " + std::to_string(number));
+    return found->second;
+  }
+
+  std::string m_path, m_where, m_noStates;
+  const PluginRegistry& m_plugins;
+  std::shared_ptr<const StoredFile> m_file;
+  uint64_t m_at = 0;
+  uint32_t m_number = 0;
+  size_t m_runs = 0;
+  std::map<uint32_t, std::shared_ptr<const FrameKey>> m_keys;
+  std::map<uint32_t, std::shared_ptr<const PackedFrame>> m_frames;
+  std::map<uint32_t, std::shared_ptr<const KeptRun::State>> m_states;
+  std::map<uint32_t, std::shared_ptr<const std::vector<Probe>>> m_probes;
+  std::map<uint32_t, std::shared_ptr<const NamedMatter>> m_names;
+  Documents m_documents;
+};
+
+bool Blocks::readBlock() {
+  BlockHead block;
+  const uint64_t left = m_file->size() - m_at;
+  if (left < sizeof block) return false;
+  std::memcpy(&block, m_file->read(m_at, sizeof block).data(), sizeof block);
+  if (std::memcmp(block.mark, kBlockMark, kMark) != 0 || block.headBytes > kMaximumHead) return false;
+  if (block.headBytes > left - sizeof block || block.packed > left - sizeof block - block.headBytes) return false;
+  const std::string head = m_file->read(m_at + sizeof block, block.headBytes);
+  const auto kind = static_cast<Kind>(block.kind);
+  if (headSumOf(block, head) != block.headSum || block.raw > mostOf(kind)) return false;
+  const uint64_t at = m_at + sizeof block + block.headBytes;
+  m_where = m_path + ": block " + std::to_string(m_number) + ": ";
+  take(kind, head, {m_file, at, block.packed, block.raw, block.packedSum});
+  m_at = at + block.packed;
+  return true;
+}
+
+/// What says how to go on may be of plugins that are not here: the frames can be looked at all the same.
+void Blocks::take(Kind kind, const std::string& head, const PackedBytes::Place& place) {
+  auto data = std::make_shared<const PackedBytes>(place);
+  if (kind == Kind::Run) {
+    beginRun(head);
+  } else if (kind == Kind::Key) {
+    auto key = std::make_shared<FrameKey>(readKey(head, m_where));
+    key->data = std::move(data);
+    m_keys[m_number] = std::move(key);
+  } else if (kind == Kind::Frame) {
+    takeFrame(head, std::move(data));
+  } else if (m_noStates.empty()) {
+    try {
+      if (kind == Kind::State)
+        takeState(head, std::move(data));
+      else
+        takeText(kind, *data);
+    } catch (const InputError& problem) {
+      const std::string what = problem.what();
+      m_noStates = what.starts_with(m_path) ? what : m_where + what;
     }
-    m_frames.push_back({at + kHead, head[0], head[1], head[2]});
-    at += kHead + head[0];
   }
 }
 
-SnapshotPtr RecordingReader::frame(size_t index) {
-  const Block& block = m_frames.at(index);
-  const std::string where = m_path + ": frame " + std::to_string(index) + ": ";
-  std::string packed(block.packed, '\0');
-  m_file.clear();
-  m_file.seekg(static_cast<std::streamoff>(block.offset));
-  m_file.read(packed.data(), static_cast<std::streamsize>(packed.size()));
-  if (!m_file) throw InputError(where + "cannot be read");
-  if (hashOf(packed) != block.checksum) {
-    throw InputError(where + "the bytes are not what was written; the file is damaged");
+void Blocks::beginRun(const std::string& head) {
+  const RunHead begun = readRun(head, m_where);
+  if (m_runs == kMaximumRuns) throw InputError(m_where + "there are too many runs");
+  if (++m_runs > 1) content.earlier.emplace_back();
+  run().number = begun.number;
+  run().apart = begun.apart;
+  content.runs = std::max(content.runs, begun.number);
+  for (const uint32_t number : begun.shared) {
+    if (const auto state = m_states.find(number); state != m_states.end()) add(*state->second);
+    if (const auto frame = m_frames.find(number); frame != m_frames.end()) add(frame->second);
   }
-  const std::optional<std::string> raw = unsqueezed(packed, block.size);
-  if (!raw) throw InputError(where + "the frame's data are broken; record again");
-  return unpackFrame(*raw, where);
+}
+
+void Blocks::add(const std::shared_ptr<const PackedFrame>& frame) {
+  const FrameStats& stats = frame->stats;
+  const KeptRun::Frames& before = run().frames;
+  if (!before.empty() && (stats.frame <= before.rbegin()->first || stats.time < before.rbegin()->second->stats.time))
+    throw InputError(m_where + "frames are not in their order");
+  run().addFrame(frame);
+  if (m_runs == 1) frames.push_back(frame);
+}
+
+void Blocks::takeFrame(const std::string& head, std::shared_ptr<const PackedBytes> data) {
+  FrameParts parts;
+  auto frame = std::make_shared<PackedFrame>(readFrame(head, m_where, parts));
+  frame->key = known(m_keys, parts.key);
+  frame->data = std::move(data);
+  if (const auto probes = m_probes.find(parts.probes);
+      probes != m_probes.end() && probes->second->size() == frame->stats.probes.size())
+    frame->stats.measured = probes->second;
+  else
+    frame->stats.probes.clear();
+  add(frame);
+  m_frames[m_number] = std::move(frame);
+}
+
+void Blocks::add(const KeptRun::State& state) {
+  const std::vector<KeptRun::State>& before = run().states;
+  if (!before.empty() && (state.frame <= before.back().frame || state.edits < before.back().edits))
+    throw InputError(m_where + "states are not in their order");
+  run().states.push_back(state);
+}
+
+void Blocks::takeState(const std::string& head, std::shared_ptr<const PackedBytes> data) {
+  const StateHead said = readState(head, m_where);
+  const auto document = m_documents.find(said.document);
+  if (document == m_documents.end()) throw InputError(m_where + "it is of a document that is not there");
+  KeptRun::State state{said.frame, said.edits, document->second, std::make_shared<const NamedMatter>(),
+                       std::move(data)};
+  if (said.names != kNone) state.names = known(m_names, said.names);
+  add(state);
+  m_states[m_number] = std::make_shared<const KeptRun::State>(std::move(state));
+}
+
+void Blocks::takeText(Kind kind, const PackedBytes& text) {
+  if (kind == Kind::Names) {
+    m_names[m_number] = std::make_shared<const NamedMatter>(namesIn(text.unpacked(), m_where));
+  } else if (kind == Kind::Document) {
+    m_documents[m_number] = std::make_shared<const Project>(readProject(text.unpacked(), m_path, m_plugins).project);
+  } else if (kind == Kind::Edits) {
+    std::vector<FrameEdit>& before = run().edits;
+    for (FrameEdit& edit : readLog(parseJson(text.unpacked(), m_path), m_documents, m_plugins)) {
+      if (!before.empty() && edit.frame < before.back().frame) throw InputError("edits are not in their order");
+      run().addEdit(std::move(edit));
+    }
+  } else if (kind == Kind::Probes) {
+    static const json schema{{"type", "array"}, {"items", fields::probeFields().schema()}};
+    json list = parseJson(text.unpacked(), m_path);
+    requireSchema(schema, list, m_path);
+    auto probes = std::make_shared<std::vector<Probe>>(list.size());
+    for (size_t k = 0; k < list.size(); ++k) fields::probeFields().read((*probes)[k], list[k], m_plugins);
+    m_probes[m_number] = std::move(probes);
+  }
+}
+
+}  // namespace
+
+RecordingReader::RecordingReader(const std::string& path, const PluginRegistry& plugins) : m_path(path) {
+  Blocks blocks(path, plugins);
+  m_project = blocks.header();
+  m_damage = blocks.readAll();
+  m_noStates = blocks.whyNoStates();
+  m_content = std::move(blocks.content);
+  m_frames = std::move(blocks.frames);
+  if (m_noStates.empty() && m_content.present.states.empty()) m_noStates = path + ": holds no state";
+}
+
+SnapshotPtr RecordingReader::frame(size_t index) const {
+  try {
+    return m_frames.at(index)->snapshot(0);
+  } catch (const InputError& problem) {
+    throw InputError(m_path + ": frame " + std::to_string(index) + ": " + problem.what());
+  }
 }
 
 bool isRecording(const std::string& path) {
@@ -228,6 +294,18 @@ bool isRecording(const std::string& path) {
   if (!std::filesystem::is_regular_file(path, problem)) return false;
   std::ifstream file(path, std::ios::binary);
   return file.read(mark, kMark) && std::memcmp(mark, kFileMark, kMark) == 0;
+}
+
+bool sameScene(const Project& a, const Project& b) {
+  const auto sceneOf = [](Project project) {
+    project.state = nullptr;
+    project.view = {};
+    project.graphs = {};
+    project.probes = {};
+    project.title = {};
+    return writeProject(project);
+  };
+  return sceneOf(a) == sceneOf(b);
 }
 
 }  // namespace ps

@@ -80,6 +80,16 @@ json numberSchema(double minimum, double maximum, const char* unit) {
 
 json namesSchema(const std::vector<std::string>& names) { return {{"type", "string"}, {"enum", names}}; }
 
+json valueSchema() {
+  api::ParameterDeclaration any;
+  any.unit = "";
+  any.hardMinimum = -1e300;
+  any.hardMaximum = 1e300;
+  json schema = responseSchema(any);
+  for (const char* type : {"boolean", "string"}) schema["oneOf"].push_back({{"type", type}});
+  return schema;
+}
+
 json definitionSchema(const char* name) { return {{"$ref", std::string("#/$defs/") + name}}; }
 
 }  // namespace fields

@@ -45,5 +45,7 @@ using PluginParameters = std::function<std::optional<api::ParameterList>(const s
 /// keys that the schema does not name ("$..." and "x-..." are meant for others and left out).
 void checkAgainstSchema(const nlohmann::json& project, const std::string& name, const PluginParameters& parameters,
                         std::vector<UnknownKey>& unknown);
+/// Checks any other value against a schema that may refer to the project's definitions. Throws likewise.
+void requireSchema(const nlohmann::json& schema, const nlohmann::json& value, const std::string& name);
 
 }  // namespace ps

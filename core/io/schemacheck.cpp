@@ -195,4 +195,10 @@ void checkAgainstSchema(const json& project, const std::string& name, const Plug
   Checker(name, parameters, unknown).check(projectSchema(), project, "");
 }
 
+void requireSchema(const json& schema, const json& value, const std::string& name) {
+  std::vector<UnknownKey> unknown;
+  const PluginParameters none = [](const std::string&) { return std::nullopt; };
+  Checker(name, none, unknown).check(schema, value, "");
+}
+
 }  // namespace ps

@@ -48,6 +48,14 @@ MatterIds NamedMatter::present() const {
   return named;
 }
 
+std::vector<MatterKey> NamedMatter::outside() const {
+  std::vector<MatterKey> keys;
+  for (const auto& [key, entry] : m_entries) {
+    if (!entry.extracted.empty()) keys.push_back(key);
+  }
+  return keys;
+}
+
 void NamedMatter::extract(Engine& engine, Entry& entry, const std::vector<uint32_t>& ids) {
   if (!ids.empty()) entry.extracted.push_back(engine.extractParticles(ids));
 }

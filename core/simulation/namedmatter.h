@@ -18,6 +18,8 @@ class NamedMatter {
   explicit NamedMatter(const MatterIds& named);
   /// What keys name, without those of which something is out of the scene: that is in no state.
   MatterIds present() const;
+  /// The keys of those.
+  std::vector<MatterKey> outside() const;
   void apply(Engine& engine, const AddCells& command);
   void apply(Engine& engine, const TakeCells& command);
   void apply(Engine& engine, const TakeBody& command);

@@ -12,7 +12,6 @@
 namespace ps {
 namespace {
 
-constexpr int kLevel = 1;  // zstd: the fastest of the plain ones, for a thread beside the solver
 constexpr float kMost = 65535;
 constexpr size_t kRanges = 5;
 const std::string kWhere = "recorded run: ";
@@ -134,6 +133,22 @@ bool sameLook(const Snapshot& a, const Snapshot& b) {
          a.materialIds == b.materialIds && a.materialLook == b.materialLook;
 }
 
+/// What everybody may rely on who gets a snapshot, whatever file it comes from.
+bool isSound(const Snapshot& s) {
+  // As far (m) and as large (m) as single precision can square: no scene comes near, and pictures are made of them.
+  constexpr float kFarthest = 1e15F, kLargest = 1e12F;
+  const size_t bodies = s.bodyIds ? s.bodyIds->size() : 0;
+  for (size_t k = 0; k < s.id.size(); ++k) {
+    const api::Float4& p = s.position[k];
+    const bool here = std::abs(p.x) <= kFarthest && std::abs(p.y) <= kFarthest && std::abs(p.z) <= kFarthest;
+    if (!here || !(p.w >= 0 && p.w <= kLargest)) return false;
+    if (s.phase[k] > api::Phase::Gas || s.motion[k] > api::Motion::Static) return false;
+    if (s.body[k] >= bodies || s.material[k] >= s.materialLook.size()) return false;
+    if (k > 0 && s.id[k] <= s.id[k - 1]) return false;
+  }
+  return true;
+}
+
 /// Without frame and particles.
 Snapshot lookOf(const Snapshot& s) {
   Snapshot look;
@@ -148,38 +163,25 @@ Snapshot lookOf(const Snapshot& s) {
 
 }  // namespace
 
-PackedBytes::PackedBytes(const std::string& raw, ByteCount count)
-    : m_bytes(squeezed(raw, kLevel)), m_raw(raw.size()), m_count(std::move(count)) {
-  m_bytes.shrink_to_fit();
-  *m_count += m_bytes.size();
-}
-PackedBytes::~PackedBytes() { *m_count -= m_bytes.size(); }
-
-std::string PackedBytes::unpacked() const {
-  std::optional<std::string> raw = unsqueezed(m_bytes, m_raw);
-  if (!raw) throw InputError(kWhere + "a frame is broken in memory; play on from here");
-  return std::move(*raw);
-}
-
 uint16_t Steps::of(float value) const {
   if (step <= 0 || !(value > low)) return 0;  // not a number, too
   return static_cast<uint16_t>(std::lround(std::min((value - low) / step, kMost)));
 }
 
 size_t PackedFrame::bytes() const {
-  return sizeof *this + m_stats.probes.capacity() * sizeof(double) + m_limits.capacity() * sizeof(Limit);
+  return sizeof *this + stats.probes.capacity() * sizeof(double) + limits.capacity() * sizeof(Limit);
 }
 
 SnapshotPtr PackedFrame::snapshot(uint64_t revision) const {
-  FrameLevels levels = unpackLevels(m_key->data->unpacked());
+  FrameLevels levels = unpackLevels(key->data->unpacked());
   const size_t n = levels.id.size();
-  const std::string bytes = m_data->unpacked();
+  const std::string bytes = data->unpacked();
   ByteUnpacker unpacker(bytes, kWhere);
-  auto s = std::make_shared<Snapshot>(m_key->look);
-  s->stats = m_stats;
+  auto s = std::make_shared<Snapshot>(key->look);
+  s->stats = stats;
   s->revision = revision;
-  s->flags = m_flags;
-  s->limits = m_limits;
+  s->flags = flags;
+  s->limits = limits;
   for (auto& level : levels.level) {
     std::vector<uint16_t> changes;
     unpacker.array(changes, n);
@@ -191,7 +193,7 @@ SnapshotPtr PackedFrame::snapshot(uint64_t revision) const {
   unpackWhereOther(unpacker, levels.material);
   for (std::vector<float>* numbers : {&s->speed, &s->densityError, &s->gasFraction})
     unpackNumbers(unpacker, *numbers, n);
-  for (const FieldPtr& field : m_fields) {
+  for (const FieldPtr& field : fields) {
     FieldValues shown{field, {}};
     if (field->classes)
       unpacker.array(shown.values, n);
@@ -200,7 +202,7 @@ SnapshotPtr PackedFrame::snapshot(uint64_t revision) const {
     s->fields.push_back(std::move(shown));
   }
   unpacker.finish();
-  const auto& [x, y, z, w, warmth] = m_key->ranges;
+  const auto& [x, y, z, w, warmth] = key->ranges;
   s->position.resize(n);
   s->temperature.resize(n);
   s->phase.resize(n);
@@ -215,6 +217,7 @@ SnapshotPtr PackedFrame::snapshot(uint64_t revision) const {
   s->id = std::move(levels.id);
   s->body = std::move(levels.body);
   s->material = std::move(levels.material);
+  if (!isSound(*s)) unpacker.fail();
   return s;
 }
 
@@ -292,13 +295,13 @@ PackedFrame FramePacker::pack(const Snapshot& snapshot) {
   PackedFrame frame;
   for (const FieldValues& shown : snapshot.fields) {
     packField(packer, shown, m_order);
-    frame.m_fields.push_back(shown.field);
+    frame.fields.push_back(shown.field);
   }
-  frame.m_stats = snapshot.stats;
-  frame.m_flags = snapshot.flags;
-  frame.m_limits = snapshot.limits;
-  frame.m_key = m_key;
-  frame.m_data = std::make_shared<const PackedBytes>(packer.bytes(), m_count);
+  frame.stats = snapshot.stats;
+  frame.flags = snapshot.flags;
+  frame.limits = snapshot.limits;
+  frame.key = m_key;
+  frame.data = std::make_shared<const PackedBytes>(packer.bytes(), m_count);
   return frame;
 }
 

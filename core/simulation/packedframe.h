@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "core/simulation/packedbytes.h"
 #include "core/simulation/snapshot.h"
 
-#include <atomic>
+#include <array>
 #include <cstdint>
 #include <memory>
-#include <string>
 #include <vector>
 
 // Frames of a run, small: to be looked at, not to go on from. Why the particles are in the order of their ids: the
@@ -14,25 +14,6 @@
 // are mostly zeros where matter stands still. Places, radii and temperatures are kept in 65,536 steps of the range of
 // the key frame with a margin; what leaves it makes a new one.
 namespace ps {
-
-/// How many bytes are kept by what counts with it, over all threads.
-using ByteCount = std::shared_ptr<std::atomic<size_t>>;
-
-/// zstd, and how much it was; counted as long as it lives.
-class PackedBytes {
- public:
-  PackedBytes(const std::string& raw, ByteCount count);
-  ~PackedBytes();
-  PackedBytes(const PackedBytes&) = delete;
-  PackedBytes& operator=(const PackedBytes&) = delete;
-  std::string unpacked() const;  ///< throws InputError where memory was damaged
-  size_t size() const { return m_bytes.size(); }
-
- private:
-  std::string m_bytes;
-  uint64_t m_raw;
-  ByteCount m_count;
-};
 
 /// A range in 65,536 steps.
 struct Steps {
@@ -50,21 +31,19 @@ struct FrameKey {
   std::shared_ptr<const PackedBytes> data;
 };
 
-class PackedFrame {
- public:
-  const FrameStats& stats() const { return m_stats; }
-  size_t bytes() const;  ///< beside what is counted by itself
-  /// A snapshot as the frame's was, to half a step of each value, particles ascending by id.
-  SnapshotPtr snapshot(uint64_t revision) const;
+/// One frame: what it amounts to, and its particles, packed.
+struct PackedFrame {
+  FrameStats stats;
+  StepFlags flags = 0;
+  std::vector<Limit> limits;
+  std::vector<std::shared_ptr<const ParticleField>> fields;
+  std::shared_ptr<const FrameKey> key;
+  std::shared_ptr<const PackedBytes> data;
 
- private:
-  friend class FramePacker;
-  FrameStats m_stats;
-  StepFlags m_flags = 0;
-  std::vector<Limit> m_limits;
-  std::vector<std::shared_ptr<const ParticleField>> m_fields;
-  std::shared_ptr<const FrameKey> m_key;
-  std::shared_ptr<const PackedBytes> m_data;
+  size_t bytes() const;  ///< beside what is counted by itself
+  /// A snapshot as the frame's was, to half a step of each value, particles ascending by id. Throws InputError for data
+  /// that no frame has.
+  SnapshotPtr snapshot(uint64_t revision) const;
 };
 
 /// What a frame keeps of its particles in whole numbers.

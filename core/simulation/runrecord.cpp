@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/simulation/runrecord.h"
 
-#include "core/base/bytepacker.h"
 #include "core/base/error.h"
 #include "core/base/log.h"
 #include "core/base/memory.h"
@@ -26,17 +25,6 @@ constexpr int kNiceness = 10;             // the solver's threads come first
 
 double secondsSince(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-/// About what an edit holds; whole projects are by far the largest.
-size_t bytesOf(const FrameEdit& edit) {
-  constexpr size_t kSmall = 256, kProject = 1 << 15, kCell = 12;
-  size_t bytes = sizeof edit + kSmall;
-  const auto* command = std::get_if<Command>(&edit.edit);
-  if (command && std::holds_alternative<UpdateProject>(*command)) bytes += kProject;
-  if (const auto* cells = command ? std::get_if<AddCells>(command) : nullptr) bytes += kCell * cells->cells.size();
-  if (const auto* cells = command ? std::get_if<TakeCells>(command) : nullptr) bytes += kCell * cells->cells.size();
-  return bytes;
 }
 
 }  // namespace
@@ -92,8 +80,7 @@ void RunRecord::add(SnapshotPtr snapshot) {
 
 void RunRecord::add(FrameEdit edit) {
   const std::lock_guard lock(m->mutex);
-  m->editBytes += bytesOf(edit);
-  m->edits.push_back(std::move(edit));
+  m->addEdit(std::move(edit));
 }
 
 bool RunRecord::wantsState(double time) const {
@@ -143,6 +130,20 @@ bool RunRecord::exchange(uint64_t number) {
   return true;
 }
 
+void RunRecord::adopt(RunContent content, uint64_t revision) {
+  {
+    const std::lock_guard lock(m->mutex);
+    m->clear();
+    static_cast<KeptRun&>(*m) = std::move(content.present);
+    m->earlier = std::move(content.earlier);
+    m->runs = std::max(content.runs, m->number);
+    m->revision = revision;
+    m->stateTime = m->frames.empty() ? 0 : m->frames.rbegin()->second->stats.time;
+    m->stateAt = Impl::Clock::now();
+  }
+  m->wake.notify_one();
+}
+
 bool RunRecord::documentEditedAfter(uint64_t frame) const {
   const std::lock_guard lock(m->mutex);
   return std::any_of(m->edits.rbegin(), m->edits.rend(),
@@ -171,7 +172,7 @@ void RunRecord::Impl::clear() {
 void RunRecord::Impl::keepAsEarlier(uint64_t frame) {
   const auto after = frames.upper_bound(frame);
   if (after == frames.end()) return;
-  const double time = (after == frames.begin() ? after : std::prev(after))->second.stats().time;
+  const double time = (after == frames.begin() ? after : std::prev(after))->second->stats.time;
   for (KeptRun& run : earlier) run.apart = std::min(run.apart, time);
   earlier.push_back(*this);
   earlier.back().apart = time;
@@ -183,10 +184,7 @@ void RunRecord::Impl::forgetAfter(uint64_t frame) {
   startAfresh();
   while (!frames.empty() && frames.rbegin()->first > frame) eraseFrame(std::prev(frames.end()));
   std::erase_if(states, [&](const State& state) { return state.frame > frame; });
-  while (!edits.empty() && edits.back().frame > frame) {
-    editBytes -= bytesOf(edits.back());
-    edits.pop_back();
-  }
+  eraseEditsAfter(frame);
 }
 
 void RunRecord::Impl::loop(const std::stop_token& stop) {
@@ -219,10 +217,7 @@ void RunRecord::Impl::loop(const std::stop_token& stop) {
 }
 
 void RunRecord::Impl::packState(RawState raw, uint64_t of) {
-  BytePacker packer;
-  const auto bytes = raw.stream.bytes();
-  packer.planes(reinterpret_cast<const char*>(bytes.data()), bytes.size(), 4);
-  raw.state.stream = std::make_shared<const PackedBytes>(packer.bytes(), counted);
+  raw.state.stream = packedState(raw.stream.bytes(), counted);
   const std::lock_guard lock(mutex);
   if (of != generation) return;
   std::erase_if(states, [&](const State& state) { return state.frame == raw.state.frame; });
@@ -232,14 +227,11 @@ void RunRecord::Impl::packState(RawState raw, uint64_t of) {
 
 void RunRecord::Impl::packFrame(const SnapshotPtr& snapshot, uint64_t of, FramePacker& packer) {
   const auto start = Clock::now();
-  PackedFrame packed = packer.pack(*snapshot);
+  auto packed = std::make_shared<const PackedFrame>(packer.pack(*snapshot));
   const std::lock_guard lock(mutex);
   packSeconds += secondsSince(start);
   if (of != generation) return;
-  const auto known = frames.find(snapshot->stats.frame);
-  if (known != frames.end()) eraseFrame(known);
-  frameBytes += packed.bytes();
-  frames.emplace(snapshot->stats.frame, std::move(packed));
+  addFrame(std::move(packed));
   fit();
 }
 

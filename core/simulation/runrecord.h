@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <variant>
@@ -21,7 +22,10 @@ namespace ps {
 
 class Engine;
 class NamedMatter;
+class PackedBytes;
 class PluginRegistry;
+struct KeptBytes;
+struct RunContent;
 
 /// What an engine took: values that were set together, or a command.
 using RecordedEdit = std::variant<std::vector<SetParameter>, Command>;
@@ -41,10 +45,12 @@ struct RestorePoint {
   uint64_t from = 0, frame = 0;             ///< number of the state's frame, and of the one that is asked for
   std::shared_ptr<const Project> document;  ///< at the state
   std::shared_ptr<const NamedMatter> names;
-  std::vector<std::byte> state;  ///< what Engine::save() wrote
+  std::shared_ptr<const PackedBytes> stream;  ///< what Engine::save() wrote, as packedState() packs it
   std::vector<FrameEdit> edits;  ///< since, up to and with those that acted after the frame that is asked for
 };
 
+/// All that an engine goes on from, packed.
+std::shared_ptr<const PackedBytes> packedState(std::span<const std::byte> stream, std::shared_ptr<KeptBytes> count);
 /// An engine at the frame of a point. Progress advances with its frames; throws Cancelled, and Error where a frame
 /// fails.
 std::unique_ptr<Engine> replayed(const RestorePoint& point, PluginRegistry& plugins);
@@ -78,6 +84,9 @@ class RunRecord {
   void cutAfter(uint64_t frame, uint64_t revision);
   /// An earlier run is the present one, and that an earlier one. False: it is not kept.
   bool exchange(uint64_t number);
+  /// What was kept of a run elsewhere is that of this one, which goes on from its last frame; what was kept here is
+  /// forgotten.
+  void adopt(RunContent content, uint64_t revision);
   /// Parameters, tracks or the project as a whole; what became of matter alone does not count.
   bool documentEditedAfter(uint64_t frame) const;
 
@@ -114,6 +123,8 @@ class RunRecord {
   std::vector<FrameStats> stats(uint64_t run) const;
   /// Of the present run, or of an earlier one.
   RunEdits documentEdits(std::optional<uint64_t> run = std::nullopt) const;
+  /// All that is kept. It shares the packed bytes, which go when the last who has them lets go.
+  RunContent content() const;
   /// Waits until all that was handed over is packed.
   void settle() const;
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "core/simulation/keptrun.h"
 #include "core/simulation/packedframe.h"
 #include "core/simulation/runrecord.h"
 
 #include <chrono>
 #include <condition_variable>
 #include <deque>
-#include <map>
 #include <mutex>
 #include <thread>
 
@@ -16,33 +16,6 @@ namespace ps {
 /// Parameters, tracks or the project as a whole; what becomes of matter alone does not.
 bool changesDocument(const RecordedEdit& edit);
 
-/// What is kept of one run. A copy shares the packed bytes.
-struct KeptRun {
-  struct State {
-    uint64_t frame = 0;
-    size_t edits = 0;  ///< that were in it
-    std::shared_ptr<const Project> document;
-    std::shared_ptr<const NamedMatter> names;
-    std::shared_ptr<const PackedBytes> stream;
-  };
-  void eraseFrame(std::map<uint64_t, PackedFrame>::iterator frame) {
-    frameBytes -= frame->second.bytes();
-    frames.erase(frame);
-  }
-  size_t bytes() const { return frameBytes + editBytes; }  ///< beside the packed ones
-  /// The frame next to a time; end() where there are none.
-  std::map<uint64_t, PackedFrame>::const_iterator frameAt(double time) const;
-
-  uint64_t number = 1;
-  std::string name;
-  double apart = 0;  ///< s, where it left the present run
-  std::map<uint64_t, PackedFrame> frames;
-  size_t frameBytes = 0;
-  std::vector<State> states;
-  std::vector<FrameEdit> edits;
-  size_t editBytes = 0;
-};
-
 struct RunRecord::Impl : KeptRun {
   using Clock = std::chrono::steady_clock;
 
@@ -51,7 +24,7 @@ struct RunRecord::Impl : KeptRun {
     StateBuffer stream;
   };
 
-  explicit Impl(size_t bytes) : budget(bytes), counted(std::make_shared<std::atomic<size_t>>(0)) {}
+  explicit Impl(size_t bytes) : budget(bytes), counted(std::make_shared<KeptBytes>()) {}
   void loop(const std::stop_token& stop);
   void packState(RawState raw, uint64_t of);
   void packFrame(const SnapshotPtr& snapshot, uint64_t of, FramePacker& packer);

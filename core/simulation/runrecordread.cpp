@@ -2,10 +2,12 @@
 // What the record of a run gives, and what it keeps when it is full.
 #include "core/base/bytepacker.h"
 #include "core/base/error.h"
+#include "core/base/memory.h"
 #include "core/base/progress.h"
 #include "core/simulation/engine.h"
 #include "core/simulation/namedmatter.h"
 #include "core/simulation/runrecordimpl.h"
+#include "core/simulation/sceneneed.h"
 #include "core/solver/solver.h"
 
 #include <algorithm>
@@ -13,9 +15,23 @@
 #include <utility>
 
 namespace ps {
+namespace {
+
+constexpr size_t kStateWord = 4;  // bytes: most of a state are floats
+
+std::vector<std::byte> unpackedState(const PackedBytes& stream) {
+  if (static_cast<double>(stream.rawSize()) > roomToGrow(memoryNow()))
+    throw InputError("a recorded state takes more memory than there is");
+  const std::string planes = stream.unpacked();
+  std::vector<std::byte> state(planes.size());
+  ByteUnpacker::words(reinterpret_cast<char*>(state.data()), planes.data(), planes.size(), kStateWord);
+  return state;
+}
+
+}  // namespace
 
 size_t RunRecord::Impl::bytes() const {
-  size_t sum = *counted + KeptRun::bytes();
+  size_t sum = counted->memory + KeptRun::bytes();
   for (const KeptRun& run : earlier) sum += run.bytes();
   return sum;
 }
@@ -24,7 +40,7 @@ size_t RunRecord::Impl::bytes() const {
 void RunRecord::Impl::fit() {
   const auto stateBytes = [this] {
     size_t sum = 0;
-    for (const State& state : states) sum += state.stream->size();
+    for (const State& state : states) sum += state.stream->inMemory();
     return sum;
   };
   if (bytes() > budget && !earlier.empty()) {
@@ -78,29 +94,7 @@ RunRecord::Extent RunRecord::extent() const {
   if (m->frames.empty()) return {};
   const auto& [first, oldest] = *m->frames.begin();
   const auto& [last, newest] = *m->frames.rbegin();
-  return {first, last, oldest.stats().time, newest.stats().time, m->frames.size()};
-}
-
-/// Times ascend with numbers, and mostly evenly: a search among them by halves of the numbers.
-std::map<uint64_t, PackedFrame>::const_iterator KeptRun::frameAt(double time) const {
-  if (frames.empty()) return frames.end();
-  uint64_t low = frames.begin()->first, high = frames.rbegin()->first;
-  while (low < high) {
-    const uint64_t middle = low + (high - low) / 2;
-    const auto at = frames.lower_bound(middle);
-    if (at->second.stats().time < time && at->first < high) {
-      low = at->first + 1;
-    } else if (at->second.stats().time < time) {
-      low = high;
-    } else {
-      high = middle;
-    }
-  }
-  const auto next = frames.lower_bound(low);
-  if (next == frames.end()) return std::prev(next);
-  if (next == frames.begin()) return next;
-  const auto before = std::prev(next);
-  return time - before->second.stats().time <= next->second.stats().time - time ? before : next;
+  return {first, last, oldest->stats.time, newest->stats.time, m->frames.size()};
 }
 
 std::optional<uint64_t> RunRecord::frameAt(double time) const {
@@ -110,12 +104,12 @@ std::optional<uint64_t> RunRecord::frameAt(double time) const {
 }
 
 SnapshotPtr RunRecord::earlierFrame(uint64_t run, double time) const {
-  std::optional<PackedFrame> packed;
+  std::shared_ptr<const PackedFrame> packed;
   uint64_t revision = 0;
   {
     const std::lock_guard lock(m->mutex);
     for (const KeptRun& kept : m->earlier) {
-      if (kept.number != run || time <= kept.apart || time > kept.frames.rbegin()->second.stats().time) continue;
+      if (kept.number != run || time <= kept.apart || time > kept.frames.rbegin()->second->stats.time) continue;
       packed = kept.frameAt(time)->second;
     }
     revision = m->revision;
@@ -138,7 +132,7 @@ std::optional<uint64_t> RunRecord::neighbour(uint64_t frame, int steps) const {
 }
 
 SnapshotPtr RunRecord::frame(uint64_t number) const {
-  std::optional<PackedFrame> packed;
+  std::shared_ptr<const PackedFrame> packed;
   uint64_t revision = 0;
   {
     const std::lock_guard lock(m->mutex);
@@ -151,40 +145,27 @@ SnapshotPtr RunRecord::frame(uint64_t number) const {
 }
 
 std::optional<RestorePoint> RunRecord::restorePoint(uint64_t frame) const {
-  RestorePoint point;
-  std::shared_ptr<const PackedBytes> stream;
-  {
-    const std::lock_guard lock(m->mutex);
-    const auto after =
-        std::find_if(m->states.begin(), m->states.end(), [&](const Impl::State& state) { return state.frame > frame; });
-    if (after == m->states.begin()) return std::nullopt;
-    const Impl::State& state = *std::prev(after);
-    point.from = state.frame;
-    point.frame = frame;
-    point.document = state.document;
-    point.names = state.names;
-    stream = state.stream;
-    for (size_t k = state.edits; k < m->edits.size() && m->edits[k].frame <= frame; ++k)
-      point.edits.push_back(m->edits[k]);
-  }
-  const std::string planes = stream->unpacked();
-  point.state.resize(planes.size());
-  ByteUnpacker::words(reinterpret_cast<char*>(point.state.data()), planes.data(), planes.size(), 4);
-  return point;
+  const std::lock_guard lock(m->mutex);
+  return m->restorePoint(frame);
+}
+
+RunContent RunRecord::content() const {
+  const std::lock_guard lock(m->mutex);
+  return {*m, m->earlier, m->runs};
 }
 
 std::vector<RunRecord::EarlierRun> RunRecord::earlier() const {
   const std::lock_guard lock(m->mutex);
   std::vector<EarlierRun> runs;
   for (const KeptRun& run : m->earlier)
-    runs.push_back({run.number, run.name, run.apart, run.frames.rbegin()->second.stats().time});
+    runs.push_back({run.number, run.name, run.apart, run.frames.rbegin()->second->stats.time});
   return runs;
 }
 
 std::vector<FrameStats> RunRecord::stats() const {
   const std::lock_guard lock(m->mutex);
   std::vector<FrameStats> stats;
-  for (const auto& [number, frame] : m->frames) stats.push_back(frame.stats());
+  for (const auto& [number, frame] : m->frames) stats.push_back(frame->stats);
   return stats;
 }
 
@@ -193,7 +174,7 @@ std::vector<FrameStats> RunRecord::stats(uint64_t run) const {
   std::vector<FrameStats> stats;
   for (const KeptRun& kept : m->earlier) {
     if (kept.number != run) continue;
-    for (const auto& [number, frame] : kept.frames) stats.push_back(frame.stats());
+    for (const auto& [number, frame] : kept.frames) stats.push_back(frame->stats);
   }
   return stats;
 }
@@ -254,10 +235,17 @@ RunRecord::Cost RunRecord::cost() const {
   return {m->bytes(), m->states.size(), m->leftOut, m->stateSeconds, m->packSeconds};
 }
 
+std::shared_ptr<const PackedBytes> packedState(std::span<const std::byte> stream, ByteCount count) {
+  BytePacker packer;
+  packer.planes(reinterpret_cast<const char*>(stream.data()), stream.size(), kStateWord);
+  return std::make_shared<const PackedBytes>(packer.bytes(), std::move(count));
+}
+
 std::unique_ptr<Engine> replayed(const RestorePoint& point, PluginRegistry& plugins) {
   if (t_progress) t_progress->expect(1);
   beginStage("Going back", 1, static_cast<double>(point.frame - point.from));
-  auto engine = std::make_unique<Engine>(*point.document, plugins, StateReader(point.state));
+  const std::vector<std::byte> state = unpackedState(*point.stream);
+  auto engine = std::make_unique<Engine>(*point.document, plugins, StateReader(state));
   engine->setNames(*point.names);
   auto edit = point.edits.begin();
   const auto applyEdits = [&] {

@@ -1,19 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 // A recording: the file as it stands where it begins with its mark. Checksums would hide all that lies behind them, so
-// anything else is its header and its frames as they are before they are packed, each behind the mark of a frame.
+// anything else is its header and its blocks as they are before they are packed: the mark of a block, a byte that says
+// its kind, two that count its head, the head, and what is packed.
 #include "core/io/recording.h"
 #include "core/io/filestamp.h"
+#include "core/io/recordingblocks.h"
 #include "tests/fuzz/file.h"
 #include "tests/fuzz/fuzz.h"
 #include "ui/render/prepared.h"
 
-#include <zstd.h>
+#include <algorithm>
+#include <cstring>
 
 namespace {
 
 using namespace ps;
 
-constexpr std::string_view kFile = "PSRECORD", kFrame = "PSFRAME.";
+constexpr std::string_view kFile = "PSRECORD", kBlock = "PSBLOCK.";
 
 template <class T>
 void append(std::string& file, const T& value) {
@@ -22,19 +25,31 @@ void append(std::string& file, const T& value) {
 
 std::string sealed(std::string_view bytes) {
   std::string file(kFile);
-  const std::string_view header = bytes.substr(0, bytes.find(kFrame));
+  const std::string_view header = bytes.substr(0, bytes.find(kBlock));
   append(file, static_cast<uint32_t>(header.size()));
   file += header;
   append(file, hashOf(header));
   for (bytes.remove_prefix(header.size()); !bytes.empty();) {
-    bytes.remove_prefix(kFrame.size());
-    const std::string_view raw = bytes.substr(0, bytes.find(kFrame));
-    bytes.remove_prefix(raw.size());
-    std::string packed(ZSTD_compressBound(raw.size()), '\0');
-    packed.resize(ZSTD_compress(packed.data(), packed.size(), raw.data(), raw.size(), 1));
-    file += kFrame;
-    for (const uint64_t number : {packed.size(), raw.size(), hashOf(packed)}) append(file, number);
-    file += packed;
+    bytes.remove_prefix(kBlock.size());
+    std::string_view rest = bytes.substr(0, bytes.find(kBlock));
+    bytes.remove_prefix(rest.size());
+    if (rest.size() < 3) continue;
+    recording::BlockHead block;
+    std::copy(kBlock.begin(), kBlock.end(), block.mark);
+    block.kind = static_cast<uint8_t>(rest[0]);
+    uint16_t length = 0;
+    std::memcpy(&length, rest.data() + 1, sizeof length);
+    rest.remove_prefix(3);
+    const std::string head(rest.substr(0, length));
+    rest.remove_prefix(head.size());
+    const std::string packed = rest.empty() ? std::string() : squeezed(rest, 1);
+    block.headBytes = static_cast<uint32_t>(head.size());
+    block.packed = packed.size();
+    block.raw = rest.size();
+    block.packedSum = hashOf(packed);
+    block.headSum = recording::headSumOf(block, head);
+    append(file, block);
+    file += head + packed;
   }
   return file;
 }
@@ -54,7 +69,7 @@ int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const std::string bytes = fuzz::textOf(data, size);
   file.write(bytes.starts_with(kFile) ? bytes : sealed(bytes));
   try {
-    RecordingReader reader(file.path());
+    const RecordingReader reader(file.path(), fuzz::plugins());
     SnapshotPtr before;
     render::Prepared picture;
     for (size_t i = 0; i < reader.frameCount(); ++i) {

@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/io/runlog.h"
+
+#include "core/base/error.h"
+#include "core/base/jsontext.h"
+#include "core/io/fieldkinds.h"
+#include "core/io/projectfields.h"
+#include "core/io/schema.h"
+
+#include <utility>
+#include <variant>
+
+namespace ps {
+namespace fields {
+namespace {
+
+constexpr int64_t kMostFrames = int64_t{1} << 53;
+/// Far beyond all keys that a session gives: it counts its strokes.
+constexpr uint64_t kElsewhere = uint64_t{1} << 40;
+constexpr int64_t kMostKey = int64_t{1} << 52;
+
+struct UpdateDocument {
+  uint64_t document = 0;
+};
+struct SetTogether {
+  std::vector<SetParameter> values;
+};
+using LoggedEdit = std::variant<SetTogether, UpdateDocument, SetTracks, AddCells, TakeCells, TakeBody, TakeMatter,
+                                PutBack, NameMatter, ReturnBody, ForgetMatter>;
+struct LogEntry {
+  uint64_t frame = 0;
+  LoggedEdit edit;
+};
+
+struct Key : Integer {
+  Key() : Integer(0, kMostKey) {}
+  void read(Json& value, MatterKey& out, const PluginRegistry&) const { out = keyHere(value.get<uint64_t>()); }
+};
+
+struct AddressKind : Text {
+  void read(Json& value, Address& out, const PluginRegistry&) const {
+    const auto address = Address::parse(value.get_ref<const std::string&>());
+    if (!address) throw InputError("'" + value.get<std::string>() + "' is no address of a parameter");
+    out = *address;
+  }
+  Json write(const Address& address) const { return address.text(); }
+};
+
+/// Whatever a parameter may have; the declaration takes a number for a constant response and back.
+struct AnyValue : Plain {
+  Json schema() const { return valueSchema(); }
+  void read(Json& value, Value& out, const PluginRegistry&) const {
+    api::ParameterDeclaration declaration;
+    declaration.kind = value.is_boolean()  ? api::ParameterKind::Toggle
+                       : value.is_string() ? api::ParameterKind::Choice
+                       : value.is_object() ? api::ParameterKind::Response
+                                           : api::ParameterKind::Number;
+    out = valueFromJson(value, declaration);
+  }
+  Json write(const Value& value) const { return jsonFromValue(value); }
+};
+
+/// x, y, z of one cell after the other.
+struct Cells : Plain {
+  Json schema() const {
+    return {{"type", "array"}, {"items", {{"type", "integer"}, {"minimum", -1'000'000}, {"maximum", 1'000'000}}}};
+  }
+  void read(Json& value, CellIndices& out, const PluginRegistry&) const {
+    if (value.size() % 3 != 0) throw InputError("cells have three numbers each");
+    for (size_t i = 0; i < value.size(); i += 3)
+      out.push_back({value[i].get<int>(), value[i + 1].get<int>(), value[i + 2].get<int>()});
+  }
+  Json write(const CellIndices& cells) const {
+    Json out = Json::array();
+    for (const auto& cell : cells) {
+      for (const int place : cell) out.push_back(place);
+    }
+    return out;
+  }
+};
+
+struct SketchedBody : Shared<Object<Body>> {
+  SketchedBody() : Shared(Object{bodyFields(), "body"}) {}
+};
+
+const FieldTable<SetParameter>& setFields() {
+  static const FieldTable<SetParameter> table{
+      .rows = {field("address", &SetParameter::address, AddressKind{}, "").required(),
+               field("value", &SetParameter::value, AnyValue{}, "").required()}};
+  return table;
+}
+const FieldTable<SetTogether>& togetherFields() {
+  static const FieldTable<SetTogether> table{
+      .rows = {field("values", &SetTogether::values, List{Object{setFields()}}, "").required()}};
+  return table;
+}
+const FieldTable<UpdateDocument>& updateFields() {
+  static const FieldTable<UpdateDocument> table{
+      .rows = {field("document", &UpdateDocument::document, Integer{0, kMostFrames}, "").required()}};
+  return table;
+}
+const FieldTable<SetTracks>& tracksFields() {
+  static const FieldTable<SetTracks> table{
+      .rows = {field("tracks", &SetTracks::tracks, List{Object{trackFields()}}, "").required()}};
+  return table;
+}
+const FieldTable<AddCells>& addFields() {
+  static const FieldTable<AddCells> table{.rows = {field("body", &AddCells::body, SketchedBody{}, "").required(),
+                                                   field("cells", &AddCells::cells, Cells{}, "").required(),
+                                                   field("palette", &AddCells::palette, Integer{0, 65535}, ""),
+                                                   field("key", &AddCells::key, Key{}, "")}};
+  return table;
+}
+const FieldTable<TakeCells>& takeCellsFields() {
+  static const FieldTable<TakeCells> table{
+      .rows = {field("lattice", &TakeCells::lattice, Object{voxelFields()}, "").required(),
+               field("cells", &TakeCells::cells, Cells{}, "").required(),
+               field("spared", &TakeCells::spared, List{Id{}}, ""), field("key", &TakeCells::key, Key{}, "")}};
+  return table;
+}
+const FieldTable<TakeBody>& takeBodyFields() {
+  static const FieldTable<TakeBody> table{
+      .rows = {field("body", &TakeBody::body, Id{}, "").required(), field("key", &TakeBody::key, Key{}, "")}};
+  return table;
+}
+const FieldTable<TakeMatter>& takeMatterFields() {
+  static const FieldTable<TakeMatter> table{
+      .rows = {field("key", &TakeMatter::key, Key{}, ""),
+               field("lattice", &TakeMatter::lattice, Object{voxelFields()}, "").required(),
+               field("cells", &TakeMatter::cells, Cells{}, "").required()}};
+  return table;
+}
+const FieldTable<PutBack>& putBackFields() {
+  static const FieldTable<PutBack> table{
+      .rows = {field("key", &PutBack::key, Key{}, ""), field("cells", &PutBack::cells, List{Object{addFields()}}, "")}};
+  return table;
+}
+const FieldTable<NameMatter>& nameFields() {
+  static const FieldTable<NameMatter> table{
+      .rows = {field("key", &NameMatter::key, Key{}, ""), field("body", &NameMatter::body, Id{}, "").required(),
+               field("lattice", &NameMatter::lattice, Object{voxelFields()}, "").required(),
+               field("cells", &NameMatter::cells, Cells{}, "").required()}};
+  return table;
+}
+const FieldTable<ReturnBody>& returnFields() {
+  static const FieldTable<ReturnBody> table{
+      .rows = {field("body", &ReturnBody::body, SketchedBody{}, ""), field("key", &ReturnBody::key, Key{}, ""),
+               field("named", &ReturnBody::named, List{Object{nameFields()}}, "")}};
+  return table;
+}
+const FieldTable<ForgetMatter>& forgetFields() {
+  static const FieldTable<ForgetMatter> table{.rows = {field("keys", &ForgetMatter::keys, List{Key{}}, "").required()}};
+  return table;
+}
+
+template <class>
+struct EditKind;
+template <class... Edits>
+struct EditKind<std::variant<Edits...>> : OneOf<Edits...> {
+  using OneOf<Edits...>::OneOf;
+  bool isDefault(const std::variant<Edits...>&) const { return false; }
+};
+struct AnyEdit : EditKind<LoggedEdit> {
+  AnyEdit()
+      : EditKind({"set", "", &togetherFields()}, {"update", "", &updateFields()}, {"tracks", "", &tracksFields()},
+                 {"add_cells", "", &addFields()}, {"take_cells", "", &takeCellsFields()},
+                 {"take_body", "", &takeBodyFields()}, {"take_matter", "", &takeMatterFields()},
+                 {"put_back", "", &putBackFields()}, {"name_matter", "", &nameFields()},
+                 {"return_body", "", &returnFields()}, {"forget_matter", "", &forgetFields()}) {}
+};
+
+const FieldTable<LogEntry>& entryFields() {
+  static const FieldTable<LogEntry> table{
+      .rows = {field("frame", &LogEntry::frame, Integer{0, kMostFrames}, "").required(),
+               field("edit", &LogEntry::edit, AnyEdit{}, "").required()}};
+  return table;
+}
+
+void requireLattice(const VoxelShape& lattice) {
+  if (lattice.spacing <= 0) throw InputError("cells are of no lattice");
+}
+void require(const AddCells& cells) {
+  const auto* shape = std::get_if<VoxelShape>(&cells.body->shape);
+  if (!shape || static_cast<size_t>(cells.palette) >= shape->palette.size())
+    throw InputError("cells were added to no sketch that has their material");
+  requireLattice(*shape);
+}
+void require(const PutBack& command) {
+  for (const AddCells& cells : command.cells) require(cells);
+}
+void require(const ReturnBody& command) {
+  const auto* shape = command.body ? std::get_if<VoxelShape>(&command.body->shape) : nullptr;
+  if (shape) requireLattice(*shape);
+  for (const NameMatter& named : command.named) requireLattice(named.lattice);
+}
+void require(const TakeCells& command) { requireLattice(command.lattice); }
+void require(const TakeMatter& command) { requireLattice(command.lattice); }
+void require(const NameMatter& command) { requireLattice(command.lattice); }
+
+}  // namespace
+}  // namespace fields
+
+namespace {
+
+using nlohmann::json;
+
+fields::LoggedEdit logged(const RecordedEdit& edit,
+                          const std::function<uint64_t(const std::shared_ptr<const Project>&)>& numberOf) {
+  if (const auto* together = std::get_if<std::vector<SetParameter>>(&edit)) return fields::SetTogether{*together};
+  return std::visit(
+      [&](const auto& command) -> fields::LoggedEdit {
+        using T = std::decay_t<decltype(command)>;
+        if constexpr (std::is_same_v<T, SetParameter>)
+          return fields::SetTogether{{command}};
+        else if constexpr (std::is_same_v<T, UpdateProject>)
+          return fields::UpdateDocument{numberOf(command.project)};
+        else if constexpr (std::is_constructible_v<fields::LoggedEdit, T>)
+          return command;
+        else
+          throw Error("recording: an edit that begins another run, or changes none, stands in a log");
+      },
+      std::get<Command>(edit));
+}
+
+RecordedEdit recorded(fields::LoggedEdit edit, const Documents& documents) {
+  return std::visit(
+      [&](auto& one) -> RecordedEdit {
+        using T = std::decay_t<decltype(one)>;
+        if constexpr (std::is_same_v<T, fields::SetTogether>) {
+          return std::move(one.values);
+        } else if constexpr (std::is_same_v<T, fields::UpdateDocument>) {
+          const auto document = documents.find(one.document);
+          if (document == documents.end()) throw InputError("an edit is of a document that is not there");
+          return Command{UpdateProject{document->second}};
+        } else {
+          if constexpr (requires { fields::require(one); }) fields::require(one);
+          return Command{std::move(one)};
+        }
+      },
+      edit);
+}
+
+}  // namespace
+
+json logOf(const FrameEdit* first, const FrameEdit* end,
+           const std::function<uint64_t(const std::shared_ptr<const Project>&)>& numberOf) {
+  json list = json::array();
+  for (; first != end; ++first)
+    list.push_back(fields::entryFields().write({first->frame, logged(first->edit, numberOf)}));
+  return list;
+}
+
+std::vector<FrameEdit> readLog(json list, const Documents& documents, const PluginRegistry& plugins) {
+  static const json schema{{"type", "array"}, {"items", fields::entryFields().schema()}};
+  requireSchema(schema, list, "log");
+  std::vector<FrameEdit> edits;
+  for (json& entry : list) {
+    fields::LogEntry one;
+    fields::entryFields().read(one, entry, plugins);
+    edits.push_back({one.frame, recorded(std::move(one.edit), documents)});
+  }
+  return edits;
+}
+
+MatterKey keyHere(uint64_t key) { return key == 0 ? 0 : key + fields::kElsewhere; }
+
+MatterKey keyOf(const RecordedEdit& edit) {
+  const auto* command = std::get_if<Command>(&edit);
+  if (!command) return 0;
+  return std::visit(
+      [](const auto& one) -> MatterKey {
+        if constexpr (requires { one.key; }) return one.key;
+        return 0;
+      },
+      *command);
+}
+
+}  // namespace ps
