@@ -13,6 +13,7 @@
 namespace ps {
 
 class Engine;
+struct RunContent;
 
 struct Opening {
   std::shared_ptr<const Project> project;
@@ -24,10 +25,15 @@ struct GoBack {
   uint64_t frame = 0, run = 0;  ///< one of them; runs count from 1
   bool play = false;
 };
+/// A run that was recorded elsewhere, to go on from its end. `same`: the project is the one that it is of.
+struct Adoption {
+  std::shared_ptr<const RunContent> content;
+  bool same = true;
+};
 using Question = std::function<void(const Engine&)>;
 /// Values of parameters that wait side by side, one of each address.
 using ParameterBatch = std::vector<SetParameter>;
-using QueueEntry = std::variant<ParameterBatch, Command, Question, Opening, SingleStep, GoBack>;
+using QueueEntry = std::variant<ParameterBatch, Command, Question, Opening, SingleStep, GoBack, Adoption>;
 
 /// What waits for the engine's thread. Values for parameters that wait side by side become one entry, in which a newer
 /// value replaces a waiting one of its address; a whole project, and a list of tracks or probes, replaces what it
@@ -57,6 +63,7 @@ class CommandQueue {
   void push(Question question) { m_entries.emplace_back(std::move(question)); }
   void push(Opening opening) { m_entries.emplace_back(std::move(opening)); }
   void push(SingleStep step) { m_entries.emplace_back(step); }
+  void push(Adoption recording) { m_entries.emplace_back(std::move(recording)); }
   void push(GoBack to) { m_entries.emplace_back(to); }
   std::optional<QueueEntry> pop() {
     if (empty()) return std::nullopt;

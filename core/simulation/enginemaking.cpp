@@ -5,6 +5,7 @@
 #include "core/plugin_host/registry.h"
 #include "core/simulation/enginethreadimpl.h"
 #include "core/simulation/failure.h"
+#include "core/simulation/keptrun.h"
 #include "core/simulation/sceneneed.h"
 #include "core/solver/solver.h"
 
@@ -100,20 +101,51 @@ void EngineThread::Impl::goBack(const GoBack& to) {
     return;
   }
   engine = std::move(past);
+  record.cutAfter(frame, engine->revision());
+  standAt(project, edits, to.run != 0, to.play);
+}
+
+void EngineThread::Impl::adopt(const Adoption& recording) {
+  if (!engine) return;
+  const Project project = engine->document();
+  const KeptRun& run = recording.content->present;
+  std::unique_ptr<Engine> past;
+  try {
+    if (needOf(project, &plugins).bytes > roomToGrow(memoryNow())) engine.reset();
+    make([&] {
+      const std::optional<RestorePoint> point =
+          run.frames.empty() ? std::nullopt : run.restorePoint(run.frames.rbegin()->first);
+      if (!point) throw InputError("it has no state from which its last frame follows");
+      past = replayed(*point, plugins);
+    });
+  } catch (...) {
+    EngineEvent failure = failureAtHand(EngineEvent::Kind::Refused);
+    failure.message = "the recording is not opened: " + failure.message;
+    if (engine)
+      fail(failure);
+    else
+      noScene(failure);
+    return;
+  }
+  engine = std::move(past);
+  record.adopt(*recording.content, engine->revision());
+  standAt(project, !recording.same, true, false);
+}
+
+void EngineThread::Impl::standAt(const Project& project, bool edits, bool wholeHistory, bool play) {
   if (shown) engine->apply(*shown);
   engine->apply(SetProbes{project.probes});  // what is measured goes by the document, in which nothing goes back
-  record.cutAfter(frame, engine->revision());
   if (edits) change(UpdateProject{std::make_shared<const Project>(project)});
   record.keepState(*engine);
   const SnapshotPtr snapshot = engine->snapshot();
-  const std::vector<FrameStats> kept = to.run ? record.stats() : std::vector<FrameStats>{};
+  const std::vector<FrameStats> kept = wholeHistory ? record.stats() : std::vector<FrameStats>{};
   {
     const std::lock_guard lock(mutex);
-    if (to.run) history.clear();
+    if (wholeHistory) history.clear();
     for (const FrameStats& stats : kept) history.add(stats);
-    history.cutAfter(frame);
+    history.cutAfter(snapshot->stats.frame);
     newest = snapshot;
-    playing = to.play;
+    playing = play;
     due = measured = std::chrono::steady_clock::now();
     measuredTime = snapshot->stats.time;
   }
@@ -159,6 +191,15 @@ void EngineThread::continueFrom(uint64_t frame, bool play) {
 void EngineThread::goOnWith(uint64_t run) {
   pause();
   m->push(GoBack{0, run, false});
+}
+
+void EngineThread::keepState() {
+  m->push(Question([impl = m.get()](const Engine& engine) { impl->record.keepState(engine); }));
+}
+
+void EngineThread::adopt(std::shared_ptr<const RunContent> content, bool same) {
+  pause();
+  m->push(Adoption{std::move(content), same});
 }
 
 void EngineThread::forgetRun(uint64_t run) { m->record.forgetRun(run); }

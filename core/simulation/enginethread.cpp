@@ -93,6 +93,8 @@ void EngineThread::Impl::workOff() {
       answer(*question);
     } else if (const auto* back = std::get_if<GoBack>(&*entry)) {
       goBack(*back);
+    } else if (const auto* recording = std::get_if<Adoption>(&*entry)) {
+      adopt(*recording);
     } else {
       step();
     }

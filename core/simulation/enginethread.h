@@ -16,6 +16,7 @@ namespace ps {
 class Engine;
 class PluginRegistry;
 class RunRecord;
+struct RunContent;
 
 /// What a thread's edits have cost so far.
 struct EditCost {
@@ -63,6 +64,12 @@ class EngineThread {
   void goOnWith(uint64_t run);
   void forgetRun(uint64_t run);
   void renameRun(uint64_t run, const std::string& name);
+  /// A state of now goes into the record, whether or not one is due.
+  void keepState();
+  /// The record becomes that of a run that was recorded elsewhere, and the scene stands at its end. Then the project
+  /// acts as it is; `same`: it is the one that the recording is of. Where that cannot be, an event says why, and all
+  /// stays as it was.
+  void adopt(std::shared_ptr<const RunContent> content, bool same);
 
   /// How far the scene is that is being made, by an opening, a reset or a return to a state or frame; nothing when none
   /// is.

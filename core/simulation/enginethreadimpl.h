@@ -47,6 +47,9 @@ struct EngineThread::Impl {
   void make(const std::function<void()>& makeScene);
   void remake(const Reset& start);
   void goBack(const GoBack& to);
+  void adopt(const Adoption& recording);
+  /// The scene is at a frame of the record, of which all up to it is kept, with the project as it is by now.
+  void standAt(const Project& project, bool edits, bool wholeHistory, bool play);
   /// An edit was made: into the record, or with it another run has begun.
   void recordEdit(RecordedEdit edit);
   void recordRun();

@@ -212,7 +212,8 @@ void RunRecord::Impl::loop(const std::stop_token& stop) {
     snapshot = nullptr;
     lock.lock();
     busy = false;
-    if (idle()) done.notify_all();
+    ++turns;
+    done.notify_all();
   }
 }
 
@@ -237,7 +238,8 @@ void RunRecord::Impl::packFrame(const SnapshotPtr& snapshot, uint64_t of, FrameP
 
 void RunRecord::settle() const {
   std::unique_lock lock(m->mutex);
-  m->done.wait(lock, [this] { return m->idle(); });
+  const uint64_t last = m->turns + kMostWaiting + 2;  // the frames, a state, and what is being packed
+  m->done.wait(lock, [&] { return m->idle() || m->turns >= last; });
 }
 
 }  // namespace ps

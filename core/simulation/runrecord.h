@@ -125,7 +125,7 @@ class RunRecord {
   RunEdits documentEdits(std::optional<uint64_t> run = std::nullopt) const;
   /// All that is kept. It shares the packed bytes, which go when the last who has them lets go.
   RunContent content() const;
-  /// Waits until all that was handed over is packed.
+  /// Waits until all that was handed over until now is packed.
   void settle() const;
 
   struct Cost {

@@ -51,6 +51,7 @@ struct RunRecord::Impl : KeptRun {
   std::deque<SnapshotPtr> waiting;
   std::optional<RawState> waitingState;
   bool busy = false;
+  uint64_t turns = 0;  ///< of the thread
 
   std::vector<KeptRun> earlier;  ///< the oldest first
   std::vector<KeptRun> dropped;  ///< given back by the thread, without the mutex

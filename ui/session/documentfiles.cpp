@@ -3,11 +3,13 @@
 
 #include "core/io/outputfile.h"
 #include "core/io/projectio.h"
+#include "core/io/recording.h"
 #include "core/io/textfile.h"
 #include "core/plugin_host/registry.h"
 #include "ui/document/document.h"
 #include "ui/document/wallside.h"
 #include "ui/session/autosave.h"
+#include "ui/session/recordingfiles.h"
 #include "ui/session/savejob.h"
 #include "ui/session/worker.h"
 
@@ -165,7 +167,9 @@ void DocumentFiles::adopt(const Source& source, Read& read) {
     for (const ProjectMessage& message : *messages) warnings << QString::fromStdString(message.text);
   }
   m_lock = read.lock;
-  m_document.open(std::move(project), source.documentPath, source.dirty, true, own ? read.file : source.file);
+  // A run that was recorded stands at its end.
+  const bool play = !isRecording(RecordingFiles::beside(source.documentPath).toStdString());
+  m_document.open(std::move(project), source.documentPath, source.dirty, play, own ? read.file : source.file);
   if (!source.documentPath.isEmpty()) addRecent(source.documentPath);
   if (source.session) Q_EMIT reopened(*source.session);
   Q_EMIT opened(source.documentPath, warnings, read.seconds);
@@ -178,6 +182,13 @@ void DocumentFiles::bringBack(const ReplacedWork& work) {
   lockLater();
   Q_EMIT reopened(work.session);
   Q_EMIT opened(work.session.path, {}, 0);
+}
+
+void DocumentFiles::openRecorded(Project project) {
+  ++m_request;
+  m_lock.reset();
+  m_document.open(std::move(project), {}, true, false);
+  Q_EMIT opened({}, {}, 0);
 }
 
 void DocumentFiles::newProject() {

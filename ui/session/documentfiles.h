@@ -15,6 +15,7 @@ class Autosave;
 class Document;
 class FileLock;
 struct OwnFiles;
+struct Project;
 class Worker;
 enum class SaveRefusal;
 struct AutosavedSession;
@@ -46,6 +47,7 @@ class DocumentFiles : public QObject {
   /// it was left.
   void reopen(const AutosavedSession& session);
   void bringBack(const ReplacedWork& work);  ///< dirty, without its history
+  void openRecorded(Project project);        ///< of a recording: paused, and no file's
   void newProject();                         ///< paused: there is nothing to run
   /// What the file was saved as before, as an unsaved change of the open project. `version`: of versions::of().
   void openVersion(const QString& version);

@@ -12,6 +12,7 @@
 #include "ui/document/document.h"
 #include "ui/session/documentfiles.h"
 #include "ui/session/recordedview.h"
+#include "ui/session/recordingfiles.h"
 #include "ui/session/scenelink.h"
 #include "ui/session/transitions.h"
 #include "ui/session/worker.h"
@@ -53,6 +54,7 @@ Session::Session(const Options& options, QObject* parent)
   connect(m_recorded.get(), &RecordedView::changed, this, &Session::onShown);
   connect(m_recorded.get(), &RecordedView::playingChanged, this, &Session::tellPlaying);
   m_files = std::make_unique<DocumentFiles>(*m_document, *m_worker);
+  m_recordings = std::make_unique<RecordingFiles>(*this);
   if (options.autosave) {
     const QString& directory = options.autosaveDirectory;
     m_autosave = std::make_unique<Autosave>(*m_document, *m_worker,
@@ -65,6 +67,7 @@ Session::Session(const Options& options, QObject* parent)
 
 Session::~Session() {
   close();
+  m_recordings.reset();
   m_worker.reset();
   m_link.reset();
   m_engine.reset();

@@ -20,6 +20,7 @@ class EngineThread;
 class ParticleFields;
 class PluginRegistry;
 class RecordedView;
+class RecordingFiles;
 class SceneLink;
 class Transitions;
 class StateBuffer;
@@ -57,6 +58,8 @@ class Session : public QObject {
   Transitions& transitions() { return *m_transitions; }
 
   RecordedView& recorded() { return *m_recorded; }  ///< what is shown of the run
+
+  RecordingFiles& recordings() { return *m_recordings; }
 
   SnapshotPtr snapshot() const;          ///< that is shown: a recorded one, or the newest
   SnapshotPtr previousSnapshot() const;  ///< the one before the newest, where that is shown
@@ -131,7 +134,8 @@ class Session : public QObject {
   bool m_toldMaking = false;
   std::unique_ptr<EngineThread> m_engine;
   std::unique_ptr<SceneLink> m_link;
-  std::unique_ptr<Worker> m_worker;  // ends first: its jobs point at the others
+  std::unique_ptr<RecordingFiles> m_recordings;  // ends before the engine, whose record it reads
+  std::unique_ptr<Worker> m_worker;              // ends first: its jobs point at the others
 };
 
 }  // namespace ps

@@ -2,11 +2,13 @@
 #include "ui/window/fileactions.h"
 
 #include "core/io/outputfile.h"
+#include "core/io/recording.h"
 #include "core/simulation/enginethread.h"
 #include "ui/document/document.h"
 #include "ui/graphs/graphexport.h"
 #include "ui/graphs/graphspanel.h"
 #include "ui/session/documentfiles.h"
+#include "ui/session/recordingfiles.h"
 #include "ui/session/session.h"
 #include "ui/session/wording.h"
 #include "ui/session/worker.h"
@@ -14,13 +16,14 @@
 #include "ui/viewport/viewport.h"
 #include "ui/window/actions.h"
 #include "ui/window/fileguard.h"
+#include "ui/window/filenames.h"
 #include "ui/window/noticebar.h"
 #include "ui/window/notices.h"
+#include "ui/window/recordingactions.h"
 #include "ui/window/restoreoffer.h"
 
 #include <QtCore/QBuffer>
 #include <QtCore/QFileInfo>
-#include <QtCore/QRegularExpression>
 #include <QtCore/QStandardPaths>
 #include <QtGui/QAction>
 #include <QtWidgets/QFileDialog>
@@ -33,6 +36,7 @@ namespace ps {
 namespace {
 
 const QString kFilter = QStringLiteral("PhaseSketch projects (*.json);;All files (*)");
+const QString kOpenFilter = QStringLiteral("Projects and recordings (*.json *.psrec);;All files (*)");
 
 constexpr std::pair<const char*, const char*> kTips[] = {
     {"file.new", "An empty tray to draw in. Unsaved work can be brought back."},
@@ -49,25 +53,6 @@ constexpr std::pair<const char*, const char*> kTips[] = {
     {"file.quit", "Unsaved work comes back at the next start."},
 };
 
-QString nameOf(const QString& path) {
-  return path.isEmpty() ? QStringLiteral("New scene") : QFileInfo(path).fileName();
-}
-
-/// A title as a file's name: without what some file system refuses.
-QString fileNameFor(QString title) {
-  return title.replace(QRegularExpression(QStringLiteral("[/\\\\:*?\"<>|]")), QStringLiteral("-"));
-}
-
-/// Asks for a file to write; "" when given up. The ending of `suggestion` completes a name without one before the
-/// question whether an existing file may be replaced, so that it is about the right file.
-QString fileToWrite(QWidget* parent, const QString& title, const QString& suggestion, const QString& filter) {
-  QFileDialog dialog(parent, title, QFileInfo(suggestion).path(), filter);
-  dialog.setAcceptMode(QFileDialog::AcceptSave);
-  dialog.setDefaultSuffix(QFileInfo(suggestion).suffix());
-  dialog.selectFile(QFileInfo(suggestion).fileName());
-  return dialog.exec() == QDialog::Accepted ? dialog.selectedFiles().constFirst() : QString();
-}
-
 }  // namespace
 
 FileActions::~FileActions() = default;
@@ -80,7 +65,8 @@ FileActions::FileActions(Session& session, const Actions& actions, Notices& noti
       m_notices(notices),
       m_restore(restore),
       m_options(options),
-      m_guard(std::make_unique<FileGuard>(session, actions, notices, restore)) {
+      m_guard(std::make_unique<FileGuard>(session, actions, notices, restore)),
+      m_recordings(std::make_unique<RecordingActions>(session, actions, notices)) {
   DocumentFiles& files = session.files();
   files.setSample(options.sample);
   connect(&files, &DocumentFiles::opened, this, &FileActions::onOpened);
@@ -128,6 +114,8 @@ void FileActions::makeMenu(QMenu* menu, Viewport* view) {
   m_actions.add(menu, QStringLiteral("file.removeState"), QStringLiteral("Remove the saved state"), {},
                 [this] { m_session.document().removeState(); });
   menu->addSeparator();
+  m_recordings->addTo(menu);
+  menu->addSeparator();
   m_actions.add(menu, QStringLiteral("file.picture"), QStringLiteral("Save picture of the scene…"), {},
                 [this] { exportPicture(); });
   m_actions.add(menu, QStringLiteral("file.csv"), QStringLiteral("Export all frames as CSV…"), {},
@@ -157,6 +145,7 @@ void FileActions::setEnabled(bool on) {
     if (QAction* needed = m_actions.find(QString::fromLatin1(name))) needed->setEnabled(on);
   }
   m_recent->setEnabled(on);
+  m_recordings->setEnabled(on);
 }
 
 void FileActions::updateStateActions() {
@@ -182,7 +171,8 @@ void FileActions::fillRecent() {
 
 void FileActions::openFirst() {
   if (!m_options.project.isEmpty()) {
-    m_session.files().open(m_options.project);
+    if (isRecording(m_options.project.toStdString())) m_session.files().newProject();  // until it is read
+    open(m_options.project);
   } else if (m_restore.reopenLast()) {
     return;
   } else if (m_options.sample.isEmpty()) {
@@ -193,7 +183,9 @@ void FileActions::openFirst() {
 }
 
 void FileActions::open(const QString& path) {
-  if (m_session.isReady()) {
+  if (m_session.isReady() && isRecording(path.toStdString())) {
+    m_session.recordings().open(path);
+  } else if (m_session.isReady()) {
     m_session.files().open(path);
   } else {
     m_options.project = path;
@@ -204,7 +196,7 @@ void FileActions::saveTo(const QString& path) { m_session.files().save(path); }
 
 void FileActions::chooseOpen() {
   const QString path = QFileDialog::getOpenFileName(&m_actions.window(), QStringLiteral("Open a project"),
-                                                    QFileInfo(m_session.document().path()).path(), kFilter);
+                                                    QFileInfo(m_session.document().path()).path(), kOpenFilter);
   if (!path.isEmpty()) open(path);
 }
 

@@ -15,6 +15,7 @@ class Actions;
 class FileGuard;
 class GraphsPanel;
 class Notices;
+class RecordingActions;
 class RestoreOffer;
 class Session;
 class Viewport;
@@ -68,6 +69,7 @@ class FileActions : public QObject {
   RestoreOffer& m_restore;
   Options m_options;
   std::unique_ptr<FileGuard> m_guard;
+  std::unique_ptr<RecordingActions> m_recordings;
   Viewport* m_view = nullptr;
   QMenu* m_recent = nullptr;
   QString m_stateTo;       ///< file that waits for the state; "": none

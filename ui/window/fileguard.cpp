@@ -8,6 +8,7 @@
 #include "ui/session/versions.h"
 #include "ui/session/wording.h"
 #include "ui/window/actions.h"
+#include "ui/window/filenames.h"
 #include "ui/window/noticebar.h"
 #include "ui/window/notices.h"
 #include "ui/window/restoreoffer.h"
@@ -23,8 +24,6 @@ namespace ps {
 namespace {
 
 const QString kLock = QStringLiteral("lock"), kSave = QStringLiteral("save");  // topics
-
-QString nameOf(const QString& path) { return QFileInfo(path).fileName(); }
 
 }  // namespace
 

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/session/recordingfiles.h"
+
+#include "core/base/progress.h"
+#include "core/io/projectio.h"
+#include "core/io/recording.h"
+#include "core/plugin_host/registry.h"
+#include "core/simulation/enginethread.h"
+#include "core/simulation/packedframe.h"
+#include "core/simulation/runrecord.h"
+#include "ui/document/document.h"
+#include "ui/session/documentfiles.h"
+#include "ui/session/session.h"
+
+#include <QtCore/QFileInfo>
+
+#include <utility>
+
+namespace ps {
+namespace {
+constexpr int kClockInterval = 200;  // ms
+}  // namespace
+
+/// What was read, and of what project.
+struct RecordingFiles::Read {
+  std::shared_ptr<const RunContent> content;
+  std::shared_ptr<const Project> project;  ///< that the recording holds
+  bool same = false;                       ///< as the one that is open
+  bool cancelled = false;
+  QString problem, damage;
+};
+
+RecordingFiles::RecordingFiles(Session& session) : m_session(session) {
+  m_clock.setInterval(kClockInterval);
+  connect(&m_clock, &QTimer::timeout, this, [this] {
+    const Progress::State state = m_progress->state();
+    m_told = true;
+    Q_EMIT working(QString::fromUtf8(state.stage ? state.stage : "Beginning"), state.done);
+  });
+  connect(&session.files(), &DocumentFiles::opened, this, [this](const QString& path) {
+    if (m_reading) m_reading->cancel();
+    const QString recording = beside(path);
+    if (isRecording(recording.toStdString())) attach(recording);
+  });
+}
+
+RecordingFiles::~RecordingFiles() { cancel(); }
+
+QString RecordingFiles::beside(const QString& project) {
+  if (project.isEmpty()) return {};
+  const QFileInfo info(project);
+  return info.path() + QLatin1Char('/') + info.completeBaseName() + QLatin1String(kRecordingEnding);
+}
+
+void RecordingFiles::begin() {
+  m_progress = std::make_shared<Progress>();
+  ++m_jobs;
+  m_clock.start();
+}
+
+void RecordingFiles::end() {
+  if (--m_jobs > 0) return;
+  m_clock.stop();
+  if (std::exchange(m_told, false)) Q_EMIT ended();
+}
+
+void RecordingFiles::cancel() {
+  for (const auto& progress : {m_progress, m_reading}) {
+    if (progress) progress->cancel();
+  }
+}
+
+void RecordingFiles::save(const QString& path) {
+  if (!m_session.engine() || m_session.isBroken()) {
+    Q_EMIT saveFailed(path, QStringLiteral("there is no scene that runs"));
+    return;
+  }
+  begin();
+  const auto job = [this, path, project = m_session.document().project(), record = &m_session.engine()->recording(),
+                    progress = m_progress] {
+    const ProgressScope scope(progress.get());
+    QString problem;
+    bool cancelled = false;
+    size_t frames = 0;
+    try {
+      record->settle();
+      const RunContent content = record->content();
+      frames = content.present.frames.size();
+      RecordingWriter writer(path.toStdString(), project);
+      writer.add(content);
+      writer.finish();
+    } catch (const Cancelled&) {
+      cancelled = true;
+    } catch (const std::exception& error) {
+      problem = QString::fromUtf8(error.what());
+    }
+    QMetaObject::invokeMethod(this, [this, path, problem, cancelled, frames] {
+      end();
+      if (!problem.isEmpty())
+        Q_EMIT saveFailed(path, problem);
+      else if (!cancelled)
+        Q_EMIT saved(path, frames);
+    });
+  };
+  m_session.engine()->keepState();
+  m_session.engine()->ask([this, job](const Engine&) { m_worker.run(job); });
+}
+
+void RecordingFiles::open(const QString& path) {
+  const QFileInfo info(path);
+  const QString project = info.absolutePath() + QLatin1Char('/') + info.completeBaseName() + QStringLiteral(".json");
+  if (QFileInfo(project).isFile() && beside(project) == info.absoluteFilePath())
+    m_session.files().open(project);
+  else
+    read(info.absoluteFilePath(), false);
+}
+
+void RecordingFiles::attach(const QString& path) { read(path, true); }
+
+void RecordingFiles::read(const QString& path, bool attaching) {
+  if (!m_session.isReady()) return;
+  begin();
+  m_reading = m_progress;
+  m_worker.run([this, path, attaching, project = m_session.document().project(), plugins = m_session.registry(),
+                count = m_session.document().changeCount(), progress = m_progress] {
+    const ProgressScope scope(progress.get());
+    auto read = std::make_shared<Read>();
+    try {
+      const RecordingReader reader(path.toStdString(), *plugins);
+      if (!reader.whyNoStates().empty())
+        throw InputError("nothing can go on from it, and so it is not shown here: " + reader.whyNoStates());
+      auto own = std::make_shared<Project>(readProject(reader.projectText(), path.toStdString(), *plugins).project);
+      read->content = std::make_shared<const RunContent>(reader.content());
+      read->same = !attaching || sameScene(*own, project);
+      read->project = std::move(own);
+      read->damage = QString::fromStdString(reader.damage());
+    } catch (const Cancelled&) {
+      read->cancelled = true;
+    } catch (const std::exception& error) {
+      read->problem = QString::fromUtf8(error.what());
+    }
+    QMetaObject::invokeMethod(this, [this, path, attaching, read, count] {
+      end();
+      if (!read->problem.isEmpty()) {
+        Q_EMIT openFailed(path, read->problem);
+      } else if (!read->cancelled) {
+        if (!attaching) m_session.files().openRecorded(*read->project);
+        take(path, *read, attaching ? count : m_session.document().changeCount());
+      }
+    });
+  });
+}
+
+void RecordingFiles::take(const QString& path, const Read& read, uint64_t count) {
+  Document& document = m_session.document();
+  if (!document.had(count) || !m_session.engine()) return;  // another project has taken its place
+  const bool same = read.same && document.changeCount() == count;
+  m_session.engine()->adopt(read.content, same);
+  QString remark = read.damage;
+  if (!same) {
+    remark = QStringLiteral(
+        "It is of another version of this project: it shows the run as it was, and what goes on from it goes by the "
+        "project as it is now");
+  }
+  const auto& frames = read.content->present.frames;
+  Q_EMIT opened(path, frames.empty() ? 0 : frames.begin()->second->stats.time,
+                frames.empty() ? 0 : frames.rbegin()->second->stats.time, remark);
+}
+
+}  // namespace ps
