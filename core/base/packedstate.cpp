@@ -26,19 +26,19 @@ std::vector<std::byte> transposed(std::span<const std::byte> bytes, size_t rows,
   return out;
 }
 
-PackedBlock packBlock(const StateReader::Block& block) {
-  PackedBlock packed{block.name, stateTypeName(block.type), block.version, block.count, {}, {}};
-  if (block.bytes.empty()) return packed;
-  const size_t word = wordOf(block.type);
-  const std::vector<std::byte> planes = transposed(block.bytes, block.bytes.size() / word, word);
+}  // namespace
+
+PackedBlock packBlock(const std::string& name, StateType type, uint64_t count, std::span<const std::byte> bytes) {
+  PackedBlock packed{name, stateTypeName(type), 1, count, {}, {}};
+  if (bytes.empty()) return packed;
+  const size_t word = wordOf(type);
+  const std::vector<std::byte> planes = transposed(bytes, bytes.size() / word, word);
   std::vector<std::byte> small(ZSTD_compressBound(planes.size()));
   const size_t size = ZSTD_compress(small.data(), small.size(), planes.data(), planes.size(), kLevel);
-  if (ZSTD_isError(size)) throw Error("state block '" + block.name + "': " + ZSTD_getErrorName(size));
+  if (ZSTD_isError(size)) throw Error("state block '" + name + "': " + ZSTD_getErrorName(size));
   packed.data = toBase64(std::span(small).first(size));
   return packed;
 }
-
-}  // namespace
 
 std::vector<PackedBlock> packState(const StateReader& state) {
   std::vector<PackedBlock> packed;
@@ -49,7 +49,8 @@ std::vector<PackedBlock> packState(const StateReader& state) {
       throw Error("the state is larger than the " + std::to_string(kMostPackedBytes >> 20) +
                   " MiB that a project may hold; phasesketch-cli simulate --save-state writes a file of its own");
     }
-    packed.push_back(packBlock(block));
+    packed.push_back(packBlock(block.name, block.type, block.count, block.bytes));
+    packed.back().version = block.version;
   }
   return packed;
 }

@@ -11,6 +11,7 @@
 
 namespace ps {
 
+enum class StateType : uint16_t;
 class StateBuffer;
 class StateReader;
 
@@ -28,6 +29,8 @@ struct PackedBlock {
 /// What all blocks of a packed state may come to, unpacked: 1.7 million particles of 600 bytes.
 inline constexpr size_t kMostPackedBytes = size_t{1} << 30;
 
+/// Elements of an array, whose bytes these are. Throws Error where they cannot be packed.
+PackedBlock packBlock(const std::string& name, StateType type, uint64_t count, std::span<const std::byte> bytes);
 /// The blocks of a stream, in its order. Throws Error for more than kMostPackedBytes.
 std::vector<PackedBlock> packState(const StateReader& state);
 /// Bytes of one block's elements. Throws InputError saying what is wrong with it: no base64, no zstd, another size than

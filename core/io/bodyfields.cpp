@@ -74,6 +74,16 @@ const FieldTable<VoxelShape>& voxelFields() {
 }
 
 namespace {
+const FieldTable<SolidShape>& solidFields() {
+  static const FieldTable<SolidShape> table{
+      .help = "a solid of any size, at any pose",
+      .rows = {field("mesh", &SolidShape::meshId, Id{}, "of the kind mesh: one of the scene's meshes")
+                   .omittedWhen([](const SolidShape& solid) { return solid.meshId.empty(); })},
+      .parameters = &SolidShape::parameters,
+      .declarations = &solidParameters,
+      .unknown = &SolidShape::unknown};
+  return table;
+}
 
 const FieldTable<Wave>& velocityWaveFields() {
   static const FieldTable<Wave> table = [] {
@@ -120,7 +130,8 @@ const FieldTable<Body>& bodyFields() {
                field("material", &Body::material, MaterialId{}, "").required(),
                field("shape", &Body::shape,
                      OneOf{Alternative<BoxShape>{"box", "a block", &boxFields()},
-                           Alternative<VoxelShape>{"voxels", "a sketch", &voxelFields()}},
+                           Alternative<VoxelShape>{"voxels", "a sketch", &voxelFields()},
+                           Alternative<SolidShape>{"solid", "a solid", &solidFields()}},
                      "")
                    .required(),
                field("velocity", &Body::velocity, Vector{"m/s"},

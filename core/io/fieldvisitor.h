@@ -32,6 +32,8 @@ class FieldVisitor {
 
   virtual void object(const SceneMaterial&, const std::string& /*pointer*/) {}
   virtual void object(const VoxelShape&, const std::string& /*pointer*/) {}
+  virtual void object(const SceneMesh&, const std::string& /*pointer*/) {}
+  virtual void object(const SolidShape&, const std::string& /*pointer*/) {}
   virtual void object(const Region&, const std::string& /*pointer*/) {}
   virtual void object(const Body&, const std::string& /*pointer*/) {}
   virtual void object(const Emitter&, const std::string& /*pointer*/) {}

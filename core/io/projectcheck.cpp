@@ -7,6 +7,7 @@
 #include "core/matter/material.h"
 #include "core/parameters/wording.h"
 #include "core/plugin_host/registry.h"
+#include "core/scene/solidform.h"
 #include "core/simulation/graphsource.h"
 #include "core/simulation/particlefield.h"
 #include "core/simulation/probeparameters.h"
@@ -140,6 +141,18 @@ class ProjectChecker : public FieldVisitor {
     }
   }
 
+  void object(const SceneMesh& mesh, const std::string& pointer) override {
+    if (!m_meshes.insert(mesh.id).second) fail(pointer + "/id", "'" + mesh.id + "' is taken already");
+    if (mesh.points.empty()) fail(pointer + "/points", "are none, or damaged; import the mesh again");
+    if (mesh.triangles.empty()) fail(pointer + "/triangles", "are none, or damaged; import the mesh again");
+    if (const std::string problem = problemOf(mesh); !problem.empty()) fail(pointer, problem);
+  }
+
+  void object(const SolidShape& solid, const std::string& pointer) override {
+    const bool isMesh = choiceOf(solid.parameters, solidParameters(), "kind") == "mesh";
+    if (isMesh && !solid.mesh) fail(pointer + "/mesh", "the scene has no mesh '" + solid.meshId + "'");
+  }
+
   void object(const Region& region, const std::string& pointer) override {
     for (size_t a = 0; a < 3; ++a) {
       if (region.minimum[a] > region.maximum[a]) {
@@ -150,8 +163,8 @@ class ProjectChecker : public FieldVisitor {
 
   void object(const Body& body, const std::string& pointer) override {
     checkMotion(body, pointer);
-    const bool sketched = std::holds_alternative<VoxelShape>(body.shape);
-    addParticles(body, pointer + (sketched ? "/shape/voxels/runs" : "/shape/box/size"));
+    constexpr const char* kSizes[] = {"/shape/box/size", "/shape/voxels/runs", "/shape/solid"};
+    addParticles(body, pointer + kSizes[body.shape.index()]);
     checkWarmth(body, pointer);
   }
 
@@ -404,7 +417,7 @@ class ProjectChecker : public FieldVisitor {
   const PluginRegistry& m_plugins;
   const ParticleFields m_fields;
   std::vector<ProjectMessage>&m_warnings, &m_problems;
-  std::set<std::string> m_missing, m_blocks, m_tracked;
+  std::set<std::string> m_missing, m_blocks, m_meshes, m_tracked;
   double m_particles = 0;
   size_t m_stateBytes = 0;
 };

@@ -39,11 +39,27 @@ std::vector<Field<Project>> formatRows() {
           field("pluginsRequired", &Project::pluginsRequired, List{PluginId{}}, "missing ones are an error")};
 }
 
+/// Each once, in the order of the bodies that are of them.
+std::vector<std::shared_ptr<const SceneMesh>> usedMeshes(const Project& project) {
+  std::vector<std::shared_ptr<const SceneMesh>> meshes;
+  std::set<std::string> known;
+  for (const Body& body : project.bodies) {
+    const auto* solid = std::get_if<SolidShape>(&body.shape);
+    if (solid && solid->mesh && known.insert(solid->mesh->id).second) meshes.push_back(solid->mesh);
+  }
+  return meshes;
+}
+
 /// The scene. What is missing is told by the first that needs it, so pluginsUsed comes last.
 std::vector<Field<Project>> sceneRows() {
   return {
       field("materials", &Project::materials, List{Object{materialFields(), "material"}}, "materials of the scene")
           .required(),
+      field("meshes", &Project::meshes, List{Shared{Object{meshFields()}}}, "surfaces that bodies are of")
+          .omittedWhen([](const Project& project) { return usedMeshes(project).empty(); })
+          .writtenAs([](const Project& project) {
+            return List{Shared{Object{meshFields()}}}.write(usedMeshes(project));
+          }),
       field("bodies", &Project::bodies, List{Object{bodyFields(), "body"}}, "matter at the start").required(),
       field("emitters", &Project::emitters, List{Object{emitterFields()}}, "matter that comes while the scene runs"),
       field("sinks", &Project::sinks, List{Object{sinkFields()}}, "where matter goes"),

@@ -7,6 +7,7 @@ namespace ps::fields {
 
 const FieldTable<Project>& projectFields();
 const FieldTable<SceneMaterial>& materialFields();
+const FieldTable<SceneMesh>& meshFields();
 const FieldTable<Body>& bodyFields();
 const FieldTable<VoxelShape>& voxelFields();
 const FieldTable<Emitter>& emitterFields();

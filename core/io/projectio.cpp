@@ -151,6 +151,11 @@ Project readDocument(json& document, const PluginRegistry& plugins) {
   Project project;
   fields::projectFields().read(project, document, plugins);
   for (Body& body : project.bodies) {
+    if (auto* solid = std::get_if<SolidShape>(&body.shape)) {
+      const auto mesh = std::find_if(project.meshes.begin(), project.meshes.end(),
+                                     [&](const auto& one) { return one->id == solid->meshId; });
+      if (mesh != project.meshes.end()) solid->mesh = *mesh;
+    }
     auto* voxels = std::get_if<VoxelShape>(&body.shape);
     if (voxels && voxels->spacing == 0)
       voxels->spacing = numberOf(project.solver.parameters, solverParameters(), "particle_spacing");

@@ -22,6 +22,7 @@ constexpr OwnerRow kRows[] = {
     {Owner::Emitter, "emitter", 1},         {Owner::Sink, "sink", 1},
     {Owner::Constraint, "constraint", 2},   {Owner::Scene, "scene", 0},
     {Owner::HeatSource, "heat_source", 1},  {Owner::Probe, "probe", 1},
+    {Owner::Shape, "shape", 1},
 };
 static_assert(std::size(kRows) == std::size(kOwners));
 
@@ -67,6 +68,11 @@ Set* setOf(P& project, const Address& address) {
         if (source.plugin == address.id) return &source.parameters;
       }
       return nullptr;
+    }
+    case Owner::Shape: {
+      auto* body = byId(project.bodies, address.id);
+      auto* solid = body ? std::get_if<SolidShape>(&body->shape) : nullptr;
+      return solid ? &solid->parameters : nullptr;
     }
     case Owner::Probe:  // what it measures is no parameter set
     case Owner::Scene:

@@ -20,21 +20,23 @@ enum class Owner : uint8_t {
   Constraint,
   Scene,
   HeatSource,
-  Probe
+  Probe,
+  Shape
 };
 inline constexpr Owner kOwners[] = {Owner::Material,   Owner::Wall,  Owner::Environment, Owner::Solver,
                                     Owner::Thermal,    Owner::Body,  Owner::Emitter,     Owner::Sink,
-                                    Owner::Constraint, Owner::Scene, Owner::HeatSource,  Owner::Probe};
+                                    Owner::Constraint, Owner::Scene, Owner::HeatSource,  Owner::Probe,
+                                    Owner::Shape};
 /// As addresses begin: "material", "wall", ...
 std::string_view ownerName(Owner owner);
 
 /// Names one parameter of a project: "material/water/conductivity_solid", "wall/floor/temperature",
 /// "environment/ambient_pressure", "solver/substeps", "thermal/KEY", "body/ice/temperature", "emitter/tap/speed",
 /// "sink/drain/open", "constraint/ice/bonds/KEY", "heat_source/lamp/KEY", "scene/gravity",
-/// "probe/core/quantity".
+/// "probe/core/quantity", "shape/ball/size_x".
 struct Address {
   Owner owner = Owner::Scene;
-  std::string id;  ///< of the owner, of a constraint's body; "" where there is one owner
+  std::string id;  ///< of the owner, of a constraint's or a shape's body; "" where there is one owner
   std::string key;
   std::string plugin{};  ///< of a constraint: "bonds"; "" elsewhere
   std::string text() const;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/scene/project.h"
+#include "core/scene/solidform.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,6 +14,8 @@ double particleCount(const Body& body, double spacing) {
   if (const auto* box = std::get_if<BoxShape>(&body.shape)) {
     count = 1;
     for (const double edge : box->size) count *= layersAlong(edge, spacing);
+  } else if (const auto* solid = std::get_if<SolidShape>(&body.shape)) {
+    count = std::max(1.0, std::round(SolidForm(*solid).volume() / std::pow(spacing, 3)));
   } else {
     const auto& voxels = std::get<VoxelShape>(body.shape);
     for (const VoxelShape::Run& run : voxels.runs) count += run.length;

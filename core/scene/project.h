@@ -72,6 +72,26 @@ struct VoxelShape {
   bool operator==(const VoxelShape&) const = default;
 };
 
+/// The surface of a thing, as triangles: what a file of some other program holds. Shared by the bodies that are of its
+/// shape, and never changed.
+struct SceneMesh {
+  std::string id;    ///< unique in the scene
+  std::string name;  ///< shown to people
+  std::vector<std::array<float, 3>> points;        ///< m
+  std::vector<std::array<uint32_t, 3>> triangles;  ///< of points; anticlockwise as seen from outside
+  Unknown unknown{};
+};
+
+/// A solid of some kind, of any size and at any pose: see solidParameters(). It fills with particles of the scene's
+/// spacing, on a cubic lattice along its own axes.
+struct SolidShape {
+  ParameterSet parameters;
+  std::string meshId;                       ///< SceneMesh::id, of the kind "mesh"
+  std::shared_ptr<const SceneMesh> mesh{};  ///< the same; nullptr for other kinds
+  Unknown unknown{};
+  bool operator==(const SolidShape&) const = default;
+};
+
 /// A constraint plugin used by a body.
 struct BodyConstraint {
   std::string plugin;  ///< its id
@@ -105,7 +125,7 @@ struct Wave {
 struct Body {
   std::string id, name;
   std::string material;  ///< SceneMaterial::id; sketched bodies: of their first palette entry
-  std::variant<BoxShape, VoxelShape> shape;
+  std::variant<BoxShape, VoxelShape, SolidShape> shape;
   ParameterSet parameters;           ///< see bodyParameters(): temperature, phase, fixed, heating_power, motion_*, ...
   Vector3 velocity{0, 0, 0};         ///< m/s at the start; of a fixed body from motion_start to motion_stop
   Vector3 spin{0, 0, 0};             ///< rad/s about the body's centre, on top of `velocity`, likewise
@@ -266,6 +286,7 @@ struct Project {
   std::string generator, title, description;
   std::vector<std::string> pluginsUsed, pluginsRequired;
   std::vector<SceneMaterial> materials;
+  std::vector<std::shared_ptr<const SceneMesh>> meshes;  ///< of the file; bodies hold those that they are of
   std::vector<Body> bodies;
   std::vector<Emitter> emitters;
   std::vector<Sink> sinks;
@@ -286,6 +307,7 @@ api::ParameterList environmentParameters();  ///< ambient_pressure, ambient_temp
 api::ParameterList solverParameters();       ///< particle_spacing, substeps, iterations, thermal_time_scale, ...
 api::ParameterList wallParameters();
 api::ParameterList bodyParameters();
+api::ParameterList solidParameters();  ///< kind, size_*, position_*, rotation_*, ...
 api::ParameterList emitterParameters();
 api::ParameterList sinkParameters();
 /// Keys of toggles of the scene and of bodies, with a plugin's id behind them: whether the scene uses that heat source,
@@ -304,7 +326,7 @@ api::ParameterDeclaration structureParameter(const std::vector<std::string>& plu
 
 /// Layers of particles `spacing` m apart that fill an edge of a box: whole ones, at least one.
 double layersAlong(double edge, double spacing);
-/// Particles of a body at the start. A double: what sizes ask for may be more than an integer holds.
+/// Particles of a body at the start, of a solid to some hundredths. A double: what sizes ask for may be more than an integer holds.
 double particleCount(const Body& body, double spacing);
 double particleCount(const Project& project);
 /// What a scene may have; more would not fit the memory of a large machine.

@@ -3,6 +3,7 @@
 
 #include "core/base/error.h"
 #include "core/base/progress.h"
+#include "core/geometry/solidfill.h"
 #include "core/math/vector.h"
 #include "core/matter/material.h"
 #include "core/plugin_host/registry.h"
@@ -56,9 +57,13 @@ void setMatter(Spawn& spawn, const Project& project, std::span<const BakedMateri
 /// Mean of the places of all particles.
 Vector3 centreOf(const Body& body, double spacing) {
   if (const auto* box = std::get_if<BoxShape>(&body.shape)) return box->center;
-  const auto& voxels = std::get<VoxelShape>(body.shape);
   Vector3 sum;
   size_t count = 0;
+  if (const auto* solid = std::get_if<SolidShape>(&body.shape)) {
+    for (const api::Double3& p : solidPlaces(*solid, spacing)) sum += vectorOf(p), ++count;
+    return sum / static_cast<double>(count);
+  }
+  const auto& voxels = std::get<VoxelShape>(body.shape);
   for (size_t palette = 0; palette < voxels.palette.size(); ++palette) {
     for (const api::Double3& p : cellCentres(voxels, spacing, cellsOf(voxels, static_cast<int>(palette)))) {
       sum += vectorOf(p);
@@ -265,9 +270,10 @@ std::vector<Spawn> compileBody(const Project& project, const PluginRegistry& plu
                                std::span<const BakedMaterial> materials, const Body& body) {
   const double spacing = compileSettings(project).spacing;
   std::vector<Spawn> spawns;
-  if (const auto* box = std::get_if<BoxShape>(&body.shape)) {
+  if (!std::holds_alternative<VoxelShape>(body.shape)) {
     Spawn spawn = spawnOf(project, plugins, body);
-    spawn.position = boxLattice(*box, spacing);
+    const auto* solid = std::get_if<SolidShape>(&body.shape);
+    spawn.position = solid ? solidPlaces(*solid, spacing) : boxLattice(std::get<BoxShape>(body.shape), spacing);
     const double temperature = numberOf(body.parameters, bodyParameters(), "temperature");
     setMatter(spawn, project, materials, body.material, temperature, body);
     spawns.push_back(std::move(spawn));

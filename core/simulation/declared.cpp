@@ -235,6 +235,8 @@ api::ParameterList declarationsOf(const Project& project, const PluginRegistry* 
       return emitterParameters();
     case Owner::Sink:
       return sinkParameters();
+    case Owner::Shape:
+      return solidParameters();
     case Owner::Body:
       return bodyDeclarations(project, plugins, address.id);
     case Owner::Scene:
@@ -363,6 +365,7 @@ std::vector<Address> parameterLists(const Project& project) {
   const std::string property = propertyCatalogue().count > 0 ? propertyCatalogue()[0].key : "";
   for (const Body& body : project.bodies) {
     lists.push_back({Owner::Body, body.id, ""});
+    if (std::holds_alternative<SolidShape>(body.shape)) lists.push_back({Owner::Shape, body.id, ""});
     for (const BodyConstraint& constraint : body.constraints)
       lists.push_back({Owner::Constraint, body.id, "", constraint.plugin});
   }

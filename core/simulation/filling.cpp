@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/simulation/filling.h"
 
+#include "core/geometry/solidfill.h"
 #include "core/scene/shownname.h"
+#include "core/scene/solidform.h"
 #include "core/simulation/lattice.h"
 
 #include <algorithm>
@@ -13,6 +15,8 @@ namespace ps {
 namespace {
 
 constexpr double kTold = 0.05;   ///< of a body's volume
+/// Particles of a solid from which on its lattice misses less of its volume than is told.
+constexpr double kSurelyFilled = 5000;
 constexpr double kFinest = 0.5;  ///< of the present spacing, down to which another one is sought
 
 /// Share of a body's volume by which particles miss it; negative where they leave some of it out.
@@ -26,6 +30,7 @@ bool isTold(double missed) { return std::abs(missed) > kTold; }
 /// Edges whose layers may be whole ones: of a box, or of a sketched cell.
 Vector3 edgesOf(const Body& body) {
   if (const auto* box = std::get_if<BoxShape>(&body.shape)) return box->size;
+  if (const auto* solid = std::get_if<SolidShape>(&body.shape)) return SolidForm(*solid).size();
   return Vector3::Constant(std::get<VoxelShape>(body.shape).spacing);
 }
 
@@ -53,6 +58,11 @@ Filling fillingOf(const Body& body, double spacing) {
   const double cell = spacing * spacing * spacing;
   if (const auto* box = std::get_if<BoxShape>(&body.shape))
     return {box->size[0] * box->size[1] * box->size[2], particleCount(body, spacing) * cell};
+  if (const auto* solid = std::get_if<SolidShape>(&body.shape)) {
+    const double asked = SolidForm(*solid).volume();
+    if (asked > kSurelyFilled * cell) return {asked, asked};
+    return {asked, static_cast<double>(fillSolid(*solid, spacing).cells.size()) * cell};
+  }
   const auto& voxels = std::get<VoxelShape>(body.shape);
   double cells = 0;
   for (const VoxelShape::Run& run : voxels.runs) cells += run.length;

@@ -30,6 +30,18 @@ void add(Hash& hash, const VoxelShape& voxels) {
   }
 }
 
+void add(Hash& hash, const SolidShape& solid) {
+  const api::ParameterList list = solidParameters();
+  for (size_t k = 0; k < list.count; ++k) {
+    const Value value = valueOf(solid.parameters, list[k]);
+    if (const auto* number = std::get_if<double>(&value)) hash.add(*number);
+    if (const auto* name = std::get_if<std::string>(&value)) hash.add(name->data(), name->size());
+  }
+  if (!solid.mesh) return;
+  hash.add(solid.mesh->points.data(), std::span(solid.mesh->points).size_bytes());
+  hash.add(solid.mesh->triangles.data(), std::span(solid.mesh->triangles).size_bytes());
+}
+
 std::string stampOf(const Body& body) {
   Hash hash;
   hash.add(uint64_t{body.shape.index()});

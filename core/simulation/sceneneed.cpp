@@ -4,6 +4,7 @@
 #include "core/matter/material.h"
 #include "core/parameters/wording.h"
 #include "core/plugin_host/registry.h"
+#include "core/scene/solidform.h"
 #include "core/solver/footprint.h"
 #include "core/solver/settings.h"
 
@@ -31,6 +32,10 @@ constexpr Layers kDeep{16, 16, 16};
 Layers layersOf(const Body& body, double spacing) {
   if (const auto* box = std::get_if<BoxShape>(&body.shape))
     return {layersAlong(box->size[0], spacing), layersAlong(box->size[1], spacing), layersAlong(box->size[2], spacing)};
+  if (const auto* solid = std::get_if<SolidShape>(&body.shape)) {
+    const Vector3 size = SolidForm(*solid).size();
+    return {layersAlong(size[0], spacing), layersAlong(size[1], spacing), layersAlong(size[2], spacing)};
+  }
   const auto& voxels = std::get<VoxelShape>(body.shape);
   if (voxels.runs.empty()) return {1, 1, 1};
   constexpr double kNone = std::numeric_limits<double>::infinity();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/simulation/sceneproblem.h"
 
+#include "core/geometry/solidfill.h"
 #include "core/scene/shownname.h"
 #include "core/simulation/lattice.h"
 #include "core/simulation/sceneneed.h"
@@ -64,6 +65,16 @@ double coldestOf(const VoxelShape& voxels, const Vector3& gradient, double spaci
   return coldest;
 }
 
+double coldestOf(const Body& body, double temperature, const Vector3& gradient, double spacing) {
+  if (const auto* box = std::get_if<BoxShape>(&body.shape)) return coldestOf(*box, temperature, gradient, spacing);
+  const auto* solid = std::get_if<SolidShape>(&body.shape);
+  if (!solid) return coldestOf(std::get<VoxelShape>(body.shape), gradient, spacing);
+  const std::vector<api::Double3> places = solidPlaces(*solid, spacing);
+  Vector3 sum;
+  for (const api::Double3& p : places) sum += vectorOf(p);
+  return coldestOf(places, temperature, sum / static_cast<double>(places.size()), gradient);
+}
+
 std::string coldProblemOfAny(const Project& project, double spacing) {
   for (const Body& body : project.bodies) {
     const double temperature = numberOf(body.parameters, bodyParameters(), "temperature");
@@ -87,9 +98,7 @@ double solverNumber(const Project& project, const Address& address) {
 std::string coldProblem(const Body& body, double temperature, double spacing) {
   const Vector3& gradient = body.temperatureGradient;
   if (gradient == Vector3::Zero()) return {};
-  const auto* box = std::get_if<BoxShape>(&body.shape);
-  const double coldest = box ? coldestOf(*box, temperature, gradient, spacing)
-                             : coldestOf(std::get<VoxelShape>(body.shape), gradient, spacing);
+  const double coldest = coldestOf(body, temperature, gradient, spacing);
   if (coldest >= 1) return {};
   return "its temperature gradient would cool it to " + numberText(coldest) +
          " K; a higher temperature or a lower gradient is needed";

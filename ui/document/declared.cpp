@@ -33,6 +33,7 @@ QString ownerLabel(const Project& project, const Address& address) {
       return named(project.sinks, &Sink::name);
     case Owner::Body:
     case Owner::Constraint:
+    case Owner::Shape:
       return named(project.bodies, &Body::name);
     case Owner::Probe:
       return named(project.probes, &Probe::name);

@@ -2,6 +2,7 @@
 // What comes into a document's scene and leaves it: bodies with their matter, materials.
 #include "core/matter/material.h"
 #include "core/plugin_host/registry.h"
+#include "core/scene/solidform.h"
 #include "ui/document/commands.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
@@ -20,6 +21,11 @@ std::pair<double, double> heights(const Body& body) {
   if (const auto* box = std::get_if<BoxShape>(&body.shape)) {
     return {box->center[1] - box->size[1] / 2, box->center[1] + box->size[1] / 2};
   }
+  if (const auto* solid = std::get_if<SolidShape>(&body.shape)) {
+    const SolidForm form(*solid);
+    const double half = form.extent()[1] / 2;
+    return {form.middle()[1] - half, form.middle()[1] + half};
+  }
   const auto& voxels = std::get<VoxelShape>(body.shape);
   if (voxels.runs.empty()) return {voxels.origin[1], voxels.origin[1]};
   const auto [low, high] = std::minmax_element(voxels.runs.begin(), voxels.runs.end(),
@@ -31,6 +37,10 @@ std::pair<double, double> heights(const Body& body) {
 void lift(Body& body, double metres) {
   if (auto* box = std::get_if<BoxShape>(&body.shape)) {
     box->center[1] += metres;
+    return;
+  }
+  if (auto* solid = std::get_if<SolidShape>(&body.shape)) {
+    solid->parameters.values["position_y"] = SolidForm(*solid).middle()[1] + metres;
     return;
   }
   auto& voxels = std::get<VoxelShape>(body.shape);

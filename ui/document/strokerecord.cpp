@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/document/strokerecord.h"
 
+#include "core/geometry/solidfill.h"
+#include "core/scene/solidform.h"
 #include "core/simulation/lattice.h"
 #include "core/sketch/cellset.h"
 
@@ -34,6 +36,17 @@ VoxelShape voxelsOf(const BoxShape& box, const Body& body, double spacing) {
                      static_cast<int32_t>(std::lround((p.z - voxels.origin[2]) / spacing))});
   }
   voxels.runs = encodeRuns(CellSet(cells), 0);
+  return voxels;
+}
+
+/// Of a turned solid nearly the same: its cells lie along the scene's axes now.
+VoxelShape voxelsOf(const SolidShape& solid, const Body& body, double spacing) {
+  const SolidCells filled = cellsInScene(solid, spacing);
+  VoxelShape voxels;
+  voxels.origin = filled.first;
+  voxels.spacing = spacing;
+  voxels.palette.push_back({body.material, numberOf(body.parameters, bodyParameters(), "temperature"), {}});
+  voxels.runs = encodeRuns(cellSet(filled.cells), 0);
   return voxels;
 }
 
@@ -99,12 +112,10 @@ struct CellBounds {
       maximum[k] = lattice.origin[k] + (high[k] + 0.5) * lattice.spacing;
     }
   }
-  bool meets(const BoxShape& box) const {
-    for (size_t k = 0; k < 3; ++k) {
-      const double half = box.size[k] / 2;  // no centre lies farther out
-      if (box.center[k] + half < minimum[k] || box.center[k] - half > maximum[k]) return false;
-    }
-    return true;
+  /// A box about a place; no centre of what it is around lies farther out.
+  bool meets(const Vector3& centre, const Vector3& size) const {
+    return ((centre + size / 2).array() >= minimum.array()).all() &&
+           ((centre - size / 2).array() <= maximum.array()).all();
   }
   bool holds(const Vector3& p) const {
     return (p.array() >= minimum.array()).all() && (p.array() <= maximum.array()).all();
@@ -119,8 +130,14 @@ std::vector<Vector3> centresWithin(const Body& body, double spacing, const CellB
     if (bounds.holds(p)) centres.push_back(p);
   };
   if (const auto* box = std::get_if<BoxShape>(&body.shape)) {
-    if (!bounds.meets(*box)) return centres;
+    if (!bounds.meets(box->center, box->size)) return centres;
     for (const api::Double3& p : boxLattice(*box, spacing)) add({p.x, p.y, p.z});
+    return centres;
+  }
+  if (const auto* solid = std::get_if<SolidShape>(&body.shape)) {
+    const SolidForm form(*solid);
+    if (!bounds.meets(form.middle(), form.extent())) return centres;
+    for (const api::Double3& p : solidPlaces(*solid, spacing)) add({p.x, p.y, p.z});
     return centres;
   }
   const auto walk = [&](const VoxelShape& voxels) {
@@ -242,6 +259,8 @@ std::vector<CellIndex> freeAtStart(const Project& project, const std::string& bo
 Body asVoxels(Body body, double spacing) {
   if (const auto* box = std::get_if<BoxShape>(&body.shape)) {
     body.shape = voxelsOf(*box, body, spacing);
+  } else if (const auto* solid = std::get_if<SolidShape>(&body.shape)) {
+    body.shape = voxelsOf(*solid, body, spacing);
   } else if (auto& voxels = std::get<VoxelShape>(body.shape); voxels.spacing != spacing) {
     withSpacing(voxels, spacing);
   }

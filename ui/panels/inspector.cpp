@@ -432,7 +432,7 @@ ParameterPanel* Inspector::panelFor(const Address& address) {
     setProbe(address.id);
     return m_body;
   }
-  if (address.owner == Owner::Body || address.owner == Owner::Constraint) {
+  if (address.owner == Owner::Body || address.owner == Owner::Constraint || address.owner == Owner::Shape) {
     setBody(address.id);
     return m_body;
   }

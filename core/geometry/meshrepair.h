@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "core/scene/project.h"
+
+namespace ps {
+
+/// What a mesh is found to be.
+struct MeshFacts {
+  size_t triangles = 0;
+  size_t openEdges = 0;    ///< that belong to one triangle only, or that two see the same way round
+  double volume = 0;       ///< m3 that it encloses; of an open one what its winding numbers will be asked about
+  bool closed() const { return triangles > 0 && openEdges == 0; }
+};
+MeshFacts factsOf(const SceneMesh& mesh);
+
+/// Makes one point of those that are the same place (within a millionth of the mesh's extent), leaves out triangles
+/// without an area and points that no triangle needs, and turns all triangles of a mesh that is inside out.
+/// Throws InputError for a point that is no number, a triangle of a point that does not exist, and where no triangle is
+/// left.
+void repair(SceneMesh& mesh);
+
+}  // namespace ps

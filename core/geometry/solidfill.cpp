@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/geometry/solidfill.h"
+
+#include "core/base/parallel.h"
+#include "core/base/progress.h"
+#include "core/geometry/meshwinding.h"
+#include "core/scene/solidform.h"
+
+#include <cmath>
+#include <mutex>
+
+namespace ps {
+namespace {
+
+/// Cells up to which all ways to lay the lattice are tried.
+constexpr double kSmall = 4000;
+constexpr double kInside = 0.5;  ///< of a winding number
+
+/// The tree of a mesh is made once for as long as somebody has use of it.
+std::shared_ptr<const MeshWinding> windingOf(const std::shared_ptr<const SceneMesh>& mesh) {
+  static std::mutex mutex;
+  static std::weak_ptr<const SceneMesh> lastMesh;
+  static std::shared_ptr<const MeshWinding> last;
+  const std::lock_guard lock(mutex);
+  if (lastMesh.lock() != mesh || !last) {
+    last = std::make_shared<const MeshWinding>(*mesh);
+    lastMesh = mesh;
+  }
+  return last;
+}
+
+/// Cells of a box whose centres a test holds to be inside, row by row on all threads.
+template <class Inside>
+std::vector<std::array<int, 3>> cellsWithin(const std::array<int, 3>& count, const Inside& inside) {
+  const size_t rows = static_cast<size_t>(count[1]) * static_cast<size_t>(count[2]);
+  std::vector<std::vector<int>> found(rows);
+  forChunks(rows, 1, [&](size_t first, size_t last) {
+    for (size_t row = first; row < last; ++row) {
+      const int y = static_cast<int>(row) % count[1], z = static_cast<int>(row) / count[1];
+      for (int x = 0; x < count[0]; ++x) {
+        if (inside(x, y, z)) found[row].push_back(x);
+      }
+    }
+  });
+  std::vector<std::array<int, 3>> cells;
+  for (size_t row = 0; row < rows; ++row) {
+    advance(found[row].size());
+    for (const int x : found[row])
+      cells.push_back({x, static_cast<int>(row) % count[1], static_cast<int>(row) / count[1]});
+  }
+  return cells;
+}
+
+/// Of an extent, with a face in the middle (an even number of cells) or a cell (an odd one): as many as reach into it.
+int layersOf(double extent, double spacing, bool even) {
+  const double half = 0.5 * extent / spacing;
+  if (even) return 2 * std::max(1, static_cast<int>(std::floor(half + 0.5)));
+  return 2 * static_cast<int>(std::floor(half)) + 1;
+}
+
+/// Of so many cells about `middle` in m, those whose centres a test holds to be inside.
+template <class Inside>
+SolidCells filledBy(const Vector3& middle, double spacing, const std::array<int, 3>& count, const Inside& inside) {
+  const Vector3 first = middle - 0.5 * spacing * Vector3(count[0] - 1, count[1] - 1, count[2] - 1);
+  return {first, cellsWithin(count, [&](int x, int y, int z) { return inside(first + spacing * Vector3(x, y, z)); })};
+}
+
+SolidCells orMiddle(SolidCells filled, const Vector3& middle) {
+  return filled.cells.empty() ? SolidCells{middle, {{0, 0, 0}}} : std::move(filled);
+}
+
+/// Whole layers, as many as come closest.
+SolidCells filledBlock(const Vector3& size, double spacing) {
+  std::array<int, 3> count;
+  for (size_t a = 0; a < 3; ++a) count[a] = static_cast<int>(layersAlong(size[a], spacing));
+  return filledBy({}, spacing, count, [](const Vector3&) { return true; });
+}
+
+}  // namespace
+
+SolidInside::SolidInside(const SolidShape& shape) : m_form(std::make_unique<const SolidForm>(shape)) {
+  if (m_form->kind() != SolidForm::Kind::Mesh || !shape.mesh) return;
+  m_winding = windingOf(shape.mesh);
+  const MeshBounds bounds = boundsOf(*shape.mesh);
+  m_meshMiddle = (bounds.minimum + bounds.maximum) / 2;
+  const Vector3 extent = bounds.maximum - bounds.minimum;
+  m_toMesh = extent.cwiseQuotient(m_form->size());
+}
+
+SolidInside::~SolidInside() = default;
+
+bool SolidInside::holds(const Vector3& own) const {
+  if (!m_winding) return m_form->holds(own);
+  if ((own.cwiseAbs().array() > 0.5 * m_form->size().array()).any()) return false;
+  return m_winding->at(m_meshMiddle + own.cwiseProduct(m_toMesh)) > kInside;
+}
+
+SolidCells fillSolid(const SolidShape& shape, double spacing) {
+  const SolidInside solid(shape);
+  const Vector3& size = solid.form().size();
+  if (solid.form().kind() == SolidForm::Kind::Block) return filledBlock(size, spacing);
+  const double wanted = solid.form().volume() / (spacing * spacing * spacing);
+  SolidCells best;
+  double missed = HUGE_VAL;
+  for (int way = 0; way < 8; ++way) {
+    std::array<int, 3> count;
+    bool suits = true;
+    for (size_t a = 0; a < 3; ++a) {
+      const bool even = (way >> a & 1) != 0;
+      count[a] = layersOf(size[a], spacing, even);
+      suits = suits && even == (std::lround(size[a] / spacing) % 2 == 0);
+    }
+    if (wanted > kSmall && !suits) continue;
+    SolidCells one = filledBy({}, spacing, count, [&](const Vector3& own) { return solid.holds(own); });
+    const double miss = std::abs(static_cast<double>(one.cells.size()) - wanted);
+    if (one.cells.empty() || miss >= missed) continue;
+    missed = miss;
+    best = std::move(one);
+  }
+  return orMiddle(std::move(best), {});
+}
+
+std::vector<api::Double3> solidPlaces(const SolidShape& shape, double spacing) {
+  const SolidForm form(shape);
+  const SolidCells filled = fillSolid(shape, spacing);
+  std::vector<api::Double3> places;
+  places.reserve(filled.cells.size());
+  for (const auto& [x, y, z] : filled.cells)
+    places.push_back(double3Of(form.toScene(filled.first + spacing * Vector3(x, y, z))));
+  return places;
+}
+
+SolidCells cellsInScene(const SolidShape& shape, double spacing) {
+  const SolidInside solid(shape);
+  const SolidForm& form = solid.form();
+  if (!form.isTurned()) {
+    SolidCells own = fillSolid(shape, spacing);
+    own.first += form.middle();
+    return own;
+  }
+  std::array<int, 3> count;
+  const Vector3 extent = form.extent();
+  for (size_t a = 0; a < 3; ++a) count[a] = layersOf(extent[a], spacing, false);
+  return orMiddle(filledBy(form.middle(), spacing, count, [&](const Vector3& p) { return solid.holds(form.toOwn(p)); }),
+                  form.middle());
+}
+
+}  // namespace ps

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "core/scene/project.h"
+
+#include <array>
+#include <memory>
+#include <vector>
+
+namespace ps {
+
+class MeshWinding;
+class SolidForm;
+
+/// Tells which places lie in a solid of any kind.
+class SolidInside {
+ public:
+  explicit SolidInside(const SolidShape& shape);
+  ~SolidInside();
+  const SolidForm& form() const { return *m_form; }
+  /// Of a place along the solid's own axes, m from its middle. May be called from any thread.
+  bool holds(const Vector3& own) const;
+
+ private:
+  std::unique_ptr<const SolidForm> m_form;
+  std::shared_ptr<const MeshWinding> m_winding;  ///< of a mesh
+  Vector3 m_toMesh, m_meshMiddle;                ///< scale and shift from the solid's own axes to those of its mesh
+};
+
+/// Cells of a cubic lattice along the solid's own axes whose centres lie in it; cell (0, 0, 0) is centred at `first`.
+struct SolidCells {
+  Vector3 first;                          ///< m, along its own axes
+  std::vector<std::array<int, 3>> cells;  ///< in order of z, y, x
+};
+
+/// The lattice lies symmetrically in the solid: along each axis, cells or faces of cells lie in its middle, as makes the
+/// number of cells come closest to its volume where it is small, else as suits its size. At least one cell. Tells its
+/// steps to the thread's Progress.
+SolidCells fillSolid(const SolidShape& shape, double spacing);
+/// Centres of the same in the scene, m.
+std::vector<api::Double3> solidPlaces(const SolidShape& shape, double spacing);
+/// Cells of a lattice along the scene's axes that lie in the solid, in order of z, y, x; cell (0, 0, 0) is centred at
+/// `first`. For a solid that is not turned, the same matter as solidPlaces().
+SolidCells cellsInScene(const SolidShape& shape, double spacing);
+
+}  // namespace ps

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/scene/solidform.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string_view>
+
+namespace ps {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+SolidForm::Kind kindOf(std::string_view name) {
+  uint8_t kind = 0;
+  std::string_view rest = kSolidKinds;
+  while (!rest.empty()) {
+    const size_t bar = std::min(rest.find('|'), rest.size());
+    if (rest.substr(0, bar) == name) return static_cast<SolidForm::Kind>(kind);
+    rest.remove_prefix(std::min(bar + 1, rest.size()));
+    ++kind;
+  }
+  return SolidForm::Kind::Ellipsoid;
+}
+
+double square(double x) { return x * x; }
+
+/// m3 of a ring around y whose tube is round: from slices across y, which may overlap in the middle. Simpson's rule in
+/// the angle along the tube.
+double torusVolume(double width, double thickness) {
+  const double tube = thickness / 2, ring = width / 2 - tube;
+  constexpr int kSlices = 256;
+  double sum = 0;
+  for (int k = 0; k <= kSlices; ++k) {
+    const double angle = kPi * k / kSlices, half = tube * std::sin(angle);
+    const double slice = kPi * (square(ring + half) - square(std::max(0.0, ring - half))) * tube * std::sin(angle);
+    sum += slice * (k == 0 || k == kSlices ? 1 : k % 2 == 1 ? 4 : 2);
+  }
+  return sum * kPi / kSlices / 3;
+}
+
+Vector3 pointOf(const SceneMesh& mesh, uint32_t index) {
+  const auto& p = mesh.points[index];
+  return {p[0], p[1], p[2]};
+}
+
+}  // namespace
+
+SolidForm::SolidForm(const SolidShape& shape) : m_mesh(shape.mesh) {
+  const api::ParameterList list = solidParameters();
+  const auto number = [&](const std::string& key) { return numberOf(shape.parameters, list, key.c_str()); };
+  const auto three = [&](const std::string& what) {
+    return Vector3(number(what + "_x"), number(what + "_y"), number(what + "_z"));
+  };
+  m_kind = kindOf(choiceOf(shape.parameters, list, "kind"));
+  m_size = three("size");
+  m_middle = three("position");
+  m_wall = number("wall");
+  const Vector3 degrees = three("rotation"), angle = degrees * kPi / 180;
+  m_isTurned = degrees != Vector3::Zero();
+  m_axes = m_isTurned
+               ? Matrix3((Eigen::AngleAxisd(angle[2], Vector3::UnitZ()) * Eigen::AngleAxisd(angle[1], Vector3::UnitY()) *
+                          Eigen::AngleAxisd(angle[0], Vector3::UnitX()))
+                             .toRotationMatrix())
+               : Matrix3(Matrix3::Identity());
+}
+
+bool SolidForm::holds(const Vector3& own) const {
+  const Vector3 r = own.cwiseQuotient(m_size) * 2;  // -1..1 across the shape
+  if ((r.array().abs() > 1).any()) return false;
+  const double across = r[0] * r[0] + r[2] * r[2];
+  switch (m_kind) {
+    case Kind::Block:
+      return true;
+    case Kind::Ellipsoid:
+      return r.squaredNorm() <= 1;
+    case Kind::Cylinder:
+      return across <= 1;
+    case Kind::Cone:
+      return across <= square((1 - r[1]) / 2);
+    case Kind::Capsule: {
+      const double cap = std::min({m_size[0], m_size[1], m_size[2]}) / 2;  // along y
+      const double beyond = std::max(0.0, std::abs(own[1]) - (m_size[1] / 2 - cap)) / cap;
+      return across + beyond * beyond <= 1;
+    }
+    case Kind::Torus: {
+      const double tube = std::min(m_size[1], m_size[0]) / 2, ring = m_size[0] / 2 - tube;
+      return square(std::hypot(own[0], own[2] * m_size[0] / m_size[2]) - ring) + square(own[1] * tube * 2 / m_size[1]) <=
+             tube * tube;
+    }
+    case Kind::Tube: {
+      const double x = m_size[0] / 2 - m_wall, z = m_size[2] / 2 - m_wall;
+      return across <= 1 && (x <= 0 || z <= 0 || square(own[0] / x) + square(own[2] / z) >= 1);
+    }
+    case Kind::Mesh:
+      break;
+  }
+  return false;
+}
+
+double SolidForm::volume() const {
+  const double box = m_size.prod(), disc = kPi / 4 * box;
+  switch (m_kind) {
+    case Kind::Block:
+      return box;
+    case Kind::Ellipsoid:
+      return kPi / 6 * box;
+    case Kind::Cylinder:
+      return disc;
+    case Kind::Cone:
+      return disc / 3;
+    case Kind::Capsule: {
+      const double caps = m_size.minCoeff();
+      return kPi / 4 * m_size[0] * m_size[2] * (m_size[1] - caps + 2.0 / 3 * caps);
+    }
+    case Kind::Torus: {
+      const double thickness = std::min(m_size[1], m_size[0]);
+      return torusVolume(m_size[0], thickness) * m_size[1] / thickness * m_size[2] / m_size[0];
+    }
+    case Kind::Tube: {
+      const double x = std::max(0.0, m_size[0] - 2 * m_wall), z = std::max(0.0, m_size[2] - 2 * m_wall);
+      return kPi / 4 * m_size[1] * (m_size[0] * m_size[2] - x * z);
+    }
+    case Kind::Mesh:
+      break;
+  }
+  if (!m_mesh) return 0;
+  const MeshBounds bounds = boundsOf(*m_mesh);
+  const Vector3 extent = bounds.maximum - bounds.minimum;
+  return extent.minCoeff() > 0 ? std::abs(signedVolume(*m_mesh)) * m_size.cwiseQuotient(extent).prod() : 0;
+}
+
+MeshBounds boundsOf(const SceneMesh& mesh) {
+  if (mesh.points.empty()) return {};
+  MeshBounds bounds{pointOf(mesh, 0), pointOf(mesh, 0)};
+  for (uint32_t i = 1; i < mesh.points.size(); ++i) {
+    bounds.minimum = bounds.minimum.cwiseMin(pointOf(mesh, i));
+    bounds.maximum = bounds.maximum.cwiseMax(pointOf(mesh, i));
+  }
+  return bounds;
+}
+
+std::string problemOf(const SceneMesh& mesh) {
+  for (size_t i = 0; i < mesh.points.size(); ++i) {
+    for (const float c : mesh.points[i]) {
+      if (!std::isfinite(c)) return "point " + std::to_string(i) + " is no place in space";
+    }
+  }
+  for (size_t k = 0; k < mesh.triangles.size(); ++k) {
+    for (const uint32_t i : mesh.triangles[k]) {
+      if (i >= mesh.points.size()) return "triangle " + std::to_string(k) + " has a corner that does not exist";
+    }
+  }
+  return {};
+}
+
+double signedVolume(const SceneMesh& mesh) {
+  if (mesh.points.empty()) return 0;
+  const Vector3 origin = pointOf(mesh, 0);  // near the mesh: what lies far away loses its digits
+  double sum = 0;
+  for (const auto& t : mesh.triangles) {
+    const Vector3 a = pointOf(mesh, t[0]) - origin, b = pointOf(mesh, t[1]) - origin, c = pointOf(mesh, t[2]) - origin;
+    sum += a.dot(b.cross(c));
+  }
+  return sum / 6;
+}
+
+}  // namespace ps

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "core/scene/project.h"
+
+namespace ps {
+
+inline constexpr const char* kSolidKinds = "ellipsoid|block|cylinder|cone|capsule|torus|tube|mesh";
+
+/// What the parameters of a solid say, ready to be computed with. Its own axes are those along which its sizes are; its
+/// middle is the origin of them.
+class SolidForm {
+ public:
+  enum class Kind : uint8_t { Ellipsoid, Block, Cylinder, Cone, Capsule, Torus, Tube, Mesh };
+
+  explicit SolidForm(const SolidShape& shape);
+
+  Kind kind() const { return m_kind; }
+  const Vector3& size() const { return m_size; }      ///< m, along its own axes
+  const Vector3& middle() const { return m_middle; }  ///< m, in the scene
+  bool isTurned() const { return m_isTurned; }
+  Vector3 toScene(const Vector3& own) const { return m_middle + m_axes * own; }
+  Vector3 toOwn(const Vector3& place) const { return m_axes.transpose() * (place - m_middle); }
+  /// m, along the scene's axes, about its middle.
+  Vector3 extent() const { return m_axes.cwiseAbs() * m_size; }
+  /// Whether a place along its own axes, in m, lies in it. Not of a mesh: core/geometry knows that.
+  bool holds(const Vector3& own) const;
+  /// m3. Of a mesh: what its triangles enclose, at this size.
+  double volume() const;
+
+ private:
+  Kind m_kind;
+  Vector3 m_size, m_middle;
+  double m_wall = 0;
+  bool m_isTurned = false;
+  Matrix3 m_axes;
+  std::shared_ptr<const SceneMesh> m_mesh;
+};
+
+/// Corners of the box around a mesh, m.
+struct MeshBounds {
+  Vector3 minimum, maximum;
+};
+MeshBounds boundsOf(const SceneMesh& mesh);
+/// "" or what makes it no mesh: "point 3 is no place in space", "triangle 7 has a corner that does not exist".
+std::string problemOf(const SceneMesh& mesh);
+/// m3 that its triangles enclose, by the divergence theorem; below 0 where they are seen from inside. Of an open mesh it
+/// depends on where the holes are.
+double signedVolume(const SceneMesh& mesh);
+
+}  // namespace ps
