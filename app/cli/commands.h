@@ -17,6 +17,7 @@ int schemaCommand(CommandArguments arguments);
 int pluginsCommand(CommandArguments arguments);
 int casesCommand(CommandArguments arguments);
 int fitCommand(CommandArguments arguments);
+int importCommand(CommandArguments arguments);
 int soakCommand(CommandArguments arguments);
 
 std::string simulateHelp();
@@ -27,6 +28,7 @@ std::string schemaHelp();
 std::string pluginsHelp();
 std::string casesHelp();
 std::string fitHelp();
+std::string importHelp();
 std::string soakHelp();
 
 inline constexpr int kFine = 0, kFailed = 1, kBadInput = 2, kNoReturn = 3;

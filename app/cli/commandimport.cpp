@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/cli/commands.h"
+#include "app/cli/run.h"
+#include "core/base/error.h"
+#include "core/base/jsontext.h"
+#include "core/geometry/solidfill.h"
+#include "core/io/meshimport.h"
+#include "core/io/outputfile.h"
+#include "core/matter/material.h"
+#include "core/plugin_host/registry.h"
+#include "core/scene/solidform.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace ps::cli {
+namespace {
+
+constexpr OptionSpec kOptions[] = {
+    {"--out", "PROJECT.json", "the project that is written"},
+    {"--spacing", "M", "particle spacing in m; without it one that makes some 20,000 particles"},
+    {"--unit", "mm|cm|m|in", "length that the file means by 1; without it what it says itself, or m"},
+    {"--material", "ID", "what it is made of; without it the standard one"},
+    {"--structure", "ID", "the constraint plugin that holds it together where it is solid"},
+    {"--report", "FILE.json", "writes triangles, closed, mesh_volume, particles, particle_volume"},
+};
+constexpr double kParticles = 20000;  ///< without --spacing
+
+double spacingFor(const Arguments& arguments, const ImportedMesh& imported) {
+  const api::ParameterDeclaration& declared = *findDeclaration(solverParameters(), "particle_spacing");
+  const double least = declared.hardMinimum, most = declared.hardMaximum;
+  if (const auto given = arguments.number("--spacing", least, most)) return *given;
+  const double wanted = std::clamp(std::cbrt(imported.facts.volume / kParticles), least, most);
+  const double digit = std::pow(10, std::floor(std::log10(wanted)) - 1);
+  return std::clamp(std::round(wanted / digit) * digit, least, most);
+}
+
+SceneMaterial materialFor(const Arguments& arguments, const PluginRegistry& plugins) {
+  SceneMaterial material;
+  material.id = material.base = arguments.text("--material", plugins.standard(PluginKind::Material));
+  const Material* installed = plugins.material(material.base);
+  if (!installed) throw InputError("--material " + material.base + ": no such material is installed");
+  material.label = installed->label;
+  return material;
+}
+
+/// The body on a floor, in a box that gives it room to fall apart.
+Project projectOf(Body body, const SceneMaterial& material, double spacing, const PluginRegistry& plugins) {
+  Project project;
+  project.title = body.name;
+  project.solver.thermalModel = plugins.standard(PluginKind::Thermal);
+  project.solver.parameters.values["particle_spacing"] = spacing;
+  project.materials.push_back(material);
+  const Vector3 size = SolidForm(std::get<SolidShape>(body.shape)).size();
+  const double room = size.maxCoeff();
+  project.environment.boundsMinimum = {-size[0] / 2 - room, -room / 2, -size[2] / 2 - room};
+  project.environment.boundsMaximum = {size[0] / 2 + room, size[1] + room, size[2] / 2 + room};
+  SceneWall floor;
+  floor.id = "floor";
+  floor.name = "Floor";
+  project.environment.walls.push_back(floor);
+  project.bodies.push_back(std::move(body));
+  return project;
+}
+
+nlohmann::json reportOf(const ImportedMesh& imported, double spacing, size_t particles) {
+  return {{"triangles", imported.facts.triangles},
+          {"closed", imported.facts.closed()},
+          {"open_edges", imported.facts.openEdges},
+          {"metres_per_unit", imported.metresPerUnit},
+          {"unit_of_file", imported.unitIsOfFile},
+          {"mesh_volume", imported.facts.volume},
+          {"spacing", spacing},
+          {"particles", particles},
+          {"particle_volume", static_cast<double>(particles) * std::pow(spacing, 3)}};
+}
+
+}  // namespace
+
+std::string importHelp() {
+  return "phasesketch-cli import MESH --out PROJECT.json [options]\n\nMakes a project of a mesh (OBJ, STL, PLY, glTF, "
+         "FBX, 3MF and what else assimp reads), filled with particles and standing\non a floor. Open meshes are filled "
+         "by their winding number. The file is read in a process of its own, which can do no\nharm.\n\n" +
+         optionHelp(kOptions);
+}
+
+int importCommand(CommandArguments list) {
+  const Arguments arguments(list, kOptions);
+  const std::string path = onlyFile(arguments, "mesh");
+  if (!arguments.has("--out")) throw InputError("which project? give --out PROJECT.json");
+  const std::optional<double> unit = metresPer(arguments.text("--unit"));
+  if (arguments.has("--unit") && !unit)
+    throw InputError("--unit " + arguments.text("--unit") + ": must be mm, cm, m or in");
+  requireOutputs(arguments, {path}, {"--out", "--report"});
+  PluginRegistry plugins;
+  const SceneMaterial material = materialFor(arguments, plugins);
+  const ImportedMesh imported = importMesh(path, unit);
+  const double spacing = spacingFor(arguments, imported);
+  Body body = bodyOf(imported, 0);
+  body.material = material.id;
+  if (arguments.has("--structure")) {
+    const std::string structure = arguments.text("--structure");
+    if (!plugins.constraint(structure)) throw InputError("--structure " + structure + ": no such plugin is installed");
+    body.constraints.push_back({structure, {}, {}});
+  }
+  const double estimate = particleCount(body, spacing);
+  if (estimate > kMaximumParticles)
+    throw InputError(path + ": would be " + numberText(estimate) + " particles; give a larger --spacing or another --unit");
+  const size_t particles = fillSolid(std::get<SolidShape>(body.shape), spacing).cells.size();
+  saveProject(projectOf(std::move(body), material, spacing, plugins), arguments.text("--out"));
+  if (arguments.has("--report"))
+    writeFileAtomically(arguments.text("--report"), writeJson(reportOf(imported, spacing, particles)));
+  std::printf("%zu triangles, %s, %s m³ filled with %zu particles\n", imported.facts.triangles,
+              imported.facts.closed() ? "closed" : "open", numberText(imported.facts.volume).c_str(), particles);
+  return kFine;
+}
+
+}  // namespace ps::cli

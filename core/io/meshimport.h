@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "core/geometry/meshrepair.h"
+#include "core/scene/project.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace ps {
+
+/// m of "mm", "cm", "m" or "in"; nothing for other words.
+std::optional<double> metresPer(const std::string& unit);
+
+struct ImportedMesh {
+  std::shared_ptr<const SceneMesh> mesh;  ///< repaired, in m; its id and name follow from the file's name
+  MeshFacts facts;
+  double metresPerUnit = 1;
+  bool unitIsOfFile = false;  ///< it says so itself
+};
+
+/// Reads a mesh of any format that assimp knows (OBJ, STL, PLY, glTF, FBX, 3MF, ...), open or closed, in a process of its
+/// own, the program phasesketch-import beside this one, which may take 4 GiB and `patience` s: whatever the file holds,
+/// this process is safe. Without `metresPerUnit` the file's own unit holds, and where it says none, metres. What is
+/// broken is mended (see repair()). Asks the thread's Progress now and then whether to go on. Throws InputError
+/// "PATH: what is wrong, and what to do".
+ImportedMesh importMesh(const std::string& path, std::optional<double> metresPerUnit = std::nullopt,
+                        double patience = 120);
+
+/// A body of the mesh, standing on `floor` in m in the middle of the scene: all but its material.
+Body bodyOf(const ImportedMesh& imported, double floor);
+
+}  // namespace ps
