@@ -108,7 +108,8 @@ int importCommand(CommandArguments list) {
   }
   const double estimate = particleCount(body, spacing);
   if (estimate > kMaximumParticles)
-    throw InputError(path + ": would be " + numberText(estimate) + " particles; give a larger --spacing or another --unit");
+    throw InputError(path + ": would be " + numberText(estimate) +
+                     " particles; give a larger --spacing or another --unit");
   const size_t particles = fillSolid(std::get<SolidShape>(body.shape), spacing).cells.size();
   saveProject(projectOf(std::move(body), material, spacing, plugins), arguments.text("--out"));
   if (arguments.has("--report"))

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads one mesh of any format that assimp knows and writes its triangles to standard output: a process of its own, since
-// parsers of files that come from anywhere keep having faults. What it may take of the machine is limited, it writes no
-// file, and it reads none but those beside the mesh.
+// Reads one mesh of any format that assimp knows and writes its triangles to standard output: a process of its own,
+// since parsers of files that come from anywhere keep having faults. What it may take of the machine is limited, it
+// writes no file, and it reads none but those beside the mesh.
 #include "core/io/meshpipe.h"
 
 #include <assimp/DefaultIOSystem.h>
@@ -94,13 +94,13 @@ MeshFile readMesh(const std::string& path) {
   Assimp::Importer importer;
   importer.SetIOHandler(new Beside(path));  // which it deletes
   importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
-  importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS,
-                              static_cast<int>(aiComponent_NORMALS | aiComponent_TANGENTS_AND_BITANGENTS |
-                                               aiComponent_COLORS | aiComponent_TEXCOORDS | aiComponent_BONEWEIGHTS |
-                                               aiComponent_ANIMATIONS | aiComponent_TEXTURES | aiComponent_LIGHTS |
-                                               aiComponent_CAMERAS | aiComponent_MATERIALS));
-  const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate | aiProcess_SortByPType |
-                                                     aiProcess_RemoveComponent | aiProcess_PreTransformVertices);
+  importer.SetPropertyInteger(
+      AI_CONFIG_PP_RVC_FLAGS,
+      static_cast<int>(aiComponent_NORMALS | aiComponent_TANGENTS_AND_BITANGENTS | aiComponent_COLORS |
+                       aiComponent_TEXCOORDS | aiComponent_BONEWEIGHTS | aiComponent_ANIMATIONS | aiComponent_TEXTURES |
+                       aiComponent_LIGHTS | aiComponent_CAMERAS | aiComponent_MATERIALS));
+  const aiScene* scene = importer.ReadFile(
+      path, aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_RemoveComponent | aiProcess_PreTransformVertices);
   if (!scene) throw InputError(std::string("cannot be read as a mesh: ") + importer.GetErrorString());
   return {trianglesOf(*scene), metresPerUnit(*scene, fs::path(path).extension())};
 }

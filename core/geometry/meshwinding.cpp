@@ -74,10 +74,9 @@ uint32_t MeshWinding::build(std::vector<uint32_t>& order, const std::vector<Vect
     Eigen::Index axis = 0;
     (high - low).maxCoeff(&axis);
     const uint32_t middle = first + (last - first) / 2;
-    std::nth_element(order.begin() + first, order.begin() + middle, order.begin() + last,
-                     [&](uint32_t a, uint32_t b) {
-                       return centres[a][axis] != centres[b][axis] ? centres[a][axis] < centres[b][axis] : a < b;
-                     });
+    std::nth_element(order.begin() + first, order.begin() + middle, order.begin() + last, [&](uint32_t a, uint32_t b) {
+      return centres[a][axis] != centres[b][axis] ? centres[a][axis] < centres[b][axis] : a < b;
+    });
     node.left = build(order, centres, first, middle, mesh);
     node.right = build(order, centres, middle, last, mesh);
   }

@@ -20,9 +20,9 @@ class MeshWinding {
 
  private:
   struct Node {
-    Vector3 centre;       ///< m, of its triangles by area
-    Vector3 dipole;       ///< m2, sum of area times normal
-    double radius = 0;    ///< m about `centre`
+    Vector3 centre;                ///< m, of its triangles by area
+    Vector3 dipole;                ///< m2, sum of area times normal
+    double radius = 0;             ///< m about `centre`
     uint32_t first = 0, last = 0;  ///< of m_corners / 3
     uint32_t left = 0, right = 0;  ///< children; 0: a leaf
   };

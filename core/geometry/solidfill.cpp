@@ -12,8 +12,8 @@
 namespace ps {
 namespace {
 
-/// Cells up to which all ways to lay the lattice are tried.
-constexpr double kSmall = 4000;
+/// Cells up to which all ways to lay the lattice are tried; of meshes fewer, whose cells cost more.
+constexpr double kSmall = 100'000, kSmallMesh = 4000;
 constexpr double kInside = 0.5;  ///< of a winding number
 
 /// The tree of a mesh is made once for as long as somebody has use of it.
@@ -61,8 +61,11 @@ int layersOf(double extent, double spacing, bool even) {
 /// Of so many cells about `middle` in m, those whose centres a test holds to be inside.
 template <class Inside>
 SolidCells filledBy(const Vector3& middle, double spacing, const std::array<int, 3>& count, const Inside& inside) {
-  const Vector3 first = middle - 0.5 * spacing * Vector3(count[0] - 1, count[1] - 1, count[2] - 1);
-  return {first, cellsWithin(count, [&](int x, int y, int z) { return inside(first + spacing * Vector3(x, y, z)); })};
+  // Halves of whole numbers are exact, so that both sides of the middle get the same answer.
+  const Vector3 half = 0.5 * Vector3(count[0] - 1, count[1] - 1, count[2] - 1);
+  return {middle - spacing * half, cellsWithin(count, [&](int x, int y, int z) {
+            return inside(middle + spacing * (Vector3(x, y, z) - half));
+          })};
 }
 
 SolidCells orMiddle(SolidCells filled, const Vector3& middle) {
@@ -100,6 +103,7 @@ SolidCells fillSolid(const SolidShape& shape, double spacing) {
   const Vector3& size = solid.form().size();
   if (solid.form().kind() == SolidForm::Kind::Block) return filledBlock(size, spacing);
   const double wanted = solid.form().volume() / (spacing * spacing * spacing);
+  const double small = solid.form().kind() == SolidForm::Kind::Mesh ? kSmallMesh : kSmall;
   SolidCells best;
   double missed = HUGE_VAL;
   for (int way = 0; way < 8; ++way) {
@@ -110,7 +114,7 @@ SolidCells fillSolid(const SolidShape& shape, double spacing) {
       count[a] = layersOf(size[a], spacing, even);
       suits = suits && even == (std::lround(size[a] / spacing) % 2 == 0);
     }
-    if (wanted > kSmall && !suits) continue;
+    if (wanted > small && !suits) continue;
     SolidCells one = filledBy({}, spacing, count, [&](const Vector3& own) { return solid.holds(own); });
     const double miss = std::abs(static_cast<double>(one.cells.size()) - wanted);
     if (one.cells.empty() || miss >= missed) continue;

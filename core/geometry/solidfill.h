@@ -32,9 +32,9 @@ struct SolidCells {
   std::vector<std::array<int, 3>> cells;  ///< in order of z, y, x
 };
 
-/// The lattice lies symmetrically in the solid: along each axis, cells or faces of cells lie in its middle, as makes the
-/// number of cells come closest to its volume where it is small, else as suits its size. At least one cell. Tells its
-/// steps to the thread's Progress.
+/// The lattice lies symmetrically in the solid: along each axis, cells or faces of cells lie in its middle, as makes
+/// the number of cells come closest to its volume where it is small, else as suits its size. At least one cell. Tells
+/// its steps to the thread's Progress.
 SolidCells fillSolid(const SolidShape& shape, double spacing);
 /// Centres of the same in the scene, m.
 std::vector<api::Double3> solidPlaces(const SolidShape& shape, double spacing);

@@ -13,8 +13,8 @@ namespace {
 constexpr int64_t kMostElements = 100'000'000;
 constexpr int64_t kMostText = int64_t{3} << 29;
 
-/// Triples of numbers of 4 bytes, as a state's blocks have them. What cannot be unpacked is read as none: the check of a
-/// mesh says so, with its place.
+/// Triples of numbers of 4 bytes, as a state's blocks have them. What cannot be unpacked is read as none: the check of
+/// a mesh says so, with its place.
 template <StateType kType>
 struct PackedTriples : Plain {
   Json schema() const {

@@ -29,8 +29,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kProgram = "phasesketch-import";
-constexpr int kLook = 50;                         ///< ms between two questions whether to go on
-constexpr size_t kMostBytes = size_t{1} << 30;    ///< of what the process tells
+constexpr int kLook = 50;                             ///< ms between two questions whether to go on
+constexpr size_t kMostBytes = size_t{1} << 30;        ///< of what the process tells
 constexpr double kLeastSize = 1e-6, kMostSize = 1e4;  ///< m, as solids may have
 
 std::string importer() {

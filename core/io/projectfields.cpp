@@ -57,9 +57,8 @@ std::vector<Field<Project>> sceneRows() {
           .required(),
       field("meshes", &Project::meshes, List{Shared{Object{meshFields()}}}, "surfaces that bodies are of")
           .omittedWhen([](const Project& project) { return usedMeshes(project).empty(); })
-          .writtenAs([](const Project& project) {
-            return List{Shared{Object{meshFields()}}}.write(usedMeshes(project));
-          }),
+          .writtenAs(
+              [](const Project& project) { return List{Shared{Object{meshFields()}}}.write(usedMeshes(project)); }),
       field("bodies", &Project::bodies, List{Object{bodyFields(), "body"}}, "matter at the start").required(),
       field("emitters", &Project::emitters, List{Object{emitterFields()}}, "matter that comes while the scene runs"),
       field("sinks", &Project::sinks, List{Object{sinkFields()}}, "where matter goes"),

@@ -16,12 +16,18 @@ struct OwnerRow {
   int idParts;  ///< between owner and key
 };
 constexpr OwnerRow kRows[] = {
-    {Owner::Material, "material", 1},       {Owner::Wall, "wall", 1},
-    {Owner::Environment, "environment", 0}, {Owner::Solver, "solver", 0},
-    {Owner::Thermal, "thermal", 0},         {Owner::Body, "body", 1},
-    {Owner::Emitter, "emitter", 1},         {Owner::Sink, "sink", 1},
-    {Owner::Constraint, "constraint", 2},   {Owner::Scene, "scene", 0},
-    {Owner::HeatSource, "heat_source", 1},  {Owner::Probe, "probe", 1},
+    {Owner::Material, "material", 1},
+    {Owner::Wall, "wall", 1},
+    {Owner::Environment, "environment", 0},
+    {Owner::Solver, "solver", 0},
+    {Owner::Thermal, "thermal", 0},
+    {Owner::Body, "body", 1},
+    {Owner::Emitter, "emitter", 1},
+    {Owner::Sink, "sink", 1},
+    {Owner::Constraint, "constraint", 2},
+    {Owner::Scene, "scene", 0},
+    {Owner::HeatSource, "heat_source", 1},
+    {Owner::Probe, "probe", 1},
     {Owner::Shape, "shape", 1},
 };
 static_assert(std::size(kRows) == std::size(kOwners));

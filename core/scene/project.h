@@ -75,8 +75,8 @@ struct VoxelShape {
 /// The surface of a thing, as triangles: what a file of some other program holds. Shared by the bodies that are of its
 /// shape, and never changed.
 struct SceneMesh {
-  std::string id;    ///< unique in the scene
-  std::string name;  ///< shown to people
+  std::string id;                                  ///< unique in the scene
+  std::string name;                                ///< shown to people
   std::vector<std::array<float, 3>> points;        ///< m
   std::vector<std::array<uint32_t, 3>> triangles;  ///< of points; anticlockwise as seen from outside
   Unknown unknown{};
@@ -326,7 +326,8 @@ api::ParameterDeclaration structureParameter(const std::vector<std::string>& plu
 
 /// Layers of particles `spacing` m apart that fill an edge of a box: whole ones, at least one.
 double layersAlong(double edge, double spacing);
-/// Particles of a body at the start, of a solid to some hundredths. A double: what sizes ask for may be more than an integer holds.
+/// Particles of a body at the start, of a solid to some hundredths. A double: what sizes ask for may be more than an
+/// integer holds.
 double particleCount(const Body& body, double spacing);
 double particleCount(const Project& project);
 /// What a scene may have; more would not fit the memory of a large machine.

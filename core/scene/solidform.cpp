@@ -61,8 +61,8 @@ SolidForm::SolidForm(const SolidShape& shape) : m_mesh(shape.mesh) {
   const Vector3 degrees = three("rotation"), angle = degrees * kPi / 180;
   m_isTurned = degrees != Vector3::Zero();
   m_axes = m_isTurned
-               ? Matrix3((Eigen::AngleAxisd(angle[2], Vector3::UnitZ()) * Eigen::AngleAxisd(angle[1], Vector3::UnitY()) *
-                          Eigen::AngleAxisd(angle[0], Vector3::UnitX()))
+               ? Matrix3((Eigen::AngleAxisd(angle[2], Vector3::UnitZ()) *
+                          Eigen::AngleAxisd(angle[1], Vector3::UnitY()) * Eigen::AngleAxisd(angle[0], Vector3::UnitX()))
                              .toRotationMatrix())
                : Matrix3(Matrix3::Identity());
 }
@@ -87,7 +87,8 @@ bool SolidForm::holds(const Vector3& own) const {
     }
     case Kind::Torus: {
       const double tube = std::min(m_size[1], m_size[0]) / 2, ring = m_size[0] / 2 - tube;
-      return square(std::hypot(own[0], own[2] * m_size[0] / m_size[2]) - ring) + square(own[1] * tube * 2 / m_size[1]) <=
+      return square(std::hypot(own[0], own[2] * m_size[0] / m_size[2]) - ring) +
+                 square(own[1] * tube * 2 / m_size[1]) <=
              tube * tube;
     }
     case Kind::Tube: {

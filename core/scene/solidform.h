@@ -43,8 +43,8 @@ struct MeshBounds {
 MeshBounds boundsOf(const SceneMesh& mesh);
 /// "" or what makes it no mesh: "point 3 is no place in space", "triangle 7 has a corner that does not exist".
 std::string problemOf(const SceneMesh& mesh);
-/// m3 that its triangles enclose, by the divergence theorem; below 0 where they are seen from inside. Of an open mesh it
-/// depends on where the holes are.
+/// m3 that its triangles enclose, by the divergence theorem; below 0 where they are seen from inside. Of an open mesh
+/// it depends on where the holes are.
 double signedVolume(const SceneMesh& mesh);
 
 }  // namespace ps

@@ -8,7 +8,8 @@ namespace {
 
 using namespace declare;
 
-constexpr Range kEdge{0.1, 0.01, 1, 1e-6, 1e4}, kWall{0.01, 0.001, 0.1, 1e-6, 1e4}, kPlace{0, -1, 1, -1e4, 1e4}, kTurn{0, -180, 180, -3600, 3600};
+constexpr Range kEdge{0.1, 0.01, 1, 1e-6, 1e4}, kWall{0.01, 0.001, 0.1, 1e-6, 1e4}, kPlace{0, -1, 1, -1e4, 1e4},
+    kTurn{0, -180, 180, -3600, 3600};
 
 constexpr api::ParameterDeclaration size(Names names, const char* help, const char* example, Range range = kEdge) {
   return atReset(number(names, range, {"Shape", help, example, ""}));

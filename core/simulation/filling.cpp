@@ -14,7 +14,7 @@
 namespace ps {
 namespace {
 
-constexpr double kTold = 0.05;   ///< of a body's volume
+constexpr double kTold = 0.05;  ///< of a body's volume
 /// Particles of a solid from which on its lattice misses less of its volume than is told.
 constexpr double kSurelyFilled = 5000;
 constexpr double kFinest = 0.5;  ///< of the present spacing, down to which another one is sought

@@ -123,6 +123,12 @@ std::vector<std::pair<size_t, std::string>> periodProblems(const Project& projec
 
 std::string problemOfSceneWith(const Project& project, const PluginRegistry* plugins, const Address& address,
                                const Value& value) {
+  if (address.owner == Owner::Shape && value == Value(std::string("mesh"))) {
+    const auto body =
+        std::find_if(project.bodies.begin(), project.bodies.end(), [&](const Body& b) { return b.id == address.id; });
+    const auto* solid = body == project.bodies.end() ? nullptr : std::get_if<SolidShape>(&body->shape);
+    return solid && solid->mesh ? std::string() : "it has no mesh; Add, Import mesh… brings a body of one";
+  }
   const auto* number = std::get_if<double>(&value);
   if (!number) return {};
   if (address == kSpacing || address == kReach) {

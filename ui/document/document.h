@@ -79,6 +79,9 @@ class Document : public QObject {
   /// An id that no body and no emitter has had since the project was opened: "sketch-2". Matter of those that are gone
   /// may live on in the scene, or come back by undo.
   std::string freeBodyId(const std::string& stem);
+  /// A body more, last of all; its id gets a number when it is taken, and so does its mesh's where the scene has
+  /// another of that name. A mesh that is there already is shared. Returns the body's id.
+  std::string addBody(Body body);
   /// Takes a body out of the scene with its matter. Returns "" or why it stays.
   QString removeBody(const std::string& id);
   /// A copy on top of it. Returns "" or why there is none.

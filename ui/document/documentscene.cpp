@@ -58,7 +58,40 @@ bool isOf(const Body& body, const std::string& material) {
                                 [&](const VoxelShape::Paint& paint) { return paint.material == material; }));
 }
 
+/// The same triangles are one mesh, and others have an id of their own.
+void shareMesh(const Project& project, SolidShape& solid) {
+  const std::string stem = solid.meshId;
+  for (int n = 1;; ++n) {
+    const std::string id = n == 1 ? stem : stem + "-" + std::to_string(n);
+    const auto other = std::find_if(project.bodies.begin(), project.bodies.end(), [&](const Body& body) {
+      const auto* one = std::get_if<SolidShape>(&body.shape);
+      return one && one->mesh && one->mesh->id == id;
+    });
+    if (other == project.bodies.end()) {
+      auto mesh = std::make_shared<SceneMesh>(*solid.mesh);
+      mesh->id = solid.meshId = id;
+      solid.mesh = std::move(mesh);
+      return;
+    }
+    const auto& present = std::get<SolidShape>(other->shape).mesh;
+    if (present->points != solid.mesh->points || present->triangles != solid.mesh->triangles) continue;
+    solid.mesh = present;
+    solid.meshId = id;
+    return;
+  }
+}
+
 }  // namespace
+
+std::string Document::addBody(Body body) {
+  body.id = freeBodyId(body.id);
+  if (auto* solid = std::get_if<SolidShape>(&body.shape); solid && solid->mesh) shareMesh(m_project, *solid);
+  const std::string id = body.id;
+  const QString title = QStringLiteral("adding %1").arg(nameOf(body));
+  const size_t place = m_project.bodies.size();
+  m_undo.push(new BodiesCommand(*this, {BodyEdit{id, std::nullopt, std::move(body), place}}, title, newMatter()));
+  return id;
+}
 
 QString Document::removeBody(const std::string& id) {
   const Body* old = body(id);

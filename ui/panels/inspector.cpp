@@ -158,14 +158,15 @@ void Inspector::rebuildBody() {
     m_body->setModel({});
     return;
   }
-  const bool sketched = std::holds_alternative<VoxelShape>(body->shape);
+  constexpr const char* kShapes[] = {" · block", " · sketched", " · solid"};
   QString matter = QString::fromStdString(body->material);
   for (const SceneMaterial& material : m_document.project().materials) {
     if (material.id == body->material && !material.label.empty()) matter = QString::fromStdString(material.label);
   }
-  m_body->setHeader(nameOf(*body), matter + (sketched ? QStringLiteral(" · sketched") : QStringLiteral(" · block")));
+  m_body->setHeader(nameOf(*body), matter + QString::fromUtf8(kShapes[body->shape.index()]));
   if (auto material = rowModelOf(m_document, {Owner::Body, body->id, kBodyMaterialKey}))
     rows.push_back(std::move(*material));
+  if (std::holds_alternative<SolidShape>(body->shape)) addRows(rows, {Owner::Shape, body->id, ""}, solidParameters());
   addRows(rows, {Owner::Body, body->id, ""}, bodyParameters());
   const api::ParameterList motion = bodyMotionParameters();
   for (size_t i = 0; i < motion.count; ++i) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/window/mainwindow.h"
+#include "ui/window/bodyactions.h"
 
 #include "core/plugin_host/registry.h"
 #include "ui/curves/curvetarget.h"
@@ -177,9 +178,11 @@ void MainWindow::makeMenus() {
   m_edit = std::make_unique<EditActions>(m_session->document(), *m_selection, *outliner(), *m_inspector, m_actions,
                                          *m_notices);
   m_views = std::make_unique<ViewActions>(*m_session, viewport(), *m_layout, m_actions);
+  m_bodies = new BodyActions(*m_session, *m_selection, m_actions, *m_notices, this);
   m_sketch = std::make_unique<SketchActions>(*m_session, *m_tools, m_actions);
   m_files->makeMenu(bar->addMenu(QStringLiteral("File")), viewport());
   m_edit->makeMenu(bar->addMenu(QStringLiteral("Edit")));
+  m_bodies->makeMenu(bar->addMenu(QStringLiteral("Add")));
   m_views->makeMenu(bar->addMenu(QStringLiteral("View")));
   makeSimulationMenu(bar->addMenu(QStringLiteral("Simulation")));
   QMenu* sketch = bar->addMenu(QStringLiteral("Sketch"));
@@ -267,6 +270,7 @@ void MainWindow::connectParts() {
     }
   });
   connect(m_notices, &Notices::rowWanted, this, [this](const Address& address) { revealParameter(address); });
+  connect(m_bodies, &BodyActions::rowWanted, this, [this](const Address& address) { revealParameter(address, false); });
   connect(m_inspector, &Inspector::keyRefused, m_notices,
           [this](const QString& problem) { m_notices->refuse(QStringLiteral("No key was set."), problem); });
   connect(findChild<KeyRows*>(), &KeyRows::refused, m_notices,
@@ -358,7 +362,9 @@ void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
 
 void MainWindow::dropEvent(QDropEvent* event) {
   event->acceptProposedAction();
-  openFile(event->mimeData()->urls().front().toLocalFile());
+  const QString path = event->mimeData()->urls().front().toLocalFile();
+  if (BodyActions::isMesh(path)) return m_bodies->importMesh(path);
+  openFile(path);
 }
 
 void MainWindow::resizeEvent(QResizeEvent* event) {

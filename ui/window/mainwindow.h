@@ -14,6 +14,7 @@ class QStackedWidget;
 
 namespace ps {
 
+class BodyActions;
 class CurveTarget;
 class EditActions;
 class FileActions;
@@ -127,6 +128,7 @@ class MainWindow : public QMainWindow {
   FileActions* m_files = nullptr;
   PageChooser* m_pages = nullptr;
   std::unique_ptr<EditActions> m_edit;
+  BodyActions* m_bodies = nullptr;
   std::unique_ptr<ViewActions> m_views;
   std::unique_ptr<SketchActions> m_sketch;
   uint64_t m_warnedAt = 0;  ///< change count of work that a first attempt to close could not keep

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+// Solids and meshes come into the running scene by hands, are shaped by their rows, and go again.
+#include "core/geometry/solidfill.h"
+#include "core/io/projectio.h"
+#include "core/scene/solidform.h"
+#include "tests/ui/samplewindow.h"
+#include "ui/document/document.h"
+#include "ui/panels/inspector.h"
+#include "ui/rows/parameterpanel.h"
+#include "ui/session/selection.h"
+#include "ui/window/noticebar.h"
+
+#include <QtCore/QFile>
+#include <QtCore/QMimeData>
+#include <QtCore/QTemporaryDir>
+#include <QtCore/QUrl>
+#include <QtGui/QAction>
+#include <QtGui/QDropEvent>
+#include <QtWidgets/QPushButton>
+
+using namespace ps;
+
+class TestBodies : public SampleWindowTest {
+  Q_OBJECT
+ private Q_SLOTS:
+  void initTestCase() { open(); }
+  void init() { backToTheStart(); }
+  void cleanupTestCase() { m_window.reset(); }
+
+  void everySolidJoinsTheScene_data() {
+    QTest::addColumn<QString>("kind");
+    for (const char* kind : {"ellipsoid", "block", "cylinder", "cone", "capsule", "torus", "tube"})
+      QTest::newRow(kind) << QString::fromLatin1(kind);
+  }
+  void everySolidJoinsTheScene() {
+    QFETCH(QString, kind);
+    const std::string before = writeProject(document().project());
+    const size_t matter = idsNow(session()).size();
+    m_window->action(QStringLiteral("add.") + kind)->trigger();
+    QCOMPARE(document().project().bodies.size(), size_t{2});
+    const Body body = document().project().bodies.back();
+    const auto& solid = std::get<SolidShape>(body.shape);
+    QCOMPARE(session().document().undoStack().undoText(),
+             QStringLiteral("adding ") + QString::fromStdString(body.name));
+    const size_t particles = fillSolid(solid, 0.02).cells.size();
+    QTRY_COMPARE(idsNow(session()).size(), matter + particles);  // all of them: it came where nothing was
+    const std::string after = writeProject(document().project());
+    document().undoStack().undo();
+    QCOMPARE(writeProject(document().project()), before);
+    QTRY_COMPARE(idsNow(session()).size(), matter);
+    document().undoStack().redo();
+    QCOMPARE(writeProject(document().project()), after);
+  }
+
+  void rowsShapeABody() {
+    m_window->action(QStringLiteral("add.torus"))->trigger();
+    const std::string id = document().project().bodies.back().id;
+    const QString width = QStringLiteral("shape/%1/size_x").arg(QString::fromStdString(id));
+    QTRY_VERIFY(m_window->inspector().bodyPanel()->row(width));
+    QCOMPARE(document().setParameter({Owner::Shape, id, "size_x"}, 0.2), QString());
+    QCOMPARE(document().setParameter({Owner::Shape, id, "rotation_x"}, 90.0), QString());
+    QVERIFY(!document().setParameter({Owner::Shape, id, "size_y"}, 0.0).isEmpty());
+    toTheStart();
+    picture(QStringLiteral("solid.png"));
+    const auto& solid = std::get<SolidShape>(document().body(id)->shape);
+    QVERIFY(SolidForm(solid).extent().isApprox(Vector3(0.2, SolidForm(solid).size()[2], SolidForm(solid).size()[1])));
+    QCOMPARE(idsNow(session()).size(), 6000 + fillSolid(solid, 0.02).cells.size());
+  }
+
+  void aDroppedMeshIsImported() {
+    const std::string before = writeProject(document().project());
+    drop(QStringLiteral(PS_SOURCE_DIR "/resources/models/rabbit.obj"));
+    QTRY_COMPARE_WITH_TIMEOUT(document().project().bodies.size(), size_t{2}, kLong);
+    const std::string id = document().project().bodies.back().id;
+    QCOMPARE(id, std::string("rabbit"));
+    const Vector3 metres = SolidForm(std::get<SolidShape>(document().body(id)->shape)).size();
+    QPushButton* centimetres = noticeButton(*m_window, QStringLiteral("In cm"));
+    QVERIFY(centimetres);
+    QTRY_VERIFY(centimetres->isVisible());
+    picture(QStringLiteral("mesh-unit.png"));
+    centimetres->click();
+    QVERIFY(SolidForm(std::get<SolidShape>(document().body(id)->shape)).size().isApprox(metres / 100));
+    document().undoStack().undo();
+    QVERIFY(SolidForm(std::get<SolidShape>(document().body(id)->shape)).size().isApprox(metres));
+    // Once more: the same triangles are one mesh.
+    drop(QStringLiteral(PS_SOURCE_DIR "/resources/models/rabbit.obj"));
+    QTRY_COMPARE_WITH_TIMEOUT(document().project().bodies.size(), size_t{3}, kLong);
+    QCOMPARE(std::get<SolidShape>(document().project().bodies[1].shape).mesh,
+             std::get<SolidShape>(document().project().bodies[2].shape).mesh);
+    while (document().undoStack().canUndo()) document().undoStack().undo();
+    QCOMPARE(writeProject(document().project()), before);
+  }
+
+  void aBrokenMeshIsTold() {
+    QTemporaryDir folder;
+    QFile file(folder.filePath(QStringLiteral("broken.stl")));
+    QVERIFY(file.open(QIODevice::WriteOnly) && file.write("solid") == 5);
+    file.close();
+    drop(file.fileName());
+    QTRY_VERIFY_WITH_TIMEOUT(noticeButton(*m_window, QStringLiteral("Import another…")), kLong);
+    QVERIFY2(m_window->notice()->text().contains(QStringLiteral("cannot be read as a mesh")),
+             qPrintable(m_window->notice()->text()));
+    picture(QStringLiteral("mesh-broken.png"));
+    QCOMPARE(document().project().bodies.size(), size_t{1});
+  }
+
+ private:
+  void drop(const QString& path) {
+    QMimeData data;
+    data.setUrls({QUrl::fromLocalFile(path)});
+    const QPoint place(400, 300);
+    QDragEnterEvent enter(place, Qt::CopyAction, &data, Qt::LeftButton, {});
+    QApplication::sendEvent(m_window.get(), &enter);
+    QVERIFY(enter.isAccepted());
+    QDropEvent event(place, Qt::CopyAction, &data, Qt::LeftButton, {});
+    QApplication::sendEvent(m_window.get(), &event);
+  }
+};
+
+QTEST_MAIN(TestBodies)
+#include "tst_bodies.moc"

@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: Apache-2.0
+// Solids: their volumes against formulas, how lattices fill them, meshes and what they wind around, and their files.
+#include "core/geometry/meshrepair.h"
+#include "core/geometry/meshwinding.h"
+#include "core/geometry/solidfill.h"
+#include "core/io/projectio.h"
+#include "core/plugin_host/registry.h"
+#include "core/scene/solidform.h"
+#include "core/simulation/engine.h"
+#include "core/solver/solver.h"
+
+#include <QTest>
+
+#include <cmath>
+#include <numbers>
+#include <set>
+
+using namespace ps;
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+SolidShape solidOf(const char* kind, const Vector3& size, double wall = 0.04) {
+  SolidShape solid;
+  auto& values = solid.parameters.values;
+  values["kind"] = std::string(kind);
+  values["size_x"] = size[0], values["size_y"] = size[1], values["size_z"] = size[2];
+  values["wall"] = wall;
+  return solid;
+}
+
+/// A ball of radius 0.1 m, of so many rings of triangles; `open`: without its upper half.
+SceneMesh ballMesh(int rings, bool open = false) {
+  SceneMesh mesh;
+  mesh.id = "ball";
+  const int around = 2 * rings;
+  for (int i = 0; i <= rings; ++i) {
+    for (int j = 0; j < around; ++j) {
+      const double u = kPi * i / rings, v = 2 * kPi * j / around;
+      mesh.points.push_back({static_cast<float>(0.1 * std::sin(u) * std::cos(v)),
+                             static_cast<float>(-0.1 * std::cos(u)),
+                             static_cast<float>(0.1 * std::sin(u) * std::sin(v))});
+    }
+  }
+  for (int i = 0; i < (open ? rings / 2 : rings); ++i) {
+    for (int j = 0; j < around; ++j) {
+      const auto at = [&](int row, int column) { return static_cast<uint32_t>(row * around + column % around); };
+      mesh.triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+      mesh.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+    }
+  }
+  return mesh;
+}
+
+SolidShape meshSolid(SceneMesh mesh, const Vector3& size) {
+  SolidShape solid = solidOf("mesh", size);
+  solid.meshId = mesh.id;
+  solid.mesh = std::make_shared<const SceneMesh>(std::move(mesh));
+  return solid;
+}
+
+double filled(const SolidShape& solid, double spacing) {
+  return static_cast<double>(fillSolid(solid, spacing).cells.size()) * std::pow(spacing, 3);
+}
+
+Project projectOf(const SolidShape& solid, double spacing) {
+  Project project;
+  SceneMaterial water;
+  water.id = water.base = "water";
+  project.materials.push_back(water);
+  Body body;
+  body.id = "solid";
+  body.material = "water";
+  body.shape = solid;
+  project.bodies.push_back(body);
+  project.solver.parameters.values["particle_spacing"] = spacing;
+  return project;
+}
+
+}  // namespace
+
+class TstSolids : public QObject {
+  Q_OBJECT
+ private Q_SLOTS:
+  void volumesAreThoseOfFormulas_data() {
+    QTest::addColumn<QString>("kind");
+    QTest::addColumn<double>("x");  // m, sizes
+    QTest::addColumn<double>("y");
+    QTest::addColumn<double>("z");
+    QTest::addColumn<double>("volume");  // m3
+    const auto row = [](const char* kind, double x, double y, double z, double volume) {
+      QTest::newRow(kind) << QString(kind) << x << y << z << volume;
+    };
+    row("block", 0.1, 0.2, 0.3, 0.006);
+    row("ellipsoid", 0.2, 0.2, 0.2, 4.0 / 3 * kPi * 1e-3);
+    row("cylinder", 0.2, 0.3, 0.1, kPi / 4 * 0.2 * 0.3 * 0.1);
+    row("cone", 0.2, 0.3, 0.2, kPi / 3 * 0.01 * 0.3);
+    row("capsule", 0.1, 0.3, 0.1, kPi * 0.0025 * 0.2 + 4.0 / 3 * kPi * 0.05 * 0.05 * 0.05);
+    row("torus", 0.5, 0.1, 0.5, 2 * kPi * kPi * 0.2 * 0.05 * 0.05);
+    row("tube", 0.2, 0.3, 0.2, kPi * (0.01 - 0.0036) * 0.3);
+  }
+  void volumesAreThoseOfFormulas() {
+    QFETCH(QString, kind);
+    QFETCH(double, x);
+    QFETCH(double, y);
+    QFETCH(double, z);
+    QFETCH(double, volume);
+    const SolidShape solid = solidOf(kind.toLatin1(), {x, y, z});
+    const double told = SolidForm(solid).volume();
+    QVERIFY2(std::abs(told / volume - 1) < 1e-9, qPrintable(QString::number(told / volume, 'g', 12)));
+    // A lattice of which some forty cells lie across: the surface's share of cells, at random, is a few thousandths.
+    const double spacing = std::cbrt(volume) / 40, share = filled(solid, spacing) / volume;
+    QVERIFY2(std::abs(share - 1) < 0.01, qPrintable(QString::number(share)));
+  }
+
+  /// Whatever the lattice, what it fills is symmetrical, and few cells miss the volume by less than one of them in ten.
+  void smallSolidsHaveTheRightVolume() {
+    for (const double cells : {5.0, 6.5, 8.0, 11.0}) {
+      const SolidShape ball = solidOf("ellipsoid", Vector3::Constant(0.1));
+      const double share = filled(ball, 0.1 / cells) / SolidForm(ball).volume();
+      QVERIFY2(std::abs(share - 1) < 0.1, qPrintable(QString::number(share)));
+      Vector3 sum;
+      for (const api::Double3& p : solidPlaces(ball, 0.1 / cells)) sum += vectorOf(p);
+      QVERIFY(sum.norm() < 1e-9);
+    }
+    QCOMPARE(fillSolid(solidOf("torus", {0.01, 0.001, 0.01}), 0.1).cells.size(), size_t{1});  // never nothing
+  }
+
+  void aTurnedSolidIsTheSameMatterElsewhere() {
+    SolidShape solid = solidOf("cone", {0.1, 0.3, 0.1});
+    const std::vector<api::Double3> upright = solidPlaces(solid, 0.01);
+    auto& values = solid.parameters.values;
+    values["rotation_z"] = 90.0;
+    values["position_x"] = 0.5;
+    const std::vector<api::Double3> lying = solidPlaces(solid, 0.01);
+    QCOMPARE(lying.size(), upright.size());
+    for (size_t i = 0; i < lying.size(); ++i) {  // about z by 90 degrees: x becomes y, y becomes -x
+      QVERIFY(std::abs(lying[i].x - (0.5 - upright[i].y)) < 1e-12);
+      QVERIFY(std::abs(lying[i].y - upright[i].x) < 1e-12);
+    }
+    QVERIFY((SolidForm(solid).extent() - Vector3(0.3, 0.1, 0.1)).norm() < 1e-12);
+    // As cells along the scene's axes, when a brush cuts it, it keeps its volume.
+    values["rotation_z"] = 30.0;
+    const double cells = static_cast<double>(cellsInScene(solid, 0.01).cells.size());
+    QVERIFY2(std::abs(cells / static_cast<double>(upright.size()) - 1) < 0.05, qPrintable(QString::number(cells)));
+  }
+
+  void windingTellsInsideFromOutside() {
+    SceneMesh mesh = ballMesh(32);
+    repair(mesh);
+    const MeshWinding winding(mesh);
+    for (int k = 0; k < 200; ++k) {  // a spiral through all of space around it
+      const double r = 0.3 * (k + 0.5) / 200, a = 2.4 * k, h = std::cos(1.7 * k);
+      const Vector3 p = r * Vector3(std::sqrt(1 - h * h) * std::cos(a), h, std::sqrt(1 - h * h) * std::sin(a));
+      if (std::abs(r - 0.1) < 0.002) continue;  // among its facets
+      const double wanted = r < 0.1 ? 1 : 0;
+      // 0.05: what the paper's figure 8 shows of dipoles at twice their radius.
+      QVERIFY2(std::abs(winding.at(p) - wanted) < 0.05, qPrintable(QString("%1 m: %2").arg(r).arg(winding.at(p))));
+    }
+    // The lower half of a ball: in the middle of its opening half of all directions see it.
+    SceneMesh half = ballMesh(32, true);
+    repair(half);
+    QVERIFY(!factsOf(half).closed());
+    const MeshWinding open(half);
+    QVERIFY(std::abs(open.at({0, 0, 0}) - 0.5) < 0.02);
+    QVERIFY(open.at({0, -0.06, 0}) > 0.6);
+    QVERIFY(open.at({0, 0.06, 0}) < 0.4);
+  }
+
+  void meshesAreMended() {
+    SceneMesh mesh = ballMesh(16);
+    // Every triangle with corners of its own, two of them without an area, all of them seen from inside.
+    SceneMesh soup;
+    for (const auto& t : mesh.triangles) {
+      const auto first = static_cast<uint32_t>(soup.points.size());
+      for (const uint32_t i : t) soup.points.push_back(mesh.points[i]);
+      soup.triangles.push_back({first, first + 2, first + 1});
+    }
+    soup.points.push_back({7, 7, 7});
+    soup.triangles.push_back({0, 0, 1});
+    repair(soup);
+    const MeshFacts facts = factsOf(soup);
+    QVERIFY(facts.closed());
+    QVERIFY(signedVolume(soup) > 0);
+    QCOMPARE(soup.points.size(), size_t{15 * 32 + 2});
+    QCOMPARE(facts.triangles, size_t{2 * 15 * 32});
+    // Sixteen frusta of pyramids over polygons of 32 corners; points are in single precision.
+    double wanted = 0;
+    const auto polygon = [](int ring) {
+      return 16 * std::pow(0.1 * std::sin(kPi * ring / 16), 2) * std::sin(kPi / 16);
+    };
+    for (int i = 0; i < 16; ++i) {
+      const double a = polygon(i), b = polygon(i + 1);
+      wanted += 0.1 * (std::cos(kPi * i / 16) - std::cos(kPi * (i + 1) / 16)) / 3 * (a + b + std::sqrt(a * b));
+    }
+    QVERIFY(std::abs(facts.volume / wanted - 1) < 1e-6);
+    SceneMesh broken = ballMesh(4);
+    broken.points[3][1] = std::numeric_limits<float>::quiet_NaN();
+    QVERIFY_THROWS_EXCEPTION(InputError, repair(broken));
+    broken = ballMesh(4);
+    broken.triangles[3][1] = 4000;
+    QVERIFY_THROWS_EXCEPTION(InputError, repair(broken));
+  }
+
+  void aMeshIsFilledAtAnySize() {
+    SceneMesh mesh = ballMesh(48);
+    repair(mesh);
+    const SolidShape solid = meshSolid(mesh, {0.2, 0.4, 0.1});
+    const double volume = SolidForm(solid).volume();
+    QVERIFY(std::abs(volume / (kPi / 6 * 0.008) - 1) < 0.01);
+    QVERIFY(std::abs(filled(solid, 0.008) / volume - 1) < 0.01);
+    // An open one fills to the plane of its rim, which a winding number of a half finds.
+    SceneMesh half = ballMesh(32, true);
+    repair(half);
+    const double share = filled(meshSolid(half, {0.2, 0.1, 0.2}), 0.005) / (2.0 / 3 * kPi * 1e-3);
+    QVERIFY2(share > 0.9 && share < 1.05, qPrintable(QString::number(share)));
+  }
+
+  void solidsOutliveAFile() {
+    PluginRegistry plugins;
+    SceneMesh mesh = ballMesh(8);
+    repair(mesh);
+    Project project = projectOf(meshSolid(mesh, {0.2, 0.2, 0.2}), 0.02);
+    Body twin = project.bodies[0];
+    twin.id = "twin";
+    std::get<SolidShape>(twin.shape).parameters.values["position_x"] = 0.5;
+    project.bodies.push_back(twin);
+    const std::string text = writeProject(project);
+    QCOMPARE(text.find("\"triangles\""), text.rfind("\"triangles\""));  // one mesh for both
+    const Project again = parseProject(text, "solids.json", plugins).project;
+    const auto& first = std::get<SolidShape>(again.bodies[0].shape);
+    QVERIFY(first.mesh && first.mesh == std::get<SolidShape>(again.bodies[1].shape).mesh);
+    QVERIFY(first.mesh->points == mesh.points && first.mesh->triangles == mesh.triangles);
+    QCOMPARE(writeProject(again), text);
+    const Engine engine(again, plugins);
+    QCOMPARE(engine.solver().particles().size(), 2 * fillSolid(first, 0.02).cells.size());
+  }
+
+  void brokenMeshesNameTheirPlace() {
+    PluginRegistry plugins;
+    SceneMesh mesh = ballMesh(8);
+    repair(mesh);
+    const std::string text = writeProject(projectOf(meshSolid(mesh, {0.2, 0.2, 0.2}), 0.02));
+    const auto problem = [&](const std::string& edit) -> std::string {
+      try {
+        parseProject(text, "p.json", plugins, {edit});
+      } catch (const InputError& error) {
+        return error.what();
+      }
+      return {};
+    };
+    QVERIFY(problem("meshes/ball/points/data=AAAA").find("p.json:/meshes/0/points") == 0);
+    QVERIFY(problem("meshes/ball/triangles/count=7").find("p.json:/meshes/0/triangles") == 0);
+    QVERIFY(problem("bodies/solid/shape/solid/mesh=cube").find("p.json:/bodies/0/shape/solid/mesh") == 0);
+    QVERIFY(problem("bodies/solid/shape/solid/size_x=0").find("p.json:/bodies/0/shape/solid/size_x") == 0);
+    QVERIFY(problem("bodies/solid/shape/solid/kind=egg").find("p.json:/bodies/0/shape/solid/kind") == 0);
+    QVERIFY(problem("bodies/solid/shape/solid/size_x=0.1").empty());
+  }
+};
+
+QTEST_GUILESS_MAIN(TstSolids)
+#include "tst_solids.moc"

@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/window/bodyactions.h"
+
+#include "core/matter/material.h"
+#include "core/plugin_host/registry.h"
+#include "core/scene/solidform.h"
+#include "core/simulation/declared.h"
+#include "core/simulation/snapshot.h"
+#include "ui/document/document.h"
+#include "ui/session/selection.h"
+#include "ui/session/session.h"
+#include "ui/session/worker.h"
+#include "ui/theme/numbers.h"
+#include "ui/window/actions.h"
+#include "ui/window/noticebar.h"
+#include "ui/window/notices.h"
+
+#include <QtCore/QFileInfo>
+#include <QtCore/QTimer>
+#include <QtWidgets/QFileDialog>
+#include <QtWidgets/QMainWindow>
+#include <QtWidgets/QMenu>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace ps {
+namespace {
+
+struct SolidRow {
+  const char *kind, *name;
+};
+constexpr SolidRow kSolids[] = {{"ellipsoid", "Ball"},  {"block", "Block"}, {"cylinder", "Cylinder"}, {"cone", "Cone"},
+                                {"capsule", "Capsule"}, {"torus", "Ring"},  {"tube", "Tube"}};
+constexpr double kOfScene = 0.2;  ///< size of a new solid, of the scene's narrower side
+constexpr int kPatience = 300;    ///< ms until reading is told of
+constexpr const char* kTopic = "mesh";
+constexpr const char* kMeshes =
+    "Meshes (*.obj *.stl *.ply *.gltf *.glb *.fbx *.3mf *.dae *.3ds *.off *.x3d *.wrl *.blend);;All files (*)";
+
+/// With two digits.
+double rounded(double value) {
+  const double digit = std::pow(10, std::floor(std::log10(value)) - 1);
+  return std::round(value / digit) * digit;
+}
+
+/// m, the highest that stands within a column about the middle of the scene, as it is now and as bodies begin.
+double topOf(const Snapshot* now, const Vector3& middle, const Vector3& size, double floor) {
+  double top = floor;
+  for (size_t i = 0; now && i < now->position.size(); ++i) {
+    const api::Float4& p = now->position[i];
+    if (std::abs(p.x - middle[0]) <= size[0] / 2 + p.w && std::abs(p.z - middle[2]) <= size[2] / 2 + p.w)
+      top = std::max(top, double{p.y} + p.w);
+  }
+  return top;
+}
+
+/// m, of the highest wall that matter can stand on; where there is none the lower end of the scene.
+double floorOf(const Environment& environment) {
+  double floor = environment.boundsMinimum[1];
+  for (const SceneWall& wall : environment.walls) {
+    if (wall.normal[1] > 0.9 * wall.normal.norm()) floor = std::max(floor, wall.point[1]);
+  }
+  return floor;
+}
+
+SolidShape& solidOf(Body& body) { return std::get<SolidShape>(body.shape); }
+
+QString sizeText(const Vector3& size) {
+  return QStringLiteral("%1 × %2 × %3 m").arg(formatNumber(size[0]), formatNumber(size[1]), formatNumber(size[2]));
+}
+
+}  // namespace
+
+BodyActions::BodyActions(Session& session, Selection& selection, const Actions& actions, Notices& notices,
+                         QObject* parent)
+    : QObject(parent), m_session(session), m_selection(selection), m_actions(actions), m_notices(notices) {}
+
+BodyActions::~BodyActions() { stopReading(); }
+
+void BodyActions::makeMenu(QMenu* menu) {
+  for (const SolidRow& row : kSolids) {
+    const QString name = QString::fromLatin1(row.name);
+    QAction* action = m_actions.add(menu, QStringLiteral("add.") + QString::fromLatin1(row.kind),
+                                    QStringLiteral("Add body: %1").arg(name.toLower()), {},
+                                    [this, kind = std::string(row.kind), name] { addSolid(kind, name); });
+    action->setToolTip(QStringLiteral("A body of the current material, above what is in the middle of the scene."));
+  }
+  menu->addSeparator();
+  m_actions.add(menu, QStringLiteral("add.mesh"), QStringLiteral("Import mesh…"),
+                {QKeySequence(QStringLiteral("Ctrl+I"))}, [this] { chooseMesh(); });
+}
+
+bool BodyActions::isMesh(const QString& path) {
+  const QString ending = QStringLiteral("*.") + QFileInfo(path).suffix().toLower();
+  const QString meshes = QString::fromLatin1(kMeshes);
+  const qsizetype open = meshes.indexOf(QLatin1Char('(')) + 1, close = meshes.indexOf(QLatin1Char(')'));
+  return meshes.mid(open, close - open).split(QLatin1Char(' ')).contains(ending);
+}
+
+void BodyActions::chooseMesh() {
+  const QString path =
+      QFileDialog::getOpenFileName(&m_actions.window(), QStringLiteral("Import a mesh"),
+                                   QFileInfo(m_session.document().path()).path(), QString::fromLatin1(kMeshes));
+  if (!path.isEmpty()) importMesh(path);
+}
+
+void BodyActions::addSolid(const std::string& kind, const QString& name) {
+  const Environment& environment = m_session.document().project().environment;
+  const Vector3 room = environment.boundsMaximum - environment.boundsMinimum;
+  const double size = rounded(kOfScene * std::min(room[0], room[2]));
+  Body body;
+  body.id = kind;
+  body.name = name.toStdString();
+  SolidShape solid;
+  auto& values = solid.parameters.values;
+  values["kind"] = kind;
+  values["size_x"] = size;
+  values["size_y"] = kind == "torus" ? rounded(size / 4) : size;
+  values["size_z"] = size;
+  if (kind == "tube") values["wall"] = rounded(size / 5);
+  body.shape = std::move(solid);
+  add(std::move(body));
+}
+
+/// Above what is there, and within the scene where that is high enough.
+void BodyActions::add(Body body) {
+  Document& document = m_session.document();
+  const Environment& environment = document.project().environment;
+  const SolidForm form(solidOf(body));
+  const Vector3 middle = (environment.boundsMinimum + environment.boundsMaximum) / 2;
+  const double spacing = numberOf(document.project().solver.parameters, solverParameters(), "particle_spacing");
+  const double floor = floorOf(environment), top = topOf(m_session.newest().get(), middle, form.size(), floor);
+  const double lowest = floor + form.size()[1] / 2, highest = environment.boundsMaximum[1] - form.size()[1] / 2;
+  auto& values = solidOf(body).parameters.values;
+  values["position_x"] = middle[0];
+  values["position_y"] = std::max(lowest, std::min(highest, lowest + (top > floor ? top - floor + spacing : 0)));
+  values["position_z"] = middle[2];
+  document.beginGesture(QStringLiteral("adding %1").arg(QString::fromStdString(body.name)));
+  body.material = m_selection.material();
+  if (body.material.empty()) body.material = document.addMaterial(document.plugins()->standard(PluginKind::Material));
+  const Value melts =
+      valueAt(document.project(), document.plugins(), {Owner::Material, body.material, "melting_temperature"});
+  const auto* melting = std::get_if<double>(&melts);
+  const std::string structure = frozenStructure(*document.plugins());
+  if (melting && numberOf(body.parameters, bodyParameters(), "temperature") < *melting && !structure.empty())
+    body.constraints.push_back({structure, {}, {}});
+  const std::string id = document.addBody(std::move(body));
+  document.endGesture();
+  m_selection.selectBody(id);
+  Q_EMIT rowWanted({Owner::Shape, id, "kind"});
+}
+
+void BodyActions::importMesh(const QString& path) {
+  stopReading();
+  m_reading = std::make_shared<Progress>();
+  QTimer::singleShot(kPatience, this, [this, path, reading = m_reading] {
+    if (reading == m_reading) showReading(path);
+  });
+  m_session.worker().run([this, path, reading = m_reading] {
+    const ProgressScope scope(reading.get());
+    auto imported = std::make_shared<ImportedMesh>();
+    QString problem;
+    try {
+      *imported = ps::importMesh(path.toStdString());
+    } catch (const Cancelled&) {
+      return;
+    } catch (const std::exception& error) {
+      problem = QString::fromUtf8(error.what());
+    }
+    QMetaObject::invokeMethod(this, [this, path, reading, imported, problem] {
+      if (reading == m_reading) onImported(path, imported, problem);
+    });
+  });
+}
+
+void BodyActions::showReading(const QString& path) {
+  m_notices.bar().show(QString::fromLatin1(kTopic), MessageLevel::Info,
+                       QStringLiteral("Reading “%1”.").arg(QFileInfo(path).fileName()), {},
+                       {{QStringLiteral("Cancel"), [this] { stopReading(); }}});
+}
+
+void BodyActions::stopReading() {
+  if (m_reading) m_reading->cancel();
+  m_reading.reset();
+}
+
+void BodyActions::onImported(const QString& path, const std::shared_ptr<ImportedMesh>& imported,
+                             const QString& problem) {
+  m_reading.reset();
+  m_notices.bar().close(QString::fromLatin1(kTopic));
+  const QString name = QFileInfo(path).fileName();
+  if (!problem.isEmpty()) {
+    m_session.log().add(MessageLevel::Error, name, problem);
+    m_notices.bar().show(QString::fromLatin1(kTopic), MessageLevel::Error,
+                         QStringLiteral("“%1” was not imported.").arg(name),
+                         QString(problem).remove(path + QStringLiteral(": ")) + QLatin1Char('.'),
+                         {{QStringLiteral("Import another…"), [this] { chooseMesh(); }}});
+    return;
+  }
+  add(bodyOf(*imported, 0));
+  m_session.log().add(MessageLevel::Ok, name,
+                      QStringLiteral("Imported: %1 triangles, %2.")
+                          .arg(imported->facts.triangles)
+                          .arg(imported->facts.closed() ? QStringLiteral("closed")
+                                                        : QStringLiteral("open; filled where it encloses most")));
+  if (!imported->unitIsOfFile) askUnit(m_selection.body(), *imported);
+}
+
+/// The file does not say what its numbers mean: metres are tried, and others a click away.
+void BodyActions::askUnit(const std::string& id, const ImportedMesh& imported) {
+  const Body* body = m_session.document().body(id);
+  if (!body) return;
+  const Vector3 size = SolidForm(std::get<SolidShape>(body->shape)).size();
+  std::vector<NoticeBar::Button> buttons;
+  for (const char* unit : {"mm", "cm", "in"}) {
+    const double factor = *metresPer(unit) / imported.metresPerUnit;
+    buttons.push_back(
+        {QStringLiteral("In %1").arg(QString::fromLatin1(unit)), [this, id, factor] { setUnit(id, factor); }});
+  }
+  m_notices.bar().show(QString::fromLatin1(kTopic), MessageLevel::Info,
+                       QStringLiteral("“%1” does not say its unit.").arg(QString::fromStdString(body->name)),
+                       QStringLiteral("Taken as metres it is %1.").arg(sizeText(size)), std::move(buttons));
+}
+
+void BodyActions::setUnit(const std::string& id, double factor) {
+  Document& document = m_session.document();
+  const Body* body = document.body(id);
+  const auto* solid = body ? std::get_if<SolidShape>(&body->shape) : nullptr;
+  m_notices.bar().close(QString::fromLatin1(kTopic));
+  if (!solid) return;
+  const Vector3 size = SolidForm(*solid).size() * factor;
+  const double floor = floorOf(document.project().environment);
+  std::vector<std::pair<Address, Value>> values;
+  for (size_t a = 0; a < 3; ++a)
+    values.emplace_back(Address{Owner::Shape, id, std::string("size_") + "xyz"[a]}, Value(size[a]));
+  values.emplace_back(Address{Owner::Shape, id, "position_y"}, Value(floor + size[1] / 2));
+  m_notices.refuse(
+      QStringLiteral("The unit stays as it was."),
+      document.setParameters(values, QStringLiteral("unit of %1").arg(QString::fromStdString(body->name))));
+}
+
+}  // namespace ps

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "core/base/progress.h"
+#include "core/io/meshimport.h"
+#include "core/scene/project.h"
+
+#include <QtCore/QObject>
+#include <QtCore/QString>
+
+#include <memory>
+
+class QMenu;
+
+namespace ps {
+
+class Actions;
+class Notices;
+class Selection;
+class Session;
+
+/// What brings whole bodies into the scene: solids of every kind, and meshes from files. They come to stand above what
+/// is in the middle of the scene, and join it at once.
+class BodyActions : public QObject {
+  Q_OBJECT
+ public:
+  BodyActions(Session& session, Selection& selection, const Actions& actions, Notices& notices,
+              QObject* parent = nullptr);
+  ~BodyActions() override;
+  void makeMenu(QMenu* menu);
+  /// Reads a mesh in the background and adds it; what goes wrong is told over the view.
+  void importMesh(const QString& path);
+  /// By its ending, one of those that meshes have.
+  static bool isMesh(const QString& path);
+
+ Q_SIGNALS:
+  void rowWanted(const ps::Address& address);  ///< of what has come
+
+ private:
+  void chooseMesh();
+  void addSolid(const std::string& kind, const QString& name);
+  void add(Body body);
+  void onImported(const QString& path, const std::shared_ptr<ImportedMesh>& imported, const QString& problem);
+  void askUnit(const std::string& id, const ImportedMesh& imported);
+  void setUnit(const std::string& id, double factor);
+  void showReading(const QString& path);
+  void stopReading();
+
+  Session& m_session;
+  Selection& m_selection;
+  const Actions& m_actions;
+  Notices& m_notices;
+  std::shared_ptr<Progress> m_reading;  ///< of the mesh that is being read; nullptr: none is
+};
+
+}  // namespace ps
