@@ -74,6 +74,7 @@ const FieldTable<VoxelShape>& voxelFields() {
 }
 
 namespace {
+
 const FieldTable<SolidShape>& solidFields() {
   static const FieldTable<SolidShape> table{
       .help = "a solid of any size, at any pose",

@@ -199,6 +199,7 @@ void Blocks::beginRun(const std::string& head) {
   if (++m_runs > 1) content.earlier.emplace_back();
   run().number = begun.number;
   run().apart = begun.apart;
+  run().name = begun.name;
   content.runs = std::max(content.runs, begun.number);
   for (const uint32_t number : begun.shared) {
     if (const auto state = m_states.find(number); state != m_states.end()) add(*state->second);

@@ -115,6 +115,7 @@ std::string headOf(const RunHead& run) {
   BytePacker packer;
   packer.value(run.number);
   packer.value(run.apart);
+  packer.text(run.name);
   packer.value(static_cast<uint64_t>(run.shared.size()));
   packer.array(run.shared, run.shared.size());
   return packer.bytes();
@@ -122,7 +123,7 @@ std::string headOf(const RunHead& run) {
 
 RunHead readRun(const std::string& head, const std::string& where) {
   ByteUnpacker unpacker(head, where);
-  RunHead run{unpacker.value<uint64_t>(), unpacker.value<double>(), {}};
+  RunHead run{unpacker.value<uint64_t>(), unpacker.value<double>(), unpacker.text(), {}};
   const auto count = unpacker.value<uint64_t>();
   unpacker.array(run.shared, count);
   unpacker.finish();

@@ -30,6 +30,7 @@ inline constexpr uint32_t kNone = 0xFFFFFFFF;
 struct RunHead {
   uint64_t number = 1;
   double apart = 0;
+  std::string name{};
   std::vector<uint32_t> shared;  ///< blocks of states and frames that are its own too
 };
 struct StateHead {

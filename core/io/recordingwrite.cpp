@@ -174,7 +174,7 @@ void RecordingWriter::Impl::addEdits(const std::vector<FrameEdit>& edits) {
 
 /// States stand before what was seen after them.
 void RecordingWriter::Impl::addRun(const KeptRun& run) {
-  RunHead head{run.number, run.apart, {}};
+  RunHead head{run.number, run.apart, run.name, {}};
   const auto isShared = [&](const std::shared_ptr<const void>& packed) {
     const auto found = known.find(packed);
     if (found != known.end()) head.shared.push_back(found->second);
