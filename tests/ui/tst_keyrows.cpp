@@ -79,6 +79,19 @@ class TestKeyRows : public CurveWindowTest {
     QCOMPARE(document().undoStack().count(), m_steps);
   }
 
+  void aDragEndsWhereTheRowsAreHidden() {
+    const QPoint from = rows().placeOf(kFloor, 2);
+    QTest::mousePress(&rows(), Qt::LeftButton, {}, from);
+    QTest::mouseMove(&rows(), from + QPoint(30, 0));
+    QCOMPARE(document().undoStack().count(), m_steps + 1);
+    rows().hide();
+    for (const double kelvin : {400.0, 410.0}) QCOMPARE(document().setParameter(kFloor, kelvin), QString());
+    QCOMPARE(document().undoStack().count(), m_steps + 3);  // two steps of their own
+    rows().show();
+    QTest::mouseRelease(&rows(), Qt::LeftButton, {}, from);
+    QCOMPARE(document().undoStack().count(), m_steps + 3);
+  }
+
   /// Keys get other numbers by undo: a chosen one stays the one of its time, or is none.
   void deleteAfterUndoTakesTheChosenKey() {
     QCOMPARE(document().putKey(kFloor, 1, 500), QString());

@@ -198,6 +198,15 @@ class TestResponse : public QObject {
     QVERIFY(std::abs(table.integral(50) + 50 * table.at(100)) < 1e-9);
   }
 
+  /// A step is baked as wide as the grid is, and its integral, which is heat, is off by half of that at most.
+  void aStepIsAsWideAsTheGrid() {
+    const Response stepped = curve({{300, 2, ToNext::Step}, {350, 5, ToNext::Step}, {400, 5}});
+    const ResponseTable table(stepped, 300, 400, 201);  // half a kelvin
+    QCOMPARE(table.at(349.4), 2.0);
+    QCOMPARE(table.at(350.1), 5.0);
+    QVERIFY(std::abs(table.integral(400) - (2 * 50 + 5 * 50)) <= 0.5 * 0.5 * 3 + 1e-9);
+  }
+
   void tablesFollowTheirResponse() {
     const Response response = law("vogel", {-4.61726, 247.8, 140});
     const ResponseTable table(response, 1, 3000, 2048);

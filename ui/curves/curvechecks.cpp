@@ -96,7 +96,8 @@ void addSolver(const CurveTarget& target, std::vector<CurveCheck>& checks) {
   const size_t all = target.now(0, 1).count, above = target.countAbove(*most);
   if (all == 0) return;
   const double share = 100 * static_cast<double>(all - above) / static_cast<double>(all);
-  checks.push_back({Kind::Fine, QStringLiteral("The solver follows %1 % of the particles").arg(formatShort(share, 2))});
+  checks.push_back({2 * above > all ? Kind::News : Kind::Fine,
+                    QStringLiteral("The solver follows %1 % of the particles").arg(formatShort(share, 2))});
   if (above > 0)
     checks.push_back({Kind::Warning, QStringLiteral("%1 particles are above %2, as far as the solver follows")
                                          .arg(counted(above), formatValue(target.declaration(), *most))});

@@ -211,6 +211,12 @@ void KeyRows::mouseReleaseEvent(QMouseEvent*) {
   endDrag(true);
 }
 
+/// No release comes to what is hidden: the document's gesture would stay open.
+void KeyRows::hideEvent(QHideEvent*) {
+  m_box.reset();
+  endDrag(true);
+}
+
 void KeyRows::endDrag(bool keep) {
   if (!m_drag) return;
   const Drag drag = *m_drag;
