@@ -64,7 +64,7 @@ class TestKeys : public SampleWindowTest {
     QCOMPARE(document().putKey({Owner::Scene, "", "gravity"}, 1, 3), QString());
     step("another parameter", 3);
     document().beginGesture();
-    for (int k = 1; k <= 5; ++k) QCOMPARE(moveKey(1, 2 + 0.1 * k, 350 + k), QString());
+    for (int k = 1; k <= 5; ++k) QCOMPARE(document().moveKey(kFloor, 1, 2 + 0.1 * k, 350 + k), QString());
     document().endGesture();
     step("a drag", 4);
     QCOMPARE(document().setWay(kFloor, 0, ToNext::Smooth), QString());
@@ -88,21 +88,27 @@ class TestKeys : public SampleWindowTest {
   void aDragThatEndsWhereItBeganIsNoStep() {
     QCOMPARE(document().putKey(kFloor, 1, 350), QString());
     document().beginGesture();
-    QCOMPARE(moveKey(0, 2, 360), QString());
-    QCOMPARE(moveKey(0, 1, 350), QString());
+    QCOMPARE(document().moveKey(kFloor, 0, 2, 360), QString());
+    QCOMPARE(document().moveKey(kFloor, 0, 1, 350), QString());
     document().endGesture();
     QCOMPARE(document().undoStack().count(), 1);
   }
 
-  void keysAreInOrderAndInRange() {
+  void keysStayBetweenTheirNeighboursAndInRange() {
     for (const double time : {0.0, 1.0, 2.0}) QCOMPARE(document().putKey(kFloor, time, 350), QString());
-    QVERIFY(moveKey(1, 2, 350).contains(QStringLiteral("same time as the key before it")));
-    QVERIFY(moveKey(1, 1, 1e9).contains(QStringLiteral("at 1 s must be at most 10000 K")));
+    QCOMPARE(document().moveKey(kFloor, 1, 7, 350), QString());
+    QVERIFY(timesOf(document(), kFloor)[1] < 2);
+    QCOMPARE(document().moveKey(kFloor, 1, -3, 350), QString());
+    QVERIFY(timesOf(document(), kFloor)[1] > 0);
+    QVERIFY(document().moveKey(kFloor, 1, 1, 1e9).contains(QStringLiteral("at 1 s must be at most 10000 K")));
+    std::vector<TrackKey> twice = document().track(kFloor)->keys;
+    twice[1].time = twice[2].time;
+    QVERIFY(document().setKeys({{kFloor, twice}}, {}).contains(QStringLiteral("same time as the key before it")));
     QVERIFY(document().putKey(kFloor, 1.5, -5).contains(QStringLiteral("must be at least 1 K")));
     QVERIFY(document().putKey({Owner::Wall, "floor", "heat"}, 0, 1).contains(QStringLiteral("is a choice")));
     QVERIFY(document().putKey({Owner::Body, "ice", "velocity_x"}, 0, 1).contains(QStringLiteral("not held in place")));
     QVERIFY(document().putKey({Owner::Solver, "", "particle_spacing"}, 0, 0.02).contains(QStringLiteral("the start")));
-    QCOMPARE(document().undoStack().count(), 3);
+    QCOMPARE(document().undoStack().count(), 5);
   }
 
   /// A body that goes takes its tracks out of the file, and brings them back.
@@ -369,12 +375,6 @@ class TestKeys : public SampleWindowTest {
     });
     QContextMenuEvent ask(QContextMenuEvent::Keyboard, QPoint(20, 10), row.mapToGlobal(QPoint(20, 10)));
     QApplication::sendEvent(&row, &ask);
-  }
-  QString moveKey(size_t key, double time, double value) {
-    std::vector<TrackKey> keys = document().track(kFloor)->keys;
-    keys[key].time = time;
-    keys[key].value = value;
-    return document().setKeys({{kFloor, std::move(keys)}}, QStringLiteral("moving"));
   }
   /// With Ctrl; the button stays down.
   void dragCopy(size_t key, const QPoint& to) {

@@ -139,6 +139,8 @@ class Document : public QObject {
   QString whyNoKeys(const Address& address) const;  ///< "" or why it can have none, as a sentence
   /// A key at a time in s, or another value of the one that is there. Returns "" or why there is none.
   QString putKey(const Address& address, double time, double value);
+  /// It stays between its neighbours. Returns "" or why it stays where it is.
+  QString moveKey(const Address& address, size_t index, double time, double value);
   void removeKey(const Address& address, size_t index);  ///< the last takes the track with it
   QString setWay(const Address& address, size_t index, ToNext way);
   void removeTrack(const Address& address);  ///< of a curve those of all its points

@@ -81,6 +81,19 @@ QString Document::putKey(const Address& address, double time, double value) {
   return setKeys({{address, std::move(keys)}}, QStringLiteral("key of %1").arg(trackTitle(address)));
 }
 
+QString Document::moveKey(const Address& address, size_t index, double time, double value) {
+  const Track* old = track(address);
+  if (!old || index >= old->keys.size()) return {};
+  std::vector<TrackKey> keys = old->keys;
+  // It stays between its neighbours.
+  const double least = index > 0 ? keys[index - 1].time + 2 * keySlack() : 0;
+  const double most = index + 1 < keys.size() ? keys[index + 1].time - 2 * keySlack() : 1e9;
+  keys[index].time =
+      std::round(std::clamp(time, std::min(least, keys[index].time), std::max(most, keys[index].time)) * 1e6) / 1e6;
+  keys[index].value = value;
+  return setKeys({{address, std::move(keys)}}, QStringLiteral("moving a key of %1").arg(trackTitle(address)));
+}
+
 void Document::removeKey(const Address& address, size_t index) {
   const Track* old = track(address);
   if (!old || index >= old->keys.size()) return;
