@@ -6,6 +6,7 @@ uniform sampler2D fluidTexture;
 uniform int fluidScale;  // 0: no liquid
 uniform float width;     // of the line, pixels
 uniform vec3 tint;       // sRGB
+uniform vec3 halo;
 out vec4 colour;
 
 float ghostAt(vec2 at) { return texelFetch(ghostTexture, clamp(ivec2(at), ivec2(0), ivec2(size.xy) - 1), 0).r; }
@@ -24,7 +25,8 @@ void main() {
     away = max(away, ghostAt(gl_FragCoord.xy + width * vec2(cos(angle), sin(angle))));
   }
   bool line = away > ghost + 8.0 * radius;
-  bool stripe = mod(gl_FragCoord.x + gl_FragCoord.y, 6.0 * width) < 1.5 * width;
-  colour = vec4(tint, line ? 0.95 : stripe ? 0.7 : 0.25);
+  float across = mod(gl_FragCoord.x + gl_FragCoord.y, 6.0 * width);
+  colour = vec4(tint, line ? 0.95 : across < 1.5 * width ? 0.75 : 0.22);
+  if (!line && across >= 1.5 * width && across < 2.75 * width) colour = vec4(halo, 0.45);
   if (!before) colour.a *= 0.5;
 }

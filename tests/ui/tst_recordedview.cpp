@@ -337,9 +337,12 @@ class TestRecordedView : public SampleWindowTest {
     QCOMPARE(rows.size(), qsizetype{kFrames + 3});
     QVERIFY(std::abs(rows[kFrames + 1].split(',')[3].toDouble() - difference) < 1e-9);
     QVERIFY(rows.back().split(',')[2].isEmpty() && rows.back().split(',')[3].isEmpty());
+    const std::string with = writeProject(document().project());
     document().undoStack().undo();
     QCOMPARE(writeProject(document().project()), before);
     QCOMPARE(view->axes().size(), axes);
+    document().undoStack().redo();
+    QCOMPARE(writeProject(document().project()), with);
   }
 
   /// By its row's menu: what it was, whenever it was changed, also in the run before a branch and after scrubbing.
@@ -415,6 +418,8 @@ class TestRecordedView : public SampleWindowTest {
     picture("tst_recordedview_names.png");
     session().recorded().goOnWith(1);
     QTRY_COMPARE_WITH_TIMEOUT(session().recorded().earlier().front().number, uint64_t{3}, kLong);
+    // The one that was left is compared, wherever it stands among the others.
+    QTRY_COMPARE_WITH_TIMEOUT(session().recorded().compared(), std::optional<uint64_t>(3), kLong);
     QTRY_VERIFY_WITH_TIMEOUT(!session().engine()->making(), kLong);
     session().recorded().goOnWith(3);
     QTRY_COMPARE_WITH_TIMEOUT(session().recorded().runName(1), QStringLiteral("as it was"), kLong);

@@ -373,7 +373,7 @@ void TestRender::aGhostIsToldApart() {
   o.size.still = still;
   const auto plain = renderImage(renderer, now, tray(), o);
   const Vector3 place{0.15, 0.3, 0};
-  o.look.ghost = Ghost{sphereAt(place), {1, 0, 1}, 1.5f};
+  o.look.ghost = Ghost{sphereAt(place), {1, 0, 1}, {1, 1, 1}, 1.5f};
   const auto shown = renderImage(renderer, now, tray(), o);
   const Vector3 centre = *project(o.camera, kWidth, kHeight, place);
   const double radius = 0.08 / pixelSize(o.camera, kHeight, 1.5);

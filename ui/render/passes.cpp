@@ -290,6 +290,7 @@ void Passes::drawGhost(const Job& job) {
   glUniform1i(program.at("fluidScale"), prepared.instances.liquids() ? m_quality.fluidScale : 0);
   glUniform1f(program.at("width"), frame.ghostWidth);
   glUniform3fv(program.at("tint"), 1, prepared.look.ghost->colour.data());
+  glUniform3fv(program.at("halo"), 1, prepared.look.ghost->halo.data());
   drawTiles(m_ghostTiles, frame.ghostTiles);
   glDisable(GL_BLEND);
 }

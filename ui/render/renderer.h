@@ -28,12 +28,12 @@ struct BodyOutline {
 };
 
 /// Matter of another run over the picture: one colour, hatched and with a line around it, so that it is told apart
-/// without the colour too; fainter where something stands before it, nothing where both have their matter at one place.
-/// What is fixed is left out.
+/// without the colour too, and with a halo beside each stripe, so that it shows on any ground; fainter where something
+/// stands before it, nothing where both have their matter at one place. What is fixed is left out.
 struct Ghost {
   SnapshotPtr matter;
-  std::array<float, 3> colour{};  ///< sRGB
-  float lineWidth = 1.5f;         ///< device pixels
+  std::array<float, 3> colour{}, halo{};  ///< sRGB
+  float lineWidth = 1.5f;                 ///< device pixels
   bool operator==(const Ghost&) const = default;
 };
 

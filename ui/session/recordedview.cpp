@@ -153,6 +153,7 @@ void RecordedView::continueFromHere() {
   m_continuing = QStringLiteral("The run goes on from %1. As it was, up to %2, it is kept as run %3.")
                      .arg(clockText(m_shown->stats.time), clockText(newest->stats.time))
                      .arg(record()->present());
+  m_left = record()->present();
   m_session.engine()->continueFrom(m_shown->stats.frame, true);
 }
 
@@ -166,6 +167,7 @@ void RecordedView::goOnWith(uint64_t run) {
   m_continuing = QStringLiteral("Run %1 goes on from its end; the one before is kept as run %2.")
                      .arg(run)
                      .arg(record()->present());
+  m_left = record()->present();
   m_session.engine()->goOnWith(run);
 }
 
@@ -261,8 +263,8 @@ void RecordedView::follow(const SnapshotPtr& newest) {
     return std::any_of(runs.begin(), runs.end(),
                        [&](const RunRecord::EarlierRun& run) { return run.number == number; });
   };
-  if (!continuing.isEmpty() && !runs.empty())
-    compare(runs.back().number);
+  if (!continuing.isEmpty() && isKept(m_left))
+    compare(m_left);
   else if (m_compared && !isKept(*m_compared))
     compare(std::nullopt);
   if (!continuing.isEmpty()) m_session.log().add(MessageLevel::Info, QStringLiteral("Timeline"), continuing);

@@ -95,6 +95,7 @@ class RecordedView : public QObject {
   bool m_hasGhost = false, m_ghostBusy = false;
   std::pair<uint64_t, double> m_ghostAt;  ///< run and time in s of what was unpacked last
   SnapshotPtr m_ghost;
+  uint64_t m_left = 0;   ///< number of the run that was left last
   QString m_continuing;  ///< what to tell when the engine has gone there
 };
 

@@ -40,8 +40,8 @@ Look Viewport::look() {
   look.meltingPoint = meltingPoint();
   look.outline = outline();
   if (m_ghost)
-    look.ghost =
-        Ghost{m_ghost, channels(Theme::current()[Token::Curve]), 1.5f * static_cast<float>(devicePixelRatioF())};
+    look.ghost = Ghost{m_ghost, channels(Theme::current()[Token::Curve]), channels(Theme::current()[Token::Field]),
+                       1.5f * static_cast<float>(devicePixelRatioF())};
   return look;
 }
 
