@@ -206,6 +206,8 @@ void EngineThread::forgetRun(uint64_t run) { m->record.forgetRun(run); }
 void EngineThread::renameRun(uint64_t run, const std::string& name) { m->record.rename(run, name); }
 
 const RunRecord& EngineThread::recording() const { return m->record; }
+void EngineThread::forgetRecordedOnDisk() { m->record.forgetDisk(); }
+void EngineThread::setRecordBudget(RecordBudget budget) { m->record.setBudget(std::move(budget)); }
 
 std::optional<Progress::State> EngineThread::making() const {
   const std::lock_guard lock(m->mutex);

@@ -303,10 +303,10 @@ void EngineThread::Impl::publishEdits() {
 }
 
 EngineThread::EngineThread(PluginRegistry& plugins, std::function<void()> published)
-    : EngineThread(plugins, std::move(published), RunRecord::usualBudget()) {}
+    : EngineThread(plugins, std::move(published), RecordBudget{RunRecord::usualBudget()}) {}
 
-EngineThread::EngineThread(PluginRegistry& plugins, std::function<void()> published, size_t recordBytes)
-    : m(std::make_unique<Impl>(plugins, std::move(published), recordBytes)) {
+EngineThread::EngineThread(PluginRegistry& plugins, std::function<void()> published, RecordBudget budget)
+    : m(std::make_unique<Impl>(plugins, std::move(published), std::move(budget))) {
   m->thread = std::jthread([impl = m.get()](const std::stop_token& stop) { impl->run(stop); });
 }
 

@@ -16,6 +16,7 @@ namespace ps {
 class Engine;
 class PluginRegistry;
 class RunRecord;
+struct RecordBudget;
 struct RunContent;
 
 /// What a thread's edits have cost so far.
@@ -32,8 +33,7 @@ class EngineThread {
  public:
   /// `published` is called on the engine's thread after each new snapshot and event, and when making a scene begins.
   EngineThread(PluginRegistry& plugins, std::function<void()> published);
-  /// The record of its runs may take `recordBytes`.
-  EngineThread(PluginRegistry& plugins, std::function<void()> published, size_t recordBytes);
+  EngineThread(PluginRegistry& plugins, std::function<void()> published, RecordBudget budget);  ///< of its record
   ~EngineThread();
 
   /// Replaces the scene; one that is being made is given up. A project that holds a state opens there, paused: who kept
@@ -57,6 +57,8 @@ class EngineThread {
 
   /// What the run was at each frame, as far as it is kept; a reset, an opening and a return to a state begin anew.
   const RunRecord& recording() const;
+  void setRecordBudget(RecordBudget budget);
+  void forgetRecordedOnDisk();
   /// Goes on from a recorded frame: the state before it, and all edits since, again up to that frame. Then the project
   /// acts as it is by now: going back in time takes back no edit. The run as it was is kept beside it.
   void continueFrom(uint64_t frame, bool play);

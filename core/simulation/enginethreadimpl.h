@@ -22,10 +22,10 @@ namespace ps {
 struct EngineThread::Impl {
   static constexpr double kPatience = 10;  // s that a plugin may take for one call
 
-  Impl(PluginRegistry& registry, std::function<void()> callback, size_t recordBytes)
+  Impl(PluginRegistry& registry, std::function<void()> callback, RecordBudget budget)
       : plugins(registry),
         published(std::move(callback)),
-        record(recordBytes),
+        record(std::move(budget)),
         watch(
             kPatience, [this](const std::string& id) { isLate(id); }, [this](const std::string& id) { isBack(id); }) {}
 

@@ -62,6 +62,11 @@ size_t PackedBytes::inMemory() const {
   return m_bytes ? m_place.size : 0;
 }
 
+size_t PackedBytes::kept() const {
+  const std::lock_guard lock(m_mutex);
+  return m_bytes || m_own ? m_place.size : 0;
+}
+
 void PackedBytes::moveTo(const std::shared_ptr<StoredFile>& file) const {
   std::shared_ptr<const std::string> bytes;
   {

@@ -38,6 +38,7 @@ class PackedBytes {
   uint64_t rawSize() const { return m_place.raw; }
   uint64_t checksum() const { return m_place.checksum; }
   size_t inMemory() const;  ///< bytes; 0: they are in a file
+  size_t kept() const;      ///< bytes in memory or in a file of ours; 0: in somebody else's
   /// Into a file of ours. Throws Error where the disk is full, and they stay in memory.
   void moveTo(const std::shared_ptr<StoredFile>& file) const;
 

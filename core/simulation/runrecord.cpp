@@ -35,7 +35,7 @@ bool changesDocument(const RecordedEdit& edit) {
          std::holds_alternative<UpdateProject>(*command);
 }
 
-RunRecord::RunRecord(size_t budget) : m(std::make_unique<Impl>(budget)) {
+RunRecord::RunRecord(RecordBudget budget) : m(std::make_unique<Impl>(std::move(budget))) {
   m->thread = std::jthread([impl = m.get()](const std::stop_token& stop) { impl->loop(stop); });
 }
 
@@ -48,6 +48,16 @@ size_t RunRecord::usualBudget() {
   constexpr double kLeast = 64.0 * (1 << 20), kMost = 16.0 * (1 << 30);
   const double quarter = memoryNow().free / 4;
   return static_cast<size_t>(std::clamp(quarter, kLeast, kMost));
+}
+
+void RunRecord::setBudget(RecordBudget budget) {
+  {
+    const std::lock_guard lock(m->mutex);
+    m->budget = std::move(budget);
+    m->diskFails = false;
+    m->resized = true;
+  }
+  m->wake.notify_one();
 }
 
 void RunRecord::begin(uint64_t revision) {
@@ -156,7 +166,7 @@ void RunRecord::Impl::startAfresh() {
   waiting.clear();
   waitingState.reset();
   document = nullptr;
-  sweep = sweepEnd = 0;
+  sweep = sweepEnd = onDisk = 0;
 }
 
 void RunRecord::Impl::clear() {
@@ -201,6 +211,7 @@ void RunRecord::Impl::loop(const std::stop_token& stop) {
       waiting.pop_front();
     }
     std::vector<KeptRun> gone = std::exchange(dropped, {});
+    resized = false;
     lock.unlock();
     gone.clear();
     try {
@@ -209,6 +220,7 @@ void RunRecord::Impl::loop(const std::stop_token& stop) {
     } catch (const std::exception& problem) {
       log(LogLevel::Warning, std::string("A frame is not recorded: ") + problem.what());
     }
+    makeRoom();
     snapshot = nullptr;
     lock.lock();
     busy = false;
@@ -223,7 +235,6 @@ void RunRecord::Impl::packState(RawState raw, uint64_t of) {
   if (of != generation) return;
   std::erase_if(states, [&](const State& state) { return state.frame == raw.state.frame; });
   states.push_back(std::move(raw.state));
-  fit();
 }
 
 void RunRecord::Impl::packFrame(const SnapshotPtr& snapshot, uint64_t of, FramePacker& packer) {
@@ -233,7 +244,6 @@ void RunRecord::Impl::packFrame(const SnapshotPtr& snapshot, uint64_t of, FrameP
   packSeconds += secondsSince(start);
   if (of != generation) return;
   addFrame(std::move(packed));
-  fit();
 }
 
 void RunRecord::settle() const {

@@ -55,16 +55,30 @@ std::shared_ptr<const PackedBytes> packedState(std::span<const std::byte> stream
 /// fails.
 std::unique_ptr<Engine> replayed(const RestorePoint& point, PluginRegistry& plugins);
 
+/// What a record may take, in bytes. What is on the disk lies in a file without a name, which goes with the program.
+struct RecordBudget {
+  size_t memory = 0, disk = 0;
+  std::string folder{};  ///< of that file; made where there is none
+};
+
 class RunRecord {
  public:
-  /// What is kept stays below `budget` bytes, but for the newest frame. When it is full, every second one of the older
-  /// half of the frames goes, one by one, then every second one of the rest; of the states those that stand closest.
-  /// Earlier runs go before that, the oldest first.
-  explicit RunRecord(size_t budget);
+  /// What is kept stays below the budget, but for the newest frame. When the memory is full, what is oldest goes to the
+  /// disk, states first. When that is full, every second one of the older half of the frames goes, one by one, then
+  /// every second one of the rest; of the states those that stand closest. Earlier runs go before that, the oldest
+  /// first.
+  explicit RunRecord(RecordBudget budget);
+  explicit RunRecord(size_t memory) : RunRecord(RecordBudget{memory}) {}
   ~RunRecord();
 
   /// A quarter of the memory that the machine has for this program now; at least 64 MiB, at most 16 GiB.
   static size_t usualBudget();
+
+  /// From now on; another folder counts from the next file on.
+  void setBudget(RecordBudget budget);
+
+  /// Frames and states on the disk go, but for the first of each and the newest frame.
+  void forgetDisk();
 
   // By who runs. None of these waits for packing.
 
@@ -129,8 +143,8 @@ class RunRecord {
   void settle() const;
 
   struct Cost {
-    size_t bytes = 0, states = 0;
-    uint64_t leftOut = 0;  ///< frames that came faster than they were packed, in this run
+    size_t bytes = 0, disk = 0, states = 0;  ///< bytes in memory and on the disk
+    uint64_t leftOut = 0;                    ///< frames that came faster than they were packed, in this run
     double stateSeconds = 0, packSeconds = 0;
   };
   Cost cost() const;

@@ -9,9 +9,12 @@
 #include <deque>
 #include <mutex>
 #include <thread>
+#include <utility>
 
 // What the record of a run holds; private to this room.
 namespace ps {
+
+class StoredFile;
 
 /// Parameters, tracks or the project as a whole; what becomes of matter alone does not.
 bool changesDocument(const RecordedEdit& edit);
@@ -24,7 +27,7 @@ struct RunRecord::Impl : KeptRun {
     StateBuffer stream;
   };
 
-  explicit Impl(size_t bytes) : budget(bytes), counted(std::make_shared<KeptBytes>()) {}
+  explicit Impl(RecordBudget bytes) : budget(std::move(bytes)), counted(std::make_shared<KeptBytes>()) {}
   void loop(const std::stop_token& stop);
   void packState(RawState raw, uint64_t of);
   void packFrame(const SnapshotPtr& snapshot, uint64_t of, FramePacker& packer);
@@ -33,15 +36,22 @@ struct RunRecord::Impl : KeptRun {
   void keepAsEarlier(uint64_t frame);
   void startAfresh();
   void drop(std::vector<KeptRun>::iterator run);
-  bool idle() const { return !busy && waiting.empty() && !waitingState && dropped.empty(); }
+  bool idle() const { return !busy && waiting.empty() && !waitingState && dropped.empty() && !resized; }
 
   size_t bytes() const;
-  void fit();
+  size_t stateBytes() const;
+  /// On the thread, without the mutex: nobody waits for the disk.
+  void makeRoom();
+  std::shared_ptr<const PackedBytes> oldestInMemory();
+  bool moved(const PackedBytes& bytes);
   bool thinFrames();
   bool thinStates();
 
-  const size_t budget;
-  const ByteCount counted;  ///< of packed bytes
+  RecordBudget budget;
+  bool resized = false;              ///< since the thread looked
+  bool diskFails = false;            ///< until there is another budget
+  std::shared_ptr<StoredFile> file;  ///< the thread's; nullptr: nothing was to go to the disk yet
+  const ByteCount counted;           ///< of packed bytes
 
   mutable std::mutex mutex;
   std::condition_variable_any wake;
@@ -57,6 +67,7 @@ struct RunRecord::Impl : KeptRun {
   std::vector<KeptRun> dropped;  ///< given back by the thread, without the mutex
   uint64_t runs = 1;             ///< so far
   uint64_t stride = 1, sweep = 0, sweepEnd = 0;
+  uint64_t onDisk = 0;  ///< frames before it are not in memory
   bool erased = false;  ///< in this sweep
 
   std::shared_ptr<const Project> document;  ///< of the last state, while nothing was edited since

@@ -2,8 +2,10 @@
 // What the record of a run gives, and what it keeps when it is full.
 #include "core/base/bytepacker.h"
 #include "core/base/error.h"
+#include "core/base/log.h"
 #include "core/base/memory.h"
 #include "core/base/progress.h"
+#include "core/base/storedfile.h"
 #include "core/simulation/engine.h"
 #include "core/simulation/namedmatter.h"
 #include "core/simulation/runrecordimpl.h"
@@ -36,20 +38,89 @@ size_t RunRecord::Impl::bytes() const {
   return sum;
 }
 
+size_t RunRecord::Impl::stateBytes() const {
+  size_t sum = 0;
+  for (const State& state : states) sum += state.stream->kept();
+  return sum;
+}
+
 /// Earlier runs go first, as wholes. States may take half of it: frames are what people look at.
-void RunRecord::Impl::fit() {
-  const auto stateBytes = [this] {
-    size_t sum = 0;
-    for (const State& state : states) sum += state.stream->inMemory();
-    return sum;
+void RunRecord::Impl::makeRoom() {
+  std::unique_lock lock(mutex);
+  while (stateBytes() > (budget.memory + budget.disk) / 2 && thinStates()) {
+  }
+  for (;;) {
+    const bool disk = counted->disk > budget.disk;
+    if (!disk && bytes() <= budget.memory) return;
+    if (const auto oldest = disk ? nullptr : oldestInMemory()) {
+      lock.unlock();
+      const bool made = moved(*oldest);
+      lock.lock();
+      if (made) continue;
+      diskFails = true;
+    }
+    if (!earlier.empty()) {
+      drop(earlier.begin());
+      return;  // it is given back before anything more is packed
+    }
+    if (!thinFrames() && !thinStates()) return;
+  }
+}
+
+/// What may go to the disk next; nullptr where that is nothing.
+std::shared_ptr<const PackedBytes> RunRecord::Impl::oldestInMemory() {
+  if (budget.disk == 0 || diskFails) return nullptr;
+  const auto among = [&](const KeptRun& run, uint64_t first) -> std::shared_ptr<const PackedBytes> {
+    for (const State& state : run.states) {
+      if (state.stream->inMemory() > 0) return state.stream;
+    }
+    for (auto frame = run.frames.lower_bound(first); frame != run.frames.end(); ++frame) {
+      for (const auto& packed : {frame->second->key->data, frame->second->data}) {
+        if (&run == this) onDisk = frame->first;
+        if (packed->inMemory() > 0) return packed;
+      }
+    }
+    return nullptr;
   };
-  if (bytes() > budget && !earlier.empty()) {
-    drop(earlier.begin());
-    return;  // it is given back before anything more is packed
+  auto oldest = among(*this, onDisk);
+  for (const KeptRun& run : earlier) {
+    if (!oldest) oldest = among(run, 0);
   }
-  while (stateBytes() > budget / 2 && thinStates()) {
+  const bool fits = oldest && counted->disk + StoredFile::room(oldest->size()) <= budget.disk;
+  return fits ? oldest : nullptr;
+}
+
+void RunRecord::forgetDisk() {
+  const auto lies = [](const std::shared_ptr<const PackedBytes>& packed) {
+    return packed->kept() > 0 && packed->inMemory() == 0;
+  };
+  std::vector<std::shared_ptr<const PackedFrame>> gone;  // given back last, without the mutex
+  const std::lock_guard lock(m->mutex);
+  while (!m->earlier.empty()) m->drop(m->earlier.begin());
+  for (auto frame = m->frames.begin(); frame != m->frames.end();) {
+    const auto next = std::next(frame);
+    const bool end = frame == m->frames.begin() || next == m->frames.end();
+    if (!end && (lies(frame->second->data) || lies(frame->second->key->data))) {
+      gone.push_back(frame->second);
+      m->eraseFrame(frame);
+    }
+    frame = next;
   }
-  while (bytes() > budget && (thinFrames() || thinStates())) {
+  const KeptRun::State first = m->states.empty() ? KeptRun::State() : m->states.front();
+  std::erase_if(m->states,
+                [&](const KeptRun::State& state) { return state.stream != first.stream && lies(state.stream); });
+  m->resized = true;
+  m->wake.notify_one();
+}
+
+bool RunRecord::Impl::moved(const PackedBytes& packed) {
+  try {
+    if (!file) file = StoredFile::nameless(budget.folder);
+    packed.moveTo(file);
+    return true;
+  } catch (const Error& problem) {
+    log(LogLevel::Warning, std::string("The recording stays in memory: ") + problem.what());
+    return false;
   }
 }
 
@@ -232,7 +303,7 @@ void RunRecord::forgetRun(uint64_t number) {
 
 RunRecord::Cost RunRecord::cost() const {
   const std::lock_guard lock(m->mutex);
-  return {m->bytes(), m->states.size(), m->leftOut, m->stateSeconds, m->packSeconds};
+  return {m->bytes(), m->counted->disk, m->states.size(), m->leftOut, m->stateSeconds, m->packSeconds};
 }
 
 std::shared_ptr<const PackedBytes> packedState(std::span<const std::byte> stream, ByteCount count) {

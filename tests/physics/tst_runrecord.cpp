@@ -10,6 +10,7 @@
 #include "core/simulation/runrecord.h"
 #include "core/solver/solver.h"
 #include "tests/shared/enginehands.h"
+#include "tests/shared/plainframe.h"
 
 #include <QTemporaryDir>
 #include <QTest>
@@ -54,34 +55,6 @@ void make(Engine& engine, const RecordedEdit& edit) {
     engine.apply(std::get<Command>(edit));
 }
 
-/// Frames of one particle at x = its number.
-SnapshotPtr plainFrame(uint64_t number, size_t particles = 1) {
-  static const auto kBodies = std::make_shared<const std::vector<std::string>>(1, "b");
-  auto s = std::make_shared<Snapshot>();
-  s->stats.frame = number;
-  s->stats.time = static_cast<double>(number) / 60;
-  s->revision = 1;
-  s->spacing = 0.01;
-  s->bodyIds = kBodies;
-  s->materialIds = {"m"};
-  s->materialLook = {{1, 1, 1, 1}};
-  std::mt19937 random(static_cast<unsigned>(number));
-  const auto any = [&random] { return static_cast<float>(random() & 0xFFFFU) / 65536.0F; };
-  s->position.resize(particles);
-  for (api::Float4& p : s->position) p = {any(), any(), any(), 0.005F};
-  s->temperature.assign(particles, 300);
-  s->speed.assign(particles, 1);
-  s->densityError.assign(particles, 0);
-  s->gasFraction.assign(particles, 0);
-  s->phase.assign(particles, api::Phase::Liquid);
-  s->motion.assign(particles, api::Motion::Liquid);
-  s->id.resize(particles);
-  for (size_t i = 0; i < particles; ++i) s->id[i] = static_cast<uint32_t>(particles - i);
-  s->body.assign(particles, 0);
-  s->material.assign(particles, 0);
-  return s;
-}
-
 float widest(const std::vector<float>& values) {
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
   return values.empty() ? 0 : *high - *low;
@@ -101,10 +74,8 @@ class TestRunRecord : public QObject {
   void savedAndOpenedItGoesOn_data() { samples(); }
   void savedAndOpenedItGoesOn();
   void whatComesTooFastIsLeftOutAndCounted();
-  void staysWithinItsBudget();
   void aFrameIsFoundByItsTime();
   void goingBackKeepsTheRunAsItWas();
-  void anEarlierRunMakesRoom();
   void theThreadRecordsAndGoesOn_data() { samples(); }
   void theThreadRecordsAndGoesOn();
 
@@ -274,7 +245,7 @@ void TestRunRecord::whatComesTooFastIsLeftOutAndCounted() {
   RunRecord record(kPlenty);
   record.begin(1);
   std::vector<SnapshotPtr> frames;
-  for (uint64_t n = 0; n < 60; ++n) frames.push_back(plainFrame(n, 20000));
+  for (uint64_t n = 0; n < 60; ++n) frames.push_back(tests::plainFrame(n, 20000));
   for (const SnapshotPtr& frame : frames) record.add(frame);
   record.settle();
   QVERIFY(record.cost().leftOut > 0);
@@ -283,43 +254,12 @@ void TestRunRecord::whatComesTooFastIsLeftOutAndCounted() {
   QCOMPARE(record.extent().first, uint64_t{0});
 }
 
-/// What is old is evenly spread, and the newest frames are all there.
-void TestRunRecord::staysWithinItsBudget() {
-  constexpr size_t kBudget = 300000;
-  constexpr uint64_t kLast = 3000;
-  RunRecord record(kBudget);
-  record.begin(1);
-  for (uint64_t n = 0; n <= kLast; ++n) {
-    record.add(plainFrame(n, 50));
-    record.settle();
-    QVERIFY2(record.cost().bytes <= kBudget, qPrintable(QString::number(record.cost().bytes)));
-  }
-  QCOMPARE(record.cost().leftOut, uint64_t{0});
-  const RunRecord::Extent extent = record.extent();
-  QVERIFY(extent.frames > 60);
-  QCOMPARE(extent.last, kLast);
-  QVERIFY(extent.first == 0);
-  uint64_t gap = 0, newest = 0;
-  size_t row = 0;
-  for (uint64_t at = 0; at != kLast; ++row) {
-    const auto next = record.neighbour(at, 1);
-    QVERIFY(next);
-    if (row < extent.frames / 2) gap = std::max(gap, *next - at);
-    if (row > extent.frames - extent.frames / 4) newest = std::max(newest, *next - at);
-    at = *next;
-  }
-  QCOMPARE(newest, uint64_t{1});
-  // Half of the frames, evenly over nearly the whole run, are so far apart; powers of two may be twice, and what was
-  // taken last is coarser by one more.
-  QVERIFY2(gap <= 4 * kLast / (extent.frames / 2), qPrintable(QString::number(gap)));
-}
-
 void TestRunRecord::aFrameIsFoundByItsTime() {
   RunRecord record(kPlenty);
   QVERIFY(!record.frameAt(1));
   record.begin(1);
   for (const uint64_t n : {3, 4, 5, 9, 20}) {
-    record.add(plainFrame(n));
+    record.add(tests::plainFrame(n));
     record.settle();
   }
   const auto at = [&](double frame) { return record.frameAt(frame / 60).value(); };
@@ -341,7 +281,7 @@ void TestRunRecord::goingBackKeepsTheRunAsItWas() {
   RunRecord record(kPlenty);
   record.begin(1);
   for (uint64_t n = 0; n < 10; ++n) {
-    record.add(plainFrame(n));
+    record.add(tests::plainFrame(n));
     record.settle();
     record.add(FrameEdit{n, std::vector{SetParameter{{Owner::Scene, "", "gravity"}, 1.0}}});
   }
@@ -350,7 +290,7 @@ void TestRunRecord::goingBackKeepsTheRunAsItWas() {
   QCOMPARE(record.extent().last, uint64_t{6});
   QVERIFY(!record.documentEditedAfter(6));
   QCOMPARE(record.frame(2)->revision, uint64_t{2});  // one run, whatever came between
-  record.add(plainFrame(7));                         // of the run before
+  record.add(tests::plainFrame(7));                  // of the run before
   record.settle();
   QCOMPARE(record.extent().last, uint64_t{6});
   QCOMPARE(record.earlier().size(), size_t{1});
@@ -369,26 +309,6 @@ void TestRunRecord::goingBackKeepsTheRunAsItWas() {
   QVERIFY(record.earlier().empty());
   record.begin(3);
   QCOMPARE(record.extent().frames, size_t{0});
-}
-
-/// What both share is held once, and an earlier run goes before frames of the present one.
-void TestRunRecord::anEarlierRunMakesRoom() {
-  RunRecord record(200000);
-  record.begin(1);
-  uint64_t frame = 0;
-  const auto run = [&](uint64_t to) {
-    for (; frame <= to; ++frame) {
-      record.add(plainFrame(frame, 50));
-      record.settle();
-    }
-  };
-  run(100);
-  const size_t bytes = record.cost().bytes;
-  record.cutAfter(frame = 50, 1);
-  QVERIFY(record.cost().bytes < 2 * bytes);
-  QCOMPARE(record.earlier().size(), size_t{1});
-  for (++frame; !record.earlier().empty();) run(frame);
-  QCOMPARE(record.extent().frames, size_t{frame});
 }
 
 void TestRunRecord::theThreadRecordsAndGoesOn() {
