@@ -49,8 +49,9 @@ struct ReplacedWork {
 class Autosave : public QObject {
   Q_OBJECT
  public:
-  static constexpr int kInterval = 30000;  ///< ms
-  static constexpr int kRest = 2000;       ///< ms without a change, after which a copy is made
+  static constexpr int kInterval = 30000;  ///< ms, before anybody says otherwise
+  void setInterval(int seconds) { m_timer.setInterval(1000 * seconds); }
+  static constexpr int kRest = 2000;  ///< ms without a change, after which a copy is made
   /// `directory`: created when missing. `worker` must end before this object does.
   Autosave(Document& document, Worker& worker, const QString& directory, QObject* parent = nullptr);
   ~Autosave() override;

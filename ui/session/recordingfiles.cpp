@@ -158,9 +158,7 @@ void RecordingFiles::take(const QString& path, const Read& read, uint64_t count)
   m_session.engine()->adopt(read.content, same);
   QString remark = read.damage;
   if (!same) {
-    remark = QStringLiteral(
-        "It is of another version of this project: it shows the run as it was, and what goes on from it goes by the "
-        "project as it is now");
+    remark = QStringLiteral("It is of another version of this project; what goes on from it goes by the present one");
   }
   const auto& frames = read.content->present.frames;
   Q_EMIT opened(path, frames.empty() ? 0 : frames.begin()->second->stats.time,

@@ -11,6 +11,7 @@
 #include "core/simulation/tracks.h"
 #include "ui/document/document.h"
 #include "ui/session/documentfiles.h"
+#include "ui/session/preferences.h"
 #include "ui/session/recordedview.h"
 #include "ui/session/recordingfiles.h"
 #include "ui/session/scenelink.h"
@@ -61,6 +62,7 @@ Session::Session(const Options& options, QObject* parent)
                                             directory.isEmpty() ? Autosave::standardDirectory() : directory);
     connect(m_files.get(), &DocumentFiles::reopened, m_autosave.get(), &Autosave::takeOver);
     m_files->keepWith(*m_autosave);
+    m_autosave->setInterval(preferences::autosaveInterval());
     m_autosave->start();
   }
 }
@@ -88,21 +90,24 @@ void Session::adoptPlugins(std::shared_ptr<PluginRegistry> plugins) {
   m_plugins = std::move(plugins);
   m_document->setPlugins(m_plugins.get());
   m_fields = std::make_unique<const ParticleFields>(*m_plugins);
-  m_engine = std::make_unique<EngineThread>(*m_plugins, [this] {
-    if (m_pending.exchange(true)) return;
-    QMetaObject::invokeMethod(
-        this,
-        [this] {
-          m_pending = false;
-          const bool now = playing();
-          onSnapshot();
-          if (now != m_wasPlaying) {
-            m_wasPlaying = now;
-            Q_EMIT playingChanged();
-          }
-        },
-        Qt::QueuedConnection);
-  });
+  m_engine = std::make_unique<EngineThread>(
+      *m_plugins,
+      [this] {
+        if (m_pending.exchange(true)) return;
+        QMetaObject::invokeMethod(
+            this,
+            [this] {
+              m_pending = false;
+              const bool now = playing();
+              onSnapshot();
+              if (now != m_wasPlaying) {
+                m_wasPlaying = now;
+                Q_EMIT playingChanged();
+              }
+            },
+            Qt::QueuedConnection);
+      },
+      preferences::recordBudget());
   m_link = std::make_unique<SceneLink>(*m_document, *m_engine);
   connect(m_link.get(), &SceneLink::matterEdited, m_recorded.get(), &RecordedView::showNewest);
   for (const PluginInfo& plugin : m_plugins->plugins()) {
@@ -286,6 +291,11 @@ void Session::packState(KeptState kept) {
       if (!state) Q_EMIT stateNotKept(problem);
     });
   });
+}
+
+void Session::applyPreferences() {
+  if (m_engine) m_engine->setRecordBudget(preferences::recordBudget());
+  if (m_autosave) m_autosave->setInterval(preferences::autosaveInterval());
 }
 
 QString Session::close() {

@@ -28,6 +28,7 @@
 #include "ui/window/pagechooser.h"
 #include "ui/window/paletteentries.h"
 #include "ui/window/paneltable.h"
+#include "ui/window/preferenceswindow.h"
 #include "ui/window/restoreoffer.h"
 #include "ui/window/shortcutswindow.h"
 #include "ui/window/sketchactions.h"
@@ -181,7 +182,10 @@ void MainWindow::makeMenus() {
   m_bodies = new BodyActions(*m_session, *m_selection, m_actions, *m_notices, this);
   m_sketch = std::make_unique<SketchActions>(*m_session, *m_tools, m_actions);
   m_files->makeMenu(bar->addMenu(QStringLiteral("File")), viewport());
-  m_edit->makeMenu(bar->addMenu(QStringLiteral("Edit")));
+  QMenu* edit = bar->addMenu(QStringLiteral("Edit"));
+  m_edit->makeMenu(edit);
+  m_actions.add(edit, QStringLiteral("edit.preferences"), QStringLiteral("Preferences…"),
+                {QKeySequence(QStringLiteral("Ctrl+,"))}, [this] { openPreferences(*this); });
   m_bodies->makeMenu(bar->addMenu(QStringLiteral("Add")));
   m_views->makeMenu(bar->addMenu(QStringLiteral("View")));
   makeSimulationMenu(bar->addMenu(QStringLiteral("Simulation")));

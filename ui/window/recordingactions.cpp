@@ -27,7 +27,6 @@ namespace {
 
 const QString kFilter = QStringLiteral("Recordings (*%1);;All files (*)").arg(QLatin1String(kRecordingEnding));
 const QString kWorking = QStringLiteral("recording");
-const QString kSource = QStringLiteral("Recording");
 
 }  // namespace
 
@@ -103,9 +102,9 @@ void RecordingActions::onWorking(const QString& stage, double done) {
 }
 
 void RecordingActions::onOpened(const QString& path, double from, double to, const QString& remark) {
-  const QString text = QStringLiteral("The recording from %1 to %2 is opened.").arg(clockText(from), clockText(to));
-  m_session.log().add(MessageLevel::Ok, nameOf(path), text);
-  if (!remark.isEmpty()) m_notices.message(MessageLevel::Warning, kSource, text + QLatin1Char(' ') + sentence(remark));
+  const QString text = QStringLiteral("The recording from %1 to %2 is opened").arg(clockText(from), clockText(to));
+  m_session.log().add(MessageLevel::Ok, nameOf(path), sentence(text));
+  if (!remark.isEmpty()) m_notices.message(MessageLevel::Warning, text, sentence(remark));
 }
 
 }  // namespace ps

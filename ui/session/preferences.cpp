@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/session/preferences.h"
+
+#include <QtCore/QSettings>
+#include <QtCore/QStandardPaths>
+
+#include <algorithm>
+
+namespace ps::preferences {
+namespace {
+
+constexpr const char *kMemory = "recording/memory", *kDisk = "recording/disk", *kFolder = "recording/folder",
+                     *kAutosave = "autosave/interval";
+constexpr int kUsualDisk = 8192, kMost = 1 << 24;  // MiB
+constexpr int kUsualAutosave = 30, kLeastAutosave = 5, kMostAutosave = 3600;
+
+/// Whatever stands in the file.
+int number(const char* key, int usual, int least, int most) {
+  bool known = false;
+  const int value = QSettings().value(QLatin1String(key), usual).toInt(&known);
+  return known ? std::clamp(value, least, most) : usual;
+}
+void set(const char* key, const QVariant& value) { QSettings().setValue(QLatin1String(key), value); }
+
+}  // namespace
+
+int recordMemory() { return number(kMemory, 0, 0, kMost); }
+void setRecordMemory(int mebibytes) { set(kMemory, mebibytes); }
+int recordDisk() { return number(kDisk, kUsualDisk, 0, kMost); }
+void setRecordDisk(int mebibytes) { set(kDisk, mebibytes); }
+
+QString recordFolder() {
+  const QString usual = QStandardPaths::writableLocation(QStandardPaths::CacheLocation) + QStringLiteral("/recordings");
+  const QString folder = QSettings().value(QLatin1String(kFolder)).toString();
+  return folder.isEmpty() ? usual : folder;
+}
+void setRecordFolder(const QString& folder) { set(kFolder, folder); }
+
+RecordBudget recordBudget() {
+  const auto memory = static_cast<size_t>(recordMemory()) * kMiB;
+  return {memory > 0 ? memory : RunRecord::usualBudget(), static_cast<size_t>(recordDisk()) * kMiB,
+          recordFolder().toStdString()};
+}
+
+int autosaveInterval() { return number(kAutosave, kUsualAutosave, kLeastAutosave, kMostAutosave); }
+void setAutosaveInterval(int seconds) { set(kAutosave, seconds); }
+
+}  // namespace ps::preferences

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "core/simulation/runrecord.h"
+
+#include <QtCore/QString>
+
+// What people prefer in all their projects, as QSettings keep it.
+namespace ps::preferences {
+
+inline constexpr qulonglong kMiB = qulonglong{1} << 20;
+
+/// MiB of memory that the record of a run may take; 0: a quarter of what the machine has for the program.
+int recordMemory();
+void setRecordMemory(int mebibytes);
+/// MiB of the disk beside that; 0: none.
+int recordDisk();
+void setRecordDisk(int mebibytes);
+/// Where that part lies.
+QString recordFolder();
+void setRecordFolder(const QString& folder);
+/// All of these.
+RecordBudget recordBudget();
+
+/// s between copies of unsaved work.
+int autosaveInterval();
+void setAutosaveInterval(int seconds);
+
+}  // namespace ps::preferences

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/window/preferenceswindow.h"
+
+#include "core/base/memory.h"
+#include "core/simulation/enginethread.h"
+#include "ui/session/preferences.h"
+#include "ui/session/session.h"
+#include "ui/theme/plaintext.h"
+#include "ui/window/mainwindow.h"
+
+#include <QtCore/QDir>
+#include <QtCore/QTimer>
+#include <QtGui/QAction>
+#include <QtWidgets/QComboBox>
+#include <QtWidgets/QDialog>
+#include <QtWidgets/QFileDialog>
+#include <QtWidgets/QGridLayout>
+#include <QtWidgets/QLabel>
+#include <QtWidgets/QPushButton>
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+namespace ps {
+namespace {
+
+const QString kName = QStringLiteral("psPreferences");
+constexpr int kRefresh = 500;  // ms
+constexpr int kGap = 8, kEdge = 16, kLabelWidth = 190, kWidth = 540;
+
+QString bytesText(double bytes) { return QString::fromStdString(memoryText(bytes)); }
+QString mebibytes(int count) {
+  return count >= 1024 && count % 1024 == 0 ? QStringLiteral("%1 GiB").arg(count / 1024)
+                                            : QStringLiteral("%1 MiB").arg(count);
+}
+
+/// The rows of the dialog, one below the other.
+class Preferences : public QDialog {
+ public:
+  explicit Preferences(MainWindow& window);
+
+ private:
+  using Choices = std::vector<std::pair<QString, int>>;
+  void heading(const QString& text);
+  void row(const QString& label, QWidget* field, const QString& tip);
+  /// One of `choices`; a value that is none of them is shown as `text` has it.
+  QComboBox* choice(const QString& label, const QString& tip, Choices choices, int value,
+                    const std::function<QString(int)>& text, const std::function<void(int)>& set);
+  void addTheme();
+  void addAutosave();
+  void addRecording();
+  void chooseFolder();
+  void refresh();
+
+  MainWindow& m_window;
+  QGridLayout* m_grid;
+  QPushButton *m_folder = nullptr, *m_empty = nullptr;
+  QLabel* m_used = nullptr;
+  QTimer m_clock;
+};
+
+Preferences::Preferences(MainWindow& window) : QDialog(&window), m_window(window), m_grid(new QGridLayout(this)) {
+  setObjectName(kName);
+  setWindowTitle(QStringLiteral("Preferences"));
+  setAttribute(Qt::WA_DeleteOnClose);
+  m_grid->setContentsMargins(kEdge, kEdge, kEdge, kEdge);
+  m_grid->setSpacing(kGap);
+  m_grid->setColumnMinimumWidth(0, kLabelWidth);
+  m_grid->setColumnStretch(1, 1);
+  addTheme();
+  addAutosave();
+  addRecording();
+  m_grid->setRowStretch(m_grid->rowCount(), 1);
+  m_clock.setInterval(kRefresh);
+  connect(&m_clock, &QTimer::timeout, this, &Preferences::refresh);
+  m_clock.start();
+  refresh();
+  setMinimumWidth(kWidth);
+}
+
+void Preferences::heading(const QString& text) {
+  auto* label = new QLabel(text);
+  label->setTextFormat(Qt::PlainText);
+  QFont font = label->font();
+  font.setWeight(QFont::DemiBold);
+  label->setFont(font);
+  m_grid->addWidget(label, m_grid->rowCount(), 0, 1, 2);
+}
+
+void Preferences::row(const QString& label, QWidget* field, const QString& tip) {
+  auto* words = new QLabel(label);
+  words->setTextFormat(Qt::PlainText);
+  words->setBuddy(field);
+  words->setToolTip(tip);
+  field->setToolTip(tip);
+  field->setAccessibleName(label);
+  const int line = m_grid->rowCount();
+  m_grid->addWidget(words, line, 0);
+  m_grid->addWidget(field, line, 1);
+}
+
+QComboBox* Preferences::choice(const QString& label, const QString& tip, Choices choices, int value,
+                               const std::function<QString(int)>& text, const std::function<void(int)>& set) {
+  auto* box = new QComboBox;
+  const auto is = [value](const auto& entry) { return entry.second == value; };
+  if (std::none_of(choices.begin(), choices.end(), is)) choices.emplace_back(text(value), value);
+  for (const auto& [words, number] : choices) box->addItem(words, number);
+  box->setCurrentIndex(box->findData(value));
+  connect(box, &QComboBox::activated, this, [box, set] { set(box->currentData().toInt()); });
+  row(label, box, tip);
+  return box;
+}
+
+void Preferences::addTheme() {
+  heading(QStringLiteral("Window"));
+  const bool dark = m_window.action(QStringLiteral("view.dark"))->isChecked();
+  choice(
+      QStringLiteral("Theme"), QStringLiteral("Colours of the window; the scene's stay."),
+      {{QStringLiteral("Dark"), 1}, {QStringLiteral("Light"), 0}}, dark ? 1 : 0, [](int) { return QString(); },
+      [this](int isDark) {
+        m_window.action(isDark ? QStringLiteral("view.dark") : QStringLiteral("view.light"))->trigger();
+      });
+}
+
+void Preferences::addAutosave() {
+  heading(QStringLiteral("Unsaved work"));
+  const auto text = [](int seconds) { return QStringLiteral("Every %1 s").arg(seconds); };
+  choice(
+      QStringLiteral("Copy it"), QStringLiteral("It comes back after a crash, and when you close without saving."),
+      {{text(15), 15}, {text(30), 30}, {QStringLiteral("Every minute"), 60}, {QStringLiteral("Every 5 minutes"), 300}},
+      preferences::autosaveInterval(), text, [this](int seconds) {
+        preferences::setAutosaveInterval(seconds);
+        m_window.session().applyPreferences();
+      });
+}
+
+void Preferences::addRecording() {
+  heading(QStringLiteral("Recording of a run"));
+  choice(
+      QStringLiteral("In memory, at most"), QStringLiteral("When it is full, what is oldest goes to the disk."),
+      {{QStringLiteral("A quarter of what is free (%1)").arg(bytesText(static_cast<double>(RunRecord::usualBudget()))),
+        0},
+       {mebibytes(512), 512},
+       {mebibytes(2048), 2048},
+       {mebibytes(8192), 8192},
+       {mebibytes(32768), 32768}},
+      preferences::recordMemory(), mebibytes, [this](int size) {
+        preferences::setRecordMemory(size);
+        m_window.session().applyPreferences();
+      });
+  choice(QStringLiteral("On the disk, at most"),
+         QStringLiteral("When that is full too, old frames are thinned: every second one goes."),
+         {{QStringLiteral("Nothing"), 0},
+          {mebibytes(2048), 2048},
+          {mebibytes(8192), 8192},
+          {mebibytes(32768), 32768},
+          {mebibytes(131072), 131072}},
+         preferences::recordDisk(), mebibytes, [this](int size) {
+           preferences::setRecordDisk(size);
+           m_window.session().applyPreferences();
+         });
+  m_folder = new QPushButton;
+  connect(m_folder, &QPushButton::clicked, this, &Preferences::chooseFolder);
+  row(QStringLiteral("Folder"), m_folder,
+      QStringLiteral(
+          "Where it lies on the disk, from the next start on. It goes when the program ends, also by a crash."));
+  m_used = new QLabel;
+  m_used->setTextFormat(Qt::PlainText);
+  row(QStringLiteral("Used now"), m_used, QStringLiteral("By the run of this window."));
+  m_empty = new QPushButton(QStringLiteral("Empty the disk"));
+  m_empty->setAutoDefault(false);
+  m_empty->setToolTip(QStringLiteral("What was recorded there can no longer be shown. What is in memory stays."));
+  connect(m_empty, &QPushButton::clicked, this, [this] {
+    if (EngineThread* engine = m_window.session().engine()) engine->forgetRecordedOnDisk();
+    refresh();
+  });
+  m_grid->addWidget(m_empty, m_grid->rowCount(), 1, Qt::AlignLeft);
+}
+
+void Preferences::chooseFolder() {
+  const QString folder =
+      QFileDialog::getExistingDirectory(this, QStringLiteral("Folder for recordings"), preferences::recordFolder());
+  if (folder.isEmpty()) return;
+  preferences::setRecordFolder(folder);
+  m_window.session().applyPreferences();
+  refresh();
+}
+
+void Preferences::refresh() {
+  const QString folder = QDir::toNativeSeparators(preferences::recordFolder());
+  m_folder->setText(
+      asButtonText(m_folder->fontMetrics().elidedText(folder, Qt::ElideMiddle, kWidth - kLabelWidth - 80)));
+  const EngineThread* engine = m_window.session().engine();
+  const RunRecord::Cost cost = engine ? engine->recording().cost() : RunRecord::Cost();
+  m_used->setText(QStringLiteral("%1 of memory, %2 of the disk")
+                      .arg(bytesText(static_cast<double>(cost.bytes)), bytesText(static_cast<double>(cost.disk))));
+  m_empty->setEnabled(cost.disk > 0);
+}
+
+}  // namespace
+
+void openPreferences(MainWindow& window) {
+  auto* dialog = window.findChild<QDialog*>(kName);
+  if (!dialog) dialog = new Preferences(window);
+  dialog->show();
+  dialog->raise();
+  dialog->activateWindow();
+}
+
+}  // namespace ps
