@@ -7,9 +7,17 @@
 #include "core/simulation/runrecord.h"
 #include "core/solver/solver.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
+#include <random>
+#include <vector>
+
+namespace {
+constexpr int kSeeks = 50;
+}  // namespace
 
 int main(int argc, char** argv) {
   using Clock = std::chrono::steady_clock;
@@ -44,16 +52,32 @@ int main(int argc, char** argv) {
     }
     if (with) record.settle();  // outside of what is measured: the next turn is without
   }
-  const auto [first, last, from, to, size] = record.extent();
+  const auto [first, last, begin, end, size] = record.extent();
   const auto cost = record.cost();
-  const auto start = Clock::now();
   const size_t shown = record.frame(last)->position.size();
-  const double unpack = milliseconds(start);
+  // Any frame, from memory and from the disk.
+  const auto seeks = [&](const char* from) {
+    std::mt19937 random(1);
+    std::vector<double> took;
+    for (int seek = 0; seek < kSeeks; ++seek) {
+      const double time = begin + (end - begin) * static_cast<double>(random()) / 4294967296.0;
+      const auto start = Clock::now();
+      (void)record.frame(record.frameAt(time).value());
+      took.push_back(milliseconds(start));
+    }
+    std::sort(took.begin(), took.end());
+    std::printf("%d frames shown from %s: %.1f ms in the median, %.1f at most\n", kSeeks, from, took[kSeeks / 2],
+                took.back());
+  };
   std::printf("%zu particles: %.2f ms a frame without, %.2f ms with (%+.1f %%)\n", shown, sum[0] / count[0],
               sum[1] / count[1], 100 * ((sum[1] / count[1]) / (sum[0] / count[0]) - 1));
   std::printf("packed in %.1f ms a frame by a thread of its own; %zu of %d frames kept, %llu left out\n",
               1000 * cost.packSeconds / static_cast<double>(size), size, count[1],
               static_cast<unsigned long long>(cost.leftOut));
-  std::printf("%d states in %.1f ms each; %.1f MB in all; a frame unpacked in %.1f ms\n", kept,
-              kept ? states / kept : 0, static_cast<double>(cost.bytes) / 1e6, unpack);
+  std::printf("%d states in %.1f ms each; %.1f MB in all\n", kept, kept ? states / kept : 0,
+              static_cast<double>(cost.bytes) / 1e6);
+  seeks("memory");
+  record.setBudget({1, size_t{64} << 30, std::filesystem::temp_directory_path().string()});
+  record.settle();
+  seeks("the disk");
 }
