@@ -400,7 +400,7 @@ class TestContentWindow : public SampleWindowTest {
       QVERIFY2(entry->toolTip().endsWith(QLatin1Char('.')), qPrintable(entry->text()));
       ++tips;
     }
-    QCOMPARE(tips, 13);
+    QCOMPARE(tips, 15);
   }
 
   void matterOfTapsAndDrainsIsInTheLedger() {
