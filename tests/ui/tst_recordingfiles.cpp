@@ -14,6 +14,7 @@
 #include "ui/timeline/transport.h"
 #include "ui/window/noticebar.h"
 
+#include <QtCore/QDir>
 #include <QtCore/QFile>
 #include <QtCore/QTemporaryDir>
 
@@ -144,6 +145,19 @@ class TestRecordingFiles : public SampleWindowTest {
     loadWithRecording(m_project, kFrames - 1);
     QVERIFY2(m_remark.contains(QStringLiteral("is cut off or damaged after frame 12")), qPrintable(m_remark));
     QCOMPARE(hash(), m_hashes[kFrames - 1]);
+  }
+
+  /// Files stay as they were, and so does the run.
+  void savingIsGivenUp() {
+    const QString path = m_folder.filePath(QStringLiteral("given-up.psrec"));
+    QSignalSpy saved(&session().recordings(), &RecordingFiles::saved);
+    session().recordings().save(path);
+    session().recordings().cancel();
+    hash();
+    session().recordings().save(m_recording);  // behind it
+    QTRY_COMPARE_WITH_TIMEOUT(saved.count(), 1, kLong);
+    QCOMPARE(saved.front().front().toString(), m_recording);
+    QCOMPARE(QDir(m_folder.path()).entryList({QStringLiteral("given-up*")}), QStringList());
   }
 
   void whatCannotBeWrittenIsSaid() {

@@ -13,6 +13,7 @@
 #include "ui/session/session.h"
 
 #include <QtCore/QFileInfo>
+#include <QtCore/QPointer>
 
 #include <utility>
 
@@ -103,7 +104,12 @@ void RecordingFiles::save(const QString& path) {
     });
   };
   m_session.engine()->keepState();
-  m_session.engine()->ask([this, job](const Engine&) { m_worker.run(job); });
+  // The engine may answer when these files are gone, but never when the session is.
+  m_session.engine()->ask([session = &m_session, files = QPointer<RecordingFiles>(this), job](const Engine&) {
+    QMetaObject::invokeMethod(session, [files, job] {
+      if (files) files->m_worker.run(job);
+    });
+  });
 }
 
 void RecordingFiles::open(const QString& path) {
