@@ -6,6 +6,7 @@
 
 #include <QtCore/QDir>
 #include <QtCore/QSettings>
+#include <QtCore/QStorageInfo>
 #include <QtWidgets/QComboBox>
 #include <QtWidgets/QDialog>
 #include <QtWidgets/QLabel>
@@ -50,6 +51,13 @@ class TestPreferences : public SampleWindowTest {
     openDialog();
     QCOMPARE(field<QComboBox>("Copy it")->currentText(), QStringLiteral("Every 45 s"));
     QCOMPARE(preferences::recordDisk(), 8192);
+    preferences::setRecordDisk(1 << 24);  // more than there is
+    const QStorageInfo disk(QDir::tempPath());
+    preferences::setRecordFolder(QDir::tempPath() + QStringLiteral("/not/there/yet"));
+    QVERIFY(preferences::recordBudget().disk <= static_cast<size_t>(disk.bytesTotal()));
+    QVERIFY(preferences::recordBudget().disk > 0);
+    preferences::setRecordFolder({});
+    preferences::setRecordDisk(8192);
   }
 
   /// The memory is soon full; what is on the disk is counted, and forgotten by the button.

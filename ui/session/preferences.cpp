@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/session/preferences.h"
 
+#include <QtCore/QFileInfo>
 #include <QtCore/QSettings>
 #include <QtCore/QStandardPaths>
+#include <QtCore/QStorageInfo>
 
 #include <algorithm>
 
@@ -22,6 +24,14 @@ int number(const char* key, int usual, int least, int most) {
 }
 void set(const char* key, const QVariant& value) { QSettings().setValue(QLatin1String(key), value); }
 
+/// Half of what the disk still has: others need it too.
+size_t roomOnDisk(const QString& folder) {
+  QFileInfo place(folder);
+  while (!place.exists() && place.absolutePath() != place.absoluteFilePath()) place = QFileInfo(place.absolutePath());
+  const QStorageInfo disk(place.absoluteFilePath());
+  return disk.isValid() && disk.bytesAvailable() > 0 ? static_cast<size_t>(disk.bytesAvailable()) / 2 : 0;
+}
+
 }  // namespace
 
 int recordMemory() { return number(kMemory, 0, 0, kMost); }
@@ -37,9 +47,9 @@ QString recordFolder() {
 void setRecordFolder(const QString& folder) { set(kFolder, folder); }
 
 RecordBudget recordBudget() {
-  const auto memory = static_cast<size_t>(recordMemory()) * kMiB;
-  return {memory > 0 ? memory : RunRecord::usualBudget(), static_cast<size_t>(recordDisk()) * kMiB,
-          recordFolder().toStdString()};
+  const size_t memory = static_cast<size_t>(recordMemory()) * kMiB, disk = static_cast<size_t>(recordDisk()) * kMiB;
+  const QString folder = recordFolder();
+  return {memory > 0 ? memory : RunRecord::usualBudget(), std::min(disk, roomOnDisk(folder)), folder.toStdString()};
 }
 
 int autosaveInterval() { return number(kAutosave, kUsualAutosave, kLeastAutosave, kMostAutosave); }

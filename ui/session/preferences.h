@@ -7,7 +7,7 @@
 // What people prefer in all their projects, as QSettings keep it.
 namespace ps::preferences {
 
-inline constexpr qulonglong kMiB = qulonglong{1} << 20;
+inline constexpr size_t kMiB = size_t{1} << 20;
 
 /// MiB of memory that the record of a run may take; 0: a quarter of what the machine has for the program.
 int recordMemory();
@@ -18,7 +18,7 @@ void setRecordDisk(int mebibytes);
 /// Where that part lies.
 QString recordFolder();
 void setRecordFolder(const QString& folder);
-/// All of these.
+/// All of these; of the disk no more than half of what is free there now.
 RecordBudget recordBudget();
 
 /// s between copies of unsaved work.
