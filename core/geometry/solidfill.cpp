@@ -7,7 +7,9 @@
 #include "core/scene/solidform.h"
 
 #include <cmath>
+#include <deque>
 #include <mutex>
+#include <optional>
 
 namespace ps {
 namespace {
@@ -34,8 +36,10 @@ template <class Inside>
 std::vector<std::array<int, 3>> cellsWithin(const std::array<int, 3>& count, const Inside& inside) {
   const size_t rows = static_cast<size_t>(count[1]) * static_cast<size_t>(count[2]);
   std::vector<std::vector<int>> found(rows);
+  Progress* progress = t_progress;  // of this thread; others help it
   forChunks(rows, 1, [&](size_t first, size_t last) {
     for (size_t row = first; row < last; ++row) {
+      if (progress) progress->advance(0);
       const int y = static_cast<int>(row) % count[1], z = static_cast<int>(row) / count[1];
       for (int x = 0; x < count[0]; ++x) {
         if (inside(x, y, z)) found[row].push_back(x);
@@ -79,6 +83,34 @@ SolidCells filledBlock(const Vector3& size, double spacing) {
   return filledBy({}, spacing, count, [](const Vector3&) { return true; });
 }
 
+/// The last few, since the same bodies are asked about by the scene, its panels and brushes.
+class KnownFills {
+ public:
+  std::optional<SolidCells> find(const SolidShape& shape, double spacing) {
+    const std::lock_guard lock(m_mutex);
+    for (const Known& known : m_known) {
+      if (known.spacing == spacing && known.shape == shape) return known.fill;
+    }
+    return std::nullopt;
+  }
+  void add(const SolidShape& shape, double spacing, const SolidCells& fill) {
+    if (fill.cells.size() > kMostCells) return;
+    const std::lock_guard lock(m_mutex);
+    if (m_known.size() == kMostFills) m_known.pop_front();
+    m_known.push_back({shape, spacing, fill});
+  }
+
+ private:
+  static constexpr size_t kMostFills = 16, kMostCells = 250'000;
+  struct Known {
+    SolidShape shape;
+    double spacing;
+    SolidCells fill;
+  };
+  std::mutex m_mutex;
+  std::deque<Known> m_known;
+};
+
 }  // namespace
 
 SolidInside::SolidInside(const SolidShape& shape) : m_form(std::make_unique<const SolidForm>(shape)) {
@@ -98,7 +130,10 @@ bool SolidInside::holds(const Vector3& own) const {
   return m_winding->at(m_meshMiddle + own.cwiseProduct(m_toMesh)) > kInside;
 }
 
-SolidCells fillSolid(const SolidShape& shape, double spacing) {
+namespace {
+
+/// As fillSolid(), without looking whether it is known.
+SolidCells newFill(const SolidShape& shape, double spacing) {
   const SolidInside solid(shape);
   const Vector3& size = solid.form().size();
   if (solid.form().kind() == SolidForm::Kind::Block) return filledBlock(size, spacing);
@@ -122,6 +157,16 @@ SolidCells fillSolid(const SolidShape& shape, double spacing) {
     best = std::move(one);
   }
   return orMiddle(std::move(best), {});
+}
+
+}  // namespace
+
+SolidCells fillSolid(const SolidShape& shape, double spacing) {
+  static KnownFills known;
+  if (std::optional<SolidCells> fill = known.find(shape, spacing)) return std::move(*fill);
+  SolidCells fill = newFill(shape, spacing);
+  known.add(shape, spacing, fill);
+  return fill;
 }
 
 std::vector<api::Double3> solidPlaces(const SolidShape& shape, double spacing) {

@@ -45,10 +45,10 @@ std::string importer() {
 class MeshProcess {
  public:
   explicit MeshProcess(const std::string& path) {
+    std::string program = importer(), file = path;
     int ends[2];
     if (::pipe2(ends, O_CLOEXEC) != 0) throw Error(std::string("no pipe can be made: ") + ::strerror(errno));
     m_pipe = ends[0];
-    std::string program = importer(), file = path;
     char* arguments[] = {program.data(), file.data(), nullptr};
     posix_spawn_file_actions_t actions;
     ::posix_spawn_file_actions_init(&actions);
@@ -128,9 +128,13 @@ std::string idOf(const std::string& stem) {
   return id.empty() ? "mesh" : id.substr(0, 40);
 }
 
-void requireSize(const SceneMesh& mesh) {
+Vector3 extentOf(const SceneMesh& mesh) {
   const MeshBounds bounds = boundsOf(mesh);
-  const Vector3 extent = bounds.maximum - bounds.minimum;
+  return bounds.maximum - bounds.minimum;
+}
+
+void requireSize(const SceneMesh& mesh) {
+  const Vector3 extent = extentOf(mesh);
   if (extent.maxCoeff() > kMostSize)
     throw InputError("would be " + numberText(extent.maxCoeff()) + " m large; give its unit, such as mm");
   if (extent.minCoeff() < kLeastSize) throw InputError("is flat: it encloses no volume that matter could fill");
@@ -154,7 +158,8 @@ ImportedMesh importMesh(const std::string& path, std::optional<double> metresPer
     MeshFile file = readFile(path, patience);
     ImportedMesh imported;
     imported.unitIsOfFile = !metresPerUnit && file.metresPerUnit > 0;
-    imported.metresPerUnit = metresPerUnit.value_or(imported.unitIsOfFile ? file.metresPerUnit : 1);
+    const double meant = extentOf(file.mesh).maxCoeff() > kMostSize ? 0.001 : 1;
+    imported.metresPerUnit = metresPerUnit.value_or(imported.unitIsOfFile ? file.metresPerUnit : meant);
     scale(file.mesh, imported.metresPerUnit);
     repair(file.mesh);
     requireSize(file.mesh);

@@ -21,7 +21,8 @@ struct ImportedMesh {
 
 /// Reads a mesh of any format that assimp knows (OBJ, STL, PLY, glTF, FBX, 3MF, ...), open or closed, in a process of
 /// its own, the program phasesketch-import beside this one, which may take 4 GiB and `patience` s: whatever the file
-/// holds, this process is safe. Without `metresPerUnit` the file's own unit holds, and where it says none, metres. What
+/// holds, this process is safe. Without `metresPerUnit` the file's own unit holds, and where it says none, metres, or
+/// millimetres where that would be beyond 10 km. What
 /// is broken is mended (see repair()). Asks the thread's Progress now and then whether to go on. Throws InputError
 /// "PATH: what is wrong, and what to do".
 ImportedMesh importMesh(const std::string& path, std::optional<double> metresPerUnit = std::nullopt,

@@ -6,6 +6,11 @@
 #include <cmath>
 
 namespace ps {
+namespace {
+
+constexpr double kSearchedPerParticle = 200;
+
+}  // namespace
 
 double layersAlong(double edge, double spacing) { return std::max(1.0, std::round(edge / spacing)); }
 
@@ -15,7 +20,10 @@ double particleCount(const Body& body, double spacing) {
     count = 1;
     for (const double edge : box->size) count *= layersAlong(edge, spacing);
   } else if (const auto* solid = std::get_if<SolidShape>(&body.shape)) {
-    count = std::max(1.0, std::round(SolidForm(*solid).volume() / std::pow(spacing, 3)));
+    // Its whole box is searched for cells that lie in it: thin matter in a large box counts for some of that.
+    const SolidForm form(*solid);
+    const double cell = std::pow(spacing, 3), searched = form.size().prod() / kSearchedPerParticle;
+    count = std::max(1.0, std::round(std::max(form.volume(), searched) / cell));
   } else {
     const auto& voxels = std::get<VoxelShape>(body.shape);
     for (const VoxelShape::Run& run : voxels.runs) count += run.length;

@@ -30,7 +30,6 @@ bool isTold(double missed) { return std::abs(missed) > kTold; }
 /// Edges whose layers may be whole ones: of a box, or of a sketched cell.
 Vector3 edgesOf(const Body& body) {
   if (const auto* box = std::get_if<BoxShape>(&body.shape)) return box->size;
-  if (const auto* solid = std::get_if<SolidShape>(&body.shape)) return SolidForm(*solid).size();
   return Vector3::Constant(std::get<VoxelShape>(body.shape).spacing);
 }
 
@@ -38,9 +37,11 @@ Vector3 edgesOf(const Body& body) {
 /// much finer.
 double fittingSpacing(const Project& project, const Body& body, double spacing) {
   double best = 0;
+  if (std::holds_alternative<SolidShape>(body.shape)) return 0;  // of round ones no spacing is better than others
   const auto fits = [&](double one) {
-    return std::none_of(project.bodies.begin(), project.bodies.end(),
-                        [&](const Body& other) { return isTold(missedOf(other, one)); });
+    return std::none_of(project.bodies.begin(), project.bodies.end(), [&](const Body& other) {
+      return !std::holds_alternative<SolidShape>(other.shape) && isTold(missedOf(other, one));
+    });
   };
   for (const double edge : edgesOf(body)) {
     // What is thinner than the finest has no whole layers.

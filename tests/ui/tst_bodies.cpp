@@ -74,14 +74,19 @@ class TestBodies : public SampleWindowTest {
     const std::string id = document().project().bodies.back().id;
     QCOMPARE(id, std::string("rabbit"));
     const Vector3 metres = SolidForm(std::get<SolidShape>(document().body(id)->shape)).size();
+    QTRY_VERIFY(idsNow(session()).size() > 6000 + particlesOf(id) / 2);  // what has no room beside the ice is left out
+    const size_t large = idsNow(session()).size();
     QPushButton* centimetres = noticeButton(*m_window, QStringLiteral("In cm"));
     QVERIFY(centimetres);
     QTRY_VERIFY(centimetres->isVisible());
     picture(QStringLiteral("mesh-unit.png"));
     centimetres->click();
-    QVERIFY(SolidForm(std::get<SolidShape>(document().body(id)->shape)).size().isApprox(metres / 100));
+    const std::string small = document().project().bodies.back().id;
+    QVERIFY(SolidForm(std::get<SolidShape>(document().body(small)->shape)).size().isApprox(metres / 100));
+    QTRY_COMPARE(idsNow(session()).size(), 6000 + particlesOf(small));  // the matter follows
     document().undoStack().undo();
     QVERIFY(SolidForm(std::get<SolidShape>(document().body(id)->shape)).size().isApprox(metres));
+    QTRY_COMPARE(idsNow(session()).size(), large);
     // Once more: the same triangles are one mesh.
     drop(QStringLiteral(PS_SOURCE_DIR "/resources/models/rabbit.obj"));
     QTRY_COMPARE_WITH_TIMEOUT(document().project().bodies.size(), size_t{3}, kLong);
@@ -105,6 +110,9 @@ class TestBodies : public SampleWindowTest {
   }
 
  private:
+  size_t particlesOf(const std::string& id) {
+    return fillSolid(std::get<SolidShape>(document().body(id)->shape), 0.02).cells.size();
+  }
   void drop(const QString& path) {
     QMimeData data;
     data.setUrls({QUrl::fromLocalFile(path)});

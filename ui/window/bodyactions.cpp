@@ -33,6 +33,10 @@ struct SolidRow {
 };
 constexpr SolidRow kSolids[] = {{"ellipsoid", "Ball"},  {"block", "Block"}, {"cylinder", "Cylinder"}, {"cone", "Cone"},
                                 {"capsule", "Capsule"}, {"torus", "Ring"},  {"tube", "Tube"}};
+struct UnitRow {
+  const char *key, *name;
+};
+constexpr UnitRow kUnits[] = {{"m", "metres"}, {"cm", "centimetres"}, {"mm", "millimetres"}, {"in", "inches"}};
 constexpr double kOfScene = 0.2;  ///< size of a new solid, of the scene's narrower side
 constexpr int kPatience = 300;    ///< ms until reading is told of
 constexpr const char* kTopic = "mesh";
@@ -45,10 +49,12 @@ double rounded(double value) {
   return std::round(value / digit) * digit;
 }
 
-/// m, the highest that stands within a column about the middle of the scene, as it is now and as bodies begin.
-double topOf(const Snapshot* now, const Vector3& middle, const Vector3& size, double floor) {
+/// m, the highest that stands within a column about the middle of the scene now, but for one body.
+double topOf(const Snapshot* now, const std::string& without, const Vector3& middle, const Vector3& size,
+             double floor) {
   double top = floor;
   for (size_t i = 0; now && i < now->position.size(); ++i) {
+    if (!without.empty() && (*now->bodyIds)[now->body[i]] == without) continue;
     const api::Float4& p = now->position[i];
     if (std::abs(p.x - middle[0]) <= size[0] / 2 + p.w && std::abs(p.z - middle[2]) <= size[2] / 2 + p.w)
       top = std::max(top, double{p.y} + p.w);
@@ -67,6 +73,11 @@ double floorOf(const Environment& environment) {
 
 SolidShape& solidOf(Body& body) { return std::get<SolidShape>(body.shape); }
 
+void scale(SolidShape& solid, double factor) {
+  const Vector3 size = SolidForm(solid).size() * factor;
+  for (size_t a = 0; a < 3; ++a) solid.parameters.values[std::string("size_") + "xyz"[a]] = size[a];
+}
+
 QString sizeText(const Vector3& size) {
   return QStringLiteral("%1 × %2 × %3 m").arg(formatNumber(size[0]), formatNumber(size[1]), formatNumber(size[2]));
 }
@@ -75,7 +86,11 @@ QString sizeText(const Vector3& size) {
 
 BodyActions::BodyActions(Session& session, Selection& selection, const Actions& actions, Notices& notices,
                          QObject* parent)
-    : QObject(parent), m_session(session), m_selection(selection), m_actions(actions), m_notices(notices) {}
+    : QObject(parent), m_session(session), m_selection(selection), m_actions(actions), m_notices(notices) {
+  connect(&session, &Session::ready, this, [this] {
+    for (QAction* action : m_adding) action->setEnabled(true);
+  });
+}
 
 BodyActions::~BodyActions() { stopReading(); }
 
@@ -86,10 +101,13 @@ void BodyActions::makeMenu(QMenu* menu) {
                                     QStringLiteral("Add body: %1").arg(name.toLower()), {},
                                     [this, kind = std::string(row.kind), name] { addSolid(kind, name); });
     action->setToolTip(QStringLiteral("A body of the current material, above what is in the middle of the scene."));
+    m_adding.push_back(action);
   }
   menu->addSeparator();
-  m_actions.add(menu, QStringLiteral("add.mesh"), QStringLiteral("Import mesh…"),
-                {QKeySequence(QStringLiteral("Ctrl+I"))}, [this] { chooseMesh(); });
+  m_adding.push_back(m_actions.add(menu, QStringLiteral("add.mesh"), QStringLiteral("Import mesh…"),
+                                   {QKeySequence(QStringLiteral("Ctrl+I"))}, [this] { chooseMesh(); }));
+  menu->setToolTipsVisible(true);
+  for (QAction* action : m_adding) action->setEnabled(m_session.isReady());
 }
 
 bool BodyActions::isMesh(const QString& path) {
@@ -124,32 +142,49 @@ void BodyActions::addSolid(const std::string& kind, const QString& name) {
   add(std::move(body));
 }
 
-/// Above what is there, and within the scene where that is high enough.
-void BodyActions::add(Body body) {
+/// Of a mesh that does not say its unit: the first one in which it has room in the scene, m; its body is then of that
+/// size. Where it has none, the last.
+double BodyActions::scaledToFit(Body& body, const ImportedMesh& imported) const {
+  const Environment& environment = m_session.document().project().environment;
+  const Vector3 room = environment.boundsMaximum - environment.boundsMinimum;
+  const Vector3 size = SolidForm(solidOf(body)).size() / imported.metresPerUnit;
+  double metres = 1;
+  for (const char* unit : {"m", "cm", "mm"}) {
+    metres = *metresPer(unit);
+    if (((size * metres).array() < room.array()).all()) break;
+  }
+  scale(solidOf(body), metres / imported.metresPerUnit);
+  return metres;
+}
+
+/// Above what is there but `without`, and within the scene where that is high enough. Returns its id.
+std::string BodyActions::add(Body body, const std::string& without) {
   Document& document = m_session.document();
   const Environment& environment = document.project().environment;
   const SolidForm form(solidOf(body));
   const Vector3 middle = (environment.boundsMinimum + environment.boundsMaximum) / 2;
   const double spacing = numberOf(document.project().solver.parameters, solverParameters(), "particle_spacing");
-  const double floor = floorOf(environment), top = topOf(m_session.newest().get(), middle, form.size(), floor);
+  const double floor = floorOf(environment), top = topOf(m_session.newest().get(), without, middle, form.size(), floor);
   const double lowest = floor + form.size()[1] / 2, highest = environment.boundsMaximum[1] - form.size()[1] / 2;
   auto& values = solidOf(body).parameters.values;
   values["position_x"] = middle[0];
   values["position_y"] = std::max(lowest, std::min(highest, lowest + (top > floor ? top - floor + spacing : 0)));
   values["position_z"] = middle[2];
-  document.beginGesture(QStringLiteral("adding %1").arg(QString::fromStdString(body.name)));
+  document.undoStack().beginMacro(QStringLiteral("adding %1").arg(QString::fromStdString(body.name)));
   body.material = m_selection.material();
   if (body.material.empty()) body.material = document.addMaterial(document.plugins()->standard(PluginKind::Material));
   const Value melts =
       valueAt(document.project(), document.plugins(), {Owner::Material, body.material, "melting_temperature"});
   const auto* melting = std::get_if<double>(&melts);
   const std::string structure = frozenStructure(*document.plugins());
-  if (melting && numberOf(body.parameters, bodyParameters(), "temperature") < *melting && !structure.empty())
+  if (body.constraints.empty() && melting && numberOf(body.parameters, bodyParameters(), "temperature") < *melting &&
+      !structure.empty())
     body.constraints.push_back({structure, {}, {}});
   const std::string id = document.addBody(std::move(body));
-  document.endGesture();
+  document.undoStack().endMacro();
   m_selection.selectBody(id);
   Q_EMIT rowWanted({Owner::Shape, id, "kind"});
+  return id;
 }
 
 void BodyActions::importMesh(const QString& path) {
@@ -158,7 +193,7 @@ void BodyActions::importMesh(const QString& path) {
   QTimer::singleShot(kPatience, this, [this, path, reading = m_reading] {
     if (reading == m_reading) showReading(path);
   });
-  m_session.worker().run([this, path, reading = m_reading] {
+  m_worker.run([this, path, reading = m_reading] {
     const ProgressScope scope(reading.get());
     auto imported = std::make_shared<ImportedMesh>();
     QString problem;
@@ -199,46 +234,56 @@ void BodyActions::onImported(const QString& path, const std::shared_ptr<Imported
                          {{QStringLiteral("Import another…"), [this] { chooseMesh(); }}});
     return;
   }
-  add(bodyOf(*imported, 0));
+  Body body = bodyOf(*imported, 0);
+  const double unit = imported->unitIsOfFile ? imported->metresPerUnit : scaledToFit(body, *imported);
+  const std::string id = add(std::move(body));
   m_session.log().add(MessageLevel::Ok, name,
                       QStringLiteral("Imported: %1 triangles, %2.")
                           .arg(imported->facts.triangles)
                           .arg(imported->facts.closed() ? QStringLiteral("closed")
                                                         : QStringLiteral("open; filled where it encloses most")));
-  if (!imported->unitIsOfFile) askUnit(m_selection.body(), *imported);
+  if (!imported->unitIsOfFile) askUnit(id, unit);
 }
 
-/// The file does not say what its numbers mean: metres are tried, and others a click away.
-void BodyActions::askUnit(const std::string& id, const ImportedMesh& imported) {
+/// The file does not say what its numbers mean: one unit was taken, and others are a click away.
+void BodyActions::askUnit(const std::string& id, double metresPerUnit) {
   const Body* body = m_session.document().body(id);
   if (!body) return;
-  const Vector3 size = SolidForm(std::get<SolidShape>(body->shape)).size();
   std::vector<NoticeBar::Button> buttons;
-  for (const char* unit : {"mm", "cm", "in"}) {
-    const double factor = *metresPer(unit) / imported.metresPerUnit;
-    buttons.push_back(
-        {QStringLiteral("In %1").arg(QString::fromLatin1(unit)), [this, id, factor] { setUnit(id, factor); }});
+  QString taken;
+  for (const UnitRow& unit : kUnits) {
+    const double metres = *metresPer(unit.key);
+    if (metres == metresPerUnit) {
+      taken = QString::fromLatin1(unit.name);
+      continue;
+    }
+    buttons.push_back({QStringLiteral("In %1").arg(QString::fromLatin1(unit.key)),
+                       [this, id, metresPerUnit, metres] { setUnit(id, metresPerUnit, metres); }});
   }
+  const QString size = sizeText(SolidForm(std::get<SolidShape>(body->shape)).size());
   m_notices.bar().show(QString::fromLatin1(kTopic), MessageLevel::Info,
                        QStringLiteral("“%1” does not say its unit.").arg(QString::fromStdString(body->name)),
-                       QStringLiteral("Taken as metres it is %1.").arg(sizeText(size)), std::move(buttons));
+                       QStringLiteral("In %1 it is %2.").arg(taken, size), std::move(buttons));
 }
 
-void BodyActions::setUnit(const std::string& id, double factor) {
+/// The body comes anew, in one step: its matter of the other size goes.
+void BodyActions::setUnit(std::string id, double from, double to) {
   Document& document = m_session.document();
-  const Body* body = document.body(id);
-  const auto* solid = body ? std::get_if<SolidShape>(&body->shape) : nullptr;
+  const Body* present = document.body(id);
   m_notices.bar().close(QString::fromLatin1(kTopic));
-  if (!solid) return;
-  const Vector3 size = SolidForm(*solid).size() * factor;
-  const double floor = floorOf(document.project().environment);
-  std::vector<std::pair<Address, Value>> values;
-  for (size_t a = 0; a < 3; ++a)
-    values.emplace_back(Address{Owner::Shape, id, std::string("size_") + "xyz"[a]}, Value(size[a]));
-  values.emplace_back(Address{Owner::Shape, id, "position_y"}, Value(floor + size[1] / 2));
-  m_notices.refuse(
-      QStringLiteral("The unit stays as it was."),
-      document.setParameters(values, QStringLiteral("unit of %1").arg(QString::fromStdString(body->name))));
+  if (!present || !std::holds_alternative<SolidShape>(present->shape)) return;
+  if (present->locked) {
+    m_notices.refuse(QStringLiteral("The unit stays as it was."),
+                     QStringLiteral("The body is locked. Unlock it first."));
+    return;
+  }
+  Body body = *present;
+  scale(solidOf(body), to / from);
+  document.undoStack().beginMacro(QStringLiteral("unit of %1").arg(QString::fromStdString(body.name)));
+  document.removeBody(id);
+  const std::string anew = add(std::move(body), id);
+  document.undoStack().endMacro();
+  askUnit(anew, to);
 }
 
 }  // namespace ps

@@ -3,12 +3,15 @@
 #include "core/base/progress.h"
 #include "core/io/meshimport.h"
 #include "core/scene/project.h"
+#include "ui/session/worker.h"
 
 #include <QtCore/QObject>
 #include <QtCore/QString>
 
 #include <memory>
+#include <vector>
 
+class QAction;
 class QMenu;
 
 namespace ps {
@@ -38,10 +41,11 @@ class BodyActions : public QObject {
  private:
   void chooseMesh();
   void addSolid(const std::string& kind, const QString& name);
-  void add(Body body);
+  std::string add(Body body, const std::string& without = {});
   void onImported(const QString& path, const std::shared_ptr<ImportedMesh>& imported, const QString& problem);
-  void askUnit(const std::string& id, const ImportedMesh& imported);
-  void setUnit(const std::string& id, double factor);
+  double scaledToFit(Body& body, const ImportedMesh& imported) const;
+  void askUnit(const std::string& id, double metresPerUnit);
+  void setUnit(std::string id, double from, double to);  ///< a copy: the notice that asks goes meanwhile
   void showReading(const QString& path);
   void stopReading();
 
@@ -49,7 +53,9 @@ class BodyActions : public QObject {
   Selection& m_selection;
   const Actions& m_actions;
   Notices& m_notices;
+  std::vector<QAction*> m_adding;       ///< need plugins
   std::shared_ptr<Progress> m_reading;  ///< of the mesh that is being read; nullptr: none is
+  Worker m_worker;                      ///< reads meshes; ends first
 };
 
 }  // namespace ps
