@@ -9,6 +9,7 @@
 #include "ui/theme/paint.h"
 #include "ui/theme/plaintext.h"
 #include "ui/theme/theme.h"
+#include "ui/timeline/timeaxis.h"
 
 #include <QtGui/QHelpEvent>
 #include <QtGui/QKeyEvent>
@@ -20,7 +21,6 @@
 namespace ps {
 namespace {
 
-constexpr int kEnd = 16;          ///< right of the last second
 constexpr double kDiamond = 5;    ///< half its width
 constexpr double kTickRoom = 70;  ///< px that a number of the ruler has at least
 
@@ -79,13 +79,7 @@ const std::vector<TrackKey>& KeyRows::keysOf(const Address& address) const {
   return track ? track->keys : kNone;
 }
 
-double KeyRows::span() const {
-  double last = m_session.document().project().duration;
-  for (const Row& row : m_rows)
-    last = std::max(last, keysOf(row.address).empty() ? 0 : keysOf(row.address).back().time);
-  for (const Marker& marker : m_session.document().project().markers) last = std::max(last, marker.time);
-  return last > 0 ? last : 1;
-}
+double KeyRows::span() const { return timeAxisEnd(m_session); }
 
 double KeyRows::xOf(double seconds) const { return kLabel + (width() - kLabel - kEnd) * seconds / span(); }
 

@@ -20,7 +20,8 @@ class Session;
 class KeyRows : public QWidget {
   Q_OBJECT
  public:
-  static constexpr int kRuler = 18, kRow = 24, kLabel = 176;  ///< logical pixels
+  static constexpr int kRuler = 18, kRow = 24, kLabel = 176,
+                       kEnd = 16;  ///< logical pixels; the last: right of the last second
 
   explicit KeyRows(Session& session, QWidget* parent = nullptr);
   struct Chosen {

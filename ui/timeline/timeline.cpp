@@ -58,6 +58,8 @@ void Timeline::fit() {
   const int height = std::min(m_keys->wantedHeight(), most);
   m_scroll->setFixedHeight(height);
   m_keys->setVisible(height > 0);
+  const bool rows = height > 0 || !m_markers->isHidden();
+  m_transport->setAxis(rows ? TimeAxis{KeyRows::kLabel, KeyRows::kEnd} : TimeAxis());
   const int all = m_transport->minimumHeight() + (m_markers->isHidden() ? 0 : MarkerRow::kHeight) + height;
   setFixedHeight(all);
   Q_EMIT heightChanged(all);

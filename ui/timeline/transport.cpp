@@ -259,14 +259,21 @@ void Transport::showRecorded() {
   setSnapshot(m_session.snapshot());
 }
 
-double Transport::span() const { return std::max({m_total, m_session.recorded().extent().to, 1e-9}); }
+double Transport::span() const { return timeAxisEnd(m_session); }
+double Transport::perSecond() const { return std::max(1, width() - m_axis.left - m_axis.right) / span(); }
 
 QPoint Transport::placeOf(double seconds) const {
-  return {static_cast<int>(std::lround(width() * seconds / span())), height() - kBar / 2};
+  return {static_cast<int>(std::lround(m_axis.left + perSecond() * seconds)), height() - kBar / 2};
+}
+
+void Transport::setAxis(TimeAxis axis) {
+  m_axis = axis;
+  placeRuns();
+  update();
 }
 
 void Transport::scrub(double x) {
-  m_session.recorded().showAt(std::clamp(x / std::max(1, width()), 0.0, 1.0) * span());
+  m_session.recorded().showAt(std::clamp((x - m_axis.left) / perSecond(), 0.0, span()));
 }
 
 void Transport::mousePressEvent(QMouseEvent* event) {
@@ -316,9 +323,11 @@ void Transport::makeRoom() {
   Q_EMIT heightChanged();
 }
 
-void Transport::resizeEvent(QResizeEvent*) {
+void Transport::resizeEvent(QResizeEvent*) { placeRuns(); }
+
+void Transport::placeRuns() {
   const int lines = m_runs->wantedHeight();
-  m_runs->setGeometry(0, height() - kBar - kGap - lines, width(), lines);
+  m_runs->setGeometry(m_axis.left, height() - kBar - kGap - lines, width() - m_axis.left - m_axis.right, lines);
 }
 
 void Transport::refresh() {
@@ -334,13 +343,13 @@ void Transport::paintEvent(QPaintEvent*) {
   const Theme& theme = Theme::current();
   painter.fillRect(rect(), theme[Token::Panel]);
   const RunRecord::Extent kept = m_session.recorded().extent();
-  const double perSecond = width() / span(), top = height() - kBar;
-  painter.fillRect(QRectF(0, top, width(), kBar), theme[Token::Field]);
+  const double top = height() - kBar, scale = perSecond();
+  const auto xOf = [&](double seconds) { return m_axis.left + scale * seconds; };
+  painter.fillRect(QRectF(m_axis.left, top, scale * span(), kBar), theme[Token::Field]);
   if (kept.frames > 0)
-    painter.fillRect(QRectF(kept.from * perSecond, top, (kept.to - kept.from) * perSecond, kBar),
-                     theme[Token::SliderFill]);
+    painter.fillRect(QRectF(xOf(kept.from), top, (kept.to - kept.from) * scale, kBar), theme[Token::SliderFill]);
   const auto mark = [&](double seconds, double rise, Token token) {
-    painter.fillRect(QRectF(std::floor(seconds * perSecond) - 1, top - rise, 2, kBar + rise), theme[token]);
+    painter.fillRect(QRectF(std::floor(xOf(seconds)) - 1, top - rise, 2, kBar + rise), theme[token]);
   };
   if (m_stateSeconds > 0 && m_stateSeconds <= m_total) mark(m_stateSeconds, 1, Token::Text2);  // where it opens
   if (m_session.recorded().isActive()) mark(m_seconds, 4, Token::Accent);

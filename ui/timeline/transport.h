@@ -2,6 +2,7 @@
 #pragma once
 #include "core/simulation/snapshot.h"
 #include "ui/document/changeevent.h"
+#include "ui/timeline/timeaxis.h"
 
 #include <QtWidgets/QWidget>
 
@@ -49,6 +50,9 @@ class Transport : public QWidget {
   QPoint placeOf(double seconds) const;  ///< on the bar
   RunLines* runs() const { return m_runs; }
 
+  /// Where its bar begins and ends, as what lies below does.
+  void setAxis(TimeAxis axis);
+
  Q_SIGNALS:
   void heightChanged();
 
@@ -66,10 +70,12 @@ class Transport : public QWidget {
   void showTimeScale();
   void makeSpeeds();
   void showRecorded();
+  void placeRuns();
   void makeRoom();  ///< for the lines of earlier runs
   void refresh();
   void styleButtons();
-  double span() const;  ///< s, from the left end of the bar to the right one
+  double span() const;       ///< s, from the left end of the bar to the right one
+  double perSecond() const;  ///< logical pixels
   void scrub(double x);
   Session& m_session;
   QToolButton *m_reset, *m_step, *m_back, *m_loop, *m_speed;
@@ -77,6 +83,7 @@ class Transport : public QWidget {
   QLabel *m_time, *m_duration;
   ThermalClock* m_thermal;
   RunLines* m_runs;
+  TimeAxis m_axis;
   bool m_playing = false, m_scrubs = false;
   double m_seconds = 0, m_thermalSeconds = 0, m_total = 60, m_scale = 1, m_stateSeconds = 0;
 };
