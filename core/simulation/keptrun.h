@@ -35,7 +35,8 @@ struct KeptRun {
 
   uint64_t number = 1;
   std::string name;
-  double apart = 0;  ///< s, where it left the present run
+  double apart = 0;      ///< s, where it left the present run
+  uint64_t adopted = 0;  ///< frames before it may lie in somebody else's file
   Frames frames;
   size_t frameBytes = 0;
   std::vector<State> states;  ///< ascending by frame
@@ -46,8 +47,9 @@ struct KeptRun {
 /// All runs of a record.
 struct RunContent {
   KeptRun present;
-  std::vector<KeptRun> earlier;  ///< the oldest first
-  uint64_t runs = 1;             ///< so far: the number of the last one
+  std::vector<KeptRun> earlier;        ///< the oldest first
+  uint64_t runs = 1;                   ///< so far: the number of the last one
+  std::shared_ptr<const void> lent{};  ///< by the record that shares it, which thins nothing meanwhile
 };
 
 }  // namespace ps

@@ -144,6 +144,10 @@ void RunRecord::adopt(RunContent content, uint64_t revision) {
   {
     const std::lock_guard lock(m->mutex);
     m->clear();
+    std::erase_if(content.earlier, [](const KeptRun& run) { return run.frames.empty(); });
+    const auto here = [](KeptRun& run) { run.adopted = run.frames.empty() ? 0 : run.frames.rbegin()->first + 1; };
+    here(content.present);
+    std::for_each(content.earlier.begin(), content.earlier.end(), here);
     static_cast<KeptRun&>(*m) = std::move(content.present);
     m->earlier = std::move(content.earlier);
     m->runs = std::max(content.runs, m->number);
@@ -193,6 +197,7 @@ void RunRecord::Impl::keepAsEarlier(uint64_t frame) {
 void RunRecord::Impl::forgetAfter(uint64_t frame) {
   startAfresh();
   while (!frames.empty() && frames.rbegin()->first > frame) eraseFrame(std::prev(frames.end()));
+  adopted = std::min(adopted, frame + 1);
   std::erase_if(states, [&](const State& state) { return state.frame > frame; });
   eraseEditsAfter(frame);
 }

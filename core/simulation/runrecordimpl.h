@@ -36,6 +36,7 @@ struct RunRecord::Impl : KeptRun {
   void keepAsEarlier(uint64_t frame);
   void startAfresh();
   void drop(std::vector<KeptRun>::iterator run);
+  void forgetDiskOf(KeptRun& run);
   bool idle() const { return !busy && waiting.empty() && !waitingState && dropped.empty() && !resized; }
 
   size_t bytes() const;
@@ -43,7 +44,10 @@ struct RunRecord::Impl : KeptRun {
   /// On the thread, without the mutex: nobody waits for the disk.
   void makeRoom();
   std::shared_ptr<const PackedBytes> oldestInMemory();
-  bool moved(const PackedBytes& bytes);
+  bool moved(const PackedBytes& bytes, const std::string& folder);
+  // What frees nothing is left alone: a file's frames and states, unless what is kept beside them is itself too much.
+  bool headsAreMuch() const { return bytes() - counted->memory > budget.memory / 2; }
+  std::vector<KeptRun>::iterator oldestRunThatFrees();
   bool thinFrames();
   bool thinStates();
 
@@ -52,6 +56,7 @@ struct RunRecord::Impl : KeptRun {
   bool diskFails = false;            ///< until there is another budget
   std::shared_ptr<StoredFile> file;  ///< the thread's; nullptr: nothing was to go to the disk yet
   const ByteCount counted;           ///< of packed bytes
+  const std::shared_ptr<const int> lending = std::make_shared<const int>();  ///< held by whoever has all that is kept
 
   mutable std::mutex mutex;
   std::condition_variable_any wake;

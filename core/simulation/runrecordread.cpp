@@ -47,20 +47,23 @@ size_t RunRecord::Impl::stateBytes() const {
 /// Earlier runs go first, as wholes. States may take half of it: frames are what people look at.
 void RunRecord::Impl::makeRoom() {
   std::unique_lock lock(mutex);
-  while (stateBytes() > (budget.memory + budget.disk) / 2 && thinStates()) {
+  const auto isLent = [this] { return lending.use_count() > 1; };  // what is given up then is freed by nobody
+  while (!isLent() && stateBytes() > (budget.memory + budget.disk) / 2 && thinStates()) {
   }
   for (;;) {
     const bool disk = counted->disk > budget.disk;
     if (!disk && bytes() <= budget.memory) return;
     if (const auto oldest = disk ? nullptr : oldestInMemory()) {
+      const std::string folder = budget.folder;
       lock.unlock();
-      const bool made = moved(*oldest);
+      const bool made = moved(*oldest, folder);
       lock.lock();
       if (made) continue;
       diskFails = true;
     }
-    if (!earlier.empty()) {
-      drop(earlier.begin());
+    if (isLent()) return;
+    if (const auto run = oldestRunThatFrees(); run != earlier.end()) {
+      drop(run);
       return;  // it is given back before anything more is packed
     }
     if (!thinFrames() && !thinStates()) return;
@@ -90,32 +93,42 @@ std::shared_ptr<const PackedBytes> RunRecord::Impl::oldestInMemory() {
   return fits ? oldest : nullptr;
 }
 
+/// What goes is given back by the thread: the disk takes its time.
 void RunRecord::forgetDisk() {
-  const auto lies = [](const std::shared_ptr<const PackedBytes>& packed) {
-    return packed->kept() > 0 && packed->inMemory() == 0;
-  };
-  std::vector<std::shared_ptr<const PackedFrame>> gone;  // given back last, without the mutex
-  const std::lock_guard lock(m->mutex);
-  while (!m->earlier.empty()) m->drop(m->earlier.begin());
-  for (auto frame = m->frames.begin(); frame != m->frames.end();) {
-    const auto next = std::next(frame);
-    const bool end = frame == m->frames.begin() || next == m->frames.end();
-    if (!end && (lies(frame->second->data) || lies(frame->second->key->data))) {
-      gone.push_back(frame->second);
-      m->eraseFrame(frame);
-    }
-    frame = next;
+  {
+    const std::lock_guard lock(m->mutex);
+    m->forgetDiskOf(*m);
+    for (KeptRun& run : m->earlier) m->forgetDiskOf(run);
   }
-  const KeptRun::State first = m->states.empty() ? KeptRun::State() : m->states.front();
-  std::erase_if(m->states,
-                [&](const KeptRun::State& state) { return state.stream != first.stream && lies(state.stream); });
-  m->resized = true;
   m->wake.notify_one();
 }
 
-bool RunRecord::Impl::moved(const PackedBytes& packed) {
+void RunRecord::Impl::forgetDiskOf(KeptRun& run) {
+  const auto lies = [](const std::shared_ptr<const PackedBytes>& packed) {
+    return packed->kept() > 0 && packed->inMemory() == 0;
+  };
+  KeptRun gone;
+  for (auto frame = run.frames.begin(); frame != run.frames.end();) {
+    const auto next = std::next(frame);
+    const bool end = frame == run.frames.begin() || next == run.frames.end();
+    if (!end && (lies(frame->second->data) || lies(frame->second->key->data))) {
+      gone.frames.emplace(*frame);
+      run.eraseFrame(frame);
+    }
+    frame = next;
+  }
+  const State first = run.states.empty() ? State() : run.states.front();
+  const auto from = std::stable_partition(run.states.begin(), run.states.end(), [&](const State& state) {
+    return state.stream == first.stream || !lies(state.stream);
+  });
+  gone.states.assign(from, run.states.end());
+  run.states.erase(from, run.states.end());
+  dropped.push_back(std::move(gone));
+}
+
+bool RunRecord::Impl::moved(const PackedBytes& packed, const std::string& folder) {
   try {
-    if (!file) file = StoredFile::nameless(budget.folder);
+    if (!file) file = StoredFile::nameless(folder);
     packed.moveTo(file);
     return true;
   } catch (const Error& problem) {
@@ -124,12 +137,23 @@ bool RunRecord::Impl::moved(const PackedBytes& packed) {
   }
 }
 
+std::vector<KeptRun>::iterator RunRecord::Impl::oldestRunThatFrees() {
+  const bool any = headsAreMuch();
+  return std::find_if(earlier.begin(), earlier.end(), [any](const KeptRun& run) {
+    return any || run.frames.rbegin()->first >= run.adopted ||
+           std::any_of(run.states.begin(), run.states.end(),
+                       [](const State& state) { return state.stream->kept() > 0; });
+  });
+}
+
 /// One of the older half; the oldest and the newest stay. What was among the newest the last time may be as coarse as
 /// the rest already is before the rest gets coarser.
 bool RunRecord::Impl::thinFrames() {
-  if (frames.size() < 3) return false;
+  const auto first = headsAreMuch() ? frames.begin() : frames.lower_bound(adopted);
+  const auto count = std::distance(first, frames.end());
+  if (count < 3) return false;
   for (;;) {
-    for (auto frame = frames.upper_bound(std::max(sweep, frames.begin()->first));
+    for (auto frame = frames.upper_bound(std::max(sweep, first->first));
          frame != frames.end() && frame->first < sweepEnd; ++frame) {
       if (frame->first % stride == 0) continue;
       sweep = frame->first;
@@ -140,22 +164,24 @@ bool RunRecord::Impl::thinFrames() {
     if (!erased) stride *= 2;
     erased = false;
     sweep = 0;
-    sweepEnd = std::next(frames.begin(), static_cast<std::ptrdiff_t>((frames.size() + 1) / 2))->first;
+    sweepEnd = std::next(first, (count + 1) / 2)->first;
     if (stride > 2 * frames.rbegin()->first + 2) break;  // all that are left there are multiples of it
   }
   stride = 1;
-  eraseFrame(std::next(frames.begin()));
+  eraseFrame(std::next(first));
   return true;
 }
 
 /// The one whose neighbours stand closest, the oldest of those; the first stays, from which all can be made again.
 bool RunRecord::Impl::thinStates() {
-  if (states.size() < 2) return false;
-  size_t least = states.size() - 1;
-  for (size_t k = states.size() - 1; k-- > 1;) {
+  const auto frees = [this](size_t at) { return states[at].stream->kept() > 0; };
+  size_t least = 0;
+  if (states.size() > 1 && frees(states.size() - 1)) least = states.size() - 1;
+  for (size_t k = std::max(states.size(), size_t{1}) - 1; k-- > 1;) {
     const auto gap = [this](size_t at) { return states[at + 1].frame - states[at - 1].frame; };
-    if (least + 1 == states.size() || gap(k) <= gap(least)) least = k;
+    if (frees(k) && (least == 0 || least + 1 == states.size() || gap(k) <= gap(least))) least = k;
   }
+  if (least == 0) return false;
   states.erase(states.begin() + static_cast<std::ptrdiff_t>(least));
   return true;
 }
@@ -222,7 +248,7 @@ std::optional<RestorePoint> RunRecord::restorePoint(uint64_t frame) const {
 
 RunContent RunRecord::content() const {
   const std::lock_guard lock(m->mutex);
-  return {*m, m->earlier, m->runs};
+  return {*m, m->earlier, m->runs, m->lending};
 }
 
 std::vector<RunRecord::EarlierRun> RunRecord::earlier() const {

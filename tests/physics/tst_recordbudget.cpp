@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the record of a run may take, in memory and on the disk, and what it gives up for that.
+#include "core/simulation/keptrun.h"
 #include "core/simulation/runrecord.h"
 #include "tests/shared/plainframe.h"
 
@@ -18,6 +19,8 @@ class TestRecordBudget : public QObject {
   void staysWithinItsBudget();
   void whatIsOldGoesToTheDisk();
   void anEarlierRunMakesRoom();
+  void whatFreesNothingStays();
+  void theDiskIsEmptied();
 };
 
 /// What is old is evenly spread, and the newest frames are all there.
@@ -109,6 +112,66 @@ void TestRecordBudget::anEarlierRunMakesRoom() {
   QCOMPARE(record.earlier().size(), size_t{1});
   for (++frame; !record.earlier().empty();) run(frame);
   QCOMPARE(record.extent().frames, size_t{frame});
+}
+
+/// While somebody else holds all that is kept, and what came from elsewhere: giving it up would free nothing.
+void TestRecordBudget::whatFreesNothingStays() {
+  constexpr size_t kPlenty = size_t{1} << 30, kLittle = 700000, kMore = 1500000;
+  RunRecord record(kPlenty);
+  record.begin(1);
+  const auto add = [](RunRecord& to, uint64_t first, uint64_t last) {
+    for (uint64_t n = first; n <= last; ++n) {
+      to.add(tests::plainFrame(n, 500));
+      to.settle();
+    }
+  };
+  add(record, 0, 200);
+  record.cutAfter(150, 1);
+  RunRecord other(kMore);
+  {
+    const RunContent content = record.content();
+    other.adopt(content, 1);
+    record.setBudget(RecordBudget{kLittle});
+    add(record, 151, 155);
+    QCOMPARE(record.extent().frames, size_t{156});
+    QCOMPARE(record.earlier().size(), size_t{1});
+  }
+  add(record, 156, 160);
+  QVERIFY(record.earlier().empty());
+  QVERIFY(record.cost().bytes <= kLittle);
+
+  add(other, 151, 900);
+  QVERIFY(other.cost().bytes <= kMore);
+  QCOMPARE(other.earlier().size(), size_t{1});
+  for (uint64_t n = 1; n <= 150; ++n) QCOMPARE(other.neighbour(n - 1, 1), std::optional(n));
+  QVERIFY(other.extent().frames < 700);
+}
+
+/// What is in memory stays, of earlier runs too, and so do the ends.
+void TestRecordBudget::theDiskIsEmptied() {
+  const QTemporaryDir folder;
+  RunRecord record(RecordBudget{400000, size_t{1} << 30, folder.path().toStdString()});
+  record.begin(1);
+  const auto run = [&](uint64_t first, uint64_t last) {
+    for (uint64_t n = first; n <= last; ++n) {
+      record.add(tests::plainFrame(n, 200));
+      record.settle();
+    }
+  };
+  run(0, 200);
+  record.cutAfter(190, 1);
+  run(191, 300);
+  const size_t before = record.cost().disk;
+  QVERIFY(before > 0 && record.extent().frames == 301);
+  record.forgetDisk();
+  record.settle();
+  constexpr size_t kEnds = 6 * 4096;
+  QVERIFY2(record.cost().disk <= kEnds, qPrintable(QString::number(record.cost().disk)));
+  QCOMPARE(record.earlier().size(), size_t{1});
+  QVERIFY(record.earlierFrame(1, 200.0 / 60));
+  QCOMPARE(record.extent().first, uint64_t{0});
+  QCOMPARE(record.extent().last, uint64_t{300});
+  QVERIFY(record.extent().frames > 10 && record.extent().frames < 200);
 }
 
 QTEST_GUILESS_MAIN(TestRecordBudget)
