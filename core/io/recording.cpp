@@ -13,9 +13,11 @@
 #include "core/io/schema.h"
 #include "core/simulation/namedmatter.h"
 
+#include <algorithm>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <utility>
 
@@ -25,7 +27,6 @@ namespace {
 using nlohmann::json;
 using namespace recording;
 
-constexpr uint64_t kMaximumHeader = uint64_t{64} << 20;
 constexpr uint64_t kMaximumHead = uint64_t{16} << 20, kMaximumFrame = uint64_t{1} << 30;
 constexpr uint64_t kMaximumState = uint64_t{16} << 30, kMaximumText = uint64_t{256} << 20;
 constexpr size_t kMaximumRuns = 1000;
@@ -106,7 +107,7 @@ class Blocks {
       try {
         if (!readBlock()) throw InputError("");
       } catch (const InputError&) {
-        return m_path + ": is cut off or damaged after frame " + std::to_string(frames.size());
+        return m_path + ": is cut off or damaged after frame " + std::to_string(content.present.frames.size());
       }
       ++m_number;
       advance(m_at - before);
@@ -116,7 +117,6 @@ class Blocks {
   const std::string& whyNoStates() const { return m_noStates; }
 
   RunContent content;
-  std::vector<std::shared_ptr<const PackedFrame>> frames;  ///< of the present run
 
  private:
   bool readBlock();
@@ -207,13 +207,15 @@ void Blocks::beginRun(const std::string& head) {
   }
 }
 
+/// What a run shares with those before it comes first, and what they gave up may stand between.
 void Blocks::add(const std::shared_ptr<const PackedFrame>& frame) {
   const FrameStats& stats = frame->stats;
-  const KeptRun::Frames& before = run().frames;
-  if (!before.empty() && (stats.frame <= before.rbegin()->first || stats.time < before.rbegin()->second->stats.time))
+  const KeptRun::Frames& all = run().frames;
+  const auto next = all.lower_bound(stats.frame);
+  if ((next != all.end() && (next->first == stats.frame || next->second->stats.time < stats.time)) ||
+      (next != all.begin() && std::prev(next)->second->stats.time > stats.time))
     throw InputError(m_where + "frames are not in their order");
   run().addFrame(frame);
-  if (m_runs == 1) frames.push_back(frame);
 }
 
 void Blocks::takeFrame(const std::string& head, std::shared_ptr<const PackedBytes> data) {
@@ -231,10 +233,12 @@ void Blocks::takeFrame(const std::string& head, std::shared_ptr<const PackedByte
 }
 
 void Blocks::add(const KeptRun::State& state) {
-  const std::vector<KeptRun::State>& before = run().states;
-  if (!before.empty() && (state.frame <= before.back().frame || state.edits < before.back().edits))
+  std::vector<KeptRun::State>& all = run().states;
+  const auto next = std::find_if(all.begin(), all.end(), [&](const auto& other) { return other.frame >= state.frame; });
+  if ((next != all.end() && (next->frame == state.frame || next->edits < state.edits)) ||
+      (next != all.begin() && std::prev(next)->edits > state.edits))
     throw InputError(m_where + "states are not in their order");
-  run().states.push_back(state);
+  all.insert(next, state);
 }
 
 void Blocks::takeState(const std::string& head, std::shared_ptr<const PackedBytes> data) {
@@ -255,7 +259,7 @@ void Blocks::takeText(Kind kind, const PackedBytes& text) {
     m_documents[m_number] = std::make_shared<const Project>(readProject(text.unpacked(), m_path, m_plugins).project);
   } else if (kind == Kind::Edits) {
     std::vector<FrameEdit>& before = run().edits;
-    for (FrameEdit& edit : readLog(parseJson(text.unpacked(), m_path), m_documents, m_plugins)) {
+    for (FrameEdit& edit : readLog(parseJson(text.unpacked(), m_path), m_documents, before, m_plugins)) {
       if (!before.empty() && edit.frame < before.back().frame) throw InputError("edits are not in their order");
       run().addEdit(std::move(edit));
     }
@@ -277,7 +281,8 @@ RecordingReader::RecordingReader(const std::string& path, const PluginRegistry& 
   m_damage = blocks.readAll();
   m_noStates = blocks.whyNoStates();
   m_content = std::move(blocks.content);
-  m_frames = std::move(blocks.frames);
+  std::erase_if(m_content.earlier, [](const KeptRun& run) { return run.frames.empty(); });
+  for (const auto& [number, frame] : m_content.present.frames) m_frames.push_back(frame);
   if (m_noStates.empty() && m_content.present.states.empty()) m_noStates = path + ": holds no state";
 }
 
@@ -303,7 +308,8 @@ bool sameScene(const Project& a, const Project& b) {
     project.view = {};
     project.graphs = {};
     project.probes = {};
-    project.title = {};
+    project.title = project.description = {};
+    project.markers = {};
     return writeProject(project);
   };
   return sceneOf(a) == sceneOf(b);

@@ -11,6 +11,7 @@ namespace ps::recording {
 
 inline constexpr char kFileMark[] = "PSRECORD", kBlockMark[] = "PSBLOCK.";
 inline constexpr size_t kMark = 8;
+inline constexpr uint64_t kMaximumHeader = uint64_t{64} << 20;  ///< bytes
 
 enum class Kind : uint32_t { Run = 1, Document, Names, Probes, Key, Frame, State, Edits };
 

@@ -92,6 +92,11 @@ RecordingWriter::RecordingWriter(const std::string& path, const Project& project
   const json header{
       {"format", "phasesketch-recording"}, {"version", kRecordingVersion}, {"project", json::parse(textOf(project))}};
   const std::string text = header.dump();
+  if (text.size() > kMaximumHeader) {
+    throw InputError(path + ": the project takes " + std::to_string(text.size() >> 20) +
+                     " MiB, and a recording holds one of at most " + std::to_string(kMaximumHeader >> 20) +
+                     "; make its meshes coarser");
+  }
   const auto length = static_cast<uint32_t>(text.size());
   m->file.write({kFileMark, kMark});
   m->file.write(bytesOf(length));
@@ -179,7 +184,9 @@ void RecordingWriter::Impl::addRun(const KeptRun& run) {
     const auto found = known.find(packed);
     if (found != known.end()) head.shared.push_back(found->second);
   };
-  for (const KeptRun::State& state : run.states) isShared(state.stream);
+  for (const KeptRun::State& state : run.states) {
+    if (canBeGoneOnFrom(run, state)) isShared(state.stream);
+  }
   for (const auto& [number, frame] : run.frames) isShared(frame->data);
   std::sort(head.shared.begin(), head.shared.end());
   block(Kind::Run, headOf(head), nullptr);

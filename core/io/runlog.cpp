@@ -7,6 +7,7 @@
 #include "core/io/projectfields.h"
 #include "core/io/schema.h"
 
+#include <algorithm>
 #include <utility>
 #include <variant>
 
@@ -240,6 +241,27 @@ RecordedEdit recorded(fields::LoggedEdit edit, const Documents& documents) {
       edit);
 }
 
+const Project* documentOf(const FrameEdit& edit) {
+  const auto* command = std::get_if<Command>(&edit.edit);
+  const auto* update = command ? std::get_if<UpdateProject>(command) : nullptr;
+  return update ? update->project.get() : nullptr;
+}
+
+/// The log names it: the document that the body came with holds it.
+void takeMesh(ReturnBody& back, const Project* document) {
+  auto body = std::make_shared<Body>(*back.body);
+  auto* solid = std::get_if<SolidShape>(&body->shape);
+  if (!solid || choiceOf(solid->parameters, solidParameters(), "kind") != "mesh") return;
+  if (document) {
+    const auto& meshes = document->meshes;
+    const auto mesh =
+        std::find_if(meshes.begin(), meshes.end(), [&](const auto& one) { return one->id == solid->meshId; });
+    if (mesh != meshes.end()) solid->mesh = *mesh;
+  }
+  if (!solid->mesh) throw InputError("a body came back whose mesh '" + solid->meshId + "' is in no document before");
+  back.body = std::move(body);
+}
+
 }  // namespace
 
 json logOf(const FrameEdit* first, const FrameEdit* end,
@@ -250,14 +272,21 @@ json logOf(const FrameEdit* first, const FrameEdit* end,
   return list;
 }
 
-std::vector<FrameEdit> readLog(json list, const Documents& documents, const PluginRegistry& plugins) {
+std::vector<FrameEdit> readLog(json list, const Documents& documents, const std::vector<FrameEdit>& before,
+                               const PluginRegistry& plugins) {
   static const json schema{{"type", "array"}, {"items", fields::entryFields().schema()}};
   requireSchema(schema, list, "log");
   std::vector<FrameEdit> edits;
+  const Project* newest = nullptr;
+  for (const FrameEdit& edit : before) {
+    if (const Project* document = documentOf(edit)) newest = document;
+  }
   for (json& entry : list) {
     fields::LogEntry one;
     fields::entryFields().read(one, entry, plugins);
+    if (auto* back = std::get_if<ReturnBody>(&one.edit); back && back->body) takeMesh(*back, newest);
     edits.push_back({one.frame, recorded(std::move(one.edit), documents)});
+    if (const Project* document = documentOf(edits.back())) newest = document;
   }
   return edits;
 }

@@ -5,6 +5,7 @@
 #include "core/simulation/particlefield.h"
 #include "tests/shared/scenes.h"
 
+#include <QDir>
 #include <QFile>
 #include <QTemporaryDir>
 #include <QTest>
@@ -23,6 +24,8 @@ class TestRecording : public QObject {
   void damagedFramesAreRefused();
   void framesThatCannotBeDrawnAreRefused();
   void everyBitOfTheHeaderIsGuarded();
+  void projectsThatNoHeaderHoldsAreRefused();
+  void whatOnlyPeopleSeeMakesNoOtherScene();
   void brokenHeadersAreRefused_data();
   void brokenHeadersAreRefused();
 };
@@ -201,6 +204,25 @@ void TestRecording::everyBitOfTheHeaderIsGuarded() {
     QVERIFY(put(at, bytes[at]));
   }
   QCOMPARE(complaint(), QString());
+}
+
+void TestRecording::projectsThatNoHeaderHoldsAreRefused() {
+  QTemporaryDir folder;
+  const QString path = folder.filePath("run.psrec");
+  Project project = scenes::iceOnPlate(2, 400);
+  project.description.assign(size_t{65} << 20, 'x');
+  QVERIFY_THROWS_EXCEPTION(InputError, RecordingWriter(path.toStdString(), project));
+  QVERIFY(QDir(folder.path()).isEmpty());
+}
+
+void TestRecording::whatOnlyPeopleSeeMakesNoOtherScene() {
+  const Project project = scenes::iceOnPlate(2, 400);
+  Project other = project;
+  other.description = "another";
+  other.markers.emplace_back();
+  QVERIFY(sameScene(project, other));
+  other.duration = 7;
+  QVERIFY(!sameScene(project, other));
 }
 
 void TestRecording::brokenHeadersAreRefused_data() {
