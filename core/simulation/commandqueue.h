@@ -29,6 +29,7 @@ struct GoBack {
 struct Adoption {
   std::shared_ptr<const RunContent> content;
   bool same = true;
+  std::function<void()> adopted{};
 };
 using Question = std::function<void(const Engine&)>;
 /// Values of parameters that wait side by side, one of each address.

@@ -130,6 +130,7 @@ void EngineThread::Impl::adopt(const Adoption& recording) {
   engine = std::move(past);
   record.adopt(*recording.content, engine->revision());
   standAt(project, !recording.same, true, false);
+  if (recording.adopted) recording.adopted();
 }
 
 void EngineThread::Impl::standAt(const Project& project, bool edits, bool wholeHistory, bool play) {
@@ -197,9 +198,9 @@ void EngineThread::keepState() {
   m->push(Question([impl = m.get()](const Engine& engine) { impl->record.keepState(engine); }));
 }
 
-void EngineThread::adopt(std::shared_ptr<const RunContent> content, bool same) {
+void EngineThread::adopt(std::shared_ptr<const RunContent> content, bool same, std::function<void()> adopted) {
   pause();
-  m->push(Adoption{std::move(content), same});
+  m->push(Adoption{std::move(content), same, std::move(adopted)});
 }
 
 void EngineThread::forgetRun(uint64_t run) { m->record.forgetRun(run); }

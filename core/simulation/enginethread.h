@@ -70,8 +70,8 @@ class EngineThread {
   void keepState();
   /// The record becomes that of a run that was recorded elsewhere, and the scene stands at its end. Then the project
   /// acts as it is; `same`: it is the one that the recording is of. Where that cannot be, an event says why, and all
-  /// stays as it was.
-  void adopt(std::shared_ptr<const RunContent> content, bool same);
+  /// stays as it was. `adopted` is called on the engine's thread when it stands there.
+  void adopt(std::shared_ptr<const RunContent> content, bool same, std::function<void()> adopted = {});
 
   /// How far the scene is that is being made, by an opening, a reset or a return to a state or frame; nothing when none
   /// is.

@@ -19,6 +19,7 @@
 #include <QtCore/QTemporaryDir>
 
 #include <map>
+#include <memory>
 
 using namespace ps;
 
@@ -166,6 +167,49 @@ class TestRecordingFiles : public SampleWindowTest {
     QVERIFY(failed.wait(kLong));
     QVERIFY(failed.front().at(1).toString().contains(QStringLiteral("the folder does not exist")));
     QVERIFY(m_window->notice()->text().contains(QStringLiteral("folder does not exist")));
+  }
+
+  /// A byte of the last state is another: all that is in the file can be read but that.
+  void whatCannotBeGoneOnFromIsNotOpened() {
+    constexpr qsizetype kHead = 48, kKind = 8, kState = 7;
+    QFile file(m_recording);
+    QVERIFY(file.open(QIODevice::ReadWrite));
+    const QByteArray bytes = file.readAll();
+    qsizetype at = bytes.lastIndexOf("PSBLOCK.");
+    while (at > 0 && bytes[at + kKind] != kState) at = bytes.lastIndexOf("PSBLOCK.", at - 1);
+    const qsizetype place = at + kHead + 200;
+    QVERIFY(at > 0 && file.seek(place) && file.putChar(static_cast<char>(~bytes[place])));
+    file.close();
+    saveDocument();
+    QSignalSpy opened(&session().recordings(), &RecordingFiles::opened);
+    QStringList said;
+    const QObject here;
+    connect(&session(), &Session::happened, &here,
+            [&said](const EngineEvent& event) { said << QString::fromStdString(event.message); });
+    load(m_project);
+    const auto refused = [&said] { return !said.filter(QStringLiteral("the recording is not opened")).isEmpty(); };
+    QTRY_VERIFY_WITH_TIMEOUT(refused(), kLong);
+    hash();
+    QCoreApplication::processEvents();
+    QCOMPARE(opened.count(), 0);
+    QCOMPARE(session().newest()->stats.frame, uint64_t{0});
+  }
+
+  /// Closing right after saving: the file is there, and whole.
+  void closingWaitsForWhatIsSaved() {
+    const QString path = m_folder.filePath(QStringLiteral("closed.psrec"));
+    auto other =
+        std::make_unique<Session>(Session::Options{.autosave = false, .pluginPaths = {}, .autosaveDirectory = {}});
+    QSignalSpy ready(other.get(), &Session::ready);
+    other->start();
+    QVERIFY(ready.wait(kLong));
+    QSignalSpy shown(other.get(), &Session::projectShown);
+    QFile::remove(m_recording);
+    other->files().open(m_project);
+    QVERIFY(shown.wait(kLong));
+    other->recordings().save(path);
+    other.reset();
+    QVERIFY(QFile::exists(path));
   }
 
  private:

@@ -24,12 +24,13 @@ int number(const char* key, int usual, int least, int most) {
 }
 void set(const char* key, const QVariant& value) { QSettings().setValue(QLatin1String(key), value); }
 
-/// Half of what the disk still has: others need it too.
-size_t roomOnDisk(const QString& folder) {
+/// Half of what the disk would have without that: others need it too.
+size_t roomOnDisk(const QString& folder, size_t ours) {
   QFileInfo place(folder);
   while (!place.exists() && place.absolutePath() != place.absoluteFilePath()) place = QFileInfo(place.absolutePath());
   const QStorageInfo disk(place.absoluteFilePath());
-  return disk.isValid() && disk.bytesAvailable() > 0 ? static_cast<size_t>(disk.bytesAvailable()) / 2 : 0;
+  return disk.isValid() && disk.bytesAvailable() > 0 ? (static_cast<size_t>(disk.bytesAvailable()) + ours) / 2
+                                                     : ours / 2;
 }
 
 }  // namespace
@@ -46,10 +47,16 @@ QString recordFolder() {
 }
 void setRecordFolder(const QString& folder) { set(kFolder, folder); }
 
-RecordBudget recordBudget() {
+size_t usualRecordMemory() {
+  static const size_t bytes = RunRecord::usualBudget();
+  return bytes;
+}
+
+RecordBudget recordBudget(size_t onDisk) {
+  const size_t usual = usualRecordMemory();
   const size_t memory = static_cast<size_t>(recordMemory()) * kMiB, disk = static_cast<size_t>(recordDisk()) * kMiB;
   const QString folder = recordFolder();
-  return {memory > 0 ? memory : RunRecord::usualBudget(), std::min(disk, roomOnDisk(folder)), folder.toStdString()};
+  return {memory > 0 ? memory : usual, std::min(disk, roomOnDisk(folder, onDisk)), folder.toStdString()};
 }
 
 int autosaveInterval() { return number(kAutosave, kUsualAutosave, kLeastAutosave, kMostAutosave); }

@@ -18,8 +18,10 @@ void setRecordDisk(int mebibytes);
 /// Where that part lies.
 QString recordFolder();
 void setRecordFolder(const QString& folder);
-/// All of these; of the disk no more than half of what is free there now.
-RecordBudget recordBudget();
+/// Bytes: that quarter, as it was when the program began to record; what it records then takes of it.
+size_t usualRecordMemory();
+/// All of these; of the disk no more than half of what would be free there without the bytes that the record has there.
+RecordBudget recordBudget(size_t onDisk = 0);
 
 /// s between copies of unsaved work.
 int autosaveInterval();

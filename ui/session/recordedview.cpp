@@ -178,6 +178,12 @@ void RecordedView::forgetRun(uint64_t run) {
   Q_EMIT runsChanged();
 }
 
+void RecordedView::forgetDisk() {
+  if (!record()) return;
+  m_session.engine()->forgetRecordedOnDisk();
+  Q_EMIT runsChanged();
+}
+
 void RecordedView::renameRun(uint64_t run, const QString& name) {
   if (!record()) return;
   m_session.engine()->renameRun(run, name.trimmed().toStdString());

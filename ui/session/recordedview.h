@@ -50,6 +50,7 @@ class RecordedView : public QObject {
   /// At its end; the present run is then an earlier one.
   void goOnWith(uint64_t run);
   void forgetRun(uint64_t run);
+  void forgetDisk();  ///< what of all runs lies there
   void renameRun(uint64_t run, const QString& name);
   QString runName(uint64_t run) const;  ///< "Run 1" where nobody gave it one
   /// What an earlier run measured stands beside this one's curves; nothing: none does. A run that was just left does.
@@ -69,7 +70,7 @@ class RecordedView : public QObject {
   void changed();
   void playingChanged();
   void comparedChanged();
-  void runsChanged();  ///< deleted, named, or told apart otherwise
+  void runsChanged();  ///< deleted, in part or as wholes, named, or told apart otherwise
   void ghostChanged();
 
  private:

@@ -31,6 +31,22 @@ struct RecordingFiles::Read {
   QString problem, damage;
 };
 
+/// Goes with the question, whether the engine answers it or has no scene. It may when these files are gone, but never
+/// when the session is.
+struct RecordingFiles::Answer {
+  Session* session;
+  QPointer<RecordingFiles> files;
+  bool given = false;
+  Answer(Session& of, RecordingFiles* asking) : session(&of), files(asking) {}
+  Answer(const Answer&) = delete;
+  Answer& operator=(const Answer&) = delete;
+  ~Answer() {
+    QMetaObject::invokeMethod(session, [files = files, given = given] {
+      if (files) files->onAnswer(given);
+    });
+  }
+};
+
 RecordingFiles::RecordingFiles(Session& session) : m_session(session) {
   m_clock.setInterval(kClockInterval);
   connect(&m_clock, &QTimer::timeout, this, [this] {
@@ -45,7 +61,10 @@ RecordingFiles::RecordingFiles(Session& session) : m_session(session) {
   });
 }
 
-RecordingFiles::~RecordingFiles() { cancel(); }
+RecordingFiles::~RecordingFiles() {
+  if (m_reading) m_reading->cancel();
+  for (Waiting& one : m_waiting) m_worker.run(std::move(one.write));
+}
 
 QString RecordingFiles::beside(const QString& project) {
   if (project.isEmpty()) return {};
@@ -77,8 +96,8 @@ void RecordingFiles::save(const QString& path) {
     return;
   }
   begin();
-  const auto job = [this, path, project = m_session.document().project(), record = &m_session.engine()->recording(),
-                    progress = m_progress] {
+  auto job = [this, path, project = m_session.document().project(), record = &m_session.engine()->recording(),
+              progress = m_progress] {
     const ProgressScope scope(progress.get());
     QString problem;
     bool cancelled = false;
@@ -104,12 +123,20 @@ void RecordingFiles::save(const QString& path) {
     });
   };
   m_session.engine()->keepState();
-  // The engine may answer when these files are gone, but never when the session is.
-  m_session.engine()->ask([session = &m_session, files = QPointer<RecordingFiles>(this), job](const Engine&) {
-    QMetaObject::invokeMethod(session, [files, job] {
-      if (files) files->m_worker.run(job);
-    });
-  });
+  m_waiting.push_back({path, std::move(job)});
+  auto answer = std::make_shared<Answer>(m_session, this);
+  m_session.engine()->ask([answer = std::move(answer)](const Engine&) { answer->given = true; });
+}
+
+void RecordingFiles::onAnswer(bool given) {
+  Waiting one = std::move(m_waiting.front());
+  m_waiting.pop_front();
+  if (given) {
+    m_worker.run(std::move(one.write));
+    return;
+  }
+  end();
+  Q_EMIT saveFailed(one.path, QStringLiteral("there is no scene that runs"));
 }
 
 void RecordingFiles::open(const QString& path) {
@@ -161,14 +188,20 @@ void RecordingFiles::take(const QString& path, const Read& read, uint64_t count)
   Document& document = m_session.document();
   if (!document.had(count) || !m_session.engine()) return;  // another project has taken its place
   const bool same = read.same && document.changeCount() == count;
-  m_session.engine()->adopt(read.content, same);
   QString remark = read.damage;
   if (!same) {
     remark = QStringLiteral("It is of another version of this project; what goes on from it goes by the present one");
   }
   const auto& frames = read.content->present.frames;
-  Q_EMIT opened(path, frames.empty() ? 0 : frames.begin()->second->stats.time,
-                frames.empty() ? 0 : frames.rbegin()->second->stats.time, remark);
+  const double from = frames.empty() ? 0 : frames.begin()->second->stats.time;
+  const double to = frames.empty() ? 0 : frames.rbegin()->second->stats.time;
+  // Where the scene cannot stand there, an event says why.
+  const auto adopted = [session = &m_session, files = QPointer<RecordingFiles>(this), path, from, to, remark] {
+    QMetaObject::invokeMethod(session, [=] {
+      if (files) Q_EMIT files->opened(path, from, to, remark);
+    });
+  };
+  m_session.engine()->adopt(read.content, same, adopted);
 }
 
 }  // namespace ps

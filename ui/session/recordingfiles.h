@@ -6,6 +6,8 @@
 #include <QtCore/QString>
 #include <QtCore/QTimer>
 
+#include <deque>
+#include <functional>
 #include <memory>
 
 namespace ps {
@@ -20,7 +22,7 @@ class RecordingFiles : public QObject {
   Q_OBJECT
  public:
   explicit RecordingFiles(Session& session);
-  ~RecordingFiles() override;
+  ~RecordingFiles() override;  ///< waits until what is to be saved is written
 
   /// "ice.psrec" for "ice.json"; "" for "".
   static QString beside(const QString& project);
@@ -42,6 +44,12 @@ class RecordingFiles : public QObject {
 
  private:
   struct Read;
+  struct Answer;
+  struct Waiting {
+    QString path;
+    std::function<void()> write;
+  };
+  void onAnswer(bool given);
   void attach(const QString& path);  ///< to the project that is open
   void begin();
   void end();
@@ -53,7 +61,8 @@ class RecordingFiles : public QObject {
   int m_jobs = 0;
   QTimer m_clock;  ///< runs while there are any
   bool m_told = false;
-  Worker m_worker;  // ends first
+  std::deque<Waiting> m_waiting;  ///< for the engine's newest state, in their order
+  Worker m_worker;                // ends first, with what is to be written
 };
 
 }  // namespace ps

@@ -293,8 +293,11 @@ void Session::packState(KeptState kept) {
   });
 }
 
-void Session::applyPreferences() {
-  if (m_engine) m_engine->setRecordBudget(preferences::recordBudget());
+void Session::applyRecordBudget() {
+  if (m_engine) m_engine->setRecordBudget(preferences::recordBudget(m_engine->recording().cost().disk));
+}
+
+void Session::applyAutosave() {
   if (m_autosave) m_autosave->setInterval(preferences::autosaveInterval());
 }
 

@@ -83,8 +83,9 @@ class Session : public QObject {
   void cancelMaking();
   /// The engine has no scene: the project cannot be built as it is (see SceneLink::isBroken()).
   bool isBroken() const;
-  /// As they are by now.
-  void applyPreferences();
+  // Preferences as they are by now.
+  void applyRecordBudget();
+  void applyAutosave();
   /// Last copy of unsaved work, written once. Returns "", or why it could not be: the session then goes on.
   QString close();
 

@@ -4,6 +4,7 @@
 #include "core/base/memory.h"
 #include "core/simulation/enginethread.h"
 #include "ui/session/preferences.h"
+#include "ui/session/recordedview.h"
 #include "ui/session/session.h"
 #include "ui/theme/plaintext.h"
 #include "ui/window/mainwindow.h"
@@ -131,24 +132,24 @@ void Preferences::addAutosave() {
       {{text(15), 15}, {text(30), 30}, {QStringLiteral("Every minute"), 60}, {QStringLiteral("Every 5 minutes"), 300}},
       preferences::autosaveInterval(), text, [this](int seconds) {
         preferences::setAutosaveInterval(seconds);
-        m_window.session().applyPreferences();
+        m_window.session().applyAutosave();
       });
 }
 
 void Preferences::addRecording() {
   heading(QStringLiteral("Recording of a run"));
-  choice(
-      QStringLiteral("In memory, at most"), QStringLiteral("When it is full, what is oldest goes to the disk."),
-      {{QStringLiteral("A quarter of what is free (%1)").arg(bytesText(static_cast<double>(RunRecord::usualBudget()))),
-        0},
-       {mebibytes(512), 512},
-       {mebibytes(2048), 2048},
-       {mebibytes(8192), 8192},
-       {mebibytes(32768), 32768}},
-      preferences::recordMemory(), mebibytes, [this](int size) {
-        preferences::setRecordMemory(size);
-        m_window.session().applyPreferences();
-      });
+  choice(QStringLiteral("In memory, at most"), QStringLiteral("When it is full, what is oldest goes to the disk."),
+         {{QStringLiteral("A quarter of what is free (%1)")
+               .arg(bytesText(static_cast<double>(preferences::usualRecordMemory()))),
+           0},
+          {mebibytes(512), 512},
+          {mebibytes(2048), 2048},
+          {mebibytes(8192), 8192},
+          {mebibytes(32768), 32768}},
+         preferences::recordMemory(), mebibytes, [this](int size) {
+           preferences::setRecordMemory(size);
+           m_window.session().applyRecordBudget();
+         });
   choice(QStringLiteral("On the disk, at most"),
          QStringLiteral("When that is full too, old frames are thinned: every second one goes."),
          {{QStringLiteral("Nothing"), 0},
@@ -158,7 +159,7 @@ void Preferences::addRecording() {
           {mebibytes(131072), 131072}},
          preferences::recordDisk(), mebibytes, [this](int size) {
            preferences::setRecordDisk(size);
-           m_window.session().applyPreferences();
+           m_window.session().applyRecordBudget();
          });
   m_folder = new QPushButton;
   connect(m_folder, &QPushButton::clicked, this, &Preferences::chooseFolder);
@@ -170,9 +171,10 @@ void Preferences::addRecording() {
   row(QStringLiteral("Used now"), m_used, QStringLiteral("By the run of this window."));
   m_empty = new QPushButton(QStringLiteral("Empty the disk"));
   m_empty->setAutoDefault(false);
-  m_empty->setToolTip(QStringLiteral("What was recorded there can no longer be shown. What is in memory stays."));
+  m_empty->setToolTip(QStringLiteral(
+      "What was recorded there can no longer be shown. What is in memory stays, and so do the ends of each run."));
   connect(m_empty, &QPushButton::clicked, this, [this] {
-    if (EngineThread* engine = m_window.session().engine()) engine->forgetRecordedOnDisk();
+    m_window.session().recorded().forgetDisk();
     refresh();
   });
   m_grid->addWidget(m_empty, m_grid->rowCount(), 1, Qt::AlignLeft);
@@ -183,7 +185,7 @@ void Preferences::chooseFolder() {
       QFileDialog::getExistingDirectory(this, QStringLiteral("Folder for recordings"), preferences::recordFolder());
   if (folder.isEmpty()) return;
   preferences::setRecordFolder(folder);
-  m_window.session().applyPreferences();
+  m_window.session().applyRecordBudget();
   refresh();
 }
 
