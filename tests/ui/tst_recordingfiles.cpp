@@ -212,6 +212,19 @@ class TestRecordingFiles : public SampleWindowTest {
     QVERIFY(QFile::exists(path));
   }
 
+  /// The scene is gone before the engine is asked.
+  void whatIsNotAnsweredIsSaid() {
+    Project none = document().project();
+    none.materials[0].properties.values["boiling_temperature"] = 200.0;  // below the melting point
+    QSignalSpy failed(&session().recordings(), &RecordingFiles::saveFailed);
+    session().engine()->ask([](const Engine&) { QTest::qSleep(200); });  // the session does not know of it yet
+    session().engine()->open(none, false);
+    session().recordings().save(m_recording);
+    QCOMPARE(failed.count(), 0);
+    QTRY_COMPARE(failed.count(), 1);
+    QCOMPARE(failed.front().at(1).toString(), QStringLiteral("there is no scene that runs"));
+  }
+
  private:
   uint64_t hash() {
     return onEngine<uint64_t>(session(), [](Engine& engine) { return engine.stateHash(); });
