@@ -48,6 +48,7 @@ std::string ownerNameIn(const Project& project, const Address& address) {
       return named(project.environment.walls);
     case Owner::Body:
     case Owner::Constraint:
+    case Owner::Shape:
       return named(project.bodies);
     case Owner::Emitter:
       return named(project.emitters);
