@@ -35,7 +35,7 @@ QString nameOf(const Marker& marker) { return QString::fromStdString(marker.name
 }  // namespace
 
 MarkerRow::MarkerRow(Session& session, const KeyRows& scale, QWidget* parent)
-    : QWidget(parent), m_session(session), m_scale(scale) {
+    : QWidget(parent), m_session(session), m_scale(scale), m_count(session.document().project().markers.size()) {
   setFixedHeight(kHeight);
   setFocusPolicy(Qt::StrongFocus);
   setMouseTracking(true);
@@ -48,7 +48,8 @@ void MarkerRow::onChanged(const ChangeEvent& event) {
   update();
   if (!std::holds_alternative<MarkersChanged>(event) && !std::holds_alternative<ProjectOpened>(event)) return;
   const size_t count = m_session.document().project().markers.size();
-  if (m_chosen && *m_chosen >= count) m_chosen.reset();
+  if (count != m_count || std::holds_alternative<ProjectOpened>(event)) m_chosen.reset();  // places have shifted
+  m_count = count;
   Q_EMIT wanted(count > 0);
 }
 
@@ -108,6 +109,9 @@ void MarkerRow::mouseReleaseEvent(QMouseEvent*) {
   if (m_drag && !m_drag->moved) m_session.recorded().showAt(m_drag->from);
   endDrag(true);
 }
+
+/// No release comes to what is hidden: the document's gesture would stay open.
+void MarkerRow::hideEvent(QHideEvent*) { endDrag(false); }
 
 void MarkerRow::endDrag(bool keep) {
   if (!m_drag) return;

@@ -39,6 +39,7 @@ class MarkerRow : public QWidget {
   void mouseDoubleClickEvent(QMouseEvent* event) override;
   void keyPressEvent(QKeyEvent* event) override;
   void contextMenuEvent(QContextMenuEvent* event) override;
+  void hideEvent(QHideEvent* event) override;
 
  private:
   void onChanged(const ChangeEvent& event);
@@ -51,6 +52,7 @@ class MarkerRow : public QWidget {
   Session& m_session;
   const KeyRows& m_scale;
   std::optional<size_t> m_chosen;
+  size_t m_count = 0;  ///< of markers when m_chosen was true of them
   struct Drag {
     double grip = 0, from = 0;  ///< s: from the marker to where it was taken, and where it was
     bool moved = false;
