@@ -220,7 +220,10 @@ void CurvePanel::showBetween() {
 
 void CurvePanel::chooseBetween(int index) {
   Response next = m_target.response();
-  for (size_t piece = 0; piece + 1 < next.points.size(); ++piece) setBetween(next, piece, static_cast<Between>(index));
+  const auto way = static_cast<Between>(index);
+  for (size_t piece = 0; way == Between::Stated && piece + 1 < next.points.size(); ++piece)
+    next.points[piece].toNext = ToNext::Smooth;  // a slope is of the pieces on both sides
+  for (size_t piece = 0; piece + 1 < next.points.size(); ++piece) setBetween(next, piece, way);
   if (!m_target.set(next, QStringLiteral("Way between points of %1").arg(m_target.title()))) showBetween();
 }
 
