@@ -193,7 +193,7 @@ void KeyRows::dragTo(double time) {
   }
   const QString text = QStringLiteral("moving keys of %1").arg(document.trackTitle(m_drag->keys.back().address));
   const QString problem = document.setKeys(after, text);
-  if (!problem.isEmpty()) m_drag->problem = problem;
+  m_drag->problem = problem;  // of where it is now: one on the way is no more
   std::vector<Chosen> moved;
   for (const Chosen& each : m_drag->keys) {
     const auto old = std::find_if(m_drag->before.begin(), m_drag->before.end(),
@@ -278,8 +278,9 @@ void KeyRows::removeChosen() {
 void KeyRows::setWay(ToNext way) {
   std::vector<std::pair<Address, std::vector<TrackKey>>> after;
   for (const Chosen& each : chosen()) {
-    if (after.empty() || !(after.back().first == each.address)) after.push_back({each.address, keysOf(each.address)});
-    after.back().second[each.key].toNext = way;
+    auto own = std::find_if(after.begin(), after.end(), [&](const auto& keys) { return keys.first == each.address; });
+    if (own == after.end()) own = after.insert(after.end(), {each.address, keysOf(each.address)});
+    own->second[each.key].toNext = way;
   }
   if (after.empty()) return;
   Document& document = m_session.document();
