@@ -67,8 +67,11 @@ class TestFieldsWindow : public SampleWindowTest {
 
   /// The menu has what the combo has, in its order.
   void theViewMenuHasIt() {
-    const auto* menu = m_window->findChild<QMenuBar*>()->actions()[2]->menu();
-    const auto entries = menu->actions();
+    const auto menus = m_window->findChild<QMenuBar*>()->actions();
+    const auto viewMenu =
+        std::find_if(menus.begin(), menus.end(), [](const QAction* a) { return a->text() == QStringLiteral("View"); });
+    QVERIFY(viewMenu != menus.end());
+    const auto entries = (*viewMenu)->menu()->actions();
     const auto colour = std::find_if(entries.begin(), entries.end(),
                                      [](const QAction* a) { return a->text() == QStringLiteral("Colour"); });
     QVERIFY(colour != entries.end());

@@ -180,9 +180,10 @@ class TestKeeping : public QObject {
       const QByteArray said = program.readAllStandardError();
       failed = QFile::exists(mark());
       if (program.exitCode() == 0) {
-        // A report tells how long the run took.
-        QVERIFY(output == QLatin1String("--report") ? QJsonDocument::fromJson(read(out)).isObject()
-                                                    : read(out) == whole);
+        // A report tells how long the run took, and a recording how long its frames did.
+        QVERIFY(output == QLatin1String("--report")   ? QJsonDocument::fromJson(read(out)).isObject()
+                : output == QLatin1String("--record") ? QProcess::execute(kCli, {QStringLiteral("validate"), out}) == 0
+                                                      : read(out) == whole);
       } else {
         QVERIFY2(failed, said.constData());
         QCOMPARE(read(out), before);
