@@ -79,7 +79,7 @@ const std::vector<TrackKey>& KeyRows::keysOf(const Address& address) const {
   return track ? track->keys : kNone;
 }
 
-double KeyRows::span() const { return timeAxisEnd(m_session); }
+double KeyRows::span() const { return timeAxisEnd(m_session, m_session.document().project().duration); }
 
 double KeyRows::xOf(double seconds) const { return kLabel + (width() - kLabel - kEnd) * seconds / span(); }
 

@@ -9,9 +9,9 @@
 
 namespace ps {
 
-double timeAxisEnd(Session& session) {
+double timeAxisEnd(Session& session, double duration) {
   const Project& project = session.document().project();
-  double last = std::max(project.duration, session.recorded().extent().to);
+  double last = std::max(duration, session.recorded().extent().to);
   for (const Track& track : project.tracks) last = std::max(last, track.keys.back().time);
   for (const Marker& marker : project.markers) last = std::max(last, marker.time);
   return last > 0 ? last : 1;

@@ -5,8 +5,8 @@ namespace ps {
 
 class Session;
 
-/// s at the right end of all that lies along time: the scene's duration, or what was recorded, keyed or marked beyond.
-double timeAxisEnd(Session& session);
+/// s at the right end of all that lies along time: the duration, or what was recorded, keyed or marked beyond.
+double timeAxisEnd(Session& session, double duration);
 
 /// Between the ends of rows, in logical pixels.
 struct TimeAxis {

@@ -259,7 +259,7 @@ void Transport::showRecorded() {
   setSnapshot(m_session.snapshot());
 }
 
-double Transport::span() const { return timeAxisEnd(m_session); }
+double Transport::span() const { return timeAxisEnd(m_session, m_total); }
 double Transport::perSecond() const { return std::max(1, width() - m_axis.left - m_axis.right) / span(); }
 
 QPoint Transport::placeOf(double seconds) const {
