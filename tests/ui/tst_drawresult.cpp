@@ -130,6 +130,24 @@ class TestDrawResult : public SampleWindowTest {
     QVERIFY(panel()->parameters()->parameters().empty());
   }
 
+  /// It is the key of a time, wherever others come or go; a moved one stays the same.
+  void aKeyIsFollowed() {
+    QCOMPARE(document().putKey(kFloor.address, 0.2, 420), QString());
+    QCOMPARE(document().putKey(kFloor.address, 0.4, 300), QString());
+    auto* rows = panel()->parameters();
+    QCOMPARE(rows->add(FitTarget(kFloor.address, {}, 1)), QString());
+    QCOMPARE(document().putKey(kFloor.address, 0.1, 350), QString());
+    QCOMPARE(rows->parameters().front().target.key, std::optional<size_t>(2));
+    document().removeKey(kFloor.address, 0);
+    document().removeKey(kFloor.address, 0);
+    QCOMPARE(rows->parameters().front().target.key, std::optional<size_t>(0));
+    QCOMPARE(document().moveKey(kFloor.address, 0, 0.5, 310), QString());
+    QCOMPARE(rows->nameOf(rows->parameters().front().target), QStringLiteral("Hot plate temperature, key at 0.5 s"));
+    QCOMPARE(document().putKey(kFloor.address, 0.1, 350), QString());
+    document().removeKey(kFloor.address, 1);
+    QVERIFY(rows->parameters().empty());
+  }
+
   void aSearchIsGivenUp() {
     chooseQuantity("Ice: Solid mass");
     panel()->parameters()->add(kFloor);

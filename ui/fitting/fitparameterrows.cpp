@@ -25,15 +25,44 @@ FitParameterRows::FitParameterRows(Document& document, QWidget* parent)
     : QWidget(parent), m_document(document), m_column(new QVBoxLayout(this)) {
   m_column->setContentsMargins(0, 0, 0, 0);
   m_column->setSpacing(2);
-  connect(&document, &Document::changed, this, [this](const ChangeEvent&) {
-    const size_t gone = std::erase_if(m_parameters, [this](const FitParameter& p) {
-      return !whyNotFitted(m_document.project(), m_document.plugins(), p.target).empty();
-    });
-    if (gone > 0)
-      rebuild();
-    else
-      showValues();
-  });
+  connect(&document, &Document::changed, this, [this](const ChangeEvent&) { follow(); });
+}
+
+FitParameterRows::Key FitParameterRows::keyOf(const FitTarget& target) const {
+  const Track* track = target.key ? findTrack(m_document.project().tracks, target.trackText()) : nullptr;
+  return track && *target.key < track->keys.size() ? Key{track->keys[*target.key].time, track->keys.size()} : Key{};
+}
+
+/// The key of the same time; where there is none and none came or went, it was moved.
+bool FitParameterRows::followKey(size_t row) {
+  FitTarget& target = m_parameters[row].target;
+  if (!target.key) return true;
+  const Track* track = findTrack(m_document.project().tracks, target.trackText());
+  if (!track) return false;
+  const auto same = std::find_if(track->keys.begin(), track->keys.end(),
+                                 [&](const TrackKey& key) { return key.time == m_keys[row].time; });
+  if (same != track->keys.end())
+    target.key = static_cast<size_t>(same - track->keys.begin());
+  else if (track->keys.size() != m_keys[row].count)
+    return false;
+  m_keys[row] = keyOf(target);
+  return true;
+}
+
+void FitParameterRows::follow() {
+  bool gone = false;
+  for (size_t k = m_parameters.size(); k-- > 0;) {
+    const bool stays =
+        followKey(k) && whyNotFitted(m_document.project(), m_document.plugins(), m_parameters[k].target).empty();
+    if (stays) continue;
+    m_parameters.erase(m_parameters.begin() + static_cast<ptrdiff_t>(k));
+    m_keys.erase(m_keys.begin() + static_cast<ptrdiff_t>(k));
+    gone = true;
+  }
+  if (gone)
+    rebuild();
+  else
+    showValues();
 }
 
 QString FitParameterRows::add(const FitTarget& target) {
@@ -44,6 +73,7 @@ QString FitParameterRows::add(const FitTarget& target) {
   if (known) return QStringLiteral("%1 is there already").arg(nameOf(target));
   const api::ParameterDeclaration& declared = *m_document.declaration(target.address);
   m_parameters.push_back({target, declared.minimum, declared.maximum});
+  m_keys.push_back(keyOf(target));
   rebuild();
   return {};
 }
@@ -101,6 +131,7 @@ void FitParameterRows::rebuild() {
     remove->setToolTip(QStringLiteral("Leave it as it is"));
     connect(remove, &QToolButton::clicked, this, [this, k] {
       m_parameters.erase(m_parameters.begin() + static_cast<ptrdiff_t>(k));
+      m_keys.erase(m_keys.begin() + static_cast<ptrdiff_t>(k));
       rebuild();
     });
     line->addWidget(remove);
@@ -125,6 +156,7 @@ void FitParameterRows::readEnd(size_t row, bool most, QLineEdit* field) {
 void FitParameterRows::showValues() {
   for (size_t k = 0; k < m_parameters.size(); ++k) {
     const FitTarget& target = m_parameters[k].target;
+    m_names[k]->setText(nameOf(target));
     m_names[k]->setToolTip(
         QStringLiteral("Now %1").arg(shown(target, numberAt(m_document.project(), m_document.plugins(), target))));
   }

@@ -31,12 +31,21 @@ class FitParameterRows : public QWidget {
   void changed();
 
  private:
+  /// What its index stood for, since keys that come and go shift it.
+  struct Key {
+    double time = 0;   ///< s
+    size_t count = 0;  ///< of its track
+  };
+  Key keyOf(const FitTarget& target) const;
+  bool followKey(size_t row);  ///< false: it is gone
+  void follow();
   void rebuild();
   void readEnd(size_t row, bool most, QLineEdit* field);
   void showValues();
   Document& m_document;
   QVBoxLayout* m_column;
   std::vector<FitParameter> m_parameters;
+  std::vector<Key> m_keys;       ///< of these; of those that are no keys nothing
   std::vector<QLabel*> m_names;  ///< of these, in their rows
 };
 
