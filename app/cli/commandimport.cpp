@@ -99,7 +99,7 @@ int importCommand(CommandArguments list) {
   const SceneMaterial material = materialFor(arguments, plugins);
   const ImportedMesh imported = importMesh(path, unit);
   const double spacing = spacingFor(arguments, imported);
-  Body body = bodyOf(imported, 0);
+  Body body = bodyOf(imported);
   body.material = material.id;
   if (arguments.has("--structure")) {
     const std::string structure = arguments.text("--structure");

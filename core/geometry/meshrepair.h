@@ -8,7 +8,7 @@ namespace ps {
 struct MeshFacts {
   size_t triangles = 0;
   size_t openEdges = 0;  ///< that belong to one triangle only, or that two see the same way round
-  double volume = 0;     ///< m3 that it encloses; of an open one what its winding numbers will be asked about
+  double volume = 0;     ///< m3 that it encloses; of an open one it depends on where the holes are
   bool closed() const { return triangles > 0 && openEdges == 0; }
 };
 MeshFacts factsOf(const SceneMesh& mesh);

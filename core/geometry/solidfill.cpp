@@ -18,7 +18,7 @@ namespace {
 constexpr double kSmall = 100'000, kSmallMesh = 4000;
 constexpr double kInside = 0.5;  ///< of a winding number
 
-/// The tree of a mesh is made once for as long as somebody has use of it.
+/// The tree of the mesh that was asked about last is kept: its body is filled again and again.
 std::shared_ptr<const MeshWinding> windingOf(const std::shared_ptr<const SceneMesh>& mesh) {
   static std::mutex mutex;
   static std::weak_ptr<const SceneMesh> lastMesh;

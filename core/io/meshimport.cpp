@@ -173,7 +173,7 @@ ImportedMesh importMesh(const std::string& path, std::optional<double> metresPer
   }
 }
 
-Body bodyOf(const ImportedMesh& imported, double floor) {
+Body bodyOf(const ImportedMesh& imported) {
   const MeshBounds bounds = boundsOf(*imported.mesh);
   const Vector3 size = bounds.maximum - bounds.minimum;
   SolidShape solid;
@@ -182,7 +182,7 @@ Body bodyOf(const ImportedMesh& imported, double floor) {
   auto& values = solid.parameters.values;
   values["kind"] = std::string("mesh");
   values["size_x"] = size[0], values["size_y"] = size[1], values["size_z"] = size[2];
-  values["position_y"] = floor + size[1] / 2;
+  values["position_y"] = size[1] / 2;
   Body body;
   body.id = imported.mesh->id;
   body.name = imported.mesh->name;

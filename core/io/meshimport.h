@@ -28,7 +28,7 @@ struct ImportedMesh {
 ImportedMesh importMesh(const std::string& path, std::optional<double> metresPerUnit = std::nullopt,
                         double patience = 120);
 
-/// A body of the mesh, standing on `floor` in m in the middle of the scene: all but its material.
-Body bodyOf(const ImportedMesh& imported, double floor);
+/// A body of the mesh, standing at the origin of the scene: all but its material.
+Body bodyOf(const ImportedMesh& imported);
 
 }  // namespace ps

@@ -92,8 +92,10 @@ class TestBodies : public SampleWindowTest {
     QTRY_COMPARE_WITH_TIMEOUT(document().project().bodies.size(), size_t{3}, kLong);
     QCOMPARE(std::get<SolidShape>(document().project().bodies[1].shape).mesh,
              std::get<SolidShape>(document().project().bodies[2].shape).mesh);
+    QVERIFY(noticeButton(*m_window, QStringLiteral("In cm")));
     while (document().undoStack().canUndo()) document().undoStack().undo();
     QCOMPARE(writeProject(document().project()), before);
+    QVERIFY(!noticeButton(*m_window, QStringLiteral("In cm")));  // nobody asks for what is gone
   }
 
   void aBrokenMeshIsTold() {

@@ -41,9 +41,9 @@ class TstMeshImport : public QObject {
     const ImportedMesh imported = importMesh(cube);
     QVERIFY(std::abs(imported.facts.volume / 8 - 1) < 1e-6);
     QCOMPARE(imported.mesh->id, std::string("cube"));
-    const Body body = bodyOf(imported, 0.25);
+    const Body body = bodyOf(imported);
     const SolidForm form(std::get<SolidShape>(body.shape));
-    QVERIFY((form.middle() - Vector3(0, 1.25, 0)).norm() < 1e-6);
+    QVERIFY((form.middle() - Vector3(0, 1, 0)).norm() < 1e-6);
     QVERIFY((form.size() - Vector3(2, 2, 2)).norm() < 1e-6);
   }
 

@@ -36,6 +36,18 @@ std::string freeId(const std::vector<SceneWall>& walls, const std::string& stem)
 
 }  // namespace
 
+Room roomOf(const Environment& environment) {
+  Room room{environment.boundsMinimum, environment.boundsMaximum};
+  for (const SceneWall& wall : environment.walls) {
+    for (const WallSide& side : kWallSides) {
+      if (!stands(wall, side)) continue;
+      double& end = (side.upper ? room.maximum : room.minimum)[side.axis];
+      end = side.upper ? std::min(end, wall.point[side.axis]) : std::max(end, wall.point[side.axis]);
+    }
+  }
+  return room;
+}
+
 SceneWall wallOn(const WallSide& side, const Vector3& minimum, const Vector3& maximum) {
   SceneWall wall;
   wall.id = side.id;

@@ -21,6 +21,13 @@ inline constexpr WallSide kWallSides[] = {
 /// The four that keep matter from running off.
 inline const std::vector<std::string> kUprightSides{"left", "right", "back", "front"};
 
+/// A box in m.
+struct Room {
+  Vector3 minimum, maximum;
+};
+/// Where matter can be: the scene's bounds, within the walls that stand along them.
+Room roomOf(const Environment& environment);
+
 /// A wall that lets no heat through, on that face of the box.
 SceneWall wallOn(const WallSide& side, const Vector3& minimum, const Vector3& maximum);
 

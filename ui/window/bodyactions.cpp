@@ -7,6 +7,7 @@
 #include "core/simulation/declared.h"
 #include "core/simulation/snapshot.h"
 #include "ui/document/document.h"
+#include "ui/document/wallside.h"
 #include "ui/session/selection.h"
 #include "ui/session/session.h"
 #include "ui/session/worker.h"
@@ -37,8 +38,9 @@ struct UnitRow {
   const char *key, *name;
 };
 constexpr UnitRow kUnits[] = {{"m", "metres"}, {"cm", "centimetres"}, {"mm", "millimetres"}, {"in", "inches"}};
-constexpr double kOfScene = 0.2;  ///< size of a new solid, of the scene's narrower side
-constexpr int kPatience = 300;    ///< ms until reading is told of
+constexpr double kOfScene = 0.2;    ///< size of a new solid, of the scene's narrower side
+constexpr double kOverRoom = 1.25;  ///< of the scene's room, what a mesh whose unit is not known may be
+constexpr int kPatience = 300;      ///< ms until reading is told of
 constexpr const char* kTopic = "mesh";
 constexpr const char* kMeshes =
     "Meshes (*.obj *.stl *.ply *.gltf *.glb *.fbx *.3mf *.dae *.3ds *.off *.x3d *.wrl *.blend);;All files (*)";
@@ -49,26 +51,18 @@ double rounded(double value) {
   return std::round(value / digit) * digit;
 }
 
-/// m, the highest that stands within a column about the middle of the scene now, but for one body.
+/// m, the highest that stands or lies within a column about the middle of the scene now, but for one body.
 double topOf(const Snapshot* now, const std::string& without, const Vector3& middle, const Vector3& size,
              double floor) {
   double top = floor;
   for (size_t i = 0; now && i < now->position.size(); ++i) {
+    if (now->motion[i] == api::Motion::Gas) continue;
     if (!without.empty() && (*now->bodyIds)[now->body[i]] == without) continue;
     const api::Float4& p = now->position[i];
     if (std::abs(p.x - middle[0]) <= size[0] / 2 + p.w && std::abs(p.z - middle[2]) <= size[2] / 2 + p.w)
       top = std::max(top, double{p.y} + p.w);
   }
   return top;
-}
-
-/// m, of the highest wall that matter can stand on; where there is none the lower end of the scene.
-double floorOf(const Environment& environment) {
-  double floor = environment.boundsMinimum[1];
-  for (const SceneWall& wall : environment.walls) {
-    if (wall.normal[1] > 0.9 * wall.normal.norm()) floor = std::max(floor, wall.point[1]);
-  }
-  return floor;
 }
 
 SolidShape& solidOf(Body& body) { return std::get<SolidShape>(body.shape); }
@@ -89,6 +83,11 @@ BodyActions::BodyActions(Session& session, Selection& selection, const Actions& 
     : QObject(parent), m_session(session), m_selection(selection), m_actions(actions), m_notices(notices) {
   connect(&session, &Session::ready, this, [this] {
     for (QAction* action : m_adding) action->setEnabled(true);
+  });
+  connect(&session.document(), &Document::changed, this, [this] {
+    if (m_asked.empty() || m_session.document().body(m_asked)) return;
+    m_asked.clear();
+    m_notices.bar().close(QString::fromLatin1(kTopic));
   });
 }
 
@@ -125,9 +124,9 @@ void BodyActions::chooseMesh() {
 }
 
 void BodyActions::addSolid(const std::string& kind, const QString& name) {
-  const Environment& environment = m_session.document().project().environment;
-  const Vector3 room = environment.boundsMaximum - environment.boundsMinimum;
-  const double size = rounded(kOfScene * std::min(room[0], room[2]));
+  const Room room = roomOf(m_session.document().project().environment);
+  const Vector3 wide = room.maximum - room.minimum;
+  const double size = rounded(kOfScene * std::min(wide[0], wide[2]));
   Body body;
   body.id = kind;
   body.name = name.toStdString();
@@ -142,16 +141,16 @@ void BodyActions::addSolid(const std::string& kind, const QString& name) {
   add(std::move(body));
 }
 
-/// Of a mesh that does not say its unit: the first one in which it has room in the scene, m; its body is then of that
-/// size. Where it has none, the last.
+/// Of a mesh that does not say its unit: the first one in which it has room in the scene, or nearly, in m; its body is
+/// then of that size. Where it has none, the last.
 double BodyActions::scaledToFit(Body& body, const ImportedMesh& imported) const {
-  const Environment& environment = m_session.document().project().environment;
-  const Vector3 room = environment.boundsMaximum - environment.boundsMinimum;
+  const Room room = roomOf(m_session.document().project().environment);
+  const Vector3 wide = kOverRoom * (room.maximum - room.minimum);
   const Vector3 size = SolidForm(solidOf(body)).size() / imported.metresPerUnit;
   double metres = 1;
   for (const char* unit : {"m", "cm", "mm"}) {
     metres = *metresPer(unit);
-    if (((size * metres).array() < room.array()).all()) break;
+    if (((size * metres).array() < wide.array()).all()) break;
   }
   scale(solidOf(body), metres / imported.metresPerUnit);
   return metres;
@@ -160,18 +159,18 @@ double BodyActions::scaledToFit(Body& body, const ImportedMesh& imported) const 
 /// Above what is there but `without`, and within the scene where that is high enough. Returns its id.
 std::string BodyActions::add(Body body, const std::string& without) {
   Document& document = m_session.document();
-  const Environment& environment = document.project().environment;
+  const Room room = roomOf(document.project().environment);
   const SolidForm form(solidOf(body));
-  const Vector3 middle = (environment.boundsMinimum + environment.boundsMaximum) / 2;
+  const Vector3 middle = (room.minimum + room.maximum) / 2;
   const double spacing = numberOf(document.project().solver.parameters, solverParameters(), "particle_spacing");
-  const double floor = floorOf(environment), top = topOf(m_session.newest().get(), without, middle, form.size(), floor);
-  const double lowest = floor + form.size()[1] / 2, highest = environment.boundsMaximum[1] - form.size()[1] / 2;
+  const double floor = room.minimum[1], top = topOf(m_session.newest().get(), without, middle, form.size(), floor);
+  const double lowest = floor + form.size()[1] / 2, highest = room.maximum[1] - form.size()[1] / 2;
   auto& values = solidOf(body).parameters.values;
   values["position_x"] = middle[0];
   values["position_y"] = std::max(lowest, std::min(highest, lowest + (top > floor ? top - floor + spacing : 0)));
   values["position_z"] = middle[2];
   document.undoStack().beginMacro(QStringLiteral("adding %1").arg(QString::fromStdString(body.name)));
-  body.material = m_selection.material();
+  if (body.material.empty()) body.material = m_selection.material();
   if (body.material.empty()) body.material = document.addMaterial(document.plugins()->standard(PluginKind::Material));
   const Value melts =
       valueAt(document.project(), document.plugins(), {Owner::Material, body.material, "melting_temperature"});
@@ -234,7 +233,7 @@ void BodyActions::onImported(const QString& path, const std::shared_ptr<Imported
                          {{QStringLiteral("Import another…"), [this] { chooseMesh(); }}});
     return;
   }
-  Body body = bodyOf(*imported, 0);
+  Body body = bodyOf(*imported);
   const double unit = imported->unitIsOfFile ? imported->metresPerUnit : scaledToFit(body, *imported);
   const std::string id = add(std::move(body));
   m_session.log().add(MessageLevel::Ok, name,
@@ -249,6 +248,7 @@ void BodyActions::onImported(const QString& path, const std::shared_ptr<Imported
 void BodyActions::askUnit(const std::string& id, double metresPerUnit) {
   const Body* body = m_session.document().body(id);
   if (!body) return;
+  m_asked = id;
   std::vector<NoticeBar::Button> buttons;
   QString taken;
   for (const UnitRow& unit : kUnits) {

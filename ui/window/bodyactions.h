@@ -54,6 +54,7 @@ class BodyActions : public QObject {
   const Actions& m_actions;
   Notices& m_notices;
   std::vector<QAction*> m_adding;       ///< need plugins
+  std::string m_asked;                  ///< body whose unit was asked for last; "": none
   std::shared_ptr<Progress> m_reading;  ///< of the mesh that is being read; nullptr: none is
   Worker m_worker;                      ///< reads meshes; ends first
 };

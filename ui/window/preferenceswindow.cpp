@@ -115,7 +115,7 @@ QComboBox* Preferences::choice(const QString& label, const QString& tip, Choices
 
 void Preferences::addTheme() {
   heading(QStringLiteral("Window"));
-  const bool dark = m_window.action(QStringLiteral("view.dark"))->isChecked();
+  const bool dark = m_window.isDark();
   choice(
       QStringLiteral("Theme"), QStringLiteral("Colours of the window; the scene's stay."),
       {{QStringLiteral("Dark"), 1}, {QStringLiteral("Light"), 0}}, dark ? 1 : 0, [](int) { return QString(); },
@@ -195,8 +195,8 @@ void Preferences::refresh() {
       asButtonText(m_folder->fontMetrics().elidedText(folder, Qt::ElideMiddle, kWidth - kLabelWidth - 80)));
   const EngineThread* engine = m_window.session().engine();
   const RunRecord::Cost cost = engine ? engine->recording().cost() : RunRecord::Cost();
-  m_used->setText(QStringLiteral("%1 of memory, %2 of the disk")
-                      .arg(bytesText(static_cast<double>(cost.bytes)), bytesText(static_cast<double>(cost.disk))));
+  const QString disk = cost.disk > 0 ? bytesText(static_cast<double>(cost.disk)) : QStringLiteral("nothing");
+  m_used->setText(QStringLiteral("%1 of memory, %2 of the disk").arg(bytesText(static_cast<double>(cost.bytes)), disk));
   m_empty->setEnabled(cost.disk > 0);
 }
 
