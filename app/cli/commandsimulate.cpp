@@ -75,9 +75,41 @@ void writeReport(const Arguments& arguments, nlohmann::json content, const Proje
   writeFileAtomically(arguments.text("--report"), writeJson(content));
 }
 
+/// Every frame, and a state now and then and at both ends.
+class FramesAndStates {
+ public:
+  FramesAndStates(const std::string& path, const Project& project, Engine& engine)
+      : m_engine(engine), m_writer(path, project) {}
+  void begin() {
+    m_engine.show(m_engine.fields().names());
+    m_due = m_engine.stats().time + kStateInterval;
+    m_writer.add(m_engine);
+    m_writer.add(*m_engine.snapshot());
+  }
+  void add(const FrameStats& stats) {
+    m_any = true;
+    if (stats.time >= m_due) {
+      m_writer.add(m_engine);
+      m_due = stats.time + kStateInterval;
+    }
+    m_writer.add(*m_engine.snapshot());
+  }
+  void finish() {
+    if (m_any) m_writer.add(m_engine);
+    m_writer.finish();
+  }
+  std::string keepPart() { return m_writer.keepPart(); }
+
+ private:
+  Engine& m_engine;
+  RecordingWriter m_writer;
+  double m_due = 0;  ///< s, of the next state
+  bool m_any = false;
+};
+
 /// Does the run. Where it fails, what was written until then stays, and the message says where: hours may lie in it.
 template <class Run>
-void keepingParts(std::optional<ProbeTable>& probes, std::optional<RecordingWriter>& recording, const Run& run) {
+void keepingParts(std::optional<ProbeTable>& probes, std::optional<FramesAndStates>& recording, const Run& run) {
   try {
     run();
   } catch (const std::exception& problem) {
@@ -138,39 +170,30 @@ int simulateCommand(CommandArguments list) {
   const long frames = frameCount(arguments, project, begin.time);
   interrupted();  // from here on a signal leaves whole files
   std::optional<ProbeTable> probes;
-  std::optional<RecordingWriter> recording;
+  std::optional<FramesAndStates> recording;
   if (arguments.has("--probes")) probes.emplace(arguments.text("--probes"), engine);
-  if (arguments.has("--record")) recording.emplace(arguments.text("--record"), project);
+  if (arguments.has("--record")) recording.emplace(arguments.text("--record"), project, engine);
   RunReport report(begin);
   engine.measureBalance(arguments.has("--report"));
   SettlingMeasure settling(frames);
   const double start = now();
-  double wall = 0, stateDue = begin.time + kStateInterval;
+  double wall = 0;
   bool whole = false;
   keepingParts(probes, recording, [&] {
-    if (recording) {
-      engine.show(engine.fields().names());
-      recording->add(engine);
-      recording->add(*engine.snapshot());
-    }
+    if (recording) recording->begin();
     {
       Progress progress(frames, quiet);
       whole = runFrames(engine, frames, [&](const StepReport& step, const FrameStats& stats) {
         report.add(step, stats);
         settling.add(engine, stats);
         if (probes) probes->add(engine, stats);
-        if (recording && stats.time >= stateDue) {
-          recording->add(engine);
-          stateDue = stats.time + kStateInterval;
-        }
-        if (recording) recording->add(*engine.snapshot());
+        if (recording) recording->add(stats);
         progress.show(static_cast<long>(report.frames()), stats);
       });
     }
     report.add(engine.lateFaults());
     wall = now() - start;
     if (probes) probes->finish();
-    if (recording && report.frames() > 0) recording->add(engine);
     if (recording) recording->finish();
   });
   saveResults(arguments, project, engine);

@@ -29,21 +29,26 @@ constexpr int kParticles = 100;  // ms: the histogram at 10 Hz
 const QString kHint =
     QStringLiteral("Double-click adds a point · Del removes · Shift fine · Alt-drag moves all · F fits");
 
-QLabel* label(TextRole role, bool muted = false) {
+QLabel* label(TextRole role) {
   auto* text = new QLabel;
   text->setFont(Theme::font(role));
   text->setTextFormat(Qt::PlainText);
-  text->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
-  if (muted) text->setForegroundRole(QPalette::PlaceholderText);
   return text;
 }
 
 /// What does not fit ends in dots.
 class NoteLabel final : public QLabel {
+ public:
+  explicit NoteLabel(Qt::Alignment side) {
+    setAlignment(side | Qt::AlignVCenter);
+    setFont(Theme::font(TextRole::Small));
+    setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Expanding);
+  }
+
  protected:
   void paintEvent(QPaintEvent*) override {
     QPainter painter(this);
-    paintText(painter, rect(), Qt::AlignRight | Qt::AlignVCenter, text(), font(), Theme::current()[Token::Muted]);
+    paintText(painter, rect(), alignment(), text(), font(), Theme::current()[Token::Muted]);
   }
 };
 
@@ -61,18 +66,15 @@ CurvePanel::CurvePanel(Session& session, CurveTarget& target, QWidget* parent)
     : QWidget(parent),
       m_target(target),
       m_title(label(TextRole::Heading)),
-      m_source(label(TextRole::Small, true)),
+      m_source(new NoteLabel(Qt::AlignLeft)),
       m_which(label(TextRole::Normal)),
       m_slopeLabel(label(TextRole::Normal)),
-      m_note(new NoteLabel),
+      m_note(new NoteLabel(Qt::AlignRight)),
       m_between(new QComboBox),
       m_view(new CurveView(target)),
       m_kelvin(field(QStringLiteral("Temperature of the point"))),
       m_value(field(QStringLiteral("Value of the point"))),
       m_slope(field(QStringLiteral("Slope at the point"))) {
-  m_title->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
-  m_which->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
-  m_slopeLabel->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
   m_slopeLabel->setText(QStringLiteral("Slope"));
   m_slope->setFixedWidth(132);
   m_slope->setToolTip(QStringLiteral("Stated on both sides of the point; empty: that of a monotone curve"));
@@ -83,8 +85,11 @@ CurvePanel::CurvePanel(Session& session, CurveTarget& target, QWidget* parent)
     m_between->addItem(labelOf(way));
   m_between->setSizeAdjustPolicy(QComboBox::AdjustToContents);
   m_between->setMinimumContentsLength(14);
-  m_note->setFont(Theme::font(TextRole::Small));
-  m_note->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Expanding);
+  layOut();
+  connectParts(session);
+}
+
+void CurvePanel::layOut() {
   auto* top = new QHBoxLayout;
   top->setContentsMargins(10, 4, 10, 0);
   top->setSpacing(12);
@@ -107,20 +112,23 @@ CurvePanel::CurvePanel(Session& session, CurveTarget& target, QWidget* parent)
   column->addLayout(top);
   column->addWidget(m_view, 1);
   column->addLayout(bottom);
+}
+
+void CurvePanel::connectParts(Session& session) {
   for (QLineEdit* line : {m_kelvin, m_value}) {
     connect(line, &QLineEdit::editingFinished, this, [this, line] { enter(line); });
   }
   connect(m_slope, &QLineEdit::editingFinished, this, &CurvePanel::enterSlope);
   connect(m_between, qOverload<int>(&QComboBox::activated), this, &CurvePanel::chooseBetween);
-  connect(&target, &CurveTarget::targetChanged, this, &CurvePanel::showTitle);
-  connect(&target, &CurveTarget::responseChanged, this, [this] {
+  connect(&m_target, &CurveTarget::targetChanged, this, &CurvePanel::showTitle);
+  connect(&m_target, &CurveTarget::responseChanged, this, [this] {
     showPoint();
     showBetween();
     showOverlays();
   });
-  connect(&target, &CurveTarget::pointChanged, this, &CurvePanel::showPoint);
-  connect(&target, &CurveTarget::comparedChanged, this, &CurvePanel::showOverlays);
-  connect(&target, &CurveTarget::refused, this,
+  connect(&m_target, &CurveTarget::pointChanged, this, &CurvePanel::showPoint);
+  connect(&m_target, &CurveTarget::comparedChanged, this, &CurvePanel::showOverlays);
+  connect(&m_target, &CurveTarget::refused, this,
           [this](const QString& problem) { m_note->setText(problem.isEmpty() ? kHint : problem); });
   const auto follow = [this] {
     if (m_view->isVisible()) m_view->showParticles();
@@ -132,7 +140,7 @@ CurvePanel::CurvePanel(Session& session, CurveTarget& target, QWidget* parent)
     if (std::exchange(shown, {snapshot->revision, snapshot->stats.frame}) != shown) m_view->showParticles();
   });
   clock->start(kParticles);
-  connect(&target, &CurveTarget::markChanged, m_view, follow);
+  connect(&m_target, &CurveTarget::markChanged, m_view, follow);
   connect(&session, &Session::projectShown, m_view, &CurveView::fit);  // its matter is known only now
 }
 

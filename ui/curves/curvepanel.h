@@ -24,6 +24,8 @@ class CurvePanel : public QWidget {
   QComboBox* between() const { return m_between; }  ///< how all pieces go; the table has each by itself
 
  private:
+  void layOut();
+  void connectParts(Session& session);
   void showTitle();
   void showPoint();
   void showOverlays();

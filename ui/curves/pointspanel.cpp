@@ -106,6 +106,10 @@ PointsPanel::PointsPanel(CurveTarget& target, QWidget* parent)
   column->addWidget(m_laws);
   column->addWidget(m_note);
   column->addStretch();
+  connectParts();
+}
+
+void PointsPanel::connectParts() {
   connect(m_paste, &QPushButton::clicked, this, &PointsPanel::paste);
   connect(m_thin, &QPushButton::clicked, this, &PointsPanel::thinOut);
   connect(m_add, &QPushButton::clicked, this, &PointsPanel::addPoint);
@@ -117,10 +121,10 @@ PointsPanel::PointsPanel(CurveTarget& target, QWidget* parent)
   connect(m_table, &QTableWidget::cellClicked, this, &PointsPanel::showWays);
   connect(m_table, &QTableWidget::cellChanged, this, &PointsPanel::enterCell);
   connect(m_table, &QTableWidget::currentCellChanged, this, [this](int row) { m_target.choosePoint(row); });
-  connect(&target, &CurveTarget::targetChanged, this, [this] { note({}); });
-  connect(&target, &CurveTarget::responseChanged, this, &PointsPanel::refresh);
-  connect(&target, &CurveTarget::pointChanged, this, &PointsPanel::showSelected);
-  connect(&target, &CurveTarget::refused, this, &PointsPanel::note);
+  connect(&m_target, &CurveTarget::targetChanged, this, [this] { note({}); });
+  connect(&m_target, &CurveTarget::responseChanged, this, &PointsPanel::refresh);
+  connect(&m_target, &CurveTarget::pointChanged, this, &PointsPanel::showSelected);
+  connect(&m_target, &CurveTarget::refused, this, &PointsPanel::note);
 }
 
 void PointsPanel::makeLaws() {

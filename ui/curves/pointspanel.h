@@ -34,6 +34,7 @@ class PointsPanel : public QWidget {
   void addPoint();  ///< in the middle of the gap behind the selected point
 
  private:
+  void connectParts();
   void makeLaws();
   QGridLayout* kindRows();
   void refresh();

@@ -129,28 +129,32 @@ Transport::Transport(Session& session, QWidget* parent)
   m_continue->hide();
   setMouseTracking(true);
   setAccessibleName(QStringLiteral("Transport"));
-  connect(m_continue, &QPushButton::clicked, &session.recorded(), &RecordedView::continueFromHere);
-  connect(&session.recorded(), &RecordedView::changed, this, &Transport::showRecorded);
-  connect(&session.recorded(), &RecordedView::runsChanged, this, &Transport::refresh);
-  m_loop->setCheckable(true);
-  connect(m_loop, &QToolButton::toggled, &session.recorded(), &RecordedView::setLoop);
-  connect(m_back, &QToolButton::clicked, &session.recorded(), [&session] { session.recorded().step(-1); });
   makeSpeeds();
-  connect(m_reset, &QToolButton::clicked, &session, &Session::reset);
-  connect(m_step, &QToolButton::clicked, &session, &Session::step);
-  connect(m_play, &QPushButton::clicked, &session, &Session::playPause);
-  connect(&session, &Session::ready, this, [this] { setReady(true); });
-  connect(&session, &Session::playingChanged, this, [this] { setPlaying(m_session.playing()); });
-  connect(&session, &Session::valuesDue, this, [this] {
-    setSnapshot(m_session.snapshot());
-    if (!m_session.document().project().tracks.empty()) showTimeScale();
-    if (m_session.playing() != m_playing) setPlaying(m_session.playing());
-  });
-  connect(&session.document(), &Document::changed, this, &Transport::onChanged);
+  connectParts();
   styleButtons();
   setPlaying(false);
   setReady(false);
   refresh();
+}
+
+void Transport::connectParts() {
+  connect(m_continue, &QPushButton::clicked, &m_session.recorded(), &RecordedView::continueFromHere);
+  connect(&m_session.recorded(), &RecordedView::changed, this, &Transport::showRecorded);
+  connect(&m_session.recorded(), &RecordedView::runsChanged, this, &Transport::refresh);
+  m_loop->setCheckable(true);
+  connect(m_loop, &QToolButton::toggled, &m_session.recorded(), &RecordedView::setLoop);
+  connect(m_back, &QToolButton::clicked, &m_session.recorded(), [this] { m_session.recorded().step(-1); });
+  connect(m_reset, &QToolButton::clicked, &m_session, &Session::reset);
+  connect(m_step, &QToolButton::clicked, &m_session, &Session::step);
+  connect(m_play, &QPushButton::clicked, &m_session, &Session::playPause);
+  connect(&m_session, &Session::ready, this, [this] { setReady(true); });
+  connect(&m_session, &Session::playingChanged, this, [this] { setPlaying(m_session.playing()); });
+  connect(&m_session, &Session::valuesDue, this, [this] {
+    setSnapshot(m_session.snapshot());
+    if (!m_session.document().project().tracks.empty()) showTimeScale();
+    if (m_session.playing() != m_playing) setPlaying(m_session.playing());
+  });
+  connect(&m_session.document(), &Document::changed, this, &Transport::onChanged);
 }
 
 void Transport::makeSpeeds() {

@@ -68,6 +68,7 @@ class Transport : public QWidget {
  private:
   void onChanged(const ChangeEvent& event);
   void showTimeScale();
+  void connectParts();
   void makeSpeeds();
   void showRecorded();
   void placeRuns();
