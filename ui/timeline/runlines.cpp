@@ -97,14 +97,12 @@ void RunLines::fillMenu(QMenu& menu, uint64_t run) {
   for (QAction* toggle : {compare, ghost}) toggle->setCheckable(true);
   compare->setChecked(compared);
   ghost->setChecked(compared && recorded.hasGhost());
-  add("Rename", [this, run] { editName(run); });
+  if (!rowOf(run).isEmpty()) add("Rename", [this, run] { editName(run); });  // in its line, which the newest have
   add("Delete", [&recorded, run] { recorded.forgetRun(run); });
 }
 
 /// In its place: Enter keeps it, Esc does not; an empty one is none.
 void RunLines::editName(uint64_t run) {
-  const QRect row = rowOf(run);
-  if (row.isEmpty()) return;
   for (const Row& one : rows()) {
     if (one.run != run) continue;
     auto* line = new QLineEdit(one.name, this);
