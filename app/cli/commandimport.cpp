@@ -21,7 +21,7 @@ namespace {
 
 constexpr OptionSpec kOptions[] = {
     {"--out", "PROJECT.json", "the project that is written"},
-    {"--spacing", "M", "particle spacing in m; without it one that makes some 20,000 particles"},
+    {"--spacing", "M", "particle spacing in m; without it one that makes some 20,000 particles, or the finest"},
     {"--unit", "mm|cm|m|in", "length that the file means by 1; without it what it says itself, or m"},
     {"--material", "ID", "what it is made of; without it the standard one"},
     {"--structure", "ID", "the constraint plugin that holds it together where it is solid"},
@@ -114,8 +114,8 @@ int importCommand(CommandArguments list) {
   saveProject(projectOf(std::move(body), material, spacing, plugins), arguments.text("--out"));
   if (arguments.has("--report"))
     writeFileAtomically(arguments.text("--report"), writeJson(reportOf(imported, spacing, particles)));
-  std::printf("%zu triangles, %s, %s m³ filled with %zu particles\n", imported.facts.triangles,
-              imported.facts.closed() ? "closed" : "open", numberText(imported.facts.volume).c_str(), particles);
+  std::printf("%zu triangles, %s, %.4g m³ filled with %zu particles\n", imported.facts.triangles,
+              imported.facts.closed() ? "closed" : "open", imported.facts.volume, particles);
   return kFine;
 }
 

@@ -9,6 +9,7 @@
 #include "ui/theme/plaintext.h"
 #include "ui/theme/theme.h"
 #include "ui/timeline/keyrows.h"
+#include "ui/timeline/nameinplace.h"
 
 #include <QtGui/QContextMenuEvent>
 #include <QtGui/QHelpEvent>
@@ -16,8 +17,6 @@
 #include <QtGui/QMouseEvent>
 #include <QtGui/QPainter>
 #include <QtGui/QPainterPath>
-#include <QtGui/QShortcut>
-#include <QtWidgets/QLineEdit>
 #include <QtWidgets/QMenu>
 
 #include <algorithm>
@@ -26,9 +25,8 @@
 namespace ps {
 namespace {
 
-constexpr double kFlag = 5;       ///< px, half the width of what a hand takes
-constexpr double kMoved = 3;      ///< px, before a press is a drag
-constexpr int kNameLength = 100;  ///< characters
+constexpr double kFlag = 5;   ///< px, half the width of what a hand takes
+constexpr double kMoved = 3;  ///< px, before a press is a drag
 
 QString nameOf(const Marker& marker) { return QString::fromStdString(marker.name); }
 
@@ -134,26 +132,15 @@ void MarkerRow::mouseDoubleClickEvent(QMouseEvent* event) {
   update();
 }
 
-/// In its place: Enter keeps it, Esc does not.
 void MarkerRow::editName(size_t marker) {
   const auto& markers = m_session.document().project().markers;
   if (marker >= markers.size()) return;
-  auto* line = new QLineEdit(nameOf(markers[marker]), this);
-  line->setAccessibleName(QStringLiteral("Name of the marker"));
-  line->setMaxLength(kNameLength);
-  line->setFont(Theme::font(TextRole::Small));
-  const int wide = std::min(180, width());
-  line->setGeometry(std::clamp(static_cast<int>(flagOf(marker).left()), 0, width() - wide), 2, wide, kHeight - 4);
-  line->selectAll();
-  line->show();
-  line->setFocus();
-  connect(line, &QLineEdit::returnPressed, this, [this, line, marker] {
-    const auto& now = m_session.document().project().markers;
-    if (marker < now.size()) m_session.document().editMarker(marker, now[marker].time, line->text());
-  });
-  connect(line, &QLineEdit::editingFinished, line, &QObject::deleteLater);  // also where the focus leaves
-  auto* escape = new QShortcut(QKeySequence(Qt::Key_Escape), line, nullptr, nullptr, Qt::WidgetShortcut);
-  connect(escape, &QShortcut::activated, this, [this] { setFocus(); });
+  const QRect place(static_cast<int>(flagOf(marker).left()), 2, 0, kHeight - 4);
+  nameInPlace(*this, place, nameOf(markers[marker]), QStringLiteral("Name of the marker"),
+              [this, marker](const QString& name) {
+                const auto& now = m_session.document().project().markers;
+                if (marker < now.size()) m_session.document().editMarker(marker, now[marker].time, name);
+              });
 }
 
 void MarkerRow::removeChosen() {

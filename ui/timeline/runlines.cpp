@@ -7,14 +7,13 @@
 #include "ui/theme/paint.h"
 #include "ui/theme/plaintext.h"
 #include "ui/theme/theme.h"
+#include "ui/timeline/nameinplace.h"
 
 #include <QtGui/QContextMenuEvent>
 #include <QtGui/QHelpEvent>
 #include <QtGui/QKeyEvent>
 #include <QtGui/QMouseEvent>
 #include <QtGui/QPainter>
-#include <QtGui/QShortcut>
-#include <QtWidgets/QLineEdit>
 #include <QtWidgets/QMenu>
 
 #include <algorithm>
@@ -23,7 +22,6 @@ namespace ps {
 namespace {
 
 constexpr double kLine = 2, kGap = 6;  ///< px: of a line, and between it and its name
-constexpr int kNameLength = 100;       ///< characters
 
 }  // namespace
 
@@ -101,25 +99,12 @@ void RunLines::fillMenu(QMenu& menu, uint64_t run) {
   add("Delete", [&recorded, run] { recorded.forgetRun(run); });
 }
 
-/// In its place: Enter keeps it, Esc does not; an empty one is none.
+/// An empty one is none.
 void RunLines::editName(uint64_t run) {
   for (const Row& one : rows()) {
     if (one.run != run) continue;
-    auto* line = new QLineEdit(one.name, this);
-    line->setAccessibleName(QStringLiteral("Name of the run"));
-    line->setMaxLength(kNameLength);
-    const int wide = std::min(180, width());
-    line->setGeometry(std::min(static_cast<int>(one.text.left()), width() - wide), static_cast<int>(one.text.top()),
-                      wide, kPitch);
-    line->setFont(Theme::font(TextRole::Small));
-    line->selectAll();
-    line->show();
-    line->setFocus();
-    connect(line, &QLineEdit::returnPressed, this,
-            [this, line, run] { m_session.recorded().renameRun(run, line->text()); });
-    connect(line, &QLineEdit::editingFinished, line, &QObject::deleteLater);  // also where the focus leaves
-    auto* escape = new QShortcut(QKeySequence(Qt::Key_Escape), line, nullptr, nullptr, Qt::WidgetShortcut);
-    connect(escape, &QShortcut::activated, this, [this] { setFocus(); });
+    nameInPlace(*this, one.text.toAlignedRect(), one.name, QStringLiteral("Name of the run"),
+                [this, run](const QString& name) { m_session.recorded().renameRun(run, name); });
   }
 }
 
