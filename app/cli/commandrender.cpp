@@ -71,8 +71,11 @@ std::string colourOf(const Project& project, const ParticleFields& fields, const
   const std::string colour = arguments.text("--colour", project.view.colour);
   const std::vector<std::string> names = colourNames(fields);
   const bool known = std::find(names.begin(), names.end(), colour) != names.end();
-  if (known || !arguments.has("--colour") || (last && ShownField(*last, colour))) return colour;
-  throw InputError("--colour " + mustBeOneOf(colour, names));
+  if (!arguments.has("--colour") || (last && ShownField(*last, colour))) return colour;
+  if (!known) throw InputError("--colour " + mustBeOneOf(colour, names));
+  if (last && colour != kMatterColour)
+    throw InputError("--colour " + colour + ": the recording has no such field; record it with --fields " + colour);
+  return colour;
 }
 
 Look lookFor(const Project& project, const PluginRegistry& plugins, const std::string& colour) {

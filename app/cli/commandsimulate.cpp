@@ -4,6 +4,7 @@
 #include "core/base/error.h"
 #include "core/base/hash.h"
 #include "core/base/jsontext.h"
+#include "core/base/nearest.h"
 #include "core/base/statestream.h"
 #include "core/experiments/probetable.h"
 #include "core/experiments/runreport.h"
@@ -17,9 +18,11 @@
 #include "core/simulation/scenestate.h"
 #include "core/solver/solver.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <optional>
 #include <span>
+#include <sstream>
 
 namespace ps::cli {
 namespace {
@@ -37,6 +40,9 @@ constexpr OptionSpec kOptions[] = {
     {"--report", "FILE.json", "writes speed, accuracy, energy, phases and the state hash"},
     {"--probes", "FILE.csv", "writes probes, heat balance, mass in each phase and mean temperature of every frame"},
     {"--record", "FILE", "writes every frame small, and states to go on from, for render and the editor"},
+    {"--fields", "A,B",
+     "what --record keeps of particles beside place, temperature, speed, density error and phase: fields as 'plugins "
+     "--fields' lists them, or none; without it all"},
     kSet,
     kQuiet,
 };
@@ -75,13 +81,26 @@ void writeReport(const Arguments& arguments, nlohmann::json content, const Proje
   writeFileAtomically(arguments.text("--report"), writeJson(content));
 }
 
+std::vector<std::string> recordedFields(const Arguments& arguments, const Engine& engine) {
+  const std::vector<std::string> all = engine.fields().names();
+  if (!arguments.has("--fields")) return all;
+  if (!arguments.has("--record")) throw InputError("--fields says what --record keeps, which is not there");
+  std::vector<std::string> names;
+  std::istringstream words(arguments.text("--fields"));
+  for (std::string name; std::getline(words, name, ',');) {
+    if (name == "none") continue;
+    if (std::find(all.begin(), all.end(), name) == all.end()) throw InputError("--fields " + mustBeOneOf(name, all));
+    names.push_back(std::move(name));
+  }
+  return names;
+}
+
 /// Every frame, and a state now and then and at both ends.
 class FramesAndStates {
  public:
   FramesAndStates(const std::string& path, const Project& project, Engine& engine)
       : m_engine(engine), m_writer(path, project) {}
   void begin() {
-    m_engine.show(m_engine.fields().names());
     m_due = m_engine.stats().time + kStateInterval;
     m_writer.add(m_engine);
     m_writer.add(*m_engine.snapshot());
@@ -169,6 +188,7 @@ int simulateCommand(CommandArguments list) {
   const FrameStats begin = engine.stats();
   const long frames = frameCount(arguments, project, begin.time);
   interrupted();  // from here on a signal leaves whole files
+  engine.show(recordedFields(arguments, engine));
   std::optional<ProbeTable> probes;
   std::optional<FramesAndStates> recording;
   if (arguments.has("--probes")) probes.emplace(arguments.text("--probes"), engine);

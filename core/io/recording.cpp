@@ -87,7 +87,8 @@ MatterIds namesIn(const std::string& bytes, const std::string& where) {
 uint64_t mostOf(Kind kind) {
   if (kind == Kind::Run) return 0;
   if (kind == Kind::State) return kMaximumState;
-  return kind == Kind::Key || kind == Kind::Frame ? kMaximumFrame : kMaximumText;
+  if (kind == Kind::Frame) return 0;
+  return kind == Kind::Key || kind == Kind::Part ? kMaximumFrame : kMaximumText;
 }
 
 /// Reads block by block, and puts together what they are.
@@ -122,7 +123,8 @@ class Blocks {
   bool readBlock();
   void take(Kind kind, const std::string& head, const PackedBytes::Place& place);
   void beginRun(const std::string& head);
-  void takeFrame(const std::string& head, std::shared_ptr<const PackedBytes> data);
+  void takePart(const std::string& head, std::shared_ptr<const PackedBytes> data);
+  void takeFrame(const std::string& head);
   void takeState(const std::string& head, std::shared_ptr<const PackedBytes> data);
   void add(const std::shared_ptr<const PackedFrame>& frame);
   void add(const KeptRun::State& state);
@@ -145,6 +147,7 @@ class Blocks {
   uint32_t m_number = 0;
   size_t m_runs = 0;
   std::map<uint32_t, std::shared_ptr<const FrameKey>> m_keys;
+  std::map<uint32_t, std::shared_ptr<const FramePart>> m_parts;
   std::map<uint32_t, std::shared_ptr<const PackedFrame>> m_frames;
   std::map<uint32_t, std::shared_ptr<const KeptRun::State>> m_states;
   std::map<uint32_t, std::shared_ptr<const std::vector<Probe>>> m_probes;
@@ -179,7 +182,9 @@ void Blocks::take(Kind kind, const std::string& head, const PackedBytes::Place& 
     key->data = std::move(data);
     m_keys[m_number] = std::move(key);
   } else if (kind == Kind::Frame) {
-    takeFrame(head, std::move(data));
+    takeFrame(head);
+  } else if (kind == Kind::Part) {
+    takePart(head, std::move(data));
   } else if (m_noStates.empty()) {
     try {
       if (kind == Kind::State)
@@ -218,11 +223,26 @@ void Blocks::add(const std::shared_ptr<const PackedFrame>& frame) {
   run().addFrame(frame);
 }
 
-void Blocks::takeFrame(const std::string& head, std::shared_ptr<const PackedBytes> data) {
+void Blocks::takePart(const std::string& head, std::shared_ptr<const PackedBytes> data) {
+  const PartHead leansOn = readPart(head, m_where);
+  auto part = std::make_shared<FramePart>();
+  part->key = known(m_keys, leansOn.key);
+  if (leansOn.left != kNone) part->left = known(m_parts, leansOn.left);
+  if (leansOn.right != kNone) part->right = known(m_parts, leansOn.right);
+  for (const auto& below : {part->left, part->right}) {
+    if (!below) continue;
+    part->depth = std::max(part->depth, below->depth + 1);
+    if (below->key != part->key || part->depth > FramePart::kDeepest)
+      throw InputError(m_where + "it leans on what it cannot");
+  }
+  part->data = std::move(data);
+  m_parts[m_number] = std::move(part);
+}
+
+void Blocks::takeFrame(const std::string& head) {
   FrameParts parts;
   auto frame = std::make_shared<PackedFrame>(readFrame(head, m_where, parts));
-  frame->key = known(m_keys, parts.key);
-  frame->data = std::move(data);
+  frame->part = known(m_parts, parts.part);
   if (const auto probes = m_probes.find(parts.probes);
       probes != m_probes.end() && probes->second->size() == frame->stats.probes.size())
     frame->stats.measured = probes->second;
@@ -275,7 +295,8 @@ void Blocks::takeText(Kind kind, const PackedBytes& text) {
 
 }  // namespace
 
-RecordingReader::RecordingReader(const std::string& path, const PluginRegistry& plugins) : m_path(path) {
+RecordingReader::RecordingReader(const std::string& path, const PluginRegistry& plugins)
+    : m_path(path), m_unpacker(std::make_unique<FrameUnpacker>()) {
   Blocks blocks(path, plugins);
   m_project = blocks.header();
   m_damage = blocks.readAll();
@@ -286,9 +307,11 @@ RecordingReader::RecordingReader(const std::string& path, const PluginRegistry& 
   if (m_noStates.empty() && m_content.present.states.empty()) m_noStates = path + ": holds no state";
 }
 
+RecordingReader::~RecordingReader() = default;
+
 SnapshotPtr RecordingReader::frame(size_t index) const {
   try {
-    return m_frames.at(index)->snapshot(0);
+    return m_unpacker->snapshot(*m_frames.at(index), 0);
   } catch (const InputError& problem) {
     throw InputError(m_path + ": frame " + std::to_string(index) + ": " + problem.what());
   }

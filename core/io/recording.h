@@ -10,20 +10,21 @@
 
 // A recording is a run as it was seen and may go on: the project, small frames to look at, whole states now and then,
 // and the log of what was edited between them. File, little-endian:
-//   "PSRECORD", u32 length, header JSON {"format": "phasesketch-recording", "version": 5, "project": {...}},
+//   "PSRECORD", u32 length, header JSON {"format": "phasesketch-recording", "version": 6, "project": {...}},
 //   u64 hash of the header
 //   blocks: BlockHead of recordingblocks.h, its head, and bytes by zstd
 // A run's blocks follow the one that begins it, the present run's first; they name others by their number in the file,
 // which always come before them. So a recording that was cut off is good up to there. A field of particles stands in
-// each frame with its label, unit and scale, so that it is shown where its plugin is not installed. What is packed is
+// each key with its label, unit and scale, so that it is shown where its plugin is not installed. What is packed is
 // checked when it is used: a file of any length opens at once and takes little memory.
 // Whatever else changes, the header stays where it is, so that every version can say of a file which one made it.
 namespace ps {
 
 class Engine;
+class FrameUnpacker;
 class PluginRegistry;
 
-inline constexpr int kRecordingVersion = 5;
+inline constexpr int kRecordingVersion = 6;
 /// What stands behind the name of a project in that of its recording.
 inline constexpr const char* kRecordingEnding = ".psrec";
 
@@ -55,6 +56,7 @@ class RecordingReader {
   /// Reads the header and where everything is. Throws InputError "path: what is wrong; what to do": no recording, a
   /// newer or older version, a header that is not what was written. Advances the thread's progress.
   RecordingReader(const std::string& path, const PluginRegistry& plugins);
+  ~RecordingReader();
   /// The project as JSON text, for parseProject().
   const std::string& projectText() const { return m_project; }
   /// "" or where it ends too early: "path: is cut off or damaged after frame 17".
@@ -70,6 +72,7 @@ class RecordingReader {
   std::string m_path, m_project, m_damage, m_noStates;
   RunContent m_content;
   std::vector<std::shared_ptr<const PackedFrame>> m_frames;
+  std::unique_ptr<FrameUnpacker> m_unpacker;
 };
 
 /// Whether a file begins like a recording; false for whatever cannot be read.

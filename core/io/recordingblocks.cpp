@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kLongest = 1e12;  // s
 constexpr size_t kMostNames = 1'000'000;
+constexpr size_t kOwnNumbers = 8;  // ranges beside those of fields: see FrameKey
 
 /// All numbers of a frame's statistics, in the order of the file.
 template <class Stats, class Visit>
@@ -153,8 +154,24 @@ std::string headOf(const FrameKey& key) {
   packTexts(packer, key.look.materialIds);
   packer.value(static_cast<uint32_t>(key.look.materialLook.size()));
   for (const auto& look : key.look.materialLook) packer.value(look);
+  packer.value(static_cast<uint32_t>(key.fields.size()));
+  for (const FieldPtr& field : key.fields) pack(packer, *field);
+  packer.value(static_cast<uint32_t>(key.ranges.size()));
   for (const Steps& steps : key.ranges) packer.value(steps);
   return packer.bytes();
+}
+
+std::string headOf(const PartHead& part) {
+  BytePacker packer;
+  packer.value(part);
+  return packer.bytes();
+}
+
+PartHead readPart(const std::string& head, const std::string& where) {
+  ByteUnpacker unpacker(head, where);
+  const auto part = unpacker.value<PartHead>();
+  unpacker.finish();
+  return part;
 }
 
 FrameKey readKey(const std::string& head, const std::string& where) {
@@ -168,7 +185,13 @@ FrameKey readKey(const std::string& head, const std::string& where) {
   const auto looks = unpacker.value<uint32_t>();
   if (looks > kMostNames) unpacker.fail();
   for (uint32_t k = 0; k < looks; ++k) key.look.materialLook.push_back(unpacker.value<std::array<float, 4>>());
-  for (Steps& steps : key.ranges) steps = unpacker.value<Steps>();
+  size_t numbers = kOwnNumbers;
+  for (auto fields = unpacker.value<uint32_t>(); fields > 0; --fields) {
+    key.fields.push_back(field(unpacker));
+    if (!key.fields.back()->classes) ++numbers;
+  }
+  if (unpacker.value<uint32_t>() != numbers) unpacker.fail();
+  for (; numbers > 0; --numbers) key.ranges.push_back(unpacker.value<Steps>());
   unpacker.finish();
   if (!(key.look.spacing > 0 && key.look.spacing <= 1e6)) unpacker.fail();
   for (const auto& look : key.look.materialLook) {
@@ -181,7 +204,7 @@ FrameKey readKey(const std::string& head, const std::string& where) {
 
 std::string headOf(const PackedFrame& frame, const FrameParts& parts) {
   BytePacker packer;
-  packer.value(parts.key);
+  packer.value(parts.part);
   packer.value(parts.probes);
   packer.value(static_cast<uint32_t>(frame.stats.milliseconds.size()));
   eachNumber(frame.stats, [&](const auto& number) { packer.value(number); });
@@ -190,15 +213,13 @@ std::string headOf(const PackedFrame& frame, const FrameParts& parts) {
   packer.value(static_cast<uint32_t>(frame.flags));
   packer.value(static_cast<uint32_t>(frame.limits.size()));
   for (const Limit& limit : frame.limits) pack(packer, limit);
-  packer.value(static_cast<uint32_t>(frame.fields.size()));
-  for (const FieldPtr& field : frame.fields) pack(packer, *field);
   return packer.bytes();
 }
 
 PackedFrame readFrame(const std::string& head, const std::string& where, FrameParts& parts) {
   ByteUnpacker unpacker(head, where);
   PackedFrame frame;
-  parts.key = unpacker.value<uint32_t>();
+  parts.part = unpacker.value<uint32_t>();
   parts.probes = unpacker.value<uint32_t>();
   if (unpacker.value<uint32_t>() != frame.stats.milliseconds.size()) unpacker.fail();
   eachNumber(frame.stats, [&](auto& number) { number = unpacker.value<std::decay_t<decltype(number)>>(); });
@@ -207,7 +228,6 @@ PackedFrame readFrame(const std::string& head, const std::string& where, FramePa
   for (uint32_t k = 0; k < probes; ++k) frame.stats.probes.push_back(unpacker.value<double>());
   frame.flags = unpacker.value<uint32_t>();
   for (auto limits = unpacker.value<uint32_t>(); limits > 0; --limits) frame.limits.push_back(limit(unpacker));
-  for (auto fields = unpacker.value<uint32_t>(); fields > 0; --fields) frame.fields.push_back(field(unpacker));
   unpacker.finish();
   if (!(std::abs(frame.stats.time) <= kLongest) || !(std::abs(frame.stats.thermalTime) <= kLongest)) unpacker.fail();
   return frame;

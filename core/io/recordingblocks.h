@@ -13,7 +13,7 @@ inline constexpr char kFileMark[] = "PSRECORD", kBlockMark[] = "PSBLOCK.";
 inline constexpr size_t kMark = 8;
 inline constexpr uint64_t kMaximumHeader = uint64_t{64} << 20;  ///< bytes
 
-enum class Kind : uint32_t { Run = 1, Document, Names, Probes, Key, Frame, State, Edits };
+enum class Kind : uint32_t { Run = 1, Document, Names, Probes, Key, Frame, State, Edits, Part };
 
 /// As it lies in the file, little-endian; its head follows, then what is packed.
 struct BlockHead {
@@ -38,20 +38,26 @@ struct StateHead {
   uint64_t frame = 0, edits = 0;
   uint32_t document = kNone, names = kNone;  ///< blocks
 };
-/// Numbers of blocks that a frame needs.
+/// Numbers of blocks that particles lean on.
+struct PartHead {
+  uint32_t key = kNone, left = kNone, right = kNone;
+};
+/// Those that a frame needs.
 struct FrameParts {
-  uint32_t key = kNone, probes = kNone;
+  uint32_t part = kNone, probes = kNone;
 };
 
 std::string headOf(const RunHead& run);
 std::string headOf(const StateHead& state);
 std::string headOf(const FrameKey& key);
+std::string headOf(const PartHead& part);
 std::string headOf(const PackedFrame& frame, const FrameParts& parts);
 
 // Each throws InputError for what none of those above has written.
 RunHead readRun(const std::string& head, const std::string& where);
 StateHead readState(const std::string& head, const std::string& where);
 FrameKey readKey(const std::string& head, const std::string& where);
+PartHead readPart(const std::string& head, const std::string& where);
 PackedFrame readFrame(const std::string& head, const std::string& where, FrameParts& parts);
 
 }  // namespace ps::recording

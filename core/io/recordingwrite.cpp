@@ -75,7 +75,9 @@ struct RecordingWriter::Impl {
   uint32_t block(Kind kind, const std::string& head, const std::string& packed, uint64_t raw, uint64_t checksum);
   uint32_t block(Kind kind, const std::string& raw);
   uint32_t once(Kind kind, const std::string& raw);
+  uint32_t part(const std::shared_ptr<const FramePart>& part);
   void add(const PackedFrame& frame);
+  void addHeld();
   void add(const KeptRun::State& state);
   void addEdits(const std::vector<FrameEdit>& edits);
   void addRun(const KeptRun& run);
@@ -83,9 +85,12 @@ struct RecordingWriter::Impl {
 
   OutputFile file;
   FramePacker packer{std::make_shared<KeptBytes>()};
+  std::map<uint64_t, PackedFrame> held;     ///< until nothing about them changes any more
+  std::shared_ptr<const FrameKey> lastKey;  ///< that of the last frame
   uint32_t blocks = 0;
   std::map<std::pair<Kind, std::string>, uint32_t> texts;  ///< of what is written once
   std::map<std::shared_ptr<const void>, uint32_t> known;   ///< what is packed, documents, probes
+  std::map<std::shared_ptr<const FramePart>, uint32_t> frames;
 };
 
 RecordingWriter::RecordingWriter(const std::string& path, const Project& project) : m(std::make_unique<Impl>(path)) {
@@ -144,11 +149,22 @@ uint32_t RecordingWriter::Impl::document(const std::shared_ptr<const Project>& p
   return place->second;
 }
 
+/// What it leans on comes first.
+uint32_t RecordingWriter::Impl::part(const std::shared_ptr<const FramePart>& part) {
+  if (!part) return kNone;
+  if (const auto found = known.find(part); found != known.end()) return found->second;
+  PartHead head;
+  const auto [key, freshKey] = known.try_emplace(part->key, 0);
+  if (freshKey) key->second = block(Kind::Key, headOf(*part->key), part->key->data.get());
+  head.key = key->second;
+  head.left = this->part(part->left);
+  head.right = this->part(part->right);
+  return known[part] = block(Kind::Part, headOf(head), part->data.get());
+}
+
 void RecordingWriter::Impl::add(const PackedFrame& frame) {
   FrameParts parts;
-  const auto [key, freshKey] = known.try_emplace(frame.key->data, 0);
-  if (freshKey) key->second = block(Kind::Key, headOf(*frame.key), frame.key->data.get());
-  parts.key = key->second;
+  parts.part = part(frame.part);
   if (frame.stats.measured) {
     const auto [probes, fresh] = known.try_emplace(frame.stats.measured, 0);
     if (fresh) {
@@ -158,7 +174,7 @@ void RecordingWriter::Impl::add(const PackedFrame& frame) {
     }
     parts.probes = probes->second;
   }
-  known[frame.data] = block(Kind::Frame, headOf(frame, parts), frame.data.get());
+  frames[frame.part] = block(Kind::Frame, headOf(frame, parts), nullptr);
 }
 
 void RecordingWriter::Impl::add(const KeptRun::State& state) {
@@ -180,14 +196,14 @@ void RecordingWriter::Impl::addEdits(const std::vector<FrameEdit>& edits) {
 /// States stand before what was seen after them.
 void RecordingWriter::Impl::addRun(const KeptRun& run) {
   RunHead head{run.number, run.apart, run.name, {}};
-  const auto isShared = [&](const std::shared_ptr<const void>& packed) {
-    const auto found = known.find(packed);
-    if (found != known.end()) head.shared.push_back(found->second);
+  const auto isShared = [&](const auto& among, const auto& packed) {
+    const auto found = among.find(packed);
+    if (found != among.end()) head.shared.push_back(found->second);
   };
   for (const KeptRun::State& state : run.states) {
-    if (canBeGoneOnFrom(run, state)) isShared(state.stream);
+    if (canBeGoneOnFrom(run, state)) isShared(known, state.stream);
   }
-  for (const auto& [number, frame] : run.frames) isShared(frame->data);
+  for (const auto& [number, frame] : run.frames) isShared(frames, frame->part);
   std::sort(head.shared.begin(), head.shared.end());
   block(Kind::Run, headOf(head), nullptr);
   addEdits(run.edits);
@@ -200,7 +216,7 @@ void RecordingWriter::Impl::addRun(const KeptRun& run) {
   };
   for (const auto& [number, frame] : run.frames) {
     addStates(number);
-    if (!known.contains(frame->data)) add(*frame);
+    if (!frames.contains(frame->part)) add(*frame);
     advance(1);
   }
   addStates(UINT64_MAX);
@@ -208,11 +224,21 @@ void RecordingWriter::Impl::addRun(const KeptRun& run) {
 
 void RecordingWriter::add(const Snapshot& snapshot) {
   if (m->blocks == 0) m->block(Kind::Run, headOf(RunHead{}), nullptr);
-  const PackedFrame frame = m->packer.pack(snapshot);
-  if (!m->known.contains(frame.key->data)) m->known.clear();  // nothing that is over is kept
-  m->add(frame);
-  m->known.erase(frame.data);
-  m->file.flush();
+  std::vector<PackedFrame> packed = m->packer.pack(snapshot);
+  if (const auto& key = packed.front().part->key; key != m->lastKey) {
+    m->addHeld();
+    m->lastKey = key;
+    m->known.clear();  // nothing that is over is kept
+    m->frames.clear();
+  }
+  for (PackedFrame& frame : packed) m->held.insert_or_assign(frame.stats.frame, std::move(frame));
+  if (!m->packer.open()) m->addHeld();
+}
+
+void RecordingWriter::Impl::addHeld() {
+  for (const auto& [number, frame] : held) add(frame);
+  held.clear();
+  file.flush();
 }
 
 void RecordingWriter::add(const Engine& engine) {
@@ -236,7 +262,14 @@ void RecordingWriter::add(const RunContent& content) {
   for (const KeptRun& run : content.earlier) m->addRun(run);
 }
 
-void RecordingWriter::finish() { m->file.finish(); }
-std::string RecordingWriter::keepPart() { return m->file.keepPart(); }
+void RecordingWriter::finish() {
+  m->addHeld();
+  m->file.finish();
+}
+
+std::string RecordingWriter::keepPart() {
+  m->addHeld();
+  return m->file.keepPart();
+}
 
 }  // namespace ps

@@ -1,76 +1,118 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "core/simulation/framelevels.h"
 #include "core/simulation/packedbytes.h"
 #include "core/simulation/snapshot.h"
 
-#include <array>
 #include <cstdint>
+#include <deque>
+#include <map>
 #include <memory>
+#include <mutex>
+#include <utility>
 #include <vector>
 
 // Frames of a run, small: to be looked at, not to go on from. Why the particles are in the order of their ids: the
-// solver sorts them by place now and then, and what belongs to whom would change with it. Why frames share a key frame:
-// most of them differ from one a quarter of a second before in little, so that what is kept are differences, and these
-// are mostly zeros where matter stands still. Places, radii and temperatures are kept in 65,536 steps of the range of
-// the key frame with a margin; what leaves it makes a new one.
+// solver sorts them by place now and then, and what belongs to whom would change with it. Why frames lean on others:
+// matter goes on as it went, so that most of a frame is half way between one a little earlier and one a little later,
+// and what is kept is how it differs from that. How fine numbers are is said in FramePacker; what leaves the ranges of
+// a key frame makes a new one.
 namespace ps {
-
-/// A range in 65,536 steps.
-struct Steps {
-  float low = 0, step = 0;
-  uint16_t of(float value) const;
-  float value(uint16_t level) const { return low + step * static_cast<float>(level); }
-  bool holds(float value) const { return value >= low && value <= low + step * 65535.0F; }
-};
 
 /// What neighbouring frames have in common.
 struct FrameKey {
   Snapshot look;  ///< without particles: spacing, period, names, colours
   uint64_t number = 0;
-  std::array<Steps, 5> ranges;  ///< x, y, z, radius in m, temperature in K
+  std::vector<Steps> ranges;  ///< x, y, z, radius in m, temperature in K, speed, density error, gas share, fields
+  std::vector<std::shared_ptr<const ParticleField>> fields;
   std::shared_ptr<const PackedBytes> data;
 };
 
-/// One frame: what it amounts to, and its particles, packed.
+/// The particles of one frame.
+struct FramePart {
+  static constexpr uint32_t kDeepest = 7;  ///< between two multiples of FramePacker::kSpan
+
+  std::shared_ptr<const FrameKey> key;
+  /// As one would expect it: half way between these; as the left one; as the key where there is none.
+  std::shared_ptr<const FramePart> left, right;
+  uint32_t depth = 0;  ///< of parts that it leans on
+  std::shared_ptr<const PackedBytes> data;
+
+  /// Takes its own bytes, its key's, and those of all that it leans on; some of them twice.
+  template <class Visit>
+  void eachBytes(const Visit& visit) const {
+    visit(key->data);
+    if (left) left->eachBytes(visit);
+    if (right) right->eachBytes(visit);
+    visit(data);
+  }
+};
+
+/// One frame: what it amounts to, and its particles.
 struct PackedFrame {
   FrameStats stats;
   StepFlags flags = 0;
   std::vector<Limit> limits;
-  std::vector<std::shared_ptr<const ParticleField>> fields;
-  std::shared_ptr<const FrameKey> key;
-  std::shared_ptr<const PackedBytes> data;
+  std::shared_ptr<const FramePart> part;
 
-  size_t bytes() const;  ///< beside what is counted by itself
-  /// A snapshot as the frame's was, to half a step of each value, particles ascending by id. Throws InputError for data
-  /// that no frame has.
-  SnapshotPtr snapshot(uint64_t revision) const;
+  size_t bytes() const;  ///< beside what is packed
 };
 
-/// What a frame keeps of its particles in whole numbers.
-struct FrameLevels {
-  std::vector<uint32_t> id, body, material;
-  std::array<std::vector<uint16_t>, 5> level;  ///< as FrameKey::ranges
-  std::vector<uint8_t> phase, motion;
+/// Makes snapshots again, and keeps what frames next to each other lean on. For any thread.
+class FrameUnpacker {
+ public:
+  /// As the frame's was, to half a step of each value, particles ascending by id. Throws InputError for data that no
+  /// frame has.
+  SnapshotPtr snapshot(const PackedFrame& frame, uint64_t revision) const;
+
+ private:
+  using Levels = std::shared_ptr<const FrameLevels>;
+  template <class Of, class Make>
+  Levels known(const std::shared_ptr<const Of>& of, const Make& make) const;
+  Levels levelsOf(const std::shared_ptr<const FrameKey>& key) const;
+  Levels levelsOf(const std::shared_ptr<const FramePart>& part) const;
+
+  mutable std::mutex m_mutex;
+  mutable std::deque<std::pair<std::weak_ptr<const void>, Levels>> m_known;  ///< the last one first
 };
 
 /// Packs frame after frame of a run. Not for two threads at a time.
+///
+/// Places are kept in steps of a hundredth of the spacing, radii of 1/256 of the largest, temperatures of 1/20 K, or
+/// coarser: none finer than the 65,536th part of the range of the key frame with its margin. Speed, density error and
+/// gas share are kept in steps of their root, 255 from zero to the largest; fields of plugins and those that were asked
+/// for in 4,096 steps of their range.
 class FramePacker {
  public:
-  static constexpr uint64_t kKeyInterval = 16;  ///< frames
+  static constexpr uint64_t kKeyInterval = 32;  ///< frames
+  /// Frames whose numbers are multiples of it lean on the key alone, those between on the two around them.
+  static constexpr uint64_t kSpan = 8;
 
   explicit FramePacker(ByteCount count) : m_count(std::move(count)) {}
-  PackedFrame pack(const Snapshot& snapshot);
+  /// The frame, and those before it that are packed anew, smaller, now that there is one after them; each after those
+  /// that it leans on.
+  std::vector<PackedFrame> pack(const Snapshot& snapshot);
+  /// Whether any before the last one may yet be packed anew.
+  bool open() const { return m_open.size() > 1; }
 
  private:
+  struct Open {
+    PackedFrame frame;
+    FrameLevels levels;
+  };
   void sort(const Snapshot& snapshot);
   bool fitsKey(const Snapshot& snapshot) const;
-  void takeLevels(const Snapshot& snapshot, const std::array<Steps, 5>& ranges);
+  FrameLevels levelsOf(const Snapshot& snapshot) const;
   void makeKey(const Snapshot& snapshot);
+  std::shared_ptr<const FramePart> part(const FrameLevels& levels, const Open* left, const Open* right) const;
+  void packBetween(size_t left, size_t right, std::vector<PackedFrame>& packed);
 
   ByteCount m_count;
   std::vector<uint32_t> m_ids, m_order;  ///< as they came last, and the way through them
-  FrameLevels m_now, m_keyLevels;
+  std::shared_ptr<const std::vector<uint32_t>> m_sorted;
   std::shared_ptr<const FrameKey> m_key;
+  FrameLevels m_keyLevels;
+  std::vector<Open> m_open;  ///< from the last one that nothing will change
 };
 
 }  // namespace ps

@@ -244,11 +244,16 @@ void RunRecord::Impl::packState(RawState raw, uint64_t of) {
 
 void RunRecord::Impl::packFrame(const SnapshotPtr& snapshot, uint64_t of, FramePacker& packer) {
   const auto start = Clock::now();
-  auto packed = std::make_shared<const PackedFrame>(packer.pack(*snapshot));
+  std::vector<PackedFrame> packed = packer.pack(*snapshot);
   const std::lock_guard lock(mutex);
   packSeconds += secondsSince(start);
   if (of != generation) return;
-  addFrame(std::move(packed));
+  for (PackedFrame& frame : packed) {
+    const uint64_t frameNumber = frame.stats.frame;
+    if (&frame != packed.data() && !frames.contains(frameNumber)) continue;  // it was thinned meanwhile
+    onDisk = std::min(onDisk, frameNumber);
+    addFrame(std::make_shared<const PackedFrame>(std::move(frame)));
+  }
 }
 
 void RunRecord::settle() const {

@@ -52,8 +52,9 @@ struct RunRecord::Impl : KeptRun {
   bool thinStates();
 
   RecordBudget budget;
-  bool resized = false;              ///< since the thread looked
-  bool diskFails = false;            ///< until there is another budget
+  bool resized = false;    ///< since the thread looked
+  bool diskFails = false;  ///< until there is another budget
+  FrameUnpacker unpacker;
   std::shared_ptr<StoredFile> file;  ///< the thread's; nullptr: nothing was to go to the disk yet
   const ByteCount counted;           ///< of packed bytes
   const std::shared_ptr<const int> lending = std::make_shared<const int>();  ///< held by whoever has all that is kept

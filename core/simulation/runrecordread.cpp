@@ -78,10 +78,12 @@ std::shared_ptr<const PackedBytes> RunRecord::Impl::oldestInMemory() {
       if (state.stream->inMemory() > 0) return state.stream;
     }
     for (auto frame = run.frames.lower_bound(first); frame != run.frames.end(); ++frame) {
-      for (const auto& packed : {frame->second->key->data, frame->second->data}) {
-        if (&run == this) onDisk = frame->first;
-        if (packed->inMemory() > 0) return packed;
-      }
+      if (&run == this) onDisk = frame->first;
+      std::shared_ptr<const PackedBytes> found;
+      frame->second->part->eachBytes([&](const std::shared_ptr<const PackedBytes>& packed) {
+        if (!found && packed->inMemory() > 0) found = packed;
+      });
+      if (found) return found;
     }
     return nullptr;
   };
@@ -107,11 +109,16 @@ void RunRecord::Impl::forgetDiskOf(KeptRun& run) {
   const auto lies = [](const std::shared_ptr<const PackedBytes>& packed) {
     return packed->kept() > 0 && packed->inMemory() == 0;
   };
+  const auto anyLies = [&](const PackedFrame& frame) {
+    bool any = false;
+    frame.part->eachBytes([&](const auto& packed) { any = any || lies(packed); });
+    return any;
+  };
   KeptRun gone;
   for (auto frame = run.frames.begin(); frame != run.frames.end();) {
     const auto next = std::next(frame);
     const bool end = frame == run.frames.begin() || next == run.frames.end();
-    if (!end && (lies(frame->second->data) || lies(frame->second->key->data))) {
+    if (!end && anyLies(*frame->second)) {
       gone.frames.emplace(*frame);
       run.eraseFrame(frame);
     }
@@ -211,7 +218,7 @@ SnapshotPtr RunRecord::earlierFrame(uint64_t run, double time) const {
     }
     revision = m->revision;
   }
-  return packed ? packed->snapshot(revision) : nullptr;
+  return packed ? m->unpacker.snapshot(*packed, revision) : nullptr;
 }
 
 std::optional<uint64_t> RunRecord::neighbour(uint64_t frame, int steps) const {
@@ -238,7 +245,7 @@ SnapshotPtr RunRecord::frame(uint64_t number) const {
     packed = found->second;
     revision = m->revision;
   }
-  return packed->snapshot(revision);
+  return m->unpacker.snapshot(*packed, revision);
 }
 
 std::optional<RestorePoint> RunRecord::restorePoint(uint64_t frame) const {

@@ -411,6 +411,19 @@ void TestCli::recordingsAreDrawn() {
   QVERIFY(colours.size() > 100);  // an empty or broken picture has a few
   ran = cli({"render", recording, "--out", out, "--size", "160x120", "--every", "9"});
   QVERIFY2(ran.out.startsWith("1 picture in "), ran.out.constData());
+  const auto coloured = [&](const QString& colour) {
+    return cli({"render", recording, "--out", out, "--size", "160x120", "--every", "4", "--colour", colour});
+  };
+  QCOMPARE(coloured("pressure").code, 0);
+  const qint64 size = QFileInfo(recording).size();
+  ran = cli(smallScene({"--frames", "4", "--record", recording, "--quiet", "--fields", "density,solid_fraction"}));
+  QVERIFY2(ran.code == 0 && QFileInfo(recording).size() < size, ran.err.constData());
+  QCOMPARE(coloured("solid_fraction").code, 0);
+  QCOMPARE(coloured("speed").code, 0);
+  QVERIFY(coloured("pressure").err.contains("has no such field; record it with --fields pressure"));
+  ran = cli(smallScene({"--frames", "4", "--record", recording, "--fields", "presure"}));
+  QVERIFY2(ran.code == 2 && ran.err.contains("did you mean 'pressure'?"), ran.err.constData());
+  QCOMPARE(cli(smallScene({"--frames", "4", "--fields", "none"})).code, 2);
 }
 
 /// A plugin's field is listed, drawn, probed and recorded like ours; drawn from the recording without the plugin too.
