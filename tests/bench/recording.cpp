@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // What recording costs a run: frames of the tank as the editor makes them, turn by turn with and without.
 //   recording [PARTICLES] [FRAMES a turn] [TURNS]
+// And what it keeps of a long run, in how much memory:
+//   recording PROJECT.json MINUTES MEBIBYTES [SPACING in m]
+#include "core/base/memory.h"
 #include "core/experiments/benchscenes.h"
+#include "core/io/projectio.h"
 #include "core/plugin_host/registry.h"
 #include "core/simulation/engine.h"
 #include "core/simulation/runrecord.h"
@@ -12,14 +16,57 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <optional>
 #include <random>
+#include <string>
+#include <string_view>
 #include <vector>
 
 namespace {
 constexpr int kSeeks = 50;
+constexpr double kMebibyte = 1 << 20;
+
+/// A line for each tenth of the run.
+void runLong(const std::string& path, double minutes, size_t budget, std::optional<double> spacing) {
+  ps::PluginRegistry plugins;
+  ps::Project project = ps::loadProject(path, plugins).project;
+  project.state = nullptr;
+  if (spacing) project.solver.parameters.values["particle_spacing"] = *spacing;
+  ps::Engine engine(project, plugins);
+  const double before = ps::memoryNow().own;
+  ps::RunRecord record(budget);
+  record.begin(engine.revision());
+  record.keepState(engine);
+  record.add(engine.snapshot());
+  size_t most = 0;
+  int tenth = 0;
+  while (engine.solver().time() < 60 * minutes) {
+    engine.step();
+    record.add(engine.snapshot());
+    if (record.wantsState(engine.solver().time())) record.keepState(engine);
+    record.settle();
+    const ps::RunRecord::Cost cost = record.cost();
+    most = std::max(most, cost.bytes);
+    if (engine.solver().time() < 6 * minutes * (tenth + 1)) continue;
+    ++tenth;
+    const auto [first, last, from, to, frames] = record.extent();
+    std::printf(
+        "%6.0f s, %zu particles: %zu of %llu frames and %zu states in %.1f MiB, %.1f at most; the program grew "
+        "by %.1f MiB\n",
+        to, engine.particles().size(), frames, static_cast<unsigned long long>(last - first + 1), cost.states,
+        static_cast<double>(cost.bytes) / kMebibyte, static_cast<double>(most) / kMebibyte,
+        (ps::memoryNow().own - before) / kMebibyte);
+    std::fflush(stdout);
+  }
+}
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (argc > 3 && std::string_view(argv[1]).ends_with(".json")) {
+    const auto budget = static_cast<size_t>(std::atof(argv[3]) * kMebibyte);
+    runLong(argv[1], std::atof(argv[2]), budget, argc > 4 ? std::optional(std::atof(argv[4])) : std::nullopt);
+    return 0;
+  }
   using Clock = std::chrono::steady_clock;
   const auto milliseconds = [](Clock::time_point from) {
     return std::chrono::duration<double, std::milli>(Clock::now() - from).count();
