@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "core/math/responseedit.h"
+#include "tests/ui/hands.h"
 #include "tests/ui/samplewindow.h"
 #include "ui/curves/curvepanel.h"
 #include "ui/curves/curvetarget.h"
 #include "ui/curves/curveview.h"
 #include "ui/curves/pointspanel.h"
 
-#include <QtGui/QMouseEvent>
 #include <QtWidgets/QLineEdit>
 
 // The workspace Tune of the real window, for tests of what hands do to curves.
@@ -45,13 +45,7 @@ class CurveWindowTest : public SampleWindowTest {
     pull(place(index), way, modifiers);
   }
   void pull(const QPoint& from, const QPoint& way, Qt::KeyboardModifiers modifiers) {
-    QTest::mousePress(&curve(), Qt::LeftButton, {}, from);
-    for (int k = 1; k <= 4; ++k) {
-      const QPointF to = from + QPointF(way) * k / 4;
-      QMouseEvent move(QEvent::MouseMove, to, curve().mapToGlobal(to), Qt::NoButton, Qt::LeftButton, modifiers);
-      QApplication::sendEvent(&curve(), &move);
-    }
-    QTest::mouseRelease(&curve(), Qt::LeftButton, modifiers, from + way);
+    hands::pull(curve(), from, way, modifiers);
   }
   void shoot(const char* name) {
     const QString folder = qEnvironmentVariable("PS_TEST_PICTURES");

@@ -8,9 +8,7 @@
 #include "ui/panels/materialspanel.h"
 #include "ui/session/selection.h"
 
-#include <QtCore/QMimeData>
 #include <QtGui/QClipboard>
-#include <QtGui/QDropEvent>
 #include <QtWidgets/QComboBox>
 #include <QtWidgets/QListWidget>
 #include <QtWidgets/QMenu>
@@ -193,21 +191,14 @@ class TestCurveWays : public CurveWindowTest {
     QCOMPARE(list->item(0)->checkState(), Qt::Unchecked);
     QMimeData data;
     data.setData(QLatin1String(kMaterialMime), QByteArray::fromStdString(other));
-    const QPoint at = curve().plot().center().toPoint();
-    QDragEnterEvent enter(at, Qt::CopyAction, &data, Qt::LeftButton, {});
-    QApplication::sendEvent(&curve(), &enter);
-    QVERIFY(enter.isAccepted());
-    QDropEvent drop(at, Qt::CopyAction, &data, Qt::LeftButton, {});
-    QApplication::sendEvent(&curve(), &drop);
+    QVERIFY(hands::drop(curve(), data));
     QVERIFY(curves().compared().contains(other));
     QCOMPARE(list->item(0)->checkState(), Qt::Checked);
     list->item(0)->setCheckState(Qt::Unchecked);
     QVERIFY(curves().compared().empty());
     QMimeData text;
     text.setText(QStringLiteral("water"));
-    QDragEnterEvent nothing(at, Qt::CopyAction, &text, Qt::LeftButton, {});
-    QApplication::sendEvent(&curve(), &nothing);
-    QVERIFY(!nothing.isAccepted());
+    QVERIFY(!hands::drop(curve(), text));
   }
 
   /// The mean of the particles, or what is selected: a probe of temperature, a particle.

@@ -2,27 +2,22 @@
 // Graphs and probes by hands in the real window: made, dropped, split, read with cursors, zoomed, written to files;
 // each undone and redone to the same project.
 #include "core/io/projectio.h"
+#include "tests/ui/hands.h"
 #include "tests/ui/samplewindow.h"
 #include "ui/graphs/distributionview.h"
 #include "ui/graphs/graphspanel.h"
 #include "ui/graphs/graphview.h"
 #include "ui/graphs/stackview.h"
 #include "ui/panels/inspector.h"
-#include "ui/panels/outliner.h"
 #include "ui/rows/parameterpanel.h"
 #include "ui/session/selection.h"
 
-#include <QtCore/QMimeData>
 #include <QtCore/QTemporaryDir>
-#include <QtCore/QTimer>
 #include <QtGui/QAction>
-#include <QtGui/QDropEvent>
 #include <QtGui/QWheelEvent>
-#include <QtWidgets/QFileDialog>
 #include <QtWidgets/QLabel>
 #include <QtWidgets/QLineEdit>
 #include <QtWidgets/QMenu>
-#include <QtWidgets/QTreeView>
 
 #include <cmath>
 
@@ -51,22 +46,21 @@ class TestGraphsWindow : public SampleWindowTest {
     GraphView* view = graphs()->valuesIn("K");
     const int lines = view->seriesCount();
     // What the outliner hands out for its row.
-    auto* tree = outliner()->findChild<QTreeView*>();
-    const QModelIndex row = find(*tree->model(), OutlineKind::Probe, "ice_mass");
+    const QModelIndex row = hands::outlined(*m_window, OutlineKind::Probe, "ice_mass");
     QVERIFY(row.isValid() && (row.flags() & Qt::ItemIsDragEnabled));
-    const std::unique_ptr<QMimeData> data(tree->model()->mimeData({row}));
-    drop(*view, *data);
+    const std::unique_ptr<QMimeData> data = hands::dragged(row);
+    QVERIFY(hands::drop(*view, *data));
     QCOMPARE(view->seriesCount(), lines + 1);
     QCOMPARE(view->axes().size(), size_t{2});  // grams beside degrees
     QCOMPARE(view->axes()[1].unit, QStringLiteral("g"));
     QCOMPARE(document().project().graphs->front().series.back(), std::string("probe/ice_mass"));
-    drop(*view, *data);  // it is there already
+    QVERIFY(hands::drop(*view, *data));  // it is there already
     QCOMPARE(document().undoStack().count(), 1);
     QTRY_VERIFY_WITH_TIMEOUT(view->sampleCount(lines) == view->sampleCount(0), kLong);
     picture("graphs-two-axes.png");
     undoneAndRedone(before);
     // On a stack it gets a graph of its own.
-    drop(*graphs()->phases(), *data);
+    QVERIFY(hands::drop(*graphs()->phases(), *data));
     QCOMPARE(graphs()->plots().size(), size_t{3});
   }
 
@@ -173,10 +167,7 @@ class TestGraphsWindow : public SampleWindowTest {
     QTRY_VERIFY_WITH_TIMEOUT(session().snapshot()->stats.measured->back().id == id, kLong);
     undoneAndRedone(before);
     document().renameProbe(id, QStringLiteral("Rim"));
-    QTRY_VERIFY(find(*outliner()->findChild<QTreeView*>()->model(), OutlineKind::Probe, id)
-                    .data()
-                    .toString()
-                    .startsWith(QStringLiteral("Rim")));
+    QTRY_VERIFY(hands::outlined(*m_window, OutlineKind::Probe, id).data().toString().startsWith(QStringLiteral("Rim")));
   }
 
   void aPinnedRowFollowsItsProbe() {
@@ -261,7 +252,7 @@ class TestGraphsWindow : public SampleWindowTest {
     // Held at its line, B is dragged; an arrow moves it by a pixel.
     const QPointF at(plot.left() + 0.8 * plot.width(), plot.center().y());
     QTest::mousePress(view, Qt::LeftButton, {}, at.toPoint());
-    move(*view, at - QPointF(50, 0));
+    hands::move(*view, at - QPointF(50, 0));
     QTest::mouseRelease(view, Qt::LeftButton, {}, (at - QPointF(50, 0)).toPoint());
     const double perPixel = session().now() / plot.width(), dragged = *view->reading(1);
     QVERIFY(std::abs(dragged - (0.8 * session().now() - 50 * perPixel)) < 2 * perPixel);
@@ -292,7 +283,7 @@ class TestGraphsWindow : public SampleWindowTest {
     const double before = view->axes()[0].low();
     const QPointF middle = view->plotRect().center();
     QTest::mousePress(view, Qt::LeftButton, {}, middle.toPoint());
-    move(*view, middle + QPointF(0, 20));
+    hands::move(*view, middle + QPointF(0, 20));
     QTest::mouseRelease(view, Qt::LeftButton, {}, (middle + QPointF(0, 20)).toPoint());
     view->grab();
     QVERIFY(view->axes()[0].low() > before);  // values go along with the hand
@@ -317,8 +308,8 @@ class TestGraphsWindow : public SampleWindowTest {
     QFETCH(QByteArray, begins);
     run(2);
     const QString path = m_folder.filePath(QStringLiteral("graph.") + ending);
-    answerDialog(path);
-    choose(first(), {QStringLiteral("Export as %1…").arg(ending.toUpper()).toUtf8()});
+    hands::answerDialog(path);
+    choose(first(), {QStringLiteral("Export as %1…").arg(ending.toUpper())});
     QFile file(path);
     QTRY_VERIFY_WITH_TIMEOUT(file.exists() && file.size() > 0, kLong);
     QVERIFY(file.open(QIODevice::ReadOnly));
@@ -328,7 +319,7 @@ class TestGraphsWindow : public SampleWindowTest {
   }
 
   void aPathThatCannotBeWrittenIsTold() {
-    answerDialog(m_folder.filePath(QStringLiteral("no/such/folder/graph.csv")));
+    hands::answerDialog(m_folder.filePath(QStringLiteral("no/such/folder/graph.csv")));
     choose(first(), {"Export as CSV…"});
     QTRY_VERIFY_WITH_TIMEOUT(m_window->notice()->isVisible(), kLong);
     QVERIFY2(m_window->notice()->text().contains(QStringLiteral("no/such/folder")),
@@ -337,7 +328,6 @@ class TestGraphsWindow : public SampleWindowTest {
 
  private:
   GraphsPanel* graphs() { return m_window->graphs(); }
-  Outliner* outliner() { return m_window->findChild<Outliner*>(); }
   std::string first() { return document().graphs().front().id; }
   std::string json() { return writeProject(document().project()); }
   void run(int frames) {
@@ -356,54 +346,17 @@ class TestGraphsWindow : public SampleWindowTest {
     while (document().undoStack().index() < steps) document().undoStack().redo();
     QCOMPARE(json(), now);
   }
-  static QModelIndex find(const QAbstractItemModel& model, OutlineKind kind, const std::string& id) {
-    const QModelIndexList all = model.match(model.index(0, 0), outline::kId, QString::fromStdString(id), -1,
-                                            Qt::MatchExactly | Qt::MatchRecursive);
-    for (const QModelIndex& index : all) {
-      if (index.data(outline::kKind).toInt() == static_cast<int>(kind)) return index;
-    }
-    return {};
-  }
   /// The entry of a graph's menu at the end of a path of titles.
-  void choose(const std::string& id, const std::vector<QByteArray>& path) {
+  void choose(const std::string& id, const QStringList& path) {
     const std::unique_ptr<QMenu> menu(graphs()->makeMenu(id));
-    QMenu* in = menu.get();
-    for (const QByteArray& text : path) {
-      Q_EMIT in->aboutToShow();
-      const QList<QAction*> actions = in->actions();
-      const auto found = std::find_if(actions.begin(), actions.end(),
-                                      [&](QAction* a) { return a->text() == QString::fromUtf8(text); });
-      QVERIFY2(found != actions.end(), text.constData());
-      if ((*found)->menu())
-        in = (*found)->menu();
-      else
-        (*found)->trigger();
-    }
-  }
-  static void drop(QWidget& on, const QMimeData& data) {
-    const QPointF at = QRectF(on.rect()).center();
-    QDragEnterEvent enter(at.toPoint(), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
-    QApplication::sendEvent(&on, &enter);
-    QVERIFY(enter.isAccepted());
-    QDropEvent event(at, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
-    QApplication::sendEvent(&on, &event);
-  }
-  static void move(QWidget& on, const QPointF& to) {
-    QMouseEvent event(QEvent::MouseMove, to, on.mapToGlobal(to), Qt::NoButton, Qt::LeftButton, Qt::NoModifier);
-    QApplication::sendEvent(&on, &event);
+    QAction* entry = hands::entryOf(*menu, path);
+    QVERIFY2(entry, qPrintable(path.join(QStringLiteral(" > "))));
+    entry->trigger();
   }
   static void wheel(Plot& on, Qt::KeyboardModifiers modifiers) {
     const QPointF at = on.plotRect().center();
     QWheelEvent event(at, on.mapToGlobal(at), {}, {0, 120}, Qt::NoButton, modifiers, Qt::NoScrollPhase, false);
     QApplication::sendEvent(&on, &event);
-  }
-  static void answerDialog(const QString& path) {
-    QTimer::singleShot(0, qApp, [path] {
-      auto* dialog = qobject_cast<QFileDialog*>(QApplication::activeModalWidget());
-      QVERIFY(dialog);
-      dialog->selectFile(path);
-      static_cast<QDialog*>(dialog)->accept();
-    });
   }
   QTemporaryDir m_folder;
 };

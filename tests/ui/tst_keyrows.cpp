@@ -38,14 +38,15 @@ class TestKeyRows : public CurveWindowTest {
     const std::string before = text();
     box(rows().placeOf(kFloor, 1) - QPoint(12, 8), rows().placeOf(kGravity, 0) + QPoint(250, 8));
     QCOMPARE(rows().chosen().size(), size_t{3});
-    pull(rows().placeOf(kFloor, 1), {30, 0});
+    hands::pull(rows(), rows().placeOf(kFloor, 1), {30, 0});
     QCOMPARE(document().undoStack().count(), m_steps + 1);
     const double shift = keys(kFloor)[1].time - 10;
     QVERIFY(shift > 0.5);
     QCOMPARE(keys(kFloor)[0].time, 5.0);
     QVERIFY(std::abs(keys(kFloor)[2].time - 20 - shift) < 1e-5 && std::abs(keys(kGravity)[0].time - 10 - shift) < 1e-5);
     QCOMPARE(keys(kFloor)[1].value, 310.0);
-    pull(rows().placeOf(kFloor, 1), {-2000, 0});  // no farther than the key that stays, all of them alike
+    hands::pull(rows(), rows().placeOf(kFloor, 1),
+                {-2000, 0});  // no farther than the key that stays, all of them alike
     QVERIFY(keys(kFloor)[1].time > 5 && keys(kFloor)[1].time < 5.1);
     QVERIFY(std::abs(keys(kFloor)[2].time - keys(kFloor)[1].time - 10) < 1e-5);
     document().undoStack().undo();
@@ -132,7 +133,7 @@ class TestKeyRows : public CurveWindowTest {
     step("smooth");
     curves().choosePoint(1);
     QVERIFY(curve().handleAt(true).has_value());
-    CurveWindowTest::pull(curve().handleAt(true)->toPoint(), {0, 25}, {});
+    pull(curve().handleAt(true)->toPoint(), {0, 25}, {});
     step("a slope");
     QVERIFY(keys(kFloor)[1].slopeAfter && keys(kFloor)[1].slopeBefore);
     const double time = 0.5 * (keys(kFloor)[1].time + keys(kFloor)[2].time);
@@ -202,12 +203,12 @@ class TestKeyRows : public CurveWindowTest {
     project.tracks[0].keys[1].value = 2e4;  // the wall takes 10000 K
     document().open(project, kSample);
     QTRY_VERIFY(rows().isVisible());
-    pull(rows().placeOf(kFloor, 2), {10, 0});
+    hands::pull(rows(), rows().placeOf(kFloor, 2), {10, 0});
     QVERIFY(keys(kFloor)[2].time > 20);
     const QString problem = document().setKeys({{kFloor, {{1, 3e4}}}}, {});
     QVERIFY2(problem.contains(QStringLiteral("Temperature at 1 s must be at most")), qPrintable(problem));
     QSignalSpy refused(&rows(), &KeyRows::refused);
-    pull(rows().placeOf(kFloor, 1), {10, 0});  // the one that cannot be
+    hands::pull(rows(), rows().placeOf(kFloor, 1), {10, 0});  // the one that cannot be
     QCOMPARE(refused.count(), 1);
     QTRY_VERIFY(m_window->notice()->isVisible());
     QTest::mouseClick(&rows(), Qt::LeftButton, {}, rows().placeOf(kFloor, 1));
@@ -225,11 +226,6 @@ class TestKeyRows : public CurveWindowTest {
     QTest::mouseMove(&rows(), (from + to) / 2);
     QTest::mouseMove(&rows(), to);
     QTest::mouseRelease(&rows(), Qt::LeftButton, {}, to);
-  }
-  void pull(const QPoint& from, const QPoint& way) {
-    QTest::mousePress(&rows(), Qt::LeftButton, {}, from);
-    for (int k = 1; k <= 4; ++k) QTest::mouseMove(&rows(), from + way * k / 4);
-    QTest::mouseRelease(&rows(), Qt::LeftButton, {}, from + way);
   }
   int m_steps = 0;
 };

@@ -3,6 +3,7 @@
 #include "core/io/projectio.h"
 #include "core/simulation/engine.h"
 #include "core/simulation/runrecord.h"
+#include "tests/ui/recordhands.h"
 #include "tests/ui/samplewindow.h"
 #include "ui/graphs/graphspanel.h"
 #include "ui/graphs/graphview.h"
@@ -448,32 +449,11 @@ class TestRecordedView : public SampleWindowTest {
   }
 
  private:
-  uint64_t hash() {
-    return onEngine<uint64_t>(session(), [](Engine& engine) { return engine.stateHash(); });
-  }
-  /// One that is kept: where the machine is busy, frames that come faster than they are packed are left out.
-  uint64_t step() {
-    session().engine()->stepOnce();
-    const uint64_t now = hash();
-    session().engine()->recording().settle();
-    return now;
-  }
+  uint64_t hash() { return hands::hashNow(session()); }
+  uint64_t step() { return hands::stepKept(session()); }
   uint64_t shownFrame() { return session().snapshot()->stats.frame; }
   Transport& transport() { return *m_window->transport(); }
-  /// The run goes on from a frame, and stands.
-  void branchAt(uint64_t frame) {
-    const size_t runs = session().recorded().earlier().size();
-    drag(frame);
-    QTRY_COMPARE_WITH_TIMEOUT(shownFrame(), frame, kLong);
-    QTest::mouseClick(transport().continueButton(), Qt::LeftButton);
-    QTRY_COMPARE_WITH_TIMEOUT(session().recorded().earlier().size(), runs + 1, kLong);
-    QTRY_VERIFY_WITH_TIMEOUT(!session().recorded().isActive(), kLong);
-    session().pause();
-    while (session().newest()->stats.frame < 6) {
-      step();
-    }
-    session().engine()->recording().settle();
-  }
+  void branchAt(uint64_t frame) { hands::branchAt(*m_window, frame, 6); }
   void trigger(const char* id) { m_window->action(QLatin1String(id))->trigger(); }
   void choose(int run, const char* what) {
     QMenu menu;
@@ -491,13 +471,7 @@ class TestRecordedView : public SampleWindowTest {
     }
     QCOMPARE(transport().speedButton()->text(), QString::fromUtf8(text));
   }
-  /// From the left over the bar to a frame.
-  void drag(uint64_t frame) {
-    const QPoint to = transport().placeOf(static_cast<double>(frame) / 60), from = transport().placeOf(0);
-    QTest::mousePress(&transport(), Qt::LeftButton, {}, from);
-    for (int k = 1; k <= 5; ++k) QTest::mouseMove(&transport(), from + (to - from) * k / 5);
-    QTest::mouseRelease(&transport(), Qt::LeftButton, {}, to);
-  }
+  void drag(uint64_t frame) { hands::scrubTo(transport(), frame); }
   std::map<uint64_t, uint64_t> m_hashes;
 };
 
