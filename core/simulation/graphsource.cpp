@@ -138,6 +138,12 @@ std::string frameSource(std::string_view quantity) { return std::string(kFrame).
 
 std::string parameterSource(const Address& parameter) { return std::string(kParameterSource) + parameter.text(); }
 
+bool canBePlotted(const api::ParameterDeclaration& declaration) {
+  using api::ParameterKind;
+  return declaration.kind == ParameterKind::Number || declaration.kind == ParameterKind::Integer ||
+         declaration.kind == ParameterKind::Toggle;
+}
+
 std::string probeOfSource(std::string_view source) {
   return source.starts_with(kProbe) ? std::string(source.substr(kProbe.size())) : std::string();
 }
@@ -168,12 +174,8 @@ GraphSource::GraphSource(const std::string& source, const Project& project, cons
 }
 
 void GraphSource::adopt(const Address& parameter, const Project& project, const PluginRegistry* plugins) {
-  using api::ParameterKind;
   const api::ParameterDeclaration* declared = declarationOf(project, plugins, parameter);
-  if (!declared || parameter.owner == Owner::Probe || !hasOwner(project, parameter)) return;
-  if (declared->kind != ParameterKind::Number && declared->kind != ParameterKind::Integer &&
-      declared->kind != ParameterKind::Toggle)
-    return;
+  if (!declared || parameter.owner == Owner::Probe || !hasOwner(project, parameter) || !canBePlotted(*declared)) return;
   m_known = true;
   m_parameter = parameter;
   m_unit = declared->unit && *declared->unit ? declared->unit : "1";

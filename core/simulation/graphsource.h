@@ -30,6 +30,8 @@ std::string probeSource(std::string_view probe);
 std::string frameSource(std::string_view quantity);
 inline constexpr std::string_view kParameterSource = "parameter/";
 std::string parameterSource(const Address& parameter);
+/// Whether the values of a parameter make a curve over time: those of a number or a switch.
+bool canBePlotted(const api::ParameterDeclaration& declaration);
 /// The probe's id behind "probe/", or "".
 std::string probeOfSource(std::string_view source);
 

@@ -128,6 +128,30 @@ class TestGraphsWindow : public SampleWindowTest {
     QCOMPARE(json(), with);
   }
 
+  /// Of a wall in one list, of the solver by groups; what has curves over temperature is not offered.
+  void aParameterIsPlottedByTheMenu_data() {
+    QTest::addColumn<QStringList>("path");
+    QTest::addColumn<QString>("source");
+    QTest::newRow("wall") << QStringList{"Plot", "Parameter", "Hot plate", "Temperature"} << "wall/floor/temperature";
+    QTest::newRow("body") << QStringList{"Plot", "Parameter", "Ice block", "Heat", "Heating power"}
+                          << "body/ice/heating_power";
+    QTest::newRow("scene") << QStringList{"Plot", "Parameter", "Scene", "Gravity"} << "scene/gravity";
+    QTest::newRow("solver") << QStringList{"Plot", "Parameter", "Solver", "Time", "Substeps"} << "solver/substeps";
+  }
+  void aParameterIsPlottedByTheMenu() {
+    QFETCH(QStringList, path);
+    QFETCH(QString, source);
+    const std::string before = json();
+    choose(first(), path);
+    QCOMPARE(QString::fromStdString(document().graphs().front().series.back()), QStringLiteral("parameter/") + source);
+    QCOMPARE(document().undoStack().count(), 1);
+    QTRY_VERIFY_WITH_TIMEOUT(graphs()->valuesIn("K")->sampleCount(graphs()->valuesIn("K")->seriesCount() - 1) > 0,
+                             kLong);
+    undoneAndRedone(before);
+    const std::unique_ptr<QMenu> menu(graphs()->makeMenu(first()));
+    QVERIFY(!hands::entryOf(*menu, {"Plot", "Parameter", "Water", "Viscosity"}));
+  }
+
   void aProbeIsMadeAndEditedInItsRows() {
     const std::string before = json();
     m_window->selection().select(OutlineKind::Body, "ice");

@@ -46,6 +46,49 @@ char axisOf(std::string key) {
   return key.size() > 2 && key[key.size() - 2] == '_' && key.back() >= 'x' && key.back() <= 'z' ? key.back() : '\0';
 }
 
+/// A body's own parameters, its solid's and its constraints' are one body's.
+bool ofSameOwner(const Address& a, const Address& b) {
+  const auto kind = [](Owner owner) {
+    return owner == Owner::Shape || owner == Owner::Constraint ? Owner::Body : owner;
+  };
+  return kind(a.owner) == kind(b.owner) && a.id == b.id;
+}
+
+using Parameters = std::vector<std::pair<Address, const api::ParameterDeclaration*>>;
+
+/// Those of a list whose values make a curve.
+Parameters plottedOf(const Document& document, const Address& list) {
+  const api::ParameterList declared = declarationsOf(document.project(), document.plugins(), list);
+  Parameters plotted;
+  for (size_t k = 0; k < declared.count; ++k) {
+    if (canBePlotted(declared[k]))
+      plotted.push_back({{list.owner, list.id, declared[k].key, list.plugin}, &declared[k]});
+  }
+  return plotted;
+}
+
+/// What one owner has, under its groups where it is more than a glance takes in.
+void addLists(QMenu& menu, Document& document, const std::string& graph, const std::vector<Address>& lists) {
+  constexpr size_t kGlance = 12;
+  Parameters all;
+  for (const Address& list : lists) {
+    const Parameters plotted = plottedOf(document, list);
+    all.insert(all.end(), plotted.begin(), plotted.end());
+  }
+  std::map<QString, QMenu*> groups;
+  for (const auto& [address, declaration] : all) {
+    const QString title = QString::fromUtf8(declaration->group);
+    QMenu* place = &menu;
+    if (all.size() > kGlance && !title.isEmpty()) {
+      QMenu*& found = groups[title];
+      if (!found) found = menu.addMenu(asButtonText(title));
+      place = found;
+    }
+    add(*place, QString::fromUtf8(declaration->label),
+        [&document, graph, source = parameterSource(address)] { document.plot(graph, source); });
+  }
+}
+
 }  // namespace
 
 void GraphMenu::fill(QMenu& menu, const Graph* graph) const {
@@ -88,7 +131,27 @@ void GraphMenu::addPlot(QMenu& menu, const Graph* graph) const {
     add(*frames, QString::fromUtf8(quantity.label),
         [document, id, source = frameSource(quantity.key)] { document->plot(id, source); });
   }
+  addParameters(*menu.addMenu(QStringLiteral("Parameter")), id);
   addTargets(menu, id);
+}
+
+/// By whose they are. Made when they are opened: there are many.
+void GraphMenu::addParameters(QMenu& menu, const std::string& graph) const {
+  QObject::connect(&menu, &QMenu::aboutToShow, &menu, [&menu, document = &m_document, graph] {
+    if (!menu.isEmpty()) return;
+    std::vector<std::pair<Address, std::vector<Address>>> owners;  // with their lists
+    for (const Address& list : parameterLists(document->project())) {
+      if (plottedOf(*document, list).empty()) continue;
+      if (owners.empty() || !ofSameOwner(owners.back().first, list)) owners.emplace_back(list, std::vector<Address>{});
+      owners.back().second.push_back(list);
+    }
+    for (const auto& [owner, lists] : owners) {
+      QMenu* own = menu.addMenu(asButtonText(ownerLabel(document->project(), owner)));
+      QObject::connect(own, &QMenu::aboutToShow, own, [own, document, graph, of = lists] {
+        if (own->isEmpty()) addLists(*own, *document, graph, of);
+      });
+    }
+  });
 }
 
 /// What no probe measures yet gets one.

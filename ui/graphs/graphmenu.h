@@ -22,6 +22,7 @@ class GraphMenu {
 
  private:
   void addPlot(QMenu& menu, const Graph* graph) const;
+  void addParameters(QMenu& menu, const std::string& graph) const;
   void addTargets(QMenu& menu, const std::string& graph) const;
   void addQuantities(QMenu& menu, const std::string& graph, const Probe& of, const QString& name) const;
   void addRemoval(QMenu& menu, const Graph& graph) const;
