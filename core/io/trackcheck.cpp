@@ -35,6 +35,15 @@ std::vector<TrackFinding> valueFindings(const Project& project, const Track& tra
     if (between && declaration.kind == api::ParameterKind::Toggle)
       return {{Weight::Mended, keyPointer(k) + "/to_next", "must be step: a switch has no values between on and off"}};
   }
+  for (const CurvePoint& turn : turnsOf(track.keys)) {
+    const std::string problem =
+        rangeProblem(turn.y, declaration.hardMinimum, declaration.hardMaximum, declaration.unit);
+    const size_t k = keyBehind(track.keys, turn.x, 0);
+    const std::string place =
+        track.keys[k].slopeAfter ? keyPointer(k) + "/slope_after" : keyPointer(k + 1) + "/slope_before";
+    if (!problem.empty())
+      return {{Weight::Mended, place, "leads at " + numberText(turn.x) + " s to a value that " + problem}};
+  }
   for (size_t k = 0; k < track.keys.size() && !target.point; ++k) {
     const std::string broken =
         problemOfRelations(project, &plugins, address, valueOfKey(track.keys[k].value, declaration));

@@ -35,6 +35,14 @@ std::optional<KeyProblem> problemOfKeys(const std::vector<TrackKey>& keys) {
   return std::nullopt;
 }
 
+std::vector<CurvePoint> turnsOf(const std::vector<TrackKey>& keys) {
+  std::vector<CurvePoint> turns;
+  for (size_t piece = 0; piece + 1 < keys.size(); ++piece) {
+    for (const double time : turnsOn(keys, piece)) turns.push_back({time, valueOn(keys, piece, time)});
+  }
+  return turns;
+}
+
 std::optional<TrackTarget> TrackTarget::parse(std::string_view parameter) {
   TrackTarget target;
   if (parameter.ends_with(']')) {

@@ -20,6 +20,8 @@ struct KeyProblem {
   std::string what;
 };
 std::optional<KeyProblem> problemOfKeys(const std::vector<TrackKey>& keys);
+/// Where stated slopes lead the values between keys to a least or greatest one, in s, and to which.
+std::vector<CurvePoint> turnsOf(const std::vector<TrackKey>& keys);
 
 /// What a track animates: a parameter, or one point of a curve over temperature, whose address has the point's number
 /// in brackets behind it, counted from 0: "material/wax/viscosity[2]".

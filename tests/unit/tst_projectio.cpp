@@ -410,6 +410,15 @@ void TestProjectIo::wrongValuesNameThePlace_data() {
          "/tracks/0/keys/0/value: must be a whole number");
   tracks("no such way", "scene/gravity", R"([{"time": 0, "value": 1, "to_next": "bezier"}])",
          "/tracks/0/keys/0/to_next: must be one of step, linear, smooth, not the text 'bezier'");
+  // Level but for one end, which leaves or is reached with 1e5 K/s: a third of the way from there, 4/27 of that away.
+  tracks("slope that leads too high", "wall/floor/temperature",
+         R"([{"time": 0, "value": 300, "to_next": "smooth", "slope_after": 1e5}, {"time": 1, "value": 300}])",
+         "/tracks/0/keys/0/slope_after: leads at 0.33333");
+  tracks("slope that comes from too low", "wall/floor/temperature",
+         R"([{"time": 0, "value": 300, "to_next": "smooth"}, {"time": 1, "value": 300, "slope_before": 1e5}])",
+         "/tracks/0/keys/1/slope_before: leads at 0.66666");
+  tracks("slope without end", "wall/floor/temperature", R"([{"time": 0, "value": 300, "slope_after": 1e301}])",
+         "/tracks/0/keys/0/slope_after: must be at most 1e+300, not 1e+301");
   row("two tracks of one parameter",
       R"(tracks=[{"parameter": "scene/gravity", "keys": [{"time": 0, "value": 1}]},
                  {"parameter": "scene/gravity", "keys": [{"time": 1, "value": 2}]}])",

@@ -25,17 +25,11 @@ QString problemWithKeys(const std::vector<TrackKey>& keys, const Track* old,
           .arg(QString::fromUtf8(declaration.label), QString::fromStdString(numberText(key.time)),
                QString::fromStdString(problem));
   }
-  const auto turns = [](const std::vector<TrackKey>& of) {
-    std::vector<CurvePoint> found;
-    for (size_t piece = 0; piece + 1 < of.size(); ++piece) {
-      for (const double time : turnsOn(of, piece)) found.push_back({time, valueOn(of, piece, time)});
-    }
-    return found;
-  };
-  const std::vector<CurvePoint> before = old ? turns(old->keys) : std::vector<CurvePoint>{};
-  for (const CurvePoint& turn : turns(keys)) {
+  const std::vector<CurvePoint> before = old ? turnsOf(old->keys) : std::vector<CurvePoint>{};
+  for (const CurvePoint& turn : turnsOf(keys)) {
     if (std::find(before.begin(), before.end(), turn) != before.end()) continue;
-    const std::string problem = problemOf(Value(turn.y), declaration);
+    const std::string problem =
+        rangeProblem(turn.y, declaration.hardMinimum, declaration.hardMaximum, declaration.unit);
     if (!problem.empty())
       return QStringLiteral("%1 at %2 s, where the slopes of its keys lead, %3.")
           .arg(QString::fromUtf8(declaration.label), QString::fromStdString(numberText(turn.x)),
