@@ -217,8 +217,10 @@ void RunRecord::Impl::loop(const std::stop_token& stop) {
     }
     std::vector<KeptRun> gone = std::exchange(dropped, {});
     resized = false;
+    const bool forgets = std::exchange(forgetsDisk, false);
     lock.unlock();
     gone.clear();
+    if (forgets) emptyDisk();
     try {
       if (state) packState(std::move(*state), of);
       if (snapshot) packFrame(snapshot, of, packer);

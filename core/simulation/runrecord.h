@@ -77,7 +77,7 @@ class RunRecord {
   /// From now on; another folder counts from the next file on.
   void setBudget(RecordBudget budget);
 
-  /// Frames and states on the disk go, but for the first of each and the newest frame of each run.
+  /// Frames and states on the disk go, but for the first of each and the newest frame of each run; soon, not at once.
   void forgetDisk();
 
   // By who runs. None of these waits for packing.

@@ -36,8 +36,10 @@ struct RunRecord::Impl : KeptRun {
   void keepAsEarlier(uint64_t frame);
   void startAfresh();
   void drop(std::vector<KeptRun>::iterator run);
-  void forgetDiskOf(KeptRun& run);
-  bool idle() const { return !busy && waiting.empty() && !waitingState && dropped.empty() && !resized; }
+  KeptRun* runOf(uint64_t number);
+  void emptyDisk();
+  std::optional<uint64_t> forgetDiskOf(KeptRun& run, uint64_t from, KeptRun& gone);
+  bool idle() const { return !busy && waiting.empty() && !waitingState && dropped.empty() && !resized && !forgetsDisk; }
 
   size_t bytes() const;
   size_t stateBytes() const;
@@ -52,8 +54,9 @@ struct RunRecord::Impl : KeptRun {
   bool thinStates();
 
   RecordBudget budget;
-  bool resized = false;    ///< since the thread looked
-  bool diskFails = false;  ///< until there is another budget
+  bool resized = false;      ///< since the thread looked
+  bool forgetsDisk = false;  ///< likewise: what lies there is to go
+  bool diskFails = false;    ///< until there is another budget
   FrameUnpacker unpacker;
   std::shared_ptr<StoredFile> file;  ///< the thread's; nullptr: nothing was to go to the disk yet
   const ByteCount counted;           ///< of packed bytes

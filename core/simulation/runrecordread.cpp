@@ -95,17 +95,41 @@ std::shared_ptr<const PackedBytes> RunRecord::Impl::oldestInMemory() {
   return fits ? oldest : nullptr;
 }
 
-/// What goes is given back by the thread: the disk takes its time.
+/// By the thread: a long run has many frames, and the disk takes its time.
 void RunRecord::forgetDisk() {
   {
     const std::lock_guard lock(m->mutex);
-    m->forgetDiskOf(*m);
-    for (KeptRun& run : m->earlier) m->forgetDiskOf(run);
+    m->forgetsDisk = true;
   }
   m->wake.notify_one();
 }
 
-void RunRecord::Impl::forgetDiskOf(KeptRun& run) {
+KeptRun* RunRecord::Impl::runOf(uint64_t wanted) {
+  if (number == wanted) return this;
+  const auto run = std::find_if(earlier.begin(), earlier.end(), [&](const KeptRun& r) { return r.number == wanted; });
+  return run == earlier.end() ? nullptr : &*run;
+}
+
+/// Some frames at a time: who looks at one meanwhile waits for no more. Runs may come and go in between.
+void RunRecord::Impl::emptyDisk() {
+  std::unique_lock lock(mutex);
+  std::vector<uint64_t> numbers{number};
+  for (const KeptRun& run : earlier) numbers.push_back(run.number);
+  for (const uint64_t each : numbers) {
+    for (std::optional<uint64_t> from = 0; from;) {
+      KeptRun* run = runOf(each);
+      KeptRun gone;
+      from = run ? forgetDiskOf(*run, *from, gone) : std::nullopt;
+      lock.unlock();
+      gone = {};
+      lock.lock();
+    }
+  }
+}
+
+/// Of the frames from a number on as many as one turn looks at. Returns the number to go on from.
+std::optional<uint64_t> RunRecord::Impl::forgetDiskOf(KeptRun& run, uint64_t from, KeptRun& gone) {
+  constexpr size_t kTurn = 1000;
   const auto lies = [](const std::shared_ptr<const PackedBytes>& packed) {
     return packed->kept() > 0 && packed->inMemory() == 0;
   };
@@ -114,8 +138,14 @@ void RunRecord::Impl::forgetDiskOf(KeptRun& run) {
     frame.part->eachBytes([&](const auto& packed) { any = any || lies(packed); });
     return any;
   };
-  KeptRun gone;
-  for (auto frame = run.frames.begin(); frame != run.frames.end();) {
+  const State first = run.states.empty() ? State() : run.states.front();
+  const auto stays = std::stable_partition(run.states.begin(), run.states.end(), [&](const State& state) {
+    return state.stream == first.stream || !lies(state.stream);
+  });
+  gone.states.assign(stays, run.states.end());
+  run.states.erase(stays, run.states.end());
+  auto frame = run.frames.lower_bound(from);
+  for (size_t k = 0; k < kTurn && frame != run.frames.end(); ++k) {
     const auto next = std::next(frame);
     const bool end = frame == run.frames.begin() || next == run.frames.end();
     if (!end && anyLies(*frame->second)) {
@@ -124,13 +154,7 @@ void RunRecord::Impl::forgetDiskOf(KeptRun& run) {
     }
     frame = next;
   }
-  const State first = run.states.empty() ? State() : run.states.front();
-  const auto from = std::stable_partition(run.states.begin(), run.states.end(), [&](const State& state) {
-    return state.stream == first.stream || !lies(state.stream);
-  });
-  gone.states.assign(from, run.states.end());
-  run.states.erase(from, run.states.end());
-  dropped.push_back(std::move(gone));
+  return frame == run.frames.end() ? std::nullopt : std::optional(frame->first);
 }
 
 bool RunRecord::Impl::moved(const PackedBytes& packed, const std::string& folder) {

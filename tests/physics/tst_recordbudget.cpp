@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the record of a run may take, in memory and on the disk, and what it gives up for that.
+#include "core/base/storedfile.h"
 #include "core/simulation/keptrun.h"
+#include "core/simulation/packedframe.h"
 #include "core/simulation/runrecord.h"
 #include "tests/shared/plainframe.h"
 
@@ -8,8 +10,11 @@
 #include <QTemporaryDir>
 #include <QTest>
 
+#include <time.h>
+
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 using namespace ps;
 
@@ -21,6 +26,7 @@ class TestRecordBudget : public QObject {
   void anEarlierRunMakesRoom();
   void whatFreesNothingStays();
   void theDiskIsEmptied();
+  void whoAsksForAnEmptyDiskWaitsForNoFrame();
 };
 
 /// What is old is evenly spread, and the newest frames are all there.
@@ -172,6 +178,34 @@ void TestRecordBudget::theDiskIsEmptied() {
   QCOMPARE(record.extent().first, uint64_t{0});
   QCOMPARE(record.extent().last, uint64_t{300});
   QVERIFY(record.extent().frames > 10 && record.extent().frames < 200);
+}
+
+/// An hour of frames that lie on the disk: one that is packed, under all their numbers.
+void TestRecordBudget::whoAsksForAnEmptyDiskWaitsForNoFrame() {
+  constexpr uint64_t kFrames = 60 * 60 * 60;
+  const QTemporaryDir folder;
+  const auto count = std::make_shared<KeptBytes>();
+  const auto packed = std::make_shared<const PackedFrame>(FramePacker(count).pack(*tests::plainFrame(0, 20)));
+  packed->data->moveTo(StoredFile::nameless(folder.path().toStdString()));
+  RunContent content;
+  for (uint64_t n = 0; n < kFrames; ++n) content.present.frames.emplace_hint(content.present.frames.end(), n, packed);
+  content.present.frameBytes = kFrames * packed->bytes();
+  RunRecord record(size_t{1} << 40);
+  record.adopt(std::move(content), 1);
+  record.settle();
+  QCOMPARE(record.extent().frames, size_t{kFrames});
+  const auto spent = [] {  // s, by this thread
+    timespec now{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+  };
+  const double start = spent();
+  record.forgetDisk();
+  const double asked = spent() - start;
+  QVERIFY2(asked < 1e-3, qPrintable(QString::number(asked)));  // to walk over them takes tens of ms
+  record.settle();
+  QCOMPARE(record.extent().frames, size_t{2});
+  QCOMPARE(record.extent().last, kFrames - 1);
 }
 
 QTEST_GUILESS_MAIN(TestRecordBudget)
