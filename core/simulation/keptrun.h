@@ -50,6 +50,7 @@ struct RunContent {
   std::vector<KeptRun> earlier;        ///< the oldest first
   uint64_t runs = 1;                   ///< so far: the number of the last one
   std::shared_ptr<const void> lent{};  ///< by the record that shares it, which thins nothing meanwhile
+  uint64_t begun = 0;                  ///< RunRecord::begun(), when it was taken
 };
 
 }  // namespace ps

@@ -74,6 +74,11 @@ uint64_t RunRecord::revision() const {
   return m->revision;
 }
 
+uint64_t RunRecord::begun() const {
+  const std::lock_guard lock(m->mutex);
+  return m->begun;
+}
+
 /// Where too many wait, the last of them is left out: what comes last is always kept.
 void RunRecord::add(SnapshotPtr snapshot) {
   {
@@ -175,6 +180,7 @@ void RunRecord::Impl::startAfresh() {
 
 void RunRecord::Impl::clear() {
   startAfresh();
+  ++begun;
   while (!earlier.empty()) drop(earlier.begin());
   dropped.push_back(std::exchange(static_cast<KeptRun&>(*this), {}));
   runs = stride = 1;

@@ -85,6 +85,7 @@ class RunRecord {
   /// Another run: what was kept is forgotten. Snapshots of other revisions are not taken.
   void begin(uint64_t revision);
   uint64_t revision() const;
+  uint64_t begun() const;  ///< how often what was kept has been forgotten for another run
   /// Frames ascend; the number of the last one again replaces it.
   void add(SnapshotPtr snapshot);
   void add(FrameEdit edit);

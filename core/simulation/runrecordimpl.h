@@ -65,7 +65,7 @@ struct RunRecord::Impl : KeptRun {
   mutable std::mutex mutex;
   std::condition_variable_any wake;
   mutable std::condition_variable done;
-  uint64_t revision = 0;
+  uint64_t revision = 0, begun = 0;
   uint64_t generation = 0;  ///< of what is handed over: what was packed for another one is thrown away
   std::deque<SnapshotPtr> waiting;
   std::optional<RawState> waitingState;

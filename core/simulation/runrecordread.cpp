@@ -279,7 +279,7 @@ std::optional<RestorePoint> RunRecord::restorePoint(uint64_t frame) const {
 
 RunContent RunRecord::content() const {
   const std::lock_guard lock(m->mutex);
-  return {*m, m->earlier, m->runs, m->lending};
+  return {*m, m->earlier, m->runs, m->lending, m->begun};
 }
 
 std::vector<RunRecord::EarlierRun> RunRecord::earlier() const {

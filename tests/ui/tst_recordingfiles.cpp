@@ -223,6 +223,23 @@ class TestRecordingFiles : public SampleWindowTest {
     QCOMPARE(failed.count(), 0);
     QTRY_COMPARE(failed.count(), 1);
     QCOMPARE(failed.front().at(1).toString(), QStringLiteral("there is no scene that runs"));
+    QVERIFY(!failed.front().at(2).toBool());
+  }
+
+  /// Its engine has answered, but another project is open before anything is written.
+  void whatAnotherRunTookThePlaceOfIsNotSaved() {
+    const QString path = m_folder.filePath(QStringLiteral("other.psrec"));
+    QSignalSpy failed(&session().recordings(), &RecordingFiles::saveFailed);
+    session().recordings().save(path);
+    session().engine()->open(scenes::iceOnPlate(4, 400), false);
+    hash();  // nothing of that has come here
+    QCOMPARE(failed.count(), 0);
+    QTRY_COMPARE_WITH_TIMEOUT(failed.count(), 1, kLong);
+    QVERIFY2(failed.front().at(1).toString().startsWith(QStringLiteral("another run took the place")),
+             qPrintable(failed.front().at(1).toString()));
+    QVERIFY(!QFile::exists(path));
+    QVERIFY(!m_window->notice()->text().contains(QStringLiteral("It is kept")));
+    QVERIFY(!noticeButton(*m_window, QStringLiteral("Save elsewhere…")));
   }
 
  private:

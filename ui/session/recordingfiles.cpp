@@ -20,6 +20,7 @@
 namespace ps {
 namespace {
 constexpr int kClockInterval = 200;  // ms
+const QString kNoScene = QStringLiteral("there is no scene that runs");
 }  // namespace
 
 /// What was read, and of what project.
@@ -36,13 +37,13 @@ struct RecordingFiles::Read {
 struct RecordingFiles::Answer {
   Session* session;
   QPointer<RecordingFiles> files;
-  bool given = false;
+  std::optional<uint64_t> begun{};  ///< RunRecord::begun() then
   Answer(Session& of, RecordingFiles* asking) : session(&of), files(asking) {}
   Answer(const Answer&) = delete;
   Answer& operator=(const Answer&) = delete;
   ~Answer() {
-    QMetaObject::invokeMethod(session, [files = files, given = given] {
-      if (files) files->onAnswer(given);
+    QMetaObject::invokeMethod(session, [files = files, begun = begun] {
+      if (files) files->onAnswer(begun);
     });
   }
 };
@@ -63,7 +64,8 @@ RecordingFiles::RecordingFiles(Session& session) : m_session(session) {
 
 RecordingFiles::~RecordingFiles() {
   if (m_reading) m_reading->cancel();
-  for (Waiting& one : m_waiting) m_worker.run(std::move(one.write));
+  for (Waiting& one : m_waiting)
+    m_worker.run([write = std::move(one.write), begun = m_session.engine()->recording().begun()] { write(begun); });
 }
 
 QString RecordingFiles::beside(const QString& project) {
@@ -92,19 +94,21 @@ void RecordingFiles::cancel() {
 
 void RecordingFiles::save(const QString& path) {
   if (!m_session.engine() || m_session.isBroken()) {
-    Q_EMIT saveFailed(path, QStringLiteral("there is no scene that runs"));
+    Q_EMIT saveFailed(path, kNoScene, false);
     return;
   }
   begin();
-  auto job = [this, path, project = m_session.document().project(), record = &m_session.engine()->recording(),
-              progress = m_progress] {
+  const RunRecord* record = &m_session.engine()->recording();
+  auto job = [this, path, project = m_session.document().project(), record, progress = m_progress](uint64_t begun) {
     const ProgressScope scope(progress.get());
     QString problem;
-    bool cancelled = false;
+    bool cancelled = false, kept = true;
     size_t frames = 0;
     try {
       record->settle();
       const RunContent content = record->content();
+      kept = content.begun == begun;
+      if (!kept) throw InputError("another run took the place of the one that was to be saved before it was written");
       frames = content.present.frames.size();
       RecordingWriter writer(path.toStdString(), project);
       writer.add(content);
@@ -114,10 +118,10 @@ void RecordingFiles::save(const QString& path) {
     } catch (const std::exception& error) {
       problem = QString::fromUtf8(error.what());
     }
-    QMetaObject::invokeMethod(this, [this, path, problem, cancelled, frames] {
+    QMetaObject::invokeMethod(this, [this, path, problem, cancelled, kept, frames] {
       end();
       if (!problem.isEmpty())
-        Q_EMIT saveFailed(path, problem);
+        Q_EMIT saveFailed(path, problem, kept);
       else if (!cancelled)
         Q_EMIT saved(path, frames);
     });
@@ -125,18 +129,18 @@ void RecordingFiles::save(const QString& path) {
   m_session.engine()->keepState();
   m_waiting.push_back({path, std::move(job)});
   auto answer = std::make_shared<Answer>(m_session, this);
-  m_session.engine()->ask([answer = std::move(answer)](const Engine&) { answer->given = true; });
+  m_session.engine()->ask([answer = std::move(answer), record](const Engine&) { answer->begun = record->begun(); });
 }
 
-void RecordingFiles::onAnswer(bool given) {
+void RecordingFiles::onAnswer(std::optional<uint64_t> begun) {
   Waiting one = std::move(m_waiting.front());
   m_waiting.pop_front();
-  if (given) {
-    m_worker.run(std::move(one.write));
+  if (begun) {
+    m_worker.run([write = std::move(one.write), begun = *begun] { write(begun); });
     return;
   }
   end();
-  Q_EMIT saveFailed(one.path, QStringLiteral("there is no scene that runs"));
+  Q_EMIT saveFailed(one.path, kNoScene, false);
 }
 
 void RecordingFiles::open(const QString& path) {

@@ -9,6 +9,7 @@
 #include <deque>
 #include <functional>
 #include <memory>
+#include <optional>
 
 namespace ps {
 
@@ -37,7 +38,8 @@ class RecordingFiles : public QObject {
   void working(const QString& stage, double done);  ///< for a while already; `done` 0..1; often
   void ended();                                     ///< after the last of those
   void saved(const QString& path, qulonglong frames);
-  void saveFailed(const QString& path, const QString& problem);
+  /// `kept`: the run is still there, to be saved elsewhere.
+  void saveFailed(const QString& path, const QString& problem, bool kept);
   /// What was recorded, in s, and what is to be said of it, or "".
   void opened(const QString& path, double from, double to, const QString& remark);
   void openFailed(const QString& path, const QString& problem);
@@ -47,9 +49,9 @@ class RecordingFiles : public QObject {
   struct Answer;
   struct Waiting {
     QString path;
-    std::function<void()> write;
+    std::function<void(uint64_t begun)> write;  ///< the run that this many others came before
   };
-  void onAnswer(bool given);
+  void onAnswer(std::optional<uint64_t> begun);
   void attach(const QString& path);  ///< to the project that is open
   void begin();
   void end();

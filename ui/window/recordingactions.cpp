@@ -21,6 +21,7 @@
 #include <QtWidgets/QMenu>
 
 #include <utility>
+#include <vector>
 
 namespace ps {
 namespace {
@@ -43,11 +44,14 @@ RecordingActions::RecordingActions(Session& session, const Actions& actions, Not
                         QStringLiteral("The recording is saved to %1, %2.")
                             .arg(path, countText(frames, QStringLiteral("frame"), QStringLiteral("frames"))));
   });
-  connect(&files, &RecordingFiles::saveFailed, this, [this](const QString& path, const QString& problem) {
+  connect(&files, &RecordingFiles::saveFailed, this, [this](const QString& path, const QString& problem, bool kept) {
     m_session.log().add(MessageLevel::Error, nameOf(path), problem);
-    m_notices.bar().show(QStringLiteral("save"), MessageLevel::Error, QStringLiteral("The recording is not saved."),
-                         sentence(problem) + QStringLiteral(" It is kept as long as the scene is open."),
-                         {{QStringLiteral("Save elsewhere…"), [this] { chooseSave(); }}});
+    std::vector<NoticeBar::Button> buttons;
+    if (kept) buttons.push_back({QStringLiteral("Save elsewhere…"), [this] { chooseSave(); }});
+    m_notices.bar().show(
+        QStringLiteral("save"), MessageLevel::Error, QStringLiteral("The recording is not saved."),
+        sentence(problem) + (kept ? QStringLiteral(" It is kept as long as the scene is open.") : QString()),
+        std::move(buttons));
   });
   connect(&files, &RecordingFiles::opened, this, &RecordingActions::onOpened);
   connect(&files, &RecordingFiles::openFailed, this, [this](const QString& path, const QString& problem) {
