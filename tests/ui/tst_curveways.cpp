@@ -42,6 +42,16 @@ class TestCurveWays : public CurveWindowTest {
     QCOMPARE(pages().table()->item(1, 2)->text(), QStringLiteral("Linear"));
     QCOMPARE(document().undoStack().index(), index + 1);
     QVERIFY(!curve().handleAt(true));
+    // No smooth piece meets a point: it has no slope, and says why it takes none.
+    curves().choosePoint(1);
+    QVERIFY(panel->slopeField()->isVisible() && panel->slopeField()->text().isEmpty());
+    const std::string linear = writeProject(document().project());
+    type(panel->slopeField(), QStringLiteral("-0.01"));
+    QCOMPARE(writeProject(document().project()), linear);
+    QCOMPARE(document().undoStack().index(), index + 1);
+    QVERIFY2(panel->noteText().startsWith(QStringLiteral("No smooth piece meets this point")),
+             qPrintable(panel->noteText()));
+    QVERIFY(panel->slopeField()->text().isEmpty());
     chooseInTable(0, Between::Step);
     QCOMPARE(response().at(309.9), 0.0015);
     QCOMPARE(between->currentIndex(), -1);  // mixed

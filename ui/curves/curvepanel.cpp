@@ -29,6 +29,10 @@ constexpr int kParticles = 100;  // ms: the histogram at 10 Hz
 const QString kHint =
     QStringLiteral("Double-click adds a point · Del removes · Shift fine · Alt-drag moves all · F fits");
 
+const QString kSlope = QStringLiteral("Stated on both sides of the point; empty: that of a monotone curve");
+const QString kNoSlope =
+    QStringLiteral("No smooth piece meets this point: choose Monotone or Stated slopes between points first.");
+
 QLabel* label(TextRole role) {
   auto* text = new QLabel;
   text->setFont(Theme::font(role));
@@ -77,7 +81,7 @@ CurvePanel::CurvePanel(Session& session, CurveTarget& target, QWidget* parent)
       m_slope(field(QStringLiteral("Slope at the point"))) {
   m_slopeLabel->setText(QStringLiteral("Slope"));
   m_slope->setFixedWidth(132);
-  m_slope->setToolTip(QStringLiteral("Stated on both sides of the point; empty: that of a monotone curve"));
+  m_slope->setPlaceholderText(QStringLiteral("–"));
   m_between->setAccessibleName(QStringLiteral("Between points"));
   m_between->setToolTip(QStringLiteral("How the curve goes between its points; the table has each by itself"));
   m_between->setPlaceholderText(QStringLiteral("Mixed"));
@@ -144,6 +148,8 @@ void CurvePanel::connectParts(Session& session) {
   connect(&session, &Session::projectShown, m_view, &CurveView::fit);  // its matter is known only now
 }
 
+QString CurvePanel::noteText() const { return m_note->text(); }
+
 void CurvePanel::showTitle() {
   m_title->setText(m_target.title());
   m_title->setMinimumWidth(static_cast<int>(std::ceil(textWidth(m_title->text(), m_title->font()))) + 2);
@@ -160,15 +166,18 @@ void CurvePanel::showPoint() {
   for (QLineEdit* line : {m_kelvin, m_value}) line->setVisible(any);
   const auto k = static_cast<size_t>(std::max(0, index));
   const bool after = hasSlope(response, k, true), sloped = any && (after || hasSlope(response, k, false));
-  m_slopeLabel->setVisible(sloped);
-  m_slope->setVisible(sloped);
+  const bool between = any && m_target.declaration().kind != api::ParameterKind::Toggle;
+  m_slopeLabel->setVisible(between);
+  m_slope->setVisible(between);
   if (!any) return;
   const CurvePoint& p = response.points[k];
+  m_slope->clear();
   if (sloped) {
     const double slope = after ? slopeAfter(response.points, k) : slopeBefore(response.points, k);
     m_slope->setText(formatShort(m_target.shownSlope(p.y, slope)) + QLatin1Char(' ') + m_target.slopeUnit());
-    m_slope->setModified(false);
   }
+  m_slope->setToolTip(sloped ? kSlope : kNoSlope);
+  m_slope->setModified(false);
   m_kelvin->setText(formatValue(m_target.axis(), p.x));
   m_value->setText(formatValue(m_target.declaration(), p.y));
   m_kelvin->setModified(false);
@@ -205,6 +214,11 @@ void CurvePanel::enterSlope() {
   if (!text.isEmpty() && !shown) {
     showPoint();
     m_note->setText(QStringLiteral("This is not a number."));
+    return;
+  }
+  if (shown && !hasSlope(next, index, true) && !hasSlope(next, index, false)) {
+    showPoint();
+    m_note->setText(kNoSlope);
     return;
   }
   CurvePoint& p = next.points[index];

@@ -21,6 +21,7 @@ class CurvePanel : public QWidget {
   QLineEdit* temperatureField() const { return m_kelvin; }
   QLineEdit* valueField() const { return m_value; }
   QLineEdit* slopeField() const { return m_slope; }
+  QString noteText() const;
   QComboBox* between() const { return m_between; }  ///< how all pieces go; the table has each by itself
 
  private:
