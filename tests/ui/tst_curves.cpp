@@ -321,7 +321,7 @@ class TestCurves : public CurveWindowTest {
     auto* list = m_window->findChild<ResponseList*>();
     QCOMPARE(list->others()->count(), 1);
     list->others()->item(0)->setCheckState(Qt::Checked);
-    QVERIFY(curves().compared().contains(iron));
+    QVERIFY(curves().compared().contains({iron}));
     pages().sample();
     curves().choosePoint(4);
     QVERIFY(curves().ghost().has_value() || response().kind == Response::Kind::Curve);

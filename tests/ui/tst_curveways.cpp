@@ -7,6 +7,7 @@
 #include "ui/curves/responselist.h"
 #include "ui/panels/materialspanel.h"
 #include "ui/session/selection.h"
+#include "ui/session/sourcemime.h"
 
 #include <QtGui/QClipboard>
 #include <QtWidgets/QComboBox>
@@ -16,6 +17,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 using namespace ps;
 
@@ -202,13 +204,55 @@ class TestCurveWays : public CurveWindowTest {
     QMimeData data;
     data.setData(QLatin1String(kMaterialMime), QByteArray::fromStdString(other));
     QVERIFY(hands::drop(curve(), data));
-    QVERIFY(curves().compared().contains(other));
+    QVERIFY(curves().compared().contains({other}));
     QCOMPARE(list->item(0)->checkState(), Qt::Checked);
     list->item(0)->setCheckState(Qt::Unchecked);
     QVERIFY(curves().compared().empty());
     QMimeData text;
     text.setText(QStringLiteral("water"));
     QVERIFY(!hands::drop(curve(), text));
+  }
+
+  /// What is installed alone is drawn beside it without coming into the scene; when it comes, it is the same curve.
+  void aDroppedMaterialThatIsOnlyInstalledIsDrawnBesideIt() {
+    const std::string before = writeProject(document().project());
+    const QImage alone = curve().grab().toImage();
+    QMimeData data;
+    data.setData(QLatin1String(kInstalledMime), "ethanol");
+    QVERIFY(hands::drop(curve(), data));
+    QVERIFY(curves().compared().contains({"ethanol", true}));
+    QCOMPARE(writeProject(document().project()), before);
+    QVERIFY(curve().grab().toImage() != alone);
+    const Response installed = curves().otherResponse({"ethanol", true});
+    QVERIFY(std::abs(installed.at(298) / 1.07e-3 - 1) < 0.05);  // Pa s, CRC Handbook
+    auto* list = m_window->findChild<ResponseList*>()->others();
+    QCOMPARE(list->count(), 1);
+    QCOMPARE(list->item(0)->text(), QStringLiteral("Ethanol"));
+    shoot("installed");
+    list->item(0)->setCheckState(Qt::Unchecked);
+    QVERIFY(curves().compared().empty());
+    QCOMPARE(curve().grab().toImage(), alone);
+    list->item(0)->setCheckState(Qt::Checked);
+    const std::string own = document().addMaterial("ethanol");
+    QCOMPARE(curves().compared(), (std::set<OtherMaterial>{{own}}));
+    QCOMPARE(list->count(), 1);
+    QVERIFY(curves().otherResponse({own}) == installed);
+    curves().compare({own}, false);
+  }
+
+  /// As the material that it is of; its own curve is there already.
+  void aDroppedBodyIsItsMaterial() {
+    const QModelIndex ice = hands::outlined(*m_window, OutlineKind::Body, "ice");
+    QVERIFY(ice.isValid() && (ice.flags() & Qt::ItemIsDragEnabled));
+    const std::unique_ptr<QMimeData> data = hands::dragged(ice);
+    QVERIFY(!data->hasFormat(QLatin1String(kSourceMime)));
+    QVERIFY(hands::drop(curve(), *data));
+    QVERIFY(curves().compared().empty());
+    QCOMPARE(m_window->findChild<CurvePanel*>()->noteText(), QStringLiteral("This is the curve of Water already."));
+    m_window->selection().setMaterial(document().addMaterial("ethanol"));
+    QVERIFY(hands::drop(curve(), *data));
+    QCOMPARE(curves().compared(), (std::set<OtherMaterial>{{"water"}}));
+    curves().compare({"water"}, false);
   }
 
   /// The mean of the particles, or what is selected: a probe of temperature, a particle.

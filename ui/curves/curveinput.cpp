@@ -103,14 +103,17 @@ void CurveView::dropDrag(bool keep) {
 }
 
 void CurveView::dragEnterEvent(QDragEnterEvent* event) {
-  const bool material = event->mimeData()->hasFormat(QLatin1String(kMaterialMime));
+  const QMimeData& carried = *event->mimeData();
+  const bool material =
+      carried.hasFormat(QLatin1String(kMaterialMime)) || carried.hasFormat(QLatin1String(kInstalledMime));
   if (material && !m_target.track()) event->acceptProposedAction();
 }
 
 void CurveView::dropEvent(QDropEvent* event) {
-  const std::string id = event->mimeData()->data(QLatin1String(kMaterialMime)).toStdString();
+  const bool installed = event->mimeData()->hasFormat(QLatin1String(kInstalledMime));
+  const QByteArray id = event->mimeData()->data(QLatin1String(installed ? kInstalledMime : kMaterialMime));
   event->acceptProposedAction();
-  if (id != m_target.material()) m_target.compare(id, true);
+  m_target.compare({id.toStdString(), installed}, true);
 }
 
 /// No release comes to what is hidden: the document's gesture would stay open.

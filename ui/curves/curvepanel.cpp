@@ -251,11 +251,9 @@ void CurvePanel::chooseBetween(int index) {
 
 void CurvePanel::showOverlays() {
   std::vector<OverlayCurve> overlays;
-  const Project& project = m_target.document().project();
-  for (const SceneMaterial& other : project.materials) {
-    if (m_target.track() || other.id == m_target.material() || !m_target.compared().contains(other.id)) continue;
-    const Address address{Owner::Material, other.id, m_target.address().key};
-    overlays.push_back({other.id, ownerLabel(project, address), responseOf(m_target.document().value(address))});
+  for (const OtherMaterial& other : m_target.others()) {
+    if (m_target.track() || !m_target.compared().contains(other)) continue;
+    overlays.push_back({other.id, m_target.otherLabel(other), m_target.otherResponse(other)});
   }
   m_view->setOverlays(std::move(overlays));
 }

@@ -2,6 +2,7 @@
 #include "ui/curves/curvetarget.h"
 
 #include "core/matter/material.h"
+#include "core/plugin_host/registry.h"
 #include "core/simulation/snapshot.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
@@ -12,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace ps {
 namespace {
@@ -20,6 +22,14 @@ constexpr double kAround = 100;     // K, on both sides of where matter is
 constexpr double kLeastRange = 20;  // K, of those that are left of a law
 constexpr double kHottest = 5000;   // K, of a table of what particles have
 constexpr size_t kTableSamples = 4096;
+
+/// Of an installed material alone, which says what it is like.
+Project sceneOf(const std::string& base, const PluginRegistry* plugins) {
+  const Material* material = plugins ? plugins->material(base) : nullptr;
+  Project project;
+  project.materials.push_back({base, material ? material->label : base, base, {}, {}, {}, {}});
+  return project;
+}
 
 }  // namespace
 
@@ -48,6 +58,7 @@ void CurveTarget::onChanged(const ChangeEvent& event) {
     m_compared.clear();
     m_track.reset();
   }
+  if (std::holds_alternative<MaterialsChanged>(event)) followInstalled();
   if (std::holds_alternative<ProjectOpened>(event) || std::holds_alternative<MaterialsChanged>(event))
     return onTarget();
   if (m_track && !document().track(*m_track)) return onTarget();
@@ -253,9 +264,41 @@ void CurveTarget::choosePoint(int index) {
   Q_EMIT pointChanged();
 }
 
-void CurveTarget::compare(const std::string& material, bool on) {
-  if (on ? !m_compared.insert(material).second : m_compared.erase(material) == 0) return;
+void CurveTarget::compare(const OtherMaterial& other, bool on) {
+  if (on && other == OtherMaterial{material()}) {
+    Q_EMIT refused(QStringLiteral("This is the curve of %1 already.").arg(materialLabel()));
+    return;
+  }
+  if (on ? !m_compared.insert(other).second : m_compared.erase(other) == 0) return;
   Q_EMIT comparedChanged();
+}
+
+/// What has come into the scene is compared as it is there.
+void CurveTarget::followInstalled() {
+  for (const SceneMaterial& own : document().project().materials) {
+    if (m_compared.erase({own.base, true}) > 0) m_compared.insert({own.id});
+  }
+}
+
+std::vector<OtherMaterial> CurveTarget::others() const {
+  std::vector<OtherMaterial> all;
+  for (const SceneMaterial& other : document().project().materials) {
+    if (other.id != material()) all.push_back({other.id});
+  }
+  std::copy_if(m_compared.begin(), m_compared.end(), std::back_inserter(all),
+               [](const OtherMaterial& other) { return other.installed; });
+  return all;
+}
+
+QString CurveTarget::otherLabel(const OtherMaterial& other) const {
+  const Address address{Owner::Material, other.id, m_key};
+  return ownerLabel(other.installed ? sceneOf(other.id, document().plugins()) : document().project(), address);
+}
+
+Response CurveTarget::otherResponse(const OtherMaterial& other) const {
+  const Address address{Owner::Material, other.id, m_key};
+  if (!other.installed) return responseOf(document().value(address));
+  return responseOf(valueAt(sceneOf(other.id, document().plugins()), document().plugins(), address));
 }
 
 void CurveTarget::begin(const QString& what) { document().beginGesture(what); }

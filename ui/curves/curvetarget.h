@@ -8,6 +8,7 @@
 #include <QtCore/QString>
 
 #include <array>
+#include <compare>
 #include <map>
 #include <optional>
 #include <set>
@@ -30,6 +31,13 @@ struct MaterialNow {
   std::array<double, 5> phaseMean{};                      ///< K, of those
   double boiled = 0;                                      ///< share of vapour in those that boil, mean
   std::optional<double> marked;                           ///< K, of the particle that was clicked, if of this material
+};
+
+/// A material whose curve may be drawn beside the one that is tuned.
+struct OtherMaterial {
+  std::string id;          ///< SceneMaterial::id, or that of an installed one of which the scene has none
+  bool installed = false;  ///< the latter
+  auto operator<=>(const OtherMaterial&) const = default;
 };
 
 /// What is marked on the curve: a temperature in K, or a time in s.
@@ -90,9 +98,13 @@ class CurveTarget : public QObject {
   int point() const { return m_point; }      ///< that is selected, -1: none
   void choosePoint(int index);
 
-  /// Other materials of the scene whose curves are drawn beside this one.
-  const std::set<std::string>& compared() const { return m_compared; }
-  void compare(const std::string& material, bool on);
+  /// Other materials whose curves are drawn beside this one.
+  const std::set<OtherMaterial>& compared() const { return m_compared; }
+  void compare(const OtherMaterial& other, bool on);  ///< what has no other curve says so by refused()
+  /// Those that may be: the scene's, and installed ones that are.
+  std::vector<OtherMaterial> others() const;
+  QString otherLabel(const OtherMaterial& other) const;
+  Response otherResponse(const OtherMaterial& other) const;
 
   void begin(const QString& what);
   /// Within a gesture or as a step of its own. What is refused is said by refused(), and the old one stays.
@@ -111,13 +123,14 @@ class CurveTarget : public QObject {
   void onTarget();
   void onChanged(const ChangeEvent& event);
   void remember();
+  void followInstalled();
   QString setTrack(const Response& curve);
   Session& m_session;
   Selection& m_selection;
   std::string m_key = "viscosity";
   std::optional<Address> m_track;
   int m_point = -1;
-  std::set<std::string> m_compared;
+  std::set<OtherMaterial> m_compared;
   std::map<std::string, Response> m_laws;  ///< by address: the last one that it was
 };
 

@@ -6,7 +6,7 @@
 
 namespace ps {
 
-/// A curve of the scene's other materials, for comparison.
+/// A curve of another material, for comparison.
 struct OverlayCurve {
   std::string material;
   QString label;
@@ -17,8 +17,8 @@ struct OverlayCurve {
 /// are dragged (Shift fine, Ctrl up and down only, Alt all of them), added by a double click on the curve, removed by
 /// Del, nudged by arrows (Shift fine); Page up and down choose; the wheel zooms, F fits. Smooth pieces have handles at
 /// the selected point: dragged, they state the slope on both of its sides (Ctrl on one). Esc takes a drag back.
-/// A material that is dropped on it is drawn beside it. Below it a histogram of where the material's particles are.
-/// Accessible as a chart that says its value.
+/// A material that is dropped on it, or a body's, is drawn beside it. Below it a histogram of where the material's
+/// particles are. Accessible as a chart that says its value.
 class CurveView : public QWidget {
   Q_OBJECT
  public:

@@ -28,7 +28,7 @@ namespace {
 
 constexpr int kRow = 40, kOther = 24;
 constexpr double kSparkWidth = 70, kSparkHeight = 24;
-constexpr int kKey = Qt::UserRole, kValue = Qt::UserRole + 1;
+constexpr int kKey = Qt::UserRole, kValue = Qt::UserRole + 1, kInstalled = Qt::UserRole + 2;
 
 const api::ParameterDeclaration& declarationOf(const QString& key) {
   return propertyCatalogue()[static_cast<size_t>(propertyIndex(key.toStdString()))];
@@ -123,6 +123,10 @@ class ResponseDelegate final : public QStyledItemDelegate {
   CurveTarget& m_target;
 };
 
+OtherMaterial otherOf(const QListWidgetItem& item) {
+  return {item.data(kKey).toString().toStdString(), item.data(kInstalled).toBool()};
+}
+
 QListWidget* flatList(const QString& name) {
   auto* list = new QListWidget;
   list->setFrameShape(QFrame::NoFrame);
@@ -179,16 +183,30 @@ ResponseList::ResponseList(Session& session, CurveTarget& target, QWidget* paren
 void ResponseList::showEvent(QShowEvent*) { refresh(); }
 
 void ResponseList::onCompared(QListWidgetItem* item) {
-  m_target.compare(item->data(kKey).toString().toStdString(), item->checkState() == Qt::Checked);
+  m_target.compare(otherOf(*item), item->checkState() == Qt::Checked);
 }
 
+/// One that is installed alone stays in the list, to be taken in again.
 void ResponseList::showCompared() {
   const QSignalBlocker quiet(m_others);
+  for (const OtherMaterial& other : m_target.others()) addOther(other);
   for (int i = 0; i < m_others->count(); ++i) {
     QListWidgetItem* item = m_others->item(i);
-    const bool on = m_target.compared().contains(item->data(kKey).toString().toStdString());
-    item->setCheckState(on ? Qt::Checked : Qt::Unchecked);
+    item->setCheckState(m_target.compared().contains(otherOf(*item)) ? Qt::Checked : Qt::Unchecked);
   }
+  m_others->setFixedHeight(std::clamp(m_others->count(), 1, 5) * kOther + 4);
+  for (QWidget* widget : std::initializer_list<QWidget*>{m_heading, m_others})
+    widget->setVisible(m_others->count() > 0);
+}
+
+void ResponseList::addOther(const OtherMaterial& other) {
+  for (int i = 0; i < m_others->count(); ++i) {
+    if (otherOf(*m_others->item(i)) == other) return;
+  }
+  auto* item = new QListWidgetItem(m_target.otherLabel(other), m_others);
+  item->setData(kKey, QString::fromStdString(other.id));
+  item->setData(kInstalled, other.installed);
+  if (other.installed) item->setToolTip(QStringLiteral("Installed; not in the scene"));
 }
 
 void ResponseList::rebuild() {
@@ -203,16 +221,7 @@ void ResponseList::rebuild() {
     item->setToolTip(QString::fromUtf8(catalogue[i].help));
     if (!m_target.track() && m_target.address().key == catalogue[i].key) m_list->setCurrentItem(item);
   }
-  const Project& project = m_target.document().project();
-  for (const SceneMaterial& other : project.materials) {
-    if (other.id == m_target.material()) continue;
-    auto* item = new QListWidgetItem(ownerLabel(project, {Owner::Material, other.id, "viscosity"}), m_others);
-    item->setData(kKey, QString::fromStdString(other.id));
-  }
   showCompared();
-  m_others->setFixedHeight(std::clamp(m_others->count(), 1, 5) * kOther + 4);
-  for (QWidget* widget : std::initializer_list<QWidget*>{m_heading, m_others})
-    widget->setVisible(m_others->count() > 0);
   rebuildTracks();
   refresh();
 }

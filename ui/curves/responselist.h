@@ -11,9 +11,10 @@ namespace ps {
 class CurveTarget;
 class PanelHeader;
 class Session;
+struct OtherMaterial;
 
 /// The responses of the current material, each with a small curve and its value where the material is; below, the
-/// scene's other materials, whose curves may be drawn for comparison, and what has keys over time, to edit those.
+/// other materials whose curves may be drawn for comparison, and what has keys over time, to edit those.
 class ResponseList : public QWidget {
   Q_OBJECT
  public:
@@ -29,6 +30,7 @@ class ResponseList : public QWidget {
   void rebuild();
   void rebuildTracks();
   void showCompared();
+  void addOther(const OtherMaterial& other);
   void refresh();  ///< values, at the temperature that the material has now
   void onCompared(QListWidgetItem* item);
   Session& m_session;

@@ -216,7 +216,7 @@ void MaterialsPanel::mouseReleaseEvent(QMouseEvent* event) {
 
 void MaterialsPanel::drag(const Tile& tile) {
   auto* carried = new QMimeData;
-  carried->setData(QLatin1String(kMaterialMime), QByteArray::fromStdString(tile.id));
+  carried->setData(QLatin1String(tile.installed ? kInstalledMime : kMaterialMime), QByteArray::fromStdString(tile.id));
   auto* way = new QDrag(this);  // goes by itself
   way->setMimeData(carried);
   way->exec(Qt::CopyAction);
@@ -227,7 +227,7 @@ void MaterialsPanel::mouseMoveEvent(QMouseEvent* event) {
   const bool far = (event->position().toPoint() - m_pressed).manhattanLength() >= QApplication::startDragDistance();
   if (m_held >= 0 && far) {
     const Tile held = m_tiles[static_cast<size_t>(std::exchange(m_held, -1))];
-    if (!held.installed) return drag(held);
+    return drag(held);
   }
   if (at == m_hover) return;
   m_hover = at;

@@ -13,12 +13,14 @@ namespace ps {
 class Document;
 class Selection;
 
-/// What a material of the scene is dragged as: its id.
-inline constexpr const char* kMaterialMime = "application/x-phasesketch-material";
+/// What a material is dragged as: one of the scene, also as that of a body, by its id, one that can be added by its
+/// base.
+inline constexpr const char *kMaterialMime = "application/x-phasesketch-material",
+                            *kInstalledMime = "application/x-phasesketch-installed-material";
 
 /// Materials of the scene as a grid of painted balls; a click makes one the brush's matter and shows its values. Below
-/// them those that are installed besides; a click brings one into the scene. The scene's are dragged to where a
-/// material is wanted.
+/// them those that are installed besides; a click brings one into the scene. All are dragged to where a material is
+/// wanted.
 class MaterialsPanel : public QWidget {
   Q_OBJECT
  public:

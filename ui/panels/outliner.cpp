@@ -7,6 +7,7 @@
 #include "core/simulation/particlefield.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
+#include "ui/panels/materialspanel.h"
 #include "ui/panels/outlinerdelegate.h"
 #include "ui/session/session.h"
 #include "ui/session/sourcemime.h"
@@ -40,16 +41,20 @@ QString probeText(double value, const Quantity* quantity) {
   return formatNumber(value / prefix.factor) + QLatin1Char(' ') + prefix.symbol + shown;
 }
 
-/// A probe is dragged as the curve that it gives.
+/// A probe is dragged as the curve that it gives, what is made of a material as that.
 class OutlinerModel : public QStandardItemModel {
  public:
   using QStandardItemModel::QStandardItemModel;
-  QStringList mimeTypes() const override { return {QLatin1String(kSourceMime)}; }
+  QStringList mimeTypes() const override { return {QLatin1String(kSourceMime), QLatin1String(kMaterialMime)}; }
   QMimeData* mimeData(const QModelIndexList& indexes) const override {
     if (indexes.isEmpty()) return nullptr;
+    const QModelIndex& index = indexes.front();
     auto* data = new QMimeData;
-    data->setData(QLatin1String(kSourceMime),
-                  QByteArray::fromStdString(probeSource(indexes.front().data(outline::kId).toString().toStdString())));
+    if (const QString material = index.data(outline::kMaterial).toString(); !material.isEmpty())
+      data->setData(QLatin1String(kMaterialMime), material.toUtf8());
+    else
+      data->setData(QLatin1String(kSourceMime),
+                    QByteArray::fromStdString(probeSource(index.data(outline::kId).toString().toStdString())));
     return data;
   }
 };
@@ -114,7 +119,7 @@ QStandardItem* Outliner::add(QStandardItem* parent, OutlineKind kind, const std:
   item->setData(icon, outline::kIcon);
   item->setEditable(kind == OutlineKind::Body || kind == OutlineKind::Emitter || kind == OutlineKind::Sink ||
                     kind == OutlineKind::Probe);
-  item->setDragEnabled(kind == OutlineKind::Probe);
+  item->setDragEnabled(kind == OutlineKind::Probe || kind == OutlineKind::Body || kind == OutlineKind::Emitter);
   if (parent) {
     parent->appendRow(item);
   } else {
@@ -132,6 +137,7 @@ void Outliner::addBodies(QStandardItem* scene) {
     const QString icon = fixed ? QStringLiteral("plate") : sketched ? QStringLiteral("brush") : QStringLiteral("body");
     QStandardItem* item = add(scene, OutlineKind::Body, body.id, nameOf(body), icon);
     item->setData(colourOf(project, plugins, body.material), outline::kSwatch);
+    item->setData(QString::fromStdString(body.material), outline::kMaterial);
     item->setData(body.visible, outline::kVisible);
     item->setData(body.locked, outline::kLocked);
     item->setData(plugins && isPlaceholder(project, body, *plugins), outline::kPlaceholder);
@@ -147,6 +153,7 @@ void Outliner::rebuild() {
   for (const Emitter& emitter : project.emitters) {
     QStandardItem* item = add(scene, OutlineKind::Emitter, emitter.id, nameOf(emitter), QStringLiteral("tap"));
     item->setData(colourOf(project, m_document.plugins(), emitter.material), outline::kSwatch);
+    item->setData(QString::fromStdString(emitter.material), outline::kMaterial);
   }
   for (const Sink& sink : project.sinks) {
     add(scene, OutlineKind::Sink, sink.id, nameOf(sink), QStringLiteral("drain"));

@@ -23,7 +23,7 @@ class Session;
 namespace outline {
 inline constexpr int kKind = Qt::UserRole + 1, kId = Qt::UserRole + 2, kIcon = Qt::UserRole + 3,
                      kDetail = Qt::UserRole + 4, kSwatch = Qt::UserRole + 5, kVisible = Qt::UserRole + 6,
-                     kLocked = Qt::UserRole + 7, kPlaceholder = Qt::UserRole + 8;
+                     kLocked = Qt::UserRole + 7, kPlaceholder = Qt::UserRole + 8, kMaterial = Qt::UserRole + 9;
 }
 
 /// Bodies, walls, probes and air as a tree: icon, name, count, swatch, lock, eye. F2 renames a body, tap
