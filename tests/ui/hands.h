@@ -76,17 +76,24 @@ inline QAction* entryOf(QMenu& menu, const QStringList& path) {
   return nullptr;
 }
 
-/// A right-click on a widget, and a click on an entry of the menu that comes. `first` is done just before that one.
-inline void chooseAt(QWidget& on, const QPoint& at, const QString& entry, const std::function<void()>& first = {}) {
+/// A right-click on a widget, and a click on an entry of the menu that comes, or what lies deeper in it. `first` is
+/// done just before that.
+inline void chooseAt(QWidget& on, const QPoint& at, const QStringList& path, const std::function<void()>& first = {}) {
   bool chosen = false;
   QTimer::singleShot(0, &on, [&] {  // the menu may keep its own loop
     auto* menu = qobject_cast<QMenu*>(QApplication::activePopupWidget());
     QVERIFY(menu);
-    QAction* action = entryOf(*menu, {entry});
-    QVERIFY2(action, qPrintable(entry));
+    QAction* action = entryOf(*menu, path);
+    if (!action) menu->close();
+    QVERIFY2(action, qPrintable(path.join(QStringLiteral(" > "))));
     if (first) first();
     chosen = true;
-    QTest::mouseClick(menu, Qt::LeftButton, {}, menu->actionGeometry(action).center());
+    if (path.size() == 1) {
+      QTest::mouseClick(menu, Qt::LeftButton, {}, menu->actionGeometry(action).center());
+    } else {
+      menu->close();
+      action->trigger();
+    }
   });
   QContextMenuEvent ask(QContextMenuEvent::Mouse, at, on.mapToGlobal(at));
   QApplication::sendEvent(&on, &ask);

@@ -241,7 +241,7 @@ class TestGestures : public CurveWindowTest {
   QByteArray exported(const char* ending) {
     const QString path = m_folder.filePath(QStringLiteral("graph.") + QLatin1String(ending));
     hands::chooseAt(graph(), graph().rect().center(),
-                    QStringLiteral("Export as %1…").arg(QString::fromLatin1(ending).toUpper()),
+                    {QStringLiteral("Export as %1…").arg(QString::fromLatin1(ending).toUpper())},
                     [path] { hands::answerDialog(path); });
     QFile file(path);
     [&] { QTRY_VERIFY_WITH_TIMEOUT(file.exists() && file.size() > 0, kLong); }();
@@ -333,7 +333,7 @@ class TestGestures : public CurveWindowTest {
   }
   void showAndHideAGhost() {
     RunLines& lines = *transport().runs();
-    const auto toggle = [&] { hands::chooseAt(lines, lines.rowOf(1).center(), QStringLiteral("Show as a ghost")); };
+    const auto toggle = [&] { hands::chooseAt(lines, lines.rowOf(1).center(), {QStringLiteral("Show as a ghost")}); };
     toggle();
     QVERIFY(session().recorded().hasGhost());
     QTRY_VERIFY_WITH_TIMEOUT(session().recorded().ghost() != nullptr, kLong);
@@ -343,7 +343,7 @@ class TestGestures : public CurveWindowTest {
   }
   void deleteARun() {
     RunLines& lines = *transport().runs();
-    hands::chooseAt(lines, lines.rowOf(1).center(), QStringLiteral("Delete"));
+    hands::chooseAt(lines, lines.rowOf(1).center(), {QStringLiteral("Delete")});
     QVERIFY(session().recorded().earlier().empty());
     QTRY_VERIFY_WITH_TIMEOUT(!lines.isVisible(), kLong);
   }

@@ -3,6 +3,7 @@
 #include "core/io/projectio.h"
 #include "core/simulation/engine.h"
 #include "core/simulation/runrecord.h"
+#include "tests/ui/hands.h"
 #include "tests/ui/recordhands.h"
 #include "tests/ui/samplewindow.h"
 #include "ui/graphs/graphspanel.h"
@@ -108,12 +109,13 @@ class TestRecordedView : public SampleWindowTest {
     trigger("simulation.play");
     int begun = 0;
     uint64_t last = kFrames;
-    connect(&session().recorded(), &RecordedView::changed, &transport(), [&] {
+    const QObject here;  // the transport goes on listening
+    connect(&session().recorded(), &RecordedView::changed, &here, [&] {
       if (shownFrame() < last) ++begun;
       last = shownFrame();
     });
     QTRY_VERIFY_WITH_TIMEOUT(begun > 2, kLong);
-    QVERIFY(disconnect(&session().recorded(), &RecordedView::changed, &transport(), nullptr));
+    QVERIFY(disconnect(&session().recorded(), &RecordedView::changed, &here, nullptr));
     QVERIFY(session().playing());
     QCOMPARE(session().newest()->stats.frame, kFrames);
     transport().loopButton()->click();  // the run then goes on
@@ -425,6 +427,30 @@ class TestRecordedView : public SampleWindowTest {
     session().recorded().goOnWith(3);
     QTRY_COMPARE_WITH_TIMEOUT(session().recorded().runName(1), QStringLiteral("as it was"), kLong);
     QTRY_VERIFY_WITH_TIMEOUT(!session().engine()->making(), kLong);
+  }
+
+  /// Four have lines; the older ones are reached from those, and from the transport, and are called and deleted there.
+  void runsWithoutALineAreNamedAndDeleted() {
+    for (const uint64_t frame : {5, 5, 4, 4, 3}) {
+      branchAt(frame);
+      QVERIFY(!transport().continueButton()->isVisible());
+    }
+    RunLines* lines = transport().runs();
+    QTRY_COMPARE_WITH_TIMEOUT(lines->height(), RunLines::kMost * RunLines::kPitch, kLong);
+    QVERIFY(lines->rowOf(1).isEmpty() && !lines->rowOf(2).isEmpty());
+    const QString title = QStringLiteral("Run 1, %1 to %2").arg(clockText(3.0 / 60), clockText(kFrames / 60.0));
+    m_window->activateWindow();
+    hands::chooseAt(*lines, lines->rowOf(3).center(), {QStringLiteral("Older runs"), title, QStringLiteral("Rename")});
+    auto* line = lines->findChild<QLineEdit*>();
+    QVERIFY(line && line->text() == QStringLiteral("Run 1"));
+    QTest::keyClicks(line, QStringLiteral("the first"));
+    picture("tst_recordedview_older.png");
+    QTest::keyClick(line, Qt::Key_Return);
+    QCOMPARE(session().recorded().runName(1), QStringLiteral("the first"));
+    session().recorded().renameRun(1, {});
+    choose(1, "Delete");
+    QCOMPARE(session().recorded().earlier().size(), size_t{4});
+    QCOMPARE(session().recorded().earlier().front().number, uint64_t{2});
   }
 
   /// Who works on matter sees it as it stands.

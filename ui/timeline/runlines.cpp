@@ -95,17 +95,28 @@ void RunLines::fillMenu(QMenu& menu, uint64_t run) {
   for (QAction* toggle : {compare, ghost}) toggle->setCheckable(true);
   compare->setChecked(compared);
   ghost->setChecked(compared && recorded.hasGhost());
-  if (!rowOf(run).isEmpty()) add("Rename", [this, run] { editName(run); });  // in its line, which the newest have
+  add("Rename", [this, run] { editName(run); });
   add("Delete", [&recorded, run] { recorded.forgetRun(run); });
+}
+
+void RunLines::addMenus(QMenu& menu, bool older) {
+  RecordedView& recorded = m_session.recorded();
+  for (const RunRecord::EarlierRun& run : recorded.earlier()) {
+    if (older && !rowOf(run.number).isEmpty()) continue;
+    const QString title =
+        QStringLiteral("%1, %2 to %3").arg(recorded.runName(run.number), clockText(run.apart), clockText(run.to));
+    fillMenu(*menu.addMenu(asButtonText(title)), run.number);
+  }
 }
 
 /// An empty one is none.
 void RunLines::editName(uint64_t run) {
+  QRect place(0, 0, 0, kPitch);
   for (const Row& one : rows()) {
-    if (one.run != run) continue;
-    nameInPlace(*this, one.text.toAlignedRect(), one.name, QStringLiteral("Name of the run"),
-                [this, run](const QString& name) { m_session.recorded().renameRun(run, name); });
+    if (one.run == run) place = one.text.toAlignedRect();
   }
+  nameInPlace(*this, place, m_session.recorded().runName(run), QStringLiteral("Name of the run"),
+              [this, run](const QString& name) { m_session.recorded().renameRun(run, name); });
 }
 
 /// The window renames what is selected by the same key.
@@ -156,6 +167,10 @@ void RunLines::contextMenuEvent(QContextMenuEvent* event) {
   if (!m_chosen) return;
   QMenu menu(this);
   fillMenu(menu, *m_chosen);
+  if (m_session.recorded().earlier().size() > static_cast<size_t>(kMost)) {
+    menu.addSeparator();
+    addMenus(*menu.addMenu(QStringLiteral("Older runs")), true);
+  }
   menu.exec(event->globalPos());
 }
 

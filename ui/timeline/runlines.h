@@ -12,7 +12,8 @@ namespace ps {
 class Session;
 
 /// The earlier runs of a scene as lines with their names, from where each left the run to its end, the oldest at the
-/// top. A click chooses one; F2 or a double-click names it in its place, a right-click offers what can be done with it.
+/// top. A click chooses one; F2 or a double-click names it in its place, a right-click offers what can be done with it
+/// and with those that are too old to have a line.
 /// The one that graphs compare with is dashed, as its curves are, and has the ghost's colour while that is shown.
 class RunLines : public QWidget {
   Q_OBJECT
@@ -23,8 +24,9 @@ class RunLines : public QWidget {
   void setSpan(double seconds);  ///< from the left end to the right one
   int wantedHeight() const;
   void fillMenu(QMenu& menu, uint64_t run);
-  void editName(uint64_t run);
-  QRect rowOf(uint64_t run) const;  ///< empty: it is not shown
+  void addMenus(QMenu& menu, bool older);  ///< one for each run, or for each that has no line
+  void editName(uint64_t run);             ///< in its line; of one without, in the first
+  QRect rowOf(uint64_t run) const;         ///< empty: it is not shown
   std::optional<uint64_t> chosen() const { return m_chosen; }
 
  protected:

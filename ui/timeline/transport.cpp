@@ -304,11 +304,7 @@ void Transport::fillMenu(QMenu& menu) {
             &RecordedView::continueFromHere);
     connect(menu.addAction(QStringLiteral("Newest state")), &QAction::triggered, &recorded, &RecordedView::showNewest);
   }
-  for (const RunRecord::EarlierRun& run : recorded.earlier()) {
-    const QString title =
-        QStringLiteral("%1, %2 to %3").arg(recorded.runName(run.number), clockText(run.apart), clockText(run.to));
-    m_runs->fillMenu(*menu.addMenu(asButtonText(title)), run.number);
-  }
+  m_runs->addMenus(menu, false);
 }
 
 void Transport::contextMenuEvent(QContextMenuEvent* event) {
