@@ -133,6 +133,34 @@ class TestMarkers : public SampleWindowTest {
     QCOMPARE(writeProject(document().project()), empty);
   }
 
+  /// Others come and go, by hands and by undo: the chosen one is the same, or none where it went itself.
+  void theChosenMarkerStaysTheSame() {
+    MarkerRow& row = *m_window->findChild<MarkerRow*>();
+    for (const double time : {10.0, 20.0, 30.0}) document().addMarker(time);
+    QTRY_VERIFY_WITH_TIMEOUT(row.isVisible(), kLong);
+    const auto chosen = [&] { return row.chosen() ? markers()[*row.chosen()].name : std::string(); };
+    QTest::mouseClick(&row, Qt::LeftButton, {}, row.placeOf(1));
+    QCOMPARE(chosen(), std::string("Marker 2"));
+    QTest::keyClick(m_window.get(), Qt::Key_M, Qt::ShiftModifier);  // another one
+    QCOMPARE(markers().size(), size_t{4});
+    QCOMPARE(chosen(), std::string("Marker 2"));
+    document().removeMarker(0);
+    QCOMPARE(row.chosen(), std::optional<size_t>(0));
+    QCOMPARE(chosen(), std::string("Marker 2"));
+    document().undoStack().undo();
+    QCOMPARE(chosen(), std::string("Marker 2"));
+    document().editMarker(0, 20, QStringLiteral("Marker 2"));  // one that is alike
+    document().editMarker(1, 25, {});
+    QCOMPARE(row.chosen(), std::optional<size_t>(1));
+    document().undoStack().undo();
+    document().undoStack().undo();
+    QCOMPARE(row.chosen(), std::optional<size_t>(1));
+    row.setFocus();
+    QTest::keyClick(&row, Qt::Key_Delete);
+    QCOMPARE(markers()[1].name, std::string("Marker 3"));
+    QVERIFY(!row.chosen());
+  }
+
   /// Shift and arrows go to markers and keys alike; a click shows its time.
   void whatIsRecordedIsShownFromMarkToMark() {
     for (int frame = 1; frame <= 12; ++frame) {

@@ -21,6 +21,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace ps {
 namespace {
@@ -33,7 +34,7 @@ QString nameOf(const Marker& marker) { return QString::fromStdString(marker.name
 }  // namespace
 
 MarkerRow::MarkerRow(Session& session, const KeyRows& scale, QWidget* parent)
-    : QWidget(parent), m_session(session), m_scale(scale), m_count(session.document().project().markers.size()) {
+    : QWidget(parent), m_session(session), m_scale(scale), m_known(session.document().project().markers) {
   setFixedHeight(kHeight);
   setFocusPolicy(Qt::StrongFocus);
   setMouseTracking(true);
@@ -45,10 +46,21 @@ MarkerRow::MarkerRow(Session& session, const KeyRows& scale, QWidget* parent)
 void MarkerRow::onChanged(const ChangeEvent& event) {
   update();
   if (!std::holds_alternative<MarkersChanged>(event) && !std::holds_alternative<ProjectOpened>(event)) return;
-  const size_t count = m_session.document().project().markers.size();
-  if (count != m_count || std::holds_alternative<ProjectOpened>(event)) m_chosen.reset();  // places have shifted
-  m_count = count;
-  Q_EMIT wanted(count > 0);
+  if (std::holds_alternative<ProjectOpened>(event)) m_chosen.reset();
+  followChosen();
+  Q_EMIT wanted(!m_known.empty());
+}
+
+/// It stays the one that it is where others come and go: the nearest that is alike. Changes leave each in its place.
+void MarkerRow::followChosen() {
+  const std::vector<Marker> before = std::exchange(m_known, m_session.document().project().markers);
+  if (!m_chosen || m_known.size() == before.size()) return;
+  std::optional<size_t> same;
+  const auto away = [this](size_t k) { return k > *m_chosen ? k - *m_chosen : *m_chosen - k; };
+  for (size_t k = 0; k < m_known.size(); ++k) {
+    if (m_known[k] == before[*m_chosen] && (!same || away(k) < away(*same))) same = k;
+  }
+  m_chosen = same;
 }
 
 /// The name stands after its flag; where the row ends, before it.

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "core/scene/project.h"
 #include "ui/document/changeevent.h"
 
 #include <QtWidgets/QWidget>
 
 #include <optional>
+#include <vector>
 
 class QMenu;
 
@@ -43,6 +45,7 @@ class MarkerRow : public QWidget {
 
  private:
   void onChanged(const ChangeEvent& event);
+  void followChosen();
   std::optional<size_t> markerAt(const QPoint& at) const;
   QRectF flagOf(size_t marker) const;
   double snapped(double seconds, bool free) const;
@@ -52,7 +55,7 @@ class MarkerRow : public QWidget {
   Session& m_session;
   const KeyRows& m_scale;
   std::optional<size_t> m_chosen;
-  size_t m_count = 0;  ///< of markers when m_chosen was true of them
+  std::vector<Marker> m_known;  ///< those of which m_chosen is true
   struct Drag {
     double grip = 0, from = 0;  ///< s: from the marker to where it was taken, and where it was
     bool moved = false;
