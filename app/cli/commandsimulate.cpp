@@ -86,9 +86,9 @@ std::vector<std::string> recordedFields(const Arguments& arguments, const Engine
   if (!arguments.has("--fields")) return all;
   if (!arguments.has("--record")) throw InputError("--fields says what --record keeps, which is not there");
   std::vector<std::string> names;
+  if (arguments.text("--fields") == "none") return names;
   std::istringstream words(arguments.text("--fields"));
   for (std::string name; std::getline(words, name, ',');) {
-    if (name == "none") continue;
     if (std::find(all.begin(), all.end(), name) == all.end()) throw InputError("--fields " + mustBeOneOf(name, all));
     names.push_back(std::move(name));
   }
@@ -101,29 +101,29 @@ class FramesAndStates {
   FramesAndStates(const std::string& path, const Project& project, Engine& engine)
       : m_engine(engine), m_writer(path, project) {}
   void begin() {
-    m_due = m_engine.stats().time + kStateInterval;
-    m_writer.add(m_engine);
+    addState();
     m_writer.add(*m_engine.snapshot());
   }
   void add(const FrameStats& stats) {
-    m_any = true;
-    if (stats.time >= m_due) {
-      m_writer.add(m_engine);
-      m_due = stats.time + kStateInterval;
-    }
+    if (stats.time >= m_due) addState();
     m_writer.add(*m_engine.snapshot());
   }
   void finish() {
-    if (m_any) m_writer.add(m_engine);
+    if (m_engine.solver().frame() > m_last) addState();
     m_writer.finish();
   }
   std::string keepPart() { return m_writer.keepPart(); }
 
  private:
+  void addState() {
+    m_writer.add(m_engine);
+    m_due = m_engine.stats().time + kStateInterval;
+    m_last = m_engine.solver().frame();
+  }
   Engine& m_engine;
   RecordingWriter m_writer;
-  double m_due = 0;  ///< s, of the next state
-  bool m_any = false;
+  double m_due = 0;     ///< s, of the next state
+  uint64_t m_last = 0;  ///< the frame of the last one
 };
 
 /// Does the run. Where it fails, what was written until then stays, and the message says where: hours may lie in it.

@@ -235,6 +235,9 @@ void Blocks::takePart(const std::string& head, std::shared_ptr<const PackedBytes
     if (below->key != part->key || part->depth > FramePart::kDeepest)
       throw InputError(m_where + "it leans on what it cannot");
   }
+  // Differences take no more than what they differ from, and a byte for each array.
+  if (data->rawSize() > part->key->data->rawSize() + part->key->fields.size() + sizeof(uint64_t))
+    throw InputError(m_where + "it is more than its key");
   part->data = std::move(data);
   m_parts[m_number] = std::move(part);
 }

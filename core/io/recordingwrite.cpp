@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -86,6 +87,7 @@ struct RecordingWriter::Impl {
   OutputFile file;
   FramePacker packer{std::make_shared<KeptBytes>()};
   std::map<uint64_t, PackedFrame> held;     ///< until nothing about them changes any more
+  std::optional<uint64_t> lastFrame;        ///< number of a frame
   std::shared_ptr<const FrameKey> lastKey;  ///< that of the last frame
   uint32_t blocks = 0;
   std::map<std::pair<Kind, std::string>, uint32_t> texts;  ///< of what is written once
@@ -137,16 +139,15 @@ uint32_t RecordingWriter::Impl::block(Kind kind, const std::string& raw) {
 }
 
 uint32_t RecordingWriter::Impl::once(Kind kind, const std::string& raw) {
-  const auto [place, fresh] = texts.try_emplace({kind, raw}, 0);
-  if (fresh) place->second = block(kind, raw);
-  return place->second;
+  const std::pair key{kind, raw};
+  if (!texts.contains(key)) texts[key] = block(kind, raw);
+  return texts.at(key);
 }
 
 /// Documents that are one are written once; of those that are equal, each time they come as another.
 uint32_t RecordingWriter::Impl::document(const std::shared_ptr<const Project>& project) {
-  const auto [place, fresh] = known.try_emplace(project, 0);
-  if (fresh) place->second = once(Kind::Document, textOf(*project));
-  return place->second;
+  if (!known.contains(project)) known[project] = once(Kind::Document, textOf(*project));
+  return known.at(project);
 }
 
 /// What it leans on comes first.
@@ -154,9 +155,8 @@ uint32_t RecordingWriter::Impl::part(const std::shared_ptr<const FramePart>& par
   if (!part) return kNone;
   if (const auto found = known.find(part); found != known.end()) return found->second;
   PartHead head;
-  const auto [key, freshKey] = known.try_emplace(part->key, 0);
-  if (freshKey) key->second = block(Kind::Key, headOf(*part->key), part->key->data.get());
-  head.key = key->second;
+  if (!known.contains(part->key)) known[part->key] = block(Kind::Key, headOf(*part->key), part->key->data.get());
+  head.key = known.at(part->key);
   head.left = this->part(part->left);
   head.right = this->part(part->right);
   return known[part] = block(Kind::Part, headOf(head), part->data.get());
@@ -166,13 +166,12 @@ void RecordingWriter::Impl::add(const PackedFrame& frame) {
   FrameParts parts;
   parts.part = part(frame.part);
   if (frame.stats.measured) {
-    const auto [probes, fresh] = known.try_emplace(frame.stats.measured, 0);
-    if (fresh) {
+    if (!known.contains(frame.stats.measured)) {
       json list = json::array();
       for (const Probe& probe : *frame.stats.measured) list.push_back(fields::probeFields().write(probe));
-      probes->second = once(Kind::Probes, list.dump());
+      known[frame.stats.measured] = once(Kind::Probes, list.dump());
     }
-    parts.probes = probes->second;
+    parts.probes = known.at(frame.stats.measured);
   }
   frames[frame.part] = block(Kind::Frame, headOf(frame, parts), nullptr);
 }
@@ -224,20 +223,22 @@ void RecordingWriter::Impl::addRun(const KeptRun& run) {
 
 void RecordingWriter::add(const Snapshot& snapshot) {
   if (m->blocks == 0) m->block(Kind::Run, headOf(RunHead{}), nullptr);
-  std::vector<PackedFrame> packed = m->packer.pack(snapshot);
-  if (const auto& key = packed.front().part->key; key != m->lastKey) {
+  if (m->lastFrame && snapshot.stats.frame <= *m->lastFrame) return;  // a frame that was taken back
+  m->lastFrame = snapshot.stats.frame;
+  FramePacker::Packed packed = m->packer.pack(snapshot);
+  for (PackedFrame& frame : packed.anew) m->held.insert_or_assign(frame.stats.frame, std::move(frame));
+  if (const auto& key = packed.frame.part->key; key != m->lastKey) {
     m->addHeld();
     m->lastKey = key;
     m->known.clear();  // nothing that is over is kept
     m->frames.clear();
   }
-  for (PackedFrame& frame : packed) m->held.insert_or_assign(frame.stats.frame, std::move(frame));
+  m->held.insert_or_assign(snapshot.stats.frame, std::move(packed.frame));
   if (!m->packer.open()) m->addHeld();
 }
 
 void RecordingWriter::Impl::addHeld() {
-  for (const auto& [number, frame] : held) add(frame);
-  held.clear();
+  for (; !held.empty(); held.erase(held.begin())) add(held.begin()->second);
   file.flush();
 }
 
@@ -268,7 +269,11 @@ void RecordingWriter::finish() {
 }
 
 std::string RecordingWriter::keepPart() {
-  m->addHeld();
+  try {
+    m->addHeld();
+  } catch (const Error&) {
+    // The disk is full still: what was written stays.
+  }
   return m->file.keepPart();
 }
 

@@ -8,6 +8,7 @@
 #include "core/simulation/rules.h"
 #include "core/simulation/tracks.h"
 
+#include <cmath>
 #include <optional>
 
 namespace ps {
@@ -39,8 +40,10 @@ std::vector<TrackFinding> valueFindings(const Project& project, const Track& tra
     const std::string problem =
         rangeProblem(turn.y, declaration.hardMinimum, declaration.hardMaximum, declaration.unit);
     const size_t k = keyBehind(track.keys, turn.x, 0);
+    // Of two the steeper one.
+    const double after = track.keys[k].slopeAfter.value_or(0), before = track.keys.at(k + 1).slopeBefore.value_or(0);
     const std::string place =
-        track.keys[k].slopeAfter ? keyPointer(k) + "/slope_after" : keyPointer(k + 1) + "/slope_before";
+        std::abs(after) >= std::abs(before) ? keyPointer(k) + "/slope_after" : keyPointer(k + 1) + "/slope_before";
     if (!problem.empty())
       return {{Weight::Mended, place, "leads at " + numberText(turn.x) + " s to a value that " + problem}};
   }

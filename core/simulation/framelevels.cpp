@@ -74,7 +74,7 @@ bool Steps::holds(float value) const {
 }
 
 size_t FrameLevels::bytes() const {
-  size_t sum = 0;
+  size_t sum = id->size() * sizeof(*id)[0];
   for (const auto& all : numbers) sum += all.size() * sizeof all[0];
   for (const auto& all : names) sum += all.size() * sizeof all[0];
   return sum + phase.size() + motion.size() + (body.size() + material.size()) * sizeof body[0];

@@ -55,7 +55,8 @@ Steps stepsOf(size_t row, const Ends& ends, double spacing) {
     const float most = std::max(std::abs(ends.low), std::abs(ends.high));
     return Steps::rootsOf(most > 0 ? std::exp2(std::ceil(std::log2(most) + 0.25F)) : 0);
   }
-  const float range = ends.high - ends.low;
+  // What is the same everywhere may change a little.
+  const float range = std::max(ends.high - ends.low, 0.01F * std::max(std::abs(ends.low), std::abs(ends.high)));
   const auto place = static_cast<float>(spacing);
   const float least = row < kPlaces ? place : row == kRadii ? 0.01F * ends.high : row == kTemperatures ? 1 : 0;
   const float step = row < kPlaces          ? kPlace * place
@@ -65,6 +66,14 @@ Steps stepsOf(size_t row, const Ends& ends, double spacing) {
   // What steps are left over is room too.
   const float margin = std::max({range / 8, least, (step * Steps::kMost - range) / 2});
   return Steps::between(ends.low - margin, ends.high + margin, step);
+}
+
+/// A power of two: levels of a span are a few dozen bytes a particle and frame.
+uint64_t spanOf(size_t particles) {
+  constexpr size_t kMostHeld = 2'000'000;
+  uint64_t span = FramePacker::kSpan;
+  while (span > 2 && span * particles > kMostHeld) span /= 2;
+  return span;
 }
 
 bool sameLook(const Snapshot& s, const FrameKey& key) {
@@ -176,7 +185,7 @@ std::shared_ptr<const FramePart> FramePacker::part(const FrameLevels& levels, co
 
 /// The one in the middle first, then those at its sides: the multiples of higher powers of two, so that every second
 /// frame, and then every fourth one, may go without another leaning on it.
-void FramePacker::packBetween(size_t left, size_t right, std::vector<PackedFrame>& packed) {
+void FramePacker::packBetween(size_t left, size_t right, std::vector<PackedFrame>& anew) {
   if (right - left < 2) return;
   size_t middle = left + 1;
   for (size_t k = middle; k < right; ++k) {
@@ -185,27 +194,34 @@ void FramePacker::packBetween(size_t left, size_t right, std::vector<PackedFrame
   }
   Open& open = m_open[middle];
   open.frame.part = part(open.levels, &m_open[left], &m_open[right]);
-  packed.push_back(open.frame);
-  packBetween(left, middle, packed);
-  packBetween(middle, right, packed);
+  anew.push_back(open.frame);
+  packBetween(left, middle, anew);
+  packBetween(middle, right, anew);
 }
 
-std::vector<PackedFrame> FramePacker::pack(const Snapshot& snapshot) {
+/// All but the last one, which nothing changes any more.
+void FramePacker::close(std::vector<PackedFrame>& anew) {
+  if (m_open.size() < 2) return;
+  packBetween(0, m_open.size() - 1, anew);
+  m_open.erase(m_open.begin(), std::prev(m_open.end()));
+}
+
+FramePacker::Packed FramePacker::pack(const Snapshot& snapshot) {
   sort(snapshot);
   if (m_open.size() > 1 && m_open.back().frame.stats.frame == snapshot.stats.frame) m_open.pop_back();
+  Packed packed;
   const bool fits = fitsKey(snapshot);
   if (!fits) {
-    makeKey(snapshot);
+    close(packed.anew);
     m_open.clear();
+    makeKey(snapshot);
   }
   Open now{{snapshot.stats, snapshot.flags, snapshot.limits, nullptr}, fits ? levelsOf(snapshot) : m_keyLevels};
   now.frame.part = part(now.levels, nullptr, nullptr);
+  packed.frame = now.frame;
   m_open.push_back(std::move(now));
-  std::vector<PackedFrame> packed{m_open.back().frame};
-  if (snapshot.stats.frame % kSpan == 0 || m_open.size() > kSpan) {
-    packBetween(0, m_open.size() - 1, packed);
-    m_open.erase(m_open.begin(), std::prev(m_open.end()));
-  }
+  const uint64_t span = spanOf(m_ids.size());
+  if (snapshot.stats.frame % span == 0 || m_open.size() > span) close(packed.anew);
   return packed;
 }
 

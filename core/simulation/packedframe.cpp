@@ -2,7 +2,10 @@
 #include "core/simulation/packedframe.h"
 
 #include "core/base/bytepacker.h"
+#include "core/base/error.h"
+#include "core/base/memory.h"
 #include "core/simulation/particlefield.h"
+#include "core/simulation/sceneneed.h"
 
 #include <algorithm>
 #include <bit>
@@ -12,7 +15,8 @@
 namespace ps {
 namespace {
 
-constexpr size_t kMostKnown = size_t{64} << 20;  // bytes of levels
+constexpr size_t kMostKnown = size_t{64} << 20;  // bytes of levels, or as many frames as one leans on at once:
+constexpr size_t kLeast = 6, kMostFrames = 64;
 const std::string kWhere = "recorded run: ";
 
 /// What everybody may rely on who gets a snapshot, whatever file it comes from.
@@ -81,17 +85,24 @@ FrameUnpacker::Levels FrameUnpacker::known(const std::shared_ptr<const Of>& of, 
     }
   }
   auto levels = std::make_shared<const FrameLevels>(make());
+  keep(of, levels);
+  return levels;
+}
+
+void FrameUnpacker::keep(const std::shared_ptr<const void>& of, const Levels& levels) const {
   const std::lock_guard lock(m_mutex);
   m_known.emplace_front(of, levels);
   std::erase_if(m_known, [](const auto& one) { return one.first.expired(); });
   size_t bytes = 0;
   for (const auto& [what, kept] : m_known) bytes += kept->bytes();
-  for (; bytes > kMostKnown && m_known.size() > 1; m_known.pop_back()) bytes -= m_known.back().second->bytes();
-  return levels;
+  const size_t most = std::max(kMostKnown, kLeast * levels->bytes());
+  for (; bytes > most || m_known.size() > kMostFrames; m_known.pop_back()) bytes -= m_known.back().second->bytes();
 }
 
 FrameUnpacker::Levels FrameUnpacker::levelsOf(const std::shared_ptr<const FrameKey>& key) const {
   return known(key, [&] {
+    if (static_cast<double>(kLeast * key->data->rawSize()) > roomToGrow(memoryNow()))
+      throw InputError("a recorded frame takes more memory than there is");
     const std::string bytes = key->data->unpacked();
     ByteUnpacker unpacker(bytes, kWhere);
     return unpackAll(unpacker, key->ranges.size(), namedFields(*key));

@@ -69,6 +69,7 @@ class FrameUnpacker {
   using Levels = std::shared_ptr<const FrameLevels>;
   template <class Of, class Make>
   Levels known(const std::shared_ptr<const Of>& of, const Make& make) const;
+  void keep(const std::shared_ptr<const void>& of, const Levels& levels) const;
   Levels levelsOf(const std::shared_ptr<const FrameKey>& key) const;
   Levels levelsOf(const std::shared_ptr<const FramePart>& part) const;
 
@@ -85,13 +86,17 @@ class FrameUnpacker {
 class FramePacker {
  public:
   static constexpr uint64_t kKeyInterval = 32;  ///< frames
-  /// Frames whose numbers are multiples of it lean on the key alone, those between on the two around them.
+  /// The last frame of a key, and those whose numbers are multiples of this, lean on the key alone, those between on
+  /// the two around them. Less where particles are many: what is open is held unpacked.
   static constexpr uint64_t kSpan = 8;
 
+  struct Packed {
+    PackedFrame frame;
+    std::vector<PackedFrame> anew;  ///< frames before it, smaller; each after those that it leans on
+  };
+
   explicit FramePacker(ByteCount count) : m_count(std::move(count)) {}
-  /// The frame, and those before it that are packed anew, smaller, now that there is one after them; each after those
-  /// that it leans on.
-  std::vector<PackedFrame> pack(const Snapshot& snapshot);
+  Packed pack(const Snapshot& snapshot);
   /// Whether any before the last one may yet be packed anew.
   bool open() const { return m_open.size() > 1; }
 
@@ -105,7 +110,8 @@ class FramePacker {
   FrameLevels levelsOf(const Snapshot& snapshot) const;
   void makeKey(const Snapshot& snapshot);
   std::shared_ptr<const FramePart> part(const FrameLevels& levels, const Open* left, const Open* right) const;
-  void packBetween(size_t left, size_t right, std::vector<PackedFrame>& packed);
+  void close(std::vector<PackedFrame>& anew);
+  void packBetween(size_t left, size_t right, std::vector<PackedFrame>& anew);
 
   ByteCount m_count;
   std::vector<uint32_t> m_ids, m_order;  ///< as they came last, and the way through them

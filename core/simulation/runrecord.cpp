@@ -212,9 +212,11 @@ void RunRecord::Impl::loop(const std::stop_token& stop) {
   setpriority(PRIO_PROCESS, 0, kNiceness);  // of this thread alone, as Linux has it
   FramePacker packer(counted);
   std::unique_lock lock(mutex);
+  uint64_t packing = generation;
   while (wake.wait(lock, stop, [this] { return !idle(); })) {
     busy = true;
     const uint64_t of = generation;
+    if (std::exchange(packing, of) != of) packer = FramePacker(counted);
     std::optional<RawState> state = std::exchange(waitingState, std::nullopt);
     SnapshotPtr snapshot;
     if (!state && !waiting.empty()) {
@@ -252,16 +254,17 @@ void RunRecord::Impl::packState(RawState raw, uint64_t of) {
 
 void RunRecord::Impl::packFrame(const SnapshotPtr& snapshot, uint64_t of, FramePacker& packer) {
   const auto start = Clock::now();
-  std::vector<PackedFrame> packed = packer.pack(*snapshot);
+  FramePacker::Packed packed = packer.pack(*snapshot);
   const std::lock_guard lock(mutex);
   packSeconds += secondsSince(start);
   if (of != generation) return;
-  for (PackedFrame& frame : packed) {
-    const uint64_t frameNumber = frame.stats.frame;
-    if (&frame != packed.data() && !frames.contains(frameNumber)) continue;  // it was thinned meanwhile
-    onDisk = std::min(onDisk, frameNumber);
+  for (PackedFrame& frame : packed.anew) {
+    const uint64_t again = frame.stats.frame;
+    if (!frames.contains(again)) continue;  // it was thinned meanwhile
+    onDisk = std::min(onDisk, again);
     addFrame(std::make_shared<const PackedFrame>(std::move(frame)));
   }
+  addFrame(std::make_shared<const PackedFrame>(std::move(packed.frame)));
 }
 
 void RunRecord::settle() const {

@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <set>
 #include <utility>
 
 namespace ps {
@@ -113,13 +114,20 @@ KeptRun* RunRecord::Impl::runOf(uint64_t wanted) {
 /// Some frames at a time: who looks at one meanwhile waits for no more. Runs may come and go in between.
 void RunRecord::Impl::emptyDisk() {
   std::unique_lock lock(mutex);
-  std::vector<uint64_t> numbers{number};
-  for (const KeptRun& run : earlier) numbers.push_back(run.number);
-  for (const uint64_t each : numbers) {
+  std::set<uint64_t> emptied;
+  const auto next = [&]() -> KeptRun* {
+    if (!emptied.contains(number)) return this;
+    const auto run = std::find_if(earlier.begin(), earlier.end(),
+                                  [&](const KeptRun& kept) { return !emptied.contains(kept.number); });
+    return run == earlier.end() ? nullptr : &*run;
+  };
+  while (const KeptRun* run = next()) {
+    const uint64_t each = run->number;
+    emptied.insert(each);
     for (std::optional<uint64_t> from = 0; from;) {
-      KeptRun* run = runOf(each);
+      KeptRun* still = runOf(each);
       KeptRun gone;
-      from = run ? forgetDiskOf(*run, *from, gone) : std::nullopt;
+      from = still ? forgetDiskOf(*still, *from, gone) : std::nullopt;
       lock.unlock();
       gone = {};
       lock.lock();

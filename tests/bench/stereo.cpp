@@ -3,6 +3,7 @@
 //
 //   stereo [PARTICLES [WIDTH HEIGHT [FRAMES]]]     without them 100000 particles, 1280 x 720 pixels, 60 frames
 //
+// With as many particles of another run as a ghost over it, too.
 // Each stage is waited for, so that it has its own time; the head moves from frame to frame, so that nothing of one
 // serves the next.
 #include <epoxy/gl.h>
@@ -55,9 +56,15 @@ struct Clock {
   }
 };
 
-void measure(const char* kind, size_t particles, const PictureSize& size, int frames) {
+void measure(const char* kind, bool ghost, size_t particles, const PictureSize& size, int frames) {
   Snapshot before = matter(particles, kind), now = before;
   for (api::Float4& p : now.position) p.y += 0.002f;
+  Look look;
+  if (ghost) {
+    auto other = std::make_shared<Snapshot>(now);
+    for (api::Float4& p : other->position) p.y += 0.05f;
+    look.ghost = Ghost{other, {1, 0, 1}, {1, 1, 1}, 1.5f};
+  }
   const RenderScene scene = tray();
   GLuint framebuffer = 0, picture = 0;
   glGenFramebuffers(1, &framebuffer);
@@ -77,7 +84,7 @@ void measure(const char* kind, size_t particles, const PictureSize& size, int fr
       eyes[i].projection(0, 2) = i ? 0.08 : -0.08;  // windows of a headset reach farther out than in
     }
     Clock clock;
-    renderer.prepare(now, &before, 0.5, scene, {});
+    renderer.prepare(now, &before, 0.5, scene, look);
     const double prepared = clock.lap();
     renderer.draw(eyes[0], {framebuffer, 0, 0, size});
     const double one = clock.lap();
@@ -89,8 +96,8 @@ void measure(const char* kind, size_t particles, const PictureSize& size, int fr
     second.push_back(two);
   }
   const double a = median(prepare), b = median(first), c = median(second);
-  std::printf("%-7s %8zu %5dx%-5d %8.2f %8.2f %8.2f %8.1f %%\n", kind, particles, size.width, size.height, a, b, c,
-              100 * c / (a + b));
+  std::printf("%-7s %-5s %8zu %5dx%-5d %8.2f %8.2f %8.2f %8.1f %%\n", kind, ghost ? "yes" : "no", particles, size.width,
+              size.height, a, b, c, 100 * c / (a + b));
   glDeleteFramebuffers(1, &framebuffer);
   glDeleteTextures(1, &picture);
 }
@@ -108,9 +115,11 @@ int main(int count, char** words) {
   try {
     HeadlessContext context;
     std::printf("%s\n", context.description().c_str());
-    std::printf("%-7s %8s %11s %8s %8s %8s %10s\n", "matter", "particles", "an eye", "prepare", "first", "second",
-                "of a view");
-    for (const char* kind : {"solid", "liquid", "mixed"}) measure(kind, static_cast<size_t>(particles), size, frames);
+    std::printf("%-7s %-5s %8s %11s %8s %8s %8s %10s\n", "matter", "ghost", "particles", "an eye", "prepare", "first",
+                "second", "of a view");
+    for (const char* kind : {"solid", "liquid", "mixed"}) {
+      for (const bool ghost : {false, true}) measure(kind, ghost, static_cast<size_t>(particles), size, frames);
+    }
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 1;

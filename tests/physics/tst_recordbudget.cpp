@@ -185,8 +185,8 @@ void TestRecordBudget::whoAsksForAnEmptyDiskWaitsForNoFrame() {
   constexpr uint64_t kFrames = 60 * 60 * 60;
   const QTemporaryDir folder;
   const auto count = std::make_shared<KeptBytes>();
-  const auto packed = std::make_shared<const PackedFrame>(FramePacker(count).pack(*tests::plainFrame(0, 20)));
-  packed->data->moveTo(StoredFile::nameless(folder.path().toStdString()));
+  const auto packed = std::make_shared<const PackedFrame>(FramePacker(count).pack(*tests::plainFrame(0, 20)).frame);
+  packed->part->data->moveTo(StoredFile::nameless(folder.path().toStdString()));
   RunContent content;
   for (uint64_t n = 0; n < kFrames; ++n) content.present.frames.emplace_hint(content.present.frames.end(), n, packed);
   content.present.frameBytes = kFrames * packed->bytes();

@@ -112,6 +112,7 @@ void CurveView::dragEnterEvent(QDragEnterEvent* event) {
 void CurveView::dropEvent(QDropEvent* event) {
   const bool installed = event->mimeData()->hasFormat(QLatin1String(kInstalledMime));
   const QByteArray id = event->mimeData()->data(QLatin1String(installed ? kInstalledMime : kMaterialMime));
+  if (id.isEmpty()) return;  // of a body that is of none
   event->acceptProposedAction();
   m_target.compare({id.toStdString(), installed}, true);
 }

@@ -50,11 +50,11 @@ class OutlinerModel : public QStandardItemModel {
     if (indexes.isEmpty()) return nullptr;
     const QModelIndex& index = indexes.front();
     auto* data = new QMimeData;
-    if (const QString material = index.data(outline::kMaterial).toString(); !material.isEmpty())
-      data->setData(QLatin1String(kMaterialMime), material.toUtf8());
-    else
+    if (index.data(outline::kKind).toInt() == static_cast<int>(OutlineKind::Probe))
       data->setData(QLatin1String(kSourceMime),
                     QByteArray::fromStdString(probeSource(index.data(outline::kId).toString().toStdString())));
+    else
+      data->setData(QLatin1String(kMaterialMime), index.data(outline::kMaterial).toString().toUtf8());
     return data;
   }
 };

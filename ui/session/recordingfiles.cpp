@@ -64,8 +64,7 @@ RecordingFiles::RecordingFiles(Session& session) : m_session(session) {
 
 RecordingFiles::~RecordingFiles() {
   if (m_reading) m_reading->cancel();
-  for (Waiting& one : m_waiting)
-    m_worker.run([write = std::move(one.write), begun = m_session.engine()->recording().begun()] { write(begun); });
+  for (Waiting& one : m_waiting) m_worker.run([write = std::move(one.write), begun = one.begun] { write(begun); });
 }
 
 QString RecordingFiles::beside(const QString& project) {
@@ -127,7 +126,7 @@ void RecordingFiles::save(const QString& path) {
     });
   };
   m_session.engine()->keepState();
-  m_waiting.push_back({path, std::move(job)});
+  m_waiting.push_back({path, record->begun(), std::move(job)});
   auto answer = std::make_shared<Answer>(m_session, this);
   m_session.engine()->ask([answer = std::move(answer), record](const Engine&) { answer->begun = record->begun(); });
 }

@@ -49,6 +49,7 @@ class RecordingFiles : public QObject {
   struct Answer;
   struct Waiting {
     QString path;
+    uint64_t begun = 0;                         ///< RunRecord::begun() when it was asked for
     std::function<void(uint64_t begun)> write;  ///< the run that this many others came before
   };
   void onAnswer(std::optional<uint64_t> begun);

@@ -101,8 +101,9 @@ void RunLines::fillMenu(QMenu& menu, uint64_t run) {
 
 void RunLines::addMenus(QMenu& menu, bool older) {
   RecordedView& recorded = m_session.recorded();
-  for (const RunRecord::EarlierRun& run : recorded.earlier()) {
-    if (older && !rowOf(run.number).isEmpty()) continue;
+  std::vector<RunRecord::EarlierRun> runs = recorded.earlier();
+  if (older) runs.resize(runs.size() - std::min(runs.size(), static_cast<size_t>(kMost)));
+  for (const RunRecord::EarlierRun& run : runs) {
     const QString title =
         QStringLiteral("%1, %2 to %3").arg(recorded.runName(run.number), clockText(run.apart), clockText(run.to));
     fillMenu(*menu.addMenu(asButtonText(title)), run.number);
