@@ -14,6 +14,7 @@
 #include <QtWidgets/QListWidget>
 #include <QtWidgets/QMenu>
 #include <QtWidgets/QTableWidget>
+#include <QtWidgets/QToolButton>
 
 #include <algorithm>
 #include <cmath>
@@ -238,6 +239,26 @@ class TestCurveWays : public CurveWindowTest {
     QCOMPARE(list->count(), 1);
     QVERIFY(curves().otherResponse({own}) == installed);
     curves().compare({own}, false);
+  }
+
+  /// By the menu below the list, or dropped there.
+  void whatIsInstalledIsAddedToTheList() {
+    auto* list = m_window->findChild<ResponseList*>();
+    QMenu* menu = list->addButton()->menu();
+    QVERIFY(list->addButton()->isVisible() && !hands::entryOf(*menu, {QStringLiteral("Water")}));
+    QAction* ethanol = hands::entryOf(*menu, {QStringLiteral("Ethanol")});
+    QVERIFY(ethanol);
+    ethanol->trigger();
+    QCOMPARE(curves().compared(), (std::set<OtherMaterial>{{"ethanol", true}}));
+    QVERIFY(!hands::entryOf(*menu, {QStringLiteral("Ethanol")}));
+    QMimeData data;
+    data.setData(QLatin1String(kInstalledMime), "iron");
+    QVERIFY(hands::drop(*list, data));
+    QCOMPARE(list->others()->count(), 2);
+    QCOMPARE(list->others()->item(1)->checkState(), Qt::Checked);
+    shoot("compare-with");
+    for (int row = 0; row < 2; ++row) list->others()->item(row)->setCheckState(Qt::Unchecked);
+    QVERIFY(curves().compared().empty() && !document().undoStack().canUndo());
   }
 
   /// As the material that it is of; its own curve is there already.

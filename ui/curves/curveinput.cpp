@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/math/responseedit.h"
 #include "ui/curves/curveview.h"
-#include "ui/panels/materialspanel.h"
 
 #include <QtCore/QMimeData>
 #include <QtGui/QDropEvent>
@@ -103,18 +102,14 @@ void CurveView::dropDrag(bool keep) {
 }
 
 void CurveView::dragEnterEvent(QDragEnterEvent* event) {
-  const QMimeData& carried = *event->mimeData();
-  const bool material =
-      carried.hasFormat(QLatin1String(kMaterialMime)) || carried.hasFormat(QLatin1String(kInstalledMime));
-  if (material && !m_target.track()) event->acceptProposedAction();
+  if (draggedMaterial(*event->mimeData()) && !m_target.track()) event->acceptProposedAction();
 }
 
 void CurveView::dropEvent(QDropEvent* event) {
-  const bool installed = event->mimeData()->hasFormat(QLatin1String(kInstalledMime));
-  const QByteArray id = event->mimeData()->data(QLatin1String(installed ? kInstalledMime : kMaterialMime));
-  if (id.isEmpty()) return;  // of a body that is of none
+  const auto other = draggedMaterial(*event->mimeData());
+  if (!other || other->id.empty()) return;  // of a body that is of none
   event->acceptProposedAction();
-  m_target.compare({id.toStdString(), installed}, true);
+  m_target.compare(*other, true);
 }
 
 /// No release comes to what is hidden: the document's gesture would stay open.

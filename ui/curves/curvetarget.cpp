@@ -6,10 +6,13 @@
 #include "core/simulation/snapshot.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
+#include "ui/panels/materialspanel.h"
 #include "ui/panels/rowmodels.h"
 #include "ui/session/selection.h"
 #include "ui/session/session.h"
 #include "ui/theme/numbers.h"
+
+#include <QtCore/QMimeData>
 
 #include <algorithm>
 #include <cmath>
@@ -32,6 +35,14 @@ Project sceneOf(const std::string& base, const PluginRegistry* plugins) {
 }
 
 }  // namespace
+
+std::optional<OtherMaterial> draggedMaterial(const QMimeData& data) {
+  for (const bool installed : {false, true}) {
+    const QString kind = QLatin1String(installed ? kInstalledMime : kMaterialMime);
+    if (data.hasFormat(kind)) return OtherMaterial{data.data(kind).toStdString(), installed};
+  }
+  return std::nullopt;
+}
 
 QString labelOf(Between way) {
   static const std::array kLabels{"Step", "Linear", "Monotone", "Stated slopes"};
@@ -287,6 +298,17 @@ std::vector<OtherMaterial> CurveTarget::others() const {
   }
   std::copy_if(m_compared.begin(), m_compared.end(), std::back_inserter(all),
                [](const OtherMaterial& other) { return other.installed; });
+  return all;
+}
+
+std::vector<OtherMaterial> CurveTarget::installed() const {
+  const PluginRegistry* plugins = document().plugins();
+  std::vector<OtherMaterial> all;
+  for (const std::string& base : plugins ? plugins->ids(PluginKind::Material) : std::vector<std::string>{}) {
+    const std::vector<SceneMaterial>& own = document().project().materials;
+    const bool there = std::any_of(own.begin(), own.end(), [&](const SceneMaterial& m) { return m.base == base; });
+    if (!there && !m_compared.contains({base, true})) all.push_back({base, true});
+  }
   return all;
 }
 

@@ -15,6 +15,8 @@
 #include <string>
 #include <vector>
 
+class QMimeData;
+
 namespace ps {
 
 class Document;
@@ -39,6 +41,9 @@ struct OtherMaterial {
   bool installed = false;  ///< the latter
   auto operator<=>(const OtherMaterial&) const = default;
 };
+
+/// The one that is dragged, perhaps as a body of it; nothing where that is something else.
+std::optional<OtherMaterial> draggedMaterial(const QMimeData& data);
 
 /// What is marked on the curve: a temperature in K, or a time in s.
 struct CurveMark {
@@ -103,6 +108,8 @@ class CurveTarget : public QObject {
   void compare(const OtherMaterial& other, bool on);  ///< what has no other curve says so by refused()
   /// Those that may be: the scene's, and installed ones that are.
   std::vector<OtherMaterial> others() const;
+  /// Installed ones, of which the scene has none, that are not compared yet.
+  std::vector<OtherMaterial> installed() const;
   QString otherLabel(const OtherMaterial& other) const;
   Response otherResponse(const OtherMaterial& other) const;
 

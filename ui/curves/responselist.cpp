@@ -7,15 +7,20 @@
 #include "ui/document/document.h"
 #include "ui/rows/panelheader.h"
 #include "ui/session/session.h"
+#include "ui/theme/icon.h"
 #include "ui/theme/numbers.h"
 #include "ui/theme/paint.h"
+#include "ui/theme/plaintext.h"
 #include "ui/theme/theme.h"
 
 #include <QtCore/QSignalBlocker>
+#include <QtGui/QDropEvent>
 #include <QtGui/QPainter>
 #include <QtWidgets/QLabel>
 #include <QtWidgets/QListWidget>
+#include <QtWidgets/QMenu>
 #include <QtWidgets/QStyledItemDelegate>
+#include <QtWidgets/QToolButton>
 #include <QtWidgets/QVBoxLayout>
 
 #include <algorithm>
@@ -147,7 +152,8 @@ ResponseList::ResponseList(Session& session, CurveTarget& target, QWidget* paren
       m_keyed(new QLabel(QStringLiteral("Keys over time"))),
       m_list(flatList(QStringLiteral("Responses"))),
       m_others(flatList(QStringLiteral("Compare with"))),
-      m_tracks(flatList(QStringLiteral("Keys over time"))) {
+      m_tracks(flatList(QStringLiteral("Keys over time"))),
+      m_add(new QToolButton) {
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 4);
   column->setSpacing(0);
@@ -158,7 +164,14 @@ ResponseList::ResponseList(Session& session, CurveTarget& target, QWidget* paren
     heading->setContentsMargins(10, 8, 8, 4);
     column->addWidget(heading);
     column->addWidget(list);
+    if (list != m_others) continue;
+    auto* row = new QHBoxLayout;
+    row->setContentsMargins(4, 0, 0, 0);
+    row->addWidget(m_add);
+    row->addStretch(1);
+    column->addLayout(row);
   }
+  makeAddMenu();
   m_list->setItemDelegate(new ResponseDelegate(target, this));
   connect(m_list, &QListWidget::currentItemChanged, this, [this](QListWidgetItem* item) {
     if (item) m_target.choose({Owner::Material, m_target.material(), item->data(kKey).toString().toStdString()});
@@ -195,8 +208,36 @@ void ResponseList::showCompared() {
     item->setCheckState(m_target.compared().contains(otherOf(*item)) ? Qt::Checked : Qt::Unchecked);
   }
   m_others->setFixedHeight(std::clamp(m_others->count(), 1, 5) * kOther + 4);
-  for (QWidget* widget : std::initializer_list<QWidget*>{m_heading, m_others})
-    widget->setVisible(m_others->count() > 0);
+  m_others->setVisible(m_others->count() > 0);
+}
+
+/// Made when it is opened: what is installed, and what is compared, changes.
+void ResponseList::makeAddMenu() {
+  m_add->setText(QStringLiteral("Add or drop a material"));
+  m_add->setToolTip(QStringLiteral("Draws its curve beside this one. It does not come into the scene."));
+  m_add->setIcon(icon(QStringLiteral("plus")));
+  m_add->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+  m_add->setPopupMode(QToolButton::InstantPopup);
+  m_add->setFocusPolicy(Qt::TabFocus);
+  auto* menu = new QMenu(m_add);
+  m_add->setMenu(menu);
+  connect(menu, &QMenu::aboutToShow, this, [this, menu] {
+    menu->clear();
+    for (const OtherMaterial& other : m_target.installed())
+      menu->addAction(asButtonText(m_target.otherLabel(other)), this, [this, other] { m_target.compare(other, true); });
+  });
+  setAcceptDrops(true);
+}
+
+void ResponseList::dragEnterEvent(QDragEnterEvent* event) {
+  if (draggedMaterial(*event->mimeData())) event->acceptProposedAction();
+}
+
+void ResponseList::dropEvent(QDropEvent* event) {
+  const auto other = draggedMaterial(*event->mimeData());
+  if (!other) return;
+  event->acceptProposedAction();
+  m_target.compare(*other, true);
 }
 
 void ResponseList::addOther(const OtherMaterial& other) {

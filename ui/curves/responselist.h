@@ -5,6 +5,7 @@
 class QLabel;
 class QListWidget;
 class QListWidgetItem;
+class QToolButton;
 
 namespace ps {
 
@@ -14,7 +15,8 @@ class Session;
 struct OtherMaterial;
 
 /// The responses of the current material, each with a small curve and its value where the material is; below, the
-/// other materials whose curves may be drawn for comparison, and what has keys over time, to edit those.
+/// other materials whose curves may be drawn for comparison, to which any is added by a menu or dropped, and what has
+/// keys over time, to edit those.
 class ResponseList : public QWidget {
   Q_OBJECT
  public:
@@ -22,15 +24,19 @@ class ResponseList : public QWidget {
   QListWidget* list() const { return m_list; }
   QListWidget* others() const { return m_others; }
   QListWidget* tracks() const { return m_tracks; }
+  QToolButton* addButton() const { return m_add; }  ///< its menu has what is installed
 
  protected:
   void showEvent(QShowEvent* event) override;
+  void dragEnterEvent(QDragEnterEvent* event) override;
+  void dropEvent(QDropEvent* event) override;
 
  private:
   void rebuild();
   void rebuildTracks();
   void showCompared();
   void addOther(const OtherMaterial& other);
+  void makeAddMenu();
   void refresh();  ///< values, at the temperature that the material has now
   void onCompared(QListWidgetItem* item);
   Session& m_session;
@@ -38,6 +44,7 @@ class ResponseList : public QWidget {
   PanelHeader* m_header;
   QLabel *m_heading, *m_keyed;
   QListWidget *m_list, *m_others, *m_tracks;
+  QToolButton* m_add;
 };
 
 }  // namespace ps
