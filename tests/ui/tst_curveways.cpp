@@ -284,7 +284,7 @@ class TestCurveWays : public CurveWindowTest {
     const auto found =
         std::find_if(probes.begin(), probes.end(), [](const Probe& p) { return p.quantity == "temperature"; });
     QVERIFY(found != probes.end());
-    const Probe probe = *found;
+    const Probe& probe = *found;
     m_window->selection().select(OutlineKind::Probe, probe.id);
     QCOMPARE(who(), QString::fromStdString(probe.name) + QStringLiteral(", now"));
     QVERIFY(std::abs(curves().mark(curves().now(200, 600))->x - 263.15) < 0.01);

@@ -106,6 +106,7 @@ class ResponseDelegate final : public QStyledItemDelegate {
     };
     const int samples = static_cast<int>(box.width()) - 4;
     std::vector<double> levels;
+    levels.reserve(static_cast<size_t>(samples));
     for (int i = 0; i < samples; ++i) levels.push_back(level(cold + (hot - cold) * i / (samples - 1)));
     const auto [least, most] = std::minmax_element(levels.begin(), levels.end());
     const double low = *least, span = *most - low;

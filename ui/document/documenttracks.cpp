@@ -119,6 +119,7 @@ void Document::removeTrack(const Address& address) {
     if (target && target->point && target->address == address) points.push_back(*Address::parse(each.parameter));
   }
   std::vector<Keys> none;
+  none.reserve(points.size());
   for (const Address& point : points) none.push_back({point, {}});
   setKeys(none, text);
 }
