@@ -5,10 +5,10 @@
 #include "core/base/error.h"
 #include "core/base/nearest.h"
 #include "core/io/recording.h"
-#include "core/matter/material.h"
 #include "core/plugin_host/registry.h"
 #include "core/simulation/packedframe.h"
 #include "core/simulation/tracks.h"
+#include "ui/film/projectlook.h"
 #include "ui/render/framing.h"
 
 #include <algorithm>
@@ -16,7 +16,6 @@
 #include <cstdio>
 #include <iterator>
 #include <optional>
-#include <tuple>
 
 namespace ps::cli {
 namespace {
@@ -50,21 +49,6 @@ PictureSize sizeOf(const Arguments& arguments) {
   return size;
 }
 
-/// Temperatures that the scene starts from and is driven by, so that colours keep their meaning from frame to frame.
-std::pair<double, double> temperatureRange(const Project& project) {
-  double least = numberOf(project.environment.parameters, environmentParameters(), "ambient_temperature"), most = least;
-  const auto include = [&](double kelvin) {
-    least = std::min(least, kelvin);
-    most = std::max(most, kelvin);
-  };
-  for (const Body& body : project.bodies) include(numberOf(body.parameters, bodyParameters(), "temperature"));
-  for (const SceneWall& wall : project.environment.walls) {
-    if (!hasTemperature(wall)) continue;
-    include(numberOf(wall.parameters, wallParameters(), "temperature"));
-  }
-  return {least, most > least ? most : least + 1};
-}
-
 /// A field of ours, of an installed plugin, or one that the last frame of a recording brings along.
 std::string colourOf(const Project& project, const ParticleFields& fields, const Snapshot* last,
                      const Arguments& arguments) {
@@ -78,28 +62,6 @@ std::string colourOf(const Project& project, const ParticleFields& fields, const
   return colour;
 }
 
-Look lookFor(const Project& project, const PluginRegistry& plugins, const std::string& colour) {
-  Look look;
-  look.colour = colour;
-  if (look.colour == "temperature") {
-    std::tie(look.rangeMinimum, look.rangeMaximum) = temperatureRange(project);
-  }
-  if (!project.materials.empty()) {
-    const SceneMaterial& first = project.materials.front();
-    const auto own = first.properties.values.find("melting_temperature");
-    const Material* installed = plugins.material(first.base);
-    const auto* response = own == first.properties.values.end() ? nullptr : std::get_if<Response>(&own->second);
-    if (response) {
-      look.meltingPoint = response->constant;
-    } else if (own != first.properties.values.end() && std::holds_alternative<double>(own->second)) {
-      look.meltingPoint = std::get<double>(own->second);
-    } else if (installed && installed->properties.contains("melting_temperature")) {
-      look.meltingPoint = installed->properties.at("melting_temperature").constant;
-    }
-  }
-  return look;
-}
-
 /// Draws frames of one project into a sink, without a display.
 class Painter {
  public:
@@ -107,7 +69,7 @@ class Painter {
           long every)
       : m_project(project),
         m_plugins(plugins),
-        m_look(lookFor(project, plugins, colour)),
+        m_look(lookOf(project, plugins, colour)),
         m_size(sizeOf(arguments)),
         m_scene{project.environment} {
     if (const auto& own = project.view.camera) m_camera = {own->target, own->distance, own->azimuth, own->elevation};

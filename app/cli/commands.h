@@ -11,6 +11,7 @@ using CommandArguments = std::span<const std::string>;
 
 int simulateCommand(CommandArguments arguments);
 int renderCommand(CommandArguments arguments);
+int exportCommand(CommandArguments arguments);
 int benchCommand(CommandArguments arguments);
 int validateCommand(CommandArguments arguments);
 int schemaCommand(CommandArguments arguments);
@@ -22,6 +23,7 @@ int soakCommand(CommandArguments arguments);
 
 std::string simulateHelp();
 std::string renderHelp();
+std::string exportHelp();
 std::string benchHelp();
 std::string validateHelp();
 std::string schemaHelp();

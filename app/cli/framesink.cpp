@@ -24,11 +24,7 @@ namespace {
 class PngFolder final : public FrameSink {
  public:
   PngFolder(const std::string& folder, int width, int height) : m_folder(folder), m_width(width), m_height(height) {
-    std::error_code problem;
-    std::filesystem::create_directories(folder, problem);
-    if (!std::filesystem::is_directory(folder, problem)) {
-      throw Error(folder + ": is not a folder and cannot be made; choose another");
-    }
+    makeFolder(folder);
   }
   void add(const std::vector<uint8_t>& pixels, long frame) override {
     char name[40];

@@ -21,6 +21,7 @@ struct Command {
 constexpr Command kCommands[] = {
     {"simulate", "runs a project and writes a report, probes, a recording", simulateCommand, simulateHelp},
     {"render", "draws a project or a recording as pictures or a film", renderCommand, renderHelp},
+    {"export", "writes particles or surfaces of a run for other programs", exportCommand, exportHelp},
     {"bench", "measures the solver's speed on this machine", benchCommand, benchHelp},
     {"validate", "checks projects", validateCommand, validateHelp},
     {"cases", "runs experiments and compares them with what theory expects", casesCommand, casesHelp},

@@ -202,6 +202,13 @@ void requireWritable(const std::string& path) {
   const OutputFile trial(path);
 }
 
+void makeFolder(const std::string& path) {
+  std::error_code problem;
+  std::filesystem::create_directories(path, problem);
+  if (!std::filesystem::is_directory(path, problem))
+    throw Error(path + ": is not a folder and cannot be made; choose another");
+}
+
 std::string fileIdentity(const std::string& path) {
   struct stat info {};
   if (::stat(path.c_str(), &info) == 0) {

@@ -37,6 +37,9 @@ FileStamp writeFileAtomically(const std::string& path, std::string_view bytes);
 /// long work.
 void requireWritable(const std::string& path);
 
+/// Makes a folder for results where there is none. Throws Error where there can be none.
+void makeFolder(const std::string& path);
+
 /// Removes the new files "path.part-..." of programs that were ended before these had taken their name, and leaves
 /// those that are being written. Not for a path where keepPart() has left what somebody may want.
 void removeLeftParts(const std::string& path);

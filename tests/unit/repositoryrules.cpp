@@ -12,11 +12,12 @@ namespace {
 using View = std::string_view;
 
 // Each may include itself and what stands before it. A new room is entered here, where its arrows allow.
-constexpr std::array<View, 13> kCoreRooms = {"base",       "math",  "parameters", "particles",   "matter",
+constexpr std::array<View, 14> kCoreRooms = {"base",       "math",  "parameters", "particles",   "matter",
                                              "solver",     "scene", "sketch",     "plugin_host", "geometry",
-                                             "simulation", "io",    "experiments"};
-constexpr std::array<View, 14> kUiRooms = {"theme",  "render",  "document", "session",  "tools",    "rows", "panels",
-                                           "graphs", "fitting", "curves",   "timeline", "viewport", "vr",   "window"};
+                                             "simulation", "io",    "export",     "experiments"};
+constexpr std::array<View, 15> kUiRooms = {"theme",  "render",   "film",     "document", "session",
+                                           "tools",  "rows",     "panels",   "graphs",   "fitting",
+                                           "curves", "timeline", "viewport", "vr",       "window"};
 // Behind the face of the solver: private headers, likewise in order.
 constexpr std::array<View, 6> kSolverRooms = {"structure", "contact", "fluid", "heat", "frame", "gpu"};
 
