@@ -30,4 +30,17 @@ void forFrames(const KeptRun& run, const FrameRange& range, const std::function<
   }
 }
 
+size_t exportFrames(const KeptRun& run, const FrameRange& range, FrameExporter& exporter) {
+  const size_t count = framesIn(run, range).size();
+  beginStage("Exporting", 1, static_cast<double>(count));
+  try {
+    forFrames(run, range, [&](const Snapshot& snapshot) { exporter.add(snapshot); });
+  } catch (const Cancelled&) {
+    exporter.finish();
+    throw;
+  }
+  exporter.finish();
+  return count;
+}
+
 }  // namespace ps

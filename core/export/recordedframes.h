@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "core/export/exportformat.h"
 #include "core/simulation/keptrun.h"
 #include "core/simulation/snapshot.h"
 
@@ -21,5 +22,9 @@ std::vector<uint64_t> framesIn(const KeptRun& run, const FrameRange& range);
 /// Unpacks each and hands it over. The thread's progress counts them; throws Cancelled, and InputError for a frame
 /// whose bytes are not what was written.
 void forFrames(const KeptRun& run, const FrameRange& range, const std::function<void(const Snapshot&)>& each);
+
+/// Writes them, as one stage of the thread's progress, and returns how many; the series is whole as far as it goes when
+/// it is cancelled too. Throws Cancelled and what the exporter throws.
+size_t exportFrames(const KeptRun& run, const FrameRange& range, FrameExporter& exporter);
 
 }  // namespace ps

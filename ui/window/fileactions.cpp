@@ -15,6 +15,7 @@
 #include "ui/theme/plaintext.h"
 #include "ui/viewport/viewport.h"
 #include "ui/window/actions.h"
+#include "ui/window/exportactions.h"
 #include "ui/window/fileguard.h"
 #include "ui/window/filenames.h"
 #include "ui/window/noticebar.h"
@@ -66,7 +67,8 @@ FileActions::FileActions(Session& session, const Actions& actions, Notices& noti
       m_restore(restore),
       m_options(options),
       m_guard(std::make_unique<FileGuard>(session, actions, notices, restore)),
-      m_recordings(std::make_unique<RecordingActions>(session, actions, notices)) {
+      m_recordings(std::make_unique<RecordingActions>(session, actions, notices)),
+      m_exports(std::make_unique<ExportActions>(session, actions, notices)) {
   DocumentFiles& files = session.files();
   files.setSample(options.sample);
   connect(&files, &DocumentFiles::opened, this, &FileActions::onOpened);
@@ -115,6 +117,7 @@ void FileActions::makeMenu(QMenu* menu, Viewport* view) {
                 [this] { m_session.document().removeState(); });
   menu->addSeparator();
   m_recordings->addTo(menu);
+  m_exports->addTo(menu);
   menu->addSeparator();
   m_actions.add(menu, QStringLiteral("file.picture"), QStringLiteral("Save picture of the scene…"), {},
                 [this] { exportPicture(); });
@@ -146,6 +149,7 @@ void FileActions::setEnabled(bool on) {
   }
   m_recent->setEnabled(on);
   m_recordings->setEnabled(on);
+  m_exports->setEnabled(on);
 }
 
 void FileActions::updateStateActions() {

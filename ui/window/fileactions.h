@@ -12,6 +12,7 @@ class QMenu;
 namespace ps {
 
 class Actions;
+class ExportActions;
 class FileGuard;
 class GraphsPanel;
 class Notices;
@@ -70,6 +71,7 @@ class FileActions : public QObject {
   Options m_options;
   std::unique_ptr<FileGuard> m_guard;
   std::unique_ptr<RecordingActions> m_recordings;
+  std::unique_ptr<ExportActions> m_exports;
   Viewport* m_view = nullptr;
   QMenu* m_recent = nullptr;
   QString m_stateTo;       ///< file that waits for the state; "": none

@@ -12,6 +12,7 @@
 #include "ui/session/documentfiles.h"
 #include "ui/session/messagelog.h"
 #include "ui/session/recordedview.h"
+#include "ui/session/runexport.h"
 #include "ui/session/selection.h"
 #include "ui/theme/plaintext.h"
 #include "ui/timeline/keyrows.h"
@@ -400,6 +401,8 @@ void MainWindow::keyPressEvent(QKeyEvent* event) {
   if (event->key() != Qt::Key_Escape) {
     QMainWindow::keyPressEvent(event);
   } else if (Viewport* view = viewport(); view && view->cancelGesture()) {
+    return;
+  } else if (m_session->exports().cancel()) {
     return;
   } else if (showsPlugins()) {
     m_centre->setCurrentWidget(m_pane);

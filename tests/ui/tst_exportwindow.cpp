@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+// Exports of the recorded run through the editor: asked for in a dialog, written while the run goes on, given up.
+#include "core/export/exportformat.h"
+#include "core/simulation/enginethread.h"
+#include "core/simulation/runrecord.h"
+#include "tests/shared/scenes.h"
+#include "tests/ui/samplewindow.h"
+#include "ui/session/messagelog.h"
+#include "ui/session/recordedview.h"
+#include "ui/session/runexport.h"
+#include "ui/session/session.h"
+#include "ui/window/exportdialog.h"
+#include "ui/window/statusline.h"
+
+#include <QtCore/QDir>
+#include <QtCore/QElapsedTimer>
+#include <QtCore/QTemporaryDir>
+#include <QtGui/QAction>
+#include <QtWidgets/QComboBox>
+#include <QtWidgets/QLabel>
+#include <QtWidgets/QLineEdit>
+
+using namespace ps;
+
+namespace {
+constexpr uint64_t kFrames = 24;
+}  // namespace
+
+class TestExportWindow : public SampleWindowTest {
+  Q_OBJECT
+ private Q_SLOTS:
+  void initTestCase() {
+    open();
+    QVERIFY(m_window && m_folder.isValid());
+    session().pause();
+    toTheStart();
+    for (uint64_t frame = 1; frame <= kFrames; ++frame) session().step();
+    QTRY_COMPARE_WITH_TIMEOUT(session().newest()->stats.frame, kFrames, kLong);
+    session().engine()->recording().settle();
+  }
+
+  void everyFormatIsWritten_data() {
+    QTest::addColumn<int>("row");
+    for (size_t k = 0; k < exportFormats().size(); ++k) QTest::newRow(exportFormats()[k].key) << static_cast<int>(k);
+  }
+
+  /// From 0.1 s to 0.3 s every sixth frame: 6, 12, 18.
+  void everyFormatIsWritten() {
+    QFETCH(const int, row);
+    const ExportFormat& format = exportFormats()[static_cast<size_t>(row)];
+    auto* dialog = openDialog<ExportDialog>("file.export");
+    QVERIFY(dialog);
+    field<QComboBox>("Format")->setCurrentIndex(row);
+    field<QLineEdit>("From, in s")->setText(QStringLiteral("0.1"));
+    field<QLineEdit>("To, in s")->setText(QStringLiteral("0,3"));
+    choose("Frames", 6);
+    const QString folder = m_folder.filePath(QString::fromLatin1(format.key));
+    place(folder);
+    if (row == 0) dialogPicture(QStringLiteral("tst_exportwindow_dialog.png"));
+    QSignalSpy written(&session().exports(), &RunExport::written);
+    QTest::mouseClick(button("Export"), Qt::LeftButton);
+    QVERIFY(written.wait(kLong));
+    QCOMPARE(written.front().at(2).toULongLong(), 3ULL);
+    QCOMPARE(session().log().messages().back().level, MessageLevel::Ok);
+    const QStringList names{QString::fromLatin1(format.first) + QStringLiteral("-*")};
+    const QStringList files = QDir(folder).entryList(names, QDir::Files, QDir::Name);
+    QCOMPARE(files.size(), 3);
+    QVERIFY(files.front().contains(QStringLiteral("000006.")) && files.back().contains(QStringLiteral("000018.")));
+  }
+
+  void whatCannotBeIsSaid() {
+    QVERIFY(openDialog<ExportDialog>("file.export"));
+    field<QLineEdit>("From, in s")->setText(QStringLiteral("0.3"));
+    field<QLineEdit>("To, in s")->setText(QStringLiteral("0.1"));
+    QVERIFY(!button("Export")->isEnabled());
+    QVERIFY(anyLabelBegins("Nothing was recorded then"));
+    field<QLineEdit>("To, in s")->setText(QStringLiteral("soon"));
+    QVERIFY(!button("Export")->isEnabled());
+    field<QLineEdit>("To, in s")->setText(QStringLiteral("0.4"));
+    QVERIFY(button("Export")->isEnabled());
+    place(QStringLiteral("/proc/nowhere"));
+    QSignalSpy failed(&session().exports(), &RunExport::failed);
+    QTest::mouseClick(button("Export"), Qt::LeftButton);
+    QVERIFY(failed.wait(kLong));
+    QVERIFY2(m_window->notice()->text().contains(QStringLiteral("/proc/nowhere")),
+             qPrintable(m_window->notice()->text()));
+    picture(QStringLiteral("tst_exportwindow_failed.png"));
+    m_window->notice()->close(QStringLiteral("export"));
+  }
+
+  /// Esc in the view ends it within 0.2 s; what was written is whole, and listed.
+  void escGivesItUp() {
+    QVERIFY(openDialog<ExportDialog>("file.export"));
+    const QString folder = m_folder.filePath(QStringLiteral("given-up"));
+    field<QComboBox>("Format")->setCurrentIndex(0);
+    place(folder);
+    session().engine()->recording().settle();
+    QSignalSpy cancelled(&session().exports(), &RunExport::cancelled);
+    QTest::mouseClick(button("Export"), Qt::LeftButton);
+    QVERIFY(session().exports().isBusy());
+    QElapsedTimer since;
+    since.start();
+    QTest::keyClick(view(), Qt::Key_Escape);
+    QVERIFY(cancelled.wait(kLong));
+    qInfo("given up after %lld ms", since.elapsed());
+    QVERIFY(since.elapsed() < 1000);  // 200 ms are meant; sanitizers and busy machines take longer
+    QVERIFY(!session().exports().isBusy());
+    const qsizetype whole = QDir(folder).entryList({QStringLiteral("*.vtp")}, QDir::Files).size();
+    QVERIFY(whole < static_cast<qsizetype>(kFrames + 1));
+    QVERIFY(QDir(folder).entryList({QStringLiteral("*.part-*")}, QDir::Files).isEmpty());
+  }
+
+  /// The status line and the notice say how far a long one is, and the run goes on.
+  void progressIsShown() {
+    QVERIFY(openDialog<ExportDialog>("file.export"));
+    field<QComboBox>("Format")->setCurrentIndex(3);
+    place(m_folder.filePath(QStringLiteral("long")));
+    session().play();
+    QSignalSpy working(&session().exports(), &RunExport::working);
+    QTest::mouseClick(button("Export"), Qt::LeftButton);
+    QTRY_VERIFY_WITH_TIMEOUT(!working.isEmpty() || !session().exports().isBusy(), kLong);
+    if (!working.isEmpty() && session().exports().isBusy()) {
+      auto* line = m_window->findChild<StatusLine*>();
+      QVERIFY2(line->parts().join(' ').contains(QStringLiteral("% exported")), qPrintable(line->parts().join(' ')));
+      QVERIFY(noticeButton(*m_window, QStringLiteral("Cancel")));
+      picture(QStringLiteral("tst_exportwindow_working.png"));
+    }
+    session().exports().cancel();
+    QTRY_VERIFY_WITH_TIMEOUT(!session().exports().isBusy(), kLong);
+    QVERIFY(!noticeButton(*m_window, QStringLiteral("Cancel")));
+    session().pause();
+  }
+
+ private:
+  template <class Dialog>
+  Dialog* openDialog(const char* action) {
+    m_window->action(QString::fromLatin1(action))->trigger();
+    m_dialog = m_window->findChild<Dialog*>();
+    return qobject_cast<Dialog*>(m_dialog);
+  }
+  template <class Field>
+  Field* field(const char* label) {
+    for (Field* one : m_dialog->findChildren<Field*>())
+      if (one->accessibleName() == QString::fromLatin1(label)) return one;
+    return nullptr;
+  }
+  QPushButton* button(const char* text) {
+    for (QPushButton* one : m_dialog->findChildren<QPushButton*>())
+      if (one->text() == QString::fromLatin1(text)) return one;
+    return nullptr;
+  }
+  bool anyLabelBegins(const char* text) {
+    const auto labels = m_dialog->findChildren<QLabel*>();
+    return std::any_of(labels.begin(), labels.end(),
+                       [&](QLabel* label) { return label->text().startsWith(QString::fromUtf8(text)); });
+  }
+  void choose(const char* label, int data) {
+    auto* box = field<QComboBox>(label);
+    box->setCurrentIndex(box->findData(data));
+  }
+  void place(const QString& path) { static_cast<RunDialog*>(m_dialog)->setPlace(path); }
+  void dialogPicture(const QString& name) {
+    const QString folder = qEnvironmentVariable("PS_TEST_PICTURES");
+    if (!folder.isEmpty()) m_dialog->grab().save(folder + QLatin1Char('/') + name);
+  }
+
+  QTemporaryDir m_folder;
+  QDialog* m_dialog = nullptr;
+};
+
+QTEST_MAIN(TestExportWindow)
+#include "tst_exportwindow.moc"

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/session/runexport.h"
+
+#include "core/base/progress.h"
+#include "core/simulation/enginethread.h"
+#include "core/simulation/keptrun.h"
+#include "ui/session/session.h"
+
+#include <utility>
+
+namespace ps {
+namespace {
+constexpr int kClockInterval = 200;  // ms
+constexpr double kTells = 0.02;      // share from which what is left can be told
+}  // namespace
+
+struct RunExport::Outcome {
+  size_t frames = 0;
+  bool cancelled = false;
+  QString problem;
+};
+
+RunExport::RunExport(Session& session) : m_session(session) {
+  m_clock.setInterval(kClockInterval);
+  connect(&m_clock, &QTimer::timeout, this, &RunExport::tell);
+}
+
+RunExport::~RunExport() { cancel(); }
+
+bool RunExport::cancel() {
+  if (!m_progress || m_progress->cancelled()) return false;
+  m_progress->cancel();
+  return true;
+}
+
+int RunExport::percent() const { return m_progress ? static_cast<int>(100 * m_progress->state().done) : -1; }
+
+void RunExport::tell() {
+  const Progress::State state = m_progress->state();
+  const double seconds = static_cast<double>(m_since.elapsed()) / 1000;
+  const double left = state.done > kTells ? seconds * (1 - state.done) / state.done : -1;
+  Q_EMIT working(QString::fromUtf8(state.stage ? state.stage : "Beginning"), state.done, left);
+}
+
+void RunExport::start(Task task) {
+  if (isBusy() || !m_session.engine()) return;
+  m_progress = std::make_shared<Progress>();
+  m_progress->expect(1);
+  m_since.start();
+  m_clock.start();
+  m_worker.run([this, task = std::move(task), record = &m_session.engine()->recording(), progress = m_progress] {
+    const ProgressScope scope(progress.get());
+    Outcome outcome;
+    try {
+      record->settle();
+      outcome.frames = task.write(record->content().present);
+    } catch (const Cancelled&) {
+      outcome.cancelled = true;
+    } catch (const std::exception& error) {
+      outcome.problem = QString::fromUtf8(error.what());
+    }
+    QMetaObject::invokeMethod(this, [this, task, outcome] { finish(task, outcome); });
+  });
+}
+
+void RunExport::finish(const Task& task, const Outcome& outcome) {
+  m_progress.reset();
+  m_clock.stop();
+  Q_EMIT ended();
+  if (!outcome.problem.isEmpty())
+    Q_EMIT failed(task.what, outcome.problem);
+  else if (outcome.cancelled)
+    Q_EMIT cancelled(task.what, task.where);
+  else
+    Q_EMIT written(task.what, task.where, outcome.frames);
+}
+
+}  // namespace ps

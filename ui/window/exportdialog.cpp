@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/window/exportdialog.h"
+
+#include "core/plugin_host/registry.h"
+#include "ui/document/document.h"
+#include "ui/film/projectlook.h"
+#include "ui/session/runexport.h"
+#include "ui/session/session.h"
+#include "ui/session/wording.h"
+
+#include <QtCore/QDir>
+#include <QtCore/QFileInfo>
+#include <QtWidgets/QComboBox>
+#include <QtWidgets/QFileDialog>
+
+namespace ps {
+
+ExportDialog::ExportDialog(Session& session, QWidget* window)
+    : RunDialog(session, QStringLiteral("Export the run"), window),
+      m_format(addChoice(QStringLiteral("Format"), QStringLiteral("Lengths in m, y up; SI units and kelvin."))) {
+  for (const ExportFormat& row : exportFormats()) m_format->addItem(QString::fromUtf8(row.label));
+  addRange();
+}
+
+const ExportFormat& ExportDialog::format() const {
+  return exportFormats()[static_cast<size_t>(m_format->currentIndex())];
+}
+
+QString ExportDialog::suggestedPlace() const {
+  return besideProject(QLatin1Char('-') + QString::fromLatin1(format().key));
+}
+
+QString ExportDialog::choosePlace() {
+  return QFileDialog::getExistingDirectory(this, QStringLiteral("Folder for the files"), QFileInfo(place()).path());
+}
+
+QString ExportDialog::summary() const {
+  const ExportFormat& chosen = format();
+  QString text = QStringLiteral("%1, %2.").arg(countText(frames(), QStringLiteral("file"), QStringLiteral("files")),
+                                               QString::fromUtf8(chosen.help));
+  const QStringList names{QString::fromLatin1(chosen.first) + QStringLiteral("-*.") +
+                          QString::fromLatin1(chosen.ending)};
+  if (!QDir(place()).entryList(names, QDir::Files).isEmpty())
+    text += QStringLiteral(" The folder has files of these names: they are replaced.");
+  return text;
+}
+
+void ExportDialog::begin() {
+  const Project& project = session().document().project();
+  const ExportChoices choices{
+      place().toStdString(), {}, temperatureColours(lookOf(project, *session().plugins(), "temperature"))};
+  session().exports().start(
+      {QString::fromUtf8(format().label), place(), [&chosen = format(), choices, asked = range()](const KeptRun& run) {
+         return exportFrames(run, asked, *makeExporter(chosen, choices));
+       }});
+}
+
+}  // namespace ps

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "core/export/exportformat.h"
+#include "ui/window/rundialog.h"
+
+namespace ps {
+
+/// Particles or surfaces of the recorded run, as files of other programs.
+class ExportDialog : public RunDialog {
+  Q_OBJECT
+ public:
+  ExportDialog(Session& session, QWidget* window);
+
+ protected:
+  QString suggestedPlace() const override;
+  QString choosePlace() override;
+  QString summary() const override;
+  void begin() override;
+
+ private:
+  const ExportFormat& format() const;
+  QComboBox* m_format;
+};
+
+}  // namespace ps
