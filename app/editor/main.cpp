@@ -62,6 +62,7 @@ int main(int argc, char** argv) {
   std::setlocale(LC_NUMERIC, "C");
   QApplication::setApplicationName(QStringLiteral("phasesketch"));
   QApplication::setOrganizationName(QStringLiteral("phasesketch"));
+  QApplication::setDesktopFileName(QStringLiteral("phasesketch"));  // its icon, under Wayland
   QApplication::setApplicationVersion(QStringLiteral(PS_VERSION));
   ps::keepSettingsWhole();
 

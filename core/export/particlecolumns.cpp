@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/export/particlecolumns.h"
 
+#include "core/base/progress.h"
 #include "core/simulation/particlefield.h"
 
 #include <algorithm>
@@ -71,6 +72,7 @@ ParticleTable tableOf(const Snapshot& snapshot, const std::vector<std::string>& 
     else
       fill(std::vector<float>(), source.number);
     table.columns.push_back(std::move(column));
+    advance(0);  // a million particles take a while
   }
   return table;
 }

@@ -21,7 +21,8 @@ struct ParticleTable {
   std::vector<ParticleColumn> columns;
 };
 
-/// With the columns of these names, in the order of columnNames(); all where there are none.
+/// With the columns of these names, in the order of columnNames(); all where there are none. Throws
+/// Cancelled.
 ParticleTable tableOf(const Snapshot& snapshot, const std::vector<std::string>& wanted);
 /// Whole numbers first: id, body, material, phase, motion, then radius, and each field that the snapshot has.
 std::vector<std::string> columnNames(const Snapshot& snapshot);

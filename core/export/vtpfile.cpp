@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // VTK's XML file formats: https://docs.vtk.org/en/latest/design_documents/VTKFileFormats.html
 #include "core/base/base64.h"
+#include "core/base/progress.h"
 #include "core/export/exporters.h"
 #include "core/export/particlecolumns.h"
 #include "core/io/outputfile.h"
@@ -45,6 +46,7 @@ void writeArray(OutputFile& file, const std::string& name, const std::vector<T>&
   bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
   file.write(toBase64(std::as_bytes(std::span(bytes))));
   file.write("</DataArray>\n");
+  advance(0);
 }
 
 /// Texts as the codes of their characters, each ended by a zero.

@@ -17,6 +17,7 @@
 #include <QSet>
 #include <QTemporaryDir>
 #include <QTest>
+#include <QXmlStreamReader>
 
 #include <cmath>
 
@@ -70,6 +71,7 @@ class InstallationTest : public QObject {
   void initTestCase();
   void installedFilesAreThere_data();
   void installedFilesAreThere();
+  void filesAreKnownByWhatTheyBeginWith();
   void ownPluginsLoadFromTheInstallation();
   void examplesBuildOutsideTheTree();
   void commandLineLoadsTheExamples_data();
@@ -103,13 +105,47 @@ void InstallationTest::installedFilesAreThere_data() {
        {"bin/phasesketch", "bin/phasesketch-cli", "include/phasesketch/qtentry.h", "lib/phasesketch/plugins/water.so",
         "share/phasesketch/plugins/wax.json", "share/phasesketch/projects/ice-on-hot-plate.json",
         "share/phasesketch/examples/README.md", "share/phasesketch/plugins/README.md", "include/phasesketch/stamp.h",
-        "lib/cmake/PhaseSketch/PhaseSketchConfigVersion.cmake", "share/doc/PhaseSketch/LICENSE"})
+        "lib/cmake/PhaseSketch/PhaseSketchConfigVersion.cmake", "share/doc/phasesketch/LICENSE",
+        "share/doc/phasesketch/copyright", "share/applications/phasesketch.desktop",
+        "share/icons/hicolor/scalable/apps/phasesketch.svg", "share/mime/packages/phasesketch.xml",
+        "share/metainfo/org.phasesketch.phasesketch.metainfo.xml", "share/man/man1/phasesketch-cli.1.gz"})
     QTest::newRow(path) << path;
 }
 
 void InstallationTest::installedFilesAreThere() {
   QFETCH(QString, path);
   QVERIFY(QFileInfo(prefix() + '/' + path).isFile());
+}
+
+/// As the desktop tells them by shared-mime-info: projects from other JSON files, recordings.
+void InstallationTest::filesAreKnownByWhatTheyBeginWith() {
+  QFile file(prefix() + "/share/mime/packages/phasesketch.xml");
+  QVERIFY(file.open(QIODevice::ReadOnly));
+  QXmlStreamReader xml(&file);
+  QList<QByteArray> begins;
+  QStringList types;
+  while (!xml.atEnd()) {
+    if (xml.readNext() != QXmlStreamReader::StartElement) continue;
+    if (xml.name() == QStringLiteral("match")) begins << xml.attributes().value("value").toUtf8().replace("\\n", "\n");
+    if (xml.name() == QStringLiteral("mime-type")) types << xml.attributes().value("type").toString();
+  }
+  QCOMPARE(xml.errorString(), QString());
+  QCOMPARE(begins.size(), 2);
+  const QString project = m_dir.filePath("p.json"), recording = m_dir.filePath("r.psrec");
+  const QString sample = prefix() + "/share/phasesketch/projects/ice-on-hot-plate.json";
+  const Outcome ran = runProgram(program("phasesketch-cli"), {"simulate", sample, "--frames", "1", "--quiet",
+                                                              "--save-project", project, "--record", recording});
+  QVERIFY2(ran.code == 0, ran.text());
+  for (const auto& [path, begin] : {std::pair{sample, begins[0]}, {project, begins[0]}, {recording, begins[1]}}) {
+    QFile written(path);
+    QVERIFY(written.open(QIODevice::ReadOnly));
+    QCOMPARE(written.read(begin.size()), begin);
+  }
+  QFile desktop(prefix() + "/share/applications/phasesketch.desktop");
+  QVERIFY(desktop.open(QIODevice::ReadOnly));
+  const QList<QByteArray> lines = desktop.readAll().split('\n');
+  QVERIFY(lines.contains("Exec=phasesketch %f") && lines.contains("Icon=phasesketch"));
+  QVERIFY(lines.contains("MimeType=" + types.join(';').toUtf8() + ';'));
 }
 
 void InstallationTest::ownPluginsLoadFromTheInstallation() {
