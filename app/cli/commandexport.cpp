@@ -6,6 +6,7 @@
 #include "core/export/recordedframes.h"
 #include "core/io/recording.h"
 #include "core/plugin_host/registry.h"
+#include "core/simulation/packedframe.h"
 #include "core/simulation/particlefield.h"
 #include "ui/film/projectlook.h"
 
@@ -121,14 +122,13 @@ int exportRecording(const Arguments& arguments, const std::string& path) {
   project.duration = static_cast<double>(range.last - range.first + 1) * frameLength(project);
   range.last = std::min(range.last, range.first + static_cast<uint64_t>(frameCount(arguments, project)));
   out.begin(*recording.frame(0));
-  bool whole = true;
-  forFrames(run, range, [&](const Snapshot& snapshot) {
-    whole = whole && !interrupted();
-    if (whole) out.add(snapshot);
-  });
+  for (const uint64_t number : keptIn(run, range)) {
+    if (interrupted()) break;
+    out.add(*run.frames.at(number)->snapshot(1));
+  }
   out.finish(arguments.has("--quiet"));
   if (!recording.damage().empty()) throw Error(recording.damage() + "; the frames before it were exported");
-  return whole ? kFine : kFailed;
+  return interrupted() ? kFailed : kFine;
 }
 
 }  // namespace

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/cli/commands.h"
-#include "app/cli/framesink.h"
 #include "app/cli/run.h"
 #include "core/base/error.h"
 #include "core/base/nearest.h"
+#include "core/export/recordedframes.h"
 #include "core/io/recording.h"
 #include "core/plugin_host/registry.h"
 #include "core/simulation/packedframe.h"
-#include "core/simulation/tracks.h"
+#include "ui/film/filmpainter.h"
 #include "ui/film/projectlook.h"
-#include "ui/render/framing.h"
 
 #include <algorithm>
 #include <cmath>
@@ -62,48 +61,14 @@ std::string colourOf(const Project& project, const ParticleFields& fields, const
   return colour;
 }
 
-/// Draws frames of one project into a sink, without a display.
-class Painter {
- public:
-  Painter(const Project& project, const PluginRegistry& plugins, const std::string& colour, const Arguments& arguments,
-          long every)
-      : m_project(project),
-        m_plugins(plugins),
-        m_look(lookOf(project, plugins, colour)),
-        m_size(sizeOf(arguments)),
-        m_scene{project.environment} {
-    if (const auto& own = project.view.camera) m_camera = {own->target, own->distance, own->azimuth, own->elevation};
-    const std::string out = arguments.text("--out");
-    const double rate = 1 / (frameLength(project) * static_cast<double>(every));
-    m_sink = makeFrameSink(out, m_size.width, m_size.height, std::clamp(rate, 1e-3, 1000.0));
-    m_context.makeCurrent();
-    m_renderer = std::make_unique<Renderer>();
-  }
-  void draw(const Snapshot& snapshot, long frame) {
-    // One view for the whole film: what it begins with.
-    if (!m_camera) m_camera = cameraShowing(snapshot, m_scene.environment, m_size.width, m_size.height);
-    m_scene.environment = environmentAt(m_project, &m_plugins, snapshot.stats.time);
-    m_renderer->prepare(snapshot, nullptr, 1, m_scene, m_look);
-    m_sink->add(renderImage(*m_renderer, eyeOf(*m_camera, m_size.width, m_size.height), m_size), frame);
-    ++m_pictures;
-  }
-  long finish() {
-    m_sink->finish();
-    return m_pictures;
-  }
-
- private:
-  const Project& m_project;
-  const PluginRegistry& m_plugins;
-  Look m_look;
-  PictureSize m_size;
-  std::optional<Camera> m_camera;  // the project's own
-  RenderScene m_scene;
-  HeadlessContext m_context;
-  std::unique_ptr<Renderer> m_renderer;
-  std::unique_ptr<FrameSink> m_sink;
-  long m_pictures = 0;
-};
+FilmChoices choicesOf(const Arguments& arguments, const Project& project, const PluginRegistry& plugins,
+                      const std::string& colour, long every) {
+  return {.out = arguments.text("--out"),
+          .framesPerSecond = 1 / (frameLength(project) * static_cast<double>(every)),
+          .size = sizeOf(arguments),
+          .look = lookOf(project, plugins, colour),
+          .camera = {}};
+}
 
 int renderProject(const Arguments& arguments, const std::string& path) {
   PluginRegistry plugins;
@@ -117,7 +82,7 @@ int renderProject(const Arguments& arguments, const std::string& path) {
   engine.show({colour});
   const SnapshotPtr begin = engine.snapshot();
   const long frames = frameCount(arguments, project, begin->stats.time), first = static_cast<long>(begin->stats.frame);
-  Painter painter(project, plugins, colour, arguments, every);
+  FilmPainter painter(project, plugins, choicesOf(arguments, project, plugins, colour, every));
   painter.draw(*begin, first);
   StepFlags flags = 0;
   std::string message;
@@ -132,15 +97,13 @@ int renderProject(const Arguments& arguments, const std::string& path) {
       progress.show(frame, engine.stats());
     }
   }
-  const long pictures = painter.finish();
+  const size_t pictures = painter.finish();
   if (!arguments.has("--quiet"))
-    std::printf("%s in %s\n", counted(static_cast<size_t>(pictures), "picture").c_str(),
-                arguments.text("--out").c_str());
+    std::printf("%s in %s\n", counted(pictures, "picture").c_str(), arguments.text("--out").c_str());
   if (!flags) return interrupted() ? kFailed : kFine;
   throw Error(path + ": the run set flags: " + flagNames(flags).front() + (message.empty() ? "" : ": " + message));
 }
 
-/// By the frames of the run: of one that is not kept, the kept one before it is drawn again.
 int renderRecording(const Arguments& arguments, const std::string& path) {
   PluginRegistry plugins;
   const RecordingReader recording(path, plugins);
@@ -151,22 +114,18 @@ int renderRecording(const Arguments& arguments, const std::string& path) {
   const KeptRun::Frames& kept = recording.content().present.frames;
   const auto length = static_cast<long>(kept.rbegin()->first - kept.begin()->first);
   project.duration = static_cast<double>(length + 1) * frameLength(project);
-  const long frames = std::min(frameCount(arguments, project), length);
+  const auto frames = static_cast<uint64_t>(std::min(frameCount(arguments, project), length));
   const std::string colour =
       colourOf(project, ParticleFields(plugins), recording.frame(recording.frameCount() - 1).get(), arguments);
-  Painter painter(project, plugins, colour, arguments, every);
-  auto at = kept.begin();
-  size_t index = 0;
-  for (long frame = 0; frame <= frames && !interrupted(); frame += every) {
-    for (auto next = std::next(at);
-         next != kept.end() && next->first <= kept.begin()->first + static_cast<uint64_t>(frame); ++next, ++index)
-      at = next;
-    painter.draw(*recording.frame(index), frame);
+  FilmPainter painter(project, plugins, choicesOf(arguments, project, plugins, colour, every));
+  const uint64_t first = kept.begin()->first;
+  for (const RangeFrame& frame : framesIn(recording.content().present, {first, first + frames, uint64_t(every)})) {
+    if (interrupted()) break;
+    painter.draw(*kept.at(frame.kept)->snapshot(1), static_cast<long>(frame.wanted - first));
   }
-  const long pictures = painter.finish();
+  const size_t pictures = painter.finish();
   if (!arguments.has("--quiet"))
-    std::printf("%s in %s\n", counted(static_cast<size_t>(pictures), "picture").c_str(),
-                arguments.text("--out").c_str());
+    std::printf("%s in %s\n", counted(pictures, "picture").c_str(), arguments.text("--out").c_str());
   if (!recording.damage().empty()) throw Error(recording.damage() + "; the frames before it were drawn");
   return kFine;
 }

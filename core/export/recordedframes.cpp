@@ -9,38 +9,38 @@
 
 namespace ps {
 
-std::vector<uint64_t> framesIn(const KeptRun& run, const FrameRange& range) {
-  std::vector<uint64_t> numbers;
-  if (run.frames.empty()) return numbers;
+std::vector<RangeFrame> framesIn(const KeptRun& run, const FrameRange& range) {
+  std::vector<RangeFrame> frames;
+  if (run.frames.empty()) return frames;
   const uint64_t last = std::min(range.last, run.frames.rbegin()->first);
   for (uint64_t wanted = range.first; wanted <= last; wanted += range.every) {
     const auto after = run.frames.upper_bound(wanted);
-    if (after == run.frames.begin()) continue;
-    const uint64_t number = std::prev(after)->first;
-    if (numbers.empty() || numbers.back() != number) numbers.push_back(number);
+    if (after != run.frames.begin()) frames.push_back({wanted, std::prev(after)->first});
   }
+  return frames;
+}
+
+std::vector<uint64_t> keptIn(const KeptRun& run, const FrameRange& range) {
+  std::vector<uint64_t> numbers;
+  for (const RangeFrame& frame : framesIn(run, range))
+    if (numbers.empty() || numbers.back() != frame.kept) numbers.push_back(frame.kept);
   return numbers;
 }
 
-void forFrames(const KeptRun& run, const FrameRange& range, const std::function<void(const Snapshot&)>& each) {
-  const std::vector<uint64_t> numbers = framesIn(run, range);
-  for (const uint64_t number : numbers) {
-    each(*run.frames.at(number)->snapshot(1));
-    advance(1);
-  }
-}
-
 size_t exportFrames(const KeptRun& run, const FrameRange& range, FrameExporter& exporter) {
-  const size_t count = framesIn(run, range).size();
-  beginStage("Exporting", 1, static_cast<double>(count));
+  const std::vector<uint64_t> numbers = keptIn(run, range);
+  beginStage("Exporting", 1, static_cast<double>(numbers.size()));
   try {
-    forFrames(run, range, [&](const Snapshot& snapshot) { exporter.add(snapshot); });
+    for (const uint64_t number : numbers) {
+      exporter.add(*run.frames.at(number)->snapshot(1));
+      advance(1);
+    }
   } catch (const Cancelled&) {
     exporter.finish();
     throw;
   }
   exporter.finish();
-  return count;
+  return numbers.size();
 }
 
 }  // namespace ps

@@ -2,29 +2,28 @@
 #pragma once
 #include "core/export/exportformat.h"
 #include "core/simulation/keptrun.h"
-#include "core/simulation/snapshot.h"
 
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 namespace ps {
 
-/// Which frames of a run: by their numbers, from the first one on every so many. Where one is not kept, the kept one
-/// before it is meant, once.
+/// Which frames of a run: by their numbers, from the first one on every so many.
 struct FrameRange {
   uint64_t first = 0, last = 0, every = 1;
 };
 
-/// Numbers of the kept frames that are meant.
-std::vector<uint64_t> framesIn(const KeptRun& run, const FrameRange& range);
+/// A frame that is meant, and the one that is kept of it: where it is not kept itself, the last one before it.
+struct RangeFrame {
+  uint64_t wanted = 0, kept = 0;
+};
+/// Those from the first kept one on, up to the last.
+std::vector<RangeFrame> framesIn(const KeptRun& run, const FrameRange& range);
+/// Each kept one once.
+std::vector<uint64_t> keptIn(const KeptRun& run, const FrameRange& range);
 
-/// Unpacks each and hands it over. The thread's progress counts them; throws Cancelled, and InputError for a frame
-/// whose bytes are not what was written.
-void forFrames(const KeptRun& run, const FrameRange& range, const std::function<void(const Snapshot&)>& each);
-
-/// Writes them, as one stage of the thread's progress, and returns how many; the series is whole as far as it goes when
-/// it is cancelled too. Throws Cancelled and what the exporter throws.
+/// Writes each kept one, as one stage of the thread's progress, and returns how many; the series is whole as far as it
+/// goes when it is cancelled too. Throws Cancelled and what the exporter throws.
 size_t exportFrames(const KeptRun& run, const FrameRange& range, FrameExporter& exporter);
 
 }  // namespace ps

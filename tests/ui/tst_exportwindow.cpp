@@ -10,15 +10,22 @@
 #include "ui/session/runexport.h"
 #include "ui/session/session.h"
 #include "ui/window/exportdialog.h"
+#include "ui/window/filmdialog.h"
 #include "ui/window/statusline.h"
 
 #include <QtCore/QDir>
 #include <QtCore/QElapsedTimer>
+#include <QtCore/QFile>
+#include <QtCore/QFileInfo>
 #include <QtCore/QTemporaryDir>
 #include <QtGui/QAction>
+#include <QtGui/QImage>
 #include <QtWidgets/QComboBox>
 #include <QtWidgets/QLabel>
 #include <QtWidgets/QLineEdit>
+
+#include <algorithm>
+#include <cstdlib>
 
 using namespace ps;
 
@@ -66,6 +73,84 @@ class TestExportWindow : public SampleWindowTest {
     const QStringList files = QDir(folder).entryList(names, QDir::Files, QDir::Name);
     QCOMPARE(files.size(), 3);
     QVERIFY(files.front().contains(QStringLiteral("000006.")) && files.back().contains(QStringLiteral("000018.")));
+  }
+
+  /// In the view's camera and colours: the middle of the picture is what the view shows there.
+  void picturesAreWritten() {
+    QVERIFY(openDialog<FilmDialog>("file.film"));
+    field<QComboBox>("Format")->setCurrentIndex(1);
+    field<QComboBox>("Size")->setCurrentIndex(field<QComboBox>("Size")->count() - 1);
+    const QSize size = field<QComboBox>("Size")->currentData().toSize();
+    choose("Frames", 12);
+    const QString folder = m_folder.filePath(QStringLiteral("pictures"));
+    place(folder);
+    dialogPicture(QStringLiteral("tst_exportwindow_film.png"));
+    const QImage shown = view()->grabFramebuffer().convertToFormat(QImage::Format_RGB32);
+    QSignalSpy written(&session().exports(), &RunExport::written);
+    QTest::mouseClick(button("Export"), Qt::LeftButton);
+    QVERIFY(written.wait(kLong));
+    QCOMPARE(written.front().at(2).toULongLong(), 3ULL);
+    const QImage last(folder + QStringLiteral("/frame-000024.png"));
+    QCOMPARE(last.size(), size);
+    QVERIFY(QFile::exists(folder + QStringLiteral("/frame-000000.png")));
+    const auto mean = [](const QImage& image) {
+      const QImage small = image.copy(image.width() / 3, image.height() / 3, image.width() / 3, image.height() / 3)
+                               .scaled(1, 1, Qt::IgnoreAspectRatio, Qt::SmoothTransformation);
+      return small.pixelColor(0, 0);
+    };
+    const QColor a = mean(shown), b = mean(last);
+    QVERIFY2(
+        std::abs(a.red() - b.red()) < 12 && std::abs(a.green() - b.green()) < 12 && std::abs(a.blue() - b.blue()) < 12,
+        qPrintable(a.name() + b.name()));
+  }
+
+  /// By a program of that name, which shows what it is given: the frames, whole and in order.
+  void filmsGoThroughFfmpeg() {
+    const QTemporaryDir programs;
+    QFile ffmpeg(programs.filePath(QStringLiteral("ffmpeg")));
+    QVERIFY(ffmpeg.open(QIODevice::WriteOnly));
+    ffmpeg.write("#!/bin/sh\nfor last; do :; done\ncat > \"$last\"\n");
+    ffmpeg.setPermissions(QFile::ReadOwner | QFile::WriteOwner | QFile::ExeOwner);
+    ffmpeg.close();
+    const QByteArray before = qgetenv("PATH");
+    qputenv("PATH", programs.path().toUtf8() + ':' + before);
+    QVERIFY(openDialog<FilmDialog>("file.film"));
+    field<QComboBox>("Format")->setCurrentIndex(0);
+    field<QComboBox>("Size")->setCurrentIndex(0);
+    choose("Frames", 12);
+    const QString film = m_folder.filePath(QStringLiteral("film.mp4"));
+    place(film);
+    QVERIFY(anyLabelBegins("3 pictures, 0.6 s"));
+    QSignalSpy written(&session().exports(), &RunExport::written);
+    QTest::mouseClick(button("Export"), Qt::LeftButton);
+    const bool came = written.wait(kLong);
+    qputenv("PATH", before);
+    QVERIFY(came);
+    QCOMPARE(QFileInfo(film).size(), qint64{3} * 1280 * 720 * 4);
+    QCOMPARE(QDir(m_folder.path()).entryList({QStringLiteral("film*")}, QDir::Files), QStringList{"film.mp4"});
+  }
+
+  void aFilmThatFailsLeavesNothing() {
+    const QTemporaryDir programs;
+    QFile ffmpeg(programs.filePath(QStringLiteral("ffmpeg")));
+    QVERIFY(ffmpeg.open(QIODevice::WriteOnly));
+    ffmpeg.write("#!/bin/sh\necho no such encoder >&2\nexit 1\n");
+    ffmpeg.setPermissions(QFile::ReadOwner | QFile::WriteOwner | QFile::ExeOwner);
+    ffmpeg.close();
+    const QByteArray before = qgetenv("PATH");
+    qputenv("PATH", programs.path().toUtf8() + ':' + before);
+    QVERIFY(openDialog<FilmDialog>("file.film"));
+    field<QComboBox>("Format")->setCurrentIndex(0);
+    place(m_folder.filePath(QStringLiteral("none.mp4")));
+    QSignalSpy failed(&session().exports(), &RunExport::failed);
+    QTest::mouseClick(button("Export"), Qt::LeftButton);
+    const bool came = failed.wait(kLong);
+    qputenv("PATH", before);
+    QVERIFY(came);
+    QVERIFY2(failed.front().at(1).toString().endsWith(QStringLiteral("ffmpeg made no film: no such encoder")),
+             qPrintable(failed.front().at(1).toString()));
+    QVERIFY(QDir(m_folder.path()).entryList({QStringLiteral("none*")}, QDir::Files).isEmpty());
+    m_window->notice()->close(QStringLiteral("export"));
   }
 
   void whatCannotBeIsSaid() {

@@ -55,6 +55,9 @@ class Viewport : public QOpenGLWidget {
   double drawMilliseconds() const { return m_drawCost; }
   const OverlayHits& overlayHits() const { return m_hits; }  ///< as painted last
   std::pair<double, double> legendRange() const { return m_range; }
+  /// Of the picture that was drawn last, without what is selected or compared.
+  Look shownLook() const;
+  const std::set<std::string>& hiddenBodies() const { return m_hidden; }
   /// Tool, brush and what is marked, in words: what a screen reader says.
   QString summary() const;
   /// What to do in a scene without matter; "" where there is some.

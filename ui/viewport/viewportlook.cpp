@@ -45,6 +45,13 @@ Look Viewport::look() {
   return look;
 }
 
+Look Viewport::shownLook() const {
+  Look look = m_shown ? m_shown->look : Look{};
+  look.outline.reset();
+  look.ghost.reset();
+  return look;
+}
+
 /// Around the selected body, two logical pixels wide.
 std::optional<BodyOutline> Viewport::outline() const {
   const std::string selected = m_selection.body();

@@ -8,10 +8,12 @@
 #include "ui/theme/numbers.h"
 #include "ui/window/actions.h"
 #include "ui/window/exportdialog.h"
+#include "ui/window/filmdialog.h"
 #include "ui/window/noticebar.h"
 #include "ui/window/notices.h"
 
 #include <QtCore/QDir>
+#include <QtCore/QFileInfo>
 #include <QtGui/QAction>
 #include <QtWidgets/QMainWindow>
 #include <QtWidgets/QMenu>
@@ -33,9 +35,11 @@ ExportActions::ExportActions(Session& session, const Actions& actions, Notices& 
   });
   connect(&exports, &RunExport::written, this, &ExportActions::onWritten);
   connect(&exports, &RunExport::cancelled, this, [this](const QString& what, const QString& where) {
-    m_notices.message(
-        MessageLevel::Info, what,
-        QStringLiteral("Given up. What is there already is whole: %1").arg(QDir::toNativeSeparators(where)));
+    const QString left =
+        QFileInfo::exists(where)
+            ? QStringLiteral("what was written until then is whole, in %1").arg(QDir::toNativeSeparators(where))
+            : QStringLiteral("nothing was written");
+    m_notices.message(MessageLevel::Info, what, QStringLiteral("Given up: %1.").arg(left));
   });
   connect(&exports, &RunExport::failed, this, [this](const QString& what, const QString& problem) {
     m_session.log().add(MessageLevel::Error, what, sentence(problem));
@@ -43,24 +47,31 @@ ExportActions::ExportActions(Session& session, const Actions& actions, Notices& 
   });
 }
 
-void ExportActions::addTo(QMenu* menu) {
-  m_actions.add(menu, QStringLiteral("file.export"), QStringLiteral("Export particles or surfaces…"), {},
-                [this] { open<ExportDialog>(); });
-  m_actions.find(QStringLiteral("file.export"))
-      ->setToolTip(
-          QStringLiteral("What was recorded of the run, for ParaView, Blender and others, a file for each frame."));
+void ExportActions::addTo(QMenu* menu, const Viewport* view) {
+  const auto add = [&](const QString& name, const QString& text, const QString& tip, std::function<QDialog*()> make) {
+    m_actions.add(menu, name, text, {}, [this, make = std::move(make)] { open(make); });
+    m_actions.find(name)->setToolTip(tip);
+  };
+  QMainWindow* window = &m_actions.window();
+  add(QStringLiteral("file.film"), QStringLiteral("Export film or pictures…"),
+      QStringLiteral("What was recorded of the run, in the view and the colours of now."),
+      [this, window, view] { return new FilmDialog(m_session, view, window); });
+  add(QStringLiteral("file.export"), QStringLiteral("Export particles or surfaces…"),
+      QStringLiteral("What was recorded of the run, for ParaView, Blender and others, a file for each frame."),
+      [this, window] { return new ExportDialog(m_session, window); });
 }
 
-void ExportActions::setEnabled(bool on) { m_actions.find(QStringLiteral("file.export"))->setEnabled(on); }
+void ExportActions::setEnabled(bool on) {
+  for (const char* name : {"file.film", "file.export"}) m_actions.find(QString::fromLatin1(name))->setEnabled(on);
+}
 
-template <class Dialog>
-void ExportActions::open() {
+void ExportActions::open(const std::function<QDialog*()>& make) {
   const bool any = m_session.isReady() && m_session.recorded().extent().frames > 0;
   const QString why = m_session.exports().isBusy() ? QStringLiteral("Another export is being written.")
                       : any                        ? QString()
                                                    : QStringLiteral("Nothing has been recorded of a run.");
   m_notices.refuse(QStringLiteral("Nothing is exported."), why);
-  if (why.isEmpty()) (new Dialog(m_session, &m_actions.window()))->open();
+  if (why.isEmpty()) make()->open();
 }
 
 void ExportActions::onWorking(const QString& stage, double done, double left) {

@@ -3,6 +3,9 @@
 #include <QtCore/QObject>
 #include <QtCore/QString>
 
+#include <functional>
+
+class QDialog;
 class QMenu;
 
 namespace ps {
@@ -10,18 +13,19 @@ namespace ps {
 class Actions;
 class Notices;
 class Session;
+class Viewport;
 
 /// Exports of the recorded run: what asks for them, and what is said about them.
 class ExportActions : public QObject {
   Q_OBJECT
  public:
   ExportActions(Session& session, const Actions& actions, Notices& notices, QObject* parent = nullptr);
-  void addTo(QMenu* menu);
+  /// `view`: whose look films have; nullptr where there is none.
+  void addTo(QMenu* menu, const Viewport* view);
   void setEnabled(bool on);  ///< what needs plugins
 
  private:
-  template <class Dialog>
-  void open();
+  void open(const std::function<QDialog*()>& make);
   void onWorking(const QString& stage, double done, double left);
   void onWritten(const QString& what, const QString& where, qulonglong frames);
 

@@ -117,7 +117,7 @@ void FileActions::makeMenu(QMenu* menu, Viewport* view) {
                 [this] { m_session.document().removeState(); });
   menu->addSeparator();
   m_recordings->addTo(menu);
-  m_exports->addTo(menu);
+  m_exports->addTo(menu, view);
   menu->addSeparator();
   m_actions.add(menu, QStringLiteral("file.picture"), QStringLiteral("Save picture of the scene…"), {},
                 [this] { exportPicture(); });

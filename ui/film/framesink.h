@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-namespace ps::cli {
+namespace ps {
 
-/// Where pictures go: a folder of PNG files, or a film.
+/// Where pictures go: a folder of PNG files, or a film. What is not finished leaves no film; pictures stay.
 class FrameSink {
  public:
   virtual ~FrameSink() = default;
@@ -23,4 +23,4 @@ class FrameSink {
 std::unique_ptr<FrameSink> makeFrameSink(const std::string& out, int width, int height, double framesPerSecond);
 bool isFilm(const std::string& out);
 
-}  // namespace ps::cli
+}  // namespace ps

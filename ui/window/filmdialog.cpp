@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/window/filmdialog.h"
+
+#include "core/base/progress.h"
+#include "core/plugin_host/registry.h"
+#include "core/simulation/packedframe.h"
+#include "ui/document/document.h"
+#include "ui/film/filmpainter.h"
+#include "ui/film/projectlook.h"
+#include "ui/session/runexport.h"
+#include "ui/session/session.h"
+#include "ui/session/wording.h"
+#include "ui/theme/numbers.h"
+#include "ui/viewport/hiddenbodies.h"
+#include "ui/viewport/viewport.h"
+#include "ui/window/filenames.h"
+
+#include <QtCore/QDir>
+#include <QtCore/QFileInfo>
+#include <QtCore/QStandardPaths>
+#include <QtWidgets/QComboBox>
+#include <QtWidgets/QFileDialog>
+
+#include <set>
+#include <utility>
+
+namespace ps {
+namespace {
+
+constexpr std::pair<int, int> kSizes[] = {{1280, 720}, {1920, 1080}, {2560, 1440}, {3840, 2160}, {1080, 1080}};
+
+/// Draws each frame that is meant, one that is not kept as the one before it.
+size_t draw(const KeptRun& run, const FrameRange& range, const std::set<std::string>& hidden, FilmPainter& painter) {
+  const std::vector<RangeFrame> frames = framesIn(run, range);
+  beginStage("Drawing", 1, static_cast<double>(frames.size()));
+  for (const RangeFrame& frame : frames) {
+    painter.draw(*withoutBodies(run.frames.at(frame.kept)->snapshot(1), hidden), static_cast<long>(frame.wanted));
+    advance(1);
+  }
+  return painter.finish();
+}
+
+}  // namespace
+
+FilmDialog::FilmDialog(Session& session, const Viewport* view, QWidget* window)
+    : RunDialog(session, QStringLiteral("Export a film"), window),
+      m_view(view),
+      m_format(addChoice(QStringLiteral("Format"), QStringLiteral("A film plays as fast as the run was."))),
+      m_size(addChoice(QStringLiteral("Size"), QStringLiteral("In pixels."))),
+      m_hasFfmpeg(!QStandardPaths::findExecutable(QStringLiteral("ffmpeg")).isEmpty()) {
+  m_format->addItem(QStringLiteral("Film, MP4"), true);
+  m_format->addItem(QStringLiteral("Pictures, PNG"), false);
+  if (!m_hasFfmpeg) m_format->setCurrentIndex(1);
+  for (const auto& [width, height] : kSizes)
+    m_size->addItem(QStringLiteral("%1 × %2").arg(width).arg(height), QSize(width, height));
+  if (view) {
+    // Films need even sizes.
+    const QSize own = (QSizeF(view->size()) * view->devicePixelRatioF()).toSize();
+    const QSize even(own.width() / 2 * 2, own.height() / 2 * 2);
+    m_size->addItem(QStringLiteral("As the view, %1 × %2").arg(even.width()).arg(even.height()), even);
+  }
+  addRange();
+}
+
+bool FilmDialog::film() const { return m_format->currentData().toBool(); }
+
+PictureSize FilmDialog::size() const {
+  const QSize chosen = m_size->currentData().toSize();
+  return {.width = chosen.width(), .height = chosen.height(), .still = !film()};
+}
+
+QString FilmDialog::suggestedPlace() const {
+  return besideProject(film() ? QStringLiteral(".mp4") : QStringLiteral("-pictures"));
+}
+
+QString FilmDialog::choosePlace() {
+  if (film()) return fileToWrite(this, QStringLiteral("Save the film"), place(), QStringLiteral("Films (*.mp4)"));
+  return QFileDialog::getExistingDirectory(this, QStringLiteral("Folder for the pictures"), QFileInfo(place()).path());
+}
+
+QString FilmDialog::summary() const {
+  const QString pictures = countText(frames(), QStringLiteral("picture"), QStringLiteral("pictures"));
+  if (!film()) {
+    const bool replaces = !QDir(place()).entryList({QStringLiteral("frame-*.png")}, QDir::Files).isEmpty();
+    return QStringLiteral("%1, from the view and in the colours of now.").arg(pictures) +
+           (replaces ? QStringLiteral(" The folder has some of these names: they are replaced.") : QString());
+  }
+  if (!m_hasFfmpeg)
+    return QStringLiteral("Films need the program ffmpeg, which is not installed. Install it, or choose pictures.");
+  const double seconds = static_cast<double>(frames()) / framesPerSecond();
+  return QStringLiteral("%1, %2 s, from the view and in the colours of now.").arg(pictures, formatShort(seconds, 3)) +
+         (QFileInfo::exists(place()) ? QStringLiteral(" The file there is replaced.") : QString());
+}
+
+bool FilmDialog::isPossible() const { return !film() || m_hasFfmpeg; }
+
+void FilmDialog::begin() {
+  const Project& project = session().document().project();
+  FilmChoices choices{.out = place().toStdString(),
+                      .framesPerSecond = framesPerSecond(),
+                      .size = size(),
+                      .look = m_view ? m_view->shownLook() : lookOf(project, *session().plugins(), project.view.colour),
+                      .camera = {}};
+  if (m_view) choices.camera = m_view->navigator().camera();
+  std::set<std::string> hidden;
+  if (m_view) hidden = m_view->hiddenBodies();
+  session().exports().start(
+      {film() ? QStringLiteral("Film") : QStringLiteral("Pictures"), place(),
+       [choices, project, hidden, asked = range(), plugins = session().registry()](const KeptRun& run) {
+         FilmPainter painter(project, *plugins, choices);
+         return draw(run, asked, hidden, painter);
+       }});
+}
+
+}  // namespace ps

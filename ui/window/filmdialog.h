@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "ui/render/renderer.h"
+#include "ui/window/rundialog.h"
+
+namespace ps {
+
+class Viewport;
+
+/// The recorded run as a film or as pictures, as the view shows it now.
+class FilmDialog : public RunDialog {
+  Q_OBJECT
+ public:
+  /// `view`: nullptr where there is none; then as the project says.
+  FilmDialog(Session& session, const Viewport* view, QWidget* window);
+
+ protected:
+  QString suggestedPlace() const override;
+  QString choosePlace() override;
+  QString summary() const override;
+  bool isPossible() const override;
+  void begin() override;
+
+ private:
+  bool film() const;
+  PictureSize size() const;
+
+  const Viewport* m_view;
+  QComboBox *m_format, *m_size;
+  bool m_hasFfmpeg;
+};
+
+}  // namespace ps
