@@ -122,9 +122,10 @@ int exportRecording(const Arguments& arguments, const std::string& path) {
   project.duration = static_cast<double>(range.last - range.first + 1) * frameLength(project);
   range.last = std::min(range.last, range.first + static_cast<uint64_t>(frameCount(arguments, project)));
   out.begin(*recording.frame(0));
+  const FrameUnpacker unpacker;
   for (const uint64_t number : keptIn(run, range)) {
     if (interrupted()) break;
-    out.add(*run.frames.at(number)->snapshot(1));
+    out.add(*unpacker.snapshot(*run.frames.at(number), 1));
   }
   out.finish(arguments.has("--quiet"));
   if (!recording.damage().empty()) throw Error(recording.damage() + "; the frames before it were exported");

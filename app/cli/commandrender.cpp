@@ -119,9 +119,10 @@ int renderRecording(const Arguments& arguments, const std::string& path) {
       colourOf(project, ParticleFields(plugins), recording.frame(recording.frameCount() - 1).get(), arguments);
   FilmPainter painter(project, plugins, choicesOf(arguments, project, plugins, colour, every));
   const uint64_t first = kept.begin()->first;
+  const FrameUnpacker unpacker;
   for (const RangeFrame& frame : framesIn(recording.content().present, {first, first + frames, uint64_t(every)})) {
     if (interrupted()) break;
-    painter.draw(*kept.at(frame.kept)->snapshot(1), static_cast<long>(frame.wanted - first));
+    painter.draw(*unpacker.snapshot(*kept.at(frame.kept), 1), static_cast<long>(frame.wanted - first));
   }
   const size_t pictures = painter.finish();
   if (!arguments.has("--quiet"))

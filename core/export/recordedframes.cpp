@@ -30,9 +30,10 @@ std::vector<uint64_t> keptIn(const KeptRun& run, const FrameRange& range) {
 size_t exportFrames(const KeptRun& run, const FrameRange& range, FrameExporter& exporter) {
   const std::vector<uint64_t> numbers = keptIn(run, range);
   beginStage("Exporting", 1, static_cast<double>(numbers.size()));
+  const FrameUnpacker unpacker;
   try {
     for (const uint64_t number : numbers) {
-      exporter.add(*run.frames.at(number)->snapshot(1));
+      exporter.add(*unpacker.snapshot(*run.frames.at(number), 1));
       advance(1);
     }
   } catch (const Cancelled&) {

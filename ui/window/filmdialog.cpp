@@ -33,8 +33,10 @@ constexpr std::pair<int, int> kSizes[] = {{1280, 720}, {1920, 1080}, {2560, 1440
 size_t draw(const KeptRun& run, const FrameRange& range, const std::set<std::string>& hidden, FilmPainter& painter) {
   const std::vector<RangeFrame> frames = framesIn(run, range);
   beginStage("Drawing", 1, static_cast<double>(frames.size()));
+  const FrameUnpacker unpacker;
   for (const RangeFrame& frame : frames) {
-    painter.draw(*withoutBodies(run.frames.at(frame.kept)->snapshot(1), hidden), static_cast<long>(frame.wanted));
+    painter.draw(*withoutBodies(unpacker.snapshot(*run.frames.at(frame.kept), 1), hidden),
+                 static_cast<long>(frame.wanted));
     advance(1);
   }
   return painter.finish();
