@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // How long the interface's thread is held up by one event while a large scene runs, is recorded and scrubbed: the
 // longest turns of the event loop, and by whom. What OpenGL takes is left out where software draws.
-//   interface [PARTICLES] [SECONDS]
+//   interface [PARTICLES] [SECONDS] [tune]       in the workspace Scene, or Tune
 #include "core/experiments/benchscenes.h"
 #include "core/io/projectio.h"
 #include "ui/session/recordedview.h"
@@ -13,6 +13,7 @@
 #include <QtCore/QElapsedTimer>
 #include <QtCore/QMetaEnum>
 #include <QtCore/QTemporaryDir>
+#include <QtCore/QTimer>
 #include <QtTest/QTest>
 #include <QtWidgets/QApplication>
 
@@ -37,8 +38,9 @@ class WatchedApplication : public QApplication {
 
   bool notify(QObject* receiver, QEvent* event) override {
     if (!watching) return QApplication::notify(receiver, event);
-    const QString who = QString::fromLatin1(receiver->metaObject()->className()) + QLatin1Char(' ') +
-                        QString::fromLatin1(QMetaEnum::fromType<QEvent::Type>().valueToKey(event->type()));
+    QString who = QString::fromLatin1(receiver->metaObject()->className()) + QLatin1Char(' ') +
+                  QString::fromLatin1(QMetaEnum::fromType<QEvent::Type>().valueToKey(event->type()));
+    if (const auto* timer = qobject_cast<QTimer*>(receiver)) who += QStringLiteral(" of %1 ms").arg(timer->interval());
     // The viewport's own painting, and what puts it into the window.
     const bool drawing = (event->type() == QEvent::Paint && qobject_cast<ps::Viewport*>(receiver)) ||
                          event->type() == QEvent::UpdateRequest;
@@ -77,10 +79,11 @@ int main(int argc, char** argv) {
   bool shown = false;
   QObject::connect(&window, &ps::MainWindow::projectShown, [&] { shown = true; });
   window.start();
+  if (argc > 3) window.showWorkspace(ps::MainWindow::kTuneTab);
   if (!QTest::qWaitFor([&] { return shown; }, 120000)) return 1;
-  QApplication::setActiveWindow(&window);  // its keys are shortcuts
   int scrubbed = 0;
-  QObject::connect(&window.session().recorded(), &ps::RecordedView::changed, [&] { ++scrubbed; });
+  ps::RecordedView& recorded = window.session().recorded();
+  QObject::connect(&recorded, &ps::RecordedView::changed, [&] { ++scrubbed; });
   application.watching = true;
   window.session().play();
   QTest::qWait(static_cast<int>(500 * seconds));
@@ -93,7 +96,11 @@ int main(int argc, char** argv) {
     QElapsedTimer timer;
     timer.start();
     for (int k = 0; static_cast<double>(timer.elapsed()) < 250 * seconds; ++k) {
-      QTest::keyClick(window.viewport(), k / 10 % 2 == 0 ? Qt::Key_Left : Qt::Key_Right);
+      const ps::RunRecord::Extent extent = recorded.extent();
+      if (k % 20 == 0)
+        recorded.showAt(extent.from + (extent.to - extent.from) * (k / 20 % 7) / 7.0);
+      else
+        recorded.step(k / 10 % 2 == 0 ? -1 : 1);
       QTest::qWait(50);
     }
   }
