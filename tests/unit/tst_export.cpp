@@ -298,7 +298,7 @@ void TestExport::framesOfARunAreFound() {
   for (const uint64_t number : {2U, 3U, 4U, 8U, 9U}) {
     Snapshot frame = *m_snapshot;
     frame.stats.frame = number;
-    run.addFrame(std::make_shared<const PackedFrame>(packer.pack(frame)));
+    run.addFrame(std::make_shared<const PackedFrame>(packer.pack(frame).frame));
   }
   using Numbers = std::vector<uint64_t>;
   QCOMPARE(keptIn(run, {2, 9, 1}), (Numbers{2, 3, 4, 8, 9}));
