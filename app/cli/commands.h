@@ -20,6 +20,7 @@ int casesCommand(CommandArguments arguments);
 int fitCommand(CommandArguments arguments);
 int importCommand(CommandArguments arguments);
 int soakCommand(CommandArguments arguments);
+int shareCommand(CommandArguments arguments);
 
 std::string simulateHelp();
 std::string renderHelp();
@@ -32,6 +33,7 @@ std::string casesHelp();
 std::string fitHelp();
 std::string importHelp();
 std::string soakHelp();
+std::string shareHelp();
 
 inline constexpr int kFine = 0, kFailed = 1, kBadInput = 2, kNoReturn = 3;
 

@@ -78,6 +78,9 @@ std::vector<Field<Project>> sceneRows() {
       }),
       field("state", &Project::state, Shared{Object{stateFields()}},
             "matter as it stands at a later time: the project opens there, and its start stays what it is"),
+      field("end", &Project::end, Optional{Object{endFields()}},
+            "what a run came to where the project was shared; whoever opens it can see whether it does so there"),
+      field("thumbnail", &Project::thumbnail, Text{1 << 20}, "picture of the scene, PNG as base64"),
       field("tracks", &Project::tracks, List{Object{trackFields()}}, "parameters over time")
           .omittedWhen([](const Project& project) { return ownedTracks(project).empty(); })
           .writtenAs([](const Project& project) { return List{Object{trackFields()}}.write(ownedTracks(project)); }),

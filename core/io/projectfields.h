@@ -20,6 +20,7 @@ const FieldTable<Track>& trackFields();
 const FieldTable<Marker>& markerFields();
 const FieldTable<ViewState>& viewFields();
 const FieldTable<ProjectState>& stateFields();
+const FieldTable<RunEnd>& endFields();
 
 /// With its own help, since a box is one thing among a body's pins and another in a probe.
 FieldTable<Region> regionFields(const char* help);

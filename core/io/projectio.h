@@ -36,6 +36,10 @@ LoadedProject readProject(const std::string& text, const std::string& name, cons
                           const std::vector<std::string>& edits = {});
 /// Sorted keys, two spaces, shortest round-trip numbers, newline at the end: load, save, load gives the same bytes.
 std::string writeProject(const Project& project);
+/// Ids, sorted, of the plugins that the file names itself and of those that the scene refers to.
+std::vector<std::string> usedPlugins(const Project& project);
+/// Hash of what a run of the project follows from: of all but what people look at, a run's end and who wrote the file.
+std::string sceneHash(const Project& project);
 /// Unknown keys are kept at every level. Throws Error for a value that is not finite.
 /// Atomic: the old file stays until the new one is complete. Throws Error (full disk, no permission).
 void saveProject(const Project& project, const std::string& path);

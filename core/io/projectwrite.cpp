@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "core/base/hash.h"
 #include "core/base/jsontext.h"
+#include "core/io/filestamp.h"
 #include "core/io/outputfile.h"
 #include "core/io/projectfields.h"
 #include "core/io/projectio.h"
@@ -31,6 +33,16 @@ std::string writeProject(const Project& project) {
   const json out = fields::projectFields().write(project);
   requireFinite(out, "");
   return writeJson(out);
+}
+
+std::vector<std::string> usedPlugins(const Project& project) { return fields::pluginsOf(project); }
+
+std::string sceneHash(const Project& project) {
+  json out = fields::projectFields().write(project);
+  for (const char* key : {"description", "end", "generator", "graphs", "markers", "minVersion", "pluginsRequired",
+                          "pluginsUsed", "probes", "thumbnail", "title", "version", "view"})
+    out.erase(key);
+  return hashText(hashOf(writeJson(out)));
 }
 
 void saveProject(const Project& project, const std::string& path) { writeFileAtomically(path, writeProject(project)); }

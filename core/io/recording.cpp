@@ -336,6 +336,8 @@ bool sameScene(const Project& a, const Project& b) {
     project.probes = {};
     project.title = project.description = {};
     project.markers = {};
+    project.end = {};
+    project.thumbnail = {};
     return writeProject(project);
   };
   return sceneOf(a) == sceneOf(b);

@@ -280,6 +280,18 @@ struct ProjectState {
   Unknown unknown{};
 };
 
+/// What a run of the project came to where it was shared: whoever opens it can see whether it comes to that elsewhere.
+struct RunEnd {
+  uint64_t frame = 0;
+  double time = 0;          ///< s
+  std::string hash, scene;  ///< of the state, of the project that was run: 16 hexadecimal digits
+  std::string program;      ///< that ran it
+  // For people, where the hashes differ:
+  uint64_t particles = 0;
+  double temperature = 0, thermalEnergy = 0, kineticEnergy = 0;  ///< K, mean by mass; J
+  Unknown unknown{};
+};
+
 /// The document: what a project file holds. Plain values with stable ids.
 struct Project {
   int version = 1, minVersion = 1;
@@ -299,6 +311,8 @@ struct Project {
   double duration = 60;         ///< s
   ViewState view;
   std::shared_ptr<const ProjectState> state;  ///< nullptr: it opens at its start
+  std::optional<RunEnd> end;                  ///< of a copy for others
+  std::string thumbnail;                      ///< PNG as base64, of a copy for others; "": none
   Unknown unknown;
 };
 

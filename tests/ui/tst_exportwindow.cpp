@@ -7,7 +7,7 @@
 #include "tests/ui/samplewindow.h"
 #include "ui/session/messagelog.h"
 #include "ui/session/recordedview.h"
-#include "ui/session/runexport.h"
+#include "ui/session/runwork.h"
 #include "ui/session/session.h"
 #include "ui/window/exportdialog.h"
 #include "ui/window/filmdialog.h"
@@ -64,10 +64,10 @@ class TestExportWindow : public SampleWindowTest {
     const QString folder = m_folder.filePath(QString::fromLatin1(format.key));
     place(folder);
     if (row == 0) dialogPicture(QStringLiteral("tst_exportwindow_dialog.png"));
-    QSignalSpy written(&session().exports(), &RunExport::written);
+    QSignalSpy written(&session().work(), &RunWork::done);
     QTest::mouseClick(button("Export"), Qt::LeftButton);
     QVERIFY(written.wait(kLong));
-    QCOMPARE(written.front().at(2).toULongLong(), 3ULL);
+    QVERIFY(written.front().at(1).toString().startsWith(QStringLiteral("3 frames written to ")));
     QCOMPARE(session().log().messages().back().level, MessageLevel::Ok);
     const QStringList names{QString::fromLatin1(format.first) + QStringLiteral("-*")};
     const QStringList files = QDir(folder).entryList(names, QDir::Files, QDir::Name);
@@ -86,10 +86,10 @@ class TestExportWindow : public SampleWindowTest {
     place(folder);
     dialogPicture(QStringLiteral("tst_exportwindow_film.png"));
     const QImage shown = view()->grabFramebuffer().convertToFormat(QImage::Format_RGB32);
-    QSignalSpy written(&session().exports(), &RunExport::written);
+    QSignalSpy written(&session().work(), &RunWork::done);
     QTest::mouseClick(button("Export"), Qt::LeftButton);
     QVERIFY(written.wait(kLong));
-    QCOMPARE(written.front().at(2).toULongLong(), 3ULL);
+    QVERIFY(written.front().at(1).toString().startsWith(QStringLiteral("3 frames written to ")));
     const QImage last(folder + QStringLiteral("/frame-000024.png"));
     QCOMPARE(last.size(), size);
     QVERIFY(QFile::exists(folder + QStringLiteral("/frame-000000.png")));
@@ -121,7 +121,7 @@ class TestExportWindow : public SampleWindowTest {
     const QString film = m_folder.filePath(QStringLiteral("film.mp4"));
     place(film);
     QVERIFY(anyLabelBegins("3 pictures, 0.6 s"));
-    QSignalSpy written(&session().exports(), &RunExport::written);
+    QSignalSpy written(&session().work(), &RunWork::done);
     QTest::mouseClick(button("Export"), Qt::LeftButton);
     const bool came = written.wait(kLong);
     qputenv("PATH", before);
@@ -142,7 +142,7 @@ class TestExportWindow : public SampleWindowTest {
     QVERIFY(openDialog<FilmDialog>("file.film"));
     field<QComboBox>("Format")->setCurrentIndex(0);
     place(m_folder.filePath(QStringLiteral("none.mp4")));
-    QSignalSpy failed(&session().exports(), &RunExport::failed);
+    QSignalSpy failed(&session().work(), &RunWork::failed);
     QTest::mouseClick(button("Export"), Qt::LeftButton);
     const bool came = failed.wait(kLong);
     qputenv("PATH", before);
@@ -164,7 +164,7 @@ class TestExportWindow : public SampleWindowTest {
     field<QLineEdit>("To, in s")->setText(QStringLiteral("0.4"));
     QVERIFY(button("Export")->isEnabled());
     place(QStringLiteral("/proc/nowhere"));
-    QSignalSpy failed(&session().exports(), &RunExport::failed);
+    QSignalSpy failed(&session().work(), &RunWork::failed);
     QTest::mouseClick(button("Export"), Qt::LeftButton);
     QVERIFY(failed.wait(kLong));
     QVERIFY2(m_window->notice()->text().contains(QStringLiteral("/proc/nowhere")),
@@ -180,16 +180,16 @@ class TestExportWindow : public SampleWindowTest {
     field<QComboBox>("Format")->setCurrentIndex(0);
     place(folder);
     session().engine()->recording().settle();
-    QSignalSpy cancelled(&session().exports(), &RunExport::cancelled);
+    QSignalSpy cancelled(&session().work(), &RunWork::cancelled);
     QTest::mouseClick(button("Export"), Qt::LeftButton);
-    QVERIFY(session().exports().isBusy());
+    QVERIFY(session().work().isBusy());
     QElapsedTimer since;
     since.start();
     QTest::keyClick(view(), Qt::Key_Escape);
     QVERIFY(cancelled.wait(kLong));
     qInfo("given up after %lld ms", since.elapsed());
     QVERIFY(since.elapsed() < 1000);  // 200 ms are meant; sanitizers and busy machines take longer
-    QVERIFY(!session().exports().isBusy());
+    QVERIFY(!session().work().isBusy());
     const qsizetype whole = QDir(folder).entryList({QStringLiteral("*.vtp")}, QDir::Files).size();
     QVERIFY(whole < static_cast<qsizetype>(kFrames + 1));
     QVERIFY(QDir(folder).entryList({QStringLiteral("*.part-*")}, QDir::Files).isEmpty());
@@ -201,17 +201,17 @@ class TestExportWindow : public SampleWindowTest {
     field<QComboBox>("Format")->setCurrentIndex(3);
     place(m_folder.filePath(QStringLiteral("long")));
     session().play();
-    QSignalSpy working(&session().exports(), &RunExport::working);
+    QSignalSpy working(&session().work(), &RunWork::working);
     QTest::mouseClick(button("Export"), Qt::LeftButton);
-    QTRY_VERIFY_WITH_TIMEOUT(!working.isEmpty() || !session().exports().isBusy(), kLong);
-    if (!working.isEmpty() && session().exports().isBusy()) {
+    QTRY_VERIFY_WITH_TIMEOUT(!working.isEmpty() || !session().work().isBusy(), kLong);
+    if (!working.isEmpty() && session().work().isBusy()) {
       auto* line = m_window->findChild<StatusLine*>();
-      QVERIFY2(line->parts().join(' ').contains(QStringLiteral("% exported")), qPrintable(line->parts().join(' ')));
+      QVERIFY2(line->parts().join(' ').contains(QStringLiteral("% exporting")), qPrintable(line->parts().join(' ')));
       QVERIFY(noticeButton(*m_window, QStringLiteral("Cancel")));
       picture(QStringLiteral("tst_exportwindow_working.png"));
     }
-    session().exports().cancel();
-    QTRY_VERIFY_WITH_TIMEOUT(!session().exports().isBusy(), kLong);
+    session().work().cancel();
+    QTRY_VERIFY_WITH_TIMEOUT(!session().work().isBusy(), kLong);
     QVERIFY(!noticeButton(*m_window, QStringLiteral("Cancel")));
     session().pause();
   }

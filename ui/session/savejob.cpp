@@ -63,6 +63,7 @@ SaveJob::Result SaveJob::operator()() const {
     if (written.state && plugins)
       result.stateLeftOut = QString::fromStdString(whyStateDoesNotFit(*written.state, written, *plugins));
     if (!result.stateLeftOut.isEmpty()) written.state = nullptr;
+    if (written.end && written.end->scene != sceneHash(written)) written.end.reset();  // it was of another scene
     const std::string bytes = writeProject(written);
     try {
       if (around.before) versions::keep(path);

@@ -14,7 +14,7 @@
 #include "ui/session/preferences.h"
 #include "ui/session/recordedview.h"
 #include "ui/session/recordingfiles.h"
-#include "ui/session/runexport.h"
+#include "ui/session/runwork.h"
 #include "ui/session/scenelink.h"
 #include "ui/session/transitions.h"
 #include "ui/session/worker.h"
@@ -57,7 +57,7 @@ Session::Session(const Options& options, QObject* parent)
   connect(m_recorded.get(), &RecordedView::playingChanged, this, &Session::tellPlaying);
   m_files = std::make_unique<DocumentFiles>(*m_document, *m_worker);
   m_recordings = std::make_unique<RecordingFiles>(*this);
-  m_exports = std::make_unique<RunExport>(*this);
+  m_work = std::make_unique<RunWork>(*this);
   if (options.autosave) {
     const QString& directory = options.autosaveDirectory;
     m_autosave = std::make_unique<Autosave>(*m_document, *m_worker,
@@ -72,7 +72,7 @@ Session::Session(const Options& options, QObject* parent)
 Session::~Session() {
   close();
   m_recordings.reset();
-  m_exports.reset();
+  m_work.reset();
   m_worker.reset();
   m_link.reset();
   m_engine.reset();

@@ -21,7 +21,7 @@ class ParticleFields;
 class PluginRegistry;
 class RecordedView;
 class RecordingFiles;
-class RunExport;
+class RunWork;
 class SceneLink;
 class Transitions;
 class StateBuffer;
@@ -61,7 +61,7 @@ class Session : public QObject {
   RecordedView& recorded() { return *m_recorded; }  ///< what is shown of the run
 
   RecordingFiles& recordings() { return *m_recordings; }
-  RunExport& exports() { return *m_exports; }
+  RunWork& work() { return *m_work; }
 
   SnapshotPtr snapshot() const;          ///< that is shown: a recorded one, or the newest
   SnapshotPtr previousSnapshot() const;  ///< the one before the newest, where that is shown
@@ -140,7 +140,7 @@ class Session : public QObject {
   std::unique_ptr<EngineThread> m_engine;
   std::unique_ptr<SceneLink> m_link;
   std::unique_ptr<RecordingFiles> m_recordings;  // ends before the engine, whose record it reads
-  std::unique_ptr<RunExport> m_exports;          // likewise
+  std::unique_ptr<RunWork> m_work;               // likewise
   std::unique_ptr<Worker> m_worker;              // ends first: its jobs point at the others
 };
 

@@ -2,7 +2,7 @@
 #include "ui/window/exportactions.h"
 
 #include "ui/session/recordedview.h"
-#include "ui/session/runexport.h"
+#include "ui/session/runwork.h"
 #include "ui/session/session.h"
 #include "ui/session/wording.h"
 #include "ui/theme/numbers.h"
@@ -27,23 +27,26 @@ const QString kTopic = QStringLiteral("export");
 
 ExportActions::ExportActions(Session& session, const Actions& actions, Notices& notices, QObject* parent)
     : QObject(parent), m_session(session), m_actions(actions), m_notices(notices) {
-  const RunExport& exports = session.exports();
-  connect(&exports, &RunExport::working, this, &ExportActions::onWorking);
-  connect(&exports, &RunExport::ended, this, [this] {
+  const RunWork& work = session.work();
+  connect(&work, &RunWork::working, this, &ExportActions::onWorking);
+  connect(&work, &RunWork::ended, this, [this] {
     m_tells = false;
     m_notices.bar().close(kTopic);
   });
-  connect(&exports, &RunExport::written, this, &ExportActions::onWritten);
-  connect(&exports, &RunExport::cancelled, this, [this](const QString& what, const QString& where) {
+  connect(&work, &RunWork::done, this, [this](const QString& what, const QString& text, MessageLevel level) {
+    m_notices.message(level, what, text);
+  });
+  connect(&work, &RunWork::cancelled, this, [this](const QString& what, const QString& where) {
     const QString left =
         QFileInfo::exists(where)
             ? QStringLiteral("what was written until then is whole, in %1").arg(QDir::toNativeSeparators(where))
             : QStringLiteral("nothing was written");
     m_notices.message(MessageLevel::Info, what, QStringLiteral("Given up: %1.").arg(left));
   });
-  connect(&exports, &RunExport::failed, this, [this](const QString& what, const QString& problem) {
+  connect(&work, &RunWork::failed, this, [this](const QString& what, const QString& problem) {
     m_session.log().add(MessageLevel::Error, what, sentence(problem));
-    m_notices.bar().show(kTopic, MessageLevel::Error, QStringLiteral("The run was not exported."), sentence(problem));
+    m_notices.bar().show(kTopic, MessageLevel::Error, QStringLiteral("“%1” came to nothing.").arg(what),
+                         sentence(problem));
   });
 }
 
@@ -67,9 +70,9 @@ void ExportActions::setEnabled(bool on) {
 
 void ExportActions::open(const std::function<QDialog*()>& make) {
   const bool any = m_session.isReady() && m_session.recorded().extent().frames > 0;
-  const QString why = m_session.exports().isBusy() ? QStringLiteral("Another export is being written.")
-                      : any                        ? QString()
-                                                   : QStringLiteral("Nothing has been recorded of a run.");
+  const QString why = m_session.work().isBusy() ? QStringLiteral("Other work is still going on.")
+                      : any                     ? QString()
+                                                : QStringLiteral("Nothing has been recorded of a run.");
   m_notices.refuse(QStringLiteral("Nothing is exported."), why);
   if (why.isEmpty()) make()->open();
 }
@@ -81,15 +84,8 @@ void ExportActions::onWorking(const QString& stage, double done, double left) {
     m_notices.bar().setText(kTopic, text);
   } else {
     m_notices.bar().show(kTopic, MessageLevel::Info, stage, text,
-                         {{QStringLiteral("Cancel"), [this] { m_session.exports().cancel(); }}});
+                         {{QStringLiteral("Cancel"), [this] { m_session.work().cancel(); }}});
   }
-}
-
-void ExportActions::onWritten(const QString& what, const QString& where, qulonglong frames) {
-  m_session.log().add(
-      MessageLevel::Ok, what,
-      QStringLiteral("%1 written to %2.")
-          .arg(countText(frames, QStringLiteral("frame"), QStringLiteral("frames")), QDir::toNativeSeparators(where)));
 }
 
 }  // namespace ps

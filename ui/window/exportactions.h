@@ -27,7 +27,6 @@ class ExportActions : public QObject {
  private:
   void open(const std::function<QDialog*()>& make);
   void onWorking(const QString& stage, double done, double left);
-  void onWritten(const QString& what, const QString& where, qulonglong frames);
 
   Session& m_session;
   const Actions& m_actions;

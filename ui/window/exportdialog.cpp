@@ -4,7 +4,7 @@
 #include "core/plugin_host/registry.h"
 #include "ui/document/document.h"
 #include "ui/film/projectlook.h"
-#include "ui/session/runexport.h"
+#include "ui/session/runwork.h"
 #include "ui/session/session.h"
 #include "ui/session/wording.h"
 
@@ -49,10 +49,11 @@ void ExportDialog::begin() {
   const Project& project = session().document().project();
   const ExportChoices choices{
       place().toStdString(), {}, temperatureColours(lookOf(project, *session().plugins(), "temperature"))};
-  session().exports().start(
-      {QString::fromUtf8(format().label), place(), [&chosen = format(), choices, asked = range()](const KeptRun& run) {
-         return exportFrames(run, asked, *makeExporter(chosen, choices));
-       }});
+  session().work().start({QString::fromUtf8(format().label), place(),
+                          [&chosen = format(), choices, asked = range(), where = place()](const KeptRun& run) {
+                            return RunWork::Result{
+                                writtenText(exportFrames(run, asked, *makeExporter(chosen, choices)), where)};
+                          }});
 }
 
 }  // namespace ps

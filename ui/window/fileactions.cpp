@@ -22,6 +22,7 @@
 #include "ui/window/notices.h"
 #include "ui/window/recordingactions.h"
 #include "ui/window/restoreoffer.h"
+#include "ui/window/shareactions.h"
 
 #include <QtCore/QBuffer>
 #include <QtCore/QFileInfo>
@@ -68,7 +69,8 @@ FileActions::FileActions(Session& session, const Actions& actions, Notices& noti
       m_options(options),
       m_guard(std::make_unique<FileGuard>(session, actions, notices, restore)),
       m_recordings(std::make_unique<RecordingActions>(session, actions, notices)),
-      m_exports(std::make_unique<ExportActions>(session, actions, notices)) {
+      m_exports(std::make_unique<ExportActions>(session, actions, notices)),
+      m_sharing(std::make_unique<ShareActions>(session, actions, notices)) {
   DocumentFiles& files = session.files();
   files.setSample(options.sample);
   connect(&files, &DocumentFiles::opened, this, &FileActions::onOpened);
@@ -115,6 +117,7 @@ void FileActions::makeMenu(QMenu* menu, Viewport* view) {
                 {QKeySequence(QStringLiteral("Ctrl+Alt+S"))}, [this] { saveWithState(); });
   m_actions.add(menu, QStringLiteral("file.removeState"), QStringLiteral("Remove the saved state"), {},
                 [this] { m_session.document().removeState(); });
+  m_sharing->addTo(menu, view);
   menu->addSeparator();
   m_recordings->addTo(menu);
   m_exports->addTo(menu, view);
@@ -150,6 +153,7 @@ void FileActions::setEnabled(bool on) {
   m_recent->setEnabled(on);
   m_recordings->setEnabled(on);
   m_exports->setEnabled(on);
+  m_sharing->setEnabled(on);
 }
 
 void FileActions::updateStateActions() {

@@ -19,6 +19,7 @@ class Notices;
 class RecordingActions;
 class RestoreOffer;
 class Session;
+class ShareActions;
 class Viewport;
 
 /// The menu File: opening, saving, exporting, and what is said about it. No failure here touches the present scene.
@@ -72,6 +73,7 @@ class FileActions : public QObject {
   std::unique_ptr<FileGuard> m_guard;
   std::unique_ptr<RecordingActions> m_recordings;
   std::unique_ptr<ExportActions> m_exports;
+  std::unique_ptr<ShareActions> m_sharing;
   Viewport* m_view = nullptr;
   QMenu* m_recent = nullptr;
   QString m_stateTo;       ///< file that waits for the state; "": none

@@ -7,7 +7,7 @@
 #include "ui/document/document.h"
 #include "ui/film/filmpainter.h"
 #include "ui/film/projectlook.h"
-#include "ui/session/runexport.h"
+#include "ui/session/runwork.h"
 #include "ui/session/session.h"
 #include "ui/session/wording.h"
 #include "ui/theme/numbers.h"
@@ -106,12 +106,12 @@ void FilmDialog::begin() {
   if (m_view) choices.camera = m_view->navigator().camera();
   std::set<std::string> hidden;
   if (m_view) hidden = m_view->hiddenBodies();
-  session().exports().start(
-      {film() ? QStringLiteral("Film") : QStringLiteral("Pictures"), place(),
-       [choices, project, hidden, asked = range(), plugins = session().registry()](const KeptRun& run) {
-         FilmPainter painter(project, *plugins, choices);
-         return draw(run, asked, hidden, painter);
-       }});
+  session().work().start({film() ? QStringLiteral("Film") : QStringLiteral("Pictures"), place(),
+                          [choices, project, hidden, asked = range(), where = place(),
+                           plugins = session().registry()](const KeptRun& run) {
+                            FilmPainter painter(project, *plugins, choices);
+                            return RunWork::Result{writtenText(draw(run, asked, hidden, painter), where)};
+                          }});
 }
 
 }  // namespace ps

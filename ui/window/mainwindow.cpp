@@ -12,7 +12,7 @@
 #include "ui/session/documentfiles.h"
 #include "ui/session/messagelog.h"
 #include "ui/session/recordedview.h"
-#include "ui/session/runexport.h"
+#include "ui/session/runwork.h"
 #include "ui/session/selection.h"
 #include "ui/theme/plaintext.h"
 #include "ui/timeline/keyrows.h"
@@ -402,7 +402,7 @@ void MainWindow::keyPressEvent(QKeyEvent* event) {
     QMainWindow::keyPressEvent(event);
   } else if (Viewport* view = viewport(); view && view->cancelGesture()) {
     return;
-  } else if (m_session->exports().cancel()) {
+  } else if (m_session->work().cancel()) {
     return;
   } else if (showsPlugins()) {
     m_centre->setCurrentWidget(m_pane);

@@ -7,6 +7,7 @@
 #include "ui/session/documentfiles.h"
 #include "ui/session/recordedview.h"
 #include "ui/session/session.h"
+#include "ui/session/wording.h"
 #include "ui/theme/numbers.h"
 #include "ui/theme/plaintext.h"
 #include "ui/window/filenames.h"
@@ -135,6 +136,11 @@ QString RunDialog::besideProject(const QString& ending) const {
     return QFileInfo(path).absolutePath() + QLatin1Char('/') + QFileInfo(path).completeBaseName() + ending;
   return QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation) + QLatin1Char('/') +
          fileNameFor(document.title()) + ending;
+}
+
+QString RunDialog::writtenText(size_t frames, const QString& where) {
+  return QStringLiteral("%1 written to %2.")
+      .arg(countText(frames, QStringLiteral("frame"), QStringLiteral("frames")), QDir::toNativeSeparators(where));
 }
 
 void RunDialog::refresh() {

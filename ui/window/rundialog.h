@@ -45,6 +45,9 @@ class RunDialog : public QDialog {
 
   Session& session() const { return m_session; }
 
+  /// "25 frames written to …."
+  static QString writtenText(size_t frames, const QString& where);
+
  private:
   void addRow(const QString& label, QWidget* field, const QString& tip);
   QLineEdit* addTime(const QString& label, const QString& tip, double seconds);

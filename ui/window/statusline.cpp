@@ -6,7 +6,7 @@
 #include "ui/document/document.h"
 #include "ui/session/autosave.h"
 #include "ui/session/documentfiles.h"
-#include "ui/session/runexport.h"
+#include "ui/session/runwork.h"
 #include "ui/session/session.h"
 #include "ui/session/wording.h"
 #include "ui/theme/icon.h"
@@ -57,8 +57,8 @@ void StatusLine::follow() {
     m_late = late ? pluginLabel(m_session.plugins(), event.message) : QString();
   });
   connect(&m_session, &Session::playingChanged, this, [this] { m_sinceValues.start(); });
-  connect(&m_session.exports(), &RunExport::working, this, &StatusLine::refresh);
-  connect(&m_session.exports(), &RunExport::ended, this, &StatusLine::refresh);
+  connect(&m_session.work(), &RunWork::working, this, &StatusLine::refresh);
+  connect(&m_session.work(), &RunWork::ended, this, &StatusLine::refresh);
   connect(&m_session.document(), &Document::changed, this, &StatusLine::refresh);
   const auto say = [this](const QString& what, const QTime& time) {
     m_fileText = what + time.toString(QStringLiteral("HH:mm"));
@@ -92,7 +92,8 @@ void StatusLine::refresh() {
   }
   const auto making = m_session.isReady() ? m_session.engine()->making() : std::nullopt;
   state.making = making ? static_cast<int>(100 * making->done) : -1;
-  state.exporting = m_session.exports().percent();
+  state.working = m_session.work().percent();
+  state.work = m_session.work().stage().toLower();
   state.silent =
       !making && state.playing && m_sinceValues.isValid() ? static_cast<double>(m_sinceValues.elapsed()) / 1000 : 0;
   state.late = m_late;
@@ -157,8 +158,7 @@ std::vector<StatusLine::Part> StatusLine::leftParts() const {
                         : m_state.playing ? QStringLiteral("Running")
                                           : QStringLiteral("Paused");
   parts.push_back({state, {}});
-  if (m_state.exporting >= 0)
-    parts.push_back({QStringLiteral("%1 %").arg(m_state.exporting), QStringLiteral("exported")});
+  if (m_state.working >= 0) parts.push_back({QStringLiteral("%1 %").arg(m_state.working), m_state.work});
   if (!m_state.snapshot) return parts;
   const FrameStats& stats = m_state.snapshot->stats;
   parts.push_back({formatFixed(static_cast<double>(m_state.snapshot->id.size())),

@@ -23,13 +23,14 @@ class StatusLine : public QWidget {
   struct State {
     bool ready = false, playing = false, failed = false;
     double realTime = 0, drawMilliseconds = 0;
-    double silent = 0;   ///< s since the engine last said anything while it plays: a plugin may never come back
-    int making = -1;     ///< per cent of the scene that is being made; -1: none is
-    int exporting = -1;  ///< per cent of an export; -1: there is none
-    QString late;        ///< a plugin that does not come back
-    QString graphics;    ///< "OpenGL 4.5"
-    QString note;        ///< "1 note: ice stiffness is limited by the step"
-    QString file;        ///< "Autosaved 14:32"
+    double silent = 0;  ///< s since the engine last said anything while it plays: a plugin may never come back
+    int making = -1;    ///< per cent of the scene that is being made; -1: none is
+    int working = -1;   ///< per cent of long work; -1: there is none
+    QString work;       ///< "drawing"
+    QString late;       ///< a plugin that does not come back
+    QString graphics;   ///< "OpenGL 4.5"
+    QString note;       ///< "1 note: ice stiffness is limited by the step"
+    QString file;       ///< "Autosaved 14:32"
     SnapshotPtr snapshot;
   };
   /// `view`: nullptr where there is no picture.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ui/session/runexport.h"
+#include "ui/session/runwork.h"
 
 #include "core/base/progress.h"
 #include "core/simulation/enginethread.h"
@@ -14,35 +14,40 @@ constexpr int kClockInterval = 200;  // ms
 constexpr double kTells = 0.02;      // share from which what is left can be told
 }  // namespace
 
-struct RunExport::Outcome {
-  size_t frames = 0;
+struct RunWork::Outcome {
+  Result result;
   bool cancelled = false;
   QString problem;
 };
 
-RunExport::RunExport(Session& session) : m_session(session) {
+RunWork::RunWork(Session& session) : m_session(session) {
   m_clock.setInterval(kClockInterval);
-  connect(&m_clock, &QTimer::timeout, this, &RunExport::tell);
+  connect(&m_clock, &QTimer::timeout, this, &RunWork::tell);
 }
 
-RunExport::~RunExport() { cancel(); }
+RunWork::~RunWork() { cancel(); }
 
-bool RunExport::cancel() {
+bool RunWork::cancel() {
   if (!m_progress || m_progress->cancelled()) return false;
   m_progress->cancel();
   return true;
 }
 
-int RunExport::percent() const { return m_progress ? static_cast<int>(100 * m_progress->state().done) : -1; }
+int RunWork::percent() const { return m_progress ? static_cast<int>(100 * m_progress->state().done) : -1; }
 
-void RunExport::tell() {
+QString RunWork::stage() const {
+  const Progress::State state = m_progress ? m_progress->state() : Progress::State();
+  return QString::fromUtf8(state.stage ? state.stage : "Beginning");
+}
+
+void RunWork::tell() {
   const Progress::State state = m_progress->state();
   const double seconds = static_cast<double>(m_since.elapsed()) / 1000;
   const double left = state.done > kTells ? seconds * (1 - state.done) / state.done : -1;
-  Q_EMIT working(QString::fromUtf8(state.stage ? state.stage : "Beginning"), state.done, left);
+  Q_EMIT working(stage(), state.done, left);
 }
 
-void RunExport::start(Task task) {
+void RunWork::start(Task task) {
   if (isBusy() || !m_session.engine()) return;
   m_progress = std::make_shared<Progress>();
   m_progress->expect(1);
@@ -53,7 +58,7 @@ void RunExport::start(Task task) {
     Outcome outcome;
     try {
       record->settle();
-      outcome.frames = task.write(record->content().present);
+      outcome.result = task.act(record->content().present);
     } catch (const Cancelled&) {
       outcome.cancelled = true;
     } catch (const std::exception& error) {
@@ -63,7 +68,7 @@ void RunExport::start(Task task) {
   });
 }
 
-void RunExport::finish(const Task& task, const Outcome& outcome) {
+void RunWork::finish(const Task& task, const Outcome& outcome) {
   m_progress.reset();
   m_clock.stop();
   Q_EMIT ended();
@@ -72,7 +77,7 @@ void RunExport::finish(const Task& task, const Outcome& outcome) {
   else if (outcome.cancelled)
     Q_EMIT cancelled(task.what, task.where);
   else
-    Q_EMIT written(task.what, task.where, outcome.frames);
+    Q_EMIT done(task.what, outcome.result.text, outcome.result.level);
 }
 
 }  // namespace ps

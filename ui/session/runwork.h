@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "ui/session/messagelog.h"
 #include "ui/session/worker.h"
 
 #include <QtCore/QElapsedTimer>
@@ -16,23 +17,28 @@ class Progress;
 class Session;
 struct KeptRun;
 
-/// Writes what was recorded of the run as files for others, one after the other, by a thread of its own, while the run
-/// goes on. Results come as signals.
-class RunExport : public QObject {
+/// Long work on what was recorded of the run or on the project, by a thread of its own, while the run goes on: exports,
+/// films, copies for others. One at a time. Results come as signals.
+class RunWork : public QObject {
   Q_OBJECT
  public:
-  struct Task {
-    QString what, where;  ///< "Surface, OBJ"; folder or file
-    /// Writes, and returns how many frames. Advances the thread's progress, which begins at 0 with one stage of weight
-    /// 1; throws Error and Cancelled.
-    std::function<size_t(const KeptRun&)> write;
+  struct Result {
+    QString text;  ///< sentences
+    MessageLevel level = MessageLevel::Ok;
   };
-  explicit RunExport(Session& session);
-  ~RunExport() override;  ///< gives up what is being written
+  struct Task {
+    QString what, where;  ///< "Surface, OBJ"; folder or file, "" where there is none
+    /// Returns what to tell. Advances the thread's progress, which begins at 0 with one stage of weight 1;
+    /// throws Error and Cancelled.
+    std::function<Result(const KeptRun&)> act;
+  };
+  explicit RunWork(Session& session);
+  ~RunWork() override;  ///< gives up what is being done
 
   void start(Task task);
   bool isBusy() const { return m_progress != nullptr; }
-  int percent() const;  ///< -1 where nothing is written
+  QString stage() const;  ///< "Drawing"
+  int percent() const;    ///< -1 where nothing is done
   /// Gives up: files that are whole stay. False where there is nothing to give up.
   bool cancel();
 
@@ -40,7 +46,7 @@ class RunExport : public QObject {
   /// For a while already; `done` 0..1; `left` in s, -1 where it is too early to tell; often.
   void working(const QString& stage, double done, double left);
   void ended();  ///< after the last of those; and before what came of it
-  void written(const QString& what, const QString& where, qulonglong frames);
+  void done(const QString& what, const QString& text, ps::MessageLevel level);
   void failed(const QString& what, const QString& problem);
   void cancelled(const QString& what, const QString& where);
 
@@ -50,7 +56,7 @@ class RunExport : public QObject {
   void finish(const Task& task, const Outcome& outcome);
 
   Session& m_session;
-  std::shared_ptr<Progress> m_progress;  ///< nullptr: nothing is written
+  std::shared_ptr<Progress> m_progress;  ///< nullptr: nothing is done
   QTimer m_clock;
   QElapsedTimer m_since;
   Worker m_worker;  // ends first

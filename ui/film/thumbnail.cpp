@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/film/thumbnail.h"
+
+#include <QBuffer>
+#include <QImage>
+
+namespace ps {
+
+std::string thumbnailOf(const QImage& picture) {
+  constexpr int kWidth = 320, kHeight = 180;
+  if (picture.isNull()) return {};
+  const QImage filling = picture.scaled(kWidth, kHeight, Qt::KeepAspectRatioByExpanding, Qt::SmoothTransformation);
+  const QImage middle = filling.copy((filling.width() - kWidth) / 2, (filling.height() - kHeight) / 2, kWidth, kHeight);
+  QByteArray bytes;
+  QBuffer buffer(&bytes);
+  buffer.open(QIODevice::WriteOnly);
+  middle.convertToFormat(QImage::Format_RGB888).save(&buffer, "PNG");
+  return bytes.toBase64().toStdString();
+}
+
+}  // namespace ps
