@@ -27,7 +27,7 @@ struct SetTogether {
   std::vector<SetParameter> values;
 };
 using LoggedEdit = std::variant<SetTogether, UpdateDocument, SetTracks, AddCells, TakeCells, TakeBody, TakeMatter,
-                                PutBack, NameMatter, ReturnBody, ForgetMatter>;
+                                PutBack, MoveBody, NameMatter, ReturnBody, ForgetMatter>;
 struct LogEntry {
   uint64_t frame = 0;
   LoggedEdit edit;
@@ -136,6 +136,25 @@ const FieldTable<PutBack>& putBackFields() {
       .rows = {field("key", &PutBack::key, Key{}, ""), field("cells", &PutBack::cells, List{Object{addFields()}}, "")}};
   return table;
 }
+struct Turn : Plain {
+  Json schema() const { return {{"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", 4}, {"maxItems", 4}}; }
+  void read(Json& value, Quaternion& out, const PluginRegistry&) const {
+    for (int k = 0; k < 4; ++k) out.coeffs()[k] = value[static_cast<size_t>(k)].get<double>();
+    if (!(std::abs(out.norm() - 1) < 1e-9)) throw InputError("a body was turned by no rotation");
+  }
+  Json write(const Quaternion& turn) const { return {turn.x(), turn.y(), turn.z(), turn.w()}; }
+};
+const FieldTable<RigidMove>& rigidMoveFields() {
+  static const FieldTable<RigidMove> table{.rows = {field("turn", &RigidMove::turn, Turn{}, "").required(),
+                                                    field("shift", &RigidMove::shift, Vector{"m"}, "").required()}};
+  return table;
+}
+const FieldTable<MoveBody>& moveFields() {
+  static const FieldTable<MoveBody> table{
+      .rows = {field("body", &MoveBody::body, SketchedBody{}, "").required(),
+               field("move", &MoveBody::move, Object{rigidMoveFields()}, "").required()}};
+  return table;
+}
 const FieldTable<NameMatter>& nameFields() {
   static const FieldTable<NameMatter> table{
       .rows = {field("key", &NameMatter::key, Key{}, ""), field("body", &NameMatter::body, Id{}, "").required(),
@@ -166,8 +185,9 @@ struct AnyEdit : EditKind<LoggedEdit> {
       : EditKind({"set", "", &togetherFields()}, {"update", "", &updateFields()}, {"tracks", "", &tracksFields()},
                  {"add_cells", "", &addFields()}, {"take_cells", "", &takeCellsFields()},
                  {"take_body", "", &takeBodyFields()}, {"take_matter", "", &takeMatterFields()},
-                 {"put_back", "", &putBackFields()}, {"name_matter", "", &nameFields()},
-                 {"return_body", "", &returnFields()}, {"forget_matter", "", &forgetFields()}) {}
+                 {"put_back", "", &putBackFields()}, {"move_body", "", &moveFields()},
+                 {"name_matter", "", &nameFields()}, {"return_body", "", &returnFields()},
+                 {"forget_matter", "", &forgetFields()}) {}
 };
 
 const FieldTable<LogEntry>& entryFields() {
@@ -248,8 +268,8 @@ const Project* documentOf(const FrameEdit& edit) {
 }
 
 /// The log names it: the document that the body came with holds it.
-void takeMesh(ReturnBody& back, const Project* document) {
-  auto body = std::make_shared<Body>(*back.body);
+void takeMesh(std::shared_ptr<const Body>& placed, const Project* document) {
+  auto body = std::make_shared<Body>(*placed);
   auto* solid = std::get_if<SolidShape>(&body->shape);
   if (!solid || choiceOf(solid->parameters, solidParameters(), "kind") != "mesh") return;
   if (document) {
@@ -258,8 +278,9 @@ void takeMesh(ReturnBody& back, const Project* document) {
         std::find_if(meshes.begin(), meshes.end(), [&](const auto& one) { return one->id == solid->meshId; });
     if (mesh != meshes.end()) solid->mesh = *mesh;
   }
-  if (!solid->mesh) throw InputError("a body came back whose mesh '" + solid->meshId + "' is in no document before");
-  back.body = std::move(body);
+  if (!solid->mesh)
+    throw InputError("a body came or moved whose mesh '" + solid->meshId + "' is in no document before");
+  placed = std::move(body);
 }
 
 }  // namespace
@@ -284,7 +305,8 @@ std::vector<FrameEdit> readLog(json list, const Documents& documents, const std:
   for (json& entry : list) {
     fields::LogEntry one;
     fields::entryFields().read(one, entry, plugins);
-    if (auto* back = std::get_if<ReturnBody>(&one.edit); back && back->body) takeMesh(*back, newest);
+    if (auto* back = std::get_if<ReturnBody>(&one.edit); back && back->body) takeMesh(back->body, newest);
+    if (auto* moved = std::get_if<MoveBody>(&one.edit)) takeMesh(moved->body, newest);
     edits.push_back({one.frame, recorded(std::move(one.edit), documents)});
     if (const Project* document = documentOf(edits.back())) newest = document;
   }

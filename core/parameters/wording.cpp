@@ -92,13 +92,15 @@ std::string actsAtText(api::ActsAt when) {
   if (when == api::ActsAt::NextReset) return "Acts at the next reset.";
   if (when == api::ActsAt::NextFrameIfFixed)
     return "Acts at the next frame on a body that is held in place, at the next reset on any other.";
+  if (when == api::ActsAt::WithItsMatter) return "Carries the body's matter along at the next frame.";
   return {};
 }
 
 const char* actsAtName(api::ActsAt when) {
-  return when == api::ActsAt::NextFrame   ? "next frame"
-         : when == api::ActsAt::NextReset ? "next reset"
-                                          : "next frame if fixed, else next reset";
+  return when == api::ActsAt::NextFrame          ? "next frame"
+         : when == api::ActsAt::NextReset        ? "next reset"
+         : when == api::ActsAt::NextFrameIfFixed ? "next frame if fixed, else next reset"
+                                                 : "next frame, carrying its matter";
 }
 
 std::vector<std::string> relationTexts(const ParameterDeclaration& declaration, const DeclarationOfKey& find) {

@@ -12,6 +12,8 @@ namespace ps {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
+/// Share of its box from which the triangles of a mesh enclose something whose middle means anything.
+constexpr double kLeastEnclosed = 1e-3;
 
 SolidForm::Kind kindOf(std::string_view name) {
   uint8_t kind = 0;
@@ -99,6 +101,24 @@ bool SolidForm::holds(const Vector3& own) const {
       break;
   }
   return false;
+}
+
+Vector3 SolidForm::centroid() const {
+  if (m_kind == Kind::Cone) return {0, -m_size[1] / 4, 0};
+  if (m_kind != Kind::Mesh || !m_mesh) return Vector3::Zero();
+  const MeshBounds bounds = boundsOf(*m_mesh);
+  const Vector3 extent = bounds.maximum - bounds.minimum, middle = 0.5 * (bounds.minimum + bounds.maximum);
+  Vector3 moment;
+  double volume = 0;
+  for (const auto& t : m_mesh->triangles) {
+    const Vector3 a = pointOf(*m_mesh, t[0]) - middle, b = pointOf(*m_mesh, t[1]) - middle,
+                  c = pointOf(*m_mesh, t[2]) - middle;
+    const double tetrahedron = a.dot(b.cross(c)) / 6;
+    moment += tetrahedron / 4 * (a + b + c);
+    volume += tetrahedron;
+  }
+  if (!(std::abs(volume) > kLeastEnclosed * extent.prod())) return Vector3::Zero();
+  return (moment / volume).cwiseQuotient(extent).cwiseProduct(m_size).cwiseMax(-m_size / 2).cwiseMin(m_size / 2);
 }
 
 double SolidForm::volume() const {

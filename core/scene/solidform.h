@@ -18,12 +18,15 @@ class SolidForm {
   const Vector3& size() const { return m_size; }      ///< m, along its own axes
   const Vector3& middle() const { return m_middle; }  ///< m, in the scene
   bool isTurned() const { return m_isTurned; }
+  const Matrix3& axes() const { return m_axes; }  ///< its own, as columns
   Vector3 toScene(const Vector3& own) const { return m_middle + m_axes * own; }
   Vector3 toOwn(const Vector3& place) const { return m_axes.transpose() * (place - m_middle); }
   /// m, along the scene's axes, about its middle.
   Vector3 extent() const { return m_axes.cwiseAbs() * m_size; }
   /// Whether a place along its own axes, in m, lies in it. Not of a mesh: core/geometry knows that.
   bool holds(const Vector3& own) const;
+  /// m, along its own axes, of what fills it evenly; of a mesh with holes as far as its triangles enclose something.
+  Vector3 centroid() const;
   /// m3. Of a mesh: what its triangles enclose, at this size.
   double volume() const;
 

@@ -14,11 +14,15 @@ constexpr Range kEdge{0.1, 0.01, 1, 1e-6, 1e4}, kWall{0.01, 0.001, 0.1, 1e-6, 1e
 constexpr api::ParameterDeclaration size(Names names, const char* help, const char* example, Range range = kEdge) {
   return atReset(number(names, range, {"Shape", help, example, ""}));
 }
+constexpr api::ParameterDeclaration carrying(api::ParameterDeclaration d) {
+  d.actsAt = api::ActsAt::WithItsMatter;
+  return d;
+}
 constexpr api::ParameterDeclaration place(Names names, const char* help) {
-  return atReset(number(names, kPlace, {"Place", help, "0.5 is half a metre from the middle of the scene", ""}));
+  return carrying(number(names, kPlace, {"Place", help, "0.5 is half a metre from the middle of the scene", ""}));
 }
 constexpr api::ParameterDeclaration turn(Names names, const char* help) {
-  return atReset(number(names, kTurn, {"Place", help, "30 for a ramp, 90 for a cylinder that lies", ""}));
+  return carrying(number(names, kTurn, {"Place", help, "30 for a ramp, 90 for a cylinder that lies", ""}));
 }
 
 constexpr api::ParameterDeclaration kSolid[] = {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "core/math/rigidmove.h"
 #include "core/scene/project.h"
 
 #include <array>
@@ -69,6 +70,11 @@ struct PutBack {
   MatterKey key = 0;
   std::vector<AddCells> cells{};
 };
+/// A body is at another pose from now on, and its matter is carried by as much: see Engine::moveBody().
+struct MoveBody {
+  std::shared_ptr<const Body> body;  ///< as it is there
+  RigidMove move;                    ///< from where the engine's document has it
+};
 /// Names the matter of a body that stands in cells of a lattice; right after a reset, when nothing has moved.
 struct NameMatter {
   MatterKey key = 0;
@@ -104,6 +110,6 @@ struct ShowFields {
 };
 
 using Command = std::variant<SetParameter, UpdateProject, SetTracks, AddCells, TakeCells, TakeBody, TakeMatter, PutBack,
-                             NameMatter, ReturnBody, ForgetMatter, Reset, ReturnToState, ShowFields, SetProbes>;
+                             MoveBody, NameMatter, ReturnBody, ForgetMatter, Reset, ReturnToState, ShowFields, SetProbes>;
 
 }  // namespace ps

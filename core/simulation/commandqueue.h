@@ -57,6 +57,7 @@ class CommandQueue {
                           waitsLast<SetTracks>()))
         m_entries.pop_back();
     }
+    if (auto* moved = std::get_if<MoveBody>(&command); moved && joinsMove(*moved)) return;
     if (std::holds_alternative<SetTracks>(command) && waitsLast<SetTracks>()) m_entries.pop_back();
     if (std::holds_alternative<SetProbes>(command) && waitsLast<SetProbes>()) m_entries.pop_back();
     m_entries.emplace_back(std::move(command));
@@ -78,6 +79,18 @@ class CommandQueue {
   bool waitsLast() const {
     const auto* command = empty() ? nullptr : std::get_if<Command>(&m_entries.back());
     return command && std::holds_alternative<Kind>(*command);
+  }
+  /// Several bodies may be on their way at once: a further step of one goes on from the one that waits.
+  bool joinsMove(const MoveBody& next) {
+    for (auto entry = m_entries.rbegin(); entry != m_entries.rend(); ++entry) {
+      auto* command = std::get_if<Command>(&*entry);
+      auto* waiting = command ? std::get_if<MoveBody>(command) : nullptr;
+      if (!waiting) return false;
+      if (waiting->body->id != next.body->id) continue;
+      *waiting = {next.body, next.move.after(waiting->move)};
+      return true;
+    }
+    return false;
   }
   void set(SetParameter edit) {
     if (empty() || !std::holds_alternative<ParameterBatch>(m_entries.back())) m_entries.emplace_back(ParameterBatch{});

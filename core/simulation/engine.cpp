@@ -4,10 +4,10 @@
 #include "core/base/error.h"
 #include "core/base/log.h"
 #include "core/plugin_host/registry.h"
+#include "core/scene/pose.h"
 #include "core/simulation/compile.h"
 #include "core/simulation/declared.h"
 #include "core/simulation/edits.h"
-#include "core/simulation/lattice.h"
 #include "core/simulation/measure.h"
 #include "core/simulation/rules.h"
 #include "core/simulation/sceneneed.h"
@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <iterator>
 #include <string>
 #include <utility>
 
@@ -33,6 +34,17 @@ bool resizes(const Project& project, const PluginRegistry& plugins, const Addres
   const api::ParameterDeclaration* declaration = declarationOf(project, &plugins, address);
   const bool reach = address.owner == Owner::Solver && address.key == "support_ratio";
   return reach || (declaration && declaration->actsAt == api::ActsAt::NextReset);
+}
+
+/// The bodies whose shapes these edits may move, as they are before.
+std::vector<Body> movedBy(const Project& project, std::span<const SetParameter> edits) {
+  std::vector<Body> bodies;
+  std::copy_if(project.bodies.begin(), project.bodies.end(), std::back_inserter(bodies), [&](const Body& body) {
+    return std::any_of(edits.begin(), edits.end(), [&](const SetParameter& edit) {
+      return edit.address.owner == Owner::Shape && edit.address.id == body.id;
+    });
+  });
+  return bodies;
 }
 
 auto byId(const std::vector<SceneMaterial>& materials, const std::string& id) {
@@ -301,6 +313,7 @@ bool Engine::setParameter(const Address& address, const Value& value) {
 bool Engine::setParameters(std::span<const SetParameter> edits) {
   std::vector<UndoEdit> undo;
   bool now = true;
+  const std::vector<Body> standing = movedBy(m->project, edits);
   const bool resized = std::any_of(edits.begin(), edits.end(), [this](const SetParameter& edit) {
     return resizes(m->project, m->plugins, edit.address);
   });
@@ -308,14 +321,19 @@ bool Engine::setParameters(std::span<const SetParameter> edits) {
   const auto write = [&](Touched& touched) {
     for (const SetParameter& edit : edits) {
       const std::optional<api::ActsAt> when = writeValue(m->project, m->plugins, edit, touched, undo);
-      now = now &&
-            (when == api::ActsAt::NextFrame || (when == api::ActsAt::NextFrameIfFixed && m->isFixed(edit.address.id)));
+      now = now && (when == api::ActsAt::NextFrame || when == api::ActsAt::WithItsMatter ||
+                    (when == api::ActsAt::NextFrameIfFixed && m->isFixed(edit.address.id)));
     }
     if (resized && needOf(m->project, &m->plugins).bytes > before) requireRoom(m->project, m->plugins, memoryNow());
   };
   m->changeBeneath(write, [&] {
     for (auto step = undo.rbegin(); step != undo.rend(); ++step) (*step)(m->project);
   });
+  for (const Body& from : standing) {
+    const auto to = std::find_if(m->project.bodies.begin(), m->project.bodies.end(),
+                                 [&](const Body& body) { return body.id == from.id; });
+    if (const auto move = moveBetween(from, *to)) m->carry(from, *move);
+  }
   return now;
 }
 
@@ -326,6 +344,8 @@ void Engine::apply(const Command& command) {
     update(*whole->project);
   } else if (const auto* animated = std::get_if<SetTracks>(&command)) {
     setTracks(animated->tracks);
+  } else if (const auto* moved = std::get_if<MoveBody>(&command)) {
+    moveBody(*moved->body, moved->move);
   } else if (const auto* measured = std::get_if<SetProbes>(&command)) {
     m->project.probes = measured->probes;
     m->nameProbes();
@@ -344,56 +364,6 @@ void Engine::apply(const Command& command) {
         },
         command);
   }
-}
-
-std::vector<uint32_t> Engine::addCells(const Body& body, const std::vector<std::array<int, 3>>& cells, int palette) {
-  const double edge = std::get<VoxelShape>(body.shape).spacing / m->spacing;
-  m->requireRoomFor(static_cast<double>(cells.size()) * edge * edge * edge, body);
-  Spawn spawn = compileCells(m->project, m->plugins, m->tables.tables(), body, palette, cells, m->spacing);
-  spawn.position = freePositions(m->solver->particles(), spawn.position, 0.9 * m->spacing);
-  std::vector<uint32_t> ids;
-  if (!spawn.position.empty()) ids = m->born(std::move(spawn), body);
-  m->overlay.lift(m->project);
-  std::vector<Body>& bodies = m->project.bodies;
-  const auto known = std::find_if(bodies.begin(), bodies.end(), [&](const Body& b) { return b.id == body.id; });
-  if (known == bodies.end()) {
-    bodies.push_back(body);
-  } else {
-    *known = body;
-  }
-  m->overlay.lay(m->project);
-  m->recompile({{Owner::Body}});
-  m->bindTracks(m->solver->time());
-  return ids;
-}
-
-std::vector<uint32_t> Engine::addBody(const Body& body) {
-  Project project = m->project;
-  project.solver.parameters.values["particle_spacing"] = m->spacing;
-  m->requireRoomFor(particleCount(body, m->spacing), body);
-  std::vector<uint32_t> ids;
-  for (Spawn& spawn : compileBody(project, m->plugins, m->tables.tables(), body)) {
-    OccupiedPlaces occupied = occupiedPlaces(m->solver->particles(), 0.9 * m->spacing, spawn.position.size());
-    dropOccupied(spawn, occupied);
-    if (spawn.position.empty()) continue;
-    const std::vector<uint32_t> fresh = m->born(std::move(spawn), body);
-    ids.insert(ids.end(), fresh.begin(), fresh.end());
-  }
-  m->recompile({{Owner::Body}});
-  m->bindTracks(m->solver->time());
-  return ids;
-}
-
-ExtractedMatter Engine::extractParticles(const std::vector<uint32_t>& ids) {
-  std::vector<uint32_t> some;
-  std::copy_if(ids.begin(), ids.end(), std::back_inserter(some), [&](uint32_t id) { return !m->flow.holds(id); });
-  return m->solver->extract(some);
-}
-void Engine::putBack(const ExtractedMatter& matter) { m->solver->putBack(matter); }
-
-std::vector<uint32_t> Engine::particlesIn(const VoxelShape& lattice,
-                                          const std::vector<std::array<int, 3>>& cells) const {
-  return idsInCells(m->solver->particles(), lattice, cells);
 }
 
 std::vector<Limit> Engine::limits() const {

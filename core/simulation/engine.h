@@ -45,8 +45,8 @@ class Engine {
   /// The document changed as a whole (undo, a new body, gravity): takes over every parameter and material at once;
   /// bodies, which are particles by now, at the next reset; how fixed ones move acts at once.
   void update(const Project& project);
-  /// A parameter changed: recompiles what it touches. Returns false when it acts at the next reset only, as its
-  /// declaration says. Where a track holds it, this is what holds without the track.
+  /// A parameter changed: recompiles what it touches; a place carries matter along. Returns false when it acts at the
+  /// next reset only, as its declaration says. Where a track holds it, this is what holds without the track.
   bool setParameter(const Address& address, const Value& value);
   /// Several as one edit: what they touch together is compiled once, and all are refused where one is. Returns whether
   /// all act now.
@@ -55,6 +55,10 @@ class Engine {
   void setTracks(const std::vector<Track>& tracks);
   /// One of the closed set of edits; those above, and those that name matter.
   void apply(const Command& command);
+  /// A body is at another pose from now on, a move away from that of the project. Its matter, wherever it is by now, is
+  /// turned by as much about its centre of mass, which goes as far as that of the form does: see Solver::carry().
+  /// Nothing happens where the project has no such body.
+  void moveBody(const Body& body, const RigidMove& move);
   /// Adds a sketched body, or more cells of one that exists, at rest; cells where a live particle is within 0.9
   /// spacings stay free. Returns the ids of the new particles.
   std::vector<uint32_t> addCells(const Body& body, const std::vector<std::array<int, 3>>& cells, int palette);

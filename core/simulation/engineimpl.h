@@ -54,6 +54,8 @@ struct Engine::Impl {
   void holdFrozen();
   void setThermal();
   uint32_t constraintSet(const std::string& plugin);
+  /// The matter of a body that stood like this in the project.
+  void carry(const Body& from, const RigidMove& move);
   /// Leads the bodies that were born fixed, whatever the document says of them by now; one that has left it stands.
   void lead();
   std::vector<uint32_t> born(Spawn spawn, const Body& body);

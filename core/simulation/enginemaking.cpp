@@ -3,12 +3,14 @@
 #include "core/base/error.h"
 #include "core/base/memory.h"
 #include "core/plugin_host/registry.h"
+#include "core/scene/pose.h"
 #include "core/simulation/enginethreadimpl.h"
 #include "core/simulation/failure.h"
 #include "core/simulation/keptrun.h"
 #include "core/simulation/sceneneed.h"
 #include "core/solver/solver.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace ps {
@@ -136,7 +138,16 @@ void EngineThread::Impl::adopt(const Adoption& recording) {
 void EngineThread::Impl::standAt(const Project& project, bool edits, bool wholeHistory, bool play) {
   if (shown) engine->apply(*shown);
   engine->apply(SetProbes{project.probes});  // what is measured goes by the document, in which nothing goes back
-  if (edits) change(UpdateProject{std::make_shared<const Project>(project)});
+  if (edits) {
+    // Bodies stand where the document has them, and their matter comes along.
+    const std::vector<Body> then = engine->document().bodies;
+    for (const Body& body : project.bodies) {
+      const auto old = std::find_if(then.begin(), then.end(), [&](const Body& b) { return b.id == body.id; });
+      const auto move = old == then.end() ? std::nullopt : moveBetween(*old, body);
+      if (move) change(MoveBody{std::make_shared<const Body>(body), *move});
+    }
+    change(UpdateProject{std::make_shared<const Project>(project)});
+  }
   record.keepState(*engine);
   const SnapshotPtr snapshot = engine->snapshot();
   const std::vector<FrameStats> kept = wholeHistory ? record.stats() : std::vector<FrameStats>{};

@@ -42,6 +42,12 @@ ParameterCourse::ParameterCourse(const RunEdits& run, const PluginRegistry* plug
     if (const auto* one = std::get_if<SetParameter>(&command)) set(*one);
     if (const auto* animated = std::get_if<SetTracks>(&command))
       pieceFrom(frame).keys = keysOf(animated->tracks, address);
+    if (const auto* moved = std::get_if<MoveBody>(&command); moved && moved->body->id == address.id) {
+      Project alone;
+      alone.bodies.push_back(*moved->body);
+      if (const ParameterSet* own = address.owner == Owner::Shape ? findSet(alone, address) : nullptr)
+        pieceFrom(frame).own = numberOf(valueOf(*own, *findDeclaration(solidParameters(), address.key)));
+    }
     if (const auto* whole = std::get_if<UpdateProject>(&command)) take(frame, *whole->project, plugins, address);
   }
 }

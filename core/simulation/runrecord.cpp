@@ -32,7 +32,7 @@ double secondsSince(std::chrono::steady_clock::time_point start) {
 bool changesDocument(const RecordedEdit& edit) {
   const auto* command = std::get_if<Command>(&edit);
   return !command || std::holds_alternative<SetParameter>(*command) || std::holds_alternative<SetTracks>(*command) ||
-         std::holds_alternative<UpdateProject>(*command);
+         std::holds_alternative<MoveBody>(*command) || std::holds_alternative<UpdateProject>(*command);
 }
 
 RunRecord::RunRecord(RecordBudget budget) : m(std::make_unique<Impl>(std::move(budget))) {

@@ -19,6 +19,8 @@ std::string whyNoKeysOf(const api::ParameterDeclaration& declaration) {
   const std::string label = declaration.label;
   if (declaration.actsAt == api::ActsAt::NextReset)
     return label + " acts at the start; only what acts while the scene runs can have keys";
+  if (declaration.actsAt == api::ActsAt::WithItsMatter)
+    return label + " is where the body stands; keys of its velocity lead a body that is held in place";
   if (declaration.kind == api::ParameterKind::Choice)
     return label + " is a choice; only numbers and switches can have keys";
   return {};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "core/math/rigidmove.h"
 #include "core/matter/material.h"
 #include "core/particles/particlestore.h"
 #include "core/particles/reactions.h"
@@ -82,6 +83,12 @@ class Solver {
   /// Puts matter back where it was, under its ids, with its constraints to whatever still lives. Of the same solver;
   /// throws Error when one of the ids is alive.
   void putBack(const ExtractedMatter& matter);
+
+  /// Carries all particles of a body to another place: turns them about their centre of mass, which goes by `way` m.
+  /// What structure ties to them comes along, but for what is fixed of other bodies. Each keeps its temperature and its velocity against the others; their mean velocity stays, so that kinetic
+  /// energy and momentum do. What ties them to something that stays is stretched. What weight gains or loses is
+  /// work from outside, between two frames (MechanicalRecord: the end of one and the start of the next).
+  void carry(uint32_t body, const Quaternion& turn, const Vector3& way);
 
   /// One frame. On NotFinite the state goes back to where the last good frame began, clocks and all.
   StepReport step();

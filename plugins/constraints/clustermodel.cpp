@@ -136,6 +136,7 @@ ClusterModel::ClusterModel()
                  api::listOf(kParameters)}) {}
 
 const void* ClusterModel::extension(const char* name) const noexcept {
+  if (std::string_view(name) == api::kGroupPoses) return static_cast<const api::GroupPoses*>(this);
   return std::string_view(name) == api::kStructureCount ? static_cast<const api::StructureCount*>(this) : nullptr;
 }
 
@@ -269,6 +270,19 @@ void ClusterModel::restoreMembers(const ConstraintContext&, const api::MovablePa
       setVector(particles.position[all.particles[k]], shape.goal(k));
       setVector(particles.velocity[all.particles[k]], shape.meanVelocity(returned));
     }
+  }
+}
+
+void ClusterModel::carry(const ConstraintContext&, const api::MovableParticles&, const GroupBatch& all,
+                         const uint8_t* carried, const api::Carrying& carrying) const {
+  const Quaternion turn{carrying.turn[0], carrying.turn[1], carrying.turn[2], carrying.turn[3]};
+  for (size_t g = 0; g < all.count; ++g) {
+    const auto value = [&](Value v) -> float& { return all.values[v][g]; };
+    if (carried[g] == 0) continue;
+    const Quaternion q =
+        normalised(turn * Quaternion{value(kRotationX), value(kRotationY), value(kRotationZ), value(kRotationW)});
+    value(kRotationX) = static_cast<float>(q.x), value(kRotationY) = static_cast<float>(q.y);
+    value(kRotationZ) = static_cast<float>(q.z), value(kRotationW) = static_cast<float>(q.w);
   }
 }
 

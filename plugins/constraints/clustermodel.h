@@ -14,7 +14,7 @@ namespace ps::constraint {
 /// rate of w² dt, is given back (deriveVelocities). It cannot do: keep the
 /// volume under large strain, plasticity, fracture by force, strains that change within a cluster (it is stiffer
 /// against them), or take back matter that has melted.
-class ClusterModel : public api::Described<api::GroupPlugin>, public api::StructureCount {
+class ClusterModel : public api::Described<api::GroupPlugin>, public api::StructureCount, public api::GroupPoses {
  public:
   enum Parameter { kRadius, kSpacing, kDamping, kStiffnessRatio, kParameterCount };
   enum Value {
@@ -65,6 +65,8 @@ class ClusterModel : public api::Described<api::GroupPlugin>, public api::Struct
                 const api::NeighbourView& lists, const api::GroupBatch& all, api::GroupSink& sink) const override;
   void restoreMembers(const api::ConstraintContext& context, const api::MovableParticles& particles,
                       const api::GroupBatch& all, const uint8_t* returned) const override;
+  void carry(const api::ConstraintContext& context, const api::MovableParticles& particles, const api::GroupBatch& all,
+             const uint8_t* carried, const api::Carrying& carrying) const override;
   double energy(const api::ConstraintContext& context, const api::ParticleView& particles,
                 const api::GroupBatch& batch) const override;
   void limits(const api::ConstraintContext& context, const api::ParticleView& particles,

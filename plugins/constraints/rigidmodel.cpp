@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string_view>
 #include <vector>
 
 namespace ps::constraint {
@@ -112,6 +113,10 @@ RigidModel::RigidModel()
                  "becomes part of it, and pieces that freeze or sinter together for half a second become one. It never "
                  "bends and never breaks by force: for matter too stiff for bonds, such as ice, stone and metal.",
                  api::listOf(kParameters)}) {}
+
+const void* RigidModel::extension(const char* name) const noexcept {
+  return std::string_view(name) == api::kGroupPoses ? static_cast<const api::GroupPoses*>(this) : nullptr;
+}
 
 bool RigidModel::traits(api::GroupTraits* out) const noexcept {
   return api::fill(out, {.rigid = 1,
@@ -255,6 +260,22 @@ void RigidModel::restoreMembers(const ConstraintContext&, const api::MovablePart
     }
     RigidBody whole(p, all, g, m_threads);
     whole.setPose(stayed.centre() + stayed.armOf(whole.restCentre()), stayed.rotation());
+  }
+}
+
+void RigidModel::carry(const ConstraintContext&, const api::MovableParticles& particles, const GroupBatch& all,
+                       const uint8_t* carried, const api::Carrying& carrying) const {
+  const Quaternion turn{carrying.turn[0], carrying.turn[1], carrying.turn[2], carrying.turn[3]};
+  const Matrix m = matrixOf(turn);
+  const api::Double3 &shift = carrying.shift, &push = carrying.push;
+  for (size_t g = 0; g < all.count; ++g) {
+    if (carried[g] == 0) continue;
+    RigidBody body(particles, all, g, m_threads);
+    if (!body.hasPose()) continue;
+    body.setMotion(m * body.velocity() + Vector{push.x, push.y, push.z}, m * body.spin());
+    body.setPose(m * body.centre() + Vector{shift.x, shift.y, shift.z}, normalised(turn * body.rotation()));
+    body.placeMembers(particles.position);
+    setVelocities(body.members(), body.pose(), body.velocity(), body.spin(), particles.velocity);
   }
 }
 

@@ -16,7 +16,7 @@ namespace ps::constraint {
 /// or more for half a second, frozen together or sintering, become one. All of this keeps linear and angular momentum:
 /// a body takes its own from its members. Heat scales the whole body by its mean strain. It cannot do: deform, break by
 /// force, freeze together across the faces of a periodic scene, or freeze onto fixed matter (bonds do).
-class RigidModel : public api::Described<api::GroupPlugin> {
+class RigidModel : public api::Described<api::GroupPlugin>, public api::GroupPoses {
  public:
   enum Parameter { kLeastMembers, kParameterCount };
   enum Value {
@@ -42,6 +42,7 @@ class RigidModel : public api::Described<api::GroupPlugin> {
 
   void attach(api::Host& host) override { m_threads = static_cast<const api::Threads*>(host.extension(api::kThreads)); }
   bool traits(api::GroupTraits* out) const noexcept override;
+  const void* extension(const char* name) const noexcept override;
 
   void build(const api::ConstraintContext& context, const api::ParticleView& particles, const api::NeighbourView& lists,
              api::Span<const uint32_t> members, const api::GroupBatch& all, api::GroupSink& sink) const override;
@@ -55,6 +56,8 @@ class RigidModel : public api::Described<api::GroupPlugin> {
                 const api::NeighbourView& lists, const api::GroupBatch& all, api::GroupSink& sink) const override;
   void restoreMembers(const api::ConstraintContext& context, const api::MovableParticles& particles,
                       const api::GroupBatch& all, const uint8_t* returned) const override;
+  void carry(const api::ConstraintContext& context, const api::MovableParticles& particles, const api::GroupBatch& all,
+             const uint8_t* carried, const api::Carrying& carrying) const override;
 
  private:
   const api::Threads* m_threads = nullptr;

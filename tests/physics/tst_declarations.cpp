@@ -352,7 +352,8 @@ void TestDeclarations::valuesActWhenTheySay() {
   const Value value = another(project, address);
   QVERIFY(value != valueAt(project, &m_plugins, address));
   const api::ActsAt when = declared(project, address).actsAt;
-  const bool now = when == api::ActsAt::NextFrame || (when == api::ActsAt::NextFrameIfFixed && address.id == "paddle");
+  const bool now = when == api::ActsAt::NextFrame || when == api::ActsAt::WithItsMatter ||
+                   (when == api::ActsAt::NextFrameIfFixed && address.id == "paddle");
   Engine engine(project, m_plugins);
   play(engine, kBefore);
   QCOMPARE(engine.setParameter(address, value), now);

@@ -4,6 +4,7 @@
 #include "core/io/projectio.h"
 #include "core/io/recording.h"
 #include "core/plugin_host/registry.h"
+#include "core/scene/pose.h"
 #include "core/simulation/engine.h"
 #include "core/simulation/packedframe.h"
 #include "core/simulation/particlefield.h"
@@ -35,12 +36,24 @@ Project open(const QString& name, PluginRegistry& plugins) {
   return project;
 }
 
-/// A slider in frame 3 and 11, the first body taken at frame 5 and put back at 14, the document as a whole at 17.
+/// The first body a little further, turned where its form allows.
+Command further(const Project& project) {
+  Body body = project.bodies.front();
+  const RigidMove turn = RigidMove::about(pivotOf(body), Quaternion(Eigen::AngleAxisd(0.3, Vector3(1, 2, 2) / 3)));
+  RigidMove move = whyNotTurned(body).empty() ? turn : RigidMove{};
+  move.shift += Vector3(0.01, 0.02, 0);
+  move = possibleMove(body, move);
+  body = moved(std::move(body), move);
+  return MoveBody{std::make_shared<const Body>(std::move(body)), move};
+}
+
+/// A slider in frame 3 and 11, the first body moved before that, taken at frame 5 and put back at 14, the document as a
+/// whole at 17.
 std::vector<RecordedEdit> editsAfter(uint64_t frame, const Project& project) {
   constexpr MatterKey kKey = 77;
   const Address gravity{Owner::Scene, "", "gravity"};
   const std::string& body = project.bodies.front().id;
-  if (frame == 3) return {std::vector{SetParameter{gravity, 7.5}}};
+  if (frame == 3) return {further(project), std::vector{SetParameter{gravity, 7.5}}};
   if (frame == 5) return {Command{TakeBody{body, kKey}}};
   if (frame == 11) return {std::vector{SetParameter{gravity, 12.0}}, std::vector{SetParameter{gravity, 9.0}}};
   if (frame == 14) return {Command{PutBack{kKey}}};

@@ -63,7 +63,9 @@ void RowNotes::onChanged(const ParameterChanged& change) {
 void RowNotes::noteWaiting(const ParameterChanged& change) {
   const Address& address = change.address;
   const api::ParameterDeclaration* declaration = m_document.declaration(address);
-  if (!declaration || declaration->actsAt == api::ActsAt::NextFrame) return;
+  if (!declaration || declaration->actsAt == api::ActsAt::NextFrame ||
+      declaration->actsAt == api::ActsAt::WithItsMatter)
+    return;
   const Body* body = m_document.body(address.id);
   const bool fixed = body && toggleOf(body->parameters, bodyParameters(), "fixed");
   if (declaration->actsAt == api::ActsAt::NextFrameIfFixed && fixed) return;

@@ -53,7 +53,8 @@ bool ParameterRow::Private::offersKeys() const {
 /// By its declaration and value alone; whoever listens may know more.
 bool ParameterRow::Private::takesKeys() const {
   return offersKeys() && isEditable() && !model.mixed && !showsCurve() &&
-         declaration().kind != api::ParameterKind::Choice && declaration().actsAt != api::ActsAt::NextReset;
+         declaration().kind != api::ParameterKind::Choice && declaration().actsAt != api::ActsAt::NextReset &&
+         declaration().actsAt != api::ActsAt::WithItsMatter;
 }
 
 QRect ParameterRow::keyRect() const {

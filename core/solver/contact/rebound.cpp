@@ -356,6 +356,23 @@ void Rebound::eachNumber(AnEncounter& e, Visit&& visit) {
   }
 }
 
+void Rebound::forget(const ParticleStore& store, std::span<const uint8_t> goes) {
+  const auto gone = [&](uint32_t id) {
+    const size_t i = id == kNone ? store.size() : store.indexOf(id);
+    return i < store.size() && goes[i] != 0;
+  };
+  std::vector<uint32_t> place(m_encounters.size(), kNone);
+  std::vector<Encounter> left;
+  for (size_t k = 0; k < m_encounters.size(); ++k) {
+    if (gone(m_encounters[k].idA) || gone(m_encounters[k].idB)) continue;
+    place[k] = static_cast<uint32_t>(left.size());
+    left.push_back(m_encounters[k]);
+  }
+  m_encounters = std::move(left);
+  std::erase_if(m_touches, [&](const Touch& t) { return place[t.encounter] == kNone; });
+  for (Touch& t : m_touches) t.encounter = place[t.encounter];
+}
+
 void Rebound::save(StateWriter& writer) const {
   if (m_encounters.empty()) return;
   writer.open("rebound/encounters", StateType::UInt32, kMarks * m_encounters.size());

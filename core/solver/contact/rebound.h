@@ -53,6 +53,8 @@ class Rebound {
   void tell(Reactions& reactions) { m_reactions = &reactions; }
   /// What the last impacts of each material have not delivered: by nine tenths, that is.
   void limits(std::vector<Limit>& out) const;
+  /// Impacts end in which something that has been carried away takes part: `goes` by particle.
+  void forget(const ParticleStore& store, std::span<const uint8_t> goes);
   void save(StateWriter& writer) const;
   void restore(const StateReader& reader);
 

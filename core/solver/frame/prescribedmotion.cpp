@@ -81,6 +81,15 @@ void PrescribedMotion::adopt(ParticleStore& store, size_t first, size_t last, do
   }
 }
 
+void PrescribedMotion::carry(uint32_t body, const RigidMove& move) {
+  if (body >= m_frames.size() || !m_frames[body].exists) return;
+  Frame& frame = m_frames[body];
+  frame.centre = move.of(frame.centre);
+  frame.origin = move.of(frame.origin);
+  if (move.turns()) frame.turn = (move.turn * frame.turn).normalized();
+  frame.axes = frame.turn.toRotationMatrix();
+}
+
 bool PrescribedMotion::movesWithin(double time, double dt) const {
   return std::any_of(m_frames.begin(), m_frames.end(), [&](const Frame& frame) {
     return frame.exists && !rests(frame.motion) && secondsWithin(frame.motion, time, dt) > 0;

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "core/math/vector.h"
+#include "core/math/rigidmove.h"
 #include "core/particles/particlestore.h"
 #include "core/solver/motion.h"
-
-#include <Eigen/Geometry>
 
 #include <vector>
 
@@ -33,6 +31,8 @@ class PrescribedMotion {
   /// Positions and velocities of the particles first..last-1 that have a place in a frame, in the image nearest to
   /// their previous positions. A body that is on its way for a part of the substep has that part of its velocity.
   void lead(ParticleStore& store, size_t first, size_t last) const;
+  /// The body's frame goes there, and all that has a place in it with the next substep.
+  void carry(uint32_t body, const RigidMove& move);
   void save(StateWriter& writer) const;
   /// After the store. Motions are those that were saved; set() says otherwise.
   void restore(const StateReader& reader, const ParticleStore& store);

@@ -77,6 +77,11 @@ class ConstraintSystem {
   /// Adds copied constraints again wherever all their particles live; puts members of groups back into them.
   void putBack(ParticleStore& store, const CopiedConstraints& copies);
 
+  /// Marks what ties and groups hold to those that go and can move, but for what is fixed.
+  void takeAlong(const ParticleStore& store, std::vector<uint8_t>& goes);
+  /// What groups say of their places and velocities, when those that go have been carried.
+  void carry(ParticleStore& store, std::span<const uint8_t> goes, const api::Carrying& carrying);
+
   void predict(ParticleStore& store, uint32_t substep);
   /// After a new order or a new structure: finds what is tied to something fixed.
   void findHeld(const ParticleStore& store);

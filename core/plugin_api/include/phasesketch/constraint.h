@@ -144,6 +144,18 @@ class SpringTies {
   ~SpringTies() = default;
 };
 
+/// Capability of structure of groups whose values say where a group is or how it goes: extension(kGroupPoses) is its
+/// GroupPoses.
+inline constexpr const char* kGroupPoses = "group_poses";
+
+/// Where the host has carried particles from one place to another: what was at p is at turn p + shift, what went at v
+/// goes at turn v + push.
+struct Carrying {
+  double turn[4];  ///< unit quaternion: x, y, z, w
+  Double3 shift;   ///< m
+  Double3 push;    ///< m/s
+};
+
 // Groups: any number of particles together; `values` belong to the group, `memberValues` to each of its members (a
 // place in the undeformed shape, a weight, ...).
 
@@ -211,6 +223,18 @@ class GroupPlugin : public ConstraintPlugin {
                               const uint8_t* /*returned*/) const {}
   /// Elastic energy of the batch in J.
   virtual double energy(const ConstraintContext&, const ParticleView&, const GroupBatch&) const { return 0; }
+};
+
+/// See kGroupPoses.
+class GroupPoses {
+ public:
+  /// Between two frames, when the host has carried all members of the groups `g` of `all` for which carried[g] is 1,
+  /// but for those that cannot move: their values follow, and where places are made of them, those. May throw.
+  virtual void carry(const ConstraintContext&, const MovableParticles&, const GroupBatch& all, const uint8_t* carried,
+                     const Carrying&) const = 0;
+
+ protected:
+  ~GroupPoses() = default;
 };
 
 // Neighbours: no lists; each particle gathers its own correction.

@@ -19,6 +19,7 @@ enum class ActsAt : uint32_t {
   NextFrame,
   NextReset,         ///< it is read where matter or structure is made: at the start, and for what is drawn later
   NextFrameIfFixed,  ///< of a body that is held in place at the next frame, of any other at the next reset
+  WithItsMatter,     ///< where a body is: at the next frame its matter is carried along
 };
 
 /// Declared once; becomes a slider, a JSON key, a tooltip, a plot source and a test row.

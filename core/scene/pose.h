@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "core/math/rigidmove.h"
+#include "core/scene/project.h"
+
+#include <optional>
+#include <string>
+
+namespace ps {
+
+/// A box that a shape fits in, along the scene's axes.
+struct BodyBounds {
+  Vector3 minimum, maximum;  ///< m
+  Vector3 middle() const { return 0.5 * (minimum + maximum); }
+  Vector3 size() const { return maximum - minimum; }
+};
+/// Of a solid's whole extent, of a sketch's cells; a sketch without cells is a point.
+BodyBounds boundsOf(const Body& body);
+/// Where a body is, m: the middle of its form, which it turns about and is scaled from.
+Vector3 pivotOf(const Body& body);
+/// Of the matter that fills it evenly, m. Of a mesh with holes: of what its triangles enclose, as far as they do.
+Vector3 centroidOf(const Body& body);
+
+/// "" or why a body's form cannot be turned: blocks of layers and sketches lie along the axes.
+std::string whyNotTurned(const Body& body);
+/// "" or why it cannot be made larger or smaller.
+std::string whyNotScaled(const Body& body);
+/// The nearest move that a body's form can make: sketches go by whole cells.
+RigidMove possibleMove(const Body& body, const RigidMove& wanted);
+/// The body at another pose, with its pins and what varies along it; the move is one that it can make. Pins become the
+/// boxes around what they were.
+Body moved(Body body, const RigidMove& move);
+/// The body with its sizes along its own axes (of a solid) or the scene's times these factors, about its pivot. Not of
+/// sketches.
+Body scaled(Body body, const Vector3& factors);
+/// How what was made of one body comes to stand where the other would be made; nothing where the shapes differ in more
+/// than their pose, or not at all.
+std::optional<RigidMove> moveBetween(const Body& before, const Body& after);
+
+}  // namespace ps

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+// What comes into a scene that runs, goes out of it, and is carried about in it.
+#include "core/scene/pose.h"
+#include "core/simulation/compile.h"
+#include "core/simulation/engineimpl.h"
+#include "core/simulation/lattice.h"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+namespace ps {
+
+void Engine::Impl::carry(const Body& from, const RigidMove& move) {
+  const auto found = std::find(bodyIds->begin(), bodyIds->end(), from.id);
+  if (found == bodyIds->end()) return;
+  const Vector3 centre = centroidOf(from);
+  const Vector3 way = move.turns() ? Vector3(move.of(centre) - centre) : move.shift;
+  solver->carry(static_cast<uint32_t>(found - bodyIds->begin()), move.turn, way);
+}
+
+void Engine::moveBody(const Body& body, const RigidMove& move) {
+  std::vector<Body>& bodies = m->project.bodies;
+  const auto known = std::find_if(bodies.begin(), bodies.end(), [&](const Body& b) { return b.id == body.id; });
+  if (known == bodies.end()) return;
+  m->overlay.lift(m->project);
+  const Body from = std::exchange(*known, body);
+  m->overlay.lay(m->project);
+  m->recompile({{Owner::Body}});
+  m->carry(from, move);
+}
+
+std::vector<uint32_t> Engine::addCells(const Body& body, const std::vector<std::array<int, 3>>& cells, int palette) {
+  const double edge = std::get<VoxelShape>(body.shape).spacing / m->spacing;
+  m->requireRoomFor(static_cast<double>(cells.size()) * edge * edge * edge, body);
+  Spawn spawn = compileCells(m->project, m->plugins, m->tables.tables(), body, palette, cells, m->spacing);
+  spawn.position = freePositions(m->solver->particles(), spawn.position, 0.9 * m->spacing);
+  std::vector<uint32_t> ids;
+  if (!spawn.position.empty()) ids = m->born(std::move(spawn), body);
+  m->overlay.lift(m->project);
+  std::vector<Body>& bodies = m->project.bodies;
+  const auto known = std::find_if(bodies.begin(), bodies.end(), [&](const Body& b) { return b.id == body.id; });
+  if (known == bodies.end()) {
+    bodies.push_back(body);
+  } else {
+    *known = body;
+  }
+  m->overlay.lay(m->project);
+  m->recompile({{Owner::Body}});
+  m->bindTracks(m->solver->time());
+  return ids;
+}
+
+std::vector<uint32_t> Engine::addBody(const Body& body) {
+  Project project = m->project;
+  project.solver.parameters.values["particle_spacing"] = m->spacing;
+  m->requireRoomFor(particleCount(body, m->spacing), body);
+  std::vector<uint32_t> ids;
+  for (Spawn& spawn : compileBody(project, m->plugins, m->tables.tables(), body)) {
+    OccupiedPlaces occupied = occupiedPlaces(m->solver->particles(), 0.9 * m->spacing, spawn.position.size());
+    dropOccupied(spawn, occupied);
+    if (spawn.position.empty()) continue;
+    const std::vector<uint32_t> fresh = m->born(std::move(spawn), body);
+    ids.insert(ids.end(), fresh.begin(), fresh.end());
+  }
+  m->recompile({{Owner::Body}});
+  m->bindTracks(m->solver->time());
+  return ids;
+}
+
+ExtractedMatter Engine::extractParticles(const std::vector<uint32_t>& ids) {
+  std::vector<uint32_t> some;
+  std::copy_if(ids.begin(), ids.end(), std::back_inserter(some), [&](uint32_t id) { return !m->flow.holds(id); });
+  return m->solver->extract(some);
+}
+void Engine::putBack(const ExtractedMatter& matter) { m->solver->putBack(matter); }
+
+std::vector<uint32_t> Engine::particlesIn(const VoxelShape& lattice,
+                                          const std::vector<std::array<int, 3>>& cells) const {
+  return idsInCells(m->solver->particles(), lattice, cells);
+}
+
+}  // namespace ps

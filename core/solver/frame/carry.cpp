@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// A body is taken by hand to another place while the scene runs. Its velocities go on about their mean, which stays:
+// a thing that falls falls on downwards, however it is turned, and one that spins spins about its own axis.
+#include "core/solver/frame/solverimpl.h"
+
+namespace ps {
+namespace {
+
+/// kg m/s over kg, of those that go and can move.
+Vector3 meanVelocity(const ParticleStore& store, std::span<const uint8_t> goes) {
+  Vector3 momentum;
+  double mass = 0;
+  for (size_t i = 0; i < store.size(); ++i) {
+    if (goes[i] == 0 || store.velocity()[i].w == 0) continue;
+    momentum += double{store.mass()[i]} * vectorOf(store.velocity()[i]);
+    mass += double{store.mass()[i]};
+  }
+  return mass > 0 ? Vector3(momentum / mass) : Vector3(Vector3::Zero());
+}
+
+/// m, of those that go.
+Vector3 centreOf(const ParticleStore& store, std::span<const uint8_t> goes) {
+  Vector3 moment;
+  double mass = 0;
+  for (size_t i = 0; i < store.size(); ++i) {
+    if (goes[i] == 0) continue;
+    moment += double{store.mass()[i]} * vectorOf(store.position()[i]);
+    mass += double{store.mass()[i]};
+  }
+  return mass > 0 ? Vector3(moment / mass) : Vector3(Vector3::Zero());
+}
+
+}  // namespace
+
+void Solver::carry(uint32_t body, const Quaternion& turn, const Vector3& way) {
+  m->configure();
+  ParticleStore& store = m->store;
+  std::vector<uint8_t> goes(store.size());
+  for (size_t i = 0; i < store.size(); ++i) goes[i] = store.body()[i] == body ? 1 : 0;
+  RigidMove move{turn, way};
+  if (move.turns()) move.shift += centreOf(store, goes) - turn * centreOf(store, goes);
+  if (move.isNothing()) return;
+  m->constraints.takeAlong(store, goes);
+  const Vector3 mean = meanVelocity(store, goes), push = mean - move.turn * mean;
+  for (size_t i = 0; i < store.size(); ++i) {
+    if (goes[i] == 0) continue;
+    api::Float4 &place = store.position()[i], &previous = store.previous()[i], &velocity = store.velocity()[i];
+    assignTo(place, move.of(vectorOf(place)));
+    assignTo(previous, move.of(vectorOf(previous)));
+    if (move.turns()) assignTo(velocity, move.turn * vectorOf(velocity) + (velocity.w > 0 ? push : Vector3::Zero()));
+  }
+  const auto& q = move.turn.coeffs();
+  m->constraints.carry(store, goes, {{q[0], q[1], q[2], q[3]}, double3Of(move.shift), double3Of(push)});
+  m->motion.carry(body, move);
+  m->rebound.forget(store, goes);
+  m->reordered = m->structureChanged = true;
+  m->lastGoodValid = false;
+}
+
+}  // namespace ps
