@@ -2,6 +2,7 @@
 #include "core/io/projectfields.h"
 
 #include "core/io/fieldkinds.h"
+#include "core/scene/group.h"
 #include "core/scene/track.h"
 
 namespace ps::fields {
@@ -85,6 +86,9 @@ std::vector<Field<Project>> sceneRows() {
           .omittedWhen([](const Project& project) { return ownedTracks(project).empty(); })
           .writtenAs([](const Project& project) { return List{Object{trackFields()}}.write(ownedTracks(project)); }),
       field("markers", &Project::markers, List{Object{markerFields()}}, "moments that have names"),
+      field("groups", &Project::groups, List{Object{groupFields()}}, "what people see together")
+          .omittedWhen([](const Project& project) { return livingGroups(project).empty(); })
+          .writtenAs([](const Project& project) { return List{Object{groupFields()}}.write(livingGroups(project)); }),
       field("pluginsUsed", &Project::pluginsUsed, List{PluginId{std::nullopt, "what it does is left out"}},
             "missing ones are a warning")
           .always()

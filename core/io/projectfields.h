@@ -18,6 +18,7 @@ const FieldTable<Probe>& probeFields();
 const FieldTable<Graph>& graphFields();
 const FieldTable<Track>& trackFields();
 const FieldTable<Marker>& markerFields();
+const FieldTable<SceneGroup>& groupFields();
 const FieldTable<ViewState>& viewFields();
 const FieldTable<ProjectState>& stateFields();
 const FieldTable<RunEnd>& endFields();

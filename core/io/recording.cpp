@@ -338,6 +338,7 @@ bool sameScene(const Project& a, const Project& b) {
     project.markers = {};
     project.end = {};
     project.thumbnail = {};
+    project.groups = {};
     return writeProject(project);
   };
   return sceneOf(a) == sceneOf(b);

@@ -62,4 +62,16 @@ const FieldTable<Marker>& markerFields() {
   return table;
 }
 
+const FieldTable<SceneGroup>& groupFields() {
+  static const FieldTable<SceneGroup> table{
+      .help = "things that belong together for people; a thing is in the first group that names it",
+      .rows = {field("id", &SceneGroup::id, Id{}, "").required(),
+               field("name", &SceneGroup::name, Text{200}, "shown to people"),
+               field("members", &SceneGroup::members, List{Text{400}},
+                     "\"body/ID\", \"emitter/ID\", \"sink/ID\", \"wall/ID\"; what the scene has not is left out")
+                   .required()},
+      .unknown = &SceneGroup::unknown};
+  return table;
+}
+
 }  // namespace ps::fields

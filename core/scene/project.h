@@ -252,6 +252,15 @@ struct Marker {
   bool operator==(const Marker&) const = default;
 };
 
+/// Things of the scene that belong together for people; it moves and changes nothing by itself.
+struct SceneGroup {
+  std::string id;                    ///< unique among groups
+  std::string name;                  ///< shown to people
+  std::vector<std::string> members;  ///< "body/ID", "emitter/ID", "sink/ID", "wall/ID"; in one group at most
+  Unknown unknown{};
+  bool operator==(const SceneGroup&) const = default;
+};
+
 /// Orbits its target; y is up.
 struct ViewCamera {
   Vector3 target{0, 0.2, 0};                            ///< m
@@ -308,6 +317,7 @@ struct Project {
   std::optional<std::vector<Graph>> graphs;  ///< nothing: those that suit the probes, see graphsFor()
   std::vector<Track> tracks;
   std::vector<Marker> markers;  ///< in the order in which they came
+  std::vector<SceneGroup> groups;
   double duration = 60;         ///< s
   ViewState view;
   std::shared_ptr<const ProjectState> state;  ///< nullptr: it opens at its start

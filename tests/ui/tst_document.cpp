@@ -249,7 +249,7 @@ class TestDocument : public QObject {
     document.renameBody("ice", QStringLiteral("Berg"));
     QVERIFY(std::find(kinds.begin(), kinds.end(), ChangeEvent(BodyChanged{}).index()) != kinds.end());
     QCOMPARE(document.body("ice")->name, std::string("Berg"));
-    document.setBodyVisible("ice", false);
+    document.setBodiesVisible({"ice"}, false);
     QVERIFY(!document.body("ice")->visible);
     document.undoStack().undo();
     document.undoStack().undo();

@@ -321,7 +321,7 @@ void TestRender::theSelectedBodyHasAnOutline() {
   o.camera = Camera{{0, 0.3, 0}, 1.5, 0, 0};
   o.size.still = still;
   const auto plain = renderImage(renderer, s, tray(), o);
-  o.look.outline = BodyOutline{7, {1, 0, 1}, {0, 0, 0}};
+  o.look.outline = BodyOutline{{7}, {1, 0, 1}, {0, 0, 0}};
   const auto outlined = renderImage(renderer, s, tray(), o);
   const double pixel = pixelSize(o.camera, kHeight, 1.5);
   const double growth = motion == int(api::Motion::Liquid) ? 1.25 : 1;  // a surface lies outside its particles
@@ -342,7 +342,7 @@ void TestRender::theSelectedBodyHasAnOutline() {
   // A ring of two pixels less what smoothing takes.
   const double ring = 2 * std::numbers::pi * (growth * kRadius / pixel + 1);
   QVERIFY2(line > 0.7 * ring && line < 2.5 * ring, qPrintable(QStringLiteral("%1 of %2").arg(line).arg(ring)));
-  o.look.outline->body = 99;
+  o.look.outline->bodies = {99};
   QVERIFY(renderImage(renderer, s, tray(), o) == plain);
 }
 

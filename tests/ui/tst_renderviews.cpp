@@ -133,7 +133,7 @@ void TestRenderViews::onePrepareServesEveryView() {
   Shot shot;
   shot.look.colour = colour.toStdString();
   shot.look.dark = dark;
-  shot.look.outline = BodyOutline{0, {1, 1, 0}, {0, 0, 0}};
+  shot.look.outline = BodyOutline{{0}, {1, 1, 0}, {0, 0, 0}};
   Camera above = shot.camera;
   above.elevation = 80;
   const auto eyes = eyesOf(shot.camera);

@@ -2,6 +2,7 @@
 // Projects that hold a state, in the editor: kept, opened, left for the start and come back to, removed.
 #include "core/base/statestream.h"
 #include "core/io/projectio.h"
+#include "core/scene/pose.h"
 #include "core/simulation/projectstate.h"
 #include "samplewindow.h"
 #include "tests/shared/scenes.h"
@@ -111,7 +112,7 @@ class TestSavedState : public QObject {
     QVERIFY(read().state);
     QCOMPARE(read().state->frame, kKept);
 
-    QCOMPARE(document().duplicateBody("ice"), QString());
+    document().addBody(moved(*document().body("ice"), {Quaternion::Identity(), {0, 0.2, 0}}));
     save();
     QVERIFY(!read().state);
     QTRY_COMPARE(m_window->notice()->topic(), QStringLiteral("state"));

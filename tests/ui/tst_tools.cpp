@@ -2,12 +2,15 @@
 // Tools driven by rays, without a widget: what mouse, pen and hands would do with them.
 #include "core/base/callee.h"
 #include "core/plugin_host/registry.h"
+#include "core/scene/pose.h"
 #include "core/simulation/enginethread.h"
 #include "core/sketch/stroke.h"
 #include "tests/shared/scenes.h"
 #include "ui/document/document.h"
 #include "ui/session/scenelink.h"
 #include "ui/session/selection.h"
+#include "ui/tools/aim.h"
+#include "ui/tools/gizmo.h"
 #include "ui/tools/toolbox.h"
 #include "ui/tools/tooltable.h"
 
@@ -75,6 +78,43 @@ class TestTools : public QObject {
     }
     m_tools->activate("hammer");
     QCOMPARE(m_tools->active(), std::string(toolTable().back().id));
+  }
+
+  /// Its arms are as long to the eye from near and far, and a drag along one goes just as far in the scene.
+  void handlesAreDraggedByRays() {
+    m_selection->selectBody("ice");
+    m_tools->activate("move");
+    const Vector3 before = pivotOf(*m_document->body("ice"));
+    Pointer pointer = at(before);
+    Tool& tool = m_tools->tool();
+    tool.hover(pointer);
+    const Gizmo gizmo = tool.picture().gizmo->gizmo.value();
+    QVERIFY((gizmo.centre - before).norm() < 1e-12);
+    const auto tipSeen = [&](double nearer) {
+      Pointer from = pointer;
+      from.ray.origin = before - nearer * 1.4 * pointer.forward;
+      from.ray.direction = pointer.forward;
+      const double arm = armOf(from, gizmo.centre);
+      const Vector3 across = gizmo.axes.col(0);
+      return std::hypot(aimTo(from, gizmo.centre + arm * across)->x, aimTo(from, gizmo.centre + arm * across)->y);
+    };
+    QVERIFY(std::abs(tipSeen(1) - kGizmoArm) < 1e-6 && std::abs(tipSeen(4) - kGizmoArm) < 1e-6);
+    const double arm = armOf(pointer, gizmo.centre);
+    const Vector3 grip = gizmo.centre + Vector3(0.8 * arm, 0, 0);
+    QVERIFY(tool.press(at(grip)));
+    QCOMPARE(tool.picture().gizmo->active, (std::optional(GizmoPart{GizmoPart::Kind::Arm, 0})));
+    tool.drag(at(grip + Vector3(0.11, 0, 0)));
+    QVERIFY((pivotOf(*m_document->body("ice")) - before - Vector3(0.11, 0, 0)).norm() < 1e-9);
+    Pointer stepped = at(grip + Vector3(0.11, 0, 0));
+    stepped.control = true;
+    tool.drag(stepped);
+    QVERIFY((pivotOf(*m_document->body("ice")) - before - Vector3(4 * kSpacing, 0, 0)).norm() < 1e-9);
+    QVERIFY(!tool.takesText(QStringLiteral("x")) && tool.takesText(QStringLiteral("4")));
+    QVERIFY(tool.cancel());
+    QCOMPARE(pivotOf(*m_document->body("ice")), before);
+    QCOMPARE(m_document->undoStack().count(), 0);
+    m_document->setBodiesLocked({"ice"}, true);
+    QVERIFY(!tool.picture().gizmo->gizmo && tool.picture().gizmo->note.contains(QStringLiteral("locked")));
   }
 
   void aBrushThatFailsIsPutAside_data() {

@@ -558,7 +558,7 @@ class TestWindow : public QObject {
   }
 
   void hidingABodyEmptiesTheView() {
-    document().setBodyVisible("ice", false);
+    document().setBodiesVisible({"ice"}, false);
     QTRY_VERIFY_WITH_TIMEOUT(m_window->viewport()->snapshot()->id.empty(), kLong);
     m_window->selection().selectBody("ice");
     QTest::mouseClick(m_window->viewport(), Qt::LeftButton, {},

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "core/math/rigidmove.h"
 #include "core/scene/project.h"
 #include "ui/document/matterref.h"
 
@@ -23,10 +24,12 @@ struct ParameterChanged {
   Value before{};  ///< what held until now
 };
 /// A body was renamed, hidden, locked, given another structure; or it came or went together with its matter, which
-/// `matter` names (nullptr: no particle is touched).
+/// `matter` names (nullptr: no particle is touched). `move`: it is at another pose, and nothing else of it has changed;
+/// its matter goes along.
 struct BodyChanged {
   std::string id;
   MatterRef matter{};
+  std::optional<RigidMove> move{};
 };
 /// An emitter or a sink came, went or was renamed; `moved`: nothing but its place has changed. An emitter goes and
 /// comes back together with what it has poured, which `matter` names.
@@ -35,8 +38,10 @@ struct PortChanged {
   std::string id{};
   MatterRef matter{};
 };
-/// Walls came or went.
-struct WallsChanged {};
+/// Walls came or went; `moved`: nothing but their places has changed.
+struct WallsChanged {
+  bool moved = false;
+};
 /// The scene has one material more, or less, or one holds on to others than before.
 struct MaterialsChanged {};
 /// A stroke was made (`live`: its particles are in the engine already), undone or redone.
@@ -58,6 +63,8 @@ struct ProbesChanged {
 };
 /// Other graphs are shown, or they show something else.
 struct GraphsChanged {};
+/// Things stand in another order, or in other groups.
+struct OrderChanged {};
 /// Markers came, went, moved or are called something else.
 struct MarkersChanged {};
 /// The project holds another state to open at, or none; the scene that runs stays what it is.
@@ -68,6 +75,6 @@ struct FileChanged {};
 /// What happened to a document, as one value: receivers visit it.
 using ChangeEvent = std::variant<ProjectOpened, ParameterChanged, BodyChanged, PortChanged, WallsChanged,
                                  MaterialsChanged, StrokeChanged, ViewChanged, PinsChanged, TracksChanged,
-                                 ProbesChanged, GraphsChanged, MarkersChanged, StateChanged, FileChanged>;
+                                 ProbesChanged, GraphsChanged, OrderChanged, MarkersChanged, StateChanged, FileChanged>;
 
 }  // namespace ps

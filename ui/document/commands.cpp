@@ -7,33 +7,44 @@
 
 namespace ps {
 
-ParameterCommand::ParameterCommand(Document& document, Address address, std::optional<Value> before,
-                                   std::optional<Value> after, int gesture, const QString& text)
-    : QUndoCommand(text),
-      m_document(document),
-      m_address(std::move(address)),
-      m_before(std::move(before)),
-      m_after(std::move(after)),
-      m_gesture(gesture) {
-  setObsolete(m_before == m_after);
+ParameterCommand::ParameterCommand(Document& document, std::vector<ParameterEdit> edits, int gesture,
+                                   const QString& text)
+    : QUndoCommand(text), m_document(document), m_edits(std::move(edits)), m_gesture(gesture) {
+  setObsolete(isNothing());
 }
 
-void ParameterCommand::undo() { m_document.applyParameter(m_address, m_before); }
-void ParameterCommand::redo() { m_document.applyParameter(m_address, m_after); }
+void ParameterCommand::undo() {
+  for (auto edit = m_edits.rbegin(); edit != m_edits.rend(); ++edit)
+    m_document.applyParameter(edit->address, edit->before);
+}
+void ParameterCommand::redo() {
+  for (const ParameterEdit& edit : m_edits) m_document.applyParameter(edit.address, edit.after);
+}
+
+bool ParameterCommand::isNothing() const {
+  return std::all_of(m_edits.begin(), m_edits.end(),
+                     [](const ParameterEdit& edit) { return edit.before == edit.after; });
+}
 
 bool ParameterCommand::amend(const Address& address, const std::optional<Value>& refused,
                              const std::optional<Value>& kept) {
-  if (!(m_address == address) || m_after != refused) return false;
-  m_after = kept;
-  setObsolete(m_before == m_after);
+  const auto edit = std::find_if(m_edits.begin(), m_edits.end(), [&](const ParameterEdit& one) {
+    return one.address == address && one.after == refused;
+  });
+  if (edit == m_edits.end()) return false;
+  edit->after = kept;
+  setObsolete(isNothing());
   return true;
 }
 
 bool ParameterCommand::mergeWith(const QUndoCommand* other) {
   const auto* next = static_cast<const ParameterCommand*>(other);
-  if (next->m_gesture != m_gesture || !(next->m_address == m_address)) return false;
-  m_after = next->m_after;
-  setObsolete(m_before == m_after);
+  const bool same = std::equal(
+      m_edits.begin(), m_edits.end(), next->m_edits.begin(), next->m_edits.end(),
+      [](const ParameterEdit& first, const ParameterEdit& second) { return first.address == second.address; });
+  if (next->m_gesture != m_gesture || !same) return false;
+  for (size_t k = 0; k < m_edits.size(); ++k) m_edits[k].after = next->m_edits[k].after;
+  setObsolete(isNothing());
   return true;
 }
 
@@ -68,6 +79,51 @@ bool PortCommand::mergeWith(const QUndoCommand* other) {
         return true;
       },
       m_edit);
+}
+
+namespace {
+bool samePlace(const Body& a, const Body& b) { return a.shape == b.shape; }
+bool samePlace(const SceneWall& a, const SceneWall& b) { return a.point == b.point && a.normal == b.normal; }
+bool samePlace(const Probe& a, const Probe& b) { return a == b; }
+
+template <class Item>
+bool sameThings(const std::vector<Item>& a, const std::vector<Item>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const Item& x, const Item& y) { return x.id == y.id; });
+}
+template <class Item>
+bool samePlaces(const std::vector<Item>& a, const std::vector<Item>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const Item& x, const Item& y) { return samePlace(x, y); });
+}
+bool samePlaces(const Placement& a, const Placement& b) {
+  return samePlaces(a.bodies, b.bodies) && samePlaces(a.emitters, b.emitters) && samePlaces(a.sinks, b.sinks) &&
+         samePlaces(a.walls, b.walls) && samePlaces(a.probes, b.probes);
+}
+bool sameThings(const Placement& a, const Placement& b) {
+  return sameThings(a.bodies, b.bodies) && sameThings(a.emitters, b.emitters) && sameThings(a.sinks, b.sinks) &&
+         sameThings(a.walls, b.walls) && sameThings(a.probes, b.probes);
+}
+}  // namespace
+
+PlacementCommand::PlacementCommand(Document& document, Placement before, Placement after, int gesture,
+                                   const QString& text)
+    : QUndoCommand(text),
+      m_document(document),
+      m_before(std::move(before)),
+      m_after(std::move(after)),
+      m_gesture(gesture) {
+  setObsolete(samePlaces(m_before, m_after));
+}
+
+void PlacementCommand::undo() { m_document.applyPlacement(m_before); }
+void PlacementCommand::redo() { m_document.applyPlacement(m_after); }
+
+bool PlacementCommand::mergeWith(const QUndoCommand* other) {
+  const auto* next = static_cast<const PlacementCommand*>(other);
+  if (next->m_gesture != m_gesture || !sameThings(m_after, next->m_after)) return false;
+  m_after = next->m_after;
+  setObsolete(samePlaces(m_before, m_after));
+  return true;
 }
 
 WallsCommand::WallsCommand(Document& document, std::vector<SceneWall> before, std::vector<SceneWall> after,
@@ -127,6 +183,14 @@ bool TrackCommand::mergeWith(const QUndoCommand* other) {
   setObsolete(isNothing());
   return true;
 }
+
+OrderCommand::OrderCommand(Document& document, SceneOrder before, SceneOrder after, const QString& text)
+    : QUndoCommand(text), m_document(document), m_before(std::move(before)), m_after(std::move(after)) {
+  setObsolete(m_before == m_after);
+}
+
+void OrderCommand::undo() { m_document.applyOrder(m_before); }
+void OrderCommand::redo() { m_document.applyOrder(m_after); }
 
 GraphsCommand::GraphsCommand(Document& document, Graphs before, Graphs after, const QString& text)
     : QUndoCommand(text), m_document(document), m_before(std::move(before)), m_after(std::move(after)) {}

@@ -1,22 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "ui/document/placement.h"
 #include "ui/document/port.h"
 #include "ui/document/strokerecord.h"
 
 #include <QtGui/QUndoCommand>
 
 #include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace ps {
 
 class Document;
 
-/// One parameter from an old to a new value; "nothing" is the default. Commands of one gesture on one address merge, so
-/// that a whole drag is one step; one that ends where it began vanishes.
+/// One parameter from an old to a new value; "nothing" is the default.
+struct ParameterEdit {
+  Address address;
+  std::optional<Value> before, after;
+};
+
+/// Parameters that change together. Commands of one gesture on the same addresses merge, so that a whole drag is one
+/// step; one that ends where it began vanishes.
 class ParameterCommand : public QUndoCommand {
  public:
-  ParameterCommand(Document& document, Address address, std::optional<Value> before, std::optional<Value> after,
-                   int gesture, const QString& text);
+  ParameterCommand(Document& document, std::vector<ParameterEdit> edits, int gesture, const QString& text);
   void undo() override;
   void redo() override;
   int id() const override { return 1; }
@@ -25,9 +34,9 @@ class ParameterCommand : public QUndoCommand {
   bool amend(const Address& address, const std::optional<Value>& refused, const std::optional<Value>& kept);
 
  private:
+  bool isNothing() const;
   Document& m_document;
-  Address m_address;
-  std::optional<Value> m_before, m_after;
+  std::vector<ParameterEdit> m_edits;
   int m_gesture;
 };
 
@@ -59,6 +68,21 @@ class PortCommand : public QUndoCommand {
  private:
   Document& m_document;
   AnyPortEdit m_edit;
+  int m_gesture;
+};
+
+/// Things put somewhere else, together. Commands of one gesture merge; one that ends where it began vanishes.
+class PlacementCommand : public QUndoCommand {
+ public:
+  PlacementCommand(Document& document, Placement before, Placement after, int gesture, const QString& text);
+  void undo() override;
+  void redo() override;
+  int id() const override { return 6; }
+  bool mergeWith(const QUndoCommand* other) override;
+
+ private:
+  Document& m_document;
+  Placement m_before, m_after;
   int m_gesture;
 };
 
@@ -133,6 +157,18 @@ class TrackCommand : public QUndoCommand {
   Document& m_document;
   std::vector<TrackEdit> m_edits;  ///< one after the other
   int m_gesture;
+};
+
+/// Groups, and the order in which things stand: all of both before and after.
+class OrderCommand : public QUndoCommand {
+ public:
+  OrderCommand(Document& document, SceneOrder before, SceneOrder after, const QString& text);
+  void undo() override;
+  void redo() override;
+
+ private:
+  Document& m_document;
+  SceneOrder m_before, m_after;
 };
 
 /// Graphs that come, go or change: all of them before and after; nothing: those that suit the probes.

@@ -10,6 +10,16 @@
 
 namespace ps {
 
+namespace {
+
+/// Whether an address says what a body is made of: no number in a set, and a command of its own.
+bool isComposition(const Address& address) {
+  return address.owner == Owner::Body && (address.key == kStructureKey || address.key == kBodyMaterialKey ||
+                                          !pluginBehind(address.key, kNeighbourKey).empty());
+}
+
+}  // namespace
+
 Document::Document(QObject* parent) : QObject(parent) {
   connect(&m_undo, &QUndoStack::cleanChanged, this, [this] { notify(FileChanged{}); });
 }
@@ -107,11 +117,11 @@ QString Document::setParameter(const Address& address, const Value& value) {
   if (m_gestureDepth == 0 && before == after) return {};
   std::vector<TrackEdit> follow = tracksAfter(address, value);
   if (follow.empty()) {
-    m_undo.push(new ParameterCommand(*this, address, before, after, m_gesture, text));
+    m_undo.push(new ParameterCommand(*this, {{address, before, after}}, m_gesture, text));
     return {};
   }
   m_undo.beginMacro(text);
-  m_undo.push(new ParameterCommand(*this, address, before, after, m_gesture, text));
+  m_undo.push(new ParameterCommand(*this, {{address, before, after}}, m_gesture, text));
   m_undo.push(new TrackCommand(*this, std::move(follow), m_gesture, text));
   m_undo.endMacro();
   return {};
@@ -128,11 +138,17 @@ QString Document::setParameters(const std::vector<std::pair<Address, Value>>& va
     const std::string problem = problemWith(together, m_plugins, address, value);
     if (!problem.empty()) return QString::fromStdString(problem);
   }
-  m_undo.beginMacro(text);
+  if (std::any_of(values.begin(), values.end(), [](const auto& one) { return isComposition(one.first); })) {
+    m_undo.beginMacro(text);
+    for (const auto& [address, value] : values) setParameter(address, value);
+    m_undo.endMacro();
+    return {};
+  }
+  std::vector<ParameterEdit> edits;
   for (const auto& [address, value] : values)
-    m_undo.push(new ParameterCommand(*this, address, storedValue(m_project, address), asStored(address, value),
-                                     ++m_gesture, text));
-  m_undo.endMacro();
+    edits.push_back({address, storedValue(m_project, address), asStored(address, value)});
+  if (m_gestureDepth == 0) ++m_gesture;
+  m_undo.push(new ParameterCommand(*this, std::move(edits), m_gesture, text));
   return {};
 }
 
@@ -180,18 +196,29 @@ void Document::renameBody(const std::string& id, const QString& name) {
   editBody(id, QStringLiteral("rename of %1").arg(nameOf(*old)), [&](Body& b) { b.name = wanted; });
 }
 
-void Document::setBodyVisible(const std::string& id, bool visible) {
-  const Body* old = body(id);
-  if (!old || old->visible == visible) return;
-  editBody(id, (visible ? QStringLiteral("showing %1") : QStringLiteral("hiding %1")).arg(nameOf(*old)),
-           [&](Body& b) { b.visible = visible; });
+void Document::editBodies(const std::vector<std::string>& ids, const QString& text,
+                          const std::function<bool(Body&)>& change) {
+  std::vector<SceneEdit> edits;
+  for (const std::string& id : ids) {
+    const Body* before = body(id);
+    if (!before) continue;
+    BodyEdit edit{id, *before, *before, 0};
+    if (change(*edit.after)) edits.emplace_back(std::move(edit));
+  }
+  if (edits.empty()) return;
+  const QString what =
+      edits.size() == 1 ? nameOf(*body(bodyOf(edits[0]))) : QStringLiteral("%1 bodies").arg(edits.size());
+  m_undo.push(new BodiesCommand(*this, std::move(edits), text.arg(what)));
 }
 
-void Document::setBodyLocked(const std::string& id, bool locked) {
-  const Body* old = body(id);
-  if (!old || old->locked == locked) return;
-  editBody(id, (locked ? QStringLiteral("locking %1") : QStringLiteral("unlocking %1")).arg(nameOf(*old)),
-           [&](Body& b) { b.locked = locked; });
+void Document::setBodiesVisible(const std::vector<std::string>& ids, bool visible) {
+  editBodies(ids, visible ? QStringLiteral("showing %1") : QStringLiteral("hiding %1"),
+             [&](Body& b) { return std::exchange(b.visible, visible) != visible; });
+}
+
+void Document::setBodiesLocked(const std::vector<std::string>& ids, bool locked) {
+  editBodies(ids, locked ? QStringLiteral("locking %1") : QStringLiteral("unlocking %1"),
+             [&](Body& b) { return std::exchange(b.locked, locked) != locked; });
 }
 
 std::string Document::freeBodyId(const std::string& stem) {

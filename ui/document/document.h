@@ -3,6 +3,7 @@
 #include "core/io/filestamp.h"
 #include "core/scene/project.h"
 #include "ui/document/changeevent.h"
+#include "ui/document/placement.h"
 #include "ui/document/port.h"
 #include "ui/document/strokerecord.h"
 
@@ -64,8 +65,8 @@ class Document : public QObject {
   void endGesture();
   /// Sets a value (the default removes the explicit one). Returns "" or why it is refused; the old one then stays.
   QString setParameter(const Address& address, const Value& value);
-  /// Several numbers or responses as one undo step, judged together. Returns "" or why one is refused; nothing is then
-  /// set.
+  /// Several parameters as one undo step, judged together; within a gesture those of the same addresses are one.
+  /// Returns "" or why one is refused; nothing is then set.
   QString setParameters(const std::vector<std::pair<Address, Value>>& values, const QString& text);
   /// The engine has refused a value and goes on with another (see storedValue()): so does the document, as if it had
   /// never been set. Nothing happens when it has another value by now.
@@ -74,8 +75,8 @@ class Document : public QObject {
   // Bodies
   const Body* body(const std::string& id) const;
   void renameBody(const std::string& id, const QString& name);
-  void setBodyVisible(const std::string& id, bool visible);
-  void setBodyLocked(const std::string& id, bool locked);
+  void setBodiesVisible(const std::vector<std::string>& ids, bool visible);
+  void setBodiesLocked(const std::vector<std::string>& ids, bool locked);
   /// An id that no body and no emitter has had since the project was opened: "sketch-2". Matter of those that are gone
   /// may live on in the scene, or come back by undo.
   std::string freeBodyId(const std::string& stem);
@@ -84,8 +85,6 @@ class Document : public QObject {
   std::string addBody(Body body);
   /// Takes a body out of the scene with its matter. Returns "" or why it stays.
   QString removeBody(const std::string& id);
-  /// A copy on top of it. Returns "" or why there is none.
-  QString duplicateBody(const std::string& id);
   /// What holds a body together: a constraint plugin's id in place of those that did, or "none". Acts at the next
   /// reset.
   void setStructure(const std::string& id, const std::string& plugin);
@@ -111,7 +110,6 @@ class Document : public QObject {
   /// Takes a tap out of the scene with what it has poured, as a body goes with its matter; what a drain took stays
   /// away.
   void removePort(const Port& port);
-  std::optional<Port> duplicatePort(const Port& port);
 
   // Walls
   const SceneWall* wall(const std::string& id) const;
@@ -119,6 +117,24 @@ class Document : public QObject {
   /// already are left out. Returns "" or why none came.
   QString addWalls(const std::vector<std::string>& sides);
   void removeWall(const std::string& id);
+
+  // Things of several kinds
+  /// Bodies, emitters, sinks, walls and probes of a project come into this one, as one step, with their materials, but
+  /// for those that the scene has already; what they refer to among themselves follows their new ids. Returns them as
+  /// they are here.
+  Placement insertThings(Project things, const QString& title);
+  /// How things stand in lists, and their groups (see livingGroups()).
+  SceneOrder order() const;
+  void setOrder(SceneOrder after, const QString& title);
+  /// Members as groups name them; they leave the groups that they were in. Returns the id.
+  std::string addGroup(std::vector<std::string> members);
+  void removeGroups(const std::vector<std::string>& ids);  ///< their members stay
+  void renameGroup(const std::string& id, const QString& name);
+
+  // Places
+  /// Things of the scene stand as these say, by their ids; what is not there is left out. Matter of bodies is carried
+  /// along; other sizes act at the next reset. Within a gesture all edits of the same things are one undo step.
+  void place(Placement after, const QString& title);
 
   // Materials
   /// The scene's material of an installed one, added where there is none yet. Returns its id.
@@ -187,12 +203,14 @@ class Document : public QObject {
   void applyParameter(const Address& address, const std::optional<Value>& value);
   void applyBodies(const std::vector<SceneEdit>& edits, bool forward, const MatterRef& matter);
   void applyPort(const AnyPortEdit& edit, bool forward);
+  void applyPlacement(const Placement& to);
   void applyWalls(const std::vector<SceneWall>& walls);
   void applyMaterials(const std::vector<SceneMaterial>& materials);
   void applyStroke(const std::shared_ptr<StrokeRecord>& stroke, bool done, bool live);
   void applyState(const std::shared_ptr<const ProjectState>& state);
   void applyPins(const std::vector<std::string>& pins);
   void applyTrack(const TrackEdit& edit, bool forward);
+  void applyOrder(const SceneOrder& order);
   void applyGraphs(const std::optional<std::vector<Graph>>& graphs);
   void applyMarkers(const std::vector<Marker>& markers);
   void applyProbe(const ProbeEdit& edit, bool forward);
@@ -210,6 +228,8 @@ class Document : public QObject {
   std::vector<TrackEdit> tracksAfter(const Address& curve, const Value& after) const;
   std::optional<Value> asStored(const Address& address, const std::optional<Value>& value) const;
   void editBody(const std::string& id, const QString& text, const std::function<void(Body&)>& change);
+  /// Those that `change` says it has changed, as one step.
+  void editBodies(const std::vector<std::string>& ids, const QString& text, const std::function<bool(Body&)>& change);
   template <class Item>
   void pushPort(std::optional<Item> before, std::optional<Item> after, size_t index, const QString& title);
 

@@ -3,6 +3,7 @@
 #include "ui/document/commands.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
+#include "ui/document/portbounds.h"
 
 #include <algorithm>
 #include <type_traits>
@@ -37,6 +38,9 @@ std::string nameFromId(const std::string& id) {
 Vector3 within(const Environment& environment, const Vector3& p) {
   return p.cwiseMax(environment.boundsMinimum).cwiseMin(environment.boundsMaximum);
 }
+
+}  // namespace
+
 void keepWithin(const Environment& environment, Emitter& emitter) {
   emitter.point = within(environment, emitter.point);
 }
@@ -44,19 +48,6 @@ void keepWithin(const Environment& environment, Sink& sink) {
   const Vector3 centre = 0.5 * (sink.minimum + sink.maximum), way = within(environment, centre) - centre;
   sink.minimum += way, sink.maximum += way;
 }
-
-/// Beside its original, along x.
-void moveAside(const Environment& environment, Emitter& emitter) {
-  const double step = 1.5 * numberOf(emitter.parameters, emitterParameters(), "diameter");
-  emitter.point[0] += emitter.point[0] + step > environment.boundsMaximum[0] ? -step : step;
-}
-void moveAside(const Environment& environment, Sink& sink) {
-  const double width = sink.maximum[0] - sink.minimum[0];
-  const double step = sink.maximum[0] + width > environment.boundsMaximum[0] ? -width : width;
-  sink.minimum[0] += step, sink.maximum[0] += step;
-}
-
-}  // namespace
 
 const Emitter* Document::emitter(const std::string& id) const { return itemOf(m_project.emitters, id); }
 const Sink* Document::sink(const std::string& id) const { return itemOf(m_project.sinks, id); }
@@ -132,16 +123,6 @@ void Document::removePort(const Port& port) {
   } else if (const Emitter* from = port.sink ? nullptr : emitter(port.id)) {
     pushPort<Emitter>(*from, {}, static_cast<size_t>(from - m_project.emitters.data()), title);
   }
-}
-
-std::optional<Port> Document::duplicatePort(const Port& port) {
-  const auto copyOf = [&](auto copy) {
-    copy.name = nameOf(copy).toStdString() + " copy";
-    moveAside(m_project.environment, copy);
-    return copy;
-  };
-  if (port.sink) return sink(port.id) ? std::optional(addSink(copyOf(*sink(port.id)))) : std::nullopt;
-  return emitter(port.id) ? std::optional(addEmitter(copyOf(*emitter(port.id)))) : std::nullopt;
 }
 
 void Document::applyPort(const AnyPortEdit& edit, bool forward) {

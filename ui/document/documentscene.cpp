@@ -2,54 +2,17 @@
 // What comes into a document's scene and leaves it: bodies with their matter, materials.
 #include "core/matter/material.h"
 #include "core/plugin_host/registry.h"
-#include "core/scene/solidform.h"
 #include "ui/document/commands.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 
 namespace ps {
 namespace {
 
 QString text(const std::string& utf8) { return QString::fromStdString(utf8); }
-
-/// Lowest and highest point of a body's shape above the origin, m.
-std::pair<double, double> heights(const Body& body) {
-  if (const auto* box = std::get_if<BoxShape>(&body.shape)) {
-    return {box->center[1] - box->size[1] / 2, box->center[1] + box->size[1] / 2};
-  }
-  if (const auto* solid = std::get_if<SolidShape>(&body.shape)) {
-    const SolidForm form(*solid);
-    const double half = form.extent()[1] / 2;
-    return {form.middle()[1] - half, form.middle()[1] + half};
-  }
-  const auto& voxels = std::get<VoxelShape>(body.shape);
-  if (voxels.runs.empty()) return {voxels.origin[1], voxels.origin[1]};
-  const auto [low, high] = std::minmax_element(voxels.runs.begin(), voxels.runs.end(),
-                                               [](const auto& a, const auto& b) { return a.y < b.y; });
-  return {voxels.origin[1] + (low->y - 0.5) * voxels.spacing, voxels.origin[1] + (high->y + 0.5) * voxels.spacing};
-}
-
-/// Moves a body up; sketched ones by whole cells, so that they stay on the lattice of the brush.
-void lift(Body& body, double metres) {
-  if (auto* box = std::get_if<BoxShape>(&body.shape)) {
-    box->center[1] += metres;
-    return;
-  }
-  if (auto* solid = std::get_if<SolidShape>(&body.shape)) {
-    solid->parameters.values["position_y"] = SolidForm(*solid).middle()[1] + metres;
-    return;
-  }
-  auto& voxels = std::get<VoxelShape>(body.shape);
-  const double cells = std::ceil(metres / voxels.spacing - 1e-6);
-  for (VoxelShape::Run& run : voxels.runs) run.y += static_cast<int>(cells);
-  for (VoxelShape::Stroke& stroke : voxels.strokes) {
-    for (auto& sample : stroke.samples) sample[1] += cells * voxels.spacing;
-  }
-}
 
 bool isOf(const Body& body, const std::string& material) {
   const auto* voxels = std::get_if<VoxelShape>(&body.shape);
@@ -99,25 +62,6 @@ QString Document::removeBody(const std::string& id) {
   if (old->locked) return QStringLiteral("“%1” is locked. Unlock it first.").arg(nameOf(*old));
   const BodyEdit edit{id, *old, std::nullopt, static_cast<size_t>(old - m_project.bodies.data())};
   m_undo.push(new BodiesCommand(*this, {edit}, QStringLiteral("deletion of %1").arg(nameOf(*old)), newMatter()));
-  return {};
-}
-
-QString Document::duplicateBody(const std::string& id) {
-  const Body* old = body(id);
-  if (!old) return {};
-  Body copy = *old;
-  copy.id = freeBodyId(id);
-  copy.name = old->name + " copy";
-  copy.locked = false;
-  const double spacing = numberOf(m_project.solver.parameters, solverParameters(), "particle_spacing");
-  const auto [low, high] = heights(*old);
-  lift(copy, high - low + spacing);  // a layer of air keeps the two apart
-  if (heights(copy).second > m_project.environment.boundsMaximum[1]) {
-    return QStringLiteral("Above “%1” is no room for a copy.").arg(nameOf(*old));
-  }
-  const auto place = static_cast<size_t>(old - m_project.bodies.data()) + 1;
-  const QString title = QStringLiteral("copy of %1").arg(nameOf(*old));
-  m_undo.push(new BodiesCommand(*this, {BodyEdit{copy.id, std::nullopt, copy, place}}, title, newMatter()));
   return {};
 }
 

@@ -50,7 +50,7 @@ Inspector::Inspector(Session& session, Selection& selection, QObject* parent)
     if (selection.kind() == OutlineKind::Probe)
       setProbe(selection.id());
     else if (!selection.empty())
-      setBody(selection.body());
+      setBodies(selection.bodies());
   });
   connect(&selection, &Selection::materialChanged, this, [this, &selection] { setMaterial(selection.material()); });
 }
@@ -90,16 +90,8 @@ void Inspector::onEdited(const QString& key, const Value& value, Edit edit) {
     for (ParameterPanel* panel : panels()) panel->setValue(key, m_document.value(*address));
     return;
   }
-  const QString problem = m_document.setParameter(*address, value);
+  const QString problem = setAll(*address, value);
   for (ParameterPanel* panel : panels()) panel->setError(key, problem);
-}
-
-void Inspector::onScaled(const QString& key, double factor) {
-  const auto address = Address::parse(key.toStdString());
-  const api::ParameterDeclaration* declaration = address ? m_document.declaration(*address) : nullptr;
-  const Value value = address ? m_document.value(*address) : Value(0.0);
-  if (!declaration || !std::holds_alternative<double>(value)) return;
-  m_document.setParameter(*address, scaledValue(*declaration, std::get<double>(value), factor));
 }
 
 /// Links of notes say what they set: "solver/substeps=8"; or that the scene is to be reset.
@@ -163,7 +155,7 @@ void Inspector::rebuildBody() {
   for (const SceneMaterial& material : m_document.project().materials) {
     if (material.id == body->material && !material.label.empty()) matter = QString::fromStdString(material.label);
   }
-  m_body->setHeader(nameOf(*body), matter + QString::fromUtf8(kShapes[body->shape.index()]));
+  if (!showBodiesHeader()) m_body->setHeader(nameOf(*body), matter + QString::fromUtf8(kShapes[body->shape.index()]));
   if (auto material = rowModelOf(m_document, {Owner::Body, body->id, kBodyMaterialKey}))
     rows.push_back(std::move(*material));
   if (std::holds_alternative<SolidShape>(body->shape)) addRows(rows, {Owner::Shape, body->id, ""}, solidParameters());
@@ -187,6 +179,7 @@ void Inspector::rebuildBody() {
     if (plugin)
       addRows(rows, any, m_document.plugins()->parameters(constraint.plugin), QString::fromUtf8(plugin->label()));
   }
+  shareRows(rows);
   m_body->setModel(std::move(rows));
   m_notes.show();
   showTracks();
@@ -337,12 +330,6 @@ void Inspector::rebuild() {
   rebuildSolver();
 }
 
-void Inspector::setBody(const std::string& id) {
-  m_probeId.clear();
-  m_bodyId = id;
-  rebuildBody();
-}
-
 void Inspector::setMaterial(const std::string& id) {
   if (id == m_materialId) return;
   m_materialId = id;
@@ -372,11 +359,13 @@ void Inspector::onChanged(const ChangeEvent& event) {
     const QString key = QString::fromStdString(address.text());
     for (ParameterPanel* panel : panels()) panel->setValue(key, m_document.value(address));
     if (address.owner == Owner::Scene && address.key == "thermal_model") rebuildSolver();
+    refreshMixed(address);
     refreshIdle(address);
     m_notes.onChanged(*parameter);
     if (address.owner == Owner::Material && propertyIndex(address.key) < 0) refreshProperties(address.id);
   } else if (std::holds_alternative<ProjectOpened>(event)) {
     m_probeId.clear();
+    m_others.clear();
     m_bodyId = m_document.project().bodies.empty() ? std::string() : m_document.project().bodies.front().id;
     m_materialId.clear();
     m_notes.clear();
@@ -384,6 +373,8 @@ void Inspector::onChanged(const ChangeEvent& event) {
     m_sceneMean = ambientTemperature();  // what was measured belongs to the project before
     markPinned();
     rebuild();
+  } else if (const auto* body = std::get_if<BodyChanged>(&event); body && body->move) {
+    showPlace(body->id);
   } else if (std::holds_alternative<BodyChanged>(event) || std::holds_alternative<StrokeChanged>(event)) {
     rebuildBody();
     showSceneHeader();
@@ -393,7 +384,8 @@ void Inspector::onChanged(const ChangeEvent& event) {
   } else if (const auto* port = std::get_if<PortChanged>(&event)) {
     if (!port->moved) rebuildScene();
     showMaterialHeader();
-  } else if (std::holds_alternative<WallsChanged>(event)) {
+  } else if (const auto* walls = std::get_if<WallsChanged>(&event)) {
+    if (walls->moved) return;
     rebuildScene();
     rebuildMaterial();  // one of its rows may be pinned
   } else if (std::holds_alternative<MaterialsChanged>(event)) {

@@ -31,7 +31,8 @@ class Inspector : public QObject {
   ParameterPanel* solverPanel() const { return m_solver; }
 
   void rebuild();
-  void setBody(const std::string& id);
+  void setBodies(const std::vector<std::string>& ids);  ///< rows are of the last one, edits reach all
+  void setBody(const std::string& id) { setBodies(id.empty() ? std::vector<std::string>{} : std::vector{id}); }
   void setProbe(const std::string& id);  ///< in the place of a body
   void setMaterial(const std::string& id);
   const std::string& material() const { return m_materialId; }
@@ -73,6 +74,15 @@ class Inspector : public QObject {
   /// K, at which a material's curves are read: the mean of its particles, or of all matter where it has none.
   double temperatureOf(const std::string& material) const;
   double ambientTemperature() const;  ///< K, at which curves are read where there is no matter
+  // inspectorbodies.cpp
+  std::vector<Address> addressesOf(const Address& address) const;
+  bool isMixed(const Address& address) const;
+  void shareRows(std::vector<RowModel>& rows) const;
+  bool showBodiesHeader();  ///< false: one is shown
+  void refreshMixed(const Address& changed);
+  QString setAll(const Address& address, const Value& value);
+  QString titleOfAll(const Address& address, size_t count) const;
+  void showPlace(const std::string& id);
   void refreshProperties(const std::string& material);
   void rebuildScene();
   void showSceneHeader();
@@ -89,6 +99,7 @@ class Inspector : public QObject {
   ParameterPanel *m_body, *m_material, *m_scene, *m_solver;
   RowNotes m_notes;
   std::string m_bodyId, m_materialId;
+  std::vector<std::string> m_others;     ///< bodies that are shown with that one
   std::string m_probeId;                 ///< shown in the place of the body; "": none
   std::set<std::string> m_texts;         ///< headings and labels that rows borrow; grows with names only
   QString m_grade;                       ///< of the material's sources, as the header says it

@@ -2,21 +2,21 @@
 #include "ui/panels/outliner.h"
 
 #include "core/plugin_host/registry.h"
+#include "core/scene/group.h"
 #include "core/simulation/compile.h"
 #include "core/simulation/graphsource.h"
 #include "core/simulation/particlefield.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
-#include "ui/panels/materialspanel.h"
 #include "ui/panels/outlinerdelegate.h"
+#include "ui/panels/outlinermodel.h"
+#include "ui/rows/filterfield.h"
 #include "ui/session/session.h"
-#include "ui/session/sourcemime.h"
 #include "ui/session/wording.h"
 #include "ui/theme/numbers.h"
 
-#include <QtCore/QMimeData>
 #include <QtGui/QColor>
-#include <QtGui/QStandardItemModel>
+#include <QtWidgets/QLabel>
 #include <QtWidgets/QTreeView>
 #include <QtWidgets/QVBoxLayout>
 
@@ -41,24 +41,6 @@ QString probeText(double value, const Quantity* quantity) {
   return formatNumber(value / prefix.factor) + QLatin1Char(' ') + prefix.symbol + shown;
 }
 
-/// A probe is dragged as the curve that it gives, what is made of a material as that.
-class OutlinerModel : public QStandardItemModel {
- public:
-  using QStandardItemModel::QStandardItemModel;
-  QStringList mimeTypes() const override { return {QLatin1String(kSourceMime), QLatin1String(kMaterialMime)}; }
-  QMimeData* mimeData(const QModelIndexList& indexes) const override {
-    if (indexes.isEmpty()) return nullptr;
-    const QModelIndex& index = indexes.front();
-    auto* data = new QMimeData;
-    if (index.data(outline::kKind).toInt() == static_cast<int>(OutlineKind::Probe))
-      data->setData(QLatin1String(kSourceMime),
-                    QByteArray::fromStdString(probeSource(index.data(outline::kId).toString().toStdString())));
-    else
-      data->setData(QLatin1String(kMaterialMime), index.data(outline::kMaterial).toString().toUtf8());
-    return data;
-  }
-};
-
 }  // namespace
 
 Outliner::Outliner(Session& session, Selection& selection, QWidget* parent)
@@ -67,9 +49,14 @@ Outliner::Outliner(Session& session, Selection& selection, QWidget* parent)
       m_document(session.document()),
       m_selection(selection),
       m_model(new OutlinerModel(this)),
-      m_view(new QTreeView) {
+      m_view(new QTreeView),
+      m_filter(new FilterField(this, QStringLiteral("search"))),
+      m_nothing(new QLabel(this)) {
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 4, 0, 0);
+  column->setSpacing(4);
+  column->addLayout(makeSearch());
+  column->addWidget(m_nothing);
   column->addWidget(m_view);
   m_view->setModel(m_model);
   m_view->setHeaderHidden(true);
@@ -78,17 +65,22 @@ Outliner::Outliner(Session& session, Selection& selection, QWidget* parent)
   m_view->setExpandsOnDoubleClick(false);
   m_view->setEditTriggers(QAbstractItemView::EditKeyPressed | QAbstractItemView::DoubleClicked);
   m_view->setMouseTracking(true);
-  m_view->setDragDropMode(QAbstractItemView::DragOnly);
+  m_view->setDragDropMode(QAbstractItemView::DragDrop);
+  m_view->setDefaultDropAction(Qt::MoveAction);
+  m_view->setDropIndicatorShown(true);
+  m_view->setSelectionMode(QAbstractItemView::ExtendedSelection);
   m_view->setAccessibleName(QStringLiteral("Outliner"));
   auto* delegate = new OutlinerDelegate(m_view);
   m_view->setItemDelegate(delegate);
   connect(delegate, &OutlinerDelegate::visibleToggled, this,
-          [this](const std::string& id, bool on) { m_document.setBodyVisible(id, on); });
+          [this](int kind, const std::string& id, bool on) { m_document.setBodiesVisible(bodiesOf(kind, id), on); });
   connect(delegate, &OutlinerDelegate::lockToggled, this,
-          [this](const std::string& id, bool on) { m_document.setBodyLocked(id, on); });
+          [this](int kind, const std::string& id, bool on) { m_document.setBodiesLocked(bodiesOf(kind, id), on); });
   connect(delegate, &OutlinerDelegate::renamed, this, [this](int kind, const std::string& id, const QString& name) {
     if (kind == static_cast<int>(OutlineKind::Body)) {
       m_document.renameBody(id, name);
+    } else if (kind == static_cast<int>(OutlineKind::Group)) {
+      m_document.renameGroup(id, name);
     } else if (kind == static_cast<int>(OutlineKind::Probe)) {
       m_document.renameProbe(id, name);
     } else {
@@ -97,14 +89,12 @@ Outliner::Outliner(Session& session, Selection& selection, QWidget* parent)
   });
   m_view->setContextMenuPolicy(Qt::CustomContextMenu);
   connect(m_view, &QTreeView::customContextMenuRequested, this, [this](const QPoint& at) {
-    const OutlineKind kind = selected().first;
-    if (kind != OutlineKind::Wall && kind != OutlineKind::Environment && m_view->currentIndex().isValid())
+    if (selected().first != OutlineKind::Environment && m_view->currentIndex().isValid())
       Q_EMIT menuRequested(m_view->viewport()->mapToGlobal(at));
   });
-  connect(m_view->selectionModel(), &QItemSelectionModel::currentChanged, this, [this] {
-    if (m_building) return;
-    const auto [kind, id] = selected();
-    m_selection.select(kind, id);
+  connect(m_model, &OutlinerModel::dropped, this, &Outliner::moveRows);
+  connect(m_view->selectionModel(), &QItemSelectionModel::selectionChanged, this, [this] {
+    if (!m_building) takeSelection();
   });
   connect(&selection, &Selection::changed, this, &Outliner::showSelection);
   connect(&m_document, &Document::changed, this, &Outliner::onChanged);
@@ -117,15 +107,45 @@ QStandardItem* Outliner::add(QStandardItem* parent, OutlineKind kind, const std:
   item->setData(static_cast<int>(kind), outline::kKind);
   item->setData(QString::fromStdString(id), outline::kId);
   item->setData(icon, outline::kIcon);
-  item->setEditable(kind == OutlineKind::Body || kind == OutlineKind::Emitter || kind == OutlineKind::Sink ||
-                    kind == OutlineKind::Probe);
-  item->setDragEnabled(kind == OutlineKind::Probe || kind == OutlineKind::Body || kind == OutlineKind::Emitter);
+  item->setEditable(kind == OutlineKind::Group || kind == OutlineKind::Body || kind == OutlineKind::Emitter ||
+                    kind == OutlineKind::Sink || kind == OutlineKind::Probe);
+  item->setDragEnabled(kind != OutlineKind::Scene && kind != OutlineKind::Environment && kind != OutlineKind::Probes);
+  item->setDropEnabled(kind == OutlineKind::Scene || kind == OutlineKind::Group || kind == OutlineKind::Probes);
   if (parent) {
     parent->appendRow(item);
   } else {
     m_model->appendRow(item);
   }
   return item;
+}
+
+/// Its group's row, or the scene's.
+QStandardItem* Outliner::parentOf(QStandardItem* scene, Owner owner, const std::string& id) const {
+  const std::string member = memberOf(owner, id);
+  for (const SceneGroup& group : m_groups) {
+    if (std::find(group.members.begin(), group.members.end(), member) != group.members.end())
+      return find(OutlineKind::Group, group.id);
+  }
+  return scene;
+}
+
+void Outliner::addGroups(QStandardItem* scene) {
+  m_groups = livingGroups(m_document.project());
+  for (const SceneGroup& group : m_groups) {
+    QStandardItem* item =
+        add(scene, OutlineKind::Group, group.id, QString::fromStdString(group.name), QStringLiteral("folder"));
+    item->setData(QString::number(group.members.size()), outline::kDetail);
+    bool visible = false, locked = true, any = false;
+    for (const std::string& id : bodiesOf(static_cast<int>(OutlineKind::Group), group.id)) {
+      const Body& body = *m_document.body(id);
+      visible = visible || body.visible;
+      locked = locked && body.locked;
+      any = true;
+    }
+    if (!any) continue;
+    item->setData(visible, outline::kVisible);
+    item->setData(locked, outline::kLocked);
+  }
 }
 
 void Outliner::addBodies(QStandardItem* scene) {
@@ -135,7 +155,7 @@ void Outliner::addBodies(QStandardItem* scene) {
     const bool sketched = std::holds_alternative<VoxelShape>(body.shape);
     const bool fixed = toggleOf(body.parameters, bodyParameters(), "fixed");
     const QString icon = fixed ? QStringLiteral("plate") : sketched ? QStringLiteral("brush") : QStringLiteral("body");
-    QStandardItem* item = add(scene, OutlineKind::Body, body.id, nameOf(body), icon);
+    QStandardItem* item = add(parentOf(scene, Owner::Body, body.id), OutlineKind::Body, body.id, nameOf(body), icon);
     item->setData(colourOf(project, plugins, body.material), outline::kSwatch);
     item->setData(QString::fromStdString(body.material), outline::kMaterial);
     item->setData(body.visible, outline::kVisible);
@@ -149,17 +169,19 @@ void Outliner::rebuild() {
   m_model->clear();
   const Project& project = m_document.project();
   QStandardItem* scene = add(nullptr, OutlineKind::Scene, "", m_document.title(), QStringLiteral("folder"));
+  addGroups(scene);
   addBodies(scene);
   for (const Emitter& emitter : project.emitters) {
-    QStandardItem* item = add(scene, OutlineKind::Emitter, emitter.id, nameOf(emitter), QStringLiteral("tap"));
+    QStandardItem* item = add(parentOf(scene, Owner::Emitter, emitter.id), OutlineKind::Emitter, emitter.id,
+                              nameOf(emitter), QStringLiteral("tap"));
     item->setData(colourOf(project, m_document.plugins(), emitter.material), outline::kSwatch);
     item->setData(QString::fromStdString(emitter.material), outline::kMaterial);
   }
   for (const Sink& sink : project.sinks) {
-    add(scene, OutlineKind::Sink, sink.id, nameOf(sink), QStringLiteral("drain"));
+    add(parentOf(scene, Owner::Sink, sink.id), OutlineKind::Sink, sink.id, nameOf(sink), QStringLiteral("drain"));
   }
   for (const SceneWall& wall : project.environment.walls) {
-    add(scene, OutlineKind::Wall, wall.id, nameOf(wall),
+    add(parentOf(scene, Owner::Wall, wall.id), OutlineKind::Wall, wall.id, nameOf(wall),
         hasTemperature(wall) ? QStringLiteral("plate") : QStringLiteral("wall"));
   }
   add(scene, OutlineKind::Environment, "", QStringLiteral("Air and gravity"), QStringLiteral("air"));
@@ -170,6 +192,7 @@ void Outliner::rebuild() {
     }
   }
   m_view->expandAll();
+  filter();
   refreshSurroundings();
   refreshCounts();
   m_building = false;
@@ -179,11 +202,13 @@ void Outliner::rebuild() {
 void Outliner::onChanged(const ChangeEvent& event) {
   const auto* parameter = std::get_if<ParameterChanged>(&event);
   const auto* port = std::get_if<PortChanged>(&event);
+  const auto* body = std::get_if<BodyChanged>(&event);
+  const auto* walls = std::get_if<WallsChanged>(&event);
   const bool shows =
-      std::holds_alternative<ProjectOpened>(event) || std::holds_alternative<BodyChanged>(event) ||
-      std::holds_alternative<StrokeChanged>(event) || std::holds_alternative<WallsChanged>(event) ||
-      (port && !port->moved) || std::holds_alternative<ProbesChanged>(event) ||
-      std::holds_alternative<TracksChanged>(event) ||
+      std::holds_alternative<ProjectOpened>(event) || (body && !body->move) ||
+      std::holds_alternative<StrokeChanged>(event) || (walls && !walls->moved) || (port && !port->moved) ||
+      std::holds_alternative<ProbesChanged>(event) || std::holds_alternative<TracksChanged>(event) ||
+      std::holds_alternative<OrderChanged>(event) ||
       (parameter && (parameter->address.owner == Owner::Wall || parameter->address.owner == Owner::Environment));
   if (shows) rebuild();
 }
@@ -253,35 +278,26 @@ QStandardItem* Outliner::find(OutlineKind kind, const std::string& id) const {
   return nullptr;
 }
 
-void Outliner::showSelection() {
-  m_building = true;
-  QStandardItem* item = m_selection.empty() ? nullptr : find(m_selection.kind(), m_selection.id());
-  if (!item) {
-    m_view->setCurrentIndex({});
-  } else if (m_view->currentIndex() != item->index()) {
-    m_view->setCurrentIndex(item->index());
-    m_view->scrollTo(item->index());
-  }
-  m_building = false;
-}
-
 std::pair<OutlineKind, std::string> Outliner::selected() const {
   const QModelIndex index = m_view->currentIndex();
   if (!index.isValid()) return {OutlineKind::Scene, ""};
-  return {static_cast<OutlineKind>(index.data(outline::kKind).toInt()),
-          index.data(outline::kId).toString().toStdString()};
+  const SelectedItem item = itemOf(index);
+  return {item.kind, item.id};
 }
 
 void Outliner::toggleVisible() {
-  if (const Body* body = m_document.body(m_selection.body())) m_document.setBodyVisible(body->id, !body->visible);
+  const Body* last = m_document.body(m_selection.body());
+  if (last) m_document.setBodiesVisible(m_selection.bodies(), !last->visible);
 }
 
 void Outliner::toggleLocked() {
-  if (const Body* body = m_document.body(m_selection.body())) m_document.setBodyLocked(body->id, !body->locked);
+  const Body* last = m_document.body(m_selection.body());
+  if (last) m_document.setBodiesLocked(m_selection.bodies(), !last->locked);
 }
 
 void Outliner::renameSelected() {
-  if (!m_selection.body().empty() || m_selection.port() || selected().first == OutlineKind::Probe)
+  if (!m_selection.body().empty() || m_selection.port() || selected().first == OutlineKind::Probe ||
+      selected().first == OutlineKind::Group)
     m_view->edit(m_view->currentIndex());
 }
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "core/scene/project.h"
 #include "core/simulation/snapshot.h"
 #include "ui/document/changeevent.h"
+#include "ui/document/placement.h"
 #include "ui/document/port.h"
 #include "ui/session/selection.h"
 
@@ -9,14 +11,19 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
+class QLabel;
+class QLayout;
+class QModelIndex;
 class QStandardItem;
-class QStandardItemModel;
 class QTreeView;
 
 namespace ps {
 
 class Document;
+class FilterField;
+class OutlinerModel;
 class Session;
 
 /// Roles of the outliner's items.
@@ -26,8 +33,8 @@ inline constexpr int kKind = Qt::UserRole + 1, kId = Qt::UserRole + 2, kIcon = Q
                      kLocked = Qt::UserRole + 7, kPlaceholder = Qt::UserRole + 8, kMaterial = Qt::UserRole + 9;
 }
 
-/// Bodies, walls, probes and air as a tree: icon, name, count, swatch, lock, eye. F2 renames a body, tap
-/// or drain; their menu is the window's.
+/// Groups, bodies, walls, probes and air as a tree: icon, name, count, swatch, lock, eye. F2 renames, a drag puts in
+/// another place or group, the field on top searches; the menu of what is selected is the window's.
 class Outliner : public QWidget {
   Q_OBJECT
  public:
@@ -46,9 +53,19 @@ class Outliner : public QWidget {
  private:
   QStandardItem* add(QStandardItem* parent, OutlineKind kind, const std::string& id, const QString& name,
                      const QString& icon);
+  void addGroups(QStandardItem* scene);
   void addBodies(QStandardItem* scene);
+  QStandardItem* parentOf(QStandardItem* scene, Owner owner, const std::string& id) const;
   void onChanged(const ChangeEvent& event);
   void showSelection();
+  void takeSelection();
+  SelectedItem itemOf(const QModelIndex& index) const;
+  std::vector<std::string> bodiesOf(int kind, const std::string& id) const;
+  bool holdsAll(const SceneGroup& group) const;
+  QLayout* makeSearch();
+  void filter();
+  void moveRows(const std::vector<SelectedItem>& rows, const QModelIndex& parent, int row);
+  static void moveGroup(SceneOrder& order, const std::string& id, const std::string& before);
   void readValues();  ///< counts, probe values
   void refreshSurroundings();
   void refreshCounts();
@@ -57,8 +74,11 @@ class Outliner : public QWidget {
   Session& m_session;
   Document& m_document;
   Selection& m_selection;
-  QStandardItemModel* m_model;
+  OutlinerModel* m_model;
   QTreeView* m_view;
+  FilterField* m_filter;
+  QLabel* m_nothing;  ///< what the search does not find
+  std::vector<SceneGroup> m_groups;
   SnapshotPtr m_snapshot;
   bool m_building = false;
 };

@@ -16,9 +16,9 @@ namespace {
 constexpr int kRow = 24, kIcon = 16;
 
 std::string idOf(const QModelIndex& index) { return index.data(outline::kId).toString().toStdString(); }
-bool isBody(const QModelIndex& index) {
-  return index.data(outline::kKind).toInt() == static_cast<int>(OutlineKind::Body);
-}
+/// A body, or a group that has some: what can be hidden and locked.
+bool isBody(const QModelIndex& index) { return index.data(outline::kVisible).isValid(); }
+int kindOf(const QModelIndex& index) { return index.data(outline::kKind).toInt(); }
 
 }  // namespace
 
@@ -58,7 +58,7 @@ void OutlinerDelegate::paint(QPainter* painter, const QStyleOptionViewItem& opti
     painter->setBrush(index.data(outline::kPlaceholder).toBool()
                           ? QBrush(theme[Token::Muted], Qt::BDiagPattern)
                           : QBrush(index.data(outline::kSwatch).value<QColor>()));
-    painter->drawEllipse(swatch);
+    if (index.data(outline::kSwatch).isValid()) painter->drawEllipse(swatch);
     right = swatch.left() - 6;
   }
   const QString detail = index.data(outline::kDetail).toString();
@@ -83,11 +83,11 @@ bool OutlinerDelegate::editorEvent(QEvent* event, QAbstractItemModel* model, con
     const QPoint at = static_cast<QMouseEvent*>(event)->position().toPoint();
     const bool release = event->type() == QEvent::MouseButtonRelease;
     if (eyeRect(option.rect).contains(at)) {
-      if (release) Q_EMIT visibleToggled(idOf(index), !index.data(outline::kVisible).toBool());
+      if (release) Q_EMIT visibleToggled(kindOf(index), idOf(index), !index.data(outline::kVisible).toBool());
       return true;
     }
     if (lockRect(option.rect).contains(at)) {
-      if (release) Q_EMIT lockToggled(idOf(index), !index.data(outline::kLocked).toBool());
+      if (release) Q_EMIT lockToggled(kindOf(index), idOf(index), !index.data(outline::kLocked).toBool());
       return true;
     }
   }

@@ -22,8 +22,8 @@ class OutlinerDelegate : public QStyledItemDelegate {
   static QRect lockRect(const QRect& row);
 
  Q_SIGNALS:
-  void visibleToggled(const std::string& id, bool on) const;
-  void lockToggled(const std::string& id, bool on) const;
+  void visibleToggled(int kind, const std::string& id, bool on) const;
+  void lockToggled(int kind, const std::string& id, bool on) const;
   void renamed(int kind, const std::string& id, const QString& name) const;  ///< `kind`: OutlineKind
 };
 

@@ -234,7 +234,7 @@ void collectInstances(const InstanceRequest& request, Instances& out) {
     p.extra = kindOf(request, i);
     const bool surface = motion == api::Motion::Liquid && request.surfaces;
     (surface ? liquids : spheres).push_back(p);
-    if (request.outlined != s.body[i]) continue;
+    if (s.body[i] >= request.outlined.size() || request.outlined[s.body[i]] == 0) continue;
     out.outline.push_back(p);
     if (surface) out.outline.back().radius *= kSurfaceGrowth;
   }

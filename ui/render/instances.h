@@ -48,7 +48,7 @@ struct InstanceRequest {
   double minimum = 0, maximum = 1, meltingPoint = 273.15;
   bool surfaces = true;                 ///< liquids become a surface, else spheres
   std::array<float, 3> steam{1, 1, 1};  ///< colour of vapour where colours show no data
-  std::optional<uint32_t> outlined;     ///< index of the body that gets an outline
+  std::vector<uint8_t> outlined;        ///< 1 for bodies that get an outline, by index
   const Snapshot* ghost = nullptr;      ///< of another run; nullptr: none
 };
 

@@ -64,7 +64,10 @@ void Prepared::collect(const Snapshot& now, const Snapshot* previous, double ble
   const ShownField shown(now, look.colour);
   request.surfaces = !shown || !shown.field().inner;
   request.steam = sceneColour(look.dark, "steam");
-  if (look.outline) request.outlined = look.outline->body;
+  for (const uint32_t body : look.outline ? look.outline->bodies : std::vector<uint32_t>{}) {
+    request.outlined.resize(std::max<size_t>(request.outlined.size(), body + size_t{1}));
+    request.outlined[body] = 1;
+  }
   if (look.ghost) request.ghost = look.ghost->matter.get();
   collectInstances(request, instances);
 }

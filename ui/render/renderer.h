@@ -19,9 +19,9 @@ struct Camera {
   double distance = 1.5, azimuth = 35, elevation = 20, fieldOfView = 35;
 };
 
-/// A line around the picture of one body's matter (vapour left out), through whatever stands before it.
+/// A line around the picture of some bodies' matter (vapour left out), through whatever stands before it.
 struct BodyOutline {
-  uint32_t body = 0;                      ///< index as in Snapshot::body
+  std::vector<uint32_t> bodies;           ///< indices as in Snapshot::body
   std::array<float, 3> colour{}, halo{};  ///< sRGB of the line, and of what sets it off from its ground
   float lineWidth = 2, haloWidth = 1.5f;  ///< device pixels
   bool operator==(const BodyOutline&) const = default;

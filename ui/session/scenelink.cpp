@@ -54,8 +54,9 @@ void SceneLink::onChanged(const ChangeEvent& event) {
     // What a parameter falls back to is the engine's to work out, from the plugins: it may be a curve of another value.
     if (isBroken()) {
       rebuild(m_play);
-    } else if (parameter->value) {
-      m_engine.setParameter(parameter->address, *parameter->value);
+    } else if (parameter->value || parameter->address.owner == Owner::Shape) {  // a place is moved from: never a curve
+      m_engine.setParameter(parameter->address,
+                            parameter->value ? *parameter->value : m_document.value(parameter->address));
     } else {
       pushProject();
     }
@@ -63,7 +64,8 @@ void SceneLink::onChanged(const ChangeEvent& event) {
     onBody(*body);
   } else if (const auto* port = std::get_if<PortChanged>(&event)) {
     onPort(*port);
-  } else if (std::holds_alternative<MaterialsChanged>(event) || std::holds_alternative<WallsChanged>(event)) {
+  } else if (std::holds_alternative<MaterialsChanged>(event) || std::holds_alternative<WallsChanged>(event) ||
+             std::holds_alternative<OrderChanged>(event)) {
     if (isBroken()) {
       rebuild(m_play);
     } else {
@@ -97,6 +99,14 @@ void SceneLink::onBody(const BodyChanged& event) {
     return;
   }
   const Body* body = m_document.body(event.id);
+  if (event.move && body) {
+    m_engine.apply(MoveBody{std::make_shared<const Body>(*body), *event.move});
+    for (KnownStroke& known : m_strokes) {
+      const auto stroke = known.stroke.lock();
+      if (stroke && stroke->body == event.id) known.way += event.move->shift;
+    }
+    return;
+  }
   if (event.matter && !body) m_engine.apply(TakeBody{event.id, keyOf(event.matter)});
   pushProject();
   if (!event.matter || !body) return;
@@ -144,9 +154,9 @@ void SceneLink::forgetMatter() {
 }
 
 void SceneLink::remember(const StrokeChanged& event) {
-  if (event.live) m_strokes.push_back({event.stroke, true});
-  for (auto& [stroke, done] : m_strokes) {
-    if (stroke.lock() == event.stroke) done = event.done;
+  if (event.live) m_strokes.push_back({event.stroke, true, {}});
+  for (KnownStroke& known : m_strokes) {
+    if (known.stroke.lock() == event.stroke) known.done = event.done;
   }
 }
 
@@ -166,10 +176,11 @@ void SceneLink::pushProject() { m_engine.update(m_document.project()); }
 
 std::vector<NameMatter> SceneLink::namedMatter() {
   std::vector<NameMatter> named;
-  for (const auto& [weak, done] : m_strokes) {
+  for (const auto& [weak, done, way] : m_strokes) {
     const auto stroke = weak.lock();
-    if (stroke && done && !stroke->erase)
-      named.push_back({keyOf(stroke->matter), stroke->body, stroke->lattice, stroke->cells});
+    if (!stroke || !done || stroke->erase) continue;
+    named.push_back({keyOf(stroke->matter), stroke->body, stroke->lattice, stroke->cells});
+    named.back().lattice.origin += way;
   }
   return named;
 }

@@ -74,8 +74,13 @@ class SceneLink : public QObject {
   };
   std::vector<std::pair<std::weak_ptr<const ProjectState>, MatterIds>> m_kept;
   uint64_t m_run = 1;  ///< counts resets, and returns to a state: matter of another run is not known by its ids
-  std::map<MatterKey, KnownMatter> m_matter;                            ///< that the engine may know, and of which run
-  std::vector<std::pair<std::weak_ptr<StrokeRecord>, bool>> m_strokes;  ///< and whether it is done, not undone
+  std::map<MatterKey, KnownMatter> m_matter;  ///< that the engine may know, and of which run
+  struct KnownStroke {
+    std::weak_ptr<StrokeRecord> stroke;
+    bool done = true;      ///< not undone
+    Vector3 way{0, 0, 0};  ///< m, by which its body has been moved since
+  };
+  std::vector<KnownStroke> m_strokes;
 };
 
 }  // namespace ps

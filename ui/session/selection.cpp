@@ -4,6 +4,7 @@
 #include "ui/document/document.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace ps {
 
@@ -11,18 +12,40 @@ Selection::Selection(Document& document, QObject* parent) : QObject(parent), m_d
   connect(&document, &Document::changed, this, &Selection::onChanged);
 }
 
-std::string Selection::body() const { return m_any && m_kind == OutlineKind::Body ? m_id : std::string(); }
-
-std::optional<Port> Selection::port() const {
-  if (!m_any || (m_kind != OutlineKind::Emitter && m_kind != OutlineKind::Sink)) return std::nullopt;
-  return Port{m_kind == OutlineKind::Sink, m_id};
+bool Selection::has(OutlineKind kind, const std::string& id) const {
+  return std::find(m_items.begin(), m_items.end(), SelectedItem{kind, id}) != m_items.end();
 }
 
-void Selection::select(OutlineKind kind, const std::string& id) {
-  if (!m_any || kind != m_kind || id != m_id) m_marked.reset();
-  m_any = true;
-  m_kind = kind;
-  m_id = id;
+std::vector<std::string> Selection::bodies() const {
+  std::vector<std::string> ids;
+  for (const SelectedItem& item : m_items) {
+    if (item.kind == OutlineKind::Body) ids.push_back(item.id);
+  }
+  return ids;
+}
+
+std::string Selection::body() const { return kind() == OutlineKind::Body ? id() : std::string(); }
+
+std::optional<Port> Selection::port() const {
+  if (kind() != OutlineKind::Emitter && kind() != OutlineKind::Sink) return std::nullopt;
+  return Port{kind() == OutlineKind::Sink, id()};
+}
+
+void Selection::select(OutlineKind kind, const std::string& id) { selectAll({{kind, id}}); }
+
+void Selection::toggle(OutlineKind kind, const std::string& id) {
+  std::vector<SelectedItem> items = m_items;
+  if (std::erase(items, SelectedItem{kind, id}) == 0) items.push_back({kind, id});
+  selectAll(std::move(items));
+}
+
+void Selection::selectAll(std::vector<SelectedItem> items) {
+  if (items.empty()) {
+    clear();
+    return;
+  }
+  if (items != m_items) m_marked.reset();
+  m_items = std::move(items);
   if (const Body* body = m_document.body(this->body())) setMaterial(body->material);
   Q_EMIT changed();
 }
@@ -42,10 +65,8 @@ void Selection::mark(uint64_t revision, uint32_t particle) {
 
 void Selection::clear() {
   m_marked.reset();
-  if (!m_any) return;
-  m_any = false;
-  m_kind = OutlineKind::Scene;
-  m_id.clear();
+  if (m_items.empty()) return;
+  m_items.clear();
   Q_EMIT changed();
 }
 
@@ -60,18 +81,18 @@ void Selection::pickMaterial(const std::string& id) {
   Q_EMIT materialPicked();
 }
 
-bool Selection::isThere() const {
-  switch (m_kind) {
+bool Selection::isThere(const SelectedItem& item) const {
+  switch (item.kind) {
     case OutlineKind::Body:
-      return m_document.body(m_id) != nullptr;
+      return m_document.body(item.id) != nullptr;
     case OutlineKind::Emitter:
-      return m_document.emitter(m_id) != nullptr;
+      return m_document.emitter(item.id) != nullptr;
     case OutlineKind::Sink:
-      return m_document.sink(m_id) != nullptr;
+      return m_document.sink(item.id) != nullptr;
     case OutlineKind::Wall:
-      return m_document.wall(m_id) != nullptr;
+      return m_document.wall(item.id) != nullptr;
     case OutlineKind::Probe:
-      return m_document.probe(m_id) != nullptr;
+      return m_document.probe(item.id) != nullptr;
     default:
       return true;
   }
@@ -79,7 +100,10 @@ bool Selection::isThere() const {
 
 void Selection::onChanged(const ChangeEvent& event) {
   const bool opened = std::holds_alternative<ProjectOpened>(event);
-  if (opened || !isThere()) clear();
+  std::vector<SelectedItem> left;
+  std::copy_if(m_items.begin(), m_items.end(), std::back_inserter(left),
+               [&](const SelectedItem& item) { return !opened && isThere(item); });
+  if (left.size() < m_items.size()) selectAll(std::move(left));
   if (!opened && !std::holds_alternative<MaterialsChanged>(event)) return;
   const std::vector<SceneMaterial>& materials = m_document.project().materials;
   const bool known = std::any_of(materials.begin(), materials.end(),

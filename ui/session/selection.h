@@ -9,13 +9,21 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace ps {
 
 class Document;
 
 /// What can be selected: rows of the outliner.
-enum class OutlineKind { Scene, Body, Emitter, Sink, Wall, Probes, Probe, Environment };
+enum class OutlineKind { Scene, Group, Body, Emitter, Sink, Wall, Probes, Probe, Environment };
+
+/// One thing that is selected.
+struct SelectedItem {
+  OutlineKind kind = OutlineKind::Scene;
+  std::string id;
+  bool operator==(const SelectedItem&) const = default;
+};
 
 /// What is selected and which material is the current one, of one editor. Tools and panels set it, all of them follow.
 /// What leaves the document leaves the selection.
@@ -24,13 +32,23 @@ class Selection : public QObject {
  public:
   explicit Selection(Document& document, QObject* parent = nullptr);
 
-  OutlineKind kind() const { return m_kind; }
-  const std::string& id() const { return m_id; }
-  bool empty() const { return !m_any; }
+  /// All that is, in the order in which it was selected.
+  const std::vector<SelectedItem>& items() const { return m_items; }
+  bool empty() const { return m_items.empty(); }
+  bool has(OutlineKind kind, const std::string& id) const;
+  std::vector<std::string> bodies() const;  ///< Body::id of those among them
+
+  // The one selected last, which panels show.
+  OutlineKind kind() const { return empty() ? OutlineKind::Scene : m_items.back().kind; }
+  std::string id() const { return empty() ? std::string() : m_items.back().id; }
   std::string body() const;  ///< "" when something else is, or nothing
   std::optional<Port> port() const;
-  /// Selecting a body makes its material the current one.
+
+  /// That alone. Selecting a body makes its material the current one.
   void select(OutlineKind kind, const std::string& id);
+  /// Adds something to what is selected, as the last, or takes it out.
+  void toggle(OutlineKind kind, const std::string& id);
+  void selectAll(std::vector<SelectedItem> items);
   void select(const Port& port) { select(port.sink ? OutlineKind::Sink : OutlineKind::Emitter, port.id); }
   void selectBody(const std::string& id);  ///< "": nothing
   void clear();
@@ -51,12 +69,11 @@ class Selection : public QObject {
 
  private:
   void onChanged(const ChangeEvent& event);
-  bool isThere() const;
+  bool isThere(const SelectedItem& item) const;
   Document& m_document;
-  OutlineKind m_kind = OutlineKind::Scene;
-  std::string m_id, m_material;
+  std::vector<SelectedItem> m_items;
+  std::string m_material;
   std::optional<std::pair<uint64_t, uint32_t>> m_marked;
-  bool m_any = false;
 };
 
 }  // namespace ps

@@ -51,6 +51,10 @@ enum class Token {
   FieldEdgeHover,
   Track,
   TrackEdge,
+  AxisX,
+  AxisY,
+  AxisZ,
+  AxisHover,
   Count
 };
 

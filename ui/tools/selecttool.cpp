@@ -4,26 +4,111 @@
 #include "ui/document/document.h"
 #include "ui/render/camera.h"
 #include "ui/session/selection.h"
+#include "ui/tools/aim.h"
 #include "ui/tools/toolbox.h"
+
+#include <algorithm>
 
 namespace ps {
 
+bool SelectTool::press(const Pointer& pointer) {
+  if (!pointer.control) return m_handles.press(pointer);
+  m_corner = pointer;
+  m_corner->scene = nullptr;  // lives no longer than this call
+  return true;
+}
+
+void SelectTool::drag(const Pointer& pointer) {
+  if (!m_corner) {
+    m_handles.drag(pointer);
+  } else if (m_opposite || wandered(*m_corner, pointer)) {
+    m_opposite = pointer;
+    m_opposite->scene = nullptr;
+  }
+}
+
+void SelectTool::release(const Pointer& pointer) {
+  if (!m_corner) {
+    m_handles.release(pointer);
+    return;
+  }
+  drag(pointer);
+  if (m_opposite)
+    box().selection().selectAll(framed(pointer));
+  else
+    click(pointer);
+  m_corner.reset();
+  m_opposite.reset();
+}
+
+bool SelectTool::cancel() {
+  const bool framing = m_corner.has_value();
+  m_corner.reset();
+  m_opposite.reset();
+  return m_handles.cancel() || framing;
+}
+
+std::vector<SelectedItem> SelectTool::framed(const Pointer& to) const {
+  const auto across = aimTo(*m_corner, to.ray.origin + to.ray.direction);
+  if (!across) return {};
+  const auto within = [&](const Vector3& place) {
+    const auto at = aimTo(*m_corner, place);
+    return at && at->x >= std::min(0.0, across->x) && at->x <= std::max(0.0, across->x) &&
+           at->y >= std::min(0.0, across->y) && at->y <= std::max(0.0, across->y);
+  };
+  const Project& project = box().document().project();
+  std::vector<SelectedItem> items;
+  if (const Snapshot* scene = to.scene; scene && scene->bodyIds) {
+    std::vector<uint8_t> seen(scene->bodyIds->size());
+    for (size_t i = 0; i < scene->position.size(); ++i) {
+      const uint32_t body = scene->body[i];
+      if (body < seen.size() && seen[body] == 0 && within(vectorOf(scene->position[i]))) seen[body] = 1;
+    }
+    for (size_t k = 0; k < seen.size(); ++k) {
+      const std::string& id = (*scene->bodyIds)[k];
+      if (seen[k] != 0 && box().document().body(id)) items.push_back({OutlineKind::Body, id});
+    }
+  }
+  for (const Emitter& emitter : project.emitters) {
+    if (within(emitter.point)) items.push_back({OutlineKind::Emitter, emitter.id});
+  }
+  for (const Sink& sink : project.sinks) {
+    if (within(anchorOf(sink))) items.push_back({OutlineKind::Sink, sink.id});
+  }
+  return items;
+}
+
 void SelectTool::click(const Pointer& pointer) {
   Selection& selection = box().selection();
+  const bool adds = pointer.shift || pointer.control;
   const auto hit = pointer.scene ? pickParticle(*pointer.scene, pointer.ray) : std::nullopt;
   if (!hit) {
-    selection.clear();
+    if (!adds) selection.clear();
     return;
   }
   const Snapshot& scene = *pointer.scene;
   const uint32_t body = scene.body[*hit];
   const std::string id = scene.bodyIds && body < scene.bodyIds->size() ? (*scene.bodyIds)[body] : std::string();
-  if (box().document().emitter(id)) {
-    selection.select(Port{false, id});  // poured matter belongs to its tap
+  const bool poured = box().document().emitter(id) != nullptr;  // matter of a tap belongs to it
+  if (!poured && !box().document().body(id)) {
+    if (!adds) selection.clear();
   } else {
-    selection.selectBody(box().document().body(id) ? id : std::string());
+    const OutlineKind kind = poured ? OutlineKind::Emitter : OutlineKind::Body;
+    if (adds)
+      selection.toggle(kind, id);
+    else
+      selection.select(kind, id);
   }
   selection.mark(scene.revision, scene.id[*hit]);
+}
+
+ToolPicture SelectTool::picture() const {
+  ToolPicture picture = m_handles.picture();
+  if (m_opposite) {
+    const Ray &from = m_corner->ray, &to = m_opposite->ray;
+    picture.frame.emplace(from.origin + from.direction, to.origin + to.direction);
+  }
+  return picture;
 }
 
 std::vector<Gesture> SelectTool::gestures() const {
@@ -33,7 +118,9 @@ std::vector<Gesture> SelectTool::gestures() const {
        QStringLiteral("pan")},
       {QStringLiteral("Wheel"), QStringLiteral("Nearer to what is under the pointer, or farther"),
        QStringLiteral("zoom")},
-      {QStringLiteral("Click"), QStringLiteral("Select the body, tap or drain, and tell the temperature"), {}}};
+      {QStringLiteral("Click"), QStringLiteral("Select the body, tap or drain, and tell the temperature"), {}},
+      {QStringLiteral("Shift+Click"), QStringLiteral("Select it too, or no longer"), {}},
+      {QStringLiteral("Ctrl+Drag"), QStringLiteral("Select what lies in the frame"), {}}};
   for (Gesture& gesture : m_handles.gestures()) list.push_back(std::move(gesture));
   list.push_back({QStringLiteral("Right button"), QStringLiteral("The view's menu"), {}});
   return list;

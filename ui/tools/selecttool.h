@@ -1,29 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "ui/session/selection.h"
 #include "ui/tools/handletool.h"
+
+#include <optional>
 
 namespace ps {
 
-/// Selects what is clicked and tells how warm it is there; takes hold of taps and drains. Whatever else is dragged
-/// turns the view.
+/// Selects what is clicked and tells how warm it is there; takes hold of taps and drains. With Shift one more, with
+/// Ctrl whatever lies in a frame that is drawn. Whatever else is dragged turns the view.
 class SelectTool final : public Tool {
  public:
   explicit SelectTool(Toolbox& box) : Tool(box), m_handles(box) {}
   void hover(const Pointer& pointer) override { m_handles.hover(pointer); }
-  bool press(const Pointer& pointer) override { return m_handles.press(pointer); }
-  void drag(const Pointer& pointer) override { m_handles.drag(pointer); }
-  void release(const Pointer& pointer) override { m_handles.release(pointer); }
+  bool press(const Pointer& pointer) override;
+  void drag(const Pointer& pointer) override;
+  void release(const Pointer& pointer) override;
   void click(const Pointer& pointer) override;
-  bool cancel() override { return m_handles.cancel(); }
+  bool cancel() override;
   void leave() override { m_handles.leave(); }
-  ToolPicture picture() const override { return m_handles.picture(); }
+  ToolPicture picture() const override;
   QString words() const override { return QStringLiteral("Select and orbit"); }
   std::vector<Gesture> gestures() const override;
   QString invitation() const override;
   bool turnsView() const override { return true; }
 
  private:
+  /// What of the scene is seen within the frame.
+  std::vector<SelectedItem> framed(const Pointer& to) const;
   HandleTool m_handles;
+  std::optional<Pointer> m_corner, m_opposite;  ///< of the frame that is drawn
 };
 
 }  // namespace ps

@@ -7,6 +7,7 @@
 #include <QtCore/QString>
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 // What a tool is: something that turns pointing, pressing and dragging into edits of the document, and says what a view
@@ -14,6 +15,9 @@
 namespace ps {
 
 class Toolbox;
+
+/// What Tool::type() gets of the keys Backspace and Enter.
+inline constexpr const char *kErase = "\b", *kEnter = "\r";
 
 /// Where somebody points, and with what: the mouse in a picture, a pen, a hand with a beam.
 struct Pointer {
@@ -23,7 +27,7 @@ struct Pointer {
   double fineness = 1e-3;     ///< tangent of the smallest angle that can be aimed at: a pixel, a tremor of the hand
   double pressure = 1;        ///< 0 .. 1; a mouse always presses fully
   double seconds = 0;         ///< on any clock that runs on
-  bool shift = false, control = false;
+  bool shift = false, control = false, alt = false;
   const Snapshot* scene = nullptr;  ///< as the view shows it; nullptr: nothing yet
 };
 
@@ -33,6 +37,30 @@ struct BrushCursor {
   Vector3 extent{0, 0, 0};  ///< half extents, m
   double floor = 0;         ///< m, height of what lies below
   bool box = false, erase = false;
+};
+
+/// Handles that move, turn or stretch what is selected.
+struct Gizmo {
+  enum class Kind { Move, Rotate, Scale };
+  Kind kind = Kind::Move;
+  Vector3 centre{0, 0, 0};             ///< m
+  Matrix3 axes = Matrix3::Identity();  ///< unit vectors, as columns
+  bool along = true;                   ///< what is selected can be stretched along one of them
+};
+/// One of its handles.
+struct GizmoPart {
+  enum class Kind { Arm, Plane, Ring, Middle };
+  Kind kind = Kind::Arm;
+  int axis = 0;  ///< 0 x, 1 y, 2 z; of a plane the one across it
+  bool operator==(const GizmoPart&) const = default;
+};
+struct GizmoPicture {
+  std::optional<Gizmo> gizmo;                ///< none: nothing that is selected can be dragged
+  std::optional<GizmoPart> hovered, active;  ///< while one is dragged it alone remains
+  QString label, value;                      ///< of what is dragged: "X", "12.5 mm"
+  bool typing = false;                       ///< the value is being typed
+  bool wrong = false;                        ///< what has been typed is no such value
+  QString note;                              ///< "" or what cannot be done, and why
 };
 
 /// What the pointer itself looks like.
@@ -45,6 +73,8 @@ struct ToolPicture {
   std::vector<Emitter> emitters;  ///< that would be put there
   std::vector<Sink> sinks;
   std::optional<Port> hovered;  ///< would be taken hold of
+  std::optional<GizmoPicture> gizmo;
+  std::optional<std::pair<Vector3, Vector3>> frame;  ///< opposite corners of one that is drawn, as they are seen
 };
 
 /// Something that a tool's buttons and keys do, in words.
@@ -70,6 +100,11 @@ class Tool {
   virtual void release(const Pointer&) {}  ///< likewise
   /// Pressed and released at one place, where press() was not taken.
   virtual void click(const Pointer&) {}
+  /// What the view shows by now, before it asks for the picture; nullptr: nothing yet.
+  virtual void see(const Snapshot*) {}
+  /// Somebody types while something is dragged: characters, kErase or kEnter. False: they mean nothing to the tool.
+  virtual bool type(const QString&) { return false; }
+  virtual bool takesText(const QString&) const { return false; }  ///< whether type() would take it
   /// Gives up what is being dragged. False: there was nothing.
   virtual bool cancel() { return false; }
   virtual void leave() {}  ///< points nowhere any more, or another tool takes over

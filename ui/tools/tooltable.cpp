@@ -2,6 +2,7 @@
 #include "ui/tools/tooltable.h"
 
 #include "ui/tools/drawtool.h"
+#include "ui/tools/gizmotool.h"
 #include "ui/tools/placedrain.h"
 #include "ui/tools/placetap.h"
 #include "ui/tools/selecttool.h"
@@ -21,6 +22,11 @@ std::unique_ptr<Tool> make(Toolbox& box) {
 const std::vector<ToolRow>& toolTable() {
   static const std::vector<ToolRow> kTable{
       {kSelectTool, "select", "Select and orbit", "Select and orbit", "Q", "In the scene", make<SelectTool>},
+      {"move", "move", "Move", "Move what is selected", "W", "In the scene with the handles to move", make<MoveTool>},
+      {"rotate", "rotate", "Rotate", "Rotate what is selected", "R", "In the scene with the rings to rotate",
+       make<RotateTool>},
+      {"scale", "scale", "Scale", "Scale what is selected", "S", "In the scene with the handles to scale",
+       make<ScaleTool>},
       {kBrushTool, "brush", "Brush", "Draw matter", "B", "In the scene with the brush", make<DrawTool>},
       {"erase", "erase", "Erase", "Erase matter", "E", "In the scene with the eraser", make<EraseTool>},
       {"tap", "tap", "Place a tap", "Place a tap that pours matter", "T", "In the scene with a tap", make<PlaceTap>},

@@ -147,10 +147,9 @@ void paintBall(QPainter& painter, const OverlayState& state, OverlayHits& hits) 
     Vector3 axis;
     double azimuth, elevation;
   };
-  // Tokens stand for the usual red, green and blue of x, y and z.
-  const End ends[] = {{"X", Token::Error, {1, 0, 0}, 90, 0}, {"", Token::Error, {-1, 0, 0}, -90, 0},
-                      {"Y", Token::Ok, {0, 1, 0}, 0, 90},    {"", Token::Ok, {0, -1, 0}, 0, -90},
-                      {"Z", Token::Info, {0, 0, 1}, 0, 0},   {"", Token::Info, {0, 0, -1}, 180, 0}};
+  const End ends[] = {{"X", Token::AxisX, {1, 0, 0}, 90, 0}, {"", Token::AxisX, {-1, 0, 0}, -90, 0},
+                      {"Y", Token::AxisY, {0, 1, 0}, 0, 90}, {"", Token::AxisY, {0, -1, 0}, 0, -90},
+                      {"Z", Token::AxisZ, {0, 0, 1}, 0, 0},  {"", Token::AxisZ, {0, 0, -1}, 180, 0}};
   std::vector<const End*> order;
   for (const End& end : ends) order.push_back(&end);
   std::stable_sort(order.begin(), order.end(),

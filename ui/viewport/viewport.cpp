@@ -15,12 +15,14 @@
 #include "ui/theme/theme.h"
 #include "ui/tools/toolbox.h"
 #include "ui/tools/tooltable.h"
+#include "ui/viewport/gizmopainter.h"
 #include "ui/viewport/hiddenbodies.h"
 #include "ui/viewport/portpainter.h"
 #include "ui/viewport/viewportaccess.h"
 
 #include <QtGui/QAccessible>
 #include <QtGui/QHelpEvent>
+#include <QtGui/QKeyEvent>
 #include <QtGui/QOpenGLContext>
 #include <QtGui/QPainter>
 #include <QtGui/QResizeEvent>
@@ -95,10 +97,12 @@ void Viewport::onChanged(const ChangeEvent& event) {
     projectOpened();
   } else if (std::holds_alternative<BodyChanged>(event) || std::holds_alternative<StrokeChanged>(event) ||
              std::holds_alternative<WallsChanged>(event) || std::holds_alternative<TracksChanged>(event)) {
-    bodiesChanged();
+    const auto* body = std::get_if<BodyChanged>(&event);
+    if (!body || !body->move) bodiesChanged();  // else the next snapshot shows it
+    update();
   } else if (const auto* parameter = std::get_if<ParameterChanged>(&event)) {
     if (parameter->address.owner == Owner::Wall) bodiesChanged();
-  } else if (std::holds_alternative<PortChanged>(event)) {
+  } else if (std::holds_alternative<PortChanged>(event) || std::holds_alternative<ProbesChanged>(event)) {
     update();
   } else if (std::holds_alternative<ViewChanged>(event)) {
     m_colour = m_document.project().view.colour;
@@ -196,7 +200,11 @@ void Viewport::paintGL() {
   {
     QPainter painter(this);
     if (m_renderer) {
+      m_tools.tool().see(m_now.get());
       paintPortsOver(painter);
+      const ToolPicture picture = m_tools.tool().picture();
+      if (picture.gizmo) paintGizmo(painter, *picture.gizmo, m_navigator.camera(), size());
+      if (picture.frame) paintFrame(painter, *picture.frame, m_navigator.camera(), size());
       m_hits = paintOverlays(painter, overlayState());
     } else {
       painter.fillRect(rect(), Theme::current()[Token::Panel]);
@@ -319,22 +327,31 @@ void Viewport::show(StandardView view) {
 
 void Viewport::storeView() { m_document.setView(m_navigator.view()); }
 
-std::optional<Box> Viewport::boxOfBody(const std::string& id) const {
-  if (!m_now || !m_now->bodyIds) return std::nullopt;
-  const auto found = std::find(m_now->bodyIds->begin(), m_now->bodyIds->end(), id);
-  if (found == m_now->bodyIds->end()) return std::nullopt;
-  return boxOf(*m_now, static_cast<uint32_t>(found - m_now->bodyIds->begin()));
+/// Around all bodies, taps and drains that are selected.
+std::optional<Box> Viewport::boxOfSelection() const {
+  std::optional<Box> all;
+  const auto add = [&](const std::optional<Box>& box) {
+    if (!box) return;
+    if (!all) all = box;
+    all->first = all->first.cwiseMin(box->first);
+    all->second = all->second.cwiseMax(box->second);
+  };
+  for (uint32_t k = 0; m_now && m_now->bodyIds && k < m_now->bodyIds->size(); ++k) {
+    if (m_selection.has(OutlineKind::Body, (*m_now->bodyIds)[k])) add(boxOf(*m_now, k));
+  }
+  for (const SelectedItem& item : m_selection.items()) {
+    if (item.kind == OutlineKind::Emitter || item.kind == OutlineKind::Sink)
+      add(boxAround({item.kind == OutlineKind::Sink, item.id}));
+  }
+  return all;
 }
 
 void Viewport::frameSelection() {
-  const auto port = m_selection.port();
-  const std::string body = m_selection.body();
-  if (body.empty() && !port) {
-    frameAll();
+  const auto box = boxOfSelection();
+  if (!box) {
+    if (m_selection.body().empty() && !m_selection.port()) frameAll();
     return;
   }
-  const auto box = port ? boxAround(*port) : boxOfBody(body);
-  if (!box) return;
   m_navigator.setSize(size());
   m_navigator.frame(*box);
   storeView();
@@ -394,6 +411,10 @@ void Viewport::announce() {
 }
 
 bool Viewport::event(QEvent* event) {
+  if (event->type() == QEvent::ShortcutOverride && typeToTool(*static_cast<QKeyEvent*>(event), true)) {
+    event->accept();
+    return true;
+  }
   if (event->type() == QEvent::ToolTip) {
     const auto* help = static_cast<QHelpEvent*>(event);
     if (!m_hits.legendBar.isEmpty() && m_hits.legend.contains(help->pos())) {

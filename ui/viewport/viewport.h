@@ -78,6 +78,7 @@ class Viewport : public QOpenGLWidget {
   void mouseDoubleClickEvent(QMouseEvent* event) override;
   void wheelEvent(QWheelEvent* event) override;
   void tabletEvent(QTabletEvent* event) override;
+  void keyPressEvent(QKeyEvent* event) override;
   void leaveEvent(QEvent* event) override;
   void resizeEvent(QResizeEvent* event) override;
 
@@ -101,7 +102,7 @@ class Viewport : public QOpenGLWidget {
   void paintPortsOver(QPainter& painter) const;
   std::optional<BodyOutline> outline() const;
   std::optional<SceneTag> tag() const;
-  std::optional<std::pair<Vector3, Vector3>> boxOfBody(const std::string& id) const;
+  std::optional<std::pair<Vector3, Vector3>> boxOfSelection() const;
   std::optional<std::pair<Vector3, Vector3>> boxAround(const Port& port) const;
   void announce();  ///< tells assistive technology of another summary()
   void storeView();
@@ -109,6 +110,7 @@ class Viewport : public QOpenGLWidget {
   Pointer pointerAt(const QPointF& position, Qt::KeyboardModifiers modifiers) const;
   std::optional<Navigation::Motion> motionFor(const QMouseEvent& event) const;
   bool clickOverlay(const QPointF& position);
+  bool typeToTool(const QKeyEvent& event, bool asks);
   void hover(const QPointF& position, Qt::KeyboardModifiers modifiers);
   void updatePointer(const QPointF& position);      ///< its shape
   Drag legendEndAt(const QPointF& position) const;  ///< None: there is no end of the legend

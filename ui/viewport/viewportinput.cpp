@@ -50,6 +50,7 @@ Pointer Viewport::pointerAt(const QPointF& position, Qt::KeyboardModifiers modif
   pointer.seconds = static_cast<double>(m_clock.elapsed()) / 1000;
   pointer.shift = modifiers & Qt::ShiftModifier;
   pointer.control = modifiers & Qt::ControlModifier;
+  pointer.alt = modifiers & Qt::AltModifier;
   pointer.scene = m_now.get();
   return pointer;
 }
@@ -137,6 +138,8 @@ void Viewport::mouseReleaseEvent(QMouseEvent* event) {
     m_navigation.release();
     if (dolly && still) {
       Q_EMIT viewMenuRequested(event->globalPosition().toPoint());
+    } else if (still && event->button() == Qt::LeftButton) {
+      m_tools.tool().click(pointer);  // with Shift, which would have moved the view
     } else {
       storeView();
     }
@@ -184,6 +187,26 @@ void Viewport::wheelEvent(QWheelEvent* event) {
   if (m_drag == Drag::None) hover(event->position(), event->modifiers());
   requestPaint();
   event->accept();
+}
+
+/// While something is dragged, digits and the like say how far; other keys stay what they are.
+bool Viewport::typeToTool(const QKeyEvent& event, bool asks) {
+  if (m_drag != Drag::Tool) return false;
+  const bool erase = event.key() == Qt::Key_Backspace;
+  const bool enter = event.key() == Qt::Key_Return || event.key() == Qt::Key_Enter;
+  const QString text = erase ? QLatin1String(kErase) : enter ? QLatin1String(kEnter) : event.text();
+  const bool printed = !text.isEmpty() && text[0].isPrint();
+  if (!(printed || erase || enter) || !m_tools.tool().takesText(text)) return false;
+  if (asks) return true;
+  const bool taken = m_tools.tool().type(text);
+  if (enter && !m_tools.tool().takesText(text)) m_drag = Drag::None;  // a number that is none stays
+  update();
+  announce();
+  return taken;
+}
+
+void Viewport::keyPressEvent(QKeyEvent* event) {
+  if (!typeToTool(*event, false)) QOpenGLWidget::keyPressEvent(event);
 }
 
 void Viewport::leaveEvent(QEvent* event) {

@@ -52,14 +52,14 @@ Look Viewport::shownLook() const {
   return look;
 }
 
-/// Around the selected body, two logical pixels wide.
+/// Around the selected bodies, two logical pixels wide.
 std::optional<BodyOutline> Viewport::outline() const {
-  const std::string selected = m_selection.body();
-  if (selected.empty() || !m_now || !m_now->bodyIds) return std::nullopt;
-  const auto found = std::find(m_now->bodyIds->begin(), m_now->bodyIds->end(), selected);
-  if (found == m_now->bodyIds->end()) return std::nullopt;
+  if (!m_now || !m_now->bodyIds) return std::nullopt;
   BodyOutline outline;
-  outline.body = static_cast<uint32_t>(found - m_now->bodyIds->begin());
+  for (uint32_t k = 0; k < m_now->bodyIds->size(); ++k) {
+    if (m_selection.has(OutlineKind::Body, (*m_now->bodyIds)[k])) outline.bodies.push_back(k);
+  }
+  if (outline.bodies.empty()) return std::nullopt;
   outline.colour = channels(Theme::current()[Token::Accent]);
   outline.halo = channels(Theme::current()[Token::Shadow]);
   outline.lineWidth *= static_cast<float>(devicePixelRatioF());

@@ -26,10 +26,6 @@ void EditActions::makeMenu(QMenu* menu) {
                 [this] { m_outliner.toggleVisible(); });
   m_actions.add(menu, QStringLiteral("edit.locked"), QStringLiteral("Lock body"), {},
                 [this] { m_outliner.toggleLocked(); });
-  m_actions.add(menu, QStringLiteral("edit.duplicate"), QStringLiteral("Duplicate"),
-                {QKeySequence(QStringLiteral("Ctrl+D"))}, [this] { duplicateSelected(); });
-  m_actions.add(menu, QStringLiteral("edit.delete"), QStringLiteral("Delete"), {QKeySequence(Qt::Key_Delete)},
-                [this] { deleteSelected(); });
   m_actions.add(menu, QStringLiteral("edit.probe"), QStringLiteral("Add probe"), {}, [this] { addProbe(); });
   m_actions.add(
       menu, QStringLiteral("edit.key"), QStringLiteral("Set or remove a key"), {QKeySequence(Qt::Key_K)}, [this] {
@@ -55,27 +51,25 @@ void EditActions::openItemMenu(const QPoint& global) const {
   auto* menu = new QMenu(&m_actions.window());
   menu->setAttribute(Qt::WA_DeleteOnClose);
   const auto add = [&](const char* name) { menu->addAction(m_actions.find(QString::fromLatin1(name))); };
-  if (m_selection.body().empty() && !m_selection.port()) {
-    if (m_selection.kind() == OutlineKind::Probe) {
-      add("edit.rename");
-      add("edit.duplicate");
-      add("edit.delete");
+  const bool body = !m_selection.body().empty(), placed = body || m_selection.port();
+  const OutlineKind kind = m_selection.kind();
+  if (placed || kind == OutlineKind::Probe || kind == OutlineKind::Wall) {
+    if (kind != OutlineKind::Wall) add("edit.rename");
+    if (body) {
+      add("edit.visible");
+      add("edit.locked");
+      add("edit.isolate");
+    }
+    if (placed) add("view.frame");
+    menu->addSeparator();
+    for (const char* name : {"edit.cut", "edit.copy", "edit.paste", "edit.duplicate", "edit.delete"}) add(name);
+    menu->addSeparator();
+    if (kind != OutlineKind::Probe) {
+      add("edit.group");
+      add("edit.ungroup");
       menu->addSeparator();
     }
-    add("edit.probe");
-    menu->popup(global);
-    return;
   }
-  add("edit.rename");
-  if (!m_selection.port()) {
-    add("edit.visible");
-    add("edit.locked");
-  }
-  add("view.frame");
-  menu->addSeparator();
-  add("edit.duplicate");
-  add("edit.delete");
-  menu->addSeparator();
   add("edit.probe");
   menu->popup(global);
 }
@@ -91,31 +85,6 @@ void EditActions::addProbe() {
     probe.name = ownerLabel(m_document.project(), {owner, probe.body, ""}).toStdString();
   }
   m_selection.select(OutlineKind::Probe, m_document.addProbe(std::move(probe)));
-}
-
-void EditActions::duplicateSelected() {
-  if (const Probe* probe = m_selection.empty() ? nullptr : m_document.probe(m_selection.id());
-      probe && m_selection.kind() == OutlineKind::Probe) {
-    Probe copy = *probe;
-    copy.name = shownName(*probe) + " copy";
-    m_selection.select(OutlineKind::Probe, m_document.addProbe(std::move(copy)));
-  } else if (const auto port = m_selection.port()) {
-    if (const auto copy = m_document.duplicatePort(*port)) m_selection.select(*copy);
-  } else {
-    m_notices.refuse(QStringLiteral("Nothing was copied."), m_document.duplicateBody(m_selection.body()));
-  }
-}
-
-void EditActions::deleteSelected() {
-  if (const auto port = m_selection.port()) {
-    m_document.removePort(*port);
-  } else if (m_selection.kind() == OutlineKind::Probe && !m_selection.empty()) {
-    m_document.removeProbe(std::string(m_selection.id()));
-  } else if (m_selection.kind() == OutlineKind::Wall) {
-    m_document.removeWall(std::string(m_selection.id()));  // it leaves the selection meanwhile
-  } else {
-    m_notices.refuse(QStringLiteral("Nothing was deleted."), m_document.removeBody(m_selection.body()));
-  }
 }
 
 void EditActions::addWalls(const std::vector<std::string>& sides) {

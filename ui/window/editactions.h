@@ -31,8 +31,6 @@ class EditActions {
   void openItemMenu(const QPoint& global) const;  ///< of what is selected
 
  private:
-  void duplicateSelected();
-  void deleteSelected();
   void addProbe();
   void addWalls(const std::vector<std::string>& sides);  ///< of kWallSides
   Document& m_document;

@@ -7,6 +7,7 @@
 #include "ui/document/document.h"
 #include "ui/graphs/graphspanel.h"
 #include "ui/panels/inspector.h"
+#include "ui/panels/materialspanel.h"
 #include "ui/panels/outliner.h"
 #include "ui/panels/pluginpage.h"
 #include "ui/session/documentfiles.h"
@@ -34,6 +35,7 @@
 #include "ui/window/shortcutswindow.h"
 #include "ui/window/sketchactions.h"
 #include "ui/window/statusline.h"
+#include "ui/window/thingactions.h"
 #include "ui/window/topbar.h"
 #include "ui/window/viewactions.h"
 #include "ui/window/viewportpane.h"
@@ -185,6 +187,9 @@ void MainWindow::makeMenus() {
   m_files->makeMenu(bar->addMenu(QStringLiteral("File")), viewport());
   QMenu* edit = bar->addMenu(QStringLiteral("Edit"));
   m_edit->makeMenu(edit);
+  m_things = std::make_unique<ThingActions>(*m_session, *m_selection, *findChild<MaterialsPanel*>(), m_actions, *m_notices);
+  m_things->makeMenu(edit);
+  m_things->makeArrangeMenu(edit->addMenu(QStringLiteral("Arrange")));
   m_actions.add(edit, QStringLiteral("edit.preferences"), QStringLiteral("Preferences…"),
                 {QKeySequence(QStringLiteral("Ctrl+,"))}, [this] { openPreferences(*this); });
   m_bodies->makeMenu(bar->addMenu(QStringLiteral("Add")));

@@ -29,6 +29,7 @@ class RestoreOffer;
 class Selection;
 class SketchActions;
 class StatusLine;
+class ThingActions;
 class Toolbox;
 class TopBar;
 class Transport;
@@ -128,6 +129,7 @@ class MainWindow : public QMainWindow {
   FileActions* m_files = nullptr;
   PageChooser* m_pages = nullptr;
   std::unique_ptr<EditActions> m_edit;
+  std::unique_ptr<ThingActions> m_things;
   BodyActions* m_bodies = nullptr;
   std::unique_ptr<ViewActions> m_views;
   std::unique_ptr<SketchActions> m_sketch;

@@ -52,6 +52,7 @@ void PageChooser::onSelection() {
       break;
     case OutlineKind::Environment:
     case OutlineKind::Scene:
+    case OutlineKind::Group:
       m_layout.showPage(kScene);
       break;
     case OutlineKind::Probe:

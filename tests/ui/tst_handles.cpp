@@ -1,0 +1,339 @@
+// SPDX-License-Identifier: Apache-2.0
+// Bodies and whatever has a place are moved, turned and stretched by their handles in the real window; their matter
+// goes along while it runs.
+#include "core/scene/pose.h"
+#include "core/scene/solidform.h"
+#include "tests/ui/samplewindow.h"
+#include "ui/document/document.h"
+#include "ui/panels/inspector.h"
+#include "ui/panels/outliner.h"
+#include "ui/rows/parameterpanel.h"
+#include "ui/session/selection.h"
+#include "ui/tools/gizmo.h"
+#include "ui/tools/toolbox.h"
+#include "ui/viewport/viewport.h"
+
+#include <QtGui/QAction>
+#include <QtGui/QMouseEvent>
+#include <QtWidgets/QTreeView>
+
+#include <cmath>
+
+using namespace ps;
+
+namespace {
+
+constexpr const char* kIce = "ice";
+
+Vector3 matterOf(const Engine& engine, const std::string& body) {
+  const ParticleStore& store = engine.particles();
+  Vector3 sum;
+  double count = 0;
+  for (size_t i = 0; i < store.size(); ++i) {
+    if (engine.bodyIds()[store.body()[i]] == body) sum += vectorOf(store.position()[i]), ++count;
+  }
+  return sum / count;
+}
+
+}  // namespace
+
+class TestHandles : public SampleWindowTest {
+  Q_OBJECT
+ private Q_SLOTS:
+  void initTestCase() { open(); }
+  void init() { backToTheStart(); }
+  void cleanupTestCase() { m_window.reset(); }
+
+  void keysTakeTheHandles() {
+    for (const auto& [key, tool] : {std::pair(Qt::Key_W, "move"), {Qt::Key_R, "rotate"}, {Qt::Key_S, "scale"}}) {
+      QTest::keyClick(view(), key);
+      QCOMPARE(m_window->tools().active(), std::string(tool));
+      QTest::keyClick(view(), Qt::Key_Escape);
+      QCOMPARE(m_window->tools().active(), std::string("select"));
+    }
+  }
+
+  void anArmMovesABodyWithItsMatter() {
+    selectIce("move");
+    const Vector3 before = pivotOf(ice()), matter = iceMatter();
+    QVERIFY((handles().centre - matter).norm() < 1e-4);
+    const int steps = document().undoStack().index();
+    viewPicture(QStringLiteral("handles-move.png"));
+    dragPart({GizmoPart::Kind::Arm, 0}, {40, 0});
+    const Vector3 way = pivotOf(ice()) - before;
+    QVERIFY(std::abs(way.x()) > 0.01 && way.y() == 0 && way.z() == 0);
+    QVERIFY((iceMatter() - matter - way).norm() < 1e-5);
+    QCOMPARE(document().undoStack().index(), steps + 1);
+    QCOMPARE(document().undoStack().undoText(), QStringLiteral("moving Ice block"));
+    document().undoStack().undo();
+    QVERIFY((iceMatter() - matter).norm() < 1e-5);
+    QCOMPARE(pivotOf(ice()), before);
+    document().undoStack().redo();
+    QVERIFY((iceMatter() - matter - way).norm() < 1e-5);
+  }
+
+  /// While it falls: matter and document go by as much, wherever each is.
+  void itIsMovedWhileItRuns() {
+    selectIce("move");
+    const Vector3 before = pivotOf(ice());
+    dragPart({GizmoPart::Kind::Arm, 1}, {0, -60});
+    QVERIFY(pivotOf(ice()).y() > before.y() + 0.02);
+    for (int frame = 0; frame < 4; ++frame) session().step();
+    const double speed = onEngine<double>(session(), [](Engine& engine) { return engine.stats().kineticEnergy; });
+    const Vector3 matter = iceMatter(), body = pivotOf(ice());
+    view()->update();
+    QTRY_VERIFY_WITH_TIMEOUT((handles().centre - matter).norm() < 1e-4, kLong);
+    dragPart({GizmoPart::Kind::Arm, 2}, {-40, 20});
+    const Vector3 way = pivotOf(ice()) - body;
+    QVERIFY(way.norm() > 0.01);
+    QVERIFY((iceMatter() - matter - way).norm() < 1e-5);
+    const double after = onEngine<double>(session(), [](Engine& engine) { return engine.stats().kineticEnergy; });
+    QVERIFY(std::abs(after - speed) <= 1e-6 * speed);
+  }
+
+  void numbersAreTypedWhileDragging() {
+    selectIce("move");
+    const Vector3 before = pivotOf(ice());
+    const QPoint at = middleOf({GizmoPart::Kind::Arm, 0});
+    const std::string colour = document().project().view.colour;
+    dragPart({GizmoPart::Kind::Arm, 0}, {20, 0}, {}, false);
+    const Vector3 dragged = pivotOf(ice());
+    QTest::keyClicks(view(), QStringLiteral("25 mm"));
+    QCOMPARE(m_window->tools().tool().picture().gizmo->value, QStringLiteral("25 mm"));
+    QTest::mouseMove(view(), at + QPoint(60, 0));  // the pointer leads no more
+    QCOMPARE(pivotOf(ice()), dragged);
+    viewPicture(QStringLiteral("handles-typing.png"));
+    for (int k = 0; k < 5; ++k) QTest::keyClick(view(), Qt::Key_Backspace);
+    QTest::keyClicks(view(), QStringLiteral("-1/20"));
+    QTest::keyClick(view(), Qt::Key_Return);
+    QVERIFY((pivotOf(ice()) - before + Vector3(0.05, 0, 0)).norm() < 1e-12);
+    QTest::mouseRelease(view(), Qt::LeftButton, {}, at + QPoint(60, 0));
+    QVERIFY((pivotOf(ice()) - before + Vector3(0.05, 0, 0)).norm() < 1e-12);
+    QCOMPARE(document().undoStack().undoText(), QStringLiteral("moving Ice block"));
+    QCOMPARE(document().project().view.colour, colour);
+    document().undoStack().undo();
+    QCOMPARE(pivotOf(ice()), before);
+  }
+
+  void escapeTakesItBack() {
+    selectIce("move");
+    const Vector3 before = pivotOf(ice()), matter = iceMatter();
+    const int steps = document().undoStack().index();
+    dragPart({GizmoPart::Kind::Plane, 1}, {50, 10}, {}, false);
+    QVERIFY(pivotOf(ice()) != before);
+    QTest::keyClick(view(), Qt::Key_Escape);
+    QCOMPARE(pivotOf(ice()), before);
+    QVERIFY((iceMatter() - matter).norm() < 1e-5);
+    QCOMPARE(document().undoStack().index(), steps);
+    QTest::mouseRelease(view(), Qt::LeftButton, {}, {5, 5});
+    QCOMPARE(m_window->tools().active(), std::string("move"));
+  }
+
+  void stepsAreTheSpacing() {
+    selectIce("move");
+    for (const Qt::KeyboardModifier key : {Qt::ControlModifier, Qt::AltModifier}) {
+      const Vector3 before = pivotOf(ice());
+      dragPart({GizmoPart::Kind::Arm, 0}, {43, 0}, key);
+      const double steps = (pivotOf(ice()) - before).x() / m_window->tools().spacing();
+      QVERIFY(std::abs(steps) > 0.5 && std::abs(steps - std::round(steps)) < 1e-6);
+    }
+  }
+
+  void aRingTurnsASolid() {
+    const std::string id = addedSolid("cone");
+    m_window->tools().activate("rotate");
+    const Vector3 matter = matterIn(id);
+    const Body before = *document().body(id);
+    dragPart({GizmoPart::Kind::Ring, 2}, {0, 0}, {}, false);
+    QTest::keyClicks(view(), QStringLiteral("90"));
+    viewPicture(QStringLiteral("handles-ring.png"));
+    QTest::keyClick(view(), Qt::Key_Return);
+    viewPicture(QStringLiteral("handles-rotate.png"));
+    const SolidForm form(std::get<SolidShape>(document().body(id)->shape));
+    QVERIFY((form.toScene({0, 1, 0}) - form.middle() - Vector3(-1, 0, 0)).norm() < 1e-9);
+    QVERIFY((centroidOf(*document().body(id)) - centroidOf(before)).norm() < 1e-6);
+    QVERIFY((matterIn(id) - matter).norm() < 1e-5);
+    const QString row = QStringLiteral("shape/%1/rotation_z").arg(QString::fromStdString(id));
+    QCOMPARE(m_window->inspector().bodyPanel()->row(row)->valueText(), QStringLiteral("90.0 °"));
+    // What stands is what a reset makes.
+    const std::vector<Vector3> live = placesOf(id);
+    toTheStart();
+    const std::vector<Vector3> made = placesOf(id);
+    QCOMPARE(made.size(), live.size());
+    for (size_t k = 0; k < made.size(); ++k) QVERIFY((made[k] - live[k]).norm() < 0.2 * m_window->tools().spacing());
+    document().undoStack().undo();
+    QCOMPARE(pivotOf(*document().body(id)), pivotOf(before));
+  }
+
+  /// What cannot be turned says so, and has no handles.
+  void blocksOfLayersAreNotTurned() {
+    selectIce("rotate");
+    const GizmoPicture shown = *m_window->tools().tool().picture().gizmo;
+    QVERIFY(!shown.gizmo);
+    QVERIFY2(shown.note.contains(QStringLiteral("Ice block")) && shown.note.contains(QStringLiteral("along the axes")),
+             qPrintable(shown.note));
+    viewPicture(QStringLiteral("handles-note.png"));
+  }
+
+  void sizesWaitForTheReset() {
+    const std::string id = addedSolid("ellipsoid");
+    m_window->tools().activate("scale");
+    const size_t count = placesOf(id).size();
+    viewPicture(QStringLiteral("handles-scale.png"));
+    const Vector3 size = SolidForm(std::get<SolidShape>(document().body(id)->shape)).size();
+    dragPart({GizmoPart::Kind::Middle, 0}, {10, 0}, {}, false);
+    QTest::keyClicks(view(), QStringLiteral("1.5"));
+    QTest::keyClick(view(), Qt::Key_Return);
+    QVERIFY((SolidForm(std::get<SolidShape>(document().body(id)->shape)).size() - 1.5 * size).norm() < 1e-9);
+    QCOMPARE(placesOf(id).size(), count);
+    toTheStart();
+    QVERIFY(placesOf(id).size() > 2.5 * static_cast<double>(count));
+    const int steps = document().undoStack().index();
+    document().undoStack().undo();
+    QCOMPARE(document().undoStack().index(), steps - 1);
+    QVERIFY((SolidForm(std::get<SolidShape>(document().body(id)->shape)).size() - size).norm() < 1e-12);
+  }
+
+  void aRowCarriesMatterToo() {
+    const std::string id = addedSolid("ellipsoid");
+    const Vector3 matter = matterIn(id);
+    const double from = pivotOf(*document().body(id)).y();
+    QCOMPARE(document().setParameter({Owner::Shape, id, "position_y"}, from + 0.1), QString());
+    QVERIFY((matterIn(id) - matter - Vector3(0, 0.1, 0)).norm() < 1e-5);
+    document().undoStack().undo();
+    QVERIFY((matterIn(id) - matter).norm() < 1e-5);
+  }
+
+  void wallsTapsAndDrainsHaveHandles() {
+    Emitter tap;
+    tap.material = document().project().materials.front().id;
+    tap.point = {0.1, 0.3, 0};
+    const Port placed = document().addEmitter(tap);
+    m_window->selection().selectAll({{OutlineKind::Emitter, placed.id}, {OutlineKind::Wall, "floor"}});
+    m_window->tools().activate("move");
+    const Vector3 wall = document().wall("floor")->point;
+    dragPart({GizmoPart::Kind::Arm, 1}, {0, 0}, {}, false);
+    QTest::keyClicks(view(), QStringLiteral("-0.01"));
+    QTest::keyClick(view(), Qt::Key_Return);
+    QVERIFY((document().wall("floor")->point - wall + Vector3(0, 0.01, 0)).norm() < 1e-12);
+    QVERIFY((document().emitter(placed.id)->point - Vector3(0.1, 0.29, 0)).norm() < 1e-12);
+    QCOMPARE(document().undoStack().undoText(), QStringLiteral("moving 2 things"));
+    const double lives =
+        onEngine<double>(session(), [](Engine& engine) { return engine.project().environment.walls[0].point.y(); });
+    QCOMPARE(lives, document().project().environment.walls[0].point.y());
+    m_window->selection().select(placed);
+    m_window->tools().activate("rotate");
+    dragPart({GizmoPart::Kind::Ring, 2}, {0, 0}, {}, false);
+    QTest::keyClicks(view(), QStringLiteral("90"));
+    QTest::keyClick(view(), Qt::Key_Return);
+    QVERIFY((document().emitter(placed.id)->direction - Vector3(1, 0, 0)).norm() < 1e-9);
+  }
+
+  void shiftAndFrameSelectMore() {
+    const std::string id = addedSolid("ellipsoid");
+    m_window->tools().activate("select");
+    m_window->selection().clear();
+    QTest::mouseClick(view(), Qt::LeftButton, {}, pixelOf(matterIn(id)));
+    QCOMPARE(m_window->selection().bodies(), std::vector<std::string>{id});
+    QTest::mouseClick(view(), Qt::LeftButton, Qt::ShiftModifier, pixelOf(iceMatter()));
+    QCOMPARE(m_window->selection().bodies(), (std::vector<std::string>{id, kIce}));
+    QTest::mouseClick(view(), Qt::LeftButton, Qt::ShiftModifier, pixelOf(matterIn(id)));
+    QCOMPARE(m_window->selection().bodies(), std::vector<std::string>{kIce});
+    m_window->selection().clear();
+    drag({4, 60}, QPoint(view()->width() - 80, view()->height() - 130), true, Qt::ControlModifier);
+    QCOMPARE(m_window->selection().bodies().size(), size_t{2});
+    QCOMPARE(m_window->findChild<Outliner*>()->view()->selectionModel()->selectedIndexes().size(), 2);
+    m_window->tools().activate("move");
+    view()->update();
+    QTest::qWait(100);
+    viewPicture(QStringLiteral("handles-two.png"));
+    const Vector3 first = pivotOf(ice()), second = pivotOf(*document().body(id));
+    dragPart({GizmoPart::Kind::Middle, 0}, {30, -30});
+    const Vector3 way = pivotOf(ice()) - first;
+    QVERIFY(way.norm() > 0.01);
+    QVERIFY((pivotOf(*document().body(id)) - second - way).norm() < 1e-9);
+    document().undoStack().undo();
+    QCOMPARE(pivotOf(ice()), first);
+    QCOMPARE(pivotOf(*document().body(id)), second);
+  }
+
+ private:
+  /// Of the view with what is painted over it, where PS_TEST_PICTURES names a folder.
+  void viewPicture(const QString& name) {
+    const QString folder = qEnvironmentVariable("PS_TEST_PICTURES");
+    if (!folder.isEmpty()) view()->grabFramebuffer().save(folder + QLatin1Char('/') + name);
+  }
+  const Body& ice() { return *document().body(kIce); }
+  Vector3 matterIn(const std::string& id) {
+    return onEngine<Vector3>(session(), [id](Engine& engine) { return matterOf(engine, id); });
+  }
+  Vector3 iceMatter() { return matterIn(kIce); }
+  std::vector<Vector3> placesOf(const std::string& id) {
+    return onEngine<std::vector<Vector3>>(session(), [id](Engine& engine) {
+      std::map<uint32_t, Vector3> places;
+      const ParticleStore& store = engine.particles();
+      for (size_t i = 0; i < store.size(); ++i) {
+        if (engine.bodyIds()[store.body()[i]] == id) places[store.id()[i]] = vectorOf(store.position()[i]);
+      }
+      std::vector<Vector3> list;
+      for (const auto& [particle, place] : places) list.push_back(place);
+      return list;
+    });
+  }
+  void selectIce(const char* tool) {
+    m_window->selection().selectBody(kIce);
+    m_window->tools().activate(tool);
+    view()->setFocus();
+  }
+  std::string addedSolid(const char* kind) {
+    m_window->action(QStringLiteral("add.") + QString::fromLatin1(kind))->trigger();
+    const std::string id = document().project().bodies.back().id;
+    const auto there = [&] { return !placesOf(id).empty(); };
+    [&] { QTRY_VERIFY_WITH_TIMEOUT(there(), kLong); }();
+    [&] { QTRY_VERIFY_WITH_TIMEOUT(view()->snapshot() == session().snapshot(), kLong); }();
+    view()->frameAll();
+    view()->setFocus();
+    return id;
+  }
+  Gizmo handles() {
+    Tool& tool = m_window->tools().tool();
+    tool.see(view()->snapshot().get());
+    return tool.picture().gizmo->gizmo.value();
+  }
+  QPoint pixelOf(const Vector3& p) {
+    const auto pixel = ps::project(view()->navigator().camera(), view()->width(), view()->height(), p);
+    return pixel ? QPoint(qRound((*pixel)[0]), qRound((*pixel)[1])) : QPoint(-1, -1);
+  }
+  /// In the middle of a handle, as the view shows it.
+  QPoint middleOf(const GizmoPart& part) {
+    const Gizmo gizmo = handles();
+    const Camera& camera = view()->navigator().camera();
+    const CameraFrame frame = frameOf(camera);
+    const double arm = kGizmoArm * pixelSize(camera, view()->height(), (gizmo.centre - frame.eye).dot(frame.forward));
+    const GizmoShape shape = shapeOf(gizmo, part, arm, frame.forward);
+    if (!shape.face.empty()) return pixelOf(0.5 * (shape.face[0] + shape.face[2]));
+    const auto& line = shape.lines[shape.lines.size() / 2];
+    return pixelOf(0.3 * line.first + 0.7 * line.second);
+  }
+  void dragPart(const GizmoPart& part, const QPoint& way, Qt::KeyboardModifiers modifiers = {}, bool release = true) {
+    drag(middleOf(part), way, release, modifiers);
+    if (!release) QVERIFY(m_window->tools().tool().picture().gizmo->active == part);
+  }
+  void drag(const QPoint& from, const QPoint& way, bool release, Qt::KeyboardModifiers modifiers) {
+    QTest::mousePress(view(), Qt::LeftButton, modifiers, from);
+    for (int k = 1; k <= 6; ++k) {
+      const QPointF at = from + way * k / 6;
+      QMouseEvent move(QEvent::MouseMove, at, view()->mapToGlobal(at), Qt::NoButton, Qt::LeftButton, modifiers);
+      QApplication::sendEvent(view(), &move);
+    }
+    if (release) QTest::mouseRelease(view(), Qt::LeftButton, modifiers, from + way);
+  }
+};
+
+int main(int argc, char** argv) {
+  requestViewFormat();
+  QApplication application(argc, argv);
+  TestHandles test;
+  return QTest::qExec(&test, argc, argv);
+}
+#include "tst_handles.moc"

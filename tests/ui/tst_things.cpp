@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: Apache-2.0
+// Several things at once in the real window: edited, copied, pasted, grouped, searched, put in order, arranged.
+#include "core/io/projectio.h"
+#include "core/scene/group.h"
+#include "core/scene/pose.h"
+#include "tests/ui/samplewindow.h"
+#include "ui/document/document.h"
+#include "ui/panels/inspector.h"
+#include "ui/panels/outliner.h"
+#include "ui/rows/filterfield.h"
+#include "ui/rows/parameterpanel.h"
+#include "ui/session/selection.h"
+
+#include <QtCore/QMimeData>
+#include <QtGui/QAction>
+#include <QtGui/QClipboard>
+#include <QtWidgets/QLabel>
+#include <QtWidgets/QTreeView>
+
+#include <cmath>
+
+using namespace ps;
+
+class TestThings : public SampleWindowTest {
+  Q_OBJECT
+ private Q_SLOTS:
+  void initTestCase() { open(); }
+  void init() {
+    backToTheStart();
+    m_window->selection().clear();
+    search()->clear();
+  }
+  void cleanupTestCase() { m_window.reset(); }
+
+  /// "—" where they disagree; what is typed sets all, "*2" scales each; one step.
+  void rowsOfManyEditAll() {
+    const std::vector<std::string> ids = threeBalls();
+    QCOMPARE(document().setParameter({Owner::Shape, ids[0], "size_y"}, 0.06), QString());
+    m_window->selection().selectAll({{OutlineKind::Body, ids[0]}, {OutlineKind::Body, ids[1]}});
+    const QString key = QStringLiteral("shape/%1/size_y").arg(QString::fromStdString(ids[1]));
+    QCOMPARE(row(key)->valueText(), QStringLiteral("—"));
+    QVERIFY(row(key)->has(RowState::Mixed));
+    QVERIFY(!row(QStringLiteral("shape/%1/size_x").arg(QString::fromStdString(ids[1])))->has(RowState::Mixed));
+    picture(QStringLiteral("things-mixed.png"));
+    const double other = sizeOf(ids[1]);
+    const int steps = document().undoStack().index();
+    QVERIFY(row(key)->enter(QStringLiteral("*2")));
+    QCOMPARE(document().undoStack().index(), steps + 1);
+    QVERIFY(std::abs(sizeOf(ids[0]) - 0.12) < 1e-12 && std::abs(sizeOf(ids[1]) - 2 * other) < 1e-12);
+    QVERIFY(row(key)->has(RowState::Mixed));
+    QVERIFY(row(key)->enter(QStringLiteral("70 mm")));
+    QCOMPARE(document().undoStack().index(), steps + 2);
+    QVERIFY(std::abs(sizeOf(ids[0]) - 0.07) < 1e-12 && std::abs(sizeOf(ids[1]) - 0.07) < 1e-12);
+    QVERIFY(!row(key)->has(RowState::Mixed));
+    document().undoStack().undo();
+    document().undoStack().undo();
+    QVERIFY(std::abs(sizeOf(ids[0]) - 0.06) < 1e-12 && std::abs(sizeOf(ids[1]) - other) < 1e-12);
+    QVERIFY(row(key)->has(RowState::Mixed));
+  }
+
+  void copiesStandBesideAndAreSelected() {
+    const std::vector<std::string> ids = threeBalls();
+    selectBodies({ids[0], ids[1]});
+    const size_t bodies = project().bodies.size();
+    const int steps = document().undoStack().index();
+    trigger("edit.duplicate");
+    QCOMPARE(project().bodies.size(), bodies + 2);
+    QCOMPARE(document().undoStack().index(), steps + 1);
+    const std::vector<std::string> copies = m_window->selection().bodies();
+    QCOMPARE(copies.size(), size_t{2});
+    for (const std::string& copy : copies) {
+      const BodyBounds own = boundsOf(*document().body(copy));
+      for (const Body& other : project().bodies) {
+        if (other.id == copy) continue;
+        const BodyBounds box = boundsOf(other);
+        const bool apart = (own.minimum.array() >= box.maximum.array() - 1e-6).any() ||
+                           (own.maximum.array() <= box.minimum.array() + 1e-6).any();
+        QVERIFY2(apart, other.id.c_str());
+      }
+    }
+    trigger("edit.delete");
+    QCOMPARE(project().bodies.size(), bodies);
+    QCOMPARE(document().undoStack().index(), steps + 2);
+    document().undoStack().undo();
+    document().undoStack().undo();
+    QCOMPARE(project().bodies.size(), bodies);
+  }
+
+  /// As a project file on the clipboard, with its materials; what is none is refused in a sentence.
+  void copiesGoThroughTheClipboard() {
+    selectBodies({"ice"});
+    trigger("edit.copy");
+    const QString text = QGuiApplication::clipboard()->text();
+    const Project copied = parseProject(text.toStdString(), "clipboard", *session().plugins()).project;
+    QCOMPARE(copied.bodies.size(), size_t{1});
+    QCOMPARE(copied.materials.size(), size_t{1});
+    const size_t bodies = project().bodies.size(), materials = project().materials.size();
+    trigger("edit.paste");
+    QCOMPARE(project().bodies.size(), bodies + 1);
+    QCOMPARE(project().materials.size(), materials);  // the same is not had twice
+    const std::string pasted = m_window->selection().body();
+    QVERIFY(pasted != "ice" && document().body(pasted));
+    QCOMPARE(document().body(pasted)->material, document().body("ice")->material);
+    trigger("edit.cut");
+    QCOMPARE(project().bodies.size(), bodies);
+    // Of another scene: its material comes along, under a name of its own.
+    Project foreign = copied;
+    foreign.materials[0].properties.values["density_solid"] = 700.0;
+    QGuiApplication::clipboard()->setText(QString::fromStdString(writeProject(foreign)));
+    trigger("edit.paste");
+    QCOMPARE(project().materials.size(), materials + 1);
+    QCOMPARE(document().body(m_window->selection().body())->material, project().materials.back().id);
+    document().undoStack().undo();
+    QCOMPARE(project().materials.size(), materials);
+    QCOMPARE(project().bodies.size(), bodies);
+    for (const QString& wrong : {QStringLiteral("nothing"), QStringLiteral("{\"format\": 7}"), QStringLiteral("{}")}) {
+      QGuiApplication::clipboard()->setText(wrong);
+      trigger("edit.paste");
+      QCOMPARE(project().bodies.size(), bodies);
+      const auto labels = m_window->notice()->findChildren<QLabel*>();
+      QVERIFY(std::any_of(labels.begin(), labels.end(),
+                          [](const QLabel* label) { return label->text().contains(QStringLiteral("clipboard")); }));
+    }
+  }
+
+  void wallsAndProbesAreCopiedToo() {
+    m_window->selection().selectAll({{OutlineKind::Wall, "floor"}, {OutlineKind::Probe, project().probes[0].id}});
+    trigger("edit.copy");
+    const size_t walls = project().environment.walls.size(), probes = project().probes.size();
+    trigger("edit.paste");
+    QCOMPARE(project().environment.walls.size(), walls + 1);
+    QCOMPARE(project().probes.size(), probes + 1);
+    QCOMPARE(m_window->selection().items().size(), size_t{2});
+    document().undoStack().undo();
+    QCOMPARE(project().environment.walls.size(), walls);
+  }
+
+  void groupsAreMadeRenamedHiddenAndSaved() {
+    const std::vector<std::string> ids = threeBalls();
+    selectBodies({ids[0], ids[1]});
+    trigger("edit.group");
+    QCOMPARE(project().groups.size(), size_t{1});
+    const QModelIndex group = rowOf(OutlineKind::Group, project().groups[0].id);
+    QVERIFY(group.isValid());
+    QCOMPARE(tree()->model()->rowCount(group), 2);
+    document().renameGroup(project().groups[0].id, QStringLiteral("Table"));
+    const LoadedProject again = parseProject(writeProject(project()), "again", *session().plugins());
+    QVERIFY(again.project.groups == project().groups);
+    // A click on it selects all that is in it.
+    m_window->selection().clear();
+    const QRect place = tree()->visualRect(rowOf(OutlineKind::Group, project().groups[0].id));
+    QTest::mouseClick(tree()->viewport(), Qt::LeftButton, {}, place.center());
+    QCOMPARE(m_window->selection().bodies().size(), size_t{2});
+    picture(QStringLiteral("things-group.png"));
+    trigger("edit.visible");
+    QVERIFY(!document().body(ids[0])->visible && !document().body(ids[1])->visible);
+    document().undoStack().undo();
+    QVERIFY(document().body(ids[0])->visible && document().body(ids[1])->visible);
+    trigger("edit.isolate");
+    QVERIFY(!document().body("ice")->visible && !document().body(ids[2])->visible && document().body(ids[0])->visible);
+    trigger("edit.isolate");
+    QVERIFY(document().body("ice")->visible);
+    // What is deleted leaves it, and comes back into it.
+    m_window->selection().select(OutlineKind::Body, ids[0]);
+    trigger("edit.delete");
+    QCOMPARE(livingGroups(project())[0].members.size(), size_t{1});
+    document().undoStack().undo();
+    QCOMPARE(livingGroups(project())[0].members.size(), size_t{2});
+    selectBodies({ids[0]});
+    trigger("edit.ungroup");
+    QVERIFY(project().groups.empty());
+  }
+
+  void rowsAreDraggedIntoOrderAndGroups() {
+    const std::vector<std::string> ids = threeBalls();
+    selectBodies({ids[0]});
+    trigger("edit.group");
+    drop({rowOf(OutlineKind::Body, ids[2])}, rowOf(OutlineKind::Group, project().groups[0].id), -1);
+    QCOMPARE(project().groups[0].members.size(), size_t{2});
+    const auto scene = [&] { return tree()->model()->index(0, 0); };  // rows are made anew by each edit
+    drop({rowOf(OutlineKind::Body, ids[0])}, scene(), -1);
+    QCOMPARE(project().groups[0].members, std::vector<std::string>{memberOf(Owner::Body, ids[2])});
+    // Before the ice.
+    drop({rowOf(OutlineKind::Body, ids[1])}, scene(), rowOf(OutlineKind::Body, "ice").row());
+    QCOMPARE(project().bodies.front().id, ids[1]);
+    document().undoStack().undo();
+    QCOMPARE(project().bodies.front().id, std::string("ice"));
+  }
+
+  void theSearchFindsByName() {
+    threeBalls();
+    QTest::keyClicks(search(), QStringLiteral("PLATE"));
+    QVERIFY(!hidden(OutlineKind::Wall, "floor"));
+    QVERIFY(hidden(OutlineKind::Body, "ice"));
+    search()->setText(QStringLiteral("x<y"));
+    QVERIFY(hidden(OutlineKind::Wall, "floor"));
+    const auto labels = m_window->findChild<Outliner*>()->findChildren<QLabel*>();
+    QVERIFY(std::any_of(labels.begin(), labels.end(), [](const QLabel* label) {
+      return label->isVisible() && label->text().contains(QStringLiteral("Nothing called “x&lt;y”"));
+    }));
+    picture(QStringLiteral("things-search.png"));
+    search()->clear();
+    QVERIFY(!hidden(OutlineKind::Body, "ice"));
+  }
+
+  void thingsAreAlignedSpreadAndDropped() {
+    const std::vector<std::string> ids = threeBalls();
+    for (size_t k = 0; k < 3; ++k) {
+      QCOMPARE(document().setParameter({Owner::Shape, ids[k], "position_y"}, 0.5 + 0.03 * static_cast<double>(k)),
+               QString());
+      QCOMPARE(document().setParameter({Owner::Shape, ids[k], "position_x"},
+                                       k == 1 ? -0.05 : 0.2 * (static_cast<double>(k) - 1)),
+               QString());
+    }
+    awaitMatter();
+    selectBodies(ids);
+    const int steps = document().undoStack().index();
+    trigger("arrange.align.middle_y");
+    QCOMPARE(document().undoStack().index(), steps + 1);
+    for (const std::string& id : ids) QVERIFY(std::abs(middle(id).y() - middle(ids[0]).y()) < 0.25 * spacing());
+    awaitMatter();
+    trigger("arrange.distribute.x");
+    QVERIFY(std::abs(middle(ids[1]).x() - 0.5 * (middle(ids[0]).x() + middle(ids[2]).x())) < 0.25 * spacing());
+    awaitMatter();
+    trigger("arrange.drop");
+    const double floor = document().wall("floor")->point.y();
+    for (const std::string& id : ids) {
+      const double low = boundsOf(*document().body(id)).minimum.y() - floor;
+      QVERIFY2(low > -0.6 * spacing() && low < 0.4, qPrintable(QString::number(low)));
+    }
+    document().undoStack().undo();
+    document().undoStack().undo();
+    document().undoStack().undo();
+    QCOMPARE(document().undoStack().index(), steps);
+  }
+
+ private:
+  const Project& project() { return document().project(); }
+  QTreeView* tree() { return m_window->findChild<Outliner*>()->view(); }
+  FilterField* search() { return m_window->findChild<Outliner*>()->findChild<FilterField*>(); }
+  ParameterRow* row(const QString& key) { return m_window->inspector().bodyPanel()->row(key); }
+  double spacing() { return m_window->tools().spacing(); }
+  double sizeOf(const std::string& id) { return std::get<double>(document().value({Owner::Shape, id, "size_y"})); }
+  Vector3 middle(const std::string& id) { return boundsOf(*document().body(id)).middle(); }
+  void trigger(const char* action) { m_window->action(QString::fromLatin1(action))->trigger(); }
+  void selectBodies(const std::vector<std::string>& ids) {
+    std::vector<SelectedItem> items;
+    for (const std::string& id : ids) items.push_back({OutlineKind::Body, id});
+    m_window->selection().selectAll(std::move(items));
+  }
+  /// The view has seen all edits.
+  void awaitMatter() {
+    const size_t count = idsNow(session()).size();
+    QTRY_VERIFY_WITH_TIMEOUT(session().snapshot()->id.size() == count, kLong);
+  }
+  std::vector<std::string> threeBalls() {
+    std::vector<std::string> ids;
+    for (int k = 0; k < 3; ++k) {
+      trigger("add.ellipsoid");
+      ids.push_back(project().bodies.back().id);
+      [&] { awaitMatter(); }();
+    }
+    return ids;
+  }
+  QModelIndex rowOf(OutlineKind kind, const std::string& id) {
+    const QModelIndexList found =
+        tree()->model()->match(tree()->model()->index(0, 0), outline::kId, QString::fromStdString(id), -1,
+                               Qt::MatchExactly | Qt::MatchRecursive);
+    for (const QModelIndex& index : found) {
+      if (index.data(outline::kKind).toInt() == static_cast<int>(kind)) return index;
+    }
+    return {};
+  }
+  bool hidden(OutlineKind kind, const std::string& id) {
+    const QModelIndex index = rowOf(kind, id);
+    return tree()->isRowHidden(index.row(), index.parent());
+  }
+  void drop(const QModelIndexList& rows, const QModelIndex& parent, int row) {
+    const std::unique_ptr<QMimeData> data(tree()->model()->mimeData(rows));
+    QVERIFY(tree()->model()->canDropMimeData(data.get(), Qt::MoveAction, row, 0, parent));
+    tree()->model()->dropMimeData(data.get(), Qt::MoveAction, row, 0, parent);
+  }
+};
+
+int main(int argc, char** argv) {
+  requestViewFormat();
+  QApplication application(argc, argv);
+  TestThings test;
+  return QTest::qExec(&test, argc, argv);
+}
+#include "tst_things.moc"

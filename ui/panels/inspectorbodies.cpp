@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+// Several bodies in the inspector: rows that all of them have, a dash where they disagree, and edits that reach all.
+#include "ui/document/declared.h"
+#include "ui/document/document.h"
+#include "ui/panels/inspector.h"
+#include "ui/panels/rowmodels.h"
+#include "ui/session/wording.h"
+#include "ui/theme/numbers.h"
+
+#include <algorithm>
+
+namespace ps {
+namespace {
+
+Address ofBody(Address address, const std::string& id) {
+  address.id = id;
+  return address;
+}
+
+}  // namespace
+
+void Inspector::setBodies(const std::vector<std::string>& ids) {
+  m_probeId.clear();
+  m_bodyId = ids.empty() ? std::string() : ids.back();
+  m_others.assign(ids.begin(), ids.empty() ? ids.end() : ids.end() - 1);
+  rebuildBody();
+}
+
+/// Of the row and of all other bodies that are shown with it; the row's own alone where it is of none of them.
+std::vector<Address> Inspector::addressesOf(const Address& address) const {
+  std::vector<Address> all{address};
+  const bool ofBodies =
+      address.owner == Owner::Body || address.owner == Owner::Shape || address.owner == Owner::Constraint;
+  if (!ofBodies || address.id != m_bodyId) return all;
+  for (const std::string& id : m_others) all.push_back(ofBody(address, id));
+  return all;
+}
+
+bool Inspector::isMixed(const Address& address) const {
+  const std::vector<Address> all = addressesOf(address);
+  return std::any_of(all.begin(), all.end(),
+                     [&](const Address& one) { return !(m_document.value(one) == m_document.value(address)); });
+}
+
+void Inspector::shareRows(std::vector<RowModel>& rows) const {
+  if (m_others.empty()) return;
+  std::erase_if(rows, [&](const RowModel& row) {
+    const auto address = Address::parse(row.key.toStdString());
+    const std::vector<Address> all = addressesOf(*address);
+    return !std::all_of(all.begin(), all.end(),
+                        [&](const Address& one) { return rowModelOf(m_document, one).has_value(); });
+  });
+  for (RowModel& row : rows) row.mixed = isMixed(*Address::parse(row.key.toStdString()));
+}
+
+/// "3 bodies", with their names below.
+bool Inspector::showBodiesHeader() {
+  if (m_others.empty()) return false;
+  QStringList names;
+  for (const std::string& id : m_others) {
+    if (const Body* body = m_document.body(id)) names << nameOf(*body);
+  }
+  if (const Body* body = m_document.body(m_bodyId)) names << nameOf(*body);
+  m_body->setHeader(countText(static_cast<size_t>(names.size()), QStringLiteral("body"), QStringLiteral("bodies")),
+                    names.join(QStringLiteral(", ")));
+  return true;
+}
+
+/// One of several bodies has another value.
+void Inspector::refreshMixed(const Address& changed) {
+  if (m_others.empty() || std::find(m_others.begin(), m_others.end(), changed.id) == m_others.end()) {
+    if (changed.id != m_bodyId) return;
+  }
+  const Address own = ofBody(changed, m_bodyId);
+  m_body->setMixed(QString::fromStdString(own.text()), isMixed(own));
+}
+
+QString Inspector::setAll(const Address& address, const Value& value) {
+  const std::vector<Address> all = addressesOf(address);
+  if (all.size() == 1) return m_document.setParameter(address, value);
+  std::vector<std::pair<Address, Value>> values;
+  for (const Address& one : all) values.emplace_back(one, value);
+  return m_document.setParameters(values, titleOfAll(address, all.size()));
+}
+
+QString Inspector::titleOfAll(const Address& address, size_t count) const {
+  const api::ParameterDeclaration* declaration = m_document.declaration(address);
+  return QStringLiteral("%1 of %2 bodies")
+      .arg(declaration ? QString::fromUtf8(declaration->label) : QString())
+      .arg(count);
+}
+
+void Inspector::onScaled(const QString& key, double factor) {
+  const auto address = Address::parse(key.toStdString());
+  const api::ParameterDeclaration* declaration = address ? m_document.declaration(*address) : nullptr;
+  if (!declaration) return;
+  std::vector<std::pair<Address, Value>> values;
+  for (const Address& one : addressesOf(*address)) {
+    const Value value = m_document.value(one);
+    if (const auto* number = std::get_if<double>(&value))
+      values.emplace_back(one, scaledValue(*declaration, *number, factor));
+  }
+  if (values.empty()) return;
+  const QString problem = m_document.setParameters(values, titleOfAll(*address, values.size()));
+  for (ParameterPanel* panel : panels()) panel->setError(key, problem);
+}
+
+/// A body is at another pose.
+void Inspector::showPlace(const std::string& id) {
+  const Body* body = m_document.body(id);
+  if (!body || !std::holds_alternative<SolidShape>(body->shape)) return;
+  const api::ParameterList list = solidParameters();
+  for (size_t k = 0; k < list.count; ++k) {
+    if (list[k].actsAt != api::ActsAt::WithItsMatter) continue;
+    const Address address{Owner::Shape, id, list[k].key};
+    for (ParameterPanel* panel : panels())
+      panel->setValue(QString::fromStdString(address.text()), m_document.value(address));
+    refreshMixed(address);
+  }
+}
+
+}  // namespace ps

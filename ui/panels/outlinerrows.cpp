@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rows of the outliner under hands: selected with others, searched, dragged to another place or group.
+#include "core/scene/group.h"
+#include "ui/document/document.h"
+#include "ui/panels/outliner.h"
+#include "ui/panels/outlinermodel.h"
+#include "ui/rows/filterfield.h"
+
+#include <QtWidgets/QHBoxLayout>
+#include <QtWidgets/QLabel>
+#include <QtWidgets/QTreeView>
+
+#include <algorithm>
+#include <functional>
+#include <optional>
+
+namespace ps {
+namespace {
+
+std::optional<Owner> ownerOf(OutlineKind kind) {
+  switch (kind) {
+    case OutlineKind::Body:
+      return Owner::Body;
+    case OutlineKind::Emitter:
+      return Owner::Emitter;
+    case OutlineKind::Sink:
+      return Owner::Sink;
+    case OutlineKind::Wall:
+      return Owner::Wall;
+    default:
+      return std::nullopt;
+  }
+}
+
+std::vector<std::string>* listOf(SceneOrder& order, OutlineKind kind) {
+  switch (kind) {
+    case OutlineKind::Body:
+      return &order.bodies;
+    case OutlineKind::Emitter:
+      return &order.emitters;
+    case OutlineKind::Sink:
+      return &order.sinks;
+    case OutlineKind::Wall:
+      return &order.walls;
+    case OutlineKind::Probe:
+      return &order.probes;
+    default:
+      return nullptr;
+  }
+}
+
+/// Before another one, or last where that is none of them.
+void moveBefore(std::vector<std::string>& ids, const std::string& id, const std::string& before) {
+  std::erase(ids, id);
+  ids.insert(std::find(ids.begin(), ids.end(), before), id);
+}
+
+}  // namespace
+
+void Outliner::showSelection() {
+  m_building = true;
+  QItemSelection rows;
+  QModelIndex last;
+  for (const SelectedItem& selected : m_selection.items()) {
+    const QStandardItem* item = find(selected.kind, selected.id);
+    if (!item) continue;
+    last = item->index();
+    rows.select(last, last);
+  }
+  for (const SceneGroup& group : m_groups) {
+    const QStandardItem* item = find(OutlineKind::Group, group.id);
+    if (!item || !holdsAll(group)) continue;
+    rows.select(item->index(), item->index());
+    if (m_view->currentIndex() == item->index()) last = item->index();
+  }
+  QItemSelectionModel* model = m_view->selectionModel();
+  const bool elsewhere = m_view->currentIndex() != last;
+  if (elsewhere) model->setCurrentIndex(last, QItemSelectionModel::NoUpdate);
+  model->select(rows, QItemSelectionModel::ClearAndSelect);
+  if (elsewhere && last.isValid()) m_view->scrollTo(last);
+  m_building = false;
+}
+
+/// What has been selected here: those that were keep their order, the current row comes last. A group that is clicked
+/// stands for what is in it.
+void Outliner::takeSelection() {
+  std::vector<SelectedItem> rows;
+  for (const QModelIndex& index : m_view->selectionModel()->selectedIndexes()) {
+    const SelectedItem item = itemOf(index);
+    if (item.kind != OutlineKind::Group) {
+      if (std::find(rows.begin(), rows.end(), item) == rows.end()) rows.push_back(item);
+    } else if (index == m_view->currentIndex()) {
+      for (int row = 0; row < m_model->rowCount(index); ++row) {
+        const SelectedItem member = itemOf(m_model->index(row, 0, index));
+        if (std::find(rows.begin(), rows.end(), member) == rows.end()) rows.push_back(member);
+      }
+    }
+  }
+  const auto rank = [&](const SelectedItem& item) {
+    if (item == itemOf(m_view->currentIndex())) return m_selection.items().size() + 1;
+    const auto& known = m_selection.items();
+    return static_cast<size_t>(std::find(known.begin(), known.end(), item) - known.begin());
+  };
+  std::stable_sort(rows.begin(), rows.end(),
+                   [&](const SelectedItem& a, const SelectedItem& b) { return rank(a) < rank(b); });
+  m_selection.selectAll(std::move(rows));
+}
+
+SelectedItem Outliner::itemOf(const QModelIndex& index) const {
+  return {static_cast<OutlineKind>(index.data(outline::kKind).toInt()),
+          index.data(outline::kId).toString().toStdString()};
+}
+
+bool Outliner::holdsAll(const SceneGroup& group) const {
+  return std::all_of(group.members.begin(), group.members.end(), [&](const std::string& member) {
+    return std::any_of(m_selection.items().begin(), m_selection.items().end(), [&](const SelectedItem& item) {
+      const auto owner = ownerOf(item.kind);
+      return owner && memberOf(*owner, item.id) == member;
+    });
+  });
+}
+
+/// A click on the eye of one of those that are selected is meant for all of them, on that of a group for its bodies.
+std::vector<std::string> Outliner::bodiesOf(int kind, const std::string& id) const {
+  if (kind != static_cast<int>(OutlineKind::Group))
+    return m_selection.has(OutlineKind::Body, id) ? m_selection.bodies() : std::vector<std::string>{id};
+  std::vector<std::string> bodies;
+  const auto group =
+      std::find_if(m_groups.begin(), m_groups.end(), [&](const SceneGroup& one) { return one.id == id; });
+  for (const Body& body : m_document.project().bodies) {
+    if (group != m_groups.end() &&
+        std::find(group->members.begin(), group->members.end(), memberOf(Owner::Body, body.id)) != group->members.end())
+      bodies.push_back(body.id);
+  }
+  return bodies;
+}
+
+QLayout* Outliner::makeSearch() {
+  m_filter->setPlaceholderText(QStringLiteral("Search"));
+  m_filter->setAccessibleName(QStringLiteral("Search the outliner"));
+  m_filter->setClearButtonEnabled(false);
+  m_nothing->setTextFormat(Qt::RichText);
+  m_nothing->setContentsMargins(10, 4, 10, 4);
+  m_nothing->setWordWrap(true);
+  m_nothing->hide();
+  connect(m_nothing, &QLabel::linkActivated, m_filter, &QLineEdit::clear);
+  connect(m_filter, &QLineEdit::textChanged, this, &Outliner::filter);
+  auto* row = new QHBoxLayout;
+  row->setContentsMargins(6, 0, 6, 0);
+  row->addWidget(m_filter);
+  return row;
+}
+
+/// Shows what is called so, with what it is in and what is in it.
+void Outliner::filter() {
+  const QString wanted = m_filter->text().trimmed();
+  const std::function<bool(const QModelIndex&, bool)> show = [&](const QModelIndex& parent, bool all) {
+    bool any = false;
+    for (int row = 0; row < m_model->rowCount(parent); ++row) {
+      const QModelIndex index = m_model->index(row, 0, parent);
+      const bool root = !parent.isValid();
+      const bool named = all || (!root && index.data().toString().contains(wanted, Qt::CaseInsensitive));
+      const bool within = show(index, named);
+      m_view->setRowHidden(row, parent, !root && !named && !within);
+      any = any || named || within;
+    }
+    return any;
+  };
+  const bool any = show({}, wanted.isEmpty());
+  m_nothing->setVisible(!any);
+  m_nothing->setText(
+      QStringLiteral("Nothing called “%1”. <a href=\"clear\">Clear filter</a>").arg(wanted.toHtmlEscaped()));
+}
+
+/// To another place in its list, into a group or out of it.
+void Outliner::moveRows(const std::vector<SelectedItem>& rows, const QModelIndex& parent, int row) {
+  SceneOrder order = m_document.order();
+  const SelectedItem target = itemOf(parent);
+  for (const SelectedItem& item : rows) {
+    std::string before;
+    for (int k = std::max(0, row); row >= 0 && k < m_model->rowCount(parent) && before.empty(); ++k) {
+      const SelectedItem next = itemOf(m_model->index(k, 0, parent));
+      const bool moves = std::find(rows.begin(), rows.end(), next) != rows.end();
+      if (next.kind == item.kind && !moves) before = next.id;
+    }
+    if (item.kind == OutlineKind::Group) {
+      moveGroup(order, item.id, before);
+      continue;
+    }
+    std::vector<std::string>* list = listOf(order, item.kind);
+    if (list && row >= 0) moveBefore(*list, item.id, before);
+    const auto owner = ownerOf(item.kind);
+    if (!owner) continue;
+    const std::string member = memberOf(*owner, item.id);
+    for (SceneGroup& group : order.groups) {
+      std::erase(group.members, member);
+      if (target.kind == OutlineKind::Group && group.id == target.id) group.members.push_back(member);
+    }
+  }
+  std::erase_if(order.groups, [](const SceneGroup& group) { return group.members.empty(); });
+  m_document.setOrder(std::move(order),
+                      rows.size() > 1 ? QStringLiteral("moving rows") : QStringLiteral("moving a row"));
+}
+
+void Outliner::moveGroup(SceneOrder& order, const std::string& id, const std::string& before) {
+  const auto place = [&](const std::string& wanted) {
+    return std::find_if(order.groups.begin(), order.groups.end(),
+                        [&](const SceneGroup& group) { return group.id == wanted; });
+  };
+  const auto from = place(id);
+  if (from == order.groups.end()) return;
+  SceneGroup group = std::move(*from);
+  order.groups.erase(from);
+  order.groups.insert(place(before), std::move(group));
+}
+
+}  // namespace ps

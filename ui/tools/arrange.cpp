@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/tools/arrange.h"
+
+#include "ui/document/wallside.h"
+#include "ui/tools/placing.h"
+#include "ui/tools/surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace ps {
+namespace {
+
+constexpr int kMostSteps = 12;      // along one axis, of the things' own size
+constexpr double kTouching = 1e-6;  // m, by which boxes that touch may overlap
+
+BodyBounds boxOf(const Body& body, const MatterBoxes& matter) {
+  const auto known = matter.find(body.id);
+  return known == matter.end() ? boundsOf(body) : known->second;
+}
+BodyBounds boxOf(const Emitter& emitter, const MatterBoxes&) {
+  const Vector3 half = Vector3::Constant(numberOf(emitter.parameters, emitterParameters(), "diameter") / 2);
+  return {emitter.point - half, emitter.point + half};
+}
+BodyBounds boxOf(const Sink& sink, const MatterBoxes&) { return {sink.minimum, sink.maximum}; }
+
+/// visit(thing's box, a placement of it alone) for each that has an extent.
+template <class Visit>
+void eachBox(const Placement& things, const MatterBoxes& matter, Visit&& visit) {
+  for (const Body& body : things.bodies) visit(boxOf(body, matter), Placement{{body}, {}, {}, {}, {}});
+  for (const Emitter& emitter : things.emitters) visit(boxOf(emitter, matter), Placement{{}, {emitter}, {}, {}, {}});
+  for (const Sink& sink : things.sinks) visit(boxOf(sink, matter), Placement{{}, {}, {sink}, {}, {}});
+  for (const Probe& probe : things.probes) {
+    if (probe.region)
+      visit(BodyBounds{probe.region->minimum, probe.region->maximum}, Placement{{}, {}, {}, {}, {probe}});
+  }
+}
+
+void append(Placement& to, const Placement& more) {
+  to.bodies.insert(to.bodies.end(), more.bodies.begin(), more.bodies.end());
+  to.emitters.insert(to.emitters.end(), more.emitters.begin(), more.emitters.end());
+  to.sinks.insert(to.sinks.end(), more.sinks.begin(), more.sinks.end());
+  to.probes.insert(to.probes.end(), more.probes.begin(), more.probes.end());
+}
+
+struct Boxed {
+  BodyBounds box;
+  Placement thing;
+};
+std::vector<Boxed> boxed(const Placement& things, const MatterBoxes& matter) {
+  std::vector<Boxed> list;
+  eachBox(things, matter, [&](const BodyBounds& box, Placement thing) { list.push_back({box, std::move(thing)}); });
+  return list;
+}
+
+double at(const BodyBounds& box, int axis, Side side) {
+  return side == Side::Least ? box.minimum[axis] : side == Side::Greatest ? box.maximum[axis] : box.middle()[axis];
+}
+
+bool overlap(const BodyBounds& a, const BodyBounds& b, int axis) {
+  return a.minimum[axis] < b.maximum[axis] - kTouching && b.minimum[axis] < a.maximum[axis] - kTouching;
+}
+bool overlap(const BodyBounds& a, const BodyBounds& b) {
+  return overlap(a, b, 0) && overlap(a, b, 1) && overlap(a, b, 2);
+}
+
+/// Bodies where they are made and where their matter is, taps and drains.
+std::vector<BodyBounds> obstaclesOf(const Project& project, const MatterBoxes& matter) {
+  std::vector<BodyBounds> boxes;
+  const Placement all{project.bodies, project.emitters, project.sinks, {}, {}};
+  for (const MatterBoxes& by : {MatterBoxes{}, matter})
+    eachBox(all, by, [&](const BodyBounds& box, const Placement&) { boxes.push_back(box); });
+  return boxes;
+}
+
+/// m, to which ways are rounded up: cells of sketches.
+double gridOf(const Placement& things) {
+  double grid = 0;
+  for (const Body& body : things.bodies) {
+    if (const auto* voxels = std::get_if<VoxelShape>(&body.shape)) grid = std::max(grid, voxels->spacing);
+  }
+  return grid;
+}
+
+}  // namespace
+
+std::optional<BodyBounds> boundsOf(const Placement& things, const MatterBoxes& matter) {
+  std::optional<BodyBounds> all;
+  eachBox(things, matter, [&](const BodyBounds& box, const Placement&) {
+    if (!all) all = box;
+    all->minimum = all->minimum.cwiseMin(box.minimum);
+    all->maximum = all->maximum.cwiseMax(box.maximum);
+  });
+  return all;
+}
+
+std::optional<Vector3> wayToFreeRoom(const Project& project, const Placement& things, const MatterBoxes& matter) {
+  const std::optional<BodyBounds> box = boundsOf(things, {});
+  if (!box) return Vector3(Vector3::Zero());
+  const Room room = roomOf(project.environment);
+  const std::vector<BodyBounds> obstacles = obstaclesOf(project, matter);
+  const double spacing = numberOf(project.solver.parameters, solverParameters(), "particle_spacing");
+  const double grid = gridOf(things);
+  std::vector<Vector3> ways;
+  for (const auto& [axis, sign] : {std::pair(0, 1), {0, -1}, {2, 1}, {2, -1}, {1, 1}}) {
+    double step = box->size()[axis] + spacing;
+    if (grid > 0) step = grid * std::ceil(step / grid - kTouching);
+    for (int n = 1; n <= kMostSteps; ++n) {
+      Vector3 way;
+      way[axis] = sign * n * step;
+      ways.push_back(way);
+    }
+  }
+  std::stable_sort(ways.begin(), ways.end(),
+                   [](const Vector3& a, const Vector3& b) { return a.squaredNorm() < b.squaredNorm() - kTouching; });
+  for (const Vector3& way : ways) {
+    const BodyBounds there{box->minimum + way, box->maximum + way};
+    const bool inside = (there.minimum.array() >= room.minimum.array() - kTouching).all() &&
+                        (there.maximum.array() <= room.maximum.array() + kTouching).all();
+    if (inside && std::none_of(obstacles.begin(), obstacles.end(),
+                               [&](const BodyBounds& other) { return overlap(there, other); }))
+      return way;
+  }
+  return std::nullopt;
+}
+
+bool overlapsAny(const Project& project, const Placement& things, const MatterBoxes& matter) {
+  bool any = false;
+  const std::vector<BodyBounds> obstacles = obstaclesOf(project, matter);
+  eachBox(things, {}, [&](const BodyBounds& box, const Placement&) {
+    for (const BodyBounds& other : obstacles) any = any || overlap(box, other);
+  });
+  return any;
+}
+
+Placement aligned(Placement things, const MatterBoxes& matter, int axis, Side side) {
+  const std::optional<BodyBounds> all = boundsOf(things, matter);
+  Placement out;
+  for (const Boxed& one : boxed(things, matter)) {
+    Vector3 way;
+    way[axis] = at(*all, axis, side) - at(one.box, axis, side);
+    append(out, shifted(one.thing, way));
+  }
+  return out;
+}
+
+Placement distributed(Placement things, const MatterBoxes& matter, int axis) {
+  std::vector<Boxed> row = boxed(things, matter);
+  std::stable_sort(row.begin(), row.end(),
+                   [&](const Boxed& a, const Boxed& b) { return a.box.middle()[axis] < b.box.middle()[axis]; });
+  Placement out;
+  if (row.size() < 3) return out;
+  double filled = 0;
+  for (const Boxed& one : row) filled += one.box.size()[axis];
+  const double gap =
+      (row.back().box.maximum[axis] - row.front().box.minimum[axis] - filled) / static_cast<double>(row.size() - 1);
+  double next = row.front().box.minimum[axis];
+  for (const Boxed& one : row) {
+    Vector3 way;
+    way[axis] = next - one.box.minimum[axis];
+    next += one.box.size()[axis] + gap;
+    append(out, shifted(one.thing, way));
+  }
+  return out;
+}
+
+Placement dropped(const Project& project, Placement things, const MatterBoxes& matter) {
+  const double floor = floorHeight(project.environment);
+  std::vector<BodyBounds> below;
+  for (const Body& body : project.bodies) {
+    const bool falls =
+        std::any_of(things.bodies.begin(), things.bodies.end(), [&](const Body& other) { return other.id == body.id; });
+    if (!falls) below.push_back(boxOf(body, matter));
+  }
+  // The lowest first: what falls may land on what has fallen.
+  std::vector<Boxed> falling = boxed(things, matter);
+  std::stable_sort(falling.begin(), falling.end(),
+                   [](const Boxed& a, const Boxed& b) { return a.box.minimum.y() < b.box.minimum.y(); });
+  Placement out;
+  for (Boxed& one : falling) {
+    double height = floor;
+    for (const BodyBounds& other : below) {
+      if (overlap(one.box, other, 0) && overlap(one.box, other, 2) &&
+          other.maximum.y() <= one.box.minimum.y() + kTouching)
+        height = std::max(height, other.maximum.y());
+    }
+    const Vector3 way(0, height - one.box.minimum.y(), 0);
+    append(out, shifted(one.thing, way));
+    below.push_back({one.box.minimum + way, one.box.maximum + way});
+  }
+  return out;
+}
+
+}  // namespace ps

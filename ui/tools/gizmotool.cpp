@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/tools/gizmotool.h"
+
+#include "ui/document/declared.h"
+#include "ui/document/document.h"
+#include "ui/session/selection.h"
+#include "ui/theme/numbers.h"
+#include "ui/tools/aim.h"
+#include "ui/tools/toolbox.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace ps {
+namespace {
+
+using Kind = Gizmo::Kind;
+
+constexpr double kDegree = std::numbers::pi / 180;
+constexpr double kTurnStep = 15 * kDegree, kScaleStep = 0.1;
+
+/// One of the three tools in words, and what its number is.
+struct KindRow {
+  const char *words, *title, *keys, *does;
+  api::ParameterDeclaration amount;  ///< as it is typed; stored in m, degrees, or a factor
+};
+constexpr api::ParameterDeclaration amountIn(const char* label, const char* unit) {
+  return {"amount", label, "", unit, api::ParameterKind::Number, api::Scale::Linear, 0, -1, 1, -1e4, 1e4, "", 1, 0, "",
+          "",       "",    "", ""};
+}
+constexpr std::array<KindRow, 3> kKinds{
+    {{"Move what is selected", "moving %1", "Drag an arm, a face or the middle",
+      "Move what is selected along it, its matter too", amountIn("Distance", "m")},
+     {"Rotate what is selected", "turning %1", "Drag a ring", "Turn what is selected about it, its matter too",
+      amountIn("Angle", "°")},
+     {"Scale what is selected", "scaling %1", "Drag an arm or the middle",
+      "Stretch what is selected; bodies from the next reset on", amountIn("Factor", "")}}};
+const KindRow& rowOf(Kind kind) { return kKinds[static_cast<size_t>(kind)]; }
+
+/// Radians inside, degrees as people see them.
+double shownAmount(Kind kind, double amount) { return kind == Kind::Rotate ? amount / kDegree : amount; }
+double ownAmount(Kind kind, double shown) { return kind == Kind::Rotate ? shown * kDegree : shown; }
+
+QString valueText(Kind kind, const GizmoDrag& dragged, bool hasAmount) {
+  if (!hasAmount) return formatPrefixed(dragged.way.norm(), QStringLiteral("m"));
+  if (kind == Kind::Move) return formatPrefixed(dragged.amount, QStringLiteral("m"));
+  if (kind == Kind::Rotate) return formatFixed(dragged.amount / kDegree, 1) + QStringLiteral(" °");
+  return QStringLiteral("× ") + formatFixed(dragged.amount, 3);
+}
+
+QString labelOf(const GizmoPart& part, Kind kind) {
+  constexpr const char *kAxes[] = {"X", "Y", "Z"}, *kPlanes[] = {"YZ", "XZ", "XY"};
+  if (part.kind == GizmoPart::Kind::Middle) return kind == Kind::Scale ? QStringLiteral("All") : QString();
+  return QLatin1String(part.kind == GizmoPart::Kind::Plane ? kPlanes[part.axis] : kAxes[part.axis]);
+}
+
+}  // namespace
+
+Placeable GizmoTool::selected() const {
+  return placeable(box().document(), box().selection().items(), m_kind, m_matter);
+}
+
+std::optional<Gizmo> GizmoTool::gizmo(const Placeable& things) const {
+  if (things.items.empty()) return std::nullopt;
+  return Gizmo{m_kind, things.middle(), things.axes, things.along};
+}
+
+void GizmoTool::see(const Snapshot* scene) { m_matter = matterOf(scene, box().selection().bodies()); }
+
+void GizmoTool::hover(const Pointer& pointer) {
+  m_matter = matterOf(pointer.scene, box().selection().bodies());
+  const auto shown = gizmo(selected());
+  m_hovered = shown ? partAt(*shown, pointer) : std::nullopt;
+  if (m_hovered)
+    m_select.leave();
+  else
+    m_select.hover(pointer);
+}
+
+bool GizmoTool::press(const Pointer& pointer) {
+  hover(pointer);
+  const Placeable things = selected();
+  const auto shown = gizmo(things);
+  if (!shown || !m_hovered) return m_select.press(pointer);
+  m_grip.emplace(*shown, *m_hovered, pointer);
+  m_pressed = pointer;
+  m_pressed->scene = nullptr;  // lives no longer than this call
+  m_before = placementOf(box().document(), things);
+  m_matterBefore = m_matter;
+  m_dragged = m_grip->exactly(m_kind == Kind::Scale ? 1 : 0);
+  m_typed.clear();
+  m_wrong = false;
+  box().document().beginGesture();
+  return true;
+}
+
+void GizmoTool::drag(const Pointer& pointer) {
+  if (!m_grip) {
+    m_select.drag(pointer);
+    return;
+  }
+  if (m_pressed && !wandered(*m_pressed, pointer)) return;
+  m_pressed.reset();
+  const double step = !(pointer.control || pointer.alt) ? 0
+                      : m_kind == Kind::Move            ? box().spacing()
+                      : m_kind == Kind::Rotate          ? kTurnStep
+                                                        : kScaleStep;
+  const GizmoDrag dragged = m_grip->drag(pointer, step);
+  if (m_typed.isEmpty()) apply(dragged);
+}
+
+/// Not out of the scene, where nothing lives.
+Vector3 GizmoTool::withinBounds(const Vector3& way) const {
+  const Environment& scene = box().document().project().environment;
+  const Vector3& centre = m_grip->gizmo().centre;
+  Vector3 kept = way;
+  for (int a = 0; a < 3; ++a) {
+    if (scene.periodic[static_cast<size_t>(a)]) continue;
+    const double least = std::min(scene.boundsMinimum[a], centre[a]),
+                 most = std::max(scene.boundsMaximum[a], centre[a]);
+    kept[a] = std::clamp(centre[a] + way[a], least, most) - centre[a];
+  }
+  return kept;
+}
+
+void GizmoTool::apply(GizmoDrag dragged) {
+  if (m_kind == Kind::Move) {
+    dragged.way = withinBounds(dragged.way);
+    if (m_grip->hasAmount()) dragged.amount = dragged.way.dot(m_grip->gizmo().axes.col(m_grip->part().axis));
+  }
+  m_dragged = dragged;
+  const size_t count = m_before.bodies.size() + m_before.emitters.size() + m_before.sinks.size() +
+                       m_before.walls.size() + m_before.probes.size();
+  const QString name = count > 1                    ? QStringLiteral("%1 things").arg(count)
+                       : !m_before.bodies.empty()   ? nameOf(m_before.bodies[0])
+                       : !m_before.emitters.empty() ? nameOf(m_before.emitters[0])
+                       : !m_before.sinks.empty()    ? nameOf(m_before.sinks[0])
+                       : !m_before.walls.empty()    ? nameOf(m_before.walls[0])
+                                                    : nameOf(m_before.probes[0]);
+  const Gizmo& handles = m_grip->gizmo();
+  Placement after;
+  if (m_kind == Kind::Move) {
+    after = shifted(m_before, dragged.way);
+  } else if (m_kind == Kind::Rotate) {
+    const Vector3 axis = handles.axes.col(m_grip->part().axis);
+    after = turned(m_before, m_matterBefore, handles.centre, Quaternion(Eigen::AngleAxisd(dragged.amount, axis)));
+  } else {
+    after = stretched(m_before, dragged.factors);
+  }
+  box().document().place(std::move(after), QString::fromLatin1(rowOf(m_kind).title).arg(name));
+}
+
+void GizmoTool::release(const Pointer& pointer) {
+  if (m_grip) {
+    enter();
+    end(true);
+  } else {
+    m_select.release(pointer);
+  }
+}
+
+bool GizmoTool::cancel() {
+  const bool busy = m_grip.has_value();
+  end(false);
+  return m_select.cancel() || busy;
+}
+
+void GizmoTool::leave() {
+  m_hovered.reset();
+  m_select.leave();
+}
+
+void GizmoTool::end(bool keep) {
+  if (!m_grip) return;
+  if (!keep) box().document().place(m_before, {});
+  m_grip.reset();
+  m_pressed.reset();
+  m_typed.clear();
+  m_before = {};
+  box().document().endGesture();
+}
+
+/// A number begins with a digit or a sign; other keys stay what they are until then.
+bool GizmoTool::takesText(const QString& text) const {
+  if (!m_grip || !m_grip->hasAmount() || text.isEmpty()) return false;
+  const bool begins = text[0].isDigit() || QStringLiteral(".,-+*/(−").contains(text[0]);
+  return !m_typed.isEmpty() || begins || text == QLatin1String(kEnter);
+}
+
+bool GizmoTool::type(const QString& text) {
+  if (!takesText(text)) return false;
+  if (text == QLatin1String(kEnter)) {
+    if (m_wrong) return true;
+    enter();
+    end(true);
+    return true;
+  }
+  if (text == QLatin1String(kErase))
+    m_typed.chop(1);
+  else
+    m_typed += text;
+  m_wrong = false;
+  if (m_typed.isEmpty()) return true;
+  m_pressed.reset();
+  const Typed typed = parseTyped(m_typed, rowOf(m_kind).amount, shownAmount(m_kind, m_dragged.amount));
+  m_wrong = !typed.problem.isEmpty();
+  m_entered = ownAmount(m_kind, typed.value);
+  return true;
+}
+
+/// What has been typed acts when it is whole: half a number would throw matter about.
+void GizmoTool::enter() {
+  if (m_grip && !m_typed.isEmpty() && !m_wrong) apply(m_grip->exactly(m_entered));
+}
+
+ToolPicture GizmoTool::picture() const {
+  ToolPicture picture = m_select.picture();
+  const Placeable things = selected();
+  GizmoPicture shown;
+  shown.note = things.note;
+  const auto isBody = [](const auto& item) { return item.first.kind == OutlineKind::Body; };
+  if (m_kind == Kind::Scale && std::any_of(things.items.begin(), things.items.end(), isBody)) {
+    if (!shown.note.isEmpty()) shown.note.prepend(QStringLiteral(". "));
+    shown.note.prepend(QStringLiteral("Sizes of bodies act at the next reset"));
+  }
+  shown.gizmo = gizmo(things);
+  shown.hovered = m_hovered;
+  if (m_grip) {
+    Gizmo held = m_grip->gizmo();
+    if (m_kind == Kind::Move) held.centre += m_dragged.way;
+    shown.gizmo = held;
+    shown.active = m_grip->part();
+    shown.label = labelOf(m_grip->part(), m_kind);
+    shown.typing = !m_typed.isEmpty();
+    shown.wrong = m_wrong;
+    shown.value = shown.typing ? m_typed : valueText(m_kind, m_dragged, m_grip->hasAmount());
+  }
+  if (m_hovered || m_grip) picture.pointer = PointerShape::Take;
+  picture.gizmo = std::move(shown);
+  return picture;
+}
+
+QString GizmoTool::words() const {
+  if (!m_grip) return QString::fromLatin1(rowOf(m_kind).words);
+  const GizmoPicture shown = *picture().gizmo;
+  return QStringLiteral("%1, %2 %3").arg(QString::fromLatin1(rowOf(m_kind).words), shown.label, shown.value);
+}
+
+std::vector<Gesture> GizmoTool::gestures() const {
+  const KindRow& row = rowOf(m_kind);
+  return {{QString::fromLatin1(row.keys), QString::fromUtf8(row.does), {}},
+          {QStringLiteral("Type a number"), QStringLiteral("While dragging: just so far; with a unit, “25 mm”"),
+           QStringLiteral("while dragging")},
+          {QStringLiteral("Ctrl or Alt"),
+           QStringLiteral("Goes by steps: the particles' spacing, 15°, a tenth; Shift is ten times finer"),
+           QStringLiteral("by steps")},
+          {QStringLiteral("Click"), QStringLiteral("Selects; with Shift one more"), QStringLiteral("select")}};
+}
+
+}  // namespace ps

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/tools/placing.h"
+
+#include "core/scene/pose.h"
+#include "core/scene/solidform.h"
+#include "ui/document/declared.h"
+#include "ui/document/document.h"
+
+#include <algorithm>
+
+namespace ps {
+namespace {
+
+using Kind = Gizmo::Kind;
+
+QString quoted(const QString& name, const QString& why) { return QStringLiteral("“%1”: %2").arg(name, why); }
+
+Vector3 middleOf(const Region& region) { return 0.5 * (region.minimum + region.maximum); }
+
+/// "" or why a body is left where it is.
+QString whyNot(const Body& body, Kind kind) {
+  if (body.locked) return QStringLiteral("locked");
+  if (kind == Kind::Rotate) return QString::fromStdString(whyNotTurned(body));
+  if (kind == Kind::Scale) return QString::fromStdString(whyNotScaled(body));
+  return {};
+}
+
+/// Adds a thing, or notes why it is none of those that can be dragged.
+struct Collector {
+  Placeable& out;
+  QStringList notes;
+
+  void add(const SelectedItem& item, const Vector3& place, const QString& name, const QString& why) {
+    if (why.isEmpty())
+      out.items.emplace_back(item, place);
+    else
+      notes << quoted(name, why);
+  }
+};
+
+void collect(Collector& to, const Document& document, const SelectedItem& item, Kind kind, const MatterPlaces& matter) {
+  const auto unless = [&](bool cannot, const char* why) { return cannot ? QString::fromUtf8(why) : QString(); };
+  if (const Body* body = item.kind == OutlineKind::Body ? document.body(item.id) : nullptr) {
+    const auto known = matter.find(item.id);
+    to.add(item, known == matter.end() ? centroidOf(*body) : known->second, nameOf(*body), whyNot(*body, kind));
+  } else if (const Emitter* emitter = item.kind == OutlineKind::Emitter ? document.emitter(item.id) : nullptr) {
+    to.add(item, emitter->point, nameOf(*emitter), unless(kind == Kind::Scale, "its width is its row “Diameter”"));
+  } else if (const Sink* sink = item.kind == OutlineKind::Sink ? document.sink(item.id) : nullptr) {
+    to.add(item, 0.5 * (sink->minimum + sink->maximum), nameOf(*sink),
+           unless(kind == Kind::Rotate, "a drain stands along the axes"));
+  } else if (const SceneWall* wall = item.kind == OutlineKind::Wall ? document.wall(item.id) : nullptr) {
+    to.add(item, wall->point, nameOf(*wall), unless(kind == Kind::Scale, "a wall has no end"));
+  } else if (const Probe* probe = item.kind == OutlineKind::Probe ? document.probe(item.id) : nullptr) {
+    to.add(item, probe->region ? middleOf(*probe->region) : Vector3(Vector3::Zero()), nameOf(*probe),
+           !probe->region ? QStringLiteral("it measures wherever its matter is")
+                          : unless(kind == Kind::Rotate, "its box stands along the axes"));
+  }
+}
+
+/// What stretching goes along: a single solid's own axes. Of several, those of the scene, while none is turned.
+void chooseAxes(Placeable& out, const Document& document) {
+  for (const auto& [item, place] : out.items) {
+    const Body* body = item.kind == OutlineKind::Body ? document.body(item.id) : nullptr;
+    const auto* solid = body ? std::get_if<SolidShape>(&body->shape) : nullptr;
+    if (!solid || !SolidForm(*solid).isTurned()) continue;
+    out.along = out.items.size() == 1;
+    if (out.along) out.axes = SolidForm(*solid).axes();
+  }
+}
+
+template <class Box>
+void stretch(Box& box, const Vector3& factors) {
+  const Vector3 middle = 0.5 * (box.minimum + box.maximum);
+  box.minimum = middle + (box.minimum - middle).cwiseProduct(factors);
+  box.maximum = middle + (box.maximum - middle).cwiseProduct(factors);
+}
+
+}  // namespace
+
+MatterPlaces matterOf(const Snapshot* scene, const std::vector<std::string>& bodies) {
+  MatterPlaces places;
+  if (!scene || !scene->bodyIds) return places;
+  std::vector<Vector3> sums(scene->bodyIds->size());
+  std::vector<double> counts(sums.size());
+  std::vector<uint8_t> wanted(sums.size());
+  for (size_t k = 0; k < sums.size(); ++k)
+    wanted[k] = std::find(bodies.begin(), bodies.end(), (*scene->bodyIds)[k]) != bodies.end() ? 1 : 0;
+  for (size_t i = 0; i < scene->position.size(); ++i) {
+    const uint32_t body = scene->body[i];
+    if (body >= wanted.size() || wanted[body] == 0) continue;
+    sums[body] += vectorOf(scene->position[i]);
+    ++counts[body];
+  }
+  for (size_t k = 0; k < sums.size(); ++k) {
+    if (counts[k] > 0) places[(*scene->bodyIds)[k]] = sums[k] / counts[k];
+  }
+  return places;
+}
+
+Vector3 Placeable::middle() const {
+  Vector3 sum;
+  for (const auto& [item, place] : items) sum += place;
+  return items.empty() ? sum : Vector3(sum / static_cast<double>(items.size()));
+}
+
+Placeable placeable(const Document& document, const std::vector<SelectedItem>& selected, Kind kind,
+                    const MatterPlaces& matter) {
+  Placeable out;
+  Collector collector{out, {}};
+  for (const SelectedItem& item : selected) collect(collector, document, item, kind, matter);
+  if (kind == Kind::Scale) chooseAxes(out, document);
+  constexpr int kMost = 2;
+  if (collector.notes.size() > kMost) {
+    const qsizetype more = collector.notes.size() - 1;
+    collector.notes = collector.notes.mid(0, 1);
+    collector.notes << QStringLiteral("and %1 more").arg(more);
+  }
+  out.note = collector.notes.join(QStringLiteral("; "));
+  return out;
+}
+
+Placement placementOf(const Document& document, const Placeable& placeable) {
+  Placement things;
+  for (const auto& [item, place] : placeable.items) {
+    if (item.kind == OutlineKind::Body) things.bodies.push_back(*document.body(item.id));
+    if (item.kind == OutlineKind::Emitter) things.emitters.push_back(*document.emitter(item.id));
+    if (item.kind == OutlineKind::Sink) things.sinks.push_back(*document.sink(item.id));
+    if (item.kind == OutlineKind::Wall) things.walls.push_back(*document.wall(item.id));
+    if (item.kind == OutlineKind::Probe) things.probes.push_back(*document.probe(item.id));
+  }
+  return things;
+}
+
+Placement shifted(Placement things, const Vector3& way) {
+  for (Body& body : things.bodies) {
+    const RigidMove move = possibleMove(body, {Quaternion::Identity(), way});
+    body = moved(std::move(body), move);
+  }
+  for (Emitter& emitter : things.emitters) emitter.point += way;
+  for (Sink& sink : things.sinks) sink.minimum += way, sink.maximum += way;
+  for (SceneWall& wall : things.walls) wall.point += way;
+  for (Probe& probe : things.probes) {
+    if (probe.region) probe.region->minimum += way, probe.region->maximum += way;
+  }
+  return things;
+}
+
+Placement turned(Placement things, const MatterPlaces& matter, const Vector3& pivot, const Quaternion& turn) {
+  const RigidMove about = RigidMove::about(pivot, turn);
+  for (Body& body : things.bodies) {
+    const Vector3 centre = centroidOf(body);
+    const auto known = matter.find(body.id);
+    const Vector3 stands = known == matter.end() ? centre : known->second;
+    RigidMove move = RigidMove::about(centre, turn);
+    move.shift += about.of(stands) - stands;
+    body = moved(std::move(body), move);
+  }
+  for (Emitter& emitter : things.emitters) {
+    emitter.point = about.of(emitter.point);
+    emitter.direction = turn * emitter.direction;
+  }
+  for (SceneWall& wall : things.walls) {
+    wall.point = about.of(wall.point);
+    wall.normal = turn * wall.normal;
+  }
+  return things;
+}
+
+Placement stretched(Placement things, const Vector3& factors) {
+  for (Body& body : things.bodies) body = scaled(std::move(body), factors);
+  for (Sink& sink : things.sinks) stretch(sink, factors);
+  for (Probe& probe : things.probes) {
+    if (probe.region) stretch(*probe.region, factors);
+  }
+  return things;
+}
+
+}  // namespace ps

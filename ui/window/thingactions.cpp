@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/window/thingactions.h"
+
+#include "core/base/error.h"
+#include "core/plugin_host/registry.h"
+#include "core/scene/group.h"
+#include "ui/document/declared.h"
+#include "ui/document/document.h"
+#include "ui/panels/materialspanel.h"
+#include "ui/render/framing.h"
+#include "ui/session/excerpt.h"
+#include "ui/session/selection.h"
+#include "ui/session/session.h"
+#include "ui/tools/placing.h"
+#include "ui/window/actions.h"
+#include "ui/window/notices.h"
+
+#include <QtGui/QClipboard>
+#include <QtGui/QGuiApplication>
+#include <QtWidgets/QApplication>
+#include <QtWidgets/QMenu>
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+namespace ps {
+namespace {
+
+QKeySequence keys(const char* text) { return QKeySequence(QString::fromLatin1(text)); }
+
+/// "Ice block", "3 things".
+QString whatOf(const Project& things) {
+  const Placement all = thingsOf(things);
+  const size_t count = itemsOf(all).size();
+  if (count == 0 && !things.materials.empty()) return QString::fromStdString(things.materials.front().label);
+  if (count != 1) return QStringLiteral("%1 things").arg(count);
+  return !all.bodies.empty()     ? nameOf(all.bodies[0])
+         : !all.emitters.empty() ? nameOf(all.emitters[0])
+         : !all.sinks.empty()    ? nameOf(all.sinks[0])
+         : !all.walls.empty()    ? nameOf(all.walls[0])
+                                 : nameOf(all.probes[0]);
+}
+
+Owner ownerOf(OutlineKind kind) {
+  return kind == OutlineKind::Body      ? Owner::Body
+         : kind == OutlineKind::Emitter ? Owner::Emitter
+         : kind == OutlineKind::Sink    ? Owner::Sink
+                                        : Owner::Wall;
+}
+
+void nameAsCopies(Project& things) {
+  const auto each = [](auto& items) {
+    for (auto& item : items) item.name = nameOf(item).toStdString() + " copy";
+  };
+  each(things.bodies), each(things.emitters), each(things.sinks), each(things.environment.walls), each(things.probes);
+}
+
+void place(Project& things, const Placement& as) {
+  things.bodies = as.bodies;
+  things.emitters = as.emitters;
+  things.sinks = as.sinks;
+  things.environment.walls = as.walls;
+  things.probes = as.probes;
+}
+
+}  // namespace
+
+void ThingActions::makeMenu(QMenu* menu) {
+  m_actions.add(menu, QStringLiteral("edit.cut"), QStringLiteral("Cut"), {keys("Ctrl+X")}, [this] {
+    if (copy()) remove("cutting %1");
+  });
+  m_actions.add(menu, QStringLiteral("edit.copy"), QStringLiteral("Copy"), {keys("Ctrl+C")}, [this] { copy(); });
+  m_actions.add(menu, QStringLiteral("edit.paste"), QStringLiteral("Paste"), {keys("Ctrl+V")}, [this] { paste(); });
+  m_actions.add(menu, QStringLiteral("edit.duplicate"), QStringLiteral("Duplicate"), {keys("Ctrl+D")},
+                [this] { duplicate(); });
+  m_actions.add(menu, QStringLiteral("edit.delete"), QStringLiteral("Delete"), {QKeySequence(Qt::Key_Delete)},
+                [this] { remove("deletion of %1"); });
+  menu->addSeparator();
+  m_actions.add(menu, QStringLiteral("edit.group"), QStringLiteral("Group"), {keys("Ctrl+G")}, [this] { group(); });
+  m_actions.add(menu, QStringLiteral("edit.ungroup"), QStringLiteral("Ungroup"), {keys("Ctrl+Shift+G")},
+                [this] { ungroup(); });
+  m_actions.add(menu, QStringLiteral("edit.isolate"), QStringLiteral("Show alone, or all again"), {},
+                [this] { isolate(); });
+}
+
+void ThingActions::makeArrangeMenu(QMenu* menu) {
+  constexpr const char* kSides[3][3] = {{"left (x)", "middle (x)", "right (x)"},
+                                        {"bottom (y)", "middle (y)", "top (y)"},
+                                        {"back (z)", "middle (z)", "front (z)"}};
+  constexpr const char* kIds[3][3] = {
+      {"left", "middle_x", "right"}, {"bottom", "middle_y", "top"}, {"back", "middle_z", "front"}};
+  for (int axis = 0; axis < 3; ++axis) {
+    for (int side = 0; side < 3; ++side) {
+      m_actions.add(menu, QStringLiteral("arrange.align.") + QString::fromLatin1(kIds[axis][side]),
+                    QStringLiteral("Align: %1").arg(QString::fromLatin1(kSides[axis][side])), {}, [this, axis, side] {
+                      arrange(QStringLiteral("aligning %1"), [=](Placement things, const MatterBoxes& boxes) {
+                        return aligned(std::move(things), boxes, axis, static_cast<Side>(side));
+                      });
+                    });
+    }
+  }
+  menu->addSeparator();
+  for (int axis = 0; axis < 3; ++axis) {
+    const QChar letter = "xyz"[axis];
+    m_actions.add(menu, QStringLiteral("arrange.distribute.") + letter,
+                  QStringLiteral("Distribute: equal gaps along %1").arg(letter), {}, [this, axis] {
+                    arrange(QStringLiteral("distributing %1"), [=](Placement things, const MatterBoxes& boxes) {
+                      return distributed(std::move(things), boxes, axis);
+                    });
+                  });
+  }
+  menu->addSeparator();
+  m_actions.add(menu, QStringLiteral("arrange.drop"), QStringLiteral("Drop to the floor"), {}, [this] {
+    arrange(QStringLiteral("dropping %1"), [this](Placement things, const MatterBoxes& boxes) {
+      return dropped(m_session.document().project(), std::move(things), boxes);
+    });
+  });
+}
+
+MatterBoxes ThingActions::matter() const {
+  MatterBoxes boxes;
+  const SnapshotPtr scene = m_session.snapshot();
+  if (!scene || !scene->bodyIds) return boxes;
+  for (uint32_t k = 0; k < scene->bodyIds->size(); ++k) {
+    if (const auto box = boxOf(*scene, k)) boxes[(*scene->bodyIds)[k]] = {box->first, box->second};
+  }
+  return boxes;
+}
+
+/// Of what is selected; of the chosen material while its panel has the focus.
+Project ThingActions::excerpt() const {
+  const Project& project = m_session.document().project();
+  if (m_materials.isAncestorOf(QApplication::focusWidget()) || &m_materials == QApplication::focusWidget())
+    return excerptOf(project, m_selection.material());
+  return excerptOf(project, m_selection.items());
+}
+
+bool ThingActions::copy() {
+  const Project things = excerpt();
+  if (isEmpty(things)) {
+    m_notices.refuse(QStringLiteral("Nothing was copied."),
+                     QStringLiteral("Select a body, tap, drain, wall, probe or material first."));
+    return false;
+  }
+  QGuiApplication::clipboard()->setText(QString::fromStdString(textOf(things)));
+  return true;
+}
+
+void ThingActions::paste() {
+  const QString refusal = QStringLiteral("Nothing was pasted.");
+  const std::string text = QGuiApplication::clipboard()->text().toStdString();
+  const PluginRegistry* plugins = m_session.plugins();
+  if (!plugins) return;
+  if (text.find('{') == std::string::npos) {
+    m_notices.refuse(refusal, QStringLiteral("The clipboard holds no part of a project."));
+    return;
+  }
+  Project things;
+  try {
+    things = excerptIn(text, *plugins);
+  } catch (const std::exception& error) {
+    m_notices.refuse(refusal, QStringLiteral("The clipboard holds no part of a project: %1.")
+                                  .arg(QString::fromUtf8(error.what()).section(QStringLiteral(": "), 1)));
+    return;
+  }
+  if (isEmpty(things)) {
+    m_notices.refuse(refusal, QStringLiteral("The project in the clipboard holds nothing."));
+    return;
+  }
+  insert(std::move(things), QStringLiteral("pasting %1"), refusal, false);
+}
+
+void ThingActions::duplicate() {
+  Project things = excerptOf(m_session.document().project(), m_selection.items());
+  if (isEmpty(things)) return;
+  nameAsCopies(things);
+  insert(std::move(things), QStringLiteral("copy of %1"), QStringLiteral("Nothing was copied."), true);
+}
+
+/// Where there is room for them, and selected. `beside`: not where they are.
+void ThingActions::insert(Project things, const QString& title, const QString& refusal, bool beside) {
+  Document& document = m_session.document();
+  const QString what = whatOf(things);
+  const Placement as = thingsOf(things);
+  const std::optional<Vector3> way = beside || overlapsAny(document.project(), as, matter())
+                                         ? wayToFreeRoom(document.project(), as, matter())
+                                         : Vector3(Vector3::Zero());
+  if (!way) {
+    m_notices.refuse(refusal, QStringLiteral("There is no room in the scene for %1.").arg(what));
+    return;
+  }
+  place(things, shifted(as, *way));
+  for (Body& body : things.bodies) body.locked = false;
+  const uint64_t before = document.changeCount();
+  const Placement come = document.insertThings(std::move(things), title.arg(what));
+  const bool had = document.changeCount() == before;
+  m_notices.refuse(refusal, had ? QStringLiteral("The scene has %1 already.").arg(what) : QString());
+  if (!come.empty()) m_selection.selectAll(itemsOf(come));
+}
+
+/// Locked bodies stay, and are told of.
+void ThingActions::remove(const char* title) {
+  Document& document = m_session.document();
+  std::vector<SelectedItem> items = m_selection.items();
+  QString problem;
+  std::erase_if(items, [&](const SelectedItem& item) {
+    const Body* body = item.kind == OutlineKind::Body ? document.body(item.id) : nullptr;
+    if (body && body->locked) problem = QStringLiteral("“%1” is locked. Unlock it first.").arg(nameOf(*body));
+    return body && body->locked;
+  });
+  m_notices.refuse(items.empty() ? QStringLiteral("Nothing was deleted.") : QStringLiteral("Not all was deleted."),
+                   problem);
+  const Project things = excerptOf(document.project(), items);
+  if (isEmpty(things)) return;
+  document.undoStack().beginMacro(QString::fromLatin1(title).arg(whatOf(things)));
+  for (const SelectedItem& item : items) {
+    if (item.kind == OutlineKind::Body) document.removeBody(item.id);
+    if (item.kind == OutlineKind::Emitter) document.removePort({false, item.id});
+    if (item.kind == OutlineKind::Sink) document.removePort({true, item.id});
+    if (item.kind == OutlineKind::Wall) document.removeWall(item.id);
+    if (item.kind == OutlineKind::Probe) document.removeProbe(item.id);
+  }
+  document.undoStack().endMacro();
+}
+
+void ThingActions::group() {
+  std::vector<std::string> members;
+  for (const SelectedItem& item : m_selection.items()) {
+    if (item.kind == OutlineKind::Body || item.kind == OutlineKind::Emitter || item.kind == OutlineKind::Sink ||
+        item.kind == OutlineKind::Wall)
+      members.push_back(memberOf(ownerOf(item.kind), item.id));
+  }
+  if (members.empty()) {
+    m_notices.refuse(QStringLiteral("Nothing was grouped."),
+                     QStringLiteral("Select bodies, taps, drains or walls first."));
+    return;
+  }
+  m_session.document().addGroup(std::move(members));
+}
+
+/// The groups of what is selected.
+void ThingActions::ungroup() {
+  std::vector<std::string> ids;
+  for (const SceneGroup& group : livingGroups(m_session.document().project())) {
+    const bool any = std::any_of(m_selection.items().begin(), m_selection.items().end(), [&](const SelectedItem& item) {
+      return std::find(group.members.begin(), group.members.end(), memberOf(ownerOf(item.kind), item.id)) !=
+             group.members.end();
+    });
+    if (any) ids.push_back(group.id);
+  }
+  if (!ids.empty()) m_session.document().removeGroups(ids);
+}
+
+/// All other bodies are hidden; where they are already, all are shown.
+void ThingActions::isolate() {
+  Document& document = m_session.document();
+  const std::vector<std::string> chosen = m_selection.bodies();
+  std::vector<std::string> others, all;
+  bool alone = true;
+  for (const Body& body : document.project().bodies) {
+    all.push_back(body.id);
+    if (std::find(chosen.begin(), chosen.end(), body.id) != chosen.end()) continue;
+    others.push_back(body.id);
+    alone = alone && !body.visible;
+  }
+  if (chosen.empty() || alone) {
+    document.setBodiesVisible(all, true);
+    return;
+  }
+  document.undoStack().beginMacro(
+      QStringLiteral("showing %1 alone").arg(whatOf(excerptOf(document.project(), m_selection.items()))));
+  document.setBodiesVisible(others, false);
+  document.setBodiesVisible(chosen, true);
+  document.undoStack().endMacro();
+}
+
+void ThingActions::arrange(const QString& title,
+                           const std::function<Placement(Placement, const MatterBoxes&)>& change) {
+  Document& document = m_session.document();
+  const Placeable things = placeable(document, m_selection.items(), Gizmo::Kind::Move, {});
+  const Placement after = change(placementOf(document, things), matter());
+  if (after.empty()) {
+    m_notices.refuse(QStringLiteral("Nothing was moved."),
+                     things.note.isEmpty() ? QStringLiteral("Select more than that first.") : things.note);
+    return;
+  }
+  document.place(after, title.arg(whatOf(excerptOf(document.project(), m_selection.items()))));
+}
+
+}  // namespace ps
