@@ -214,6 +214,9 @@ void require(const ReturnBody& command) {
   if (shape) requireLattice(*shape);
   for (const NameMatter& named : command.named) requireLattice(named.lattice);
 }
+void require(const MoveBody& command) {
+  if (const auto* shape = std::get_if<VoxelShape>(&command.body->shape)) requireLattice(*shape);
+}
 void require(const TakeCells& command) { requireLattice(command.lattice); }
 void require(const TakeMatter& command) { requireLattice(command.lattice); }
 void require(const NameMatter& command) { requireLattice(command.lattice); }

@@ -29,6 +29,7 @@ namespace ps {
 namespace {
 
 constexpr int kBar = 34;
+constexpr int kLabelled = 640;           // px, from which the choice of colours has its label
 constexpr const char* kShape = "shape";  // property of a button: id of its brush
 
 bool canHaveContext() {
@@ -62,6 +63,7 @@ ViewportPane::ViewportPane(Session& session, Selection& selection, Toolbox& tool
       m_shapes(new QButtonGroup(this)),
       m_brushBar(new QWidget),
       m_radius(new QLabel),
+      m_colourLabel(new QLabel(QStringLiteral("Colour"))),
       m_colour(new QComboBox) {
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
@@ -99,7 +101,7 @@ QWidget* ViewportPane::makeBar() {
   bar->setFixedHeight(kBar);
   auto* row = new QHBoxLayout(bar);
   row->setContentsMargins(8, 0, 8, 0);
-  row->setSpacing(4);
+  row->setSpacing(2);
   for (const ToolRow& tool : toolTable()) {
     QToolButton* button =
         checkable(QString::fromLatin1(tool.icon),
@@ -112,10 +114,11 @@ QWidget* ViewportPane::makeBar() {
   makeBrushBar();
   row->addWidget(m_brushBar);
   row->addStretch(1);
-  auto* colourLabel = new QLabel(QStringLiteral("Colour"));
-  colourLabel->setProperty("role", "muted");
-  row->addWidget(colourLabel);
-  m_colour->setMinimumWidth(128);
+  m_colourLabel->setProperty("role", "muted");
+  m_colourLabel->setMinimumWidth(1);  // it goes where there is no room: see resizeEvent()
+  row->addWidget(m_colourLabel);
+  row->addSpacing(4);
+  m_colour->setMinimumWidth(96);
   m_colour->setMaximumWidth(220);  // of labels that plugins bring
   m_colour->setSizeAdjustPolicy(QComboBox::AdjustToContents);
   m_colour->setToolTip(QStringLiteral("What colour means (Ctrl+1 to 9)"));
@@ -134,6 +137,11 @@ QWidget* ViewportPane::makeBar() {
   });
   row->addWidget(frame);
   return bar;
+}
+
+void ViewportPane::resizeEvent(QResizeEvent* event) {
+  QWidget::resizeEvent(event);
+  m_colourLabel->setVisible(width() >= kLabelled);
 }
 
 void ViewportPane::makeBrushBar() {

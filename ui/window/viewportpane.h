@@ -25,6 +25,7 @@ class ViewportPane : public QWidget {
 
  protected:
   void paintEvent(QPaintEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
 
  private:
   QWidget* makeBar();
@@ -43,6 +44,7 @@ class ViewportPane : public QWidget {
   QWidget* m_brushBar;
   QHBoxLayout* m_shapeRow = nullptr;
   QLabel* m_radius;
+  QLabel* m_colourLabel;
   QComboBox* m_colour;
 };
 
