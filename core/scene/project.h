@@ -318,7 +318,7 @@ struct Project {
   std::vector<Track> tracks;
   std::vector<Marker> markers;  ///< in the order in which they came
   std::vector<SceneGroup> groups;
-  double duration = 60;         ///< s
+  double duration = 60;  ///< s
   ViewState view;
   std::shared_ptr<const ProjectState> state;  ///< nullptr: it opens at its start
   std::optional<RunEnd> end;                  ///< of a copy for others

@@ -109,7 +109,8 @@ struct ShowFields {
   std::vector<std::string> names;
 };
 
-using Command = std::variant<SetParameter, UpdateProject, SetTracks, AddCells, TakeCells, TakeBody, TakeMatter, PutBack,
-                             MoveBody, NameMatter, ReturnBody, ForgetMatter, Reset, ReturnToState, ShowFields, SetProbes>;
+using Command =
+    std::variant<SetParameter, UpdateProject, SetTracks, AddCells, TakeCells, TakeBody, TakeMatter, PutBack, MoveBody,
+                 NameMatter, ReturnBody, ForgetMatter, Reset, ReturnToState, ShowFields, SetProbes>;
 
 }  // namespace ps

@@ -28,8 +28,7 @@ constexpr std::array<const char*, static_cast<size_t>(Token::Count)> kNames = {
     "line",           "line2",        "text",    "text2",  "muted",  "disabled",    "control_edge", "accent",
     "on_accent",      "slider_fill",  "warning", "error",  "ok",     "info",        "keyframe",     "curve",
     "warning_ground", "error_ground", "overlay", "shadow", "handle", "handle_edge", "field_edge",   "field_edge_hover",
-    "track",          "track_edge",
-    "axis_x",         "axis_y",     "axis_z",           "axis_hover"};
+    "track",          "track_edge",   "axis_x",  "axis_y", "axis_z", "axis_hover"};
 
 Theme& storage() {
   static Theme theme = Theme::load(true);

@@ -187,7 +187,8 @@ void MainWindow::makeMenus() {
   m_files->makeMenu(bar->addMenu(QStringLiteral("File")), viewport());
   QMenu* edit = bar->addMenu(QStringLiteral("Edit"));
   m_edit->makeMenu(edit);
-  m_things = std::make_unique<ThingActions>(*m_session, *m_selection, *findChild<MaterialsPanel*>(), m_actions, *m_notices);
+  m_things =
+      std::make_unique<ThingActions>(*m_session, *m_selection, *findChild<MaterialsPanel*>(), m_actions, *m_notices);
   m_things->makeMenu(edit);
   m_things->makeArrangeMenu(edit->addMenu(QStringLiteral("Arrange")));
   m_actions.add(edit, QStringLiteral("edit.preferences"), QStringLiteral("Preferences…"),
