@@ -3,9 +3,13 @@
 
 #include "core/base/parallel.h"
 #include "core/base/progress.h"
+#include "core/geometry/meshrepair.h"
 #include "core/geometry/meshwinding.h"
+#include "core/geometry/solidpacking.h"
+#include "core/geometry/solidsurface.h"
 #include "core/scene/solidform.h"
 
+#include <algorithm>
 #include <cmath>
 #include <deque>
 #include <mutex>
@@ -17,6 +21,9 @@ namespace {
 /// Cells up to which all ways to lay the lattice are tried; of meshes fewer, whose cells cost more.
 constexpr double kSmall = 100'000, kSmallMesh = 4000;
 constexpr double kInside = 0.5;  ///< of a winding number
+/// How far lattices stretch, per axis: second neighbours stay out of the reach of bonds, and those across a face stay
+/// in it (1.7 spacings).
+constexpr double kLeastStretch = 0.9, kMostStretch = 1.12;
 
 /// The tree of the mesh that was asked about last is kept: its body is filled again and again.
 std::shared_ptr<const MeshWinding> windingOf(const std::shared_ptr<const SceneMesh>& mesh) {
@@ -67,34 +74,39 @@ template <class Inside>
 SolidCells filledBy(const Vector3& middle, double spacing, const std::array<int, 3>& count, const Inside& inside) {
   // Halves of whole numbers are exact, so that both sides of the middle get the same answer.
   const Vector3 half = 0.5 * Vector3(count[0] - 1, count[1] - 1, count[2] - 1);
-  return {middle - spacing * half, cellsWithin(count, [&](int x, int y, int z) {
-            return inside(middle + spacing * (Vector3(x, y, z) - half));
-          })};
+  return {middle - spacing * half,
+          cellsWithin(count, [&](int x, int y, int z) { return inside(middle + spacing * (Vector3(x, y, z) - half)); }),
+          {1, 1, 1}};
 }
 
 SolidCells orMiddle(SolidCells filled, const Vector3& middle) {
-  return filled.cells.empty() ? SolidCells{middle, {{0, 0, 0}}} : std::move(filled);
+  return filled.cells.empty() ? SolidCells{middle, {{0, 0, 0}}, {1, 1, 1}} : std::move(filled);
 }
+
+double within(double stretch) { return std::clamp(stretch, kLeastStretch, kMostStretch); }
 
 /// Whole layers, as many as come closest.
 SolidCells filledBlock(const Vector3& size, double spacing) {
   std::array<int, 3> count;
   for (size_t a = 0; a < 3; ++a) count[a] = static_cast<int>(layersAlong(size[a], spacing));
-  return filledBy({}, spacing, count, [](const Vector3&) { return true; });
+  SolidCells filled = filledBy({}, spacing, count, [](const Vector3&) { return true; });
+  for (size_t a = 0; a < 3; ++a) filled.stretch[a] = within(size[a] / (count[a] * spacing));
+  return filled;
 }
 
 /// The last few, since the same bodies are asked about by the scene, its panels and brushes.
+template <class Fill>
 class KnownFills {
  public:
-  std::optional<SolidCells> find(const SolidShape& shape, double spacing) {
+  std::optional<Fill> find(const SolidShape& shape, double spacing) {
     const std::lock_guard lock(m_mutex);
     for (const Known& known : m_known) {
       if (known.spacing == spacing && known.shape == shape) return known.fill;
     }
     return std::nullopt;
   }
-  void add(const SolidShape& shape, double spacing, const SolidCells& fill) {
-    if (fill.cells.size() > kMostCells) return;
+  void add(const SolidShape& shape, double spacing, const Fill& fill, size_t size) {
+    if (size > kMostCells) return;
     const std::lock_guard lock(m_mutex);
     if (m_known.size() == kMostFills) m_known.pop_front();
     m_known.push_back({shape, spacing, fill});
@@ -105,11 +117,19 @@ class KnownFills {
   struct Known {
     SolidShape shape;
     double spacing;
-    SolidCells fill;
+    Fill fill;
   };
   std::mutex m_mutex;
   std::deque<Known> m_known;
 };
+
+/// The same solid, upright in the middle of the scene: what fills it hangs on nothing else.
+SolidShape withoutPose(SolidShape shape) {
+  std::erase_if(shape.parameters.values, [](const auto& value) {
+    return value.first.starts_with("position_") || value.first.starts_with("rotation_");
+  });
+  return shape;
+}
 
 }  // namespace
 
@@ -156,27 +176,70 @@ SolidCells newFill(const SolidShape& shape, double spacing) {
     missed = miss;
     best = std::move(one);
   }
-  return orMiddle(std::move(best), {});
+  best = orMiddle(std::move(best), {});
+  // Of an open mesh nobody knows the volume.
+  if (shape.mesh && !factsOf(*shape.mesh).closed()) return best;
+  best.stretch = Vector3::Constant(within(std::cbrt(wanted / static_cast<double>(best.cells.size()))));
+  return best;
 }
 
 }  // namespace
 
 SolidCells fillSolid(const SolidShape& shape, double spacing) {
-  static KnownFills known;
-  if (std::optional<SolidCells> fill = known.find(shape, spacing)) return std::move(*fill);
-  SolidCells fill = newFill(shape, spacing);
-  known.add(shape, spacing, fill);
+  static KnownFills<SolidCells> known;
+  const SolidShape upright = withoutPose(shape);
+  if (std::optional<SolidCells> fill = known.find(upright, spacing)) return std::move(*fill);
+  SolidCells fill = newFill(upright, spacing);
+  known.add(upright, spacing, fill, fill.cells.size());
   return fill;
 }
 
-std::vector<api::Double3> solidPlaces(const SolidShape& shape, double spacing) {
-  const SolidForm form(shape);
-  const SolidCells filled = fillSolid(shape, spacing);
-  std::vector<api::Double3> places;
+namespace {
+
+/// m, along the solid's own axes.
+std::vector<Vector3> ownPlaces(const SolidCells& filled, double spacing) {
+  std::vector<Vector3> places;
   places.reserve(filled.cells.size());
   for (const auto& [x, y, z] : filled.cells)
-    places.push_back(double3Of(form.toScene(filled.first + spacing * Vector3(x, y, z))));
+    places.push_back(filled.stretch.cwiseProduct(filled.first + spacing * Vector3(x, y, z)));
   return places;
+}
+
+std::vector<api::Double3> inScene(const SolidForm& form, const std::vector<Vector3>& own) {
+  std::vector<api::Double3> places;
+  places.reserve(own.size());
+  for (const Vector3& place : own) places.push_back(double3Of(form.toScene(place)));
+  return places;
+}
+
+/// A block's lattice lies even as it is.
+bool isPacked(const SolidShape& shape) {
+  const auto choice = [&](const char* key) { return choiceOf(shape.parameters, solidParameters(), key); };
+  return choice("fill") == "relaxed" && choice("kind") != "block";
+}
+
+/// As packSolid(), without packing again what is known.
+std::vector<Vector3> packedPlaces(const SolidShape& shape, double spacing, const SolidCells& filled, double volume) {
+  static KnownFills<std::vector<Vector3>> known;
+  const SolidShape upright = withoutPose(shape);
+  if (std::optional<std::vector<Vector3>> places = known.find(upright, spacing)) return std::move(*places);
+  std::vector<Vector3> places = packSolid(SolidSurface(upright), ownPlaces(filled, spacing), volume);
+  known.add(upright, spacing, places, places.size());
+  return places;
+}
+
+}  // namespace
+
+SolidMatter solidMatter(const SolidShape& shape, double spacing) {
+  const SolidCells filled = fillSolid(shape, spacing);
+  const double volume = filled.stretch.prod() * spacing * spacing * spacing;
+  const bool packed = isPacked(shape);
+  return {inScene(SolidForm(shape), packed ? packedPlaces(shape, spacing, filled, volume) : ownPlaces(filled, spacing)),
+          volume, packed};
+}
+
+std::vector<api::Double3> latticePlaces(const SolidShape& shape, double spacing) {
+  return inScene(SolidForm(shape), ownPlaces(fillSolid(shape, spacing), spacing));
 }
 
 SolidCells cellsInScene(const SolidShape& shape, double spacing) {
@@ -185,6 +248,7 @@ SolidCells cellsInScene(const SolidShape& shape, double spacing) {
   if (!form.isTurned()) {
     SolidCells own = fillSolid(shape, spacing);
     own.first += form.middle();
+    own.stretch = {1, 1, 1};
     return own;
   }
   std::array<int, 3> count;

@@ -26,20 +26,31 @@ class SolidInside {
   Vector3 m_toMesh, m_meshMiddle;                ///< scale and shift from the solid's own axes to those of its mesh
 };
 
-/// Cells of a cubic lattice along the solid's own axes whose centres lie in it; cell (0, 0, 0) is centred at `first`.
+/// Cells of a lattice along the solid's own axes whose centres lie in it.
 struct SolidCells {
-  Vector3 first;                          ///< m, along its own axes
+  Vector3 first;                          ///< m, along its own axes: centre of cell (0, 0, 0) of a cubic lattice
   std::vector<std::array<int, 3>> cells;  ///< in order of z, y, x
+  Vector3 stretch{1, 1, 1};               ///< of the lattice about the solid's middle, with which cells have its volume
 };
 
 /// The lattice lies symmetrically in the solid: along each axis, cells or faces of cells lie in its middle, as makes
 /// the number of cells come closest to its volume where it is small, else as suits its size. At least one cell. Tells
 /// its steps to the thread's Progress.
 SolidCells fillSolid(const SolidShape& shape, double spacing);
-/// Centres of the same in the scene, m.
-std::vector<api::Double3> solidPlaces(const SolidShape& shape, double spacing);
-/// Cells of a lattice along the scene's axes that lie in the solid, in order of z, y, x; cell (0, 0, 0) is centred at
-/// `first`. For a solid that is not turned, the same matter as solidPlaces().
+/// Cells of a cubic lattice along the scene's axes that lie in the solid, in order of z, y, x; cell (0, 0, 0) is
+/// centred at `first`. For a solid that is not turned, those of fillSolid().
 SolidCells cellsInScene(const SolidShape& shape, double spacing);
+
+/// What a solid is filled with.
+struct SolidMatter {
+  std::vector<api::Double3> places;  ///< m, in the scene
+  double volume = 0;                 ///< m3 of each: together that of the solid, but where `stretch` is at its end
+  bool packed = false;
+};
+/// As its parameter `fill` says: on the lattice of fillSolid(), stretched, or packed (packSolid()) from there. What was
+/// filled last is kept, wherever it stands. Tells its steps to the thread's Progress.
+SolidMatter solidMatter(const SolidShape& shape, double spacing);
+/// Places of the lattice, whatever `fill` says.
+std::vector<api::Double3> latticePlaces(const SolidShape& shape, double spacing);
 
 }  // namespace ps

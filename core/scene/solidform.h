@@ -17,6 +17,7 @@ class SolidForm {
   Kind kind() const { return m_kind; }
   const Vector3& size() const { return m_size; }      ///< m, along its own axes
   const Vector3& middle() const { return m_middle; }  ///< m, in the scene
+  double wall() const { return m_wall; }              ///< m, thickness of that of a tube
   bool isTurned() const { return m_isTurned; }
   const Matrix3& axes() const { return m_axes; }  ///< its own, as columns
   Vector3 toScene(const Vector3& own) const { return m_middle + m_axes * own; }

@@ -39,6 +39,13 @@ constexpr api::ParameterDeclaration kSolid[] = {
     actingWhen("kind = tube",
                size({"wall", "Thickness of the wall", "", "m"},
                     "Of a tube, measured inwards; as much as it is wide makes it a cylinder.", "a pipe 0.005", kWall)),
+    actingWhen(
+        "kind != block",
+        atReset(choice({"fill", "Particles", "", ""}, "lattice|relaxed", 0,
+                       {"Shape",
+                        "How particles lie in it at the start: on a lattice along its own axes, whose outermost cells "
+                        "make steps of a round surface, or packed against that surface, as even as they can lie.",
+                        "relaxed for a smooth ball or mould, lattice for a crystal", ""}))),
     place({"position_x", "Position x", "", "m"}, "Where the middle of the shape is."),
     place({"position_y", "Position y", "", "m"}, "How high the middle of the shape is."),
     place({"position_z", "Position z", "", "m"}, "Where the middle of the shape is."),

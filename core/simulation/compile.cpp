@@ -60,7 +60,7 @@ Vector3 centreOf(const Body& body, double spacing) {
   Vector3 sum;
   size_t count = 0;
   if (const auto* solid = std::get_if<SolidShape>(&body.shape)) {
-    for (const api::Double3& p : solidPlaces(*solid, spacing)) sum += vectorOf(p), ++count;
+    for (const api::Double3& p : solidMatter(*solid, spacing).places) sum += vectorOf(p), ++count;
     return sum / static_cast<double>(count);
   }
   const auto& voxels = std::get<VoxelShape>(body.shape);
@@ -272,8 +272,14 @@ std::vector<Spawn> compileBody(const Project& project, const PluginRegistry& plu
   std::vector<Spawn> spawns;
   if (!std::holds_alternative<VoxelShape>(body.shape)) {
     Spawn spawn = spawnOf(project, plugins, body);
-    const auto* solid = std::get_if<SolidShape>(&body.shape);
-    spawn.position = solid ? solidPlaces(*solid, spacing) : boxLattice(std::get<BoxShape>(body.shape), spacing);
+    if (const auto* solid = std::get_if<SolidShape>(&body.shape)) {
+      SolidMatter matter = solidMatter(*solid, spacing);
+      spawn.position = std::move(matter.places);
+      spawn.volume = matter.volume;
+      spawn.packed = matter.packed;
+    } else {
+      spawn.position = boxLattice(std::get<BoxShape>(body.shape), spacing);
+    }
     const double temperature = numberOf(body.parameters, bodyParameters(), "temperature");
     setMatter(spawn, project, materials, body.material, temperature, body);
     spawns.push_back(std::move(spawn));

@@ -21,9 +21,6 @@
 namespace ps {
 namespace {
 
-/// Two boxes side by side, both rounded up to whole layers, come within half a spacing: that near is no overlap.
-constexpr double kOverlap = 0.4;  // spacings
-
 /// Of a scene that is made, by the weights of its stages.
 double workOf(const Project& project, const PluginRegistry& plugins) {
   double work = 0;
@@ -68,13 +65,17 @@ void Engine::Impl::build() {
   }
   // What is held in place first, wherever it stands in the list: a rope is tied to the posts that are there.
   std::stable_partition(spawns.begin(), spawns.end(), [](const auto& item) { return item.first.fixed; });
+  std::vector<uint32_t> packed;
   for (auto& [spawn, body] : spawns) {
     for (size_t k = 0; regions && k < spawn.position.size(); ++k) {
       start.push_back({spawn.position[k].x, spawn.position[k].y, spawn.position[k].z});
     }
     advance(0);
-    born(std::move(spawn), *body);
+    const bool isPacked = spawn.packed;
+    const std::vector<uint32_t> ids = born(std::move(spawn), *body);
+    if (isPacked) packed.insert(packed.end(), ids.begin(), ids.end());
   }
+  solver->settle(packed);
   for (const Emitter& emitter : project.emitters) bodyIndex(emitter.id);
   recompile({{Owner::Body}});  // what is said of bodies goes by their indices
   bindTracks(solver->time());

@@ -55,14 +55,20 @@ std::vector<uint32_t> Engine::addBody(const Body& body) {
   Project project = m->project;
   project.solver.parameters.values["particle_spacing"] = m->spacing;
   m->requireRoomFor(particleCount(body, m->spacing), body);
-  std::vector<uint32_t> ids;
+  std::vector<uint32_t> ids, packed;
+  // What is there keeps away; the body's own particles may lie nearer, on a lattice that is pressed or packed.
+  const OccupiedPlaces taken = occupiedPlaces(m->solver->particles(), 0.9 * m->spacing, 0);
+  const Period& period = m->solver->particles().period();
+  OccupiedPlaces own(kOverlap * m->spacing, static_cast<size_t>(particleCount(body, m->spacing)), period);
   for (Spawn& spawn : compileBody(project, m->plugins, m->tables.tables(), body)) {
-    OccupiedPlaces occupied = occupiedPlaces(m->solver->particles(), 0.9 * m->spacing, spawn.position.size());
-    dropOccupied(spawn, occupied);
+    dropOccupied(spawn, own, &taken);
     if (spawn.position.empty()) continue;
+    const bool isPacked = spawn.packed;
     const std::vector<uint32_t> fresh = m->born(std::move(spawn), body);
     ids.insert(ids.end(), fresh.begin(), fresh.end());
+    if (isPacked) packed.insert(packed.end(), fresh.begin(), fresh.end());
   }
+  m->solver->settle(packed);
   m->recompile({{Owner::Body}});
   m->bindTracks(m->solver->time());
   return ids;

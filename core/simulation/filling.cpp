@@ -62,7 +62,8 @@ Filling fillingOf(const Body& body, double spacing) {
   if (const auto* solid = std::get_if<SolidShape>(&body.shape)) {
     const double asked = SolidForm(*solid).volume();
     if (asked > kSurelyFilled * cell) return {asked, asked};
-    return {asked, static_cast<double>(fillSolid(*solid, spacing).cells.size()) * cell};
+    const SolidCells filled = fillSolid(*solid, spacing);
+    return {asked, static_cast<double>(filled.cells.size()) * filled.stretch.prod() * cell};
   }
   const auto& voxels = std::get<VoxelShape>(body.shape);
   double cells = 0;

@@ -16,7 +16,7 @@ struct Filling {
 };
 Filling fillingOf(const Body& body, double spacing);
 
-/// Layers are whole: 2.5 of them become 3, and the body has a fifth more matter than its shape. Told of the body whose
+/// Layers are whole: 2.5 of them become 3, and a box has a fifth more matter than its shape. Told of the body whose
 /// volume is missed most, by a twentieth at least, with a spacing that fits all bodies to less, where there is one down
 /// to half of the present. What is left out where bodies overlap does not count: its place is filled.
 std::optional<Limit> fillLimit(const Project& project, double spacing);

@@ -229,12 +229,12 @@ std::vector<api::Double3> freePositions(const ParticleStore& store, const std::v
   return free;
 }
 
-size_t dropOccupied(Spawn& spawn, OccupiedPlaces& occupied) {
+size_t dropOccupied(Spawn& spawn, OccupiedPlaces& occupied, const OccupiedPlaces* taken) {
   size_t kept = 0;
   inSlices(0, spawn.position.size(), [&](size_t first, size_t last) {
     for (size_t k = first; k < last; ++k) {
       const api::Double3 place = spawn.position[k];
-      if (!occupied.isFree(place)) continue;
+      if (!occupied.isFree(place) || (taken && !taken->isFree(place))) continue;
       occupied.add(place);
       spawn.position[kept] = place;
       spawn.velocity[kept] = spawn.velocity[k];

@@ -66,9 +66,11 @@ OccupiedPlaces occupiedPlaces(const ParticleStore& store, double clearance, size
 /// Leaves out positions that have a live particle (or an earlier one of the list) within `clearance` m.
 std::vector<api::Double3> freePositions(const ParticleStore& store, const std::vector<api::Double3>& positions,
                                         double clearance);
+/// Two boxes side by side, both rounded up to whole layers, come within half a spacing: that near is no overlap.
+inline constexpr double kOverlap = 0.4;  ///< spacings
 /// Leaves out particles that would stand where one stands already, which no force could part, and notes the others'
-/// places; returns how many were left out.
-size_t dropOccupied(Spawn& spawn, OccupiedPlaces& occupied);
+/// places; returns how many were left out. Those too near to what is `taken` are left out as well.
+size_t dropOccupied(Spawn& spawn, OccupiedPlaces& occupied, const OccupiedPlaces* taken = nullptr);
 /// Share of a cell by which a point counts as on a face, and so as of the cell of the higher index. Matter of a box may
 /// stand on the faces of a sketch's lattice, and particles know their places in single precision: whoever asks which
 /// cell holds them must not be decided by rounding.

@@ -69,7 +69,7 @@ double coldestOf(const Body& body, double temperature, const Vector3& gradient, 
   if (const auto* box = std::get_if<BoxShape>(&body.shape)) return coldestOf(*box, temperature, gradient, spacing);
   const auto* solid = std::get_if<SolidShape>(&body.shape);
   if (!solid) return coldestOf(std::get<VoxelShape>(body.shape), gradient, spacing);
-  const std::vector<api::Double3> places = solidPlaces(*solid, spacing);
+  const std::vector<api::Double3> places = latticePlaces(*solid, spacing);
   Vector3 sum;
   for (const api::Double3& p : places) sum += vectorOf(p);
   return coldestOf(places, temperature, sum / static_cast<double>(places.size()), gradient);

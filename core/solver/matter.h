@@ -17,6 +17,7 @@ struct Spawn {
   uint32_t material = 0;               ///< index into the material table
   uint32_t body = 0;
   double temperature = 293.15;  ///< K
+  double volume = 0;            ///< m3, of each at birth; 0: of a cell of the lattice
   api::Phase phase = api::Phase::Liquid;
   std::vector<double> temperatures;  ///< K, one each; empty: `temperature` for all
   std::vector<api::Phase> phases;    ///< one each; empty: `phase` for all
@@ -25,6 +26,7 @@ struct Spawn {
   /// Matter on its way in: its neighbours feel it as what it is, but it goes on at its velocity, whatever it meets,
   /// until it is released.
   bool held = false;
+  bool packed = false;                   ///< it lies in disorder: see Solver::settle()
   std::vector<uint32_t> constraintSets;  ///< built over the new particles
 };
 

@@ -187,7 +187,7 @@ std::vector<uint32_t> Solver::spawn(const Spawn& spawn) {
   ParticleStore& store = m->store;
   const double energyBefore = m->frame > 0 ? m->heat.energy(store) : 0;
   const size_t first = store.add(count), last = first + count;
-  const double cell = m->settings.spacing * m->settings.spacing * m->settings.spacing;
+  const double spacing = m->settings.spacing, cell = spawn.volume > 0 ? spawn.volume : spacing * spacing * spacing;
   std::vector<uint32_t> ids(count), members(count);
   beginStage("Making matter", kMakingWeight * static_cast<double>(count), 4 * static_cast<double>(count));
   inSlices(0, count, [&](size_t begin, size_t end) {
@@ -243,6 +243,20 @@ std::vector<uint32_t> Solver::spawn(const Spawn& spawn) {
   }
   m->matterChanged(energyBefore);
   return ids;
+}
+
+void Solver::settle(std::span<const uint32_t> ids) {
+  if (ids.empty()) return;
+  m->configure();
+  m->freshLists();
+  const ParticleStore& store = m->store;
+  std::vector<uint32_t> indices;
+  for (const uint32_t id : ids) {
+    const size_t i = store.indexOf(id);
+    if (i < store.size() && (store.motion()[i] == api::Motion::Liquid || store.motion()[i] == api::Motion::Gas))
+      indices.push_back(static_cast<uint32_t>(i));
+  }
+  m->density.handOver(m->store, m->neighbours, indices);
 }
 
 void Solver::release(std::span<const uint32_t> ids) {

@@ -72,8 +72,11 @@ class Solver {
   /// W of thermal time that come up inside each body, by index; bodies beyond the list have none. See BodyHeating.
   void setHeating(std::span<const double> watts);
 
-  /// Returns the ids of the new particles. Mass is rest density times spacing^3 of the state at birth.
+  /// Returns the ids of the new particles. Mass is rest density of the state at birth times Spawn::volume.
   std::vector<uint32_t> spawn(const Spawn& spawn);
+  /// Fluid begins as dense as it lies, without a push: what a density sum over places in disorder has too much, some
+  /// hundredths, is let go in tenths of a second. When all that is around them has been born.
+  void settle(std::span<const uint32_t> ids);
   /// Lets held particles go at the velocity that they have; ids already gone are skipped.
   void release(std::span<const uint32_t> ids);
   /// Removes particles by id; ids already gone are skipped. Their energy is booked as a source.

@@ -137,7 +137,7 @@ std::vector<Vector3> centresWithin(const Body& body, double spacing, const CellB
   if (const auto* solid = std::get_if<SolidShape>(&body.shape)) {
     const SolidForm form(*solid);
     if (!bounds.meets(form.middle(), form.extent())) return centres;
-    for (const api::Double3& p : solidPlaces(*solid, spacing)) add({p.x, p.y, p.z});
+    for (const api::Double3& p : latticePlaces(*solid, spacing)) add({p.x, p.y, p.z});
     return centres;
   }
   const auto walk = [&](const VoxelShape& voxels) {
