@@ -86,7 +86,8 @@ SolidCells orMiddle(SolidCells filled, const Vector3& middle) {
 double within(double stretch) { return std::clamp(stretch, kLeastStretch, kMostStretch); }
 
 /// Whole layers, as many as come closest.
-SolidCells filledBlock(const Vector3& size, double spacing) {
+SolidCells filledBlock(Vector3 size, double spacing, bool thin) {
+  if (thin) size[1] = spacing;
   std::array<int, 3> count;
   for (size_t a = 0; a < 3; ++a) count[a] = static_cast<int>(layersAlong(size[a], spacing));
   SolidCells filled = filledBy({}, spacing, count, [](const Vector3&) { return true; });
@@ -156,9 +157,11 @@ namespace {
 SolidCells newFill(const SolidShape& shape, double spacing) {
   const SolidInside solid(shape);
   const Vector3& size = solid.form().size();
-  if (solid.form().kind() == SolidForm::Kind::Block) return filledBlock(size, spacing);
-  const double wanted = solid.form().volume() / (spacing * spacing * spacing);
-  const double small = solid.form().kind() == SolidForm::Kind::Mesh ? kSmallMesh : kSmall;
+  const SolidForm::Kind kind = solid.form().kind();
+  if (kind == SolidForm::Kind::Block || kind == SolidForm::Kind::Sheet)
+    return filledBlock(size, spacing, kind == SolidForm::Kind::Sheet);
+  const double wanted = solid.form().volume(spacing) / (spacing * spacing * spacing);
+  const double small = kind == SolidForm::Kind::Mesh ? kSmallMesh : kSmall;
   SolidCells best;
   double missed = HUGE_VAL;
   for (int way = 0; way < 8; ++way) {
@@ -212,10 +215,33 @@ std::vector<api::Double3> inScene(const SolidForm& form, const std::vector<Vecto
   return places;
 }
 
-/// A block's lattice lies even as it is.
+/// A block's lattice lies even as it is, and so do sheets and ropes.
 bool isPacked(const SolidShape& shape) {
   const auto choice = [&](const char* key) { return choiceOf(shape.parameters, solidParameters(), key); };
-  return choice("fill") == "relaxed" && choice("kind") != "block";
+  return choice("fill") == "relaxed" && choice("kind") != "block" && !SolidForm(shape).isThin();
+}
+
+/// Along a rope from its first point to its last one, as near to a spacing from each other as whole steps allow; m,
+/// along its own axes.
+std::vector<Vector3> alongRope(const SolidForm& rope, double spacing) {
+  const std::vector<Vector3>& points = rope.points();
+  const double length = rope.volume(1);
+  const auto steps = static_cast<int>(std::max(1.0, std::round(length / spacing)));
+  std::vector<Vector3> places;
+  size_t next = 1;
+  double before = 0;  // m, from the rope's begin to the point before `next`
+  for (int k = 0; k <= steps; ++k) {
+    const double at = length * k / steps;
+    double line = (points[next] - points[next - 1]).norm();
+    while (next + 1 < points.size() && at > before + line) {
+      before += line;
+      ++next;
+      line = (points[next] - points[next - 1]).norm();
+    }
+    const double share = line > 0 ? std::min(1.0, (at - before) / line) : 0;
+    places.push_back(points[next - 1] + share * (points[next] - points[next - 1]));
+  }
+  return places;
 }
 
 /// As packSolid(), without packing again what is known.
@@ -231,6 +257,11 @@ std::vector<Vector3> packedPlaces(const SolidShape& shape, double spacing, const
 }  // namespace
 
 SolidMatter solidMatter(const SolidShape& shape, double spacing) {
+  if (const SolidForm form(shape); form.kind() == SolidForm::Kind::Rope) {
+    const std::vector<Vector3> along = alongRope(form, spacing);
+    const double cell = spacing * spacing * spacing, each = form.volume(spacing) / static_cast<double>(along.size());
+    return {inScene(form, along), std::max(each, kLeastStretch * cell), false};
+  }
   const SolidCells filled = fillSolid(shape, spacing);
   const double volume = filled.stretch.prod() * spacing * spacing * spacing;
   const bool packed = isPacked(shape);
@@ -239,7 +270,9 @@ SolidMatter solidMatter(const SolidShape& shape, double spacing) {
 }
 
 std::vector<api::Double3> latticePlaces(const SolidShape& shape, double spacing) {
-  return inScene(SolidForm(shape), ownPlaces(fillSolid(shape, spacing), spacing));
+  const SolidForm form(shape);
+  if (form.kind() == SolidForm::Kind::Rope) return inScene(form, alongRope(form, spacing));
+  return inScene(form, ownPlaces(fillSolid(shape, spacing), spacing));
 }
 
 SolidCells cellsInScene(const SolidShape& shape, double spacing) {

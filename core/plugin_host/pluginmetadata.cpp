@@ -43,9 +43,12 @@ constexpr std::array<KindOfPlugin, 7> kKinds{{{PluginKind::Material, PHASESKETCH
 ///   structure_count  structure may say, likewise, how much of it there is per particle
 ///   spring_ties   structure of pairs may say, likewise, what each of its ties pulls with
 ///   group_poses   structure of groups may say, likewise, where each of them is, and follow when they are carried
+///   holds_sheets  structure may say, likewise, that it makes cloth of what is one particle thick
+///   holds_lines   structure may say, likewise, that it makes ropes of lines one particle thick
 ///   box_stamp     a brush may say, likewise, that its stamp is a box
-constexpr std::array<std::string_view, 7> kCapabilities{
-    "opens_energy", "pair_rates", "holds_frozen", "structure_count", "spring_ties", "group_poses", "box_stamp"};
+constexpr std::array<std::string_view, 9> kCapabilities{"opens_energy",    "pair_rates",  "holds_frozen",
+                                                        "structure_count", "spring_ties", "group_poses",
+                                                        "holds_sheets",    "holds_lines", "box_stamp"};
 
 bool isLower(char c) { return c >= 'a' && c <= 'z'; }
 bool isDigit(char c) { return c >= '0' && c <= '9'; }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <string_view>
 
 namespace ps {
@@ -60,6 +61,18 @@ SolidForm::SolidForm(const SolidShape& shape) : m_mesh(shape.mesh) {
   m_size = three("size");
   m_middle = three("position");
   m_wall = number("wall");
+  if (m_kind == Kind::Rope) {
+    const auto count = static_cast<int>(number("points"));
+    m_thickness = m_size[1];
+    m_size.setZero();
+    for (int k = 1; k <= count; ++k) {
+      m_points.push_back(three("point_" + std::to_string(k)));
+      m_size = m_size.cwiseMax(2 * m_points.back().cwiseAbs());
+    }
+    m_size += Vector3::Constant(m_thickness);
+  }
+  const std::string held = choiceOf(shape.parameters, list, "held");
+  m_heldEnds = !isThin() || held == "none" ? 0 : held == "start" ? 1 : 2;
   const Vector3 degrees = three("rotation"), angle = degrees * kPi / 180;
   m_isTurned = degrees != Vector3::Zero();
   m_axes = m_isTurned
@@ -75,6 +88,7 @@ bool SolidForm::holds(const Vector3& own) const {
   const double across = r[0] * r[0] + r[2] * r[2];
   switch (m_kind) {
     case Kind::Block:
+    case Kind::Sheet:
       return true;
     case Kind::Ellipsoid:
       return r.squaredNorm() <= 1;
@@ -97,6 +111,15 @@ bool SolidForm::holds(const Vector3& own) const {
       const double x = m_size[0] / 2 - m_wall, z = m_size[2] / 2 - m_wall;
       return across <= 1 && (x <= 0 || z <= 0 || square(own[0] / x) + square(own[2] / z) >= 1);
     }
+    case Kind::Rope: {
+      for (size_t k = 0; k + 1 < m_points.size(); ++k) {
+        const Vector3 line = m_points[k + 1] - m_points[k], from = own - m_points[k];
+        const double square = line.squaredNorm(),
+                     share = square > 0 ? std::clamp(from.dot(line) / square, 0.0, 1.0) : 0;
+        if ((from - share * line).norm() <= m_thickness / 2) return true;
+      }
+      return false;
+    }
     case Kind::Mesh:
       break;
   }
@@ -105,6 +128,10 @@ bool SolidForm::holds(const Vector3& own) const {
 
 Vector3 SolidForm::centroid() const {
   if (m_kind == Kind::Cone) return {0, -m_size[1] / 4, 0};
+  if (m_kind == Kind::Rope) {
+    const Vector3 sum = std::accumulate(m_points.begin(), m_points.end(), Vector3(0, 0, 0));
+    return sum / static_cast<double>(m_points.size());
+  }
   if (m_kind != Kind::Mesh || !m_mesh) return Vector3::Zero();
   const MeshBounds bounds = boundsOf(*m_mesh);
   const Vector3 extent = bounds.maximum - bounds.minimum, middle = 0.5 * (bounds.minimum + bounds.maximum);
@@ -121,7 +148,17 @@ Vector3 SolidForm::centroid() const {
   return (moment / volume).cwiseQuotient(extent).cwiseProduct(m_size).cwiseMax(-m_size / 2).cwiseMin(m_size / 2);
 }
 
-double SolidForm::volume() const {
+bool SolidForm::isHeld(const Vector3& own, double spacing) const {
+  if (m_heldEnds == 0) return false;
+  if (m_kind == Kind::Sheet) {
+    const double fromStart = own[2] + m_size[2] / 2;
+    return fromStart < spacing || (m_heldEnds == 2 && m_size[2] - fromStart < spacing);
+  }
+  const auto isAt = [&](const Vector3& point) { return (own - point).norm() < spacing / 2; };
+  return isAt(m_points.front()) || (m_heldEnds == 2 && isAt(m_points.back()));
+}
+
+double SolidForm::volume(double layer) const {
   const double box = m_size.prod(), disc = kPi / 4 * box;
   switch (m_kind) {
     case Kind::Block:
@@ -143,6 +180,13 @@ double SolidForm::volume() const {
     case Kind::Tube: {
       const double x = std::max(0.0, m_size[0] - 2 * m_wall), z = std::max(0.0, m_size[2] - 2 * m_wall);
       return kPi / 4 * m_size[1] * (m_size[0] * m_size[2] - x * z);
+    }
+    case Kind::Sheet:
+      return m_size[0] * m_size[2] * layer;
+    case Kind::Rope: {
+      double length = 0;
+      for (size_t k = 0; k + 1 < m_points.size(); ++k) length += (m_points[k + 1] - m_points[k]).norm();
+      return length * layer * layer;
     }
     case Kind::Mesh:
       break;

@@ -4,13 +4,13 @@
 
 namespace ps {
 
-inline constexpr const char* kSolidKinds = "ellipsoid|block|cylinder|cone|capsule|torus|tube|mesh";
+inline constexpr const char* kSolidKinds = "ellipsoid|block|cylinder|cone|capsule|torus|tube|mesh|sheet|rope";
 
 /// What the parameters of a solid say, ready to be computed with. Its own axes are those along which its sizes are; its
 /// middle is the origin of them.
 class SolidForm {
  public:
-  enum class Kind : uint8_t { Ellipsoid, Block, Cylinder, Cone, Capsule, Torus, Tube, Mesh };
+  enum class Kind : uint8_t { Ellipsoid, Block, Cylinder, Cone, Capsule, Torus, Tube, Mesh, Sheet, Rope };
 
   explicit SolidForm(const SolidShape& shape);
 
@@ -28,13 +28,22 @@ class SolidForm {
   bool holds(const Vector3& own) const;
   /// m, along its own axes, of what fills it evenly; of a mesh with holes as far as its triangles enclose something.
   Vector3 centroid() const;
-  /// m3. Of a mesh: what its triangles enclose, at this size.
-  double volume() const;
+  /// m3. Of a mesh: what its triangles enclose, at this size; of a sheet or a rope that is `layer` m thick.
+  double volume(double layer = 0) const;
+  /// Sheets and ropes are one particle thick.
+  bool isThin() const { return m_kind == Kind::Sheet || m_kind == Kind::Rope; }
+  /// Of a rope, m along its own axes, two at least.
+  const std::vector<Vector3>& points() const { return m_points; }
+  /// Whether a particle of a sheet or rope is held where it starts, by its parameter `held`.
+  bool isHeld(const Vector3& own, double spacing) const;
 
  private:
   Kind m_kind;
   Vector3 m_size, m_middle;
   double m_wall = 0;
+  std::vector<Vector3> m_points;
+  double m_thickness = 0;  ///< m, of a rope, for brushes
+  int m_heldEnds = 0;
   bool m_isTurned = false;
   Matrix3 m_axes;
   std::shared_ptr<const SceneMesh> m_mesh;

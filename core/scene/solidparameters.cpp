@@ -25,22 +25,39 @@ constexpr api::ParameterDeclaration turn(Names names, const char* help) {
   return carrying(number(names, kTurn, {"Place", help, "30 for a ramp, 90 for a cylinder that lies", ""}));
 }
 
+constexpr Words kPoint{"Points", "Where the rope goes, from the middle of the shape along its own axes.",
+                       "two points for a rope that is straight", ""};
+constexpr api::ParameterDeclaration point(Names names, double value, const char* when) {
+  return actingWhen(when, atReset(number(names, {value, -1, 1, -1e4, 1e4}, kPoint)));
+}
+
 constexpr api::ParameterDeclaration kSolid[] = {
     atReset(choice({"kind", "Shape", "", ""}, kSolidKinds, 0,
                    {"Shape",
                     "What the sizes along its own axes are the extents of. Cylinders, cones, capsules and tubes stand "
                     "upright, a torus lies.",
                     "ellipsoid with three equal sizes for a ball", ""})),
-    size({"size_x", "Size along x", "", "m"}, "Extent along its own x axis.", "a dice 0.016, a brick 0.25"),
-    size({"size_y", "Size along y", "", "m"},
-         "Extent along its own y axis, which points up where it is not turned. Of a torus: the thickness of its ring.",
-         "a mug 0.1, a table 0.75"),
-    size({"size_z", "Size along z", "", "m"}, "Extent along its own z axis.", "a plank 0.02"),
+    actingWhen("kind != rope",
+               size({"size_x", "Size along x", "", "m"}, "Extent along its own x axis.", "a dice 0.016, a brick 0.25")),
+    size(
+        {"size_y", "Size along y", "", "m"},
+        "Extent along its own y axis, which points up where it is not turned. Of a torus: the thickness of its ring. "
+        "Sheets and ropes are one particle thick, whatever this says: so much of them a brush takes when it cuts them.",
+        "a mug 0.1, a table 0.75"),
+    actingWhen("kind != rope",
+               size({"size_z", "Size along z", "", "m"}, "Extent along its own z axis.", "a plank 0.02")),
+    actingWhen(
+        "kind = sheet|rope",
+        atReset(choice({"held", "Held at", "", ""}, "none|start|ends", 0,
+                       {"Shape",
+                        "What of it stays where it is: of a rope its first point, or that and its last one; of a "
+                        "sheet the edge at the low end of its z axis, or that and the opposite one.",
+                        "start for a flag or a swing, ends for a hammock", ""}))),
     actingWhen("kind = tube",
                size({"wall", "Thickness of the wall", "", "m"},
                     "Of a tube, measured inwards; as much as it is wide makes it a cylinder.", "a pipe 0.005", kWall)),
     actingWhen(
-        "kind != block",
+        "kind != block & kind != sheet & kind != rope",
         atReset(choice({"fill", "Particles", "", ""}, "lattice|relaxed", 0,
                        {"Shape",
                         "How particles lie in it at the start: on a lattice along its own axes, whose outermost cells "
@@ -52,6 +69,27 @@ constexpr api::ParameterDeclaration kSolid[] = {
     turn({"rotation_x", "Rotation about x", "", "°"}, "Turned about the scene's x axis, before those about y and z."),
     turn({"rotation_y", "Rotation about y", "", "°"}, "Turned about the scene's y axis, after that about x."),
     turn({"rotation_z", "Rotation about z", "", "°"}, "Turned about the scene's z axis, after those about x and y."),
+    actingWhen("kind = rope", atReset(integer({"points", "Points", "", ""}, {2, 2, 6, 2, 6},
+                                              {"Points", "Of a rope, which goes straight from one to the next.",
+                                               "2 for a straight one, 3 for one that hangs over a beam", ""}))),
+    point({"point_1_x", "Point 1 x", "", "m"}, -0.1, "kind = rope"),
+    point({"point_1_y", "Point 1 y", "", "m"}, 0, "kind = rope"),
+    point({"point_1_z", "Point 1 z", "", "m"}, 0, "kind = rope"),
+    point({"point_2_x", "Point 2 x", "", "m"}, 0.1, "kind = rope"),
+    point({"point_2_y", "Point 2 y", "", "m"}, 0, "kind = rope"),
+    point({"point_2_z", "Point 2 z", "", "m"}, 0, "kind = rope"),
+    point({"point_3_x", "Point 3 x", "", "m"}, 0.2, "kind = rope & points >= 3"),
+    point({"point_3_y", "Point 3 y", "", "m"}, -0.1, "kind = rope & points >= 3"),
+    point({"point_3_z", "Point 3 z", "", "m"}, 0, "kind = rope & points >= 3"),
+    point({"point_4_x", "Point 4 x", "", "m"}, 0.3, "kind = rope & points >= 4"),
+    point({"point_4_y", "Point 4 y", "", "m"}, -0.1, "kind = rope & points >= 4"),
+    point({"point_4_z", "Point 4 z", "", "m"}, 0, "kind = rope & points >= 4"),
+    point({"point_5_x", "Point 5 x", "", "m"}, 0.4, "kind = rope & points >= 5"),
+    point({"point_5_y", "Point 5 y", "", "m"}, -0.1, "kind = rope & points >= 5"),
+    point({"point_5_z", "Point 5 z", "", "m"}, 0, "kind = rope & points >= 5"),
+    point({"point_6_x", "Point 6 x", "", "m"}, 0.5, "kind = rope & points >= 6"),
+    point({"point_6_y", "Point 6 y", "", "m"}, -0.1, "kind = rope & points >= 6"),
+    point({"point_6_z", "Point 6 z", "", "m"}, 0, "kind = rope & points >= 6"),
 };
 
 }  // namespace

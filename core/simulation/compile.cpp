@@ -8,6 +8,7 @@
 #include "core/matter/material.h"
 #include "core/plugin_host/registry.h"
 #include "core/scene/shownname.h"
+#include "core/scene/solidform.h"
 #include "core/simulation/declared.h"
 #include "core/simulation/lattice.h"
 #include "core/simulation/mouth.h"
@@ -18,6 +19,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 namespace ps {
 namespace {
@@ -101,13 +103,17 @@ void setFields(Spawn& spawn, const Body& body, const Vector3& centre, const api:
   });
 }
 
-/// Takes the particles that stand in one of the body's pins out of `spawn`: a batch of fixed ones.
-Spawn takePinned(Spawn& spawn, const Body& body) {
+/// Takes the particles that stand in one of the body's pins, or are held by its shape, out of `spawn`: a batch of fixed
+/// ones.
+Spawn takePinned(Spawn& spawn, const Body& body, double spacing) {
+  std::optional<SolidForm> form;
+  if (const auto* solid = std::get_if<SolidShape>(&body.shape)) form.emplace(*solid);
   Spawn pinned = spawn;
   pinned.position.clear();
   pinned.fixed = true;
   std::erase_if(spawn.position, [&](const api::Double3& p) {
     const bool held =
+        (form && form->isHeld(form->toOwn(vectorOf(p)), spacing)) ||
         std::any_of(body.pins.begin(), body.pins.end(), [&](const Region& pin) { return pin.contains(vectorOf(p)); });
     if (held) pinned.position.push_back(p);
     return held;
@@ -298,7 +304,7 @@ std::vector<Spawn> compileBody(const Project& project, const PluginRegistry& plu
   std::vector<Spawn> all;
   for (Spawn& spawn : spawns) {
     // By place in the lattice: disorder does not decide who is pinned.
-    Spawn pinned = takePinned(spawn, body);
+    Spawn pinned = takePinned(spawn, body, spacing);
     for (Spawn* part : {&pinned, &spawn}) {
       setFields(*part, body, centre, materials[part->material].caloric());
       disturb(part->position, spacing, jitter, static_cast<uint32_t>(seed));

@@ -60,7 +60,9 @@ Filling fillingOf(const Body& body, double spacing) {
   if (const auto* box = std::get_if<BoxShape>(&body.shape))
     return {box->size[0] * box->size[1] * box->size[2], particleCount(body, spacing) * cell};
   if (const auto* solid = std::get_if<SolidShape>(&body.shape)) {
-    const double asked = SolidForm(*solid).volume();
+    const SolidForm form(*solid);
+    const double asked = form.volume(spacing);
+    if (form.isThin()) return {asked, asked};
     if (asked > kSurelyFilled * cell) return {asked, asked};
     const SolidCells filled = fillSolid(*solid, spacing);
     return {asked, static_cast<double>(filled.cells.size()) * filled.stretch.prod() * cell};

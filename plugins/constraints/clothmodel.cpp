@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "clothmodel.h"
 
+#include <phasesketch/thin.h>
+
+#include <string_view>
+
 namespace ps::constraint {
 namespace {
 
@@ -64,6 +68,11 @@ ClothModel::ClothModel()
                    "particle spacing per thread; folds finer than two spacings do not show. What melts leaves it for "
                    "good, and is held by bonds when it freezes again.",
                    api::listOf(kParameters)}) {}
+
+const void* ClothModel::extension(const char* name) const noexcept {
+  static constexpr api::ThinMatter kThin{"cotton"};
+  return std::string_view(name) == api::kHoldsSheets ? &kThin : SpringModel::extension(name);
+}
 
 SpringModel::Springs ClothModel::springsOf(api::Span<const double> parameters, double) const {
   Springs springs;

@@ -14,6 +14,7 @@ class ClothModel : public SpringModel {
   enum Parameter { kStretchStiffness, kShearStiffness, kBendStiffness, kDamping, kTearStrain, kTied, kParameterCount };
 
   ClothModel();
+  const void* extension(const char* name) const noexcept override;
 
  protected:
   Springs springsOf(api::Span<const double> parameters, double spacing) const override;

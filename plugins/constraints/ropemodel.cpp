@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ropemodel.h"
 
+#include <phasesketch/thin.h>
+
+#include <string_view>
+
 namespace ps::constraint {
 namespace {
 
@@ -58,6 +62,11 @@ RopeModel::RopeModel()
                    "particle spacing. Heavy loads stretch it more than they should unless there are many substeps; it "
                    "does not resist twist. What melts leaves it for good, and is held by bonds when it freezes again.",
                    api::listOf(kParameters)}) {}
+
+const void* RopeModel::extension(const char* name) const noexcept {
+  static constexpr api::ThinMatter kThin{"hemp"};
+  return std::string_view(name) == api::kHoldsLines ? &kThin : SpringModel::extension(name);
+}
 
 SpringModel::Springs RopeModel::springsOf(api::Span<const double> parameters, double spacing) const {
   Springs springs;

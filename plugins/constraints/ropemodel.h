@@ -13,6 +13,7 @@ class RopeModel : public SpringModel {
   enum Parameter { kStretchStiffness, kBendStiffness, kDamping, kTearStrain, kTied, kParameterCount };
 
   RopeModel();
+  const void* extension(const char* name) const noexcept override;
 
  protected:
   Springs springsOf(api::Span<const double> parameters, double spacing) const override;

@@ -100,6 +100,41 @@ class TestFills : public QObject {
     QVERIFY2(relaxed < 0.05 * lattice, qPrintable(QString("%1, on lattices %2").arg(relaxed).arg(lattice)));
   }
 
+  /// A rope held at both ends and a sheet held at one edge, both turned, hang on what holds them, in one piece.
+  void sheetsAndRopesHang_data() {
+    QTest::addColumn<QString>("kind");
+    QTest::addColumn<QString>("plugin");
+    QTest::newRow("sheet") << QString("sheet") << QString("cloth");
+    QTest::newRow("rope") << QString("rope") << QString("rope");
+  }
+  void sheetsAndRopesHang() {
+    QFETCH(QString, kind);
+    QFETCH(QString, plugin);
+    json solid = {{"kind", kind.toStdString()},
+                  {"position_y", 0.5},
+                  {"rotation_y", 30},
+                  {"size_x", 0.1},
+                  {"size_z", 0.2},
+                  {"held", kind == "rope" ? "ends" : "start"}};
+    if (kind == "rope") solid.update({{"point_1_y", 0.02}, {"point_2_y", -0.02}});
+    json body = bodyOf("thin", solid, 263.15);
+    body["constraints"] = json::array({{{"plugin", plugin.toStdString()}}});
+    ps::Engine engine(load(sceneOf(json::array({body}), kGravity)), m_plugins);
+    const ps::ParticleStore& store = engine.solver().particles();
+    const auto lowest = [&] {
+      double low = 1;
+      for (size_t i = 0; i < store.size(); ++i) low = std::min(low, double{store.position()[i].y});
+      return low;
+    };
+    const double before = lowest();
+    for (int frame = 0; frame < 120; ++frame) engine.step();
+    // The rope is taut: it sags by what it stretches; the sheet's free edge goes down by nearly its length.
+    const double fell = before - lowest();
+    QVERIFY2(kind == "rope" ? fell > 1e-4 && fell < 0.05 : fell > 0.1 && fell < 0.22,
+             qPrintable(QString::number(fell)));
+    for (const uint32_t piece : engine.solver().pieces()) QCOMPARE(piece, engine.solver().pieces().front());
+  }
+
  private:
   ps::Project load(const json& scene) { return ps::parseProject(scene.dump(), "scene", m_plugins).project; }
   static json waterInTube(const char* fill) {

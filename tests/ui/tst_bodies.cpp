@@ -8,6 +8,7 @@
 #include "ui/panels/inspector.h"
 #include "ui/rows/parameterpanel.h"
 #include "ui/session/selection.h"
+#include "ui/theme/numbers.h"
 #include "ui/window/noticebar.h"
 
 #include <QtCore/QFile>
@@ -16,6 +17,7 @@
 #include <QtCore/QUrl>
 #include <QtGui/QAction>
 #include <QtGui/QDropEvent>
+#include <QtWidgets/QMenu>
 #include <QtWidgets/QPushButton>
 
 using namespace ps;
@@ -29,7 +31,7 @@ class TestBodies : public SampleWindowTest {
 
   void everySolidJoinsTheScene_data() {
     QTest::addColumn<QString>("kind");
-    for (const char* kind : {"ellipsoid", "block", "cylinder", "cone", "capsule", "torus", "tube"})
+    for (const char* kind : {"ellipsoid", "block", "cylinder", "cone", "capsule", "torus", "tube", "sheet", "rope"})
       QTest::newRow(kind) << QString::fromLatin1(kind);
   }
   void everySolidJoinsTheScene() {
@@ -42,8 +44,16 @@ class TestBodies : public SampleWindowTest {
     const auto& solid = std::get<SolidShape>(body.shape);
     QCOMPARE(session().document().undoStack().undoText(),
              QStringLiteral("adding ") + QString::fromStdString(body.name));
-    const size_t particles = fillSolid(solid, 0.02).cells.size();
+    const size_t particles = solidMatter(solid, 0.02).places.size();
     QTRY_COMPARE(idsNow(session()).size(), matter + particles);  // all of them: it came where nothing was
+    // Told in the menu, to some hundredths.
+    QVERIFY(std::abs(particleCount(body, 0.02) / static_cast<double>(particles) - 1) < 0.1);
+    const QAction* action = m_window->action(QStringLiteral("add.") + kind);
+    for (QObject* place : action->associatedObjects()) {
+      if (auto* menu = qobject_cast<QMenu*>(place)) Q_EMIT menu->aboutToShow();
+    }
+    const QString count = formatShort(particleCount(body, 0.02), 3) + QStringLiteral(" particles");
+    QVERIFY2(action->toolTip().contains(count), qPrintable(action->toolTip()));
     const std::string after = writeProject(document().project());
     document().undoStack().undo();
     QCOMPARE(writeProject(document().project()), before);

@@ -10,10 +10,12 @@
 #include "core/plugin_host/registry.h"
 #include "core/scene/solidform.h"
 #include "core/simulation/engine.h"
+#include "core/simulation/filling.h"
 #include "core/solver/solver.h"
 
 #include <QTest>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <set>
@@ -238,6 +240,38 @@ class TstSolids : public QObject {
     QVERIFY2(outermost > 0, qPrintable(QString::number(outermost)));
     QVERIFY2(std::abs(sum / skin - 0.45) < 0.1, qPrintable(QString::number(sum / skin)));
     QCOMPARE(solidMatter(solid, kSpacing).places.size(), count);
+  }
+
+  void sheetsAndRopesAreOneParticleThick() {
+    constexpr double kSpacing = 0.01;
+    SolidShape sheet = solidOf("sheet", {0.1, 0.3, 0.204});
+    sheet.parameters.values["rotation_x"] = 90.0;
+    sheet.parameters.values["held"] = std::string("start");
+    const SolidMatter cloth = solidMatter(sheet, kSpacing);
+    QCOMPARE(cloth.places.size(), size_t{200});
+    QVERIFY(std::abs(200 * cloth.volume / (0.1 * 0.204 * kSpacing) - 1) < 1e-9);
+    for (const api::Double3& p : cloth.places) QVERIFY(std::abs(p.z) < 1e-12);  // it stands
+    SolidShape rope = solidOf("rope", {0.1, 0.01, 0.1});
+    auto& values = rope.parameters.values;
+    values["points"] = 3.0;
+    values["point_3_x"] = 0.1, values["point_3_y"] = -0.154;
+    values["position_y"] = 0.5;
+    values["held"] = std::string("ends");
+    const std::vector<api::Double3> line = solidMatter(rope, kSpacing).places;
+    QCOMPARE(line.size(), size_t{36});  // 35 steps of 0.354 m
+    QVERIFY((vectorOf(line.front()) - Vector3(-0.1, 0.5, 0)).norm() < 1e-9);
+    QVERIFY((vectorOf(line.back()) - Vector3(0.1, 0.346, 0)).norm() < 1e-9);
+    for (size_t k = 1; k < line.size(); ++k)  // across the bend it is nearer
+      QVERIFY((vectorOf(line[k]) - vectorOf(line[k - 1])).norm() < 1.12 * kSpacing);
+    PluginRegistry plugins;
+    for (const auto& [solid, held] : {std::pair(sheet, 10), std::pair(rope, 2)}) {
+      const Engine engine(projectOf(solid, kSpacing), plugins);
+      const ParticleStore& store = engine.solver().particles();
+      QCOMPARE(std::count(store.motion(), store.motion() + store.size(), api::Motion::Static), held);
+      QVERIFY(std::abs(fillingOf(projectOf(solid, kSpacing).bodies[0], kSpacing).filled /
+                           (particleCount(projectOf(solid, kSpacing).bodies[0], kSpacing) * std::pow(kSpacing, 3)) -
+                       1) < 0.03);
+    }
   }
 
   void aTurnedSolidIsTheSameMatterElsewhere() {

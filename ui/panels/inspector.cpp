@@ -3,6 +3,7 @@
 
 #include "core/matter/material.h"
 #include "core/plugin_host/registry.h"
+#include "core/scene/solidform.h"
 #include "core/simulation/graphsource.h"
 #include "core/simulation/rules.h"
 #include "ui/document/declared.h"
@@ -158,7 +159,12 @@ void Inspector::rebuildBody() {
   if (!showBodiesHeader()) m_body->setHeader(nameOf(*body), matter + QString::fromUtf8(kShapes[body->shape.index()]));
   if (auto material = rowModelOf(m_document, {Owner::Body, body->id, kBodyMaterialKey}))
     rows.push_back(std::move(*material));
-  if (std::holds_alternative<SolidShape>(body->shape)) addRows(rows, {Owner::Shape, body->id, ""}, solidParameters());
+  if (const auto* solid = std::get_if<SolidShape>(&body->shape)) {
+    addRows(rows, {Owner::Shape, body->id, ""}, solidParameters());
+    // A rope's many rows are of no use to others.
+    if (SolidForm(*solid).kind() != SolidForm::Kind::Rope)
+      std::erase_if(rows, [](const RowModel& row) { return std::string_view(row.declaration.group) == "Points"; });
+  }
   addRows(rows, {Owner::Body, body->id, ""}, bodyParameters());
   const api::ParameterList motion = bodyMotionParameters();
   for (size_t i = 0; i < motion.count; ++i) {
@@ -360,6 +366,7 @@ void Inspector::onChanged(const ChangeEvent& event) {
     for (ParameterPanel* panel : panels()) panel->setValue(key, m_document.value(address));
     if (address.owner == Owner::Scene && address.key == "thermal_model") rebuildSolver();
     refreshMixed(address);
+    if (address.owner == Owner::Shape && address.key == "kind") rebuildBody();
     refreshIdle(address);
     m_notes.onChanged(*parameter);
     if (address.owner == Owner::Material && propertyIndex(address.key) < 0) refreshProperties(address.id);

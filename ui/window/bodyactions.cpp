@@ -16,6 +16,8 @@
 #include "ui/window/noticebar.h"
 #include "ui/window/notices.h"
 
+#include <phasesketch/thin.h>
+
 #include <QtCore/QFileInfo>
 #include <QtCore/QTimer>
 #include <QtWidgets/QFileDialog>
@@ -25,6 +27,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
+#include <optional>
+#include <utility>
 
 namespace ps {
 namespace {
@@ -32,8 +37,9 @@ namespace {
 struct SolidRow {
   const char *kind, *name;
 };
-constexpr SolidRow kSolids[] = {{"ellipsoid", "Ball"},  {"block", "Block"}, {"cylinder", "Cylinder"}, {"cone", "Cone"},
-                                {"capsule", "Capsule"}, {"torus", "Ring"},  {"tube", "Tube"}};
+constexpr SolidRow kSolids[] = {{"ellipsoid", "Ball"}, {"block", "Block"},     {"cylinder", "Cylinder"},
+                                {"cone", "Cone"},      {"capsule", "Capsule"}, {"torus", "Ring"},
+                                {"tube", "Tube"},      {"sheet", "Sheet"},     {"rope", "Rope"}};
 struct UnitRow {
   const char *key, *name;
 };
@@ -65,6 +71,26 @@ double topOf(const Snapshot* now, const std::string& without, const Vector3& mid
   return top;
 }
 
+/// The first plugin that makes cloth or ropes of what is one particle thick.
+std::optional<std::pair<std::string, const api::ThinMatter*>> thinStructure(const PluginRegistry& plugins,
+                                                                            const char* capability) {
+  for (const std::string& id : plugins.ids(PluginKind::Constraint)) {
+    const api::ConstraintPlugin* plugin = plugins.constraint(id);
+    const void* thin = plugin ? plugin->extension(capability) : nullptr;
+    if (thin) return std::pair(id, static_cast<const api::ThinMatter*>(thin));
+  }
+  return std::nullopt;
+}
+
+/// The scene's material of an installed one, which it gets where it has none; "" where that is not installed.
+std::string sceneMaterial(Document& document, const std::string& base) {
+  if (!document.plugins()->material(base)) return {};
+  for (const SceneMaterial& material : document.project().materials) {
+    if (material.base == base) return material.id;
+  }
+  return document.addMaterial(base);
+}
+
 SolidShape& solidOf(Body& body) { return std::get<SolidShape>(body.shape); }
 
 void scale(SolidShape& solid, double factor) {
@@ -74,6 +100,15 @@ void scale(SolidShape& solid, double factor) {
 
 QString sizeText(const Vector3& size) {
   return QStringLiteral("%1 × %2 × %3 m").arg(formatNumber(size[0]), formatNumber(size[1]), formatNumber(size[2]));
+}
+
+double spacingOf(const Document& document) {
+  return numberOf(document.project().solver.parameters, solverParameters(), "particle_spacing");
+}
+
+/// Of a body that is not there yet, or of one that has just come.
+QString countText(const Body& body, const Document& document) {
+  return QStringLiteral("≈ %1 particles").arg(formatShort(particleCount(body, spacingOf(document)), 3));
 }
 
 }  // namespace
@@ -99,13 +134,14 @@ void BodyActions::makeMenu(QMenu* menu) {
     QAction* action = m_actions.add(menu, QStringLiteral("add.") + QString::fromLatin1(row.kind),
                                     QStringLiteral("Add body: %1").arg(name.toLower()), {},
                                     [this, kind = std::string(row.kind), name] { addSolid(kind, name); });
-    action->setToolTip(QStringLiteral("A body of the current material, above what is in the middle of the scene."));
     m_adding.push_back(action);
   }
+  connect(menu, &QMenu::aboutToShow, this, &BodyActions::showCounts);
   menu->addSeparator();
   m_adding.push_back(m_actions.add(menu, QStringLiteral("add.mesh"), QStringLiteral("Import mesh…"),
                                    {QKeySequence(QStringLiteral("Ctrl+I"))}, [this] { chooseMesh(); }));
   menu->setToolTipsVisible(true);
+  showCounts();
   for (QAction* action : m_adding) action->setEnabled(m_session.isReady());
 }
 
@@ -123,7 +159,31 @@ void BodyActions::chooseMesh() {
   if (!path.isEmpty()) importMesh(path);
 }
 
+/// How many particles each would be, before it is chosen.
+void BodyActions::showCounts() {
+  for (size_t k = 0; k < std::size(kSolids); ++k) {
+    m_adding[k]->setToolTip(QStringLiteral("Above what is in the middle of the scene; %1.")
+                                .arg(countText(newSolid(kSolids[k].kind, {}), m_session.document())));
+  }
+}
+
 void BodyActions::addSolid(const std::string& kind, const QString& name) {
+  Document& document = m_session.document();
+  Body body = newSolid(kind, name);
+  document.undoStack().beginMacro(QStringLiteral("adding %1").arg(name));
+  const bool sheet = kind == "sheet";
+  if (sheet || kind == "rope") {
+    if (const auto thin = thinStructure(*document.plugins(), sheet ? api::kHoldsSheets : api::kHoldsLines)) {
+      body.constraints.push_back({thin->first, {}, {}});
+      body.material = sceneMaterial(document, thin->second->material);
+    }
+  }
+  add(std::move(body));
+  document.undoStack().endMacro();
+}
+
+/// A fifth of the scene wide; sheets and ropes lie, and are longer.
+Body BodyActions::newSolid(const std::string& kind, const QString& name) const {
   const Room room = roomOf(m_session.document().project().environment);
   const Vector3 wide = room.maximum - room.minimum;
   const double size = rounded(kOfScene * std::min(wide[0], wide[2]));
@@ -137,8 +197,16 @@ void BodyActions::addSolid(const std::string& kind, const QString& name) {
   values["size_y"] = kind == "torus" ? rounded(size / 4) : size;
   values["size_z"] = size;
   if (kind == "tube") values["wall"] = rounded(size / 5);
+  if (kind == "sheet" || kind == "rope") values["size_y"] = spacingOf(m_session.document());
+  if (kind == "sheet") values["size_x"] = values["size_z"] = 2 * size;
+  if (kind == "rope") {
+    values.erase("size_x");
+    values.erase("size_z");
+    values["point_1_x"] = -size;
+    values["point_2_x"] = size;
+  }
   body.shape = std::move(solid);
-  add(std::move(body));
+  return body;
 }
 
 /// Of a mesh that does not say its unit: the first one in which it has room in the scene, or nearly, in m; its body is
@@ -162,7 +230,7 @@ std::string BodyActions::add(Body body, const std::string& without) {
   const Room room = roomOf(document.project().environment);
   const SolidForm form(solidOf(body));
   const Vector3 middle = (room.minimum + room.maximum) / 2;
-  const double spacing = numberOf(document.project().solver.parameters, solverParameters(), "particle_spacing");
+  const double spacing = spacingOf(document);
   const double floor = room.minimum[1], top = topOf(m_session.newest().get(), without, middle, form.size(), floor);
   const double lowest = floor + form.size()[1] / 2, highest = room.maximum[1] - form.size()[1] / 2;
   auto& values = solidOf(body).parameters.values;
@@ -241,7 +309,21 @@ void BodyActions::onImported(const QString& path, const std::shared_ptr<Imported
                           .arg(imported->facts.triangles)
                           .arg(imported->facts.closed() ? QStringLiteral("closed")
                                                         : QStringLiteral("open; filled where it encloses most")));
-  if (!imported->unitIsOfFile) askUnit(id, unit);
+  if (imported->unitIsOfFile)
+    showImported(id);
+  else
+    askUnit(id, unit);
+}
+
+void BodyActions::showImported(const std::string& id) {
+  const Body* body = m_session.document().body(id);
+  if (!body) return;
+  m_asked = id;
+  m_notices.bar().show(QString::fromLatin1(kTopic), MessageLevel::Info,
+                       QStringLiteral("“%1” is in the scene.").arg(QString::fromStdString(body->name)),
+                       QStringLiteral("%1, %2.").arg(sizeText(SolidForm(std::get<SolidShape>(body->shape)).size()),
+                                                     countText(*body, m_session.document())),
+                       {{QStringLiteral("Remove"), [this, id] { m_session.document().removeBody(id); }}});
 }
 
 /// The file does not say what its numbers mean: one unit was taken, and others are a click away.
@@ -263,7 +345,8 @@ void BodyActions::askUnit(const std::string& id, double metresPerUnit) {
   const QString size = sizeText(SolidForm(std::get<SolidShape>(body->shape)).size());
   m_notices.bar().show(QString::fromLatin1(kTopic), MessageLevel::Info,
                        QStringLiteral("“%1” does not say its unit.").arg(QString::fromStdString(body->name)),
-                       QStringLiteral("In %1 it is %2.").arg(taken, size), std::move(buttons));
+                       QStringLiteral("In %1 it is %2, %3.").arg(taken, size, countText(*body, m_session.document())),
+                       std::move(buttons));
 }
 
 /// The body comes anew, in one step: its matter of the other size goes.

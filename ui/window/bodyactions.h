@@ -21,8 +21,8 @@ class Notices;
 class Selection;
 class Session;
 
-/// What brings whole bodies into the scene: solids of every kind, and meshes from files. They come to stand above what
-/// is in the middle of the scene, and join it at once.
+/// What brings whole bodies into the scene: solids of every kind, sheets, ropes, and meshes from files. They come to
+/// stand above what is in the middle of the scene, and join it at once.
 class BodyActions : public QObject {
   Q_OBJECT
  public:
@@ -40,10 +40,13 @@ class BodyActions : public QObject {
 
  private:
   void chooseMesh();
+  void showCounts();
   void addSolid(const std::string& kind, const QString& name);
+  Body newSolid(const std::string& kind, const QString& name) const;
   std::string add(Body body, const std::string& without = {});
   void onImported(const QString& path, const std::shared_ptr<ImportedMesh>& imported, const QString& problem);
   double scaledToFit(Body& body, const ImportedMesh& imported) const;
+  void showImported(const std::string& id);
   void askUnit(const std::string& id, double metresPerUnit);
   void setUnit(std::string id, double from, double to);  ///< a copy: the notice that asks goes meanwhile
   void showReading(const QString& path);
@@ -53,7 +56,7 @@ class BodyActions : public QObject {
   Selection& m_selection;
   const Actions& m_actions;
   Notices& m_notices;
-  std::vector<QAction*> m_adding;       ///< need plugins
+  std::vector<QAction*> m_adding;       ///< need plugins; solids first
   std::string m_asked;                  ///< body whose unit was asked for last; "": none
   std::shared_ptr<Progress> m_reading;  ///< of the mesh that is being read; nullptr: none is
   Worker m_worker;                      ///< reads meshes; ends first
