@@ -25,6 +25,7 @@ constexpr OptionSpec kOptions[] = {
     {"--unit", "mm|cm|m|in", "length that the file means by 1; without it what it says itself, or m"},
     {"--material", "ID", "what it is made of; without it the standard one"},
     {"--structure", "ID", "the constraint plugin that holds it together where it is solid"},
+    {"--fill", "lattice|relaxed", "how particles lie in it; relaxed packs them against its surface"},
     {"--report", "FILE.json", "writes triangles, closed, mesh_volume, particles, particle_volume"},
 };
 constexpr double kParticles = 20000;  ///< without --spacing
@@ -66,7 +67,7 @@ Project projectOf(Body body, const SceneMaterial& material, double spacing, cons
   return project;
 }
 
-nlohmann::json reportOf(const ImportedMesh& imported, double spacing, size_t particles) {
+nlohmann::json reportOf(const ImportedMesh& imported, double spacing, const SolidMatter& matter) {
   return {{"triangles", imported.facts.triangles},
           {"closed", imported.facts.closed()},
           {"open_edges", imported.facts.openEdges},
@@ -74,8 +75,8 @@ nlohmann::json reportOf(const ImportedMesh& imported, double spacing, size_t par
           {"unit_of_file", imported.unitIsOfFile},
           {"mesh_volume", imported.facts.volume},
           {"spacing", spacing},
-          {"particles", particles},
-          {"particle_volume", static_cast<double>(particles) * std::pow(spacing, 3)}};
+          {"particles", matter.places.size()},
+          {"particle_volume", static_cast<double>(matter.places.size()) * matter.volume}};
 }
 
 }  // namespace
@@ -106,16 +107,22 @@ int importCommand(CommandArguments list) {
     if (!plugins.constraint(structure)) throw InputError("--structure " + structure + ": no such plugin is installed");
     body.constraints.push_back({structure, {}, {}});
   }
+  auto& shape = std::get<SolidShape>(body.shape);
+  if (arguments.has("--fill")) {
+    const std::string fill = arguments.text("--fill");
+    if (fill != "lattice" && fill != "relaxed") throw InputError("--fill " + fill + ": must be lattice or relaxed");
+    shape.parameters.values["fill"] = fill;
+  }
   const double estimate = particleCount(body, spacing);
   if (estimate > kMaximumParticles)
     throw InputError(path + ": would be " + numberText(estimate) +
                      " particles; give a larger --spacing or another --unit");
-  const size_t particles = fillSolid(std::get<SolidShape>(body.shape), spacing).cells.size();
+  const SolidMatter matter = solidMatter(shape, spacing);
   saveProject(projectOf(std::move(body), material, spacing, plugins), arguments.text("--out"));
   if (arguments.has("--report"))
-    writeFileAtomically(arguments.text("--report"), writeJson(reportOf(imported, spacing, particles)));
+    writeFileAtomically(arguments.text("--report"), writeJson(reportOf(imported, spacing, matter)));
   std::printf("%zu triangles, %s, %.4g m³ filled with %zu particles\n", imported.facts.triangles,
-              imported.facts.closed() ? "closed" : "open", imported.facts.volume, particles);
+              imported.facts.closed() ? "closed" : "open", imported.facts.volume, matter.places.size());
   return kFine;
 }
 

@@ -26,7 +26,8 @@ class Packing {
       : m_surface(surface),
         m_places(std::move(places)),
         m_moved(m_places.size()),
-        m_near(m_places.size()),
+        m_near(m_places.size(), {HUGE_VAL, {}}),
+        m_sorted(m_places.size()),
         m_volume(volume),
         m_spacing(std::cbrt(volume)),
         m_kernel(KernelShape::WendlandC2, kSupport * m_spacing),
@@ -40,7 +41,10 @@ class Packing {
     for (int round = 0; round < rounds; ++round) {
       advance(0);
       if (round > 0) findNear();
-      everywhere([&](size_t i) { m_moved[i] = inShell(m_near[i]) ? movedOf(i) : m_places[i]; });
+      everywhere([&](size_t i) {
+        m_moved[i] = inShell(m_near[i]) ? movedOf(i) : m_places[i];
+        m_near[i].distance += (m_moved[i] - m_places[i]).norm();
+      });
       std::swap(m_places, m_moved);
     }
     return std::move(m_places);
@@ -53,14 +57,19 @@ class Packing {
       for (size_t i = first; i < last; ++i) each(i);
     });
   }
-  /// In order of cells from now on; how deep they lie.
+  /// In order of cells from now on; how deep they lie, at least. Only who may feel the surface asks again.
   void findNear() {
     const auto at = [&](size_t i) { return double3Of(m_places[i]); };
     m_grid.sort(m_places.size(), kSupport * m_spacing, {}, at);
-    everywhere([&](size_t slot) { m_moved[slot] = m_places[m_grid.order()[slot]]; });
+    everywhere([&](size_t slot) {
+      const uint32_t i = m_grid.order()[slot];
+      m_moved[slot] = m_places[i];
+      const bool feels = m_near[i].distance > -m_kernel.supportRadius();
+      m_sorted[slot] = feels ? m_surface.at(m_places[i]) : m_near[i];
+    });
     std::swap(m_places, m_moved);
+    std::swap(m_near, m_sorted);
     m_grid.reorder();
-    everywhere([&](size_t i) { m_near[i] = m_surface.at(m_places[i]); });
   }
   bool inShell(const SolidSurface::Near& near) const { return near.distance > -kShell * m_spacing; }
   /// Down the slope of how dense places lie, with half of space beyond the surface.
@@ -86,7 +95,8 @@ class Packing {
 
   const SolidSurface& m_surface;
   std::vector<Vector3> m_places, m_moved;
-  std::vector<SolidSurface::Near> m_near;  ///< of each place
+  std::vector<SolidSurface::Near> m_near;  ///< of each place; as near to the surface as it may be by now
+  std::vector<SolidSurface::Near> m_sorted;
   double m_volume, m_spacing;
   Kernel m_kernel;
   HalfSpaceTable m_beyond;

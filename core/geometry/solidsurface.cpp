@@ -2,6 +2,7 @@
 #include "core/geometry/solidsurface.h"
 
 #include "core/geometry/meshnearest.h"
+#include "core/geometry/meshrepair.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,6 +14,7 @@ namespace {
 using Kind = SolidForm::Kind;
 constexpr double kPi = std::numbers::pi;
 constexpr int kAround = 96, kArc = 48;  ///< facets of an oval solid: round its axis, and round its rim or caps
+constexpr double kStraight = 0.999999;  ///< of a cosine
 constexpr double kOnSurface = 1e-9;  ///< of the solid's size: nearer than that, the surface itself says where it faces
 
 bool isRound(const SolidForm& form) {
@@ -101,8 +103,9 @@ SolidSurface::SolidSurface(const SolidShape& shape) : m_inside(shape) {
     m_way = Way::Ellipsoid;
   } else if (form().kind() == Kind::Mesh) {
     m_way = Way::Mesh;
-    if (shape.mesh && !shape.mesh->triangles.empty())
-      m_mesh = std::make_shared<const MeshNearest>(trianglesOf(*shape.mesh, form().size()));
+    if (!shape.mesh || shape.mesh->triangles.empty()) return;
+    m_closed = factsOf(*shape.mesh).closed();
+    m_mesh = std::make_shared<const MeshNearest>(trianglesOf(*shape.mesh, form().size()));
   } else if (isRound(form())) {
     m_way = Way::Round;
     takeRound();
@@ -225,7 +228,11 @@ SolidSurface::Near SolidSurface::nearRound(const Vector3& own) const {
 SolidSurface::Near SolidSurface::nearMesh(const Vector3& own) const {
   if (!m_mesh) return {own.norm(), Vector3::UnitY()};  // a mesh without triangles: nothing but its middle
   const MeshNearest::Hit hit = m_mesh->at(own);
-  const double distance = std::sqrt(hit.squared), sign = m_inside.holds(own) ? -1 : 1;
+  const double distance = std::sqrt(hit.squared), along = (own - hit.place).dot(hit.normal);
+  // Straight over a triangle of a closed mesh, that tells the side; at edges, and near holes, what it winds around
+  // does.
+  const bool straight = m_closed && std::abs(along) > kStraight * distance;
+  const double sign = (straight ? along < 0 : m_inside.holds(own)) ? -1 : 1;
   if (distance > kOnSurface * form().size().norm()) return {sign * distance, sign * (own - hit.place) / distance};
   return {sign * distance, hit.normal};
 }

@@ -41,6 +41,7 @@ class SolidSurface {
   std::vector<Segment> m_profile;  ///< what is swept round the y axis
   double m_swell = 0;              ///< m, how far outside of the profile the surface is
   std::shared_ptr<const MeshNearest> m_mesh;
+  bool m_closed = false;  ///< the mesh
 };
 
 }  // namespace ps
