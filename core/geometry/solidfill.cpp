@@ -215,12 +215,6 @@ std::vector<api::Double3> inScene(const SolidForm& form, const std::vector<Vecto
   return places;
 }
 
-/// A block's lattice lies even as it is, and so do sheets and ropes.
-bool isPacked(const SolidShape& shape) {
-  const auto choice = [&](const char* key) { return choiceOf(shape.parameters, solidParameters(), key); };
-  return choice("fill") == "relaxed" && choice("kind") != "block" && !SolidForm(shape).isThin();
-}
-
 /// Along a rope from its first point to its last one, as near to a spacing from each other as whole steps allow; m,
 /// along its own axes.
 std::vector<Vector3> alongRope(const SolidForm& rope, double spacing) {
@@ -255,6 +249,12 @@ std::vector<Vector3> packedPlaces(const SolidShape& shape, double spacing, const
 }
 
 }  // namespace
+
+/// A block's lattice lies even as it is, and so do sheets and ropes.
+bool isPacked(const SolidShape& shape) {
+  const auto choice = [&](const char* key) { return choiceOf(shape.parameters, solidParameters(), key); };
+  return choice("fill") == "relaxed" && choice("kind") != "block" && !SolidForm(shape).isThin();
+}
 
 SolidMatter solidMatter(const SolidShape& shape, double spacing) {
   if (const SolidForm form(shape); form.kind() == SolidForm::Kind::Rope) {

@@ -50,6 +50,8 @@ struct SolidMatter {
 /// As its parameter `fill` says: on the lattice of fillSolid(), stretched, or packed (packSolid()) from there. What was
 /// filled last is kept, wherever it stands. Tells its steps to the thread's Progress.
 SolidMatter solidMatter(const SolidShape& shape, double spacing);
+/// Whether it is packed.
+bool isPacked(const SolidShape& shape);
 /// Places of the lattice, whatever `fill` says.
 std::vector<api::Double3> latticePlaces(const SolidShape& shape, double spacing);
 

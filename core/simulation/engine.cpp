@@ -12,6 +12,7 @@
 #include "core/simulation/rules.h"
 #include "core/simulation/sceneneed.h"
 #include "core/simulation/sceneproblem.h"
+#include "core/simulation/truesurface.h"
 
 #include <algorithm>
 #include <atomic>
@@ -235,6 +236,7 @@ void Engine::Impl::lead() {
     const auto body = std::find_if(project.bodies.begin(), project.bodies.end(),
                                    [&](const Body& b) { return b.id == (*bodyIds)[index]; });
     solver->setMotion(index, body == project.bodies.end() ? BodyMotion{} : compileMotion(*body, spacing));
+    if (body != project.bodies.end() && !hasTrueSurface(*body)) forgetTrueSurface(solver->particles(), index);
   }
 }
 

@@ -12,6 +12,7 @@
 #include "core/simulation/rules.h"
 #include "core/simulation/sceneneed.h"
 #include "core/simulation/sceneproblem.h"
+#include "core/simulation/truesurface.h"
 
 #include <algorithm>
 #include <string>
@@ -74,6 +75,7 @@ void Engine::Impl::build() {
     const bool isPacked = spawn.packed;
     const std::vector<uint32_t> ids = born(std::move(spawn), *body);
     if (isPacked) packed.insert(packed.end(), ids.begin(), ids.end());
+    if (hasTrueSurface(*body)) noteTrueSurface(solver->particles(), ids, *body, spacing);
   }
   solver->settle(packed);
   for (const Emitter& emitter : project.emitters) bodyIndex(emitter.id);

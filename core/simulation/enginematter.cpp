@@ -4,6 +4,7 @@
 #include "core/simulation/compile.h"
 #include "core/simulation/engineimpl.h"
 #include "core/simulation/lattice.h"
+#include "core/simulation/truesurface.h"
 
 #include <algorithm>
 #include <iterator>
@@ -67,6 +68,7 @@ std::vector<uint32_t> Engine::addBody(const Body& body) {
     const std::vector<uint32_t> fresh = m->born(std::move(spawn), body);
     ids.insert(ids.end(), fresh.begin(), fresh.end());
     if (isPacked) packed.insert(packed.end(), fresh.begin(), fresh.end());
+    if (hasTrueSurface(body)) noteTrueSurface(m->solver->particles(), fresh, body, m->spacing);
   }
   m->solver->settle(packed);
   m->recompile({{Owner::Body}});

@@ -229,7 +229,7 @@ api::Float4 Impacts::faceOf(const ParticleStore& store, const Neighbours& neighb
   const LatticeSurface::Normal a = normalOf(impact.a), b = normalOf(impact.b);
   if (a.neighbours + b.neighbours == 0) return kRound;
   const LatticeSurface::Facing facing = m_surface.facing(a, b, m_diameter * impact.normal);
-  return facing.face ? float4Of(facing.normal, static_cast<float>(kFaceDistance * m_spacing)) : kRound;
+  return facing.face ? float4Of(facing.normal, static_cast<float>(kFaceDistance * m_spacing + facing.lift)) : kRound;
 }
 
 void Impacts::addFast(const ParticleStore& store, const Neighbours& neighbours, const Structure& structure, uint32_t i,

@@ -3,6 +3,7 @@
 #include "core/base/parallel.h"
 #include "core/math/vector.h"
 #include "core/solver/contact/nearneighbours.h"
+#include "core/solver/truesurface.h"
 
 #include <algorithm>
 #include <array>
@@ -20,7 +21,10 @@ inline constexpr double kFacing = 0.35;
 
 /// The smoothed surface of lattices: a particle's outward normal points away from the neighbours of its own lattice,
 /// and their number tells a face from an edge. Contact along it slides over a flat lattice as over a plane, where
-/// single spheres would interlock. Neighbours are found when lists are made, normals from where they are now.
+/// single spheres would interlock. Neighbours are found when lists are made, normals from where they are now. Fixed
+/// matter whose shape is known is met at its surface: the tangent planes at its particles, blended by distance from who
+/// meets them (implicit moving least squares: Kolluri 2008, "Provably good moving least squares", eq. 1), so that the
+/// normal turns smoothly where it is curved. Error: where its radius is R, it lies some d^2/R off.
 class LatticeSurface {
  public:
   static constexpr uint32_t kNone = ~0u;
@@ -38,12 +42,14 @@ class LatticeSurface {
     Vector3 normal;           ///< unit, outward; zero inside and where there is no lattice
     uint32_t neighbours = 0;  ///< as flat as that
     bool twoSided = false;    ///< a layer one particle thick: the other side is as good
+    double lift = 0;          ///< m, by how much more than half a spacing the surface lies above the centre
   };
   /// How two particles face each other.
   struct Facing {
     Vector3 normal;       ///< unit, from the second to the first
     bool face = false;    ///< along a face's normal; otherwise along the line of centres, between round ones
     bool beside = false;  ///< along a face's normal, but the face does not reach so far
+    double lift = 0;      ///< m, beyond kFaceDistance, at which the two touch along a face's normal
   };
 
   void configure(double spacing) { m_spacing = spacing; }
@@ -74,6 +80,7 @@ class LatticeSurface {
   void find(const ParticleStore& store, const Neighbours& neighbours, const Same& same, const Recall& recall) {
     m_room.resize(std::max(m_room.size(), chunkCount(m_who.size(), grain::kNeighbours)));
     const NearNeighbours near(store, neighbours);
+    readTrue(store);
     forChunks(m_who.size(), grain::kNeighbours, [&](size_t first, size_t last) {
       std::vector<uint32_t>& room = m_room[first / grain::kNeighbours];
       for (size_t slot = first; slot < last; ++slot) {
@@ -85,6 +92,7 @@ class LatticeSurface {
   template <class Same>
   void find(const ParticleStore& store, const Neighbours& neighbours, uint32_t slot, const Same& same) {
     if (m_room.empty()) m_room.emplace_back();
+    readTrue(store);
     findOne(store, neighbours.built(), NearNeighbours(store, neighbours), slot, same, m_room[0]);
   }
   /// Whether neither it nor its neighbours move in this substep: all of them are fixed, and none is led.
@@ -100,8 +108,21 @@ class LatticeSurface {
   Normal normalOf(const ParticleStore& store, uint32_t i) const;
   /// `line` leads from j to i, m. Round ones face each other along it.
   Facing facing(const Normal& i, const Normal& j, const Vector3& line) const;
+  /// The same where particle j may be of fixed matter whose shape is known.
+  Facing facing(const ParticleStore& store, uint32_t j, const Normal& ofI, const Normal& ofJ,
+                const Vector3& line) const {
+    return isTrue(store, j) ? onShape(store, j, line) : facing(ofI, ofJ, line);
+  }
 
  private:
+  bool isTrue(const ParticleStore& store, uint32_t i) const {
+    return m_true && m_true[i].w > 0 && store.motion()[i] == api::Motion::Static;
+  }
+  Facing onShape(const ParticleStore& store, uint32_t j, const Vector3& line) const;
+  /// Until there are new lists.
+  void readTrue(const ParticleStore& store) {
+    m_true = static_cast<const api::Float4*>(store.read(field::kTrueSurface, api::FieldType::Float4));
+  }
   static constexpr double kOwnReach = 1.5;  ///< spacings
   template <class Same>
   void findOne(const ParticleStore& store, std::span<const api::Float4> at, const NearNeighbours& near, size_t slot,
@@ -122,6 +143,7 @@ class LatticeSurface {
   double m_spacing = 0;  ///< m
   std::vector<uint32_t> m_slot, m_who;
   std::vector<Own> m_own;
+  const api::Float4* m_true = nullptr;        ///< field::kTrueSurface, if there is one
   std::vector<std::vector<uint32_t>> m_room;  ///< by chunk of slots
 };
 

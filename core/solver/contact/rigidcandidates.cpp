@@ -289,10 +289,10 @@ void RigidContact::orient(const ParticleStore& store, Contact& c) const {
   c.normal.setZero();
   if (!c.active) return;
   const LatticeSurface::Facing facing =
-      m_surface.facing(m_surface.normalOf(store, a), m_surface.normalOf(store, b), line);
+      m_surface.facing(store, b, m_surface.normalOf(store, a), m_surface.normalOf(store, b), line);
   c.active = !facing.beside;
   c.normal = facing.normal;
-  c.distance = (facing.face ? kFaceDistance : kRoundDistance) * m_spacing;
+  c.distance = facing.face ? kFaceDistance * m_spacing + facing.lift : kRoundDistance * m_spacing;
 }
 
 }  // namespace ps

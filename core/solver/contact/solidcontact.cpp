@@ -252,8 +252,9 @@ void SolidContact::begin(const ParticleStore& store) {
       chunk.facing[q] = {0, 0, 0, 0};
       const Vector3 line = vectorOf(store.separation(chunk.who[k], chunk.other[q]));
       if (own.neighbours + other.neighbours == 0 || !(line.squaredNorm() > 0)) continue;
-      const LatticeSurface::Facing facing = m_surface.facing(own, other, line);
-      if (facing.face) chunk.facing[q] = float4Of(facing.normal, static_cast<float>(kFaceDistance * m_spacing));
+      const LatticeSurface::Facing facing = m_surface.facing(store, chunk.other[q], own, other, line);
+      if (facing.face)
+        chunk.facing[q] = float4Of(facing.normal, static_cast<float>(kFaceDistance * m_spacing + facing.lift));
     }
   });
 }

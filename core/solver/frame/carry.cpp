@@ -2,6 +2,7 @@
 // A body is taken by hand to another place while the scene runs. Its velocities go on about their mean, which stays:
 // a thing that falls falls on downwards, however it is turned, and one that spins spins about its own axis.
 #include "core/solver/frame/solverimpl.h"
+#include "core/solver/truesurface.h"
 
 namespace ps {
 namespace {
@@ -42,12 +43,14 @@ void Solver::carry(uint32_t body, const Quaternion& turn, const Vector3& way) {
   if (move.isNothing()) return;
   m->constraints.takeAlong(store, goes);
   const Vector3 mean = meanVelocity(store, goes), push = mean - move.turn * mean;
+  auto* surface = static_cast<api::Float4*>(store.find(field::kTrueSurface, api::FieldType::Float4));
   for (size_t i = 0; i < store.size(); ++i) {
     if (goes[i] == 0) continue;
     api::Float4 &place = store.position()[i], &previous = store.previous()[i], &velocity = store.velocity()[i];
     assignTo(place, move.of(vectorOf(place)));
     assignTo(previous, move.of(vectorOf(previous)));
     if (move.turns()) assignTo(velocity, move.turn * vectorOf(velocity) + (velocity.w > 0 ? push : Vector3::Zero()));
+    if (surface) assignTo(surface[i], move.turn * vectorOf(surface[i]));
   }
   const auto& q = move.turn.coeffs();
   m->constraints.carry(store, goes, {{q[0], q[1], q[2], q[3]}, double3Of(move.shift), double3Of(push)});
