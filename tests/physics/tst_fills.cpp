@@ -108,6 +108,25 @@ class TestFills : public QObject {
     QVERIFY2(relaxed < 0.05 * lattice, qPrintable(QString("%1, on lattices %2").arg(relaxed).arg(lattice)));
   }
 
+  /// A packed tube whose wall is one spacing thick holds the water in it, which fills its width, all of it.
+  void aWallOfOneSpacingHolds() {
+    json scene = sceneOf(waterInTube("relaxed"), kGravity);
+    json& tube = scene["bodies"][0]["shape"]["solid"];
+    tube["wall"] = kSpacing;
+    tube["size_y"] = 0.16, tube["position_y"] = 0.08;
+    tube["size_x"] = tube["size_z"] = 0.12;
+    const ps::Project project = load(scene);
+    ps::Engine engine(project, m_plugins);
+    const double water = ps::SolidForm(std::get<ps::SolidShape>(project.bodies[1].shape)).volume() * kWater;
+    QVERIFY2(std::abs(massOf(engine) / water - 1) < 5e-3, qPrintable(QString::number(massOf(engine) / water)));
+    for (int frame = 0; frame < 90; ++frame) engine.step();
+    const ps::ParticleStore& store = engine.solver().particles();
+    for (size_t i = 0; i < store.size(); ++i) {
+      const ps::api::Float4& at = store.position()[i];
+      if (store.velocity()[i].w > 0) QVERIFY2(std::hypot(at.x, at.z) < 0.05, qPrintable(QString::number(at.y)));
+    }
+  }
+
   /// A ball without friction in a round gutter is a pendulum: let go at 60 degrees, it comes as high on the other side.
   /// Over the steps of a lattice it does not. Both balls are packed: what differs is the gutter. A substep loses the
   /// square of the angle by which the way turns in it: 5 % in all with 32 of them, 8 % with 16, 20 % with 4.
